@@ -1,0 +1,215 @@
+//! Cameras: where the eye is and how space becomes a picture.
+
+use crate::math;
+use crate::window::View;
+use glam::{Mat4, Vec3, Vec4};
+
+/// How far a view reaches around its axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Projection {
+    /// Lines meet at the eye. The angle is vertical, in radians, between 0 and pi.
+    Perspective {
+        /// Vertical field of view in radians.
+        fov_y: f32,
+    },
+    /// Lines stay parallel.
+    Parallel {
+        /// Height of the view in world units.
+        height: f32,
+    },
+}
+
+/// An eye in the world. Right-handed, looking at a target.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// Position of the eye in the world.
+    pub eye: [f32; 3],
+    /// A point on the view axis, in front of the eye.
+    pub target: [f32; 3],
+    /// Which way is up in the picture; need not be perpendicular to the axis.
+    pub up: [f32; 3],
+    /// Perspective or parallel.
+    pub projection: Projection,
+}
+
+/// The vertical field of view of a camera that nobody set, in degrees.
+pub const DEFAULT_FOV_DEG: f32 = 40.0;
+
+/// Where a default view looks from: three quarters, from above.
+const THREE_QUARTERS: Vec3 = Vec3::new(0.6, 0.45, 1.0);
+
+/// How much of the frame a framed box fills, the rest is margin.
+const FRAMED_SHARE: f32 = 0.88;
+
+impl Camera {
+    /// A 16:9 perspective view of a box, from three quarters above.
+    pub fn framing(min: [f32; 3], max: [f32; 3]) -> Self {
+        Self::framing_for(min, max, 16.0 / 9.0, DEFAULT_FOV_DEG.to_radians())
+    }
+
+    /// A perspective view of a box from three quarters above, for a frame of width / height `aspect`.
+    ///
+    /// The eye stands as near as it can with every corner inside the frame and a margin around.
+    pub fn framing_for(min: [f32; 3], max: [f32; 3], aspect: f32, fov_y: f32) -> Self {
+        let (min, max) = (Vec3::from(min), Vec3::from(max));
+        let center = (min + max) * 0.5;
+        let back = THREE_QUARTERS.normalize();
+        let right = Vec3::Y.cross(back).normalize();
+        let up = back.cross(right);
+        let tan_y = math::tan(fov_y * 0.5) * FRAMED_SHARE;
+        let tan_x = tan_y * aspect;
+        let distance = corners(min - center, max - center)
+            .map(|corner| {
+                let across = (corner.dot(right).abs() / tan_x).max(corner.dot(up).abs() / tan_y);
+                across + corner.dot(back)
+            })
+            .fold(1e-3, f32::max);
+        Self {
+            eye: (center + back * distance).to_array(),
+            target: center.to_array(),
+            up: [0.0, 1.0, 0.0],
+            projection: Projection::Perspective { fov_y },
+        }
+    }
+
+    /// Right, up and back axes of the picture, unit length, whatever the input.
+    pub fn axes(&self) -> [[f32; 3]; 3] {
+        let toward_eye = Vec3::from(self.eye) - Vec3::from(self.target);
+        let back = toward_eye.try_normalize().unwrap_or(Vec3::Z);
+        let right = Vec3::from(self.up)
+            .cross(back)
+            .try_normalize()
+            .unwrap_or_else(|| back.any_orthonormal_vector());
+        let up = back.cross(right);
+        [right.to_array(), up.to_array(), back.to_array()]
+    }
+
+    /// What passes need to know of this camera for a frame of `size` pixels.
+    ///
+    /// `bounds` is the box of the scene: near and far planes follow from it. Depth is reversed, 1 at the
+    /// near plane and 0 at infinity (in perspective) or behind the scene (in parallel view), which keeps float depth
+    /// equally fine near and far.
+    pub fn view(&self, size: [u32; 2], bounds: ([f32; 3], [f32; 3])) -> View {
+        let [right, up, back] = self.axes().map(Vec3::from);
+        let eye = Vec3::from(self.eye);
+        let (nearest, farthest) = self.depth_range(bounds);
+        let aspect = size[0] as f32 / size[1] as f32;
+        let camera_from_world = Mat4::from_cols(
+            Vec4::new(right.x, up.x, back.x, 0.0),
+            Vec4::new(right.y, up.y, back.y, 0.0),
+            Vec4::new(right.z, up.z, back.z, 0.0),
+            Vec4::new(-right.dot(eye), -up.dot(eye), -back.dot(eye), 1.0),
+        );
+        let (clip_from_camera, perspective, view_height, near) = match self.projection {
+            Projection::Perspective { fov_y } => {
+                let height = 2.0 * math::tan(fov_y * 0.5);
+                let near = nearest.max(farthest * 1e-5).max(1e-6);
+                (perspective_reversed(height, aspect, near), 1.0, height, near)
+            }
+            Projection::Parallel { height } => {
+                (parallel_reversed(height, aspect, nearest, farthest), 0.0, height, nearest)
+            }
+        };
+        View {
+            clip_from_world: (clip_from_camera * camera_from_world).to_cols_array_2d(),
+            eye_world: self.eye,
+            perspective,
+            forward_world: (-back).to_array(),
+            view_height,
+            frame_px: size.map(|v| v as f32),
+            near,
+            unused: 0.0,
+        }
+    }
+
+    /// View depths that enclose a box, with a little room on both sides.
+    fn depth_range(&self, (min, max): ([f32; 3], [f32; 3])) -> (f32, f32) {
+        let back = Vec3::from(self.axes()[2]);
+        let eye = Vec3::from(self.eye);
+        let mut range = (f32::MAX, f32::MIN);
+        for corner in corners(Vec3::from(min), Vec3::from(max)) {
+            let depth = (eye - corner).dot(back);
+            range = (range.0.min(depth), range.1.max(depth));
+        }
+        let room = (range.1 - range.0).max(range.1.abs() * 1e-3).max(1e-6) * 0.01;
+        (range.0 - room, range.1 + room)
+    }
+}
+
+/// The eight corners of a box.
+fn corners(min: Vec3, max: Vec3) -> impl Iterator<Item = Vec3> {
+    (0..8).map(move |i| {
+        let pick = |bit: u32, low: f32, high: f32| if i & bit == 0 { low } else { high };
+        Vec3::new(pick(1, min.x, max.x), pick(2, min.y, max.y), pick(4, min.z, max.z))
+    })
+}
+
+/// Perspective with depth 1 at `near` and 0 at infinity; `height` is the view's at distance 1.
+fn perspective_reversed(height: f32, aspect: f32, near: f32) -> Mat4 {
+    Mat4::from_cols(
+        Vec4::new(2.0 / (height * aspect), 0.0, 0.0, 0.0),
+        Vec4::new(0.0, 2.0 / height, 0.0, 0.0),
+        Vec4::new(0.0, 0.0, 0.0, -1.0),
+        Vec4::new(0.0, 0.0, near, 0.0),
+    )
+}
+
+/// Parallel projection with depth 1 at `near` and 0 at `far`.
+fn parallel_reversed(height: f32, aspect: f32, near: f32, far: f32) -> Mat4 {
+    let range = far - near;
+    Mat4::from_cols(
+        Vec4::new(2.0 / (height * aspect), 0.0, 0.0, 0.0),
+        Vec4::new(0.0, 2.0 / height, 0.0, 0.0),
+        Vec4::new(0.0, 0.0, 1.0 / range, 0.0),
+        Vec4::new(0.0, 0.0, far / range, 1.0),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn project(view: &View, world: [f32; 3]) -> [f32; 4] {
+        let clip = Mat4::from_cols_array_2d(&view.clip_from_world) * Vec3::from(world).extend(1.0);
+        clip.to_array()
+    }
+
+    proptest! {
+        #[test]
+        fn a_framed_box_lies_inside_the_frame(
+            x in -50f32..50.0, y in -50f32..50.0, z in -50f32..50.0,
+            w in 0.01f32..20.0, h in 0.01f32..20.0, d in 0.01f32..20.0, aspect in 0.3f32..3.0,
+        ) {
+            let (min, max) = ([x, y, z], [x + w, y + h, z + d]);
+            let camera = Camera::framing_for(min, max, aspect, 0.7);
+            let view = camera.view([(aspect * 1000.0) as u32, 1000], (min, max));
+            for corner in corners(Vec3::from(min), Vec3::from(max)) {
+                let clip = project(&view, corner.to_array());
+                prop_assert!(clip[3] > 0.0 && clip[2] <= clip[3] && clip[2] >= 0.0);
+                prop_assert!(clip[0].abs() <= clip[3] && clip[1].abs() <= clip[3]);
+            }
+        }
+
+        #[test]
+        fn depth_is_reversed(near in 0.1f32..10.0, gap in 0.1f32..10.0) {
+            let camera = Camera { eye: [0.0; 3], target: [0.0, 0.0, -1.0], up: [0.0, 1.0, 0.0], projection: Projection::Perspective { fov_y: 1.0 } };
+            let view = camera.view([100, 100], ([-1.0, -1.0, -near - gap], [1.0, 1.0, -near]));
+            let (a, b) = (project(&view, [0.0, 0.0, -near]), project(&view, [0.0, 0.0, -near - gap]));
+            prop_assert!(a[2] / a[3] > b[2] / b[3]);
+        }
+    }
+
+    #[test]
+    fn a_camera_that_looks_along_its_up_still_has_axes() {
+        let camera = Camera {
+            eye: [0.0, 3.0, 0.0],
+            target: [0.0; 3],
+            up: [0.0, 1.0, 0.0],
+            projection: Projection::Parallel { height: 2.0 },
+        };
+        let axes = camera.axes().map(Vec3::from);
+        assert!(axes.iter().all(|axis| (axis.length() - 1.0).abs() < 1e-5));
+        assert!(axes[0].dot(axes[2]).abs() < 1e-6);
+    }
+}

@@ -1,0 +1,173 @@
+//! The structs that passes read and write, laid out alike in Rust and in WGSL.
+//!
+//! Their WGSL text is `shaders/lib/geometry.wgsl`; the shader test compares the two field by field.
+
+use crate::gpu_layout;
+use bytemuck::{Pod, Zeroable};
+
+/// Marks "none" wherever an index is expected.
+pub const NONE: u32 = u32::MAX;
+
+/// View depth of a pixel that shows no surface; finite, so that differences with it stay finite.
+pub const FAR_DEPTH: f32 = 1e30;
+
+/// A vertex as stored: rest position and what hangs on it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct Vertex {
+    /// Position before posing, in the space its influences start from.
+    pub position: [f32; 3],
+    /// Vertex colour, sRGB bytes, the first in the lowest byte; white where there is none.
+    pub color: u32,
+    /// Unit normal in the same space as `position`.
+    pub normal: [f32; 3],
+    /// Direction of `curvatures[0]`, packed by [`crate::math::pack_unit`].
+    pub direction: u32,
+    /// Texture coordinates of the base colour texture.
+    pub uv: [f32; 2],
+    /// Principal curvatures, larger magnitude first, in units of 1 / bounding radius; positive is convex.
+    pub curvatures: [f32; 2],
+    /// Unit normal averaged over all vertices at this position, packed: hulls grow along it without cracks.
+    pub weld_normal: u32,
+    /// The line width that the style's width source gives here, 0..1, where it depends on the vertex alone.
+    pub width: f32,
+    /// Keeps the size a multiple of 16 bytes.
+    pub unused: [u32; 2],
+}
+gpu_layout!(Vertex { position, color, normal, direction, uv, curvatures, weld_normal, width, unused });
+
+/// Which matrices move a vertex, and how much: linear blend skinning; rigid parts use one joint.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct Influence {
+    /// Indices into the palette of matrices.
+    pub joints: [u32; 4],
+    /// Weights, summing to 1.
+    pub weights: [f32; 4],
+}
+gpu_layout!(Influence { joints, weights });
+
+/// A vertex after posing and projection.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct PosedVertex {
+    /// Position in clip space: reversed depth, 1 at the near plane.
+    pub clip: [f32; 4],
+    /// Position in the world.
+    pub world: [f32; 3],
+    /// Distance from the eye along the view axis.
+    pub depth: f32,
+    /// Unit normal in the world.
+    pub normal: [f32; 3],
+    /// Half the line width at this vertex, in frame pixels.
+    pub half_width: f32,
+}
+gpu_layout!(PosedVertex { clip, world, depth, normal, half_width });
+
+/// A triangle and the part it belongs to.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct Triangle {
+    /// Vertex indices, counter-clockwise seen from the front.
+    pub corners: [u32; 3],
+    /// Index into the parts.
+    pub part: u32,
+}
+gpu_layout!(Triangle { corners, part });
+
+/// A unique mesh edge between two stored vertices that stand for their welded positions.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct Edge {
+    /// Vertex indices.
+    pub ends: [u32; 2],
+    /// Triangle indices; the second is [`NONE`] on a border.
+    pub faces: [u32; 2],
+    /// Cosine of the angle between the normals of the two faces; 1 where they are coplanar.
+    pub dihedral_cos: f32,
+    /// [`Edge::MATERIAL`] where the faces differ in material.
+    pub traits: u32,
+}
+gpu_layout!(Edge { ends, faces, dihedral_cos, traits });
+
+impl Edge {
+    /// The two faces differ in material.
+    pub const MATERIAL: u32 = 1;
+}
+
+/// One surface of one object in one material, with what the style makes of it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct Part {
+    /// Base colour factor, linear light, straight alpha.
+    pub base_color: [f32; 4],
+    /// Colour of its lines, linear light, straight alpha.
+    pub line_color: [f32; 4],
+    /// Object number, equal for all parts of one object.
+    pub object: u32,
+    /// Material number.
+    pub material: u32,
+    /// Where its base colour texture's header starts in the texture store, or [`NONE`].
+    pub texture: u32,
+    /// Bits of [`Part::DOUBLE_SIDED`], [`Part::CUTOUT`], [`Part::LINES`], [`Part::UNLIT`].
+    pub flags: u32,
+    /// Factor on the line width.
+    pub width_factor: f32,
+    /// |n.v| under which the surface-angle method draws a line, 0..1.
+    pub facing_threshold: f32,
+    /// Alpha under which a cut-out pixel is a hole.
+    pub alpha_cutoff: f32,
+    /// Width of a tone step in ramp coordinate; 0 is a hard step.
+    pub softness: f32,
+    /// Tone steps: linear light rgb from coordinate `a` upwards; unused ones start at 2.
+    pub ramp: [[f32; 4]; 8],
+}
+gpu_layout!(Part {
+    base_color, line_color, object, material, texture, flags, width_factor, facing_threshold,
+    alpha_cutoff, softness, ramp,
+});
+
+impl Part {
+    /// Both sides are drawn.
+    pub const DOUBLE_SIDED: u32 = 1;
+    /// Pixels under the alpha cutoff are holes.
+    pub const CUTOUT: u32 = 2;
+    /// Lines are drawn on it.
+    pub const LINES: u32 = 4;
+    /// Light does not change its colour.
+    pub const UNLIT: u32 = 8;
+}
+
+/// What one pixel of the G-buffer holds.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct GPixel {
+    /// Change of the plane coordinate ([`crate::window::View::plane_coordinate`]) over one pixel to the right and down.
+    pub plane_step: [f32; 2],
+    /// Distance from the eye along the view axis, or [`FAR_DEPTH`].
+    pub depth: f32,
+    /// Half the line width here, in frame pixels.
+    pub half_width: f32,
+    /// Unit normal in the world, packed.
+    pub normal: u32,
+    /// Object number, or [`NONE`].
+    pub object: u32,
+    /// Material number, or [`NONE`].
+    pub material: u32,
+    /// Part index, or [`NONE`] where no surface is seen.
+    pub part: u32,
+}
+gpu_layout!(GPixel { plane_step, depth, half_width, normal, object, material, part });
+
+impl GPixel {
+    /// A pixel that shows no surface.
+    pub const EMPTY: GPixel = GPixel {
+        plane_step: [0.0; 2],
+        depth: FAR_DEPTH,
+        half_width: 0.0,
+        normal: 0,
+        object: NONE,
+        material: NONE,
+        part: NONE,
+    };
+}

@@ -1,0 +1,27 @@
+//! What every other crate of the drawing machine stands on.
+//!
+//! Deterministic math ([`math`]), colour encoding ([`color`]), cameras ([`camera`]), the structs that
+//! passes read and write on both engines ([`geometry`], [`window`]), the surface point under a pixel
+//! ([`surface`]), packed textures ([`texture`]), and a triangle rasteriser with a stated fill rule
+//! ([`raster`]). Nothing here knows about files, styles or graphics devices.
+//!
+//! ```
+//! use npr_core::camera::Camera;
+//!
+//! let camera = Camera::framing([-1.0; 3], [1.0; 3]);
+//! assert!(camera.eye[1] > 0.0, "a default view looks down on its subject");
+//! ```
+
+pub mod budget;
+pub mod camera;
+pub mod color;
+pub mod geometry;
+pub mod layout;
+pub mod math;
+pub mod raster;
+pub mod surface;
+pub mod texture;
+pub mod window;
+
+// The macro names its crate by absolute path, so that it works inside this crate too.
+extern crate self as npr_core;

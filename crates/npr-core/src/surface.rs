@@ -1,0 +1,99 @@
+//! The surface point under a pixel, found again from the triangle's number.
+//!
+//! Rasterisers only store which triangle a pixel shows [Burns & Hunt 2013]; everything else is recomputed from
+//! the three corners with the same few operations on both engines, so that pictures agree. Corners behind
+//! the eye need no clipping [Olano & Greer 1997].
+
+/// Perspective-correct weights of a triangle's corners at a point of the picture.
+///
+/// `clip` are the corners in clip space, `ndc` the point in normalised device coordinates. The weights sum
+/// to 1 and may be negative where the point lies beside the triangle. A triangle seen edge-on gives its first corner.
+pub fn weights_at(clip: [[f32; 4]; 3], ndc: [f32; 2]) -> [f32; 3] {
+    // Moving the origin to the point first keeps full precision for small triangles.
+    let a = offset_from(clip[0], ndc);
+    let b = offset_from(clip[1], ndc);
+    let c = offset_from(clip[2], ndc);
+    let weights = [cross(b, c), cross(c, a), cross(a, b)];
+    let sum = weights[0] + weights[1] + weights[2];
+    if sum == 0.0 {
+        return [1.0, 0.0, 0.0];
+    }
+    [weights[0] / sum, weights[1] / sum, weights[2] / sum]
+}
+
+/// Whether a triangle turns its front to the eye: its corners run counter-clockwise in the picture.
+///
+/// The sign of the determinant of the corners' homogeneous coordinates, so corners behind the eye need no clipping.
+pub fn faces_eye(clip: [[f32; 4]; 3]) -> bool {
+    let [a, b, c] = clip;
+    let minor_a = b[1] * c[3] - b[3] * c[1];
+    let minor_b = b[3] * c[0] - b[0] * c[3];
+    let minor_c = b[0] * c[1] - b[1] * c[0];
+    a[0] * minor_a + a[1] * minor_b + a[3] * minor_c > 0.0
+}
+
+/// Weighted sum of three scalars.
+pub fn blend(weights: [f32; 3], values: [f32; 3]) -> f32 {
+    values[0] * weights[0] + values[1] * weights[1] + values[2] * weights[2]
+}
+
+/// Weighted sum of three vectors.
+pub fn blend3(weights: [f32; 3], values: [[f32; 3]; 3]) -> [f32; 3] {
+    std::array::from_fn(|i| blend(weights, [values[0][i], values[1][i], values[2][i]]))
+}
+
+/// A unit vector in the direction of `v`; +z where `v` has no direction.
+pub fn unit_or_z(v: [f32; 3]) -> [f32; 3] {
+    let square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    if square < 1e-30 {
+        return [0.0, 0.0, 1.0];
+    }
+    let length = square.sqrt();
+    [v[0] / length, v[1] / length, v[2] / length]
+}
+
+fn offset_from(clip: [f32; 4], ndc: [f32; 2]) -> [f32; 2] {
+    [clip[0] - ndc[0] * clip[3], clip[1] - ndc[1] * clip[3]]
+}
+
+fn cross(a: [f32; 2], b: [f32; 2]) -> f32 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn corner() -> impl Strategy<Value = [f32; 4]> {
+        ((-2f32..2.0), (-2f32..2.0), (0.2f32..9.0)).prop_map(|(x, y, w)| [x * w, y * w, 0.1, w])
+    }
+
+    proptest! {
+        #[test]
+        fn a_point_of_the_triangle_is_found_again(a in corner(), b in corner(), c in corner(), u in 0.02f32..0.96, v in 0.02f32..0.96) {
+            let (u, v) = if u + v > 0.98 { (1.0 - u, 1.0 - v) } else { (u, v) };
+            let want = [1.0 - u - v, u, v];
+            let point: Vec<f32> = (0..4).map(|i| blend(want, [a[i], b[i], c[i]])).collect();
+            let (pa, pb, pc) = ([a[0] / a[3], a[1] / a[3]], [b[0] / b[3], b[1] / b[3]], [c[0] / c[3], c[1] / c[3]]);
+            let area = (pb[0] - pa[0]) * (pc[1] - pa[1]) - (pb[1] - pa[1]) * (pc[0] - pa[0]);
+            prop_assume!(area.abs() > 0.05);
+            let got = weights_at([a, b, c], [point[0] / point[3], point[1] / point[3]]);
+            for i in 0..3 {
+                prop_assert!((got[i] - want[i]).abs() < 5e-3, "{got:?} for {want:?}");
+            }
+        }
+
+        #[test]
+        fn turning_the_triangle_over_flips_its_facing(a in corner(), b in corner(), c in corner()) {
+            let area = faces_eye([a, b, c]);
+            prop_assume!(area || faces_eye([a, c, b]));
+            prop_assert_ne!(area, faces_eye([a, c, b]));
+        }
+    }
+
+    #[test]
+    fn an_edge_on_triangle_gives_a_corner() {
+        assert_eq!(weights_at([[0.0, 0.0, 0.0, 1.0]; 3], [0.0, 0.0]), [1.0, 0.0, 0.0]);
+    }
+}

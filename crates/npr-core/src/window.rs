@@ -1,0 +1,161 @@
+//! The view of a frame, and pixel grids laid over parts of it.
+
+use crate::gpu_layout;
+use bytemuck::{Pod, Zeroable};
+
+/// Camera and frame, as every pass sees them.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct View {
+    /// Column-major matrix to clip space, for the whole frame; reversed depth.
+    pub clip_from_world: [[f32; 4]; 4],
+    /// Position of the eye in the world.
+    pub eye_world: [f32; 3],
+    /// 1 for a perspective camera, 0 for a parallel one.
+    pub perspective: f32,
+    /// Unit view axis in the world.
+    pub forward_world: [f32; 3],
+    /// Height of the view in world units: at depth 1 in perspective, at any depth in parallel view.
+    pub view_height: f32,
+    /// Width and height of the whole frame.
+    pub frame_px: [f32; 2],
+    /// Distance of the near plane.
+    pub near: f32,
+    /// Keeps the size a multiple of 16 bytes.
+    pub unused: f32,
+}
+gpu_layout!(View {
+    clip_from_world, eye_world, perspective, forward_world, view_height, frame_px, near, unused,
+});
+
+impl View {
+    /// Height of the view in world units at a view depth.
+    pub fn height_at(&self, depth: f32) -> f32 {
+        if self.perspective > 0.5 { self.view_height * depth } else { self.view_height }
+    }
+
+    /// Size of a frame pixel in world units at a view depth.
+    pub fn pixel_at(&self, depth: f32) -> f32 {
+        self.height_at(depth) / self.frame_px[1]
+    }
+
+    /// A coordinate that changes linearly over the image of any plane: 1 / depth in perspective, depth in parallel view.
+    pub fn plane_coordinate(&self, depth: f32) -> f32 {
+        if self.perspective > 0.5 { 1.0 / depth } else { depth }
+    }
+
+    /// Unit vector from a point of the world towards the eye.
+    pub fn to_eye(&self, world: [f32; 3]) -> [f32; 3] {
+        if self.perspective < 0.5 {
+            return self.forward_world.map(|v| -v);
+        }
+        let d: [f32; 3] = std::array::from_fn(|i| self.eye_world[i] - world[i]);
+        let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
+        d.map(|v| v / length.max(1e-30))
+    }
+
+    /// Normalised device coordinates of a point of the frame, y up.
+    pub fn ndc_at(&self, frame_px: [f32; 2]) -> [f32; 2] {
+        [2.0 * frame_px[0] / self.frame_px[0] - 1.0, 1.0 - 2.0 * frame_px[1] / self.frame_px[1]]
+    }
+}
+
+/// A pixel grid laid over a rectangle of the frame: the colour samples, the mask, a tile of the output.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct Window {
+    /// Factor from the frame's normalised coordinates to the window's.
+    pub ndc_scale: [f32; 2],
+    /// Offset after that factor.
+    pub ndc_offset: [f32; 2],
+    /// Width and height of the grid.
+    pub size: [u32; 2],
+    /// Frame pixels per grid pixel.
+    pub frame_step: [f32; 2],
+    /// Frame position of the grid's top left corner.
+    pub frame_origin: [f32; 2],
+    /// Keeps the size a multiple of 16 bytes.
+    pub unused: [u32; 2],
+}
+gpu_layout!(Window { ndc_scale, ndc_offset, size, frame_step, frame_origin, unused });
+
+impl Window {
+    /// A grid of `size` pixels over the rectangle of the frame at `origin_px`, `extent_px` wide and high.
+    pub fn over(frame_px: [f32; 2], origin_px: [f32; 2], extent_px: [f32; 2], size: [u32; 2]) -> Self {
+        let scale = [frame_px[0] / extent_px[0], frame_px[1] / extent_px[1]];
+        let center = [
+            (2.0 * origin_px[0] + extent_px[0]) / frame_px[0] - 1.0,
+            1.0 - (2.0 * origin_px[1] + extent_px[1]) / frame_px[1],
+        ];
+        Self {
+            ndc_scale: scale,
+            ndc_offset: [-center[0] * scale[0], -center[1] * scale[1]],
+            size,
+            frame_step: [extent_px[0] / size[0] as f32, extent_px[1] / size[1] as f32],
+            frame_origin: origin_px,
+            unused: [0; 2],
+        }
+    }
+
+    /// Clip position for this window of a clip position for the whole frame.
+    pub fn clip_here(&self, clip: [f32; 4]) -> [f32; 4] {
+        [
+            clip[0] * self.ndc_scale[0] + clip[3] * self.ndc_offset[0],
+            clip[1] * self.ndc_scale[1] + clip[3] * self.ndc_offset[1],
+            clip[2],
+            clip[3],
+        ]
+    }
+
+    /// Frame position of the centre of a grid pixel.
+    pub fn frame_at(&self, x: u32, y: u32) -> [f32; 2] {
+        [
+            self.frame_origin[0] + (x as f32 + 0.5) * self.frame_step[0],
+            self.frame_origin[1] + (y as f32 + 0.5) * self.frame_step[1],
+        ]
+    }
+
+    /// The grid pixel that holds a frame position, clamped to the grid.
+    ///
+    /// An exact load, not a filtered sample, for the reason given by Okuya 2016, section 5.3.
+    pub fn pixel_at(&self, frame_px: [f32; 2]) -> [u32; 2] {
+        std::array::from_fn(|i| {
+            let at = ((frame_px[i] - self.frame_origin[i]) / self.frame_step[i]).floor();
+            at.clamp(0.0, self.size[i] as f32 - 1.0) as u32
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_pixel_centre_finds_its_own_pixel(
+            x in 0u32..640, y in 0u32..360, ox in 0f32..500.0, oy in 0f32..300.0, scale in 0.5f32..6.0,
+        ) {
+            let size = [640, 360];
+            let window = Window::over([4000.0, 2000.0], [ox, oy], [640.0 * scale, 360.0 * scale], size);
+            prop_assert_eq!(window.pixel_at(window.frame_at(x, y)), [x, y]);
+        }
+
+        #[test]
+        fn a_window_shows_the_same_point_as_the_frame(fx in 0f32..1920.0, fy in 0f32..1080.0, w in 0.1f32..50.0) {
+            let frame = [1920.0, 1080.0];
+            let view = View { frame_px: frame, ..View::default() };
+            let window = Window::over(frame, [300.0, 200.0], [640.0, 480.0], [640, 480]);
+            let ndc = view.ndc_at([fx, fy]);
+            let here = window.clip_here([ndc[0] * w, ndc[1] * w, 0.5 * w, w]);
+            let px = [(here[0] / here[3] + 1.0) * 320.0, (1.0 - here[1] / here[3]) * 240.0];
+            prop_assert!((px[0] - (fx - 300.0)).abs() < 0.01 && (px[1] - (fy - 200.0)).abs() < 0.01);
+        }
+    }
+
+    #[test]
+    fn positions_outside_the_grid_clamp_to_it() {
+        let window = Window::over([64.0, 64.0], [0.0, 0.0], [64.0, 64.0], [64, 64]);
+        assert_eq!(window.pixel_at([-5.0, 70.0]), [0, 63]);
+    }
+}
