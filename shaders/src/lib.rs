@@ -1,1 +1,124 @@
-//! Being written.
+//! The WGSL text of every pass, and the linker that joins it with its libraries.
+//!
+//! Usable without wgpu: link a shader, give the text to any WebGPU host. A line `//# use lib/NAME` in a shader stands for
+//! the text of `lib/NAME.wgsl`, put in once however often it is asked for.
+//!
+//! ```
+//! let source = npr_shaders::link(&npr_shaders::MESH_POSE_VERTICES);
+//! assert!(source.contains("struct PosedVertex"));
+//! ```
+
+/// A shader file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shader {
+    /// Its path below the folder of shaders, without the extension.
+    pub path: &'static str,
+    /// Its text, before linking.
+    pub text: &'static str,
+}
+
+macro_rules! shaders {
+    ($($(#[$doc:meta])* $name:ident = $path:literal;)+) => {
+        $($(#[$doc])* pub const $name: Shader =
+            Shader { path: $path, text: include_str!(concat!("../", $path, ".wgsl")) };)+
+
+        /// Every shader that is a pass.
+        pub const ALL: &[Shader] = &[$($name),+];
+    };
+}
+
+shaders! {
+    /// Poses and projects vertices.
+    MESH_POSE_VERTICES = "mesh/pose_vertices";
+    /// Decides which edges may become lines.
+    MESH_CLASSIFY_EDGES = "mesh/classify_edges";
+    /// Pushes vertices out along their normals.
+    MESH_EXTRUDE_HULL = "mesh/extrude_hull";
+    /// Draws triangle numbers with depth.
+    RASTER_DRAW_IDS = "raster/draw_ids";
+    /// Draws the numbers of hull triangles with depth.
+    RASTER_DRAW_HULL = "raster/draw_hull";
+    /// Turns triangle numbers into a G-buffer.
+    LINE_RESOLVE_GBUFFER = "line/resolve_gbuffer";
+    /// Detects lines on the G-buffer.
+    LINE_DETECT = "line/detect";
+    /// Draws edges as ribbons where the mask is set.
+    LINE_DRAW_RIBBONS = "line/draw_ribbons";
+    /// Finds mask pixels that no ribbon inked.
+    LINE_FIND_RESIDUAL = "line/find_residual";
+    /// Marks the tiles that hold such pixels.
+    LINE_FLAG_TILES = "line/flag_tiles";
+    /// Inks discs around the mask pixels that no ribbon inked.
+    LINE_STAMP_RESIDUAL = "line/stamp_residual";
+    /// Shades surfaces and lays lines over them.
+    SHADE_COMPOSE_FRAME = "shade/compose_frame";
+}
+
+/// The libraries that shaders share.
+const LIBRARIES: &[(&str, &str)] = &[
+    ("lib/grid", include_str!("../lib/grid.wgsl")),
+    ("lib/geometry", include_str!("../lib/geometry.wgsl")),
+    ("lib/unit", include_str!("../lib/unit.wgsl")),
+    ("lib/surface", include_str!("../lib/surface.wgsl")),
+    ("lib/texture", include_str!("../lib/texture.wgsl")),
+    ("lib/window", include_str!("../lib/window.wgsl")),
+    ("lib/outline", include_str!("../lib/outline.wgsl")),
+    ("lib/pose", include_str!("../lib/pose.wgsl")),
+    ("lib/cutout", include_str!("../lib/cutout.wgsl")),
+    ("lib/stamp", include_str!("../lib/stamp.wgsl")),
+    ("lib/color", include_str!("../lib/color.wgsl")),
+    ("lib/compose", include_str!("../lib/compose.wgsl")),
+    ("lib/ribbon", include_str!("../lib/ribbon.wgsl")),
+];
+
+/// The text of a shader with its libraries in place.
+///
+/// # Panics
+///
+/// When a shader of this crate names a library that does not exist, which the tests rule out.
+pub fn link(shader: &Shader) -> String {
+    let mut linked = String::new();
+    let mut used = Vec::new();
+    append(shader.text, &mut used, &mut linked);
+    linked
+}
+
+/// Appends a text, its libraries before the lines that follow their first use.
+fn append(text: &str, used: &mut Vec<String>, linked: &mut String) {
+    for line in text.lines() {
+        let Some(name) = line.strip_prefix("//# use ") else {
+            linked.push_str(line);
+            linked.push('\n');
+            continue;
+        };
+        let name = name.trim();
+        if used.iter().any(|seen| seen == name) {
+            continue;
+        }
+        used.push(name.to_owned());
+        let library = LIBRARIES.iter().find(|(path, _)| *path == name);
+        let (_, text) = library.unwrap_or_else(|| panic!("a shader uses '{name}', which is no library"));
+        append(text, used, linked);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_shader_links_and_opens_with_its_name() {
+        for shader in ALL {
+            let linked = link(shader);
+            assert!(!linked.contains("//# use"), "{} keeps a use line", shader.path);
+            let name = shader.path.replace('/', ".");
+            assert!(shader.text.starts_with(&format!("// {name}: ")), "{} opens with another name", shader.path);
+        }
+    }
+
+    #[test]
+    fn a_library_asked_for_twice_comes_once() {
+        let shader = Shader { path: "test", text: "//# use lib/surface\n//# use lib/surface\n" };
+        assert_eq!(link(&shader).matches("fn weights_at").count(), 1);
+    }
+}

@@ -25,16 +25,18 @@ pub struct Vertex {
     pub direction: u32,
     /// Texture coordinates of the base colour texture.
     pub uv: [f32; 2],
-    /// Principal curvatures, larger magnitude first, in units of 1 / bounding radius; positive is convex.
+    /// Principal curvatures in the world, in 1 / length; positive is convex.
     pub curvatures: [f32; 2],
     /// Unit normal averaged over all vertices at this position, packed: hulls grow along it without cracks.
     pub weld_normal: u32,
     /// The line width that the style's width source gives here, 0..1, where it depends on the vertex alone.
     pub width: f32,
+    /// Index into the parts.
+    pub part: u32,
     /// Keeps the size a multiple of 16 bytes.
-    pub unused: [u32; 2],
+    pub unused: u32,
 }
-gpu_layout!(Vertex { position, color, normal, direction, uv, curvatures, weld_normal, width, unused });
+gpu_layout!(Vertex { position, color, normal, direction, uv, curvatures, weld_normal, width, part, unused });
 
 /// Which matrices move a vertex, and how much: linear blend skinning; rigid parts use one joint.
 #[repr(C)]
@@ -85,7 +87,7 @@ pub struct Edge {
     pub faces: [u32; 2],
     /// Cosine of the angle between the normals of the two faces; 1 where they are coplanar.
     pub dihedral_cos: f32,
-    /// [`Edge::MATERIAL`] where the faces differ in material.
+    /// Bits of [`Edge::MATERIAL`] and [`Edge::FLIPPED`].
     pub traits: u32,
 }
 gpu_layout!(Edge { ends, faces, dihedral_cos, traits });
@@ -93,6 +95,8 @@ gpu_layout!(Edge { ends, faces, dihedral_cos, traits });
 impl Edge {
     /// The two faces differ in material.
     pub const MATERIAL: u32 = 1;
+    /// The two faces run along the edge in the same direction, so one of them is inside out.
+    pub const FLIPPED: u32 = 2;
 }
 
 /// One surface of one object in one material, with what the style makes of it.
@@ -101,7 +105,7 @@ impl Edge {
 pub struct Part {
     /// Base colour factor, linear light, straight alpha.
     pub base_color: [f32; 4],
-    /// Colour of its lines, linear light, straight alpha.
+    /// Colour of its lines, sRGB, straight alpha.
     pub line_color: [f32; 4],
     /// Object number, equal for all parts of one object.
     pub object: u32,
@@ -137,6 +141,19 @@ impl Part {
     /// Light does not change its colour.
     pub const UNLIT: u32 = 8;
 }
+
+/// A disc of ink in frame pixels; half width 0 where there is none.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct Stamp {
+    /// Centre, in frame pixels.
+    pub center: [f32; 2],
+    /// Radius, in frame pixels.
+    pub half_width: f32,
+    /// Index into the parts.
+    pub part: u32,
+}
+gpu_layout!(Stamp { center, half_width, part });
 
 /// What one pixel of the G-buffer holds.
 #[repr(C)]

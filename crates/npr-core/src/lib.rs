@@ -15,9 +15,11 @@
 pub mod budget;
 pub mod camera;
 pub mod color;
+pub mod cutout;
 pub mod geometry;
 pub mod layout;
 pub mod math;
+pub mod outline;
 pub mod raster;
 pub mod surface;
 pub mod texture;

@@ -37,6 +37,16 @@ pub fn blend(weights: [f32; 3], values: [f32; 3]) -> f32 {
     values[0] * weights[0] + values[1] * weights[1] + values[2] * weights[2]
 }
 
+/// Weighted sum of three points of a plane.
+pub fn blend2(weights: [f32; 3], values: [[f32; 2]; 3]) -> [f32; 2] {
+    std::array::from_fn(|i| blend(weights, [values[0][i], values[1][i], values[2][i]]))
+}
+
+/// Scalar product.
+pub fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
 /// Weighted sum of three vectors.
 pub fn blend3(weights: [f32; 3], values: [[f32; 3]; 3]) -> [f32; 3] {
     std::array::from_fn(|i| blend(weights, [values[0][i], values[1][i], values[2][i]]))

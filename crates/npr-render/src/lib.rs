@@ -1,1 +1,33 @@
-//! Being written.
+//! Scene and style in, drawing out.
+//!
+//! [`Model::new`] prepares a scene once: welds it, finds its edges and curvature. A [`Stage`] joins a model with a style and a
+//! frame size on an engine, and [`Stage::draw`] makes a picture for a camera, as often as wanted.
+//!
+//! ```
+//! use npr_core::camera::Camera;
+//! use npr_gpu::processor::Processor;
+//! use npr_render::{Model, Stage, StageOptions};
+//! use npr_scene::Scene;
+//! use npr_style::Style;
+//!
+//! let model = Model::new(&Scene::default())?;
+//! let mut stage = Stage::new(&Processor, &model, &Style::default(), &StageOptions::new([64, 36]))?;
+//! let frame = stage.draw(&Camera::framing([-1.0; 3], [1.0; 3]))?;
+//! assert_eq!(frame.rgba.len(), 64 * 36 * 4);
+//! # Ok::<(), npr_render::RenderError>(())
+//! ```
+
+mod blueprint;
+mod error;
+mod frame;
+mod instance;
+mod look;
+mod model;
+mod stage;
+mod textures;
+mod tiles;
+
+pub use error::RenderError;
+pub use frame::Frame;
+pub use model::{Model, PartInfo};
+pub use stage::{Picture, Stage, StageOptions};

@@ -1,1 +1,16 @@
-//! Being written.
+//! Lines found on images and drawn on shapes [Okuya et al. 2016].
+//!
+//! A frame becomes lines in four steps, each usable alone: [`gbuffer`] finds the surface under every
+//! pixel, [`detect`] marks the pixels that differ from a neighbour, [`ribbon`] draws mesh edges with width where the
+//! mask shows them, and [`residual`] inks what the mask shows and no edge explains. Every function here is the twin of
+//! a shader of the same name.
+//!
+//! ```
+//! // A line one pixel wide whose spine runs through a pixel's centre covers it whole.
+//! assert_eq!(npr_vector::ribbon::line_coverage(0.0, 0.5), 1.0);
+//! ```
+
+pub mod detect;
+pub mod gbuffer;
+pub mod residual;
+pub mod ribbon;

@@ -1,0 +1,83 @@
+//! Settings of outlines, as passes read them.
+
+use crate::gpu_layout;
+use bytemuck::{Pod, Zeroable};
+
+/// How lines are detected, chosen and drawn.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct Outline {
+    /// Line width at width factor 1: frame pixels, or world units where `flags` has [`Outline::WORLD_WIDTH`].
+    pub base_width: f32,
+    /// Width factor where the source gives 0.
+    pub min_factor: f32,
+    /// Width factor where the source gives 1.
+    pub max_factor: f32,
+    /// How strongly projected curvature swells lines.
+    pub gain: f32,
+    /// Bounding radius of the scene in world units: curvatures are stored relative to it.
+    pub radius_world: f32,
+    /// Cosine of the crease angle: sharper edges are creases.
+    pub crease_cos: f32,
+    /// Depth jump, as a share of the frame's height at that depth, from which pixels are separated by a line.
+    pub depth_threshold: f32,
+    /// Cosine of the angle between normals from which pixels are separated by a line.
+    pub normal_cos: f32,
+    /// Which kinds of edges are drawn: bits of [`Outline::CONTOUR`] to [`Outline::ANY`].
+    pub kinds: u32,
+    /// Which buffers lines are detected on: bits of [`Outline::DEPTH`] to [`Outline::MATERIAL_ID`].
+    pub detects: u32,
+    /// Bits of [`Outline::WORLD_WIDTH`] to [`Outline::UNMASKED`].
+    pub flags: u32,
+    /// Largest half width of any line, rounded up, plus one: how far around a pixel stamps are looked for.
+    pub reach_px: u32,
+}
+gpu_layout!(Outline {
+    base_width, min_factor, max_factor, gain, radius_world, crease_cos, depth_threshold, normal_cos,
+    kinds, detects, flags, reach_px,
+});
+
+impl Outline {
+    /// Edges between a face turned to the eye and one turned away.
+    pub const CONTOUR: u32 = 1;
+    /// Edges of a single face.
+    pub const BORDER: u32 = 2;
+    /// Edges sharper than the crease angle.
+    pub const CREASE: u32 = 4;
+    /// Edges between materials.
+    pub const MATERIAL: u32 = 8;
+    /// Every edge of a face turned to the eye, as published.
+    pub const ANY: u32 = 16;
+
+    /// Detects jumps in depth. Also the bit that such a pixel gets in the mask.
+    pub const DEPTH: u32 = 1;
+    /// Detects jumps in the normal.
+    pub const NORMAL: u32 = 2;
+    /// Detects changes of object.
+    pub const OBJECT_ID: u32 = 4;
+    /// Detects changes of material.
+    pub const MATERIAL_ID: u32 = 8;
+    /// Compares depths with the neighbour's tangent plane instead of directly.
+    pub const PLANE_DEPTH: u32 = 16;
+
+    /// `base_width` is in world units.
+    pub const WORLD_WIDTH: u32 = 1;
+    /// Width follows the projected curvature instead of the vertex's own value.
+    pub const PROJECTED_CURVATURE: u32 = 2;
+    /// Ribbons end square and look at the one mask pixel under them, as published.
+    pub const PUBLISHED: u32 = 4;
+    /// Ribbons are drawn without looking at the mask.
+    pub const UNMASKED: u32 = 8;
+}
+
+/// In the mask: this pixel's surface is the one in front, so the line belongs to it.
+pub const MASK_OWNER: u32 = 16;
+
+/// In the mask: the owner's line runs along its left, right, upper or lower side, in this bit and the three above.
+pub const MASK_SIDE: u32 = 256;
+
+/// Width factor 0..1 that a curvature gives, as `x / (1 + x)`: half its range where `x`, curvature times gain, is 1.
+pub fn width_of_curvature(curvature: f32, gain: f32) -> f32 {
+    let x = curvature.abs() * gain;
+    x / (1.0 + x)
+}

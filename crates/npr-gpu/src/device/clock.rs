@@ -1,0 +1,97 @@
+//! The device's own clock: two time stamps per pass.
+
+use super::Gpu;
+use super::staging::Staging;
+use crate::engine::EngineError;
+use std::time::Duration;
+
+/// Queries for the time stamps of a number of passes.
+#[derive(Debug)]
+pub(super) struct Clock {
+    queries: wgpu::QuerySet,
+    resolved: wgpu::Buffer,
+    pass_count: u32,
+    tick_ns: f64,
+}
+
+impl Clock {
+    /// A clock for passes numbered below `pass_count`; `None` where the device has none, or not for so many.
+    pub(super) fn new(gpu: &Gpu, pass_count: usize) -> Option<Self> {
+        let has_clock = gpu
+            .device
+            .features()
+            .contains(wgpu::Features::TIMESTAMP_QUERY);
+        if !has_clock || pass_count == 0 || pass_count > wgpu::QUERY_SET_MAX_QUERIES as usize / 2 {
+            return None;
+        }
+        let pass_count = pass_count as u32;
+        let queries = gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
+            label: Some("clock"),
+            ty: wgpu::QueryType::Timestamp,
+            count: 2 * pass_count,
+        });
+        let resolved = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("clock"),
+            size: 16 * u64::from(pass_count),
+            usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        });
+        let tick_ns = f64::from(gpu.queue.get_timestamp_period());
+        Some(Self {
+            queries,
+            resolved,
+            pass_count,
+            tick_ns,
+        })
+    }
+
+    /// Stamps for compute pass `pass`.
+    pub(super) fn compute_stamps(&self, pass: u32) -> wgpu::ComputePassTimestampWrites<'_> {
+        wgpu::ComputePassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: Some(2 * pass),
+            end_of_pass_write_index: Some(2 * pass + 1),
+        }
+    }
+
+    /// Stamps for draw pass `pass`.
+    pub(super) fn draw_stamps(&self, pass: u32) -> wgpu::RenderPassTimestampWrites<'_> {
+        wgpu::RenderPassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: Some(2 * pass),
+            end_of_pass_write_index: Some(2 * pass + 1),
+        }
+    }
+
+    /// Records the copy of all stamps to where the processor can read them; every pass must have run.
+    pub(super) fn stage(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) -> Staging {
+        let staging = Staging::of_words(&gpu.device, 4 * self.pass_count as usize);
+        encoder.resolve_query_set(&self.queries, 0..2 * self.pass_count, &self.resolved, 0);
+        encoder.copy_buffer_to_buffer(
+            &self.resolved,
+            0,
+            &staging.buffer,
+            0,
+            16 * u64::from(self.pass_count),
+        );
+        staging
+    }
+
+    /// How long each pass took.
+    pub(super) fn times(
+        &self,
+        gpu: &Gpu,
+        staging: &Staging,
+        submission: wgpu::SubmissionIndex,
+    ) -> Result<Vec<Duration>, EngineError> {
+        let words = staging.words(gpu, "the clock", submission)?;
+        let stamp = |low: u32, high: u32| u64::from(low) | u64::from(high) << 32;
+        let (passes, _) = words.as_chunks::<4>();
+        let ticks = passes
+            .iter()
+            .map(|&[a, b, c, d]| stamp(c, d).saturating_sub(stamp(a, b)));
+        Ok(ticks
+            .map(|ticks| Duration::from_nanos((ticks as f64 * self.tick_ns) as u64))
+            .collect())
+    }
+}

@@ -1,0 +1,127 @@
+//! A picture on the device.
+
+use super::Gpu;
+use super::staging::Staging;
+use crate::pass::Format;
+
+/// A texture with the one view that passes use.
+#[derive(Debug)]
+pub(super) struct Image {
+    texture: wgpu::Texture,
+    /// The whole texture.
+    pub(super) view: wgpu::TextureView,
+    /// What a texel holds.
+    pub(super) format: Format,
+    size: [u32; 2],
+}
+
+impl Image {
+    /// A zeroed image. One without texels still gets one, so that it can be bound.
+    pub(super) fn new(gpu: &Gpu, name: &str, format: Format, size: [u32; 2]) -> Self {
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(name),
+            size: extent(size.map(|side| side.max(1))),
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: texture_format(format),
+            usage: usages(format),
+            view_formats: &[],
+        });
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        Self {
+            texture,
+            view,
+            format,
+            size,
+        }
+    }
+
+    /// Overwrites the first texels: whole rows, then the start of the next one.
+    pub(super) fn write(&self, queue: &wgpu::Queue, texels: &[u32]) {
+        let width = self.size[0] as usize;
+        if texels.is_empty() {
+            return;
+        }
+        let (rows, rest) = texels.split_at(texels.len() / width * width);
+        let row_count = (rows.len() / width) as u32;
+        self.write_rectangle(queue, 0, [self.size[0], row_count], rows);
+        self.write_rectangle(queue, row_count, [rest.len() as u32, 1], rest);
+    }
+
+    fn write_rectangle(&self, queue: &wgpu::Queue, top: u32, size: [u32; 2], texels: &[u32]) {
+        if texels.is_empty() {
+            return;
+        }
+        let rows = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(size[0] * 4),
+            rows_per_image: None,
+        };
+        queue.write_texture(
+            self.corner(top),
+            bytemuck::cast_slice(texels),
+            rows,
+            extent(size),
+        );
+    }
+
+    /// Records a copy of all texels to where the processor can read them.
+    pub(super) fn stage(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Staging {
+        let staging = Staging::of_rows(device, self.size);
+        if self.size[0] > 0 && self.size[1] > 0 {
+            let target = wgpu::TexelCopyBufferInfo {
+                buffer: &staging.buffer,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(staging.row_bytes as u32),
+                    rows_per_image: None,
+                },
+            };
+            encoder.copy_texture_to_buffer(self.corner(0), target, extent(self.size));
+        }
+        staging
+    }
+
+    fn corner(&self, top: u32) -> wgpu::TexelCopyTextureInfo<'_> {
+        wgpu::TexelCopyTextureInfo {
+            texture: &self.texture,
+            mip_level: 0,
+            origin: wgpu::Origin3d { x: 0, y: top, z: 0 },
+            aspect: wgpu::TextureAspect::All,
+        }
+    }
+}
+
+/// The texture format of a [`Format`].
+pub(super) fn texture_format(format: Format) -> wgpu::TextureFormat {
+    match format {
+        Format::U32 => wgpu::TextureFormat::R32Uint,
+        Format::Rgba8 => wgpu::TextureFormat::Rgba8Unorm,
+        Format::Depth => wgpu::TextureFormat::Depth32Float,
+    }
+}
+
+/// Everything that WebGPU lets a format be used for; depth cannot be copied into.
+fn usages(format: Format) -> wgpu::TextureUsages {
+    let usages = wgpu::TextureUsages::TEXTURE_BINDING
+        | wgpu::TextureUsages::RENDER_ATTACHMENT
+        | wgpu::TextureUsages::COPY_SRC;
+    if format == Format::Depth {
+        usages
+    } else {
+        usages | wgpu::TextureUsages::COPY_DST
+    }
+}
+
+fn extent(size: [u32; 2]) -> wgpu::Extent3d {
+    wgpu::Extent3d {
+        width: size[0],
+        height: size[1],
+        depth_or_array_layers: 1,
+    }
+}

@@ -1,0 +1,132 @@
+//! The buffers and images behind the resources of a graph.
+
+use super::Gpu;
+use super::image::Image;
+use super::staging::Staging;
+use crate::engine::EngineError;
+use crate::graph::{Kind, Resource};
+
+/// What a resource is on the device.
+#[derive(Debug)]
+pub(super) enum Memory {
+    /// An array or a uniform; at least one element, since empty buffers cannot be bound.
+    Buffer(wgpu::Buffer),
+    /// A picture.
+    Image(Image),
+}
+
+impl Memory {
+    /// Zeroed memory for a resource.
+    pub(super) fn new(gpu: &Gpu, resource: &Resource) -> Result<Self, EngineError> {
+        check_size(&gpu.device.limits(), resource)?;
+        let made = gpu.scoped(|| match resource.kind {
+            Kind::Uniform { size } => Self::Buffer(new_buffer(
+                gpu,
+                resource.name,
+                size,
+                wgpu::BufferUsages::UNIFORM,
+            )),
+            Kind::Buffer { stride, count } => Self::Buffer(new_buffer(
+                gpu,
+                resource.name,
+                stride * count.max(1),
+                wgpu::BufferUsages::STORAGE,
+            )),
+            Kind::Image { format, size } => {
+                Self::Image(Image::new(gpu, resource.name, format, size))
+            }
+        });
+        made.map_err(|error| match error {
+            wgpu::Error::OutOfMemory { .. } => out_of_memory(resource),
+            other => gpu.failed(resource.name, &other),
+        })
+    }
+
+    /// How the memory is bound to a slot.
+    pub(super) fn binding(&self) -> wgpu::BindingResource<'_> {
+        match self {
+            Self::Buffer(buffer) => buffer.as_entire_binding(),
+            Self::Image(image) => wgpu::BindingResource::TextureView(&image.view),
+        }
+    }
+
+    /// The image, where it is one.
+    pub(super) fn image(&self) -> Option<&Image> {
+        match self {
+            Self::Buffer(_) => None,
+            Self::Image(image) => Some(image),
+        }
+    }
+
+    /// Overwrites it from the start.
+    pub(super) fn write(&self, queue: &wgpu::Queue, words: &[u32]) {
+        match self {
+            Self::Buffer(buffer) => queue.write_buffer(buffer, 0, bytemuck::cast_slice(words)),
+            Self::Image(image) => image.write(queue, words),
+        }
+    }
+
+    /// Records a copy of the first `word_count` words to where the processor can read them.
+    pub(super) fn stage(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        word_count: usize,
+    ) -> Staging {
+        match self {
+            Self::Buffer(buffer) => {
+                let staging = Staging::of_words(&gpu.device, word_count);
+                encoder.copy_buffer_to_buffer(buffer, 0, &staging.buffer, 0, word_count as u64 * 4);
+                staging
+            }
+            Self::Image(image) => image.stage(&gpu.device, encoder),
+        }
+    }
+}
+
+fn new_buffer(gpu: &Gpu, name: &str, bytes: usize, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(name),
+        size: (bytes as u64).next_multiple_of(4),
+        usage: usage | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+/// Refuses what the limits rule out, before the driver sees it.
+fn check_size(limits: &wgpu::Limits, resource: &Resource) -> Result<(), EngineError> {
+    let bytes = resource.word_count() as u64 * 4;
+    let fits = match resource.kind {
+        Kind::Uniform { .. } => bytes <= limits.max_uniform_buffer_binding_size,
+        Kind::Buffer { .. } => bytes <= limits.max_storage_buffer_binding_size,
+        Kind::Image { size, .. } => {
+            return check_sides(limits.max_texture_dimension_2d, resource, size);
+        }
+    };
+    if fits {
+        Ok(())
+    } else {
+        Err(out_of_memory(resource))
+    }
+}
+
+fn check_sides(most: u32, resource: &Resource, size: [u32; 2]) -> Result<(), EngineError> {
+    if size[0] <= most && size[1] <= most {
+        return Ok(());
+    }
+    let reason = format!(
+        "an image of {} x {} is larger than {most} on a side",
+        size[0], size[1]
+    );
+    Err(EngineError::Failed {
+        place: resource.name.to_owned(),
+        reason,
+    })
+}
+
+fn out_of_memory(resource: &Resource) -> EngineError {
+    EngineError::OutOfMemory {
+        resource: resource.name,
+        bytes: resource.word_count() as u64 * 4,
+    }
+}

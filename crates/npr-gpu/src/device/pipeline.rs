@@ -1,0 +1,190 @@
+//! Compiled passes.
+
+use super::Gpu;
+use super::image::texture_format;
+use crate::engine::EngineError;
+use crate::pass::{Access, Format, Pass, Slot, WORKGROUP_SIZE, Work};
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// A pass compiled for a device.
+#[derive(Debug)]
+pub(super) struct Pipeline {
+    /// Layout of group 0.
+    pub(super) layout: wgpu::BindGroupLayout,
+    /// What runs.
+    pub(super) stage: Stage,
+}
+
+/// The compiled entry points of a pass.
+#[derive(Debug)]
+pub(super) enum Stage {
+    /// `main`.
+    Compute(wgpu::ComputePipeline),
+    /// `vertex` and `fragment`.
+    Draw(wgpu::RenderPipeline),
+}
+
+/// The compiled passes of a device by name, so that graphs share them.
+#[derive(Debug, Default)]
+pub(super) struct PipelineCache {
+    compiled: Mutex<BTreeMap<&'static str, Arc<Pipeline>>>,
+}
+
+impl PipelineCache {
+    /// The pass, compiled now if it was not before.
+    pub(super) fn get(&self, gpu: &Gpu, pass: &Pass) -> Result<Arc<Pipeline>, EngineError> {
+        let mut compiled = self.compiled.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(pipeline) = compiled.get(pass.name) {
+            return Ok(pipeline.clone());
+        }
+        let pipeline = Arc::new(gpu.guarded(pass.name, || compile(&gpu.device, pass))?);
+        compiled.insert(pass.name, pipeline.clone());
+        Ok(pipeline)
+    }
+}
+
+fn compile(device: &wgpu::Device, pass: &Pass) -> Pipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(pass.name),
+        source: wgpu::ShaderSource::Wgsl(npr_shaders::link(&pass.shader).into()),
+    });
+    let entries: Vec<_> = (0..)
+        .zip(pass.slots)
+        .map(|(binding, slot)| layout_entry(pass, binding, slot))
+        .collect();
+    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(pass.name),
+        entries: &entries,
+    });
+    let bindings = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(pass.name),
+        bind_group_layouts: &[Some(&layout)],
+        immediate_size: 0,
+    });
+    let stage = match pass.work {
+        Work::PerElement { .. } => {
+            Stage::Compute(compile_compute(device, pass, &module, &bindings))
+        }
+        Work::Draw { targets, .. } => {
+            Stage::Draw(compile_draw(device, pass, targets, &module, &bindings))
+        }
+    };
+    Pipeline { layout, stage }
+}
+
+fn layout_entry(pass: &Pass, binding: u32, slot: &Slot) -> wgpu::BindGroupLayoutEntry {
+    let visibility = match pass.work {
+        Work::PerElement { .. } => wgpu::ShaderStages::COMPUTE,
+        Work::Draw { .. } => wgpu::ShaderStages::VERTEX_FRAGMENT,
+    };
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility,
+        ty: binding_type(slot),
+        count: None,
+    }
+}
+
+fn binding_type(slot: &Slot) -> wgpu::BindingType {
+    let buffer = |ty| wgpu::BindingType::Buffer {
+        ty,
+        has_dynamic_offset: false,
+        min_binding_size: wgpu::BufferSize::new(slot.element.size as u64),
+    };
+    match slot.access {
+        Access::Uniform => buffer(wgpu::BufferBindingType::Uniform),
+        Access::Read => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
+        Access::Write => buffer(wgpu::BufferBindingType::Storage { read_only: false }),
+        Access::Texture(format) => wgpu::BindingType::Texture {
+            sample_type: sample_type(format),
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        },
+    }
+}
+
+fn sample_type(format: Format) -> wgpu::TextureSampleType {
+    match format {
+        Format::U32 => wgpu::TextureSampleType::Uint,
+        Format::Rgba8 => wgpu::TextureSampleType::Float { filterable: false },
+        Format::Depth => wgpu::TextureSampleType::Depth,
+    }
+}
+
+fn compile_compute(
+    device: &wgpu::Device,
+    pass: &Pass,
+    module: &wgpu::ShaderModule,
+    bindings: &wgpu::PipelineLayout,
+) -> wgpu::ComputePipeline {
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(pass.name),
+        layout: Some(bindings),
+        module,
+        entry_point: Some("main"),
+        compilation_options: wgpu::PipelineCompilationOptions {
+            constants: &[("WG", f64::from(WORKGROUP_SIZE))],
+            ..wgpu::PipelineCompilationOptions::default()
+        },
+        cache: None,
+    })
+}
+
+fn compile_draw(
+    device: &wgpu::Device,
+    pass: &Pass,
+    targets: &[Format],
+    module: &wgpu::ShaderModule,
+    bindings: &wgpu::PipelineLayout,
+) -> wgpu::RenderPipeline {
+    let colors: Vec<_> = targets
+        .iter()
+        .filter(|format| **format != Format::Depth)
+        .map(|f| color_target(*f))
+        .collect();
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(pass.name),
+        layout: Some(bindings),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("vertex"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[],
+        },
+        // Facing is the vertex shader's decision: it knows which parts show both sides.
+        primitive: wgpu::PrimitiveState {
+            cull_mode: None,
+            ..wgpu::PrimitiveState::default()
+        },
+        depth_stencil: targets.contains(&Format::Depth).then(reversed_depth),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some("fragment"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &colors,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn color_target(format: Format) -> Option<wgpu::ColorTargetState> {
+    Some(wgpu::ColorTargetState {
+        format: texture_format(format),
+        blend: None,
+        write_mask: wgpu::ColorWrites::ALL,
+    })
+}
+
+/// Greater is nearer; equal depths keep what was drawn first, as the processor's rasteriser does.
+fn reversed_depth() -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format: texture_format(Format::Depth),
+        depth_write_enabled: Some(true),
+        depth_compare: Some(wgpu::CompareFunction::Greater),
+        stencil: wgpu::StencilState::default(),
+        bias: wgpu::DepthBiasState::default(),
+    }
+}

@@ -1,0 +1,248 @@
+//! A frame as data: resources, and the passes that fill them in order.
+
+use crate::pass::{Access, Format, Pass};
+use npr_core::layout::GpuLayout;
+
+/// A buffer or image of a graph.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct ResourceId(pub(crate) u32);
+
+impl ResourceId {
+    pub(crate) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What a resource is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// One struct for uniform slots, of this many bytes.
+    Uniform {
+        /// Bytes.
+        size: usize,
+    },
+    /// An array.
+    Buffer {
+        /// Bytes of an element.
+        stride: usize,
+        /// Number of elements.
+        count: usize,
+    },
+    /// A picture.
+    Image {
+        /// What a texel holds.
+        format: Format,
+        /// Width and height.
+        size: [u32; 2],
+    },
+}
+
+/// A resource and its label.
+#[derive(Debug, Clone)]
+pub struct Resource {
+    /// For messages and debuggers.
+    pub name: &'static str,
+    /// What it is.
+    pub kind: Kind,
+}
+
+impl Resource {
+    /// Number of 4-byte words it takes.
+    pub fn word_count(&self) -> usize {
+        match self.kind {
+            Kind::Uniform { size } => size.div_ceil(4),
+            Kind::Buffer { stride, count } => (stride * count).div_ceil(4),
+            Kind::Image { size, .. } => size[0] as usize * size[1] as usize,
+        }
+    }
+}
+
+/// A pass with what it binds.
+#[derive(Debug, Clone)]
+pub struct Node {
+    /// What runs.
+    pub pass: &'static Pass,
+    /// Resources of its slots in order, then of its targets.
+    pub bound: Vec<ResourceId>,
+    /// Whether the targets are cleared to zero before drawing.
+    pub clears: bool,
+}
+
+/// Resources and nodes, in the order in which the nodes run.
+///
+/// Building a graph that does not fit its passes is a bug in the program and panics with the pass's name.
+#[derive(Debug, Clone, Default)]
+pub struct Graph {
+    resources: Vec<Resource>,
+    nodes: Vec<Node>,
+}
+
+impl Graph {
+    /// A graph without resources.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a buffer of `count` elements.
+    pub fn buffer<T: GpuLayout>(&mut self, name: &'static str, count: usize) -> ResourceId {
+        self.add(
+            name,
+            Kind::Buffer {
+                stride: size_of::<T>(),
+                count,
+            },
+        )
+    }
+
+    /// Adds a uniform.
+    pub fn uniform<T: GpuLayout>(&mut self, name: &'static str) -> ResourceId {
+        self.add(
+            name,
+            Kind::Uniform {
+                size: size_of::<T>(),
+            },
+        )
+    }
+
+    /// Adds an image.
+    pub fn image(&mut self, name: &'static str, format: Format, size: [u32; 2]) -> ResourceId {
+        self.add(name, Kind::Image { format, size })
+    }
+
+    /// Adds a resource of any kind, for programs that build graphs from declarations.
+    pub fn add(&mut self, name: &'static str, kind: Kind) -> ResourceId {
+        self.resources.push(Resource { name, kind });
+        ResourceId(self.resources.len() as u32 - 1)
+    }
+
+    /// Appends a compute pass.
+    ///
+    /// # Panics
+    ///
+    /// When `bound` does not fit the pass's slots.
+    pub fn compute(&mut self, pass: &'static Pass, bound: &[ResourceId]) {
+        self.push(Node {
+            pass,
+            bound: bound.to_vec(),
+            clears: false,
+        });
+    }
+
+    /// Appends a draw pass into `targets`, which are first cleared to zero if `clears`.
+    ///
+    /// # Panics
+    ///
+    /// When `bound` or `targets` do not fit the pass.
+    pub fn draw(
+        &mut self,
+        pass: &'static Pass,
+        bound: &[ResourceId],
+        targets: &[ResourceId],
+        clears: bool,
+    ) {
+        self.push(Node {
+            pass,
+            bound: [bound, targets].concat(),
+            clears,
+        });
+    }
+
+    fn push(&mut self, node: Node) {
+        let (pass, slots) = (node.pass, node.pass.slots);
+        let targets = pass.targets();
+        assert_eq!(
+            node.bound.len(),
+            slots.len() + targets.len(),
+            "pass {} binds another number",
+            pass.name
+        );
+        for (slot, id) in slots.iter().zip(&node.bound) {
+            let fits = match (self.resource(*id).kind, slot.access) {
+                (Kind::Uniform { size }, Access::Uniform) => size == slot.element.size,
+                (Kind::Buffer { stride, .. }, Access::Read | Access::Write) => {
+                    stride == slot.element.size
+                }
+                (Kind::Image { format, .. }, Access::Texture(wanted)) => format == wanted,
+                _ => false,
+            };
+            assert!(
+                fits,
+                "pass {}: slot '{}' cannot bind '{}'",
+                pass.name,
+                slot.name,
+                self.resource(*id).name
+            );
+        }
+        for (format, id) in targets.iter().zip(&node.bound[slots.len()..]) {
+            let fits = matches!(self.resource(*id).kind, Kind::Image { format: have, .. } if have == *format);
+            assert!(
+                fits,
+                "pass {} cannot draw into '{}'",
+                pass.name,
+                self.resource(*id).name
+            );
+        }
+        for id in writes(&node) {
+            let uses = node.bound.iter().filter(|other| **other == id).count();
+            assert_eq!(
+                uses,
+                1,
+                "pass {} both writes and uses '{}'",
+                pass.name,
+                self.resource(id).name
+            );
+        }
+        self.nodes.push(node);
+    }
+
+    /// A resource by its id.
+    pub fn resource(&self, id: ResourceId) -> &Resource {
+        &self.resources[id.index()]
+    }
+
+    /// All resources; ids count along this.
+    pub fn resources(&self) -> &[Resource] {
+        &self.resources
+    }
+
+    /// All nodes in running order.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// The number of elements of a resource; texels of an image.
+    pub fn element_count(&self, id: ResourceId) -> usize {
+        match self.resource(id).kind {
+            Kind::Uniform { .. } => 1,
+            Kind::Buffer { count, .. } => count,
+            Kind::Image { size, .. } => size[0] as usize * size[1] as usize,
+        }
+    }
+
+    /// The number of work items of a node: elements, or texels where an image is counted.
+    pub fn work_count(&self, node: &Node) -> usize {
+        self.element_count(node.bound[node.pass.counted_slot()])
+    }
+
+    /// Bytes of all resources together.
+    pub fn planned_bytes(&self) -> u64 {
+        self.resources
+            .iter()
+            .map(|resource| resource.word_count() as u64 * 4)
+            .sum()
+    }
+}
+
+/// The resources that a node writes.
+pub(crate) fn writes(node: &Node) -> impl Iterator<Item = ResourceId> + '_ {
+    let slots = node.pass.slots;
+    node.bound
+        .iter()
+        .enumerate()
+        .filter(move |(i, _)| {
+            slots
+                .get(*i)
+                .is_none_or(|slot| slot.access == Access::Write)
+        })
+        .map(|(_, id)| *id)
+}

@@ -1,0 +1,255 @@
+//! What a pass is: a shader, the buffers it binds, and a twin that does the same in Rust.
+
+use bytemuck::{AnyBitPattern, NoUninit};
+use npr_core::layout::{Field, GpuLayout};
+use npr_shaders::Shader;
+
+/// Invocations per workgroup of every compute pass: the shader's `override WG`.
+pub const WORKGROUP_SIZE: u32 = 64;
+
+/// One step of a frame, on either engine.
+#[derive(Debug, Clone, Copy)]
+pub struct Pass {
+    /// `domain.verb_object`; also the shader's path with a dot.
+    pub name: &'static str,
+    /// The WGSL side.
+    pub shader: Shader,
+    /// What it binds, in binding order of group 0.
+    pub slots: &'static [Slot],
+    /// How much work there is.
+    pub work: Work,
+    /// How closely a device must match the twin.
+    pub agreement: Agreement,
+    /// The Rust side.
+    pub twin: fn(&mut Bindings<'_>),
+}
+
+/// How much work a pass has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Work {
+    /// One invocation of `main` per element of the named slot.
+    PerElement {
+        /// The slot that is counted.
+        of: &'static str,
+    },
+    /// Triangles without vertex buffers: entry points `vertex` and `fragment`.
+    Draw {
+        /// The slot that is counted.
+        of: &'static str,
+        /// Vertices per element.
+        vertices: u32,
+        /// What is drawn into; a depth image last. Depth is reversed: greater wins, equal keeps what is there.
+        targets: &'static [Format],
+    },
+}
+
+/// What one texel of an image holds; 4 bytes each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// One unsigned integer.
+    U32,
+    /// Four bytes read and written as 0..1.
+    Rgba8,
+    /// Reversed depth 0..1.
+    Depth,
+}
+
+/// Something a pass binds.
+#[derive(Debug, Clone, Copy)]
+pub struct Slot {
+    /// Its name in the shader.
+    pub name: &'static str,
+    /// How it is bound.
+    pub access: Access,
+    /// What it holds; texels for images.
+    pub element: Element,
+}
+
+/// How a slot is bound.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Access {
+    /// One struct in a uniform buffer.
+    Uniform,
+    /// An array in a storage buffer that is read.
+    Read,
+    /// An array in a storage buffer that is written, in whole.
+    Write,
+    /// An image whose texels are loaded.
+    Texture(Format),
+}
+
+/// The layout of an element, as the Rust side sees it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Element {
+    /// Struct name, or WGSL type of a scalar.
+    pub name: &'static str,
+    /// Bytes from one element to the next.
+    pub size: usize,
+    /// Fields of a struct.
+    pub fields: &'static [Field],
+}
+
+impl Element {
+    /// The layout of `T`.
+    pub const fn of<T: GpuLayout>() -> Self {
+        Self {
+            name: T::NAME,
+            size: size_of::<T>(),
+            fields: T::FIELDS,
+        }
+    }
+}
+
+/// How closely a device must match the twin, element by element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Agreement {
+    /// The same bits.
+    Exact,
+    /// Every float field within this relative bound (against the larger magnitude, at least 1); integers exact.
+    Relative(f32),
+    /// Pictures: at most this share of texels may differ by more than 2 of 255 in a channel.
+    Texels(f32),
+}
+
+/// A uniform slot.
+pub const fn uniform<T: GpuLayout>(name: &'static str) -> Slot {
+    Slot {
+        name,
+        access: Access::Uniform,
+        element: Element::of::<T>(),
+    }
+}
+
+/// A slot that is read.
+pub const fn read<T: GpuLayout>(name: &'static str) -> Slot {
+    Slot {
+        name,
+        access: Access::Read,
+        element: Element::of::<T>(),
+    }
+}
+
+/// A slot that is written.
+pub const fn write<T: GpuLayout>(name: &'static str) -> Slot {
+    Slot {
+        name,
+        access: Access::Write,
+        element: Element::of::<T>(),
+    }
+}
+
+/// An image slot whose texels are loaded.
+pub const fn texture(name: &'static str, format: Format) -> Slot {
+    Slot {
+        name,
+        access: Access::Texture(format),
+        element: Element::of::<u32>(),
+    }
+}
+
+impl Pass {
+    /// The images that the pass draws into, none for compute passes.
+    pub fn targets(&self) -> &'static [Format] {
+        match self.work {
+            Work::PerElement { .. } => &[],
+            Work::Draw { targets, .. } => targets,
+        }
+    }
+
+    /// The position of the slot that counts the work.
+    ///
+    /// # Panics
+    ///
+    /// When the declaration names a slot that it does not list.
+    pub fn counted_slot(&self) -> usize {
+        let (Work::PerElement { of } | Work::Draw { of, .. }) = self.work;
+        let found = self.slots.iter().position(|slot| slot.name == of);
+        found.unwrap_or_else(|| {
+            panic!(
+                "pass {} counts '{of}', which is none of its slots",
+                self.name
+            )
+        })
+    }
+}
+
+/// An image as a twin reads it.
+#[derive(Debug, Clone, Copy)]
+pub struct Image<'a> {
+    /// Width and height.
+    pub size: [u32; 2],
+    /// Texels, row by row from the top: integers, packed bytes, or float bits.
+    pub texels: &'a [u32],
+}
+
+/// An image as a twin writes it.
+#[derive(Debug)]
+pub struct ImageMut<'a> {
+    /// Width and height.
+    pub size: [u32; 2],
+    /// Texels, row by row from the top.
+    pub texels: &'a mut [u32],
+}
+
+/// What a node binds, handed to its pass's twin: the slots in order, then the targets.
+#[derive(Debug)]
+pub struct Bindings<'a> {
+    pub(crate) bound: Vec<Bound<'a>>,
+}
+
+#[derive(Debug)]
+pub(crate) enum Bound<'a> {
+    Read {
+        words: &'a [u32],
+        size: [u32; 2],
+    },
+    Write {
+        words: &'a mut [u32],
+        size: [u32; 2],
+    },
+    Taken,
+}
+
+impl<'a> Bindings<'a> {
+    /// The struct of uniform slot `index`.
+    ///
+    /// # Panics
+    ///
+    /// When the twin asks for what its declaration does not bind there; so do the methods below.
+    pub fn one<T: AnyBitPattern>(&self, index: usize) -> T {
+        let elements: &[T] = self.read(index);
+        elements[0]
+    }
+
+    /// The elements of slot `index`, which is read.
+    pub fn read<T: AnyBitPattern>(&self, index: usize) -> &'a [T] {
+        bytemuck::cast_slice(self.image(index).texels)
+    }
+
+    /// The elements of slot `index`, which is written; can be taken once.
+    pub fn write<T: NoUninit + AnyBitPattern>(&mut self, index: usize) -> &'a mut [T] {
+        bytemuck::cast_slice_mut(self.image_mut(index).texels)
+    }
+
+    /// The image of slot `index`.
+    pub fn image(&self, index: usize) -> Image<'a> {
+        match self.bound[index] {
+            Bound::Read { words, size } => Image {
+                size,
+                texels: words,
+            },
+            _ => panic!("binding {index} is not read"),
+        }
+    }
+
+    /// The target `index`, counted on from the slots; can be taken once.
+    pub fn image_mut(&mut self, index: usize) -> ImageMut<'a> {
+        match std::mem::replace(&mut self.bound[index], Bound::Taken) {
+            Bound::Write { words, size } => ImageMut {
+                size,
+                texels: words,
+            },
+            _ => panic!("binding {index} is not written, or was taken before"),
+        }
+    }
+}

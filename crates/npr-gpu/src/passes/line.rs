@@ -1,0 +1,182 @@
+//! Passes that find lines on images and draw them on shapes.
+
+use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
+use npr_core::geometry::{Edge, GPixel, Part, PosedVertex, Stamp, Triangle};
+use npr_core::outline::Outline;
+use npr_core::window::{View, Window};
+use npr_vector::detect::{Detection, detect};
+use npr_vector::gbuffer::{Surfaces, resolve};
+use npr_vector::residual::{self, Inking, Search};
+use npr_vector::ribbon::{self, Drawing};
+
+/// Depth, normal, object and material of the surface at every pixel.
+pub const RESOLVE_GBUFFER: Pass = Pass {
+    name: "line.resolve_gbuffer",
+    shader: npr_shaders::LINE_RESOLVE_GBUFFER,
+    slots: &[
+        uniform::<View>("view"),
+        uniform::<Window>("window"),
+        texture("ids", Format::U32),
+        read::<PosedVertex>("posed"),
+        read::<Triangle>("triangles"),
+        read::<Part>("parts"),
+        write::<GPixel>("gbuffer"),
+    ],
+    work: Work::PerElement { of: "gbuffer" },
+    agreement: Agreement::Relative(1e-3),
+    twin: |b| {
+        let (view, window) = (b.one(0), b.one(1));
+        let on = Surfaces {
+            view: &view,
+            window: &window,
+            posed: b.read(3),
+            triangles: b.read(4),
+            parts: b.read(5),
+        };
+        resolve(&on, b.image(2).texels, b.write(6));
+    },
+};
+
+/// Marks the pixels that differ from a neighbour.
+pub const DETECT: Pass = Pass {
+    name: "line.detect",
+    shader: npr_shaders::LINE_DETECT,
+    slots: &[
+        uniform::<View>("view"),
+        uniform::<Window>("window"),
+        uniform::<Outline>("outline"),
+        read::<Part>("parts"),
+        read::<GPixel>("gbuffer"),
+        write::<u32>("mask"),
+    ],
+    work: Work::PerElement { of: "mask" },
+    agreement: Agreement::Exact,
+    twin: |b| {
+        let (view, window, outline) = (b.one(0), b.one(1), b.one(2));
+        let with = Detection {
+            view: &view,
+            window: &window,
+            outline: &outline,
+            parts: b.read(3),
+        };
+        detect(&with, b.read(4), b.write(5));
+    },
+};
+
+/// Edges as ribbons of varying width, where the mask shows them.
+pub const DRAW_RIBBONS: Pass = Pass {
+    name: "line.draw_ribbons",
+    shader: npr_shaders::LINE_DRAW_RIBBONS,
+    slots: &[
+        uniform::<View>("view"),
+        uniform::<Window>("window"),
+        uniform::<Window>("mask_window"),
+        uniform::<Outline>("outline"),
+        read::<PosedVertex>("posed"),
+        read::<Triangle>("triangles"),
+        read::<Part>("parts"),
+        read::<Edge>("edges"),
+        read::<u32>("kinds"),
+        read::<GPixel>("gbuffer"),
+        read::<u32>("mask"),
+    ],
+    work: Work::Draw {
+        of: "edges",
+        vertices: 6,
+        targets: &[Format::Rgba8, Format::Depth],
+    },
+    agreement: Agreement::Texels(0.002),
+    twin: |b| {
+        let (view, window, mask_window, outline) = (b.one(0), b.one(1), b.one(2), b.one(3));
+        let with = Drawing {
+            view: &view,
+            window: &window,
+            mask_window: &mask_window,
+            outline: &outline,
+            posed: b.read(4),
+            triangles: b.read(5),
+            parts: b.read(6),
+            gbuffer: b.read(9),
+            mask: b.read(10),
+        };
+        ribbon::draw(
+            &with,
+            b.read(7),
+            b.read(8),
+            b.image_mut(11).texels,
+            b.image_mut(12).texels,
+        );
+    },
+};
+
+/// Mask pixels that no ribbon inked become stamps.
+pub const FIND_RESIDUAL: Pass = Pass {
+    name: "line.find_residual",
+    shader: npr_shaders::LINE_FIND_RESIDUAL,
+    slots: &[
+        uniform::<Window>("window"),
+        uniform::<Window>("mask_window"),
+        read::<Part>("parts"),
+        read::<GPixel>("gbuffer"),
+        read::<u32>("mask"),
+        texture("ribbons", Format::Rgba8),
+        write::<Stamp>("stamps"),
+    ],
+    work: Work::PerElement { of: "stamps" },
+    agreement: Agreement::Relative(1e-6),
+    twin: |b| {
+        let (window, mask_window) = (b.one(0), b.one(1));
+        let on = Search {
+            window: &window,
+            mask_window: &mask_window,
+            parts: b.read(2),
+            gbuffer: b.read(3),
+            mask: b.read(4),
+            ribbons: b.image(5).texels,
+        };
+        residual::find(&on, b.write(6));
+    },
+};
+
+/// Which tiles of the mask hold a stamp.
+pub const FLAG_TILES: Pass = Pass {
+    name: "line.flag_tiles",
+    shader: npr_shaders::LINE_FLAG_TILES,
+    slots: &[
+        uniform::<Window>("mask_window"),
+        read::<Stamp>("stamps"),
+        write::<u32>("tiles"),
+    ],
+    work: Work::PerElement { of: "tiles" },
+    agreement: Agreement::Exact,
+    twin: |b| residual::flag_tiles(&b.one(0), b.read(1), b.write(2)),
+};
+
+/// Inks the output around every stamp.
+pub const STAMP_RESIDUAL: Pass = Pass {
+    name: "line.stamp_residual",
+    shader: npr_shaders::LINE_STAMP_RESIDUAL,
+    slots: &[
+        uniform::<Window>("window"),
+        uniform::<Window>("mask_window"),
+        uniform::<Outline>("outline"),
+        read::<Part>("parts"),
+        read::<Stamp>("stamps"),
+        read::<u32>("tiles"),
+        write::<u32>("stamped"),
+    ],
+    work: Work::PerElement { of: "stamped" },
+    agreement: Agreement::Texels(0.001),
+    twin: |b| {
+        let (window, mask_window, outline) = (b.one(0), b.one(1), b.one(2));
+        let with = Inking {
+            window: &window,
+            mask_window: &mask_window,
+            outline: &outline,
+            parts: b.read(3),
+            stamps: b.read(4),
+            tiles: b.read(5),
+        };
+        residual::stamp(&with, b.write(6));
+    },
+};

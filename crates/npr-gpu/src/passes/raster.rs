@@ -1,0 +1,81 @@
+//! Passes that draw triangle numbers.
+
+use crate::pass::{Agreement, Format, Pass, Work, read, uniform};
+use npr_core::cutout::Cutout;
+use npr_core::geometry::{Part, PosedVertex, Triangle, Vertex};
+use npr_core::raster::{Fill, HULL_BIT, Sides, fill_triangles, triangle_of};
+use npr_core::window::{View, Window};
+
+/// The number of the nearest triangle, plus one, at every pixel.
+pub const DRAW_IDS: Pass = Pass {
+    name: "raster.draw_ids",
+    shader: npr_shaders::RASTER_DRAW_IDS,
+    slots: &[
+        uniform::<View>("view"),
+        uniform::<Window>("window"),
+        read::<PosedVertex>("posed"),
+        read::<Vertex>("vertices"),
+        read::<Triangle>("triangles"),
+        read::<Part>("parts"),
+        read::<u32>("texels"),
+    ],
+    work: Work::Draw {
+        of: "triangles",
+        vertices: 3,
+        targets: &[Format::U32, Format::Depth],
+    },
+    agreement: Agreement::Texels(0.001),
+    twin: |b| {
+        let (view, window): (View, Window) = (b.one(0), b.one(1));
+        let posed: &[PosedVertex] = b.read(2);
+        let cutout = Cutout {
+            posed,
+            vertices: b.read(3),
+            triangles: b.read(4),
+            parts: b.read(5),
+            texels: b.read(6),
+        };
+        let fill = Fill {
+            window: &window,
+            triangles: cutout.triangles,
+            parts: cutout.parts,
+            sides: Sides::AsParts,
+            id_bits: 0,
+            clip_of: |v| posed[v as usize].clip,
+            keep: |id, x, y| !cutout.is_hole(triangle_of(id), view.ndc_at(window.frame_at(x, y))),
+        };
+        fill_triangles(&fill, b.image_mut(7).texels, b.image_mut(8).texels);
+    },
+};
+
+/// The backs of the hull, into the same picture as the triangles.
+pub const DRAW_HULL: Pass = Pass {
+    name: "raster.draw_hull",
+    shader: npr_shaders::RASTER_DRAW_HULL,
+    slots: &[
+        uniform::<Window>("window"),
+        read::<[f32; 4]>("hull"),
+        read::<Triangle>("triangles"),
+        read::<Part>("parts"),
+    ],
+    work: Work::Draw {
+        of: "triangles",
+        vertices: 3,
+        targets: &[Format::U32, Format::Depth],
+    },
+    agreement: Agreement::Texels(0.001),
+    twin: |b| {
+        let window: Window = b.one(0);
+        let hull: &[[f32; 4]] = b.read(1);
+        let fill = Fill {
+            window: &window,
+            triangles: b.read(2),
+            parts: b.read(3),
+            sides: Sides::Backs,
+            id_bits: HULL_BIT,
+            clip_of: |v| hull[v as usize],
+            keep: |_, _, _| true,
+        };
+        fill_triangles(&fill, b.image_mut(4).texels, b.image_mut(5).texels);
+    },
+};

@@ -1,0 +1,84 @@
+//! Drawing: depth, clearing, and nothing to draw.
+
+use crate::sample_passes::DRAW_LARGEST;
+use crate::shared;
+use npr_gpu::engine::{Engine, Session};
+use npr_gpu::graph::{Graph, ResourceId};
+use npr_gpu::pass::Format;
+use npr_gpu::processor::Processor;
+
+const SIZE: [u32; 2] = [7, 3];
+
+/// A session that draws `count` numbers, then `more` on top without clearing.
+struct Drawing {
+    session: Box<dyn Session>,
+    numbers: [ResourceId; 2],
+    targets: [ResourceId; 2],
+}
+
+impl Drawing {
+    fn new(engine: &dyn Engine, counts: [usize; 2]) -> Self {
+        let mut graph = Graph::new();
+        let numbers = counts.map(|count| graph.buffer::<u32>("numbers", count));
+        let targets = [
+            graph.image("picture", Format::U32, SIZE),
+            graph.image("depth", Format::Depth, SIZE),
+        ];
+        graph.draw(&DRAW_LARGEST, &numbers[..1], &targets, true);
+        graph.draw(&DRAW_LARGEST, &numbers[1..], &targets, false);
+        Self {
+            session: engine.prepare(graph).unwrap(),
+            numbers,
+            targets,
+        }
+    }
+
+    /// The one value that fills the picture, and the one that fills the depths.
+    fn run(&mut self, first: &[u32], second: &[u32]) -> (u32, f32) {
+        self.session.write(self.numbers[0], first).unwrap();
+        self.session.write(self.numbers[1], second).unwrap();
+        self.session.run().unwrap();
+        let [texels, depths] = self.targets.map(|id| self.session.read(id).unwrap());
+        assert!(texels.len() == 21 && texels.iter().all(|texel| *texel == texels[0]));
+        assert!(depths.len() == 21 && depths.iter().all(|depth| *depth == depths[0]));
+        (texels[0], f32::from_bits(depths[0]))
+    }
+}
+
+#[test]
+fn the_greatest_depth_wins() {
+    let Some(device) = shared::device() else {
+        return;
+    };
+    let mut drawing = Drawing::new(device, [3, 1]);
+    assert_eq!(drawing.run(&[5, 200, 7], &[100]), (200, 200.0 / 256.0));
+    assert_eq!(drawing.run(&[5, 20, 7], &[100]), (100, 100.0 / 256.0));
+}
+
+#[test]
+fn nothing_to_draw_still_clears() {
+    let Some(device) = shared::device() else {
+        return;
+    };
+    assert_eq!(Drawing::new(device, [0, 0]).run(&[], &[]), (0, 0.0));
+    let mut drawing = Drawing::new(device, [0, 1]);
+    assert_eq!(drawing.run(&[], &[9]), (9, 9.0 / 256.0));
+    assert_eq!(drawing.run(&[], &[3]), (3, 3.0 / 256.0));
+}
+
+#[test]
+fn the_processor_draws_the_same() {
+    let Some(device) = shared::device() else {
+        return;
+    };
+    let (mut here, mut there) = (
+        Drawing::new(&Processor, [2, 2]),
+        Drawing::new(device, [2, 2]),
+    );
+    for numbers in [[[1, 2], [3, 4]], [[90, 2], [3, 40]], [[0, 0], [0, 0]]] {
+        assert_eq!(
+            here.run(&numbers[0], &numbers[1]),
+            there.run(&numbers[0], &numbers[1])
+        );
+    }
+}

@@ -1,0 +1,237 @@
+//! What every slot of every pass holds in a frame: the scene, and what the twins make of it.
+
+use crate::scene::{FRAME_PX, Look, Scene, compose, outline, view};
+use npr_core::window::Window;
+use npr_gpu::engine::Engine;
+use npr_gpu::graph::{Graph, Kind, ResourceId};
+use npr_gpu::pass::{Access, Format, Pass};
+use npr_gpu::passes::{line, mesh, raster, shade};
+use npr_gpu::processor::Processor;
+use std::collections::BTreeMap;
+
+/// What a resource holds, and its size where it is an image.
+#[derive(Debug, Clone)]
+pub struct Content {
+    pub words: Vec<u32>,
+    pub size: [u32; 2],
+}
+
+/// The contents of a frame by slot name.
+pub struct Frame {
+    contents: BTreeMap<&'static str, Content>,
+}
+
+impl Frame {
+    /// The names of what passes make.
+    pub const MADE: [&str; 14] = [
+        "posed", "kinds", "hull", "ids", "depth", "mask_ids", "gbuffer", "mask", "ribbons", "keys",
+        "stamps", "tiles", "stamped", "frame",
+    ];
+
+    /// A frame of the test scene with an output and a mask of these sizes, every pass run by its twin.
+    pub fn new(look: Look, size: [u32; 2], mask_size: [u32; 2]) -> Self {
+        let mut builder = Builder::default();
+        builder.give_scene(look, size, mask_size);
+        builder.line_up_passes(look, size, mask_size);
+        builder.run()
+    }
+
+    /// What a slot of a pass binds.
+    ///
+    /// # Panics
+    ///
+    /// Where the frame has no input for it: a new pass brings its inputs along.
+    pub fn content(&self, pass: &Pass, slot: &'static str) -> &Content {
+        // Two passes work on the grid of the mask only, and call it the window.
+        let on_mask = ["line.resolve_gbuffer", "line.detect"].contains(&pass.name);
+        let name = match slot {
+            "window" if on_mask => "mask_window",
+            "ids" if on_mask => "mask_ids",
+            _ => slot,
+        };
+        self.contents
+            .get(name)
+            .unwrap_or_else(|| panic!("no input for slot '{slot}' of pass {}", pass.name))
+    }
+
+    /// What the resource of a name holds.
+    pub fn named(&self, name: &str) -> &Content {
+        &self.contents[name]
+    }
+
+    /// Size of the image that a draw pass draws into.
+    pub fn target_size(&self, pass: &Pass) -> [u32; 2] {
+        let words = &self.content(pass, "window").words;
+        let window: Window = bytemuck::pod_read_unaligned(bytemuck::cast_slice(words));
+        window.size
+    }
+}
+
+#[derive(Default)]
+struct Builder {
+    graph: Graph,
+    ids: BTreeMap<&'static str, (ResourceId, [u32; 2])>,
+    given: Vec<(ResourceId, Vec<u32>)>,
+}
+
+impl Builder {
+    fn give_scene(&mut self, look: Look, size: [u32; 2], mask_size: [u32; 2]) {
+        let scene = Scene::new();
+        let frame_px = FRAME_PX.map(|side| side as f32);
+        let over_frame = |size| Window::over(frame_px, [0.0; 2], frame_px, size);
+        self.give_uniform("view", &[view(look)]);
+        self.give_uniform("outline", &[outline(look)]);
+        self.give_uniform("compose", &[compose(look, &scene)]);
+        self.give_uniform("window", &[over_frame(size)]);
+        self.give_uniform("mask_window", &[over_frame(mask_size)]);
+        let samples = compose(look, &scene).samples;
+        self.give_uniform(
+            "sample_window",
+            &[over_frame(size.map(|side| side * samples))],
+        );
+        self.give_buffer("vertices", &scene.vertices);
+        self.give_buffer("influences", &scene.influences);
+        self.give_buffer("palette", &scene.palette);
+        self.give_buffer("parts", &scene.parts);
+        self.give_buffer("triangles", &scene.triangles);
+        self.give_buffer("edges", &scene.edges);
+        self.give_buffer("texels", &scene.texels);
+        self.make_buffer("posed", 48, scene.vertices.len());
+        self.make_buffer("hull", 16, scene.vertices.len());
+        self.make_buffer("kinds", 4, scene.edges.len());
+        self.make_image("ids", Format::U32, size.map(|side| side * samples));
+        self.make_image("depth", Format::Depth, size.map(|side| side * samples));
+    }
+
+    fn line_up_passes(&mut self, look: Look, size: [u32; 2], mask_size: [u32; 2]) {
+        let (pixels, mask_pixels) = (area(size), area(mask_size));
+        self.make_image("mask_ids", Format::U32, mask_size);
+        self.make_image("mask_depth", Format::Depth, mask_size);
+        self.make_buffer("gbuffer", 32, mask_pixels);
+        self.make_buffer("mask", 4, mask_pixels);
+        self.make_image("ribbons", Format::Rgba8, size);
+        self.make_image("keys", Format::Depth, size);
+        self.make_buffer("stamps", 16, mask_pixels);
+        self.make_buffer("tiles", 4, area(mask_size.map(|side| side.div_ceil(16))));
+        self.make_buffer("stamped", 4, pixels);
+        self.make_buffer("frame", 4, pixels);
+
+        self.compute(&mesh::POSE_VERTICES, &[]);
+        self.compute(&mesh::CLASSIFY_EDGES, &[]);
+        self.compute(&mesh::EXTRUDE_HULL, &[]);
+        let samples = [("window", "sample_window")];
+        self.draw(&raster::DRAW_IDS, &samples, ["ids", "depth"], true);
+        if look == Look::Ours {
+            self.draw(&raster::DRAW_HULL, &samples, ["ids", "depth"], false);
+        }
+        let on_mask = [("window", "mask_window"), ("ids", "mask_ids")];
+        self.draw(
+            &raster::DRAW_IDS,
+            &on_mask,
+            ["mask_ids", "mask_depth"],
+            true,
+        );
+        self.compute(&line::RESOLVE_GBUFFER, &on_mask);
+        self.compute(&line::DETECT, &on_mask);
+        self.draw(&line::DRAW_RIBBONS, &[], ["ribbons", "keys"], true);
+        self.compute(&line::FIND_RESIDUAL, &[]);
+        self.compute(&line::FLAG_TILES, &[]);
+        self.compute(&line::STAMP_RESIDUAL, &[]);
+        self.compute(&shade::COMPOSE_FRAME, &[]);
+    }
+
+    fn give_uniform<T: bytemuck::Pod>(&mut self, name: &'static str, value: &[T; 1]) {
+        self.give(
+            name,
+            Kind::Uniform {
+                size: size_of::<T>(),
+            },
+            bytemuck::cast_slice(value),
+        );
+    }
+
+    fn give_buffer<T: bytemuck::Pod>(&mut self, name: &'static str, elements: &[T]) {
+        let kind = Kind::Buffer {
+            stride: size_of::<T>(),
+            count: elements.len(),
+        };
+        self.give(name, kind, bytemuck::cast_slice(elements));
+    }
+
+    fn give(&mut self, name: &'static str, kind: Kind, words: &[u32]) {
+        let id = self.graph.add(name, kind);
+        self.ids.insert(name, (id, [0; 2]));
+        self.given.push((id, words.to_vec()));
+    }
+
+    fn make_buffer(&mut self, name: &'static str, stride: usize, count: usize) {
+        let id = self.graph.add(name, Kind::Buffer { stride, count });
+        self.ids.insert(name, (id, [0; 2]));
+    }
+
+    fn make_image(&mut self, name: &'static str, format: Format, size: [u32; 2]) {
+        let id = self.graph.image(name, format, size);
+        self.ids.insert(name, (id, size));
+    }
+
+    /// What the slots of a pass bind, by their own names unless renamed.
+    fn bound(&self, pass: &Pass, renamed: &[(&str, &'static str)]) -> Vec<ResourceId> {
+        let id_of = |name: &str| {
+            let other = renamed.iter().find(|(slot, _)| *slot == name);
+            self.ids[other.map_or(name, |(_, resource)| *resource)].0
+        };
+        pass.slots.iter().map(|slot| id_of(slot.name)).collect()
+    }
+
+    fn compute(&mut self, pass: &'static Pass, renamed: &[(&str, &'static str)]) {
+        let bound = self.bound(pass, renamed);
+        self.graph.compute(pass, &bound);
+    }
+
+    fn draw(
+        &mut self,
+        pass: &'static Pass,
+        renamed: &[(&str, &'static str)],
+        targets: [&str; 2],
+        clears: bool,
+    ) {
+        let (bound, targets) = (
+            self.bound(pass, renamed),
+            targets.map(|name| self.ids[name].0),
+        );
+        self.graph.draw(pass, &bound, &targets, clears);
+    }
+
+    fn run(self) -> Frame {
+        let mut session = Processor.prepare(self.graph).unwrap();
+        for (id, words) in &self.given {
+            session.write(*id, words).unwrap();
+        }
+        session.run().unwrap();
+        let contents = self.ids.into_iter().map(|(name, (id, size))| {
+            let words = session.read(id).unwrap();
+            (name, Content { words, size })
+        });
+        Frame {
+            contents: contents.collect(),
+        }
+    }
+}
+
+fn area(size: [u32; 2]) -> usize {
+    size[0] as usize * size[1] as usize
+}
+
+/// The size of output and mask with which the counted slot of a pass has `count` elements, if they decide it.
+pub fn grids_for(pass: &Pass, count: u32) -> [[u32; 2]; 2] {
+    let count = count.max(1);
+    match pass.slots[pass.counted_slot()].name {
+        "tiles" => [[count, 1], [16 * count, 5]],
+        _ => [[count, 1], [count, 1]],
+    }
+}
+
+/// Whether a pass reads its counted slot, so that the grids do not decide how many elements there are.
+pub fn counts_input(pass: &Pass) -> bool {
+    pass.slots[pass.counted_slot()].access == Access::Read
+}

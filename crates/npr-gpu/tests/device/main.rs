@@ -1,0 +1,14 @@
+//! What needs a graphics device, in one program so that all tests share the device and its compiled passes.
+//!
+//! Software devices will do. Without any, the tests say so and pass, unless `NPR_REQUIRE_GPU=1` is set.
+
+mod agreement;
+mod cliffs;
+mod draws;
+mod frame;
+mod memory;
+mod sample_passes;
+mod scene;
+mod shared;
+mod trouble;
+mod twins;

@@ -1,0 +1,119 @@
+//! Small passes whose result is obvious.
+
+use npr_gpu::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
+use npr_shaders::Shader;
+
+const fn shader(text: &'static str) -> Shader {
+    Shader { path: "test", text }
+}
+
+/// `doubled[i] = 2 * numbers[i] + i`.
+pub const DOUBLE: Pass = Pass {
+    name: "test.double",
+    shader: shader(
+        "override WG: u32 = 64u;
+        @group(0) @binding(0) var<storage, read> numbers: array<u32>;
+        @group(0) @binding(1) var<storage, read_write> doubled: array<u32>;
+        @compute @workgroup_size(WG)
+        fn main(
+            @builtin(workgroup_id) wid: vec3<u32>,
+            @builtin(num_workgroups) nwg: vec3<u32>,
+            @builtin(local_invocation_id) lid: vec3<u32>,
+        ) {
+            let element = (wid.y * nwg.x + wid.x) * WG + lid.x;
+            if element >= arrayLength(&numbers) { return; }
+            doubled[element] = 2u * numbers[element] + element;
+        }",
+    ),
+    slots: &[read::<u32>("numbers"), write::<u32>("doubled")],
+    work: Work::PerElement { of: "numbers" },
+    agreement: Agreement::Exact,
+    twin: |bindings| {
+        let numbers: &[u32] = bindings.read(0);
+        let doubled: &mut [u32] = bindings.write(1);
+        for (element, (to, from)) in doubled.iter_mut().zip(numbers).enumerate() {
+            *to = from.wrapping_mul(2).wrapping_add(element as u32);
+        }
+    },
+};
+
+/// Fills the whole picture with the largest of `numbers`: of all full-screen triangles, the nearest wins.
+pub const DRAW_LARGEST: Pass = Pass {
+    name: "test.draw_largest",
+    shader: shader(
+        "@group(0) @binding(0) var<storage, read> numbers: array<u32>;
+        struct Varying {
+            @builtin(position) position: vec4<f32>,
+            @location(0) @interpolate(flat, either) number: u32,
+        }
+        @vertex
+        fn vertex(@builtin(vertex_index) index: u32) -> Varying {
+            var passed: Varying;
+            passed.number = numbers[index / 3u];
+            let x = f32((index % 3u) & 1u) * 4.0 - 1.0;
+            let y = f32((index % 3u) >> 1u) * 4.0 - 1.0;
+            passed.position = vec4<f32>(x, y, f32(passed.number) / 256.0, 1.0);
+            return passed;
+        }
+        @fragment
+        fn fragment(passed: Varying) -> @location(0) u32 { return passed.number; }",
+    ),
+    slots: &[read::<u32>("numbers")],
+    work: Work::Draw {
+        of: "numbers",
+        vertices: 3,
+        targets: &[Format::U32, Format::Depth],
+    },
+    agreement: Agreement::Exact,
+    twin: |bindings| {
+        let largest = bindings
+            .read::<u32>(0)
+            .iter()
+            .copied()
+            .max()
+            .unwrap_or_default();
+        let nearest = (largest as f32 / 256.0).to_bits();
+        let (texels, depths) = (bindings.image_mut(1).texels, bindings.image_mut(2).texels);
+        for (texel, depth) in texels.iter_mut().zip(depths) {
+            if nearest > *depth {
+                (*texel, *depth) = (largest, nearest);
+            }
+        }
+    },
+};
+
+/// `sums[i] = texel i of the picture + step`, over an image of numbers and one of bytes.
+pub const ADD_TEXELS: Pass = Pass {
+    name: "test.add_texels",
+    shader: shader(
+        "override WG: u32 = 64u;
+        @group(0) @binding(0) var<uniform> step: vec4<u32>;
+        @group(0) @binding(1) var numbers: texture_2d<u32>;
+        @group(0) @binding(2) var bytes: texture_2d<f32>;
+        @group(0) @binding(3) var<storage, read_write> sums: array<u32>;
+        @compute @workgroup_size(WG)
+        fn main(@builtin(global_invocation_id) gid: vec3<u32>) {
+            if gid.x >= arrayLength(&sums) { return; }
+            let width = textureDimensions(numbers).x;
+            let pixel = vec2<u32>(gid.x % width, gid.x / width);
+            let byte = u32(textureLoad(bytes, pixel, 0).r * 255.0 + 0.5);
+            sums[gid.x] = textureLoad(numbers, pixel, 0).r + byte + step.x;
+        }",
+    ),
+    slots: &[
+        uniform::<[u32; 4]>("step"),
+        texture("numbers", Format::U32),
+        texture("bytes", Format::Rgba8),
+        write::<u32>("sums"),
+    ],
+    work: Work::PerElement { of: "sums" },
+    agreement: Agreement::Exact,
+    twin: |bindings| {
+        let step: [u32; 4] = bindings.one(0);
+        let (numbers, bytes) = (bindings.image(1).texels, bindings.image(2).texels);
+        let sums: &mut [u32] = bindings.write(3);
+        for (i, sum) in sums.iter_mut().enumerate() {
+            *sum = numbers[i] + (bytes[i] & 0xff) + step[0];
+        }
+    },
+};

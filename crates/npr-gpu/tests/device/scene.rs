@@ -1,0 +1,220 @@
+//! A small scene in which every pass has something to do: a torus and a ball that run into each other.
+
+use npr_core::camera::{Camera, Projection};
+use npr_core::geometry::{Edge, Influence, NONE, Part, Triangle, Vertex};
+use npr_core::math;
+use npr_core::outline::Outline;
+use npr_core::texture::{TextureStore, Wrap};
+use npr_core::window::View;
+use npr_mesh::testing::{Random, torus, uv_sphere};
+use npr_mesh::{EdgeFlags, NO_FACE, smooth_normals, unique_edges, weld};
+use npr_style::compose::Compose;
+
+/// Width and height of the frame that windows are laid over.
+pub const FRAME_PX: [u32; 2] = [160, 90];
+
+/// How the scene is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Look {
+    /// In perspective, with what the project added to the publications.
+    Ours,
+    /// In parallel view, with all options the other way round.
+    Published,
+}
+
+/// The stored side of a scene.
+#[derive(Debug, Clone, Default)]
+pub struct Scene {
+    pub vertices: Vec<Vertex>,
+    pub influences: Vec<Influence>,
+    pub palette: Vec<[[f32; 4]; 4]>,
+    pub parts: Vec<Part>,
+    pub triangles: Vec<Triangle>,
+    pub edges: Vec<Edge>,
+    pub texels: Vec<u32>,
+}
+
+impl Scene {
+    /// Both shapes, a part each.
+    pub fn new() -> Self {
+        let mut store = TextureStore::new();
+        let mut random = Random::new(7);
+        let rgba: Vec<u8> = (0..16 * 8 * 4).map(|_| random.below(256) as u8).collect();
+        let texture = store
+            .add([16, 8], &rgba, [Wrap::Repeat, Wrap::Mirror])
+            .unwrap();
+        let mut scene = Self {
+            texels: store.words().to_vec(),
+            palette: palette(),
+            ..Self::default()
+        };
+        scene.add(
+            &torus(24, 12, 1.0, 0.4),
+            part(1, Part::LINES, NONE),
+            &mut random,
+        );
+        let flags = Part::LINES | Part::CUTOUT | Part::DOUBLE_SIDED;
+        scene.add(&uv_sphere(16, 10), part(2, flags, texture), &mut random);
+        scene
+    }
+
+    fn add(&mut self, mesh: &npr_mesh::Mesh, part: Part, random: &mut Random) {
+        let (first_vertex, first_face) = (self.vertices.len() as u32, self.triangles.len() as u32);
+        let (positions, corners, number) =
+            (mesh.positions(), mesh.triangles(), self.parts.len() as u32);
+        let welded = weld(positions, 0.0);
+        let normals = welded.spread(&smooth_normals(positions, corners, &welded));
+        for (position, normal) in positions.iter().zip(normals) {
+            self.vertices
+                .push(vertex(*position, normal, number, random));
+            self.influences.push(influence(random));
+        }
+        let numbered = |corners: &[u32; 3]| Triangle {
+            corners: corners.map(|v| v + first_vertex),
+            part: number,
+        };
+        self.triangles.extend(corners.iter().map(numbered));
+        for edge in unique_edges(positions, corners, &welded, &[]) {
+            self.edges.push(Edge {
+                ends: edge.ends.map(|v| v + first_vertex),
+                faces: edge.faces.map(|face| {
+                    if face == NO_FACE {
+                        NONE
+                    } else {
+                        face + first_face
+                    }
+                }),
+                dihedral_cos: edge.dihedral_cos,
+                traits: if edge.flags.contains(EdgeFlags::MATERIAL) {
+                    Edge::MATERIAL
+                } else {
+                    0
+                },
+            });
+        }
+        self.parts.push(part);
+    }
+}
+
+fn vertex(position: [f32; 3], normal: [f32; 3], part: u32, random: &mut Random) -> Vertex {
+    Vertex {
+        position,
+        color: random.bits() as u32 | 0x8080_8080,
+        normal,
+        direction: math::pack_unit([normal[1], -normal[0], 0.1]),
+        uv: [random.unit() * 3.0 - 1.0, random.unit() * 3.0 - 1.0],
+        curvatures: [random.unit() * 4.0 - 1.0, random.unit() * 2.0 - 1.0],
+        weld_normal: math::pack_unit(normal),
+        width: random.unit(),
+        part,
+        unused: 0,
+    }
+}
+
+fn influence(random: &mut Random) -> Influence {
+    let share = random.unit() * 0.25;
+    Influence {
+        joints: [0, 1, 2, 0],
+        weights: [1.0 - share, share * 0.5, share * 0.5, 0.0],
+    }
+}
+
+/// Three matrices that hardly differ, so that blends stay close to the shapes.
+fn palette() -> Vec<[[f32; 4]; 4]> {
+    let moved = |x: f32, scale: f32| {
+        [
+            [scale, 0.1, 0.0, 0.0],
+            [-0.1, scale, 0.0, 0.0],
+            [0.0, 0.0, 1.0, 0.0],
+            [x, 0.05, -0.1, 1.0],
+        ]
+    };
+    vec![moved(0.0, 1.0), moved(0.3, 0.9), moved(-0.2, 1.1)]
+}
+
+fn part(object: u32, flags: u32, texture: u32) -> Part {
+    let mut ramp = [[1.0, 1.0, 1.0, 2.0]; 8];
+    ramp[0] = [0.1, 0.1, 0.3, 0.0];
+    ramp[1] = [0.5, 0.4, 0.4, 0.4];
+    ramp[2] = [1.0, 0.9, 0.8, 0.7];
+    Part {
+        base_color: [0.9, 0.6, 0.4, 0.95],
+        line_color: [0.1, 0.05, 0.2, 0.9],
+        object,
+        material: object + 10,
+        texture,
+        flags,
+        width_factor: 1.2,
+        facing_threshold: 0.25,
+        alpha_cutoff: 0.2,
+        softness: 0.05,
+        ramp,
+    }
+}
+
+/// The camera and the frame of a look.
+pub fn view(look: Look) -> View {
+    let projection = match look {
+        Look::Ours => Projection::Perspective { fov_y: 0.7 },
+        Look::Published => Projection::Parallel { height: 3.2 },
+    };
+    let camera = Camera {
+        eye: [2.1, 1.7, 3.4],
+        target: [0.1, 0.0, 0.0],
+        up: [0.0, 1.0, 0.0],
+        projection,
+    };
+    camera.view(FRAME_PX, ([-1.7; 3], [1.7; 3]))
+}
+
+/// Settings of lines of a look.
+pub fn outline(look: Look) -> Outline {
+    let all_buffers = Outline::DEPTH | Outline::NORMAL | Outline::OBJECT_ID | Outline::MATERIAL_ID;
+    let edges = Outline::CONTOUR | Outline::BORDER | Outline::CREASE | Outline::MATERIAL;
+    let (base_width, kinds, detects, flags) = match look {
+        Look::Ours => (
+            3.0,
+            edges,
+            all_buffers | Outline::PLANE_DEPTH,
+            Outline::PROJECTED_CURVATURE,
+        ),
+        Look::Published => (
+            0.05,
+            Outline::ANY,
+            all_buffers,
+            Outline::PUBLISHED | Outline::WORLD_WIDTH,
+        ),
+    };
+    Outline {
+        base_width,
+        min_factor: 0.4,
+        max_factor: 1.6,
+        gain: 1.5,
+        radius_world: 1.7,
+        crease_cos: 0.8,
+        depth_threshold: 0.03,
+        normal_cos: 0.6,
+        kinds,
+        detects,
+        flags,
+        reach_px: 4,
+    }
+}
+
+/// Settings of the last pass of a look; the texture lies behind everything in one of them.
+pub fn compose(look: Look, scene: &Scene) -> Compose {
+    let (samples, flags, background_texture) = match look {
+        Look::Ours => (2, Compose::RIBBONS | Compose::STAMPS, NONE),
+        Look::Published => (1, Compose::MASK | Compose::ANGLE, scene.parts[1].texture),
+    };
+    Compose {
+        light_world: [0.48, 0.6, 0.64],
+        samples,
+        background: [0.2, 0.3, 0.5, 0.5],
+        line_color: [0.3, 0.0, 0.0, 0.7],
+        background_texture,
+        flags,
+        saturation: 1.2,
+        ..Compose::default()
+    }
+}

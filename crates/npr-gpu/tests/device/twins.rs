@@ -1,0 +1,176 @@
+//! Every pass on the device against its twin, at the sizes where something changes.
+
+use crate::agreement::{Meaning, disagreement};
+use crate::frame::{Content, Frame, counts_input, grids_for};
+use crate::scene::{FRAME_PX, Look};
+use crate::shared;
+use npr_gpu::engine::Engine;
+use npr_gpu::graph::{Graph, Kind, ResourceId};
+use npr_gpu::pass::{Access, Pass, Slot};
+use npr_gpu::passes::ALL;
+use npr_gpu::processor::Processor;
+
+/// Nothing, one, and one workgroup less one, whole, and plus one.
+const COUNTS: [u32; 5] = [0, 1, 63, 64, 65];
+
+/// The size of the mask where the output has the size of the frame.
+const MASK_SIZE: [u32; 2] = [80, 45];
+
+/// A pass with everything it binds.
+struct Case {
+    graph: Graph,
+    inputs: Vec<(ResourceId, Vec<u32>)>,
+    outputs: Vec<(ResourceId, Meaning)>,
+}
+
+impl Case {
+    /// A pass with `count` elements of work, or with all that the frame has.
+    fn new(pass: &'static Pass, frame: &Frame, count: Option<u32>) -> Self {
+        let mut case = Self {
+            graph: Graph::new(),
+            inputs: Vec::new(),
+            outputs: Vec::new(),
+        };
+        let counted = pass.slots[pass.counted_slot()];
+        let in_frame = frame.content(pass, counted.name).words.len() * 4 / counted.element.size;
+        let count = count.map_or(in_frame, |count| count as usize);
+        let bound: Vec<_> = pass
+            .slots
+            .iter()
+            .map(|slot| case.bind(pass, frame, slot, counted.name, count))
+            .collect();
+        let size = if pass.targets().is_empty() {
+            [0; 2]
+        } else {
+            frame.target_size(pass)
+        };
+        let targets: Vec<_> = pass
+            .targets()
+            .iter()
+            .map(|format| {
+                let id = case.graph.image("target", *format, size);
+                case.outputs.push((id, Meaning::Texels(*format)));
+                id
+            })
+            .collect();
+        match targets.is_empty() {
+            true => case.graph.compute(pass, &bound),
+            false => case.graph.draw(pass, &bound, &targets, true),
+        }
+        case
+    }
+
+    fn bind(
+        &mut self,
+        pass: &Pass,
+        frame: &Frame,
+        slot: &Slot,
+        counted: &str,
+        count: usize,
+    ) -> ResourceId {
+        let stride = slot.element.size;
+        let Content { mut words, size } = frame.content(pass, slot.name).clone();
+        if slot.access == Access::Write {
+            let id = self.graph.add(slot.name, Kind::Buffer { stride, count });
+            self.outputs.push((id, Meaning::Elements(slot.element)));
+            return id;
+        }
+        if slot.name == counted {
+            words.truncate(count * stride / 4);
+        }
+        let id = self.graph.add(
+            slot.name,
+            match slot.access {
+                Access::Uniform => Kind::Uniform { size: stride },
+                Access::Texture(format) => Kind::Image { format, size },
+                _ => Kind::Buffer {
+                    stride,
+                    count: words.len() * 4 / stride,
+                },
+            },
+        );
+        self.inputs.push((id, words));
+        id
+    }
+
+    fn run_on(&self, engine: &dyn Engine) -> Vec<Vec<u32>> {
+        let mut session = engine.prepare(self.graph.clone()).unwrap();
+        for (id, words) in &self.inputs {
+            session.write(*id, words).unwrap();
+        }
+        session.run().unwrap();
+        self.outputs
+            .iter()
+            .map(|(id, _)| session.read(*id).unwrap())
+            .collect()
+    }
+
+    /// How the device disagrees with the twin, output by output.
+    fn disagreements(&self, pass: &Pass, device: &dyn Engine) -> Vec<String> {
+        let (twin, device) = (self.run_on(&Processor), self.run_on(device));
+        let results = self.outputs.iter().zip(twin.iter().zip(&device));
+        results
+            .filter_map(|((_, meaning), (twin, device))| disagreement(pass, *meaning, twin, device))
+            .collect()
+    }
+}
+
+/// Runs every pass on both engines and lists where they differ.
+fn check_all(cases: impl Fn(&'static Pass) -> Vec<(String, Case)>) {
+    let Some(device) = shared::device() else {
+        return;
+    };
+    let mut found = Vec::new();
+    for pass in ALL {
+        for (name, case) in cases(pass) {
+            let differences = case.disagreements(pass, device);
+            found.extend(
+                differences
+                    .iter()
+                    .map(|difference| format!("{} {name}: {difference}", pass.name)),
+            );
+        }
+    }
+    assert!(found.is_empty(), "\n{}", found.join("\n"));
+}
+
+#[test]
+fn passes_agree_on_a_whole_frame() {
+    for look in [Look::Ours, Look::Published] {
+        let frame = Frame::new(look, FRAME_PX, MASK_SIZE);
+        check_all(|pass| vec![(format!("{look:?}"), Case::new(pass, &frame, None))]);
+    }
+}
+
+/// Agreement on empty pictures would prove nothing.
+#[test]
+fn every_pass_has_something_to_do() {
+    let frame = Frame::new(Look::Ours, FRAME_PX, MASK_SIZE);
+    for name in Frame::MADE {
+        let words = &frame.named(name).words;
+        let set = words.iter().filter(|word| **word != 0).count();
+        println!("{name}: {set} of {}", words.len());
+        assert!(
+            set * 100 >= words.len(),
+            "only {set} of {} words of '{name}' are set",
+            words.len()
+        );
+    }
+}
+
+#[test]
+fn passes_agree_around_a_workgroup() {
+    let whole = Frame::new(Look::Ours, FRAME_PX, MASK_SIZE);
+    check_all(|pass| {
+        let cases = COUNTS.into_iter().map(|count| {
+            let case = if counts_input(pass) {
+                Case::new(pass, &whole, Some(count))
+            } else {
+                let [size, mask_size] = grids_for(pass, count);
+                Case::new(pass, &Frame::new(Look::Ours, size, mask_size), Some(count))
+            };
+            (format!("of {count}"), case)
+        });
+        cases.collect()
+    });
+}

@@ -1,0 +1,152 @@
+//! Which edges may become lines: the twin of `mesh.classify_edges`.
+
+use npr_core::geometry::{Edge, NONE, Part, PosedVertex, Triangle};
+use npr_core::outline::Outline;
+use npr_core::surface::faces_eye;
+use rayon::prelude::*;
+
+/// What edges are classified on.
+#[derive(Debug, Clone, Copy)]
+pub struct PosedMesh<'a> {
+    /// Posed vertices.
+    pub posed: &'a [PosedVertex],
+    /// Triangles.
+    pub triangles: &'a [Triangle],
+    /// Parts.
+    pub parts: &'a [Part],
+}
+
+/// The kinds of every edge, as bits of [`Outline::CONTOUR`] to [`Outline::ANY`], limited to those the outline draws.
+///
+/// A contour has one face turned to the eye and one turned away [Marshall 2001]. Edges of parts without lines are of no
+/// kind. O(edges), parallel.
+pub fn classify(outline: &Outline, mesh: &PosedMesh<'_>, edges: &[Edge], kinds: &mut [u32]) {
+    kinds
+        .par_iter_mut()
+        .zip(edges)
+        .with_min_len(4096)
+        .for_each(|(kind, edge)| {
+            let drawn = mesh.part_of(edge.faces[0]).flags & Part::LINES != 0;
+            *kind = if drawn {
+                kinds_of(outline, mesh, edge) & outline.kinds
+            } else {
+                0
+            };
+        });
+}
+
+impl PosedMesh<'_> {
+    fn part_of(&self, face: u32) -> &Part {
+        &self.parts[self.triangles[face as usize].part as usize]
+    }
+
+    fn face_is_front(&self, face: u32) -> bool {
+        faces_eye(
+            self.triangles[face as usize]
+                .corners
+                .map(|v| self.posed[v as usize].clip),
+        )
+    }
+}
+
+/// All kinds that an edge is of.
+fn kinds_of(outline: &Outline, mesh: &PosedMesh<'_>, edge: &Edge) -> u32 {
+    let bit = |kind: u32, when: bool| if when { kind } else { 0 };
+    let front = mesh.face_is_front(edge.faces[0]);
+    let both_sides = mesh.part_of(edge.faces[0]).flags & Part::DOUBLE_SIDED != 0;
+    if edge.faces[1] == NONE {
+        return bit(
+            Outline::BORDER | bit(Outline::ANY, front),
+            front || both_sides,
+        );
+    }
+    let mut second = mesh.face_is_front(edge.faces[1]);
+    let published = bit(Outline::ANY, front || second);
+    if edge.traits & Edge::FLIPPED != 0 {
+        second = !second;
+    }
+    let seen = front || second || both_sides;
+    bit(Outline::CONTOUR, front != second)
+        | bit(
+            Outline::CREASE,
+            seen && edge.dihedral_cos < outline.crease_cos,
+        )
+        | bit(Outline::MATERIAL, seen && edge.traits & Edge::MATERIAL != 0)
+        | published
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two triangles sharing the edge from (0, 0) to (0, 1), seen from +z; the second folds by `fold`.
+    fn kinds(second_tip: [f32; 2], traits: u32, dihedral_cos: f32) -> u32 {
+        let at = |x: f32, y: f32| PosedVertex {
+            clip: [x, y, 0.5, 1.0],
+            ..PosedVertex::default()
+        };
+        let posed = [
+            at(0.0, 0.0),
+            at(0.0, 1.0),
+            at(-1.0, 0.5),
+            at(second_tip[0], second_tip[1]),
+        ];
+        let triangles = [
+            Triangle {
+                corners: [0, 1, 2],
+                part: 0,
+            },
+            Triangle {
+                corners: [1, 0, 3],
+                part: 0,
+            },
+        ];
+        let parts = [Part {
+            flags: Part::LINES,
+            ..Part::default()
+        }];
+        let outline = Outline {
+            kinds: !0,
+            crease_cos: 0.7,
+            ..Outline::default()
+        };
+        let edge = Edge {
+            ends: [0, 1],
+            faces: [0, 1],
+            dihedral_cos,
+            traits,
+        };
+        let mut kinds = [0];
+        let mesh = PosedMesh {
+            posed: &posed,
+            triangles: &triangles,
+            parts: &parts,
+        };
+        classify(&outline, &mesh, &[edge], &mut kinds);
+        kinds[0]
+    }
+
+    #[test]
+    fn a_flat_pair_is_no_line() {
+        assert_eq!(kinds([1.0, 0.5], 0, 1.0), Outline::ANY);
+    }
+
+    #[test]
+    fn a_folded_pair_is_a_contour() {
+        assert_eq!(kinds([-0.5, 0.5], 0, 1.0), Outline::CONTOUR | Outline::ANY);
+    }
+
+    #[test]
+    fn creases_and_materials_are_told_apart() {
+        assert_eq!(kinds([1.0, 0.5], 0, 0.5), Outline::CREASE | Outline::ANY);
+        assert_eq!(
+            kinds([1.0, 0.5], Edge::MATERIAL, 1.0),
+            Outline::MATERIAL | Outline::ANY
+        );
+    }
+
+    #[test]
+    fn an_inside_out_neighbour_is_turned_back() {
+        assert_eq!(kinds([-0.5, 0.5], Edge::FLIPPED, 1.0) & Outline::CONTOUR, 0);
+    }
+}

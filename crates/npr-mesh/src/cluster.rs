@@ -1,0 +1,198 @@
+//! Groups of points joined by short steps.
+
+use std::ops::Range;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::bounds::bounding_box;
+use crate::union_find::UnionFind;
+
+/// A cube of the grid, and the points in it as a range of the sorted points.
+struct Cell {
+    place: [i64; 3],
+    members: Range<usize>,
+}
+
+/// The first point of each point's cluster: single linkage with steps up to `tolerance` diagonals.
+///
+/// Grid cells are so small that all points of one lie within a step, which leaves whole cells to be
+/// joined with those at most two away. O(n log n), plus pairs of points in neighbouring crowded cells.
+pub(crate) fn clusters(points: &[[f32; 3]], tolerance: f32) -> Vec<u32> {
+    let (low, high) = bounding_box(points);
+    let step = low.distance(high) * f64::from(tolerance);
+    if step == 0.0 {
+        return (0..points.len() as u32).collect();
+    }
+    let points: Vec<DVec3> = points
+        .iter()
+        .map(|p| DVec3::from_array(p.map(f64::from)) - low)
+        .collect();
+    let order = sorted_by_place(&points, step / 3.0_f64.sqrt());
+    let cells = cells(&order);
+    let joined = join_cells(&points, &order, &cells, step);
+    leaders(points.len(), &order, &cells, joined)
+}
+
+/// Every point's cell and number, sorted.
+fn sorted_by_place(points: &[DVec3], side: f64) -> Vec<([i64; 3], u32)> {
+    let place = |point: DVec3| (point / side).floor().to_array().map(|v| v as i64);
+    let mut order: Vec<_> = points
+        .par_iter()
+        .enumerate()
+        .map(|(i, &point)| (place(point), i as u32))
+        .collect();
+    order.par_sort_unstable();
+    order
+}
+
+fn cells(order: &[([i64; 3], u32)]) -> Vec<Cell> {
+    let mut start = 0;
+    order
+        .chunk_by(|a, b| a.0 == b.0)
+        .map(|run| {
+            let members = start..start + run.len();
+            start = members.end;
+            Cell {
+                place: run[0].0,
+                members,
+            }
+        })
+        .collect()
+}
+
+/// Unites cells that hold points within one step of each other.
+fn join_cells(points: &[DVec3], order: &[([i64; 3], u32)], cells: &[Cell], step: f64) -> UnionFind {
+    let mut sets = UnionFind::new(cells.len());
+    let within_step = |a: &Cell, b: &Cell| {
+        let at = |i: usize| points[order[i].1 as usize];
+        a.members.clone().any(|i| {
+            b.members
+                .clone()
+                .any(|j| at(i).distance_squared(at(j)) <= step * step)
+        })
+    };
+    for row in ROWS {
+        for_neighbours(cells, row, |a, b| {
+            if sets.find(a) != sets.find(b) && within_step(&cells[a as usize], &cells[b as usize]) {
+                sets.unite(a, b);
+            }
+        });
+    }
+    sets
+}
+
+/// Offsets in x and y of the rows up to two cells away, one of each opposite pair.
+const ROWS: [[i64; 2]; 13] = [
+    [0, 0],
+    [0, 1],
+    [0, 2],
+    [1, -2],
+    [1, -1],
+    [1, 0],
+    [1, 1],
+    [1, 2],
+    [2, -2],
+    [2, -1],
+    [2, 0],
+    [2, 1],
+    [2, 2],
+];
+
+/// Visits every cell with its neighbours in one row, up to two cells away.
+///
+/// Cells are sorted, so the neighbourhood only moves forward: one linear sweep.
+fn for_neighbours(cells: &[Cell], row: [i64; 2], mut visit: impl FnMut(u32, u32)) {
+    let mut start = 0;
+    for (here, cell) in cells.iter().enumerate() {
+        let [x, y, z] = [
+            cell.place[0] + row[0],
+            cell.place[1] + row[1],
+            cell.place[2],
+        ];
+        while start < cells.len() && cells[start].place < [x, y, z - 2] {
+            start += 1;
+        }
+        let near = cells[start..]
+            .iter()
+            .take_while(|other| other.place <= [x, y, z + 2]);
+        (start..)
+            .zip(near)
+            .for_each(|(there, _)| visit(here as u32, there as u32));
+    }
+}
+
+/// The smallest point number of every point's cluster.
+fn leaders(
+    count: usize,
+    order: &[([i64; 3], u32)],
+    cells: &[Cell],
+    mut joined: UnionFind,
+) -> Vec<u32> {
+    let mut smallest = vec![u32::MAX; cells.len()];
+    let mut set_of_point = vec![0; count];
+    for (cell, Cell { members, .. }) in cells.iter().enumerate() {
+        let set = joined.find(cell as u32);
+        for &(_, point) in &order[members.clone()] {
+            set_of_point[point as usize] = set;
+            smallest[set as usize] = smallest[set as usize].min(point);
+        }
+    }
+    set_of_point
+        .iter()
+        .map(|&set| smallest[set as usize])
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Joins every pair within a step.
+    fn clusters_by_comparison(points: &[[f32; 3]], tolerance: f32) -> Vec<u32> {
+        let (low, high) = bounding_box(points);
+        let step = low.distance(high) * f64::from(tolerance);
+        let point = |i: u32| DVec3::from_array(points[i as usize].map(f64::from)) - low;
+        let count = points.len() as u32;
+        let mut sets = UnionFind::new(points.len());
+        for a in 0..count {
+            (0..a)
+                .filter(|&b| point(a).distance(point(b)) <= step)
+                .for_each(|b| sets.unite(a, b));
+        }
+        (0..count).map(|member| sets.find(member)).collect()
+    }
+
+    proptest! {
+        #[test]
+        fn agrees_with_joining_all_pairs(
+            points in prop::collection::vec(prop::array::uniform3(-1.0f32..1.0), 0..120),
+            tolerance in 0.01f32..0.2,
+        ) {
+            prop_assert_eq!(clusters(&points, tolerance), clusters_by_comparison(&points, tolerance));
+        }
+    }
+
+    #[test]
+    fn a_chain_of_short_steps_is_one_cluster() {
+        let chain: Vec<[f32; 3]> = (0..50).rev().map(|i| [i as f32, 0.0, 0.0]).collect();
+        assert!(
+            clusters(&chain, 1.01 / 49.0)
+                .iter()
+                .all(|&leader| leader == 0)
+        );
+        assert!(
+            clusters(&chain, 0.99 / 49.0)
+                .iter()
+                .enumerate()
+                .all(|(i, &leader)| leader == i as u32)
+        );
+    }
+
+    #[test]
+    fn the_finest_tolerance_stays_inside_the_grid() {
+        let points = [[0.0; 3], [f32::MAX; 3], [1e-45, 0.0, 0.0]];
+        assert_eq!(clusters(&points, 1e-12), [0, 1, 0]);
+    }
+}

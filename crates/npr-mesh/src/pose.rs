@@ -1,0 +1,226 @@
+//! Vertices posed and projected: the twin of `mesh.pose_vertices`.
+
+use npr_core::geometry::{Influence, Part, PosedVertex, Vertex};
+use npr_core::math;
+use npr_core::outline::{Outline, width_of_curvature};
+use npr_core::surface::{dot, unit_or_z};
+use npr_core::window::View;
+use rayon::prelude::*;
+
+/// A column-major 4x4 matrix.
+pub type Matrix = [[f32; 4]; 4];
+
+/// Keeps the projected curvature finite where the radial curvature vanishes, in units of 1 / bounding radius squared.
+const RADIAL_FLOOR: f32 = 0.01;
+
+/// Share of the frame's height at which a radius of curvature counts as 1 before the gain.
+const CURVATURE_SCALE: f32 = 0.1;
+
+/// What vertices are posed with.
+#[derive(Debug, Clone, Copy)]
+pub struct Pose<'a> {
+    /// Camera and frame.
+    pub view: &'a View,
+    /// Settings that widths follow.
+    pub outline: &'a Outline,
+    /// Which matrices move each vertex.
+    pub influences: &'a [Influence],
+    /// The matrices, world from rest space.
+    pub palette: &'a [Matrix],
+    /// Parts, for their width factors.
+    pub parts: &'a [Part],
+}
+
+/// Poses, projects and sizes every vertex [Okuya et al. 2016, section 4.1].
+///
+/// Deformation is linear blend skinning; a rigid vertex hangs on one matrix. O(vertices), parallel.
+pub fn pose(with: &Pose<'_>, vertices: &[Vertex], posed: &mut [PosedVertex]) {
+    let inputs = vertices.par_iter().zip(with.influences);
+    posed
+        .par_iter_mut()
+        .zip(inputs)
+        .with_min_len(1024)
+        .for_each(|(out, (vertex, influence))| {
+            *out = pose_vertex(with, vertex, influence);
+        });
+}
+
+fn pose_vertex(with: &Pose<'_>, vertex: &Vertex, influence: &Influence) -> PosedVertex {
+    let (view, outline) = (with.view, with.outline);
+    let m = blended_matrix(with.palette, influence);
+    let [x, y, z, _] = apply_point(&m, vertex.position);
+    let world = [x, y, z];
+    let normal = apply_normal(&m, vertex.normal);
+    let direction = unit_or_z(apply_direction(&m, math::unpack_unit(vertex.direction)));
+    let from_eye: [f32; 3] = std::array::from_fn(|i| world[i] - view.eye_world[i]);
+    let depth = dot(from_eye, view.forward_world);
+
+    // Turn the width factor into pixels.
+    let s = width_at(with, vertex, normal, direction, world, depth);
+    let mut width = outline.base_width * with.parts[vertex.part as usize].width_factor;
+    width *= outline.min_factor + (outline.max_factor - outline.min_factor) * s;
+    if outline.flags & Outline::WORLD_WIDTH != 0 {
+        width /= view.pixel_at(depth.max(view.near)).max(1e-20);
+    }
+    PosedVertex {
+        clip: apply_point(&view.clip_from_world, world),
+        world,
+        depth,
+        normal,
+        half_width: 0.5 * width,
+    }
+}
+
+/// Width factor 0..1 of a vertex.
+fn width_at(
+    with: &Pose<'_>,
+    vertex: &Vertex,
+    normal: [f32; 3],
+    direction: [f32; 3],
+    world: [f32; 3],
+    depth: f32,
+) -> f32 {
+    if with.outline.flags & Outline::PROJECTED_CURVATURE == 0 {
+        return vertex.width;
+    }
+    let eye = with.view.to_eye(world);
+    let curvature = projected_curvature(vertex.curvatures, normal, direction, eye);
+    let curvature = curvature / with.outline.radius_world;
+    width_of_curvature(
+        curvature * with.view.height_at(depth) * CURVATURE_SCALE,
+        with.outline.gain,
+    )
+}
+
+/// Curvature of the outline that a surface would have at a point, seen along `eye`.
+///
+/// The Gaussian curvature over the radial curvature [Koenderink 1984]; `direction` is that of the first curvature.
+/// Kept finite where the radial curvature vanishes; seen straight on, the larger principal curvature.
+pub fn projected_curvature(
+    curvatures: [f32; 2],
+    normal: [f32; 3],
+    direction: [f32; 3],
+    eye: [f32; 3],
+) -> f32 {
+    let toward = dot(eye, normal);
+    let along: [f32; 3] = std::array::from_fn(|i| eye[i] - normal[i] * toward);
+    let square = dot(along, along);
+    let [first, second] = curvatures;
+    if square < 1e-12 {
+        return first.abs().max(second.abs());
+    }
+    let cosine = dot(along, direction) / square.sqrt();
+    let c2 = (cosine * cosine).clamp(0.0, 1.0);
+    let s2 = 1.0 - c2;
+    let radial = first * c2 + second * s2;
+    let across = first * s2 + second * c2;
+    let twist2 = (first - second) * (first - second) * s2 * c2;
+    across - twist2 * radial / (radial * radial + RADIAL_FLOOR)
+}
+
+/// The blended matrix of an influence.
+pub(crate) fn blended_matrix(palette: &[Matrix], influence: &Influence) -> Matrix {
+    let mut m = [[0.0; 4]; 4];
+    for k in 0..4 {
+        let joint = &palette[influence.joints[k] as usize];
+        let weight = influence.weights[k];
+        for (column, joint_column) in m.iter_mut().zip(joint) {
+            for (value, joint_value) in column.iter_mut().zip(joint_column) {
+                *value += joint_value * weight;
+            }
+        }
+    }
+    m
+}
+
+pub(crate) fn apply_point(m: &Matrix, p: [f32; 3]) -> [f32; 4] {
+    std::array::from_fn(|i| m[0][i] * p[0] + m[1][i] * p[1] + m[2][i] * p[2] + m[3][i])
+}
+
+fn apply_direction(m: &Matrix, v: [f32; 3]) -> [f32; 3] {
+    std::array::from_fn(|i| m[0][i] * v[0] + m[1][i] * v[1] + m[2][i] * v[2])
+}
+
+/// Normals go by the cofactors, which stay finite where the matrix is singular.
+pub(crate) fn apply_normal(m: &Matrix, n: [f32; 3]) -> [f32; 3] {
+    let column = |i: usize| [m[i][0], m[i][1], m[i][2]];
+    let yz = cross(column(1), column(2));
+    let zx = cross(column(2), column(0));
+    let xy = cross(column(0), column(1));
+    let turned: [f32; 3] = std::array::from_fn(|i| yz[i] * n[0] + zx[i] * n[1] + xy[i] * n[2]);
+    let mirrored = dot(column(0), yz) < 0.0;
+    unit_or_z(if mirrored { turned.map(|v| -v) } else { turned })
+}
+
+fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const IDENTITY: Matrix = [
+        [1.0, 0.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0, 0.0],
+        [0.0, 0.0, 1.0, 0.0],
+        [0.0, 0.0, 0.0, 1.0],
+    ];
+
+    fn unit(v: [f32; 3]) -> [f32; 3] {
+        unit_or_z(v)
+    }
+
+    proptest! {
+        #[test]
+        fn a_sphere_shows_its_own_curvature_from_everywhere(k in 0.1f32..10.0, x in -1f32..1.0, y in -1f32..1.0, z in -1f32..1.0) {
+            let eye = unit([x, y, z + 1e-3]);
+            let got = projected_curvature([k, k], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], eye);
+            prop_assert!((got - k).abs() < 1e-3 * k, "{got} for {k}");
+        }
+
+        #[test]
+        fn a_cylinder_seen_from_the_side_has_a_straight_outline(k in 0.5f32..5.0, slant in -0.9f32..0.9) {
+            // The outline of a cylinder is a straight ruling from every view that is not along its axis.
+            let eye = unit([1.0, slant, 0.0]);
+            let got = projected_curvature([k, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], eye);
+            prop_assert!(got.abs() < 0.05 * k, "{got} for {k}");
+        }
+
+        #[test]
+        fn normals_stay_perpendicular_under_any_matrix(m in prop::array::uniform9(-2f32..2.0), n in prop::array::uniform3(-1f32..1.0), t in prop::array::uniform3(-1f32..1.0)) {
+            let matrix = [[m[0], m[1], m[2], 0.0], [m[3], m[4], m[5], 0.0], [m[6], m[7], m[8], 0.0], [0.0, 0.0, 0.0, 1.0]];
+            let determinant = dot([m[0], m[1], m[2]], cross([m[3], m[4], m[5]], [m[6], m[7], m[8]]));
+            prop_assume!(determinant.abs() > 0.1 && dot(n, n) > 0.1);
+            let n = unit(n);
+            let tangent: [f32; 3] = std::array::from_fn(|i| t[i] - n[i] * dot(t, n));
+            let moved = apply_direction(&matrix, tangent);
+            prop_assert!(dot(apply_normal(&matrix, n), moved).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn a_mirror_keeps_normals_outside() {
+        let mut mirror = IDENTITY;
+        mirror[0][0] = -1.0;
+        assert_eq!(apply_normal(&mirror, [1.0, 0.0, 0.0]), [-1.0, 0.0, 0.0]);
+        assert_eq!(apply_normal(&mirror, [0.0, 1.0, 0.0]), [0.0, 1.0, 0.0]);
+    }
+
+    #[test]
+    fn half_of_two_joints_moves_half_way() {
+        let mut moved = IDENTITY;
+        moved[3] = [0.0, 4.0, 0.0, 1.0];
+        let influence = Influence {
+            joints: [0, 1, 0, 0],
+            weights: [0.5, 0.5, 0.0, 0.0],
+        };
+        let m = blended_matrix(&[IDENTITY, moved], &influence);
+        assert_eq!(apply_point(&m, [1.0, 0.0, 0.0]), [1.0, 2.0, 0.0, 1.0]);
+    }
+}

@@ -1,0 +1,223 @@
+//! The graph of a frame: which passes a style needs, over which resources.
+
+use npr_core::geometry::{Edge, GPixel, Influence, Part, PosedVertex, Stamp, Triangle, Vertex};
+use npr_core::outline::Outline;
+use npr_core::window::{View, Window};
+use npr_gpu::graph::{Graph, ResourceId};
+use npr_gpu::pass::Format;
+use npr_gpu::passes::{line, mesh, raster, shade};
+use npr_mesh::pose::Matrix;
+use npr_style::compose::Compose;
+use npr_style::{LineMethod, Style};
+use npr_vector::residual::tile_count;
+
+/// Numbers of elements that decide buffer sizes.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Counts {
+    pub vertices: usize,
+    pub joints: usize,
+    pub triangles: usize,
+    pub edges: usize,
+    pub parts: usize,
+    pub texel_words: usize,
+}
+
+/// Pixel grids of a tile.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Grids {
+    pub output: [u32; 2],
+    pub mask: [u32; 2],
+    /// Colour samples per pixel along each axis.
+    pub samples: u32,
+}
+
+/// What a line method is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Method {
+    /// Lines are detected on the G-buffer.
+    pub mask: bool,
+    /// Edges are drawn as ribbons.
+    pub ribbons: bool,
+    /// What no ribbon explains is stamped.
+    pub residual: bool,
+    /// A hull is drawn behind.
+    pub hull: bool,
+    /// Layers that the last pass lays over the surfaces.
+    pub layers: u32,
+}
+
+impl Method {
+    pub fn of(style: &Style) -> Self {
+        let none = Self { mask: false, ribbons: false, residual: false, hull: false, layers: 0 };
+        let masked = Self { mask: true, ..none };
+        match style.line.method {
+            LineMethod::Off => none,
+            LineMethod::Shape => {
+                let residual = style.line.kinds.intersection;
+                let stamps = if residual { Compose::STAMPS } else { 0 };
+                Self { ribbons: true, residual, layers: Compose::RIBBONS | stamps, ..masked }
+            }
+            LineMethod::Okuya | LineMethod::Edges => {
+                Self { ribbons: true, layers: Compose::RIBBONS, ..masked }
+            }
+            LineMethod::Filter => Self { layers: Compose::MASK, ..masked },
+            LineMethod::Hull => Self { hull: true, ..none },
+            LineMethod::FilterHull => Self { hull: true, layers: Compose::MASK, ..masked },
+            LineMethod::Angle => Self { layers: Compose::ANGLE, ..none },
+        }
+    }
+}
+
+/// A frame's graph and the resources that the host fills or reads.
+#[derive(Debug, Clone)]
+pub(crate) struct Blueprint {
+    pub graph: Graph,
+    pub view: ResourceId,
+    pub output_window: ResourceId,
+    pub color_window: ResourceId,
+    pub mask_window: ResourceId,
+    pub outline: ResourceId,
+    pub compose: ResourceId,
+    pub vertices: ResourceId,
+    pub influences: ResourceId,
+    pub palette: ResourceId,
+    pub triangles: ResourceId,
+    pub edges: ResourceId,
+    pub parts: ResourceId,
+    pub texels: ResourceId,
+    pub frame: ResourceId,
+    posed: ResourceId,
+    ids: ResourceId,
+    depths: ResourceId,
+    mask: ResourceId,
+    ribbons: ResourceId,
+    stamped: ResourceId,
+}
+
+impl Blueprint {
+    pub fn new(counts: &Counts, grids: &Grids, method: Method) -> Self {
+        let mut plan = Self::inputs(counts, grids, method);
+        plan.pose();
+        plan.draw_ids(plan.color_window, plan.ids, plan.depths);
+        if method.mask {
+            plan.find_lines(grids, method);
+        }
+        if method.hull {
+            plan.draw_hull(counts.vertices);
+        }
+        plan.compose_frame();
+        plan
+    }
+
+    /// The resources that stay for the whole frame. Layers that a method lacks are of a single texel.
+    fn inputs(counts: &Counts, grids: &Grids, method: Method) -> Self {
+        let mut graph = Graph::new();
+        let pixel_count = |size: [u32; 2]| size[0] as usize * size[1] as usize;
+        let only = |needed: bool, size: [u32; 2]| if needed { size } else { [1, 1] };
+        let color = grids.output.map(|side| side * grids.samples);
+        let stamped = pixel_count(only(method.residual, grids.output));
+        Self {
+            view: graph.uniform::<View>("view"),
+            output_window: graph.uniform::<Window>("output window"),
+            color_window: graph.uniform::<Window>("color window"),
+            mask_window: graph.uniform::<Window>("mask window"),
+            outline: graph.uniform::<Outline>("outline"),
+            compose: graph.uniform::<Compose>("compose"),
+            vertices: graph.buffer::<Vertex>("vertices", counts.vertices),
+            influences: graph.buffer::<Influence>("influences", counts.vertices),
+            palette: graph.buffer::<Matrix>("palette", counts.joints),
+            triangles: graph.buffer::<Triangle>("triangles", counts.triangles),
+            edges: graph.buffer::<Edge>("edges", counts.edges),
+            parts: graph.buffer::<Part>("parts", counts.parts),
+            texels: graph.buffer::<u32>("texels", counts.texel_words),
+            frame: graph.buffer::<u32>("frame", pixel_count(grids.output)),
+            posed: graph.buffer::<PosedVertex>("posed", counts.vertices),
+            ids: graph.image("ids", Format::U32, color),
+            depths: graph.image("depths", Format::Depth, color),
+            mask: graph.buffer::<u32>("mask", pixel_count(only(method.mask, grids.mask))),
+            ribbons: graph.image("ribbons", Format::Rgba8, only(method.ribbons, grids.output)),
+            stamped: graph.buffer::<u32>("stamped", stamped),
+            graph,
+        }
+    }
+
+    fn pose(&mut self) {
+        let bound =
+            [self.view, self.outline, self.vertices, self.influences, self.palette, self.parts, self.posed];
+        self.graph.compute(&mesh::POSE_VERTICES, &bound);
+    }
+
+    fn draw_ids(&mut self, window: ResourceId, ids: ResourceId, depths: ResourceId) {
+        let bound = [self.view, window, self.posed, self.vertices, self.triangles, self.parts, self.texels];
+        self.graph.draw(&raster::DRAW_IDS, &bound, &[ids, depths], true);
+    }
+
+    /// Detection on the mask's grid, then drawing on the output's [Okuya et al. 2016, figure 9].
+    fn find_lines(&mut self, grids: &Grids, method: Method) {
+        let ids = self.mask_ids(grids);
+        let mask_pixels = grids.mask[0] as usize * grids.mask[1] as usize;
+        let gbuffer = self.graph.buffer::<GPixel>("gbuffer", mask_pixels);
+        let resolve = [self.view, self.mask_window, ids, self.posed, self.triangles, self.parts, gbuffer];
+        self.graph.compute(&line::RESOLVE_GBUFFER, &resolve);
+        let detect = [self.view, self.mask_window, self.outline, self.parts, gbuffer, self.mask];
+        self.graph.compute(&line::DETECT, &detect);
+        if method.ribbons {
+            self.draw_ribbons(grids, gbuffer);
+        }
+        if method.residual {
+            self.stamp_residual(grids, gbuffer);
+        }
+    }
+
+    /// Triangle numbers on the mask's grid; the colour samples serve where both grids are the same.
+    fn mask_ids(&mut self, grids: &Grids) -> ResourceId {
+        if grids.samples == 1 && grids.mask == grids.output {
+            return self.ids;
+        }
+        let ids = self.graph.image("mask ids", Format::U32, grids.mask);
+        let depths = self.graph.image("mask depths", Format::Depth, grids.mask);
+        self.draw_ids(self.mask_window, ids, depths);
+        ids
+    }
+
+    fn draw_ribbons(&mut self, grids: &Grids, gbuffer: ResourceId) {
+        let edge_count = self.graph.element_count(self.edges);
+        let kinds = self.graph.buffer::<u32>("kinds", edge_count);
+        let classify = [self.outline, self.posed, self.triangles, self.parts, self.edges, kinds];
+        self.graph.compute(&mesh::CLASSIFY_EDGES, &classify);
+        let keys = self.graph.image("ribbon keys", Format::Depth, grids.output);
+        let ribbons = [
+            self.view, self.output_window, self.mask_window, self.outline, self.posed, self.triangles,
+            self.parts, self.edges, kinds, gbuffer, self.mask,
+        ];
+        self.graph.draw(&line::DRAW_RIBBONS, &ribbons, &[self.ribbons, keys], true);
+    }
+
+    fn stamp_residual(&mut self, grids: &Grids, gbuffer: ResourceId) {
+        let mask_pixels = grids.mask[0] as usize * grids.mask[1] as usize;
+        let stamps = self.graph.buffer::<Stamp>("stamps", mask_pixels);
+        let tiles = self.graph.buffer::<u32>("tiles", tile_count(grids.mask));
+        let (output, mask) = (self.output_window, self.mask_window);
+        let find = [output, mask, self.parts, gbuffer, self.mask, self.ribbons, stamps];
+        self.graph.compute(&line::FIND_RESIDUAL, &find);
+        self.graph.compute(&line::FLAG_TILES, &[mask, stamps, tiles]);
+        let stamp = [output, mask, self.outline, self.parts, stamps, tiles, self.stamped];
+        self.graph.compute(&line::STAMP_RESIDUAL, &stamp);
+    }
+
+    fn draw_hull(&mut self, vertex_count: usize) {
+        let hull = self.graph.buffer::<[f32; 4]>("hull", vertex_count);
+        let extrude = [self.view, self.vertices, self.influences, self.palette, self.posed, hull];
+        self.graph.compute(&mesh::EXTRUDE_HULL, &extrude);
+        let bound = [self.color_window, hull, self.triangles, self.parts];
+        self.graph.draw(&raster::DRAW_HULL, &bound, &[self.ids, self.depths], false);
+    }
+
+    fn compose_frame(&mut self) {
+        let bound = [
+            self.view, self.output_window, self.mask_window, self.compose, self.ids, self.ribbons, self.posed,
+            self.vertices, self.triangles, self.parts, self.texels, self.mask, self.stamped, self.frame,
+        ];
+        self.graph.compute(&shade::COMPOSE_FRAME, &bound);
+    }
+}

@@ -1,0 +1,42 @@
+//! Why a picture could not be made.
+
+use npr_core::budget::OverBudget;
+use npr_gpu::engine::EngineError;
+
+/// Why a picture could not be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RenderError {
+    /// The frame has no pixels.
+    #[error("a frame of {width}x{height} pixels is empty")]
+    EmptyFrame {
+        /// Width asked for.
+        width: u32,
+        /// Height asked for.
+        height: u32,
+    },
+    /// The frame is larger than any picture may be.
+    #[error("a frame of {width}x{height} pixels is larger than {limit} a side")]
+    FrameTooLarge {
+        /// Width asked for.
+        width: u32,
+        /// Height asked for.
+        height: u32,
+        /// Most pixels a side.
+        limit: u32,
+    },
+    /// More triangles or vertices than can be numbered.
+    #[error("the scene has more than {limit} {what}")]
+    TooMany {
+        /// What there is too much of.
+        what: &'static str,
+        /// The most there may be.
+        limit: u64,
+    },
+    /// The plan needs more memory than allowed.
+    #[error(transparent)]
+    Memory(#[from] OverBudget),
+    /// The engine failed.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+}

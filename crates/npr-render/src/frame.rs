@@ -1,0 +1,46 @@
+//! A finished picture.
+
+use npr_gpu::engine::PassTime;
+
+/// A finished picture and how long its passes took.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Frame {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// sRGB bytes with straight alpha, row by row from the top.
+    pub rgba: Vec<u8>,
+    /// Time per pass in running order, summed over tiles.
+    pub times: Vec<PassTime>,
+}
+
+impl Frame {
+    /// A transparent frame.
+    pub(crate) fn new(size: [u32; 2]) -> Self {
+        let count = size[0] as usize * size[1] as usize * 4;
+        Self { size, rgba: vec![0; count], times: Vec::new() }
+    }
+
+    /// Copies a tile in, at `origin`; what lies beyond the frame is left out.
+    ///
+    /// `skip` is the first texel of the tile that is copied, in each direction, and `extent` how many.
+    pub(crate) fn paste(&mut self, tile: &[u32], tile_width: u32, skip: [u32; 2], origin: [u32; 2], extent: [u32; 2]) {
+        let columns = extent[0].min(self.size[0] - origin[0]) as usize;
+        for row in 0..extent[1].min(self.size[1] - origin[1]) {
+            let from = ((skip[1] + row) * tile_width + skip[0]) as usize;
+            let to = ((origin[1] + row) as usize * self.size[0] as usize + origin[0] as usize) * 4;
+            let bytes: &[u8] = bytemuck::cast_slice(&tile[from..from + columns]);
+            self.rgba[to..to + columns * 4].copy_from_slice(bytes);
+        }
+    }
+
+    /// Adds the times of another tile.
+    pub(crate) fn add_times(&mut self, times: &[PassTime]) {
+        if self.times.is_empty() {
+            self.times = times.to_vec();
+            return;
+        }
+        for (sum, time) in self.times.iter_mut().zip(times) {
+            sum.time += time.time;
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! A style applied to a model: the numbers that passes read.
+
+use crate::model::{Model, PartInfo};
+use crate::stage::StageOptions;
+use glam::{Mat4, Vec3};
+use npr_core::camera::Camera;
+use npr_core::geometry::{NONE, Part, Vertex};
+use npr_core::math;
+use npr_core::outline::{Outline, width_of_curvature};
+use npr_core::texture::{self, TextureStore, Wrap};
+use npr_core::window::View;
+use npr_style::compose::Compose;
+use npr_style::{Background, LightSpace, LineMethod, Look, ShadeMode, Style, Unit, WidthSource};
+
+/// Coordinate of a ramp step that is never reached.
+const UNUSED_STEP: f32 = 2.0;
+
+/// Everything a style decides before the camera is known.
+#[derive(Debug, Clone)]
+pub(crate) struct StyledModel {
+    pub vertices: Vec<Vertex>,
+    pub parts: Vec<Part>,
+    pub textures: TextureStore,
+    /// Header of the background picture, or [`NONE`].
+    pub background_texture: u32,
+}
+
+impl StyledModel {
+    pub fn new(model: &Model, style: &Style, options: &StageOptions) -> Self {
+        let mut textures = model.textures.clone();
+        let background = options.background_image.as_ref().filter(|_| matches!(style.background, Background::Image(_)));
+        let background_texture = background
+            .and_then(|image| textures.add(image.size, &image.rgba, [Wrap::Clamp; 2]))
+            .unwrap_or(NONE);
+        let mut parts: Vec<Part> = model.parts.iter().map(|info| part(info, style)).collect();
+        if parts.is_empty() {
+            parts.push(Part::default());
+        }
+        Self { vertices: styled_vertices(model, style, options), parts, textures, background_texture }
+    }
+}
+
+/// A part in the style that its names ask for.
+fn part(info: &PartInfo, style: &Style) -> Part {
+    let look = style.resolve_for(&info.material_name, &info.object_name);
+    let shade = &style.shade;
+    let paper = shade.mode == ShadeMode::Paper;
+    let own_color = look.shade_color.map(|color| color.linear());
+    let base_color = own_color.unwrap_or(if paper { shade.paper.linear() } else { info.base_color });
+    let bit = |bit: u32, when: bool| if when { bit } else { 0 };
+    let unlit = shade.mode == ShadeMode::Flat || (info.unlit && !paper);
+    let mut line_color = look.line_color.srgb();
+    line_color[3] *= style.line.opacity;
+    Part {
+        base_color: [base_color[0], base_color[1], base_color[2], info.base_color[3]],
+        line_color,
+        object: info.object,
+        material: info.material,
+        texture: if shade.use_textures && !paper && own_color.is_none() { info.texture } else { NONE },
+        flags: bit(Part::DOUBLE_SIDED, info.double_sided)
+            | bit(Part::CUTOUT, info.alpha_cutoff.is_some())
+            | bit(Part::LINES, look.line_on && style.line.method != LineMethod::Off)
+            | bit(Part::UNLIT, unlit),
+        width_factor: look.width_factor,
+        facing_threshold: math::sin(look.angle_threshold_deg.to_radians()),
+        alpha_cutoff: info.alpha_cutoff.unwrap_or(0.0),
+        softness: shade.softness,
+        ramp: ramp(&look),
+    }
+}
+
+/// The tones of a look, as rows of light and start.
+fn ramp(look: &Look<'_>) -> [[f32; 4]; 8] {
+    let mut rows = [[1.0, 1.0, 1.0, UNUSED_STEP]; 8];
+    for (row, stop) in rows.iter_mut().zip(look.ramp) {
+        let level = stop.level();
+        *row = [level.light[0], level.light[1], level.light[2], level.at];
+    }
+    rows
+}
+
+/// Vertices with the width that the style's source gives them, and their colour where the style shows it.
+fn styled_vertices(model: &Model, style: &Style, options: &StageOptions) -> Vec<Vertex> {
+    let width = VertexWidth::new(model, style, options);
+    let shows_colors = style.shade.use_vertex_colors && style.shade.mode != ShadeMode::Paper;
+    (0..model.vertices.len())
+        .map(|i| {
+            let vertex = &model.vertices[i];
+            let color = if shows_colors { vertex.color } else { vertex.color | 0x00ff_ffff };
+            Vertex { width: width.at(i), color, ..*vertex }
+        })
+        .collect()
+}
+
+/// Where the width factor of a vertex comes from.
+struct VertexWidth<'a> {
+    model: &'a Model,
+    style: &'a Style,
+    radius: f32,
+    /// The width picture, with where it starts.
+    image: Option<(TextureStore, u32)>,
+}
+
+impl<'a> VertexWidth<'a> {
+    fn new(model: &'a Model, style: &'a Style, options: &StageOptions) -> Self {
+        let image = options.width_image.as_ref().and_then(|image| {
+            let mut store = TextureStore::new();
+            let start = store.add(image.size, &image.rgba, [Wrap::Repeat; 2])?;
+            Some((store, start))
+        });
+        Self { model, style, radius: model.radius(), image }
+    }
+
+    /// Width factor 0..1 of vertex `i`; 1 where the source is missing.
+    fn at(&self, i: usize) -> f32 {
+        let (vertex, width) = (&self.model.vertices[i], &self.style.line.width);
+        match width.source {
+            WidthSource::Constant | WidthSource::ProjectedCurvature => 1.0,
+            WidthSource::Curvature => {
+                let largest = vertex.curvatures[0].abs().max(vertex.curvatures[1].abs());
+                width_of_curvature(largest * self.radius, width.gain)
+            }
+            WidthSource::VertexColor => f32::from(vertex.color.to_le_bytes()[width.channel.index()]) / 255.0,
+            WidthSource::Texture => self.image.as_ref().map_or(1.0, |(store, start)| {
+                let linear = texture::sample(store.words(), *start, vertex.uv, 0.0);
+                npr_core::color::srgb_from_linear((linear[0] + linear[1] + linear[2]) / 3.0)
+            }),
+            WidthSource::ControlPoints => {
+                let factor = width.factor_at(self.rest_position(i));
+                (factor - width.min) / (width.max - width.min).max(1e-6)
+            }
+        }
+    }
+
+    /// Where a vertex lies in the world in the pose of the file.
+    fn rest_position(&self, i: usize) -> [f32; 3] {
+        let influence = &self.model.influences[i];
+        let position = Vec3::from(self.model.vertices[i].position);
+        let moved = |k: usize| {
+            let m = Mat4::from_cols_array_2d(&self.model.palette[influence.joints[k] as usize]);
+            m.transform_point3(position) * influence.weights[k]
+        };
+        (moved(0) + moved(1) + moved(2) + moved(3)).to_array()
+    }
+}
+
+/// The largest half width that any line may have, in frame pixels.
+pub(crate) fn largest_half_width(style: &Style, parts: &[Part], base_px: f32) -> f32 {
+    let factor = parts.iter().map(|part| part.width_factor).fold(1.0, f32::max);
+    base_px * style.line.width.max * factor * 0.5
+}
+
+/// Line width at factor 1, in frame pixels; what world units come to at the point of the model nearest to the eye.
+pub(crate) fn base_px(style: &Style, options: &StageOptions, world_px: f32) -> f32 {
+    style.line.width.base.to_px(options.size[1] as f32, options.dpi, world_px)
+}
+
+/// The outline settings of a style.
+pub(crate) fn outline(style: &Style, model: &Model, options: &StageOptions, reach_px: u32) -> Outline {
+    let (line, detect) = (&style.line, &style.detect);
+    let bit = |bit: u32, when: bool| if when { bit } else { 0 };
+    let in_world = line.width.base.unit == Unit::World;
+    let published = line.method == LineMethod::Okuya;
+    let kinds = bit(Outline::CONTOUR, line.kinds.contour)
+        | bit(Outline::BORDER, line.kinds.border)
+        | bit(Outline::CREASE, line.kinds.crease)
+        | bit(Outline::MATERIAL, line.kinds.material);
+    Outline {
+        base_width: if in_world { line.width.base.value } else { base_px(style, options, 0.0) },
+        min_factor: line.width.min,
+        max_factor: line.width.max,
+        gain: line.width.gain,
+        radius_world: model.radius(),
+        crease_cos: math::cos(line.crease_angle_deg.to_radians()),
+        depth_threshold: detect.depth_threshold(),
+        normal_cos: math::cos(detect.normal.threshold_deg.to_radians()),
+        kinds: match line.method {
+            LineMethod::Okuya => Outline::ANY,
+            LineMethod::Edges => Outline::CONTOUR | Outline::BORDER,
+            _ => kinds,
+        },
+        detects: bit(Outline::DEPTH, detect.depth.on)
+            | bit(Outline::NORMAL, detect.normal.on)
+            | bit(Outline::OBJECT_ID, detect.object.on)
+            | bit(Outline::MATERIAL_ID, detect.material.on)
+            | bit(Outline::PLANE_DEPTH, detect.plane_depth),
+        flags: bit(Outline::WORLD_WIDTH, in_world)
+            | bit(Outline::PROJECTED_CURVATURE, line.width.source == WidthSource::ProjectedCurvature)
+            | bit(Outline::PUBLISHED, published)
+            | bit(Outline::UNMASKED, line.method == LineMethod::Edges),
+        reach_px,
+    }
+}
+
+/// The settings of the last pass.
+pub(crate) fn compose(style: &Style, camera: &Camera, background_texture: u32) -> Compose {
+    let mut line_color = style.line.color.srgb();
+    line_color[3] *= style.line.opacity;
+    Compose {
+        light_world: light_world(style, camera),
+        samples: if style.antialias.samples > 1 { 2 } else { 1 },
+        background: match style.background {
+            Background::Color(color) => color.linear(),
+            Background::Transparent => [0.0; 4],
+            Background::Image(_) => [1.0; 4],
+        },
+        line_color,
+        background_texture,
+        flags: 0,
+        saturation: style.shade.saturation,
+        unused: 0,
+    }
+}
+
+/// Unit vector towards the light, in the world.
+fn light_world(style: &Style, camera: &Camera) -> [f32; 3] {
+    let direction = style.light.unit_direction();
+    match style.light.space {
+        LightSpace::World => direction,
+        LightSpace::Camera => {
+            let [right, up, back] = camera.axes().map(Vec3::from);
+            (right * direction[0] + up * direction[1] + back * direction[2]).to_array()
+        }
+    }
+}
+
+/// Frame pixels per world unit at the depth of the part of the model nearest to the eye.
+pub(crate) fn nearest_world_px(view: &View, camera: &Camera, model: &Model) -> f32 {
+    let (min, max) = model.bounds();
+    let center = (Vec3::from(min) + Vec3::from(max)) * 0.5;
+    let distance = (center - Vec3::from(camera.eye)).dot(Vec3::from(view.forward_world));
+    1.0 / view.pixel_at((distance - model.radius()).max(view.near)).max(1e-20)
+}

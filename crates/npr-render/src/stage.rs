@@ -1,0 +1,184 @@
+//! A model, a style and a frame size on an engine, ready to draw.
+
+use crate::blueprint::{Blueprint, Counts, Grids, Method};
+use crate::error::RenderError;
+use crate::frame::Frame;
+use crate::look::{self, StyledModel};
+use crate::model::Model;
+use crate::tiles::Tiles;
+use bytemuck::{NoUninit, cast_slice};
+use npr_core::budget::Budget;
+use npr_core::camera::Camera;
+use npr_core::window::{View, Window};
+use npr_gpu::engine::{Engine, EngineError, Session};
+use npr_gpu::graph::ResourceId;
+use npr_scene::Image;
+use npr_style::Style;
+
+/// Most pixels of a frame along a side.
+const FRAME_SIDE: u32 = 32_768;
+
+/// Frame pixels around a tile beyond the reach of its lines: detection looks at neighbours.
+const TILE_ROOM: u32 = 8;
+
+/// A picture that a style names: background or width.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Picture {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// sRGB bytes with straight alpha, row by row from the top.
+    pub rgba: Vec<u8>,
+}
+
+impl From<Image> for Picture {
+    fn from(image: Image) -> Self {
+        Self { size: [image.width, image.height], rgba: image.rgba }
+    }
+}
+
+/// What a stage needs beside model and style.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StageOptions {
+    /// Width and height of the frame in pixels.
+    pub size: [u32; 2],
+    /// Pixels per inch, for lengths in millimetres.
+    pub dpi: f32,
+    /// The picture behind the scene, where the style names one.
+    pub background_image: Option<Picture>,
+    /// The picture that line widths are read from, where the style names one.
+    pub width_image: Option<Picture>,
+    /// Most bytes that may be planned.
+    pub memory_limit: u64,
+}
+
+impl StageOptions {
+    /// Options for a frame of `size` pixels: 96 pixels per inch, no pictures, 4 GiB.
+    pub fn new(size: [u32; 2]) -> Self {
+        Self { size, dpi: 96.0, background_image: None, width_image: None, memory_limit: 4 << 30 }
+    }
+}
+
+/// A model, a style and a frame size on an engine: draws a picture for any camera.
+pub struct Stage<'a> {
+    model: &'a Model,
+    style: Style,
+    options: StageOptions,
+    tiles: Tiles,
+    grids: Grids,
+    method: Method,
+    styled: StyledModel,
+    plan: Blueprint,
+    session: Box<dyn Session>,
+}
+
+impl<'a> Stage<'a> {
+    /// Plans the frame, checks that it fits, and uploads what does not change with the camera.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError`] for a frame without pixels or beyond 32768 a side, a plan beyond the memory limit, or a failing engine.
+    pub fn new(
+        engine: &dyn Engine,
+        model: &'a Model,
+        style: &Style,
+        options: &StageOptions,
+    ) -> Result<Self, RenderError> {
+        check_size(options.size)?;
+        let styled = StyledModel::new(model, style, options);
+        let base_px = look::base_px(style, options, options.size[1] as f32 / model.radius());
+        let margin = look::largest_half_width(style, &styled.parts, base_px).min(1e4) as u32 + TILE_ROOM;
+        let tiles = Tiles::new(options.size, margin);
+        let scale = style.detect.scale;
+        let grids = Grids {
+            output: tiles.size(),
+            mask: tiles.size().map(|side| ((side as f32 / scale).round() as u32).max(1)),
+            samples: if style.antialias.samples > 1 { 2 } else { 1 },
+        };
+        let counts = Counts {
+            vertices: styled.vertices.len(),
+            joints: model.palette.len(),
+            triangles: model.triangles.len(),
+            edges: model.edges.len(),
+            parts: styled.parts.len(),
+            texel_words: styled.textures.words().len(),
+        };
+        let method = Method::of(style);
+        let plan = Blueprint::new(&counts, &grids, method);
+        let mut budget = Budget::new(options.memory_limit);
+        budget.take("the picture", options.size[0] as usize * options.size[1] as usize, 4)?;
+        budget.take("the plan of the frame", plan.graph.planned_bytes() as usize, 1)?;
+        let session = engine.prepare(plan.graph.clone())?;
+        let (style, options) = (style.clone(), options.clone());
+        let mut stage = Self { model, style, options, tiles, grids, method, styled, plan, session };
+        stage.upload()?;
+        Ok(stage)
+    }
+
+    /// Hands over what does not change with the camera.
+    fn upload(&mut self) -> Result<(), EngineError> {
+        let (plan, model, styled) = (&self.plan, self.model, &self.styled);
+        let session = self.session.as_mut();
+        write(session, plan.vertices, &styled.vertices)?;
+        write(session, plan.influences, &model.influences)?;
+        write(session, plan.palette, &model.palette)?;
+        write(session, plan.triangles, &model.triangles)?;
+        write(session, plan.edges, &model.edges)?;
+        write(session, plan.parts, &styled.parts)?;
+        write(session, plan.texels, styled.textures.words())
+    }
+
+    /// Draws the model as a camera sees it.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError::Engine`] where the device fails; nothing half drawn is returned.
+    pub fn draw(&mut self, camera: &Camera) -> Result<Frame, RenderError> {
+        let view = camera.view(self.options.size, self.model.bounds());
+        let world_px = look::nearest_world_px(&view, camera, self.model);
+        let base_px = look::base_px(&self.style, &self.options, world_px);
+        let half = look::largest_half_width(&self.style, &self.styled.parts, base_px);
+        let outline = look::outline(&self.style, self.model, &self.options, half.ceil().min(64.0) as u32 + 1);
+        let mut compose = look::compose(&self.style, camera, self.styled.background_texture);
+        compose.flags = self.method.layers;
+        let session = self.session.as_mut();
+        write(session, self.plan.view, &[view])?;
+        write(session, self.plan.outline, &[outline])?;
+        write(session, self.plan.compose, &[compose])?;
+        let mut frame = Frame::new(self.options.size);
+        for origin in self.tiles.origins() {
+            self.draw_tile(&view, origin, &mut frame)?;
+        }
+        Ok(frame)
+    }
+
+    /// Draws the tile whose kept part starts at `origin`.
+    fn draw_tile(&mut self, view: &View, origin: [u32; 2], frame: &mut Frame) -> Result<(), EngineError> {
+        let size = self.tiles.size();
+        let corner = self.tiles.corner_px(origin);
+        let extent = size.map(|side| side as f32);
+        let over = |grid: [u32; 2]| Window::over(view.frame_px, corner, extent, grid);
+        let session = self.session.as_mut();
+        write(session, self.plan.output_window, &[over(size)])?;
+        write(session, self.plan.color_window, &[over(size.map(|side| side * self.grids.samples))])?;
+        write(session, self.plan.mask_window, &[over(self.grids.mask)])?;
+        let times = session.run()?;
+        let tile = session.read(self.plan.frame)?;
+        frame.paste(&tile, size[0], [self.tiles.margin; 2], origin, self.tiles.kept);
+        frame.add_times(&times);
+        Ok(())
+    }
+}
+
+fn check_size([width, height]: [u32; 2]) -> Result<(), RenderError> {
+    if width == 0 || height == 0 {
+        return Err(RenderError::EmptyFrame { width, height });
+    }
+    if width.max(height) > FRAME_SIDE {
+        return Err(RenderError::FrameTooLarge { width, height, limit: FRAME_SIDE });
+    }
+    Ok(())
+}
+
+fn write<T: NoUninit>(session: &mut dyn Session, id: ResourceId, elements: &[T]) -> Result<(), EngineError> {
+    session.write(id, cast_slice(elements))
+}

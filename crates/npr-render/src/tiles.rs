@@ -1,0 +1,72 @@
+//! Large frames in pieces.
+//!
+//! A frame that no device could hold at once is drawn tile by tile. Lines reach over tile borders, so each tile is
+//! drawn with a margin that is cut off again; a picture in tiles is the same as one drawn whole.
+
+/// Most pixels of a tile with its margin: its G-buffer must fit the 128 MiB that every device binds.
+const TILE_PIXELS: u64 = 4_000_000;
+
+/// Longest side of a tile with its margin: four samples per pixel must fit a picture of 8192.
+const TILE_SIDE: u32 = 4096;
+
+/// How a frame is cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Tiles {
+    /// The whole frame.
+    pub frame: [u32; 2],
+    /// Pixels of each tile that are kept.
+    pub kept: [u32; 2],
+    /// Pixels drawn around them on every side; none where one tile is the frame.
+    pub margin: u32,
+}
+
+impl Tiles {
+    /// Cuts a frame into as few tiles as fit, each with `margin` pixels around.
+    pub fn new(frame: [u32; 2], margin: u32) -> Self {
+        let fits = |w: u64, h: u64| w * h <= TILE_PIXELS && w.max(h) <= u64::from(TILE_SIDE);
+        if fits(u64::from(frame[0]), u64::from(frame[1])) {
+            return Self { frame, kept: frame, margin: 0 };
+        }
+        // A square of 1984 pixels fits, whatever the mask's scale.
+        let margin = margin.min(600);
+        let side = 1984 - 2 * margin;
+        Self { frame, kept: [side.min(frame[0]), side.min(frame[1])], margin }
+    }
+
+    /// Size of every tile with its margin.
+    pub fn size(&self) -> [u32; 2] {
+        self.kept.map(|kept| kept + 2 * self.margin)
+    }
+
+    /// Where the kept part of each tile starts, row by row.
+    pub fn origins(&self) -> impl Iterator<Item = [u32; 2]> + use<> {
+        let (frame, kept) = (self.frame, self.kept);
+        (0..frame[1]).step_by(kept[1] as usize).flat_map(move |y| {
+            (0..frame[0]).step_by(kept[0] as usize).map(move |x| [x, y])
+        })
+    }
+
+    /// Frame position of the top left corner of the tile whose kept part starts at `origin`.
+    pub fn corner_px(&self, origin: [u32; 2]) -> [f32; 2] {
+        origin.map(|at| at as f32 - self.margin as f32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn tiles_cover_the_frame_once(w in 1u32..20_000, h in 1u32..20_000, margin in 0u32..700) {
+            let tiles = Tiles::new([w, h], margin);
+            let size = tiles.size();
+            prop_assert!(u64::from(size[0]) * u64::from(size[1]) <= TILE_PIXELS && size[0].max(size[1]) <= TILE_SIDE);
+            let covered: u64 = tiles.origins().map(|[x, y]| {
+                u64::from(tiles.kept[0].min(w - x)) * u64::from(tiles.kept[1].min(h - y))
+            }).sum();
+            prop_assert_eq!(covered, u64::from(w) * u64::from(h));
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! glTF 2.0 and VRM files.
+//!
+//! The JSON text is deserialised into the types of the `gltf` crate, then every index, range and
+//! number is checked here; that crate's own readers panic on damaged files.
+
+pub(crate) mod accessor;
+pub(crate) mod buffers;
+pub(crate) mod container;
+pub(crate) mod document;
+pub(crate) mod error;
+pub(crate) mod light;
+pub(crate) mod material;
+pub(crate) mod mesh;
+pub(crate) mod primitive;
+pub(crate) mod skin;
+pub(crate) mod texture;
+pub(crate) mod topology;
+pub(crate) mod tree;
+pub(crate) mod viewpoint;
+pub(crate) mod vrm;
+
+pub use error::{GltfError, Item};
+
+use ::gltf::json::scene::Node;
+use ::gltf::json::{Index, Root};
+
+use crate::error::SceneError;
+use crate::load::Loading;
+use crate::scene::Scene;
+use crate::shown::shown;
+use accessor::Accessors;
+use buffers::Buffers;
+use container::Container;
+use tree::Tree;
+
+/// Reads a binary glTF or VRM file.
+pub(crate) fn read_glb(bytes: &[u8], loading: &mut Loading) -> Result<Scene, SceneError> {
+    let container = Container::parse(bytes)?;
+    read_document(container.json, container.bin, loading)
+}
+
+/// Reads a glTF file of JSON text.
+pub(crate) fn read_json(bytes: &[u8], loading: &mut Loading) -> Result<Scene, SceneError> {
+    read_document(bytes, None, loading)
+}
+
+fn read_document(
+    json: &[u8],
+    bin: Option<&[u8]>,
+    loading: &mut Loading,
+) -> Result<Scene, SceneError> {
+    let mut root = document::parse(json, &loading.allowance.limits)?;
+    stand_up_meshes(&mut root, loading);
+    let tree = Tree::walk(&root, loading)?;
+    let buffers = Buffers::read(&root, bin, loading)?;
+    let accessors = Accessors {
+        root: &root,
+        buffers: &buffers,
+    };
+
+    // Each step fills its own lists and sets the indices in the nodes that refer to them.
+    let mut scene = Scene {
+        nodes: tree.nodes(&root, loading),
+        ..Scene::default()
+    };
+    mesh::read(&accessors, &tree, &mut scene, loading)?;
+    skin::read(&accessors, &tree, &mut scene, loading)?;
+    viewpoint::read(&root, &tree, &mut scene, loading);
+    light::read(&root, &tree, &mut scene, loading);
+    material::read(&accessors, &mut scene, loading)?;
+    vrm::turn_to_front(&root, &mut scene);
+    tree::place(&mut scene, loading);
+
+    note_what_is_ignored(&root, loading);
+    describe(root, &tree, &mut scene);
+    Ok(scene)
+}
+
+/// Gives every mesh of a file without nodes one at the origin, since such files are libraries of meshes.
+fn stand_up_meshes(root: &mut Root, loading: &mut Loading) {
+    if !root.nodes.is_empty() || !root.scenes.is_empty() || root.meshes.is_empty() {
+        return;
+    }
+    let meshes = (0u32..).take(root.meshes.len());
+    root.nodes = meshes
+        .map(|mesh| Node {
+            mesh: Some(Index::new(mesh)),
+            ..Node::default()
+        })
+        .collect();
+    loading
+        .notices
+        .add("the file has no nodes, so its meshes are drawn at the origin");
+}
+
+fn describe(root: Root, tree: &Tree, scene: &mut Scene) {
+    scene.name = tree.scene_name(&root);
+    scene.generator = root.asset.generator;
+    scene.extensions_used = root.extensions_used;
+}
+
+fn note_what_is_ignored(root: &Root, loading: &mut Loading) {
+    if !root.animations.is_empty() {
+        loading.notices.add("animation is not played yet");
+    }
+    for name in root
+        .extensions_used
+        .iter()
+        .filter(|name| !document::is_supported(name))
+    {
+        loading
+            .notices
+            .add(format!("extension '{}' is ignored", shown(name)));
+    }
+    vrm::note_what_is_ignored(root, loading);
+}

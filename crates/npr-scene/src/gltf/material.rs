@@ -1,0 +1,131 @@
+//! Materials: base colour, and the few other values a drawing may use.
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::indexing_slicing,
+    clippy::arithmetic_side_effects
+)]
+
+use std::collections::BTreeSet;
+
+use ::gltf::json::material::{AlphaMode as JsonAlphaMode, Material as JsonMaterial};
+use ::gltf::json::mesh::Primitive;
+use ::gltf::json::texture::Info;
+use ::gltf::json::validation::Checked;
+use ::gltf::json::{Index, Root};
+
+use super::accessor::Accessors;
+use super::texture::Textures;
+use crate::error::SceneError;
+use crate::load::Loading;
+use crate::material::{AlphaMode, Material};
+use crate::scene::Scene;
+
+/// Reads all materials, and the base colour images of those that parts use.
+///
+/// # Errors
+///
+/// A texture or image that does not exist, or images beyond a limit.
+pub(crate) fn read(
+    accessors: &Accessors,
+    scene: &mut Scene,
+    loading: &mut Loading,
+) -> Result<(), SceneError> {
+    let parts = scene.meshes.iter().flat_map(|mesh| &mesh.parts);
+    let used: BTreeSet<u32> = parts.filter_map(|part| part.material).collect();
+    let mut textures = Textures::new(accessors);
+    for (index, source) in (0u32..).zip(&accessors.root.materials) {
+        let mut material = surface(source);
+        if used.contains(&index)
+            && let Some(info) = base_color_info(source)
+        {
+            material.base_color_texture = textures.read(info, index, loading)?;
+        }
+        scene.materials.push(material);
+    }
+    scene.images = textures.into_images();
+    Ok(())
+}
+
+/// Which set of texture coordinates the base colour of `primitive` uses.
+pub(crate) fn uv_set(root: &Root, primitive: &Primitive) -> u32 {
+    let index = primitive.material.as_ref().map(Index::value);
+    let material = index.and_then(|index| root.materials.get(index));
+    material.and_then(base_color_info).map_or(0, info_uv_set)
+}
+
+/// Which set of texture coordinates `info` uses; its transform may name another one.
+pub(crate) fn info_uv_set(info: &Info) -> u32 {
+    let transform = info
+        .extensions
+        .as_ref()
+        .and_then(|extensions| extensions.texture_transform.as_ref());
+    transform
+        .and_then(|transform| transform.tex_coord)
+        .unwrap_or(info.tex_coord)
+}
+
+fn base_color_info(material: &JsonMaterial) -> Option<&Info> {
+    let extensions = material.extensions.as_ref();
+    match extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref()) {
+        Some(specular) => specular.diffuse_texture.as_ref(),
+        None => material.pbr_metallic_roughness.base_color_texture.as_ref(),
+    }
+}
+
+fn surface(source: &JsonMaterial) -> Material {
+    let extensions = source.extensions.as_ref();
+    let pbr = &source.pbr_metallic_roughness;
+    let mut material = Material {
+        name: source.name.clone().unwrap_or_default(),
+        base_color: pbr.base_color_factor.0.map(factor),
+        base_color_texture: None,
+        metallic: factor(pbr.metallic_factor.0),
+        roughness: factor(pbr.roughness_factor.0),
+        emissive: emissive(source),
+        double_sided: source.double_sided,
+        alpha: alpha(source),
+        unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
+    };
+    if let Some(specular) =
+        extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref())
+    {
+        material.base_color = specular.diffuse_factor.0.map(factor);
+        material.metallic = 0.0;
+        material.roughness = 1.0 - factor(specular.glossiness_factor.0);
+    }
+    material
+}
+
+fn emissive(source: &JsonMaterial) -> [f32; 3] {
+    let extension = source
+        .extensions
+        .as_ref()
+        .and_then(|extensions| extensions.emissive_strength.as_ref());
+    let strength = extension.map_or(1.0, |extension| extension.emissive_strength.0);
+    let strength = if strength.is_finite() {
+        strength.max(0.0)
+    } else {
+        1.0
+    };
+    source
+        .emissive_factor
+        .0
+        .map(|value| factor(value) * strength)
+}
+
+fn alpha(source: &JsonMaterial) -> AlphaMode {
+    match source.alpha_mode {
+        Checked::Valid(JsonAlphaMode::Mask) => {
+            AlphaMode::Mask(source.alpha_cutoff.map_or(0.5, |cutoff| factor(cutoff.0)))
+        }
+        Checked::Valid(JsonAlphaMode::Blend) => AlphaMode::Blend,
+        Checked::Valid(JsonAlphaMode::Opaque) | Checked::Invalid => AlphaMode::Opaque,
+    }
+}
+
+/// `value` within 0..1; JSON has no NaN, and an overflow to infinity becomes 1.
+fn factor(value: f32) -> f32 {
+    value.clamp(0.0, 1.0)
+}

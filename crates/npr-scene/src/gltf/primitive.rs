@@ -1,0 +1,287 @@
+//! Primitives: one part of a mesh each.
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::indexing_slicing,
+    clippy::arithmetic_side_effects
+)]
+
+use ::gltf::json::mesh::{MorphTarget, Primitive, Semantic};
+use ::gltf::json::validation::Checked;
+use ::gltf::json::{Accessor, Index};
+
+use super::accessor::Accessors;
+use super::error::{GltfError, Item};
+use super::material;
+use super::topology;
+use crate::error::SceneError;
+use crate::load::Loading;
+use crate::mesh::{Morph, Part};
+
+/// Where a primitive stands in its file.
+#[derive(Clone, Copy)]
+pub(crate) struct Place {
+    pub(crate) mesh: usize,
+    pub(crate) part: usize,
+}
+
+/// Everything at hand while one primitive is read.
+struct Reader<'a, 'l, 'r> {
+    accessors: &'a Accessors<'a>,
+    primitive: &'a Primitive,
+    user: Item,
+    vertex_count: usize,
+    loading: &'l mut Loading<'r>,
+}
+
+/// The part that `primitive` describes, morphed by `weights`; none where it has no triangles to draw.
+///
+/// # Errors
+///
+/// A list that cannot be read, that has another length than the positions, or a triangle that names a
+/// missing vertex.
+pub(crate) fn read(
+    accessors: &Accessors,
+    primitive: &Primitive,
+    place: Place,
+    weights: &[f32],
+    loading: &mut Loading,
+) -> Result<Option<Part>, SceneError> {
+    let user = Item {
+        kind: "mesh",
+        index: place.mesh,
+    };
+    let Some(index) = attribute(primitive, Semantic::Positions) else {
+        loading.notices.add(format!(
+            "{user} has a part without positions, which is not drawn"
+        ));
+        return Ok(None);
+    };
+    if !topology::is_surface(primitive) {
+        loading
+            .notices
+            .add("points and lines are not drawn, only triangles are");
+        return Ok(None);
+    }
+    let vertex_count = accessors.count(index, user)?;
+    Reader {
+        accessors,
+        primitive,
+        user,
+        vertex_count,
+        loading,
+    }
+    .part(place, weights)
+    .map(Some)
+}
+
+impl Reader<'_, '_, '_> {
+    fn part(mut self, place: Place, weights: &[f32]) -> Result<Part, SceneError> {
+        let uv_set = material::uv_set(self.accessors.root, self.primitive);
+        let (joints, weights_of_joints) = self.joints()?;
+        let mut part = Part {
+            positions: self.list(Semantic::Positions)?.unwrap_or_default(),
+            normals: self.list(Semantic::Normals)?,
+            uvs: self.list(Semantic::TexCoords(uv_set))?,
+            colors: self.colors()?,
+            joints,
+            weights: weights_of_joints,
+            triangles: self.triangles(place)?,
+            material: self.material()?,
+            morphs: self.morphs(weights)?,
+        };
+        apply_morphs(&mut part);
+        Ok(part)
+    }
+
+    fn list<const N: usize>(
+        &mut self,
+        semantic: Semantic,
+    ) -> Result<Option<Vec<[f32; N]>>, SceneError> {
+        attribute(self.primitive, semantic)
+            .map(|index| self.floats(index))
+            .transpose()
+    }
+
+    fn floats<const N: usize>(&mut self, index: usize) -> Result<Vec<[f32; N]>, SceneError> {
+        self.check_count(index)?;
+        self.accessors
+            .floats(index, self.user, &mut self.loading.allowance)
+    }
+
+    fn check_count(&self, accessor: usize) -> Result<(), GltfError> {
+        let count = self.accessors.count(accessor, self.user)?;
+        if count == self.vertex_count {
+            return Ok(());
+        }
+        Err(GltfError::Count {
+            user: self.user,
+            accessor,
+            count,
+            wanted: self.vertex_count,
+        })
+    }
+
+    /// Vertex colours, which come with or without alpha.
+    fn colors(&mut self) -> Result<Option<Vec<[f32; 4]>>, SceneError> {
+        let Some(index) = attribute(self.primitive, Semantic::Colors(0)) else {
+            return Ok(None);
+        };
+        if self.accessors.width(index, self.user)? == 4 {
+            return self.floats(index).map(Some);
+        }
+        let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
+        Ok(Some(self.floats(index)?.into_iter().map(opaque).collect()))
+    }
+
+    #[allow(
+        clippy::type_complexity,
+        reason = "two lists of the part as they are stored"
+    )]
+    fn joints(&mut self) -> Result<(Option<Vec<[u16; 4]>>, Option<Vec<[f32; 4]>>), SceneError> {
+        let joints = attribute(self.primitive, Semantic::Joints(0));
+        let weights = attribute(self.primitive, Semantic::Weights(0));
+        let (Some(joints), Some(weights)) = (joints, weights) else {
+            return Ok((None, None));
+        };
+        if attribute(self.primitive, Semantic::Joints(1)).is_some() {
+            self.loading
+                .notices
+                .add("a vertex follows at most 4 joints, further ones are ignored");
+        }
+        self.check_count(joints)?;
+        let wide = self
+            .accessors
+            .integers::<4>(joints, self.user, &mut self.loading.allowance)?;
+        let weights: Vec<[f32; 4]> = self.floats(weights)?;
+        Ok((Some(narrow_joints(&wide, &weights)), Some(weights)))
+    }
+
+    fn triangles(&mut self, place: Place) -> Result<Vec<[u32; 3]>, SceneError> {
+        let corner_count = match self.primitive.indices {
+            Some(index) => self.accessors.count(index.value(), self.user)?,
+            None => self.vertex_count,
+        };
+        let allowance = &mut self.loading.allowance;
+        allowance.take_triangles(topology::triangle_count(self.primitive, corner_count))?;
+        let corners = match self.primitive.indices {
+            Some(index) => self
+                .accessors
+                .integers(index.value(), self.user, allowance)?,
+            None => (0u32..).take(corner_count).map(|corner| [corner]).collect(),
+        };
+        let triangles = topology::triangles(self.primitive, &corners);
+        self.check_vertices(place, &triangles)?;
+        Ok(triangles)
+    }
+
+    fn check_vertices(
+        &self,
+        Place { mesh, part }: Place,
+        triangles: &[[u32; 3]],
+    ) -> Result<(), GltfError> {
+        let vertex_count = self.vertex_count;
+        let is_missing = |vertex: &u32| *vertex as usize >= vertex_count;
+        let Some(triangle) = triangles
+            .iter()
+            .position(|corners| corners.iter().any(is_missing))
+        else {
+            return Ok(());
+        };
+        let corners = triangles.get(triangle).into_iter().flatten();
+        let vertex = corners.copied().find(is_missing).unwrap_or_default();
+        Err(GltfError::MissingVertex {
+            mesh,
+            part,
+            triangle,
+            vertex,
+            vertex_count,
+        })
+    }
+
+    fn material(&self) -> Result<Option<u32>, GltfError> {
+        let Some(index) = self.primitive.material.as_ref().map(Index::value) else {
+            return Ok(None);
+        };
+        let count = self.accessors.root.materials.len();
+        if index < count {
+            return Ok(Some(index as u32));
+        }
+        Err(GltfError::Missing {
+            user: self.user,
+            item: Item {
+                kind: "material",
+                index,
+            },
+            count,
+        })
+    }
+
+    fn morphs(&mut self, weights: &[f32]) -> Result<Vec<Morph>, SceneError> {
+        let targets = self.primitive.targets.iter().flatten();
+        let weights = weights.iter().copied().chain(std::iter::repeat(0.0));
+        targets
+            .zip(weights)
+            .map(|(target, weight)| self.morph(target, weight))
+            .collect()
+    }
+
+    fn morph(&mut self, target: &MorphTarget, weight: f32) -> Result<Morph, SceneError> {
+        let mut offsets = |index: &Option<Index<Accessor>>| {
+            index.map(|index| self.floats(index.value())).transpose()
+        };
+        let (positions, normals) = (offsets(&target.positions)?, offsets(&target.normals)?);
+        Ok(Morph {
+            applied_weight: if weight.is_finite() { weight } else { 0.0 },
+            positions,
+            normals,
+        })
+    }
+}
+
+fn attribute(primitive: &Primitive, semantic: Semantic) -> Option<usize> {
+    primitive
+        .attributes
+        .get(&Checked::Valid(semantic))
+        .map(Index::value)
+}
+
+/// Joint indices in 16 bits; those without weight become 0, since files leave anything there.
+fn narrow_joints(wide: &[[u32; 4]], weights: &[[f32; 4]]) -> Vec<[u16; 4]> {
+    let narrow = |(joint, weight): (u32, f32)| match weight > 0.0 {
+        true => u16::try_from(joint).unwrap_or(u16::MAX),
+        false => 0,
+    };
+    let vertices = wide.iter().zip(weights);
+    vertices
+        .map(|(&[a, b, c, d], &[p, q, r, s])| [(a, p), (b, q), (c, r), (d, s)].map(narrow))
+        .collect()
+}
+
+fn apply_morphs(part: &mut Part) {
+    for morph in part
+        .morphs
+        .iter()
+        .filter(|morph| morph.applied_weight != 0.0)
+    {
+        add_scaled(
+            &mut part.positions,
+            morph.positions.as_deref(),
+            morph.applied_weight,
+        );
+        if let Some(normals) = &mut part.normals {
+            add_scaled(normals, morph.normals.as_deref(), morph.applied_weight);
+        }
+    }
+}
+
+fn add_scaled(list: &mut [[f32; 3]], offsets: Option<&[[f32; 3]]>, weight: f32) {
+    for (value, offset) in list
+        .iter_mut()
+        .flatten()
+        .zip(offsets.into_iter().flatten().flatten())
+    {
+        *value += offset * weight;
+    }
+}

@@ -1,0 +1,178 @@
+//! Skins: joints and their rest positions.
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::indexing_slicing,
+    clippy::arithmetic_side_effects
+)]
+
+use ::gltf::json::Index;
+use ::gltf::json::skin::Skin as JsonSkin;
+
+use super::accessor::Accessors;
+use super::error::{GltfError, Item};
+use super::tree::Tree;
+use crate::error::SceneError;
+use crate::load::Loading;
+use crate::matrix::{self, Matrix};
+use crate::mesh::Mesh;
+use crate::node::Node;
+use crate::pool::Pool;
+use crate::scene::Scene;
+use crate::shown::shown;
+use crate::skin::Skin;
+
+/// Reads the skins that kept nodes use. A skin that cannot bend its mesh is left out with a notice.
+///
+/// # Errors
+///
+/// A skin or node that does not exist, or bind matrices that cannot be read.
+pub(crate) fn read(
+    accessors: &Accessors,
+    tree: &Tree,
+    scene: &mut Scene,
+    loading: &mut Loading,
+) -> Result<(), SceneError> {
+    let highest: Vec<Option<u16>> = scene.meshes.iter().map(highest_joint).collect();
+    let mut skins: Pool<usize, Skin> = Pool::default();
+    for (node_index, source, node) in tree.nodes_with_source(accessors.root, scene) {
+        let Some(index) = source.skin.as_ref().map(Index::value) else {
+            continue;
+        };
+        let user = Item {
+            kind: "node",
+            index: node_index,
+        };
+        let place = skins.place(index, || read_skin(accessors, tree, index, user, loading))?;
+        let skin = place.and_then(|place| skins.items.get(place as usize));
+        let fits = skin.is_some_and(|skin| fits(node, skin, &highest, loading));
+        node.skin = place.filter(|_| fits);
+    }
+    scene.skins = skins.items;
+    Ok(())
+}
+
+/// The highest joint that a vertex of `mesh` follows; none where a part follows no joints.
+fn highest_joint(mesh: &Mesh) -> Option<u16> {
+    let highest = |joints: &Vec<[u16; 4]>| joints.iter().flatten().copied().max().unwrap_or(0);
+    let parts: Option<Vec<u16>> = mesh
+        .parts
+        .iter()
+        .map(|part| part.joints.as_ref().map(highest))
+        .collect();
+    Some(parts?.into_iter().max().unwrap_or(0))
+}
+
+/// Whether every joint that the mesh of `node` asks for is in `skin`.
+fn fits(node: &Node, skin: &Skin, highest: &[Option<u16>], loading: &mut Loading) -> bool {
+    let highest = node
+        .mesh
+        .and_then(|mesh| highest.get(mesh as usize).copied());
+    let fits = highest
+        .flatten()
+        .is_some_and(|joint| usize::from(joint) < skin.joints.len());
+    if !fits && node.mesh.is_some() {
+        let name = shown(&node.name);
+        loading.notices.add(format!(
+            "the mesh of node '{name}' does not fit its skin and is drawn at rest"
+        ));
+    }
+    fits
+}
+
+fn read_skin(
+    accessors: &Accessors,
+    tree: &Tree,
+    index: usize,
+    user: Item,
+    loading: &mut Loading,
+) -> Result<Option<Skin>, SceneError> {
+    let item = Item {
+        kind: "skin",
+        index,
+    };
+    let skins = &accessors.root.skins;
+    let source = skins.get(index).ok_or(GltfError::Missing {
+        user,
+        item,
+        count: skins.len(),
+    })?;
+    let Some(joints) = joints(accessors, tree, source, item)? else {
+        loading.notices.add(format!(
+            "{item} has joints outside the scene, and its meshes are drawn at rest"
+        ));
+        return Ok(None);
+    };
+    let inverse_bind = inverse_bind(accessors, source, item, loading)?;
+    if !inverse_bind.iter().all(matrix::is_sound) {
+        loading.notices.add(format!(
+            "{item} has bind matrices out of range, and its meshes are drawn at rest"
+        ));
+        return Ok(None);
+    }
+    Ok(Some(Skin {
+        name: source.name.clone().unwrap_or_default(),
+        joints,
+        inverse_bind,
+    }))
+}
+
+/// Where the joints are among the kept nodes; none where one of them is not.
+fn joints(
+    accessors: &Accessors,
+    tree: &Tree,
+    source: &JsonSkin,
+    user: Item,
+) -> Result<Option<Vec<u32>>, GltfError> {
+    let count = accessors.root.nodes.len();
+    let missing = source
+        .joints
+        .iter()
+        .map(Index::value)
+        .find(|&joint| joint >= count);
+    if let Some(index) = missing {
+        return Err(GltfError::Missing {
+            user,
+            item: Item {
+                kind: "node",
+                index,
+            },
+            count,
+        });
+    }
+    Ok(source
+        .joints
+        .iter()
+        .map(|joint| tree.place(joint.value()))
+        .collect())
+}
+
+fn inverse_bind(
+    accessors: &Accessors,
+    source: &JsonSkin,
+    user: Item,
+    loading: &mut Loading,
+) -> Result<Vec<Matrix>, SceneError> {
+    let wanted = source.joints.len();
+    loading.allowance.take::<Matrix>("bind matrices", wanted)?;
+    let Some(index) = source.inverse_bind_matrices.as_ref().map(Index::value) else {
+        return Ok(vec![matrix::IDENTITY; wanted]);
+    };
+    let count = accessors.count(index, user)?;
+    if count < wanted {
+        return Err(GltfError::Count {
+            user,
+            accessor: index,
+            count,
+            wanted,
+        }
+        .into());
+    }
+    let numbers = accessors.floats::<16>(index, user, &mut loading.allowance)?;
+    let columns = |flat: [f32; 16]| {
+        let (columns, _) = flat.as_chunks::<4>();
+        std::array::from_fn(|i| columns.get(i).copied().unwrap_or_default())
+    };
+    Ok(numbers.into_iter().take(wanted).map(columns).collect())
+}

@@ -1,0 +1,71 @@
+//! Scenes from files.
+//!
+//! [`load`] turns a glTF, VRM, OBJ, STL or PLY file into a [`Scene`]: plain lists whose indices are all
+//! in range and whose numbers are all finite, so that nothing downstream has to check again. What
+//! cannot be mended is a [`SceneError`] that names the place in the file; what was ignored or mended is
+//! a [`Notice`].
+//!
+//! ```
+//! use npr_scene::{Limits, MemoryResources, load_bytes};
+//!
+//! let triangle = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+//! let scene = load_bytes("triangle.obj", triangle, None, &MemoryResources::default(), &Limits::default())?;
+//! assert_eq!(scene.triangle_count(), 1);
+//! assert_eq!(scene.bounds_world(), Some(([0.0; 3], [1.0, 1.0, 0.0])));
+//! # Ok::<(), npr_scene::SceneError>(())
+//! ```
+//!
+//! Files are hostile until proven sound: sizes are checked against [`Limits`] before memory is
+//! planned, trees are walked without recursion, and other files are reached only through
+//! [`Resources`], which [`FolderResources`] confines to the scene's own folder.
+
+mod camera;
+mod decode;
+mod error;
+mod format;
+mod gltf;
+mod image;
+mod light;
+mod limits;
+mod load;
+mod material;
+mod matrix;
+mod mesh;
+mod node;
+mod notice;
+mod obj;
+mod ply;
+mod polygon;
+mod pool;
+mod pose;
+mod reach;
+mod resources;
+mod scene;
+mod shown;
+mod skin;
+mod soundness;
+mod stl;
+#[cfg(any(test, feature = "testing"))]
+pub mod testing;
+mod uri;
+mod words;
+
+pub use camera::{Camera, Projection};
+pub use error::SceneError;
+pub use format::Format;
+pub use gltf::{GltfError, Item};
+pub use image::Image;
+pub use light::{Light, LightKind};
+pub use limits::{LimitError, Limits};
+pub use load::{LoadOptions, load, load_bytes};
+pub use material::{AlphaMode, Material, TextureTransform, TextureUse, Wrap};
+pub use matrix::Matrix;
+pub use mesh::{Mesh, Morph, POSITION_LIMIT, Part};
+pub use node::Node;
+pub use notice::Notice;
+pub use obj::ObjError;
+pub use ply::PlyError;
+pub use resources::{FolderResources, MemoryResources, ResourceError, Resources};
+pub use scene::Scene;
+pub use skin::Skin;
+pub use stl::StlError;

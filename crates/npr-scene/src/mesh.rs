@@ -1,0 +1,103 @@
+//! Meshes: triangles that share a node.
+
+/// Largest magnitude of a position coordinate that counts as in range.
+///
+/// Squares and products with transforms of the same size stay finite in `f32`; anything larger in a
+/// file is a fault rather than a shape.
+pub const POSITION_LIMIT: f32 = 1e18;
+
+/// What one node draws.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Mesh {
+    /// Name as in the file; empty where it has none.
+    pub name: String,
+    /// One part per material.
+    pub parts: Vec<Part>,
+}
+
+/// Triangles of one material.
+///
+/// All vertex lists are as long as `positions`. Triangles wind counter-clockwise seen from outside,
+/// may be degenerate, and name existing vertices only.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Part {
+    /// Vertex positions in mesh space, morphed by the default weights.
+    pub positions: Vec<[f32; 3]>,
+    /// Vertex normals, finite and near unit length; none asks for flat shading.
+    pub normals: Option<Vec<[f32; 3]>>,
+    /// Coordinates for the base colour texture, from the set that the material asks for; the origin
+    /// is the upper left corner of the image.
+    pub uvs: Option<Vec<[f32; 2]>>,
+    /// Vertex colours in linear light with straight alpha, each 0..1.
+    pub colors: Option<Vec<[f32; 4]>>,
+    /// Indices into the joints of the node's skin.
+    pub joints: Option<Vec<[u16; 4]>>,
+    /// Shares of the four joints, none negative, summing to one.
+    pub weights: Option<Vec<[f32; 4]>>,
+    /// Vertices of each triangle.
+    pub triangles: Vec<[u32; 3]>,
+    /// Index into the scene's materials.
+    pub material: Option<u32>,
+    /// Morph targets in file order; all parts of a mesh are meant to have the same number.
+    pub morphs: Vec<Morph>,
+}
+
+/// One morph target: offsets that a weight scales and adds.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Morph {
+    /// The weight already worked into the part's positions and normals.
+    pub applied_weight: f32,
+    /// Offset of each position.
+    pub positions: Option<Vec<[f32; 3]>>,
+    /// Offset of each normal.
+    pub normals: Option<Vec<[f32; 3]>>,
+}
+
+impl Part {
+    /// Asserts what the type promises.
+    ///
+    /// # Panics
+    ///
+    /// When a list has another length than `positions`, an index is out of range, or a number that
+    /// reaches a picture is not finite.
+    pub fn sanity_check(&self) {
+        let count = self.positions.len();
+        assert!(
+            self.triangles
+                .iter()
+                .flatten()
+                .all(|&v| (v as usize) < count),
+            "vertex in range"
+        );
+        assert!(
+            self.positions
+                .iter()
+                .flatten()
+                .all(|v| v.abs() <= POSITION_LIMIT),
+            "sound position"
+        );
+        check_list(&self.normals, count);
+        check_list(&self.uvs, count);
+        check_list(&self.colors, count);
+        check_list(&self.weights, count);
+        assert!(
+            self.joints
+                .as_ref()
+                .is_none_or(|joints| joints.len() == count),
+            "list length"
+        );
+        for morph in &self.morphs {
+            check_list(&morph.positions, count);
+            check_list(&morph.normals, count);
+        }
+    }
+}
+
+fn check_list<const N: usize>(list: &Option<Vec<[f32; N]>>, count: usize) {
+    let Some(list) = list else { return };
+    assert_eq!(list.len(), count, "list length");
+    assert!(
+        list.iter().flatten().all(|v| v.is_finite()),
+        "finite attribute"
+    );
+}

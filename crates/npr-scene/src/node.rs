@@ -1,0 +1,53 @@
+//! Nodes: where things stand.
+
+use crate::matrix::{self, Matrix};
+
+/// One place in the scene's tree, with what stands there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Node {
+    /// Name as in the file; empty where it has none.
+    pub name: String,
+    /// The node this one hangs on, always earlier in the list.
+    pub parent: Option<u32>,
+    /// The nodes that hang on this one.
+    pub children: Vec<u32>,
+    /// Parent space from node space, column-major.
+    pub local: Matrix,
+    /// World space from node space, column-major.
+    pub world_from_node: Matrix,
+    /// Index of the mesh drawn here.
+    pub mesh: Option<u32>,
+    /// Index of the skin that deforms the mesh.
+    pub skin: Option<u32>,
+    /// Index of the camera that looks along -Z from here.
+    pub camera: Option<u32>,
+    /// Index of the light that shines along -Z from here.
+    pub light: Option<u32>,
+}
+
+impl Default for Node {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            parent: None,
+            children: Vec::new(),
+            local: matrix::IDENTITY,
+            world_from_node: matrix::IDENTITY,
+            mesh: None,
+            skin: None,
+            camera: None,
+            light: None,
+        }
+    }
+}
+
+impl Node {
+    /// A root at the origin with one mesh.
+    pub(crate) fn holding(mesh: u32, name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            mesh: Some(mesh),
+            ..Self::default()
+        }
+    }
+}

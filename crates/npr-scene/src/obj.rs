@@ -1,0 +1,217 @@
+//! Wavefront OBJ files: polygons, groups, and the base colours of their material libraries.
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::indexing_slicing,
+    clippy::arithmetic_side_effects
+)]
+
+pub(crate) mod corner;
+pub(crate) mod group;
+pub(crate) mod library;
+
+use std::borrow::Cow;
+
+use npr_core::color::linear_from_srgb;
+
+use crate::error::SceneError;
+use crate::load::Loading;
+use crate::mesh::Mesh;
+use crate::scene::Scene;
+use crate::words::{number, numbered_lines, triple, words};
+use corner::Tables;
+use group::Groups;
+use library::Library;
+
+/// What is wrong with an OBJ file.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ObjError {
+    /// A vertex, normal or texture coordinate lacks numbers.
+    #[error("line {line}: {what} needs {wanted} numbers")]
+    Numbers {
+        /// Line, counted from 1.
+        line: usize,
+        /// What the line defines.
+        what: &'static str,
+        /// How many numbers it needs.
+        wanted: usize,
+    },
+    /// A corner of a face is no index.
+    #[error(
+        "line {line}: face {face} has the corner '{}', which is no index",
+        crate::shown::shown(corner)
+    )]
+    Corner {
+        /// Line, counted from 1.
+        line: usize,
+        /// Which face, counted from 1.
+        face: usize,
+        /// The corner as read.
+        corner: String,
+    },
+    /// A face has too few corners.
+    #[error("line {line}: face {face} has only {corner_count} corners")]
+    FewCorners {
+        /// Line, counted from 1.
+        line: usize,
+        /// Which face, counted from 1.
+        face: usize,
+        /// How many corners it has.
+        corner_count: usize,
+    },
+    /// A face names something that was not defined before it.
+    #[error(
+        "line {line}: face {face} uses {what} {index}, but only {count} are defined so far, counted from 1"
+    )]
+    Missing {
+        /// Line, counted from 1.
+        line: usize,
+        /// Which face, counted from 1.
+        face: usize,
+        /// What it names: a vertex, a normal or a texture coordinate.
+        what: &'static str,
+        /// The index as read.
+        index: i64,
+        /// How many are defined before the line.
+        count: usize,
+    },
+}
+
+/// Reads an OBJ file.
+pub(crate) fn read(bytes: &[u8], loading: &mut Loading) -> Result<Scene, SceneError> {
+    let text = join_continued_lines(bytes);
+    let mut reader = Reader::default();
+    for (line, text) in numbered_lines(&text) {
+        reader.statement(line, text, loading)?;
+    }
+    reader.scene(loading)
+}
+
+/// Joins lines that end in a backslash with the next one.
+fn join_continued_lines(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let is_continued = |line: &[u8]| line.trim_ascii_end().ends_with(b"\\");
+    if !bytes.contains(&b'\\') || !bytes.split(|&byte| byte == b'\n').any(is_continued) {
+        return Cow::Borrowed(bytes);
+    }
+    let mut joined = Vec::with_capacity(bytes.len());
+    for line in bytes.split(|&byte| byte == b'\n') {
+        match line.trim_ascii_end().strip_suffix(b"\\") {
+            Some(start) => joined.extend(start.iter().chain(b" ")),
+            None => joined.extend(line.iter().chain(b"\n")),
+        }
+    }
+    Cow::Owned(joined)
+}
+
+#[derive(Default)]
+struct Reader {
+    tables: Tables,
+    groups: Groups,
+    library: Library,
+    face_count: usize,
+}
+
+impl Reader {
+    fn statement(
+        &mut self,
+        line: usize,
+        text: &[u8],
+        loading: &mut Loading,
+    ) -> Result<(), SceneError> {
+        let text = text
+            .split(|&byte| byte == b'#')
+            .next()
+            .unwrap_or_default()
+            .trim_ascii();
+        let (word, rest) = text
+            .split_at_checked(keyword_length(text))
+            .unwrap_or_default();
+        match word {
+            b"v" => self.vertex(line, rest)?,
+            b"vn" => self.tables.normals.push(numbers(line, "a normal", rest)?),
+            b"vt" => self.texture_coordinate(line, rest)?,
+            b"f" => self.face(line, rest, loading)?,
+            b"o" | b"g" => self.groups.open(&name(rest), loading)?,
+            b"usemtl" => self
+                .groups
+                .set_material(self.library.index(rest.trim_ascii())),
+            b"mtllib" => self.library.load(rest.trim_ascii(), loading),
+            b"p" | b"l" => loading
+                .notices
+                .add("points and lines are not drawn, only faces are"),
+            b"curv" | b"curv2" | b"surf" => loading
+                .notices
+                .add("curves and curved surfaces are not drawn, only faces are"),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// A position, perhaps with a colour; a fourth number alone is a weight and is ignored.
+    fn vertex(&mut self, line: usize, rest: &[u8]) -> Result<(), ObjError> {
+        self.tables.positions.push(numbers(line, "a vertex", rest)?);
+        let color = triple(&mut words(rest).skip(3)).map(|color| color.map(linear_from_srgb));
+        self.tables.push_color(color);
+        Ok(())
+    }
+
+    /// OBJ measures v from the lower edge of the image, glTF from the upper.
+    fn texture_coordinate(&mut self, line: usize, rest: &[u8]) -> Result<(), ObjError> {
+        let mut words = words(rest);
+        let u = words.next().and_then(number);
+        let v = words.next().map_or(Some(0.0), number);
+        let (Some(u), Some(v)) = (u, v) else {
+            return Err(ObjError::Numbers {
+                line,
+                what: "a texture coordinate",
+                wanted: 2,
+            });
+        };
+        self.tables.uvs.push([u, 1.0 - v]);
+        Ok(())
+    }
+
+    fn face(&mut self, line: usize, rest: &[u8], loading: &mut Loading) -> Result<(), SceneError> {
+        self.face_count = self.face_count.saturating_add(1);
+        let corners = self.tables.corners(line, self.face_count, rest)?;
+        Ok(self.groups.add_face(&corners, loading)?)
+    }
+
+    fn scene(self, loading: &mut Loading) -> Result<Scene, SceneError> {
+        let mut meshes = Vec::new();
+        for group in self.groups.into_list() {
+            let parts = group
+                .parts
+                .into_iter()
+                .map(|(material, corners)| self.tables.part(material, &corners, loading));
+            meshes.push(Mesh {
+                name: group.name,
+                parts: parts.collect::<Result<_, _>>()?,
+            });
+        }
+        let (materials, images) = self.library.finish(loading)?;
+        let mut scene = Scene::of_meshes(meshes, materials);
+        scene.images = images;
+        Ok(scene)
+    }
+}
+
+fn keyword_length(text: &[u8]) -> usize {
+    text.iter()
+        .position(u8::is_ascii_whitespace)
+        .unwrap_or(text.len())
+}
+
+fn numbers(line: usize, what: &'static str, rest: &[u8]) -> Result<[f32; 3], ObjError> {
+    triple(&mut words(rest)).ok_or(ObjError::Numbers {
+        line,
+        what,
+        wanted: 3,
+    })
+}
+
+fn name(rest: &[u8]) -> String {
+    String::from_utf8_lossy(rest.trim_ascii()).into_owned()
+}

@@ -1,0 +1,182 @@
+//! A loaded scene: plain data whose indices are all in range.
+
+use crate::camera::Camera;
+use crate::image::Image;
+use crate::light::Light;
+use crate::material::Material;
+use crate::mesh::{Mesh, POSITION_LIMIT, Part};
+use crate::node::Node;
+use crate::notice::Notice;
+use crate::skin::Skin;
+
+/// Everything of a file that can be drawn.
+///
+/// Every index names an element that exists, every position is finite and within
+/// [`POSITION_LIMIT`](crate::POSITION_LIMIT), and every transform is finite. Y is up and a character
+/// looks along +Z, as in glTF.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Scene {
+    /// Name of the drawn scene, or of the file where it has none.
+    pub name: String,
+    /// Nodes of the default scene; a parent always precedes its children.
+    pub nodes: Vec<Node>,
+    /// Meshes that nodes use. A mesh with two sets of morph weights appears twice.
+    pub meshes: Vec<Mesh>,
+    /// Materials of the file; those that no part uses come without their image.
+    pub materials: Vec<Material>,
+    /// Decoded base colour images.
+    pub images: Vec<Image>,
+    /// Cameras that nodes use.
+    pub cameras: Vec<Camera>,
+    /// Lights that nodes use.
+    pub lights: Vec<Light>,
+    /// Skins that nodes use.
+    pub skins: Vec<Skin>,
+    /// What was ignored or mended, each thing once.
+    pub notices: Vec<Notice>,
+    /// Names of the glTF extensions that the file says it uses.
+    pub extensions_used: Vec<String>,
+    /// The program that wrote the file, by its own account.
+    pub generator: Option<String>,
+    /// Size of the file itself in bytes, without the files it refers to.
+    pub file_bytes: u64,
+}
+
+impl Scene {
+    /// Triangles as stored: an instanced mesh counts once.
+    pub fn triangle_count(&self) -> usize {
+        self.parts().map(|part| part.triangles.len()).sum()
+    }
+
+    /// Vertices as stored: an instanced mesh counts once.
+    pub fn vertex_count(&self) -> usize {
+        self.parts().map(|part| part.positions.len()).sum()
+    }
+
+    /// Lowest and highest corner of all drawn vertices in world space, in the pose of the file; none
+    /// where nothing is drawn. O(corners of triangles).
+    pub fn bounds_world(&self) -> Option<([f32; 3], [f32; 3])> {
+        let mut low = [f32::INFINITY; 3];
+        let mut high = [f32::NEG_INFINITY; 3];
+        for (node, part) in self.drawn_parts() {
+            let placed = self.positions_world(node, part);
+            for position in part
+                .triangles
+                .iter()
+                .flatten()
+                .map(|&vertex| placed[vertex as usize])
+            {
+                low = std::array::from_fn(|axis| low[axis].min(position[axis]));
+                high = std::array::from_fn(|axis| high[axis].max(position[axis]));
+            }
+        }
+        (low[0] <= high[0]).then_some((low, high))
+    }
+
+    /// Every part as often as it is drawn, with the node that draws it, in node order.
+    pub fn drawn_parts(&self) -> impl Iterator<Item = (&Node, &Part)> {
+        self.nodes.iter().flat_map(|node| {
+            let mesh = node.mesh.map(|mesh| &self.meshes[mesh as usize]);
+            mesh.into_iter()
+                .flat_map(move |mesh| mesh.parts.iter().map(move |part| (node, part)))
+        })
+    }
+
+    fn parts(&self) -> impl Iterator<Item = &Part> {
+        self.meshes.iter().flat_map(|mesh| &mesh.parts)
+    }
+
+    /// A scene with one node per mesh, all at the origin.
+    pub(crate) fn of_meshes(meshes: Vec<Mesh>, materials: Vec<Material>) -> Self {
+        let nodes = (0u32..)
+            .zip(&meshes)
+            .map(|(index, mesh)| Node::holding(index, &mesh.name))
+            .collect();
+        Self {
+            nodes,
+            meshes,
+            materials,
+            ..Self::default()
+        }
+    }
+
+    /// Asserts what the type promises: ordered nodes, indices in range, finite numbers.
+    ///
+    /// # Panics
+    ///
+    /// When a promise is broken, naming it. Tests and fuzz targets call it on every scene they load.
+    pub fn sanity_check(&self) {
+        for (index, node) in self.nodes.iter().enumerate() {
+            self.check_node(index, node);
+        }
+        if let Some((low, high)) = self.bounds_world() {
+            let is_sound = |v: &f32| v.abs() <= POSITION_LIMIT;
+            assert!(
+                low.iter().chain(&high).all(is_sound),
+                "sound world position"
+            );
+        }
+        for part in self.parts() {
+            part.sanity_check();
+            assert_in(part.material, self.materials.len(), "material");
+        }
+        for material in &self.materials {
+            let image = material
+                .base_color_texture
+                .as_ref()
+                .map(|texture| texture.image);
+            assert_in(image, self.images.len(), "image");
+        }
+        for skin in &self.skins {
+            assert_eq!(
+                skin.joints.len(),
+                skin.inverse_bind.len(),
+                "one bind matrix per joint"
+            );
+            skin.joints
+                .iter()
+                .for_each(|&joint| assert_in(Some(joint), self.nodes.len(), "joint"));
+        }
+    }
+
+    fn check_node(&self, index: usize, node: &Node) {
+        assert_in(node.parent, index, "parent before child");
+        assert_in(node.mesh, self.meshes.len(), "mesh");
+        assert_in(node.skin, self.skins.len(), "skin");
+        assert_in(node.camera, self.cameras.len(), "camera");
+        assert_in(node.light, self.lights.len(), "light");
+        for &child in &node.children {
+            let child = &self.nodes[child as usize];
+            assert_eq!(
+                child.parent,
+                Some(index as u32),
+                "children name their parent"
+            );
+        }
+        assert!(
+            node.world_from_node.iter().flatten().all(|v| v.is_finite()),
+            "finite transform"
+        );
+        if let (Some(mesh), Some(skin)) = (node.mesh, node.skin) {
+            let joint_count = self.skins[skin as usize].joints.len();
+            let joints = self.meshes[mesh as usize]
+                .parts
+                .iter()
+                .filter_map(|part| part.joints.as_ref());
+            assert!(
+                joints
+                    .flatten()
+                    .flatten()
+                    .all(|&joint| usize::from(joint) < joint_count),
+                "joints of the skin"
+            );
+        }
+    }
+}
+
+fn assert_in(index: Option<u32>, count: usize, what: &str) {
+    assert!(
+        index.is_none_or(|index| (index as usize) < count),
+        "{what} {index:?} of {count}"
+    );
+}

@@ -1,0 +1,213 @@
+//! Small valid files made in memory, for tests, fuzzing and benches.
+
+/// A binary glTF file of `json` and, unless it is empty, `bin`.
+pub fn glb(json: &str, bin: &[u8]) -> Vec<u8> {
+    let mut chunks = glb_chunk(0x4E4F_534A, &padded(json.as_bytes(), b' '));
+    if !bin.is_empty() {
+        chunks.extend(glb_chunk(0x004E_4942, &padded(bin, 0)));
+    }
+    let mut file = b"glTF\x02\0\0\0".to_vec();
+    file.extend((12 + chunks.len() as u32).to_le_bytes());
+    file.extend(chunks);
+    file
+}
+
+/// One chunk of a binary glTF file: length, kind, bytes.
+pub fn glb_chunk(kind: u32, bytes: &[u8]) -> Vec<u8> {
+    let mut chunk = (bytes.len() as u32).to_le_bytes().to_vec();
+    chunk.extend(kind.to_le_bytes());
+    chunk.extend(bytes);
+    chunk
+}
+
+fn padded(bytes: &[u8], filler: u8) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    bytes.resize(bytes.len().next_multiple_of(4), filler);
+    bytes
+}
+
+/// A wavy sheet in the xz plane, as raw lists that every format can be written from.
+pub struct Sheet {
+    /// Positions, row by row.
+    pub positions: Vec<[f32; 3]>,
+    /// Triangles, two per cell.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl Sheet {
+    /// A sheet of `side` x `side` cells: `2 * side * side` triangles.
+    pub fn new(side: u32) -> Self {
+        let corner = |i: u32| (i % (side + 1), i / (side + 1));
+        let height = |x: u32, z: u32| ((x * 7 + z * 13) % 11) as f32 * 0.01;
+        let position = |(x, z): (u32, u32)| [x as f32, height(x, z), z as f32];
+        let positions = (0..(side + 1) * (side + 1))
+            .map(|i| position(corner(i)))
+            .collect();
+        let triangles = (0..side * side)
+            .flat_map(|cell| cell_triangles(cell % side, cell / side, side))
+            .collect();
+        Self {
+            positions,
+            triangles,
+        }
+    }
+
+    /// The sheet as a binary glTF file.
+    pub fn glb(&self) -> Vec<u8> {
+        let mut bin = bytes_of(&self.positions, f32::to_le_bytes);
+        let position_bytes = bin.len();
+        bin.extend(bytes_of(&self.triangles, u32::to_le_bytes));
+        let json = format!(
+            r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],
+            "nodes":[{{"name":"sheet","mesh":0,"translation":[0,1,0]}}],
+            "meshes":[{{"name":"sheet","primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}}],
+            "accessors":[{{"bufferView":0,"componentType":5126,"count":{},"type":"VEC3"}},
+              {{"bufferView":1,"componentType":5125,"count":{},"type":"SCALAR"}}],
+            "bufferViews":[{{"buffer":0,"byteLength":{position_bytes}}},
+              {{"buffer":0,"byteOffset":{position_bytes},"byteLength":{}}}],
+            "buffers":[{{"byteLength":{}}}]}}"#,
+            self.positions.len(),
+            self.triangles.len() * 3,
+            bin.len() - position_bytes,
+            bin.len(),
+        );
+        glb(&json, &bin)
+    }
+
+    /// The sheet as an OBJ file.
+    pub fn obj(&self) -> Vec<u8> {
+        let vertices = self
+            .positions
+            .iter()
+            .map(|[x, y, z]| format!("v {x} {y} {z}\n"));
+        let faces = self
+            .triangles
+            .iter()
+            .map(|t| format!("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1));
+        vertices.chain(faces).collect::<String>().into_bytes()
+    }
+
+    /// The sheet as a binary STL file.
+    pub fn stl(&self) -> Vec<u8> {
+        let mut file = vec![0; 80];
+        file.extend((self.triangles.len() as u32).to_le_bytes());
+        for triangle in &self.triangles {
+            let corners = triangle.map(|vertex| self.positions[vertex as usize]);
+            file.extend([0; 12]);
+            file.extend(bytes_of(&corners, f32::to_le_bytes));
+            file.extend([0; 2]);
+        }
+        file
+    }
+
+    /// The sheet as a text STL file.
+    pub fn stl_text(&self) -> Vec<u8> {
+        let vertex = |[x, y, z]: [f32; 3]| format!("vertex {x} {y} {z}\n");
+        let facet = |triangle: &[u32; 3]| {
+            let corners: String = triangle
+                .iter()
+                .map(|&i| vertex(self.positions[i as usize]))
+                .collect();
+            format!("facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
+        };
+        let facets: String = self.triangles.iter().map(facet).collect();
+        format!("solid sheet\n{facets}endsolid sheet\n").into_bytes()
+    }
+
+    /// The sheet as a PLY file of little-endian numbers.
+    pub fn ply(&self) -> Vec<u8> {
+        let mut file = self.ply_header("binary_little_endian");
+        file.extend(bytes_of(&self.positions, f32::to_le_bytes));
+        for triangle in &self.triangles {
+            file.push(3);
+            file.extend(bytes_of(&[*triangle], u32::to_le_bytes));
+        }
+        file
+    }
+
+    /// The sheet as a PLY file of big-endian numbers.
+    pub fn ply_big_endian(&self) -> Vec<u8> {
+        let mut file = self.ply_header("binary_big_endian");
+        file.extend(bytes_of(&self.positions, f32::to_be_bytes));
+        for triangle in &self.triangles {
+            file.push(3);
+            file.extend(bytes_of(&[*triangle], u32::to_be_bytes));
+        }
+        file
+    }
+
+    /// The sheet as a PLY file of text.
+    pub fn ply_text(&self) -> Vec<u8> {
+        let vertices = self
+            .positions
+            .iter()
+            .map(|[x, y, z]| format!("{x} {y} {z}\n"));
+        let faces = self
+            .triangles
+            .iter()
+            .map(|[a, b, c]| format!("3 {a} {b} {c}\n"));
+        let mut file = self.ply_header("ascii");
+        file.extend(vertices.chain(faces).collect::<String>().into_bytes());
+        file
+    }
+
+    fn ply_header(&self, format: &str) -> Vec<u8> {
+        let (vertices, faces) = (self.positions.len(), self.triangles.len());
+        format!(
+            "ply\nformat {format} 1.0\nelement vertex {vertices}\nproperty float x\nproperty float y\nproperty float z\n\
+             element face {faces}\nproperty list uchar int vertex_indices\nend_header\n"
+        )
+        .into_bytes()
+    }
+}
+
+fn cell_triangles(x: u32, z: u32, side: u32) -> [[u32; 3]; 2] {
+    let a = z * (side + 1) + x;
+    let (b, c) = (a + 1, a + side + 1);
+    [[a, c, b], [b, c, c + 1]]
+}
+
+fn bytes_of<T: Copy, const N: usize>(rows: &[[T; N]], bytes: impl Fn(T) -> [u8; 4]) -> Vec<u8> {
+    rows.iter()
+        .flatten()
+        .flat_map(|&value| bytes(value))
+        .collect()
+}
+
+/// A triangle bent by two joints, with a morph target, as a binary glTF file.
+pub fn skinned_glb() -> Vec<u8> {
+    let mut bin = bytes_of(&TRIANGLE, f32::to_le_bytes);
+    bin.extend([0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0]);
+    bin.extend(bytes_of(&[[0.5f32, 1.5, 0.0, 0.0]; 3], f32::to_le_bytes));
+    bin.extend(bytes_of(&[[0.0f32, 0.0, 2.0]; 3], f32::to_le_bytes));
+    let json = r#"{"asset":{"version":"2.0"},"scenes":[{"name":"bent","nodes":[0,1]}],
+        "nodes":[{"name":"body","mesh":0,"skin":0},{"name":"hip","children":[2]},{"name":"knee","translation":[0,1,0]}],
+        "skins":[{"joints":[1,2]}],
+        "meshes":[{"weights":[0.5],"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2},
+          "targets":[{"POSITION":3}]}]}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
+          {"bufferView":1,"componentType":5121,"count":3,"type":"VEC4"},
+          {"bufferView":2,"componentType":5126,"count":3,"type":"VEC4"},
+          {"bufferView":3,"componentType":5126,"count":3,"type":"VEC3"}],
+        "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":12},
+          {"buffer":0,"byteOffset":48,"byteLength":48},{"buffer":0,"byteOffset":96,"byteLength":36}],
+        "buffers":[{"byteLength":132}]}"#;
+    glb(json, &bin)
+}
+
+/// A triangle whose second vertex a sparse accessor replaces by (9, 9, 9), as a binary glTF file.
+pub fn sparse_glb() -> Vec<u8> {
+    let mut bin = bytes_of(&TRIANGLE, f32::to_le_bytes);
+    bin.extend([1, 0, 0, 0]);
+    bin.extend(bytes_of(&[[9.0f32; 3]], f32::to_le_bytes));
+    let json = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":1,
+          "indices":{"bufferView":1,"componentType":5123},"values":{"bufferView":2}}}],
+        "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":2},
+          {"buffer":0,"byteOffset":40,"byteLength":12}],
+        "buffers":[{"byteLength":52}]}"#;
+    glb(json, &bin)
+}
+
+const TRIANGLE: [[f32; 3]; 3] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];

@@ -1,0 +1,96 @@
+//! Damaged files never panic, and what still loads is sound.
+
+use npr_scene::testing::{Sheet, skinned_glb, sparse_glb};
+use npr_scene::{Format, Limits, MemoryResources, load_bytes};
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+
+/// What happens to a few bytes of a file.
+#[derive(Debug, Clone)]
+enum Damage {
+    Set(usize, u8),
+    Flip(usize, u8),
+    Cut(usize),
+    Repeat(usize, usize),
+}
+
+fn damage() -> impl Strategy<Value = Damage> {
+    prop_oneof![
+        4 => (any::<usize>(), any::<u8>()).prop_map(|(at, byte)| Damage::Set(at, byte)),
+        4 => (any::<usize>(), 0u8..8).prop_map(|(at, bit)| Damage::Flip(at, bit)),
+        2 => (any::<usize>(), b'0'..=b'9').prop_map(|(at, digit)| Damage::Set(at, digit)),
+        1 => any::<usize>().prop_map(Damage::Cut),
+        1 => (any::<usize>(), 1usize..40).prop_map(|(at, count)| Damage::Repeat(at, count)),
+    ]
+}
+
+fn apply(file: &mut Vec<u8>, damage: &Damage) {
+    if file.is_empty() {
+        return;
+    }
+    let length = file.len();
+    match *damage {
+        Damage::Set(at, byte) => file[at % length] = byte,
+        Damage::Flip(at, bit) => file[at % length] ^= 1 << bit,
+        Damage::Cut(at) => file.truncate(at % length),
+        Damage::Repeat(at, count) => {
+            let start = at % length;
+            let piece = file[start..length.min(start + count)].to_vec();
+            file.splice(start..start, piece);
+        }
+    }
+}
+
+fn survives(mut file: Vec<u8>, format: Format, damages: &[Damage]) {
+    damages.iter().for_each(|damage| apply(&mut file, damage));
+    let limits = Limits {
+        memory_bytes: 64 << 20,
+        ..Limits::default()
+    };
+    if let Ok(scene) = load_bytes(
+        "mutant",
+        &file,
+        Some(format),
+        &MemoryResources::default(),
+        &limits,
+    ) {
+        scene.sanity_check();
+        scene.bounds_world();
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1000, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
+
+    #[test]
+    fn binary_gltf(damages in prop::collection::vec(damage(), 1..5)) {
+        survives(Sheet::new(3).glb(), Format::Glb, &damages);
+        survives(skinned_glb(), Format::Glb, &damages);
+        survives(sparse_glb(), Format::Glb, &damages);
+    }
+
+    #[test]
+    fn obj(damages in prop::collection::vec(damage(), 1..5)) {
+        survives(Sheet::new(3).obj(), Format::Obj, &damages);
+    }
+
+    #[test]
+    fn stl(damages in prop::collection::vec(damage(), 1..5)) {
+        survives(Sheet::new(3).stl(), Format::Stl, &damages);
+        survives(Sheet::new(3).stl_text(), Format::Stl, &damages);
+    }
+
+    #[test]
+    fn ply(damages in prop::collection::vec(damage(), 1..5)) {
+        survives(Sheet::new(3).ply(), Format::Ply, &damages);
+        survives(Sheet::new(3).ply_big_endian(), Format::Ply, &damages);
+        survives(Sheet::new(3).ply_text(), Format::Ply, &damages);
+    }
+
+    #[test]
+    fn any_bytes_of_any_format(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        for format in [Format::Glb, Format::Gltf, Format::Obj, Format::Stl, Format::Ply] {
+            survives(bytes.clone(), format, &[]);
+        }
+    }
+}

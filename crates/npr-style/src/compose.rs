@@ -1,0 +1,417 @@
+//! Surfaces shaded by their ramps, lines over them, background behind: the twin of `shade.compose_frame`.
+
+use bytemuck::{Pod, Zeroable};
+use npr_core::color::{SrgbEncoder, pack_rgba8};
+use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
+use npr_core::gpu_layout;
+use npr_core::raster::{HULL_BIT, ID_MASK};
+use npr_core::surface::{blend2, blend3, dot, faces_eye, unit_or_z, weights_at};
+use npr_core::texture;
+use npr_core::window::{View, Window};
+use rayon::prelude::*;
+
+/// Settings of the last pass.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct Compose {
+    /// Unit vector towards the light, in the world.
+    pub light_world: [f32; 3],
+    /// Samples per pixel along each axis, 1 or 2.
+    pub samples: u32,
+    /// Background colour, linear light, straight alpha.
+    pub background: [f32; 4],
+    /// Colour of lines drawn straight from the mask, sRGB, straight alpha.
+    pub line_color: [f32; 4],
+    /// Header of the background texture, or [`NONE`].
+    pub background_texture: u32,
+    /// Bits of [`Compose::MASK`] to [`Compose::STAMPS`].
+    pub flags: u32,
+    /// Strength of surface colours: 0 grey, 1 as they are.
+    pub saturation: f32,
+    /// Keeps the size a multiple of 16 bytes.
+    pub unused: u32,
+}
+gpu_layout!(Compose {
+    light_world,
+    samples,
+    background,
+    line_color,
+    background_texture,
+    flags,
+    saturation,
+    unused,
+});
+
+impl Compose {
+    /// Draws the mask itself: the image filter.
+    pub const MASK: u32 = 1;
+    /// Draws surfaces that turn from the eye as lines.
+    pub const ANGLE: u32 = 2;
+    /// Lays the ribbons over the surfaces.
+    pub const RIBBONS: u32 = 4;
+    /// Lays the stamps over the surfaces.
+    pub const STAMPS: u32 = 8;
+}
+
+/// The bits of a mask pixel that say which buffers found it.
+const MASK_KINDS: u32 = 15;
+
+/// How far beside a triangle's corners its tone may reach, in ramp coordinate: blended normals bulge a little.
+const TONE_ROOM: f32 = 0.02;
+
+/// Share of each channel in luminance [ITU-R BT.709].
+const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
+
+/// What a frame is composed from.
+#[derive(Debug, Clone, Copy)]
+pub struct Layers<'a> {
+    /// Camera and frame.
+    pub view: &'a View,
+    /// The pixel grid of the output.
+    pub window: &'a Window,
+    /// The pixel grid of the mask.
+    pub mask_window: &'a Window,
+    /// Settings.
+    pub compose: &'a Compose,
+    /// Triangle numbers, `samples` times the output's size each way.
+    pub ids: &'a [u32],
+    /// Ribbons, sRGB bytes with coverage in alpha.
+    pub ribbons: &'a [u32],
+    /// Posed vertices.
+    pub posed: &'a [PosedVertex],
+    /// Stored vertices.
+    pub vertices: &'a [Vertex],
+    /// Triangles.
+    pub triangles: &'a [Triangle],
+    /// Parts.
+    pub parts: &'a [Part],
+    /// The texture store.
+    pub texels: &'a [u32],
+    /// The mask.
+    pub mask: &'a [u32],
+    /// Stamps, sRGB bytes with coverage in alpha.
+    pub stamped: &'a [u32],
+}
+
+/// Composes the output as sRGB bytes with straight alpha.
+///
+/// Every pixel has one or four samples that say which triangles it shows; each triangle is shaded once, at the middle of
+/// its samples. Layers go over each other as in [Porter & Duff 1984], in linear light. O(pixels), parallel over rows.
+pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
+    let encoder = SrgbEncoder::new();
+    let width = layers.window.size[0] as usize;
+    frame
+        .par_chunks_mut(width)
+        .enumerate()
+        .for_each(|(y, row)| {
+            for (x, texel) in row.iter_mut().enumerate() {
+                let [r, g, b, a] = layers.pixel(x as u32, y as u32);
+                let straight = [r, g, b].map(|light| encoder.byte(light / a.max(1e-6)));
+                let alpha = (a.clamp(0.0, 1.0) * 255.0 + 0.5) as u32;
+                *texel = straight[0] | straight[1] << 8 | straight[2] << 16 | alpha << 24;
+            }
+        });
+}
+
+/// A triangle's corners, and 1 where its front is seen or -1 where its back is.
+struct Corners<'a> {
+    posed: [&'a PosedVertex; 3],
+    clip: [[f32; 4]; 3],
+    side: f32,
+}
+
+impl Corners<'_> {
+    fn normal(&self, weights: [f32; 3]) -> [f32; 3] {
+        unit_or_z(blend3(weights, self.posed.map(|v| v.normal))).map(|v| v * self.side)
+    }
+}
+
+impl Layers<'_> {
+    /// A pixel of the output, premultiplied linear light.
+    fn pixel(&self, x: u32, y: u32) -> [f32; 4] {
+        let frame_px = self.window.frame_at(x, y);
+        let element = (y * self.window.size[0] + x) as usize;
+        let mut color = self.surfaces(x, y, frame_px);
+        if color[3] < 1.0 {
+            let behind = self.background(frame_px);
+            let left = 1.0 - color[3];
+            color = std::array::from_fn(|i| color[i] + behind[i] * left);
+        }
+        let flags = self.compose.flags;
+        if flags & Compose::MASK != 0 && self.is_masked(frame_px) {
+            color = over(self.linear_of(self.compose.line_color), color);
+        }
+        if flags & Compose::RIBBONS != 0 {
+            color = over(self.linear_texel(self.ribbons[element]), color);
+        }
+        if flags & Compose::STAMPS != 0 {
+            color = over(self.linear_texel(self.stamped[element]), color);
+        }
+        color
+    }
+
+    fn is_masked(&self, frame_px: [f32; 2]) -> bool {
+        let at = self.mask_window.pixel_at(frame_px);
+        self.mask[(at[1] * self.mask_window.size[0] + at[0]) as usize] & MASK_KINDS != 0
+    }
+
+    /// The surfaces of a pixel, premultiplied.
+    fn surfaces(&self, x: u32, y: u32, frame_px: [f32; 2]) -> [f32; 4] {
+        let samples = self.compose.samples;
+        let count = samples * samples;
+        let stride = self.window.size[0] * samples;
+        let mut seen = [0; 4];
+        for i in 0..count {
+            seen[i as usize] =
+                self.ids[((y * samples + (i >> 1)) * stride + x * samples + (i & 1)) as usize];
+        }
+        let mut sum = [0.0; 4];
+        let mut left = (1u32 << count) - 1;
+        for i in 0..count {
+            if left & (1 << i) == 0 {
+                continue;
+            }
+            let mut members = 0;
+            for j in i..count {
+                if seen[j as usize] == seen[i as usize] {
+                    members |= 1 << j;
+                }
+            }
+            left &= !members;
+            if seen[i as usize] == 0 {
+                continue;
+            }
+            let share = members.count_ones() as f32 / count as f32;
+            let [r, g, b] = self.shade(seen[i as usize], members, frame_px);
+            sum = [
+                sum[0] + r * share,
+                sum[1] + g * share,
+                sum[2] + b * share,
+                sum[3] + share,
+            ];
+        }
+        sum
+    }
+
+    /// Light of what the samples in `members` show, a triangle or its hull.
+    fn shade(&self, id: u32, members: u32, frame_px: [f32; 2]) -> [f32; 3] {
+        let triangle = &self.triangles[((id & ID_MASK) - 1) as usize];
+        let part = &self.parts[triangle.part as usize];
+        if id & HULL_BIT != 0 {
+            let [r, g, b, _] = self.linear_of(part.line_color);
+            return [r, g, b];
+        }
+        let count = members.count_ones() as f32;
+        let samples = (0..4).filter(|i| members & (1 << i) != 0);
+        let mut center = frame_px;
+        for i in samples.clone() {
+            let offset = self.sample_offset(i);
+            center = [center[0] + offset[0] / count, center[1] + offset[1] / count];
+        }
+        let corners = self.corners_of(triangle);
+        let angle = self.compose.flags & Compose::ANGLE != 0;
+        let tone = if !angle && self.is_one_tone(part, &corners) {
+            self.tone_at(part, &corners, center)
+        } else {
+            samples.fold([0.0; 4], |sum, i| {
+                let offset = self.sample_offset(i);
+                let tone = self.tone_at(
+                    part,
+                    &corners,
+                    [frame_px[0] + offset[0], frame_px[1] + offset[1]],
+                );
+                std::array::from_fn(|k| sum[k] + tone[k] / count)
+            })
+        };
+        let base = self.base_color(triangle, part, &corners, center);
+        let lit: [f32; 3] = std::array::from_fn(|i| base[i] * tone[i]);
+        if tone[3] == 0.0 {
+            return lit;
+        }
+        let line = self.linear_of(part.line_color);
+        std::array::from_fn(|i| lit[i] + (line[i] - lit[i]) * tone[3])
+    }
+
+    /// Position of sample `i` within a pixel, from its centre.
+    fn sample_offset(&self, i: u32) -> [f32; 2] {
+        if self.compose.samples == 1 {
+            return [0.0; 2];
+        }
+        [(i & 1) as f32 * 0.5 - 0.25, (i >> 1) as f32 * 0.5 - 0.25]
+    }
+
+    fn corners_of(&self, triangle: &Triangle) -> Corners<'_> {
+        let posed = triangle.corners.map(|v| &self.posed[v as usize]);
+        let clip = posed.map(|v| v.clip);
+        Corners {
+            posed,
+            clip,
+            side: if faces_eye(clip) { 1.0 } else { -1.0 },
+        }
+    }
+
+    /// Tone and ink at one point: rgb light, and 1 where the surface-angle method draws a line.
+    fn tone_at(&self, part: &Part, corners: &Corners<'_>, frame_px: [f32; 2]) -> [f32; 4] {
+        let angle = self.compose.flags & Compose::ANGLE != 0 && part.flags & Part::LINES != 0;
+        let unlit = part.flags & Part::UNLIT != 0;
+        if unlit && !angle {
+            return [1.0, 1.0, 1.0, 0.0];
+        }
+        let weights = weights_at(corners.clip, self.view.ndc_at(frame_px));
+        let normal = corners.normal(weights);
+        let light = if unlit {
+            [1.0; 3]
+        } else {
+            ramp_light(part, self.ramp_coordinate(normal))
+        };
+        let mut ink = 0.0;
+        if angle {
+            let world = blend3(weights, corners.posed.map(|v| v.world));
+            if dot(normal, self.view.to_eye(world)).abs() < part.facing_threshold {
+                ink = 1.0;
+            }
+        }
+        [light[0], light[1], light[2], ink]
+    }
+
+    /// The Lambert term mapped from -1..1 to 0..1 [Suzuki 2004, section 3.2].
+    fn ramp_coordinate(&self, normal: [f32; 3]) -> f32 {
+        (dot(normal, self.compose.light_world) + 1.0) * 0.5
+    }
+
+    /// Whether the whole triangle lies within one tone.
+    fn is_one_tone(&self, part: &Part, corners: &Corners<'_>) -> bool {
+        let at = corners
+            .posed
+            .map(|v| self.ramp_coordinate(v.normal.map(|n| n * corners.side)));
+        let room = TONE_ROOM + part.softness * 0.5;
+        let low = at[0].min(at[1]).min(at[2]) - room;
+        let high = at[0].max(at[1]).max(at[2]) + room;
+        !part.ramp[1..]
+            .iter()
+            .any(|stop| stop[3] > low && stop[3] <= high)
+    }
+
+    /// Surface colour without light, as strong as the style wants it.
+    fn base_color(
+        &self,
+        triangle: &Triangle,
+        part: &Part,
+        corners: &Corners<'_>,
+        frame_px: [f32; 2],
+    ) -> [f32; 3] {
+        let color = self.plain_color(triangle, part, corners, frame_px);
+        let saturation = self.compose.saturation;
+        if saturation == 1.0 {
+            return color;
+        }
+        let luma = dot(color, LUMA);
+        color.map(|v| (luma + (v - luma) * saturation).max(0.0))
+    }
+
+    fn plain_color(
+        &self,
+        triangle: &Triangle,
+        part: &Part,
+        corners: &Corners<'_>,
+        frame_px: [f32; 2],
+    ) -> [f32; 3] {
+        let vertices = triangle.corners.map(|v| &self.vertices[v as usize]);
+        let plain = vertices.iter().all(|v| v.color == u32::MAX);
+        let [r, g, b, _] = part.base_color;
+        if plain && part.texture == NONE {
+            return [r, g, b];
+        }
+        let weights = weights_at(corners.clip, self.view.ndc_at(frame_px));
+        let tint = blend3(
+            weights,
+            vertices.map(|v| {
+                let [r, g, b, _] = self.linear_texel(v.color);
+                [r, g, b]
+            }),
+        );
+        let color = [r * tint[0], g * tint[1], b * tint[2]];
+        if part.texture == NONE {
+            return color;
+        }
+        let uvs = vertices.map(|v| v.uv);
+        let uv_near = |dx: f32, dy: f32| {
+            blend2(
+                weights_at(
+                    corners.clip,
+                    self.view.ndc_at([frame_px[0] + dx, frame_px[1] + dy]),
+                ),
+                uvs,
+            )
+        };
+        let (uv, right, down) = (blend2(weights, uvs), uv_near(1.0, 0.0), uv_near(0.0, 1.0));
+        let square = |there: [f32; 2]| (there[0] - uv[0]).powi(2) + (there[1] - uv[1]).powi(2);
+        let footprint = square(right).max(square(down)).sqrt();
+        let texel = texture::sample(self.texels, part.texture, uv, footprint);
+        std::array::from_fn(|i| color[i] * texel[i])
+    }
+
+    /// What lies behind everything, premultiplied.
+    fn background(&self, frame_px: [f32; 2]) -> [f32; 4] {
+        let mut color = self.compose.background;
+        let at = self.compose.background_texture;
+        if at != NONE {
+            let size = [
+                self.texels[at as usize] as f32,
+                self.texels[at as usize + 1] as f32,
+            ];
+            let frame = self.view.frame_px;
+            // Cover the frame, centred, like a poster that is cut at two sides.
+            let zoom = (frame[0] / size[0]).max(frame[1] / size[1]);
+            let uv =
+                std::array::from_fn(|i| (frame_px[i] - 0.5 * frame[i]) / (size[i] * zoom) + 0.5);
+            color = texture::sample(self.texels, at, uv, 1.0 / (size[0].max(size[1]) * zoom));
+        }
+        let [r, g, b, a] = color;
+        [r * a, g * a, b * a, a]
+    }
+
+    fn linear_of(&self, srgb: [f32; 4]) -> [f32; 4] {
+        self.linear_texel(pack_rgba8(srgb))
+    }
+
+    fn linear_texel(&self, texel: u32) -> [f32; 4] {
+        texture::linear_texel(self.texels, texel)
+    }
+}
+
+/// Light of a part's ramp at coordinate `x`: each step takes over where its coordinate begins, over `softness`.
+pub fn ramp_light(part: &Part, x: f32) -> [f32; 3] {
+    let [r, g, b, _] = part.ramp[0];
+    let mut light = [r, g, b];
+    for stop in &part.ramp[1..] {
+        if stop[3] > 1.5 {
+            break;
+        }
+        let share = step_share(stop[3], part.softness, x);
+        light = std::array::from_fn(|i| light[i] + (stop[i] - light[i]) * share);
+    }
+    light
+}
+
+fn step_share(at: f32, softness: f32, x: f32) -> f32 {
+    if softness <= 0.0 {
+        return if x >= at { 1.0 } else { 0.0 };
+    }
+    let t = ((x - at) / softness + 0.5).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// A straight-alpha layer laid over a premultiplied one.
+fn over(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
+    let a = top[3];
+    if a == 0.0 {
+        return below;
+    }
+    [
+        top[0] * a + below[0] * (1.0 - a),
+        top[1] * a + below[1] * (1.0 - a),
+        top[2] * a + below[2] * (1.0 - a),
+        a + below[3] * (1.0 - a),
+    ]
+}

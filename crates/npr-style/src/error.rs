@@ -1,0 +1,230 @@
+//! What can be wrong with a style.
+
+use std::fmt;
+
+/// A place in a text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Place {
+    /// Line, counted from 1.
+    pub line: usize,
+    /// Column in characters, counted from 1.
+    pub column: usize,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}, column {}", self.line, self.column)
+    }
+}
+
+/// What is wrong with the value of a key.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Problem {
+    /// It is of another kind than the key takes.
+    #[error("is {found}, but must be {expected}")]
+    WrongType {
+        /// What the key takes.
+        expected: String,
+        /// What the file holds.
+        found: &'static str,
+    },
+    /// It is a number outside its range.
+    #[error("is {}, but must lie in {}..{}", number(*value), number(*min), number(*max))]
+    OutOfRange {
+        /// The number as read.
+        value: f64,
+        /// Smallest allowed.
+        min: f64,
+        /// Largest allowed.
+        max: f64,
+    },
+    /// It is none of the words, or numbers, that the key takes.
+    #[error("is {value}, but must be one of {allowed}")]
+    NotOneOf {
+        /// The value as read.
+        value: String,
+        /// All that are allowed, with commas.
+        allowed: String,
+    },
+    /// It is a list of the wrong length.
+    #[error("has {count} entries, but must have {min} to {max}")]
+    Count {
+        /// Entries as read.
+        count: u64,
+        /// Fewest allowed.
+        min: u64,
+        /// Most allowed.
+        max: u64,
+    },
+    /// It lacks a key that has no default.
+    #[error("lacks '{missing}'")]
+    Lacks {
+        /// The absent key.
+        missing: String,
+    },
+    /// It is text that cannot be read, or it contradicts another value.
+    #[error("{reason}")]
+    Unfit {
+        /// A predicate for the key: "is not a CSS colour".
+        reason: String,
+    },
+}
+
+/// Why a style was rejected.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StyleError {
+    /// The text is too long to be a style.
+    #[error("style has {bytes} bytes, but may have at most {limit_bytes}")]
+    TooLarge {
+        /// Length of the text.
+        bytes: usize,
+        /// Longest allowed.
+        limit_bytes: usize,
+    },
+    /// The text is not TOML.
+    #[error("not TOML{}: {message}", at(*place))]
+    Syntax {
+        /// Where reading stopped.
+        place: Option<Place>,
+        /// What the reader expected there.
+        message: String,
+    },
+    /// No style has this key.
+    #[error("unknown key '{}'{}{}", brief(key), at(*place), hint(nearest.as_deref()))]
+    UnknownKey {
+        /// The key from the top, with dots.
+        key: String,
+        /// Where it stands, if it came from the text at hand.
+        place: Option<Place>,
+        /// The valid key most like it.
+        nearest: Option<String>,
+    },
+    /// A key's value does not fit.
+    #[error("{}{} {problem}", brief(key), at(*place))]
+    Value {
+        /// The key from the top, with dots.
+        key: String,
+        /// Where it stands, if it came from the text at hand.
+        place: Option<Place>,
+        /// What is wrong with it.
+        problem: Problem,
+    },
+    /// No preset has this name.
+    #[error("no preset is called '{}'{}", brief(name), hint(nearest.as_deref()))]
+    UnknownPreset {
+        /// The name asked for.
+        name: String,
+        /// The preset most like it.
+        nearest: Option<String>,
+    },
+    /// The preset exists, but not in this version.
+    #[error("preset '{name}' has no version {}, only {newest}", brief(asked))]
+    PresetVersion {
+        /// The preset.
+        name: &'static str,
+        /// What stood after the `@`.
+        asked: String,
+        /// The version there is.
+        newest: u32,
+    },
+    /// A parent named in `extends` could not be read.
+    #[error("cannot read parent style '{}': {reason}", brief(parent))]
+    Load {
+        /// The parent as named.
+        parent: String,
+        /// What the caller's loader said.
+        reason: String,
+    },
+    /// A parent named in `extends` is itself wrong.
+    #[error("in parent style '{}': {source}", brief(parent))]
+    InParent {
+        /// The parent as named.
+        parent: String,
+        /// What is wrong with it.
+        source: Box<StyleError>,
+    },
+    /// A style extends itself, directly or through others.
+    #[error("style '{}' extends itself", brief(parent))]
+    Cycle {
+        /// The parent that came up again.
+        parent: String,
+    },
+    /// The parents of the parents are too many.
+    #[error("style extends more than {limit} others")]
+    TooManyParents {
+        /// Most allowed.
+        limit: usize,
+    },
+    /// An override is not of the form `key.path=value`.
+    #[error("override '{}' is not of the form key.path=value", brief(text))]
+    Assignment {
+        /// The override as given.
+        text: String,
+    },
+}
+
+impl StyleError {
+    /// The error about `key` without a place.
+    pub(crate) fn value(key: impl Into<String>, problem: Problem) -> Self {
+        Self::Value {
+            key: key.into(),
+            place: None,
+            problem,
+        }
+    }
+
+    /// The error about `key` that says why it does not fit.
+    pub(crate) fn unfit(key: impl Into<String>, reason: impl Into<String>) -> Self {
+        Self::value(
+            key,
+            Problem::Unfit {
+                reason: reason.into(),
+            },
+        )
+    }
+
+    /// The error with the place that `find` gives for its key, where it is about one.
+    pub(crate) fn placed(mut self, find: impl FnOnce(&str) -> Option<Place>) -> Self {
+        if let Self::UnknownKey { key, place, .. } | Self::Value { key, place, .. } = &mut self {
+            *place = find(key);
+        }
+        self
+    }
+}
+
+fn at(place: Option<Place>) -> String {
+    place.map_or_else(String::new, |place| format!(" at {place}"))
+}
+
+/// A number in few characters, whatever its size.
+fn number(value: f64) -> String {
+    let size = value.abs();
+    let plain = size == 0.0 || (1e-6..1e6).contains(&size) || !size.is_finite();
+    if plain {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}
+
+fn hint(nearest: Option<&str>) -> String {
+    nearest.map_or_else(String::new, |nearest| {
+        format!("; did you mean '{nearest}'?")
+    })
+}
+
+/// At most 60 characters of text from outside, with control characters spelled out.
+pub(crate) fn brief(text: &str) -> String {
+    const SHOWN: usize = 60;
+    let mut shown: String = text
+        .chars()
+        .take(SHOWN)
+        .flat_map(char::escape_debug)
+        .collect();
+    if text.chars().nth(SHOWN).is_some() {
+        shown.push_str("...");
+    }
+    shown
+}

@@ -1,0 +1,198 @@
+//! Reads a style and lays it over its parents.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use toml::{Table, Value};
+
+use crate::error::{StyleError, brief};
+use crate::{Style, check, place, preset};
+
+/// Longest style text that is read, in bytes.
+pub const TEXT_BYTES_MAX: usize = 1 << 20;
+
+/// Most parents that a style may have, parents of parents included.
+pub const PARENTS_MAX: usize = 64;
+
+/// Most dots that one line may hold: keys nest a level a dot, and the TOML reader recurses over levels.
+const DOTS_MAX: usize = 1000;
+
+/// What a style starts from: one name or a list of names.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(from = "Written", into = "Written")]
+pub struct Parents(pub Vec<String>);
+
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+enum Written {
+    One(String),
+    Many(Vec<String>),
+}
+
+impl Parents {
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl From<Written> for Parents {
+    fn from(written: Written) -> Self {
+        match written {
+            Written::One(name) => Self(vec![name]),
+            Written::Many(names) => Self(names),
+        }
+    }
+}
+
+impl From<Parents> for Written {
+    fn from(parents: Parents) -> Self {
+        Self::Many(parents.0)
+    }
+}
+
+/// Finds the text of a parent by its name.
+type Load<'a> = &'a dyn Fn(&str) -> Result<String, String>;
+
+/// The style of `text` over its parents; see [`Style::from_toml`].
+pub(crate) fn read(text: &str, load: Load<'_>) -> Result<Style, StyleError> {
+    let mut stack = Stack {
+        load,
+        open: Vec::new(),
+        loaded: 0,
+    };
+    let table = stack.flatten(text)?;
+    from_table(table).map_err(|error| error.placed(|key| place::of_key(text, key)))
+}
+
+/// The style that a checked table describes.
+pub(crate) fn from_table(table: Table) -> Result<Style, StyleError> {
+    let style: Style = table
+        .try_into()
+        .map_err(|error: toml::de::Error| StyleError::Syntax {
+            place: None,
+            message: error.message().to_owned(),
+        })?;
+    style.sanity_check()?;
+    Ok(style)
+}
+
+/// The parents being read, outermost first.
+struct Stack<'a> {
+    load: Load<'a>,
+    open: Vec<String>,
+    loaded: usize,
+}
+
+impl Stack<'_> {
+    /// The table of `text` merged over its parents, `extends` removed.
+    fn flatten(&mut self, text: &str) -> Result<Table, StyleError> {
+        let mut table = parse(text)?;
+        check::check(&table).map_err(|error| error.placed(|key| place::of_key(text, key)))?;
+        let mut merged = Table::new();
+        for parent in names(table.remove("extends")) {
+            merge(&mut merged, self.parent(&parent)?);
+        }
+        merge(&mut merged, table);
+        Ok(merged)
+    }
+
+    /// The table of a parent by name. Title and version describe the parent alone and stay behind.
+    fn parent(&mut self, name: &str) -> Result<Table, StyleError> {
+        if self.open.iter().any(|open| open == name) {
+            return Err(StyleError::Cycle {
+                parent: name.to_owned(),
+            });
+        }
+        self.loaded += 1;
+        if self.loaded > PARENTS_MAX {
+            return Err(StyleError::TooManyParents { limit: PARENTS_MAX });
+        }
+        let text = self.text(name)?;
+        self.open.push(name.to_owned());
+        let flat = self
+            .flatten(&text)
+            .map_err(|source| in_parent(name, source));
+        self.open.pop();
+        let mut table = flat?;
+        table.remove("title");
+        table.remove("version");
+        Ok(table)
+    }
+
+    fn text(&self, name: &str) -> Result<String, StyleError> {
+        if preset::is_name(name) {
+            return Ok(preset::find(name)?.text.to_owned());
+        }
+        (self.load)(name).map_err(|reason| StyleError::Load {
+            parent: name.to_owned(),
+            reason,
+        })
+    }
+}
+
+/// Names the parent at fault, once: a fault in a parent's parent keeps the inner name.
+fn in_parent(name: &str, source: StyleError) -> StyleError {
+    match source {
+        StyleError::InParent { .. }
+        | StyleError::Cycle { .. }
+        | StyleError::TooManyParents { .. } => source,
+        _ => StyleError::InParent {
+            parent: name.to_owned(),
+            source: Box::new(source),
+        },
+    }
+}
+
+/// The TOML table of a text that is neither too long nor too deep.
+fn parse(text: &str) -> Result<Table, StyleError> {
+    if text.len() > TEXT_BYTES_MAX {
+        return Err(StyleError::TooLarge {
+            bytes: text.len(),
+            limit_bytes: TEXT_BYTES_MAX,
+        });
+    }
+    if let Some(line) = text
+        .lines()
+        .position(|line| line.matches('.').count() > DOTS_MAX)
+    {
+        let place = Some(crate::Place {
+            line: line + 1,
+            column: 1,
+        });
+        return Err(StyleError::Syntax {
+            place,
+            message: format!("more than {DOTS_MAX} dots in a line"),
+        });
+    }
+    text.parse()
+        .map_err(|error: toml::de::Error| StyleError::Syntax {
+            place: error.span().map(|span| place::of_byte(text, span.start)),
+            message: brief(error.message()),
+        })
+}
+
+fn names(extends: Option<Value>) -> Vec<String> {
+    match extends {
+        Some(Value::String(name)) => vec![name],
+        Some(Value::Array(names)) => names
+            .into_iter()
+            .filter_map(|name| name.as_str().map(str::to_owned))
+            .collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// Lays `upper` over `lower`: tables merge, `rule` lists add up, anything else replaces.
+pub(crate) fn merge(lower: &mut Table, upper: Table) {
+    for (key, value) in upper {
+        match (lower.get_mut(&key), value) {
+            (Some(Value::Table(below)), Value::Table(above)) => merge(below, above),
+            (Some(Value::Array(below)), Value::Array(above)) if key == "rule" => {
+                below.extend(above)
+            }
+            (_, value) => {
+                lower.insert(key, value);
+            }
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! What a picture should look like, as data.
+//!
+//! [`Style`] is the only description of a look: a tree of plain structs that style files, overrides,
+//! presets and the JSON Schema ([`schema()`]) all come from. Beside it stands the arithmetic of its
+//! tones ([`ramp`]) and widths ([`width`]), as pure functions that both engines share.
+//!
+//! ```
+//! use npr_style::{Length, Style, Unit};
+//!
+//! let file = r##"
+//!     extends = "ink"
+//!     line.color = "#402010"
+//!
+//!     [[rule]]
+//!     match.material = "Glass*"
+//!     line.on = false
+//! "##;
+//! let no_files = |parent: &str| Err(format!("there is no '{parent}' here"));
+//! let mut style = Style::from_toml(file, &no_files)?;
+//! style.set("line.width.base=2px")?;
+//!
+//! assert_eq!(style.line.width.base, Length { value: 2.0, unit: Unit::Px });
+//! assert!(!style.resolve_for("Glass_front", "Lamp").line_on);
+//!
+//! let slip = Style::from_toml("line.widht.gain = 2", &no_files);
+//! assert_eq!(
+//!     slip.unwrap_err().to_string(),
+//!     "unknown key 'line.widht' at line 1, column 6; did you mean 'line.width'?"
+//! );
+//! # Ok::<(), npr_style::StyleError>(())
+//! ```
+
+mod antialias;
+mod background;
+mod check;
+mod color;
+pub mod compose;
+mod detect;
+mod error;
+mod glob;
+mod layers;
+mod length;
+mod light;
+mod line;
+mod nearest;
+mod place;
+mod preset;
+pub mod ramp;
+mod rule;
+mod schema;
+mod set;
+mod shade;
+mod style;
+pub mod width;
+
+pub use antialias::Antialias;
+pub use background::{Background, BackgroundError};
+pub use color::{Color, ColorError};
+pub use detect::{DepthTest, Detect, IdTest, MASK_LINE_PX, NormalTest, WidthWarning, width_rule};
+pub use error::{Place, Problem, StyleError};
+pub use layers::{PARENTS_MAX, Parents, TEXT_BYTES_MAX};
+pub use length::{LONGEST, Length, LengthError, REFERENCE_HEIGHT_PX, Unit};
+pub use light::{Light, LightSpace};
+pub use line::{Kinds, Line, LineMethod};
+pub use preset::{DEFAULT_PRESET, Preset, find as find_preset, presets};
+pub use ramp::{Level, Stop};
+pub use rule::{Look, Match, Rule, RuleLine, RuleShade};
+pub use schema::schema;
+pub use shade::{Shade, ShadeMode, levels};
+pub use style::Style;
+pub use width::{Channel, ControlPoint, Width, WidthSource};

@@ -1,0 +1,102 @@
+//! The looks that come with the machine.
+
+use crate::error::StyleError;
+use crate::nearest::nearest;
+
+/// Name of the look that a picture has when nobody chose one.
+pub const DEFAULT_PRESET: &str = "toon";
+
+/// A look with a stable name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Preset {
+    /// What it is asked for by, alone or followed by `@version`.
+    pub name: &'static str,
+    /// Version of the look; raised whenever its pictures change.
+    pub version: u32,
+    /// One line for lists.
+    pub title: &'static str,
+    /// The style file itself, with a remark on every value.
+    pub text: &'static str,
+}
+
+const PRESETS: &[Preset] = &[
+    Preset {
+        name: "toon",
+        version: 1,
+        title: "Three flat tones of the material's colour under dark brown lines",
+        text: include_str!("../presets/toon.toml"),
+    },
+    Preset {
+        name: "ink",
+        version: 1,
+        title: "Black swelling lines and solid shadows on warm white paper",
+        text: include_str!("../presets/ink.toml"),
+    },
+    Preset {
+        name: "technical",
+        version: 1,
+        title: "Thin even lines on plain white parts, with every crease",
+        text: include_str!("../presets/technical.toml"),
+    },
+    Preset {
+        name: "okuya",
+        version: 1,
+        title: "Comparison: lines found on images and drawn on every edge, as published",
+        text: include_str!("../presets/okuya.toml"),
+    },
+    Preset {
+        name: "filter",
+        version: 1,
+        title: "Comparison: an image filter alone, one width everywhere",
+        text: include_str!("../presets/filter.toml"),
+    },
+    Preset {
+        name: "hull",
+        version: 1,
+        title: "Comparison: a back-face hull swelling with curvature, silhouettes only",
+        text: include_str!("../presets/hull.toml"),
+    },
+    Preset {
+        name: "filter-hull",
+        version: 1,
+        title: "Comparison: the union of image filter and hull",
+        text: include_str!("../presets/filter-hull.toml"),
+    },
+];
+
+/// Every preset, those for everyday use first.
+pub fn presets() -> &'static [Preset] {
+    PRESETS
+}
+
+/// Whether `name`, without its version, is a preset's.
+pub(crate) fn is_name(name: &str) -> bool {
+    let bare = name.split_once('@').map_or(name, |(bare, _)| bare);
+    PRESETS.iter().any(|preset| preset.name == bare)
+}
+
+/// The preset called `name`, or `name@version`.
+///
+/// # Errors
+///
+/// [`StyleError::UnknownPreset`] or [`StyleError::PresetVersion`].
+pub fn find(name: &str) -> Result<&'static Preset, StyleError> {
+    let (bare, version) = name
+        .split_once('@')
+        .map_or((name, None), |(bare, version)| (bare, Some(version)));
+    let preset = PRESETS
+        .iter()
+        .find(|preset| preset.name == bare)
+        .ok_or_else(|| StyleError::UnknownPreset {
+            name: name.to_owned(),
+            nearest: nearest(bare, PRESETS.iter().map(|preset| preset.name)).map(str::to_owned),
+        })?;
+    match version {
+        Some(asked) if asked.parse() != Ok(preset.version) => Err(StyleError::PresetVersion {
+            name: preset.name,
+            asked: asked.to_owned(),
+            newest: preset.version,
+        }),
+        _ => Ok(preset),
+    }
+}

@@ -1,0 +1,73 @@
+//! How surfaces are filled.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::Color;
+use crate::ramp::{Level, Stop};
+
+/// Where the colour of a surface comes from and whether light changes it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ShadeMode {
+    /// The material's colour, lit in the tones of the ramp.
+    #[default]
+    Ramp,
+    /// The material's colour as it is; the ramp is not used.
+    Flat,
+    /// The paper's colour instead of the material's, lit in the tones of the ramp. With a single
+    /// stop of light 1 only lines remain.
+    Paper,
+}
+
+/// How surfaces are filled.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Shade {
+    /// Where colour comes from; default `ramp`. `flat` for coloured outlines, `paper` for pure line art.
+    pub mode: ShadeMode,
+    /// Width of the step between two tones as a part of the ramp, 0..0.5; default 0. 0 a cut-out edge as
+    /// in cel animation, 0.05 a felt pen, 0.4 an airbrush.
+    #[schemars(range(min = 0.0, max = 0.5))]
+    pub softness: f32,
+    /// Colour of the paper that mode `paper` fills surfaces with; default white.
+    pub paper: Color,
+    /// Whether textures colour the material; default true. Off gives calm, even parts.
+    pub use_textures: bool,
+    /// Whether vertex colours tint the material; default true. Turn off where they hold widths.
+    pub use_vertex_colors: bool,
+    /// Strength of the material's colour, 0..2; default 1. 0 grey, 0.5 a faded print, 1.4 poster paint.
+    #[schemars(range(min = 0.0, max = 2.0))]
+    pub saturation: f32,
+    /// The tones, 1 to 8, sorted by `at`; default three: shade, colour, highlight.
+    /// Two look like cel animation, one like a plain fill.
+    #[schemars(length(min = 1, max = 8))]
+    pub ramp: Vec<Stop>,
+}
+
+impl Default for Shade {
+    fn default() -> Self {
+        Self {
+            mode: ShadeMode::Ramp,
+            softness: 0.0,
+            paper: Color::WHITE,
+            use_textures: true,
+            use_vertex_colors: true,
+            saturation: 1.0,
+            ramp: vec![
+                Stop {
+                    at: 0.0,
+                    light: 0.55,
+                    tint: Some(Color::rgb(0xd6, 0xd0, 0xff)),
+                },
+                Stop::plain(0.52, 1.0),
+                Stop::plain(0.95, 1.15),
+            ],
+        }
+    }
+}
+
+/// The stops ready for [`ramp_light`](crate::ramp::ramp_light).
+pub fn levels(stops: &[Stop]) -> Vec<Level> {
+    stops.iter().map(Stop::level).collect()
+}

@@ -1,0 +1,174 @@
+//! The whole description of a picture's look.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Problem, StyleError};
+use crate::layers::{self, Parents};
+use crate::ramp::{Stop, first_unsorted};
+use crate::width::WidthSource;
+use crate::{Antialias, Background, Detect, Light, Line, Rule, Shade, preset, set};
+
+/// What a picture should look like.
+///
+/// Every key has a default, so a style file states only what it changes. The defaults together are the
+/// preset `toon`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Style {
+    /// One line for lists; default empty.
+    pub title: String,
+    /// Version of the look, 1..1000000; default 1. Raised whenever its pictures change.
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub version: u32,
+    /// Presets or other style files to start from, the last one strongest; default none.
+    /// Empty once a style has been read.
+    #[serde(skip_serializing_if = "Parents::is_empty")]
+    pub extends: Parents,
+    /// What shows where no surface is: a colour, `transparent` or an image; default white.
+    pub background: Background,
+    /// How surfaces are filled.
+    pub shade: Shade,
+    /// The light that tones are drawn by.
+    pub light: Light,
+    /// Which lines are drawn, and with what.
+    pub line: Line,
+    /// How the line mask is found.
+    pub detect: Detect,
+    /// How edges are smoothed.
+    pub antialias: Antialias,
+    /// Exceptions for single materials and objects; later ones win.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rule: Vec<Rule>,
+}
+
+impl Default for Style {
+    fn default() -> Self {
+        Self {
+            title: String::new(),
+            version: 1,
+            extends: Parents::default(),
+            background: Background::default(),
+            shade: Shade::default(),
+            light: Light::default(),
+            line: Line::default(),
+            detect: Detect::default(),
+            antialias: Antialias::default(),
+            rule: Vec::new(),
+        }
+    }
+}
+
+impl Style {
+    /// Reads a style file of at most 1 MiB.
+    ///
+    /// Its parents in `extends` are laid below it: presets by name, anything else through `load`, which
+    /// is given the parent as named and answers with its text or with why there is none. Tables merge key
+    /// by key, `rule` blocks add up, and any other value of the file replaces its parents'.
+    ///
+    /// # Errors
+    ///
+    /// [`StyleError`] for the first fault, with line and column where it stands in `text` itself.
+    pub fn from_toml(
+        text: &str,
+        load: &dyn Fn(&str) -> Result<String, String>,
+    ) -> Result<Self, StyleError> {
+        layers::read(text, load)
+    }
+
+    /// The preset called `name`, or `name@version`.
+    ///
+    /// # Errors
+    ///
+    /// [`StyleError::UnknownPreset`] or [`StyleError::PresetVersion`].
+    pub fn preset(name: &str) -> Result<Self, StyleError> {
+        let found = preset::find(name)?;
+        Self::from_toml(found.text, &|parent| {
+            Err(format!(
+                "preset '{}' extends no file '{parent}'",
+                found.name
+            ))
+        })
+    }
+
+    /// Overrides one value by `key.path=value`, such as `line.width.base=5px`.
+    ///
+    /// The value is TOML; text needs no quotes. Entries of lists are counted from 0: `rule.0.line.on=false`.
+    /// What rules say about the same key gives way, so that an override always shows.
+    ///
+    /// # Errors
+    ///
+    /// [`StyleError`] for an unknown key or a value that does not fit; the style is unchanged then.
+    pub fn set(&mut self, assignment: &str) -> Result<(), StyleError> {
+        *self = set::assign(self, assignment)?;
+        Ok(())
+    }
+
+    /// The style as TOML with every value spelled out; reading it gives the same style.
+    ///
+    /// # Errors
+    ///
+    /// [`StyleError::Syntax`] if a value has no TOML form, which no style that was read has.
+    pub fn to_toml(&self) -> Result<String, StyleError> {
+        toml::to_string(self).map_err(|error| StyleError::Syntax {
+            place: None,
+            message: error.to_string(),
+        })
+    }
+
+    /// Checks what no single value shows: order, contradictions, missing companions.
+    ///
+    /// Reading does this already; call it after changing fields by hand.
+    ///
+    /// # Errors
+    ///
+    /// [`StyleError::Value`] for the first key that contradicts another.
+    pub fn sanity_check(&self) -> Result<(), StyleError> {
+        if !self.light.has_direction() {
+            return Err(StyleError::unfit("light.direction", "points nowhere"));
+        }
+        check_width(&self.line.width)?;
+        check_ramp(&self.shade.ramp, "shade.ramp")?;
+        self.rule.iter().enumerate().try_for_each(|(i, rule)| {
+            let ramp = rule.shade.ramp.as_deref();
+            ramp.map_or(Ok(()), |stops| {
+                check_ramp(stops, &format!("rule.{i}.shade.ramp"))
+            })
+        })
+    }
+}
+
+fn check_ramp(stops: &[Stop], key: &str) -> Result<(), StyleError> {
+    match first_unsorted(stops) {
+        Some(i) => Err(StyleError::unfit(
+            format!("{key}.{i}.at"),
+            "lies before the stop ahead of it",
+        )),
+        None => Ok(()),
+    }
+}
+
+fn check_width(width: &crate::Width) -> Result<(), StyleError> {
+    if width.min > width.max {
+        let (value, max) = (f64::from(width.min), f64::from(width.max));
+        return Err(StyleError::value(
+            "line.width.min",
+            Problem::OutOfRange {
+                value,
+                min: 0.0,
+                max,
+            },
+        ));
+    }
+    match width.source {
+        WidthSource::Texture if width.texture.is_none() => Err(StyleError::unfit(
+            "line.width.source",
+            "is texture, but line.width.texture names no image",
+        )),
+        WidthSource::ControlPoints if width.control_points.is_empty() => Err(StyleError::unfit(
+            "line.width.source",
+            "is control-points, but line.width.control_points is empty",
+        )),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,227 @@
+//! Lines that run along no mesh edge: the twins of `line.find_residual`, `line.flag_tiles` and `line.stamp_residual`.
+//!
+//! Where shapes meet or interpenetrate, the mask shows a line and no edge lies there. Such pixels become discs, as wide
+//! as the surface says, and a row of discs is a line.
+
+use crate::ribbon::line_coverage;
+use npr_core::color;
+use npr_core::geometry::{GPixel, NONE, Part, Stamp};
+use npr_core::outline::{MASK_OWNER, MASK_SIDE, Outline};
+use npr_core::window::Window;
+use rayon::prelude::*;
+
+/// Side of the square tiles in which stamps are looked for, in mask pixels.
+pub const TILE: u32 = 16;
+
+/// What residual lines are found on.
+#[derive(Debug, Clone, Copy)]
+pub struct Search<'a> {
+    /// The pixel grid of the ribbons.
+    pub window: &'a Window,
+    /// The pixel grid of the mask.
+    pub mask_window: &'a Window,
+    /// Parts.
+    pub parts: &'a [Part],
+    /// The G-buffer under the mask.
+    pub gbuffer: &'a [GPixel],
+    /// The mask.
+    pub mask: &'a [u32],
+    /// The ribbons drawn, coverage in alpha.
+    pub ribbons: &'a [u32],
+}
+
+/// A stamp for every mask pixel that owns a line and has no ribbon near it, centred on the border between the pixels
+/// that differ.
+///
+/// O(mask pixels), parallel over rows.
+pub fn find(on: &Search<'_>, stamps: &mut [Stamp]) {
+    let width = on.mask_window.size[0] as usize;
+    stamps.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+        for (x, stamp) in row.iter_mut().enumerate() {
+            *stamp = on.stamp_at(x as u32, y as u32).unwrap_or_default();
+        }
+    });
+}
+
+impl Search<'_> {
+    fn stamp_at(&self, x: u32, y: u32) -> Option<Stamp> {
+        let element = (y * self.mask_window.size[0] + x) as usize;
+        let (found, pixel) = (self.mask[element], &self.gbuffer[element]);
+        if found & MASK_OWNER == 0 || pixel.part == NONE {
+            return None;
+        }
+        if self.parts[pixel.part as usize].flags & Part::LINES == 0 {
+            return None;
+        }
+        let (middle, toward) = (self.mask_window.frame_at(x, y), toward_line(found));
+        let center: [f32; 2] =
+            std::array::from_fn(|i| middle[i] + toward[i] * self.mask_window.frame_step[i]);
+        (!self.is_inked_near(center)).then_some(Stamp {
+            center,
+            half_width: pixel.half_width,
+            part: pixel.part,
+        })
+    }
+
+    /// Whether any ribbon inked the output near a point of the frame.
+    fn is_inked_near(&self, px: [f32; 2]) -> bool {
+        let center = self.window.pixel_at(px);
+        let size = self.window.size;
+        let reach = (self.mask_window.frame_step[0] * 0.5).ceil() as u32 + 1;
+        let rows = center[1].saturating_sub(reach)..=(center[1] + reach).min(size[1] - 1);
+        rows.into_iter().any(|y| {
+            let left = y * size[0] + center[0].saturating_sub(reach);
+            let right = y * size[0] + (center[0] + reach).min(size[0] - 1);
+            self.ribbons[left as usize..=right as usize].iter().any(|texel| texel >> 24 != 0)
+        })
+    }
+}
+
+/// From a pixel's centre to the line, in pixels: half the sum of the sides it runs along.
+fn toward_line(found: u32) -> [f32; 2] {
+    let side = |i: u32| if found & (MASK_SIDE << i) != 0 { 0.5 } else { 0.0 };
+    [side(1) - side(0), side(3) - side(2)]
+}
+
+/// Tiles across a mask.
+fn tiles_across(mask_window: &Window) -> u32 {
+    mask_window.size[0].div_ceil(TILE)
+}
+
+/// Number of tiles over a mask of this size.
+pub fn tile_count(size: [u32; 2]) -> usize {
+    size[0].div_ceil(TILE) as usize * size[1].div_ceil(TILE) as usize
+}
+
+/// 1 for every tile that holds a stamp, else 0. O(mask pixels), parallel over tiles.
+pub fn flag_tiles(mask_window: &Window, stamps: &[Stamp], tiles: &mut [u32]) {
+    let (across, size) = (tiles_across(mask_window), mask_window.size);
+    tiles.par_iter_mut().enumerate().for_each(|(element, tile)| {
+        let left = element as u32 % across * TILE;
+        let top = element as u32 / across * TILE;
+        let right = (left + TILE).min(size[0]);
+        let found = (top..(top + TILE).min(size[1])).any(|y| {
+            let row = &stamps[(y * size[0] + left) as usize..(y * size[0] + right) as usize];
+            row.iter().any(|stamp| stamp.half_width > 0.0)
+        });
+        *tile = u32::from(found);
+    });
+}
+
+/// What stamps are inked with.
+#[derive(Debug, Clone, Copy)]
+pub struct Inking<'a> {
+    /// The pixel grid of the output.
+    pub window: &'a Window,
+    /// The pixel grid of the mask.
+    pub mask_window: &'a Window,
+    /// Settings.
+    pub outline: &'a Outline,
+    /// Parts.
+    pub parts: &'a [Part],
+    /// Stamps, one per mask pixel.
+    pub stamps: &'a [Stamp],
+    /// Which tiles hold one.
+    pub tiles: &'a [u32],
+}
+
+/// Inks the output around every stamp, as sRGB bytes with coverage in alpha; 0 where there is none.
+///
+/// The stamp that covers a pixel most wins, and of equal ones the first. O(pixels near stamps * reach squared), parallel.
+pub fn stamp(with: &Inking<'_>, stamped: &mut [u32]) {
+    let width = with.window.size[0] as usize;
+    stamped.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+        for (x, texel) in row.iter_mut().enumerate() {
+            *texel = with.texel(with.window.frame_at(x as u32, y as u32));
+        }
+    });
+}
+
+impl Inking<'_> {
+    fn texel(&self, px: [f32; 2]) -> u32 {
+        let reach = self.mask_window.frame_step.map(|step| self.outline.reach_px as f32 + step);
+        let low = self.mask_window.pixel_at([px[0] - reach[0], px[1] - reach[1]]);
+        let high = self.mask_window.pixel_at([px[0] + reach[0], px[1] + reach[1]]);
+        if !self.any_stamp(low, high) {
+            return 0;
+        }
+        let (mut best, mut part) = (0.0, NONE);
+        for y in low[1]..=high[1] {
+            let row = (y * self.mask_window.size[0]) as usize;
+            for stamp in &self.stamps[row + low[0] as usize..=row + high[0] as usize] {
+                if stamp.half_width > 0.0 {
+                    let off = [px[0] - stamp.center[0], px[1] - stamp.center[1]];
+                    let distance = (off[0] * off[0] + off[1] * off[1]).sqrt();
+                    let coverage = line_coverage(distance, stamp.half_width);
+                    if coverage > best {
+                        (best, part) = (coverage, stamp.part);
+                    }
+                }
+            }
+        }
+        if part == NONE {
+            return 0;
+        }
+        let [r, g, b, a] = self.parts[part as usize].line_color;
+        color::pack_rgba8([r, g, b, a * best])
+    }
+
+    /// Whether any tile that meets the box of mask pixels holds a stamp.
+    fn any_stamp(&self, low: [u32; 2], high: [u32; 2]) -> bool {
+        let across = tiles_across(self.mask_window);
+        (low[1] / TILE..=high[1] / TILE)
+            .any(|y| (low[0] / TILE..=high[0] / TILE).any(|x| self.tiles[(y * across + x) as usize] != 0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const SIZE: [u32; 2] = [40, 24];
+
+    fn window() -> Window {
+        Window::over([40.0, 24.0], [0.0; 2], [40.0, 24.0], SIZE)
+    }
+
+    fn inked(stamps: &[Stamp]) -> Vec<u32> {
+        let window = window();
+        let mut tiles = vec![0; tile_count(SIZE)];
+        flag_tiles(&window, stamps, &mut tiles);
+        let outline = Outline { reach_px: 4, ..Outline::default() };
+        let parts = [Part { line_color: [0.0, 0.0, 0.0, 1.0], ..Part::default() }];
+        let inking = Inking {
+            window: &window,
+            mask_window: &window,
+            outline: &outline,
+            parts: &parts,
+            stamps,
+            tiles: &tiles,
+        };
+        let mut stamped = vec![0; 40 * 24];
+        stamp(&inking, &mut stamped);
+        stamped
+    }
+
+    proptest! {
+        #[test]
+        fn every_stamp_inks_its_disc_and_nothing_else(at in prop::collection::vec((0u32..40, 0u32..24), 0..6), half in 0.6f32..3.0) {
+            let mut stamps = vec![Stamp::default(); 40 * 24];
+            for (x, y) in &at {
+                let center = [*x as f32 + 0.5, *y as f32 + 0.5];
+                stamps[(y * 40 + x) as usize] = Stamp { center, half_width: half, part: 0 };
+            }
+            for (i, texel) in inked(&stamps).iter().enumerate() {
+                let (x, y) = (i as u32 % 40, i as u32 / 40);
+                let nearest = at.iter().map(|(sx, sy)| {
+                    let (dx, dy) = (x as f32 - *sx as f32, y as f32 - *sy as f32);
+                    (dx * dx + dy * dy).sqrt()
+                }).fold(f32::MAX, f32::min);
+                let alpha = texel >> 24;
+                prop_assert!(nearest > half - 0.5 || alpha == 255);
+                prop_assert!(nearest < half + 0.5 || alpha == 0);
+            }
+        }
+    }
+}

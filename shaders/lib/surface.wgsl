@@ -1,0 +1,44 @@
+// The surface point under a pixel. Twin: npr_core::surface.
+
+fn offset_from(clip: vec4<f32>, ndc: vec2<f32>) -> vec2<f32> {
+    return vec2<f32>(clip.x - ndc.x * clip.w, clip.y - ndc.y * clip.w);
+}
+
+fn cross2(a: vec2<f32>, b: vec2<f32>) -> f32 {
+    return a.x * b.y - a.y * b.x;
+}
+
+fn weights_at(clip: array<vec4<f32>, 3>, ndc: vec2<f32>) -> vec3<f32> {
+    let a = offset_from(clip[0], ndc);
+    let b = offset_from(clip[1], ndc);
+    let c = offset_from(clip[2], ndc);
+    let weights = vec3<f32>(cross2(b, c), cross2(c, a), cross2(a, b));
+    let sum = weights.x + weights.y + weights.z;
+    if sum == 0.0 { return vec3<f32>(1.0, 0.0, 0.0); }
+    return vec3<f32>(weights.x / sum, weights.y / sum, weights.z / sum);
+}
+
+fn faces_eye(clip: array<vec4<f32>, 3>) -> bool {
+    let a = clip[0];
+    let b = clip[1];
+    let c = clip[2];
+    let minor_a = b.y * c.w - b.w * c.y;
+    let minor_b = b.w * c.x - b.x * c.w;
+    let minor_c = b.x * c.y - b.y * c.x;
+    return a.x * minor_a + a.y * minor_b + a.w * minor_c > 0.0;
+}
+
+fn blend(weights: vec3<f32>, a: f32, b: f32, c: f32) -> f32 {
+    return a * weights.x + b * weights.y + c * weights.z;
+}
+
+fn blend3(weights: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> vec3<f32> {
+    return a * weights.x + b * weights.y + c * weights.z;
+}
+
+fn unit_or_z(v: vec3<f32>) -> vec3<f32> {
+    let square = v.x * v.x + v.y * v.y + v.z * v.z;
+    if square < 1e-30 { return vec3<f32>(0.0, 0.0, 1.0); }
+    let length = sqrt(square);
+    return vec3<f32>(v.x / length, v.y / length, v.z / length);
+}

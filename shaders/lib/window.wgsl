@@ -1,0 +1,65 @@
+// The view of a frame, and pixel grids over it. Twin: npr_core::window.
+
+struct View {
+    clip_from_world: mat4x4<f32>,
+    eye_world: vec3<f32>,
+    perspective: f32,
+    forward_world: vec3<f32>,
+    view_height: f32,
+    frame_px: vec2<f32>,
+    near: f32,
+    unused: f32,
+}
+
+struct Window {
+    ndc_scale: vec2<f32>,
+    ndc_offset: vec2<f32>,
+    size: vec2<u32>,
+    frame_step: vec2<f32>,
+    frame_origin: vec2<f32>,
+    unused: vec2<u32>,
+}
+
+fn height_at(view: View, depth: f32) -> f32 {
+    return select(view.view_height, view.view_height * depth, view.perspective > 0.5);
+}
+
+fn world_per_pixel(view: View, depth: f32) -> f32 {
+    return height_at(view, depth) / view.frame_px.y;
+}
+
+fn plane_coordinate(view: View, depth: f32) -> f32 {
+    return select(depth, 1.0 / depth, view.perspective > 0.5);
+}
+
+fn to_eye(view: View, world: vec3<f32>) -> vec3<f32> {
+    if view.perspective < 0.5 { return -view.forward_world; }
+    let d = view.eye_world - world;
+    let length = sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+    return d / max(length, 1e-30);
+}
+
+fn ndc_at(view: View, frame_px: vec2<f32>) -> vec2<f32> {
+    return vec2<f32>(
+        2.0 * frame_px.x / view.frame_px.x - 1.0,
+        1.0 - 2.0 * frame_px.y / view.frame_px.y,
+    );
+}
+
+fn clip_here(window: Window, clip: vec4<f32>) -> vec4<f32> {
+    return vec4<f32>(
+        clip.x * window.ndc_scale.x + clip.w * window.ndc_offset.x,
+        clip.y * window.ndc_scale.y + clip.w * window.ndc_offset.y,
+        clip.z,
+        clip.w,
+    );
+}
+
+fn frame_at(window: Window, pixel: vec2<u32>) -> vec2<f32> {
+    return window.frame_origin + (vec2<f32>(pixel) + 0.5) * window.frame_step;
+}
+
+fn pixel_at(window: Window, frame_px: vec2<f32>) -> vec2<u32> {
+    let at = floor((frame_px - window.frame_origin) / window.frame_step);
+    return vec2<u32>(clamp(at, vec2<f32>(0.0), vec2<f32>(window.size) - 1.0));
+}

@@ -1,0 +1,92 @@
+// line.detect: marks the pixels that differ from a neighbour.
+//
+// Each G-buffer has its own threshold; the mask is the union (A9). A pixel keeps
+// which buffers found it, whether its surface is the one in front, and on which sides the line runs.
+//
+// Source  Okuya et al. 2016, sections 3.2 and 4.3
+// Twin    npr_vector::detect::detect
+//
+//# use lib/grid
+//# use lib/geometry
+//# use lib/unit
+//# use lib/window
+//# use lib/outline
+
+override WG: u32 = 64u;
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<uniform> window: Window;
+@group(0) @binding(2) var<uniform> outline: Outline;
+@group(0) @binding(3) var<storage, read> parts: array<Part>;
+@group(0) @binding(4) var<storage, read> gbuffer: array<GPixel>;
+@group(0) @binding(5) var<storage, read_write> mask: array<u32>;
+
+fn depth_of_coordinate(coordinate: f32) -> f32 {
+    if view.perspective < 0.5 { return coordinate; }
+    return select(FAR_DEPTH, 1.0 / coordinate, coordinate > 1e-30);
+}
+
+// How far `there` lies from the tangent plane of `here`, one pixel along `step`, in depth.
+fn plane_gap(here: GPixel, there: GPixel, step: vec2<f32>) -> f32 {
+    let change = here.plane_step.x * step.x + here.plane_step.y * step.y;
+    let expected = depth_of_coordinate(plane_coordinate(view, here.depth) + change);
+    return abs(expected - there.depth);
+}
+
+// Depth jump between two neighbours as a share of the frame's height.
+fn depth_jump(here: GPixel, there: GPixel, step: vec2<f32>) -> f32 {
+    var gap = abs(here.depth - there.depth);
+    if (outline.detects & DETECT_PLANE_DEPTH) != 0u {
+        gap = min(gap, min(plane_gap(here, there, step), plane_gap(there, here, -step)));
+    }
+    return gap / height_at(view, min(here.depth, there.depth));
+}
+
+// Which buffers separate two neighbours.
+fn separations(here: GPixel, there: GPixel, step: vec2<f32>) -> u32 {
+    if here.part == NONE && there.part == NONE { return 0u; }
+    var found = 0u;
+    if here.object != there.object { found |= DETECT_OBJECT; }
+    if here.material != there.material { found |= DETECT_MATERIAL; }
+    if here.part == NONE || there.part == NONE {
+        return (found | DETECT_DEPTH | DETECT_NORMAL) & outline.detects;
+    }
+    if depth_jump(here, there, step) > outline.depth_threshold { found |= DETECT_DEPTH; }
+    if dot(unpack_unit(here.normal), unpack_unit(there.normal)) < outline.normal_cos {
+        found |= DETECT_NORMAL;
+    }
+    return found & outline.detects & MASK_KINDS;
+}
+
+fn has_lines(pixel: GPixel) -> bool {
+    return pixel.part != NONE && (parts[pixel.part].flags & PART_LINES) != 0u;
+}
+
+// One invocation per pixel.
+@compute @workgroup_size(WG)
+fn main(
+    @builtin(workgroup_id) wid: vec3<u32>,
+    @builtin(num_workgroups) nwg: vec3<u32>,
+    @builtin(local_invocation_id) lid: vec3<u32>,
+) {
+    let element = element_index(wid, nwg, lid, WG);
+    if element >= arrayLength(&mask) { return; }
+
+    let pixel = vec2<i32>(pixel_of(element, window.size));
+    let here = gbuffer[element];
+    var found = 0u;
+    for (var side = 0u; side < 4u; side++) {
+        let along = i32(side & 1u) * 2 - 1;
+        let step = select(vec2<i32>(0, along), vec2<i32>(along, 0), side < 2u);
+        let next = pixel + step;
+        if any(next < vec2<i32>(0)) || any(next >= vec2<i32>(window.size)) { continue; }
+        let there = gbuffer[u32(next.y) * window.size.x + u32(next.x)];
+        let kinds = separations(here, there, vec2<f32>(step));
+        if kinds == 0u || !(has_lines(here) || has_lines(there)) { continue; }
+        found |= kinds;
+        // Of two equally near surfaces, the right or lower pixel owns the line.
+        let owns = here.depth < there.depth || (here.depth == there.depth && along < 0);
+        if owns { found |= MASK_OWNER | (MASK_SIDE << side); }
+    }
+    mask[element] = found;
+}

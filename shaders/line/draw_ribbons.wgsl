@@ -1,0 +1,174 @@
+// line.draw_ribbons: edges as ribbons of varying width, where the mask shows them.
+//
+// Every fragment looks up the mask at its reference coordinate, the nearest point of
+// the edge itself (A17, A18). Coverage is analytic, and of several ribbons the one that covers a pixel most is kept, so the
+// order of edges does not matter.
+//
+// Source  Okuya et al. 2016, sections 3.3 and 4.4
+// Twin    npr_vector::ribbon::draw
+// Differs: unique edges instead of the three of each triangle (A22); quads are made by
+// vertex pulling, there being no geometry shader; round joins (A37) and depth tests (A26) unless OUTLINE_PUBLISHED.
+//
+//# use lib/geometry
+//# use lib/window
+//# use lib/outline
+//# use lib/ribbon
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<uniform> window: Window;
+@group(0) @binding(2) var<uniform> mask_window: Window;
+@group(0) @binding(3) var<uniform> outline: Outline;
+@group(0) @binding(4) var<storage, read> posed: array<PosedVertex>;
+@group(0) @binding(5) var<storage, read> triangles: array<Triangle>;
+@group(0) @binding(6) var<storage, read> parts: array<Part>;
+@group(0) @binding(7) var<storage, read> edges: array<Edge>;
+@group(0) @binding(8) var<storage, read> kinds: array<u32>;
+@group(0) @binding(9) var<storage, read> gbuffer: array<GPixel>;
+@group(0) @binding(10) var<storage, read> mask: array<u32>;
+
+struct Varying {
+    @builtin(position) position: vec4<f32>,
+    @location(0) @interpolate(flat, either) spine: vec4<f32>,
+    @location(1) @interpolate(flat, either) halves_and_depths: vec4<f32>,
+    @location(2) @interpolate(flat, either) part_and_kind: vec2<u32>,
+}
+
+struct End {
+    px: vec2<f32>,
+    half_width: f32,
+    depth: f32,
+}
+
+// An end point in frame pixels; behind the near plane it moves along the edge to that plane.
+fn end_of(here: PosedVertex, other: PosedVertex) -> End {
+    var t = 0.0;
+    if here.depth < view.near { t = (view.near - here.depth) / (other.depth - here.depth); }
+    let clip = here.clip + (other.clip - here.clip) * t;
+    var end: End;
+    end.px = vec2<f32>(clip.x / clip.w + 1.0, 1.0 - clip.y / clip.w) * 0.5 * view.frame_px;
+    end.half_width = here.half_width + (other.half_width - here.half_width) * t;
+    end.depth = here.depth + (other.depth - here.depth) * t;
+    return end;
+}
+
+// Six vertices per edge: a rectangle around the ribbon.
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> Varying {
+    let element = index / 6u;
+    var passed: Varying;
+    passed.position = vec4<f32>(0.0);
+    let edge = edges[element];
+    let first = posed[edge.ends.x];
+    let second = posed[edge.ends.y];
+    if kinds[element] == 0u || max(first.depth, second.depth) <= view.near { return passed; }
+
+    let a = end_of(first, second);
+    let b = end_of(second, first);
+    var along = b.px - a.px;
+    let length = sqrt(along.x * along.x + along.y * along.y);
+    along = select(vec2<f32>(1.0, 0.0), along / length, length > 1e-6);
+    let corner = index % 6u;
+    let at_b = corner == 1u || corner == 2u || corner == 4u;
+    let at_left = corner == 2u || corner == 4u || corner == 5u;
+    let reach = max(a.half_width, b.half_width) + 1.5;
+    let end = select(a.px - along * reach, b.px + along * reach, at_b);
+    let px = end + vec2<f32>(-along.y, along.x) * select(-reach, reach, at_left);
+
+    let in_window = (px - window.frame_origin) / (window.frame_step * vec2<f32>(window.size));
+    passed.position = vec4<f32>(in_window.x * 2.0 - 1.0, 1.0 - in_window.y * 2.0, 0.5, 1.0);
+    passed.spine = vec4<f32>(a.px, b.px);
+    passed.halves_and_depths = vec4<f32>(a.half_width, b.half_width, a.depth, b.depth);
+    passed.part_and_kind = vec2<u32>(triangles[edge.faces.x].part, kinds[element]);
+    return passed;
+}
+
+fn mask_at(px: vec2<f32>) -> bool {
+    let pixel = pixel_at(mask_window, px);
+    return (mask[pixel.y * mask_window.size.x + pixel.x] & MASK_KINDS) != 0u;
+}
+
+struct Around {
+    farthest: f32,
+    masked: bool,
+}
+
+// The 3x3 mask pixels around a point: the farthest depth seen there, and whether any is set.
+fn around(px: vec2<f32>) -> Around {
+    let center = vec2<i32>(pixel_at(mask_window, px));
+    let last = vec2<i32>(mask_window.size) - 1;
+    var found: Around;
+    found.farthest = 0.0;
+    found.masked = false;
+    for (var dy = -1; dy <= 1; dy++) {
+        for (var dx = -1; dx <= 1; dx++) {
+            let pixel = vec2<u32>(clamp(center + vec2<i32>(dx, dy), vec2<i32>(0), last));
+            let element = pixel.y * mask_window.size.x + pixel.x;
+            found.farthest = max(found.farthest, gbuffer[element].depth);
+            found.masked = found.masked || (mask[element] & MASK_KINDS) != 0u;
+        }
+    }
+    return found;
+}
+
+// Whether the edge is to be seen at a point of its spine.
+fn shows_at(px: vec2<f32>, depth: f32, along: vec2<f32>, kind: u32) -> bool {
+    let seen = around(px);
+    let tolerance = 3.0 * world_per_pixel(view, depth) * mask_window.frame_step.y;
+    if depth > seen.farthest + tolerance { return false; }
+    if (outline.flags & OUTLINE_UNMASKED) != 0u { return true; }
+    if (outline.flags & OUTLINE_PUBLISHED) != 0u { return mask_at(px); }
+    if !seen.masked || (kind & (KIND_CONTOUR | KIND_BORDER)) != 0u { return seen.masked; }
+    // A crease shows only where the mask runs along it, not where it meets another line.
+    let ahead = along * mask_window.frame_step * 2.5;
+    return mask_at(px + ahead) || mask_at(px - ahead);
+}
+
+// 1 at the near plane, falling with depth; in parallel view the near plane may lie behind the eye.
+fn nearness(depth: f32) -> f32 {
+    if view.perspective < 0.5 { return 0.5; }
+    return view.near / max(depth, view.near);
+}
+
+// Whether another object stands in front of a thick line's fragment.
+fn is_covered(px: vec2<f32>, depth: f32, object: u32) -> bool {
+    let pixel = pixel_at(mask_window, px);
+    let seen = gbuffer[pixel.y * mask_window.size.x + pixel.x];
+    let tolerance = 3.0 * world_per_pixel(view, depth) * mask_window.frame_step.y;
+    return seen.part != NONE && seen.object != object && seen.depth < depth - tolerance;
+}
+
+struct Ink {
+    @location(0) color: vec4<f32>,
+    @builtin(frag_depth) key: f32,
+}
+
+@fragment
+fn fragment(passed: Varying) -> Ink {
+    var ribbon: Ribbon;
+    ribbon.a = passed.spine.xy;
+    ribbon.b = passed.spine.zw;
+    ribbon.half_a = passed.halves_and_depths.x;
+    ribbon.half_b = passed.halves_and_depths.y;
+    let depth_a = passed.halves_and_depths.z;
+    let depth_b = passed.halves_and_depths.w;
+    let part = passed.part_and_kind.x;
+    let px = frame_at(window, vec2<u32>(passed.position.xy));
+    let point = ribbon_at(ribbon, px, (outline.flags & OUTLINE_PUBLISHED) != 0u);
+    if point.coverage * 255.0 < 0.5 { discard; }
+
+    // Find the reference coordinate and its depth.
+    let along = ribbon.b - ribbon.a;
+    let reference = ribbon.a + along * point.t;
+    let from_a = plane_coordinate(view, depth_a);
+    let coordinate = from_a + (plane_coordinate(view, depth_b) - from_a) * point.t;
+    let depth = plane_coordinate(view, coordinate);
+    let length = max(sqrt(along.x * along.x + along.y * along.y), 1e-6);
+    if !shows_at(reference, depth, along / length, passed.part_and_kind.y) { discard; }
+    if is_covered(px, depth, parts[part].object) { discard; }
+
+    var ink: Ink;
+    let color = parts[part].line_color;
+    ink.color = vec4<f32>(color.rgb, color.a * point.coverage);
+    ink.key = line_key(point.coverage, nearness(depth));
+    return ink;
+}

@@ -1,0 +1,72 @@
+// line.find_residual: mask pixels that no ribbon inked become stamps.
+//
+// Lines where shapes meet or interpenetrate run along no mesh edge. They are drawn
+// as discs on the border between the pixels that differ, as wide as the surface says there.
+//
+// Source  A11 and A40: contact lines without the stubs of tessellation edges
+// Twin    npr_vector::residual::find
+//
+//# use lib/grid
+//# use lib/geometry
+//# use lib/window
+//# use lib/outline
+//# use lib/stamp
+
+override WG: u32 = 64u;
+
+@group(0) @binding(0) var<uniform> window: Window;
+@group(0) @binding(1) var<uniform> mask_window: Window;
+@group(0) @binding(2) var<storage, read> parts: array<Part>;
+@group(0) @binding(3) var<storage, read> gbuffer: array<GPixel>;
+@group(0) @binding(4) var<storage, read> mask: array<u32>;
+@group(0) @binding(5) var ribbons: texture_2d<f32>;
+@group(0) @binding(6) var<storage, read_write> stamps: array<Stamp>;
+
+// Whether any ribbon inked the output near a point of the frame.
+fn is_inked_near(px: vec2<f32>) -> bool {
+    let center = vec2<i32>(pixel_at(window, px));
+    let reach = i32(ceil(mask_window.frame_step.x * 0.5)) + 1;
+    let last = vec2<i32>(window.size) - 1;
+    for (var dy = -reach; dy <= reach; dy++) {
+        for (var dx = -reach; dx <= reach; dx++) {
+            let pixel = clamp(center + vec2<i32>(dx, dy), vec2<i32>(0), last);
+            if textureLoad(ribbons, pixel, 0).a > 0.0 { return true; }
+        }
+    }
+    return false;
+}
+
+// From the pixel's centre to the line, in pixels: half the sum of the sides it runs along.
+fn toward_line(found: u32) -> vec2<f32> {
+    var sum = vec2<f32>(0.0);
+    if (found & MASK_SIDE) != 0u { sum.x -= 0.5; }
+    if (found & (MASK_SIDE << 1u)) != 0u { sum.x += 0.5; }
+    if (found & (MASK_SIDE << 2u)) != 0u { sum.y -= 0.5; }
+    if (found & (MASK_SIDE << 3u)) != 0u { sum.y += 0.5; }
+    return sum;
+}
+
+// One invocation per mask pixel.
+@compute @workgroup_size(WG)
+fn main(
+    @builtin(workgroup_id) wid: vec3<u32>,
+    @builtin(num_workgroups) nwg: vec3<u32>,
+    @builtin(local_invocation_id) lid: vec3<u32>,
+) {
+    let element = element_index(wid, nwg, lid, WG);
+    if element >= arrayLength(&stamps) { return; }
+
+    var stamp: Stamp;
+    let found = mask[element];
+    let pixel = gbuffer[element];
+    if (found & MASK_OWNER) != 0u && pixel.part != NONE && (parts[pixel.part].flags & PART_LINES) != 0u {
+        let center = frame_at(mask_window, pixel_of(element, mask_window.size))
+            + toward_line(found) * mask_window.frame_step;
+        if !is_inked_near(center) {
+            stamp.center = center;
+            stamp.half_width = pixel.half_width;
+            stamp.part = pixel.part;
+        }
+    }
+    stamps[element] = stamp;
+}

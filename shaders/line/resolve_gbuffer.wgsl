@@ -1,0 +1,75 @@
+// line.resolve_gbuffer: depth, normal, object and material of the surface at every pixel.
+//
+// Source  Saito & Takahashi 1990; Okuya et al. 2016, sections 3.2 and 4.2
+// Twin    npr_vector::gbuffer::resolve
+//
+//# use lib/grid
+//# use lib/geometry
+//# use lib/unit
+//# use lib/surface
+//# use lib/window
+
+override WG: u32 = 64u;
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<uniform> window: Window;
+@group(0) @binding(2) var ids: texture_2d<u32>;
+@group(0) @binding(3) var<storage, read> posed: array<PosedVertex>;
+@group(0) @binding(4) var<storage, read> triangles: array<Triangle>;
+@group(0) @binding(5) var<storage, read> parts: array<Part>;
+@group(0) @binding(6) var<storage, read_write> gbuffer: array<GPixel>;
+
+fn empty_pixel() -> GPixel {
+    var pixel: GPixel;
+    pixel.depth = FAR_DEPTH;
+    pixel.object = NONE;
+    pixel.material = NONE;
+    pixel.part = NONE;
+    return pixel;
+}
+
+// The pixel of a triangle at a point of the frame.
+fn pixel_of_triangle(triangle: Triangle, frame_px: vec2<f32>) -> GPixel {
+    let a = posed[triangle.corners.x];
+    let b = posed[triangle.corners.y];
+    let c = posed[triangle.corners.z];
+    let clip = array<vec4<f32>, 3>(a.clip, b.clip, c.clip);
+    let weights = weights_at(clip, ndc_at(view, frame_px));
+    let right = weights_at(clip, ndc_at(view, frame_px + vec2<f32>(window.frame_step.x, 0.0)));
+    let down = weights_at(clip, ndc_at(view, frame_px + vec2<f32>(0.0, window.frame_step.y)));
+    let depth = blend(weights, a.depth, b.depth, c.depth);
+    let here = plane_coordinate(view, depth);
+
+    var pixel: GPixel;
+    pixel.plane_step = vec2<f32>(
+        plane_coordinate(view, blend(right, a.depth, b.depth, c.depth)) - here,
+        plane_coordinate(view, blend(down, a.depth, b.depth, c.depth)) - here,
+    );
+    pixel.depth = depth;
+    pixel.half_width = blend(weights, a.half_width, b.half_width, c.half_width);
+    let normal = unit_or_z(blend3(weights, a.normal, b.normal, c.normal));
+    pixel.normal = pack_unit(select(-normal, normal, faces_eye(clip)));
+    pixel.object = parts[triangle.part].object;
+    pixel.material = parts[triangle.part].material;
+    pixel.part = triangle.part;
+    return pixel;
+}
+
+// One invocation per pixel.
+@compute @workgroup_size(WG)
+fn main(
+    @builtin(workgroup_id) wid: vec3<u32>,
+    @builtin(num_workgroups) nwg: vec3<u32>,
+    @builtin(local_invocation_id) lid: vec3<u32>,
+) {
+    let element = element_index(wid, nwg, lid, WG);
+    if element >= arrayLength(&gbuffer) { return; }
+
+    let pixel = pixel_of(element, window.size);
+    let id = textureLoad(ids, pixel, 0).x & ID_MASK;
+    if id == 0u {
+        gbuffer[element] = empty_pixel();
+        return;
+    }
+    gbuffer[element] = pixel_of_triangle(triangles[id - 1u], frame_at(window, pixel));
+}

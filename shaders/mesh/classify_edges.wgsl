@@ -1,0 +1,61 @@
+// mesh.classify_edges: which edges may become lines, and of which kind.
+//
+// An edge is chosen by what it is on the shape, so that tessellation edges that
+// merely touch the mask leave no stubs along a line (A40).
+//
+// Source  Okuya et al. 2016, section 3.3; Marshall 2001 for contours
+// Twin    npr_mesh::classify::classify
+// Differs from the publication, which draws every edge of a front face: that is KIND_ANY.
+//
+//# use lib/grid
+//# use lib/geometry
+//# use lib/surface
+//# use lib/outline
+
+override WG: u32 = 64u;
+
+@group(0) @binding(0) var<uniform> outline: Outline;
+@group(0) @binding(1) var<storage, read> posed: array<PosedVertex>;
+@group(0) @binding(2) var<storage, read> triangles: array<Triangle>;
+@group(0) @binding(3) var<storage, read> parts: array<Part>;
+@group(0) @binding(4) var<storage, read> edges: array<Edge>;
+@group(0) @binding(5) var<storage, read_write> kinds: array<u32>;
+
+fn face_is_front(face: u32) -> bool {
+    let corners = triangles[face].corners;
+    let clip = array<vec4<f32>, 3>(posed[corners.x].clip, posed[corners.y].clip, posed[corners.z].clip);
+    return faces_eye(clip);
+}
+
+// All kinds that an edge is of.
+fn kinds_of(edge: Edge) -> u32 {
+    let front = face_is_front(edge.faces.x);
+    let flags = parts[triangles[edge.faces.x].part].flags;
+    if edge.faces.y == NONE {
+        let seen = front || (flags & PART_DOUBLE_SIDED) != 0u;
+        return select(0u, KIND_BORDER | select(0u, KIND_ANY, front), seen);
+    }
+    var second = face_is_front(edge.faces.y);
+    let published = select(0u, KIND_ANY, front || second);
+    if (edge.traits & EDGE_FLIPPED) != 0u { second = !second; }
+    let seen = front || second || (flags & PART_DOUBLE_SIDED) != 0u;
+    var kind = select(0u, KIND_CONTOUR, front != second);
+    if seen && edge.dihedral_cos < outline.crease_cos { kind |= KIND_CREASE; }
+    if seen && (edge.traits & EDGE_MATERIAL) != 0u { kind |= KIND_MATERIAL; }
+    return kind | published;
+}
+
+// One invocation per edge.
+@compute @workgroup_size(WG)
+fn main(
+    @builtin(workgroup_id) wid: vec3<u32>,
+    @builtin(num_workgroups) nwg: vec3<u32>,
+    @builtin(local_invocation_id) lid: vec3<u32>,
+) {
+    let element = element_index(wid, nwg, lid, WG);
+    if element >= arrayLength(&edges) { return; }
+
+    let edge = edges[element];
+    let drawn = (parts[triangles[edge.faces.x].part].flags & PART_LINES) != 0u;
+    kinds[element] = select(0u, kinds_of(edge) & outline.kinds, drawn);
+}

@@ -1,0 +1,77 @@
+//! The project's own commands: `cargo xtask COMMAND`.
+//!
+//! Builds in seconds, because nothing here links the renderer: what needs it is left to cargo.
+
+mod assets;
+mod ci;
+mod coverage;
+mod file;
+mod floors;
+mod names;
+mod packages;
+mod source;
+mod suite;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::Result;
+
+/// What `cargo xtask` answers when it is asked for nothing it knows.
+const USAGE: &str = "\
+usage: cargo xtask COMMAND
+
+  test [ARGS]       run every test of the workspace; ARGS go to cargo test
+  ci                run what must pass before a change is handed in
+  assets [--check]  write the sample models, or only compare them
+  floors            check that imports go down and stay light
+  coverage          check docs/coverage.toml and print counts
+  names             check that no file names a machine, and that every crate has a README";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let Some(outcome) = dispatch(&root(), &words) else {
+        eprintln!("{USAGE}");
+        return ExitCode::from(2);
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("xtask: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Runs the command that `words` spell, or returns nothing where they spell none.
+fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
+    Some(match words {
+        ["test", rest @ ..] => suite::run(root, rest),
+        ["ci"] => ci::run(root),
+        ["assets"] => assets::write(&root.join("assets")),
+        ["assets", "--check"] => assets::check(&root.join("assets")),
+        ["floors"] => floors::check(root),
+        ["coverage"] => coverage::check(root),
+        ["names"] => names::check(root),
+        _ => return None,
+    })
+}
+
+/// The root of the workspace.
+fn root() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent().unwrap_or(here).to_path_buf()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unknown_words_are_bad_usage() {
+        assert!(dispatch(&root(), &[]).is_none());
+        assert!(dispatch(&root(), &["floor"]).is_none());
+        assert!(dispatch(&root(), &["floors", "now"]).is_none());
+    }
+}

@@ -1,0 +1,114 @@
+//! The workspace as cargo sees it.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, ensure};
+use serde::Deserialize;
+
+/// A member of the workspace.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Package {
+    /// Its name.
+    pub name: String,
+    /// Its `Cargo.toml`.
+    pub manifest_path: PathBuf,
+    /// What it asks for, of every kind.
+    pub dependencies: Vec<Dependency>,
+    /// Registries it may go to; an empty list where it is not published.
+    pub publish: Option<Vec<String>>,
+}
+
+/// A line of a package's dependency tables.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Dependency {
+    /// The name of the package asked for.
+    pub name: String,
+    /// "dev" or "build"; nothing for a normal dependency.
+    pub kind: Option<String>,
+}
+
+impl Package {
+    /// The folder of its manifest.
+    pub fn folder(&self) -> &Path {
+        self.manifest_path.parent().unwrap_or(&self.manifest_path)
+    }
+
+    /// Whether it is meant for others.
+    pub fn is_published(&self) -> bool {
+        self.publish
+            .as_ref()
+            .is_none_or(|registries| !registries.is_empty())
+    }
+}
+
+/// The members of the workspace at `root`, by name.
+pub fn members(root: &Path) -> Result<Vec<Package>> {
+    /// The part of `cargo metadata` that is read.
+    #[derive(Deserialize)]
+    struct Metadata {
+        /// The members, since dependencies are left out.
+        packages: Vec<Package>,
+    }
+    let text = output(cargo(root).args(["metadata", "--format-version", "1", "--no-deps"]))?;
+    let mut packages = serde_json::from_str::<Metadata>(&text)?.packages;
+    packages.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(packages)
+}
+
+/// The names of all packages that `name` links with every feature on, itself among them.
+pub fn linked(root: &Path, name: &str) -> Result<Vec<String>> {
+    let tree = [
+        "tree",
+        "--edges",
+        "normal",
+        "--prefix",
+        "none",
+        "--all-features",
+    ];
+    let text = output(cargo(root).args(tree).args(["--package", name]))?;
+    Ok(names_in_tree(&text))
+}
+
+/// The first word of each line, each once.
+fn names_in_tree(text: &str) -> Vec<String> {
+    let words = text
+        .lines()
+        .filter_map(|line| line.split_whitespace().next());
+    let mut names: Vec<String> = words.map(String::from).collect();
+    names.sort();
+    names.dedup();
+    names
+}
+
+/// A cargo to be run at `root`: the one that runs this program, where there is one.
+pub fn cargo(root: &Path) -> Command {
+    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(program);
+    command.current_dir(root);
+    command
+}
+
+/// What a command writes to standard output; its messages pass through.
+pub fn output(command: &mut Command) -> Result<String> {
+    let called = format!("{command:?}");
+    let output = command.stderr(std::process::Stdio::inherit()).output();
+    let output = output.with_context(|| format!("cannot run {called}"))?;
+    ensure!(
+        output.status.success(),
+        "{called} failed: {}",
+        output.status
+    );
+    Ok(String::from_utf8(output.stdout)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_from_a_tree() {
+        let tree = "npr-mesh v0.1.0 (a/b)\nglam v0.33.2\nlibm v0.2.1\nglam v0.33.2 (*)\n\n";
+        assert_eq!(names_in_tree(tree), ["glam", "libm", "npr-mesh"]);
+    }
+}
