@@ -26,13 +26,15 @@ const DETECT_NORMAL: u32 = 2u;
 const DETECT_OBJECT: u32 = 4u;
 const DETECT_MATERIAL: u32 = 8u;
 const DETECT_PLANE_DEPTH: u32 = 16u;
+const DETECT_PIECE: u32 = 32u;
+const PIECE_COS: f32 = 0.99;
 
 const OUTLINE_WORLD_WIDTH: u32 = 1u;
 const OUTLINE_PROJECTED_CURVATURE: u32 = 2u;
 const OUTLINE_PUBLISHED: u32 = 4u;
 const OUTLINE_UNMASKED: u32 = 8u;
 
-const MASK_KINDS: u32 = 15u;
+const MASK_KINDS: u32 = 47u;
 const MASK_OWNER: u32 = 16u;
 const MASK_SIDE: u32 = 256u;
 

@@ -32,6 +32,19 @@ fn plane_coordinate(view: View, depth: f32) -> f32 {
     return select(depth, 1.0 / depth, view.perspective > 0.5);
 }
 
+// The depth that has a plane coordinate; FAR_DEPTH where the plane has passed the horizon.
+fn depth_of_coordinate(view: View, coordinate: f32) -> f32 {
+    if view.perspective < 0.5 { return coordinate; }
+    return select(1e30, 1.0 / coordinate, coordinate > 1e-30);
+}
+
+// Depth change over one pixel of a grid, in sizes of that pixel: the tangent of the angle to the picture.
+fn slope_of(view: View, window: Window, depth: f32, plane_step: vec2<f32>) -> f32 {
+    let step = sqrt(plane_step.x * plane_step.x + plane_step.y * plane_step.y);
+    let pixel = view.view_height * window.frame_step.y / view.frame_px.y;
+    return select(step, step * depth, view.perspective > 0.5) / pixel;
+}
+
 fn to_eye(view: View, world: vec3<f32>) -> vec3<f32> {
     if view.perspective < 0.5 { return -view.forward_world; }
     let d = view.eye_world - world;

@@ -21,25 +21,22 @@ override WG: u32 = 64u;
 @group(0) @binding(4) var<storage, read> gbuffer: array<GPixel>;
 @group(0) @binding(5) var<storage, read_write> mask: array<u32>;
 
-fn depth_of_coordinate(coordinate: f32) -> f32 {
-    if view.perspective < 0.5 { return coordinate; }
-    return select(FAR_DEPTH, 1.0 / coordinate, coordinate > 1e-30);
-}
+// Depth change per pixel, in pixels, from which a surface is grazing: 63 degrees.
+const GRAZING_SLOPE: f32 = 2.0;
 
 // How far `there` lies from the tangent plane of `here`, one pixel along `step`, in depth.
 fn plane_gap(here: GPixel, there: GPixel, step: vec2<f32>) -> f32 {
     let change = here.plane_step.x * step.x + here.plane_step.y * step.y;
-    let expected = depth_of_coordinate(plane_coordinate(view, here.depth) + change);
+    let expected = depth_of_coordinate(view, plane_coordinate(view, here.depth) + change);
     return abs(expected - there.depth);
 }
 
-// Depth jump between two neighbours as a share of the frame's height.
-fn depth_jump(here: GPixel, there: GPixel, step: vec2<f32>) -> f32 {
-    var gap = abs(here.depth - there.depth);
-    if (outline.detects & DETECT_PLANE_DEPTH) != 0u {
-        gap = min(gap, min(plane_gap(here, there, step), plane_gap(there, here, -step)));
-    }
-    return gap / height_at(view, min(here.depth, there.depth));
+// Whether depth jumps between two neighbours, by the threshold's share of the frame's height.
+fn jumps(here: GPixel, there: GPixel, step: vec2<f32>) -> bool {
+    let least = outline.depth_threshold * height_at(view, min(here.depth, there.depth));
+    if abs(here.depth - there.depth) <= least { return false; }
+    if (outline.detects & DETECT_PLANE_DEPTH) == 0u { return true; }
+    return plane_gap(here, there, step) > least && plane_gap(there, here, -step) > least;
 }
 
 // Which buffers separate two neighbours.
@@ -51,11 +48,19 @@ fn separations(here: GPixel, there: GPixel, step: vec2<f32>) -> u32 {
     if here.part == NONE || there.part == NONE {
         return (found | DETECT_DEPTH | DETECT_NORMAL) & outline.detects;
     }
-    if depth_jump(here, there, step) > outline.depth_threshold { found |= DETECT_DEPTH; }
-    if dot(unpack_unit(here.normal), unpack_unit(there.normal)) < outline.normal_cos {
-        found |= DETECT_NORMAL;
+    if jumps(here, there, step) { found |= DETECT_DEPTH; }
+    if here.normal != there.normal {
+        let turn = dot(unpack_unit(here.normal), unpack_unit(there.normal));
+        if turn < outline.normal_cos { found |= DETECT_NORMAL; }
+        let meets = here.part != there.part && here.object == there.object && here.material == there.material;
+        if meets && turn < PIECE_COS { found |= DETECT_PIECE; }
     }
     return found & outline.detects & MASK_KINDS;
+}
+
+// Whether a surface turns away so far that its normals change from pixel to pixel without any crease.
+fn is_grazing(pixel: GPixel) -> bool {
+    return slope_of(view, window, pixel.depth, pixel.plane_step) > GRAZING_SLOPE;
 }
 
 fn has_lines(pixel: GPixel) -> bool {
@@ -84,6 +89,7 @@ fn main(
         let kinds = separations(here, there, vec2<f32>(step));
         if kinds == 0u || !(has_lines(here) || has_lines(there)) { continue; }
         found |= kinds;
+        if kinds == DETECT_NORMAL && (is_grazing(here) || is_grazing(there)) { continue; }
         // Of two equally near surfaces, the right or lower pixel owns the line.
         let owns = here.depth < there.depth || (here.depth == there.depth && along < 0);
         if owns { found |= MASK_OWNER | (MASK_SIDE << side); }

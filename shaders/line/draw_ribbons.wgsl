@@ -26,6 +26,13 @@
 @group(0) @binding(9) var<storage, read> gbuffer: array<GPixel>;
 @group(0) @binding(10) var<storage, read> mask: array<u32>;
 
+// Depth that an edge may lie behind the surface around it and still be seen, in mask pixels.
+const DEPTH_TOLERANCE_PX: f32 = 1.0;
+// How much further behind a rim may bend.
+const RIM_FACTOR: f32 = 4.0;
+// How far along an edge the mask must go on, in mask pixels; a line that is merely crossed is thinner.
+const LINE_REACH_PX: f32 = 2.5;
+
 struct Varying {
     @builtin(position) position: vec4<f32>,
     @location(0) @interpolate(flat, either) spine: vec4<f32>,
@@ -87,39 +94,62 @@ fn mask_at(px: vec2<f32>) -> bool {
     return (mask[pixel.y * mask_window.size.x + pixel.x] & MASK_KINDS) != 0u;
 }
 
-struct Around {
-    farthest: f32,
-    masked: bool,
-}
-
-// The 3x3 mask pixels around a point: the farthest depth seen there, and whether any is set.
-fn around(px: vec2<f32>) -> Around {
+// Whether any of the 3x3 mask pixels around a point is set.
+fn mask_near(px: vec2<f32>) -> bool {
     let center = vec2<i32>(pixel_at(mask_window, px));
     let last = vec2<i32>(mask_window.size) - 1;
-    var found: Around;
-    found.farthest = 0.0;
-    found.masked = false;
     for (var dy = -1; dy <= 1; dy++) {
         for (var dx = -1; dx <= 1; dx++) {
             let pixel = vec2<u32>(clamp(center + vec2<i32>(dx, dy), vec2<i32>(0), last));
-            let element = pixel.y * mask_window.size.x + pixel.x;
-            found.farthest = max(found.farthest, gbuffer[element].depth);
-            found.masked = found.masked || (mask[element] & MASK_KINDS) != 0u;
+            if (mask[pixel.y * mask_window.size.x + pixel.x] & MASK_KINDS) != 0u { return true; }
         }
     }
-    return found;
+    return false;
+}
+
+// Whether the surface at the reference coordinate hides the edge. The pixel's tangent plane is followed to the point itself.
+fn is_hidden(px: vec2<f32>, depth: f32) -> bool {
+    let pixel = pixel_at(mask_window, px);
+    let seen = gbuffer[pixel.y * mask_window.size.x + pixel.x];
+    if seen.part == NONE { return false; }
+    let off = (px - frame_at(mask_window, pixel)) / mask_window.frame_step;
+    let change = seen.plane_step.x * off.x + seen.plane_step.y * off.y;
+    let plane = depth_of_coordinate(view, plane_coordinate(view, seen.depth) + change);
+    let slope = slope_of(view, mask_window, seen.depth, seen.plane_step);
+    if depth <= max(plane, seen.depth) + tolerance(depth) * (1.0 + slope) { return false; }
+    return !is_rim(pixel, depth, tolerance(depth) * RIM_FACTOR * (1.0 + slope));
+}
+
+// Whether a depth belongs to the surface in front where 3x3 pixels show two: a rim that bends away faster than the
+// tangent plane of its pixel.
+fn is_rim(center: vec2<u32>, depth: f32, room: f32) -> bool {
+    let low = max(center, vec2<u32>(1u)) - 1u;
+    let high = min(center + 1u, mask_window.size - 1u);
+    var nearest = FAR_DEPTH;
+    var farthest = 0.0;
+    for (var y = low.y; y <= high.y; y++) {
+        for (var x = low.x; x <= high.x; x++) {
+            let seen = gbuffer[y * mask_window.size.x + x].depth;
+            nearest = min(nearest, seen);
+            farthest = max(farthest, seen);
+        }
+    }
+    return depth - nearest < room && depth - nearest < farthest - depth;
+}
+
+fn tolerance(depth: f32) -> f32 {
+    return DEPTH_TOLERANCE_PX * world_per_pixel(view, depth) * mask_window.frame_step.y;
 }
 
 // Whether the edge is to be seen at a point of its spine.
 fn shows_at(px: vec2<f32>, depth: f32, along: vec2<f32>, kind: u32) -> bool {
-    let seen = around(px);
-    let tolerance = 3.0 * world_per_pixel(view, depth) * mask_window.frame_step.y;
-    if depth > seen.farthest + tolerance { return false; }
+    if is_hidden(px, depth) { return false; }
     if (outline.flags & OUTLINE_UNMASKED) != 0u { return true; }
     if (outline.flags & OUTLINE_PUBLISHED) != 0u { return mask_at(px); }
-    if !seen.masked || (kind & (KIND_CONTOUR | KIND_BORDER)) != 0u { return seen.masked; }
-    // A crease shows only where the mask runs along it, not where it meets another line.
-    let ahead = along * mask_window.frame_step * 2.5;
+    if !mask_near(px) { return false; }
+    // The mask must run along the edge, not merely meet another line there.
+    let ahead = along * mask_window.frame_step * LINE_REACH_PX;
+    if (kind & (KIND_CONTOUR | KIND_BORDER)) != 0u { return mask_near(px + ahead) || mask_near(px - ahead); }
     return mask_at(px + ahead) || mask_at(px - ahead);
 }
 
@@ -133,8 +163,7 @@ fn nearness(depth: f32) -> f32 {
 fn is_covered(px: vec2<f32>, depth: f32, object: u32) -> bool {
     let pixel = pixel_at(mask_window, px);
     let seen = gbuffer[pixel.y * mask_window.size.x + pixel.x];
-    let tolerance = 3.0 * world_per_pixel(view, depth) * mask_window.frame_step.y;
-    return seen.part != NONE && seen.object != object && seen.depth < depth - tolerance;
+    return seen.part != NONE && seen.object != object && seen.depth < depth - tolerance(depth);
 }
 
 struct Ink {

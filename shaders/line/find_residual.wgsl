@@ -22,15 +22,14 @@ override WG: u32 = 64u;
 @group(0) @binding(5) var ribbons: texture_2d<f32>;
 @group(0) @binding(6) var<storage, read_write> stamps: array<Stamp>;
 
-// Whether any ribbon inked the output near a point of the frame.
-fn is_inked_near(px: vec2<f32>) -> bool {
-    let center = vec2<i32>(pixel_at(window, px));
-    let reach = i32(ceil(mask_window.frame_step.x * 0.5)) + 1;
-    let last = vec2<i32>(window.size) - 1;
-    for (var dy = -reach; dy <= reach; dy++) {
-        for (var dx = -reach; dx <= reach; dx++) {
-            let pixel = clamp(center + vec2<i32>(dx, dy), vec2<i32>(0), last);
-            if textureLoad(ribbons, pixel, 0).a > 0.0 { return true; }
+// Whether any ribbon inked the output within half a mask pixel of a point of the frame.
+fn is_inked_at(px: vec2<f32>) -> bool {
+    let reach = 0.5 * mask_window.frame_step;
+    let low = pixel_at(window, px - reach);
+    let high = pixel_at(window, px + reach);
+    for (var y = low.y; y <= high.y; y++) {
+        for (var x = low.x; x <= high.x; x++) {
+            if textureLoad(ribbons, vec2<u32>(x, y), 0).a > 0.0 { return true; }
         }
     }
     return false;
@@ -62,7 +61,7 @@ fn main(
     if (found & MASK_OWNER) != 0u && pixel.part != NONE && (parts[pixel.part].flags & PART_LINES) != 0u {
         let center = frame_at(mask_window, pixel_of(element, mask_window.size))
             + toward_line(found) * mask_window.frame_step;
-        if !is_inked_near(center) {
+        if !is_inked_at(center) {
             stamp.center = center;
             stamp.half_width = pixel.half_width;
             stamp.part = pixel.part;

@@ -28,6 +28,32 @@ fn empty_pixel() -> GPixel {
     return pixel;
 }
 
+// Change of the plane coordinate over one pixel to the right and down. Weights change linearly over the picture
+// before they are divided by their sum; of the two sums that make the coordinate, one is constant.
+fn plane_step(clip: array<vec4<f32>, 3>, depths: vec3<f32>, ndc: vec2<f32>) -> vec2<f32> {
+    let a = offset_from(clip[0], ndc);
+    let b = offset_from(clip[1], ndc);
+    let c = offset_from(clip[2], ndc);
+    let weights = vec3<f32>(cross2(b, c), cross2(c, a), cross2(a, b));
+    let wa = clip[0].w;
+    let wb = clip[1].w;
+    let wc = clip[2].w;
+    let per_x = vec3<f32>(b.y * wc - c.y * wb, c.y * wa - a.y * wc, a.y * wb - b.y * wa);
+    let per_y = vec3<f32>(wb * c.x - wc * b.x, wc * a.x - wa * c.x, wa * b.x - wb * a.x);
+    var top = vec2<f32>(per_x.x + per_x.y + per_x.z, per_y.x + per_y.y + per_y.z);
+    var bottom = weights.x * depths.x + weights.y * depths.y + weights.z * depths.z;
+    if view.perspective < 0.5 {
+        top = vec2<f32>(
+            per_x.x * depths.x + per_x.y * depths.y + per_x.z * depths.z,
+            per_y.x * depths.x + per_y.y * depths.y + per_y.z * depths.z,
+        );
+        bottom = weights.x + weights.y + weights.z;
+    }
+    if bottom == 0.0 { return vec2<f32>(0.0); }
+    let ndc_per_pixel = vec2<f32>(2.0, -2.0) * window.frame_step / view.frame_px;
+    return vec2<f32>(top.x / bottom * ndc_per_pixel.x, top.y / bottom * ndc_per_pixel.y);
+}
+
 // The pixel of a triangle at a point of the frame.
 fn pixel_of_triangle(triangle: Triangle, frame_px: vec2<f32>) -> GPixel {
     let a = posed[triangle.corners.x];
@@ -35,17 +61,10 @@ fn pixel_of_triangle(triangle: Triangle, frame_px: vec2<f32>) -> GPixel {
     let c = posed[triangle.corners.z];
     let clip = array<vec4<f32>, 3>(a.clip, b.clip, c.clip);
     let weights = weights_at(clip, ndc_at(view, frame_px));
-    let right = weights_at(clip, ndc_at(view, frame_px + vec2<f32>(window.frame_step.x, 0.0)));
-    let down = weights_at(clip, ndc_at(view, frame_px + vec2<f32>(0.0, window.frame_step.y)));
-    let depth = blend(weights, a.depth, b.depth, c.depth);
-    let here = plane_coordinate(view, depth);
 
     var pixel: GPixel;
-    pixel.plane_step = vec2<f32>(
-        plane_coordinate(view, blend(right, a.depth, b.depth, c.depth)) - here,
-        plane_coordinate(view, blend(down, a.depth, b.depth, c.depth)) - here,
-    );
-    pixel.depth = depth;
+    pixel.plane_step = plane_step(clip, vec3<f32>(a.depth, b.depth, c.depth), ndc_at(view, frame_px));
+    pixel.depth = blend(weights, a.depth, b.depth, c.depth);
     pixel.half_width = blend(weights, a.half_width, b.half_width, c.half_width);
     let normal = unit_or_z(blend3(weights, a.normal, b.normal, c.normal));
     pixel.normal = pack_unit(select(-normal, normal, faces_eye(clip)));

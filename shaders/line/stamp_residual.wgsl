@@ -45,7 +45,8 @@ fn main(
     if element >= arrayLength(&stamped) { return; }
 
     let px = frame_at(window, pixel_of(element, window.size));
-    let reach = f32(outline.reach_px) + mask_window.frame_step;
+    // Smoothing moves stamps from their pixels.
+    let reach = f32(outline.reach_px) + f32(1u + SMOOTHING_REACH) * mask_window.frame_step;
     let low = pixel_at(mask_window, px - reach);
     let high = pixel_at(mask_window, px + reach);
     var best = 0.0;

@@ -32,7 +32,7 @@ override WG: u32 = 64u;
 
 //# use lib/texture
 
-const MASK_KINDS: u32 = 15u;
+const MASK_KINDS: u32 = 47u;
 
 struct Corners {
     clip: array<vec4<f32>, 3>,
@@ -75,6 +75,7 @@ fn ramp_coordinate(normal: vec3<f32>) -> f32 {
 
 // Whether the whole triangle lies within one tone.
 fn is_one_tone(part: u32, corners: Corners) -> bool {
+    if (parts[part].flags & PART_UNLIT) != 0u { return true; }
     let a = ramp_coordinate(corners.normals[0] * corners.side);
     let b = ramp_coordinate(corners.normals[1] * corners.side);
     let c = ramp_coordinate(corners.normals[2] * corners.side);
@@ -88,15 +89,18 @@ fn is_one_tone(part: u32, corners: Corners) -> bool {
     return true;
 }
 
+// Light on a surface that faces along `normal`.
+fn light_of(part: u32, normal: vec3<f32>) -> vec3<f32> {
+    if (parts[part].flags & PART_UNLIT) != 0u { return vec3<f32>(1.0); }
+    return ramp_light(part, ramp_coordinate(normal));
+}
+
 // Tone and ink at one point: rgb light, alpha 1 where the surface-angle method draws a line.
 fn tone_at(triangle: Triangle, corners: Corners, frame_px: vec2<f32>) -> vec4<f32> {
     let weights = weights_at(corners.clip, ndc_at(view, frame_px));
     let normal = unit_or_z(blend3(weights, corners.normals[0], corners.normals[1], corners.normals[2]))
         * corners.side;
-    var light = vec3<f32>(1.0);
-    if (parts[triangle.part].flags & PART_UNLIT) == 0u {
-        light = ramp_light(triangle.part, ramp_coordinate(normal));
-    }
+    let light = light_of(triangle.part, normal);
     var ink = 0.0;
     if (compose.flags & COMPOSE_ANGLE) != 0u && (parts[triangle.part].flags & PART_LINES) != 0u {
         let world = blend3(weights, posed[triangle.corners.x].world, posed[triangle.corners.y].world,
@@ -158,8 +162,8 @@ fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
     }
     let corners = corners_of(triangle);
     var tone = vec4<f32>(0.0);
-    if is_one_tone(triangle.part, corners) && (compose.flags & COMPOSE_ANGLE) == 0u {
-        tone = tone_at(triangle, corners, frame_px + center);
+    if (compose.flags & COMPOSE_ANGLE) == 0u && is_one_tone(triangle.part, corners) {
+        tone = vec4<f32>(light_of(triangle.part, corners.normals[0] * corners.side), 0.0);
     } else {
         for (var i = 0u; i < 4u; i++) {
             if (members & (1u << i)) != 0u {

@@ -46,6 +46,8 @@ shaders! {
     LINE_DRAW_RIBBONS = "line/draw_ribbons";
     /// Finds mask pixels that no ribbon inked.
     LINE_FIND_RESIDUAL = "line/find_residual";
+    /// Evens out where stamps lie along a line.
+    LINE_SMOOTH_STAMPS = "line/smooth_stamps";
     /// Marks the tiles that hold such pixels.
     LINE_FLAG_TILES = "line/flag_tiles";
     /// Inks discs around the mask pixels that no ribbon inked.
@@ -97,7 +99,8 @@ fn append(text: &str, used: &mut Vec<String>, linked: &mut String) {
         }
         used.push(name.to_owned());
         let library = LIBRARIES.iter().find(|(path, _)| *path == name);
-        let (_, text) = library.unwrap_or_else(|| panic!("a shader uses '{name}', which is no library"));
+        let (_, text) =
+            library.unwrap_or_else(|| panic!("a shader uses '{name}', which is no library"));
         append(text, used, linked);
     }
 }
@@ -110,15 +113,26 @@ mod tests {
     fn every_shader_links_and_opens_with_its_name() {
         for shader in ALL {
             let linked = link(shader);
-            assert!(!linked.contains("//# use"), "{} keeps a use line", shader.path);
+            assert!(
+                !linked.contains("//# use"),
+                "{} keeps a use line",
+                shader.path
+            );
             let name = shader.path.replace('/', ".");
-            assert!(shader.text.starts_with(&format!("// {name}: ")), "{} opens with another name", shader.path);
+            assert!(
+                shader.text.starts_with(&format!("// {name}: ")),
+                "{} opens with another name",
+                shader.path
+            );
         }
     }
 
     #[test]
     fn a_library_asked_for_twice_comes_once() {
-        let shader = Shader { path: "test", text: "//# use lib/surface\n//# use lib/surface\n" };
+        let shader = Shader {
+            path: "test",
+            text: "//# use lib/surface\n//# use lib/surface\n",
+        };
         assert_eq!(link(&shader).matches("fn weights_at").count(), 1);
     }
 }

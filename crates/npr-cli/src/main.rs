@@ -1,1 +1,7 @@
-fn main() {}
+//! The command `npr`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    npr_cli::run(std::env::args_os())
+}

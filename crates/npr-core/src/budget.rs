@@ -24,7 +24,10 @@ pub struct Budget {
 impl Budget {
     /// A budget of `limit_bytes`, none of it used.
     pub fn new(limit_bytes: u64) -> Self {
-        Self { limit_bytes, used_bytes: 0 }
+        Self {
+            limit_bytes,
+            used_bytes: 0,
+        }
     }
 
     /// Plans `count` elements of `element_bytes` each for `what`, with checked arithmetic.
@@ -32,8 +35,15 @@ impl Budget {
     /// # Errors
     ///
     /// [`OverBudget`] when that is more than is left; nothing is planned then.
-    pub fn take(&mut self, what: &str, count: usize, element_bytes: usize) -> Result<(), OverBudget> {
-        let needed = (count as u64).checked_mul(element_bytes as u64).unwrap_or(u64::MAX);
+    pub fn take(
+        &mut self,
+        what: &str,
+        count: usize,
+        element_bytes: usize,
+    ) -> Result<(), OverBudget> {
+        let needed = (count as u64)
+            .checked_mul(element_bytes as u64)
+            .unwrap_or(u64::MAX);
         let left = self.limit_bytes - self.used_bytes;
         if needed > left {
             return Err(OverBudget {

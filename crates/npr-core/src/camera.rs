@@ -48,25 +48,45 @@ impl Camera {
     }
 
     /// A perspective view of a box from three quarters above, for a frame of width / height `aspect`.
-    ///
-    /// The eye stands as near as it can with every corner inside the frame and a margin around.
     pub fn framing_for(min: [f32; 3], max: [f32; 3], aspect: f32, fov_y: f32) -> Self {
-        let (min, max) = (Vec3::from(min), Vec3::from(max));
-        let center = (min + max) * 0.5;
+        Self::framing_points(
+            corners(Vec3::from(min), Vec3::from(max)).map(|corner| corner.to_array()),
+            aspect,
+            fov_y,
+        )
+    }
+
+    /// A perspective view of points from three quarters above, for a frame of width / height `aspect`.
+    ///
+    /// The eye stands as near as it can with every point inside the frame and a margin around, and the points lie
+    /// in the middle of the frame. Without points, a unit box is framed.
+    pub fn framing_points(points: impl Iterator<Item = [f32; 3]>, aspect: f32, fov_y: f32) -> Self {
         let back = THREE_QUARTERS.normalize();
         let right = Vec3::Y.cross(back).normalize();
         let up = back.cross(right);
         let tan_y = math::tan(fov_y * 0.5) * FRAMED_SHARE;
         let tan_x = tan_y * aspect;
-        let distance = corners(min - center, max - center)
-            .map(|corner| {
-                let across = (corner.dot(right).abs() / tan_x).max(corner.dot(up).abs() / tan_y);
-                across + corner.dot(back)
-            })
-            .fold(1e-3, f32::max);
+
+        // Along an axis of the picture, every point bounds where a pyramid with its side planes may have its tip.
+        let mut reach = [f32::MIN; 4];
+        let mut nearest = f32::MIN;
+        for point in points.map(Vec3::from) {
+            let (x, y, z) = (point.dot(right), point.dot(up), point.dot(back));
+            let sides = [x / tan_x + z, -x / tan_x + z, y / tan_y + z, -y / tan_y + z];
+            reach = std::array::from_fn(|i| reach[i].max(sides[i]));
+            nearest = nearest.max(z);
+        }
+        if nearest == f32::MIN {
+            return Self::framing_for([-0.5; 3], [0.5; 3], aspect, fov_y);
+        }
+        let x = (reach[0] - reach[1]) * 0.5 * tan_x;
+        let y = (reach[2] - reach[3]) * 0.5 * tan_y;
+        let across = (reach[0] + reach[1]).max(reach[2] + reach[3]) * 0.5;
+        let z = across.max(nearest + (across - nearest).abs() * 0.01 + nearest.abs() * 1e-4 + 1e-6);
+        let eye = right * x + up * y + back * z;
         Self {
-            eye: (center + back * distance).to_array(),
-            target: center.to_array(),
+            eye: eye.to_array(),
+            target: (eye - back * (z - nearest).max(1e-3)).to_array(),
             up: [0.0, 1.0, 0.0],
             projection: Projection::Perspective { fov_y },
         }
@@ -104,11 +124,19 @@ impl Camera {
             Projection::Perspective { fov_y } => {
                 let height = 2.0 * math::tan(fov_y * 0.5);
                 let near = nearest.max(farthest * 1e-5).max(1e-6);
-                (perspective_reversed(height, aspect, near), 1.0, height, near)
+                (
+                    perspective_reversed(height, aspect, near),
+                    1.0,
+                    height,
+                    near,
+                )
             }
-            Projection::Parallel { height } => {
-                (parallel_reversed(height, aspect, nearest, farthest), 0.0, height, nearest)
-            }
+            Projection::Parallel { height } => (
+                parallel_reversed(height, aspect, nearest, farthest),
+                0.0,
+                height,
+                nearest,
+            ),
         };
         View {
             clip_from_world: (clip_from_camera * camera_from_world).to_cols_array_2d(),
@@ -140,7 +168,11 @@ impl Camera {
 fn corners(min: Vec3, max: Vec3) -> impl Iterator<Item = Vec3> {
     (0..8).map(move |i| {
         let pick = |bit: u32, low: f32, high: f32| if i & bit == 0 { low } else { high };
-        Vec3::new(pick(1, min.x, max.x), pick(2, min.y, max.y), pick(4, min.z, max.z))
+        Vec3::new(
+            pick(1, min.x, max.x),
+            pick(2, min.y, max.y),
+            pick(4, min.z, max.z),
+        )
     })
 }
 

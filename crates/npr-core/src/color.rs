@@ -6,13 +6,21 @@ use crate::math;
 
 /// Linear light of an sRGB-encoded value, both 0..1.
 pub fn linear_from_srgb(v: f32) -> f32 {
-    if v <= 0.04045 { v / 12.92 } else { math::powf((v + 0.055) / 1.055, 2.4) }
+    if v <= 0.04045 {
+        v / 12.92
+    } else {
+        math::powf((v + 0.055) / 1.055, 2.4)
+    }
 }
 
 /// The sRGB encoding of linear light, both 0..1; values outside are clamped.
 pub fn srgb_from_linear(v: f32) -> f32 {
     let v = v.clamp(0.0, 1.0);
-    if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * math::powf(v, 1.0 / 2.4) - 0.055 }
+    if v <= 0.003_130_8 {
+        v * 12.92
+    } else {
+        1.055 * math::powf(v, 1.0 / 2.4) - 0.055
+    }
 }
 
 /// Linear light to sRGB bytes by table: the byte nearest to [`srgb_from_linear`], without its cost.
@@ -72,7 +80,12 @@ pub fn unpack_rgba8(packed: u32) -> [f32; 4] {
 
 /// An sRGB colour with straight alpha as linear light with straight alpha.
 pub fn linear_rgba(srgb: [f32; 4]) -> [f32; 4] {
-    [linear_from_srgb(srgb[0]), linear_from_srgb(srgb[1]), linear_from_srgb(srgb[2]), srgb[3]]
+    [
+        linear_from_srgb(srgb[0]),
+        linear_from_srgb(srgb[1]),
+        linear_from_srgb(srgb[2]),
+        srgb[3],
+    ]
 }
 
 #[cfg(test)]

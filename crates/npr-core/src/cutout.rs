@@ -30,7 +30,10 @@ impl Cutout<'_> {
         let corners = triangle.corners.map(|v| v as usize);
         let weights = surface::weights_at(corners.map(|v| self.posed[v].clip), ndc);
         let mut alpha = part.base_color[3];
-        alpha *= surface::blend(weights, corners.map(|v| (self.vertices[v].color >> 24) as f32)) / 255.0;
+        alpha *= surface::blend(
+            weights,
+            corners.map(|v| (self.vertices[v].color >> 24) as f32),
+        ) / 255.0;
         if part.texture != NONE {
             let uv = surface::blend2(weights, corners.map(|v| self.vertices[v].uv));
             alpha *= texture::sample(self.texels, part.texture, uv, 0.0)[3];

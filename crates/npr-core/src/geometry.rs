@@ -36,7 +36,18 @@ pub struct Vertex {
     /// Keeps the size a multiple of 16 bytes.
     pub unused: u32,
 }
-gpu_layout!(Vertex { position, color, normal, direction, uv, curvatures, weld_normal, width, part, unused });
+gpu_layout!(Vertex {
+    position,
+    color,
+    normal,
+    direction,
+    uv,
+    curvatures,
+    weld_normal,
+    width,
+    part,
+    unused
+});
 
 /// Which matrices move a vertex, and how much: linear blend skinning; rigid parts use one joint.
 #[repr(C)]
@@ -64,7 +75,13 @@ pub struct PosedVertex {
     /// Half the line width at this vertex, in frame pixels.
     pub half_width: f32,
 }
-gpu_layout!(PosedVertex { clip, world, depth, normal, half_width });
+gpu_layout!(PosedVertex {
+    clip,
+    world,
+    depth,
+    normal,
+    half_width
+});
 
 /// A triangle and the part it belongs to.
 #[repr(C)]
@@ -90,7 +107,12 @@ pub struct Edge {
     /// Bits of [`Edge::MATERIAL`] and [`Edge::FLIPPED`].
     pub traits: u32,
 }
-gpu_layout!(Edge { ends, faces, dihedral_cos, traits });
+gpu_layout!(Edge {
+    ends,
+    faces,
+    dihedral_cos,
+    traits
+});
 
 impl Edge {
     /// The two faces differ in material.
@@ -127,8 +149,17 @@ pub struct Part {
     pub ramp: [[f32; 4]; 8],
 }
 gpu_layout!(Part {
-    base_color, line_color, object, material, texture, flags, width_factor, facing_threshold,
-    alpha_cutoff, softness, ramp,
+    base_color,
+    line_color,
+    object,
+    material,
+    texture,
+    flags,
+    width_factor,
+    facing_threshold,
+    alpha_cutoff,
+    softness,
+    ramp,
 });
 
 impl Part {
@@ -153,7 +184,11 @@ pub struct Stamp {
     /// Index into the parts.
     pub part: u32,
 }
-gpu_layout!(Stamp { center, half_width, part });
+gpu_layout!(Stamp {
+    center,
+    half_width,
+    part
+});
 
 /// What one pixel of the G-buffer holds.
 #[repr(C)]
@@ -174,7 +209,15 @@ pub struct GPixel {
     /// Part index, or [`NONE`] where no surface is seen.
     pub part: u32,
 }
-gpu_layout!(GPixel { plane_step, depth, half_width, normal, object, material, part });
+gpu_layout!(GPixel {
+    plane_step,
+    depth,
+    half_width,
+    normal,
+    object,
+    material,
+    part
+});
 
 impl GPixel {
     /// A pixel that shows no surface.

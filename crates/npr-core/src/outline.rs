@@ -33,8 +33,18 @@ pub struct Outline {
     pub reach_px: u32,
 }
 gpu_layout!(Outline {
-    base_width, min_factor, max_factor, gain, radius_world, crease_cos, depth_threshold, normal_cos,
-    kinds, detects, flags, reach_px,
+    base_width,
+    min_factor,
+    max_factor,
+    gain,
+    radius_world,
+    crease_cos,
+    depth_threshold,
+    normal_cos,
+    kinds,
+    detects,
+    flags,
+    reach_px,
 });
 
 impl Outline {
@@ -59,6 +69,8 @@ impl Outline {
     pub const MATERIAL_ID: u32 = 8;
     /// Compares depths with the neighbour's tangent plane instead of directly.
     pub const PLANE_DEPTH: u32 = 16;
+    /// Detects where pieces of one object cut through each other. Also the bit that such a pixel gets in the mask.
+    pub const PIECE: u32 = 32;
 
     /// `base_width` is in world units.
     pub const WORLD_WIDTH: u32 = 1;
@@ -69,6 +81,13 @@ impl Outline {
     /// Ribbons are drawn without looking at the mask.
     pub const UNMASKED: u32 = 8;
 }
+
+/// The bits of a mask pixel that say what found it.
+pub const MASK_KINDS: u32 =
+    Outline::DEPTH | Outline::NORMAL | Outline::OBJECT_ID | Outline::MATERIAL_ID | Outline::PIECE;
+
+/// Cosine of the angle between normals above which two pieces of an object count as one smooth skin.
+pub const PIECE_COS: f32 = 0.99;
 
 /// In the mask: this pixel's surface is the one in front, so the line belongs to it.
 pub const MASK_OWNER: u32 = 16;

@@ -69,16 +69,22 @@ where
         .map(|(i, _)| Batch::set_up(fill, i * SETUP_TRIANGLES, band_count))
         .collect();
     let rows = BAND_ROWS * width;
-    ids.par_chunks_mut(rows).zip(depths.par_chunks_mut(rows)).enumerate().for_each(
-        |(band, (ids, depths))| {
-            let mut rows = Rows { first: (band * BAND_ROWS) as i64, width, ids, depths };
+    ids.par_chunks_mut(rows)
+        .zip(depths.par_chunks_mut(rows))
+        .enumerate()
+        .for_each(|(band, (ids, depths))| {
+            let mut rows = Rows {
+                first: (band * BAND_ROWS) as i64,
+                width,
+                ids,
+                depths,
+            };
             for batch in &batches {
                 for &slot in &batch.bands[band] {
                     rows.fill(&batch.screen[slot as usize], &fill.keep);
                 }
             }
-        },
-    );
+        });
 }
 
 /// Triangles set up together, and which of them touch each band.
@@ -93,11 +99,16 @@ impl Batch {
         C: Fn(u32) -> [f32; 4] + Sync,
     {
         let last = (first + SETUP_TRIANGLES).min(fill.triangles.len());
-        let mut batch = Self { screen: Vec::new(), bands: vec![Vec::new(); band_count] };
+        let mut batch = Self {
+            screen: Vec::new(),
+            bands: vec![Vec::new(); band_count],
+        };
         for index in first..last {
             let triangle = fill.triangles[index];
             let flags = fill.parts[triangle.part as usize].flags;
-            let clip = triangle.corners.map(|v| fill.window.clip_here((fill.clip_of)(v)));
+            let clip = triangle
+                .corners
+                .map(|v| fill.window.clip_here((fill.clip_of)(v)));
             let cull = match fill.sides {
                 Sides::AsParts if flags & Part::DOUBLE_SIDED != 0 => Cull::Nothing,
                 Sides::AsParts => Cull::Backs,
@@ -106,7 +117,8 @@ impl Batch {
             let id = (index as u32 + 1) | fill.id_bits;
             let cutout = flags & Part::CUTOUT != 0;
             for piece in fan(&clipped(clip, fill.window.size)) {
-                if let Some(screen) = ScreenTriangle::new(piece, fill.window.size, cull, id, cutout) {
+                if let Some(screen) = ScreenTriangle::new(piece, fill.window.size, cull, id, cutout)
+                {
                     batch.add(screen);
                 }
             }
@@ -135,7 +147,10 @@ enum Cull {
 fn clipped(clip: [[f32; 4]; 3], size: [u32; 2]) -> Vec<[f32; 4]> {
     let guard = size.map(|n| 1.0 + 2.0 * GUARD_PX / n as f32);
     let inside = |v: &[f32; 4]| {
-        v[3] - v[2] >= 0.0 && v[3] > 0.0 && v[0].abs() <= guard[0] * v[3] && v[1].abs() <= guard[1] * v[3]
+        v[3] - v[2] >= 0.0
+            && v[3] > 0.0
+            && v[0].abs() <= guard[0] * v[3]
+            && v[1].abs() <= guard[1] * v[3]
     };
     let mut polygon = clip.to_vec();
     if clip.iter().all(inside) {
@@ -209,7 +224,10 @@ impl ScreenTriangle {
         }
         let reach = |v: [i64; 3], last: u32| {
             let (low, high) = (v[0].min(v[1]).min(v[2]), v[0].max(v[1]).max(v[2]));
-            ((first_center(low)).max(0), last_center(high).min(i64::from(last) - 1))
+            (
+                (first_center(low)).max(0),
+                last_center(high).min(i64::from(last) - 1),
+            )
         };
         let (left, right) = reach(x, size[0]);
         let (top, bottom) = reach(y, size[1]);
@@ -217,7 +235,17 @@ impl ScreenTriangle {
             return None;
         }
         let depth = depth_plane(x, y, z, area.abs());
-        Some(Self { x, y, depth, left, right, top, bottom, id, cutout })
+        Some(Self {
+            x,
+            y,
+            depth,
+            left,
+            right,
+            top,
+            bottom,
+            id,
+            cutout,
+        })
     }
 
     /// The pixels of a row whose centres lie inside, as first and last column; empty where first > last.
@@ -234,7 +262,9 @@ impl ScreenTriangle {
             // Need at_zero - dy * SUBPIXELS * column >= 0.
             let step = dy * SUBPIXELS;
             if step < 0 {
-                first = first.max((-at_zero).div_euclid(-step) + i64::from((-at_zero).rem_euclid(-step) != 0));
+                first = first.max(
+                    (-at_zero).div_euclid(-step) + i64::from((-at_zero).rem_euclid(-step) != 0),
+                );
             } else if step > 0 {
                 last = last.min(at_zero.div_euclid(step));
             } else if at_zero < 0 {
@@ -252,7 +282,8 @@ fn snapped(px: f32) -> i64 {
 
 /// First pixel whose centre is at or after a sub-pixel position.
 fn first_center(position: i64) -> i64 {
-    (position - SUBPIXELS / 2).div_euclid(SUBPIXELS) + i64::from((position - SUBPIXELS / 2).rem_euclid(SUBPIXELS) != 0)
+    (position - SUBPIXELS / 2).div_euclid(SUBPIXELS)
+        + i64::from((position - SUBPIXELS / 2).rem_euclid(SUBPIXELS) != 0)
 }
 
 /// Last pixel whose centre is at or before a sub-pixel position.
@@ -265,7 +296,10 @@ fn depth_plane(x: [i64; 3], y: [i64; 3], z: [f32; 3], area: i64) -> [f64; 3] {
     let area = area as f64;
     let (x1, y1) = ((x[1] - x[0]) as f64, (y[1] - y[0]) as f64);
     let (x2, y2) = ((x[2] - x[0]) as f64, (y[2] - y[0]) as f64);
-    let (z1, z2) = (f64::from(z[1]) - f64::from(z[0]), f64::from(z[2]) - f64::from(z[0]));
+    let (z1, z2) = (
+        f64::from(z[1]) - f64::from(z[0]),
+        f64::from(z[2]) - f64::from(z[0]),
+    );
     let per_x = (z1 * y2 - z2 * y1) / area;
     let per_y = (z2 * x1 - z1 * x2) / area;
     let half = (SUBPIXELS / 2) as f64;
@@ -293,13 +327,19 @@ impl Rows<'_> {
             }
             let start = (row - self.first) as usize * self.width;
             let range = start + left as usize..=start + right as usize;
-            let depth = (triangle.depth[0] + triangle.depth[2] * row as f64 + triangle.depth[1] * left as f64) as f32;
+            let depth = (triangle.depth[0]
+                + triangle.depth[2] * row as f64
+                + triangle.depth[1] * left as f64) as f32;
             let step = triangle.depth[1] as f32;
-            let pixels = self.ids[range.clone()].iter_mut().zip(&mut self.depths[range]);
+            let pixels = self.ids[range.clone()]
+                .iter_mut()
+                .zip(&mut self.depths[range]);
             for (i, (id, nearest)) in pixels.enumerate() {
                 // Reversed depth is positive, so its bits compare like the number itself.
                 let z = (depth + step * i as f32).max(0.0).to_bits();
-                if z > *nearest && (!triangle.cutout || keep(triangle.id, left as u32 + i as u32, row as u32)) {
+                if z > *nearest
+                    && (!triangle.cutout || keep(triangle.id, left as u32 + i as u32, row as u32))
+                {
                     *nearest = z;
                     *id = triangle.id;
                 }
@@ -310,7 +350,11 @@ impl Rows<'_> {
 
 /// The triangle that an id of [`fill_triangles`] names, or [`NONE`] where nothing was drawn.
 pub fn triangle_of(id: u32) -> u32 {
-    if id & ID_MASK == 0 { NONE } else { (id & ID_MASK) - 1 }
+    if id & ID_MASK == 0 {
+        NONE
+    } else {
+        (id & ID_MASK) - 1
+    }
 }
 
 /// Marks pixels filled by a hull.
@@ -331,13 +375,20 @@ mod tests {
     }
 
     fn two_sided() -> Part {
-        Part { flags: Part::DOUBLE_SIDED, ..Part::default() }
+        Part {
+            flags: Part::DOUBLE_SIDED,
+            ..Part::default()
+        }
     }
 
     fn draw(corners: &[[f32; 4]], sides: Sides, part: Part) -> (Vec<u32>, Vec<u32>) {
         let count = corners.len() as u32 / 3;
-        let triangles: Vec<Triangle> =
-            (0..count).map(|i| Triangle { corners: [3 * i, 3 * i + 1, 3 * i + 2], part: 0 }).collect();
+        let triangles: Vec<Triangle> = (0..count)
+            .map(|i| Triangle {
+                corners: [3 * i, 3 * i + 1, 3 * i + 2],
+                part: 0,
+            })
+            .collect();
         let (mut ids, mut depths) = (vec![0; 64 * 48], vec![0; 64 * 48]);
         let fill = Fill {
             window: &window(),
@@ -359,9 +410,12 @@ mod tests {
 
     /// Every pixel tested on its own, in 128-bit integers.
     fn covered_by_oracle(px: [[f32; 2]; 3]) -> Vec<bool> {
-        let mut v: Vec<[i128; 2]> =
-            px.iter().map(|p| p.map(|c| i128::from(snapped(c)))).collect();
-        let area = (v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[1][1] - v[0][1]) * (v[2][0] - v[0][0]);
+        let mut v: Vec<[i128; 2]> = px
+            .iter()
+            .map(|p| p.map(|c| i128::from(snapped(c))))
+            .collect();
+        let area =
+            (v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[1][1] - v[0][1]) * (v[2][0] - v[0][0]);
         if area < 0 {
             v.swap(1, 2);
         }
@@ -374,7 +428,10 @@ mod tests {
                     side > 0 || (side == 0 && (dy < 0 || (dy == 0 && dx > 0)))
                 })
         };
-        (0..48).flat_map(|y| (0..64).map(move |x| (x, y))).map(|(x, y)| inside(x * 256 + 128, y * 256 + 128)).collect()
+        (0..48)
+            .flat_map(|y| (0..64).map(move |x| (x, y)))
+            .map(|(x, y)| inside(x * 256 + 128, y * 256 + 128))
+            .collect()
     }
 
     fn point() -> impl Strategy<Value = [f32; 2]> {
@@ -425,7 +482,11 @@ mod tests {
 
     #[test]
     fn a_triangle_through_the_near_plane_keeps_its_visible_part() {
-        let corners = [[-4.0, -1.0, 0.5, 1.0], [4.0, -1.0, 0.5, 1.0], [0.0, 9.0, 0.5, -3.0]];
+        let corners = [
+            [-4.0, -1.0, 0.5, 1.0],
+            [4.0, -1.0, 0.5, 1.0],
+            [0.0, 9.0, 0.5, -3.0],
+        ];
         let (ids, _) = draw(&corners, Sides::AsParts, two_sided());
         assert_eq!(ids[47 * 64 + 32], 1);
         assert!(ids.iter().filter(|id| **id != 0).count() > 1000);
@@ -435,7 +496,12 @@ mod tests {
     fn one_sided_parts_hide_their_backs_and_hulls_show_only_them() {
         let front = [at(10.0, 40.0, 0.5), at(50.0, 40.0, 0.5), at(30.0, 5.0, 0.5)];
         let back = [front[0], front[2], front[1]];
-        let seen = |corners: &[[f32; 4]], sides| draw(corners, sides, Part::default()).0.iter().any(|id| *id != 0);
+        let seen = |corners: &[[f32; 4]], sides| {
+            draw(corners, sides, Part::default())
+                .0
+                .iter()
+                .any(|id| *id != 0)
+        };
         assert!(seen(&front, Sides::AsParts) && !seen(&back, Sides::AsParts));
         assert!(!seen(&front, Sides::Backs) && seen(&back, Sides::Backs));
     }
@@ -445,11 +511,18 @@ mod tests {
         let corners: Vec<[f32; 4]> = (0..9000u32)
             .map(|i| {
                 let hash = i.wrapping_mul(2_654_435_761);
-                at((hash % 640) as f32 * 0.1, (hash / 640 % 480) as f32 * 0.1, (hash / 7919 % 97) as f32 * 0.01)
+                at(
+                    (hash % 640) as f32 * 0.1,
+                    (hash / 640 % 480) as f32 * 0.1,
+                    (hash / 7919 % 97) as f32 * 0.01,
+                )
             })
             .collect();
         let with = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap();
             pool.install(|| draw(&corners, Sides::AsParts, two_sided()))
         };
         assert_eq!(with(1), with(4));

@@ -62,11 +62,13 @@ pub fn unit_or_z(v: [f32; 3]) -> [f32; 3] {
     [v[0] / length, v[1] / length, v[2] / length]
 }
 
-fn offset_from(clip: [f32; 4], ndc: [f32; 2]) -> [f32; 2] {
+/// A corner relative to a point of the picture, scaled by the corner's w; linear in the point.
+pub fn offset_from(clip: [f32; 4], ndc: [f32; 2]) -> [f32; 2] {
     [clip[0] - ndc[0] * clip[3], clip[1] - ndc[1] * clip[3]]
 }
 
-fn cross(a: [f32; 2], b: [f32; 2]) -> f32 {
+/// Area of the parallelogram between two vectors of a plane.
+pub fn cross(a: [f32; 2], b: [f32; 2]) -> f32 {
     a[0] * b[1] - a[1] * b[0]
 }
 
@@ -104,6 +106,9 @@ mod tests {
 
     #[test]
     fn an_edge_on_triangle_gives_a_corner() {
-        assert_eq!(weights_at([[0.0, 0.0, 0.0, 1.0]; 3], [0.0, 0.0]), [1.0, 0.0, 0.0]);
+        assert_eq!(
+            weights_at([[0.0, 0.0, 0.0, 1.0]; 3], [0.0, 0.0]),
+            [1.0, 0.0, 0.0]
+        );
     }
 }

@@ -36,7 +36,9 @@ impl TextureStore {
     /// A store without textures.
     pub fn new() -> Self {
         let table = (0..256).map(|byte| color::linear_from_srgb(byte as f32 / 255.0).to_bits());
-        Self { words: table.collect() }
+        Self {
+            words: table.collect(),
+        }
     }
 
     /// The packed words, as passes read them.
@@ -54,9 +56,12 @@ impl TextureStore {
         }
         let start = u32::try_from(self.words.len()).ok()?;
         let levels = 32 - size[0].max(size[1]).leading_zeros();
-        self.words.extend([size[0], size[1], levels, wrap[0] as u32, wrap[1] as u32, 0]);
-        let mut level: Vec<u32> =
-            rgba.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+        self.words
+            .extend([size[0], size[1], levels, wrap[0] as u32, wrap[1] as u32, 0]);
+        let mut level: Vec<u32> = rgba
+            .chunks_exact(4)
+            .map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+            .collect();
         let mut level_size = size;
         for _ in 1..levels {
             let (next, next_size) = self.halve(&level, level_size);
@@ -76,12 +81,18 @@ impl TextureStore {
                 let mut sum = [0.0f32; 4];
                 for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
                     let (px, py) = ((2 * x + dx).min(size[0] - 1), (2 * y + dy).min(size[1] - 1));
-                    let [r, g, b, a] = linear_texel(&self.words, texels[(py * size[0] + px) as usize]);
+                    let [r, g, b, a] =
+                        linear_texel(&self.words, texels[(py * size[0] + px) as usize]);
                     sum = [sum[0] + r * a, sum[1] + g * a, sum[2] + b * a, sum[3] + a];
                 }
                 let weight = 1.0 / sum[3].max(1e-6);
                 let encode = |v: f32| color::srgb_from_linear(v * weight);
-                out.push(color::pack_rgba8([encode(sum[0]), encode(sum[1]), encode(sum[2]), sum[3] * 0.25]));
+                out.push(color::pack_rgba8([
+                    encode(sum[0]),
+                    encode(sum[1]),
+                    encode(sum[2]),
+                    sum[3] * 0.25,
+                ]));
             }
         }
         (out, next)
@@ -135,10 +146,18 @@ fn sample_level(words: &[u32], start: u32, level: u32, uv: [f32; 2]) -> [f32; 4]
 fn texel_pair(coordinate: f32, size: u32, wrap: u32) -> (u32, u32, f32) {
     let scaled = coordinate * size as f32 - 0.5;
     // Past 2^22 a float has no fraction left to filter with, and casts must not overflow.
-    let scaled = if scaled.abs() < 4_194_304.0 { scaled } else { 0.0 };
+    let scaled = if scaled.abs() < 4_194_304.0 {
+        scaled
+    } else {
+        0.0
+    };
     let floor = scaled.floor();
     let index = floor as i32;
-    (wrapped(index, size, wrap), wrapped(index + 1, size, wrap), scaled - floor)
+    (
+        wrapped(index, size, wrap),
+        wrapped(index + 1, size, wrap),
+        scaled - floor,
+    )
 }
 
 /// A texel index brought into range.
@@ -147,9 +166,17 @@ fn wrapped(index: i32, size: u32, wrap: u32) -> u32 {
     if wrap == Wrap::Clamp as u32 {
         return index.clamp(0, n - 1) as u32;
     }
-    let period = if wrap == Wrap::Mirror as u32 { 2 * n } else { n };
+    let period = if wrap == Wrap::Mirror as u32 {
+        2 * n
+    } else {
+        n
+    };
     let within = ((index % period) + period) % period;
-    (if within < n { within } else { period - 1 - within }) as u32
+    (if within < n {
+        within
+    } else {
+        period - 1 - within
+    }) as u32
 }
 
 /// Linear light of a packed texel, by the table at the start of the store.
@@ -165,7 +192,15 @@ mod tests {
     use proptest::prelude::*;
 
     fn checker(n: u32) -> Vec<u8> {
-        (0..n * n).flat_map(|i| if (i % n + i / n).is_multiple_of(2) { [255; 4] } else { [0, 0, 0, 255] }).collect()
+        (0..n * n)
+            .flat_map(|i| {
+                if (i % n + i / n).is_multiple_of(2) {
+                    [255; 4]
+                } else {
+                    [0, 0, 0, 255]
+                }
+            })
+            .collect()
     }
 
     #[test]
@@ -173,13 +208,18 @@ mod tests {
         let mut store = TextureStore::new();
         let start = store.add([4, 4], &checker(4), [Wrap::Repeat; 2]).unwrap();
         assert_eq!(sample(store.words(), start, [0.125, 0.125], 0.0), [1.0; 4]);
-        assert_eq!(sample(store.words(), start, [0.375, 0.125], 0.0), [0.0, 0.0, 0.0, 1.0]);
+        assert_eq!(
+            sample(store.words(), start, [0.375, 0.125], 0.0),
+            [0.0, 0.0, 0.0, 1.0]
+        );
     }
 
     #[test]
     fn far_away_a_checker_becomes_grey() {
         let mut store = TextureStore::new();
-        let start = store.add([64, 64], &checker(64), [Wrap::Repeat; 2]).unwrap();
+        let start = store
+            .add([64, 64], &checker(64), [Wrap::Repeat; 2])
+            .unwrap();
         let far = sample(store.words(), start, [0.3, 0.7], 1.0);
         assert!((far[0] - 0.5).abs() < 0.01, "{far:?}");
     }

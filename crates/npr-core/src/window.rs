@@ -1,5 +1,6 @@
 //! The view of a frame, and pixel grids laid over parts of it.
 
+use crate::geometry::FAR_DEPTH;
 use crate::gpu_layout;
 use bytemuck::{Pod, Zeroable};
 
@@ -25,13 +26,24 @@ pub struct View {
     pub unused: f32,
 }
 gpu_layout!(View {
-    clip_from_world, eye_world, perspective, forward_world, view_height, frame_px, near, unused,
+    clip_from_world,
+    eye_world,
+    perspective,
+    forward_world,
+    view_height,
+    frame_px,
+    near,
+    unused,
 });
 
 impl View {
     /// Height of the view in world units at a view depth.
     pub fn height_at(&self, depth: f32) -> f32 {
-        if self.perspective > 0.5 { self.view_height * depth } else { self.view_height }
+        if self.perspective > 0.5 {
+            self.view_height * depth
+        } else {
+            self.view_height
+        }
     }
 
     /// Size of a frame pixel in world units at a view depth.
@@ -41,7 +53,33 @@ impl View {
 
     /// A coordinate that changes linearly over the image of any plane: 1 / depth in perspective, depth in parallel view.
     pub fn plane_coordinate(&self, depth: f32) -> f32 {
-        if self.perspective > 0.5 { 1.0 / depth } else { depth }
+        if self.perspective > 0.5 {
+            1.0 / depth
+        } else {
+            depth
+        }
+    }
+
+    /// The depth that has a plane coordinate; [`FAR_DEPTH`] where the plane has passed the horizon.
+    pub fn depth_of_coordinate(&self, coordinate: f32) -> f32 {
+        if self.perspective < 0.5 {
+            coordinate
+        } else if coordinate > 1e-30 {
+            1.0 / coordinate
+        } else {
+            FAR_DEPTH
+        }
+    }
+
+    /// Depth change over one pixel of a grid, in sizes of that pixel: the tangent of the surface's angle to the picture.
+    pub fn slope_of(&self, window: &Window, depth: f32, plane_step: [f32; 2]) -> f32 {
+        let step = (plane_step[0] * plane_step[0] + plane_step[1] * plane_step[1]).sqrt();
+        let pixel = self.view_height * window.frame_step[1] / self.frame_px[1];
+        (if self.perspective > 0.5 {
+            step * depth
+        } else {
+            step
+        }) / pixel
     }
 
     /// Unit vector from a point of the world towards the eye.
@@ -56,7 +94,10 @@ impl View {
 
     /// Normalised device coordinates of a point of the frame, y up.
     pub fn ndc_at(&self, frame_px: [f32; 2]) -> [f32; 2] {
-        [2.0 * frame_px[0] / self.frame_px[0] - 1.0, 1.0 - 2.0 * frame_px[1] / self.frame_px[1]]
+        [
+            2.0 * frame_px[0] / self.frame_px[0] - 1.0,
+            1.0 - 2.0 * frame_px[1] / self.frame_px[1],
+        ]
     }
 }
 
@@ -77,11 +118,23 @@ pub struct Window {
     /// Keeps the size a multiple of 16 bytes.
     pub unused: [u32; 2],
 }
-gpu_layout!(Window { ndc_scale, ndc_offset, size, frame_step, frame_origin, unused });
+gpu_layout!(Window {
+    ndc_scale,
+    ndc_offset,
+    size,
+    frame_step,
+    frame_origin,
+    unused
+});
 
 impl Window {
     /// A grid of `size` pixels over the rectangle of the frame at `origin_px`, `extent_px` wide and high.
-    pub fn over(frame_px: [f32; 2], origin_px: [f32; 2], extent_px: [f32; 2], size: [u32; 2]) -> Self {
+    pub fn over(
+        frame_px: [f32; 2],
+        origin_px: [f32; 2],
+        extent_px: [f32; 2],
+        size: [u32; 2],
+    ) -> Self {
         let scale = [frame_px[0] / extent_px[0], frame_px[1] / extent_px[1]];
         let center = [
             (2.0 * origin_px[0] + extent_px[0]) / frame_px[0] - 1.0,

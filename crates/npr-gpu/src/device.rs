@@ -12,6 +12,7 @@ mod memory;
 mod pipeline;
 mod session;
 mod staging;
+mod step;
 
 pub use adapter::{AdapterChoice, AdapterKind, AdapterSummary, adapters};
 pub use fault::TIME_LIMIT;

@@ -18,6 +18,7 @@ pub const ALL: &[&Pass] = &[
     &line::DETECT,
     &line::DRAW_RIBBONS,
     &line::FIND_RESIDUAL,
+    &line::SMOOTH_STAMPS,
     &line::FLAG_TILES,
     &line::STAMP_RESIDUAL,
     &shade::COMPOSE_FRAME,

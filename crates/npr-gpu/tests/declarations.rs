@@ -1,5 +1,7 @@
 //! Every shader against its declaration, by reflection: nothing here needs a device.
 
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
 use naga::proc::{Layouter, TypeLayout};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{AddressSpace, GlobalVariable, Module, StorageAccess, TypeInner};

@@ -32,6 +32,7 @@
 pub mod bounds;
 pub mod classify;
 mod cluster;
+pub mod components;
 pub mod curvature;
 pub mod edge_flags;
 pub mod edges;
@@ -48,6 +49,7 @@ mod union_find;
 pub mod weld;
 
 pub use bounds::bounding_radius;
+pub use components::components;
 pub use curvature::{Curvature, curvature};
 pub use edge_flags::EdgeFlags;
 pub use edges::{Edge, NO_FACE, unique_edges};

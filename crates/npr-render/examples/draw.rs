@@ -1,6 +1,5 @@
 //! Draws a file in a preset: `cargo run --example draw -- model.glb out.png [preset] [key=value ..]`.
 
-use npr_core::camera::Camera;
 use npr_gpu::processor::Processor;
 use npr_render::{Model, Stage, StageOptions};
 use npr_style::Style;
@@ -20,13 +19,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = npr_scene::load(input.as_ref(), &npr_scene::LoadOptions::default())?;
     let loaded = start.elapsed();
     let model = Model::new(&scene)?;
-    eprintln!("loaded in {loaded:?}, prepared in {:?}", start.elapsed() - loaded);
+    eprintln!(
+        "{} parts, {} triangles",
+        model.parts().len(),
+        model.triangle_count()
+    );
+    eprintln!(
+        "loaded in {loaded:?}, prepared in {:?}",
+        start.elapsed() - loaded
+    );
 
     let size = [1280, 720];
-    let (min, max) = model.bounds();
     let camera = match model.cameras() {
         [(_, camera), ..] => *camera,
-        [] => Camera::framing(min, max),
+        [] => model.framing(16.0 / 9.0, 0.7),
     };
     let mut stage = Stage::new(&Processor, &model, &style, &StageOptions::new(size))?;
     stage.draw(&camera)?;
@@ -34,6 +40,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for pass in &frame.times {
         eprintln!("{:24} {:?}", pass.name, pass.time);
     }
-    image::save_buffer(output, &frame.rgba, size[0], size[1], image::ColorType::Rgba8)?;
+    image::save_buffer(
+        output,
+        &frame.rgba,
+        size[0],
+        size[1],
+        image::ColorType::Rgba8,
+    )?;
     Ok(())
 }

@@ -48,22 +48,45 @@ pub(crate) struct Method {
 
 impl Method {
     pub fn of(style: &Style) -> Self {
-        let none = Self { mask: false, ribbons: false, residual: false, hull: false, layers: 0 };
+        let none = Self {
+            mask: false,
+            ribbons: false,
+            residual: false,
+            hull: false,
+            layers: 0,
+        };
         let masked = Self { mask: true, ..none };
         match style.line.method {
             LineMethod::Off => none,
             LineMethod::Shape => {
                 let residual = style.line.kinds.intersection;
                 let stamps = if residual { Compose::STAMPS } else { 0 };
-                Self { ribbons: true, residual, layers: Compose::RIBBONS | stamps, ..masked }
+                Self {
+                    ribbons: true,
+                    residual,
+                    layers: Compose::RIBBONS | stamps,
+                    ..masked
+                }
             }
-            LineMethod::Okuya | LineMethod::Edges => {
-                Self { ribbons: true, layers: Compose::RIBBONS, ..masked }
-            }
-            LineMethod::Filter => Self { layers: Compose::MASK, ..masked },
+            LineMethod::Okuya | LineMethod::Edges => Self {
+                ribbons: true,
+                layers: Compose::RIBBONS,
+                ..masked
+            },
+            LineMethod::Filter => Self {
+                layers: Compose::MASK,
+                ..masked
+            },
             LineMethod::Hull => Self { hull: true, ..none },
-            LineMethod::FilterHull => Self { hull: true, layers: Compose::MASK, ..masked },
-            LineMethod::Angle => Self { layers: Compose::ANGLE, ..none },
+            LineMethod::FilterHull => Self {
+                hull: true,
+                layers: Compose::MASK,
+                ..masked
+            },
+            LineMethod::Angle => Self {
+                layers: Compose::ANGLE,
+                ..none
+            },
         }
     }
 }
@@ -142,14 +165,30 @@ impl Blueprint {
     }
 
     fn pose(&mut self) {
-        let bound =
-            [self.view, self.outline, self.vertices, self.influences, self.palette, self.parts, self.posed];
+        let bound = [
+            self.view,
+            self.outline,
+            self.vertices,
+            self.influences,
+            self.palette,
+            self.parts,
+            self.posed,
+        ];
         self.graph.compute(&mesh::POSE_VERTICES, &bound);
     }
 
     fn draw_ids(&mut self, window: ResourceId, ids: ResourceId, depths: ResourceId) {
-        let bound = [self.view, window, self.posed, self.vertices, self.triangles, self.parts, self.texels];
-        self.graph.draw(&raster::DRAW_IDS, &bound, &[ids, depths], true);
+        let bound = [
+            self.view,
+            window,
+            self.posed,
+            self.vertices,
+            self.triangles,
+            self.parts,
+            self.texels,
+        ];
+        self.graph
+            .draw(&raster::DRAW_IDS, &bound, &[ids, depths], true);
     }
 
     /// Detection on the mask's grid, then drawing on the output's [Okuya et al. 2016, figure 9].
@@ -157,9 +196,24 @@ impl Blueprint {
         let ids = self.mask_ids(grids);
         let mask_pixels = grids.mask[0] as usize * grids.mask[1] as usize;
         let gbuffer = self.graph.buffer::<GPixel>("gbuffer", mask_pixels);
-        let resolve = [self.view, self.mask_window, ids, self.posed, self.triangles, self.parts, gbuffer];
+        let resolve = [
+            self.view,
+            self.mask_window,
+            ids,
+            self.posed,
+            self.triangles,
+            self.parts,
+            gbuffer,
+        ];
         self.graph.compute(&line::RESOLVE_GBUFFER, &resolve);
-        let detect = [self.view, self.mask_window, self.outline, self.parts, gbuffer, self.mask];
+        let detect = [
+            self.view,
+            self.mask_window,
+            self.outline,
+            self.parts,
+            gbuffer,
+            self.mask,
+        ];
         self.graph.compute(&line::DETECT, &detect);
         if method.ribbons {
             self.draw_ribbons(grids, gbuffer);
@@ -183,40 +237,97 @@ impl Blueprint {
     fn draw_ribbons(&mut self, grids: &Grids, gbuffer: ResourceId) {
         let edge_count = self.graph.element_count(self.edges);
         let kinds = self.graph.buffer::<u32>("kinds", edge_count);
-        let classify = [self.outline, self.posed, self.triangles, self.parts, self.edges, kinds];
+        let classify = [
+            self.outline,
+            self.posed,
+            self.triangles,
+            self.parts,
+            self.edges,
+            kinds,
+        ];
         self.graph.compute(&mesh::CLASSIFY_EDGES, &classify);
         let keys = self.graph.image("ribbon keys", Format::Depth, grids.output);
         let ribbons = [
-            self.view, self.output_window, self.mask_window, self.outline, self.posed, self.triangles,
-            self.parts, self.edges, kinds, gbuffer, self.mask,
+            self.view,
+            self.output_window,
+            self.mask_window,
+            self.outline,
+            self.posed,
+            self.triangles,
+            self.parts,
+            self.edges,
+            kinds,
+            gbuffer,
+            self.mask,
         ];
-        self.graph.draw(&line::DRAW_RIBBONS, &ribbons, &[self.ribbons, keys], true);
+        self.graph
+            .draw(&line::DRAW_RIBBONS, &ribbons, &[self.ribbons, keys], true);
     }
 
     fn stamp_residual(&mut self, grids: &Grids, gbuffer: ResourceId) {
         let mask_pixels = grids.mask[0] as usize * grids.mask[1] as usize;
         let stamps = self.graph.buffer::<Stamp>("stamps", mask_pixels);
+        let smoothed = self.graph.buffer::<Stamp>("smoothed stamps", mask_pixels);
         let tiles = self.graph.buffer::<u32>("tiles", tile_count(grids.mask));
         let (output, mask) = (self.output_window, self.mask_window);
-        let find = [output, mask, self.parts, gbuffer, self.mask, self.ribbons, stamps];
+        let find = [
+            output,
+            mask,
+            self.parts,
+            gbuffer,
+            self.mask,
+            self.ribbons,
+            stamps,
+        ];
         self.graph.compute(&line::FIND_RESIDUAL, &find);
-        self.graph.compute(&line::FLAG_TILES, &[mask, stamps, tiles]);
-        let stamp = [output, mask, self.outline, self.parts, stamps, tiles, self.stamped];
+        self.graph
+            .compute(&line::SMOOTH_STAMPS, &[mask, stamps, smoothed]);
+        self.graph
+            .compute(&line::FLAG_TILES, &[mask, stamps, tiles]);
+        let stamp = [
+            output,
+            mask,
+            self.outline,
+            self.parts,
+            smoothed,
+            tiles,
+            self.stamped,
+        ];
         self.graph.compute(&line::STAMP_RESIDUAL, &stamp);
     }
 
     fn draw_hull(&mut self, vertex_count: usize) {
         let hull = self.graph.buffer::<[f32; 4]>("hull", vertex_count);
-        let extrude = [self.view, self.vertices, self.influences, self.palette, self.posed, hull];
+        let extrude = [
+            self.view,
+            self.vertices,
+            self.influences,
+            self.palette,
+            self.posed,
+            hull,
+        ];
         self.graph.compute(&mesh::EXTRUDE_HULL, &extrude);
         let bound = [self.color_window, hull, self.triangles, self.parts];
-        self.graph.draw(&raster::DRAW_HULL, &bound, &[self.ids, self.depths], false);
+        self.graph
+            .draw(&raster::DRAW_HULL, &bound, &[self.ids, self.depths], false);
     }
 
     fn compose_frame(&mut self) {
         let bound = [
-            self.view, self.output_window, self.mask_window, self.compose, self.ids, self.ribbons, self.posed,
-            self.vertices, self.triangles, self.parts, self.texels, self.mask, self.stamped, self.frame,
+            self.view,
+            self.output_window,
+            self.mask_window,
+            self.compose,
+            self.ids,
+            self.ribbons,
+            self.posed,
+            self.vertices,
+            self.triangles,
+            self.parts,
+            self.texels,
+            self.mask,
+            self.stamped,
+            self.frame,
         ];
         self.graph.compute(&shade::COMPOSE_FRAME, &bound);
     }

@@ -17,13 +17,24 @@ impl Frame {
     /// A transparent frame.
     pub(crate) fn new(size: [u32; 2]) -> Self {
         let count = size[0] as usize * size[1] as usize * 4;
-        Self { size, rgba: vec![0; count], times: Vec::new() }
+        Self {
+            size,
+            rgba: vec![0; count],
+            times: Vec::new(),
+        }
     }
 
     /// Copies a tile in, at `origin`; what lies beyond the frame is left out.
     ///
     /// `skip` is the first texel of the tile that is copied, in each direction, and `extent` how many.
-    pub(crate) fn paste(&mut self, tile: &[u32], tile_width: u32, skip: [u32; 2], origin: [u32; 2], extent: [u32; 2]) {
+    pub(crate) fn paste(
+        &mut self,
+        tile: &[u32],
+        tile_width: u32,
+        skip: [u32; 2],
+        origin: [u32; 2],
+        extent: [u32; 2],
+    ) {
         let columns = extent[0].min(self.size[0] - origin[0]) as usize;
         for row in 0..extent[1].min(self.size[1] - origin[1]) {
             let from = ((skip[1] + row) * tile_width + skip[0]) as usize;

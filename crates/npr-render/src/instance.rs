@@ -4,6 +4,7 @@ use npr_core::geometry::{self, Influence, Triangle, Vertex};
 use npr_core::math;
 use npr_mesh::{EdgeFlags, Weld};
 use npr_scene::{Material, Part, Scene, TextureTransform};
+use std::collections::BTreeMap;
 
 /// The angle between faces from which a mesh without normals is shaded with a hard edge.
 const HARD_EDGE: f32 = 40.0 / 180.0 * std::f32::consts::PI;
@@ -16,9 +17,11 @@ const CURVATURE_ROUNDS: u32 = 2;
 pub(crate) struct Instance {
     pub vertices: Vec<Vertex>,
     pub influences: Vec<Influence>,
-    /// Triangles with the number of the mesh's part instead of the model's.
+    /// Triangles with the number of their piece instead of the model's part.
     pub triangles: Vec<Triangle>,
     pub edges: Vec<geometry::Edge>,
+    /// The mesh part of every piece: one for each connected component in each material.
+    pub pieces: Vec<u32>,
 }
 
 /// The vertices of all parts of a mesh behind one another.
@@ -40,30 +43,66 @@ impl Instance {
     pub fn new(scene: &Scene, parts: &[Part], scale: f32, mirrored: bool) -> Self {
         let mut joined = Joined::new(parts);
         let weld = npr_mesh::weld(&joined.positions, 0.0);
-        let edges = npr_mesh::unique_edges(&joined.positions, &joined.triangles, &weld, &joined.materials);
+        let edges = npr_mesh::unique_edges(
+            &joined.positions,
+            &joined.triangles,
+            &weld,
+            &joined.materials,
+        );
+        let (components, _) = npr_mesh::components(&joined.triangles, &weld);
         let smooth = npr_mesh::smooth_normals(&joined.positions, &joined.triangles, &weld);
         let mut instance = Self {
             vertices: stored_vertices(scene, parts, &joined),
             influences: parts.iter().flat_map(influences).collect(),
-            triangles: Vec::new(),
             edges: edges.iter().map(shared_edge).collect(),
+            ..Self::default()
         };
         instance.add_curvature(&joined, &weld, &edges, &smooth, scale);
         if !joined.has_normals {
-            let corners =
-                npr_mesh::crease_normals(&joined.positions, &joined.triangles, &weld, &edges, HARD_EDGE);
+            let corners = npr_mesh::crease_normals(
+                &joined.positions,
+                &joined.triangles,
+                &weld,
+                &edges,
+                HARD_EDGE,
+            );
             instance.split_by_normals(&mut joined, &corners);
         }
+        let pieces = instance.number_pieces(&joined, &components);
         instance.triangles = joined
             .triangles
             .iter()
-            .zip(&joined.parts)
-            .map(|([a, b, c], part)| {
+            .zip(pieces)
+            .map(|([a, b, c], piece)| {
                 let corners = if mirrored { [*a, *c, *b] } else { [*a, *b, *c] };
-                Triangle { corners, part: *part }
+                Triangle {
+                    corners,
+                    part: piece,
+                }
             })
             .collect();
+        for triangle in &instance.triangles {
+            for corner in triangle.corners {
+                instance.vertices[corner as usize].part = triangle.part;
+            }
+        }
         instance
+    }
+
+    /// The piece of every triangle: its part of the mesh and its connected component together.
+    fn number_pieces(&mut self, joined: &Joined, components: &[u32]) -> Vec<u32> {
+        let mut numbers = BTreeMap::new();
+        let of_triangle = joined
+            .parts
+            .iter()
+            .zip(components)
+            .map(|(part, component)| {
+                *numbers.entry((*part, *component)).or_insert_with(|| {
+                    self.pieces.push(*part);
+                    self.pieces.len() as u32 - 1
+                })
+            });
+        of_triangle.collect()
     }
 
     /// Stores principal curvatures, their direction and the welded normal with every vertex.
@@ -77,7 +116,9 @@ impl Instance {
     ) {
         let curvature = npr_mesh::curvature(&joined.positions, &joined.triangles, weld, smooth);
         let areas = npr_mesh::smoothing::vertex_areas(&joined.positions, &joined.triangles, weld);
-        let calm = |values: Vec<f32>| npr_mesh::smooth_curvature(&values, edges, weld, &areas, CURVATURE_ROUNDS);
+        let calm = |values: Vec<f32>| {
+            npr_mesh::smooth_curvature(&values, edges, weld, &areas, CURVATURE_ROUNDS)
+        };
         let max = calm(curvature.iter().map(|c| c.max / scale).collect());
         let min = calm(curvature.iter().map(|c| c.min / scale).collect());
         for (vertex, welded) in self.vertices.iter_mut().zip(&weld.of_vertex) {
@@ -91,7 +132,7 @@ impl Instance {
     /// Gives every corner its own normal, by doubling vertices where corners disagree.
     fn split_by_normals(&mut self, joined: &mut Joined, corners: &[[[f32; 3]; 3]]) {
         let mut first_use = vec![true; self.vertices.len()];
-        let mut copies: std::collections::BTreeMap<(u32, u32), u32> = std::collections::BTreeMap::new();
+        let mut copies: BTreeMap<(u32, u32), u32> = BTreeMap::new();
         for (triangle, normals) in joined.triangles.iter_mut().zip(corners) {
             for (corner, normal) in triangle.iter_mut().zip(normals) {
                 let stored = *corner as usize;
@@ -100,11 +141,16 @@ impl Instance {
                     copies.insert((*corner, math::pack_unit(*normal)), *corner);
                     continue;
                 }
-                *corner = *copies.entry((*corner, math::pack_unit(*normal))).or_insert_with(|| {
-                    self.vertices.push(Vertex { normal: *normal, ..self.vertices[stored] });
-                    self.influences.push(self.influences[stored]);
-                    self.vertices.len() as u32 - 1
-                });
+                *corner = *copies
+                    .entry((*corner, math::pack_unit(*normal)))
+                    .or_insert_with(|| {
+                        self.vertices.push(Vertex {
+                            normal: *normal,
+                            ..self.vertices[stored]
+                        });
+                        self.influences.push(self.influences[stored]);
+                        self.vertices.len() as u32 - 1
+                    });
             }
         }
     }
@@ -112,16 +158,26 @@ impl Instance {
 
 impl Joined {
     fn new(parts: &[Part]) -> Self {
-        let mut joined = Self { has_normals: parts.iter().all(|part| part.normals.is_some()), ..Self::default() };
+        let mut joined = Self {
+            has_normals: parts.iter().all(|part| part.normals.is_some()),
+            ..Self::default()
+        };
         for (index, part) in parts.iter().enumerate() {
             let base = joined.positions.len() as u32;
             joined.positions.extend(&part.positions);
             if let Some(normals) = &part.normals {
                 joined.normals.extend(normals);
             }
-            joined.triangles.extend(part.triangles.iter().map(|corners| corners.map(|corner| corner + base)));
+            joined.triangles.extend(
+                part.triangles
+                    .iter()
+                    .map(|corners| corners.map(|corner| corner + base)),
+            );
             joined.parts.resize(joined.triangles.len(), index as u32);
-            joined.materials.resize(joined.triangles.len(), part.material.unwrap_or(geometry::NONE));
+            joined.materials.resize(
+                joined.triangles.len(),
+                part.material.unwrap_or(geometry::NONE),
+            );
         }
         joined
     }
@@ -130,16 +186,25 @@ impl Joined {
 /// The vertices of all parts, without curvature.
 fn stored_vertices(scene: &Scene, parts: &[Part], joined: &Joined) -> Vec<Vertex> {
     let mut vertices = Vec::with_capacity(joined.positions.len());
-    for (index, part) in parts.iter().enumerate() {
+    for part in parts {
         let material = part.material.and_then(|m| scene.materials.get(m as usize));
         for i in 0..part.positions.len() {
-            let normal = if joined.has_normals { joined.normals[vertices.len()] } else { [0.0, 0.0, 1.0] };
+            let normal = if joined.has_normals {
+                joined.normals[vertices.len()]
+            } else {
+                [0.0, 0.0, 1.0]
+            };
             vertices.push(Vertex {
                 position: part.positions[i],
                 normal: npr_core::surface::unit_or_z(normal),
-                color: part.colors.as_ref().map_or(u32::MAX, |colors| packed_color(colors[i])),
-                uv: part.uvs.as_ref().map_or([0.0; 2], |uvs| placed_uv(uvs[i], material)),
-                part: index as u32,
+                color: part
+                    .colors
+                    .as_ref()
+                    .map_or(u32::MAX, |colors| packed_color(colors[i])),
+                uv: part
+                    .uvs
+                    .as_ref()
+                    .map_or([0.0; 2], |uvs| placed_uv(uvs[i], material)),
                 ..Vertex::default()
             });
         }
@@ -158,7 +223,11 @@ fn placed_uv(uv: [f32; 2], material: Option<&Material>) -> [f32; 2] {
     let Some(texture) = material.and_then(|material| material.base_color_texture.as_ref()) else {
         return uv;
     };
-    let TextureTransform { offset, rotation, scale } = texture.transform;
+    let TextureTransform {
+        offset,
+        rotation,
+        scale,
+    } = texture.transform;
     let (sin, cos) = (math::sin(rotation), math::cos(rotation));
     let (u, v) = (uv[0] * scale[0], uv[1] * scale[1]);
     [cos * u + sin * v + offset[0], cos * v - sin * u + offset[1]]
@@ -166,12 +235,18 @@ fn placed_uv(uv: [f32; 2], material: Option<&Material>) -> [f32; 2] {
 
 /// Influences of a part's vertices, with joints numbered as in the skin; rigid parts use joint 0.
 fn influences(part: &Part) -> Vec<Influence> {
-    let rigid = Influence { joints: [0; 4], weights: [1.0, 0.0, 0.0, 0.0] };
+    let rigid = Influence {
+        joints: [0; 4],
+        weights: [1.0, 0.0, 0.0, 0.0],
+    };
     match (&part.joints, &part.weights) {
         (Some(joints), Some(weights)) => joints
             .iter()
             .zip(weights)
-            .map(|(joints, weights)| Influence { joints: joints.map(u32::from), weights: *weights })
+            .map(|(joints, weights)| Influence {
+                joints: joints.map(u32::from),
+                weights: *weights,
+            })
             .collect(),
         _ => vec![rigid; part.positions.len()],
     }
@@ -184,6 +259,7 @@ fn shared_edge(edge: &npr_mesh::Edge) -> geometry::Edge {
         ends: edge.ends,
         faces: edge.faces,
         dihedral_cos: edge.dihedral_cos,
-        traits: bit(EdgeFlags::MATERIAL, geometry::Edge::MATERIAL) | bit(EdgeFlags::FLIPPED, geometry::Edge::FLIPPED),
+        traits: bit(EdgeFlags::MATERIAL, geometry::Edge::MATERIAL)
+            | bit(EdgeFlags::FLIPPED, geometry::Edge::FLIPPED),
     }
 }

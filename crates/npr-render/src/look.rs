@@ -2,7 +2,7 @@
 
 use crate::model::{Model, PartInfo};
 use crate::stage::StageOptions;
-use glam::{Mat4, Vec3};
+use glam::Vec3;
 use npr_core::camera::Camera;
 use npr_core::geometry::{NONE, Part, Vertex};
 use npr_core::math;
@@ -28,7 +28,10 @@ pub(crate) struct StyledModel {
 impl StyledModel {
     pub fn new(model: &Model, style: &Style, options: &StageOptions) -> Self {
         let mut textures = model.textures.clone();
-        let background = options.background_image.as_ref().filter(|_| matches!(style.background, Background::Image(_)));
+        let background = options
+            .background_image
+            .as_ref()
+            .filter(|_| matches!(style.background, Background::Image(_)));
         let background_texture = background
             .and_then(|image| textures.add(image.size, &image.rgba, [Wrap::Clamp; 2]))
             .unwrap_or(NONE);
@@ -36,7 +39,12 @@ impl StyledModel {
         if parts.is_empty() {
             parts.push(Part::default());
         }
-        Self { vertices: styled_vertices(model, style, options), parts, textures, background_texture }
+        Self {
+            vertices: styled_vertices(model, style, options),
+            parts,
+            textures,
+            background_texture,
+        }
     }
 }
 
@@ -46,20 +54,36 @@ fn part(info: &PartInfo, style: &Style) -> Part {
     let shade = &style.shade;
     let paper = shade.mode == ShadeMode::Paper;
     let own_color = look.shade_color.map(|color| color.linear());
-    let base_color = own_color.unwrap_or(if paper { shade.paper.linear() } else { info.base_color });
+    let base_color = own_color.unwrap_or(if paper {
+        shade.paper.linear()
+    } else {
+        info.base_color
+    });
     let bit = |bit: u32, when: bool| if when { bit } else { 0 };
     let unlit = shade.mode == ShadeMode::Flat || (info.unlit && !paper);
     let mut line_color = look.line_color.srgb();
     line_color[3] *= style.line.opacity;
     Part {
-        base_color: [base_color[0], base_color[1], base_color[2], info.base_color[3]],
+        base_color: [
+            base_color[0],
+            base_color[1],
+            base_color[2],
+            info.base_color[3],
+        ],
         line_color,
         object: info.object,
         material: info.material,
-        texture: if shade.use_textures && !paper && own_color.is_none() { info.texture } else { NONE },
+        texture: if shade.use_textures && !paper && own_color.is_none() {
+            info.texture
+        } else {
+            NONE
+        },
         flags: bit(Part::DOUBLE_SIDED, info.double_sided)
             | bit(Part::CUTOUT, info.alpha_cutoff.is_some())
-            | bit(Part::LINES, look.line_on && style.line.method != LineMethod::Off)
+            | bit(
+                Part::LINES,
+                look.line_on && style.line.method != LineMethod::Off,
+            )
             | bit(Part::UNLIT, unlit),
         width_factor: look.width_factor,
         facing_threshold: math::sin(look.angle_threshold_deg.to_radians()),
@@ -86,8 +110,16 @@ fn styled_vertices(model: &Model, style: &Style, options: &StageOptions) -> Vec<
     (0..model.vertices.len())
         .map(|i| {
             let vertex = &model.vertices[i];
-            let color = if shows_colors { vertex.color } else { vertex.color | 0x00ff_ffff };
-            Vertex { width: width.at(i), color, ..*vertex }
+            let color = if shows_colors {
+                vertex.color
+            } else {
+                vertex.color | 0x00ff_ffff
+            };
+            Vertex {
+                width: width.at(i),
+                color,
+                ..*vertex
+            }
         })
         .collect()
 }
@@ -108,7 +140,12 @@ impl<'a> VertexWidth<'a> {
             let start = store.add(image.size, &image.rgba, [Wrap::Repeat; 2])?;
             Some((store, start))
         });
-        Self { model, style, radius: model.radius(), image }
+        Self {
+            model,
+            style,
+            radius: model.radius(),
+            image,
+        }
     }
 
     /// Width factor 0..1 of vertex `i`; 1 where the source is missing.
@@ -120,43 +157,47 @@ impl<'a> VertexWidth<'a> {
                 let largest = vertex.curvatures[0].abs().max(vertex.curvatures[1].abs());
                 width_of_curvature(largest * self.radius, width.gain)
             }
-            WidthSource::VertexColor => f32::from(vertex.color.to_le_bytes()[width.channel.index()]) / 255.0,
+            WidthSource::VertexColor => {
+                f32::from(vertex.color.to_le_bytes()[width.channel.index()]) / 255.0
+            }
             WidthSource::Texture => self.image.as_ref().map_or(1.0, |(store, start)| {
                 let linear = texture::sample(store.words(), *start, vertex.uv, 0.0);
                 npr_core::color::srgb_from_linear((linear[0] + linear[1] + linear[2]) / 3.0)
             }),
             WidthSource::ControlPoints => {
-                let factor = width.factor_at(self.rest_position(i));
+                let position = self.model.posed_point(vertex, &self.model.influences[i]);
+                let factor = width.factor_at(position.to_array());
                 (factor - width.min) / (width.max - width.min).max(1e-6)
             }
         }
-    }
-
-    /// Where a vertex lies in the world in the pose of the file.
-    fn rest_position(&self, i: usize) -> [f32; 3] {
-        let influence = &self.model.influences[i];
-        let position = Vec3::from(self.model.vertices[i].position);
-        let moved = |k: usize| {
-            let m = Mat4::from_cols_array_2d(&self.model.palette[influence.joints[k] as usize]);
-            m.transform_point3(position) * influence.weights[k]
-        };
-        (moved(0) + moved(1) + moved(2) + moved(3)).to_array()
     }
 }
 
 /// The largest half width that any line may have, in frame pixels.
 pub(crate) fn largest_half_width(style: &Style, parts: &[Part], base_px: f32) -> f32 {
-    let factor = parts.iter().map(|part| part.width_factor).fold(1.0, f32::max);
+    let factor = parts
+        .iter()
+        .map(|part| part.width_factor)
+        .fold(1.0, f32::max);
     base_px * style.line.width.max * factor * 0.5
 }
 
 /// Line width at factor 1, in frame pixels; what world units come to at the point of the model nearest to the eye.
 pub(crate) fn base_px(style: &Style, options: &StageOptions, world_px: f32) -> f32 {
-    style.line.width.base.to_px(options.size[1] as f32, options.dpi, world_px)
+    style
+        .line
+        .width
+        .base
+        .to_px(options.size[1] as f32, options.dpi, world_px)
 }
 
 /// The outline settings of a style.
-pub(crate) fn outline(style: &Style, model: &Model, options: &StageOptions, reach_px: u32) -> Outline {
+pub(crate) fn outline(
+    style: &Style,
+    model: &Model,
+    options: &StageOptions,
+    reach_px: u32,
+) -> Outline {
     let (line, detect) = (&style.line, &style.detect);
     let bit = |bit: u32, when: bool| if when { bit } else { 0 };
     let in_world = line.width.base.unit == Unit::World;
@@ -166,7 +207,11 @@ pub(crate) fn outline(style: &Style, model: &Model, options: &StageOptions, reac
         | bit(Outline::CREASE, line.kinds.crease)
         | bit(Outline::MATERIAL, line.kinds.material);
     Outline {
-        base_width: if in_world { line.width.base.value } else { base_px(style, options, 0.0) },
+        base_width: if in_world {
+            line.width.base.value
+        } else {
+            base_px(style, options, 0.0)
+        },
         min_factor: line.width.min,
         max_factor: line.width.max,
         gain: line.width.gain,
@@ -183,9 +228,13 @@ pub(crate) fn outline(style: &Style, model: &Model, options: &StageOptions, reac
             | bit(Outline::NORMAL, detect.normal.on)
             | bit(Outline::OBJECT_ID, detect.object.on)
             | bit(Outline::MATERIAL_ID, detect.material.on)
-            | bit(Outline::PLANE_DEPTH, detect.plane_depth),
+            | bit(Outline::PLANE_DEPTH, detect.plane_depth)
+            | bit(Outline::PIECE, line.kinds.intersection && !published),
         flags: bit(Outline::WORLD_WIDTH, in_world)
-            | bit(Outline::PROJECTED_CURVATURE, line.width.source == WidthSource::ProjectedCurvature)
+            | bit(
+                Outline::PROJECTED_CURVATURE,
+                line.width.source == WidthSource::ProjectedCurvature,
+            )
             | bit(Outline::PUBLISHED, published)
             | bit(Outline::UNMASKED, line.method == LineMethod::Edges),
         reach_px,
@@ -229,5 +278,7 @@ pub(crate) fn nearest_world_px(view: &View, camera: &Camera, model: &Model) -> f
     let (min, max) = model.bounds();
     let center = (Vec3::from(min) + Vec3::from(max)) * 0.5;
     let distance = (center - Vec3::from(camera.eye)).dot(Vec3::from(view.forward_world));
-    1.0 / view.pixel_at((distance - model.radius()).max(view.near)).max(1e-20)
+    1.0 / view
+        .pixel_at((distance - model.radius()).max(view.near))
+        .max(1e-20)
 }

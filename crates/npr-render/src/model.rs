@@ -13,7 +13,7 @@ use npr_scene::{AlphaMode, Material, Node, Scene};
 /// Numbers must leave room for "none" and for the bit that marks hulls.
 const COUNT_LIMIT: u64 = 1 << 30;
 
-/// One surface of one object in one material, before a style is applied.
+/// One connected surface of one object in one material, before a style is applied.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PartInfo {
     /// Name of the node it hangs on.
@@ -70,7 +70,11 @@ impl Model {
             parts: Vec::new(),
             textures: TextureStore::new(),
             bounds: ([0.0; 3], [0.0; 3]),
-            cameras: scene.nodes.iter().filter_map(|node| camera_of(scene, node)).collect(),
+            cameras: scene
+                .nodes
+                .iter()
+                .filter_map(|node| camera_of(scene, node))
+                .collect(),
             notices: scene.notices.iter().map(ToString::to_string).collect(),
         };
         let mut textures = Textures::new(scene);
@@ -98,30 +102,64 @@ impl Model {
         let determinant = determinant_of(&self.palette[first_joint as usize]);
         let scale = npr_core::math::powf(determinant.abs(), 1.0 / 3.0).max(1e-12);
         let instance = Instance::new(scene, &mesh.parts, scale, determinant < 0.0);
-        let base = [self.vertices.len() as u32, self.triangles.len() as u32, self.parts.len() as u32];
+        let base = [
+            self.vertices.len() as u32,
+            self.triangles.len() as u32,
+            self.parts.len() as u32,
+        ];
         check_count("vertices", self.vertices.len(), instance.vertices.len())?;
         check_count("triangles", self.triangles.len(), instance.triangles.len())?;
         check_count("edges", self.edges.len(), instance.edges.len())?;
 
         let joint_count = self.palette.len() as u32 - first_joint;
-        self.influences.extend(instance.influences.iter().map(|influence| Influence {
-            joints: influence.joints.map(|joint| joint.min(joint_count - 1) + first_joint),
-            ..*influence
+        self.influences
+            .extend(instance.influences.iter().map(|influence| {
+                Influence {
+                    joints: influence
+                        .joints
+                        .map(|joint| joint.min(joint_count - 1) + first_joint),
+                    ..*influence
+                }
+            }));
+        self.vertices
+            .extend(instance.vertices.iter().map(|v| Vertex {
+                part: v.part + base[2],
+                ..*v
+            }));
+        self.triangles
+            .extend(instance.triangles.iter().map(|triangle| Triangle {
+                corners: triangle.corners.map(|corner| corner + base[0]),
+                part: triangle.part + base[2],
+            }));
+        self.edges.extend(instance.edges.iter().map(|edge| {
+            Edge {
+                ends: edge.ends.map(|end| end + base[0]),
+                faces: edge
+                    .faces
+                    .map(|face| if face == NONE { NONE } else { face + base[1] }),
+                ..*edge
+            }
         }));
-        self.vertices.extend(instance.vertices.iter().map(|v| Vertex { part: v.part + base[2], ..*v }));
-        self.triangles.extend(instance.triangles.iter().map(|triangle| Triangle {
-            corners: triangle.corners.map(|corner| corner + base[0]),
-            part: triangle.part + base[2],
-        }));
-        self.edges.extend(instance.edges.iter().map(|edge| Edge {
-            ends: edge.ends.map(|end| end + base[0]),
-            faces: edge.faces.map(|face| if face == NONE { NONE } else { face + base[1] }),
-            ..*edge
-        }));
-        for part in &mesh.parts {
-            let has_uvs = part.uvs.is_some();
-            self.parts.push(part_info(scene, object, &node.name, part.material, has_uvs, textures));
-        }
+        let infos: Vec<PartInfo> = mesh
+            .parts
+            .iter()
+            .map(|part| {
+                part_info(
+                    scene,
+                    object,
+                    &node.name,
+                    part.material,
+                    part.uvs.is_some(),
+                    textures,
+                )
+            })
+            .collect();
+        self.parts.extend(
+            instance
+                .pieces
+                .iter()
+                .map(|part| infos[*part as usize].clone()),
+        );
         Ok(())
     }
 
@@ -161,26 +199,48 @@ impl Model {
         self.edges.len()
     }
 
-    /// Bounds of the vertices as posed.
-    fn posed_bounds(&self) -> ([f32; 3], [f32; 3]) {
-        let mut bounds = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    /// A view of the whole model from three quarters above, for a frame of width / height `aspect`; `fov_y` is in radians.
+    pub fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
+        Camera::framing_points(
+            self.posed_points().map(|point| point.to_array()),
+            aspect,
+            fov_y,
+        )
+    }
+
+    /// Positions in the world of all vertices that triangles use.
+    fn posed_points(&self) -> impl Iterator<Item = Vec3> + '_ {
         let mut used = vec![false; self.vertices.len()];
         for corner in self.triangles.iter().flat_map(|triangle| triangle.corners) {
             used[corner as usize] = true;
         }
-        for ((vertex, influence), _) in
-            self.vertices.iter().zip(&self.influences).zip(&used).filter(|(_, used)| **used)
-        {
-            let world: Vec3 = (0..4)
-                .map(|k| {
-                    let m = Mat4::from_cols_array_2d(&self.palette[influence.joints[k] as usize]);
-                    m.transform_point3(Vec3::from(vertex.position)) * influence.weights[k]
-                })
-                .sum();
-            bounds = (bounds.0.min(world), bounds.1.max(world));
-        }
-        if bounds.0.cmple(bounds.1).all() && bounds.0.is_finite() && bounds.1.is_finite() {
-            (bounds.0.to_array(), bounds.1.to_array())
+        let posed = self
+            .vertices
+            .iter()
+            .zip(&self.influences)
+            .zip(used)
+            .filter(|(_, used)| *used);
+        posed.map(|((vertex, influence), _)| self.posed_point(vertex, influence))
+    }
+
+    /// Where a vertex lies in the world.
+    pub(crate) fn posed_point(&self, vertex: &Vertex, influence: &Influence) -> Vec3 {
+        let position = Vec3::from(vertex.position);
+        let moved = |k: usize| {
+            let m = Mat4::from_cols_array_2d(&self.palette[influence.joints[k] as usize]);
+            m.transform_point3(position) * influence.weights[k]
+        };
+        moved(0) + moved(1) + moved(2) + moved(3)
+    }
+
+    /// Bounds of the vertices as posed; a unit box where there are none.
+    fn posed_bounds(&self) -> ([f32; 3], [f32; 3]) {
+        let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let (min, max) = self
+            .posed_points()
+            .fold(none, |(min, max), point| (min.min(point), max.max(point)));
+        if min.is_finite() && max.is_finite() {
+            (min.to_array(), max.to_array())
         } else {
             ([-0.5; 3], [0.5; 3])
         }
@@ -192,12 +252,20 @@ fn matrices_of(scene: &Scene, node: &Node) -> Vec<Matrix> {
     let Some(skin) = node.skin.and_then(|skin| scene.skins.get(skin as usize)) else {
         return vec![node.world_from_node];
     };
-    let joints = skin.joints.iter().zip(&skin.inverse_bind).map(|(joint, inverse_bind)| {
-        let world = Mat4::from_cols_array_2d(&scene.nodes[*joint as usize].world_from_node);
-        (world * Mat4::from_cols_array_2d(inverse_bind)).to_cols_array_2d()
-    });
+    let joints = skin
+        .joints
+        .iter()
+        .zip(&skin.inverse_bind)
+        .map(|(joint, inverse_bind)| {
+            let world = Mat4::from_cols_array_2d(&scene.nodes[*joint as usize].world_from_node);
+            (world * Mat4::from_cols_array_2d(inverse_bind)).to_cols_array_2d()
+        });
     let joints: Vec<Matrix> = joints.collect();
-    if joints.is_empty() { vec![node.world_from_node] } else { joints }
+    if joints.is_empty() {
+        vec![node.world_from_node]
+    } else {
+        joints
+    }
 }
 
 fn determinant_of(matrix: &Matrix) -> f32 {
@@ -206,7 +274,10 @@ fn determinant_of(matrix: &Matrix) -> f32 {
 
 fn check_count(what: &'static str, have: usize, more: usize) -> Result<(), RenderError> {
     if have as u64 + more as u64 > COUNT_LIMIT {
-        return Err(RenderError::TooMany { what, limit: COUNT_LIMIT });
+        return Err(RenderError::TooMany {
+            what,
+            limit: COUNT_LIMIT,
+        });
     }
     Ok(())
 }
@@ -220,7 +291,9 @@ fn part_info(
     textures: &mut Textures,
 ) -> PartInfo {
     let plain = Material::default();
-    let found = material.and_then(|index| scene.materials.get(index as usize)).unwrap_or(&plain);
+    let found = material
+        .and_then(|index| scene.materials.get(index as usize))
+        .unwrap_or(&plain);
     let texture = found.base_color_texture.as_ref().filter(|_| has_uvs);
     PartInfo {
         object_name: object_name.to_owned(),
@@ -228,7 +301,9 @@ fn part_info(
         object,
         material: material.unwrap_or(NONE - 1),
         base_color: found.base_color,
-        texture: texture.and_then(|texture| textures.start_of(scene, texture)).unwrap_or(NONE),
+        texture: texture
+            .and_then(|texture| textures.start_of(scene, texture))
+            .unwrap_or(NONE),
         alpha_cutoff: match found.alpha {
             AlphaMode::Opaque => None,
             AlphaMode::Mask(cutoff) => Some(cutoff),
@@ -246,9 +321,15 @@ fn camera_of(scene: &Scene, node: &Node) -> Option<(String, Camera)> {
     let eye = m.w_axis.truncate();
     let projection = match camera.projection {
         npr_scene::Projection::Perspective { yfov, .. } => Projection::Perspective { fov_y: yfov },
-        npr_scene::Projection::Orthographic { ymag, .. } => Projection::Parallel { height: 2.0 * ymag },
+        npr_scene::Projection::Orthographic { ymag, .. } => {
+            Projection::Parallel { height: 2.0 * ymag }
+        }
     };
-    let name = if node.name.is_empty() { &camera.name } else { &node.name };
+    let name = if node.name.is_empty() {
+        &camera.name
+    } else {
+        &node.name
+    };
     let camera = Camera {
         eye: eye.to_array(),
         target: (eye - m.z_axis.truncate().normalize_or(Vec3::Z)).to_array(),

@@ -32,7 +32,10 @@ pub struct Picture {
 
 impl From<Image> for Picture {
     fn from(image: Image) -> Self {
-        Self { size: [image.width, image.height], rgba: image.rgba }
+        Self {
+            size: [image.width, image.height],
+            rgba: image.rgba,
+        }
     }
 }
 
@@ -54,7 +57,13 @@ pub struct StageOptions {
 impl StageOptions {
     /// Options for a frame of `size` pixels: 96 pixels per inch, no pictures, 4 GiB.
     pub fn new(size: [u32; 2]) -> Self {
-        Self { size, dpi: 96.0, background_image: None, width_image: None, memory_limit: 4 << 30 }
+        Self {
+            size,
+            dpi: 96.0,
+            background_image: None,
+            width_image: None,
+            memory_limit: 4 << 30,
+        }
     }
 }
 
@@ -86,12 +95,15 @@ impl<'a> Stage<'a> {
         check_size(options.size)?;
         let styled = StyledModel::new(model, style, options);
         let base_px = look::base_px(style, options, options.size[1] as f32 / model.radius());
-        let margin = look::largest_half_width(style, &styled.parts, base_px).min(1e4) as u32 + TILE_ROOM;
+        let margin =
+            look::largest_half_width(style, &styled.parts, base_px).min(1e4) as u32 + TILE_ROOM;
         let tiles = Tiles::new(options.size, margin);
         let scale = style.detect.scale;
         let grids = Grids {
             output: tiles.size(),
-            mask: tiles.size().map(|side| ((side as f32 / scale).round() as u32).max(1)),
+            mask: tiles
+                .size()
+                .map(|side| ((side as f32 / scale).round() as u32).max(1)),
             samples: if style.antialias.samples > 1 { 2 } else { 1 },
         };
         let counts = Counts {
@@ -105,11 +117,29 @@ impl<'a> Stage<'a> {
         let method = Method::of(style);
         let plan = Blueprint::new(&counts, &grids, method);
         let mut budget = Budget::new(options.memory_limit);
-        budget.take("the picture", options.size[0] as usize * options.size[1] as usize, 4)?;
-        budget.take("the plan of the frame", plan.graph.planned_bytes() as usize, 1)?;
+        budget.take(
+            "the picture",
+            options.size[0] as usize * options.size[1] as usize,
+            4,
+        )?;
+        budget.take(
+            "the plan of the frame",
+            plan.graph.planned_bytes() as usize,
+            1,
+        )?;
         let session = engine.prepare(plan.graph.clone())?;
         let (style, options) = (style.clone(), options.clone());
-        let mut stage = Self { model, style, options, tiles, grids, method, styled, plan, session };
+        let mut stage = Self {
+            model,
+            style,
+            options,
+            tiles,
+            grids,
+            method,
+            styled,
+            plan,
+            session,
+        };
         stage.upload()?;
         Ok(stage)
     }
@@ -137,7 +167,12 @@ impl<'a> Stage<'a> {
         let world_px = look::nearest_world_px(&view, camera, self.model);
         let base_px = look::base_px(&self.style, &self.options, world_px);
         let half = look::largest_half_width(&self.style, &self.styled.parts, base_px);
-        let outline = look::outline(&self.style, self.model, &self.options, half.ceil().min(64.0) as u32 + 1);
+        let outline = look::outline(
+            &self.style,
+            self.model,
+            &self.options,
+            half.ceil().min(64.0) as u32 + 1,
+        );
         let mut compose = look::compose(&self.style, camera, self.styled.background_texture);
         compose.flags = self.method.layers;
         let session = self.session.as_mut();
@@ -152,18 +187,33 @@ impl<'a> Stage<'a> {
     }
 
     /// Draws the tile whose kept part starts at `origin`.
-    fn draw_tile(&mut self, view: &View, origin: [u32; 2], frame: &mut Frame) -> Result<(), EngineError> {
+    fn draw_tile(
+        &mut self,
+        view: &View,
+        origin: [u32; 2],
+        frame: &mut Frame,
+    ) -> Result<(), EngineError> {
         let size = self.tiles.size();
         let corner = self.tiles.corner_px(origin);
         let extent = size.map(|side| side as f32);
         let over = |grid: [u32; 2]| Window::over(view.frame_px, corner, extent, grid);
         let session = self.session.as_mut();
         write(session, self.plan.output_window, &[over(size)])?;
-        write(session, self.plan.color_window, &[over(size.map(|side| side * self.grids.samples))])?;
+        write(
+            session,
+            self.plan.color_window,
+            &[over(size.map(|side| side * self.grids.samples))],
+        )?;
         write(session, self.plan.mask_window, &[over(self.grids.mask)])?;
         let times = session.run()?;
         let tile = session.read(self.plan.frame)?;
-        frame.paste(&tile, size[0], [self.tiles.margin; 2], origin, self.tiles.kept);
+        frame.paste(
+            &tile,
+            size[0],
+            [self.tiles.margin; 2],
+            origin,
+            self.tiles.kept,
+        );
         frame.add_times(&times);
         Ok(())
     }
@@ -174,11 +224,19 @@ fn check_size([width, height]: [u32; 2]) -> Result<(), RenderError> {
         return Err(RenderError::EmptyFrame { width, height });
     }
     if width.max(height) > FRAME_SIDE {
-        return Err(RenderError::FrameTooLarge { width, height, limit: FRAME_SIDE });
+        return Err(RenderError::FrameTooLarge {
+            width,
+            height,
+            limit: FRAME_SIDE,
+        });
     }
     Ok(())
 }
 
-fn write<T: NoUninit>(session: &mut dyn Session, id: ResourceId, elements: &[T]) -> Result<(), EngineError> {
+fn write<T: NoUninit>(
+    session: &mut dyn Session,
+    id: ResourceId,
+    elements: &[T],
+) -> Result<(), EngineError> {
     session.write(id, cast_slice(elements))
 }

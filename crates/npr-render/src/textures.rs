@@ -21,14 +21,27 @@ pub(crate) struct Textures {
 impl Textures {
     /// An empty store for the images of a scene.
     pub fn new(scene: &Scene) -> Self {
-        let texels: usize = scene.images.iter().map(|image| image.width as usize * image.height as usize).sum();
+        let texels: usize = scene
+            .images
+            .iter()
+            .map(|image| image.width as usize * image.height as usize)
+            .sum();
         // MIP levels add a third; each halving leaves a quarter.
         let mut halvings = 0;
         while (texels >> (2 * halvings)) / 3 * 4 > STORE_WORDS / 2 {
             halvings += 1;
         }
-        let notice = (halvings > 0).then(|| format!("textures are reduced to 1/{} of their side to fit", 1 << halvings));
-        Self { halvings, notice, ..Self::default() }
+        let notice = (halvings > 0).then(|| {
+            format!(
+                "textures are reduced to 1/{} of their side to fit",
+                1 << halvings
+            )
+        });
+        Self {
+            halvings,
+            notice,
+            ..Self::default()
+        }
     }
 
     /// Where the header of a material's texture starts; `None` where the image has no pixels.
@@ -71,7 +84,10 @@ fn halved(image: &Image, times: u32) -> ([u32; 2], Vec<u8>) {
 
 fn average_of_four(rgba: &[u8], size: [u32; 2], at: [u32; 2]) -> [u8; 4] {
     let texel = |dx: u32, dy: u32| {
-        let (x, y) = ((2 * at[0] + dx).min(size[0] - 1), (2 * at[1] + dy).min(size[1] - 1));
+        let (x, y) = (
+            (2 * at[0] + dx).min(size[0] - 1),
+            (2 * at[1] + dy).min(size[1] - 1),
+        );
         (y * size[0] + x) as usize * 4
     };
     let corners = [texel(0, 0), texel(1, 0), texel(0, 1), texel(1, 1)];

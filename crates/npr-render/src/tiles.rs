@@ -25,12 +25,20 @@ impl Tiles {
     pub fn new(frame: [u32; 2], margin: u32) -> Self {
         let fits = |w: u64, h: u64| w * h <= TILE_PIXELS && w.max(h) <= u64::from(TILE_SIDE);
         if fits(u64::from(frame[0]), u64::from(frame[1])) {
-            return Self { frame, kept: frame, margin: 0 };
+            return Self {
+                frame,
+                kept: frame,
+                margin: 0,
+            };
         }
         // A square of 1984 pixels fits, whatever the mask's scale.
         let margin = margin.min(600);
         let side = 1984 - 2 * margin;
-        Self { frame, kept: [side.min(frame[0]), side.min(frame[1])], margin }
+        Self {
+            frame,
+            kept: [side.min(frame[0]), side.min(frame[1])],
+            margin,
+        }
     }
 
     /// Size of every tile with its margin.
@@ -41,9 +49,9 @@ impl Tiles {
     /// Where the kept part of each tile starts, row by row.
     pub fn origins(&self) -> impl Iterator<Item = [u32; 2]> + use<> {
         let (frame, kept) = (self.frame, self.kept);
-        (0..frame[1]).step_by(kept[1] as usize).flat_map(move |y| {
-            (0..frame[0]).step_by(kept[0] as usize).map(move |x| [x, y])
-        })
+        (0..frame[1])
+            .step_by(kept[1] as usize)
+            .flat_map(move |y| (0..frame[0]).step_by(kept[0] as usize).map(move |x| [x, y]))
     }
 
     /// Frame position of the top left corner of the tile whose kept part starts at `origin`.

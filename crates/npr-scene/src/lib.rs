@@ -1,6 +1,6 @@
 //! Scenes from files.
 //!
-//! [`load`] turns a glTF, VRM, OBJ, STL or PLY file into a [`Scene`]: plain lists whose indices are all
+//! [`load()`] turns a glTF, VRM, OBJ, STL or PLY file into a [`Scene`]: plain lists whose indices are all
 //! in range and whose numbers are all finite, so that nothing downstream has to check again. What
 //! cannot be mended is a [`SceneError`] that names the place in the file; what was ignored or mended is
 //! a [`Notice`].

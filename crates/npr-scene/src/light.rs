@@ -1,4 +1,4 @@
-//! Lights as stored in files [KHR_lights_punctual].
+//! Lights as stored in files (`KHR_lights_punctual`).
 
 /// A light; its node says where it stands, and it shines along the node's -Z.
 #[derive(Debug, Clone, PartialEq)]

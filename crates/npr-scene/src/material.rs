@@ -75,7 +75,7 @@ pub enum Wrap {
     Clamp,
 }
 
-/// Scale, then rotation, then offset of texture coordinates [KHR_texture_transform].
+/// Scale, then rotation, then offset of texture coordinates (`KHR_texture_transform`).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TextureTransform {
     /// Added last, in widths and heights of the image.

@@ -25,8 +25,7 @@ pub(crate) fn bound(scene: &mut Scene, notices: &mut Notices) {
             Some(skin) => skins[skin as usize].max(matrix::gain(&node.world_from_node)),
             None => matrix::gain(&node.world_from_node),
         };
-        // Written so that a product that is not a number fails too.
-        if !(gain * reach <= POSITION_LIMIT) {
+        if gain * reach > POSITION_LIMIT {
             (node.mesh, node.skin) = (None, None);
             let name = shown(&node.name);
             notices.add(format!(

@@ -12,7 +12,7 @@ use crate::skin::Skin;
 /// Everything of a file that can be drawn.
 ///
 /// Every index names an element that exists, every position is finite and within
-/// [`POSITION_LIMIT`](crate::POSITION_LIMIT), and every transform is finite. Y is up and a character
+/// [`POSITION_LIMIT`], and every transform is finite. Y is up and a character
 /// looks along +Z, as in glTF.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Scene {

@@ -60,7 +60,7 @@ fn survives(mut file: Vec<u8>, format: Format, damages: &[Damage]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1000, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: ProptestConfig::default().cases.max(1000), rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
     #[test]
     fn binary_gltf(damages in prop::collection::vec(damage(), 1..5)) {

@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use npr_core::color::{SrgbEncoder, pack_rgba8};
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
 use npr_core::gpu_layout;
+use npr_core::outline::MASK_KINDS;
 use npr_core::raster::{HULL_BIT, ID_MASK};
 use npr_core::surface::{blend2, blend3, dot, faces_eye, unit_or_z, weights_at};
 use npr_core::texture;
@@ -53,9 +54,6 @@ impl Compose {
     pub const STAMPS: u32 = 8;
 }
 
-/// The bits of a mask pixel that say which buffers found it.
-const MASK_KINDS: u32 = 15;
-
 /// How far beside a triangle's corners its tone may reach, in ramp coordinate: blended normals bulge a little.
 const TONE_ROOM: f32 = 0.02;
 
@@ -104,16 +102,20 @@ pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
         .par_chunks_mut(width)
         .enumerate()
         .for_each(|(y, row)| {
+            let mut composer = Composer {
+                layers,
+                encoder: &encoder,
+                empty: layers.empty_texel(&encoder),
+                recent: Default::default(),
+            };
             for (x, texel) in row.iter_mut().enumerate() {
-                let [r, g, b, a] = layers.pixel(x as u32, y as u32);
-                let straight = [r, g, b].map(|light| encoder.byte(light / a.max(1e-6)));
-                let alpha = (a.clamp(0.0, 1.0) * 255.0 + 0.5) as u32;
-                *texel = straight[0] | straight[1] << 8 | straight[2] << 16 | alpha << 24;
+                *texel = composer.texel(x as u32, y as u32);
             }
         });
 }
 
 /// A triangle's corners, and 1 where its front is seen or -1 where its back is.
+#[derive(Debug, Clone, Copy)]
 struct Corners<'a> {
     posed: [&'a PosedVertex; 3],
     clip: [[f32; 4]; 3],
@@ -126,63 +128,111 @@ impl Corners<'_> {
     }
 }
 
-impl Layers<'_> {
-    /// A pixel of the output, premultiplied linear light.
-    fn pixel(&self, x: u32, y: u32) -> [f32; 4] {
-        let frame_px = self.window.frame_at(x, y);
-        let element = (y * self.window.size[0] + x) as usize;
-        let mut color = self.surfaces(x, y, frame_px);
+/// What a pixel shows of one triangle, as far as it does not depend on the pixel.
+#[derive(Debug, Clone, Copy)]
+struct Shown<'a> {
+    id: u32,
+    triangle: &'a Triangle,
+    part: &'a Part,
+    corners: Corners<'a>,
+    /// Light, where the whole triangle lies within one tone.
+    light: Option<[f32; 3]>,
+    /// Final colour and its bytes, where the whole triangle has one.
+    even: Option<([f32; 3], u32)>,
+}
+
+/// Triangle numbers of a pixel's samples.
+#[derive(Debug, Clone, Copy)]
+struct Samples {
+    ids: [u32; 4],
+    count: usize,
+}
+
+impl std::ops::Deref for Samples {
+    type Target = [u32];
+
+    fn deref(&self) -> &[u32] {
+        &self.ids[..self.count]
+    }
+}
+
+/// How many triangles a row remembers: neighbouring pixels mostly show the same few.
+const RECENT: usize = 8;
+
+/// Composes the pixels of a row.
+struct Composer<'a> {
+    layers: &'a Layers<'a>,
+    encoder: &'a SrgbEncoder,
+    /// A pixel that shows nothing but a plain background.
+    empty: Option<u32>,
+    recent: [Option<Shown<'a>>; RECENT],
+}
+
+impl<'a> Composer<'a> {
+    /// A pixel of the output as sRGB bytes with straight alpha.
+    fn texel(&mut self, x: u32, y: u32) -> u32 {
+        let layers = self.layers;
+        let frame_px = layers.window.frame_at(x, y);
+        let seen = layers.samples_of(x, y);
+        let lines = layers.lines_at(x, y, frame_px);
+        if lines == [0; 3] && seen.iter().all(|id| *id == seen[0]) {
+            let even = match seen[0] {
+                0 => self.empty,
+                id => self.shown(id).even.map(|(_, bytes)| bytes),
+            };
+            if let Some(texel) = even {
+                return texel;
+            }
+        }
+        let mut color = self.surfaces(&seen, frame_px);
         if color[3] < 1.0 {
-            let behind = self.background(frame_px);
+            let behind = layers.background(frame_px);
             let left = 1.0 - color[3];
             color = std::array::from_fn(|i| color[i] + behind[i] * left);
         }
-        let flags = self.compose.flags;
-        if flags & Compose::MASK != 0 && self.is_masked(frame_px) {
-            color = over(self.linear_of(self.compose.line_color), color);
+        for line in lines {
+            if line >> 24 != 0 {
+                color = over(layers.linear_texel(line), color);
+            }
         }
-        if flags & Compose::RIBBONS != 0 {
-            color = over(self.linear_texel(self.ribbons[element]), color);
-        }
-        if flags & Compose::STAMPS != 0 {
-            color = over(self.linear_texel(self.stamped[element]), color);
-        }
-        color
+        encoded(self.encoder, color)
     }
 
-    fn is_masked(&self, frame_px: [f32; 2]) -> bool {
-        let at = self.mask_window.pixel_at(frame_px);
-        self.mask[(at[1] * self.mask_window.size[0] + at[0]) as usize] & MASK_KINDS != 0
+    /// What is known of a triangle, remembered while it is in use.
+    fn shown(&mut self, id: u32) -> Shown<'a> {
+        let slot = id as usize % RECENT;
+        match self.recent[slot] {
+            Some(shown) if shown.id == id => shown,
+            _ => {
+                let mut shown = self.layers.shown(id);
+                if let Some((color, bytes)) = &mut shown.even {
+                    *bytes = encoded(self.encoder, [color[0], color[1], color[2], 1.0]);
+                }
+                self.recent[slot] = Some(shown);
+                shown
+            }
+        }
     }
 
     /// The surfaces of a pixel, premultiplied.
-    fn surfaces(&self, x: u32, y: u32, frame_px: [f32; 2]) -> [f32; 4] {
-        let samples = self.compose.samples;
-        let count = samples * samples;
-        let stride = self.window.size[0] * samples;
-        let mut seen = [0; 4];
-        for i in 0..count {
-            seen[i as usize] =
-                self.ids[((y * samples + (i >> 1)) * stride + x * samples + (i & 1)) as usize];
-        }
+    fn surfaces(&mut self, seen: &[u32], frame_px: [f32; 2]) -> [f32; 4] {
+        let count = seen.len();
         let mut sum = [0.0; 4];
         let mut left = (1u32 << count) - 1;
         for i in 0..count {
             if left & (1 << i) == 0 {
                 continue;
             }
-            let mut members = 0;
-            for j in i..count {
-                if seen[j as usize] == seen[i as usize] {
-                    members |= 1 << j;
-                }
-            }
+            let members = (i..count)
+                .filter(|j| seen[*j] == seen[i])
+                .fold(0, |bits, j| bits | 1 << j);
             left &= !members;
-            if seen[i as usize] == 0 {
+            if seen[i] == 0 {
                 continue;
             }
             let share = members.count_ones() as f32 / count as f32;
-            let [r, g, b] = self.shade(seen[i as usize], members, frame_px);
+            let shown = self.shown(seen[i]);
+            let [r, g, b] = self.layers.shade(&shown, members, frame_px);
             sum = [
                 sum[0] + r * share,
                 sum[1] + g * share,
@@ -192,14 +242,103 @@ impl Layers<'_> {
         }
         sum
     }
+}
 
-    /// Light of what the samples in `members` show, a triangle or its hull.
-    fn shade(&self, id: u32, members: u32, frame_px: [f32; 2]) -> [f32; 3] {
+/// Premultiplied linear light as sRGB bytes with straight alpha.
+fn encoded(encoder: &SrgbEncoder, [r, g, b, a]: [f32; 4]) -> u32 {
+    let [r, g, b] = [r, g, b].map(|light| encoder.byte(light / a.max(1e-6)));
+    r | g << 8 | b << 16 | ((a.clamp(0.0, 1.0) * 255.0 + 0.5) as u32) << 24
+}
+
+impl<'a> Layers<'a> {
+    /// A pixel that shows only the background, where that is of one colour.
+    fn empty_texel(&self, encoder: &SrgbEncoder) -> Option<u32> {
+        (self.compose.background_texture == NONE)
+            .then(|| encoded(encoder, self.background([0.0; 2])))
+    }
+
+    /// The triangle numbers of a pixel's samples.
+    fn samples_of(&self, x: u32, y: u32) -> Samples {
+        let samples = self.compose.samples;
+        let stride = self.window.size[0] * samples;
+        let mut seen = Samples {
+            ids: [0; 4],
+            count: (samples * samples) as usize,
+        };
+        for i in 0..samples * samples {
+            seen.ids[i as usize] =
+                self.ids[((y * samples + (i >> 1)) * stride + x * samples + (i & 1)) as usize];
+        }
+        seen
+    }
+
+    /// The lines over a pixel, from the bottom: mask, ribbons, stamps; sRGB bytes with coverage in alpha.
+    fn lines_at(&self, x: u32, y: u32, frame_px: [f32; 2]) -> [u32; 3] {
+        let element = (y * self.window.size[0] + x) as usize;
+        let flags = self.compose.flags;
+        let masked = flags & Compose::MASK != 0 && self.is_masked(frame_px);
+        [
+            if masked {
+                pack_rgba8(self.compose.line_color)
+            } else {
+                0
+            },
+            if flags & Compose::RIBBONS != 0 {
+                self.ribbons[element]
+            } else {
+                0
+            },
+            if flags & Compose::STAMPS != 0 {
+                self.stamped[element]
+            } else {
+                0
+            },
+        ]
+    }
+
+    fn is_masked(&self, frame_px: [f32; 2]) -> bool {
+        let at = self.mask_window.pixel_at(frame_px);
+        self.mask[(at[1] * self.mask_window.size[0] + at[0]) as usize] & MASK_KINDS != 0
+    }
+
+    /// What can be said of a triangle, or of its hull, whatever the pixel. Bytes are left to the caller.
+    fn shown(&self, id: u32) -> Shown<'a> {
         let triangle = &self.triangles[((id & ID_MASK) - 1) as usize];
         let part = &self.parts[triangle.part as usize];
-        if id & HULL_BIT != 0 {
+        let corners = self.corners_of(triangle);
+        let angle = self.compose.flags & Compose::ANGLE != 0;
+        let one_tone = !angle && self.is_one_tone(part, &corners);
+        let light = one_tone
+            .then(|| self.light_of(part, corners.posed[0].normal.map(|n| n * corners.side)));
+        let plain = part.texture == NONE
+            && triangle
+                .corners
+                .iter()
+                .all(|v| self.vertices[*v as usize].color | 0xff00_0000 == u32::MAX);
+        let even = if id & HULL_BIT != 0 {
             let [r, g, b, _] = self.linear_of(part.line_color);
-            return [r, g, b];
+            Some([r, g, b])
+        } else if plain {
+            let base =
+                self.strengthened([part.base_color[0], part.base_color[1], part.base_color[2]]);
+            light.map(|light| std::array::from_fn(|i| base[i] * light[i]))
+        } else {
+            None
+        };
+        Shown {
+            id,
+            triangle,
+            part,
+            corners,
+            light,
+            even: even.map(|color| (color, 0)),
+        }
+    }
+
+    /// Light of what the samples in `members` show of a triangle.
+    fn shade(&self, shown: &Shown<'_>, members: u32, frame_px: [f32; 2]) -> [f32; 3] {
+        if let Some((color, _)) = shown.even {
+            return color;
         }
         let count = members.count_ones() as f32;
         let samples = (0..4).filter(|i| members & (1 << i) != 0);
@@ -208,22 +347,20 @@ impl Layers<'_> {
             let offset = self.sample_offset(i);
             center = [center[0] + offset[0] / count, center[1] + offset[1] / count];
         }
-        let corners = self.corners_of(triangle);
-        let angle = self.compose.flags & Compose::ANGLE != 0;
-        let tone = if !angle && self.is_one_tone(part, &corners) {
-            self.tone_at(part, &corners, center)
-        } else {
-            samples.fold([0.0; 4], |sum, i| {
+        let (part, corners) = (shown.part, &shown.corners);
+        let tone = match shown.light {
+            Some([r, g, b]) => [r, g, b, 0.0],
+            None => samples.fold([0.0; 4], |sum, i| {
                 let offset = self.sample_offset(i);
                 let tone = self.tone_at(
                     part,
-                    &corners,
+                    corners,
                     [frame_px[0] + offset[0], frame_px[1] + offset[1]],
                 );
                 std::array::from_fn(|k| sum[k] + tone[k] / count)
-            })
+            }),
         };
-        let base = self.base_color(triangle, part, &corners, center);
+        let base = self.strengthened(self.plain_color(shown.triangle, part, corners, center));
         let lit: [f32; 3] = std::array::from_fn(|i| base[i] * tone[i]);
         if tone[3] == 0.0 {
             return lit;
@@ -240,7 +377,7 @@ impl Layers<'_> {
         [(i & 1) as f32 * 0.5 - 0.25, (i >> 1) as f32 * 0.5 - 0.25]
     }
 
-    fn corners_of(&self, triangle: &Triangle) -> Corners<'_> {
+    fn corners_of(&self, triangle: &Triangle) -> Corners<'a> {
         let posed = triangle.corners.map(|v| &self.posed[v as usize]);
         let clip = posed.map(|v| v.clip);
         Corners {
@@ -253,17 +390,9 @@ impl Layers<'_> {
     /// Tone and ink at one point: rgb light, and 1 where the surface-angle method draws a line.
     fn tone_at(&self, part: &Part, corners: &Corners<'_>, frame_px: [f32; 2]) -> [f32; 4] {
         let angle = self.compose.flags & Compose::ANGLE != 0 && part.flags & Part::LINES != 0;
-        let unlit = part.flags & Part::UNLIT != 0;
-        if unlit && !angle {
-            return [1.0, 1.0, 1.0, 0.0];
-        }
         let weights = weights_at(corners.clip, self.view.ndc_at(frame_px));
         let normal = corners.normal(weights);
-        let light = if unlit {
-            [1.0; 3]
-        } else {
-            ramp_light(part, self.ramp_coordinate(normal))
-        };
+        let light = self.light_of(part, normal);
         let mut ink = 0.0;
         if angle {
             let world = blend3(weights, corners.posed.map(|v| v.world));
@@ -274,6 +403,15 @@ impl Layers<'_> {
         [light[0], light[1], light[2], ink]
     }
 
+    /// Light on a surface that faces along `normal`.
+    fn light_of(&self, part: &Part, normal: [f32; 3]) -> [f32; 3] {
+        if part.flags & Part::UNLIT != 0 {
+            [1.0; 3]
+        } else {
+            ramp_light(part, self.ramp_coordinate(normal))
+        }
+    }
+
     /// The Lambert term mapped from -1..1 to 0..1 [Suzuki 2004, section 3.2].
     fn ramp_coordinate(&self, normal: [f32; 3]) -> f32 {
         (dot(normal, self.compose.light_world) + 1.0) * 0.5
@@ -281,6 +419,9 @@ impl Layers<'_> {
 
     /// Whether the whole triangle lies within one tone.
     fn is_one_tone(&self, part: &Part, corners: &Corners<'_>) -> bool {
+        if part.flags & Part::UNLIT != 0 {
+            return true;
+        }
         let at = corners
             .posed
             .map(|v| self.ramp_coordinate(v.normal.map(|n| n * corners.side)));
@@ -292,15 +433,8 @@ impl Layers<'_> {
             .any(|stop| stop[3] > low && stop[3] <= high)
     }
 
-    /// Surface colour without light, as strong as the style wants it.
-    fn base_color(
-        &self,
-        triangle: &Triangle,
-        part: &Part,
-        corners: &Corners<'_>,
-        frame_px: [f32; 2],
-    ) -> [f32; 3] {
-        let color = self.plain_color(triangle, part, corners, frame_px);
+    /// A colour as strong as the style wants it.
+    fn strengthened(&self, color: [f32; 3]) -> [f32; 3] {
         let saturation = self.compose.saturation;
         if saturation == 1.0 {
             return color;
@@ -309,6 +443,7 @@ impl Layers<'_> {
         color.map(|v| (luma + (v - luma) * saturation).max(0.0))
     }
 
+    /// Surface colour without light.
     fn plain_color(
         &self,
         triangle: &Triangle,
@@ -317,11 +452,7 @@ impl Layers<'_> {
         frame_px: [f32; 2],
     ) -> [f32; 3] {
         let vertices = triangle.corners.map(|v| &self.vertices[v as usize]);
-        let plain = vertices.iter().all(|v| v.color == u32::MAX);
         let [r, g, b, _] = part.base_color;
-        if plain && part.texture == NONE {
-            return [r, g, b];
-        }
         let weights = weights_at(corners.clip, self.view.ndc_at(frame_px));
         let tint = blend3(
             weights,

@@ -1,14 +1,14 @@
 //! Lines on images: the twin of `line.detect`.
 
-use npr_core::geometry::{FAR_DEPTH, GPixel, NONE, Part};
+use npr_core::geometry::{GPixel, NONE, Part};
 use npr_core::math;
-use npr_core::outline::{MASK_OWNER, MASK_SIDE, Outline};
+use npr_core::outline::{MASK_KINDS, MASK_OWNER, MASK_SIDE, Outline, PIECE_COS};
 use npr_core::surface::dot;
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
 
-/// The bits of a mask pixel that say which buffers found it.
-pub const MASK_KINDS: u32 = 15;
+/// Depth change per pixel, in pixels, from which a surface is grazing: 63 degrees.
+const GRAZING_SLOPE: f32 = 2.0;
 
 /// What lines are detected on.
 #[derive(Debug, Clone, Copy)]
@@ -31,40 +31,59 @@ pub struct Detection<'a> {
 /// Differs: the paper compares depths directly, which lights up planes seen at a grazing angle; with
 /// [`Outline::PLANE_DEPTH`] a depth is compared with the neighbour's tangent plane.
 ///
+/// Normals also differ between the pixels of a surface that turns away steeply; such pixels are marked but own no line.
+///
 /// O(pixels), parallel over rows.
 pub fn detect(with: &Detection<'_>, gbuffer: &[GPixel], mask: &mut [u32]) {
     let width = with.window.size[0] as usize;
     mask.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-        for (x, out) in row.iter_mut().enumerate() {
-            *out = with.pixel(gbuffer, [x as i32, y as i32]);
+        row.fill(0);
+        let line = |y: usize| &gbuffer[y * width..(y + 1) * width];
+        with.mark_along(line(y), row);
+        if y > 0 {
+            with.mark_across(line(y), line(y - 1), -1.0, row);
+        }
+        if (y + 1) * width < gbuffer.len() {
+            with.mark_across(line(y), line(y + 1), 1.0, row);
         }
     });
 }
 
 impl Detection<'_> {
-    fn pixel(&self, gbuffer: &[GPixel], pixel: [i32; 2]) -> u32 {
-        let size = self.window.size.map(|n| n as i32);
-        let here = &gbuffer[(pixel[1] * size[0] + pixel[0]) as usize];
-        let mut found = 0;
-        for side in 0..4u32 {
-            let along = (side & 1) as i32 * 2 - 1;
-            let step = if side < 2 { [along, 0] } else { [0, along] };
-            let next = [pixel[0] + step[0], pixel[1] + step[1]];
-            if next[0] < 0 || next[1] < 0 || next[0] >= size[0] || next[1] >= size[1] {
-                continue;
-            }
-            let there = &gbuffer[(next[1] * size[0] + next[0]) as usize];
-            let kinds = self.separations(here, there, step.map(|v| v as f32));
-            if kinds == 0 || !(self.has_lines(here) || self.has_lines(there)) {
-                continue;
-            }
-            found |= kinds;
-            // Of two equally near surfaces, the right or lower pixel owns the line.
-            if here.depth < there.depth || (here.depth == there.depth && along < 0) {
-                found |= MASK_OWNER | (MASK_SIDE << side);
+    /// Marks what neighbours in a row find; each pair is compared once for both of its pixels.
+    fn mark_along(&self, line: &[GPixel], row: &mut [u32]) {
+        for x in 1..line.len() {
+            let (left, right) = (&line[x - 1], &line[x]);
+            let kinds = self.separations(left, right, [1.0, 0.0]);
+            if kinds != 0 && (self.has_lines(left) || self.has_lines(right)) {
+                row[x - 1] |= self.mark(left, right, kinds, 1);
+                row[x] |= self.mark(right, left, kinds, 0);
             }
         }
-        found
+    }
+
+    /// Marks what the neighbours above (`along` -1) or below (1) find.
+    fn mark_across(&self, line: &[GPixel], next: &[GPixel], along: f32, row: &mut [u32]) {
+        let side = if along < 0.0 { 2 } else { 3 };
+        for ((here, there), out) in line.iter().zip(next).zip(row) {
+            let kinds = self.separations(here, there, [0.0, along]);
+            if kinds != 0 && (self.has_lines(here) || self.has_lines(there)) {
+                *out |= self.mark(here, there, kinds, side);
+            }
+        }
+    }
+
+    /// The mask bits of `here`, whose neighbour `there` lies on `side`: left, right, above, below.
+    fn mark(&self, here: &GPixel, there: &GPixel, kinds: u32, side: u32) -> u32 {
+        if kinds == Outline::NORMAL && (self.is_grazing(here) || self.is_grazing(there)) {
+            return kinds;
+        }
+        // Of two equally near surfaces, the right or lower pixel owns the line.
+        let first_side = side & 1 == 0;
+        if here.depth < there.depth || (here.depth == there.depth && first_side) {
+            return kinds | MASK_OWNER | (MASK_SIDE << side);
+        }
+        kinds
     }
 
     /// Which buffers separate two neighbours.
@@ -83,42 +102,51 @@ impl Detection<'_> {
         if here.part == NONE || there.part == NONE {
             return (found | Outline::DEPTH | Outline::NORMAL) & outline.detects;
         }
-        if self.depth_jump(here, there, step) > outline.depth_threshold {
+        if self.jumps(here, there, step) {
             found |= Outline::DEPTH;
         }
-        let turn = here.normal != there.normal
-            && dot(math::unpack_unit(here.normal), math::unpack_unit(there.normal)) < outline.normal_cos;
-        if turn {
-            found |= Outline::NORMAL;
+        if here.normal != there.normal {
+            let turn = dot(
+                math::unpack_unit(here.normal),
+                math::unpack_unit(there.normal),
+            );
+            if turn < outline.normal_cos {
+                found |= Outline::NORMAL;
+            }
+            let meets = here.part != there.part
+                && here.object == there.object
+                && here.material == there.material;
+            if meets && turn < PIECE_COS {
+                found |= Outline::PIECE;
+            }
         }
         found & outline.detects & MASK_KINDS
     }
 
-    /// Depth jump between two neighbours as a share of the frame's height.
-    fn depth_jump(&self, here: &GPixel, there: &GPixel, step: [f32; 2]) -> f32 {
-        let mut gap = (here.depth - there.depth).abs();
-        if self.outline.detects & Outline::PLANE_DEPTH != 0 {
-            let back = step.map(|v| -v);
-            gap = gap.min(self.plane_gap(here, there, step)).min(self.plane_gap(there, here, back));
+    /// Whether depth jumps between two neighbours, by the threshold's share of the frame's height.
+    fn jumps(&self, here: &GPixel, there: &GPixel, step: [f32; 2]) -> bool {
+        let least = self.outline.depth_threshold * self.view.height_at(here.depth.min(there.depth));
+        if (here.depth - there.depth).abs() <= least {
+            return false;
         }
-        gap / self.view.height_at(here.depth.min(there.depth))
+        let back = step.map(|v| -v);
+        self.outline.detects & Outline::PLANE_DEPTH == 0
+            || (self.plane_gap(here, there, step) > least
+                && self.plane_gap(there, here, back) > least)
     }
 
     /// How far `there` lies from the tangent plane of `here`, one pixel along `step`, in depth.
     fn plane_gap(&self, here: &GPixel, there: &GPixel, step: [f32; 2]) -> f32 {
         let change = here.plane_step[0] * step[0] + here.plane_step[1] * step[1];
         let coordinate = self.view.plane_coordinate(here.depth) + change;
-        (self.depth_of_coordinate(coordinate) - there.depth).abs()
+        (self.view.depth_of_coordinate(coordinate) - there.depth).abs()
     }
 
-    fn depth_of_coordinate(&self, coordinate: f32) -> f32 {
-        if self.view.perspective < 0.5 {
-            coordinate
-        } else if coordinate > 1e-30 {
-            1.0 / coordinate
-        } else {
-            FAR_DEPTH
-        }
+    /// Whether a surface turns away so far that its normals change from pixel to pixel without any crease.
+    fn is_grazing(&self, pixel: &GPixel) -> bool {
+        self.view
+            .slope_of(self.window, pixel.depth, pixel.plane_step)
+            > GRAZING_SLOPE
     }
 
     fn has_lines(&self, pixel: &GPixel) -> bool {

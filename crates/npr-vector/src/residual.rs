@@ -1,4 +1,5 @@
-//! Lines that run along no mesh edge: the twins of `line.find_residual`, `line.flag_tiles` and `line.stamp_residual`.
+//! Lines that run along no mesh edge: the twins of `line.find_residual`, `line.smooth_stamps`,
+//! `line.flag_tiles` and `line.stamp_residual`.
 //!
 //! Where shapes meet or interpenetrate, the mask shows a line and no edge lies there. Such pixels become discs, as wide
 //! as the surface says, and a row of discs is a line.
@@ -36,11 +37,14 @@ pub struct Search<'a> {
 /// O(mask pixels), parallel over rows.
 pub fn find(on: &Search<'_>, stamps: &mut [Stamp]) {
     let width = on.mask_window.size[0] as usize;
-    stamps.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-        for (x, stamp) in row.iter_mut().enumerate() {
-            *stamp = on.stamp_at(x as u32, y as u32).unwrap_or_default();
-        }
-    });
+    stamps
+        .par_chunks_mut(width)
+        .enumerate()
+        .for_each(|(y, row)| {
+            for (x, stamp) in row.iter_mut().enumerate() {
+                *stamp = on.stamp_at(x as u32, y as u32).unwrap_or_default();
+            }
+        });
 }
 
 impl Search<'_> {
@@ -56,31 +60,76 @@ impl Search<'_> {
         let (middle, toward) = (self.mask_window.frame_at(x, y), toward_line(found));
         let center: [f32; 2] =
             std::array::from_fn(|i| middle[i] + toward[i] * self.mask_window.frame_step[i]);
-        (!self.is_inked_near(center)).then_some(Stamp {
+        (!self.is_inked_at(center)).then_some(Stamp {
             center,
             half_width: pixel.half_width,
             part: pixel.part,
         })
     }
 
-    /// Whether any ribbon inked the output near a point of the frame.
-    fn is_inked_near(&self, px: [f32; 2]) -> bool {
-        let center = self.window.pixel_at(px);
-        let size = self.window.size;
-        let reach = (self.mask_window.frame_step[0] * 0.5).ceil() as u32 + 1;
-        let rows = center[1].saturating_sub(reach)..=(center[1] + reach).min(size[1] - 1);
-        rows.into_iter().any(|y| {
-            let left = y * size[0] + center[0].saturating_sub(reach);
-            let right = y * size[0] + (center[0] + reach).min(size[0] - 1);
-            self.ribbons[left as usize..=right as usize].iter().any(|texel| texel >> 24 != 0)
+    /// Whether any ribbon inked the output within half a mask pixel of a point of the frame.
+    fn is_inked_at(&self, px: [f32; 2]) -> bool {
+        let reach = self.mask_window.frame_step.map(|step| 0.5 * step);
+        let low = self.window.pixel_at([px[0] - reach[0], px[1] - reach[1]]);
+        let high = self.window.pixel_at([px[0] + reach[0], px[1] + reach[1]]);
+        (low[1]..=high[1]).any(|y| {
+            let row = (y * self.window.size[0]) as usize;
+            let texels = &self.ribbons[row + low[0] as usize..=row + high[0] as usize];
+            texels.iter().any(|texel| texel >> 24 != 0)
         })
     }
 }
 
 /// From a pixel's centre to the line, in pixels: half the sum of the sides it runs along.
 fn toward_line(found: u32) -> [f32; 2] {
-    let side = |i: u32| if found & (MASK_SIDE << i) != 0 { 0.5 } else { 0.0 };
+    let side = |i: u32| {
+        if found & (MASK_SIDE << i) != 0 {
+            0.5
+        } else {
+            0.0
+        }
+    };
     [side(1) - side(0), side(3) - side(2)]
+}
+
+/// How far along a line stamps are averaged, in mask pixels.
+const SMOOTHING_REACH: u32 = 3;
+
+/// Moves every stamp to the middle of the stamps of its part around it, so that the steps of the pixel grid do not show.
+///
+/// O(mask pixels + 49 per stamp), parallel over rows.
+pub fn smooth(mask_window: &Window, stamps: &[Stamp], smoothed: &mut [Stamp]) {
+    let size = mask_window.size;
+    let width = size[0] as usize;
+    smoothed
+        .par_chunks_mut(width)
+        .enumerate()
+        .for_each(|(y, row)| {
+            for (x, out) in row.iter_mut().enumerate() {
+                let stamp = stamps[y * width + x];
+                *out = stamp;
+                if stamp.half_width > 0.0 {
+                    out.center = middle_around(size, stamps, [x as u32, y as u32], stamp.part);
+                }
+            }
+        });
+}
+
+/// Mean centre of the stamps of a part around a pixel.
+fn middle_around(size: [u32; 2], stamps: &[Stamp], at: [u32; 2], part: u32) -> [f32; 2] {
+    let low = at.map(|v| v.saturating_sub(SMOOTHING_REACH));
+    let high: [u32; 2] = std::array::from_fn(|i| (at[i] + SMOOTHING_REACH).min(size[i] - 1));
+    let (mut sum, mut count) = ([0.0f32; 2], 0.0f32);
+    for y in low[1]..=high[1] {
+        for x in low[0]..=high[0] {
+            let stamp = &stamps[(y * size[0] + x) as usize];
+            if stamp.half_width > 0.0 && stamp.part == part {
+                sum = [sum[0] + stamp.center[0], sum[1] + stamp.center[1]];
+                count += 1.0;
+            }
+        }
+    }
+    [sum[0] / count, sum[1] / count]
 }
 
 /// Tiles across a mask.
@@ -96,16 +145,19 @@ pub fn tile_count(size: [u32; 2]) -> usize {
 /// 1 for every tile that holds a stamp, else 0. O(mask pixels), parallel over tiles.
 pub fn flag_tiles(mask_window: &Window, stamps: &[Stamp], tiles: &mut [u32]) {
     let (across, size) = (tiles_across(mask_window), mask_window.size);
-    tiles.par_iter_mut().enumerate().for_each(|(element, tile)| {
-        let left = element as u32 % across * TILE;
-        let top = element as u32 / across * TILE;
-        let right = (left + TILE).min(size[0]);
-        let found = (top..(top + TILE).min(size[1])).any(|y| {
-            let row = &stamps[(y * size[0] + left) as usize..(y * size[0] + right) as usize];
-            row.iter().any(|stamp| stamp.half_width > 0.0)
+    tiles
+        .par_iter_mut()
+        .enumerate()
+        .for_each(|(element, tile)| {
+            let left = element as u32 % across * TILE;
+            let top = element as u32 / across * TILE;
+            let right = (left + TILE).min(size[0]);
+            let found = (top..(top + TILE).min(size[1])).any(|y| {
+                let row = &stamps[(y * size[0] + left) as usize..(y * size[0] + right) as usize];
+                row.iter().any(|stamp| stamp.half_width > 0.0)
+            });
+            *tile = u32::from(found);
         });
-        *tile = u32::from(found);
-    });
 }
 
 /// What stamps are inked with.
@@ -130,18 +182,44 @@ pub struct Inking<'a> {
 /// The stamp that covers a pixel most wins, and of equal ones the first. O(pixels near stamps * reach squared), parallel.
 pub fn stamp(with: &Inking<'_>, stamped: &mut [u32]) {
     let width = with.window.size[0] as usize;
-    stamped.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-        for (x, texel) in row.iter_mut().enumerate() {
-            *texel = with.texel(with.window.frame_at(x as u32, y as u32));
-        }
-    });
+    stamped
+        .par_chunks_mut(width)
+        .enumerate()
+        .for_each(|(y, row)| {
+            row.fill(0);
+            if with.row_has_stamps(y as u32) {
+                for (x, texel) in row.iter_mut().enumerate() {
+                    *texel = with.texel(with.window.frame_at(x as u32, y as u32));
+                }
+            }
+        });
 }
 
 impl Inking<'_> {
+    /// Whether any stamp may reach a row of the output.
+    fn row_has_stamps(&self, y: u32) -> bool {
+        let (low, high) = self.reachable(self.window.frame_at(0, y));
+        self.any_stamp([0, low[1]], [self.mask_window.size[0] - 1, high[1]])
+    }
+
+    /// The box of mask pixels whose stamps may reach a point of the frame.
+    fn reachable(&self, px: [f32; 2]) -> ([u32; 2], [u32; 2]) {
+        // Smoothing moves stamps from their pixels.
+        let room = 1.0 + SMOOTHING_REACH as f32;
+        let reach = self
+            .mask_window
+            .frame_step
+            .map(|step| self.outline.reach_px as f32 + room * step);
+        (
+            self.mask_window
+                .pixel_at([px[0] - reach[0], px[1] - reach[1]]),
+            self.mask_window
+                .pixel_at([px[0] + reach[0], px[1] + reach[1]]),
+        )
+    }
+
     fn texel(&self, px: [f32; 2]) -> u32 {
-        let reach = self.mask_window.frame_step.map(|step| self.outline.reach_px as f32 + step);
-        let low = self.mask_window.pixel_at([px[0] - reach[0], px[1] - reach[1]]);
-        let high = self.mask_window.pixel_at([px[0] + reach[0], px[1] + reach[1]]);
+        let (low, high) = self.reachable(px);
         if !self.any_stamp(low, high) {
             return 0;
         }
@@ -169,8 +247,9 @@ impl Inking<'_> {
     /// Whether any tile that meets the box of mask pixels holds a stamp.
     fn any_stamp(&self, low: [u32; 2], high: [u32; 2]) -> bool {
         let across = tiles_across(self.mask_window);
-        (low[1] / TILE..=high[1] / TILE)
-            .any(|y| (low[0] / TILE..=high[0] / TILE).any(|x| self.tiles[(y * across + x) as usize] != 0))
+        (low[1] / TILE..=high[1] / TILE).any(|y| {
+            (low[0] / TILE..=high[0] / TILE).any(|x| self.tiles[(y * across + x) as usize] != 0)
+        })
     }
 }
 
@@ -189,8 +268,14 @@ mod tests {
         let window = window();
         let mut tiles = vec![0; tile_count(SIZE)];
         flag_tiles(&window, stamps, &mut tiles);
-        let outline = Outline { reach_px: 4, ..Outline::default() };
-        let parts = [Part { line_color: [0.0, 0.0, 0.0, 1.0], ..Part::default() }];
+        let outline = Outline {
+            reach_px: 4,
+            ..Outline::default()
+        };
+        let parts = [Part {
+            line_color: [0.0, 0.0, 0.0, 1.0],
+            ..Part::default()
+        }];
         let inking = Inking {
             window: &window,
             mask_window: &window,

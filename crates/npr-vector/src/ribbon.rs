@@ -1,23 +1,26 @@
 //! Edges as ribbons of varying width: the twin of `line.draw_ribbons`.
 
-use crate::detect::MASK_KINDS;
 use npr_core::color;
-use npr_core::geometry::{Edge, GPixel, NONE, Part, PosedVertex, Triangle};
-use npr_core::outline::Outline;
+use npr_core::geometry::{Edge, FAR_DEPTH, GPixel, NONE, Part, PosedVertex, Triangle};
+use npr_core::outline::{MASK_KINDS, Outline};
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
 
 /// Rows drawn by one task.
 const BAND_ROWS: usize = 32;
 
-/// Depth that an edge may lie behind the surface around it and still be seen, in mask pixels.
+/// Depth that an edge may lie behind the surface around it and still be seen, in mask pixels on a surface that faces
+/// the eye; more where it slopes.
 ///
-/// A mask pixel's centre lies up to one and a half pixels off the edge, on a surface that may slope. Smaller breaks lines in
-/// concave creases; larger lets hidden lines through thin parts.
-const DEPTH_TOLERANCE_PX: f32 = 3.0;
+/// A mask pixel's centre lies off the edge, on a surface that bends. Smaller breaks lines on grazing faces; larger lets
+/// hidden lines through thin parts.
+const DEPTH_TOLERANCE_PX: f32 = 1.0;
 
-/// How far along a crease the mask must go on, in mask pixels; a line that is merely crossed is thinner.
-const CREASE_REACH_PX: f32 = 2.5;
+/// How much further behind a rim may bend than the tangent plane of its pixel says.
+const RIM_FACTOR: f32 = 4.0;
+
+/// How far along an edge the mask must go on, in mask pixels; a line that is merely crossed is thinner.
+const LINE_REACH_PX: f32 = 2.5;
 
 /// A line segment with a half width at either end, in frame pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,8 +52,11 @@ impl Ribbon {
         let ab = [self.b[0] - self.a[0], self.b[1] - self.a[1]];
         let ap = [p[0] - self.a[0], p[1] - self.a[1]];
         let square_length = ab[0] * ab[0] + ab[1] * ab[1];
-        let along =
-            if square_length > 1e-12 { (ap[0] * ab[0] + ap[1] * ab[1]) / square_length } else { 0.0 };
+        let along = if square_length > 1e-12 {
+            (ap[0] * ab[0] + ap[1] * ab[1]) / square_length
+        } else {
+            0.0
+        };
         let t = along.clamp(0.0, 1.0);
         let off = [ap[0] - ab[0] * t, ap[1] - ab[1] * t];
         let distance = (off[0] * off[0] + off[1] * off[1]).sqrt();
@@ -97,11 +103,20 @@ pub struct Drawing<'a> {
 /// O(edges + covered pixels), parallel over bands of rows, each in edge order.
 ///
 /// Differs: unique edges instead of three a triangle; round joins and depth tests, unless published behaviour is asked for.
-pub fn draw(with: &Drawing<'_>, edges: &[Edge], kinds: &[u32], layer: &mut [u32], keys: &mut [u32]) {
+pub fn draw(
+    with: &Drawing<'_>,
+    edges: &[Edge],
+    kinds: &[u32],
+    layer: &mut [u32],
+    keys: &mut [u32],
+) {
     let width = with.window.size[0] as usize;
     let height = with.window.size[1] as usize;
-    let spines: Vec<Spine> =
-        edges.iter().zip(kinds).filter_map(|(edge, kind)| with.spine(edge, *kind)).collect();
+    let spines: Vec<Spine> = edges
+        .iter()
+        .zip(kinds)
+        .filter_map(|(edge, kind)| with.spine(edge, *kind))
+        .collect();
     let mut bands = vec![Vec::new(); height.div_ceil(BAND_ROWS)];
     for (i, spine) in spines.iter().enumerate() {
         if let Some((top, bottom)) = spine.rows(with.window) {
@@ -112,11 +127,14 @@ pub fn draw(with: &Drawing<'_>, edges: &[Edge], kinds: &[u32], layer: &mut [u32]
     }
     let rows = BAND_ROWS * width;
     let targets = layer.par_chunks_mut(rows).zip(keys.par_chunks_mut(rows));
-    targets.zip(bands).enumerate().for_each(|(band, ((layer, keys), members))| {
-        for member in members {
-            with.draw_spine(&spines[member as usize], band * BAND_ROWS, layer, keys);
-        }
-    });
+    targets
+        .zip(bands)
+        .enumerate()
+        .for_each(|(band, ((layer, keys), members))| {
+            for member in members {
+                with.draw_spine(&spines[member as usize], band * BAND_ROWS, layer, keys);
+            }
+        });
 }
 
 /// An edge ready to draw.
@@ -135,7 +153,10 @@ impl Spine {
 
     /// The rows of the window that may hold ink.
     fn rows(&self, window: &Window) -> Option<(usize, usize)> {
-        let (low, high) = (self.ribbon.a[1].min(self.ribbon.b[1]), self.ribbon.a[1].max(self.ribbon.b[1]));
+        let (low, high) = (
+            self.ribbon.a[1].min(self.ribbon.b[1]),
+            self.ribbon.a[1].max(self.ribbon.b[1]),
+        );
         let (top, bottom) = centers_between(low - self.reach(), high + self.reach(), window, 1)?;
         Some((top as usize, bottom as usize))
     }
@@ -158,7 +179,10 @@ impl Spine {
 fn centers_between(low: f32, high: f32, window: &Window, axis: usize) -> Option<(u32, u32)> {
     let to_window = |px: f32| (px - window.frame_origin[axis]) / window.frame_step[axis] - 0.5;
     let last = window.size[axis] as f32 - 1.0;
-    let (first, end) = (to_window(low).ceil().max(0.0), to_window(high).floor().min(last));
+    let (first, end) = (
+        to_window(low).ceil().max(0.0),
+        to_window(high).floor().min(last),
+    );
     (first <= end).then_some((first as u32, end as u32))
 }
 
@@ -171,32 +195,54 @@ impl Drawing<'_> {
         }
         let (a, half_a, depth_a) = self.end_of(first, second);
         let (b, half_b, depth_b) = self.end_of(second, first);
-        let ribbon = Ribbon { a, b, half_a, half_b };
+        let ribbon = Ribbon {
+            a,
+            b,
+            half_a,
+            half_b,
+        };
         let part = self.triangles[edge.faces[0] as usize].part;
-        Some(Spine { ribbon, depths: [depth_a, depth_b], part, kind })
+        Some(Spine {
+            ribbon,
+            depths: [depth_a, depth_b],
+            part,
+            kind,
+        })
     }
 
     /// An end point in frame pixels; behind the near plane it moves along the edge to that plane.
     fn end_of(&self, here: &PosedVertex, other: &PosedVertex) -> ([f32; 2], f32, f32) {
         let near = self.view.near;
-        let t = if here.depth < near { (near - here.depth) / (other.depth - here.depth) } else { 0.0 };
+        let t = if here.depth < near {
+            (near - here.depth) / (other.depth - here.depth)
+        } else {
+            0.0
+        };
         let toward = |a: f32, b: f32| a + (b - a) * t;
         let clip: [f32; 4] = std::array::from_fn(|i| toward(here.clip[i], other.clip[i]));
         let px = [
             (clip[0] / clip[3] + 1.0) * 0.5 * self.view.frame_px[0],
             (1.0 - clip[1] / clip[3]) * 0.5 * self.view.frame_px[1],
         ];
-        (px, toward(here.half_width, other.half_width), toward(here.depth, other.depth))
+        (
+            px,
+            toward(here.half_width, other.half_width),
+            toward(here.depth, other.depth),
+        )
     }
 
     /// Draws one ribbon into a band of rows.
     fn draw_spine(&self, spine: &Spine, first_row: usize, layer: &mut [u32], keys: &mut [u32]) {
-        let Some((top, bottom)) = spine.rows(self.window) else { return };
+        let Some((top, bottom)) = spine.rows(self.window) else {
+            return;
+        };
         let width = self.window.size[0] as usize;
         let last_row = first_row + layer.len() / width - 1;
         for row in top.max(first_row)..=bottom.min(last_row) {
             let y = self.window.frame_at(0, row as u32)[1];
-            let Some((left, right)) = spine.columns(y, self.window) else { continue };
+            let Some((left, right)) = spine.columns(y, self.window) else {
+                continue;
+            };
             let start = (row - first_row) * width;
             for column in left..=right {
                 let slot = start + column as usize;
@@ -227,7 +273,9 @@ impl Drawing<'_> {
         let length = (along[0] * along[0] + along[1] * along[1]).sqrt().max(1e-6);
         let direction = [along[0] / length, along[1] / length];
         let part = &self.parts[spine.part as usize];
-        if self.shows_at(reference, depth, direction, spine.kind) && !self.is_covered(px, depth, part.object) {
+        if self.shows_at(reference, depth, direction, spine.kind)
+            && !self.is_covered(px, depth, part.object)
+        {
             let [r, g, b, a] = part.line_color;
             *texel = color::pack_rgba8([r, g, b, a * coverage]);
             *best = key;
@@ -236,13 +284,16 @@ impl Drawing<'_> {
 
     /// 1 at the near plane, falling with depth; in parallel view the near plane may lie behind the eye.
     fn nearness(&self, depth: f32) -> f32 {
-        if self.view.perspective < 0.5 { 0.5 } else { self.view.near / depth.max(self.view.near) }
+        if self.view.perspective < 0.5 {
+            0.5
+        } else {
+            self.view.near / depth.max(self.view.near)
+        }
     }
 
     /// Whether the edge is to be seen at a point of its spine.
     fn shows_at(&self, px: [f32; 2], depth: f32, along: [f32; 2], kind: u32) -> bool {
-        let (farthest, masked) = self.around(px);
-        if depth > farthest + self.tolerance(depth) {
+        if self.is_hidden(px, depth) {
             return false;
         }
         if self.outline.flags & Outline::UNMASKED != 0 {
@@ -251,28 +302,74 @@ impl Drawing<'_> {
         if self.outline.flags & Outline::PUBLISHED != 0 {
             return self.mask_at(px);
         }
-        if !masked || kind & (Outline::CONTOUR | Outline::BORDER) != 0 {
-            return masked;
+        if !self.mask_near(px) {
+            return false;
         }
-        // A crease shows only where the mask runs along it, not where it meets another line.
+        // The mask must run along the edge, not merely meet another line there.
         let step = self.mask_window.frame_step;
-        let ahead = [along[0] * step[0] * CREASE_REACH_PX, along[1] * step[1] * CREASE_REACH_PX];
-        self.mask_at([px[0] + ahead[0], px[1] + ahead[1]]) || self.mask_at([px[0] - ahead[0], px[1] - ahead[1]])
+        let ahead = [
+            along[0] * step[0] * LINE_REACH_PX,
+            along[1] * step[1] * LINE_REACH_PX,
+        ];
+        let (ahead, behind) = (
+            [px[0] + ahead[0], px[1] + ahead[1]],
+            [px[0] - ahead[0], px[1] - ahead[1]],
+        );
+        if kind & (Outline::CONTOUR | Outline::BORDER) != 0 {
+            return self.mask_near(ahead) || self.mask_near(behind);
+        }
+        self.mask_at(ahead) || self.mask_at(behind)
     }
 
-    /// The 3x3 mask pixels around a point: the farthest depth seen there, and whether any is set.
-    fn around(&self, px: [f32; 2]) -> (f32, bool) {
-        let center = self.mask_window.pixel_at(px);
+    /// Whether the surface at the reference coordinate hides the edge.
+    ///
+    /// The pixel's tangent plane is followed from its centre to the point itself.
+    fn is_hidden(&self, px: [f32; 2], depth: f32) -> bool {
+        let pixel = self.mask_window.pixel_at(px);
+        let seen = &self.gbuffer[(pixel[1] * self.mask_window.size[0] + pixel[0]) as usize];
+        if seen.part == NONE {
+            return false;
+        }
+        let center = self.mask_window.frame_at(pixel[0], pixel[1]);
+        let off: [f32; 2] =
+            std::array::from_fn(|i| (px[i] - center[i]) / self.mask_window.frame_step[i]);
+        let change = seen.plane_step[0] * off[0] + seen.plane_step[1] * off[1];
+        let plane = self
+            .view
+            .depth_of_coordinate(self.view.plane_coordinate(seen.depth) + change);
+        let slope = self
+            .view
+            .slope_of(self.mask_window, seen.depth, seen.plane_step);
+        let tolerance = self.tolerance(depth) * (1.0 + slope);
+        depth > plane.max(seen.depth) + tolerance
+            && !self.is_rim(pixel, depth, tolerance * RIM_FACTOR)
+    }
+
+    /// Whether a depth belongs to the surface in front where 3x3 pixels show two: a rim that bends away faster than the
+    /// tangent plane of its pixel.
+    fn is_rim(&self, center: [u32; 2], depth: f32, room: f32) -> bool {
         let size = self.mask_window.size;
-        let (mut farthest, mut masked) = (0.0f32, false);
+        let (mut nearest, mut farthest) = (FAR_DEPTH, 0.0f32);
         for y in center[1].saturating_sub(1)..=(center[1] + 1).min(size[1] - 1) {
             for x in center[0].saturating_sub(1)..=(center[0] + 1).min(size[0] - 1) {
-                let element = (y * size[0] + x) as usize;
-                farthest = farthest.max(self.gbuffer[element].depth);
-                masked |= self.mask[element] & MASK_KINDS != 0;
+                let seen = self.gbuffer[(y * size[0] + x) as usize].depth;
+                (nearest, farthest) = (nearest.min(seen), farthest.max(seen));
             }
         }
-        (farthest, masked)
+        depth - nearest < room && depth - nearest < farthest - depth
+    }
+
+    /// Whether any of the 3x3 mask pixels around a point is set.
+    fn mask_near(&self, px: [f32; 2]) -> bool {
+        let center = self.mask_window.pixel_at(px);
+        let size = self.mask_window.size;
+        (center[1].saturating_sub(1)..=(center[1] + 1).min(size[1] - 1)).any(|y| {
+            let left = (y * size[0] + center[0].saturating_sub(1)) as usize;
+            let right = (y * size[0] + (center[0] + 1).min(size[0] - 1)) as usize;
+            self.mask[left..=right]
+                .iter()
+                .any(|found| found & MASK_KINDS != 0)
+        })
     }
 
     /// Whether another object stands in front of a thick line's pixel.

@@ -25,7 +25,12 @@ impl Watch {
         let watch = Arc::new(Self::default());
         let on_loss = watch.clone();
         device.set_device_lost_callback(move |reason, message| {
-            on_loss.lose(&format!("{reason:?} {message}"))
+            let given_up = reason == wgpu::DeviceLostReason::Destroyed;
+            on_loss.lose(if given_up {
+                "it was given up"
+            } else {
+                &message
+            });
         });
         let on_error = watch.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
@@ -91,6 +96,20 @@ impl Gpu {
     ) -> Result<T, EngineError> {
         self.scoped(work)
             .map_err(|error| self.failed(place, &error))
+    }
+
+    /// Records commands and submits them; gives what `record` made and the submission to wait for.
+    pub(super) fn submit<T>(
+        &self,
+        place: &str,
+        record: impl FnOnce(&mut wgpu::CommandEncoder) -> T,
+    ) -> Result<(T, wgpu::SubmissionIndex), EngineError> {
+        self.guarded(place, || {
+            let label = wgpu::CommandEncoderDescriptor { label: Some(place) };
+            let mut encoder = self.device.create_command_encoder(&label);
+            let made = record(&mut encoder);
+            (made, self.queue.submit([encoder.finish()]))
+        })
     }
 
     /// Runs `work` inside error scopes for everything that can be caught.

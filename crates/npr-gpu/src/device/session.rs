@@ -3,18 +3,16 @@
 use super::Gpu;
 use super::clock::Clock;
 use super::memory::Memory;
-use super::pipeline::{Pipeline, Stage};
+use super::pipeline::Stage;
+use super::step::{Extent, Step};
 use crate::engine::{EngineError, PassTime, Session};
 use crate::graph::{Graph, Node, ResourceId};
-use crate::pass::{Format, WORKGROUP_SIZE, Work};
+use crate::pass::Format;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// The name under which the time of all passes together is reported, where the device has no clock.
 const ALL_PASSES: &str = "device";
-
-/// Most workgroups along one dimension, by WebGPU's limits.
-const MAX_GROUPS: u32 = 65535;
 
 /// A prepared graph. Commands are recorded anew for every run; memory, shaders and bindings are kept.
 #[derive(Debug)]
@@ -26,24 +24,6 @@ pub(super) struct DeviceSession {
     clock: Option<Clock>,
 }
 
-/// A node that has something to do.
-#[derive(Debug)]
-struct Step {
-    node: usize,
-    pipeline: Arc<Pipeline>,
-    bindings: wgpu::BindGroup,
-    extent: Extent,
-}
-
-/// How much a step does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Extent {
-    /// Workgroups in x and y.
-    Groups([u32; 2]),
-    /// Vertices.
-    Vertices(u32),
-}
-
 impl DeviceSession {
     pub(super) fn new(gpu: Arc<Gpu>, graph: Graph) -> Result<Self, EngineError> {
         gpu.check()?;
@@ -52,13 +32,7 @@ impl DeviceSession {
             .iter()
             .map(|resource| Memory::new(&gpu, resource))
             .collect::<Result<_, _>>()?;
-        let mut steps = Vec::new();
-        for (index, node) in graph.nodes().iter().enumerate() {
-            let extent = extent_of(&graph, node)?;
-            if has_effect(node, extent) {
-                steps.push(Step::new(&gpu, &memory, (index, node), extent)?);
-            }
-        }
+        let steps = Step::all_of(&gpu, &graph, &memory)?;
         let clock = gpu.guarded("the clock", || Clock::new(&gpu, steps.len()))?;
         gpu.check()?;
         Ok(Self {
@@ -113,7 +87,7 @@ impl DeviceSession {
             .iter()
             .map(|image| Some(color_attachment(&image.view, node.clears)))
             .collect();
-        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(node.pass.name),
             color_attachments: &colors,
             depth_stencil_attachment: depths
@@ -122,8 +96,7 @@ impl DeviceSession {
             timestamp_writes: self.clock.as_ref().map(|clock| clock.draw_stamps(number)),
             occlusion_query_set: None,
             multiview_mask: None,
-        });
-        pass
+        })
     }
 
     /// The times of all nodes; those that had nothing to do took none.
@@ -163,19 +136,12 @@ impl Session for DeviceSession {
     fn run(&mut self) -> Result<Vec<PassTime>, EngineError> {
         self.gpu.check()?;
         let start = Instant::now();
-        let (stamps, submission) = self.gpu.guarded("the submission of a frame", || {
-            let mut encoder = self
-                .gpu
-                .device
-                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let (stamps, submission) = self.gpu.submit("the submission of a frame", |encoder| {
             for (number, step) in (0..).zip(&self.steps) {
-                self.record(&mut encoder, number, step);
+                self.record(encoder, number, step);
             }
-            let stamps = self
-                .clock
-                .as_ref()
-                .map(|clock| (clock, clock.stage(&self.gpu, &mut encoder)));
-            (stamps, self.gpu.queue.submit([encoder.finish()]))
+            let clock = self.clock.as_ref()?;
+            Some((clock, clock.stage(&self.gpu, encoder)))
         })?;
         if let Some((clock, staging)) = stamps {
             return Ok(self.node_times(&clock.times(&self.gpu, &staging, submission)?));
@@ -190,77 +156,11 @@ impl Session for DeviceSession {
     fn read(&mut self, id: ResourceId) -> Result<Vec<u32>, EngineError> {
         self.gpu.check()?;
         let resource = self.graph.resource(id);
-        let (staging, submission) = self.gpu.guarded(resource.name, || {
-            let mut encoder = self
-                .gpu
-                .device
-                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            let staging =
-                self.memory[id.index()].stage(&self.gpu, &mut encoder, resource.word_count());
-            (staging, self.gpu.queue.submit([encoder.finish()]))
+        let (staging, submission) = self.gpu.submit(resource.name, |encoder| {
+            self.memory[id.index()].stage(&self.gpu, encoder, resource.word_count())
         })?;
         staging.words(&self.gpu, resource.name, submission)
     }
-}
-
-impl Step {
-    fn new(
-        gpu: &Gpu,
-        memory: &[Memory],
-        (index, node): (usize, &Node),
-        extent: Extent,
-    ) -> Result<Self, EngineError> {
-        let pipeline = gpu.pipelines.get(gpu, node.pass)?;
-        let bound = node.bound.iter().take(node.pass.slots.len());
-        let entries: Vec<_> = (0..)
-            .zip(bound)
-            .map(|(binding, id)| wgpu::BindGroupEntry {
-                binding,
-                resource: memory[id.index()].binding(),
-            })
-            .collect();
-        let bindings = gpu.guarded(node.pass.name, || {
-            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some(node.pass.name),
-                layout: &pipeline.layout,
-                entries: &entries,
-            })
-        })?;
-        Ok(Self {
-            node: index,
-            pipeline,
-            bindings,
-            extent,
-        })
-    }
-}
-
-/// Whether running a node changes anything: clearing does, even when nothing is drawn.
-fn has_effect(node: &Node, extent: Extent) -> bool {
-    node.clears || !matches!(extent, Extent::Groups([0, _]) | Extent::Vertices(0))
-}
-
-fn extent_of(graph: &Graph, node: &Node) -> Result<Extent, EngineError> {
-    let count = graph.work_count(node);
-    let extent = match node.pass.work {
-        Work::PerElement { .. } => groups_for(count).map(Extent::Groups),
-        Work::Draw { vertices, .. } => {
-            let all = count.checked_mul(vertices as usize);
-            all.and_then(|all| u32::try_from(all).ok())
-                .map(Extent::Vertices)
-        }
-    };
-    extent.ok_or_else(|| EngineError::Failed {
-        place: node.pass.name.to_owned(),
-        reason: format!("{count} elements are more than one pass can do"),
-    })
-}
-
-/// Workgroups in x and y for a number of elements: rows of the largest width once one row is not enough.
-fn groups_for(element_count: usize) -> Option<[u32; 2]> {
-    let groups = u32::try_from(element_count.div_ceil(WORKGROUP_SIZE as usize)).ok()?;
-    let rows = groups.div_ceil(MAX_GROUPS).max(1);
-    (rows <= MAX_GROUPS).then_some([groups.min(MAX_GROUPS), rows])
 }
 
 fn color_attachment(view: &wgpu::TextureView, clears: bool) -> wgpu::RenderPassColorAttachment<'_> {
@@ -293,21 +193,5 @@ fn kept<V>(clears: bool, zero: V) -> wgpu::Operations<V> {
     wgpu::Operations {
         load,
         store: wgpu::StoreOp::Store,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn groups_turn_into_rows_when_one_row_is_full() {
-        let row = (MAX_GROUPS * WORKGROUP_SIZE) as usize;
-        assert_eq!(groups_for(0), Some([0, 1]));
-        assert_eq!(groups_for(1), Some([1, 1]));
-        assert_eq!(groups_for(65), Some([2, 1]));
-        assert_eq!(groups_for(row), Some([65535, 1]));
-        assert_eq!(groups_for(row + 1), Some([65535, 2]));
-        assert_eq!(groups_for(usize::MAX), None);
     }
 }

@@ -1,6 +1,7 @@
 //! Memory that the device writes and the processor reads.
 
 use super::Gpu;
+use super::fault::TIME_LIMIT;
 use crate::engine::EngineError;
 use std::sync::mpsc;
 
@@ -80,7 +81,8 @@ impl Staging {
                 });
         })?;
         gpu.wait(submission)?;
-        match receiver.try_recv() {
+        // Another thread that waits for its own work may be the one that runs the callback, a little later.
+        match receiver.recv_timeout(TIME_LIMIT) {
             Ok(Ok(())) => Ok(()),
             Ok(Err(error)) => Err(gpu.failed(place, &error)),
             Err(error) => Err(gpu.failed(place, &error)),

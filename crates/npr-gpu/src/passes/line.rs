@@ -138,6 +138,20 @@ pub const FIND_RESIDUAL: Pass = Pass {
     },
 };
 
+/// Moves every stamp to the middle of the stamps around it.
+pub const SMOOTH_STAMPS: Pass = Pass {
+    name: "line.smooth_stamps",
+    shader: npr_shaders::LINE_SMOOTH_STAMPS,
+    slots: &[
+        uniform::<Window>("mask_window"),
+        read::<Stamp>("stamps"),
+        write::<Stamp>("smoothed"),
+    ],
+    work: Work::PerElement { of: "smoothed" },
+    agreement: Agreement::Relative(1e-5),
+    twin: |b| residual::smooth(&b.one(0), b.read(1), b.write(2)),
+};
+
 /// Which tiles of the mask hold a stamp.
 pub const FLAG_TILES: Pass = Pass {
     name: "line.flag_tiles",

@@ -99,3 +99,57 @@ fn is_same_texel(meaning: Meaning, a: u32, b: u32) -> bool {
             .all(|(a, b)| u32::from(a.abs_diff(b)) <= CHANNEL_TOLERANCE),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample_passes::DOUBLE;
+    use npr_core::geometry::Stamp;
+
+    fn differ(agreement: Agreement, meaning: Meaning, twin: &[u32], device: &[u32]) -> bool {
+        disagreement(
+            &Pass {
+                agreement,
+                ..DOUBLE
+            },
+            meaning,
+            twin,
+            device,
+        )
+        .is_some()
+    }
+
+    #[test]
+    fn integers_must_be_equal_and_floats_near() {
+        let (bound, stamps) = (
+            Agreement::Relative(1e-3),
+            Meaning::Elements(Element::of::<Stamp>()),
+        );
+        let stamp = |x: f32, part: u32| [x.to_bits(), 0, 0, part];
+        assert!(!differ(bound, stamps, &stamp(100.0, 3), &stamp(100.05, 3)));
+        assert!(differ(bound, stamps, &stamp(100.0, 3), &stamp(100.5, 3)));
+        assert!(differ(bound, stamps, &stamp(100.0, 3), &stamp(100.0, 4)));
+        assert!(differ(
+            bound,
+            stamps,
+            &stamp(100.0, u32::MAX),
+            &stamp(100.0, 0)
+        ));
+        assert!(differ(bound, stamps, &stamp(f32::NAN, 0), &stamp(1.0, 0)));
+    }
+
+    #[test]
+    fn pictures_may_differ_in_a_share_of_texels() {
+        let (share, bytes) = (Agreement::Texels(0.25), Meaning::Texels(Format::Rgba8));
+        assert!(!differ(share, bytes, &[0x10; 4], &[0x12; 4]));
+        assert!(!differ(share, bytes, &[0x10; 4], &[0x10, 0x10, 0x10, 0x80]));
+        assert!(differ(share, bytes, &[0x10; 4], &[0x10, 0x10, 0x13, 0x80]));
+    }
+
+    #[test]
+    fn one_wrong_bit_is_named() {
+        let words = Meaning::Elements(Element::of::<u32>());
+        let found = disagreement(&DOUBLE, words, &[1, 2, 3], &[1, 2, 7]).unwrap();
+        assert!(found.starts_with("element 2 "), "{found}");
+    }
+}

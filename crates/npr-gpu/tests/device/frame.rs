@@ -9,6 +9,23 @@ use npr_gpu::passes::{line, mesh, raster, shade};
 use npr_gpu::processor::Processor;
 use std::collections::BTreeMap;
 
+/// Slots that bind a resource of another name: two passes work on the grid of the mask only and call it the window.
+const RENAMED: [(&str, &str, &str); 5] = [
+    ("line.resolve_gbuffer", "window", "mask_window"),
+    ("line.resolve_gbuffer", "ids", "mask_ids"),
+    ("line.detect", "window", "mask_window"),
+    ("line.flag_tiles", "stamps", "smoothed"),
+    ("line.stamp_residual", "stamps", "smoothed"),
+];
+
+/// The resource that a slot of a pass binds.
+fn resource_of(pass: &Pass, slot: &'static str) -> &'static str {
+    let renamed = RENAMED
+        .iter()
+        .find(|(name, other, _)| (*name, *other) == (pass.name, slot));
+    renamed.map_or(slot, |(_, _, resource)| *resource)
+}
+
 /// What a resource holds, and its size where it is an image.
 #[derive(Debug, Clone)]
 pub struct Content {
@@ -23,17 +40,22 @@ pub struct Frame {
 
 impl Frame {
     /// The names of what passes make.
-    pub const MADE: [&str; 14] = [
+    pub const MADE: [&str; 15] = [
         "posed", "kinds", "hull", "ids", "depth", "mask_ids", "gbuffer", "mask", "ribbons", "keys",
-        "stamps", "tiles", "stamped", "frame",
+        "stamps", "smoothed", "tiles", "stamped", "frame",
     ];
 
     /// A frame of the test scene with an output and a mask of these sizes, every pass run by its twin.
     pub fn new(look: Look, size: [u32; 2], mask_size: [u32; 2]) -> Self {
+        Self::run_on(&Processor, look, size, mask_size)
+    }
+
+    /// The same on any engine.
+    pub fn run_on(engine: &dyn Engine, look: Look, size: [u32; 2], mask_size: [u32; 2]) -> Self {
         let mut builder = Builder::default();
         builder.give_scene(look, size, mask_size);
         builder.line_up_passes(look, size, mask_size);
-        builder.run()
+        builder.run(engine)
     }
 
     /// What a slot of a pass binds.
@@ -42,13 +64,7 @@ impl Frame {
     ///
     /// Where the frame has no input for it: a new pass brings its inputs along.
     pub fn content(&self, pass: &Pass, slot: &'static str) -> &Content {
-        // Two passes work on the grid of the mask only, and call it the window.
-        let on_mask = ["line.resolve_gbuffer", "line.detect"].contains(&pass.name);
-        let name = match slot {
-            "window" if on_mask => "mask_window",
-            "ids" if on_mask => "mask_ids",
-            _ => slot,
-        };
+        let name = resource_of(pass, slot);
         self.contents
             .get(name)
             .unwrap_or_else(|| panic!("no input for slot '{slot}' of pass {}", pass.name))
@@ -112,32 +128,32 @@ impl Builder {
         self.make_image("ribbons", Format::Rgba8, size);
         self.make_image("keys", Format::Depth, size);
         self.make_buffer("stamps", 16, mask_pixels);
+        self.make_buffer("smoothed", 16, mask_pixels);
         self.make_buffer("tiles", 4, area(mask_size.map(|side| side.div_ceil(16))));
         self.make_buffer("stamped", 4, pixels);
         self.make_buffer("frame", 4, pixels);
 
-        self.compute(&mesh::POSE_VERTICES, &[]);
-        self.compute(&mesh::CLASSIFY_EDGES, &[]);
-        self.compute(&mesh::EXTRUDE_HULL, &[]);
-        let samples = [("window", "sample_window")];
-        self.draw(&raster::DRAW_IDS, &samples, ["ids", "depth"], true);
+        self.compute(&mesh::POSE_VERTICES);
+        self.compute(&mesh::CLASSIFY_EDGES);
+        self.compute(&mesh::EXTRUDE_HULL);
+        self.draw(&raster::DRAW_IDS, "sample_window", ["ids", "depth"], true);
         if look == Look::Ours {
-            self.draw(&raster::DRAW_HULL, &samples, ["ids", "depth"], false);
+            self.draw(&raster::DRAW_HULL, "sample_window", ["ids", "depth"], false);
         }
-        let on_mask = [("window", "mask_window"), ("ids", "mask_ids")];
         self.draw(
             &raster::DRAW_IDS,
-            &on_mask,
+            "mask_window",
             ["mask_ids", "mask_depth"],
             true,
         );
-        self.compute(&line::RESOLVE_GBUFFER, &on_mask);
-        self.compute(&line::DETECT, &on_mask);
-        self.draw(&line::DRAW_RIBBONS, &[], ["ribbons", "keys"], true);
-        self.compute(&line::FIND_RESIDUAL, &[]);
-        self.compute(&line::FLAG_TILES, &[]);
-        self.compute(&line::STAMP_RESIDUAL, &[]);
-        self.compute(&shade::COMPOSE_FRAME, &[]);
+        self.compute(&line::RESOLVE_GBUFFER);
+        self.compute(&line::DETECT);
+        self.draw(&line::DRAW_RIBBONS, "window", ["ribbons", "keys"], true);
+        self.compute(&line::FIND_RESIDUAL);
+        self.compute(&line::SMOOTH_STAMPS);
+        self.compute(&line::FLAG_TILES);
+        self.compute(&line::STAMP_RESIDUAL);
+        self.compute(&shade::COMPOSE_FRAME);
     }
 
     fn give_uniform<T: bytemuck::Pod>(&mut self, name: &'static str, value: &[T; 1]) {
@@ -174,36 +190,42 @@ impl Builder {
         self.ids.insert(name, (id, size));
     }
 
-    /// What the slots of a pass bind, by their own names unless renamed.
-    fn bound(&self, pass: &Pass, renamed: &[(&str, &'static str)]) -> Vec<ResourceId> {
-        let id_of = |name: &str| {
-            let other = renamed.iter().find(|(slot, _)| *slot == name);
-            self.ids[other.map_or(name, |(_, resource)| *resource)].0
+    /// What the slots of a pass bind; its window may be any of the grids.
+    fn bound(&self, pass: &Pass, window: &'static str) -> Vec<ResourceId> {
+        let name_of = |slot| {
+            if slot == "window" {
+                window
+            } else {
+                resource_of(pass, slot)
+            }
         };
-        pass.slots.iter().map(|slot| id_of(slot.name)).collect()
+        pass.slots
+            .iter()
+            .map(|slot| self.ids[name_of(slot.name)].0)
+            .collect()
     }
 
-    fn compute(&mut self, pass: &'static Pass, renamed: &[(&str, &'static str)]) {
-        let bound = self.bound(pass, renamed);
+    fn compute(&mut self, pass: &'static Pass) {
+        let bound = self.bound(pass, resource_of(pass, "window"));
         self.graph.compute(pass, &bound);
     }
 
     fn draw(
         &mut self,
         pass: &'static Pass,
-        renamed: &[(&str, &'static str)],
+        window: &'static str,
         targets: [&str; 2],
         clears: bool,
     ) {
         let (bound, targets) = (
-            self.bound(pass, renamed),
+            self.bound(pass, window),
             targets.map(|name| self.ids[name].0),
         );
         self.graph.draw(pass, &bound, &targets, clears);
     }
 
-    fn run(self) -> Frame {
-        let mut session = Processor.prepare(self.graph).unwrap();
+    fn run(self, engine: &dyn Engine) -> Frame {
+        let mut session = engine.prepare(self.graph).unwrap();
         for (id, words) in &self.given {
             session.write(*id, words).unwrap();
         }

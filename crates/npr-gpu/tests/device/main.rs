@@ -2,6 +2,8 @@
 //!
 //! Software devices will do. Without any, the tests say so and pass, unless `NPR_REQUIRE_GPU=1` is set.
 
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
 mod agreement;
 mod cliffs;
 mod draws;

@@ -6,8 +6,9 @@ use crate::scene::{FRAME_PX, Look};
 use crate::shared;
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::{Graph, Kind, ResourceId};
-use npr_gpu::pass::{Access, Pass, Slot};
+use npr_gpu::pass::{Access, Agreement, Element, Pass, Slot};
 use npr_gpu::passes::ALL;
+use npr_gpu::passes::shade::COMPOSE_FRAME;
 use npr_gpu::processor::Processor;
 
 /// Nothing, one, and one workgroup less one, whole, and plus one.
@@ -142,6 +143,25 @@ fn passes_agree_on_a_whole_frame() {
     }
 }
 
+/// The passes one after the other, each on what the device made before.
+#[test]
+fn whole_frames_agree() {
+    let Some(device) = shared::device() else {
+        return;
+    };
+    for look in [Look::Ours, Look::Published] {
+        let twin = Frame::new(look, FRAME_PX, MASK_SIZE);
+        let device = Frame::run_on(device, look, FRAME_PX, MASK_SIZE);
+        let pass = Pass {
+            agreement: Agreement::Texels(0.002),
+            ..COMPOSE_FRAME
+        };
+        let meaning = Meaning::Elements(Element::of::<u32>());
+        let (twin, device) = (&twin.named("frame").words, &device.named("frame").words);
+        assert_eq!(disagreement(&pass, meaning, twin, device), None, "{look:?}");
+    }
+}
+
 /// Agreement on empty pictures would prove nothing.
 #[test]
 fn every_pass_has_something_to_do() {
@@ -149,7 +169,6 @@ fn every_pass_has_something_to_do() {
     for name in Frame::MADE {
         let words = &frame.named(name).words;
         let set = words.iter().filter(|word| **word != 0).count();
-        println!("{name}: {set} of {}", words.len());
         assert!(
             set * 100 >= words.len(),
             "only {set} of {} words of '{name}' are set",

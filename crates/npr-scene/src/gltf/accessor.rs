@@ -14,7 +14,7 @@ use ::gltf::json::accessor::sparse::Sparse;
 use ::gltf::json::accessor::{Accessor, ComponentType, Type};
 use ::gltf::json::validation::Checked;
 
-use super::buffers::Buffers;
+use super::buffers::{Buffers, range};
 use super::error::{GltfError, Item};
 use crate::error::SceneError;
 use crate::limits::Allowance;
@@ -81,10 +81,7 @@ impl<'a> Accessors<'a> {
     }
 
     fn get(&self, index: usize, user: Item) -> Result<&'a Accessor, GltfError> {
-        let item = Item {
-            kind: "accessor",
-            index,
-        };
+        let item = Item::new("accessor", index);
         let count = self.root.accessors.len();
         self.root
             .accessors
@@ -124,20 +121,17 @@ impl<'a> Accessors<'a> {
         };
         if let Some(sparse) = &accessor.sparse {
             let places = self.sparse_places(index, sparse, count)?;
-            let values = Layout {
-                offset: sparse.values.byte_offset.0,
-                count: sparse.count.0,
-                ..layout
-            };
-            let values = decode(&self.rows(sparse.values.buffer_view.value(), &values)?)
-                .ok_or_else(mismatch)?;
-            replace(&mut elements, &places, &values).map_err(|element| {
-                GltfError::SparseElement {
-                    accessor: index,
-                    element,
+            let (offset, count) = (sparse.values.byte_offset.0, sparse.count.0);
+            let rows = self.rows(
+                sparse.values.buffer_view.value(),
+                &Layout {
+                    offset,
                     count,
-                }
-            })?;
+                    ..layout
+                },
+            )?;
+            let values = decode(&rows).ok_or_else(mismatch)?;
+            replace(index, &mut elements, &places, &values)?;
         }
         Ok(elements)
     }
@@ -170,10 +164,7 @@ impl<'a> Accessors<'a> {
                 count,
             });
         }
-        let user = Item {
-            kind: "accessor",
-            index,
-        };
+        let user = Item::new("accessor", index);
         let mismatch = GltfError::ElementType {
             user,
             accessor: index,
@@ -195,26 +186,37 @@ impl<'a> Accessors<'a> {
 
     /// The bytes of a list in `view`, checked against its end.
     fn rows(&self, view: usize, layout: &Layout) -> Result<Rows<'a>, GltfError> {
+        let accessor = layout.accessor;
+        let bytes = self
+            .buffers
+            .view(self.root, view, Item::new("accessor", accessor))?;
+        let stride = self.stride(view, layout)?;
+        let end = layout.end(stride);
+        let view_bytes = bytes.len() as u64;
+        let past_end = GltfError::AccessorPastEnd {
+            accessor,
+            end,
+            view,
+            view_bytes,
+        };
+        Ok(Rows {
+            bytes: range(bytes, layout.offset, end).ok_or(past_end)?,
+            stride,
+            count: layout.count as usize,
+            component: layout.component,
+            normalized: layout.normalized,
+        })
+    }
+
+    /// Bytes from one element of the list to the next.
+    fn stride(&self, view: usize, layout: &Layout) -> Result<usize, GltfError> {
         let &Layout {
             accessor,
             element_bytes,
-            component,
-            normalized,
             ..
         } = layout;
-        let bytes = self.buffers.view(
-            self.root,
-            view,
-            Item {
-                kind: "accessor",
-                index: accessor,
-            },
-        )?;
-        let stated = self
-            .root
-            .buffer_views
-            .get(view)
-            .and_then(|view| view.byte_stride);
+        let view = self.root.buffer_views.get(view);
+        let stated = view.and_then(|view| view.byte_stride);
         let stride = stated.map_or(element_bytes, |stride| stride.0);
         if stride < element_bytes {
             return Err(GltfError::Stride {
@@ -223,26 +225,7 @@ impl<'a> Accessors<'a> {
                 stride,
             });
         }
-        let end = layout.end(stride);
-        let past_end = GltfError::AccessorPastEnd {
-            accessor,
-            end,
-            view,
-            view_bytes: bytes.len() as u64,
-        };
-        let range = usize::try_from(layout.offset)
-            .ok()
-            .zip(usize::try_from(end).ok());
-        let bytes = range
-            .and_then(|(start, end)| bytes.get(start..end))
-            .ok_or(past_end)?;
-        Ok(Rows {
-            bytes,
-            stride,
-            count: layout.count as usize,
-            component,
-            normalized,
-        })
+        Ok(stride)
     }
 }
 
@@ -328,10 +311,21 @@ fn integer_rows<const N: usize>(rows: &Rows) -> Option<Vec<[u32; N]>> {
     }
 }
 
-/// Puts `values` at `places`; the first place that does not exist is the error.
-fn replace<T: Copy>(elements: &mut [T], places: &[[u32; 1]], values: &[T]) -> Result<(), u32> {
-    for (&[place], &value) in places.iter().zip(values) {
-        *elements.get_mut(place as usize).ok_or(place)? = value;
+/// Puts `values` at `places`, which accessor `accessor` names.
+fn replace<T: Copy>(
+    accessor: usize,
+    elements: &mut [T],
+    places: &[[u32; 1]],
+    values: &[T],
+) -> Result<(), GltfError> {
+    let count = elements.len();
+    for (&[element], &value) in places.iter().zip(values) {
+        let slot = elements.get_mut(element as usize);
+        *slot.ok_or(GltfError::SparseElement {
+            accessor,
+            element,
+            count,
+        })? = value;
     }
     Ok(())
 }

@@ -93,10 +93,7 @@ impl<'a> Buffers<'a> {
     /// The bytes of buffer view `view`, which `user` asks for.
     pub(crate) fn view(&self, root: &Root, view: usize, user: Item) -> Result<&[u8], GltfError> {
         let count = root.buffer_views.len();
-        let item = Item {
-            kind: "buffer view",
-            index: view,
-        };
+        let item = Item::new("buffer view", view);
         let entry = root
             .buffer_views
             .get(view)
@@ -106,21 +103,17 @@ impl<'a> Buffers<'a> {
 
         let start = entry.byte_offset.unwrap_or_default().0;
         let end = start.saturating_add(entry.byte_length.0);
-        let range = usize::try_from(start).ok().zip(usize::try_from(end).ok());
-        let slice = range.and_then(|(start, end)| bytes.get(start..end));
-        slice.ok_or(GltfError::ViewPastEnd {
+        let buffer_bytes = bytes.len() as u64;
+        range(bytes, start, end).ok_or(GltfError::ViewPastEnd {
             view,
             end,
             buffer,
-            buffer_bytes: bytes.len() as u64,
+            buffer_bytes,
         })
     }
 
     fn bytes(&self, buffer: usize, user: Item) -> Result<&[u8], GltfError> {
-        let item = Item {
-            kind: "buffer",
-            index: buffer,
-        };
+        let item = Item::new("buffer", buffer);
         let missing = GltfError::Missing {
             user,
             item,
@@ -132,4 +125,9 @@ impl<'a> Buffers<'a> {
             .and_then(|&(slot, length)| self.data.get(slot)?.get(..length));
         found.ok_or(missing)
     }
+}
+
+/// `bytes[start..end]`, where that exists.
+pub(crate) fn range(bytes: &[u8], start: u64, end: u64) -> Option<&[u8]> {
+    bytes.get(usize::try_from(start).ok()?..usize::try_from(end).ok()?)
 }

@@ -13,6 +13,13 @@ pub struct Item {
     pub index: usize,
 }
 
+impl Item {
+    /// The item of this kind at `index`.
+    pub(crate) fn new(kind: &'static str, index: usize) -> Self {
+        Self { kind, index }
+    }
+}
+
 impl fmt::Display for Item {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {}", self.kind, self.index)

@@ -1,4 +1,4 @@
-//! Lights that nodes of the scene carry [KHR_lights_punctual].
+//! Lights that nodes of the scene carry (`KHR_lights_punctual`).
 #![deny(
     clippy::unwrap_used,
     clippy::expect_used,

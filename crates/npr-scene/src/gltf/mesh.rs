@@ -56,14 +56,8 @@ fn weights<'a>(
     index: usize,
     node: &'a scene::Node,
 ) -> Result<&'a [f32], GltfError> {
-    let user = Item {
-        kind: "node",
-        index: node_index,
-    };
-    let item = Item {
-        kind: "mesh",
-        index,
-    };
+    let user = Item::new("node", node_index);
+    let item = Item::new("mesh", index);
     let count = accessors.root.meshes.len();
     let mesh = accessors
         .root

@@ -48,10 +48,7 @@ pub(crate) fn read(
     weights: &[f32],
     loading: &mut Loading,
 ) -> Result<Option<Part>, SceneError> {
-    let user = Item {
-        kind: "mesh",
-        index: place.mesh,
-    };
+    let user = Item::new("mesh", place.mesh);
     let Some(index) = attribute(primitive, Semantic::Positions) else {
         loading.notices.add(format!(
             "{user} has a part without positions, which is not drawn"
@@ -210,10 +207,7 @@ impl Reader<'_, '_, '_> {
         }
         Err(GltfError::Missing {
             user: self.user,
-            item: Item {
-                kind: "material",
-                index,
-            },
+            item: Item::new("material", index),
             count,
         })
     }

@@ -40,10 +40,7 @@ pub(crate) fn read(
         let Some(index) = source.skin.as_ref().map(Index::value) else {
             continue;
         };
-        let user = Item {
-            kind: "node",
-            index: node_index,
-        };
+        let user = Item::new("node", node_index);
         let place = skins.place(index, || read_skin(accessors, tree, index, user, loading))?;
         let skin = place.and_then(|place| skins.items.get(place as usize));
         let fits = skin.is_some_and(|skin| fits(node, skin, &highest, loading));
@@ -88,10 +85,7 @@ fn read_skin(
     user: Item,
     loading: &mut Loading,
 ) -> Result<Option<Skin>, SceneError> {
-    let item = Item {
-        kind: "skin",
-        index,
-    };
+    let item = Item::new("skin", index);
     let skins = &accessors.root.skins;
     let source = skins.get(index).ok_or(GltfError::Missing {
         user,
@@ -134,10 +128,7 @@ fn joints(
     if let Some(index) = missing {
         return Err(GltfError::Missing {
             user,
-            item: Item {
-                kind: "node",
-                index,
-            },
+            item: Item::new("node", index),
             count,
         });
     }

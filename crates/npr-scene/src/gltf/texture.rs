@@ -58,14 +58,8 @@ impl<'a> Textures<'a> {
         loading: &mut Loading,
     ) -> Result<Option<TextureUse>, SceneError> {
         let index = info.index.value();
-        let user = Item {
-            kind: "material",
-            index: material as usize,
-        };
-        let item = Item {
-            kind: "texture",
-            index,
-        };
+        let user = Item::new("material", material as usize);
+        let item = Item::new("texture", index);
         let root = self.accessors.root;
         let missing = GltfError::Missing {
             user,
@@ -100,10 +94,7 @@ impl<'a> Textures<'a> {
                 .add(format!("{user} has no PNG or JPEG image and is left out"));
             return Ok(None);
         }
-        let item = Item {
-            kind: "image",
-            index,
-        };
+        let item = Item::new("image", index);
         let image = self
             .accessors
             .root

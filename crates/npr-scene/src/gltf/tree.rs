@@ -51,10 +51,7 @@ impl Tree {
             places: vec![None; root.nodes.len()],
             scene,
         };
-        let user = Item {
-            kind: "scene",
-            index: scene.unwrap_or(0),
-        };
+        let user = Item::new("scene", scene.unwrap_or(0));
         tree.visit(root, roots, user)?;
         Ok(tree)
     }
@@ -67,10 +64,7 @@ impl Tree {
             .map(|index| (index, None, user))
             .collect();
         while let Some((index, parent, user)) = stack.pop() {
-            let item = Item {
-                kind: "node",
-                index,
-            };
+            let item = Item::new("node", index);
             let missing = GltfError::Missing {
                 user,
                 item,

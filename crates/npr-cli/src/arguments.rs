@@ -1,0 +1,93 @@
+//! What the user said. Nothing here touches a file or a device.
+
+mod byte_count;
+mod camera;
+mod limits;
+mod point;
+mod render;
+mod size;
+
+pub use camera::CameraArguments;
+pub use limits::LimitArguments;
+#[cfg(test)]
+pub use point::Point;
+pub use render::{Backend, LookArguments, RenderArguments, TimingsForm};
+pub use size::Size;
+
+use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
+use std::path::PathBuf;
+
+/// Draws 3D scenes as ink, cels and vector lines.
+#[derive(Debug, Parser)]
+#[command(name = "npr", version, max_term_width = 100)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Draw one picture of a scene.
+    ///
+    /// Without options, `npr render model.glb` draws the model from three quarters above in the style
+    /// `toon` and writes model.png into the current folder.
+    Render(Box<RenderArguments>),
+    /// Tell what is in a file, what of it is drawn, and what is ignored and why.
+    Info(InfoArguments),
+    /// List, show and check styles.
+    Styles {
+        /// What to do with them.
+        #[command(subcommand)]
+        command: StylesCommand,
+    },
+    /// Tell what this machine can do, ready to paste into a report.
+    Doctor {
+        /// As JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Print a completion script for a shell.
+    Completions {
+        /// The shell it is for.
+        shell: Shell,
+    },
+}
+
+/// What the user said to `npr info`.
+#[derive(Debug, Args)]
+pub struct InfoArguments {
+    /// Scene: .glb, .gltf, .vrm, .obj, .stl or .ply; - reads standard input.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// As JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// A second folder that the scene may read files from, besides its own.
+    #[arg(long, value_name = "DIR")]
+    pub allow_external: Option<PathBuf>,
+    /// Safety limits.
+    #[command(flatten)]
+    pub limits: LimitArguments,
+}
+
+/// What to do with styles.
+#[derive(Debug, Subcommand)]
+pub enum StylesCommand {
+    /// List the presets.
+    List,
+    /// Print a preset as a style file, to start from.
+    Show {
+        /// Name of the preset, alone or with its version: ink, ink@1.
+        name: String,
+    },
+    /// Check a style file; says line, column and the nearest valid key.
+    Check {
+        /// The style file.
+        file: PathBuf,
+    },
+    /// Print the JSON Schema of style files, for editors.
+    Schema,
+}

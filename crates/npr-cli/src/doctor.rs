@@ -1,0 +1,155 @@
+//! `npr doctor`: what this machine can do.
+
+use crate::fault::{Exit, Fault};
+use crate::hardware;
+use crate::message::plain;
+use crate::output;
+use serde::Serialize;
+use std::fmt::Write;
+
+/// A graphics adapter, for people who report a problem.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct AdapterReport {
+    /// Name of the device.
+    pub name: String,
+    /// Discrete, integrated, virtual, unknown or software.
+    pub kind: &'static str,
+    /// The interface through which it is reached.
+    pub backend: &'static str,
+    /// Name and version of the driver.
+    pub driver: String,
+    /// Largest width and height of an image, in texels.
+    pub max_image_side: u32,
+    /// Largest buffer that a pass can bind, in bytes.
+    pub max_binding_bytes: u64,
+    /// Whether it can time passes.
+    pub has_clock: bool,
+}
+
+/// What this machine can do.
+#[derive(Debug, Clone, Serialize)]
+struct Diagnosis {
+    version: &'static str,
+    os: &'static str,
+    arch: &'static str,
+    threads: usize,
+    adapters: Vec<AdapterReport>,
+    /// What `--backend auto` draws on.
+    auto: String,
+    /// Why.
+    because: &'static str,
+}
+
+/// Prints what this machine can do. A machine without graphics is no fault.
+pub fn doctor(as_json: bool) -> Result<(), Fault> {
+    let diagnosis = Diagnosis::of(hardware::adapters());
+    let text = if as_json {
+        let json = serde_json::to_string_pretty(&diagnosis)
+            .map_err(|error| Fault::new(Exit::Failed, error))?;
+        format!("{json}\n")
+    } else {
+        diagnosis.text()
+    };
+    output::print(text.as_bytes())
+}
+
+impl Diagnosis {
+    fn of(adapters: Vec<AdapterReport>) -> Self {
+        let threads = rayon::current_num_threads();
+        let (auto, because) = choice(&adapters, threads);
+        Self {
+            version: env!("CARGO_PKG_VERSION"),
+            os: std::env::consts::OS,
+            arch: std::env::consts::ARCH,
+            threads,
+            adapters,
+            auto,
+            because,
+        }
+    }
+
+    fn text(&self) -> String {
+        let mut text = format!(
+            "npr {} on {} {}, {} threads\n",
+            self.version, self.os, self.arch, self.threads
+        );
+        for adapter in &self.adapters {
+            let _ = writeln!(text, "adapter {}", adapter.text());
+        }
+        if self.adapters.is_empty() {
+            text.push_str("no graphics adapters\n");
+        }
+        let _ = writeln!(
+            text,
+            "--backend auto draws on {}: {}",
+            plain(&self.auto),
+            self.because
+        );
+        text
+    }
+}
+
+impl AdapterReport {
+    fn text(&self) -> String {
+        let clock = if self.has_clock { "clock" } else { "no clock" };
+        format!(
+            "{}: {}, {}, {}, images to {} px, bindings to {} MiB, {clock}",
+            plain(&self.name),
+            self.kind,
+            self.backend,
+            plain(&self.driver),
+            self.max_image_side,
+            self.max_binding_bytes >> 20,
+        )
+    }
+}
+
+/// What the automatic choice draws on, and why. Adapters come best first.
+fn choice(adapters: &[AdapterReport], threads: usize) -> (String, &'static str) {
+    let processor = format!("the processor, {threads} threads");
+    match adapters.first() {
+        None => (processor, "there is no graphics adapter"),
+        Some(adapter) if adapter.kind == "software" => {
+            (processor, "all adapters are software, which is slower")
+        }
+        Some(adapter) => (adapter.name.clone(), "it is the best hardware adapter"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn adapter(kind: &'static str) -> AdapterReport {
+        AdapterReport {
+            name: "Test\x1b".to_owned(),
+            kind,
+            backend: "vulkan",
+            driver: "driver 1".to_owned(),
+            max_image_side: 8192,
+            max_binding_bytes: 128 << 20,
+            has_clock: true,
+        }
+    }
+
+    #[test]
+    fn only_hardware_is_chosen_by_itself() {
+        assert!(choice(&[], 2).0.starts_with("the processor"));
+        assert!(
+            choice(&[adapter("software")], 2)
+                .0
+                .starts_with("the processor")
+        );
+        assert_eq!(
+            choice(&[adapter("discrete"), adapter("software")], 2).0,
+            "Test\x1b"
+        );
+    }
+
+    #[test]
+    fn the_report_is_plain_text() {
+        let text = Diagnosis::of(vec![adapter("discrete")]).text();
+        assert!(text.contains("bindings to 128 MiB, clock"), "{text}");
+        assert!(!text.contains('\x1b'));
+    }
+}

@@ -1,0 +1,59 @@
+//! From a frame to the bytes of a picture file.
+
+use crate::fault::{Exit, Fault};
+use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};
+
+/// A PNG file of sRGB bytes with straight alpha, row by row from the top.
+///
+/// Without `keep_alpha`, a picture that is opaque everywhere is stored as RGB. The same pixels give the
+/// same bytes: there is no time stamp and no name of a program inside. O(pixels).
+pub fn png(size: [u32; 2], rgba: &[u8], keep_alpha: bool) -> Result<Vec<u8>, Fault> {
+    let is_opaque = || rgba.chunks_exact(4).all(|pixel| pixel[3] == 255);
+    let encoded = if keep_alpha || !is_opaque() {
+        encode(size, rgba, ColorType::Rgba)
+    } else {
+        let rgb: Vec<u8> = rgba
+            .chunks_exact(4)
+            .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
+            .collect();
+        encode(size, &rgb, ColorType::Rgb)
+    };
+    encoded.map_err(|error| Fault::new(Exit::Failed, format!("cannot encode the picture: {error}")))
+}
+
+fn encode(size: [u32; 2], bytes: &[u8], color: ColorType) -> Result<Vec<u8>, png::EncodingError> {
+    let mut file = Vec::new();
+    let mut encoder = Encoder::new(&mut file, size[0], size[1]);
+    encoder.set_color(color);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(bytes)?;
+    writer.finish()?;
+    Ok(file)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn color_type(file: &[u8]) -> u8 {
+        file[25]
+    }
+
+    #[test]
+    fn only_opaque_pictures_lose_their_alpha() {
+        let opaque = [9, 9, 9, 255];
+        let of = |rgba: &[u8], keep| color_type(&png([1, 1], rgba, keep).expect("one pixel"));
+        assert_eq!(of(&opaque, false), ColorType::Rgb as u8);
+        assert_eq!(of(&opaque, true), ColorType::Rgba as u8);
+        assert_eq!(of(&[9, 9, 9, 254], false), ColorType::Rgba as u8);
+    }
+
+    #[test]
+    fn the_file_says_srgb_and_no_time() {
+        let file = png([1, 1], &[0; 4], true).expect("one pixel");
+        let has = |chunk: &[u8]| file.windows(4).any(|window| window == chunk);
+        assert!(has(b"sRGB") && !has(b"tIME") && !has(b"tEXt"));
+    }
+}

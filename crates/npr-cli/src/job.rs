@@ -1,0 +1,110 @@
+//! One picture to draw: what the user said, resolved.
+
+use crate::arguments::{RenderArguments, Size};
+use crate::fault::{Exit, Fault};
+use crate::look::Look;
+use crate::output::Output;
+use crate::source::Source;
+use npr_render::StageOptions;
+use std::path::{Path, PathBuf};
+
+/// Most pixels of a picture along a side.
+const SIDE_LIMIT: u32 = 32_768;
+
+/// One picture to draw. Everything that can be checked without reading the scene has been.
+pub struct Job<'a> {
+    /// What the user said, for all that needs no resolving.
+    pub said: &'a RenderArguments,
+    /// Where the scene comes from.
+    pub source: Source,
+    /// Where the picture goes.
+    pub output: Output,
+    /// How it looks.
+    pub look: Look,
+    /// How it is drawn.
+    pub options: StageOptions,
+}
+
+impl<'a> Job<'a> {
+    /// Resolves what the user said; reads the style and its pictures, but not the scene.
+    pub fn resolve(said: &'a RenderArguments) -> Result<Self, Fault> {
+        check_size(said.size)?;
+        let source = Source::of(said.scene.as_deref().unwrap_or(Path::new("-")));
+        let output = Output::of(&output_path(said.output.as_deref(), &source)?)?;
+        let external = said.allow_external.as_deref();
+        let look = Look::resolve(&said.look, external)?;
+        let limits = said.limits.limits();
+        let options = StageOptions {
+            background_image: look.background_picture(&limits, external)?,
+            width_image: look.width_picture(&limits, external)?,
+            memory_limit: limits.memory_bytes,
+            ..StageOptions::new([said.size.width, said.size.height])
+        };
+        Ok(Self {
+            said,
+            source,
+            output,
+            look,
+            options,
+        })
+    }
+}
+
+fn check_size(size: Size) -> Result<(), Fault> {
+    let side = size.width.max(size.height);
+    if side <= SIDE_LIMIT {
+        return Ok(());
+    }
+    let message = format!(
+        "picture side {side} exceeds the limit of {SIDE_LIMIT} pixels, and no option lifts that"
+    );
+    Err(Fault::new(Exit::Limit, message))
+}
+
+/// The path asked for, or else the scene's name with the ending .png, in the current folder.
+fn output_path(asked: Option<&Path>, source: &Source) -> Result<PathBuf, Fault> {
+    match (asked, source) {
+        (Some(path), _) => Ok(path.to_owned()),
+        (None, Source::File(scene)) => {
+            let mut name = scene.file_stem().unwrap_or(scene.as_os_str()).to_owned();
+            name.push(".png");
+            Ok(PathBuf::from(name))
+        }
+        (None, Source::Standard) => {
+            let message =
+                "a scene from standard input has no name: say with -o where the picture goes";
+            Err(Fault::new(Exit::Usage, message))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_is_named_after_its_scene() {
+        let of = |path: &str| output_path(None, &Source::of(Path::new(path)));
+        assert_eq!(of("a/b.c/hero.v2.glb"), Ok(PathBuf::from("hero.v2.png")));
+        assert_eq!(of("-").map_err(|fault| fault.exit), Err(Exit::Usage));
+        assert_eq!(
+            output_path(Some(Path::new("x.png")), &Source::Standard),
+            Ok(PathBuf::from("x.png"))
+        );
+    }
+
+    #[test]
+    fn a_side_beyond_the_limit_names_limit_and_value() {
+        let fault = check_size(Size {
+            width: 8,
+            height: 40_000,
+        })
+        .expect_err("too high");
+        assert_eq!(fault.exit, Exit::Limit);
+        assert!(
+            fault.message.contains("40000") && fault.message.contains("32768"),
+            "{}",
+            fault.message
+        );
+    }
+}

@@ -1,0 +1,80 @@
+//! The command `npr`, as a library of two functions: [`run`] does what a command line says, and
+//! [`command`] describes all that may be said, for completions and reference pages.
+//!
+//! Arguments are parsed into what the user said and then resolved into a job; only the second step
+//! touches files or a graphics device.
+//!
+//! ```
+//! let command = npr_cli::command();
+//! assert!(command.find_subcommand("render").is_some());
+//! ```
+
+mod arguments;
+mod completions;
+mod doctor;
+mod encoder;
+mod engine;
+mod fault;
+#[cfg(feature = "gpu")]
+mod hardware;
+#[cfg(not(feature = "gpu"))]
+#[path = "no_hardware.rs"]
+mod hardware;
+mod info;
+mod input;
+mod interrupt;
+mod inventory;
+mod job;
+mod look;
+mod message;
+mod output;
+mod picture;
+mod progress;
+mod render;
+mod source;
+mod style_source;
+mod styles;
+mod timings;
+mod viewpoint;
+
+use arguments::{Arguments, Command};
+use clap::{CommandFactory, Parser};
+use fault::{Exit, Fault};
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+/// Does what a command line says, the program's own name first, and gives the exit code.
+///
+/// 0 done, 1 failed while working, 2 command line or style file wrong, 3 input invalid or unsupported,
+/// 4 no graphics device, 5 a safety limit hit; an interrupt ends the process with 130. Takes over the
+/// process's signals for interruption, so it is called once.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    interrupt::install();
+    let done = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => obey(arguments.command),
+        Err(error) if !error.use_stderr() => output::print(error.render().to_string().as_bytes()),
+        Err(error) => Err(Fault::new(Exit::Usage, message::of_usage(&error))),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(fault) => {
+            message::fault(&fault);
+            ExitCode::from(fault.exit.code())
+        }
+    }
+}
+
+/// Every command with its options, as clap describes them.
+pub fn command() -> clap::Command {
+    Arguments::command()
+}
+
+fn obey(command: Command) -> Result<(), Fault> {
+    match command {
+        Command::Render(arguments) => render::render(&arguments),
+        Command::Info(arguments) => info::info(&arguments),
+        Command::Styles { command } => styles::styles(&command),
+        Command::Doctor { json } => doctor::doctor(json),
+        Command::Completions { shell } => completions::completions(shell),
+    }
+}

@@ -1,0 +1,221 @@
+//! The style of a picture, resolved from preset or file and overrides, with the pictures it names.
+
+use crate::arguments::LookArguments;
+use crate::fault::{Exit, Fault};
+use crate::input::read_file;
+use crate::message::quoted;
+use crate::output::folder_of;
+use crate::picture;
+use crate::style_source::StyleSource;
+use npr_render::Picture;
+use npr_scene::{FolderResources, Limits, Resources};
+use npr_style::{Background, LineMethod, Style, Unit, WidthSource, WidthWarning, width_rule};
+use std::path::{Path, PathBuf};
+
+/// The style of a picture, with the files that its pictures come from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Look {
+    /// The style, overrides applied.
+    pub style: Style,
+    background: Option<PictureFile>,
+    width: Option<PictureFile>,
+    style_file: Option<PathBuf>,
+}
+
+/// A file that a style names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum PictureFile {
+    /// Named by the user: any file, from the current folder.
+    Typed(PathBuf),
+    /// Named by a style file: confined to that file's folder.
+    Beside { folder: PathBuf, name: String },
+}
+
+impl Look {
+    /// The style that the user asked for.
+    ///
+    /// Later wins: preset or file, `--set` in order, `--background`. Reads the style file with its parents,
+    /// but no pictures.
+    pub fn resolve(said: &LookArguments, external: Option<&Path>) -> Result<Self, Fault> {
+        let source = StyleSource::of(said.style.as_deref());
+        let written = source.load(external)?;
+        let mut style = written.clone();
+        for assignment in &said.overrides {
+            style
+                .set(assignment)
+                .map_err(|error| Fault::new(Exit::Usage, format!("--set: {error}")))?;
+        }
+        if let Some(background) = &said.background {
+            style.background = background.clone();
+        }
+        let file = |now: Option<&str>, before: Option<&str>| {
+            now.map(|name| PictureFile::of(name, source.file().filter(|_| now == before)))
+        };
+        Ok(Self {
+            background: file(background_name(&style), background_name(&written)),
+            width: file(width_name(&style), width_name(&written)),
+            style_file: source.file().map(Path::to_owned),
+            style,
+        })
+    }
+
+    /// The picture behind the scene, where there is one.
+    pub fn background_picture(
+        &self,
+        limits: &Limits,
+        external: Option<&Path>,
+    ) -> Result<Option<Picture>, Fault> {
+        self.background
+            .as_ref()
+            .map(|file| file.load(limits, external))
+            .transpose()
+    }
+
+    /// The picture that line widths are read from, where there is one.
+    pub fn width_picture(
+        &self,
+        limits: &Limits,
+        external: Option<&Path>,
+    ) -> Result<Option<Picture>, Fault> {
+        self.width
+            .as_ref()
+            .map(|file| file.load(limits, external))
+            .transpose()
+    }
+
+    /// The files that this look is made from.
+    pub fn inputs(&self) -> impl Iterator<Item = PathBuf> {
+        let pictures = self
+            .background
+            .iter()
+            .chain(&self.width)
+            .map(PictureFile::path);
+        pictures.chain(self.style_file.clone())
+    }
+
+    /// Whether the picture may be seen through.
+    pub fn is_transparent(&self) -> bool {
+        match self.style.background {
+            Background::Transparent => true,
+            Background::Color(color) => color.a < 255,
+            Background::Image(_) => false,
+        }
+    }
+
+    /// What is wrong with the width of lines against their mask, in a frame `height` pixels high.
+    ///
+    /// Nothing is said of a mask as fine as the frame, since there is no finer one, nor of widths in world
+    /// units, which depend on the camera.
+    pub fn width_warning(&self, height: u32) -> Option<WidthWarning> {
+        let (line, scale) = (&self.style.line, self.style.detect.scale);
+        let masked = matches!(line.method, LineMethod::Shape | LineMethod::Okuya);
+        if !masked || scale <= 1.0 || line.width.base.unit == Unit::World {
+            return None;
+        }
+        let factor = match line.width.source {
+            WidthSource::Constant => line.width.max,
+            _ => line.width.min,
+        };
+        width_rule(
+            scale,
+            line.width.base.to_px(height as f32, DPI, 0.0) * factor,
+        )
+    }
+}
+
+/// Pixels per inch of a picture on a screen, as [`npr_render::StageOptions`] has them.
+const DPI: f32 = 96.0;
+
+fn background_name(style: &Style) -> Option<&str> {
+    match &style.background {
+        Background::Image(name) => Some(name),
+        _ => None,
+    }
+}
+
+fn width_name(style: &Style) -> Option<&str> {
+    let width = &style.line.width;
+    width
+        .texture
+        .as_deref()
+        .filter(|_| width.source == WidthSource::Texture)
+}
+
+impl PictureFile {
+    fn of(name: &str, style_file: Option<&Path>) -> Self {
+        match style_file {
+            None => Self::Typed(PathBuf::from(name)),
+            Some(file) => Self::Beside {
+                folder: folder_of(file).to_owned(),
+                name: name.to_owned(),
+            },
+        }
+    }
+
+    fn path(&self) -> PathBuf {
+        match self {
+            Self::Typed(path) => path.clone(),
+            Self::Beside { folder, name } => folder.join(name),
+        }
+    }
+
+    fn load(&self, limits: &Limits, external: Option<&Path>) -> Result<Picture, Fault> {
+        let bytes = match self {
+            Self::Typed(path) => read_file(path, limits.file_bytes)?,
+            Self::Beside { folder, name } => {
+                FolderResources::new(folder, external)?.read(name, limits.file_bytes)?
+            }
+        };
+        let path = self.path();
+        picture::decode(&bytes, limits)
+            .map_err(|fault| fault.while_doing(format_args!("cannot read {}", quoted(&path))))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn look(overrides: &[&str]) -> Look {
+        let overrides = overrides.iter().map(ToString::to_string).collect();
+        let said = LookArguments {
+            overrides,
+            ..LookArguments::default()
+        };
+        Look::resolve(&said, None).expect("a valid style")
+    }
+
+    #[test]
+    fn a_coarse_mask_under_thin_lines_is_warned_of() {
+        assert_eq!(look(&[]).width_warning(1080), None);
+        let coarse = look(&[
+            "detect.scale=6",
+            "line.width.base=6px",
+            "line.width.min=0.5",
+        ]);
+        let warning = coarse
+            .width_warning(1080)
+            .expect("12 px of mask under 3 px of line");
+        assert_eq!((warning.mask_line_px, warning.width_px), (12.0, 3.0));
+    }
+
+    #[test]
+    fn pictures_named_by_the_user_are_found_from_the_current_folder() {
+        let sky = look(&["background=skies/dawn.png"]);
+        assert_eq!(
+            sky.background,
+            Some(PictureFile::Typed(PathBuf::from("skies/dawn.png")))
+        );
+        assert_eq!(
+            sky.inputs().collect::<Vec<_>>(),
+            [PathBuf::from("skies/dawn.png")]
+        );
+    }
+
+    #[test]
+    fn only_a_see_through_background_keeps_alpha() {
+        assert!(look(&["background=transparent"]).is_transparent());
+        assert!(look(&["background=#fff8"]).is_transparent());
+        assert!(!look(&["background=navy"]).is_transparent());
+    }
+}

@@ -1,0 +1,175 @@
+//! Where results go: standard output, or a file that appears whole or not at all.
+
+use crate::fault::{Exit, Fault};
+use crate::interrupt;
+use crate::message::quoted;
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// Where a picture goes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Output {
+    /// Standard output.
+    Standard,
+    /// A file that can be written, links resolved.
+    File(PathBuf),
+}
+
+impl Output {
+    /// The place that `path` names, `-` for standard output.
+    ///
+    /// Checks all that can be known before the work is done: the ending, the folder, what stands there.
+    pub fn of(path: &Path) -> Result<Self, Fault> {
+        if path.as_os_str() == "-" {
+            return Ok(Self::Standard);
+        }
+        check_ending(path)?;
+        resolve(path)
+            .map(Self::File)
+            .map_err(|fault| fault.while_doing(format_args!("cannot write {}", quoted(path))))
+    }
+
+    /// Refuses to write over a file that the picture is made from.
+    pub fn refuse_any_of(&self, inputs: &[PathBuf]) -> Result<(), Fault> {
+        let Self::File(path) = self else {
+            return Ok(());
+        };
+        let same = |input: &PathBuf| input.canonicalize().is_ok_and(|input| input == *path);
+        if inputs.iter().any(same) {
+            let message = format!("cannot write {}: it is also an input", quoted(path));
+            return Err(Fault::new(Exit::Usage, message));
+        }
+        Ok(())
+    }
+
+    /// Writes all bytes. A reader that closes standard output early has had enough: that is no fault.
+    pub fn write(&self, bytes: &[u8]) -> Result<(), Fault> {
+        match self {
+            Self::Standard => print(bytes),
+            Self::File(path) => write_atomic(path, bytes).map_err(|error| {
+                Fault::from(error).while_doing(format_args!("cannot write {}", quoted(path)))
+            }),
+        }
+    }
+}
+
+/// Writes to standard output; a closed pipe is a quiet success.
+pub fn print(bytes: &[u8]) -> Result<(), Fault> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        Err(error) => Err(Fault::from(error).while_doing("cannot write to standard output")),
+        Ok(()) => Ok(()),
+    }
+}
+
+fn check_ending(path: &Path) -> Result<(), Fault> {
+    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+    if ending == "png" {
+        return Ok(());
+    }
+    let message = format!(
+        "cannot write {}: pictures are written as .png only",
+        quoted(path)
+    );
+    Err(Fault::new(Exit::Usage, message))
+}
+
+/// `path` with links resolved, if a file may be written there.
+fn resolve(path: &Path) -> Result<PathBuf, Fault> {
+    match std::fs::metadata(path) {
+        Ok(there) if !there.is_file() => Err(Fault::new(
+            Exit::Failed,
+            "it exists and is not a regular file",
+        )),
+        Ok(there) if there.permissions().readonly() => {
+            Err(Fault::new(Exit::Failed, "it is read-only"))
+        }
+        Ok(_) => Ok(path.canonicalize()?),
+        Err(error) if error.kind() == ErrorKind::NotFound => in_folder(path),
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// `path`, which does not exist yet, in its folder with links resolved.
+fn in_folder(path: &Path) -> Result<PathBuf, Fault> {
+    let folder = folder_of(path);
+    let folder = folder.canonicalize().map_err(|error| match error.kind() {
+        ErrorKind::NotFound => Fault::new(
+            Exit::Failed,
+            format_args!("there is no folder {}", quoted(folder)),
+        ),
+        _ => error.into(),
+    })?;
+    Ok(folder.join(path.file_name().unwrap_or_default()))
+}
+
+/// The folder that a path lies in; the current one where it names none.
+pub fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// Writes a file beside its place and renames it when whole, so that whoever looks sees the old file or
+/// the new one. Nothing stays behind where it fails. Interrupts wait until it is done.
+fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let _writing = interrupt::hold_off();
+    let mut file = new_file_in(folder_of(path))?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    file.persist(path)?;
+    Ok(())
+}
+
+#[cfg(unix)]
+fn new_file_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    use std::os::unix::fs::PermissionsExt;
+
+    // As any new file: what the user's mask leaves of this.
+    let permissions = std::fs::Permissions::from_mode(0o666);
+    tempfile::Builder::new()
+        .prefix(".npr-")
+        .permissions(permissions)
+        .tempfile_in(folder)
+}
+
+#[cfg(not(unix))]
+fn new_file_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    tempfile::Builder::new().prefix(".npr-").tempfile_in(folder)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_replaced_whole_and_nothing_stays_beside_it() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("out.png");
+        for content in ["first", "second"] {
+            Output::of(&path)
+                .and_then(|output| output.write(content.as_bytes()))
+                .expect("written");
+            assert_eq!(std::fs::read_to_string(&path).expect("a file"), content);
+        }
+        assert_eq!(
+            std::fs::read_dir(folder.path()).expect("a folder").count(),
+            1
+        );
+    }
+
+    #[test]
+    fn other_endings_and_folders_are_refused() {
+        let fault = Output::of(Path::new("out.bmp")).expect_err("not supported");
+        assert_eq!(fault.exit, Exit::Usage);
+        let folder = tempfile::tempdir().expect("a folder");
+        let inner = folder.path().join("folder.png");
+        std::fs::create_dir(&inner).expect("a folder");
+        assert_eq!(
+            Output::of(&inner).map_err(|fault| fault.exit),
+            Err(Exit::Failed)
+        );
+    }
+}

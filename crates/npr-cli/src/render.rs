@@ -1,0 +1,97 @@
+//! `npr render`: one picture of a scene.
+
+use crate::arguments::RenderArguments;
+use crate::encoder;
+use crate::engine::{self, Drawn};
+use crate::fault::{Exit, Fault};
+use crate::job::Job;
+use crate::look::Look;
+use crate::message;
+use crate::output;
+use crate::progress::Progress;
+use crate::timings::{DRAW, Timings};
+use crate::viewpoint;
+use npr_core::camera::Camera;
+use npr_render::{Model, Stage};
+use std::io::Write;
+
+/// Draws what the user asked for, or prints its style.
+pub fn render(said: &RenderArguments) -> Result<(), Fault> {
+    if said.look.dump_style {
+        return dump_style(said);
+    }
+    let mut progress = Progress::new(said.quiet);
+    let drawn = draw(&Job::resolve(said)?, &mut progress)?;
+    let steps = progress.finish();
+    if let Some(form) = said.timings {
+        let timings = Timings::new(drawn.engine, &steps, &drawn.frame.times);
+        let _ = std::io::stderr().write_all(timings.told(form).as_bytes());
+    }
+    Ok(())
+}
+
+fn dump_style(said: &RenderArguments) -> Result<(), Fault> {
+    let look = Look::resolve(&said.look, said.allow_external.as_deref())?;
+    let text = look
+        .style
+        .to_toml()
+        .map_err(|error| Fault::new(Exit::Failed, error))?;
+    output::print(text.as_bytes())
+}
+
+/// From the scene's file to the picture's.
+fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn, Fault> {
+    let model = prepare(job, progress)?;
+    let camera = viewpoint::camera(&job.said.camera, &model, job.said.size)?;
+    let drawn = draw_frame(job, &model, &camera, progress)?;
+    let frame = &drawn.frame;
+    let keep_alpha = job.look.is_transparent();
+    let bytes = progress.step("encode", || {
+        encoder::png(frame.size, &frame.rgba, keep_alpha)
+    })?;
+    progress.step("write", || job.output.write(&bytes))?;
+    Ok(drawn)
+}
+
+/// Loads the scene and makes it ready; says what is ignored.
+fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<Model, Fault> {
+    let (limits, external) = (job.said.limits.limits(), job.said.allow_external.as_deref());
+    let loaded = progress.step("load", || job.source.load(&limits, external))?;
+    let mut inputs = loaded.inputs;
+    inputs.extend(job.look.inputs());
+    job.output.refuse_any_of(&inputs)?;
+    let model = progress.step("prepare", || Model::new(&loaded.scene))?;
+    progress.suspend(|| warn_of(job, &model));
+    Ok(model)
+}
+
+fn warn_of(job: &Job<'_>, model: &Model) {
+    let quiet = job.said.quiet;
+    for notice in model.notices() {
+        message::warn(quiet, notice);
+    }
+    if let Some(warning) = job.look.width_warning(job.said.size.height) {
+        message::warn(quiet, &warning.to_string());
+    }
+}
+
+fn draw_frame(
+    job: &Job<'_>,
+    model: &Model,
+    camera: &Camera,
+    progress: &mut Progress,
+) -> Result<Drawn, Fault> {
+    let mut warnings = std::cell::RefCell::new(Vec::new());
+    let drawn = progress.step(DRAW, || {
+        let picture = |engine: &dyn npr_gpu::engine::Engine| {
+            Stage::new(engine, model, &job.look.style, &job.options)?.draw(camera)
+        };
+        engine::draw(job.said.backend, &picture, &|text| {
+            warnings.borrow_mut().push(text.to_owned())
+        })
+    });
+    for text in warnings.get_mut().drain(..) {
+        progress.suspend(|| message::warn(job.said.quiet, &text));
+    }
+    drawn
+}

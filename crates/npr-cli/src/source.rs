@@ -1,0 +1,107 @@
+//! Where a scene comes from.
+
+use crate::fault::Fault;
+use crate::input::{read_file, read_standard};
+use crate::message::quoted;
+use crate::output::folder_of;
+use npr_scene::{
+    FolderResources, Format, Limits, MemoryResources, ResourceError, Resources, Scene, load_bytes,
+};
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+
+/// Where a scene comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Source {
+    /// Standard input.
+    Standard,
+    /// A file.
+    File(PathBuf),
+}
+
+/// A scene with the files that it was made from.
+#[derive(Debug)]
+pub struct Loaded {
+    /// The scene.
+    pub scene: Scene,
+    /// Its format, by name or else by content.
+    pub format: Option<Format>,
+    /// The scene's own file and all that it refers to.
+    pub inputs: Vec<PathBuf>,
+}
+
+impl Source {
+    /// The source that `path` names, `-` for standard input.
+    pub fn of(path: &Path) -> Self {
+        if path.as_os_str() == "-" {
+            Self::Standard
+        } else {
+            Self::File(path.to_owned())
+        }
+    }
+
+    /// The scene. What it refers to must lie below its own folder, or below `external`.
+    pub fn load(&self, limits: &Limits, external: Option<&Path>) -> Result<Loaded, Fault> {
+        match self {
+            Self::Standard => load_standard(limits, external),
+            Self::File(path) => load_file(path, limits, external),
+        }
+    }
+}
+
+fn load_standard(limits: &Limits, external: Option<&Path>) -> Result<Loaded, Fault> {
+    let bytes = read_standard(limits.file_bytes)?;
+    let resources: Box<dyn Resources> = match external {
+        Some(folder) => Box::new(FolderResources::new(folder, None)?),
+        None => Box::new(MemoryResources::default()),
+    };
+    let scene = load_bytes("standard input", &bytes, None, resources.as_ref(), limits)
+        .map_err(|error| Fault::from(error).while_doing("cannot read standard input"))?;
+    Ok(Loaded {
+        scene,
+        format: Format::of_content(&bytes),
+        inputs: Vec::new(),
+    })
+}
+
+fn load_file(path: &Path, limits: &Limits, external: Option<&Path>) -> Result<Loaded, Fault> {
+    let bytes = read_file(path, limits.file_bytes)?;
+    let resources = Recorder::new(folder_of(path), external)?;
+    let format = Format::of_path(path).or_else(|| Format::of_content(&bytes));
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let scene = load_bytes(&name, &bytes, format, &resources, limits).map_err(|error| {
+        Fault::from(error).while_doing(format_args!("cannot read {}", quoted(path)))
+    })?;
+    let mut inputs = resources.asked.into_inner();
+    inputs.push(path.to_owned());
+    Ok(Loaded {
+        scene,
+        format,
+        inputs,
+    })
+}
+
+/// Files of a folder, and which of them were asked for.
+struct Recorder {
+    folder: PathBuf,
+    files: FolderResources,
+    asked: RefCell<Vec<PathBuf>>,
+}
+
+impl Recorder {
+    fn new(folder: &Path, external: Option<&Path>) -> Result<Self, ResourceError> {
+        let files = FolderResources::new(folder, external)?;
+        Ok(Self {
+            folder: folder.to_owned(),
+            files,
+            asked: RefCell::default(),
+        })
+    }
+}
+
+impl Resources for Recorder {
+    fn read(&self, name: &str, limit_bytes: u64) -> Result<Vec<u8>, ResourceError> {
+        self.asked.borrow_mut().push(self.folder.join(name));
+        self.files.read(name, limit_bytes)
+    }
+}

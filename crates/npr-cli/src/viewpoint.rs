@@ -1,0 +1,143 @@
+//! The camera of a picture.
+
+use crate::arguments::{CameraArguments, Size};
+use crate::fault::{Exit, Fault};
+use crate::message;
+use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
+use npr_render::Model;
+
+/// Most cameras that a message lists.
+const LISTED_CAMERAS: usize = 5;
+
+/// The camera that the user asked for, or one that frames the whole model from three quarters above.
+pub fn camera(said: &CameraArguments, model: &Model, size: Size) -> Result<Camera, Fault> {
+    match &said.camera {
+        Some(name) => camera_of_file(name, model.cameras()),
+        None => {
+            let fov_y = said.fov.unwrap_or(DEFAULT_FOV_DEG).to_radians();
+            let framing = model.framing(size.width as f32 / size.height as f32, fov_y);
+            placed_camera(said, framing, middle(model.bounds()))
+        }
+    }
+}
+
+/// A camera by name, or else by its number from 0.
+fn camera_of_file(asked: &str, cameras: &[(String, Camera)]) -> Result<Camera, Fault> {
+    let named = cameras.iter().find(|(name, _)| name == asked);
+    let numbered = || cameras.get(asked.parse::<usize>().ok()?);
+    named
+        .or_else(numbered)
+        .map(|(_, camera)| *camera)
+        .ok_or_else(|| unknown_camera(asked, cameras))
+}
+
+fn unknown_camera(asked: &str, cameras: &[(String, Camera)]) -> Fault {
+    let listed: Vec<String> = cameras
+        .iter()
+        .take(LISTED_CAMERAS)
+        .map(|(name, _)| format!("'{}'", message::name(name)))
+        .collect();
+    let there_are = match cameras.len() {
+        0 => "it has none".to_owned(),
+        1..=LISTED_CAMERAS => format!("it has {}", listed.join(", ")),
+        count => format!("it has {count}, such as {}", listed.join(", ")),
+    };
+    let asked = message::name(asked);
+    Fault::new(
+        Exit::Usage,
+        format!("the scene has no camera '{asked}'; {there_are}"),
+    )
+}
+
+/// The framing view, with what the user said in place of its own values; an eye alone looks at `middle`.
+fn placed_camera(
+    said: &CameraArguments,
+    framing: Camera,
+    middle: [f32; 3],
+) -> Result<Camera, Fault> {
+    let target = if said.eye.is_some() {
+        middle
+    } else {
+        framing.target
+    };
+    let camera = Camera {
+        eye: said.eye.map_or(framing.eye, |eye| eye.0),
+        target: said.target.map_or(target, |target| target.0),
+        up: said.up.map_or(framing.up, |up| up.0),
+        projection: framing.projection,
+    };
+    if camera.eye == camera.target {
+        let [x, y, z] = camera.eye;
+        let message = format!("eye and target are the same point {x},{y},{z}");
+        return Err(Fault::new(Exit::Usage, message));
+    }
+    Ok(camera)
+}
+
+/// The middle of a box.
+fn middle((min, max): ([f32; 3], [f32; 3])) -> [f32; 3] {
+    std::array::from_fn(|axis| (min[axis] + max[axis]) * 0.5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arguments::Point;
+
+    /// A view with an eye of its own, of a box whose middle is (1, 1, 1).
+    fn seen_from(eye: [f32; 3]) -> Result<Camera, Fault> {
+        let said = CameraArguments {
+            eye: Some(Point(eye)),
+            ..CameraArguments::default()
+        };
+        placed_camera(
+            &said,
+            Camera::framing([0.0; 3], [2.0; 3]),
+            middle(([0.0; 3], [2.0; 3])),
+        )
+    }
+
+    #[test]
+    fn an_eye_alone_looks_at_the_middle() {
+        let camera = seen_from([9.0, 0.0, 0.0]).expect("a view");
+        assert_eq!((camera.eye, camera.target), ([9.0, 0.0, 0.0], [1.0; 3]));
+    }
+
+    #[test]
+    fn an_eye_at_its_target_sees_nothing() {
+        assert_eq!(
+            seen_from([1.0; 3]).map_err(|fault| fault.exit),
+            Err(Exit::Usage)
+        );
+    }
+
+    #[test]
+    fn nothing_said_keeps_the_framing_view() {
+        let framing = Camera::framing([0.0; 3], [2.0; 3]);
+        assert_eq!(
+            placed_camera(&CameraArguments::default(), framing, [7.0; 3]),
+            Ok(framing)
+        );
+    }
+
+    #[test]
+    fn names_come_before_numbers_and_faults_list_what_there_is() {
+        let camera = |x: f32| Camera {
+            eye: [x, 0.0, 0.0],
+            ..Camera::framing([0.0; 3], [2.0; 3])
+        };
+        let cameras = [
+            ("1".to_owned(), camera(5.0)),
+            ("Side".to_owned(), camera(6.0)),
+        ];
+        let eye = |name: &str| camera_of_file(name, &cameras).map(|camera| camera.eye[0]);
+        assert_eq!(eye("1"), Ok(5.0));
+        assert_eq!(eye("0"), Ok(5.0));
+        assert_eq!(eye("Side"), Ok(6.0));
+        let fault = eye("Top").expect_err("no such camera");
+        assert_eq!(
+            fault.message,
+            "the scene has no camera 'Top'; it has '1', 'Side'"
+        );
+    }
+}

@@ -1,0 +1,12 @@
+//! The command `npr` as scripts see it: exit codes, messages, streams and files.
+
+mod closing;
+mod determinism;
+mod files;
+mod info;
+mod looks;
+mod scenes;
+mod streams;
+mod timings;
+mod usage;
+mod workplace;

@@ -1,0 +1,134 @@
+//! Every broken file gives a picture or one clear line, soon and in little memory.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// Extensions of scenes, and one of a format that is not read.
+const EXTENSIONS: [&str; 7] = ["gltf", "glb", "vrm", "obj", "stl", "ply", "off"];
+
+/// Longest time that a run may take.
+const TIME_LIMIT: Duration = Duration::from_secs(5);
+
+/// Most address space that a run may ask for, in KiB.
+const MEMORY_LIMIT_KIB: u32 = 1_500_000;
+
+#[test]
+fn info_survives_every_malformed_file() {
+    for file in malformed_files() {
+        check(&file, &["info", "--json"], None);
+    }
+}
+
+#[test]
+fn render_survives_every_malformed_file() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let picture = folder.path().join("out.png");
+    for file in malformed_files() {
+        let out = picture.to_string_lossy();
+        let arguments = [
+            "render",
+            "--size",
+            "64x64",
+            "--backend",
+            "cpu",
+            "-o",
+            out.as_ref(),
+        ];
+        check(&file, &arguments, Some(&picture));
+        let left = std::fs::read_dir(folder.path())
+            .expect("the folder")
+            .count();
+        assert_eq!(left, 0, "{} left a file behind", file.display());
+    }
+}
+
+/// Runs the command on a file; asserts how it ends. A picture that it made is removed.
+fn check(file: &Path, arguments: &[&str], picture: Option<&Path>) {
+    let start = Instant::now();
+    let output = limited()
+        .args(arguments)
+        .arg(file)
+        .stdin(Stdio::null())
+        .output()
+        .expect("it starts");
+    let (name, stderr) = (file.display(), String::from_utf8_lossy(&output.stderr));
+    assert!(
+        start.elapsed() < TIME_LIMIT,
+        "{name} took {:?}",
+        start.elapsed()
+    );
+    match output.status.code() {
+        Some(0) => assert!(
+            stderr
+                .lines()
+                .all(|line| line.starts_with("npr: warning: ")),
+            "{name}: {stderr}"
+        ),
+        Some(3 | 5) => check_refusal(file, &stderr, picture),
+        other => panic!("{name} ends with {other:?}: {stderr}"),
+    }
+    if let Some(made) = picture.filter(|picture| picture.exists()) {
+        std::fs::remove_file(made).expect("the test's own picture");
+    }
+}
+
+fn check_refusal(file: &Path, stderr: &str, picture: Option<&Path>) {
+    let lines: Vec<&str> = stderr
+        .lines()
+        .filter(|line| !line.starts_with("npr: warning: "))
+        .collect();
+    let name = file.file_name().expect("a name").to_string_lossy();
+    assert!(
+        matches!(lines[..], [line] if line.starts_with("npr: ") && line.contains(name.as_ref())),
+        "{stderr}"
+    );
+    assert!(lines[0].chars().count() < 300, "{stderr}");
+    assert!(
+        picture.is_none_or(|picture| !picture.exists()),
+        "{name} was refused but drawn"
+    );
+}
+
+/// The command, with little memory where the shell can see to that.
+fn limited() -> Command {
+    let npr = env!("CARGO_BIN_EXE_npr");
+    if !cfg!(target_os = "linux") {
+        return Command::new(npr);
+    }
+    let mut shell = Command::new("sh");
+    shell.args([
+        "-c",
+        &format!("ulimit -v {MEMORY_LIMIT_KIB}; exec \"$0\" \"$@\""),
+        npr,
+    ]);
+    shell
+}
+
+/// Every malformed scene beside the checkout; none, with a line that says so, where there are none.
+fn malformed_files() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/assets/malformed");
+    if !root.is_dir() {
+        eprintln!("skipped: there are no malformed files beside the checkout");
+        return Vec::new();
+    }
+    let mut folders = vec![root];
+    let mut files = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            let extension = path
+                .extension()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .to_lowercase();
+            if path.is_dir() {
+                folders.push(path);
+            } else if EXTENSIONS.contains(&extension.as_str()) {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    files
+}

@@ -1,0 +1,127 @@
+//! A node with what running it takes.
+
+use super::Gpu;
+use super::memory::Memory;
+use super::pipeline::Pipeline;
+use crate::engine::EngineError;
+use crate::graph::{Graph, Node};
+use crate::pass::{WORKGROUP_SIZE, Work};
+use std::sync::Arc;
+
+/// Most workgroups along one dimension, by WebGPU's limits.
+const MAX_GROUPS: u32 = 65535;
+
+/// A node that has something to do.
+#[derive(Debug)]
+pub(super) struct Step {
+    /// Position of the node in its graph.
+    pub(super) node: usize,
+    /// The pass, compiled.
+    pub(super) pipeline: Arc<Pipeline>,
+    /// Group 0.
+    pub(super) bindings: wgpu::BindGroup,
+    /// How much it does.
+    pub(super) extent: Extent,
+}
+
+/// How much a step does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Extent {
+    /// Workgroups in x and y.
+    Groups([u32; 2]),
+    /// Vertices.
+    Vertices(u32),
+}
+
+impl Step {
+    /// The steps of all nodes that change anything, in running order.
+    pub(super) fn all_of(
+        gpu: &Gpu,
+        graph: &Graph,
+        memory: &[Memory],
+    ) -> Result<Vec<Self>, EngineError> {
+        let mut steps = Vec::new();
+        for (index, node) in graph.nodes().iter().enumerate() {
+            let extent = extent_of(graph, node)?;
+            if has_effect(node, extent) {
+                let pipeline = gpu.pipelines.get(gpu, node.pass)?;
+                let bindings = bind(gpu, node, &pipeline, memory)?;
+                steps.push(Self {
+                    node: index,
+                    pipeline,
+                    bindings,
+                    extent,
+                });
+            }
+        }
+        Ok(steps)
+    }
+}
+
+/// Group 0 of a node: the resources of its slots.
+fn bind(
+    gpu: &Gpu,
+    node: &Node,
+    pipeline: &Pipeline,
+    memory: &[Memory],
+) -> Result<wgpu::BindGroup, EngineError> {
+    let bound = node.bound.iter().take(node.pass.slots.len());
+    let entries: Vec<_> = (0..)
+        .zip(bound)
+        .map(|(binding, id)| wgpu::BindGroupEntry {
+            binding,
+            resource: memory[id.index()].binding(),
+        })
+        .collect();
+    gpu.guarded(node.pass.name, || {
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(node.pass.name),
+            layout: &pipeline.layout,
+            entries: &entries,
+        })
+    })
+}
+
+/// Whether running a node changes anything: clearing does, even when nothing is drawn.
+fn has_effect(node: &Node, extent: Extent) -> bool {
+    node.clears || !matches!(extent, Extent::Groups([0, _]) | Extent::Vertices(0))
+}
+
+fn extent_of(graph: &Graph, node: &Node) -> Result<Extent, EngineError> {
+    let count = graph.work_count(node);
+    let extent = match node.pass.work {
+        Work::PerElement { .. } => groups_for(count).map(Extent::Groups),
+        Work::Draw { vertices, .. } => {
+            let all = count.checked_mul(vertices as usize);
+            all.and_then(|all| u32::try_from(all).ok())
+                .map(Extent::Vertices)
+        }
+    };
+    extent.ok_or_else(|| EngineError::Failed {
+        place: node.pass.name.to_owned(),
+        reason: format!("{count} elements are more than one pass can do"),
+    })
+}
+
+/// Workgroups in x and y for a number of elements: rows of the largest width once one row is not enough.
+fn groups_for(element_count: usize) -> Option<[u32; 2]> {
+    let groups = u32::try_from(element_count.div_ceil(WORKGROUP_SIZE as usize)).ok()?;
+    let rows = groups.div_ceil(MAX_GROUPS).max(1);
+    (rows <= MAX_GROUPS).then_some([groups.min(MAX_GROUPS), rows])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_turn_into_rows_when_one_row_is_full() {
+        let row = (MAX_GROUPS * WORKGROUP_SIZE) as usize;
+        assert_eq!(groups_for(0), Some([0, 1]));
+        assert_eq!(groups_for(1), Some([1, 1]));
+        assert_eq!(groups_for(65), Some([2, 1]));
+        assert_eq!(groups_for(row), Some([65535, 1]));
+        assert_eq!(groups_for(row + 1), Some([65535, 2]));
+        assert_eq!(groups_for(usize::MAX), None);
+    }
+}
