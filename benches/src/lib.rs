@@ -1,1 +1,22 @@
-//! Being written.
+//! What the benchmarks of whole frames share with `measure`, the program that writes their tables.
+//!
+//! Subjects ([`subject`]) are meshes of an exact number of triangles ([`solid`]) or models from outside; [`timing`] takes
+//! medians, [`cost`] fits how time grows with triangles and pixels, [`memory`] and [`machine`] ask the system.
+//!
+//! ```
+//! let cost = npr_benches::cost::Cost::fit(&[
+//!     npr_benches::cost::Sample { triangles: 1e3, pixels: 1e6, ms: 11.0 },
+//!     npr_benches::cost::Sample { triangles: 1e5, pixels: 1e6, ms: 20.0 },
+//!     npr_benches::cost::Sample { triangles: 1e3, pixels: 2e6, ms: 21.0 },
+//!     npr_benches::cost::Sample { triangles: 1e5, pixels: 2e6, ms: 30.0 },
+//! ]);
+//! assert!(cost.is_some_and(|cost| cost.r_squared > 0.999));
+//! ```
+
+pub mod cost;
+pub mod machine;
+pub mod memory;
+pub mod solid;
+pub mod subject;
+pub mod table;
+pub mod timing;

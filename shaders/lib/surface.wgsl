@@ -15,7 +15,7 @@ fn weights_at(clip: array<vec4<f32>, 3>, ndc: vec2<f32>) -> vec3<f32> {
     let weights = vec3<f32>(cross2(b, c), cross2(c, a), cross2(a, b));
     let sum = weights.x + weights.y + weights.z;
     if sum == 0.0 { return vec3<f32>(1.0, 0.0, 0.0); }
-    return vec3<f32>(weights.x / sum, weights.y / sum, weights.z / sum);
+    return weights * (1.0 / sum);
 }
 
 fn faces_eye(clip: array<vec4<f32>, 3>) -> bool {

@@ -34,6 +34,9 @@ override WG: u32 = 64u;
 
 const MASK_KINDS: u32 = 47u;
 
+// How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
+const TONE_ROOM: f32 = 0.002;
+
 struct Corners {
     clip: array<vec4<f32>, 3>,
     normals: array<vec3<f32>, 3>,
@@ -79,7 +82,12 @@ fn is_one_tone(part: u32, corners: Corners) -> bool {
     let a = ramp_coordinate(corners.normals[0] * corners.side);
     let b = ramp_coordinate(corners.normals[1] * corners.side);
     let c = ramp_coordinate(corners.normals[2] * corners.side);
-    let room = 0.02 + parts[part].softness * 0.5;
+    // A blend of normals that is made unit again bulges beyond them by at most what they differ.
+    let apart = min(
+        dot(corners.normals[0], corners.normals[1]),
+        min(dot(corners.normals[1], corners.normals[2]), dot(corners.normals[2], corners.normals[0])),
+    );
+    let room = TONE_ROOM + 0.5 * (1.0 - apart) + parts[part].softness * 0.5;
     let low = min(a, min(b, c)) - room;
     let high = max(a, max(b, c)) + room;
     for (var i = 1u; i < 8u; i++) {

@@ -1,1 +1,34 @@
-//! Being written.
+//! What whole-frame tests share: scenes, drawing, and measures on pictures.
+//!
+//! ```
+//! use npr_tests::{Ink, Object, draw, lines, scene_of};
+//!
+//! let scene = scene_of(&[Object::new("Ball", npr_mesh::testing::icosphere(3))]);
+//! let frame = draw(&scene, &lines("shape"), [64, 36]);
+//! assert_eq!(Ink::of(&frame).components().len(), 1);
+//! ```
+#![allow(
+    clippy::expect_used,
+    clippy::unwrap_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
+mod agreement;
+#[cfg(feature = "gpu")]
+mod device;
+mod draw;
+mod files;
+mod ink;
+mod object;
+mod png;
+mod wanted;
+
+pub use agreement::Agreement;
+#[cfg(feature = "gpu")]
+pub use device::device;
+pub use draw::{Drawing, draw, draw_from, draw_on, lines, models_camera};
+pub use files::{asset, models, samples};
+pub use ink::Ink;
+pub use object::{Object, boxed, placed, scene_of};
+pub use png::{read_png, write_png};
+pub use wanted::Wanted;

@@ -2,6 +2,7 @@
 
 use crate::fault::{Exit, Fault};
 use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};
+use std::io::Write;
 
 /// A PNG file of sRGB bytes with straight alpha, row by row from the top.
 ///
@@ -9,28 +10,39 @@ use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};
 /// same bytes: there is no time stamp and no name of a program inside. O(pixels).
 pub fn png(size: [u32; 2], rgba: &[u8], keep_alpha: bool) -> Result<Vec<u8>, Fault> {
     let is_opaque = || rgba.chunks_exact(4).all(|pixel| pixel[3] == 255);
-    let encoded = if keep_alpha || !is_opaque() {
-        encode(size, rgba, ColorType::Rgba)
+    let color = if keep_alpha || !is_opaque() {
+        ColorType::Rgba
     } else {
-        let rgb: Vec<u8> = rgba
-            .chunks_exact(4)
-            .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
-            .collect();
-        encode(size, &rgb, ColorType::Rgb)
+        ColorType::Rgb
     };
-    encoded.map_err(|error| Fault::new(Exit::Failed, format!("cannot encode the picture: {error}")))
+    encode(size, rgba, color)
+        .map_err(|error| Fault::new(Exit::Failed, format!("cannot encode the picture: {error}")))
 }
 
-fn encode(size: [u32; 2], bytes: &[u8], color: ColorType) -> Result<Vec<u8>, png::EncodingError> {
+/// Encodes row by row, so that no second picture has to fit into memory.
+fn encode(size: [u32; 2], rgba: &[u8], color: ColorType) -> Result<Vec<u8>, png::EncodingError> {
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, size[0], size[1]);
     encoder.set_color(color);
     encoder.set_depth(BitDepth::Eight);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(bytes)?;
+    let mut rows = writer.stream_writer()?;
+    for row in rgba.chunks_exact(size[0] as usize * 4) {
+        match color {
+            ColorType::Rgb => rows.write_all(&without_alpha(row))?,
+            _ => rows.write_all(row)?,
+        }
+    }
+    rows.finish()?;
     writer.finish()?;
     Ok(file)
+}
+
+fn without_alpha(rgba: &[u8]) -> Vec<u8> {
+    rgba.chunks_exact(4)
+        .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
+        .collect()
 }
 
 #[cfg(test)]

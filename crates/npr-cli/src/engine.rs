@@ -25,45 +25,49 @@ pub struct Drawn {
     pub engine: String,
 }
 
+/// Draws a frame on an engine.
+type Picture<'a> = &'a dyn Fn(&dyn Engine) -> Result<Frame, RenderError>;
+
+/// Opens a graphics device.
+type Open<'a> = &'a dyn Fn() -> Result<Box<dyn Engine>, EngineError>;
+
 /// Draws a picture on the engine that `backend` asks for.
 ///
 /// A device that is lost is opened once more. Where it fails again, or fails otherwise, the processor
 /// takes over if the choice is automatic, after a word to `warn`.
-pub fn draw(
-    backend: Backend,
-    picture: &dyn Fn(&dyn Engine) -> Result<Frame, RenderError>,
-    warn: &dyn Fn(&str),
-) -> Result<Drawn, Fault> {
+pub fn draw(backend: Backend, picture: Picture<'_>, warn: &dyn Fn(&str)) -> Result<Drawn, Fault> {
     let drawn = match backend {
         Backend::Cpu => draw_on(&Processor, picture),
-        Backend::Gpu => draw_on_device(Choice::Any, picture),
-        Backend::Auto => match draw_on_device(Choice::Hardware, picture) {
-            Err(RenderError::Engine(EngineError::NoDevice { .. })) => draw_on(&Processor, picture),
-            Err(RenderError::Engine(error)) => {
-                warn(&format!("{error}; the processor draws instead"));
-                draw_on(&Processor, picture)
-            }
-            done => done,
-        },
+        Backend::Gpu => draw_on_device(&|| hardware::open(Choice::Any), picture),
+        Backend::Auto => draw_somewhere(&|| hardware::open(Choice::Hardware), picture, warn),
     };
     drawn.map_err(Fault::from)
 }
 
-fn draw_on_device(
-    choice: Choice,
-    picture: &dyn Fn(&dyn Engine) -> Result<Frame, RenderError>,
+fn draw_somewhere(
+    open: Open<'_>,
+    picture: Picture<'_>,
+    warn: &dyn Fn(&str),
 ) -> Result<Drawn, RenderError> {
-    let draw = || draw_on(hardware::open(choice)?.as_ref(), picture);
+    match draw_on_device(open, picture) {
+        Err(RenderError::Engine(EngineError::NoDevice { .. })) => draw_on(&Processor, picture),
+        Err(RenderError::Engine(error)) => {
+            warn(&format!("{error}; the processor draws instead"));
+            draw_on(&Processor, picture)
+        }
+        done => done,
+    }
+}
+
+fn draw_on_device(open: Open<'_>, picture: Picture<'_>) -> Result<Drawn, RenderError> {
+    let draw = || draw_on(open()?.as_ref(), picture);
     match draw() {
         Err(RenderError::Engine(EngineError::Lost { .. })) => draw(),
         done => done,
     }
 }
 
-fn draw_on(
-    engine: &dyn Engine,
-    picture: &dyn Fn(&dyn Engine) -> Result<Frame, RenderError>,
-) -> Result<Drawn, RenderError> {
+fn draw_on(engine: &dyn Engine, picture: Picture<'_>) -> Result<Drawn, RenderError> {
     Ok(Drawn {
         frame: picture(engine)?,
         engine: engine.describe(),
@@ -89,7 +93,7 @@ impl From<RenderError> for Fault {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::cell::Cell;
+    use std::cell::{Cell, RefCell};
 
     fn frame() -> Frame {
         Frame {
@@ -99,37 +103,77 @@ mod tests {
         }
     }
 
-    #[test]
-    fn the_processor_is_tried_once() {
-        let tries = Cell::new(0);
-        let failing = |_: &dyn Engine| {
+    fn lost() -> RenderError {
+        RenderError::Engine(EngineError::Lost {
+            reason: "unplugged".to_owned(),
+        })
+    }
+
+    /// A picture that fails with `error` some times, and the number of tries so far.
+    fn failing<'a>(
+        times: u32,
+        tries: &'a Cell<u32>,
+        error: &'a dyn Fn() -> RenderError,
+    ) -> impl Fn(&dyn Engine) -> Result<Frame, RenderError> + 'a {
+        move |_| {
             tries.set(tries.get() + 1);
-            Err(RenderError::Engine(EngineError::Lost {
-                reason: "unplugged".to_owned(),
-            }))
-        };
-        let fault = draw(Backend::Cpu, &failing, &|_| ()).expect_err("it fails");
-        assert_eq!((fault.exit, tries.get()), (Exit::Failed, 1));
+            if tries.get() <= times {
+                Err(error())
+            } else {
+                Ok(frame())
+            }
+        }
+    }
+
+    fn device() -> Result<Box<dyn Engine>, EngineError> {
+        Ok(Box::new(Processor))
     }
 
     #[test]
-    fn what_is_not_the_engines_fault_is_not_tried_elsewhere() {
-        let warned = Cell::new(false);
-        let empty = |_: &dyn Engine| {
-            Err(RenderError::EmptyFrame {
-                width: 0,
-                height: 1,
+    fn a_lost_device_is_opened_once_more() {
+        for (losses, ends_well) in [(0, true), (1, true), (2, false)] {
+            let tries = Cell::new(0);
+            let drawn = draw_on_device(&device, &failing(losses, &tries, &lost));
+            assert_eq!((drawn.is_ok(), tries.get()), (ends_well, losses.min(1) + 1));
+        }
+    }
+
+    #[test]
+    fn the_processor_takes_over_after_a_word() {
+        let (tries, words) = (Cell::new(0), RefCell::new(Vec::new()));
+        let warn = |text: &str| words.borrow_mut().push(text.to_owned());
+        draw_somewhere(&device, &failing(2, &tries, &lost), &warn).expect("the processor draws");
+        assert_eq!(tries.get(), 3);
+        let said = ["the graphics device was lost: unplugged; the processor draws instead"];
+        assert_eq!(words.into_inner(), said);
+    }
+
+    #[test]
+    fn a_machine_without_a_device_draws_without_a_word() {
+        let none = || {
+            Err(EngineError::NoDevice {
+                reason: "no driver".to_owned(),
             })
         };
-        let fault = draw(Backend::Auto, &empty, &|_| warned.set(true)).expect_err("no pixels");
-        assert_eq!(fault.exit, Exit::Usage);
-        assert!(!warned.get());
+        let silent = |text: &str| panic!("{text}");
+        draw_somewhere(&none, &|_| Ok(frame()), &silent).expect("the processor draws");
+        let fault = Fault::from(draw_on_device(&none, &|_| Ok(frame())).expect_err("no device"));
+        assert_eq!(fault.exit, Exit::NoDevice);
     }
 
     #[test]
-    fn auto_always_draws() {
-        let drawn = draw(Backend::Auto, &|_| Ok(frame()), &|_| ()).expect("a frame");
-        assert_eq!(drawn.frame, frame());
-        assert!(!drawn.engine.is_empty());
+    fn what_is_not_the_engines_fault_is_not_tried_again() {
+        let empty = || RenderError::EmptyFrame {
+            width: 0,
+            height: 1,
+        };
+        let tries = Cell::new(0);
+        let silent = |text: &str| panic!("{text}");
+        let drawn = draw_somewhere(&device, &failing(9, &tries, &empty), &silent);
+        assert_eq!(
+            drawn.map_err(|error| Fault::from(error).exit).err(),
+            Some(Exit::Usage)
+        );
+        assert_eq!(tries.get(), 1);
     }
 }

@@ -18,7 +18,8 @@ pub fn weights_at(clip: [[f32; 4]; 3], ndc: [f32; 2]) -> [f32; 3] {
     if sum == 0.0 {
         return [1.0, 0.0, 0.0];
     }
-    [weights[0] / sum, weights[1] / sum, weights[2] / sum]
+    let scale = 1.0 / sum;
+    [weights[0] * scale, weights[1] * scale, weights[2] * scale]
 }
 
 /// Whether a triangle turns its front to the eye: its corners run counter-clockwise in the picture.

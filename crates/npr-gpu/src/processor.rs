@@ -4,6 +4,7 @@ use crate::engine::{Engine, EngineError, PassTime, Session};
 use crate::graph::Kind;
 use crate::graph::{Graph, Node, ResourceId, writes};
 use crate::pass::{Access, Bindings, Bound};
+use rayon::prelude::*;
 use std::time::Instant;
 
 /// Runs graphs on the processor, with all threads of the current rayon pool.
@@ -97,7 +98,7 @@ fn clear_targets(node: &Node, written: &[ResourceId], lent: &mut [Vec<u32>]) {
     let targets = &node.bound[node.pass.slots.len()..];
     for (id, words) in written.iter().zip(lent) {
         if targets.contains(id) {
-            words.fill(0);
+            words.par_chunks_mut(1 << 16).for_each(|chunk| chunk.fill(0));
         }
     }
 }

@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         start.elapsed() - loaded
     );
 
-    let size = [1280, 720];
+    let size = [1920, 1080];
     let camera = match model.cameras() {
         [(_, camera), ..] => *camera,
         [] => model.framing(16.0 / 9.0, 0.7),

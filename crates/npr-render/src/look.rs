@@ -182,13 +182,15 @@ pub(crate) fn largest_half_width(style: &Style, parts: &[Part], base_px: f32) ->
     base_px * style.line.width.max * factor * 0.5
 }
 
+/// Thinnest base width in frame pixels of lengths that follow the frame: thinner ones would fade in small pictures.
+const THINNEST_PX: f32 = 1.0;
+
 /// Line width at factor 1, in frame pixels; what world units come to at the point of the model nearest to the eye.
 pub(crate) fn base_px(style: &Style, options: &StageOptions, world_px: f32) -> f32 {
-    style
-        .line
-        .width
-        .base
-        .to_px(options.size[1] as f32, options.dpi, world_px)
+    let base = style.line.width.base;
+    let px = base.to_px(options.size[1] as f32, options.dpi, world_px);
+    let follows_frame = matches!(base.unit, Unit::RefPx | Unit::FrameHeight);
+    if follows_frame && base.value > 0.0 { px.max(THINNEST_PX) } else { px }
 }
 
 /// The outline settings of a style.

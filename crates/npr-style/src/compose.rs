@@ -54,8 +54,8 @@ impl Compose {
     pub const STAMPS: u32 = 8;
 }
 
-/// How far beside a triangle's corners its tone may reach, in ramp coordinate: blended normals bulge a little.
-const TONE_ROOM: f32 = 0.02;
+/// How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
+const TONE_ROOM: f32 = 0.002;
 
 /// Share of each channel in luminance [ITU-R BT.709].
 const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
@@ -97,21 +97,20 @@ pub struct Layers<'a> {
 /// its samples. Layers go over each other as in [Porter & Duff 1984], in linear light. O(pixels), parallel over rows.
 pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
     let encoder = SrgbEncoder::new();
+    let evens = layers.even_colors();
     let width = layers.window.size[0] as usize;
-    frame
-        .par_chunks_mut(width)
-        .enumerate()
-        .for_each(|(y, row)| {
-            let mut composer = Composer {
-                layers,
-                encoder: &encoder,
-                empty: layers.empty_texel(&encoder),
-                recent: Default::default(),
-            };
-            for (x, texel) in row.iter_mut().enumerate() {
-                *texel = composer.texel(x as u32, y as u32);
-            }
-        });
+    frame.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+        let mut composer = Composer {
+            layers,
+            encoder: &encoder,
+            evens: &evens,
+            empty: layers.empty_texel(&encoder),
+            last: (0, 0),
+        };
+        for (x, texel) in row.iter_mut().enumerate() {
+            *texel = composer.texel(x as u32, y as u32);
+        }
+    });
 }
 
 /// A triangle's corners, and 1 where its front is seen or -1 where its back is.
@@ -126,19 +125,6 @@ impl Corners<'_> {
     fn normal(&self, weights: [f32; 3]) -> [f32; 3] {
         unit_or_z(blend3(weights, self.posed.map(|v| v.normal))).map(|v| v * self.side)
     }
-}
-
-/// What a pixel shows of one triangle, as far as it does not depend on the pixel.
-#[derive(Debug, Clone, Copy)]
-struct Shown<'a> {
-    id: u32,
-    triangle: &'a Triangle,
-    part: &'a Part,
-    corners: Corners<'a>,
-    /// Light, where the whole triangle lies within one tone.
-    light: Option<[f32; 3]>,
-    /// Final colour and its bytes, where the whole triangle has one.
-    even: Option<([f32; 3], u32)>,
 }
 
 /// Triangle numbers of a pixel's samples.
@@ -156,66 +142,75 @@ impl std::ops::Deref for Samples {
     }
 }
 
-/// How many triangles a row remembers: neighbouring pixels mostly show the same few.
-const RECENT: usize = 8;
-
 /// Composes the pixels of a row.
 struct Composer<'a> {
     layers: &'a Layers<'a>,
     encoder: &'a SrgbEncoder,
+    /// Colour of every triangle that has one colour all over, marked by a 1 in alpha.
+    evens: &'a [[f32; 4]],
     /// A pixel that shows nothing but a plain background.
     empty: Option<u32>,
-    recent: [Option<Shown<'a>>; RECENT],
+    /// The last number whose single colour filled a pixel, and that pixel.
+    last: (u32, u32),
 }
 
-impl<'a> Composer<'a> {
+impl Composer<'_> {
     /// A pixel of the output as sRGB bytes with straight alpha.
     fn texel(&mut self, x: u32, y: u32) -> u32 {
-        let layers = self.layers;
-        let frame_px = layers.window.frame_at(x, y);
-        let seen = layers.samples_of(x, y);
-        let lines = layers.lines_at(x, y, frame_px);
+        let frame_px = self.layers.window.frame_at(x, y);
+        let seen = self.layers.samples_of(x, y);
+        let lines = self.layers.lines_at(x, y, frame_px);
         if lines == [0; 3] && seen.iter().all(|id| *id == seen[0]) {
-            let even = match seen[0] {
-                0 => self.empty,
-                id => self.shown(id).even.map(|(_, bytes)| bytes),
-            };
-            if let Some(texel) = even {
+            if let Some(texel) = self.even_texel(seen[0]) {
                 return texel;
             }
         }
-        let mut color = self.surfaces(&seen, frame_px);
+        let mut color = self.even_surfaces(&seen).unwrap_or_else(|| self.surfaces(&seen, frame_px));
         if color[3] < 1.0 {
-            let behind = layers.background(frame_px);
+            let behind = self.layers.background(frame_px);
             let left = 1.0 - color[3];
             color = std::array::from_fn(|i| color[i] + behind[i] * left);
         }
         for line in lines {
             if line >> 24 != 0 {
-                color = over(layers.linear_texel(line), color);
+                color = over(self.layers.linear_texel(line), color);
             }
         }
         encoded(self.encoder, color)
     }
 
-    /// What is known of a triangle, remembered while it is in use.
-    fn shown(&mut self, id: u32) -> Shown<'a> {
-        let slot = id as usize % RECENT;
-        match self.recent[slot] {
-            Some(shown) if shown.id == id => shown,
-            _ => {
-                let mut shown = self.layers.shown(id);
-                if let Some((color, bytes)) = &mut shown.even {
-                    *bytes = encoded(self.encoder, [color[0], color[1], color[2], 1.0]);
-                }
-                self.recent[slot] = Some(shown);
-                shown
-            }
+    /// The pixel that a single number fills, where that is of one colour.
+    fn even_texel(&mut self, id: u32) -> Option<u32> {
+        if id == 0 {
+            return self.empty;
         }
+        if self.last.0 != id {
+            self.last = (id, encoded(self.encoder, self.even_color(id)?));
+        }
+        Some(self.last.1)
+    }
+
+    /// Colour of a triangle that has one colour all over.
+    fn even_color(&self, id: u32) -> Option<[f32; 4]> {
+        if id & HULL_BIT != 0 {
+            return None;
+        }
+        Some(self.evens[(id - 1) as usize]).filter(|color| color[3] == 1.0)
+    }
+
+    /// The surfaces of a pixel, premultiplied, where each has one colour all over.
+    fn even_surfaces(&self, seen: &[u32]) -> Option<[f32; 4]> {
+        let share = 1.0 / seen.len() as f32;
+        let mut sum = [0.0; 4];
+        for id in seen.iter().filter(|id| **id != 0) {
+            let color = self.even_color(*id)?;
+            sum = std::array::from_fn(|i| sum[i] + color[i] * share);
+        }
+        Some(sum)
     }
 
     /// The surfaces of a pixel, premultiplied.
-    fn surfaces(&mut self, seen: &[u32], frame_px: [f32; 2]) -> [f32; 4] {
+    fn surfaces(&self, seen: &[u32], frame_px: [f32; 2]) -> [f32; 4] {
         let count = seen.len();
         let mut sum = [0.0; 4];
         let mut left = (1u32 << count) - 1;
@@ -223,22 +218,14 @@ impl<'a> Composer<'a> {
             if left & (1 << i) == 0 {
                 continue;
             }
-            let members = (i..count)
-                .filter(|j| seen[*j] == seen[i])
-                .fold(0, |bits, j| bits | 1 << j);
+            let members = (i..count).filter(|j| seen[*j] == seen[i]).fold(0, |bits, j| bits | 1 << j);
             left &= !members;
             if seen[i] == 0 {
                 continue;
             }
             let share = members.count_ones() as f32 / count as f32;
-            let shown = self.shown(seen[i]);
-            let [r, g, b] = self.layers.shade(&shown, members, frame_px);
-            sum = [
-                sum[0] + r * share,
-                sum[1] + g * share,
-                sum[2] + b * share,
-                sum[3] + share,
-            ];
+            let [r, g, b] = self.layers.shade(seen[i], members, frame_px);
+            sum = [sum[0] + r * share, sum[1] + g * share, sum[2] + b * share, sum[3] + share];
         }
         sum
     }
@@ -301,44 +288,40 @@ impl<'a> Layers<'a> {
         self.mask[(at[1] * self.mask_window.size[0] + at[0]) as usize] & MASK_KINDS != 0
     }
 
-    /// What can be said of a triangle, or of its hull, whatever the pixel. Bytes are left to the caller.
-    fn shown(&self, id: u32) -> Shown<'a> {
-        let triangle = &self.triangles[((id & ID_MASK) - 1) as usize];
-        let part = &self.parts[triangle.part as usize];
-        let corners = self.corners_of(triangle);
-        let angle = self.compose.flags & Compose::ANGLE != 0;
-        let one_tone = !angle && self.is_one_tone(part, &corners);
-        let light = one_tone
-            .then(|| self.light_of(part, corners.posed[0].normal.map(|n| n * corners.side)));
-        let plain = part.texture == NONE
-            && triangle
-                .corners
-                .iter()
-                .all(|v| self.vertices[*v as usize].color | 0xff00_0000 == u32::MAX);
-        let even = if id & HULL_BIT != 0 {
-            let [r, g, b, _] = self.linear_of(part.line_color);
-            Some([r, g, b])
-        } else if plain {
-            let base =
-                self.strengthened([part.base_color[0], part.base_color[1], part.base_color[2]]);
-            light.map(|light| std::array::from_fn(|i| base[i] * light[i]))
-        } else {
-            None
-        };
-        Shown {
-            id,
-            triangle,
-            part,
-            corners,
-            light,
-            even: even.map(|color| (color, 0)),
-        }
+    /// Colour of every triangle that has one colour all over, marked by a 1 in alpha.
+    fn even_colors(&self) -> Vec<[f32; 4]> {
+        let even = |triangle| self.even_color(triangle).map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]);
+        self.triangles.par_iter().with_min_len(1024).map(even).collect()
     }
 
-    /// Light of what the samples in `members` show of a triangle.
-    fn shade(&self, shown: &Shown<'_>, members: u32, frame_px: [f32; 2]) -> [f32; 3] {
-        if let Some((color, _)) = shown.even {
-            return color;
+    /// The colour of a triangle that lies in one tone and has neither texture nor vertex colours.
+    fn even_color(&self, triangle: &Triangle) -> Option<[f32; 3]> {
+        let part = &self.parts[triangle.part as usize];
+        let white = |v: &u32| self.vertices[*v as usize].color | 0xff00_0000 == u32::MAX;
+        if part.texture != NONE || !triangle.corners.iter().all(white) {
+            return None;
+        }
+        let light = self.one_tone(part, &self.corners_of(triangle))?;
+        let [r, g, b, _] = part.base_color;
+        let base = self.strengthened([r, g, b]);
+        Some(std::array::from_fn(|i| base[i] * light[i]))
+    }
+
+    /// The light on a triangle that lies within one tone as a whole.
+    fn one_tone(&self, part: &Part, corners: &Corners<'_>) -> Option<[f32; 3]> {
+        let angle = self.compose.flags & Compose::ANGLE != 0;
+        let one = !angle && self.is_one_tone(part, corners);
+        one.then(|| self.light_of(part, corners.posed[0].normal.map(|n| n * corners.side)))
+    }
+
+    /// Light of what the samples in `members` show, a triangle or its hull.
+    fn shade(&self, id: u32, members: u32, frame_px: [f32; 2]) -> [f32; 3] {
+        let triangle = &self.triangles[((id & ID_MASK) - 1) as usize];
+        let part = &self.parts[triangle.part as usize];
+        let [line_r, line_g, line_b, _] = self.linear_of(part.line_color);
+        let line = [line_r, line_g, line_b];
+        if id & HULL_BIT != 0 {
+            return line;
         }
         let count = members.count_ones() as f32;
         let samples = (0..4).filter(|i| members & (1 << i) != 0);
@@ -347,26 +330,20 @@ impl<'a> Layers<'a> {
             let offset = self.sample_offset(i);
             center = [center[0] + offset[0] / count, center[1] + offset[1] / count];
         }
-        let (part, corners) = (shown.part, &shown.corners);
-        let tone = match shown.light {
+        let corners = self.corners_of(triangle);
+        let tone = match self.one_tone(part, &corners) {
             Some([r, g, b]) => [r, g, b, 0.0],
             None => samples.fold([0.0; 4], |sum, i| {
                 let offset = self.sample_offset(i);
-                let tone = self.tone_at(
-                    part,
-                    corners,
-                    [frame_px[0] + offset[0], frame_px[1] + offset[1]],
-                );
+                let tone = self.tone_at(part, &corners, [frame_px[0] + offset[0], frame_px[1] + offset[1]]);
                 std::array::from_fn(|k| sum[k] + tone[k] / count)
             }),
         };
-        let base = self.strengthened(self.plain_color(shown.triangle, part, corners, center));
-        let lit: [f32; 3] = std::array::from_fn(|i| base[i] * tone[i]);
-        if tone[3] == 0.0 {
-            return lit;
-        }
-        let line = self.linear_of(part.line_color);
-        std::array::from_fn(|i| lit[i] + (line[i] - lit[i]) * tone[3])
+        let base = self.strengthened(self.plain_color(triangle, part, &corners, center));
+        std::array::from_fn(|i| {
+            let lit = base[i] * tone[i];
+            lit + (line[i] - lit) * tone[3]
+        })
     }
 
     /// Position of sample `i` within a pixel, from its centre.
@@ -422,10 +399,11 @@ impl<'a> Layers<'a> {
         if part.flags & Part::UNLIT != 0 {
             return true;
         }
-        let at = corners
-            .posed
-            .map(|v| self.ramp_coordinate(v.normal.map(|n| n * corners.side)));
-        let room = TONE_ROOM + part.softness * 0.5;
+        let at = corners.posed.map(|v| self.ramp_coordinate(v.normal.map(|n| n * corners.side)));
+        // A blend of normals that is made unit again bulges beyond them by at most what they differ.
+        let [a, b, c] = corners.posed.map(|v| v.normal);
+        let bulge = 0.5 * (1.0 - dot(a, b).min(dot(b, c)).min(dot(c, a)));
+        let room = TONE_ROOM + bulge + part.softness * 0.5;
         let low = at[0].min(at[1]).min(at[2]) - room;
         let high = at[0].max(at[1]).max(at[2]) + room;
         !part.ramp[1..]

@@ -21,6 +21,22 @@ pub struct Detection<'a> {
     pub outline: &'a Outline,
     /// Parts: those without lines are not separated from each other.
     pub parts: &'a [Part],
+    /// How far apart packed normals may lie and surely pass the threshold, by [`quiet_distance`].
+    pub quiet_distance: u32,
+}
+
+/// Distance of packed normals up to which they surely turn less than the outline's normal threshold.
+///
+/// On the octahedron a step is at most sqrt(2) times as long as the sum of its packed coordinates, and seen from the middle,
+/// at least 1 / sqrt(3) away, it spans at most 2.45 radians per unit. Most pixels are settled by this alone.
+pub fn quiet_distance(outline: &Outline) -> u32 {
+    (math::acos(outline.normal_cos.clamp(-1.0, 1.0)) / 2.5 * 32767.0) as u32
+}
+
+/// Sum of the differences of two packed normals' coordinates.
+fn packed_distance(a: u32, b: u32) -> u32 {
+    let part = |shift: u32| u32::from((((a << shift) as i32 >> 16) as i16).abs_diff(((b << shift) as i32 >> 16) as i16));
+    part(16) + part(0)
 }
 
 /// Marks every pixel that differs from one of its four neighbours [Okuya et al. 2016, section 3.2].
@@ -105,7 +121,8 @@ impl Detection<'_> {
         if self.jumps(here, there, step) {
             found |= Outline::DEPTH;
         }
-        if here.normal != there.normal {
+        let quiet = here.part == there.part && packed_distance(here.normal, there.normal) < self.quiet_distance;
+        if !quiet {
             let turn = dot(
                 math::unpack_unit(here.normal),
                 math::unpack_unit(there.normal),
@@ -151,5 +168,27 @@ impl Detection<'_> {
 
     fn has_lines(&self, pixel: &GPixel) -> bool {
         pixel.part != NONE && self.parts[pixel.part as usize].flags & Part::LINES != 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+        #[test]
+        fn quiet_normals_never_turn_past_the_threshold(
+            n in prop::array::uniform3(-1f32..1.0), d in prop::array::uniform3(-0.4f32..0.4), degrees in 1f32..90.0,
+        ) {
+            prop_assume!(dot(n, n) > 0.05);
+            let there = std::array::from_fn(|i| n[i] + d[i]);
+            prop_assume!(dot(there, there) > 0.01);
+            let outline = Outline { normal_cos: math::cos(degrees.to_radians()), ..Outline::default() };
+            let (a, b) = (math::pack_unit(n), math::pack_unit(there));
+            let turn = dot(math::unpack_unit(a), math::unpack_unit(b));
+            prop_assert!(packed_distance(a, b) >= quiet_distance(&outline) || turn >= outline.normal_cos);
+        }
     }
 }

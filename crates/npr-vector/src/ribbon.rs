@@ -113,8 +113,9 @@ pub fn draw(
     let width = with.window.size[0] as usize;
     let height = with.window.size[1] as usize;
     let spines: Vec<Spine> = edges
-        .iter()
+        .par_iter()
         .zip(kinds)
+        .with_min_len(4096)
         .filter_map(|(edge, kind)| with.spine(edge, *kind))
         .collect();
     let mut bands = vec![Vec::new(); height.div_ceil(BAND_ROWS)];

@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 /// How long a run may draw before it is interrupted.
-const HEAD_START: Duration = Duration::from_millis(300);
+const HEAD_START: Duration = Duration::from_secs(1);
 
 #[test]
 fn an_interrupted_run_exits_with_130_and_leaves_nothing() {

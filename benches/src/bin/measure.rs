@@ -1,0 +1,222 @@
+//! Measures whole frames on the processor and prints the report kept in `benches/results/frames.md`.
+//!
+//! `cargo run --release -p npr-benches > benches/results/frames.md`. A measuring program, not a test: it takes
+//! a minute or two and fails only where drawing fails.
+
+use std::error::Error;
+use std::path::Path;
+use std::process::Command;
+
+use npr_benches::cost::{Cost, Sample};
+use npr_benches::subject::{Subject, bunny_path};
+use npr_benches::table::Table;
+use npr_benches::timing::{elapsed_ms, median};
+use npr_benches::{machine, memory};
+use npr_gpu::processor::Processor;
+use npr_render::{Stage, StageOptions};
+use npr_style::Style;
+
+/// Triangles of the published table, and one number between.
+const TRIANGLE_COUNTS: [usize; 4] = [960, 9_566, 33_200, 66_400];
+
+/// Frame sizes of the published table, and one between.
+const SIZES: [[u32; 2]; 4] = [[640, 360], [960, 540], [1280, 720], [1920, 1080]];
+
+/// Frame pixels along a mask pixel, and the published frames per second of the whole frame at each.
+const MASK_SCALES: [f32; 4] = [1.0, 1.5, 3.0, 6.0];
+
+/// The largest frame.
+const FULL_HD: [u32; 2] = [1920, 1080];
+
+/// Runs behind every figure.
+const RUNS: usize = 9;
+
+/// Asks this program to draw one file, print its peak of memory, and end.
+const PEAK: &str = "--peak";
+
+type Outcome<T> = Result<T, Box<dyn Error>>;
+
+fn main() -> Outcome<()> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.as_slice() {
+        [] => report(),
+        [flag, file] if flag == PEAK => print_peak(file.as_ref()),
+        _ => Err("usage: measure > benches/results/frames.md".into()),
+    }
+}
+
+fn report() -> Outcome<()> {
+    println!("# Whole frames\n");
+    println!("Machine: {}; no graphics device.", machine::description());
+    println!(
+        "Code: {}, measured {}.",
+        machine::commit(),
+        machine::today()
+    );
+    println!(
+        "Each figure is the median of {RUNS} frames, in ms, preset `toon`, on the processor engine."
+    );
+    println!("Loading, welding and curvature happen before the clock starts.");
+    println!("Load average at the start: {}.\n", machine::load());
+
+    let grid = measure_grid()?;
+    print_grid(&grid);
+    print_fit(&grid);
+    print_mask_scales()?;
+    print_bunny()?;
+    println!("Load average at the end: {}.", machine::load());
+    Ok(())
+}
+
+/// Times every number of triangles at every size.
+///
+/// Rounds over the whole grid, so that a minute in which the machine is busy touches all cells alike.
+fn measure_grid() -> Outcome<Vec<Sample>> {
+    let subjects = TRIANGLE_COUNTS
+        .iter()
+        .map(|count| Subject::ball(*count))
+        .collect::<Result<Vec<_>, _>>()?;
+    let cells: Vec<(&Subject, [u32; 2])> = subjects
+        .iter()
+        .flat_map(|subject| SIZES.map(|size| (subject, size)))
+        .collect();
+    let mut times = vec![Vec::new(); cells.len()];
+    for round in 0..RUNS {
+        eprintln!("grid, round {} of {RUNS}", round + 1);
+        for ((subject, size), times) in cells.iter().zip(&mut times) {
+            times.push(one_frame_ms(subject, *size)?);
+        }
+    }
+    let samples = cells.iter().zip(times);
+    Ok(samples
+        .map(|((subject, size), times)| Sample {
+            triangles: subject.model.triangle_count() as f64,
+            pixels: f64::from(size[0]) * f64::from(size[1]),
+            ms: median(times),
+        })
+        .collect())
+}
+
+/// Time of the second frame of a new stage.
+fn one_frame_ms(subject: &Subject, size: [u32; 2]) -> Outcome<f64> {
+    let mut stage = subject.warm_stage(&Processor, &Style::default(), size)?;
+    timed_frame(&mut stage, subject)
+}
+
+/// Median time of some frames of one stage.
+fn median_frame_ms(subject: &Subject, style: &Style, size: [u32; 2]) -> Outcome<f64> {
+    let mut stage = subject.warm_stage(&Processor, style, size)?;
+    let times = (0..RUNS).map(|_| timed_frame(&mut stage, subject));
+    Ok(median(times.collect::<Outcome<_>>()?))
+}
+
+fn timed_frame(stage: &mut Stage<'_>, subject: &Subject) -> Outcome<f64> {
+    let mut drawn = Ok(());
+    let ms = elapsed_ms(|| drawn = stage.draw(&subject.camera).map(drop));
+    drawn?;
+    Ok(ms)
+}
+
+fn print_grid(samples: &[Sample]) {
+    let head = SIZES.map(|[width, height]| format!("{width}x{height}"));
+    let mut table = Table::new(std::iter::once("triangles".to_owned()).chain(head));
+    for (count, row) in TRIANGLE_COUNTS.iter().zip(samples.chunks(SIZES.len())) {
+        table.add(count.to_string(), row.iter().map(|sample| sample.ms));
+    }
+    println!("## Triangles and pixels [Okuya 2016, table 1]\n");
+    println!("A bumpy ball that fills the frame's height.\n\n{table}");
+}
+
+fn print_fit(samples: &[Sample]) {
+    let (Some(cost), Some(sum)) = (Cost::fit(samples), Cost::fit_sum(samples)) else {
+        return;
+    };
+    let largest = [TRIANGLE_COUNTS[3] as f64, 1920.0 * 1080.0];
+    println!("## Do the two costs add up?\n");
+    println!(
+        "Least squares over the table above, T in 100 000 triangles, P in millions of pixels:\n"
+    );
+    println!(
+        "    t = {:.2} + {:.2} T + {:.2} P            R^2 {:.4}",
+        sum.base_ms, sum.triangles_ms, sum.pixels_ms, sum.r_squared
+    );
+    println!(
+        "    t = {:.2} + {:.2} T + {:.2} P + {:.2} T P  R^2 {:.4}\n",
+        cost.base_ms, cost.triangles_ms, cost.pixels_ms, cost.product_ms, cost.r_squared
+    );
+    println!(
+        "The product makes up {:.1} % of the largest frame.\n",
+        100.0 * cost.product_share(largest[0], largest[1])
+    );
+}
+
+fn print_mask_scales() -> Outcome<()> {
+    let subject = Subject::ball(TRIANGLE_COUNTS[3])?;
+    let mut table = Table::new(["mask", "detect.scale", "ms"]);
+    for scale in MASK_SCALES {
+        eprintln!("mask scale {scale}");
+        let mut style = Style::default();
+        style.detect.scale = scale;
+        let height = 1080.0 / scale;
+        let ms = median_frame_ms(&subject, &style, FULL_HD)?;
+        table.add(format!("{height:.0} rows"), [f64::from(scale), ms]);
+    }
+    println!("## Size of the mask [Okuya 2016, table 2]\n");
+    println!(
+        "{} triangles, drawn at 1920x1080.\n\n{table}",
+        TRIANGLE_COUNTS[3]
+    );
+    Ok(())
+}
+
+fn print_bunny() -> Outcome<()> {
+    let Some(path) = bunny_path() else {
+        return Ok(());
+    };
+    eprintln!("bunny");
+    let subject = Subject::from_file(&path)?;
+    let style = Style::default();
+    let mut stage = subject.warm_stage(&Processor, &style, FULL_HD)?;
+    let frame = stage.draw(&subject.camera)?;
+    drop(stage);
+    println!("## A scanned bunny at 1920x1080\n");
+    println!(
+        "- {} triangles, framed as the command frames it",
+        subject.model.triangle_count()
+    );
+    println!(
+        "- frame: {:.1} ms",
+        median_frame_ms(&subject, &style, FULL_HD)?
+    );
+    println!(
+        "- most memory of a process that loads, prepares and draws it: {} MB\n",
+        child_peak(&path)?
+    );
+    let mut table = Table::new(["pass", "ms in one frame"]);
+    for pass in &frame.times {
+        table.add(format!("`{}`", pass.name), [pass.time.as_secs_f64() * 1e3]);
+    }
+    println!("{table}");
+    Ok(())
+}
+
+/// Peak memory of a child process that draws a file, in megabytes; `unknown` where the system does not tell.
+fn child_peak(file: &Path) -> Outcome<String> {
+    let output = Command::new(std::env::current_exe()?)
+        .arg(PEAK)
+        .arg(file)
+        .output()?;
+    Ok(String::from_utf8(output.stdout)?.trim().to_owned())
+}
+
+/// Draws a file at full HD and prints the most memory that took, in megabytes.
+fn print_peak(file: &Path) -> Outcome<()> {
+    let subject = Subject::from_file(file)?;
+    let options = StageOptions::new(FULL_HD);
+    Stage::new(&Processor, &subject.model, &Style::default(), &options)?.draw(&subject.camera)?;
+    match memory::peak_bytes() {
+        Some(bytes) => println!("{:.0}", bytes as f64 / 1e6),
+        None => println!("unknown"),
+    }
+    Ok(())
+}

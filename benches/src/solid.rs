@@ -1,0 +1,87 @@
+//! A bumpy ball of an exact number of triangles.
+
+use npr_core::math::{cos, sin};
+use npr_mesh::testing::{mapped, uv_sphere};
+use npr_scene::{Mesh, Node, Part, Scene};
+
+/// Height of the bumps, as a share of the radius: enough for contours before the ball itself.
+const BUMP_HEIGHT: f32 = 0.12;
+
+/// A closed ball with bumps, of exactly `triangle_count` triangles, without normals or textures.
+///
+/// A ball of meridians and parallels comes near the number; faces spread over it are cut into three to reach it.
+///
+/// # Panics
+///
+/// When `triangle_count` is odd, which no closed surface has, or below 32.
+pub fn bumpy_ball(triangle_count: usize) -> Scene {
+    assert!(
+        triangle_count.is_multiple_of(2) && triangle_count >= 32,
+        "a closed ball has an even number of triangles, here at least 32"
+    );
+    let bands = (triangle_count as f64 / 4.0).sqrt() as usize;
+    let meridians = triangle_count / (2 * bands);
+    let ball = mapped(&uv_sphere(meridians as u32, bands as u32 + 1), bumped);
+    let mut part = Part {
+        positions: ball.positions().to_vec(),
+        triangles: ball.triangles().to_vec(),
+        ..Part::default()
+    };
+    cut_faces(&mut part, (triangle_count - 2 * bands * meridians) / 2);
+    scene_of(part)
+}
+
+/// A point of the unit ball pushed out or in, with its pole turned from z to y.
+fn bumped([x, y, z]: [f32; 3]) -> [f32; 3] {
+    let radius = 1.0 + BUMP_HEIGHT * sin(5.0 * x) * cos(4.0 * y) * sin(6.0 * z + 1.0);
+    [x * radius, z * radius, -y * radius]
+}
+
+/// Cuts `count` faces into three around their middle, spread evenly over the list.
+fn cut_faces(part: &mut Part, count: usize) {
+    let step = part.triangles.len() / count.max(1);
+    for cut in 0..count {
+        let [a, b, c] = part.triangles[cut * step];
+        let corners = [a, b, c].map(|corner| part.positions[corner as usize]);
+        let middle = part.positions.len() as u32;
+        part.positions.push(std::array::from_fn(|axis| {
+            (corners[0][axis] + corners[1][axis] + corners[2][axis]) / 3.0
+        }));
+        part.triangles[cut * step] = [a, b, middle];
+        part.triangles.extend([[b, c, middle], [c, a, middle]]);
+    }
+}
+
+/// A scene of one node that holds one part.
+fn scene_of(part: Part) -> Scene {
+    let mesh = Mesh {
+        name: "ball".to_owned(),
+        parts: vec![part],
+    };
+    let node = Node {
+        name: "ball".to_owned(),
+        mesh: Some(0),
+        ..Node::default()
+    };
+    Scene {
+        nodes: vec![node],
+        meshes: vec![mesh],
+        ..Scene::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_number_of_triangles_is_the_one_asked_for(half in 16usize..4000) {
+            let scene = bumpy_ball(2 * half);
+            prop_assert_eq!(scene.triangle_count(), 2 * half);
+            // Every edge of a closed surface has two faces: E = 3 F / 2, and V - E + F = 2.
+            prop_assert_eq!(scene.vertex_count(), half + 2);
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! Medians of wall time.
+
+use std::time::Instant;
+
+/// Milliseconds that `work` took.
+pub fn elapsed_ms(work: impl FnOnce()) -> f64 {
+    let start = Instant::now();
+    work();
+    start.elapsed().as_secs_f64() * 1e3
+}
+
+/// The middle of some numbers, the mean of the two in the middle where their count is even; 0 of none.
+///
+/// A median forgives the runs in which the machine did something else.
+pub fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let (low, high) = (values.len().saturating_sub(1) / 2, values.len() / 2);
+    match (values.get(low), values.get(high)) {
+        (Some(low), Some(high)) => (low + high) / 2.0,
+        _ => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_minds_no_outlier() {
+        assert_eq!(median(vec![3.0, 900.0, 1.0]), 3.0);
+        assert_eq!(median(vec![4.0, 1.0, 2.0, 900.0]), 3.0);
+        assert_eq!(median(Vec::new()), 0.0);
+    }
+}

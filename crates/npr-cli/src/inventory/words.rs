@@ -1,0 +1,161 @@
+//! An inventory in words. Names are escaped where they could upset a terminal.
+
+use super::{Bounds, Drawn, Image, Inventory, Material, Named, Skin};
+use crate::message::{name, plain};
+use std::fmt::Write;
+
+/// Most entries of one kind that the text lists; JSON has them all.
+const LISTED: usize = 20;
+
+impl Inventory {
+    /// The inventory as lines for people.
+    pub fn text(&self) -> String {
+        let mut text = self.summary();
+        list(&mut text, "surface", self.drawn.iter().map(Drawn::text));
+        list(
+            &mut text,
+            "material",
+            self.materials.iter().map(Material::text),
+        );
+        list(&mut text, "image", self.images.iter().map(Image::text));
+        list(&mut text, "camera", self.cameras.iter().map(Named::text));
+        list(&mut text, "light", self.lights.iter().map(Named::text));
+        list(&mut text, "skin", self.skins.iter().map(Skin::text));
+        list(
+            &mut text,
+            "extension",
+            self.extensions.iter().map(|extension| name(extension)),
+        );
+        list(
+            &mut text,
+            "note:",
+            self.ignored.iter().map(|notice| plain(notice)),
+        );
+        text
+    }
+
+    /// Format, counts and bounds.
+    fn summary(&self) -> String {
+        let mut text = format!(
+            "{}: {}, {} bytes\n",
+            plain(&self.file),
+            self.format,
+            self.bytes
+        );
+        list(
+            &mut text,
+            "generator",
+            self.generator.iter().map(|generator| name(generator)),
+        );
+        let (nodes, meshes) = (self.node_count, self.mesh_count);
+        let (triangles, vertices) = (self.triangle_count, self.vertex_count);
+        let _ = writeln!(
+            text,
+            "contains {nodes} nodes, {meshes} meshes, {triangles} triangles, {vertices} vertices"
+        );
+        if let Some(Bounds { min, max }) = &self.bounds {
+            let decimals = decimals_for(*min, *max);
+            let _ = writeln!(
+                text,
+                "bounds {} to {}",
+                point(*min, decimals),
+                point(*max, decimals)
+            );
+        }
+        let _ = writeln!(text, "draws {} triangles", self.drawn_triangle_count);
+        text
+    }
+}
+
+/// A line per entry, the first few of them.
+fn list(text: &mut String, what: &str, entries: impl IntoIterator<Item = String>) {
+    let mut entries = entries.into_iter();
+    for entry in entries.by_ref().take(LISTED) {
+        let _ = writeln!(text, "  {what} {entry}");
+    }
+    let more = entries.count();
+    if more > 0 {
+        let _ = writeln!(text, "  {what} and {more} more");
+    }
+}
+
+impl Drawn {
+    fn text(&self) -> String {
+        let material = self
+            .material
+            .as_deref()
+            .map(|material| format!(" in '{}'", name(material)));
+        let (object, material) = (name(&self.object), material.unwrap_or_default());
+        format!("'{object}'{material}, {} triangles", self.triangle_count)
+    }
+}
+
+impl Material {
+    fn text(&self) -> String {
+        let [r, g, b, a] = self.base_color;
+        let mut text = format!("'{}' colour {r:.3},{g:.3},{b:.3},{a:.3}", name(&self.name));
+        if let Some(image) = self.image {
+            let _ = write!(text, ", image {image}");
+        }
+        let marks = [
+            (self.alpha != "opaque", self.alpha),
+            (self.double_sided, "double-sided"),
+            (self.unlit, "unlit"),
+        ];
+        for (_, mark) in marks.iter().filter(|(holds, _)| *holds) {
+            let _ = write!(text, ", {mark}");
+        }
+        text
+    }
+}
+
+impl Image {
+    fn text(&self) -> String {
+        format!("'{}' {}x{}", name(&self.name), self.width, self.height)
+    }
+}
+
+impl Named {
+    fn text(&self) -> String {
+        format!("'{}' {}", name(&self.name), self.kind)
+    }
+}
+
+impl Skin {
+    fn text(&self) -> String {
+        format!("'{}' {} joints", name(&self.name), self.joint_count)
+    }
+}
+
+fn point([x, y, z]: [f32; 3], decimals: usize) -> String {
+    format!("{x:.decimals$},{y:.decimals$},{z:.decimals$}")
+}
+
+/// Decimal places that show a box to about five digits of its longest side.
+fn decimals_for(min: [f32; 3], max: [f32; 3]) -> usize {
+    let longest = (0..3).map(|axis| max[axis] - min[axis]).fold(0.0, f32::max);
+    (0..12)
+        .find(|places| longest * 10f32.powi(*places) >= 1e4)
+        .unwrap_or(4) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_box_is_shown_to_five_digits() {
+        let shown = |side: f32| point([side; 3], decimals_for([0.0; 3], [side; 3]));
+        assert_eq!(shown(1.234_567), "1.2346,1.2346,1.2346");
+        assert_eq!(shown(12_345.6), "12346,12346,12346");
+        assert_eq!(shown(0.0), "0.0000,0.0000,0.0000");
+    }
+
+    #[test]
+    fn long_lists_are_cut() {
+        let mut text = String::new();
+        list(&mut text, "skin", (0..LISTED + 7).map(|i| i.to_string()));
+        assert_eq!(text.lines().count(), LISTED + 1);
+        assert!(text.ends_with("skin and 7 more\n"), "{text}");
+    }
+}
