@@ -29,7 +29,7 @@
 // Depth that an edge may lie behind the surface around it and still be seen, in mask pixels.
 const DEPTH_TOLERANCE_PX: f32 = 1.0;
 // How much further behind a rim may bend.
-const RIM_FACTOR: f32 = 4.0;
+const RIM_FACTOR: f32 = 16.0;
 // How far along an edge the mask must go on, in mask pixels; a line that is merely crossed is thinner.
 const LINE_REACH_PX: f32 = 2.5;
 

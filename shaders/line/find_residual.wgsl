@@ -22,17 +22,27 @@ override WG: u32 = 64u;
 @group(0) @binding(5) var ribbons: texture_2d<f32>;
 @group(0) @binding(6) var<storage, read_write> stamps: array<Stamp>;
 
-// Whether any ribbon inked the output within half a mask pixel of a point of the frame.
+// Half side of the box in which ink is counted, in mask pixels.
+const LINE_BOX_PX: f32 = 2.0;
+// Inked pixels in that box that make a line; fewer are crumbs of an edge that crosses here.
+const LINE_INK_COUNT: u32 = 5u;
+
+// Whether a ribbon runs through a point of the frame: ink within half a mask pixel, and enough around to be a line.
 fn is_inked_at(px: vec2<f32>) -> bool {
-    let reach = 0.5 * mask_window.frame_step;
-    let low = pixel_at(window, px - reach);
-    let high = pixel_at(window, px + reach);
+    return ink_count(px, 0.5) > 0u && ink_count(px, LINE_BOX_PX) >= LINE_INK_COUNT;
+}
+
+// Inked pixels of the output within `reach` mask pixels of a point of the frame, along both axes.
+fn ink_count(px: vec2<f32>, reach: f32) -> u32 {
+    let low = pixel_at(window, px - reach * mask_window.frame_step);
+    let high = pixel_at(window, px + reach * mask_window.frame_step);
+    var count = 0u;
     for (var y = low.y; y <= high.y; y++) {
         for (var x = low.x; x <= high.x; x++) {
-            if textureLoad(ribbons, vec2<u32>(x, y), 0).a > 0.0 { return true; }
+            if textureLoad(ribbons, vec2<u32>(x, y), 0).a > 0.0 { count += 1u; }
         }
     }
-    return false;
+    return count;
 }
 
 // From the pixel's centre to the line, in pixels: half the sum of the sides it runs along.

@@ -14,6 +14,12 @@ use rayon::prelude::*;
 /// Side of the square tiles in which stamps are looked for, in mask pixels.
 pub const TILE: u32 = 16;
 
+/// Half side of the box in which ink is counted, in mask pixels.
+const LINE_BOX_PX: f32 = 2.0;
+
+/// Inked pixels in that box that make a line; fewer are crumbs of an edge that crosses here.
+const LINE_INK_COUNT: usize = 5;
+
 /// What residual lines are found on.
 #[derive(Debug, Clone, Copy)]
 pub struct Search<'a> {
@@ -67,16 +73,22 @@ impl Search<'_> {
         })
     }
 
-    /// Whether any ribbon inked the output within half a mask pixel of a point of the frame.
+    /// Whether a ribbon runs through a point of the frame: ink within half a mask pixel, and enough around to be a line.
     fn is_inked_at(&self, px: [f32; 2]) -> bool {
-        let reach = self.mask_window.frame_step.map(|step| 0.5 * step);
+        self.ink_count(px, 0.5) > 0 && self.ink_count(px, LINE_BOX_PX) >= LINE_INK_COUNT
+    }
+
+    /// Inked pixels of the output within `reach` mask pixels of a point of the frame, along both axes.
+    fn ink_count(&self, px: [f32; 2], reach: f32) -> usize {
+        let reach = self.mask_window.frame_step.map(|step| reach * step);
         let low = self.window.pixel_at([px[0] - reach[0], px[1] - reach[1]]);
         let high = self.window.pixel_at([px[0] + reach[0], px[1] + reach[1]]);
-        (low[1]..=high[1]).any(|y| {
+        let rows = (low[1]..=high[1]).map(|y| {
             let row = (y * self.window.size[0]) as usize;
             let texels = &self.ribbons[row + low[0] as usize..=row + high[0] as usize];
-            texels.iter().any(|texel| texel >> 24 != 0)
-        })
+            texels.iter().filter(|texel| *texel >> 24 != 0).count()
+        });
+        rows.sum()
     }
 }
 

@@ -17,7 +17,7 @@ const BAND_ROWS: usize = 32;
 const DEPTH_TOLERANCE_PX: f32 = 1.0;
 
 /// How much further behind a rim may bend than the tangent plane of its pixel says.
-const RIM_FACTOR: f32 = 4.0;
+const RIM_FACTOR: f32 = 16.0;
 
 /// How far along an edge the mask must go on, in mask pixels; a line that is merely crossed is thinner.
 const LINE_REACH_PX: f32 = 2.5;
