@@ -1,5 +1,7 @@
 //! How the time of a frame grows with triangles and pixels.
 
+use std::fmt;
+
 /// Number of coefficients: constant, triangles, pixels, and their product.
 const TERMS: usize = 4;
 
@@ -103,6 +105,23 @@ impl Cost {
     fn residual(&self, samples: &[Sample]) -> f64 {
         let difference = |sample: &Sample| sample.ms - self.at(sample.triangles, sample.pixels);
         samples.iter().map(|s| difference(s) * difference(s)).sum()
+    }
+}
+
+impl fmt::Display for Cost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            base_ms,
+            triangles_ms,
+            pixels_ms,
+            product_ms,
+            ..
+        } = self;
+        write!(f, "{base_ms:.2} {triangles_ms:+.2} T {pixels_ms:+.2} P")?;
+        if *product_ms == 0.0 {
+            return Ok(());
+        }
+        write!(f, " {product_ms:+.2} T P")
     }
 }
 

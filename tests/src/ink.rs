@@ -1,6 +1,7 @@
 //! Which pixels of a drawing are dark.
 
 use crate::Wanted;
+use npr_core::math;
 use npr_render::Frame;
 
 /// The dark pixels of a drawing on white paper.
@@ -139,6 +140,13 @@ impl Ink {
         let behind = (1..).take_while(|steps| inked(-*steps)).count();
         (ahead + behind + 1) as f32 * STEP
     }
+
+    /// Width of the ink at a point, in pixels: the shortest run over eight directions; 0 where there is none.
+    pub fn thickness(&self, at: [f32; 2]) -> f32 {
+        let angles = (0..8).map(|i| i as f32 * std::f32::consts::PI / 8.0);
+        let runs = angles.map(|angle| self.run(at, [math::cos(angle), math::sin(angle)]));
+        runs.fold(f32::MAX, f32::min)
+    }
 }
 
 #[cfg(test)]
@@ -164,6 +172,7 @@ mod tests {
         assert_eq!(ink.run([2.5, 1.5], [1.0, 0.0]), 3.0);
         assert_eq!(ink.run([2.5, 1.5], [0.0, 1.0]), 2.0);
         assert_eq!(ink.run([0.5, 0.5], [0.0, 1.0]), 0.0);
+        assert_eq!(ink.thickness([2.5, 1.5]), 2.0);
     }
 
     #[test]

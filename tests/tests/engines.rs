@@ -1,44 +1,89 @@
-//! The same pictures from both engines.
+//! The same pictures from both engines: 99.8 % of pixels within 2 of 255, and no 8x8 block beyond 6 of 255.
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use npr_gpu::processor::Processor;
 use npr_render::Model;
 use npr_style::Style;
-use npr_tests::{Agreement, device, draw_on, models, models_camera, samples};
-use std::path::Path;
+use npr_tests::{Agreement, asset, device, draw_on, models, models_camera, samples};
 
-/// Draws a file in presets on both engines and answers with how far they agree.
-fn agreements(path: &Path, presets: &[&str], size: [u32; 2]) -> Vec<(String, Agreement)> {
-    let Some(device) = device() else {
-        return Vec::new();
-    };
-    let scene = npr_scene::load(path, &npr_scene::LoadOptions::default()).unwrap();
-    let model = Model::new(&scene).unwrap();
-    let camera = models_camera(&model, size);
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let of_preset = |preset: &&str| {
-        let style = Style::preset(preset).unwrap();
-        let one = draw_on(&Processor, &model, &style, &camera, size);
-        let two = draw_on(device, &model, &style, &camera, size);
-        if let Ok(folder) = std::env::var("NPR_DUMP") {
-            npr_tests::write_png(Path::new(&format!("{folder}/{name}.{preset}.cpu.png")), &one).unwrap();
-            npr_tests::write_png(Path::new(&format!("{folder}/{name}.{preset}.gpu.png")), &two).unwrap();
-        }
-        (format!("{name} {preset}"), Agreement::between(&one, &two, 2))
-    };
-    presets.iter().map(of_preset).collect()
+/// Files of which single blocks may differ, and why; pixels must agree all the same.
+const TIES: [(&str, &str); 1] = [(
+    "debug_robot_vrm1.vrm",
+    "its boxes share faces, so rounding decides which of two objects is in front",
+)];
+
+/// Draws a model in a style on both engines and prints how far they agree; nothing without a device.
+fn agreement(what: &str, model: &Model, style: &Style, size: [u32; 2]) -> Option<Agreement> {
+    let device = device()?;
+    let camera = models_camera(model, size);
+    let one = draw_on(&Processor, model, style, &camera, size);
+    let two = draw_on(device, model, style, &camera, size);
+    let agreement = Agreement::between(&one, &two, 2);
+    println!("{what:45} {agreement}");
+    Some(agreement)
+}
+
+/// Names what does not agree, after everything was drawn.
+fn check(agreements: impl Iterator<Item = (String, Option<Agreement>)>) {
+    let judged = agreements.filter_map(|(what, agreement)| Some((what, agreement?)));
+    let failed: Vec<String> = judged
+        .filter(|(what, agreement)| {
+            let tie = TIES.iter().any(|(file, _)| what.starts_with(file));
+            // An exception that is needed no more must go.
+            let holds = agreement.holds();
+            if tie { holds || agreement.within < 0.998 } else { !holds }
+        })
+        .map(|(what, agreement)| format!("{what}: {agreement}"))
+        .collect();
+    assert!(failed.is_empty(), "{failed:#?}");
 }
 
 #[test]
-fn models_look_alike_on_both_engines() {
-    let mut failed = Vec::new();
-    for path in samples().into_iter().chain(models()) {
-        let start = std::time::Instant::now();
-        for (what, agreement) in agreements(&path, &["toon", "ink"], [480, 270]) {
-            println!("{what:45} {agreement} {:?}", start.elapsed());
-            if !agreement.holds() { failed.push(what); }
-        }
-    }
-    assert!(failed.is_empty(), "{failed:?}");
+fn models_look_alike_in_the_everyday_presets() {
+    let styles = ["toon", "ink"].map(|name| (name, Style::preset(name).unwrap()));
+    let pictures = samples().into_iter().chain(models()).flat_map(|path| {
+        let scene = npr_scene::load(&path, &npr_scene::LoadOptions::default()).unwrap();
+        let model = Model::new(&scene).unwrap();
+        let file = path.file_name().unwrap().to_string_lossy().into_owned();
+        styles.each_ref().map(|(name, style)| {
+            let what = format!("{file} {name}");
+            let agreement = agreement(&what, &model, style, [480, 270]);
+            (what, agreement)
+        })
+    });
+    check(pictures);
+}
+
+#[test]
+fn samples_look_alike_in_every_method() {
+    let names = ["teapot_box_plane.glb", "still_life.glb"];
+    let presets = ["technical", "okuya", "filter", "hull", "filter-hull"];
+    let methods = ["shape", "edges", "angle"];
+    let with_method = methods.map(|method| (method, npr_tests::lines(method)));
+    let pictures = names.into_iter().flat_map(|name| {
+        let model = Model::new(&asset(name)).unwrap();
+        let preset = presets.map(|preset| (preset, Style::preset(preset).unwrap()));
+        let styles = preset.into_iter().chain(with_method.clone());
+        styles.map(move |(look, style)| {
+            let what = format!("{name} {look}");
+            let agreement = agreement(&what, &model, &style, [480, 270]);
+            (what, agreement)
+        })
+    });
+    check(pictures);
+}
+
+#[test]
+fn samples_look_alike_at_other_sizes_and_mask_scales() {
+    let model = Model::new(&asset("teapot_box_plane.glb")).unwrap();
+    let sizes = [([1280, 720], "1"), ([333, 501], "1.5"), ([641, 361], "3"), ([480, 270], "6"), ([7, 5], "1"), ([1, 1], "2")];
+    let pictures = sizes.into_iter().map(|(size, scale)| {
+        let mut style = Style::preset("ink").unwrap();
+        style.set(&format!("detect.scale={scale}")).unwrap();
+        let what = format!("{size:?} pixels, mask scale {scale}");
+        let agreement = agreement(&what, &model, &style, size);
+        (what, agreement)
+    });
+    check(pictures);
 }

@@ -22,7 +22,7 @@ const TRIANGLE_COUNTS: [usize; 4] = [960, 9_566, 33_200, 66_400];
 /// Frame sizes of the published table, and one between.
 const SIZES: [[u32; 2]; 4] = [[640, 360], [960, 540], [1280, 720], [1920, 1080]];
 
-/// Frame pixels along a mask pixel, and the published frames per second of the whole frame at each.
+/// Frame pixels along a mask pixel in the published table.
 const MASK_SCALES: [f32; 4] = [1.0, 1.5, 3.0, 6.0];
 
 /// The largest frame.
@@ -45,24 +45,61 @@ fn main() -> Outcome<()> {
     }
 }
 
+/// A style to measure in.
+struct Look {
+    name: &'static str,
+    /// Why the costs of triangles and pixels add up in it, or do not.
+    note: &'static str,
+    style: Style,
+}
+
+impl Look {
+    /// The published method, lines alone, and what the command draws unasked.
+    fn all() -> Outcome<[Self; 3]> {
+        let mut published = Style::preset("okuya")?;
+        published.antialias.samples = 1;
+        Ok([
+            Self {
+                name: "okuya, 1 sample",
+                note: "Every edge of a front face is drawn with width and looked up in the mask, so ink grows with both.",
+                style: published,
+            },
+            Self {
+                name: "technical",
+                note: "Edges are chosen by kind before they are drawn, and there is one tone.",
+                style: Style::preset("technical")?,
+            },
+            Self {
+                name: "toon",
+                note: "Triangles that lie in one tone are shaded once; large ones cross tones more often and are shaded by pixel.",
+                style: Style::default(),
+            },
+        ])
+    }
+}
+
 fn report() -> Outcome<()> {
     println!("# Whole frames\n");
-    println!("Machine: {}; no graphics device.", machine::description());
+    println!("- machine: {}; no graphics device", machine::description());
     println!(
-        "Code: {}, measured {}.",
+        "- code: {}, measured {}",
         machine::commit(),
         machine::today()
     );
     println!(
-        "Each figure is the median of {RUNS} frames, in ms, preset `toon`, on the processor engine."
+        "- each figure: the median of {RUNS} frames in ms, on the processor engine; loading, welding and curvature happen before the clock starts"
     );
-    println!("Loading, welding and curvature happen before the clock starts.");
-    println!("Load average at the start: {}.\n", machine::load());
+    println!("- load average at the start: {}\n", machine::load());
 
-    let grid = measure_grid()?;
-    print_grid(&grid);
-    print_fit(&grid);
-    print_mask_scales()?;
+    let looks = Look::all()?;
+    println!("## Triangles and pixels [Okuya 2016, table 1]\n");
+    println!("A bumpy ball that fills the frame's height.\n");
+    for look in &looks {
+        let grid = measure_grid(look)?;
+        print_grid(look, &grid);
+        print_fit(&grid);
+    }
+    print_mask_scales(&looks)?;
     print_bunny()?;
     println!("Load average at the end: {}.", machine::load());
     Ok(())
@@ -71,7 +108,7 @@ fn report() -> Outcome<()> {
 /// Times every number of triangles at every size.
 ///
 /// Rounds over the whole grid, so that a minute in which the machine is busy touches all cells alike.
-fn measure_grid() -> Outcome<Vec<Sample>> {
+fn measure_grid(look: &Look) -> Outcome<Vec<Sample>> {
     let subjects = TRIANGLE_COUNTS
         .iter()
         .map(|count| Subject::ball(*count))
@@ -82,9 +119,9 @@ fn measure_grid() -> Outcome<Vec<Sample>> {
         .collect();
     let mut times = vec![Vec::new(); cells.len()];
     for round in 0..RUNS {
-        eprintln!("grid, round {} of {RUNS}", round + 1);
+        eprintln!("{}: round {} of {RUNS}", look.name, round + 1);
         for ((subject, size), times) in cells.iter().zip(&mut times) {
-            times.push(one_frame_ms(subject, *size)?);
+            times.push(one_frame_ms(subject, &look.style, *size)?);
         }
     }
     let samples = cells.iter().zip(times);
@@ -98,8 +135,8 @@ fn measure_grid() -> Outcome<Vec<Sample>> {
 }
 
 /// Time of the second frame of a new stage.
-fn one_frame_ms(subject: &Subject, size: [u32; 2]) -> Outcome<f64> {
-    let mut stage = subject.warm_stage(&Processor, &Style::default(), size)?;
+fn one_frame_ms(subject: &Subject, style: &Style, size: [u32; 2]) -> Outcome<f64> {
+    let mut stage = subject.warm_stage(&Processor, style, size)?;
     timed_frame(&mut stage, subject)
 }
 
@@ -117,49 +154,55 @@ fn timed_frame(stage: &mut Stage<'_>, subject: &Subject) -> Outcome<f64> {
     Ok(ms)
 }
 
-fn print_grid(samples: &[Sample]) {
+fn print_grid(look: &Look, samples: &[Sample]) {
     let head = SIZES.map(|[width, height]| format!("{width}x{height}"));
     let mut table = Table::new(std::iter::once("triangles".to_owned()).chain(head));
     for (count, row) in TRIANGLE_COUNTS.iter().zip(samples.chunks(SIZES.len())) {
         table.add(count.to_string(), row.iter().map(|sample| sample.ms));
     }
-    println!("## Triangles and pixels [Okuya 2016, table 1]\n");
-    println!("A bumpy ball that fills the frame's height.\n\n{table}");
+    println!("### Preset {}\n\n{}\n\n{table}", look.name, look.note);
 }
 
+/// Says whether the costs of triangles and of pixels add up.
 fn print_fit(samples: &[Sample]) {
-    let (Some(cost), Some(sum)) = (Cost::fit(samples), Cost::fit_sum(samples)) else {
+    let (Some(both), Some(sum)) = (Cost::fit(samples), Cost::fit_sum(samples)) else {
         return;
     };
-    let largest = [TRIANGLE_COUNTS[3] as f64, 1920.0 * 1080.0];
-    println!("## Do the two costs add up?\n");
+    println!("Least squares, T in 100 000 triangles, P in millions of pixels:\n");
+    println!("    t = {sum}    R^2 {:.4}", sum.r_squared);
+    println!("    t = {both}    R^2 {:.4}\n", both.r_squared);
+    let last = samples.len() - 1;
+    let steps =
+        [0, last + 1 - SIZES.len()].map(|row| samples[row + SIZES.len() - 1].ms - samples[row].ms);
     println!(
-        "Least squares over the table above, T in 100 000 triangles, P in millions of pixels:\n"
-    );
-    println!(
-        "    t = {:.2} + {:.2} T + {:.2} P            R^2 {:.4}",
-        sum.base_ms, sum.triangles_ms, sum.pixels_ms, sum.r_squared
-    );
-    println!(
-        "    t = {:.2} + {:.2} T + {:.2} P + {:.2} T P  R^2 {:.4}\n",
-        cost.base_ms, cost.triangles_ms, cost.pixels_ms, cost.product_ms, cost.r_squared
-    );
-    println!(
-        "The product makes up {:.1} % of the largest frame.\n",
-        100.0 * cost.product_share(largest[0], largest[1])
+        "From the smallest to the largest frame adds {:.1} ms at {} triangles and {:.1} ms at {}. \
+         In the largest frame of most triangles the product makes up {:.1} % of the time.\n",
+        steps[0],
+        TRIANGLE_COUNTS[0],
+        steps[1],
+        TRIANGLE_COUNTS[3],
+        100.0 * both.product_share(samples[last].triangles, samples[last].pixels)
     );
 }
 
-fn print_mask_scales() -> Outcome<()> {
+fn print_mask_scales(looks: &[Look]) -> Outcome<()> {
     let subject = Subject::ball(TRIANGLE_COUNTS[3])?;
-    let mut table = Table::new(["mask", "detect.scale", "ms"]);
+    let mut table = Table::new([
+        "mask",
+        "detect.scale",
+        "okuya, 1 sample",
+        "technical",
+        "toon",
+    ]);
     for scale in MASK_SCALES {
         eprintln!("mask scale {scale}");
-        let mut style = Style::default();
-        style.detect.scale = scale;
-        let height = 1080.0 / scale;
-        let ms = median_frame_ms(&subject, &style, FULL_HD)?;
-        table.add(format!("{height:.0} rows"), [f64::from(scale), ms]);
+        let mut row = vec![f64::from(scale)];
+        for look in looks {
+            let mut style = look.style.clone();
+            style.detect.scale = scale;
+            row.push(median_frame_ms(&subject, &style, FULL_HD)?);
+        }
+        table.add(format!("{:.0} rows", 1080.0 / scale), row);
     }
     println!("## Size of the mask [Okuya 2016, table 2]\n");
     println!(
@@ -179,7 +222,7 @@ fn print_bunny() -> Outcome<()> {
     let mut stage = subject.warm_stage(&Processor, &style, FULL_HD)?;
     let frame = stage.draw(&subject.camera)?;
     drop(stage);
-    println!("## A scanned bunny at 1920x1080\n");
+    println!("## A scanned bunny at 1920x1080, preset `toon`\n");
     println!(
         "- {} triangles, framed as the command frames it",
         subject.model.triangle_count()

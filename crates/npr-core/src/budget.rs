@@ -41,9 +41,7 @@ impl Budget {
         count: usize,
         element_bytes: usize,
     ) -> Result<(), OverBudget> {
-        let needed = (count as u64)
-            .checked_mul(element_bytes as u64)
-            .unwrap_or(u64::MAX);
+        let needed = (count as u64).saturating_mul(element_bytes as u64);
         let left = self.limit_bytes - self.used_bytes;
         if needed > left {
             return Err(OverBudget {

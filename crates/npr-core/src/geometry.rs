@@ -25,7 +25,7 @@ pub struct Vertex {
     pub direction: u32,
     /// Texture coordinates of the base colour texture.
     pub uv: [f32; 2],
-    /// Principal curvatures in the world, in 1 / length; positive is convex.
+    /// Principal curvatures in the world, in 1 / bounding radius of the scene; positive is convex.
     pub curvatures: [f32; 2],
     /// Unit normal averaged over all vertices at this position, packed: hulls grow along it without cracks.
     pub weld_normal: u32,

@@ -143,6 +143,9 @@ enum Cull {
     Fronts,
 }
 
+/// Distance of a clip position from a plane, positive inside.
+type Distance<'a> = &'a dyn Fn(&[f32; 4]) -> f32;
+
 /// The part of a triangle in front of the near plane and within the guard band, as a convex polygon.
 fn clipped(clip: [[f32; 4]; 3], size: [u32; 2]) -> Vec<[f32; 4]> {
     let guard = size.map(|n| 1.0 + 2.0 * GUARD_PX / n as f32);
@@ -157,7 +160,7 @@ fn clipped(clip: [[f32; 4]; 3], size: [u32; 2]) -> Vec<[f32; 4]> {
         return polygon;
     }
     // Distances to the planes: near (reversed depth 1), left, right, bottom, top, and far (depth 0).
-    let planes: [&dyn Fn(&[f32; 4]) -> f32; 6] = [
+    let planes: [Distance<'_>; 6] = [
         &|v| v[3] - v[2],
         &|v| guard[0] * v[3] + v[0],
         &|v| guard[0] * v[3] - v[0],
@@ -173,7 +176,7 @@ fn clipped(clip: [[f32; 4]; 3], size: [u32; 2]) -> Vec<[f32; 4]> {
 }
 
 /// Sutherland and Hodgman's clip against one plane.
-fn clip_polygon(polygon: &[[f32; 4]], distance: &dyn Fn(&[f32; 4]) -> f32) -> Vec<[f32; 4]> {
+fn clip_polygon(polygon: &[[f32; 4]], distance: Distance<'_>) -> Vec<[f32; 4]> {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     for (i, here) in polygon.iter().enumerate() {
         let next = &polygon[(i + 1) % polygon.len()];

@@ -98,7 +98,9 @@ fn clear_targets(node: &Node, written: &[ResourceId], lent: &mut [Vec<u32>]) {
     let targets = &node.bound[node.pass.slots.len()..];
     for (id, words) in written.iter().zip(lent) {
         if targets.contains(id) {
-            words.par_chunks_mut(1 << 16).for_each(|chunk| chunk.fill(0));
+            words
+                .par_chunks_mut(1 << 16)
+                .for_each(|chunk| chunk.fill(0));
         }
     }
 }

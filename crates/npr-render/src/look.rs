@@ -10,10 +10,9 @@ use npr_core::outline::{Outline, width_of_curvature};
 use npr_core::texture::{self, TextureStore, Wrap};
 use npr_core::window::View;
 use npr_style::compose::Compose;
-use npr_style::{Background, LightSpace, LineMethod, Look, ShadeMode, Style, Unit, WidthSource};
-
-/// Coordinate of a ramp step that is never reached.
-const UNUSED_STEP: f32 = 2.0;
+use npr_style::{
+    Background, Level, LightSpace, LineMethod, Look, ShadeMode, Style, Unit, WidthSource,
+};
 
 /// Everything a style decides before the camera is known.
 #[derive(Debug, Clone)]
@@ -95,7 +94,7 @@ fn part(info: &PartInfo, style: &Style) -> Part {
 
 /// The tones of a look, as rows of light and start.
 fn ramp(look: &Look<'_>) -> [[f32; 4]; 8] {
-    let mut rows = [[1.0, 1.0, 1.0, UNUSED_STEP]; 8];
+    let mut rows = [[1.0, 1.0, 1.0, Level::UNUSED]; 8];
     for (row, stop) in rows.iter_mut().zip(look.ramp) {
         let level = stop.level();
         *row = [level.light[0], level.light[1], level.light[2], level.at];
@@ -128,7 +127,6 @@ fn styled_vertices(model: &Model, style: &Style, options: &StageOptions) -> Vec<
 struct VertexWidth<'a> {
     model: &'a Model,
     style: &'a Style,
-    radius: f32,
     /// The width picture, with where it starts.
     image: Option<(TextureStore, u32)>,
 }
@@ -143,7 +141,6 @@ impl<'a> VertexWidth<'a> {
         Self {
             model,
             style,
-            radius: model.radius(),
             image,
         }
     }
@@ -155,7 +152,7 @@ impl<'a> VertexWidth<'a> {
             WidthSource::Constant | WidthSource::ProjectedCurvature => 1.0,
             WidthSource::Curvature => {
                 let largest = vertex.curvatures[0].abs().max(vertex.curvatures[1].abs());
-                width_of_curvature(largest * self.radius, width.gain)
+                width_of_curvature(largest, width.gain)
             }
             WidthSource::VertexColor => {
                 f32::from(vertex.color.to_le_bytes()[width.channel.index()]) / 255.0
@@ -190,7 +187,11 @@ pub(crate) fn base_px(style: &Style, options: &StageOptions, world_px: f32) -> f
     let base = style.line.width.base;
     let px = base.to_px(options.size[1] as f32, options.dpi, world_px);
     let follows_frame = matches!(base.unit, Unit::RefPx | Unit::FrameHeight);
-    if follows_frame && base.value > 0.0 { px.max(THINNEST_PX) } else { px }
+    if follows_frame && base.value > 0.0 {
+        px.max(THINNEST_PX)
+    } else {
+        px
+    }
 }
 
 /// The outline settings of a style.

@@ -86,7 +86,16 @@ impl Model {
         model.notices.extend(textures.notice.take());
         model.textures = textures.store;
         model.bounds = model.posed_bounds();
+        model.relate_curvatures();
         Ok(model)
+    }
+
+    /// Expresses curvatures in 1 / bounding radius, so that a larger copy of a scene has the same lines.
+    fn relate_curvatures(&mut self) {
+        let radius = self.radius();
+        for vertex in &mut self.vertices {
+            vertex.curvatures = vertex.curvatures.map(|curvature| curvature * radius);
+        }
     }
 
     fn add_node(

@@ -5,8 +5,7 @@ use npr_core::color::{SrgbEncoder, pack_rgba8};
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
 use npr_core::gpu_layout;
 use npr_core::outline::MASK_KINDS;
-use npr_core::raster::{HULL_BIT, ID_MASK};
-use npr_core::surface::{blend2, blend3, dot, faces_eye, unit_or_z, weights_at};
+use npr_core::raster::HULL_BIT;
 use npr_core::texture;
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
@@ -54,12 +53,6 @@ impl Compose {
     pub const STAMPS: u32 = 8;
 }
 
-/// How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
-const TONE_ROOM: f32 = 0.002;
-
-/// Share of each channel in luminance [ITU-R BT.709].
-const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
-
 /// What a frame is composed from.
 #[derive(Debug, Clone, Copy)]
 pub struct Layers<'a> {
@@ -99,32 +92,21 @@ pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
     let encoder = SrgbEncoder::new();
     let evens = layers.even_colors();
     let width = layers.window.size[0] as usize;
-    frame.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-        let mut composer = Composer {
-            layers,
-            encoder: &encoder,
-            evens: &evens,
-            empty: layers.empty_texel(&encoder),
-            last: (0, 0),
-        };
-        for (x, texel) in row.iter_mut().enumerate() {
-            *texel = composer.texel(x as u32, y as u32);
-        }
-    });
-}
-
-/// A triangle's corners, and 1 where its front is seen or -1 where its back is.
-#[derive(Debug, Clone, Copy)]
-struct Corners<'a> {
-    posed: [&'a PosedVertex; 3],
-    clip: [[f32; 4]; 3],
-    side: f32,
-}
-
-impl Corners<'_> {
-    fn normal(&self, weights: [f32; 3]) -> [f32; 3] {
-        unit_or_z(blend3(weights, self.posed.map(|v| v.normal))).map(|v| v * self.side)
-    }
+    frame
+        .par_chunks_mut(width)
+        .enumerate()
+        .for_each(|(y, row)| {
+            let mut composer = Composer {
+                layers,
+                encoder: &encoder,
+                evens: &evens,
+                empty: layers.empty_texel(&encoder),
+                last: (0, 0),
+            };
+            for (x, texel) in row.iter_mut().enumerate() {
+                *texel = composer.texel(x as u32, y as u32);
+            }
+        });
 }
 
 /// Triangle numbers of a pixel's samples.
@@ -160,12 +142,13 @@ impl Composer<'_> {
         let frame_px = self.layers.window.frame_at(x, y);
         let seen = self.layers.samples_of(x, y);
         let lines = self.layers.lines_at(x, y, frame_px);
-        if lines == [0; 3] && seen.iter().all(|id| *id == seen[0]) {
-            if let Some(texel) = self.even_texel(seen[0]) {
-                return texel;
-            }
+        let whole = lines == [0; 3] && seen.iter().all(|id| *id == seen[0]);
+        if whole && let Some(texel) = self.even_texel(seen[0]) {
+            return texel;
         }
-        let mut color = self.even_surfaces(&seen).unwrap_or_else(|| self.surfaces(&seen, frame_px));
+        let mut color = self
+            .even_surfaces(&seen)
+            .unwrap_or_else(|| self.surfaces(&seen, frame_px));
         if color[3] < 1.0 {
             let behind = self.layers.background(frame_px);
             let left = 1.0 - color[3];
@@ -218,14 +201,21 @@ impl Composer<'_> {
             if left & (1 << i) == 0 {
                 continue;
             }
-            let members = (i..count).filter(|j| seen[*j] == seen[i]).fold(0, |bits, j| bits | 1 << j);
+            let members = (i..count)
+                .filter(|j| seen[*j] == seen[i])
+                .fold(0, |bits, j| bits | 1 << j);
             left &= !members;
             if seen[i] == 0 {
                 continue;
             }
             let share = members.count_ones() as f32 / count as f32;
             let [r, g, b] = self.layers.shade(seen[i], members, frame_px);
-            sum = [sum[0] + r * share, sum[1] + g * share, sum[2] + b * share, sum[3] + share];
+            sum = [
+                sum[0] + r * share,
+                sum[1] + g * share,
+                sum[2] + b * share,
+                sum[3] + share,
+            ];
         }
         sum
     }
@@ -288,178 +278,6 @@ impl<'a> Layers<'a> {
         self.mask[(at[1] * self.mask_window.size[0] + at[0]) as usize] & MASK_KINDS != 0
     }
 
-    /// Colour of every triangle that has one colour all over, marked by a 1 in alpha.
-    fn even_colors(&self) -> Vec<[f32; 4]> {
-        let even = |triangle| self.even_color(triangle).map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]);
-        self.triangles.par_iter().with_min_len(1024).map(even).collect()
-    }
-
-    /// The colour of a triangle that lies in one tone and has neither texture nor vertex colours.
-    fn even_color(&self, triangle: &Triangle) -> Option<[f32; 3]> {
-        let part = &self.parts[triangle.part as usize];
-        let white = |v: &u32| self.vertices[*v as usize].color | 0xff00_0000 == u32::MAX;
-        if part.texture != NONE || !triangle.corners.iter().all(white) {
-            return None;
-        }
-        let light = self.one_tone(part, &self.corners_of(triangle))?;
-        let [r, g, b, _] = part.base_color;
-        let base = self.strengthened([r, g, b]);
-        Some(std::array::from_fn(|i| base[i] * light[i]))
-    }
-
-    /// The light on a triangle that lies within one tone as a whole.
-    fn one_tone(&self, part: &Part, corners: &Corners<'_>) -> Option<[f32; 3]> {
-        let angle = self.compose.flags & Compose::ANGLE != 0;
-        let one = !angle && self.is_one_tone(part, corners);
-        one.then(|| self.light_of(part, corners.posed[0].normal.map(|n| n * corners.side)))
-    }
-
-    /// Light of what the samples in `members` show, a triangle or its hull.
-    fn shade(&self, id: u32, members: u32, frame_px: [f32; 2]) -> [f32; 3] {
-        let triangle = &self.triangles[((id & ID_MASK) - 1) as usize];
-        let part = &self.parts[triangle.part as usize];
-        let [line_r, line_g, line_b, _] = self.linear_of(part.line_color);
-        let line = [line_r, line_g, line_b];
-        if id & HULL_BIT != 0 {
-            return line;
-        }
-        let count = members.count_ones() as f32;
-        let samples = (0..4).filter(|i| members & (1 << i) != 0);
-        let mut center = frame_px;
-        for i in samples.clone() {
-            let offset = self.sample_offset(i);
-            center = [center[0] + offset[0] / count, center[1] + offset[1] / count];
-        }
-        let corners = self.corners_of(triangle);
-        let tone = match self.one_tone(part, &corners) {
-            Some([r, g, b]) => [r, g, b, 0.0],
-            None => samples.fold([0.0; 4], |sum, i| {
-                let offset = self.sample_offset(i);
-                let tone = self.tone_at(part, &corners, [frame_px[0] + offset[0], frame_px[1] + offset[1]]);
-                std::array::from_fn(|k| sum[k] + tone[k] / count)
-            }),
-        };
-        let base = self.strengthened(self.plain_color(triangle, part, &corners, center));
-        std::array::from_fn(|i| {
-            let lit = base[i] * tone[i];
-            lit + (line[i] - lit) * tone[3]
-        })
-    }
-
-    /// Position of sample `i` within a pixel, from its centre.
-    fn sample_offset(&self, i: u32) -> [f32; 2] {
-        if self.compose.samples == 1 {
-            return [0.0; 2];
-        }
-        [(i & 1) as f32 * 0.5 - 0.25, (i >> 1) as f32 * 0.5 - 0.25]
-    }
-
-    fn corners_of(&self, triangle: &Triangle) -> Corners<'a> {
-        let posed = triangle.corners.map(|v| &self.posed[v as usize]);
-        let clip = posed.map(|v| v.clip);
-        Corners {
-            posed,
-            clip,
-            side: if faces_eye(clip) { 1.0 } else { -1.0 },
-        }
-    }
-
-    /// Tone and ink at one point: rgb light, and 1 where the surface-angle method draws a line.
-    fn tone_at(&self, part: &Part, corners: &Corners<'_>, frame_px: [f32; 2]) -> [f32; 4] {
-        let angle = self.compose.flags & Compose::ANGLE != 0 && part.flags & Part::LINES != 0;
-        let weights = weights_at(corners.clip, self.view.ndc_at(frame_px));
-        let normal = corners.normal(weights);
-        let light = self.light_of(part, normal);
-        let mut ink = 0.0;
-        if angle {
-            let world = blend3(weights, corners.posed.map(|v| v.world));
-            if dot(normal, self.view.to_eye(world)).abs() < part.facing_threshold {
-                ink = 1.0;
-            }
-        }
-        [light[0], light[1], light[2], ink]
-    }
-
-    /// Light on a surface that faces along `normal`.
-    fn light_of(&self, part: &Part, normal: [f32; 3]) -> [f32; 3] {
-        if part.flags & Part::UNLIT != 0 {
-            [1.0; 3]
-        } else {
-            ramp_light(part, self.ramp_coordinate(normal))
-        }
-    }
-
-    /// The Lambert term mapped from -1..1 to 0..1 [Suzuki 2004, section 3.2].
-    fn ramp_coordinate(&self, normal: [f32; 3]) -> f32 {
-        (dot(normal, self.compose.light_world) + 1.0) * 0.5
-    }
-
-    /// Whether the whole triangle lies within one tone.
-    fn is_one_tone(&self, part: &Part, corners: &Corners<'_>) -> bool {
-        if part.flags & Part::UNLIT != 0 {
-            return true;
-        }
-        let at = corners.posed.map(|v| self.ramp_coordinate(v.normal.map(|n| n * corners.side)));
-        // A blend of normals that is made unit again bulges beyond them by at most what they differ.
-        let [a, b, c] = corners.posed.map(|v| v.normal);
-        let bulge = 0.5 * (1.0 - dot(a, b).min(dot(b, c)).min(dot(c, a)));
-        let room = TONE_ROOM + bulge + part.softness * 0.5;
-        let low = at[0].min(at[1]).min(at[2]) - room;
-        let high = at[0].max(at[1]).max(at[2]) + room;
-        !part.ramp[1..]
-            .iter()
-            .any(|stop| stop[3] > low && stop[3] <= high)
-    }
-
-    /// A colour as strong as the style wants it.
-    fn strengthened(&self, color: [f32; 3]) -> [f32; 3] {
-        let saturation = self.compose.saturation;
-        if saturation == 1.0 {
-            return color;
-        }
-        let luma = dot(color, LUMA);
-        color.map(|v| (luma + (v - luma) * saturation).max(0.0))
-    }
-
-    /// Surface colour without light.
-    fn plain_color(
-        &self,
-        triangle: &Triangle,
-        part: &Part,
-        corners: &Corners<'_>,
-        frame_px: [f32; 2],
-    ) -> [f32; 3] {
-        let vertices = triangle.corners.map(|v| &self.vertices[v as usize]);
-        let [r, g, b, _] = part.base_color;
-        let weights = weights_at(corners.clip, self.view.ndc_at(frame_px));
-        let tint = blend3(
-            weights,
-            vertices.map(|v| {
-                let [r, g, b, _] = self.linear_texel(v.color);
-                [r, g, b]
-            }),
-        );
-        let color = [r * tint[0], g * tint[1], b * tint[2]];
-        if part.texture == NONE {
-            return color;
-        }
-        let uvs = vertices.map(|v| v.uv);
-        let uv_near = |dx: f32, dy: f32| {
-            blend2(
-                weights_at(
-                    corners.clip,
-                    self.view.ndc_at([frame_px[0] + dx, frame_px[1] + dy]),
-                ),
-                uvs,
-            )
-        };
-        let (uv, right, down) = (blend2(weights, uvs), uv_near(1.0, 0.0), uv_near(0.0, 1.0));
-        let square = |there: [f32; 2]| (there[0] - uv[0]).powi(2) + (there[1] - uv[1]).powi(2);
-        let footprint = square(right).max(square(down)).sqrt();
-        let texel = texture::sample(self.texels, part.texture, uv, footprint);
-        std::array::from_fn(|i| color[i] * texel[i])
-    }
-
     /// What lies behind everything, premultiplied.
     fn background(&self, frame_px: [f32; 2]) -> [f32; 4] {
         let mut color = self.compose.background;
@@ -480,35 +298,13 @@ impl<'a> Layers<'a> {
         [r * a, g * a, b * a, a]
     }
 
-    fn linear_of(&self, srgb: [f32; 4]) -> [f32; 4] {
+    pub(crate) fn linear_of(&self, srgb: [f32; 4]) -> [f32; 4] {
         self.linear_texel(pack_rgba8(srgb))
     }
 
-    fn linear_texel(&self, texel: u32) -> [f32; 4] {
+    pub(crate) fn linear_texel(&self, texel: u32) -> [f32; 4] {
         texture::linear_texel(self.texels, texel)
     }
-}
-
-/// Light of a part's ramp at coordinate `x`: each step takes over where its coordinate begins, over `softness`.
-pub fn ramp_light(part: &Part, x: f32) -> [f32; 3] {
-    let [r, g, b, _] = part.ramp[0];
-    let mut light = [r, g, b];
-    for stop in &part.ramp[1..] {
-        if stop[3] > 1.5 {
-            break;
-        }
-        let share = step_share(stop[3], part.softness, x);
-        light = std::array::from_fn(|i| light[i] + (stop[i] - light[i]) * share);
-    }
-    light
-}
-
-fn step_share(at: f32, softness: f32, x: f32) -> f32 {
-    if softness <= 0.0 {
-        return if x >= at { 1.0 } else { 0.0 };
-    }
-    let t = ((x - at) / softness + 0.5).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }
 
 /// A straight-alpha layer laid over a premultiplied one.
@@ -523,4 +319,80 @@ fn over(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
         top[2] * a + below[2] * (1.0 - a),
         a + below[3] * (1.0 - a),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use npr_core::texture::TextureStore;
+    use proptest::prelude::*;
+
+    /// A frame of 4x4 pixels without triangles.
+    fn empty_frame(compose_settings: &Compose, ribbons: &[u32]) -> Vec<u32> {
+        let view = View {
+            frame_px: [4.0; 2],
+            ..View::default()
+        };
+        let window = Window::over([4.0; 2], [0.0; 2], [4.0; 2], [4, 4]);
+        let store = TextureStore::new();
+        let layers = Layers {
+            view: &view,
+            window: &window,
+            mask_window: &window,
+            compose: compose_settings,
+            ids: &[0; 64],
+            ribbons,
+            posed: &[],
+            vertices: &[],
+            triangles: &[],
+            parts: &[],
+            texels: store.words(),
+            mask: &[0; 16],
+            stamped: &[0; 16],
+        };
+        let mut frame = vec![0; 16];
+        compose(&layers, &mut frame);
+        frame
+    }
+
+    fn plain(background: [f32; 4]) -> Compose {
+        Compose {
+            samples: 2,
+            background,
+            background_texture: NONE,
+            saturation: 1.0,
+            ..Compose::default()
+        }
+    }
+
+    #[test]
+    fn nothing_shows_the_background() {
+        assert_eq!(
+            empty_frame(&plain([1.0, 0.0, 0.0, 1.0]), &[0; 16]),
+            [0xff00_00ff; 16]
+        );
+        assert_eq!(empty_frame(&plain([0.0; 4]), &[0; 16]), [0; 16]);
+    }
+
+    #[test]
+    fn a_line_over_nothing_keeps_its_own_coverage() {
+        let settings = Compose {
+            flags: Compose::RIBBONS,
+            ..plain([0.0; 4])
+        };
+        assert_eq!(
+            empty_frame(&settings, &[0x8010_2030; 16]),
+            [0x8010_2030; 16]
+        );
+    }
+
+    proptest! {
+        #[test]
+        fn a_layer_over_another_never_lightens_coverage(top in prop::array::uniform4(0f32..1.0), below in prop::array::uniform4(0f32..1.0)) {
+            let premultiplied = [below[0] * below[3], below[1] * below[3], below[2] * below[3], below[3]];
+            let both = over(top, premultiplied);
+            prop_assert!(both[3] >= top[3].max(below[3]) - 1e-6 && both[3] <= 1.0 + 1e-6);
+            prop_assert!(both[..3].iter().all(|c| *c >= 0.0 && *c <= both[3] + 1e-6));
+        }
+    }
 }

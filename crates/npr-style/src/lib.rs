@@ -51,6 +51,7 @@ mod schema;
 mod set;
 mod shade;
 mod style;
+mod tone;
 pub mod width;
 
 pub use antialias::Antialias;

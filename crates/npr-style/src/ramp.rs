@@ -28,12 +28,18 @@ pub struct Stop {
 }
 
 /// A stop ready for arithmetic: one row of four floats, as passes read it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Level {
-    /// Where the tone begins on the ramp, 0..1.
-    pub at: f32,
     /// What linear light, red, green and blue, is multiplied by.
     pub light: [f32; 3],
+    /// Where the tone begins on the ramp, 0..1; a level of [`Level::UNUSED`] and all after it never begin.
+    pub at: f32,
+}
+
+impl Level {
+    /// A place that no ramp reaches: fills up rows of fixed length.
+    pub const UNUSED: f32 = 2.0;
 }
 
 impl Stop {
@@ -74,7 +80,8 @@ pub fn ramp_light(levels: &[Level], softness: f32, x: f32) -> [f32; 3] {
         return [1.0; 3];
     };
     let half = softness * 0.5;
-    later.iter().fold(first.light, |below, level| {
+    let used = later.iter().take_while(|level| level.at < Level::UNUSED);
+    used.fold(first.light, |below, level| {
         let t = math::smoothstep(level.at - half, level.at + half, x);
         std::array::from_fn(|i| math::mix(below[i], level.light[i], t))
     })

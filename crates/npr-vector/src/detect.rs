@@ -21,21 +21,21 @@ pub struct Detection<'a> {
     pub outline: &'a Outline,
     /// Parts: those without lines are not separated from each other.
     pub parts: &'a [Part],
-    /// How far apart packed normals may lie and surely pass the threshold, by [`quiet_distance`].
-    pub quiet_distance: u32,
 }
 
 /// Distance of packed normals up to which they surely turn less than the outline's normal threshold.
 ///
 /// On the octahedron a step is at most sqrt(2) times as long as the sum of its packed coordinates, and seen from the middle,
 /// at least 1 / sqrt(3) away, it spans at most 2.45 radians per unit. Most pixels are settled by this alone.
-pub fn quiet_distance(outline: &Outline) -> u32 {
+fn quiet_distance(outline: &Outline) -> u32 {
     (math::acos(outline.normal_cos.clamp(-1.0, 1.0)) / 2.5 * 32767.0) as u32
 }
 
 /// Sum of the differences of two packed normals' coordinates.
 fn packed_distance(a: u32, b: u32) -> u32 {
-    let part = |shift: u32| u32::from((((a << shift) as i32 >> 16) as i16).abs_diff(((b << shift) as i32 >> 16) as i16));
+    let part = |shift: u32| {
+        u32::from((((a << shift) as i32 >> 16) as i16).abs_diff(((b << shift) as i32 >> 16) as i16))
+    };
     part(16) + part(0)
 }
 
@@ -52,20 +52,31 @@ fn packed_distance(a: u32, b: u32) -> u32 {
 /// O(pixels), parallel over rows.
 pub fn detect(with: &Detection<'_>, gbuffer: &[GPixel], mask: &mut [u32]) {
     let width = with.window.size[0] as usize;
+    let detector = Detector {
+        quiet_distance: quiet_distance(with.outline),
+        with,
+    };
     mask.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
         row.fill(0);
         let line = |y: usize| &gbuffer[y * width..(y + 1) * width];
-        with.mark_along(line(y), row);
+        detector.mark_along(line(y), row);
         if y > 0 {
-            with.mark_across(line(y), line(y - 1), -1.0, row);
+            detector.mark_across(line(y), line(y - 1), -1.0, row);
         }
         if (y + 1) * width < gbuffer.len() {
-            with.mark_across(line(y), line(y + 1), 1.0, row);
+            detector.mark_across(line(y), line(y + 1), 1.0, row);
         }
     });
 }
 
-impl Detection<'_> {
+/// A detection with what need not be worked out for every pixel.
+struct Detector<'a> {
+    with: &'a Detection<'a>,
+    /// How far apart packed normals may lie and surely pass the threshold.
+    quiet_distance: u32,
+}
+
+impl Detector<'_> {
     /// Marks what neighbours in a row find; each pair is compared once for both of its pixels.
     fn mark_along(&self, line: &[GPixel], row: &mut [u32]) {
         for x in 1..line.len() {
@@ -104,7 +115,7 @@ impl Detection<'_> {
 
     /// Which buffers separate two neighbours.
     fn separations(&self, here: &GPixel, there: &GPixel, step: [f32; 2]) -> u32 {
-        let outline = self.outline;
+        let outline = self.with.outline;
         if here.part == NONE && there.part == NONE {
             return 0;
         }
@@ -121,7 +132,8 @@ impl Detection<'_> {
         if self.jumps(here, there, step) {
             found |= Outline::DEPTH;
         }
-        let quiet = here.part == there.part && packed_distance(here.normal, there.normal) < self.quiet_distance;
+        let quiet = here.part == there.part
+            && packed_distance(here.normal, there.normal) < self.quiet_distance;
         if !quiet {
             let turn = dot(
                 math::unpack_unit(here.normal),
@@ -142,12 +154,13 @@ impl Detection<'_> {
 
     /// Whether depth jumps between two neighbours, by the threshold's share of the frame's height.
     fn jumps(&self, here: &GPixel, there: &GPixel, step: [f32; 2]) -> bool {
-        let least = self.outline.depth_threshold * self.view.height_at(here.depth.min(there.depth));
+        let least = self.with.outline.depth_threshold
+            * self.with.view.height_at(here.depth.min(there.depth));
         if (here.depth - there.depth).abs() <= least {
             return false;
         }
         let back = step.map(|v| -v);
-        self.outline.detects & Outline::PLANE_DEPTH == 0
+        self.with.outline.detects & Outline::PLANE_DEPTH == 0
             || (self.plane_gap(here, there, step) > least
                 && self.plane_gap(there, here, back) > least)
     }
@@ -155,19 +168,20 @@ impl Detection<'_> {
     /// How far `there` lies from the tangent plane of `here`, one pixel along `step`, in depth.
     fn plane_gap(&self, here: &GPixel, there: &GPixel, step: [f32; 2]) -> f32 {
         let change = here.plane_step[0] * step[0] + here.plane_step[1] * step[1];
-        let coordinate = self.view.plane_coordinate(here.depth) + change;
-        (self.view.depth_of_coordinate(coordinate) - there.depth).abs()
+        let coordinate = self.with.view.plane_coordinate(here.depth) + change;
+        (self.with.view.depth_of_coordinate(coordinate) - there.depth).abs()
     }
 
     /// Whether a surface turns away so far that its normals change from pixel to pixel without any crease.
     fn is_grazing(&self, pixel: &GPixel) -> bool {
-        self.view
-            .slope_of(self.window, pixel.depth, pixel.plane_step)
+        self.with
+            .view
+            .slope_of(self.with.window, pixel.depth, pixel.plane_step)
             > GRAZING_SLOPE
     }
 
     fn has_lines(&self, pixel: &GPixel) -> bool {
-        pixel.part != NONE && self.parts[pixel.part as usize].flags & Part::LINES != 0
+        pixel.part != NONE && self.with.parts[pixel.part as usize].flags & Part::LINES != 0
     }
 }
 

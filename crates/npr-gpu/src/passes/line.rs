@@ -4,7 +4,7 @@ use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
 use npr_core::geometry::{Edge, GPixel, Part, PosedVertex, Stamp, Triangle};
 use npr_core::outline::Outline;
 use npr_core::window::{View, Window};
-use npr_vector::detect::{Detection, detect, quiet_distance};
+use npr_vector::detect::{Detection, detect};
 use npr_vector::gbuffer::{Surfaces, resolve};
 use npr_vector::residual::{self, Inking, Search};
 use npr_vector::ribbon::{self, Drawing};
@@ -58,7 +58,6 @@ pub const DETECT: Pass = Pass {
             window: &window,
             outline: &outline,
             parts: b.read(3),
-            quiet_distance: quiet_distance(&outline),
         };
         detect(&with, b.read(4), b.write(5));
     },
