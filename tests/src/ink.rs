@@ -4,6 +4,9 @@ use crate::Wanted;
 use npr_core::math;
 use npr_render::Frame;
 
+/// The sRGB byte of half the light of white.
+const HALF_COVERED: u8 = 188;
+
 /// The dark pixels of a drawing on white paper.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ink {
@@ -13,14 +16,9 @@ pub struct Ink {
 }
 
 impl Ink {
-    /// Pixels darker than half way between black and white.
+    /// Pixels that black covers by more than half; they mix with the paper in linear light.
     pub fn of(frame: &Frame) -> Self {
-        Self::darker_than(frame, 128)
-    }
-
-    /// Pixels whose green is below `level` of 255.
-    pub fn darker_than(frame: &Frame, level: u8) -> Self {
-        let dark = frame.rgba.chunks_exact(4).map(|pixel| pixel[1] < level);
+        let dark = frame.rgba.chunks_exact(4).map(|pixel| pixel[1] < HALF_COVERED);
         Self {
             size: frame.size,
             dark: dark.collect(),

@@ -105,53 +105,61 @@ fn report() -> Outcome<()> {
     Ok(())
 }
 
-/// Times every number of triangles at every size.
+/// What is timed for one figure.
+struct Cell<'a> {
+    subject: &'a Subject,
+    style: &'a Style,
+    size: [u32; 2],
+}
+
+impl Cell<'_> {
+    /// Time of the second frame of a new stage.
+    fn frame_ms(&self) -> Outcome<f64> {
+        let mut stage = self.subject.warm_stage(&Processor, self.style, self.size)?;
+        let mut drawn = Ok(());
+        let ms = elapsed_ms(|| drawn = stage.draw(&self.subject.camera).map(drop));
+        drawn?;
+        Ok(ms)
+    }
+}
+
+/// The median time of every cell.
 ///
-/// Rounds over the whole grid, so that a minute in which the machine is busy touches all cells alike.
+/// Rounds over all cells, so that a minute in which the machine is busy touches them alike.
+fn median_times(what: &str, cells: &[Cell<'_>]) -> Outcome<Vec<f64>> {
+    let mut times = vec![Vec::new(); cells.len()];
+    for round in 0..RUNS {
+        eprintln!("{what}: round {} of {RUNS}", round + 1);
+        for (cell, times) in cells.iter().zip(&mut times) {
+            times.push(cell.frame_ms()?);
+        }
+    }
+    Ok(times.into_iter().map(median).collect())
+}
+
+/// Times every number of triangles at every size.
 fn measure_grid(look: &Look) -> Outcome<Vec<Sample>> {
     let subjects = TRIANGLE_COUNTS
         .iter()
         .map(|count| Subject::ball(*count))
         .collect::<Result<Vec<_>, _>>()?;
-    let cells: Vec<(&Subject, [u32; 2])> = subjects
-        .iter()
-        .flat_map(|subject| SIZES.map(|size| (subject, size)))
-        .collect();
-    let mut times = vec![Vec::new(); cells.len()];
-    for round in 0..RUNS {
-        eprintln!("{}: round {} of {RUNS}", look.name, round + 1);
-        for ((subject, size), times) in cells.iter().zip(&mut times) {
-            times.push(one_frame_ms(subject, &look.style, *size)?);
-        }
-    }
+    let of_subject = |subject| {
+        SIZES.map(|size| Cell {
+            subject,
+            style: &look.style,
+            size,
+        })
+    };
+    let cells: Vec<Cell> = subjects.iter().flat_map(of_subject).collect();
+    let times = median_times(look.name, &cells)?;
     let samples = cells.iter().zip(times);
     Ok(samples
-        .map(|((subject, size), times)| Sample {
-            triangles: subject.model.triangle_count() as f64,
-            pixels: f64::from(size[0]) * f64::from(size[1]),
-            ms: median(times),
+        .map(|(cell, ms)| Sample {
+            triangles: cell.subject.model.triangle_count() as f64,
+            pixels: f64::from(cell.size[0]) * f64::from(cell.size[1]),
+            ms,
         })
         .collect())
-}
-
-/// Time of the second frame of a new stage.
-fn one_frame_ms(subject: &Subject, style: &Style, size: [u32; 2]) -> Outcome<f64> {
-    let mut stage = subject.warm_stage(&Processor, style, size)?;
-    timed_frame(&mut stage, subject)
-}
-
-/// Median time of some frames of one stage.
-fn median_frame_ms(subject: &Subject, style: &Style, size: [u32; 2]) -> Outcome<f64> {
-    let mut stage = subject.warm_stage(&Processor, style, size)?;
-    let times = (0..RUNS).map(|_| timed_frame(&mut stage, subject));
-    Ok(median(times.collect::<Outcome<_>>()?))
-}
-
-fn timed_frame(stage: &mut Stage<'_>, subject: &Subject) -> Outcome<f64> {
-    let mut drawn = Ok(());
-    let ms = elapsed_ms(|| drawn = stage.draw(&subject.camera).map(drop));
-    drawn?;
-    Ok(ms)
 }
 
 fn print_grid(look: &Look, samples: &[Sample]) {
@@ -187,22 +195,27 @@ fn print_fit(samples: &[Sample]) {
 
 fn print_mask_scales(looks: &[Look]) -> Outcome<()> {
     let subject = Subject::ball(TRIANGLE_COUNTS[3])?;
-    let mut table = Table::new([
-        "mask",
-        "detect.scale",
-        "okuya, 1 sample",
-        "technical",
-        "toon",
-    ]);
-    for scale in MASK_SCALES {
-        eprintln!("mask scale {scale}");
-        let mut row = vec![f64::from(scale)];
-        for look in looks {
-            let mut style = look.style.clone();
-            style.detect.scale = scale;
-            row.push(median_frame_ms(&subject, &style, FULL_HD)?);
-        }
-        table.add(format!("{:.0} rows", 1080.0 / scale), row);
+    let scaled = |scale| {
+        looks
+            .iter()
+            .map(move |look| at_mask_scale(&look.style, scale))
+    };
+    let styles: Vec<Style> = MASK_SCALES.into_iter().flat_map(scaled).collect();
+    let cell = |style| Cell {
+        subject: &subject,
+        style,
+        size: FULL_HD,
+    };
+    let cells: Vec<Cell> = styles.iter().map(cell).collect();
+    let times = median_times("mask scales", &cells)?;
+
+    let head = ["mask", "detect.scale"]
+        .into_iter()
+        .chain(looks.iter().map(|look| look.name));
+    let mut table = Table::new(head);
+    for (scale, row) in MASK_SCALES.iter().zip(times.chunks(looks.len())) {
+        let numbers = std::iter::once(f64::from(*scale)).chain(row.iter().copied());
+        table.add(format!("{:.0} rows", 1080.0 / scale), numbers);
     }
     println!("## Size of the mask [Okuya 2016, table 2]\n");
     println!(
@@ -212,29 +225,37 @@ fn print_mask_scales(looks: &[Look]) -> Outcome<()> {
     Ok(())
 }
 
+/// A style with mask pixels of `scale` frame pixels.
+fn at_mask_scale(style: &Style, scale: f32) -> Style {
+    let mut style = style.clone();
+    style.detect.scale = scale;
+    style
+}
+
 fn print_bunny() -> Outcome<()> {
     let Some(path) = bunny_path() else {
         return Ok(());
     };
-    eprintln!("bunny");
-    let subject = Subject::from_file(&path)?;
-    let style = Style::default();
-    let mut stage = subject.warm_stage(&Processor, &style, FULL_HD)?;
-    let frame = stage.draw(&subject.camera)?;
-    drop(stage);
+    let (subject, style) = (Subject::from_file(&path)?, Style::default());
+    let cell = Cell {
+        subject: &subject,
+        style: &style,
+        size: FULL_HD,
+    };
+    let ms = median_times("bunny", &[cell])?[0];
     println!("## A scanned bunny at 1920x1080, preset `toon`\n");
     println!(
         "- {} triangles, framed as the command frames it",
         subject.model.triangle_count()
     );
-    println!(
-        "- frame: {:.1} ms",
-        median_frame_ms(&subject, &style, FULL_HD)?
-    );
+    println!("- frame: {ms:.1} ms");
     println!(
         "- most memory of a process that loads, prepares and draws it: {} MB\n",
         child_peak(&path)?
     );
+    let frame = subject
+        .warm_stage(&Processor, &style, FULL_HD)?
+        .draw(&subject.camera)?;
     let mut table = Table::new(["pass", "ms in one frame"]);
     for pass in &frame.times {
         table.add(format!("`{}`", pass.name), [pass.time.as_secs_f64() * 1e3]);

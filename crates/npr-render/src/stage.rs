@@ -5,7 +5,7 @@ use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::look::{self, StyledModel};
 use crate::model::Model;
-use crate::tiles::Tiles;
+use crate::tiles::{TILE_PIXELS, Tiles};
 use bytemuck::{NoUninit, cast_slice};
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
@@ -52,6 +52,9 @@ pub struct StageOptions {
     pub width_image: Option<Picture>,
     /// Most bytes that may be planned.
     pub memory_limit: u64,
+    /// Most pixels drawn at once, 4 million by default and at most; a larger frame is drawn in tiles. Fewer need less
+    /// memory and more time. Tiles keep at least 64 pixels a side.
+    pub tile_pixels: u32,
 }
 
 impl StageOptions {
@@ -63,6 +66,7 @@ impl StageOptions {
             background_image: None,
             width_image: None,
             memory_limit: 4 << 30,
+            tile_pixels: TILE_PIXELS,
         }
     }
 }
@@ -97,7 +101,7 @@ impl<'a> Stage<'a> {
         let base_px = look::base_px(style, options, options.size[1] as f32 / model.radius());
         let margin =
             look::largest_half_width(style, &styled.parts, base_px).min(1e4) as u32 + TILE_ROOM;
-        let tiles = Tiles::new(options.size, margin);
+        let tiles = Tiles::new(options.size, margin, options.tile_pixels);
         let scale = style.detect.scale;
         let grids = Grids {
             output: tiles.size(),

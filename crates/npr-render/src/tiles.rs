@@ -1,10 +1,17 @@
 //! Large frames in pieces.
 //!
 //! A frame that no device could hold at once is drawn tile by tile. Lines reach over tile borders, so each tile is
-//! drawn with a margin that is cut off again; a picture in tiles is the same as one drawn whole.
+//! drawn with a margin that is cut off again; with a mask of full resolution, a picture in tiles is the same as one drawn
+//! whole. Coarser masks start anew in every tile.
 
 /// Most pixels of a tile with its margin: its G-buffer must fit the 128 MiB that every device binds.
-const TILE_PIXELS: u64 = 4_000_000;
+pub(crate) const TILE_PIXELS: u32 = 4_000_000;
+
+/// Side of the largest square tile, which fits whatever the mask's scale.
+const SQUARE_SIDE: u32 = 1984;
+
+/// Fewest pixels along a side that a tile keeps, so that margins do not become all the work.
+const KEPT_SIDE: u32 = 64;
 
 /// Longest side of a tile with its margin: four samples per pixel must fit a picture of 8192.
 const TILE_SIDE: u32 = 4096;
@@ -21,9 +28,11 @@ pub(crate) struct Tiles {
 }
 
 impl Tiles {
-    /// Cuts a frame into as few tiles as fit, each with `margin` pixels around.
-    pub fn new(frame: [u32; 2], margin: u32) -> Self {
-        let fits = |w: u64, h: u64| w * h <= TILE_PIXELS && w.max(h) <= u64::from(TILE_SIDE);
+    /// Cuts a frame into as few tiles of about `most_pixels` as fit, each with `margin` pixels around.
+    pub fn new(frame: [u32; 2], margin: u32, most_pixels: u32) -> Self {
+        let most_pixels = most_pixels.min(TILE_PIXELS);
+        let fits =
+            |w: u64, h: u64| w * h <= u64::from(most_pixels) && w.max(h) <= u64::from(TILE_SIDE);
         if fits(u64::from(frame[0]), u64::from(frame[1])) {
             return Self {
                 frame,
@@ -31,12 +40,14 @@ impl Tiles {
                 margin: 0,
             };
         }
-        // A square of 1984 pixels fits, whatever the mask's scale.
         let margin = margin.min(600);
-        let side = 1984 - 2 * margin;
+        let least = 2 * margin + KEPT_SIDE;
+        let side = most_pixels.isqrt().clamp(least, SQUARE_SIDE) - 2 * margin;
+        // Tiles of equal size: a narrow last one would cost as much as a full one.
+        let kept = frame.map(|length| length.div_ceil(length.div_ceil(side)));
         Self {
             frame,
-            kept: [side.min(frame[0]), side.min(frame[1])],
+            kept,
             margin,
         }
     }
@@ -67,10 +78,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn tiles_cover_the_frame_once(w in 1u32..20_000, h in 1u32..20_000, margin in 0u32..700) {
-            let tiles = Tiles::new([w, h], margin);
+        fn tiles_cover_the_frame_once(w in 1u32..20_000, h in 1u32..20_000, margin in 0u32..700, most in 0u32..5_000_000) {
+            let tiles = Tiles::new([w, h], margin, most);
             let size = tiles.size();
-            prop_assert!(u64::from(size[0]) * u64::from(size[1]) <= TILE_PIXELS && size[0].max(size[1]) <= TILE_SIDE);
+            let pixels = u64::from(size[0]) * u64::from(size[1]);
+            prop_assert!(pixels <= u64::from(TILE_PIXELS) && size[0].max(size[1]) <= TILE_SIDE);
             let covered: u64 = tiles.origins().map(|[x, y]| {
                 u64::from(tiles.kept[0].min(w - x)) * u64::from(tiles.kept[1].min(h - y))
             }).sum();

@@ -62,7 +62,7 @@ impl Picture {
                 ..Part::default()
             }),
             ids: (0..side * side)
-                .map(|i| 1 + u32::from(i % side % 8 == 0))
+                .map(|i| 1 + u32::from((i % side).is_multiple_of(8)))
                 .collect(),
             gbuffer: vec![GPixel::EMPTY; pixels],
             mask: vec![0; pixels],

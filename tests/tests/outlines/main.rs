@@ -9,13 +9,12 @@
 )]
 
 mod detection;
-
 mod fixture;
 mod hidden;
 mod joins;
 mod mask_scale;
 mod pipeline;
 mod quad;
-
-
+mod rivals;
+mod teapot;
 mod width;

@@ -1,9 +1,9 @@
 //! Where width comes from.
 
-use crate::fixture::{front, with};
-use npr_mesh::testing::uv_sphere;
+use crate::fixture::{front, front_camera, parts_scene, with};
+use npr_mesh::testing::{plane, uv_sphere};
 use npr_style::Style;
-use npr_tests::{Ink, Object, draw, lines, placed, scene_of};
+use npr_tests::{Ink, Object, draw, draw_from, lines, placed, scene_of};
 
 /// Lines whose width follows `source`, from 2 to 16 pixels.
 fn swelling(source: &str) -> Style {
@@ -44,6 +44,33 @@ fn projected_curvature_follows_the_line_as_seen() {
     let [short, _] = tip_and_top(2, 0.4, "projected-curvature");
     let [long, _] = tip_and_top(2, 0.9, "projected-curvature");
     assert!((short - long).abs() < 2.0, "{short} px on a ball, {long} on an egg from its end");
+}
+
+/// Widths of the line in which an egg pokes through a wall of the same object: at its long ends, and on its flanks.
+fn joint_widths(method: &str) -> [f32; 2] {
+    let egg = placed(&uv_sphere(96, 64), [0.8, 0.3, 0.3], [0.0, 0.0, -0.1]);
+    let wall = placed(&plane(1, 1), [4.0, 4.0, 1.0], [-2.0, -2.0, 0.0]);
+    let settings = ["line.width.base=8px", "line.width.min=0.25", "line.width.max=2", "line.width.source=curvature", "line.width.gain=0.2"];
+    let style = with(lines(method), &settings);
+    let scene = parts_scene(&[(egg, 0), (wall, 0)]);
+    let ink = Ink::of(&draw_from(&scene, &style, &front_camera(), [200, 200]).frame);
+    // Seen from the front, the line is the ellipse with 0.943 of the egg's axes.
+    let (right, top) = (100.0 + 75.4, 100.0 - 28.3);
+    let widest = |runs: [f32; 5]| runs.into_iter().fold(0.0, f32::max);
+    let off = [-2.0, -1.0, 0.0, 1.0, 2.0];
+    [
+        widest(off.map(|d| ink.run([right + d, 100.5], [1.0, 0.0]))),
+        widest(off.map(|d| ink.run([100.5, top + d], [0.0, 1.0]))),
+    ]
+}
+
+#[test]
+fn a_line_that_the_hull_misses_swells_with_curvature() {
+    assert_eq!(joint_widths("hull"), [0.0; 2]);
+    let [end, flank] = joint_widths("filter+hull");
+    assert!(end <= 3.0 && flank <= 3.0, "thin and uniform: {end} and {flank} px");
+    let [end, flank] = joint_widths("shape");
+    assert!(flank > 4.0 && end > flank + 1.5, "{end} px at the ends, {flank} on the flanks");
 }
 
 #[test]

@@ -1,0 +1,64 @@
+//! Same scene, same style, same camera: same bytes.
+
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+use npr_gpu::processor::Processor;
+use npr_render::{Frame, Model, Stage, StageOptions};
+use npr_style::Style;
+use npr_tests::{asset, models_camera};
+
+const SIZE: [u32; 2] = [480, 270];
+
+fn draw(options: &StageOptions, style: &Style) -> Frame {
+    let model = Model::new(&asset("still_life.glb")).unwrap();
+    let camera = models_camera(&model, options.size);
+    let mut stage = Stage::new(&Processor, &model, style, options).unwrap();
+    stage.draw(&camera).unwrap()
+}
+
+fn styles() -> impl Iterator<Item = Style> {
+    let presets = ["toon", "ink", "technical", "okuya", "filter-hull"];
+    presets.into_iter().map(|name| Style::preset(name).unwrap())
+}
+
+#[test]
+fn frames_are_equal_for_any_number_of_threads() {
+    for style in styles() {
+        let with_threads = |count: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
+            pool.install(|| draw(&StageOptions::new(SIZE), &style)).rgba
+        };
+        let one = with_threads(1);
+        for count in [2, 8] {
+            assert!(with_threads(count) == one, "{} on {count} threads", style.title);
+        }
+    }
+}
+
+#[test]
+fn a_stage_draws_the_same_frame_again() {
+    let model = Model::new(&asset("teapot_box_plane.glb")).unwrap();
+    let camera = models_camera(&model, SIZE);
+    let aside = model.framing(1.0, 1.2);
+    let style = Style::preset("ink").unwrap();
+    let mut stage = Stage::new(&Processor, &model, &style, &StageOptions::new(SIZE)).unwrap();
+    let first = stage.draw(&camera).unwrap().rgba;
+    for _ in 0..20 {
+        // What another view leaves in memory must not show.
+        stage.draw(&aside).unwrap();
+        assert!(stage.draw(&camera).unwrap().rgba == first);
+    }
+}
+
+#[test]
+fn a_frame_in_tiles_equals_the_frame_drawn_whole() {
+    for style in styles() {
+        let whole = draw(&StageOptions::new(SIZE), &style);
+        for tile_pixels in [0, 20_000, 60_000] {
+            let options = StageOptions { tile_pixels, ..StageOptions::new(SIZE) };
+            let tiled = draw(&options, &style);
+            let differing = whole.rgba.chunks(4).zip(tiled.rgba.chunks(4)).filter(|(a, b)| a != b).count();
+            assert_eq!(differing, 0, "{} in tiles of {tile_pixels}", style.title);
+        }
+    }
+}
