@@ -1,6 +1,32 @@
 //! Medians of wall time.
 
+use std::fmt;
 use std::time::Instant;
+
+/// What some runs of the same work took, in milliseconds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Times {
+    /// The median: forgives the runs in which the machine did something else.
+    pub median: f64,
+    /// The least: what a machine with nothing else to do would come near.
+    pub least: f64,
+}
+
+impl Times {
+    /// The times of some runs; an infinite least of none.
+    pub fn of(runs: Vec<f64>) -> Self {
+        Self {
+            least: runs.iter().copied().fold(f64::INFINITY, f64::min),
+            median: median(runs),
+        }
+    }
+}
+
+impl fmt::Display for Times {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:.1} ({:.1})", self.median, self.least)
+    }
+}
 
 /// Milliseconds that `work` took.
 pub fn elapsed_ms(work: impl FnOnce()) -> f64 {
@@ -10,8 +36,6 @@ pub fn elapsed_ms(work: impl FnOnce()) -> f64 {
 }
 
 /// The middle of some numbers, the mean of the two in the middle where their count is even; 0 of none.
-///
-/// A median forgives the runs in which the machine did something else.
 pub fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     let (low, high) = (values.len().saturating_sub(1) / 2, values.len() / 2);

@@ -63,6 +63,11 @@ fn is_grazing(pixel: GPixel) -> bool {
     return slope_of(view, window, pixel.depth, pixel.plane_step) > GRAZING_SLOPE;
 }
 
+// Whether neighbours whose normals differ, and nothing else, have no crease of their own between them.
+fn is_no_crease(here: GPixel, there: GPixel) -> bool {
+    return (outline.kinds & KIND_CREASE) == 0u || is_grazing(here) || is_grazing(there);
+}
+
 fn has_lines(pixel: GPixel) -> bool {
     return pixel.part != NONE && (parts[pixel.part].flags & PART_LINES) != 0u;
 }
@@ -89,7 +94,7 @@ fn main(
         let kinds = separations(here, there, vec2<f32>(step));
         if kinds == 0u || !(has_lines(here) || has_lines(there)) { continue; }
         found |= kinds;
-        if kinds == DETECT_NORMAL && (is_grazing(here) || is_grazing(there)) { continue; }
+        if kinds == DETECT_NORMAL && is_no_crease(here, there) { continue; }
         // Of two equally near surfaces, the right or lower pixel owns the line.
         let owns = here.depth < there.depth || (here.depth == there.depth && along < 0);
         if owns { found |= MASK_OWNER | (MASK_SIDE << side); }

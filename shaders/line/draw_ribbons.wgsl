@@ -107,14 +107,19 @@ fn mask_near(px: vec2<f32>) -> bool {
     return false;
 }
 
-// Whether the surface at the reference coordinate hides the edge. The pixel's tangent plane is followed to the point itself.
+// Depth of the tangent plane of what a mask pixel shows, at a point of the frame.
+fn plane_at(seen: GPixel, pixel: vec2<u32>, px: vec2<f32>) -> f32 {
+    let off = (px - frame_at(mask_window, pixel)) / mask_window.frame_step;
+    let change = seen.plane_step.x * off.x + seen.plane_step.y * off.y;
+    return depth_of_coordinate(view, plane_coordinate(view, seen.depth) + change);
+}
+
+// Whether the surface at the reference coordinate hides the edge.
 fn is_hidden(px: vec2<f32>, depth: f32) -> bool {
     let pixel = pixel_at(mask_window, px);
     let seen = gbuffer[pixel.y * mask_window.size.x + pixel.x];
     if seen.part == NONE { return false; }
-    let off = (px - frame_at(mask_window, pixel)) / mask_window.frame_step;
-    let change = seen.plane_step.x * off.x + seen.plane_step.y * off.y;
-    let plane = depth_of_coordinate(view, plane_coordinate(view, seen.depth) + change);
+    let plane = plane_at(seen, pixel, px);
     let slope = slope_of(view, mask_window, seen.depth, seen.plane_step);
     if depth <= max(plane, seen.depth) + tolerance(depth) * (1.0 + slope) { return false; }
     return !is_rim(pixel, depth, tolerance(depth) * RIM_FACTOR * (1.0 + slope));
@@ -159,11 +164,13 @@ fn nearness(depth: f32) -> f32 {
     return view.near / max(depth, view.near);
 }
 
-// Whether another object stands in front of a thick line's fragment.
-fn is_covered(px: vec2<f32>, depth: f32, object: u32) -> bool {
+// Whether another object stands in front of a thick line's fragment. Its tangent plane is followed to the reference
+// coordinate: the floor that a thing stands on is nearer to the eye below the line, but does not cover it.
+fn is_covered(px: vec2<f32>, reference: vec2<f32>, depth: f32, object: u32) -> bool {
     let pixel = pixel_at(mask_window, px);
     let seen = gbuffer[pixel.y * mask_window.size.x + pixel.x];
-    return seen.part != NONE && seen.object != object && seen.depth < depth - tolerance(depth);
+    if seen.part == NONE || seen.object == object { return false; }
+    return max(seen.depth, plane_at(seen, pixel, reference)) < depth - tolerance(depth);
 }
 
 struct Ink {
@@ -193,7 +200,7 @@ fn fragment(passed: Varying) -> Ink {
     let depth = plane_coordinate(view, coordinate);
     let length = max(sqrt(along.x * along.x + along.y * along.y), 1e-6);
     if !shows_at(reference, depth, along / length, passed.part_and_kind.y) { discard; }
-    if is_covered(px, depth, parts[part].object) { discard; }
+    if is_covered(px, reference, depth, parts[part].object) { discard; }
 
     var ink: Ink;
     let color = parts[part].line_color;

@@ -27,22 +27,40 @@ const LINE_BOX_PX: f32 = 2.0;
 // Inked pixels in that box that make a line; fewer are crumbs of an edge that crosses here.
 const LINE_INK_COUNT: u32 = 5u;
 
-// Whether a ribbon runs through a point of the frame: ink within half a mask pixel, and enough around to be a line.
-fn is_inked_at(px: vec2<f32>) -> bool {
-    return ink_count(px, 0.5) > 0u && ink_count(px, LINE_BOX_PX) >= LINE_INK_COUNT;
+// Share of a line's own coverage from which a pixel counts as inked by it; less is the frayed end of a ribbon.
+const LINE_INK_SHARE: f32 = 0.7;
+
+// Ink found in a box of the output: texels looked at, texels with any ink, and the sum of their coverage in steps of 1 / 255.
+struct Ink {
+    texels: u32,
+    inked: u32,
+    alpha: u32,
 }
 
-// Inked pixels of the output within `reach` mask pixels of a point of the frame, along both axes.
-fn ink_count(px: vec2<f32>, reach: f32) -> u32 {
+// Whether a ribbon runs through a point of the frame: ink enough under it, and enough around to be a line.
+fn is_inked_at(px: vec2<f32>, half_width: f32) -> bool {
+    let under = ink_within(px, 0.5);
+    // A line through a box fills as much of it as its width does of the box's side.
+    let side = sqrt(f32(under.texels));
+    let full = 255.0 * f32(under.texels) * min(2.0 * half_width / side, 1.0);
+    let is_covered = f32(under.alpha) >= LINE_INK_SHARE * full && under.alpha > 0u;
+    return is_covered && ink_within(px, LINE_BOX_PX).inked >= LINE_INK_COUNT;
+}
+
+// Ink of the output within `reach` mask pixels of a point of the frame, along both axes.
+fn ink_within(px: vec2<f32>, reach: f32) -> Ink {
     let low = pixel_at(window, px - reach * mask_window.frame_step);
     let high = pixel_at(window, px + reach * mask_window.frame_step);
-    var count = 0u;
+    var ink: Ink;
     for (var y = low.y; y <= high.y; y++) {
         for (var x = low.x; x <= high.x; x++) {
-            if textureLoad(ribbons, vec2<u32>(x, y), 0).a > 0.0 { count += 1u; }
+            let alpha = u32(textureLoad(ribbons, vec2<u32>(x, y), 0).a * 255.0 + 0.5);
+            ink.texels += 1u;
+            ink.alpha += alpha;
+            if alpha > 0u { ink.inked += 1u; }
         }
     }
-    return count;
+    return ink;
 }
 
 // From the pixel's centre to the line, in pixels: half the sum of the sides it runs along.
@@ -71,7 +89,7 @@ fn main(
     if (found & MASK_OWNER) != 0u && pixel.part != NONE && (parts[pixel.part].flags & PART_LINES) != 0u {
         let center = frame_at(mask_window, pixel_of(element, mask_window.size))
             + toward_line(found) * mask_window.frame_step;
-        if !is_inked_at(center) {
+        if !is_inked_at(center, pixel.half_width) {
             stamp.center = center;
             stamp.half_width = pixel.half_width;
             stamp.part = pixel.part;

@@ -1,7 +1,7 @@
-// line.smooth_stamps: moves every stamp to the middle of the stamps around it.
+// line.smooth_stamps: moves every stamp across its line to the middle of the stamps around it.
 //
 // Stamps lie on the borders of pixels; averaged along the line, the steps of the grid
-// no longer show.
+// no longer show. Moved along the line, its ends would draw back.
 //
 // Twin    npr_vector::residual::smooth
 //
@@ -15,22 +15,49 @@ override WG: u32 = 64u;
 @group(0) @binding(1) var<storage, read> stamps: array<Stamp>;
 @group(0) @binding(2) var<storage, read_write> smoothed: array<Stamp>;
 
-// Mean centre of the stamps of a part around a pixel.
-fn middle_around(at: vec2<u32>, part: u32) -> vec2<f32> {
+// Stamps around one of them: how many, and sums over where they lie relative to it.
+struct Cloud {
+    count: f32,
+    sum: vec2<f32>,
+    // Sums of xx, xy and yy.
+    squares: vec3<f32>,
+}
+
+// The stamps of the same part around a stamp.
+fn cloud_around(at: vec2<u32>, middle: Stamp) -> Cloud {
     let low = max(at, vec2<u32>(SMOOTHING_REACH)) - SMOOTHING_REACH;
     let high = min(at + SMOOTHING_REACH, mask_window.size - 1u);
-    var sum = vec2<f32>(0.0);
-    var count = 0.0;
+    var cloud: Cloud;
     for (var y = low.y; y <= high.y; y++) {
         for (var x = low.x; x <= high.x; x++) {
             let stamp = stamps[y * mask_window.size.x + x];
-            if stamp.half_width > 0.0 && stamp.part == part {
-                sum += stamp.center;
-                count += 1.0;
+            if stamp.half_width > 0.0 && stamp.part == middle.part {
+                let off = stamp.center - middle.center;
+                cloud.count += 1.0;
+                cloud.sum += off;
+                cloud.squares += vec3<f32>(off.x * off.x, off.x * off.y, off.y * off.y);
             }
         }
     }
-    return sum / count;
+    return cloud;
+}
+
+// The way to the middle of a cloud, without its part along the line that the cloud forms.
+fn move_across(cloud: Cloud) -> vec2<f32> {
+    let mean = cloud.sum / cloud.count;
+    let squares = cloud.squares / cloud.count;
+    let a = squares.x - mean.x * mean.x;
+    let b = squares.y - mean.x * mean.y;
+    let c = squares.z - mean.y * mean.y;
+    let spread = a + c;
+    if spread < 1e-6 {
+        return mean;
+    }
+    let half_gap = 0.5 * (a - c);
+    let extent = sqrt(half_gap * half_gap + b * b);
+    let along_x = ((extent + half_gap) * mean.x + b * mean.y) / spread;
+    let along_y = (b * mean.x + (extent - half_gap) * mean.y) / spread;
+    return mean - vec2<f32>(along_x, along_y);
 }
 
 // One invocation per mask pixel.
@@ -45,7 +72,7 @@ fn main(
 
     var stamp = stamps[element];
     if stamp.half_width > 0.0 {
-        stamp.center = middle_around(pixel_of(element, mask_window.size), stamp.part);
+        stamp.center += move_across(cloud_around(pixel_of(element, mask_window.size), stamp));
     }
     smoothed[element] = stamp;
 }

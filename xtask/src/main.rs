@@ -9,6 +9,7 @@ mod file;
 mod floors;
 mod names;
 mod packages;
+mod snapshots;
 mod source;
 mod suite;
 
@@ -26,7 +27,9 @@ usage: cargo xtask COMMAND
   assets [--check]  write the sample models, or only compare them
   floors            check that imports go down and stay light
   coverage          check docs/coverage.toml and print counts
-  names             check that no file names a machine, and that every crate has a README";
+  names             check that no file names a machine, and that every crate has a README
+  snapshots bless FILTER
+                    make what is drawn now the reference, for names that hold FILTER";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -54,6 +57,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["floors"] => floors::check(root),
         ["coverage"] => coverage::check(root),
         ["names"] => names::check(root),
+        ["snapshots", "bless", filter] => snapshots::bless(root, filter),
         _ => return None,
     })
 }

@@ -10,7 +10,7 @@ use std::process::Command;
 use npr_benches::cost::{Cost, Sample};
 use npr_benches::subject::{Subject, bunny_path};
 use npr_benches::table::Table;
-use npr_benches::timing::{elapsed_ms, median};
+use npr_benches::timing::{Times, elapsed_ms};
 use npr_benches::{machine, memory};
 use npr_gpu::processor::Processor;
 use npr_render::{Stage, StageOptions};
@@ -87,7 +87,7 @@ fn report() -> Outcome<()> {
         machine::today()
     );
     println!(
-        "- each figure: the median of {RUNS} frames in ms, on the processor engine; loading, welding and curvature happen before the clock starts"
+        "- each figure: the median of {RUNS} frames and, in brackets, the least, in ms, on the processor engine; loading, welding and curvature happen before the clock starts"
     );
     println!("- load average at the start: {}\n", machine::load());
 
@@ -96,7 +96,6 @@ fn report() -> Outcome<()> {
     println!("A bumpy ball that fills the frame's height.\n");
     for look in &looks {
         let grid = measure_grid(look)?;
-        print_grid(look, &grid);
         print_fit(&grid);
     }
     print_mask_scales(&looks)?;
@@ -123,10 +122,10 @@ impl Cell<'_> {
     }
 }
 
-/// The median time of every cell.
+/// The times of every cell.
 ///
 /// Rounds over all cells, so that a minute in which the machine is busy touches them alike.
-fn median_times(what: &str, cells: &[Cell<'_>]) -> Outcome<Vec<f64>> {
+fn times_of(what: &str, cells: &[Cell<'_>]) -> Outcome<Vec<Times>> {
     let mut times = vec![Vec::new(); cells.len()];
     for round in 0..RUNS {
         eprintln!("{what}: round {} of {RUNS}", round + 1);
@@ -134,10 +133,10 @@ fn median_times(what: &str, cells: &[Cell<'_>]) -> Outcome<Vec<f64>> {
             times.push(cell.frame_ms()?);
         }
     }
-    Ok(times.into_iter().map(median).collect())
+    Ok(times.into_iter().map(Times::of).collect())
 }
 
-/// Times every number of triangles at every size.
+/// Times every number of triangles at every size, prints them, and gives the medians.
 fn measure_grid(look: &Look) -> Outcome<Vec<Sample>> {
     let subjects = TRIANGLE_COUNTS
         .iter()
@@ -151,22 +150,23 @@ fn measure_grid(look: &Look) -> Outcome<Vec<Sample>> {
         })
     };
     let cells: Vec<Cell> = subjects.iter().flat_map(of_subject).collect();
-    let times = median_times(look.name, &cells)?;
+    let times = times_of(look.name, &cells)?;
+    print_grid(look, &times);
     let samples = cells.iter().zip(times);
     Ok(samples
-        .map(|(cell, ms)| Sample {
+        .map(|(cell, times)| Sample {
             triangles: cell.subject.model.triangle_count() as f64,
             pixels: f64::from(cell.size[0]) * f64::from(cell.size[1]),
-            ms,
+            ms: times.median,
         })
         .collect())
 }
 
-fn print_grid(look: &Look, samples: &[Sample]) {
+fn print_grid(look: &Look, times: &[Times]) {
     let head = SIZES.map(|[width, height]| format!("{width}x{height}"));
     let mut table = Table::new(std::iter::once("triangles".to_owned()).chain(head));
-    for (count, row) in TRIANGLE_COUNTS.iter().zip(samples.chunks(SIZES.len())) {
-        table.add(count.to_string(), row.iter().map(|sample| sample.ms));
+    for (count, row) in TRIANGLE_COUNTS.iter().zip(times.chunks(SIZES.len())) {
+        table.add(count.to_string(), row.iter().map(Times::to_string));
     }
     println!("### Preset {}\n\n{}\n\n{table}", look.name, look.note);
 }
@@ -176,7 +176,7 @@ fn print_fit(samples: &[Sample]) {
     let (Some(both), Some(sum)) = (Cost::fit(samples), Cost::fit_sum(samples)) else {
         return;
     };
-    println!("Least squares, T in 100 000 triangles, P in millions of pixels:\n");
+    println!("Least squares over the medians, T in 100 000 triangles, P in millions of pixels:\n");
     println!("    t = {sum}    R^2 {:.4}", sum.r_squared);
     println!("    t = {both}    R^2 {:.4}\n", both.r_squared);
     let last = samples.len() - 1;
@@ -207,15 +207,15 @@ fn print_mask_scales(looks: &[Look]) -> Outcome<()> {
         size: FULL_HD,
     };
     let cells: Vec<Cell> = styles.iter().map(cell).collect();
-    let times = median_times("mask scales", &cells)?;
+    let times = times_of("mask scales", &cells)?;
 
     let head = ["mask", "detect.scale"]
         .into_iter()
         .chain(looks.iter().map(|look| look.name));
     let mut table = Table::new(head);
     for (scale, row) in MASK_SCALES.iter().zip(times.chunks(looks.len())) {
-        let numbers = std::iter::once(f64::from(*scale)).chain(row.iter().copied());
-        table.add(format!("{:.0} rows", 1080.0 / scale), numbers);
+        let cells = std::iter::once(scale.to_string()).chain(row.iter().map(Times::to_string));
+        table.add(format!("{:.0} rows", 1080.0 / scale), cells);
     }
     println!("## Size of the mask [Okuya 2016, table 2]\n");
     println!(
@@ -242,13 +242,13 @@ fn print_bunny() -> Outcome<()> {
         style: &style,
         size: FULL_HD,
     };
-    let ms = median_times("bunny", &[cell])?[0];
+    let times = times_of("bunny", &[cell])?[0];
     println!("## A scanned bunny at 1920x1080, preset `toon`\n");
     println!(
         "- {} triangles, framed as the command frames it",
         subject.model.triangle_count()
     );
-    println!("- frame: {ms:.1} ms");
+    println!("- frame: {times} ms");
     println!(
         "- most memory of a process that loads, prepares and draws it: {} MB\n",
         child_peak(&path)?
@@ -258,7 +258,10 @@ fn print_bunny() -> Outcome<()> {
         .draw(&subject.camera)?;
     let mut table = Table::new(["pass", "ms in one frame"]);
     for pass in &frame.times {
-        table.add(format!("`{}`", pass.name), [pass.time.as_secs_f64() * 1e3]);
+        table.add(
+            format!("`{}`", pass.name),
+            [format!("{:.1}", pass.time.as_secs_f64() * 1e3)],
+        );
     }
     println!("{table}");
     Ok(())

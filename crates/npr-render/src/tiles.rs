@@ -2,7 +2,7 @@
 //!
 //! A frame that no device could hold at once is drawn tile by tile. Lines reach over tile borders, so each tile is
 //! drawn with a margin that is cut off again; with a mask of full resolution, a picture in tiles is the same as one drawn
-//! whole. Coarser masks start anew in every tile.
+//! whole, up to a pixel in ten thousand where a corner rounds differently. Coarser masks start anew in every tile.
 
 /// Most pixels of a tile with its margin: its G-buffer must fit the 128 MiB that every device binds.
 pub(crate) const TILE_PIXELS: u32 = 4_000_000;

@@ -47,7 +47,8 @@ fn packed_distance(a: u32, b: u32) -> u32 {
 /// Differs: the paper compares depths directly, which lights up planes seen at a grazing angle; with
 /// [`Outline::PLANE_DEPTH`] a depth is compared with the neighbour's tangent plane.
 ///
-/// Normals also differ between the pixels of a surface that turns away steeply; such pixels are marked but own no line.
+/// Normals also differ between the pixels of a surface that turns away steeply; such pixels are marked but own no line,
+/// and where creases are not drawn, neither does any other turn of the surface.
 ///
 /// O(pixels), parallel over rows.
 pub fn detect(with: &Detection<'_>, gbuffer: &[GPixel], mask: &mut [u32]) {
@@ -102,7 +103,7 @@ impl Detector<'_> {
 
     /// The mask bits of `here`, whose neighbour `there` lies on `side`: left, right, above, below.
     fn mark(&self, here: &GPixel, there: &GPixel, kinds: u32, side: u32) -> u32 {
-        if kinds == Outline::NORMAL && (self.is_grazing(here) || self.is_grazing(there)) {
+        if kinds == Outline::NORMAL && self.is_no_crease(here, there) {
             return kinds;
         }
         // Of two equally near surfaces, the right or lower pixel owns the line.
@@ -111,6 +112,13 @@ impl Detector<'_> {
             return kinds | MASK_OWNER | (MASK_SIDE << side);
         }
         kinds
+    }
+
+    /// Whether neighbours whose normals differ, and nothing else, have no crease of their own between them.
+    fn is_no_crease(&self, here: &GPixel, there: &GPixel) -> bool {
+        self.with.outline.kinds & Outline::CREASE == 0
+            || self.is_grazing(here)
+            || self.is_grazing(there)
     }
 
     /// Which buffers separate two neighbours.

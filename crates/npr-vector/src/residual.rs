@@ -18,7 +18,10 @@ pub const TILE: u32 = 16;
 const LINE_BOX_PX: f32 = 2.0;
 
 /// Inked pixels in that box that make a line; fewer are crumbs of an edge that crosses here.
-const LINE_INK_COUNT: usize = 5;
+const LINE_INK_COUNT: u32 = 5;
+
+/// Share of a line's own coverage from which a pixel counts as inked by it; less is the frayed end of a ribbon.
+const LINE_INK_SHARE: f32 = 0.7;
 
 /// What residual lines are found on.
 #[derive(Debug, Clone, Copy)]
@@ -66,30 +69,53 @@ impl Search<'_> {
         let (middle, toward) = (self.mask_window.frame_at(x, y), toward_line(found));
         let center: [f32; 2] =
             std::array::from_fn(|i| middle[i] + toward[i] * self.mask_window.frame_step[i]);
-        (!self.is_inked_at(center)).then_some(Stamp {
+        (!self.is_inked_at(center, pixel.half_width)).then_some(Stamp {
             center,
             half_width: pixel.half_width,
             part: pixel.part,
         })
     }
 
-    /// Whether a ribbon runs through a point of the frame: ink within half a mask pixel, and enough around to be a line.
-    fn is_inked_at(&self, px: [f32; 2]) -> bool {
-        self.ink_count(px, 0.5) > 0 && self.ink_count(px, LINE_BOX_PX) >= LINE_INK_COUNT
+    /// Whether a ribbon runs through a point of the frame: ink enough under it, and enough around to be a line.
+    ///
+    /// `half_width` is that of the line which would be stamped here; thin lines ink less.
+    fn is_inked_at(&self, px: [f32; 2], half_width: f32) -> bool {
+        let under = self.ink_within(px, 0.5);
+        // A line through a box fills as much of it as its width does of the box's side.
+        let side = (under.texels as f32).sqrt();
+        let full = 255.0 * under.texels as f32 * (2.0 * half_width / side).min(1.0);
+        let is_covered = under.alpha as f32 >= LINE_INK_SHARE * full && under.alpha > 0;
+        is_covered && self.ink_within(px, LINE_BOX_PX).inked >= LINE_INK_COUNT
     }
 
-    /// Inked pixels of the output within `reach` mask pixels of a point of the frame, along both axes.
-    fn ink_count(&self, px: [f32; 2], reach: f32) -> usize {
+    /// Ink of the output within `reach` mask pixels of a point of the frame, along both axes.
+    fn ink_within(&self, px: [f32; 2], reach: f32) -> Ink {
         let reach = self.mask_window.frame_step.map(|step| reach * step);
         let low = self.window.pixel_at([px[0] - reach[0], px[1] - reach[1]]);
         let high = self.window.pixel_at([px[0] + reach[0], px[1] + reach[1]]);
-        let rows = (low[1]..=high[1]).map(|y| {
+        let mut ink = Ink::default();
+        for y in low[1]..=high[1] {
             let row = (y * self.window.size[0]) as usize;
-            let texels = &self.ribbons[row + low[0] as usize..=row + high[0] as usize];
-            texels.iter().filter(|texel| *texel >> 24 != 0).count()
-        });
-        rows.sum()
+            for texel in &self.ribbons[row + low[0] as usize..=row + high[0] as usize] {
+                let alpha = texel >> 24;
+                ink.texels += 1;
+                ink.alpha += alpha;
+                ink.inked += u32::from(alpha > 0);
+            }
+        }
+        ink
     }
+}
+
+/// Ink found in a box of the output.
+#[derive(Debug, Clone, Copy, Default)]
+struct Ink {
+    /// Texels looked at.
+    texels: u32,
+    /// Texels with any ink.
+    inked: u32,
+    /// Sum of their coverage, in steps of 1 / 255.
+    alpha: u32,
 }
 
 /// From a pixel's centre to the line, in pixels: half the sum of the sides it runs along.
@@ -107,7 +133,8 @@ fn toward_line(found: u32) -> [f32; 2] {
 /// How far along a line stamps are averaged, in mask pixels.
 const SMOOTHING_REACH: u32 = 3;
 
-/// Moves every stamp to the middle of the stamps of its part around it, so that the steps of the pixel grid do not show.
+/// Moves every stamp across its line to the middle of the stamps of its part around it, so that the steps of the pixel
+/// grid do not show.
 ///
 /// O(mask pixels + 49 per stamp), parallel over rows.
 pub fn smooth(mask_window: &Window, stamps: &[Stamp], smoothed: &mut [Stamp]) {
@@ -121,27 +148,63 @@ pub fn smooth(mask_window: &Window, stamps: &[Stamp], smoothed: &mut [Stamp]) {
                 let stamp = stamps[y * width + x];
                 *out = stamp;
                 if stamp.half_width > 0.0 {
-                    out.center = middle_around(size, stamps, [x as u32, y as u32], stamp.part);
+                    let by = move_across(&cloud_around(size, stamps, [x as u32, y as u32], &stamp));
+                    out.center = [stamp.center[0] + by[0], stamp.center[1] + by[1]];
                 }
             }
         });
 }
 
-/// Mean centre of the stamps of a part around a pixel.
-fn middle_around(size: [u32; 2], stamps: &[Stamp], at: [u32; 2], part: u32) -> [f32; 2] {
+/// Stamps around one of them: how many, and sums over where they lie relative to it.
+#[derive(Debug, Clone, Copy, Default)]
+struct Cloud {
+    count: f32,
+    sum: [f32; 2],
+    /// Sums of xx, xy and yy.
+    squares: [f32; 3],
+}
+
+/// The stamps of the same part around a stamp.
+fn cloud_around(size: [u32; 2], stamps: &[Stamp], at: [u32; 2], middle: &Stamp) -> Cloud {
     let low = at.map(|v| v.saturating_sub(SMOOTHING_REACH));
     let high: [u32; 2] = std::array::from_fn(|i| (at[i] + SMOOTHING_REACH).min(size[i] - 1));
-    let (mut sum, mut count) = ([0.0f32; 2], 0.0f32);
+    let mut cloud = Cloud::default();
     for y in low[1]..=high[1] {
         for x in low[0]..=high[0] {
             let stamp = &stamps[(y * size[0] + x) as usize];
-            if stamp.half_width > 0.0 && stamp.part == part {
-                sum = [sum[0] + stamp.center[0], sum[1] + stamp.center[1]];
-                count += 1.0;
+            if stamp.half_width > 0.0 && stamp.part == middle.part {
+                let [x, y] = [
+                    stamp.center[0] - middle.center[0],
+                    stamp.center[1] - middle.center[1],
+                ];
+                cloud.count += 1.0;
+                cloud.sum = [cloud.sum[0] + x, cloud.sum[1] + y];
+                let [xx, xy, yy] = cloud.squares;
+                cloud.squares = [xx + x * x, xy + x * y, yy + y * y];
             }
         }
     }
-    [sum[0] / count, sum[1] / count]
+    cloud
+}
+
+/// The way to the middle of a cloud, without its part along the line that the cloud forms.
+///
+/// Moved along, the ends of a line would draw back from the ribbon that carries it on. A symmetric matrix with
+/// eigenvalues p and q, v the eigenvector of p, is `(p + q) / 2 + (p - q) / 2 * (2 v v' - 1)`, which gives v v' without
+/// any angle; round clouds have no direction, and there it fades out.
+fn move_across(cloud: &Cloud) -> [f32; 2] {
+    let [x, y] = cloud.sum.map(|sum| sum / cloud.count);
+    let [xx, xy, yy] = cloud.squares.map(|sum| sum / cloud.count);
+    let (a, b, c) = (xx - x * x, xy - x * y, yy - y * y);
+    let spread = a + c;
+    if spread < 1e-6 {
+        return [x, y];
+    }
+    let half_gap = 0.5 * (a - c);
+    let extent = (half_gap * half_gap + b * b).sqrt();
+    let along_x = ((extent + half_gap) * x + b * y) / spread;
+    let along_y = (b * x + (extent - half_gap) * y) / spread;
+    [x - along_x, y - along_y]
 }
 
 /// Tiles across a mask.
@@ -299,6 +362,40 @@ mod tests {
         let mut stamped = vec![0; 40 * 24];
         stamp(&inking, &mut stamped);
         stamped
+    }
+
+    /// Stamps at pixel centres, smoothed.
+    fn smoothed(at: &[[u32; 2]]) -> Vec<[f32; 2]> {
+        let mut stamps = vec![Stamp::default(); 40 * 24];
+        for [x, y] in at {
+            let center = [*x as f32 + 0.5, *y as f32 + 0.5];
+            stamps[(y * 40 + x) as usize] = Stamp {
+                center,
+                half_width: 1.0,
+                part: 0,
+            };
+        }
+        let mut smoothed = stamps.clone();
+        smooth(&window(), &stamps, &mut smoothed);
+        let of = |[x, y]: &[u32; 2]| smoothed[(y * 40 + x) as usize].center;
+        at.iter().map(of).collect()
+    }
+
+    #[test]
+    fn the_ends_of_a_line_stay() {
+        let line: Vec<[u32; 2]> = (5..25).map(|x| [x, 10]).collect();
+        for (center, [x, y]) in smoothed(&line).iter().zip(&line) {
+            assert!((center[0] - *x as f32 - 0.5).abs() < 1e-4);
+            assert!((center[1] - *y as f32 - 0.5).abs() < 1e-4);
+        }
+    }
+
+    #[test]
+    fn steps_of_the_grid_are_evened_out() {
+        let stairs: Vec<[u32; 2]> = (4..34).map(|x| [x, 4 + x / 2]).collect();
+        let off = |[x, y]: &[f32; 2]| (y - 4.0 - x / 2.0).abs();
+        let centers = smoothed(&stairs);
+        assert!(centers.iter().all(|center| off(center) < 0.2), "{centers:?}");
     }
 
     proptest! {

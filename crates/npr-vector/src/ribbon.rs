@@ -275,7 +275,7 @@ impl Drawing<'_> {
         let direction = [along[0] / length, along[1] / length];
         let part = &self.parts[spine.part as usize];
         if self.shows_at(reference, depth, direction, spine.kind)
-            && !self.is_covered(px, depth, part.object)
+            && !self.is_covered(px, reference, depth, part.object)
         {
             let [r, g, b, a] = part.line_color;
             *texel = color::pack_rgba8([r, g, b, a * coverage]);
@@ -323,27 +323,27 @@ impl Drawing<'_> {
     }
 
     /// Whether the surface at the reference coordinate hides the edge.
-    ///
-    /// The pixel's tangent plane is followed from its centre to the point itself.
     fn is_hidden(&self, px: [f32; 2], depth: f32) -> bool {
         let pixel = self.mask_window.pixel_at(px);
+        let Some((seen, plane)) = self.plane_at(pixel, px) else {
+            return false;
+        };
+        let slope = self.view.slope_of(self.mask_window, seen.depth, seen.plane_step);
+        let tolerance = self.tolerance(depth) * (1.0 + slope);
+        depth > plane.max(seen.depth) + tolerance && !self.is_rim(pixel, depth, tolerance * RIM_FACTOR)
+    }
+
+    /// The surface that a mask pixel shows, and the depth of its tangent plane at a point of the frame.
+    fn plane_at(&self, pixel: [u32; 2], px: [f32; 2]) -> Option<(&GPixel, f32)> {
         let seen = &self.gbuffer[(pixel[1] * self.mask_window.size[0] + pixel[0]) as usize];
         if seen.part == NONE {
-            return false;
+            return None;
         }
         let center = self.mask_window.frame_at(pixel[0], pixel[1]);
-        let off: [f32; 2] =
-            std::array::from_fn(|i| (px[i] - center[i]) / self.mask_window.frame_step[i]);
+        let off: [f32; 2] = std::array::from_fn(|i| (px[i] - center[i]) / self.mask_window.frame_step[i]);
         let change = seen.plane_step[0] * off[0] + seen.plane_step[1] * off[1];
-        let plane = self
-            .view
-            .depth_of_coordinate(self.view.plane_coordinate(seen.depth) + change);
-        let slope = self
-            .view
-            .slope_of(self.mask_window, seen.depth, seen.plane_step);
-        let tolerance = self.tolerance(depth) * (1.0 + slope);
-        depth > plane.max(seen.depth) + tolerance
-            && !self.is_rim(pixel, depth, tolerance * RIM_FACTOR)
+        let coordinate = self.view.plane_coordinate(seen.depth) + change;
+        Some((seen, self.view.depth_of_coordinate(coordinate)))
     }
 
     /// Whether a depth belongs to the surface in front where 3x3 pixels show two: a rim that bends away faster than the
@@ -374,9 +374,14 @@ impl Drawing<'_> {
     }
 
     /// Whether another object stands in front of a thick line's pixel.
-    fn is_covered(&self, px: [f32; 2], depth: f32, object: u32) -> bool {
-        let seen = &self.gbuffer[self.mask_element(px)];
-        seen.part != NONE && seen.object != object && seen.depth < depth - self.tolerance(depth)
+    ///
+    /// The object's tangent plane is followed to the reference coordinate: the floor that a thing stands on is nearer
+    /// to the eye below the line, but does not cover it.
+    fn is_covered(&self, px: [f32; 2], reference: [f32; 2], depth: f32, object: u32) -> bool {
+        let Some((seen, plane)) = self.plane_at(self.mask_window.pixel_at(px), reference) else {
+            return false;
+        };
+        seen.object != object && seen.depth.max(plane) < depth - self.tolerance(depth)
     }
 
     fn tolerance(&self, depth: f32) -> f32 {
