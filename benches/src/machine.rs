@@ -34,7 +34,10 @@ fn processor() -> String {
 /// The commit and whether files differ from it, in words.
 pub fn commit() -> String {
     let commit = first_line_of("git", &["rev-parse", "--short", "HEAD"]);
-    let changed = first_line_of("git", &["status", "--porcelain", "--", "crates", "shaders"]);
+    let changed = first_line_of(
+        "git",
+        &["status", "--porcelain", "--", ":/crates", ":/shaders"],
+    );
     let after = if changed.is_empty() {
         ""
     } else {

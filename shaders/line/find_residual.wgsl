@@ -43,7 +43,10 @@ fn is_inked_at(px: vec2<f32>, half_width: f32) -> bool {
     // A line through a box fills as much of it as its width does of the box's side.
     let side = sqrt(f32(under.texels));
     let full = 255.0 * f32(under.texels) * min(2.0 * half_width / side, 1.0);
-    let is_covered = f32(under.alpha) >= LINE_INK_SHARE * full && under.alpha > 0u;
+    // Borders of a coarse mask's pixels lie off the line, which then meets only a part of the box.
+    let grid_step = mask_window.frame_step;
+    let share = LINE_INK_SHARE / max(grid_step.x * grid_step.y, 1.0);
+    let is_covered = f32(under.alpha) >= share * full && under.alpha > 0u;
     return is_covered && ink_within(px, LINE_BOX_PX).inked >= LINE_INK_COUNT;
 }
 

@@ -21,12 +21,15 @@ fn style(preset: &str, settings: &[&str]) -> Style {
 
 /// The published mask alone, from some of its tests.
 fn mask(depth: bool, normal: bool) -> Style {
-    style("filter", &[
-        "line.kinds.intersection=false",
-        "detect.depth.threshold=0.02",
-        &format!("detect.depth.on={depth}"),
-        &format!("detect.normal.on={normal}"),
-    ])
+    style(
+        "filter",
+        &[
+            "line.kinds.intersection=false",
+            "detect.depth.threshold=0.02",
+            &format!("detect.depth.on={depth}"),
+            &format!("detect.normal.on={normal}"),
+        ],
+    )
 }
 
 /// The shaded cube, the lines wanted, and those found in depth, in normals and in both.
@@ -34,24 +37,59 @@ fn detection() -> Frame {
     let scene = asset("cube_plane.glb");
     let shaded = style("toon", &["line.method=none"]);
     let wanted = style("technical", &["line.width.base=6"]);
-    let styles = [shaded, wanted, mask(true, false), mask(false, true), mask(true, true)];
-    beside(&styles.map(|style| reduced(&draw(&scene, &style, [624, 351]), 3)), 3)
+    let styles = [
+        shaded,
+        wanted,
+        mask(true, false),
+        mask(false, true),
+        mask(true, true),
+    ];
+    beside(
+        &styles.map(|style| reduced(&draw(&scene, &style, [624, 351]), 3)),
+        3,
+    )
 }
 
 /// The published method on one triangle of the cube: its edges as quads, and the same where the mask shows them.
 fn quads() -> Frame {
     let scene = asset("cube_plane.glb");
-    let settings = ["line.width.base=30", "line.width.source=constant", "antialias.samples=1"];
-    let everywhere = style("okuya", &[&settings[..], &["detect.normal.threshold_deg=0", "detect.depth.threshold=0"]].concat());
+    let settings = [
+        "line.width.base=30",
+        "line.width.source=constant",
+        "antialias.samples=1",
+    ];
+    let everywhere = style(
+        "okuya",
+        &[
+            &settings[..],
+            &["detect.normal.threshold_deg=0", "detect.depth.threshold=0"],
+        ]
+        .concat(),
+    );
     let styles = [everywhere, mask(true, true), style("okuya", &settings)];
-    beside(&styles.map(|style| reduced(&draw(&scene, &style, [832, 468]), 4)), 3)
+    beside(
+        &styles.map(|style| reduced(&draw(&scene, &style, [832, 468]), 4)),
+        3,
+    )
 }
 
 /// Filter, hull, their union and the published method; then ours, which also inks where shapes meet.
 fn methods() -> [Vec<Frame>; 2] {
     let scene = asset(TEAPOT);
-    let settings = ["line.width.base=10", "line.width.min=0.2", "line.width.max=2"];
-    let ours = [&settings[..], &["line.method=shape", "detect.plane_depth=true", "detect.object.on=true"]].concat();
+    let settings = [
+        "line.width.base=10",
+        "line.width.min=0.2",
+        "line.width.max=2",
+    ];
+    let ours = [
+        &settings[..],
+        &[
+            "line.method=shape",
+            "detect.plane_depth=true",
+            "detect.object.on=true",
+        ],
+    ]
+    .concat();
     let styles = [
         style("filter", &settings),
         style("hull", &settings),
@@ -70,10 +108,23 @@ fn mask_scales() -> [Frame; 2] {
     let scene = asset(TEAPOT);
     let scaled = |preset: &str, scale: &str| {
         let scale = format!("detect.scale={scale}");
-        draw(&scene, &style(preset, &["line.width.base=8", "detect.rescale_thresholds=true", &scale]), FULL)
+        draw(
+            &scene,
+            &style(
+                preset,
+                &[
+                    "line.width.base=8",
+                    "detect.rescale_thresholds=true",
+                    &scale,
+                ],
+            ),
+            FULL,
+        )
     };
     let scales = ["1", "1.5", "3", "6"];
-    let rows = scales.iter().flat_map(|scale| ["filter", "okuya"].map(|preset| reduced(&scaled(preset, scale), 7)));
+    let rows = scales
+        .iter()
+        .flat_map(|scale| ["filter", "okuya"].map(|preset| reduced(&scaled(preset, scale), 7)));
     let noise = ["3", "6"].map(|scale| cropped(&scaled("okuya", scale), [960, 330], [316, 240]));
     [beside(&rows.collect::<Vec<_>>(), 2), beside(&noise, 2)]
 }

@@ -115,9 +115,10 @@ mod tests {
 
     #[test]
     fn a_differing_block_is_found_where_it_lies() {
-        let (plain, marked) = (grey([20, 10], |_| 9), grey([20, 10], |i| {
-            if i % 20 >= 16 && i < 20 { 41 } else { 9 }
-        }));
+        let (plain, marked) = (
+            grey([20, 10], |_| 9),
+            grey([20, 10], |i| if i % 20 >= 16 && i < 20 { 41 } else { 9 }),
+        );
         let agreement = Agreement::between(&plain, &marked, 2);
         assert_eq!(agreement.worst_at, [16, 0]);
         assert_eq!(agreement.worst_block, 4.0);

@@ -18,7 +18,10 @@ pub struct Ink {
 impl Ink {
     /// Pixels that black covers by more than half; they mix with the paper in linear light.
     pub fn of(frame: &Frame) -> Self {
-        let dark = frame.rgba.chunks_exact(4).map(|pixel| pixel[1] < HALF_COVERED);
+        let dark = frame
+            .rgba
+            .chunks_exact(4)
+            .map(|pixel| pixel[1] < HALF_COVERED);
         Self {
             size: frame.size,
             dark: dark.collect(),
@@ -28,9 +31,7 @@ impl Ink {
     /// Whether the pixel in a column and row is inked; none is outside the picture.
     pub fn at(&self, x: i32, y: i32) -> bool {
         let [width, height] = self.size.map(|side| side as i32);
-        (0..width).contains(&x)
-            && (0..height).contains(&y)
-            && self.dark[(y * width + x) as usize]
+        (0..width).contains(&x) && (0..height).contains(&y) && self.dark[(y * width + x) as usize]
     }
 
     /// Number of inked pixels.
@@ -154,7 +155,10 @@ mod tests {
     fn ink(rows: &[&str]) -> Ink {
         Ink {
             size: [rows[0].len() as u32, rows.len() as u32],
-            dark: rows.iter().flat_map(|row| row.bytes().map(|b| b == b'#')).collect(),
+            dark: rows
+                .iter()
+                .flat_map(|row| row.bytes().map(|b| b == b'#'))
+                .collect(),
         }
     }
 

@@ -31,6 +31,6 @@ pub use draw::{Drawing, draw, draw_from, draw_on, lines, models_camera};
 pub use files::{asset, models, samples};
 pub use ink::Ink;
 pub use montage::{beside, cropped, enlarged, reduced};
-pub use object::{Object, boxed, placed, scene_of};
+pub use object::{Object, boxed, crossing_boxes, placed, scene_of};
 pub use png::{read_png, write_png};
 pub use wanted::Wanted;

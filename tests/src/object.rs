@@ -1,7 +1,7 @@
 //! Scenes put together from generated meshes.
 
 use npr_mesh::Mesh;
-use npr_mesh::testing::{cube, mapped};
+use npr_mesh::testing::{cube, mapped, plane};
 use npr_scene::{Material, Node, Part, Scene};
 
 /// A mesh with a name and a material.
@@ -74,14 +74,19 @@ pub fn scene_of(objects: &[Object]) -> Scene {
     Scene {
         nodes: (0..).zip(objects).map(node).collect(),
         meshes: (0..).zip(objects).map(mesh).collect(),
-        materials: objects.iter().map(|object| object.material.clone()).collect(),
+        materials: objects
+            .iter()
+            .map(|object| object.material.clone())
+            .collect(),
         ..Scene::default()
     }
 }
 
 /// A mesh scaled, then moved.
 pub fn placed(mesh: &Mesh, scale: [f32; 3], offset: [f32; 3]) -> Mesh {
-    mapped(mesh, |p| std::array::from_fn(|i| p[i] * scale[i] + offset[i]))
+    mapped(mesh, |p| {
+        std::array::from_fn(|i| p[i] * scale[i] + offset[i])
+    })
 }
 
 /// The box between two corners.
@@ -89,4 +94,18 @@ pub fn boxed(low: [f32; 3], high: [f32; 3]) -> Mesh {
     let half = std::array::from_fn(|i| (high[i] - low[i]) * 0.5);
     let middle = std::array::from_fn(|i| (high[i] + low[i]) * 0.5);
     placed(&cube(), half, middle)
+}
+
+/// Two boxes of one object that cut through each other, one along x and one along y, and a wall behind them.
+///
+/// The upright box reaches from (-0.2, -1, -0.2) to (0.4, 1, 0.4), the other from (-1, -0.3, -0.3) to (1, 0.3, 0.3).
+pub fn crossing_boxes() -> Scene {
+    let wall = placed(&plane(1, 1), [4.0, 4.0, 1.0], [-2.0, -2.0, -1.0]);
+    let mut scene = scene_of(&[
+        Object::new("Boxes", boxed([-1.0, -0.3, -0.3], [1.0, 0.3, 0.3])).colored([0.2, 0.5, 0.8]),
+        Object::new("Wall", wall).double_sided(),
+    ]);
+    let upright = Object::new("Boxes", boxed([-0.2, -1.0, -0.2], [0.4, 1.0, 0.4]));
+    scene.meshes[0].parts.push(upright.part(0));
+    scene
 }

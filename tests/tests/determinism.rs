@@ -25,12 +25,19 @@ fn styles() -> impl Iterator<Item = Style> {
 fn frames_are_equal_for_any_number_of_threads() {
     for style in styles() {
         let with_threads = |count: usize| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(count)
+                .build()
+                .unwrap();
             pool.install(|| draw(&StageOptions::new(SIZE), &style)).rgba
         };
         let one = with_threads(1);
         for count in [2, 8] {
-            assert!(with_threads(count) == one, "{} on {count} threads", style.title);
+            assert!(
+                with_threads(count) == one,
+                "{} on {count} threads",
+                style.title
+            );
         }
     }
 }
@@ -56,10 +63,17 @@ fn a_frame_in_tiles_equals_the_frame_drawn_whole() {
     for style in styles() {
         let whole = draw(&StageOptions::new(SIZE), &style);
         for tile_pixels in [0, 20_000, 60_000] {
-            let options = StageOptions { tile_pixels, ..StageOptions::new(SIZE) };
+            let options = StageOptions {
+                tile_pixels,
+                ..StageOptions::new(SIZE)
+            };
             let tiled = draw(&options, &style);
             let agreement = Agreement::between(&whole, &tiled, 0);
-            assert!(agreement.within > 0.9999, "{} in tiles of {tile_pixels}: {agreement}", style.title);
+            assert!(
+                agreement.within > 0.9999,
+                "{} in tiles of {tile_pixels}: {agreement}",
+                style.title
+            );
         }
     }
 }

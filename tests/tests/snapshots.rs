@@ -4,11 +4,13 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
-use npr_mesh::testing::{icosphere, plane, torus};
+use npr_mesh::testing::{icosphere, torus};
 use npr_render::Frame;
 use npr_scene::Scene;
 use npr_style::Style;
-use npr_tests::{Agreement, Object, asset, boxed, draw, lines, placed, read_png, scene_of, write_png};
+use npr_tests::{
+    Agreement, Object, asset, crossing_boxes, draw, lines, read_png, scene_of, write_png,
+};
 use std::path::{Path, PathBuf};
 
 /// Pixels across and down.
@@ -32,23 +34,37 @@ fn compare(name: &str, drawn: &Frame) {
     let known = read_png(&path).filter(|known| known.size == drawn.size);
     let difference = known.map(|known| Agreement::between(&known, drawn, 0));
     let same = difference.is_some_and(|difference| difference.within == 1.0);
-    let wanted = std::env::var("NPR_BLESS").ok().filter(|filter| name.contains(filter.as_str()));
+    let wanted = std::env::var("NPR_BLESS")
+        .ok()
+        .filter(|filter| name.contains(filter.as_str()));
     if wanted.is_some() && !same {
         write_png(&path, drawn).unwrap();
-        println!("blessed {name}{}", difference.map_or_else(|| ", which is new".to_owned(), |d| format!(": {d}")));
+        println!(
+            "blessed {name}{}",
+            difference.map_or_else(|| ", which is new".to_owned(), |d| format!(": {d}"))
+        );
         return;
     }
-    let difference = difference.unwrap_or_else(|| panic!("there is no snapshot {name} of this size"));
+    let difference =
+        difference.unwrap_or_else(|| panic!("there is no snapshot {name} of this size"));
     if !same {
         let beside = std::env::temp_dir().join(format!("{name}.png"));
         write_png(&beside, drawn).unwrap();
-        panic!("{name} changed: {difference}; drawn now: {}", beside.display());
+        panic!(
+            "{name} changed: {difference}; drawn now: {}",
+            beside.display()
+        );
     }
-    assert!(path.metadata().unwrap().len() < LARGEST_BYTES, "{name} is too large a file");
+    assert!(
+        path.metadata().unwrap().len() < LARGEST_BYTES,
+        "{name} is too large a file"
+    );
 }
 
 fn reference(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots").join(format!("{name}.png"))
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("snapshots")
+        .join(format!("{name}.png"))
 }
 
 fn preset(name: &str) -> Style {
@@ -57,21 +73,6 @@ fn preset(name: &str) -> Style {
 
 fn ring() -> Scene {
     scene_of(&[Object::new("Ring", torus(48, 24, 0.7, 0.3)).colored([0.8, 0.25, 0.1])])
-}
-
-/// Two boxes of one object that cut through each other over a floor.
-fn crossing() -> Scene {
-    let floor = placed(&plane(1, 1), [4.0, 4.0, 1.0], [-2.0, -2.0, -1.0]);
-    let mut scene = scene_of(&[
-        Object::new("Boxes", boxed([-1.0, -0.3, -0.3], [1.0, 0.3, 0.3])).colored([0.2, 0.5, 0.8]),
-        Object::new("Floor", floor).double_sided(),
-    ]);
-    let mut second = scene.meshes[0].parts[0].clone();
-    for position in &mut second.positions {
-        *position = [position[2] + 0.1, position[0], position[1] + 0.1];
-    }
-    scene.meshes[0].parts.push(second);
-    scene
 }
 
 #[test]
@@ -86,57 +87,112 @@ fn ink_ring() {
 
 #[test]
 fn technical_crossing() {
-    check("technical_crossing", &crossing(), preset("technical"), &["line.width.base=10"]);
+    check(
+        "technical_crossing",
+        &crossing_boxes(),
+        preset("technical"),
+        &["line.width.base=10"],
+    );
 }
 
 #[test]
 fn crossing_without_intersections() {
-    check("crossing_without_intersections", &crossing(), lines("shape"), &["line.kinds.intersection=false"]);
+    check(
+        "crossing_without_intersections",
+        &crossing_boxes(),
+        lines("shape"),
+        &["line.kinds.intersection=false"],
+    );
 }
 
 #[test]
 fn soft_tones() {
-    check("soft_tones", &ring(), preset("toon"), &["shade.softness=0.2", "line.method=none"]);
+    check(
+        "soft_tones",
+        &ring(),
+        preset("toon"),
+        &["shade.softness=0.2", "line.method=none"],
+    );
 }
 
 #[test]
 fn okuya_ball_shows_its_edges_at_a_coarse_mask() {
     let ball = scene_of(&[Object::new("Ball", icosphere(3))]);
-    check("okuya_ball_coarse_mask", &ball, lines("okuya"), &["detect.scale=4"]);
+    check(
+        "okuya_ball_coarse_mask",
+        &ball,
+        lines("okuya"),
+        &["detect.scale=4"],
+    );
 }
 
 #[test]
 fn shape_ball_stays_clean_at_a_coarse_mask() {
     let ball = scene_of(&[Object::new("Ball", icosphere(3))]);
-    check("shape_ball_coarse_mask", &ball, lines("shape"), &["detect.scale=4"]);
+    check(
+        "shape_ball_coarse_mask",
+        &ball,
+        lines("shape"),
+        &["detect.scale=4"],
+    );
 }
 
 #[test]
 fn hull_teapot() {
-    check("hull_teapot", &asset("teapot_box_plane.glb"), preset("hull"), &[]);
+    check(
+        "hull_teapot",
+        &asset("teapot_box_plane.glb"),
+        preset("hull"),
+        &[],
+    );
 }
 
 #[test]
 fn filter_teapot() {
-    check("filter_teapot", &asset("teapot_box_plane.glb"), preset("filter"), &["detect.plane_depth=true"]);
+    check(
+        "filter_teapot",
+        &asset("teapot_box_plane.glb"),
+        preset("filter"),
+        &["detect.plane_depth=true"],
+    );
 }
 
 #[test]
 fn toon_teapot() {
-    check("toon_teapot", &asset("teapot_box_plane.glb"), preset("toon"), &["line.width.base=8"]);
+    check(
+        "toon_teapot",
+        &asset("teapot_box_plane.glb"),
+        preset("toon"),
+        &["line.width.base=8"],
+    );
 }
 
 #[test]
 fn surface_angle_ring() {
-    check("surface_angle_ring", &ring(), lines("angle"), &["line.angle_threshold_deg=25"]);
+    check(
+        "surface_angle_ring",
+        &ring(),
+        lines("angle"),
+        &["line.angle_threshold_deg=25"],
+    );
 }
 
 #[test]
 fn transparent_background() {
-    check("transparent_background", &ring(), preset("toon"), &["background=transparent"]);
+    check(
+        "transparent_background",
+        &ring(),
+        preset("toon"),
+        &["background=transparent"],
+    );
 }
 
 #[test]
 fn toon_still_life() {
-    check("toon_still_life", &asset("still_life.glb"), preset("toon"), &["line.width.base=6"]);
+    check(
+        "toon_still_life",
+        &asset("still_life.glb"),
+        preset("toon"),
+        &["line.width.base=6"],
+    );
 }

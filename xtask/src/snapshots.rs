@@ -16,7 +16,10 @@ pub fn bless(root: &Path, filter: &str) -> Result<()> {
         .args(["--", "--show-output"])
         .env("NPR_BLESS", filter)
         .status()?;
-    ensure!(status.success(), "other snapshots differ, or the tests do not build");
+    ensure!(
+        status.success(),
+        "other snapshots differ, or the tests do not build"
+    );
     Ok(())
 }
 

@@ -84,7 +84,10 @@ impl Search<'_> {
         // A line through a box fills as much of it as its width does of the box's side.
         let side = (under.texels as f32).sqrt();
         let full = 255.0 * under.texels as f32 * (2.0 * half_width / side).min(1.0);
-        let is_covered = under.alpha as f32 >= LINE_INK_SHARE * full && under.alpha > 0;
+        // Borders of a coarse mask's pixels lie off the line, which then meets only a part of the box.
+        let step = self.mask_window.frame_step;
+        let share = LINE_INK_SHARE / (step[0] * step[1]).max(1.0);
+        let is_covered = under.alpha as f32 >= share * full && under.alpha > 0;
         is_covered && self.ink_within(px, LINE_BOX_PX).inked >= LINE_INK_COUNT
     }
 
@@ -395,7 +398,10 @@ mod tests {
         let stairs: Vec<[u32; 2]> = (4..34).map(|x| [x, 4 + x / 2]).collect();
         let off = |[x, y]: &[f32; 2]| (y - 4.0 - x / 2.0).abs();
         let centers = smoothed(&stairs);
-        assert!(centers.iter().all(|center| off(center) < 0.2), "{centers:?}");
+        assert!(
+            centers.iter().all(|center| off(center) < 0.2),
+            "{centers:?}"
+        );
     }
 
     proptest! {

@@ -328,9 +328,12 @@ impl Drawing<'_> {
         let Some((seen, plane)) = self.plane_at(pixel, px) else {
             return false;
         };
-        let slope = self.view.slope_of(self.mask_window, seen.depth, seen.plane_step);
+        let slope = self
+            .view
+            .slope_of(self.mask_window, seen.depth, seen.plane_step);
         let tolerance = self.tolerance(depth) * (1.0 + slope);
-        depth > plane.max(seen.depth) + tolerance && !self.is_rim(pixel, depth, tolerance * RIM_FACTOR)
+        depth > plane.max(seen.depth) + tolerance
+            && !self.is_rim(pixel, depth, tolerance * RIM_FACTOR)
     }
 
     /// The surface that a mask pixel shows, and the depth of its tangent plane at a point of the frame.
@@ -340,7 +343,8 @@ impl Drawing<'_> {
             return None;
         }
         let center = self.mask_window.frame_at(pixel[0], pixel[1]);
-        let off: [f32; 2] = std::array::from_fn(|i| (px[i] - center[i]) / self.mask_window.frame_step[i]);
+        let off: [f32; 2] =
+            std::array::from_fn(|i| (px[i] - center[i]) / self.mask_window.frame_step[i]);
         let change = seen.plane_step[0] * off[0] + seen.plane_step[1] * off[1];
         let coordinate = self.view.plane_coordinate(seen.depth) + change;
         Some((seen, self.view.depth_of_coordinate(coordinate)))

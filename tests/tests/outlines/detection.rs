@@ -1,8 +1,8 @@
 //! Which lines are found, and on which buffers.
 
 use crate::fixture::{
-    SIZE, corner_camera, cube_before_plane, cube_creases, cube_drawing, cube_front_silhouette, cube_other_silhouette, cube_wanted,
-    detecting, front_camera, parts_scene, with,
+    SIZE, corner_camera, cube_before_plane, cube_creases, cube_drawing, cube_front_silhouette,
+    cube_other_silhouette, cube_wanted, detecting, front_camera, parts_scene, with,
 };
 use npr_core::camera::Camera;
 use npr_core::math::{cos, sin};
@@ -53,11 +53,17 @@ fn two_objects(left: Mesh, right: Mesh) -> Scene {
 fn scenes_of_one_line() -> [Scene; 5] {
     let (left, right) = ([-3.0, 0.02], [0.02, 3.0]);
     [
-        parts_scene(&[(strip(left, 0.0, 0.0), 0), (strip([-3.0, 3.0], -1.0, 0.0), 0)]),
+        parts_scene(&[
+            (strip(left, 0.0, 0.0), 0),
+            (strip([-3.0, 3.0], -1.0, 0.0), 0),
+        ]),
         parts_scene(&[(folded(0.4), 0)]),
         two_objects(strip(left, 0.0, 0.0), strip(right, 0.0, 0.0)),
         parts_scene(&[(strip(left, 0.0, 0.0), 0), (strip(right, 0.0, 0.0), 1)]),
-        parts_scene(&[(strip([-3.0, 3.0], 0.0, 0.2), 0), (strip([-3.0, 3.0], 0.0, -0.2), 0)]),
+        parts_scene(&[
+            (strip([-3.0, 3.0], 0.0, 0.2), 0),
+            (strip([-3.0, 3.0], 0.0, -0.2), 0),
+        ]),
     ]
 }
 
@@ -69,7 +75,10 @@ fn mask_of(scene: &Scene, tests: &[&str]) -> Ink {
 #[test]
 fn each_buffer_finds_its_own_line_and_can_be_switched_off() {
     for (test, scene) in ALL_TESTS.into_iter().zip(scenes_of_one_line()) {
-        let others: Vec<&str> = ALL_TESTS.into_iter().filter(|other| *other != test).collect();
+        let others: Vec<&str> = ALL_TESTS
+            .into_iter()
+            .filter(|other| *other != test)
+            .collect();
         assert!(mask_of(&scene, &[test]).count() >= 120, "{test} alone");
         assert_eq!(mask_of(&scene, &others).count(), 0, "all but {test}");
     }
@@ -86,13 +95,19 @@ fn the_mask_alone_is_uniform() {
         let length = (b[0] - a[0]).hypot(b[1] - a[1]);
         let normal = [(a[1] - b[1]) / length, (b[0] - a[0]) / length];
         let width = (-2..=2).map(|k| {
-            ink.run([0, 1].map(|i| middle[i] + normal[i] * k as f32 * 0.5), normal)
+            ink.run(
+                [0, 1].map(|i| middle[i] + normal[i] * k as f32 * 0.5),
+                normal,
+            )
         });
         let width = width.fold(0.0, f32::max);
         assert!((1.5..=3.5).contains(&width), "{width} px at {middle:?}");
     }
     // No setting of width reaches the mask.
-    let wide = with(filter, &["line.width.base=12px", "line.width.source=curvature"]);
+    let wide = with(
+        filter,
+        &["line.width.base=12px", "line.width.source=curvature"],
+    );
     assert_eq!(cube_drawing(&wide).frame.rgba, drawing.frame.rgba);
 }
 
@@ -129,16 +144,35 @@ fn the_union_is_the_wanted_drawing() {
 #[test]
 fn each_buffer_has_its_own_threshold() {
     let fold = parts_scene(&[(folded(0.52), 0)]);
-    let step = parts_scene(&[(strip([-3.0, 0.0], 0.0, 0.0), 0), (strip([-3.0, 3.0], -0.1, 0.0), 0)]);
+    let step = parts_scene(&[
+        (strip([-3.0, 0.0], 0.0, 0.0), 0),
+        (strip([-3.0, 3.0], -0.1, 0.0), 0),
+    ]);
     let found = |scene: &Scene, test: &str, setting: &str| {
         let style = with(detecting("filter", &[test]), &[setting]);
         Ink::of(&draw_from(scene, &style, &front_camera(), [120, 120]).frame).count() > 0
     };
     // The faces meet at 1.04 rad, 60 degrees; the step is 0.05 of the frame's height.
-    assert!(found(&fold, "detect.normal.on", "detect.normal.threshold_deg=55"));
-    assert!(!found(&fold, "detect.normal.on", "detect.normal.threshold_deg=65"));
-    assert!(found(&step, "detect.depth.on", "detect.depth.threshold=0.04"));
-    assert!(!found(&step, "detect.depth.on", "detect.depth.threshold=0.06"));
+    assert!(found(
+        &fold,
+        "detect.normal.on",
+        "detect.normal.threshold_deg=55"
+    ));
+    assert!(!found(
+        &fold,
+        "detect.normal.on",
+        "detect.normal.threshold_deg=65"
+    ));
+    assert!(found(
+        &step,
+        "detect.depth.on",
+        "detect.depth.threshold=0.04"
+    ));
+    assert!(!found(
+        &step,
+        "detect.depth.on",
+        "detect.depth.threshold=0.06"
+    ));
 }
 
 #[test]

@@ -20,7 +20,13 @@ pub fn with(mut style: Style, settings: &[&str]) -> Style {
 
 /// Lines drawn by a method, with everything that detects switched off except `tests`.
 pub fn detecting(method: &str, tests: &[&str]) -> Style {
-    let all = ["detect.depth.on", "detect.normal.on", "detect.object.on", "detect.material.on", "line.kinds.intersection"];
+    let all = [
+        "detect.depth.on",
+        "detect.normal.on",
+        "detect.object.on",
+        "detect.material.on",
+        "line.kinds.intersection",
+    ];
     let settings = all.map(|test| format!("{test}={}", tests.contains(&test)));
     with(lines(method), &settings.each_ref().map(String::as_str))
 }
@@ -66,35 +72,43 @@ pub fn cube_drawing(style: &Style) -> Drawing {
 
 /// Edges of the cube between points given by signs.
 fn cube_edges(view: &View, edges: &[[[i8; 3]; 2]]) -> Wanted {
-    let corners = edges.iter().map(|ends| ends.map(|signs| signs.map(f32::from)));
+    let corners = edges
+        .iter()
+        .map(|ends| ends.map(|signs| signs.map(f32::from)));
     Wanted::seen(view, &corners.collect::<Vec<_>>())
 }
 
 /// The three edges of the cube between faces that are both seen.
 pub fn cube_creases(view: &View) -> Wanted {
-    cube_edges(view, &[
-        [[1, 1, 1], [-1, 1, 1]],
-        [[1, 1, 1], [1, -1, 1]],
-        [[1, 1, 1], [1, 1, -1]],
-    ])
+    cube_edges(
+        view,
+        &[
+            [[1, 1, 1], [-1, 1, 1]],
+            [[1, 1, 1], [1, -1, 1]],
+            [[1, 1, 1], [1, 1, -1]],
+        ],
+    )
 }
 
 /// The cube's silhouette around its front face, which is parallel to the plane behind.
 pub fn cube_front_silhouette(view: &View) -> Wanted {
-    cube_edges(view, &[
-        [[-1, 1, 1], [-1, -1, 1]],
-        [[-1, -1, 1], [1, -1, 1]],
-    ])
+    cube_edges(
+        view,
+        &[[[-1, 1, 1], [-1, -1, 1]], [[-1, -1, 1], [1, -1, 1]]],
+    )
 }
 
 /// The cube's silhouette around its top and side.
 pub fn cube_other_silhouette(view: &View) -> Wanted {
-    cube_edges(view, &[
-        [[-1, 1, 1], [-1, 1, -1]],
-        [[-1, 1, -1], [1, 1, -1]],
-        [[1, 1, -1], [1, -1, -1]],
-        [[1, -1, -1], [1, -1, 1]],
-    ])
+    cube_edges(
+        view,
+        &[
+            [[-1, 1, 1], [-1, 1, -1]],
+            [[-1, 1, -1], [1, 1, -1]],
+            [[1, 1, -1], [1, -1, -1]],
+            [[1, -1, -1], [1, -1, 1]],
+        ],
+    )
 }
 
 /// All nine edges of the cube that are seen.
@@ -113,7 +127,10 @@ pub fn parts_scene(parts: &[(npr_mesh::Mesh, u32)]) -> Scene {
         ..Part::default()
     };
     Scene {
-        nodes: vec![Node { mesh: Some(0), ..Node::default() }],
+        nodes: vec![Node {
+            mesh: Some(0),
+            ..Node::default()
+        }],
         meshes: vec![npr_scene::Mesh {
             parts: parts.iter().map(part).collect(),
             ..npr_scene::Mesh::default()

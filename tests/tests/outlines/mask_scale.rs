@@ -9,19 +9,29 @@ const FRAME: [u32; 2] = [960, 540];
 
 fn teapot(method: &str, scale: f32, settings: &[&str]) -> Frame {
     let style = with(lines(method), &[&format!("detect.scale={scale}")]);
-    draw(&asset("teapot_box_plane.glb"), &with(style, settings), FRAME)
+    draw(
+        &asset("teapot_box_plane.glb"),
+        &with(style, settings),
+        FRAME,
+    )
 }
 
 #[test]
 fn lines_lie_in_the_same_places_at_every_scale() {
     for scale in [1.0, 1.5, 3.0, 6.0] {
         let style = detecting("shape", &["detect.depth.on", "detect.normal.on"]);
-        let style = with(style, &["line.width.base=6px", &format!("detect.scale={scale}")]);
+        let style = with(
+            style,
+            &["line.width.base=6px", &format!("detect.scale={scale}")],
+        );
         let drawing = cube_drawing(&style);
         let (ink, wanted) = (Ink::of(&drawing.frame), cube_wanted(&drawing.view));
         assert!(ink.share_of(&wanted, 2.0) > 0.99, "gaps at scale {scale}");
         let apart = ink.farthest_from(&wanted);
-        assert!(apart <= 3.0 + 1.0 + scale, "{apart} px off at scale {scale}");
+        assert!(
+            apart <= 3.0 + 1.0 + scale,
+            "{apart} px off at scale {scale}"
+        );
     }
 }
 
@@ -31,10 +41,17 @@ fn masks_of_both_scales_differ_by_a_texel_at_most() {
     for scale in [1.5f32, 2.0, 3.0] {
         let coarse = Ink::of(&teapot("filter", scale, &[]));
         let texel = scale.ceil() as i32;
-        let [more, less] = [coarse.without(&fine.grown(texel)), fine.without(&coarse.grown(texel))];
+        let [more, less] = [
+            coarse.without(&fine.grown(texel)),
+            fine.without(&coarse.grown(texel)),
+        ];
         let off = [more.count(), less.count()];
         // Bends show as creases on a coarser mask sooner; apart from those, every pixel has its like.
-        assert!(off[0] * 50 <= fine.count() && off[1] * 500 <= fine.count(), "scale {scale}: {off:?} of {}", fine.count());
+        assert!(
+            off[0] * 50 <= fine.count() && off[1] * 500 <= fine.count(),
+            "scale {scale}: {off:?} of {}",
+            fine.count()
+        );
     }
 }
 
@@ -45,7 +62,11 @@ fn drawings_stay_about_equal_down_to_a_third() {
     for scale in [1.5, 3.0] {
         let coarse = Ink::of(&teapot("shape", scale, &wide));
         let moved = coarse.without(&fine.grown(2)).count() + fine.without(&coarse.grown(2)).count();
-        assert!(moved * 50 <= fine.count(), "scale {scale}: {moved} of {}", fine.count());
+        assert!(
+            moved * 50 <= fine.count(),
+            "scale {scale}: {moved} of {}",
+            fine.count()
+        );
     }
 }
 
@@ -54,11 +75,19 @@ fn a_mask_thicker_than_the_line_shows_noise_and_a_warning() {
     // Interior edges show wherever the published lookup lands on a mask line they merely cross.
     let noise = |method: &str, scale: f32| {
         let fine = Ink::of(&teapot(method, 1.0, &[]));
-        Ink::of(&teapot(method, scale, &[])).without(&fine.grown(2)).count()
+        Ink::of(&teapot(method, scale, &[]))
+            .without(&fine.grown(2))
+            .count()
     };
     let (kept, broken) = (noise("okuya", 1.5), noise("okuya", 6.0));
-    assert!(broken > 10 * kept.max(50), "{kept} px of noise at 1.5, {broken} at 6");
-    assert!(noise("shape", 6.0) * 3 < broken, "edges chosen by kind stay calm");
+    assert!(
+        broken > 10 * kept.max(50),
+        "{kept} px of noise at 1.5, {broken} at 6"
+    );
+    assert!(
+        noise("shape", 6.0) * 3 < broken,
+        "edges chosen by kind stay calm"
+    );
     assert!(width_rule(6.0, 3.0).is_some() && width_rule(1.5, 3.0).is_none());
 }
 
@@ -74,9 +103,13 @@ fn rescaled_thresholds_find_the_same_lines_on_a_coarse_mask() {
             format!("detect.rescale_thresholds={rescale}"),
         ];
         let style = with(style, &settings.each_ref().map(String::as_str));
-        Ink::of(&npr_tests::draw_from(&scene, &style, &crate::fixture::corner_camera(), SIZE).frame).count()
+        Ink::of(&npr_tests::draw_from(&scene, &style, &crate::fixture::corner_camera(), SIZE).frame)
+            .count()
     };
     let (fine, same, bare) = (ink(1, true), ink(6, true), ink(6, false));
     assert!(same < 8 * fine, "{same} px against {fine}");
-    assert!(bare > same + same / 3, "{bare} px with the bare threshold, {same} with the rescaled one");
+    assert!(
+        bare > same + same / 3,
+        "{bare} px with the bare threshold, {same} with the rescaled one"
+    );
 }

@@ -19,23 +19,40 @@ fn one_pose_pass_feeds_both_draws() {
     assert_eq!(runs(mesh::POSE_VERTICES.name), 1);
     assert_eq!(runs(raster::DRAW_IDS.name), 2, "colour and mask");
     assert_eq!(runs(line::DRAW_RIBBONS.name), 1);
-    assert_eq!(mesh::POSE_VERTICES.work, Work::PerElement { of: "vertices" });
+    assert_eq!(
+        mesh::POSE_VERTICES.work,
+        Work::PerElement { of: "vertices" }
+    );
     for draw in [raster::DRAW_IDS, line::DRAW_RIBBONS] {
-        assert!(draw.slots.iter().any(|slot| slot.name == "posed"), "{}", draw.name);
+        assert!(
+            draw.slots.iter().any(|slot| slot.name == "posed"),
+            "{}",
+            draw.name
+        );
     }
 }
 
 #[test]
 fn detection_takes_one_thread_per_mask_pixel() {
     assert_eq!(line::DETECT.work, Work::PerElement { of: "mask" });
-    assert_eq!(line::RESOLVE_GBUFFER.work, Work::PerElement { of: "gbuffer" });
+    assert_eq!(
+        line::RESOLVE_GBUFFER.work,
+        Work::PerElement { of: "gbuffer" }
+    );
 }
 
 #[test]
 fn skinned_shapes_are_outlined_as_posed() {
     let bytes = npr_scene::testing::skinned_glb();
     let resources = MemoryResources::default();
-    let scene = npr_scene::load_bytes("bent.glb", &bytes, Some(Format::Glb), &resources, &Limits::default()).unwrap();
+    let scene = npr_scene::load_bytes(
+        "bent.glb",
+        &bytes,
+        Some(Format::Glb),
+        &resources,
+        &Limits::default(),
+    )
+    .unwrap();
     let (node, part) = scene.drawn_parts().next().unwrap();
     let posed = scene.positions_world(node, part);
     assert_ne!(posed, part.positions, "the skin moves the triangle");

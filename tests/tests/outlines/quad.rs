@@ -16,7 +16,10 @@ const CORNERS: [[f32; 3]; 3] = [[-0.6, -0.5, 0.0], [0.6, -0.5, 0.0], [0.0, 0.6, 
 const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
 fn triangle() -> Object {
-    Object::new("Triangle", Mesh::new(CORNERS.to_vec(), vec![[0, 1, 2]]).unwrap())
+    Object::new(
+        "Triangle",
+        Mesh::new(CORNERS.to_vec(), vec![[0, 1, 2]]).unwrap(),
+    )
 }
 
 /// The published method with lines 16 pixels wide.
@@ -50,7 +53,12 @@ fn back_faces_draw_nothing() {
 #[test]
 fn width_runs_linearly_from_twice_t0_to_twice_t1() {
     let widths = [4.0, 16.0, 16.0];
-    let settings = ["line.width.base=10px", "line.width.min=0.4", "line.width.max=1.6", "line.width.source=vertex-color"];
+    let settings = [
+        "line.width.base=10px",
+        "line.width.min=0.4",
+        "line.width.max=1.6",
+        "line.width.source=vertex-color",
+    ];
     let style = with(lines("okuya"), &settings);
     let ink = Ink::of(&front(&[triangle().painted(&[0.0, 1.0, 1.0])], &style).frame);
     for edge in EDGES {
@@ -62,7 +70,10 @@ fn width_runs_linearly_from_twice_t0_to_twice_t1() {
             });
             let have = runs.sum::<f32>() / 9.0;
             let want = widths[edge[0]] * (1.0 - t) + widths[edge[1]] * t;
-            assert!((have - want).abs() <= 0.75, "edge {edge:?} at {t}: {have} px, not {want}");
+            assert!(
+                (have - want).abs() <= 0.75,
+                "edge {edge:?} at {t}: {have} px, not {want}"
+            );
         }
     }
 }
@@ -85,20 +96,34 @@ fn quads_end_square_at_the_end_points() {
     // Five pixels beyond the left corner, straight away from both of its edges.
     let corner = px(CORNERS[0]);
     let beyond = [corner[0] - 4.3, corner[1] + 2.6].map(|v| v as i32);
-    let inked = |style: &Style| Ink::of(&front(&[triangle()], style).frame).at(beyond[0], beyond[1]);
+    let inked =
+        |style: &Style| Ink::of(&front(&[triangle()], style).frame).at(beyond[0], beyond[1]);
     assert!(!inked(&thick()));
-    assert!(inked(&with(lines("shape"), &["line.width.base=16px"])), "ours ends round");
+    assert!(
+        inked(&with(lines("shape"), &["line.width.base=16px"])),
+        "ours ends round"
+    );
 }
 
 #[test]
 fn only_references_on_the_mask_are_inked() {
     // The diagonal of a flat sheet has no mask under it; its border has.
-    let sheet = mapped(&plane(1, 1), |[u, v, _]| [1.2 * u - 0.6, 1.2 * v - 0.6, 0.0]);
+    let sheet = mapped(&plane(1, 1), |[u, v, _]| {
+        [1.2 * u - 0.6, 1.2 * v - 0.6, 0.0]
+    });
     let ink = Ink::of(&front(&[Object::new("Sheet", sheet)], &thick()).frame);
     let corner = |x: f32, y: f32| px([x, y, 0.0]);
-    let corners = [corner(-0.6, -0.6), corner(0.6, -0.6), corner(0.6, 0.6), corner(-0.6, 0.6)];
+    let corners = [
+        corner(-0.6, -0.6),
+        corner(0.6, -0.6),
+        corner(0.6, 0.6),
+        corner(-0.6, 0.6),
+    ];
     let border = Wanted::new((0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect());
-    assert!(ink.farthest_from(&border) < 8.0 + 2.5, "half the width and the mask's own");
+    assert!(
+        ink.farthest_from(&border) < 8.0 + 2.5,
+        "half the width and the mask's own"
+    );
     // A pixel far off the mask is inked, because the mask is looked up at the edge.
     assert!(ink.at(100, 40 - 6) && ink.at(100, 40 + 6));
 }
@@ -121,7 +146,12 @@ fn pair() -> ([PosedVertex; 4], [Triangle; 2], [Edge; 5]) {
         half_width,
         ..PosedVertex::default()
     };
-    let posed = [vertex(-0.5, -0.6, 2.0), vertex(0.4, -0.5, 6.0), vertex(0.5, 0.6, 3.0), vertex(-0.6, 0.4, 5.0)];
+    let posed = [
+        vertex(-0.5, -0.6, 2.0),
+        vertex(0.4, -0.5, 6.0),
+        vertex(0.5, 0.6, 3.0),
+        vertex(-0.6, 0.4, 5.0),
+    ];
     let triangles = [[0, 1, 2], [0, 2, 3]].map(|corners| Triangle { corners, part: 0 });
     let edges = [[0, 1], [1, 2], [2, 0], [2, 3], [3, 0]].map(|ends| Edge {
         ends,
@@ -146,15 +176,27 @@ fn ribbons(edges: &[Edge]) -> Vec<u32> {
         view: &camera.view(size, ([-1.0; 3], [1.0; 3])),
         window: &window,
         mask_window: &window,
-        outline: &Outline { flags: Outline::PUBLISHED, ..Outline::default() },
+        outline: &Outline {
+            flags: Outline::PUBLISHED,
+            ..Outline::default()
+        },
         posed: &posed,
         triangles: &triangles,
-        parts: &[Part { line_color: [0.0, 0.0, 0.0, 1.0], ..Part::default() }],
+        parts: &[Part {
+            line_color: [0.0, 0.0, 0.0, 1.0],
+            ..Part::default()
+        }],
         gbuffer: &[GPixel::EMPTY; 120 * 120],
         mask: &[Outline::NORMAL; 120 * 120],
     };
     let (mut layer, mut keys) = (vec![0; 120 * 120], vec![0; 120 * 120]);
-    npr_vector::ribbon::draw(&drawing, edges, &vec![Outline::ANY; edges.len()], &mut layer, &mut keys);
+    npr_vector::ribbon::draw(
+        &drawing,
+        edges,
+        &vec![Outline::ANY; edges.len()],
+        &mut layer,
+        &mut keys,
+    );
     layer
 }
 
@@ -169,6 +211,13 @@ fn a_shared_edge_drawn_once_gives_the_picture_of_both_triangles() {
     assert_eq!(per_triangle.len(), unique.len() + 1);
     let once = ribbons(&unique);
     assert!(once.iter().filter(|texel| **texel >> 24 == 255).count() > 1000);
-    let apart = once.iter().zip(ribbons(&per_triangle)).map(|(a, b)| (a >> 24).abs_diff(b >> 24)).max();
-    assert!(apart <= Some(1), "rounding of the edge turned round: {apart:?}");
+    let apart = once
+        .iter()
+        .zip(ribbons(&per_triangle))
+        .map(|(a, b)| (a >> 24).abs_diff(b >> 24))
+        .max();
+    assert!(
+        apart <= Some(1),
+        "rounding of the edge turned round: {apart:?}"
+    );
 }

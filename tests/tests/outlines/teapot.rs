@@ -19,7 +19,10 @@ fn view(scene: &Scene) -> View {
 
 /// The node and the only part of an object.
 fn object<'a>(scene: &'a Scene, name: &str) -> (&'a Node, &'a Part) {
-    scene.drawn_parts().find(|(node, _)| node.name == name).unwrap()
+    scene
+        .drawn_parts()
+        .find(|(node, _)| node.name == name)
+        .unwrap()
 }
 
 /// Edges of the box that its three seen faces have, as the camera sees them.
@@ -47,7 +50,10 @@ fn box_edges(scene: &Scene) -> Wanted {
 fn extent(positions: &[[f32; 3]]) -> ([f32; 3], [f32; 3]) {
     let none = ([f32::MAX; 3], [f32::MIN; 3]);
     positions.iter().fold(none, |(low, high), p| {
-        (std::array::from_fn(|i| low[i].min(p[i])), std::array::from_fn(|i| high[i].max(p[i])))
+        (
+            std::array::from_fn(|i| low[i].min(p[i])),
+            std::array::from_fn(|i| high[i].max(p[i])),
+        )
     })
 }
 
@@ -61,13 +67,19 @@ fn contact(scene: &Scene) -> Wanted {
     let (x, z) = (center(0), center(2));
     let radius = |p: &[f32; 3]| (p[0] - x).hypot(p[2] - z);
     let widest = foot.iter().map(radius).fold(0.0, f32::max);
-    let front = foot.iter().filter(|p| p[2] > z + 0.3 * widest && radius(p) > 0.98 * widest);
+    let front = foot
+        .iter()
+        .filter(|p| p[2] > z + 0.3 * widest && radius(p) > 0.98 * widest);
     Wanted::seen(&view(scene), &front.map(|p| [*p, *p]).collect::<Vec<_>>())
 }
 
 /// Where parts of the teapot sink into each other.
 fn joints(scene: &Scene) -> Ink {
-    Ink::of(&draw(scene, &detecting("filter", &["line.kinds.intersection"]), FRAME))
+    Ink::of(&draw(
+        scene,
+        &detecting("filter", &["line.kinds.intersection"]),
+        FRAME,
+    ))
 }
 
 fn share_inked(ink: &Ink, points: impl Iterator<Item = [f32; 2]>, reach: f32) -> f32 {
@@ -83,8 +95,16 @@ fn the_mask_holds_every_line_of_the_test_scene() {
     let mask = Ink::of(&draw(&scene, &lines("filter"), FRAME));
     let joints = joints(&scene);
     let (spout, handle) = (|p: &[f32; 2]| p[0] > 560.0, |p: &[f32; 2]| p[0] < 390.0);
-    assert_eq!(share_inked(&mask, joints.centers().filter(spout), 0.5), 1.0, "body and spout");
-    assert_eq!(share_inked(&mask, joints.centers().filter(handle), 0.5), 1.0, "body and handle");
+    assert_eq!(
+        share_inked(&mask, joints.centers().filter(spout), 0.5),
+        1.0,
+        "body and spout"
+    );
+    assert_eq!(
+        share_inked(&mask, joints.centers().filter(handle), 0.5),
+        1.0,
+        "body and handle"
+    );
     assert_eq!(mask.share_of(&box_edges(&scene), 1.5), 1.0, "box edges");
     let found = mask.share_of(&contact(&scene), 2.5);
     assert!(found > 0.95, "teapot and box: {found}");
@@ -94,7 +114,10 @@ fn the_mask_holds_every_line_of_the_test_scene() {
 fn our_drawing_holds_every_line_of_the_test_scene() {
     let scene = scene();
     let ink = Ink::of(&draw(&scene, &lines("shape"), FRAME));
-    assert!(share_inked(&ink, joints(&scene).centers(), 1.5) > 0.99, "joints");
+    assert!(
+        share_inked(&ink, joints(&scene).centers(), 1.5) > 0.99,
+        "joints"
+    );
     assert_eq!(ink.share_of(&box_edges(&scene), 1.5), 1.0, "box edges");
     let found = ink.share_of(&contact(&scene), 2.5);
     assert!(found > 0.95, "teapot and box: {found}");
@@ -104,7 +127,11 @@ fn our_drawing_holds_every_line_of_the_test_scene() {
 fn the_hull_misses_the_joints_and_the_union_leaves_them_thin() {
     let scene = scene();
     let joints = joints(&scene);
-    let on_spout = || joints.centers().filter(|p| p[0] > 560.0 && p[1] > 222.0 && p[1] < 270.0);
+    let on_spout = || {
+        joints
+            .centers()
+            .filter(|p| p[0] > 560.0 && p[1] > 222.0 && p[1] < 270.0)
+    };
     let [hull, union, ours] = ["hull", "filter+hull", "shape"].map(|method| {
         let mut style = lines(method);
         style.set("line.width.base=6px").unwrap();
@@ -117,5 +144,8 @@ fn the_hull_misses_the_joints_and_the_union_leaves_them_thin() {
         widths[widths.len() / 2]
     };
     let [thin, thick] = [thickness(&union), thickness(&ours)];
-    assert!(thin <= 2.5 && thick >= 4.5, "{thin} px in the union, {thick} in ours");
+    assert!(
+        thin <= 2.5 && thick >= 4.5,
+        "{thin} px in the union, {thick} in ours"
+    );
 }

@@ -8,7 +8,15 @@ use npr_tests::{Ink, Object, draw, draw_from, lines, placed, scene_of};
 /// Lines whose width follows `source`, from 2 to 16 pixels.
 fn swelling(source: &str) -> Style {
     let source = format!("line.width.source={source}");
-    with(lines("shape"), &["line.width.base=8px", "line.width.min=0.25", "line.width.max=2", &source])
+    with(
+        lines("shape"),
+        &[
+            "line.width.base=8px",
+            "line.width.min=0.25",
+            "line.width.max=2",
+            &source,
+        ],
+    )
 }
 
 /// Width of an ellipsoid's outline at its right tip and at its top, in pixels; `long` is its half length along `axis`.
@@ -19,11 +27,20 @@ fn tip_and_top(axis: usize, long: f32, source: &str) -> [f32; 2] {
     let ink = Ink::of(&front(&[object], &swelling(source)).frame);
     let [right, top] = [100.0 + 100.0 * scale[0], 100.0 - 100.0 * scale[1]];
     let widest = |points: [[f32; 2]; 5], along: [f32; 2]| {
-        points.map(|point| ink.run(point, along)).into_iter().fold(0.0, f32::max)
+        points
+            .map(|point| ink.run(point, along))
+            .into_iter()
+            .fold(0.0, f32::max)
     };
     [
-        widest([-2.0, -1.0, 0.0, 1.0, 2.0].map(|d| [right + d - 0.5, 100.5]), [1.0, 0.0]),
-        widest([-2.0, -1.0, 0.0, 1.0, 2.0].map(|d| [100.5, top + d + 0.5]), [0.0, 1.0]),
+        widest(
+            [-2.0, -1.0, 0.0, 1.0, 2.0].map(|d| [right + d - 0.5, 100.5]),
+            [1.0, 0.0],
+        ),
+        widest(
+            [-2.0, -1.0, 0.0, 1.0, 2.0].map(|d| [100.5, top + d + 0.5]),
+            [0.0, 1.0],
+        ),
     ]
 }
 
@@ -32,7 +49,10 @@ fn curvature_swells_tight_bends() {
     let [tip, top] = tip_and_top(0, 0.9, "curvature");
     assert!(tip > top + 1.5, "{tip} px at the tip, {top} on the flank");
     let [tip, top] = tip_and_top(0, 0.9, "constant");
-    assert!((tip - top).abs() < 1.5, "{tip} px at the tip, {top} on the flank");
+    assert!(
+        (tip - top).abs() < 1.5,
+        "{tip} px at the tip, {top} on the flank"
+    );
 }
 
 #[test]
@@ -43,14 +63,23 @@ fn projected_curvature_follows_the_line_as_seen() {
     // Seen along its axis it is a circle, and the line does not know how long the egg is.
     let [short, _] = tip_and_top(2, 0.4, "projected-curvature");
     let [long, _] = tip_and_top(2, 0.9, "projected-curvature");
-    assert!((short - long).abs() < 2.0, "{short} px on a ball, {long} on an egg from its end");
+    assert!(
+        (short - long).abs() < 2.0,
+        "{short} px on a ball, {long} on an egg from its end"
+    );
 }
 
 /// Widths of the line in which an egg pokes through a wall of the same object: at its long ends, and on its flanks.
 fn joint_widths(method: &str) -> [f32; 2] {
     let egg = placed(&uv_sphere(96, 64), [0.8, 0.3, 0.3], [0.0, 0.0, -0.1]);
     let wall = placed(&plane(1, 1), [4.0, 4.0, 1.0], [-2.0, -2.0, 0.0]);
-    let settings = ["line.width.base=8px", "line.width.min=0.25", "line.width.max=2", "line.width.source=curvature", "line.width.gain=0.2"];
+    let settings = [
+        "line.width.base=8px",
+        "line.width.min=0.25",
+        "line.width.max=2",
+        "line.width.source=curvature",
+        "line.width.gain=0.2",
+    ];
     let style = with(lines(method), &settings);
     let scene = parts_scene(&[(egg, 0), (wall, 0)]);
     let ink = Ink::of(&draw_from(&scene, &style, &front_camera(), [200, 200]).frame);
@@ -68,31 +97,54 @@ fn joint_widths(method: &str) -> [f32; 2] {
 fn a_line_that_the_hull_misses_swells_with_curvature() {
     assert_eq!(joint_widths("hull"), [0.0; 2]);
     let [end, flank] = joint_widths("filter+hull");
-    assert!(end <= 3.0 && flank <= 3.0, "thin and uniform: {end} and {flank} px");
+    assert!(
+        end <= 3.0 && flank <= 3.0,
+        "thin and uniform: {end} and {flank} px"
+    );
     let [end, flank] = joint_widths("shape");
-    assert!(flank > 4.0 && end > flank + 1.5, "{end} px at the ends, {flank} on the flanks");
+    assert!(
+        flank > 4.0 && end > flank + 1.5,
+        "{end} px at the ends, {flank} on the flanks"
+    );
 }
 
 #[test]
 fn control_points_swell_the_lines_around_them() {
     let object = Object::new("Ball", placed(&uv_sphere(96, 64), [0.7; 3], [0.0; 3]));
-    let point = "line.width.control_points=[{ position = [0.7, 0.0, 0.0], radius = 0.5, factor = 2.0 }]";
-    let mut style = with(lines("shape"), &["line.width.base=8px", "line.width.max=2", point]);
+    let point =
+        "line.width.control_points=[{ position = [0.7, 0.0, 0.0], radius = 0.5, factor = 2.0 }]";
+    let mut style = with(
+        lines("shape"),
+        &["line.width.base=8px", "line.width.max=2", point],
+    );
     style.set("line.width.source=control-points").unwrap();
     let ink = Ink::of(&front(&[object], &style).frame);
-    let (near, far) = (ink.run([169.5, 100.5], [1.0, 0.0]), ink.run([30.5, 100.5], [1.0, 0.0]));
-    assert!(near > 13.0 && far < 10.0, "{near} px near the point, {far} px away from it");
+    let (near, far) = (
+        ink.run([169.5, 100.5], [1.0, 0.0]),
+        ink.run([30.5, 100.5], [1.0, 0.0]),
+    );
+    assert!(
+        near > 13.0 && far < 10.0,
+        "{near} px near the point, {far} px away from it"
+    );
 }
 
 #[test]
 fn a_larger_copy_of_a_scene_has_the_same_lines() {
     for source in ["curvature", "projected-curvature"] {
         let width = |factor: f32| {
-            let mesh = placed(&uv_sphere(48, 32), [0.9 * factor, 0.4 * factor, 0.4 * factor], [0.0; 3]);
+            let mesh = placed(
+                &uv_sphere(48, 32),
+                [0.9 * factor, 0.4 * factor, 0.4 * factor],
+                [0.0; 3],
+            );
             let scene = scene_of(&[Object::new("Egg", mesh)]);
             Ink::of(&draw(&scene, &swelling(source), [200, 200])).count() as f32
         };
         let (small, large) = (width(0.01), width(100.0));
-        assert!((small - large).abs() <= 0.01 * small, "{source}: {small} px of ink, {large} on the large copy");
+        assert!(
+            (small - large).abs() <= 0.01 * small,
+            "{source}: {small} px of ink, {large} on the large copy"
+        );
     }
 }
