@@ -29,6 +29,8 @@ const LINE_INK_COUNT: u32 = 5u;
 
 // Share of a line's own coverage from which a pixel counts as inked by it; less is the frayed end of a ribbon.
 const LINE_INK_SHARE: f32 = 0.7;
+// What is left of that share for the thinnest lines.
+const THIN_INK_SHARE: f32 = 0.4;
 
 // Ink found in a box of the output: texels looked at, texels with any ink, and the sum of their coverage in steps of 1 / 255.
 struct Ink {
@@ -42,10 +44,12 @@ fn is_inked_at(px: vec2<f32>, half_width: f32) -> bool {
     let under = ink_within(px, 0.5);
     // A line through a box fills as much of it as its width does of the box's side.
     let side = sqrt(f32(under.texels));
-    let full = 255.0 * f32(under.texels) * min(2.0 * half_width / side, 1.0);
+    let filled = min(2.0 * half_width / side, 1.0);
+    let full = 255.0 * f32(under.texels) * filled;
     // Borders of a coarse mask's pixels lie off the line, which then meets only a part of the box.
     let grid_step = mask_window.frame_step;
-    let share = LINE_INK_SHARE / max(grid_step.x * grid_step.y, 1.0);
+    // A thin line may pass beside the middle of the box; a gap in a thick one must not.
+    let share = LINE_INK_SHARE * max(filled, THIN_INK_SHARE) / max(grid_step.x * grid_step.y, 1.0);
     let is_covered = f32(under.alpha) >= share * full && under.alpha > 0u;
     return is_covered && ink_within(px, LINE_BOX_PX).inked >= LINE_INK_COUNT;
 }

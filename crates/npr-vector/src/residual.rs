@@ -23,6 +23,9 @@ const LINE_INK_COUNT: u32 = 5;
 /// Share of a line's own coverage from which a pixel counts as inked by it; less is the frayed end of a ribbon.
 const LINE_INK_SHARE: f32 = 0.7;
 
+/// What is left of that share for the thinnest lines.
+const THIN_INK_SHARE: f32 = 0.4;
+
 /// What residual lines are found on.
 #[derive(Debug, Clone, Copy)]
 pub struct Search<'a> {
@@ -83,10 +86,12 @@ impl Search<'_> {
         let under = self.ink_within(px, 0.5);
         // A line through a box fills as much of it as its width does of the box's side.
         let side = (under.texels as f32).sqrt();
-        let full = 255.0 * under.texels as f32 * (2.0 * half_width / side).min(1.0);
+        let filled = (2.0 * half_width / side).min(1.0);
+        let full = 255.0 * under.texels as f32 * filled;
         // Borders of a coarse mask's pixels lie off the line, which then meets only a part of the box.
         let step = self.mask_window.frame_step;
-        let share = LINE_INK_SHARE / (step[0] * step[1]).max(1.0);
+        // A thin line may pass beside the middle of the box; a gap in a thick one must not.
+        let share = LINE_INK_SHARE * filled.max(THIN_INK_SHARE) / (step[0] * step[1]).max(1.0);
         let is_covered = under.alpha as f32 >= share * full && under.alpha > 0;
         is_covered && self.ink_within(px, LINE_BOX_PX).inked >= LINE_INK_COUNT
     }
