@@ -21,6 +21,7 @@ pub mod layout;
 pub mod math;
 pub mod outline;
 pub mod raster;
+pub mod shape;
 pub mod surface;
 pub mod texture;
 pub mod window;

@@ -10,7 +10,28 @@
 //! assert_eq!(npr_vector::ribbon::line_coverage(0.0, 0.5), 1.0);
 //! ```
 
+pub mod bvh;
+pub mod centreline;
+pub mod contour;
 pub mod detect;
+pub mod drawing;
+pub mod feature;
+pub mod fill;
+pub mod fit;
 pub mod gbuffer;
+pub mod graph;
+pub mod intersect;
+pub mod json;
+pub mod outline;
+pub mod pdf;
+pub mod plot;
+pub mod project;
+pub mod rank;
 pub mod residual;
 pub mod ribbon;
+pub mod sample;
+pub mod smooth;
+pub mod stroke;
+pub mod svg;
+pub mod visibility;
+pub mod zero_set;

@@ -1,0 +1,136 @@
+//! Strokes: visible or hidden runs of lines, ready to be drawn or written.
+
+/// What a line is on the shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Kind {
+    /// The surface turns away from the eye.
+    Contour,
+    /// The surface ends.
+    Boundary,
+    /// The surface bends sharply.
+    Crease,
+    /// The material changes.
+    Material,
+    /// Two surfaces cut through each other.
+    Intersection,
+    /// The user asked for a line here.
+    Marked,
+}
+
+impl Kind {
+    /// All kinds, in the order in which they are layered.
+    pub const ALL: [Kind; 6] = [
+        Kind::Contour,
+        Kind::Boundary,
+        Kind::Crease,
+        Kind::Material,
+        Kind::Intersection,
+        Kind::Marked,
+    ];
+
+    /// Its name in files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Contour => "contour",
+            Kind::Boundary => "boundary",
+            Kind::Crease => "crease",
+            Kind::Material => "material",
+            Kind::Intersection => "intersection",
+            Kind::Marked => "marked",
+        }
+    }
+}
+
+/// One point of a stroke.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct StrokePoint {
+    /// Place in the picture, in pixels from its top left corner, y down.
+    pub position: [f64; 2],
+    /// Distance from the eye along the view axis, in scene units.
+    pub depth: f64,
+    /// Whole width of the line here, in pixels.
+    pub width: f64,
+    /// Texture coordinate along the stroke, in pixels.
+    pub u: f64,
+    /// Place in the world.
+    pub world: [f32; 3],
+}
+
+/// A run of one line with one kind, one object and one visibility.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stroke {
+    /// Stays with the stroke from frame to frame: it hangs on a mesh edge, not on a place in a list.
+    pub id: u64,
+    /// What the line is on the shape.
+    pub kind: Kind,
+    /// Number of surfaces in front of it; 0 where it is visible.
+    pub occluders: u32,
+    /// Index into [`Drawing::surfaces`].
+    pub surface: u32,
+    /// The last point runs on to the first, which is not repeated.
+    pub closed: bool,
+    /// At least two, or three of a closed stroke; neighbours differ.
+    pub points: Vec<StrokePoint>,
+}
+
+impl Stroke {
+    /// Whether nothing lies in front of it.
+    pub fn is_visible(&self) -> bool {
+        self.occluders == 0
+    }
+
+    /// Length in the picture, in pixels.
+    pub fn length(&self) -> f64 {
+        let open: f64 = self
+            .points
+            .windows(2)
+            .map(|pair| distance(&pair[0], &pair[1]))
+            .sum();
+        match (self.closed, self.points.first(), self.points.last()) {
+            (true, Some(first), Some(last)) => open + distance(last, first),
+            _ => open,
+        }
+    }
+}
+
+fn distance(a: &StrokePoint, b: &StrokePoint) -> f64 {
+    let [dx, dy] = [0, 1].map(|i| b.position[i] - a.position[i]);
+    (dx * dx + dy * dy).sqrt()
+}
+
+/// The object and material that a stroke lies on, and how its lines look.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StrokeSurface {
+    /// Name of the object; any text.
+    pub object: String,
+    /// Number of the object: names may repeat.
+    pub object_number: u32,
+    /// Name of the material; any text.
+    pub material: String,
+    /// Colour of its lines, sRGB bytes and alpha.
+    pub line_color: [u8; 4],
+    /// Colour of its fill, sRGB bytes and alpha.
+    pub fill_color: [u8; 4],
+}
+
+/// A closed region of flat colour.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Region {
+    /// Index into [`Drawing::surfaces`].
+    pub surface: u32,
+    /// Outer ring first, then holes; each is closed without repeating its first point. Pixels.
+    pub rings: Vec<Vec<[f64; 2]>>,
+}
+
+/// A picture as lines.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Drawing {
+    /// Width and height of the picture in pixels.
+    pub size: [u32; 2],
+    /// What strokes and regions lie on.
+    pub surfaces: Vec<StrokeSurface>,
+    /// All strokes; visible and hidden ones.
+    pub strokes: Vec<Stroke>,
+    /// Flat colour under the lines; empty unless asked for.
+    pub regions: Vec<Region>,
+}
