@@ -9,6 +9,11 @@ pub use libm::{
     log2f as log2, logf as ln, powf, sinf as sin, tanf as tan,
 };
 
+/// Tangent in double precision, the same on every platform.
+pub fn tan_f64(x: f64) -> f64 {
+    libm::tan(x)
+}
+
 /// Linear blend from `a` at `t = 0` to `b` at `t = 1`, exact at both ends for finite input.
 pub fn mix(a: f32, b: f32, t: f32) -> f32 {
     a * (1.0 - t) + b * t

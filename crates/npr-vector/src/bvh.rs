@@ -1,1 +1,218 @@
-//! To come.
+//! The faces of a shape in a bounding volume hierarchy, and how many of them hide a point.
+
+use glam::{DVec3, Vec4};
+use npr_core::shape::Shape;
+use obvhs::Boundable;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
+use rayon::prelude::*;
+
+/// How much nearer than a point a face must be to hide it, as a fraction of the way from the eye.
+///
+/// Positions are `f32`, so faces that touch in the scene lie up to about this far apart; a smaller fraction
+/// would break lines on contacts into dashes.
+pub const NEARER: f64 = 2.5e-7;
+
+/// A hierarchy over all faces of a shape, for any number of views.
+#[derive(Clone)]
+pub struct FaceTree {
+    /// One leaf holds one face; `primitive_indices` names it.
+    pub(crate) bvh: Bvh2,
+    /// Largest coordinate, for the rounding of box tests.
+    extent: f32,
+}
+
+impl std::fmt::Debug for FaceTree {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "FaceTree of {} nodes", self.bvh.nodes.len())
+    }
+}
+
+/// The box of a face.
+struct FaceBox(Aabb);
+
+impl Boundable for FaceBox {
+    fn aabb(&self) -> Aabb {
+        self.0
+    }
+}
+
+/// A way from the eye to a point.
+#[derive(Debug, Clone, Copy)]
+pub struct Sight {
+    /// Where it starts.
+    pub eye: [f64; 3],
+    /// The point looked at.
+    pub point: [f64; 3],
+}
+
+impl FaceTree {
+    /// Builds the hierarchy; O(n log n), on all threads.
+    pub fn new(shape: &Shape) -> Self {
+        let boxes: Vec<FaceBox> = shape
+            .faces
+            .par_iter()
+            .map(|corners| FaceBox(box_of(corners.map(|v| shape.positions[v as usize]))))
+            .collect();
+        let extent = boxes.iter().fold(0.0_f32, |extent, FaceBox(b)| {
+            let [low, high] = bounds(b);
+            extent.max(low.abs().max(high.abs()).max_element())
+        });
+        let indices = (0..boxes.len() as u32).collect();
+        let bvh = PlocBuilder::new().build(
+            PlocSearchDistance::VeryLow,
+            &boxes,
+            indices,
+            SortPrecision::U64,
+            0,
+        );
+        Self { bvh, extent }
+    }
+
+    /// Number of faces between the eye and a point, without those in `skip`; counting stops at `limit`.
+    ///
+    /// A face counts where the way passes through it, borders included, before [`NEARER`] of the point. About
+    /// O(log n) for a point on an open surface.
+    pub fn occluders(&self, shape: &Shape, sight: &Sight, skip: &[u32], limit: u32) -> u32 {
+        let (eye, point) = (DVec3::from(sight.eye), DVec3::from(sight.point));
+        let direction = point - eye;
+        if limit == 0 || !direction.is_finite() {
+            return 0;
+        }
+        let mut count = 0;
+        self.along(eye, direction, |face| {
+            if !skip.contains(&face) && hides(shape, face, eye, direction) {
+                count += 1;
+            }
+            count < limit
+        });
+        count
+    }
+
+    /// The first face on the way from the eye through a point and beyond, with the place on the way: 1 at the point.
+    pub fn first_face(&self, shape: &Shape, sight: &Sight, reach: f64) -> Option<(u32, f64)> {
+        let eye = DVec3::from(sight.eye);
+        let direction = (DVec3::from(sight.point) - eye) * reach;
+        let mut first: Option<(u32, f64)> = None;
+        self.along(eye, direction, |face| {
+            if let Some(at) = crossing(shape, face, eye, direction) {
+                let nearer = first.is_none_or(|(other, least)| (at, face) < (least, other));
+                if (0.0..=1.0).contains(&at) && nearer {
+                    first = Some((face, at));
+                }
+            }
+            true
+        });
+        first.map(|(face, at)| (face, at * reach))
+    }
+
+    /// Calls `visit` for every face whose box the way passes, until it returns false.
+    fn along(&self, eye: DVec3, direction: DVec3, mut visit: impl FnMut(u32) -> bool) {
+        let nodes = &self.bvh.nodes;
+        if nodes.is_empty() {
+            return;
+        }
+        let slab = Slab::new(eye, direction, self.extent);
+        let mut stack = Vec::with_capacity(64);
+        if slab.meets(nodes[0].aabb()) {
+            stack.push(0);
+        }
+        while let Some(index) = stack.pop() {
+            let node = &nodes[index as usize];
+            if node.is_leaf() {
+                let (from, count) = (node.first_index as usize, node.prim_count as usize);
+                for face in &self.bvh.primitive_indices[from..from + count] {
+                    if !visit(*face) {
+                        return;
+                    }
+                }
+                continue;
+            }
+            for child in [node.first_index, node.first_index + 1] {
+                if slab.meets(nodes[child as usize].aabb()) {
+                    stack.push(child);
+                }
+            }
+        }
+    }
+}
+
+fn box_of(corners: [[f32; 3]; 3]) -> Aabb {
+    let [a, b, c] = corners.map(|[x, y, z]| Vec4::new(x, y, z, 0.0));
+    bytemuck::cast([a.min(b).min(c), a.max(b).max(c)])
+}
+
+/// Lowest and highest corner; the fourth components mean nothing.
+///
+/// By way of bytes, because the hierarchy's crate may use another version of the vector types.
+fn bounds(b: &Aabb) -> [Vec4; 2] {
+    let [low, high]: [Vec4; 2] = bytemuck::cast(*b);
+    [low.with_w(0.0), high.with_w(0.0)]
+}
+
+/// A box test that never misses for rounding.
+struct Slab {
+    origin: Vec4,
+    inverse: Vec4,
+    /// How far single precision may have moved a box against the origin.
+    pad: Vec4,
+}
+
+impl Slab {
+    fn new(eye: DVec3, direction: DVec3, extent: f32) -> Self {
+        let origin = eye.as_vec3().extend(0.0);
+        let inverse = direction.to_array().map(|d| {
+            let d = d as f32;
+            // Infinite inverses turn 0 into NaN at the faces of boxes.
+            if d.abs() < 1e-30 {
+                1e30_f32.copysign(d)
+            } else {
+                1.0 / d
+            }
+        });
+        let reach = origin.abs().max_element().max(extent);
+        let [x, y, z] = inverse;
+        Self {
+            origin,
+            inverse: Vec4::new(x, y, z, 0.0),
+            pad: Vec4::splat(reach * 2.5e-7),
+        }
+    }
+
+    fn meets(&self, b: &Aabb) -> bool {
+        let [low, high] = bounds(b);
+        let low = (low - self.pad - self.origin) * self.inverse;
+        let high = (high + self.pad - self.origin) * self.inverse;
+        // The fourth components bound the way itself: it starts at 0 and ends at 1.
+        let enter = low.min(high).with_w(0.0).max_element();
+        let leave = low.max(high).with_w(1.0).min_element();
+        enter <= leave * 1.000_001
+    }
+}
+
+fn hides(shape: &Shape, face: u32, eye: DVec3, direction: DVec3) -> bool {
+    crossing(shape, face, eye, direction).is_some_and(|at| at > NEARER && at < 1.0 - NEARER)
+}
+
+/// Where on the way from the eye, in units of `direction`, a face is crossed.
+///
+/// The side of each edge is the same number, but for its sign, seen from either of its faces: no way slips
+/// through between two of them.
+fn crossing(shape: &Shape, face: u32, eye: DVec3, direction: DVec3) -> Option<f64> {
+    let corner = |i: usize| {
+        let [x, y, z] = shape.positions[shape.faces[face as usize][i] as usize];
+        DVec3::new(x.into(), y.into(), z.into()) - eye
+    };
+    let (a, b, c) = (corner(0), corner(1), corner(2));
+    let u = direction.dot(c.cross(b));
+    let v = direction.dot(a.cross(c));
+    let w = direction.dot(b.cross(a));
+    let inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+    let sum = u + v + w;
+    if !inside || sum == 0.0 {
+        return None;
+    }
+    let place = (a * u + b * v + c * w) / sum;
+    Some(place.dot(direction) / direction.length_squared())
+}

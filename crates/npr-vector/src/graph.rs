@@ -37,6 +37,11 @@ gpu_layout!(CurveNode {
 });
 
 impl CurveNode {
+    /// Whether the piece after this node runs along its mesh edge, from one end to the other.
+    pub fn is_along_edge(&self) -> bool {
+        (self.t == 0.0 || self.t == 1.0) && self.flags & Self::INTERSECTION == 0
+    }
+
     /// The surface turns away from the eye.
     pub const CONTOUR: u32 = 1;
     /// The surface ends.

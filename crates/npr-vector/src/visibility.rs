@@ -1,1 +1,333 @@
-//! To come.
+//! Exact visibility: where lines of a view disappear and how many surfaces are in front.
+//!
+//! Along a line, what hides it changes only where its image crosses the image of an outline in front of it,
+//! and where it goes through a face [Appel 1967]. So a piece is cut there, and one sight from the eye to the
+//! middle of each span decides for all of it.
+
+use crate::bvh::{FaceTree, Sight};
+use crate::project::Projector;
+use glam::DVec3;
+use npr_core::shape::Shape;
+use rayon::prelude::*;
+
+/// How far outside the frame lines are still followed, as a share of its larger side.
+const MARGIN: f64 = 0.02;
+
+/// Spans shorter than this are not looked at by themselves, in pixels.
+const LEAST_SPAN_PX: f64 = 1e-4;
+
+/// A straight piece of line in space and in the picture, cut to the frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Piece {
+    /// Ends in the world.
+    pub world: [DVec3; 2],
+    /// Ends in the picture, in pixels.
+    pub place: [[f64; 2]; 2],
+    /// Depths of the ends.
+    pub depth: [f64; 2],
+    /// The part of the uncut piece that is left, along it in the world.
+    pub range: [f64; 2],
+}
+
+impl Piece {
+    /// The part of a line from `a` to `b` in front of the near plane and within the frame and a margin; none where nothing is left.
+    pub fn new(projector: &Projector, size: [u32; 2], a: DVec3, b: DVec3) -> Option<Self> {
+        let near = projector.near();
+        let uncut = [projector.depth(a), projector.depth(b)];
+        let mut range = [0.0, 1.0];
+        if projector.is_perspective() && !cut(&mut range, uncut[0] - near, uncut[1] - near) {
+            return None;
+        }
+        let front = range.map(|t| a.lerp(b, t));
+        let depth = front.map(|p| projector.depth(p));
+        let place = front.map(|p| projector.project(p));
+        let mut shown = [0.0, 1.0];
+        let margin = MARGIN * f64::from(size[0].max(size[1]));
+        for axis in 0..2 {
+            let (low, high) = (-margin, f64::from(size[axis]) + margin);
+            let [p, q] = place.map(|place| place[axis]);
+            if !cut(&mut shown, p - low, q - low) || !cut(&mut shown, high - p, high - q) {
+                return None;
+            }
+        }
+        let [from, to] = range;
+        let range = shown.map(|s| from + (to - from) * projector.world_share(s, depth));
+        let world = range.map(|t| a.lerp(b, t));
+        let piece = Self {
+            world,
+            place: world.map(|p| projector.project(p)),
+            depth: world.map(|p| projector.depth(p)),
+            range,
+        };
+        piece
+            .place
+            .iter()
+            .flatten()
+            .all(|v| v.is_finite())
+            .then_some(piece)
+    }
+
+    /// Length in the picture, in pixels.
+    pub fn length(&self) -> f64 {
+        let [a, b] = self.place;
+        ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt()
+    }
+
+    /// Place in the picture at a share of the image.
+    pub fn place_at(&self, share: f64) -> [f64; 2] {
+        std::array::from_fn(|i| self.place[0][i] + (self.place[1][i] - self.place[0][i]) * share)
+    }
+
+    /// Point in the world at a share of the image.
+    pub fn world_at(&self, projector: &Projector, share: f64) -> DVec3 {
+        self.world[0].lerp(self.world[1], projector.world_share(share, self.depth))
+    }
+
+    /// 1 / depth in perspective, depth in parallel view, at a share of the image: linear along it.
+    fn coordinate_at(&self, projector: &Projector, share: f64) -> f64 {
+        let [a, b] = self.depth.map(|z| {
+            if projector.is_perspective() {
+                -1.0 / z
+            } else {
+                z
+            }
+        });
+        a + (b - a) * share
+    }
+}
+
+/// Shortens a range to where a linear function, given at 0 and 1, is not negative; false where nothing is left.
+fn cut(range: &mut [f64; 2], at_start: f64, at_end: f64) -> bool {
+    match (at_start >= 0.0, at_end >= 0.0) {
+        (true, true) => {}
+        (false, false) => return false,
+        (true, false) => range[1] = range[1].min(at_start / (at_start - at_end)),
+        (false, true) => range[0] = range[0].max(at_start / (at_start - at_end)),
+    }
+    range[0] < range[1]
+}
+
+/// What decides about one piece besides its geometry.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Circumstances {
+    /// Faces that the piece lies in, which never hide it.
+    pub own_faces: Vec<u32>,
+    /// Places where it goes through a face, along the uncut piece in the world, 0..1.
+    pub piercings: Vec<f64>,
+}
+
+/// A part of a piece with one visibility; shares of its image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Span {
+    /// Where it starts.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// Number of surfaces in front.
+    pub occluders: u32,
+}
+
+/// The outlines of a view that can hide something, in a grid over the picture.
+#[derive(Debug)]
+pub struct OutlineGrid {
+    outlines: Vec<Piece>,
+    cell_px: f64,
+    origin: [f64; 2],
+    columns: usize,
+    rows: usize,
+    starts: Vec<u32>,
+    entries: Vec<u32>,
+}
+
+impl OutlineGrid {
+    /// Sorts outlines into cells; O(outlines + cells they touch).
+    pub fn new(size: [u32; 2], outlines: Vec<Piece>) -> Self {
+        let margin = MARGIN * f64::from(size[0].max(size[1])) + 1.0;
+        let [width, height] = size.map(|side| f64::from(side) + 2.0 * margin);
+        let total: f64 = outlines.iter().map(Piece::length).sum();
+        // About one entry per outline and cell, whether outlines are many and short or few and long.
+        let wanted = (width * height / (outlines.len() as f64 + 1.0)).sqrt();
+        let cell_px = wanted
+            .max(total / (outlines.len() as f64 + 1.0) * 0.5)
+            .clamp(2.0, 256.0);
+        let mut grid = Self {
+            outlines,
+            cell_px,
+            origin: [-margin; 2],
+            columns: (width / cell_px).ceil() as usize,
+            rows: (height / cell_px).ceil() as usize,
+            starts: Vec::new(),
+            entries: Vec::new(),
+        };
+        grid.fill();
+        grid
+    }
+
+    fn fill(&mut self) {
+        let mut counts = vec![0_u32; self.columns * self.rows + 1];
+        for outline in &self.outlines {
+            self.cells_of(outline, |cell| counts[cell + 1] += 1);
+        }
+        for cell in 1..counts.len() {
+            counts[cell] += counts[cell - 1];
+        }
+        let mut entries = vec![0; counts[counts.len() - 1] as usize];
+        let mut cursor = counts.clone();
+        for (index, outline) in self.outlines.iter().enumerate() {
+            self.cells_of(outline, |cell| {
+                entries[cursor[cell] as usize] = index as u32;
+                cursor[cell] += 1;
+            });
+        }
+        self.starts = counts;
+        self.entries = entries;
+    }
+
+    /// Visits the cells that a piece's image passes, row by row.
+    fn cells_of(&self, piece: &Piece, mut visit: impl FnMut(usize)) {
+        let [a, b] = piece
+            .place
+            .map(|p| [0, 1].map(|i| (p[i] - self.origin[i]) / self.cell_px));
+        let (top, bottom) = if a[1] <= b[1] { (a, b) } else { (b, a) };
+        let index = |v: f64, count: usize| (v.max(0.0) as usize).min(count - 1);
+        let (first, last) = (index(top[1], self.rows), index(bottom[1], self.rows));
+        let slope = (bottom[0] - top[0]) / (bottom[1] - top[1]).max(1e-300);
+        for row in first..=last {
+            let at = |y: f64| top[0] + slope * (y.clamp(top[1], bottom[1]) - top[1]);
+            let (p, q) = if first == last {
+                (top[0], bottom[0])
+            } else {
+                (at(row as f64), at(row as f64 + 1.0))
+            };
+            // A rounding error must not lose a cell.
+            let from = index(p.min(q) - 1e-9, self.columns);
+            let to = index(p.max(q) + 1e-9, self.columns);
+            for column in from..=to {
+                visit(row * self.columns + column);
+            }
+        }
+    }
+
+    /// Shares of a piece's image at which an outline in front of it is crossed, ascending.
+    pub fn cuts(&self, projector: &Projector, piece: &Piece) -> Vec<f64> {
+        let mut cuts = Vec::new();
+        self.cells_of(piece, |cell| {
+            let [from, to] = [cell, cell + 1].map(|c| self.starts[c] as usize);
+            for entry in &self.entries[from..to] {
+                let outline = &self.outlines[*entry as usize];
+                if let Some((own, other)) = crossing(piece, outline) {
+                    let (behind, front) = (
+                        piece.coordinate_at(projector, own),
+                        outline.coordinate_at(projector, other),
+                    );
+                    if front <= behind + behind.abs() * 1e-6 {
+                        cuts.push(own);
+                    }
+                }
+            }
+        });
+        cuts.sort_by(f64::total_cmp);
+        cuts.dedup();
+        cuts
+    }
+}
+
+/// Where two images cross: the shares of both; none where they do not or are parallel.
+fn crossing(piece: &Piece, other: &Piece) -> Option<(f64, f64)> {
+    let ([a, b], [c, d]) = (piece.place, other.place);
+    let apart = |i: usize| a[i].max(b[i]) < c[i].min(d[i]) || c[i].max(d[i]) < a[i].min(b[i]);
+    if apart(0) || apart(1) {
+        return None;
+    }
+    let along = [b[0] - a[0], b[1] - a[1]];
+    let across = [d[0] - c[0], d[1] - c[1]];
+    let between = [c[0] - a[0], c[1] - a[1]];
+    let area = along[0] * across[1] - along[1] * across[0];
+    if area == 0.0 {
+        return None;
+    }
+    let own = (between[0] * across[1] - between[1] * across[0]) / area;
+    let theirs = (between[0] * along[1] - between[1] * along[0]) / area;
+    // Pieces that go on into one another meet at their ends, which is no crossing.
+    let inside = own > 1e-9 && own < 1.0 - 1e-9;
+    (inside && (-1e-9..=1.0 + 1e-9).contains(&theirs)).then_some((own, theirs))
+}
+
+/// What visibility is decided with.
+#[derive(Debug, Clone, Copy)]
+pub struct Seen<'a> {
+    /// The surface.
+    pub shape: &'a Shape,
+    /// Its faces.
+    pub tree: &'a FaceTree,
+    /// The camera.
+    pub projector: &'a Projector,
+    /// The outlines of the view.
+    pub outlines: &'a OutlineGrid,
+    /// Up to how many surfaces in front are counted; 1 only tells visible from hidden.
+    pub count_limit: u32,
+}
+
+impl Seen<'_> {
+    /// The spans of a piece, which cover it in order; neighbours differ.
+    pub fn spans(&self, piece: &Piece, circumstances: &Circumstances) -> Vec<Span> {
+        let cuts = self.cuts(piece, &circumstances.piercings);
+        let mut spans: Vec<Span> = Vec::with_capacity(1);
+        for pair in cuts.windows(2) {
+            let occluders = self.occluders(piece, (pair[0] + pair[1]) * 0.5, circumstances);
+            match spans.last_mut() {
+                Some(last) if last.occluders == occluders => last.to = pair[1],
+                _ => spans.push(Span {
+                    from: pair[0],
+                    to: pair[1],
+                    occluders,
+                }),
+            }
+        }
+        spans
+    }
+
+    /// All places where visibility may change, with both ends.
+    fn cuts(&self, piece: &Piece, piercings: &[f64]) -> Vec<f64> {
+        let mut cuts = self.outlines.cuts(self.projector, piece);
+        let [from, to] = piece.range;
+        let inside = piercings.iter().filter(|t| (from..to).contains(*t));
+        cuts.extend(inside.map(|t| {
+            self.projector
+                .image_share((t - from) / (to - from), piece.depth)
+        }));
+        cuts.sort_by(f64::total_cmp);
+        let least = LEAST_SPAN_PX / piece.length().max(LEAST_SPAN_PX);
+        let mut kept = vec![0.0];
+        for cut in cuts {
+            if cut - kept[kept.len() - 1] > least && cut < 1.0 - least {
+                kept.push(cut);
+            }
+        }
+        kept.push(1.0);
+        kept
+    }
+
+    fn occluders(&self, piece: &Piece, share: f64, circumstances: &Circumstances) -> u32 {
+        let point = piece.world_at(self.projector, share);
+        let sight = Sight {
+            eye: self.projector.sight_start(point).to_array(),
+            point: point.to_array(),
+        };
+        self.tree.occluders(
+            self.shape,
+            &sight,
+            &circumstances.own_faces,
+            self.count_limit,
+        )
+    }
+
+    /// The spans of many pieces, on all threads.
+    pub fn all_spans(&self, pieces: &[(Piece, Circumstances)]) -> Vec<Vec<Span>> {
+        pieces
+            .par_iter()
+            .with_min_len(64)
+            .map(|(piece, circumstances)| self.spans(piece, circumstances))
+            .collect()
+    }
+}

@@ -1,0 +1,177 @@
+//! Joins runs whose ends meet and go the same way.
+//!
+//! Noise in the orientation of faces breaks one outline into loops that touch; to the eye it is one line.
+
+use crate::run::{Run, RunPoint, distance};
+use std::collections::BTreeMap;
+
+/// How near two ends must be, in pixels.
+const REACH_PX: f64 = 2.5;
+
+/// Cosine of the largest bend where two runs are joined.
+const BEND_COS: f64 = 0.85;
+
+/// Largest difference in depth where two runs are joined, as a share of the depth.
+const DEPTH_SHARE: f64 = 0.01;
+
+/// Over how much of a run its direction at an end is taken, in pixels.
+const DIRECTION_PX: f64 = 6.0;
+
+/// Runs with ends joined in pairs, the best pairs first.
+///
+/// Both must be of one kind, object and visibility; each end is used once. A run whose two ends fit closes. The result keeps the
+/// order of the runs' first members. O(n log n) for ends that are spread over the picture.
+pub fn merge_ends(runs: Vec<Run>) -> Vec<Run> {
+    let ends: Vec<Option<End>> = (0..2 * runs.len())
+        .map(|end| End::new(&runs, end))
+        .collect();
+    let mut pairs = candidates(&runs, &ends);
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    let mut mates = vec![usize::MAX; 2 * runs.len()];
+    for (_, a, b) in pairs {
+        if mates[a] == usize::MAX && mates[b] == usize::MAX {
+            mates[a] = b;
+            mates[b] = a;
+        }
+    }
+    join(runs, &mates)
+}
+
+/// An end of an open run; end `2 r` is the first point of run `r`, `2 r + 1` its last.
+struct End {
+    place: [f64; 2],
+    depth: f64,
+    /// Unit direction out of the run.
+    out: [f64; 2],
+}
+
+impl End {
+    fn new(runs: &[Run], end: usize) -> Option<Self> {
+        let run = &runs[end / 2];
+        if run.closed {
+            return None;
+        }
+        let from_end = |i: usize| match end % 2 {
+            0 => &run.points[i],
+            _ => &run.points[run.points.len() - 1 - i],
+        };
+        let tip = from_end(0);
+        let inner = (1..run.points.len())
+            .map(from_end)
+            .find(|point| distance(point.place, tip.place) >= DIRECTION_PX)
+            .unwrap_or(from_end(run.points.len() - 1));
+        let length = distance(inner.place, tip.place);
+        (length > 1e-6).then(|| Self {
+            place: tip.place,
+            depth: tip.depth,
+            out: [0, 1].map(|i| (tip.place[i] - inner.place[i]) / length),
+        })
+    }
+}
+
+fn cell_of(place: [f64; 2]) -> [i64; 2] {
+    place.map(|v| (v / REACH_PX).floor() as i64)
+}
+
+/// Pairs of ends that may be joined, with their cost.
+fn candidates(runs: &[Run], ends: &[Option<End>]) -> Vec<(f64, usize, usize)> {
+    let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+    for (index, end) in ends.iter().enumerate() {
+        if let Some(end) = end {
+            cells.entry(cell_of(end.place)).or_default().push(index);
+        }
+    }
+    let mut pairs = Vec::new();
+    for (cell, members) in &cells {
+        for neighbour in [[0, 0], [1, 0], [-1, 1], [0, 1], [1, 1]] {
+            let Some(others) = cells.get(&[cell[0] + neighbour[0], cell[1] + neighbour[1]]) else {
+                continue;
+            };
+            for a in members {
+                for b in others {
+                    if neighbour == [0, 0] && a >= b {
+                        continue;
+                    }
+                    if let Some(cost) = cost(runs, ends, *a, *b) {
+                        pairs.push((cost, *a.min(b), *a.max(b)));
+                    }
+                }
+            }
+        }
+    }
+    pairs
+}
+
+/// How badly two ends fit; none where they must not be joined.
+fn cost(runs: &[Run], ends: &[Option<End>], a: usize, b: usize) -> Option<f64> {
+    let (run_a, run_b) = (&runs[a / 2], &runs[b / 2]);
+    let (end_a, end_b) = (ends[a].as_ref()?, ends[b].as_ref()?);
+    let alike = run_a.kind == run_b.kind
+        && run_a.object == run_b.object
+        && run_a.surface == run_b.surface
+        && (run_a.occluders > 0) == (run_b.occluders > 0);
+    let gap = distance(end_a.place, end_b.place);
+    let straight = -(end_a.out[0] * end_b.out[0] + end_a.out[1] * end_b.out[1]);
+    let near = (end_a.depth - end_b.depth).abs() <= DEPTH_SHARE * end_a.depth.abs();
+    let is_stub = a / 2 == b / 2 && run_a.length() < 4.0 * DIRECTION_PX;
+    (alike && gap <= REACH_PX && straight >= BEND_COS && near && !is_stub)
+        .then_some(gap / REACH_PX + (1.0 - straight))
+}
+
+/// Follows the mates from run to run.
+fn join(runs: Vec<Run>, mates: &[usize]) -> Vec<Run> {
+    let mut used = vec![false; runs.len()];
+    let mut joined = Vec::with_capacity(runs.len());
+    let open = (0..mates.len()).filter(|end| mates[*end] == usize::MAX);
+    let mut order: Vec<(usize, usize)> = open.map(|end| (end / 2, end)).collect();
+    order.extend((0..runs.len()).map(|run| (runs.len() + run, 2 * run)));
+    let mut found: Vec<(usize, Run)> = Vec::new();
+    for (_, start) in order {
+        if used[start / 2] {
+            continue;
+        }
+        let mut end = start;
+        let mut whole = oriented(&runs[end / 2], end);
+        used[end / 2] = true;
+        let mut first = end / 2;
+        loop {
+            let mate = mates[end ^ 1];
+            if mate == usize::MAX {
+                break;
+            }
+            if used[mate / 2] {
+                whole.closed = true;
+                break;
+            }
+            used[mate / 2] = true;
+            first = first.min(mate / 2);
+            extend(&mut whole, &oriented(&runs[mate / 2], mate));
+            end = mate;
+        }
+        found.push((first, whole));
+    }
+    found.sort_by_key(|(first, _)| *first);
+    joined.extend(found.into_iter().map(|(_, run)| run));
+    joined
+}
+
+/// The run as travelled from an end.
+fn oriented(run: &Run, end: usize) -> Run {
+    let mut run = run.clone();
+    if end % 2 == 1 {
+        run.points.reverse();
+    }
+    run
+}
+
+fn extend(run: &mut Run, more: &Run) {
+    let touches = |a: &RunPoint, b: &RunPoint| distance(a.place, b.place) < 1e-6;
+    let skip = usize::from(
+        run.points
+            .last()
+            .is_some_and(|last| touches(last, &more.points[0])),
+    );
+    run.points.extend_from_slice(&more.points[skip..]);
+    run.id = run.id.min(more.id);
+    run.occluders = run.occluders.min(more.occluders);
+}

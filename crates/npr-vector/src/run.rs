@@ -1,0 +1,338 @@
+//! Runs: what is seen of a chain, cut where visibility, kind or surface changes.
+
+use crate::graph::CurveGraph;
+use crate::project::Projector;
+use crate::stroke::Kind;
+use crate::visibility::{Piece, Span};
+use glam::DVec3;
+use npr_core::geometry::NONE;
+use npr_core::shape::Shape;
+
+/// Gaps in a line up to this length are closed, in pixels: nobody sees them, and each would cost a stroke.
+const GAP_PX: f64 = 0.75;
+
+/// The piece of line after a node, as drawn in a view.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    /// What it is drawn as.
+    pub kind: Kind,
+    /// Surface that it lies on.
+    pub surface: u32,
+    /// Where it lies.
+    pub piece: Piece,
+    /// What is seen of it.
+    pub spans: Vec<Span>,
+}
+
+/// A point of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunPoint {
+    /// Place in the picture, in pixels.
+    pub place: [f64; 2],
+    /// Distance from the eye along the view axis.
+    pub depth: f64,
+    /// Place in the world.
+    pub world: DVec3,
+    /// The mesh edge it lies on or near.
+    pub edge: u32,
+    /// Where on that edge, from its lower vertex.
+    pub t: f32,
+}
+
+/// A connected part of a line with one kind, surface and visibility.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// Stays with the run from frame to frame.
+    pub id: u64,
+    /// What it is drawn as.
+    pub kind: Kind,
+    /// Surface that it lies on.
+    pub surface: u32,
+    /// Object that it lies on.
+    pub object: u32,
+    /// Least number of surfaces in front of it.
+    pub occluders: u32,
+    /// The last point runs on to the first.
+    pub closed: bool,
+    /// Factor on its width.
+    pub weight: f64,
+    /// At least two points.
+    pub points: Vec<RunPoint>,
+}
+
+impl Run {
+    /// Length in the picture, in pixels.
+    pub fn length(&self) -> f64 {
+        let open: f64 = self
+            .points
+            .windows(2)
+            .map(|p| distance(p[0].place, p[1].place))
+            .sum();
+        let (first, last) = (&self.points[0], &self.points[self.points.len() - 1]);
+        if self.closed {
+            open + distance(last.place, first.place)
+        } else {
+            open
+        }
+    }
+}
+
+/// Distance of two places, in pixels.
+pub fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt()
+}
+
+/// One span of a chain.
+#[derive(Debug, Clone, Copy)]
+struct Item<'a> {
+    node: u32,
+    line: &'a Line,
+    span: Span,
+    /// It starts where the item before ends.
+    follows: bool,
+}
+
+impl Item<'_> {
+    fn is_hidden(&self) -> bool {
+        self.span.occluders > 0
+    }
+
+    fn continues(&self, before: &Self) -> bool {
+        self.follows
+            && self.is_hidden() == before.is_hidden()
+            && self.line.kind == before.line.kind
+            && self.line.surface == before.line.surface
+    }
+
+    fn length(&self) -> f64 {
+        self.line.piece.length() * (self.span.to - self.span.from)
+    }
+}
+
+/// The runs of all chains of a graph; `lines` holds what is drawn after each node.
+pub fn runs(
+    shape: &Shape,
+    projector: &Projector,
+    graph: &CurveGraph,
+    lines: &[Option<Line>],
+) -> Vec<Run> {
+    let mut found = Vec::new();
+    for chain in chains(graph) {
+        let (mut items, is_loop) = items(graph, lines, &chain);
+        close_gaps(&mut items);
+        let breaks: Vec<usize> = breaks(&items, is_loop);
+        let maker = Maker {
+            shape,
+            projector,
+            graph,
+        };
+        if breaks.is_empty() && !items.is_empty() {
+            found.push(maker.run(&items, true));
+            continue;
+        }
+        for (i, from) in breaks.iter().enumerate() {
+            let to = breaks
+                .get(i + 1)
+                .copied()
+                .unwrap_or(breaks[0] + items.len());
+            let part: Vec<Item<'_>> = (*from..to).map(|k| items[k % items.len()]).collect();
+            found.push(maker.run(&part, false));
+        }
+    }
+    number(&mut found);
+    found.retain(|run| run.points.len() >= if run.closed { 3 } else { 2 });
+    found
+}
+
+/// The nodes of every chain in order: open ones from their start, closed ones from their first node.
+fn chains(graph: &CurveGraph) -> Vec<Vec<u32>> {
+    let count = graph.nodes.len() as u32;
+    let mut used = vec![false; count as usize];
+    let starts = (0..count).filter(|node| graph.nodes[*node as usize].prev == NONE);
+    let mut chains = Vec::new();
+    for start in starts.chain(0..count) {
+        if used[start as usize] {
+            continue;
+        }
+        let mut chain = Vec::new();
+        let mut node = start;
+        while node != NONE && !used[node as usize] {
+            used[node as usize] = true;
+            chain.push(node);
+            node = graph.nodes[node as usize].next;
+        }
+        chains.push(chain);
+    }
+    chains
+}
+
+/// The spans of a chain, and whether the last may run on to the first.
+fn items<'a>(
+    graph: &CurveGraph,
+    lines: &'a [Option<Line>],
+    chain: &[u32],
+) -> (Vec<Item<'a>>, bool) {
+    let mut items: Vec<Item<'a>> = Vec::new();
+    let mut open = false;
+    for node in chain {
+        let Some(line) = &lines[*node as usize] else {
+            open = false;
+            continue;
+        };
+        let whole_start = line.piece.range[0] == 0.0;
+        for (i, span) in line.spans.iter().enumerate() {
+            let follows = if i == 0 { open && whole_start } else { true };
+            items.push(Item {
+                node: *node,
+                line,
+                span: *span,
+                follows,
+            });
+        }
+        open = line.piece.range[1] == 1.0;
+    }
+    let [first, last] = [chain[0], chain[chain.len() - 1]];
+    let is_loop = graph.nodes[last as usize].next == first && open;
+    if let (Some(item), Some(line)) = (items.first_mut(), &lines[first as usize]) {
+        item.follows = is_loop && line.piece.range[0] == 0.0 && item.node == first;
+    }
+    (items, is_loop)
+}
+
+/// Makes hidden stretches too short to see visible, and visible ones hidden where hidden lines go on around them.
+fn close_gaps(items: &mut [Item<'_>]) {
+    let mut from = 0;
+    while from < items.len() {
+        let mut to = from + 1;
+        while to < items.len() && items[to].continues(&items[to - 1]) {
+            to += 1;
+        }
+        let length: f64 = items[from..to].iter().map(Item::length).sum();
+        let enclosed = from > 0
+            && to < items.len()
+            && items[from].is_hidden()
+            && items[from].follows
+            && items[to].follows
+            && !items[from - 1].is_hidden()
+            && !items[to].is_hidden();
+        if enclosed && length < GAP_PX {
+            items[from..to]
+                .iter_mut()
+                .for_each(|item| item.span.occluders = 0);
+        }
+        from = to;
+    }
+}
+
+/// Where runs begin; empty for a closed one.
+fn breaks(items: &[Item<'_>], is_loop: bool) -> Vec<usize> {
+    (0..items.len())
+        .filter(|i| match i.checked_sub(1) {
+            Some(before) => !items[*i].continues(&items[before]),
+            None => !(is_loop && items[0].continues(&items[items.len() - 1])),
+        })
+        .collect()
+}
+
+/// Makes runs from items.
+struct Maker<'a> {
+    shape: &'a Shape,
+    projector: &'a Projector,
+    graph: &'a CurveGraph,
+}
+
+impl Maker<'_> {
+    fn run(&self, items: &[Item<'_>], closed: bool) -> Run {
+        let first = items[0].line;
+        let mut points = vec![self.point(&items[0], items[0].span.from)];
+        for item in items {
+            let point = self.point(item, item.span.to);
+            if point.place != points[points.len() - 1].place {
+                points.push(point);
+            }
+        }
+        // The last point of a closed run is its first.
+        if closed && points.len() > 1 {
+            points.pop();
+        }
+        Run {
+            id: items
+                .iter()
+                .map(|item| self.anchor(item))
+                .min()
+                .map_or(0, |(_, id)| id),
+            kind: first.kind,
+            surface: first.surface,
+            object: self.shape.surfaces[first.surface as usize].object,
+            occluders: items
+                .iter()
+                .map(|item| item.span.occluders)
+                .min()
+                .unwrap_or(0),
+            closed,
+            weight: 1.0,
+            points,
+        }
+    }
+
+    /// A mesh edge to hang an identity on: the one with the least hash, which most small changes leave in the run.
+    fn anchor(&self, item: &Item<'_>) -> (u32, u64) {
+        let edge = self.graph.nodes[item.node as usize].edge;
+        (hash(edge), u64::from(edge) << 3 | item.line.kind as u64)
+    }
+
+    fn point(&self, item: &Item<'_>, share: f64) -> RunPoint {
+        let piece = &item.line.piece;
+        let node = &self.graph.nodes[item.node as usize];
+        let other = &self.graph.nodes[node.next as usize];
+        let world = piece.world_at(self.projector, share);
+        let [from, to] = piece.range;
+        let along = from + (to - from) * self.projector.world_share(share, piece.depth);
+        let (edge, t) = if node.is_along_edge() {
+            (
+                node.edge,
+                if node.t < 0.5 {
+                    along as f32
+                } else {
+                    1.0 - along as f32
+                },
+            )
+        } else if along < 0.5 {
+            (node.edge, node.t)
+        } else {
+            (other.edge, other.t)
+        };
+        RunPoint {
+            place: piece.place_at(share),
+            depth: self.projector.depth(world),
+            world,
+            edge,
+            t: t.clamp(0.0, 1.0),
+        }
+    }
+}
+
+/// A well-mixed number from an edge [the finaliser of MurmurHash3].
+fn hash(edge: u32) -> u32 {
+    let mut h = edge ^ 0x9e37_79b9;
+    h = (h ^ h >> 16).wrapping_mul(0x85eb_ca6b);
+    h = (h ^ h >> 13).wrapping_mul(0xc2b2_ae35);
+    h ^ h >> 16
+}
+
+/// Tells apart runs that hang on the same edge, in the order in which they lie along it.
+fn number(runs: &mut [Run]) {
+    let mut order: Vec<usize> = (0..runs.len()).collect();
+    order.sort_by(|a, b| {
+        let along = |i: usize| (runs[i].id, runs[i].occluders > 0);
+        along(*a).cmp(&along(*b)).then(a.cmp(b))
+    });
+    let mut last = None;
+    let mut ordinal = 0;
+    for index in order {
+        let id = runs[index].id;
+        ordinal = if last == Some(id) { ordinal + 1 } else { 0 };
+        last = Some(id);
+        runs[index].id = id << 8 | ordinal;
+    }
+}
