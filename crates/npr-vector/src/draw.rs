@@ -5,10 +5,11 @@
 
 use crate::bvh::FaceTree;
 use crate::contour::{Eye, contours, facing};
+use crate::doubles::suppress;
 use crate::feature::{features, kind_in_view};
 use crate::graph::{CurveGraph, CurveNode};
 use crate::intersect::Crossings;
-use crate::merge::merge_ends;
+use crate::merge::{FACING_PX, TOUCHING_PX, merge_ends};
 use crate::project::Projector;
 use crate::run::{Line, Run, runs};
 use crate::smooth::smooth;
@@ -145,7 +146,9 @@ pub fn strokes(
         .filter(|run| settings.hidden || run.occluders == 0)
         .collect();
     if settings.smooth {
-        found = merge_ends(found);
+        found = merge_ends(found, TOUCHING_PX);
+        smooth(&mut found);
+        found = merge_ends(suppress(found), FACING_PX);
         smooth(&mut found);
     }
     into_strokes(shape, found, width_at)

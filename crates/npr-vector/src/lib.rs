@@ -14,6 +14,7 @@ pub mod bvh;
 pub mod centreline;
 pub mod contour;
 pub mod detect;
+pub mod doubles;
 pub mod draw;
 pub mod drawing;
 pub mod feature;

@@ -5,11 +5,17 @@
 use crate::run::{Run, RunPoint, distance};
 use std::collections::BTreeMap;
 
-/// How near two ends must be, in pixels.
-const REACH_PX: f64 = 2.5;
+/// How near two ends must be that only noise keeps apart, in pixels.
+pub const TOUCHING_PX: f64 = 2.5;
+
+/// How near two ends must be that face each other across a gap, in pixels.
+pub const FACING_PX: f64 = 8.0;
 
 /// Cosine of the largest bend where two runs are joined.
 const BEND_COS: f64 = 0.85;
+
+/// Cosine of the largest angle between an end's direction and the gap that it is joined across.
+const AIM_COS: f64 = 0.85;
 
 /// Largest difference in depth where two runs are joined, as a share of the depth.
 const DEPTH_SHARE: f64 = 0.01;
@@ -17,15 +23,15 @@ const DEPTH_SHARE: f64 = 0.01;
 /// Over how much of a run its direction at an end is taken, in pixels.
 const DIRECTION_PX: f64 = 6.0;
 
-/// Runs with ends joined in pairs, the best pairs first.
+/// Runs with ends up to `reach_px` apart joined in pairs, the best pairs first.
 ///
 /// Both must be of one kind, object and visibility; each end is used once. A run whose two ends fit closes. The result keeps the
 /// order of the runs' first members. O(n log n) for ends that are spread over the picture.
-pub fn merge_ends(runs: Vec<Run>) -> Vec<Run> {
+pub fn merge_ends(runs: Vec<Run>, reach_px: f64) -> Vec<Run> {
     let ends: Vec<Option<End>> = (0..2 * runs.len())
         .map(|end| End::new(&runs, end))
         .collect();
-    let mut pairs = candidates(&runs, &ends);
+    let mut pairs = candidates(&runs, &ends, reach_px);
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
     let mut mates = vec![usize::MAX; 2 * runs.len()];
     for (_, a, b) in pairs {
@@ -69,16 +75,19 @@ impl End {
     }
 }
 
-fn cell_of(place: [f64; 2]) -> [i64; 2] {
-    place.map(|v| (v / REACH_PX).floor() as i64)
+fn cell_of(place: [f64; 2], reach_px: f64) -> [i64; 2] {
+    place.map(|v| (v / reach_px).floor() as i64)
 }
 
 /// Pairs of ends that may be joined, with their cost.
-fn candidates(runs: &[Run], ends: &[Option<End>]) -> Vec<(f64, usize, usize)> {
+fn candidates(runs: &[Run], ends: &[Option<End>], reach_px: f64) -> Vec<(f64, usize, usize)> {
     let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
     for (index, end) in ends.iter().enumerate() {
         if let Some(end) = end {
-            cells.entry(cell_of(end.place)).or_default().push(index);
+            cells
+                .entry(cell_of(end.place, reach_px))
+                .or_default()
+                .push(index);
         }
     }
     let mut pairs = Vec::new();
@@ -92,7 +101,7 @@ fn candidates(runs: &[Run], ends: &[Option<End>]) -> Vec<(f64, usize, usize)> {
                     if neighbour == [0, 0] && a >= b {
                         continue;
                     }
-                    if let Some(cost) = cost(runs, ends, *a, *b) {
+                    if let Some(cost) = cost(runs, ends, [*a, *b], reach_px) {
                         pairs.push((cost, *a.min(b), *a.max(b)));
                     }
                 }
@@ -103,7 +112,7 @@ fn candidates(runs: &[Run], ends: &[Option<End>]) -> Vec<(f64, usize, usize)> {
 }
 
 /// How badly two ends fit; none where they must not be joined.
-fn cost(runs: &[Run], ends: &[Option<End>], a: usize, b: usize) -> Option<f64> {
+fn cost(runs: &[Run], ends: &[Option<End>], [a, b]: [usize; 2], reach_px: f64) -> Option<f64> {
     let (run_a, run_b) = (&runs[a / 2], &runs[b / 2]);
     let (end_a, end_b) = (ends[a].as_ref()?, ends[b].as_ref()?);
     let alike = run_a.kind == run_b.kind
@@ -114,8 +123,12 @@ fn cost(runs: &[Run], ends: &[Option<End>], a: usize, b: usize) -> Option<f64> {
     let straight = -(end_a.out[0] * end_b.out[0] + end_a.out[1] * end_b.out[1]);
     let near = (end_a.depth - end_b.depth).abs() <= DEPTH_SHARE * end_a.depth.abs();
     let is_stub = a / 2 == b / 2 && run_a.length() < 4.0 * DIRECTION_PX;
-    (alike && gap <= REACH_PX && straight >= BEND_COS && near && !is_stub)
-        .then_some(gap / REACH_PX + (1.0 - straight))
+    let across = [0, 1].map(|i| (end_b.place[i] - end_a.place[i]) / gap.max(1e-9));
+    let aims =
+        |out: [f64; 2], sign: f64| sign * (out[0] * across[0] + out[1] * across[1]) >= AIM_COS;
+    let facing = gap <= TOUCHING_PX || (aims(end_a.out, 1.0) && aims(end_b.out, -1.0));
+    (alike && gap <= reach_px && straight >= BEND_COS && near && facing && !is_stub)
+        .then_some(gap / TOUCHING_PX + (1.0 - straight))
 }
 
 /// Follows the mates from run to run.

@@ -61,6 +61,14 @@ pub struct Run {
 }
 
 impl Run {
+    /// The same run without points.
+    pub(crate) fn clone_empty(&self) -> Self {
+        Self {
+            points: Vec::new(),
+            ..*self
+        }
+    }
+
     /// Length in the picture, in pixels.
     pub fn length(&self) -> f64 {
         let open: f64 = self

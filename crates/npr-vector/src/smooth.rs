@@ -34,7 +34,7 @@ pub fn smooth(runs: &mut Vec<Run>) {
     runs.par_iter_mut().with_min_len(8).for_each(|run| {
         let length = run.length();
         run.points = smoothed(&run.points, run.closed);
-        run.weight *= weight_of(length);
+        run.weight = weight_of(length);
     });
     runs.retain(|run| run.points.len() >= if run.closed { 3 } else { 2 });
 }

@@ -1,0 +1,208 @@
+//! Leaves out what would be inked twice.
+//!
+//! Where a mesh is noisy its contour doubles back, and a cusp grows a fringe of hairs beside the line it ends. Runs are taken
+//! from the longest to the shortest; what lies beside a run already taken, and along it, is cut away.
+
+use crate::run::{Run, distance};
+use std::collections::HashMap;
+
+/// Within this distance of a longer run a sample is a double, in pixels.
+const BESIDE_PX: f64 = 3.0;
+
+/// Cosine of the largest angle at which lines count as running along each other.
+const ALONG_COS: f64 = 0.8;
+
+/// A run may come this near to itself, measured along it, in pixels.
+const OWN_PX: f64 = 12.0;
+
+/// On how many samples on either side the majority decides.
+const MAJORITY: usize = 3;
+
+/// What is left of a run after cutting must have this many samples.
+const LEAST_SAMPLES: usize = 2;
+
+/// How many samples beyond a cut are kept, so that what is left reaches the line it ran into.
+const OVERLAP: usize = 2;
+
+/// A run shorter than this, all of it beside a longer one in any direction, is a hair, in pixels.
+const HAIR_PX: f64 = 12.0;
+
+/// Runs without doubles; order is kept. Runs must be sampled about evenly.
+///
+/// O(samples) for lines that do not crowd in one place.
+pub fn suppress(runs: Vec<Run>) -> Vec<Run> {
+    let lengths: Vec<f64> = runs.iter().map(Run::length).collect();
+    let mut order: Vec<usize> = (0..runs.len()).collect();
+    order.sort_by(|a, b| {
+        lengths[*b]
+            .total_cmp(&lengths[*a])
+            .then(runs[*a].id.cmp(&runs[*b].id))
+            .then(a.cmp(b))
+    });
+    let mut taken = Taken::default();
+    let mut kept: Vec<Vec<Run>> = vec![Vec::new(); runs.len()];
+    for index in order {
+        let run = &runs[index];
+        if lengths[index] < HAIR_PX && !run.closed && taken.surrounds(run) {
+            continue;
+        }
+        let doubled = taken.doubled(run, index);
+        kept[index] = parts(run, &doubled);
+    }
+    kept.into_iter().flatten().collect()
+}
+
+/// A sample of a run that is drawn.
+struct Sample {
+    place: [f64; 2],
+    along: [f64; 2],
+    run: usize,
+    /// Distance from the start of its run, in pixels.
+    at: f64,
+    occluded: bool,
+}
+
+/// The samples of all runs taken so far, in cells.
+#[derive(Default)]
+struct Taken {
+    cells: HashMap<[i64; 2], Vec<Sample>>,
+}
+
+impl Taken {
+    /// Which samples of a run lie along something taken, by majority.
+    fn doubled(&mut self, run: &Run, index: usize) -> Vec<bool> {
+        let directions = directions(run);
+        let stations = stations(run);
+        let raw: Vec<bool> = (0..run.points.len())
+            .map(|i| {
+                let (place, along) = (run.points[i].place, directions[i]);
+                let doubled = self.near(place, BESIDE_PX, |other| {
+                    let apart = other.run != index || stations[i] - other.at > OWN_PX;
+                    let cos = along[0] * other.along[0] + along[1] * other.along[1];
+                    other.occluded == (run.occluders > 0) && apart && cos.abs() > ALONG_COS
+                });
+                // Later samples of this run are compared with this one.
+                if !doubled {
+                    let sample = Sample {
+                        place,
+                        along,
+                        run: index,
+                        at: stations[i],
+                        occluded: run.occluders > 0,
+                    };
+                    self.cells.entry(cell_of(place)).or_default().push(sample);
+                }
+                doubled
+            })
+            .collect();
+        majority(&raw)
+    }
+
+    /// Whether something taken lies beside every sample but one in five.
+    fn surrounds(&self, run: &Run) -> bool {
+        let beside = |place| {
+            self.near(place, BESIDE_PX, |other| {
+                other.occluded == (run.occluders > 0)
+            })
+        };
+        let count = run
+            .points
+            .iter()
+            .filter(|point| beside(point.place))
+            .count();
+        5 * count >= 4 * run.points.len()
+    }
+
+    fn near(&self, place: [f64; 2], reach: f64, is: impl Fn(&Sample) -> bool) -> bool {
+        let [x, y] = cell_of(place);
+        (-1..=1).any(|dx| {
+            (-1..=1).any(|dy| {
+                self.cells.get(&[x + dx, y + dy]).is_some_and(|samples| {
+                    samples
+                        .iter()
+                        .any(|other| distance(other.place, place) < reach && is(other))
+                })
+            })
+        })
+    }
+}
+
+fn cell_of(place: [f64; 2]) -> [i64; 2] {
+    place.map(|v| (v / BESIDE_PX).floor() as i64)
+}
+
+/// Unit direction of a run at every point.
+fn directions(run: &Run) -> Vec<[f64; 2]> {
+    let count = run.points.len();
+    (0..count)
+        .map(|i| {
+            let (a, b) = if run.closed {
+                ((i + count - 1) % count, (i + 1) % count)
+            } else {
+                (i.saturating_sub(1), (i + 1).min(count - 1))
+            };
+            let (a, b) = (run.points[a].place, run.points[b].place);
+            let length = distance(a, b).max(1e-12);
+            [(b[0] - a[0]) / length, (b[1] - a[1]) / length]
+        })
+        .collect()
+}
+
+/// Distance of every point from the start.
+fn stations(run: &Run) -> Vec<f64> {
+    let mut at = 0.0;
+    let steps = run.points.windows(2).map(|pair| {
+        at += distance(pair[0].place, pair[1].place);
+        at
+    });
+    std::iter::once(0.0).chain(steps).collect()
+}
+
+fn majority(raw: &[bool]) -> Vec<bool> {
+    (0..raw.len())
+        .map(|i| {
+            let window = &raw[i.saturating_sub(MAJORITY)..(i + MAJORITY + 1).min(raw.len())];
+            2 * window.iter().filter(|doubled| **doubled).count() > window.len()
+        })
+        .collect()
+}
+
+/// What is left of a run.
+fn parts(run: &Run, doubled: &[bool]) -> Vec<Run> {
+    if !doubled.contains(&true) {
+        return vec![run.clone()];
+    }
+    let count = run.points.len();
+    // Start a closed run at a double, so that no part runs over its seam.
+    let start = if run.closed {
+        doubled.iter().position(|d| *d).unwrap_or(0)
+    } else {
+        0
+    };
+    let at = |k: usize| (start + k) % count;
+    let mut parts: Vec<Run> = Vec::new();
+    let mut from = 0;
+    while from < count {
+        if doubled[at(from)] {
+            from += 1;
+            continue;
+        }
+        let to = (from..count).find(|k| doubled[at(*k)]).unwrap_or(count);
+        if to - from >= LEAST_SAMPLES {
+            let (first, last) = (from.saturating_sub(OVERLAP), (to + OVERLAP).min(count));
+            let points = (first..last).map(|k| run.points[at(k)]).collect();
+            parts.push(Run {
+                points,
+                closed: false,
+                ..run.clone_empty()
+            });
+        }
+        from = to;
+    }
+    parts.retain(|part| part.points.len() > 1);
+    for (ordinal, part) in parts.iter_mut().enumerate().skip(1) {
+        // Parts of one run must not share its identity.
+        part.id = run.id ^ (ordinal as u64) << 44;
+    }
+    parts
+}
