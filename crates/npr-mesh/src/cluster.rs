@@ -6,6 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::bounds::bounding_box;
+use crate::lonely::not_alone;
 use crate::union_find::UnionFind;
 
 /// A cube of the grid, and the points in it as a range of the sorted points.
@@ -14,23 +15,51 @@ struct Cell {
     members: Range<usize>,
 }
 
+/// How much longer than the tolerance a step between crowded cells may be, as a fraction.
+///
+/// Smaller takes more comparisons between crowds: their number grows with the inverse fourth power.
+const SLACK: f64 = 0.125;
+
+/// Comparisons between the points of two cells up to which all are made.
+const EXACT_COMPARISONS: usize = 1024;
+
 /// The first point of each point's cluster: single linkage with steps up to `tolerance` diagonals.
 ///
-/// Grid cells are so small that all points of one lie within a step, which leaves whole cells to be
-/// joined with those at most two away. O(n log n), plus pairs of points in neighbouring crowded cells.
+/// Points that are not finite stay alone. Between cells that hold dozens of points, steps up to [`SLACK`]
+/// longer may count; which do depends on positions alone, not on their order.
+///
+/// Most points of a mesh have no other within a step; [`not_alone`] puts them aside in O(n). The rest is
+/// sorted into a grid, O(k log k), whose cells are so small that all points of one lie within a step,
+/// which leaves whole cells to be joined with those at most two away.
 pub(crate) fn clusters(points: &[[f32; 3]], tolerance: f32) -> Vec<u32> {
-    let (low, high) = bounding_box(points);
+    let mut leaders: Vec<u32> = (0..points.len() as u32).collect();
+    let finite: Vec<u32> = (0..points.len() as u32)
+        .filter(|&i| points[i as usize].iter().all(|v| v.is_finite()))
+        .collect();
+    let boxed: Vec<[f32; 3]> = finite.iter().map(|&i| points[i as usize]).collect();
+    let (low, high) = bounding_box(&boxed);
     let step = low.distance(high) * f64::from(tolerance);
     if step == 0.0 {
-        return (0..points.len() as u32).collect();
+        return leaders;
     }
-    let points: Vec<DVec3> = points
-        .iter()
+    let boxed: Vec<DVec3> = boxed
+        .par_iter()
         .map(|p| DVec3::from_array(p.map(f64::from)) - low)
         .collect();
-    let order = sorted_by_place(&points, step / 3.0_f64.sqrt());
+    let close = not_alone(&boxed, low.distance(high), step * (1.0 + SLACK));
+    let close_points: Vec<DVec3> = close.iter().map(|&i| boxed[i as usize]).collect();
+    let number = |i: u32| finite[close[i as usize] as usize];
+    for (member, leader) in (0..).zip(join_close(&close_points, step)) {
+        leaders[number(member) as usize] = number(leader);
+    }
+    leaders
+}
+
+/// The first point of each point's cluster, for points from the lowest corner of their box.
+fn join_close(points: &[DVec3], step: f64) -> Vec<u32> {
+    let order = sorted_by_place(points, step / 3.0_f64.sqrt());
     let cells = cells(&order);
-    let joined = join_cells(&points, &order, &cells, step);
+    let joined = join_cells(points, &order, &cells, step);
     leaders(points.len(), &order, &cells, joined)
 }
 
@@ -64,22 +93,64 @@ fn cells(order: &[([i64; 3], u32)]) -> Vec<Cell> {
 /// Unites cells that hold points within one step of each other.
 fn join_cells(points: &[DVec3], order: &[([i64; 3], u32)], cells: &[Cell], step: f64) -> UnionFind {
     let mut sets = UnionFind::new(cells.len());
-    let within_step = |a: &Cell, b: &Cell| {
-        let at = |i: usize| points[order[i].1 as usize];
-        a.members.clone().any(|i| {
-            b.members
-                .clone()
-                .any(|j| at(i).distance_squared(at(j)) <= step * step)
-        })
-    };
+    let sorted: Vec<DVec3> = order
+        .iter()
+        .map(|&(_, point)| points[point as usize])
+        .collect();
     for row in ROWS {
         for_neighbours(cells, row, |a, b| {
-            if sets.find(a) != sets.find(b) && within_step(&cells[a as usize], &cells[b as usize]) {
-                sets.unite(a, b);
+            if sets.find(a) != sets.find(b) {
+                let pair = [a, b].map(|cell| &cells[cell as usize]);
+                let members = pair.map(|cell| &sorted[cell.members.clone()]);
+                if within_step(pair.map(|cell| cell.place), members, step) {
+                    sets.unite(a, b);
+                }
             }
         });
     }
     sets
+}
+
+/// Whether a point of one cell lies within a step of a point of the other, or little more between crowds.
+fn within_step(places: [[i64; 3]; 2], [a, b]: [&[DVec3]; 2], step: f64) -> bool {
+    if a.len().saturating_mul(b.len()) <= EXACT_COMPARISONS {
+        return any_within(a, b, step);
+    }
+    let apart = |axis: &usize| places[0][*axis] != places[1][*axis];
+    let axis = (0..3).find(apart).unwrap_or(0);
+    let towards_b = if places[0][axis] < places[1][axis] {
+        1.0
+    } else {
+        -1.0
+    };
+    let near_b = outermost(a, axis, towards_b, step);
+    let near_a = outermost(b, axis, -towards_b, step);
+    any_within(&near_b, &near_a, step * (1.0 + SLACK))
+}
+
+fn any_within(a: &[DVec3], b: &[DVec3], reach: f64) -> bool {
+    let close = |p: &DVec3| b.iter().any(|q| p.distance_squared(*q) <= reach * reach);
+    a.iter().any(close)
+}
+
+/// The point farthest towards `side` of every thin column along `axis`.
+///
+/// What lies beyond the cell is no farther from it than from any other point of the column, but for the
+/// column's width. The diagonals of two columns make up [`SLACK`].
+fn outermost(points: &[DVec3], axis: usize, side: f64, step: f64) -> Vec<DVec3> {
+    let width = SLACK * step / 8.0_f64.sqrt();
+    let across = [(axis + 1) % 3, (axis + 2) % 3];
+    let mut columns: Vec<([i64; 2], DVec3)> = points
+        .iter()
+        .map(|&p| (across.map(|i| (p[i] / width).floor() as i64), p))
+        .collect();
+    columns.sort_unstable_by(|(a, p), (b, q)| {
+        let inwards = (side * q[axis]).total_cmp(&(side * p[axis]));
+        let ties = across.map(|i| p[i].total_cmp(&q[i]));
+        a.cmp(b).then(inwards).then(ties[0]).then(ties[1])
+    });
+    columns.dedup_by_key(|(column, _)| *column);
+    columns.into_iter().map(|(_, point)| point).collect()
 }
 
 /// Offsets in x and y of the rows up to two cells away, one of each opposite pair.

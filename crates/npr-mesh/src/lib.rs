@@ -30,7 +30,9 @@
 //! Sources are cited by key, such as [Rusinkiewicz 2004]; `REFERENCES.md` of the project lists them.
 
 pub mod bounds;
+mod buckets;
 pub mod classify;
+
 mod cluster;
 pub mod components;
 pub mod curvature;
@@ -38,9 +40,14 @@ pub mod edge_flags;
 pub mod edges;
 pub mod fans;
 pub mod hull;
+mod lonely;
 pub mod mesh;
 pub mod normals;
 pub mod pose;
+mod sectors;
+pub mod shape;
+mod sides;
+mod slivers;
 pub mod smoothing;
 #[cfg(any(test, feature = "testing"))]
 pub mod testing;

@@ -1,0 +1,86 @@
+//! Half-edges gathered by the unique edge that they run along.
+
+use rayon::prelude::*;
+
+use crate::buckets::Buckets;
+
+/// Half-edges `3 f + i` of all faces, grouped by edge; edges ascend by lower, then by higher vertex.
+///
+/// Of one edge come first the half-edges that run up, from the lower vertex to the higher, in ascending order.
+pub(crate) struct Sides {
+    /// Where the half-edges of each edge start; one more than there are edges.
+    pub(crate) starts: Vec<u32>,
+    pub(crate) half_edges: Vec<u32>,
+}
+
+/// Set in a key where the half-edge runs down; limits a mesh to 2^31 half-edges.
+const DOWN: u64 = 1 << 31;
+
+impl Sides {
+    /// Sorts half-edges by 64-bit keys: by lower vertex in one counting sort, then each short bucket by
+    /// higher vertex and direction. O(n log k) with at most `k` edges at one vertex.
+    ///
+    /// # Panics
+    ///
+    /// If there are 2^31 half-edges or more.
+    pub(crate) fn of_faces(faces: &[[u32; 3]], vertex_count: usize) -> Self {
+        let half_edge_count = 3 * faces.len();
+        assert!(
+            (half_edge_count as u64) < DOWN,
+            "a mesh has fewer than 2^31 half-edges"
+        );
+        let lower: Vec<[u32; 3]> = faces
+            .par_iter()
+            .map(|&[a, b, c]| [a.min(b), b.min(c), c.min(a)])
+            .collect();
+        let buckets = Buckets::new(vertex_count, lower.as_flattened(), |h| key(faces, h));
+        let runs = buckets.gather(|run| {
+            let mut sorted = SortedRun::default();
+            run.for_each(|start, keys| sorted.add(start, keys));
+            sorted
+        });
+        let mut sides = Self {
+            starts: Vec::with_capacity(half_edge_count / 2 + 1),
+            half_edges: Vec::with_capacity(half_edge_count),
+        };
+        for run in runs {
+            sides.starts.extend_from_slice(&run.starts);
+            sides.half_edges.extend_from_slice(&run.half_edges);
+        }
+        sides.starts.push(half_edge_count as u32);
+        sides
+    }
+}
+
+/// The higher vertex, the direction and the number of a half-edge.
+fn key(faces: &[[u32; 3]], half_edge: u32) -> u64 {
+    let [face, i] = [half_edge / 3, half_edge % 3].map(|v| v as usize);
+    let [tail, head] = [faces[face][i], faces[face][(i + 1) % 3]];
+    let down = if tail > head { DOWN } else { 0 };
+    u64::from(tail.max(head)) << 32 | down | u64::from(half_edge)
+}
+
+/// Edges of consecutive lower vertices.
+#[derive(Default)]
+struct SortedRun {
+    starts: Vec<u32>,
+    half_edges: Vec<u32>,
+    scratch: Vec<u64>,
+}
+
+impl SortedRun {
+    /// Appends the edges of one lower vertex, whose half-edges start at `start` among all.
+    fn add(&mut self, start: usize, keys: &[u64]) {
+        self.scratch.clear();
+        self.scratch.extend_from_slice(keys);
+        self.scratch.sort_unstable();
+        let mut higher = None;
+        for (place, &key) in self.scratch.iter().enumerate() {
+            if higher != Some(key >> 32) {
+                higher = Some(key >> 32);
+                self.starts.push((start + place) as u32);
+            }
+            self.half_edges.push((key & (DOWN - 1)) as u32);
+        }
+    }
+}
