@@ -14,6 +14,7 @@
 //! ```
 
 pub mod cost;
+pub mod lines;
 pub mod machine;
 pub mod memory;
 pub mod solid;

@@ -52,6 +52,44 @@ shaders! {
     LINE_FLAG_TILES = "line/flag_tiles";
     /// Inks discs around the mask pixels that no ribbon inked.
     LINE_STAMP_RESIDUAL = "line/stamp_residual";
+    /// Decides which faces are turned to the eye.
+    VECTOR_FACE_EYE = "vector/face_eye";
+    /// Marks the half-edges on contours.
+    VECTOR_MARK_CONTOURS = "vector/mark_contours";
+    /// Links them to closed lines.
+    VECTOR_LINK_CONTOURS = "vector/link_contours";
+    /// Lets nodes of lines be ranked.
+    VECTOR_LIST_NODES = "vector/list_nodes";
+    /// Sums values within blocks.
+    VECTOR_SCAN_BLOCKS = "vector/scan_blocks";
+    /// Adds the sums of earlier blocks.
+    VECTOR_SCAN_ADD = "vector/scan_add";
+    /// Puts marked elements in a row.
+    VECTOR_COMPACT = "vector/compact";
+    /// Lets every node of a list look at its predecessor.
+    VECTOR_START_NODES = "vector/start_nodes";
+    /// Finds the heads of chains, one round.
+    VECTOR_BREAK_LOOPS = "vector/break_loops";
+    /// Cuts loops at their heads.
+    VECTOR_CUT_LOOPS = "vector/cut_loops";
+    /// Ranks lists, one round.
+    VECTOR_RANK_JUMP = "vector/rank_jump";
+    /// Marks the nodes that others count from.
+    VECTOR_FIND_SPLITTERS = "vector/find_splitters";
+    /// Counts from every node to its splitter.
+    VECTOR_WALK_TO_SPLITTER = "vector/walk_to_splitter";
+    /// Lets every splitter look at the one before it.
+    VECTOR_START_SPLITTERS = "vector/start_splitters";
+    /// Ranks short lists, all rounds.
+    VECTOR_RANK_SPLITTERS = "vector/rank_splitters";
+    /// Passes ranks on to nodes.
+    VECTOR_SCATTER_RANKS = "vector/scatter_ranks";
+    /// Measures the lengths of chains.
+    VECTOR_MEASURE_CHAINS = "vector/measure_chains";
+    /// Counts from the heads of chains.
+    VECTOR_TURN_RANKS = "vector/turn_ranks";
+    /// Puts the nodes of all chains in a row.
+    VECTOR_ORDER_NODES = "vector/order_nodes";
     /// Shades surfaces and lays lines over them.
     SHADE_COMPOSE_FRAME = "shade/compose_frame";
 }
@@ -63,6 +101,8 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/unit", include_str!("../lib/unit.wgsl")),
     ("lib/surface", include_str!("../lib/surface.wgsl")),
     ("lib/texture", include_str!("../lib/texture.wgsl")),
+    ("lib/curve", include_str!("../lib/curve.wgsl")),
+    ("lib/list", include_str!("../lib/list.wgsl")),
     ("lib/window", include_str!("../lib/window.wgsl")),
     ("lib/outline", include_str!("../lib/outline.wgsl")),
     ("lib/pose", include_str!("../lib/pose.wgsl")),

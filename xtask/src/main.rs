@@ -7,6 +7,7 @@ mod ci;
 mod coverage;
 mod file;
 mod floors;
+mod measure;
 mod names;
 mod packages;
 mod snapshots;
@@ -27,6 +28,9 @@ usage: cargo xtask COMMAND
   assets [--check]  write the sample models, or only compare them
   floors            check that imports go down and stay light
   coverage          check docs/coverage.toml and print counts
+  measure lines [ARGS]
+                    measure line drawings, in release, and keep the tables; ARGS go to the
+                    measuring program: --models DIR, --peers DIR, --only NAME, --quick
   names             check that no file names a machine, and that every crate has a README
   snapshots bless FILTER
                     make what is drawn now the reference, for names that hold FILTER";
@@ -56,6 +60,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["assets", "--check"] => assets::check(&root.join("assets")),
         ["floors"] => floors::check(root),
         ["coverage"] => coverage::check(root),
+        ["measure", "lines", rest @ ..] => measure::lines(root, rest),
         ["names"] => names::check(root),
         ["snapshots", "bless", filter] => snapshots::bless(root, filter),
         _ => return None,

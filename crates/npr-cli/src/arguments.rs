@@ -3,12 +3,17 @@
 mod byte_count;
 mod camera;
 mod limits;
+mod lines;
 mod point;
 mod render;
 mod size;
 
 pub use camera::CameraArguments;
 pub use limits::LimitArguments;
+pub use lines::{
+    HiddenLines, LineArguments, LineFormat, LinesArguments, MethodName, PathForm, SheetArguments,
+    Switch,
+};
 #[cfg(test)]
 pub use point::Point;
 pub use render::{Backend, LookArguments, RenderArguments, TimingsForm};
@@ -35,6 +40,11 @@ pub enum Command {
     /// Without options, `npr render model.glb` draws the model from three quarters above in the style
     /// `toon` and writes model.png into the current folder.
     Render(Box<RenderArguments>),
+    /// Draw only the lines of a scene, as curves.
+    ///
+    /// Without options, `npr lines model.glb` draws the model from three quarters above and writes model.svg
+    /// into the current folder.
+    Lines(Box<LinesArguments>),
     /// Tell what is in a file, what of it is drawn, and what is ignored and why.
     Info(InfoArguments),
     /// List, show and check styles.
@@ -48,6 +58,11 @@ pub enum Command {
         /// As JSON.
         #[arg(long)]
         json: bool,
+    },
+    /// Print a manual page, such as `npr man lines | man -l -`.
+    Man {
+        /// The command it is about; without, of all of them.
+        command: Option<String>,
     },
     /// Print a completion script for a shell.
     Completions {

@@ -3,6 +3,7 @@
 use crate::arguments::{RenderArguments, Size};
 use crate::fault::{Exit, Fault};
 use crate::look::Look;
+use crate::message::quoted;
 use crate::output::Output;
 use crate::source::Source;
 use npr_render::StageOptions;
@@ -30,7 +31,9 @@ impl<'a> Job<'a> {
     pub fn resolve(said: &'a RenderArguments) -> Result<Self, Fault> {
         check_size(said.size)?;
         let source = Source::of(said.scene.as_deref().unwrap_or(Path::new("-")));
-        let output = Output::of(&output_path(said.output.as_deref(), &source)?)?;
+        let path = output_path(said.output.as_deref(), &source, "png")?;
+        check_ending(&path)?;
+        let output = Output::of(&path)?;
         let external = said.allow_external.as_deref();
         let look = Look::resolve(&said.look, external)?;
         let limits = said.limits.limits();
@@ -50,7 +53,8 @@ impl<'a> Job<'a> {
     }
 }
 
-fn check_size(size: Size) -> Result<(), Fault> {
+/// Refuses sides beyond the limit.
+pub fn check_size(size: Size) -> Result<(), Fault> {
     let side = size.width.max(size.height);
     if side <= SIDE_LIMIT {
         return Ok(());
@@ -61,13 +65,31 @@ fn check_size(size: Size) -> Result<(), Fault> {
     Err(Fault::new(Exit::Limit, message))
 }
 
-/// The path asked for, or else the scene's name with the ending .png, in the current folder.
-fn output_path(asked: Option<&Path>, source: &Source) -> Result<PathBuf, Fault> {
+fn check_ending(path: &Path) -> Result<(), Fault> {
+    if path.as_os_str() == "-" || has_ending(path, "png") {
+        return Ok(());
+    }
+    let message = format!(
+        "cannot write {}: pictures are written as .png only, lines as .svg too",
+        quoted(path)
+    );
+    Err(Fault::new(Exit::Usage, message))
+}
+
+/// Whether the name of a file ends in a dot and `ending`, in any case.
+pub fn has_ending(path: &Path, ending: &str) -> bool {
+    path.extension()
+        .is_some_and(|there| there.eq_ignore_ascii_case(ending))
+}
+
+/// The path asked for, or else the scene's name with an ending, in the current folder.
+pub fn output_path(asked: Option<&Path>, source: &Source, ending: &str) -> Result<PathBuf, Fault> {
     match (asked, source) {
         (Some(path), _) => Ok(path.to_owned()),
         (None, Source::File(scene)) => {
             let mut name = scene.file_stem().unwrap_or(scene.as_os_str()).to_owned();
-            name.push(".png");
+            name.push(".");
+            name.push(ending);
             Ok(PathBuf::from(name))
         }
         (None, Source::Standard) => {
@@ -84,11 +106,11 @@ mod tests {
 
     #[test]
     fn a_picture_is_named_after_its_scene() {
-        let of = |path: &str| output_path(None, &Source::of(Path::new(path)));
+        let of = |path: &str| output_path(None, &Source::of(Path::new(path)), "png");
         assert_eq!(of("a/b.c/hero.v2.glb"), Ok(PathBuf::from("hero.v2.png")));
         assert_eq!(of("-").map_err(|fault| fault.exit), Err(Exit::Usage));
         assert_eq!(
-            output_path(Some(Path::new("x.png")), &Source::Standard),
+            output_path(Some(Path::new("x.png")), &Source::Standard, "png"),
             Ok(PathBuf::from("x.png"))
         );
     }

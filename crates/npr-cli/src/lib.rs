@@ -25,7 +25,11 @@ mod input;
 mod interrupt;
 mod inventory;
 mod job;
+mod line_file;
+mod line_job;
+mod lines;
 mod look;
+mod manual;
 mod message;
 mod output;
 mod picture;
@@ -72,9 +76,11 @@ pub fn command() -> clap::Command {
 fn obey(command: Command) -> Result<(), Fault> {
     match command {
         Command::Render(arguments) => render::render(&arguments),
+        Command::Lines(arguments) => lines::lines(&arguments),
         Command::Info(arguments) => info::info(&arguments),
         Command::Styles { command } => styles::styles(&command),
         Command::Doctor { json } => doctor::doctor(json),
+        Command::Man { command } => manual::manual(command.as_deref()),
         Command::Completions { shell } => completions::completions(shell),
     }
 }

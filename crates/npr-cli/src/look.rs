@@ -9,7 +9,10 @@ use crate::picture;
 use crate::style_source::StyleSource;
 use npr_render::Picture;
 use npr_scene::{FolderResources, Limits, Resources};
-use npr_style::{Background, LineMethod, Style, Unit, WidthSource, WidthWarning, width_rule};
+use npr_style::{
+    Background, Color, LineMethod, Rule, ShadeMode, Stop, Style, Unit, WidthSource, WidthWarning,
+    width_rule,
+};
 use std::path::{Path, PathBuf};
 
 /// The style of a picture, with the files that its pictures come from.
@@ -100,6 +103,20 @@ impl Look {
             Background::Color(color) => color.a < 255,
             Background::Image(_) => false,
         }
+    }
+
+    /// The colour of the paper where nothing but lines shows on it; none where surfaces have tones or colours.
+    pub fn paper_of_lines(&self) -> Option<Color> {
+        let (style, shade) = (&self.style, &self.style.shade);
+        let is_plain = |stop: &Stop| stop.light == 1.0 && stop.tint.is_none();
+        let is_blank = |rule: &Rule| {
+            let ramp = rule.shade.ramp.as_deref().unwrap_or_default();
+            rule.shade.color.is_none() && ramp.iter().all(is_plain)
+        };
+        let lines_only = shade.mode == ShadeMode::Paper
+            && shade.ramp.iter().all(is_plain)
+            && style.rule.iter().all(is_blank);
+        lines_only.then_some(shade.paper)
     }
 
     /// What is wrong with the width of lines against their mask, in a frame `height` pixels high.
@@ -210,6 +227,14 @@ mod tests {
             sky.inputs().collect::<Vec<_>>(),
             [PathBuf::from("skies/dawn.png")]
         );
+    }
+
+    #[test]
+    fn white_paper_without_tones_is_lines_only() {
+        assert_eq!(look(&[]).paper_of_lines(), None);
+        assert_eq!(look(&["shade.mode=paper"]).paper_of_lines(), None);
+        let plain = look(&["shade.mode=paper", "shade.ramp=[{at=0, light=1}]"]);
+        assert_eq!(plain.paper_of_lines(), Some(Color::WHITE));
     }
 
     #[test]

@@ -18,12 +18,11 @@ pub enum Output {
 impl Output {
     /// The place that `path` names, `-` for standard output.
     ///
-    /// Checks all that can be known before the work is done: the ending, the folder, what stands there.
+    /// Checks all that can be known before the work is done: the folder, and what stands there.
     pub fn of(path: &Path) -> Result<Self, Fault> {
         if path.as_os_str() == "-" {
             return Ok(Self::Standard);
         }
-        check_ending(path)?;
         resolve(path)
             .map(Self::File)
             .map_err(|fault| fault.while_doing(format_args!("cannot write {}", quoted(path))))
@@ -61,18 +60,6 @@ pub fn print(bytes: &[u8]) -> Result<(), Fault> {
         Err(error) => Err(Fault::from(error).while_doing("cannot write to standard output")),
         Ok(()) => Ok(()),
     }
-}
-
-fn check_ending(path: &Path) -> Result<(), Fault> {
-    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
-    if ending == "png" {
-        return Ok(());
-    }
-    let message = format!(
-        "cannot write {}: pictures are written as .png only",
-        quoted(path)
-    );
-    Err(Fault::new(Exit::Usage, message))
 }
 
 /// `path` with links resolved, if a file may be written there.
@@ -161,9 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn other_endings_and_folders_are_refused() {
-        let fault = Output::of(Path::new("out.bmp")).expect_err("not supported");
-        assert_eq!(fault.exit, Exit::Usage);
+    fn folders_are_refused() {
         let folder = tempfile::tempdir().expect("a folder");
         let inner = folder.path().join("folder.png");
         std::fs::create_dir(&inner).expect("a folder");

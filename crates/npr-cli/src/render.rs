@@ -1,10 +1,11 @@
 //! `npr render`: one picture of a scene.
 
-use crate::arguments::RenderArguments;
+use crate::arguments::{LookArguments, RenderArguments};
 use crate::encoder;
 use crate::engine::{self, Drawn};
 use crate::fault::{Exit, Fault};
-use crate::job::Job;
+use crate::job::{Job, has_ending};
+use crate::lines;
 use crate::look::Look;
 use crate::message;
 use crate::output;
@@ -14,11 +15,19 @@ use crate::viewpoint;
 use npr_core::camera::Camera;
 use npr_render::{Model, Stage};
 use std::io::Write;
+use std::path::Path;
 
 /// Draws what the user asked for, or prints its style.
 pub fn render(said: &RenderArguments) -> Result<(), Fault> {
     if said.look.dump_style {
-        return dump_style(said);
+        return dump_style(&said.look, said.allow_external.as_deref());
+    }
+    if said
+        .output
+        .as_deref()
+        .is_some_and(|path| has_ending(path, "svg"))
+    {
+        return lines::lines_of_picture(said);
     }
     let mut progress = Progress::new(said.quiet);
     let drawn = draw(&Job::resolve(said)?, &mut progress)?;
@@ -30,8 +39,9 @@ pub fn render(said: &RenderArguments) -> Result<(), Fault> {
     Ok(())
 }
 
-fn dump_style(said: &RenderArguments) -> Result<(), Fault> {
-    let look = Look::resolve(&said.look, said.allow_external.as_deref())?;
+/// Prints a style as it comes out.
+pub fn dump_style(said: &LookArguments, external: Option<&Path>) -> Result<(), Fault> {
+    let look = Look::resolve(said, external)?;
     let text = look
         .style
         .to_toml()

@@ -104,4 +104,8 @@ impl Resources for Recorder {
         self.asked.borrow_mut().push(self.folder.join(name));
         self.files.read(name, limit_bytes)
     }
+
+    fn mention(&self, name: &str) {
+        self.asked.borrow_mut().push(self.folder.join(name));
+    }
 }

@@ -4,13 +4,51 @@ use crate::arguments::{CameraArguments, Size};
 use crate::fault::{Exit, Fault};
 use crate::message;
 use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
-use npr_render::Model;
+use npr_render::{LineModel, Model};
 
 /// Most cameras that a message lists.
 const LISTED_CAMERAS: usize = 5;
 
+/// What a camera is chosen by.
+pub trait Viewed {
+    /// Cameras of the file with their names.
+    fn cameras(&self) -> &[(String, Camera)];
+    /// Lowest and highest corner.
+    fn bounds(&self) -> ([f32; 3], [f32; 3]);
+    /// A view of all of it, for a frame of width / height `aspect` and a vertical field of view in radians.
+    fn framing(&self, aspect: f32, fov_y: f32) -> Camera;
+}
+
+impl Viewed for Model {
+    fn cameras(&self) -> &[(String, Camera)] {
+        self.cameras()
+    }
+
+    fn bounds(&self) -> ([f32; 3], [f32; 3]) {
+        self.bounds()
+    }
+
+    fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
+        self.framing(aspect, fov_y)
+    }
+}
+
+impl Viewed for LineModel {
+    fn cameras(&self) -> &[(String, Camera)] {
+        self.cameras()
+    }
+
+    fn bounds(&self) -> ([f32; 3], [f32; 3]) {
+        self.bounds()
+    }
+
+    fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
+        self.framing(aspect, fov_y)
+    }
+}
+
 /// The camera that the user asked for, or one that frames the whole model from three quarters above.
-pub fn camera(said: &CameraArguments, model: &Model, size: Size) -> Result<Camera, Fault> {
+pub fn camera(said: &CameraArguments, model: &dyn Viewed, size: Size) -> Result<Camera, Fault> {
     match &said.camera {
         Some(name) => camera_of_file(name, model.cameras()),
         None => {

@@ -22,20 +22,22 @@ fn info_survives_every_malformed_file() {
 
 #[test]
 fn render_survives_every_malformed_file() {
+    survives_every_malformed_file(&["render"], "out.png");
+}
+
+#[test]
+fn lines_survives_every_malformed_file() {
+    survives_every_malformed_file(&["lines", "--hidden", "layer", "--fill"], "out.svg");
+}
+
+/// Draws every malformed file; each gives a picture called `name` or nothing.
+fn survives_every_malformed_file(command: &[&str], name: &str) {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let picture = folder.path().join("out.png");
+    let picture = folder.path().join(name);
     for file in malformed_files() {
         let out = picture.to_string_lossy();
-        let arguments = [
-            "render",
-            "--size",
-            "64x64",
-            "--backend",
-            "cpu",
-            "-o",
-            out.as_ref(),
-        ];
-        check(&file, &arguments, Some(&picture));
+        let options = ["--size", "64x64", "--backend", "cpu", "-o", out.as_ref()];
+        check(&file, &[command, &options].concat(), Some(&picture));
         let left = std::fs::read_dir(folder.path())
             .expect("the folder")
             .count();

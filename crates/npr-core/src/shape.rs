@@ -1,5 +1,7 @@
 //! A surface as line producers read it: welded, with half-edges and unique edges.
 
+use rayon::prelude::*;
+
 use crate::geometry::NONE;
 
 /// Triangles in the world, with everything that does not depend on the camera.
@@ -29,7 +31,8 @@ pub struct Shape {
     pub dihedral_cos: Vec<f32>,
     /// Bits of [`Shape::BORDER`] to [`Shape::MARKED`] for every edge.
     pub edge_traits: Vec<u32>,
-    /// Faces without area, each with the face whose orientation it takes over: the nearest with area across its longest edges, or [`NONE`].
+    /// Faces without area, ascending, each with the face whose orientation it takes over: the nearest with
+    /// area across its longest edges, or [`NONE`].
     pub slivers: Vec<[u32; 2]>,
     /// What faces belong to.
     pub surfaces: Vec<Surface>,
@@ -65,23 +68,27 @@ impl Shape {
     pub const MARKED: u32 = 16;
 
     /// Number of unique edges.
+    #[inline]
     pub fn edge_count(&self) -> usize {
         self.edge_traits.len()
     }
 
     /// Half-edges of an edge.
+    #[inline]
     pub fn sides(&self, edge: u32) -> &[u32] {
         let [from, to] = [edge, edge + 1].map(|e| self.edge_starts[e as usize] as usize);
         &self.edge_sides[from..to]
     }
 
     /// The two vertices of an edge, the lower first.
+    #[inline]
     pub fn ends(&self, edge: u32) -> [u32; 2] {
         let [a, b] = self.ends_of_half_edge(self.sides(edge)[0]);
         [a.min(b), a.max(b)]
     }
 
     /// Tail and head of a half-edge.
+    #[inline]
     pub fn ends_of_half_edge(&self, half_edge: u32) -> [u32; 2] {
         let corners = self.faces[half_edge as usize / 3];
         let i = half_edge as usize % 3;
@@ -89,6 +96,7 @@ impl Shape {
     }
 
     /// The half-edge that follows in the same face.
+    #[inline]
     pub fn following(half_edge: u32) -> u32 {
         if half_edge % 3 == 2 {
             half_edge - 2
@@ -98,86 +106,220 @@ impl Shape {
     }
 
     /// The corner of a half-edge's face that is not on the half-edge.
+    #[inline]
     pub fn opposite(&self, half_edge: u32) -> u32 {
         self.faces[half_edge as usize / 3][(half_edge as usize + 2) % 3]
     }
 
     /// Whether the half-edge runs from the lower vertex of its edge to the higher.
+    #[inline]
     pub fn runs_up(&self, half_edge: u32) -> bool {
         let [tail, head] = self.ends_of_half_edge(half_edge);
         tail < head
     }
 
-    /// Asserts what the type promises.
+    /// Asserts what the type promises; see [`Shape::check`].
     ///
     /// # Panics
     ///
     /// When a promise is broken, naming it.
     pub fn sanity_check(&self) {
-        let half_edges = 3 * self.faces.len();
-        assert_eq!(
-            self.face_surfaces.len(),
-            self.faces.len(),
-            "a surface per face"
-        );
-        assert_eq!(self.twins.len(), half_edges, "a twin per half-edge");
-        assert_eq!(self.edge_of.len(), half_edges, "an edge per half-edge");
-        assert_eq!(
-            self.edge_sides.len(),
-            half_edges,
-            "every half-edge in one edge"
-        );
-        assert_eq!(
-            self.edge_starts.len(),
-            self.edge_count() + 1,
-            "starts of edges"
-        );
-        assert_eq!(
-            self.dihedral_cos.len(),
+        if let Err(broken) = self.check() {
+            panic!("{broken}");
+        }
+    }
+
+    /// Tests what the type promises, whatever the lists hold: shapes read from a file may be damaged.
+    ///
+    /// O(n) over half-edges, in parallel.
+    ///
+    /// # Errors
+    ///
+    /// The first promise that is broken, and the first number for which it is.
+    pub fn check(&self) -> Result<(), BrokenShape> {
+        self.check_lengths()?;
+        all("positions are finite", self.positions.len(), |vertex| {
+            self.positions[vertex].iter().all(|v| v.is_finite())
+        })?;
+        self.check_faces()?;
+        self.check_edges()?;
+        self.check_twins()?;
+        self.check_slivers()
+    }
+
+    fn check_lengths(&self) -> Result<(), BrokenShape> {
+        let (half_edges, edges) = (3 * self.faces.len(), self.edge_count());
+        let never_filled = edges == 0 && self.edge_starts.is_empty();
+        for (promise, found, expected) in [
+            (
+                "a surface per face",
+                self.face_surfaces.len(),
+                self.faces.len(),
+            ),
+            ("a twin per half-edge", self.twins.len(), half_edges),
+            ("an edge per half-edge", self.edge_of.len(), half_edges),
+            (
+                "every half-edge in one edge",
+                self.edge_sides.len(),
+                half_edges,
+            ),
+            ("an angle per edge", self.dihedral_cos.len(), edges),
+            (
+                "starts of edges",
+                self.edge_starts.len() + usize::from(never_filled),
+                edges + 1,
+            ),
+        ] {
+            if found != expected {
+                return Err(BrokenShape {
+                    promise,
+                    index: found,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_faces(&self) -> Result<(), BrokenShape> {
+        all("corners of a face exist", self.faces.len(), |face| {
+            self.faces[face]
+                .iter()
+                .all(|&v| (v as usize) < self.positions.len())
+        })?;
+        all("corners of a face differ", self.faces.len(), |face| {
+            let [a, b, c] = self.faces[face];
+            a != b && b != c && c != a
+        })?;
+        all("surfaces of faces exist", self.faces.len(), |face| {
+            (self.face_surfaces[face] as usize) < self.surfaces.len()
+        })
+    }
+
+    fn check_edges(&self) -> Result<(), BrokenShape> {
+        let bounds = [self.edge_starts.first(), self.edge_starts.last()].map(|v| *v.unwrap_or(&0));
+        if bounds != [0, self.edge_sides.len() as u32] {
+            return Err(BrokenShape {
+                promise: "edges cover all sides",
+                index: 0,
+            });
+        }
+        all("edges have sides", self.edge_count(), |edge| {
+            self.edge_starts[edge] < self.edge_starts[edge + 1]
+        })?;
+        all("sides exist", self.edge_sides.len(), |side| {
+            (self.edge_sides[side] as usize) < self.edge_of.len()
+        })?;
+        all(
+            "sides name their edge and share its ends",
             self.edge_count(),
-            "an angle per edge"
-        );
-        for (face, corners) in self.faces.iter().enumerate() {
-            let [a, b, c] = *corners;
-            assert!(a != b && b != c && c != a, "face {face} has equal corners");
-            let known = |v: u32| (v as usize) < self.positions.len();
-            assert!(
-                known(a) && known(b) && known(c),
-                "face {face} misses a vertex"
-            );
-            assert!(
-                (self.face_surfaces[face] as usize) < self.surfaces.len(),
-                "surface of face {face}"
-            );
-        }
-        for half_edge in 0..half_edges as u32 {
-            let twin = self.twins[half_edge as usize];
-            if twin == NONE {
-                continue;
+            |edge| {
+                let ends = self.ends(edge as u32);
+                self.sides(edge as u32).iter().all(|&side| {
+                    let [a, b] = self.ends_of_half_edge(side);
+                    self.edge_of[side as usize] as usize == edge && [a.min(b), a.max(b)] == ends
+                })
+            },
+        )?;
+        all("sides of an edge differ", self.edge_count(), |edge| {
+            let sides = self.sides(edge as u32);
+            if let [] | [_] | [_, _] = sides {
+                return sides.first() != sides.get(1);
             }
-            assert_eq!(self.twins[twin as usize], half_edge, "twins come in pairs");
-            let [tail, head] = self.ends_of_half_edge(half_edge);
-            assert_eq!(
-                self.ends_of_half_edge(twin),
-                [head, tail],
-                "twins run opposite ways"
-            );
+            let mut sorted = sides.to_vec();
+            sorted.sort_unstable();
+            sorted.windows(2).all(|pair| pair[0] < pair[1])
+        })?;
+        all("angles are cosines", self.edge_count(), |edge| {
+            (-1.0..=1.0).contains(&self.dihedral_cos[edge])
+        })?;
+        all("traits say how faces meet", self.edge_count(), |edge| {
+            self.traits_match(edge as u32)
+        })
+    }
+
+    fn traits_match(&self, edge: u32) -> bool {
+        let expected = match *self.sides(edge) {
+            [_] => Shape::BORDER,
+            [a, b] if self.runs_up(a) == self.runs_up(b) => Shape::FLIPPED,
+            [a, _] if !self.runs_up(a) => return false,
+            [_, _] => 0,
+            _ => Shape::NON_MANIFOLD,
+        };
+        let meeting = Shape::BORDER | Shape::FLIPPED | Shape::NON_MANIFOLD;
+        self.edge_traits[edge as usize] & meeting == expected
+    }
+
+    fn check_twins(&self) -> Result<(), BrokenShape> {
+        all(
+            "twins come in pairs that run opposite ways",
+            self.twins.len(),
+            |half_edge| {
+                let twin = self.twins[half_edge];
+                if twin == NONE {
+                    return true;
+                }
+                let [tail, head] = self.ends_of_half_edge(half_edge as u32);
+                self.twins.get(twin as usize) == Some(&(half_edge as u32))
+                    && self.ends_of_half_edge(twin) == [head, tail]
+            },
+        )
+    }
+
+    fn check_slivers(&self) -> Result<(), BrokenShape> {
+        let faces = self.faces.len() as u32;
+        let listed = |face: u32| {
+            self.slivers
+                .binary_search_by_key(&face, |&[s, _]| s)
+                .is_ok()
+        };
+        let ascending = self
+            .slivers
+            .windows(2)
+            .position(|pair| pair[0][0] >= pair[1][0]);
+        if let Some(index) = ascending {
+            return Err(BrokenShape {
+                promise: "slivers are ascending",
+                index,
+            });
         }
-        for edge in 0..self.edge_count() as u32 {
-            assert!(!self.sides(edge).is_empty(), "edge {edge} has no face");
-            for side in self.sides(edge) {
-                assert_eq!(self.edge_of[*side as usize], edge, "sides name their edge");
-                let [a, b] = self.ends_of_half_edge(*side);
-                assert_eq!(
-                    [a.min(b), a.max(b)],
-                    self.ends(edge),
-                    "sides share their ends"
-                );
-            }
-        }
-        assert!(
-            self.positions.iter().flatten().all(|v| v.is_finite()),
-            "finite positions"
-        );
+        all(
+            "slivers and their stand-ins are faces",
+            self.slivers.len(),
+            |sliver| {
+                let [face, stand_in] = self.slivers[sliver];
+                face < faces && (stand_in == NONE || stand_in < faces && !listed(stand_in))
+            },
+        )
+    }
+}
+
+/// A promise of [`Shape`] that does not hold.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("the shape breaks a promise: {promise} (number {index})")]
+pub struct BrokenShape {
+    /// What should hold.
+    pub promise: &'static str,
+    /// The first face, half-edge, edge or list for which it does not; of a list, its length.
+    pub index: usize,
+}
+
+/// Tests a promise for every number below `count`.
+fn all(
+    promise: &'static str,
+    count: usize,
+    holds: impl Fn(usize) -> bool + Sync,
+) -> Result<(), BrokenShape> {
+    // Whole runs at a time: asking after every number whether an earlier one failed would cost more than the test.
+    const RUN: usize = 4096;
+    let first_of_run = |run: usize| {
+        let mut numbers = run * RUN..((run + 1) * RUN).min(count);
+        numbers.find(|&index| !holds(index))
+    };
+    let broken = (0..count.div_ceil(RUN))
+        .into_par_iter()
+        .find_map_first(first_of_run);
+    match broken {
+        Some(index) => Err(BrokenShape { promise, index }),
+        None => Ok(()),
     }
 }

@@ -6,6 +6,7 @@ pub mod line;
 pub mod mesh;
 pub mod raster;
 pub mod shade;
+pub mod vector;
 
 /// All passes: each is checked against its shader and its twin.
 pub const ALL: &[&Pass] = &[
@@ -21,5 +22,24 @@ pub const ALL: &[&Pass] = &[
     &line::SMOOTH_STAMPS,
     &line::FLAG_TILES,
     &line::STAMP_RESIDUAL,
+    &vector::FACE_EYE,
+    &vector::MARK_CONTOURS,
+    &vector::LINK_CONTOURS,
+    &vector::LIST_NODES,
+    &vector::SCAN_BLOCKS,
+    &vector::SCAN_ADD,
+    &vector::COMPACT,
+    &vector::START_NODES,
+    &vector::BREAK_LOOPS,
+    &vector::CUT_LOOPS,
+    &vector::RANK_JUMP,
+    &vector::FIND_SPLITTERS,
+    &vector::WALK_TO_SPLITTER,
+    &vector::START_SPLITTERS,
+    &vector::RANK_SPLITTERS,
+    &vector::SCATTER_RANKS,
+    &vector::MEASURE_CHAINS,
+    &vector::TURN_RANKS,
+    &vector::ORDER_NODES,
     &shade::COMPOSE_FRAME,
 ];

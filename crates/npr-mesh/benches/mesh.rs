@@ -3,7 +3,10 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use npr_mesh::testing::{torus, unindexed};
+use npr_core::shape::{Shape, Surface};
+use npr_mesh::shape::{PlacedMesh, add_mesh};
+use npr_mesh::shape_cache::{decode, encode, shape_key};
+use npr_mesh::testing::{shuffled_vertices, torus, unindexed};
 use npr_mesh::{Mesh, curvature, smooth_normals, unique_edges, weld};
 
 /// A torus of about `faces` triangles.
@@ -61,5 +64,59 @@ fn prepare(mesh: &Mesh) {
     black_box(unique_edges(positions, triangles, &welded, &[]));
 }
 
-criterion_group!(benches, stages);
+/// What lines need, in one call, and what a cache saves of it.
+fn shapes(criterion: &mut Criterion) {
+    for faces in [10_000, 100_000, 328_000, 1_000_000] {
+        let mesh = mesh(faces);
+        let (shuffled, soup) = (shuffled_vertices(&mesh, 1).0, unindexed(&mesh));
+        let surfaces = vec![0; mesh.triangles().len()];
+        let mut group = criterion.benchmark_group("shape");
+        group
+            .sample_size(10)
+            .throughput(Throughput::Elements(mesh.triangles().len() as u64));
+        let mut stage = |name: &str, run: &mut dyn FnMut()| {
+            group.bench_function(BenchmarkId::new(name, faces), |bencher| {
+                bencher.iter(&mut *run)
+            });
+        };
+        for (name, mesh) in [("indexed", &mesh), ("shuffled", &shuffled), ("soup", &soup)] {
+            stage(name, &mut || drop(black_box(shape(mesh, &surfaces, 0.0))));
+            stage(&format!("{name} within 1e-6"), &mut || {
+                drop(black_box(shape(mesh, &surfaces, 1e-6)))
+            });
+        }
+        let prepared = shape(&mesh, &surfaces, 0.0);
+        let bytes = encode(&prepared, 1);
+        stage("key", &mut || {
+            black_box(shape_key(
+                &prepared.surfaces,
+                &[placed(&mesh, &surfaces)],
+                0.0,
+            ));
+        });
+        stage("encode", &mut || drop(black_box(encode(&prepared, 1))));
+        stage("decode", &mut || drop(black_box(decode(&bytes, 1))));
+    }
+}
+
+fn shape(mesh: &Mesh, surfaces: &[u32], weld_tolerance: f32) -> Shape {
+    let mut shape = Shape {
+        surfaces: vec![Surface::default()],
+        ..Shape::default()
+    };
+    add_mesh(&mut shape, &placed(mesh, surfaces), weld_tolerance);
+    shape
+}
+
+fn placed<'a>(mesh: &'a Mesh, surfaces: &'a [u32]) -> PlacedMesh<'a> {
+    PlacedMesh {
+        rest: mesh.positions(),
+        world: mesh.positions(),
+        triangles: mesh.triangles(),
+        surfaces,
+        ..PlacedMesh::default()
+    }
+}
+
+criterion_group!(benches, stages, shapes);
 criterion_main!(benches);

@@ -30,33 +30,53 @@ impl<T> Run<'_, T> {
     }
 }
 
-impl<T: Copy + Default + Sync> Buckets<T> {
-    /// Counting sort of one item for every element of `bucket_of`, O(n).
+impl<T: Copy + Default + Send + Sync> Buckets<T> {
+    /// Counting sort of one item for every element of `bucket_of`, all below `count`; O(n).
+    ///
+    /// Every thread reads all elements, but counts and places only those of its own strip of buckets: what is
+    /// slow about a counting sort is writing all over the memory.
     ///
     /// # Panics
     ///
-    /// If an element is not below `count`, or there are 2^32 elements.
-    pub(crate) fn new(count: usize, bucket_of: &[u32], item: impl Fn(u32) -> T) -> Self {
-        assert!(
-            u32::try_from(bucket_of.len()).is_ok(),
-            "items have 32-bit numbers"
-        );
+    /// If there are 2^32 elements.
+    pub(crate) fn new(count: usize, bucket_of: &[u32], item: impl Fn(u32) -> T + Sync) -> Self {
+        let item_count = u32::try_from(bucket_of.len()).expect("items have 32-bit numbers");
+        let strip = count.div_ceil(rayon::current_num_threads().min(8)).max(1);
         let mut starts = vec![0u32; count + 1];
-        for &bucket in bucket_of {
-            starts[bucket as usize] += 1;
-        }
+        starts[..count]
+            .par_chunks_mut(strip)
+            .enumerate()
+            .for_each(|(number, counts)| {
+                for &bucket in bucket_of {
+                    let own = (bucket as usize).wrapping_sub(number * strip);
+                    if let Some(count) = counts.get_mut(own) {
+                        *count += 1;
+                    }
+                }
+            });
         let mut end = 0;
         for start in &mut starts {
             end += *start;
             *start = end;
         }
+
         // Fill every bucket from its end, last item first, which leaves its start behind.
         let mut items = vec![T::default(); bucket_of.len()];
-        for (number, &bucket) in bucket_of.iter().enumerate().rev() {
-            let start = &mut starts[bucket as usize];
-            *start -= 1;
-            items[*start as usize] = item(number as u32);
-        }
+        let fill = |(number, (ends, items)): (usize, (&mut [u32], Strip<T>))| {
+            for (item_number, &bucket) in (0..item_count).zip(bucket_of).rev() {
+                let own = (bucket as usize).wrapping_sub(number * strip);
+                if let Some(end) = ends.get_mut(own) {
+                    *end -= 1;
+                    items.items[*end as usize - items.start] = item(item_number);
+                }
+            }
+        };
+        let strips = Strip::cut(&mut items, starts[..count].chunks(strip));
+        starts[..count]
+            .par_chunks_mut(strip)
+            .zip(strips)
+            .enumerate()
+            .for_each(fill);
         Self { starts, items }
     }
 
@@ -72,6 +92,29 @@ impl<T: Copy + Default + Sync> Buckets<T> {
                     buckets: self,
                     range,
                 })
+            })
+            .collect()
+    }
+}
+
+/// The items of consecutive buckets, and where they start among all.
+struct Strip<'a, T> {
+    start: usize,
+    items: &'a mut [T],
+}
+
+impl<'a, T> Strip<'a, T> {
+    /// Cuts items where the last bucket of each strip ends.
+    fn cut<'b>(mut items: &'a mut [T], strips: impl Iterator<Item = &'b [u32]>) -> Vec<Self> {
+        let mut start = 0;
+        strips
+            .map(|ends| {
+                let end = ends.last().map_or(start, |&end| end as usize);
+                let (own, rest) = std::mem::take(&mut items).split_at_mut(end - start);
+                items = rest;
+                let strip = Self { start, items: own };
+                start = end;
+                strip
             })
             .collect()
     }

@@ -218,6 +218,7 @@ fn leaders(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::Random;
     use proptest::prelude::*;
 
     /// Joins every pair within a step.
@@ -236,6 +237,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
         #[test]
         fn agrees_with_joining_all_pairs(
             points in prop::collection::vec(prop::array::uniform3(-1.0f32..1.0), 0..120),
@@ -243,6 +246,81 @@ mod tests {
         ) {
             prop_assert_eq!(clusters(&points, tolerance), clusters_by_comparison(&points, tolerance));
         }
+    }
+
+    /// A few crowds about a step apart, and a far point that sets the scale: the tolerance gives steps of 1.
+    fn crowds(seed: u64, size: usize) -> (Vec<[f32; 3]>, f32) {
+        let mut random = Random::new(seed);
+        let mut points = vec![[0.0; 3], [1000.0, 0.0, 0.0]];
+        for _ in 0..2 + random.below(4) {
+            let centre = [0; 3].map(|_| 4.0 * random.unit());
+            let width = 0.5 * random.unit();
+            points.extend((0..size).map(|_| centre.map(|v| v + width * random.unit())));
+        }
+        let (low, high) = bounding_box(&points);
+        (points, (1.0 / low.distance(high)) as f32)
+    }
+
+    /// Whether points of one cluster in `finer` are also of one in `coarser`.
+    fn refines(finer: &[u32], coarser: &[u32]) -> bool {
+        let joined = |(&leader, here): (&u32, &u32)| coarser[leader as usize] == *here;
+        finer.iter().zip(coarser).all(joined)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(300))]
+
+        #[test]
+        fn crowds_join_within_the_slack(seed: u64, size in 20usize..80) {
+            let (points, tolerance) = crowds(seed, size);
+            let found = clusters(&points, tolerance);
+            let widest = tolerance * (1.0 + SLACK as f32);
+            prop_assert!(refines(&clusters_by_comparison(&points, tolerance), &found));
+            prop_assert!(refines(&found, &clusters_by_comparison(&points, widest)));
+        }
+
+        #[test]
+        fn order_within_crowds_does_not_matter(seed: u64, size in 20usize..80) {
+            let (points, tolerance) = crowds(seed, size);
+            let mut order: Vec<usize> = (0..points.len()).collect();
+            Random::new(seed).shuffle(&mut order);
+            let mixed: Vec<[f32; 3]> = order.iter().map(|&i| points[i]).collect();
+            let (before, after) = (clusters(&points, tolerance), clusters(&mixed, tolerance));
+            for (moved, &leader) in after.iter().enumerate() {
+                prop_assert_eq!(before[order[moved]], before[order[leader as usize]]);
+            }
+            let leaders = |of: &[u32]| of.iter().collect::<std::collections::BTreeSet<_>>().len();
+            prop_assert_eq!(leaders(&before), leaders(&after));
+        }
+    }
+
+    /// Comparing all pairs would take hours: neighbouring crowds that never touch.
+    #[test]
+    fn a_million_points_in_few_cells_do_not_take_forever() {
+        let mut random = Random::new(7);
+        let mut points = vec![[1000.0, 0.0, 0.0]];
+        for crowd in 0..8u8 {
+            let corner = [0, 1, 2].map(|axis| if crowd >> axis & 1 == 1 { 1.4 } else { 0.0 });
+            points.extend((0..125_000).map(|_| corner.map(|v| v + 0.2 * random.unit())));
+        }
+        let (low, high) = bounding_box(&points);
+        let found = clusters(&points, (1.0 / low.distance(high)) as f32);
+        let leaders: std::collections::BTreeSet<u32> = found.into_iter().collect();
+        assert_eq!(leaders.len(), 9);
+    }
+
+    #[test]
+    fn points_that_are_not_finite_stay_alone() {
+        let (nan, inf) = (f32::NAN, f32::INFINITY);
+        let points = [
+            [nan; 3],
+            [0.0; 3],
+            [inf, 0.0, 0.0],
+            [1e-9, 0.0, 0.0],
+            [1.0; 3],
+            [nan; 3],
+        ];
+        assert_eq!(clusters(&points, 1e-6), [0, 1, 2, 1, 4, 5]);
     }
 
     #[test]

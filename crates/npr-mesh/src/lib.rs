@@ -3,6 +3,8 @@
 //! Files store a vertex once per texture seam; lines need the surface. So positions are welded first
 //! ([`weld()`]), then the shared edges are listed with the two faces beside each ([`unique_edges`]),
 //! and normals ([`normals`]) and curvature ([`curvature`](mod@curvature)) are gathered over the welded vertices.
+//! Lines that are linked into curves start from a [`shape`]: half-edges, unique edges and their traits in one
+//! call, which a [`shape_cache`] keeps for the next start.
 //!
 //! ```
 //! use npr_mesh::{Mesh, unique_edges, weld};
@@ -35,6 +37,7 @@ pub mod classify;
 
 mod cluster;
 pub mod components;
+mod content_hash;
 pub mod curvature;
 pub mod edge_flags;
 pub mod edges;
@@ -46,6 +49,7 @@ pub mod normals;
 pub mod pose;
 mod sectors;
 pub mod shape;
+pub mod shape_cache;
 mod sides;
 mod slivers;
 pub mod smoothing;

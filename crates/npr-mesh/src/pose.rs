@@ -45,7 +45,8 @@ pub fn pose(with: &Pose<'_>, vertices: &[Vertex], posed: &mut [PosedVertex]) {
         });
 }
 
-fn pose_vertex(with: &Pose<'_>, vertex: &Vertex, influence: &Influence) -> PosedVertex {
+/// Poses, projects and sizes one vertex.
+pub fn pose_vertex(with: &Pose<'_>, vertex: &Vertex, influence: &Influence) -> PosedVertex {
     let (view, outline) = (with.view, with.outline);
     let m = blended_matrix(with.palette, influence);
     let [x, y, z, _] = apply_point(&m, vertex.position);

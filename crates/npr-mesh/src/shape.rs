@@ -1,6 +1,7 @@
 //! From triangles as stored to a [`Shape`]: welded, with half-edges, unique edges and their traits.
 
 use std::ops::AddAssign;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use glam::DVec3;
 use npr_core::geometry::NONE;
@@ -141,61 +142,87 @@ pub fn add_mesh(shape: &mut Shape, mesh: &PlacedMesh, weld_tolerance: f32) -> Pr
 /// What becomes of a stored face.
 #[derive(Clone, Copy)]
 enum Fate {
-    Kept([u32; 3]),
+    Kept { corners: [u32; 3], surface: u32 },
     Collapsed,
     Unsound,
 }
 
-/// Positions, faces and surfaces of the welded mesh, and how many faces fell out.
-fn weld_faces(mesh: &PlacedMesh, weld: &Weld, surfaces: &[Surface]) -> (Shape, Preparation) {
-    let finite = |p: &[f32; 3]| p.iter().all(|v| v.is_finite());
-    let all_finite = mesh.rest.par_iter().chain(mesh.world).all(finite);
-    let sound = |vertex: u32| {
-        let Some(&welded) = weld.of_vertex.get(vertex as usize) else {
-            return false;
-        };
-        let first = weld.first[welded as usize] as usize;
-        all_finite || finite(&mesh.rest[vertex as usize]) && finite(&mesh.world[first])
-    };
-    let fate = |face: usize| {
-        let surface = mesh.surfaces.get(face);
-        let [a, b, c] = mesh.triangles[face];
-        if surface.is_none_or(|&s| s as usize >= surfaces.len())
-            || ![a, b, c].into_iter().all(sound)
-        {
+/// Decides about stored faces.
+struct Welding<'a> {
+    mesh: &'a PlacedMesh<'a>,
+    weld: &'a Weld,
+    surface_count: usize,
+    /// Spares looking at every position of every face.
+    all_finite: bool,
+}
+
+impl Welding<'_> {
+    fn fate(&self, face: usize) -> Fate {
+        let [a, b, c] = self.mesh.triangles[face];
+        let surface = self.mesh.surfaces.get(face).copied().unwrap_or(NONE);
+        if surface as usize >= self.surface_count || ![a, b, c].into_iter().all(|v| self.sound(v)) {
             return Fate::Unsound;
         }
-        let [a, b, c] = weld.corners(if mesh.mirrored { [a, c, b] } else { [a, b, c] });
-        if a == b || b == c || c == a {
-            Fate::Collapsed
+        let corners = if self.mesh.mirrored {
+            [a, c, b]
         } else {
-            Fate::Kept([a, b, c])
+            [a, b, c]
+        };
+        let [a, b, c] = self.weld.corners(corners);
+        if a == b || b == c || c == a {
+            return Fate::Collapsed;
         }
+        Fate::Kept {
+            corners: [a, b, c],
+            surface,
+        }
+    }
+
+    /// Whether a vertex exists and has finite positions.
+    fn sound(&self, vertex: u32) -> bool {
+        let Some(&welded) = self.weld.of_vertex.get(vertex as usize) else {
+            return false;
+        };
+        let first = self.weld.first[welded as usize] as usize;
+        let (rest, world) = (&self.mesh.rest[vertex as usize], &self.mesh.world[first]);
+        self.all_finite || is_finite(rest) && is_finite(world)
+    }
+}
+
+fn is_finite(position: &[f32; 3]) -> bool {
+    position.iter().all(|v| v.is_finite())
+}
+
+/// Positions, faces and surfaces of the welded mesh, and how many faces fell out.
+fn weld_faces(mesh: &PlacedMesh, weld: &Weld, surfaces: &[Surface]) -> (Shape, Preparation) {
+    let welding = Welding {
+        mesh,
+        weld,
+        surface_count: surfaces.len(),
+        all_finite: mesh.rest.par_iter().chain(mesh.world).all(is_finite),
     };
-    let fates: Vec<Fate> = (0..mesh.triangles.len())
+    let faces = 0..mesh.triangles.len();
+    let fates: Vec<Fate> = faces
         .into_par_iter()
-        .map(fate)
+        .map(|face| welding.fate(face))
         .collect();
 
-    let place = |&vertex: &u32| Some(mesh.world[vertex as usize]).filter(finite);
+    let position = |&vertex: &u32| Some(mesh.world[vertex as usize]).filter(is_finite);
     let mut part = Shape {
         positions: weld
             .first
-            .iter()
-            .map(|v| place(v).unwrap_or_default())
+            .par_iter()
+            .map(|v| position(v).unwrap_or_default())
             .collect(),
         faces: Vec::with_capacity(fates.len()),
         face_surfaces: Vec::with_capacity(fates.len()),
         ..Shape::default()
     };
     let mut removed = Preparation::default();
-    for (fate, &surface) in fates
-        .iter()
-        .zip(mesh.surfaces.iter().chain(std::iter::repeat(&NONE)))
-    {
+    for fate in fates {
         match fate {
-            Fate::Kept(corners) => {
-                part.faces.push(*corners);
+            Fate::Kept { corners, surface } => {
+                part.faces.push(corners);
                 part.face_surfaces.push(surface);
             }
             Fate::Collapsed => removed.collapsed_count += 1,
@@ -224,7 +251,7 @@ fn connect(part: &mut Shape) -> usize {
 
 fn list_edges(part: &mut Shape) {
     let sides = Sides::of_faces(&part.faces, part.positions.len());
-    part.edge_traits = vec![0; sides.starts.len() - 1];
+    part.edge_traits = sides.traits;
     part.edge_starts = sides.starts;
     part.edge_sides = sides.half_edges;
 }
@@ -257,26 +284,39 @@ fn doubles_beside(part: &Shape, sides: &[u32]) -> Vec<u32> {
 }
 
 /// Fills `twins` and `edge_of`.
+///
+/// Threads write where half-edges point to; every entry has one writer, so order does not matter.
 fn pair_half_edges(part: &mut Shape) {
-    let mut twins = vec![NONE; part.edge_sides.len()];
-    let mut edge_of = vec![NONE; part.edge_sides.len()];
-    let mut pair = |[a, b]: [u32; 2]| {
-        twins[a as usize] = b;
-        twins[b as usize] = a;
+    let unset = || -> Vec<AtomicU32> {
+        let count = part.edge_sides.len();
+        (0..count).map(|_| AtomicU32::new(NONE)).collect()
     };
-    for edge in 0..part.edge_count() as u32 {
+    let (twins, edge_of) = (unset(), unset());
+    let set = |list: &[AtomicU32], at: u32, value: u32| {
+        list[at as usize].store(value, Ordering::Relaxed);
+    };
+    let pair = |[a, b]: [u32; 2]| {
+        set(&twins, a, b);
+        set(&twins, b, a);
+    };
+    let visit = |edge: u32| {
         let sides = part.sides(edge);
-        sides.iter().for_each(|&side| edge_of[side as usize] = edge);
+        sides.iter().for_each(|&side| set(&edge_of, side, edge));
         match *sides {
-            [a, b] if part.runs_up(a) != part.runs_up(b) => pair([a, b]),
+            [a, b] if part.edge_traits[edge as usize] & Shape::FLIPPED == 0 => pair([a, b]),
             [_] | [_, _] => {}
-            _ => sectors::pair(part, edge).into_iter().for_each(&mut pair),
+            _ => sectors::pair(part, edge).into_iter().for_each(pair),
         }
-    }
-    (part.twins, part.edge_of) = (twins, edge_of);
+    };
+    (0..part.edge_count() as u32)
+        .into_par_iter()
+        .with_min_len(4096)
+        .for_each(visit);
+    let numbers = |list: Vec<AtomicU32>| list.into_iter().map(AtomicU32::into_inner).collect();
+    (part.twins, part.edge_of) = (numbers(twins), numbers(edge_of));
 }
 
-/// Finds slivers, angles and traits.
+/// Finds slivers, angles and changes of material.
 fn measure(part: &mut Shape, surfaces: &[Surface]) {
     let mut normals = slivers::normals(part);
     part.slivers = slivers::find(part, &normals);
@@ -285,27 +325,25 @@ fn measure(part: &mut Shape, surfaces: &[Surface]) {
     }
     let measured = (0..part.edge_count() as u32).into_par_iter().map(|edge| {
         let sides = part.sides(edge);
-        let traits = traits(part, sides, surfaces);
+        let material = if differ_in_material(part, sides, surfaces) {
+            Shape::MATERIAL
+        } else {
+            0
+        };
+        let traits = part.edge_traits[edge as usize] | material;
         (traits, dihedral_cos(&normals, sides, traits))
     });
     (part.edge_traits, part.dihedral_cos) = measured.unzip();
 }
 
-fn traits(part: &Shape, sides: &[u32], surfaces: &[Surface]) -> u32 {
-    let meeting = match *sides {
-        [_] => Shape::BORDER,
-        [a, b] if part.runs_up(a) == part.runs_up(b) => Shape::FLIPPED,
-        [_, _] => 0,
-        _ => Shape::NON_MANIFOLD,
+fn differ_in_material(part: &Shape, sides: &[u32], surfaces: &[Surface]) -> bool {
+    let surface = |side: u32| part.face_surfaces[side as usize / 3];
+    let first = surface(sides[0]);
+    let differs = |&side: &u32| {
+        let other = surface(side);
+        other != first && surfaces[other as usize].material != surfaces[first as usize].material
     };
-    let material = |side: u32| {
-        let surface = part.face_surfaces[side as usize / 3];
-        surfaces[surface as usize].material
-    };
-    let same = sides
-        .iter()
-        .all(|&side| material(side) == material(sides[0]));
-    meeting | if same { 0 } else { Shape::MATERIAL }
+    sides[1..].iter().any(differs)
 }
 
 /// Between the normals of two faces, as if they were wound alike; 1 where one has no orientation.
@@ -346,10 +384,14 @@ fn find_edge(part: &Shape, ends: [u32; 2]) -> Option<usize> {
     let (mut from, mut to) = (0, part.edge_count());
     while from < to {
         let middle = from + (to - from) / 2;
-        match part.ends(middle as u32).cmp(&ends) {
-            std::cmp::Ordering::Less => from = middle + 1,
-            std::cmp::Ordering::Greater => to = middle,
-            std::cmp::Ordering::Equal => return Some(middle),
+        let here = part.ends(middle as u32);
+        if here == ends {
+            return Some(middle);
+        }
+        if here < ends {
+            from = middle + 1;
+        } else {
+            to = middle;
         }
     }
     None

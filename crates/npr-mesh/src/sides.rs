@@ -1,5 +1,6 @@
 //! Half-edges gathered by the unique edge that they run along.
 
+use npr_core::shape::Shape;
 use rayon::prelude::*;
 
 use crate::buckets::Buckets;
@@ -11,6 +12,8 @@ pub(crate) struct Sides {
     /// Where the half-edges of each edge start; one more than there are edges.
     pub(crate) starts: Vec<u32>,
     pub(crate) half_edges: Vec<u32>,
+    /// [`Shape::BORDER`], [`Shape::NON_MANIFOLD`], [`Shape::FLIPPED`] or none of them for every edge.
+    pub(crate) traits: Vec<u32>,
 }
 
 /// Set in a key where the half-edge runs down; limits a mesh to 2^31 half-edges.
@@ -42,10 +45,12 @@ impl Sides {
         let mut sides = Self {
             starts: Vec::with_capacity(half_edge_count / 2 + 1),
             half_edges: Vec::with_capacity(half_edge_count),
+            traits: Vec::with_capacity(half_edge_count / 2),
         };
         for run in runs {
             sides.starts.extend_from_slice(&run.starts);
             sides.half_edges.extend_from_slice(&run.half_edges);
+            sides.traits.extend_from_slice(&run.traits);
         }
         sides.starts.push(half_edge_count as u32);
         sides
@@ -65,6 +70,7 @@ fn key(faces: &[[u32; 3]], half_edge: u32) -> u64 {
 struct SortedRun {
     starts: Vec<u32>,
     half_edges: Vec<u32>,
+    traits: Vec<u32>,
     scratch: Vec<u64>,
 }
 
@@ -74,13 +80,23 @@ impl SortedRun {
         self.scratch.clear();
         self.scratch.extend_from_slice(keys);
         self.scratch.sort_unstable();
-        let mut higher = None;
-        for (place, &key) in self.scratch.iter().enumerate() {
-            if higher != Some(key >> 32) {
-                higher = Some(key >> 32);
-                self.starts.push((start + place) as u32);
-            }
-            self.half_edges.push((key & (DOWN - 1)) as u32);
+        let mut start = start as u32;
+        for edge in self.scratch.chunk_by(|a, b| a >> 32 == b >> 32) {
+            self.starts.push(start);
+            self.traits.push(meeting(edge));
+            self.half_edges
+                .extend(edge.iter().map(|key| (key & (DOWN - 1)) as u32));
+            start += edge.len() as u32;
         }
+    }
+}
+
+/// How the faces of an edge meet, told from its keys.
+fn meeting(keys: &[u64]) -> u32 {
+    match keys {
+        [_] => Shape::BORDER,
+        [a, b] if (a ^ b) & DOWN == 0 => Shape::FLIPPED,
+        [_, _] => 0,
+        _ => Shape::NON_MANIFOLD,
     }
 }

@@ -36,6 +36,9 @@ pub enum RenderError {
     /// The plan needs more memory than allowed.
     #[error(transparent)]
     Memory(#[from] OverBudget),
+    /// Lines could not be closed to regions.
+    #[error(transparent)]
+    Fill(#[from] npr_vector::fill::FillError),
     /// The engine failed.
     #[error(transparent)]
     Engine(#[from] EngineError),

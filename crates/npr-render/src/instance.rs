@@ -1,5 +1,7 @@
 //! One node's mesh, ready to be joined with the others: welded, with edges, normals and curvature.
 
+use crate::bend::bends;
+use crate::joined::Joined;
 use npr_core::geometry::{self, Influence, Triangle, Vertex};
 use npr_core::math;
 use npr_mesh::{EdgeFlags, Weld};
@@ -8,9 +10,6 @@ use std::collections::BTreeMap;
 
 /// The angle between faces from which a mesh without normals is shaded with a hard edge.
 const HARD_EDGE: f32 = 40.0 / 180.0 * std::f32::consts::PI;
-
-/// Rounds of averaging that calm curvature on scanned meshes.
-const CURVATURE_ROUNDS: u32 = 2;
 
 /// A node's mesh, numbered from zero.
 #[derive(Debug, Default)]
@@ -22,19 +21,6 @@ pub(crate) struct Instance {
     pub edges: Vec<geometry::Edge>,
     /// The mesh part of every piece: one for each connected component in each material.
     pub pieces: Vec<u32>,
-}
-
-/// The vertices of all parts of a mesh behind one another.
-#[derive(Debug, Default)]
-struct Joined {
-    positions: Vec<[f32; 3]>,
-    normals: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
-    /// Part of each triangle.
-    parts: Vec<u32>,
-    /// Material of each triangle.
-    materials: Vec<u32>,
-    has_normals: bool,
 }
 
 impl Instance {
@@ -114,18 +100,19 @@ impl Instance {
         smooth: &[[f32; 3]],
         scale: f32,
     ) {
-        let curvature = npr_mesh::curvature(&joined.positions, &joined.triangles, weld, smooth);
-        let areas = npr_mesh::smoothing::vertex_areas(&joined.positions, &joined.triangles, weld);
-        let calm = |values: Vec<f32>| {
-            npr_mesh::smooth_curvature(&values, edges, weld, &areas, CURVATURE_ROUNDS)
-        };
-        let max = calm(curvature.iter().map(|c| c.max / scale).collect());
-        let min = calm(curvature.iter().map(|c| c.min / scale).collect());
+        let bends = bends(
+            &joined.positions,
+            &joined.triangles,
+            weld,
+            edges,
+            smooth,
+            scale,
+        );
         for (vertex, welded) in self.vertices.iter_mut().zip(&weld.of_vertex) {
-            let w = *welded as usize;
-            vertex.curvatures = [max[w], min[w]];
-            vertex.direction = math::pack_unit(curvature[w].direction);
-            vertex.weld_normal = math::pack_unit(smooth[w]);
+            let bend = bends[*welded as usize];
+            vertex.curvatures = bend.curvatures;
+            vertex.direction = bend.direction;
+            vertex.weld_normal = math::pack_unit(smooth[*welded as usize]);
         }
     }
 
@@ -153,33 +140,6 @@ impl Instance {
                     });
             }
         }
-    }
-}
-
-impl Joined {
-    fn new(parts: &[Part]) -> Self {
-        let mut joined = Self {
-            has_normals: parts.iter().all(|part| part.normals.is_some()),
-            ..Self::default()
-        };
-        for (index, part) in parts.iter().enumerate() {
-            let base = joined.positions.len() as u32;
-            joined.positions.extend(&part.positions);
-            if let Some(normals) = &part.normals {
-                joined.normals.extend(normals);
-            }
-            joined.triangles.extend(
-                part.triangles
-                    .iter()
-                    .map(|corners| corners.map(|corner| corner + base)),
-            );
-            joined.parts.resize(joined.triangles.len(), index as u32);
-            joined.materials.resize(
-                joined.triangles.len(),
-                part.material.unwrap_or(geometry::NONE),
-            );
-        }
-        joined
     }
 }
 
@@ -213,7 +173,7 @@ fn stored_vertices(scene: &Scene, parts: &[Part], joined: &Joined) -> Vec<Vertex
 }
 
 /// A linear vertex colour as sRGB bytes.
-fn packed_color([r, g, b, a]: [f32; 4]) -> u32 {
+pub(crate) fn packed_color([r, g, b, a]: [f32; 4]) -> u32 {
     let encode = npr_core::color::srgb_from_linear;
     npr_core::color::pack_rgba8([encode(r), encode(g), encode(b), a])
 }

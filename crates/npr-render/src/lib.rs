@@ -2,6 +2,7 @@
 //!
 //! [`Model::new`] prepares a scene once: welds it, finds its edges and curvature. A [`Stage`] joins a model with a style and a
 //! frame size on an engine, and [`Stage::draw`] makes a picture for a camera, as often as wanted.
+//! [`LineModel`] draws the same scene as curves instead.
 //!
 //! ```
 //! use npr_core::camera::Camera;
@@ -17,17 +18,23 @@
 //! # Ok::<(), npr_render::RenderError>(())
 //! ```
 
+mod bend;
 mod blueprint;
 mod error;
 mod frame;
 mod instance;
+mod joined;
+mod lines;
 mod look;
 mod model;
+mod placement;
 mod stage;
 mod textures;
 mod tiles;
 
 pub use error::RenderError;
 pub use frame::Frame;
+pub use lines::{KindSet, LineMethod, LineModel, LineModelOptions, LineOptions};
 pub use model::{Model, PartInfo};
+pub use npr_vector::stroke::{Drawing, Kind};
 pub use stage::{Picture, Stage, StageOptions};

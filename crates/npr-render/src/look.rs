@@ -11,7 +11,7 @@ use npr_core::texture::{self, TextureStore, Wrap};
 use npr_core::window::View;
 use npr_style::compose::Compose;
 use npr_style::{
-    Background, Level, LightSpace, LineMethod, Look, ShadeMode, Style, Unit, WidthSource,
+    Background, Level, LightSpace, LineMethod, Look, ShadeMode, Style, Unit, Width, WidthSource,
 };
 
 /// Everything a style decides before the camera is known.
@@ -48,7 +48,7 @@ impl StyledModel {
 }
 
 /// A part in the style that its names ask for.
-fn part(info: &PartInfo, style: &Style) -> Part {
+pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
     let look = style.resolve_for(&info.material_name, &info.object_name);
     let shade = &style.shade;
     let paper = shade.mode == ShadeMode::Paper;
@@ -163,11 +163,15 @@ impl<'a> VertexWidth<'a> {
             }),
             WidthSource::ControlPoints => {
                 let position = self.model.posed_point(vertex, &self.model.influences[i]);
-                let factor = width.factor_at(position.to_array());
-                (factor - width.min) / (width.max - width.min).max(1e-6)
+                share_at(width, position.to_array())
             }
         }
     }
+}
+
+/// The share of 0..1 that the control points of a width give at a place in the world.
+pub(crate) fn share_at(width: &Width, position: [f32; 3]) -> f32 {
+    (width.factor_at(position) - width.min) / (width.max - width.min).max(1e-6)
 }
 
 /// The largest half width that any line may have, in frame pixels.
@@ -183,9 +187,9 @@ pub(crate) fn largest_half_width(style: &Style, parts: &[Part], base_px: f32) ->
 const THINNEST_PX: f32 = 1.0;
 
 /// Line width at factor 1, in frame pixels; what world units come to at the point of the model nearest to the eye.
-pub(crate) fn base_px(style: &Style, options: &StageOptions, world_px: f32) -> f32 {
+pub(crate) fn base_px(style: &Style, height_px: u32, dpi: f32, world_px: f32) -> f32 {
     let base = style.line.width.base;
-    let px = base.to_px(options.size[1] as f32, options.dpi, world_px);
+    let px = base.to_px(height_px as f32, dpi, world_px);
     let follows_frame = matches!(base.unit, Unit::RefPx | Unit::FrameHeight);
     if follows_frame && base.value > 0.0 {
         px.max(THINNEST_PX)
@@ -197,8 +201,9 @@ pub(crate) fn base_px(style: &Style, options: &StageOptions, world_px: f32) -> f
 /// The outline settings of a style.
 pub(crate) fn outline(
     style: &Style,
-    model: &Model,
-    options: &StageOptions,
+    radius_world: f32,
+    height_px: u32,
+    dpi: f32,
     reach_px: u32,
 ) -> Outline {
     let (line, detect) = (&style.line, &style.detect);
@@ -213,12 +218,12 @@ pub(crate) fn outline(
         base_width: if in_world {
             line.width.base.value
         } else {
-            base_px(style, options, 0.0)
+            base_px(style, height_px, dpi, 0.0)
         },
         min_factor: line.width.min,
         max_factor: line.width.max,
         gain: line.width.gain,
-        radius_world: model.radius(),
+        radius_world,
         crease_cos: math::cos(line.crease_angle_deg.to_radians()),
         depth_threshold: detect.depth_threshold(),
         normal_cos: math::cos(detect.normal.threshold_deg.to_radians()),

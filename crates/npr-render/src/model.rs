@@ -2,13 +2,14 @@
 
 use crate::error::RenderError;
 use crate::instance::Instance;
+use crate::placement::{self, Bounds};
 use crate::textures::Textures;
-use glam::{Mat3, Mat4, Vec3};
-use npr_core::camera::{Camera, Projection};
+use glam::{Mat4, Vec3};
+use npr_core::camera::Camera;
 use npr_core::geometry::{Edge, Influence, NONE, Triangle, Vertex};
 use npr_core::texture::TextureStore;
 use npr_mesh::pose::Matrix;
-use npr_scene::{AlphaMode, Material, Node, Scene};
+use npr_scene::{AlphaMode, Material, Node, Part, Scene};
 
 /// Numbers must leave room for "none" and for the bit that marks hulls.
 const COUNT_LIMIT: u64 = 1 << 30;
@@ -46,7 +47,7 @@ pub struct Model {
     pub(crate) edges: Vec<Edge>,
     pub(crate) parts: Vec<PartInfo>,
     pub(crate) textures: TextureStore,
-    bounds: ([f32; 3], [f32; 3]),
+    bounds: Bounds,
     cameras: Vec<(String, Camera)>,
     notices: Vec<String>,
 }
@@ -70,11 +71,7 @@ impl Model {
             parts: Vec::new(),
             textures: TextureStore::new(),
             bounds: ([0.0; 3], [0.0; 3]),
-            cameras: scene
-                .nodes
-                .iter()
-                .filter_map(|node| camera_of(scene, node))
-                .collect(),
+            cameras: placement::cameras_of(scene),
             notices: scene.notices.iter().map(ToString::to_string).collect(),
         };
         let mut textures = Textures::new(scene);
@@ -85,7 +82,7 @@ impl Model {
         }
         model.notices.extend(textures.notice.take());
         model.textures = textures.store;
-        model.bounds = model.posed_bounds();
+        model.bounds = placement::bounds_of(model.posed_points());
         model.relate_curvatures();
         Ok(model)
     }
@@ -107,8 +104,8 @@ impl Model {
         textures: &mut Textures,
     ) -> Result<(), RenderError> {
         let first_joint = self.palette.len() as u32;
-        self.palette.extend(matrices_of(scene, node));
-        let determinant = determinant_of(&self.palette[first_joint as usize]);
+        self.palette.extend(placement::matrices_of(scene, node));
+        let determinant = placement::determinant_of(&self.palette[first_joint as usize]);
         let scale = npr_core::math::powf(determinant.abs(), 1.0 / 3.0).max(1e-12);
         let instance = Instance::new(scene, &mesh.parts, scale, determinant < 0.0);
         let base = [
@@ -153,14 +150,9 @@ impl Model {
             .parts
             .iter()
             .map(|part| {
-                part_info(
-                    scene,
-                    object,
-                    &node.name,
-                    part.material,
-                    part.uvs.is_some(),
-                    textures,
-                )
+                let info = PartInfo::new(scene, object, &node.name, part.material);
+                let texture = base_color_texture(scene, part, textures);
+                PartInfo { texture, ..info }
             })
             .collect();
         self.parts.extend(
@@ -179,8 +171,7 @@ impl Model {
 
     /// Radius of the sphere around the bounds, in the world; at least a tiny number.
     pub fn radius(&self) -> f32 {
-        let (min, max) = (Vec3::from(self.bounds.0), Vec3::from(self.bounds.1));
-        ((max - min).length() * 0.5).max(1e-12)
+        placement::radius_of(self.bounds)
     }
 
     /// Cameras of the file, with their names, in the order of its nodes.
@@ -241,47 +232,9 @@ impl Model {
         };
         moved(0) + moved(1) + moved(2) + moved(3)
     }
-
-    /// Bounds of the vertices as posed; a unit box where there are none.
-    fn posed_bounds(&self) -> ([f32; 3], [f32; 3]) {
-        let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        let (min, max) = self
-            .posed_points()
-            .fold(none, |(min, max), point| (min.min(point), max.max(point)));
-        if min.is_finite() && max.is_finite() {
-            (min.to_array(), max.to_array())
-        } else {
-            ([-0.5; 3], [0.5; 3])
-        }
-    }
 }
 
-/// The matrices that a node's influences index: its skin's joints, or itself.
-fn matrices_of(scene: &Scene, node: &Node) -> Vec<Matrix> {
-    let Some(skin) = node.skin.and_then(|skin| scene.skins.get(skin as usize)) else {
-        return vec![node.world_from_node];
-    };
-    let joints = skin
-        .joints
-        .iter()
-        .zip(&skin.inverse_bind)
-        .map(|(joint, inverse_bind)| {
-            let world = Mat4::from_cols_array_2d(&scene.nodes[*joint as usize].world_from_node);
-            (world * Mat4::from_cols_array_2d(inverse_bind)).to_cols_array_2d()
-        });
-    let joints: Vec<Matrix> = joints.collect();
-    if joints.is_empty() {
-        vec![node.world_from_node]
-    } else {
-        joints
-    }
-}
-
-fn determinant_of(matrix: &Matrix) -> f32 {
-    Mat3::from_mat4(Mat4::from_cols_array_2d(matrix)).determinant()
-}
-
-fn check_count(what: &'static str, have: usize, more: usize) -> Result<(), RenderError> {
+pub(crate) fn check_count(what: &'static str, have: usize, more: usize) -> Result<(), RenderError> {
     if have as u64 + more as u64 > COUNT_LIMIT {
         return Err(RenderError::TooMany {
             what,
@@ -291,59 +244,48 @@ fn check_count(what: &'static str, have: usize, more: usize) -> Result<(), Rende
     Ok(())
 }
 
-fn part_info(
-    scene: &Scene,
-    object: u32,
-    object_name: &str,
-    material: Option<u32>,
-    has_uvs: bool,
-    textures: &mut Textures,
-) -> PartInfo {
-    let plain = Material::default();
-    let found = material
-        .and_then(|index| scene.materials.get(index as usize))
-        .unwrap_or(&plain);
-    let texture = found.base_color_texture.as_ref().filter(|_| has_uvs);
-    PartInfo {
-        object_name: object_name.to_owned(),
-        material_name: found.name.clone(),
-        object,
-        material: material.unwrap_or(NONE - 1),
-        base_color: found.base_color,
-        texture: texture
-            .and_then(|texture| textures.start_of(scene, texture))
-            .unwrap_or(NONE),
-        alpha_cutoff: match found.alpha {
-            AlphaMode::Opaque => None,
-            AlphaMode::Mask(cutoff) => Some(cutoff),
-            AlphaMode::Blend => Some(0.5),
-        },
-        double_sided: found.double_sided,
-        unlit: found.unlit,
-    }
+/// Where the texture of a part starts in the store, or [`NONE`].
+fn base_color_texture(scene: &Scene, part: &Part, textures: &mut Textures) -> u32 {
+    let material = part.material.and_then(|m| scene.materials.get(m as usize));
+    let texture = material.and_then(|material| material.base_color_texture.as_ref());
+    texture
+        .filter(|_| part.uvs.is_some())
+        .and_then(|texture| textures.start_of(scene, texture))
+        .unwrap_or(NONE)
 }
 
-/// A node's camera in the world, with its name.
-fn camera_of(scene: &Scene, node: &Node) -> Option<(String, Camera)> {
-    let camera = scene.cameras.get(node.camera? as usize)?;
-    let m = Mat4::from_cols_array_2d(&node.world_from_node);
-    let eye = m.w_axis.truncate();
-    let projection = match camera.projection {
-        npr_scene::Projection::Perspective { yfov, .. } => Projection::Perspective { fov_y: yfov },
-        npr_scene::Projection::Orthographic { ymag, .. } => {
-            Projection::Parallel { height: 2.0 * ymag }
+impl PartInfo {
+    /// An object in one of the scene's materials, without a texture.
+    pub(crate) fn new(
+        scene: &Scene,
+        object: u32,
+        object_name: &str,
+        material: Option<u32>,
+    ) -> Self {
+        let plain = Material::default();
+        let found = material
+            .and_then(|index| scene.materials.get(index as usize))
+            .unwrap_or(&plain);
+        Self {
+            object_name: object_name.to_owned(),
+            material_name: found.name.clone(),
+            object,
+            material: material.unwrap_or(NONE - 1),
+            base_color: found.base_color,
+            texture: NONE,
+            alpha_cutoff: match found.alpha {
+                AlphaMode::Opaque => None,
+                AlphaMode::Mask(cutoff) => Some(cutoff),
+                AlphaMode::Blend => Some(0.5),
+            },
+            double_sided: found.double_sided,
+            unlit: found.unlit,
         }
-    };
-    let name = if node.name.is_empty() {
-        &camera.name
-    } else {
-        &node.name
-    };
-    let camera = Camera {
-        eye: eye.to_array(),
-        target: (eye - m.z_axis.truncate().normalize_or(Vec3::Z)).to_array(),
-        up: m.y_axis.truncate().to_array(),
-        projection,
-    };
-    Some((name.clone(), camera))
+    }
+
+    /// Whether the base colour alone is so transparent that nothing of the part is drawn.
+    pub(crate) fn is_invisible(&self) -> bool {
+        self.alpha_cutoff
+            .is_some_and(|cutoff| self.base_color[3] < cutoff)
+    }
 }

@@ -98,7 +98,12 @@ impl<'a> Stage<'a> {
     ) -> Result<Self, RenderError> {
         check_size(options.size)?;
         let styled = StyledModel::new(model, style, options);
-        let base_px = look::base_px(style, options, options.size[1] as f32 / model.radius());
+        let base_px = look::base_px(
+            style,
+            options.size[1],
+            options.dpi,
+            options.size[1] as f32 / model.radius(),
+        );
         let margin =
             look::largest_half_width(style, &styled.parts, base_px).min(1e4) as u32 + TILE_ROOM;
         let tiles = Tiles::new(options.size, margin, options.tile_pixels);
@@ -169,12 +174,18 @@ impl<'a> Stage<'a> {
     pub fn draw(&mut self, camera: &Camera) -> Result<Frame, RenderError> {
         let view = camera.view(self.options.size, self.model.bounds());
         let world_px = look::nearest_world_px(&view, camera, self.model);
-        let base_px = look::base_px(&self.style, &self.options, world_px);
+        let base_px = look::base_px(
+            &self.style,
+            self.options.size[1],
+            self.options.dpi,
+            world_px,
+        );
         let half = look::largest_half_width(&self.style, &self.styled.parts, base_px);
         let outline = look::outline(
             &self.style,
-            self.model,
-            &self.options,
+            self.model.radius(),
+            self.options.size[1],
+            self.options.dpi,
             half.ceil().min(64.0) as u32 + 1,
         );
         let mut compose = look::compose(&self.style, camera, self.styled.background_texture);
@@ -223,7 +234,7 @@ impl<'a> Stage<'a> {
     }
 }
 
-fn check_size([width, height]: [u32; 2]) -> Result<(), RenderError> {
+pub(crate) fn check_size([width, height]: [u32; 2]) -> Result<(), RenderError> {
     if width == 0 || height == 0 {
         return Err(RenderError::EmptyFrame { width, height });
     }

@@ -21,6 +21,8 @@ pub struct Material {
     pub alpha: AlphaMode,
     /// Whether the file asks for the base colour without shading.
     pub unlit: bool,
+    /// Whether the file asks for a line wherever this material meets another: `extras.npr.lines` of a glTF material.
+    pub marked: bool,
 }
 
 impl Default for Material {
@@ -36,6 +38,7 @@ impl Default for Material {
             double_sided: false,
             alpha: AlphaMode::Opaque,
             unlit: false,
+            marked: false,
         }
     }
 }

@@ -34,6 +34,10 @@ pub struct Part {
     pub joints: Option<Vec<[u16; 4]>>,
     /// Shares of the four joints, none negative, summing to one.
     pub weights: Option<Vec<[f32; 4]>>,
+    /// Whether the file marks each vertex: an edge between two marked vertices is a line the user asks for.
+    ///
+    /// From the attribute `_NPR_LINE` of a glTF primitive, one number per vertex, marked above one half.
+    pub marks: Option<Vec<bool>>,
     /// Vertices of each triangle.
     pub triangles: Vec<[u32; 3]>,
     /// Index into the scene's materials.
@@ -84,6 +88,10 @@ impl Part {
             self.joints
                 .as_ref()
                 .is_none_or(|joints| joints.len() == count),
+            "list length"
+        );
+        assert!(
+            self.marks.as_ref().is_none_or(|marks| marks.len() == count),
             "list length"
         );
         for morph in &self.morphs {

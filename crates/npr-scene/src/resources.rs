@@ -72,6 +72,12 @@ pub trait Resources {
     ///
     /// [`ResourceError`] where the file may not be read, cannot be, or exceeds `limit_bytes`.
     fn read(&self, name: &str, limit_bytes: u64) -> Result<Vec<u8>, ResourceError>;
+
+    /// Hears of a file that the scene refers to, but that is not read, because
+    /// [`Limits::decode_images`](crate::Limits::decode_images) is off.
+    ///
+    /// Such a file is still part of the scene, and nothing should be written over it.
+    fn mention(&self, _name: &str) {}
 }
 
 /// Files in memory, for tests, the web and scenes from standard input.

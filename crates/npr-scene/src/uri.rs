@@ -32,6 +32,15 @@ pub(crate) fn read(
     }
 }
 
+/// Tells `resources` of the file that `uri` leads to, without reading it.
+pub(crate) fn mention(uri: &str, resources: &dyn Resources) {
+    if !uri.starts_with("data:")
+        && let Ok(path) = relative_path(uri)
+    {
+        resources.mention(&path);
+    }
+}
+
 fn decode_data(data: &str) -> Result<Vec<u8>, ResourceError> {
     let (kind, payload) = data.split_once(',').ok_or(ResourceError::BadData)?;
     if kind.ends_with(";base64") {

@@ -329,3 +329,62 @@ fn an_empty_file_of_each_kind_is_told_so() {
     let scene = load_json(r#""scenes":[{}],"scene":0"#).expect("an empty scene");
     assert!(scene.nodes.is_empty() && scene.bounds_world().is_none());
 }
+
+#[test]
+fn the_user_marks_vertices_and_materials_for_lines() {
+    let corners = [0f32, 0., 0., 1., 0., 0., 0., 1., 0.];
+    let bin: Vec<u8> = corners
+        .into_iter()
+        .chain([1.0, 0.0, 0.6])
+        .flat_map(f32::to_le_bytes)
+        .collect();
+    let json = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0,"_NPR_LINE":1,"_OTHER":1},"material":1}]}],
+        "materials":[{"extras":{"npr":{"lines":1}}},{"extras":{"npr":{"lines":true}}},{"extras":[5]},{"extras":"x"}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
+            {"bufferView":1,"componentType":5126,"count":3,"type":"SCALAR"}],
+        "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":12}],
+        "buffers":[{"byteLength":48}]}"#;
+    let scene = load(&glb(json, &bin)).expect("a sound file");
+    let marks = scene.meshes[0].parts[0].marks.as_deref();
+    assert_eq!(marks, Some(&[true, false, true][..]));
+    let marked: Vec<bool> = scene.materials.iter().map(|m| m.marked).collect();
+    assert_eq!(marked, [false, true, false, false]);
+
+    let short = json.replace(
+        r#""count":3,"type":"SCALAR""#,
+        r#""count":2,"type":"SCALAR""#,
+    );
+    assert!(load(&glb(&short, &bin)).is_err());
+}
+
+#[test]
+fn images_stay_closed_where_nobody_wants_them() {
+    #[derive(Default)]
+    struct Heard(std::cell::RefCell<Vec<String>>);
+    impl npr_scene::Resources for Heard {
+        fn read(&self, name: &str, _: u64) -> Result<Vec<u8>, npr_scene::ResourceError> {
+            panic!("'{name}' is read");
+        }
+        fn mention(&self, name: &str) {
+            self.0.borrow_mut().push(name.to_owned());
+        }
+    }
+    let limits = Limits {
+        decode_images: false,
+        images_bytes: 0,
+        ..Limits::default()
+    };
+    let bin: Vec<u8> = [0f32; 9].into_iter().flat_map(f32::to_le_bytes).collect();
+    let json = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+        "materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
+        "textures":[{"source":0}],"images":[{"uri":"skin%20a.png"}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+        "bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36}]}"#;
+    let heard = Heard::default();
+    let scene = load_bytes("test", &glb(json, &bin), None, &heard, &limits).expect("a sound file");
+    scene.sanity_check();
+    assert!(scene.images.is_empty() && scene.notices.is_empty());
+    assert_eq!(heard.0.into_inner(), ["skin a.png"]);
+}

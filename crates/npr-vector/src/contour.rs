@@ -5,6 +5,8 @@
 //! sector of such faces has one way in and one way out, so the successor map is a permutation: all lines are
 //! closed, on closed, open and non-manifold meshes alike. Pieces that are no contour only hold the loops together.
 
+pub mod steps;
+
 use crate::graph::{CurveGraph, CurveNode};
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;

@@ -10,8 +10,9 @@
 //! assert_eq!(npr_vector::ribbon::line_coverage(0.0, 0.5), 1.0);
 //! ```
 
+pub mod artwork;
 pub mod bvh;
-pub mod centreline;
+mod clip;
 pub mod contour;
 pub mod detect;
 pub mod doubles;
@@ -25,7 +26,10 @@ pub mod graph;
 pub mod intersect;
 pub mod json;
 pub mod merge;
+mod near;
+mod number;
 pub mod outline;
+mod page;
 pub mod pdf;
 pub mod plot;
 pub mod project;

@@ -50,6 +50,7 @@ impl LimitArguments {
             image_side_px: self.max_image_side.unwrap_or(usual.image_side_px),
             image_bytes: self.max_image.unwrap_or(usual.image_bytes),
             images_bytes: self.max_images.unwrap_or(usual.images_bytes),
+            decode_images: usual.decode_images,
             memory_bytes: self.memory_limit.unwrap_or(usual.memory_bytes),
         }
     }

@@ -11,8 +11,8 @@ pub struct RenderArguments {
     /// Scene: .glb, .gltf, .vrm, .obj, .stl or .ply; - reads standard input.
     #[arg(required_unless_present = "dump_style")]
     pub scene: Option<PathBuf>,
-    /// Picture to write, .png; - writes to standard output [default: the scene's name with .png, in the
-    /// current folder].
+    /// Picture to write, .png, or .svg where the style is lines only; - writes a .png to standard output
+    /// [default: the scene's name with .png, in the current folder].
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     /// Width and height in pixels, 32768 at most.

@@ -45,3 +45,52 @@ fn pictures_are_the_same_for_any_number_of_threads() {
         }
     }
 }
+
+/// A line drawing with a number of threads.
+fn lines(place: &Workplace, model: &str, more: &[&str], threads: &str) -> Vec<u8> {
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../assets/{model}.glb"));
+    let scene = scene.to_str().expect("UTF-8");
+    let mut command = place.command(&["lines", scene, "-o", "-", "--size", "160x96"]);
+    command
+        .args(["--camera", "0", "--hidden", "layer"])
+        .args(more);
+    command
+        .env("RAYON_NUM_THREADS", threads)
+        .env("LC_ALL", "de_DE.UTF-8");
+    let outcome = Outcome::of(command.output().expect("the command starts"));
+    outcome.assert_silent_success();
+    outcome.stdout
+}
+
+#[test]
+fn line_drawings_are_the_same_for_any_number_of_threads() {
+    let place = Workplace::new();
+    for model in MODELS {
+        for format in ["svg", "json", "pdf", "png"] {
+            for method in ["edges", "surface"] {
+                let more = ["--format", format, "--method", method, "--style", "ink"];
+                let first = lines(&place, model, &more, "1");
+                for threads in ["2", "8"] {
+                    assert!(
+                        first == lines(&place, model, &more, threads),
+                        "{model} as {format} by {method} differs with {threads} threads"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn line_drawings_are_the_same_in_every_run() {
+    let place = Workplace::new();
+    for more in [&["--fill"][..], &["--svg", "centreline", "--page", "A4"]] {
+        let first = lines(&place, "still_life", more, "8");
+        for run in 0..20 {
+            assert!(
+                first == lines(&place, "still_life", more, "8"),
+                "run {run} of {more:?}"
+            );
+        }
+    }
+}

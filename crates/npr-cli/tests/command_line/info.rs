@@ -83,7 +83,7 @@ fn a_broken_file_is_told_as_by_render() {
 }
 
 /// A triangle whose node has a name.
-fn named_glb(name: &str) -> Vec<u8> {
+pub fn named_glb(name: &str) -> Vec<u8> {
     let name = serde_json::to_string(name).expect("JSON");
     let corners: [f32; 9] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
     let json = format!(

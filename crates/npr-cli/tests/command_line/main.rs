@@ -4,6 +4,7 @@ mod closing;
 mod determinism;
 mod files;
 mod info;
+mod lines;
 mod looks;
 mod scenes;
 mod streams;

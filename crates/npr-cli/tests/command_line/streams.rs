@@ -39,8 +39,10 @@ fn broken_standard_input_is_named_in_the_message() {
 #[test]
 fn a_closed_pipe_is_a_quiet_success() {
     let place = Workplace::with_scene();
-    let commands: [&[&str]; 4] = [
+    let commands: [&[&str]; 6] = [
         &["render", "scene.obj", "-o", "-", "--backend", "cpu"],
+        &["lines", "scene.obj", "-o", "-"],
+        &["lines", "scene.obj", "-o", "-", "--format", "png"],
         &["styles", "schema"],
         &["info", "scene.obj"],
         &["--help"],

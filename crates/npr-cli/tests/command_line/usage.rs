@@ -7,6 +7,7 @@ fn wrong_command_lines_exit_with_2_and_leave_nothing() {
     let cases: &[(&[&str], &str)] = &[
         (&[], "no command is given"),
         (&["rendr"], "'rendr'"),
+        (&["man", "rendr"], "no command 'rendr'"),
         (&["render"], "not provided: <SCENE>"),
         (&["render", "scene.obj", "--stile", "ink"], "'--style'"),
         (&["render", "scene.obj", "--size", "0x5"], "leaves no pixel"),
@@ -90,8 +91,11 @@ fn help_and_version_go_to_standard_output() {
     for arguments in [
         &["--help"][..],
         &["render", "--help"],
+        &["lines", "--help"],
         &["--version"],
         &["completions", "bash"],
+        &["man"],
+        &["man", "lines"],
     ] {
         let outcome = place.npr(arguments);
         outcome.assert_silent_success();

@@ -6,11 +6,15 @@
 
 mod agreement;
 mod cliffs;
+mod contours;
+mod curves;
 mod draws;
 mod frame;
+mod lists;
 mod memory;
 mod sample_passes;
 mod scene;
+mod shapes;
 mod shared;
 mod trouble;
 mod twins;

@@ -2,6 +2,7 @@
 
 use crate::agreement::{Meaning, disagreement};
 use crate::frame::{Content, Frame, counts_input, grids_for};
+use crate::lists::{Chains, Jumping, Lists, is_over_lists};
 use crate::scene::{FRAME_PX, Look};
 use crate::shared;
 use npr_gpu::engine::Engine;
@@ -94,6 +95,40 @@ impl Case {
         id
     }
 
+    /// A pass over lists.
+    fn of_lists(pass: &'static Pass, lists: &Lists) -> Self {
+        let mut case = Self {
+            graph: Graph::new(),
+            inputs: Vec::new(),
+            outputs: Vec::new(),
+        };
+        let mut bound = Vec::new();
+        for slot in pass.slots {
+            let stride = slot.element.size;
+            let is_output = slot.access == Access::Write;
+            let kind = match slot.access {
+                Access::Uniform => Kind::Uniform { size: stride },
+                _ => Kind::Buffer {
+                    stride,
+                    count: match is_output {
+                        true => lists.output_count(pass, slot.name),
+                        false => lists.content(pass, slot.name).len() * 4 / stride,
+                    },
+                },
+            };
+            let id = case.graph.add(slot.name, kind);
+            match is_output {
+                true => case.outputs.push((id, Meaning::Elements(slot.element))),
+                false => case
+                    .inputs
+                    .push((id, lists.content(pass, slot.name).to_vec())),
+            }
+            bound.push(id);
+        }
+        case.graph.compute(pass, &bound);
+        case
+    }
+
     fn run_on(&self, engine: &dyn Engine) -> Vec<Vec<u32>> {
         let mut session = engine.prepare(self.graph.clone()).unwrap();
         for (id, words) in &self.inputs {
@@ -116,13 +151,18 @@ impl Case {
     }
 }
 
-/// Runs every pass on both engines and lists where they differ.
+/// Runs every pass over a frame on both engines and lists where they differ.
 fn check_all(cases: impl Fn(&'static Pass) -> Vec<(String, Case)>) {
+    check(|pass| !is_over_lists(pass), cases);
+}
+
+/// The same for those passes that are `chosen`.
+fn check(chosen: fn(&Pass) -> bool, cases: impl Fn(&'static Pass) -> Vec<(String, Case)>) {
     let Some(device) = shared::device() else {
         return;
     };
     let mut found = Vec::new();
-    for pass in ALL {
+    for pass in ALL.iter().filter(|pass| chosen(pass)) {
         for (name, case) in cases(pass) {
             let differences = case.disagreements(pass, device);
             found.extend(
@@ -192,4 +232,32 @@ fn passes_agree_around_a_workgroup() {
         });
         cases.collect()
     });
+}
+
+/// Lists of as many nodes, more than one workgroup can add up, and many.
+#[test]
+fn passes_over_lists_agree() {
+    for count in COUNTS.into_iter().chain([4097, 20_000]) {
+        for chains in [Chains::Mixed, Chains::Single] {
+            for jumping in [Jumping::Nodes, Jumping::Splitters] {
+                let lists = Lists::new(chains, jumping, count as usize);
+                check(is_over_lists, |pass| {
+                    let name = format!("of {count}, {chains:?}, {jumping:?}");
+                    vec![(name, Case::of_lists(pass, &lists))]
+                });
+            }
+        }
+    }
+}
+
+#[test]
+fn every_pass_over_lists_has_something_to_do() {
+    let lists = Lists::new(Chains::Mixed, Jumping::Nodes, 1000);
+    for pass in ALL.iter().filter(|pass| is_over_lists(pass)) {
+        for words in Case::of_lists(pass, &lists).run_on(&Processor) {
+            let set = words.iter().filter(|word| **word != 0).count();
+            let is_quiet = pass.name == "vector.scatter_ranks" && set == 0;
+            assert!(is_quiet || set * 100 >= words.len(), "{}", pass.name);
+        }
+    }
 }

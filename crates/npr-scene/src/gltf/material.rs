@@ -14,6 +14,7 @@ use ::gltf::json::mesh::Primitive;
 use ::gltf::json::texture::Info;
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Index, Root};
+use serde_json::Value;
 
 use super::accessor::Accessors;
 use super::texture::Textures;
@@ -87,6 +88,7 @@ fn surface(source: &JsonMaterial) -> Material {
         double_sided: source.double_sided,
         alpha: alpha(source),
         unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
+        marked: asks_for_lines(source),
     };
     if let Some(specular) =
         extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref())
@@ -96,6 +98,14 @@ fn surface(source: &JsonMaterial) -> Material {
         material.roughness = 1.0 - factor(specular.glossiness_factor.0);
     }
     material
+}
+
+/// Whether the extras say `{"npr": {"lines": true}}`; what else they say is somebody else's.
+fn asks_for_lines(source: &JsonMaterial) -> bool {
+    let extras = source.extras.as_ref();
+    let said = extras.and_then(|extras| serde_json::from_str::<Value>(extras.get()).ok());
+    let lines = said.as_ref().and_then(|said| said.pointer("/npr/lines"));
+    lines.and_then(Value::as_bool).unwrap_or(false)
 }
 
 fn emissive(source: &JsonMaterial) -> [f32; 3] {

@@ -19,6 +19,9 @@ use crate::error::SceneError;
 use crate::load::Loading;
 use crate::mesh::{Morph, Part};
 
+/// The attribute that marks vertices for lines, without the underscore before the names of such attributes.
+const MARKS: &str = "NPR_LINE";
+
 /// Where a primitive stands in its file.
 #[derive(Clone, Copy)]
 pub(crate) struct Place {
@@ -84,6 +87,7 @@ impl Reader<'_, '_, '_> {
             colors: self.colors()?,
             joints,
             weights: weights_of_joints,
+            marks: self.marks()?,
             triangles: self.triangles(place)?,
             material: self.material()?,
             morphs: self.morphs(weights)?,
@@ -130,6 +134,12 @@ impl Reader<'_, '_, '_> {
         }
         let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
         Ok(Some(self.floats(index)?.into_iter().map(opaque).collect()))
+    }
+
+    /// Which vertices the user marked for lines.
+    fn marks(&mut self) -> Result<Option<Vec<bool>>, SceneError> {
+        let values: Option<Vec<[f32; 1]>> = self.list(Semantic::Extras(MARKS.to_owned()))?;
+        Ok(values.map(|values| values.iter().map(|[value]| *value > 0.5).collect()))
     }
 
     #[allow(

@@ -126,6 +126,12 @@ fn decode(
     item: Item,
     loading: &mut Loading,
 ) -> Result<Option<Image>, SceneError> {
+    if !loading.allowance.limits.decode_images {
+        if let Source::Uri(uri) = source {
+            uri::mention(uri, loading.resources);
+        }
+        return Ok(None);
+    }
     let bytes = bytes(accessors, source, item, loading);
     let fault = match bytes.map(|bytes| decode::decode(name, &bytes, &mut loading.allowance)) {
         Ok(Ok(image)) => return Ok(Some(image)),

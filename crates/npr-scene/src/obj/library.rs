@@ -189,6 +189,10 @@ fn folder(name: &str) -> &str {
 }
 
 fn decode(name: &str, loading: &mut Loading) -> Result<Option<Image>, SceneError> {
+    if !loading.allowance.limits.decode_images {
+        loading.resources.mention(name);
+        return Ok(None);
+    }
     let bytes = loading
         .resources
         .read(name, loading.allowance.limits.file_bytes);

@@ -1,0 +1,113 @@
+//! Models in several views, and strokes from files, against the reference.
+
+use std::path::{Path, PathBuf};
+
+use npr_benches::lines::candidates::Wanted;
+use npr_benches::lines::measures::measure;
+use npr_benches::lines::reference::Reference;
+use npr_benches::lines::report::{Row, section};
+use npr_benches::lines::stroke_file;
+use npr_benches::lines::subjects::{
+    LineSubject, MODELS, PEER_MESHES, SIZE, benchmark_camera, shared_models,
+};
+use npr_benches::lines::viewpoint::Viewpoint;
+use npr_core::camera::{Camera, Projection};
+use npr_render::{LineModel, LineModelOptions};
+
+use crate::Outcome;
+use crate::arguments::Arguments;
+use crate::way::ways;
+
+/// Triangles over which a model is not quick.
+const QUICK_TRIANGLES: usize = 20_000;
+
+/// Measures strokes from a file.
+pub fn judge(arguments: &Arguments, strokes: &Path, model: &Path) -> Outcome<()> {
+    let drawing = stroke_file::read(strokes)?;
+    let subject = LineSubject::load(model, true)?;
+    let usual = benchmark_camera();
+    let mut camera = Camera {
+        eye: arguments.eye.unwrap_or(usual.eye),
+        target: arguments.target.unwrap_or(usual.target),
+        ..usual
+    };
+    if let Some(degrees) = arguments.fov {
+        camera.projection = Projection::Perspective {
+            fov_y: degrees.to_radians(),
+        };
+    }
+    let mut wanted = Wanted::default();
+    if let Some(degrees) = arguments.crease {
+        wanted.crease = degrees.to_radians();
+    }
+    let view = Viewpoint::new(&camera, drawing.size);
+    let reference = Reference::new(&subject.soup, &view, &wanted);
+    let row = Row {
+        model: subject.name,
+        view: 1,
+        measures: measure(&drawing, &reference),
+    };
+    let bar = ways()[0].bar;
+    print!("{}", section("Strokes of a file", &bar, &[row]));
+    Ok(())
+}
+
+/// Files to measure, each with whether it lies in the unit ball.
+fn files(arguments: &Arguments) -> Vec<(PathBuf, bool)> {
+    let models = arguments.models.clone().unwrap_or_else(shared_models);
+    let shared = MODELS.iter().map(|name| (models.join(name), false));
+    let peers = arguments.peers.iter().flat_map(|folder| {
+        PEER_MESHES
+            .iter()
+            .map(move |name| (folder.join(name), true))
+    });
+    let wanted = |path: &Path| {
+        arguments
+            .only
+            .as_ref()
+            .is_none_or(|part| path.to_string_lossy().contains(part.as_str()))
+    };
+    let (there, missing): (Vec<_>, Vec<_>) = peers
+        .chain(shared)
+        .filter(|(path, _)| wanted(path))
+        .partition(|(path, _)| path.is_file());
+    for (path, _) in missing {
+        eprintln!("left out: there is no {}", path.display());
+    }
+    there
+}
+
+/// Every model in every view and every way.
+pub fn agreement(arguments: &Arguments) -> Outcome<()> {
+    let ways = ways();
+    let mut rows: [Vec<Row>; 4] = Default::default();
+    for (path, unit) in files(arguments) {
+        let subject = LineSubject::load(&path, unit)?;
+        if arguments.quick && subject.soup.faces.len() > QUICK_TRIANGLES {
+            continue;
+        }
+        eprintln!("measuring {}", subject.name);
+        let model = LineModel::new(&subject.scene, &LineModelOptions::default())?;
+        let views = if arguments.quick {
+            1
+        } else {
+            subject.cameras.len()
+        };
+        for (number, camera) in subject.cameras[..views].iter().enumerate() {
+            let view = Viewpoint::new(camera, SIZE);
+            let reference = Reference::new(&subject.soup, &view, &Wanted::default());
+            for (way, rows) in ways.iter().zip(&mut rows) {
+                let drawing = way.draw(&model, camera)?;
+                rows.push(Row {
+                    model: subject.name.clone(),
+                    view: number + 1,
+                    measures: measure(&drawing, &reference),
+                });
+            }
+        }
+    }
+    for (way, rows) in ways.iter().zip(&rows) {
+        println!("{}", section(way.name, &way.bar, rows));
+    }
+    Ok(())
+}

@@ -1,0 +1,79 @@
+//! The ways that lines are drawn, and how times are taken.
+
+use std::error::Error;
+
+use npr_benches::lines::candidates::Wanted;
+use npr_benches::lines::report::Bar;
+use npr_benches::lines::subjects::SIZE;
+use npr_benches::timing::{Times, elapsed_ms};
+use npr_core::camera::Camera;
+use npr_render::{LineMethod, LineModel, LineOptions};
+use npr_style::Style;
+use npr_vector::stroke::Drawing;
+
+use crate::Outcome;
+
+/// Runs behind a time.
+pub const RUNS: usize = 5;
+
+/// A way of drawing, and what it must reach.
+pub struct Way {
+    /// In words.
+    pub name: &'static str,
+    /// How contours are found.
+    pub method: LineMethod,
+    /// Whether strokes are smoothed.
+    pub smooth: bool,
+    /// What it must reach.
+    pub bar: Bar,
+}
+
+/// All ways that contours are drawn.
+pub fn ways() -> [Way; 4] {
+    let way = |name, method, smooth, bar: (usize, f64, f64)| Way {
+        name,
+        method,
+        smooth,
+        bar: Bar {
+            tolerance: bar.0,
+            recall: bar.1,
+            precision: bar.2,
+            of_joined: smooth,
+        },
+    };
+    let (edges, surface) = (LineMethod::Edges, LineMethod::Surface);
+    [
+        way("edges, not smoothed", edges, false, (1, 0.998, 0.998)),
+        way("edges, smoothed", edges, true, (2, 0.99, 0.99)),
+        way("surface, not smoothed", surface, false, (2, 0.97, 0.99)),
+        way("surface, smoothed", surface, true, (2, 0.97, 0.99)),
+    ]
+}
+
+impl Way {
+    fn options(&self, wanted: &Wanted) -> LineOptions {
+        LineOptions {
+            kinds: wanted.kinds.iter().copied().collect(),
+            crease: wanted.crease as f32,
+            method: self.method,
+            smooth: self.smooth,
+            ..LineOptions::new(SIZE)
+        }
+    }
+
+    /// Draws the kinds that the reference knows.
+    pub fn draw(&self, model: &LineModel, camera: &Camera) -> Outcome<Drawing> {
+        Ok(model.draw(camera, &Style::default(), &self.options(&Wanted::default()))?)
+    }
+}
+
+/// Times of some runs of work that may fail.
+pub fn times<E: Error + 'static>(work: impl Fn() -> Result<(), E>) -> Outcome<Times> {
+    let mut runs = Vec::new();
+    for _ in 0..RUNS {
+        let mut outcome = Ok(());
+        runs.push(elapsed_ms(|| outcome = work()));
+        outcome?;
+    }
+    Ok(Times::of(runs))
+}

@@ -1,0 +1,235 @@
+//! What the user said to `npr lines`.
+
+use super::{Backend, CameraArguments, LimitArguments, LookArguments, Size, TimingsForm};
+use clap::{Args, ValueEnum};
+use npr_render::Kind;
+use npr_vector::artwork::Page;
+use std::path::PathBuf;
+
+/// What the user said to `npr lines`.
+#[derive(Debug, Args)]
+pub struct LinesArguments {
+    /// Scene: .glb, .gltf, .vrm, .obj, .stl or .ply; - reads standard input.
+    #[arg(required_unless_present = "dump_style")]
+    pub scene: Option<PathBuf>,
+    /// File to write: .svg, .json, .pdf or .png; - writes to standard output [default: the scene's name
+    /// with .svg, in the current folder].
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+    /// Format of the output, whatever its name [default: by the name; svg on standard output].
+    #[arg(long, value_enum)]
+    pub format: Option<LineFormat>,
+    /// Width and height in pixels, 32768 at most.
+    #[arg(long, value_name = "WxH", default_value_t = Size { width: 1280, height: 720 })]
+    pub size: Size,
+    /// Which lines.
+    #[command(flatten)]
+    pub lines: LineArguments,
+    /// What is written of them.
+    #[command(flatten)]
+    pub sheet: SheetArguments,
+    /// The camera.
+    #[command(flatten)]
+    pub camera: CameraArguments,
+    /// The style.
+    #[command(flatten)]
+    pub look: LookArguments,
+    /// What draws.
+    #[arg(long, value_enum, default_value_t = Backend::Auto, help_heading = "Work")]
+    pub backend: Backend,
+    /// Keep prepared surfaces in this folder between runs, which saves time and changes no drawing; `off` keeps
+    /// none [default: the folder that NPR_CACHE_DIR names, else off].
+    #[arg(long, value_name = "DIR|off", help_heading = "Work")]
+    pub cache: Option<PathBuf>,
+    /// Tell on standard error how long each step took.
+    #[arg(
+        long, value_enum, value_name = "FORM", num_args = 0..=1, default_missing_value = "table",
+        help_heading = "Work"
+    )]
+    pub timings: Option<TimingsForm>,
+    /// No warnings and no progress.
+    #[arg(short, long, help_heading = "Work")]
+    pub quiet: bool,
+    /// A second folder that the scene and the style may read files from, besides their own.
+    #[arg(long, value_name = "DIR", help_heading = "Safety limits")]
+    pub allow_external: Option<PathBuf>,
+    /// Safety limits.
+    #[command(flatten)]
+    pub limits: LimitArguments,
+}
+
+/// What the user said about which lines are drawn.
+#[derive(Debug, Clone, Default, PartialEq, Args)]
+#[command(next_help_heading = "Lines")]
+pub struct LineArguments {
+    /// Kinds of line, with commas between; marked lines are drawn in any case [default: those of the style].
+    #[arg(long, value_enum, value_name = "KIND,..", value_delimiter = ',')]
+    pub kinds: Option<Vec<KindName>>,
+    /// Angle between face normals, in degrees, from which an edge is a crease [default: the style's, 40 unless
+    /// it says otherwise].
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = crease_angle)]
+    pub crease: Option<f32>,
+    /// How contours are found.
+    #[arg(long, value_enum, default_value_t)]
+    pub method: MethodName,
+    /// What becomes of lines behind surfaces.
+    #[arg(long, value_enum, default_value_t)]
+    pub hidden: HiddenLines,
+    /// Whether strokes are smoothed, their ends joined, and what is too short to read left out.
+    #[arg(long, value_enum, default_value_t)]
+    pub smooth: Switch,
+    /// Fill visible surfaces with flat colour.
+    #[arg(long)]
+    pub fill: bool,
+    /// Distance up to which vertices are one, as a fraction of each mesh's diagonal: 1e-6 closes the cracks of
+    /// most exports.
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.0, allow_hyphen_values = true, value_parser = weld_tolerance)]
+    pub weld: f32,
+}
+
+/// What the user said about the sheet that lines are written on.
+#[derive(Debug, Clone, Default, PartialEq, Args)]
+#[command(next_help_heading = "Sheet")]
+pub struct SheetArguments {
+    /// Paths of .svg files.
+    #[arg(long, value_enum, default_value_t)]
+    pub svg: PathForm,
+    /// Fit the drawing on a page, turned to suit it, with 10 mm free on all sides; for .svg and .pdf.
+    #[arg(long, value_name = "A4|A3|A5|Letter|WxHmm", value_parser = page)]
+    pub page: Option<Page>,
+}
+
+/// A file format of lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LineFormat {
+    /// Vector graphics with a layer for every kind.
+    Svg,
+    /// Points with depth, width and place in the world, for programs.
+    Json,
+    /// A page to print.
+    Pdf,
+    /// Pixels.
+    Png,
+}
+
+/// A kind of line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum KindName {
+    /// The surface turns away from the eye.
+    Contour,
+    /// The surface ends.
+    Boundary,
+    /// The surface bends sharply.
+    Crease,
+    /// The material changes.
+    Material,
+    /// Two surfaces cut through each other.
+    Intersection,
+    /// The file asks for a line.
+    Marked,
+}
+
+impl KindName {
+    /// The kind of that name.
+    pub fn kind(self) -> Kind {
+        match self {
+            Self::Contour => Kind::Contour,
+            Self::Boundary => Kind::Boundary,
+            Self::Crease => Kind::Crease,
+            Self::Material => Kind::Material,
+            Self::Intersection => Kind::Intersection,
+            Self::Marked => Kind::Marked,
+        }
+    }
+}
+
+/// How contours are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum MethodName {
+    /// Across faces, where smooth normals turn away from the eye.
+    Surface,
+    /// Along mesh edges, exact for the polygons.
+    #[default]
+    Edges,
+}
+
+/// What becomes of hidden lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum HiddenLines {
+    /// They are left out.
+    #[default]
+    None,
+    /// They lie on a layer of their own.
+    Layer,
+    /// They are dashed.
+    Dashed,
+}
+
+/// On or off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Switch {
+    /// It is done.
+    #[default]
+    On,
+    /// It is not.
+    Off,
+}
+
+/// How paths stand for lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum PathForm {
+    /// The ink itself, with its width: filled shapes where widths vary.
+    #[default]
+    Outline,
+    /// The middle of every line, in an order that keeps pen-up ways short: for pen plotters.
+    Centreline,
+}
+
+/// A sheet of paper.
+fn page(text: &str) -> Result<Page, String> {
+    Page::parse(text).ok_or_else(|| {
+        "must be A3, A4, A5, Letter, or width and height up to 10000 mm such as 200x300mm"
+            .to_owned()
+    })
+}
+
+/// An angle in degrees between the normals of two faces.
+fn crease_angle(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(degrees) if (0.0..=180.0).contains(&degrees) => Ok(degrees),
+        Ok(_) => Err("must lie between 0 and 180 degrees".to_owned()),
+        Err(_) => Err("must be a number of degrees".to_owned()),
+    }
+}
+
+/// A fraction of a mesh's diagonal.
+fn weld_tolerance(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(fraction) if (0.0..=0.1).contains(&fraction) => Ok(fraction),
+        Ok(_) => Err("must lie between 0 and 0.1".to_owned()),
+        Err(_) => Err("must be a number, such as 1e-6".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_and_fractions_have_bounds() {
+        assert_eq!(crease_angle("40"), Ok(40.0));
+        assert_eq!(weld_tolerance("1e-6"), Ok(1e-6));
+        for text in ["-1", "181", "nan", "inf", "sharp", ""] {
+            assert!(crease_angle(text).is_err(), "{text}");
+            assert!(weld_tolerance(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn kinds_bear_the_names_that_files_use() {
+        for name in KindName::value_variants() {
+            let shown = name.to_possible_value().expect("no name is hidden");
+            assert_eq!(shown.get_name(), name.kind().name());
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! From a drawing to the bytes of its file.
+
+use crate::arguments::LineFormat;
+use crate::encoder;
+use crate::fault::{Exit, Fault};
+use crate::line_job::LineJob;
+use npr_core::budget::Budget;
+use npr_render::{Drawing, RenderError};
+use npr_vector::drawing::rasterise;
+use npr_vector::json::write_json;
+use npr_vector::pdf::write_pdf;
+use npr_vector::svg::write_svg;
+
+/// Bytes a pixel: the canvas, the picture and the file.
+const BYTES_PER_PIXEL: usize = 12;
+
+/// The file that a job asks for.
+pub fn encode(job: &LineJob<'_>, drawing: &Drawing) -> Result<Vec<u8>, Fault> {
+    match job.format {
+        LineFormat::Svg => Ok(write_svg(drawing, &job.artwork)),
+        LineFormat::Json => Ok(write_json(drawing)),
+        LineFormat::Pdf => Ok(write_pdf(drawing, &job.artwork)),
+        LineFormat::Png => png(job, drawing),
+    }
+}
+
+/// Refuses a picture that memory has no room for.
+pub fn check_memory(job: &LineJob<'_>) -> Result<(), Fault> {
+    if job.format != LineFormat::Png {
+        return Ok(());
+    }
+    let [width, height] = job.options.size.map(|side| side as usize);
+    let mut budget = Budget::new(job.limits.memory_bytes);
+    let planned = budget.take("the picture", width * height, BYTES_PER_PIXEL);
+    planned.map_err(|error| RenderError::from(error).into())
+}
+
+fn png(job: &LineJob<'_>, drawing: &Drawing) -> Result<Vec<u8>, Fault> {
+    let rgba = rasterise(drawing, &job.artwork);
+    if rgba.is_empty() {
+        return Err(Fault::new(
+            Exit::Failed,
+            "the picture is too large for memory",
+        ));
+    }
+    encoder::png(drawing.size, &rgba, job.look.is_transparent())
+}

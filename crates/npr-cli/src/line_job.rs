@@ -1,0 +1,231 @@
+//! One line drawing: what the user said, resolved.
+
+use crate::arguments::{
+    HiddenLines, LineArguments, LineFormat, LinesArguments, MethodName, PathForm, Switch,
+};
+use crate::fault::{Exit, Fault};
+use crate::job::{check_size, has_ending, output_path};
+use crate::look::Look;
+use crate::message::quoted;
+use crate::output::Output;
+use crate::source::Source;
+use npr_render::{Drawing, Kind, KindSet, LineMethod, LineOptions};
+use npr_scene::Limits;
+use npr_style::{Background, Style};
+use npr_vector::artwork::{ArtworkOptions, Hidden, Page, Paths, arrange};
+use std::path::{Path, PathBuf};
+
+/// Names the folder for prepared surfaces where no option does.
+const CACHE_VARIABLE: &str = "NPR_CACHE_DIR";
+
+const MM_PER_INCH: f64 = 25.4;
+
+/// One line drawing. Everything that can be checked without reading the scene has been.
+pub struct LineJob<'a> {
+    /// What the user said, for all that needs no resolving.
+    pub said: &'a LinesArguments,
+    /// Where the scene comes from.
+    pub source: Source,
+    /// What loading may cost.
+    pub limits: Limits,
+    /// Where the drawing goes.
+    pub output: Output,
+    /// What it is written as.
+    pub format: LineFormat,
+    /// How it looks.
+    pub look: Look,
+    /// Which lines it has.
+    pub options: LineOptions,
+    /// How it is put into a file.
+    pub artwork: ArtworkOptions,
+    /// Where prepared surfaces are kept between runs.
+    pub cache: Option<PathBuf>,
+}
+
+impl<'a> LineJob<'a> {
+    /// Resolves what the user said; reads the style, but not the scene.
+    pub fn resolve(said: &'a LinesArguments) -> Result<Self, Fault> {
+        check_size(said.size)?;
+        let source = Source::of(said.scene.as_deref().unwrap_or(Path::new("-")));
+        let ending = said.format.map_or("svg", LineFormat::ending);
+        let path = output_path(said.output.as_deref(), &source, ending)?;
+        let format = format_of(said.format, &path)?;
+        check_page(said, format)?;
+        let output = Output::of(&path)?;
+        let look = Look::resolve(&said.look, said.allow_external.as_deref())?;
+        Ok(Self {
+            source,
+            limits: Limits {
+                decode_images: false,
+                ..said.limits.limits()
+            },
+            output,
+            format,
+            options: options(said, &look.style),
+            artwork: artwork(said, &look.style),
+            look,
+            cache: cache_folder(said.cache.as_deref())?,
+            said,
+        })
+    }
+}
+
+impl LineFormat {
+    /// The usual ending of file names.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Json => "json",
+            Self::Pdf => "pdf",
+            Self::Png => "png",
+        }
+    }
+}
+
+/// The format asked for, or else that of the name; svg on standard output.
+fn format_of(asked: Option<LineFormat>, path: &Path) -> Result<LineFormat, Fault> {
+    if let Some(format) = asked {
+        return Ok(format);
+    }
+    if path.as_os_str() == "-" {
+        return Ok(LineFormat::Svg);
+    }
+    let formats = [
+        LineFormat::Svg,
+        LineFormat::Json,
+        LineFormat::Pdf,
+        LineFormat::Png,
+    ];
+    let of_name = |format: &LineFormat| has_ending(path, format.ending());
+    formats.into_iter().find(of_name).ok_or_else(|| {
+        let message = format!(
+            "cannot write {}: lines are written as .svg, .json, .pdf or .png",
+            quoted(path)
+        );
+        Fault::new(Exit::Usage, message)
+    })
+}
+
+/// Refuses a page for what has none.
+fn check_page(said: &LinesArguments, format: LineFormat) -> Result<(), Fault> {
+    let has_page = matches!(format, LineFormat::Svg | LineFormat::Pdf);
+    if said.sheet.page.is_none() || has_page {
+        return Ok(());
+    }
+    let message = format!(
+        "--page: only .svg and .pdf have pages, not .{}",
+        format.ending()
+    );
+    Err(Fault::new(Exit::Usage, message))
+}
+
+/// The lines that the style asks for, with what the user said in place of its own values.
+fn options(said: &LinesArguments, style: &Style) -> LineOptions {
+    let of_style = LineOptions::of_style(style, [said.size.width, said.size.height]);
+    let LineArguments {
+        kinds,
+        crease,
+        method,
+        hidden,
+        smooth,
+        fill,
+        ..
+    } = &said.lines;
+    let named = kinds.as_ref().map(|names| {
+        let kinds = names.iter().map(|name| name.kind());
+        kinds.chain([Kind::Marked]).collect::<KindSet>()
+    });
+    LineOptions {
+        kinds: named.unwrap_or(of_style.kinds),
+        crease: crease.map_or(of_style.crease, f32::to_radians),
+        method: match method {
+            MethodName::Edges => LineMethod::Edges,
+            MethodName::Surface => LineMethod::Surface,
+        },
+        smooth: *smooth == Switch::On,
+        hidden: *hidden != HiddenLines::None,
+        fill: *fill,
+        dpi: said
+            .sheet
+            .page
+            .map_or(of_style.dpi, |page| dpi_on(page, of_style.size)),
+        ..of_style
+    }
+}
+
+/// Pixels per inch of a picture of `size` pixels on a page.
+fn dpi_on(page: Page, size: [u32; 2]) -> f32 {
+    let nothing = Drawing {
+        size,
+        ..Drawing::default()
+    };
+    let options = ArtworkOptions {
+        page: Some(page),
+        ..ArtworkOptions::default()
+    };
+    (MM_PER_INCH / arrange(&nothing, &options).scale) as f32
+}
+
+/// How the drawing is put into its file.
+fn artwork(said: &LinesArguments, style: &Style) -> ArtworkOptions {
+    let paths = match said.sheet.svg {
+        PathForm::Outline => Paths::Outline,
+        PathForm::Centreline => Paths::Centreline,
+    };
+    ArtworkOptions {
+        paths,
+        hidden: match said.lines.hidden {
+            HiddenLines::None => Hidden::None,
+            HiddenLines::Layer => Hidden::Layer,
+            HiddenLines::Dashed => Hidden::Dashed,
+        },
+        background: match style.background {
+            // A plotter would draw around the ground.
+            _ if paths == Paths::Centreline => None,
+            Background::Color(color) => Some([color.r, color.g, color.b, color.a]),
+            Background::Transparent | Background::Image(_) => None,
+        },
+        page: said.sheet.page,
+        ..ArtworkOptions::default()
+    }
+}
+
+/// The folder for prepared surfaces, which has to exist; none where the user wants none.
+fn cache_folder(said: Option<&Path>) -> Result<Option<PathBuf>, Fault> {
+    let named = said.map(Path::to_owned);
+    let of_variable = || std::env::var_os(CACHE_VARIABLE).map(PathBuf::from);
+    let folder = named.or_else(of_variable);
+    let Some(folder) = folder.filter(|folder| !folder.as_os_str().is_empty() && folder != "off")
+    else {
+        return Ok(None);
+    };
+    if folder.is_dir() {
+        return Ok(Some(folder));
+    }
+    let message = format!("cache: there is no folder {}", quoted(&folder));
+    Err(Fault::new(Exit::Failed, message))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_name_tells_the_format_unless_the_user_does() {
+        let of = |asked, name: &str| format_of(asked, Path::new(name));
+        assert_eq!(of(None, "a/b.SVG"), Ok(LineFormat::Svg));
+        assert_eq!(of(None, "b.json"), Ok(LineFormat::Json));
+        assert_eq!(of(None, "-"), Ok(LineFormat::Svg));
+        assert_eq!(of(Some(LineFormat::Pdf), "-"), Ok(LineFormat::Pdf));
+        assert_eq!(of(Some(LineFormat::Png), "b.svg"), Ok(LineFormat::Png));
+        let fault = of(None, "b.eps").expect_err("not written");
+        assert_eq!(fault.exit, Exit::Usage);
+    }
+
+    #[test]
+    fn off_and_nothing_mean_no_cache() {
+        assert_eq!(cache_folder(Some(Path::new("off"))), Ok(None));
+        let fault = cache_folder(Some(Path::new("no/where"))).expect_err("missing");
+        assert_eq!(fault.exit, Exit::Failed);
+    }
+}

@@ -1,0 +1,410 @@
+//! `npr lines`.
+
+use crate::files::tiny_png;
+use crate::info::named_glb;
+use crate::workplace::{Outcome, Workplace};
+use npr_scene::testing::{Sheet, glb};
+use serde_json::Value;
+
+/// Runs a small line drawing of a scene.
+fn lines(place: &Workplace, scene: &str, more: &[&str]) -> Outcome {
+    place.npr(&[&["lines", scene, "--size", "96x64"], more].concat())
+}
+
+/// The line data of a scene.
+fn data(place: &Workplace, scene: &str, more: &[&str]) -> Value {
+    let outcome = lines(
+        place,
+        scene,
+        &[&["-o", "-", "--format", "json", "--quiet"], more].concat(),
+    );
+    outcome.assert_silent_success();
+    serde_json::from_str(outcome.text()).expect("JSON")
+}
+
+fn strokes(data: &Value) -> &Vec<Value> {
+    data["strokes"].as_array().expect("a list")
+}
+
+#[test]
+fn a_drawing_is_named_after_its_scene_and_lies_in_the_current_folder() {
+    let place = Workplace::with_scene();
+    lines(&place, "scene.obj", &[]).assert_silent_success();
+    lines(&place, "scene.obj", &["--format", "pdf"]).assert_silent_success();
+    assert_eq!(place.names(), ["scene.obj", "scene.pdf", "scene.svg"]);
+}
+
+#[test]
+fn every_format_comes_by_its_name_or_by_option() {
+    let place = Workplace::with_scene();
+    let starts: [(&str, &[u8]); 4] = [
+        ("svg", b"<"),
+        ("json", b"{"),
+        ("pdf", b"%PDF-"),
+        ("png", b"\x89PNG"),
+    ];
+    for (format, start) in starts {
+        let name = format!("out.{format}");
+        lines(&place, "scene.obj", &["-o", &name]).assert_silent_success();
+        let outcome = lines(&place, "scene.obj", &["-o", "-", "--format", format]);
+        outcome.assert_silent_success();
+        assert!(outcome.stdout.starts_with(start), "{format}");
+        assert_eq!(place.get(&name), outcome.stdout, "{format}");
+    }
+    let outcome = lines(&place, "scene.obj", &["-o", "-"]);
+    assert_eq!(
+        outcome.stdout,
+        place.get("out.svg"),
+        "svg goes without saying"
+    );
+}
+
+#[test]
+fn line_data_is_as_documented() {
+    let place = Workplace::new();
+    place.put("sheet.glb", &Sheet::new(6).glb());
+    let data = data(&place, "sheet.glb", &["--hidden", "layer"]);
+    assert_eq!(
+        (&data["version"], &data["size"]),
+        (&1.into(), &serde_json::json!([96, 64]))
+    );
+    assert!(!strokes(&data).is_empty());
+    for stroke in strokes(&data) {
+        assert!(stroke["id"].is_u64() && stroke["closed"].is_boolean());
+        assert!(["visible", "hidden"].contains(&stroke["visibility"].as_str().expect("text")));
+        assert_eq!(stroke["object"], "sheet");
+        let (points, world) = (&stroke["points"], &stroke["world"]);
+        let count = points.as_array().expect("a list").len();
+        assert_eq!(count, world.as_array().expect("a list").len());
+        for (point, place) in points
+            .as_array()
+            .into_iter()
+            .flatten()
+            .zip(world.as_array().into_iter().flatten())
+        {
+            assert_eq!(point.as_array().map(Vec::len), Some(5));
+            assert_eq!(place.as_array().map(Vec::len), Some(3));
+        }
+    }
+}
+
+#[test]
+fn wrong_options_exit_with_2_and_leave_nothing() {
+    let cases: &[(&[&str], &str)] = &[
+        (&["lines"], "not provided: <SCENE>"),
+        (&["lines", "-"], "-o"),
+        (
+            &["lines", "scene.obj", "-o", "out.eps"],
+            ".svg, .json, .pdf or .png",
+        ),
+        (
+            &["lines", "scene.obj", "-o", "out"],
+            ".svg, .json, .pdf or .png",
+        ),
+        (
+            &["lines", "scene.obj", "--format", "eps"],
+            "svg, json, pdf, png",
+        ),
+        (&["lines", "scene.obj", "--kinds", "outline"], "contour"),
+        (&["lines", "scene.obj", "--kinds", ""], "contour"),
+        (
+            &["lines", "scene.obj", "--crease", "-1"],
+            "between 0 and 180",
+        ),
+        (
+            &["lines", "scene.obj", "--crease", "nan"],
+            "between 0 and 180",
+        ),
+        (
+            &["lines", "scene.obj", "--method", "potrace"],
+            "surface, edges",
+        ),
+        (
+            &["lines", "scene.obj", "--hidden", "dotted"],
+            "none, layer, dashed",
+        ),
+        (&["lines", "scene.obj", "--smooth", "maybe"], "on, off"),
+        (
+            &["lines", "scene.obj", "--svg", "inline"],
+            "outline, centreline",
+        ),
+        (&["lines", "scene.obj", "--page", "B9"], "A4"),
+        (
+            &["lines", "scene.obj", "--page", "A4", "-o", "x.png"],
+            "only .svg and .pdf",
+        ),
+        (&["lines", "scene.obj", "--weld", "2"], "between 0 and 0.1"),
+        (&["lines", "scene.obj", "--size", "0x5"], "leaves no pixel"),
+        (&["lines", "scene.obj", "--style", "inkk"], "'ink'"),
+        (
+            &["lines", "scene.obj", "--set", "line.colour=red"],
+            "line.color",
+        ),
+        (&["lines", "scene.obj", "--camera", "Top"], "it has none"),
+        (&["render", "scene.obj", "-o", "x.svg"], "npr lines"),
+    ];
+    let place = Workplace::with_scene();
+    for (arguments, text) in cases {
+        place.npr(arguments).assert_fault(2, text);
+        assert_eq!(place.names(), ["scene.obj"], "{arguments:?}");
+    }
+}
+
+#[test]
+fn limits_are_named_with_the_option_that_lifts_them() {
+    let place = Workplace::with_scene();
+    for (option, value) in [
+        ("--max-file", "10"),
+        ("--max-triangles", "0"),
+        ("--memory-limit", "300"),
+    ] {
+        lines(&place, "scene.obj", &[option, value]).assert_fault(5, option);
+    }
+    let large = ["lines", "scene.obj", "--size", "32000x32000", "-o", "x.png"];
+    place.npr(&large).assert_fault(5, "--memory-limit");
+    place
+        .npr(&["lines", "scene.obj", "--size", "40000x5"])
+        .assert_fault(5, "32768");
+    assert_eq!(place.names(), ["scene.obj"]);
+}
+
+#[test]
+fn a_scene_comes_from_standard_input() {
+    let place = Workplace::with_scene();
+    let scene = place.get("scene.obj");
+    let outcome = place.npr_fed(&["lines", "-", "-o", "-", "--size", "96x64"], &scene);
+    outcome.assert_silent_success();
+    lines(&place, "scene.obj", &[]).assert_silent_success();
+    assert_eq!(outcome.stdout, place.get("scene.svg"));
+}
+
+#[test]
+fn no_file_of_the_scene_is_written_over_even_if_it_is_not_read() {
+    let place = Workplace::new();
+    let scene =
+        b"mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl paint\nf 1/1 2/1 3/1\n";
+    place.put("scene.obj", scene);
+    place.put("scene.mtl", b"newmtl paint\nmap_Kd skin.png\n");
+    place.put("skin.png", &tiny_png());
+    for output in ["skin.png", "./skin.png"] {
+        lines(&place, "scene.obj", &["-o", output]).assert_fault(2, "also an input");
+    }
+    for output in ["scene.obj", "scene.mtl"] {
+        lines(&place, "scene.obj", &["-o", output, "--format", "svg"])
+            .assert_fault(2, "also an input");
+    }
+    assert_eq!(place.get("skin.png"), tiny_png());
+}
+
+#[test]
+fn images_of_the_scene_are_not_read() {
+    let place = Workplace::new();
+    place.put(
+        "scene.obj",
+        b"mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl p\nf 1 2 3\n",
+    );
+    place.put("m.mtl", b"newmtl p\nmap_Kd broken.png\n");
+    place.put("broken.png", b"no picture");
+    lines(&place, "scene.obj", &[]).assert_silent_success();
+}
+
+#[test]
+fn names_are_data() {
+    let names = [
+        "--><script>alert(1)</script>",
+        "a\u{1b}[2J\n\u{202e}b",
+        "]]>\"'%!../x&amp;",
+        "\u{0}\u{fffe}",
+        &"x".repeat(100_000),
+    ];
+    let place = Workplace::new();
+    for name in names {
+        place.put("named.glb", &named_glb(name));
+        let data = data(&place, "named.glb", &[]);
+        assert_eq!(strokes(&data)[0]["object"], name);
+        lines(&place, "named.glb", &["-o", "x.svg"]).assert_silent_success();
+        let text = String::from_utf8(place.get("x.svg")).expect("UTF-8");
+        assert!(!text.contains("<script") && !text.contains('\u{202e}'));
+        check_xml(&text);
+        lines(&place, "named.glb", &["-o", "x.pdf"]).assert_silent_success();
+    }
+}
+
+/// Asserts that a text is well-formed XML.
+fn check_xml(text: &str) {
+    let mut reader = quick_xml::Reader::from_str(text);
+    reader.config_mut().check_comments = true;
+    loop {
+        match reader.read_event().expect("well-formed XML") {
+            quick_xml::events::Event::Eof => break,
+            quick_xml::events::Event::Start(tag) | quick_xml::events::Event::Empty(tag) => {
+                assert!(tag.attributes().all(|attribute| attribute.is_ok()));
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn any_scene_and_view_gives_a_drawing() {
+    let place = Workplace::new();
+    place.put(
+        "empty.glb",
+        &glb(r#"{"asset":{"version":"2.0"},"scenes":[{}]}"#, &[]),
+    );
+    assert!(strokes(&data(&place, "empty.glb", &[])).is_empty());
+    place.put("points.obj", b"v 0 0 0\nv 1 0 0\n");
+    assert!(strokes(&data(&place, "points.obj", &[])).is_empty());
+
+    place.put("sheet.glb", &Sheet::new(4).glb());
+    let away = ["--eye", "2,9,2", "--target", "2,99,2"];
+    assert!(strokes(&data(&place, "sheet.glb", &away)).is_empty());
+    let views: [&[&str]; 8] = [
+        &["--eye", "2,1.02,2"],
+        &["--eye", "2,9,2", "--target", "2,0,2", "--up", "0,1,0"],
+        &["--eye", "0,1,0", "--target", "4,1,4"],
+        &["--eye", "1e30,0,0"],
+        &["--eye", "1e5,0,0"],
+        &["--eye", "1e-30,0,0", "--target", "0,0,0"],
+        &["--eye", "-3,-4,-5", "--fov", "179"],
+        &["--fov", "0.1"],
+    ];
+    for view in views {
+        for more in [
+            &["-o", "x.svg", "--hidden", "dashed", "--fill"][..],
+            &["-o", "x.png"],
+            &["-o", "x.pdf"],
+        ] {
+            let outcome = lines(&place, "sheet.glb", &[view, more].concat());
+            assert_eq!(
+                outcome.code,
+                Some(0),
+                "{view:?} {more:?}: {}",
+                outcome.stderr
+            );
+        }
+    }
+    for size in ["1x1", "1x300", "300x1"] {
+        let outcome = place.npr(&["lines", "sheet.glb", "--size", size, "-o", "x.svg"]);
+        outcome.assert_silent_success();
+    }
+}
+
+#[test]
+fn degenerate_triangles_are_drawn() {
+    let cases = [
+        "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\nf 2 2 2\n",
+        "v 5 5 5\nv 5 5 5\nv 5 5 5\nf 1 2 3\n",
+        "v 0 0 0\nv 1e17 0 0\nv 0 1e17 0\nf 1 2 3\n",
+        "v 0 0 0\nv 1e-30 0 0\nv 0 1e-30 0\nf 1 2 3\n",
+        "v 1e9 0 0\nv 1000000064 0 0\nv 1e9 64 0\nf 1 2 3\n",
+        "v 0 0 0\nv 0 1 0\nv 1 0 0\nv -1 0 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n",
+    ];
+    let place = Workplace::new();
+    for text in cases {
+        place.put("scene.obj", text.as_bytes());
+        for method in ["edges", "surface"] {
+            let outcome = lines(&place, "scene.obj", &["--method", method, "--fill"]);
+            assert_eq!(outcome.code, Some(0), "{text}: {}", outcome.stderr);
+        }
+    }
+}
+
+#[test]
+fn only_the_kinds_asked_for_are_written() {
+    let place = Workplace::with_scene();
+    let kinds_of = |kinds: &str| {
+        let data = data(&place, "scene.obj", &["--kinds", kinds]);
+        let names = strokes(&data)
+            .iter()
+            .map(|stroke| stroke["kind"].as_str().expect("text").to_owned());
+        names
+            .collect::<std::collections::BTreeSet<_>>()
+            .into_iter()
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(kinds_of("boundary"), ["boundary"]);
+    assert!(kinds_of("crease,material,intersection").is_empty());
+}
+
+#[test]
+fn a_picture_of_lines_only_can_be_svg() {
+    let place = Workplace::with_scene();
+    let style = ["--style", "technical"];
+    place
+        .render("scene.obj", &[&["-o", "r.svg"][..], &style].concat())
+        .assert_silent_success();
+    let same = [
+        "lines",
+        "scene.obj",
+        "--size",
+        "48x32",
+        "--style",
+        "technical",
+        "-o",
+        "l.svg",
+    ];
+    place.npr(&same).assert_silent_success();
+    assert_eq!(place.get("r.svg"), place.get("l.svg"));
+    let grey = [
+        "-o",
+        "r.svg",
+        "--style",
+        "technical",
+        "--set",
+        "shade.paper=#c0c0c0",
+    ];
+    place.render("scene.obj", &grey).assert_silent_success();
+    let text = String::from_utf8(place.get("r.svg"))
+        .expect("UTF-8")
+        .to_lowercase();
+    assert!(text.contains("#c0c0c0"), "{text}");
+}
+
+#[test]
+fn a_kept_surface_changes_no_byte() {
+    let place = Workplace::new();
+    place.put("sheet.glb", &Sheet::new(8).glb());
+    std::fs::create_dir(place.path("kept")).expect("a folder");
+    lines(&place, "sheet.glb", &["-o", "fresh.svg", "--cache", "off"]).assert_silent_success();
+    for run in 0..2 {
+        lines(&place, "sheet.glb", &["-o", "again.svg", "--cache", "kept"]).assert_silent_success();
+        assert_eq!(place.get("again.svg"), place.get("fresh.svg"), "run {run}");
+        let count = std::fs::read_dir(place.path("kept"))
+            .expect("a folder")
+            .count();
+        assert_eq!(count, 1);
+    }
+    lines(&place, "sheet.glb", &["--cache", "nowhere"]).assert_fault(1, "no folder 'nowhere'");
+    let mut command = place.command(&["lines", "sheet.glb"]);
+    let output = command
+        .env("NPR_CACHE_DIR", "nowhere")
+        .output()
+        .expect("the command starts");
+    Outcome::of(output).assert_fault(1, "no folder 'nowhere'");
+}
+
+#[test]
+fn a_demanded_device_is_there_or_exits_with_4() {
+    let place = Workplace::with_scene();
+    let outcome = lines(&place, "scene.obj", &["--backend", "gpu", "--quiet"]);
+    if outcome.code == Some(4) {
+        outcome.assert_fault(4, "no graphics device");
+        assert_eq!(place.names(), ["scene.obj"]);
+    } else {
+        outcome.assert_silent_success();
+    }
+}
+
+#[test]
+fn times_of_all_steps_are_told() {
+    let place = Workplace::with_scene();
+    let outcome = lines(&place, "scene.obj", &["--timings", "json"]);
+    let times: Value = serde_json::from_str(&outcome.stderr).expect("JSON");
+    let steps = times["steps"].as_array().expect("a list");
+    let names: Vec<_> = steps
+        .iter()
+        .map(|step| step["name"].as_str().expect("a name"))
+        .collect();
+    assert_eq!(names, ["load", "prepare", "draw", "encode", "write"]);
+}

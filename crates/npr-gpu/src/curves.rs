@@ -1,0 +1,37 @@
+//! Lines as linked points, found and put in rows on an engine.
+//!
+//! The steps are those of [`npr_vector::contour::steps`] and [`npr_vector::rank`], each a pass. On a processor the plain
+//! functions there are faster than these passes and give the same; passes are for graphs that stay on a device
+//! from the mesh to the picture.
+//!
+//! ```
+//! use npr_gpu::curves::{Scheme, rank_on};
+//! use npr_gpu::processor::Processor;
+//!
+//! let (next, keys) = ([2, 0, 1, 3], [5, 6, 7, 8]);
+//! let ranked = rank_on(&Processor, &next, &keys, Scheme::RULING_SET)?;
+//! assert_eq!(ranked, npr_vector::rank::walk(&next, &keys)?);
+//! # Ok::<(), npr_gpu::curves::CurvesError>(())
+//! ```
+
+pub mod contours;
+pub mod ranking;
+pub mod sums;
+
+pub use contours::{contours_on, ranked_contours_on};
+pub use ranking::{Scheme, rank_on};
+
+use crate::engine::EngineError;
+use npr_vector::rank::RankError;
+
+/// Why lines were not put in rows.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CurvesError {
+    /// The links are no lists, or the rounds were too few.
+    #[error(transparent)]
+    Rank(#[from] RankError),
+    /// The engine failed.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+}

@@ -1,0 +1,168 @@
+//! Contours found on both engines against the plain builder.
+
+use crate::shapes::{eyes, shape_from};
+use crate::shared;
+use npr_core::shape::Shape;
+use npr_gpu::curves::{Scheme, contours_on, ranked_contours_on};
+use npr_gpu::engine::Engine;
+use npr_gpu::processor::Processor;
+use npr_mesh::testing::{
+    Random, cube, cylinder, fan, icosphere, mapped, moebius_strip, plane, random_soup,
+    random_winding, torus, uv_sphere,
+};
+use npr_vector::contour::{Eye, contours, facing};
+use npr_vector::graph::CurveGraph;
+use npr_vector::rank::rank_curves;
+
+/// The processor, and the device where there is one.
+pub fn engines() -> impl Iterator<Item = &'static dyn Engine> {
+    let device = shared::device().map(|device| device as &dyn Engine);
+    [Some(&Processor as &dyn Engine), device]
+        .into_iter()
+        .flatten()
+}
+
+fn plain(shape: &Shape, eye: &Eye) -> CurveGraph {
+    let graph = contours(shape, &facing(shape, eye), eye);
+    graph.sanity_check();
+    graph
+}
+
+fn check(name: &str, shape: &Shape, eye: &Eye) {
+    let plain = plain(shape, eye);
+    for engine in engines() {
+        let found = contours_on(engine, shape, eye).unwrap();
+        let on = engine.describe();
+        assert_eq!(found.digest(), plain.digest(), "{name} from {eye:?}, {on}");
+        assert!(found == plain, "{name} from {eye:?}, {on}");
+    }
+}
+
+fn check_ranked(name: &str, shape: &Shape, eye: &Eye) {
+    let plain = plain(shape, eye);
+    let ranked = rank_curves(&plain).unwrap();
+    for engine in engines() {
+        for scheme in [Scheme::WYLLIE, Scheme::RULING_SET] {
+            let (graph, rows) = ranked_contours_on(engine, shape, eye, scheme).unwrap();
+            assert!(graph == plain, "{name}: contours, {scheme:?}");
+            assert!(rows == ranked, "{name}: rows, {scheme:?}");
+        }
+    }
+}
+
+/// Moves every point a little, so that faces stand at all angles.
+fn bumpy(mesh: &npr_mesh::Mesh, seed: u64) -> npr_mesh::Mesh {
+    let mut random = Random::new(seed);
+    let offsets: Vec<f32> = (0..997).map(|_| random.unit() * 0.1 + 0.9).collect();
+    mapped(mesh, |p| {
+        let pick = p.iter().fold(0u32, |h, v| {
+            (h ^ v.to_bits()).wrapping_mul(0x9e37_79b9).rotate_left(7)
+        });
+        p.map(|v| v * offsets[pick as usize % offsets.len()])
+    })
+}
+
+#[test]
+fn contours_of_all_shapes_agree() {
+    let meshes = [
+        ("cube", cube()),
+        ("sphere", uv_sphere(32, 20)),
+        ("icosphere", icosphere(3)),
+        ("bumpy icosphere", bumpy(&icosphere(4), 1)),
+        ("cylinder", cylinder(24, 5)),
+        ("torus", torus(48, 24, 0.7, 0.3)),
+        ("bumpy torus", bumpy(&torus(48, 24, 0.7, 0.3), 2)),
+        ("plane", plane(9, 7)),
+        ("moebius strip", moebius_strip(30)),
+        ("fan", fan(5)),
+        ("soup", random_soup(300, 3)),
+        ("wound at random", random_winding(&icosphere(2), 4)),
+    ];
+    for (name, mesh) in meshes {
+        let shape = shape_from(&mesh);
+        for eye in eyes(1.0) {
+            check(name, &shape, &eye);
+        }
+    }
+}
+
+#[test]
+fn contours_are_ranked_where_they_are_found() {
+    let eye = &eyes(1.0)[0];
+    check_ranked("nothing", &Shape::default(), eye);
+    check_ranked("cube", &shape_from(&cube()), eye);
+    let torus = bumpy(&torus(48, 24, 0.7, 0.3), 2);
+    check_ranked("bumpy torus", &shape_from(&torus), eye);
+}
+
+/// More contours than there is room for at first.
+#[test]
+fn contours_without_room_are_found_again() {
+    let soup = shape_from(&random_soup(4000, 9));
+    let eye = &eyes(1.0)[0];
+    assert!(plain(&soup, eye).nodes.len() > 4096);
+    check("soup", &soup, eye);
+    check_ranked("soup", &soup, eye);
+}
+
+#[test]
+fn contours_at_all_scales_agree() {
+    let mesh = bumpy(&icosphere(2), 5);
+    for scale in [1e-15, 1e-6, 1e-3, 1e3, 1e6, 1e15] {
+        let shape = shape_from(&mapped(&mesh, |p| p.map(|v| v * scale)));
+        for eye in eyes(scale) {
+            check("scaled", &shape, &eye);
+        }
+    }
+}
+
+/// A flat grid, seen along its plane: heights are 0 but for rounding, which both engines must do alike.
+#[test]
+fn faces_seen_edge_on_are_judged_alike() {
+    let mesh = plane(60, 60);
+    for turn in 0..10 {
+        let slope = 0.1 * turn as f32;
+        let tilted = mapped(&mesh, |[x, y, z]| {
+            [x, y + slope * x, z + slope * y + 0.7 * x]
+        });
+        let shape = shape_from(&tilted);
+        let [a, b, c] = shape.faces[7].map(|v| shape.positions[v as usize]);
+        // A point in the plane of a face, as near as floats get.
+        let in_plane: [f64; 3] =
+            std::array::from_fn(|i| f64::from(3.0 * a[i] - 4.0 * b[i] + 2.0 * c[i]));
+        let eye = Eye::new([in_plane[0], in_plane[1], in_plane[2], 1.0], 8.0);
+        check("plane seen edge-on", &shape, &eye);
+    }
+}
+
+#[test]
+fn stand_ins_decide_for_faces_without_area() {
+    let mesh = uv_sphere(12, 8);
+    let mut shape = shape_from(&mesh);
+    shape.slivers = vec![[0, 5], [3, npr_core::geometry::NONE], [40, 2]];
+    for eye in eyes(1.0) {
+        check("slivers", &shape, &eye);
+    }
+}
+
+#[test]
+fn no_faces_have_no_contours() {
+    let shape = Shape::default();
+    for engine in engines() {
+        let found = contours_on(engine, &shape, &eyes(1.0)[0]).unwrap();
+        assert_eq!(found, CurveGraph::default());
+    }
+}
+
+#[test]
+fn twenty_runs_give_one_graph() {
+    let shape = shape_from(&bumpy(&icosphere(5), 7));
+    let eye = &eyes(1.0)[0];
+    let digest = plain(&shape, eye).digest();
+    for engine in engines() {
+        for _ in 0..20 {
+            let found = contours_on(engine, &shape, eye).unwrap();
+            assert_eq!(found.digest(), digest, "{}", engine.describe());
+        }
+    }
+}

@@ -1,0 +1,332 @@
+//! A scene as lines: strokes instead of pixels.
+
+mod assembly;
+mod cache;
+mod options;
+mod paint;
+mod widths;
+
+pub use options::{KindSet, LineMethod, LineModelOptions, LineOptions};
+
+use crate::error::RenderError;
+use crate::look;
+use crate::model::PartInfo;
+use crate::placement::{self, Bounds};
+use crate::stage::check_size;
+use assembly::{Assembly, place_key};
+use glam::Vec3;
+use npr_core::budget::Budget;
+use npr_core::camera::Camera;
+use npr_core::shape::{Shape, Surface};
+use npr_scene::Scene;
+use npr_style::Style;
+use npr_vector::draw::{LineSettings, Prepared};
+use npr_vector::project::Projector;
+use npr_vector::stroke::{Drawing, Kind, Stroke};
+use paint::Paint;
+use std::path::Path;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use widths::{ShapeBends, WidthInput, Widths};
+
+/// Bytes of a shape and its hierarchy for every triangle, its three half-edges and its share of the vertices.
+const BYTES_PER_TRIANGLE: usize = 260;
+
+/// Bytes of a stored vertex: where it rests, where it stands, and its place in the shape.
+const BYTES_PER_VERTEX: usize = 48;
+
+/// Most points of all strokes of a drawing together.
+const POINT_LIMIT: u64 = 20_000_000;
+
+/// A scene prepared for line drawings: one welded surface, whatever the camera and the style.
+///
+/// Lines come from the geometry alone: textures play no part, so a cut-out leaf is drawn as the card it lies on.
+/// Surfaces whose base colour is too transparent for pictures are left out.
+///
+/// A glTF file asks for lines of its own by the vertex attribute `_NPR_LINE` (an edge between two vertices above one half),
+/// and by `"extras": {"npr": {"lines": true}}` in a material (wherever it meets another material). They are of kind
+/// [`Kind::Marked`], and drawn whatever kinds are asked for.
+#[derive(Debug)]
+pub struct LineModel {
+    shape: Shape,
+    parts: Vec<PartInfo>,
+    /// Colour of every vertex of the shape; empty where the scene has no colours.
+    colors: Vec<u32>,
+    points: Vec<[f32; 3]>,
+    bounds: Bounds,
+    cameras: Vec<(String, Camera)>,
+    notices: Vec<String>,
+    triangle_count: usize,
+    /// What was prepared last, for views to come.
+    prepared: Mutex<Option<(PreparedKey, Arc<Prepared>)>>,
+    bends: OnceLock<ShapeBends>,
+}
+
+/// What lines are prepared for: the cosine of the crease angle, as bits, and whether intersections are wanted.
+type PreparedKey = (u32, bool);
+
+impl LineModel {
+    /// Prepares a scene: poses and joins its meshes, welds them, and finds what is beside every edge.
+    ///
+    /// O(n log n) in the number of triangles, on all threads. [`LineModel::cached`] spares most of it from the second time on.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError::TooMany`] where half-edges cannot be numbered, [`RenderError::Memory`] beyond the limit.
+    pub fn new(scene: &Scene, options: &LineModelOptions) -> Result<Self, RenderError> {
+        let assembly = Assembly::new(scene);
+        check_budget(&assembly, options)?;
+        let shape = build(&assembly, assembly.plain_surfaces(), options);
+        Ok(Self::of_shape(scene, &assembly, shape))
+    }
+
+    /// The same, with the surface kept in `folder` between runs.
+    ///
+    /// The file is named after the content that it was made from, `KEY.nprcache`; a changed scene gets another. What
+    /// cannot be read, is damaged or comes from another version is made anew; what cannot be written is not kept. Files
+    /// appear whole or not at all, and none is ever removed: the folder may be emptied at any time.
+    ///
+    /// # Errors
+    ///
+    /// As [`LineModel::new`]; none for the sake of the folder.
+    pub fn cached(
+        scene: &Scene,
+        options: &LineModelOptions,
+        folder: &Path,
+    ) -> Result<Self, RenderError> {
+        let assembly = Assembly::new(scene);
+        check_budget(&assembly, options)?;
+        let shape = cache::shape(&assembly, options, folder, |surfaces| {
+            build(&assembly, surfaces, options)
+        });
+        Ok(Self::of_shape(scene, &assembly, shape))
+    }
+
+    fn of_shape(scene: &Scene, assembly: &Assembly, mut shape: Shape) -> Self {
+        shape.surfaces = assembly.surfaces();
+        mark_materials(&mut shape, &assembly.marked);
+        let points = assembly.used_points();
+        Self {
+            parts: assembly.parts.clone(),
+            colors: colors_of(&shape, assembly),
+            bounds: placement::bounds_of(points.iter().copied().map(Vec3::from)),
+            points,
+            cameras: placement::cameras_of(scene),
+            notices: notices_of(scene, assembly),
+            triangle_count: assembly.triangle_count(),
+            prepared: Mutex::new(None),
+            bends: OnceLock::new(),
+            shape,
+        }
+    }
+
+    /// The lines that a camera sees.
+    ///
+    /// Line colours, width factors and whether a part has lines at all follow the style's rules; kinds and the crease angle
+    /// are those of the options ([`LineOptions::of_style`] takes them from the style). Width source `texture` counts as
+    /// full. Strokes of the same lines keep their ids from camera to camera. Of a scene out of sight the drawing is empty.
+    ///
+    /// The first drawing with a crease angle also prepares creases and, where they are wanted, intersections; every
+    /// further one is O(faces + lines log lines), on all threads, with the same result for any number of them.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError`] for a frame without pixels or beyond 32768 a side, or more than 20 million points.
+    pub fn draw(
+        &self,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+    ) -> Result<Drawing, RenderError> {
+        check_size(options.size)?;
+        let prepared = self.prepared(options);
+        let projector = Projector::new(camera, options.size, self.bounds);
+        let mut strokes = self.strokes(&prepared, &projector, camera, style, options);
+        let paint = Paint::new(&self.parts, style);
+        paint.apply(&mut strokes);
+        check_points(&strokes)?;
+        let regions = if options.fill {
+            paint::regions(
+                &self.shape,
+                &prepared.tree,
+                &projector,
+                options.size,
+                &strokes,
+            )?
+        } else {
+            Vec::new()
+        };
+        Ok(Drawing {
+            size: options.size,
+            surfaces: paint.into_surfaces(&self.parts),
+            strokes,
+            regions,
+        })
+    }
+
+    fn strokes(
+        &self,
+        prepared: &Prepared,
+        projector: &Projector,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+    ) -> Vec<Stroke> {
+        let radius = self.radius();
+        let input = WidthInput {
+            shape: &self.shape,
+            bends: widths::follow_bends(style).then(|| {
+                self.bends
+                    .get_or_init(|| ShapeBends::new(&self.shape, radius))
+            }),
+            colors: &self.colors,
+            style,
+        };
+        let view = camera.view(options.size, self.bounds);
+        let outline = look::outline(style, radius, options.size[1], options.dpi, 0);
+        let widths = Widths::new(input, &view, outline);
+        let settings = LineSettings {
+            size: options.size,
+            kinds: options.kinds.bits(),
+            method: options.method,
+            smooth: options.smooth,
+            hidden: options.hidden,
+        };
+        npr_vector::draw::strokes(&self.shape, prepared, projector, &settings, &|vertex| {
+            widths.at(vertex)
+        })
+    }
+
+    /// What does not depend on the camera, made once for every crease angle in a row.
+    fn prepared(&self, options: &LineOptions) -> Arc<Prepared> {
+        let crease_cos = npr_core::math::cos(options.crease);
+        let with_crossings = options.kinds.has(Kind::Intersection);
+        let key = (crease_cos.to_bits(), with_crossings);
+        let mut last = self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*last {
+            Some((of, prepared)) if *of == key => Arc::clone(prepared),
+            _ => {
+                let prepared = Arc::new(Prepared::new(&self.shape, crease_cos, with_crossings));
+                *last = Some((key, Arc::clone(&prepared)));
+                prepared
+            }
+        }
+    }
+
+    /// The welded surface in the world that lines are drawn of.
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// Surfaces, in the order in which the shape's faces and the drawing's strokes name them.
+    pub fn parts(&self) -> &[PartInfo] {
+        &self.parts
+    }
+
+    /// Lowest and highest corner of the posed scene, in the world; a unit box where nothing is drawn.
+    pub fn bounds(&self) -> ([f32; 3], [f32; 3]) {
+        self.bounds
+    }
+
+    /// Radius of the sphere around the bounds, in the world; at least a tiny number.
+    pub fn radius(&self) -> f32 {
+        placement::radius_of(self.bounds)
+    }
+
+    /// Cameras of the file, with their names, in the order of its nodes.
+    pub fn cameras(&self) -> &[(String, Camera)] {
+        &self.cameras
+    }
+
+    /// What was ignored or mended, for the user.
+    pub fn notices(&self) -> &[String] {
+        &self.notices
+    }
+
+    /// Number of triangles, counted for every instance, as the file has them.
+    pub fn triangle_count(&self) -> usize {
+        self.triangle_count
+    }
+
+    /// A view of the whole model from three quarters above, for a frame of width / height `aspect`; `fov_y` is in radians.
+    ///
+    /// The same as [`Model::framing`](crate::Model::framing) gives for the scene.
+    pub fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
+        Camera::framing_points(self.points.iter().copied(), aspect, fov_y)
+    }
+}
+
+fn check_budget(assembly: &Assembly, options: &LineModelOptions) -> Result<(), RenderError> {
+    crate::model::check_count("half-edges", 0, 3 * assembly.triangle_count())?;
+    let mut budget = Budget::new(options.memory_limit);
+    budget.take("vertices", assembly.vertex_count(), BYTES_PER_VERTEX)?;
+    budget.take(
+        "triangles with their edges",
+        assembly.triangle_count(),
+        BYTES_PER_TRIANGLE,
+    )?;
+    Ok(())
+}
+
+fn build(assembly: &Assembly, surfaces: Vec<Surface>, options: &LineModelOptions) -> Shape {
+    let mut shape = Shape {
+        surfaces,
+        ..Shape::default()
+    };
+    for mesh in &assembly.meshes {
+        npr_mesh::shape::add_mesh(&mut shape, &mesh.view(), options.weld);
+    }
+    shape
+}
+
+/// Marks the edges where a material that asks for lines meets another.
+fn mark_materials(shape: &mut Shape, marked: &[bool]) {
+    if !marked.contains(&true) {
+        return;
+    }
+    for edge in 0..shape.edge_count() as u32 {
+        let asks = |side: &u32| marked[shape.face_surfaces[*side as usize / 3] as usize];
+        let meets = shape.edge_traits[edge as usize] & Shape::MATERIAL != 0;
+        if meets && shape.sides(edge).iter().any(asks) {
+            shape.edge_traits[edge as usize] |= Shape::MARKED;
+        }
+    }
+}
+
+/// The colour of every vertex of a shape; empty where the scene has no colours.
+fn colors_of(shape: &Shape, assembly: &Assembly) -> Vec<u32> {
+    let colors = assembly.colors();
+    if colors.is_empty() {
+        return Vec::new();
+    }
+    let color_at = |position: &[f32; 3]| {
+        let found = colors.binary_search_by_key(&place_key(*position), |(place, _)| *place);
+        found.map_or(u32::MAX, |index| colors[index].1)
+    };
+    shape.positions.iter().map(color_at).collect()
+}
+
+fn notices_of(scene: &Scene, assembly: &Assembly) -> Vec<String> {
+    let mut notices: Vec<String> = scene.notices.iter().map(ToString::to_string).collect();
+    let cut_out = |info: &PartInfo| info.alpha_cutoff.is_some() && info.base_color[3] >= 1.0;
+    if let Some(info) = assembly.parts.iter().find(|info| cut_out(info)) {
+        notices.push(format!(
+            "material '{}' may be cut out by its texture, but lines follow its triangles",
+            info.material_name
+        ));
+    }
+    notices
+}
+
+fn check_points(strokes: &[Stroke]) -> Result<(), RenderError> {
+    let count: u64 = strokes
+        .iter()
+        .map(|stroke| stroke.points.len() as u64)
+        .sum();
+    if count > POINT_LIMIT {
+        return Err(RenderError::TooMany {
+            what: "points of strokes",
+            limit: POINT_LIMIT,
+        });
+    }
+    Ok(())
+}

@@ -1,0 +1,213 @@
+//! A scene's meshes where they stand, ready to become one shape.
+
+use crate::instance::packed_color;
+use crate::joined::Joined;
+use crate::model::PartInfo;
+use crate::placement;
+use npr_core::shape::Surface;
+use npr_mesh::shape::PlacedMesh;
+use npr_scene::{Mesh, Node, Part, Scene};
+use std::collections::BTreeMap;
+
+/// One node's mesh in the world.
+#[derive(Debug)]
+pub(crate) struct Placed {
+    rest: Vec<[f32; 3]>,
+    world: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    surfaces: Vec<u32>,
+    marks: Vec<[u32; 2]>,
+    mirrored: bool,
+    /// Vertex colours, sRGB bytes; empty where the mesh has none.
+    colors: Vec<u32>,
+}
+
+/// Everything of a scene that lines are drawn of.
+#[derive(Debug, Default)]
+pub(crate) struct Assembly {
+    /// Meshes in node order.
+    pub meshes: Vec<Placed>,
+    /// One for every object in every material, in the order in which faces name them.
+    pub parts: Vec<PartInfo>,
+    /// Of every part, whether the file asks for a line around its material.
+    pub marked: Vec<bool>,
+}
+
+impl Assembly {
+    /// Gathers what a scene draws. Parts so transparent that pictures do not show them are left out.
+    pub fn new(scene: &Scene) -> Self {
+        let mut assembly = Self::default();
+        for (object, node) in scene.nodes.iter().enumerate() {
+            if let Some(mesh) = node.mesh.and_then(|mesh| scene.meshes.get(mesh as usize)) {
+                assembly.add_node(scene, object as u32, node, mesh);
+            }
+        }
+        assembly
+    }
+
+    fn add_node(&mut self, scene: &Scene, object: u32, node: &Node, mesh: &Mesh) {
+        let joined = Joined::new(&mesh.parts);
+        let surface_of_part = self.add_surfaces(scene, object, node, mesh);
+        let drawn: Vec<([u32; 3], u32)> = joined
+            .triangles
+            .iter()
+            .zip(&joined.parts)
+            .filter_map(|(corners, part)| Some((*corners, surface_of_part[*part as usize]?)))
+            .collect();
+        let marked = marked_vertices(&mesh.parts);
+        let triangles: Vec<[u32; 3]> = drawn.iter().map(|(corners, _)| *corners).collect();
+        let world = mesh
+            .parts
+            .iter()
+            .flat_map(|part| scene.positions_world(node, part));
+        let first_matrix = &placement::matrices_of(scene, node)[0];
+        self.meshes.push(Placed {
+            world: world.collect(),
+            rest: joined.positions,
+            surfaces: drawn.iter().map(|(_, surface)| *surface).collect(),
+            marks: marked_edges(&triangles, &marked),
+            mirrored: placement::determinant_of(first_matrix) < 0.0,
+            colors: vertex_colors(&mesh.parts),
+            triangles,
+        });
+    }
+
+    /// Adds a surface for every material of a mesh; the surface of each part, or none where it is not drawn.
+    fn add_surfaces(
+        &mut self,
+        scene: &Scene,
+        object: u32,
+        node: &Node,
+        mesh: &Mesh,
+    ) -> Vec<Option<u32>> {
+        let mut numbers: BTreeMap<Option<u32>, Option<u32>> = BTreeMap::new();
+        let parts = mesh.parts.iter().map(|part| {
+            *numbers.entry(part.material).or_insert_with(|| {
+                let info = PartInfo::new(scene, object, &node.name, part.material);
+                if info.is_invisible() {
+                    return None;
+                }
+                let material = part.material.and_then(|m| scene.materials.get(m as usize));
+                self.marked.push(material.is_some_and(|m| m.marked));
+                self.parts.push(info);
+                Some(self.parts.len() as u32 - 1)
+            })
+        });
+        parts.collect()
+    }
+
+    /// Number of triangles that are drawn.
+    pub fn triangle_count(&self) -> usize {
+        self.meshes.iter().map(|mesh| mesh.triangles.len()).sum()
+    }
+
+    /// Number of stored vertices.
+    pub fn vertex_count(&self) -> usize {
+        self.meshes.iter().map(|mesh| mesh.world.len()).sum()
+    }
+
+    /// What faces belong to, as shapes list it.
+    pub fn surfaces(&self) -> Vec<Surface> {
+        let surfaces = self.parts.iter().map(|info| Surface {
+            object: info.object,
+            material: info.material,
+            object_name: info.object_name.clone(),
+            material_name: info.material_name.clone(),
+            base_color: info.base_color,
+            double_sided: info.double_sided,
+        });
+        surfaces.collect()
+    }
+
+    /// The same without names and colours, which change no geometry.
+    pub fn plain_surfaces(&self) -> Vec<Surface> {
+        let surfaces = self.parts.iter().map(|info| Surface {
+            object: info.object,
+            material: info.material,
+            ..Surface::default()
+        });
+        surfaces.collect()
+    }
+
+    /// Positions in the world of all vertices that triangles use.
+    pub fn used_points(&self) -> Vec<[f32; 3]> {
+        self.meshes.iter().flat_map(Placed::used_points).collect()
+    }
+
+    /// Colour at each position that has one, sorted by position; of several, the first stored.
+    pub fn colors(&self) -> Vec<([u32; 3], u32)> {
+        let coloured = self.meshes.iter().filter(|mesh| !mesh.colors.is_empty());
+        let mut colors: Vec<([u32; 3], u32)> = coloured
+            .flat_map(|mesh| mesh.world.iter().zip(&mesh.colors))
+            .map(|(position, color)| (place_key(*position), *color))
+            .collect();
+        colors.sort_by_key(|(place, _)| *place);
+        colors.dedup_by_key(|(place, _)| *place);
+        colors
+    }
+}
+
+impl Placed {
+    /// The mesh as shapes take it.
+    pub fn view(&self) -> PlacedMesh<'_> {
+        PlacedMesh {
+            rest: &self.rest,
+            world: &self.world,
+            triangles: &self.triangles,
+            surfaces: &self.surfaces,
+            marks: &self.marks,
+            mirrored: self.mirrored,
+        }
+    }
+
+    fn used_points(&self) -> impl Iterator<Item = [f32; 3]> + '_ {
+        let mut used = vec![false; self.world.len()];
+        for corner in self.triangles.iter().flatten() {
+            used[*corner as usize] = true;
+        }
+        let points = self.world.iter().zip(used);
+        points.filter(|(_, used)| *used).map(|(point, _)| *point)
+    }
+}
+
+/// A position as a key of equality.
+pub(crate) fn place_key(position: [f32; 3]) -> [u32; 3] {
+    // -0 equals 0, and adding 0 makes it so.
+    position.map(|v| (v + 0.0).to_bits())
+}
+
+/// Whether the file marks each vertex of joined parts; empty where it marks none.
+fn marked_vertices(parts: &[Part]) -> Vec<bool> {
+    if parts.iter().all(|part| part.marks.is_none()) {
+        return Vec::new();
+    }
+    let marks = parts.iter().flat_map(|part| match &part.marks {
+        Some(marks) => marks.clone(),
+        None => vec![false; part.positions.len()],
+    });
+    marks.collect()
+}
+
+/// The edges of triangles between two marked vertices.
+fn marked_edges(triangles: &[[u32; 3]], marked: &[bool]) -> Vec<[u32; 2]> {
+    if marked.is_empty() {
+        return Vec::new();
+    }
+    let edges = triangles
+        .iter()
+        .flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]);
+    edges
+        .filter(|ends| ends.iter().all(|end| marked[*end as usize]))
+        .collect()
+}
+
+fn vertex_colors(parts: &[Part]) -> Vec<u32> {
+    if parts.iter().all(|part| part.colors.is_none()) {
+        return Vec::new();
+    }
+    let colors = parts.iter().flat_map(|part| match &part.colors {
+        Some(colors) => colors.iter().map(|color| packed_color(*color)).collect(),
+        None => vec![u32::MAX; part.positions.len()],
+    });
+    colors.collect()
+}

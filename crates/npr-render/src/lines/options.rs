@@ -1,0 +1,139 @@
+//! What is asked of a line model and of a drawing.
+
+use npr_style::Style;
+use npr_vector::graph::CurveNode;
+use npr_vector::stroke::Kind;
+
+/// How a scene is prepared for line drawings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineModelOptions {
+    /// Distance up to which vertices are one, as a fraction of each mesh's diagonal; default 0, equal positions only.
+    ///
+    /// 1e-6 closes the cracks of most exports, which would show as borders. See [`npr_mesh::weld()`].
+    pub weld: f32,
+    /// Most bytes that may be planned; default 4 GiB.
+    pub memory_limit: u64,
+}
+
+impl Default for LineModelOptions {
+    fn default() -> Self {
+        Self {
+            weld: 0.0,
+            memory_limit: 4 << 30,
+        }
+    }
+}
+
+/// A set of kinds of line.
+///
+/// ```
+/// use npr_render::{Kind, KindSet};
+///
+/// let outlines: KindSet = [Kind::Contour, Kind::Boundary].into_iter().collect();
+/// assert!(outlines.has(Kind::Contour) && !outlines.has(Kind::Crease));
+/// assert_eq!(KindSet::ALL.kinds().count(), Kind::ALL.len());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct KindSet(u32);
+
+impl KindSet {
+    /// Every kind.
+    pub const ALL: Self = Self(CurveNode::KINDS);
+
+    /// The kinds that a style draws, and marked lines, which somebody asked for by hand.
+    pub fn of_style(style: &Style) -> Self {
+        let wanted = &style.line.kinds;
+        let kinds = [
+            (Kind::Contour, wanted.contour),
+            (Kind::Boundary, wanted.border),
+            (Kind::Crease, wanted.crease),
+            (Kind::Material, wanted.material),
+            (Kind::Intersection, wanted.intersection),
+            (Kind::Marked, true),
+        ];
+        let wanted = kinds.into_iter().filter(|(_, wanted)| *wanted);
+        wanted.map(|(kind, _)| kind).collect()
+    }
+
+    /// Whether a kind is in the set.
+    pub fn has(self, kind: Kind) -> bool {
+        self.0 & bit_of(kind) != 0
+    }
+
+    /// Its kinds, in the order of [`Kind::ALL`].
+    pub fn kinds(self) -> impl Iterator<Item = Kind> {
+        Kind::ALL.into_iter().filter(move |kind| self.has(*kind))
+    }
+
+    /// The bits of [`CurveNode::KINDS`].
+    pub(crate) fn bits(self) -> u32 {
+        self.0
+    }
+}
+
+impl FromIterator<Kind> for KindSet {
+    fn from_iter<T: IntoIterator<Item = Kind>>(kinds: T) -> Self {
+        Self(kinds.into_iter().map(bit_of).fold(0, |set, bit| set | bit))
+    }
+}
+
+fn bit_of(kind: Kind) -> u32 {
+    match kind {
+        Kind::Contour => CurveNode::CONTOUR,
+        Kind::Boundary => CurveNode::BOUNDARY,
+        Kind::Crease => CurveNode::CREASE,
+        Kind::Material => CurveNode::MATERIAL,
+        Kind::Intersection => CurveNode::INTERSECTION,
+        Kind::Marked => CurveNode::MARKED,
+    }
+}
+
+/// Which lines a drawing has, and how they are found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineOptions {
+    /// Width and height of the picture in pixels.
+    pub size: [u32; 2],
+    /// The kinds that are drawn; default all.
+    pub kinds: KindSet,
+    /// Angle between face normals, in radians, from which an edge is a crease; default 40 degrees.
+    pub crease: f32,
+    /// How contours are found; default along mesh edges.
+    pub method: LineMethod,
+    /// Whether strokes are smoothed, their ends joined, and what is too short to read left out; default true.
+    pub smooth: bool,
+    /// Whether hidden lines are given too, each with the number of surfaces in front; default false.
+    pub hidden: bool,
+    /// Whether visible surfaces are given as regions of flat colour; default false.
+    pub fill: bool,
+    /// Pixels per inch, for widths in millimetres; default 96.
+    pub dpi: f32,
+}
+
+pub use npr_vector::draw::Method as LineMethod;
+
+impl LineOptions {
+    /// All visible lines of a picture of `size` pixels, smoothed.
+    pub fn new(size: [u32; 2]) -> Self {
+        Self {
+            size,
+            kinds: KindSet::ALL,
+            crease: 40.0_f32.to_radians(),
+            method: LineMethod::default(),
+            smooth: true,
+            hidden: false,
+            fill: false,
+            dpi: 96.0,
+        }
+    }
+
+    /// The lines that a style asks for: its kinds, and its angle of creases.
+    ///
+    /// The style's own `line.method` is a matter of pictures and plays no part.
+    pub fn of_style(style: &Style, size: [u32; 2]) -> Self {
+        Self {
+            kinds: KindSet::of_style(style),
+            crease: style.line.crease_angle_deg.to_radians(),
+            ..Self::new(size)
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Colours of lines and fills, by the style's rules.
+
+use crate::error::RenderError;
+use crate::look;
+use crate::model::PartInfo;
+use npr_core::color::srgb_from_linear;
+use npr_core::shape::Shape;
+use npr_style::Style;
+use npr_vector::bvh::{FaceTree, Sight};
+use npr_vector::fill;
+use npr_vector::project::Projector;
+use npr_vector::stroke::{Region, Stroke, StrokeSurface};
+
+/// How every surface is painted.
+#[derive(Debug)]
+pub(crate) struct Paint {
+    surfaces: Vec<SurfacePaint>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct SurfacePaint {
+    has_lines: bool,
+    width_factor: f64,
+    line_color: [u8; 4],
+    fill_color: [u8; 4],
+}
+
+impl Paint {
+    /// Resolves the style for every part.
+    pub fn new(parts: &[PartInfo], style: &Style) -> Self {
+        let paint = |info: &PartInfo| {
+            let part = look::part(info, style);
+            let [r, g, b] = [0, 1, 2].map(|i| srgb_from_linear(part.base_color[i]));
+            SurfacePaint {
+                has_lines: style
+                    .resolve_for(&info.material_name, &info.object_name)
+                    .line_on,
+                width_factor: f64::from(part.width_factor),
+                line_color: bytes_of(part.line_color),
+                fill_color: bytes_of([r, g, b, 1.0]),
+            }
+        };
+        Self {
+            surfaces: parts.iter().map(paint).collect(),
+        }
+    }
+
+    /// Scales widths by the factors of surfaces, and removes the strokes of those that have no lines.
+    pub fn apply(&self, strokes: &mut Vec<Stroke>) {
+        let of = |stroke: &Stroke| self.surfaces.get(stroke.surface as usize);
+        strokes.retain(|stroke| of(stroke).is_none_or(|paint| paint.has_lines));
+        for stroke in strokes {
+            let factor = self.surfaces[stroke.surface as usize].width_factor;
+            for point in &mut stroke.points {
+                point.width *= factor;
+            }
+        }
+    }
+
+    /// The surfaces as drawings list them.
+    pub fn into_surfaces(self, parts: &[PartInfo]) -> Vec<StrokeSurface> {
+        let painted = parts.iter().zip(self.surfaces);
+        painted
+            .map(|(info, paint)| StrokeSurface {
+                object: info.object_name.clone(),
+                object_number: info.object,
+                material: info.material_name.clone(),
+                line_color: paint.line_color,
+                fill_color: paint.fill_color,
+            })
+            .collect()
+    }
+}
+
+/// Values of 0..1 as bytes.
+fn bytes_of(color: [f32; 4]) -> [u8; 4] {
+    color.map(|v| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)
+}
+
+/// The visible surfaces between lines, each in one piece as far as no line parts it.
+pub(crate) fn regions(
+    shape: &Shape,
+    tree: &FaceTree,
+    projector: &Projector,
+    size: [u32; 2],
+    strokes: &[Stroke],
+) -> Result<Vec<Region>, RenderError> {
+    let surface_at = |place: [f64; 2]| {
+        let point = projector.unproject(place, projector.far());
+        let sight = Sight {
+            eye: projector.sight_start(point).to_array(),
+            point: point.to_array(),
+        };
+        let (face, _) = tree.first_face(shape, &sight, 1.0)?;
+        Some(shape.face_surfaces[face as usize])
+    };
+    Ok(fill::regions(size, &segments_of(strokes), &surface_at)?)
+}
+
+/// The pieces of all visible strokes.
+fn segments_of(strokes: &[Stroke]) -> Vec<[[f64; 2]; 2]> {
+    let visible = strokes.iter().filter(|stroke| stroke.is_visible());
+    visible
+        .flat_map(|stroke| {
+            let points = &stroke.points;
+            let joint = points.last().zip(points.first()).filter(|_| stroke.closed);
+            let pairs = points.windows(2).map(|pair| (&pair[0], &pair[1]));
+            pairs.chain(joint).map(|(a, b)| [a.position, b.position])
+        })
+        .collect()
+}

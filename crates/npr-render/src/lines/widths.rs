@@ -1,0 +1,143 @@
+//! How wide lines are at the vertices of a shape.
+
+use crate::bend::{Bend, bends};
+use crate::look;
+use npr_core::geometry::{Influence, NONE, Part, Vertex};
+use npr_core::outline::{Outline, width_of_curvature};
+use npr_core::shape::Shape;
+use npr_core::window::View;
+use npr_mesh::pose::{Matrix, Pose, pose_vertex};
+use npr_mesh::{Edge, EdgeFlags, Weld};
+use npr_style::{Style, WidthSource};
+
+const IDENTITY: Matrix = [
+    [1.0, 0.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0, 0.0],
+    [0.0, 0.0, 1.0, 0.0],
+    [0.0, 0.0, 0.0, 1.0],
+];
+
+/// How a shape bends, for widths that follow it.
+#[derive(Debug, Clone)]
+pub(crate) struct ShapeBends {
+    bends: Vec<Bend>,
+    normals: Vec<[f32; 3]>,
+}
+
+impl ShapeBends {
+    /// Measures a shape of a bounding radius; curvatures are kept in 1 / radius. O(n), parallel.
+    pub fn new(shape: &Shape, radius: f32) -> Self {
+        let vertices: Vec<u32> = (0..shape.positions.len() as u32).collect();
+        let weld = Weld {
+            of_vertex: vertices.clone(),
+            first: vertices,
+        };
+        let edges: Vec<Edge> = (0..shape.edge_count() as u32)
+            .map(|edge| edge_between(shape.ends(edge)))
+            .collect();
+        let normals = npr_mesh::smooth_normals(&shape.positions, &shape.faces, &weld);
+        let mut bends = bends(&shape.positions, &shape.faces, &weld, &edges, &normals, 1.0);
+        for bend in &mut bends {
+            bend.curvatures = bend.curvatures.map(|curvature| curvature * radius);
+        }
+        Self { bends, normals }
+    }
+}
+
+/// An edge as smoothing reads it: by its ends alone.
+fn edge_between(ends: [u32; 2]) -> Edge {
+    Edge {
+        ends,
+        faces: [NONE; 2],
+        dihedral_cos: 1.0,
+        flags: EdgeFlags::NONE,
+    }
+}
+
+/// What widths are measured on.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct WidthInput<'a> {
+    pub shape: &'a Shape,
+    /// How the shape bends, where the style's source asks for it.
+    pub bends: Option<&'a ShapeBends>,
+    /// Colour of every vertex, where the model has any.
+    pub colors: &'a [u32],
+    pub style: &'a Style,
+}
+
+/// Whether a style's widths follow how the surface bends.
+pub(crate) fn follow_bends(style: &Style) -> bool {
+    matches!(
+        style.line.width.source,
+        WidthSource::Curvature | WidthSource::ProjectedCurvature
+    )
+}
+
+/// Line widths of one view, as [`npr_mesh::pose`] gives them to vertices of pictures.
+#[derive(Debug)]
+pub(crate) struct Widths<'a> {
+    input: WidthInput<'a>,
+    view: &'a View,
+    outline: Outline,
+    /// A part that leaves widths alone.
+    plain: [Part; 1],
+}
+
+impl<'a> Widths<'a> {
+    pub fn new(input: WidthInput<'a>, view: &'a View, outline: Outline) -> Self {
+        let plain = Part {
+            width_factor: 1.0,
+            ..Part::default()
+        };
+        Self {
+            input,
+            view,
+            outline,
+            plain: [plain],
+        }
+    }
+
+    /// Whole width of lines at a vertex, in pixels, before the factor of the surface.
+    pub fn at(&self, vertex: u32) -> f32 {
+        let i = vertex as usize;
+        let mut stored = Vertex {
+            position: self.input.shape.positions[i],
+            width: self.share(i),
+            ..Vertex::default()
+        };
+        if let Some(measured) = self.input.bends {
+            stored.curvatures = measured.bends[i].curvatures;
+            stored.direction = measured.bends[i].direction;
+            stored.normal = measured.normals[i];
+        }
+        let with = Pose {
+            view: self.view,
+            outline: &self.outline,
+            influences: &[],
+            palette: &[IDENTITY],
+            parts: &self.plain,
+        };
+        let rigid = Influence {
+            joints: [0; 4],
+            weights: [1.0, 0.0, 0.0, 0.0],
+        };
+        let width = 2.0 * pose_vertex(&with, &stored, &rigid).half_width;
+        if width.is_finite() { width } else { 0.0 }
+    }
+
+    /// The width factor 0..1 that the style's source gives a vertex; 1 where the source is missing.
+    fn share(&self, i: usize) -> f32 {
+        let width = &self.input.style.line.width;
+        match width.source {
+            WidthSource::Curvature => self.input.bends.map_or(1.0, |measured| {
+                let [max, min] = measured.bends[i].curvatures;
+                width_of_curvature(max.abs().max(min.abs()), width.gain)
+            }),
+            WidthSource::VertexColor => self.input.colors.get(i).map_or(1.0, |color| {
+                f32::from(color.to_le_bytes()[width.channel.index()]) / 255.0
+            }),
+            WidthSource::ControlPoints => look::share_at(width, self.input.shape.positions[i]),
+            WidthSource::Constant | WidthSource::ProjectedCurvature | WidthSource::Texture => 1.0,
+        }
+    }
+}

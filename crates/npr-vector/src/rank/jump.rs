@@ -1,0 +1,182 @@
+//! Ranking by pointer jumping: every node asks the node it points at where that one points.
+//!
+//! In each round the reach of every node doubles, so a chain of n nodes takes log2(n) rounds, whatever its shape.
+//!
+//! Every step works on the first `extent[0]` elements: nodes for [`wyllie`], splitters for
+//! [`ruling_set`](super::ruling_set). What lies behind stays as it is.
+
+use super::place::{self, Walk};
+use super::{Link, RankError, Ranked, link};
+use bytemuck::{Pod, Zeroable};
+use npr_core::geometry::NONE;
+use npr_core::gpu_layout;
+use rayon::prelude::*;
+
+/// How far back an element sees, and the head-to-be among all nodes that it sees.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct Reach {
+    /// The element after the last that is seen, going back; itself at the start of an open chain.
+    pub far: u32,
+    /// The node with the least `(hash, index)` of those seen.
+    pub least: u32,
+    /// That node's [`Link::precedence`].
+    pub hash: u32,
+}
+gpu_layout!(Reach { far, least, hash });
+
+impl Reach {
+    fn precedes(&self, other: &Reach) -> bool {
+        (self.hash, self.least) < (other.hash, other.least)
+    }
+}
+
+/// A jump back along a chain.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct Hop {
+    /// Where it leads; from the first element to itself.
+    pub far: u32,
+    /// Number of links that it passes.
+    pub dist: u32,
+}
+gpu_layout!(Hop { far, dist });
+
+/// Rounds after which chains of up to `node_count` nodes are ranked: log2, rounded up.
+pub fn rounds_for(node_count: usize) -> u32 {
+    node_count.max(1).next_power_of_two().trailing_zeros()
+}
+
+/// Ranks lists by breaking loops and then ranking, both by pointer jumping [Wyllie 1979; Jiang et al. 2022].
+///
+/// Input and result are those of [`walk`](super::walk()). `rounds` bounds the rounds of each of the two; by default as
+/// many as chains of all nodes would take. Fewer are enough where no chain is longer than `2^rounds`; more than 32 change
+/// nothing.
+///
+/// O(n log n) work in O(log n) steps; two buffers alternate.
+///
+/// Differs: the publication breaks loops at the greatest key, which is a place in the picture, so loops start elsewhere
+/// whenever the picture moves; here the least hash of a key that belongs to the mesh. It counts links to the
+/// head along successors and subtracts; here nodes look back, so what they count is their rank.
+///
+/// # Errors
+///
+/// [`RankError`] where `next` does not describe lists, or the rounds were too few.
+pub fn wyllie(next: &[u32], keys: &[u32], rounds: Option<u32>) -> Result<Ranked, RankError> {
+    let links = link(next, keys)?;
+    let rounds = rounds.unwrap_or_else(|| rounds_for(links.len()));
+    let extent = [links.len() as u32];
+    let mut first = vec![Reach::default(); links.len()];
+    let mut hops = vec![Hop::default(); links.len()];
+    let mut walks = vec![Walk::default(); links.len()];
+    start_nodes(&links, &mut hops, &mut first, &mut walks);
+    let jumped = jump_all(&extent, first, hops, rounds);
+    place::finish(&links, &walks, &jumped, rounds)
+}
+
+/// What pointer jumping leaves behind.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Jumped {
+    /// Before the first round.
+    pub(super) first: Vec<Reach>,
+    /// After the last.
+    pub(super) settled: Vec<Reach>,
+    /// How each element leads to the first of its chain.
+    pub(super) hops: Vec<Hop>,
+}
+
+/// Breaks loops and ranks, with as many rounds for each.
+pub(super) fn jump_all(
+    extent: &[u32; 1],
+    first: Vec<Reach>,
+    hops: Vec<Hop>,
+    rounds: u32,
+) -> Jumped {
+    let rounds = rounds.min(u32::BITS);
+    let mut settled = first.clone();
+    let mut other_reach = first.clone();
+    for _ in 0..rounds {
+        break_loops(extent, &settled, &mut other_reach);
+        std::mem::swap(&mut settled, &mut other_reach);
+    }
+    let mut other_hops = hops.clone();
+    cut_loops(extent, &first, &settled, &hops, &mut other_hops);
+    let (mut hops, mut other_hops) = (other_hops, hops);
+    for _ in 0..rounds {
+        rank_jump(extent, &hops, &mut other_hops);
+        std::mem::swap(&mut hops, &mut other_hops);
+    }
+    Jumped {
+        first,
+        settled,
+        hops,
+    }
+}
+
+/// Every node looks at its predecessor: the twin of `vector.start_nodes`.
+pub fn start_nodes(links: &[Link], hops: &mut [Hop], reach: &mut [Reach], walks: &mut [Walk]) {
+    let outputs = hops.par_iter_mut().zip(reach).zip(walks);
+    (0..links.len() as u32)
+        .into_par_iter()
+        .zip(outputs)
+        .for_each(|(element, ((hop, reach), walk))| {
+            let link = links[element as usize];
+            let is_start = link.prev == NONE;
+            hop.far = if is_start { element } else { link.prev };
+            hop.dist = u32::from(!is_start);
+            reach.far = hop.far;
+            reach.least = element;
+            reach.hash = link.precedence();
+            walk.slot = element;
+            walk.steps = 0;
+        });
+}
+
+/// One round of finding the head of every chain: the twin of `vector.break_loops`.
+pub fn break_loops(extent: &[u32], reach_in: &[Reach], reach_out: &mut [Reach]) {
+    reach_out[..extent[0] as usize]
+        .par_iter_mut()
+        .enumerate()
+        .for_each(|(element, out)| {
+            let here = reach_in[element];
+            let there = reach_in[here.far as usize];
+            let nearer = if there.precedes(&here) { there } else { here };
+            out.far = there.far;
+            out.least = nearer.least;
+            out.hash = nearer.hash;
+        });
+}
+
+/// Makes an element the first of its chain where it knows its chain's head: the twin of `vector.cut_loops`.
+///
+/// `first` are the reaches before the first round, `settled` after the last.
+pub fn cut_loops(
+    extent: &[u32],
+    first: &[Reach],
+    settled: &[Reach],
+    hops_in: &[Hop],
+    hops_out: &mut [Hop],
+) {
+    hops_out[..extent[0] as usize]
+        .par_iter_mut()
+        .enumerate()
+        .for_each(|(element, out)| {
+            let is_first = first[element].least == settled[element].least;
+            let hop = hops_in[element];
+            out.far = if is_first { element as u32 } else { hop.far };
+            out.dist = if is_first { 0 } else { hop.dist };
+        });
+}
+
+/// One round of ranking: doubles how far each element sees [Wyllie 1979]; the twin of `vector.rank_jump`.
+pub fn rank_jump(extent: &[u32], hops_in: &[Hop], hops_out: &mut [Hop]) {
+    hops_out[..extent[0] as usize]
+        .par_iter_mut()
+        .enumerate()
+        .for_each(|(element, out)| {
+            let here = hops_in[element];
+            let there = hops_in[here.far as usize];
+            out.far = there.far;
+            out.dist = here.dist.wrapping_add(there.dist);
+        });
+}

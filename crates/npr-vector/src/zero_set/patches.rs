@@ -1,0 +1,81 @@
+//! Patches of faces on which interpolated normals and planes disagree about the front.
+
+use super::signs::Signs;
+use npr_core::geometry::NONE;
+use npr_core::shape::Shape;
+
+/// A patch is chosen when this much of its visible outline lies off every smooth line, in pixels.
+pub(super) const LEAST_PX: f64 = 2.0;
+
+/// Faces connected through parts where normals and planes disagree, found as they are asked for.
+pub(super) struct Patches<'a> {
+    signs: &'a Signs<'a>,
+    front: &'a [u8],
+    /// Patch of every face; [`NONE`] where not yet known.
+    of_face: Vec<u32>,
+    chosen: Vec<bool>,
+}
+
+impl<'a> Patches<'a> {
+    pub fn new(signs: &'a Signs<'a>, front: &'a [u8]) -> Self {
+        Self {
+            signs,
+            front,
+            of_face: vec![NONE; front.len()],
+            chosen: Vec::new(),
+        }
+    }
+
+    pub fn is_chosen(&self, face: u32) -> bool {
+        let patch = self.of_face[face as usize];
+        patch != NONE && self.chosen[patch as usize]
+    }
+
+    /// Chooses the patches that miss enough; false if all of them have been chosen before.
+    pub fn choose(&mut self, missed: &[(u32, f64)]) -> bool {
+        let mut lengths: Vec<f64> = Vec::new();
+        for (face, length) in missed {
+            let patch = self.patch_of(*face) as usize;
+            lengths.resize(self.chosen.len(), 0.0);
+            lengths[patch] += length;
+        }
+        let mut any = false;
+        for (chosen, length) in self.chosen.iter_mut().zip(lengths) {
+            let new = !*chosen && length >= LEAST_PX;
+            *chosen |= new;
+            any |= new;
+        }
+        any
+    }
+
+    fn patch_of(&mut self, face: u32) -> u32 {
+        if self.of_face[face as usize] == NONE {
+            let patch = self.chosen.len() as u32;
+            self.chosen.push(false);
+            self.of_face[face as usize] = patch;
+            let mut open = vec![face];
+            while let Some(face) = open.pop() {
+                for side in 3 * face..3 * face + 3 {
+                    let twin = self.signs.shape.twins[side as usize];
+                    let reaches = twin != NONE
+                        && self.of_face[twin as usize / 3] == NONE
+                        && self.disagree_on(side)
+                        && self.disagree_on(twin);
+                    if reaches {
+                        self.of_face[twin as usize / 3] = patch;
+                        open.push(twin / 3);
+                    }
+                }
+            }
+        }
+        self.of_face[face as usize]
+    }
+
+    /// Whether normals and plane disagree on a part of a face's side.
+    fn disagree_on(&self, side: u32) -> bool {
+        let front = self.front[side as usize / 3] != 0;
+        [side, Shape::following(side)]
+            .into_iter()
+            .any(|corner| self.signs.front(corner) != front)
+    }
+}

@@ -1,0 +1,57 @@
+// Linked lists and how they are ranked. Twin: npr_vector::rank.
+
+//# use lib/geometry
+
+const WINDOW: u32 = 8u;
+const WALK_LIMIT: u32 = 512u;
+
+struct Link {
+    next: u32,
+    prev: u32,
+    key: u32,
+}
+
+struct Reach {
+    far: u32,
+    least: u32,
+    hash: u32,
+}
+
+struct Hop {
+    far: u32,
+    dist: u32,
+}
+
+struct Walk {
+    slot: u32,
+    steps: u32,
+}
+
+struct Place {
+    head: u32,
+    offset: u32,
+}
+
+struct Standing {
+    head: u32,
+    rank: u32,
+    length: u32,
+}
+
+// A permutation of the 32-bit numbers that looks random.
+fn mix_bits(number: u32) -> u32 {
+    var x = number;
+    x = (x ^ (x >> 16u)) * 0x7feb352du;
+    x = (x ^ (x >> 15u)) * 0x846ca68bu;
+    return x ^ (x >> 16u);
+}
+
+fn hash_key(key: u32) -> u32 {
+    return max(mix_bits(key), 1u);
+}
+
+// 0 at the start of an open chain, and only there.
+fn precedence(link: Link) -> u32 {
+    if link.prev == NONE { return 0u; }
+    return hash_key(link.key);
+}

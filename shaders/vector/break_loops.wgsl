@@ -1,0 +1,40 @@
+// vector.break_loops: one round of finding the head of every chain.
+//
+// Each element looks where it points, takes over what is seen from there, and
+// points where that one points: what is seen doubles every round. The host runs
+// log2(n) rounds, swapping the two buffers in between.
+//
+// Source  Jiang et al. 2022, loop breaking
+// Twin    npr_vector::rank::jump::break_loops
+// Differs: the least hash of a mesh key becomes the head, not the greatest place
+// in the picture, so loops start at the same place in every frame.
+//
+//# use lib/grid
+//# use lib/list
+
+override WG: u32 = 64u;
+
+@group(0) @binding(0) var<storage, read> extent: array<u32>;
+@group(0) @binding(1) var<storage, read> reach_in: array<Reach>;
+@group(0) @binding(2) var<storage, read_write> reach_out: array<Reach>;
+
+// One invocation per element.
+@compute @workgroup_size(WG)
+fn main(
+    @builtin(workgroup_id) wid: vec3<u32>,
+    @builtin(num_workgroups) nwg: vec3<u32>,
+    @builtin(local_invocation_id) lid: vec3<u32>,
+) {
+    let element = element_index(wid, nwg, lid, WG);
+    if element >= extent[0] { return; }
+
+    let here = reach_in[element];
+    let there = reach_in[here.far];
+    var nearer = here;
+    if there.hash < here.hash || (there.hash == here.hash && there.least < here.least) {
+        nearer = there;
+    }
+    reach_out[element].far = there.far;
+    reach_out[element].least = nearer.least;
+    reach_out[element].hash = nearer.hash;
+}

@@ -1,0 +1,42 @@
+// vector.face_eye: whether each face is turned to the eye.
+//
+// A face without area takes over the orientation of its judge. Signs come from
+// sums, differences and products that are rounded one by one, so both engines decide alike.
+//
+// Source  Jiang et al. 2022, contour extraction
+// Twin    npr_vector::contour::steps::face_eye
+//
+//# use lib/grid
+//# use lib/curve
+
+override WG: u32 = 64u;
+
+@group(0) @binding(0) var<uniform> viewer: Viewer;
+@group(0) @binding(1) var<storage, read> positions: array<f32>;
+@group(0) @binding(2) var<storage, read> half_edges: array<HalfEdge>;
+@group(0) @binding(3) var<storage, read> judges: array<u32>;
+@group(0) @binding(4) var<storage, read_write> front: array<u32>;
+
+fn corner(half_edge: u32) -> vec3<f32> {
+    let at = 3u * half_edges[half_edge].tail;
+    return vec3<f32>(positions[at], positions[at + 1u], positions[at + 2u]);
+}
+
+// One invocation per face.
+@compute @workgroup_size(WG)
+fn main(
+    @builtin(workgroup_id) wid: vec3<u32>,
+    @builtin(num_workgroups) nwg: vec3<u32>,
+    @builtin(local_invocation_id) lid: vec3<u32>,
+) {
+    let element = element_index(wid, nwg, lid, WG);
+    if element >= arrayLength(&judges) { return; }
+
+    let judge = judges[element];
+    var is_front = false;
+    if judge != NONE {
+        let first = 3u * judge;
+        is_front = height_over(viewer, corner(first), corner(first + 1u), corner(first + 2u)) > 0.0;
+    }
+    front[element] = select(0u, 1u, is_front);
+}

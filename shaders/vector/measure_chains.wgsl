@@ -1,0 +1,34 @@
+// vector.measure_chains: the last node before a cut tells the head how long the chain is.
+//
+// Only heads get a length; the others keep what was there.
+//
+// Source  Jiang et al. 2022, serialisation
+// Twin    npr_vector::rank::place::measure_chains
+//
+//# use lib/grid
+//# use lib/list
+
+override WG: u32 = 64u;
+
+@group(0) @binding(0) var<storage, read> links: array<Link>;
+@group(0) @binding(1) var<storage, read> places: array<Place>;
+@group(0) @binding(2) var<storage, read_write> lengths: array<u32>;
+
+// One invocation per node.
+@compute @workgroup_size(WG)
+fn main(
+    @builtin(workgroup_id) wid: vec3<u32>,
+    @builtin(num_workgroups) nwg: vec3<u32>,
+    @builtin(local_invocation_id) lid: vec3<u32>,
+) {
+    let element = element_index(wid, nwg, lid, WG);
+    if element >= arrayLength(&places) { return; }
+
+    let next = links[element].next;
+    var is_last = next == NONE;
+    if !is_last { is_last = places[next].offset == 0u; }
+    let place = places[element];
+    if is_last && place.head < arrayLength(&lengths) {
+        lengths[place.head] = place.offset + 1u;
+    }
+}

@@ -1,0 +1,33 @@
+// vector.rank_jump: one round of Wyllie's list ranking.
+//
+// Each element looks where its hop leads and adds that hop to its own, so the
+// reach doubles every round. The host runs log2(n) rounds, swapping the two
+// buffers in between.
+//
+// Source  Wyllie 1979; Jiang et al. 2022, serialisation
+// Twin    npr_vector::rank::jump::rank_jump
+//
+//# use lib/grid
+//# use lib/list
+
+override WG: u32 = 64u;
+
+@group(0) @binding(0) var<storage, read> extent: array<u32>;
+@group(0) @binding(1) var<storage, read> hops_in: array<Hop>;
+@group(0) @binding(2) var<storage, read_write> hops_out: array<Hop>;
+
+// One invocation per element.
+@compute @workgroup_size(WG)
+fn main(
+    @builtin(workgroup_id) wid: vec3<u32>,
+    @builtin(num_workgroups) nwg: vec3<u32>,
+    @builtin(local_invocation_id) lid: vec3<u32>,
+) {
+    let element = element_index(wid, nwg, lid, WG);
+    if element >= extent[0] { return; }
+
+    let here = hops_in[element];
+    let there = hops_in[here.far];
+    hops_out[element].far = there.far;
+    hops_out[element].dist = here.dist + there.dist;
+}

@@ -1,0 +1,27 @@
+// vector.scan_add: adds to every prefix what comes before its block.
+//
+// Source  Hillis & Steele 1986
+// Twin    npr_vector::rank::scan::scan_add
+//
+//# use lib/grid
+
+override WG: u32 = 64u;
+
+const BLOCK: u32 = 64u;
+
+@group(0) @binding(0) var<storage, read> prefixes_in: array<u32>;
+@group(0) @binding(1) var<storage, read> offsets: array<u32>;
+@group(0) @binding(2) var<storage, read_write> prefixes_out: array<u32>;
+
+// One invocation per value.
+@compute @workgroup_size(WG)
+fn main(
+    @builtin(workgroup_id) wid: vec3<u32>,
+    @builtin(num_workgroups) nwg: vec3<u32>,
+    @builtin(local_invocation_id) lid: vec3<u32>,
+) {
+    let element = element_index(wid, nwg, lid, WG);
+    if element >= arrayLength(&prefixes_in) { return; }
+
+    prefixes_out[element] = prefixes_in[element] + offsets[element / BLOCK];
+}
