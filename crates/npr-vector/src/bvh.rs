@@ -107,6 +107,23 @@ impl FaceTree {
         first.map(|(face, at)| (face, at * reach))
     }
 
+    /// Where the line between two vertices goes through faces that it does not touch, 0..1 from the first, ascending.
+    pub fn piercings(&self, shape: &Shape, [from, to]: [u32; 2]) -> Vec<f64> {
+        let point = |v: u32| DVec3::from(shape.positions[v as usize].map(f64::from));
+        let (start, direction) = (point(from), point(to) - point(from));
+        let mut places = Vec::new();
+        self.along(start, direction, |face| {
+            let corners = shape.faces[face as usize];
+            if !corners.contains(&from) && !corners.contains(&to) {
+                let place = crossing(shape, face, start, direction);
+                places.extend(place.filter(|t| (0.0..=1.0).contains(t)));
+            }
+            true
+        });
+        places.sort_by(f64::total_cmp);
+        places
+    }
+
     /// Calls `visit` for every face whose box the way passes, until it returns false.
     fn along(&self, eye: DVec3, direction: DVec3, mut visit: impl FnMut(u32) -> bool) {
         let nodes = &self.bvh.nodes;

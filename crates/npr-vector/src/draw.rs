@@ -15,10 +15,12 @@ use crate::run::{Line, Run, runs};
 use crate::smooth::smooth;
 use crate::stroke::{Kind, Stroke, StrokePoint};
 use crate::visibility::{Circumstances, OutlineGrid, Piece, Seen, Span};
+use crate::zero_set::{CornerNormals, PolygonOutline, SeenContour, zero_set};
 use glam::DVec3;
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 use rayon::prelude::*;
+use std::sync::OnceLock;
 
 /// How contours are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -45,6 +47,9 @@ pub struct LineSettings {
     pub hidden: bool,
 }
 
+/// How far smooth contours may leave the polygons' outline, in pixels.
+const OUTLINE_TOLERANCE_PX: f64 = 2.0;
+
 /// Up to how many surfaces in front of a hidden line are counted.
 const HIDDEN_COUNT_LIMIT: u32 = 255;
 
@@ -61,10 +66,19 @@ pub struct Prepared {
     rims: Vec<u32>,
     /// For every object, whether it has a border, so that backs of faces may be seen.
     is_open: Vec<bool>,
+    /// From which cosine between normals on an edge is no crease.
+    crease_cos: f32,
+    /// Whether `crossings` are known; else every view looks for those of its own lines.
+    has_crossings: bool,
+    /// Smooth normals, once they are asked for.
+    normals: OnceLock<CornerNormals>,
 }
 
 impl Prepared {
     /// Prepares a shape whose edges are creases where the cosine between normals is under `crease_cos`.
+    ///
+    /// Intersections cost more than the rest together, and are needed only as lines: without them, a view finds for itself
+    /// where its lines go through faces.
     pub fn new(shape: &Shape, crease_cos: f32, with_crossings: bool) -> Self {
         let (tree, features) = rayon::join(|| FaceTree::new(shape), || features(shape, crease_cos));
         let crossings = if with_crossings {
@@ -88,6 +102,9 @@ impl Prepared {
             crossings,
             rims,
             is_open,
+            crease_cos,
+            has_crossings: with_crossings,
+            normals: OnceLock::new(),
         }
     }
 
@@ -135,16 +152,19 @@ pub fn strokes(
             1
         },
     };
-    let graphs = [
-        &edge_contours,
-        &prepared.features,
-        &prepared.crossings.graph,
-    ];
-    let mut found: Vec<Run> = graphs
+    let wanted = settings.kinds | CurveNode::MARKED;
+    let contour_lines = view.lines(&edge_contours, &seen, wanted);
+    let smooth_contours = view.smooth_contours(&edge_contours, &contour_lines);
+    let contour_runs = match &smooth_contours {
+        Some((graph, lines)) => runs(shape, projector, graph, lines),
+        None => runs(shape, projector, &edge_contours, &contour_lines),
+    };
+    let others = [&prepared.features, &prepared.crossings.graph];
+    let other_runs = others
         .iter()
-        .flat_map(|graph| runs(shape, projector, graph, &view.lines(graph, &seen)))
-        .filter(|run| settings.hidden || run.occluders == 0)
-        .collect();
+        .flat_map(|graph| runs(shape, projector, graph, &view.lines(graph, &seen, wanted)));
+    let mut found: Vec<Run> = contour_runs.into_iter().chain(other_runs).collect();
+    found.retain(|run| settings.hidden || run.occluders == 0);
     if settings.smooth {
         found = merge_ends(found, TOUCHING_PX);
         smooth(&mut found);
@@ -222,30 +242,41 @@ impl View<'_> {
         if in_loop != 0 {
             return node.flags & CurveNode::KINDS;
         }
-        let flags = kind_in_view(self.shape, self.front, node.edge, node.flags & feature);
+        let flags = node.flags & feature;
+        // Smooth contours follow a crease only in part; what of it they cover goes as a double.
+        let on_edges =
+            self.settings.method == Method::Edges && self.settings.kinds & CurveNode::CONTOUR != 0;
+        let flags = kind_in_view(self.shape, self.front, node.edge, flags, on_edges);
         let sides = self.shape.sides(node.edge);
         let backs = sides.iter().all(|side| self.front[*side as usize / 3] == 0);
-        if backs && sides.len() == 2 && !self.prepared.may_show_backs(self.shape, node.face) {
+        let unseen = !self.settings.hidden && !self.prepared.may_show_backs(self.shape, node.face);
+        if backs && sides.len() == 2 && unseen {
             return flags & CurveNode::CONTOUR;
         }
         flags
     }
 
     /// What is drawn of every node of a graph, and what is seen of it.
-    fn lines(&self, graph: &CurveGraph, seen: &Seen<'_>) -> Vec<Option<Line>> {
+    fn lines(&self, graph: &CurveGraph, seen: &Seen<'_>, wanted: u32) -> Vec<Option<Line>> {
         graph
             .nodes
             .par_iter()
             .with_min_len(64)
-            .map(|node| self.line(graph, node, seen))
+            .map(|node| self.line(graph, node, seen, wanted))
             .collect()
     }
 
-    fn line(&self, graph: &CurveGraph, node: &CurveNode, seen: &Seen<'_>) -> Option<Line> {
+    fn line(
+        &self,
+        graph: &CurveGraph,
+        node: &CurveNode,
+        seen: &Seen<'_>,
+        wanted: u32,
+    ) -> Option<Line> {
         if node.next == NONE {
             return None;
         }
-        let kinds = self.kinds_of(node) & (self.settings.kinds | CurveNode::MARKED);
+        let kinds = self.kinds_of(node) & wanted;
         let kind = first_kind(kinds)?;
         let concave = node.flags & CurveNode::CONCAVE != 0;
         if concave && !self.prepared.may_show_backs(self.shape, node.face) {
@@ -271,6 +302,90 @@ impl View<'_> {
         a.lerp(b, f64::from(node.t))
     }
 
+    /// Where the piece along the edge of a node goes through faces, from its start.
+    fn piercings(&self, node: &CurveNode) -> Vec<f64> {
+        let up = node.t < 0.5;
+        if self.prepared.has_crossings {
+            let known = self.prepared.crossings.of_edge(node.edge).iter();
+            return known
+                .map(|p| f64::from(if up { p.t } else { 1.0 - p.t }))
+                .collect();
+        }
+        let [low, high] = self.shape.ends(node.edge);
+        let ends = if up { [low, high] } else { [high, low] };
+        self.prepared.tree.piercings(self.shape, ends)
+    }
+
+    /// The smooth contours of the view with what is seen of them, where they are asked for.
+    fn smooth_contours(
+        &self,
+        contours: &CurveGraph,
+        lines: &[Option<Line>],
+    ) -> Option<(CurveGraph, Vec<Option<Line>>)> {
+        if self.settings.method == Method::Edges {
+            return None;
+        }
+        let prepared = self.prepared;
+        let normals = prepared
+            .normals
+            .get_or_init(|| CornerNormals::new(self.shape, prepared.crease_cos));
+        let convex = contours.nodes.iter().zip(lines).filter_map(|(node, line)| {
+            let line = line.as_ref()?;
+            (node.flags & CurveNode::CONCAVE == 0).then_some((node, line))
+        });
+        let seen: Vec<SeenContour> = convex
+            .flat_map(|(node, line)| {
+                SeenContour::of_piece(self.projector, node, &line.piece, &line.spans)
+            })
+            .collect();
+        let outline = PolygonOutline::new(
+            (self.shape, normals),
+            (self.projector, self.settings.size),
+            self.front,
+            &seen,
+            OUTLINE_TOLERANCE_PX,
+        );
+        let graph = zero_set(
+            self.shape,
+            normals,
+            self.projector.eye(),
+            &outline.flat_faces(),
+        );
+        let pieces: Vec<Option<Piece>> = graph
+            .nodes
+            .iter()
+            .map(|node| self.piece_of(&graph, node))
+            .collect();
+        let spans = outline.spans(&graph, &pieces);
+        let line = |(node, (piece, spans)): (&CurveNode, (&Option<Piece>, Vec<Span>))| {
+            let piece = (*piece)?;
+            let surface = self.shape.face_surfaces[node.face as usize];
+            (!spans.is_empty()).then_some(Line {
+                kind: Kind::Contour,
+                surface,
+                piece,
+                spans,
+            })
+        };
+        let lines = graph
+            .nodes
+            .iter()
+            .zip(pieces.iter().zip(spans))
+            .map(line)
+            .collect();
+        Some((graph, lines))
+    }
+
+    /// The piece after a node of a smooth contour; none where its own surface hides it.
+    fn piece_of(&self, graph: &CurveGraph, node: &CurveNode) -> Option<Piece> {
+        if node.next == NONE || node.flags & CurveNode::CONCAVE != 0 {
+            return None;
+        }
+        let other = &graph.nodes[node.next as usize];
+        let [a, b] = [node, other].map(|node| self.point_of(node));
+        Piece::new(self.projector, self.settings.size, a, b)
+    }
+
     /// Faces that a piece lies in, and where it goes through others.
     fn circumstances(&self, node: &CurveNode, other: &CurveNode) -> Circumstances {
         let mut own_faces: Vec<u32> = self
@@ -280,14 +395,9 @@ impl View<'_> {
             .map(|side| side / 3)
             .collect();
         if node.is_along_edge() {
-            let piercings = self.prepared.crossings.of_edge(node.edge);
-            let up = node.t < 0.5;
-            let places = piercings
-                .iter()
-                .map(|p| f64::from(if up { p.t } else { 1.0 - p.t }));
             return Circumstances {
+                piercings: self.piercings(node),
                 own_faces,
-                piercings: places.collect(),
             };
         }
         own_faces.extend(self.shape.sides(other.edge).iter().map(|side| side / 3));

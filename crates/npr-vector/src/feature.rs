@@ -41,9 +41,14 @@ fn static_flags(shape: &Shape, edge: u32, crease_cos: f32) -> Option<u32> {
     (flags != 0 || traits & Shape::FLIPPED != 0).then_some(flags)
 }
 
-/// The kinds that a feature edge has in a view: none where it is a contour, which has its own line, or where all
-/// its faces turn away and their backs are never seen.
-pub fn kind_in_view(shape: &Shape, front: &[u8], edge: u32, flags: u32) -> u32 {
+/// The kinds that a feature edge has in a view: none where it is a contour that is drawn already.
+pub fn kind_in_view(
+    shape: &Shape,
+    front: &[u8],
+    edge: u32,
+    flags: u32,
+    contours_are_drawn: bool,
+) -> u32 {
     let traits = shape.edge_traits[edge as usize];
     if traits & (Shape::BORDER | Shape::NON_MANIFOLD) != 0 {
         return flags;
@@ -52,7 +57,8 @@ pub fn kind_in_view(shape: &Shape, front: &[u8], edge: u32, flags: u32) -> u32 {
     let is_contour = (a != b) != (traits & Shape::FLIPPED != 0);
     match (is_contour, traits & Shape::FLIPPED != 0) {
         (true, true) => flags | CurveNode::CONTOUR,
-        (true, false) => 0,
+        (true, false) if contours_are_drawn => 0,
+        (true, false) => flags,
         (false, _) => flags,
     }
 }
