@@ -7,7 +7,7 @@ use crate::run::{Run, distance};
 use std::collections::HashMap;
 
 /// Within this distance of a longer run a sample is a double, in pixels.
-const BESIDE_PX: f64 = 3.0;
+const BESIDE_PX: f64 = 2.25;
 
 /// Cosine of the largest angle at which lines count as running along each other.
 const ALONG_COS: f64 = 0.8;

@@ -15,7 +15,7 @@ use crate::run::{Line, Run, runs};
 use crate::smooth::smooth;
 use crate::stroke::{Kind, Stroke, StrokePoint};
 use crate::visibility::{Circumstances, OutlineGrid, Piece, Seen, Span};
-use crate::zero_set::{CornerNormals, PolygonOutline, SeenContour, zero_set};
+use crate::zero_set::{CornerNormals, PolygonOutline, SeenContour, runs_along_edge, zero_set};
 use glam::DVec3;
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
@@ -138,6 +138,7 @@ pub fn strokes(
         projector,
         settings,
         front: &front,
+        covered: Vec::new(),
     };
     let edge_contours = contours(shape, &front, &eye);
     let outlines = OutlineGrid::new(settings.size, view.outlines(&edge_contours));
@@ -158,6 +159,13 @@ pub fn strokes(
     let contour_runs = match &smooth_contours {
         Some((graph, lines)) => runs(shape, projector, graph, lines),
         None => runs(shape, projector, &edge_contours, &contour_lines),
+    };
+    let covered = smooth_contours
+        .as_ref()
+        .map(|(graph, lines)| covered_edges(graph, lines));
+    let view = View {
+        covered: covered.unwrap_or_default(),
+        ..view
     };
     let others = [&prepared.features, &prepared.crossings.graph];
     let other_runs = others
@@ -199,6 +207,8 @@ struct View<'a> {
     projector: &'a Projector,
     settings: &'a LineSettings,
     front: &'a [u8],
+    /// Edges that smooth contours run along, ascending; they need no other line.
+    covered: Vec<u32>,
 }
 
 impl View<'_> {
@@ -243,10 +253,12 @@ impl View<'_> {
             return node.flags & CurveNode::KINDS;
         }
         let flags = node.flags & feature;
-        // Smooth contours follow a crease only in part; what of it they cover goes as a double.
-        let on_edges =
-            self.settings.method == Method::Edges && self.settings.kinds & CurveNode::CONTOUR != 0;
-        let flags = kind_in_view(self.shape, self.front, node.edge, flags, on_edges);
+        // Smooth contours follow only some of the edges that turn away.
+        let has_line = match self.settings.method {
+            Method::Edges => self.settings.kinds & CurveNode::CONTOUR != 0,
+            Method::Surface => self.covered.binary_search(&node.edge).is_ok(),
+        };
+        let flags = kind_in_view(self.shape, self.front, node.edge, flags, has_line);
         let sides = self.shape.sides(node.edge);
         let backs = sides.iter().all(|side| self.front[*side as usize / 3] == 0);
         let unseen = !self.settings.hidden && !self.prepared.may_show_backs(self.shape, node.face);
@@ -411,6 +423,29 @@ impl View<'_> {
             piercings: Vec::new(),
         }
     }
+}
+
+/// Edges of which smooth contours show at least half, ascending.
+fn covered_edges(graph: &CurveGraph, lines: &[Option<Line>]) -> Vec<u32> {
+    let along = |(index, line): (usize, &Option<Line>)| {
+        let node = &graph.nodes[index];
+        let shown = line.is_some() && runs_along_edge(graph, index as u32);
+        let next = graph.nodes.get(node.next as usize).filter(|_| shown)?;
+        let end = match next.edge == node.edge {
+            true => next.t,
+            // The piece runs to the end of its edge where it does not stop on it: the farther one, for what is left is short.
+            false if node.t < 0.5 => 1.0,
+            false => 0.0,
+        };
+        Some((node.edge, (end - node.t).abs()))
+    };
+    let mut parts: Vec<(u32, f32)> = lines.iter().enumerate().filter_map(along).collect();
+    parts.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    parts
+        .chunk_by(|a, b| a.0 == b.0)
+        .filter(|parts| parts.iter().map(|part| part.1).sum::<f32>() >= 0.5)
+        .map(|parts| parts[0].0)
+        .collect()
 }
 
 /// The kind that a piece of several kinds is drawn as.
