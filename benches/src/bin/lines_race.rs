@@ -13,7 +13,7 @@ use npr_benches::timing::{Times, elapsed_ms};
 use npr_core::camera::Camera;
 use npr_render::{LineMethod, LineModel, LineModelOptions, LineOptions};
 use npr_scene::{LoadOptions, Scene, load};
-use npr_style::Style;
+use npr_style::{Style, WidthSource};
 use npr_vector::stroke::Drawing;
 use serde_json::{Value, json};
 
@@ -88,7 +88,9 @@ fn timed_draw(model: &LineModel, camera: &Camera) -> Outcome<(f64, Drawing)> {
         smooth: false,
         ..LineOptions::new(SIZE)
     };
-    let style = Style::default();
+    // Line Art's lines have one width; swelling with curvature would be more work than it does.
+    let mut style = Style::default();
+    style.line.width.source = WidthSource::Constant;
     let mut drawing = None;
     let ms = elapsed_ms(|| drawing = Some(model.draw(camera, &style, &options)));
     Ok((ms, drawing.transpose()?.unwrap_or_default()))

@@ -132,7 +132,7 @@ impl FaceTree {
         }
         let slab = Slab::new(eye, direction, self.extent);
         let mut stack = Vec::with_capacity(64);
-        if slab.meets(nodes[0].aabb()) {
+        if slab.enter(nodes[0].aabb()).is_finite() {
             stack.push(0);
         }
         while let Some(index) = stack.pop() {
@@ -146,11 +146,20 @@ impl FaceTree {
                 }
                 continue;
             }
-            for child in [node.first_index, node.first_index + 1] {
-                if slab.meets(nodes[child as usize].aabb()) {
-                    stack.push(child);
-                }
-            }
+            let [one, other] = [node.first_index, node.first_index + 1];
+            let [a, b] = [one, other].map(|child| slab.enter(nodes[child as usize].aabb()));
+            // The nearer child comes off the stack first: what hides a point is often close to the eye.
+            let order = if a <= b {
+                [(b, other), (a, one)]
+            } else {
+                [(a, one), (b, other)]
+            };
+            stack.extend(
+                order
+                    .iter()
+                    .filter(|(enter, _)| enter.is_finite())
+                    .map(|(_, child)| child),
+            );
         }
     }
 }
@@ -197,14 +206,19 @@ impl Slab {
         }
     }
 
-    fn meets(&self, b: &Aabb) -> bool {
+    /// Where the way enters a box, 0..1; infinite where it misses it.
+    fn enter(&self, b: &Aabb) -> f32 {
         let [low, high] = bounds(b);
         let low = (low - self.pad - self.origin) * self.inverse;
         let high = (high + self.pad - self.origin) * self.inverse;
         // The fourth components bound the way itself: it starts at 0 and ends at 1.
         let enter = low.min(high).with_w(0.0).max_element();
         let leave = low.max(high).with_w(1.0).min_element();
-        enter <= leave * 1.000_001
+        if enter <= leave * 1.000_001 {
+            enter
+        } else {
+            f32::INFINITY
+        }
     }
 }
 

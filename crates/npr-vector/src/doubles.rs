@@ -206,3 +206,63 @@ fn parts(run: &Run, doubled: &[bool]) -> Vec<Run> {
     }
     parts
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::testing::run_along;
+
+    /// A line of samples 1.5 px apart.
+    fn line(id: u64, from: [f64; 2], to: [f64; 2]) -> Run {
+        let count = (distance(from, to) / 1.5).ceil() as usize;
+        let at = |i: usize| {
+            let share = i as f64 / count as f64;
+            [0, 1].map(|k| from[k] + (to[k] - from[k]) * share)
+        };
+        run_along(id, &(0..=count).map(at).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn of_two_lines_side_by_side_the_longer_stays() {
+        let runs = vec![
+            line(1, [20.0, 1.5], [80.0, 1.5]),
+            line(2, [0.0, 0.0], [100.0, 0.0]),
+        ];
+        let kept = suppress(runs);
+        assert_eq!(kept.iter().map(|run| run.id).collect::<Vec<_>>(), [2]);
+    }
+
+    #[test]
+    fn lines_that_cross_or_keep_apart_stay_whole() {
+        let runs = vec![
+            line(1, [0.0, 0.0], [100.0, 0.0]),
+            line(2, [50.0, -40.0], [50.0, 40.0]),
+            line(3, [0.0, 5.0], [90.0, 5.0]),
+        ];
+        assert_eq!(suppress(runs.clone()), runs);
+    }
+
+    #[test]
+    fn only_the_part_beside_another_line_is_cut() {
+        // The second runs along the first for 40 px and then leaves it.
+        let mut bent = line(2, [0.0, 1.0], [40.0, 1.0]);
+        bent.points
+            .extend(line(2, [41.0, 2.0], [70.0, 40.0]).points);
+        let kept = suppress(vec![line(1, [-50.0, 0.0], [60.0, 0.0]), bent.clone()]);
+        assert_eq!(kept.len(), 2);
+        assert!(kept[1].length() < 0.75 * bent.length() && kept[1].length() > 40.0);
+        let last = kept[1].points[kept[1].points.len() - 1];
+        assert_eq!(last.place, bent.points[bent.points.len() - 1].place);
+    }
+
+    #[test]
+    fn a_line_that_turns_back_on_itself_is_inked_once() {
+        let mut hairpin = line(1, [0.0, 0.0], [60.0, 0.0]);
+        hairpin
+            .points
+            .extend(line(1, [60.0, 1.5], [0.0, 1.5]).points);
+        let kept = suppress(vec![hairpin]);
+        let length: f64 = kept.iter().map(Run::length).sum();
+        assert!(length < 90.0, "{length}");
+    }
+}

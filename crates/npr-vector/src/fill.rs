@@ -83,7 +83,7 @@ fn border([width, height]: [u32; 2]) -> [[Point; 2]; 4] {
     std::array::from_fn(|i| [corners[i], corners[(i + 1) % 4]])
 }
 
-/// The part of a segment inside the picture [Liang and Barsky 1984].
+/// The part of a segment inside the picture [Liang & Barsky 1984].
 fn clipped(size: [u32; 2], [a, b]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     if ![a, b].as_flattened().iter().all(|v| v.is_finite()) {
         return None;

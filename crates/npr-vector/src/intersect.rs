@@ -1,7 +1,7 @@
 //! Lines where surfaces cut through each other, and places where mesh edges go through faces.
 //!
 //! Which edge pierces which face is decided once, by exact signs of volumes, with ties broken as if every
-//! coordinate were moved by an infinitesimal of its own [Edelsbrunner and Muecke 1990]. Moved so, two faces have
+//! coordinate were moved by an infinitesimal of its own [Edelsbrunner & Mücke 1990]. Moved so, two faces have
 //! nothing or one segment in common, and segments of neighbouring faces share their ends: lines never
 //! break at mesh edges, and on closed surfaces they close.
 //!

@@ -188,3 +188,59 @@ fn extend(run: &mut Run, more: &Run) {
     run.id = run.id.min(more.id);
     run.occluders = run.occluders.min(more.occluders);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::testing::run_along;
+    use crate::stroke::Kind;
+
+    #[test]
+    fn ends_that_go_on_are_joined() {
+        let runs = vec![
+            run_along(1, &[[0.0, 0.0], [20.0, 0.0]]),
+            run_along(2, &[[22.0, 0.5], [40.0, 0.0]]),
+        ];
+        let joined = merge_ends(runs, TOUCHING_PX);
+        assert_eq!(joined.len(), 1);
+        assert_eq!((joined[0].id, joined[0].points.len()), (1, 4));
+    }
+
+    #[test]
+    fn a_corner_another_object_or_another_kind_keeps_ends_apart() {
+        let one = run_along(1, &[[0.0, 0.0], [20.0, 0.0]]);
+        let turned = run_along(2, &[[20.0, 0.0], [20.0, 20.0]]);
+        let straight = run_along(3, &[[20.0, 0.0], [40.0, 0.0]]);
+        let object = Run {
+            object: 7,
+            ..straight.clone()
+        };
+        let kind = Run {
+            kind: Kind::Crease,
+            ..straight.clone()
+        };
+        for other in [turned, object, kind] {
+            assert_eq!(merge_ends(vec![one.clone(), other], TOUCHING_PX).len(), 2);
+        }
+        assert_eq!(merge_ends(vec![one, straight], TOUCHING_PX).len(), 1);
+    }
+
+    #[test]
+    fn the_two_ends_of_a_ring_close_it() {
+        let points: Vec<[f64; 2]> = (0..200)
+            .map(|i| f64::from(i) * std::f64::consts::TAU / 200.0)
+            .map(|a| [100.0 + 60.0 * a.cos(), 100.0 + 60.0 * a.sin()])
+            .collect();
+        let joined = merge_ends(vec![run_along(1, &points)], TOUCHING_PX);
+        assert!(joined[0].closed);
+    }
+
+    #[test]
+    fn across_a_gap_ends_must_face_each_other() {
+        let one = run_along(1, &[[0.0, 0.0], [20.0, 0.0]]);
+        let facing = run_along(2, &[[26.0, 0.0], [50.0, 0.0]]);
+        let beside = run_along(3, &[[20.0, 6.0], [50.0, 6.0]]);
+        assert_eq!(merge_ends(vec![one.clone(), facing], FACING_PX).len(), 1);
+        assert_eq!(merge_ends(vec![one, beside], FACING_PX).len(), 2);
+    }
+}

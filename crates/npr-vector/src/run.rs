@@ -344,3 +344,30 @@ fn number(runs: &mut [Run]) {
         runs[index].id = id << 8 | ordinal;
     }
 }
+
+/// Runs for tests of what follows.
+#[cfg(test)]
+pub(crate) mod testing {
+    use super::*;
+
+    /// An open contour through places of the picture, all at depth 1.
+    pub fn run_along(id: u64, places: &[[f64; 2]]) -> Run {
+        let point = |place: &[f64; 2]| RunPoint {
+            place: *place,
+            depth: 1.0,
+            world: DVec3::new(place[0], place[1], 0.0),
+            edge: 0,
+            t: 0.0,
+        };
+        Run {
+            id,
+            kind: Kind::Contour,
+            surface: 0,
+            object: 0,
+            occluders: 0,
+            closed: false,
+            weight: 1.0,
+            points: places.iter().map(point).collect(),
+        }
+    }
+}

@@ -202,3 +202,69 @@ fn relax_loop(places: &mut [[f64; 2]]) {
 fn stepped(before: [f64; 2], here: [f64; 2], after: [f64; 2], step: f64) -> [f64; 2] {
     [0, 1].map(|i| here[i] + step * ((before[i] + after[i]) * 0.5 - here[i]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::testing::run_along;
+    use proptest::prelude::*;
+
+    fn circle(radius: f64, noise: f64) -> Vec<[f64; 2]> {
+        let count = (radius * 2.0) as usize;
+        (0..count)
+            .map(|i| {
+                let a = i as f64 * std::f64::consts::TAU / count as f64;
+                let r = radius + if i % 2 == 0 { noise } else { -noise };
+                [200.0 + r * a.cos(), 200.0 + r * a.sin()]
+            })
+            .collect()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        /// Zigzags of up to a pixel go, and the circle keeps its size.
+        #[test]
+        fn smoothing_does_not_shrink(radius in 20.0_f64..150.0, noise in 0.0_f64..1.0) {
+            let run = Run { closed: true, ..run_along(1, &circle(radius, noise)) };
+            let smooth = smoothed(&run.points, true);
+            let mean = smooth
+                .iter()
+                .map(|p| distance(p.place, [200.0; 2]))
+                .sum::<f64>() / smooth.len() as f64;
+            prop_assert!((mean - radius).abs() < 0.25 + noise * 0.15, "{} for {}", mean, radius);
+            for point in &smooth {
+                let off = (distance(point.place, [200.0; 2]) - radius).abs();
+                prop_assert!(off < 0.5 + noise * 0.6, "{}", off);
+            }
+        }
+
+        /// Ends and corners stay where they are.
+        #[test]
+        fn ends_and_corners_are_pinned(turn in 1.2_f64..2.5, length in 30.0_f64..200.0) {
+            let corner = [100.0, 100.0];
+            let end = [100.0 + length * turn.cos(), 100.0 + length * turn.sin()];
+            let run = run_along(1, &[[100.0 - length, 100.0], corner, end]);
+            let smooth = smoothed(&run.points, false);
+            prop_assert_eq!(smooth[0].place, [100.0 - length, 100.0]);
+            prop_assert!(distance(smooth[smooth.len() - 1].place, end) < 1e-9);
+            let nearest = smooth
+                .iter()
+                .map(|p| distance(p.place, corner))
+                .fold(f64::MAX, f64::min);
+            prop_assert!(nearest < 1.0, "{}", nearest);
+        }
+    }
+
+    #[test]
+    fn specks_are_left_out_and_short_lines_thinned() {
+        let mut runs = vec![
+            run_along(1, &[[0.0, 0.0], [2.0, 0.0]]),
+            run_along(2, &[[0.0, 9.0], [6.0, 9.0]]),
+            run_along(3, &[[0.0, 20.0], [90.0, 20.0]]),
+        ];
+        smooth(&mut runs);
+        assert_eq!(runs.len(), 2);
+        assert!(runs[0].weight < 0.95 && runs[1].weight == 1.0);
+    }
+}

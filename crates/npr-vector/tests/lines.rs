@@ -345,3 +345,82 @@ fn a_plate_hides_what_is_behind_it() {
     assert!(behind.clone().all(|s| s.kind != Kind::Boundary));
     assert!(behind.clone().any(|s| s.occluders == 1), "{all:?}");
 }
+
+#[test]
+fn materials_meet_in_a_line() {
+    let mesh = testing::plane(2, 2);
+    let mut shape = Shape {
+        surfaces: (0..2)
+            .map(|material| Surface {
+                material,
+                ..Surface::default()
+            })
+            .collect(),
+        ..Shape::default()
+    };
+    let surfaces: Vec<u32> = mesh
+        .triangles()
+        .iter()
+        .map(|t| {
+            let middle: f32 = t.iter().map(|v| mesh.positions()[*v as usize][0]).sum();
+            u32::from(middle > 1.5)
+        })
+        .collect();
+    assert!(surfaces.contains(&0) && surfaces.contains(&1));
+    let placed = PlacedMesh {
+        rest: mesh.positions(),
+        world: mesh.positions(),
+        triangles: mesh.triangles(),
+        surfaces: &surfaces,
+        ..PlacedMesh::default()
+    };
+    add_mesh(&mut shape, &placed, 0.0);
+    let found = draw(&shape, [0.5, 0.5, 4.0], &settings(false));
+    assert!(found.iter().any(|stroke| stroke.kind == Kind::Material));
+    let without = LineSettings {
+        kinds: CurveNode::CONTOUR | CurveNode::BOUNDARY,
+        ..settings(false)
+    };
+    let found = draw(&shape, [0.5, 0.5, 4.0], &without);
+    assert!(found.iter().all(|stroke| stroke.kind == Kind::Boundary));
+}
+
+/// A square before the right half of a bar hides it from exactly where its edge stands in the picture.
+#[test]
+fn a_line_breaks_where_an_outline_crosses_it() {
+    let bar = testing::mapped(&testing::plane(1, 1), |[x, y, _]| {
+        [2.0 * x - 1.0, 0.1 * y, 0.0]
+    });
+    let square = testing::mapped(&testing::plane(1, 1), |[x, y, _]| {
+        [0.25 + 2.0 * x, 2.0 * y - 1.0, 1.0]
+    });
+    let mut shape = shape_of(&bar);
+    add(&mut shape, &square);
+    let eye = [0.0, 0.0, 5.0];
+    let found = draw(&shape, eye, &settings(false));
+    // The square's left edge, at x = 0.25 and depth 4.
+    let edge_px = 200.0 + 150.0 / 0.35_f64.tan() * 0.25 / 4.0;
+    let ends: Vec<f64> = found
+        .iter()
+        .filter(|stroke| stroke.points[0].depth > 4.5)
+        .flat_map(|stroke| [stroke.points[0], stroke.points[stroke.points.len() - 1]])
+        .map(|point| point.position[0])
+        .collect();
+    assert_eq!(ends.len(), 2, "one open line, cut twice: {ends:?}");
+    assert!(ends.iter().all(|x| (x - edge_px).abs() < 1e-3), "{ends:?}");
+}
+
+/// The front of a contour lies to its left as seen in the world from outside: to the right of the line on the page.
+#[test]
+fn contours_keep_their_front_on_one_side() {
+    let shape = shape_of(&testing::icosphere(3));
+    let eye = Eye::new([0.0, 0.0, 4.0, 1.0], 8.0);
+    let front = facing(&shape, &eye);
+    let graph = contours(&shape, &front, &eye);
+    assert!(!graph.nodes.is_empty());
+    for (index, node) in graph.nodes.iter().enumerate() {
+        let [a, b] = [index as u32, node.next].map(|n| graph.position(&shape, n));
+        // Counter-clockwise round the axis towards the eye, as front faces are.
+        assert!(a[0] * b[1] - a[1] * b[0] > 0.0);
+    }
+}

@@ -1,7 +1,7 @@
 //! On which side of a plane a vertex lies, decided exactly and never as "on it".
 //!
 //! Every coordinate is taken to be moved by an infinitesimal of its own, so no four vertices share a plane and
-//! every question has an answer that agrees with all the others [Edelsbrunner and Muecke 1990, simulation of
+//! every question has an answer that agrees with all the others [Edelsbrunner & Mücke 1990, simulation of
 //! simplicity].
 
 use robust::{Coord, Coord3D, orient2d, orient3d};
