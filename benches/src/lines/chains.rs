@@ -269,7 +269,7 @@ fn path(run: &[Sample]) -> Vec<[f64; 2]> {
     points
 }
 
-/// The runs of one chain joined across gaps of up to [`JOINED_PX`], without those that stay shorter than that.
+/// The runs of one chain joined across gaps of up to 3 pixels, without those that stay shorter than that.
 ///
 /// Contours of fine meshes zigzag in and out of sight within a pixel; nobody draws each tooth as a stroke of its own.
 pub fn joined(runs: &[Run]) -> Vec<Run> {

@@ -72,7 +72,7 @@ impl FaceTree {
 
     /// Number of faces between the eye and a point, without those in `skip`; counting stops at `limit`.
     ///
-    /// A face counts where the way passes through it, borders included, before [`NEARER`] of the point. About
+    /// A face counts where the way passes through it before [`NEARER`] of the point; of two faces that share an edge that it passes, one does. About
     /// O(log n) for a point on an open surface.
     pub fn occluders(&self, shape: &Shape, sight: &Sight, skip: &[u32], limit: u32) -> u32 {
         let (eye, point) = (DVec3::from(sight.eye), DVec3::from(sight.point));
@@ -239,9 +239,12 @@ fn crossing(shape: &Shape, face: u32, eye: DVec3, direction: DVec3) -> Option<f6
     let u = direction.dot(c.cross(b));
     let v = direction.dot(a.cross(c));
     let w = direction.dot(b.cross(a));
-    let inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+    let [i, j, k] = shape.faces[face as usize];
+    // A way through an edge itself is on the side that the order of its vertices says, so of two faces it passes one.
+    let left = |side: f64, from: u32, to: u32| side > 0.0 || (side == 0.0 && from < to);
+    let sides = [left(u, j, k), left(v, k, i), left(w, i, j)];
     let sum = u + v + w;
-    if !inside || sum == 0.0 {
+    if sides != [sides[0]; 3] || sum == 0.0 {
         return None;
     }
     let place = (a * u + b * v + c * w) / sum;

@@ -45,8 +45,8 @@ pub enum FillError {
 /// being background, which becomes no region. Places are not on lines and at least one lies in every
 /// triangle between them.
 ///
-/// A line that ends in nothing encloses nothing: two areas that meet through a gap are one. Areas side by side
-/// with the same surface become one region; a line that runs inside it leaves no trace.
+/// A line that ends in nothing encloses nothing. Where two areas meet through a gap in a line, their colours meet there too, near the line
+/// that is missing. Areas side by side with the same surface become one region; a line that runs inside it leaves no trace.
 ///
 /// Rings run clockwise as seen in the picture around what they enclose, holes the other way, and may touch themselves
 /// in single points. Regions come in the order of their topmost points. The same for any number of threads.
@@ -112,7 +112,13 @@ fn clipped(size: [u32; 2], [a, b]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     (from <= to && ends.as_flattened().iter().all(|v| v.is_finite())).then_some(ends)
 }
 
-/// For every triangle the surface that most of its area shows.
+/// Share of an area that must show one surface for all of it to count as that; under it, lines have let two areas run together.
+const WHOLE_SHARE: f64 = 0.97;
+
+/// For every triangle the surface that its area shows; where an area shows several, what the triangle itself shows.
+///
+/// Specks in an area are noise along its lines. But where an outline has a gap, two areas are one, and the majority would paint the
+/// smaller away: there colours meet between triangles, close to where the line should be.
 fn labels(map: &Map, surface_at: &(dyn Fn([f64; 2]) -> Option<u32> + Sync)) -> Vec<Option<u32>> {
     let seen: Vec<Option<u32>> = map
         .triangles
@@ -129,13 +135,20 @@ fn labels(map: &Map, surface_at: &(dyn Fn([f64; 2]) -> Option<u32> + Sync)) -> V
         *votes.entry((*area, *label)).or_default() += map.area(triangle);
     }
     let mut winners: Vec<(i64, Option<u32>)> = vec![(0, None); areas.len()];
+    let mut sizes = vec![0_i64; areas.len()];
     for ((area, label), size) in votes {
         let winner = &mut winners[area as usize];
+        sizes[area as usize] += size;
         if size > winner.0 {
             *winner = (size, label);
         }
     }
-    areas.iter().map(|area| winners[*area as usize].1).collect()
+    let label_of = |(triangle, area): (usize, &u32)| {
+        let (size, label) = winners[*area as usize];
+        let is_whole = size as f64 >= WHOLE_SHARE * sizes[*area as usize] as f64;
+        if is_whole { label } else { seen[triangle] }
+    };
+    areas.iter().enumerate().map(label_of).collect()
 }
 
 /// Connected triangles with the same surface, as rings.

