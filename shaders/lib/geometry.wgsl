@@ -34,6 +34,12 @@ struct Triangle {
     part: u32,
 }
 
+struct ChartCorners {
+    a: vec2<f32>,
+    b: vec2<f32>,
+    c: vec2<f32>,
+}
+
 struct Edge {
     ends: vec2<u32>,
     faces: vec2<u32>,
@@ -47,6 +53,7 @@ const EDGE_FLIPPED: u32 = 2u;
 struct Part {
     base_color: vec4<f32>,
     line_color: vec4<f32>,
+    ink_color: vec4<f32>,
     object: u32,
     material: u32,
     texture: u32,
@@ -55,6 +62,22 @@ struct Part {
     facing_threshold: f32,
     alpha_cutoff: f32,
     softness: f32,
+    hatch: u32,
+    dark_at: f32,
+    light_at: f32,
+    threshold: f32,
+    spacing_px: f32,
+    hatch_gain: f32,
+    second_from: f32,
+    tile_scale: f32,
+    turn: vec2<f32>,
+    unused: vec2<f32>,
+    highlight_color: vec4<f32>,
+    back_color: vec4<f32>,
+    highlight: vec4<f32>,
+    highlight_shape: vec4<f32>,
+    highlight_turn: vec4<f32>,
+    back: vec4<f32>,
     ramp: array<vec4<f32>, 8>,
 }
 
@@ -62,6 +85,18 @@ const PART_DOUBLE_SIDED: u32 = 1u;
 const PART_CUTOUT: u32 = 2u;
 const PART_LINES: u32 = 4u;
 const PART_UNLIT: u32 = 8u;
+const PART_INK: u32 = 16u;
+const PART_HATCH: u32 = 32u;
+const PART_ON_SCREEN: u32 = 64u;
+const PART_ON_SURFACE: u32 = 128u;
+const PART_ISOTROPIC: u32 = 256u;
+const PART_TWO_LAYERS: u32 = 512u;
+const PART_CRISP: u32 = 1024u;
+const PART_SOFT: u32 = 2048u;
+const PART_PHONG: u32 = 4096u;
+const PART_BACK_LIGHT: u32 = 8192u;
+const PART_STREAK: u32 = 16384u;
+const PART_HIGHLIGHTS: u32 = 27648u;
 
 struct GPixel {
     plane_step: vec2<f32>,

@@ -1,9 +1,9 @@
-// shade.compose_frame: surfaces shaded by their ramps, lines over them, background behind.
+// shade.compose_frame: surfaces shaded by their ramps, ink and lines over them, background behind.
 //
 // Several samples per pixel say which triangles it shows; each triangle is shaded once,
 // at the middle of its samples. Light is summed linearly and encoded at the end.
 //
-// Source  Suzuki 2004, section 3.2 (B14-B16) for the ramp; Porter & Duff 1984 for the layers
+// Source  Suzuki 2004, sections 3.2 and 3.3, for ramp, ink and hatching; Porter & Duff 1984 for the layers
 // Twin    npr_style::compose::compose
 //
 //# use lib/grid
@@ -17,8 +17,8 @@ override WG: u32 = 64u;
 
 @group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(1) var<uniform> window: Window;
-@group(0) @binding(2) var<uniform> mask_window: Window;
-@group(0) @binding(3) var<uniform> compose: Compose;
+@group(0) @binding(2) var<uniform> compose: Compose;
+@group(0) @binding(3) var<uniform> lights: Lights;
 @group(0) @binding(4) var ids: texture_2d<u32>;
 @group(0) @binding(5) var ribbons: texture_2d<f32>;
 @group(0) @binding(6) var<storage, read> posed: array<PosedVertex>;
@@ -26,13 +26,14 @@ override WG: u32 = 64u;
 @group(0) @binding(8) var<storage, read> triangles: array<Triangle>;
 @group(0) @binding(9) var<storage, read> parts: array<Part>;
 @group(0) @binding(10) var<storage, read> texels: array<u32>;
-@group(0) @binding(11) var<storage, read> mask: array<u32>;
-@group(0) @binding(12) var<storage, read> stamped: array<u32>;
+@group(0) @binding(11) var<storage, read> charts: array<ChartCorners>;
+@group(0) @binding(12) var<storage, read> overlay: array<u32>;
 @group(0) @binding(13) var<storage, read_write> frame: array<u32>;
 
 //# use lib/texture
-
-const MASK_KINDS: u32 = 47u;
+//# use lib/lighting
+//# use lib/inking
+//# use lib/gloss
 
 // How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
 const TONE_ROOM: f32 = 0.002;
@@ -40,6 +41,7 @@ const TONE_ROOM: f32 = 0.002;
 struct Corners {
     clip: array<vec4<f32>, 3>,
     normals: array<vec3<f32>, 3>,
+    world: array<vec3<f32>, 3>,
     // 1 where the front is seen, -1 where the back is.
     side: f32,
 }
@@ -51,71 +53,105 @@ fn corners_of(triangle: Triangle) -> Corners {
     var corners: Corners;
     corners.clip = array<vec4<f32>, 3>(a.clip, b.clip, c.clip);
     corners.normals = array<vec3<f32>, 3>(a.normal, b.normal, c.normal);
+    corners.world = array<vec3<f32>, 3>(a.world, b.world, c.world);
     corners.side = select(-1.0, 1.0, faces_eye(corners.clip));
     return corners;
 }
 
+fn normal_of(corners: Corners, weights: vec3<f32>) -> vec3<f32> {
+    return unit_or_z(blend3(weights, corners.normals[0], corners.normals[1], corners.normals[2])) * corners.side;
+}
+
+fn world_of(corners: Corners, weights: vec3<f32>) -> vec3<f32> {
+    return blend3(weights, corners.world[0], corners.world[1], corners.world[2]);
+}
+
+// What light and ink make of a surface.
+struct Tone {
+    light: vec3<f32>,
+    // How much of it is inked, 0..1.
+    ink: f32,
+    // Whether it is the same all over the triangle.
+    whole: bool,
+}
+
 // Light of a ramp at coordinate `x`: each step takes over where its coordinate begins.
 fn ramp_light(part: u32, x: f32) -> vec3<f32> {
+    let half = parts[part].softness * 0.5;
     var light = parts[part].ramp[0].rgb;
     for (var i = 1u; i < 8u; i++) {
         let stop = parts[part].ramp[i];
         if stop.a > 1.5 { break; }
-        light += (stop.rgb - light) * step_share(stop.a, parts[part].softness, x);
+        light += (stop.rgb - light) * smooth_step(stop.a - half, stop.a + half, x);
     }
     return light;
 }
 
-fn step_share(at: f32, softness: f32, x: f32) -> f32 {
-    if softness <= 0.0 { return select(0.0, 1.0, x >= at); }
-    let t = clamp((x - at) / softness + 0.5, 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
-}
-
-fn ramp_coordinate(normal: vec3<f32>) -> f32 {
-    return (dot(normal, compose.light_world) + 1.0) * 0.5;
-}
-
-// Whether the whole triangle lies within one tone.
-fn is_one_tone(part: u32, corners: Corners) -> bool {
-    if (parts[part].flags & PART_UNLIT) != 0u { return true; }
-    let a = ramp_coordinate(corners.normals[0] * corners.side);
-    let b = ramp_coordinate(corners.normals[1] * corners.side);
-    let c = ramp_coordinate(corners.normals[2] * corners.side);
+// Lowest and highest ramp coordinate that a triangle can have anywhere, where the normal alone decides.
+fn coordinate_range(corners: Corners) -> vec2<f32> {
+    let towards = lights.sources[0].direction;
+    let a = ramp_coordinate(dot(corners.normals[0], towards) * corners.side);
+    let b = ramp_coordinate(dot(corners.normals[1], towards) * corners.side);
+    let c = ramp_coordinate(dot(corners.normals[2], towards) * corners.side);
     // A blend of normals that is made unit again bulges beyond them by at most what they differ.
     let apart = min(
         dot(corners.normals[0], corners.normals[1]),
         min(dot(corners.normals[1], corners.normals[2]), dot(corners.normals[2], corners.normals[0])),
     );
-    let room = TONE_ROOM + 0.5 * (1.0 - apart) + parts[part].softness * 0.5;
-    let low = min(a, min(b, c)) - room;
-    let high = max(a, max(b, c)) + room;
+    let room = TONE_ROOM + 0.5 * (1.0 - apart);
+    return vec2<f32>(min(a, min(b, c)) - room, max(a, max(b, c)) + room);
+}
+
+// The tone of a triangle that lies within one as a whole.
+fn one_tone(part: u32, corners: Corners) -> Tone {
+    var tone: Tone;
+    tone.whole = false;
+    let flags = parts[part].flags;
+    if (compose.flags & COMPOSE_ANGLE) != 0u || (flags & PART_HIGHLIGHTS) != 0u { return tone; }
+    if (flags & (PART_UNLIT | PART_INK | PART_HATCH)) == PART_UNLIT {
+        tone.light = vec3<f32>(1.0);
+        tone.whole = true;
+        return tone;
+    }
+    if !only_distant() { return tone; }
+    let range = coordinate_range(corners);
+    let reach = parts[part].softness * 0.5;
     for (var i = 1u; i < 8u; i++) {
         let at = parts[part].ramp[i].a;
-        if at > low && at <= high { return false; }
+        if (flags & PART_UNLIT) == 0u && at > range.x - reach && at <= range.y + reach { return tone; }
     }
-    return true;
+    tone.light = light_of(part, corners.world[0], corners.normals[0] * corners.side);
+    tone.ink = ink_over(part, range);
+    tone.whole = tone.ink >= 0.0;
+    return tone;
 }
 
-// Light on a surface that faces along `normal`.
-fn light_of(part: u32, normal: vec3<f32>) -> vec3<f32> {
+// Light on a surface at `world` that faces along `normal`.
+fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     if (parts[part].flags & PART_UNLIT) != 0u { return vec3<f32>(1.0); }
-    return ramp_light(part, ramp_coordinate(normal));
+    let lit = coordinate_at(world, normal);
+    return ramp_light(part, lit.x) * lit.color;
 }
 
-// Tone and ink at one point: rgb light, alpha 1 where the surface-angle method draws a line.
-fn tone_at(triangle: Triangle, corners: Corners, frame_px: vec2<f32>) -> vec4<f32> {
+// Light at one point, 1 in alpha where the surface-angle method draws a line, and what highlights add.
+struct Sampled {
+    tone: vec4<f32>,
+    gloss: vec3<f32>,
+}
+
+fn tone_at(triangle: Triangle, corners: Corners, frame_px: vec2<f32>) -> Sampled {
     let weights = weights_at(corners.clip, ndc_at(view, frame_px));
-    let normal = unit_or_z(blend3(weights, corners.normals[0], corners.normals[1], corners.normals[2]))
-        * corners.side;
-    let light = light_of(triangle.part, normal);
+    let normal = normal_of(corners, weights);
+    let world = world_of(corners, weights);
+    let light = light_of(triangle.part, world, normal);
     var ink = 0.0;
     if (compose.flags & COMPOSE_ANGLE) != 0u && (parts[triangle.part].flags & PART_LINES) != 0u {
-        let world = blend3(weights, posed[triangle.corners.x].world, posed[triangle.corners.y].world,
-            posed[triangle.corners.z].world);
         if abs(dot(normal, to_eye(view, world))) < parts[triangle.part].facing_threshold { ink = 1.0; }
     }
-    return vec4<f32>(light, ink);
+    var sampled: Sampled;
+    sampled.tone = vec4<f32>(light, ink);
+    sampled.gloss = highlights_at(triangle.part, world, normal);
+    return sampled;
 }
 
 fn vertex_color(index: u32) -> vec3<f32> {
@@ -138,9 +174,21 @@ fn base_color(triangle: Triangle, corners: Corners, frame_px: vec2<f32>) -> vec3
         let footprint = sqrt(max(dx.x * dx.x + dx.y * dx.y, dy.x * dy.x + dy.y * dy.y));
         color *= sample_texture(texture, uv, footprint).rgb;
     }
+    return color;
+}
+
+// A colour as strong as the style wants it.
+fn strengthened(color: vec3<f32>) -> vec3<f32> {
     if compose.saturation == 1.0 { return color; }
     let luma = dot(color, vec3<f32>(0.2126, 0.7152, 0.0722));
     return max(vec3<f32>(luma) + (color - luma) * compose.saturation, vec3<f32>(0.0));
+}
+
+// A surface's colour in a tone, with the ink over it.
+fn toned(part: u32, color: vec3<f32>, tone: Tone) -> vec3<f32> {
+    let lit = strengthened(color) * tone.light;
+    let ink = parts[part].ink_color;
+    return lit + (ink.rgb - lit) * (tone.ink * ink.a);
 }
 
 fn uv_at(triangle: Triangle, weights: vec3<f32>) -> vec2<f32> {
@@ -169,18 +217,22 @@ fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
         if (members & (1u << i)) != 0u { center += sample_offset(i) / count; }
     }
     let corners = corners_of(triangle);
-    var tone = vec4<f32>(0.0);
-    if (compose.flags & COMPOSE_ANGLE) == 0u && is_one_tone(triangle.part, corners) {
-        tone = vec4<f32>(light_of(triangle.part, corners.normals[0] * corners.side), 0.0);
-    } else {
-        for (var i = 0u; i < 4u; i++) {
-            if (members & (1u << i)) != 0u {
-                tone += tone_at(triangle, corners, frame_px + sample_offset(i)) / count;
-            }
+    let color = base_color(triangle, corners, frame_px + center);
+    var tone = one_tone(triangle.part, corners);
+    if tone.whole { return toned(triangle.part, color, tone); }
+    var sum = vec4<f32>(0.0);
+    var gloss = vec3<f32>(0.0);
+    for (var i = 0u; i < 4u; i++) {
+        if (members & (1u << i)) != 0u {
+            let sampled = tone_at(triangle, corners, frame_px + sample_offset(i));
+            sum += sampled.tone / count;
+            gloss += sampled.gloss / count;
         }
     }
-    let color = base_color(triangle, corners, frame_px + center) * tone.rgb;
-    return color + (line - color) * tone.a;
+    tone.light = sum.rgb;
+    tone.ink = ink_at(id, triangle.part, corners, frame_px + center);
+    let inked = toned(triangle.part, color, tone) + gloss;
+    return inked + (line - inked) * sum.a;
 }
 
 // The surfaces of a pixel, premultiplied.
@@ -241,17 +293,11 @@ fn main(
     let surface = surfaces(pixel, frame_px);
     var color = surface;
     if surface.a < 1.0 { color += background(frame_px) * (1.0 - surface.a); }
-    if (compose.flags & COMPOSE_MASK) != 0u {
-        let at = pixel_at(mask_window, frame_px);
-        if (mask[at.y * mask_window.size.x + at.x] & MASK_KINDS) != 0u {
-            color = over(linear_of(compose.line_color), color);
-        }
-    }
     if (compose.flags & COMPOSE_RIBBONS) != 0u {
         color = over(linear_of(textureLoad(ribbons, pixel, 0)), color);
     }
-    if (compose.flags & COMPOSE_STAMPS) != 0u {
-        color = over(linear_texel(stamped[element]), color);
+    if (compose.flags & COMPOSE_OVERLAY) != 0u {
+        color = over(linear_texel(overlay[element]), color);
     }
     let straight = color.rgb / max(color.a, 1e-6);
     frame[element] = pack_rgba8(vec4<f32>(

@@ -90,6 +90,8 @@ shaders! {
     VECTOR_TURN_RANKS = "vector/turn_ranks";
     /// Puts the nodes of all chains in a row.
     VECTOR_ORDER_NODES = "vector/order_nodes";
+    /// Draws the mask itself.
+    LINE_DRAW_MASK = "line/draw_mask";
     /// Shades surfaces and lays lines over them.
     SHADE_COMPOSE_FRAME = "shade/compose_frame";
 }
@@ -110,6 +112,9 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/stamp", include_str!("../lib/stamp.wgsl")),
     ("lib/color", include_str!("../lib/color.wgsl")),
     ("lib/compose", include_str!("../lib/compose.wgsl")),
+    ("lib/gloss", include_str!("../lib/gloss.wgsl")),
+    ("lib/inking", include_str!("../lib/inking.wgsl")),
+    ("lib/lighting", include_str!("../lib/lighting.wgsl")),
     ("lib/ribbon", include_str!("../lib/ribbon.wgsl")),
 ];
 

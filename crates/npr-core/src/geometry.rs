@@ -94,6 +94,19 @@ pub struct Triangle {
 }
 gpu_layout!(Triangle { corners, part });
 
+/// Where the corners of a triangle lie in its stroke chart: tiles across and along the strokes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct ChartCorners {
+    /// Of the first corner.
+    pub a: [f32; 2],
+    /// Of the second.
+    pub b: [f32; 2],
+    /// Of the third.
+    pub c: [f32; 2],
+}
+gpu_layout!(ChartCorners { a, b, c });
+
 /// A unique mesh edge between two stored vertices that stand for their welded positions.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
@@ -129,13 +142,15 @@ pub struct Part {
     pub base_color: [f32; 4],
     /// Colour of its lines, sRGB, straight alpha.
     pub line_color: [f32; 4],
+    /// Colour of its ink and hatching, linear light; alpha is how much it covers.
+    pub ink_color: [f32; 4],
     /// Object number, equal for all parts of one object.
     pub object: u32,
     /// Material number.
     pub material: u32,
     /// Where its base colour texture's header starts in the texture store, or [`NONE`].
     pub texture: u32,
-    /// Bits of [`Part::DOUBLE_SIDED`], [`Part::CUTOUT`], [`Part::LINES`], [`Part::UNLIT`].
+    /// Bits of [`Part::DOUBLE_SIDED`] to [`Part::STREAK`].
     pub flags: u32,
     /// Factor on the line width.
     pub width_factor: f32,
@@ -145,12 +160,45 @@ pub struct Part {
     pub alpha_cutoff: f32,
     /// Width of a tone step in ramp coordinate; 0 is a hard step.
     pub softness: f32,
+    /// Where its hatch tile's header starts in the texture store, or [`NONE`].
+    pub hatch: u32,
+    /// Ramp coordinate up to which the shade ramp of ink is black.
+    pub dark_at: f32,
+    /// Ramp coordinate from which it is white.
+    pub light_at: f32,
+    /// Value under which hatch plus tone is ink.
+    pub threshold: f32,
+    /// Distance between hatch strokes, in frame pixels.
+    pub spacing_px: f32,
+    /// Steepness of strokes from their middle outwards; 1 as the tile has them.
+    pub hatch_gain: f32,
+    /// Share of ink from which the second layer of strokes joins in.
+    pub second_from: f32,
+    /// Hatch tiles per unit of the mapping's coordinate.
+    pub tile_scale: f32,
+    /// Cosine and sine of the angle by which hatch coordinates are turned.
+    pub turn: [f32; 2],
+    /// Keeps rows of 16 bytes.
+    pub unused: [f32; 2],
+    /// Colour of its highlight and streak, linear light; alpha is the strength.
+    pub highlight_color: [f32; 4],
+    /// Colour of the light from behind, linear light; alpha is the strength.
+    pub back_color: [f32; 4],
+    /// Exponent, threshold and gradient factor of the highlight; place of the streak, in radii of the model.
+    pub highlight: [f32; 4],
+    /// Shift along both axes, stretch and squareness of the highlight.
+    pub highlight_shape: [f32; 4],
+    /// Cosine and sine of the turn of its axes; gaps along both.
+    pub highlight_turn: [f32; 4],
+    /// Where on its ramp the light from behind begins and is full; width of the streak in radii; |n.v| above which it shows.
+    pub back: [f32; 4],
     /// Tone steps: linear light rgb from coordinate `a` upwards; unused ones start at 2.
     pub ramp: [[f32; 4]; 8],
 }
 gpu_layout!(Part {
     base_color,
     line_color,
+    ink_color,
     object,
     material,
     texture,
@@ -159,6 +207,22 @@ gpu_layout!(Part {
     facing_threshold,
     alpha_cutoff,
     softness,
+    hatch,
+    dark_at,
+    light_at,
+    threshold,
+    spacing_px,
+    hatch_gain,
+    second_from,
+    tile_scale,
+    turn,
+    unused,
+    highlight_color,
+    back_color,
+    highlight,
+    highlight_shape,
+    highlight_turn,
+    back,
     ramp,
 });
 
@@ -171,6 +235,30 @@ impl Part {
     pub const LINES: u32 = 4;
     /// Light does not change its colour.
     pub const UNLIT: u32 = 8;
+    /// What lies in the dark is solid ink.
+    pub const INK: u32 = 16;
+    /// Strokes lie between the dark and the light.
+    pub const HATCH: u32 = 32;
+    /// Strokes lie in the plane of the picture.
+    pub const ON_SCREEN: u32 = 64;
+    /// Strokes follow the stroke chart of the surface; without this and the one above, its UV coordinates.
+    pub const ON_SURFACE: u32 = 128;
+    /// The hatch is alike in all directions, as dots are.
+    pub const ISOTROPIC: u32 = 256;
+    /// A second layer of strokes crosses the first where it is darker.
+    pub const TWO_LAYERS: u32 = 512;
+    /// It has a highlight with a hard edge.
+    pub const CRISP: u32 = 1024;
+    /// It has a highlight with a soft edge.
+    pub const SOFT: u32 = 2048;
+    /// Its highlight is Phong's; without this Blinn's.
+    pub const PHONG: u32 = 4096;
+    /// Light from behind catches its rims.
+    pub const BACK_LIGHT: u32 = 8192;
+    /// It has a straight streak of gloss.
+    pub const STREAK: u32 = 16384;
+    /// Any highlight.
+    pub const HIGHLIGHTS: u32 = Self::CRISP | Self::SOFT | Self::BACK_LIGHT | Self::STREAK;
 }
 
 /// A disc of ink in frame pixels; half width 0 where there is none.

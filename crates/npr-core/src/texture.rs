@@ -72,6 +72,33 @@ impl TextureStore {
         Some(start)
     }
 
+    /// Adds a square tile that repeats, with levels made by the caller: each half as wide as the one before, from `side`, a
+    /// power of two. Texels are taken as they are; `spacing_texels` lies in the header where textures have their wrap.
+    ///
+    /// Gives where its header starts; `None` where a level has the wrong size.
+    pub fn add_tile(&mut self, side: u32, spacing_texels: f32, levels: &[Vec<u32>]) -> Option<u32> {
+        let fits = |(l, level): (usize, &Vec<u32>)| {
+            let side = side.checked_shr(l as u32).unwrap_or(0) as usize;
+            side > 0 && level.len() == side * side
+        };
+        if !side.is_power_of_two() || levels.is_empty() || !levels.iter().enumerate().all(fits) {
+            return None;
+        }
+        let start = u32::try_from(self.words.len()).ok()?;
+        self.words.extend([
+            side,
+            side,
+            levels.len() as u32,
+            spacing_texels.to_bits(),
+            0,
+            0,
+        ]);
+        for level in levels {
+            self.words.extend(level);
+        }
+        Some(start)
+    }
+
     /// The next smaller level: every pixel averages four, in linear light weighted by alpha.
     fn halve(&self, texels: &[u32], size: [u32; 2]) -> (Vec<u32>, [u32; 2]) {
         let next = [(size[0] / 2).max(1), (size[1] / 2).max(1)];

@@ -22,6 +22,7 @@ pub const ALL: &[&Pass] = &[
     &line::SMOOTH_STAMPS,
     &line::FLAG_TILES,
     &line::STAMP_RESIDUAL,
+    &line::DRAW_MASK,
     &vector::FACE_EYE,
     &vector::MARK_CONTOURS,
     &vector::LINK_CONTOURS,

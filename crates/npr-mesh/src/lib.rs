@@ -39,6 +39,7 @@ mod cluster;
 pub mod components;
 mod content_hash;
 pub mod curvature;
+pub mod direction_field;
 pub mod edge_flags;
 pub mod edges;
 pub mod fans;
@@ -53,6 +54,7 @@ pub mod shape_cache;
 mod sides;
 mod slivers;
 pub mod smoothing;
+pub mod stroke_chart;
 #[cfg(any(test, feature = "testing"))]
 pub mod testing;
 mod triangle;

@@ -1,6 +1,8 @@
 //! The graph of a frame: which passes a style needs, over which resources.
 
-use npr_core::geometry::{Edge, GPixel, Influence, Part, PosedVertex, Stamp, Triangle, Vertex};
+use npr_core::geometry::{
+    ChartCorners, Edge, GPixel, Influence, Part, PosedVertex, Stamp, Triangle, Vertex,
+};
 use npr_core::outline::Outline;
 use npr_core::window::{View, Window};
 use npr_gpu::graph::{Graph, ResourceId};
@@ -8,6 +10,7 @@ use npr_gpu::pass::Format;
 use npr_gpu::passes::{line, mesh, raster, shade};
 use npr_mesh::pose::Matrix;
 use npr_style::compose::Compose;
+use npr_style::lighting::Lights;
 use npr_style::{LineMethod, Style};
 use npr_vector::residual::tile_count;
 
@@ -18,6 +21,8 @@ pub(crate) struct Counts {
     pub joints: usize,
     pub triangles: usize,
     pub edges: usize,
+    /// Triangles with a stroke chart.
+    pub charts: usize,
     pub parts: usize,
     pub texel_words: usize,
 }
@@ -40,6 +45,8 @@ pub(crate) struct Method {
     pub ribbons: bool,
     /// What no ribbon explains is stamped.
     pub residual: bool,
+    /// The mask itself is drawn.
+    pub filter: bool,
     /// A hull is drawn behind.
     pub hull: bool,
     /// Layers that the last pass lays over the surfaces.
@@ -52,15 +59,21 @@ impl Method {
             mask: false,
             ribbons: false,
             residual: false,
+            filter: false,
             hull: false,
             layers: 0,
         };
         let masked = Self { mask: true, ..none };
+        let filter = Self {
+            filter: true,
+            layers: Compose::OVERLAY,
+            ..masked
+        };
         match style.line.method {
             LineMethod::Off => none,
             LineMethod::Shape => {
                 let residual = style.line.kinds.intersection;
-                let stamps = if residual { Compose::STAMPS } else { 0 };
+                let stamps = if residual { Compose::OVERLAY } else { 0 };
                 Self {
                     ribbons: true,
                     residual,
@@ -73,15 +86,11 @@ impl Method {
                 layers: Compose::RIBBONS,
                 ..masked
             },
-            LineMethod::Filter => Self {
-                layers: Compose::MASK,
-                ..masked
-            },
+            LineMethod::Filter => filter,
             LineMethod::Hull => Self { hull: true, ..none },
             LineMethod::FilterHull => Self {
                 hull: true,
-                layers: Compose::MASK,
-                ..masked
+                ..filter
             },
             LineMethod::Angle => Self {
                 layers: Compose::ANGLE,
@@ -101,11 +110,13 @@ pub(crate) struct Blueprint {
     pub mask_window: ResourceId,
     pub outline: ResourceId,
     pub compose: ResourceId,
+    pub lights: ResourceId,
     pub vertices: ResourceId,
     pub influences: ResourceId,
     pub palette: ResourceId,
     pub triangles: ResourceId,
     pub edges: ResourceId,
+    pub charts: ResourceId,
     pub parts: ResourceId,
     pub texels: ResourceId,
     pub frame: ResourceId,
@@ -114,7 +125,7 @@ pub(crate) struct Blueprint {
     depths: ResourceId,
     mask: ResourceId,
     ribbons: ResourceId,
-    stamped: ResourceId,
+    overlay: ResourceId,
 }
 
 impl Blueprint {
@@ -138,7 +149,7 @@ impl Blueprint {
         let pixel_count = |size: [u32; 2]| size[0] as usize * size[1] as usize;
         let only = |needed: bool, size: [u32; 2]| if needed { size } else { [1, 1] };
         let color = grids.output.map(|side| side * grids.samples);
-        let stamped = pixel_count(only(method.residual, grids.output));
+        let overlay = pixel_count(only(method.residual || method.filter, grids.output));
         Self {
             view: graph.uniform::<View>("view"),
             output_window: graph.uniform::<Window>("output window"),
@@ -146,11 +157,13 @@ impl Blueprint {
             mask_window: graph.uniform::<Window>("mask window"),
             outline: graph.uniform::<Outline>("outline"),
             compose: graph.uniform::<Compose>("compose"),
+            lights: graph.uniform::<Lights>("lights"),
             vertices: graph.buffer::<Vertex>("vertices", counts.vertices),
             influences: graph.buffer::<Influence>("influences", counts.vertices),
             palette: graph.buffer::<Matrix>("palette", counts.joints),
             triangles: graph.buffer::<Triangle>("triangles", counts.triangles),
             edges: graph.buffer::<Edge>("edges", counts.edges),
+            charts: graph.buffer::<ChartCorners>("charts", counts.charts),
             parts: graph.buffer::<Part>("parts", counts.parts),
             texels: graph.buffer::<u32>("texels", counts.texel_words),
             frame: graph.buffer::<u32>("frame", pixel_count(grids.output)),
@@ -159,7 +172,7 @@ impl Blueprint {
             depths: graph.image("depths", Format::Depth, color),
             mask: graph.buffer::<u32>("mask", pixel_count(only(method.mask, grids.mask))),
             ribbons: graph.image("ribbons", Format::Rgba8, only(method.ribbons, grids.output)),
-            stamped: graph.buffer::<u32>("stamped", stamped),
+            overlay: graph.buffer::<u32>("overlay", overlay),
             graph,
         }
     }
@@ -220,6 +233,11 @@ impl Blueprint {
         }
         if method.residual {
             self.stamp_residual(grids, gbuffer);
+        }
+        if method.filter {
+            let (output, mask) = (self.output_window, self.mask_window);
+            let bound = [output, mask, self.compose, self.mask, self.overlay];
+            self.graph.compute(&line::DRAW_MASK, &bound);
         }
     }
 
@@ -291,7 +309,7 @@ impl Blueprint {
             self.parts,
             smoothed,
             tiles,
-            self.stamped,
+            self.overlay,
         ];
         self.graph.compute(&line::STAMP_RESIDUAL, &stamp);
     }
@@ -316,8 +334,8 @@ impl Blueprint {
         let bound = [
             self.view,
             self.output_window,
-            self.mask_window,
             self.compose,
+            self.lights,
             self.ids,
             self.ribbons,
             self.posed,
@@ -325,8 +343,8 @@ impl Blueprint {
             self.triangles,
             self.parts,
             self.texels,
-            self.mask,
-            self.stamped,
+            self.charts,
+            self.overlay,
             self.frame,
         ];
         self.graph.compute(&shade::COMPOSE_FRAME, &bound);

@@ -22,6 +22,7 @@ mod bend;
 mod blueprint;
 mod error;
 mod frame;
+mod hatching;
 mod instance;
 mod joined;
 mod lines;

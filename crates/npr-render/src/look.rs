@@ -1,17 +1,20 @@
 //! A style applied to a model: the numbers that passes read.
 
+use crate::hatching::{FrameScale, add_ink};
 use crate::model::{Model, PartInfo};
 use crate::stage::StageOptions;
 use glam::Vec3;
 use npr_core::camera::Camera;
-use npr_core::geometry::{NONE, Part, Vertex};
+use npr_core::geometry::{ChartCorners, NONE, Part, Vertex};
 use npr_core::math;
 use npr_core::outline::{Outline, width_of_curvature};
 use npr_core::texture::{self, TextureStore, Wrap};
 use npr_core::window::View;
 use npr_style::compose::Compose;
+use npr_style::lighting::Lights;
 use npr_style::{
-    Background, Level, LightSpace, LineMethod, Look, ShadeMode, Style, Unit, Width, WidthSource,
+    Background, Edge, Highlight, HighlightModel, Level, LightSpace, LineMethod, Look, ShadeMode,
+    Style, Unit, Width, WidthSource,
 };
 
 /// Everything a style decides before the camera is known.
@@ -19,6 +22,8 @@ use npr_style::{
 pub(crate) struct StyledModel {
     pub vertices: Vec<Vertex>,
     pub parts: Vec<Part>,
+    /// Stroke charts, a triangle each; empty where no part is hatched along its surface.
+    pub charts: Vec<ChartCorners>,
     pub textures: TextureStore,
     /// Header of the background picture, or [`NONE`].
     pub background_texture: u32,
@@ -35,12 +40,19 @@ impl StyledModel {
             .and_then(|image| textures.add(image.size, &image.rgba, [Wrap::Clamp; 2]))
             .unwrap_or(NONE);
         let mut parts: Vec<Part> = model.parts.iter().map(|info| part(info, style)).collect();
+        let frame = FrameScale {
+            height_px: options.size[1],
+            dpi: options.dpi,
+            world_px: options.size[1] as f32 * 0.5 / model.radius(),
+        };
+        let charts = add_ink(model, style, &frame, &mut parts, &mut textures);
         if parts.is_empty() {
             parts.push(Part::default());
         }
         Self {
             vertices: styled_vertices(model, style, options),
             parts,
+            charts,
             textures,
             background_texture,
         }
@@ -83,13 +95,55 @@ pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
                 Part::LINES,
                 look.line_on && style.line.method != LineMethod::Off,
             )
-            | bit(Part::UNLIT, unlit),
+            | bit(Part::UNLIT, unlit)
+            | highlight_flags(&look.highlight),
         width_factor: look.width_factor,
         facing_threshold: math::sin(look.angle_threshold_deg.to_radians()),
         alpha_cutoff: info.alpha_cutoff.unwrap_or(0.0),
         softness: shade.softness,
         ramp: ramp(&look),
+        ..highlighted(&look.highlight)
     }
+}
+
+/// A part with highlights and nothing else.
+fn highlighted(highlight: &Highlight) -> Part {
+    let turn = highlight.turn_deg.to_radians();
+    let [split_u, split_v] = highlight.split;
+    Part {
+        highlight_color: highlight.color.linear(),
+        back_color: highlight.back.color.linear(),
+        highlight: [
+            highlight.exponent,
+            highlight.threshold,
+            highlight.gradient,
+            highlight.streak.offset,
+        ],
+        highlight_shape: [
+            highlight.shift[0],
+            highlight.shift[1],
+            highlight.stretch,
+            highlight.square,
+        ],
+        highlight_turn: [math::cos(turn), math::sin(turn), split_u, split_v],
+        back: [
+            highlight.back.from,
+            highlight.back.to,
+            highlight.streak.width,
+            highlight.streak.facing,
+        ],
+        ..Part::default()
+    }
+}
+
+/// The bits of a part that has these highlights.
+fn highlight_flags(highlight: &Highlight) -> u32 {
+    let bit = |bit: u32, when: bool| if when { bit } else { 0 };
+    bit(Part::CRISP, highlight.edge == Edge::Crisp)
+        | bit(Part::SOFT, highlight.edge == Edge::Soft)
+        | bit(Part::PHONG, highlight.model == HighlightModel::Phong)
+        | bit(Part::BACK_LIGHT, highlight.back.on)
+        | bit(Part::STREAK, highlight.streak.on)
 }
 
 /// The tones of a look, as rows of light and start.
@@ -250,12 +304,20 @@ pub(crate) fn outline(
 }
 
 /// The settings of the last pass.
-pub(crate) fn compose(style: &Style, camera: &Camera, background_texture: u32) -> Compose {
+pub(crate) fn compose(
+    style: &Style,
+    camera: &Camera,
+    model: &Model,
+    background_texture: u32,
+) -> Compose {
     let mut line_color = style.line.color.srgb();
     line_color[3] *= style.line.opacity;
+    let [right, up, _] = camera.axes().map(Vec3::from);
+    let streak = style.highlight.streak.angle_deg.to_radians();
+    let across = right * -math::sin(streak) + up * math::cos(streak);
+    let back = Vec3::from(style.highlight.back.direction).normalize_or(Vec3::NEG_Z);
+    let (min, max) = model.bounds();
     Compose {
-        light_world: light_world(style, camera),
-        samples: if style.antialias.samples > 1 { 2 } else { 1 },
         background: match style.background {
             Background::Color(color) => color.linear(),
             Background::Transparent => [0.0; 4],
@@ -265,8 +327,18 @@ pub(crate) fn compose(style: &Style, camera: &Camera, background_texture: u32) -
         background_texture,
         flags: 0,
         saturation: style.shade.saturation,
-        unused: 0,
+        samples: if style.antialias.samples > 1 { 2 } else { 1 },
+        right_world: right.to_array(),
+        back_world: in_world(camera, back.to_array()),
+        streak_world: (across / model.radius()).to_array(),
+        center_world: ((Vec3::from(min) + Vec3::from(max)) * 0.5).to_array(),
+        ..Compose::default()
     }
+}
+
+/// The lights of a style.
+pub(crate) fn lights(style: &Style, camera: &Camera) -> Lights {
+    Lights::distant(light_world(style, camera))
 }
 
 /// Unit vector towards the light, in the world.
@@ -274,11 +346,14 @@ fn light_world(style: &Style, camera: &Camera) -> [f32; 3] {
     let direction = style.light.unit_direction();
     match style.light.space {
         LightSpace::World => direction,
-        LightSpace::Camera => {
-            let [right, up, back] = camera.axes().map(Vec3::from);
-            (right * direction[0] + up * direction[1] + back * direction[2]).to_array()
-        }
+        LightSpace::Camera => in_world(camera, direction),
     }
+}
+
+/// What a vector in the camera's axes is in the world.
+fn in_world(camera: &Camera, direction: [f32; 3]) -> [f32; 3] {
+    let [right, up, back] = camera.axes().map(Vec3::from);
+    (right * direction[0] + up * direction[1] + back * direction[2]).to_array()
 }
 
 /// Frame pixels per world unit at the depth of the part of the model nearest to the eye.

@@ -35,6 +35,12 @@ pub struct PartInfo {
     pub double_sided: bool,
     /// The file asks for its colour without light.
     pub unlit: bool,
+    /// Its vertices have UV coordinates.
+    pub has_uvs: bool,
+    /// 0 a dielectric, 1 a metal.
+    pub metallic: f32,
+    /// 0 polished, 1 dull.
+    pub roughness: f32,
 }
 
 /// A scene prepared for drawing: one list of vertices, triangles and edges, whatever the camera and the style.
@@ -152,7 +158,11 @@ impl Model {
             .map(|part| {
                 let info = PartInfo::new(scene, object, &node.name, part.material);
                 let texture = base_color_texture(scene, part, textures);
-                PartInfo { texture, ..info }
+                PartInfo {
+                    texture,
+                    has_uvs: part.uvs.is_some(),
+                    ..info
+                }
             })
             .collect();
         self.parts.extend(
@@ -280,6 +290,9 @@ impl PartInfo {
             },
             double_sided: found.double_sided,
             unlit: found.unlit,
+            has_uvs: false,
+            metallic: found.metallic,
+            roughness: found.roughness,
         }
     }
 

@@ -120,6 +120,7 @@ impl<'a> Stage<'a> {
             joints: model.palette.len(),
             triangles: model.triangles.len(),
             edges: model.edges.len(),
+            charts: styled.charts.len(),
             parts: styled.parts.len(),
             texel_words: styled.textures.words().len(),
         };
@@ -162,6 +163,7 @@ impl<'a> Stage<'a> {
         write(session, plan.palette, &model.palette)?;
         write(session, plan.triangles, &model.triangles)?;
         write(session, plan.edges, &model.edges)?;
+        write(session, plan.charts, &styled.charts)?;
         write(session, plan.parts, &styled.parts)?;
         write(session, plan.texels, styled.textures.words())
     }
@@ -188,12 +190,19 @@ impl<'a> Stage<'a> {
             self.options.dpi,
             half.ceil().min(64.0) as u32 + 1,
         );
-        let mut compose = look::compose(&self.style, camera, self.styled.background_texture);
+        let mut compose = look::compose(
+            &self.style,
+            camera,
+            self.model,
+            self.styled.background_texture,
+        );
         compose.flags = self.method.layers;
         let session = self.session.as_mut();
         write(session, self.plan.view, &[view])?;
         write(session, self.plan.outline, &[outline])?;
         write(session, self.plan.compose, &[compose])?;
+        let lights = look::lights(&self.style, camera);
+        write(session, self.plan.lights, &[lights])?;
         let mut frame = Frame::new(self.options.size);
         for origin in self.tiles.origins() {
             self.draw_tile(&view, origin, &mut frame)?;

@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use npr_core::color::{SrgbEncoder, pack_rgba8};
-use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
+use npr_core::geometry::{ChartCorners, NONE, Part, PosedVertex, Triangle, Vertex};
 use npr_core::gpu_layout;
 use npr_core::outline::MASK_KINDS;
 use npr_core::raster::HULL_BIT;
@@ -10,47 +10,65 @@ use npr_core::texture;
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
 
+use crate::lighting::Lights;
+
 /// Settings of the last pass.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct Compose {
-    /// Unit vector towards the light, in the world.
-    pub light_world: [f32; 3],
-    /// Samples per pixel along each axis, 1 or 2.
-    pub samples: u32,
     /// Background colour, linear light, straight alpha.
     pub background: [f32; 4],
     /// Colour of lines drawn straight from the mask, sRGB, straight alpha.
     pub line_color: [f32; 4],
     /// Header of the background texture, or [`NONE`].
     pub background_texture: u32,
-    /// Bits of [`Compose::MASK`] to [`Compose::STAMPS`].
+    /// Bits of [`Compose::ANGLE`] to [`Compose::OVERLAY`].
     pub flags: u32,
     /// Strength of surface colours: 0 grey, 1 as they are.
     pub saturation: f32,
-    /// Keeps the size a multiple of 16 bytes.
+    /// Samples per pixel along each axis, 1 or 2.
+    pub samples: u32,
+    /// Unit vector to the right of the picture, in the world: the axis of shaped highlights.
+    pub right_world: [f32; 3],
+    /// Keeps rows of 16 bytes.
     pub unused: u32,
+    /// Unit vector towards the light behind, in the world.
+    pub back_world: [f32; 3],
+    /// Keeps rows of 16 bytes.
+    pub unused_b: u32,
+    /// Across streaks of gloss, in the world; as long as 1 / radius of the model.
+    pub streak_world: [f32; 3],
+    /// Keeps rows of 16 bytes.
+    pub unused_c: u32,
+    /// Middle of the model.
+    pub center_world: [f32; 3],
+    /// Keeps rows of 16 bytes.
+    pub unused_d: u32,
 }
 gpu_layout!(Compose {
-    light_world,
-    samples,
     background,
     line_color,
     background_texture,
     flags,
     saturation,
+    samples,
+    right_world,
     unused,
+    back_world,
+    unused_b,
+    streak_world,
+    unused_c,
+    center_world,
+    unused_d,
 });
 
 impl Compose {
-    /// Draws the mask itself: the image filter.
-    pub const MASK: u32 = 1;
     /// Draws surfaces that turn from the eye as lines.
-    pub const ANGLE: u32 = 2;
+    pub const ANGLE: u32 = 1;
     /// Lays the ribbons over the surfaces.
-    pub const RIBBONS: u32 = 4;
-    /// Lays the stamps over the surfaces.
-    pub const STAMPS: u32 = 8;
+    pub const RIBBONS: u32 = 2;
+    /// Lays the overlay over the surfaces: stamps, or the mask itself.
+    pub const OVERLAY: u32 = 4;
 }
 
 /// What a frame is composed from.
@@ -60,10 +78,10 @@ pub struct Layers<'a> {
     pub view: &'a View,
     /// The pixel grid of the output.
     pub window: &'a Window,
-    /// The pixel grid of the mask.
-    pub mask_window: &'a Window,
     /// Settings.
     pub compose: &'a Compose,
+    /// What surfaces are lit by.
+    pub lights: &'a Lights,
     /// Triangle numbers, `samples` times the output's size each way.
     pub ids: &'a [u32],
     /// Ribbons, sRGB bytes with coverage in alpha.
@@ -78,10 +96,10 @@ pub struct Layers<'a> {
     pub parts: &'a [Part],
     /// The texture store.
     pub texels: &'a [u32],
-    /// The mask.
-    pub mask: &'a [u32],
-    /// Stamps, sRGB bytes with coverage in alpha.
-    pub stamped: &'a [u32],
+    /// Stroke charts, a triangle each; may be shorter where no part uses them.
+    pub charts: &'a [ChartCorners],
+    /// Stamps or mask, sRGB bytes with coverage in alpha.
+    pub overlay: &'a [u32],
 }
 
 /// Composes the output as sRGB bytes with straight alpha.
@@ -107,6 +125,21 @@ pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
                 *texel = composer.texel(x as u32, y as u32);
             }
         });
+}
+
+/// Draws the mask itself in one colour, as the image filters do: the twin of `line.draw_mask`.
+///
+/// `mask_window` is the mask's pixel grid; texels are sRGB bytes with straight alpha. O(pixels).
+pub fn draw_mask(windows: [&Window; 2], settings: &Compose, mask: &[u32], overlay: &mut [u32]) {
+    let [window, mask_window] = windows;
+    let color = pack_rgba8(settings.line_color);
+    let width = window.size[0] as usize;
+    for (element, texel) in overlay.iter_mut().enumerate() {
+        let frame_px = window.frame_at((element % width) as u32, (element / width) as u32);
+        let at = mask_window.pixel_at(frame_px);
+        let found = mask[(at[1] * mask_window.size[0] + at[0]) as usize] & MASK_KINDS != 0;
+        *texel = if found { color } else { 0 };
+    }
 }
 
 /// Triangle numbers of a pixel's samples.
@@ -141,8 +174,8 @@ impl Composer<'_> {
     fn texel(&mut self, x: u32, y: u32) -> u32 {
         let frame_px = self.layers.window.frame_at(x, y);
         let seen = self.layers.samples_of(x, y);
-        let lines = self.layers.lines_at(x, y, frame_px);
-        let whole = lines == [0; 3] && seen.iter().all(|id| *id == seen[0]);
+        let lines = self.layers.lines_at(x, y);
+        let whole = lines == [0; 2] && seen.iter().all(|id| *id == seen[0]);
         if whole && let Some(texel) = self.even_texel(seen[0]) {
             return texel;
         }
@@ -249,33 +282,20 @@ impl<'a> Layers<'a> {
         seen
     }
 
-    /// The lines over a pixel, from the bottom: mask, ribbons, stamps; sRGB bytes with coverage in alpha.
-    fn lines_at(&self, x: u32, y: u32, frame_px: [f32; 2]) -> [u32; 3] {
+    /// The lines over a pixel, from the bottom: ribbons, overlay; sRGB bytes with coverage in alpha.
+    fn lines_at(&self, x: u32, y: u32) -> [u32; 2] {
         let element = (y * self.window.size[0] + x) as usize;
-        let flags = self.compose.flags;
-        let masked = flags & Compose::MASK != 0 && self.is_masked(frame_px);
+        let layer = |bit: u32, texels: &[u32]| {
+            if self.compose.flags & bit != 0 {
+                texels[element]
+            } else {
+                0
+            }
+        };
         [
-            if masked {
-                pack_rgba8(self.compose.line_color)
-            } else {
-                0
-            },
-            if flags & Compose::RIBBONS != 0 {
-                self.ribbons[element]
-            } else {
-                0
-            },
-            if flags & Compose::STAMPS != 0 {
-                self.stamped[element]
-            } else {
-                0
-            },
+            layer(Compose::RIBBONS, self.ribbons),
+            layer(Compose::OVERLAY, self.overlay),
         ]
-    }
-
-    fn is_masked(&self, frame_px: [f32; 2]) -> bool {
-        let at = self.mask_window.pixel_at(frame_px);
-        self.mask[(at[1] * self.mask_window.size[0] + at[0]) as usize] & MASK_KINDS != 0
     }
 
     /// What lies behind everything, premultiplied.
@@ -338,8 +358,8 @@ mod tests {
         let layers = Layers {
             view: &view,
             window: &window,
-            mask_window: &window,
             compose: compose_settings,
+            lights: &Lights::default(),
             ids: &[0; 64],
             ribbons,
             posed: &[],
@@ -347,8 +367,8 @@ mod tests {
             triangles: &[],
             parts: &[],
             texels: store.words(),
-            mask: &[0; 16],
-            stamped: &[0; 16],
+            charts: &[],
+            overlay: &[0; 16],
         };
         let mut frame = vec![0; 16];
         compose(&layers, &mut frame);

@@ -3,8 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::hatch::{Hatch, Pattern};
+use crate::highlight::{Edge, Highlight};
+use crate::ink::{Follow, Ink, Mapping, Tone};
 use crate::ramp::Stop;
-use crate::{Color, Style, glob};
+use crate::{Color, Length, Style, glob};
 
 /// What a rule applies to: both patterns have to match.
 ///
@@ -60,6 +63,110 @@ pub struct RuleShade {
     pub ramp: Option<Vec<Stop>>,
 }
 
+/// What a rule changes about ink and hatching; what is absent stays.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RuleInk {
+    /// What the shade is drawn with.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tone: Option<Tone>,
+    /// Colour of ink and strokes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color: Option<Color>,
+    /// Place on the ramp, 0..1, up to which the shade ramp is black.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub dark_at: Option<f32>,
+    /// Place on the ramp, 0..1, from which it is white.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub light_at: Option<f32>,
+    /// What strokes are fixed to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mapping: Option<Mapping>,
+    /// What strokes on the surface run along.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub follow: Option<Follow>,
+    /// A direction in the scene that strokes on the surface follow.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    pub direction: Option<[f32; 3]>,
+    /// What shadows are drawn with.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pattern: Option<Pattern>,
+    /// Distance between strokes or dots on screen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spacing: Option<Length>,
+    /// Direction of strokes against that of the surface, in degrees, -180..180.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -180.0, max = 180.0))]
+    pub angle_deg: Option<f32>,
+}
+
+impl RuleInk {
+    /// `ink` with what the rule states in place of what it had.
+    fn over(&self, ink: Ink) -> Ink {
+        let hatch = Hatch {
+            pattern: self.pattern.unwrap_or(ink.hatch.pattern),
+            spacing: self.spacing.unwrap_or(ink.hatch.spacing),
+            angle_deg: self.angle_deg.unwrap_or(ink.hatch.angle_deg),
+            ..ink.hatch
+        };
+        Ink {
+            tone: self.tone.unwrap_or(ink.tone),
+            color: self.color.unwrap_or(ink.color),
+            dark_at: self.dark_at.unwrap_or(ink.dark_at),
+            light_at: self.light_at.unwrap_or(ink.light_at),
+            mapping: self.mapping.unwrap_or(ink.mapping),
+            follow: self.follow.unwrap_or(ink.follow),
+            direction: self.direction.or(ink.direction),
+            hatch,
+            ..ink
+        }
+    }
+}
+
+/// What a rule changes about highlights; what is absent stays.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RuleHighlight {
+    /// How the spot ends: `none`, `crisp` or `soft`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub edge: Option<Edge>,
+    /// Colour of spot and streak; alpha is the strength.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color: Option<Color>,
+    /// Sharpness of the spot, 1..1000.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1.0, max = 1000.0))]
+    pub exponent: Option<f32>,
+    /// Brightness from which the spot shows, 0..1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub threshold: Option<f32>,
+    /// Whether light from behind catches its rims.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub back: Option<bool>,
+    /// Whether it has a straight streak.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub streak: Option<bool>,
+}
+
+impl RuleHighlight {
+    /// `highlight` with what the rule states in place of what it had.
+    fn over(&self, mut highlight: Highlight) -> Highlight {
+        highlight.back.on = self.back.unwrap_or(highlight.back.on);
+        highlight.streak.on = self.streak.unwrap_or(highlight.streak.on);
+        Highlight {
+            edge: self.edge.unwrap_or(highlight.edge),
+            color: self.color.unwrap_or(highlight.color),
+            exponent: self.exponent.unwrap_or(highlight.exponent),
+            threshold: self.threshold.unwrap_or(highlight.threshold),
+            ..highlight
+        }
+    }
+}
+
 /// An exception for the parts that match; later rules win.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -71,6 +178,10 @@ pub struct Rule {
     pub line: RuleLine,
     /// What changes about its fill.
     pub shade: RuleShade,
+    /// What changes about its ink and hatching.
+    pub ink: RuleInk,
+    /// What changes about its highlights.
+    pub highlight: RuleHighlight,
 }
 
 impl Rule {
@@ -96,6 +207,10 @@ pub struct Look<'a> {
     pub shade_color: Option<Color>,
     /// Its tones, sorted.
     pub ramp: &'a [Stop],
+    /// Its ink and hatching.
+    pub ink: Ink,
+    /// Its highlights.
+    pub highlight: Highlight,
 }
 
 impl<'a> Look<'a> {
@@ -108,6 +223,8 @@ impl<'a> Look<'a> {
             angle_threshold_deg: style.line.angle_threshold_deg,
             shade_color: None,
             ramp: &style.shade.ramp,
+            ink: style.ink.clone(),
+            highlight: style.highlight.clone(),
         }
     }
 
@@ -121,6 +238,8 @@ impl<'a> Look<'a> {
             angle_threshold_deg: line.angle_threshold_deg.unwrap_or(self.angle_threshold_deg),
             shade_color: shade.color.or(self.shade_color),
             ramp: shade.ramp.as_deref().unwrap_or(self.ramp),
+            ink: rule.ink.over(self.ink),
+            highlight: rule.highlight.over(self.highlight),
         }
     }
 }

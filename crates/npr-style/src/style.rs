@@ -7,7 +7,7 @@ use crate::error::{Problem, StyleError};
 use crate::layers::{self, Parents};
 use crate::ramp::{Stop, first_unsorted};
 use crate::width::WidthSource;
-use crate::{Antialias, Background, Detect, Light, Line, Rule, Shade, preset, set};
+use crate::{Antialias, Background, Detect, Highlight, Ink, Light, Line, Rule, Shade, preset, set};
 
 /// What a picture should look like.
 ///
@@ -29,6 +29,10 @@ pub struct Style {
     pub background: Background,
     /// How surfaces are filled.
     pub shade: Shade,
+    /// What is drawn over the fill with the pen.
+    pub ink: Ink,
+    /// Which highlights surfaces have.
+    pub highlight: Highlight,
     /// The light that tones are drawn by.
     pub light: Light,
     /// Which lines are drawn, and with what.
@@ -50,6 +54,8 @@ impl Default for Style {
             extends: Parents::default(),
             background: Background::default(),
             shade: Shade::default(),
+            ink: Ink::default(),
+            highlight: Highlight::default(),
             light: Light::default(),
             line: Line::default(),
             detect: Detect::default(),

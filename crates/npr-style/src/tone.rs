@@ -4,6 +4,7 @@
 //! once a frame; the others are shaded at the samples.
 
 use crate::compose::{Compose, Layers};
+use crate::inking::ink_over;
 use crate::ramp::{ramp_coordinate, ramp_light};
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle};
 use npr_core::raster::{HULL_BIT, ID_MASK};
@@ -19,16 +20,29 @@ const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
 
 /// A triangle's corners, and 1 where its front is seen or -1 where its back is.
 #[derive(Debug, Clone, Copy)]
-struct Corners<'a> {
+pub(crate) struct Corners<'a> {
     posed: [&'a PosedVertex; 3],
-    clip: [[f32; 4]; 3],
+    pub clip: [[f32; 4]; 3],
     side: f32,
 }
 
 impl Corners<'_> {
-    fn normal(&self, weights: [f32; 3]) -> [f32; 3] {
+    pub fn normal(&self, weights: [f32; 3]) -> [f32; 3] {
         unit_or_z(blend3(weights, self.posed.map(|v| v.normal))).map(|v| v * self.side)
     }
+
+    pub fn world(&self, weights: [f32; 3]) -> [f32; 3] {
+        blend3(weights, self.posed.map(|v| v.world))
+    }
+}
+
+/// What light and ink make of a surface.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Tone {
+    /// What its colour is multiplied by.
+    light: [f32; 3],
+    /// How much of it is inked, 0..1.
+    ink: f32,
 }
 
 impl<'a> Layers<'a> {
@@ -52,17 +66,47 @@ impl<'a> Layers<'a> {
         if part.texture != NONE || !triangle.corners.iter().all(white) {
             return None;
         }
-        let light = self.one_tone(part, &self.corners_of(triangle))?;
+        let tone = self.one_tone(part, &self.corners_of(triangle))?;
         let [r, g, b, _] = part.base_color;
-        let base = self.strengthened([r, g, b]);
-        Some(std::array::from_fn(|i| base[i] * light[i]))
+        Some(self.toned(part, [r, g, b], tone))
     }
 
-    /// The light on a triangle that lies within one tone as a whole.
-    fn one_tone(&self, part: &Part, corners: &Corners<'_>) -> Option<[f32; 3]> {
-        let angle = self.compose.flags & Compose::ANGLE != 0;
-        let one = !angle && self.is_one_tone(part, corners);
-        one.then(|| self.light_of(part, corners.posed[0].normal.map(|n| n * corners.side)))
+    /// A surface's colour in a tone, with the ink over it.
+    fn toned(&self, part: &Part, color: [f32; 3], tone: Tone) -> [f32; 3] {
+        let base = self.strengthened(color);
+        let ink = part.ink_color;
+        std::array::from_fn(|i| {
+            let lit = base[i] * tone.light[i];
+            lit + (ink[i] - lit) * (tone.ink * ink[3])
+        })
+    }
+
+    /// The tone of a triangle that lies within one as a whole.
+    fn one_tone(&self, part: &Part, corners: &Corners<'_>) -> Option<Tone> {
+        if self.compose.flags & Compose::ANGLE != 0 || part.flags & Part::HIGHLIGHTS != 0 {
+            return None;
+        }
+        if part.flags & (Part::UNLIT | Part::INK | Part::HATCH) == Part::UNLIT {
+            return Some(Tone {
+                light: [1.0; 3],
+                ink: 0.0,
+            });
+        }
+        let range = self.coordinate_range(corners)?;
+        let reach = part.softness * 0.5;
+        let lit = part.flags & Part::UNLIT == 0;
+        if lit
+            && part.ramp[1..]
+                .iter()
+                .any(|stop| stop[3] > range[0] - reach && stop[3] <= range[1] + reach)
+        {
+            return None;
+        }
+        let normal = corners.posed[0].normal.map(|n| n * corners.side);
+        Some(Tone {
+            light: self.light_of(part, corners.posed[0].world, normal),
+            ink: ink_over(part, range)?,
+        })
     }
 
     /// Light of what the samples in `members` show, a triangle or its hull.
@@ -82,22 +126,24 @@ impl<'a> Layers<'a> {
             center = [center[0] + offset[0] / count, center[1] + offset[1] / count];
         }
         let corners = self.corners_of(triangle);
-        let tone = match self.one_tone(part, &corners) {
-            Some([r, g, b]) => [r, g, b, 0.0],
-            None => samples.fold([0.0; 4], |sum, i| {
-                let offset = self.sample_offset(i);
-                let tone = self.tone_at(
-                    part,
-                    &corners,
-                    [frame_px[0] + offset[0], frame_px[1] + offset[1]],
-                );
-                std::array::from_fn(|k| sum[k] + tone[k] / count)
-            }),
+        let color = self.plain_color(triangle, part, &corners, center);
+        if let Some(tone) = self.one_tone(part, &corners) {
+            return self.toned(part, color, tone);
+        }
+        let sum = samples.fold([0.0; 7], |sum, i| {
+            let offset = self.sample_offset(i);
+            let at = [frame_px[0] + offset[0], frame_px[1] + offset[1]];
+            let tone = self.tone_at(part, &corners, at);
+            std::array::from_fn(|k| sum[k] + tone[k] / count)
+        });
+        let tone = Tone {
+            light: [sum[0], sum[1], sum[2]],
+            ink: self.ink_at(id, part, &corners, center),
         };
-        let base = self.strengthened(self.plain_color(triangle, part, &corners, center));
+        let color = self.toned(part, color, tone);
         std::array::from_fn(|i| {
-            let lit = base[i] * tone[i];
-            lit + (line[i] - lit) * tone[3]
+            let lit = color[i] + sum[4 + i];
+            lit + (line[i] - lit) * sum[3]
         })
     }
 
@@ -119,57 +165,53 @@ impl<'a> Layers<'a> {
         }
     }
 
-    /// Tone and ink at one point: rgb light, and 1 where the surface-angle method draws a line.
-    fn tone_at(&self, part: &Part, corners: &Corners<'_>, frame_px: [f32; 2]) -> [f32; 4] {
+    /// Tone at one point: rgb light, 1 where the surface-angle method draws a line, and rgb highlights.
+    fn tone_at(&self, part: &Part, corners: &Corners<'_>, frame_px: [f32; 2]) -> [f32; 7] {
         let angle = self.compose.flags & Compose::ANGLE != 0 && part.flags & Part::LINES != 0;
         let weights = weights_at(corners.clip, self.view.ndc_at(frame_px));
-        let normal = corners.normal(weights);
-        let light = self.light_of(part, normal);
+        let (normal, world) = (corners.normal(weights), corners.world(weights));
+        let light = self.light_of(part, world, normal);
         let mut ink = 0.0;
         if angle {
-            let world = blend3(weights, corners.posed.map(|v| v.world));
             if dot(normal, self.view.to_eye(world)).abs() < part.facing_threshold {
                 ink = 1.0;
             }
         }
-        [light[0], light[1], light[2], ink]
-    }
-
-    /// Light on a surface that faces along `normal`.
-    fn light_of(&self, part: &Part, normal: [f32; 3]) -> [f32; 3] {
-        if part.flags & Part::UNLIT != 0 {
-            [1.0; 3]
+        let gloss = if part.flags & Part::HIGHLIGHTS != 0 {
+            self.highlights_at(part, world, normal)
         } else {
-            ramp_light(
-                bytemuck::cast_slice(&part.ramp),
-                part.softness,
-                self.coordinate(normal),
-            )
-        }
+            [0.0; 3]
+        };
+        [
+            light[0], light[1], light[2], ink, gloss[0], gloss[1], gloss[2],
+        ]
     }
 
-    /// Place on the ramp of a surface that faces along `normal`.
-    fn coordinate(&self, normal: [f32; 3]) -> f32 {
-        ramp_coordinate(dot(normal, self.compose.light_world))
-    }
-
-    /// Whether the whole triangle lies within one tone.
-    fn is_one_tone(&self, part: &Part, corners: &Corners<'_>) -> bool {
+    /// Light on a surface at `world` that faces along `normal`.
+    fn light_of(&self, part: &Part, world: [f32; 3], normal: [f32; 3]) -> [f32; 3] {
         if part.flags & Part::UNLIT != 0 {
-            return true;
+            return [1.0; 3];
         }
+        let (x, color) = self.lights.coordinate_at(world, normal);
+        let levels = bytemuck::cast_slice(&part.ramp);
+        let light = ramp_light(levels, part.softness, x);
+        std::array::from_fn(|i| light[i] * color[i])
+    }
+
+    /// Lowest and highest ramp coordinate that a triangle can have anywhere, where the normal alone decides.
+    fn coordinate_range(&self, corners: &Corners<'_>) -> Option<[f32; 2]> {
+        let towards = self.lights.only_distant()?;
         let at = corners
             .posed
-            .map(|v| self.coordinate(v.normal.map(|n| n * corners.side)));
+            .map(|v| ramp_coordinate(dot(v.normal, towards) * corners.side));
         // A blend of normals that is made unit again bulges beyond them by at most what they differ.
         let [a, b, c] = corners.posed.map(|v| v.normal);
         let bulge = 0.5 * (1.0 - dot(a, b).min(dot(b, c)).min(dot(c, a)));
-        let room = TONE_ROOM + bulge + part.softness * 0.5;
-        let low = at[0].min(at[1]).min(at[2]) - room;
-        let high = at[0].max(at[1]).max(at[2]) + room;
-        !part.ramp[1..]
-            .iter()
-            .any(|stop| stop[3] > low && stop[3] <= high)
+        let room = TONE_ROOM + bulge;
+        Some([
+            at[0].min(at[1]).min(at[2]) - room,
+            at[0].max(at[1]).max(at[2]) + room,
+        ])
     }
 
     /// A colour as strong as the style wants it.
@@ -225,6 +267,7 @@ impl<'a> Layers<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lighting::Lights;
     use npr_core::geometry::Vertex;
     use npr_core::window::{View, Window};
     use proptest::prelude::*;
@@ -247,17 +290,17 @@ mod tests {
             }
             let posed = normals.map(|normal| PosedVertex { normal: unit_or_z(normal), ..PosedVertex::default() });
             let triangle = Triangle { corners: [0, 1, 2], part: 0 };
-            let compose = Compose { light_world: unit_or_z(light), saturation: 1.0, ..Compose::default() };
+            let compose = Compose { saturation: 1.0, ..Compose::default() };
             let layers = Layers {
-                view: &View::default(), window: &Window::default(), mask_window: &Window::default(),
-                compose: &compose, ids: &[], ribbons: &[], posed: &posed, vertices: &[Vertex::default(); 3],
-                triangles: &[triangle], parts: &[part], texels: &[], mask: &[], stamped: &[],
+                view: &View::default(), window: &Window::default(), compose: &compose, lights: &Lights::distant(unit_or_z(light)),
+                 ids: &[], ribbons: &[], posed: &posed, vertices: &[Vertex::default(); 3],
+                triangles: &[triangle], parts: &[part], texels: &[], charts: &[], overlay: &[],
             };
             let corners = layers.corners_of(&triangle);
             if let Some(one) = layers.one_tone(&part, &corners) {
                 let sum: f32 = weights.iter().sum();
-                let inside = layers.light_of(&part, corners.normal(weights.map(|w| w / sum)));
-                prop_assert_eq!(one, inside);
+                let inside = layers.light_of(&part, [0.0; 3], corners.normal(weights.map(|w| w / sum)));
+                prop_assert_eq!(one.light, inside);
             }
         }
     }

@@ -4,6 +4,7 @@ use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
 use npr_core::geometry::{Edge, GPixel, Part, PosedVertex, Stamp, Triangle};
 use npr_core::outline::Outline;
 use npr_core::window::{View, Window};
+use npr_style::compose::{self, Compose};
 use npr_vector::detect::{Detection, detect};
 use npr_vector::gbuffer::{Surfaces, resolve};
 use npr_vector::residual::{self, Inking, Search};
@@ -192,5 +193,24 @@ pub const STAMP_RESIDUAL: Pass = Pass {
             tiles: b.read(5),
         };
         residual::stamp(&with, b.write(6));
+    },
+};
+
+/// The mask itself in one colour.
+pub const DRAW_MASK: Pass = Pass {
+    name: "line.draw_mask",
+    shader: npr_shaders::LINE_DRAW_MASK,
+    slots: &[
+        uniform::<Window>("window"),
+        uniform::<Window>("mask_window"),
+        uniform::<Compose>("compose"),
+        read::<u32>("mask"),
+        write::<u32>("overlay"),
+    ],
+    work: Work::PerElement { of: "overlay" },
+    agreement: Agreement::Texels(0.001),
+    twin: |b| {
+        let (window, mask_window, settings) = (b.one(0), b.one(1), b.one(2));
+        compose::draw_mask([&window, &mask_window], &settings, b.read(3), b.write(4));
     },
 };

@@ -1,19 +1,20 @@
 //! Passes that give surfaces their tone.
 
 use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
-use npr_core::geometry::{Part, PosedVertex, Triangle, Vertex};
+use npr_core::geometry::{ChartCorners, Part, PosedVertex, Triangle, Vertex};
 use npr_core::window::{View, Window};
 use npr_style::compose::{Compose, Layers, compose};
+use npr_style::lighting::Lights;
 
-/// Surfaces shaded by their ramps, lines over them, background behind.
+/// Surfaces shaded by their ramps, ink and lines over them, background behind.
 pub const COMPOSE_FRAME: Pass = Pass {
     name: "shade.compose_frame",
     shader: npr_shaders::SHADE_COMPOSE_FRAME,
     slots: &[
         uniform::<View>("view"),
         uniform::<Window>("window"),
-        uniform::<Window>("mask_window"),
         uniform::<Compose>("compose"),
+        uniform::<Lights>("lights"),
         texture("ids", Format::U32),
         texture("ribbons", Format::Rgba8),
         read::<PosedVertex>("posed"),
@@ -21,19 +22,19 @@ pub const COMPOSE_FRAME: Pass = Pass {
         read::<Triangle>("triangles"),
         read::<Part>("parts"),
         read::<u32>("texels"),
-        read::<u32>("mask"),
-        read::<u32>("stamped"),
+        read::<ChartCorners>("charts"),
+        read::<u32>("overlay"),
         write::<u32>("frame"),
     ],
     work: Work::PerElement { of: "frame" },
     agreement: Agreement::Texels(0.001),
     twin: |b| {
-        let (view, window, mask_window, settings) = (b.one(0), b.one(1), b.one(2), b.one(3));
+        let (view, window, settings, lights) = (b.one(0), b.one(1), b.one(2), b.one(3));
         let layers = Layers {
             view: &view,
             window: &window,
-            mask_window: &mask_window,
             compose: &settings,
+            lights: &lights,
             ids: b.image(4).texels,
             ribbons: b.image(5).texels,
             posed: b.read(6),
@@ -41,8 +42,8 @@ pub const COMPOSE_FRAME: Pass = Pass {
             triangles: b.read(8),
             parts: b.read(9),
             texels: b.read(10),
-            mask: b.read(11),
-            stamped: b.read(12),
+            charts: b.read(11),
+            overlay: b.read(12),
         };
         compose(&layers, b.write(13));
     },

@@ -1,6 +1,6 @@
 //! What every slot of every pass holds in a frame: the scene, and what the twins make of it.
 
-use crate::scene::{FRAME_PX, Look, Scene, compose, outline, view};
+use crate::scene::{FRAME_PX, Look, Scene, compose, lights, outline, view};
 use npr_core::window::Window;
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::{Graph, Kind, ResourceId};
@@ -10,12 +10,13 @@ use npr_gpu::processor::Processor;
 use std::collections::BTreeMap;
 
 /// Slots that bind a resource of another name: two passes work on the grid of the mask only and call it the window.
-const RENAMED: [(&str, &str, &str); 5] = [
+const RENAMED: [(&str, &str, &str); 6] = [
     ("line.resolve_gbuffer", "window", "mask_window"),
     ("line.resolve_gbuffer", "ids", "mask_ids"),
     ("line.detect", "window", "mask_window"),
     ("line.flag_tiles", "stamps", "smoothed"),
     ("line.stamp_residual", "stamps", "smoothed"),
+    ("line.stamp_residual", "stamped", "overlay"),
 ];
 
 /// The resource that a slot of a pass binds.
@@ -42,7 +43,7 @@ impl Frame {
     /// The names of what passes make.
     pub const MADE: [&str; 15] = [
         "posed", "kinds", "hull", "ids", "depth", "mask_ids", "gbuffer", "mask", "ribbons", "keys",
-        "stamps", "smoothed", "tiles", "stamped", "frame",
+        "stamps", "smoothed", "tiles", "overlay", "frame",
     ];
 
     /// A frame of the test scene with an output and a mask of these sizes, every pass run by its twin.
@@ -98,6 +99,7 @@ impl Builder {
         self.give_uniform("view", &[view(look)]);
         self.give_uniform("outline", &[outline(look)]);
         self.give_uniform("compose", &[compose(look, &scene)]);
+        self.give_uniform("lights", &[lights(look)]);
         self.give_uniform("window", &[over_frame(size)]);
         self.give_uniform("mask_window", &[over_frame(mask_size)]);
         let samples = compose(look, &scene).samples;
@@ -111,6 +113,7 @@ impl Builder {
         self.give_buffer("parts", &scene.parts);
         self.give_buffer("triangles", &scene.triangles);
         self.give_buffer("edges", &scene.edges);
+        self.give_buffer("charts", &scene.charts);
         self.give_buffer("texels", &scene.texels);
         self.make_buffer("posed", 48, scene.vertices.len());
         self.make_buffer("hull", 16, scene.vertices.len());
@@ -130,7 +133,7 @@ impl Builder {
         self.make_buffer("stamps", 16, mask_pixels);
         self.make_buffer("smoothed", 16, mask_pixels);
         self.make_buffer("tiles", 4, area(mask_size.map(|side| side.div_ceil(16))));
-        self.make_buffer("stamped", 4, pixels);
+        self.make_buffer("overlay", 4, pixels);
         self.make_buffer("frame", 4, pixels);
 
         self.compute(&mesh::POSE_VERTICES);
@@ -152,7 +155,10 @@ impl Builder {
         self.compute(&line::FIND_RESIDUAL);
         self.compute(&line::SMOOTH_STAMPS);
         self.compute(&line::FLAG_TILES);
-        self.compute(&line::STAMP_RESIDUAL);
+        match look {
+            Look::Ours => self.compute(&line::STAMP_RESIDUAL),
+            Look::Published => self.compute(&line::DRAW_MASK),
+        }
         self.compute(&shade::COMPOSE_FRAME);
     }
 

@@ -1,7 +1,7 @@
 //! A small scene in which every pass has something to do: a torus and a ball that run into each other.
 
 use npr_core::camera::{Camera, Projection};
-use npr_core::geometry::{Edge, Influence, NONE, Part, Triangle, Vertex};
+use npr_core::geometry::{ChartCorners, Edge, Influence, NONE, Part, Triangle, Vertex};
 use npr_core::math;
 use npr_core::outline::Outline;
 use npr_core::texture::{TextureStore, Wrap};
@@ -9,6 +9,7 @@ use npr_core::window::View;
 use npr_mesh::testing::{Random, torus, uv_sphere};
 use npr_mesh::{EdgeFlags, NO_FACE, smooth_normals, unique_edges, weld};
 use npr_style::compose::Compose;
+use npr_style::lighting::{LightSource, Lights};
 
 /// Width and height of the frame that windows are laid over.
 pub const FRAME_PX: [u32; 2] = [160, 90];
@@ -31,6 +32,7 @@ pub struct Scene {
     pub parts: Vec<Part>,
     pub triangles: Vec<Triangle>,
     pub edges: Vec<Edge>,
+    pub charts: Vec<ChartCorners>,
     pub texels: Vec<u32>,
 }
 
@@ -43,18 +45,43 @@ impl Scene {
         let texture = store
             .add([16, 8], &rgba, [Wrap::Repeat, Wrap::Mirror])
             .unwrap();
+        let hatch = store.add_tile(64, 8.0, &hatch_levels()).unwrap();
         let mut scene = Self {
             texels: store.words().to_vec(),
             palette: palette(),
             ..Self::default()
         };
-        scene.add(
-            &torus(24, 12, 1.0, 0.4),
-            part(1, Part::LINES, NONE),
-            &mut random,
-        );
-        let flags = Part::LINES | Part::CUTOUT | Part::DOUBLE_SIDED;
-        scene.add(&uv_sphere(16, 10), part(2, flags, texture), &mut random);
+        let flags = Part::LINES
+            | Part::INK
+            | Part::HATCH
+            | Part::ON_SURFACE
+            | Part::TWO_LAYERS
+            | Part::SOFT
+            | Part::BACK_LIGHT;
+        let hatched = Part {
+            hatch,
+            ..part(1, flags, NONE)
+        };
+        scene.add(&torus(24, 12, 1.0, 0.4), hatched, &mut random);
+        let flags = Part::LINES
+            | Part::CUTOUT
+            | Part::DOUBLE_SIDED
+            | Part::HATCH
+            | Part::ISOTROPIC
+            | Part::CRISP
+            | Part::STREAK;
+        let hatched = Part {
+            hatch,
+            ..part(2, flags, texture)
+        };
+        scene.add(&uv_sphere(16, 10), hatched, &mut random);
+        let mut corner = || [random.unit(), random.unit()];
+        let chart = |_: &Triangle| ChartCorners {
+            a: corner(),
+            b: corner(),
+            c: corner(),
+        };
+        scene.charts = scene.triangles.iter().map(chart).collect();
         scene
     }
 
@@ -148,8 +175,39 @@ fn part(object: u32, flags: u32, texture: u32) -> Part {
         facing_threshold: 0.25,
         alpha_cutoff: 0.2,
         softness: 0.05,
+        ink_color: [0.0, 0.0, 0.1, 0.9],
+        dark_at: 0.2,
+        light_at: 0.7,
+        threshold: 0.5,
+        spacing_px: 3.0,
+        hatch_gain: 1.2,
+        second_from: 0.4,
+        tile_scale: 0.5,
+        turn: [0.8, 0.6],
+        highlight_color: [1.0, 0.9, 0.8, 0.8],
+        back_color: [0.4, 0.5, 0.9, 0.7],
+        highlight: [12.0, 0.3, 1.5, 0.1],
+        highlight_shape: [0.1, -0.1, 0.3, 0.4],
+        highlight_turn: [0.8, 0.6, 0.1, 0.05],
+        back: [0.4, 0.7, 0.2, 0.3],
         ramp,
+        ..Part::default()
     }
+}
+
+/// A hatch tile of 64 texels a side: waves across u, another for each drawing.
+fn hatch_levels() -> Vec<Vec<u32>> {
+    let level = |l: u32| {
+        let side = 64 >> l;
+        let wave =
+            move |x: u32, period: u32| 1 + (x % period).min(period - x % period) * 254 * 2 / period;
+        let texel = move |i: u32| {
+            let x = i % side + i / side / 8;
+            u32::from_le_bytes([8, 8, 16, 16].map(|period| wave(x, period) as u8))
+        };
+        (0..side * side).map(texel).collect()
+    };
+    (0..3).map(level).collect()
 }
 
 /// The camera and the frame of a look.
@@ -204,12 +262,15 @@ pub fn outline(look: Look) -> Outline {
 /// Settings of the last pass of a look; the texture lies behind everything in one of them.
 pub fn compose(look: Look, scene: &Scene) -> Compose {
     let (samples, flags, background_texture) = match look {
-        Look::Ours => (2, Compose::RIBBONS | Compose::STAMPS, NONE),
-        Look::Published => (1, Compose::MASK | Compose::ANGLE, scene.parts[1].texture),
+        Look::Ours => (2, Compose::RIBBONS | Compose::OVERLAY, NONE),
+        Look::Published => (1, Compose::OVERLAY | Compose::ANGLE, scene.parts[1].texture),
     };
     Compose {
-        light_world: [0.48, 0.6, 0.64],
         samples,
+        right_world: [0.8, 0.0, -0.6],
+        back_world: [0.36, 0.48, -0.8],
+        streak_world: [0.3, 0.4, 0.2],
+        center_world: [0.1, 0.0, 0.0],
         background: [0.2, 0.3, 0.5, 0.5],
         line_color: [0.3, 0.0, 0.0, 0.7],
         background_texture,
@@ -217,4 +278,25 @@ pub fn compose(look: Look, scene: &Scene) -> Compose {
         saturation: 1.2,
         ..Compose::default()
     }
+}
+
+/// The lights of a look: one as published, or one of every kind.
+pub fn lights(look: Look) -> Lights {
+    let mut lights = Lights::distant([0.48, 0.6, 0.64]);
+    if look == Look::Published {
+        lights.count = 3;
+        for (i, kind) in [(1, LightSource::POINT), (2, LightSource::SPOT)] {
+            lights.sources[i] = LightSource {
+                position: [-1.5, 1.0, 1.5],
+                kind,
+                direction: [0.6, -0.48, -0.64],
+                intensity: 0.6,
+                color: [1.0, 0.8, 0.6],
+                range: 5.0,
+                cone: [0.7, 0.9],
+                unused: [0.0; 2],
+            };
+        }
+    }
+    lights
 }

@@ -1,0 +1,323 @@
+//! Highlights as comics draw them: crisp spots, soft spots, light from behind and straight streaks.
+//!
+//! Pure functions, one per equation; `lib/gloss` repeats them for passes. All vectors are unit vectors in the world: the
+//! normal N, L towards the light, E towards the eye.
+
+use crate::compose::Layers;
+use npr_core::geometry::Part;
+use npr_core::math;
+use npr_core::surface::{dot, unit_or_z};
+
+/// Phong's term (L . R)^n with R = 2 (N . E) N - E, the view mirrored at the surface [Suzuki 2004, section 3.6].
+///
+/// 0 where light comes from behind. `exponent` 1..1000: 200 a small hard spot, 50 a wide one.
+pub fn phong(normal: [f32; 3], light: [f32; 3], eye: [f32; 3], exponent: f32) -> f32 {
+    let facing = 2.0 * dot(normal, eye);
+    let mirrored: [f32; 3] = std::array::from_fn(|i| facing * normal[i] - eye[i]);
+    if dot(normal, light) <= 0.0 {
+        return 0.0;
+    }
+    power(dot(light, mirrored), exponent)
+}
+
+/// Blinn's term (N . H)^n with the half vector H, its middle where Phong's is [Blinn 1977; Suzuki 2004, section 3.6].
+pub fn blinn_phong(normal: [f32; 3], half: [f32; 3], exponent: f32) -> f32 {
+    power(dot(normal, half), exponent)
+}
+
+/// Half way between light and eye.
+pub fn half_vector(light: [f32; 3], eye: [f32; 3]) -> [f32; 3] {
+    unit_or_z(std::array::from_fn(|i| light[i] + eye[i]))
+}
+
+/// 1 inside a crisp highlight, 0 outside: where the term exceeds `threshold`.
+pub fn crisp(term: f32, threshold: f32) -> f32 {
+    if term > threshold { 1.0 } else { 0.0 }
+}
+
+/// A soft highlight ((I - b) (5b/2 + I)^m) / 2 for a term I over the threshold b, clamped to 0..1 [Suzuki 2004, section 3.6].
+///
+/// Differs: the paper's expression exceeds 1 for m >= 2 and is cut off there. m 0.5 a haze, 2 a spot with a soft rim.
+pub fn gradient(term: f32, threshold: f32, m: f32) -> f32 {
+    if term <= threshold {
+        return 0.0;
+    }
+    let lift = math::powf(2.5 * threshold + term, m);
+    ((term - threshold) * lift * 0.5).clamp(0.0, 1.0)
+}
+
+/// How much a light from behind brightens a rim: a step from 0 to 1 between `from` and `to` on the ramp coordinate
+/// ((L . N) + 1) / 2 of its own direction [Suzuki 2004, section 3.6].
+pub fn back_light(normal: [f32; 3], light: [f32; 3], from: f32, to: f32) -> f32 {
+    math::smoothstep(from, to, crate::ramp::ramp_coordinate(dot(normal, light)))
+}
+
+/// 1 on a straight streak and on the thin one beside it, 0 elsewhere.
+///
+/// `across` is a position measured across the streaks, in radii of the model, from the middle of the first; the second has
+/// a third of its `width` and lies as far away as the first is wide. Light does not move them: they are drawn as on glass.
+pub fn streak(across: f32, width: f32) -> f32 {
+    let first = across.abs() < 0.5 * width;
+    let second = (across - width * 1.0).abs() < width / 6.0;
+    if first || second { 1.0 } else { 0.0 }
+}
+
+/// Moves and shapes a highlight by moving the half vector at every point [Anjyo and Hiramitsu 2003].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HighlightShape {
+    /// Moves it along the two axes; 0.3 is a clear step.
+    pub shift: [f32; 2],
+    /// Cosine and sine of the angle by which the axes are turned.
+    pub turn: [f32; 2],
+    /// Stretches it along the first axis, 0..1.
+    pub stretch: f32,
+    /// Splits it along both axes: the gap as a part of a unit vector.
+    pub split: [f32; 2],
+    /// Makes it a square, 0..1.
+    pub square: f32,
+}
+
+impl Default for HighlightShape {
+    fn default() -> Self {
+        Self {
+            shift: [0.0; 2],
+            turn: [1.0, 0.0],
+            stretch: 0.0,
+            split: [0.0; 2],
+            square: 0.0,
+        }
+    }
+}
+
+/// The half vector moved so that the highlight takes a shape.
+///
+/// The axes are the picture's: `right` laid onto the surface, turned, and the direction across it. The operations follow
+/// one another as in the paper: move, stretch, split, square.
+pub fn shaped_half(
+    half: [f32; 3],
+    normal: [f32; 3],
+    right: [f32; 3],
+    shape: &HighlightShape,
+) -> [f32; 3] {
+    let inwards = dot(right, normal);
+    let flat = unit_or_z(std::array::from_fn(|i| right[i] - normal[i] * inwards));
+    let side = cross(normal, flat);
+    let [cos, sin] = shape.turn;
+    let u: [f32; 3] = std::array::from_fn(|i| flat[i] * cos + side[i] * sin);
+    let v: [f32; 3] = std::array::from_fn(|i| side[i] * cos - flat[i] * sin);
+    let moved = plus(half, u, -shape.shift[0], v, -shape.shift[1]);
+    let stretched = plus(moved, u, -shape.stretch * dot(moved, u), v, 0.0);
+    let gap = |axis: [f32; 3], width: f32| -width * sign(dot(stretched, axis));
+    let split = plus(
+        stretched,
+        u,
+        gap(u, shape.split[0]),
+        v,
+        gap(v, shape.split[1]),
+    );
+    if shape.square == 0.0 {
+        return split;
+    }
+    let (along, across) = (dot(split, u), dot(split, v));
+    let size = (along * along + across * across).sqrt().max(1e-6);
+    // sin(2 theta)^2 of the angle to the nearer axis: corners are pushed out, sides stay.
+    let corner = 2.0 * along * across / (size * size);
+    let pull = shape.square * corner * corner;
+    plus(split, u, -pull * along, v, -pull * across)
+}
+
+fn plus(base: [f32; 3], a: [f32; 3], by_a: f32, b: [f32; 3], by_b: f32) -> [f32; 3] {
+    unit_or_z(std::array::from_fn(|i| base[i] + a[i] * by_a + b[i] * by_b))
+}
+
+fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn sign(x: f32) -> f32 {
+    if x < 0.0 { -1.0 } else { 1.0 }
+}
+
+/// `base` to a power, 0 for what is not positive.
+fn power(base: f32, exponent: f32) -> f32 {
+    if base <= 0.0 {
+        return 0.0;
+    }
+    math::powf(base.min(1.0), exponent)
+}
+
+impl HighlightShape {
+    /// The shape that a part asks for.
+    fn of(part: &Part) -> Self {
+        let ([shift_u, shift_v, stretch, square], [cos, sin, split_u, split_v]) =
+            (part.highlight_shape, part.highlight_turn);
+        Self {
+            shift: [shift_u, shift_v],
+            turn: [cos, sin],
+            stretch,
+            split: [split_u, split_v],
+            square,
+        }
+    }
+}
+
+impl Layers<'_> {
+    /// Light that a part's highlights add at a place.
+    pub(crate) fn highlights_at(&self, part: &Part, world: [f32; 3], normal: [f32; 3]) -> [f32; 3] {
+        let mut sum = [0.0; 3];
+        let mut add = |color: [f32; 4], amount: f32| {
+            for (sum, c) in sum.iter_mut().zip(color) {
+                *sum += c * (color[3] * amount);
+            }
+        };
+        let eye = self.view.to_eye(world);
+        if part.flags & (Part::CRISP | Part::SOFT) != 0 {
+            let (term, [_, threshold, m, _]) =
+                (self.term_at(part, world, normal, eye), part.highlight);
+            let amount = if part.flags & Part::CRISP != 0 {
+                crisp(term, threshold)
+            } else {
+                gradient(term, threshold, m)
+            };
+            add(part.highlight_color, amount);
+        }
+        let [from, to, width, facing] = part.back;
+        if part.flags & Part::BACK_LIGHT != 0 {
+            add(
+                part.back_color,
+                back_light(normal, self.compose.back_world, from, to),
+            );
+        }
+        if part.flags & Part::STREAK != 0 && dot(normal, eye).abs() > facing {
+            let offset: [f32; 3] = std::array::from_fn(|i| world[i] - self.compose.center_world[i]);
+            let across = dot(offset, self.compose.streak_world) - part.highlight[3];
+            add(part.highlight_color, streak(across, width));
+        }
+        sum
+    }
+
+    /// The greatest highlight term of all lights at a place.
+    fn term_at(&self, part: &Part, world: [f32; 3], normal: [f32; 3], eye: [f32; 3]) -> f32 {
+        let exponent = part.highlight[0];
+        let shape = HighlightShape::of(part);
+        let lights = &self.lights.sources[..self.lights.count as usize];
+        let terms = lights.iter().map(|source| {
+            let light = source.towards(world);
+            if part.flags & Part::PHONG != 0 {
+                return phong(normal, light, eye, exponent);
+            }
+            if dot(normal, light) <= 0.0 {
+                return 0.0;
+            }
+            let right = self.compose.right_world;
+            let half = shaped_half(half_vector(light, eye), normal, right, &shape);
+            blinn_phong(normal, half, exponent)
+        });
+        terms.fold(0.0, f32::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const UP: [f32; 3] = [0.0, 0.0, 1.0];
+
+    #[test]
+    fn both_terms_are_1_where_the_eye_sees_the_mirrored_light() {
+        let (light, eye) = ([0.6, 0.0, 0.8], [-0.6, 0.0, 0.8]);
+        assert!((phong(UP, light, eye, 50.0) - 1.0).abs() < 1e-5);
+        assert!((blinn_phong(UP, half_vector(light, eye), 50.0) - 1.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn phong_by_hand() {
+        // R of an upright view is the normal, so L . R = 0.8.
+        assert!((phong(UP, [0.6, 0.0, 0.8], UP, 2.0) - 0.64).abs() < 1e-6);
+        assert_eq!(phong(UP, [0.6, 0.0, -0.8], UP, 2.0), 0.0);
+    }
+
+    #[test]
+    fn the_soft_highlight_by_hand() {
+        assert_eq!(gradient(0.5, 0.5, 2.0), 0.0);
+        // (0.9 - 0.5) (1.25 + 0.9) / 2
+        assert!((gradient(0.9, 0.5, 1.0) - 0.43).abs() < 1e-6);
+        assert_eq!(gradient(1.0, 0.2, 4.0), 1.0);
+    }
+
+    #[test]
+    fn a_crisp_highlight_has_no_rim() {
+        assert_eq!(
+            [0.49, 0.5, 0.51].map(|term| crisp(term, 0.5)),
+            [0.0, 0.0, 1.0]
+        );
+    }
+
+    #[test]
+    fn light_from_behind_reaches_the_rim() {
+        let behind = [0.0, 0.6, -0.8];
+        assert_eq!(back_light(UP, behind, 0.6, 0.7), 0.0);
+        assert_eq!(back_light(behind, behind, 0.6, 0.7), 1.0);
+    }
+
+    #[test]
+    fn a_streak_has_a_thin_one_beside_it() {
+        let at = [0.0, 0.09, 0.14, 0.2, 0.25].map(|x| streak(x, 0.2));
+        assert_eq!(at, [1.0, 1.0, 0.0, 1.0, 0.0]);
+    }
+
+    #[test]
+    fn a_shape_of_nothing_leaves_the_half_vector() {
+        let half = half_vector([0.6, 0.0, 0.8], UP);
+        let same = shaped_half(half, UP, [1.0, 0.0, 0.0], &HighlightShape::default());
+        assert!((0..3).all(|i| (half[i] - same[i]).abs() < 1e-6), "{same:?}");
+    }
+
+    #[test]
+    fn splitting_leaves_a_gap_in_the_middle() {
+        let shape = HighlightShape {
+            split: [0.3, 0.0],
+            ..HighlightShape::default()
+        };
+        let term = |x: f32| {
+            let normal = unit_or_z([x, 0.0, 1.0]);
+            blinn_phong(
+                normal,
+                shaped_half(UP, normal, [1.0, 0.0, 0.0], &shape),
+                50.0,
+            )
+        };
+        assert!(term(0.0) < 0.2, "the middle");
+        assert!(term(0.3) > 0.9 && term(-0.3) > 0.9, "both halves");
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+        #[test]
+        fn terms_and_highlights_stay_within_0_and_1(
+            vectors in prop::array::uniform3(prop::array::uniform3(-1f32..1.0)),
+            exponent in 1f32..1000.0, threshold in 0f32..1.0, m in 0f32..8.0,
+            shift in prop::array::uniform2(-1f32..1.0), split in prop::array::uniform2(0f32..1.0),
+            stretch in 0f32..1.0, square in 0f32..1.0,
+        ) {
+            let [normal, light, eye] = vectors.map(unit_or_z);
+            let shape = HighlightShape { shift, split, stretch, square, turn: [0.6, 0.8] };
+            let half = shaped_half(half_vector(light, eye), normal, [1.0, 0.0, 0.0], &shape);
+            for term in [phong(normal, light, eye, exponent), blinn_phong(normal, half, exponent)] {
+                prop_assert!((0.0..=1.0).contains(&term), "{term}");
+                prop_assert!((0.0..=1.0).contains(&gradient(term, threshold, m)));
+            }
+        }
+
+        #[test]
+        fn a_smaller_exponent_never_shrinks_a_highlight(cos in 0f32..1.0, exponent in 1f32..500.0, less in 0f32..1.0) {
+            let normal = unit_or_z([(1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos]);
+            prop_assert!(blinn_phong(normal, UP, exponent * less) >= blinn_phong(normal, UP, exponent) - 1e-6);
+        }
+    }
+}

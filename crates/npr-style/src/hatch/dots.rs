@@ -1,0 +1,66 @@
+//! Heights of drawings made of dots: the squared distance, since ink grows with it.
+
+use super::drawing::{Drawing, Hand};
+use super::points::Cells;
+
+/// Sides of the tile in steps of the screen's grid; dots lie on every second of its crossings.
+///
+/// Rows at 45 degrees, a spacing of root two steps. Twice the tracks of a level, so that the coarsest
+/// still has two dots, and a half turn swaps neighbours.
+fn grid_side(drawing: Drawing) -> u32 {
+    2 * drawing.tracks()
+}
+
+/// Dots on a tile of hand-set dots at this drawing: two per square spacing of tracks, an even number.
+pub fn stipple_count(drawing: Drawing) -> u32 {
+    let spacings = drawing.side_spacings();
+    2 * ((spacings * spacings).round() as u32).max(1)
+}
+
+/// Heights of hand-set dots; `points` are in order of appearance.
+pub struct Stipple(Cells);
+
+impl Stipple {
+    /// The dots that `drawing` holds, out of `points`.
+    pub fn new(drawing: Drawing, hand: &Hand, seed: u32, points: &[[f32; 2]]) -> Self {
+        let count = (stipple_count(drawing) as usize).min(points.len());
+        Self(Cells::new(&points[..count], hand.variation, seed))
+    }
+
+    /// Fills a row of heights at `v`.
+    pub fn fill_row(&self, v: f32, heights: &mut [f32]) {
+        let side = heights.len() as f32;
+        for (x, height) in heights.iter_mut().enumerate() {
+            *height = self.0.nearest2([(x as f32 + 0.5) / side, v]);
+        }
+    }
+}
+
+/// Fills a row of heights at `v` with a printer's screen.
+///
+/// Going away, first every second row of dots shrinks to nothing, half an octave long, then every second
+/// dot of the others: the screen turns by 45 degrees, and turns back.
+pub fn fill_screen_row(drawing: Drawing, v: f32, heights: &mut [f32]) {
+    let steps = grid_side(drawing) as f32 / heights.len() as f32;
+    let y = v * grid_side(drawing) as f32;
+    let odd = (1.0 - 2.0 * drawing.octave()).max(0.0);
+    let middle = (2.0 - 2.0 * drawing.octave()).min(1.0);
+    for (x, height) in heights.iter_mut().enumerate() {
+        let p = [(x as f32 + 0.5) * steps, y];
+        let kept = lattice2(p, [0.0, 0.0], 4.0).min(lattice2(p, [2.0, 2.0], 4.0));
+        let second = lattice2(p, [2.0, 0.0], 4.0).min(lattice2(p, [0.0, 2.0], 4.0));
+        let first = lattice2(p, [1.0, 1.0], 2.0);
+        *height = kept
+            .min(second / middle.max(1e-6))
+            .min(first / odd.max(1e-6));
+    }
+}
+
+/// Squared distance from `p` to the nearest of the points `start + pitch * (i, j)`.
+fn lattice2(p: [f32; 2], start: [f32; 2], pitch: f32) -> f32 {
+    let axis = |i: usize| {
+        let d = (p[i] - start[i]) / pitch;
+        (d - d.round()) * pitch
+    };
+    axis(0) * axis(0) + axis(1) * axis(1)
+}

@@ -1,0 +1,101 @@
+//! Numbers that look random: hashes, and smooth noise along a closed line.
+
+/// A well mixed number from three, by two rounds of multiply and shift [Wellons 2018, `lowbias32`].
+pub fn hash(seed: u32, a: u32, b: u32) -> u32 {
+    let mixed = round(round(seed ^ 0x9e37_79b9).wrapping_add(a));
+    round(mixed.wrapping_add(b.wrapping_mul(0x85eb_ca6b)))
+}
+
+fn round(mut x: u32) -> u32 {
+    x = (x ^ (x >> 16)).wrapping_mul(0x7feb_352d);
+    x = (x ^ (x >> 15)).wrapping_mul(0x846c_a68b);
+    x ^ (x >> 16)
+}
+
+/// A hash as a number of 0..1, 1 left out.
+pub fn unit(hash: u32) -> f32 {
+    (hash >> 8) as f32 / (1 << 24) as f32
+}
+
+/// A hash as a number of -1..1.
+pub fn signed(hash: u32) -> f32 {
+    2.0 * unit(hash) - 1.0
+}
+
+/// Smooth noise of -1..1 with period 1 in `x`, through `cells` random heights per period.
+///
+/// A uniform cubic B-spline: its bends change smoothly, as a hand's do, which steps blended by
+/// a smooth step do not. Most values lie within 0.4 of 0.
+pub fn closed_noise(seed: u32, stream: u32, cells: u32, x: f32) -> f32 {
+    let cells = cells.max(1);
+    let place = (x - x.floor()) * cells as f32;
+    let cell = place.floor();
+    let t = place - cell;
+    let height = |offset: u32| signed(hash(seed, stream, (cell as u32 + offset) % cells));
+    let s = 1.0 - t;
+    let near = |t: f32| (3.0 * t - 6.0) * t * t + 4.0;
+    (height(0) * s * s * s + height(1) * near(t) + height(2) * near(s) + height(3) * t * t * t)
+        / 6.0
+}
+
+/// [`closed_noise`] with a real number of cells: the two powers of two around it, blended.
+///
+/// As `cells` grows finer noise takes over from coarser without a jump.
+pub fn scaled_noise(seed: u32, stream: u32, cells: f32, x: f32) -> f32 {
+    let mut coarse = 1;
+    while coarse < 1 << 16 && (2 * coarse) as f32 <= cells {
+        coarse *= 2;
+    }
+    let blend = (cells / coarse as f32 - 1.0).clamp(0.0, 1.0);
+    let octave = |cells: u32| closed_noise(seed, stream.wrapping_add(cells << 16), cells, x);
+    octave(coarse) * (1.0 - blend) + octave(2 * coarse) * blend
+}
+
+/// The `k`-th number of van der Corput's sequence in base 2, 0..1.
+///
+/// Any first few of them are spread evenly, so a list in this order thins out evenly from its end.
+pub fn bit_reversed(k: u32) -> f32 {
+    unit(k.reverse_bits())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn the_first_numbers_halve_what_is_left() {
+        let first: Vec<f32> = (0..5).map(bit_reversed).collect();
+        assert_eq!(first, [0.0, 0.5, 0.25, 0.75, 0.125]);
+    }
+
+    #[test]
+    fn hashes_fill_the_range_evenly() {
+        let mut counts = [0u32; 16];
+        for i in 0..16_000 {
+            counts[(unit(hash(3, i, 7)) * 16.0) as usize] += 1;
+        }
+        assert!(
+            counts.iter().all(|&n| (850..1150).contains(&n)),
+            "{counts:?}"
+        );
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        #[test]
+        fn noise_is_closed_bounded_and_smooth(seed: u32, stream: u32, cells in 0u32..100, x in -2.0f32..2.0) {
+            let at = |x| closed_noise(seed, stream, cells, x);
+            prop_assert!(at(x).abs() <= 1.0);
+            prop_assert!((at(x) - at(x + 1.0)).abs() < 1e-3);
+            prop_assert!((at(x) - at(x + 1e-4)).abs() < 2.5e-4 * cells.max(1) as f32 + 1e-5);
+        }
+
+        #[test]
+        fn growing_noise_never_jumps(seed: u32, cells in 0.0f32..64.0, x in 0.0f32..1.0) {
+            let at = |cells| scaled_noise(seed, 1, cells, x);
+            prop_assert!((at(cells) - at(cells + 1e-3)).abs() < 5e-3);
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Which parts of the shade are drawn with the pen: solid ink, hatching, both or none.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::Color;
+use crate::hatch::Hatch;
+
+/// What the shade of a surface is drawn with [Suzuki 2004, figure 2.3].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Tone {
+    /// Nothing: the tones of the fill alone.
+    #[default]
+    #[serde(rename = "none")]
+    Off,
+    /// Solid ink up to one hard edge.
+    Ink,
+    /// Strokes that leave paper between them even in the dark.
+    Hatch,
+    /// Strokes that swell into solid ink.
+    #[serde(rename = "ink+hatch")]
+    InkHatch,
+    /// By the material: ink on metal and on what is polished, ink and hatch on everything else.
+    Auto,
+}
+
+/// What strokes are fixed to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mapping {
+    /// The surface and its bends: strokes stay on it while the camera moves.
+    #[default]
+    Surface,
+    /// The UV coordinates of the file. Parts without any take `surface`.
+    Uv,
+    /// The picture: one direction everywhere, as cut from a sheet of screen tone.
+    Screen,
+}
+
+/// What strokes on a surface run along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Follow {
+    /// Round the form: the direction in which the surface bends most.
+    #[default]
+    Around,
+    /// Along the form: the direction in which it bends least.
+    Along,
+}
+
+/// Roughness under which a material counts as polished for [`Tone::Auto`].
+const POLISHED: f32 = 0.3;
+
+/// The pen's part of the shade.
+///
+/// The light on a surface gives a shade ramp, black up to `dark_at` and white from `light_at`; hatching is added to it and
+/// the sum cut at `threshold` [Suzuki 2004, section 3.3]. Solid ink ends a quarter of the way between the two places, the
+/// last stroke three quarters.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Ink {
+    /// What the shade is drawn with; default `none`.
+    pub tone: Tone,
+    /// Colour of ink and strokes; default black. Alpha is how much it covers.
+    pub color: Color,
+    /// Place on the ramp, 0..1, up to which the shade ramp is black; default 0.2. Raise it for more solid black: 0 leaves
+    /// strokes alone, 0.5 blackens everything that faces away.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub dark_at: f32,
+    /// Place on the ramp, 0..1, from which it is white; default 0.75. Close to `dark_at` strokes are short and stubby, far
+    /// from it long and tapered.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub light_at: f32,
+    /// Where the sum is cut, 0..1; default 0.5. Higher is blacker all over.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub threshold: f32,
+    /// What strokes are fixed to; default `surface`.
+    pub mapping: Mapping,
+    /// For mapping `surface`: what strokes run along; default `around`.
+    pub follow: Follow,
+    /// For mapping `surface`: a direction in the scene that strokes follow instead; default none. `[0, 1, 0]` lets them fall
+    /// like cloth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    pub direction: Option<[f32; 3]>,
+    /// The strokes.
+    pub hatch: Hatch,
+}
+
+impl Default for Ink {
+    fn default() -> Self {
+        Self {
+            tone: Tone::Off,
+            color: Color::rgb(0, 0, 0),
+            dark_at: 0.2,
+            light_at: 0.75,
+            threshold: 0.5,
+            mapping: Mapping::Surface,
+            follow: Follow::Around,
+            direction: None,
+            hatch: Hatch::default(),
+        }
+    }
+}
+
+impl Tone {
+    /// Whether there is solid ink, and whether there are strokes, on a material of this metalness and roughness, 0..1.
+    pub fn ink_and_hatch(self, metallic: f32, roughness: f32) -> [bool; 2] {
+        match self {
+            Self::Off => [false, false],
+            Self::Ink => [true, false],
+            Self::Hatch => [false, true],
+            Self::InkHatch => [true, true],
+            Self::Auto => [true, metallic <= 0.5 && roughness >= POLISHED],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn metal_is_inked_and_cloth_is_hatched() {
+        assert_eq!(Tone::Auto.ink_and_hatch(1.0, 0.8), [true, false]);
+        assert_eq!(Tone::Auto.ink_and_hatch(0.0, 0.1), [true, false]);
+        assert_eq!(Tone::Auto.ink_and_hatch(0.0, 0.9), [true, true]);
+    }
+}

@@ -1,0 +1,259 @@
+//! Ink and hatching at one point: the black half of `shade.compose_frame`.
+//!
+//! The shade ramp gives a luminance L, the hatch tile a luminance S; F = S + 2 (L - 0.5) is cut to black or
+//! white by a threshold [Suzuki 2004, section 3.3, eq. 3.3]. So strokes swell as it gets darker, and merge into ink.
+
+use crate::compose::Layers;
+use crate::hatch::{cross_layers, detail, ink_coverage, level_at, sample, sharpen, tone_value};
+use crate::tone::Corners;
+use npr_core::geometry::{ChartCorners, Part, Triangle};
+use npr_core::raster::ID_MASK;
+use npr_core::surface::{blend2, weights_at};
+use npr_core::texture::HEADER_WORDS;
+
+/// Luminance of the middle of a stroke's half width: what stands for the hatch where there is none.
+const NO_HATCH: f32 = 0.5;
+
+/// Least luminance of the shade ramp where there is hatch but no ink, above the half of the threshold that would be all
+/// ink: the paper between strokes stays open.
+const OPEN_PAPER: f32 = 0.08;
+
+/// Luminance L of the shade ramp at coordinate `x`: black up to `dark_at`, white from `light_at`, grey between.
+pub fn shade_level(x: f32, dark_at: f32, light_at: f32) -> f32 {
+    if light_at <= dark_at {
+        return if x < light_at { 0.0 } else { 1.0 };
+    }
+    ((x - dark_at) / (light_at - dark_at)).clamp(0.0, 1.0)
+}
+
+/// Luminance that the shade ramp gives a part: never so dark that hatch without ink closes.
+fn level_of(part: &Part, x: f32) -> f32 {
+    let l = shade_level(x, part.dark_at, part.light_at);
+    if part.flags & Part::INK == 0 {
+        l.max(part.threshold * 0.5 + OPEN_PAPER)
+    } else {
+        l
+    }
+}
+
+/// Ink of a surface whose ramp coordinates all lie in `range`: 1, 0, or none where it is neither all over.
+pub(crate) fn ink_over(part: &Part, range: [f32; 2]) -> Option<f32> {
+    if part.flags & (Part::INK | Part::HATCH) == 0 {
+        return Some(0.0);
+    }
+    let (lightest, darkest) = if part.flags & Part::HATCH != 0 {
+        (0.0, 1.0)
+    } else {
+        (NO_HATCH, NO_HATCH)
+    };
+    if tone_value(lightest, level_of(part, range[0])) > part.threshold {
+        Some(0.0)
+    } else if tone_value(darkest, level_of(part, range[1])) < part.threshold {
+        Some(1.0)
+    } else {
+        None
+    }
+}
+
+/// Luminance S of a hatch, and its change over a pixel to the right and down.
+#[derive(Debug, Clone, Copy)]
+struct Hatching {
+    s: f32,
+    slope: [f32; 2],
+}
+
+/// Where a pixel lies in a hatch, in tiles, and how far it is from there to its neighbours.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    uv: [f32; 2],
+    right: [f32; 2],
+    down: [f32; 2],
+}
+
+impl Place {
+    /// The same with strokes across: u and v exchanged.
+    fn crossed(self) -> Self {
+        let swap = |[u, v]: [f32; 2]| [v, u];
+        Self {
+            uv: swap(self.uv),
+            right: swap(self.right),
+            down: swap(self.down),
+        }
+    }
+
+    /// Tiles that a pixel covers across the strokes, or in the mean of both directions.
+    fn step(&self, isotropic: bool) -> f32 {
+        let (right, down) = (self.right, self.down);
+        if isotropic {
+            (right[0] * down[1] - right[1] * down[0]).abs().sqrt()
+        } else {
+            length([right[0], down[0]])
+        }
+    }
+}
+
+impl Layers<'_> {
+    /// How much of the surface of triangle `id` is inked at a place of the frame, 0..1.
+    pub(crate) fn ink_at(&self, id: u32, part: &Part, corners: &Corners<'_>, px: [f32; 2]) -> f32 {
+        if part.flags & (Part::INK | Part::HATCH) == 0 {
+            return 0.0;
+        }
+        let places = [px, [px[0] + 1.0, px[1]], [px[0], px[1] + 1.0]];
+        let weights = places.map(|px| weights_at(corners.clip, self.view.ndc_at(px)));
+        let l = weights.map(|w| {
+            let (x, _) = self
+                .lights
+                .coordinate_at(corners.world(w), corners.normal(w));
+            level_of(part, x)
+        });
+        let hatching = if part.flags & Part::HATCH != 0 {
+            self.hatching(part, &self.place_in_hatch(id, part, weights, places))
+        } else {
+            Hatching {
+                s: NO_HATCH,
+                slope: [0.0; 2],
+            }
+        };
+        // Beyond a silhouette the surface runs on to anywhere.
+        let slope = [
+            hatching.slope[0] + (2.0 * (l[1] - l[0])).clamp(-1.0, 1.0),
+            hatching.slope[1] + (2.0 * (l[2] - l[0])).clamp(-1.0, 1.0),
+        ];
+        ink_coverage(tone_value(hatching.s, l[0]), length(slope), part.threshold)
+    }
+
+    /// Where a pixel and its neighbours to the right and below lie in the hatch of a part.
+    fn place_in_hatch(
+        &self,
+        id: u32,
+        part: &Part,
+        weights: [[f32; 3]; 3],
+        places: [[f32; 2]; 3],
+    ) -> Place {
+        let triangle = ((id & ID_MASK) - 1) as usize;
+        let uvs: [[f32; 2]; 3] = std::array::from_fn(|i| {
+            let raw = if part.flags & Part::ON_SCREEN != 0 {
+                places[i]
+            } else if part.flags & Part::ON_SURFACE != 0 {
+                let ChartCorners { a, b, c } = self.charts[triangle];
+                blend2(weights[i], [a, b, c])
+            } else {
+                let Triangle { corners, .. } = self.triangles[triangle];
+                blend2(weights[i], corners.map(|v| self.vertices[v as usize].uv))
+            };
+            let [cos, sin] = part.turn;
+            [
+                (raw[0] * cos + raw[1] * sin) * part.tile_scale,
+                (raw[1] * cos - raw[0] * sin) * part.tile_scale,
+            ]
+        });
+        Place {
+            uv: uvs[0],
+            right: [uvs[1][0] - uvs[0][0], uvs[1][1] - uvs[0][1]],
+            down: [uvs[2][0] - uvs[0][0], uvs[2][1] - uvs[0][1]],
+        }
+    }
+
+    /// The hatch of a part, with its second layer where it has one.
+    fn hatching(&self, part: &Part, place: &Place) -> Hatching {
+        let first = self.layer(part, place);
+        if part.flags & Part::TWO_LAYERS == 0 {
+            return sharpened(first, part.hatch_gain);
+        }
+        let second = self.layer(part, &place.crossed());
+        let [first_part, second_part] = cross_layers(first.s, second.s, part.second_from);
+        let both = if first_part[0] <= second_part[0] {
+            scaled(first, first_part)
+        } else {
+            scaled(second, second_part)
+        };
+        sharpened(both, part.hatch_gain)
+    }
+
+    /// One layer of a hatch tile, from the level whose strokes lie as far apart on screen as the part asks.
+    fn layer(&self, part: &Part, place: &Place) -> Hatching {
+        let header = part.hatch as usize;
+        let side = self.texels[header];
+        let step = place.step(part.flags & Part::ISOTROPIC != 0).max(1e-9);
+        let spacing_texels = f32::from_bits(self.texels[header + 3]);
+        let detail = detail(step * side as f32, part.spacing_px, spacing_texels);
+        let (level, fraction) = level_at(detail, self.texels[header + 2]);
+        let mut first = header + HEADER_WORDS as usize;
+        for l in 0..level {
+            first += ((side >> l) * (side >> l)) as usize;
+        }
+        let level_side = side >> level;
+        let texels = &self.texels[first..][..(level_side * level_side) as usize];
+        let found = sample(bytemuck::cast_slice(texels), level_side, place.uv, fraction);
+        let along = |[du, dv]: [f32; 2]| {
+            (found.gradient[0] * du + found.gradient[1] * dv) * level_side as f32
+        };
+        Hatching {
+            s: found.luminance,
+            slope: [along(place.right), along(place.down)],
+        }
+    }
+}
+
+/// A layer as `[value, steepness]` says.
+fn scaled(layer: Hatching, [s, steepness]: [f32; 2]) -> Hatching {
+    Hatching {
+        s,
+        slope: layer.slope.map(|d| d * steepness),
+    }
+}
+
+fn sharpened(layer: Hatching, gain: f32) -> Hatching {
+    scaled(layer, [sharpen(layer.s, gain), gain])
+}
+
+fn length(v: [f32; 2]) -> f32 {
+    (v[0] * v[0] + v[1] * v[1]).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn the_shade_ramp_is_black_grey_white() {
+        assert_eq!(
+            [0.0, 0.2, 0.4, 0.6, 1.0].map(|x| shade_level(x, 0.2, 0.6)),
+            [0.0, 0.0, 0.5, 1.0, 1.0]
+        );
+        assert_eq!(shade_level(0.4, 0.5, 0.5), 0.0);
+        assert_eq!(shade_level(0.5, 0.5, 0.5), 1.0);
+    }
+
+    fn part(flags: u32) -> Part {
+        Part {
+            flags,
+            dark_at: 0.2,
+            light_at: 0.7,
+            threshold: 0.5,
+            ..Part::default()
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+        #[test]
+        fn a_range_that_is_decided_is_so_for_every_hatch(
+            low in 0f32..1.0, width in 0f32..0.5, at in 0f32..1.0, s in 0f32..1.0, bits in 1u32..4,
+        ) {
+            let part = part(bits * Part::INK);
+            let range = [low, low + width];
+            let s = if part.flags & Part::HATCH != 0 { s } else { NO_HATCH };
+            if let Some(ink) = ink_over(&part, range) {
+                let value = tone_value(s, level_of(&part, low + width * at));
+                prop_assert_eq!(ink == 1.0, value < part.threshold);
+            }
+        }
+
+        #[test]
+        fn hatch_without_ink_leaves_paper(x in 0f32..1.0) {
+            prop_assert!(tone_value(1.0, level_of(&part(Part::HATCH), x)) > 0.5);
+        }
+    }
+}

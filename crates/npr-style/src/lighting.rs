@@ -1,0 +1,219 @@
+//! What a surface is lit by, as passes read it: the twin of `lib/lighting`.
+//!
+//! Every light adds to the place on the ramp; a single distant light of intensity 1 gives `(N.L + 1) / 2`
+//! [Suzuki 2004, section 3.2], as published.
+
+use bytemuck::{Pod, Zeroable};
+use npr_core::gpu_layout;
+use npr_core::math;
+use npr_core::surface::{dot, unit_or_z};
+
+use crate::ramp::ramp_coordinate;
+
+/// Most lights that shade a frame.
+pub const LIGHTS_MAX: usize = 16;
+
+/// One light.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct LightSource {
+    /// Where it is, in the world; ignored for distant lights.
+    pub position: [f32; 3],
+    /// [`LightSource::DISTANT`], [`LightSource::POINT`] or [`LightSource::SPOT`].
+    pub kind: u32,
+    /// Unit vector in the world: towards a distant light, along the axis of a spot.
+    pub direction: [f32; 3],
+    /// What it adds to the ramp coordinate where it is faced, 0 and up.
+    pub intensity: f32,
+    /// Linear colour of its light; white leaves tones as they are.
+    pub color: [f32; 3],
+    /// Distance at which it has faded to nothing, in the world; 0 where it never fades.
+    pub range: f32,
+    /// Cosines of a spot's angles to its axis: where light ends, and up to where it is full.
+    pub cone: [f32; 2],
+    /// Keeps rows of 16 bytes.
+    pub unused: [f32; 2],
+}
+gpu_layout!(LightSource {
+    position,
+    kind,
+    direction,
+    intensity,
+    color,
+    range,
+    cone,
+    unused
+});
+
+impl LightSource {
+    /// Light from one direction, the sun or the sky.
+    pub const DISTANT: u32 = 0;
+    /// Light from a point in all directions.
+    pub const POINT: u32 = 1;
+    /// Light from a point into a cone.
+    pub const SPOT: u32 = 2;
+}
+
+/// All lights of a frame.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct Lights {
+    /// How many of `sources` there are.
+    pub count: u32,
+    /// Texels of a shadow map along a side; 0 where nothing casts shadows.
+    pub shadow_side: u32,
+    /// Keeps rows of 16 bytes.
+    pub unused: [u32; 2],
+    /// The lights; those after `count` are dark.
+    pub sources: [LightSource; LIGHTS_MAX],
+}
+gpu_layout!(Lights {
+    count,
+    shadow_side,
+    unused,
+    sources
+});
+
+impl Lights {
+    /// A single distant light of intensity 1 in direction `towards`, a unit vector in the world.
+    pub fn distant(towards: [f32; 3]) -> Self {
+        let mut lights = Self {
+            count: 1,
+            ..Self::default()
+        };
+        lights.sources[0] = LightSource {
+            direction: towards,
+            intensity: 1.0,
+            color: [1.0; 3],
+            ..LightSource::default()
+        };
+        lights
+    }
+
+    /// The only light, if it is distant and of plain intensity: then a tone depends on the normal alone.
+    pub(crate) fn only_distant(&self) -> Option<[f32; 3]> {
+        let first = &self.sources[0];
+        (self.count == 1 && first.kind == LightSource::DISTANT && first.intensity == 1.0)
+            .then_some(first.direction)
+    }
+
+    /// Place on the ramp of a surface at `world` that faces along the unit vector `normal`, and the colour of the light
+    /// there: the mean of the lights' colours by what each adds. O(lights).
+    pub fn coordinate_at(&self, world: [f32; 3], normal: [f32; 3]) -> (f32, [f32; 3]) {
+        let mut sum = 0.0;
+        let mut color = [0.0; 3];
+        for source in &self.sources[..self.count as usize] {
+            let share = source.share_at(world, normal);
+            sum += share;
+            color = std::array::from_fn(|i| color[i] + source.color[i] * share);
+        }
+        let whole = sum.max(1e-6);
+        let tint = color.map(|c| c / whole);
+        (sum.min(1.0), if sum > 1e-6 { tint } else { [1.0; 3] })
+    }
+}
+
+impl LightSource {
+    /// Unit vector from a place in the world towards the light.
+    pub fn towards(&self, world: [f32; 3]) -> [f32; 3] {
+        if self.kind == Self::DISTANT {
+            return self.direction;
+        }
+        unit_or_z(std::array::from_fn(|i| self.position[i] - world[i]))
+    }
+
+    /// What the light adds to the ramp coordinate at a place.
+    fn share_at(&self, world: [f32; 3], normal: [f32; 3]) -> f32 {
+        if self.kind == Self::DISTANT {
+            return ramp_coordinate(dot(normal, self.direction)) * self.intensity;
+        }
+        let offset: [f32; 3] = std::array::from_fn(|i| self.position[i] - world[i]);
+        let distance = dot(offset, offset).sqrt();
+        let towards = unit_or_z(offset);
+        let mut strength = self.intensity * fading(distance, self.range);
+        if self.kind == Self::SPOT {
+            strength *= math::smoothstep(self.cone[0], self.cone[1], -dot(towards, self.direction));
+        }
+        ramp_coordinate(dot(normal, towards)) * strength
+    }
+}
+
+/// What is left of a light at a distance, 1 beside it and 0 from `range` on; 1 everywhere where `range` is 0.
+///
+/// The window of KHR_lights_punctual without the inverse square: on a ramp of few tones the square is either burnt out or gone.
+pub fn fading(distance: f32, range: f32) -> f32 {
+    if range <= 0.0 {
+        return 1.0;
+    }
+    let ratio = distance / range;
+    let left = (1.0 - ratio * ratio).max(0.0);
+    left * left
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn point(position: [f32; 3], range: f32) -> Lights {
+        let mut lights = Lights::distant([0.0, 0.0, 1.0]);
+        lights.sources[0] = LightSource {
+            position,
+            kind: LightSource::POINT,
+            range,
+            ..lights.sources[0]
+        };
+        lights
+    }
+
+    #[test]
+    fn one_distant_light_is_the_published_formula() {
+        let lights = Lights::distant([0.0, 1.0, 0.0]);
+        let at = |normal| lights.coordinate_at([3.0, -2.0, 9.0], normal).0;
+        assert_eq!(
+            [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]].map(at),
+            [1.0, 0.5, 0.0]
+        );
+    }
+
+    #[test]
+    fn a_point_light_fades_to_its_range() {
+        let lights = point([0.0, 2.0, 0.0], 4.0);
+        let at = |y| lights.coordinate_at([0.0, y, 0.0], [0.0, 1.0, 0.0]).0;
+        assert_eq!(at(-2.0), 0.0);
+        assert!((at(0.0) - 0.5625).abs() < 1e-6, "(1 - 1/4)^2");
+        assert!(at(1.0) > at(0.0));
+    }
+
+    #[test]
+    fn a_spot_lights_its_cone_alone() {
+        let mut lights = point([0.0, 2.0, 0.0], 0.0);
+        lights.sources[0].kind = LightSource::SPOT;
+        lights.sources[0].direction = [0.0, -1.0, 0.0];
+        lights.sources[0].cone = [0.8, 0.9];
+        let at = |x| lights.coordinate_at([x, 0.0, 0.0], [0.0, 1.0, 0.0]).0;
+        assert_eq!(at(0.0), 1.0);
+        assert_eq!(at(2.0), 0.0);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+        #[test]
+        fn coordinates_stay_within_the_ramp(
+            sources in prop::collection::vec((prop::array::uniform3(-5f32..5.0), 0u32..3, prop::array::uniform3(-1f32..1.0), 0f32..3.0, 0f32..9.0), 0..LIGHTS_MAX),
+            world in prop::array::uniform3(-5f32..5.0),
+            normal in prop::array::uniform3(-1f32..1.0),
+        ) {
+            let mut lights = Lights { count: sources.len() as u32, ..Lights::default() };
+            for (light, (position, kind, direction, intensity, range)) in lights.sources.iter_mut().zip(sources) {
+                *light = LightSource {
+                    position, kind, direction: unit_or_z(direction), intensity, range,
+                    color: [1.0, 0.5, 0.2], cone: [0.5, 0.7], ..LightSource::default()
+                };
+            }
+            let (x, color) = lights.coordinate_at(world, unit_or_z(normal));
+            prop_assert!((0.0..=1.0).contains(&x));
+            prop_assert!(color.iter().all(|c| (0.199..=1.001).contains(c)), "{color:?}");
+        }
+    }
+}

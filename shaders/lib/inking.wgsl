@@ -1,0 +1,193 @@
+// Ink and hatching at one point. Twin: npr_style::inking. The shader declares what its twin's layers hold.
+
+// Luminance that stands for the hatch where there is none.
+const NO_HATCH: f32 = 0.5;
+// Drawings to an octave.
+const STEPS: f32 = 3.0;
+// Least luminance of the shade ramp, above half the threshold, where there is hatch but no ink.
+const OPEN_PAPER: f32 = 0.08;
+
+fn shade_level(x: f32, dark_at: f32, light_at: f32) -> f32 {
+    if light_at <= dark_at { return select(1.0, 0.0, x < light_at); }
+    return clamp((x - dark_at) / (light_at - dark_at), 0.0, 1.0);
+}
+
+// F = S + 2 (L - 0.5) [Suzuki 2004, eq. 3.3].
+fn tone_value(s: f32, l: f32) -> f32 {
+    return s + 2.0 * (l - 0.5);
+}
+
+fn ink_coverage(f: f32, slope: f32, threshold: f32) -> f32 {
+    return clamp((threshold - f) / max(slope, 1e-6) + 0.5, 0.0, 1.0);
+}
+
+fn level_of(part: u32, x: f32) -> f32 {
+    let l = shade_level(x, parts[part].dark_at, parts[part].light_at);
+    if (parts[part].flags & PART_INK) == 0u { return max(l, parts[part].threshold * 0.5 + OPEN_PAPER); }
+    return l;
+}
+
+// Ink of a surface whose ramp coordinates all lie in `range`: 1, 0, or -1 where it is neither all over.
+fn ink_over(part: u32, range: vec2<f32>) -> f32 {
+    if (parts[part].flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
+    let hatched = (parts[part].flags & PART_HATCH) != 0u;
+    let lightest = select(NO_HATCH, 0.0, hatched);
+    let darkest = select(NO_HATCH, 1.0, hatched);
+    if tone_value(lightest, level_of(part, range.x)) > parts[part].threshold { return 0.0; }
+    if tone_value(darkest, level_of(part, range.y)) < parts[part].threshold { return 1.0; }
+    return -1.0;
+}
+
+// Luminance S of a hatch, and its change over a pixel to the right and down.
+struct Hatching {
+    s: f32,
+    slope: vec2<f32>,
+}
+
+// Where a pixel lies in a hatch, in tiles, and how far it is from there to its neighbours.
+struct Place {
+    uv: vec2<f32>,
+    right: vec2<f32>,
+    down: vec2<f32>,
+}
+
+// Tiles that a pixel covers across the strokes, or in the mean of both directions.
+fn step_of(place: Place, isotropic: bool) -> f32 {
+    if isotropic { return sqrt(abs(cross2(place.right, place.down))); }
+    return length(vec2<f32>(place.right.x, place.down.x));
+}
+
+// How much of the surface of triangle `id` is inked at a place of the frame, 0..1.
+fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>) -> f32 {
+    let flags = parts[part].flags;
+    if (flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
+    let places = array<vec2<f32>, 3>(px, px + vec2<f32>(1.0, 0.0), px + vec2<f32>(0.0, 1.0));
+    var weights: array<vec3<f32>, 3>;
+    var l: array<f32, 3>;
+    for (var i = 0u; i < 3u; i++) {
+        weights[i] = weights_at(corners.clip, ndc_at(view, places[i]));
+        let lit = coordinate_at(world_of(corners, weights[i]), normal_of(corners, weights[i]));
+        l[i] = level_of(part, lit.x);
+    }
+    var hatching: Hatching;
+    hatching.s = NO_HATCH;
+    if (flags & PART_HATCH) != 0u { hatching = hatching_of(part, place_in_hatch(id, part, weights, places)); }
+    // Beyond a silhouette the surface runs on to anywhere.
+    let darkens = clamp(2.0 * vec2<f32>(l[1] - l[0], l[2] - l[0]), vec2<f32>(-1.0), vec2<f32>(1.0));
+    let slope = length(hatching.slope + darkens);
+    return ink_coverage(tone_value(hatching.s, l[0]), slope, parts[part].threshold);
+}
+
+// Where a pixel and its neighbours to the right and below lie in the hatch of a part.
+fn place_in_hatch(id: u32, part: u32, weights: array<vec3<f32>, 3>, places: array<vec2<f32>, 3>) -> Place {
+    let index = (id & ID_MASK) - 1u;
+    var uvs: array<vec2<f32>, 3>;
+    for (var i = 0u; i < 3u; i++) {
+        let w = weights[i];
+        var raw = places[i];
+        if (parts[part].flags & PART_ON_SCREEN) == 0u {
+            if (parts[part].flags & PART_ON_SURFACE) != 0u {
+                let chart = charts[index];
+                raw = chart.a * w.x + chart.b * w.y + chart.c * w.z;
+            } else {
+                raw = uv_at(triangles[index], w);
+            }
+        }
+        let turn = parts[part].turn;
+        uvs[i] = vec2<f32>(raw.x * turn.x + raw.y * turn.y, raw.y * turn.x - raw.x * turn.y) * parts[part].tile_scale;
+    }
+    var place: Place;
+    place.uv = uvs[0];
+    place.right = uvs[1] - uvs[0];
+    place.down = uvs[2] - uvs[0];
+    return place;
+}
+
+// The hatch of a part, with its second layer where it has one.
+fn hatching_of(part: u32, place: Place) -> Hatching {
+    var hatching = hatch_layer(part, place);
+    if (parts[part].flags & PART_TWO_LAYERS) != 0u {
+        var crossed: Place;
+        crossed.uv = place.uv.yx;
+        crossed.right = place.right.yx;
+        crossed.down = place.down.yx;
+        let second = hatch_layer(part, crossed);
+        let layers = cross_layers(hatching.s, second.s, parts[part].second_from);
+        if layers.x <= layers.z {
+            hatching.s = layers.x;
+            hatching.slope *= layers.y;
+        } else {
+            hatching.s = layers.z;
+            hatching.slope = second.slope * layers.w;
+        }
+    }
+    let gain = parts[part].hatch_gain;
+    hatching.s = clamp(0.5 + (hatching.s - 0.5) * gain, 0.0, 1.0);
+    hatching.slope *= gain;
+    return hatching;
+}
+
+// Luminance of the first layer and how much steeper it runs, and the same of the second.
+fn cross_layers(s_first: f32, s_second: f32, start: f32) -> vec4<f32> {
+    let rest = max(1.0 - start, 1e-6);
+    let white_first = 1.0 - s_first;
+    let white_second = 1.0 - s_second;
+    let thinned = 1.0 - white_first * white_first / rest;
+    var first = vec2<f32>(s_first, 1.0);
+    if thinned > s_first { first = vec2<f32>(thinned, 2.0 * white_first / rest); }
+    return vec4<f32>(first, 1.0 - rest * white_second * white_second, 2.0 * rest * white_second);
+}
+
+// One layer of a hatch tile, from the level whose strokes lie as far apart on screen as the part asks.
+fn hatch_layer(part: u32, place: Place) -> Hatching {
+    let header = parts[part].hatch;
+    let side = texels[header];
+    let step = max(step_of(place, (parts[part].flags & PART_ISOTROPIC) != 0u), 1e-9);
+    let spacing_texels = bitcast<f32>(texels[header + 3u]);
+    let detail = log2(step * f32(side) * parts[part].spacing_px / spacing_texels);
+    let coarsest = f32(max(texels[header + 2u], 1u) - 1u);
+    let held = min(max(detail, 0.0), coarsest);
+    let level = u32(held);
+    let fraction = held - floor(held);
+    var first = header + HEADER_WORDS;
+    for (var l = 0u; l < level; l++) { first += (side >> l) * (side >> l); }
+    let found = sample_hatch(first, side >> level, place.uv, fraction);
+    let level_side = f32(side >> level);
+    var hatching: Hatching;
+    hatching.s = found.x;
+    hatching.slope = vec2<f32>(dot(found.yz, place.right), dot(found.yz, place.down)) * level_side;
+    return hatching;
+}
+
+// Hatch luminance of a texel's four drawings at `f` between its level and the next: the harmonic mean of two of them.
+fn hatch_luminance(texel: vec4<f32>, f: f32) -> f32 {
+    let place = f * STEPS;
+    let step = min(u32(place), 2u);
+    let t = place - f32(step);
+    let near = texel[step];
+    let far = texel[step + 1u];
+    return near * far / (far * (1.0 - t) + near * t);
+}
+
+fn hatch_at(first: u32, side: u32, x: i32, y: i32, f: f32) -> f32 {
+    let at = first + (u32(y) & (side - 1u)) * side + (u32(x) & (side - 1u));
+    return hatch_luminance(unpack4x8unorm(texels[at]), f);
+}
+
+// Hatch luminance at `uv` of a level whose texels start at `first`, and its change per texel along u and v.
+fn sample_hatch(first: u32, side: u32, uv: vec2<f32>, f: f32) -> vec3<f32> {
+    let at = (uv - floor(uv)) * f32(side) - 0.5;
+    let low = floor(at);
+    let t = at - low;
+    let x = i32(low.x);
+    let y = i32(low.y);
+    let s00 = hatch_at(first, side, x, y, f);
+    let s10 = hatch_at(first, side, x + 1, y, f);
+    let s01 = hatch_at(first, side, x, y + 1, f);
+    let s11 = hatch_at(first, side, x + 1, y + 1, f);
+    return vec3<f32>(
+        mix(mix(s00, s10, t.x), mix(s01, s11, t.x), t.y),
+        mix(s10 - s00, s11 - s01, t.y),
+        mix(s01 - s00, s11 - s10, t.x),
+    );
+}

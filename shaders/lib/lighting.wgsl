@@ -1,0 +1,82 @@
+// What a surface is lit by. Twin: npr_style::lighting. The shader declares `lights: Lights`.
+
+struct LightSource {
+    position: vec3<f32>,
+    kind: u32,
+    direction: vec3<f32>,
+    intensity: f32,
+    color: vec3<f32>,
+    range: f32,
+    cone: vec2<f32>,
+    unused: vec2<f32>,
+}
+
+struct Lights {
+    count: u32,
+    shadow_side: u32,
+    unused: vec2<u32>,
+    sources: array<LightSource, 16>,
+}
+
+const LIGHT_DISTANT: u32 = 0u;
+const LIGHT_SPOT: u32 = 2u;
+
+struct Lit {
+    // Place on the ramp, 0..1.
+    x: f32,
+    color: vec3<f32>,
+}
+
+fn ramp_coordinate(n_dot_l: f32) -> f32 {
+    return (n_dot_l + 1.0) * 0.5;
+}
+
+// Whether a tone depends on the normal alone.
+fn only_distant() -> bool {
+    return lights.count == 1u && lights.sources[0].kind == LIGHT_DISTANT && lights.sources[0].intensity == 1.0;
+}
+
+fn smooth_step(low: f32, high: f32, x: f32) -> f32 {
+    if high <= low { return select(0.0, 1.0, x >= low); }
+    let t = clamp((x - low) / (high - low), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+fn fading(distance: f32, range: f32) -> f32 {
+    if range <= 0.0 { return 1.0; }
+    let ratio = distance / range;
+    let left = max(1.0 - ratio * ratio, 0.0);
+    return left * left;
+}
+
+fn towards_light(source: LightSource, world: vec3<f32>) -> vec3<f32> {
+    if source.kind == LIGHT_DISTANT { return source.direction; }
+    return unit_or_z(source.position - world);
+}
+
+// What a light adds to the ramp coordinate at a place.
+fn share_at(source: LightSource, world: vec3<f32>, normal: vec3<f32>) -> f32 {
+    if source.kind == LIGHT_DISTANT { return ramp_coordinate(dot(normal, source.direction)) * source.intensity; }
+    let offset = source.position - world;
+    let distance = sqrt(dot(offset, offset));
+    let towards = unit_or_z(offset);
+    var strength = source.intensity * fading(distance, source.range);
+    if source.kind == LIGHT_SPOT {
+        strength *= smooth_step(source.cone.x, source.cone.y, -dot(towards, source.direction));
+    }
+    return ramp_coordinate(dot(normal, towards)) * strength;
+}
+
+fn coordinate_at(world: vec3<f32>, normal: vec3<f32>) -> Lit {
+    var sum = 0.0;
+    var color = vec3<f32>(0.0);
+    for (var i = 0u; i < lights.count; i++) {
+        let share = share_at(lights.sources[i], world, normal);
+        sum += share;
+        color += lights.sources[i].color * share;
+    }
+    var lit: Lit;
+    lit.x = min(sum, 1.0);
+    lit.color = select(vec3<f32>(1.0), color / max(sum, 1e-6), sum > 1e-6);
+    return lit;
+}
