@@ -2,6 +2,7 @@
 
 mod byte_count;
 mod camera;
+mod drawing;
 mod limits;
 mod lines;
 mod point;
@@ -9,6 +10,7 @@ mod render;
 mod size;
 
 pub use camera::CameraArguments;
+pub use drawing::{Backend, DrawingArguments, TimingsForm};
 pub use limits::LimitArguments;
 pub use lines::{
     HiddenLines, LineArguments, LineFormat, LinesArguments, MethodName, PathForm, SheetArguments,
@@ -16,7 +18,7 @@ pub use lines::{
 };
 #[cfg(test)]
 pub use point::Point;
-pub use render::{Backend, LookArguments, RenderArguments, TimingsForm};
+pub use render::{LookArguments, RenderArguments};
 pub use size::Size;
 
 use clap::{Args, Parser, Subcommand};

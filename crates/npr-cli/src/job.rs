@@ -29,19 +29,19 @@ pub struct Job<'a> {
 impl<'a> Job<'a> {
     /// Resolves what the user said; reads the style and its pictures, but not the scene.
     pub fn resolve(said: &'a RenderArguments) -> Result<Self, Fault> {
-        check_size(said.size)?;
+        check_size(said.drawing.size)?;
         let source = Source::of(said.scene.as_deref().unwrap_or(Path::new("-")));
         let path = output_path(said.output.as_deref(), &source, "png")?;
         check_ending(&path)?;
         let output = Output::of(&path)?;
-        let external = said.allow_external.as_deref();
-        let look = Look::resolve(&said.look, external)?;
-        let limits = said.limits.limits();
+        let external = said.drawing.allow_external.as_deref();
+        let look = Look::resolve(&said.drawing.look, external)?;
+        let limits = said.drawing.limits.limits();
         let options = StageOptions {
             background_image: look.background_picture(&limits, external)?,
             width_image: look.width_picture(&limits, external)?,
             memory_limit: limits.memory_bytes,
-            ..StageOptions::new([said.size.width, said.size.height])
+            ..StageOptions::new([said.drawing.size.width, said.drawing.size.height])
         };
         Ok(Self {
             said,

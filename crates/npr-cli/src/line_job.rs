@@ -45,19 +45,19 @@ pub struct LineJob<'a> {
 impl<'a> LineJob<'a> {
     /// Resolves what the user said; reads the style, but not the scene.
     pub fn resolve(said: &'a LinesArguments) -> Result<Self, Fault> {
-        check_size(said.size)?;
+        check_size(said.drawing.size)?;
         let source = Source::of(said.scene.as_deref().unwrap_or(Path::new("-")));
         let ending = said.format.map_or("svg", LineFormat::ending);
         let path = output_path(said.output.as_deref(), &source, ending)?;
         let format = format_of(said.format, &path)?;
         check_page(said, format)?;
         let output = Output::of(&path)?;
-        let look = Look::resolve(&said.look, said.allow_external.as_deref())?;
+        let look = Look::resolve(&said.drawing.look, said.drawing.allow_external.as_deref())?;
         Ok(Self {
             source,
             limits: Limits {
                 decode_images: false,
-                ..said.limits.limits()
+                ..said.drawing.limits.limits()
             },
             output,
             format,
@@ -121,7 +121,8 @@ fn check_page(said: &LinesArguments, format: LineFormat) -> Result<(), Fault> {
 
 /// The lines that the style asks for, with what the user said in place of its own values.
 fn options(said: &LinesArguments, style: &Style) -> LineOptions {
-    let of_style = LineOptions::of_style(style, [said.size.width, said.size.height]);
+    let of_style =
+        LineOptions::of_style(style, [said.drawing.size.width, said.drawing.size.height]);
     let LineArguments {
         kinds,
         crease,
@@ -132,8 +133,8 @@ fn options(said: &LinesArguments, style: &Style) -> LineOptions {
         ..
     } = &said.lines;
     let named = kinds.as_ref().map(|names| {
-        let kinds = names.iter().map(|name| name.kind());
-        kinds.chain([Kind::Marked]).collect::<KindSet>()
+        let named = names.iter().copied();
+        named.chain([Kind::Marked]).collect::<KindSet>()
     });
     LineOptions {
         kinds: named.unwrap_or(of_style.kinds),

@@ -22,13 +22,13 @@ use std::io::Write;
 
 /// Draws the lines that the user asked for, or prints the style.
 pub fn lines(said: &LinesArguments) -> Result<(), Fault> {
-    if said.look.dump_style {
-        return render::dump_style(&said.look, said.allow_external.as_deref());
+    if said.drawing.look.dump_style {
+        return render::dump_style(&said.drawing);
     }
-    let mut progress = Progress::new(said.quiet);
+    let mut progress = Progress::new(said.drawing.quiet);
     draw(&LineJob::resolve(said)?, &mut progress)?;
     let steps = progress.finish();
-    if let Some(form) = said.timings {
+    if let Some(form) = said.drawing.timings {
         let timings = Timings::new(Processor.describe(), &steps, &[]);
         let _ = std::io::stderr().write_all(timings.told(form).as_bytes());
     }
@@ -37,7 +37,7 @@ pub fn lines(said: &LinesArguments) -> Result<(), Fault> {
 
 /// Draws a picture whose style is lines only as curves.
 pub fn lines_of_picture(said: &RenderArguments) -> Result<(), Fault> {
-    let look = Look::resolve(&said.look, said.allow_external.as_deref())?;
+    let look = Look::resolve(&said.drawing.look, said.drawing.allow_external.as_deref())?;
     let Some(paper) = look.paper_of_lines() else {
         let message = "this style fills surfaces with tones, which .svg pictures have none of: \
                        write .png, or draw the lines alone with npr lines";
@@ -47,21 +47,14 @@ pub fn lines_of_picture(said: &RenderArguments) -> Result<(), Fault> {
         scene: said.scene.clone(),
         output: said.output.clone(),
         format: Some(LineFormat::Svg),
-        size: said.size,
         lines: LineArguments {
             // Paper of the background's own colour shows nowhere.
             fill: look.style.background != Background::Color(paper),
             ..LineArguments::default()
         },
         sheet: SheetArguments::default(),
-        camera: said.camera.clone(),
-        look: said.look.clone(),
-        backend: said.backend,
+        drawing: said.drawing.clone(),
         cache: None,
-        timings: said.timings,
-        quiet: said.quiet,
-        allow_external: said.allow_external.clone(),
-        limits: said.limits.clone(),
     };
     lines(&lines_said)
 }
@@ -71,7 +64,7 @@ fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<(), Fault> {
     line_file::check_memory(job)?;
     check_backend(job, progress)?;
     let model = prepare(job, progress)?;
-    let camera = viewpoint::camera(&job.said.camera, &model, job.said.size)?;
+    let camera = viewpoint::camera(&job.said.drawing.camera, &model, job.said.drawing.size)?;
     let drawing = progress.step(DRAW, || model.draw(&camera, &job.look.style, &job.options))?;
     let bytes = progress.step("encode", || line_file::encode(job, &drawing))?;
     progress.step("write", || job.output.write(&bytes))
@@ -81,7 +74,7 @@ fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<(), Fault> {
 ///
 /// Lines are found on the processor so far, whichever engine is asked for.
 fn check_backend(job: &LineJob<'_>, progress: &Progress) -> Result<(), Fault> {
-    if job.said.backend != Backend::Gpu {
+    if job.said.drawing.backend != Backend::Gpu {
         return Ok(());
     }
     let device = hardware::open(Choice::Any).map_err(npr_render::RenderError::from)?;
@@ -89,13 +82,13 @@ fn check_backend(job: &LineJob<'_>, progress: &Progress) -> Result<(), Fault> {
         "{} stands by; lines are found on the processor",
         device.describe()
     );
-    progress.suspend(|| message::warn(job.said.quiet, &text));
+    progress.suspend(|| message::warn(job.said.drawing.quiet, &text));
     Ok(())
 }
 
 /// Loads the scene and makes it ready; says what is ignored.
 fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<LineModel, Fault> {
-    let external = job.said.allow_external.as_deref();
+    let external = job.said.drawing.allow_external.as_deref();
     let loaded = progress.step("load", || job.source.load(&job.limits, external))?;
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
@@ -113,7 +106,7 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<LineModel, Faul
 }
 
 fn warn_of(job: &LineJob<'_>, model: &LineModel) {
-    let warn = |text: &str| message::warn(job.said.quiet, text);
+    let warn = |text: &str| message::warn(job.said.drawing.quiet, text);
     for notice in model.notices() {
         warn(notice);
     }

@@ -1,6 +1,6 @@
 //! `npr render`: one picture of a scene.
 
-use crate::arguments::{LookArguments, RenderArguments};
+use crate::arguments::{DrawingArguments, RenderArguments};
 use crate::encoder;
 use crate::engine::{self, Drawn};
 use crate::fault::{Exit, Fault};
@@ -15,12 +15,11 @@ use crate::viewpoint;
 use npr_core::camera::Camera;
 use npr_render::{Model, Stage};
 use std::io::Write;
-use std::path::Path;
 
 /// Draws what the user asked for, or prints its style.
 pub fn render(said: &RenderArguments) -> Result<(), Fault> {
-    if said.look.dump_style {
-        return dump_style(&said.look, said.allow_external.as_deref());
+    if said.drawing.look.dump_style {
+        return dump_style(&said.drawing);
     }
     if said
         .output
@@ -29,10 +28,10 @@ pub fn render(said: &RenderArguments) -> Result<(), Fault> {
     {
         return lines::lines_of_picture(said);
     }
-    let mut progress = Progress::new(said.quiet);
+    let mut progress = Progress::new(said.drawing.quiet);
     let drawn = draw(&Job::resolve(said)?, &mut progress)?;
     let steps = progress.finish();
-    if let Some(form) = said.timings {
+    if let Some(form) = said.drawing.timings {
         let timings = Timings::new(drawn.engine, &steps, &drawn.frame.times);
         let _ = std::io::stderr().write_all(timings.told(form).as_bytes());
     }
@@ -40,8 +39,8 @@ pub fn render(said: &RenderArguments) -> Result<(), Fault> {
 }
 
 /// Prints a style as it comes out.
-pub fn dump_style(said: &LookArguments, external: Option<&Path>) -> Result<(), Fault> {
-    let look = Look::resolve(said, external)?;
+pub fn dump_style(said: &DrawingArguments) -> Result<(), Fault> {
+    let look = Look::resolve(&said.look, said.allow_external.as_deref())?;
     let text = look
         .style
         .to_toml()
@@ -52,7 +51,7 @@ pub fn dump_style(said: &LookArguments, external: Option<&Path>) -> Result<(), F
 /// From the scene's file to the picture's.
 fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn, Fault> {
     let model = prepare(job, progress)?;
-    let camera = viewpoint::camera(&job.said.camera, &model, job.said.size)?;
+    let camera = viewpoint::camera(&job.said.drawing.camera, &model, job.said.drawing.size)?;
     let drawn = draw_frame(job, &model, &camera, progress)?;
     let frame = &drawn.frame;
     let keep_alpha = job.look.is_transparent();
@@ -65,7 +64,10 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn, Fault> {
 
 /// Loads the scene and makes it ready; says what is ignored.
 fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<Model, Fault> {
-    let (limits, external) = (job.said.limits.limits(), job.said.allow_external.as_deref());
+    let (limits, external) = (
+        job.said.drawing.limits.limits(),
+        job.said.drawing.allow_external.as_deref(),
+    );
     let loaded = progress.step("load", || job.source.load(&limits, external))?;
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
@@ -76,11 +78,11 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<Model, Fault> {
 }
 
 fn warn_of(job: &Job<'_>, model: &Model) {
-    let quiet = job.said.quiet;
+    let quiet = job.said.drawing.quiet;
     for notice in model.notices() {
         message::warn(quiet, notice);
     }
-    if let Some(warning) = job.look.width_warning(job.said.size.height) {
+    if let Some(warning) = job.look.width_warning(job.said.drawing.size.height) {
         message::warn(quiet, &warning.to_string());
     }
 }
@@ -96,12 +98,12 @@ fn draw_frame(
         let picture = |engine: &dyn npr_gpu::engine::Engine| {
             Stage::new(engine, model, &job.look.style, &job.options)?.draw(camera)
         };
-        engine::draw(job.said.backend, &picture, &|text| {
+        engine::draw(job.said.drawing.backend, &picture, &|text| {
             warnings.borrow_mut().push(text.to_owned())
         })
     });
     for text in warnings.get_mut().drain(..) {
-        progress.suspend(|| message::warn(job.said.quiet, &text));
+        progress.suspend(|| message::warn(job.said.drawing.quiet, &text));
     }
     drawn
 }

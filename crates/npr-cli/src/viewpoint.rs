@@ -19,33 +19,26 @@ pub trait Viewed {
     fn framing(&self, aspect: f32, fov_y: f32) -> Camera;
 }
 
-impl Viewed for Model {
-    fn cameras(&self) -> &[(String, Camera)] {
-        self.cameras()
-    }
+/// Both sorts of model have methods of these names and meanings.
+macro_rules! viewed {
+    ($($model:ty),+) => {$(
+        impl Viewed for $model {
+            fn cameras(&self) -> &[(String, Camera)] {
+                self.cameras()
+            }
 
-    fn bounds(&self) -> ([f32; 3], [f32; 3]) {
-        self.bounds()
-    }
+            fn bounds(&self) -> ([f32; 3], [f32; 3]) {
+                self.bounds()
+            }
 
-    fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
-        self.framing(aspect, fov_y)
-    }
+            fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
+                self.framing(aspect, fov_y)
+            }
+        }
+    )+};
 }
 
-impl Viewed for LineModel {
-    fn cameras(&self) -> &[(String, Camera)] {
-        self.cameras()
-    }
-
-    fn bounds(&self) -> ([f32; 3], [f32; 3]) {
-        self.bounds()
-    }
-
-    fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
-        self.framing(aspect, fov_y)
-    }
-}
+viewed!(Model, LineModel);
 
 /// The camera that the user asked for, or one that frames the whole model from three quarters above.
 pub fn camera(said: &CameraArguments, model: &dyn Viewed, size: Size) -> Result<Camera, Fault> {

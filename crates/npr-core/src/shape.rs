@@ -1,8 +1,8 @@
 //! A surface as line producers read it: welded, with half-edges and unique edges.
 
-use rayon::prelude::*;
-
 use crate::geometry::NONE;
+use glam::DVec3;
+use rayon::prelude::*;
 
 /// Triangles in the world, with everything that does not depend on the camera.
 ///
@@ -85,6 +85,19 @@ impl Shape {
     pub fn ends(&self, edge: u32) -> [u32; 2] {
         let [a, b] = self.ends_of_half_edge(self.sides(edge)[0]);
         [a.min(b), a.max(b)]
+    }
+
+    /// Position of a vertex in the world.
+    #[inline]
+    pub fn point(&self, vertex: u32) -> DVec3 {
+        DVec3::from_array(self.positions[vertex as usize].map(f64::from))
+    }
+
+    /// Point of the world on an edge, `t` of the way from its lower to its higher vertex; exact at both.
+    #[inline]
+    pub fn point_on(&self, edge: u32, t: f32) -> DVec3 {
+        let [low, high] = self.ends(edge).map(|vertex| self.point(vertex));
+        low.lerp(high, f64::from(t))
     }
 
     /// Tail and head of a half-edge.

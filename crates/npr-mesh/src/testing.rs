@@ -6,8 +6,10 @@ use std::collections::BTreeMap;
 use std::f32::consts::{PI, TAU};
 
 use npr_core::math::{cos, sin};
+use npr_core::shape::{Shape, Surface};
 
 use crate::mesh::Mesh;
+use crate::shape::{PlacedMesh, add_mesh};
 
 /// A small random generator with a fixed sequence for every seed [Steele et al. 2014, SplitMix64].
 #[derive(Debug, Clone)]
@@ -269,6 +271,34 @@ pub fn mapped(mesh: &Mesh, place: impl Fn([f32; 3]) -> [f32; 3]) -> Mesh {
         .map(|&position| place(position))
         .collect();
     Mesh::of_sound_parts(positions, mesh.triangles().to_vec())
+}
+
+/// The shape of a mesh alone, all of it on one surface.
+pub fn shape_of(mesh: &Mesh) -> Shape {
+    let mut shape = Shape {
+        surfaces: vec![Surface::default()],
+        ..Shape::default()
+    };
+    add_to(&mut shape, mesh, |_| 0);
+    shape
+}
+
+/// Adds a mesh to a shape that has surfaces already; `surface_of` names that of a face by its number in the mesh.
+///
+/// # Panics
+///
+/// If the shape breaks a promise then.
+pub fn add_to(shape: &mut Shape, mesh: &Mesh, surface_of: impl Fn(usize) -> u32) {
+    let surfaces: Vec<u32> = (0..mesh.triangles().len()).map(surface_of).collect();
+    let placed = PlacedMesh {
+        rest: mesh.positions(),
+        world: mesh.positions(),
+        triangles: mesh.triangles(),
+        surfaces: &surfaces,
+        ..PlacedMesh::default()
+    };
+    add_mesh(shape, &placed, 0.0);
+    shape.sanity_check();
 }
 
 /// `count` points around the unit circle, counter-clockwise from +x.

@@ -217,30 +217,7 @@ impl LineModel {
         &self.shape
     }
 
-    /// Surfaces, in the order in which the shape's faces and the drawing's strokes name them.
-    pub fn parts(&self) -> &[PartInfo] {
-        &self.parts
-    }
-
-    /// Lowest and highest corner of the posed scene, in the world; a unit box where nothing is drawn.
-    pub fn bounds(&self) -> ([f32; 3], [f32; 3]) {
-        self.bounds
-    }
-
-    /// Radius of the sphere around the bounds, in the world; at least a tiny number.
-    pub fn radius(&self) -> f32 {
-        placement::radius_of(self.bounds)
-    }
-
-    /// Cameras of the file, with their names, in the order of its nodes.
-    pub fn cameras(&self) -> &[(String, Camera)] {
-        &self.cameras
-    }
-
-    /// What was ignored or mended, for the user.
-    pub fn notices(&self) -> &[String] {
-        &self.notices
-    }
+    placement::accessors!();
 
     /// Number of triangles, counted for every instance, as the file has them.
     pub fn triangle_count(&self) -> usize {

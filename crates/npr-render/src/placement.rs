@@ -8,6 +8,37 @@ use npr_scene::{Node, Scene};
 /// Lowest and highest corner of a box.
 pub(crate) type Bounds = ([f32; 3], [f32; 3]);
 
+/// What every sort of model tells of its scene, from its fields `bounds`, `cameras`, `parts` and `notices`.
+macro_rules! accessors {
+    () => {
+        /// Lowest and highest corner of the posed scene, in the world; a unit box where nothing is drawn.
+        pub fn bounds(&self) -> ([f32; 3], [f32; 3]) {
+            self.bounds
+        }
+
+        /// Radius of the sphere around the bounds, in the world; at least a tiny number.
+        pub fn radius(&self) -> f32 {
+            $crate::placement::radius_of(self.bounds)
+        }
+
+        /// Cameras of the file, with their names, in the order of its nodes.
+        pub fn cameras(&self) -> &[(String, npr_core::camera::Camera)] {
+            &self.cameras
+        }
+
+        /// Surfaces, in the order in which triangles and strokes name them.
+        pub fn parts(&self) -> &[$crate::model::PartInfo] {
+            &self.parts
+        }
+
+        /// What was ignored or mended, for the user.
+        pub fn notices(&self) -> &[String] {
+            &self.notices
+        }
+    };
+}
+pub(crate) use accessors;
+
 /// The box around points; a unit box where there are none.
 pub(crate) fn bounds_of(points: impl Iterator<Item = Vec3>) -> Bounds {
     let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);

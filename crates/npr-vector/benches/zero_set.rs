@@ -1,9 +1,7 @@
 //! Smooth contours, in faces per second: corner normals once a shape, lines once a view.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use npr_core::shape::{Shape, Surface};
-use npr_mesh::shape::{PlacedMesh, add_mesh};
-use npr_mesh::testing::torus;
+use npr_mesh::testing::{shape_of, torus};
 use npr_vector::zero_set::{CornerNormals, FlatFaces, zero_set};
 use std::time::Duration;
 
@@ -13,27 +11,10 @@ const STEPS: [u32; 4] = [11, 35, 112, 224];
 /// Cosine of 40 degrees.
 const CREASE_COS: f32 = 0.766;
 
-fn shape(steps: u32) -> Shape {
-    let mesh = torus(4 * steps, steps, 1.0, 0.4);
-    let mut shape = Shape {
-        surfaces: vec![Surface::default()],
-        ..Shape::default()
-    };
-    let placed = PlacedMesh {
-        rest: mesh.positions(),
-        world: mesh.positions(),
-        triangles: mesh.triangles(),
-        surfaces: &vec![0; mesh.triangles().len()],
-        ..PlacedMesh::default()
-    };
-    add_mesh(&mut shape, &placed, 0.0);
-    shape
-}
-
 fn smooth_contours(c: &mut Criterion) {
     let mut group = c.benchmark_group("zero set");
     for steps in STEPS {
-        let shape = shape(steps);
+        let shape = shape_of(&torus(4 * steps, steps, 1.0, 0.4));
         let faces = shape.faces.len();
         group.throughput(Throughput::Elements(faces as u64));
         group.bench_function(BenchmarkId::new("corner normals", faces), |b| {

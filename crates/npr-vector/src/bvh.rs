@@ -109,8 +109,8 @@ impl FaceTree {
 
     /// Where the line between two vertices goes through faces that it does not touch, 0..1 from the first, ascending.
     pub fn piercings(&self, shape: &Shape, [from, to]: [u32; 2]) -> Vec<f64> {
-        let point = |v: u32| DVec3::from(shape.positions[v as usize].map(f64::from));
-        let (start, direction) = (point(from), point(to) - point(from));
+        let start = shape.point(from);
+        let direction = shape.point(to) - start;
         let mut places = Vec::new();
         self.along(start, direction, |face| {
             let corners = shape.faces[face as usize];
@@ -231,11 +231,7 @@ fn hides(shape: &Shape, face: u32, eye: DVec3, direction: DVec3) -> bool {
 /// The side of each edge is the same number, but for its sign, seen from either of its faces: no way slips
 /// through between two of them.
 fn crossing(shape: &Shape, face: u32, eye: DVec3, direction: DVec3) -> Option<f64> {
-    let corner = |i: usize| {
-        let [x, y, z] = shape.positions[shape.faces[face as usize][i] as usize];
-        DVec3::new(x.into(), y.into(), z.into()) - eye
-    };
-    let (a, b, c) = (corner(0), corner(1), corner(2));
+    let [a, b, c] = shape.faces[face as usize].map(|v| shape.point(v) - eye);
     let u = direction.dot(c.cross(b));
     let v = direction.dot(a.cross(c));
     let w = direction.dot(b.cross(a));

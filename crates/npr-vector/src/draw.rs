@@ -11,12 +11,11 @@ use crate::graph::{CurveGraph, CurveNode};
 use crate::intersect::Crossings;
 use crate::merge::{FACING_PX, TOUCHING_PX, merge_ends};
 use crate::project::Projector;
-use crate::run::{Line, Run, runs};
+use crate::run::{Line, Run, distance, runs};
 use crate::smooth::smooth;
 use crate::stroke::{Kind, Stroke, StrokePoint};
 use crate::visibility::{Circumstances, OutlineGrid, Piece, Seen, Span};
 use crate::zero_set::{CornerNormals, PolygonOutline, SeenContour, runs_along_edge, zero_set};
-use glam::DVec3;
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 use rayon::prelude::*;
@@ -238,10 +237,7 @@ impl View<'_> {
     }
 
     fn edge_piece(&self, edge: u32) -> Option<Piece> {
-        let [a, b] = self
-            .shape
-            .ends(edge)
-            .map(|v| DVec3::from(self.shape.positions[v as usize].map(f64::from)));
+        let [a, b] = self.shape.ends(edge).map(|v| self.shape.point(v));
         Piece::new(self.projector, self.settings.size, a, b)
     }
 
@@ -285,18 +281,13 @@ impl View<'_> {
         seen: &Seen<'_>,
         wanted: u32,
     ) -> Option<Line> {
-        if node.next == NONE {
-            return None;
-        }
         let kinds = self.kinds_of(node) & wanted;
         let kind = first_kind(kinds)?;
         let concave = node.flags & CurveNode::CONCAVE != 0;
         if concave && !self.prepared.may_show_backs(self.shape, node.face) {
             return None;
         }
-        let other = &graph.nodes[node.next as usize];
-        let [a, b] = [node, other].map(|node| self.point_of(node));
-        let piece = Piece::new(self.projector, self.settings.size, a, b)?;
+        let (piece, other) = self.piece_after(graph, node)?;
         let spans: Vec<Span> = seen.spans(&piece, &self.circumstances(node, other));
         Some(Line {
             kind,
@@ -306,12 +297,17 @@ impl View<'_> {
         })
     }
 
-    fn point_of(&self, node: &CurveNode) -> DVec3 {
-        let [a, b] = self
-            .shape
-            .ends(node.edge)
-            .map(|v| DVec3::from(self.shape.positions[v as usize].map(f64::from)));
-        a.lerp(b, f64::from(node.t))
+    /// The piece after a node, with the node it runs to; none where the line ends or nothing is in the frame.
+    fn piece_after<'g>(
+        &self,
+        graph: &'g CurveGraph,
+        node: &CurveNode,
+    ) -> Option<(Piece, &'g CurveNode)> {
+        // The end of an open line names no node.
+        let other = graph.nodes.get(node.next as usize)?;
+        let [a, b] = [node, other].map(|node| self.shape.point_on(node.edge, node.t));
+        let piece = Piece::new(self.projector, self.settings.size, a, b)?;
+        Some((piece, other))
     }
 
     /// Where the piece along the edge of a node goes through faces, from its start.
@@ -366,7 +362,12 @@ impl View<'_> {
         let pieces: Vec<Option<Piece>> = graph
             .nodes
             .iter()
-            .map(|node| self.piece_of(&graph, node))
+            .map(|node| {
+                // Its own surface hides a concave piece.
+                let shows = node.flags & CurveNode::CONCAVE == 0;
+                let piece = shows.then(|| self.piece_after(&graph, node)).flatten()?;
+                Some(piece.0)
+            })
             .collect();
         let spans = outline.spans(&graph, &pieces);
         let line = |(node, (piece, spans)): (&CurveNode, (&Option<Piece>, Vec<Span>))| {
@@ -386,16 +387,6 @@ impl View<'_> {
             .map(line)
             .collect();
         Some((graph, lines))
-    }
-
-    /// The piece after a node of a smooth contour; none where its own surface hides it.
-    fn piece_of(&self, graph: &CurveGraph, node: &CurveNode) -> Option<Piece> {
-        if node.next == NONE || node.flags & CurveNode::CONCAVE != 0 {
-            return None;
-        }
-        let other = &graph.nodes[node.next as usize];
-        let [a, b] = [node, other].map(|node| self.point_of(node));
-        Piece::new(self.projector, self.settings.size, a, b)
     }
 
     /// Faces that a piece lies in, and where it goes through others.
@@ -450,17 +441,7 @@ fn covered_edges(graph: &CurveGraph, lines: &[Option<Line>]) -> Vec<u32> {
 
 /// The kind that a piece of several kinds is drawn as.
 fn first_kind(kinds: u32) -> Option<Kind> {
-    let bits = [
-        CurveNode::CONTOUR,
-        CurveNode::BOUNDARY,
-        CurveNode::CREASE,
-        CurveNode::MATERIAL,
-        CurveNode::INTERSECTION,
-        CurveNode::MARKED,
-    ];
-    bits.iter()
-        .position(|bit| kinds & bit != 0)
-        .map(|index| Kind::ALL[index])
+    Kind::ALL.into_iter().find(|kind| kinds & kind.bit() != 0)
 }
 
 fn into_strokes(
@@ -479,11 +460,9 @@ fn into_strokes(
 
 fn into_stroke(shape: &Shape, run: Run, width_at: &(dyn Fn(u32) -> f32 + Sync)) -> Stroke {
     let mut u = 0.0;
-    let mut last: Option<[f64; 2]> = None;
+    let mut last = run.points.first().map(|point| point.place);
     let points = run.points.iter().map(|point| {
-        if let Some([x, y]) = last {
-            u += ((point.place[0] - x).powi(2) + (point.place[1] - y).powi(2)).sqrt();
-        }
+        u += last.map_or(0.0, |last| distance(last, point.place));
         last = Some(point.place);
         let [a, b] = shape.ends(point.edge).map(|v| f64::from(width_at(v)));
         StrokePoint {

@@ -134,8 +134,7 @@ fn pair_straightest(
 /// Unit direction from an end of a candidate along its edge.
 fn direction(shape: &Shape, candidates: &[(u32, u32)], end: u32) -> DVec3 {
     let [low, high] = shape.ends(candidates[end as usize / 2].0);
-    let point = |v: u32| DVec3::from(shape.positions[v as usize].map(f64::from));
-    let along = (point(high) - point(low)).normalize_or_zero();
+    let along = (shape.point(high) - shape.point(low)).normalize_or_zero();
     if end.is_multiple_of(2) { along } else { -along }
 }
 

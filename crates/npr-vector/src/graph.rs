@@ -75,11 +75,36 @@ impl CurveGraph {
     /// Position of a node in the world.
     pub fn position(&self, shape: &Shape, node: u32) -> [f64; 3] {
         let node = &self.nodes[node as usize];
-        let [a, b] = shape
-            .ends(node.edge)
-            .map(|v| shape.positions[v as usize].map(f64::from));
-        let t = f64::from(node.t);
-        std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t)
+        shape.point_on(node.edge, node.t).to_array()
+    }
+
+    /// The nodes that have pieces, line by line: open lines first, each kind in the order of first nodes.
+    pub fn chains(&self) -> Vec<Vec<u32>> {
+        let nodes = &self.nodes;
+        let mut seen = vec![false; nodes.len()];
+        let starts = (0..nodes.len() as u32).filter(|node| nodes[*node as usize].prev == NONE);
+        let mut chains = Vec::new();
+        for start in starts.chain(0..nodes.len() as u32) {
+            let mut chain = Vec::new();
+            let mut at = start;
+            while at != NONE && !seen[at as usize] {
+                seen[at as usize] = true;
+                if nodes[at as usize].next != NONE {
+                    chain.push(at);
+                }
+                at = nodes[at as usize].next;
+            }
+            if !chain.is_empty() {
+                chains.push(chain);
+            }
+        }
+        chains
+    }
+
+    /// Whether the last node of a chain is followed by its first.
+    pub fn is_loop(&self, chain: &[u32]) -> bool {
+        let ends = chain.first().zip(chain.last());
+        ends.is_some_and(|(first, last)| self.nodes[*last as usize].next == *first)
     }
 
     /// Adds the nodes of another graph behind those of this one.

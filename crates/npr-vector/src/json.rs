@@ -145,7 +145,7 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct FileStroke {
     id: u64,
-    kind: FileKind,
+    kind: Kind,
     visibility: Visibility,
     #[serde(default)]
     occluders: Option<u32>,
@@ -161,30 +161,6 @@ struct FileStroke {
 enum Visibility {
     Visible,
     Hidden,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum FileKind {
-    Contour,
-    Boundary,
-    Crease,
-    Material,
-    Intersection,
-    Marked,
-}
-
-impl From<FileKind> for Kind {
-    fn from(kind: FileKind) -> Self {
-        match kind {
-            FileKind::Contour => Kind::Contour,
-            FileKind::Boundary => Kind::Boundary,
-            FileKind::Crease => Kind::Crease,
-            FileKind::Material => Kind::Material,
-            FileKind::Intersection => Kind::Intersection,
-            FileKind::Marked => Kind::Marked,
-        }
-    }
 }
 
 /// The drawing that line data describes.
@@ -281,7 +257,7 @@ fn stroke_of(stroke: FileStroke, names: &mut Names) -> Stroke {
     let points = stroke.points.iter().zip(&stroke.world);
     Stroke {
         id: stroke.id,
-        kind: stroke.kind.into(),
+        kind: stroke.kind,
         occluders: stroke
             .occluders
             .unwrap_or(u32::from(stroke.visibility == Visibility::Hidden)),

@@ -5,7 +5,6 @@ use crate::project::Projector;
 use crate::stroke::Kind;
 use crate::visibility::{Piece, Span};
 use glam::DVec3;
-use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 
 /// Gaps in a line up to this length are closed, in pixels: nobody sees them, and each would cost a stroke.
@@ -125,7 +124,7 @@ pub fn runs(
     lines: &[Option<Line>],
 ) -> Vec<Run> {
     let mut found = Vec::new();
-    for chain in chains(graph) {
+    for chain in graph.chains() {
         let (mut items, is_loop) = items(graph, lines, &chain);
         close_gaps(&mut items);
         let breaks: Vec<usize> = breaks(&items, is_loop);
@@ -150,28 +149,6 @@ pub fn runs(
     number(&mut found);
     found.retain(|run| run.points.len() >= if run.closed { 3 } else { 2 });
     found
-}
-
-/// The nodes of every chain in order: open ones from their start, closed ones from their first node.
-fn chains(graph: &CurveGraph) -> Vec<Vec<u32>> {
-    let count = graph.nodes.len() as u32;
-    let mut used = vec![false; count as usize];
-    let starts = (0..count).filter(|node| graph.nodes[*node as usize].prev == NONE);
-    let mut chains = Vec::new();
-    for start in starts.chain(0..count) {
-        if used[start as usize] {
-            continue;
-        }
-        let mut chain = Vec::new();
-        let mut node = start;
-        while node != NONE && !used[node as usize] {
-            used[node as usize] = true;
-            chain.push(node);
-            node = graph.nodes[node as usize].next;
-        }
-        chains.push(chain);
-    }
-    chains
 }
 
 /// The spans of a chain, and whether the last may run on to the first.
@@ -199,8 +176,8 @@ fn items<'a>(
         }
         open = line.piece.range[1] == 1.0;
     }
-    let [first, last] = [chain[0], chain[chain.len() - 1]];
-    let is_loop = graph.nodes[last as usize].next == first && open;
+    let first = chain[0];
+    let is_loop = graph.is_loop(chain) && open;
     if let (Some(item), Some(line)) = (items.first_mut(), &lines[first as usize]) {
         item.follows = is_loop && line.piece.range[0] == 0.0 && item.node == first;
     }

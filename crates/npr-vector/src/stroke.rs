@@ -1,42 +1,68 @@
 //! Strokes: visible or hidden runs of lines, ready to be drawn or written.
 
-/// What a line is on the shape.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Kind {
+use crate::graph::CurveNode;
+use serde::Deserialize;
+
+/// The one list of kinds of line: what a kind is, and its name in files and on the command line.
+macro_rules! kinds {
+    ($(#[doc = $meaning:literal] $kind:ident = $name:literal,)+) => {
+        /// What a line is on the shape.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
+        pub enum Kind {
+            $(#[doc = $meaning] #[serde(rename = $name)] $kind,)+
+        }
+
+        impl Kind {
+            /// All kinds, in the order in which they are layered.
+            pub const ALL: [Kind; [$($name),+].len()] = [$(Kind::$kind),+];
+
+            /// Its name in files and on the command line.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Kind::$kind => $name,)+
+                }
+            }
+
+            /// What it is, in one sentence.
+            pub fn meaning(self) -> &'static str {
+                match self {
+                    $(Kind::$kind => $meaning.trim_ascii(),)+
+                }
+            }
+        }
+    };
+}
+
+kinds! {
     /// The surface turns away from the eye.
-    Contour,
+    Contour = "contour",
     /// The surface ends.
-    Boundary,
+    Boundary = "boundary",
     /// The surface bends sharply.
-    Crease,
+    Crease = "crease",
     /// The material changes.
-    Material,
+    Material = "material",
     /// Two surfaces cut through each other.
-    Intersection,
-    /// The user asked for a line here.
-    Marked,
+    Intersection = "intersection",
+    /// The file or the user asks for a line here.
+    Marked = "marked",
 }
 
 impl Kind {
-    /// All kinds, in the order in which they are layered.
-    pub const ALL: [Kind; 6] = [
-        Kind::Contour,
-        Kind::Boundary,
-        Kind::Crease,
-        Kind::Material,
-        Kind::Intersection,
-        Kind::Marked,
-    ];
+    /// The kind of a name; none where no kind is called so.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
 
-    /// Its name in files and on the command line.
-    pub fn name(self) -> &'static str {
+    /// Its bit among [`CurveNode::KINDS`].
+    pub const fn bit(self) -> u32 {
         match self {
-            Kind::Contour => "contour",
-            Kind::Boundary => "boundary",
-            Kind::Crease => "crease",
-            Kind::Material => "material",
-            Kind::Intersection => "intersection",
-            Kind::Marked => "marked",
+            Kind::Contour => CurveNode::CONTOUR,
+            Kind::Boundary => CurveNode::BOUNDARY,
+            Kind::Crease => CurveNode::CREASE,
+            Kind::Material => CurveNode::MATERIAL,
+            Kind::Intersection => CurveNode::INTERSECTION,
+            Kind::Marked => CurveNode::MARKED,
         }
     }
 }

@@ -8,7 +8,6 @@ use crate::bvh::{FaceTree, Sight};
 use crate::project::Projector;
 use glam::DVec3;
 use npr_core::shape::Shape;
-use rayon::prelude::*;
 
 /// How far outside the frame lines are still followed, as a share of its larger side.
 const MARGIN: f64 = 0.02;
@@ -320,14 +319,5 @@ impl Seen<'_> {
             &circumstances.own_faces,
             self.count_limit,
         )
-    }
-
-    /// The spans of many pieces, on all threads.
-    pub fn all_spans(&self, pieces: &[(Piece, Circumstances)]) -> Vec<Vec<Span>> {
-        pieces
-            .par_iter()
-            .with_min_len(64)
-            .map(|(piece, circumstances)| self.spans(piece, circumstances))
-            .collect()
     }
 }

@@ -3,8 +3,8 @@
 use npr_core::camera::{Camera, Projection};
 use npr_core::geometry::NONE;
 use npr_core::shape::{Shape, Surface};
-use npr_mesh::shape::{PlacedMesh, add_mesh};
-use npr_mesh::{Mesh, testing};
+use npr_mesh::Mesh;
+use npr_mesh::testing::{self, add_to, shape_of};
 use npr_vector::bvh::{FaceTree, Sight};
 use npr_vector::contour::{Eye, contours, facing};
 use npr_vector::draw::{LineSettings, Method, Prepared, strokes};
@@ -15,28 +15,6 @@ use npr_vector::stroke::{Kind, Stroke};
 use proptest::prelude::*;
 
 const SIZE: [u32; 2] = [400, 300];
-
-fn add(shape: &mut Shape, mesh: &Mesh) {
-    let surfaces = vec![0; mesh.triangles().len()];
-    let placed = PlacedMesh {
-        rest: mesh.positions(),
-        world: mesh.positions(),
-        triangles: mesh.triangles(),
-        surfaces: &surfaces,
-        ..PlacedMesh::default()
-    };
-    add_mesh(shape, &placed, 0.0);
-    shape.sanity_check();
-}
-
-fn shape_of(mesh: &Mesh) -> Shape {
-    let mut shape = Shape {
-        surfaces: vec![Surface::default()],
-        ..Shape::default()
-    };
-    add(&mut shape, mesh);
-    shape
-}
 
 fn camera(eye: [f32; 3]) -> Camera {
     Camera {
@@ -329,7 +307,7 @@ fn a_plate_hides_what_is_behind_it() {
         [x * 0.1, y * 0.1, z * 0.1 - 1.0]
     });
     let mut shape = shape_of(&plate);
-    add(&mut shape, &cube);
+    add_to(&mut shape, &cube, |_| 0);
     let eye = [0.03, 0.02, 5.0];
     let found = draw(&shape, eye, &settings(false));
     assert!(
@@ -367,14 +345,7 @@ fn materials_meet_in_a_line() {
         })
         .collect();
     assert!(surfaces.contains(&0) && surfaces.contains(&1));
-    let placed = PlacedMesh {
-        rest: mesh.positions(),
-        world: mesh.positions(),
-        triangles: mesh.triangles(),
-        surfaces: &surfaces,
-        ..PlacedMesh::default()
-    };
-    add_mesh(&mut shape, &placed, 0.0);
+    add_to(&mut shape, &mesh, |face| surfaces[face]);
     let found = draw(&shape, [0.5, 0.5, 4.0], &settings(false));
     assert!(found.iter().any(|stroke| stroke.kind == Kind::Material));
     let without = LineSettings {
@@ -395,7 +366,7 @@ fn a_line_breaks_where_an_outline_crosses_it() {
         [0.25 + 2.0 * x, 2.0 * y - 1.0, 1.0]
     });
     let mut shape = shape_of(&bar);
-    add(&mut shape, &square);
+    add_to(&mut shape, &square, |_| 0);
     let eye = [0.0, 0.0, 5.0];
     let found = draw(&shape, eye, &settings(false));
     // The square's left edge, at x = 0.25 and depth 4.

@@ -1,6 +1,7 @@
 //! What the user said to `npr lines`.
 
-use super::{Backend, CameraArguments, LimitArguments, LookArguments, Size, TimingsForm};
+use super::DrawingArguments;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use npr_render::Kind;
 use npr_vector::artwork::Page;
@@ -19,43 +20,19 @@ pub struct LinesArguments {
     /// Format of the output, whatever its name [default: by the name; svg on standard output].
     #[arg(long, value_enum)]
     pub format: Option<LineFormat>,
-    /// Width and height in pixels, 32768 at most.
-    #[arg(long, value_name = "WxH", default_value_t = Size { width: 1280, height: 720 })]
-    pub size: Size,
     /// Which lines.
     #[command(flatten)]
     pub lines: LineArguments,
     /// What is written of them.
     #[command(flatten)]
     pub sheet: SheetArguments,
-    /// The camera.
+    /// The drawing.
     #[command(flatten)]
-    pub camera: CameraArguments,
-    /// The style.
-    #[command(flatten)]
-    pub look: LookArguments,
-    /// What draws.
-    #[arg(long, value_enum, default_value_t = Backend::Auto, help_heading = "Work")]
-    pub backend: Backend,
+    pub drawing: DrawingArguments,
     /// Keep prepared surfaces in this folder between runs, which saves time and changes no drawing; `off` keeps
     /// none [default: the folder that NPR_CACHE_DIR names, else off].
     #[arg(long, value_name = "DIR|off", help_heading = "Work")]
     pub cache: Option<PathBuf>,
-    /// Tell on standard error how long each step took.
-    #[arg(
-        long, value_enum, value_name = "FORM", num_args = 0..=1, default_missing_value = "table",
-        help_heading = "Work"
-    )]
-    pub timings: Option<TimingsForm>,
-    /// No warnings and no progress.
-    #[arg(short, long, help_heading = "Work")]
-    pub quiet: bool,
-    /// A second folder that the scene and the style may read files from, besides their own.
-    #[arg(long, value_name = "DIR", help_heading = "Safety limits")]
-    pub allow_external: Option<PathBuf>,
-    /// Safety limits.
-    #[command(flatten)]
-    pub limits: LimitArguments,
 }
 
 /// What the user said about which lines are drawn.
@@ -63,8 +40,8 @@ pub struct LinesArguments {
 #[command(next_help_heading = "Lines")]
 pub struct LineArguments {
     /// Kinds of line, with commas between; marked lines are drawn in any case [default: those of the style].
-    #[arg(long, value_enum, value_name = "KIND,..", value_delimiter = ',')]
-    pub kinds: Option<Vec<KindName>>,
+    #[arg(long, value_name = "KIND,..", value_delimiter = ',', value_parser = kind())]
+    pub kinds: Option<Vec<Kind>>,
     /// Angle between face normals, in degrees, from which an edge is a crease [default: the style's, 40 unless
     /// it says otherwise].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = crease_angle)]
@@ -112,37 +89,6 @@ pub enum LineFormat {
     Png,
 }
 
-/// A kind of line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum KindName {
-    /// The surface turns away from the eye.
-    Contour,
-    /// The surface ends.
-    Boundary,
-    /// The surface bends sharply.
-    Crease,
-    /// The material changes.
-    Material,
-    /// Two surfaces cut through each other.
-    Intersection,
-    /// The file asks for a line.
-    Marked,
-}
-
-impl KindName {
-    /// The kind of that name.
-    pub fn kind(self) -> Kind {
-        match self {
-            Self::Contour => Kind::Contour,
-            Self::Boundary => Kind::Boundary,
-            Self::Crease => Kind::Crease,
-            Self::Material => Kind::Material,
-            Self::Intersection => Kind::Intersection,
-            Self::Marked => Kind::Marked,
-        }
-    }
-}
-
 /// How contours are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum MethodName {
@@ -185,6 +131,14 @@ pub enum PathForm {
     Centreline,
 }
 
+/// A kind of line by its name in files.
+fn kind() -> impl TypedValueParser<Value = Kind> {
+    let help = |kind: Kind| kind.meaning().trim_end_matches('.');
+    let names = Kind::ALL.map(|kind| PossibleValue::new(kind.name()).help(help(kind)));
+    PossibleValuesParser::new(names)
+        .try_map(|name| Kind::named(&name).ok_or("must be the name of a kind"))
+}
+
 /// A sheet of paper.
 fn page(text: &str) -> Result<Page, String> {
     Page::parse(text).ok_or_else(|| {
@@ -222,14 +176,6 @@ mod tests {
         for text in ["-1", "181", "nan", "inf", "sharp", ""] {
             assert!(crease_angle(text).is_err(), "{text}");
             assert!(weld_tolerance(text).is_err(), "{text}");
-        }
-    }
-
-    #[test]
-    fn kinds_bear_the_names_that_files_use() {
-        for name in KindName::value_variants() {
-            let shown = name.to_possible_value().expect("no name is hidden");
-            assert_eq!(shown.get_name(), name.kind().name());
         }
     }
 }

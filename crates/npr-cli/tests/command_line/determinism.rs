@@ -6,27 +6,30 @@ use std::path::Path;
 /// The project's own sample models.
 const MODELS: [&str; 4] = ["cube_plane", "teapot_box_plane", "two_balls", "still_life"];
 
-/// A picture with a number of threads.
-fn picture(place: &Workplace, model: &str, style: &str, threads: &str) -> Vec<u8> {
+/// What a command writes of a sample model with a number of threads.
+fn drawn(place: &Workplace, command: &str, model: &str, more: &[&str], threads: &str) -> Vec<u8> {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../assets/{model}.glb"));
     let scene = scene.to_str().expect("UTF-8");
-    let mut command = place.command(&[
-        "render",
-        scene,
-        "-o",
-        "-",
-        "--size",
-        "160x96",
-        "--backend",
-        "cpu",
-    ]);
-    command.args(["--style", style, "--camera", "0"]);
+    let fixed = ["-o", "-", "--size", "160x96", "--camera", "0"];
+    let mut command = place.command(&[&[command, scene], &fixed[..], more].concat());
     command
         .env("RAYON_NUM_THREADS", threads)
         .env("LC_ALL", "de_DE.UTF-8");
     let outcome = Outcome::of(command.output().expect("the command starts"));
     outcome.assert_silent_success();
     outcome.stdout
+}
+
+/// A picture with a number of threads.
+fn picture(place: &Workplace, model: &str, style: &str, threads: &str) -> Vec<u8> {
+    let more = ["--backend", "cpu", "--style", style];
+    drawn(place, "render", model, &more, threads)
+}
+
+/// A line drawing with a number of threads.
+fn lines(place: &Workplace, model: &str, more: &[&str], threads: &str) -> Vec<u8> {
+    let more = [&["--hidden", "layer"], more].concat();
+    drawn(place, "lines", model, &more, threads)
 }
 
 #[test]
@@ -44,22 +47,6 @@ fn pictures_are_the_same_for_any_number_of_threads() {
             }
         }
     }
-}
-
-/// A line drawing with a number of threads.
-fn lines(place: &Workplace, model: &str, more: &[&str], threads: &str) -> Vec<u8> {
-    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../assets/{model}.glb"));
-    let scene = scene.to_str().expect("UTF-8");
-    let mut command = place.command(&["lines", scene, "-o", "-", "--size", "160x96"]);
-    command
-        .args(["--camera", "0", "--hidden", "layer"])
-        .args(more);
-    command
-        .env("RAYON_NUM_THREADS", threads)
-        .env("LC_ALL", "de_DE.UTF-8");
-    let outcome = Outcome::of(command.output().expect("the command starts"));
-    outcome.assert_silent_success();
-    outcome.stdout
 }
 
 #[test]

@@ -95,6 +95,28 @@ impl Workplace {
         Outcome::of(child.wait_with_output().expect("the command ends"))
     }
 
+    /// Asserts of every command line that it exits with 2 and one line that contains the text beside it, and
+    /// that it leaves nothing beside the scene.
+    #[track_caller]
+    pub fn assert_refused(&self, cases: &[(&[&str], &str)]) {
+        for (arguments, text) in cases {
+            self.npr(arguments).assert_fault(2, text);
+            assert_eq!(self.names(), ["scene.obj"], "{arguments:?}");
+        }
+    }
+
+    /// Asserts that a command that demands a device succeeds, or exits with 4 and leaves nothing beside the scene.
+    #[track_caller]
+    pub fn assert_done_or_no_device(&self, arguments: &[&str]) {
+        let outcome = self.npr(&[arguments, &["--backend", "gpu"]].concat());
+        if outcome.code == Some(4) {
+            outcome.assert_fault(4, "no graphics device");
+            assert_eq!(self.names(), ["scene.obj"]);
+        } else {
+            outcome.assert_silent_success();
+        }
+    }
+
     /// Runs a small render of a scene on the processor.
     pub fn render(&self, scene: &str, more: &[&str]) -> Outcome {
         let mut arguments = vec!["render", scene, "--size", "48x32", "--backend", "cpu"];

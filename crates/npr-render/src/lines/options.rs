@@ -57,7 +57,7 @@ impl KindSet {
 
     /// Whether a kind is in the set.
     pub fn has(self, kind: Kind) -> bool {
-        self.0 & bit_of(kind) != 0
+        self.0 & kind.bit() != 0
     }
 
     /// Its kinds, in the order of [`Kind::ALL`].
@@ -73,18 +73,12 @@ impl KindSet {
 
 impl FromIterator<Kind> for KindSet {
     fn from_iter<T: IntoIterator<Item = Kind>>(kinds: T) -> Self {
-        Self(kinds.into_iter().map(bit_of).fold(0, |set, bit| set | bit))
-    }
-}
-
-fn bit_of(kind: Kind) -> u32 {
-    match kind {
-        Kind::Contour => CurveNode::CONTOUR,
-        Kind::Boundary => CurveNode::BOUNDARY,
-        Kind::Crease => CurveNode::CREASE,
-        Kind::Material => CurveNode::MATERIAL,
-        Kind::Intersection => CurveNode::INTERSECTION,
-        Kind::Marked => CurveNode::MARKED,
+        Self(
+            kinds
+                .into_iter()
+                .map(Kind::bit)
+                .fold(0, |set, bit| set | bit),
+        )
     }
 }
 

@@ -9,7 +9,7 @@
 //! - A smooth line lies as often on a face turned away as on one turned to the eye, so sights to it tell nothing. What is seen of it is
 //!   taken from the polygon's contour beside it ([`PolygonOutline::spans`]), which sights decide exactly.
 
-use super::normals::{CornerNormals, position};
+use super::normals::CornerNormals;
 use super::patches::Patches;
 use super::segment_grid::{Nearest, SegmentGrid};
 use super::signs::{FlatFaces, Place, Signs};
@@ -162,7 +162,7 @@ impl<'a> PolygonOutline<'a> {
                 None => Vec::new(),
             })
             .collect();
-        for chain in super::cusp::chains(&graph.nodes) {
+        for chain in graph.chains() {
             settle_chain(&chain, pieces, &mut counts);
         }
         counts.iter().map(|counts| spans_of(counts)).collect()
@@ -236,7 +236,7 @@ impl<'a> PolygonOutline<'a> {
     }
 
     fn longest_side(&self, face: u32) -> f64 {
-        let corners = self.shape.faces[face as usize].map(|v| position(self.shape, v));
+        let corners = self.shape.faces[face as usize].map(|v| self.shape.point(v));
         (0..3)
             .map(|i| corners[i].distance(corners[(i + 1) % 3]))
             .fold(0.0, f64::max)
@@ -305,10 +305,7 @@ impl<'a> PolygonOutline<'a> {
         contour: &SeenContour,
         share: f64,
     ) -> [Option<u32>; 2] {
-        let [low, high] = self
-            .shape
-            .ends(contour.edge)
-            .map(|v| position(self.shape, v));
+        let [low, high] = self.shape.ends(contour.edge).map(|v| self.shape.point(v));
         let along = (contour.world_at(self.projector, share) - low).dot(high - low);
         let t = (along / (high - low).length_squared()) as f32;
         let own = (0..3)

@@ -1,6 +1,6 @@
 //! Which pieces of a contour their own surface hides.
 
-use super::normals::{position, towards};
+use super::normals::towards;
 use super::signs::Signs;
 use super::trace::Traced;
 use crate::graph::CurveNode;
@@ -38,17 +38,14 @@ pub(super) fn mark_cusps(signs: &Signs<'_>, traced: &mut Traced) {
         .with_min_len(64)
         .map(|node| signs.turn(traced, node))
         .collect();
-    let nodes = &mut traced.graph.nodes;
-    for chain in chains(nodes) {
+    for chain in traced.graph.chains() {
         let mut of_chain: Vec<Turn> = chain.iter().map(|node| turns[*node as usize]).collect();
-        let closed = chain
-            .last()
-            .is_some_and(|last| nodes[*last as usize].next == chain[0]);
-        silence(&mut of_chain, closed);
+        silence(&mut of_chain, traced.graph.is_loop(&chain));
         for (node, turn) in chain.iter().zip(of_chain) {
             hidden[*node as usize] = turn.hidden;
         }
     }
+    let nodes = &mut traced.graph.nodes;
     for index in 0..nodes.len() {
         let CurveNode { next, prev, .. } = nodes[index];
         if next != NONE && hidden[index] {
@@ -58,28 +55,6 @@ pub(super) fn mark_cusps(signs: &Signs<'_>, traced: &mut Traced) {
             nodes[index].flags |= CurveNode::CUSP;
         }
     }
-}
-
-/// The nodes that have pieces, line by line: open lines first, each kind in the order of first nodes.
-pub(super) fn chains(nodes: &[CurveNode]) -> Vec<Vec<u32>> {
-    let mut seen = vec![false; nodes.len()];
-    let starts = (0..nodes.len() as u32).filter(|node| nodes[*node as usize].prev == NONE);
-    let mut chains = Vec::new();
-    for start in starts.chain(0..nodes.len() as u32) {
-        let mut chain = Vec::new();
-        let mut at = start;
-        while at != NONE && !seen[at as usize] {
-            seen[at as usize] = true;
-            if nodes[at as usize].next != NONE {
-                chain.push(at);
-            }
-            at = nodes[at as usize].next;
-        }
-        if !chain.is_empty() {
-            chains.push(chain);
-        }
-    }
-    chains
 }
 
 /// A run of neighbouring pieces with the same sign.
@@ -145,7 +120,7 @@ impl Signs<'_> {
         let CurveNode { face, next, .. } = traced.graph.nodes[node];
         let along = traced.along[node];
         let position_of = |node: u32| DVec3::from_array(traced.graph.position(self.shape, node));
-        let corners = self.shape.faces[face as usize].map(|v| position(self.shape, v));
+        let corners = self.shape.faces[face as usize].map(|v| self.shape.point(v));
         let sides = [0, 1, 2].map(|i| corners[(i + 1) % 3] - corners[i]);
         let ends = match next {
             NONE => [DVec3::ZERO; 2],
@@ -185,7 +160,7 @@ impl Signs<'_> {
             return false;
         }
         let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        let tip = position(self.shape, self.shape.opposite(twin));
+        let tip = self.shape.point(self.shape.opposite(twin));
         normal.dot(tip - corners[0]) > 0.0
     }
 }

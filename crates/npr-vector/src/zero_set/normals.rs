@@ -35,7 +35,7 @@ impl CornerNormals {
         let faces: Vec<Face> = shape
             .faces
             .par_iter()
-            .map(|corners| Face::new(corners.map(|v| position(shape, v))))
+            .map(|corners| Face::new(corners.map(|v| shape.point(v))))
             .collect();
         let fans = Fans::new(shape, &faces, crease_cos);
         let heads = fans.heads();
@@ -86,7 +86,7 @@ impl CornerNormals {
             .with_min_len(4096)
             .map(|(normal, vertex)| {
                 let normal = DVec3::from_array(normal.map(f64::from));
-                normal.dot(towards(eye, position(shape, *vertex)))
+                normal.dot(towards(eye, shape.point(*vertex)))
             })
             .collect()
     }
@@ -95,11 +95,6 @@ impl CornerNormals {
     pub fn joins(&self, half_edge: u32, twin: u32) -> bool {
         joins(&self.fan_of, half_edge, twin)
     }
-}
-
-/// Position of a vertex.
-pub(super) fn position(shape: &Shape, vertex: u32) -> DVec3 {
-    DVec3::from_array(shape.positions[vertex as usize].map(f64::from))
 }
 
 /// From a point towards a homogeneous eye; its length is the distance for `w = 1`.

@@ -2,12 +2,10 @@ use super::*;
 use crate::contour::{self, Eye};
 use crate::graph::CurveNode;
 use npr_core::geometry::NONE;
-use npr_core::shape::Surface;
 use npr_mesh::Mesh;
-use npr_mesh::shape::{PlacedMesh, add_mesh};
 use npr_mesh::testing::{
     Random, cube, cylinder, fan, icosphere, mapped, moebius_strip, plane, random_soup,
-    random_winding, torus, uv_sphere, with_doubles,
+    random_winding, shape_of, torus, uv_sphere, with_doubles,
 };
 use proptest::prelude::*;
 use std::collections::BTreeSet;
@@ -15,25 +13,8 @@ use std::collections::BTreeSet;
 /// Cosine of the crease angle of most tests, 40 degrees.
 const CREASE: f32 = 0.766;
 
-pub(super) fn shape_of(mesh: &Mesh) -> Shape {
-    let mut shape = Shape {
-        surfaces: vec![Surface::default()],
-        ..Shape::default()
-    };
-    let placed = PlacedMesh {
-        rest: mesh.positions(),
-        world: mesh.positions(),
-        triangles: mesh.triangles(),
-        surfaces: &vec![0; mesh.triangles().len()],
-        ..PlacedMesh::default()
-    };
-    add_mesh(&mut shape, &placed, 0.0);
-    shape.sanity_check();
-    shape
-}
-
 fn normal_of(shape: &Shape, face: u32) -> glam::DVec3 {
-    let [a, b, c] = shape.faces[face as usize].map(|v| normals::position(shape, v));
+    let [a, b, c] = shape.faces[face as usize].map(|v| shape.point(v));
     (b - a).cross(c - a).normalize_or_zero()
 }
 
@@ -161,7 +142,7 @@ fn check(shape: &Shape, signs: &Signs<'_>) {
 /// Checks by plane geometry that the front of the piece's face lies on its left.
 fn check_piece(shape: &Shape, [node, next]: [&CurveNode; 2], along: bool, signs: &Signs<'_>) {
     let point = |node: &CurveNode| {
-        let [a, b] = shape.ends(node.edge).map(|v| normals::position(shape, v));
+        let [a, b] = shape.ends(node.edge).map(|v| shape.point(v));
         a + (b - a) * f64::from(node.t)
     };
     let (from, to) = (point(node), point(next));
@@ -171,7 +152,7 @@ fn check_piece(shape: &Shape, [node, next]: [&CurveNode; 2], along: bool, signs:
         let vertex = shape.faces[node.face as usize][i as usize];
         // Along an edge, the whole face lies on one side, whatever its far corner says.
         let front = along || signs.front(3 * node.face + i);
-        let p = normals::position(shape, vertex);
+        let p = shape.point(vertex);
         let left = normal.cross((to - from).normalize_or_zero()).dot(p - from);
         let wrong = if front { left < -scale } else { left > scale };
         assert!(!wrong, "front on the right of {node:?}");
@@ -198,7 +179,7 @@ proptest! {
         for face in 0..shape.faces.len() as u32 {
             let front = [0, 1, 2].map(|i| {
                 let n = glam::DVec3::from_array(normals.normal(3 * face + i).map(f64::from));
-                let p = normals::position(&shape, shape.faces[face as usize][i as usize]);
+                let p = shape.point(shape.faces[face as usize][i as usize]);
                 n.dot(normals::towards(eye, p)) >= 0.0
             });
             expected += usize::from(front.contains(&true) && front.contains(&false));

@@ -1,10 +1,10 @@
 use super::*;
 use crate::contour::{Eye, contours, facing};
 use crate::zero_set::patches::LEAST_PX;
-use crate::zero_set::tests::{shaken, shape_of};
+use crate::zero_set::tests::shaken;
 use npr_core::camera::{Camera, Projection};
 use npr_mesh::Mesh;
-use npr_mesh::testing::{cube, cylinder, icosphere, torus};
+use npr_mesh::testing::{cube, cylinder, icosphere, shape_of, torus};
 use proptest::prelude::*;
 
 const SIZE: [u32; 2] = [640, 480];

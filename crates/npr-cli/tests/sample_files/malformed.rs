@@ -1,11 +1,9 @@
 //! Every broken file gives a picture or one clear line, soon and in little memory.
 
+use crate::files::{SCENES, samples};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
-
-/// Extensions of scenes, and one of a format that is not read.
-const EXTENSIONS: [&str; 7] = ["gltf", "glb", "vrm", "obj", "stl", "ply", "off"];
 
 /// Longest time that a run may take.
 const TIME_LIMIT: Duration = Duration::from_secs(5);
@@ -107,30 +105,7 @@ fn limited() -> Command {
     shell
 }
 
-/// Every malformed scene beside the checkout; none, with a line that says so, where there are none.
+/// Every malformed scene, and some of a format that is not read.
 fn malformed_files() -> Vec<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/assets/malformed");
-    if !root.is_dir() {
-        eprintln!("skipped: there are no malformed files beside the checkout");
-        return Vec::new();
-    }
-    let mut folders = vec![root];
-    let mut files = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            let extension = path
-                .extension()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .to_lowercase();
-            if path.is_dir() {
-                folders.push(path);
-            } else if EXTENSIONS.contains(&extension.as_str()) {
-                files.push(path);
-            }
-        }
-    }
-    files.sort();
-    files
+    samples("malformed", &[&SCENES[..], &["off"]].concat())
 }

@@ -1,0 +1,33 @@
+//! Scene files that lie beside the checkout.
+
+use std::path::{Path, PathBuf};
+
+/// Extensions of scenes that are read.
+pub const SCENES: [&str; 6] = ["gltf", "glb", "vrm", "obj", "stl", "ply"];
+
+/// Every file below a folder of the samples that ends in one of `extensions`, in any case, sorted.
+///
+/// None, with a line that says so, where there is no such folder.
+pub fn samples(folder: &str, extensions: &[&str]) -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/assets");
+    let root = root.join(folder);
+    if !root.is_dir() {
+        eprintln!("skipped: there are no {folder} files beside the checkout");
+        return Vec::new();
+    }
+    let mut folders = vec![root];
+    let mut files = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            let extension = path.extension().unwrap_or_default().to_string_lossy();
+            if path.is_dir() {
+                folders.push(path);
+            } else if extensions.contains(&extension.to_lowercase().as_str()) {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    files
+}

@@ -1,0 +1,5 @@
+//! The command on files that lie beside the checkout: sound ones and broken ones.
+
+mod files;
+mod malformed;
+mod models;
