@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use glam::DVec3;
 use npr_vector::stroke::Kind;
 
 use super::candidates::{Candidate, Seen};
@@ -34,8 +35,8 @@ pub struct Run {
 /// Candidates in the order of a walk, each with whether it is walked from head to tail.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Chain {
-    links: Vec<(u32, bool)>,
-    closed: bool,
+    pub(crate) links: Vec<(u32, bool)>,
+    pub(crate) closed: bool,
 }
 
 /// Joins candidates: contours around the faces that face the eye, all others where they meet at a vertex.
@@ -131,30 +132,19 @@ fn join_at_vertices(soup: &Soup, lines: &[Candidate], joints: &mut Joints) {
             let other = lines[line as usize].ends[usize::from(at_tail)];
             (soup.positions[other as usize] - soup.positions[vertex as usize]).normalize_or_zero()
         };
-        let mut pairs = Vec::new();
-        for (i, a) in ends.iter().enumerate() {
-            for b in &ends[i + 1..] {
-                let straight = -direction(*a).dot(direction(*b));
-                if straight > GOES_ON {
-                    pairs.push((straight, *a, *b));
-                }
-            }
-        }
-        pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
-        for (_, a, b) in pairs {
-            joints.join_if_free(a, b);
-        }
+        let directions: Vec<DVec3> = ends.iter().copied().map(direction).collect();
+        joints.join_straightest(&ends, |a, b| -directions[a].dot(directions[b]));
     }
 }
 
 /// Which end of a candidate goes on in which end of another.
-struct Joints {
+pub(crate) struct Joints {
     /// Of tail and head of every candidate: the candidate that follows there, and whether with its tail.
     next: Vec<[Option<(u32, bool)>; 2]>,
 }
 
 impl Joints {
-    fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         Self {
             next: vec![[None; 2]; count],
         }
@@ -164,6 +154,29 @@ impl Joints {
     fn join(&mut self, a: (u32, bool), b: (u32, bool)) {
         *self.end(a) = Some(b);
         *self.end(b) = Some(a);
+    }
+
+    /// Joins the ends that meet in one place in pairs, the straightest first, as far as they go on as one.
+    ///
+    /// `straight` is the cosine of how far a line through two of them turns, by their places in the list.
+    pub(crate) fn join_straightest(
+        &mut self,
+        ends: &[(u32, bool)],
+        straight: impl Fn(usize, usize) -> f64,
+    ) {
+        let mut pairs = Vec::new();
+        for a in 0..ends.len() {
+            for b in a + 1..ends.len() {
+                let cosine = straight(a, b);
+                if cosine > GOES_ON {
+                    pairs.push((cosine, ends[a], ends[b]));
+                }
+            }
+        }
+        pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for (_, a, b) in pairs {
+            self.join_if_free(a, b);
+        }
     }
 
     fn join_if_free(&mut self, a: (u32, bool), b: (u32, bool)) {
@@ -177,7 +190,7 @@ impl Joints {
     }
 
     /// Walks from every free end, then around what is left.
-    fn chains(self) -> Vec<Chain> {
+    pub(crate) fn chains(self) -> Vec<Chain> {
         let mut walked = vec![false; self.next.len()];
         let mut chains = Vec::new();
         for open in [true, false] {

@@ -1,0 +1,240 @@
+//! A pen on paper: lines become black pixels, and black pixels a middle line one pixel wide.
+
+/// Width of the pen's line, in pixels of the picture.
+pub const PEN_PX: f64 = 3.0;
+
+/// Pixels of the paper for one of the picture, along each side: middle lines wander less than on the picture's own.
+const FINENESS: f64 = 2.0;
+
+/// Longest side of the picture that is drawn, in pixels; what lies beyond is left out.
+const LONGEST_SIDE_PX: u32 = 8192;
+
+/// Paper that a round pen has drawn on, with a white pixel more on each side of the picture.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Paper {
+    width: usize,
+    height: usize,
+    black: Vec<bool>,
+}
+
+impl Paper {
+    /// White paper for a picture of `size` pixels, of which at most the first 8192 of each side are kept.
+    pub fn new(size: [u32; 2]) -> Self {
+        let [width, height] = size.map(|side| {
+            let side = f64::from(side.min(LONGEST_SIDE_PX));
+            (side * FINENESS) as usize + 2
+        });
+        Self {
+            width,
+            height,
+            black: vec![false; width * height],
+        }
+    }
+
+    /// Touches the paper with the pen, at a place in the picture.
+    pub fn touch(&mut self, place: [f64; 2]) {
+        if place.iter().any(|v| !v.is_finite()) {
+            return;
+        }
+        let [x, y] = place.map(|v| v * FINENESS + 1.0);
+        let radius = PEN_PX * FINENESS / 2.0;
+        // Pixels of the margin stay white.
+        let range = |v: f64, count: usize| {
+            let low = (v - radius).floor().max(1.0);
+            let high = (v + radius).ceil().min(count as f64 - 1.0);
+            (low as usize)..(high as usize)
+        };
+        for row in range(y, self.height) {
+            for column in range(x, self.width) {
+                let off = [column as f64 + 0.5 - x, row as f64 + 0.5 - y];
+                if off[0].hypot(off[1]) <= radius {
+                    self.black[row * self.width + column] = true;
+                }
+            }
+        }
+    }
+
+    /// Blackens white specks smaller than the blot of the pen: no pen can leave them out.
+    pub fn fill_specks(&mut self) {
+        let blot = (std::f64::consts::PI * (PEN_PX * FINENESS / 2.0).powi(2)) as usize;
+        for pixel in self.black_pixels() {
+            for side in self.sides(pixel) {
+                let speck = self.white_around(side, blot);
+                speck.into_iter().for_each(|white| self.black[white] = true);
+            }
+        }
+    }
+
+    /// The white pixels that hang together with one by their sides; none where they are `most` or more.
+    fn white_around(&self, start: usize, most: usize) -> Vec<usize> {
+        let mut found = Vec::new();
+        let mut open = vec![start];
+        while let Some(pixel) = open.pop() {
+            if self.black[pixel] || found.contains(&pixel) {
+                continue;
+            }
+            found.push(pixel);
+            // The margin hangs together with all that is outside.
+            if found.len() >= most || self.is_margin(pixel) {
+                return Vec::new();
+            }
+            open.extend(self.sides(pixel));
+        }
+        found
+    }
+
+    fn is_margin(&self, pixel: usize) -> bool {
+        let [row, column] = [pixel / self.width, pixel % self.width];
+        row == 0 || column == 0 || row + 1 == self.height || column + 1 == self.width
+    }
+
+    /// Peels black off until lines one pixel wide are left, which hang together as before, corners included.
+    ///
+    /// A round takes the pixels with white on one side, for each of the four sides: those that hold nothing together
+    /// and are no end of a line [Rosenfeld 1975]. As many rounds as the thickest spot has pixels across.
+    pub fn thin(&mut self) {
+        let mut black = self.black_pixels();
+        loop {
+            let before = black.len();
+            for side in 0..4 {
+                let edge: Vec<usize> = black
+                    .iter()
+                    .copied()
+                    .filter(|pixel| !self.black[self.sides(*pixel)[side]])
+                    .collect();
+                for pixel in edge {
+                    if self.can_go(pixel) {
+                        self.black[pixel] = false;
+                    }
+                }
+                black.retain(|pixel| self.black[*pixel]);
+            }
+            if black.len() == before {
+                return;
+            }
+        }
+    }
+
+    /// Whether what is around a black pixel hangs together without it, and goes on from it to more than one pixel.
+    fn can_go(&self, pixel: usize) -> bool {
+        let around = self.around(pixel).map(|near| self.black[near]);
+        let count = around.iter().filter(|black| **black).count();
+        // Of the four sides, those that are white and not followed by black corners and black sides: one for every way out.
+        let ways = (0..8)
+            .step_by(2)
+            .filter(|side| !around[*side] && (around[(side + 1) % 8] || around[(side + 2) % 8]));
+        count > 1 && ways.count() == 1
+    }
+
+    /// Numbers of all black pixels, row after row.
+    pub fn black_pixels(&self) -> Vec<usize> {
+        (0..self.black.len())
+            .filter(|pixel| self.black[*pixel])
+            .collect()
+    }
+
+    /// The black pixels around one, those at its sides first.
+    pub fn black_around(&self, pixel: usize) -> impl Iterator<Item = usize> {
+        let around = self.around(pixel);
+        [0, 2, 4, 6, 1, 3, 5, 7]
+            .into_iter()
+            .map(move |i| around[i])
+            .filter(|near| self.black[*near])
+    }
+
+    /// Right, upper, left and lower neighbour.
+    fn sides(&self, pixel: usize) -> [usize; 4] {
+        let around = self.around(pixel);
+        [around[0], around[2], around[4], around[6]]
+    }
+
+    /// The eight neighbours of a pixel inside the margin, from the right one on counter-clockwise.
+    fn around(&self, pixel: usize) -> [usize; 8] {
+        let w = self.width as isize;
+        let step = |by: isize| pixel.checked_add_signed(by).unwrap_or(pixel);
+        [1, 1 - w, -w, -w - 1, -1, w - 1, w, w + 1].map(step)
+    }
+
+    /// The middle of a pixel in the picture.
+    pub fn place(&self, pixel: usize) -> [f64; 2] {
+        let [row, column] = [pixel / self.width, pixel % self.width];
+        [column, row].map(|v| (v as f64 - 0.5) / FINENESS)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// How many parts the pixels of one colour hang together in: black ones by corners too, white ones by sides.
+    fn parts(paper: &Paper, black: bool) -> usize {
+        let mut seen = vec![false; paper.black.len()];
+        let mut count = 0;
+        for start in 0..seen.len() {
+            let mut open = vec![start];
+            count += usize::from(paper.black[start] == black && !seen[start]);
+            while let Some(pixel) = open.pop() {
+                if paper.black[pixel] != black || std::mem::replace(&mut seen[pixel], true) {
+                    continue;
+                }
+                let near = paper.around(pixel);
+                let step = if black { 1 } else { 2 };
+                open.extend(near.into_iter().step_by(step).filter(|p| *p < seen.len()));
+            }
+        }
+        count
+    }
+
+    fn touched(places: &[(f64, f64)]) -> Paper {
+        let mut paper = Paper::new([24, 20]);
+        places.iter().for_each(|(x, y)| paper.touch([*x, *y]));
+        paper
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        #[test]
+        fn thinning_keeps_parts_and_holes(places in prop::collection::vec((-2.0..26.0, -2.0..22.0), 0..40)) {
+            let thick = touched(&places);
+            let mut thin = thick.clone();
+            thin.thin();
+            prop_assert_eq!(parts(&thin, true), parts(&thick, true));
+            prop_assert_eq!(parts(&thin, false), parts(&thick, false));
+            // What is left was black, and no pixel of it could go.
+            for pixel in thin.black_pixels() {
+                prop_assert!(thick.black[pixel] && !thin.can_go(pixel));
+            }
+        }
+
+        #[test]
+        fn filling_takes_small_holes_only(places in prop::collection::vec((-2.0..26.0, -2.0..22.0), 0..40)) {
+            let drawn = touched(&places);
+            let mut filled = drawn.clone();
+            filled.fill_specks();
+            prop_assert!(drawn.black_pixels().iter().all(|pixel| filled.black[*pixel]));
+            for pixel in (0..filled.black.len()).filter(|p| !filled.black[*p] && !filled.is_margin(*p)) {
+                prop_assert!(filled.white_around(pixel, 28).is_empty());
+            }
+        }
+
+        #[test]
+        fn any_numbers_may_be_touched(place: [f64; 2]) {
+            let mut paper = Paper::new([9, 7]);
+            paper.touch(place);
+            paper.fill_specks();
+            paper.thin();
+            prop_assert!(paper.black_pixels().len() <= 40);
+        }
+    }
+
+    #[test]
+    fn paper_without_pixels_stays_white() {
+        let mut paper = Paper::new([0, 0]);
+        paper.touch([0.0, 0.0]);
+        paper.fill_specks();
+        paper.thin();
+        assert!(paper.black_pixels().is_empty());
+    }
+}
