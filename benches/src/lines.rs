@@ -14,6 +14,7 @@ pub mod ink;
 pub mod measures;
 pub mod occluders;
 pub mod pen;
+pub mod picture;
 pub mod reference;
 pub mod report;
 pub mod scaling;

@@ -72,6 +72,7 @@ impl Solid {
             reference.joined.extend(joined(&runs));
             reference.runs.extend(runs);
         }
+        reference.draw(&view);
         reference
     }
 

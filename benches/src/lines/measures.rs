@@ -64,8 +64,32 @@ pub struct Measures {
     pub runs: Pieces,
     /// The same joined across short gaps, without the shortest.
     pub joined: Pieces,
+    /// The strokes of a pen that a picture of them takes.
+    pub drawn: Pieces,
     /// Mean distance of contour ink from its line, outward positive, in pixels: smoothing that shrinks shows as less than 0.
     pub bias_px: f64,
+}
+
+/// What strokes are counted against.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Against {
+    /// [`Measures::runs`].
+    Runs,
+    /// [`Measures::joined`].
+    Joined,
+    /// [`Measures::drawn`].
+    Drawn,
+}
+
+impl Against {
+    /// One of what strokes are counted against, in words.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Runs => "run",
+            Self::Joined => "joined run",
+            Self::Drawn => "drawn run",
+        }
+    }
 }
 
 /// How lines are divided.
@@ -80,9 +104,13 @@ pub struct Pieces {
 }
 
 impl Measures {
-    /// Strokes for each run that there is to draw, or for each joined one; 1 where there is none of either.
-    pub fn fragmentation(&self, of_joined: bool) -> f64 {
-        let runs = if of_joined { self.joined } else { self.runs };
+    /// Strokes for each run that there is to draw; 1 where there is none of either.
+    pub fn fragmentation(&self, against: Against) -> f64 {
+        let runs = match against {
+            Against::Runs => self.runs,
+            Against::Joined => self.joined,
+            Against::Drawn => self.drawn,
+        };
         match (self.strokes.count, runs.count) {
             (0, 0) => 1.0,
             (strokes, runs) => strokes as f64 / runs as f64,
@@ -117,6 +145,7 @@ pub fn measure(drawing: &Drawing, reference: &Reference) -> Measures {
         strokes: pieces(curves.iter().map(Curve::length)),
         runs: pieces(reference.runs.iter().map(|run| run.length)),
         joined: pieces(reference.joined.iter().map(|run| run.length)),
+        drawn: pieces(reference.drawn.iter().map(|stroke| stroke.length)),
         bias_px: found.bias(),
     }
 }
@@ -239,11 +268,25 @@ fn share(lengths: impl Iterator<Item = (f64, bool)>) -> f64 {
     if all > 0.0 { right / all } else { 1.0 }
 }
 
-/// Share of ink near other ink that runs the same or the opposite way; on one line only where it comes back later.
+/// Share of ink that lies double.
 fn doubles(ink: &[InkPoint], curves: &[Curve]) -> f64 {
+    let is_double = is_double(ink, curves);
+    1.0 - share(ink.iter().map(|point| (point.length, !is_double(point))))
+}
+
+/// Where ink of `curves` lies double.
+pub fn double_places(ink: &[InkPoint], curves: &[Curve]) -> impl Iterator<Item = [f64; 2]> {
+    let is_double = is_double(ink, curves);
+    ink.iter()
+        .filter(move |point| is_double(point))
+        .map(|point| point.at)
+}
+
+/// Tells ink near other ink that runs the same or the opposite way; on one line only where it comes back later.
+fn is_double(ink: &[InkPoint], curves: &[Curve]) -> impl Fn(&InkPoint) -> bool {
     let bins = Bins::new(ink.iter().map(|point| point.at).collect(), DOUBLE_PX);
     let lengths: Vec<f64> = curves.iter().map(Curve::length).collect();
-    let is_double = |point: &InkPoint| {
+    move |point| {
         bins.near(point.at, DOUBLE_PX).any(|(other, _)| {
             let other = &ink[other];
             let cosine = point.along[0] * other.along[0] + point.along[1] * other.along[1];
@@ -256,10 +299,7 @@ fn doubles(ink: &[InkPoint], curves: &[Curve]) -> f64 {
             };
             cosine.abs() > PARALLEL && (other.curve != point.curve || apart > 4.0 * DOUBLE_PX)
         })
-    };
-    let twice: f64 = ink.iter().filter(|p| is_double(p)).map(|p| p.length).sum();
-    let all: f64 = ink.iter().map(|point| point.length).sum();
-    if all > 0.0 { twice / all } else { 0.0 }
+    }
 }
 
 fn pieces(lengths: impl Iterator<Item = f64>) -> Pieces {
@@ -372,6 +412,7 @@ mod tests {
             pieces: (0..600).map(piece).collect(),
             runs: vec![run.clone()],
             joined: vec![run],
+            drawn: Vec::new(),
         }
     }
 
@@ -388,7 +429,10 @@ mod tests {
         let found = measure(&ink, &line());
         assert_eq!((found.recall, found.precision), ([1.0; 3], [1.0; 3]));
         assert!(found.missing.is_empty() && found.spurious.is_empty());
-        assert_eq!((found.fragmentation(false), found.doubles), (1.0, 0.0));
+        assert_eq!(
+            (found.fragmentation(Against::Runs), found.doubles),
+            (1.0, 0.0)
+        );
         assert!(near(found.strokes.mean_px, 300.0) && near(found.bias_px, 0.0));
     }
 
@@ -438,14 +482,17 @@ mod tests {
         let found = measure(&drawing(vec![]), &line());
         assert_eq!((found.recall, found.precision), ([0.0; 3], [1.0; 3]));
         let found = measure(&drawing(vec![]), &Reference::default());
-        assert_eq!((found.recall, found.fragmentation(false)), ([1.0; 3], 1.0));
+        assert_eq!(
+            (found.recall, found.fragmentation(Against::Runs)),
+            ([1.0; 3], 1.0)
+        );
     }
 
     #[test]
     fn a_line_drawn_twice_is_double_and_in_two_pieces() {
         let rows = [100.0, 101.0].map(|y| stroke(&[[50.0, y], [350.0, y]], Kind::Contour));
         let found = measure(&drawing(rows.to_vec()), &line());
-        assert!(near(found.extra_doubles(), 1.0) && found.fragmentation(false) == 2.0);
+        assert!(near(found.extra_doubles(), 1.0) && found.fragmentation(Against::Runs) == 2.0);
     }
 
     #[test]

@@ -10,6 +10,8 @@ use rayon::prelude::*;
 
 use super::candidates::{Candidate, Seen, Wanted};
 use super::chains::{Run, chain, joined, runs};
+use super::drawn::{DrawnStroke, drawn_strokes};
+use super::ink::Curve;
 use super::occluders::Occluders;
 use super::soup::Soup;
 use super::viewpoint::Viewpoint;
@@ -74,6 +76,8 @@ pub struct Reference {
     pub runs: Vec<Run>,
     /// Runs joined where a line is lost for a moment only, without those that stay short: see [`joined`].
     pub joined: Vec<Run>,
+    /// The strokes of a pen that a picture of the runs takes: see [`drawn_strokes`].
+    pub drawn: Vec<DrawnStroke>,
 }
 
 impl Reference {
@@ -92,11 +96,20 @@ impl Reference {
             .zip(&samples)
             .flat_map(|(line, samples)| sight.pieces(line, samples));
         let by_chain = runs(&chain(soup, &edges, &seen, &lines), &lines, &samples);
-        Self {
+        let mut reference = Self {
             pieces: pieces.collect(),
             joined: by_chain.iter().flat_map(|runs| joined(runs)).collect(),
             runs: by_chain.into_iter().flatten().collect(),
-        }
+            drawn: Vec::new(),
+        };
+        reference.draw(view);
+        reference
+    }
+
+    /// Draws the runs with a pen.
+    pub(super) fn draw(&mut self, view: &Viewpoint) {
+        let curves: Vec<Curve> = self.runs.iter().map(Curve::of_run).collect();
+        self.drawn = drawn_strokes(&curves, view.size().map(|side| side as u32));
     }
 
     /// Length of all that must be drawn, in pixels.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::measures::{Fault, LISTED, Measures, TOLERANCES_PX};
+use super::measures::{Against, Fault, LISTED, Measures, TOLERANCES_PX};
 use crate::table::Table;
 
 /// Faults listed for one view, missing and spurious each; of the rest, number and length are told.
@@ -17,8 +17,8 @@ pub struct Bar {
     pub recall: f64,
     /// Least precision.
     pub precision: f64,
-    /// Strokes are counted against joined runs: they have been joined, and the shortest left out.
-    pub of_joined: bool,
+    /// What strokes are counted against.
+    pub against: Against,
 }
 
 /// Most doubles beyond the reference's own, as a share of all ink.
@@ -48,7 +48,7 @@ impl Row {
         let m = &self.measures;
         let [recall, precision] = [m.recall, m.precision].map(|of| of[bar.tolerance]);
         let [fewest, most] = FRAGMENTATION;
-        let per_run = m.fragmentation(bar.of_joined);
+        let per_run = m.fragmentation(bar.against);
         let faults = [
             (
                 recall < bar.recall,
@@ -68,7 +68,7 @@ impl Row {
             (
                 !(fewest..=most).contains(&per_run),
                 false,
-                format!("{per_run:.2} strokes a {}", run_word(bar)),
+                format!("{per_run:.2} strokes a {}", bar.against.word()),
             ),
         ];
         let there = faults.into_iter().filter(|(is_there, ..)| *is_there);
@@ -103,10 +103,13 @@ fn table(rows: &[Row]) -> Table {
         "strokes".to_owned(),
         "runs".to_owned(),
         "joined runs".to_owned(),
+        "drawn runs".to_owned(),
         "strokes a run".to_owned(),
         "a joined run".to_owned(),
+        "a drawn run".to_owned(),
         "mean stroke / frame height".to_owned(),
         "of runs".to_owned(),
+        "of drawn runs".to_owned(),
         "short".to_owned(),
         "of runs".to_owned(),
         "bias, px".to_owned(),
@@ -129,10 +132,13 @@ fn cells(m: &Measures) -> Vec<String> {
         m.strokes.count.to_string(),
         m.runs.count.to_string(),
         m.joined.count.to_string(),
-        format!("{:.2}", m.fragmentation(false)),
-        format!("{:.2}", m.fragmentation(true)),
+        m.drawn.count.to_string(),
+        format!("{:.2}", m.fragmentation(Against::Runs)),
+        format!("{:.2}", m.fragmentation(Against::Joined)),
+        format!("{:.2}", m.fragmentation(Against::Drawn)),
         in_frames(m.strokes.mean_px),
         in_frames(m.runs.mean_px),
+        in_frames(m.drawn.mean_px),
         format!("{:.2}", m.strokes.short),
         format!("{:.2}", m.runs.short),
         format!("{:+.3}", m.bias_px),
@@ -148,10 +154,6 @@ fn floored(share: f64) -> String {
     format!("{:.4}", (share * 1e4).floor() / 1e4)
 }
 
-fn run_word(bar: &Bar) -> &'static str {
-    if bar.of_joined { "joined run" } else { "run" }
-}
-
 fn verdict(bar: &Bar, rows: &[Row]) -> String {
     let mut text = format!(
         "Bar: recall {} and precision {} at {} px, doubles {MOST_DOUBLES}, {} to {} strokes a {}.",
@@ -160,7 +162,7 @@ fn verdict(bar: &Bar, rows: &[Row]) -> String {
         TOLERANCES_PX[bar.tolerance],
         FRAGMENTATION[0],
         FRAGMENTATION[1],
-        run_word(bar)
+        bar.against.word()
     );
     let short: Vec<(&Row, Vec<(bool, String)>)> = rows
         .iter()
@@ -276,7 +278,7 @@ mod tests {
             tolerance: 1,
             recall: 0.998,
             precision: 0.998,
-            of_joined: false,
+            against: Against::Runs,
         };
         let text = section("edges", &bar, &[row("cube", 1.0), row("bunny", 0.97)]);
         assert!(text.contains(

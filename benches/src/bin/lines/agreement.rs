@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use npr_benches::lines::candidates::Wanted;
 use npr_benches::lines::measures::measure;
+use npr_benches::lines::picture::picture;
 use npr_benches::lines::reference::Reference;
 use npr_benches::lines::report::{Row, section};
 use npr_benches::lines::stroke_file;
@@ -17,6 +18,14 @@ use npr_render::{LineModel, LineModelOptions};
 use crate::Outcome;
 use crate::arguments::Arguments;
 use crate::way::ways;
+
+/// What strokes are counted against, and why.
+const COUNTING: &str = "\
+Strokes as they are found on the mesh are counted against runs, the reference's lines along mesh edges from where one appears \
+to where it is lost. Smoothed strokes are counted against drawn runs, the strokes that a pen of 3 px needs for a picture of the \
+same lines: along the edges of fine meshes a line that everyone sees as one comes and goes within a pixel, hundreds of runs of \
+which smoothing leaves out all but one.
+";
 
 /// Triangles over which a model is not quick.
 const QUICK_TRIANGLES: usize = 20_000;
@@ -98,6 +107,10 @@ pub fn agreement(arguments: &Arguments) -> Outcome<()> {
             let reference = Reference::new(&subject.soup, &view, &Wanted::default());
             for (way, rows) in ways.iter().zip(&mut rows) {
                 let drawing = way.draw(&model, camera)?;
+                if let Some(folder) = &arguments.pictures {
+                    let name = format!("{}_{}_{}.svg", subject.name, number + 1, way.file_word());
+                    std::fs::write(folder.join(name), picture(&reference, &drawing))?;
+                }
                 rows.push(Row {
                     model: subject.name.clone(),
                     view: number + 1,
@@ -106,6 +119,7 @@ pub fn agreement(arguments: &Arguments) -> Outcome<()> {
             }
         }
     }
+    println!("{COUNTING}");
     for (way, rows) in ways.iter().zip(&rows) {
         println!("{}", section(way.name, &way.bar, rows));
     }

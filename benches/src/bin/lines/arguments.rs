@@ -6,13 +6,14 @@ use crate::Outcome;
 
 /// How the program is called.
 pub const USAGE: &str = "\
-usage: lines [--models DIR] [--peers DIR] [--only NAME] [--quick]
+usage: lines [--models DIR] [--peers DIR] [--only NAME] [--quick] [--pictures DIR]
        lines --strokes FILE.json --model SCENE [--eye X,Y,Z --target X,Y,Z --fov DEG] [--crease DEG]
 
   --models DIR    folder of the shared models
   --peers DIR     folder of the meshes that other programs drew, as OBJ
   --only NAME     only models whose name holds NAME
   --quick         one view, small models, few runs
+  --pictures DIR  writes an SVG of every view and way: the reference's runs, drawn runs, our strokes with doubles marked
   --strokes FILE  judges the lines that any program wrote instead of drawing";
 
 /// What the user asked for.
@@ -26,6 +27,8 @@ pub struct Arguments {
     pub only: Option<String>,
     /// One view, small models, few runs.
     pub quick: bool,
+    /// Folder for pictures of every view and way.
+    pub pictures: Option<PathBuf>,
     /// Lines to judge instead of drawing.
     pub strokes: Option<PathBuf>,
     /// The scene that they show.
@@ -53,6 +56,7 @@ pub fn parse(mut words: impl Iterator<Item = String>) -> Outcome<Arguments> {
             "--models" => arguments.models = Some(value.into()),
             "--peers" => arguments.peers = Some(value.into()),
             "--only" => arguments.only = Some(value),
+            "--pictures" => arguments.pictures = Some(value.into()),
             "--strokes" => arguments.strokes = Some(value.into()),
             "--model" => arguments.model = Some(value.into()),
             "--eye" => arguments.eye = Some(vector(&value)?),

@@ -37,6 +37,7 @@ pub fn known_outlines(arguments: &Arguments) -> Outcome<()> {
             "3 px",
             "strokes",
             "runs",
+            "drawn runs",
             "bias, px",
         ]);
         for way in ways() {
@@ -61,6 +62,7 @@ fn cells(found: &Measures) -> Vec<String> {
     let rest = [
         found.strokes.count.to_string(),
         found.runs.count.to_string(),
+        found.drawn.count.to_string(),
         format!("{:+.3}", found.bias_px),
     ];
     shares.chain(rest).collect()

@@ -5,6 +5,7 @@
 
 mod agreement;
 mod arguments;
+mod counts;
 mod determinism;
 mod growth;
 mod known;
@@ -46,6 +47,7 @@ fn report(arguments: &Arguments) -> Outcome<()> {
         "- reference: every half pixel of every candidate edge of the polygons, seen by a ray of its own in double precision\n"
     );
     agreement::agreement(arguments)?;
+    counts::edge_counts(arguments)?;
     known::known_outlines(arguments)?;
     if arguments.only.is_none() {
         preparation::preparation(arguments)?;

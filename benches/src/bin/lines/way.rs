@@ -3,6 +3,7 @@
 use std::error::Error;
 
 use npr_benches::lines::candidates::Wanted;
+use npr_benches::lines::measures::Against;
 use npr_benches::lines::report::Bar;
 use npr_benches::lines::subjects::SIZE;
 use npr_benches::timing::{Times, elapsed_ms};
@@ -38,7 +39,11 @@ pub fn ways() -> [Way; 4] {
             tolerance: bar.0,
             recall: bar.1,
             precision: bar.2,
-            of_joined: smooth,
+            against: if smooth {
+                Against::Drawn
+            } else {
+                Against::Runs
+            },
         },
     };
     let (edges, surface) = (LineMethod::Edges, LineMethod::Surface);
@@ -59,6 +64,11 @@ impl Way {
             smooth: self.smooth,
             ..LineOptions::new(SIZE)
         }
+    }
+
+    /// The name with nothing in it that file names do not like.
+    pub fn file_word(&self) -> String {
+        self.name.replace(", ", "_").replace(' ', "_")
     }
 
     /// Draws the kinds that the reference knows.
