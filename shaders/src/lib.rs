@@ -52,6 +52,8 @@ shaders! {
     LINE_FLAG_TILES = "line/flag_tiles";
     /// Inks discs around the mask pixels that no ribbon inked.
     LINE_STAMP_RESIDUAL = "line/stamp_residual";
+    /// Draws the mask itself.
+    LINE_DRAW_MASK = "line/draw_mask";
     /// Decides which faces are turned to the eye.
     VECTOR_FACE_EYE = "vector/face_eye";
     /// Marks the half-edges on contours.
@@ -90,8 +92,12 @@ shaders! {
     VECTOR_TURN_RANKS = "vector/turn_ranks";
     /// Puts the nodes of all chains in a row.
     VECTOR_ORDER_NODES = "vector/order_nodes";
-    /// Draws the mask itself.
-    LINE_DRAW_MASK = "line/draw_mask";
+    /// Looks how much of a line's samples is hidden.
+    VECTOR_SAMPLE_VISIBILITY = "vector/sample_visibility";
+    /// Decides where lines are clearly visible or hidden.
+    VECTOR_WEIGH_SAMPLES = "vector/weigh_samples";
+    /// Lets lines change only where it is clear.
+    VECTOR_FILTER_VISIBILITY = "vector/filter_visibility";
     /// Shades surfaces and lays lines over them.
     SHADE_COMPOSE_FRAME = "shade/compose_frame";
 }
@@ -105,6 +111,7 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/texture", include_str!("../lib/texture.wgsl")),
     ("lib/curve", include_str!("../lib/curve.wgsl")),
     ("lib/list", include_str!("../lib/list.wgsl")),
+    ("lib/spine", include_str!("../lib/spine.wgsl")),
     ("lib/window", include_str!("../lib/window.wgsl")),
     ("lib/outline", include_str!("../lib/outline.wgsl")),
     ("lib/pose", include_str!("../lib/pose.wgsl")),

@@ -1,4 +1,4 @@
-//! Lines as linked points, found and put in rows on an engine.
+//! Lines as linked points, found, put in rows and tested for visibility on an engine.
 //!
 //! The steps are those of [`npr_vector::contour::steps`] and [`npr_vector::rank`], each a pass. On a processor the plain
 //! functions there are faster than these passes and give the same; passes are for graphs that stay on a device
@@ -16,10 +16,12 @@
 
 pub mod contours;
 pub mod ranking;
+mod resident;
+pub mod sampling;
 pub mod sums;
 
-pub use contours::{contours_on, ranked_contours_on};
 pub use ranking::{Scheme, rank_on};
+pub use resident::ResidentShape;
 
 use crate::engine::EngineError;
 use npr_vector::rank::RankError;

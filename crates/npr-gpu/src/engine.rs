@@ -51,6 +51,11 @@ pub trait Engine {
     /// One line for people: which processor or device, which driver.
     fn describe(&self) -> String;
 
+    /// Whether passes run as their twins, so that plain functions that give the same may run in their place.
+    fn runs_twins(&self) -> bool {
+        false
+    }
+
     /// Makes the resources of a graph, all zero, ready to run as often as wanted.
     ///
     /// # Errors

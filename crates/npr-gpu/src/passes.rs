@@ -42,5 +42,8 @@ pub const ALL: &[&Pass] = &[
     &vector::MEASURE_CHAINS,
     &vector::TURN_RANKS,
     &vector::ORDER_NODES,
+    &vector::SAMPLE_VISIBILITY,
+    &vector::WEIGH_SAMPLES,
+    &vector::FILTER_VISIBILITY,
     &shade::COMPOSE_FRAME,
 ];

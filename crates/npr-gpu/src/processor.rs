@@ -18,6 +18,10 @@ impl Engine for Processor {
         format!("processor, {} threads", rayon::current_num_threads())
     }
 
+    fn runs_twins(&self) -> bool {
+        true
+    }
+
     fn prepare(&self, graph: Graph) -> Result<Box<dyn Session>, EngineError> {
         let memory = graph
             .resources()

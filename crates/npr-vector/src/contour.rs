@@ -55,6 +55,24 @@ impl Eye {
     }
 }
 
+/// Which faces are turned to the eye of a view, and the contours that follow from it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct EdgeContours {
+    /// Whether each face is turned to the eye: 1 or 0.
+    pub front: Vec<u8>,
+    /// The loops between faces that are and faces that are not, with seams.
+    pub graph: CurveGraph,
+}
+
+impl EdgeContours {
+    /// [`facing`] and [`contours`] together.
+    pub fn new(shape: &Shape, eye: &Eye) -> Self {
+        let front = facing(shape, eye);
+        let graph = contours(shape, &front, eye);
+        Self { front, graph }
+    }
+}
+
 /// Whether each face is turned to the eye: 1 or 0.
 ///
 /// Faces without area take over the orientation of their stand-in. O(faces), on all threads.

@@ -4,7 +4,7 @@
 //! pieces of all lines, finds what is seen of them, joins what goes on, and smooths.
 
 use crate::bvh::FaceTree;
-use crate::contour::{Eye, contours, facing};
+use crate::contour::{EdgeContours, Eye};
 use crate::doubles::suppress;
 use crate::feature::{features, kind_in_view};
 use crate::graph::{CurveGraph, CurveNode};
@@ -128,19 +128,32 @@ pub fn strokes(
     settings: &LineSettings,
     width_at: &(dyn Fn(u32) -> f32 + Sync),
 ) -> Vec<Stroke> {
-    let extent = extent_of(shape, projector);
-    let eye = Eye::new(projector.eye(), extent);
-    let front = facing(shape, &eye);
+    let contours = EdgeContours::new(shape, &eye_of(shape, projector));
+    strokes_with(shape, prepared, projector, settings, &contours, width_at)
+}
+
+/// The same, with the contours along edges found by the caller for [`eye_of`] the view.
+pub fn strokes_with(
+    shape: &Shape,
+    prepared: &Prepared,
+    projector: &Projector,
+    settings: &LineSettings,
+    contours: &EdgeContours,
+    width_at: &(dyn Fn(u32) -> f32 + Sync),
+) -> Vec<Stroke> {
+    let EdgeContours {
+        front,
+        graph: edge_contours,
+    } = contours;
     let view = View {
         shape,
         prepared,
         projector,
         settings,
-        front: &front,
+        front,
         covered: Vec::new(),
     };
-    let edge_contours = contours(shape, &front, &eye);
-    let outlines = OutlineGrid::new(settings.size, view.outlines(&edge_contours));
+    let outlines = OutlineGrid::new(settings.size, view.outlines(edge_contours));
     let seen = Seen {
         shape,
         tree: &prepared.tree,
@@ -153,11 +166,11 @@ pub fn strokes(
         },
     };
     let wanted = settings.kinds | CurveNode::MARKED;
-    let contour_lines = view.lines(&edge_contours, &seen, wanted);
-    let smooth_contours = view.smooth_contours(&edge_contours, &contour_lines);
+    let contour_lines = view.lines(edge_contours, &seen, wanted);
+    let smooth_contours = view.smooth_contours(edge_contours, &contour_lines);
     let contour_runs = match &smooth_contours {
         Some((graph, lines)) => runs(shape, projector, graph, lines),
-        None => runs(shape, projector, &edge_contours, &contour_lines),
+        None => runs(shape, projector, edge_contours, &contour_lines),
     };
     let covered = smooth_contours
         .as_ref()
@@ -179,6 +192,11 @@ pub fn strokes(
         smooth(&mut found);
     }
     into_strokes(shape, found, width_at)
+}
+
+/// The eye of a view, as decisions about facing read it. O(vertices), in parallel.
+pub fn eye_of(shape: &Shape, projector: &Projector) -> Eye {
+    Eye::new(projector.eye(), extent_of(shape, projector))
 }
 
 /// Largest coordinate of the shape and the eye.

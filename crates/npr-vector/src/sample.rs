@@ -2,7 +2,14 @@
 //!
 //! Visibility is a property of a line's spine, not of the pixels that its stroke covers [Cole & Finkelstein 2010]: every sample looks at
 //! the pixel under it and at some on the outer side, away from its own surface, and gets the share that does not hide it; a filter
-//! along the line turns shares into runs.
+//! along the line turns shares into runs. [`place_samples`] is plain; [`sample_visibility`], [`weigh_samples`] and
+//! [`filter_visibility`] are the twins of passes.
+
+mod filter;
+mod place;
+
+pub use filter::{filter_visibility, visible_samples, weigh_samples};
+pub use place::{SampledLines, Spine, place_samples};
 
 use bytemuck::{Pod, Zeroable};
 use npr_core::geometry::{GPixel, NONE};
@@ -10,10 +17,13 @@ use npr_core::gpu_layout;
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
 
-/// How far from the spine the surfaces are looked at, towards its outer side, in grid pixels.
+/// Places that a sample looks at, from the spine towards its outer side.
 ///
 /// The first is the spine's own pixel, where half of all samples meet their own surface.
-pub const TAPS_PX: [f32; 4] = [0.0, 0.75, 1.5, 2.25];
+pub const TAP_COUNT: u32 = 4;
+
+/// From one of these places to the next, in grid pixels.
+pub const TAP_STEP_PX: f32 = 0.75;
 
 /// How many pixels off a depth on a slope of the sample's own part may be.
 ///
@@ -25,9 +35,6 @@ pub const LARGEST_SLOPE: f32 = 16.0;
 
 /// Difference of depths, as a fraction of depth, that rounding explains.
 pub const DEPTH_ROUNDING: f32 = 1.0 / 65536.0;
-
-/// From this share on a hidden line becomes visible, and below the second a visible one becomes hidden.
-pub const SWITCH_SHARES: [f32; 2] = [0.6, 0.4];
 
 /// A point of a line's spine.
 #[repr(C)]
@@ -43,8 +50,8 @@ pub struct SpineSample {
     pub object: u32,
     /// Index of its part.
     pub part: u32,
-    /// Keeps the size a multiple of 16 bytes.
-    pub unused: u32,
+    /// Number of its line.
+    pub line: u32,
 }
 gpu_layout!(SpineSample {
     place_px,
@@ -52,7 +59,7 @@ gpu_layout!(SpineSample {
     depth,
     object,
     part,
-    unused
+    line
 });
 
 /// The images that samples are tested on.
@@ -68,7 +75,7 @@ pub struct Surroundings<'a> {
 
 /// Writes for every sample the share of its taps, 0..1, at which no surface lies in front of it.
 ///
-/// Samples outside the grid read its nearest pixel. O(samples), parallel.
+/// Samples outside the grid read its nearest pixel; where there is no grid nothing hides. O(samples), parallel.
 pub fn sample_visibility(on: &Surroundings<'_>, samples: &[SpineSample], shares: &mut [f32]) {
     shares
         .par_iter_mut()
@@ -80,21 +87,24 @@ pub fn sample_visibility(on: &Surroundings<'_>, samples: &[SpineSample], shares:
 impl Surroundings<'_> {
     fn visible_share(&self, sample: &SpineSample) -> f32 {
         let mut open = 0.0;
-        for tap in TAPS_PX {
-            let step = self.window.frame_step;
+        for tap in 0..TAP_COUNT {
+            let step = self.window.frame_step.map(|s| tap as f32 * TAP_STEP_PX * s);
             let at_px = [
-                sample.place_px[0] + tap * step[0] * sample.outward[0],
-                sample.place_px[1] + tap * step[1] * sample.outward[1],
+                sample.place_px[0] + step[0] * sample.outward[0],
+                sample.place_px[1] + step[1] * sample.outward[1],
             ];
             if !self.hides(sample, at_px) {
                 open += 1.0;
             }
         }
-        open / TAPS_PX.len() as f32
+        open / TAP_COUNT as f32
     }
 
     /// Whether the surface seen at a place of the frame lies in front of the sample.
     fn hides(&self, sample: &SpineSample, at_px: [f32; 2]) -> bool {
+        if self.window.size[0] * self.window.size[1] == 0 {
+            return false;
+        }
         let [x, y] = self.window.pixel_at(at_px);
         let pixel = &self.gbuffer[(y * self.window.size[0] + x) as usize];
         if pixel.part == NONE {
@@ -122,32 +132,6 @@ impl Surroundings<'_> {
         let coordinate = self.view.plane_coordinate(pixel.depth) + change;
         self.view.depth_of_coordinate(coordinate)
     }
-}
-
-/// Turns the shares along lines into runs: 1 where a line is visible, 0 where it is hidden.
-///
-/// Line `k` holds the samples from `starts[k]` to `starts[k + 1]`. Each sample takes the mean over `radius` samples to both sides on its
-/// own line; then a line changes between visible and hidden only past [`SWITCH_SHARES`], so that noise about one half makes no
-/// dashes. O(samples), parallel over lines.
-pub fn filter_visibility(shares: &[f32], starts: &[u32], radius: usize) -> Vec<u32> {
-    starts
-        .par_windows(2)
-        .flat_map_iter(|line| {
-            let shares = &shares[line[0] as usize..line[1] as usize];
-            let mut visible = None;
-            (0..shares.len()).map(move |i| {
-                let near = &shares[i.saturating_sub(radius)..(i + radius + 1).min(shares.len())];
-                let mean = near.iter().sum::<f32>() / near.len() as f32;
-                let now = match visible {
-                    None => mean >= 0.5,
-                    Some(true) => mean >= SWITCH_SHARES[1],
-                    Some(false) => mean >= SWITCH_SHARES[0],
-                };
-                visible = Some(now);
-                u32::from(now)
-            })
-        })
-        .collect()
 }
 
 /// Closes hidden gaps in a line shorter than `least`, then hides visible specks shorter than that between hidden parts.
@@ -265,6 +249,22 @@ mod tests {
     }
 
     #[test]
+    fn nothing_hides_where_there_is_no_picture() {
+        let (view, window) = frame(true);
+        let on = Surroundings {
+            view: &view,
+            window: &Window {
+                size: [0; 2],
+                ..window
+            },
+            gbuffer: &[],
+        };
+        let mut shares = [0.0];
+        sample_visibility(&on, &[sample(4.0)], &mut shares);
+        assert_eq!(shares, [1.0]);
+    }
+
+    #[test]
     fn samples_outside_the_frame_are_read_at_its_border() {
         let (view, window) = frame(true);
         let gbuffer = vec![pixel(2.0, 1); (SIDE * SIDE) as usize];
@@ -273,31 +273,23 @@ mod tests {
             window: &window,
             gbuffer: &gbuffer,
         };
-        let odd = [[-1e9, 5.0], [1e30, -1e30], [f32::INFINITY; 2]];
+        let odd = [
+            [-1e9, 5.0],
+            [1e30, -1e30],
+            [f32::INFINITY; 2],
+            [f32::NAN; 2],
+        ];
         let samples = odd.map(|place_px| SpineSample {
             place_px,
             ..sample(4.0)
         });
-        let mut shares = [9.0; 3];
+        let mut shares = [9.0; 4];
         sample_visibility(&on, &samples, &mut shares);
-        assert_eq!(shares, [0.0; 3]);
+        assert_eq!(shares[..3], [0.0; 3]);
     }
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
-
-        #[test]
-        fn filtered_lines_are_independent_and_keep_what_is_sure(
-            shares in proptest::collection::vec(0.0f32..1.0, 0..60), cut in 0usize..60, radius in 0usize..5,
-        ) {
-            let cut = cut.min(shares.len());
-            let starts = [0, cut as u32, shares.len() as u32];
-            let both = filter_visibility(&shares, &starts, radius);
-            let mut parts = filter_visibility(&shares[..cut], &[0, cut as u32], radius);
-            parts.extend(filter_visibility(&shares[cut..], &[0, (shares.len() - cut) as u32], radius));
-            prop_assert_eq!(&both, &parts);
-            prop_assert!(filter_visibility(&vec![1.0; cut], &[0, cut as u32], radius).iter().all(|v| *v == 1));
-        }
 
         #[test]
         fn settled_runs_are_long_or_at_an_end(

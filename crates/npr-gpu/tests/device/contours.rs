@@ -3,16 +3,19 @@
 use crate::shapes::{eyes, shape_from};
 use crate::shared;
 use npr_core::shape::Shape;
-use npr_gpu::curves::{Scheme, contours_on, ranked_contours_on};
-use npr_gpu::engine::Engine;
+use npr_gpu::curves::{ResidentShape, Scheme};
+use npr_gpu::engine::{Engine, EngineError, PassTime, Session};
+use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{
     Random, cube, cylinder, fan, icosphere, mapped, moebius_strip, plane, random_soup,
     random_winding, torus, uv_sphere,
 };
-use npr_vector::contour::{Eye, contours, facing};
-use npr_vector::graph::CurveGraph;
+use npr_vector::contour::steps::Viewer;
+use npr_vector::contour::{EdgeContours, Eye};
 use npr_vector::rank::rank_curves;
+use std::cell::Cell;
+use std::rc::Rc;
 
 /// The processor, and the device where there is one.
 pub fn engines() -> impl Iterator<Item = &'static dyn Engine> {
@@ -22,29 +25,32 @@ pub fn engines() -> impl Iterator<Item = &'static dyn Engine> {
         .flatten()
 }
 
-fn plain(shape: &Shape, eye: &Eye) -> CurveGraph {
-    let graph = contours(shape, &facing(shape, eye), eye);
-    graph.sanity_check();
-    graph
+fn plain(shape: &Shape, eye: &Eye) -> EdgeContours {
+    let plain = EdgeContours::new(shape, eye);
+    plain.graph.sanity_check();
+    plain
 }
 
-fn check(name: &str, shape: &Shape, eye: &Eye) {
-    let plain = plain(shape, eye);
+/// Compares views of a shape that is handed over once.
+fn check(name: &str, shape: &Shape, eyes: &[Eye]) {
     for engine in engines() {
-        let found = contours_on(engine, shape, eye).unwrap();
-        let on = engine.describe();
-        assert_eq!(found.digest(), plain.digest(), "{name} from {eye:?}, {on}");
-        assert!(found == plain, "{name} from {eye:?}, {on}");
+        let mut resident = ResidentShape::new(engine, shape).unwrap();
+        for eye in eyes {
+            let (plain, found) = (plain(shape, eye), resident.contours(eye).unwrap());
+            assert!(found == plain, "{name} from {eye:?}, {}", engine.describe());
+        }
     }
 }
 
 fn check_ranked(name: &str, shape: &Shape, eye: &Eye) {
     let plain = plain(shape, eye);
-    let ranked = rank_curves(&plain).unwrap();
+    let ranked = rank_curves(&plain.graph).unwrap();
     for engine in engines() {
         for scheme in [Scheme::WYLLIE, Scheme::RULING_SET] {
-            let (graph, rows) = ranked_contours_on(engine, shape, eye, scheme).unwrap();
-            assert!(graph == plain, "{name}: contours, {scheme:?}");
+            let mut resident = ResidentShape::with_ranking(engine, shape, scheme).unwrap();
+            let found = resident.contours(eye).unwrap();
+            assert!(found == plain, "{name}: contours, {scheme:?}");
+            let rows = resident.rows().unwrap();
             assert!(rows == ranked, "{name}: rows, {scheme:?}");
         }
     }
@@ -80,9 +86,7 @@ fn contours_of_all_shapes_agree() {
     ];
     for (name, mesh) in meshes {
         let shape = shape_from(&mesh);
-        for eye in eyes(1.0) {
-            check(name, &shape, &eye);
-        }
+        check(name, &shape, &eyes(1.0));
     }
 }
 
@@ -100,8 +104,8 @@ fn contours_are_ranked_where_they_are_found() {
 fn contours_without_room_are_found_again() {
     let soup = shape_from(&random_soup(4000, 9));
     let eye = &eyes(1.0)[0];
-    assert!(plain(&soup, eye).nodes.len() > 4096);
-    check("soup", &soup, eye);
+    assert!(plain(&soup, eye).graph.nodes.len() > 4096);
+    check("soup", &soup, &eyes(1.0));
     check_ranked("soup", &soup, eye);
 }
 
@@ -110,9 +114,7 @@ fn contours_at_all_scales_agree() {
     let mesh = bumpy(&icosphere(2), 5);
     for scale in [1e-15, 1e-6, 1e-3, 1e3, 1e6, 1e15] {
         let shape = shape_from(&mapped(&mesh, |p| p.map(|v| v * scale)));
-        for eye in eyes(scale) {
-            check("scaled", &shape, &eye);
-        }
+        check("scaled", &shape, &eyes(scale));
     }
 }
 
@@ -131,7 +133,7 @@ fn faces_seen_edge_on_are_judged_alike() {
         let in_plane: [f64; 3] =
             std::array::from_fn(|i| f64::from(3.0 * a[i] - 4.0 * b[i] + 2.0 * c[i]));
         let eye = Eye::new([in_plane[0], in_plane[1], in_plane[2], 1.0], 8.0);
-        check("plane seen edge-on", &shape, &eye);
+        check("plane seen edge-on", &shape, &[eye]);
     }
 }
 
@@ -140,29 +142,76 @@ fn stand_ins_decide_for_faces_without_area() {
     let mesh = uv_sphere(12, 8);
     let mut shape = shape_from(&mesh);
     shape.slivers = vec![[0, 5], [3, npr_core::geometry::NONE], [40, 2]];
-    for eye in eyes(1.0) {
-        check("slivers", &shape, &eye);
-    }
+    check("slivers", &shape, &eyes(1.0));
 }
 
 #[test]
 fn no_faces_have_no_contours() {
-    let shape = Shape::default();
-    for engine in engines() {
-        let found = contours_on(engine, &shape, &eyes(1.0)[0]).unwrap();
-        assert_eq!(found, CurveGraph::default());
-    }
+    check("nothing", &Shape::default(), &eyes(1.0));
 }
 
 #[test]
 fn twenty_runs_give_one_graph() {
     let shape = shape_from(&bumpy(&icosphere(5), 7));
     let eye = &eyes(1.0)[0];
-    let digest = plain(&shape, eye).digest();
+    let digest = plain(&shape, eye).graph.digest();
     for engine in engines() {
+        let mut resident = ResidentShape::new(engine, &shape).unwrap();
         for _ in 0..20 {
-            let found = contours_on(engine, &shape, eye).unwrap();
-            assert_eq!(found.digest(), digest, "{}", engine.describe());
+            let found = resident.contours(eye).unwrap();
+            assert_eq!(found.graph.digest(), digest, "{}", engine.describe());
         }
+    }
+}
+
+/// The shape crosses to the engine when it is made resident, and not again for a view that has room.
+#[test]
+fn a_view_hands_over_its_eye_only() {
+    let shape = shape_from(&uv_sphere(32, 20));
+    let counting = Counting::default();
+    let mut resident = ResidentShape::new(&counting, &shape).unwrap();
+    counting.words.set(0);
+    for (view, eye) in (1..).zip(&eyes(1.0)) {
+        resident.contours(eye).unwrap();
+        assert_eq!(counting.words.get(), view * size_of::<Viewer>() / 4);
+    }
+}
+
+/// The processor, counting the words that are written.
+#[derive(Default)]
+struct Counting {
+    words: Rc<Cell<usize>>,
+}
+
+struct CountingSession {
+    words: Rc<Cell<usize>>,
+    session: Box<dyn Session>,
+}
+
+impl Engine for Counting {
+    fn describe(&self) -> String {
+        Processor.describe()
+    }
+
+    fn prepare(&self, graph: Graph) -> Result<Box<dyn Session>, EngineError> {
+        Ok(Box::new(CountingSession {
+            words: self.words.clone(),
+            session: Processor.prepare(graph)?,
+        }))
+    }
+}
+
+impl Session for CountingSession {
+    fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError> {
+        self.words.set(self.words.get() + words.len());
+        self.session.write(id, words)
+    }
+
+    fn run(&mut self) -> Result<Vec<PassTime>, EngineError> {
+        self.session.run()
+    }
+
+    fn read(&mut self, id: ResourceId) -> Result<Vec<u32>, EngineError> {
+        self.session.read(id)
     }
 }

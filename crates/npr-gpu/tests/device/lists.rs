@@ -1,5 +1,6 @@
 //! What every slot of the passes over shapes and lists holds: contours, and chains of all lengths, as the twins find them.
 
+use crate::sampled::Sampled;
 use crate::shapes::{eyes, shape_of};
 use npr_gpu::pass::Pass;
 use npr_vector::contour::steps::{
@@ -12,6 +13,7 @@ use npr_vector::rank::place::{measure_chains, scatter_ranks, turn_ranks};
 use npr_vector::rank::scan::{BLOCK, compact, exclusive_scan, scan_blocks};
 use npr_vector::rank::splitter::{find_splitters, start_splitters, walk_to_splitter};
 use npr_vector::rank::{Link, link, mix, rounds_for};
+use npr_vector::sample::{SampledLines, Surroundings, sample_visibility, weigh_samples};
 use std::collections::BTreeMap;
 
 /// What lists are made of.
@@ -31,7 +33,8 @@ pub enum Jumping {
 }
 
 /// Slots that read content of another name.
-const RENAMED: [(&str, &str, &str); 11] = [
+const RENAMED: [(&str, &str, &str); 12] = [
+    ("vector.filter_visibility", "slots", "clear_slots"),
     ("vector.list_nodes", "extent", "mark_count"),
     ("vector.link_contours", "extent", "mark_count"),
     ("vector.link_contours", "slots", "mark_slots"),
@@ -67,6 +70,7 @@ impl Lists {
         lists.give_jumps(&links, &elements);
         lists.give_sums(&links);
         lists.give_contours();
+        lists.give_samples();
         lists
     }
 
@@ -191,6 +195,50 @@ impl Lists {
         self.give("keys", &keys);
         self.give("prefixes", &prefixes);
         self.give("offsets", &exclusive_scan(&sums).0);
+    }
+
+    /// Samples of lines in a frame, and what is seen of them.
+    fn give_samples(&mut self) {
+        let sampled = Sampled::new(self.node_count);
+        let Sampled {
+            frame: (view, window, gbuffer),
+            radius,
+            lines:
+                SampledLines {
+                    samples,
+                    line_starts,
+                },
+        } = &sampled;
+        let on = Surroundings {
+            view,
+            window,
+            gbuffer,
+        };
+        let mut shares = self.made();
+        sample_visibility(&on, samples, &mut shares);
+        let (mut verdicts, mut clear) = (self.made(), self.made());
+        weigh_samples(
+            *radius,
+            samples,
+            line_starts,
+            &shares,
+            &mut verdicts,
+            &mut clear,
+        );
+        let (slots, _) = exclusive_scan(&clear);
+        let mut list = self.made();
+        compact(&clear, &slots, &mut list);
+        self.give("view", &[*view]);
+        self.give("window", &[*window]);
+        self.give("gbuffer", gbuffer);
+        self.give("samples", samples);
+        self.give("line_starts", line_starts);
+        self.give("radius", &[*radius]);
+        self.give("shares", &shares);
+        self.give("verdicts", &verdicts);
+        self.give("clear", &clear);
+        self.give("clear_slots", &slots);
+        self.give("clear_list", &list);
     }
 
     /// Contours of a shape with as many faces as there are nodes.

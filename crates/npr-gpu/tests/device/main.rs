@@ -13,6 +13,7 @@ mod frame;
 mod lists;
 mod memory;
 mod sample_passes;
+mod sampled;
 mod scene;
 mod shapes;
 mod shared;

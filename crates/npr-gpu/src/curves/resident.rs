@@ -1,0 +1,172 @@
+//! A shape that stays in an engine's memory from view to view.
+
+use super::CurvesError;
+use super::contours::{Contours, add_contours};
+use super::ranking::{RankedLists, Scheme, add_ranking, read_rows};
+use crate::engine::{Engine, EngineError, PassTime, Session};
+use crate::graph::Graph;
+use crate::passes::vector;
+use npr_core::shape::Shape;
+use npr_vector::contour::steps::{Viewer, half_edges, judges};
+use npr_vector::contour::{EdgeContours, Eye};
+use npr_vector::graph::{CurveGraph, CurveNode};
+use npr_vector::rank::{Link, Ranked};
+
+/// Contour nodes for which there is room at first; few views have more.
+const FIRST_CAPACITY: usize = 4096;
+
+/// A shape in an engine's memory, for contours of any number of views.
+///
+/// Positions, half-edges and judges are handed over once; a view hands over its eye and takes the contours back. A view with
+/// more contours than any before makes room for the next power of two, and only then is the shape handed over again.
+/// Takes 12 bytes for each vertex and about 95 for each face on the engine, and 32 for each node that there is room for.
+pub struct ResidentShape<'a> {
+    engine: &'a dyn Engine,
+    shape: &'a Shape,
+    scheme: Option<Scheme>,
+    room: Room,
+    node_count: usize,
+    times: Vec<PassTime>,
+}
+
+/// The memory for a number of nodes, with the shape in it.
+struct Room {
+    session: Box<dyn Session>,
+    contours: Contours,
+    lists: Option<RankedLists>,
+    capacity: usize,
+}
+
+impl<'a> ResidentShape<'a> {
+    /// Hands a shape over, for its contours.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError::OutOfMemory`] for shapes beyond what a device can bind, 2.7 million faces; others where the engine fails.
+    pub fn new(engine: &'a dyn Engine, shape: &'a Shape) -> Result<Self, EngineError> {
+        Self::of_scheme(engine, shape, None)
+    }
+
+    /// The same, for contours and their nodes in rows, without a stop between the two.
+    ///
+    /// # Errors
+    ///
+    /// As [`ResidentShape::new`].
+    pub fn with_ranking(
+        engine: &'a dyn Engine,
+        shape: &'a Shape,
+        scheme: Scheme,
+    ) -> Result<Self, EngineError> {
+        Self::of_scheme(engine, shape, Some(scheme))
+    }
+
+    fn of_scheme(
+        engine: &'a dyn Engine,
+        shape: &'a Shape,
+        scheme: Option<Scheme>,
+    ) -> Result<Self, EngineError> {
+        let capacity = FIRST_CAPACITY.min(3 * shape.faces.len());
+        Ok(Self {
+            engine,
+            shape,
+            scheme,
+            room: Room::new(engine, shape, scheme, capacity)?,
+            node_count: 0,
+            times: Vec::new(),
+        })
+    }
+
+    /// Which faces are turned to an eye, and the contours: the same as [`EdgeContours::new`] gives, bit for bit.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError`] where the engine fails.
+    pub fn contours(&mut self, eye: &Eye) -> Result<EdgeContours, EngineError> {
+        self.node_count = 0;
+        let count = self.run(eye)?;
+        if count > self.room.capacity {
+            // Counting went on past the room, so once is enough.
+            let capacity = count.next_power_of_two();
+            self.room = Room::new(self.engine, self.shape, self.scheme, capacity)?;
+            self.run(eye)?;
+        }
+        self.node_count = count;
+        let session = self.room.session.as_mut();
+        let front = session.read(self.room.contours.front)?;
+        let mut words = session.read(self.room.contours.nodes)?;
+        words.truncate(count * size_of::<CurveNode>() / 4);
+        Ok(EdgeContours {
+            front: front.iter().map(|front| u8::from(*front != 0)).collect(),
+            graph: CurveGraph {
+                nodes: bytemuck::cast_slice(&words).to_vec(),
+            },
+        })
+    }
+
+    /// The nodes of the last contours in rows, the same as [`npr_vector::rank::rank_curves`] gives; nothing for a shape that was
+    /// not made [with ranking](ResidentShape::with_ranking).
+    ///
+    /// # Errors
+    ///
+    /// [`CurvesError::Engine`] where the engine fails, [`CurvesError::Rank`] where the rounds of the scheme are too few.
+    pub fn rows(&mut self) -> Result<Ranked, CurvesError> {
+        match &self.room.lists {
+            Some(lists) => read_rows(self.room.session.as_mut(), lists, self.node_count),
+            None => Ok(Ranked::default()),
+        }
+    }
+
+    /// How long each pass of the last view took.
+    pub fn times(&self) -> &[PassTime] {
+        &self.times
+    }
+
+    /// Runs all passes for an eye; gives the number of nodes, which may be more than there is room for.
+    fn run(&mut self, eye: &Eye) -> Result<usize, EngineError> {
+        let Room {
+            session, contours, ..
+        } = &mut self.room;
+        session.write(contours.viewer, bytemuck::cast_slice(&[Viewer::from(eye)]))?;
+        self.times = session.run()?;
+        Ok(session.read(contours.node_count)?[0] as usize)
+    }
+}
+
+impl Room {
+    fn new(
+        engine: &dyn Engine,
+        shape: &Shape,
+        scheme: Option<Scheme>,
+        capacity: usize,
+    ) -> Result<Self, EngineError> {
+        let mut graph = Graph::new();
+        let sizes = [shape.positions.len(), shape.faces.len()];
+        let contours = add_contours(&mut graph, sizes[0], sizes[1], capacity);
+        let lists = scheme.map(|scheme| {
+            let links = graph.buffer::<Link>("links", capacity);
+            let bound = [contours.node_count, contours.nodes, links];
+            graph.compute(&vector::LIST_NODES, &bound);
+            add_ranking(&mut graph, links, scheme)
+        });
+        let mut room = Self {
+            session: engine.prepare(graph)?,
+            contours,
+            lists,
+            capacity,
+        };
+        room.hand_over(shape)?;
+        Ok(room)
+    }
+
+    fn hand_over(&mut self, shape: &Shape) -> Result<(), EngineError> {
+        let (session, into) = (self.session.as_mut(), &self.contours);
+        session.write(into.positions, bytemuck::cast_slice(&shape.positions))?;
+        session.write(into.half_edges, bytemuck::cast_slice(&half_edges(shape)))?;
+        session.write(into.judges, &judges(shape))?;
+        if let Some(lists) = &self.lists {
+            session.write(lists.node_count, &[self.capacity as u32])?;
+            session.write(lists.rounds, &[lists.round_count])?;
+        }
+        Ok(())
+    }
+}

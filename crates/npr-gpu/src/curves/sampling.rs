@@ -1,0 +1,49 @@
+//! Passes that find what is seen of lines on a frame's G-buffer.
+
+use super::sums::{Compacted, add_compact};
+use crate::graph::{Graph, ResourceId};
+use crate::passes::vector;
+
+/// Samples of lines, and the frame that they lie in.
+#[derive(Debug, Clone, Copy)]
+pub struct SampledFrame {
+    /// [`View`](npr_core::window::View).
+    pub view: ResourceId,
+    /// [`Window`](npr_core::window::Window) of the G-buffer.
+    pub window: ResourceId,
+    /// [`GPixel`](npr_core::geometry::GPixel)s.
+    pub gbuffer: ResourceId,
+    /// [`SpineSample`](npr_vector::sample::SpineSample)s.
+    pub samples: ResourceId,
+    /// Where each line starts among the samples; one more than there are lines.
+    pub line_starts: ResourceId,
+    /// A uniform: samples to both sides over which shares are averaged.
+    pub radius: ResourceId,
+}
+
+/// Appends passes that find what is seen of every sample, which they give: 1 or 0, a buffer of `u32`.
+///
+/// The same as [`visible_samples`](npr_vector::sample::visible_samples) of
+/// [`sample_visibility`](npr_vector::sample::sample_visibility). Seven passes up to 4096 samples, and 28 bytes for each besides itself.
+pub fn add_sampling(graph: &mut Graph, on: &SampledFrame) -> ResourceId {
+    let count = graph.element_count(on.samples);
+    let shares = graph.buffer::<f32>("visible shares", count);
+    let looked_at = [on.view, on.window, on.gbuffer, on.samples, shares];
+    graph.compute(&vector::SAMPLE_VISIBILITY, &looked_at);
+    let verdicts = graph.buffer::<u32>("verdicts", count);
+    let clear = graph.buffer::<u32>("clear samples", count);
+    let weighed = [
+        on.radius,
+        on.samples,
+        on.line_starts,
+        shares,
+        verdicts,
+        clear,
+    ];
+    graph.compute(&vector::WEIGH_SAMPLES, &weighed);
+    let Compacted { list, slots, .. } = add_compact(graph, clear, count);
+    let visible = graph.buffer::<u32>("visible samples", count);
+    let filtered = [verdicts, clear, slots, list, visible];
+    graph.compute(&vector::FILTER_VISIBILITY, &filtered);
+    visible
+}

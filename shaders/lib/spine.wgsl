@@ -1,0 +1,10 @@
+// Samples of lines. Twin: npr_vector::sample.
+
+struct SpineSample {
+    place_px: vec2<f32>,
+    outward: vec2<f32>,
+    depth: f32,
+    object: u32,
+    part: u32,
+    line: u32,
+}
