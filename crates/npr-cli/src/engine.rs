@@ -3,9 +3,13 @@
 use crate::arguments::Backend;
 use crate::fault::{Exit, Fault};
 use crate::hardware;
+use crate::message;
+use crate::progress::Progress;
+use crate::timings::DRAW;
 use npr_gpu::engine::{Engine, EngineError};
 use npr_gpu::processor::Processor;
-use npr_render::{Frame, RenderError};
+use npr_render::RenderError;
+use std::cell::RefCell;
 
 /// Which graphics devices may draw.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,17 +20,17 @@ pub enum Choice {
     Any,
 }
 
-/// A frame, and the engine that drew it.
+/// A frame or its lines, and the engine that drew it.
 #[derive(Debug)]
-pub struct Drawn {
-    /// The frame.
-    pub frame: Frame,
+pub struct Drawn<T> {
+    /// What was drawn.
+    pub picture: T,
     /// The engine in one line.
     pub engine: String,
 }
 
-/// Draws a frame on an engine.
-type Picture<'a> = &'a dyn Fn(&dyn Engine) -> Result<Frame, RenderError>;
+/// Draws on an engine.
+type Picture<'a, T> = &'a dyn Fn(&dyn Engine) -> Result<T, RenderError>;
 
 /// Opens a graphics device.
 type Open<'a> = &'a dyn Fn() -> Result<Box<dyn Engine>, EngineError>;
@@ -35,7 +39,11 @@ type Open<'a> = &'a dyn Fn() -> Result<Box<dyn Engine>, EngineError>;
 ///
 /// A device that is lost is opened once more. Where it fails again, or fails otherwise, the processor
 /// takes over if the choice is automatic, after a word to `warn`.
-pub fn draw(backend: Backend, picture: Picture<'_>, warn: &dyn Fn(&str)) -> Result<Drawn, Fault> {
+fn draw<T>(
+    backend: Backend,
+    picture: Picture<'_, T>,
+    warn: &dyn Fn(&str),
+) -> Result<Drawn<T>, Fault> {
     let drawn = match backend {
         Backend::Cpu => draw_on(&Processor, picture),
         Backend::Gpu => draw_on_device(&|| hardware::open(Choice::Any), picture),
@@ -44,11 +52,30 @@ pub fn draw(backend: Backend, picture: Picture<'_>, warn: &dyn Fn(&str)) -> Resu
     drawn.map_err(Fault::from)
 }
 
-fn draw_somewhere(
+/// The same as a step of the run, with what there is to say once the step is over.
+pub fn draw_as_step<T>(
+    backend: Backend,
+    picture: Picture<'_, T>,
+    quiet: bool,
+    progress: &mut Progress,
+) -> Result<Drawn<T>, Fault> {
+    let warnings = RefCell::new(Vec::new());
+    let drawn = progress.step(DRAW, || {
+        draw(backend, picture, &|text| {
+            warnings.borrow_mut().push(text.to_owned());
+        })
+    });
+    for text in warnings.into_inner() {
+        progress.suspend(|| message::warn(quiet, &text));
+    }
+    drawn
+}
+
+fn draw_somewhere<T>(
     open: Open<'_>,
-    picture: Picture<'_>,
+    picture: Picture<'_, T>,
     warn: &dyn Fn(&str),
-) -> Result<Drawn, RenderError> {
+) -> Result<Drawn<T>, RenderError> {
     match draw_on_device(open, picture) {
         Err(RenderError::Engine(EngineError::NoDevice { .. })) => draw_on(&Processor, picture),
         Err(RenderError::Engine(error)) => {
@@ -59,7 +86,7 @@ fn draw_somewhere(
     }
 }
 
-fn draw_on_device(open: Open<'_>, picture: Picture<'_>) -> Result<Drawn, RenderError> {
+fn draw_on_device<T>(open: Open<'_>, picture: Picture<'_, T>) -> Result<Drawn<T>, RenderError> {
     let draw = || draw_on(open()?.as_ref(), picture);
     match draw() {
         Err(RenderError::Engine(EngineError::Lost { .. })) => draw(),
@@ -67,9 +94,9 @@ fn draw_on_device(open: Open<'_>, picture: Picture<'_>) -> Result<Drawn, RenderE
     }
 }
 
-fn draw_on(engine: &dyn Engine, picture: Picture<'_>) -> Result<Drawn, RenderError> {
+fn draw_on<T>(engine: &dyn Engine, picture: Picture<'_, T>) -> Result<Drawn<T>, RenderError> {
     Ok(Drawn {
-        frame: picture(engine)?,
+        picture: picture(engine)?,
         engine: engine.describe(),
     })
 }
@@ -93,15 +120,7 @@ impl From<RenderError> for Fault {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::cell::{Cell, RefCell};
-
-    fn frame() -> Frame {
-        Frame {
-            size: [1, 1],
-            rgba: vec![0; 4],
-            times: Vec::new(),
-        }
-    }
+    use std::cell::Cell;
 
     fn lost() -> RenderError {
         RenderError::Engine(EngineError::Lost {
@@ -114,13 +133,13 @@ mod tests {
         times: u32,
         tries: &'a Cell<u32>,
         error: &'a dyn Fn() -> RenderError,
-    ) -> impl Fn(&dyn Engine) -> Result<Frame, RenderError> + 'a {
+    ) -> impl Fn(&dyn Engine) -> Result<(), RenderError> + 'a {
         move |_| {
             tries.set(tries.get() + 1);
             if tries.get() <= times {
                 Err(error())
             } else {
-                Ok(frame())
+                Ok(())
             }
         }
     }
@@ -156,8 +175,8 @@ mod tests {
             })
         };
         let silent = |text: &str| panic!("{text}");
-        draw_somewhere(&none, &|_| Ok(frame()), &silent).expect("the processor draws");
-        let fault = Fault::from(draw_on_device(&none, &|_| Ok(frame())).expect_err("no device"));
+        draw_somewhere(&none, &|_| Ok(()), &silent).expect("the processor draws");
+        let fault = Fault::from(draw_on_device(&none, &|_| Ok(())).expect_err("no device"));
         assert_eq!(fault.exit, Exit::NoDevice);
     }
 

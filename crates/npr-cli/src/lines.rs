@@ -3,20 +3,19 @@
 use crate::arguments::{
     Backend, LineArguments, LineFormat, LinesArguments, RenderArguments, SheetArguments,
 };
-use crate::engine::Choice;
+use crate::engine::{self, Drawn};
 use crate::fault::{Exit, Fault};
-use crate::hardware;
 use crate::line_file;
 use crate::line_job::LineJob;
 use crate::look::Look;
 use crate::message;
 use crate::progress::Progress;
 use crate::render;
-use crate::timings::{DRAW, Timings};
+use crate::timings::Timings;
 use crate::viewpoint;
-use npr_gpu::engine::Engine;
-use npr_gpu::processor::Processor;
-use npr_render::{LineModel, LineModelOptions};
+use npr_core::camera::Camera;
+use npr_gpu::engine::{Engine, PassTime};
+use npr_render::{Drawing, LineMethod, LineModel, LineModelOptions, LineStage};
 use npr_style::{Background, WidthSource};
 use std::io::Write;
 
@@ -26,10 +25,10 @@ pub fn lines(said: &LinesArguments) -> Result<(), Fault> {
         return render::dump_style(&said.drawing);
     }
     let mut progress = Progress::new(said.drawing.quiet);
-    draw(&LineJob::resolve(said)?, &mut progress)?;
+    let drawn = draw(&LineJob::resolve(said)?, &mut progress)?;
     let steps = progress.finish();
     if let Some(form) = said.drawing.timings {
-        let timings = Timings::new(Processor.describe(), &steps, &[]);
+        let timings = Timings::new(drawn.engine, &steps, &drawn.picture.times);
         let _ = std::io::stderr().write_all(timings.told(form).as_bytes());
     }
     Ok(())
@@ -60,30 +59,50 @@ pub fn lines_of_picture(said: &RenderArguments) -> Result<(), Fault> {
 }
 
 /// From the scene's file to the drawing's.
-fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<(), Fault> {
+fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, Fault> {
     line_file::check_memory(job)?;
-    check_backend(job, progress)?;
     let model = prepare(job, progress)?;
     let camera = viewpoint::camera(&job.said.drawing.camera, &model, job.said.drawing.size)?;
-    let drawing = progress.step(DRAW, || model.draw(&camera, &job.look.style, &job.options))?;
-    let bytes = progress.step("encode", || line_file::encode(job, &drawing))?;
-    progress.step("write", || job.output.write(&bytes))
+    let drawn = draw_lines(job, &model, &camera, progress)?;
+    let drawing = &drawn.picture.drawing;
+    let bytes = progress.step("encode", || line_file::encode(job, drawing))?;
+    progress.step("write", || job.output.write(&bytes))?;
+    Ok(drawn)
 }
 
-/// Sees to it that there is a device where one is demanded.
-///
-/// Lines are found on the processor so far, whichever engine is asked for.
-fn check_backend(job: &LineJob<'_>, progress: &Progress) -> Result<(), Fault> {
-    if job.said.drawing.backend != Backend::Gpu {
-        return Ok(());
+/// A drawing, and how long the passes on its engine took.
+struct LineFrame {
+    drawing: Drawing,
+    times: Vec<PassTime>,
+}
+
+fn draw_lines(
+    job: &LineJob<'_>,
+    model: &LineModel,
+    camera: &Camera,
+    progress: &mut Progress,
+) -> Result<Drawn<LineFrame>, Fault> {
+    let picture = |engine: &dyn Engine| {
+        let mut stage = LineStage::new(engine, model)?;
+        Ok(LineFrame {
+            drawing: stage.draw(camera, &job.look.style, &job.options)?,
+            times: stage.times().to_vec(),
+        })
+    };
+    let drawn = engine::draw_as_step(
+        job.said.drawing.backend,
+        &picture,
+        job.said.drawing.quiet,
+        progress,
+    )?;
+    if job.said.drawing.backend == Backend::Gpu && job.options.method == LineMethod::Surface {
+        let text = format!(
+            "{} finds contours along edges; smooth ones are made from them on the processor",
+            drawn.engine
+        );
+        progress.suspend(|| message::warn(job.said.drawing.quiet, &text));
     }
-    let device = hardware::open(Choice::Any).map_err(npr_render::RenderError::from)?;
-    let text = format!(
-        "{} stands by; lines are found on the processor",
-        device.describe()
-    );
-    progress.suspend(|| message::warn(job.said.drawing.quiet, &text));
-    Ok(())
+    Ok(drawn)
 }
 
 /// Loads the scene and makes it ready; says what is ignored.

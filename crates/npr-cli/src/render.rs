@@ -10,10 +10,11 @@ use crate::look::Look;
 use crate::message;
 use crate::output;
 use crate::progress::Progress;
-use crate::timings::{DRAW, Timings};
+use crate::timings::Timings;
 use crate::viewpoint;
 use npr_core::camera::Camera;
-use npr_render::{Model, Stage};
+use npr_gpu::engine::Engine;
+use npr_render::{Frame, Model, Stage};
 use std::io::Write;
 
 /// Draws what the user asked for, or prints its style.
@@ -32,7 +33,7 @@ pub fn render(said: &RenderArguments) -> Result<(), Fault> {
     let drawn = draw(&Job::resolve(said)?, &mut progress)?;
     let steps = progress.finish();
     if let Some(form) = said.drawing.timings {
-        let timings = Timings::new(drawn.engine, &steps, &drawn.frame.times);
+        let timings = Timings::new(drawn.engine, &steps, &drawn.picture.times);
         let _ = std::io::stderr().write_all(timings.told(form).as_bytes());
     }
     Ok(())
@@ -49,11 +50,11 @@ pub fn dump_style(said: &DrawingArguments) -> Result<(), Fault> {
 }
 
 /// From the scene's file to the picture's.
-fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn, Fault> {
+fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     let model = prepare(job, progress)?;
     let camera = viewpoint::camera(&job.said.drawing.camera, &model, job.said.drawing.size)?;
     let drawn = draw_frame(job, &model, &camera, progress)?;
-    let frame = &drawn.frame;
+    let frame = &drawn.picture;
     let keep_alpha = job.look.is_transparent();
     let bytes = progress.step("encode", || {
         encoder::png(frame.size, &frame.rgba, keep_alpha)
@@ -92,18 +93,14 @@ fn draw_frame(
     model: &Model,
     camera: &Camera,
     progress: &mut Progress,
-) -> Result<Drawn, Fault> {
-    let mut warnings = std::cell::RefCell::new(Vec::new());
-    let drawn = progress.step(DRAW, || {
-        let picture = |engine: &dyn npr_gpu::engine::Engine| {
-            Stage::new(engine, model, &job.look.style, &job.options)?.draw(camera)
-        };
-        engine::draw(job.said.drawing.backend, &picture, &|text| {
-            warnings.borrow_mut().push(text.to_owned())
-        })
-    });
-    for text in warnings.get_mut().drain(..) {
-        progress.suspend(|| message::warn(job.said.drawing.quiet, &text));
-    }
-    drawn
+) -> Result<Drawn<Frame>, Fault> {
+    let picture = |engine: &dyn Engine| {
+        Stage::new(engine, model, &job.look.style, &job.options)?.draw(camera)
+    };
+    engine::draw_as_step(
+        job.said.drawing.backend,
+        &picture,
+        job.said.drawing.quiet,
+        progress,
+    )
 }

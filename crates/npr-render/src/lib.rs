@@ -2,7 +2,7 @@
 //!
 //! [`Model::new`] prepares a scene once: welds it, finds its edges and curvature. A [`Stage`] joins a model with a style and a
 //! frame size on an engine, and [`Stage::draw`] makes a picture for a camera, as often as wanted.
-//! [`LineModel`] draws the same scene as curves instead.
+//! [`LineModel`] draws the same scene as curves instead; a [`LineStage`] lets a device do its part.
 //!
 //! ```
 //! use npr_core::camera::Camera;
@@ -35,7 +35,7 @@ mod tiles;
 
 pub use error::RenderError;
 pub use frame::Frame;
-pub use lines::{KindSet, LineMethod, LineModel, LineModelOptions, LineOptions};
+pub use lines::{KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage};
 pub use model::{Model, PartInfo};
 pub use npr_vector::stroke::{Drawing, Kind};
 pub use stage::{Picture, Stage, StageOptions};

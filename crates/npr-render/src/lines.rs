@@ -4,9 +4,11 @@ mod assembly;
 mod cache;
 mod options;
 mod paint;
+mod stage;
 mod widths;
 
 pub use options::{KindSet, LineMethod, LineModelOptions, LineOptions};
+pub use stage::LineStage;
 
 use crate::error::RenderError;
 use crate::look;
@@ -18,9 +20,11 @@ use glam::Vec3;
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
 use npr_core::shape::{Shape, Surface};
+use npr_gpu::engine::EngineError;
 use npr_scene::Scene;
 use npr_style::Style;
-use npr_vector::draw::{LineSettings, Prepared};
+use npr_vector::contour::{EdgeContours, Eye};
+use npr_vector::draw::{LineSettings, Prepared, eye_of, strokes_with};
 use npr_vector::project::Projector;
 use npr_vector::stroke::{Drawing, Kind, Stroke};
 use paint::Paint;
@@ -63,6 +67,13 @@ pub struct LineModel {
 
 /// What lines are prepared for: the cosine of the crease angle, as bits, and whether intersections are wanted.
 type PreparedKey = (u32, bool);
+
+/// A camera, and what it sees before visibility.
+struct LineView<'a> {
+    camera: &'a Camera,
+    projector: &'a Projector,
+    contours: &'a EdgeContours,
+}
 
 impl LineModel {
     /// Prepares a scene: poses and joins its meshes, welds them, and finds what is beside every edge.
@@ -137,10 +148,29 @@ impl LineModel {
         style: &Style,
         options: &LineOptions,
     ) -> Result<Drawing, RenderError> {
+        self.draw_with(camera, style, options, |eye| {
+            Ok(EdgeContours::new(&self.shape, eye))
+        })
+    }
+
+    /// The same, with contours along edges as `find` finds them for an eye.
+    fn draw_with(
+        &self,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+        find: impl FnOnce(&Eye) -> Result<EdgeContours, EngineError>,
+    ) -> Result<Drawing, RenderError> {
         check_size(options.size)?;
-        let prepared = self.prepared(options);
         let projector = Projector::new(camera, options.size, self.bounds);
-        let mut strokes = self.strokes(&prepared, &projector, camera, style, options);
+        let contours = find(&eye_of(&self.shape, &projector))?;
+        let prepared = self.prepared(options);
+        let view = LineView {
+            camera,
+            projector: &projector,
+            contours: &contours,
+        };
+        let mut strokes = self.strokes(&prepared, &view, style, options);
         let paint = Paint::new(&self.parts, style);
         paint.apply(&mut strokes);
         check_points(&strokes)?;
@@ -166,8 +196,7 @@ impl LineModel {
     fn strokes(
         &self,
         prepared: &Prepared,
-        projector: &Projector,
-        camera: &Camera,
+        view: &LineView<'_>,
         style: &Style,
         options: &LineOptions,
     ) -> Vec<Stroke> {
@@ -181,9 +210,9 @@ impl LineModel {
             colors: &self.colors,
             style,
         };
-        let view = camera.view(options.size, self.bounds);
+        let of_frame = view.camera.view(options.size, self.bounds);
         let outline = look::outline(style, radius, options.size[1], options.dpi, 0);
-        let widths = Widths::new(input, &view, outline);
+        let widths = Widths::new(input, &of_frame, outline);
         let settings = LineSettings {
             size: options.size,
             kinds: options.kinds.bits(),
@@ -191,9 +220,14 @@ impl LineModel {
             smooth: options.smooth,
             hidden: options.hidden,
         };
-        npr_vector::draw::strokes(&self.shape, prepared, projector, &settings, &|vertex| {
-            widths.at(vertex)
-        })
+        strokes_with(
+            &self.shape,
+            prepared,
+            view.projector,
+            &settings,
+            view.contours,
+            &|vertex| widths.at(vertex),
+        )
     }
 
     /// What does not depend on the camera, made once for every crease angle in a row.

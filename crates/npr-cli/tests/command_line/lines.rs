@@ -380,10 +380,55 @@ fn a_kept_surface_changes_no_byte() {
     Outcome::of(output).assert_fault(1, "no folder 'nowhere'");
 }
 
+/// A corner of a cube, with its sides.
+const TETRAHEDRON: &[u8] =
+    b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 4 3\nf 1 2 4\nf 2 3 4\n";
+
+fn with_tetrahedron() -> Workplace {
+    let place = Workplace::new();
+    place.put("scene.obj", TETRAHEDRON);
+    place
+}
+
+/// Draws the scene on a device; `None` where there is none, which is told by exit code 4 and no file.
+fn drawn_on_device(place: &Workplace, options: &[&str]) -> Option<Outcome> {
+    let all = [&["--backend", "gpu", "-o", "gpu.svg"], options].concat();
+    let outcome = lines(place, "scene.obj", &all);
+    if outcome.code != Some(4) {
+        return Some(outcome);
+    }
+    outcome.assert_fault(4, "no graphics device");
+    assert_eq!(place.names(), ["scene.obj"]);
+    None
+}
+
 #[test]
-fn a_demanded_device_is_there_or_exits_with_4() {
-    let place = Workplace::with_scene();
-    place.assert_done_or_no_device(&["lines", "scene.obj", "--size", "96x64", "--quiet"]);
+fn a_device_draws_the_same_bytes_or_exits_with_4() {
+    let place = with_tetrahedron();
+    let Some(outcome) = drawn_on_device(&place, &["--method", "edges"]) else {
+        return;
+    };
+    outcome.assert_silent_success();
+    for backend in ["cpu", "auto"] {
+        let options = ["--backend", backend, "-o", "other.svg", "--method", "edges"];
+        lines(&place, "scene.obj", &options).assert_silent_success();
+        assert_eq!(place.get("other.svg"), place.get("gpu.svg"), "{backend}");
+    }
+}
+
+#[test]
+fn what_a_device_does_of_smooth_contours_is_told_once() {
+    let place = with_tetrahedron();
+    let Some(outcome) = drawn_on_device(&place, &["--method", "surface"]) else {
+        return;
+    };
+    assert_eq!(outcome.code, Some(0));
+    assert_eq!(outcome.stderr.lines().count(), 1, "{}", outcome.stderr);
+    assert!(
+        outcome
+            .stderr
+            .contains("smooth ones are made from them on the processor")
+    );
 }
 
 #[test]

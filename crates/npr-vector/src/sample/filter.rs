@@ -18,6 +18,10 @@ pub const EVEN_SHARE: f32 = 0.5;
 ///
 /// Line `k` holds the samples from `line_starts[k]` to `line_starts[k + 1]`; the mean goes over `radius` samples to both sides on the
 /// sample's own line. The first sample of a line counts as clear. O(samples · radius), parallel.
+///
+/// # Panics
+///
+/// When a sample names a line that does not hold it: [`place_samples`](super::place_samples) makes none of those.
 pub fn weigh_samples(
     radius: u32,
     samples: &[SpineSample],
