@@ -20,8 +20,8 @@ OTHERS=${OTHERS:-freestyle larnt vtk occ tsr}
 keep() { timeout 600 "$@" 2>>"$work/others.log" | sed -n 's/^PEER //p' >>"$work/others.jsonl"; }
 judge() {
     [ -s "$2" ] || return 0
-    case $2 in *.svg) rsvg-convert "$2" -b white -o "${2%.svg}.png" ;; esac
-    "$PY" "$harness/compare_lines.py" "$work/ref/$1.csv" "${2%.svg}.png" | sed -n 's/^PEER //p' >>"$work/others_judged.jsonl"
+    case $2 in *.svg) rsvg-convert "$2" -b white -o "${2%.*}.png" ;; esac
+    "$PY" "$harness/compare_lines.py" "$work/ref/$1.csv" "${2%.*}.png" | sed -n 's/^PEER //p' >>"$work/others_judged.jsonl"
 }
 forget() { for file in others.jsonl others_judged.jsonl; do [ ! -f "$work/$file" ] || sed -i "/\"\(peer\|drawing\)\": *\"\($1\)/d" "$work/$file"; done; }
 
@@ -37,7 +37,9 @@ for program in $OTHERS; do
     larnt)
         forget larnt
         # Built from a copy: the harness may be read-only, and cargo writes a lock file beside the manifest.
-        cp -r "$harness/larnt_bench" "$work/larnt_src" 2>/dev/null && chmod -R u+w "$work/larnt_src"
+        mkdir -p "$work/larnt_src"
+        cp -r "$harness/larnt_bench/." "$work/larnt_src"
+        chmod -R u+w "$work/larnt_src"
         (cd "$work/larnt_src" && CARGO_TARGET_DIR="$work/larnt" timeout 600 cargo build -q --release) || continue
         for mesh; do
             keep "$work/larnt/release/larnt_bench" "$work/meshes/$mesh.obj" "$work/out/larnt_$mesh.svg" "$RUNS"

@@ -4,10 +4,11 @@
 # HARNESS  folder of the comparison: make_meshes.py, visref, compare_lines.py, blender_lineart.py, peer_common.py
 # WORK     folder for meshes, references and pictures; what is there already is used
 # Needs    python3 with numpy, scipy and pillow as PY (to make meshes also trimesh, networkx, cadquery), python3 with
-#          bpy 4.5 as BPY, and rsvg-convert. ROUNDS (default 3) is how often the two take turns.
-# Writes   WORK/out/*.svg and *.png, WORK/race.jsonl, WORK/judged.jsonl, and benches/results/lines_peers.md.
+#          bpy 4.5 as BPY, and rsvg-convert. ROUNDS (default 3) is how often the two take turns. All other programs are run
+#          by others.sh afterwards; OTHERS="" leaves them out and keeps what an earlier run found.
+# Writes   WORK/out/*.svg and *.png, WORK/*.jsonl, and benches/results/lines_peers.md.
 set -eu
-[ $# -ge 2 ] || { sed -n '2,9p' "$0" >&2; exit 2; }
+[ $# -ge 2 ] || { sed -n '2,10p' "$0" >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 harness=$(cd "$1" && pwd)
@@ -31,6 +32,7 @@ judge() { "$PY" "$harness/compare_lines.py" "$work/ref/$1.csv" "$2" | sed -n 's/
 
 : >"$work/judged.jsonl"
 : >"$work/race.jsonl"
+: >"$work/covered.jsonl"
 for mesh; do
     obj=$work/meshes/$mesh.obj
     if [ ! -s "$work/ref/$mesh.csv" ]; then
@@ -53,6 +55,10 @@ for mesh; do
         rsvg-convert "$work/out/${program}_$mesh.svg" -b white -o "$work/out/${program}_$mesh.png"
         judge "$mesh" "$work/out/${program}_$mesh.png"
     done
+    "$PY" "$here/covered.py" "$mesh" "$work/out/npr_$mesh.png" "$work/out/lineart_$mesh.png" >>"$work/covered.jsonl"
 done
 
-"$PY" "$here/table.py" "$work/race.jsonl" "$work/judged.jsonl" "$root/benches/results/lines_peers.md" "$root"
+# Programs that draw something else or slowly stand alone: they are compared by what they draw, their times roughly.
+PY=$PY BPY=$BPY "$here/others.sh" "$harness" "$work" "$@"
+
+"$PY" "$here/table.py" "$work" "$root/benches/results/lines_peers.md" "$root"

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""table.py RACE.jsonl JUDGED.jsonl OUT.md ROOT: times and agreement of two programs, side by side.
+"""table.py WORK OUT.md ROOT: times and agreement of all programs whose results lie in WORK.
 
-Times are the median over all rounds of each round's median; `min` is the least time of any run."""
+Times are the median over all rounds of each round's median; `min` is the least time of any run. Where a program could not be
+run, `published.json` has what it took on another machine of two cores."""
 import json
 import os
 import statistics
@@ -11,6 +12,8 @@ import tempfile
 
 
 def rows(path):
+    if not os.path.exists(path):
+        return []
     with open(path) as file:
         return [json.loads(line) for line in file if line.strip()]
 
@@ -52,19 +55,89 @@ def race_table(race):
         yield "| " + " | ".join(cells) + " |"
 
 
-def judged_table(judged):
-    meshes = list(dict.fromkeys(r["drawing"].removesuffix(".png").split("_", 1)[1] for r in judged))
-    at = {tuple(r["drawing"].removesuffix(".png").split("_", 1)): r for r in judged}
-    yield "| mesh | recall: Line Art | ours | precision: Line Art | ours | missing pieces: Line Art | ours | false px: Line Art | ours |"
-    yield "|---|" + "---:|" * 8
-    for mesh in meshes:
+def drawn_by(judged):
+    """What was judged, by program and mesh."""
+    return {tuple(r["drawing"].removesuffix(".png").split("_", 1)): r for r in judged}
+
+
+def judged_table(judged, covered):
+    at = drawn_by(judged)
+    ink = {r["mesh"]: r for r in covered}
+    yield "| mesh | recall: Line Art | ours | precision: Line Art | ours | missing pieces: Line Art | ours | false px: Line Art | ours | Line Art's ink within 2 px of ours |"
+    yield "|---|" + "---:|" * 9
+    for mesh in dict.fromkeys(mesh for _, mesh in at):
         pair = [at.get((program, mesh)) for program in ("lineart", "npr")]
         if None in pair:
             continue
         cells = [mesh]
         for key, form in (("recall", "{:.5f}"), ("precision", "{:.5f}"), ("missing_pieces", "{}"), ("false_px", "{}")):
             cells += [form.format(r[key]) for r in pair]
+        found = ink.get(mesh)
+        # One is said only of all.
+        cells.append(f"{int((1 - found['uncovered_px'] / max(found['ink_px'], 1)) * 1e5) / 1e5:.5f}" if found else "-")
         yield "| " + " | ".join(cells) + " |"
+
+
+def freestyle(r):
+    return r["line_cpu_ms"], r["strokes"]
+
+
+def larnt(r):
+    return r["edges_ms"] + r["bvh_ms"] + r["render_ms"], r["visible_paths"]
+
+
+def three_svg(r):
+    return r["time"]["median_ms"] + r["bvh_and_copy_ms"], r["svg_paths"]
+
+
+def vtk_frame(r):
+    return (r["time"]["median_ms"], "-") if "time" in r else None
+
+
+def occ(r):
+    return r["time"]["median_ms"], sum(r["edges"].get(k, 0) for k in ("VCompound", "OutLineVCompound"))
+
+
+# Name in the results, name here, name of its pictures, and how to read its time and its number of lines.
+OTHERS = [
+    ("blender-freestyle", "Freestyle, line part, CPU time", "freestyle", freestyle),
+    ("three-svg-renderer", "three-svg-renderer", "tsr", three_svg),
+    ("larnt", "larnt, tree and rays", "larnt", larnt),
+    ("vtk-frame", "VTK, a frame", "vtk", vtk_frame),
+    ("occ-hlr-exact", "OpenCascade exact", "occ", occ),
+    ("occ-hlr-poly", "OpenCascade polygons", "occ-poly", occ),
+]
+
+
+def others_tables(race, others, judged):
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "published.json")) as file:
+        published = json.load(file)
+    meshes = list(dict.fromkeys(r["mesh"].rsplit(".", 1)[0] for r in race))
+    found = {(r["peer"], r["mesh"].rsplit(".", 1)[0]): r for r in others}
+    at = drawn_by(judged)
+    ours = {m: median([r["whole"] for r in race if r["peer"] == "npr" and r["mesh"].startswith(m + ".")]) for m in meshes}
+    yield "| mesh | ours, whole | " + " | ".join(name for _, name, _, _ in OTHERS) + " |"
+    yield "|---|---:|" + "---:|" * len(OTHERS)
+    for mesh in meshes:
+        cells = [mesh, f"{ours[mesh]:.1f}"]
+        for peer, _, _, read in OTHERS:
+            result = found.get((peer, mesh))
+            result = read(result) if result else None
+            if result:
+                cells.append(f"{result[0]:.1f} / {result[1]}")
+            else:
+                stands = published[peer].get(mesh)
+                cells.append(f"({stands})" if stands else "-")
+        yield "| " + " | ".join(cells) + " |"
+    programs = [("npr", "ours"), ("lineart", "Line Art")] + [(p, n.split(",")[0]) for _, n, p, _ in OTHERS if not p.startswith("occ")]
+    yield ""
+    yield "Recall / precision, as above:"
+    yield ""
+    yield "| mesh | " + " | ".join(name for _, name in programs) + " |"
+    yield "|---|" + "---:|" * len(programs)
+    for mesh in meshes:
+        pairs = (at.get((program, mesh)) for program, _ in programs)
+        yield f"| {mesh} | " + " | ".join(f"{r['recall']:.5f} / {r['precision']:.5f}" if r else "-" for r in pairs) + " |"
 
 
 def processor():
@@ -75,9 +148,16 @@ def processor():
         return "an unknown processor"
 
 
+def loads(others):
+    found = sorted(r["load1"] for r in others if "load1" in r)
+    return f"{found[0]:.1f} to {found[-1]:.1f}" if found else "not known"
+
+
 def main():
-    race_path, judged_path, out, root = sys.argv[1:]
-    race, judged = rows(race_path), rows(judged_path)
+    work, out, root = sys.argv[1:]
+    race, judged, covered, others, others_judged = (
+        rows(os.path.join(work, name + ".jsonl")) for name in ("race", "judged", "covered", "others", "others_judged")
+    )
     version = next((r["version"] for r in race if "version" in r), "")
     lines = [
         "# Visible lines beside Blender's Line Art", "",
@@ -89,7 +169,15 @@ def main():
         "## Time", "", *race_table(race), "",
         "## Agreement with the reference", "",
         "Recall: pieces of the reference, half a pixel each, with ink within 2 px. Precision: ink within 2.5 px of a piece.", "",
-        *judged_table(judged), "",
+        "Bar: the last column, which must be 1.", "",
+        *judged_table(judged, covered), "",
+        "## Other programs", "",
+        "ms / visible lines. In brackets: could not be run here, so taken from an earlier measurement on another machine of two cores. "
+        "Each stands alone, not in turns, and does other work: Freestyle's own clock leaves out the frame it draws into; three-svg-renderer has "
+        "creases of 80 to 100 degrees and no fills; larnt is given our kinds of edges and tests them by rays; VTK draws pixels, not strokes; "
+        "OpenCascade draws cad_part from its exact surfaces, and of other meshes every edge of every triangle. "
+        f"Load average while they ran: {loads(others)}.", "",
+        *others_tables(race, others, judged + others_judged), "",
     ]
     folder = os.path.dirname(os.path.abspath(out))
     with tempfile.NamedTemporaryFile("w", dir=folder, delete=False) as file:

@@ -4,6 +4,7 @@
 
 use npr_vector::stroke::{Drawing, Kind};
 
+use super::doubles::double_share;
 use super::ink::{Bins, Curve, InkPoint, distance, sample};
 use super::reference::{Piece, Reference};
 
@@ -15,12 +16,6 @@ pub const LISTED: usize = 1;
 
 /// How far the nearest ink or reference is looked for.
 const REACH_PX: f64 = 4.0;
-
-/// Two lines nearer than this, and near parallel, are one drawn twice.
-const DOUBLE_PX: f64 = 3.0;
-
-/// Cosine of the angle over which two near lines are parallel.
-const PARALLEL: f64 = 0.9;
 
 /// Strokes shorter than this count as short.
 const SHORT_PX: f64 = 9.0;
@@ -140,8 +135,8 @@ pub fn measure(drawing: &Drawing, reference: &Reference) -> Measures {
         precision: TOLERANCES_PX.map(|tolerance| found.precision(tolerance)),
         missing: clusters(&found.missing(TOLERANCES_PX[LISTED])),
         spurious: clusters(&found.spurious(TOLERANCES_PX[LISTED])),
-        doubles: doubles(&ink, &curves),
-        own_doubles: doubles(&sample(&runs), &runs),
+        doubles: double_share(&ink, &curves),
+        own_doubles: double_share(&sample(&runs), &runs),
         strokes: pieces(curves.iter().map(Curve::length)),
         runs: pieces(reference.runs.iter().map(|run| run.length)),
         joined: pieces(reference.joined.iter().map(|run| run.length)),
@@ -266,40 +261,6 @@ fn share(lengths: impl Iterator<Item = (f64, bool)>) -> f64 {
         right += if is_right { length } else { 0.0 };
     }
     if all > 0.0 { right / all } else { 1.0 }
-}
-
-/// Share of ink that lies double.
-fn doubles(ink: &[InkPoint], curves: &[Curve]) -> f64 {
-    let is_double = is_double(ink, curves);
-    1.0 - share(ink.iter().map(|point| (point.length, !is_double(point))))
-}
-
-/// Where ink of `curves` lies double.
-pub fn double_places(ink: &[InkPoint], curves: &[Curve]) -> impl Iterator<Item = [f64; 2]> {
-    let is_double = is_double(ink, curves);
-    ink.iter()
-        .filter(move |point| is_double(point))
-        .map(|point| point.at)
-}
-
-/// Tells ink near other ink that runs the same or the opposite way; on one line only where it comes back later.
-fn is_double(ink: &[InkPoint], curves: &[Curve]) -> impl Fn(&InkPoint) -> bool {
-    let bins = Bins::new(ink.iter().map(|point| point.at).collect(), DOUBLE_PX);
-    let lengths: Vec<f64> = curves.iter().map(Curve::length).collect();
-    move |point| {
-        bins.near(point.at, DOUBLE_PX).any(|(other, _)| {
-            let other = &ink[other];
-            let cosine = point.along[0] * other.along[0] + point.along[1] * other.along[1];
-            let curve = point.curve as usize;
-            let apart = (point.travelled - other.travelled).abs();
-            let apart = if curves[curve].closed {
-                apart.min(lengths[curve] - apart)
-            } else {
-                apart
-            };
-            cosine.abs() > PARALLEL && (other.curve != point.curve || apart > 4.0 * DOUBLE_PX)
-        })
-    }
 }
 
 fn pieces(lengths: impl Iterator<Item = f64>) -> Pieces {

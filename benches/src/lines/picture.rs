@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use npr_vector::stroke::Drawing;
 
+use super::doubles::double_places;
 use super::ink::{Curve, sample};
-use super::measures::double_places;
 use super::reference::Reference;
 
 /// Colours of strokes, in turns: neighbours in a list differ.
