@@ -126,6 +126,7 @@ fn options(said: &LinesArguments, style: &Style) -> LineOptions {
     let LineArguments {
         kinds,
         crease,
+        split,
         method,
         hidden,
         smooth,
@@ -139,6 +140,7 @@ fn options(said: &LinesArguments, style: &Style) -> LineOptions {
     LineOptions {
         kinds: named.unwrap_or(of_style.kinds),
         crease: crease.map_or(of_style.crease, f32::to_radians),
+        split: split.map_or(of_style.split, LineOptions::split_at),
         method: match method {
             MethodName::Edges => LineMethod::Edges,
             MethodName::Surface => LineMethod::Surface,

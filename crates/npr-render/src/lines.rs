@@ -219,6 +219,7 @@ impl LineModel {
             method: options.method,
             smooth: options.smooth,
             hidden: options.hidden,
+            split: options.split,
         };
         strokes_with(
             &self.shape,

@@ -73,6 +73,10 @@ pub struct Line {
     /// 20 draws every bevel, 80 only corners.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub crease_angle_deg: f32,
+    /// Angle, in degrees, from which a stroke is cut where it turns sharply in the picture, 10..180; default 180, never.
+    /// 60 draws a box in strokes along its sides, each with the brush's own ends. Of drawings as curves only.
+    #[schemars(range(min = 10.0, max = 180.0))]
+    pub split_angle_deg: f32,
     /// For method `angle`: how far from its silhouette, in degrees, a surface is inked, 0..90; default 15.
     /// Flat parts fill with ink as it grows.
     #[schemars(range(min = 0.0, max = 90.0))]
@@ -90,6 +94,7 @@ impl Default for Line {
             color: Color::rgb(0x2b, 0x1a, 0x12),
             opacity: 1.0,
             crease_angle_deg: 40.0,
+            split_angle_deg: 180.0,
             angle_threshold_deg: 15.0,
             kinds: Kinds::default(),
             width: Width::default(),

@@ -194,6 +194,10 @@ fn parts(run: &Run, doubled: &[bool]) -> Vec<Run> {
             parts.push(Run {
                 points,
                 closed: false,
+                cut: [
+                    run.cut[0] && first == 0 && !run.closed,
+                    run.cut[1] && last == count && !run.closed,
+                ],
                 ..run.clone_empty()
             });
         }
@@ -210,7 +214,8 @@ fn parts(run: &Run, doubled: &[bool]) -> Vec<Run> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::testing::run_along;
+    use crate::run::testing::{run_along, straight};
+    use proptest::prelude::*;
 
     /// A line of samples 1.5 px apart.
     fn line(id: u64, from: [f64; 2], to: [f64; 2]) -> Run {
@@ -264,5 +269,72 @@ mod tests {
         let kept = suppress(vec![hairpin]);
         let length: f64 = kept.iter().map(Run::length).sum();
         assert!(length < 90.0, "{length}");
+    }
+
+    fn runs_of(lines: &[([f64; 2], f64, f64)]) -> Vec<Run> {
+        let made = |(id, (from, angle, length)): (u64, &([f64; 2], f64, f64))| {
+            straight(id, *from, *angle, *length)
+        };
+        (0..).zip(lines).map(made).collect()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        /// What is left are points of the runs in their order; what is gone lies beside what is left.
+        #[test]
+        fn nothing_is_added_and_nothing_lost(
+            lines in prop::collection::vec((prop::array::uniform2(0.0_f64..50.0), 0.0_f64..6.3, 13.0_f64..60.0), 1..20),
+        ) {
+            let runs = runs_of(&lines);
+            let kept = suppress(runs.clone());
+            for run in &runs {
+                let own = |part: &&Run| part.id & 0xffff == run.id;
+                for part in kept.iter().filter(own) {
+                    let start = run.points.iter().position(|p| *p == part.points[0]);
+                    let range = start.expect("a point of the run")..;
+                    prop_assert!(run.points[range].starts_with(&part.points));
+                }
+                for point in &run.points {
+                    let all = kept.iter().flat_map(|part| &part.points);
+                    let nearest = all.map(|p| distance(p.place, point.place)).fold(f64::MAX, f64::min);
+                    prop_assert!(nearest < BESIDE_PX + 1.5 * (MAJORITY + 1) as f64, "{} px", nearest);
+                }
+            }
+        }
+
+        /// Which lines stay does not depend on their order.
+        #[test]
+        fn order_does_not_matter(
+            lines in prop::collection::vec((prop::array::uniform2(0.0_f64..50.0), 0.0_f64..6.3, 2.0_f64..60.0), 0..20), seed: u64,
+        ) {
+            let runs = runs_of(&lines);
+            let mut shuffled = runs.clone();
+            npr_mesh::testing::Random::new(seed).shuffle(&mut shuffled);
+            let left = |runs| {
+                let mut left = suppress(runs);
+                left.sort_by_key(|run: &Run| run.id);
+                left
+            };
+            prop_assert_eq!(left(runs), left(shuffled));
+        }
+
+        /// A shorter copy beside a line goes, whichever way it runs; not a hidden one, nor one that keeps its distance.
+        #[test]
+        fn copies_go(angle in 0.0_f64..6.3, length in 20.0_f64..90.0, off in -1.4_f64..1.4, turned: bool) {
+            let line = straight(1, [100.0; 2], angle, length);
+            let beside = |off: f64| {
+                let from = [100.0 - off * angle.sin() + 2.0 * angle.cos(), 100.0 + off * angle.cos() + 2.0 * angle.sin()];
+                let mut copy = straight(2, from, angle, length - 4.0);
+                if turned {
+                    copy.points.reverse();
+                }
+                copy
+            };
+            let left = |copy: Run| suppress(vec![copy, line.clone()]).len();
+            prop_assert_eq!(left(beside(off)), 1);
+            prop_assert_eq!(left(beside(off.signum() * 3.0)), 2);
+            prop_assert_eq!(left(Run { occluders: 1, ..beside(off) }), 2);
+        }
     }
 }

@@ -5,6 +5,7 @@
 
 use crate::bvh::FaceTree;
 use crate::contour::{EdgeContours, Eye};
+use crate::corner::split;
 use crate::doubles::suppress;
 use crate::feature::{features, kind_in_view};
 use crate::graph::{CurveGraph, CurveNode};
@@ -44,6 +45,8 @@ pub struct LineSettings {
     pub smooth: bool,
     /// Gives hidden lines too, with the number of surfaces in front.
     pub hidden: bool,
+    /// Turn, in radians, from which strokes are cut at a corner; none never.
+    pub split: Option<f32>,
 }
 
 /// How far smooth contours may leave the polygons' outline, in pixels.
@@ -187,6 +190,11 @@ pub fn strokes_with(
     found.retain(|run| settings.hidden || run.occluders == 0);
     if settings.smooth {
         found = merge_ends(found, TOUCHING_PX);
+    }
+    if let Some(least_turn) = settings.split {
+        found = split(found, least_turn);
+    }
+    if settings.smooth {
         smooth(&mut found);
         found = merge_ends(suppress(found), FACING_PX);
         smooth(&mut found);

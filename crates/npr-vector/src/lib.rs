@@ -14,6 +14,7 @@ pub mod artwork;
 pub mod bvh;
 mod clip;
 pub mod contour;
+pub mod corner;
 pub mod detect;
 pub mod doubles;
 pub mod draw;

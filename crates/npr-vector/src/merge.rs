@@ -2,6 +2,7 @@
 //!
 //! Noise in the orientation of faces breaks one outline into loops that touch; to the eye it is one line.
 
+use crate::corner::start_at_head;
 use crate::run::{Run, RunPoint, distance};
 use std::collections::BTreeMap;
 
@@ -26,21 +27,30 @@ const DIRECTION_PX: f64 = 6.0;
 /// Runs with ends up to `reach_px` apart joined in pairs, the best pairs first.
 ///
 /// Both must be of one kind, object and visibility; each end is used once. A run whose two ends fit closes. The result keeps the
-/// order of the runs' first members. O(n log n) for ends that are spread over the picture.
+/// order of the runs' first members, and runs the way of the one with the least id, whichever comes first. Ends that were cut at
+/// corners stay apart. O(n log n) for ends that are spread over the picture.
 pub fn merge_ends(runs: Vec<Run>, reach_px: f64) -> Vec<Run> {
-    let ends: Vec<Option<End>> = (0..2 * runs.len())
-        .map(|end| End::new(&runs, end))
-        .collect();
-    let mut pairs = candidates(&runs, &ends, reach_px);
+    let ends = ends_of(&runs);
+    let mates = mates(&runs, &ends, reach_px);
+    join(runs, &mates)
+}
+
+/// The end that each end is joined with, or [`usize::MAX`]: of all pairs the cheapest first.
+fn mates(runs: &[Run], ends: &[Option<End>], reach_px: f64) -> Vec<usize> {
+    let mut pairs = candidates(runs, ends, reach_px);
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
-    let mut mates = vec![usize::MAX; 2 * runs.len()];
+    let mut mates = vec![usize::MAX; ends.len()];
     for (_, a, b) in pairs {
         if mates[a] == usize::MAX && mates[b] == usize::MAX {
             mates[a] = b;
             mates[b] = a;
         }
     }
-    join(runs, &mates)
+    mates
+}
+
+fn ends_of(runs: &[Run]) -> Vec<Option<End>> {
+    (0..2 * runs.len()).map(|end| End::new(runs, end)).collect()
 }
 
 /// An end of an open run; end `2 r` is the first point of run `r`, `2 r + 1` its last.
@@ -54,7 +64,7 @@ struct End {
 impl End {
     fn new(runs: &[Run], end: usize) -> Option<Self> {
         let run = &runs[end / 2];
-        if run.closed {
+        if run.closed || run.cut[end % 2] {
             return None;
         }
         let from_end = |i: usize| match end % 2 {
@@ -131,50 +141,63 @@ fn cost(runs: &[Run], ends: &[Option<End>], [a, b]: [usize; 2], reach_px: f64) -
         .then_some(gap / TOUCHING_PX + (1.0 - straight))
 }
 
-/// Follows the mates from run to run.
+/// Follows the mates from run to run: from free ends first, then around what closes.
 fn join(runs: Vec<Run>, mates: &[usize]) -> Vec<Run> {
     let mut used = vec![false; runs.len()];
-    let mut joined = Vec::with_capacity(runs.len());
     let open = (0..mates.len()).filter(|end| mates[*end] == usize::MAX);
-    let mut order: Vec<(usize, usize)> = open.map(|end| (end / 2, end)).collect();
-    order.extend((0..runs.len()).map(|run| (runs.len() + run, 2 * run)));
+    let starts = open.chain((0..runs.len()).map(|run| 2 * run));
     let mut found: Vec<(usize, Run)> = Vec::new();
-    for (_, start) in order {
-        if used[start / 2] {
-            continue;
+    for start in starts {
+        if !used[start / 2] {
+            found.push(follow(&runs, mates, start, &mut used));
         }
-        let mut end = start;
-        let mut whole = oriented(&runs[end / 2], end);
-        used[end / 2] = true;
-        let mut first = end / 2;
-        loop {
-            let mate = mates[end ^ 1];
-            if mate == usize::MAX {
-                break;
-            }
-            if used[mate / 2] {
-                whole.closed = true;
-                break;
-            }
-            used[mate / 2] = true;
-            first = first.min(mate / 2);
-            extend(&mut whole, &oriented(&runs[mate / 2], mate));
-            end = mate;
-        }
-        found.push((first, whole));
     }
     found.sort_by_key(|(first, _)| *first);
-    joined.extend(found.into_iter().map(|(_, run)| run));
-    joined
+    found.into_iter().map(|(_, run)| run).collect()
+}
+
+/// What is joined from an end on, and the first of its members.
+fn follow(runs: &[Run], mates: &[usize], start: usize, used: &mut [bool]) -> (usize, Run) {
+    let mut end = start;
+    let mut whole = oriented(&runs[end / 2], end);
+    let mut first = end / 2;
+    // The entry of the run whose way the whole goes, by its id.
+    let mut leader = (whole.id, end);
+    used[end / 2] = true;
+    loop {
+        let mate = mates[end ^ 1];
+        if mate == usize::MAX {
+            break;
+        }
+        if used[mate / 2] {
+            whole.closed = true;
+            break;
+        }
+        used[mate / 2] = true;
+        first = first.min(mate / 2);
+        leader = leader.min((runs[mate / 2].id, mate));
+        extend(&mut whole, &oriented(&runs[mate / 2], mate));
+        end = mate;
+    }
+    if leader.1 % 2 == 1 {
+        reverse(&mut whole);
+    }
+    start_at_head(&mut whole);
+    (first, whole)
 }
 
 /// The run as travelled from an end.
 fn oriented(run: &Run, end: usize) -> Run {
     let mut run = run.clone();
     if end % 2 == 1 {
-        run.points.reverse();
+        reverse(&mut run);
     }
     run
+}
+
+fn reverse(run: &mut Run) {
+    run.points.reverse();
+    run.cut.reverse();
 }
 
 fn extend(run: &mut Run, more: &Run) {
@@ -187,13 +210,15 @@ fn extend(run: &mut Run, more: &Run) {
     run.points.extend_from_slice(&more.points[skip..]);
     run.id = run.id.min(more.id);
     run.occluders = run.occluders.min(more.occluders);
+    run.cut[1] = more.cut[1];
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::testing::run_along;
+    use crate::run::testing::{ring, run_along, straight};
     use crate::stroke::Kind;
+    use proptest::prelude::*;
 
     #[test]
     fn ends_that_go_on_are_joined() {
@@ -227,11 +252,11 @@ mod tests {
 
     #[test]
     fn the_two_ends_of_a_ring_close_it() {
-        let points: Vec<[f64; 2]> = (0..200)
-            .map(|i| f64::from(i) * std::f64::consts::TAU / 200.0)
-            .map(|a| [100.0 + 60.0 * a.cos(), 100.0 + 60.0 * a.sin()])
-            .collect();
-        let joined = merge_ends(vec![run_along(1, &points)], TOUCHING_PX);
+        let open = Run {
+            closed: false,
+            ..ring(1, 60.0, 200)
+        };
+        let joined = merge_ends(vec![open], TOUCHING_PX);
         assert!(joined[0].closed);
     }
 
@@ -242,5 +267,106 @@ mod tests {
         let beside = run_along(3, &[[20.0, 6.0], [50.0, 6.0]]);
         assert_eq!(merge_ends(vec![one.clone(), facing], FACING_PX).len(), 1);
         assert_eq!(merge_ends(vec![one, beside], FACING_PX).len(), 2);
+    }
+
+    #[test]
+    fn ends_cut_at_a_corner_stay_apart() {
+        let mut one = run_along(1, &[[0.0, 0.0], [20.0, 0.0]]);
+        let other = run_along(2, &[[20.0, 0.0], [40.0, 1.0]]);
+        one.cut = [false, true];
+        assert_eq!(merge_ends(vec![one, other], TOUCHING_PX).len(), 2);
+    }
+
+    /// Straight runs that crowd in a small picture, of two kinds, objects, visibilities and depths.
+    fn crowd() -> impl Strategy<Value = Vec<Run>> {
+        let place = prop::array::uniform2(0.0_f64..60.0);
+        let run = (place, 0.0_f64..6.3, 7.0_f64..40.0, any::<[bool; 4]>());
+        prop::collection::vec(run, 0..40).prop_map(|runs| {
+            let made = |(id, run): (u64, ([f64; 2], f64, f64, [bool; 4]))| {
+                let (from, angle, length, [kind, object, hidden, far]) = run;
+                let mut run = straight(id, from, angle, length);
+                run.kind = if kind { Kind::Contour } else { Kind::Crease };
+                run.object = u32::from(object);
+                run.occluders = u32::from(hidden);
+                let depth = if far { 1.02 } else { 1.0 };
+                run.points.iter_mut().for_each(|point| point.depth = depth);
+                run
+            };
+            (0..).zip(runs).map(made).collect()
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        /// No two ends are left that both fit each other better than what they got: tried on every pair.
+        #[test]
+        fn mates_choose_each_other(runs in crowd(), far: bool) {
+            let reach = if far { FACING_PX } else { TOUCHING_PX };
+            let ends = ends_of(&runs);
+            let mates = mates(&runs, &ends, reach);
+            let cost_of = |a: usize, b: usize| match b {
+                usize::MAX => f64::INFINITY,
+                _ => cost(&runs, &ends, [a.min(b), a.max(b)], reach).unwrap_or(f64::NAN),
+            };
+            for a in 0..ends.len() {
+                let own = cost_of(a, mates[a]);
+                prop_assert!(!own.is_nan() && (mates[a] == usize::MAX || mates[mates[a]] == a));
+                for (b, mate) in mates.iter().enumerate().skip(a + 1) {
+                    let both = cost_of(a, b);
+                    prop_assert!(!(both < own && both < cost_of(b, *mate)), "{} and {}", a, b);
+                }
+            }
+        }
+
+        /// Only ends of one kind, object, visibility and depth are joined, and none that are far apart.
+        #[test]
+        fn what_differs_is_never_joined(runs in crowd(), far: bool) {
+            let reach = if far { FACING_PX } else { TOUCHING_PX };
+            let ends = ends_of(&runs);
+            for (a, b) in mates(&runs, &ends, reach).into_iter().enumerate() {
+                if b == usize::MAX {
+                    continue;
+                }
+                let (one, other) = (&runs[a / 2], &runs[b / 2]);
+                prop_assert_eq!((one.kind, one.object, one.occluders), (other.kind, other.object, other.occluders));
+                let tip = |end: usize| {
+                    let points = &runs[end / 2].points;
+                    points[(end % 2) * (points.len() - 1)]
+                };
+                prop_assert!((tip(a).depth - tip(b).depth).abs() < 0.011);
+                prop_assert!(distance(tip(a).place, tip(b).place) <= reach);
+            }
+        }
+
+        /// The result hangs on the runs, not on their order.
+        #[test]
+        fn order_does_not_matter(runs in crowd(), seed: u64) {
+            let mut shuffled = runs.clone();
+            npr_mesh::testing::Random::new(seed).shuffle(&mut shuffled);
+            let joined = |runs| {
+                let mut joined = merge_ends(runs, FACING_PX);
+                joined.sort_by_key(|run| run.id);
+                joined
+            };
+            prop_assert_eq!(joined(runs), joined(shuffled));
+        }
+
+        /// A straight line broken in two is one again; not so where the halves lie at different depths.
+        #[test]
+        fn a_broken_line_is_mended(angle in 0.0_f64..6.3, parts in prop::array::uniform2(4.0_f64..90.0), gap in 0.0_f64..2.4, turned: bool, apart in 1.02_f64..9.0) {
+            let one = straight(1, [100.0; 2], angle, parts[0]);
+            let from = [angle.cos(), angle.sin()].map(|v| 100.0 + v * (parts[0] + gap));
+            let mut other = straight(2, from, angle, parts[1]);
+            if turned {
+                reverse(&mut other);
+            }
+            let joined = merge_ends(vec![one.clone(), other.clone()], TOUCHING_PX);
+            prop_assert_eq!(joined.len(), 1);
+            prop_assert!((joined[0].length() - parts[0] - parts[1] - gap).abs() < 1e-3);
+            prop_assert_eq!(joined[0].points[0], one.points[0], "it goes the way of the first");
+            other.points.iter_mut().for_each(|point| point.depth = apart);
+            prop_assert_eq!(merge_ends(vec![one, other], TOUCHING_PX).len(), 2);
+        }
     }
 }

@@ -1,7 +1,9 @@
 //! Runs: what is seen of a chain, cut where visibility, kind or surface changes.
 
+use crate::corner::start_at_head;
 use crate::graph::CurveGraph;
 use crate::project::Projector;
+use crate::rank::hash_key;
 use crate::stroke::Kind;
 use crate::visibility::{Piece, Span};
 use glam::DVec3;
@@ -53,6 +55,8 @@ pub struct Run {
     pub occluders: u32,
     /// The last point runs on to the first.
     pub closed: bool,
+    /// Its first and last point are where it was cut at a corner: nothing goes on there.
+    pub cut: [bool; 2],
     /// Factor on its width.
     pub weight: f64,
     /// At least two points.
@@ -124,7 +128,10 @@ pub fn runs(
     lines: &[Option<Line>],
 ) -> Vec<Run> {
     let mut found = Vec::new();
-    for chain in graph.chains() {
+    for mut chain in graph.chains() {
+        if graph.is_loop(&chain) {
+            start_at_anchor(graph, &mut chain);
+        }
         let (mut items, is_loop) = items(graph, lines, &chain);
         close_gaps(&mut items);
         let breaks: Vec<usize> = breaks(&items, is_loop);
@@ -134,7 +141,9 @@ pub fn runs(
             graph,
         };
         if breaks.is_empty() && !items.is_empty() {
-            found.push(maker.run(&items, true));
+            let mut run = maker.run(&items, true);
+            start_at_head(&mut run);
+            found.push(run);
             continue;
         }
         for (i, from) in breaks.iter().enumerate() {
@@ -149,6 +158,17 @@ pub fn runs(
     number(&mut found);
     found.retain(|run| run.points.len() >= if run.closed { 3 } else { 2 });
     found
+}
+
+/// Turns a loop so that it starts at the node on the mesh edge with the least hash, as [`crate::rank`] does; never at the
+/// first in the list, whose place means nothing.
+fn start_at_anchor(graph: &CurveGraph, chain: &mut [u32]) {
+    let anchor = |index: usize| {
+        let node = &graph.nodes[chain[index] as usize];
+        (hash_key(node.edge), node.t.to_bits())
+    };
+    let head = (0..chain.len()).min_by_key(|index| anchor(*index));
+    chain.rotate_left(head.unwrap_or(0));
 }
 
 /// The spans of a chain, and whether the last may run on to the first.
@@ -255,6 +275,7 @@ impl Maker<'_> {
                 .min()
                 .unwrap_or(0),
             closed,
+            cut: [false; 2],
             weight: 1.0,
             points,
         }
@@ -263,7 +284,7 @@ impl Maker<'_> {
     /// A mesh edge to hang an identity on: the one with the least hash, which most small changes leave in the run.
     fn anchor(&self, item: &Item<'_>) -> (u32, u64) {
         let edge = self.graph.nodes[item.node as usize].edge;
-        (hash(edge), u64::from(edge) << 3 | item.line.kind as u64)
+        (hash_key(edge), base_id(edge, item.line.kind))
     }
 
     fn point(&self, item: &Item<'_>, share: f64) -> RunPoint {
@@ -297,12 +318,9 @@ impl Maker<'_> {
     }
 }
 
-/// A well-mixed number from an edge [the finaliser of MurmurHash3].
-fn hash(edge: u32) -> u32 {
-    let mut h = edge ^ 0x9e37_79b9;
-    h = (h ^ h >> 16).wrapping_mul(0x85eb_ca6b);
-    h = (h ^ h >> 13).wrapping_mul(0xc2b2_ae35);
-    h ^ h >> 16
+/// Identity of the first run of a kind that hangs on an edge; the runs on one edge are told apart by eight bits below it.
+pub(crate) fn base_id(edge: u32, kind: Kind) -> u64 {
+    u64::from(edge) << 3 | kind as u64
 }
 
 /// Tells apart runs that hang on the same edge, in the order in which they lie along it.
@@ -343,8 +361,32 @@ pub(crate) mod testing {
             object: 0,
             occluders: 0,
             closed: false,
+            cut: [false; 2],
             weight: 1.0,
             points: places.iter().map(point).collect(),
         }
+    }
+    /// A closed contour around a circle about (200, 200).
+    pub fn ring(id: u64, radius: f64, count: usize) -> Run {
+        let step = std::f64::consts::TAU / count as f64;
+        let place = |i: usize| {
+            let a = i as f64 * step;
+            [200.0 + radius * a.cos(), 200.0 + radius * a.sin()]
+        };
+        let places: Vec<[f64; 2]> = (0..count).map(place).collect();
+        Run {
+            closed: true,
+            ..run_along(id, &places)
+        }
+    }
+
+    /// An open contour from a place in a direction, with points 1.5 px apart.
+    pub fn straight(id: u64, from: [f64; 2], angle: f64, length: f64) -> Run {
+        let count = (length / 1.5).ceil().max(1.0);
+        let place = |i: u32| {
+            let at = length * f64::from(i) / count;
+            [from[0] + at * angle.cos(), from[1] + at * angle.sin()]
+        };
+        run_along(id, &(0..=count as u32).map(place).collect::<Vec<_>>())
     }
 }

@@ -1,8 +1,9 @@
 //! Smooths runs without shrinking them, and leaves out what is too short to read.
 //!
-//! A run is cut at its corners, which are found before anything moves; every section is resampled and
+//! Corners are found before anything moves, and stay exactly where they are; every section between two is resampled and
 //! smoothed with its ends pinned by alternating steps in and out [Taubin 1995].
 
+use crate::corner::{PINNED_COS, corners};
 use crate::run::{Run, RunPoint, distance};
 use npr_core::math;
 use rayon::prelude::*;
@@ -17,65 +18,54 @@ const ROUNDS: u32 = 16;
 const IN: f64 = 0.5;
 const OUT: f64 = -0.526;
 
-/// Over how much of a run on either side a corner is judged, in pixels.
-const CORNER_PX: f64 = 8.0;
+/// Runs shorter than this are left out, in pixels. Parts cut at corners are not: the line that they are of goes on.
+pub(crate) const SPECK_PX: f64 = 3.0;
 
-/// Cosine of the turn from which a point is a corner: about 45 degrees.
-const CORNER_COS: f64 = 0.7;
-
-/// Runs shorter than this are left out; up to the second length they are thinned, in pixels.
-const SHORT_PX: [f64; 2] = [3.0, 10.0];
+/// Runs up to this length are thinned, in pixels; not so parts cut at corners.
+const SHORT_PX: f64 = 10.0;
 
 /// Smooths all runs in place and drops those too short to read; order is kept.
 ///
 /// O(length of all runs).
 pub fn smooth(runs: &mut Vec<Run>) {
-    runs.retain(|run| run.closed || run.length() >= SHORT_PX[0]);
+    runs.retain(|run| is_part(run) || run.length() >= SPECK_PX);
     runs.par_iter_mut().with_min_len(8).for_each(|run| {
-        let length = run.length();
+        if !is_part(run) {
+            run.weight = weight_of(run.length());
+        }
         run.points = smoothed(&run.points, run.closed);
-        run.weight = weight_of(length);
     });
     runs.retain(|run| run.points.len() >= if run.closed { 3 } else { 2 });
 }
 
+fn is_part(run: &Run) -> bool {
+    run.cut != [false; 2]
+}
+
 /// Short lines are thinner, so that they do not pop in and out in motion.
 fn weight_of(length: f64) -> f64 {
-    let [from, to] = SHORT_PX.map(|v| v as f32);
+    let [from, to] = [SPECK_PX, SHORT_PX].map(|v| v as f32);
     0.5 + 0.5 * f64::from(math::smoothstep(from, to, length as f32))
 }
 
-/// A polyline smoothed between its corners.
+/// A polyline smoothed between its corners; its first point stays the first.
 pub fn smoothed(points: &[RunPoint], closed: bool) -> Vec<RunPoint> {
-    let samples = resampled(points, closed);
+    if points.is_empty() {
+        return Vec::new();
+    }
+    let corners: Vec<usize> = corners(points, closed, PINNED_COS)
+        .iter()
+        .map(|corner| corner.point)
+        .collect();
+    let (samples, pins) = resampled(points, closed, &corners);
     if samples.len() < 4 {
         return samples;
     }
-    let corners = corners(&samples, closed);
     let mut places: Vec<[f64; 2]> = samples.iter().map(|sample| sample.place).collect();
-    if closed && corners.is_empty() {
+    if closed && pins.is_empty() {
         relax_loop(&mut places);
     } else {
-        // Turn a closed run so that it starts at a corner, and close it there.
-        let start = if closed { corners[0] } else { 0 };
-        let count = places.len();
-        let mut turned: Vec<[f64; 2]> = (0..count).map(|i| places[(start + i) % count]).collect();
-        let mut pins: Vec<usize> = corners
-            .iter()
-            .map(|c| (c + count - start) % count)
-            .collect();
-        if closed {
-            turned.push(turned[0]);
-        }
-        pins.extend([0, turned.len() - 1]);
-        pins.sort_unstable();
-        pins.dedup();
-        for pair in pins.windows(2) {
-            relax_section(&mut turned[pair[0]..=pair[1]]);
-        }
-        for i in 0..count {
-            places[(start + i) % count] = turned[i];
-        }
+        relax_between(&mut places, closed, pins);
     }
     samples
         .iter()
@@ -84,18 +74,60 @@ pub fn smoothed(points: &[RunPoint], closed: bool) -> Vec<RunPoint> {
         .collect()
 }
 
-/// Points at equal distances along a polyline, its ends included.
-fn resampled(points: &[RunPoint], closed: bool) -> Vec<RunPoint> {
+/// Smooths the sections between pins and the ends; a closed run has at least one pin.
+fn relax_between(places: &mut [[f64; 2]], closed: bool, mut pins: Vec<usize>) {
+    let count = places.len();
+    // Turn a closed run so that it starts at a corner, and close it there.
+    let start = if closed { pins[0] } else { 0 };
+    let mut turned: Vec<[f64; 2]> = (0..count).map(|i| places[(start + i) % count]).collect();
+    pins.iter_mut()
+        .for_each(|pin| *pin = (*pin + count - start) % count);
+    if closed {
+        turned.push(turned[0]);
+    }
+    pins.extend([0, turned.len() - 1]);
+    pins.sort_unstable();
+    pins.dedup();
+    for pair in pins.windows(2) {
+        relax_section(&mut turned[pair[0]..=pair[1]]);
+    }
+    for i in 0..count {
+        places[(start + i) % count] = turned[i];
+    }
+}
+
+/// Points at about equal distances along a polyline, its ends and corners included, and the indices of its corners.
+fn resampled(points: &[RunPoint], closed: bool, corners: &[usize]) -> (Vec<RunPoint>, Vec<usize>) {
     let mut path = points.to_vec();
     if closed {
         path.extend(points.first());
     }
-    let length: f64 = path
-        .windows(2)
-        .map(|p| distance(p[0].place, p[1].place))
-        .sum();
-    let count = (length / STEP_PX).ceil().clamp(1.0, 1e7) as usize;
     let mut samples = vec![path[0]];
+    let mut pins = Vec::with_capacity(corners.len());
+    let mut from = 0;
+    for corner in corners {
+        push_even(&path[from..=*corner], &mut samples);
+        pins.push(samples.len() - 1);
+        from = *corner;
+    }
+    push_even(&path[from..], &mut samples);
+    // The last sample of a closed run is its first.
+    if closed && samples.len() > 1 {
+        samples.pop();
+    }
+    (samples, pins)
+}
+
+/// Adds points at equal distances along a polyline, its end included; its start is there already.
+fn push_even(path: &[RunPoint], samples: &mut Vec<RunPoint>) {
+    let steps = path
+        .windows(2)
+        .map(|pair| distance(pair[0].place, pair[1].place));
+    let length: f64 = steps.sum();
+    if path.len() < 2 || length == 0.0 {
+        return;
+    }
+    let count = (length / STEP_PX).ceil().clamp(1.0, 1e7) as usize;
     let (mut passed, mut segment) = (0.0, 0);
     for k in 1..count {
         let target = length * k as f64 / count as f64;
@@ -112,10 +144,7 @@ fn resampled(points: &[RunPoint], closed: bool) -> Vec<RunPoint> {
         };
         samples.push(between(&path[segment], &path[segment + 1], share));
     }
-    if !closed {
-        samples.push(path[path.len() - 1]);
-    }
-    samples
+    samples.extend(path.last());
 }
 
 fn between(a: &RunPoint, b: &RunPoint, share: f64) -> RunPoint {
@@ -132,39 +161,6 @@ fn between(a: &RunPoint, b: &RunPoint, share: f64) -> RunPoint {
             nearer.t
         },
     }
-}
-
-/// Samples where the run turns sharply: the sharpest within its neighbourhood.
-fn corners(samples: &[RunPoint], closed: bool) -> Vec<usize> {
-    let reach = (CORNER_PX / STEP_PX).round() as usize;
-    let count = samples.len();
-    if count < 2 * reach + 1 {
-        return Vec::new();
-    }
-    let turn = |i: usize| -> f64 {
-        let at = |k: usize| samples[k % count].place;
-        if !closed && (i < reach || i + reach >= count) {
-            return 1.0;
-        }
-        let (before, here, after) = (at(i + count - reach), at(i), at(i + reach));
-        let (a, b) = (distance(before, here), distance(here, after));
-        if a == 0.0 || b == 0.0 {
-            return 1.0;
-        }
-        ((here[0] - before[0]) * (after[0] - here[0])
-            + (here[1] - before[1]) * (after[1] - here[1]))
-            / (a * b)
-    };
-    let turns: Vec<f64> = (0..count).map(turn).collect();
-    let is_sharpest = |i: usize| {
-        (1..=reach).all(|k| {
-            let (before, after) = ((i + count - k) % count, (i + k) % count);
-            turns[i] < turns[before] && turns[i] <= turns[after]
-        })
-    };
-    (0..count)
-        .filter(|i| turns[*i] < CORNER_COS && is_sharpest(*i))
-        .collect()
 }
 
 /// Smooths between the first and the last place, which stay.
@@ -206,7 +202,8 @@ fn stepped(before: [f64; 2], here: [f64; 2], after: [f64; 2], step: f64) -> [f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::testing::run_along;
+    use crate::corner::split;
+    use crate::run::testing::{ring, run_along};
     use proptest::prelude::*;
 
     fn circle(radius: f64, noise: f64) -> Vec<[f64; 2]> {
@@ -252,7 +249,46 @@ mod tests {
                 .iter()
                 .map(|p| distance(p.place, corner))
                 .fold(f64::MAX, f64::min);
-            prop_assert!(nearest < 1.0, "{}", nearest);
+            prop_assert_eq!(nearest, 0.0);
+        }
+
+        /// All corners of a polygon stay, and what is smoothed again stays too.
+        #[test]
+        fn polygons_keep_their_corners(count in 3_usize..7, radius in 20.0_f64..200.0, turned in 0_usize..7) {
+            let mut run = ring(1, radius, count);
+            run.points.rotate_left(turned % count);
+            let smooth = smoothed(&smoothed(&run.points, true), true);
+            prop_assert_eq!(smooth[0].place, run.points[0].place);
+            for corner in &run.points {
+                prop_assert!(smooth.iter().any(|p| p.place == corner.place), "{:?}", corner.place);
+            }
+        }
+
+        /// A circle keeps its size.
+        #[test]
+        fn circles_keep_their_size(radius in 10.0_f64..150.0) {
+            let run = ring(1, radius, 40 + (radius * 3.0) as usize);
+            let smooth = smoothed(&smoothed(&run.points, true), true);
+            for point in &smooth {
+                let off = distance(point.place, [200.0; 2]) - radius;
+                prop_assert!(off.abs() < 0.1, "{}", off);
+            }
+        }
+
+        /// Parts cut at a corner still meet there exactly after smoothing, however short they are.
+        #[test]
+        fn parts_meet_where_they_were_cut(turn in 1.1_f64..2.5, length in 8.5_f64..100.0) {
+            let corner = [100.0, 100.0];
+            let end = [100.0 + length * turn.cos(), 100.0 + length * turn.sin()];
+            let run = run_along(1, &[[100.0 - length, 100.0], corner, end]);
+            let mut parts = split(vec![run], 1.0);
+            prop_assert_eq!(parts.len(), 2);
+            smooth(&mut parts);
+            prop_assert_eq!(parts.len(), 2);
+            let last = parts[0].points.len() - 1;
+            prop_assert_eq!(parts[0].points[last].place, corner);
+            prop_assert_eq!(parts[1].points[0].place, corner);
+            prop_assert!(parts.iter().all(|part| part.weight == 1.0));
         }
     }
 

@@ -13,6 +13,7 @@ use npr_vector::graph::CurveNode;
 use npr_vector::project::Projector;
 use npr_vector::stroke::{Kind, Stroke};
 use proptest::prelude::*;
+use std::collections::BTreeSet;
 
 const SIZE: [u32; 2] = [400, 300];
 
@@ -32,6 +33,7 @@ fn settings(smooth: bool) -> LineSettings {
         method: Method::Edges,
         smooth,
         hidden: false,
+        split: None,
     }
 }
 
@@ -178,9 +180,11 @@ proptest! {
 
     /// Strokes are sound on any mesh from anywhere.
     #[test]
-    fn strokes_are_sound(mesh in any_mesh(), eye in any_eye(), smooth: bool, hidden: bool) {
+    fn strokes_are_sound(
+        mesh in any_mesh(), eye in any_eye(), smooth: bool, hidden: bool, split in prop::option::of(0.2_f32..3.0),
+    ) {
         let shape = shape_of(&mesh);
-        let settings = LineSettings { hidden, ..settings(smooth) };
+        let settings = LineSettings { hidden, split, ..settings(smooth) };
         let found = draw(&shape, eye, &settings);
         for stroke in &found {
             let least = if stroke.closed { 3 } else { 2 };
@@ -196,6 +200,55 @@ proptest! {
         ids.sort_unstable();
         ids.dedup();
         prop_assert_eq!(ids.len(), found.len(), "ids are unique");
+    }
+
+    /// Closed strokes hang on mesh edges: the same starts and ids whatever the order of faces in a file.
+    #[test]
+    fn closed_strokes_start_where_they_start(eye in any_eye(), seed: u64, smooth: bool) {
+        let mesh = testing::torus(12, 8, 1.0, 0.4);
+        let mut triangles = mesh.triangles().to_vec();
+        testing::Random::new(seed).shuffle(&mut triangles);
+        let shuffled = Mesh::new(mesh.positions().to_vec(), triangles).expect("a sound mesh");
+        let starts = |mesh: &Mesh| {
+            let found = draw(&shape_of(mesh), eye, &settings(smooth));
+            let closed = found.iter().filter(|stroke| stroke.closed);
+            let mut starts: Vec<_> = closed.map(|s| (s.id, s.points[0].position)).collect();
+            starts.sort_by_key(|(id, _)| *id);
+            starts
+        };
+        prop_assert_eq!(starts(&mesh), starts(&shuffled));
+    }
+
+    /// A square gives four strokes that end exactly at its corners, with ids of their own that the camera does not change.
+    #[test]
+    fn a_square_is_split_at_its_corners(steps in 1_u32..6, x in -1.0_f32..1.0, y in -1.0_f32..1.0, smooth: bool) {
+        let mesh = testing::mapped(&testing::plane(steps, steps), |[x, y, _]| {
+            [x - 0.5, y - 0.5, 0.0]
+        });
+        let shape = shape_of(&mesh);
+        let kinds = CurveNode::BOUNDARY;
+        let never = LineSettings { kinds, ..settings(smooth) };
+        prop_assert_eq!(draw(&shape, [x, y, 4.0], &never).len(), 1);
+        let split = LineSettings { split: Some(1.0), ..never };
+        let found = draw(&shape, [x, y, 4.0], &split);
+        prop_assert_eq!(found.len(), 4);
+        let projector = Projector::new(&camera([x, y, 4.0]), SIZE, bounds(&shape));
+        for stroke in &found {
+            prop_assert!(!stroke.closed);
+            for end in [stroke.points[0], stroke.points[stroke.points.len() - 1]] {
+                let corner = |v: &[f32; 3]| v[0].abs() == 0.5 && v[1].abs() == 0.5;
+                let apart = |v: &[f32; 3]| {
+                    let place = projector.project(v.map(f64::from).into());
+                    (place[0] - end.position[0]).hypot(place[1] - end.position[1])
+                };
+                let corners = shape.positions.iter().filter(|v| corner(v));
+                let nearest = corners.map(apart).fold(f64::MAX, f64::min);
+                prop_assert!(nearest < 1e-3, "{} px off the corner", nearest);
+            }
+        }
+        let ids = |strokes: &[Stroke]| strokes.iter().map(|s| s.id).collect::<BTreeSet<u64>>();
+        prop_assert_eq!(ids(&found).len(), 4);
+        prop_assert_eq!(ids(&found), ids(&draw(&shape, [y, -x, 3.5], &split)));
     }
 
     /// Length and kinds of what is seen do not depend on the order of vertices in a file.
@@ -273,6 +326,21 @@ fn a_sphere_is_one_circle() {
         let [dx, dy] = [point.position[0] - 200.0, point.position[1] - 150.0];
         let off = (dx * dx + dy * dy).sqrt() - radius;
         assert!(off.abs() < 0.6, "{off} px off the circle");
+    }
+}
+
+#[test]
+fn a_smooth_outline_is_never_split() {
+    let shape = shape_of(&testing::icosphere(5));
+    for (method, split) in [(Method::Surface, 0.2), (Method::Edges, 1.0)] {
+        let split = LineSettings {
+            method,
+            split: Some(split),
+            ..settings(true)
+        };
+        let found = draw(&shape, [0.3, 0.2, 4.0], &split);
+        assert_eq!(found.len(), 1, "by {method:?}");
+        assert!(found[0].closed);
     }
 }
 

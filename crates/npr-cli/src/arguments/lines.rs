@@ -46,6 +46,10 @@ pub struct LineArguments {
     /// it says otherwise].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = crease_angle)]
     pub crease: Option<f32>,
+    /// Angle, in degrees, from which a stroke is cut where it turns sharply; 180 never [default: the style's, 180
+    /// unless it says otherwise].
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = split_angle)]
+    pub split: Option<f32>,
     /// How contours are found.
     #[arg(long, value_enum, default_value_t)]
     pub method: MethodName,
@@ -149,9 +153,19 @@ fn page(text: &str) -> Result<Page, String> {
 
 /// An angle in degrees between the normals of two faces.
 fn crease_angle(text: &str) -> Result<f32, String> {
+    degrees(text, 0.0)
+}
+
+/// An angle in degrees by which a stroke turns.
+fn split_angle(text: &str) -> Result<f32, String> {
+    degrees(text, 10.0)
+}
+
+/// An angle from the least to 180 degrees.
+fn degrees(text: &str, least: f32) -> Result<f32, String> {
     match text.parse::<f32>() {
-        Ok(degrees) if (0.0..=180.0).contains(&degrees) => Ok(degrees),
-        Ok(_) => Err("must lie between 0 and 180 degrees".to_owned()),
+        Ok(degrees) if (least..=180.0).contains(&degrees) => Ok(degrees),
+        Ok(_) => Err(format!("must lie between {least} and 180 degrees")),
         Err(_) => Err("must be a number of degrees".to_owned()),
     }
 }
@@ -172,9 +186,12 @@ mod tests {
     #[test]
     fn angles_and_fractions_have_bounds() {
         assert_eq!(crease_angle("40"), Ok(40.0));
+        assert_eq!(split_angle("180"), Ok(180.0));
+        assert!(split_angle("9").is_err());
         assert_eq!(weld_tolerance("1e-6"), Ok(1e-6));
         for text in ["-1", "181", "nan", "inf", "sharp", ""] {
             assert!(crease_angle(text).is_err(), "{text}");
+            assert!(split_angle(text).is_err(), "{text}");
             assert!(weld_tolerance(text).is_err(), "{text}");
         }
     }

@@ -116,6 +116,10 @@ fn wrong_options_exit_with_2_and_leave_nothing() {
             "between 0 and 180",
         ),
         (
+            &["lines", "scene.obj", "--split", "5"],
+            "between 10 and 180",
+        ),
+        (
             &["lines", "scene.obj", "--method", "potrace"],
             "surface, edges",
         ),
@@ -321,6 +325,17 @@ fn only_the_kinds_asked_for_are_written() {
     };
     assert_eq!(kinds_of("boundary"), ["boundary"]);
     assert!(kinds_of("crease,material,intersection").is_empty());
+}
+
+#[test]
+fn strokes_are_split_by_option_or_by_style() {
+    let place = Workplace::with_scene();
+    let count = |more: &[&str]| strokes(&data(&place, "scene.obj", more)).len();
+    assert_eq!(count(&[]), 1);
+    assert_eq!(count(&["--split", "60"]), 3);
+    assert_eq!(count(&["--set", "line.split_angle_deg=60"]), 3);
+    let over = ["--set", "line.split_angle_deg=60", "--split", "180"];
+    assert_eq!(count(&over), 1);
 }
 
 #[test]

@@ -97,6 +97,10 @@ pub struct LineOptions {
     pub smooth: bool,
     /// Whether hidden lines are given too, each with the number of surfaces in front; default false.
     pub hidden: bool,
+    /// Turn, in radians, from which strokes are cut at a corner, both parts ending exactly there; default never.
+    ///
+    /// Brushes taper at the ends of strokes: 60 degrees gives a box strokes along its sides instead of one around it.
+    pub split: Option<f32>,
     /// Whether visible surfaces are given as regions of flat colour; default false.
     pub fill: bool,
     /// Pixels per inch, for widths in millimetres; default 96.
@@ -115,19 +119,26 @@ impl LineOptions {
             method: LineMethod::default(),
             smooth: true,
             hidden: false,
+            split: None,
             fill: false,
             dpi: 96.0,
         }
     }
 
-    /// The lines that a style asks for: its kinds, and its angle of creases.
+    /// The lines that a style asks for: its kinds, its angle of creases, and that of corners where strokes are cut.
     ///
     /// The style's own `line.method` is a matter of pictures and plays no part.
     pub fn of_style(style: &Style, size: [u32; 2]) -> Self {
         Self {
             kinds: KindSet::of_style(style),
             crease: style.line.crease_angle_deg.to_radians(),
+            split: Self::split_at(style.line.split_angle_deg),
             ..Self::new(size)
         }
+    }
+
+    /// What [`LineOptions::split`] is for an angle in degrees: no line turns by more than 180, which stands for never.
+    pub fn split_at(angle_deg: f32) -> Option<f32> {
+        (angle_deg < 180.0).then(|| angle_deg.to_radians())
     }
 }
