@@ -19,8 +19,8 @@ override WG: u32 = 64u;
 const TAP_COUNT: u32 = 4u;
 // From one place that is looked at to the next, in grid pixels.
 const TAP_STEP_PX: f32 = 0.75;
-const SLOPE_PIXELS: f32 = 2.0;
-const LARGEST_SLOPE: f32 = 16.0;
+const SLOPE_PIXELS: f32 = 0.5;
+const LARGEST_SLOPE: f32 = 2.0;
 const DEPTH_ROUNDING: f32 = 1.0 / 65536.0;
 
 // Depth of a pixel's plane at a place beside the pixel's centre.

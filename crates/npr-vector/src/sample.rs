@@ -27,11 +27,13 @@ pub const TAP_STEP_PX: f32 = 0.75;
 
 /// How many pixels off a depth on a slope of the sample's own part may be.
 ///
-/// A spine runs where its own surface turns away, so the depth under it may come from the next pixel of a steep slope.
-pub const SLOPE_PIXELS: f32 = 2.0;
+/// A spine runs where its own surface turns away, so the depth under it may come from the next pixel of a steep slope. The pixel's
+/// plane is continued up to half a pixel; as much again is what it may be wrong by. More shows lines just behind a limb of
+/// their own part: of a helmet's samples 97.0 % agree with exact visibility at one half, 96.3 % at one, 93.4 % at two.
+pub const SLOPE_PIXELS: f32 = 0.5;
 
 /// Steeper slopes than this, in depth per pixel of a pixel's size, count as this: the limb of a ball has no bound.
-pub const LARGEST_SLOPE: f32 = 16.0;
+pub const LARGEST_SLOPE: f32 = 2.0;
 
 /// Difference of depths, as a fraction of depth, that rounding explains.
 pub const DEPTH_ROUNDING: f32 = 1.0 / 65536.0;
@@ -244,8 +246,8 @@ mod tests {
 
     #[test]
     fn its_own_slope_does_not_hide_a_line() {
-        assert_eq!(share(true, |_| pixel(3.9, 0)), 1.0);
-        assert_eq!(share(true, |_| pixel(3.9, 1)), 0.0);
+        assert_eq!(share(true, |_| pixel(3.97, 0)), 1.0);
+        assert_eq!(share(true, |_| pixel(3.97, 1)), 0.0);
     }
 
     #[test]

@@ -18,19 +18,19 @@ use std::path::{Path, PathBuf};
 const SIZE: [u32; 2] = [960, 540];
 
 /// Samples to both sides that are averaged.
-const RADIUS: u32 = 4;
+const RADIUS: u32 = 2;
 
 /// Models that are measured, with the least share of samples that must be judged as exactly; those that are not beside the
 /// checkout are left out.
 const LEAST: [(&str, f64); 9] = [
     ("cube_plane.glb", 0.99),
-    ("still_life.glb", 0.94),
-    ("teapot_box_plane.glb", 0.95),
+    ("still_life.glb", 0.97),
+    ("teapot_box_plane.glb", 0.96),
     ("two_balls.glb", 0.99),
-    ("stanford_bunny.glb", 0.82),
-    ("flight_helmet.glb", 0.93),
+    ("stanford_bunny.glb", 0.9),
+    ("flight_helmet.glb", 0.965),
     ("utah_teapot.glb", 0.98),
-    ("suzanne.glb", 0.96),
+    ("suzanne.glb", 0.97),
     ("cad_tray.glb", 0.98),
 ];
 
@@ -117,7 +117,8 @@ fn judge(on: &Surroundings<'_>, chains: &[Chain<'_>]) -> Score {
     score
 }
 
-/// Measured: see `LEAST`; every model agrees at least so far, rounded down.
+/// Measured at 960 x 540: 0.904 of the bunny's samples, whose short lines lie close behind others, and 0.966 and more of every
+/// other model's; of the still life's 0.979, in 316 visible runs, as many as there are.
 #[test]
 fn samples_agree_with_exact_visibility() {
     let found: Vec<PathBuf> = samples().into_iter().chain(models()).collect();
