@@ -4,6 +4,10 @@
 const NO_HATCH: f32 = 0.5;
 // Drawings to an octave.
 const STEPS: f32 = 3.0;
+// How much the deep tones of a blend are raised, and its light ones lowered.
+const BLEND_LIFT: f32 = 3.4;
+// Least S on the ridge of a stroke that is about to go, as a part of what comes in its place.
+const RIDGE: f32 = 0.16;
 // Least luminance of the shade ramp, above half the threshold, where there is hatch but no ink.
 const OPEN_PAPER: f32 = 0.08;
 
@@ -74,7 +78,9 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>) -> f32 {
     if (flags & PART_HATCH) != 0u { hatching = hatching_of(part, place_in_hatch(id, part, weights, places)); }
     // Beyond a silhouette the surface runs on to anywhere.
     let darkens = clamp(2.0 * vec2<f32>(l[1] - l[0], l[2] - l[0]), vec2<f32>(-1.0), vec2<f32>(1.0));
-    let slope = length(hatching.slope + darkens);
+    var slope = length(hatching.slope + darkens);
+    // On the ridge of a stroke S is flat, and a hairline would be all ink in one pixel and none in the next.
+    if (flags & PART_HATCH) != 0u { slope = max(slope, 1.0 / parts[part].spacing_px); }
     return ink_coverage(tone_value(hatching.s, l[0]), slope, parts[part].threshold);
 }
 
@@ -108,7 +114,7 @@ fn hatching_of(part: u32, place: Place) -> Hatching {
     var hatching = hatch_layer(part, place);
     if (parts[part].flags & PART_TWO_LAYERS) != 0u {
         var crossed: Place;
-        crossed.uv = place.uv.yx;
+        crossed.uv = place.uv.yx + 0.5;
         crossed.right = place.right.yx;
         crossed.down = place.down.yx;
         let second = hatch_layer(part, crossed);
@@ -159,14 +165,17 @@ fn hatch_layer(part: u32, place: Place) -> Hatching {
     return hatching;
 }
 
-// Hatch luminance of a texel's four drawings at `f` between its level and the next: the harmonic mean of two of them.
+// Hatch luminance of a texel's four drawings at `f` between its level and the next: harmonic means of strokes and of white.
 fn hatch_luminance(texel: vec4<f32>, f: f32) -> f32 {
     let place = f * STEPS;
     let step = min(u32(place), 2u);
     let t = place - f32(step);
-    let near = texel[step];
-    let far = texel[step + 1u];
-    return near * far / (far * (1.0 - t) + near * t);
+    let near = max(texel[step], RIDGE * t * texel[step + 1u]);
+    let far = max(texel[step + 1u], RIDGE * (1.0 - t) * texel[step]);
+    let strokes = near * far / mix(far, near, t);
+    let white = (1.0 - near) * (1.0 - far) / mix(1.0 - far, 1.0 - near, t);
+    let s = mix(strokes, 1.0 - white, strokes);
+    return s + BLEND_LIFT * t * (1.0 - t) * s * s * (1.0 - s) * (s - 0.45);
 }
 
 fn hatch_at(first: u32, side: u32, x: i32, y: i32, f: f32) -> f32 {

@@ -54,6 +54,47 @@ fn models_look_alike_in_the_everyday_presets() {
     check(pictures);
 }
 
+/// Figures that the looks of comics are judged by, where the shared models are there.
+const FIGURES: [&str; 6] = [
+    "flight_helmet.glb",
+    "godette_vrm1.vrm",
+    "robot_animated.glb",
+    "shader_ball.glb",
+    "human_body.glb",
+    "nefertiti_70k.glb",
+];
+
+const COMIC_LOOKS: [&str; 8] = [
+    "comic-silver",
+    "comic-modern",
+    "crosshatch",
+    "stipple",
+    "pencil",
+    "screentone",
+    "cel-2",
+    "cel-3",
+];
+
+#[test]
+fn figures_look_alike_in_the_looks_of_comics() {
+    let styles = COMIC_LOOKS.map(|name| (name, Style::preset(name).unwrap()));
+    let figures = models().into_iter().filter(|path| {
+        let file = path.file_name().unwrap_or_default().to_string_lossy();
+        FIGURES.contains(&file.as_ref())
+    });
+    let pictures = samples().into_iter().chain(figures).flat_map(|path| {
+        let scene = npr_scene::load(&path, &npr_scene::LoadOptions::default()).unwrap();
+        let model = Model::new(&scene).unwrap();
+        let file = path.file_name().unwrap().to_string_lossy().into_owned();
+        styles.each_ref().map(|(name, style)| {
+            let what = format!("{file} {name}");
+            let agreement = agreement(&what, &model, style, [480, 270]);
+            (what, agreement)
+        })
+    });
+    check(pictures);
+}
+
 #[test]
 fn samples_look_alike_in_every_method() {
     let names = ["teapot_box_plane.glb", "still_life.glb"];

@@ -55,6 +55,11 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     let camera = viewpoint::camera(&job.said.drawing.camera, &model, job.said.drawing.size)?;
     let drawn = draw_frame(job, &model, &camera, progress)?;
     let frame = &drawn.picture;
+    progress.suspend(|| {
+        for notice in &frame.notices {
+            message::warn(job.said.drawing.quiet, notice);
+        }
+    });
     let keep_alpha = job.look.is_transparent();
     let bytes = progress.step("encode", || {
         encoder::png(frame.size, &frame.rgba, keep_alpha)

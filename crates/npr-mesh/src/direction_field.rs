@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use crate::curvature::{Curvature, curvature};
 use crate::smoothing::vertex_areas;
 use complex::Complex;
-use hierarchy::{Level, Link, View};
+use hierarchy::{Level, View};
 use nodes::Nodes;
 
 /// What strokes on a part follow.
@@ -71,14 +71,10 @@ pub(crate) fn directions(
 ) -> Vec<Vec3> {
     let frames: Vec<Frame> = nodes.normals.par_iter().map(|&n| Frame::new(n)).collect();
     let pulls = pulls(nodes, &frames, guide_of_part, reach);
-    let views: Vec<Vec<Link<1>>> = (0..nodes.count())
-        .into_par_iter()
-        .map(|node| {
-            let seen = |&to: &u32| frames[node].view(&frames[to as usize], to);
-            nodes.neighbours_of(node).iter().map(seen).collect()
-        })
-        .collect();
-    let lines = Level::new(nodes.starts.clone(), views.concat(), pulls).solve(rounds);
+    let lines = Level::new(nodes, pulls, |node, other| {
+        frames[node].view(&frames[other])
+    });
+    let lines = lines.solve(rounds);
     let direction = |(frame, &[line]): (&Frame, &[Complex; 1])| frame.along(line);
     frames.par_iter().zip(&lines).map(direction).collect()
 }
@@ -111,16 +107,12 @@ impl Frame {
         self.u * re + self.v * im
     }
 
-    /// How lines of the node `to` with frame `other` look from here.
-    fn view(&self, other: &Self, to: u32) -> Link<1> {
+    /// How lines of a node with frame `other` look from here.
+    fn view(&self, other: &Self) -> View<1> {
         let turned = turned(other.u, other.normal, self.normal);
-        let turn = self.line(turned).unit().unwrap_or(Complex::ONE);
-        Link {
-            to,
-            view: View {
-                flips: false,
-                turns: [turn],
-            },
+        View {
+            flips: false,
+            turns: [self.line(turned).unit().unwrap_or(Complex::ONE)],
         }
     }
 }

@@ -26,6 +26,8 @@
 
 mod corners;
 mod phases;
+#[cfg(test)]
+mod tests;
 
 use npr_core::geometry::Triangle;
 use rayon::prelude::*;
@@ -56,7 +58,7 @@ pub struct ChartSettings {
     /// Distance, in tiles, over which directions even out; 1 by default. At 0.3 strokes follow every dent, at 4
     /// they sweep over the whole figure.
     pub smoothing_tiles: f32,
-    /// Sweeps of averaging on each level; 8 by default. Fewer leave more strokes that fork.
+    /// Sweeps of averaging on each level; 4 by default. More even out spacing on rough scans only a little.
     pub rounds: u32,
 }
 
@@ -67,7 +69,7 @@ impl Default for ChartSettings {
             crease_cos: 0.766,
             guides: Vec::new(),
             smoothing_tiles: 1.0,
-            rounds: 8,
+            rounds: 4,
         }
     }
 }
@@ -82,6 +84,9 @@ pub struct StrokeChart {
     pub corners: Vec<[[f32; 2]; 3]>,
     /// Triangles in which a stroke ends or directions turn round: there neighbours do not agree.
     pub singular_triangles: u32,
+    /// Those of them in which directions turn round: strokes bend about such a point, or fan out from it. A sphere
+    /// has at least four, a torus needs none.
+    pub turning_triangles: u32,
     /// Mean over the area of the length by which the coordinates' gradients, in 1 / tile, miss unit vectors across and
     /// along the strokes.
     pub gradient_error: f32,
@@ -100,6 +105,12 @@ pub struct StrokeChart {
 ///
 /// If a triangle names a vertex that does not exist.
 pub fn stroke_chart(surface: &ChartInput, settings: &ChartSettings) -> StrokeChart {
+    let (nodes, lifted) = lift_faces(surface, settings);
+    gather(&nodes.faces, &lifted, surface.triangles.len())
+}
+
+/// The nodes of a surface, and the coordinates of every triangle that has an area.
+fn lift_faces(surface: &ChartInput, settings: &ChartSettings) -> (Nodes, Vec<Lifted>) {
     let scale = if settings.tile_world > 0.0 {
         1.0 / f64::from(settings.tile_world)
     } else {
@@ -120,7 +131,7 @@ pub fn stroke_chart(surface: &ChartInput, settings: &ChartSettings) -> StrokeCha
         settings.rounds,
     );
     let phases = phases(&nodes, &directions, settings.rounds);
-    let lifted: Vec<Lifted> = nodes
+    let lifted = nodes
         .corners
         .par_iter()
         .map(|&corners| {
@@ -130,16 +141,16 @@ pub fn stroke_chart(surface: &ChartInput, settings: &ChartSettings) -> StrokeCha
             lift(sites, phases, anchor.map_or(0, |(k, _)| k))
         })
         .collect();
-    gather(&nodes.faces, &lifted, surface.triangles.len())
+    (nodes, lifted)
 }
 
 /// The chart of all triangles from that of those with an area.
 fn gather(faces: &[u32], lifted: &[Lifted], triangle_count: usize) -> StrokeChart {
     let mut corners = vec![[[0.0; 2]; 3]; triangle_count];
-    let (mut error, mut area, mut singular_triangles) = (0.0, 0.0, 0);
+    let (mut error, mut area) = (0.0, 0.0);
+    let count = |of: fn(&Lifted) -> bool| lifted.iter().filter(|&one| of(one)).count() as u32;
     for (&face, lifted) in faces.iter().zip(lifted) {
         corners[face as usize] = lifted.corners.map(|corner| corner.to_array());
-        singular_triangles += u32::from(lifted.singular);
         if lifted.gradient_error.is_finite() && lifted.area.is_finite() {
             error += f64::from(lifted.gradient_error) * f64::from(lifted.area);
             area += f64::from(lifted.area);
@@ -147,7 +158,8 @@ fn gather(faces: &[u32], lifted: &[Lifted], triangle_count: usize) -> StrokeChar
     }
     StrokeChart {
         corners,
-        singular_triangles,
+        singular_triangles: count(|lifted| lifted.singular),
+        turning_triangles: count(|lifted| lifted.turning),
         gradient_error: if area > 0.0 {
             (error / area) as f32
         } else {

@@ -11,6 +11,8 @@ pub struct Frame {
     pub rgba: Vec<u8>,
     /// Time per pass in running order, summed over tiles.
     pub times: Vec<PassTime>,
+    /// What was drawn in another way than the style asks, for the user.
+    pub notices: Vec<String>,
 }
 
 impl Frame {
@@ -21,6 +23,7 @@ impl Frame {
             size,
             rgba: vec![0; count],
             times: Vec::new(),
+            notices: Vec::new(),
         }
     }
 

@@ -19,16 +19,23 @@ const TILES_PER_UV: f32 = 4.0;
 /// camera may come five times nearer, and go twelve times farther, before strokes change their size.
 const TILE_RADII: f32 = 0.25;
 
+/// What ink and hatching need beside the parts.
+#[derive(Debug, Default)]
+pub(crate) struct Inked {
+    /// Stroke charts, a triangle each; empty where no part is hatched along its surface.
+    pub charts: Vec<ChartCorners>,
+    /// What was done in another way than the style asks, for the user.
+    pub notices: Vec<String>,
+}
+
 /// Gives `parts` their ink and adds the tiles they need to `textures`.
-///
-/// Returns the stroke chart, a triangle each; empty where no part is hatched along its surface.
 pub(crate) fn add_ink(
     model: &Model,
     style: &Style,
     frame: &FrameScale,
     parts: &mut [Part],
     textures: &mut TextureStore,
-) -> Vec<ChartCorners> {
+) -> Inked {
     let mut tiles = Tiles {
         textures,
         made: Vec::new(),
@@ -41,11 +48,32 @@ pub(crate) fn add_ink(
         set_ink(part, info, &ink, frame, &mut tiles);
         guides.push(guide_of(&ink));
     }
-    if parts.iter().any(|part| part.flags & Part::ON_SURFACE != 0) {
-        charts(model, guides, style)
-    } else {
-        Vec::new()
+    let charted = parts.iter().any(|part| part.flags & Part::ON_SURFACE != 0);
+    let unmapped = model.parts.iter().zip(parts.iter()).find(|(info, part)| {
+        part.flags & Part::ON_SURFACE != 0 && !info.has_uvs && wants_uvs(style, info)
+    });
+    Inked {
+        charts: if charted {
+            charts(model, guides, style)
+        } else {
+            Vec::new()
+        },
+        notices: unmapped
+            .map(|(info, _)| {
+                format!(
+                    "hatching follows the surface of '{}' and others: they have no UV coordinates",
+                    info.object_name
+                )
+            })
+            .into_iter()
+            .collect(),
     }
+}
+
+/// Whether a style asks for hatching by UV coordinates on a part.
+fn wants_uvs(style: &Style, info: &PartInfo) -> bool {
+    let look = style.resolve_for(&info.material_name, &info.object_name);
+    look.ink.mapping == Mapping::Uv
 }
 
 /// How lengths of a style become pixels of a frame.

@@ -1,11 +1,11 @@
 //! A style applied to a model: the numbers that passes read.
 
-use crate::hatching::{FrameScale, add_ink};
+use crate::hatching::{FrameScale, Inked, add_ink};
 use crate::model::{Model, PartInfo};
 use crate::stage::StageOptions;
 use glam::Vec3;
 use npr_core::camera::Camera;
-use npr_core::geometry::{ChartCorners, NONE, Part, Vertex};
+use npr_core::geometry::{NONE, Part, Vertex};
 use npr_core::math;
 use npr_core::outline::{Outline, width_of_curvature};
 use npr_core::texture::{self, TextureStore, Wrap};
@@ -18,12 +18,12 @@ use npr_style::{
 };
 
 /// Everything a style decides before the camera is known.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct StyledModel {
     pub vertices: Vec<Vertex>,
     pub parts: Vec<Part>,
-    /// Stroke charts, a triangle each; empty where no part is hatched along its surface.
-    pub charts: Vec<ChartCorners>,
+    /// Stroke charts, and what was done in another way than asked.
+    pub inked: Inked,
     pub textures: TextureStore,
     /// Header of the background picture, or [`NONE`].
     pub background_texture: u32,
@@ -45,14 +45,14 @@ impl StyledModel {
             dpi: options.dpi,
             world_px: options.size[1] as f32 * 0.5 / model.radius(),
         };
-        let charts = add_ink(model, style, &frame, &mut parts, &mut textures);
+        let inked = add_ink(model, style, &frame, &mut parts, &mut textures);
         if parts.is_empty() {
             parts.push(Part::default());
         }
         Self {
             vertices: styled_vertices(model, style, options),
             parts,
-            charts,
+            inked,
             textures,
             background_texture,
         }

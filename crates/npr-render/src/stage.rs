@@ -120,7 +120,7 @@ impl<'a> Stage<'a> {
             joints: model.palette.len(),
             triangles: model.triangles.len(),
             edges: model.edges.len(),
-            charts: styled.charts.len(),
+            charts: styled.inked.charts.len(),
             parts: styled.parts.len(),
             texel_words: styled.textures.words().len(),
         };
@@ -163,9 +163,14 @@ impl<'a> Stage<'a> {
         write(session, plan.palette, &model.palette)?;
         write(session, plan.triangles, &model.triangles)?;
         write(session, plan.edges, &model.edges)?;
-        write(session, plan.charts, &styled.charts)?;
+        write(session, plan.charts, &styled.inked.charts)?;
         write(session, plan.parts, &styled.parts)?;
         write(session, plan.texels, styled.textures.words())
+    }
+
+    /// What is drawn in another way than the style asks, for the user.
+    pub fn notices(&self) -> &[String] {
+        &self.styled.inked.notices
     }
 
     /// Draws the model as a camera sees it.
@@ -204,6 +209,7 @@ impl<'a> Stage<'a> {
         let lights = look::lights(&self.style, camera);
         write(session, self.plan.lights, &[lights])?;
         let mut frame = Frame::new(self.options.size);
+        frame.notices.extend_from_slice(self.notices());
         for origin in self.tiles.origins() {
             self.draw_tile(&view, origin, &mut frame)?;
         }

@@ -11,7 +11,8 @@
 //! three to each doubling of the distance. Each has the cube root of two fewer strokes per side than the
 //! one before and draws them as much larger, so on screen both look alike. Level `l` of the tile
 //! has half the texels per side of the level before; its four channels are drawings `3 l` to `3 l + 3`,
-//! and [`hatch_luminance`] blends the two next to the wanted size.
+//! and [`hatch_luminance`] blends the two next to the wanted size. Tonal art maps [Praun et al. 2001] nest
+//! their strokes the same way, in size and in tone; here tone is a threshold.
 //!
 //! # What stays true
 //!
@@ -46,8 +47,8 @@ use crate::Length;
 pub use picture::{PICTURE_SIDE_MAX, Picture, from_image};
 pub use tile::{HatchError, HatchTile, SIDE_MAX, SIDE_MIN, levels};
 pub use tone::{
-    HatchSample, cross_layers, detail, hatch_luminance, ink_coverage, level_at, sample,
-    second_layer_start, sharpen, tone_value,
+    HatchSample, cross_layers, cross_luminance, detail, edge_gradient, hatch_luminance,
+    ink_coverage, level_at, sample, second_layer_start, sharpen, tone_value,
 };
 
 /// What shadows are drawn with.
@@ -61,7 +62,7 @@ pub enum Pattern {
     Cross,
     /// Dots set by hand, evenly but in no order.
     Stipple,
-    /// A printer's screen: dots in rows at 45 degrees.
+    /// A printer's screen: dots in rows, upright and at 45 degrees by turns with the distance.
     Dots,
     /// Shaky strokes that catch on the grain of the paper.
     Pencil,
@@ -70,7 +71,7 @@ pub enum Pattern {
 }
 
 impl Pattern {
-    /// Layers that shading evaluates: the second with u and v exchanged, see [`cross_layers`].
+    /// Layers that shading evaluates: the second with u and v exchanged, see [`cross_luminance`].
     pub fn layer_count(self) -> u32 {
         match self {
             Self::Cross => 2,

@@ -4,7 +4,9 @@
 //! white by a threshold [Suzuki 2004, section 3.3, eq. 3.3]. So strokes swell as it gets darker, and merge into ink.
 
 use crate::compose::Layers;
-use crate::hatch::{cross_layers, detail, ink_coverage, level_at, sample, sharpen, tone_value};
+use crate::hatch::{
+    cross_layers, detail, edge_gradient, ink_coverage, level_at, sample, sharpen, tone_value,
+};
 use crate::tone::Corners;
 use npr_core::geometry::{ChartCorners, Part, Triangle};
 use npr_core::raster::ID_MASK;
@@ -71,11 +73,11 @@ struct Place {
 }
 
 impl Place {
-    /// The same with strokes across: u and v exchanged.
+    /// The same with strokes across: u and v exchanged, from another place of the tile.
     fn crossed(self) -> Self {
         let swap = |[u, v]: [f32; 2]| [v, u];
         Self {
-            uv: swap(self.uv),
+            uv: swap(self.uv).map(|at| at + 0.5),
             right: swap(self.right),
             down: swap(self.down),
         }
@@ -119,7 +121,12 @@ impl Layers<'_> {
             hatching.slope[0] + (2.0 * (l[1] - l[0])).clamp(-1.0, 1.0),
             hatching.slope[1] + (2.0 * (l[2] - l[0])).clamp(-1.0, 1.0),
         ];
-        ink_coverage(tone_value(hatching.s, l[0]), length(slope), part.threshold)
+        let slope = if part.flags & Part::HATCH != 0 {
+            edge_gradient(length(slope), part.spacing_px)
+        } else {
+            length(slope)
+        };
+        ink_coverage(tone_value(hatching.s, l[0]), slope, part.threshold)
     }
 
     /// Where a pixel and its neighbours to the right and below lie in the hatch of a part.

@@ -13,6 +13,7 @@
 use rayon::prelude::*;
 
 use super::complex::Complex;
+use super::nodes::Nodes;
 
 /// Stands for "no node".
 const NONE: u32 = u32::MAX;
@@ -72,9 +73,9 @@ impl<const N: usize> View<N> {
 
 /// A neighbour and how its value looks from here.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Link<const N: usize> {
-    pub(crate) to: u32,
-    pub(crate) view: View<N>,
+struct Link<const N: usize> {
+    to: u32,
+    view: View<N>,
 }
 
 /// A graph with `N` angles per node.
@@ -97,9 +98,32 @@ struct Parents<const N: usize> {
 }
 
 impl<const N: usize> Level<N> {
-    /// The finest level: `starts` tells where the links of each node start.
-    pub(crate) fn new(starts: Vec<u32>, links: Vec<Link<N>>, pulls: Vec<[Complex; N]>) -> Self {
-        let sizes = vec![1; pulls.len()];
+    /// The finest level: `view` tells how the value of a node's neighbour looks from the node.
+    pub(crate) fn new(
+        nodes: &Nodes,
+        pulls: Vec<[Complex; N]>,
+        view: impl Fn(usize, usize) -> View<N> + Sync,
+    ) -> Self {
+        let runs = runs(nodes.count(), |node, links: &mut Vec<Link<N>>| {
+            links.extend(nodes.neighbours_of(node).iter().map(|&to| Link {
+                to,
+                view: view(node, to as usize),
+            }));
+        });
+        Self::joined(&runs, pulls, vec![1; nodes.count()])
+    }
+
+    /// A level from the links of consecutive nodes, and how many each of them has.
+    fn joined(runs: &[Run<N>], pulls: Vec<[Complex; N]>, sizes: Vec<u32>) -> Self {
+        let link_count = runs.iter().map(|run| run.links.len()).sum();
+        let mut starts = Vec::with_capacity(pulls.len() + 1);
+        let mut links = Vec::with_capacity(link_count);
+        starts.push(0);
+        for run in runs {
+            let before = links.len() as u32;
+            starts.extend(run.ends.iter().map(|end| before + end));
+            links.extend_from_slice(&run.links);
+        }
         Self {
             starts,
             links,
@@ -160,17 +184,17 @@ impl<const N: usize> Level<N> {
     /// Replaces values by the mean of what their neighbours and their pull say, node by node.
     fn smooth(&self, values: &mut [[Complex; N]], rounds: u32) {
         let mut old = values.to_vec();
-        for r in 0..rounds {
+        for _ in 0..rounds {
             old.copy_from_slice(values);
             values
                 .par_chunks_mut(BLOCK)
                 .enumerate()
-                .for_each(|(block, own)| self.sweep(block * BLOCK, own, &old, r + 1 == rounds));
+                .for_each(|(block, own)| self.sweep(block * BLOCK, own, &old));
         }
     }
 
     /// One sweep over the nodes from `first` on, whose values are `own`; `old` holds those of all nodes.
-    fn sweep(&self, first: usize, own: &mut [[Complex; N]], old: &[[Complex; N]], last: bool) {
+    fn sweep(&self, first: usize, own: &mut [[Complex; N]], old: &[[Complex; N]]) {
         for k in 0..own.len() {
             let mut sums = self.pulls[first + k];
             for link in self.links_of(first + k) {
@@ -179,19 +203,8 @@ impl<const N: usize> Level<N> {
                 let said = link.view.of(value);
                 sums = std::array::from_fn(|n| sums[n].plus(said[n]));
             }
-            let soft = std::env::var("SOFT").is_ok() && !last;
-            for (n, (value, sum)) in own[k].iter_mut().zip(sums).enumerate() {
-                if soft {
-                    let w: f32 = self
-                        .links_of(first + k)
-                        .iter()
-                        .map(|l| l.view.turns[n].length())
-                        .sum::<f32>()
-                        + self.pulls[first + k][n].length();
-                    *value = if w > 0.0 { sum.scaled(1.0 / w) } else { *value };
-                } else {
-                    *value = sum.unit().unwrap_or(*value);
-                }
+            for (value, sum) in own[k].iter_mut().zip(sums) {
+                *value = sum.unit().unwrap_or(*value);
             }
         }
     }
@@ -207,32 +220,14 @@ impl<const N: usize> Level<N> {
             let [from, to] = [0, 1].map(|i| member_starts[group + i] as usize);
             &members[from..to]
         };
+        let runs = runs(parents.count, |group, links: &mut Vec<Link<N>>| {
+            self.merge_links(group as u32, members_of(group), &parents, links);
+        });
         let groups = || (0..parents.count).into_par_iter();
-        let runs: Vec<Vec<Vec<Link<N>>>> = (0..parents.count.div_ceil(BLOCK))
-            .into_par_iter()
-            .map(|run| {
-                (run * BLOCK..((run + 1) * BLOCK).min(parents.count))
-                    .map(|group| self.merged_links(group as u32, members_of(group), &parents))
-                    .collect()
-            })
-            .collect();
-        let mut starts = vec![0];
-        let mut links = Vec::with_capacity(self.links.len() / 2);
-        for group in runs.iter().flatten() {
-            links.extend_from_slice(group);
-            starts.push(links.len() as u32);
-        }
-        let pulls = groups()
-            .map(|group| self.merged_pull(members_of(group), &parents))
-            .collect();
+        let pulls = groups().map(|group| self.merged_pull(members_of(group), &parents));
         let size = |group| members_of(group).iter().map(|&m| self.sizes[m as usize]);
-        let sizes = groups().map(|group| size(group).sum()).collect();
-        let coarse = Self {
-            starts,
-            links,
-            pulls,
-            sizes,
-        };
+        let sizes = groups().map(|group| size(group).sum());
+        let coarse = Self::joined(&runs, pulls.collect(), sizes.collect());
         Some((parents, coarse))
     }
 
@@ -288,15 +283,21 @@ impl<const N: usize> Level<N> {
             .map(|(_, link)| link)
     }
 
-    /// The links of a group to others, one to each, as its first member sees them.
-    fn merged_links(&self, group: u32, members: &[u32], parents: &Parents<N>) -> Vec<Link<N>> {
-        let mut seen: Vec<Link<N>> = Vec::new();
+    /// Appends the links of a group to others, one to each, as its first member sees them.
+    fn merge_links(
+        &self,
+        group: u32,
+        members: &[u32],
+        parents: &Parents<N>,
+        links: &mut Vec<Link<N>>,
+    ) {
+        let first = links.len();
         for &member in members {
             let home = parents.of_node[member as usize].view.back();
             for link in self.links_of(member as usize) {
                 let other = &parents.of_node[link.to as usize];
                 if other.to != group && other.to != NONE {
-                    seen.push(Link {
+                    links.push(Link {
                         to: other.to,
                         view: home.after(&link.view.after(&other.view)),
                     });
@@ -304,10 +305,18 @@ impl<const N: usize> Level<N> {
             }
         }
         // A stable sort: sums keep the order of members.
-        seen.sort_by_key(|link| link.to);
-        seen.chunk_by(|a, b| a.to == b.to)
-            .filter_map(merged)
-            .collect()
+        links[first..].sort_by_key(|link| link.to);
+        let (mut kept, mut from) = (first, first);
+        while from < links.len() {
+            let same = |link: &&Link<N>| link.to == links[from].to;
+            let to = from + links[from..].iter().take_while(same).count();
+            if let Some(link) = merged(&links[from..to]) {
+                links[kept] = link;
+                kept += 1;
+            }
+            from = to;
+        }
+        links.truncate(kept);
     }
 
     fn merged_pull(&self, members: &[u32], parents: &Parents<N>) -> [Complex; N] {
@@ -319,6 +328,35 @@ impl<const N: usize> Level<N> {
                 std::array::from_fn(|k| sum[k].plus(pull[k]))
             })
     }
+}
+
+/// The links of consecutive nodes.
+struct Run<const N: usize> {
+    links: Vec<Link<N>>,
+    /// How many links there are up to and with each node.
+    ends: Vec<u32>,
+}
+
+/// The links of nodes `0..count`, as `append` lists those of each, in runs of a fixed length.
+fn runs<const N: usize>(
+    count: usize,
+    append: impl Fn(usize, &mut Vec<Link<N>>) + Sync,
+) -> Vec<Run<N>> {
+    (0..count.div_ceil(BLOCK))
+        .into_par_iter()
+        .map(|run| {
+            let nodes = run * BLOCK..((run + 1) * BLOCK).min(count);
+            let mut run = Run {
+                links: Vec::with_capacity(8 * BLOCK),
+                ends: Vec::with_capacity(nodes.len()),
+            };
+            for node in nodes {
+                append(node, &mut run.links);
+                run.ends.push(run.links.len() as u32);
+            }
+            run
+        })
+        .collect()
 }
 
 /// The sum of links to one node; of mirrored and plain ones, the kind that says more.
@@ -365,5 +403,74 @@ impl<const N: usize> Parents<N> {
             }
         }
         (starts, members)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::Random;
+    use proptest::prelude::*;
+
+    /// A connected graph whose links say exactly what `truth` says, plus the links themselves.
+    fn consistent(count: usize, seed: u64) -> (Level<2>, Vec<Vec<Link<2>>>) {
+        let mut random = Random::new(seed);
+        let truth: Vec<([f32; 2], bool)> = (0..count)
+            .map(|_| ([random.unit(), random.unit()], random.below(2) == 0))
+            .collect();
+        let mut links: Vec<Vec<Link<2>>> = vec![Vec::new(); count];
+        let mut join = |a: usize, b: usize| {
+            for [from, to] in [[a, b], [b, a]] {
+                let ([here, there], flips) =
+                    ([truth[from].0, truth[to].0], truth[from].1 != truth[to].1);
+                let sign = if flips { -1.0 } else { 1.0 };
+                let turns = [0, 1].map(|k| Complex::of_turns(here[k] - sign * there[k]));
+                links[from].push(Link {
+                    to: to as u32,
+                    view: View { flips, turns },
+                });
+            }
+        };
+        for node in 1..count {
+            join(node, random.below(node));
+            if node > 3 && random.below(2) == 0 {
+                join(node, random.below(node));
+            }
+        }
+        let pulls = vec![[Complex::default(); 2]; count];
+        let runs = runs(count, |node, all| all.extend_from_slice(&links[node]));
+        (Level::joined(&runs, pulls, vec![1; count]), links)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        #[test]
+        fn links_that_can_all_hold_do(count in 1usize..300, seed: u64, rounds in 0u32..4) {
+            let (level, links) = consistent(count, seed);
+            let values = level.solve(rounds);
+            for (node, links) in links.iter().enumerate() {
+                for link in links {
+                    let said = link.view.of(&values[link.to as usize]);
+                    for k in 0..2 {
+                        let [a, b] = [said[k], values[node][k]];
+                        prop_assert!((a.re - b.re).abs() < 1e-4 && (a.im - b.im).abs() < 1e-4);
+                    }
+                }
+            }
+        }
+
+        #[test]
+        fn a_view_and_its_back_cancel(a in 0.0f32..1.0, b in 0.0f32..1.0, flips: bool, x in 0.0f32..1.0) {
+            let view = View { flips, turns: [a, b].map(Complex::of_turns) };
+            let value = [x, 1.0 - x].map(Complex::of_turns);
+            let back = view.back().of(&view.of(&value));
+            let same = view.back().after(&view);
+            prop_assert!(!same.flips);
+            for k in 0..2 {
+                prop_assert!((back[k].re - value[k].re).abs() < 1e-5 && (back[k].im - value[k].im).abs() < 1e-5);
+                prop_assert!((same.turns[k].re - 1.0).abs() < 1e-5);
+            }
+        }
     }
 }

@@ -191,21 +191,36 @@ impl Sheet {
         best.1
     }
 
+    /// A number that depends on where a face lies alone.
+    fn code(&self, face: u32) -> u64 {
+        let corners = self.welded[face as usize].iter();
+        corners.fold(0, |sum: u64, &welded| {
+            sum.wrapping_add(self.keys[welded as usize].wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 2)
+        })
+    }
+
     /// Numbers sectors along the curve: a corner of each node, and the node of every corner.
     fn number(&self, sectors: &mut UnionFind) -> (Vec<u32>, Vec<u32>) {
         let corner_count = 3 * self.faces.len() as u32;
         let root_of_corner: Vec<u32> = (0..corner_count).map(|c| sectors.find(c)).collect();
+        // Sectors at one position are told apart by the least code of their faces.
+        let mut least = vec![u64::MAX; corner_count as usize];
+        for (&root, corner) in root_of_corner.iter().zip(0..) {
+            let code = &mut least[root as usize];
+            *code = self.code(corner / 3).min(*code);
+        }
         let key = |corner: u32| {
             let welded = self.welded[corner as usize / 3][corner as usize % 3];
-            (self.keys[welded as usize], corner)
+            let key = self.keys[welded as usize];
+            (key, least[corner as usize], corner)
         };
-        let mut order: Vec<(u64, u32)> = (0..corner_count)
+        let mut order: Vec<(u64, u64, u32)> = (0..corner_count)
             .filter(|&corner| root_of_corner[corner as usize] == corner)
             .map(key)
             .collect();
         order.par_sort_unstable();
         let mut node_of_root = vec![0; corner_count as usize];
-        for (&(_, root), node) in order.iter().zip(0u32..) {
+        for (&(_, _, root), node) in order.iter().zip(0u32..) {
             node_of_root[root as usize] = node;
         }
         let node_of_corner = root_of_corner
@@ -213,7 +228,7 @@ impl Sheet {
             .map(|&root| node_of_root[root as usize])
             .collect();
         (
-            order.iter().map(|&(_, root)| root).collect(),
+            order.iter().map(|&(_, _, root)| root).collect(),
             node_of_corner,
         )
     }

@@ -1,6 +1,6 @@
 //! Coordinates of a triangle's corners from the angles of its nodes.
 
-use glam::{Vec2, Vec3};
+use glam::{BVec2, Vec2, Vec3};
 
 use super::phases::Site;
 use crate::direction_field::turned;
@@ -11,6 +11,8 @@ pub(crate) struct Lifted {
     pub(crate) corners: [Vec2; 3],
     /// Whether a stroke ends inside, so that the coordinates do not fit those of neighbours.
     pub(crate) singular: bool,
+    /// Whether directions turn round inside.
+    pub(crate) turning: bool,
     /// Mean over both coordinates of the length by which the gradient misses the wanted unit vector.
     pub(crate) gradient_error: f32,
     /// Area in square tiles.
@@ -26,7 +28,7 @@ pub(crate) struct Lifted {
 pub(crate) fn lift(sites: [Site; 3], phases: [Vec2; 3], anchor: usize) -> Lifted {
     let [first, second, third] = [0, 1, 2].map(|k| (anchor + k) % 3);
     let opposed = [first, second, third].map(|k| sites[first].opposes(&sites[k]));
-    let turns_round = sites[second].opposes(&sites[third]) != (opposed[1] != opposed[2]);
+    let turning = sites[second].opposes(&sites[third]) != (opposed[1] != opposed[2]);
     let site = |k: usize| sites[(anchor + k) % 3].reversed_if(opposed[k]);
     let phase = |k: usize| {
         let phase = phases[(anchor + k) % 3];
@@ -44,8 +46,7 @@ pub(crate) fn lift(sites: [Site; 3], phases: [Vec2; 3], anchor: usize) -> Lifted
     let steps = [1, 2].map(|k| site(k).position - site(0).position);
     let ways = [0, 1].map(|k| {
         let plain = wanted.of(steps[k]);
-        let turns_round = glam::BVec2::splat(turns_round);
-        Vec2::select(open | turns_round, plain, changes[k])
+        Vec2::select(open | BVec2::splat(turning), plain, changes[k])
     });
     let found = Gradient::fitted(steps, ways);
     let mut corners = [Vec2::ZERO; 3];
@@ -55,7 +56,8 @@ pub(crate) fn lift(sites: [Site; 3], phases: [Vec2; 3], anchor: usize) -> Lifted
     let whole = ((corners[0] + corners[1] + corners[2]) / 3.0).round();
     Lifted {
         corners: corners.map(|corner| finite(corner - whole)),
-        singular: turns_round || open.any(),
+        singular: turning || open.any(),
+        turning,
         gradient_error: found.distance(&wanted),
         area: steps[0].cross(steps[1]).length() / 2.0,
     }

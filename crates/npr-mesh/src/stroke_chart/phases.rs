@@ -8,7 +8,7 @@ use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
 use crate::direction_field::complex::Complex;
-use crate::direction_field::hierarchy::{Level, Link, View};
+use crate::direction_field::hierarchy::{Level, View};
 use crate::direction_field::nodes::Nodes;
 use crate::direction_field::turned;
 
@@ -69,19 +69,10 @@ impl Site {
 ///
 /// O(rounds * nodes).
 pub(crate) fn phases(nodes: &Nodes, directions: &[Vec3], rounds: u32) -> Vec<Vec2> {
-    let links: Vec<Vec<Link<2>>> = (0..nodes.count())
-        .into_par_iter()
-        .map(|node| {
-            let here = Site::of(nodes, directions, node);
-            let seen = |&to: &u32| Link {
-                to,
-                view: view(&here, Site::of(nodes, directions, to as usize)),
-            };
-            nodes.neighbours_of(node).iter().map(seen).collect()
-        })
-        .collect();
     let pulls = vec![[Complex::default(); 2]; nodes.count()];
-    let angles = Level::new(nodes.starts.clone(), links.concat(), pulls).solve(rounds);
+    let site = |node| Site::of(nodes, directions, node);
+    let level = Level::new(nodes, pulls, |node, other| view(&site(node), site(other)));
+    let angles = level.solve(rounds);
     angles
         .par_iter()
         .map(|angles| Vec2::from_array(angles.map(Complex::turns)))

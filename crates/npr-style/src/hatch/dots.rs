@@ -5,16 +5,15 @@ use super::points::Cells;
 
 /// Sides of the tile in steps of the screen's grid; dots lie on every second of its crossings.
 ///
-/// Rows at 45 degrees, a spacing of root two steps. Twice the tracks of a level, so that the coarsest
-/// still has two dots, and a half turn swaps neighbours.
+/// Rows at 45 degrees, dots root two steps apart; the coarsest level still has two.
 fn grid_side(drawing: Drawing) -> u32 {
-    2 * drawing.tracks()
+    drawing.tracks()
 }
 
-/// Dots on a tile of hand-set dots at this drawing: two per square spacing of tracks, an even number.
+/// Hand-set dots on a tile at this drawing: one to two square spacings of tracks, an even number.
 pub fn stipple_count(drawing: Drawing) -> u32 {
     let spacings = drawing.side_spacings();
-    2 * ((spacings * spacings).round() as u32).max(1)
+    2 * ((0.25 * spacings * spacings).round() as u32).max(1)
 }
 
 /// Heights of hand-set dots; `points` are in order of appearance.
@@ -38,21 +37,23 @@ impl Stipple {
 
 /// Fills a row of heights at `v` with a printer's screen.
 ///
-/// Going away, first every second row of dots shrinks to nothing, half an octave long, then every second
-/// dot of the others: the screen turns by 45 degrees, and turns back.
+/// Going away, every second dot shrinks to nothing over two drawings, which turns the screen by 45 degrees; from the
+/// second drawing on, every second dot of the others, which turns it back.
 pub fn fill_screen_row(drawing: Drawing, v: f32, heights: &mut [f32]) {
     let steps = grid_side(drawing) as f32 / heights.len() as f32;
     let y = v * grid_side(drawing) as f32;
-    let odd = (1.0 - 2.0 * drawing.octave()).max(0.0);
-    let middle = (2.0 - 2.0 * drawing.octave()).min(1.0);
     for (x, height) in heights.iter_mut().enumerate() {
         let p = [(x as f32 + 0.5) * steps, y];
         let kept = lattice2(p, [0.0, 0.0], 4.0).min(lattice2(p, [2.0, 2.0], 4.0));
         let second = lattice2(p, [2.0, 0.0], 4.0).min(lattice2(p, [0.0, 2.0], 4.0));
         let first = lattice2(p, [1.0, 1.0], 2.0);
-        *height = kept
-            .min(second / middle.max(1e-6))
-            .min(first / odd.max(1e-6));
+        // Half the ink of a dot is half the square of its reach.
+        *height = match drawing.step {
+            0 => kept.min(second).min(first),
+            1 => kept.min(second).min(2.0 * first),
+            2 => kept.min(2.0 * second),
+            _ => kept,
+        };
     }
 }
 

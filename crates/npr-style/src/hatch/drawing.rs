@@ -4,7 +4,9 @@ use super::{Hatch, Pattern};
 use npr_core::math;
 
 /// Texels of a level between neighbouring strokes of its first drawing.
-pub const SPACING_TEXELS: u32 = 16;
+///
+/// Few, so that a tile holds many strokes before it repeats; distances survive the blend between texels.
+pub const SPACING_TEXELS: u32 = 8;
 
 /// Drawings from one level to the next.
 pub const STEPS: u32 = 3;

@@ -12,6 +12,19 @@ use npr_core::math;
 /// Names of tracks: their places among this many, so that the names do not hang on the level.
 const TRACK_IDS: u32 = 1 << 16;
 
+/// How far strokes broaden into a wide gap beside them: 0 not at all, 1 until the tone is even.
+const EVENNESS: f32 = 0.8;
+
+/// Height of the middle of a gap: about the ink share at which strokes of a track join into one line.
+const GAP_HEIGHT: f32 = 0.6;
+
+/// Longest tips as a part of their stroke: where the pen sets down, and where it leaves.
+const HEAD: f32 = 0.15;
+const TAIL: f32 = 0.4;
+
+/// Length of a blunt tip in spacings.
+const BLUNT_TIP: f32 = 0.7;
+
 /// Noise streams, one for each thing that varies.
 const SHAKE: u32 = 0x1000;
 const PRESSURE: u32 = 0x2000;
@@ -29,111 +42,147 @@ struct Track {
     u: f32,
 }
 
-/// Fills a row of `side` heights at `v`: for each texel, how much ink it takes to reach it.
-///
-/// O(texels + tracks * (octaves + gaps)).
-pub fn fill_row(drawing: Drawing, hand: &Hand, seed: u32, v: f32, heights: &mut [f32]) {
-    let tracks: Vec<Track> = tracks_at(drawing, hand, seed, v)
-        .into_iter()
-        .filter(|track| track.drawn)
-        .collect();
-    heights.fill(f32::INFINITY);
-    for (i, track) in tracks.iter().enumerate() {
-        let before = tracks[(i + tracks.len() - 1) % tracks.len()].u;
-        let after = tracks[(i + 1) % tracks.len()].u;
-        let gaps = if tracks.len() == 1 {
-            [1.0, 1.0]
-        } else {
-            [track.u - before, after - track.u].map(|gap| gap - gap.floor())
-        };
-        ink_track(drawing, hand, seed, v, *track, gaps, heights);
-    }
+/// The strokes of one drawing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Strokes {
+    /// Which drawing.
+    pub drawing: Drawing,
+    /// Who draws it.
+    pub hand: Hand,
+    /// Which of many alike.
+    pub seed: u32,
 }
 
-/// Lowers the heights around a track to the ink that it takes to reach them.
-///
-/// One unit of height is half a spacing of even pressure. Beside a wide gap strokes are broader, half
-/// of what it takes to keep the tone even.
-fn ink_track(
-    drawing: Drawing,
-    hand: &Hand,
-    seed: u32,
-    v: f32,
-    track: Track,
-    gaps: [f32; 2],
-    heights: &mut [f32],
-) {
-    let side = drawing.side as f32;
-    let spacing = side / drawing.side_spacings();
-    let pressure = pressure(drawing, hand, seed, track.id, v);
-    let lifted = lifted(drawing, hand, seed, track.id, v);
-    let slopes = gaps.map(|gap| {
-        let relative = (gap * side / spacing).clamp(0.25, 4.0);
-        2.0 / (spacing * pressure * relative.sqrt())
-    });
-    let centre = track.u * side - 0.5;
-    let reach = (1.5 * spacing).ceil().min(side * 0.5) as i32;
-    let middle = centre.floor() as i32;
-    for x in middle - reach..=middle + reach + 1 {
-        let dx = x as f32 - centre;
-        let height = lifted + dx.abs() * slopes[usize::from(dx > 0.0)];
-        let texel = &mut heights[x.rem_euclid(drawing.side as i32) as usize];
-        *texel = texel.min(height);
-    }
-}
-
-/// Every track of the level at `v`, ordered across the tile.
-fn tracks_at(drawing: Drawing, hand: &Hand, seed: u32, v: f32) -> Vec<Track> {
-    let mut tracks = vec![Track {
-        id: 0,
-        drawn: true,
-        u: 0.0,
-    }];
-    let mut count = 1;
-    loop {
-        let finest = count == drawing.tracks();
-        let fade = if finest { 1.0 - drawing.octave() } else { 1.0 };
-        shake(&mut tracks, hand, seed, v, fade);
-        if finest {
-            return tracks;
+impl Strokes {
+    /// Fills a row of heights at `v`: for each texel, how much ink it takes to reach it.
+    ///
+    /// O(texels + tracks * (octaves + gaps)).
+    pub fn fill_row(&self, v: f32, heights: &mut [f32]) {
+        let mut tracks = self.tracks_at(v);
+        tracks.retain(|track| track.drawn);
+        heights.fill(f32::INFINITY);
+        for (i, track) in tracks.iter().enumerate() {
+            let before = tracks[(i + tracks.len() - 1) % tracks.len()].u;
+            let after = tracks[(i + 1) % tracks.len()].u;
+            let gaps = [track.u - before, after - track.u].map(|gap| gap - gap.floor());
+            self.ink_track(*track, gaps, v, heights);
         }
-        count *= 2;
-        let step = if count == drawing.tracks() {
-            drawing.step
-        } else {
-            0
-        };
-        tracks = halve_gaps(&tracks, hand, seed, step);
     }
-}
 
-/// Shifts tracks by a wave of this octave, at most 0.3 of a spacing and with a slope below 0.1.
-fn shake(tracks: &mut [Track], hand: &Hand, seed: u32, v: f32, fade: f32) {
-    let count = tracks.len() as u32;
-    let cells = (count / 6).max(2);
-    let most = (0.3 / count as f32).min(0.05 / cells as f32);
-    for track in tracks {
-        let wave = |id: u32, v: f32| closed_noise(seed, SHAKE + count + (id << 8), cells, v);
-        track.u += fade * hand.wobble * most * turned_odd(track.id, v, wave);
-    }
-}
-
-/// Lays a track in the middle of every two, a little to the side; `step` decides which are drawn.
-fn halve_gaps(tracks: &[Track], hand: &Hand, seed: u32, step: u32) -> Vec<Track> {
-    let count = 2 * tracks.len() as u32;
-    let mut finer = Vec::with_capacity(count as usize);
-    for (i, track) in tracks.iter().enumerate() {
-        let next_u = tracks.get(i + 1).map_or(tracks[0].u + 1.0, |next| next.u);
-        let id = track.id + TRACK_IDS / count;
-        let aside = |id: u32, _: f32| signed(hash(seed, SHAKE, id)) * (0.02 + 0.12 * hand.wobble);
-        finer.push(*track);
-        finer.push(Track {
-            id,
-            drawn: is_drawn(i as u32, tracks.len() as u32, step),
-            u: (track.u + next_u) * 0.5 + turned_odd(id, 0.0, aside) / count as f32,
+    /// Lowers the heights around a track to the ink that it takes to reach them.
+    ///
+    /// One unit of height is half a spacing at even pressure. `gaps` lie between the track and its
+    /// neighbours, in tiles.
+    fn ink_track(&self, track: Track, gaps: [f32; 2], v: f32, heights: &mut [f32]) {
+        let side = self.drawing.side as f32;
+        let spacing = side / self.drawing.side_spacings();
+        let pressure = self.pressure(track.id, v);
+        let lifted = self.lifted(track.id, v);
+        let slopes = gaps.map(|gap| {
+            let relative = (gap * side / spacing).clamp(0.25, 4.0);
+            2.0 / (spacing * pressure * math::powf(relative, EVENNESS))
         });
+        let centre = track.u * side - 0.5;
+        let reach = (1.5 * spacing).ceil().min(side * 0.5) as i32;
+        let middle = centre.floor() as i32;
+        for x in middle - reach..=middle + reach + 1 {
+            let dx = x as f32 - centre;
+            let height = lifted + blunt(dx) * slopes[usize::from(dx > 0.0)];
+            let texel = &mut heights[x.rem_euclid(self.drawing.side as i32) as usize];
+            *texel = texel.min(height);
+        }
     }
-    finer
+
+    /// Every track of the level at `v`, ordered across the tile.
+    fn tracks_at(&self, v: f32) -> Vec<Track> {
+        let mut tracks = vec![Track {
+            id: 0,
+            drawn: true,
+            u: 0.0,
+        }];
+        let mut count = 1;
+        while count < self.drawing.tracks() {
+            self.shake(&mut tracks, v, 1.0);
+            count *= 2;
+            let finest = count == self.drawing.tracks();
+            tracks = self.halve_gaps(&tracks, if finest { self.drawing.step } else { 0 });
+        }
+        self.shake(&mut tracks, v, 1.0 - self.drawing.octave());
+        tracks
+    }
+
+    /// Shifts tracks by a wave of this octave, at most 0.3 of a spacing and with a slope below 0.1.
+    fn shake(&self, tracks: &mut [Track], v: f32, fade: f32) {
+        let count = tracks.len() as u32;
+        let cells = (count / 6).max(2);
+        let most = (0.3 / count as f32).min(0.05 / cells as f32);
+        for track in tracks {
+            let wave = |id: u32, v: f32| closed_noise(self.seed, hash(SHAKE, count, id), cells, v);
+            track.u += fade * self.hand.wobble * most * turned_odd(track.id, v, wave);
+        }
+    }
+
+    /// Lays a track in the middle of every two, a little to the side; `step` decides which are drawn.
+    fn halve_gaps(&self, tracks: &[Track], step: u32) -> Vec<Track> {
+        let count = 2 * tracks.len() as u32;
+        let most = 0.02 + 0.08 * self.hand.wobble;
+        let mut finer = Vec::with_capacity(count as usize);
+        for (i, track) in tracks.iter().enumerate() {
+            let next_u = tracks.get(i + 1).map_or(tracks[0].u + 1.0, |next| next.u);
+            let id = track.id + TRACK_IDS / count;
+            let aside = turned_odd(id, 0.0, |id, _| signed(hash(self.seed, SHAKE, id)));
+            finer.push(*track);
+            finer.push(Track {
+                id,
+                drawn: is_drawn(i as u32, tracks.len() as u32, step),
+                u: (track.u + next_u) * 0.5 + most * aside / count as f32,
+            });
+        }
+        finer
+    }
+
+    /// Width of a stroke against the mean, 0.3..2: its own weight, and how the hand presses along it.
+    fn pressure(&self, id: u32, v: f32) -> f32 {
+        let bends = 3.0 * self.drawing.side_spacings() / self.hand.length;
+        let weight = |id: u32, _: f32| signed(hash(self.seed, WEIGHT, id));
+        let along = |id: u32, v: f32| scaled_noise(self.seed, hash(PRESSURE, 0, id), bends, v);
+        let varied = 0.3 * turned_even(id, v, weight) + 0.6 * turned_even(id, v, along);
+        (1.0 + self.hand.variation * varied).clamp(0.3, 2.0)
+    }
+
+    /// Height of a track's centre line: [`GAP_HEIGHT`] in the middle of a gap, 0 where the pen is down.
+    fn lifted(&self, id: u32, v: f32) -> f32 {
+        let spacings = self.drawing.side_spacings();
+        turned_even(id, v, |id, v| {
+            let count = spacings / self.hand.length + unit(hash(self.seed, GAP, id));
+            let first = unit(hash(self.seed, GAP + 1, id));
+            let past = |k: u32| {
+                let room = 1.0 / (k + 1).next_power_of_two() as f32;
+                let aside = 0.3 * room * signed(hash(self.seed, GAP + 2 + id, k));
+                let tiles = v - (first + bit_reversed(k) + aside);
+                (tiles - (tiles + 0.5).floor()) * spacings
+            };
+            let gaps = (0..count as u32).map(|k| self.tip(past(k)));
+            gaps.fold(0.0, f32::max)
+        })
+    }
+
+    /// Height of a centre line `past` spacings behind the middle of a gap: in a stroke's head if positive, in
+    /// its tail if negative. Tails are drawn out further than heads.
+    fn tip(&self, past: f32) -> f32 {
+        let part = if past > 0.0 { HEAD } else { TAIL };
+        let drawn_out = (part * self.hand.length).max(BLUNT_TIP);
+        let reach = math::mix(BLUNT_TIP, drawn_out, self.hand.taper);
+        let rest = (1.0 - past.abs() / reach).max(0.0);
+        GAP_HEIGHT * rest * rest
+    }
+}
+
+/// Distance in texels from a centre line, with a round bottom.
+///
+/// A sharp one falls between texels here and there, and hairlines would turn into beads.
+fn blunt(dx: f32) -> f32 {
+    (dx * dx + 0.1).sqrt()
 }
 
 /// Whether newcomer `i` of `count` is among those that stay until `step`.
@@ -166,36 +215,58 @@ fn turned_even(id: u32, v: f32, f: impl Fn(u32, f32) -> f32) -> f32 {
     }
 }
 
-/// Width of a stroke against the mean, 0.3..2: its own weight, and how the hand presses along it.
-fn pressure(drawing: Drawing, hand: &Hand, seed: u32, id: u32, v: f32) -> f32 {
-    let bends = 3.0 * drawing.side_spacings() / hand.length;
-    let along = |id: u32, v: f32| scaled_noise(seed, PRESSURE + (id << 16), bends, v);
-    let weight = |id: u32, _: f32| signed(hash(seed, WEIGHT, id));
-    let varied = 0.4 * turned_even(id, v, weight) + 0.9 * turned_even(id, v, along);
-    (1.0 + hand.variation * varied).clamp(0.3, 2.0)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hatch::Hatch;
+    use proptest::prelude::*;
 
-/// Height, 0..1, of a track's centre line: 1 in the middle of a gap, 0 where the pen is down.
-fn lifted(drawing: Drawing, hand: &Hand, seed: u32, id: u32, v: f32) -> f32 {
-    let wanted = drawing.side_spacings() / hand.length;
-    turned_even(id, v, |id, v| {
-        let count = (wanted + unit(hash(seed, GAP, id))) as u32;
-        let gap = |k: u32| {
-            let aside = 0.3 * signed(hash(seed, GAP + id, k)) / (k + 1).next_power_of_two() as f32;
-            let centre = bit_reversed(k) + unit(hash(seed, GAP + 1, id)) + aside;
-            let past = v - centre;
-            (past - (past + 0.5).floor()) * drawing.side_spacings()
+    fn drawn(side: u32, step: u32, seed: u32, v: f32) -> Vec<Track> {
+        let strokes = Strokes {
+            drawing: Drawing { side, step },
+            hand: Hand::of(&Hatch::default()),
+            seed,
         };
-        (0..count).map(|k| tip(gap(k), hand)).fold(0.0, f32::max)
-    })
-}
+        let mut tracks = strokes.tracks_at(v);
+        tracks.retain(|track| track.drawn);
+        tracks
+    }
 
-/// Height of a centre line `past` spacings behind the middle of a gap: a stroke's head if positive, its
-/// tail if negative. Tails are drawn out further than heads.
-fn tip(past: f32, hand: &Hand) -> f32 {
-    let tail = math::mix(0.7, 0.5 * hand.length.max(1.4), hand.taper);
-    let head = math::mix(0.7, 0.25 * hand.length.max(2.8), hand.taper);
-    let reach = if past > 0.0 { head } else { tail };
-    let rest = (1.0 - past.abs() / reach).max(0.0);
-    rest * rest
+    #[test]
+    fn strokes_thin_out_by_the_cube_root_of_two() {
+        let counts: Vec<usize> = (0..=STEPS)
+            .map(|step| drawn(512, step, 0, 0.0).len())
+            .collect();
+        assert_eq!([counts[0], counts[3]], [64, 32]);
+        assert!(
+            counts[1].abs_diff(51) <= 2 && counts[2].abs_diff(40) <= 2,
+            "{counts:?}"
+        );
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        #[test]
+        fn coarser_drawings_keep_strokes_in_their_place(
+            level in 1u32..6, step in 0..STEPS, seed: u32, v in 0.0f32..1.0,
+        ) {
+            let side = 16 << level;
+            let fine = drawn(side, step, seed, v);
+            let spacings = Drawing { side, step }.side_spacings();
+            for track in drawn(side, step + 1, seed, v) {
+                let before = fine.iter().find(|finer| finer.id == track.id);
+                let drift = before.map(|finer| (finer.u - track.u).abs() * spacings);
+                prop_assert!(drift.is_some_and(|drift| drift < 0.1), "{drift:?}");
+            }
+            let last = drawn(side, STEPS, seed, v);
+            prop_assert_eq!(last, drawn(side / 2, 0, seed, v));
+        }
+
+        #[test]
+        fn tracks_never_cross(level in 0u32..6, step in 0..=STEPS, seed: u32, v in 0.0f32..1.0) {
+            let tracks = drawn(16 << level, step, seed, v);
+            prop_assert!(tracks.windows(2).all(|pair| pair[0].u < pair[1].u));
+        }
+    }
 }

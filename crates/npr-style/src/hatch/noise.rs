@@ -47,7 +47,7 @@ pub fn scaled_noise(seed: u32, stream: u32, cells: f32, x: f32) -> f32 {
         coarse *= 2;
     }
     let blend = (cells / coarse as f32 - 1.0).clamp(0.0, 1.0);
-    let octave = |cells: u32| closed_noise(seed, stream.wrapping_add(cells << 16), cells, x);
+    let octave = |cells: u32| closed_noise(seed, hash(stream, cells, 0), cells, x);
     octave(coarse) * (1.0 - blend) + octave(2 * coarse) * blend
 }
 

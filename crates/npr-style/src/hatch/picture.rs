@@ -4,7 +4,7 @@ use npr_core::math;
 use rayon::prelude::*;
 
 use super::drawing::{Drawing, SPACING_TEXELS};
-use super::tile::{HatchError, HatchTile, SIDE_MIN, check_side, pack, sides};
+use super::tile::{HatchError, HatchTile, SIDE_MIN, check_side, mirror, pack, sides};
 
 /// Most pixels per side of a picture.
 pub const PICTURE_SIDE_MAX: usize = 4096;
@@ -176,10 +176,7 @@ impl Pyramid {
         };
         let mut heights: Vec<f32> = (0..side * side).into_par_iter().map(blend).collect();
         if self.turned {
-            let (upper, lower) = heights.split_at_mut((side * side / 2) as usize);
-            for (below, above) in lower.iter_mut().zip(upper.iter().rev()) {
-                *below = *above;
-            }
+            mirror(&mut heights);
         }
         heights
     }
@@ -204,4 +201,97 @@ fn halve(finer: &[f32], side: usize) -> Vec<f32> {
         0.25 * ((at(x, y) + at(x + 1, y + 1)) + (at(x + 1, y) + at(x, y + 1)))
     };
     (0..side * side).map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn picture(width: usize, height: usize, luminance: &[f32]) -> Picture<'_> {
+        Picture {
+            width,
+            height,
+            luminance,
+            turned: false,
+        }
+    }
+
+    /// Part of a level's texels with a channel below `share`.
+    fn inked(level: &[[u8; 4]], channel: usize, share: f32) -> f32 {
+        let dark = level
+            .iter()
+            .filter(|texel| f32::from(texel[channel]) < 255.0 * share);
+        dark.count() as f32 / level.len() as f32
+    }
+
+    #[test]
+    fn unfit_pictures_are_refused() {
+        let refused = |side, picture| from_image(side, &picture).unwrap_err().to_string();
+        assert_eq!(
+            refused(64, picture(0, 4, &[])),
+            "a hatch picture has 1 to 4096 pixels per side, not 0 x 4"
+        );
+        assert_eq!(
+            refused(64, picture(5000, 1, &[0.0; 5000])),
+            "a hatch picture has 1 to 4096 pixels per side, not 5000 x 1"
+        );
+        assert_eq!(
+            refused(64, picture(2, 2, &[0.0; 3])),
+            "a hatch picture of 2 x 2 has 3 pixels"
+        );
+        assert_eq!(
+            refused(65, picture(1, 1, &[0.0])),
+            "a hatch tile has a power of two from 16 to 1024 texels per side, not 65"
+        );
+    }
+
+    #[test]
+    fn plain_black_and_white_gets_a_linear_tone() {
+        let bars: Vec<f32> = (0..32 * 32)
+            .map(|i| if i % 8 < 3 { 0.0 } else { 1.0 })
+            .collect();
+        let tile = from_image(128, &picture(32, 32, &bars)).unwrap();
+        for level in &tile.levels {
+            for (channel, share) in (0..4).flat_map(|c| [0.2, 0.375, 0.7].map(|share| (c, share))) {
+                let got = inked(level, channel, share);
+                // A column is of one grey: shares come in eighths.
+                assert!((got - share).abs() < 0.13, "{got} is not {share}");
+            }
+        }
+        assert_eq!(inked(&tile.levels[0], 0, 0.375), 0.375);
+    }
+
+    #[test]
+    fn strokes_keep_their_size_until_the_picture_fills_the_tile() {
+        let wedge: Vec<f32> = (0..16 * 16).map(|i| (i % 16) as f32 / 16.0).collect();
+        let tile = from_image(64, &picture(16, 16, &wedge)).unwrap();
+        let row = |level: usize| tile.levels[level][..16].to_vec();
+        let first = |level: usize| row(level).iter().map(|texel| texel[0]).collect::<Vec<_>>();
+        assert_eq!(first(0), first(1));
+        assert_eq!(first(1), first(2));
+        assert_eq!(tile.levels.len(), 3);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        #[test]
+        fn any_picture_gives_a_tile(
+            width in 1usize..40, height in 1usize..40, power in 4u32..7, turned: bool, seed: u32,
+        ) {
+            let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30];
+            let grey = |i: usize| match super::super::noise::hash(seed, i as u32, 0) {
+                hash if hash % 16 < 4 => odd[hash as usize % 16],
+                hash => super::super::noise::unit(hash),
+            };
+            let luminance: Vec<f32> = (0..width * height).map(grey).collect();
+            let picture = Picture { turned, ..picture(width, height, &luminance) };
+            let tile = from_image(1 << power, &picture).unwrap();
+            for level in &tile.levels {
+                prop_assert!(level.iter().flatten().all(|&channel| channel != 0 && channel != 255));
+                prop_assert!(!turned || level.iter().eq(level.iter().rev()));
+            }
+        }
+    }
 }

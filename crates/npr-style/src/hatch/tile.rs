@@ -5,11 +5,12 @@ use rayon::prelude::*;
 
 use super::dots::{self, Stipple};
 use super::drawing::{Drawing, Hand, SPACING_TEXELS, STEPS};
+use super::lines::Strokes;
 use super::noise::{hash, unit};
-use super::{Hatch, Pattern, lines, points, rank};
+use super::{Hatch, Pattern, points, rank};
 
-/// Fewest texels per side: a level with a single stroke.
-pub const SIDE_MIN: u32 = SPACING_TEXELS;
+/// Fewest texels per side: a level with two strokes.
+pub const SIDE_MIN: u32 = 2 * SPACING_TEXELS;
 
 /// Most texels per side.
 pub const SIDE_MAX: u32 = 1024;
@@ -53,8 +54,8 @@ pub struct HatchTile {
     pub spacing_texels: f32,
     /// Levels of `(side >> l)^2` texels, rows of growing v, down to [`SIDE_MIN`].
     ///
-    /// A texel holds the S of four drawings, a third of an octave apart: 255 means 1. 0 is never stored, so
-    /// that blending them cannot divide 0 by 0.
+    /// A texel holds the S of four drawings, a third of an octave apart: 255 means 1. Neither 0 nor 255 is
+    /// ever stored, so that blending them cannot divide 0 by 0.
     pub levels: Vec<Vec<[u8; 4]>>,
 }
 
@@ -96,11 +97,11 @@ pub(super) fn sides(side: u32) -> impl Iterator<Item = u32> {
     std::iter::successors(Some(side), |side| Some(side / 2)).take_while(|&side| side >= SIDE_MIN)
 }
 
-/// Texels between neighbours: dots lie two to the square of a track's spacing.
+/// Texels between neighbours: dots lie one to two squares of a track's spacing.
 fn spacing_texels(pattern: Pattern) -> f32 {
     let tracks = SPACING_TEXELS as f32;
     match pattern {
-        Pattern::Stipple | Pattern::Dots => tracks / 2.0f32.sqrt(),
+        Pattern::Stipple | Pattern::Dots => tracks * 2.0f32.sqrt(),
         _ => tracks,
     }
 }
@@ -123,31 +124,43 @@ pub(super) fn pack(side: u32, draw: &(impl Fn(Drawing) -> Vec<f32> + Sync)) -> V
         .collect()
 }
 
-/// S as a byte, never 0.
+/// S as a byte, never 0 or 1.
 fn byte(s: f32) -> u8 {
-    (s * 255.0).round().clamp(1.0, 255.0) as u8
+    (s * 255.0).round().clamp(1.0, 254.0) as u8
 }
 
 /// Heights of one drawing, made for the upper half and turned for the lower.
 fn draw(hatch: &Hatch, hand: &Hand, points: &[[f32; 2]], drawing: Drawing) -> Vec<f32> {
     let side = drawing.side as usize;
-    let stipple = (hatch.pattern == Pattern::Stipple)
-        .then(|| Stipple::new(drawing, hand, hatch.seed, points));
+    let strokes = Strokes {
+        drawing,
+        hand: *hand,
+        seed: hatch.seed,
+    };
+    let stipple = Stipple::new(drawing, hand, hatch.seed, points);
     let mut heights = vec![0.0; side * side];
-    let (upper, lower) = heights.split_at_mut(side * side / 2);
+    let upper = &mut heights[..side * side / 2];
     upper.par_chunks_mut(side).enumerate().for_each(|(y, row)| {
         let v = (y as f32 + 0.5) / side as f32;
-        match (hatch.pattern, &stipple) {
-            (_, Some(stipple)) => stipple.fill_row(v, row),
-            (Pattern::Dots, None) => dots::fill_screen_row(drawing, v, row),
-            _ => lines::fill_row(drawing, hand, hatch.seed, v, row),
+        match hatch.pattern {
+            Pattern::Stipple => stipple.fill_row(v, row),
+            Pattern::Dots => dots::fill_screen_row(drawing, v, row),
+            Pattern::Parallel | Pattern::Cross | Pattern::Pencil | Pattern::Brush => {
+                strokes.fill_row(v, row);
+            }
         }
         add_grain(drawing, hand, hatch.seed, y as u32, row);
     });
+    mirror(&mut heights);
+    heights
+}
+
+/// Overwrites the lower half of a square with the upper, turned by half a turn.
+pub(super) fn mirror(heights: &mut [f32]) {
+    let (upper, lower) = heights.split_at_mut(heights.len() / 2);
     for (below, above) in lower.iter_mut().zip(upper.iter().rev()) {
         *below = *above;
     }
-    heights
 }
 
 /// Adds the paper's grain, spots two texels wide at the level's first drawing.

@@ -13,6 +13,18 @@ pub struct HatchSample {
     pub gradient: [f32; 2],
 }
 
+/// How much the deep tones of a blend are raised, and its light ones lowered.
+///
+/// The white of two drawings lies in part at different places, and a mean keeps less of it than either
+/// has: without this, deep shade holds up to 8 % too much ink halfway between two drawings. Found by trial
+/// over all patterns.
+const BLEND_LIFT: f32 = 3.4;
+
+/// Least S on the ridge of a stroke that is about to go, as a part of what comes in its place.
+///
+/// As much as the ridge goes up and down where it passes between texels: hairlines would end as dotted lines.
+const RIDGE: f32 = 0.16;
+
 /// Octaves between the size at which strokes have their spacing and the size on screen.
 ///
 /// `texels_per_px` is how many texels of the finest level a pixel covers across the strokes;
@@ -33,17 +45,20 @@ pub fn level_at(detail: f32, level_count: u32) -> (u32, f32) {
 
 /// Hatch luminance S, 0..1, of a texel's four drawings at `f`, 0..1, between its level and the next.
 ///
-/// The harmonic mean of the two drawings next to `f`. The width of a stroke is the inverse of the slope
-/// of S, so the mean blends widths: strokes thin evenly to a hair before they go, and the ink
-/// share of a tone stays what it is in both drawings. Channels are never 0, see
-/// [`HatchTile`](super::HatchTile).
+/// The width of a stroke is the inverse of the slope of S, so the harmonic mean of the two drawings next
+/// to `f` blends widths: strokes thin evenly to a hair before they go, and the ink share of a tone
+/// stays what it is in both. In deep shade the same holds for the white between strokes, the harmonic
+/// mean of `1 - S`. Channels are never 0 or 1, see [`HatchTile`](super::HatchTile).
 pub fn hatch_luminance(texel: [f32; 4], f: f32) -> f32 {
     let place = f * STEPS as f32;
     let step = (place as usize).min(STEPS as usize - 1);
     let t = place - step as f32;
-    let near = texel[step];
-    let far = texel[step + 1];
-    near * far / math::mix(far, near, t)
+    let near = texel[step].max(RIDGE * t * texel[step + 1]);
+    let far = texel[step + 1].max(RIDGE * (1.0 - t) * texel[step]);
+    let strokes = near * far / math::mix(far, near, t);
+    let white = (1.0 - near) * (1.0 - far) / math::mix(1.0 - far, 1.0 - near, t);
+    let s = math::mix(strokes, 1.0 - white, strokes);
+    s + BLEND_LIFT * t * (1.0 - t) * s * s * (1.0 - s) * (s - 0.45)
 }
 
 /// Hatch luminance at `(u, v)` of a level of `side * side` texels at `f`, blended over four texels.
@@ -84,8 +99,13 @@ pub fn second_layer_start(cross_at: f32) -> f32 {
     (1.5 - 2.0 * cross_at).clamp(0.0, 1.0)
 }
 
-/// What two layers of hatch luminance laid over each other are cut at: the luminance of each, 0..1, with how much steeper
-/// it runs than before; the lower of both luminances counts.
+/// Hatch luminance of two layers laid over each other, 0..1: the lower of both, as [`cross_layers`] thins them.
+pub fn cross_luminance(s_first: f32, s_second: f32, start: f32) -> f32 {
+    let [first, second] = cross_layers(s_first, s_second, start);
+    first[0].min(second[0])
+}
+
+/// Luminance of each of two layers laid over each other, 0..1, with how much steeper it runs than before.
 ///
 /// Up to the ink share `start` only the first layer inks. From there on both leave equal parts of the
 /// rest white, `sqrt((1 - share) / (1 - start))` of it each, so the ink share of both together stays
@@ -100,11 +120,8 @@ pub fn cross_layers(s_first: f32, s_second: f32, start: f32) -> [[f32; 2]; 2] {
     } else {
         [s_first, 1.0]
     };
-    let second = [
-        1.0 - rest * white_second * white_second,
-        2.0 * rest * white_second,
-    ];
-    [first, second]
+    let second = 1.0 - rest * white_second * white_second;
+    [first, [second, 2.0 * rest * white_second]]
 }
 
 /// The value F that a threshold cuts into ink and paper: `S + 2 (L - 0.5)` [Suzuki 2004, eq. 3.3].
@@ -115,10 +132,110 @@ pub fn tone_value(s: f32, l: f32) -> f32 {
     s + 2.0 * (l - 0.5)
 }
 
+/// Gradient of F per pixel that edges are smoothed with: the true one, but not less than half of what strokes
+/// `spacing_px` apart have on average.
+///
+/// On the ridge of a stroke S is flat, and a hairline would be all ink in one pixel and none in the next.
+pub fn edge_gradient(gradient_per_px: f32, spacing_px: f32) -> f32 {
+    gradient_per_px.max(1.0 / spacing_px)
+}
+
 /// Part of a pixel, 0..1, that lies on the ink's side of the threshold.
 ///
 /// `gradient_per_px` is the length of F's gradient over the screen; the edge is taken as straight across
 /// the pixel. Where F is flat the edge is hard.
 pub fn ink_coverage(tone_value: f32, gradient_per_px: f32, threshold: f32) -> f32 {
     ((threshold - tone_value) / gradient_per_px.max(1e-6) + 0.5).clamp(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn black_below_a_quarter_white_above_three_quarters() {
+        let ink = |s, l| ink_coverage(tone_value(s, l), 0.0, 0.5);
+        for s in [0.01, 0.5, 0.99] {
+            assert_eq!([ink(s, 0.25), ink(s, 0.75)], [1.0, 0.0], "at {s}");
+        }
+        assert_eq!([ink(0.4, 0.5), ink(0.6, 0.5)], [1.0, 0.0]);
+    }
+
+    #[test]
+    fn an_edge_through_the_middle_of_a_pixel_covers_half() {
+        assert_eq!(ink_coverage(0.5, 0.25, 0.5), 0.5);
+        assert_eq!(ink_coverage(0.4375, 0.25, 0.5), 0.75);
+        assert_eq!(edge_gradient(0.0, 8.0), 0.125);
+        assert_eq!(edge_gradient(0.4, 8.0), 0.4);
+    }
+
+    #[test]
+    fn levels_follow_the_distance() {
+        assert_eq!(detail(1.0, 8.0, 8.0), 0.0);
+        assert_eq!(detail(4.0, 8.0, 8.0), 2.0);
+        assert_eq!(level_at(-3.0, 5), (0, 0.0));
+        assert_eq!(level_at(1.25, 5), (1, 0.25));
+        assert_eq!(level_at(99.0, 5), (4, 0.0));
+        assert_eq!(level_at(f32::NAN, 5), (0, 0.0));
+        assert_eq!(level_at(f32::INFINITY, 0), (0, 0.0));
+    }
+
+    #[test]
+    fn gain_turns_about_one_half() {
+        assert_eq!(sharpen(0.5, 7.0), 0.5);
+        assert_eq!(sharpen(0.625, 2.0), 0.75);
+        assert_eq!(sharpen(0.1, 4.0), 0.0);
+    }
+
+    #[test]
+    fn crossed_layers_of_even_ranks_stay_linear() {
+        for start in [0.0, 0.3, 0.5, 0.9, 1.0] {
+            for share in [0.1, 0.3, 0.5, 0.7, 0.9] {
+                let rank = |i: u32| (i as f32 + 0.5) / 200.0;
+                let inked = |i: &u32| cross_luminance(rank(i % 200), rank(i / 200), start) < share;
+                let got = (0..40_000).filter(inked).count() as f32 / 40_000.0;
+                assert!(
+                    (got - share).abs() < 0.01,
+                    "{got} is not {share} from {start}"
+                );
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn the_blend_meets_every_drawing_and_hardly_leaves_their_range(
+            texel in [1u8..255, 1u8..255, 1u8..255, 1u8..255], f in 0.0f32..=1.0,
+        ) {
+            let texel = texel.map(|channel| f32::from(channel) / 255.0);
+            for (step, channel) in texel.iter().enumerate() {
+                let there = hatch_luminance(texel, step as f32 / STEPS as f32);
+                prop_assert!((there - channel).abs() < 1e-4, "{there} is not {channel}");
+            }
+            let step = ((f * STEPS as f32) as usize).min(2);
+            let (low, high) = (texel[step].min(texel[step + 1]), texel[step].max(texel[step + 1]));
+            let s = hatch_luminance(texel, f);
+            prop_assert!(s > low - 0.02 && s < high + 0.05 && s > 0.0 && s < 1.0);
+        }
+
+        #[test]
+        fn the_gradient_is_that_of_the_luminance(
+            texels in proptest::collection::vec([1u8..255, 1u8..255, 1u8..255, 1u8..255], 16),
+            cell in [0u32..4, 0u32..4], within in [0.1f32..0.9, 0.1f32..0.9], f in 0.0f32..=1.0,
+        ) {
+            let place: [f32; 2] = std::array::from_fn(|i| (cell[i] as f32 + 0.5 + within[i]) / 4.0);
+            let at = |du: f32, dv: f32| sample(&texels, 4, [place[0] + du / 4.0, place[1] + dv / 4.0], f);
+            let here = at(0.0, 0.0);
+            let h = 0.05;
+            let slopes = [at(h, 0.0).luminance - at(-h, 0.0).luminance, at(0.0, h).luminance - at(0.0, -h).luminance];
+            for (slope, gradient) in slopes.iter().zip(here.gradient) {
+                prop_assert!((slope / (2.0 * h) - gradient).abs() < 1e-3);
+            }
+            let far = at(-12.0, 8.0);
+            prop_assert!((far.luminance - here.luminance).abs() < 1e-3);
+        }
+    }
 }

@@ -1,0 +1,373 @@
+//! Charts against what a reader can check by hand: lengths, agreement across edges, symmetries.
+
+use std::collections::BTreeMap;
+
+use glam::{Vec2, Vec3};
+use npr_core::geometry::Triangle;
+use proptest::prelude::*;
+
+use super::*;
+use crate::direction_field::Guide;
+use crate::mesh::Mesh;
+use crate::testing::{
+    Random, cube, cylinder, icosphere, mapped, moebius_strip, random_soup, shuffled_vertices,
+    torus, unindexed, with_doubles,
+};
+
+fn triangles_of(mesh: &Mesh) -> Vec<Triangle> {
+    let triangle = |&corners: &[u32; 3]| Triangle { corners, part: 0 };
+    mesh.triangles().iter().map(triangle).collect()
+}
+
+fn chart_of(mesh: &Mesh, settings: &ChartSettings) -> StrokeChart {
+    let triangles = triangles_of(mesh);
+    let surface = ChartInput {
+        positions: mesh.positions(),
+        triangles: &triangles,
+    };
+    stroke_chart(&surface, settings)
+}
+
+fn tiles_of(tile_world: f32) -> ChartSettings {
+    ChartSettings {
+        tile_world,
+        ..ChartSettings::default()
+    }
+}
+
+fn guided(tile_world: f32, guide: Guide) -> ChartSettings {
+    ChartSettings {
+        guides: vec![PartGuide { guide, angle: 0.0 }],
+        ..tiles_of(tile_world)
+    }
+}
+
+fn corners_of(mesh: &Mesh, face: usize) -> [Vec3; 3] {
+    mesh.triangles()[face].map(|vertex| Vec3::from_array(mesh.positions()[vertex as usize]))
+}
+
+/// How `u` and `v` change per unit of length in a triangle.
+fn gradients(corners: [Vec3; 3], chart: &[[f32; 2]; 3]) -> [Vec3; 2] {
+    let [e, f] = [corners[1] - corners[0], corners[2] - corners[0]];
+    let normal = e.cross(f);
+    [0, 1].map(|k| {
+        let [to_e, to_f] = [chart[1][k] - chart[0][k], chart[2][k] - chart[0][k]];
+        (f.cross(normal) * to_e + normal.cross(e) * to_f) / normal.length_squared()
+    })
+}
+
+/// A flat sheet of uneven triangles over vertices in random order.
+fn uneven_sheet(columns: u32, rows: u32, seed: u64) -> Mesh {
+    let mut random = Random::new(seed);
+    let mut positions = Vec::new();
+    let mut triangles = Vec::new();
+    let mut jitter = || 0.3 * random.unit() - 0.15;
+    for row in 0..=rows {
+        for column in 0..=columns {
+            positions.push([column as f32 + jitter(), row as f32 + jitter(), 0.0]);
+        }
+    }
+    for row in 0..rows {
+        for column in 0..columns {
+            let a = row * (columns + 1) + column;
+            let [b, c, d] = [a + 1, a + columns + 2, a + columns + 1];
+            if random.below(2) == 0 {
+                triangles.extend([[a, b, c], [a, c, d]]);
+            } else {
+                triangles.extend([[a, b, d], [b, c, d]]);
+            }
+        }
+    }
+    random.shuffle(&mut triangles);
+    shuffled_vertices(&Mesh::new(positions, triangles).unwrap(), seed).0
+}
+
+/// A ball with dents that has no symmetry.
+fn bumpy(level: u32, seed: u64) -> Mesh {
+    let mut random = Random::new(seed);
+    let mut wave = || Vec3::from_array([0; 3].map(|_| 8.0 * random.unit() - 4.0));
+    let waves = [wave(), wave(), wave()];
+    mapped(&icosphere(level), |p| {
+        let height = |wave: &Vec3| npr_core::math::sin(wave.dot(Vec3::from_array(p)) + wave.x);
+        let height: f32 = waves.iter().map(height).sum();
+        p.map(|v| v * (1.0 + 0.06 * height))
+    })
+}
+
+/// A tube about z without caps.
+fn tube(around: u32, bands: u32, radius: f32) -> Mesh {
+    let mesh = cylinder(around, bands);
+    let inside = |corners: &&[u32; 3]| {
+        let z = corners.map(|vertex| mesh.positions()[vertex as usize][2]);
+        !(z[0] == z[1] && z[1] == z[2])
+    };
+    let triangles = mesh.triangles().iter().filter(inside).copied().collect();
+    let positions = mesh.positions().iter();
+    let positions = positions.map(|[x, y, z]| [x * radius, y * radius, *z]);
+    Mesh::new(positions.collect(), triangles).unwrap()
+}
+
+/// Whether two charts of the same corners differ by whole tiles, maybe after a half turn.
+fn agree(ours: &[Vec2], theirs: &[Vec2], tolerance: f32) -> bool {
+    [1.0, -1.0].iter().any(|&turn| {
+        let offset = ours[0] - theirs[0] * turn;
+        let whole = (offset - offset.round()).abs().max_element() < tolerance;
+        let differs = |(a, b): (&Vec2, &Vec2)| (a - b * turn - offset).abs().max_element();
+        whole && ours.iter().zip(theirs).map(differs).all(|d| d < tolerance)
+    })
+}
+
+/// Pairs of corners `[[face, corner]; 2]` at both ends of every edge that two faces of a manifold share.
+fn shared_edges(mesh: &Mesh) -> Vec<[[[usize; 2]; 2]; 2]> {
+    let mut sides: BTreeMap<[[u32; 3]; 2], Vec<[[usize; 2]; 2]>> = BTreeMap::new();
+    for face in 0..mesh.triangles().len() {
+        let corners = corners_of(mesh, face).map(|p| (p + 0.0).to_array().map(f32::to_bits));
+        for i in 0..3 {
+            let j = (i + 1) % 3;
+            let (edge, side) = if corners[i] < corners[j] {
+                ([corners[i], corners[j]], [[face, i], [face, j]])
+            } else {
+                ([corners[j], corners[i]], [[face, j], [face, i]])
+            };
+            sides.entry(edge).or_default().push(side);
+        }
+    }
+    let pairs = sides.into_values().filter(|sides| sides.len() == 2);
+    pairs.map(|sides| [sides[0], sides[1]]).collect()
+}
+
+/// Edges whose two faces disagree though they are smooth and neither is singular.
+fn torn_edges(mesh: &Mesh, settings: &ChartSettings) -> usize {
+    let triangles = triangles_of(mesh);
+    let surface = ChartInput {
+        positions: mesh.positions(),
+        triangles: &triangles,
+    };
+    let (nodes, lifted) = lift_faces(&surface, settings);
+    assert_eq!(nodes.faces.len(), triangles.len());
+    let normal = |face: usize| {
+        let [a, b, c] = corners_of(mesh, face);
+        (b - a).cross(c - a).normalize()
+    };
+    let torn = |[one, other]: &&[[[usize; 2]; 2]; 2]| {
+        let [f, g] = [one[0][0], other[0][0]];
+        let backwards = (one[0][1] + 1) % 3 == one[1][1];
+        let smooth = normal(f).dot(normal(g)) > settings.crease_cos + 1e-4
+            && backwards != ((other[0][1] + 1) % 3 == other[1][1]);
+        let ends = |side: &[[usize; 2]; 2]| side.map(|[face, i]| lifted[face].corners[i]);
+        let singular = lifted[f].singular || lifted[g].singular;
+        smooth && !singular && !agree(&ends(one), &ends(other), 2e-3)
+    };
+    shared_edges(mesh).iter().filter(torn).count()
+}
+
+#[test]
+fn nothing_has_no_coordinates() {
+    let chart = stroke_chart(&ChartInput::default(), &ChartSettings::default());
+    assert_eq!(chart, StrokeChart::default());
+}
+
+#[test]
+fn a_cube_has_straight_even_strokes() {
+    let chart = chart_of(&cube(), &tiles_of(0.5));
+    assert_eq!(chart.singular_triangles, 0);
+    assert!(chart.gradient_error < 1e-4, "{}", chart.gradient_error);
+    assert_eq!(torn_edges(&cube(), &tiles_of(0.5)), 0);
+    for (face, chart) in chart.corners.iter().enumerate() {
+        let [u, v] = gradients(corners_of(&cube(), face), chart);
+        assert!((u.length() - 2.0).abs() < 1e-3 && (v.length() - 2.0).abs() < 1e-3);
+        assert!(u.abs().max_element() > 1.999, "strokes lie askew: {u}");
+    }
+}
+
+#[test]
+fn a_sphere_turns_at_few_points_and_a_torus_nowhere() {
+    for level in [3, 4, 5] {
+        let turning = chart_of(&icosphere(level), &tiles_of(0.15)).turning_triangles;
+        assert!((4..=12).contains(&turning), "level {level}: {turning}");
+    }
+    let chart = chart_of(&torus(96, 48, 1.0, 0.4), &tiles_of(0.2));
+    assert_eq!(chart.turning_triangles, 0);
+    // Rings are longer outside than inside: 4 pi * 0.4 / 0.2 strokes end on the way, on either side.
+    assert!(
+        chart.singular_triangles <= 60,
+        "{}",
+        chart.singular_triangles
+    );
+    assert!(chart.gradient_error < 0.15, "{}", chart.gradient_error);
+}
+
+#[test]
+fn strokes_wrap_round_a_tube_or_run_along_it() {
+    for across in [true, false] {
+        let mesh = tube(32, 12, 0.5);
+        let chart = chart_of(&mesh, &guided(0.21, Guide::Curvature { across }));
+        for (face, chart) in chart.corners.iter().enumerate() {
+            let [_, v] = gradients(corners_of(&mesh, face), chart);
+            let cos = v.normalize().dot(Vec3::Z).abs();
+            assert!(if across { cos < 0.05 } else { cos > 0.95 }, "{cos}");
+        }
+    }
+}
+
+#[test]
+fn each_part_follows_its_guide_up_to_its_border() {
+    let mesh = uneven_sheet(8, 8, 3);
+    let mut triangles = triangles_of(&mesh);
+    for (face, triangle) in triangles.iter_mut().enumerate() {
+        let middle = corners_of(&mesh, face).iter().sum::<Vec3>() / 3.0;
+        triangle.part = u32::from(middle.x > 4.0);
+    }
+    let part = |guide, angle| PartGuide { guide, angle };
+    let settings = ChartSettings {
+        guides: vec![
+            part(Guide::Along([1.0, 0.0, 7.0]), 0.0),
+            part(Guide::Along([1.0, 0.0, 0.0]), 0.4),
+        ],
+        ..tiles_of(0.7)
+    };
+    let surface = ChartInput {
+        positions: mesh.positions(),
+        triangles: &triangles,
+    };
+    let chart = stroke_chart(&surface, &settings);
+    assert_eq!(chart.singular_triangles, 0);
+    for (face, triangle) in triangles.iter().enumerate() {
+        let [_, v] = gradients(corners_of(&mesh, face), &chart.corners[face]);
+        let angle = 0.4 * triangle.part as f32;
+        let wanted = Vec3::new(npr_core::math::cos(angle), npr_core::math::sin(angle), 0.0);
+        assert!((v * 0.7).dot(wanted).abs() > 0.999, "{face}: {v}");
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    let with_threads = |threads: usize, mesh: &Mesh| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap().install(|| chart_of(mesh, &tiles_of(0.1)))
+    };
+    let soup = with_doubles(&random_soup(3_000, 1), 2);
+    for mesh in [soup, bumpy(5, 3), unindexed(&torus(90, 60, 1.0, 0.3))] {
+        let alone = with_threads(1, &mesh);
+        assert!(alone == with_threads(2, &mesh));
+        assert!(alone == with_threads(4, &mesh));
+    }
+}
+
+#[test]
+fn a_twisted_band_is_cut_where_its_winding_turns() {
+    let mesh = moebius_strip(60);
+    assert_eq!(torn_edges(&mesh, &tiles_of(0.2)), 0);
+    let chart = chart_of(&mesh, &tiles_of(0.2));
+    assert_eq!(chart.turning_triangles, 0);
+}
+
+#[test]
+fn sizes_that_are_none_give_zeros() {
+    for tile_world in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e-44] {
+        let chart = chart_of(&cube(), &tiles_of(tile_world));
+        assert!(chart.corners.as_flattened().iter().all(|c| *c == [0.0; 2]));
+        assert_eq!(chart.corners.len(), 12);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn a_flat_sheet_has_exact_spacing(
+        columns in 1u32..9, rows in 1u32..9, seed: u64, tile in 0.05f32..20.0, angle in 0.0f32..6.3,
+    ) {
+        let mesh = uneven_sheet(columns, rows, seed);
+        let (x, y) = (npr_core::math::cos(angle), npr_core::math::sin(angle));
+        for guide in [Guide::Along([x, y, 0.0]), Guide::Curvature { across: true }] {
+            let chart = chart_of(&mesh, &guided(tile, guide));
+            prop_assert_eq!(chart.singular_triangles, 0);
+            for (face, chart) in chart.corners.iter().enumerate() {
+                let [u, v] = gradients(corners_of(&mesh, face), chart).map(|g| g * tile);
+                prop_assert!((u.length() - 1.0).abs() < 1e-3 && (v.length() - 1.0).abs() < 1e-3);
+                // Seen from the front, u lies to the right of v.
+                prop_assert!((u.cross(v).z - 1.0).abs() < 1e-3);
+                let along = (v.dot(Vec3::new(x, y, 0.0)).abs() - 1.0).abs() < 1e-3;
+                prop_assert!(along || !matches!(guide, Guide::Along(_)));
+            }
+        }
+    }
+
+    #[test]
+    fn strokes_close_round_a_tube_of_any_girth(
+        around in 12u32..60, bands in 2u32..8, radius in 0.3f32..3.0, tiles in 5.0f32..40.0, across: bool,
+    ) {
+        let mesh = tube(around, bands, radius);
+        let girth = std::f32::consts::TAU * radius;
+        let settings = guided(girth / tiles, Guide::Curvature { across });
+        prop_assert_eq!(torn_edges(&mesh, &settings), 0);
+        let chart = chart_of(&mesh, &settings);
+        prop_assert_eq!(chart.singular_triangles, 0);
+        for (face, chart) in chart.corners.iter().enumerate() {
+            for gradient in gradients(corners_of(&mesh, face), chart) {
+                let spacing = gradient.length() * settings.tile_world;
+                prop_assert!((spacing - 1.0).abs() < 0.12, "{spacing}");
+            }
+        }
+    }
+
+    #[test]
+    fn neighbours_agree_on_any_ball(seed: u64, level in 1u32..4, tile in 0.05f32..2.0) {
+        let mesh = bumpy(level, seed);
+        prop_assert_eq!(torn_edges(&mesh, &tiles_of(tile)), 0);
+    }
+
+    #[test]
+    fn the_order_of_storage_changes_nothing(seed: u64, tile in 0.1f32..0.6) {
+        let mesh = bumpy(2, seed);
+        let mut order: Vec<usize> = (0..mesh.triangles().len()).collect();
+        Random::new(seed).shuffle(&mut order);
+        let shuffled = shuffled_vertices(&mesh, seed).0;
+        let triangles = order.iter().map(|&face| shuffled.triangles()[face]).collect();
+        let moved = Mesh::new(shuffled.positions().to_vec(), triangles).unwrap();
+        let [before, after] = [&mesh, &moved].map(|mesh| chart_of(mesh, &tiles_of(tile)));
+        for (&old, new) in order.iter().zip(&after.corners) {
+            let [old, new] = [&before.corners[old], new].map(|chart| chart.map(Vec2::from_array));
+            prop_assert!(agree(&old, &new, 1e-2), "{old:?} {new:?}");
+        }
+    }
+
+    #[test]
+    fn a_larger_copy_with_larger_tiles_has_the_same_chart(seed: u64, power in -8i32..8) {
+        let mesh = bumpy(2, seed);
+        let size = 2.0_f32.powi(power);
+        let larger = mapped(&mesh, |p| p.map(|v| v * size));
+        prop_assert_eq!(chart_of(&mesh, &tiles_of(0.3)), chart_of(&larger, &tiles_of(0.3 * size)));
+    }
+
+    #[test]
+    fn anything_gives_finite_coordinates(
+        seed: u64, faces in 0usize..40, power in -40i32..38, tile_power in -3i32..3, broken in 0usize..4,
+    ) {
+        let soup = with_doubles(&unindexed(&random_soup(faces, seed)), seed);
+        let mut mesh = mapped(&soup, |p| p.map(|v| v * 10.0_f32.powi(power)));
+        if broken > 0 && faces > 0 {
+            let mut positions = mesh.positions().to_vec();
+            let mut random = Random::new(seed);
+            for _ in 0..broken {
+                let vertex = random.below(positions.len());
+                positions[vertex][random.below(3)] =
+                    [f32::NAN, f32::INFINITY, f32::MAX, -0.0][random.below(4)];
+            }
+            mesh = mapped(&mesh, |p| p);
+            let triangles = triangles_of(&mesh);
+            let surface = ChartInput { positions: &positions, triangles: &triangles };
+            check_finite(&stroke_chart(&surface, &tiles_of(10.0_f32.powi(tile_power))), faces)?;
+        }
+        check_finite(&chart_of(&mesh, &tiles_of(10.0_f32.powi(power + tile_power))), faces)?;
+    }
+}
+
+fn check_finite(chart: &StrokeChart, faces: usize) -> Result<(), TestCaseError> {
+    prop_assert!(chart.corners.len() >= faces);
+    let mut numbers = chart.corners.as_flattened().as_flattened().iter();
+    prop_assert!(numbers.all(|v| v.is_finite()));
+    prop_assert!(chart.gradient_error.is_finite());
+    Ok(())
+}
