@@ -45,7 +45,7 @@ pub fn place_samples(view: &View, spines: &[Spine]) -> SampledLines {
 
 impl Spine {
     fn place(&self, view: &View, line: u32, samples: &mut Vec<SpineSample>) {
-        let length: f32 = self.points.windows(2).map(|ends| length(ends)).sum();
+        let length: f32 = self.points.windows(2).map(distance).sum();
         // No comparison holds for what is no number.
         if !(length > 0.0 && length.is_finite()) {
             return;
@@ -54,7 +54,7 @@ impl Spine {
         let step = length / count as f32;
         let (mut next, mut passed) = (0, 0.0);
         for ends in self.points.windows(2) {
-            let own = self::length(ends);
+            let own = distance(ends);
             while next < count && (next as f32 + 0.5) * step < passed + own {
                 let share = ((next as f32 + 0.5) * step - passed) / own;
                 samples.push(self.sample(view, line, ends, share.clamp(0.0, 1.0)));
@@ -68,7 +68,7 @@ impl Spine {
     fn sample(&self, view: &View, line: u32, ends: &[[f32; 3]], share: f32) -> SpineSample {
         let between = |from: f32, to: f32| from + (to - from) * share;
         let [a, b] = [ends[0], ends[1]];
-        let [along_x, along_y] = [0, 1].map(|i| (b[i] - a[i]) / length(ends));
+        let [along_x, along_y] = [0, 1].map(|i| (b[i] - a[i]) / distance(ends));
         let coordinates = [a, b].map(|p| view.plane_coordinate(p[2]));
         SpineSample {
             place_px: [between(a[0], b[0]), between(a[1], b[1])],
@@ -82,7 +82,7 @@ impl Spine {
     }
 }
 
-fn length(ends: &[[f32; 3]]) -> f32 {
+fn distance(ends: &[[f32; 3]]) -> f32 {
     let (dx, dy) = (ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
     (dx * dx + dy * dy).sqrt()
 }
@@ -136,17 +136,17 @@ mod tests {
             let view = view(if parallel { 0.0 } else { 1.0 });
             let spine = Spine { points: points.clone(), outer_side: -1.0, ..Spine::default() };
             let placed = place_samples(&view, &[spine]);
-            let whole: f32 = points.windows(2).map(length).sum();
+            let whole: f32 = points.windows(2).map(distance).sum();
             prop_assert_eq!(placed.samples.len(), whole.ceil() as usize);
             prop_assert_eq!(placed.line_starts, [0, whole.ceil() as u32]);
             for sample in &placed.samples {
                 let [x, y] = sample.place_px;
                 let on_piece = |ends: &[[f32; 3]]| {
-                    let via = |p: [f32; 3]| length(&[p, [x, y, 0.0]]);
-                    via(ends[0]) + via(ends[1]) <= length(ends) + 0.02
+                    let via = |p: [f32; 3]| distance(&[p, [x, y, 0.0]]);
+                    via(ends[0]) + via(ends[1]) <= distance(ends) + 0.02
                 };
                 prop_assert!(points.windows(2).any(on_piece), "{:?}", sample);
-                prop_assert!((length(&[[0.0; 3], [sample.outward[0], sample.outward[1], 0.0]]) - 1.0).abs() < 1e-4);
+                prop_assert!((distance(&[[0.0; 3], [sample.outward[0], sample.outward[1], 0.0]]) - 1.0).abs() < 1e-4);
                 prop_assert!((0.99..90.1).contains(&sample.depth));
             }
         }
