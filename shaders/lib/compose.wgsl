@@ -20,3 +20,4 @@ struct Compose {
 const COMPOSE_ANGLE: u32 = 1u;
 const COMPOSE_RIBBONS: u32 = 2u;
 const COMPOSE_OVERLAY: u32 = 4u;
+const COMPOSE_BEAMS: u32 = 8u;

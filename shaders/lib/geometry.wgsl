@@ -78,6 +78,7 @@ struct Part {
     highlight_shape: vec4<f32>,
     highlight_turn: vec4<f32>,
     back: vec4<f32>,
+    beam_alpha: vec4<f32>,
     ramp: array<vec4<f32>, 8>,
 }
 
@@ -97,6 +98,9 @@ const PART_PHONG: u32 = 4096u;
 const PART_BACK_LIGHT: u32 = 8192u;
 const PART_STREAK: u32 = 16384u;
 const PART_HIGHLIGHTS: u32 = 27648u;
+const PART_BEAM: u32 = 32768u;
+const PART_BEAM_COVERS: u32 = 65536u;
+const PART_BEAM_BEHIND: u32 = 131072u;
 
 struct GPixel {
     plane_step: vec2<f32>,

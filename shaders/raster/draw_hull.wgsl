@@ -12,10 +12,7 @@
 @group(0) @binding(2) var<storage, read> triangles: array<Triangle>;
 @group(0) @binding(3) var<storage, read> parts: array<Part>;
 
-struct Varying {
-    @builtin(position) position: vec4<f32>,
-    @location(0) @interpolate(flat, either) triangle: u32,
-}
+//# use lib/varying
 
 // Three vertices per triangle; fronts and parts without lines collapse to a point.
 @vertex
@@ -24,14 +21,8 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     let corners = triangles[triangle].corners;
     let clip = array<vec4<f32>, 3>(hull[corners.x], hull[corners.y], hull[corners.z]);
     let turned = array<vec4<f32>, 3>(clip[0], clip[2], clip[1]);
-    let drawn = (parts[triangles[triangle].part].flags & PART_LINES) != 0u;
-    var passed: Varying;
-    passed.triangle = triangle;
-    passed.position = vec4<f32>(0.0);
-    if drawn && faces_eye(turned) {
-        passed.position = clip_here(window, clip[index % 3u]);
-    }
-    return passed;
+    let drawn = (parts[triangles[triangle].part].flags & (PART_LINES | PART_BEAM)) == PART_LINES;
+    return passed_on(triangle, clip[index % 3u], drawn && faces_eye(turned));
 }
 
 @fragment

@@ -22,25 +22,17 @@
 //# use lib/texture
 //# use lib/cutout
 
-struct Varying {
-    @builtin(position) position: vec4<f32>,
-    @location(0) @interpolate(flat, either) triangle: u32,
-}
+//# use lib/varying
 
-// Three vertices per triangle; hidden sides collapse to a point.
+// Three vertices per triangle; hidden sides and beams collapse to a point.
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     let triangle = index / 3u;
     let corners = triangles[triangle].corners;
     let clip = array<vec4<f32>, 3>(posed[corners.x].clip, posed[corners.y].clip, posed[corners.z].clip);
-    let both = (parts[triangles[triangle].part].flags & PART_DOUBLE_SIDED) != 0u;
-    var passed: Varying;
-    passed.triangle = triangle;
-    passed.position = vec4<f32>(0.0);
-    if both || faces_eye(clip) {
-        passed.position = clip_here(window, clip[index % 3u]);
-    }
-    return passed;
+    let flags = parts[triangles[triangle].part].flags;
+    let shown = (flags & PART_DOUBLE_SIDED) != 0u || faces_eye(clip);
+    return passed_on(triangle, clip[index % 3u], shown && (flags & PART_BEAM) == 0u);
 }
 
 @fragment

@@ -20,20 +20,22 @@ override WG: u32 = 64u;
 @group(0) @binding(2) var<uniform> compose: Compose;
 @group(0) @binding(3) var<uniform> lights: Lights;
 @group(0) @binding(4) var ids: texture_2d<u32>;
-@group(0) @binding(5) var ribbons: texture_2d<f32>;
-@group(0) @binding(6) var<storage, read> posed: array<PosedVertex>;
-@group(0) @binding(7) var<storage, read> vertices: array<Vertex>;
-@group(0) @binding(8) var<storage, read> triangles: array<Triangle>;
-@group(0) @binding(9) var<storage, read> parts: array<Part>;
-@group(0) @binding(10) var<storage, read> texels: array<u32>;
-@group(0) @binding(11) var<storage, read> charts: array<ChartCorners>;
-@group(0) @binding(12) var<storage, read> overlay: array<u32>;
-@group(0) @binding(13) var<storage, read_write> frame: array<u32>;
+@group(0) @binding(5) var beam_ids: texture_2d<u32>;
+@group(0) @binding(6) var ribbons: texture_2d<f32>;
+@group(0) @binding(7) var<storage, read> posed: array<PosedVertex>;
+@group(0) @binding(8) var<storage, read> vertices: array<Vertex>;
+@group(0) @binding(9) var<storage, read> triangles: array<Triangle>;
+@group(0) @binding(10) var<storage, read> parts: array<Part>;
+@group(0) @binding(11) var<storage, read> texels: array<u32>;
+@group(0) @binding(12) var<storage, read> charts: array<ChartCorners>;
+@group(0) @binding(13) var<storage, read> overlay: array<u32>;
+@group(0) @binding(14) var<storage, read_write> frame: array<u32>;
 
 //# use lib/texture
 //# use lib/lighting
 //# use lib/inking
 //# use lib/gloss
+//# use lib/beam
 
 // How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
 const TONE_ROOM: f32 = 0.002;
@@ -293,11 +295,21 @@ fn main(
     let surface = surfaces(pixel, frame_px);
     var color = surface;
     if surface.a < 1.0 { color += background(frame_px) * (1.0 - surface.a); }
+    var covered = 0.0;
+    if (compose.flags & COMPOSE_BEAMS) != 0u {
+        let beams = add_beams(pixel, frame_px, color);
+        color = beams.color;
+        covered = beams.covered;
+    }
     if (compose.flags & COMPOSE_RIBBONS) != 0u {
-        color = over(linear_of(textureLoad(ribbons, pixel, 0)), color);
+        var line = linear_of(textureLoad(ribbons, pixel, 0));
+        line.a *= 1.0 - covered;
+        color = over(line, color);
     }
     if (compose.flags & COMPOSE_OVERLAY) != 0u {
-        color = over(linear_texel(overlay[element]), color);
+        var line = linear_texel(overlay[element]);
+        line.a *= 1.0 - covered;
+        color = over(line, color);
     }
     let straight = color.rgb / max(color.a, 1e-6);
     frame[element] = pack_rgba8(vec4<f32>(

@@ -38,6 +38,8 @@ shaders! {
     RASTER_DRAW_IDS = "raster/draw_ids";
     /// Draws the numbers of hull triangles with depth.
     RASTER_DRAW_HULL = "raster/draw_hull";
+    /// Draws triangle numbers of beams with depth.
+    RASTER_DRAW_BEAMS = "raster/draw_beams";
     /// Turns triangle numbers into a G-buffer.
     LINE_RESOLVE_GBUFFER = "line/resolve_gbuffer";
     /// Detects lines on the G-buffer.
@@ -112,6 +114,7 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/curve", include_str!("../lib/curve.wgsl")),
     ("lib/list", include_str!("../lib/list.wgsl")),
     ("lib/spine", include_str!("../lib/spine.wgsl")),
+    ("lib/varying", include_str!("../lib/varying.wgsl")),
     ("lib/window", include_str!("../lib/window.wgsl")),
     ("lib/outline", include_str!("../lib/outline.wgsl")),
     ("lib/pose", include_str!("../lib/pose.wgsl")),
@@ -119,6 +122,7 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/stamp", include_str!("../lib/stamp.wgsl")),
     ("lib/color", include_str!("../lib/color.wgsl")),
     ("lib/compose", include_str!("../lib/compose.wgsl")),
+    ("lib/beam", include_str!("../lib/beam.wgsl")),
     ("lib/gloss", include_str!("../lib/gloss.wgsl")),
     ("lib/inking", include_str!("../lib/inking.wgsl")),
     ("lib/lighting", include_str!("../lib/lighting.wgsl")),

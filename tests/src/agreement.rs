@@ -103,6 +103,7 @@ mod tests {
             size,
             rgba: (0..count).flat_map(|i| [at(i), 0, 0, 255]).collect(),
             times: Vec::new(),
+            notices: Vec::new(),
         }
     }
 

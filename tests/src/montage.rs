@@ -19,6 +19,7 @@ pub fn beside(frames: &[Frame], columns: u32) -> Frame {
         size,
         rgba: vec![255; (size[0] * size[1] * 4) as usize],
         times: Vec::new(),
+        notices: Vec::new(),
     };
     for (frame, i) in frames.iter().zip(0..) {
         assert_eq!(frame.size, cell, "pictures of one size");
@@ -48,6 +49,7 @@ pub fn reduced(frame: &Frame, factor: u32) -> Frame {
         size,
         rgba: bytes.collect(),
         times: Vec::new(),
+        notices: Vec::new(),
     }
 }
 
@@ -74,6 +76,7 @@ fn sampled(frame: &Frame, size: [u32; 2], from: impl Fn([u32; 2]) -> [u32; 2]) -
         size,
         rgba: bytes.collect(),
         times: Vec::new(),
+        notices: Vec::new(),
     }
 }
 

@@ -40,5 +40,6 @@ pub fn read_png(path: &Path) -> Option<Frame> {
         size: [image.width(), image.height()],
         rgba: image.into_raw(),
         times: Vec::new(),
+        notices: Vec::new(),
     })
 }

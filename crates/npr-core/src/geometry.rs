@@ -150,7 +150,7 @@ pub struct Part {
     pub material: u32,
     /// Where its base colour texture's header starts in the texture store, or [`NONE`].
     pub texture: u32,
-    /// Bits of [`Part::DOUBLE_SIDED`] to [`Part::STREAK`].
+    /// Bits of [`Part::DOUBLE_SIDED`] to [`Part::BEAM_BEHIND`].
     pub flags: u32,
     /// Factor on the line width.
     pub width_factor: f32,
@@ -192,6 +192,8 @@ pub struct Part {
     pub highlight_turn: [f32; 4],
     /// Where on its ramp the light from behind begins and is full; width of the streak in radii; |n.v| above which it shows.
     pub back: [f32; 4],
+    /// Opacity of a beam from each of the first four steps of its ramp on.
+    pub beam_alpha: [f32; 4],
     /// Tone steps: linear light rgb from coordinate `a` upwards; unused ones start at 2.
     pub ramp: [[f32; 4]; 8],
 }
@@ -223,6 +225,7 @@ gpu_layout!(Part {
     highlight_shape,
     highlight_turn,
     back,
+    beam_alpha,
     ramp,
 });
 
@@ -257,6 +260,12 @@ impl Part {
     pub const BACK_LIGHT: u32 = 8192;
     /// It has a straight streak of gloss.
     pub const STREAK: u32 = 16384;
+    /// It is a beam of light: no surface, but a glow over what lies behind it.
+    pub const BEAM: u32 = 32768;
+    /// A beam that covers lines too.
+    pub const BEAM_COVERS: u32 = 65536;
+    /// A beam that only shows where nothing lies behind it.
+    pub const BEAM_BEHIND: u32 = 131_072;
     /// Any highlight.
     pub const HIGHLIGHTS: u32 = Self::CRISP | Self::SOFT | Self::BACK_LIGHT | Self::STREAK;
 }

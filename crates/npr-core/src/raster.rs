@@ -24,9 +24,11 @@ const GUARD_PX: f32 = 65536.0;
 /// Which sides of triangles are filled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sides {
-    /// Both sides of double-sided parts, fronts of the others.
+    /// Both sides of double-sided parts, fronts of the others; no beams.
     AsParts,
-    /// Backs only: hulls.
+    /// The same of beams alone.
+    Beams,
+    /// Backs only: hulls; no beams.
     Backs,
 }
 
@@ -106,13 +108,16 @@ impl Batch {
         for index in first..last {
             let triangle = fill.triangles[index];
             let flags = fill.parts[triangle.part as usize].flags;
+            if (flags & Part::BEAM != 0) != (fill.sides == Sides::Beams) {
+                continue;
+            }
             let clip = triangle
                 .corners
                 .map(|v| fill.window.clip_here((fill.clip_of)(v)));
             let cull = match fill.sides {
-                Sides::AsParts if flags & Part::DOUBLE_SIDED != 0 => Cull::Nothing,
-                Sides::AsParts => Cull::Backs,
                 Sides::Backs => Cull::Fronts,
+                _ if flags & Part::DOUBLE_SIDED != 0 => Cull::Nothing,
+                _ => Cull::Backs,
             };
             let id = (index as u32 + 1) | fill.id_bits;
             let cutout = flags & Part::CUTOUT != 0;

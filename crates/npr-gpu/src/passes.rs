@@ -15,6 +15,7 @@ pub const ALL: &[&Pass] = &[
     &mesh::EXTRUDE_HULL,
     &raster::DRAW_IDS,
     &raster::DRAW_HULL,
+    &raster::DRAW_BEAMS,
     &line::RESOLVE_GBUFFER,
     &line::DETECT,
     &line::DRAW_RIBBONS,

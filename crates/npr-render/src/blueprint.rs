@@ -25,6 +25,8 @@ pub(crate) struct Counts {
     pub charts: usize,
     pub parts: usize,
     pub texel_words: usize,
+    /// Parts that are beams of light.
+    pub beams: usize,
 }
 
 /// Pixel grids of a tile.
@@ -122,6 +124,7 @@ pub(crate) struct Blueprint {
     pub frame: ResourceId,
     posed: ResourceId,
     ids: ResourceId,
+    beam_ids: ResourceId,
     depths: ResourceId,
     mask: ResourceId,
     ribbons: ResourceId,
@@ -138,6 +141,9 @@ impl Blueprint {
         }
         if method.hull {
             plan.draw_hull(counts.vertices);
+        }
+        if counts.beams > 0 {
+            plan.draw_beams(grids);
         }
         plan.compose_frame();
         plan
@@ -169,6 +175,7 @@ impl Blueprint {
             frame: graph.buffer::<u32>("frame", pixel_count(grids.output)),
             posed: graph.buffer::<PosedVertex>("posed", counts.vertices),
             ids: graph.image("ids", Format::U32, color),
+            beam_ids: graph.image("beam ids", Format::U32, only(counts.beams > 0, color)),
             depths: graph.image("depths", Format::Depth, color),
             mask: graph.buffer::<u32>("mask", pixel_count(only(method.mask, grids.mask))),
             ribbons: graph.image("ribbons", Format::Rgba8, only(method.ribbons, grids.output)),
@@ -330,6 +337,14 @@ impl Blueprint {
             .draw(&raster::DRAW_HULL, &bound, &[self.ids, self.depths], false);
     }
 
+    fn draw_beams(&mut self, grids: &Grids) {
+        let color = grids.output.map(|side| side * grids.samples);
+        let depths = self.graph.image("beam depths", Format::Depth, color);
+        let bound = [self.color_window, self.posed, self.triangles, self.parts];
+        self.graph
+            .draw(&raster::DRAW_BEAMS, &bound, &[self.beam_ids, depths], true);
+    }
+
     fn compose_frame(&mut self) {
         let bound = [
             self.view,
@@ -337,6 +352,7 @@ impl Blueprint {
             self.compose,
             self.lights,
             self.ids,
+            self.beam_ids,
             self.ribbons,
             self.posed,
             self.vertices,

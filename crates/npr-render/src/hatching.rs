@@ -42,10 +42,11 @@ pub(crate) fn add_ink(
     };
     let mut guides = Vec::with_capacity(model.parts.len());
     for (part, info) in parts.iter_mut().zip(&model.parts) {
-        let ink = style
-            .resolve_for(&info.material_name, &info.object_name)
-            .ink;
-        set_ink(part, info, &ink, frame, &mut tiles);
+        let look = style.resolve_for(&info.material_name, &info.object_name);
+        let ink = look.ink;
+        if look.beam.is_none() {
+            set_ink(part, info, &ink, frame, &mut tiles);
+        }
         guides.push(guide_of(&ink));
     }
     let charted = parts.iter().any(|part| part.flags & Part::ON_SURFACE != 0);

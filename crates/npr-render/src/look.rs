@@ -59,6 +59,17 @@ impl StyledModel {
     }
 }
 
+impl StyledModel {
+    /// Number of parts that are beams of light.
+    pub fn beam_count(&self) -> usize {
+        let beams = self
+            .parts
+            .iter()
+            .filter(|part| part.flags & Part::BEAM != 0);
+        beams.count()
+    }
+}
+
 /// A part in the style that its names ask for.
 pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
     let look = style.resolve_for(&info.material_name, &info.object_name);
@@ -74,7 +85,7 @@ pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
     let unlit = shade.mode == ShadeMode::Flat || (info.unlit && !paper);
     let mut line_color = look.line_color.srgb();
     line_color[3] *= style.line.opacity;
-    Part {
+    let mut part = Part {
         base_color: [
             base_color[0],
             base_color[1],
@@ -103,7 +114,11 @@ pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
         softness: shade.softness,
         ramp: ramp(&look),
         ..highlighted(&look.highlight)
+    };
+    if let Some(beam) = look.beam {
+        beam.apply_to(&mut part);
     }
+    part
 }
 
 /// A part with highlights and nothing else.

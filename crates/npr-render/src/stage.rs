@@ -14,6 +14,7 @@ use npr_gpu::engine::{Engine, EngineError, Session};
 use npr_gpu::graph::ResourceId;
 use npr_scene::Image;
 use npr_style::Style;
+use npr_style::compose::Compose;
 
 /// Most pixels of a frame along a side.
 const FRAME_SIDE: u32 = 32_768;
@@ -123,6 +124,7 @@ impl<'a> Stage<'a> {
             charts: styled.inked.charts.len(),
             parts: styled.parts.len(),
             texel_words: styled.textures.words().len(),
+            beams: styled.beam_count(),
         };
         let method = Method::of(style);
         let plan = Blueprint::new(&counts, &grids, method);
@@ -202,6 +204,9 @@ impl<'a> Stage<'a> {
             self.styled.background_texture,
         );
         compose.flags = self.method.layers;
+        if self.styled.beam_count() > 0 {
+            compose.flags |= Compose::BEAMS;
+        }
         let session = self.session.as_mut();
         write(session, self.plan.view, &[view])?;
         write(session, self.plan.outline, &[outline])?;

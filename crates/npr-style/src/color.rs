@@ -40,6 +40,11 @@ impl Color {
         Self { r, g, b, a: 255 }
     }
 
+    /// A colour of three sRGB bytes that covers as much as the fourth says.
+    pub const fn rgba(r: u8, g: u8, b: u8, a: u8) -> Self {
+        Self { r, g, b, a }
+    }
+
     /// The sRGB-encoded values, 0..1, alpha last.
     pub fn srgb(self) -> [f32; 4] {
         [self.r, self.g, self.b, self.a].map(|byte| f32::from(byte) / 255.0)

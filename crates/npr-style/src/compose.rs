@@ -22,7 +22,7 @@ pub struct Compose {
     pub line_color: [f32; 4],
     /// Header of the background texture, or [`NONE`].
     pub background_texture: u32,
-    /// Bits of [`Compose::ANGLE`] to [`Compose::OVERLAY`].
+    /// Bits of [`Compose::ANGLE`] to [`Compose::BEAMS`].
     pub flags: u32,
     /// Strength of surface colours: 0 grey, 1 as they are.
     pub saturation: f32,
@@ -69,6 +69,8 @@ impl Compose {
     pub const RIBBONS: u32 = 2;
     /// Lays the overlay over the surfaces: stamps, or the mask itself.
     pub const OVERLAY: u32 = 4;
+    /// Lays beams of light over the surfaces.
+    pub const BEAMS: u32 = 8;
 }
 
 /// What a frame is composed from.
@@ -84,6 +86,8 @@ pub struct Layers<'a> {
     pub lights: &'a Lights,
     /// Triangle numbers, `samples` times the output's size each way.
     pub ids: &'a [u32],
+    /// Triangle numbers of beams, on the same grid; not read without beams.
+    pub beam_ids: &'a [u32],
     /// Ribbons, sRGB bytes with coverage in alpha.
     pub ribbons: &'a [u32],
     /// Posed vertices.
@@ -144,7 +148,7 @@ pub fn draw_mask(windows: [&Window; 2], settings: &Compose, mask: &[u32], overla
 
 /// Triangle numbers of a pixel's samples.
 #[derive(Debug, Clone, Copy)]
-struct Samples {
+pub(crate) struct Samples {
     ids: [u32; 4],
     count: usize,
 }
@@ -175,7 +179,10 @@ impl Composer<'_> {
         let frame_px = self.layers.window.frame_at(x, y);
         let seen = self.layers.samples_of(x, y);
         let lines = self.layers.lines_at(x, y);
-        let whole = lines == [0; 2] && seen.iter().all(|id| *id == seen[0]);
+        let beams = self.layers.beams_of(x, y);
+        let whole = lines == [0; 2]
+            && beams.iter().all(|id| *id == 0)
+            && seen.iter().all(|id| *id == seen[0]);
         if whole && let Some(texel) = self.even_texel(seen[0]) {
             return texel;
         }
@@ -187,9 +194,12 @@ impl Composer<'_> {
             let left = 1.0 - color[3];
             color = std::array::from_fn(|i| color[i] + behind[i] * left);
         }
+        let covered = self.layers.add_beams(&seen, &beams, frame_px, &mut color);
         for line in lines {
             if line >> 24 != 0 {
-                color = over(self.layers.linear_texel(line), color);
+                let mut line = self.layers.linear_texel(line);
+                line[3] *= 1.0 - covered;
+                color = over(line, color);
             }
         }
         encoded(self.encoder, color)
@@ -267,8 +277,23 @@ impl<'a> Layers<'a> {
             .then(|| encoded(encoder, self.background([0.0; 2])))
     }
 
+    /// The triangle numbers of the beams over a pixel's samples; zeros where there are none.
+    fn beams_of(&self, x: u32, y: u32) -> Samples {
+        if self.compose.flags & Compose::BEAMS == 0 {
+            return Samples {
+                ids: [0; 4],
+                count: (self.compose.samples * self.compose.samples) as usize,
+            };
+        }
+        self.samples_in(self.beam_ids, x, y)
+    }
+
     /// The triangle numbers of a pixel's samples.
     fn samples_of(&self, x: u32, y: u32) -> Samples {
+        self.samples_in(self.ids, x, y)
+    }
+
+    fn samples_in(&self, ids: &[u32], x: u32, y: u32) -> Samples {
         let samples = self.compose.samples;
         let stride = self.window.size[0] * samples;
         let mut seen = Samples {
@@ -277,7 +302,7 @@ impl<'a> Layers<'a> {
         };
         for i in 0..samples * samples {
             seen.ids[i as usize] =
-                self.ids[((y * samples + (i >> 1)) * stride + x * samples + (i & 1)) as usize];
+                ids[((y * samples + (i >> 1)) * stride + x * samples + (i & 1)) as usize];
         }
         seen
     }
@@ -328,7 +353,7 @@ impl<'a> Layers<'a> {
 }
 
 /// A straight-alpha layer laid over a premultiplied one.
-fn over(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
+pub(crate) fn over(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
     let a = top[3];
     if a == 0.0 {
         return below;
@@ -361,6 +386,7 @@ mod tests {
             compose: compose_settings,
             lights: &Lights::default(),
             ids: &[0; 64],
+            beam_ids: &[],
             ribbons,
             posed: &[],
             vertices: &[],

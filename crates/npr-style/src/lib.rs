@@ -32,6 +32,7 @@
 
 mod antialias;
 mod background;
+pub mod beam;
 mod check;
 mod color;
 pub mod compose;
@@ -62,6 +63,7 @@ pub mod width;
 
 pub use antialias::Antialias;
 pub use background::{Background, BackgroundError};
+pub use beam::{Beam, BeamOverlap, BeamStop};
 pub use color::{Color, ColorError};
 pub use detect::{DepthTest, Detect, IdTest, MASK_LINE_PX, NormalTest, WidthWarning, width_rule};
 pub use error::{Place, Problem, StyleError};

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::beam::Beam;
 use crate::hatch::{Hatch, Pattern};
 use crate::highlight::{Edge, Highlight};
 use crate::ink::{Follow, Ink, Mapping, Tone};
@@ -182,6 +183,9 @@ pub struct Rule {
     pub ink: RuleInk,
     /// What changes about its highlights.
     pub highlight: RuleHighlight,
+    /// Makes it a beam of light instead of a surface.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub beam: Option<Beam>,
 }
 
 impl Rule {
@@ -211,6 +215,8 @@ pub struct Look<'a> {
     pub ink: Ink,
     /// Its highlights.
     pub highlight: Highlight,
+    /// How it glows, where it is a beam.
+    pub beam: Option<&'a Beam>,
 }
 
 impl<'a> Look<'a> {
@@ -225,6 +231,7 @@ impl<'a> Look<'a> {
             ramp: &style.shade.ramp,
             ink: style.ink.clone(),
             highlight: style.highlight.clone(),
+            beam: None,
         }
     }
 
@@ -240,6 +247,7 @@ impl<'a> Look<'a> {
             ramp: shade.ramp.as_deref().unwrap_or(self.ramp),
             ink: rule.ink.over(self.ink),
             highlight: rule.highlight.over(self.highlight),
+            beam: rule.beam.as_ref().or(self.beam),
         }
     }
 }

@@ -148,14 +148,14 @@ impl<'a> Layers<'a> {
     }
 
     /// Position of sample `i` within a pixel, from its centre.
-    fn sample_offset(&self, i: u32) -> [f32; 2] {
+    pub(crate) fn sample_offset(&self, i: u32) -> [f32; 2] {
         if self.compose.samples == 1 {
             return [0.0; 2];
         }
         [(i & 1) as f32 * 0.5 - 0.25, (i >> 1) as f32 * 0.5 - 0.25]
     }
 
-    fn corners_of(&self, triangle: &Triangle) -> Corners<'a> {
+    pub(crate) fn corners_of(&self, triangle: &Triangle) -> Corners<'a> {
         let posed = triangle.corners.map(|v| &self.posed[v as usize]);
         let clip = posed.map(|v| v.clip);
         Corners {
@@ -293,7 +293,7 @@ mod tests {
             let compose = Compose { saturation: 1.0, ..Compose::default() };
             let layers = Layers {
                 view: &View::default(), window: &Window::default(), compose: &compose, lights: &Lights::distant(unit_or_z(light)),
-                 ids: &[], ribbons: &[], posed: &posed, vertices: &[Vertex::default(); 3],
+                 ids: &[], beam_ids: &[], ribbons: &[], posed: &posed, vertices: &[Vertex::default(); 3],
                 triangles: &[triangle], parts: &[part], texels: &[], charts: &[], overlay: &[],
             };
             let corners = layers.corners_of(&triangle);

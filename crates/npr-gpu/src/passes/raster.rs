@@ -79,3 +79,35 @@ pub const DRAW_HULL: Pass = Pass {
         fill_triangles(&fill, b.image_mut(4).texels, b.image_mut(5).texels);
     },
 };
+
+/// The number of the nearest triangle of a beam, plus one, at every pixel.
+pub const DRAW_BEAMS: Pass = Pass {
+    name: "raster.draw_beams",
+    shader: npr_shaders::RASTER_DRAW_BEAMS,
+    slots: &[
+        uniform::<Window>("window"),
+        read::<PosedVertex>("posed"),
+        read::<Triangle>("triangles"),
+        read::<Part>("parts"),
+    ],
+    work: Work::Draw {
+        of: "triangles",
+        vertices: 3,
+        targets: &[Format::U32, Format::Depth],
+    },
+    agreement: Agreement::Texels(0.001),
+    twin: |b| {
+        let window: Window = b.one(0);
+        let posed: &[PosedVertex] = b.read(1);
+        let fill = Fill {
+            window: &window,
+            triangles: b.read(2),
+            parts: b.read(3),
+            sides: Sides::Beams,
+            id_bits: 0,
+            clip_of: |v| posed[v as usize].clip,
+            keep: |_, _, _| true,
+        };
+        fill_triangles(&fill, b.image_mut(4).texels, b.image_mut(5).texels);
+    },
+};

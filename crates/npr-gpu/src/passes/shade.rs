@@ -16,6 +16,7 @@ pub const COMPOSE_FRAME: Pass = Pass {
         uniform::<Compose>("compose"),
         uniform::<Lights>("lights"),
         texture("ids", Format::U32),
+        texture("beam_ids", Format::U32),
         texture("ribbons", Format::Rgba8),
         read::<PosedVertex>("posed"),
         read::<Vertex>("vertices"),
@@ -36,15 +37,16 @@ pub const COMPOSE_FRAME: Pass = Pass {
             compose: &settings,
             lights: &lights,
             ids: b.image(4).texels,
-            ribbons: b.image(5).texels,
-            posed: b.read(6),
-            vertices: b.read(7),
-            triangles: b.read(8),
-            parts: b.read(9),
-            texels: b.read(10),
-            charts: b.read(11),
-            overlay: b.read(12),
+            beam_ids: b.image(5).texels,
+            ribbons: b.image(6).texels,
+            posed: b.read(7),
+            vertices: b.read(8),
+            triangles: b.read(9),
+            parts: b.read(10),
+            texels: b.read(11),
+            charts: b.read(12),
+            overlay: b.read(13),
         };
-        compose(&layers, b.write(13));
+        compose(&layers, b.write(14));
     },
 };

@@ -41,9 +41,9 @@ pub struct Frame {
 
 impl Frame {
     /// The names of what passes make.
-    pub const MADE: [&str; 15] = [
-        "posed", "kinds", "hull", "ids", "depth", "mask_ids", "gbuffer", "mask", "ribbons", "keys",
-        "stamps", "smoothed", "tiles", "overlay", "frame",
+    pub const MADE: [&str; 16] = [
+        "posed", "kinds", "hull", "ids", "beam_ids", "depth", "mask_ids", "gbuffer", "mask",
+        "ribbons", "keys", "stamps", "smoothed", "tiles", "overlay", "frame",
     ];
 
     /// A frame of the test scene with an output and a mask of these sizes, every pass run by its twin.
@@ -119,7 +119,9 @@ impl Builder {
         self.make_buffer("hull", 16, scene.vertices.len());
         self.make_buffer("kinds", 4, scene.edges.len());
         self.make_image("ids", Format::U32, size.map(|side| side * samples));
+        self.make_image("beam_ids", Format::U32, size.map(|side| side * samples));
         self.make_image("depth", Format::Depth, size.map(|side| side * samples));
+        self.make_image("beam_depth", Format::Depth, size.map(|side| side * samples));
     }
 
     fn line_up_passes(&mut self, look: Look, size: [u32; 2], mask_size: [u32; 2]) {
@@ -140,6 +142,8 @@ impl Builder {
         self.compute(&mesh::CLASSIFY_EDGES);
         self.compute(&mesh::EXTRUDE_HULL);
         self.draw(&raster::DRAW_IDS, "sample_window", ["ids", "depth"], true);
+        let targets = ["beam_ids", "beam_depth"];
+        self.draw(&raster::DRAW_BEAMS, "sample_window", targets, true);
         if look == Look::Ours {
             self.draw(&raster::DRAW_HULL, "sample_window", ["ids", "depth"], false);
         }

@@ -75,6 +75,11 @@ impl Scene {
             ..part(2, flags, texture)
         };
         scene.add(&uv_sphere(16, 10), hatched, &mut random);
+        let beam = Part {
+            beam_alpha: [0.3, 0.8, 0.5, 0.0],
+            ..part(3, Part::BEAM, NONE)
+        };
+        scene.add(&torus(16, 8, 0.9, 0.25), beam, &mut random);
         let mut corner = || [random.unit(), random.unit()];
         let chart = |_: &Triangle| ChartCorners {
             a: corner(),
@@ -262,7 +267,11 @@ pub fn outline(look: Look) -> Outline {
 /// Settings of the last pass of a look; the texture lies behind everything in one of them.
 pub fn compose(look: Look, scene: &Scene) -> Compose {
     let (samples, flags, background_texture) = match look {
-        Look::Ours => (2, Compose::RIBBONS | Compose::OVERLAY, NONE),
+        Look::Ours => (
+            2,
+            Compose::RIBBONS | Compose::OVERLAY | Compose::BEAMS,
+            NONE,
+        ),
         Look::Published => (1, Compose::OVERLAY | Compose::ANGLE, scene.parts[1].texture),
     };
     Compose {

@@ -1,0 +1,213 @@
+//! Beams of light: laser, flash, explosion, trail.
+//!
+//! A beam is a mesh that is no surface. Its colour hangs on how squarely it faces the eye, T = E . N: low at the rim of a
+//! tube, 1 in its middle [Suzuki 2004, section 3.5]. A ramp over T makes it of one colour, light inside or strong inside.
+
+use npr_core::geometry::{Part, Triangle};
+use npr_core::raster::ID_MASK;
+use npr_core::surface::{blend, dot, weights_at};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::Color;
+use crate::compose::{Layers, Samples, over};
+use crate::ramp::{Level, ramp_light};
+
+/// Most steps of a beam's ramp.
+pub const BEAM_STOPS_MAX: usize = 4;
+
+/// What a beam does to what lies behind it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BeamOverlap {
+    /// Light lies over objects, and their lines over the light.
+    #[default]
+    Lines,
+    /// Light lies over objects and their lines.
+    Covers,
+    /// Objects lie over the light.
+    Behind,
+}
+
+/// A colour of a beam from a place of its ramp on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BeamStop {
+    /// Where the colour begins, 0..1: 0 the rim, 1 the middle.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub at: f32,
+    /// The colour; alpha is how much it covers.
+    pub color: Color,
+}
+
+/// How a part glows instead of being a surface.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Beam {
+    /// What it does to what lies behind it; default `lines`.
+    pub overlap: BeamOverlap,
+    /// Width of the step between two colours, 0..1; default 0.1. 0 cut paper, 0.5 a glow.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub softness: f32,
+    /// Colours from the rim to the middle, 1 to 4, sorted by `at`; default a warm glow with a white heart. A single one makes a
+    /// beam of one colour; a strong rim and a clear middle, glass or plasma.
+    #[schemars(length(min = 1, max = 4))]
+    pub ramp: Vec<BeamStop>,
+}
+
+impl Default for Beam {
+    fn default() -> Self {
+        let stop = |at, color| BeamStop { at, color };
+        Self {
+            overlap: BeamOverlap::Lines,
+            softness: 0.1,
+            ramp: vec![
+                stop(0.0, Color::rgba(0xff, 0x9a, 0x1f, 0x90)),
+                stop(0.35, Color::rgba(0xff, 0xe0, 0x66, 0xd8)),
+                stop(0.7, Color::WHITE),
+            ],
+        }
+    }
+}
+
+impl Beam {
+    /// Makes a part of a model glow.
+    pub fn apply_to(&self, part: &mut Part) {
+        let solid = Part::LINES | Part::INK | Part::HATCH | Part::HIGHLIGHTS | Part::CUTOUT;
+        part.flags = part.flags & !solid
+            | Part::BEAM
+            | match self.overlap {
+                BeamOverlap::Lines => 0,
+                BeamOverlap::Covers => Part::BEAM_COVERS,
+                BeamOverlap::Behind => Part::BEAM_BEHIND,
+            };
+        part.softness = self.softness;
+        part.ramp = [[1.0, 1.0, 1.0, Level::UNUSED]; 8];
+        part.beam_alpha = [0.0; 4];
+        for (i, stop) in self.ramp.iter().take(BEAM_STOPS_MAX).enumerate() {
+            let [r, g, b, a] = stop.color.linear();
+            part.ramp[i] = [r, g, b, stop.at];
+            part.beam_alpha[i] = a;
+        }
+    }
+}
+
+/// Colour of a beam, linear light with straight alpha, at the place `t` of its ramp, 0 the rim and 1 the middle.
+pub fn beam_color(part: &Part, t: f32) -> [f32; 4] {
+    let colors: &[Level] = bytemuck::cast_slice(&part.ramp);
+    let mut alphas = [Level {
+        light: [0.0; 3],
+        at: Level::UNUSED,
+    }; BEAM_STOPS_MAX];
+    for (i, level) in alphas.iter_mut().enumerate() {
+        level.light = [part.beam_alpha[i]; 3];
+        level.at = colors[i].at;
+    }
+    let [r, g, b] = ramp_light(colors, part.softness, t);
+    [r, g, b, ramp_light(&alphas, part.softness, t)[0]]
+}
+
+impl Layers<'_> {
+    /// Lays the beams over a pixel's surfaces, and gives how much of its lines they cover.
+    ///
+    /// A beam shows in the samples in which it lies before the surface.
+    pub(crate) fn add_beams(
+        &self,
+        seen: &Samples,
+        beams: &Samples,
+        frame_px: [f32; 2],
+        color: &mut [f32; 4],
+    ) -> f32 {
+        let share = 1.0 / beams.len() as f32;
+        let mut covered = 0.0;
+        for (i, &id) in beams.iter().enumerate() {
+            if id == 0 || beams[..i].contains(&id) {
+                continue;
+            }
+            let shown = (i..beams.len())
+                .filter(|&j| beams[j] == id && self.beam_shows(id, seen[j], j as u32, frame_px))
+                .count() as f32
+                * share;
+            let part = self.part_of(id);
+            let mut glow = beam_color(part, self.beam_place(id, frame_px));
+            glow[3] *= shown;
+            if part.flags & Part::BEAM_COVERS != 0 {
+                covered = f32::max(covered, glow[3]);
+            }
+            *color = over(glow, *color);
+        }
+        covered
+    }
+
+    fn part_of(&self, id: u32) -> &Part {
+        let Triangle { part, .. } = self.triangles[((id & ID_MASK) - 1) as usize];
+        &self.parts[part as usize]
+    }
+
+    /// Whether a beam shows before a surface in sample `i` of a pixel.
+    fn beam_shows(&self, id: u32, surface: u32, i: u32, frame_px: [f32; 2]) -> bool {
+        if surface == 0 {
+            return true;
+        }
+        if self.part_of(id).flags & Part::BEAM_BEHIND != 0 {
+            return false;
+        }
+        let offset = self.sample_offset(i);
+        let at = [frame_px[0] + offset[0], frame_px[1] + offset[1]];
+        self.depth_of(id, at) < self.depth_of(surface, at)
+    }
+
+    /// Depth of the plane of a triangle under a place of the frame.
+    fn depth_of(&self, id: u32, frame_px: [f32; 2]) -> f32 {
+        let corners = self.triangles[((id & ID_MASK) - 1) as usize]
+            .corners
+            .map(|v| &self.posed[v as usize]);
+        let weights = weights_at(corners.map(|v| v.clip), self.view.ndc_at(frame_px));
+        blend(weights, corners.map(|v| v.depth))
+    }
+
+    /// T = E . N of a beam, 0 at its rim and 1 in its middle.
+    fn beam_place(&self, id: u32, frame_px: [f32; 2]) -> f32 {
+        let corners = self.corners_of(&self.triangles[((id & ID_MASK) - 1) as usize]);
+        let weights = weights_at(corners.clip, self.view.ndc_at(frame_px));
+        let eye = self.view.to_eye(corners.world(weights));
+        dot(corners.normal(weights), eye).clamp(0.0, 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_beam_is_its_ramp_from_rim_to_middle() {
+        let beam = Beam {
+            softness: 0.0,
+            ..Beam::default()
+        };
+        let mut part = Part {
+            flags: Part::LINES | Part::DOUBLE_SIDED,
+            ..Part::default()
+        };
+        beam.apply_to(&mut part);
+        assert_eq!(part.flags, Part::BEAM | Part::DOUBLE_SIDED);
+        for (t, stop) in [(0.1, 0), (0.5, 1), (1.0, 2)] {
+            assert_eq!(beam_color(&part, t), beam.ramp[stop].color.linear());
+        }
+    }
+
+    #[test]
+    fn one_colour_is_one_colour() {
+        let mut part = Part::default();
+        let beam = Beam {
+            ramp: vec![BeamStop {
+                at: 0.4,
+                color: Color::rgb(255, 0, 0),
+            }],
+            ..Beam::default()
+        };
+        beam.apply_to(&mut part);
+        assert_eq!(beam_color(&part, 0.0), [1.0, 0.0, 0.0, 1.0]);
+        assert_eq!(beam_color(&part, 1.0), [1.0, 0.0, 0.0, 1.0]);
+    }
+}

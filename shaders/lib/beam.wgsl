@@ -1,0 +1,76 @@
+// Beams of light. Twin: npr_style::beam.
+
+fn beam_color(part: u32, t: f32) -> vec4<f32> {
+    let half = parts[part].softness * 0.5;
+    var color = vec4<f32>(parts[part].ramp[0].rgb, parts[part].beam_alpha[0]);
+    for (var i = 1u; i < 4u; i++) {
+        let stop = parts[part].ramp[i];
+        if stop.a > 1.5 { break; }
+        let next = vec4<f32>(stop.rgb, parts[part].beam_alpha[i]);
+        color += (next - color) * smooth_step(stop.a - half, stop.a + half, t);
+    }
+    return color;
+}
+
+// Depth of the plane of a triangle under a place of the frame.
+fn depth_of(id: u32, frame_px: vec2<f32>) -> f32 {
+    let corners = triangles[(id & ID_MASK) - 1u].corners;
+    let a = posed[corners.x];
+    let b = posed[corners.y];
+    let c = posed[corners.z];
+    let weights = weights_at(array<vec4<f32>, 3>(a.clip, b.clip, c.clip), ndc_at(view, frame_px));
+    return blend(weights, a.depth, b.depth, c.depth);
+}
+
+// T = E . N of a beam, 0 at its rim and 1 in its middle.
+fn beam_place(id: u32, frame_px: vec2<f32>) -> f32 {
+    let corners = corners_of(triangles[(id & ID_MASK) - 1u]);
+    let weights = weights_at(corners.clip, ndc_at(view, frame_px));
+    return clamp(dot(normal_of(corners, weights), to_eye(view, world_of(corners, weights))), 0.0, 1.0);
+}
+
+// Whether a beam shows before a surface in sample `i` of a pixel.
+fn beam_shows(id: u32, surface: u32, i: u32, frame_px: vec2<f32>) -> bool {
+    if surface == 0u { return true; }
+    if (parts[triangles[(id & ID_MASK) - 1u].part].flags & PART_BEAM_BEHIND) != 0u { return false; }
+    let at = frame_px + sample_offset(i);
+    return depth_of(id, at) < depth_of(surface, at);
+}
+
+struct Beams {
+    // The pixel with beams over it, premultiplied.
+    color: vec4<f32>,
+    // How much of its lines they cover.
+    covered: f32,
+}
+
+// Lays the beams over a pixel's surfaces.
+fn add_beams(pixel: vec2<u32>, frame_px: vec2<f32>, below: vec4<f32>) -> Beams {
+    var result: Beams;
+    result.color = below;
+    var ids_here: array<u32, 4>;
+    let count = compose.samples * compose.samples;
+    for (var i = 0u; i < count; i++) {
+        let at = pixel * compose.samples + vec2<u32>(i & 1u, i >> 1u);
+        ids_here[i] = textureLoad(beam_ids, at, 0).x;
+    }
+    for (var i = 0u; i < count; i++) {
+        let id = ids_here[i];
+        var first = id != 0u;
+        for (var j = 0u; j < i; j++) { first = first && ids_here[j] != id; }
+        if !first { continue; }
+        var shown = 0.0;
+        for (var j = i; j < count; j++) {
+            let at = pixel * compose.samples + vec2<u32>(j & 1u, j >> 1u);
+            if ids_here[j] == id && beam_shows(id, textureLoad(ids, at, 0).x, j, frame_px) {
+                shown += 1.0 / f32(count);
+            }
+        }
+        let part = triangles[(id & ID_MASK) - 1u].part;
+        var glow = beam_color(part, beam_place(id, frame_px));
+        glow.a *= shown;
+        if (parts[part].flags & PART_BEAM_COVERS) != 0u { result.covered = max(result.covered, glow.a); }
+        result.color = over(glow, result.color);
+    }
+    return result;
+}
