@@ -1,6 +1,7 @@
 //! Draws stroke coordinates as stripes: `stroke_chart OUT_FOLDER [MODEL.obj [TILE]]`.
 //!
-//! Wide stripes run along the strokes, thin lines across them; red marks singular triangles' neighbourhoods by their tears.
+//! Wide stripes run along the strokes, thin lines across them; each mesh is drawn from two sides. A tile is given as
+//! a share of half the mesh's size.
 
 use std::{env, fs, io, path::Path};
 
@@ -45,8 +46,6 @@ fn draw(folder: &str, name: &str, mesh: &Mesh, tile: f32) -> io::Result<()> {
     };
     let settings = ChartSettings {
         tile_world: tile * size,
-        rounds: env::var("ROUNDS").map_or(4, |r| r.parse().unwrap()),
-        smoothing_tiles: env::var("ST").map_or(2.0, |r| r.parse().unwrap()),
         ..ChartSettings::default()
     };
     let start = std::time::Instant::now();
@@ -82,8 +81,7 @@ fn paint(mesh: &Mesh, chart: &StrokeChart, place: impl Fn([f32; 3]) -> Vec3) -> 
     let (mut grey, mut depth) = (vec![255; SIZE * SIZE], vec![f32::NEG_INFINITY; SIZE * SIZE]);
     for (corners, chart) in mesh.triangles().iter().zip(&chart.corners) {
         let points = corners.map(|corner| place(mesh.positions()[corner as usize]));
-        let to_pixel =
-            |p: Vec3| Vec2::new(1.0 + p.x * 0.62 + 0.0, 1.0 - p.y * 0.62) * SIZE as f32 / 2.0;
+        let to_pixel = |p: Vec3| Vec2::new(1.0 + p.x * 0.62, 1.0 - p.y * 0.62) * SIZE as f32 / 2.0;
         let [a, b, c] = points.map(to_pixel);
         let area = (b - a).perp_dot(c - a);
         if area >= 0.0 {

@@ -99,13 +99,14 @@ pub struct StrokeChart {
 /// larger tiles has the same chart, and so has one with its triangles in any order, but for half turns, whole tiles
 /// and rounding. The number of threads changes no bit. A tile size that is not above 0 gives zeros.
 ///
-/// O(rounds * triangles); 100 000 triangles take about 0.1 s on two cores.
+/// O(rounds * triangles), in parallel; about 3 microseconds of processor time a triangle.
 ///
 /// # Panics
 ///
 /// If a triangle names a vertex that does not exist.
 pub fn stroke_chart(surface: &ChartInput, settings: &ChartSettings) -> StrokeChart {
-    let (nodes, lifted) = lift_faces(surface, settings);
+    // On a thread of the pool from end to end: the many short steps would wait for one each time.
+    let (nodes, lifted) = rayon::scope(|_| lift_faces(surface, settings));
     gather(&nodes.faces, &lifted, surface.triangles.len())
 }
 

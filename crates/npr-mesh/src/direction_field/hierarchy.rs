@@ -173,6 +173,7 @@ impl<const N: usize> Level<N> {
         parents
             .of_node
             .par_iter()
+            .with_min_len(BLOCK)
             .enumerate()
             .map(|(node, parent)| match values.get(parent.to as usize) {
                 Some(value) => parent.view.of(value),
@@ -223,7 +224,7 @@ impl<const N: usize> Level<N> {
         let runs = runs(parents.count, |group, links: &mut Vec<Link<N>>| {
             self.merge_links(group as u32, members_of(group), &parents, links);
         });
-        let groups = || (0..parents.count).into_par_iter();
+        let groups = || (0..parents.count).into_par_iter().with_min_len(BLOCK);
         let pulls = groups().map(|group| self.merged_pull(members_of(group), &parents));
         let size = |group| members_of(group).iter().map(|&m| self.sizes[m as usize]);
         let sizes = groups().map(|group| size(group).sum());

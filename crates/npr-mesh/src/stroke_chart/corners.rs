@@ -25,42 +25,43 @@ pub(crate) struct Lifted {
 /// number of tiles more or less that comes nearest to what the directions predict; both triangles beside an edge
 /// come to the same result. Where the three changes do not add up to nothing, or directions turn round within the
 /// triangle, the coordinates follow the prediction alone.
-pub(crate) fn lift(sites: [Site; 3], phases: [Vec2; 3], anchor: usize) -> Lifted {
-    let [first, second, third] = [0, 1, 2].map(|k| (anchor + k) % 3);
-    let opposed = [first, second, third].map(|k| sites[first].opposes(&sites[k]));
-    let turning = sites[second].opposes(&sites[third]) != (opposed[1] != opposed[2]);
-    let site = |k: usize| sites[(anchor + k) % 3].reversed_if(opposed[k]);
-    let phase = |k: usize| {
-        let phase = phases[(anchor + k) % 3];
-        if opposed[k] { -phase } else { phase }
-    };
-    let change = |a: usize, b: usize| {
-        let tiles = site(a).tiles_to(&site(b));
-        let rest = phase(b) - phase(a) - tiles;
+pub(crate) fn lift(mut sites: [Site; 3], mut phases: [Vec2; 3], anchor: usize) -> Lifted {
+    sites.rotate_left(anchor);
+    phases.rotate_left(anchor);
+    let turning = turn_alike(&mut sites, &mut phases);
+    let change = |from: usize, to: usize| {
+        let tiles = sites[from].tiles_to(&sites[to]);
+        let rest = phases[to] - phases[from] - tiles;
         tiles + rest - rest.round()
     };
     let changes = [change(0, 1), change(0, 2)];
     let gap = changes[0] + change(1, 2) - changes[1];
-    let open = gap.abs().cmpge(Vec2::splat(0.5));
-    let wanted = Gradient::wanted([0, 1, 2].map(site));
-    let steps = [1, 2].map(|k| site(k).position - site(0).position);
-    let ways = [0, 1].map(|k| {
-        let plain = wanted.of(steps[k]);
-        Vec2::select(open | BVec2::splat(turning), plain, changes[k])
-    });
-    let found = Gradient::fitted(steps, ways);
-    let mut corners = [Vec2::ZERO; 3];
-    corners[first] = phase(0);
-    corners[second] = phase(0) + ways[0];
-    corners[third] = phase(0) + ways[1];
+    let torn = gap.abs().cmpge(Vec2::splat(0.5)) | BVec2::splat(turning);
+
+    let wanted = Gradient::wanted(&sites);
+    let steps = [1, 2].map(|k| sites[k].position - sites[0].position);
+    let changes = [0, 1].map(|k| Vec2::select(torn, wanted.of(steps[k]), changes[k]));
+    let mut corners = [Vec2::ZERO, changes[0], changes[1]].map(|change| phases[0] + change);
     let whole = ((corners[0] + corners[1] + corners[2]) / 3.0).round();
+    corners.rotate_right(anchor);
     Lifted {
         corners: corners.map(|corner| finite(corner - whole)),
-        singular: turning || open.any(),
+        singular: torn.any(),
         turning,
-        gradient_error: found.distance(&wanted),
+        gradient_error: Gradient::fitted(steps, changes).distance(&wanted),
         area: steps[0].cross(steps[1]).length() / 2.0,
     }
+}
+
+/// Brings all corners to the sense of the first; tells whether the other two disagree even so.
+fn turn_alike(sites: &mut [Site; 3], phases: &mut [Vec2; 3]) -> bool {
+    for k in [1, 2] {
+        if sites[0].opposes(&sites[k]) {
+            sites[k] = sites[k].reversed_if(true);
+            phases[k] = -phases[k];
+        }
+    }
+    sites[1].opposes(&sites[2])
 }
 
 /// Numbers as they are; none in place of those that are none.
@@ -76,8 +77,8 @@ struct Gradient {
 
 impl Gradient {
     /// Unit vectors along the mean direction of the corners and perpendicular to it.
-    fn wanted(sites: [Site; 3]) -> Self {
-        let [a, b, c] = sites.map(|site| site.position);
+    fn wanted(sites: &[Site; 3]) -> Self {
+        let [a, b, c] = [0, 1, 2].map(|k| sites[k].position);
         let facing: Vec3 = sites.iter().map(|site| site.normal).sum();
         let normal = (b - a).cross(c - a).try_normalize().unwrap_or(facing);
         // A folded face may lie against the sense of its corners.
@@ -86,7 +87,7 @@ impl Gradient {
         } else {
             normal
         };
-        let directions = sites.map(|site| turned(site.direction, site.normal, normal));
+        let directions = [0, 1, 2].map(|k| turned(sites[k].direction, sites[k].normal, normal));
         let along = directions.iter().sum::<Vec3>().try_normalize();
         let along = along.unwrap_or(directions[0]);
         Self {
