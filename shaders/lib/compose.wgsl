@@ -17,7 +17,6 @@ struct Compose {
     unused_d: u32,
 }
 
-const COMPOSE_ANGLE: u32 = 1u;
-const COMPOSE_RIBBONS: u32 = 2u;
-const COMPOSE_OVERLAY: u32 = 4u;
-const COMPOSE_BEAMS: u32 = 8u;
+const COMPOSE_RIBBONS: u32 = 1u;
+const COMPOSE_OVERLAY: u32 = 2u;
+const COMPOSE_BEAMS: u32 = 4u;

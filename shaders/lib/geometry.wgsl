@@ -101,6 +101,8 @@ const PART_HIGHLIGHTS: u32 = 27648u;
 const PART_BEAM: u32 = 32768u;
 const PART_BEAM_COVERS: u32 = 65536u;
 const PART_BEAM_BEHIND: u32 = 131072u;
+const PART_HULL: u32 = 262144u;
+const PART_ANGLE: u32 = 524288u;
 
 struct GPixel {
     plane_step: vec2<f32>,

@@ -22,6 +22,9 @@ fn streak(across: f32, width: f32) -> f32 {
     return select(0.0, 1.0, first || second);
 }
 
+// How far a corner is pulled in so that the highlight reaches there as far as a square does.
+const SQUARE_PULL: f32 = 0.2928932;
+
 fn sign_or_1(x: f32) -> f32 {
     return select(1.0, -1.0, x < 0.0);
 }
@@ -44,7 +47,7 @@ fn shaped_half(half: vec3<f32>, normal: vec3<f32>, right: vec3<f32>, part: u32) 
     let across = dot(split, v);
     let size = max(sqrt(along * along + across * across), 1e-6);
     let corner = 2.0 * along * across / (size * size);
-    let pull = shape.w * corner * corner;
+    let pull = shape.w * SQUARE_PULL * corner * corner * corner * corner;
     return unit_or_z(split - u * (pull * along) - v * (pull * across));
 }
 

@@ -14,14 +14,14 @@
 
 //# use lib/varying
 
-// Three vertices per triangle; fronts and parts without lines collapse to a point.
+// Three vertices per triangle; fronts and parts without a hull collapse to a point.
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     let triangle = index / 3u;
     let corners = triangles[triangle].corners;
     let clip = array<vec4<f32>, 3>(hull[corners.x], hull[corners.y], hull[corners.z]);
     let turned = array<vec4<f32>, 3>(clip[0], clip[2], clip[1]);
-    let drawn = (parts[triangles[triangle].part].flags & (PART_LINES | PART_BEAM)) == PART_LINES;
+    let drawn = (parts[triangles[triangle].part].flags & (PART_HULL | PART_BEAM)) == PART_HULL;
     return passed_on(triangle, clip[index % 3u], drawn && faces_eye(turned));
 }
 

@@ -109,7 +109,7 @@ fn one_tone(part: u32, corners: Corners) -> Tone {
     var tone: Tone;
     tone.whole = false;
     let flags = parts[part].flags;
-    if (compose.flags & COMPOSE_ANGLE) != 0u || (flags & PART_HIGHLIGHTS) != 0u { return tone; }
+    if (flags & (PART_ANGLE | PART_HIGHLIGHTS)) != 0u { return tone; }
     if (flags & (PART_UNLIT | PART_INK | PART_HATCH)) == PART_UNLIT {
         tone.light = vec3<f32>(1.0);
         tone.whole = true;
@@ -147,7 +147,7 @@ fn tone_at(triangle: Triangle, corners: Corners, frame_px: vec2<f32>) -> Sampled
     let world = world_of(corners, weights);
     let light = light_of(triangle.part, world, normal);
     var ink = 0.0;
-    if (compose.flags & COMPOSE_ANGLE) != 0u && (parts[triangle.part].flags & PART_LINES) != 0u {
+    if (parts[triangle.part].flags & PART_ANGLE) != 0u {
         if abs(dot(normal, to_eye(view, world))) < parts[triangle.part].facing_threshold { ink = 1.0; }
     }
     var sampled: Sampled;

@@ -1,5 +1,6 @@
 //! `cargo xtask assets`: the project's own sample models, made from formulas.
 
+mod beams;
 mod book;
 mod cloth;
 mod crockery;
@@ -27,11 +28,12 @@ use crate::file;
 type Sample = (&'static str, fn() -> scene::Scene);
 
 /// Every sample.
-const SCENES: [Sample; 4] = [
+const SCENES: [Sample; 5] = [
     ("cube_plane.glb", figures::cube_plane),
     ("teapot_box_plane.glb", figures::teapot_box_plane),
     ("two_balls.glb", figures::two_balls),
     ("still_life.glb", still_life::still_life),
+    ("beams.glb", beams::beams),
 ];
 
 /// Writes every sample into `folder`, each whole or not at all.

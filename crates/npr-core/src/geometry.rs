@@ -150,7 +150,7 @@ pub struct Part {
     pub material: u32,
     /// Where its base colour texture's header starts in the texture store, or [`NONE`].
     pub texture: u32,
-    /// Bits of [`Part::DOUBLE_SIDED`] to [`Part::BEAM_BEHIND`].
+    /// Bits of [`Part::DOUBLE_SIDED`] to [`Part::ANGLE`].
     pub flags: u32,
     /// Factor on the line width.
     pub width_factor: f32,
@@ -234,7 +234,7 @@ impl Part {
     pub const DOUBLE_SIDED: u32 = 1;
     /// Pixels under the alpha cutoff are holes.
     pub const CUTOUT: u32 = 2;
-    /// Lines are drawn on it.
+    /// Lines are found and drawn on it.
     pub const LINES: u32 = 4;
     /// Light does not change its colour.
     pub const UNLIT: u32 = 8;
@@ -266,6 +266,12 @@ impl Part {
     pub const BEAM_COVERS: u32 = 65536;
     /// A beam that only shows where nothing lies behind it.
     pub const BEAM_BEHIND: u32 = 131_072;
+    /// A hull behind it is its outline.
+    pub const HULL: u32 = 262_144;
+    /// It is inked where it turns from the eye.
+    pub const ANGLE: u32 = 524_288;
+    /// Any outline.
+    pub const OUTLINES: u32 = Self::LINES | Self::HULL | Self::ANGLE;
     /// Any highlight.
     pub const HIGHLIGHTS: u32 = Self::CRISP | Self::SOFT | Self::BACK_LIGHT | Self::STREAK;
 }

@@ -28,7 +28,7 @@ pub enum Sides {
     AsParts,
     /// The same of beams alone.
     Beams,
-    /// Backs only: hulls; no beams.
+    /// Backs of parts with a hull.
     Backs,
 }
 
@@ -108,7 +108,12 @@ impl Batch {
         for index in first..last {
             let triangle = fill.triangles[index];
             let flags = fill.parts[triangle.part as usize].flags;
-            if (flags & Part::BEAM != 0) != (fill.sides == Sides::Beams) {
+            let wanted = match fill.sides {
+                Sides::AsParts => flags & Part::BEAM == 0,
+                Sides::Beams => flags & Part::BEAM != 0,
+                Sides::Backs => flags & (Part::BEAM | Part::HULL) == Part::HULL,
+            };
+            if !wanted {
                 continue;
             }
             let clip = triangle
@@ -505,10 +510,11 @@ mod tests {
         let front = [at(10.0, 40.0, 0.5), at(50.0, 40.0, 0.5), at(30.0, 5.0, 0.5)];
         let back = [front[0], front[2], front[1]];
         let seen = |corners: &[[f32; 4]], sides| {
-            draw(corners, sides, Part::default())
-                .0
-                .iter()
-                .any(|id| *id != 0)
+            let part = Part {
+                flags: Part::HULL,
+                ..Part::default()
+            };
+            draw(corners, sides, part).0.iter().any(|id| *id != 0)
         };
         assert!(seen(&front, Sides::AsParts) && !seen(&back, Sides::AsParts));
         assert!(!seen(&front, Sides::Backs) && seen(&back, Sides::Backs));

@@ -56,7 +56,25 @@ pub(crate) struct Method {
 }
 
 impl Method {
+    /// What a style's own method and those of its rules need together.
     pub fn of(style: &Style) -> Self {
+        let rules = style.rule.iter().filter_map(|rule| rule.line.method);
+        let own = Self::of_one(style.line.method, style);
+        rules.fold(own, |all, method| all.and(Self::of_one(method, style)))
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self {
+            mask: self.mask || other.mask,
+            ribbons: self.ribbons || other.ribbons,
+            residual: self.residual || other.residual && !self.filter,
+            filter: self.filter || other.filter,
+            hull: self.hull || other.hull,
+            layers: self.layers | other.layers,
+        }
+    }
+
+    fn of_one(method: LineMethod, style: &Style) -> Self {
         let none = Self {
             mask: false,
             ribbons: false,
@@ -71,8 +89,8 @@ impl Method {
             layers: Compose::OVERLAY,
             ..masked
         };
-        match style.line.method {
-            LineMethod::Off => none,
+        match method {
+            LineMethod::Off | LineMethod::Angle => none,
             LineMethod::Shape => {
                 let residual = style.line.kinds.intersection;
                 let stamps = if residual { Compose::OVERLAY } else { 0 };
@@ -93,10 +111,6 @@ impl Method {
             LineMethod::FilterHull => Self {
                 hull: true,
                 ..filter
-            },
-            LineMethod::Angle => Self {
-                layers: Compose::ANGLE,
-                ..none
             },
         }
     }

@@ -102,10 +102,7 @@ pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
         },
         flags: bit(Part::DOUBLE_SIDED, info.double_sided)
             | bit(Part::CUTOUT, info.alpha_cutoff.is_some())
-            | bit(
-                Part::LINES,
-                look.line_on && style.line.method != LineMethod::Off,
-            )
+            | bit(outline_flags(look.line_method), look.line_on)
             | bit(Part::UNLIT, unlit)
             | highlight_flags(&look.highlight),
         width_factor: look.width_factor,
@@ -148,6 +145,17 @@ fn highlighted(highlight: &Highlight) -> Part {
             highlight.streak.facing,
         ],
         ..Part::default()
+    }
+}
+
+/// The bits of a part whose outline is drawn by a method.
+fn outline_flags(method: LineMethod) -> u32 {
+    match method {
+        LineMethod::Off => 0,
+        LineMethod::Hull => Part::HULL,
+        LineMethod::FilterHull => Part::LINES | Part::HULL,
+        LineMethod::Angle => Part::ANGLE,
+        _ => Part::LINES,
     }
 }
 

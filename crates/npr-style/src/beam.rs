@@ -73,7 +73,7 @@ impl Default for Beam {
 impl Beam {
     /// Makes a part of a model glow.
     pub fn apply_to(&self, part: &mut Part) {
-        let solid = Part::LINES | Part::INK | Part::HATCH | Part::HIGHLIGHTS | Part::CUTOUT;
+        let solid = Part::OUTLINES | Part::INK | Part::HATCH | Part::HIGHLIGHTS | Part::CUTOUT;
         part.flags = part.flags & !solid
             | Part::BEAM
             | match self.overlap {

@@ -22,7 +22,7 @@ pub struct Compose {
     pub line_color: [f32; 4],
     /// Header of the background texture, or [`NONE`].
     pub background_texture: u32,
-    /// Bits of [`Compose::ANGLE`] to [`Compose::BEAMS`].
+    /// Bits of [`Compose::RIBBONS`] to [`Compose::BEAMS`].
     pub flags: u32,
     /// Strength of surface colours: 0 grey, 1 as they are.
     pub saturation: f32,
@@ -63,14 +63,12 @@ gpu_layout!(Compose {
 });
 
 impl Compose {
-    /// Draws surfaces that turn from the eye as lines.
-    pub const ANGLE: u32 = 1;
     /// Lays the ribbons over the surfaces.
-    pub const RIBBONS: u32 = 2;
+    pub const RIBBONS: u32 = 1;
     /// Lays the overlay over the surfaces: stamps, or the mask itself.
-    pub const OVERLAY: u32 = 4;
+    pub const OVERLAY: u32 = 2;
     /// Lays beams of light over the surfaces.
-    pub const BEAMS: u32 = 8;
+    pub const BEAMS: u32 = 4;
 }
 
 /// What a frame is composed from.

@@ -89,6 +89,9 @@ impl Default for HighlightShape {
     }
 }
 
+/// How far a corner is pulled in so that the highlight reaches there as far as a square does: 1 - sqrt(1/2).
+const SQUARE_PULL: f32 = 0.292_893_2;
+
 /// The half vector moved so that the highlight takes a shape.
 ///
 /// The axes are the picture's: `right` laid onto the surface, turned, and the direction across it. The operations follow
@@ -120,9 +123,9 @@ pub fn shaped_half(
     }
     let (along, across) = (dot(split, u), dot(split, v));
     let size = (along * along + across * across).sqrt().max(1e-6);
-    // sin(2 theta)^2 of the angle to the nearer axis: corners are pushed out, sides stay.
+    // sin(2 theta) of the angle to the nearer axis: its fourth power pushes corners out and leaves sides straight.
     let corner = 2.0 * along * across / (size * size);
-    let pull = shape.square * corner * corner;
+    let pull = shape.square * SQUARE_PULL * corner * corner * corner * corner;
     plus(split, u, -pull * along, v, -pull * across)
 }
 
@@ -276,6 +279,25 @@ mod tests {
         let half = half_vector([0.6, 0.0, 0.8], UP);
         let same = shaped_half(half, UP, [1.0, 0.0, 0.0], &HighlightShape::default());
         assert!((0..3).all(|i| (half[i] - same[i]).abs() < 1e-6), "{same:?}");
+    }
+
+    #[test]
+    fn a_square_reaches_farther_at_its_corners() {
+        let shape = HighlightShape {
+            square: 1.0,
+            ..HighlightShape::default()
+        };
+        let term = |x: f32, y: f32| {
+            let normal = unit_or_z([x, y, 1.0]);
+            blinn_phong(
+                normal,
+                shaped_half(UP, normal, [1.0, 0.0, 0.0], &shape),
+                50.0,
+            )
+        };
+        let side = term(0.2, 0.0);
+        assert!((term(0.19, 0.19) - side).abs() < 0.1, "the corner");
+        assert!((term(0.2, 0.1) - side).abs() < 0.1, "along the side");
     }
 
     #[test]

@@ -51,6 +51,12 @@ const PRESETS: &[Preset] = &[
         text: include_str!("../presets/comic-modern.toml"),
     },
     Preset {
+        name: "comic-light",
+        version: 1,
+        title: "comic-silver, and materials named Beam* glow: lasers, flashes, explosions, trails",
+        text: include_str!("../presets/comic-light.toml"),
+    },
+    Preset {
         name: "crosshatch",
         version: 1,
         title: "Pen strokes round the form, crossed in the dark, on white paper",

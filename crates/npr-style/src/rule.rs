@@ -8,7 +8,7 @@ use crate::hatch::{Hatch, Pattern};
 use crate::highlight::{Edge, Highlight};
 use crate::ink::{Follow, Ink, Mapping, Tone};
 use crate::ramp::Stop;
-use crate::{Color, Length, Style, glob};
+use crate::{Color, Length, LineMethod, Style, glob};
 
 /// What a rule applies to: both patterns have to match.
 ///
@@ -38,6 +38,9 @@ pub struct RuleLine {
     /// Whether the part has lines at all. Off suits eyes, glass and ground planes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<bool>,
+    /// How the part's outline is drawn: `shape`, `hull`, `angle` or `none`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub method: Option<LineMethod>,
     /// Colour of the part's lines.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
@@ -201,6 +204,8 @@ impl Rule {
 pub struct Look<'a> {
     /// Whether it has lines.
     pub line_on: bool,
+    /// How its outline is drawn.
+    pub line_method: LineMethod,
     /// Colour of its lines.
     pub line_color: Color,
     /// What its line width is multiplied by.
@@ -224,6 +229,7 @@ impl<'a> Look<'a> {
     fn plain(style: &'a Style) -> Self {
         Self {
             line_on: true,
+            line_method: style.line.method,
             line_color: style.line.color,
             width_factor: 1.0,
             angle_threshold_deg: style.line.angle_threshold_deg,
@@ -240,6 +246,7 @@ impl<'a> Look<'a> {
         let (line, shade) = (&rule.line, &rule.shade);
         Self {
             line_on: line.on.unwrap_or(self.line_on),
+            line_method: line.method.unwrap_or(self.line_method),
             line_color: line.color.unwrap_or(self.line_color),
             width_factor: line.width_factor.unwrap_or(self.width_factor),
             angle_threshold_deg: line.angle_threshold_deg.unwrap_or(self.angle_threshold_deg),

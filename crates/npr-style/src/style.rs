@@ -7,7 +7,10 @@ use crate::error::{Problem, StyleError};
 use crate::layers::{self, Parents};
 use crate::ramp::{Stop, first_unsorted};
 use crate::width::WidthSource;
-use crate::{Antialias, Background, Detect, Highlight, Ink, Light, Line, Rule, Shade, preset, set};
+use crate::{
+    Antialias, Background, Detect, Highlight, Ink, Light, Line, LineMethod, Rule, Shade, preset,
+    set,
+};
 
 /// What a picture should look like.
 ///
@@ -136,6 +139,7 @@ impl Style {
         check_width(&self.line.width)?;
         check_ramp(&self.shade.ramp, "shade.ramp")?;
         self.rule.iter().enumerate().try_for_each(|(i, rule)| {
+            check_method(rule.line.method, i)?;
             let ramp = rule.shade.ramp.as_deref();
             ramp.map_or(Ok(()), |stops| {
                 check_ramp(stops, &format!("rule.{i}.shade.ramp"))
@@ -151,6 +155,19 @@ fn check_ramp(stops: &[Stop], key: &str) -> Result<(), StyleError> {
             "lies before the stop ahead of it",
         )),
         None => Ok(()),
+    }
+}
+
+/// A part cannot have a method that works on whole pictures.
+fn check_method(method: Option<LineMethod>, rule: usize) -> Result<(), StyleError> {
+    match method {
+        None | Some(LineMethod::Off | LineMethod::Shape | LineMethod::Hull | LineMethod::Angle) => {
+            Ok(())
+        }
+        Some(_) => Err(StyleError::unfit(
+            format!("rule.{rule}.line.method"),
+            "works on whole pictures; a part may have shape, hull, angle or none",
+        )),
     }
 }
 

@@ -3,7 +3,7 @@
 //! A triangle that lies in one tone and has neither texture nor vertex colours has one colour all over, found
 //! once a frame; the others are shaded at the samples.
 
-use crate::compose::{Compose, Layers};
+use crate::compose::Layers;
 use crate::inking::ink_over;
 use crate::ramp::{ramp_coordinate, ramp_light};
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle};
@@ -83,7 +83,7 @@ impl<'a> Layers<'a> {
 
     /// The tone of a triangle that lies within one as a whole.
     fn one_tone(&self, part: &Part, corners: &Corners<'_>) -> Option<Tone> {
-        if self.compose.flags & Compose::ANGLE != 0 || part.flags & Part::HIGHLIGHTS != 0 {
+        if part.flags & (Part::ANGLE | Part::HIGHLIGHTS) != 0 {
             return None;
         }
         if part.flags & (Part::UNLIT | Part::INK | Part::HATCH) == Part::UNLIT {
@@ -167,16 +167,12 @@ impl<'a> Layers<'a> {
 
     /// Tone at one point: rgb light, 1 where the surface-angle method draws a line, and rgb highlights.
     fn tone_at(&self, part: &Part, corners: &Corners<'_>, frame_px: [f32; 2]) -> [f32; 7] {
-        let angle = self.compose.flags & Compose::ANGLE != 0 && part.flags & Part::LINES != 0;
         let weights = weights_at(corners.clip, self.view.ndc_at(frame_px));
         let (normal, world) = (corners.normal(weights), corners.world(weights));
         let light = self.light_of(part, world, normal);
-        let mut ink = 0.0;
-        if angle {
-            if dot(normal, self.view.to_eye(world)).abs() < part.facing_threshold {
-                ink = 1.0;
-            }
-        }
+        let grazing = part.flags & Part::ANGLE != 0
+            && dot(normal, self.view.to_eye(world)).abs() < part.facing_threshold;
+        let ink = if grazing { 1.0 } else { 0.0 };
         let gloss = if part.flags & Part::HIGHLIGHTS != 0 {
             self.highlights_at(part, world, normal)
         } else {
@@ -267,6 +263,7 @@ impl<'a> Layers<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compose::Compose;
     use crate::lighting::Lights;
     use npr_core::geometry::Vertex;
     use npr_core::window::{View, Window};

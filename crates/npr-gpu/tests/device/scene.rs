@@ -52,6 +52,7 @@ impl Scene {
             ..Self::default()
         };
         let flags = Part::LINES
+            | Part::HULL
             | Part::INK
             | Part::HATCH
             | Part::ON_SURFACE
@@ -64,6 +65,8 @@ impl Scene {
         };
         scene.add(&torus(24, 12, 1.0, 0.4), hatched, &mut random);
         let flags = Part::LINES
+            | Part::HULL
+            | Part::ANGLE
             | Part::CUTOUT
             | Part::DOUBLE_SIDED
             | Part::HATCH
@@ -272,7 +275,7 @@ pub fn compose(look: Look, scene: &Scene) -> Compose {
             Compose::RIBBONS | Compose::OVERLAY | Compose::BEAMS,
             NONE,
         ),
-        Look::Published => (1, Compose::OVERLAY | Compose::ANGLE, scene.parts[1].texture),
+        Look::Published => (1, Compose::OVERLAY, scene.parts[1].texture),
     };
     Compose {
         samples,
