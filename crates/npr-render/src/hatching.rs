@@ -1,6 +1,7 @@
 //! What a style draws with the pen on a model: ink of every part, hatch tiles, stroke charts.
 
 use crate::model::{Model, PartInfo};
+use glam::Vec3;
 use npr_core::geometry::{ChartCorners, NONE, Part};
 use npr_core::math;
 use npr_core::texture::TextureStore;
@@ -15,9 +16,12 @@ const TILE_SIDE: u32 = 512;
 /// Hatch tiles to one unit of UV coordinates. Of the levels of a tile the finest has strokes 1/256 apart, the coarsest 1/4.
 const TILES_PER_UV: f32 = 4.0;
 
-/// Size of a hatch tile on a surface, as a part of the model's radius. Framed as a whole, a model shows a middle level: the
+/// Size of a hatch tile on a surface, as a part of the object's radius. Framed as a whole, an object shows a middle level: the
 /// camera may come five times nearer, and go twelve times farther, before strokes change their size.
 const TILE_RADII: f32 = 0.25;
+
+/// Most tiles of a small object to one of the largest.
+const TILE_FACTOR_MAX: f32 = 256.0;
 
 /// What ink and hatching need beside the parts.
 #[derive(Debug, Default)]
@@ -41,11 +45,15 @@ pub(crate) fn add_ink(
         made: Vec::new(),
     };
     let mut guides = Vec::with_capacity(model.parts.len());
+    let factors = tile_factors(model);
     for (part, info) in parts.iter_mut().zip(&model.parts) {
         let look = style.resolve_for(&info.material_name, &info.object_name);
         let ink = look.ink;
         if look.beam.is_none() {
             set_ink(part, info, &ink, frame, &mut tiles);
+            if part.flags & Part::ON_SURFACE != 0 {
+                part.tile_scale = factors[info.object as usize];
+            }
         }
         guides.push(guide_of(&ink));
     }
@@ -168,6 +176,38 @@ const SPACING_PX_MIN: f32 = 2.0;
 
 /// Texels between strokes on the finest level of a tile.
 const SCREEN_SPACING_TEXELS: f32 = 8.0;
+
+/// How many tiles of each object make one of the model's chart.
+///
+/// Whole numbers: charts agree between triangles up to whole tiles, and so do their multiples.
+fn tile_factors(model: &Model) -> Vec<f32> {
+    let count = model
+        .parts
+        .iter()
+        .map(|part| part.object as usize + 1)
+        .max();
+    let mut bounds = vec![[Vec3::INFINITY, Vec3::NEG_INFINITY]; count.unwrap_or(0)];
+    for (vertex, influence) in model.vertices.iter().zip(&model.influences) {
+        let point = model.posed_point(vertex, influence);
+        let Some(part) = model.parts.get(vertex.part as usize) else {
+            continue;
+        };
+        let object = part.object as usize;
+        let [low, high] = &mut bounds[object];
+        (*low, *high) = (low.min(point), high.max(point));
+    }
+    let factor = |[low, high]: &[Vec3; 2]| {
+        let radius = ((*high - *low) * 0.5).length();
+        let factor = (model.radius() / radius).round();
+        // An object without vertices has no radius.
+        if factor >= 1.0 {
+            factor.min(TILE_FACTOR_MAX)
+        } else {
+            1.0
+        }
+    };
+    bounds.iter().map(factor).collect()
+}
 
 /// What the strokes of a part run along on its surface.
 fn guide_of(ink: &Ink) -> PartGuide {

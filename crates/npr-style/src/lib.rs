@@ -75,7 +75,9 @@ pub use light::{Light, LightSpace};
 pub use line::{Kinds, Line, LineMethod};
 pub use preset::{DEFAULT_PRESET, Preset, find as find_preset, presets};
 pub use ramp::{Level, Stop};
-pub use rule::{Look, Match, Rule, RuleHighlight, RuleInk, RuleLine, RuleShade};
+pub use rule::{
+    Look, Match, Rule, RuleHatch, RuleHighlight, RuleInk, RuleLine, RuleShade, RuleSwitch,
+};
 pub use schema::schema;
 pub use shade::{Shade, ShadeMode, levels};
 pub use style::Style;

@@ -95,27 +95,46 @@ pub struct RuleInk {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
     pub direction: Option<[f32; 3]>,
+    /// Its strokes.
+    pub hatch: RuleHatch,
+}
+
+/// What a rule changes about strokes; what is absent stays.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RuleHatch {
     /// What shadows are drawn with.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pattern: Option<Pattern>,
     /// Distance between strokes or dots on screen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spacing: Option<Length>,
+    /// Length of a stroke in spacings, 1..200.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1.0, max = 200.0))]
+    pub length: Option<f32>,
     /// Direction of strokes against that of the surface, in degrees, -180..180.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -180.0, max = 180.0))]
     pub angle_deg: Option<f32>,
 }
 
+impl RuleHatch {
+    /// `hatch` with what the rule states in place of what it had.
+    fn over(&self, hatch: Hatch) -> Hatch {
+        Hatch {
+            pattern: self.pattern.unwrap_or(hatch.pattern),
+            spacing: self.spacing.unwrap_or(hatch.spacing),
+            length: self.length.unwrap_or(hatch.length),
+            angle_deg: self.angle_deg.unwrap_or(hatch.angle_deg),
+            ..hatch
+        }
+    }
+}
+
 impl RuleInk {
     /// `ink` with what the rule states in place of what it had.
     fn over(&self, ink: Ink) -> Ink {
-        let hatch = Hatch {
-            pattern: self.pattern.unwrap_or(ink.hatch.pattern),
-            spacing: self.spacing.unwrap_or(ink.hatch.spacing),
-            angle_deg: self.angle_deg.unwrap_or(ink.hatch.angle_deg),
-            ..ink.hatch
-        };
         Ink {
             tone: self.tone.unwrap_or(ink.tone),
             color: self.color.unwrap_or(ink.color),
@@ -124,7 +143,7 @@ impl RuleInk {
             mapping: self.mapping.unwrap_or(ink.mapping),
             follow: self.follow.unwrap_or(ink.follow),
             direction: self.direction.or(ink.direction),
-            hatch,
+            hatch: self.hatch.over(ink.hatch),
             ..ink
         }
     }
@@ -148,19 +167,26 @@ pub struct RuleHighlight {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub threshold: Option<f32>,
-    /// Whether light from behind catches its rims.
+    /// Light from behind on its rims.
+    pub back: RuleSwitch,
+    /// Its straight streak.
+    pub streak: RuleSwitch,
+}
+
+/// Whether a part has something; absent where the style decides.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RuleSwitch {
+    /// Whether it has.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub back: Option<bool>,
-    /// Whether it has a straight streak.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub streak: Option<bool>,
+    pub on: Option<bool>,
 }
 
 impl RuleHighlight {
     /// `highlight` with what the rule states in place of what it had.
     fn over(&self, mut highlight: Highlight) -> Highlight {
-        highlight.back.on = self.back.unwrap_or(highlight.back.on);
-        highlight.streak.on = self.streak.unwrap_or(highlight.streak.on);
+        highlight.back.on = self.back.on.unwrap_or(highlight.back.on);
+        highlight.streak.on = self.streak.on.unwrap_or(highlight.streak.on);
         Highlight {
             edge: self.edge.unwrap_or(highlight.edge),
             color: self.color.unwrap_or(highlight.color),
