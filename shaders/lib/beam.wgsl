@@ -47,7 +47,7 @@ struct Beams {
 // Lays the beams over a pixel's surfaces.
 fn add_beams(pixel: vec2<u32>, frame_px: vec2<f32>, below: vec4<f32>) -> Beams {
     var result: Beams;
-    result.color = below;
+    var sum = vec4<f32>(0.0);
     var ids_here: array<u32, 4>;
     let count = compose.samples * compose.samples;
     for (var i = 0u; i < count; i++) {
@@ -67,10 +67,10 @@ fn add_beams(pixel: vec2<u32>, frame_px: vec2<f32>, below: vec4<f32>) -> Beams {
             }
         }
         let part = triangles[(id & ID_MASK) - 1u].part;
-        var glow = beam_color(part, beam_place(id, frame_px));
-        glow.a *= shown;
-        if (parts[part].flags & PART_BEAM_COVERS) != 0u { result.covered = max(result.covered, glow.a); }
-        result.color = over(glow, result.color);
+        let glow = beam_color(part, beam_place(id, frame_px));
+        sum += vec4<f32>(glow.rgb * glow.a, glow.a) * shown;
+        if (parts[part].flags & PART_BEAM_COVERS) != 0u { result.covered += glow.a * shown; }
     }
+    result.color = sum + below * (1.0 - sum.a);
     return result;
 }

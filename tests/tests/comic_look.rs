@@ -19,7 +19,7 @@ const BASE: &[&str] = &[
     "shade.mode=paper",
     "light.direction=[1,0,0]",
     "light.space=camera",
-    "ink.hatch.spacing=12",
+    "ink.hatch.spacing=12px",
 ];
 
 fn style(settings: &[&str]) -> Style {

@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::Color;
-use crate::compose::{Layers, Samples, over};
+use crate::compose::{Layers, Samples};
 use crate::ramp::{Level, ramp_light};
 
 /// Most steps of a beam's ramp.
@@ -119,6 +119,7 @@ impl Layers<'_> {
         color: &mut [f32; 4],
     ) -> f32 {
         let share = 1.0 / beams.len() as f32;
+        let mut glow = [0.0; 4];
         let mut covered = 0.0;
         for (i, &id) in beams.iter().enumerate() {
             if id == 0 || beams[..i].contains(&id) {
@@ -129,13 +130,14 @@ impl Layers<'_> {
                 .count() as f32
                 * share;
             let part = self.part_of(id);
-            let mut glow = beam_color(part, self.beam_place(id, frame_px));
-            glow[3] *= shown;
+            let [r, g, b, a] = beam_color(part, self.beam_place(id, frame_px));
+            let added = [r * a, g * a, b * a, a];
+            glow = std::array::from_fn(|k| glow[k] + added[k] * shown);
             if part.flags & Part::BEAM_COVERS != 0 {
-                covered = f32::max(covered, glow[3]);
+                covered += a * shown;
             }
-            *color = over(glow, *color);
         }
+        *color = std::array::from_fn(|k| glow[k] + color[k] * (1.0 - glow[3]));
         covered
     }
 

@@ -351,7 +351,7 @@ impl<'a> Layers<'a> {
 }
 
 /// A straight-alpha layer laid over a premultiplied one.
-pub(crate) fn over(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
+fn over(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
     let a = top[3];
     if a == 0.0 {
         return below;

@@ -225,10 +225,8 @@ mod tests {
 
     #[test]
     fn the_shade_ramp_is_black_grey_white() {
-        assert_eq!(
-            [0.0, 0.2, 0.4, 0.6, 1.0].map(|x| shade_level(x, 0.2, 0.6)),
-            [0.0, 0.0, 0.5, 1.0, 1.0]
-        );
+        let levels = [0.0, 0.25, 0.5, 0.75, 1.0].map(|x| shade_level(x, 0.25, 0.75));
+        assert_eq!(levels, [0.0, 0.0, 0.5, 1.0, 1.0]);
         assert_eq!(shade_level(0.4, 0.5, 0.5), 0.0);
         assert_eq!(shade_level(0.5, 0.5, 0.5), 1.0);
     }
