@@ -208,7 +208,7 @@ fn hatch_levels() -> Vec<Vec<u32>> {
     let level = |l: u32| {
         let side = 64 >> l;
         let wave =
-            move |x: u32, period: u32| 1 + (x % period).min(period - x % period) * 254 * 2 / period;
+            move |x: u32, period: u32| 1 + (x % period).min(period - x % period) * 252 * 2 / period;
         let texel = move |i: u32| {
             let x = i % side + i / side / 8;
             u32::from_le_bytes([8, 8, 16, 16].map(|period| wave(x, period) as u8))
