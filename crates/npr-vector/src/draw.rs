@@ -6,7 +6,7 @@
 use crate::bvh::FaceTree;
 use crate::contour::{EdgeContours, Eye};
 use crate::corner::split;
-use crate::doubles::suppress;
+use crate::doubles::{leave_out_crumbs, suppress};
 use crate::feature::{features, kind_in_view};
 use crate::graph::{CurveGraph, CurveNode};
 use crate::intersect::Crossings;
@@ -198,6 +198,7 @@ pub fn strokes_with(
         smooth(&mut found);
         found = merge_ends(suppress(found), FACING_PX);
         smooth(&mut found);
+        found = leave_out_crumbs(found);
     }
     into_strokes(shape, found, width_at)
 }
