@@ -6,6 +6,7 @@
 use crate::bvh::FaceTree;
 use crate::contour::{EdgeContours, Eye};
 use crate::corner::split;
+use crate::covered::{covered_edges, edges_beside};
 use crate::doubles::{leave_out_crumbs, suppress};
 use crate::feature::{features, kind_in_view};
 use crate::graph::{CurveGraph, CurveNode};
@@ -16,7 +17,7 @@ use crate::run::{Line, Run, distance, runs};
 use crate::smooth::smooth;
 use crate::stroke::{Kind, Stroke, StrokePoint};
 use crate::visibility::{Circumstances, OutlineGrid, Piece, Seen, Span};
-use crate::zero_set::{CornerNormals, PolygonOutline, SeenContour, runs_along_edge, zero_set};
+use crate::zero_set::{CornerNormals, PolygonOutline, SeenContour, zero_set};
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 use rayon::prelude::*;
@@ -50,7 +51,7 @@ pub struct LineSettings {
 }
 
 /// How far smooth contours may leave the polygons' outline, in pixels.
-const OUTLINE_TOLERANCE_PX: f64 = 2.0;
+pub(crate) const OUTLINE_TOLERANCE_PX: f64 = 2.0;
 
 /// Up to how many surfaces in front of a hidden line are counted.
 const HIDDEN_COUNT_LIMIT: u32 = 255;
@@ -175,9 +176,12 @@ pub fn strokes_with(
         Some((graph, lines)) => runs(shape, projector, graph, lines),
         None => runs(shape, projector, edge_contours, &contour_lines),
     };
-    let covered = smooth_contours
-        .as_ref()
-        .map(|(graph, lines)| covered_edges(graph, lines));
+    let covered = smooth_contours.as_ref().map(|(graph, lines)| {
+        let mut covered = covered_edges(graph, lines);
+        covered.extend(edges_beside(lines, view.contour_features()));
+        covered.sort_unstable();
+        covered
+    });
     let view = View {
         covered: covered.unwrap_or_default(),
         ..view
@@ -233,7 +237,7 @@ struct View<'a> {
     projector: &'a Projector,
     settings: &'a LineSettings,
     front: &'a [u8],
-    /// Edges that smooth contours run along, ascending; they need no other line.
+    /// Edges that smooth contours run along or beside, ascending; they need no other line.
     covered: Vec<u32>,
 }
 
@@ -261,6 +265,19 @@ impl View<'_> {
             .with_min_len(1024)
             .filter_map(|edge| self.edge_piece(*edge));
         loops.chain(odd).chain(rims).collect()
+    }
+
+    /// Feature edges that are contours of the polygons in this view.
+    fn contour_features(&self) -> impl Iterator<Item = (u32, Piece)> {
+        let edges = self.prepared.features.nodes.iter().map(|node| node.edge);
+        edges.filter_map(|edge| {
+            let sides = self.shape.sides(edge);
+            let fronts = sides
+                .iter()
+                .filter(|side| self.front[**side as usize / 3] != 0);
+            let is_contour = sides.len() == 2 && fronts.count() == 1;
+            Some((edge, is_contour.then(|| self.edge_piece(edge)).flatten()?))
+        })
     }
 
     fn edge_piece(&self, edge: u32) -> Option<Piece> {
@@ -441,29 +458,6 @@ impl View<'_> {
             piercings: Vec::new(),
         }
     }
-}
-
-/// Edges of which smooth contours show at least half, ascending.
-fn covered_edges(graph: &CurveGraph, lines: &[Option<Line>]) -> Vec<u32> {
-    let along = |(index, line): (usize, &Option<Line>)| {
-        let node = &graph.nodes[index];
-        let shown = line.is_some() && runs_along_edge(graph, index as u32);
-        let next = graph.nodes.get(node.next as usize).filter(|_| shown)?;
-        let end = match next.edge == node.edge {
-            true => next.t,
-            // The piece runs to the end of its edge where it does not stop on it: the farther one, for what is left is short.
-            false if node.t < 0.5 => 1.0,
-            false => 0.0,
-        };
-        Some((node.edge, (end - node.t).abs()))
-    };
-    let mut parts: Vec<(u32, f32)> = lines.iter().enumerate().filter_map(along).collect();
-    parts.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    parts
-        .chunk_by(|a, b| a.0 == b.0)
-        .filter(|parts| parts.iter().map(|part| part.1).sum::<f32>() >= 0.5)
-        .map(|parts| parts[0].0)
-        .collect()
 }
 
 /// The kind that a piece of several kinds is drawn as.

@@ -15,6 +15,7 @@ pub mod bvh;
 mod clip;
 pub mod contour;
 pub mod corner;
+mod covered;
 pub mod detect;
 pub mod doubles;
 pub mod draw;

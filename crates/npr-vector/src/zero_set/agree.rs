@@ -151,7 +151,7 @@ impl<'a> PolygonOutline<'a> {
     /// What is seen of every piece of a graph from [`zero_set`], in shares of the piece's image; empty for pieces outside the picture.
     ///
     /// Pieces along an edge that is a contour of the polygons take over what is seen of that. Samples of others take the least number of
-    /// occluders of the contours within tolerance that are nearest in the world; where there is none, the smooth
+    /// occluders of the contours beside them within tolerance that are nearest in the world; where there is none, the smooth
     /// contour is none of the polygons and counts as hidden once. Gaps and specks of up to four pixels are settled along the line.
     pub fn spans(&self, graph: &CurveGraph, pieces: &[Option<Piece>]) -> Vec<Vec<Span>> {
         let mut counts: Vec<Vec<u32>> = (0..graph.nodes.len())
@@ -208,13 +208,20 @@ impl<'a> PolygonOutline<'a> {
     /// Least occluders of the contours beside a place that belong to the same line of the surface.
     fn occluders_beside(&self, face: u32, place: [f64; 2], world: DVec3) -> u32 {
         let mut found: Vec<(f64, u32)> = Vec::new();
+        let mut ends: Vec<(f64, u32)> = Vec::new();
         self.grid.visit_near(place, self.tolerance_px, |near| {
             let contour = &self.contours[near.segment as usize];
             let other = contour.world_at(self.projector, near.share);
             if self.belong([face, contour.face], [world, other]) {
-                found.push((world.distance(other), contour.occluders));
+                let is_beside = near.share > 0.0 && near.share < 1.0;
+                let list = if is_beside { &mut found } else { &mut ends };
+                list.push((world.distance(other), contour.occluders));
             }
         });
+        // A contour that has ended before the place tells nothing about it, unless the line turns here and all have.
+        if found.is_empty() {
+            found = ends;
+        }
         let nearest = found
             .iter()
             .fold(f64::MAX, |least, (distance, _)| least.min(*distance));
