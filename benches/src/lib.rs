@@ -13,6 +13,7 @@
 //! assert!(cost.is_some_and(|cost| cost.r_squared > 0.999));
 //! ```
 
+pub mod comic;
 pub mod cost;
 pub mod lines;
 pub mod machine;

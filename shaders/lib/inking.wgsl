@@ -172,8 +172,11 @@ fn hatch_luminance(texel: vec4<f32>, f: f32) -> f32 {
     let t = place - f32(step);
     let near = max(texel[step], RIDGE * t * texel[step + 1u]);
     let far = max(texel[step + 1u], RIDGE * (1.0 - t) * texel[step]);
-    let strokes = near * far / mix(far, near, t);
-    let white = (1.0 - near) * (1.0 - far) / mix(1.0 - far, 1.0 - near, t);
+    let mean = mix(far, near, t);
+    // Both harmonic means share one division.
+    let over = 1.0 / (mean * (1.0 - mean));
+    let strokes = near * far * (1.0 - mean) * over;
+    let white = (1.0 - near) * (1.0 - far) * mean * over;
     let s = mix(strokes, 1.0 - white, strokes);
     return s + BLEND_LIFT * t * (1.0 - t) * s * s * (1.0 - s) * (s - 0.45);
 }

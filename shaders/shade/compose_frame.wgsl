@@ -71,10 +71,10 @@ fn world_of(corners: Corners, weights: vec3<f32>) -> vec3<f32> {
 // What light and ink make of a surface.
 struct Tone {
     light: vec3<f32>,
-    // How much of it is inked, 0..1.
+    // How much of it is inked, 0..1; -1 where that is not the same all over the triangle.
     ink: f32,
-    // Whether it is the same all over the triangle.
-    whole: bool,
+    // Whether light is the same all over the triangle.
+    even: bool,
 }
 
 // Light of a ramp at coordinate `x`: each step takes over where its coordinate begins.
@@ -104,15 +104,15 @@ fn coordinate_range(corners: Corners) -> vec2<f32> {
     return vec2<f32>(min(a, min(b, c)) - room, max(a, max(b, c)) + room);
 }
 
-// The tone of a triangle that lies within one as a whole.
-fn one_tone(part: u32, corners: Corners) -> Tone {
+// The light of a triangle that is lit in one tone, and its ink where nothing in it is hatched.
+fn one_light(part: u32, corners: Corners) -> Tone {
     var tone: Tone;
-    tone.whole = false;
+    tone.even = false;
     let flags = parts[part].flags;
     if (flags & (PART_ANGLE | PART_HIGHLIGHTS)) != 0u { return tone; }
     if (flags & (PART_UNLIT | PART_INK | PART_HATCH)) == PART_UNLIT {
         tone.light = vec3<f32>(1.0);
-        tone.whole = true;
+        tone.even = true;
         return tone;
     }
     if !only_distant() { return tone; }
@@ -124,7 +124,7 @@ fn one_tone(part: u32, corners: Corners) -> Tone {
     }
     tone.light = light_of(part, corners.world[0], corners.normals[0] * corners.side);
     tone.ink = ink_over(part, range);
-    tone.whole = tone.ink >= 0.0;
+    tone.even = true;
     return tone;
 }
 
@@ -220,8 +220,11 @@ fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
     }
     let corners = corners_of(triangle);
     let color = base_color(triangle, corners, frame_px + center);
-    var tone = one_tone(triangle.part, corners);
-    if tone.whole { return toned(triangle.part, color, tone); }
+    var tone = one_light(triangle.part, corners);
+    if tone.even {
+        if tone.ink < 0.0 { tone.ink = ink_at(id, triangle.part, corners, frame_px + center); }
+        return toned(triangle.part, color, tone);
+    }
     var sum = vec4<f32>(0.0);
     var gloss = vec3<f32>(0.0);
     for (var i = 0u; i < 4u; i++) {

@@ -7,6 +7,7 @@ mod ci;
 mod coverage;
 mod file;
 mod floors;
+mod gallery;
 mod measure;
 mod names;
 mod packages;
@@ -31,6 +32,8 @@ usage: cargo xtask COMMAND
   measure lines [ARGS]
                     measure line drawings, in release, and keep the tables; ARGS go to the
                     measuring program: --models DIR, --peers DIR, --only NAME, --quick
+  measure comic     measure comic pictures, in release, and keep the tables
+  gallery [PRESETS] draw every preset, or those named, on the shared models into target/gallery
   names             check that no file names a machine, and that every crate has a README
   snapshots bless FILTER
                     make what is drawn now the reference, for names that hold FILTER";
@@ -61,6 +64,8 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["floors"] => floors::check(root),
         ["coverage"] => coverage::check(root),
         ["measure", "lines", rest @ ..] => measure::lines(root, rest),
+        ["measure", "comic"] => measure::comic(root),
+        ["gallery", presets @ ..] => gallery::draw(root, presets),
         ["names"] => names::check(root),
         ["snapshots", "bless", filter] => snapshots::bless(root, filter),
         _ => return None,

@@ -11,22 +11,32 @@ use crate::packages::cargo;
 /// Where the tables of line drawings are kept.
 const LINES: &str = "benches/results/lines.md";
 
+/// Where the tables of comic pictures are kept.
+const COMIC: &str = "benches/results/comic.md";
+
 /// Flags of a run that is only part of the whole, so that its tables are not kept.
 const PARTIAL: [&str; 3] = ["--quick", "--only", "--strokes"];
 
 /// Measures line drawings in release and prints the tables; those of a whole run become the results.
 pub fn lines(root: &Path, arguments: &[&str]) -> Result<()> {
-    let run = [
-        "run",
-        "--release",
-        "-p",
-        "npr-benches",
-        "--bin",
-        "lines",
-        "--",
-    ];
+    let tables = tables_of(root, "lines", arguments)?;
+    if keeps(arguments) {
+        write_whole(&root.join(LINES), &tables)?;
+    }
+    Ok(())
+}
+
+/// Measures comic pictures in release, prints the tables and keeps them.
+pub fn comic(root: &Path) -> Result<()> {
+    let tables = tables_of(root, "comic", &[])?;
+    write_whole(&root.join(COMIC), &tables)
+}
+
+/// What a measuring program prints, printed once more.
+fn tables_of(root: &Path, program: &str, arguments: &[&str]) -> Result<Vec<u8>> {
     let output = cargo(root)
-        .args(run)
+        .args(["run", "--release", "-p", "npr-benches", "--bin", program])
+        .arg("--")
         .args(arguments)
         .stderr(Stdio::inherit())
         .output()
@@ -37,10 +47,7 @@ pub fn lines(root: &Path, arguments: &[&str]) -> Result<()> {
         "the measuring program failed: {}",
         output.status
     );
-    if keeps(arguments) {
-        write_whole(&root.join(LINES), &output.stdout)?;
-    }
-    Ok(())
+    Ok(output.stdout)
 }
 
 /// Whether the tables of a run become the results.

@@ -1,8 +1,8 @@
 //! What a style draws with the pen on a model: ink of every part, hatch tiles, stroke charts.
 
 use crate::model::{Model, PartInfo};
-use glam::Vec3;
-use npr_core::geometry::{ChartCorners, NONE, Part};
+use glam::{Vec2, Vec3};
+use npr_core::geometry::{ChartCorners, NONE, Part, Triangle};
 use npr_core::math;
 use npr_core::texture::TextureStore;
 use npr_mesh::direction_field::{Guide, PartGuide};
@@ -10,18 +10,20 @@ use npr_mesh::stroke_chart::{ChartInput, ChartSettings, stroke_chart};
 use npr_style::hatch::{self, Hatch, Pattern};
 use npr_style::{Follow, Ink, Mapping, Style};
 
-/// Texels along the side of a hatch tile: 64 strokes.
-const TILE_SIDE: u32 = 512;
+/// Texels along the side of a hatch tile: 128 strokes, and six octaves down to two.
+const TILE_SIDE: u32 = 1024;
 
-/// Hatch tiles to one unit of UV coordinates. Of the levels of a tile the finest has strokes 1/256 apart, the coarsest 1/4.
-const TILES_PER_UV: f32 = 4.0;
+/// Size of a hatch tile on an object, as a part of the object's radius. Framed as a whole, an object shows strokes 8 pixels
+/// apart from two octaves above the finest level: the camera may come four times nearer, and go sixteen times farther,
+/// before strokes change their size.
+const TILE_RADII: f32 = 0.6;
 
-/// Size of a hatch tile on a surface, as a part of the object's radius. Framed as a whole, an object shows a middle level: the
-/// camera may come five times nearer, and go twelve times farther, before strokes change their size.
-const TILE_RADII: f32 = 0.25;
+/// Distance over which directions on a surface even out, as a part of the object's radius.
+const SMOOTHING_RADII: f32 = 0.25;
 
-/// Most tiles of a small object to one of the largest.
-const TILE_FACTOR_MAX: f32 = 256.0;
+/// Halvings of the tile from the size that suits the model to that of its smallest objects. Smaller objects take the last, as
+/// they are seen from afar where the model is seen whole.
+const HALVINGS_MAX: u32 = 5;
 
 /// What ink and hatching need beside the parts.
 #[derive(Debug, Default)]
@@ -45,28 +47,20 @@ pub(crate) fn add_ink(
         made: Vec::new(),
     };
     let mut guides = Vec::with_capacity(model.parts.len());
-    let factors = tile_factors(model);
     for (part, info) in parts.iter_mut().zip(&model.parts) {
         let look = style.resolve_for(&info.material_name, &info.object_name);
         let ink = look.ink;
         if look.beam.is_none() {
             set_ink(part, info, &ink, frame, &mut tiles);
-            if part.flags & Part::ON_SURFACE != 0 {
-                part.tile_scale = factors[info.object as usize];
-            }
         }
         guides.push(guide_of(&ink));
     }
-    let charted = parts.iter().any(|part| part.flags & Part::ON_SURFACE != 0);
+    let charts = fit_to_surfaces(model, guides, style, parts);
     let unmapped = model.parts.iter().zip(parts.iter()).find(|(info, part)| {
         part.flags & Part::ON_SURFACE != 0 && !info.has_uvs && wants_uvs(style, info)
     });
     Inked {
-        charts: if charted {
-            charts(model, guides, style)
-        } else {
-            Vec::new()
-        },
+        charts,
         notices: unmapped
             .map(|(info, _)| {
                 format!(
@@ -164,8 +158,7 @@ fn set_ink(part: &mut Part, info: &PartInfo, ink: &Ink, frame: &FrameScale, tile
     };
     part.turn = [math::cos(angle), math::sin(angle)];
     part.tile_scale = match mapping {
-        Mapping::Surface => 1.0,
-        Mapping::Uv => TILES_PER_UV,
+        Mapping::Surface | Mapping::Uv => 1.0,
         // The finest level of a tile as it is, or the first that is coarse enough for small spacings.
         Mapping::Screen => 1.0 / (TILE_SIDE as f32 * spacing_px / SCREEN_SPACING_TEXELS),
     };
@@ -176,38 +169,6 @@ const SPACING_PX_MIN: f32 = 2.0;
 
 /// Texels between strokes on the finest level of a tile.
 const SCREEN_SPACING_TEXELS: f32 = 8.0;
-
-/// How many tiles of each object make one of the model's chart.
-///
-/// Whole numbers: charts agree between triangles up to whole tiles, and so do their multiples.
-fn tile_factors(model: &Model) -> Vec<f32> {
-    let count = model
-        .parts
-        .iter()
-        .map(|part| part.object as usize + 1)
-        .max();
-    let mut bounds = vec![[Vec3::INFINITY, Vec3::NEG_INFINITY]; count.unwrap_or(0)];
-    for (vertex, influence) in model.vertices.iter().zip(&model.influences) {
-        let point = model.posed_point(vertex, influence);
-        let Some(part) = model.parts.get(vertex.part as usize) else {
-            continue;
-        };
-        let object = part.object as usize;
-        let [low, high] = &mut bounds[object];
-        (*low, *high) = (low.min(point), high.max(point));
-    }
-    let factor = |[low, high]: &[Vec3; 2]| {
-        let radius = ((*high - *low) * 0.5).length();
-        let factor = (model.radius() / radius).round();
-        // An object without vertices has no radius.
-        if factor >= 1.0 {
-            factor.min(TILE_FACTOR_MAX)
-        } else {
-            1.0
-        }
-    };
-    bounds.iter().map(factor).collect()
-}
 
 /// What the strokes of a part run along on its surface.
 fn guide_of(ink: &Ink) -> PartGuide {
@@ -222,23 +183,167 @@ fn guide_of(ink: &Ink) -> PartGuide {
     }
 }
 
-/// The stroke chart of a model as it stands.
-fn charts(model: &Model, guides: Vec<PartGuide>, style: &Style) -> Vec<ChartCorners> {
-    let points = model.vertices.iter().zip(&model.influences);
-    let positions: Vec<[f32; 3]> = points
-        .map(|(vertex, influence)| model.posed_point(vertex, influence).to_array())
-        .collect();
-    let input = ChartInput {
-        positions: &positions,
-        triangles: &model.triangles,
+/// Fits tiles to the size of what they lie on: the scale of parts hatched by UV coordinates, and the charts of all others.
+fn fit_to_surfaces(
+    model: &Model,
+    guides: Vec<PartGuide>,
+    style: &Style,
+    parts: &mut [Part],
+) -> Vec<ChartCorners> {
+    let on_surface = |part: &Part| part.flags & Part::ON_SURFACE != 0;
+    let on_uvs = |part: &Part| {
+        part.flags & (Part::HATCH | Part::ON_SURFACE | Part::ON_SCREEN) == Part::HATCH
     };
-    let settings = ChartSettings {
-        tile_world: model.radius() * TILE_RADII,
+    if !parts.iter().any(|part| on_surface(part) || on_uvs(part)) {
+        return Vec::new();
+    }
+    let surfaces = Surfaces::of(model);
+    for (i, part) in parts.iter_mut().enumerate() {
+        if on_uvs(part) {
+            part.tile_scale = whole_scale(1.0 / (surfaces.uv_density[i] * surfaces.tile_world(i)));
+        }
+    }
+    if !parts.iter().any(on_surface) {
+        return Vec::new();
+    }
+    let mut settings = ChartSettings {
         crease_cos: math::cos(style.line.crease_angle_deg.to_radians()),
         guides,
+        smoothing_tiles: SMOOTHING_RADII / TILE_RADII,
         ..ChartSettings::default()
     };
-    let chart = stroke_chart(&input, &settings);
-    let corners = chart.corners.into_iter();
-    corners.map(|[a, b, c]| ChartCorners { a, b, c }).collect()
+    let mut charts = vec![ChartCorners::default(); model.triangles.len()];
+    for halvings in 0..=HALVINGS_MAX {
+        let member = |part: u32| {
+            on_surface(&parts[part as usize]) && surfaces.halvings[part as usize] == halvings
+        };
+        settings.tile_world = surfaces.tile_at(halvings);
+        add_charts(model, &surfaces.positions, &settings, member, &mut charts);
+    }
+    charts
+}
+
+/// Adds the stroke charts of the parts that are members.
+fn add_charts(
+    model: &Model,
+    positions: &[[f32; 3]],
+    settings: &ChartSettings,
+    member: impl Fn(u32) -> bool,
+    charts: &mut [ChartCorners],
+) {
+    let numbered = model.triangles.iter().enumerate();
+    let (numbers, triangles): (Vec<usize>, Vec<Triangle>) = numbered
+        .filter(|(_, triangle)| member(triangle.part))
+        .unzip();
+    if triangles.is_empty() {
+        return;
+    }
+    let input = ChartInput {
+        positions,
+        triangles: &triangles,
+    };
+    let chart = stroke_chart(&input, settings);
+    for (number, [a, b, c]) in numbers.into_iter().zip(chart.corners) {
+        charts[number] = ChartCorners { a, b, c };
+    }
+}
+
+/// A number of tiles to one unit of UV coordinates, or of units to one tile: coordinates that wrap around at 1 show no seam.
+fn whole_scale(scale: f32) -> f32 {
+    let whole = |x: f32| x.min(4096.0).round().max(1.0);
+    if scale >= 1.0 {
+        whole(scale)
+    } else {
+        // Not a number where a part has no area.
+        1.0 / whole(1.0 / scale)
+    }
+}
+
+/// How large the surfaces of a model are.
+struct Surfaces {
+    /// Vertices as they stand in the world.
+    positions: Vec<[f32; 3]>,
+    model_radius: f32,
+    /// For every part, how often the tile that suits the model is halved to suit the part's object.
+    halvings: Vec<u32>,
+    /// For every part, units of UV coordinates to one of the world: the root of the ratio of areas.
+    uv_density: Vec<f32>,
+}
+
+impl Surfaces {
+    fn of(model: &Model) -> Self {
+        let points = model.vertices.iter().zip(&model.influences);
+        let positions: Vec<[f32; 3]> = points
+            .map(|(vertex, influence)| model.posed_point(vertex, influence).to_array())
+            .collect();
+        let radius_of = object_radii(model, &positions);
+        let halvings = model.parts.iter().map(|info| {
+            let smaller = math::log2(model.radius() / radius_of[info.object as usize]);
+            (smaller.round().max(0.0) as u32).min(HALVINGS_MAX)
+        });
+        Self {
+            halvings: halvings.collect(),
+            uv_density: uv_densities(model, &positions),
+            model_radius: model.radius(),
+            positions,
+        }
+    }
+
+    /// Size of a tile that is halved so often, in units of the world.
+    fn tile_at(&self, halvings: u32) -> f32 {
+        self.model_radius * TILE_RADII / (1u32 << halvings) as f32
+    }
+
+    /// Size of a tile on a part, in units of the world.
+    fn tile_world(&self, part: usize) -> f32 {
+        self.tile_at(self.halvings[part])
+    }
+}
+
+/// Half the diagonal of the box around each object, by its number; 0 where it has no triangles.
+fn object_radii(model: &Model, positions: &[[f32; 3]]) -> Vec<f32> {
+    let count = model.parts.iter().map(|info| info.object + 1).max();
+    let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    let mut boxes = vec![nothing; count.unwrap_or(0) as usize];
+    for triangle in &model.triangles {
+        let (low, high) = &mut boxes[model.parts[triangle.part as usize].object as usize];
+        for corner in triangle.corners {
+            let point = Vec3::from(positions[corner as usize]);
+            (*low, *high) = (low.min(point), high.max(point));
+        }
+    }
+    let radius = |(low, high): &(Vec3, Vec3)| ((*high - *low) * 0.5).max(Vec3::ZERO).length();
+    boxes.iter().map(radius).collect()
+}
+
+/// Units of UV coordinates to one of the world, in the mean over every part.
+fn uv_densities(model: &Model, positions: &[[f32; 3]]) -> Vec<f32> {
+    let mut areas = vec![[0.0f64; 2]; model.parts.len()];
+    for triangle in &model.triangles {
+        let [a, b, c] = triangle.corners.map(|v| Vec3::from(positions[v as usize]));
+        let [r, s, t] = triangle
+            .corners
+            .map(|v| Vec2::from(model.vertices[v as usize].uv));
+        let [in_uvs, in_world] = &mut areas[triangle.part as usize];
+        *in_uvs += f64::from((s - r).perp_dot(t - r).abs());
+        *in_world += f64::from((b - a).cross(c - a).length());
+    }
+    let density = |[in_uvs, in_world]: [f64; 2]| (in_uvs / in_world).sqrt() as f32;
+    areas.into_iter().map(density).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::whole_scale;
+
+    #[test]
+    fn scales_are_whole_either_way() {
+        assert_eq!(
+            [3.4, 0.3, 1.0, 0.9].map(whole_scale),
+            [3.0, 1.0 / 3.0, 1.0, 1.0]
+        );
+        assert_eq!(whole_scale(f32::NAN), 1.0);
+        assert_eq!(whole_scale(f32::INFINITY), 4096.0);
+        assert_eq!(whole_scale(0.0), 1.0 / 4096.0);
+    }
 }

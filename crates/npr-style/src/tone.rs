@@ -45,6 +45,15 @@ struct Tone {
     ink: f32,
 }
 
+/// What is the same all over a triangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Even {
+    /// What its colour is multiplied by.
+    light: [f32; 3],
+    /// How much of it is inked, 0..1, where that is the same too.
+    ink: Option<f32>,
+}
+
 impl<'a> Layers<'a> {
     /// Colour of every triangle that has one colour all over, marked by a 1 in alpha.
     pub(crate) fn even_colors(&self) -> Vec<[f32; 4]> {
@@ -66,7 +75,11 @@ impl<'a> Layers<'a> {
         if part.texture != NONE || !triangle.corners.iter().all(white) {
             return None;
         }
-        let tone = self.one_tone(part, &self.corners_of(triangle))?;
+        let even = self.one_light(part, &self.corners_of(triangle))?;
+        let tone = Tone {
+            light: even.light,
+            ink: even.ink?,
+        };
         let [r, g, b, _] = part.base_color;
         Some(self.toned(part, [r, g, b], tone))
     }
@@ -81,15 +94,15 @@ impl<'a> Layers<'a> {
         })
     }
 
-    /// The tone of a triangle that lies within one as a whole.
-    fn one_tone(&self, part: &Part, corners: &Corners<'_>) -> Option<Tone> {
+    /// The light of a triangle that is lit in one tone, and its ink where nothing in it is hatched.
+    fn one_light(&self, part: &Part, corners: &Corners<'_>) -> Option<Even> {
         if part.flags & (Part::ANGLE | Part::HIGHLIGHTS) != 0 {
             return None;
         }
         if part.flags & (Part::UNLIT | Part::INK | Part::HATCH) == Part::UNLIT {
-            return Some(Tone {
+            return Some(Even {
                 light: [1.0; 3],
-                ink: 0.0,
+                ink: Some(0.0),
             });
         }
         let range = self.coordinate_range(corners)?;
@@ -103,9 +116,9 @@ impl<'a> Layers<'a> {
             return None;
         }
         let normal = corners.posed[0].normal.map(|n| n * corners.side);
-        Some(Tone {
+        Some(Even {
             light: self.light_of(part, corners.posed[0].world, normal),
-            ink: ink_over(part, range)?,
+            ink: ink_over(part, range),
         })
     }
 
@@ -127,7 +140,12 @@ impl<'a> Layers<'a> {
         }
         let corners = self.corners_of(triangle);
         let color = self.plain_color(triangle, part, &corners, center);
-        if let Some(tone) = self.one_tone(part, &corners) {
+        let ink_here = || self.ink_at(id, part, &corners, center);
+        if let Some(even) = self.one_light(part, &corners) {
+            let tone = Tone {
+                light: even.light,
+                ink: even.ink.unwrap_or_else(ink_here),
+            };
             return self.toned(part, color, tone);
         }
         let sum = samples.fold([0.0; 7], |sum, i| {
@@ -138,7 +156,7 @@ impl<'a> Layers<'a> {
         });
         let tone = Tone {
             light: [sum[0], sum[1], sum[2]],
-            ink: self.ink_at(id, part, &corners, center),
+            ink: ink_here(),
         };
         let color = self.toned(part, color, tone);
         std::array::from_fn(|i| {
@@ -294,7 +312,7 @@ mod tests {
                 triangles: &[triangle], parts: &[part], texels: &[], charts: &[], overlay: &[],
             };
             let corners = layers.corners_of(&triangle);
-            if let Some(one) = layers.one_tone(&part, &corners) {
+            if let Some(one) = layers.one_light(&part, &corners) {
                 let sum: f32 = weights.iter().sum();
                 let inside = layers.light_of(&part, [0.0; 3], corners.normal(weights.map(|w| w / sum)));
                 prop_assert_eq!(one.light, inside);

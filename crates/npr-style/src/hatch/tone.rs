@@ -55,15 +55,18 @@ pub fn hatch_luminance(texel: [f32; 4], f: f32) -> f32 {
     let t = place - step as f32;
     let near = texel[step].max(RIDGE * t * texel[step + 1]);
     let far = texel[step + 1].max(RIDGE * (1.0 - t) * texel[step]);
-    let strokes = near * far / math::mix(far, near, t);
-    let white = (1.0 - near) * (1.0 - far) / math::mix(1.0 - far, 1.0 - near, t);
+    let mean = math::mix(far, near, t);
+    // Both harmonic means share one division.
+    let over = 1.0 / (mean * (1.0 - mean));
+    let strokes = near * far * (1.0 - mean) * over;
+    let white = (1.0 - near) * (1.0 - far) * mean * over;
     let s = math::mix(strokes, 1.0 - white, strokes);
     s + BLEND_LIFT * t * (1.0 - t) * s * s * (1.0 - s) * (s - 0.45)
 }
 
 /// Hatch luminance at `(u, v)` of a level of `side * side` texels at `f`, blended over four texels.
 ///
-/// The tile repeats; texel centres lie at `(i + 0.5) / side`. The gradient comes with the same four loads.
+/// The tile repeats; `side` is a power of two, texel centres lie at `(i + 0.5) / side`. The gradient comes with the same four loads.
 ///
 /// # Panics
 ///
@@ -73,13 +76,13 @@ pub fn sample(level: &[[u8; 4]], side: u32, [u, v]: [f32; 2], f: f32) -> HatchSa
     let y = (v - v.floor()) * side as f32 - 0.5;
     let (left, top) = (x.floor(), y.floor());
     let (tx, ty) = (x - left, y - top);
-    let at = |dx: f32, dy: f32| {
-        let column = ((left + dx) as i32).rem_euclid(side as i32) as usize;
-        let row = ((top + dy) as i32).rem_euclid(side as i32) as usize;
-        let texel = level[row * side as usize + column];
-        hatch_luminance(texel.map(|channel| f32::from(channel) / 255.0), f)
+    let (column, row) = (left as i32, top as i32);
+    let at = |dx: i32, dy: i32| {
+        let within = |i: i32| i as u32 & (side - 1);
+        let texel = level[(within(row + dy) * side + within(column + dx)) as usize];
+        hatch_luminance(texel.map(|channel| f32::from(channel) * (1.0 / 255.0)), f)
     };
-    let (s00, s10, s01, s11) = (at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0), at(1.0, 1.0));
+    let (s00, s10, s01, s11) = (at(0, 0), at(1, 0), at(0, 1), at(1, 1));
     HatchSample {
         luminance: math::mix(math::mix(s00, s10, tx), math::mix(s01, s11, tx), ty),
         gradient: [

@@ -1,0 +1,62 @@
+//! What ink and hatching cost beside plain tones [Suzuki 2004: 380 frames a second plain, 350 in comic style].
+
+use npr_gpu::engine::Engine;
+use npr_render::RenderError;
+use npr_style::Style;
+
+use crate::subject::Subject;
+use crate::timing::{Times, elapsed_ms};
+
+/// What a style takes.
+#[derive(Debug, Clone, Copy)]
+pub struct Price {
+    /// Preparing memory, tiles and charts, once, in ms.
+    pub prepare_ms: f64,
+    /// A whole frame.
+    pub frame: Times,
+    /// The last pass alone: ramps, ink, hatching, layers.
+    pub compose: Times,
+}
+
+/// Prices of some styles of one subject, drawn by turns so that a busy machine slows all of them alike.
+///
+/// # Errors
+///
+/// [`RenderError`] where the engine fails.
+pub fn prices(
+    engine: &dyn Engine,
+    subject: &Subject,
+    styles: &[Style],
+    size: [u32; 2],
+    runs: usize,
+) -> Result<Vec<Price>, RenderError> {
+    let mut stages = Vec::with_capacity(styles.len());
+    let mut prepare_ms = Vec::with_capacity(styles.len());
+    for style in styles {
+        let mut stage = None;
+        prepare_ms.push(elapsed_ms(|| {
+            stage = Some(subject.warm_stage(engine, style, size));
+        }));
+        stages.extend(stage.transpose()?);
+    }
+    let mut frames = vec![Vec::with_capacity(runs); stages.len()];
+    let mut composes = frames.clone();
+    for _ in 0..runs {
+        for (i, stage) in stages.iter_mut().enumerate() {
+            let mut drawn = None;
+            frames[i].push(elapsed_ms(|| drawn = Some(stage.draw(&subject.camera))));
+            let last = drawn
+                .transpose()?
+                .and_then(|frame| frame.times.last().map(|pass| pass.time));
+            composes[i].push(last.unwrap_or_default().as_secs_f64() * 1e3);
+        }
+    }
+    let timed = prepare_ms.into_iter().zip(frames).zip(composes);
+    Ok(timed
+        .map(|((prepare_ms, frames), composes)| Price {
+            prepare_ms,
+            frame: Times::of(frames),
+            compose: Times::of(composes),
+        })
+        .collect())
+}
