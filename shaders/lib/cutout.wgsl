@@ -1,13 +1,11 @@
-// Holes in cut-out parts. Twin: npr_core::cutout::is_hole.
-// The shader declares `posed`, `vertices`, `triangles`, `parts` and `texels`.
+// Holes in cut-out parts. Twin: npr_core::cutout.
+// The shader declares `vertices`, `triangles`, `parts` and `texels`.
 
-// Whether a triangle of a cut-out part is transparent at a point of the picture.
-fn is_hole(triangle: u32, ndc: vec2<f32>) -> bool {
+// Whether a triangle of a cut-out part is transparent where its corners have these weights.
+fn is_hole_at(triangle: u32, weights: vec3<f32>) -> bool {
     let part = parts[triangles[triangle].part];
     if (part.flags & PART_CUTOUT) == 0u { return false; }
     let corners = triangles[triangle].corners;
-    let clip = array<vec4<f32>, 3>(posed[corners.x].clip, posed[corners.y].clip, posed[corners.z].clip);
-    let weights = weights_at(clip, ndc);
     var alpha = part.base_color.a;
     alpha *= blend(
         weights,

@@ -51,8 +51,8 @@ fn shaped_half(half: vec3<f32>, normal: vec3<f32>, right: vec3<f32>, part: u32) 
     return unit_or_z(split - u * (pull * along) - v * (pull * across));
 }
 
-// Light that a part's highlights add at a place.
-fn highlights_at(part: u32, world: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+// Light that a part's highlights add at a place; bits of `dark` are the lights that do not reach it.
+fn highlights_at(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32) -> vec3<f32> {
     let flags = parts[part].flags;
     if (flags & PART_HIGHLIGHTS) == 0u { return vec3<f32>(0.0); }
     let eye = to_eye(view, world);
@@ -61,6 +61,7 @@ fn highlights_at(part: u32, world: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     if (flags & (PART_CRISP | PART_SOFT)) != 0u {
         var term = 0.0;
         for (var i = 0u; i < lights.count; i++) {
+            if ((dark >> i) & 1u) != 0u || lights.sources[i].kind == LIGHT_SKY { continue; }
             let light = towards_light(lights.sources[i], world);
             var here = 0.0;
             if (flags & PART_PHONG) != 0u {

@@ -61,8 +61,9 @@ fn step_of(place: Place, isotropic: bool) -> f32 {
     return length(vec2<f32>(place.right.x, place.down.x));
 }
 
-// How much of the surface of triangle `id` is inked at a place of the frame, 0..1.
-fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>) -> f32 {
+// How much of the surface of triangle `id` is inked at a place of the frame, 0..1; bits of `dark` are the lights whose
+// shadow falls there.
+fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32 {
     let flags = parts[part].flags;
     if (flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
     let places = array<vec2<f32>, 3>(px, px + vec2<f32>(1.0, 0.0), px + vec2<f32>(0.0, 1.0));
@@ -70,7 +71,7 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>) -> f32 {
     var l: array<f32, 3>;
     for (var i = 0u; i < 3u; i++) {
         weights[i] = weights_at(corners.clip, ndc_at(view, places[i]));
-        let lit = coordinate_at(world_of(corners, weights[i]), normal_of(corners, weights[i]));
+        let lit = coordinate_at(world_of(corners, weights[i]), normal_of(corners, weights[i]), dark);
         l[i] = level_of(part, lit.x);
     }
     var hatching: Hatching;

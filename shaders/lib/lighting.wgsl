@@ -8,18 +8,22 @@ struct LightSource {
     color: vec3<f32>,
     range: f32,
     cone: vec2<f32>,
-    unused: vec2<f32>,
+    shadow: u32,
+    unused: f32,
 }
 
 struct Lights {
     count: u32,
     shadow_side: u32,
-    unused: vec2<u32>,
+    shadow_at: f32,
+    bias_world: f32,
     sources: array<LightSource, 16>,
+    shadows: array<mat4x4<f32>, 4>,
 }
 
 const LIGHT_DISTANT: u32 = 0u;
 const LIGHT_SPOT: u32 = 2u;
+const LIGHT_SKY: u32 = 3u;
 
 struct Lit {
     // Place on the ramp, 0..1.
@@ -33,7 +37,8 @@ fn ramp_coordinate(n_dot_l: f32) -> f32 {
 
 // Whether a tone depends on the normal alone.
 fn only_distant() -> bool {
-    return lights.count == 1u && lights.sources[0].kind == LIGHT_DISTANT && lights.sources[0].intensity == 1.0;
+    return lights.count == 1u && lights.sources[0].kind == LIGHT_DISTANT && lights.sources[0].intensity == 1.0
+        && lights.shadow_side == 0u;
 }
 
 fn smooth_step(low: f32, high: f32, x: f32) -> f32 {
@@ -49,14 +54,19 @@ fn fading(distance: f32, range: f32) -> f32 {
     return left * left;
 }
 
+// Whether a light comes from the same direction everywhere.
+fn is_far(source: LightSource) -> bool {
+    return source.kind == LIGHT_DISTANT || source.kind == LIGHT_SKY;
+}
+
 fn towards_light(source: LightSource, world: vec3<f32>) -> vec3<f32> {
-    if source.kind == LIGHT_DISTANT { return source.direction; }
+    if is_far(source) { return source.direction; }
     return unit_or_z(source.position - world);
 }
 
-// What a light adds to the ramp coordinate at a place.
-fn share_at(source: LightSource, world: vec3<f32>, normal: vec3<f32>) -> f32 {
-    if source.kind == LIGHT_DISTANT { return ramp_coordinate(dot(normal, source.direction)) * source.intensity; }
+// What a light adds to the ramp coordinate at a place, at most `most` of itself.
+fn share_at(source: LightSource, world: vec3<f32>, normal: vec3<f32>, most: f32) -> f32 {
+    if is_far(source) { return min(ramp_coordinate(dot(normal, source.direction)), most) * source.intensity; }
     let offset = source.position - world;
     let distance = sqrt(dot(offset, offset));
     let towards = unit_or_z(offset);
@@ -64,14 +74,16 @@ fn share_at(source: LightSource, world: vec3<f32>, normal: vec3<f32>) -> f32 {
     if source.kind == LIGHT_SPOT {
         strength *= smooth_step(source.cone.x, source.cone.y, -dot(towards, source.direction));
     }
-    return ramp_coordinate(dot(normal, towards)) * strength;
+    return min(ramp_coordinate(dot(normal, towards)), most) * strength;
 }
 
-fn coordinate_at(world: vec3<f32>, normal: vec3<f32>) -> Lit {
+// Bit `i` of `dark` says that the place lies in the shadow of light `i`.
+fn coordinate_at(world: vec3<f32>, normal: vec3<f32>, dark: u32) -> Lit {
     var sum = 0.0;
     var color = vec3<f32>(0.0);
     for (var i = 0u; i < lights.count; i++) {
-        let share = share_at(lights.sources[i], world, normal);
+        let most = select(1.0, lights.shadow_at, ((dark >> i) & 1u) != 0u);
+        let share = share_at(lights.sources[i], world, normal, most);
         sum += share;
         color += lights.sources[i].color * share;
     }

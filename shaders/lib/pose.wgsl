@@ -13,10 +13,6 @@ fn blended_matrix(influence: Influence) -> mat4x4<f32> {
     return mat4x4<f32>(m[0] + d[0] * w.w, m[1] + d[1] * w.w, m[2] + d[2] * w.w, m[3] + d[3] * w.w);
 }
 
-fn apply_point(m: mat4x4<f32>, p: vec3<f32>) -> vec4<f32> {
-    return m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3];
-}
-
 fn apply_direction(m: mat4x4<f32>, v: vec3<f32>) -> vec3<f32> {
     return (m[0] * v.x + m[1] * v.y + m[2] * v.z).xyz;
 }

@@ -28,6 +28,10 @@ fn faces_eye(clip: array<vec4<f32>, 3>) -> bool {
     return a.x * minor_a + a.y * minor_b + a.w * minor_c > 0.0;
 }
 
+fn apply_point(m: mat4x4<f32>, p: vec3<f32>) -> vec4<f32> {
+    return m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3];
+}
+
 fn blend(weights: vec3<f32>, a: f32, b: f32, c: f32) -> f32 {
     return a * weights.x + b * weights.y + c * weights.z;
 }

@@ -68,6 +68,12 @@ fn clip_here(window: Window, clip: vec4<f32>) -> vec4<f32> {
     );
 }
 
+// Normalised device coordinates of the centre of a grid pixel, in the grid's own view.
+fn ndc_of(window: Window, pixel: vec2<u32>) -> vec2<f32> {
+    let at = (vec2<f32>(pixel) + 0.5) / vec2<f32>(window.size);
+    return vec2<f32>(2.0 * at.x - 1.0, 1.0 - 2.0 * at.y);
+}
+
 fn frame_at(window: Window, pixel: vec2<u32>) -> vec2<f32> {
     return window.frame_origin + (vec2<f32>(pixel) + 0.5) * window.frame_step;
 }

@@ -30,12 +30,18 @@ override WG: u32 = 64u;
 @group(0) @binding(12) var<storage, read> charts: array<ChartCorners>;
 @group(0) @binding(13) var<storage, read> overlay: array<u32>;
 @group(0) @binding(14) var<storage, read_write> frame: array<u32>;
+@group(0) @binding(15) var shadow_0: texture_2d<u32>;
+@group(0) @binding(16) var shadow_1: texture_2d<u32>;
+@group(0) @binding(17) var shadow_2: texture_2d<u32>;
+@group(0) @binding(18) var shadow_3: texture_2d<u32>;
 
 //# use lib/texture
 //# use lib/lighting
 //# use lib/inking
 //# use lib/gloss
 //# use lib/beam
+//# use lib/cutout
+//# use lib/shadow
 
 // How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
 const TONE_ROOM: f32 = 0.002;
@@ -122,16 +128,16 @@ fn one_light(part: u32, corners: Corners) -> Tone {
         let at = parts[part].ramp[i].a;
         if (flags & PART_UNLIT) == 0u && at > range.x - reach && at <= range.y + reach { return tone; }
     }
-    tone.light = light_of(part, corners.world[0], corners.normals[0] * corners.side);
+    tone.light = light_of(part, corners.world[0], corners.normals[0] * corners.side, 0u);
     tone.ink = ink_over(part, range);
     tone.even = true;
     return tone;
 }
 
-// Light on a surface at `world` that faces along `normal`.
-fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+// Light on a surface at `world` that faces along `normal` and lies in the shadow of the lights in `dark`.
+fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32) -> vec3<f32> {
     if (parts[part].flags & PART_UNLIT) != 0u { return vec3<f32>(1.0); }
-    let lit = coordinate_at(world, normal);
+    let lit = coordinate_at(world, normal, dark);
     return ramp_light(part, lit.x) * lit.color;
 }
 
@@ -141,18 +147,17 @@ struct Sampled {
     gloss: vec3<f32>,
 }
 
-fn tone_at(triangle: Triangle, corners: Corners, frame_px: vec2<f32>) -> Sampled {
-    let weights = weights_at(corners.clip, ndc_at(view, frame_px));
+fn tone_at(triangle: Triangle, corners: Corners, weights: vec3<f32>, dark: u32) -> Sampled {
     let normal = normal_of(corners, weights);
     let world = world_of(corners, weights);
-    let light = light_of(triangle.part, world, normal);
+    let light = light_of(triangle.part, world, normal, dark);
     var ink = 0.0;
     if (parts[triangle.part].flags & PART_ANGLE) != 0u {
         if abs(dot(normal, to_eye(view, world))) < parts[triangle.part].facing_threshold { ink = 1.0; }
     }
     var sampled: Sampled;
     sampled.tone = vec4<f32>(light, ink);
-    sampled.gloss = highlights_at(triangle.part, world, normal);
+    sampled.gloss = highlights_at(triangle.part, world, normal, dark);
     return sampled;
 }
 
@@ -208,6 +213,16 @@ fn sample_offset(i: u32) -> vec2<f32> {
     return vec2<f32>(f32(i & 1u), f32(i >> 1u)) * 0.5 - 0.25;
 }
 
+// Ink of a surface, summed over samples: where no shadow ends, all share that of the first.
+struct Inked {
+    any: bool,
+    // Lights whose shadow fell on the last sample, and its ink.
+    dark: u32,
+    last: f32,
+    first: f32,
+    mean: f32,
+}
+
 // Light of what the samples in `members` show, a triangle or its hull.
 fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
     let triangle = triangles[(id & ID_MASK) - 1u];
@@ -222,22 +237,35 @@ fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
     let color = base_color(triangle, corners, frame_px + center);
     var tone = one_light(triangle.part, corners);
     if tone.even {
-        if tone.ink < 0.0 { tone.ink = ink_at(id, triangle.part, corners, frame_px + center); }
+        if tone.ink < 0.0 { tone.ink = ink_at(id, triangle.part, corners, frame_px + center, 0u); }
         return toned(triangle.part, color, tone);
     }
     var sum = vec4<f32>(0.0);
     var gloss = vec3<f32>(0.0);
+    var inked: Inked;
     for (var i = 0u; i < 4u; i++) {
         if (members & (1u << i)) != 0u {
-            let sampled = tone_at(triangle, corners, frame_px + sample_offset(i));
+            let weights = weights_at(corners.clip, ndc_at(view, frame_px + sample_offset(i)));
+            let dark = shadowed(id, corners, weights);
+            let sampled = tone_at(triangle, corners, weights, dark);
             sum += sampled.tone / count;
             gloss += sampled.gloss / count;
+            if !inked.any || inked.dark != dark {
+                inked.last = ink_at(id, triangle.part, corners, frame_px + center, dark);
+            }
+            if !inked.any {
+                inked.any = true;
+                inked.first = inked.last;
+                inked.mean = inked.last;
+            }
+            inked.dark = dark;
+            inked.mean += (inked.last - inked.first) / count;
         }
     }
     tone.light = sum.rgb;
-    tone.ink = ink_at(id, triangle.part, corners, frame_px + center);
-    let inked = toned(triangle.part, color, tone) + gloss;
-    return inked + (line - inked) * sum.a;
+    tone.ink = inked.mean;
+    let drawn = toned(triangle.part, color, tone) + gloss;
+    return drawn + (line - drawn) * sum.a;
 }
 
 // The surfaces of a pixel, premultiplied.

@@ -34,8 +34,12 @@ shaders! {
     MESH_CLASSIFY_EDGES = "mesh/classify_edges";
     /// Pushes vertices out along their normals.
     MESH_EXTRUDE_HULL = "mesh/extrude_hull";
+    /// Projects vertices for a light.
+    MESH_PROJECT_SHADOW = "mesh/project_shadow";
     /// Draws triangle numbers with depth.
     RASTER_DRAW_IDS = "raster/draw_ids";
+    /// Draws triangle numbers as a light sees them.
+    RASTER_DRAW_SHADOW = "raster/draw_shadow";
     /// Draws the numbers of hull triangles with depth.
     RASTER_DRAW_HULL = "raster/draw_hull";
     /// Draws triangle numbers of beams with depth.
@@ -126,6 +130,7 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/gloss", include_str!("../lib/gloss.wgsl")),
     ("lib/inking", include_str!("../lib/inking.wgsl")),
     ("lib/lighting", include_str!("../lib/lighting.wgsl")),
+    ("lib/shadow", include_str!("../lib/shadow.wgsl")),
     ("lib/ribbon", include_str!("../lib/ribbon.wgsl")),
 ];
 

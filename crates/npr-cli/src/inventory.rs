@@ -129,7 +129,8 @@ fn format_name(format: Option<Format>, scene: &Scene) -> &'static str {
 fn ignored(scene: &Scene) -> Vec<String> {
     let mut notices: Vec<String> = scene.notices.iter().map(ToString::to_string).collect();
     if !scene.lights.is_empty() {
-        notices.push("lights of the file are ignored: the style brings its own".to_owned());
+        notices
+            .push("lights of the file shine only in styles that say light.file = true".to_owned());
     }
     notices
 }

@@ -164,6 +164,12 @@ impl Camera {
     }
 }
 
+/// The eight corners of a box, given by its lowest and highest.
+pub fn box_corners((min, max): ([f32; 3], [f32; 3])) -> Vec<[f32; 3]> {
+    let corners = corners(Vec3::from(min), Vec3::from(max));
+    corners.map(|corner| corner.to_array()).collect()
+}
+
 /// The eight corners of a box.
 fn corners(min: Vec3, max: Vec3) -> impl Iterator<Item = Vec3> {
     (0..8).map(move |i| {

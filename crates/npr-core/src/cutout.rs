@@ -22,13 +22,22 @@ pub struct Cutout<'a> {
 impl Cutout<'_> {
     /// Whether a triangle of a cut-out part is transparent at a point of the picture, in normalised device coordinates.
     pub fn is_hole(&self, triangle: u32, ndc: [f32; 2]) -> bool {
+        let Triangle { corners, part } = self.triangles[triangle as usize];
+        if self.parts[part as usize].flags & Part::CUTOUT == 0 {
+            return false;
+        }
+        let clip = corners.map(|v| self.posed[v as usize].clip);
+        self.is_hole_at(triangle, surface::weights_at(clip, ndc))
+    }
+
+    /// Whether it is transparent where its corners have these weights; needs no posed vertices.
+    pub fn is_hole_at(&self, triangle: u32, weights: [f32; 3]) -> bool {
         let triangle = self.triangles[triangle as usize];
         let part = &self.parts[triangle.part as usize];
         if part.flags & Part::CUTOUT == 0 {
             return false;
         }
         let corners = triangle.corners.map(|v| v as usize);
-        let weights = surface::weights_at(corners.map(|v| self.posed[v].clip), ndc);
         let mut alpha = part.base_color[3];
         alpha *= surface::blend(
             weights,

@@ -18,6 +18,7 @@ pub mod color;
 pub mod cutout;
 pub mod geometry;
 pub mod layout;
+pub mod light_view;
 pub mod math;
 pub mod outline;
 pub mod raster;

@@ -28,6 +28,8 @@ pub enum Sides {
     AsParts,
     /// The same of beams alone.
     Beams,
+    /// Both sides of all parts but beams: what throws shadows.
+    Both,
     /// Backs of parts with a hull.
     Backs,
 }
@@ -109,7 +111,7 @@ impl Batch {
             let triangle = fill.triangles[index];
             let flags = fill.parts[triangle.part as usize].flags;
             let wanted = match fill.sides {
-                Sides::AsParts => flags & Part::BEAM == 0,
+                Sides::AsParts | Sides::Both => flags & Part::BEAM == 0,
                 Sides::Beams => flags & Part::BEAM != 0,
                 Sides::Backs => flags & (Part::BEAM | Part::HULL) == Part::HULL,
             };
@@ -120,6 +122,7 @@ impl Batch {
                 .corners
                 .map(|v| fill.window.clip_here((fill.clip_of)(v)));
             let cull = match fill.sides {
+                Sides::Both => Cull::Nothing,
                 Sides::Backs => Cull::Fronts,
                 _ if flags & Part::DOUBLE_SIDED != 0 => Cull::Nothing,
                 _ => Cull::Backs,

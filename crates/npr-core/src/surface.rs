@@ -33,6 +33,11 @@ pub fn faces_eye(clip: [[f32; 4]; 3]) -> bool {
     a[0] * minor_a + a[1] * minor_b + a[3] * minor_c > 0.0
 }
 
+/// A point carried by a column-major matrix, homogeneous.
+pub fn apply_point(m: &[[f32; 4]; 4], p: [f32; 3]) -> [f32; 4] {
+    std::array::from_fn(|i| m[0][i] * p[0] + m[1][i] * p[1] + m[2][i] * p[2] + m[3][i])
+}
+
 /// Weighted sum of three scalars.
 pub fn blend(weights: [f32; 3], values: [f32; 3]) -> f32 {
     values[0] * weights[0] + values[1] * weights[1] + values[2] * weights[2]

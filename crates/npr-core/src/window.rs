@@ -160,6 +160,15 @@ impl Window {
         ]
     }
 
+    /// Normalised device coordinates of the centre of a grid pixel, in the grid's own view; y up.
+    pub fn ndc_of(&self, x: u32, y: u32) -> [f32; 2] {
+        let at = [
+            (x as f32 + 0.5) / self.size[0] as f32,
+            (y as f32 + 0.5) / self.size[1] as f32,
+        ];
+        [2.0 * at[0] - 1.0, 1.0 - 2.0 * at[1]]
+    }
+
     /// Frame position of the centre of a grid pixel.
     pub fn frame_at(&self, x: u32, y: u32) -> [f32; 2] {
         [

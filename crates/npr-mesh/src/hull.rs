@@ -1,8 +1,9 @@
 //! Hulls pushed out by the line width: the twin of `mesh.extrude_hull`.
 
-use crate::pose::{Matrix, apply_normal, apply_point, blended_matrix};
+use crate::pose::{Matrix, apply_normal, blended_matrix};
 use npr_core::geometry::{Influence, PosedVertex, Vertex};
 use npr_core::math;
+use npr_core::surface::apply_point;
 use npr_core::window::View;
 use rayon::prelude::*;
 

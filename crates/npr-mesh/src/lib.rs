@@ -48,6 +48,7 @@ mod lonely;
 pub mod mesh;
 pub mod normals;
 pub mod pose;
+pub mod project;
 mod sectors;
 pub mod shape;
 pub mod shape_cache;

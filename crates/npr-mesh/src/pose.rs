@@ -3,7 +3,7 @@
 use npr_core::geometry::{Influence, Part, PosedVertex, Vertex};
 use npr_core::math;
 use npr_core::outline::{Outline, width_of_curvature};
-use npr_core::surface::{dot, unit_or_z};
+use npr_core::surface::{apply_point, dot, unit_or_z};
 use npr_core::window::View;
 use rayon::prelude::*;
 
@@ -132,10 +132,6 @@ pub(crate) fn blended_matrix(palette: &[Matrix], influence: &Influence) -> Matri
         }
     }
     m
-}
-
-pub(crate) fn apply_point(m: &Matrix, p: [f32; 3]) -> [f32; 4] {
-    std::array::from_fn(|i| m[0][i] * p[0] + m[1][i] * p[1] + m[2][i] * p[2] + m[3][i])
 }
 
 fn apply_direction(m: &Matrix, v: [f32; 3]) -> [f32; 3] {

@@ -11,6 +11,7 @@ use npr_gpu::passes::{line, mesh, raster, shade};
 use npr_mesh::pose::Matrix;
 use npr_style::compose::Compose;
 use npr_style::lighting::Lights;
+use npr_style::shadow::{SHADOW_SIDE, SHADOWS_MAX};
 use npr_style::{LineMethod, Style};
 use npr_vector::residual::tile_count;
 
@@ -27,6 +28,8 @@ pub(crate) struct Counts {
     pub texel_words: usize,
     /// Parts that are beams of light.
     pub beams: usize,
+    /// Lights that throw shadows.
+    pub shadows: usize,
 }
 
 /// Pixel grids of a tile.
@@ -127,6 +130,9 @@ pub(crate) struct Blueprint {
     pub outline: ResourceId,
     pub compose: ResourceId,
     pub lights: ResourceId,
+    /// The grid of every shadow image, and the views of the lights that throw shadows.
+    pub shadow_window: ResourceId,
+    pub light_views: Vec<ResourceId>,
     pub vertices: ResourceId,
     pub influences: ResourceId,
     pub palette: ResourceId,
@@ -143,12 +149,14 @@ pub(crate) struct Blueprint {
     mask: ResourceId,
     ribbons: ResourceId,
     overlay: ResourceId,
+    shadows: [ResourceId; SHADOWS_MAX],
 }
 
 impl Blueprint {
     pub fn new(counts: &Counts, grids: &Grids, method: Method) -> Self {
         let mut plan = Self::inputs(counts, grids, method);
         plan.pose();
+        plan.draw_shadows(counts);
         plan.draw_ids(plan.color_window, plan.ids, plan.depths);
         if method.mask {
             plan.find_lines(grids, method);
@@ -169,6 +177,7 @@ impl Blueprint {
         let pixel_count = |size: [u32; 2]| size[0] as usize * size[1] as usize;
         let only = |needed: bool, size: [u32; 2]| if needed { size } else { [1, 1] };
         let color = grids.output.map(|side| side * grids.samples);
+        let shadow = |i| only(i < counts.shadows, [SHADOW_SIDE; 2]);
         let overlay = pixel_count(only(method.residual || method.filter, grids.output));
         Self {
             view: graph.uniform::<View>("view"),
@@ -178,6 +187,11 @@ impl Blueprint {
             outline: graph.uniform::<Outline>("outline"),
             compose: graph.uniform::<Compose>("compose"),
             lights: graph.uniform::<Lights>("lights"),
+            shadow_window: graph.uniform::<Window>("shadow window"),
+            light_views: (0..counts.shadows)
+                .map(|_| graph.uniform::<Matrix>("light view"))
+                .collect(),
+            shadows: std::array::from_fn(|i| graph.image("shadow", Format::U32, shadow(i))),
             vertices: graph.buffer::<Vertex>("vertices", counts.vertices),
             influences: graph.buffer::<Influence>("influences", counts.vertices),
             palette: graph.buffer::<Matrix>("palette", counts.joints),
@@ -209,6 +223,31 @@ impl Blueprint {
             self.posed,
         ];
         self.graph.compute(&mesh::POSE_VERTICES, &bound);
+    }
+
+    /// What every light with shadows sees; one list of vertices and one depth image serve them all in turn.
+    fn draw_shadows(&mut self, counts: &Counts) {
+        if counts.shadows == 0 {
+            return;
+        }
+        let projected = self.graph.buffer::<[f32; 4]>("projected", counts.vertices);
+        let depths = self
+            .graph
+            .image("shadow depths", Format::Depth, [SHADOW_SIDE; 2]);
+        for (view, shadow) in self.light_views.iter().zip(self.shadows) {
+            let project = [*view, self.posed, projected];
+            self.graph.compute(&mesh::PROJECT_SHADOW, &project);
+            let bound = [
+                self.shadow_window,
+                projected,
+                self.vertices,
+                self.triangles,
+                self.parts,
+                self.texels,
+            ];
+            self.graph
+                .draw(&raster::DRAW_SHADOW, &bound, &[shadow, depths], true);
+        }
     }
 
     fn draw_ids(&mut self, window: ResourceId, ids: ResourceId, depths: ResourceId) {
@@ -377,6 +416,7 @@ impl Blueprint {
             self.overlay,
             self.frame,
         ];
+        let bound = [&bound[..], &self.shadows].concat();
         self.graph.compute(&shade::COMPOSE_FRAME, &bound);
     }
 }

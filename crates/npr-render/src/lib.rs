@@ -25,6 +25,7 @@ mod frame;
 mod hatching;
 mod instance;
 mod joined;
+mod light;
 mod lines;
 mod look;
 mod model;
@@ -35,6 +36,7 @@ mod tiles;
 
 pub use error::RenderError;
 pub use frame::Frame;
+pub use light::notice as light_notice;
 pub use lines::{KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage};
 pub use model::{Model, PartInfo};
 pub use npr_vector::stroke::{Drawing, Kind};

@@ -11,10 +11,9 @@ use npr_core::outline::{Outline, width_of_curvature};
 use npr_core::texture::{self, TextureStore, Wrap};
 use npr_core::window::View;
 use npr_style::compose::Compose;
-use npr_style::lighting::Lights;
 use npr_style::{
-    Background, Edge, Highlight, HighlightModel, Level, LightSpace, LineMethod, Look, ShadeMode,
-    Style, Unit, Width, WidthSource,
+    Background, Edge, Highlight, HighlightModel, Level, LineMethod, Look, ShadeMode, Style, Unit,
+    Width, WidthSource,
 };
 
 /// Everything a style decides before the camera is known.
@@ -359,22 +358,8 @@ pub(crate) fn compose(
     }
 }
 
-/// The lights of a style.
-pub(crate) fn lights(style: &Style, camera: &Camera) -> Lights {
-    Lights::distant(light_world(style, camera))
-}
-
-/// Unit vector towards the light, in the world.
-fn light_world(style: &Style, camera: &Camera) -> [f32; 3] {
-    let direction = style.light.unit_direction();
-    match style.light.space {
-        LightSpace::World => direction,
-        LightSpace::Camera => in_world(camera, direction),
-    }
-}
-
 /// What a vector in the camera's axes is in the world.
-fn in_world(camera: &Camera, direction: [f32; 3]) -> [f32; 3] {
+pub(crate) fn in_world(camera: &Camera, direction: [f32; 3]) -> [f32; 3] {
     let [right, up, back] = camera.axes().map(Vec3::from);
     (right * direction[0] + up * direction[1] + back * direction[2]).to_array()
 }

@@ -2,6 +2,7 @@
 
 use crate::error::RenderError;
 use crate::instance::Instance;
+use crate::light::{self, FileLight};
 use crate::placement::{self, Bounds};
 use crate::textures::Textures;
 use glam::{Mat4, Vec3};
@@ -53,6 +54,7 @@ pub struct Model {
     pub(crate) edges: Vec<Edge>,
     pub(crate) parts: Vec<PartInfo>,
     pub(crate) textures: TextureStore,
+    pub(crate) lights: Vec<FileLight>,
     bounds: Bounds,
     cameras: Vec<(String, Camera)>,
     notices: Vec<String>,
@@ -76,6 +78,7 @@ impl Model {
             edges: Vec::new(),
             parts: Vec::new(),
             textures: TextureStore::new(),
+            lights: Vec::new(),
             bounds: ([0.0; 3], [0.0; 3]),
             cameras: placement::cameras_of(scene),
             notices: scene.notices.iter().map(ToString::to_string).collect(),
@@ -89,6 +92,7 @@ impl Model {
         model.notices.extend(textures.notice.take());
         model.textures = textures.store;
         model.bounds = placement::bounds_of(model.posed_points());
+        model.lights = light::of_scene(scene, model.bounds);
         model.relate_curvatures();
         Ok(model)
     }

@@ -3,6 +3,7 @@
 use crate::blueprint::{Blueprint, Counts, Grids, Method};
 use crate::error::RenderError;
 use crate::frame::Frame;
+use crate::light;
 use crate::look::{self, StyledModel};
 use crate::model::Model;
 use crate::tiles::{TILE_PIXELS, Tiles};
@@ -15,6 +16,7 @@ use npr_gpu::graph::ResourceId;
 use npr_scene::Image;
 use npr_style::Style;
 use npr_style::compose::Compose;
+use npr_style::shadow::SHADOW_SIDE;
 
 /// Most pixels of a frame along a side.
 const FRAME_SIDE: u32 = 32_768;
@@ -125,6 +127,7 @@ impl<'a> Stage<'a> {
             parts: styled.parts.len(),
             texel_words: styled.textures.words().len(),
             beams: styled.beam_count(),
+            shadows: light::shadow_count(style, model),
         };
         let method = Method::of(style);
         let plan = Blueprint::new(&counts, &grids, method);
@@ -167,6 +170,9 @@ impl<'a> Stage<'a> {
         write(session, plan.edges, &model.edges)?;
         write(session, plan.charts, &styled.inked.charts)?;
         write(session, plan.parts, &styled.parts)?;
+        let shadow_px = [SHADOW_SIDE as f32; 2];
+        let window = Window::over(shadow_px, [0.0; 2], shadow_px, [SHADOW_SIDE; 2]);
+        write(session, plan.shadow_window, &[window])?;
         write(session, plan.texels, styled.textures.words())
     }
 
@@ -211,8 +217,11 @@ impl<'a> Stage<'a> {
         write(session, self.plan.view, &[view])?;
         write(session, self.plan.outline, &[outline])?;
         write(session, self.plan.compose, &[compose])?;
-        let lights = look::lights(&self.style, camera);
+        let lights = light::lights(&self.style, self.model, camera, &view);
         write(session, self.plan.lights, &[lights])?;
+        for (id, matrix) in self.plan.light_views.iter().zip(&lights.shadows) {
+            write(session, *id, &[*matrix])?;
+        }
         let mut frame = Frame::new(self.options.size);
         frame.notices.extend_from_slice(self.notices());
         for origin in self.tiles.origins() {

@@ -11,6 +11,7 @@ use npr_core::window::{View, Window};
 use rayon::prelude::*;
 
 use crate::lighting::Lights;
+use crate::shadow::SHADOWS_MAX;
 
 /// Settings of the last pass.
 #[repr(C)]
@@ -102,6 +103,8 @@ pub struct Layers<'a> {
     pub charts: &'a [ChartCorners],
     /// Stamps or mask, sRGB bytes with coverage in alpha.
     pub overlay: &'a [u32],
+    /// Triangle numbers as the lights with shadows see them, [`Lights::shadow_side`] texels square; not read where that is 0.
+    pub shadows: [&'a [u32]; SHADOWS_MAX],
 }
 
 /// Composes the output as sRGB bytes with straight alpha.
@@ -393,6 +396,7 @@ mod tests {
             texels: store.words(),
             charts: &[],
             overlay: &[0; 16],
+            shadows: [&[]; SHADOWS_MAX],
         };
         let mut frame = vec![0; 16];
         compose(&layers, &mut frame);

@@ -4,6 +4,7 @@
 //! normal N, L towards the light, E towards the eye.
 
 use crate::compose::Layers;
+use crate::lighting::LightSource;
 use npr_core::geometry::Part;
 use npr_core::math;
 use npr_core::surface::{dot, unit_or_z};
@@ -169,8 +170,14 @@ impl HighlightShape {
 }
 
 impl Layers<'_> {
-    /// Light that a part's highlights add at a place.
-    pub(crate) fn highlights_at(&self, part: &Part, world: [f32; 3], normal: [f32; 3]) -> [f32; 3] {
+    /// Light that a part's highlights add at a place; bits of `dark` are the lights that do not reach it.
+    pub(crate) fn highlights_at(
+        &self,
+        part: &Part,
+        world: [f32; 3],
+        normal: [f32; 3],
+        dark: u32,
+    ) -> [f32; 3] {
         let mut sum = [0.0; 3];
         let mut add = |color: [f32; 4], amount: f32| {
             for (sum, c) in sum.iter_mut().zip(color) {
@@ -180,7 +187,7 @@ impl Layers<'_> {
         let eye = self.view.to_eye(world);
         if part.flags & (Part::CRISP | Part::SOFT) != 0 {
             let (term, [_, threshold, m, _]) =
-                (self.term_at(part, world, normal, eye), part.highlight);
+                (self.term_at(part, world, normal, eye, dark), part.highlight);
             let amount = if part.flags & Part::CRISP != 0 {
                 crisp(term, threshold)
             } else {
@@ -203,12 +210,22 @@ impl Layers<'_> {
         sum
     }
 
-    /// The greatest highlight term of all lights at a place.
-    fn term_at(&self, part: &Part, world: [f32; 3], normal: [f32; 3], eye: [f32; 3]) -> f32 {
+    /// The greatest highlight term of the lights that reach a place; skies make none.
+    fn term_at(
+        &self,
+        part: &Part,
+        world: [f32; 3],
+        normal: [f32; 3],
+        eye: [f32; 3],
+        dark: u32,
+    ) -> f32 {
         let exponent = part.highlight[0];
         let shape = HighlightShape::of(part);
         let lights = &self.lights.sources[..self.lights.count as usize];
-        let terms = lights.iter().map(|source| {
+        let terms = lights.iter().enumerate().map(|(i, source)| {
+            if dark >> i & 1 != 0 || source.kind == LightSource::SKY {
+                return 0.0;
+            }
             let light = source.towards(world);
             if part.flags & Part::PHONG != 0 {
                 return phong(normal, light, eye, exponent);

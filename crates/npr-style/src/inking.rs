@@ -95,8 +95,16 @@ impl Place {
 }
 
 impl Layers<'_> {
-    /// How much of the surface of triangle `id` is inked at a place of the frame, 0..1.
-    pub(crate) fn ink_at(&self, id: u32, part: &Part, corners: &Corners<'_>, px: [f32; 2]) -> f32 {
+    /// How much of the surface of triangle `id` is inked at a place of the frame, 0..1; bits of `dark` are the lights whose
+    /// shadow falls there.
+    pub(crate) fn ink_at(
+        &self,
+        id: u32,
+        part: &Part,
+        corners: &Corners<'_>,
+        px: [f32; 2],
+        dark: u32,
+    ) -> f32 {
         if part.flags & (Part::INK | Part::HATCH) == 0 {
             return 0.0;
         }
@@ -105,7 +113,7 @@ impl Layers<'_> {
         let l = weights.map(|w| {
             let (x, _) = self
                 .lights
-                .coordinate_at(corners.world(w), corners.normal(w));
+                .coordinate_at(corners.world(w), corners.normal(w), dark);
             level_of(part, x)
         });
         let hatching = if part.flags & Part::HATCH != 0 {

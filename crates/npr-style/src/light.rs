@@ -1,7 +1,9 @@
-//! The one light that tones are drawn by.
+//! The lights that tones are drawn by: a main one, more of several kinds, and those of the file.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::{Color, StyleError};
 
 /// What a light's direction is fixed to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -14,7 +16,9 @@ pub enum LightSpace {
     Camera,
 }
 
-/// A light infinitely far away.
+/// The main light, infinitely far away, and what shines beside it.
+///
+/// Every light adds to the place on the ramp, so the intensities of lights that meet should come to about 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Light {
@@ -24,6 +28,25 @@ pub struct Light {
     pub direction: [f32; 3],
     /// What the direction is fixed to; default `camera`.
     pub space: LightSpace,
+    /// What the main light adds to the ramp where it is faced, 0..10; default 1, the whole ramp. 0.5 leaves room for
+    /// others beside it, 0 turns it off.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub intensity: f32,
+    /// Colour of the main light; default white, which leaves tones as they are.
+    pub color: Color,
+    /// Whether things throw shadows in the main light and in the file's lights; default false. Turn on for scenes that
+    /// stand on something, off for single figures with busy faces.
+    pub shadow: bool,
+    /// Place on the ramp, 0..1, that a light cannot lift a place in its shadow above; default 0.15. 0 the deepest tone,
+    /// 0.4 only a hint.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub shadow_at: f32,
+    /// Whether the lights of the file shine in place of the main light; default false. A file without lights keeps the main one.
+    pub file: bool,
+    /// More lights, at most 15; default none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 15))]
+    pub extra: Vec<ExtraLight>,
 }
 
 impl Default for Light {
@@ -31,6 +54,75 @@ impl Default for Light {
         Self {
             direction: [-0.5, 0.7, 0.6],
             space: LightSpace::Camera,
+            intensity: 1.0,
+            color: Color::WHITE,
+            shadow: false,
+            shadow_at: 0.15,
+            file: false,
+            extra: Vec::new(),
+        }
+    }
+}
+
+/// Shape of a light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LightShape {
+    /// Parallel rays from one direction: a sun, a second main light.
+    Distant,
+    /// Rays to all sides from one place: a lamp, a flash. Throws no shadows.
+    #[default]
+    Point,
+    /// Rays from one place into a cone: a torch, a stage light.
+    Spot,
+    /// Light from the whole sky, strongest from one side: fills what others leave dark. Throws no shadows and makes no highlights.
+    Sky,
+}
+
+/// A light beside the main one, fixed in the scene.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ExtraLight {
+    /// Its shape; default `point`.
+    pub kind: LightShape,
+    /// Where it stands, in units of the scene, -1e9..1e9; default the origin. For `point` and `spot`.
+    #[schemars(inner(range(min = -1e9, max = 1e9)))]
+    pub position: [f32; 3],
+    /// Towards where its light comes from, in the scene, of any length but 0; default `[0, 1, 0]`, from above. A `spot`
+    /// shines the other way; a `point` has none.
+    #[schemars(inner(range(min = -1e9, max = 1e9)))]
+    pub direction: [f32; 3],
+    /// What it adds to the ramp where it is faced, 0..10; default 0.5. 0.2 a fill light, 1 a lamp that outshines the main light.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub intensity: f32,
+    /// Colour of its light; default white.
+    pub color: Color,
+    /// Distance at which it has faded to nothing, in units of the scene, 0..1e9; default 0, it never fades. For `point` and `spot`.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub range: f32,
+    /// Angle from the axis of a `spot` up to which it is full, in degrees, 0..85; default 20.
+    #[schemars(range(min = 0.0, max = 85.0))]
+    pub inner_deg: f32,
+    /// Angle from the axis of a `spot` at which it ends, in degrees, 0..85, not below `inner_deg`; default 30. Equal to it
+    /// for a cut-out edge.
+    #[schemars(range(min = 0.0, max = 85.0))]
+    pub outer_deg: f32,
+    /// Whether things throw shadows in it; default false. Of all lights of a picture the first four throw shadows.
+    pub shadow: bool,
+}
+
+impl Default for ExtraLight {
+    fn default() -> Self {
+        Self {
+            kind: LightShape::Point,
+            position: [0.0; 3],
+            direction: [0.0, 1.0, 0.0],
+            intensity: 0.5,
+            color: Color::WHITE,
+            range: 0.0,
+            inner_deg: 20.0,
+            outer_deg: 30.0,
+            shadow: false,
         }
     }
 }
@@ -43,9 +135,29 @@ impl Light {
             .unwrap_or([0.0, 0.0, 1.0])
     }
 
-    /// Whether the direction points anywhere.
-    pub(crate) fn has_direction(&self) -> bool {
-        normalized(self.direction).is_some()
+    /// Checks that every light points somewhere and that no cone is inside out.
+    pub(crate) fn sanity_check(&self) -> Result<(), StyleError> {
+        if normalized(self.direction).is_none() {
+            return Err(StyleError::unfit("light.direction", "points nowhere"));
+        }
+        for (i, extra) in self.extra.iter().enumerate() {
+            if extra.kind != LightShape::Point && normalized(extra.direction).is_none() {
+                let key = format!("light.extra.{i}.direction");
+                return Err(StyleError::unfit(key, "points nowhere"));
+            }
+            if extra.inner_deg > extra.outer_deg {
+                let key = format!("light.extra.{i}.inner_deg");
+                return Err(StyleError::unfit(key, "is wider than outer_deg"));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl ExtraLight {
+    /// The direction with length 1, or up where there is none to normalise.
+    pub fn unit_direction(&self) -> [f32; 3] {
+        normalized(self.direction).unwrap_or([0.0, 1.0, 0.0])
     }
 }
 
@@ -74,15 +186,56 @@ mod tests {
         }
     }
 
+    fn fault_of(text: &str) -> String {
+        let none = |_: &str| Err(String::new());
+        crate::Style::from_toml(text, &none)
+            .expect_err("a fault")
+            .to_string()
+    }
+
     #[test]
-    fn no_direction_is_noticed() {
+    fn lights_that_make_no_sense_are_refused_by_name() {
+        for (text, fault) in [
+            (
+                "light.direction = [0, 0, 0]",
+                "light.direction at line 1, column 1 points nowhere",
+            ),
+            (
+                "[[light.extra]]\nkind = 'spot'\ndirection = [0.0, 0.0, 0.0]",
+                "light.extra.0.direction at line 3, column 1 points nowhere",
+            ),
+            (
+                "[[light.extra]]\nkind = 'spot'\ninner_deg = 40",
+                "light.extra.0.inner_deg at line 3, column 1 is wider than outer_deg",
+            ),
+            (
+                "[[light.extra]]\nintensity = nan",
+                "light.extra.0.intensity at line 2, column 1 is NaN, but must lie in 0..10",
+            ),
+            (
+                "[[light.extra]]\nkind = 'laser'",
+                "light.extra.0.kind at line 2, column 1 is 'laser', but must be one of distant, point, spot, sky",
+            ),
+        ] {
+            assert_eq!(fault_of(text), fault);
+        }
+    }
+
+    #[test]
+    fn a_flood_of_lights_is_refused() {
+        let fault = fault_of(&"[[light.extra]]\n".repeat(500));
         assert!(
-            !Light {
-                direction: [0.0; 3],
-                ..Light::default()
-            }
-            .has_direction()
+            fault.contains("has 500 entries, but must have 0 to 15"),
+            "{fault}"
         );
-        assert!(Light::default().has_direction());
+    }
+
+    #[test]
+    fn a_point_light_needs_no_direction() {
+        let none = |_: &str| Err(String::new());
+        let text = "[[light.extra]]\nposition = [1, 2, 3]\ndirection = [0, 0, 0]";
+        let style = crate::Style::from_toml(text, &none).expect("a style");
+        let written = style.to_toml().expect("TOML");
+        assert_eq!(crate::Style::from_toml(&written, &none), Ok(style));
     }
 }

@@ -5,10 +5,12 @@
 
 use bytemuck::{Pod, Zeroable};
 use npr_core::gpu_layout;
+use npr_core::light_view::Matrix;
 use npr_core::math;
 use npr_core::surface::{dot, unit_or_z};
 
 use crate::ramp::ramp_coordinate;
+use crate::shadow::SHADOWS_MAX;
 
 /// Most lights that shade a frame.
 pub const LIGHTS_MAX: usize = 16;
@@ -19,9 +21,9 @@ pub const LIGHTS_MAX: usize = 16;
 pub struct LightSource {
     /// Where it is, in the world; ignored for distant lights.
     pub position: [f32; 3],
-    /// [`LightSource::DISTANT`], [`LightSource::POINT`] or [`LightSource::SPOT`].
+    /// [`LightSource::DISTANT`], [`LightSource::POINT`], [`LightSource::SPOT`] or [`LightSource::SKY`].
     pub kind: u32,
-    /// Unit vector in the world: towards a distant light, along the axis of a spot.
+    /// Unit vector in the world: towards a distant light or the brightest part of the sky, along the axis of a spot.
     pub direction: [f32; 3],
     /// What it adds to the ramp coordinate where it is faced, 0 and up.
     pub intensity: f32,
@@ -31,8 +33,10 @@ pub struct LightSource {
     pub range: f32,
     /// Cosines of a spot's angles to its axis: where light ends, and up to where it is full.
     pub cone: [f32; 2],
+    /// Number of its shadow image, counted from 1; 0 where nothing throws shadows in its light.
+    pub shadow: u32,
     /// Keeps rows of 16 bytes.
-    pub unused: [f32; 2],
+    pub unused: f32,
 }
 gpu_layout!(LightSource {
     position,
@@ -42,16 +46,20 @@ gpu_layout!(LightSource {
     color,
     range,
     cone,
+    shadow,
     unused
 });
 
 impl LightSource {
-    /// Light from one direction, the sun or the sky.
+    /// Light from one direction, the sun.
     pub const DISTANT: u32 = 0;
     /// Light from a point in all directions.
     pub const POINT: u32 = 1;
     /// Light from a point into a cone.
     pub const SPOT: u32 = 2;
+    /// Light from a whole hemisphere. Evenly bright, it lights a surface by `(N.up + 1) / 2` of itself, which is what a
+    /// distant light adds to the ramp; so it differs from that by having neither shadows nor highlights.
+    pub const SKY: u32 = 3;
 }
 
 /// All lights of a frame.
@@ -60,18 +68,24 @@ impl LightSource {
 pub struct Lights {
     /// How many of `sources` there are.
     pub count: u32,
-    /// Texels of a shadow map along a side; 0 where nothing casts shadows.
+    /// Texels of a shadow image along a side; 0 where nothing throws shadows.
     pub shadow_side: u32,
-    /// Keeps rows of 16 bytes.
-    pub unused: [u32; 2],
+    /// Ramp coordinate that a light cannot lift a place in its shadow above.
+    pub shadow_at: f32,
+    /// How much nearer to a light than a place something must be to shade it, in the world.
+    pub bias_world: f32,
     /// The lights; those after `count` are dark.
     pub sources: [LightSource; LIGHTS_MAX],
+    /// Clip space from the world of every shadow image.
+    pub shadows: [Matrix; SHADOWS_MAX],
 }
 gpu_layout!(Lights {
     count,
     shadow_side,
-    unused,
-    sources
+    shadow_at,
+    bias_world,
+    sources,
+    shadows
 });
 
 impl Lights {
@@ -90,20 +104,26 @@ impl Lights {
         lights
     }
 
-    /// The only light, if it is distant and of plain intensity: then a tone depends on the normal alone.
+    /// The only light, if it is distant, of plain intensity and without shadows: then a tone depends on the normal alone.
     pub(crate) fn only_distant(&self) -> Option<[f32; 3]> {
         let first = &self.sources[0];
-        (self.count == 1 && first.kind == LightSource::DISTANT && first.intensity == 1.0)
+        (self.count == 1
+            && first.kind == LightSource::DISTANT
+            && first.intensity == 1.0
+            && self.shadow_side == 0)
             .then_some(first.direction)
     }
 
     /// Place on the ramp of a surface at `world` that faces along the unit vector `normal`, and the colour of the light
-    /// there: the mean of the lights' colours by what each adds. O(lights).
-    pub fn coordinate_at(&self, world: [f32; 3], normal: [f32; 3]) -> (f32, [f32; 3]) {
+    /// there: the mean of the lights' colours by what each adds. Bit `i` of `dark` says that the place lies in the shadow of
+    /// light `i`. O(lights).
+    pub fn coordinate_at(&self, world: [f32; 3], normal: [f32; 3], dark: u32) -> (f32, [f32; 3]) {
         let mut sum = 0.0;
         let mut color = [0.0; 3];
-        for source in &self.sources[..self.count as usize] {
-            let share = source.share_at(world, normal);
+        for (i, source) in self.sources[..self.count as usize].iter().enumerate() {
+            let is_dark = dark >> i & 1 != 0;
+            let most = if is_dark { self.shadow_at } else { 1.0 };
+            let share = source.share_at(world, normal, most);
             sum += share;
             color = std::array::from_fn(|i| color[i] + source.color[i] * share);
         }
@@ -116,16 +136,21 @@ impl Lights {
 impl LightSource {
     /// Unit vector from a place in the world towards the light.
     pub fn towards(&self, world: [f32; 3]) -> [f32; 3] {
-        if self.kind == Self::DISTANT {
+        if self.is_far() {
             return self.direction;
         }
         unit_or_z(std::array::from_fn(|i| self.position[i] - world[i]))
     }
 
-    /// What the light adds to the ramp coordinate at a place.
-    fn share_at(&self, world: [f32; 3], normal: [f32; 3]) -> f32 {
-        if self.kind == Self::DISTANT {
-            return ramp_coordinate(dot(normal, self.direction)) * self.intensity;
+    /// Whether it comes from the same direction everywhere.
+    fn is_far(&self) -> bool {
+        self.kind == Self::DISTANT || self.kind == Self::SKY
+    }
+
+    /// What the light adds to the ramp coordinate at a place, at most `most` of itself.
+    fn share_at(&self, world: [f32; 3], normal: [f32; 3], most: f32) -> f32 {
+        if self.is_far() {
+            return ramp_coordinate(dot(normal, self.direction)).min(most) * self.intensity;
         }
         let offset: [f32; 3] = std::array::from_fn(|i| self.position[i] - world[i]);
         let distance = dot(offset, offset).sqrt();
@@ -134,7 +159,7 @@ impl LightSource {
         if self.kind == Self::SPOT {
             strength *= math::smoothstep(self.cone[0], self.cone[1], -dot(towards, self.direction));
         }
-        ramp_coordinate(dot(normal, towards)) * strength
+        ramp_coordinate(dot(normal, towards)).min(most) * strength
     }
 }
 
@@ -169,7 +194,7 @@ mod tests {
     #[test]
     fn one_distant_light_is_the_published_formula() {
         let lights = Lights::distant([0.0, 1.0, 0.0]);
-        let at = |normal| lights.coordinate_at([3.0, -2.0, 9.0], normal).0;
+        let at = |normal| lights.coordinate_at([3.0, -2.0, 9.0], normal, 0).0;
         assert_eq!(
             [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]].map(at),
             [1.0, 0.5, 0.0]
@@ -177,9 +202,26 @@ mod tests {
     }
 
     #[test]
+    fn a_shadow_holds_its_own_light_down() {
+        let mut lights = Lights::distant([0.0, 1.0, 0.0]);
+        lights.shadow_at = 0.25;
+        lights.sources[1] = LightSource {
+            kind: LightSource::SKY,
+            intensity: 0.5,
+            ..lights.sources[0]
+        };
+        let at =
+            |lights: &Lights, y: f32, dark| lights.coordinate_at([0.0; 3], [0.0, y, 0.0], dark).0;
+        assert_eq!([0, 1].map(|dark| at(&lights, 1.0, dark)), [1.0, 0.25]);
+        assert_eq!(at(&lights, -1.0, 1), 0.0, "what faces away is darker still");
+        lights.count = 2;
+        assert_eq!(at(&lights, 1.0, 1), 0.75, "the sky shines into the shadow");
+    }
+
+    #[test]
     fn a_point_light_fades_to_its_range() {
         let lights = point([0.0, 2.0, 0.0], 4.0);
-        let at = |y| lights.coordinate_at([0.0, y, 0.0], [0.0, 1.0, 0.0]).0;
+        let at = |y| lights.coordinate_at([0.0, y, 0.0], [0.0, 1.0, 0.0], 0).0;
         assert_eq!(at(-2.0), 0.0);
         assert!((at(0.0) - 0.5625).abs() < 1e-6, "(1 - 1/4)^2");
         assert!(at(1.0) > at(0.0));
@@ -191,7 +233,7 @@ mod tests {
         lights.sources[0].kind = LightSource::SPOT;
         lights.sources[0].direction = [0.0, -1.0, 0.0];
         lights.sources[0].cone = [0.8, 0.9];
-        let at = |x| lights.coordinate_at([x, 0.0, 0.0], [0.0, 1.0, 0.0]).0;
+        let at = |x| lights.coordinate_at([x, 0.0, 0.0], [0.0, 1.0, 0.0], 0).0;
         assert_eq!(at(0.0), 1.0);
         assert_eq!(at(2.0), 0.0);
     }
@@ -200,9 +242,10 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(1000))]
         #[test]
         fn coordinates_stay_within_the_ramp(
-            sources in prop::collection::vec((prop::array::uniform3(-5f32..5.0), 0u32..3, prop::array::uniform3(-1f32..1.0), 0f32..3.0, 0f32..9.0), 0..LIGHTS_MAX),
+            sources in prop::collection::vec((prop::array::uniform3(-5f32..5.0), 0u32..4, prop::array::uniform3(-1f32..1.0), 0f32..3.0, 0f32..9.0), 0..LIGHTS_MAX),
             world in prop::array::uniform3(-5f32..5.0),
             normal in prop::array::uniform3(-1f32..1.0),
+            dark in 0u32..65536,
         ) {
             let mut lights = Lights { count: sources.len() as u32, ..Lights::default() };
             for (light, (position, kind, direction, intensity, range)) in lights.sources.iter_mut().zip(sources) {
@@ -211,7 +254,7 @@ mod tests {
                     color: [1.0, 0.5, 0.2], cone: [0.5, 0.7], ..LightSource::default()
                 };
             }
-            let (x, color) = lights.coordinate_at(world, unit_or_z(normal));
+            let (x, color) = lights.coordinate_at(world, unit_or_z(normal), dark);
             prop_assert!((0.0..=1.0).contains(&x));
             prop_assert!(color.iter().all(|c| (0.199..=1.001).contains(c)), "{color:?}");
         }

@@ -36,7 +36,7 @@ pub struct Style {
     pub ink: Ink,
     /// Which highlights surfaces have.
     pub highlight: Highlight,
-    /// The light that tones are drawn by.
+    /// The lights that tones are drawn by.
     pub light: Light,
     /// Which lines are drawn, and with what.
     pub line: Line,
@@ -133,9 +133,7 @@ impl Style {
     ///
     /// [`StyleError::Value`] for the first key that contradicts another.
     pub fn sanity_check(&self) -> Result<(), StyleError> {
-        if !self.light.has_direction() {
-            return Err(StyleError::unfit("light.direction", "points nowhere"));
-        }
+        self.light.sanity_check()?;
         check_width(&self.line.width)?;
         check_ramp(&self.shade.ramp, "shade.ramp")?;
         self.rule.iter().enumerate().try_for_each(|(i, rule)| {

@@ -21,9 +21,9 @@ const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
 /// A triangle's corners, and 1 where its front is seen or -1 where its back is.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Corners<'a> {
-    posed: [&'a PosedVertex; 3],
+    pub posed: [&'a PosedVertex; 3],
     pub clip: [[f32; 4]; 3],
-    side: f32,
+    pub side: f32,
 }
 
 impl Corners<'_> {
@@ -52,6 +52,42 @@ struct Even {
     light: [f32; 3],
     /// How much of it is inked, 0..1, where that is the same too.
     ink: Option<f32>,
+}
+
+/// Ink of a surface, summed over samples: where no shadow ends, all share that of the first.
+#[derive(Debug, Clone, Copy)]
+struct Inked {
+    /// Lights whose shadow fell on the last sample, and its ink.
+    dark: u32,
+    last: f32,
+    first: f32,
+    mean: f32,
+}
+
+impl Inked {
+    /// With one more of `count` samples, whose ink is that of the last one unless other shadows fall on it.
+    fn with(before: Option<Self>, dark: u32, count: f32, ink_of: impl Fn() -> f32) -> Self {
+        let Some(before) = before else {
+            let ink = ink_of();
+            return Self {
+                dark,
+                last: ink,
+                first: ink,
+                mean: ink,
+            };
+        };
+        let last = if before.dark == dark {
+            before.last
+        } else {
+            ink_of()
+        };
+        Self {
+            dark,
+            last,
+            mean: before.mean + (last - before.first) / count,
+            ..before
+        }
+    }
 }
 
 impl<'a> Layers<'a> {
@@ -117,7 +153,7 @@ impl<'a> Layers<'a> {
         }
         let normal = corners.posed[0].normal.map(|n| n * corners.side);
         Some(Even {
-            light: self.light_of(part, corners.posed[0].world, normal),
+            light: self.light_of(part, corners.posed[0].world, normal, 0),
             ink: ink_over(part, range),
         })
     }
@@ -140,23 +176,31 @@ impl<'a> Layers<'a> {
         }
         let corners = self.corners_of(triangle);
         let color = self.plain_color(triangle, part, &corners, center);
-        let ink_here = || self.ink_at(id, part, &corners, center);
         if let Some(even) = self.one_light(part, &corners) {
             let tone = Tone {
                 light: even.light,
-                ink: even.ink.unwrap_or_else(ink_here),
+                ink: even
+                    .ink
+                    .unwrap_or_else(|| self.ink_at(id, part, &corners, center, 0)),
             };
             return self.toned(part, color, tone);
         }
-        let sum = samples.fold([0.0; 7], |sum, i| {
+        let mut sum = [0.0; 7];
+        let mut ink = None;
+        for i in samples {
             let offset = self.sample_offset(i);
             let at = [frame_px[0] + offset[0], frame_px[1] + offset[1]];
-            let tone = self.tone_at(part, &corners, at);
-            std::array::from_fn(|k| sum[k] + tone[k] / count)
-        });
+            let weights = weights_at(corners.clip, self.view.ndc_at(at));
+            let dark = self.shadowed(id, &corners, weights);
+            let tone = self.tone_at(part, &corners, weights, dark);
+            sum = std::array::from_fn(|k| sum[k] + tone[k] / count);
+            ink = Some(Inked::with(ink, dark, count, || {
+                self.ink_at(id, part, &corners, center, dark)
+            }));
+        }
         let tone = Tone {
             light: [sum[0], sum[1], sum[2]],
-            ink: ink_here(),
+            ink: ink.map_or(0.0, |ink| ink.mean),
         };
         let color = self.toned(part, color, tone);
         std::array::from_fn(|i| {
@@ -184,15 +228,20 @@ impl<'a> Layers<'a> {
     }
 
     /// Tone at one point: rgb light, 1 where the surface-angle method draws a line, and rgb highlights.
-    fn tone_at(&self, part: &Part, corners: &Corners<'_>, frame_px: [f32; 2]) -> [f32; 7] {
-        let weights = weights_at(corners.clip, self.view.ndc_at(frame_px));
+    fn tone_at(
+        &self,
+        part: &Part,
+        corners: &Corners<'_>,
+        weights: [f32; 3],
+        dark: u32,
+    ) -> [f32; 7] {
         let (normal, world) = (corners.normal(weights), corners.world(weights));
-        let light = self.light_of(part, world, normal);
+        let light = self.light_of(part, world, normal, dark);
         let grazing = part.flags & Part::ANGLE != 0
             && dot(normal, self.view.to_eye(world)).abs() < part.facing_threshold;
         let ink = if grazing { 1.0 } else { 0.0 };
         let gloss = if part.flags & Part::HIGHLIGHTS != 0 {
-            self.highlights_at(part, world, normal)
+            self.highlights_at(part, world, normal, dark)
         } else {
             [0.0; 3]
         };
@@ -201,12 +250,12 @@ impl<'a> Layers<'a> {
         ]
     }
 
-    /// Light on a surface at `world` that faces along `normal`.
-    fn light_of(&self, part: &Part, world: [f32; 3], normal: [f32; 3]) -> [f32; 3] {
+    /// Light on a surface at `world` that faces along `normal` and lies in the shadow of the lights in `dark`.
+    fn light_of(&self, part: &Part, world: [f32; 3], normal: [f32; 3], dark: u32) -> [f32; 3] {
         if part.flags & Part::UNLIT != 0 {
             return [1.0; 3];
         }
-        let (x, color) = self.lights.coordinate_at(world, normal);
+        let (x, color) = self.lights.coordinate_at(world, normal, dark);
         let levels = bytemuck::cast_slice(&part.ramp);
         let light = ramp_light(levels, part.softness, x);
         std::array::from_fn(|i| light[i] * color[i])
@@ -309,12 +358,12 @@ mod tests {
             let layers = Layers {
                 view: &View::default(), window: &Window::default(), compose: &compose, lights: &Lights::distant(unit_or_z(light)),
                  ids: &[], beam_ids: &[], ribbons: &[], posed: &posed, vertices: &[Vertex::default(); 3],
-                triangles: &[triangle], parts: &[part], texels: &[], charts: &[], overlay: &[],
+                triangles: &[triangle], parts: &[part], texels: &[], charts: &[], overlay: &[], shadows: [&[]; 4],
             };
             let corners = layers.corners_of(&triangle);
             if let Some(one) = layers.one_light(&part, &corners) {
                 let sum: f32 = weights.iter().sum();
-                let inside = layers.light_of(&part, [0.0; 3], corners.normal(weights.map(|w| w / sum)));
+                let inside = layers.light_of(&part, [0.0; 3], corners.normal(weights.map(|w| w / sum)), 0);
                 prop_assert_eq!(one.light, inside);
             }
         }

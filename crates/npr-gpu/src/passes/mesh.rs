@@ -7,6 +7,7 @@ use npr_core::window::View;
 use npr_mesh::classify::{PosedMesh, classify};
 use npr_mesh::hull;
 use npr_mesh::pose::{Matrix, Pose, pose};
+use npr_mesh::project::project;
 
 /// Every vertex posed, projected and given its line width.
 pub const POSE_VERTICES: Pass = Pass {
@@ -86,4 +87,18 @@ pub const EXTRUDE_HULL: Pass = Pass {
             b.write(5),
         );
     },
+};
+
+/// Posed vertices where a light with shadows sees them.
+pub const PROJECT_SHADOW: Pass = Pass {
+    name: "mesh.project_shadow",
+    shader: npr_shaders::MESH_PROJECT_SHADOW,
+    slots: &[
+        uniform::<Matrix>("light_from_world"),
+        read::<PosedVertex>("posed"),
+        write::<[f32; 4]>("projected"),
+    ],
+    work: Work::PerElement { of: "posed" },
+    agreement: Agreement::Relative(1e-5),
+    twin: |b| project(&b.one(0), b.read(1), b.write(2)),
 };

@@ -26,6 +26,10 @@ pub const COMPOSE_FRAME: Pass = Pass {
         read::<ChartCorners>("charts"),
         read::<u32>("overlay"),
         write::<u32>("frame"),
+        texture("shadow_0", Format::U32),
+        texture("shadow_1", Format::U32),
+        texture("shadow_2", Format::U32),
+        texture("shadow_3", Format::U32),
     ],
     work: Work::PerElement { of: "frame" },
     agreement: Agreement::Texels(0.001),
@@ -46,6 +50,7 @@ pub const COMPOSE_FRAME: Pass = Pass {
             texels: b.read(11),
             charts: b.read(12),
             overlay: b.read(13),
+            shadows: std::array::from_fn(|i| b.image(15 + i).texels),
         };
         compose(&layers, b.write(14));
     },

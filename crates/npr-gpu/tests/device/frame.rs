@@ -1,6 +1,6 @@
 //! What every slot of every pass holds in a frame: the scene, and what the twins make of it.
 
-use crate::scene::{FRAME_PX, Look, Scene, compose, lights, outline, view};
+use crate::scene::{FRAME_PX, Look, SHADOW_SIDE, Scene, compose, lights, outline, view};
 use npr_core::window::Window;
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::{Graph, Kind, ResourceId};
@@ -10,7 +10,8 @@ use npr_gpu::processor::Processor;
 use std::collections::BTreeMap;
 
 /// Slots that bind a resource of another name: two passes work on the grid of the mask only and call it the window.
-const RENAMED: [(&str, &str, &str); 6] = [
+const RENAMED: [(&str, &str, &str); 7] = [
+    ("raster.draw_shadow", "window", "shadow_window"),
     ("line.resolve_gbuffer", "window", "mask_window"),
     ("line.resolve_gbuffer", "ids", "mask_ids"),
     ("line.detect", "window", "mask_window"),
@@ -41,9 +42,25 @@ pub struct Frame {
 
 impl Frame {
     /// The names of what passes make.
-    pub const MADE: [&str; 16] = [
-        "posed", "kinds", "hull", "ids", "beam_ids", "depth", "mask_ids", "gbuffer", "mask",
-        "ribbons", "keys", "stamps", "smoothed", "tiles", "overlay", "frame",
+    pub const MADE: [&str; 18] = [
+        "posed",
+        "projected",
+        "shadow_0",
+        "kinds",
+        "hull",
+        "ids",
+        "beam_ids",
+        "depth",
+        "mask_ids",
+        "gbuffer",
+        "mask",
+        "ribbons",
+        "keys",
+        "stamps",
+        "smoothed",
+        "tiles",
+        "overlay",
+        "frame",
     ];
 
     /// A frame of the test scene with an output and a mask of these sizes, every pass run by its twin.
@@ -100,6 +117,10 @@ impl Builder {
         self.give_uniform("outline", &[outline(look)]);
         self.give_uniform("compose", &[compose(look, &scene)]);
         self.give_uniform("lights", &[lights(look)]);
+        self.give_uniform("light_from_world", &[lights(look).shadows[0]]);
+        let shadow_px = [SHADOW_SIDE as f32; 2];
+        let shadow_window = Window::over(shadow_px, [0.0; 2], shadow_px, [SHADOW_SIDE; 2]);
+        self.give_uniform("shadow_window", &[shadow_window]);
         self.give_uniform("window", &[over_frame(size)]);
         self.give_uniform("mask_window", &[over_frame(mask_size)]);
         let samples = compose(look, &scene).samples;
@@ -116,6 +137,12 @@ impl Builder {
         self.give_buffer("charts", &scene.charts);
         self.give_buffer("texels", &scene.texels);
         self.make_buffer("posed", 48, scene.vertices.len());
+        self.make_buffer("projected", 16, scene.vertices.len());
+        self.make_image("shadow_0", Format::U32, [SHADOW_SIDE; 2]);
+        self.make_image("shadow_depth", Format::Depth, [SHADOW_SIDE; 2]);
+        for name in ["shadow_1", "shadow_2", "shadow_3"] {
+            self.make_image(name, Format::U32, [1, 1]);
+        }
         self.make_buffer("hull", 16, scene.vertices.len());
         self.make_buffer("kinds", 4, scene.edges.len());
         self.make_image("ids", Format::U32, size.map(|side| side * samples));
@@ -139,6 +166,9 @@ impl Builder {
         self.make_buffer("frame", 4, pixels);
 
         self.compute(&mesh::POSE_VERTICES);
+        self.compute(&mesh::PROJECT_SHADOW);
+        let shadow = ["shadow_0", "shadow_depth"];
+        self.draw(&raster::DRAW_SHADOW, "shadow_window", shadow, true);
         self.compute(&mesh::CLASSIFY_EDGES);
         self.compute(&mesh::EXTRUDE_HULL);
         self.draw(&raster::DRAW_IDS, "sample_window", ["ids", "depth"], true);

@@ -2,6 +2,7 @@
 
 use npr_core::camera::{Camera, Projection};
 use npr_core::geometry::{ChartCorners, Edge, Influence, NONE, Part, Triangle, Vertex};
+use npr_core::light_view::{distant_view, spot_view};
 use npr_core::math;
 use npr_core::outline::Outline;
 use npr_core::texture::{TextureStore, Wrap};
@@ -292,11 +293,26 @@ pub fn compose(look: Look, scene: &Scene) -> Compose {
     }
 }
 
-/// The lights of a look: one as published, or one of every kind.
+/// Texels of the shadow image along a side.
+pub const SHADOW_SIDE: u32 = 128;
+
+/// The lights of a look: one that throws shadows, or one of every kind with shadows of the spot.
 pub fn lights(look: Look) -> Lights {
-    let mut lights = Lights::distant([0.48, 0.6, 0.64]);
-    if look == Look::Published {
-        lights.count = 3;
+    let towards = [0.48, 0.6, 0.64];
+    let mut lights = Lights::distant(towards);
+    (lights.shadow_side, lights.shadow_at) = (SHADOW_SIDE, 0.15);
+    lights.bias_world = 1e-3;
+    if look == Look::Ours {
+        let corners = [[-1.7; 3], [1.7; 3], [-1.7, 1.7, -1.7], [1.7, -1.7, 1.7]];
+        lights.shadows[0] = distant_view(towards, &corners, &corners);
+        lights.sources[0].shadow = 1;
+    } else {
+        lights.count = 4;
+        lights.sources[3] = LightSource {
+            kind: LightSource::SKY,
+            intensity: 0.2,
+            ..lights.sources[0]
+        };
         for (i, kind) in [(1, LightSource::POINT), (2, LightSource::SPOT)] {
             lights.sources[i] = LightSource {
                 position: [-1.5, 1.0, 1.5],
@@ -306,9 +322,12 @@ pub fn lights(look: Look) -> Lights {
                 color: [1.0, 0.8, 0.6],
                 range: 5.0,
                 cone: [0.7, 0.9],
-                unused: [0.0; 2],
+                ..LightSource::default()
             };
         }
+        let spot = &mut lights.sources[2];
+        spot.shadow = 1;
+        lights.shadows[0] = spot_view(spot.position, spot.direction, spot.cone[0], 0.05);
     }
     lights
 }
