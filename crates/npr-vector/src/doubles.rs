@@ -50,9 +50,9 @@ pub fn suppress(runs: Vec<Run>) -> Vec<Run> {
     kept.into_iter().flatten().collect()
 }
 
-/// Runs without the crumbs that add less ink than the pen is wide to longer runs; order is kept.
+/// Runs without the crumbs that add less ink than half the pen's width to longer runs; order is kept.
 ///
-/// A run shorter than 8 pixels is left out if less than 3 pixels of it lie farther than 3 from runs that stay. Crumbs away from
+/// A run shorter than 8 pixels is left out if less than 1.5 pixels of it lie farther than 3 from runs that stay. Crumbs away from
 /// others, parts cut at corners, and the longest run of every object always stay. Runs must be sampled about evenly. O(samples) for
 /// lines that do not crowd in one place.
 pub fn leave_out_crumbs(mut runs: Vec<Run>) -> Vec<Run> {
@@ -64,7 +64,7 @@ pub fn leave_out_crumbs(mut runs: Vec<Run>) -> Vec<Run> {
         let is_first = objects.insert((run.object, run.occluders > 0));
         if length < CRUMB_PX && !is_first && run.cut == [false; 2] {
             let bare = run.points.iter().filter(|p| !taken.inks(run, p.place));
-            stays[index] = bare.count() as f64 * length >= PEN_PX * run.points.len() as f64;
+            stays[index] = bare.count() as f64 * length >= 0.5 * PEN_PX * run.points.len() as f64;
         }
         if stays[index] {
             taken.take(run, index);
