@@ -35,10 +35,9 @@ fn ramp_coordinate(n_dot_l: f32) -> f32 {
     return (n_dot_l + 1.0) * 0.5;
 }
 
-// Whether a tone depends on the normal alone.
+// Whether a tone depends on the normal alone, but for shadows.
 fn only_distant() -> bool {
-    return lights.count == 1u && lights.sources[0].kind == LIGHT_DISTANT && lights.sources[0].intensity == 1.0
-        && lights.shadow_side == 0u;
+    return lights.count == 1u && lights.sources[0].kind == LIGHT_DISTANT && lights.sources[0].intensity == 1.0;
 }
 
 fn smooth_step(low: f32, high: f32, x: f32) -> f32 {

@@ -121,7 +121,7 @@ fn one_light(part: u32, corners: Corners) -> Tone {
         tone.even = true;
         return tone;
     }
-    if !only_distant() { return tone; }
+    if !only_distant() || lights.shadow_side != 0u { return tone; }
     let range = coordinate_range(corners);
     let reach = parts[part].softness * 0.5;
     for (var i = 1u; i < 8u; i++) {
@@ -132,6 +132,13 @@ fn one_light(part: u32, corners: Corners) -> Tone {
     tone.ink = ink_over(part, range);
     tone.even = true;
     return tone;
+}
+
+// Ink of a triangle that has the same all over, inside the shadow of the lights in `dark` or outside it; -1 where it has not.
+fn even_ink(part: u32, corners: Corners, dark: u32) -> f32 {
+    if lights.shadow_side == 0u || !only_distant() { return -1.0; }
+    let most = select(1.0, lights.shadow_at, dark != 0u);
+    return ink_over(part, min(coordinate_range(corners), vec2<f32>(most)));
 }
 
 // Light on a surface at `world` that faces along `normal` and lies in the shadow of the lights in `dark`.
@@ -251,7 +258,8 @@ fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
             sum += sampled.tone / count;
             gloss += sampled.gloss / count;
             if !inked.any || inked.dark != dark {
-                inked.last = ink_at(id, triangle.part, corners, frame_px + center, dark);
+                inked.last = even_ink(triangle.part, corners, dark);
+                if inked.last < 0.0 { inked.last = ink_at(id, triangle.part, corners, frame_px + center, dark); }
             }
             if !inked.any {
                 inked.any = true;

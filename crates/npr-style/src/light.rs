@@ -195,29 +195,35 @@ mod tests {
 
     #[test]
     fn lights_that_make_no_sense_are_refused_by_name() {
-        for (text, fault) in [
+        for (text, key, fault) in [
             (
                 "light.direction = [0, 0, 0]",
-                "light.direction at line 1, column 1 points nowhere",
+                "light.direction",
+                "points nowhere",
             ),
             (
                 "[[light.extra]]\nkind = 'spot'\ndirection = [0.0, 0.0, 0.0]",
-                "light.extra.0.direction at line 3, column 1 points nowhere",
+                "light.extra.0.direction",
+                "points nowhere",
             ),
             (
                 "[[light.extra]]\nkind = 'spot'\ninner_deg = 40",
-                "light.extra.0.inner_deg at line 3, column 1 is wider than outer_deg",
+                "light.extra.0.inner_deg",
+                "is wider than outer_deg",
             ),
             (
                 "[[light.extra]]\nintensity = nan",
-                "light.extra.0.intensity at line 2, column 1 is NaN, but must lie in 0..10",
+                "light.extra.0.intensity",
+                "is NaN, but must lie in 0..10",
             ),
             (
                 "[[light.extra]]\nkind = 'laser'",
-                "light.extra.0.kind at line 2, column 1 is 'laser', but must be one of distant, point, spot, sky",
+                "light.extra.0.kind",
+                "is 'laser', but must be one of distant, point, spot, sky",
             ),
         ] {
-            assert_eq!(fault_of(text), fault);
+            let told = fault_of(text);
+            assert!(told.starts_with(key) && told.ends_with(fault), "{told}");
         }
     }
 

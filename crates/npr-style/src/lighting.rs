@@ -104,13 +104,10 @@ impl Lights {
         lights
     }
 
-    /// The only light, if it is distant, of plain intensity and without shadows: then a tone depends on the normal alone.
+    /// The only light, if it is distant and of plain intensity: but for shadows a tone then depends on the normal alone.
     pub(crate) fn only_distant(&self) -> Option<[f32; 3]> {
         let first = &self.sources[0];
-        (self.count == 1
-            && first.kind == LightSource::DISTANT
-            && first.intensity == 1.0
-            && self.shadow_side == 0)
+        (self.count == 1 && first.kind == LightSource::DISTANT && first.intensity == 1.0)
             .then_some(first.direction)
     }
 

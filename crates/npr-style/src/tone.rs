@@ -141,6 +141,9 @@ impl<'a> Layers<'a> {
                 ink: Some(0.0),
             });
         }
+        if self.lights.shadow_side != 0 {
+            return None;
+        }
         let range = self.coordinate_range(corners)?;
         let reach = part.softness * 0.5;
         let lit = part.flags & Part::UNLIT == 0;
@@ -195,7 +198,8 @@ impl<'a> Layers<'a> {
             let tone = self.tone_at(part, &corners, weights, dark);
             sum = std::array::from_fn(|k| sum[k] + tone[k] / count);
             ink = Some(Inked::with(ink, dark, count, || {
-                self.ink_at(id, part, &corners, center, dark)
+                self.even_ink(part, &corners, dark)
+                    .unwrap_or_else(|| self.ink_at(id, part, &corners, center, dark))
             }));
         }
         let tone = Tone {
@@ -207,6 +211,21 @@ impl<'a> Layers<'a> {
             let lit = color[i] + sum[4 + i];
             lit + (line[i] - lit) * sum[3]
         })
+    }
+
+    /// Ink of a triangle that has the same all over, inside the shadow of the lights in `dark` or outside it: so a shadow
+    /// changes nothing beside it. Without shadows [`Layers::one_light`] has asked before.
+    fn even_ink(&self, part: &Part, corners: &Corners<'_>, dark: u32) -> Option<f32> {
+        if self.lights.shadow_side == 0 {
+            return None;
+        }
+        let range = self.coordinate_range(corners)?;
+        let most = if dark != 0 {
+            self.lights.shadow_at
+        } else {
+            1.0
+        };
+        ink_over(part, range.map(|x| x.min(most)))
     }
 
     /// Position of sample `i` within a pixel, from its centre.
