@@ -1,5 +1,5 @@
-//! Measures comic pictures and prints the tables kept in `benches/results/comic.md`; with `gallery FOLDER [PRESET..]`, draws
-//! sheets of the presets instead.
+//! Measures comic pictures and prints the tables kept in `benches/results/comic.md`; with `prices` only the
+//! times, with `gallery FOLDER [PRESET..]` sheets of the presets instead.
 //!
 //! Run by `cargo xtask measure comic` and `cargo xtask gallery`. A measuring program, not a test: it fails only where loading or
 //! drawing fails.
@@ -54,11 +54,12 @@ fn main() -> Outcome<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match arguments.as_slice() {
         [] => report(),
+        [word] if word == "prices" => prices(),
         [word, folder, presets @ ..] if word == "gallery" => {
             gallery::write(Path::new(folder), presets)
         }
         _ => Err(
-            "usage: comic > benches/results/comic.md, or comic gallery FOLDER [PRESET..]".into(),
+            "usage: comic > benches/results/comic.md, comic prices, or comic gallery FOLDER [PRESET..]".into(),
         ),
     }
 }
@@ -82,7 +83,7 @@ fn motion() -> Outcome<()> {
     println!(
         "{FRAMES} frames {}x{}, a degree apart, light fixed to the model, strokes 8 pixels apart. Ink is carried from frame to frame \
          by the surface's own points. Shift: how far squares of 24 pixels then have to move to match, across strokes, \
-         found to a quarter of a pixel. Flips: pixels that go from ink to paper or back, by more than half a pixel.\n",
+         the vertex of a parabola through whole pixels. Flips: pixels that go from ink to paper or back, by more than half a pixel.\n",
         ORBIT_SIZE[0], ORBIT_SIZE[1]
     );
     let mut table = Table::new([
@@ -106,6 +107,7 @@ fn motion() -> Outcome<()> {
                 format!("{:.2}", within(change.shifts, 0.95)),
                 format!("{:.2} %", 100.0 * share),
             ];
+            eprintln!("{name}: {}", cells.join(", "));
             table.add(&*name, cells);
         }
     }

@@ -18,10 +18,7 @@ const SQUARE: usize = 24;
 /// Farthest shift looked for, in pixels: less than half the distance of strokes, beyond which neighbours change places.
 const REACH: i32 = 3;
 
-/// Parts of a pixel that a shift is found to.
-const STEPS_PER_PX: f64 = 4.0;
-
-/// What a pixel of shift costs beside the mean squared difference: along a stroke nothing else tells shifts apart.
+/// What the square of a shift costs beside the mean squared difference: along a stroke nothing else tells shifts apart.
 const SHIFT_PRICE: f64 = 1e-3;
 
 /// How much nearer a point may lie than what a pixel shows, as a part of its depth, and still be that surface.
@@ -161,7 +158,7 @@ impl Inked {
 
     /// Shift of every square that shows surface alone and strokes enough to tell.
     fn shifts_from(&self, carried: &[Option<f64>]) -> Vec<f64> {
-        let margin = REACH as usize + 1;
+        let margin = REACH as usize + 2;
         let columns = (margin..self.width.saturating_sub(SQUARE + margin)).step_by(SQUARE);
         let rows = (margin..self.height.saturating_sub(SQUARE + margin)).step_by(SQUARE);
         rows.flat_map(|y| columns.clone().map(move |x| [x, y]))
@@ -179,27 +176,34 @@ impl Inked {
         if !(0.1..0.9).contains(&share) {
             return None;
         }
-        let cost = |[dx, dy]: [f64; 2]| {
-            let differences = square.iter().filter_map(|([x, y], ink)| {
-                let there = self.ink_at([*x as f64 + 0.5 + dx, *y as f64 + 0.5 + dy])?;
-                Some((there - ink) * (there - ink))
+        // Whole pixels only: ink looked up between pixels is softer, and soft ink matches carried ink better anywhere.
+        let cost = |[dx, dy]: [i32; 2]| {
+            let differences = square.iter().map(|([x, y], ink)| {
+                let (column, row) = (*x as i32 + dx, *y as i32 + dy);
+                let there = self.ink[row as usize * self.width + column as usize];
+                (there - ink) * (there - ink)
             });
-            differences.sum::<f64>() / square.len() as f64 + SHIFT_PRICE * dx.hypot(dy)
+            let price = SHIFT_PRICE * f64::from(dx * dx + dy * dy);
+            differences.sum::<f64>() / square.len() as f64 + price
         };
-        let coarse = least(cost, [0.0; 2], 1.0, REACH);
-        let [dx, dy] = least(cost, coarse, 1.0 / STEPS_PER_PX, STEPS_PER_PX as i32 - 1);
-        Some(dx.hypot(dy))
+        let offsets = (-REACH..=REACH).flat_map(|y| (-REACH..=REACH).map(move |x| [x, y]));
+        let [x, y] = offsets.min_by(|a, b| cost(*a).total_cmp(&cost(*b)))?;
+        let [dx, dy] = [[1, 0], [0, 1]].map(|[i, j]| {
+            let [low, middle, high] = [-1, 0, 1].map(|k| cost([x + i * k, y + j * k]));
+            vertex_of(low, middle, high)
+        });
+        Some((f64::from(x) + dx).hypot(f64::from(y) + dy))
     }
 }
 
-/// The cheapest of the places `count` steps around `middle`.
-fn least(cost: impl Fn([f64; 2]) -> f64, middle: [f64; 2], step: f64, count: i32) -> [f64; 2] {
-    let offsets = (-count..=count).flat_map(|y| (-count..=count).map(move |x| [x, y]));
-    let places = offsets.map(|by| [0, 1].map(|i: usize| middle[i] + step * f64::from(by[i])));
-    let priced = places.map(|place| (cost(place), place));
-    priced
-        .min_by(|(a, _), (b, _)| a.total_cmp(b))
-        .map_or(middle, |(_, place)| place)
+/// Where a parabola through values at -1, 0 and 1, the least at 0, is lowest, -1/2..1/2.
+fn vertex_of(low: f64, middle: f64, high: f64) -> f64 {
+    let bend = low - 2.0 * middle + high;
+    if bend > 0.0 {
+        ((low - high) / (2.0 * bend)).clamp(-0.5, 0.5)
+    } else {
+        0.0
+    }
 }
 
 /// Twice the area of a triangle of the picture, above 0 where its corners run clockwise on screen.
@@ -249,7 +253,7 @@ mod tests {
         let inked = Inked::new(&stripes(0), &soup, &camera);
         let change = inked.change_to(&inked, true);
         assert!(change.pixels > 1000 && change.flips == 0);
-        assert!(!change.shifts.is_empty() && change.shifts.iter().all(|shift| *shift == 0.0));
+        assert!(!change.shifts.is_empty() && change.shifts.iter().all(|shift| shift.abs() < 0.05));
     }
 
     #[test]
@@ -257,7 +261,7 @@ mod tests {
         let (soup, camera) = plane_and_camera(0.0);
         let [before, after] = [0, 2].map(|by| Inked::new(&stripes(by), &soup, &camera));
         let change = before.change_to(&after, true);
-        assert!(change.shifts.iter().all(|shift| *shift == 2.0));
+        assert!(change.shifts.iter().all(|shift| (shift - 2.0).abs() < 0.1));
         let share = change.flips as f64 / change.pixels as f64;
         assert!((share - 0.5).abs() < 0.02, "{share}");
     }
@@ -275,6 +279,6 @@ mod tests {
         let change = before.change_to(&after, true);
         assert_eq!(change.flips, 0);
         assert!(change.moves.iter().all(|by| (by - 2.0).abs() < 1e-3));
-        assert!(change.shifts.iter().all(|shift| *shift == 0.0));
+        assert!(change.shifts.iter().all(|shift| shift.abs() < 0.05));
     }
 }

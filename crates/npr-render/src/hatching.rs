@@ -13,16 +13,16 @@ use npr_style::{Follow, Ink, Mapping, Style};
 /// Texels along the side of a hatch tile: 128 strokes, and six octaves down to two.
 const TILE_SIDE: u32 = 1024;
 
-/// Size of a hatch tile on an object, as a part of the object's radius. Framed as a whole, an object shows strokes 8 pixels
-/// apart from two octaves above the finest level: the camera may come four times nearer, and go sixteen times farther,
-/// before strokes change their size.
-const TILE_RADII: f32 = 0.6;
+/// Size of a hatch tile on an object that is all of its scene, as a part of its radius. Framed as a whole it shows strokes 8
+/// pixels apart three octaves above the finest level: the camera may come eight times nearer, and go eight times farther,
+/// before strokes change their size. Larger tiles do not fit around thin limbs.
+const TILE_RADII: f32 = 0.25;
 
-/// Distance over which directions on a surface even out, as a part of the object's radius.
-const SMOOTHING_RADII: f32 = 0.25;
+/// How fast tiles shrink with the objects of a scene, as an exponent of their radius: less than 1, as small objects are mostly
+/// seen from as far as large ones.
+const SHRINKING: f32 = 0.75;
 
-/// Halvings of the tile from the size that suits the model to that of its smallest objects. Smaller objects take the last, as
-/// they are seen from afar where the model is seen whole.
+/// Most halvings of the tile from the size that suits the model to that of its smallest objects.
 const HALVINGS_MAX: u32 = 5;
 
 /// What ink and hatching need beside the parts.
@@ -209,7 +209,6 @@ fn fit_to_surfaces(
     let mut settings = ChartSettings {
         crease_cos: math::cos(style.line.crease_angle_deg.to_radians()),
         guides,
-        smoothing_tiles: SMOOTHING_RADII / TILE_RADII,
         ..ChartSettings::default()
     };
     let mut charts = vec![ChartCorners::default(); model.triangles.len()];
@@ -250,7 +249,7 @@ fn add_charts(
 
 /// A number of tiles to one unit of UV coordinates, or of units to one tile: coordinates that wrap around at 1 show no seam.
 fn whole_scale(scale: f32) -> f32 {
-    let whole = |x: f32| x.min(4096.0).round().max(1.0);
+    let whole = |x: f32| x.max(1.0).min(4096.0).round();
     if scale >= 1.0 {
         whole(scale)
     } else {
@@ -279,7 +278,7 @@ impl Surfaces {
         let radius_of = object_radii(model, &positions);
         let halvings = model.parts.iter().map(|info| {
             let smaller = math::log2(model.radius() / radius_of[info.object as usize]);
-            (smaller.round().max(0.0) as u32).min(HALVINGS_MAX)
+            ((SHRINKING * smaller).round().max(0.0) as u32).min(HALVINGS_MAX)
         });
         Self {
             halvings: halvings.collect(),

@@ -5,13 +5,14 @@ use npr_core::color::{SrgbEncoder, pack_rgba8};
 use npr_core::geometry::{ChartCorners, NONE, Part, PosedVertex, Triangle, Vertex};
 use npr_core::gpu_layout;
 use npr_core::outline::MASK_KINDS;
-use npr_core::raster::HULL_BIT;
+use npr_core::raster::{HULL_BIT, ID_MASK};
 use npr_core::texture;
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
 
 use crate::lighting::Lights;
 use crate::shadow::SHADOWS_MAX;
+use crate::tone::WHOLE;
 
 /// Settings of the last pass.
 #[repr(C)]
@@ -166,7 +167,7 @@ impl std::ops::Deref for Samples {
 struct Composer<'a> {
     layers: &'a Layers<'a>,
     encoder: &'a SrgbEncoder,
-    /// Colour of every triangle that has one colour all over, marked by a 1 in alpha.
+    /// Colours of [`Layers::even_colors`].
     evens: &'a [[f32; 4]],
     /// A pixel that shows nothing but a plain background.
     empty: Option<u32>,
@@ -222,7 +223,7 @@ impl Composer<'_> {
         if id & HULL_BIT != 0 {
             return None;
         }
-        Some(self.evens[(id - 1) as usize]).filter(|color| color[3] == 1.0)
+        Some(self.evens[(id - 1) as usize]).filter(|color| color[3] == WHOLE)
     }
 
     /// The surfaces of a pixel, premultiplied, where each has one colour all over.
@@ -253,7 +254,8 @@ impl Composer<'_> {
                 continue;
             }
             let share = members.count_ones() as f32 / count as f32;
-            let [r, g, b] = self.layers.shade(seen[i], members, frame_px);
+            let even = self.evens[((seen[i] & ID_MASK) - 1) as usize];
+            let [r, g, b] = self.layers.shade(seen[i], members, frame_px, even);
             sum = [
                 sum[0] + r * share,
                 sum[1] + g * share,

@@ -7,10 +7,11 @@ use crate::compose::Layers;
 use crate::hatch::{
     cross_layers, detail, edge_gradient, ink_coverage, level_at, sample, sharpen, tone_value,
 };
+use crate::ramp::ramp_coordinate;
 use crate::tone::Corners;
 use npr_core::geometry::{ChartCorners, Part, Triangle};
 use npr_core::raster::ID_MASK;
-use npr_core::surface::{blend2, weights_at};
+use npr_core::surface::{blend2, dot, weights_at};
 use npr_core::texture::HEADER_WORDS;
 
 /// Luminance of the middle of a stroke's half width: what stands for the hatch where there is none.
@@ -110,12 +111,7 @@ impl Layers<'_> {
         }
         let places = [px, [px[0] + 1.0, px[1]], [px[0], px[1] + 1.0]];
         let weights = places.map(|px| weights_at(corners.clip, self.view.ndc_at(px)));
-        let l = weights.map(|w| {
-            let (x, _) = self
-                .lights
-                .coordinate_at(corners.world(w), corners.normal(w), dark);
-            level_of(part, x)
-        });
+        let l = self.levels_at(part, corners, weights, dark);
         let hatching = if part.flags & Part::HATCH != 0 {
             self.hatching(part, &self.place_in_hatch(id, part, weights, places))
         } else {
@@ -135,6 +131,27 @@ impl Layers<'_> {
             length(slope)
         };
         ink_coverage(tone_value(hatching.s, l[0]), slope, part.threshold)
+    }
+
+    /// Luminance of the shade ramp at three places of a triangle.
+    fn levels_at(
+        &self,
+        part: &Part,
+        corners: &Corners<'_>,
+        weights: [[f32; 3]; 3],
+        dark: u32,
+    ) -> [f32; 3] {
+        // Where the normal alone decides, half of the work is none.
+        let x = match self.lights.only_distant() {
+            Some(towards) if dark == 0 => {
+                weights.map(|w| ramp_coordinate(dot(corners.normal(w), towards)))
+            }
+            _ => weights.map(|w| {
+                let (world, normal) = (corners.world(w), corners.normal(w));
+                self.lights.coordinate_at(world, normal, dark).0
+            }),
+        };
+        x.map(|x| level_of(part, x))
     }
 
     /// Where a pixel and its neighbours to the right and below lie in the hatch of a part.

@@ -36,6 +36,18 @@ impl Corners<'_> {
     }
 }
 
+/// Marks the colour of a triangle that has it all over.
+pub(crate) const WHOLE: f32 = 1.0;
+
+/// Marks the colour of a triangle that is lit alike all over, but not inked alike.
+pub(crate) const LIT: f32 = 2.0;
+
+/// A lit surface under so much ink, 0..1.
+fn inked(part: &Part, lit: [f32; 3], share: f32) -> [f32; 3] {
+    let ink = part.ink_color;
+    std::array::from_fn(|i| lit[i] + (ink[i] - lit[i]) * (share * ink[3]))
+}
+
 /// What light and ink make of a surface.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Tone {
@@ -91,12 +103,10 @@ impl Inked {
 }
 
 impl<'a> Layers<'a> {
-    /// Colour of every triangle that has one colour all over, marked by a 1 in alpha.
+    /// Colour of every triangle that has one colour all over, marked in alpha by [`WHOLE`], or by [`LIT`] where ink is still
+    /// to come.
     pub(crate) fn even_colors(&self) -> Vec<[f32; 4]> {
-        let even = |triangle| {
-            self.even_color(triangle)
-                .map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0])
-        };
+        let even = |triangle| self.even_color(triangle).unwrap_or_default();
         self.triangles
             .par_iter()
             .with_min_len(1024)
@@ -105,7 +115,7 @@ impl<'a> Layers<'a> {
     }
 
     /// The colour of a triangle that lies in one tone and has neither texture nor vertex colours.
-    fn even_color(&self, triangle: &Triangle) -> Option<[f32; 3]> {
+    fn even_color(&self, triangle: &Triangle) -> Option<[f32; 4]> {
         let part = &self.parts[triangle.part as usize];
         let white = |v: &u32| self.vertices[*v as usize].color | 0xff00_0000 == u32::MAX;
         if part.texture != NONE || !triangle.corners.iter().all(white) {
@@ -114,20 +124,21 @@ impl<'a> Layers<'a> {
         let even = self.one_light(part, &self.corners_of(triangle))?;
         let tone = Tone {
             light: even.light,
-            ink: even.ink?,
+            ink: even.ink.unwrap_or_default(),
         };
         let [r, g, b, _] = part.base_color;
-        Some(self.toned(part, [r, g, b], tone))
+        let [r, g, b] = self.toned(part, [r, g, b], tone);
+        Some([r, g, b, if even.ink.is_some() { WHOLE } else { LIT }])
     }
 
     /// A surface's colour in a tone, with the ink over it.
     fn toned(&self, part: &Part, color: [f32; 3], tone: Tone) -> [f32; 3] {
         let base = self.strengthened(color);
-        let ink = part.ink_color;
-        std::array::from_fn(|i| {
-            let lit = base[i] * tone.light[i];
-            lit + (ink[i] - lit) * (tone.ink * ink[3])
-        })
+        inked(
+            part,
+            std::array::from_fn(|i| base[i] * tone.light[i]),
+            tone.ink,
+        )
     }
 
     /// The light of a triangle that is lit in one tone, and its ink where nothing in it is hatched.
@@ -161,8 +172,15 @@ impl<'a> Layers<'a> {
         })
     }
 
-    /// Light of what the samples in `members` show, a triangle or its hull.
-    pub(crate) fn shade(&self, id: u32, members: u32, frame_px: [f32; 2]) -> [f32; 3] {
+    /// Light of what the samples in `members` show, a triangle or its hull; `even` is the triangle's of
+    /// [`even_colors`](Self::even_colors).
+    pub(crate) fn shade(
+        &self,
+        id: u32,
+        members: u32,
+        frame_px: [f32; 2],
+        even: [f32; 4],
+    ) -> [f32; 3] {
         let triangle = &self.triangles[((id & ID_MASK) - 1) as usize];
         let part = &self.parts[triangle.part as usize];
         let [line_r, line_g, line_b, _] = self.linear_of(part.line_color);
@@ -178,6 +196,13 @@ impl<'a> Layers<'a> {
             center = [center[0] + offset[0] / count, center[1] + offset[1] / count];
         }
         let corners = self.corners_of(triangle);
+        let [r, g, b, mark] = even;
+        if mark == WHOLE {
+            return [r, g, b];
+        }
+        if mark == LIT {
+            return inked(part, [r, g, b], self.ink_at(id, part, &corners, center));
+        }
         let color = self.plain_color(triangle, part, &corners, center);
         if let Some(even) = self.one_light(part, &corners) {
             let tone = Tone {

@@ -50,11 +50,21 @@ pub fn level_at(detail: f32, level_count: u32) -> (u32, f32) {
 /// stays what it is in both. In deep shade the same holds for the white between strokes, the harmonic
 /// mean of `1 - S`. Channels are never 0 or 1, see [`HatchTile`](super::HatchTile).
 pub fn hatch_luminance(texel: [f32; 4], f: f32) -> f32 {
+    let (step, t) = step_at(f);
+    between_drawings(texel[step], texel[step + 1], t)
+}
+
+/// The drawing of a texel's four that comes before `f`, 0..1, and how far `f` lies towards the next, 0..1.
+fn step_at(f: f32) -> (usize, f32) {
     let place = f * STEPS as f32;
     let step = (place as usize).min(STEPS as usize - 1);
-    let t = place - step as f32;
-    let near = texel[step].max(RIDGE * t * texel[step + 1]);
-    let far = texel[step + 1].max(RIDGE * (1.0 - t) * texel[step]);
+    (step, place - step as f32)
+}
+
+/// Hatch luminance of two drawings at `t`, 0..1, between them.
+fn between_drawings(before: f32, after: f32, t: f32) -> f32 {
+    let near = before.max(RIDGE * t * after);
+    let far = after.max(RIDGE * (1.0 - t) * before);
     let mean = math::mix(far, near, t);
     // Both harmonic means share one division.
     let over = 1.0 / (mean * (1.0 - mean));
@@ -72,17 +82,18 @@ pub fn hatch_luminance(texel: [f32; 4], f: f32) -> f32 {
 ///
 /// If `level` holds fewer texels than its side asks for.
 pub fn sample(level: &[[u8; 4]], side: u32, [u, v]: [f32; 2], f: f32) -> HatchSample {
-    let x = (u - u.floor()) * side as f32 - 0.5;
-    let y = (v - v.floor()) * side as f32 - 0.5;
-    let (left, top) = (x.floor(), y.floor());
-    let (tx, ty) = (x - left, y - top);
-    let (column, row) = (left as i32, top as i32);
+    let (column, tx) = texel_at(u, side);
+    let (row, ty) = texel_at(v, side);
+    let (step, t) = step_at(f);
     let at = |dx: i32, dy: i32| {
         let within = |i: i32| i as u32 & (side - 1);
-        let texel = level[(within(row + dy) * side + within(column + dx)) as usize];
-        hatch_luminance(texel.map(|channel| f32::from(channel) * (1.0 / 255.0)), f)
+        level[(within(row + dy) * side + within(column + dx)) as usize]
     };
-    let (s00, s10, s01, s11) = (at(0, 0), at(1, 0), at(0, 1), at(1, 1));
+    // All four at once, so that they become one run of vector instructions.
+    let texels = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
+    let before = texels.map(|texel| f32::from(texel[step]) * (1.0 / 255.0));
+    let after = texels.map(|texel| f32::from(texel[step + 1]) * (1.0 / 255.0));
+    let [s00, s10, s01, s11] = std::array::from_fn(|i| between_drawings(before[i], after[i], t));
     HatchSample {
         luminance: math::mix(math::mix(s00, s10, tx), math::mix(s01, s11, tx), ty),
         gradient: [
@@ -90,6 +101,18 @@ pub fn sample(level: &[[u8; 4]], side: u32, [u, v]: [f32; 2], f: f32) -> HatchSa
             math::mix(s01 - s00, s11 - s10, tx),
         ],
     }
+}
+
+/// The texel before a place of a tile along one axis, -1 and up, and how far the place lies towards the next, 0..1.
+///
+/// By casts: `floor` is a call on processors without an instruction for it.
+fn texel_at(place: f32, side: u32) -> (i32, f32) {
+    let rest = place - place as i32 as f32;
+    let within = if rest < 0.0 { rest + 1.0 } else { rest };
+    // Places too far to be told apart, and what is no number, lie on the tile's edge.
+    let at = within.max(0.0).min(1.0) * side as f32 + 0.5;
+    let texel = at as i32;
+    (texel - 1, at - texel as f32)
 }
 
 /// Steeper or softer strokes: S turned about one half, 0..1 [Suzuki 2004, section 3.3].
