@@ -201,7 +201,7 @@ impl<'a> Layers<'a> {
             return [r, g, b];
         }
         if mark == LIT {
-            return inked(part, [r, g, b], self.ink_at(id, part, &corners, center));
+            return inked(part, [r, g, b], self.ink_at(id, part, &corners, center, 0));
         }
         let color = self.plain_color(triangle, part, &corners, center);
         if let Some(even) = self.one_light(part, &corners) {
