@@ -223,7 +223,7 @@ impl Layers<'_> {
         let shape = HighlightShape::of(part);
         let lights = &self.lights.sources[..self.lights.count as usize];
         let terms = lights.iter().enumerate().map(|(i, source)| {
-            if dark >> i & 1 != 0 || source.kind == LightSource::SKY {
+            if (dark >> i) & 1 != 0 || source.kind == LightSource::SKY {
                 return 0.0;
             }
             let light = source.towards(world);

@@ -118,7 +118,7 @@ impl Lights {
         let mut sum = 0.0;
         let mut color = [0.0; 3];
         for (i, source) in self.sources[..self.count as usize].iter().enumerate() {
-            let is_dark = dark >> i & 1 != 0;
+            let is_dark = (dark >> i) & 1 != 0;
             let most = if is_dark { self.shadow_at } else { 1.0 };
             let share = source.share_at(world, normal, most);
             sum += share;
