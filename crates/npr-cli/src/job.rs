@@ -27,7 +27,7 @@ pub struct Job<'a> {
 }
 
 impl<'a> Job<'a> {
-    /// Resolves what the user said; reads the style and its pictures, but not the scene.
+    /// Resolves what the user said; reads the style and its pictures and fonts, but not the scene.
     pub fn resolve(said: &'a RenderArguments) -> Result<Self, Fault> {
         check_size(said.drawing.size)?;
         let source = Source::of(said.scene.as_deref().unwrap_or(Path::new("-")));
@@ -40,6 +40,7 @@ impl<'a> Job<'a> {
         let options = StageOptions {
             background_image: look.background_picture(&limits, external)?,
             width_image: look.width_picture(&limits, external)?,
+            fonts: look.fonts(&limits, external)?,
             memory_limit: limits.memory_bytes,
             ..StageOptions::new([said.drawing.size.width, said.drawing.size.height])
         };

@@ -6,21 +6,31 @@ use crate::fault::{Exit, Fault};
 use crate::line_job::LineJob;
 use npr_core::budget::Budget;
 use npr_render::{Drawing, RenderError};
+use npr_vector::artwork::ArtworkOptions;
 use npr_vector::drawing::rasterise;
 use npr_vector::json::write_json;
+use npr_vector::lettering::Lettered;
 use npr_vector::pdf::write_pdf;
 use npr_vector::svg::write_svg;
 
 /// Bytes a pixel: the canvas, the picture and the file.
 const BYTES_PER_PIXEL: usize = 12;
 
-/// The file that a job asks for.
-pub fn encode(job: &LineJob<'_>, drawing: &Drawing) -> Result<Vec<u8>, Fault> {
+/// The file that a job asks for, with words over its lines.
+pub fn encode(
+    job: &LineJob<'_>,
+    drawing: &Drawing,
+    lettering: Vec<Lettered>,
+) -> Result<Vec<u8>, Fault> {
+    let artwork = ArtworkOptions {
+        lettering,
+        ..job.artwork.clone()
+    };
     match job.format {
-        LineFormat::Svg => Ok(write_svg(drawing, &job.artwork)),
+        LineFormat::Svg => Ok(write_svg(drawing, &artwork)),
         LineFormat::Json => Ok(write_json(drawing)),
-        LineFormat::Pdf => Ok(write_pdf(drawing, &job.artwork)),
-        LineFormat::Png => png(job, drawing),
+        LineFormat::Pdf => Ok(write_pdf(drawing, &artwork)),
+        LineFormat::Png => png(job, drawing, &artwork),
     }
 }
 
@@ -35,8 +45,8 @@ pub fn check_memory(job: &LineJob<'_>) -> Result<(), Fault> {
     planned.map_err(|error| RenderError::from(error).into())
 }
 
-fn png(job: &LineJob<'_>, drawing: &Drawing) -> Result<Vec<u8>, Fault> {
-    let rgba = rasterise(drawing, &job.artwork);
+fn png(job: &LineJob<'_>, drawing: &Drawing, artwork: &ArtworkOptions) -> Result<Vec<u8>, Fault> {
+    let rgba = rasterise(drawing, artwork);
     if rgba.is_empty() {
         return Err(Fault::new(
             Exit::Failed,

@@ -9,7 +9,7 @@ use crate::look::Look;
 use crate::message::quoted;
 use crate::output::Output;
 use crate::source::Source;
-use npr_render::{Drawing, Kind, KindSet, LineMethod, LineOptions};
+use npr_render::{Drawing, Kind, KindSet, Lettering, LineMethod, LineOptions};
 use npr_scene::Limits;
 use npr_style::{Background, Style};
 use npr_vector::artwork::{ArtworkOptions, Hidden, Page, Paths, arrange};
@@ -38,12 +38,14 @@ pub struct LineJob<'a> {
     pub options: LineOptions,
     /// How it is put into a file.
     pub artwork: ArtworkOptions,
+    /// Words over the lines, set in their fonts.
+    pub lettering: Lettering,
     /// Where prepared surfaces are kept between runs.
     pub cache: Option<PathBuf>,
 }
 
 impl<'a> LineJob<'a> {
-    /// Resolves what the user said; reads the style, but not the scene.
+    /// Resolves what the user said; reads the style and its fonts, but not the scene.
     pub fn resolve(said: &'a LinesArguments) -> Result<Self, Fault> {
         check_size(said.drawing.size)?;
         let source = Source::of(said.scene.as_deref().unwrap_or(Path::new("-")));
@@ -52,8 +54,11 @@ impl<'a> LineJob<'a> {
         let format = format_of(said.format, &path)?;
         check_page(said, format)?;
         let output = Output::of(&path)?;
-        let look = Look::resolve(&said.drawing.look, said.drawing.allow_external.as_deref())?;
+        let external = said.drawing.allow_external.as_deref();
+        let look = Look::resolve(&said.drawing.look, external)?;
+        let fonts = look.fonts(&said.drawing.limits.limits(), external)?;
         Ok(Self {
+            lettering: Lettering::new(&look.style, &fonts)?,
             source,
             limits: Limits {
                 decode_images: false,

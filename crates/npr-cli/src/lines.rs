@@ -65,7 +65,9 @@ fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, 
     let camera = viewpoint::camera(&job.said.drawing.camera, &model, job.said.drawing.size)?;
     let drawn = draw_lines(job, &model, &camera, progress)?;
     let drawing = &drawn.picture.drawing;
-    let bytes = progress.step("encode", || line_file::encode(job, drawing))?;
+    let view = camera.view(drawing.size, model.bounds());
+    let lettering = job.lettering.placed(&view, job.options.dpi);
+    let bytes = progress.step("encode", || line_file::encode(job, drawing, lettering))?;
     progress.step("write", || job.output.write(&bytes))?;
     Ok(drawn)
 }
@@ -128,6 +130,12 @@ fn warn_of(job: &LineJob<'_>, model: &LineModel) {
     let warn = |text: &str| message::warn(job.said.drawing.quiet, text);
     for notice in model.notices() {
         warn(notice);
+    }
+    for notice in job.lettering.notices() {
+        warn(notice);
+    }
+    if job.format == LineFormat::Json && !job.lettering.is_empty() {
+        warn("words are left out: .json files hold lines alone");
     }
     if matches!(job.look.style.background, Background::Image(_)) {
         warn("the picture behind is left out: lines are drawn on a colour or on nothing");

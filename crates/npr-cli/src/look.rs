@@ -1,4 +1,4 @@
-//! The style of a picture, resolved from preset or file and overrides, with the pictures it names.
+//! The style of a picture, resolved from preset or file and overrides, with the pictures and fonts it names.
 
 use crate::arguments::LookArguments;
 use crate::fault::{Exit, Fault};
@@ -7,12 +7,13 @@ use crate::message::quoted;
 use crate::output::folder_of;
 use crate::picture;
 use crate::style_source::StyleSource;
-use npr_render::Picture;
+use npr_render::{Font, Picture};
 use npr_scene::{FolderResources, Limits, Resources};
 use npr_style::{
     Background, Color, LineMethod, Rule, ShadeMode, Stop, Style, Unit, WidthSource, WidthWarning,
     width_rule,
 };
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// The style of a picture, with the files that its pictures come from.
@@ -22,6 +23,8 @@ pub struct Look {
     pub style: Style,
     background: Option<PictureFile>,
     width: Option<PictureFile>,
+    /// Fonts of its words, each name once, with the first words that use it.
+    fonts: Vec<FontFile>,
     style_file: Option<PathBuf>,
 }
 
@@ -34,11 +37,21 @@ enum PictureFile {
     Beside { folder: PathBuf, name: String },
 }
 
+/// A font that a style names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct FontFile {
+    /// As the style has it.
+    name: String,
+    /// The key that names it first.
+    key: String,
+    file: PictureFile,
+}
+
 impl Look {
     /// The style that the user asked for.
     ///
     /// Later wins: preset or file, `--set` in order, `--background`. Reads the style file with its parents,
-    /// but no pictures.
+    /// but no pictures and fonts.
     pub fn resolve(said: &LookArguments, external: Option<&Path>) -> Result<Self, Fault> {
         let source = StyleSource::of(said.style.as_deref());
         let written = source.load(external)?;
@@ -57,6 +70,7 @@ impl Look {
         Ok(Self {
             background: file(background_name(&style), background_name(&written)),
             width: file(width_name(&style), width_name(&written)),
+            fonts: font_files(&style, &written, source.file()),
             style_file: source.file().map(Path::to_owned),
             style,
         })
@@ -86,6 +100,20 @@ impl Look {
             .transpose()
     }
 
+    /// The fonts of the style's words, by the names that it gives them.
+    pub fn fonts(
+        &self,
+        limits: &Limits,
+        external: Option<&Path>,
+    ) -> Result<BTreeMap<String, Font>, Fault> {
+        let load = |font: &FontFile| {
+            let loaded = font.file.load_font(limits, external);
+            let loaded = loaded.map_err(|fault| fault.while_doing(&font.key))?;
+            Ok((font.name.clone(), loaded))
+        };
+        self.fonts.iter().map(load).collect()
+    }
+
     /// The files that this look is made from.
     pub fn inputs(&self) -> impl Iterator<Item = PathBuf> {
         let pictures = self
@@ -93,7 +121,8 @@ impl Look {
             .iter()
             .chain(&self.width)
             .map(PictureFile::path);
-        pictures.chain(self.style_file.clone())
+        let fonts = self.fonts.iter().map(|font| font.file.path());
+        pictures.chain(fonts).chain(self.style_file.clone())
     }
 
     /// Whether the picture may be seen through.
@@ -158,6 +187,24 @@ fn width_name(style: &Style) -> Option<&str> {
         .filter(|_| width.source == WidthSource::Texture)
 }
 
+/// The fonts that a style names; names that stand in the style file too are looked for beside it.
+fn font_files(style: &Style, written: &Style, style_file: Option<&Path>) -> Vec<FontFile> {
+    let mut fonts: Vec<FontFile> = Vec::new();
+    for (index, words) in style.lettering.iter().enumerate() {
+        let name = words.font.clone();
+        if fonts.iter().any(|font| font.name == name) {
+            continue;
+        }
+        let is_written = written.lettering.iter().any(|words| words.font == name);
+        fonts.push(FontFile {
+            file: PictureFile::of(&name, style_file.filter(|_| is_written)),
+            key: format!("lettering.{index}.font"),
+            name,
+        });
+    }
+    fonts
+}
+
 impl PictureFile {
     fn of(name: &str, style_file: Option<&Path>) -> Self {
         match style_file {
@@ -177,21 +224,33 @@ impl PictureFile {
     }
 
     fn load(&self, limits: &Limits, external: Option<&Path>) -> Result<Picture, Fault> {
-        let bytes = match self {
-            Self::Typed(path) => read_file(path, limits.file_bytes)?,
+        let bytes = self.read(limits, external)?;
+        picture::decode(&bytes, limits).map_err(|fault| self.cannot_read(fault))
+    }
+
+    fn load_font(&self, limits: &Limits, external: Option<&Path>) -> Result<Font, Fault> {
+        let bytes = self.read(limits, external)?;
+        Font::new(bytes).map_err(|error| self.cannot_read(Fault::new(Exit::Input, error)))
+    }
+
+    fn read(&self, limits: &Limits, external: Option<&Path>) -> Result<Vec<u8>, Fault> {
+        match self {
+            Self::Typed(path) => read_file(path, limits.file_bytes),
             Self::Beside { folder, name } => {
-                FolderResources::new(folder, external)?.read(name, limits.file_bytes)?
+                Ok(FolderResources::new(folder, external)?.read(name, limits.file_bytes)?)
             }
-        };
-        let path = self.path();
-        picture::decode(&bytes, limits)
-            .map_err(|fault| fault.while_doing(format_args!("cannot read {}", quoted(&path))))
+        }
+    }
+
+    fn cannot_read(&self, fault: Fault) -> Fault {
+        fault.while_doing(format_args!("cannot read {}", quoted(&self.path())))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use npr_vector::lettering::testing::block_font;
 
     fn look(overrides: &[&str]) -> Look {
         let overrides = overrides.iter().map(ToString::to_string).collect();
@@ -227,6 +286,53 @@ mod tests {
             sky.inputs().collect::<Vec<_>>(),
             [PathBuf::from("skies/dawn.png")]
         );
+    }
+
+    #[test]
+    fn a_font_is_read_once_and_its_faults_name_key_and_file() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let words = |font: &str| format!("[[lettering]]\ntext = \"HI\"\nfont = \"{font}\"\n");
+        let of = |style: &str| {
+            let path = folder.path().join("my.toml");
+            write_whole(&path, style.as_bytes());
+            let said = LookArguments {
+                style: Some(path.to_string_lossy().into_owned()),
+                ..LookArguments::default()
+            };
+            Look::resolve(&said, None)
+                .expect("a style")
+                .fonts(&Limits::default(), None)
+        };
+        write_whole(&folder.path().join("a.ttf"), &block_font());
+        let fonts = of(&(words("a.ttf") + &words("a.ttf"))).expect("fonts");
+        assert_eq!(fonts.keys().collect::<Vec<_>>(), ["a.ttf"]);
+
+        let fault = of(&(words("a.ttf") + &words("my.toml"))).expect_err("a style is no font");
+        assert_eq!(fault.exit, Exit::Input);
+        assert!(
+            fault.message.starts_with("lettering.1.font: cannot read '"),
+            "{}",
+            fault.message
+        );
+        assert!(
+            fault
+                .message
+                .ends_with("is not a TrueType, OpenType or Type 1 font"),
+            "{}",
+            fault.message
+        );
+        let fault = of(&words("../b.ttf")).expect_err("outside of the folder");
+        assert!(
+            fault.message.starts_with("lettering.0.font: "),
+            "{}",
+            fault.message
+        );
+    }
+
+    /// Writes a file as the command itself does.
+    fn write_whole(path: &Path, bytes: &[u8]) {
+        let output = crate::output::Output::of(path).expect("a place");
+        output.write(bytes).expect("room");
     }
 
     #[test]

@@ -39,6 +39,14 @@ pub enum RenderError {
     /// Lines could not be closed to regions.
     #[error(transparent)]
     Fill(#[from] npr_vector::fill::FillError),
+    /// Words of the style cannot be set.
+    #[error("lettering.{index}: {source}")]
+    Lettering {
+        /// Which of the style's words, counted from 0.
+        index: usize,
+        /// Why not.
+        source: npr_vector::lettering::LetteringError,
+    },
     /// The engine failed.
     #[error(transparent)]
     Engine(#[from] EngineError),

@@ -25,6 +25,7 @@ mod frame;
 mod hatching;
 mod instance;
 mod joined;
+mod lettering;
 mod light;
 mod lines;
 mod look;
@@ -36,8 +37,10 @@ mod tiles;
 
 pub use error::RenderError;
 pub use frame::Frame;
+pub use lettering::Lettering;
 pub use light::notice as light_notice;
 pub use lines::{KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage};
 pub use model::{Model, PartInfo};
+pub use npr_vector::lettering::Font;
 pub use npr_vector::stroke::{Drawing, Kind};
 pub use stage::{Picture, Stage, StageOptions};

@@ -3,6 +3,7 @@
 use crate::blueprint::{Blueprint, Counts, Grids, Method};
 use crate::error::RenderError;
 use crate::frame::Frame;
+use crate::lettering::Lettering;
 use crate::light;
 use crate::look::{self, StyledModel};
 use crate::model::Model;
@@ -17,6 +18,9 @@ use npr_scene::Image;
 use npr_style::Style;
 use npr_style::compose::Compose;
 use npr_style::shadow::SHADOW_SIDE;
+use npr_vector::drawing::paint_over;
+use npr_vector::lettering::Font;
+use std::collections::BTreeMap;
 
 /// Most pixels of a frame along a side.
 const FRAME_SIDE: u32 = 32_768;
@@ -53,6 +57,8 @@ pub struct StageOptions {
     pub background_image: Option<Picture>,
     /// The picture that line widths are read from, where the style names one.
     pub width_image: Option<Picture>,
+    /// Fonts of the style's words, by the names that the style gives them.
+    pub fonts: BTreeMap<String, Font>,
     /// Most bytes that may be planned.
     pub memory_limit: u64,
     /// Most pixels drawn at once, 4 million by default and at most; a larger frame is drawn in tiles. Fewer need less
@@ -61,13 +67,14 @@ pub struct StageOptions {
 }
 
 impl StageOptions {
-    /// Options for a frame of `size` pixels: 96 pixels per inch, no pictures, 4 GiB.
+    /// Options for a frame of `size` pixels: 96 pixels per inch, no pictures or fonts, 4 GiB.
     pub fn new(size: [u32; 2]) -> Self {
         Self {
             size,
             dpi: 96.0,
             background_image: None,
             width_image: None,
+            fonts: BTreeMap::new(),
             memory_limit: 4 << 30,
             tile_pixels: TILE_PIXELS,
         }
@@ -83,6 +90,7 @@ pub struct Stage<'a> {
     grids: Grids,
     method: Method,
     styled: StyledModel,
+    lettering: Lettering,
     plan: Blueprint,
     session: Box<dyn Session>,
 }
@@ -92,7 +100,8 @@ impl<'a> Stage<'a> {
     ///
     /// # Errors
     ///
-    /// [`RenderError`] for a frame without pixels or beyond 32768 a side, a plan beyond the memory limit, or a failing engine.
+    /// [`RenderError`] for a frame without pixels or beyond 32768 a side, a plan beyond the memory limit, words that
+    /// cannot be set, or a failing engine.
     pub fn new(
         engine: &dyn Engine,
         model: &'a Model,
@@ -100,7 +109,9 @@ impl<'a> Stage<'a> {
         options: &StageOptions,
     ) -> Result<Self, RenderError> {
         check_size(options.size)?;
-        let styled = StyledModel::new(model, style, options);
+        let mut styled = StyledModel::new(model, style, options);
+        let lettering = Lettering::new(style, &options.fonts)?;
+        styled.inked.notices.extend_from_slice(lettering.notices());
         let base_px = look::base_px(
             style,
             options.size[1],
@@ -142,6 +153,10 @@ impl<'a> Stage<'a> {
             plan.graph.planned_bytes() as usize,
             1,
         )?;
+        if !lettering.is_empty() {
+            let pixels = options.size[0] as usize * options.size[1] as usize;
+            budget.take("the words over the picture", pixels, 4)?;
+        }
         let session = engine.prepare(plan.graph.clone())?;
         let (style, options) = (style.clone(), options.clone());
         let mut stage = Self {
@@ -152,6 +167,7 @@ impl<'a> Stage<'a> {
             grids,
             method,
             styled,
+            lettering,
             plan,
             session,
         };
@@ -226,6 +242,9 @@ impl<'a> Stage<'a> {
         frame.notices.extend_from_slice(self.notices());
         for origin in self.tiles.origins() {
             self.draw_tile(&view, origin, &mut frame)?;
+        }
+        for words in self.lettering.placed(&view, self.options.dpi) {
+            paint_over(&words.marks, &mut frame.rgba, frame.size);
         }
         Ok(frame)
     }

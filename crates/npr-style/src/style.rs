@@ -8,8 +8,8 @@ use crate::layers::{self, Parents};
 use crate::ramp::{Stop, first_unsorted};
 use crate::width::WidthSource;
 use crate::{
-    Antialias, Background, Detect, Highlight, Ink, Light, Line, LineMethod, Rule, Shade, preset,
-    set,
+    Antialias, Background, Detect, Highlight, Ink, Lettering, Light, Line, LineMethod, Rule, Shade,
+    preset, set,
 };
 
 /// What a picture should look like.
@@ -47,6 +47,10 @@ pub struct Style {
     /// Exceptions for single materials and objects; later ones win.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rule: Vec<Rule>,
+    /// Words over the picture, up to 64, the last on top; default none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 64))]
+    pub lettering: Vec<Lettering>,
 }
 
 impl Default for Style {
@@ -64,6 +68,7 @@ impl Default for Style {
             detect: Detect::default(),
             antialias: Antialias::default(),
             rule: Vec::new(),
+            lettering: Vec::new(),
         }
     }
 }
@@ -136,6 +141,8 @@ impl Style {
         self.light.sanity_check()?;
         check_width(&self.line.width)?;
         check_ramp(&self.shade.ramp, "shade.ramp")?;
+        let mut words = self.lettering.iter().enumerate();
+        words.try_for_each(|(i, words)| words.check(i))?;
         self.rule.iter().enumerate().try_for_each(|(i, rule)| {
             check_method(rule.line.method, i)?;
             let ramp = rule.shade.ramp.as_deref();

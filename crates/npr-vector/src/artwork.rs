@@ -5,6 +5,7 @@
 
 use crate::clip::{clip_ring, clip_stroke};
 use crate::fit::{FitOptions, fit};
+use crate::lettering::Lettered;
 use crate::outline::outline;
 use crate::page::Placing;
 use crate::plot;
@@ -51,6 +52,10 @@ pub struct ArtworkOptions {
     ///
     /// Outlines of ink are held to a third of it, because their two sides show every error twice.
     pub tolerance_px: f64,
+    /// Words over the lines; they go into a layer of their own, on top.
+    ///
+    /// Where lines are centrelines, a pen goes around the letters: bands and inside stay empty.
+    pub lettering: Vec<Lettered>,
 }
 
 impl Default for ArtworkOptions {
@@ -61,6 +66,7 @@ impl Default for ArtworkOptions {
             background: None,
             page: None,
             tolerance_px: 0.25,
+            lettering: Vec::new(),
         }
     }
 }
@@ -138,6 +144,9 @@ const EVEN: f64 = 0.01;
 /// Lines thinner than this, in pixels, are drawn with this width, so that files show them.
 const HAIRLINE_PX: f64 = 0.05;
 
+/// Width of the line that pens draw around letters, in pixels.
+const PEN_PX: f64 = 1.0;
+
 /// Names are cut to this many characters.
 pub(crate) const NAME_LENGTH: usize = 200;
 
@@ -178,6 +187,7 @@ pub fn arrange(drawing: &Drawing, options: &ArtworkOptions) -> Artwork {
     for hidden in hidden {
         layers.extend(Kind::ALL.iter().map(|kind| maker.lines(*kind, *hidden)));
     }
+    layers.push(maker.lettering());
     layers.retain(|layer| !layer.groups.is_empty());
     Artwork {
         size: placing.size,
@@ -351,6 +361,41 @@ impl Maker<'_> {
             paint,
             color,
         })
+    }
+
+    /// The layer of words, each a group.
+    fn lettering(&self) -> Layer {
+        let words = self.options.lettering.iter().enumerate();
+        let groups = words.map(|(number, words)| Group {
+            object: number as u32,
+            label: words.text.clone(),
+            marks: self.lettered(&words.marks),
+        });
+        Layer {
+            name: "lettering".into(),
+            groups: groups.filter(|group| !group.marks.is_empty()).collect(),
+        }
+    }
+
+    /// Marks of words in the artwork's unit; around the letters only, for pens.
+    fn lettered(&self, marks: &[Mark]) -> Vec<Mark> {
+        let scale = self.placing.scale;
+        let drawn = match (self.options.paths, marks) {
+            (Paths::Centreline, [.., rim, _] | [rim]) => vec![Mark {
+                paint: Paint::Line(PEN_PX),
+                ..rim.clone()
+            }],
+            _ => marks.to_vec(),
+        };
+        let placed = drawn.into_iter().map(|mark| Mark {
+            path: self.placing.affine() * mark.path,
+            paint: match mark.paint {
+                Paint::Line(width) => Paint::Line(width * scale),
+                paint => paint,
+            },
+            ..mark
+        });
+        placed.collect()
     }
 
     /// Groups marks by object: all of an object together, or only those next to each other.

@@ -27,6 +27,7 @@ pub mod gbuffer;
 pub mod graph;
 pub mod intersect;
 pub mod json;
+pub mod lettering;
 pub mod merge;
 mod near;
 mod number;
