@@ -103,8 +103,9 @@ fn place_of(said: &npr_style::Lettering, view: &View) -> Option<([f32; 2], f32)>
     };
     let anchor = Vec3::from(anchor);
     let depth = (anchor - Vec3::from(view.eye_world)).dot(Vec3::from(view.forward_world));
-    // A parallel view has no eye to be behind of.
-    if view.perspective > 0.5 && depth.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
+    // A parallel view has no eye that anything could be behind.
+    let is_before = depth > 0.0;
+    if view.perspective > 0.5 && !is_before {
         return None;
     }
     let clip = Mat4::from_cols_array_2d(&view.clip_from_world) * anchor.extend(1.0);
@@ -118,7 +119,9 @@ fn place_of(said: &npr_style::Lettering, view: &View) -> Option<([f32; 2], f32)>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Model, Stage, StageOptions};
     use npr_core::camera::{Camera, Projection};
+    use npr_gpu::processor::Processor;
     use npr_style::{Length, Unit};
     use npr_vector::lettering::testing::block_font;
     use proptest::prelude::*;
@@ -202,6 +205,48 @@ mod tests {
         };
         let view = camera().view([200, 100], BOUNDS);
         assert_eq!(lettering(said).placed(&view, 96.0).len(), 1);
+    }
+
+    #[test]
+    fn words_lie_over_the_picture_whatever_its_tiles() {
+        let style = Style {
+            lettering: vec![npr_style::Lettering {
+                at: [0.5, 0.5],
+                size: Length {
+                    value: 90.0,
+                    unit: Unit::Px,
+                },
+                outline: LetteringOutline {
+                    width: Length {
+                        value: 10.0,
+                        unit: Unit::Px,
+                    },
+                    ..LetteringOutline::default()
+                },
+                ..npr_style::Lettering::new("I", "a.ttf")
+            }],
+            ..Style::default()
+        };
+        let model = Model::new(&npr_scene::Scene::default()).expect("an empty scene");
+        let fonts =
+            BTreeMap::from([("a.ttf".to_owned(), Font::new(block_font()).expect("a font"))]);
+        let picture = |tile_pixels| {
+            let options = StageOptions {
+                fonts: fonts.clone(),
+                tile_pixels,
+                ..StageOptions::new([160, 120])
+            };
+            let mut stage = Stage::new(&Processor, &model, &style, &options).expect("a stage");
+            stage.draw(&camera()).expect("a picture")
+        };
+        let whole = picture(1 << 22);
+        assert_eq!(whole.rgba, picture(4096).rgba);
+        let pixel = |x: usize, y: usize| &whole.rgba[4 * (y * 160 + x)..][..4];
+        let said = &style.lettering[0];
+        assert_eq!(pixel(80, 60), bytes_of(said.color));
+        // The bar ends 90 / 7 from its middle, the band 10 further out.
+        assert_eq!(pixel(97, 60), [0, 0, 0, 255]);
+        assert_eq!(pixel(110, 60), [255; 4]);
     }
 
     #[test]

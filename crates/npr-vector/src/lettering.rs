@@ -4,11 +4,22 @@
 //! outlines in *cap heights*: a capital letter is 1 high, y runs down, and the middle of all lines is the origin. [`Words::marks`] turns
 //! them into the shapes of a drawing, in pixels.
 //!
-//! ```
-//! use npr_vector::lettering::{Font, LetteringError};
+//! ```no_run
+//! use npr_vector::drawing::paint_over;
+//! use npr_vector::lettering::{Band, Font, Setting, set_words};
 //!
-//! assert_eq!(Font::new(b"not a font".to_vec()), Err(LetteringError::NotAFont));
+//! let font = Font::new(std::fs::read("comic.ttf")?)?;
+//! let setting = Setting { bend: 0.3, ..Setting::default() };
+//! let words = set_words(&font, "POW!", &setting)?;
+//! let rim = Band { color: [0, 0, 0, 255], width_px: 8.0 };
+//! let marks = words.marks([320.0, 120.0], 90.0, [255, 210, 30, 255], &[rim]);
+//! let mut picture = vec![255; 640 * 360 * 4];
+//! paint_over(&marks, &mut picture, [640, 360]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! Shaping is HarfBuzz's, by the crate harfrust; scripts of all directions work, but lines are horizontal. Of variable fonts the
+//! default weight is used, of colour fonts the plain outlines.
 
 mod font;
 #[cfg(any(test, feature = "testing"))]

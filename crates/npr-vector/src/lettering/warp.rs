@@ -33,12 +33,9 @@ struct Arc {
 impl Warp {
     /// The warp that a setting asks for around lines.
     pub(super) fn around<'a>(lines: impl Iterator<Item = &'a BezPath>, setting: &Setting) -> Self {
-        // Control points, not only curves: what the map meets must lie within its bounds.
-        let points = lines.flat_map(|line| line.control_box_corners());
-        let mut half = Vec2::ZERO;
-        for point in points {
-            half = Vec2::new(half.x.max(point.x.abs()), half.y.max(point.y.abs()));
-        }
+        let half = lines
+            .map(reach_of)
+            .fold(Vec2::ZERO, |a, b| Vec2::new(a.x.max(b.x), a.y.max(b.y)));
         let grown = half.y * (1.0 + setting.spread.abs());
         let wide = half.x * (1.0 + 0.5 * setting.spread.abs()) + setting.slant.abs() * grown;
         let bend = setting.bend.abs();
@@ -134,22 +131,16 @@ impl Warp {
     }
 }
 
-/// The corners of a path's control points.
-trait ControlBox {
-    fn control_box_corners(&self) -> [Point; 2];
-}
-
-impl ControlBox for BezPath {
-    fn control_box_corners(&self) -> [Point; 2] {
-        if self.is_empty() {
-            return [Point::ORIGIN; 2];
-        }
-        let corners = self.control_box();
-        [
-            Point::new(corners.x0, corners.y0),
-            Point::new(corners.x1, corners.y1),
-        ]
+/// How far a path reaches from the origin along both axes, with its control points: what a map meets lies within.
+fn reach_of(path: &BezPath) -> Vec2 {
+    if path.is_empty() {
+        return Vec2::ZERO;
     }
+    let reach = path.control_box();
+    Vec2::new(
+        reach.x0.abs().max(reach.x1.abs()),
+        reach.y0.abs().max(reach.y1.abs()),
+    )
 }
 
 /// The turn by an angle in radians, counter-clockwise in a picture whose y runs down.
