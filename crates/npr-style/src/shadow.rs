@@ -322,6 +322,7 @@ mod tests {
                 compose: &Compose::default(),
                 lights: &self.lights,
                 ids: &[],
+                beam_ids: &[],
                 ribbons: &[],
                 posed: &self.posed,
                 vertices: &vertices,

@@ -65,20 +65,20 @@ pub fn beams() -> Scene {
 /// A ball with a nozzle and a fin.
 fn drone(shell: Paint, dark: Paint) -> Shape {
     let barrel = capsule(2.2, 0.8, dark).placed(Mat3::IDENTITY, Vec3::new(3.6, -0.2, 0.0));
-    let fin = ball(2.2, 24, dark).warp(|p| Vec3::new(p.x - 1.5, p.y * 0.9 + 2.6, p.z * 0.16));
-    ball(3.4, 40, shell).join(barrel).join(fin)
+    let fin = ball(2.2, 14, dark).warp(|p| Vec3::new(p.x - 1.5, p.y * 0.9 + 2.6, p.z * 0.16));
+    ball(3.4, 26, shell).join(barrel).join(fin)
 }
 
 /// A ball drawn out along x to a length of twice `half`.
 fn capsule(half: f32, radius: f32, paint: Paint) -> Shape {
     let straight = half - radius;
-    ball(radius, 20, paint)
+    ball(radius, 14, paint)
         .warp(|p| Vec3::new(p.x + straight * p.x.clamp(-0.05, 0.05) * 20.0, p.y, p.z))
 }
 
 /// A star around the x axis with so many points, the deeper the smaller `waist`.
 fn star(points: u32, radius: f32, waist: f32, paint: Paint) -> Shape {
-    ball(1.0, 56, paint).warp(|p| {
+    ball(1.0, 36, paint).warp(|p| {
         let angle = math::atan2(p.z, p.y);
         let wave = 0.5 + 0.5 * math::cos(angle * points as f32);
         let reach = waist + (1.0 - waist) * wave * wave;
@@ -94,7 +94,7 @@ fn star(points: u32, radius: f32, waist: f32, paint: Paint) -> Shape {
 
 /// A ball of billows.
 fn burst(radius: f32, paint: Paint) -> Shape {
-    ball(1.0, 72, paint).warp(|p| {
+    ball(1.0, 44, paint).warp(|p| {
         let billow = |v: f32, k: f32| math::sin(v * k).abs();
         let lumps = billow(p.x + 0.3, 4.1) + billow(p.y - 0.2, 4.7) + billow(p.z + 0.1, 4.3);
         p * (radius * (0.72 + 0.17 * lumps))
