@@ -78,7 +78,7 @@ fn capsule(half: f32, radius: f32, paint: Paint) -> Shape {
 
 /// A star around the x axis with so many points, the deeper the smaller `waist`.
 fn star(points: u32, radius: f32, waist: f32, paint: Paint) -> Shape {
-    ball(1.0, 36, paint).warp(|p| {
+    ball(1.0, 32, paint).warp(|p| {
         let angle = math::atan2(p.z, p.y);
         let wave = 0.5 + 0.5 * math::cos(angle * points as f32);
         let reach = waist + (1.0 - waist) * wave * wave;
@@ -94,7 +94,7 @@ fn star(points: u32, radius: f32, waist: f32, paint: Paint) -> Shape {
 
 /// A ball of billows.
 fn burst(radius: f32, paint: Paint) -> Shape {
-    ball(1.0, 44, paint).warp(|p| {
+    ball(1.0, 40, paint).warp(|p| {
         let billow = |v: f32, k: f32| math::sin(v * k).abs();
         let lumps = billow(p.x + 0.3, 4.1) + billow(p.y - 0.2, 4.7) + billow(p.z + 0.1, 4.3);
         p * (radius * (0.72 + 0.17 * lumps))
