@@ -190,7 +190,7 @@ mod tests {
         let words = "[[lettering]]\ntext = \"A\"\nfont = \"a.ttf\"\n";
         assert_eq!(
             told("[[lettering]]\ntext = \"A\""),
-            "lettering.0 at line 1, column 3 lacks 'font'"
+            "lettering.0 at line 1, column 1 lacks 'font'"
         );
         assert_eq!(
             told(&format!("{words}bent = 0.3")),
