@@ -26,7 +26,10 @@ pub fn distant_view(towards: [f32; 3], casters: &[[f32; 3]], seen: &[[f32; 3]]) 
         let both = (all.0.max(view.0), all.1.min(view.1));
         if both.0 < both.1 { both } else { all }
     };
-    let farthest = casters.iter().flatten().fold(0.0f32, |most, x| most.max(x.abs()));
+    let farthest = casters
+        .iter()
+        .flatten()
+        .fold(0.0f32, |most, x| most.max(x.abs()));
     let row = |axis: Vec3, (low, high): (f32, f32), from: f32| {
         // A little room on both sides, so that rounding puts nothing outside: sums cancel to the last bits of what is added.
         let room = ((high - low) * 0.01).max(farthest * 1e-5).max(1e-12);

@@ -16,7 +16,7 @@ const TILE_SIDE: u32 = 1024;
 /// Size of a hatch tile on an object that is all of its scene, as a part of its radius. Framed as a whole it shows strokes 8
 /// pixels apart three octaves above the finest level: the camera may come eight times nearer, and go eight times farther,
 /// before strokes change their size. Larger tiles do not fit around thin limbs.
-const TILE_RADII: f32 = 0.25;
+const TILE_RADII: f32 = 0.3;
 
 /// How fast tiles shrink with the objects of a scene, as an exponent of their radius: less than 1, as small objects are mostly
 /// seen from as far as large ones.
@@ -249,11 +249,13 @@ fn add_charts(
 
 /// A number of tiles to one unit of UV coordinates, or of units to one tile: coordinates that wrap around at 1 show no seam.
 fn whole_scale(scale: f32) -> f32 {
-    let whole = |x: f32| x.max(1.0).min(4096.0).round();
-    if scale >= 1.0 {
+    let whole = |x: f32| x.clamp(1.0, 4096.0).round();
+    if scale.is_nan() {
+        // A part without area.
+        1.0
+    } else if scale >= 1.0 {
         whole(scale)
     } else {
-        // Not a number where a part has no area.
         1.0 / whole(1.0 / scale)
     }
 }

@@ -45,17 +45,19 @@ pub fn beams() -> Scene {
     let aim = Vec3::new(34.0, -2.0, -4.0).normalize();
     let turn = Mat3::from_cols(aim, Vec3::Z.cross(aim).normalize(), Vec3::Z);
     scene.add("Laser", capsule(13.2, 0.55, laser), [0.0, 10.0, -2.0], turn);
+    // Flashes turn to whoever looks.
+    let facing = Mat3::from_rotation_y(-std::f32::consts::FRAC_PI_2);
     scene.add(
         "MuzzleFlash",
         star(7, 2.6, 0.45, flash),
-        [-12.6, 10.7, -0.4],
-        turn,
+        [-11.2, 10.6, 1.5],
+        facing,
     );
     scene.add(
         "HitFlash",
         star(9, 4.2, 0.3, flash),
-        [12.9, 9.2, -3.6],
-        turn,
+        [13.4, 9.2, 0.5],
+        facing,
     );
     scene.stand("Explosion", burst(5.4, fire), [20.5, 13.5, -7.0], 0.0);
     scene.stand("Trail", wake(trail), [-21.0, 10.5, 0.0], 180.0);

@@ -109,8 +109,8 @@ pub fn sample(level: &[[u8; 4]], side: u32, [u, v]: [f32; 2], f: f32) -> HatchSa
 fn texel_at(place: f32, side: u32) -> (i32, f32) {
     let rest = place - place as i32 as f32;
     let within = if rest < 0.0 { rest + 1.0 } else { rest };
-    // Places too far to be told apart, and what is no number, lie on the tile's edge.
-    let at = within.max(0.0).min(1.0) * side as f32 + 0.5;
+    // Places too far to be told apart lie on the tile's edge.
+    let at = within.clamp(0.0, 1.0) * side as f32 + 0.5;
     let texel = at as i32;
     (texel - 1, at - texel as f32)
 }
