@@ -139,12 +139,14 @@ impl Style {
     /// [`StyleError::Value`] for the first key that contradicts another.
     pub fn sanity_check(&self) -> Result<(), StyleError> {
         self.light.sanity_check()?;
+        check_direction(self.ink.direction, "ink.direction")?;
         check_width(&self.line.width)?;
         check_ramp(&self.shade.ramp, "shade.ramp")?;
         let mut words = self.lettering.iter().enumerate();
         words.try_for_each(|(i, words)| words.check(i))?;
         self.rule.iter().enumerate().try_for_each(|(i, rule)| {
             check_method(rule.line.method, i)?;
+            check_direction(rule.ink.direction, &format!("rule.{i}.ink.direction"))?;
             let ramp = rule.shade.ramp.as_deref();
             ramp.map_or(Ok(()), |stops| {
                 check_ramp(stops, &format!("rule.{i}.shade.ramp"))
@@ -160,6 +162,14 @@ fn check_ramp(stops: &[Stop], key: &str) -> Result<(), StyleError> {
             "lies before the stop ahead of it",
         )),
         None => Ok(()),
+    }
+}
+
+/// Strokes cannot follow a direction of no length.
+fn check_direction(direction: Option<[f32; 3]>, key: &str) -> Result<(), StyleError> {
+    match direction {
+        Some([0.0, 0.0, 0.0]) => Err(StyleError::unfit(key, "points nowhere")),
+        _ => Ok(()),
     }
 }
 

@@ -104,6 +104,10 @@ fn slips_are_named_with_place_and_cure() {
             "light.direction at line 1, column 7 points nowhere",
         ),
         (
+            "ink.direction = [0, 0, 0]",
+            "ink.direction at line 1, column 5 points nowhere",
+        ),
+        (
             "light.direction = [0, 1e300, 1]",
             "light.direction.1 at line 1, column 23 is 1e300, but must lie in -1e9..1e9",
         ),
