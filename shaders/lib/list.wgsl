@@ -38,7 +38,7 @@ struct Standing {
     length: u32,
 }
 
-// A permutation of the 32-bit numbers that looks random.
+// A permutation of the 32-bit numbers that looks random. Twin: npr_core::math::mix_bits.
 fn mix_bits(number: u32) -> u32 {
     var x = number;
     x = (x ^ (x >> 16u)) * 0x7feb352du;

@@ -7,6 +7,7 @@
 //# use lib/window
 //# use lib/color
 //# use lib/compose
+//# use lib/outline
 
 override WG: u32 = 64u;
 
@@ -15,8 +16,6 @@ override WG: u32 = 64u;
 @group(0) @binding(2) var<uniform> compose: Compose;
 @group(0) @binding(3) var<storage, read> mask: array<u32>;
 @group(0) @binding(4) var<storage, read_write> overlay: array<u32>;
-
-const MASK_KINDS: u32 = 47u;
 
 // One invocation per output pixel.
 @compute @workgroup_size(WG)

@@ -21,6 +21,7 @@
 
 //# use lib/texture
 //# use lib/cutout
+//# use lib/varying
 
 // Whether a triangle of a cut-out part is transparent at a point of the picture.
 fn is_hole(triangle: u32, ndc: vec2<f32>) -> bool {
@@ -29,8 +30,6 @@ fn is_hole(triangle: u32, ndc: vec2<f32>) -> bool {
     let clip = array<vec4<f32>, 3>(posed[corners.x].clip, posed[corners.y].clip, posed[corners.z].clip);
     return is_hole_at(triangle, weights_at(clip, ndc));
 }
-
-//# use lib/varying
 
 // Three vertices per triangle; hidden sides and beams collapse to a point.
 @vertex

@@ -18,7 +18,6 @@
 
 //# use lib/texture
 //# use lib/cutout
-
 //# use lib/varying
 
 fn clip_of(triangle: u32) -> array<vec4<f32>, 3> {
@@ -30,7 +29,7 @@ fn clip_of(triangle: u32) -> array<vec4<f32>, 3> {
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     let triangle = index / 3u;
-    var clip = clip_of(triangle);
+    let clip = clip_of(triangle);
     let is_beam = (parts[triangles[triangle].part].flags & PART_BEAM) != 0u;
     return passed_on(triangle, clip[index % 3u], !is_beam);
 }

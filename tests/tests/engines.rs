@@ -6,6 +6,7 @@ use npr_gpu::processor::Processor;
 use npr_render::Model;
 use npr_style::Style;
 use npr_tests::{Agreement, asset, device, draw_on, models, models_camera, samples};
+use std::path::PathBuf;
 
 /// Pictures of which single blocks may differ, and why; pixels must agree all the same. Which of them do depends on the
 /// device.
@@ -38,20 +39,27 @@ fn check(agreements: impl Iterator<Item = (String, Option<Agreement>)>) {
     assert!(failed.is_empty(), "{failed:#?}");
 }
 
-#[test]
-fn models_look_alike_in_the_everyday_presets() {
-    let styles = ["toon", "ink"].map(|name| (name, Style::preset(name).unwrap()));
-    let pictures = samples().into_iter().chain(models()).flat_map(|path| {
+/// Draws files in presets on both engines.
+fn check_files(files: impl Iterator<Item = PathBuf>, presets: &[&str]) {
+    let preset = |name: &&str| ((*name).to_owned(), Style::preset(name).unwrap());
+    let styles: Vec<(String, Style)> = presets.iter().map(preset).collect();
+    let pictures = files.flat_map(|path| {
         let scene = npr_scene::load(&path, &npr_scene::LoadOptions::default()).unwrap();
         let model = Model::new(&scene).unwrap();
         let file = path.file_name().unwrap().to_string_lossy().into_owned();
-        styles.each_ref().map(|(name, style)| {
+        let of_style = |(name, style): &(String, Style)| {
             let what = format!("{file} {name}");
             let agreement = agreement(&what, &model, style, [480, 270]);
             (what, agreement)
-        })
+        };
+        styles.iter().map(of_style).collect::<Vec<_>>()
     });
     check(pictures);
+}
+
+#[test]
+fn models_look_alike_in_the_everyday_presets() {
+    check_files(samples().into_iter().chain(models()), &["toon", "ink"]);
 }
 
 /// Figures that the looks of comics are judged by, where the shared models are there.
@@ -64,8 +72,9 @@ const FIGURES: [&str; 6] = [
     "nefertiti_70k.glb",
 ];
 
-const COMIC_LOOKS: [&str; 8] = [
+const COMIC_LOOKS: [&str; 9] = [
     "comic-silver",
+    "comic-light",
     "comic-modern",
     "crosshatch",
     "stipple",
@@ -77,22 +86,11 @@ const COMIC_LOOKS: [&str; 8] = [
 
 #[test]
 fn figures_look_alike_in_the_looks_of_comics() {
-    let styles = COMIC_LOOKS.map(|name| (name, Style::preset(name).unwrap()));
     let figures = models().into_iter().filter(|path| {
         let file = path.file_name().unwrap_or_default().to_string_lossy();
         FIGURES.contains(&file.as_ref())
     });
-    let pictures = samples().into_iter().chain(figures).flat_map(|path| {
-        let scene = npr_scene::load(&path, &npr_scene::LoadOptions::default()).unwrap();
-        let model = Model::new(&scene).unwrap();
-        let file = path.file_name().unwrap().to_string_lossy().into_owned();
-        styles.each_ref().map(|(name, style)| {
-            let what = format!("{file} {name}");
-            let agreement = agreement(&what, &model, style, [480, 270]);
-            (what, agreement)
-        })
-    });
-    check(pictures);
+    check_files(samples().into_iter().chain(figures), &COMIC_LOOKS);
 }
 
 #[test]

@@ -88,9 +88,6 @@ fn warn_of(job: &Job<'_>, model: &Model) {
     for notice in model.notices() {
         message::warn(quiet, notice);
     }
-    if let Some(notice) = npr_render::light_notice(&job.look.style, model) {
-        message::warn(quiet, &notice);
-    }
     if let Some(warning) = job.look.width_warning(job.said.drawing.size.height) {
         message::warn(quiet, &warning.to_string());
     }

@@ -14,6 +14,14 @@ pub fn tan_f64(x: f64) -> f64 {
     libm::tan(x)
 }
 
+/// A permutation of the 32-bit numbers that looks random [Wellons 2018, `lowbias32`].
+pub fn mix_bits(number: u32) -> u32 {
+    let mut x = number;
+    x = (x ^ (x >> 16)).wrapping_mul(0x7feb_352d);
+    x = (x ^ (x >> 15)).wrapping_mul(0x846c_a68b);
+    x ^ (x >> 16)
+}
+
 /// Linear blend from `a` at `t = 0` to `b` at `t = 1`, exact at both ends for finite input.
 pub fn mix(a: f32, b: f32, t: f32) -> f32 {
     a * (1.0 - t) + b * t

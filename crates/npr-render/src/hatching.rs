@@ -25,6 +25,12 @@ const SHRINKING: f32 = 0.75;
 /// Most halvings of the tile from the size that suits the model to that of its smallest objects.
 const HALVINGS_MAX: u32 = 5;
 
+/// Narrowest spacing that strokes are drawn with, in pixels: nearer ones are grey.
+const SPACING_PX_MIN: f32 = 2.0;
+
+/// Texels between strokes on the finest level of a tile.
+const SCREEN_SPACING_TEXELS: f32 = 8.0;
+
 /// What ink and hatching need beside the parts.
 #[derive(Debug, Default)]
 pub(crate) struct Inked {
@@ -47,36 +53,29 @@ pub(crate) fn add_ink(
         made: Vec::new(),
     };
     let mut guides = Vec::with_capacity(model.parts.len());
+    let mut unmapped = None;
     for (part, info) in parts.iter_mut().zip(&model.parts) {
         let look = style.resolve_for(&info.material_name, &info.object_name);
         let ink = look.ink;
         if look.beam.is_none() {
             set_ink(part, info, &ink, frame, &mut tiles);
         }
+        if ink.mapping == Mapping::Uv && part.flags & Part::ON_SURFACE != 0 {
+            unmapped = unmapped.or(Some(info));
+        }
         guides.push(guide_of(&ink));
     }
     let charts = fit_to_surfaces(model, guides, style, parts);
-    let unmapped = model.parts.iter().zip(parts.iter()).find(|(info, part)| {
-        part.flags & Part::ON_SURFACE != 0 && !info.has_uvs && wants_uvs(style, info)
-    });
+    let told = |info: &PartInfo| {
+        format!(
+            "hatching follows the surface of '{}' and others: they have no UV coordinates",
+            info.object_name
+        )
+    };
     Inked {
         charts,
-        notices: unmapped
-            .map(|(info, _)| {
-                format!(
-                    "hatching follows the surface of '{}' and others: they have no UV coordinates",
-                    info.object_name
-                )
-            })
-            .into_iter()
-            .collect(),
+        notices: unmapped.map(told).into_iter().collect(),
     }
-}
-
-/// Whether a style asks for hatching by UV coordinates on a part.
-fn wants_uvs(style: &Style, info: &PartInfo) -> bool {
-    let look = style.resolve_for(&info.material_name, &info.object_name);
-    look.ink.mapping == Mapping::Uv
 }
 
 /// How lengths of a style become pixels of a frame.
@@ -163,12 +162,6 @@ fn set_ink(part: &mut Part, info: &PartInfo, ink: &Ink, frame: &FrameScale, tile
         Mapping::Screen => 1.0 / (TILE_SIDE as f32 * spacing_px / SCREEN_SPACING_TEXELS),
     };
 }
-
-/// Narrowest spacing that strokes are drawn with, in pixels: nearer ones are grey.
-const SPACING_PX_MIN: f32 = 2.0;
-
-/// Texels between strokes on the finest level of a tile.
-const SCREEN_SPACING_TEXELS: f32 = 8.0;
 
 /// What the strokes of a part run along on its surface.
 fn guide_of(ink: &Ink) -> PartGuide {

@@ -38,7 +38,6 @@ mod tiles;
 pub use error::RenderError;
 pub use frame::Frame;
 pub use lettering::Lettering;
-pub use light::notice as light_notice;
 pub use lines::{KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage};
 pub use model::{Model, PartInfo};
 pub use npr_vector::lettering::Font;

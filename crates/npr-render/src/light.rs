@@ -89,42 +89,92 @@ struct Chosen {
     on_camera: bool,
 }
 
-/// The lights that a style asks for, at most [`LIGHTS_MAX`], and how many were left out.
-///
-/// First the main light or those of the file, then the style's own. Of too many the strongest stay, in that order.
-fn chosen(style: &Style, model: &Model) -> (Vec<Chosen>, usize) {
-    let light = &style.light;
-    let mut lights = Vec::new();
-    if light.file && !model.lights.is_empty() {
-        lights.extend(model.lights.iter().map(|source| Chosen {
-            source: *source,
-            shadow: light.shadow,
-            on_camera: false,
-        }));
-    } else {
-        lights.push(Chosen {
-            source: LightSource {
-                kind: LightSource::DISTANT,
-                direction: light.unit_direction(),
-                intensity: light.intensity,
-                color: rgb(light.color),
-                ..LightSource::default()
-            },
-            shadow: light.shadow,
-            on_camera: light.space == LightSpace::Camera,
+/// The lights that a style asks for on a model, at most [`LIGHTS_MAX`].
+#[derive(Debug, Clone)]
+pub(crate) struct ChosenLights {
+    lights: Vec<Chosen>,
+    /// How many were left out.
+    dropped: usize,
+}
+
+impl ChosenLights {
+    /// First the main light or those of the file, then the style's own. Of too many the strongest stay, in that order.
+    pub fn new(style: &Style, model: &Model) -> Self {
+        let light = &style.light;
+        let mut lights = Vec::new();
+        if light.file && !model.lights.is_empty() {
+            lights.extend(model.lights.iter().map(|source| Chosen {
+                source: *source,
+                shadow: light.shadow,
+                on_camera: false,
+            }));
+        } else {
+            lights.push(Chosen {
+                source: LightSource {
+                    kind: LightSource::DISTANT,
+                    direction: light.unit_direction(),
+                    intensity: light.intensity,
+                    color: rgb(light.color),
+                    ..LightSource::default()
+                },
+                shadow: light.shadow,
+                on_camera: light.space == LightSpace::Camera,
+            });
+        }
+        lights.extend(light.extra.iter().map(extra));
+        lights.retain(|light| light.source.intensity > 0.0);
+        let mut order: Vec<usize> = (0..lights.len()).collect();
+        order.sort_by(|a, b| {
+            let strength = |i: &usize| lights[*i].source.intensity;
+            strength(b).total_cmp(&strength(a)).then(a.cmp(b))
         });
+        order.truncate(LIGHTS_MAX);
+        order.sort_unstable();
+        Self {
+            dropped: lights.len() - order.len(),
+            lights: order.iter().map(|i| lights[*i]).collect(),
+        }
     }
-    lights.extend(light.extra.iter().map(extra));
-    lights.retain(|light| light.source.intensity > 0.0);
-    let mut order: Vec<usize> = (0..lights.len()).collect();
-    order.sort_by(|a, b| {
-        let strength = |i: &usize| lights[*i].source.intensity;
-        strength(b).total_cmp(&strength(a)).then(a.cmp(b))
-    });
-    order.truncate(LIGHTS_MAX);
-    order.sort_unstable();
-    let dropped = lights.len() - order.len();
-    (order.iter().map(|i| lights[*i]).collect(), dropped)
+
+    /// How many of them throw shadows.
+    pub fn shadow_count(&self) -> usize {
+        let casting = self.lights.iter().filter(|light| light.casts()).count();
+        casting.min(SHADOWS_MAX)
+    }
+
+    /// Says that there are more lights than the 16 that a frame takes; `None` where there are not.
+    pub fn notice(&self) -> Option<String> {
+        let dropped = self.dropped;
+        (dropped > 0).then(|| {
+            format!("only the {LIGHTS_MAX} strongest lights shine, {dropped} are left out")
+        })
+    }
+
+    /// The lights of a frame as a camera sees it.
+    pub fn of_frame(&self, style: &Style, model: &Model, camera: &Camera, view: &View) -> Lights {
+        let mut lights = Lights {
+            count: self.lights.len() as u32,
+            shadow_at: style.light.shadow_at,
+            bias_world: model.radius() * BIAS_RADII,
+            ..Lights::default()
+        };
+        let mut shadow_count = 0;
+        for (source, light) in lights.sources.iter_mut().zip(&self.lights) {
+            *source = light.source;
+            if light.on_camera {
+                source.direction = look::in_world(camera, source.direction);
+            }
+            if light.casts() && shadow_count < SHADOWS_MAX {
+                lights.shadows[shadow_count] = light_view(source, model, camera, view);
+                shadow_count += 1;
+                source.shadow = shadow_count as u32;
+            }
+        }
+        if shadow_count > 0 {
+            lights.shadow_side = SHADOW_SIDE;
+        }
+        lights
+    }
 }
 
 fn extra(light: &ExtraLight) -> Chosen {
@@ -162,47 +212,6 @@ impl Chosen {
     fn casts(&self) -> bool {
         self.shadow && matches!(self.source.kind, LightSource::DISTANT | LightSource::SPOT)
     }
-}
-
-/// How many lights throw shadows on a model in a style.
-pub(crate) fn shadow_count(style: &Style, model: &Model) -> usize {
-    let (lights, _) = chosen(style, model);
-    let casting = lights.iter().filter(|light| light.casts()).count();
-    casting.min(SHADOWS_MAX)
-}
-
-/// Says that a style and a model together have more lights than the 16 that a frame takes; `None` where they do not.
-pub fn notice(style: &Style, model: &Model) -> Option<String> {
-    let (_, dropped) = chosen(style, model);
-    (dropped > 0)
-        .then(|| format!("only the {LIGHTS_MAX} strongest lights shine, {dropped} are left out"))
-}
-
-/// The lights of a frame as a camera sees it.
-pub(crate) fn lights(style: &Style, model: &Model, camera: &Camera, view: &View) -> Lights {
-    let (chosen, _) = chosen(style, model);
-    let mut lights = Lights {
-        count: chosen.len() as u32,
-        shadow_at: style.light.shadow_at,
-        bias_world: model.radius() * BIAS_RADII,
-        ..Lights::default()
-    };
-    let mut shadow_count = 0;
-    for (source, light) in lights.sources.iter_mut().zip(&chosen) {
-        *source = light.source;
-        if light.on_camera {
-            source.direction = look::in_world(camera, source.direction);
-        }
-        if light.casts() && shadow_count < SHADOWS_MAX {
-            lights.shadows[shadow_count] = light_view(source, model, camera, view);
-            shadow_count += 1;
-            source.shadow = shadow_count as u32;
-        }
-    }
-    if shadow_count > 0 {
-        lights.shadow_side = SHADOW_SIDE;
-    }
-    lights
 }
 
 /// What a light sees: a spot its cone, a distant light what throws shadows into the picture.
@@ -307,8 +316,9 @@ mod tests {
         let model = Model::new(&scene).unwrap();
         let bare = Model::new(&Scene::default()).unwrap();
         let kinds = |text, model| {
-            let lights = chosen(&style(text), model).0;
-            lights
+            let chosen = ChosenLights::new(&style(text), model);
+            chosen
+                .lights
                 .iter()
                 .map(|light| light.source.kind)
                 .collect::<Vec<_>>()
@@ -327,12 +337,18 @@ mod tests {
             .collect();
         let model = Model::new(&scene_of(&many)).unwrap();
         let style = style("light.file = true\nlight.shadow = true");
-        let (lights, dropped) = chosen(&style, &model);
-        assert_eq!((lights.len(), dropped), (LIGHTS_MAX, 484));
-        assert!(lights.iter().all(|light| light.source.intensity >= 0.97));
-        assert_eq!(shadow_count(&style, &model), SHADOWS_MAX);
-        let told = notice(&style, &model).unwrap();
+        let chosen = ChosenLights::new(&style, &model);
+        assert_eq!((chosen.lights.len(), chosen.dropped), (LIGHTS_MAX, 484));
+        assert!(
+            chosen
+                .lights
+                .iter()
+                .all(|light| light.source.intensity >= 0.97)
+        );
+        assert_eq!(chosen.shadow_count(), SHADOWS_MAX);
+        let told = chosen.notice().unwrap();
         assert_eq!(told, "only the 16 strongest lights shine, 484 are left out");
-        assert_eq!(notice(&Style::default(), &model), None);
+        let plain = ChosenLights::new(&Style::default(), &model);
+        assert_eq!(plain.notice(), None);
     }
 }

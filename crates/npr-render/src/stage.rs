@@ -4,7 +4,7 @@ use crate::blueprint::{Blueprint, Counts, Grids, Method};
 use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::lettering::Lettering;
-use crate::light;
+use crate::light::ChosenLights;
 use crate::look::{self, StyledModel};
 use crate::model::Model;
 use crate::tiles::{TILE_PIXELS, Tiles};
@@ -90,6 +90,7 @@ pub struct Stage<'a> {
     grids: Grids,
     method: Method,
     styled: StyledModel,
+    lights: ChosenLights,
     lettering: Lettering,
     plan: Blueprint,
     session: Box<dyn Session>,
@@ -112,6 +113,8 @@ impl<'a> Stage<'a> {
         let mut styled = StyledModel::new(model, style, options);
         let lettering = Lettering::new(style, &options.fonts)?;
         styled.inked.notices.extend_from_slice(lettering.notices());
+        let lights = ChosenLights::new(style, model);
+        styled.inked.notices.extend(lights.notice());
         let base_px = look::base_px(
             style,
             options.size[1],
@@ -138,9 +141,12 @@ impl<'a> Stage<'a> {
             parts: styled.parts.len(),
             texel_words: styled.textures.words().len(),
             beams: styled.beam_count(),
-            shadows: light::shadow_count(style, model),
+            shadows: lights.shadow_count(),
         };
-        let method = Method::of(style);
+        let mut method = Method::of(style);
+        if counts.beams > 0 {
+            method.layers |= Compose::BEAMS;
+        }
         let plan = Blueprint::new(&counts, &grids, method);
         let mut budget = Budget::new(options.memory_limit);
         budget.take(
@@ -167,6 +173,7 @@ impl<'a> Stage<'a> {
             grids,
             method,
             styled,
+            lights,
             lettering,
             plan,
             session,
@@ -226,14 +233,11 @@ impl<'a> Stage<'a> {
             self.styled.background_texture,
         );
         compose.flags = self.method.layers;
-        if self.styled.beam_count() > 0 {
-            compose.flags |= Compose::BEAMS;
-        }
         let session = self.session.as_mut();
         write(session, self.plan.view, &[view])?;
         write(session, self.plan.outline, &[outline])?;
         write(session, self.plan.compose, &[compose])?;
-        let lights = light::lights(&self.style, self.model, camera, &view);
+        let lights = self.lights.of_frame(&self.style, self.model, camera, &view);
         write(session, self.plan.lights, &[lights])?;
         for (id, matrix) in self.plan.light_views.iter().zip(&lights.shadows) {
             write(session, *id, &[*matrix])?;

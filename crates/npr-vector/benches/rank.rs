@@ -1,7 +1,8 @@
 //! Ways of ranking lists, in nodes per second.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use npr_vector::rank::{self, RankError, Ranked, mix};
+use npr_core::math::mix_bits;
+use npr_vector::rank::{self, RankError, Ranked};
 use std::time::Duration;
 
 /// Numbers of nodes.
@@ -20,7 +21,7 @@ const WAYS: [(&str, Way); 3] = [
 /// Loops of about `length` nodes that are strewn over memory, and their keys.
 fn loops(count: usize, length: usize) -> (Vec<u32>, Vec<u32>) {
     let mut nodes: Vec<u32> = (0..count as u32).collect();
-    nodes.sort_unstable_by_key(|node| mix(node ^ 0x9e37_79b9));
+    nodes.sort_unstable_by_key(|node| mix_bits(node ^ 0x9e37_79b9));
     let mut next = vec![0; count];
     for chain in nodes.chunks(length) {
         for (at, node) in chain.iter().enumerate() {

@@ -34,6 +34,7 @@ use crate::graph::CurveGraph;
 use bytemuck::{Pod, Zeroable};
 use npr_core::geometry::NONE;
 use npr_core::gpu_layout;
+use npr_core::math::mix_bits;
 
 /// Lists in the order of their nodes.
 ///
@@ -180,17 +181,9 @@ impl Link {
 
 /// Spreads a key over the numbers from 1, so that neighbouring keys do not elect neighbouring heads.
 ///
-/// [`mix`], except that 0 is left for the starts of open chains: the key that it belongs to shares 1 with another.
+/// [`mix_bits`], except that 0 is left for the starts of open chains: the key that it belongs to shares 1 with another.
 pub fn hash_key(key: u32) -> u32 {
-    mix(key).max(1)
-}
-
-/// A permutation of the 32-bit numbers that looks random [Wellons 2018].
-pub fn mix(number: u32) -> u32 {
-    let mut x = number;
-    x = (x ^ (x >> 16)).wrapping_mul(0x7feb_352d);
-    x = (x ^ (x >> 15)).wrapping_mul(0x846c_a68b);
-    x ^ (x >> 16)
+    mix_bits(key).max(1)
 }
 
 /// Adds predecessors and keys to successors, once the lists are known to be lists.

@@ -7,6 +7,13 @@ use npr_core::raster::{Fill, HULL_BIT, Sides, fill_triangles, triangle_of};
 use npr_core::surface::weights_at;
 use npr_core::window::{View, Window};
 
+/// Every triangle draws its number and depth.
+const NUMBERS: Work = Work::Draw {
+    of: "triangles",
+    vertices: 3,
+    targets: &[Format::U32, Format::Depth],
+};
+
 /// The number of the nearest triangle, plus one, at every pixel.
 pub const DRAW_IDS: Pass = Pass {
     name: "raster.draw_ids",
@@ -20,11 +27,7 @@ pub const DRAW_IDS: Pass = Pass {
         read::<Part>("parts"),
         read::<u32>("texels"),
     ],
-    work: Work::Draw {
-        of: "triangles",
-        vertices: 3,
-        targets: &[Format::U32, Format::Depth],
-    },
+    work: NUMBERS,
     agreement: Agreement::Texels(0.001),
     twin: |b| {
         let (view, window): (View, Window) = (b.one(0), b.one(1));
@@ -61,11 +64,7 @@ pub const DRAW_SHADOW: Pass = Pass {
         read::<Part>("parts"),
         read::<u32>("texels"),
     ],
-    work: Work::Draw {
-        of: "triangles",
-        vertices: 3,
-        targets: &[Format::U32, Format::Depth],
-    },
+    work: NUMBERS,
     agreement: Agreement::Texels(0.001),
     twin: |b| {
         let window: Window = b.one(0);
@@ -105,11 +104,7 @@ pub const DRAW_HULL: Pass = Pass {
         read::<Triangle>("triangles"),
         read::<Part>("parts"),
     ],
-    work: Work::Draw {
-        of: "triangles",
-        vertices: 3,
-        targets: &[Format::U32, Format::Depth],
-    },
+    work: NUMBERS,
     agreement: Agreement::Texels(0.001),
     twin: |b| {
         let window: Window = b.one(0);
@@ -137,11 +132,7 @@ pub const DRAW_BEAMS: Pass = Pass {
         read::<Triangle>("triangles"),
         read::<Part>("parts"),
     ],
-    work: Work::Draw {
-        of: "triangles",
-        vertices: 3,
-        targets: &[Format::U32, Format::Depth],
-    },
+    work: NUMBERS,
     agreement: Agreement::Texels(0.001),
     twin: |b| {
         let window: Window = b.one(0);

@@ -2,6 +2,7 @@
 
 use crate::lists::{Chains, lists};
 use crate::shared;
+use npr_core::math::mix_bits;
 use npr_gpu::curves::ranking::add_ranking;
 use npr_gpu::curves::sums::{add_scan, add_sum};
 use npr_gpu::curves::{CurvesError, Scheme, rank_on};
@@ -9,7 +10,7 @@ use npr_gpu::engine::Engine;
 use npr_gpu::graph::Graph;
 use npr_gpu::processor::Processor;
 use npr_vector::rank::scan::exclusive_scan;
-use npr_vector::rank::{Link, RankError, Ranked, mix, walk};
+use npr_vector::rank::{Link, RankError, Ranked, walk};
 use proptest::prelude::*;
 
 const SCHEMES: [Scheme; 2] = [Scheme::WYLLIE, Scheme::RULING_SET];
@@ -42,7 +43,7 @@ fn check_scheme(next: &[u32], keys: &[u32], scheme: Scheme) {
 /// A loop of all nodes in an order that only the seed knows.
 fn one_loop(count: u32, seed: u32) -> Vec<u32> {
     let mut nodes: Vec<u32> = (0..count).collect();
-    nodes.sort_unstable_by_key(|node| mix(node ^ mix(!seed)));
+    nodes.sort_unstable_by_key(|node| mix_bits(node ^ mix_bits(!seed)));
     let mut next = vec![0; count as usize];
     for at in 0..count as usize {
         next[nodes[at] as usize] = nodes[(at + 1) % count as usize];
@@ -65,10 +66,10 @@ fn lists_of_every_size_are_ranked() {
 #[test]
 fn random_permutations_are_ranked() {
     for seed in 0..50 {
-        let count = 1 + mix(seed + 1) % 3000;
+        let count = 1 + mix_bits(seed + 1) % 3000;
         let mut next: Vec<u32> = (0..count).collect();
-        next.sort_unstable_by_key(|node| mix(node ^ mix(!seed)));
-        let keys: Vec<u32> = (0..count).map(|node| mix(node) % 16).collect();
+        next.sort_unstable_by_key(|node| mix_bits(node ^ mix_bits(!seed)));
+        let keys: Vec<u32> = (0..count).map(|node| mix_bits(node) % 16).collect();
         check(&next, &keys);
     }
 }
@@ -119,7 +120,7 @@ fn too_few_rounds_are_reported_alike() {
 #[test]
 fn an_order_made_to_hide_splitters_is_reported_alike() {
     let mut nodes: Vec<u32> = (0..20_000).collect();
-    nodes.sort_unstable_by_key(|node| mix(*node));
+    nodes.sort_unstable_by_key(|node| mix_bits(*node));
     let mut next = vec![npr_core::geometry::NONE; nodes.len()];
     for pair in nodes.windows(2) {
         next[pair[1] as usize] = pair[0];
@@ -153,7 +154,7 @@ fn broken_links_never_reach_an_engine() {
 fn sums_are_right_around_a_full_row_of_workgroups() {
     let row = 65535 * 64;
     for count in [0, 1, 64, 65, 4096, 4097, row - 1, row, row + 1] {
-        let values: Vec<u32> = (0..count).map(mix).collect();
+        let values: Vec<u32> = (0..count).map(mix_bits).collect();
         let (prefixes, sum) = exclusive_scan(&values);
         for engine in engines() {
             let mut graph = Graph::new();

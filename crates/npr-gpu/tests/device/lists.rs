@@ -2,6 +2,7 @@
 
 use crate::sampled::Sampled;
 use crate::shapes::{eyes, shape_of};
+use npr_core::math::mix_bits;
 use npr_gpu::pass::Pass;
 use npr_vector::contour::steps::{
     HalfEdge, Marked, Viewer, face_eye, half_edges, judges, link_contours, mark_contours,
@@ -12,7 +13,7 @@ use npr_vector::rank::place::{Place, Standing, Walk};
 use npr_vector::rank::place::{measure_chains, scatter_ranks, turn_ranks};
 use npr_vector::rank::scan::{BLOCK, compact, exclusive_scan, scan_blocks};
 use npr_vector::rank::splitter::{find_splitters, start_splitters, walk_to_splitter};
-use npr_vector::rank::{Link, link, mix, rounds_for};
+use npr_vector::rank::{Link, link, rounds_for};
 use npr_vector::sample::{SampledLines, Surroundings, sample_visibility, weigh_samples};
 use std::collections::BTreeMap;
 
@@ -302,23 +303,25 @@ fn links(chains: Chains, node_count: usize) -> Vec<Link> {
 /// Successors and keys of strewn lists; every third chain is open.
 pub fn lists(chains: Chains, node_count: usize, seed: u32) -> (Vec<u32>, Vec<u32>) {
     let mut nodes: Vec<u32> = (0..node_count as u32).collect();
-    nodes.sort_unstable_by_key(|node| mix(node ^ mix(!seed)));
+    nodes.sort_unstable_by_key(|node| mix_bits(node ^ mix_bits(!seed)));
     let mut next = vec![npr_core::geometry::NONE; node_count];
     let (mut rest, mut number) = (&nodes[..], 0);
     while !rest.is_empty() {
         let length = match chains {
-            Chains::Mixed => 1 + mix(number + seed) as usize % [3, 20, 300][number as usize % 3],
+            Chains::Mixed => {
+                1 + mix_bits(number + seed) as usize % [3, 20, 300][number as usize % 3]
+            }
             Chains::Single => 1,
         };
         let (chain, others) = rest.split_at(length.min(rest.len()));
         for pair in chain.windows(2) {
             next[pair[0] as usize] = pair[1];
         }
-        if chains == Chains::Single || mix(number).is_multiple_of(3) {
+        if chains == Chains::Single || mix_bits(number).is_multiple_of(3) {
             next[chain[chain.len() - 1] as usize] = chain[0];
         }
         (rest, number) = (others, number + 1);
     }
-    let keys = (0..node_count as u32).map(|node| mix(node ^ seed) >> 5);
+    let keys = (0..node_count as u32).map(|node| mix_bits(node ^ seed) >> 5);
     (next, keys.collect())
 }

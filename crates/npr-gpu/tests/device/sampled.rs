@@ -3,11 +3,11 @@
 use crate::contours::engines;
 use npr_core::camera::{Camera, Projection};
 use npr_core::geometry::GPixel;
+use npr_core::math::mix_bits;
 use npr_core::window::{View, Window};
 use npr_gpu::curves::sampling::{SampledFrame, add_sampling};
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::Graph;
-use npr_vector::rank::mix;
 use npr_vector::sample::{
     SampledLines, SpineSample, Surroundings, sample_visibility, visible_samples,
 };
@@ -84,14 +84,14 @@ impl Sampled {
 
 /// A number 0..1 that looks random.
 fn unit(seed: u32) -> f32 {
-    (mix(seed) >> 8) as f32 / (1 << 24) as f32
+    (mix_bits(seed) >> 8) as f32 / (1 << 24) as f32
 }
 
 /// Squares of eight pixels, every fifth of them empty.
 fn pixel(index: u32) -> GPixel {
     let (x, y) = (index % SIDE, index / SIDE);
     let square = y / 8 * (SIDE / 8) + x / 8;
-    if mix(square).is_multiple_of(5) {
+    if mix_bits(square).is_multiple_of(5) {
         return GPixel::EMPTY;
     }
     let slope = |seed| (unit(square ^ seed) - 0.5) * 0.01;
@@ -108,7 +108,7 @@ fn lines(count: u32) -> SampledLines {
     let (mut samples, mut line_starts) = (Vec::new(), vec![0]);
     while samples.len() < count as usize {
         let line = line_starts.len() as u32 - 1;
-        let length = (mix(line) % 200).min(count - samples.len() as u32);
+        let length = (mix_bits(line) % 200).min(count - samples.len() as u32);
         samples.extend((0..length).map(|place| sample(line, place as f32)));
         line_starts.push(samples.len() as u32);
     }
@@ -120,12 +120,12 @@ fn lines(count: u32) -> SampledLines {
 
 /// Lines are straight and start anywhere, some outside the frame.
 fn sample(line: u32, place: f32) -> SpineSample {
-    let of = |key: u32| unit(mix(line).wrapping_add(key));
+    let of = |key: u32| unit(mix_bits(line).wrapping_add(key));
     let angle = 6.0 * of(1);
     let along = [1.0 - angle.rem_euclid(2.0), 0.5 - of(2)];
     let length = (along[0] * along[0] + along[1] * along[1]).sqrt();
     let [x, y] = along.map(|v| v / length.max(0.01));
-    let side = (mix(line) % 3) as f32 - 1.0;
+    let side = (mix_bits(line) % 3) as f32 - 1.0;
     SpineSample {
         place_px: [
             160.0 * of(3) - 16.0 + place * x,
@@ -133,8 +133,8 @@ fn sample(line: u32, place: f32) -> SpineSample {
         ],
         outward: [-y * side, x * side],
         depth: 3.0 + 2.0 * of(5) + 0.002 * place,
-        object: mix(line) % 3,
-        part: mix(line) % 5,
+        object: mix_bits(line) % 3,
+        part: mix_bits(line) % 5,
         line,
     }
 }

@@ -1,15 +1,11 @@
 //! Numbers that look random: hashes, and smooth noise along a closed line.
 
-/// A well mixed number from three, by two rounds of multiply and shift [Wellons 2018, `lowbias32`].
-pub fn hash(seed: u32, a: u32, b: u32) -> u32 {
-    let mixed = round(round(seed ^ 0x9e37_79b9).wrapping_add(a));
-    round(mixed.wrapping_add(b.wrapping_mul(0x85eb_ca6b)))
-}
+use npr_core::math::mix_bits;
 
-fn round(mut x: u32) -> u32 {
-    x = (x ^ (x >> 16)).wrapping_mul(0x7feb_352d);
-    x = (x ^ (x >> 15)).wrapping_mul(0x846c_a68b);
-    x ^ (x >> 16)
+/// A well mixed number from three, each stirred in by [`mix_bits`].
+pub fn hash(seed: u32, a: u32, b: u32) -> u32 {
+    let mixed = mix_bits(mix_bits(seed ^ 0x9e37_79b9).wrapping_add(a));
+    mix_bits(mixed.wrapping_add(b.wrapping_mul(0x85eb_ca6b)))
 }
 
 /// A hash as a number of 0..1, 1 left out.

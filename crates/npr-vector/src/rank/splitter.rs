@@ -5,8 +5,9 @@
 use super::jump::{Hop, Reach, break_loops, cut_loops, jump_all, rank_jump, rounds_for};
 use super::place::{self, Walk};
 use super::scan::{compact, exclusive_scan};
-use super::{Link, RankError, Ranked, link, mix};
+use super::{Link, RankError, Ranked, link};
 use npr_core::geometry::NONE;
+use npr_core::math::mix_bits;
 use rayon::prelude::*;
 
 /// Links that a node looks along, each way, before it calls itself a splitter.
@@ -74,7 +75,7 @@ fn is_splitter(links: &[Link], element: u32) -> bool {
     if links[element as usize].prev == NONE {
         return true;
     }
-    let own = mix(element);
+    let own = mix_bits(element);
     let (mut ahead, mut behind) = (element, element);
     for _ in 0..WINDOW {
         if ahead != NONE {
@@ -83,10 +84,10 @@ fn is_splitter(links: &[Link], element: u32) -> bool {
         if behind != NONE {
             behind = links[behind as usize].prev;
         }
-        if ahead != NONE && mix(ahead) < own {
+        if ahead != NONE && mix_bits(ahead) < own {
             return false;
         }
-        if behind != NONE && mix(behind) < own {
+        if behind != NONE && mix_bits(behind) < own {
             return false;
         }
     }

@@ -36,7 +36,7 @@ fn linked(nodes: &[u32], lengths: &[(usize, bool)], keys: Vec<u32>) -> Lists {
 /// Numbers below `count` in an order that only the seed knows.
 fn shuffled(count: usize, seed: u32) -> Vec<u32> {
     let mut nodes: Vec<u32> = (0..count as u32).collect();
-    nodes.sort_unstable_by_key(|node| mix(node.wrapping_add(0x9e37_79b9) ^ mix(seed)));
+    nodes.sort_unstable_by_key(|node| mix_bits(node.wrapping_add(0x9e37_79b9) ^ mix_bits(seed)));
     nodes
 }
 
@@ -116,7 +116,7 @@ proptest! {
 
     #[test]
     fn any_permutation_is_loops(count in 0usize..600, seed in any::<u32>(), key_seed in any::<u32>()) {
-        let keys = (0..count as u32).map(|node| mix(node ^ key_seed)).collect();
+        let keys = (0..count as u32).map(|node| mix_bits(node ^ key_seed)).collect();
         let ranked = rank_all(&Lists { next: shuffled(count, seed), keys, chains: Vec::new() });
         prop_assert_eq!(ranked.order.len(), count);
     }
@@ -125,7 +125,7 @@ proptest! {
     fn heads_do_not_depend_on_how_nodes_are_numbered(lists in lists(), seed in any::<u32>()) {
         let numbers = shuffled(lists.next.len(), seed);
         let mut other = lists.clone();
-        let distinct: Vec<u32> = (0..lists.next.len() as u32).map(|node| mix(node ^ 5)).collect();
+        let distinct: Vec<u32> = (0..lists.next.len() as u32).map(|node| mix_bits(node ^ 5)).collect();
         for node in 0..lists.next.len() {
             let (next, at) = (lists.next[node], numbers[node] as usize);
             other.next[at] = if next == NONE { NONE } else { numbers[next as usize] };
@@ -242,7 +242,7 @@ fn a_loop_of_a_million() {
 #[test]
 fn a_hundred_thousand_loops_of_three() {
     let count = 300_000;
-    let keys = (0..count as u32).map(mix).collect();
+    let keys = (0..count as u32).map(mix_bits).collect();
     let lists = linked(&shuffled(count, 1), &vec![(3, true); count / 3], keys);
     assert!(rank_all(&lists) == expected(&lists));
 }
@@ -296,7 +296,7 @@ fn walks_stay_far_below_their_limit() {
 #[test]
 fn an_order_made_to_hide_splitters_is_reported() {
     let mut nodes: Vec<u32> = (0..20_000).collect();
-    nodes.sort_unstable_by_key(|node| mix(*node));
+    nodes.sort_unstable_by_key(|node| mix_bits(*node));
     let lists = one_loop(&nodes);
     let found = ruling_set(&lists.next, &lists.keys, None);
     assert!(
@@ -310,7 +310,7 @@ fn an_order_made_to_hide_splitters_is_reported() {
 #[test]
 fn an_open_order_made_to_hide_splitters_is_reported() {
     let mut nodes: Vec<u32> = (0..5_000).collect();
-    nodes.sort_unstable_by_key(|node| std::cmp::Reverse(mix(*node)));
+    nodes.sort_unstable_by_key(|node| std::cmp::Reverse(mix_bits(*node)));
     let lists = linked(&nodes, &[(5_000, false)], vec![0; 5_000]);
     let found = ruling_set(&lists.next, &lists.keys, None);
     assert!(matches!(found, Err(RankError::Unsettled { .. })));
@@ -386,10 +386,10 @@ fn errors_name_what_is_wrong() {
 
 #[test]
 fn no_two_numbers_mix_to_one() {
-    let mut mixed: Vec<u32> = (0..100_000).map(mix).collect();
+    let mut mixed: Vec<u32> = (0..100_000).map(mix_bits).collect();
     mixed.sort_unstable();
     mixed.dedup();
     assert_eq!(mixed.len(), 100_000);
-    assert_eq!(mix(0), 0);
+    assert_eq!(mix_bits(0), 0);
     assert_eq!(hash_key(0), 1);
 }
