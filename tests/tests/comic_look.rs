@@ -187,6 +187,88 @@ fn hatching_on_the_screen_has_one_direction_everywhere() {
     }
 }
 
+/// Two balls, of which a rule says something about the right one.
+fn two_balls(settings: &[&str], rule: &str) -> Frame {
+    let scene = scene_of(&[
+        Object::new("Left", placed(&icosphere(4), [0.6; 3], [-0.7, 0.0, 0.0])),
+        Object::new("Right", placed(&icosphere(4), [0.6; 3], [0.7, 0.0, 0.0])),
+    ]);
+    let mut style = style(settings);
+    let rule = format!("[[rule]]\nmatch = {{ object = \"Right\" }}\n{rule}\n");
+    style.rule = Style::from_toml(&rule, &|_| Err(String::new()))
+        .unwrap()
+        .rule;
+    draw_from(&scene, &style, &front(), SIZE).frame
+}
+
+#[test]
+fn mapping_and_strokes_are_chosen_by_part() {
+    let settings = [
+        "ink.tone=ink+hatch",
+        "ink.mapping=screen",
+        "ink.hatch.angle_deg=45",
+        "light.direction=[0,1,0]",
+    ];
+    let middles = |rule: &str| {
+        let frame = two_balls(&settings, rule);
+        [
+            direction(&frame, 75..110, 110..150),
+            direction(&frame, 210..245, 110..150),
+        ]
+    };
+    let [left, right] = middles("ink.hatch.angle_deg = -45");
+    assert!(
+        left[1].abs() > 0.5 && right[1].abs() > 0.5,
+        "{left:?} {right:?}"
+    );
+    assert!(
+        left[1] * right[1] < 0.0,
+        "across each other: {left:?} {right:?}"
+    );
+    let [left, right] =
+        middles("ink = { mapping = \"surface\", direction = [1, 0, 0], hatch.angle_deg = 0 }");
+    assert!(left[1].abs() > 0.5, "on the picture: {left:?}");
+    assert!(right[0] < -0.5, "along x on the surface: {right:?}");
+}
+
+#[test]
+fn each_part_has_the_outline_that_its_rule_says() {
+    let settings = [
+        "line.method=shape",
+        "line.color=#000000",
+        "line.width.base=20",
+        "line.width.source=constant",
+    ];
+    let rim = |frame: &Frame, x: i32| {
+        let row = (0..20).map(|i| pixel(frame, (x + i - 10) as u32, 120));
+        row.filter(|p| p[0] < 40 && p[2] < 40).count()
+    };
+    // The outer rims of both balls, 96 pixels a unit.
+    let rims = |rule: &str| {
+        let frame = two_balls(&settings, rule);
+        [rim(&frame, 160 - 125), rim(&frame, 160 + 125)]
+    };
+    let [left, right] = rims("");
+    assert!(left > 2 && right > 2, "both by the style: {left} {right}");
+    let [left, right] = rims("line.method = \"none\"");
+    assert!(left > 2 && right == 0, "none: {left} {right}");
+    for method in ["hull", "angle"] {
+        let [left, right] = rims(&format!("line.method = \"{method}\""));
+        // The band of 15 degrees is two pixels wide.
+        assert!(left > 2 && right > 1, "{method}: {left} {right}");
+    }
+    let whole = Style::from_toml(
+        "[[rule]]\nline.method = \"filter\"",
+        &|_| Err(String::new()),
+    );
+    assert!(
+        whole
+            .unwrap_err()
+            .to_string()
+            .contains("rule.0.line.method")
+    );
+}
+
 #[test]
 fn hatching_on_the_surface_follows_the_direction_it_is_given() {
     let wall = scene_of(&[Object::new("Wall", wall(1.5, 0.0))]);

@@ -10,8 +10,8 @@ use crate::style_source::StyleSource;
 use npr_render::{Font, Picture};
 use npr_scene::{FolderResources, Limits, Resources};
 use npr_style::{
-    Background, Color, LineMethod, Rule, ShadeMode, Stop, Style, Unit, WidthSource, WidthWarning,
-    width_rule,
+    Background, Color, LineMethod, Rule, ShadeMode, Stop, Style, Tone, Unit, WidthSource,
+    WidthWarning, width_rule,
 };
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -140,10 +140,14 @@ impl Look {
         let is_plain = |stop: &Stop| stop.light == 1.0 && stop.tint.is_none();
         let is_blank = |rule: &Rule| {
             let ramp = rule.shade.ramp.as_deref().unwrap_or_default();
-            rule.shade.color.is_none() && ramp.iter().all(is_plain)
+            let is_inked = rule.ink.tone.is_some_and(|tone| tone != Tone::Off);
+            let glows = rule.beam.is_some() || rule.highlight.may_show();
+            rule.shade.color.is_none() && ramp.iter().all(is_plain) && !is_inked && !glows
         };
         let lines_only = shade.mode == ShadeMode::Paper
             && shade.ramp.iter().all(is_plain)
+            && style.ink.tone == Tone::Off
+            && !style.highlight.shows()
             && style.rule.iter().all(is_blank);
         lines_only.then_some(shade.paper)
     }
@@ -341,6 +345,14 @@ mod tests {
         assert_eq!(look(&["shade.mode=paper"]).paper_of_lines(), None);
         let plain = look(&["shade.mode=paper", "shade.ramp=[{at=0, light=1}]"]);
         assert_eq!(plain.paper_of_lines(), Some(Color::WHITE));
+        for more in [
+            "ink.tone=hatch",
+            "highlight.edge=crisp",
+            "highlight.back.on=true",
+        ] {
+            let inked = look(&["shade.mode=paper", "shade.ramp=[{at=0, light=1}]", more]);
+            assert_eq!(inked.paper_of_lines(), None, "{more}");
+        }
     }
 
     #[test]

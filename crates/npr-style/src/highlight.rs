@@ -109,6 +109,13 @@ pub struct Streak {
     pub facing: f32,
 }
 
+impl Highlight {
+    /// Whether there is any highlight.
+    pub fn shows(&self) -> bool {
+        self.edge != Edge::Off || self.back.on || self.streak.on
+    }
+}
+
 impl Default for Highlight {
     fn default() -> Self {
         Self {

@@ -225,6 +225,18 @@ mod tests {
     }
 
     #[test]
+    fn a_sky_lights_by_how_far_a_surface_faces_up_and_fades_nowhere() {
+        let mut lights = Lights::distant([0.0, 1.0, 0.0]);
+        lights.sources[0].kind = LightSource::SKY;
+        lights.sources[0].intensity = 0.5;
+        let at = |place, normal| lights.coordinate_at(place, normal, 0).0;
+        for place in [[0.0; 3], [9.0, -50.0, 3.0]] {
+            let normals = [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]];
+            assert_eq!(normals.map(|normal| at(place, normal)), [0.5, 0.25, 0.0]);
+        }
+    }
+
+    #[test]
     fn a_spot_lights_its_cone_alone() {
         let mut lights = point([0.0, 2.0, 0.0], 0.0);
         lights.sources[0].kind = LightSource::SPOT;

@@ -183,6 +183,12 @@ pub struct RuleSwitch {
 }
 
 impl RuleHighlight {
+    /// Whether it gives parts a highlight that they may lack without it.
+    pub fn may_show(&self) -> bool {
+        let on = |switch: &RuleSwitch| switch.on == Some(true);
+        self.edge.is_some_and(|edge| edge != Edge::Off) || on(&self.back) || on(&self.streak)
+    }
+
     /// `highlight` with what the rule states in place of what it had.
     fn over(&self, mut highlight: Highlight) -> Highlight {
         highlight.back.on = self.back.on.unwrap_or(highlight.back.on);
