@@ -6,7 +6,7 @@
 //! count once. A pen goes round any corner, so a square is one stroke; where lines meet, it goes on in the straightest one,
 //! if that turns by less than 45 degrees. No constant here comes from what drawings scored.
 
-use super::ink::{Curve, sample};
+use super::ink::Curve;
 use super::net::Net;
 use super::pen::Paper;
 
@@ -26,9 +26,10 @@ pub struct DrawnStroke {
 /// O(pixels of the picture + length of the curves times the pen's width), and the square of the spurs of one picture.
 pub fn drawn_strokes(curves: &[Curve], size: [u32; 2]) -> Vec<DrawnStroke> {
     let mut paper = Paper::new(size);
-    sample(curves)
+    curves
         .iter()
-        .for_each(|point| paper.touch(point.at));
+        .flat_map(Curve::segments)
+        .for_each(|segment| paper.draw(segment));
     paper.fill_specks();
     paper.thin();
     let mut net = Net::read(&paper);
@@ -41,6 +42,7 @@ pub fn drawn_strokes(curves: &[Curve], size: [u32; 2]) -> Vec<DrawnStroke> {
 mod tests {
     use super::*;
     use crate::lines::analytic::Solid;
+    use crate::lines::ink::sample;
     use crate::lines::net::SHORTEST_PX;
     use crate::lines::pen::PEN_PX;
     use crate::lines::subjects::benchmark_camera;

@@ -46,7 +46,7 @@ impl Curve {
     }
 
     /// Both ends of every segment that can be followed.
-    fn segments(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {
+    pub(crate) fn segments(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {
         let closing = match (self.closed, self.points.last(), self.points.first()) {
             (true, Some(last), Some(first)) => Some([*last, *first]),
             _ => None,

@@ -1,5 +1,9 @@
 //! A pen on paper: lines become black pixels, and black pixels a middle line one pixel wide.
 
+use std::ops::Range;
+
+use glam::DVec2;
+
 /// Width of the pen's line, in pixels of the picture.
 pub const PEN_PX: f64 = 3.0;
 
@@ -31,23 +35,31 @@ impl Paper {
         }
     }
 
-    /// Touches the paper with the pen, at a place in the picture.
-    pub fn touch(&mut self, place: [f64; 2]) {
-        if place.iter().any(|v| !v.is_finite()) {
+    /// Draws straight from one place in the picture to another: all pixels whose middle is half the pen's width from the line.
+    ///
+    /// O(pixels drawn) plus a step for each row of the paper that the line passes.
+    pub fn draw(&mut self, line: [[f64; 2]; 2]) {
+        if line.iter().flatten().any(|v| !v.is_finite()) {
             return;
         }
-        let [x, y] = place.map(|v| v * FINENESS + 1.0);
+        let [from, to] = line.map(|place| DVec2::from(place) * FINENESS + 1.0);
+        let along = to - from;
         let radius = PEN_PX * FINENESS / 2.0;
-        // Pixels of the margin stay white.
-        let range = |v: f64, count: usize| {
-            let low = (v - radius).floor().max(1.0);
-            let high = (v + radius).ceil().min(count as f64 - 1.0);
-            (low as usize)..(high as usize)
-        };
-        for row in range(y, self.height) {
-            for column in range(x, self.width) {
-                let off = [column as f64 + 0.5 - x, row as f64 + 0.5 - y];
-                if off[0].hypot(off[1]) <= radius {
+        for row in inner(from.y.min(to.y), from.y.max(to.y), radius, self.height) {
+            // The part of the line that can reach the row.
+            let y = row as f64 + 0.5;
+            let share = |at: f64| ((at - from.y) / along.y).clamp(0.0, 1.0);
+            let [a, b] = if along.y == 0.0 {
+                [from.x, to.x]
+            } else {
+                [y - radius, y + radius].map(|at| from.x + share(at) * along.x)
+            };
+            for column in inner(a.min(b), a.max(b), radius, self.width) {
+                let middle = DVec2::new(column as f64 + 0.5, y);
+                let at = (middle - from).dot(along) / along.length_squared();
+                // A line without length is its first place.
+                let at = if at.is_nan() { 0.0 } else { at.clamp(0.0, 1.0) };
+                if middle.distance(from + at * along) <= radius {
                     self.black[row * self.width + column] = true;
                 }
             }
@@ -162,6 +174,13 @@ impl Paper {
     }
 }
 
+/// Rows or columns within `radius` of a range, without those of the margin, which stay white.
+fn inner(low: f64, high: f64, radius: f64, count: usize) -> Range<usize> {
+    let low = (low - radius).floor().max(1.0);
+    let high = (high + radius).ceil().min(count as f64 - 1.0);
+    (low as usize)..(high as usize)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -188,7 +207,7 @@ mod tests {
 
     fn touched(places: &[(f64, f64)]) -> Paper {
         let mut paper = Paper::new([24, 20]);
-        places.iter().for_each(|(x, y)| paper.touch([*x, *y]));
+        places.iter().for_each(|(x, y)| paper.draw([[*x, *y]; 2]));
         paper
     }
 
@@ -220,19 +239,35 @@ mod tests {
         }
 
         #[test]
-        fn any_numbers_may_be_touched(place: [f64; 2]) {
+        fn any_numbers_may_be_drawn(line: [[f64; 2]; 2]) {
             let mut paper = Paper::new([9, 7]);
-            paper.touch(place);
+            paper.draw(line);
             paper.fill_specks();
             paper.thin();
-            prop_assert!(paper.black_pixels().len() <= 40);
+            prop_assert!(paper.black_pixels().len() <= 63 * 4);
+        }
+
+        #[test]
+        fn a_line_is_black_as_far_as_the_pen_is_wide(from in (-2.0..26.0, -2.0..22.0), to in (-2.0..26.0, -2.0..22.0)) {
+            let mut paper = Paper::new([24, 20]);
+            paper.draw([from.into(), to.into()]);
+            let [from, to] = [from, to].map(DVec2::from);
+            for pixel in (0..paper.black.len()).filter(|pixel| !paper.is_margin(*pixel)) {
+                let place = DVec2::from(paper.place(pixel));
+                let off = (0..=1000).map(|i| place.distance(from.lerp(to, f64::from(i) / 1000.0)));
+                let off = off.fold(f64::INFINITY, f64::min);
+                // What is told apart by less than the oracle's steps is left to either.
+                if (off - PEN_PX / 2.0).abs() > 0.02 {
+                    prop_assert_eq!(paper.black[pixel], off < PEN_PX / 2.0);
+                }
+            }
         }
     }
 
     #[test]
     fn paper_without_pixels_stays_white() {
         let mut paper = Paper::new([0, 0]);
-        paper.touch([0.0, 0.0]);
+        paper.draw([[0.0, 0.0]; 2]);
         paper.fill_specks();
         paper.thin();
         assert!(paper.black_pixels().is_empty());
