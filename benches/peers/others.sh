@@ -14,7 +14,7 @@ shift 2
 PY=${PY:-python3}
 BPY=${BPY:-python3}
 RUNS=${RUNS:-5}
-OTHERS=${OTHERS:-freestyle larnt vtk occ tsr}
+OTHERS=${OTHERS-freestyle larnt vtk occ tsr}
 
 # Nothing takes longer than ten minutes: what does is left out.
 keep() { timeout 600 "$@" 2>>"$work/others.log" | sed -n 's/^PEER //p' >>"$work/others.jsonl"; }

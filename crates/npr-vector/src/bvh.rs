@@ -90,6 +90,32 @@ impl FaceTree {
         count
     }
 
+    /// A face between the eye and a point, if there is one without those in `skip`: which of several is not said.
+    ///
+    /// `last` is tried first, for what hides a point mostly hides the next one too.
+    pub fn hider(
+        &self,
+        shape: &Shape,
+        sight: &Sight,
+        skip: &[u32],
+        last: Option<u32>,
+    ) -> Option<u32> {
+        let (eye, point) = (DVec3::from(sight.eye), DVec3::from(sight.point));
+        let direction = point - eye;
+        if !direction.is_finite() {
+            return None;
+        }
+        let is_hider = |face: &u32| !skip.contains(face) && hides(shape, *face, eye, direction);
+        let mut found = last.filter(is_hider);
+        if found.is_none() {
+            self.along(eye, direction, |face| {
+                found = Some(face).filter(is_hider);
+                found.is_none()
+            });
+        }
+        found
+    }
+
     /// The first face on the way from the eye through a point and beyond, with the place on the way: 1 at the point.
     pub fn first_face(&self, shape: &Shape, sight: &Sight, reach: f64) -> Option<(u32, f64)> {
         let eye = DVec3::from(sight.eye);
@@ -179,10 +205,10 @@ fn bounds(b: &Aabb) -> [Vec4; 2] {
 
 /// A box test that never misses for rounding.
 struct Slab {
-    origin: Vec4,
+    /// Subtracted from the lowest and the highest corner of boxes: the origin, moved by as far as single precision may have
+    /// moved a box against it.
+    origins: [Vec4; 2],
     inverse: Vec4,
-    /// How far single precision may have moved a box against the origin.
-    pad: Vec4,
 }
 
 impl Slab {
@@ -199,18 +225,18 @@ impl Slab {
         });
         let reach = origin.abs().max_element().max(extent);
         let [x, y, z] = inverse;
+        let pad = Vec4::splat(reach * 5e-7);
         Self {
-            origin,
+            origins: [origin + pad, origin - pad],
             inverse: Vec4::new(x, y, z, 0.0),
-            pad: Vec4::splat(reach * 2.5e-7),
         }
     }
 
     /// Where the way enters a box, 0..1; infinite where it misses it.
     fn enter(&self, b: &Aabb) -> f32 {
         let [low, high] = bounds(b);
-        let low = (low - self.pad - self.origin) * self.inverse;
-        let high = (high + self.pad - self.origin) * self.inverse;
+        let low = (low - self.origins[0]) * self.inverse;
+        let high = (high - self.origins[1]) * self.inverse;
         // The fourth components bound the way itself: it starts at 0 and ends at 1.
         let enter = low.min(high).with_w(0.0).max_element();
         let leave = low.max(high).with_w(1.0).min_element();

@@ -314,7 +314,10 @@ impl View<'_> {
             .nodes
             .par_iter()
             .with_min_len(64)
-            .map(|node| self.line(graph, node, seen, wanted))
+            .map_init(
+                || None,
+                |last, node| self.line(graph, node, seen, wanted, last),
+            )
             .collect()
     }
 
@@ -324,6 +327,7 @@ impl View<'_> {
         node: &CurveNode,
         seen: &Seen<'_>,
         wanted: u32,
+        last: &mut Option<u32>,
     ) -> Option<Line> {
         let kinds = self.kinds_of(node) & wanted;
         let kind = first_kind(kinds)?;
@@ -332,7 +336,7 @@ impl View<'_> {
             return None;
         }
         let (piece, other) = self.piece_after(graph, node)?;
-        let spans: Vec<Span> = seen.spans(&piece, &self.circumstances(node, other));
+        let spans: Vec<Span> = seen.spans(&piece, &self.circumstances(node, other), last);
         Some(Line {
             kind,
             surface: self.shape.face_surfaces[node.face as usize],

@@ -168,7 +168,7 @@ proptest! {
     /// The tree counts what a walk over all faces counts.
     #[test]
     fn sights_agree_with_a_walk_over_all_faces(
-        mesh in any_mesh(), eye in any_eye(), point in prop::array::uniform3(-1.5_f64..1.5),
+        mesh in any_mesh(), eye in any_eye(), point in prop::array::uniform3(-1.5_f64..1.5), last: prop::sample::Index,
     ) {
         let shape = shape_of(&mesh);
         let tree = FaceTree::new(&shape);
@@ -176,6 +176,10 @@ proptest! {
         let all = tree.occluders(&shape, &sight, &[], u32::MAX);
         prop_assert_eq!(all, plainly_between(&shape, &sight));
         prop_assert_eq!(tree.occluders(&shape, &sight, &[], 1), all.min(1));
+        // Whatever face is tried first.
+        let last = last.index(shape.faces.len() + 1) as u32;
+        let last = Some(last).filter(|face| (*face as usize) < shape.faces.len());
+        prop_assert_eq!(tree.hider(&shape, &sight, &[], last).is_some(), all > 0);
     }
 
     /// Strokes are sound on any mesh from anywhere.
