@@ -1,0 +1,188 @@
+//! Values of one node as files store them: without inactive ones where a few numbers say all.
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::indexing_slicing,
+    clippy::arithmetic_side_effects
+)]
+
+use crate::chunk::{Compression, Room};
+use crate::cursor::Cursor;
+use crate::fault::Fault;
+use crate::mask::Mask;
+use crate::voxel::{Number, ValueType, Voxel};
+
+/// From this version on a byte before each node's values says how inactive ones are left out.
+pub(crate) const MASKS_VERSION: u32 = 222;
+
+/// How a grid's values are stored.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Codec {
+    /// Of the file format.
+    pub(crate) version: u32,
+    /// How chunks are packed.
+    pub(crate) compression: Compression,
+    /// What voxels hold.
+    pub(crate) kind: ValueType,
+    /// Whether chunks hold half floats; single values never do.
+    pub(crate) is_half: bool,
+}
+
+/// How inactive values of a node are left out, as its byte says.
+///
+/// Without a mask all are the first one; with a mask, a set bit chooses the second.
+struct Inactive<'a, V> {
+    first: V,
+    second: V,
+    mask: Option<Mask<'a>>,
+}
+
+/// Where values are unpacked. Kept from node to node, at most some megabytes.
+#[derive(Debug)]
+pub(crate) struct Unpacked<V> {
+    room: Room,
+    numbers: Vec<f32>,
+    /// The values as stored.
+    stored: Vec<V>,
+    /// All values of the node, the left out ones among them.
+    pub(crate) values: Vec<V>,
+}
+
+impl<V> Default for Unpacked<V> {
+    fn default() -> Self {
+        Self {
+            room: Room::default(),
+            numbers: Vec::new(),
+            stored: Vec::new(),
+            values: Vec::new(),
+        }
+    }
+}
+
+impl Codec {
+    /// Bytes of a value that stands alone.
+    pub(crate) fn single_bytes<V: Voxel>(&self) -> usize {
+        self.kind.number(false).bytes().saturating_mul(V::COUNT)
+    }
+
+    /// The next value that stands alone.
+    pub(crate) fn single<V: Voxel>(&self, cursor: &mut Cursor) -> Result<V, Fault> {
+        let bytes = cursor.take(self.single_bytes::<V>(), "a value")?;
+        let (mut numbers, mut voxels) = (Vec::new(), Vec::new());
+        self.kind.number(false).decode(bytes, &mut numbers);
+        V::gather(&numbers, &mut voxels);
+        Ok(voxels.first().copied().unwrap_or(V::ZERO))
+    }
+
+    /// The next `count` values, all of them stored.
+    pub(crate) fn all<'u, V: Voxel>(
+        &self,
+        count: usize,
+        cursor: &mut Cursor,
+        unpacked: &'u mut Unpacked<V>,
+    ) -> Result<&'u [V], Fault> {
+        let number = self.kind.number(self.is_half);
+        unpacked.stored.clear();
+        // Of half floats nothing is written at all, where there are none; of others an empty chunk.
+        if count == 0 && number == Number::Half {
+            return Ok(&unpacked.stored);
+        }
+        let length = count
+            .saturating_mul(V::COUNT)
+            .saturating_mul(number.bytes());
+        let bytes = self.compression.chunk(length, cursor, &mut unpacked.room)?;
+        number.decode(bytes, &mut unpacked.numbers);
+        V::gather(&unpacked.numbers, &mut unpacked.stored);
+        Ok(&unpacked.stored)
+    }
+
+    /// The values of the next node, one for every bit of `active`, into `unpacked.values`; whether any of them may be
+    /// other than `background`.
+    pub(crate) fn node<V: Voxel>(
+        &self,
+        active: Mask,
+        background: V,
+        cursor: &mut Cursor,
+        unpacked: &mut Unpacked<V>,
+    ) -> Result<bool, Fault> {
+        let inactive = match self.version < MASKS_VERSION {
+            true => None,
+            false => self.inactive(active.len(), background, cursor)?,
+        };
+        unpacked.values.clear();
+        let Some(inactive) = inactive else {
+            self.all(active.len(), cursor, unpacked)?;
+            std::mem::swap(&mut unpacked.values, &mut unpacked.stored);
+            return Ok(true);
+        };
+        let count = active.count_on();
+        self.all(count, cursor, unpacked)?;
+        let mut stored = unpacked.stored.iter().copied();
+        unpacked.values.extend((0..active.len()).map(|place| {
+            let is_active = active.is_on(place);
+            is_active
+                .then(|| stored.next())
+                .flatten()
+                .unwrap_or_else(|| inactive.at(place))
+        }));
+        Ok(count > 0 || !inactive.first.is_same(&background) || inactive.mask.is_some())
+    }
+
+    /// How the next node leaves out inactive values; nothing where it does not.
+    fn inactive<'a, V: Voxel>(
+        &self,
+        len: usize,
+        background: V,
+        cursor: &mut Cursor<'a>,
+    ) -> Result<Option<Inactive<'a, V>>, Fault> {
+        const WHAT: &str = "a node's values";
+        let at = cursor.at();
+        let kind = cursor.byte(WHAT)?;
+        let opposite = self.opposite(background);
+        let first = match kind {
+            0 => background,
+            1 | 3 => opposite,
+            2 | 4 | 5 => self.single(cursor)?,
+            6 => return Ok(None),
+            _ => {
+                return Err(Fault::Broken {
+                    what: WHAT,
+                    at,
+                    fault: "there is no such way to leave out inactive ones",
+                });
+            }
+        };
+        let second = match kind {
+            5 => self.single(cursor)?,
+            _ => background,
+        };
+        let mask = match kind {
+            3..=5 => Some(Mask(cursor.take(len >> 3, WHAT)?)),
+            _ => None,
+        };
+        let inactive = Inactive {
+            first,
+            second,
+            mask,
+        };
+        Ok(Some(inactive).filter(|_| self.compression.leaves_out_inactive))
+    }
+
+    /// What inactive voxels inside of a level set hold.
+    fn opposite<V: Voxel>(&self, background: V) -> V {
+        match self.kind {
+            ValueType::Bool => background.map(|value| 1.0 - value),
+            _ => background.map(|value| -value),
+        }
+    }
+}
+
+impl<V: Voxel> Inactive<'_, V> {
+    fn at(&self, place: usize) -> V {
+        match self.mask {
+            Some(mask) if mask.is_on(place) => self.second,
+            _ => self.first,
+        }
+    }
+}
