@@ -18,7 +18,7 @@ pub enum Fault {
         version: u32,
     },
     /// The file ends early, or states a length beyond its end.
-    #[error("{what} goes on beyond byte {end}, where its data ends")]
+    #[error("{what} goes on beyond byte {end}, where the data ends")]
     Truncated {
         /// What was being read.
         what: &'static str,

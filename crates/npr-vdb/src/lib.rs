@@ -37,7 +37,7 @@
 //! # Hostile files
 //!
 //! Files are hostile until proven sound: memory is planned against [`Limits`] before it is allocated, nothing recurses,
-//! every offset is checked. A file never makes its lists longer than 128 times its own size, whatever it states.
+//! every offset is checked. A file never makes its lists longer than 256 times its own size, whatever it states.
 //! Values themselves are handed on as they are: NaN and infinities too.
 
 mod blosc;

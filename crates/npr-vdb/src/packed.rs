@@ -38,13 +38,22 @@ struct Inactive<'a, V> {
     mask: Option<Mask<'a>>,
 }
 
+/// Where a node may hold other than the background.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Others {
+    /// At active places only.
+    Active,
+    /// Anywhere.
+    Anywhere,
+}
+
 /// Where values are unpacked. Kept from node to node, at most some megabytes.
 #[derive(Debug)]
 pub(crate) struct Unpacked<V> {
     room: Room,
     numbers: Vec<f32>,
     /// The values as stored.
-    stored: Vec<V>,
+    pub(crate) stored: Vec<V>,
     /// All values of the node, the left out ones among them.
     pub(crate) values: Vec<V>,
 }
@@ -75,18 +84,18 @@ impl Codec {
         Ok(voxels.first().copied().unwrap_or(V::ZERO))
     }
 
-    /// The next `count` values, all of them stored.
-    pub(crate) fn all<'u, V: Voxel>(
+    /// The next `count` values, all of them stored, into `unpacked.stored`.
+    pub(crate) fn all<V: Voxel>(
         &self,
         count: usize,
         cursor: &mut Cursor,
-        unpacked: &'u mut Unpacked<V>,
-    ) -> Result<&'u [V], Fault> {
+        unpacked: &mut Unpacked<V>,
+    ) -> Result<(), Fault> {
         let number = self.kind.number(self.is_half);
         unpacked.stored.clear();
         // Of half floats nothing is written at all, where there are none; of others an empty chunk.
         if count == 0 && number == Number::Half {
-            return Ok(&unpacked.stored);
+            return Ok(());
         }
         let length = count
             .saturating_mul(V::COUNT)
@@ -94,39 +103,43 @@ impl Codec {
         let bytes = self.compression.chunk(length, cursor, &mut unpacked.room)?;
         number.decode(bytes, &mut unpacked.numbers);
         V::gather(&unpacked.numbers, &mut unpacked.stored);
-        Ok(&unpacked.stored)
+        Ok(())
     }
 
-    /// The values of the next node, one for every bit of `active`, into `unpacked.values`; whether any of them may be
-    /// other than `background`.
+    /// The values of the next node, one for every bit of `active`, into `unpacked.values`.
     pub(crate) fn node<V: Voxel>(
         &self,
         active: Mask,
         background: V,
         cursor: &mut Cursor,
         unpacked: &mut Unpacked<V>,
-    ) -> Result<bool, Fault> {
+    ) -> Result<Others, Fault> {
         let inactive = match self.version < MASKS_VERSION {
             true => None,
             false => self.inactive(active.len(), background, cursor)?,
         };
-        unpacked.values.clear();
         let Some(inactive) = inactive else {
             self.all(active.len(), cursor, unpacked)?;
             std::mem::swap(&mut unpacked.values, &mut unpacked.stored);
-            return Ok(true);
+            return Ok(Others::Anywhere);
         };
-        let count = active.count_on();
-        self.all(count, cursor, unpacked)?;
-        let mut stored = unpacked.stored.iter().copied();
-        unpacked.values.extend((0..active.len()).map(|place| {
-            let is_active = active.is_on(place);
-            is_active
-                .then(|| stored.next())
-                .flatten()
-                .unwrap_or_else(|| inactive.at(place))
-        }));
-        Ok(count > 0 || !inactive.first.is_same(&background) || inactive.mask.is_some())
+        self.all(active.count_on(), cursor, unpacked)?;
+        let Unpacked { stored, values, .. } = unpacked;
+        values.clear();
+        values.resize(active.len(), inactive.first);
+        let chosen = inactive.mask.into_iter().flat_map(Mask::places);
+        let chosen = chosen.map(|place| (place, inactive.second));
+        for (place, value) in chosen.chain(active.places().zip(stored.iter().copied())) {
+            if let Some(slot) = values.get_mut(place) {
+                *slot = value;
+            }
+        }
+        let is_plain = inactive.first.is_same(&background) && inactive.mask.is_none();
+        Ok(if is_plain {
+            Others::Active
+        } else {
+            Others::Anywhere
+        })
     }
 
     /// How the next node leaves out inactive values; nothing where it does not.
@@ -174,15 +187,6 @@ impl Codec {
         match self.kind {
             ValueType::Bool => background.map(|value| 1.0 - value),
             _ => background.map(|value| -value),
-        }
-    }
-}
-
-impl<V: Voxel> Inactive<'_, V> {
-    fn at(&self, place: usize) -> V {
-        match self.mask {
-            Some(mask) if mask.is_on(place) => self.second,
-            _ => self.first,
         }
     }
 }

@@ -2,12 +2,15 @@
 //!
 //! Under the root stand nodes of 32 x 32 x 32 places, under those nodes of 16 x 16 x 16, under those leaves of 8 x 8 x 8
 //! voxels. A place without a child is a tile: one value for all its voxels [Museth 2013].
-#![deny(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::indexing_slicing,
-    clippy::arithmetic_side_effects
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::unwrap_used,
+        clippy::expect_used,
+        clippy::panic,
+        clippy::indexing_slicing,
+        clippy::arithmetic_side_effects
+    )
 )]
 
 use std::ops::Range;
@@ -17,7 +20,7 @@ use crate::fault::Fault;
 use crate::grid::{LEAF_SIDE, LEAF_VOXELS, LeafHead, Tile, Tree};
 use crate::limits::Budget;
 use crate::mask::Mask;
-use crate::packed::{Codec, MASKS_VERSION, Unpacked};
+use crate::packed::{Codec, MASKS_VERSION, Others, Unpacked};
 use crate::voxel::{ValueType, Voxel};
 
 /// A kind of node between root and leaves.
@@ -205,27 +208,33 @@ impl<'a, V: Voxel> Reader<'_, 'a, V> {
         const WHAT: &str = "a node's masks";
         let children = Mask(self.cursor.take(level.mask_bytes(), WHAT)?);
         let active = Mask(self.cursor.take(level.mask_bytes(), WHAT)?);
-        if !self.node_values(children, active)? {
-            return Ok(children);
-        }
-        let values = self.unpacked.values.iter().enumerate();
-        let tiles = values.filter(|&(place, value)| {
-            let is_plain = !active.is_on(place) && value.is_same(&self.background);
-            !children.is_on(place) && !is_plain
-        });
-        self.budget
-            .grow::<Tile<V>>("tiles", tiles.clone().count())?;
-        self.tiles.extend(tiles.map(|(place, &value)| Tile {
+        let background = self.background;
+        let tile = |(place, &value): (usize, &V)| Tile {
             origin: level.corner(origin, place),
             side: level.place_side,
             value,
             is_active: active.is_on(place),
-        }));
+        };
+        let others = self.node_values(children, active)?;
+        let values = &self.unpacked.values;
+        match others {
+            Others::Active => {
+                let places = active.places().filter(|&place| !children.is_on(place));
+                let tiles = places.filter_map(|place| Some((place, values.get(place)?)));
+                keep(&mut self.tiles, self.budget, tiles.map(tile))
+            }
+            Others::Anywhere => {
+                let tiles = values.iter().enumerate().filter(|&(place, value)| {
+                    !children.is_on(place) && (active.is_on(place) || !value.is_same(&background))
+                });
+                keep(&mut self.tiles, self.budget, tiles.map(tile))
+            }
+        }?;
         Ok(children)
     }
 
-    /// Unpacks a value for every place of a node; whether any may be other than the background.
-    fn node_values(&mut self, children: Mask, active: Mask) -> Result<bool, Fault> {
+    /// Unpacks a value for every place of a node.
+    fn node_values(&mut self, children: Mask, active: Mask) -> Result<Others, Fault> {
         let Self {
             cursor,
             codec,
@@ -238,17 +247,16 @@ impl<'a, V: Voxel> Reader<'_, 'a, V> {
         }
         // Values of children were not stored at all.
         let count = children.len().saturating_sub(children.count_on());
-        let stored = codec.all(count, cursor, unpacked)?.to_vec();
-        let mut stored = stored.into_iter();
-        unpacked.values.clear();
-        unpacked.values.extend((0..children.len()).map(|place| {
+        codec.all(count, cursor, unpacked)?;
+        let Unpacked { stored, values, .. } = unpacked;
+        let mut stored = stored.iter().copied();
+        values.clear();
+        values.extend((0..children.len()).map(|place| {
             let is_tile = !children.is_on(place);
-            is_tile
-                .then(|| stored.next())
-                .flatten()
-                .unwrap_or(*background)
+            let stored = is_tile.then(|| stored.next()).flatten();
+            stored.unwrap_or(*background)
         }));
-        Ok(true)
+        Ok(Others::Anywhere)
     }
 
     /// Reads the values of all leaves, which lie in `order`.
@@ -328,6 +336,17 @@ impl<'a, V: Voxel> Reader<'_, 'a, V> {
             .extend(values.map(|value| V::ZERO.map(|_| value)));
         Ok(())
     }
+}
+
+/// Appends `new` tiles, planned first.
+fn keep<V>(
+    tiles: &mut Vec<Tile<V>>,
+    budget: &mut Budget,
+    new: impl Iterator<Item = Tile<V>> + Clone,
+) -> Result<(), Fault> {
+    budget.grow::<Tile<V>>("tiles", new.clone().count())?;
+    tiles.extend(new);
+    Ok(())
 }
 
 impl Level {

@@ -80,7 +80,7 @@ fn every_volume_is_as_its_list_says() {
             "smoke_blender_empty_frame.vdb",
             "density",
             0,
-            GridClass::FogVolume,
+            GridClass::Unset,
         ),
         ("density_and_heat.vdb", "density", 6_124, GridClass::Unset),
         ("density_and_heat.vdb", "heat", 5_224, GridClass::Unset),
@@ -166,11 +166,11 @@ fn broken_files_say_why() {
         ("volume_zero_bytes.vdb", "this is no OpenVDB file"),
         (
             "volume_header_only.vdb",
-            "the file's header goes on beyond byte 60, where its data ends",
+            "metadata goes on beyond byte 60, where the data ends",
         ),
         (
             "volume_truncated_half.vdb",
-            "a grid goes on beyond byte 37357, where its data ends",
+            "a grid goes on beyond byte 37357, where the data ends",
         ),
     ];
     for (name, wanted) in cases {

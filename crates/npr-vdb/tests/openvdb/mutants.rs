@@ -4,6 +4,8 @@ use npr_vdb::testing::{Packing, Sample, SampleGrid};
 use npr_vdb::{File, Grid, Limits, ValueType, Values, Voxel, read};
 use proptest::prelude::*;
 
+use crate::unpacked;
+
 /// What happens to a few bytes of a file.
 #[derive(Debug, Clone)]
 enum Damage {
@@ -127,12 +129,6 @@ fn sample(version: u32, packing: Packing, kinds: &[ValueType]) -> Vec<u8> {
     (sample.version, sample.packing) = (version, packing);
     sample.leaves_out_inactive = version >= 222;
     sample.bytes()
-}
-
-fn unpacked(name: &str) -> Vec<u8> {
-    let path = format!("{}/tests/data/{name}.vdb.zz", env!("CARGO_MANIFEST_DIR"));
-    let packed = std::fs::read(path).expect("a file of this folder");
-    miniz_oxide::inflate::decompress_to_vec_zlib(&packed).expect("a zlib stream")
 }
 
 macro_rules! mutants {
