@@ -1,0 +1,157 @@
+use super::*;
+use crate::testing::in_pool;
+use proptest::prelude::*;
+
+fn smoke(settings: SmokeSettings, frames: usize) -> Smoke {
+    let mut smoke = Smoke::new(settings).unwrap();
+    (0..frames).for_each(|_| smoke.step());
+    smoke
+}
+
+#[test]
+fn every_source_smokes_and_reaches_upward() {
+    for source in Source::ALL {
+        assert_eq!(Source::of_name(source.name()), Some(source));
+        let settings = SmokeSettings::of(source);
+        let early = smoke(settings, 2).volume();
+        let late = smoke(settings, 36).volume();
+        assert!(early.dense_count(0.3) > 20, "{source:?} has hardly begun");
+        assert!(late.dense_count(0.05) > 100, "{source:?} is gone");
+        let height = |volume: &Volume| {
+            let mut layers = volume
+                .density()
+                .chunks(volume.density().len() / volume.size()[2] as usize);
+            layers
+                .rposition(|layer| layer.iter().any(|&d| d > 0.1))
+                .unwrap()
+        };
+        if source != Source::Cloud {
+            assert!(
+                height(&late) >= height(&early) + 5,
+                "{source:?} does not rise"
+            );
+        }
+    }
+    assert_eq!(Source::of_name("bonfire"), None);
+}
+
+#[test]
+fn flow_is_free_of_divergence_after_every_frame() {
+    for source in Source::ALL {
+        let mut smoke = Smoke::new(SmokeSettings::of(source)).unwrap();
+        for _ in 0..48 {
+            smoke.step();
+            // What pressure had to undo is at most of the order of the fastest speed per cell.
+            let bound = 1e-3 * (1.0 + smoke.flow.fastest());
+            assert!(smoke.greatest_divergence() < bound, "{source:?}");
+        }
+    }
+}
+
+#[test]
+fn carrying_makes_no_smoke_and_no_extremes() {
+    let settings = SmokeSettings {
+        fading: 0.0,
+        ..SmokeSettings::of(Source::Puff)
+    };
+    let mut smoke = smoke(settings, 12);
+    for _ in 0..40 {
+        let (mass, most) = (
+            total(&smoke.density),
+            smoke.density.values.iter().copied().fold(0.0, f32::max),
+        );
+        smoke.step();
+        assert!(total(&smoke.density) <= mass * (1.0 + 1e-6));
+        assert!(
+            smoke
+                .density
+                .values
+                .iter()
+                .all(|&d| (0.0..=most * 1.000_001).contains(&d))
+        );
+    }
+    assert!(total(&smoke.density) > 1.0);
+}
+
+#[test]
+fn smoke_does_not_depend_on_the_threads() {
+    let settings = SmokeSettings {
+        size: [40, 30, 36],
+        ..SmokeSettings::of(Source::Explosion)
+    };
+    let run = |threads| in_pool(threads, || smoke(settings, 5).volume());
+    let one = run(1);
+    assert_eq!(one, run(2));
+    assert_eq!(one, run(8));
+}
+
+#[test]
+fn seeds_change_the_smoke_and_nothing_else_does() {
+    let of = |seed| {
+        smoke(
+            SmokeSettings {
+                seed,
+                ..SmokeSettings::of(Source::Plume)
+            },
+            12,
+        )
+        .volume()
+    };
+    assert_eq!(of(1), of(1));
+    assert_ne!(of(1), of(2));
+}
+
+#[test]
+fn the_box_stands_on_the_floor() {
+    let volume = smoke(SmokeSettings::of(Source::Plume), 1).volume();
+    let corner = volume.world_from_index(Vec3::splat(-0.5));
+    let far = volume.world_from_index(Vec3::new(14.5, 14.5, 19.5));
+    assert!(corner.distance(Vec3::new(-0.375, 0.0, 0.375)) < 1e-6);
+    assert!(far.distance(Vec3::new(0.375, 1.0, -0.375)) < 1e-6);
+    let rising = volume
+        .velocity()
+        .unwrap()
+        .iter()
+        .map(|v| v.y)
+        .fold(0.0, f32::max);
+    assert!(rising > 0.1, "smoke rises along the world's y");
+}
+
+#[test]
+fn grids_that_do_not_fit_are_refused() {
+    let sized = |size| SmokeSettings {
+        size,
+        ..SmokeSettings::of(Source::Plume)
+    };
+    assert!(matches!(
+        Smoke::new(sized([3, 9, 9])),
+        Err(SmokeError::BadSize { .. })
+    ));
+    assert!(matches!(
+        Smoke::new(sized([9, 9, MAX_SIDE + 1])),
+        Err(SmokeError::BadSize { .. })
+    ));
+    let mut budget = Budget::new(1 << 30);
+    let refused = Smoke::within(&mut budget, sized([4000; 3]));
+    assert!(matches!(refused, Err(SmokeError::OverBudget(_))));
+    assert!(Smoke::within(&mut budget, sized([4; 3])).is_ok());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn odd_settings_give_finite_smoke(
+        numbers in prop::array::uniform7(prop::num::f32::ANY), wind in prop::array::uniform3(prop::num::f32::ANY),
+        size in prop::array::uniform3(4u32..8), pick in 0usize..4, seed: u32,
+    ) {
+        let [frame_seconds, heat, buoyancy, weight, curl, fading, cooling] = numbers;
+        let settings = SmokeSettings {
+            source: Source::ALL[pick], size, frame_seconds, heat, buoyancy, weight, curl, fading, cooling,
+            wind: Vec3::from(wind), seed,
+        };
+        let volume = smoke(settings, 3).volume();
+        prop_assert_eq!(volume.mended(), crate::Mended::default());
+        prop_assert!(volume.density().iter().all(|&d| (0.0..=1.001).contains(&d)));
+    }
+}
