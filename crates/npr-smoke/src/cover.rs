@@ -53,9 +53,9 @@ fn seat_in(distances: &Distances, voxel: [u32; 3], away: Vec3) -> Seat {
 
 /// Radius, in voxels, of a sphere at a place of index space in the smoke.
 ///
-/// Off voxel centres the blended distance vanishes in thin sheets; a sphere never has less than half a voxel.
+/// Off voxel centres the blended distance vanishes in thin sheets; a sphere never has less than three quarters of a voxel.
 pub(crate) fn reach(distances: &Distances, place: Vec3) -> f32 {
-    distances.near(place).max(0.5)
+    distances.near(place).max(0.75)
 }
 
 /// Adds up to `count` seats where no claim is yet; each claims a ball of `scale` times its radius.
@@ -71,10 +71,9 @@ pub(crate) fn fill_gaps(
         if seats.len() >= count {
             break;
         }
-        let turn = |voxel: &[u32; 3]| {
-            mix_bits(seed ^ mix_bits(claims.lattice.index(voxel.map(|v| v as usize)) as u32))
-        };
-        level.par_sort_unstable_by_key(|voxel| (turn(voxel), *voxel));
+        let lattice = claims.lattice;
+        let number = |voxel: &[u32; 3]| lattice.index(voxel.map(|side| side as usize)) as u32;
+        level.par_sort_unstable_by_key(|voxel| (mix_bits(seed ^ mix_bits(number(voxel))), *voxel));
         for voxel in level {
             if seats.len() >= count {
                 break;
@@ -82,7 +81,7 @@ pub(crate) fn fill_gaps(
             if claims.at(voxel) != Claim::Free {
                 continue;
             }
-            let away = 0.3 * signed3(seed, seats.len() as u32, voxel[0] ^ mix_bits(voxel[2]));
+            let away = 0.3 * signed3(seed, number(&voxel), 0);
             let seat = seat_in(distances, voxel, away);
             claims.claim(seat.place, seat.radius * scale);
             seats.push(seat);
@@ -295,7 +294,7 @@ mod tests {
             let seats = cover(&distances, count, seed);
             prop_assert!(seats.len() <= count);
             for (number, seat) in seats.iter().enumerate() {
-                prop_assert!(distances.is_dense(seat.place) && seat.radius >= 0.5);
+                prop_assert!(distances.is_dense(seat.place) && seat.radius >= 0.75);
                 for other in &seats[..number] {
                     // Seats lie 0.3 voxels off along each axis at most.
                     prop_assert!(seat.place.distance(other.place) > other.radius - 0.53);

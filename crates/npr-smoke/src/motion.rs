@@ -8,10 +8,10 @@ use crate::{Volume, VolumeError};
 /// How much smoothness weighs against following the densities, in units of density per voxel squared.
 ///
 /// Smaller follows every flicker of the smoke, larger makes it one stiff lump.
-const SMOOTHNESS: f32 = 0.004;
+const SMOOTHNESS: f32 = 0.05;
 
 /// Times the linearised motion is corrected on each level.
-const WARPS: usize = 3;
+const WARPS: usize = 4;
 
 /// Sweeps per correction. Motion spreads a voxel per sweep, and coarser levels have spread it before.
 const SWEEPS: usize = 24;
@@ -26,7 +26,7 @@ const COARSEST: usize = 6;
 /// no smoke nearby the motion is that of the nearest smoke, faded by smoothing. One density cannot tell motion along
 /// its level sets: flow inside even smoke is a guess.
 ///
-/// O(voxels), about 80 sweeps over the grid, 60 bytes a voxel; the same bits for any number of threads.
+/// O(voxels), about 110 sweeps over the grid, 60 bytes a voxel; the same bits for any number of threads.
 ///
 /// # Errors
 ///

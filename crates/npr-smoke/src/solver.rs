@@ -135,6 +135,8 @@ pub struct Smoke {
     temperature: Field,
     pressure: Pressure,
     seconds: f64,
+    /// When pressure last made the flow give off what the source wants.
+    projected: f64,
 }
 
 impl Smoke {
@@ -174,6 +176,7 @@ impl Smoke {
             temperature: Field::new(cells, Vec3::ZERO),
             pressure: Pressure::new(cells),
             seconds: 0.0,
+            projected: 0.0,
         };
         source::start(&settings, &mut smoke.density);
         Ok(smoke)
@@ -187,7 +190,11 @@ impl Smoke {
     /// Goes on by one frame.
     pub fn step(&mut self) {
         let seconds = self.settings.frame_seconds;
-        let wanted = (self.flow.fastest() * seconds / CELLS_PER_STEP).ceil();
+        let fastest = self
+            .flow
+            .fastest()
+            .max(source::speed(&self.settings, self.seconds));
+        let wanted = (fastest * seconds / CELLS_PER_STEP).ceil();
         // A float beyond the range becomes the nearest integer.
         let steps = (wanted as u32).clamp(1, MAX_STEPS);
         for _ in 0..steps {
@@ -210,7 +217,7 @@ impl Smoke {
 
     /// Greatest divergence of the flow that no source asks for, per second.
     pub fn greatest_divergence(&self) -> f32 {
-        let wanted = self.expansion();
+        let wanted = source::expansion(&self.settings, self.projected);
         greatest(self.cells.len(), |at| {
             let cell = self.cells.point(at);
             (self.flow.divergence(cell) - wanted(cell)).abs()
@@ -239,7 +246,8 @@ impl Smoke {
         forces::confine(&mut self.flow, settings.curl, seconds);
         self.flow
             .limit(CELLS_PER_STEP * MAX_STEPS as f32 / settings.frame_seconds);
-        let wanted = self.expansion();
+        let wanted = source::expansion(&settings, self.seconds);
+        self.projected = self.seconds;
         self.pressure.project(&mut self.flow, wanted);
         self.carry(seconds);
         self.seconds += f64::from(seconds);
@@ -264,11 +272,6 @@ impl Smoke {
         let left = |share: f32| npr_core::math::exp(-share * seconds);
         self.density.scale(surplus * left(self.settings.fading));
         self.temperature.scale(left(self.settings.cooling));
-    }
-
-    /// How much a cell's content expands per second.
-    fn expansion(&self) -> impl Fn([usize; 3]) -> f32 + Sync + use<> {
-        source::expansion(&self.settings, self.seconds)
     }
 }
 

@@ -1,11 +1,12 @@
 //! Spheres that follow the smoke from frame to frame without popping.
 
+use std::borrow::Cow;
 use std::cmp::Reverse;
 
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::cover::{Claim, Claims, Seat, fill_gaps, reach, scatter};
+use crate::cover::{Claim, Claims, fill_gaps, reach, scatter};
 use crate::{Distances, Sphere, Volume};
 
 /// Where new spheres are placed.
@@ -26,6 +27,9 @@ pub struct TrackSettings {
     pub count: u32,
     /// Density up to which a voxel is thin.
     pub threshold: f32,
+    /// Voxels along the longest side in which the shape of the smoke is seen; finer grids are [coarsened](Volume::coarsened).
+    /// 20 a few bold puffs, 40 a drawing, 200 every wisp.
+    pub detail: u32,
     /// Seconds from one frame to the next.
     pub frame_seconds: f32,
     /// Radius as a multiple of the smoke's distance. 1 keeps within the smoke, 1.4 makes fat, overlapping puffs.
@@ -44,6 +48,7 @@ impl Default for TrackSettings {
         Self {
             count: 200,
             threshold: 0.1,
+            detail: 40,
             frame_seconds: 1.0 / 24.0,
             scale: 1.2,
             ease: 0.12,
@@ -65,15 +70,15 @@ struct Puff {
     id: u32,
     age: u32,
     temperature: f32,
-    /// It shrinks and does not come back.
-    fading: bool,
+    /// It shrinks and does not come back: its slot is needed elsewhere.
+    evicted: bool,
 }
 
 /// Spheres over a series of volumes.
 ///
 /// Each moves with the smoke, swells or shrinks towards the radius that the smoke allows at its place, and keeps its id. Where
 /// it leaves the smoke, or drifts into the middle of a larger one, it shrinks until it is gone; smoke that none covers gets
-/// new ones, which grow from nothing.
+/// new ones, which grow from nothing. When there are as many as may be, the smallest give way to larger ones.
 ///
 /// Differs: the paper sets every radius anew in each frame, and moves dying particles elsewhere at once. There both show as
 /// pops; here no radius jumps, and nor does a place.
@@ -95,7 +100,16 @@ impl Track {
             puffs: Vec::new(),
             next_id: 0,
         };
-        track.follow(volume);
+        for _ in 0..SETTLING {
+            let (known, count) = (track.next_id, track.puffs.len());
+            track.follow(volume);
+            track
+                .puffs
+                .retain(|puff| puff.target > 0.0 && !puff.evicted);
+            if (known, count) == (track.next_id, track.puffs.len()) {
+                break;
+            }
+        }
         for puff in &mut track.puffs {
             puff.radius = puff.target;
         }
@@ -112,14 +126,13 @@ impl Track {
             puff.place += puff.velocity * seconds;
             puff.age = puff.age.saturating_add(1);
         }
-        self.follow(next);
-        let smallest = 0.02 * next.voxel_width();
-        let ease = self.settings.ease;
+        let voxel_width = self.follow(next);
+        let (ease, smallest) = (self.settings.ease, 0.02 * voxel_width);
         for puff in &mut self.puffs {
-            puff.radius = eased(puff.radius, puff.target, ease, next.voxel_width());
+            puff.radius = eased(puff.radius, puff.target, ease, voxel_width);
         }
         self.puffs.retain(|puff| {
-            let gone = puff.fading && puff.radius <= smallest;
+            let gone = puff.target == 0.0 && puff.radius <= smallest;
             !gone && puff.place.is_finite()
         });
     }
@@ -137,76 +150,120 @@ impl Track {
         shown.map(sphere).collect()
     }
 
-    /// Takes velocity, temperature and target from a volume; decides who fades and who is born.
-    fn follow(&mut self, volume: &Volume) {
-        let distances = Distances::new(volume, self.settings.threshold);
-        let width = volume.voxel_width() * self.settings.scale;
+    /// Takes velocity, temperature and target from a volume; decides who fades and who is born. Gives the width of a
+    /// voxel of the shape.
+    fn follow(&mut self, volume: &Volume) -> f32 {
+        let shape = &*shape(volume, self.settings.detail);
+        let distances = Distances::new(shape, self.settings.threshold);
+        let width = shape.voxel_width() * self.settings.scale;
         self.puffs.par_iter_mut().for_each(|puff| {
             let index = volume.index_from_world(puff.place);
             puff.velocity = finite(volume.velocity_at(index));
             puff.temperature = volume.temperature_at(index);
-            puff.fading |= !distances.is_dense(index);
-            puff.target = if puff.fading {
-                0.0
+            let place = shape.index_from_world(puff.place);
+            let stays = !puff.evicted && distances.is_dense(place);
+            puff.target = if stays {
+                radius(reach(&distances, place), width)
             } else {
-                radius(reach(&distances, index), width)
+                0.0
             };
         });
         let room = (self.settings.count as usize).saturating_sub(self.puffs.len());
-        let seats = match self.settings.placement {
+        let mut seats = match self.settings.placement {
             Placement::Random => scatter(&distances, room, self.settings.seed ^ self.next_id),
             Placement::Cover => {
-                let mut claims = self.claim_places(volume, &distances);
-                let seed = self.settings.seed;
-                fill_gaps(&distances, &mut claims, room, self.settings.scale, seed)
+                let mut claims = self.claim_places(shape, &distances);
+                let wanted = room + self.settings.count as usize / EVICTED_AT_ONCE;
+                fill_gaps(
+                    &distances,
+                    &mut claims,
+                    wanted,
+                    self.settings.scale,
+                    self.settings.seed,
+                )
             }
         };
-        self.puffs.reserve(seats.len());
+        let waiting = seats.split_off(room.min(seats.len()));
+        self.evict(waiting.iter().map(|seat| radius(seat.radius, width)));
         for seat in seats {
-            let puff = self.born(volume, seat);
+            let puff = self.born(
+                volume,
+                shape.world_from_index(seat.place),
+                radius(seat.radius, width),
+            );
             self.puffs.push(puff);
         }
+        shape.voxel_width()
     }
 
-    /// Claims what the spheres will cover, the largest first; one whose centre lies in another's core fades.
-    fn claim_places(&mut self, volume: &Volume, distances: &Distances) -> Claims {
+    /// Claims what the spheres will cover, the largest first; one whose centre lies in another's core fades while it does.
+    fn claim_places(&mut self, shape: &Volume, distances: &Distances) -> Claims {
         let mut claims = Claims::new(distances);
-        let mut order: Vec<usize> = (0..self.puffs.len()).collect();
-        // Targets are never negative, so their bits sort as they do.
-        order.sort_unstable_by_key(|&at| {
-            let puff = &self.puffs[at];
-            (Reverse(puff.target.to_bits()), puff.id)
-        });
-        for at in order {
+        for at in self.by_size(|target| Reverse(target.to_bits())) {
             let puff = &mut self.puffs[at];
-            let index = volume.index_from_world(puff.place);
-            if puff.fading {
-                continue;
-            }
-            if claims.near(index) == Claim::Core {
-                puff.fading = true;
+            let place = shape.index_from_world(puff.place);
+            if claims.near(place) == Claim::Core {
                 puff.target = 0.0;
             } else {
-                claims.claim(index, puff.target / volume.voxel_width());
+                claims.claim(place, puff.target / shape.voxel_width());
             }
         }
         claims
     }
 
-    /// A sphere that starts to grow in a seat.
-    fn born(&mut self, volume: &Volume, seat: Seat) -> Puff {
+    /// Lets the smallest spheres go, one for each that waits and would be much larger.
+    fn evict(&mut self, waiting: impl Iterator<Item = f32>) {
+        for (at, target) in self.by_size(f32::to_bits).into_iter().zip(waiting) {
+            let puff = &mut self.puffs[at];
+            puff.evicted |= target > EVICTING_SIZE * puff.target;
+        }
+    }
+
+    /// The spheres that do not shrink away, in the order of a key made from their target; ids decide among equals.
+    ///
+    /// Targets are never negative, so their bits sort as they do.
+    fn by_size<K: Ord>(&self, key: impl Fn(f32) -> K) -> Vec<usize> {
+        let stays = |at: &usize| self.puffs[*at].target > 0.0;
+        let mut order: Vec<usize> = (0..self.puffs.len()).filter(stays).collect();
+        order.sort_unstable_by_key(|&at| (key(self.puffs[at].target), self.puffs[at].id));
+        order
+    }
+
+    /// A sphere that starts to grow at a place of the world.
+    fn born(&mut self, volume: &Volume, place: Vec3, target: f32) -> Puff {
         let id = self.next_id;
         self.next_id = self.next_id.wrapping_add(1);
+        let index = volume.index_from_world(place);
         Puff {
-            place: volume.world_from_index(seat.place),
-            velocity: finite(volume.velocity_at(seat.place)),
+            place,
+            velocity: finite(volume.velocity_at(index)),
             radius: 0.0,
-            target: radius(seat.radius, volume.voxel_width() * self.settings.scale),
+            target,
             id,
             age: 0,
-            temperature: volume.temperature_at(seat.place),
-            fading: false,
+            temperature: volume.temperature_at(index),
+            evicted: false,
         }
+    }
+}
+
+/// Most rounds in which the first spheres find their places: later ones may crowd out earlier ones.
+const SETTLING: usize = 8;
+
+/// One in so many spheres may be asked to give way in one frame.
+const EVICTED_AT_ONCE: usize = 16;
+
+/// How much larger a sphere must be for a smaller one to give way.
+///
+/// The least spheres differ by less, so that they never take turns.
+const EVICTING_SIZE: f32 = 2.0;
+
+/// The volume, or a coarser one, with at most `detail` voxels along its longest side.
+fn shape(volume: &Volume, detail: u32) -> Cow<'_, Volume> {
+    let longest = volume.size().into_iter().max().unwrap_or(0);
+    match longest.div_ceil(detail.max(1)) {
+        0 | 1 => Cow::Borrowed(volume),
+        block => Cow::Owned(volume.coarsened(block)),
     }
 }
 

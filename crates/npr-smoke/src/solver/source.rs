@@ -36,10 +36,10 @@ const BEAT_SECONDS: f64 = 0.55;
 
 /// How long the puff and the explosion last, in seconds.
 const PUFF_SECONDS: f64 = 0.35;
-const BLAST_SECONDS: f64 = 0.18;
+const BLAST_SECONDS: f64 = 0.25;
 
 /// Expansion of an explosion of heat 1, per second.
-const BLAST_EXPANSION: f32 = 22.0;
+const BLAST_EXPANSION: f32 = 10.0;
 
 impl Source {
     /// All sources.
@@ -67,26 +67,25 @@ impl Source {
             size: [15, 15, 20],
             frame_seconds: 1.0 / 24.0,
             heat: 1.0,
-            buoyancy: 1.0,
+            buoyancy: 0.7,
             weight: 0.05,
-            curl: 0.3,
-            fading: 0.35,
-            cooling: 0.7,
+            curl: 0.25,
+            fading: 0.25,
+            cooling: 0.5,
             wind: Vec3::ZERO,
             seed: 0,
         };
         match self {
             Self::Plume => plume,
             Self::Puff => SmokeSettings {
-                buoyancy: 0.6,
-                fading: 0.25,
+                buoyancy: 0.3,
+                fading: 0.2,
                 ..plume
             },
             Self::Explosion => SmokeSettings {
-                heat: 2.5,
-                buoyancy: 0.8,
-                cooling: 0.9,
-                fading: 0.3,
+                heat: 2.0,
+                buoyancy: 0.3,
+                cooling: 0.8,
                 ..plume
             },
             Self::Cloud => SmokeSettings {
@@ -147,24 +146,42 @@ pub(super) fn emit(
     }
 }
 
+/// Speed, in cells per second, that a source blows with at a time, before the flow shows it.
+pub(super) fn speed(settings: &SmokeSettings, seconds: f64) -> f32 {
+    let stage = Stage::new(settings, seconds);
+    let box_speed = match settings.source {
+        Source::Plume => 0.5,
+        Source::Puff => 0.6,
+        Source::Cloud => 0.0,
+        // At the surface of a ball that expands evenly.
+        Source::Explosion => blast_strength(settings, seconds) * stage.radius / 3.0,
+    };
+    box_speed * stage.scale
+}
+
+/// Expansion inside the blast, per second.
+fn blast_strength(settings: &SmokeSettings, seconds: f64) -> f32 {
+    let blasts = settings.source == Source::Explosion && seconds < BLAST_SECONDS;
+    if blasts {
+        BLAST_EXPANSION * settings.heat
+    } else {
+        0.0
+    }
+}
+
 /// How much the content of cells expands per second at a time.
 pub(super) fn expansion(
     settings: &SmokeSettings,
     seconds: f64,
 ) -> impl Fn([usize; 3]) -> f32 + Sync + use<> {
     let stage = Stage::new(settings, seconds);
-    let blasts = settings.source == Source::Explosion && seconds < BLAST_SECONDS;
-    let strength = if blasts {
-        BLAST_EXPANSION * settings.heat
-    } else {
-        0.0
-    };
+    let strength = blast_strength(settings, seconds);
     move |cell| {
         if strength == 0.0 {
             return 0.0;
         }
         let place = stage.place(cell);
-        let away = (place - stage.above(1.4 * stage.radius)).length();
+        let away = (place - stage.blast_center()).length();
         strength * smoothstep(stage.radius, 0.6 * stage.radius, away).min(1.0)
     }
 }
@@ -187,6 +204,12 @@ impl Stage {
     fn new(settings: &SmokeSettings, seconds: f64) -> Self {
         let scale = box_cells(settings.size);
         let far = Vec3::from_array(settings.size.map(|side| side as f32)) / scale;
+        // A blast needs room to swell.
+        let share = if settings.source == Source::Explosion {
+            0.12
+        } else {
+            0.17
+        };
         Self {
             seconds,
             seed: settings.seed,
@@ -194,7 +217,7 @@ impl Stage {
             middle: Vec3::new(far.x / 2.0, far.y / 2.0, 0.0),
             far,
             // Never less than 1.5 cells: below that a coarse grid sees nothing.
-            radius: (0.17 * far.x.min(far.y)).max(1.5 / scale),
+            radius: (share * far.x.min(far.y)).max(1.5 / scale),
         }
     }
 
@@ -223,7 +246,7 @@ impl Stage {
         let phase = (beats - beat) as f32;
         let number = beat as u32;
         let strength = 0.75 + 0.5 * unit(self.seed, number, 0);
-        let breath = 1.0 - smoothstep(0.45, 0.7, phase);
+        let breath = 1.0 - smoothstep(0.55, 0.85, phase);
         let aside = 0.45 * self.radius * signed3(self.seed, number, 1);
         let center = self.above(0.5 * self.radius) + Vec3::new(aside.x, aside.y, 0.0);
         let radius = self.radius * strength * (0.55 + 0.45 * breath);
@@ -231,7 +254,7 @@ impl Stage {
         Gift {
             density: inside,
             temperature: inside * strength * (0.35 + 0.65 * breath),
-            lift: 0.45 * inside * breath * strength,
+            lift: 0.35 * inside * breath * strength,
         }
     }
 
@@ -241,13 +264,18 @@ impl Stage {
         Gift {
             density: inside,
             temperature: inside,
-            lift: 1.1 * inside,
+            lift: 0.6 * inside,
         }
+    }
+
+    /// Where it explodes.
+    fn blast_center(&self) -> Vec3 {
+        self.above(2.5 * self.radius)
     }
 
     /// Fire.
     fn blast(&self, place: Vec3) -> Gift {
-        let inside = self.lumpy_ball(place, self.above(1.4 * self.radius), self.radius, 0.0);
+        let inside = self.lumpy_ball(place, self.blast_center(), self.radius, 0.0);
         let lump = noise(self.seed ^ 1, 2.5 * place / self.radius);
         Gift {
             density: inside,

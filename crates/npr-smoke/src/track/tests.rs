@@ -15,23 +15,23 @@ fn plume(frames: usize) -> Vec<Volume> {
 }
 
 /// Fails where a sphere jumps between two frames: in size beyond `ease`, or in place beyond its speed.
-fn check_no_pop(before: &[Sphere], after: &[Sphere], ease: f32, reach: f32, voxel_width: f32) {
-    for sphere in before.iter().chain(after) {
-        let radius_in = |list: &[Sphere]| {
-            let found = list.iter().find(|other| other.id == sphere.id);
-            found.map_or(0.0, |found| found.radius)
+fn check_no_pop(before: &Track, after: &Track, ease: f32, reach: f32, voxel_width: f32) {
+    let find = |track: &Track, id: u32| track.puffs.iter().find(|puff| puff.id == id).cloned();
+    for puff in before.puffs.iter().chain(&after.puffs) {
+        let (was, is) = (find(before, puff.id), find(after, puff.id));
+        let radius = |puff: &Option<Puff>| puff.as_ref().map_or(0.0, |puff| puff.radius);
+        let target = is.as_ref().map_or(0.0, |puff| puff.target);
+        let most = ease * radius(&was).max(target).max(voxel_width);
+        // What is gone was this small.
+        let gone = if is.is_none() {
+            0.02 * voxel_width
+        } else {
+            0.0
         };
-        let (was, is) = (radius_in(before), radius_in(after));
-        let most = ease * was.max(is).max(voxel_width) / (1.0 - ease) + 0.02 * voxel_width;
-        assert!(
-            (is - was).abs() <= most * 1.001,
-            "sphere {} jumps from {was} to {is}",
-            sphere.id
-        );
-    }
-    for sphere in after {
-        if let Some(was) = before.iter().find(|was| was.id == sphere.id) {
-            assert!(sphere.center.distance(was.center) <= reach * 1.001);
+        let jump = (radius(&is) - radius(&was)).abs();
+        assert!(jump <= most * 1.001 + gone, "{puff:?} jumps by {jump}");
+        if let (Some(was), Some(is)) = (was, is) {
+            assert!(is.place.distance(was.place) <= reach * 1.001);
         }
     }
 }
@@ -39,32 +39,23 @@ fn check_no_pop(before: &[Sphere], after: &[Sphere], ease: f32, reach: f32, voxe
 #[test]
 fn no_sphere_of_the_plume_pops() {
     let frames = plume(72);
-    let settings = TrackSettings {
-        count: 80,
-        ..Default::default()
-    };
-    let mut track = Track::new(&frames[0], settings);
-    let mut before = track.spheres();
-    for pair in frames.windows(2) {
-        track.step(&pair[1]);
-        let after = track.spheres();
-        assert!(after.len() <= 80);
-        let speed = pair[0]
-            .velocity()
-            .unwrap()
-            .iter()
-            .map(|v| v.length())
-            .fold(0.0, f32::max);
-        check_no_pop(
-            &before,
-            &after,
-            settings.ease,
-            speed / 24.0,
-            pair[1].voxel_width(),
-        );
-        before = after;
+    for placement in [Placement::Cover, Placement::Random] {
+        let settings = TrackSettings {
+            count: 80,
+            placement,
+            ..Default::default()
+        };
+        let mut track = Track::new(&frames[0], settings);
+        for pair in frames.windows(2) {
+            let before = track.clone();
+            track.step(&pair[1]);
+            assert!(track.puffs.len() <= 80);
+            let speeds = pair[0].velocity().unwrap().iter().map(|v| v.length());
+            let reach = speeds.fold(0.0, f32::max) / 24.0;
+            check_no_pop(&before, &track, settings.ease, reach, pair[1].voxel_width());
+        }
+        assert!(track.spheres().len() > 20);
     }
-    assert!(!before.is_empty());
 }
 
 #[test]
@@ -106,7 +97,7 @@ fn chosen_places_cover_more_of_the_plume_than_random_ones() {
         sum / 71.0
     });
     assert!(
-        shares[0] > 0.75 && shares[0] > shares[1] + 0.03,
+        shares[0] > 0.45 && shares[0] > shares[1] + 0.08,
         "{shares:?}"
     );
 }
@@ -221,7 +212,7 @@ proptest! {
         let volume = volume.with_velocity(vec![speed; 120]).unwrap();
         let placement = if random { Placement::Random } else { Placement::Cover };
         let settings = TrackSettings {
-            count, threshold: numbers[2], frame_seconds: numbers[3], scale: numbers[0], ease: numbers[1], placement, seed,
+            count, threshold: numbers[2], detail: seed % 9, frame_seconds: numbers[3], scale: numbers[0], ease: numbers[1], placement, seed,
         };
         let mut track = Track::new(&volume, settings);
         for _ in 0..4 {
