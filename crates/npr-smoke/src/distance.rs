@@ -36,11 +36,16 @@ impl Distances {
         let flat = sweep_planes(volume.density(), threshold, lattice);
         let mut steps = vec![0u16; lattice.len()];
         rows(&mut steps, depth * width, |(y, plane)| {
+            // Read along x: steps along z are pages apart.
+            for z in 0..depth {
+                let row = &flat[width * (y + height * z)..][..width];
+                for (x, near) in row.iter().enumerate() {
+                    plane[z + depth * x] = *near;
+                }
+            }
             let mut sweep = Sweep::new(depth);
-            for (x, column) in plane.chunks_mut(depth).enumerate() {
-                let offset = x + width * y;
-                let near = |z: usize| flat[offset + z * width * height];
-                sweep.run(near, |z, distance| column[z] = distance);
+            for column in plane.chunks_mut(depth) {
+                sweep.run(column);
             }
         });
         Self { swept, steps }
@@ -132,7 +137,10 @@ fn sweep_planes(density: &[f32], threshold: f32, lattice: Lattice) -> Vec<u16> {
             for (y, near) in column.iter_mut().enumerate() {
                 *near = plane[x + y * width];
             }
-            sweep.run(|y| column[y], |y, distance| plane[x + y * width] = distance);
+            sweep.run(&mut column);
+            for (y, near) in column.iter().enumerate() {
+                plane[x + y * width] = *near;
+            }
         }
     });
     flat
@@ -154,7 +162,7 @@ fn sweep_row(density: &[f32], threshold: f32, row: &mut [u16]) {
 
 /// The lower envelope of `max(|u - i|, near(i))` over all `i` of a line, in linear time [Meijster et al. 2000, chessboard].
 struct Sweep {
-    count: i32,
+    near: Vec<u16>,
     /// Whose curve is lowest from a place on, and from which place.
     lowest: Vec<(i32, i32)>,
 }
@@ -163,44 +171,60 @@ impl Sweep {
     /// Room for lines of `count` voxels.
     fn new(count: usize) -> Self {
         Self {
-            count: count as i32,
+            near: vec![0; count],
             lowest: Vec::with_capacity(count),
         }
     }
 
-    /// Tells `give` the distance at every place of a line, the outside at both ends counted as thin.
-    fn run(&mut self, near: impl Fn(usize) -> u16, mut give: impl FnMut(usize, u16)) {
-        let near = |i: i32| i32::from(near(i as usize));
-        let height = |u: i32, i: i32| (u - i).abs().max(near(i));
-        self.lowest.clear();
-        self.lowest.push((0, 0));
-        for u in 1..self.count {
-            // Drop curves that the new one undercuts where they start.
-            while let Some(&(i, start)) = self.lowest.last()
-                && height(start, i) > height(start, u)
-            {
-                self.lowest.pop();
-            }
-            match self.lowest.last() {
-                None => self.lowest.push((u, 0)),
-                Some(&(i, _)) => {
-                    let start = 1 + crossing(i, u, near(i), near(u));
-                    if start < self.count {
-                        self.lowest.push((u, start));
-                    }
-                }
-            }
+    /// Replaces what is known of each voxel of a line by its distance, the outside at both ends counted as thin.
+    fn run(&mut self, line: &mut [u16]) {
+        if line.iter().all(|&near| near == 0) {
+            return;
         }
-        for u in (0..self.count).rev() {
+        self.near.copy_from_slice(line);
+        self.find_lowest();
+        let count = line.len() as i32;
+        for (u, distance) in (0..count).zip(line.iter_mut()).rev() {
             let Some(&(i, start)) = self.lowest.last() else {
                 return;
             };
-            let to_outside = (u + 1).min(self.count - u);
-            give(u as usize, height(u, i).min(to_outside) as u16);
+            let to_outside = (u + 1).min(count - u);
+            *distance = self.height(u, i).min(to_outside) as u16;
             if u == start {
                 self.lowest.pop();
             }
         }
+    }
+
+    /// Goes along the line and keeps the curves that are lowest somewhere.
+    fn find_lowest(&mut self) {
+        self.lowest.clear();
+        self.lowest.push((0, 0));
+        let count = self.near.len() as i32;
+        for u in 1..count {
+            // Drop curves that the new one undercuts where they start.
+            while let Some(&(i, start)) = self.lowest.last()
+                && self.height(start, i) > self.height(start, u)
+            {
+                self.lowest.pop();
+            }
+            let start = match self.lowest.last() {
+                None => 0,
+                Some(&(i, _)) => 1 + crossing(i, u, self.near(i), self.near(u)),
+            };
+            if start < count {
+                self.lowest.push((u, start));
+            }
+        }
+    }
+
+    fn near(&self, i: i32) -> i32 {
+        i32::from(self.near[i as usize])
+    }
+
+    /// The curve of `i` at `u`.
+    fn height(&self, u: i32, i: i32) -> i32 {
+        (u - i).abs().max(self.near(i))
     }
 }
 

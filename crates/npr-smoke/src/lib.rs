@@ -40,3 +40,8 @@ pub use solver::{Smoke, SmokeError, SmokeSettings, Source};
 pub use sphere::{Sphere, covered_share};
 pub use track::{Placement, Track, TrackSettings};
 pub use volume::{MAX_SIDE, Mended, Volume, VolumeError};
+
+/// The examples of the README, run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

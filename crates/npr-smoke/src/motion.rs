@@ -78,10 +78,11 @@ pub fn between(
     before.check_same_grid(after)?;
     let t = if t.is_nan() { 0.0 } else { t.clamp(0.0, 1.0) };
     let lattice = before.lattice();
+    let to_index = before.index_from_world_motion();
     let sources = |at: [usize; 3]| {
         let place = Vec3::from_array(at.map(|side| side as f32));
         let moved = |volume: &Volume, seconds: f32| {
-            let away = volume.index_motion(volume.velocity_at(place)) * seconds;
+            let away = to_index * volume.velocity_at(place) * seconds;
             // Smoke that comes from nowhere stays where it is.
             place + if away.is_finite() { away } else { Vec3::ZERO }
         };

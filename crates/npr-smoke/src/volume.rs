@@ -1,6 +1,6 @@
 //! One moment of smoke on a grid: density, and where known velocity and temperature.
 
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::{DAffine3, DVec3, Mat3, Vec3};
 use rayon::prelude::*;
 
 use crate::lattice::Lattice;
@@ -184,11 +184,9 @@ impl Volume {
             .as_vec3()
     }
 
-    /// A motion in the world, in voxels.
-    pub(crate) fn index_motion(&self, world: Vec3) -> Vec3 {
-        self.world_to_index
-            .transform_vector3(world.as_dvec3())
-            .as_vec3()
+    /// Turns motions in the world into motions in voxels.
+    pub(crate) fn index_from_world_motion(&self) -> Mat3 {
+        self.world_to_index.matrix3.as_mat3()
     }
 
     /// Radius in the world of the greatest ball inside one voxel's cube, doubled: the side of a cubic voxel.
@@ -322,13 +320,12 @@ fn mend<T: Default + Send + Sync>(values: &mut [T], usable: impl Fn(&T) -> bool 
 
 /// The inverse of a transform that has one.
 fn inverse(transform: DAffine3) -> Option<DAffine3> {
-    let determinant = DMat3::determinant(&transform.matrix3);
+    let determinant = transform.matrix3.determinant();
     if !transform.is_finite() || determinant == 0.0 || !determinant.is_finite() {
         return None;
     }
     let inverse = transform.inverse();
-    let reaches_back = |v: DVec3| v.is_finite();
-    (inverse.is_finite() && reaches_back(inverse.translation)).then_some(inverse)
+    inverse.is_finite().then_some(inverse)
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ pub enum Source {
     Plume,
     /// One puff from the floor, rising as a ring that rolls and thins out.
     Puff,
-    /// A blast above the floor: a ball of fire that swells and rises on a stem.
+    /// A blast above the floor: a ball of fire that swells, then rises and rolls up.
     Explosion,
     /// A fair-weather cloud that is there from the start, boils and drifts.
     Cloud,
@@ -39,7 +39,7 @@ const PUFF_SECONDS: f64 = 0.35;
 const BLAST_SECONDS: f64 = 0.25;
 
 /// Expansion of an explosion of heat 1, per second.
-const BLAST_EXPANSION: f32 = 10.0;
+const BLAST_EXPANSION: f32 = 7.0;
 
 impl Source {
     /// All sources.
@@ -83,8 +83,9 @@ impl Source {
                 ..plume
             },
             Self::Explosion => SmokeSettings {
+                size: [24, 24, 24],
                 heat: 2.0,
-                buoyancy: 0.3,
+                buoyancy: 0.12,
                 cooling: 0.8,
                 ..plume
             },
@@ -154,7 +155,7 @@ pub(super) fn speed(settings: &SmokeSettings, seconds: f64) -> f32 {
         Source::Puff => 0.6,
         Source::Cloud => 0.0,
         // At the surface of a ball that expands evenly.
-        Source::Explosion => blast_strength(settings, seconds) * stage.radius / 3.0,
+        Source::Explosion => 0.45 + blast_strength(settings, seconds) * stage.radius / 3.0,
     };
     box_speed * stage.scale
 }
@@ -206,7 +207,7 @@ impl Stage {
         let far = Vec3::from_array(settings.size.map(|side| side as f32)) / scale;
         // A blast needs room to swell.
         let share = if settings.source == Source::Explosion {
-            0.12
+            0.15
         } else {
             0.17
         };
@@ -270,7 +271,7 @@ impl Stage {
 
     /// Where it explodes.
     fn blast_center(&self) -> Vec3 {
-        self.above(2.5 * self.radius)
+        self.above(1.8 * self.radius)
     }
 
     /// Fire.
@@ -280,7 +281,7 @@ impl Stage {
         Gift {
             density: inside,
             temperature: inside * (0.6 + 0.8 * lump),
-            lift: 0.0,
+            lift: 0.45 * inside,
         }
     }
 
