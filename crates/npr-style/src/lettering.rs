@@ -72,7 +72,7 @@ pub struct Lettering {
     #[serde(default)]
     #[schemars(range(min = -0.5, max = 2.0))]
     pub spacing: f32,
-    /// From line to line, in heights of a capital, 0.5..5; default 1.3.
+    /// From line to line, in heights of a capital, 0.5..5; default 1.3. More where letters of two lines would meet, unless below 1.
     #[serde(default = "default_line_step")]
     #[schemars(range(min = 0.5, max = 5.0))]
     pub line_step: f32,

@@ -42,6 +42,9 @@ pub const TEXT_MAX: usize = 400;
 /// Most curves of all letters together.
 const CURVES_MAX: usize = 400_000;
 
+/// Space kept between what hangs from a line and what rises from the next, in cap heights.
+const CLEAR: f64 = 0.15;
+
 /// Greatest `spread`: beyond, the first letters would all but vanish.
 pub const SPREAD_MAX: f64 = 0.8;
 
@@ -91,7 +94,8 @@ pub struct Setting {
     pub spread: f64,
     /// Free space added between letters, in cap heights, -0.5..2.
     pub spacing: f64,
-    /// From baseline to baseline in cap heights, 0.5..5.
+    /// From baseline to baseline in cap heights, 0.5..5; from 1 on it grows where letters of two lines would meet, as a p over a T
+    /// does, below they overlap.
     pub line_step: f64,
     /// Turn of the whole, in radians, counter-clockwise in the picture.
     pub turn: f64,
@@ -207,14 +211,13 @@ fn set_line(
 
 /// Lays lines below one another, centred, and bends them.
 fn stack(lines: &[Line], setting: &Setting) -> Result<BezPath, LetteringError> {
-    let middle = 0.5 * (lines.len().saturating_sub(1)) as f64;
-    let baseline = |i: usize| (i as f64 - middle) * setting.line_step + 0.5;
+    let baselines = baselines_of(lines, setting.line_step);
     let placed: Vec<(f64, BezPath)> = lines
         .iter()
-        .enumerate()
-        .map(|(i, line)| {
-            let place = Affine::translate((-0.5 * line.width, baseline(i)));
-            (baseline(i), place * line.outline.clone())
+        .zip(baselines)
+        .map(|(line, baseline)| {
+            let place = Affine::translate((-0.5 * line.width, baseline));
+            (baseline, place * line.outline.clone())
         })
         .collect();
     let warp = Warp::around(placed.iter().map(|(_, path)| path), setting);
@@ -226,6 +229,45 @@ fn stack(lines: &[Line], setting: &Setting) -> Result<BezPath, LetteringError> {
         }
     }
     Ok(warp::turned(setting.turn) * outline)
+}
+
+/// Where the baselines of lines lie, so that the middle of all capitals is 0.
+fn baselines_of(lines: &[Line], line_step: f64) -> Vec<f64> {
+    let mut baselines = Vec::with_capacity(lines.len());
+    let mut at = 0.0;
+    for (i, line) in lines.iter().enumerate() {
+        if let Some(above) = i.checked_sub(1).and_then(|above| lines.get(above)) {
+            let met = above.hang() + line.rise() + CLEAR;
+            at += if line_step < 1.0 {
+                line_step
+            } else {
+                line_step.max(met)
+            };
+        }
+        baselines.push(at);
+    }
+    let middle = 0.5 * at;
+    baselines.into_iter().map(|y| y - middle + 0.5).collect()
+}
+
+impl Line {
+    /// How far letters hang below the baseline, in cap heights.
+    fn hang(&self) -> f64 {
+        if self.outline.is_empty() {
+            0.0
+        } else {
+            self.outline.control_box().y1
+        }
+    }
+
+    /// How far they rise above it.
+    fn rise(&self) -> f64 {
+        if self.outline.is_empty() {
+            0.0
+        } else {
+            -self.outline.control_box().y0
+        }
+    }
 }
 
 /// A band around letters.

@@ -246,6 +246,22 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
+    fn lines_keep_clear_unless_they_are_to_overlap(
+        reaches in prop::collection::vec([0.0..1.5_f64, 0.0..1.0_f64], 1..6), line_step in 0.5..3.0_f64,
+    ) {
+        let line = |[rise, hang]: &[f64; 2]| Line { outline: Rect::new(0.0, -rise, 1.0, *hang).to_path(1e-3), width: 1.0 };
+        let lines: Vec<Line> = reaches.iter().map(line).collect();
+        let baselines = baselines_of(&lines, line_step);
+        prop_assert!(is_about(baselines[0] + baselines[lines.len() - 1], 1.0));
+        for (pair, reach) in baselines.windows(2).zip(reaches.windows(2)) {
+            let step = pair[1] - pair[0];
+            let met = reach[0][1] + reach[1][0];
+            let wanted = if line_step < 1.0 { line_step } else { line_step.max(met + CLEAR) };
+            prop_assert!(is_about(step, wanted));
+        }
+    }
+
+    #[test]
     fn outlines_are_finite_and_closed(text in "[HIOQV x\u{301}\nא\u{627}]{0,12}", setting in settings()) {
         let words = set_words(&font(), &text, &setting).expect("sound words");
         let mut open = false;
