@@ -32,6 +32,28 @@ const LINE_INK_SHARE: f32 = 0.7;
 // What is left of that share for the thinnest lines.
 const THIN_INK_SHARE: f32 = 0.4;
 
+// Half side of the box, in mask pixels, in which a line within one surface must go on.
+const RUN_BOX_PX: u32 = 5u;
+// Owned pixels in that box that make a line; fewer are the tip of a corner, or the grain of a scan.
+const RUN_COUNT: u32 = 8u;
+// What parts a surface from others, not from itself.
+const BETWEEN: u32 = DETECT_OBJECT | DETECT_MATERIAL | DETECT_PIECE;
+
+// Whether a surface is parted from itself along a line through a mask pixel, not at a few pixels alone.
+fn runs_on(at: vec2<u32>, part: u32) -> bool {
+    let size = mask_window.size;
+    let low = max(at, vec2<u32>(RUN_BOX_PX)) - RUN_BOX_PX;
+    let high = min(at + RUN_BOX_PX, size - 1u);
+    var count = 0u;
+    for (var y = low.y; y <= high.y; y++) {
+        for (var x = low.x; x <= high.x; x++) {
+            let element = y * size.x + x;
+            if (mask[element] & MASK_OWNER) != 0u && gbuffer[element].part == part { count += 1u; }
+        }
+    }
+    return count >= RUN_COUNT;
+}
+
 // Ink found in a box of the output: texels looked at, texels with any ink, and the sum of their coverage in steps of 1 / 255.
 struct Ink {
     texels: u32,
@@ -93,8 +115,11 @@ fn main(
     var stamp: Stamp;
     let found = mask[element];
     let pixel = gbuffer[element];
-    if (found & MASK_OWNER) != 0u && pixel.part != NONE && (parts[pixel.part].flags & PART_LINES) != 0u {
-        let center = frame_at(mask_window, pixel_of(element, mask_window.size))
+    let at = pixel_of(element, mask_window.size);
+    var is_line = (found & MASK_OWNER) != 0u && pixel.part != NONE && (parts[pixel.part].flags & PART_LINES) != 0u;
+    if is_line && (found & BETWEEN) == 0u { is_line = runs_on(at, pixel.part); }
+    if is_line {
+        let center = frame_at(mask_window, at)
             + toward_line(found) * mask_window.frame_step;
         if !is_inked_at(center, pixel.half_width) {
             stamp.center = center;

@@ -26,6 +26,15 @@ const LINE_INK_SHARE: f32 = 0.7;
 /// What is left of that share for the thinnest lines.
 const THIN_INK_SHARE: f32 = 0.4;
 
+/// Half side of the box, in mask pixels, in which a line within one surface must go on.
+const RUN_BOX_PX: u32 = 5;
+
+/// Owned pixels in that box that make a line; fewer are the tip of a corner, or the grain of a scan.
+const RUN_COUNT: u32 = 8;
+
+/// What parts a surface from others, not from itself.
+const BETWEEN: u32 = Outline::OBJECT_ID | Outline::MATERIAL_ID | Outline::PIECE;
+
 /// What residual lines are found on.
 #[derive(Debug, Clone, Copy)]
 pub struct Search<'a> {
@@ -69,6 +78,9 @@ impl Search<'_> {
         if self.parts[pixel.part as usize].flags & Part::LINES == 0 {
             return None;
         }
+        if found & BETWEEN == 0 && !self.runs_on([x, y], pixel.part) {
+            return None;
+        }
         let (middle, toward) = (self.mask_window.frame_at(x, y), toward_line(found));
         let center: [f32; 2] =
             std::array::from_fn(|i| middle[i] + toward[i] * self.mask_window.frame_step[i]);
@@ -77,6 +89,25 @@ impl Search<'_> {
             half_width: pixel.half_width,
             part: pixel.part,
         })
+    }
+
+    /// Whether a surface is parted from itself along a line through a mask pixel, not at a few pixels alone.
+    ///
+    /// Four faces that meet in a blunt corner differ across it though none of its edges is a crease, and so do the dents of a
+    /// scan: lines so short would be dots.
+    fn runs_on(&self, at: [u32; 2], part: u32) -> bool {
+        let size = self.mask_window.size;
+        let low = at.map(|v| v.saturating_sub(RUN_BOX_PX));
+        let high: [u32; 2] = std::array::from_fn(|i| (at[i] + RUN_BOX_PX).min(size[i] - 1));
+        let mut count = 0;
+        for y in low[1]..=high[1] {
+            for x in low[0]..=high[0] {
+                let element = (y * size[0] + x) as usize;
+                let is_owned = self.mask[element] & MASK_OWNER != 0;
+                count += u32::from(is_owned && self.gbuffer[element].part == part);
+            }
+        }
+        count >= RUN_COUNT
     }
 
     /// Whether a ribbon runs through a point of the frame: ink enough under it, and enough around to be a line.
@@ -387,6 +418,52 @@ mod tests {
         smooth(&window(), &stamps, &mut smoothed);
         let of = |[x, y]: &[u32; 2]| smoothed[(y * 40 + x) as usize].center;
         at.iter().map(of).collect()
+    }
+
+    /// How many stamps are found where a mask owns a line of `kinds` at some pixels, and nothing is inked.
+    fn found(kinds: u32, at: &[[u32; 2]]) -> usize {
+        let parts = [Part {
+            flags: Part::LINES,
+            ..Part::default()
+        }];
+        let surface = GPixel {
+            part: 0,
+            half_width: 2.0,
+            ..GPixel::EMPTY
+        };
+        let mut mask = vec![0; 40 * 24];
+        for [x, y] in at {
+            mask[(y * 40 + x) as usize] = kinds | MASK_OWNER | MASK_SIDE;
+        }
+        let window = window();
+        let search = Search {
+            window: &window,
+            mask_window: &window,
+            parts: &parts,
+            gbuffer: &[surface; 40 * 24],
+            mask: &mask,
+            ribbons: &[0; 40 * 24],
+        };
+        let mut stamps = vec![Stamp::default(); 40 * 24];
+        find(&search, &mut stamps);
+        stamps.iter().filter(|stamp| stamp.half_width > 0.0).count()
+    }
+
+    #[test]
+    fn a_surface_has_no_dots_on_it() {
+        let line: Vec<[u32; 2]> = (5..30).map(|x| [x, 10]).collect();
+        let dot = [[5, 10], [6, 10], [5, 11]];
+        for kinds in [Outline::NORMAL, Outline::DEPTH] {
+            assert_eq!(found(kinds, &dot), 0);
+            // Both ends fade out over two pixels.
+            assert_eq!(found(kinds, &line), line.len() - 4);
+        }
+        // What parts it from others may be as short as it likes.
+        for kinds in [Outline::OBJECT_ID, Outline::PIECE | Outline::NORMAL] {
+            assert_eq!(found(kinds, &dot), 3);
+        }
+        // Corners of the mask are no dots for want of room.
+        assert_eq!(found(Outline::NORMAL, &[[0, 0], [1, 0], [39, 23]]), 0);
     }
 
     #[test]
