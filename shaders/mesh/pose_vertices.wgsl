@@ -42,12 +42,22 @@ fn projected_curvature(vertex: Vertex, normal: vec3<f32>, direction: vec3<f32>, 
     return across - twist2 * radial / (radial * radial + 0.01);
 }
 
-// Width factor 0..1 of a vertex.
-fn width_at(vertex: Vertex, normal: vec3<f32>, direction: vec3<f32>, world: vec3<f32>, depth: f32) -> f32 {
-    if (outline.flags & OUTLINE_PROJECTED_CURVATURE) == 0u { return vertex.width; }
+// Width of a line as a share of the radius that it turns with, at most: wider, it would fill what it goes round.
+const BEND_SHARE: f32 = 0.2;
+
+// Widest line, in pixels, round a bend of this curvature, in 1 / pixel.
+fn widest_round(bend_px: f32) -> f32 {
+    return BEND_SHARE / max(abs(bend_px), 1e-6);
+}
+
+// Width factor 0..1 of a vertex, and the curvature of the line drawn there in 1 / pixel, 0 where it does not matter.
+fn width_at(vertex: Vertex, normal: vec3<f32>, direction: vec3<f32>, world: vec3<f32>, depth: f32) -> vec2<f32> {
+    if (outline.flags & OUTLINE_PROJECTED_CURVATURE) == 0u { return vec2<f32>(vertex.width, 0.0); }
     let eye = to_eye(view, world);
     let curvature = projected_curvature(vertex, normal, direction, eye) / outline.radius_world;
-    return width_of_curvature(curvature * height_at(view, depth) * 0.1, outline.gain);
+    let height = height_at(view, depth);
+    let s = width_of_curvature(curvature * height * 0.1, outline.gain);
+    return vec2<f32>(s, curvature * height / view.frame_px.y);
 }
 
 // One invocation per vertex.
@@ -69,11 +79,12 @@ fn main(
 
     // Turn the width factor into pixels.
     let s = width_at(vertex, normal, direction, world, depth);
-    var width = outline.base_width * parts[vertex.part].width_factor;
-    width *= outline.min_factor + (outline.max_factor - outline.min_factor) * s;
+    var base = outline.base_width * parts[vertex.part].width_factor;
     if (outline.flags & OUTLINE_WORLD_WIDTH) != 0u {
-        width /= max(world_per_pixel(view, max(depth, view.near)), 1e-20);
+        base /= max(world_per_pixel(view, max(depth, view.near)), 1e-20);
     }
+    var width = base * (outline.min_factor + (outline.max_factor - outline.min_factor) * s.x);
+    width = min(width, max(widest_round(s.y), base * outline.min_factor));
 
     var vertex_out: PosedVertex;
     vertex_out.clip = apply_point(view.clip_from_world, world);

@@ -16,6 +16,11 @@ const RADIAL_FLOOR: f32 = 0.01;
 /// Share of the frame's height at which a radius of curvature counts as 1 before the gain.
 const CURVATURE_SCALE: f32 = 0.1;
 
+/// Width of a line as a share of the radius that it turns with, at most: wider, it would fill what it goes round.
+///
+/// Fingers, rivets and far things draw tight bends, which are not to be drawn with the widest pen; nor is the noise of a scan.
+const BEND_SHARE: f32 = 0.2;
+
 /// What vertices are posed with.
 #[derive(Debug, Clone, Copy)]
 pub struct Pose<'a> {
@@ -57,12 +62,13 @@ pub fn pose_vertex(with: &Pose<'_>, vertex: &Vertex, influence: &Influence) -> P
     let depth = dot(from_eye, view.forward_world);
 
     // Turn the width factor into pixels.
-    let s = width_at(with, vertex, normal, direction, world, depth);
-    let mut width = outline.base_width * with.parts[vertex.part as usize].width_factor;
-    width *= outline.min_factor + (outline.max_factor - outline.min_factor) * s;
+    let (s, bend_px) = width_at(with, vertex, normal, direction, world, depth);
+    let mut base = outline.base_width * with.parts[vertex.part as usize].width_factor;
     if outline.flags & Outline::WORLD_WIDTH != 0 {
-        width /= view.pixel_at(depth.max(view.near)).max(1e-20);
+        base /= view.pixel_at(depth.max(view.near)).max(1e-20);
     }
+    let width = base * (outline.min_factor + (outline.max_factor - outline.min_factor) * s);
+    let width = width.min(widest_round(bend_px).max(base * outline.min_factor));
     PosedVertex {
         clip: apply_point(&view.clip_from_world, world),
         world,
@@ -72,7 +78,12 @@ pub fn pose_vertex(with: &Pose<'_>, vertex: &Vertex, influence: &Influence) -> P
     }
 }
 
-/// Width factor 0..1 of a vertex.
+/// Widest line, in pixels, round a bend of this curvature, in 1 / pixel.
+pub fn widest_round(bend_px: f32) -> f32 {
+    BEND_SHARE / bend_px.abs().max(1e-6)
+}
+
+/// Width factor 0..1 of a vertex, and the curvature of the line drawn there in 1 / pixel, 0 where it does not matter.
 fn width_at(
     with: &Pose<'_>,
     vertex: &Vertex,
@@ -80,17 +91,16 @@ fn width_at(
     direction: [f32; 3],
     world: [f32; 3],
     depth: f32,
-) -> f32 {
+) -> (f32, f32) {
     if with.outline.flags & Outline::PROJECTED_CURVATURE == 0 {
-        return vertex.width;
+        return (vertex.width, 0.0);
     }
     let eye = with.view.to_eye(world);
     let curvature = projected_curvature(vertex.curvatures, normal, direction, eye);
     let curvature = curvature / with.outline.radius_world;
-    width_of_curvature(
-        curvature * with.view.height_at(depth) * CURVATURE_SCALE,
-        with.outline.gain,
-    )
+    let height = with.view.height_at(depth);
+    let s = width_of_curvature(curvature * height * CURVATURE_SCALE, with.outline.gain);
+    (s, curvature * height / with.view.frame_px[1])
 }
 
 /// Curvature of the outline that a surface would have at a point, seen along `eye`.
@@ -198,6 +208,30 @@ mod tests {
             let tangent: [f32; 3] = std::array::from_fn(|i| t[i] - n[i] * dot(t, n));
             let moved = apply_direction(&matrix, tangent);
             prop_assert!(dot(apply_normal(&matrix, n), moved).abs() < 1e-3);
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+        #[test]
+        fn lines_never_fill_what_they_go_round(
+            radius in 0.01f32..2.0, base in 0.5f32..20.0, least in 0.05f32..1.0, gain in 0.1f32..10.0,
+        ) {
+            let view = View { view_height: 1.0, frame_px: [1000.0; 2], ..View::default() };
+            let outline = Outline {
+                base_width: base, min_factor: least, max_factor: 2.0, gain, radius_world: 1.0,
+                flags: Outline::PROJECTED_CURVATURE, ..Outline::default()
+            };
+            let parts = [Part { width_factor: 1.0, ..Part::default() }];
+            let influences = [Influence { joints: [0; 4], weights: [1.0, 0.0, 0.0, 0.0] }];
+            let with = Pose { view: &view, outline: &outline, influences: &influences, palette: &[IDENTITY], parts: &parts };
+            let ball = Vertex { curvatures: [1.0 / radius; 2], normal: [0.0, 0.0, 1.0], ..Vertex::default() };
+            let width = 2.0 * pose_vertex(&with, &ball, &influences[0]).half_width;
+            // A ball of this radius is 1000 radius pixels wide to either side.
+            let room = BEND_SHARE * 1000.0 * radius;
+            prop_assert!(width <= room.max(base * least) * 1.001);
+            prop_assert!(width >= base * least * 0.999);
+            prop_assert!(room < 2.0 * base || width > base * least);
         }
     }
 
