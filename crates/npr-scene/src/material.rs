@@ -9,9 +9,9 @@ pub struct Material {
     pub base_color: [f32; 4],
     /// Image of the base colour; none where there is none or it could not be decoded.
     pub base_color_texture: Option<TextureUse>,
-    /// 0 a dielectric, 1 a metal.
+    /// 0 a dielectric, 1 a metal; half of the file's factor where a texture, which is not read, decides.
     pub metallic: f32,
-    /// 0 a mirror, 1 chalk.
+    /// 0 a mirror, 1 chalk; halved likewise.
     pub roughness: f32,
     /// Light the surface gives off, linear, strength worked in; may exceed 1.
     pub emissive: [f32; 3],

@@ -245,6 +245,22 @@ fn materials_keep_colour_alpha_and_texture() {
 }
 
 #[test]
+fn a_texture_that_says_what_is_metal_leaves_factors_open() {
+    let material = |metal: &str| {
+        let rest = format!(
+            r#","textures":[{{}}],"materials":[{{"pbrMetallicRoughness":{{"metallicFactor":1,"roughnessFactor":0.8{metal}}}}}]"#
+        );
+        let scene = load_triangle(r#","material":0"#, &rest).expect("a sound file");
+        (scene.materials[0].metallic, scene.materials[0].roughness)
+    };
+    assert_eq!(material(""), (1.0, 0.8));
+    assert_eq!(
+        material(r#","metallicRoughnessTexture":{"index":0}"#),
+        (0.5, 0.4)
+    );
+}
+
+#[test]
 fn a_broken_image_leaves_the_factor() {
     let rest = r#","images":[{"uri":"data:image/png;base64,AAAA"}],"textures":[{"source":0}],
         "materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0,1,0,1],"baseColorTexture":{"index":0}}}]"#;

@@ -78,12 +78,15 @@ fn base_color_info(material: &JsonMaterial) -> Option<&Info> {
 fn surface(source: &JsonMaterial) -> Material {
     let extensions = source.extensions.as_ref();
     let pbr = &source.pbr_metallic_roughness;
+    // Factors are then the most that the texture, which is not read, can say; most files leave them at 1.
+    let textured = pbr.metallic_roughness_texture.is_some();
+    let left_open = if textured { 0.5 } else { 1.0 };
     let mut material = Material {
         name: source.name.clone().unwrap_or_default(),
         base_color: pbr.base_color_factor.0.map(factor),
         base_color_texture: None,
-        metallic: factor(pbr.metallic_factor.0),
-        roughness: factor(pbr.roughness_factor.0),
+        metallic: left_open * factor(pbr.metallic_factor.0),
+        roughness: left_open * factor(pbr.roughness_factor.0),
         emissive: emissive(source),
         double_sided: source.double_sided,
         alpha: alpha(source),
