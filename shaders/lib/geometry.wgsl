@@ -13,7 +13,7 @@ struct Vertex {
     weld_normal: u32,
     width: f32,
     part: u32,
-    unused: u32,
+    knot: f32,
 }
 
 struct Influence {
@@ -71,7 +71,8 @@ struct Part {
     second_from: f32,
     tile_scale: f32,
     turn: vec2<f32>,
-    unused: vec2<f32>,
+    paint: f32,
+    paint_color: u32,
     highlight_color: vec4<f32>,
     back_color: vec4<f32>,
     highlight: vec4<f32>,
@@ -103,6 +104,8 @@ const PART_BEAM_COVERS: u32 = 65536u;
 const PART_BEAM_BEHIND: u32 = 131072u;
 const PART_HULL: u32 = 262144u;
 const PART_ANGLE: u32 = 524288u;
+const PART_PAINTED: u32 = 1048576u;
+const PART_PLAIN: u32 = 2097152u;
 
 struct GPixel {
     plane_step: vec2<f32>,

@@ -11,6 +11,9 @@ const RIDGE: f32 = 0.16;
 // Least luminance of the shade ramp, above half the threshold, where there is hatch but no ink.
 const OPEN_PAPER: f32 = 0.08;
 
+// Change of luminance over the distance between strokes from which the strokes give way to the tone's own edge.
+const ABRUPT: f32 = 0.4;
+
 fn shade_level(x: f32, dark_at: f32, light_at: f32) -> f32 {
     if light_at <= dark_at { return select(1.0, 0.0, x < light_at); }
     return clamp((x - dark_at) / (light_at - dark_at), 0.0, 1.0);
@@ -37,7 +40,9 @@ fn ink_over(part: u32, range: vec2<f32>) -> f32 {
     let hatched = (parts[part].flags & PART_HATCH) != 0u;
     let lightest = select(NO_HATCH, 0.0, hatched);
     let darkest = select(NO_HATCH, 1.0, hatched);
-    if tone_value(lightest, level_of(part, range.x)) > parts[part].threshold { return 0.0; }
+    // How light paint is hangs on the place, but it never lightens.
+    let painted = (parts[part].flags & PART_PAINTED) != 0u;
+    if !painted && tone_value(lightest, level_of(part, range.x)) > parts[part].threshold { return 0.0; }
     if tone_value(darkest, level_of(part, range.y)) < parts[part].threshold { return 1.0; }
     return -1.0;
 }
@@ -74,9 +79,18 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
         let lit = coordinate_at(world_of(corners, weights[i]), normal_of(corners, weights[i]), dark);
         l[i] = level_of(part, lit.x);
     }
+    // Strokes show no change of the light that is faster than they follow one another.
+    let per_px = length(vec2<f32>(l[1] - l[0], l[2] - l[0]));
+    if (flags & PART_PAINTED) != 0u {
+        let white = paint_at(id, part, weights);
+        for (var i = 0u; i < 3u; i++) { l[i] = painted_level(l[i], white[i], parts[part].threshold); }
+    }
     var hatching: Hatching;
     hatching.s = NO_HATCH;
-    if (flags & PART_HATCH) != 0u { hatching = hatching_of(part, place_in_hatch(id, part, weights, places)); }
+    if (flags & PART_HATCH) != 0u {
+        hatching = untied(hatching_of(part, place_in_hatch(id, part, weights, places)), knot_at(id, weights[0]));
+        hatching = toned_hatch(hatching, abruptness(per_px, parts[part].spacing_px));
+    }
     // Beyond a silhouette the surface runs on to anywhere.
     let darkens = clamp(2.0 * vec2<f32>(l[1] - l[0], l[2] - l[0]), vec2<f32>(-1.0), vec2<f32>(1.0));
     var slope = length(hatching.slope + darkens);
@@ -108,6 +122,35 @@ fn place_in_hatch(id: u32, part: u32, weights: array<vec3<f32>, 3>, places: arra
     place.right = uvs[1] - uvs[0];
     place.down = uvs[2] - uvs[0];
     return place;
+}
+
+// How far a tone changes from dark to light too fast for strokes to show, 0..1.
+fn abruptness(per_px: f32, spacing_px: f32) -> f32 {
+    return clamp((per_px * spacing_px - ABRUPT) / ABRUPT, 0.0, 1.0);
+}
+
+// A hatch that gives way to the edge of the tone itself.
+fn toned_hatch(full: Hatching, abrupt: f32) -> Hatching {
+    var hatching = full;
+    hatching.s += (NO_HATCH - hatching.s) * abrupt;
+    hatching.slope *= 1.0 - abrupt;
+    return hatching;
+}
+
+// How badly the strokes of triangle `id` lie where its corners have these weights, 0..1.
+fn knot_at(id: u32, weights: vec3<f32>) -> f32 {
+    let at = triangles[(id & ID_MASK) - 1u].corners;
+    return blend(weights, vertices[at.x].knot, vertices[at.y].knot, vertices[at.z].knot);
+}
+
+// A hatch without the white of its knots: the last strokes to merge do so as soon as half of the paper is inked.
+fn untied(tied: Hatching, knot: f32) -> Hatching {
+    var hatching = tied;
+    let most = 1.0 - 0.5 * clamp(knot, 0.0, 1.0);
+    if hatching.s <= most { return hatching; }
+    hatching.s = most;
+    hatching.slope = vec2<f32>(0.0);
+    return hatching;
 }
 
 // The hatch of a part, with its second layer where it has one.

@@ -37,6 +37,7 @@ override WG: u32 = 64u;
 
 //# use lib/texture
 //# use lib/lighting
+//# use lib/paint
 //# use lib/inking
 //# use lib/gloss
 //# use lib/beam
@@ -168,25 +169,36 @@ fn tone_at(triangle: Triangle, corners: Corners, weights: vec3<f32>, dark: u32) 
     return sampled;
 }
 
-fn vertex_color(index: u32) -> vec3<f32> {
-    return linear_texel(vertices[index].color).rgb;
+// Vertex colours of a triangle where its corners have these weights, linear light.
+fn tint(triangle: Triangle, weights: vec3<f32>) -> vec3<f32> {
+    let at = triangle.corners;
+    return blend3(
+        weights,
+        linear_texel(vertices[at.x].color).rgb,
+        linear_texel(vertices[at.y].color).rgb,
+        linear_texel(vertices[at.z].color).rgb,
+    );
+}
+
+// How far a pixel reaches in coordinates of a texture that are `uv` there, and what they are to the right and below.
+fn footprint(uv: vec2<f32>, right: vec2<f32>, down: vec2<f32>) -> f32 {
+    let dx = right - uv;
+    let dy = down - uv;
+    return sqrt(max(dx.x * dx.x + dx.y * dx.y, dy.x * dy.x + dy.y * dy.y));
 }
 
 // Surface colour without light.
 fn base_color(triangle: Triangle, corners: Corners, frame_px: vec2<f32>) -> vec3<f32> {
+    var color = parts[triangle.part].base_color.rgb;
+    if (parts[triangle.part].flags & PART_PLAIN) != 0u { return color; }
     let weights = weights_at(corners.clip, ndc_at(view, frame_px));
-    let at = triangle.corners;
-    var color = parts[triangle.part].base_color.rgb
-        * blend3(weights, vertex_color(at.x), vertex_color(at.y), vertex_color(at.z));
+    color *= tint(triangle, weights);
     let texture = parts[triangle.part].texture;
     if texture != NONE {
         let right = weights_at(corners.clip, ndc_at(view, frame_px + vec2<f32>(1.0, 0.0)));
         let down = weights_at(corners.clip, ndc_at(view, frame_px + vec2<f32>(0.0, 1.0)));
         let uv = uv_at(triangle, weights);
-        let dx = uv_at(triangle, right) - uv;
-        let dy = uv_at(triangle, down) - uv;
-        let footprint = sqrt(max(dx.x * dx.x + dx.y * dx.y, dy.x * dy.x + dy.y * dy.y));
-        color *= sample_texture(texture, uv, footprint).rgb;
+        color *= sample_texture(texture, uv, footprint(uv, uv_at(triangle, right), uv_at(triangle, down))).rgb;
     }
     return color;
 }
@@ -194,7 +206,7 @@ fn base_color(triangle: Triangle, corners: Corners, frame_px: vec2<f32>) -> vec3
 // A colour as strong as the style wants it.
 fn strengthened(color: vec3<f32>) -> vec3<f32> {
     if compose.saturation == 1.0 { return color; }
-    let luma = dot(color, vec3<f32>(0.2126, 0.7152, 0.0722));
+    let luma = dot(color, LUMA);
     return max(vec3<f32>(luma) + (color - luma) * compose.saturation, vec3<f32>(0.0));
 }
 

@@ -129,6 +129,7 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/beam", include_str!("../lib/beam.wgsl")),
     ("lib/gloss", include_str!("../lib/gloss.wgsl")),
     ("lib/inking", include_str!("../lib/inking.wgsl")),
+    ("lib/paint", include_str!("../lib/paint.wgsl")),
     ("lib/lighting", include_str!("../lib/lighting.wgsl")),
     ("lib/shadow", include_str!("../lib/shadow.wgsl")),
     ("lib/ribbon", include_str!("../lib/ribbon.wgsl")),

@@ -231,6 +231,65 @@ fn mapping_and_strokes_are_chosen_by_part() {
     assert!(right[0] < -0.5, "along x on the surface: {right:?}");
 }
 
+/// A square wall to either side, painted as bright as `left` and `right` say, linear light; it faces the light.
+fn painted_walls(left: f32, right: f32, settings: &[&str]) -> [f32; 2] {
+    let wall = |name: &str, x: f32, paint: f32| {
+        let mesh = placed(&plane(8, 8), [1.0, 1.0, 1.0], [x - 0.5, -0.5, 0.0]);
+        Object::new(name, mesh).colored([paint; 3])
+    };
+    let scene = scene_of(&[wall("Left", -0.7, left), wall("Right", 0.7, right)]);
+    let settings = [&["light.direction=[0,0,1]"], settings].concat();
+    let frame = draw(&scene, &settings);
+    [70..115, 205..250].map(|x| darkness(&frame, x, 90..150))
+}
+
+#[test]
+fn dark_paint_is_drawn_on_paper_where_the_style_says() {
+    let pen = ["ink.tone=ink+hatch", "ink.paint=1"];
+    assert_eq!(painted_walls(0.0, 0.9, &pen), [1.0, 0.0]);
+    assert_eq!(painted_walls(0.0, 0.9, &["ink.tone=ink+hatch"]), [0.0; 2]);
+    let [dark, light] = painted_walls(0.05, 0.2, &pen);
+    assert!(
+        dark > light + 0.2 && light > 0.05 && dark < 0.98,
+        "{dark} {light}"
+    );
+    // Where no strokes come between, only what is dark enough turns black.
+    assert_eq!(
+        painted_walls(0.01, 0.4, &["ink.tone=ink", "ink.paint=1"]),
+        [1.0, 0.0]
+    );
+    let gentle = painted_walls(0.05, 0.2, &["ink.tone=ink+hatch", "ink.paint=0.3"]);
+    assert!(gentle[0] < dark && gentle[1] < light, "{gentle:?}");
+}
+
+#[test]
+fn vertex_colours_are_paint_too() {
+    let mesh = placed(&plane(8, 8), [2.0, 1.0, 1.0], [-1.0, -0.5, 0.0]);
+    let count = mesh.positions().len();
+    let black = Object::new("Wall", mesh).painted(&vec![0.0; count]);
+    let settings = [
+        "light.direction=[0,0,1]",
+        "ink.tone=ink+hatch",
+        "ink.paint=0.5",
+    ];
+    let wall = |object: &Object, settings: &[&str]| {
+        darkness(
+            &draw(&scene_of(std::slice::from_ref(object)), settings),
+            100..220,
+            90..150,
+        )
+    };
+    assert_eq!(wall(&black, &settings), 1.0);
+    assert_eq!(wall(&black, &settings[..2]), 0.0);
+    assert_eq!(
+        wall(
+            &black,
+            &[&settings[..], &["shade.use_vertex_colors=false"]].concat()
+        ),
+        0.0
+    );
+}
+
 #[test]
 fn each_part_has_the_outline_that_its_rule_says() {
     let settings = [

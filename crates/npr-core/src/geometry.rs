@@ -33,8 +33,8 @@ pub struct Vertex {
     pub width: f32,
     /// Index into the parts.
     pub part: u32,
-    /// Keeps the size a multiple of 16 bytes.
-    pub unused: u32,
+    /// How badly hatch strokes lie around it, 0..1: there the dark is solid ink.
+    pub knot: f32,
 }
 gpu_layout!(Vertex {
     position,
@@ -46,7 +46,7 @@ gpu_layout!(Vertex {
     weld_normal,
     width,
     part,
-    unused
+    knot
 });
 
 /// Which matrices move a vertex, and how much: linear blend skinning; rigid parts use one joint.
@@ -150,7 +150,7 @@ pub struct Part {
     pub material: u32,
     /// Where its base colour texture's header starts in the texture store, or [`NONE`].
     pub texture: u32,
-    /// Bits of [`Part::DOUBLE_SIDED`] to [`Part::ANGLE`].
+    /// Bits of [`Part::DOUBLE_SIDED`] to [`Part::PLAIN`].
     pub flags: u32,
     /// Factor on the line width.
     pub width_factor: f32,
@@ -178,8 +178,10 @@ pub struct Part {
     pub tile_scale: f32,
     /// Cosine and sine of the angle by which hatch coordinates are turned.
     pub turn: [f32; 2],
-    /// Keeps rows of 16 bytes.
-    pub unused: [f32; 2],
+    /// How much the colour it is painted in darkens its shade, 0..1; read with [`Part::PAINTED`].
+    pub paint: f32,
+    /// That colour without its texture, sRGB bytes, the first in the lowest byte.
+    pub paint_color: u32,
     /// Colour of its highlight and streak, linear light; alpha is the strength.
     pub highlight_color: [f32; 4],
     /// Colour of the light from behind, linear light; alpha is the strength.
@@ -218,7 +220,8 @@ gpu_layout!(Part {
     second_from,
     tile_scale,
     turn,
-    unused,
+    paint,
+    paint_color,
     highlight_color,
     back_color,
     highlight,
@@ -270,6 +273,10 @@ impl Part {
     pub const HULL: u32 = 262_144;
     /// It is inked where it turns from the eye.
     pub const ANGLE: u32 = 524_288;
+    /// The colour it is painted in darkens its shade.
+    pub const PAINTED: u32 = 1_048_576;
+    /// It shows its base colour alone: neither its texture nor its vertex colours.
+    pub const PLAIN: u32 = 2_097_152;
     /// Any outline.
     pub const OUTLINES: u32 = Self::LINES | Self::HULL | Self::ANGLE;
     /// Any highlight.

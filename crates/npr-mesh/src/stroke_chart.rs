@@ -82,6 +82,9 @@ pub struct StrokeChart {
     /// `u` grows to the right of `v` seen from the front. The middle of each triangle lies within half a tile of
     /// the origin. Triangles without area have zeros.
     pub corners: Vec<[[f32; 2]; 3]>,
+    /// For every triangle the length by which the coordinates' gradients, in 1 / tile, miss unit vectors across and along the
+    /// strokes; 1 where it is singular, 0 without an area.
+    pub errors: Vec<f32>,
     /// Triangles in which a stroke ends or directions turn round: there neighbours do not agree.
     pub singular_triangles: u32,
     /// Those of them in which directions turn round: strokes bend about such a point, or fan out from it. A sphere
@@ -148,17 +151,24 @@ fn lift_faces(surface: &ChartInput, settings: &ChartSettings) -> (Nodes, Vec<Lif
 /// The chart of all triangles from that of those with an area.
 fn gather(faces: &[u32], lifted: &[Lifted], triangle_count: usize) -> StrokeChart {
     let mut corners = vec![[[0.0; 2]; 3]; triangle_count];
+    let mut errors = vec![0.0; triangle_count];
     let (mut error, mut area) = (0.0, 0.0);
     let count = |of: fn(&Lifted) -> bool| lifted.iter().filter(|&one| of(one)).count() as u32;
     for (&face, lifted) in faces.iter().zip(lifted) {
         corners[face as usize] = lifted.corners.map(|corner| corner.to_array());
         if lifted.gradient_error.is_finite() && lifted.area.is_finite() {
+            errors[face as usize] = if lifted.singular {
+                1.0
+            } else {
+                lifted.gradient_error
+            };
             error += f64::from(lifted.gradient_error) * f64::from(lifted.area);
             area += f64::from(lifted.area);
         }
     }
     StrokeChart {
         corners,
+        errors,
         singular_triangles: count(|lifted| lifted.singular),
         turning_triangles: count(|lifted| lifted.turning),
         gradient_error: if area > 0.0 {

@@ -2,12 +2,14 @@
 
 use crate::model::{Model, PartInfo};
 use glam::{Vec2, Vec3};
+use npr_core::color::linear_from_srgb;
 use npr_core::geometry::{ChartCorners, NONE, Part, Triangle};
 use npr_core::math;
 use npr_core::texture::TextureStore;
 use npr_mesh::direction_field::{Guide, PartGuide};
 use npr_mesh::stroke_chart::{ChartInput, ChartSettings, stroke_chart};
 use npr_style::hatch::{self, Hatch, Pattern};
+use npr_style::paint::paint_white;
 use npr_style::{Follow, Ink, Mapping, Style};
 
 /// Texels along the side of a hatch tile: 128 strokes, and six octaves down to two.
@@ -36,6 +38,8 @@ const SCREEN_SPACING_TEXELS: f32 = 8.0;
 pub(crate) struct Inked {
     /// Stroke charts, a triangle each; empty where no part is hatched along its surface.
     pub charts: Vec<ChartCorners>,
+    /// How badly strokes lie around each vertex, 0..1; empty where charts are.
+    pub knots: Vec<f32>,
     /// What was done in another way than the style asks, for the user.
     pub notices: Vec<String>,
 }
@@ -54,18 +58,20 @@ pub(crate) fn add_ink(
     };
     let mut guides = Vec::with_capacity(model.parts.len());
     let mut unmapped = None;
-    for (part, info) in parts.iter_mut().zip(&model.parts) {
+    let tinted = tinted_parts(model, style);
+    for ((part, info), tinted) in parts.iter_mut().zip(&model.parts).zip(tinted) {
         let look = style.resolve_for(&info.material_name, &info.object_name);
         let ink = look.ink;
         if look.beam.is_none() {
             set_ink(part, info, &ink, frame, &mut tiles);
+            set_paint(part, ink.paint, tinted);
         }
         if ink.mapping == Mapping::Uv && part.flags & Part::ON_SURFACE != 0 {
             unmapped = unmapped.or(Some(info));
         }
         guides.push(guide_of(&ink));
     }
-    let charts = fit_to_surfaces(model, guides, style, parts);
+    let Charted { charts, errors } = fit_to_surfaces(model, guides, style, parts);
     let told = |info: &PartInfo| {
         format!(
             "hatching follows the surface of '{}' and others: they have no UV coordinates",
@@ -73,6 +79,7 @@ pub(crate) fn add_ink(
         )
     };
     Inked {
+        knots: knots_of(model, &errors),
         charts,
         notices: unmapped.map(told).into_iter().collect(),
     }
@@ -163,6 +170,31 @@ fn set_ink(part: &mut Part, info: &PartInfo, ink: &Ink, frame: &FrameScale, tile
     };
 }
 
+/// Whether any vertex of each part has a colour that the style reads.
+fn tinted_parts(model: &Model, style: &Style) -> Vec<bool> {
+    let mut tinted = vec![false; model.parts.len()];
+    if style.shade.use_vertex_colors {
+        for vertex in &model.vertices {
+            tinted[vertex.part as usize] |= vertex.color | 0xff00_0000 != u32::MAX;
+        }
+    }
+    tinted
+}
+
+/// Lets the paint of a part darken its shade, where there is a pen and the paint is not all as light as paper.
+fn set_paint(part: &mut Part, strength: f32, tinted: bool) {
+    let [r, g, b] = [0, 8, 16].map(|shift| {
+        let byte = part.paint_color >> shift & 255;
+        linear_from_srgb(byte as f32 / 255.0)
+    });
+    let varies = tinted || part.texture != NONE;
+    let pen = part.flags & (Part::INK | Part::HATCH) != 0;
+    if pen && strength > 0.0 && (varies || paint_white([r, g, b], strength) < 1.0) {
+        part.paint = strength;
+        part.flags |= Part::PAINTED;
+    }
+}
+
 /// What the strokes of a part run along on its surface.
 fn guide_of(ink: &Ink) -> PartGuide {
     PartGuide {
@@ -176,19 +208,51 @@ fn guide_of(ink: &Ink) -> PartGuide {
     }
 }
 
+/// Error of a chart from which strokes begin to look knotted, and from which they are.
+const KNOT_ERRORS: [f32; 2] = [0.35, 0.75];
+
+/// How badly strokes lie around each vertex, 0..1: by the mean error of the triangles there, which may be empty for none.
+fn knots_of(model: &Model, errors: &[f32]) -> Vec<f32> {
+    let mut sums = vec![
+        [0.0f32; 2];
+        if errors.is_empty() {
+            0
+        } else {
+            model.vertices.len()
+        }
+    ];
+    for (triangle, error) in model.triangles.iter().zip(errors) {
+        for corner in triangle.corners {
+            let [sum, count] = &mut sums[corner as usize];
+            (*sum, *count) = (*sum + error, *count + 1.0);
+        }
+    }
+    let [from, to] = KNOT_ERRORS;
+    let knot =
+        |[sum, count]: [f32; 2]| ((sum / count.max(1.0) - from) / (to - from)).clamp(0.0, 1.0);
+    sums.into_iter().map(knot).collect()
+}
+
+/// Charts of a model's triangles, and how much each errs; both empty where no part is hatched along its surface.
+#[derive(Default)]
+struct Charted {
+    charts: Vec<ChartCorners>,
+    errors: Vec<f32>,
+}
+
 /// Fits tiles to the size of what they lie on: the scale of parts hatched by UV coordinates, and the charts of all others.
 fn fit_to_surfaces(
     model: &Model,
     guides: Vec<PartGuide>,
     style: &Style,
     parts: &mut [Part],
-) -> Vec<ChartCorners> {
+) -> Charted {
     let on_surface = |part: &Part| part.flags & Part::ON_SURFACE != 0;
     let on_uvs = |part: &Part| {
         part.flags & (Part::HATCH | Part::ON_SURFACE | Part::ON_SCREEN) == Part::HATCH
     };
     if !parts.iter().any(|part| on_surface(part) || on_uvs(part)) {
-        return Vec::new();
+        return Charted::default();
     }
     let surfaces = Surfaces::of(model);
     for (i, part) in parts.iter_mut().enumerate() {
@@ -197,22 +261,25 @@ fn fit_to_surfaces(
         }
     }
     if !parts.iter().any(on_surface) {
-        return Vec::new();
+        return Charted::default();
     }
     let mut settings = ChartSettings {
         crease_cos: math::cos(style.line.crease_angle_deg.to_radians()),
         guides,
         ..ChartSettings::default()
     };
-    let mut charts = vec![ChartCorners::default(); model.triangles.len()];
+    let mut charted = Charted {
+        charts: vec![ChartCorners::default(); model.triangles.len()],
+        errors: vec![0.0; model.triangles.len()],
+    };
     for halvings in 0..=HALVINGS_MAX {
         let member = |part: u32| {
             on_surface(&parts[part as usize]) && surfaces.halvings[part as usize] == halvings
         };
         settings.tile_world = surfaces.tile_at(halvings);
-        add_charts(model, &surfaces.positions, &settings, member, &mut charts);
+        add_charts(model, &surfaces.positions, &settings, member, &mut charted);
     }
-    charts
+    charted
 }
 
 /// Adds the stroke charts of the parts that are members.
@@ -221,7 +288,7 @@ fn add_charts(
     positions: &[[f32; 3]],
     settings: &ChartSettings,
     member: impl Fn(u32) -> bool,
-    charts: &mut [ChartCorners],
+    charted: &mut Charted,
 ) {
     let numbered = model.triangles.iter().enumerate();
     let (numbers, triangles): (Vec<usize>, Vec<Triangle>) = numbered
@@ -235,8 +302,9 @@ fn add_charts(
         triangles: &triangles,
     };
     let chart = stroke_chart(&input, settings);
-    for (number, [a, b, c]) in numbers.into_iter().zip(chart.corners) {
-        charts[number] = ChartCorners { a, b, c };
+    for ((number, [a, b, c]), error) in numbers.into_iter().zip(chart.corners).zip(chart.errors) {
+        charted.charts[number] = ChartCorners { a, b, c };
+        charted.errors[number] = error;
     }
 }
 

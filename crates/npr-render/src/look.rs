@@ -5,6 +5,7 @@ use crate::model::{Model, PartInfo};
 use crate::stage::StageOptions;
 use glam::Vec3;
 use npr_core::camera::Camera;
+use npr_core::color::{pack_rgba8, srgb_from_linear};
 use npr_core::geometry::{NONE, Part, Vertex};
 use npr_core::math;
 use npr_core::outline::{Outline, width_of_curvature};
@@ -49,7 +50,7 @@ impl StyledModel {
             parts.push(Part::default());
         }
         Self {
-            vertices: styled_vertices(model, style, options),
+            vertices: styled_vertices(model, style, options, &inked.knots),
             parts,
             inked,
             textures,
@@ -94,7 +95,7 @@ pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
         line_color,
         object: info.object,
         material: info.material,
-        texture: if shade.use_textures && !paper && own_color.is_none() {
+        texture: if shade.use_textures && own_color.is_none() {
             info.texture
         } else {
             NONE
@@ -103,11 +104,13 @@ pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
             | bit(Part::CUTOUT, info.alpha_cutoff.is_some())
             | bit(outline_flags(look.line_method), look.line_on)
             | bit(Part::UNLIT, unlit)
+            | bit(Part::PLAIN, paper)
             | highlight_flags(&look.highlight),
         width_factor: look.width_factor,
         facing_threshold: math::sin(look.angle_threshold_deg.to_radians()),
         alpha_cutoff: info.alpha_cutoff.unwrap_or(0.0),
         softness: shade.softness,
+        paint_color: pack_linear(own_color.unwrap_or(info.base_color)),
         ramp: ramp(&look),
         ..highlighted(&look.highlight)
     };
@@ -115,6 +118,12 @@ pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
         beam.apply_to(&mut part);
     }
     part
+}
+
+/// A colour in linear light as sRGB bytes.
+fn pack_linear([r, g, b, a]: [f32; 4]) -> u32 {
+    let [r, g, b] = [r, g, b].map(srgb_from_linear);
+    pack_rgba8([r, g, b, a])
 }
 
 /// A part with highlights and nothing else.
@@ -178,10 +187,15 @@ fn ramp(look: &Look<'_>) -> [[f32; 4]; 8] {
     rows
 }
 
-/// Vertices with the width that the style's source gives them, and their colour where the style shows it.
-fn styled_vertices(model: &Model, style: &Style, options: &StageOptions) -> Vec<Vertex> {
+/// Vertices with the width that the style's source gives them, their colour where the style shows it, and the knots of strokes.
+fn styled_vertices(
+    model: &Model,
+    style: &Style,
+    options: &StageOptions,
+    knots: &[f32],
+) -> Vec<Vertex> {
     let width = VertexWidth::new(model, style, options);
-    let shows_colors = style.shade.use_vertex_colors && style.shade.mode != ShadeMode::Paper;
+    let shows_colors = style.shade.use_vertex_colors;
     (0..model.vertices.len())
         .map(|i| {
             let vertex = &model.vertices[i];
@@ -193,6 +207,7 @@ fn styled_vertices(model: &Model, style: &Style, options: &StageOptions) -> Vec<
             Vertex {
                 width: width.at(i),
                 color,
+                knot: knots.get(i).copied().unwrap_or_default(),
                 ..*vertex
             }
         })
@@ -235,7 +250,7 @@ impl<'a> VertexWidth<'a> {
             }
             WidthSource::Texture => self.image.as_ref().map_or(1.0, |(store, start)| {
                 let linear = texture::sample(store.words(), *start, vertex.uv, 0.0);
-                npr_core::color::srgb_from_linear((linear[0] + linear[1] + linear[2]) / 3.0)
+                srgb_from_linear((linear[0] + linear[1] + linear[2]) / 3.0)
             }),
             WidthSource::ControlPoints => {
                 let position = self.model.posed_point(vertex, &self.model.influences[i]);

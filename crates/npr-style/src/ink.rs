@@ -75,6 +75,11 @@ pub struct Ink {
     /// Where the sum is cut, 0..1; default 0.5. Higher is blacker all over.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub threshold: f32,
+    /// How much the colour of a surface darkens its shade, 0..1; default 0, not at all. On paper it keeps painted eyes,
+    /// stripes and dark leather: black paint is solid ink at any value, middle tones take strokes, 0.5 few, 1 as many as
+    /// they are dark.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub paint: f32,
     /// What strokes are fixed to; default `surface`.
     pub mapping: Mapping,
     /// For mapping `surface`: what strokes run along; default `around`.
@@ -96,6 +101,7 @@ impl Default for Ink {
             dark_at: 0.2,
             light_at: 0.75,
             threshold: 0.5,
+            paint: 0.0,
             mapping: Mapping::Surface,
             follow: Follow::Around,
             direction: None,

@@ -7,11 +7,12 @@ use crate::compose::Layers;
 use crate::hatch::{
     cross_layers, detail, edge_gradient, ink_coverage, level_at, sample, sharpen, tone_value,
 };
+use crate::paint::painted_level;
 use crate::ramp::ramp_coordinate;
 use crate::tone::Corners;
 use npr_core::geometry::{ChartCorners, Part, Triangle};
 use npr_core::raster::ID_MASK;
-use npr_core::surface::{blend2, dot, weights_at};
+use npr_core::surface::{blend, blend2, dot, weights_at};
 use npr_core::texture::HEADER_WORDS;
 
 /// Luminance of the middle of a stroke's half width: what stands for the hatch where there is none.
@@ -20,6 +21,10 @@ const NO_HATCH: f32 = 0.5;
 /// Least luminance of the shade ramp where there is hatch but no ink, above the half of the threshold that would be all
 /// ink: the paper between strokes stays open.
 const OPEN_PAPER: f32 = 0.08;
+
+/// Change of luminance over the distance between strokes from which the strokes give way to the tone's own edge; at twice as
+/// much they are gone.
+const ABRUPT: f32 = 0.4;
 
 /// Luminance L of the shade ramp at coordinate `x`: black up to `dark_at`, white from `light_at`, grey between.
 pub fn shade_level(x: f32, dark_at: f32, light_at: f32) -> f32 {
@@ -49,7 +54,9 @@ pub(crate) fn ink_over(part: &Part, range: [f32; 2]) -> Option<f32> {
     } else {
         (NO_HATCH, NO_HATCH)
     };
-    if tone_value(lightest, level_of(part, range[0])) > part.threshold {
+    // How light paint is hangs on the place, but it never lightens.
+    let painted = part.flags & Part::PAINTED != 0;
+    if !painted && tone_value(lightest, level_of(part, range[0])) > part.threshold {
         Some(0.0)
     } else if tone_value(darkest, level_of(part, range[1])) < part.threshold {
         Some(1.0)
@@ -111,9 +118,13 @@ impl Layers<'_> {
         }
         let places = [px, [px[0] + 1.0, px[1]], [px[0], px[1] + 1.0]];
         let weights = places.map(|px| weights_at(corners.clip, self.view.ndc_at(px)));
-        let l = self.levels_at(part, corners, weights, dark);
+        let lit = self.levels_at(part, corners, weights, dark);
+        let l = self.painted_levels(id, part, weights, lit);
         let hatching = if part.flags & Part::HATCH != 0 {
-            self.hatching(part, &self.place_in_hatch(id, part, weights, places))
+            let hatching = self.hatching(part, &self.place_in_hatch(id, part, weights, places));
+            let untied = untied(hatching, self.knot_at(id, weights[0]));
+            let per_px = length([lit[1] - lit[0], lit[2] - lit[0]]);
+            toned_hatch(untied, abruptness(per_px, part.spacing_px))
         } else {
             Hatching {
                 s: NO_HATCH,
@@ -154,6 +165,21 @@ impl Layers<'_> {
         x.map(|x| level_of(part, x))
     }
 
+    /// The same where the surface is painted.
+    fn painted_levels(
+        &self,
+        id: u32,
+        part: &Part,
+        weights: [[f32; 3]; 3],
+        l: [f32; 3],
+    ) -> [f32; 3] {
+        if part.flags & Part::PAINTED == 0 {
+            return l;
+        }
+        let white = self.paint_at(id, part, weights);
+        std::array::from_fn(|i| painted_level(l[i], white[i], part.threshold))
+    }
+
     /// Where a pixel and its neighbours to the right and below lie in the hatch of a part.
     fn place_in_hatch(
         &self,
@@ -184,6 +210,12 @@ impl Layers<'_> {
             right: [uvs[1][0] - uvs[0][0], uvs[1][1] - uvs[0][1]],
             down: [uvs[2][0] - uvs[0][0], uvs[2][1] - uvs[0][1]],
         }
+    }
+
+    /// How badly the strokes of triangle `id` lie where its corners have these weights, 0..1.
+    fn knot_at(&self, id: u32, weights: [f32; 3]) -> f32 {
+        let Triangle { corners, .. } = self.triangles[((id & ID_MASK) - 1) as usize];
+        blend(weights, corners.map(|v| self.vertices[v as usize].knot))
     }
 
     /// The hatch of a part, with its second layer where it has one.
@@ -225,6 +257,31 @@ impl Layers<'_> {
             slope: [along(place.right), along(place.down)],
         }
     }
+}
+
+/// A hatch without the white of its knots: the last strokes to merge do so as soon as half of the paper is inked.
+///
+/// Where directions turn round, strokes cannot all end well; what is seen of it is mostly white in the dark.
+fn untied(hatching: Hatching, knot: f32) -> Hatching {
+    let most = 1.0 - 0.5 * knot.clamp(0.0, 1.0);
+    if hatching.s <= most {
+        return hatching;
+    }
+    scaled(hatching, [most, 0.0])
+}
+
+/// How far a tone changes from dark to light too fast for strokes to show, 0..1.
+///
+/// `per_px` is the change of luminance over a pixel, `spacing_px` the distance between strokes. In a groove narrower than that,
+/// strokes would be a row of dots.
+pub fn abruptness(per_px: f32, spacing_px: f32) -> f32 {
+    ((per_px * spacing_px - ABRUPT) / ABRUPT).clamp(0.0, 1.0)
+}
+
+/// A hatch that gives way to the edge of the tone itself.
+fn toned_hatch(hatching: Hatching, abrupt: f32) -> Hatching {
+    let s = hatching.s + (NO_HATCH - hatching.s) * abrupt;
+    scaled(hatching, [s, 1.0 - abrupt])
 }
 
 /// A layer as `[value, steepness]` says.
@@ -279,6 +336,26 @@ mod tests {
                 let value = tone_value(s, level_of(&part, low + width * at));
                 prop_assert_eq!(ink == 1.0, value < part.threshold);
             }
+        }
+
+        #[test]
+        fn strokes_give_way_to_edges_within_their_spacing(s in 0f32..=1.0, per_px in 0f32..2.0, spacing in 2f32..20.0) {
+            let hatching = Hatching { s, slope: [0.3, 0.1] };
+            let change = per_px * spacing;
+            let after = toned_hatch(hatching, abruptness(per_px, spacing));
+            prop_assert!((after.s - NO_HATCH).abs() <= (s - NO_HATCH).abs() + 1e-6);
+            prop_assert!(change > ABRUPT || after.s == s);
+            prop_assert!(change < 2.001 * ABRUPT || after.s == NO_HATCH);
+        }
+
+        #[test]
+        fn a_knot_only_fills_the_dark(s in 0f32..=1.0, l in 0f32..=1.0, knot in 0f32..=1.0) {
+            let before = Hatching { s, slope: [0.3, 0.1] };
+            let after = untied(before, knot);
+            prop_assert!(after.s <= s);
+            // In the lighter half nothing changes sides.
+            prop_assert!(l < 0.5 || (tone_value(after.s, l) < 0.5) == (tone_value(s, l) < 0.5));
+            prop_assert!(knot < 1.0 || l >= 0.5 || tone_value(after.s, l) < 0.5);
         }
 
         #[test]

@@ -51,6 +51,7 @@ mod light;
 pub mod lighting;
 mod line;
 mod nearest;
+pub mod paint;
 mod place;
 mod preset;
 pub mod ramp;

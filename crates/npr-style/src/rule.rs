@@ -85,6 +85,10 @@ pub struct RuleInk {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub light_at: Option<f32>,
+    /// How much its colour darkens its shade, 0..1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub paint: Option<f32>,
     /// What strokes are fixed to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mapping: Option<Mapping>,
@@ -140,6 +144,7 @@ impl RuleInk {
             color: self.color.unwrap_or(ink.color),
             dark_at: self.dark_at.unwrap_or(ink.dark_at),
             light_at: self.light_at.unwrap_or(ink.light_at),
+            paint: self.paint.unwrap_or(ink.paint),
             mapping: self.mapping.unwrap_or(ink.mapping),
             follow: self.follow.unwrap_or(ink.follow),
             direction: self.direction.or(ink.direction),

@@ -5,8 +5,9 @@
 
 use crate::compose::Layers;
 use crate::inking::ink_over;
+use crate::paint::LUMA;
 use crate::ramp::{ramp_coordinate, ramp_light};
-use npr_core::geometry::{NONE, Part, PosedVertex, Triangle};
+use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
 use npr_core::raster::{HULL_BIT, ID_MASK};
 use npr_core::surface::{blend2, blend3, dot, faces_eye, unit_or_z, weights_at};
 use npr_core::texture;
@@ -14,9 +15,6 @@ use rayon::prelude::*;
 
 /// How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
 const TONE_ROOM: f32 = 0.002;
-
-/// Share of each channel in luminance [ITU-R BT.709].
-const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
 
 /// A triangle's corners, and 1 where its front is seen or -1 where its back is.
 #[derive(Debug, Clone, Copy)]
@@ -118,7 +116,8 @@ impl<'a> Layers<'a> {
     fn even_color(&self, triangle: &Triangle) -> Option<[f32; 4]> {
         let part = &self.parts[triangle.part as usize];
         let white = |v: &u32| self.vertices[*v as usize].color | 0xff00_0000 == u32::MAX;
-        if part.texture != NONE || !triangle.corners.iter().all(white) {
+        let plain = part.flags & Part::PLAIN != 0;
+        if !plain && (part.texture != NONE || !triangle.corners.iter().all(white)) {
             return None;
         }
         let even = self.one_light(part, &self.corners_of(triangle))?;
@@ -341,14 +340,11 @@ impl<'a> Layers<'a> {
     ) -> [f32; 3] {
         let vertices = triangle.corners.map(|v| &self.vertices[v as usize]);
         let [r, g, b, _] = part.base_color;
+        if part.flags & Part::PLAIN != 0 {
+            return [r, g, b];
+        }
         let weights = weights_at(corners.clip, self.view.ndc_at(frame_px));
-        let tint = blend3(
-            weights,
-            vertices.map(|v| {
-                let [r, g, b, _] = self.linear_texel(v.color);
-                [r, g, b]
-            }),
-        );
+        let tint = self.tint(weights, vertices);
         let color = [r * tint[0], g * tint[1], b * tint[2]];
         if part.texture == NONE {
             return color;
@@ -364,11 +360,25 @@ impl<'a> Layers<'a> {
             )
         };
         let (uv, right, down) = (blend2(weights, uvs), uv_near(1.0, 0.0), uv_near(0.0, 1.0));
-        let square = |there: [f32; 2]| (there[0] - uv[0]).powi(2) + (there[1] - uv[1]).powi(2);
-        let footprint = square(right).max(square(down)).sqrt();
-        let texel = texture::sample(self.texels, part.texture, uv, footprint);
+        let covered = footprint([uv, right, down]);
+        let texel = texture::sample(self.texels, part.texture, uv, covered);
         std::array::from_fn(|i| color[i] * texel[i])
     }
+
+    /// Vertex colours of a triangle where its corners have these weights, linear light.
+    pub(crate) fn tint(&self, weights: [f32; 3], vertices: [&Vertex; 3]) -> [f32; 3] {
+        let color_of = |vertex: &Vertex| {
+            let [r, g, b, _] = self.linear_texel(vertex.color);
+            [r, g, b]
+        };
+        blend3(weights, vertices.map(color_of))
+    }
+}
+
+/// How far a pixel reaches in coordinates of a texture that are `uv` there, and what they are to the right and below.
+pub(crate) fn footprint([uv, right, down]: [[f32; 2]; 3]) -> f32 {
+    let square = |there: [f32; 2]| (there[0] - uv[0]).powi(2) + (there[1] - uv[1]).powi(2);
+    square(right).max(square(down)).sqrt()
 }
 
 #[cfg(test)]
@@ -376,7 +386,6 @@ mod tests {
     use super::*;
     use crate::compose::Compose;
     use crate::lighting::Lights;
-    use npr_core::geometry::Vertex;
     use npr_core::window::{View, Window};
     use proptest::prelude::*;
 

@@ -143,7 +143,7 @@ fn vertex(position: [f32; 3], normal: [f32; 3], part: u32, random: &mut Random) 
         weld_normal: math::pack_unit(normal),
         width: random.unit(),
         part,
-        unused: 0,
+        knot: random.unit(),
     }
 }
 
@@ -188,6 +188,8 @@ fn part(object: u32, flags: u32, texture: u32) -> Part {
         dark_at: 0.2,
         light_at: 0.7,
         threshold: 0.5,
+        paint: 0.4,
+        paint_color: 0xff8c_60c0,
         spacing_px: 3.0,
         hatch_gain: 1.2,
         second_from: 0.4,

@@ -1,0 +1,38 @@
+// Paint under the pen. Twin: npr_style::paint. The shader declares what its twin's layers hold, and has `tint` and `uv_at`.
+
+// Share of each channel in luminance [ITU-R BT.709].
+const LUMA: vec3<f32> = vec3<f32>(0.2126, 0.7152, 0.0722);
+// Lightness, the root of luminance, up to which paint is solid ink in any light.
+const INKY: f32 = 0.12;
+// Lightness from which paint is paper.
+const PAPERY: f32 = 0.75;
+// Most white that light leaves, against 1 where the last stroke ends.
+const OPEN: f32 = 1.25;
+
+fn paint_white(color: vec3<f32>, strength: f32) -> f32 {
+    let lightness = sqrt(max(dot(color, LUMA), 0.0));
+    let x = clamp((lightness - INKY) / (PAPERY - INKY), 0.0, 1.0);
+    return x / max(x + strength * (1.0 - x), 1e-6);
+}
+
+fn painted_level(l: f32, white: f32, threshold: f32) -> f32 {
+    let lit = 2.0 * l - threshold;
+    if lit <= 0.0 || white >= 1.0 { return l; }
+    return 0.5 * (min(lit, OPEN) * white + threshold);
+}
+
+// White that the paint of triangle `id` leaves at a pixel and its neighbours to the right and below.
+fn paint_at(id: u32, part: u32, weights: array<vec3<f32>, 3>) -> array<f32, 3> {
+    let triangle = triangles[(id & ID_MASK) - 1u];
+    let rgb = linear_texel(parts[part].paint_color).rgb;
+    var uvs: array<vec2<f32>, 3>;
+    for (var i = 0u; i < 3u; i++) { uvs[i] = uv_at(triangle, weights[i]); }
+    let covered = footprint(uvs[0], uvs[1], uvs[2]);
+    var white: array<f32, 3>;
+    for (var i = 0u; i < 3u; i++) {
+        var color = rgb * tint(triangle, weights[i]);
+        if parts[part].texture != NONE { color *= sample_texture(parts[part].texture, uvs[i], covered).rgb; }
+        white[i] = paint_white(color, parts[part].paint);
+    }
+    return white;
+}
