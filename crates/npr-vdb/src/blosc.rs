@@ -36,9 +36,6 @@ const MOST_SPLITS: usize = 16;
 /// ... and only where every stream gets at least this many bytes.
 const LEAST_STREAM_BYTES: usize = 128;
 
-/// Blosc makes no block smaller than 128 bytes, rounded down to whole elements.
-const LEAST_BLOCK_BYTES: usize = 65;
-
 /// The header: how blocks are packed.
 #[derive(Debug, Clone, Copy)]
 struct Container {
@@ -93,14 +90,14 @@ impl Container {
         if stated_bytes != bytes || stated_packed_bytes != packed_bytes {
             return Err(WRONG_SIZE);
         }
-        // A container of tiny blocks would take much longer to unpack than its size tells.
-        if block_bytes < LEAST_BLOCK_BYTES.min(bytes) || element_bytes == 0 {
+        let is_stored = flags & 2 != 0;
+        if !is_stored && is_tiny(block_bytes, bytes) || element_bytes == 0 {
             return Err("its blosc container has blocks or elements of no size");
         }
         Ok(Self {
             codec: Codec::of_flags(flags)?,
             shuffle: Shuffle::of_flags(flags, element_bytes)?,
-            is_stored: flags & 2 != 0,
+            is_stored,
             may_split: flags & 0x10 == 0,
             element_bytes: element_bytes.into(),
             block_bytes: block_bytes.clamp(1, bytes.max(1)),
@@ -155,6 +152,13 @@ impl Container {
             && share.checked_mul(self.element_bytes) == Some(block_bytes);
         if is_split { share } else { block_bytes }
     }
+}
+
+/// Whether blocks are smaller than blosc makes them: 128 bytes, or the whole where that is less, rounded down to elements.
+///
+/// Many tiny blocks would take far longer to unpack than the size of their container tells.
+fn is_tiny(block_bytes: usize, bytes: usize) -> bool {
+    block_bytes <= bytes.min(128) >> 1 && bytes > 0
 }
 
 impl Codec {
@@ -265,6 +269,32 @@ mod tests {
             [0, 1, 4].iter().all(|&kind| shuffles[kind] >= 15),
             "{shuffles:?}"
         );
+    }
+
+    #[test]
+    fn tiny_blocks_are_refused_unless_nothing_is_packed() {
+        let mut stored = vec![2, 1, 0x33, 4, 2, 0, 0, 0, 1, 0, 0, 0, 18, 0, 0, 0, 7, 8];
+        let mut bytes = [0; 2];
+        // Blosc states blocks of one byte where there is less than an element.
+        assert_eq!(unpack(&stored, &mut bytes, &mut Vec::new()), Ok(()));
+        assert_eq!(bytes, [7, 8]);
+        stored[2] = 0x31;
+        assert!(unpack(&stored, &mut bytes, &mut Vec::new()).is_err());
+        let cases = [
+            (0, 0, false),
+            (0, 2048, true),
+            (64, 2048, true),
+            (65, 2048, false),
+            (33, 64, false),
+            (32, 64, true),
+        ];
+        for (block_bytes, bytes, wanted) in cases {
+            assert_eq!(
+                is_tiny(block_bytes, bytes),
+                wanted,
+                "{block_bytes} of {bytes}"
+            );
+        }
     }
 
     #[test]
