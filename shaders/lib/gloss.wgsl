@@ -33,6 +33,7 @@ fn sign_or_1(x: f32) -> f32 {
 fn shaped_half(half: vec3<f32>, normal: vec3<f32>, right: vec3<f32>, part: u32) -> vec3<f32> {
     let shape = parts[part].highlight_shape;
     let turn = parts[part].highlight_turn;
+    if all(shape == vec4<f32>(0.0)) && all(turn.zw == vec2<f32>(0.0)) { return half; }
     let flat_right = unit_or_z(right - normal * dot(right, normal));
     let side = cross(normal, flat_right);
     let u = flat_right * turn.x + side * turn.y;
@@ -49,6 +50,16 @@ fn shaped_half(half: vec3<f32>, normal: vec3<f32>, right: vec3<f32>, part: u32) 
     let corner = 2.0 * along * across / (size * size);
     let pull = shape.w * SQUARE_PULL * corner * corner * corner * corner;
     return unit_or_z(split - u * (pull * along) - v * (pull * across));
+}
+
+// Exponent up to which a soft spot is so wide that one place of a pixel stands for all.
+const GENTLE_EXPONENT: f32 = 100.0;
+
+// Whether a part's highlights change so gently that one place of a pixel stands for all.
+fn shines_gently(part: u32) -> bool {
+    return (parts[part].flags & PART_HIGHLIGHTS) == PART_SOFT
+        && parts[part].highlight.x <= GENTLE_EXPONENT
+        && all(parts[part].highlight_turn.zw == vec2<f32>(0.0));
 }
 
 // Light that a part's highlights add at a place; bits of `dark` are the lights that do not reach it.

@@ -60,6 +60,12 @@ struct Place {
     down: vec2<f32>,
 }
 
+// Where strokes give way: how badly they lie, and how far the tone changes too fast for them, 0..1.
+struct Calm {
+    knot: f32,
+    abrupt: f32,
+}
+
 // Tiles that a pixel covers across the strokes, or in the mean of both directions.
 fn step_of(place: Place, isotropic: bool) -> f32 {
     if isotropic { return sqrt(abs(cross2(place.right, place.down))); }
@@ -72,10 +78,9 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
     let flags = parts[part].flags;
     if (flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
     let places = array<vec2<f32>, 3>(px, px + vec2<f32>(1.0, 0.0), px + vec2<f32>(0.0, 1.0));
-    var weights: array<vec3<f32>, 3>;
+    let weights = weights_around(corners.clip, ndc_at(view, px), pixel_ndc(view));
     var l: array<f32, 3>;
     for (var i = 0u; i < 3u; i++) {
-        weights[i] = weights_at(corners.clip, ndc_at(view, places[i]));
         let lit = coordinate_at(world_of(corners, weights[i]), normal_of(corners, weights[i]), dark);
         l[i] = level_of(part, lit.x);
     }
@@ -85,18 +90,57 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
         let white = paint_at(id, part, weights);
         for (var i = 0u; i < 3u; i++) { l[i] = painted_level(l[i], white[i], parts[part].threshold); }
     }
-    var hatching: Hatching;
-    hatching.s = NO_HATCH;
-    if (flags & PART_HATCH) != 0u {
-        hatching = untied(hatching_of(part, place_in_hatch(id, part, weights, places)), knot_at(id, weights[0]));
-        hatching = toned_hatch(hatching, abruptness(per_px, parts[part].spacing_px));
-    }
     // Beyond a silhouette the surface runs on to anywhere.
     let darkens = clamp(2.0 * vec2<f32>(l[1] - l[0], l[2] - l[0]), vec2<f32>(-1.0), vec2<f32>(1.0));
-    var slope = length(hatching.slope + darkens);
+    if (flags & PART_HATCH) == 0u {
+        return ink_coverage(tone_value(NO_HATCH, l[0]), length(darkens), parts[part].threshold);
+    }
+    let ink = ink_of_level(part, l[0]);
+    if ink >= 0.0 { return ink; }
+    var calm: Calm;
+    calm.knot = knot_at(id, weights[0]);
+    calm.abrupt = abruptness(per_px, parts[part].spacing_px);
+    return ink_of_hatch(part, place_in_hatch(id, part, weights, places), l[0], darkens, calm);
+}
+
+// Ink of hatched surface at luminance `l` where the level alone decides: 1, 0, or -1 where the hatch does.
+fn ink_of_level(part: u32, l: f32) -> f32 {
+    let room = 1.0 / parts[part].spacing_px;
+    if tone_value(sharpen(0.0, parts[part].hatch_gain), l) - room > parts[part].threshold { return 0.0; }
+    if tone_value(sharpen(1.0, parts[part].hatch_gain), l) + room < parts[part].threshold { return 1.0; }
+    return -1.0;
+}
+
+// Whether the second of two layers may ink a place at luminance `l` of the shade ramp.
+fn second_may_ink(part: u32, l: f32) -> bool {
+    let darkest = sharpen(parts[part].second_from, parts[part].hatch_gain);
+    let room = 2.0 * (1.0 - parts[part].second_from) * parts[part].hatch_gain / parts[part].spacing_px;
+    return tone_value(darkest, l) - room <= parts[part].threshold;
+}
+
+// Ink of hatched surface at the luminance `l` of its shade ramp, which changes F by `darkens` over a pixel.
+fn ink_of_hatch(part: u32, place: Place, l: f32, darkens: vec2<f32>, calm: Calm) -> f32 {
+    var layer = hatch_layer(part, place);
+    if (parts[part].flags & PART_TWO_LAYERS) == 0u { return hatch_coverage(part, sharpened(part, layer), l, darkens, calm); }
+    let first = sharpened(part, scaled(layer, first_of_two(layer.s, parts[part].second_from)));
+    let ink = hatch_coverage(part, first, l, darkens, calm);
+    // Most places are settled by the first layer, or too light for the second.
+    if ink == 1.0 || !second_may_ink(part, l) { return ink; }
+    var crossed: Place;
+    crossed.uv = place.uv.yx + 0.5;
+    crossed.right = place.right.yx;
+    crossed.down = place.down.yx;
+    layer = hatch_layer(part, crossed);
+    let second = sharpened(part, scaled(layer, second_of_two(layer.s, parts[part].second_from)));
+    if first.s <= second.s { return ink; }
+    return hatch_coverage(part, second, l, darkens, calm);
+}
+
+fn hatch_coverage(part: u32, layer: Hatching, l: f32, darkens: vec2<f32>, calm: Calm) -> f32 {
+    let hatching = toned_hatch(untied(layer, calm.knot), calm.abrupt);
     // On the ridge of a stroke S is flat, and a hairline would be all ink in one pixel and none in the next.
-    if (flags & PART_HATCH) != 0u { slope = max(slope, 1.0 / parts[part].spacing_px); }
-    return ink_coverage(tone_value(hatching.s, l[0]), slope, parts[part].threshold);
+    let slope = max(length(hatching.slope + darkens), 1.0 / parts[part].spacing_px);
+    return ink_coverage(tone_value(hatching.s, l), slope, parts[part].threshold);
 }
 
 // Where a pixel and its neighbours to the right and below lie in the hatch of a part.
@@ -153,39 +197,37 @@ fn untied(tied: Hatching, knot: f32) -> Hatching {
     return hatching;
 }
 
-// The hatch of a part, with its second layer where it has one.
-fn hatching_of(part: u32, place: Place) -> Hatching {
-    var hatching = hatch_layer(part, place);
-    if (parts[part].flags & PART_TWO_LAYERS) != 0u {
-        var crossed: Place;
-        crossed.uv = place.uv.yx + 0.5;
-        crossed.right = place.right.yx;
-        crossed.down = place.down.yx;
-        let second = hatch_layer(part, crossed);
-        let layers = cross_layers(hatching.s, second.s, parts[part].second_from);
-        if layers.x <= layers.z {
-            hatching.s = layers.x;
-            hatching.slope *= layers.y;
-        } else {
-            hatching.s = layers.z;
-            hatching.slope = second.slope * layers.w;
-        }
-    }
-    let gain = parts[part].hatch_gain;
-    hatching.s = clamp(0.5 + (hatching.s - 0.5) * gain, 0.0, 1.0);
-    hatching.slope *= gain;
+// Luminance of the first of two layers laid over each other, and how much steeper it runs than before.
+fn first_of_two(s: f32, start: f32) -> vec2<f32> {
+    let rest = max(1.0 - start, 1e-6);
+    let white = 1.0 - s;
+    let thinned = 1.0 - white * white / rest;
+    if thinned > s { return vec2<f32>(thinned, 2.0 * white / rest); }
+    return vec2<f32>(s, 1.0);
+}
+
+// The same of the second.
+fn second_of_two(s: f32, start: f32) -> vec2<f32> {
+    let rest = max(1.0 - start, 1e-6);
+    let white = 1.0 - s;
+    return vec2<f32>(1.0 - rest * white * white, 2.0 * rest * white);
+}
+
+// A layer of a luminance that runs so much steeper.
+fn scaled(layer: Hatching, by: vec2<f32>) -> Hatching {
+    var hatching: Hatching;
+    hatching.s = by.x;
+    hatching.slope = layer.slope * by.y;
     return hatching;
 }
 
-// Luminance of the first layer and how much steeper it runs, and the same of the second.
-fn cross_layers(s_first: f32, s_second: f32, start: f32) -> vec4<f32> {
-    let rest = max(1.0 - start, 1e-6);
-    let white_first = 1.0 - s_first;
-    let white_second = 1.0 - s_second;
-    let thinned = 1.0 - white_first * white_first / rest;
-    var first = vec2<f32>(s_first, 1.0);
-    if thinned > s_first { first = vec2<f32>(thinned, 2.0 * white_first / rest); }
-    return vec4<f32>(first, 1.0 - rest * white_second * white_second, 2.0 * rest * white_second);
+fn sharpen(s: f32, gain: f32) -> f32 {
+    return clamp(0.5 + (s - 0.5) * gain, 0.0, 1.0);
+}
+
+fn sharpened(part: u32, layer: Hatching) -> Hatching {
+    let gain = parts[part].hatch_gain;
+    return scaled(layer, vec2<f32>(sharpen(layer.s, gain), gain));
 }
 
 // One layer of a hatch tile, from the level whose strokes lie as far apart on screen as the part asks.
@@ -199,13 +241,13 @@ fn hatch_layer(part: u32, place: Place) -> Hatching {
     let held = min(max(detail, 0.0), coarsest);
     let level = u32(held);
     let fraction = held - floor(held);
-    var first = header + HEADER_WORDS;
-    for (var l = 0u; l < level; l++) { first += (side >> l) * (side >> l); }
-    let found = sample_hatch(first, side >> level, place.uv, fraction);
-    let level_side = f32(side >> level);
+    let level_side = side >> level;
+    // The levels before it, each four times as large as the next.
+    let first = header + HEADER_WORDS + 4u * (side * side - level_side * level_side) / 3u;
+    let found = sample_hatch(first, level_side, place.uv, fraction);
     var hatching: Hatching;
     hatching.s = found.x;
-    hatching.slope = vec2<f32>(dot(found.yz, place.right), dot(found.yz, place.down)) * level_side;
+    hatching.slope = vec2<f32>(dot(found.yz, place.right), dot(found.yz, place.down)) * f32(level_side);
     return hatching;
 }
 

@@ -78,6 +78,14 @@ fn share_at(source: LightSource, world: vec3<f32>, normal: vec3<f32>, most: f32)
 
 // Bit `i` of `dark` says that the place lies in the shadow of light `i`.
 fn coordinate_at(world: vec3<f32>, normal: vec3<f32>, dark: u32) -> Lit {
+    var lit: Lit;
+    // The rule: one sun, of which the mean is itself.
+    if only_distant() && dark == 0u {
+        let x = ramp_coordinate(dot(normal, lights.sources[0].direction));
+        lit.x = min(x, 1.0);
+        lit.color = select(vec3<f32>(1.0), lights.sources[0].color, x > 1e-6);
+        return lit;
+    }
     var sum = 0.0;
     var color = vec3<f32>(0.0);
     for (var i = 0u; i < lights.count; i++) {
@@ -86,7 +94,6 @@ fn coordinate_at(world: vec3<f32>, normal: vec3<f32>, dark: u32) -> Lit {
         sum += share;
         color += lights.sources[i].color * share;
     }
-    var lit: Lit;
     lit.x = min(sum, 1.0);
     lit.color = select(vec3<f32>(1.0), color / max(sum, 1e-6), sum > 1e-6);
     return lit;

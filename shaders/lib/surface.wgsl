@@ -12,10 +12,34 @@ fn weights_at(clip: array<vec4<f32>, 3>, ndc: vec2<f32>) -> vec3<f32> {
     let a = offset_from(clip[0], ndc);
     let b = offset_from(clip[1], ndc);
     let c = offset_from(clip[2], ndc);
-    let weights = vec3<f32>(cross2(b, c), cross2(c, a), cross2(a, b));
+    return summing_to_1(vec3<f32>(cross2(b, c), cross2(c, a), cross2(a, b)));
+}
+
+fn summing_to_1(weights: vec3<f32>) -> vec3<f32> {
     let sum = weights.x + weights.y + weights.z;
     if sum == 0.0 { return vec3<f32>(1.0, 0.0, 0.0); }
     return weights * (1.0 / sum);
+}
+
+// Change of cross2(p, q) over a step to the right and one down, when both move by -w against the point.
+fn run_of(p: vec2<f32>, p_w: f32, q: vec2<f32>, q_w: f32, step: vec2<f32>) -> vec2<f32> {
+    return step * vec2<f32>(p.y * q_w - q.y * p_w, q.x * p_w - p.x * q_w);
+}
+
+// Weights at a point of the picture, a step to its right and a step below.
+fn weights_around(clip: array<vec4<f32>, 3>, ndc: vec2<f32>, step: vec2<f32>) -> array<vec3<f32>, 3> {
+    let a = offset_from(clip[0], ndc);
+    let b = offset_from(clip[1], ndc);
+    let c = offset_from(clip[2], ndc);
+    let here = vec3<f32>(cross2(b, c), cross2(c, a), cross2(a, b));
+    let run_a = run_of(b, clip[1].w, c, clip[2].w, step);
+    let run_b = run_of(c, clip[2].w, a, clip[0].w, step);
+    let run_c = run_of(a, clip[0].w, b, clip[1].w, step);
+    return array<vec3<f32>, 3>(
+        summing_to_1(here),
+        summing_to_1(here + vec3<f32>(run_a.x, run_b.x, run_c.x)),
+        summing_to_1(here + vec3<f32>(run_a.y, run_b.y, run_c.y)),
+    );
 }
 
 fn faces_eye(clip: array<vec4<f32>, 3>) -> bool {

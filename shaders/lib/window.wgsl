@@ -59,6 +59,11 @@ fn ndc_at(view: View, frame_px: vec2<f32>) -> vec2<f32> {
     );
 }
 
+// A pixel to the right and one down, in normalised device coordinates.
+fn pixel_ndc(view: View) -> vec2<f32> {
+    return vec2<f32>(2.0 / view.frame_px.x, -2.0 / view.frame_px.y);
+}
+
 fn clip_here(window: Window, clip: vec4<f32>) -> vec4<f32> {
     return vec4<f32>(
         clip.x * window.ndc_scale.x + clip.w * window.ndc_offset.x,

@@ -1,7 +1,8 @@
 // shade.compose_frame: surfaces shaded by their ramps, ink and lines over them, background behind.
 //
 // Several samples per pixel say which triangles it shows; each triangle is shaded once,
-// at the middle of its samples. Light is summed linearly and encoded at the end.
+// at the middle of its samples, or at each of them where its tone has edges.
+// Light is summed linearly and encoded at the end.
 //
 // Source  Suzuki 2004, sections 3.2 and 3.3, for ramp, ink and hatching; Porter & Duff 1984 for the layers
 // Twin    npr_style::compose::compose
@@ -46,6 +47,8 @@ override WG: u32 = 64u;
 
 // How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
 const TONE_ROOM: f32 = 0.002;
+// Width of a tone step from which on it is so gentle that one place of a pixel stands for all.
+const GENTLE: f32 = 0.25;
 
 struct Corners {
     clip: array<vec4<f32>, 3>,
@@ -75,13 +78,10 @@ fn world_of(corners: Corners, weights: vec3<f32>) -> vec3<f32> {
     return blend3(weights, corners.world[0], corners.world[1], corners.world[2]);
 }
 
-// What light and ink make of a surface.
-struct Tone {
+// Light of a group of samples, where one place stands for all of them.
+struct Even {
+    is_so: bool,
     light: vec3<f32>,
-    // How much of it is inked, 0..1; -1 where that is not the same all over the triangle.
-    ink: f32,
-    // Whether light is the same all over the triangle.
-    even: bool,
 }
 
 // Light of a ramp at coordinate `x`: each step takes over where its coordinate begins.
@@ -111,33 +111,39 @@ fn coordinate_range(corners: Corners) -> vec2<f32> {
     return vec2<f32>(min(a, min(b, c)) - room, max(a, max(b, c)) + room);
 }
 
-// The light of a triangle that is lit in one tone, and its ink where nothing in it is hatched.
-fn one_light(part: u32, corners: Corners) -> Tone {
-    var tone: Tone;
-    tone.even = false;
+// The light of a triangle that is lit in one tone, whatever its ink and its highlights.
+fn even_light(part: u32, corners: Corners) -> Even {
+    var even: Even;
     let flags = parts[part].flags;
-    if (flags & (PART_ANGLE | PART_HIGHLIGHTS)) != 0u { return tone; }
-    if (flags & (PART_UNLIT | PART_INK | PART_HATCH)) == PART_UNLIT {
-        tone.light = vec3<f32>(1.0);
-        tone.even = true;
-        return tone;
+    if (flags & PART_ANGLE) != 0u { return even; }
+    if (flags & PART_UNLIT) != 0u {
+        even.light = vec3<f32>(1.0);
+        even.is_so = lights.shadow_side == 0u || (flags & (PART_INK | PART_HATCH | PART_HIGHLIGHTS)) == 0u;
+        return even;
     }
-    if !only_distant() || lights.shadow_side != 0u { return tone; }
+    if !only_distant() || lights.shadow_side != 0u { return even; }
     let range = coordinate_range(corners);
     let reach = parts[part].softness * 0.5;
     for (var i = 1u; i < 8u; i++) {
         let at = parts[part].ramp[i].a;
-        if (flags & PART_UNLIT) == 0u && at > range.x - reach && at <= range.y + reach { return tone; }
+        if at > range.x - reach && at <= range.y + reach { return even; }
     }
-    tone.light = light_of(part, corners.world[0], corners.normals[0] * corners.side, 0u);
-    tone.ink = ink_over(part, range);
-    tone.even = true;
-    return tone;
+    even.light = light_of(part, corners.world[0], corners.normals[0] * corners.side, 0u);
+    even.is_so = true;
+    return even;
+}
+
+// Whether light changes so gently over a part that one place of a pixel stands for all.
+fn is_gentle(part: u32) -> bool {
+    return lights.shadow_side == 0u
+        && (parts[part].flags & PART_ANGLE) == 0u
+        && (parts[part].softness >= GENTLE || parts[part].ramp[1].a > 1.5);
 }
 
 // Ink of a triangle that has the same all over, inside the shadow of the lights in `dark` or outside it; -1 where it has not.
 fn even_ink(part: u32, corners: Corners, dark: u32) -> f32 {
-    if lights.shadow_side == 0u || !only_distant() { return -1.0; }
+    if (parts[part].flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
+    if !only_distant() { return -1.0; }
     let most = select(1.0, lights.shadow_at, dark != 0u);
     return ink_over(part, min(coordinate_range(corners), vec2<f32>(most)));
 }
@@ -149,24 +155,10 @@ fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32) -> vec3<f
     return ramp_light(part, lit.x) * lit.color;
 }
 
-// Light at one point, 1 in alpha where the surface-angle method draws a line, and what highlights add.
-struct Sampled {
-    tone: vec4<f32>,
-    gloss: vec3<f32>,
-}
-
-fn tone_at(triangle: Triangle, corners: Corners, weights: vec3<f32>, dark: u32) -> Sampled {
-    let normal = normal_of(corners, weights);
-    let world = world_of(corners, weights);
-    let light = light_of(triangle.part, world, normal, dark);
-    var ink = 0.0;
-    if (parts[triangle.part].flags & PART_ANGLE) != 0u {
-        if abs(dot(normal, to_eye(view, world))) < parts[triangle.part].facing_threshold { ink = 1.0; }
-    }
-    var sampled: Sampled;
-    sampled.tone = vec4<f32>(light, ink);
-    sampled.gloss = highlights_at(triangle.part, world, normal, dark);
-    return sampled;
+// 1 where the surface-angle method draws a line, else 0.
+fn grazing(part: u32, world: vec3<f32>, normal: vec3<f32>) -> f32 {
+    if (parts[part].flags & PART_ANGLE) == 0u { return 0.0; }
+    return select(0.0, 1.0, abs(dot(normal, to_eye(view, world))) < parts[part].facing_threshold);
 }
 
 // Vertex colours of a triangle where its corners have these weights, linear light.
@@ -210,11 +202,10 @@ fn strengthened(color: vec3<f32>) -> vec3<f32> {
     return max(vec3<f32>(luma) + (color - luma) * compose.saturation, vec3<f32>(0.0));
 }
 
-// A surface's colour in a tone, with the ink over it.
-fn toned(part: u32, color: vec3<f32>, tone: Tone) -> vec3<f32> {
-    let lit = strengthened(color) * tone.light;
+// A lit surface under so much ink, 0..1.
+fn inked(part: u32, lit: vec3<f32>, share: f32) -> vec3<f32> {
     let ink = parts[part].ink_color;
-    return lit + (ink.rgb - lit) * (tone.ink * ink.a);
+    return lit + (ink.rgb - lit) * (share * ink.a);
 }
 
 fn uv_at(triangle: Triangle, weights: vec3<f32>) -> vec2<f32> {
@@ -233,7 +224,7 @@ fn sample_offset(i: u32) -> vec2<f32> {
 }
 
 // Ink of a surface, summed over samples: where no shadow ends, all share that of the first.
-struct Inked {
+struct InkSum {
     any: bool,
     // Lights whose shadow fell on the last sample, and its ink.
     dark: u32,
@@ -245,47 +236,60 @@ struct Inked {
 // Light of what the samples in `members` show, a triangle or its hull.
 fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
     let triangle = triangles[(id & ID_MASK) - 1u];
-    let line = linear_of(parts[triangle.part].line_color).rgb;
+    let part = triangle.part;
+    let line = linear_of(parts[part].line_color).rgb;
     if (id & HULL_BIT) != 0u { return line; }
-    var center = vec2<f32>(0.0);
+    var center = frame_px;
     let count = f32(countOneBits(members));
     for (var i = 0u; i < 4u; i++) {
         if (members & (1u << i)) != 0u { center += sample_offset(i) / count; }
     }
     let corners = corners_of(triangle);
-    let color = base_color(triangle, corners, frame_px + center);
-    var tone = one_light(triangle.part, corners);
-    if tone.even {
-        if tone.ink < 0.0 { tone.ink = ink_at(id, triangle.part, corners, frame_px + center, 0u); }
-        return toned(triangle.part, color, tone);
+    let color = strengthened(base_color(triangle, corners, center));
+    var even = even_light(part, corners);
+    if !even.is_so && is_gentle(part) {
+        let weights = weights_at(corners.clip, ndc_at(view, center));
+        even.light = light_of(part, world_of(corners, weights), normal_of(corners, weights), 0u);
+        even.is_so = true;
     }
-    var sum = vec4<f32>(0.0);
+    let shines = (parts[part].flags & PART_HIGHLIGHTS) != 0u;
+    let by_sample = !even.is_so || (shines && !shines_gently(part));
+    let share = select(1.0, 1.0 / count, by_sample);
     var gloss = vec3<f32>(0.0);
-    var inked: Inked;
+    var light = select(vec3<f32>(0.0), even.light, even.is_so);
+    var lined = 0.0;
+    var ink: InkSum;
+    // Where one place stands for all, the first sample asks for its ink and the others for nothing.
     for (var i = 0u; i < 4u; i++) {
-        if (members & (1u << i)) != 0u {
-            let weights = weights_at(corners.clip, ndc_at(view, frame_px + sample_offset(i)));
-            let dark = shadowed(id, corners, weights);
-            let sampled = tone_at(triangle, corners, weights, dark);
-            sum += sampled.tone / count;
-            gloss += sampled.gloss / count;
-            if !inked.any || inked.dark != dark {
-                inked.last = even_ink(triangle.part, corners, dark);
-                if inked.last < 0.0 { inked.last = ink_at(id, triangle.part, corners, frame_px + center, dark); }
+        if (members & (1u << i)) == 0u { continue; }
+        var dark = 0u;
+        if !even.is_so || shines {
+            let at = select(center, frame_px + sample_offset(i), by_sample);
+            let weights = weights_at(corners.clip, ndc_at(view, at));
+            let world = world_of(corners, weights);
+            let normal = normal_of(corners, weights);
+            if !even.is_so {
+                dark = shadowed(id, corners, weights);
+                light += light_of(part, world, normal, dark) * share;
+                lined += grazing(part, world, normal) * share;
             }
-            if !inked.any {
-                inked.any = true;
-                inked.first = inked.last;
-                inked.mean = inked.last;
-            }
-            inked.dark = dark;
-            inked.mean += (inked.last - inked.first) / count;
+            gloss += highlights_at(part, world, normal, dark) * share;
         }
+        if !ink.any || ink.dark != dark {
+            ink.last = even_ink(part, corners, dark);
+            if ink.last < 0.0 { ink.last = ink_at(id, part, corners, center, dark); }
+        }
+        if !ink.any {
+            ink.any = true;
+            ink.first = ink.last;
+            ink.mean = ink.last;
+        }
+        ink.dark = dark;
+        ink.mean += (ink.last - ink.first) / count;
+        if !by_sample { break; }
     }
-    tone.light = sum.rgb;
-    tone.ink = inked.mean;
-    let drawn = toned(triangle.part, color, tone) + gloss;
-    return drawn + (line - drawn) * sum.a;
+    let drawn = inked(part, color * light, ink.mean) + gloss;
+    return drawn + (line - drawn) * lined;
 }
 
 // The surfaces of a pixel, premultiplied.

@@ -35,7 +35,15 @@ pub fn comic(root: &Path) -> Result<()> {
 /// What a measuring program prints, printed once more.
 fn tables_of(root: &Path, program: &str, arguments: &[&str]) -> Result<Vec<u8>> {
     let output = cargo(root)
-        .args(["run", "--release", "-p", "npr-benches", "--bin", program])
+        .args([
+            "run",
+            "--release",
+            "-p",
+            "npr-benches",
+            "--features",
+            "wgpu",
+        ])
+        .args(["--bin", program])
         .arg("--")
         .args(arguments)
         .stderr(Stdio::inherit())

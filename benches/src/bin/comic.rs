@@ -1,5 +1,5 @@
-//! Measures comic pictures and prints the tables kept in `benches/results/comic.md`; with `prices` only the
-//! times, with `gallery FOLDER [PRESET..]` sheets of the presets instead.
+//! Measures comic pictures and prints the tables kept in `benches/results/comic.md`; with `prices [ENGINE [PRESET..]]` only
+//! the times, with `gallery FOLDER [PRESET..]` sheets of the presets instead.
 //!
 //! Run by `cargo xtask measure comic` and `cargo xtask gallery`. A measuring program, not a test: it fails only where loading or
 //! drawing fails.
@@ -12,12 +12,13 @@ use npr_benches::comic::motion::{Change, Inked};
 use npr_benches::comic::{gallery, price};
 use npr_benches::lines::soup::Soup;
 use npr_benches::lines::subjects::{scene_of, shared_models};
-use npr_benches::machine;
 use npr_benches::subject::{Subject, bunny_path};
 use npr_benches::table::Table;
 use npr_benches::timing::median;
+use npr_benches::{device, machine};
 use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
 use npr_core::math::{cos, sin};
+use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
 use npr_render::{Model, Stage, StageOptions};
@@ -54,19 +55,19 @@ fn main() -> Outcome<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match arguments.as_slice() {
         [] => report(),
-        [word] if word == "prices" => prices(),
+        [word, choice @ ..] if word == "prices" => prices(choice),
         [word, folder, presets @ ..] if word == "gallery" => {
             gallery::write(Path::new(folder), presets)
         }
         _ => Err(
-            "usage: comic > benches/results/comic.md, comic prices, or comic gallery FOLDER [PRESET..]".into(),
+            "usage: comic > benches/results/comic.md, comic prices [processor|device [PRESET..]], or comic gallery FOLDER [PRESET..]".into(),
         ),
     }
 }
 
 fn report() -> Outcome<()> {
     println!("# Comic pictures\n");
-    println!("- machine: {}; no graphics device", machine::description());
+    println!("- machine: {}", machine::description());
     println!(
         "- code: {}, measured {}",
         machine::commit(),
@@ -74,7 +75,7 @@ fn report() -> Outcome<()> {
     );
     println!("- load average at the start: {}\n", machine::load());
     motion()?;
-    prices()
+    prices(&[])
 }
 
 /// How still strokes lie while the camera goes round.
@@ -197,37 +198,69 @@ fn within(mut values: Vec<f64>, share: f64) -> f64 {
     values.get(at).copied().unwrap_or_default()
 }
 
-/// What ink and hatching cost.
-fn prices() -> Outcome<()> {
+/// What ink and hatching cost on both engines, or what some presets cost on one.
+fn prices(choice: &[String]) -> Outcome<()> {
     let Some(path) = bunny_path() else {
         return Ok(());
     };
+    let subject = Subject::from_file(&path)?;
+    let mut presets = PRICED.to_vec();
+    if let [_, named @ ..] = choice
+        && !named.is_empty()
+    {
+        presets.truncate(1);
+        presets.extend(named.iter().map(String::as_str));
+    }
     println!("## What ink and hatching cost\n");
     println!(
         "The bunny at {}x{}: medians of {RUNS} frames drawn by turns and, in brackets, the least, in ms. Preparing is done once \
          and holds tiles and charts. Published: 8 % more than plain shading.\n",
         FULL_HD[0], FULL_HD[1]
     );
-    let subject = Subject::from_file(&path)?;
-    let styles = PRICED.map(Style::preset);
-    let styles = styles.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let prices = price::prices(&Processor, &subject, &styles, FULL_HD, RUNS)?;
+    let engine = choice.first().map(String::as_str);
+    if engine != Some("device") {
+        prices_on(&Processor, &subject, &presets)?;
+    }
+    if engine != Some("processor")
+        && let Some(device) = device::open()
+    {
+        prices_on(&*device, &subject, &presets)?;
+    }
+    Ok(())
+}
+
+/// The table of an engine; the first preset is what the others are compared with.
+fn prices_on(engine: &dyn Engine, subject: &Subject, presets: &[&str]) -> Outcome<()> {
+    let styles = presets.iter().map(|name| Style::preset(name));
+    let styles = styles.collect::<Result<Vec<_>, _>>()?;
+    println!(
+        "### {}, load average {}\n",
+        engine.describe(),
+        machine::load()
+    );
+    let prices = price::prices(engine, subject, &styles, FULL_HD, RUNS)?;
     let mut table = Table::new([
         "preset",
         "frame",
         "by toon, medians",
         "least",
+        "work of all threads",
+        "by toon, medians",
+        "least",
         "last pass",
         "prepare",
     ]);
-    let Some(plain) = prices.first().copied() else {
+    let Some(plain) = prices.first() else {
         return Ok(());
     };
-    for (name, price) in PRICED.iter().zip(&prices) {
+    for (name, price) in presets.iter().zip(&prices) {
         let cells = [
             price.frame.to_string(),
             format!("{:.2}", price.frame.median / plain.frame.median),
             format!("{:.2}", price.frame.least / plain.frame.least),
+            price.work.to_string(),
+            format!("{:.2}", price.work.median / plain.work.median),
+            format!("{:.2}", price.work.least / plain.work.least),
             price.compose.to_string(),
             format!("{:.0}", price.prepare_ms),
         ];

@@ -5,7 +5,7 @@ use npr_render::RenderError;
 use npr_style::Style;
 
 use crate::subject::Subject;
-use crate::timing::{Times, elapsed_ms};
+use crate::timing::{Times, elapsed_ms, worked_ms};
 
 /// What a style takes.
 #[derive(Debug, Clone, Copy)]
@@ -14,6 +14,8 @@ pub struct Price {
     pub prepare_ms: f64,
     /// A whole frame.
     pub frame: Times,
+    /// Work of all threads in a frame; 0 where the system does not tell.
+    pub work: Times,
     /// The last pass alone: ramps, ink, hatching, layers.
     pub compose: Times,
 }
@@ -40,22 +42,27 @@ pub fn prices(
         stages.extend(stage.transpose()?);
     }
     let mut frames = vec![Vec::with_capacity(runs); stages.len()];
-    let mut composes = frames.clone();
+    let (mut composes, mut works) = (frames.clone(), frames.clone());
     for _ in 0..runs {
         for (i, stage) in stages.iter_mut().enumerate() {
             let mut drawn = None;
+            let before = worked_ms();
             frames[i].push(elapsed_ms(|| drawn = Some(stage.draw(&subject.camera))));
+            let worked = before.zip(worked_ms()).map(|(from, to)| to - from);
+            works[i].push(worked.unwrap_or_default());
             let last = drawn
                 .transpose()?
                 .and_then(|frame| frame.times.last().map(|pass| pass.time));
             composes[i].push(last.unwrap_or_default().as_secs_f64() * 1e3);
         }
     }
-    let timed = prepare_ms.into_iter().zip(frames).zip(composes);
+    let timed = prepare_ms.into_iter().zip(frames);
+    let timed = timed.zip(works.into_iter().zip(composes));
     Ok(timed
-        .map(|((prepare_ms, frames), composes)| Price {
+        .map(|((prepare_ms, frames), (works, composes))| Price {
             prepare_ms,
             frame: Times::of(frames),
+            work: Times::of(works),
             compose: Times::of(composes),
         })
         .collect())

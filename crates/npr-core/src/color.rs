@@ -51,6 +51,7 @@ impl SrgbEncoder {
     }
 
     /// The byte of a light; values outside 0..1 are clamped, NaN is 0.
+    #[inline]
     pub fn byte(&self, light: f32) -> u32 {
         let light = light.clamp(0.0, 1.0);
         let mut byte = usize::from(self.guesses[(light * Self::STEPS as f32) as usize]);
@@ -68,12 +69,14 @@ impl Default for SrgbEncoder {
 }
 
 /// Four values 0..1 as bytes, the first in the lowest byte, rounded to nearest.
+#[inline]
 pub fn pack_rgba8(rgba: [f32; 4]) -> u32 {
     let byte = |v: f32| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u32;
     byte(rgba[0]) | byte(rgba[1]) << 8 | byte(rgba[2]) << 16 | byte(rgba[3]) << 24
 }
 
 /// The four values 0..1 that [`pack_rgba8`] packed.
+#[inline]
 pub fn unpack_rgba8(packed: u32) -> [f32; 4] {
     packed.to_le_bytes().map(|byte| f32::from(byte) / 255.0)
 }

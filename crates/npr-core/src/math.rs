@@ -23,11 +23,13 @@ pub fn mix_bits(number: u32) -> u32 {
 }
 
 /// Linear blend from `a` at `t = 0` to `b` at `t = 1`, exact at both ends for finite input.
+#[inline]
 pub fn mix(a: f32, b: f32, t: f32) -> f32 {
     a * (1.0 - t) + b * t
 }
 
 /// Smooth step from 0 at `from` to 1 at `to`, with zero slope at both ends; a hard step where they meet.
+#[inline]
 pub fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
     if to <= from {
         return if x < from { 0.0 } else { 1.0 };

@@ -207,6 +207,7 @@ fn wrapped(index: i32, size: u32, wrap: u32) -> u32 {
 }
 
 /// Linear light of a packed texel, by the table at the start of the store.
+#[inline]
 pub fn linear_texel(words: &[u32], texel: u32) -> [f32; 4] {
     let [r, g, b, a] = texel.to_le_bytes();
     let decode = |byte: u8| f32::from_bits(words[usize::from(byte)]);

@@ -38,6 +38,7 @@ gpu_layout!(View {
 
 impl View {
     /// Height of the view in world units at a view depth.
+    #[inline]
     pub fn height_at(&self, depth: f32) -> f32 {
         if self.perspective > 0.5 {
             self.view_height * depth
@@ -47,11 +48,13 @@ impl View {
     }
 
     /// Size of a frame pixel in world units at a view depth.
+    #[inline]
     pub fn pixel_at(&self, depth: f32) -> f32 {
         self.height_at(depth) / self.frame_px[1]
     }
 
     /// A coordinate that changes linearly over the image of any plane: 1 / depth in perspective, depth in parallel view.
+    #[inline]
     pub fn plane_coordinate(&self, depth: f32) -> f32 {
         if self.perspective > 0.5 {
             1.0 / depth
@@ -61,6 +64,7 @@ impl View {
     }
 
     /// The depth that has a plane coordinate; [`FAR_DEPTH`] where the plane has passed the horizon.
+    #[inline]
     pub fn depth_of_coordinate(&self, coordinate: f32) -> f32 {
         if self.perspective < 0.5 {
             coordinate
@@ -83,6 +87,7 @@ impl View {
     }
 
     /// Unit vector from a point of the world towards the eye.
+    #[inline]
     pub fn to_eye(&self, world: [f32; 3]) -> [f32; 3] {
         if self.perspective < 0.5 {
             return self.forward_world.map(|v| -v);
@@ -92,7 +97,14 @@ impl View {
         d.map(|v| v / length.max(1e-30))
     }
 
+    /// A pixel to the right and one down, in normalised device coordinates.
+    #[inline]
+    pub fn pixel_ndc(&self) -> [f32; 2] {
+        [2.0 / self.frame_px[0], -2.0 / self.frame_px[1]]
+    }
+
     /// Normalised device coordinates of a point of the frame, y up.
+    #[inline]
     pub fn ndc_at(&self, frame_px: [f32; 2]) -> [f32; 2] {
         [
             2.0 * frame_px[0] / self.frame_px[0] - 1.0,
@@ -151,6 +163,7 @@ impl Window {
     }
 
     /// Clip position for this window of a clip position for the whole frame.
+    #[inline]
     pub fn clip_here(&self, clip: [f32; 4]) -> [f32; 4] {
         [
             clip[0] * self.ndc_scale[0] + clip[3] * self.ndc_offset[0],
@@ -161,6 +174,7 @@ impl Window {
     }
 
     /// Normalised device coordinates of the centre of a grid pixel, in the grid's own view; y up.
+    #[inline]
     pub fn ndc_of(&self, x: u32, y: u32) -> [f32; 2] {
         let at = [
             (x as f32 + 0.5) / self.size[0] as f32,
@@ -170,6 +184,7 @@ impl Window {
     }
 
     /// Frame position of the centre of a grid pixel.
+    #[inline]
     pub fn frame_at(&self, x: u32, y: u32) -> [f32; 2] {
         [
             self.frame_origin[0] + (x as f32 + 0.5) * self.frame_step[0],
@@ -182,7 +197,8 @@ impl Window {
     /// An exact load, not a filtered sample, for the reason given by Okuya 2016, section 5.3.
     pub fn pixel_at(&self, frame_px: [f32; 2]) -> [u32; 2] {
         std::array::from_fn(|i| {
-            let at = ((frame_px[i] - self.frame_origin[i]) / self.frame_step[i]).floor();
+            // The cast rounds down, and without the call that `floor` is on processors without an instruction for it.
+            let at = (frame_px[i] - self.frame_origin[i]) / self.frame_step[i];
             at.clamp(0.0, self.size[i] as f32 - 1.0) as u32
         })
     }

@@ -10,9 +10,10 @@ use npr_core::texture;
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
 
+use crate::known::Known;
 use crate::lighting::Lights;
 use crate::shadow::SHADOWS_MAX;
-use crate::tone::WHOLE;
+use crate::tone::Corners;
 
 /// Settings of the last pass.
 #[repr(C)]
@@ -114,7 +115,7 @@ pub struct Layers<'a> {
 /// its samples. Layers go over each other as in [Porter & Duff 1984], in linear light. O(pixels), parallel over rows.
 pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
     let encoder = SrgbEncoder::new();
-    let evens = layers.even_colors();
+    let known = layers.known_triangles();
     let width = layers.window.size[0] as usize;
     frame
         .par_chunks_mut(width)
@@ -123,9 +124,10 @@ pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
             let mut composer = Composer {
                 layers,
                 encoder: &encoder,
-                evens: &evens,
+                known: &known,
                 empty: layers.empty_texel(&encoder),
                 last: (0, 0),
+                near: None,
             };
             for (x, texel) in row.iter_mut().enumerate() {
                 *texel = composer.texel(x as u32, y as u32);
@@ -167,30 +169,38 @@ impl std::ops::Deref for Samples {
 struct Composer<'a> {
     layers: &'a Layers<'a>,
     encoder: &'a SrgbEncoder,
-    /// Colours of [`Layers::even_colors`].
-    evens: &'a [[f32; 4]],
+    /// What is known of every triangle.
+    known: &'a [Known],
     /// A pixel that shows nothing but a plain background.
     empty: Option<u32>,
     /// The last number whose single colour filled a pixel, and that pixel.
     last: (u32, u32),
+    /// The triangle that was shaded last, and its corners: mostly that of the next pixel too.
+    near: Option<(u32, Corners<'a>)>,
 }
 
-impl Composer<'_> {
+impl<'a> Composer<'a> {
     /// A pixel of the output as sRGB bytes with straight alpha.
     fn texel(&mut self, x: u32, y: u32) -> u32 {
         let frame_px = self.layers.window.frame_at(x, y);
         let seen = self.layers.samples_of(x, y);
         let lines = self.layers.lines_at(x, y);
         let beams = self.layers.beams_of(x, y);
-        let whole = lines == [0; 2]
-            && beams.iter().all(|id| *id == 0)
-            && seen.iter().all(|id| *id == seen[0]);
-        if whole && let Some(texel) = self.even_texel(seen[0]) {
+        let is_one = seen.iter().all(|id| *id == seen[0]);
+        let is_bare = lines == [0; 2] && beams.iter().all(|id| *id == 0);
+        if is_one
+            && is_bare
+            && let Some(texel) = self.even_texel(seen[0])
+        {
             return texel;
         }
-        let mut color = self
-            .even_surfaces(&seen)
-            .unwrap_or_else(|| self.surfaces(&seen, frame_px));
+        let mut color = if is_one && seen[0] != 0 {
+            let [r, g, b] = self.surface(seen[0], (1 << seen.len()) - 1, frame_px);
+            [r, g, b, 1.0]
+        } else {
+            self.even_surfaces(&seen)
+                .unwrap_or_else(|| self.surfaces(&seen, frame_px))
+        };
         if color[3] < 1.0 {
             let behind = self.layers.background(frame_px);
             let left = 1.0 - color[3];
@@ -223,7 +233,8 @@ impl Composer<'_> {
         if id & HULL_BIT != 0 {
             return None;
         }
-        Some(self.evens[(id - 1) as usize]).filter(|color| color[3] == WHOLE)
+        let [r, g, b] = self.known[(id - 1) as usize].whole()?;
+        Some([r, g, b, 1.0])
     }
 
     /// The surfaces of a pixel, premultiplied, where each has one colour all over.
@@ -238,7 +249,7 @@ impl Composer<'_> {
     }
 
     /// The surfaces of a pixel, premultiplied.
-    fn surfaces(&self, seen: &[u32], frame_px: [f32; 2]) -> [f32; 4] {
+    fn surfaces(&mut self, seen: &[u32], frame_px: [f32; 2]) -> [f32; 4] {
         let count = seen.len();
         let mut sum = [0.0; 4];
         let mut left = (1u32 << count) - 1;
@@ -254,8 +265,7 @@ impl Composer<'_> {
                 continue;
             }
             let share = members.count_ones() as f32 / count as f32;
-            let even = self.evens[((seen[i] & ID_MASK) - 1) as usize];
-            let [r, g, b] = self.layers.shade(seen[i], members, frame_px, even);
+            let [r, g, b] = self.surface(seen[i], members, frame_px);
             sum = [
                 sum[0] + r * share,
                 sum[1] + g * share,
@@ -265,11 +275,48 @@ impl Composer<'_> {
         }
         sum
     }
+
+    /// Light of what the samples in `members` show, a triangle or its hull.
+    fn surface(&mut self, id: u32, members: u32, frame_px: [f32; 2]) -> [f32; 3] {
+        let index = ((id & ID_MASK) - 1) as usize;
+        if id & HULL_BIT != 0 {
+            return self
+                .layers
+                .line_of(&self.layers.parts[self.layers.triangles[index].part as usize]);
+        }
+        let known = &self.known[index];
+        if let Some(color) = known.whole() {
+            return color;
+        }
+        let corners = self.corners(id);
+        self.layers.shade(id, members, frame_px, known, &corners)
+    }
+
+    /// The corners of a triangle.
+    fn corners(&mut self, id: u32) -> Corners<'a> {
+        match self.near {
+            Some((near, corners)) if near == id => corners,
+            _ => {
+                let corners = self
+                    .layers
+                    .corners_of(&self.layers.triangles[(id - 1) as usize]);
+                self.near = Some((id, corners));
+                corners
+            }
+        }
+    }
 }
 
 /// Premultiplied linear light as sRGB bytes with straight alpha.
+#[inline]
 fn encoded(encoder: &SrgbEncoder, [r, g, b, a]: [f32; 4]) -> u32 {
-    let [r, g, b] = [r, g, b].map(|light| encoder.byte(light / a.max(1e-6)));
+    let scale = a.max(1e-6);
+    let [r, g, b] = if scale == 1.0 {
+        [r, g, b]
+    } else {
+        [r, g, b].map(|light| light / scale)
+    };
+    let [r, g, b] = [r, g, b].map(|light| encoder.byte(light));
     r | g << 8 | b << 16 | ((a.clamp(0.0, 1.0) * 255.0 + 0.5) as u32) << 24
 }
 

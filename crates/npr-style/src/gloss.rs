@@ -5,6 +5,7 @@
 
 use crate::compose::Layers;
 use crate::lighting::LightSource;
+use crate::tone::Corners;
 use npr_core::geometry::Part;
 use npr_core::math;
 use npr_core::surface::{dot, unit_or_z};
@@ -43,7 +44,8 @@ pub fn gradient(term: f32, threshold: f32, m: f32) -> f32 {
     if term <= threshold {
         return 0.0;
     }
-    let lift = math::powf(2.5 * threshold + term, m);
+    let base = 2.5 * threshold + term;
+    let lift = if m == 1.0 { base } else { math::powf(base, m) };
     ((term - threshold) * lift * 0.5).clamp(0.0, 1.0)
 }
 
@@ -93,7 +95,7 @@ impl Default for HighlightShape {
 /// How far a corner is pulled in so that the highlight reaches there as far as a square does: 1 - sqrt(1/2).
 const SQUARE_PULL: f32 = 0.292_893_2;
 
-/// The half vector moved so that the highlight takes a shape.
+/// The half vector moved so that the highlight takes a shape; itself where there is none to take.
 ///
 /// The axes are the picture's: `right` laid onto the surface, turned, and the direction across it. The operations follow
 /// one another as in the paper: move, stretch, split, square.
@@ -103,6 +105,9 @@ pub fn shaped_half(
     right: [f32; 3],
     shape: &HighlightShape,
 ) -> [f32; 3] {
+    if shape.is_none() {
+        return half;
+    }
     let inwards = dot(right, normal);
     let flat = unit_or_z(std::array::from_fn(|i| right[i] - normal[i] * inwards));
     let side = cross(normal, flat);
@@ -154,7 +159,47 @@ fn power(base: f32, exponent: f32) -> f32 {
     math::powf(base.min(1.0), exponent)
 }
 
+/// How far a cosine between blends of unit vectors may lie beside what its bound says: rounding.
+const SPOT_ROOM: f32 = 1e-4;
+
+/// Greatest N . H that blends of three normals and of three directions to the eye, made unit again, can have towards a light.
+///
+/// `swells` are what the blends' lengths are divided by at most.
+fn highest_cosine(
+    normals: [[f32; 3]; 3],
+    eyes: [[f32; 3]; 3],
+    swells: [f32; 2],
+    light: [f32; 3],
+) -> f32 {
+    let sums = eyes.map(|eye| std::array::from_fn(|k| light[k] + eye[k]));
+    let most = normals
+        .iter()
+        .flat_map(|normal| sums.iter().map(|sum| dot(*normal, *sum)))
+        .fold(0.0, f32::max);
+    let least = eyes.map(|eye| dot(light, eye));
+    let least = least[0].min(least[1]).min(least[2]);
+    let least = least.min(least * swells[1]);
+    // N . (L + E) over |L + E|; E is longer than a mean of the corners' by its swell.
+    let above = swells[0] * (swells[1] * most + swells[1] - 1.0);
+    above / (2.0 + 2.0 * least).max(0.0).sqrt()
+}
+
+/// One over the least length that a mean of three unit vectors can have; infinite where they may cancel.
+fn swell(units: [[f32; 3]; 3]) -> f32 {
+    let [a, b, c] = units;
+    let closest = dot(a, b).min(dot(b, c)).min(dot(c, a)).min(1.0);
+    1.0 / closest.max(0.0).sqrt()
+}
+
 impl HighlightShape {
+    /// Whether it leaves a highlight as it is; turned axes alone do nothing.
+    fn is_none(&self) -> bool {
+        self.shift == [0.0; 2]
+            && self.stretch == 0.0
+            && self.split == [0.0; 2]
+            && self.square == 0.0
+    }
+
     /// The shape that a part asks for.
     fn of(part: &Part) -> Self {
         let ([shift_u, shift_v, stretch, square], [cos, sin, split_u, split_v]) =
@@ -167,6 +212,18 @@ impl HighlightShape {
             square,
         }
     }
+}
+
+/// Exponent up to which a soft spot is so wide that one place of a pixel stands for all.
+const GENTLE_EXPONENT: f32 = 100.0;
+
+/// Whether a part's highlights change so gently that one place of a pixel stands for all.
+pub(crate) fn shines_gently(part: &Part) -> bool {
+    let [_, _, split_u, split_v] = part.highlight_turn;
+    part.flags & Part::HIGHLIGHTS == Part::SOFT
+        && part.highlight[0] <= GENTLE_EXPONENT
+        && split_u == 0.0
+        && split_v == 0.0
 }
 
 impl Layers<'_> {
@@ -208,6 +265,35 @@ impl Layers<'_> {
             add(part.highlight_color, streak(across, width));
         }
         sum
+    }
+
+    /// Whether a highlight of a part may show somewhere on a triangle. Only a no is certain: shapes, streaks, Phong's term
+    /// and near lights are always taken for a yes.
+    pub(crate) fn may_shine(&self, part: &Part, corners: &Corners<'_>) -> bool {
+        let rim = part.flags & Part::BACK_LIGHT != 0
+            && corners.range_towards(self.compose.back_world)[1] >= part.back[0];
+        let spot =
+            part.flags & (Part::CRISP | Part::SOFT) != 0 && self.spot_may_show(part, corners);
+        rim || spot || part.flags & Part::STREAK != 0
+    }
+
+    /// Whether (N . H)^n may exceed the part's threshold somewhere on a triangle.
+    fn spot_may_show(&self, part: &Part, corners: &Corners<'_>) -> bool {
+        if part.flags & Part::PHONG != 0 || !HighlightShape::of(part).is_none() {
+            return true;
+        }
+        let normals = corners.posed.map(|v| v.normal.map(|n| n * corners.side));
+        let eyes = corners.posed.map(|v| self.view.to_eye(v.world));
+        let swells = [swell(normals), swell(eyes)];
+        let lights = &self.lights.sources[..self.lights.count as usize];
+        lights.iter().any(|source| {
+            if source.kind == LightSource::SKY {
+                return false;
+            }
+            let highest = highest_cosine(normals, eyes, swells, source.direction);
+            // What is no number shows.
+            !(source.is_far() && power(highest + SPOT_ROOM, part.highlight[0]) <= part.highlight[1])
+        })
     }
 
     /// The greatest highlight term of the lights that reach a place; skies make none.

@@ -47,8 +47,9 @@ use crate::Length;
 pub use picture::{PICTURE_SIDE_MAX, Picture, from_image};
 pub use tile::{HatchError, HatchTile, SIDE_MAX, SIDE_MIN, levels};
 pub use tone::{
-    HatchSample, cross_layers, cross_luminance, detail, edge_gradient, hatch_luminance,
-    ink_coverage, level_at, sample, second_layer_start, sharpen, tone_value,
+    HatchSample, cross_layers, cross_luminance, detail, edge_gradient, first_of_two,
+    hatch_luminance, ink_coverage, level_at, sample, second_layer_start, second_of_two, sharpen,
+    tone_value,
 };
 
 /// What shadows are drawn with.

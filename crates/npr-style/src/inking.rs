@@ -5,14 +5,15 @@
 
 use crate::compose::Layers;
 use crate::hatch::{
-    cross_layers, detail, edge_gradient, ink_coverage, level_at, sample, sharpen, tone_value,
+    detail, edge_gradient, first_of_two, ink_coverage, level_at, sample, second_of_two, sharpen,
+    tone_value,
 };
 use crate::paint::painted_level;
 use crate::ramp::ramp_coordinate;
 use crate::tone::Corners;
 use npr_core::geometry::{ChartCorners, Part, Triangle};
 use npr_core::raster::ID_MASK;
-use npr_core::surface::{blend, blend2, dot, weights_at};
+use npr_core::surface::{blend, blend2, weights_around};
 use npr_core::texture::HEADER_WORDS;
 
 /// Luminance of the middle of a stroke's half width: what stands for the hatch where there is none.
@@ -65,6 +66,30 @@ pub(crate) fn ink_over(part: &Part, range: [f32; 2]) -> Option<f32> {
     }
 }
 
+/// Ink of hatched surface at luminance `l` of the shade ramp where no stroke is thin enough or wide enough to matter: 1, 0,
+/// or none where the hatch decides.
+///
+/// The room is half of what F changes by over a pixel at the edge of a stroke.
+fn ink_of_level(part: &Part, l: f32) -> Option<f32> {
+    let room = 1.0 / part.spacing_px;
+    if tone_value(sharpen(0.0, part.hatch_gain), l) - room > part.threshold {
+        Some(0.0)
+    } else if tone_value(sharpen(1.0, part.hatch_gain), l) + room < part.threshold {
+        Some(1.0)
+    } else {
+        None
+    }
+}
+
+/// Whether the second of two layers may ink a place at luminance `l` of the shade ramp.
+///
+/// Its strokes end more gently than the first's, by `2 (1 - start)`, and so does the edge that a pixel smooths.
+fn second_may_ink(part: &Part, l: f32) -> bool {
+    let darkest = sharpen(part.second_from, part.hatch_gain);
+    let room = 2.0 * (1.0 - part.second_from) * part.hatch_gain / part.spacing_px;
+    tone_value(darkest, l) - room <= part.threshold
+}
+
 /// Luminance S of a hatch, and its change over a pixel to the right and down.
 #[derive(Debug, Clone, Copy)]
 struct Hatching {
@@ -102,6 +127,15 @@ impl Place {
     }
 }
 
+/// Where strokes give way.
+#[derive(Debug, Clone, Copy)]
+struct Calm {
+    /// How badly they lie, 0..1.
+    knot: f32,
+    /// How far the tone changes too fast for them, 0..1.
+    abrupt: f32,
+}
+
 impl Layers<'_> {
     /// How much of the surface of triangle `id` is inked at a place of the frame, 0..1; bits of `dark` are the lights whose
     /// shadow falls there.
@@ -117,31 +151,68 @@ impl Layers<'_> {
             return 0.0;
         }
         let places = [px, [px[0] + 1.0, px[1]], [px[0], px[1] + 1.0]];
-        let weights = places.map(|px| weights_at(corners.clip, self.view.ndc_at(px)));
+        let (ndc, step) = (self.view.ndc_at(px), self.view.pixel_ndc());
+        let weights = weights_around(corners.clip, ndc, step);
         let lit = self.levels_at(part, corners, weights, dark);
         let l = self.painted_levels(id, part, weights, lit);
-        let hatching = if part.flags & Part::HATCH != 0 {
-            let hatching = self.hatching(part, &self.place_in_hatch(id, part, weights, places));
-            let untied = untied(hatching, self.knot_at(id, weights[0]));
-            let per_px = length([lit[1] - lit[0], lit[2] - lit[0]]);
-            toned_hatch(untied, abruptness(per_px, part.spacing_px))
-        } else {
-            Hatching {
-                s: NO_HATCH,
-                slope: [0.0; 2],
-            }
-        };
         // Beyond a silhouette the surface runs on to anywhere.
-        let slope = [
-            hatching.slope[0] + (2.0 * (l[1] - l[0])).clamp(-1.0, 1.0),
-            hatching.slope[1] + (2.0 * (l[2] - l[0])).clamp(-1.0, 1.0),
+        let darkens = [
+            (2.0 * (l[1] - l[0])).clamp(-1.0, 1.0),
+            (2.0 * (l[2] - l[0])).clamp(-1.0, 1.0),
         ];
-        let slope = if part.flags & Part::HATCH != 0 {
-            edge_gradient(length(slope), part.spacing_px)
-        } else {
-            length(slope)
+        if part.flags & Part::HATCH == 0 {
+            let value = tone_value(NO_HATCH, l[0]);
+            return ink_coverage(value, length(darkens), part.threshold);
+        }
+        if let Some(ink) = ink_of_level(part, l[0]) {
+            return ink;
+        }
+        let place = self.place_in_hatch(id, part, weights, places);
+        let per_px = length([lit[1] - lit[0], lit[2] - lit[0]]);
+        let calm = Calm {
+            knot: self.knot_at(id, weights[0]),
+            abrupt: abruptness(per_px, part.spacing_px),
         };
-        ink_coverage(tone_value(hatching.s, l[0]), slope, part.threshold)
+        self.ink_of_hatch(part, &place, l[0], darkens, calm)
+    }
+
+    /// Ink of hatched surface at the luminance `l` of its shade ramp, which changes F by `darkens` over a pixel.
+    fn ink_of_hatch(
+        &self,
+        part: &Part,
+        place: &Place,
+        l: f32,
+        darkens: [f32; 2],
+        calm: Calm,
+    ) -> f32 {
+        let coverage = |layer: Hatching| {
+            let hatching = toned_hatch(untied(layer, calm.knot), calm.abrupt);
+            let [right, down] = hatching.slope;
+            let slope = edge_gradient(
+                length([right + darkens[0], down + darkens[1]]),
+                part.spacing_px,
+            );
+            ink_coverage(tone_value(hatching.s, l), slope, part.threshold)
+        };
+        let layer = self.layer(part, place);
+        if part.flags & Part::TWO_LAYERS == 0 {
+            return coverage(sharpened(layer, part.hatch_gain));
+        }
+        let first = scaled(layer, first_of_two(layer.s, part.second_from));
+        let first = sharpened(first, part.hatch_gain);
+        let ink = coverage(first);
+        // Most places are settled by the first layer, or too light for the second.
+        if ink == 1.0 || !second_may_ink(part, l) {
+            return ink;
+        }
+        let layer = self.layer(part, &place.crossed());
+        let second = scaled(layer, second_of_two(layer.s, part.second_from));
+        let second = sharpened(second, part.hatch_gain);
+        if first.s <= second.s {
+            ink
+        } else {
+            coverage(second)
+        }
     }
 
     /// Luminance of the shade ramp at three places of a triangle.
@@ -154,9 +225,7 @@ impl Layers<'_> {
     ) -> [f32; 3] {
         // Where the normal alone decides, half of the work is none.
         let x = match self.lights.only_distant() {
-            Some(towards) if dark == 0 => {
-                weights.map(|w| ramp_coordinate(dot(corners.normal(w), towards)))
-            }
+            Some(towards) if dark == 0 => corners.cosines(weights, towards).map(ramp_coordinate),
             _ => weights.map(|w| {
                 let (world, normal) = (corners.world(w), corners.normal(w));
                 self.lights.coordinate_at(world, normal, dark).0
@@ -218,22 +287,6 @@ impl Layers<'_> {
         blend(weights, corners.map(|v| self.vertices[v as usize].knot))
     }
 
-    /// The hatch of a part, with its second layer where it has one.
-    fn hatching(&self, part: &Part, place: &Place) -> Hatching {
-        let first = self.layer(part, place);
-        if part.flags & Part::TWO_LAYERS == 0 {
-            return sharpened(first, part.hatch_gain);
-        }
-        let second = self.layer(part, &place.crossed());
-        let [first_part, second_part] = cross_layers(first.s, second.s, part.second_from);
-        let both = if first_part[0] <= second_part[0] {
-            scaled(first, first_part)
-        } else {
-            scaled(second, second_part)
-        };
-        sharpened(both, part.hatch_gain)
-    }
-
     /// One layer of a hatch tile, from the level whose strokes lie as far apart on screen as the part asks.
     fn layer(&self, part: &Part, place: &Place) -> Hatching {
         let header = part.hatch as usize;
@@ -242,11 +295,10 @@ impl Layers<'_> {
         let spacing_texels = f32::from_bits(self.texels[header + 3]);
         let detail = detail(step * side as f32, part.spacing_px, spacing_texels);
         let (level, fraction) = level_at(detail, self.texels[header + 2]);
-        let mut first = header + HEADER_WORDS as usize;
-        for l in 0..level {
-            first += ((side >> l) * (side >> l)) as usize;
-        }
         let level_side = side >> level;
+        // The levels before it, each four times as large as the next.
+        let before = 4 * (side * side - level_side * level_side) / 3;
+        let first = header + (HEADER_WORDS + before) as usize;
         let texels = &self.texels[first..][..(level_side * level_side) as usize];
         let found = sample(bytemuck::cast_slice(texels), level_side, place.uv, fraction);
         let along = |[du, dv]: [f32; 2]| {
@@ -335,6 +387,32 @@ mod tests {
             if let Some(ink) = ink_over(&part, range) {
                 let value = tone_value(s, level_of(&part, low + width * at));
                 prop_assert_eq!(ink == 1.0, value < part.threshold);
+            }
+        }
+
+        /// The oracle is the ink that the hatch would give, at its steepest.
+        #[test]
+        fn a_level_that_decides_leaves_nothing_to_the_hatch(
+            l in 0f32..1.0, s in 0f32..1.0, gain in 0.1f32..3.0, spacing in 2f32..40.0, slope in 0f32..1.0,
+        ) {
+            let part = Part { hatch_gain: gain, spacing_px: spacing, ..part(Part::HATCH) };
+            if let Some(ink) = ink_of_level(&part, l) {
+                let gradient = edge_gradient(slope * 2.0 / spacing, spacing);
+                let want = ink_coverage(tone_value(sharpen(s, gain), l), gradient, part.threshold);
+                prop_assert!((ink - want).abs() < 1e-3, "{} for {}", ink, want);
+            }
+        }
+
+        #[test]
+        fn a_second_layer_left_out_would_have_inked_nothing(
+            l in 0f32..1.0, s in 0f32..1.0, start in 0f32..1.0, gain in 0.1f32..3.0, spacing in 2f32..40.0,
+        ) {
+            let part = Part { hatch_gain: gain, spacing_px: spacing, second_from: start, ..part(Part::HATCH) };
+            if !second_may_ink(&part, l) {
+                let [second, steeper] = second_of_two(s, start);
+                let gradient = gain * steeper * 2.0 / spacing;
+                let want = ink_coverage(tone_value(sharpen(second, gain), l), gradient, part.threshold);
+                prop_assert!(want < 1e-3, "{}", want);
             }
         }
 

@@ -44,6 +44,7 @@ pub mod hatch;
 mod highlight;
 mod ink;
 pub mod inking;
+mod known;
 mod layers;
 mod length;
 mod lettering;

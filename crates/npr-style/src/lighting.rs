@@ -105,6 +105,7 @@ impl Lights {
     }
 
     /// The only light, if it is distant and of plain intensity: but for shadows a tone then depends on the normal alone.
+    #[inline]
     pub(crate) fn only_distant(&self) -> Option<[f32; 3]> {
         let first = &self.sources[0];
         (self.count == 1 && first.kind == LightSource::DISTANT && first.intensity == 1.0)
@@ -114,7 +115,23 @@ impl Lights {
     /// Place on the ramp of a surface at `world` that faces along the unit vector `normal`, and the colour of the light
     /// there: the mean of the lights' colours by what each adds. Bit `i` of `dark` says that the place lies in the shadow of
     /// light `i`. O(lights).
+    #[inline]
     pub fn coordinate_at(&self, world: [f32; 3], normal: [f32; 3], dark: u32) -> (f32, [f32; 3]) {
+        // The rule: one sun, of which the mean is itself.
+        if let Some(towards) = self.only_distant()
+            && dark == 0
+        {
+            let x = ramp_coordinate(dot(normal, towards));
+            let is_lit = x > 1e-6;
+            return (
+                x.min(1.0),
+                if is_lit {
+                    self.sources[0].color
+                } else {
+                    [1.0; 3]
+                },
+            );
+        }
         let mut sum = 0.0;
         let mut color = [0.0; 3];
         for (i, source) in self.sources[..self.count as usize].iter().enumerate() {
@@ -132,6 +149,7 @@ impl Lights {
 
 impl LightSource {
     /// Unit vector from a place in the world towards the light.
+    #[inline]
     pub fn towards(&self, world: [f32; 3]) -> [f32; 3] {
         if self.is_far() {
             return self.direction;
@@ -140,11 +158,13 @@ impl LightSource {
     }
 
     /// Whether it comes from the same direction everywhere.
-    fn is_far(&self) -> bool {
+    #[inline]
+    pub(crate) fn is_far(&self) -> bool {
         self.kind == Self::DISTANT || self.kind == Self::SKY
     }
 
     /// What the light adds to the ramp coordinate at a place, at most `most` of itself.
+    #[inline]
     fn share_at(&self, world: [f32; 3], normal: [f32; 3], most: f32) -> f32 {
         if self.is_far() {
             return ramp_coordinate(dot(normal, self.direction)).min(most) * self.intensity;

@@ -64,6 +64,7 @@ impl Stop {
 
 /// Place on the ramp, 0..1, of a surface whose unit normal meets the unit light direction at cosine
 /// `n_dot_l`: `(N.L + 1) / 2` [Suzuki 2004, section 3.2].
+#[inline]
 pub fn ramp_coordinate(n_dot_l: f32) -> f32 {
     (n_dot_l + 1.0) * 0.5
 }
@@ -75,6 +76,7 @@ pub fn ramp_coordinate(n_dot_l: f32) -> f32 {
 /// rise along the ramp so does the result. Steps closer than `softness` melt into each other.
 ///
 /// `levels` is sorted by `at`; none at all gives full light. O(levels).
+#[inline]
 pub fn ramp_light(levels: &[Level], softness: f32, x: f32) -> [f32; 3] {
     let Some((first, later)) = levels.split_first() else {
         return [1.0; 3];

@@ -1,17 +1,18 @@
 //! Colour of one triangle under a pixel: the shading half of `shade.compose_frame`.
 //!
-//! A triangle that lies in one tone and has neither texture nor vertex colours has one colour all over, found
-//! once a frame; the others are shaded at the samples.
+//! What is the same all over a triangle is found once a frame (`known.rs`), what changes gently once a pixel, at the middle
+//! of the samples that show the triangle; what has edges at every sample.
 
 use crate::compose::Layers;
+use crate::gloss::shines_gently;
 use crate::inking::ink_over;
+use crate::known::Known;
 use crate::paint::LUMA;
-use crate::ramp::{ramp_coordinate, ramp_light};
+use crate::ramp::{Level, ramp_coordinate, ramp_light};
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
-use npr_core::raster::{HULL_BIT, ID_MASK};
+use npr_core::raster::ID_MASK;
 use npr_core::surface::{blend2, blend3, dot, faces_eye, unit_or_z, weights_at};
 use npr_core::texture;
-use rayon::prelude::*;
 
 /// How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
 const TONE_ROOM: f32 = 0.002;
@@ -25,43 +26,91 @@ pub(crate) struct Corners<'a> {
 }
 
 impl Corners<'_> {
+    #[inline]
     pub fn normal(&self, weights: [f32; 3]) -> [f32; 3] {
         unit_or_z(blend3(weights, self.posed.map(|v| v.normal))).map(|v| v * self.side)
     }
 
+    #[inline]
     pub fn world(&self, weights: [f32; 3]) -> [f32; 3] {
         blend3(weights, self.posed.map(|v| v.world))
     }
+
+    /// Cosines of the smooth normal with the direction `towards` at three places: those of [`Corners::normal`], at less cost.
+    #[inline]
+    pub fn cosines(&self, weights: [[f32; 3]; 3], towards: [f32; 3]) -> [f32; 3] {
+        // Places in a row, and one more to make four, so that all steps become vector instructions.
+        let [a, b, c] = weights;
+        let lanes: [[f32; 4]; 3] = std::array::from_fn(|i| [a[i], b[i], c[i], c[i]]);
+        let blended = |corners: [f32; 3]| -> [f32; 4] {
+            std::array::from_fn(|i| {
+                corners[0] * lanes[0][i] + corners[1] * lanes[1][i] + corners[2] * lanes[2][i]
+            })
+        };
+        let [x, y, z] = std::array::from_fn(|axis| blended(self.posed.map(|v| v.normal[axis])));
+        let along = blended(self.posed.map(|v| dot(v.normal, towards)));
+        let squares: [f32; 4] = std::array::from_fn(|i| x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+        let cosines: [f32; 4] = std::array::from_fn(|i| along[i] / squares[i].sqrt());
+        std::array::from_fn(|i| {
+            let has_direction = squares[i] >= 1e-30;
+            self.side
+                * if has_direction {
+                    cosines[i]
+                } else {
+                    towards[2]
+                }
+        })
+    }
+
+    /// Lowest and highest ramp coordinate of the direction `towards` that the smooth normal can have anywhere.
+    pub fn range_towards(&self, towards: [f32; 3]) -> [f32; 2] {
+        let at = self
+            .posed
+            .map(|v| ramp_coordinate(dot(v.normal, towards) * self.side));
+        // A blend of normals that is made unit again bulges beyond them by at most what they differ.
+        let [a, b, c] = self.posed.map(|v| v.normal);
+        let bulge = 0.5 * (1.0 - dot(a, b).min(dot(b, c)).min(dot(c, a)));
+        let room = TONE_ROOM + bulge;
+        [
+            at[0].min(at[1]).min(at[2]) - room,
+            at[0].max(at[1]).max(at[2]) + room,
+        ]
+    }
 }
 
-/// Marks the colour of a triangle that has it all over.
-pub(crate) const WHOLE: f32 = 1.0;
-
-/// Marks the colour of a triangle that is lit alike all over, but not inked alike.
-pub(crate) const LIT: f32 = 2.0;
+/// Width of a tone step, in ramp coordinate, from which on it is so gentle that one place of a pixel stands for all.
+const GENTLE: f32 = 0.25;
 
 /// A lit surface under so much ink, 0..1.
-fn inked(part: &Part, lit: [f32; 3], share: f32) -> [f32; 3] {
+#[inline]
+pub(crate) fn inked(part: &Part, lit: [f32; 3], share: f32) -> [f32; 3] {
     let ink = part.ink_color;
     std::array::from_fn(|i| lit[i] + (ink[i] - lit[i]) * (share * ink[3]))
 }
 
-/// What light and ink make of a surface.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-struct Tone {
-    /// What its colour is multiplied by.
+/// Samples of a pixel that show one triangle.
+#[derive(Debug, Clone, Copy)]
+struct Group {
+    /// The triangle's number.
+    id: u32,
+    /// A bit for each of the pixel's samples.
+    members: u32,
+    /// Middle of the pixel in the frame, and middle of the samples.
+    frame_px: [f32; 2],
+    center: [f32; 2],
+}
+
+/// What a group's samples add up to.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sampled {
+    /// What the surface's colour is multiplied by.
     light: [f32; 3],
     /// How much of it is inked, 0..1.
     ink: f32,
-}
-
-/// What is the same all over a triangle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Even {
-    /// What its colour is multiplied by.
-    light: [f32; 3],
-    /// How much of it is inked, 0..1, where that is the same too.
-    ink: Option<f32>,
+    /// What highlights add.
+    gloss: [f32; 3],
+    /// How much of it the surface-angle method draws a line over.
+    line: f32,
 }
 
 /// Ink of a surface, summed over samples: where no shadow ends, all share that of the first.
@@ -101,147 +150,217 @@ impl Inked {
 }
 
 impl<'a> Layers<'a> {
-    /// Colour of every triangle that has one colour all over, marked in alpha by [`WHOLE`], or by [`LIT`] where ink is still
-    /// to come.
-    pub(crate) fn even_colors(&self) -> Vec<[f32; 4]> {
-        let even = |triangle| self.even_color(triangle).unwrap_or_default();
-        self.triangles
-            .par_iter()
-            .with_min_len(1024)
-            .map(even)
-            .collect()
-    }
-
-    /// The colour of a triangle that lies in one tone and has neither texture nor vertex colours.
-    fn even_color(&self, triangle: &Triangle) -> Option<[f32; 4]> {
-        let part = &self.parts[triangle.part as usize];
-        let white = |v: &u32| self.vertices[*v as usize].color | 0xff00_0000 == u32::MAX;
-        let plain = part.flags & Part::PLAIN != 0;
-        if !plain && (part.texture != NONE || !triangle.corners.iter().all(white)) {
+    /// The light of a triangle that is lit in one tone, whatever its ink and its highlights.
+    pub(crate) fn even_light(&self, part: &Part, corners: &Corners<'_>) -> Option<[f32; 3]> {
+        if part.flags & Part::ANGLE != 0 {
             return None;
         }
-        let even = self.one_light(part, &self.corners_of(triangle))?;
-        let tone = Tone {
-            light: even.light,
-            ink: even.ink.unwrap_or_default(),
-        };
-        let [r, g, b, _] = part.base_color;
-        let [r, g, b] = self.toned(part, [r, g, b], tone);
-        Some([r, g, b, if even.ink.is_some() { WHOLE } else { LIT }])
-    }
-
-    /// A surface's colour in a tone, with the ink over it.
-    fn toned(&self, part: &Part, color: [f32; 3], tone: Tone) -> [f32; 3] {
-        let base = self.strengthened(color);
-        inked(
-            part,
-            std::array::from_fn(|i| base[i] * tone.light[i]),
-            tone.ink,
-        )
-    }
-
-    /// The light of a triangle that is lit in one tone, and its ink where nothing in it is hatched.
-    fn one_light(&self, part: &Part, corners: &Corners<'_>) -> Option<Even> {
-        if part.flags & (Part::ANGLE | Part::HIGHLIGHTS) != 0 {
-            return None;
-        }
-        if part.flags & (Part::UNLIT | Part::INK | Part::HATCH) == Part::UNLIT {
-            return Some(Even {
-                light: [1.0; 3],
-                ink: Some(0.0),
-            });
+        let in_shadow = Part::INK | Part::HATCH | Part::HIGHLIGHTS;
+        if part.flags & Part::UNLIT != 0 {
+            let is_even = self.lights.shadow_side == 0 || part.flags & in_shadow == 0;
+            return is_even.then_some([1.0; 3]);
         }
         if self.lights.shadow_side != 0 {
             return None;
         }
         let range = self.coordinate_range(corners)?;
         let reach = part.softness * 0.5;
-        let lit = part.flags & Part::UNLIT == 0;
-        if lit
-            && part.ramp[1..]
-                .iter()
-                .any(|stop| stop[3] > range[0] - reach && stop[3] <= range[1] + reach)
-        {
+        let crosses = |stop: &[f32; 4]| stop[3] > range[0] - reach && stop[3] <= range[1] + reach;
+        if part.ramp[1..].iter().any(crosses) {
             return None;
         }
         let normal = corners.posed[0].normal.map(|n| n * corners.side);
-        Some(Even {
-            light: self.light_of(part, corners.posed[0].world, normal, 0),
-            ink: ink_over(part, range),
-        })
+        Some(self.light_of(part, corners.posed[0].world, normal, 0))
     }
 
-    /// Light of what the samples in `members` show, a triangle or its hull; `even` is the triangle's of
-    /// [`even_colors`](Self::even_colors).
+    /// Whether light changes so gently over a part that one place of a pixel stands for all.
+    fn is_gentle(&self, part: &Part) -> bool {
+        self.lights.shadow_side == 0
+            && part.flags & Part::ANGLE == 0
+            && (part.softness >= GENTLE || part.ramp[1][3] >= Level::UNUSED)
+    }
+
+    /// Light of triangle `id`, which the samples in `members` show; `known` is what is known of it.
     pub(crate) fn shade(
         &self,
         id: u32,
         members: u32,
         frame_px: [f32; 2],
-        even: [f32; 4],
+        known: &Known,
+        corners: &Corners<'_>,
     ) -> [f32; 3] {
         let triangle = &self.triangles[((id & ID_MASK) - 1) as usize];
         let part = &self.parts[triangle.part as usize];
-        let [line_r, line_g, line_b, _] = self.linear_of(part.line_color);
-        let line = [line_r, line_g, line_b];
-        if id & HULL_BIT != 0 {
-            return line;
+        let group = self.group(id, members, frame_px);
+        let color = if known.is_plain() {
+            known.color
+        } else {
+            let color = self.plain_color(triangle, part, corners, group.center);
+            self.strengthened(color)
+        };
+        let sampled = self.sampled(&group, part, corners, known);
+        let light = sampled.light;
+        let drawn = inked(
+            part,
+            std::array::from_fn(|i| color[i] * light[i]),
+            sampled.ink,
+        );
+        let drawn: [f32; 3] = std::array::from_fn(|i| drawn[i] + sampled.gloss[i]);
+        if sampled.line == 0.0 {
+            return drawn;
         }
+        let line = self.line_of(part);
+        std::array::from_fn(|i| drawn[i] + (line[i] - drawn[i]) * sampled.line)
+    }
+
+    /// Linear light of a part's lines.
+    pub(crate) fn line_of(&self, part: &Part) -> [f32; 3] {
+        let [r, g, b, _] = self.linear_of(part.line_color);
+        [r, g, b]
+    }
+
+    fn group(&self, id: u32, members: u32, frame_px: [f32; 2]) -> Group {
         let count = members.count_ones() as f32;
-        let samples = (0..4).filter(|i| members & (1 << i) != 0);
         let mut center = frame_px;
-        for i in samples.clone() {
+        for i in (0..4).filter(|i| members & (1 << i) != 0) {
             let offset = self.sample_offset(i);
             center = [center[0] + offset[0] / count, center[1] + offset[1] / count];
         }
-        let corners = self.corners_of(triangle);
-        let [r, g, b, mark] = even;
-        if mark == WHOLE {
-            return [r, g, b];
+        Group {
+            id,
+            members,
+            frame_px,
+            center,
         }
-        if mark == LIT {
-            return inked(part, [r, g, b], self.ink_at(id, part, &corners, center, 0));
+    }
+
+    /// Light, ink and highlights of a group: light and ink at its middle where no edge goes through it, all else at its samples.
+    fn sampled(&self, group: &Group, part: &Part, corners: &Corners<'_>, known: &Known) -> Sampled {
+        let Some(light) = self.light_at_middle(group, part, corners, known) else {
+            return self.at_samples(group, part, corners, known);
+        };
+        let ink = known
+            .ink()
+            .unwrap_or_else(|| self.ink_at(group.id, part, corners, group.center, 0));
+        let gloss = if known.is_matt() {
+            [0.0; 3]
+        } else {
+            self.gloss_of(group, part, corners)
+        };
+        Sampled {
+            light,
+            ink,
+            gloss,
+            line: 0.0,
         }
-        let color = self.plain_color(triangle, part, &corners, center);
-        if let Some(even) = self.one_light(part, &corners) {
-            let tone = Tone {
-                light: even.light,
-                ink: even
-                    .ink
-                    .unwrap_or_else(|| self.ink_at(id, part, &corners, center, 0)),
-            };
-            return self.toned(part, color, tone);
+    }
+
+    /// What a group's colour is still to be multiplied by, where one place stands for all of its samples.
+    fn light_at_middle(
+        &self,
+        group: &Group,
+        part: &Part,
+        corners: &Corners<'_>,
+        known: &Known,
+    ) -> Option<[f32; 3]> {
+        if known.is_even() {
+            return Some(if known.is_plain() {
+                [1.0; 3]
+            } else {
+                known.color
+            });
         }
-        let mut sum = [0.0; 7];
+        if !self.is_gentle(part) {
+            return None;
+        }
+        let weights = weights_at(corners.clip, self.view.ndc_at(group.center));
+        let (world, normal) = (corners.world(weights), corners.normal(weights));
+        Some(self.light_of(part, world, normal, 0))
+    }
+
+    /// What highlights add to a group that lies in no shadow.
+    fn gloss_of(&self, group: &Group, part: &Part, corners: &Corners<'_>) -> [f32; 3] {
+        let gloss_at = |weights: [f32; 3]| {
+            let (world, normal) = (corners.world(weights), corners.normal(weights));
+            self.highlights_at(part, world, normal, 0)
+        };
+        if shines_gently(part) {
+            return gloss_at(weights_at(corners.clip, self.view.ndc_at(group.center)));
+        }
+        let count = group.members.count_ones() as f32;
+        let mut sum = [0.0; 3];
+        for weights in self.weights_of(group, corners) {
+            let gloss = gloss_at(weights);
+            sum = std::array::from_fn(|k| sum[k] + gloss[k] / count);
+        }
+        sum
+    }
+
+    /// Weights of a triangle's corners at the samples of a group.
+    fn weights_of(&self, group: &Group, corners: &Corners<'_>) -> impl Iterator<Item = [f32; 3]> {
+        let (members, [x, y], clip) = (group.members, group.frame_px, corners.clip);
+        (0..4)
+            .filter(move |i| members & (1 << i) != 0)
+            .map(move |i| {
+                let offset = self.sample_offset(i);
+                weights_at(clip, self.view.ndc_at([x + offset[0], y + offset[1]]))
+            })
+    }
+
+    /// The mean of a group's samples.
+    fn at_samples(
+        &self,
+        group: &Group,
+        part: &Part,
+        corners: &Corners<'_>,
+        known: &Known,
+    ) -> Sampled {
+        let count = group.members.count_ones() as f32;
+        let shines = part.flags & Part::HIGHLIGHTS != 0 && !known.is_matt();
+        let mut sum = Sampled::default();
         let mut ink = None;
-        for i in samples {
-            let offset = self.sample_offset(i);
-            let at = [frame_px[0] + offset[0], frame_px[1] + offset[1]];
-            let weights = weights_at(corners.clip, self.view.ndc_at(at));
-            let dark = self.shadowed(id, &corners, weights);
-            let tone = self.tone_at(part, &corners, weights, dark);
-            sum = std::array::from_fn(|k| sum[k] + tone[k] / count);
+        for weights in self.weights_of(group, corners) {
+            let (world, normal) = (corners.world(weights), corners.normal(weights));
+            let dark = self.shadowed(group.id, corners, weights);
+            let light = self.light_of(part, world, normal, dark);
+            sum.light = std::array::from_fn(|k| sum.light[k] + light[k] / count);
+            if self.is_grazing(part, world, normal) {
+                sum.line += 1.0 / count;
+            }
+            if shines {
+                let gloss = self.highlights_at(part, world, normal, dark);
+                sum.gloss = std::array::from_fn(|k| sum.gloss[k] + gloss[k] / count);
+            }
             ink = Some(Inked::with(ink, dark, count, || {
-                self.even_ink(part, &corners, dark)
-                    .unwrap_or_else(|| self.ink_at(id, part, &corners, center, dark))
+                known
+                    .ink()
+                    .or_else(|| self.even_ink_in_shadow(part, corners, dark))
+                    .unwrap_or_else(|| self.ink_at(group.id, part, corners, group.center, dark))
             }));
         }
-        let tone = Tone {
-            light: [sum[0], sum[1], sum[2]],
-            ink: ink.map_or(0.0, |ink| ink.mean),
-        };
-        let color = self.toned(part, color, tone);
-        std::array::from_fn(|i| {
-            let lit = color[i] + sum[4 + i];
-            lit + (line[i] - lit) * sum[3]
-        })
+        sum.ink = ink.map_or(0.0, |ink| ink.mean);
+        sum
+    }
+
+    /// Whether the surface-angle method draws a line on a surface at `world` that faces along `normal`.
+    fn is_grazing(&self, part: &Part, world: [f32; 3], normal: [f32; 3]) -> bool {
+        part.flags & Part::ANGLE != 0
+            && dot(normal, self.view.to_eye(world)).abs() < part.facing_threshold
+    }
+
+    /// [`even_ink`](Self::even_ink) where shadows make it differ from place to place; without any it is known.
+    fn even_ink_in_shadow(&self, part: &Part, corners: &Corners<'_>, dark: u32) -> Option<f32> {
+        if self.lights.shadow_side == 0 {
+            return None;
+        }
+        self.even_ink(part, corners, dark)
     }
 
     /// Ink of a triangle that has the same all over, inside the shadow of the lights in `dark` or outside it: so a shadow
-    /// changes nothing beside it. Without shadows [`Layers::one_light`] has asked before.
-    fn even_ink(&self, part: &Part, corners: &Corners<'_>, dark: u32) -> Option<f32> {
-        if self.lights.shadow_side == 0 {
-            return None;
+    /// changes nothing beside it.
+    pub(crate) fn even_ink(&self, part: &Part, corners: &Corners<'_>, dark: u32) -> Option<f32> {
+        if part.flags & (Part::INK | Part::HATCH) == 0 {
+            return Some(0.0);
         }
         let range = self.coordinate_range(corners)?;
         let most = if dark != 0 {
@@ -270,29 +389,6 @@ impl<'a> Layers<'a> {
         }
     }
 
-    /// Tone at one point: rgb light, 1 where the surface-angle method draws a line, and rgb highlights.
-    fn tone_at(
-        &self,
-        part: &Part,
-        corners: &Corners<'_>,
-        weights: [f32; 3],
-        dark: u32,
-    ) -> [f32; 7] {
-        let (normal, world) = (corners.normal(weights), corners.world(weights));
-        let light = self.light_of(part, world, normal, dark);
-        let grazing = part.flags & Part::ANGLE != 0
-            && dot(normal, self.view.to_eye(world)).abs() < part.facing_threshold;
-        let ink = if grazing { 1.0 } else { 0.0 };
-        let gloss = if part.flags & Part::HIGHLIGHTS != 0 {
-            self.highlights_at(part, world, normal, dark)
-        } else {
-            [0.0; 3]
-        };
-        [
-            light[0], light[1], light[2], ink, gloss[0], gloss[1], gloss[2],
-        ]
-    }
-
     /// Light on a surface at `world` that faces along `normal` and lies in the shadow of the lights in `dark`.
     fn light_of(&self, part: &Part, world: [f32; 3], normal: [f32; 3], dark: u32) -> [f32; 3] {
         if part.flags & Part::UNLIT != 0 {
@@ -306,22 +402,11 @@ impl<'a> Layers<'a> {
 
     /// Lowest and highest ramp coordinate that a triangle can have anywhere, where the normal alone decides.
     fn coordinate_range(&self, corners: &Corners<'_>) -> Option<[f32; 2]> {
-        let towards = self.lights.only_distant()?;
-        let at = corners
-            .posed
-            .map(|v| ramp_coordinate(dot(v.normal, towards) * corners.side));
-        // A blend of normals that is made unit again bulges beyond them by at most what they differ.
-        let [a, b, c] = corners.posed.map(|v| v.normal);
-        let bulge = 0.5 * (1.0 - dot(a, b).min(dot(b, c)).min(dot(c, a)));
-        let room = TONE_ROOM + bulge;
-        Some([
-            at[0].min(at[1]).min(at[2]) - room,
-            at[0].max(at[1]).max(at[2]) + room,
-        ])
+        Some(corners.range_towards(self.lights.only_distant()?))
     }
 
     /// A colour as strong as the style wants it.
-    fn strengthened(&self, color: [f32; 3]) -> [f32; 3] {
+    pub(crate) fn strengthened(&self, color: [f32; 3]) -> [f32; 3] {
         let saturation = self.compose.saturation;
         if saturation == 1.0 {
             return color;
@@ -392,6 +477,29 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
         #[test]
+        fn cosines_are_those_of_the_smooth_normal(
+            normals in prop::array::uniform3(prop::array::uniform3(-1f32..1.0)),
+            towards in prop::array::uniform3(-1f32..1.0),
+            places in prop::array::uniform3(prop::array::uniform3(0f32..1.0)),
+            front in any::<bool>(),
+        ) {
+            let posed = normals.map(|normal| PosedVertex { normal: unit_or_z(normal), ..PosedVertex::default() });
+            let side = if front { 1.0 } else { -1.0 };
+            let corners = Corners { posed: std::array::from_fn(|i| &posed[i]), clip: [[0.0; 4]; 3], side };
+            let towards = unit_or_z(towards);
+            let got = corners.cosines(places, towards);
+            for (got, weights) in got.iter().zip(places) {
+                let blended = blend3(weights, posed.map(|v| v.normal));
+                prop_assume!(dot(blended, blended) > 1e-4);
+                prop_assert!((got - dot(corners.normal(weights), towards)).abs() < 1e-3);
+            }
+            prop_assert_eq!(corners.cosines([[0.0; 3]; 3], towards), [towards[2] * side; 3], "no direction");
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+        #[test]
         fn a_triangle_of_one_tone_has_it_everywhere(
             normals in prop::array::uniform3(prop::array::uniform3(-1f32..1.0)),
             light in prop::array::uniform3(-1f32..1.0),
@@ -414,10 +522,10 @@ mod tests {
                 triangles: &[triangle], parts: &[part], texels: &[], charts: &[], overlay: &[], shadows: [&[]; 4],
             };
             let corners = layers.corners_of(&triangle);
-            if let Some(one) = layers.one_light(&part, &corners) {
+            if let Some(light) = layers.even_light(&part, &corners) {
                 let sum: f32 = weights.iter().sum();
                 let inside = layers.light_of(&part, [0.0; 3], corners.normal(weights.map(|w| w / sum)), 0);
-                prop_assert_eq!(one.light, inside);
+                prop_assert_eq!(light, inside);
             }
         }
     }

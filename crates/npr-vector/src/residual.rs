@@ -301,19 +301,23 @@ pub fn stamp(with: &Inking<'_>, stamped: &mut [u32]) {
         .enumerate()
         .for_each(|(y, row)| {
             row.fill(0);
-            if with.row_has_stamps(y as u32) {
-                for (x, texel) in row.iter_mut().enumerate() {
-                    *texel = with.texel(with.window.frame_at(x as u32, y as u32));
+            for (run, texels) in row.chunks_mut(TILE as usize).enumerate() {
+                let left = run as u32 * TILE;
+                if with.run_has_stamps(left, left + texels.len() as u32 - 1, y as u32) {
+                    for (x, texel) in (left..).zip(texels) {
+                        *texel = with.texel(with.window.frame_at(x, y as u32));
+                    }
                 }
             }
         });
 }
 
 impl Inking<'_> {
-    /// Whether any stamp may reach a row of the output.
-    fn row_has_stamps(&self, y: u32) -> bool {
-        let (low, high) = self.reachable(self.window.frame_at(0, y));
-        self.any_stamp([0, low[1]], [self.mask_window.size[0] - 1, high[1]])
+    /// Whether any stamp may reach the pixels from `left` to `right` of a row of the output.
+    fn run_has_stamps(&self, left: u32, right: u32, y: u32) -> bool {
+        let (low, _) = self.reachable(self.window.frame_at(left, y));
+        let (_, high) = self.reachable(self.window.frame_at(right, y));
+        self.any_stamp(low, high)
     }
 
     /// The box of mask pixels whose stamps may reach a point of the frame.

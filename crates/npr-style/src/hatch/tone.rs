@@ -30,6 +30,7 @@ const RIDGE: f32 = 0.16;
 /// `texels_per_px` is how many texels of the finest level a pixel covers across the strokes;
 /// `spacing_texels` is the tile's, `spacing_px` what the style asks for. Negative where even the finest
 /// level is too coarse: strokes then grow. Not a number only if an input is, or two are 0.
+#[inline]
 pub fn detail(texels_per_px: f32, spacing_px: f32, spacing_texels: f32) -> f32 {
     math::log2(texels_per_px * spacing_px / spacing_texels)
 }
@@ -37,6 +38,7 @@ pub fn detail(texels_per_px: f32, spacing_px: f32, spacing_texels: f32) -> f32 {
 /// The level to draw from and how far towards the next, 0..1, at `detail`.
 ///
 /// Beyond the coarsest level strokes shrink with the surface. A `detail` that is no number counts as 0.
+#[inline]
 pub fn level_at(detail: f32, level_count: u32) -> (u32, f32) {
     let coarsest = level_count.saturating_sub(1) as f32;
     let detail = detail.max(0.0).min(coarsest);
@@ -55,6 +57,7 @@ pub fn hatch_luminance(texel: [f32; 4], f: f32) -> f32 {
 }
 
 /// The drawing of a texel's four that comes before `f`, 0..1, and how far `f` lies towards the next, 0..1.
+#[inline]
 fn step_at(f: f32) -> (usize, f32) {
     let place = f * STEPS as f32;
     let step = (place as usize).min(STEPS as usize - 1);
@@ -62,6 +65,7 @@ fn step_at(f: f32) -> (usize, f32) {
 }
 
 /// Hatch luminance of two drawings at `t`, 0..1, between them.
+#[inline]
 fn between_drawings(before: f32, after: f32, t: f32) -> f32 {
     let near = before.max(RIDGE * t * after);
     let far = after.max(RIDGE * (1.0 - t) * before);
@@ -81,6 +85,7 @@ fn between_drawings(before: f32, after: f32, t: f32) -> f32 {
 /// # Panics
 ///
 /// If `level` holds fewer texels than its side asks for.
+#[inline]
 pub fn sample(level: &[[u8; 4]], side: u32, [u, v]: [f32; 2], f: f32) -> HatchSample {
     let (column, tx) = texel_at(u, side);
     let (row, ty) = texel_at(v, side);
@@ -89,10 +94,12 @@ pub fn sample(level: &[[u8; 4]], side: u32, [u, v]: [f32; 2], f: f32) -> HatchSa
         let within = |i: i32| i as u32 & (side - 1);
         level[(within(row + dy) * side + within(column + dx)) as usize]
     };
-    // All four at once, so that they become one run of vector instructions.
-    let texels = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
-    let before = texels.map(|texel| f32::from(texel[step]) * (1.0 / 255.0));
-    let after = texels.map(|texel| f32::from(texel[step + 1]) * (1.0 / 255.0));
+    // All four at once, and channels by shifts, so that they become one run of vector instructions.
+    let texels = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)].map(u32::from_le_bytes);
+    let channel =
+        |shift: u32| texels.map(|texel| ((texel >> shift) & 255) as i32 as f32 * (1.0 / 255.0));
+    let before = channel(8 * step as u32);
+    let after = channel(8 * step as u32 + 8);
     let [s00, s10, s01, s11] = std::array::from_fn(|i| between_drawings(before[i], after[i], t));
     HatchSample {
         luminance: math::mix(math::mix(s00, s10, tx), math::mix(s01, s11, tx), ty),
@@ -106,6 +113,7 @@ pub fn sample(level: &[[u8; 4]], side: u32, [u, v]: [f32; 2], f: f32) -> HatchSa
 /// The texel before a place of a tile along one axis, -1 and up, and how far the place lies towards the next, 0..1.
 ///
 /// By casts: `floor` is a call on processors without an instruction for it.
+#[inline]
 fn texel_at(place: f32, side: u32) -> (i32, f32) {
     let rest = place - place as i32 as f32;
     let within = if rest < 0.0 { rest + 1.0 } else { rest };
@@ -116,6 +124,7 @@ fn texel_at(place: f32, side: u32) -> (i32, f32) {
 }
 
 /// Steeper or softer strokes: S turned about one half, 0..1 [Suzuki 2004, section 3.3].
+#[inline]
 pub fn sharpen(s: f32, gain: f32) -> f32 {
     (0.5 + (s - 0.5) * gain).clamp(0.0, 1.0)
 }
@@ -137,23 +146,35 @@ pub fn cross_luminance(s_first: f32, s_second: f32, start: f32) -> f32 {
 /// rest white, `sqrt((1 - share) / (1 - start))` of it each, so the ink share of both together stays
 /// linear in light as far as the layers are independent.
 pub fn cross_layers(s_first: f32, s_second: f32, start: f32) -> [[f32; 2]; 2] {
+    [first_of_two(s_first, start), second_of_two(s_second, start)]
+}
+
+/// The first of [`cross_layers`].
+#[inline]
+pub fn first_of_two(s: f32, start: f32) -> [f32; 2] {
     let rest = (1.0 - start).max(1e-6);
-    let white_first = 1.0 - s_first;
-    let white_second = 1.0 - s_second;
-    let thinned = 1.0 - white_first * white_first / rest;
-    let first = if thinned > s_first {
-        [thinned, 2.0 * white_first / rest]
+    let white = 1.0 - s;
+    let thinned = 1.0 - white * white / rest;
+    if thinned > s {
+        [thinned, 2.0 * white / rest]
     } else {
-        [s_first, 1.0]
-    };
-    let second = 1.0 - rest * white_second * white_second;
-    [first, [second, 2.0 * rest * white_second]]
+        [s, 1.0]
+    }
+}
+
+/// The second of [`cross_layers`]; its luminance is at least `start`.
+#[inline]
+pub fn second_of_two(s: f32, start: f32) -> [f32; 2] {
+    let rest = (1.0 - start).max(1e-6);
+    let white = 1.0 - s;
+    [1.0 - rest * white * white, 2.0 * rest * white]
 }
 
 /// The value F that a threshold cuts into ink and paper: `S + 2 (L - 0.5)` [Suzuki 2004, eq. 3.3].
 ///
 /// Both inputs 0..1. With a threshold of one half, ink covers the share `1.5 - 2 L` of the tile, all of it
 /// up to `L = 0.25` and none from `L = 0.75`.
+#[inline]
 pub fn tone_value(s: f32, l: f32) -> f32 {
     s + 2.0 * (l - 0.5)
 }
@@ -162,6 +183,7 @@ pub fn tone_value(s: f32, l: f32) -> f32 {
 /// `spacing_px` apart have on average.
 ///
 /// On the ridge of a stroke S is flat, and a hairline would be all ink in one pixel and none in the next.
+#[inline]
 pub fn edge_gradient(gradient_per_px: f32, spacing_px: f32) -> f32 {
     gradient_per_px.max(1.0 / spacing_px)
 }
@@ -170,6 +192,7 @@ pub fn edge_gradient(gradient_per_px: f32, spacing_px: f32) -> f32 {
 ///
 /// `gradient_per_px` is the length of F's gradient over the screen; the edge is taken as straight across
 /// the pixel. Where F is flat the edge is hard.
+#[inline]
 pub fn ink_coverage(tone_value: f32, gradient_per_px: f32, threshold: f32) -> f32 {
     ((threshold - tone_value) / gradient_per_px.max(1e-6) + 0.5).clamp(0.0, 1.0)
 }

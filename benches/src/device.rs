@@ -1,0 +1,15 @@
+//! Graphics devices to measure on.
+
+use npr_gpu::device::{AdapterChoice, Device};
+use npr_gpu::engine::Engine;
+
+/// The best device of this machine, software ones included; says on standard error why there is none.
+pub fn open() -> Option<Box<dyn Engine>> {
+    match Device::open(AdapterChoice::Any) {
+        Ok(device) => Some(Box::new(device)),
+        Err(error) => {
+            eprintln!("device left out: {error}");
+            None
+        }
+    }
+}
