@@ -71,8 +71,8 @@ struct Part {
     second_from: f32,
     tile_scale: f32,
     turn: vec2<f32>,
-    paint: f32,
     paint_color: u32,
+    tone_row: u32,
     highlight_color: vec4<f32>,
     back_color: vec4<f32>,
     highlight: vec4<f32>,
@@ -106,6 +106,7 @@ const PART_HULL: u32 = 262144u;
 const PART_ANGLE: u32 = 524288u;
 const PART_PAINTED: u32 = 1048576u;
 const PART_PLAIN: u32 = 2097152u;
+const PART_TONE_ROW: u32 = 4194304u;
 
 struct GPixel {
     plane_step: vec2<f32>,

@@ -24,15 +24,15 @@ fn painted_level(l: f32, white: f32, threshold: f32) -> f32 {
 // White that the paint of triangle `id` leaves at a pixel and its neighbours to the right and below.
 fn paint_at(id: u32, part: u32, weights: array<vec3<f32>, 3>) -> array<f32, 3> {
     let triangle = triangles[(id & ID_MASK) - 1u];
-    let rgb = linear_texel(parts[part].paint_color).rgb;
+    let paint = linear_texel(parts[part].paint_color);
     var uvs: array<vec2<f32>, 3>;
     for (var i = 0u; i < 3u; i++) { uvs[i] = uv_at(triangle, weights[i]); }
     let covered = footprint(uvs[0], uvs[1], uvs[2]);
     var white: array<f32, 3>;
     for (var i = 0u; i < 3u; i++) {
-        var color = rgb * tint(triangle, weights[i]);
+        var color = paint.rgb * tint(triangle, weights[i]);
         if parts[part].texture != NONE { color *= sample_texture(parts[part].texture, uvs[i], covered).rgb; }
-        white[i] = paint_white(color, parts[part].paint);
+        white[i] = paint_white(color, paint.a);
     }
     return white;
 }

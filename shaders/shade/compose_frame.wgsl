@@ -37,6 +37,7 @@ override WG: u32 = 64u;
 @group(0) @binding(18) var shadow_3: texture_2d<u32>;
 
 //# use lib/texture
+//# use lib/tone_row
 //# use lib/lighting
 //# use lib/paint
 //# use lib/inking
@@ -86,6 +87,7 @@ struct Even {
 
 // Light of a ramp at coordinate `x`: each step takes over where its coordinate begins.
 fn ramp_light(part: u32, x: f32) -> vec3<f32> {
+    if (parts[part].flags & PART_TONE_ROW) != 0u { return row_light(parts[part].tone_row, x); }
     let half = parts[part].softness * 0.5;
     var light = parts[part].ramp[0].rgb;
     for (var i = 1u; i < 8u; i++) {
@@ -111,6 +113,17 @@ fn coordinate_range(corners: Corners) -> vec2<f32> {
     return vec2<f32>(min(a, min(b, c)) - room, max(a, max(b, c)) + room);
 }
 
+// Whether a part's tones are the same for all coordinates in `range`.
+fn one_step(part: u32, range: vec2<f32>) -> bool {
+    if (parts[part].flags & PART_TONE_ROW) != 0u { return row_is_even(parts[part].tone_row, range); }
+    let reach = parts[part].softness * 0.5;
+    for (var i = 1u; i < 8u; i++) {
+        let at = parts[part].ramp[i].a;
+        if at > range.x - reach && at <= range.y + reach { return false; }
+    }
+    return true;
+}
+
 // The light of a triangle that is lit in one tone, whatever its ink and its highlights.
 fn even_light(part: u32, corners: Corners) -> Even {
     var even: Even;
@@ -123,11 +136,7 @@ fn even_light(part: u32, corners: Corners) -> Even {
     }
     if !only_distant() || lights.shadow_side != 0u { return even; }
     let range = coordinate_range(corners);
-    let reach = parts[part].softness * 0.5;
-    for (var i = 1u; i < 8u; i++) {
-        let at = parts[part].ramp[i].a;
-        if at > range.x - reach && at <= range.y + reach { return even; }
-    }
+    if !one_step(part, range) { return even; }
     even.light = light_of(part, corners.world[0], corners.normals[0] * corners.side, 0u);
     even.is_so = true;
     return even;
@@ -136,7 +145,7 @@ fn even_light(part: u32, corners: Corners) -> Even {
 // Whether light changes so gently over a part that one place of a pixel stands for all.
 fn is_gentle(part: u32) -> bool {
     return lights.shadow_side == 0u
-        && (parts[part].flags & PART_ANGLE) == 0u
+        && (parts[part].flags & (PART_ANGLE | PART_TONE_ROW)) == 0u
         && (parts[part].softness >= GENTLE || parts[part].ramp[1].a > 1.5);
 }
 

@@ -130,6 +130,7 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/gloss", include_str!("../lib/gloss.wgsl")),
     ("lib/inking", include_str!("../lib/inking.wgsl")),
     ("lib/paint", include_str!("../lib/paint.wgsl")),
+    ("lib/tone_row", include_str!("../lib/tone_row.wgsl")),
     ("lib/lighting", include_str!("../lib/lighting.wgsl")),
     ("lib/shadow", include_str!("../lib/shadow.wgsl")),
     ("lib/ribbon", include_str!("../lib/ribbon.wgsl")),

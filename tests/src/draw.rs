@@ -80,7 +80,21 @@ pub fn draw_on(
     camera: &Camera,
     size: [u32; 2],
 ) -> Frame {
-    let mut stage =
-        Stage::new(engine, model, style, &StageOptions::new(size)).expect("a small frame");
+    draw_with(engine, model, style, camera, &StageOptions::new(size))
+}
+
+/// Draws a model on an engine with options.
+///
+/// # Panics
+///
+/// Where the engine fails.
+pub fn draw_with(
+    engine: &dyn Engine,
+    model: &Model,
+    style: &Style,
+    camera: &Camera,
+    options: &StageOptions,
+) -> Frame {
+    let mut stage = Stage::new(engine, model, style, options).expect("a small frame");
     stage.draw(camera).expect("a picture")
 }

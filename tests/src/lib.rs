@@ -14,6 +14,7 @@
 )]
 
 mod agreement;
+pub mod comic;
 #[cfg(feature = "gpu")]
 mod device;
 mod draw;
@@ -27,7 +28,7 @@ mod wanted;
 pub use agreement::Agreement;
 #[cfg(feature = "gpu")]
 pub use device::device;
-pub use draw::{Drawing, draw, draw_from, draw_on, lines, models_camera};
+pub use draw::{Drawing, draw, draw_from, draw_on, draw_with, lines, models_camera};
 pub use files::{asset, models, samples};
 pub use ink::Ink;
 pub use montage::{beside, cropped, enlarged, reduced};

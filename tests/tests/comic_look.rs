@@ -2,66 +2,18 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
-use npr_core::camera::{Camera, Projection};
-use npr_mesh::Mesh;
 use npr_mesh::testing::{icosphere, plane};
 use npr_render::Frame;
 use npr_scene::Scene;
 use npr_style::Style;
+use npr_tests::comic::{self, direction, draw, front, pixel, style, wall};
 use npr_tests::{Object, draw_from, placed, scene_of};
 
-const SIZE: [u32; 2] = [320, 240];
-
-/// White surfaces on blue, inked black and lit from the right; without lines.
-const BASE: &[&str] = &[
-    "background=#0000ff",
-    "line.method=none",
-    "shade.mode=paper",
-    "light.direction=[1,0,0]",
-    "light.space=camera",
-    "ink.hatch.spacing=12px",
-];
-
-fn style(settings: &[&str]) -> Style {
-    let mut style = Style::default();
-    style.shade.ramp.truncate(1);
-    style.shade.ramp[0].light = 1.0;
-    style.shade.ramp[0].tint = None;
-    for setting in BASE.iter().chain(settings) {
-        style.set(setting).unwrap();
-    }
-    style
-}
-
-/// From the front, a picture as high as two units and a half.
-fn front() -> Camera {
-    Camera {
-        eye: [0.0, 0.0, 8.0],
-        target: [0.0; 3],
-        up: [0.0, 1.0, 0.0],
-        projection: Projection::Parallel { height: 2.5 },
-    }
-}
-
-fn draw(scene: &Scene, settings: &[&str]) -> Frame {
-    draw_from(scene, &style(settings), &front(), SIZE).frame
-}
+/// Width and height of pictures.
+const SIZE: [u32; 2] = comic::SIZE;
 
 fn ball() -> Scene {
     scene_of(&[Object::new("Ball", icosphere(5))])
-}
-
-fn wall(size: f32, z: f32) -> Mesh {
-    placed(
-        &plane(8, 8),
-        [2.0 * size, 2.0 * size, 1.0],
-        [-size, -size, z],
-    )
-}
-
-fn pixel(frame: &Frame, x: u32, y: u32) -> [u8; 3] {
-    let at = ((y * frame.size[0] + x) * 4) as usize;
-    [frame.rgba[at], frame.rgba[at + 1], frame.rgba[at + 2]]
 }
 
 /// Share of black among the pixels of a column of the ball, between `top` and `bottom`.
@@ -155,19 +107,6 @@ fn parts_may_be_hatched_in_their_own_way() {
     let frame = draw_from(&scene, &style, &front(), SIZE).frame;
     assert!(darkness(&frame, 40..160, 60..180) > 0.2);
     assert_eq!(darkness(&frame, 190..230, 100..140), 0.0);
-}
-
-/// Directions of strokes in a square of the picture: mean of the doubled angle of gradients, as a vector, 0..1 long.
-fn direction(frame: &Frame, x: std::ops::Range<u32>, y: std::ops::Range<u32>) -> [f32; 2] {
-    let value = |x: u32, y: u32| f32::from(pixel(frame, x, y)[0]) / 255.0;
-    let (mut sum, mut weight) = ([0.0f32; 2], 0.0f32);
-    for (x, y) in x.flat_map(|x| y.clone().map(move |y| (x, y))) {
-        let dx = value(x + 1, y) - value(x - 1, y);
-        let dy = value(x, y + 1) - value(x, y - 1);
-        sum = [sum[0] + dx * dx - dy * dy, sum[1] + 2.0 * dx * dy];
-        weight += dx * dx + dy * dy;
-    }
-    sum.map(|v| v / weight.max(1e-6))
 }
 
 #[test]

@@ -3,9 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use npr_gpu::processor::Processor;
-use npr_render::Model;
+use npr_render::{Model, Picture, StageOptions};
 use npr_style::Style;
-use npr_tests::{Agreement, asset, device, draw_on, models, models_camera, samples};
+use npr_tests::{Agreement, asset, device, draw_with, models, models_camera, samples};
 use std::path::PathBuf;
 
 /// Pictures of which single blocks may differ, and why; pixels must agree all the same. Which of them do depends on the
@@ -17,10 +17,19 @@ const TIES: [(&str, &str); 1] = [(
 
 /// Draws a model in a style on both engines and prints how far they agree; nothing without a device.
 fn agreement(what: &str, model: &Model, style: &Style, size: [u32; 2]) -> Option<Agreement> {
+    agreement_with(what, model, style, &StageOptions::new(size))
+}
+
+fn agreement_with(
+    what: &str,
+    model: &Model,
+    style: &Style,
+    options: &StageOptions,
+) -> Option<Agreement> {
     let device = device()?;
-    let camera = models_camera(model, size);
-    let one = draw_on(&Processor, model, style, &camera, size);
-    let two = draw_on(device, model, style, &camera, size);
+    let camera = models_camera(model, options.size);
+    let one = draw_with(&Processor, model, style, &camera, options);
+    let two = draw_with(device, model, style, &camera, options);
     let agreement = Agreement::between(&one, &two, 2);
     println!("{what:45} {agreement}");
     Some(agreement)
@@ -129,6 +138,93 @@ fn samples_look_alike_at_other_sizes_and_mask_scales() {
         let what = format!("{size:?} pixels, mask scale {scale}");
         let agreement = agreement(&what, &model, &style, size);
         (what, agreement)
+    });
+    check(pictures);
+}
+
+/// A ramp of hard and soft tones and a sheet of crosses, as pictures.
+fn tone_pictures() -> StageOptions {
+    let ramp = (0..256u32).flat_map(|x| {
+        let tone = if x < 80 { 30 } else { x as u8 };
+        [tone, tone, tone.max(60), 255]
+    });
+    let sheet = (0..32 * 32u32).flat_map(|i| {
+        let dark = i % 32 < 6 || i / 32 < 6;
+        [if dark { 10 } else { 240 }; 4]
+    });
+    let picture = |size, rgba| Picture { size, rgba };
+    StageOptions {
+        pictures: [
+            ("ramp.png".to_owned(), picture([256, 1], ramp.collect())),
+            ("sheet.png".to_owned(), picture([32, 32], sheet.collect())),
+        ]
+        .into(),
+        ..StageOptions::new([480, 270])
+    }
+}
+
+#[test]
+fn pictures_and_directions_of_tones_look_alike() {
+    let looks: [(&str, &[&str]); 8] = [
+        (
+            "speed lines",
+            &["rule=[{ motion = { trail = [3.0, 1.0, 0.0] } }]"],
+        ),
+        (
+            "a part that shines",
+            &[
+                "light.intensity=0.4",
+                "rule=[{ match = { object = \"*eapot*\" }, beam = { light = 0.7 } }]",
+                "ink.tone=ink+hatch",
+            ],
+        ),
+        (
+            "half way to plain shading",
+            &[
+                "ink.tone=ink+hatch",
+                "blend.amount=0.5",
+                "highlight.back.on=true",
+            ],
+        ),
+        ("ramp from a picture", &["shade.ramp_image=ramp.png"]),
+        (
+            "soft ramp from a picture under ink",
+            &[
+                "shade.ramp_image=ramp.png",
+                "shade.softness=0.1",
+                "ink.tone=ink+hatch",
+            ],
+        ),
+        (
+            "hatch from a picture",
+            &["ink.tone=ink+hatch", "ink.hatch.image=sheet.png"],
+        ),
+        (
+            "hatch from a picture on the screen, along the light",
+            &[
+                "ink.tone=hatch",
+                "ink.hatch.image=sheet.png",
+                "ink.mapping=screen",
+                "ink.follow=light",
+            ],
+        ),
+        (
+            "strokes on surfaces along the light, in a shadow",
+            &[
+                "ink.tone=ink+hatch",
+                "ink.follow=light",
+                "light.shadow=true",
+            ],
+        ),
+    ];
+    let model = Model::new(&asset("still_life.glb")).unwrap();
+    let pictures = looks.into_iter().map(|(what, settings)| {
+        let mut style = Style::preset("toon").unwrap();
+        for setting in settings {
+            style.set(setting).unwrap();
+        }
+        let agreement = agreement_with(what, &model, &style, &tone_pictures());
+        (what.to_owned(), agreement)
     });
     check(pictures);
 }

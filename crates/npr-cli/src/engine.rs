@@ -105,7 +105,9 @@ impl From<RenderError> for Fault {
     fn from(error: RenderError) -> Self {
         match &error {
             RenderError::EmptyFrame { .. } => Self::new(Exit::Usage, error),
-            RenderError::Lettering { .. } => Self::new(Exit::Input, error),
+            RenderError::Lettering { .. }
+            | RenderError::Ramp { .. }
+            | RenderError::Hatch { .. } => Self::new(Exit::Input, error),
             RenderError::FrameTooLarge { .. } | RenderError::TooMany { .. } => {
                 Self::new(Exit::Limit, format!("{error}, and no option lifts that"))
             }

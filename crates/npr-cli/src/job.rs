@@ -40,6 +40,7 @@ impl<'a> Job<'a> {
         let options = StageOptions {
             background_image: look.background_picture(&limits, external)?,
             width_image: look.width_picture(&limits, external)?,
+            pictures: look.pictures(&limits, external)?,
             fonts: look.fonts(&limits, external)?,
             memory_limit: limits.memory_bytes,
             ..StageOptions::new([said.drawing.size.width, said.drawing.size.height])

@@ -118,9 +118,13 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<LineModel, Faul
         weld: job.said.lines.weld,
         memory_limit: job.limits.memory_bytes,
     };
-    let model = progress.step("prepare", || match &job.cache {
-        Some(folder) => LineModel::cached(&loaded.scene, &options, folder),
-        None => LineModel::new(&loaded.scene, &options),
+    let model = progress.step("prepare", || {
+        LineModel::for_style(
+            &loaded.scene,
+            &job.look.style,
+            &options,
+            job.cache.as_deref(),
+        )
     })?;
     progress.suspend(|| warn_of(job, &model));
     Ok(model)

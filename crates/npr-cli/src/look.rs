@@ -24,7 +24,9 @@ pub struct Look {
     background: Option<PictureFile>,
     width: Option<PictureFile>,
     /// Fonts of its words, each name once, with the first words that use it.
-    fonts: Vec<FontFile>,
+    fonts: Vec<NamedFile>,
+    /// Pictures that its tones are made from.
+    pictures: Vec<NamedFile>,
     style_file: Option<PathBuf>,
 }
 
@@ -37,9 +39,9 @@ enum PictureFile {
     Beside { folder: PathBuf, name: String },
 }
 
-/// A font that a style names.
+/// A font or picture that a style names by a key.
 #[derive(Debug, Clone, PartialEq, Eq)]
-struct FontFile {
+struct NamedFile {
     /// As the style has it.
     name: String,
     /// The key that names it first.
@@ -71,6 +73,7 @@ impl Look {
             background: file(background_name(&style), background_name(&written)),
             width: file(width_name(&style), width_name(&written)),
             fonts: font_files(&style, &written, source.file()),
+            pictures: picture_files(&style, &written, source.file()),
             style_file: source.file().map(Path::to_owned),
             style,
         })
@@ -106,12 +109,16 @@ impl Look {
         limits: &Limits,
         external: Option<&Path>,
     ) -> Result<BTreeMap<String, Font>, Fault> {
-        let load = |font: &FontFile| {
-            let loaded = font.file.load_font(limits, external);
-            let loaded = loaded.map_err(|fault| fault.while_doing(&font.key))?;
-            Ok((font.name.clone(), loaded))
-        };
-        self.fonts.iter().map(load).collect()
+        load_named(&self.fonts, |file| file.load_font(limits, external))
+    }
+
+    /// The pictures that its tones are made from, by the names that it gives them.
+    pub fn pictures(
+        &self,
+        limits: &Limits,
+        external: Option<&Path>,
+    ) -> Result<BTreeMap<String, Picture>, Fault> {
+        load_named(&self.pictures, |file| file.load(limits, external))
     }
 
     /// The files that this look is made from.
@@ -121,8 +128,9 @@ impl Look {
             .iter()
             .chain(&self.width)
             .map(PictureFile::path);
-        let fonts = self.fonts.iter().map(|font| font.file.path());
-        pictures.chain(fonts).chain(self.style_file.clone())
+        let named = self.fonts.iter().chain(&self.pictures);
+        let named = named.map(|named| named.file.path());
+        pictures.chain(named).chain(self.style_file.clone())
     }
 
     /// Whether the picture may be seen through.
@@ -142,10 +150,12 @@ impl Look {
             let ramp = rule.shade.ramp.as_deref().unwrap_or_default();
             let is_inked = rule.ink.tone.is_some_and(|tone| tone != Tone::Off);
             let glows = rule.beam.is_some() || rule.highlight.may_show();
-            rule.shade.color.is_none() && ramp.iter().all(is_plain) && !is_inked && !glows
+            let is_plain = ramp.iter().all(is_plain) && rule.shade.ramp_image.is_none();
+            rule.shade.color.is_none() && is_plain && !is_inked && !glows
         };
         let lines_only = shade.mode == ShadeMode::Paper
             && shade.ramp.iter().all(is_plain)
+            && shade.ramp_image.is_empty()
             && style.ink.tone == Tone::Off
             && !style.highlight.shows()
             && style.rule.iter().all(is_blank);
@@ -192,21 +202,48 @@ fn width_name(style: &Style) -> Option<&str> {
 }
 
 /// The fonts that a style names; names that stand in the style file too are looked for beside it.
-fn font_files(style: &Style, written: &Style, style_file: Option<&Path>) -> Vec<FontFile> {
-    let mut fonts: Vec<FontFile> = Vec::new();
+fn font_files(style: &Style, written: &Style, style_file: Option<&Path>) -> Vec<NamedFile> {
+    let mut fonts: Vec<NamedFile> = Vec::new();
     for (index, words) in style.lettering.iter().enumerate() {
         let name = words.font.clone();
         if fonts.iter().any(|font| font.name == name) {
             continue;
         }
         let is_written = written.lettering.iter().any(|words| words.font == name);
-        fonts.push(FontFile {
+        fonts.push(NamedFile {
             file: PictureFile::of(&name, style_file.filter(|_| is_written)),
             key: format!("lettering.{index}.font"),
             name,
         });
     }
     fonts
+}
+
+/// The pictures that a style's tones are made from; names that stand in the style file too are looked for beside it.
+fn picture_files(style: &Style, written: &Style, style_file: Option<&Path>) -> Vec<NamedFile> {
+    let written = written.named_pictures();
+    let file = |(key, name): (String, &str)| {
+        let is_written = written.iter().any(|(_, other)| *other == name);
+        NamedFile {
+            file: PictureFile::of(name, style_file.filter(|_| is_written)),
+            name: name.to_owned(),
+            key,
+        }
+    };
+    style.named_pictures().into_iter().map(file).collect()
+}
+
+/// Everything that `files` hold, by name; what goes wrong tells the key first.
+fn load_named<T>(
+    files: &[NamedFile],
+    load: impl Fn(&PictureFile) -> Result<T, Fault>,
+) -> Result<BTreeMap<String, T>, Fault> {
+    let load = |named: &NamedFile| {
+        let loaded = load(&named.file);
+        let loaded = loaded.map_err(|fault| fault.while_doing(&named.key))?;
+        Ok((named.name.clone(), loaded))
+    };
+    files.iter().map(load).collect()
 }
 
 impl PictureFile {

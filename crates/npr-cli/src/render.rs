@@ -14,7 +14,7 @@ use crate::timings::Timings;
 use crate::viewpoint;
 use npr_core::camera::Camera;
 use npr_gpu::engine::Engine;
-use npr_render::{Frame, Model, Stage};
+use npr_render::{Frame, LineModel, LineModelOptions, Model, Stage};
 use std::io::Write;
 
 /// Draws what the user asked for, or prints its style.
@@ -51,9 +51,9 @@ pub fn dump_style(said: &DrawingArguments) -> Result<(), Fault> {
 
 /// From the scene's file to the picture's.
 fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
-    let model = prepare(job, progress)?;
+    let (model, lines) = prepare(job, progress)?;
     let camera = viewpoint::camera(&job.said.drawing.camera, &model, job.said.drawing.size)?;
-    let drawn = draw_frame(job, &model, &camera, progress)?;
+    let drawn = draw_frame(job, &model, lines.as_ref(), &camera, progress)?;
     let frame = &drawn.picture;
     progress.suspend(|| {
         for notice in &frame.notices {
@@ -68,8 +68,8 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     Ok(drawn)
 }
 
-/// Loads the scene and makes it ready; says what is ignored.
-fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<Model, Fault> {
+/// Loads the scene and makes it ready, for lines as curves too where the style has any; says what is ignored.
+fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Model, Option<LineModel>), Fault> {
     let (limits, external) = (
         job.said.drawing.limits.limits(),
         job.said.drawing.allow_external.as_deref(),
@@ -79,8 +79,19 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<Model, Fault> {
     inputs.extend(job.look.inputs());
     job.output.refuse_any_of(&inputs)?;
     let model = progress.step("prepare", || Model::new(&loaded.scene))?;
+    let style = &job.look.style;
+    let lines = style.has_curves().then(|| {
+        let options = LineModelOptions {
+            memory_limit: limits.memory_bytes,
+            ..LineModelOptions::default()
+        };
+        progress.step("prepare", || {
+            LineModel::for_style(&loaded.scene, style, &options, None)
+        })
+    });
+    let lines = lines.transpose()?;
     progress.suspend(|| warn_of(job, &model));
-    Ok(model)
+    Ok((model, lines))
 }
 
 fn warn_of(job: &Job<'_>, model: &Model) {
@@ -96,11 +107,16 @@ fn warn_of(job: &Job<'_>, model: &Model) {
 fn draw_frame(
     job: &Job<'_>,
     model: &Model,
+    lines: Option<&LineModel>,
     camera: &Camera,
     progress: &mut Progress,
 ) -> Result<Drawn<Frame>, Fault> {
     let picture = |engine: &dyn Engine| {
-        Stage::new(engine, model, &job.look.style, &job.options)?.draw(camera)
+        let mut stage = Stage::new(engine, model, &job.look.style, &job.options)?;
+        if let Some(lines) = lines {
+            stage = stage.with_lines(lines);
+        }
+        stage.draw(camera)
     };
     engine::draw_as_step(
         job.said.drawing.backend,

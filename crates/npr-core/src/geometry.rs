@@ -150,7 +150,7 @@ pub struct Part {
     pub material: u32,
     /// Where its base colour texture's header starts in the texture store, or [`NONE`].
     pub texture: u32,
-    /// Bits of [`Part::DOUBLE_SIDED`] to [`Part::PLAIN`].
+    /// Bits of [`Part::DOUBLE_SIDED`] to [`Part::TONE_ROW`].
     pub flags: u32,
     /// Factor on the line width.
     pub width_factor: f32,
@@ -178,10 +178,11 @@ pub struct Part {
     pub tile_scale: f32,
     /// Cosine and sine of the angle by which hatch coordinates are turned.
     pub turn: [f32; 2],
-    /// How much the colour it is painted in darkens its shade, 0..1; read with [`Part::PAINTED`].
-    pub paint: f32,
-    /// That colour without its texture, sRGB bytes, the first in the lowest byte.
+    /// The colour it is painted in without its texture, sRGB bytes, the first in the lowest byte; the highest is how much it
+    /// darkens its shade, 255 all the way. Read with [`Part::PAINTED`].
     pub paint_color: u32,
+    /// Where its row of tones starts in the texture store, with [`Part::TONE_ROW`].
+    pub tone_row: u32,
     /// Colour of its highlight and streak, linear light; alpha is the strength.
     pub highlight_color: [f32; 4],
     /// Colour of the light from behind, linear light; alpha is the strength.
@@ -220,8 +221,8 @@ gpu_layout!(Part {
     second_from,
     tile_scale,
     turn,
-    paint,
     paint_color,
+    tone_row,
     highlight_color,
     back_color,
     highlight,
@@ -277,6 +278,8 @@ impl Part {
     pub const PAINTED: u32 = 1_048_576;
     /// It shows its base colour alone: neither its texture nor its vertex colours.
     pub const PLAIN: u32 = 2_097_152;
+    /// Its tones are a row of the texture store, not its ramp.
+    pub const TONE_ROW: u32 = 4_194_304;
     /// Any outline.
     pub const OUTLINES: u32 = Self::LINES | Self::HULL | Self::ANGLE;
     /// Any highlight.

@@ -99,6 +99,13 @@ impl TextureStore {
         Some(start)
     }
 
+    /// Adds words that only their reader understands, and gives where they start.
+    pub fn add_words(&mut self, words: &[u32]) -> Option<u32> {
+        let start = u32::try_from(self.words.len()).ok()?;
+        self.words.extend(words);
+        Some(start)
+    }
+
     /// The next smaller level: every pixel averages four, in linear light weighted by alpha.
     fn halve(&self, texels: &[u32], size: [u32; 2]) -> (Vec<u32>, [u32; 2]) {
         let next = [(size[0] / 2).max(1), (size[1] / 2).max(1)];

@@ -23,6 +23,7 @@ fn charts(criterion: &mut Criterion) {
                 let surface = ChartInput {
                     positions: mesh.positions(),
                     triangles: &triangles,
+                    directions: &[],
                 };
                 bencher.iter(|| drop(black_box(stroke_chart(&surface, &ChartSettings::default()))));
             });

@@ -43,6 +43,7 @@ fn draw(folder: &str, name: &str, mesh: &Mesh, tile: f32) -> io::Result<()> {
     let surface = ChartInput {
         positions: mesh.positions(),
         triangles: &triangles,
+        directions: &[],
     };
     let settings = ChartSettings {
         tile_world: tile * size,

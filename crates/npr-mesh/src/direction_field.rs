@@ -11,6 +11,7 @@ pub(crate) mod nodes;
 use std::collections::BTreeMap;
 
 use glam::Vec3;
+use npr_core::geometry::Triangle;
 use rayon::prelude::*;
 
 use crate::curvature::{Curvature, curvature};
@@ -30,6 +31,8 @@ pub enum Guide {
     },
     /// A direction in the space of the positions, laid on the surface; its length and sign mean nothing.
     Along([f32; 3]),
+    /// The directions at the vertices, laid on the surface; lengths and signs mean nothing, and one of no length says nothing.
+    Painted,
 }
 
 /// How the strokes of one part run.
@@ -56,6 +59,9 @@ impl Default for PartGuide {
 /// So small that it decides only what would be left to chance.
 const IDLE: f32 = 1e-4;
 
+/// Weight of painted directions, against 1 for a guide: they are meant as they are, and even out over a third of the distance.
+const PAINTED: f32 = 8.0;
+
 /// How strongly each axis of space attracts idle directions: upright ones first, where there is a choice.
 const IDLE_AXES: [f32; 3] = [0.5, 1.0, 0.25];
 
@@ -66,17 +72,51 @@ const IDLE_AXES: [f32; 3] = [0.5, 1.0, 0.25];
 pub(crate) fn directions(
     nodes: &Nodes,
     guide_of_part: impl Fn(u32) -> PartGuide + Sync,
+    painted: &Painted<'_>,
     reach: f32,
     rounds: u32,
 ) -> Vec<Vec3> {
     let frames: Vec<Frame> = nodes.normals.par_iter().map(|&n| Frame::new(n)).collect();
-    let pulls = pulls(nodes, &frames, guide_of_part, reach);
+    let painted = painted.lines(nodes, &frames);
+    let pulls = pulls(nodes, &frames, guide_of_part, &painted, reach);
     let lines = Level::new(nodes, pulls, |node, other| {
         frames[node].view(&frames[other])
     });
     let lines = lines.solve(rounds);
     let direction = |(frame, &[line]): (&Frame, &[Complex; 1])| frame.along(line);
     frames.par_iter().zip(&lines).map(direction).collect()
+}
+
+/// Directions at the vertices of a surface.
+pub(crate) struct Painted<'a> {
+    /// The triangles that nodes are made from.
+    pub(crate) triangles: &'a [Triangle],
+    /// One for every vertex; empty where there are none.
+    pub(crate) directions: &'a [[f32; 3]],
+}
+
+impl Painted<'_> {
+    /// The mean at every node of what the vertices of its corners say, as lines: opposite directions agree.
+    fn lines(&self, nodes: &Nodes, frames: &[Frame]) -> Vec<Complex> {
+        if self.directions.is_empty() {
+            return Vec::new();
+        }
+        let mut sums = vec![(Complex::default(), 0.0f32); nodes.count()];
+        for (&face, corners) in nodes.faces.iter().zip(&nodes.corners) {
+            let vertices = self.triangles[face as usize].corners;
+            for (&node, vertex) in corners.iter().zip(vertices) {
+                let (sum, count) = &mut sums[node as usize];
+                *sum = sum.plus(laid(
+                    &frames[node as usize],
+                    self.directions[vertex as usize],
+                ));
+                *count += 1.0;
+            }
+        }
+        sums.into_iter()
+            .map(|(sum, count)| sum.scaled(PAINTED / count.max(1.0)))
+            .collect()
+    }
 }
 
 /// Two tangents and the normal of a node.
@@ -136,6 +176,7 @@ fn pulls(
     nodes: &Nodes,
     frames: &[Frame],
     guide_of_part: impl Fn(u32) -> PartGuide + Sync,
+    painted: &[Complex],
     reach: f32,
 ) -> Vec<[Complex; 1]> {
     let weld = nodes.apart();
@@ -148,6 +189,7 @@ fn pulls(
         let PartGuide { guide, angle } = guide_of_part(part);
         let said = match guide {
             Guide::Along(direction) => laid(frame, direction),
+            Guide::Painted => painted.get(node).copied().unwrap_or_default(),
             Guide::Curvature { across } => {
                 let mean = mean_bends.get(&part).copied().unwrap_or_default();
                 bent(frame, &bends[node], mean, across)

@@ -15,7 +15,7 @@
 //!
 //! let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
 //! let triangles = [Triangle { corners: [0, 1, 2], part: 0 }];
-//! let surface = ChartInput { positions: &positions, triangles: &triangles };
+//! let surface = ChartInput { positions: &positions, triangles: &triangles, directions: &[] };
 //! let chart = stroke_chart(&surface, &ChartSettings { tile_world: 0.5, ..Default::default() });
 //!
 //! // An edge of length 1 is two tiles long.
@@ -33,7 +33,7 @@ use npr_core::geometry::Triangle;
 use rayon::prelude::*;
 
 use crate::direction_field::nodes::Nodes;
-use crate::direction_field::{PartGuide, directions};
+use crate::direction_field::{Painted, PartGuide, directions};
 use corners::{Lifted, lift};
 use phases::{Site, phases};
 
@@ -44,6 +44,9 @@ pub struct ChartInput<'a> {
     pub positions: &'a [[f32; 3]],
     /// Triangles over them, counter-clockwise seen from the front. Strokes do not run on from part to part.
     pub triangles: &'a [Triangle],
+    /// For parts guided by [`Guide::Painted`](crate::direction_field::Guide::Painted), a direction at every vertex; may be
+    /// empty where there are none.
+    pub directions: &'a [[f32; 3]],
 }
 
 /// How strokes lie on a surface.
@@ -128,9 +131,14 @@ fn lift_faces(surface: &ChartInput, settings: &ChartSettings) -> (Nodes, Vec<Lif
         let guide = settings.guides.get(part as usize);
         guide.copied().unwrap_or_default()
     };
+    let painted = Painted {
+        triangles: surface.triangles,
+        directions: surface.directions,
+    };
     let directions = directions(
         &nodes,
         guide_of_part,
+        &painted,
         settings.smoothing_tiles,
         settings.rounds,
     );

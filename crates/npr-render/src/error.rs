@@ -47,6 +47,39 @@ pub enum RenderError {
         /// Why not.
         source: npr_vector::lettering::LetteringError,
     },
+    /// A picture that the style names was not given.
+    #[error("{key}: the picture '{name}' was not given")]
+    MissingPicture {
+        /// The key that names it.
+        key: String,
+        /// Its name there.
+        name: String,
+    },
+    /// A picture that the style names has no pixels, or other than its size says.
+    #[error("{key}: the picture has no pixels, or not as many as its size says")]
+    EmptyPicture {
+        /// The key that names it.
+        key: String,
+    },
+    /// The style names a look that there is not.
+    #[error(transparent)]
+    Style(#[from] npr_style::StyleError),
+    /// A picture cannot be a ramp.
+    #[error("{key}: {source}")]
+    Ramp {
+        /// The key that names it.
+        key: String,
+        /// Why not.
+        source: npr_style::tone_row::RowError,
+    },
+    /// A picture cannot be hatched with.
+    #[error("{key}: {source}")]
+    Hatch {
+        /// The key that names it.
+        key: String,
+        /// Why not.
+        source: npr_style::hatch::HatchError,
+    },
     /// The engine failed.
     #[error(transparent)]
     Engine(#[from] EngineError),

@@ -1,16 +1,20 @@
 //! What a style draws with the pen on a model: ink of every part, hatch tiles, stroke charts.
 
+use crate::error::RenderError;
+use crate::guides::{Guides, turn_to_light};
 use crate::model::{Model, PartInfo};
+use crate::pictures::Pictures;
 use glam::{Vec2, Vec3};
+use npr_core::camera::Camera;
 use npr_core::color::linear_from_srgb;
 use npr_core::geometry::{ChartCorners, NONE, Part, Triangle};
 use npr_core::math;
 use npr_core::texture::TextureStore;
-use npr_mesh::direction_field::{Guide, PartGuide};
 use npr_mesh::stroke_chart::{ChartInput, ChartSettings, stroke_chart};
 use npr_style::hatch::{self, Hatch, Pattern};
+use npr_style::lighting::LightSource;
 use npr_style::paint::paint_white;
-use npr_style::{Follow, Ink, Mapping, Style};
+use npr_style::{Ink, Mapping, Style};
 
 /// Texels along the side of a hatch tile: 128 strokes, and six octaves down to two.
 const TILE_SIDE: u32 = 1024;
@@ -38,51 +42,76 @@ const SCREEN_SPACING_TEXELS: f32 = 8.0;
 pub(crate) struct Inked {
     /// Stroke charts, a triangle each; empty where no part is hatched along its surface.
     pub charts: Vec<ChartCorners>,
-    /// How badly strokes lie around each vertex, 0..1; empty where charts are.
+    /// How badly strokes lie around each vertex, 0..1; empty where charts are. Charts that follow the light have none.
     pub knots: Vec<f32>,
     /// What was done in another way than the style asks, for the user.
     pub notices: Vec<String>,
+    /// What strokes run along.
+    guides: Guides,
+    /// The light that charts were made for, where any strokes follow one.
+    lit_by: Option<LightSource>,
 }
 
 /// Gives `parts` their ink and adds the tiles they need to `textures`.
+///
+/// Charts of strokes that follow the light stay empty until [`Inked::follow_light`].
 pub(crate) fn add_ink(
     model: &Model,
     style: &Style,
+    pictures: &Pictures<'_>,
     frame: &FrameScale,
     parts: &mut [Part],
     textures: &mut TextureStore,
-) -> Inked {
+) -> Result<Inked, RenderError> {
     let mut tiles = Tiles {
+        pictures,
         textures,
         made: Vec::new(),
     };
-    let mut guides = Vec::with_capacity(model.parts.len());
-    let mut unmapped = None;
+    let mut inks = Vec::with_capacity(model.parts.len());
     let tinted = tinted_parts(model, style);
     for ((part, info), tinted) in parts.iter_mut().zip(&model.parts).zip(tinted) {
         let look = style.resolve_for(&info.material_name, &info.object_name);
-        let ink = look.ink;
         if look.beam.is_none() {
-            set_ink(part, info, &ink, frame, &mut tiles);
-            set_paint(part, ink.paint, tinted);
+            set_ink(part, info, &look.ink, frame, &mut tiles)?;
+            set_paint(part, look.ink.paint, tinted);
         }
-        if ink.mapping == Mapping::Uv && part.flags & Part::ON_SURFACE != 0 {
-            unmapped = unmapped.or(Some(info));
-        }
-        guides.push(guide_of(&ink));
+        inks.push(look.ink);
     }
-    let Charted { charts, errors } = fit_to_surfaces(model, guides, style, parts);
-    let told = |info: &PartInfo| {
-        format!(
-            "hatching follows the surface of '{}' and others: they have no UV coordinates",
-            info.object_name
-        )
+    let guides = Guides::new(model, &inks);
+    let mut inked = Inked {
+        notices: notices_of(model, &inks, &guides, parts),
+        guides,
+        ..Inked::default()
     };
-    Inked {
-        knots: knots_of(model, &errors),
-        charts,
-        notices: unmapped.map(told).into_iter().collect(),
-    }
+    inked.fit_to_surfaces(model, style, parts);
+    Ok(inked)
+}
+
+/// What is hatched in another way than asked, each once with the first part of its kind.
+fn notices_of(model: &Model, inks: &[Ink], guides: &Guides, parts: &[Part]) -> Vec<String> {
+    let on_surface = |i: &usize| parts[*i].flags & Part::ON_SURFACE != 0;
+    let surfaces: Vec<usize> = (0..inks.len()).filter(on_surface).collect();
+    let first = |is_odd: &dyn Fn(usize) -> bool, told: &str| {
+        let found = surfaces.iter().find(|i| is_odd(**i))?;
+        let name = &model.parts[*found].object_name;
+        Some(format!(
+            "hatching follows the surface of '{name}' and others: {told}"
+        ))
+    };
+    [
+        first(
+            &|i| inks[i].mapping == Mapping::Uv,
+            "they have no UV coordinates",
+        ),
+        first(
+            &|i| guides.of_parts[i].is_unsaid,
+            "their vertices say no directions",
+        ),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// How lengths of a style become pixels of a frame.
@@ -96,19 +125,25 @@ pub(crate) struct FrameScale {
 
 /// The tiles that a texture store holds already, by what made them.
 struct Tiles<'a> {
+    pictures: &'a Pictures<'a>,
     textures: &'a mut TextureStore,
-    made: Vec<(Hatch, u32)>,
+    /// Tiles by their hatch, and whether a picture is laid over its own half turn.
+    made: Vec<((Hatch, bool), u32)>,
 }
 
 impl Tiles<'_> {
-    /// Where the header of the tile starts that a hatch is drawn with.
-    fn start_of(&mut self, hatch: &Hatch) -> u32 {
-        let key = hatch.of_tile();
+    /// Where the header of the tile starts that a hatch is drawn with, on surfaces whose charts are glued turned or elsewhere.
+    fn start_of(&mut self, hatch: &Hatch, on_surface: bool) -> Result<u32, RenderError> {
+        let key = (hatch.of_tile(), on_surface && !hatch.image.is_empty());
         if let Some((_, start)) = self.made.iter().find(|(made, _)| *made == key) {
-            return *start;
+            return Ok(*start);
         }
-        let start = hatch::levels(&key, TILE_SIDE)
-            .ok()
+        let tile = if hatch.image.is_empty() {
+            hatch::levels(&key.0, TILE_SIDE).ok()
+        } else {
+            Some(self.pictures.hatch_tile(&hatch.image, TILE_SIDE, key.1)?)
+        };
+        let start = tile
             .and_then(|tile| {
                 let pack = |level: &Vec<[u8; 4]>| {
                     level
@@ -122,11 +157,17 @@ impl Tiles<'_> {
             })
             .unwrap_or(NONE);
         self.made.push((key, start));
-        start
+        Ok(start)
     }
 }
 
-fn set_ink(part: &mut Part, info: &PartInfo, ink: &Ink, frame: &FrameScale, tiles: &mut Tiles<'_>) {
+fn set_ink(
+    part: &mut Part,
+    info: &PartInfo,
+    ink: &Ink,
+    frame: &FrameScale,
+    tiles: &mut Tiles<'_>,
+) -> Result<(), RenderError> {
     let [inked, hatched] = ink.tone.ink_and_hatch(info.metallic, info.roughness);
     let mapping = match ink.mapping {
         Mapping::Uv if !info.has_uvs => Mapping::Surface,
@@ -142,13 +183,14 @@ fn set_ink(part: &mut Part, info: &PartInfo, ink: &Ink, frame: &FrameScale, tile
     let bit = |bit: u32, when: bool| if when { bit } else { 0 };
     part.flags |= bit(Part::INK, inked);
     if !hatched {
-        return;
+        return Ok(());
     }
-    part.hatch = tiles.start_of(hatch);
+    part.hatch = tiles.start_of(hatch, mapping == Mapping::Surface)?;
     if part.hatch == NONE {
-        return;
+        return Ok(());
     }
-    let isotropic = matches!(hatch.pattern, Pattern::Stipple | Pattern::Dots);
+    let dotted = matches!(hatch.pattern, Pattern::Stipple | Pattern::Dots);
+    let isotropic = dotted || !hatch.image.is_empty();
     part.flags |= Part::HATCH
         | bit(Part::ON_SCREEN, mapping == Mapping::Screen)
         | bit(Part::ON_SURFACE, mapping == Mapping::Surface)
@@ -168,6 +210,7 @@ fn set_ink(part: &mut Part, info: &PartInfo, ink: &Ink, frame: &FrameScale, tile
         // The finest level of a tile as it is, or the first that is coarse enough for small spacings.
         Mapping::Screen => 1.0 / (TILE_SIDE as f32 * spacing_px / SCREEN_SPACING_TEXELS),
     };
+    Ok(())
 }
 
 /// Whether any vertex of each part has a colour that the style reads.
@@ -190,21 +233,9 @@ fn set_paint(part: &mut Part, strength: f32, tinted: bool) {
     let varies = tinted || part.texture != NONE;
     let pen = part.flags & (Part::INK | Part::HATCH) != 0;
     if pen && strength > 0.0 && (varies || paint_white([r, g, b], strength) < 1.0) {
-        part.paint = strength;
+        let byte = (strength.min(1.0) * 255.0).round() as u32;
+        part.paint_color = part.paint_color & 0xff_ffff | byte << 24;
         part.flags |= Part::PAINTED;
-    }
-}
-
-/// What the strokes of a part run along on its surface.
-fn guide_of(ink: &Ink) -> PartGuide {
-    PartGuide {
-        guide: ink.direction.map_or(
-            Guide::Curvature {
-                across: ink.follow == Follow::Around,
-            },
-            Guide::Along,
-        ),
-        angle: ink.hatch.angle_deg.to_radians(),
     }
 }
 
@@ -233,64 +264,114 @@ fn knots_of(model: &Model, errors: &[f32]) -> Vec<f32> {
     sums.into_iter().map(knot).collect()
 }
 
-/// Charts of a model's triangles, and how much each errs; both empty where no part is hatched along its surface.
-#[derive(Default)]
-struct Charted {
-    charts: Vec<ChartCorners>,
-    errors: Vec<f32>,
+fn on_surface(part: &Part) -> bool {
+    part.flags & Part::ON_SURFACE != 0
 }
 
-/// Fits tiles to the size of what they lie on: the scale of parts hatched by UV coordinates, and the charts of all others.
-fn fit_to_surfaces(
-    model: &Model,
-    guides: Vec<PartGuide>,
-    style: &Style,
-    parts: &mut [Part],
-) -> Charted {
-    let on_surface = |part: &Part| part.flags & Part::ON_SURFACE != 0;
-    let on_uvs = |part: &Part| {
-        part.flags & (Part::HATCH | Part::ON_SURFACE | Part::ON_SCREEN) == Part::HATCH
-    };
-    if !parts.iter().any(|part| on_surface(part) || on_uvs(part)) {
-        return Charted::default();
-    }
-    let surfaces = Surfaces::of(model);
-    for (i, part) in parts.iter_mut().enumerate() {
-        if on_uvs(part) {
-            part.tile_scale = whole_scale(1.0 / (surfaces.uv_density[i] * surfaces.tile_world(i)));
+impl Inked {
+    /// Fits tiles to the size of what they lie on: the scale of parts hatched by UV coordinates, and the charts of all
+    /// others but those that follow the light.
+    fn fit_to_surfaces(&mut self, model: &Model, style: &Style, parts: &mut [Part]) {
+        let on_uvs = |part: &Part| {
+            part.flags & (Part::HATCH | Part::ON_SURFACE | Part::ON_SCREEN) == Part::HATCH
+        };
+        if !parts.iter().any(|part| on_surface(part) || on_uvs(part)) {
+            return;
+        }
+        let surfaces = Surfaces::of(model);
+        for (i, part) in parts.iter_mut().enumerate() {
+            if on_uvs(part) {
+                part.tile_scale =
+                    whole_scale(1.0 / (surfaces.uv_density[i] * surfaces.tile_world(i)));
+            }
+        }
+        if parts.iter().any(on_surface) {
+            self.charts = vec![ChartCorners::default(); model.triangles.len()];
+            let errors = self.add_charts(model, style, &surfaces, parts, None);
+            self.knots = knots_of(model, &errors);
         }
     }
-    if !parts.iter().any(on_surface) {
-        return Charted::default();
+
+    /// Turns the strokes that follow the light to where it shines from: charts of surfaces, and strokes on the picture.
+    /// Says whether parts, and whether charts, are others than before.
+    pub fn follow_light(
+        &mut self,
+        model: &Model,
+        style: &Style,
+        light: &LightSource,
+        camera: &Camera,
+        parts: &mut [Part],
+    ) -> [bool; 2] {
+        let guides = self.guides.of_parts.iter();
+        let lit: Vec<usize> = guides
+            .enumerate()
+            .filter_map(|(i, guide)| guide.follows_light().then_some(i))
+            .collect();
+        let (min, max) = model.bounds();
+        let middle = std::array::from_fn(|i| (min[i] + max[i]) * 0.5);
+        let mut turned = false;
+        for &i in &lit {
+            if parts[i].flags & Part::ON_SCREEN != 0 {
+                let angle = self.guides.of_parts[i].angle;
+                parts[i].turn = turn_to_light(light, camera, middle, angle);
+                turned = true;
+            }
+        }
+        let on_surfaces = lit.iter().any(|&i| on_surface(&parts[i]));
+        if !on_surfaces || self.lit_by == Some(*light) {
+            return [turned, false];
+        }
+        self.lit_by = Some(*light);
+        let surfaces = Surfaces::of(model);
+        self.add_charts(model, style, &surfaces, parts, Some(light));
+        [turned, true]
     }
-    let mut settings = ChartSettings {
-        crease_cos: math::cos(style.line.crease_angle_deg.to_radians()),
-        guides,
-        ..ChartSettings::default()
-    };
-    let mut charted = Charted {
-        charts: vec![ChartCorners::default(); model.triangles.len()],
-        errors: vec![0.0; model.triangles.len()],
-    };
-    for halvings in 0..=HALVINGS_MAX {
-        let member = |part: u32| {
-            on_surface(&parts[part as usize]) && surfaces.halvings[part as usize] == halvings
+
+    /// Makes the charts of the parts that follow a light, or without one of all others; gives how much each triangle's errs.
+    fn add_charts(
+        &mut self,
+        model: &Model,
+        style: &Style,
+        surfaces: &Surfaces,
+        parts: &[Part],
+        light: Option<&LightSource>,
+    ) -> Vec<f32> {
+        let mut settings = ChartSettings {
+            crease_cos: math::cos(style.line.crease_angle_deg.to_radians()),
+            guides: self.guides.of_charts(),
+            ..ChartSettings::default()
         };
-        settings.tile_world = surfaces.tile_at(halvings);
-        add_charts(model, &surfaces.positions, &settings, member, &mut charted);
+        let mut errors = vec![0.0; model.triangles.len()];
+        let lit_by = light.copied().unwrap_or_default();
+        let directions = self.guides.directions(model, &surfaces.positions, &lit_by);
+        for halvings in 0..=HALVINGS_MAX {
+            let member = |part: u32| {
+                let part = part as usize;
+                let follows = self.guides.of_parts[part].follows_light();
+                let is_meant = on_surface(&parts[part]) && follows == light.is_some();
+                is_meant && surfaces.halvings[part] == halvings
+            };
+            settings.tile_world = surfaces.tile_at(halvings);
+            let input = ChartInput {
+                positions: &surfaces.positions,
+                triangles: &model.triangles,
+                directions: &directions,
+            };
+            chart_some(&input, &settings, member, &mut self.charts, &mut errors);
+        }
+        errors
     }
-    charted
 }
 
-/// Adds the stroke charts of the parts that are members.
-fn add_charts(
-    model: &Model,
-    positions: &[[f32; 3]],
+/// Makes the stroke charts of the parts of a surface that are members.
+fn chart_some(
+    surface: &ChartInput<'_>,
     settings: &ChartSettings,
     member: impl Fn(u32) -> bool,
-    charted: &mut Charted,
+    charts: &mut [ChartCorners],
+    errors: &mut [f32],
 ) {
-    let numbered = model.triangles.iter().enumerate();
+    let numbered = surface.triangles.iter().enumerate();
     let (numbers, triangles): (Vec<usize>, Vec<Triangle>) = numbered
         .filter(|(_, triangle)| member(triangle.part))
         .unzip();
@@ -298,13 +379,13 @@ fn add_charts(
         return;
     }
     let input = ChartInput {
-        positions,
         triangles: &triangles,
+        ..*surface
     };
     let chart = stroke_chart(&input, settings);
     for ((number, [a, b, c]), error) in numbers.into_iter().zip(chart.corners).zip(chart.errors) {
-        charted.charts[number] = ChartCorners { a, b, c };
-        charted.errors[number] = error;
+        charts[number] = ChartCorners { a, b, c };
+        errors[number] = error;
     }
 }
 

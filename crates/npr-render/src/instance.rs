@@ -16,6 +16,8 @@ const HARD_EDGE: f32 = 40.0 / 180.0 * std::f32::consts::PI;
 pub(crate) struct Instance {
     pub vertices: Vec<Vertex>,
     pub influences: Vec<Influence>,
+    /// Directions of strokes at the vertices; empty where the file has none.
+    pub painted: Vec<[f32; 3]>,
     /// Triangles with the number of their piece instead of the model's part.
     pub triangles: Vec<Triangle>,
     pub edges: Vec<geometry::Edge>,
@@ -40,6 +42,7 @@ impl Instance {
         let mut instance = Self {
             vertices: stored_vertices(scene, parts, &joined),
             influences: parts.iter().flat_map(influences).collect(),
+            painted: painted(parts),
             edges: edges.iter().map(shared_edge).collect(),
             ..Self::default()
         };
@@ -136,6 +139,9 @@ impl Instance {
                             ..self.vertices[stored]
                         });
                         self.influences.push(self.influences[stored]);
+                        if let Some(direction) = self.painted.get(stored).copied() {
+                            self.painted.push(direction);
+                        }
                         self.vertices.len() as u32 - 1
                     });
             }
@@ -210,6 +216,18 @@ fn influences(part: &Part) -> Vec<Influence> {
             .collect(),
         _ => vec![rigid; part.positions.len()],
     }
+}
+
+/// Directions of strokes at the vertices of all parts; empty where none has any.
+fn painted(parts: &[Part]) -> Vec<[f32; 3]> {
+    if parts.iter().all(|part| part.directions.is_none()) {
+        return Vec::new();
+    }
+    let of_part = |part: &Part| match &part.directions {
+        Some(directions) => directions.clone(),
+        None => vec![[0.0; 3]; part.positions.len()],
+    };
+    parts.iter().flat_map(of_part).collect()
 }
 
 /// An edge in the layout that passes read.

@@ -18,10 +18,13 @@
 //! # Ok::<(), npr_render::RenderError>(())
 //! ```
 
+mod beam_light;
 mod bend;
+mod blending;
 mod blueprint;
 mod error;
 mod frame;
+mod guides;
 mod hatching;
 mod instance;
 mod joined;
@@ -30,8 +33,10 @@ mod light;
 mod lines;
 mod look;
 mod model;
+mod pictures;
 mod placement;
 mod stage;
+mod streaks;
 mod textures;
 mod tiles;
 

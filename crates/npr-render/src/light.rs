@@ -1,5 +1,6 @@
 //! The lights of a frame: those of the style, those of the file, and what they see of what throws shadows.
 
+use crate::beam_light::beam_lights;
 use crate::look;
 use crate::model::Model;
 use crate::placement::{Bounds, radius_of};
@@ -98,7 +99,7 @@ pub(crate) struct ChosenLights {
 }
 
 impl ChosenLights {
-    /// First the main light or those of the file, then the style's own. Of too many the strongest stay, in that order.
+    /// First the main light or those of the file, then the style's own and those of its beams. Of too many the strongest stay, in that order.
     pub fn new(style: &Style, model: &Model) -> Self {
         let light = &style.light;
         let mut lights = Vec::new();
@@ -122,6 +123,11 @@ impl ChosenLights {
             });
         }
         lights.extend(light.extra.iter().map(extra));
+        lights.extend(
+            beam_lights(style, model)
+                .into_iter()
+                .map(Chosen::unshadowed),
+        );
         lights.retain(|light| light.source.intensity > 0.0);
         let mut order: Vec<usize> = (0..lights.len()).collect();
         order.sort_by(|a, b| {
@@ -177,6 +183,21 @@ impl ChosenLights {
     }
 }
 
+/// The strongest light of a frame, the first of several; light from above where it is dark.
+pub(crate) fn strongest(lights: &Lights) -> LightSource {
+    let sources = &lights.sources[..lights.count as usize];
+    let above = Lights::distant([0.0, 1.0, 0.0]).sources[0];
+    let mut sources = sources.iter().copied();
+    let first = sources.next().unwrap_or(above);
+    sources.fold(first, |most, light| {
+        if light.intensity > most.intensity {
+            light
+        } else {
+            most
+        }
+    })
+}
+
 fn extra(light: &ExtraLight) -> Chosen {
     let towards = light.unit_direction();
     let (kind, direction) = match light.kind {
@@ -208,6 +229,15 @@ fn rgb(color: npr_style::Color) -> [f32; 3] {
 }
 
 impl Chosen {
+    /// A light of the scene without shadows.
+    fn unshadowed(source: LightSource) -> Self {
+        Self {
+            source,
+            shadow: false,
+            on_camera: false,
+        }
+    }
+
     /// Whether it throws shadows: points and skies do not.
     fn casts(&self) -> bool {
         self.shadow && matches!(self.source.kind, LightSource::DISTANT | LightSource::SPOT)

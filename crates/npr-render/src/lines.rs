@@ -22,7 +22,7 @@ use npr_core::camera::Camera;
 use npr_core::shape::{Shape, Surface};
 use npr_gpu::engine::EngineError;
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_style::{Look, Style};
 use npr_vector::contour::{EdgeContours, Eye};
 use npr_vector::draw::{LineSettings, Prepared, eye_of, strokes_with};
 use npr_vector::project::Projector;
@@ -84,10 +84,37 @@ impl LineModel {
     ///
     /// [`RenderError::TooMany`] where half-edges cannot be numbered, [`RenderError::Memory`] beyond the limit.
     pub fn new(scene: &Scene, options: &LineModelOptions) -> Result<Self, RenderError> {
-        let assembly = Assembly::new(scene);
-        check_budget(&assembly, options)?;
-        let shape = build(&assembly, assembly.plain_surfaces(), options);
-        Ok(Self::of_shape(scene, &assembly, shape))
+        Self::of_assembly(scene, &Assembly::new(scene, None), options, None)
+    }
+
+    /// The same without what a style makes beams of: light has no lines and hides none. With a `folder` the surface is kept
+    /// there as by [`LineModel::cached`].
+    ///
+    /// # Errors
+    ///
+    /// As [`LineModel::new`].
+    pub fn for_style(
+        scene: &Scene,
+        style: &Style,
+        options: &LineModelOptions,
+        folder: Option<&Path>,
+    ) -> Result<Self, RenderError> {
+        Self::of_assembly(scene, &Assembly::new(scene, Some(style)), options, folder)
+    }
+
+    fn of_assembly(
+        scene: &Scene,
+        assembly: &Assembly,
+        options: &LineModelOptions,
+        folder: Option<&Path>,
+    ) -> Result<Self, RenderError> {
+        check_budget(assembly, options)?;
+        let build = |surfaces| build(assembly, surfaces, options);
+        let shape = match folder {
+            Some(folder) => cache::shape(assembly, options, folder, build),
+            None => build(assembly.plain_surfaces()),
+        };
+        Ok(Self::of_shape(scene, assembly, shape))
     }
 
     /// The same, with the surface kept in `folder` between runs.
@@ -104,12 +131,7 @@ impl LineModel {
         options: &LineModelOptions,
         folder: &Path,
     ) -> Result<Self, RenderError> {
-        let assembly = Assembly::new(scene);
-        check_budget(&assembly, options)?;
-        let shape = cache::shape(&assembly, options, folder, |surfaces| {
-            build(&assembly, surfaces, options)
-        });
-        Ok(Self::of_shape(scene, &assembly, shape))
+        Self::of_assembly(scene, &Assembly::new(scene, None), options, Some(folder))
     }
 
     fn of_shape(scene: &Scene, assembly: &Assembly, mut shape: Shape) -> Self {
@@ -161,6 +183,30 @@ impl LineModel {
         options: &LineOptions,
         find: impl FnOnce(&Eye) -> Result<EdgeContours, EngineError>,
     ) -> Result<Drawing, RenderError> {
+        self.draw_some(camera, style, options, find, |_| true)
+    }
+
+    /// The lines of the parts whose method is `curves`, on the processor.
+    pub(crate) fn draw_curves(
+        &self,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+    ) -> Result<Drawing, RenderError> {
+        let find = |eye: &Eye| Ok(EdgeContours::new(&self.shape, eye));
+        let is_curve = |look: &Look<'_>| look.line_method == npr_style::LineMethod::Curves;
+        self.draw_some(camera, style, options, find, is_curve)
+    }
+
+    /// The lines of the parts whose look `has_lines` says so of.
+    fn draw_some(
+        &self,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+        find: impl FnOnce(&Eye) -> Result<EdgeContours, EngineError>,
+        has_lines: impl Fn(&Look<'_>) -> bool,
+    ) -> Result<Drawing, RenderError> {
         check_size(options.size)?;
         let projector = Projector::new(camera, options.size, self.bounds);
         let contours = find(&eye_of(&self.shape, &projector))?;
@@ -171,7 +217,7 @@ impl LineModel {
             contours: &contours,
         };
         let mut strokes = self.strokes(&prepared, &view, style, options);
-        let paint = Paint::new(&self.parts, style);
+        let paint = Paint::new(&self.parts, style, has_lines);
         paint.apply(&mut strokes);
         check_points(&strokes)?;
         let regions = if options.fill {

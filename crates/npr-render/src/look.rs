@@ -1,7 +1,9 @@
 //! A style applied to a model: the numbers that passes read.
 
+use crate::error::RenderError;
 use crate::hatching::{FrameScale, Inked, add_ink};
 use crate::model::{Model, PartInfo};
+use crate::pictures::{Pictures, add_tone_rows};
 use crate::stage::StageOptions;
 use glam::Vec3;
 use npr_core::camera::Camera;
@@ -30,7 +32,8 @@ pub(crate) struct StyledModel {
 }
 
 impl StyledModel {
-    pub fn new(model: &Model, style: &Style, options: &StageOptions) -> Self {
+    pub fn new(model: &Model, style: &Style, options: &StageOptions) -> Result<Self, RenderError> {
+        let pictures = Pictures::new(style, &options.pictures)?;
         let mut textures = model.textures.clone();
         let background = options
             .background_image
@@ -45,17 +48,18 @@ impl StyledModel {
             dpi: options.dpi,
             world_px: options.size[1] as f32 * 0.5 / model.radius(),
         };
-        let inked = add_ink(model, style, &frame, &mut parts, &mut textures);
+        add_tone_rows(model, style, &pictures, &mut parts, &mut textures)?;
+        let inked = add_ink(model, style, &pictures, &frame, &mut parts, &mut textures)?;
         if parts.is_empty() {
             parts.push(Part::default());
         }
-        Self {
+        Ok(Self {
             vertices: styled_vertices(model, style, options, &inked.knots),
             parts,
             inked,
             textures,
             background_texture,
-        }
+        })
     }
 }
 
@@ -159,7 +163,7 @@ fn highlighted(highlight: &Highlight) -> Part {
 /// The bits of a part whose outline is drawn by a method.
 fn outline_flags(method: LineMethod) -> u32 {
     match method {
-        LineMethod::Off => 0,
+        LineMethod::Off | LineMethod::Curves => 0,
         LineMethod::Hull => Part::HULL,
         LineMethod::FilterHull => Part::LINES | Part::HULL,
         LineMethod::Angle => Part::ANGLE,

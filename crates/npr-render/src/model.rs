@@ -11,6 +11,7 @@ use npr_core::geometry::{Edge, Influence, NONE, Triangle, Vertex};
 use npr_core::texture::TextureStore;
 use npr_mesh::pose::Matrix;
 use npr_scene::{AlphaMode, Material, Node, Part, Scene};
+use npr_style::Style;
 
 /// Numbers must leave room for "none" and for the bit that marks hulls.
 const COUNT_LIMIT: u64 = 1 << 30;
@@ -49,6 +50,8 @@ pub struct PartInfo {
 pub struct Model {
     pub(crate) vertices: Vec<Vertex>,
     pub(crate) influences: Vec<Influence>,
+    /// Directions of strokes at the vertices, in the space of their positions; may end early, zeros follow.
+    pub(crate) painted: Vec<[f32; 3]>,
     pub(crate) palette: Vec<Matrix>,
     pub(crate) triangles: Vec<Triangle>,
     pub(crate) edges: Vec<Edge>,
@@ -73,6 +76,7 @@ impl Model {
         let mut model = Self {
             vertices: Vec::new(),
             influences: Vec::new(),
+            painted: Vec::new(),
             palette: Vec::new(),
             triangles: Vec::new(),
             edges: Vec::new(),
@@ -137,6 +141,10 @@ impl Model {
                     ..*influence
                 }
             }));
+        if !instance.painted.is_empty() {
+            self.painted.resize(base[0] as usize, [0.0; 3]);
+            self.painted.extend(&instance.painted);
+        }
         self.vertices
             .extend(instance.vertices.iter().map(|v| Vertex {
                 part: v.part + base[2],
@@ -217,9 +225,19 @@ impl Model {
     /// Where a vertex lies in the world.
     pub(crate) fn posed_point(&self, vertex: &Vertex, influence: &Influence) -> Vec3 {
         let position = Vec3::from(vertex.position);
+        self.moved(influence, |m| m.transform_point3(position))
+    }
+
+    /// What a direction at a vertex with this influence is in the world; its length means nothing.
+    pub(crate) fn posed_direction(&self, direction: Vec3, influence: &Influence) -> Vec3 {
+        self.moved(influence, |m| m.transform_vector3(direction))
+    }
+
+    /// The blend of what the matrices of an influence make of something.
+    fn moved(&self, influence: &Influence, by: impl Fn(&Mat4) -> Vec3) -> Vec3 {
         let moved = |k: usize| {
             let m = Mat4::from_cols_array_2d(&self.palette[influence.joints[k] as usize]);
-            m.transform_point3(position) * influence.weights[k]
+            by(&m) * influence.weights[k]
         };
         moved(0) + moved(1) + moved(2) + moved(3)
     }
@@ -275,6 +293,12 @@ impl PartInfo {
             metallic: found.metallic,
             roughness: found.roughness,
         }
+    }
+
+    /// Whether a style makes it a beam of light.
+    pub(crate) fn is_beam(&self, style: &Style) -> bool {
+        let look = style.resolve_for(&self.material_name, &self.object_name);
+        look.beam.is_some()
     }
 
     /// Whether the base colour alone is so transparent that nothing of the part is drawn.

@@ -1,12 +1,15 @@
 //! A model, a style and a frame size on an engine, ready to draw.
 
+use crate::blending::Blending;
 use crate::blueprint::{Blueprint, Counts, Grids, Method};
 use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::lettering::Lettering;
-use crate::light::ChosenLights;
+use crate::light::{self, ChosenLights};
+use crate::lines::{LineModel, LineOptions};
 use crate::look::{self, StyledModel};
 use crate::model::Model;
+use crate::streaks::Streaks;
 use crate::tiles::{TILE_PIXELS, Tiles};
 use bytemuck::{NoUninit, cast_slice};
 use npr_core::budget::Budget;
@@ -18,7 +21,8 @@ use npr_scene::Image;
 use npr_style::Style;
 use npr_style::compose::Compose;
 use npr_style::shadow::SHADOW_SIDE;
-use npr_vector::drawing::paint_over;
+use npr_vector::artwork::ArtworkOptions;
+use npr_vector::drawing::{paint_drawing_over, paint_over};
 use npr_vector::lettering::Font;
 use std::collections::BTreeMap;
 
@@ -28,7 +32,7 @@ const FRAME_SIDE: u32 = 32_768;
 /// Frame pixels around a tile beyond the reach of its lines: detection looks at neighbours.
 const TILE_ROOM: u32 = 8;
 
-/// A picture that a style names: background or width.
+/// A picture that a style names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Picture {
     /// Width and height in pixels.
@@ -57,6 +61,8 @@ pub struct StageOptions {
     pub background_image: Option<Picture>,
     /// The picture that line widths are read from, where the style names one.
     pub width_image: Option<Picture>,
+    /// The pictures that [`Style::named_pictures`] lists, by the names that the style gives them.
+    pub pictures: BTreeMap<String, Picture>,
     /// Fonts of the style's words, by the names that the style gives them.
     pub fonts: BTreeMap<String, Font>,
     /// Most bytes that may be planned.
@@ -74,6 +80,7 @@ impl StageOptions {
             dpi: 96.0,
             background_image: None,
             width_image: None,
+            pictures: BTreeMap::new(),
             fonts: BTreeMap::new(),
             memory_limit: 4 << 30,
             tile_pixels: TILE_PIXELS,
@@ -92,6 +99,12 @@ pub struct Stage<'a> {
     styled: StyledModel,
     lights: ChosenLights,
     lettering: Lettering,
+    /// Gives the lines of parts whose method is `curves`.
+    lines: Option<&'a LineModel>,
+    streaks: Option<Streaks<'a>>,
+    blending: Option<Blending<'a>>,
+    /// Memory of all that it is made of.
+    planned_bytes: u64,
     plan: Blueprint,
     session: Box<dyn Session>,
 }
@@ -102,7 +115,7 @@ impl<'a> Stage<'a> {
     /// # Errors
     ///
     /// [`RenderError`] for a frame without pixels or beyond 32768 a side, a plan beyond the memory limit, words that
-    /// cannot be set, or a failing engine.
+    /// cannot be set, pictures that are missing or unfit, or a failing engine.
     pub fn new(
         engine: &dyn Engine,
         model: &'a Model,
@@ -110,7 +123,7 @@ impl<'a> Stage<'a> {
         options: &StageOptions,
     ) -> Result<Self, RenderError> {
         check_size(options.size)?;
-        let mut styled = StyledModel::new(model, style, options);
+        let mut styled = StyledModel::new(model, style, options)?;
         let lettering = Lettering::new(style, &options.fonts)?;
         styled.inked.notices.extend_from_slice(lettering.notices());
         let lights = ChosenLights::new(style, model);
@@ -163,6 +176,11 @@ impl<'a> Stage<'a> {
             let pixels = options.size[0] as usize * options.size[1] as usize;
             budget.take("the words over the picture", pixels, 4)?;
         }
+        let mut planned_bytes = budget.used_bytes();
+        let streaks = Streaks::new(engine, model, style, options, planned_bytes)?;
+        planned_bytes += streaks.as_ref().map_or(0, Streaks::planned_bytes);
+        let blending = Blending::new(engine, model, style, options, planned_bytes)?;
+        planned_bytes += blending.as_ref().map_or(0, Blending::planned_bytes);
         let session = engine.prepare(plan.graph.clone())?;
         let (style, options) = (style.clone(), options.clone());
         let mut stage = Self {
@@ -175,11 +193,42 @@ impl<'a> Stage<'a> {
             styled,
             lights,
             lettering,
+            lines: None,
+            streaks,
+            blending,
+            planned_bytes,
             plan,
             session,
         };
         stage.upload()?;
         Ok(stage)
+    }
+
+    /// The same, with the lines of parts whose `line.method` is `curves` from a line model of the scene.
+    ///
+    /// Without one they have no lines, and [`Frame::notices`] tells.
+    pub fn with_lines(mut self, lines: &'a LineModel) -> Self {
+        self.lines = Some(lines);
+        self
+    }
+
+    /// Draws the lines of parts whose method is `curves` over a frame.
+    fn draw_curves(&self, camera: &Camera, frame: &mut Frame) -> Result<(), RenderError> {
+        if !self.style.has_curves() {
+            return Ok(());
+        }
+        let Some(lines) = self.lines else {
+            let notice = "lines as curves are left out: no line model was given";
+            frame.notices.push(notice.to_owned());
+            return Ok(());
+        };
+        let options = LineOptions {
+            dpi: self.options.dpi,
+            ..LineOptions::of_style(&self.style, frame.size)
+        };
+        let drawing = lines.draw_curves(camera, &self.style, &options)?;
+        paint_drawing_over(&drawing, &ArtworkOptions::default(), &mut frame.rgba);
+        Ok(())
     }
 
     /// Hands over what does not change with the camera.
@@ -197,6 +246,11 @@ impl<'a> Stage<'a> {
         let window = Window::over(shadow_px, [0.0; 2], shadow_px, [SHADOW_SIDE; 2]);
         write(session, plan.shadow_window, &[window])?;
         write(session, plan.texels, styled.textures.words())
+    }
+
+    /// Bytes that were planned, for what is drawn beside it.
+    pub(crate) fn planned_bytes(&self) -> u64 {
+        self.planned_bytes
     }
 
     /// What is drawn in another way than the style asks, for the user.
@@ -239,6 +293,19 @@ impl<'a> Stage<'a> {
         write(session, self.plan.compose, &[compose])?;
         let lights = self.lights.of_frame(&self.style, self.model, camera, &view);
         write(session, self.plan.lights, &[lights])?;
+        let [parts_turned, charts_turned] = self.styled.inked.follow_light(
+            self.model,
+            &self.style,
+            &light::strongest(&lights),
+            camera,
+            &mut self.styled.parts,
+        );
+        if parts_turned {
+            write(session, self.plan.parts, &self.styled.parts)?;
+        }
+        if charts_turned {
+            write(session, self.plan.charts, &self.styled.inked.charts)?;
+        }
         for (id, matrix) in self.plan.light_views.iter().zip(&lights.shadows) {
             write(session, *id, &[*matrix])?;
         }
@@ -246,6 +313,13 @@ impl<'a> Stage<'a> {
         frame.notices.extend_from_slice(self.notices());
         for origin in self.tiles.origins() {
             self.draw_tile(&view, origin, &mut frame)?;
+        }
+        self.draw_curves(camera, &mut frame)?;
+        if let Some(streaks) = &mut self.streaks {
+            streaks.apply(camera, &view, &mut frame)?;
+        }
+        if let Some(blending) = &mut self.blending {
+            blending.apply(camera, &mut frame)?;
         }
         for words in self.lettering.placed(&view, self.options.dpi) {
             paint_over(&words.marks, &mut frame.rgba, frame.size);

@@ -38,6 +38,10 @@ pub struct Part {
     ///
     /// From the attribute `_NPR_LINE` of a glTF primitive, one number per vertex, marked above one half.
     pub marks: Option<Vec<bool>>,
+    /// Directions of pen strokes at the vertices, in mesh space; their lengths and signs mean nothing, and zero says nothing.
+    ///
+    /// From the attribute `_DIRECTION` of a glTF primitive, three numbers per vertex.
+    pub directions: Option<Vec<[f32; 3]>>,
     /// Vertices of each triangle.
     pub triangles: Vec<[u32; 3]>,
     /// Index into the scene's materials.
@@ -84,6 +88,7 @@ impl Part {
         check_list(&self.uvs, count);
         check_list(&self.colors, count);
         check_list(&self.weights, count);
+        check_list(&self.directions, count);
         assert!(
             self.joints
                 .as_ref()

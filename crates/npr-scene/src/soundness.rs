@@ -44,6 +44,7 @@ fn mend_mesh(Mesh { name, parts }: &mut Mesh, notices: &mut Notices) {
         drop_unsound(&mut part.uvs, "texture coordinates", name, notices);
         drop_unsound(&mut part.colors, "vertex colours", name, notices);
         drop_unsound(&mut part.weights, "joint weights", name, notices);
+        drop_unsound(&mut part.directions, "stroke directions", name, notices);
         straighten_normals(part);
         part.colors
             .iter_mut()

@@ -375,6 +375,27 @@ fn the_user_marks_vertices_and_materials_for_lines() {
 }
 
 #[test]
+fn directions_of_strokes_are_read_and_unsound_ones_left_out() {
+    let corners = [0f32, 0., 0., 1., 0., 0., 0., 1., 0.];
+    let json = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0,"_DIRECTION":1}}]}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
+            {"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"}],
+        "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":36}],
+        "buffers":[{"byteLength":72}]}"#;
+    let directions_of = |directions: [f32; 9]| {
+        let floats = corners.into_iter().chain(directions);
+        let bin: Vec<u8> = floats.flat_map(f32::to_le_bytes).collect();
+        let scene = load(&glb(json, &bin)).expect("a sound file");
+        scene.meshes[0].parts[0].directions.clone()
+    };
+    let painted = [0., 1., 0., 0., 0., 2., 0., 0., 0.];
+    let wanted = vec![[0., 1., 0.], [0., 0., 2.], [0.; 3]];
+    assert_eq!(directions_of(painted), Some(wanted));
+    assert_eq!(directions_of([f32::NAN; 9]), None);
+}
+
+#[test]
 fn images_stay_closed_where_nobody_wants_them() {
     #[derive(Default)]
     struct Heard(std::cell::RefCell<Vec<String>>);

@@ -382,12 +382,8 @@ impl<'a> Layers<'a> {
                 self.texels[at as usize] as f32,
                 self.texels[at as usize + 1] as f32,
             ];
-            let frame = self.view.frame_px;
-            // Cover the frame, centred, like a poster that is cut at two sides.
-            let zoom = (frame[0] / size[0]).max(frame[1] / size[1]);
-            let uv =
-                std::array::from_fn(|i| (frame_px[i] - 0.5 * frame[i]) / (size[i] * zoom) + 0.5);
-            color = texture::sample(self.texels, at, uv, 1.0 / (size[0].max(size[1]) * zoom));
+            let (uv, footprint) = cover(frame_px, self.view.frame_px, size);
+            color = texture::sample(self.texels, at, uv, footprint);
         }
         let [r, g, b, a] = color;
         [r * a, g * a, b * a, a]
@@ -400,6 +396,14 @@ impl<'a> Layers<'a> {
     pub(crate) fn linear_texel(&self, texel: u32) -> [f32; 4] {
         texture::linear_texel(self.texels, texel)
     }
+}
+
+/// Where a place of a frame lies in a picture that covers it, centred, like a poster that is cut at two sides: its
+/// texture coordinates, and the length of them that a pixel of the frame covers.
+pub fn cover(frame_px: [f32; 2], frame: [f32; 2], size: [f32; 2]) -> ([f32; 2], f32) {
+    let zoom = (frame[0] / size[0]).max(frame[1] / size[1]);
+    let uv = std::array::from_fn(|i| (frame_px[i] - 0.5 * frame[i]) / (size[i] * zoom) + 0.5);
+    (uv, 1.0 / (size[0].max(size[1]) * zoom))
 }
 
 /// A straight-alpha layer laid over a premultiplied one.

@@ -30,7 +30,7 @@
 mod dots;
 mod drawing;
 mod lines;
-mod noise;
+pub(crate) mod noise;
 mod picture;
 mod points;
 mod rank;
@@ -87,6 +87,11 @@ impl Pattern {
 pub struct Hatch {
     /// What shadows are drawn with; default `parallel`.
     pub pattern: Pattern,
+    /// A picture that is drawn with instead: a scanned pen, a screen tone, cloth; default empty, none. It repeats; its dark
+    /// parts become strokes, and only the order of its greys counts. At `spacing` 8 one of its pixels covers about a pixel of
+    /// the frame. Pattern `cross` lays it over itself, turned. At most 4096 pixels a side; powers of two stay sharp.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub image: String,
     /// Distance between strokes or dots on screen; default 8 pixels at frame height 1080. 4 a fine
     /// engraving, 8 a comic page, 16 a poster.
     pub spacing: Length,
@@ -123,6 +128,7 @@ impl Default for Hatch {
     fn default() -> Self {
         Self {
             pattern: Pattern::Parallel,
+            image: String::new(),
             spacing: Length::ref_px(8.0),
             length: 16.0,
             wobble: 0.35,
@@ -139,6 +145,12 @@ impl Default for Hatch {
 impl Hatch {
     /// The same with everything reset that shading alone needs: two hatches of one tile are equal then.
     pub fn of_tile(&self) -> Self {
+        if !self.image.is_empty() {
+            return Self {
+                image: self.image.clone(),
+                ..Self::default()
+            };
+        }
         Self {
             pattern: self.pattern,
             length: self.length,

@@ -47,6 +47,24 @@ pub enum Follow {
     Around,
     /// Along the form: the direction in which it bends least.
     Along,
+    /// From the dark to the strongest light, so strokes turn as that moves.
+    Light,
+    /// The vertex attribute `_DIRECTION` of glTF files: painted by hand, part by part. Without one, `around`.
+    Attribute,
+    /// The vertex colours as directions: red along x, green y, blue z, from -1 at 0 to 1 at full linear light, as normal maps
+    /// have them. White says nothing, as does middle grey; without any, `around`.
+    VertexColor,
+}
+
+/// What a direction of strokes is fixed to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum StrokeSpace {
+    /// The scene.
+    #[default]
+    World,
+    /// The object: the direction turns with it, and with the bones of what bends.
+    Object,
 }
 
 /// Roughness under which a material counts as polished for [`Tone::Auto`].
@@ -82,13 +100,15 @@ pub struct Ink {
     pub paint: f32,
     /// What strokes are fixed to; default `surface`.
     pub mapping: Mapping,
-    /// For mapping `surface`: what strokes run along; default `around`.
+    /// For mapping `surface`: what strokes run along; default `around`. On mapping `screen` too, `light` turns them. With a
+    /// light that is fixed to the camera, `light` lays strokes anew in every view: for films take `light.space = "world"`.
     pub follow: Follow,
-    /// For mapping `surface`: a direction in the scene that strokes follow instead; default none. `[0, 1, 0]` lets them fall
-    /// like cloth.
+    /// For mapping `surface`: a direction that strokes follow instead; default none. `[0, 1, 0]` lets them fall like cloth.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
     pub direction: Option<[f32; 3]>,
+    /// What `direction` is fixed to; default `world`. `object` for limbs that move.
+    pub direction_space: StrokeSpace,
     /// The strokes.
     pub hatch: Hatch,
 }
@@ -105,6 +125,7 @@ impl Default for Ink {
             mapping: Mapping::Surface,
             follow: Follow::Around,
             direction: None,
+            direction_space: StrokeSpace::World,
             hatch: Hatch::default(),
         }
     }

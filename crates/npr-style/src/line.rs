@@ -28,6 +28,9 @@ pub enum LineMethod {
     Edges,
     /// Pixels whose surface lies near its silhouette, by an angle [Gooch et al. 1999].
     Angle,
+    /// Strokes of `npr lines`: exact, with hidden lines removed, joined and smoothed, drawn over the finished surfaces, their
+    /// beams and everything. They cost what a line drawing costs.
+    Curves,
 }
 
 /// The kinds of line.

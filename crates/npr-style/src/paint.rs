@@ -49,7 +49,7 @@ impl Layers<'_> {
     pub(crate) fn paint_at(&self, id: u32, part: &Part, weights: [[f32; 3]; 3]) -> [f32; 3] {
         let Triangle { corners, .. } = self.triangles[((id & ID_MASK) - 1) as usize];
         let vertices = corners.map(|v| &self.vertices[v as usize]);
-        let [r, g, b, _] = self.linear_texel(part.paint_color);
+        let [r, g, b, strength] = self.linear_texel(part.paint_color);
         let uvs = weights.map(|w| blend2(w, vertices.map(|v| v.uv)));
         let covered = footprint(uvs);
         std::array::from_fn(|i| {
@@ -59,7 +59,7 @@ impl Layers<'_> {
                 let texel = texture::sample(self.texels, part.texture, uvs[i], covered);
                 color = std::array::from_fn(|k| color[k] * texel[k]);
             }
-            paint_white(color, part.paint)
+            paint_white(color, strength)
         })
     }
 }

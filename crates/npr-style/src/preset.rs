@@ -93,6 +93,12 @@ const PRESETS: &[Preset] = &[
         text: include_str!("../presets/cel-3.toml"),
     },
     Preset {
+        name: "plain",
+        version: 1,
+        title: "Materials in soft light, without lines or ink",
+        text: include_str!("../presets/plain.toml"),
+    },
+    Preset {
         name: "okuya",
         version: 1,
         title: "Comparison: lines found on images and drawn on every edge, as published",

@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use crate::beam::Beam;
 use crate::hatch::{Hatch, Pattern};
 use crate::highlight::{Edge, Highlight};
-use crate::ink::{Follow, Ink, Mapping, Tone};
+use crate::ink::{Follow, Ink, Mapping, StrokeSpace, Tone};
 use crate::ramp::Stop;
-use crate::{Color, Length, LineMethod, Style, glob};
+use crate::{Color, Length, LineMethod, RuleMotion, Style, glob};
 
 /// What a rule applies to: both patterns have to match.
 ///
@@ -38,7 +38,7 @@ pub struct RuleLine {
     /// Whether the part has lines at all. Off suits eyes, glass and ground planes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<bool>,
-    /// How the part's outline is drawn: `shape`, `hull`, `angle` or `none`.
+    /// How the part's outline is drawn: `shape`, `hull`, `angle`, `curves` or `none`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<LineMethod>,
     /// Colour of the part's lines.
@@ -65,6 +65,17 @@ pub struct RuleShade {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 1, max = 8))]
     pub ramp: Option<Vec<Stop>>,
+    /// A picture whose middle row gives its tones; empty for `ramp` after all. Stops beside it give way.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ramp_image: Option<String>,
+}
+
+impl RuleShade {
+    /// The picture for tones with what the rule states in place of what it had: stops of its own leave none.
+    fn ramp_image_over<'a>(&'a self, image: &'a str) -> &'a str {
+        let of_stops = self.ramp.as_ref().map(|_| "");
+        self.ramp_image.as_deref().or(of_stops).unwrap_or(image)
+    }
 }
 
 /// What a rule changes about ink and hatching; what is absent stays.
@@ -92,13 +103,16 @@ pub struct RuleInk {
     /// What strokes are fixed to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mapping: Option<Mapping>,
-    /// What strokes on the surface run along.
+    /// What strokes on the surface run along; without a `direction` beside it the style's own gives way.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub follow: Option<Follow>,
-    /// A direction in the scene that strokes on the surface follow.
+    /// A direction that strokes on the surface follow.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
     pub direction: Option<[f32; 3]>,
+    /// What the direction is fixed to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub direction_space: Option<StrokeSpace>,
     /// Its strokes.
     pub hatch: RuleHatch,
 }
@@ -110,6 +124,9 @@ pub struct RuleHatch {
     /// What shadows are drawn with.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pattern: Option<Pattern>,
+    /// A picture that shadows are drawn with; empty for `pattern` after all. A pattern beside it gives way.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub image: Option<String>,
     /// Distance between strokes or dots on screen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spacing: Option<Length>,
@@ -128,6 +145,10 @@ impl RuleHatch {
     fn over(&self, hatch: Hatch) -> Hatch {
         Hatch {
             pattern: self.pattern.unwrap_or(hatch.pattern),
+            image: self.image.clone().unwrap_or(match self.pattern {
+                Some(_) => String::new(),
+                None => hatch.image,
+            }),
             spacing: self.spacing.unwrap_or(hatch.spacing),
             length: self.length.unwrap_or(hatch.length),
             angle_deg: self.angle_deg.unwrap_or(hatch.angle_deg),
@@ -147,7 +168,10 @@ impl RuleInk {
             paint: self.paint.unwrap_or(ink.paint),
             mapping: self.mapping.unwrap_or(ink.mapping),
             follow: self.follow.unwrap_or(ink.follow),
-            direction: self.direction.or(ink.direction),
+            direction: self
+                .direction
+                .or(ink.direction.filter(|_| self.follow.is_none())),
+            direction_space: self.direction_space.unwrap_or(ink.direction_space),
             hatch: self.hatch.over(ink.hatch),
             ..ink
         }
@@ -223,6 +247,8 @@ pub struct Rule {
     pub ink: RuleInk,
     /// What changes about its highlights.
     pub highlight: RuleHighlight,
+    /// Whether it moves, and leaves speed lines.
+    pub motion: RuleMotion,
     /// Makes it a beam of light instead of a surface.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beam: Option<Beam>,
@@ -253,12 +279,16 @@ pub struct Look<'a> {
     pub shade_color: Option<Color>,
     /// Its tones, sorted.
     pub ramp: &'a [Stop],
+    /// The picture that gives its tones instead; empty where none does.
+    pub ramp_image: &'a str,
     /// Its ink and hatching.
     pub ink: Ink,
     /// Its highlights.
     pub highlight: Highlight,
     /// How it glows, where it is a beam.
     pub beam: Option<&'a Beam>,
+    /// From it to where it came from, in the scene, where a rule says so.
+    pub trail: Option<[f32; 3]>,
 }
 
 impl<'a> Look<'a> {
@@ -272,9 +302,11 @@ impl<'a> Look<'a> {
             angle_threshold_deg: style.line.angle_threshold_deg,
             shade_color: None,
             ramp: &style.shade.ramp,
+            ramp_image: &style.shade.ramp_image,
             ink: style.ink.clone(),
             highlight: style.highlight.clone(),
             beam: None,
+            trail: None,
         }
     }
 
@@ -289,9 +321,11 @@ impl<'a> Look<'a> {
             angle_threshold_deg: line.angle_threshold_deg.unwrap_or(self.angle_threshold_deg),
             shade_color: shade.color.or(self.shade_color),
             ramp: shade.ramp.as_deref().unwrap_or(self.ramp),
+            ramp_image: shade.ramp_image_over(self.ramp_image),
             ink: rule.ink.over(self.ink),
             highlight: rule.highlight.over(self.highlight),
             beam: rule.beam.as_ref().or(self.beam),
+            trail: rule.motion.trail.or(self.trail),
         }
     }
 }

@@ -8,8 +8,8 @@ use crate::layers::{self, Parents};
 use crate::ramp::{Stop, first_unsorted};
 use crate::width::WidthSource;
 use crate::{
-    Antialias, Background, Detect, Highlight, Ink, Lettering, Light, Line, LineMethod, Rule, Shade,
-    preset, set,
+    Antialias, Background, Blend, Detect, Highlight, Ink, Lettering, Light, Line, LineMethod,
+    Motion, Rule, Shade, preset, set,
 };
 
 /// What a picture should look like.
@@ -44,6 +44,10 @@ pub struct Style {
     pub detect: Detect,
     /// How edges are smoothed.
     pub antialias: Antialias,
+    /// How speed lines behind parts that move are drawn; rules say which move.
+    pub motion: Motion,
+    /// How much of the look is drawn, over another one.
+    pub blend: Blend,
     /// Exceptions for single materials and objects; later ones win.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rule: Vec<Rule>,
@@ -67,6 +71,8 @@ impl Default for Style {
             line: Line::default(),
             detect: Detect::default(),
             antialias: Antialias::default(),
+            motion: Motion::default(),
+            blend: Blend::default(),
             rule: Vec::new(),
             lettering: Vec::new(),
         }
@@ -130,6 +136,14 @@ impl Style {
         })
     }
 
+    /// Whether any part may have its lines drawn as curves, which takes a line model of the scene.
+    pub fn has_curves(&self) -> bool {
+        let rules = self.rule.iter().filter_map(|rule| rule.line.method);
+        std::iter::once(self.line.method)
+            .chain(rules)
+            .any(|method| method == LineMethod::Curves)
+    }
+
     /// Checks what no single value shows: order, contradictions, missing companions.
     ///
     /// Reading does this already; call it after changing fields by hand.
@@ -139,6 +153,8 @@ impl Style {
     /// [`StyleError::Value`] for the first key that contradicts another.
     pub fn sanity_check(&self) -> Result<(), StyleError> {
         self.light.sanity_check()?;
+        self.blend.sanity_check()?;
+        self.check_trails()?;
         check_direction(self.ink.direction, "ink.direction")?;
         check_width(&self.line.width)?;
         check_ramp(&self.shade.ramp, "shade.ramp")?;
@@ -176,12 +192,17 @@ fn check_direction(direction: Option<[f32; 3]>, key: &str) -> Result<(), StyleEr
 /// A part cannot have a method that works on whole pictures.
 fn check_method(method: Option<LineMethod>, rule: usize) -> Result<(), StyleError> {
     match method {
-        None | Some(LineMethod::Off | LineMethod::Shape | LineMethod::Hull | LineMethod::Angle) => {
-            Ok(())
-        }
+        None
+        | Some(
+            LineMethod::Off
+            | LineMethod::Shape
+            | LineMethod::Hull
+            | LineMethod::Angle
+            | LineMethod::Curves,
+        ) => Ok(()),
         Some(_) => Err(StyleError::unfit(
             format!("rule.{rule}.line.method"),
-            "works on whole pictures; a part may have shape, hull, angle or none",
+            "works on whole pictures; a part may have shape, hull, angle, curves or none",
         )),
     }
 }

@@ -9,6 +9,7 @@ use crate::inking::ink_over;
 use crate::known::Known;
 use crate::paint::LUMA;
 use crate::ramp::{Level, ramp_coordinate, ramp_light};
+use crate::tone_row::{row_is_even, row_light};
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
 use npr_core::raster::ID_MASK;
 use npr_core::surface::{blend2, blend3, dot, faces_eye, unit_or_z, weights_at};
@@ -164,19 +165,28 @@ impl<'a> Layers<'a> {
             return None;
         }
         let range = self.coordinate_range(corners)?;
-        let reach = part.softness * 0.5;
-        let crosses = |stop: &[f32; 4]| stop[3] > range[0] - reach && stop[3] <= range[1] + reach;
-        if part.ramp[1..].iter().any(crosses) {
+        if !self.one_step(part, range) {
             return None;
         }
         let normal = corners.posed[0].normal.map(|n| n * corners.side);
         Some(self.light_of(part, corners.posed[0].world, normal, 0))
     }
 
+    /// Whether a part's tones are the same for all coordinates in `range`.
+    fn one_step(&self, part: &Part, range: [f32; 2]) -> bool {
+        if part.flags & Part::TONE_ROW != 0 {
+            return row_is_even(self.texels, part.tone_row, range);
+        }
+        let reach = part.softness * 0.5;
+        !part.ramp[1..]
+            .iter()
+            .any(|stop| stop[3] > range[0] - reach && stop[3] <= range[1] + reach)
+    }
+
     /// Whether light changes so gently over a part that one place of a pixel stands for all.
     fn is_gentle(&self, part: &Part) -> bool {
         self.lights.shadow_side == 0
-            && part.flags & Part::ANGLE == 0
+            && part.flags & (Part::ANGLE | Part::TONE_ROW) == 0
             && (part.softness >= GENTLE || part.ramp[1][3] >= Level::UNUSED)
     }
 
@@ -395,8 +405,11 @@ impl<'a> Layers<'a> {
             return [1.0; 3];
         }
         let (x, color) = self.lights.coordinate_at(world, normal, dark);
-        let levels = bytemuck::cast_slice(&part.ramp);
-        let light = ramp_light(levels, part.softness, x);
+        let light = if part.flags & Part::TONE_ROW != 0 {
+            row_light(self.texels, part.tone_row, x)
+        } else {
+            ramp_light(bytemuck::cast_slice(&part.ramp), part.softness, x)
+        };
         std::array::from_fn(|i| light[i] * color[i])
     }
 

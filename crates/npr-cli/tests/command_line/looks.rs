@@ -156,6 +156,36 @@ fn pictures_that_a_style_file_names_lie_beside_it() {
 }
 
 #[test]
+fn pictures_for_tones_are_found_and_their_faults_named() {
+    let place = Workplace::with_scene();
+    place.put("tone.png", &tiny_png());
+    for setting in ["shade.ramp_image=tone.png", "ink.hatch.image=tone.png"] {
+        let all = ["--set", "ink.tone=hatch", "--set", setting];
+        place.render("scene.obj", &all).assert_silent_success();
+    }
+    place.put("text.png", b"not a picture");
+    for (key, file, exit) in [
+        ("shade.ramp_image", "gone.png", 1),
+        ("ink.hatch.image", "gone.png", 1),
+        ("shade.ramp_image", "text.png", 3),
+    ] {
+        let setting = format!("{key}={file}");
+        let outcome = place.render("scene.obj", &["--set", &setting]);
+        outcome.assert_fault(exit, &format!("{key}: cannot read '{file}'"));
+    }
+    let mut upright = Vec::new();
+    let mut encoder = png::Encoder::new(&mut upright, 1, 2);
+    encoder.set_color(png::ColorType::Rgb);
+    let mut writer = encoder.write_header().expect("a header");
+    writer.write_image_data(&[90; 6]).expect("two pixels");
+    drop(writer);
+    place.put("upright.png", &upright);
+    place
+        .render("scene.obj", &["--set", "shade.ramp_image=upright.png"])
+        .assert_fault(3, "shade.ramp_image: a ramp runs from left to right");
+}
+
+#[test]
 fn thin_lines_over_a_coarse_mask_are_warned_of_once() {
     let place = Workplace::with_scene();
     let outcome = place.render("scene.obj", &["--set", "detect.scale=8"]);

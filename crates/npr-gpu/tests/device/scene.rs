@@ -11,6 +11,7 @@ use npr_mesh::testing::{Random, torus, uv_sphere};
 use npr_mesh::{EdgeFlags, NO_FACE, smooth_normals, unique_edges, weld};
 use npr_style::compose::Compose;
 use npr_style::lighting::{LightSource, Lights};
+use npr_style::tone_row::{row_words, tone_row};
 
 /// Width and height of the frame that windows are laid over.
 pub const FRAME_PX: [u32; 2] = [160, 90];
@@ -47,6 +48,8 @@ impl Scene {
             .add([16, 8], &rgba, [Wrap::Repeat, Wrap::Mirror])
             .unwrap();
         let hatch = store.add_tile(64, 8.0, &hatch_levels()).unwrap();
+        let row = tone_row([5, 1], &rgba[..20], 0.1).unwrap();
+        let tone_row = store.add_words(row_words(&row)).unwrap();
         let mut scene = Self {
             texels: store.words().to_vec(),
             palette: palette(),
@@ -73,9 +76,11 @@ impl Scene {
             | Part::HATCH
             | Part::ISOTROPIC
             | Part::CRISP
-            | Part::STREAK;
+            | Part::STREAK
+            | Part::TONE_ROW;
         let hatched = Part {
             hatch,
+            tone_row,
             ..part(2, flags, texture)
         };
         scene.add(&uv_sphere(16, 10), hatched, &mut random);

@@ -24,6 +24,7 @@ fn chart_of(mesh: &Mesh, settings: &ChartSettings) -> StrokeChart {
     let surface = ChartInput {
         positions: mesh.positions(),
         triangles: &triangles,
+        directions: &[],
     };
     stroke_chart(&surface, settings)
 }
@@ -142,6 +143,7 @@ fn torn_edges(mesh: &Mesh, settings: &ChartSettings) -> usize {
     let surface = ChartInput {
         positions: mesh.positions(),
         triangles: &triangles,
+        directions: &[],
     };
     let (nodes, lifted) = lift_faces(&surface, settings);
     assert_eq!(nodes.faces.len(), triangles.len());
@@ -229,6 +231,7 @@ fn each_part_follows_its_guide_up_to_its_border() {
     let surface = ChartInput {
         positions: mesh.positions(),
         triangles: &triangles,
+        directions: &[],
     };
     let chart = stroke_chart(&surface, &settings);
     assert_eq!(chart.singular_triangles, 0);
@@ -237,6 +240,69 @@ fn each_part_follows_its_guide_up_to_its_border() {
         let angle = 0.4 * triangle.part as f32;
         let wanted = Vec3::new(npr_core::math::cos(angle), npr_core::math::sin(angle), 0.0);
         assert!((v * 0.7).dot(wanted).abs() > 0.999, "{face}: {v}");
+    }
+}
+
+/// Both ends of every line on a bent sheet, a direction each.
+fn painted_sheet(seed: u64) -> (Mesh, Vec<[f32; 3]>) {
+    let mesh = mapped(&uneven_sheet(8, 8, seed), |[x, y, _]| [x, y, 0.02 * x * y]);
+    let turn = |p: &[f32; 3]| {
+        let angle = 0.15 * p[0];
+        [npr_core::math::cos(angle), npr_core::math::sin(angle), 0.0]
+    };
+    let directions = mesh.positions().iter().map(turn).collect();
+    (mesh, directions)
+}
+
+fn painted_chart(mesh: &Mesh, directions: &[[f32; 3]]) -> StrokeChart {
+    let surface = ChartInput {
+        positions: mesh.positions(),
+        triangles: &triangles_of(mesh),
+        directions,
+    };
+    stroke_chart(&surface, &guided(0.7, Guide::Painted))
+}
+
+#[test]
+fn strokes_turn_as_they_are_painted() {
+    let (mesh, directions) = painted_sheet(5);
+    let chart = painted_chart(&mesh, &directions);
+    for (face, corners) in mesh.triangles().iter().enumerate() {
+        let painted = corners.map(|vertex| Vec3::from(directions[vertex as usize]));
+        let painted = (painted[0] + painted[1] + painted[2]).normalize();
+        let [_, v] = gradients(corners_of(&mesh, face), &chart.corners[face]);
+        let cos = v.normalize().dot(painted).abs();
+        assert!(cos > 0.97, "{face}: {cos}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    /// Painting one direction everywhere is to follow that direction, whatever its sign and length at each vertex.
+    #[test]
+    fn one_painted_direction_is_a_fixed_one(
+        seed in 0u64..1000, x in -1f32..1.0, y in -1f32..1.0, lengths in prop::collection::vec(0.1f32..9.0, 81), signs: u64,
+    ) {
+        prop_assume!(x * x + y * y > 0.01);
+        let mesh = uneven_sheet(4, 4, seed);
+        let sign = |i: usize| if signs >> (i % 64) & 1 == 0 { 1.0 } else { -1.0 };
+        let directions: Vec<[f32; 3]> = (0..mesh.positions().len())
+            .map(|i| [x, y, 0.5].map(|v| v * lengths[i % lengths.len()] * sign(i)))
+            .collect();
+        let painted = painted_chart(&mesh, &directions);
+        let fixed = chart_of(&mesh, &guided(0.7, Guide::Along([x, y, 0.5])));
+        for face in 0..mesh.triangles().len() {
+            let corners = corners_of(&mesh, face);
+            let [v, w] = [&painted, &fixed].map(|chart| gradients(corners, &chart.corners[face])[1]);
+            prop_assert!(v.normalize().dot(w.normalize()).abs() > 0.999, "{v} is not {w}");
+        }
+    }
+
+    #[test]
+    fn any_directions_give_finite_charts(values in prop::collection::vec(prop::array::uniform3(prop::num::f32::ANY), 42)) {
+        let chart = painted_chart(&icosphere(1), &values);
+        prop_assert!(chart.corners.as_flattened().as_flattened().iter().all(|v| v.is_finite()));
     }
 }
 
@@ -357,7 +423,7 @@ proptest! {
             }
             mesh = mapped(&mesh, |p| p);
             let triangles = triangles_of(&mesh);
-            let surface = ChartInput { positions: &positions, triangles: &triangles };
+            let surface = ChartInput { positions: &positions, triangles: &triangles, directions: &[] };
             check_finite(&stroke_chart(&surface, &tiles_of(10.0_f32.powi(tile_power))), faces)?;
         }
         check_finite(&chart_of(&mesh, &tiles_of(10.0_f32.powi(power + tile_power))), faces)?;

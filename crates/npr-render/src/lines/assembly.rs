@@ -7,6 +7,7 @@ use crate::placement;
 use npr_core::shape::Surface;
 use npr_mesh::shape::PlacedMesh;
 use npr_scene::{Mesh, Node, Part, Scene};
+use npr_style::Style;
 use std::collections::BTreeMap;
 
 /// One node's mesh in the world.
@@ -15,6 +16,8 @@ pub(crate) struct Placed {
     rest: Vec<[f32; 3]>,
     world: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
+    /// Triangles of beams: no surface, but in the picture.
+    glowing: Vec<[u32; 3]>,
     surfaces: Vec<u32>,
     marks: Vec<[u32; 2]>,
     mirrored: bool,
@@ -33,27 +36,49 @@ pub(crate) struct Assembly {
     pub marked: Vec<bool>,
 }
 
+/// What a part of a mesh is to lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Role {
+    /// The surface of this number.
+    Surface(u32),
+    /// A beam of light: neither has nor hides lines.
+    Beam,
+    /// Nothing that pictures show.
+    Unseen,
+}
+
 impl Assembly {
-    /// Gathers what a scene draws. Parts so transparent that pictures do not show them are left out.
-    pub fn new(scene: &Scene) -> Self {
+    /// Gathers what a scene draws. Parts so transparent that pictures do not show them are left out, and so is what a style
+    /// makes beams of.
+    pub fn new(scene: &Scene, style: Option<&Style>) -> Self {
         let mut assembly = Self::default();
         for (object, node) in scene.nodes.iter().enumerate() {
             if let Some(mesh) = node.mesh.and_then(|mesh| scene.meshes.get(mesh as usize)) {
-                assembly.add_node(scene, object as u32, node, mesh);
+                assembly.add_node(scene, style, object as u32, node, mesh);
             }
         }
         assembly
     }
 
-    fn add_node(&mut self, scene: &Scene, object: u32, node: &Node, mesh: &Mesh) {
+    fn add_node(
+        &mut self,
+        scene: &Scene,
+        style: Option<&Style>,
+        object: u32,
+        node: &Node,
+        mesh: &Mesh,
+    ) {
         let joined = Joined::new(&mesh.parts);
-        let surface_of_part = self.add_surfaces(scene, object, node, mesh);
-        let drawn: Vec<([u32; 3], u32)> = joined
-            .triangles
-            .iter()
-            .zip(&joined.parts)
-            .filter_map(|(corners, part)| Some((*corners, surface_of_part[*part as usize]?)))
+        let roles = self.add_surfaces(scene, style, object, node, mesh);
+        let placed = || joined.triangles.iter().zip(&joined.parts);
+        let drawn: Vec<([u32; 3], u32)> = placed()
+            .filter_map(|(corners, part)| match roles[*part as usize] {
+                Role::Surface(surface) => Some((*corners, surface)),
+                Role::Beam | Role::Unseen => None,
+            })
             .collect();
+        let glowing = placed().filter(|(_, part)| roles[**part as usize] == Role::Beam);
+        let glowing = glowing.map(|(corners, _)| *corners).collect();
         let marked = marked_vertices(&mesh.parts);
         let triangles: Vec<[u32; 3]> = drawn.iter().map(|(corners, _)| *corners).collect();
         let world = mesh
@@ -69,28 +94,33 @@ impl Assembly {
             mirrored: placement::determinant_of(first_matrix) < 0.0,
             colors: vertex_colors(&mesh.parts),
             triangles,
+            glowing,
         });
     }
 
-    /// Adds a surface for every material of a mesh; the surface of each part, or none where it is not drawn.
+    /// Adds a surface for every material of a mesh, and says what each part is.
     fn add_surfaces(
         &mut self,
         scene: &Scene,
+        style: Option<&Style>,
         object: u32,
         node: &Node,
         mesh: &Mesh,
-    ) -> Vec<Option<u32>> {
-        let mut numbers: BTreeMap<Option<u32>, Option<u32>> = BTreeMap::new();
+    ) -> Vec<Role> {
+        let mut roles: BTreeMap<Option<u32>, Role> = BTreeMap::new();
         let parts = mesh.parts.iter().map(|part| {
-            *numbers.entry(part.material).or_insert_with(|| {
+            *roles.entry(part.material).or_insert_with(|| {
                 let info = PartInfo::new(scene, object, &node.name, part.material);
                 if info.is_invisible() {
-                    return None;
+                    return Role::Unseen;
+                }
+                if style.is_some_and(|style| info.is_beam(style)) {
+                    return Role::Beam;
                 }
                 let material = part.material.and_then(|m| scene.materials.get(m as usize));
                 self.marked.push(material.is_some_and(|m| m.marked));
                 self.parts.push(info);
-                Some(self.parts.len() as u32 - 1)
+                Role::Surface(self.parts.len() as u32 - 1)
             })
         });
         parts.collect()
@@ -162,7 +192,7 @@ impl Placed {
 
     fn used_points(&self) -> impl Iterator<Item = [f32; 3]> + '_ {
         let mut used = vec![false; self.world.len()];
-        for corner in self.triangles.iter().flatten() {
+        for corner in self.triangles.iter().chain(&self.glowing).flatten() {
             used[*corner as usize] = true;
         }
         let points = self.world.iter().zip(used);

@@ -5,7 +5,7 @@ use crate::look;
 use crate::model::PartInfo;
 use npr_core::color::srgb_from_linear;
 use npr_core::shape::Shape;
-use npr_style::Style;
+use npr_style::{Look, Style};
 use npr_vector::bvh::{FaceTree, Sight};
 use npr_vector::fill;
 use npr_vector::project::Projector;
@@ -26,15 +26,14 @@ struct SurfacePaint {
 }
 
 impl Paint {
-    /// Resolves the style for every part.
-    pub fn new(parts: &[PartInfo], style: &Style) -> Self {
+    /// Resolves the style for every part; only those have lines whose look `has_lines` says so of.
+    pub fn new(parts: &[PartInfo], style: &Style, has_lines: impl Fn(&Look<'_>) -> bool) -> Self {
         let paint = |info: &PartInfo| {
             let part = look::part(info, style);
+            let look = style.resolve_for(&info.material_name, &info.object_name);
             let [r, g, b] = [0, 1, 2].map(|i| srgb_from_linear(part.base_color[i]));
             SurfacePaint {
-                has_lines: style
-                    .resolve_for(&info.material_name, &info.object_name)
-                    .line_on,
+                has_lines: look.line_on && look.beam.is_none() && has_lines(&look),
                 width_factor: f64::from(part.width_factor),
                 line_color: bytes_of(part.line_color),
                 fill_color: bytes_of([r, g, b, 1.0]),

@@ -2,7 +2,7 @@
 
 use crate::scenes::{SIZE, add, camera_at, drawing_from, even_style, model_of, scene_of};
 use npr_mesh::testing::{cube, icosphere, mapped, mirrored, plane};
-use npr_render::{Drawing, Kind, KindSet, LineOptions, Model};
+use npr_render::{Drawing, Kind, KindSet, LineModel, LineModelOptions, LineOptions, Model};
 use npr_scene::{AlphaMode, Scene};
 use npr_style::Style;
 
@@ -289,4 +289,38 @@ fn ids_stay_with_lines_when_the_camera_moves_a_little() {
         ids
     };
     assert_eq!(ids(EYE), ids([3.01, 2.5, 6.0]));
+}
+
+#[test]
+fn beams_have_no_lines_and_hide_none() {
+    let mut scene = scene_of(&cube());
+    let screen = mapped(&plane(4, 4), |[x, y, _]| {
+        [8.0 * x - 4.0, 8.0 * y - 4.0, 2.0]
+    });
+    let bare = model_of(&scene);
+    add(&mut scene, "Beam", &screen);
+    let rule = "[[rule]]\nmatch.material = 'Beam'\n[rule.beam]\n";
+    let style = Style::from_toml(rule, &|_| Err(String::new())).expect("a style");
+    let model = LineModel::for_style(&scene, &style, &LineModelOptions::default(), None);
+    let model = model.expect("a small scene");
+    let options = LineOptions::new(SIZE);
+    let camera = camera_at([1.0, 2.0, 9.0]);
+    let of = |model: &LineModel| {
+        model
+            .draw(&camera, &style, &options)
+            .expect("drawn")
+            .strokes
+    };
+    assert_eq!(of(&model), of(&bare), "the cube through the light");
+    assert_eq!(model.parts().len(), 1);
+    assert!(model.radius() > bare.radius(), "the beam is in the picture");
+
+    // A model made without the style draws none of the beam's own lines.
+    let whole = model_of(&scene);
+    let beam = whole
+        .parts()
+        .iter()
+        .position(|part| part.material_name == "Beam");
+    let beam = beam.expect("a surface") as u32;
+    assert!(of(&whole).iter().all(|stroke| stroke.surface != beam));
 }

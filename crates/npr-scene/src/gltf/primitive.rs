@@ -22,6 +22,9 @@ use crate::mesh::{Morph, Part};
 /// The attribute that marks vertices for lines, without the underscore before the names of such attributes.
 const MARKS: &str = "NPR_LINE";
 
+/// The attribute that says how pen strokes run, named likewise.
+const DIRECTIONS: &str = "DIRECTION";
+
 /// Where a primitive stands in its file.
 #[derive(Clone, Copy)]
 pub(crate) struct Place {
@@ -88,6 +91,7 @@ impl Reader<'_, '_, '_> {
             joints,
             weights: weights_of_joints,
             marks: self.marks()?,
+            directions: self.list(Semantic::Extras(DIRECTIONS.to_owned()))?,
             triangles: self.triangles(place)?,
             material: self.material()?,
             morphs: self.morphs(weights)?,

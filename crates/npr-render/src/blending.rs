@@ -1,0 +1,115 @@
+//! Two looks of one scene in one picture.
+
+use crate::error::RenderError;
+use crate::frame::Frame;
+use crate::model::Model;
+use crate::pictures::Pictures;
+use crate::stage::{Stage, StageOptions};
+use npr_core::camera::Camera;
+use npr_core::color::SrgbEncoder;
+use npr_core::texture::{TextureStore, Wrap, linear_texel, sample};
+use npr_gpu::engine::Engine;
+use npr_style::Style;
+use npr_style::blend::blend;
+use npr_style::compose::cover;
+
+/// The look that shows through another one.
+pub(crate) struct Blending<'a> {
+    other: Box<Stage<'a>>,
+    share: Share,
+}
+
+/// How much of the first look a pixel shows.
+struct Share {
+    amount: f32,
+    /// Where the mask's header starts in the store.
+    mask: Option<u32>,
+    /// The mask, and the table of linear light.
+    store: TextureStore,
+}
+
+impl<'a> Blending<'a> {
+    /// What a style is blended with; none where it is drawn alone. `planned_bytes` of the memory are spoken for.
+    pub fn new(
+        engine: &dyn Engine,
+        model: &'a Model,
+        style: &Style,
+        options: &StageOptions,
+        planned_bytes: u64,
+    ) -> Result<Option<Self>, RenderError> {
+        if !style.blend.shows() {
+            return Ok(None);
+        }
+        let left = StageOptions {
+            memory_limit: options.memory_limit - planned_bytes,
+            ..options.clone()
+        };
+        let other = Stage::new(engine, model, &style.blended_with()?, &left)?;
+        let mut store = TextureStore::new();
+        let mask = if style.blend.mask.is_empty() {
+            None
+        } else {
+            let pictures = Pictures::new(style, &options.pictures)?;
+            let picture = pictures.of(&style.blend.mask)?;
+            let start = store.add(picture.size, &picture.rgba, [Wrap::Clamp; 2]);
+            Some(start.ok_or_else(|| RenderError::EmptyPicture {
+                key: pictures.key_of(&style.blend.mask),
+            })?)
+        };
+        Ok(Some(Self {
+            other: Box::new(other),
+            share: Share {
+                amount: style.blend.amount,
+                mask,
+                store,
+            },
+        }))
+    }
+
+    /// Memory that the other look needs.
+    pub fn planned_bytes(&self) -> u64 {
+        self.other.planned_bytes()
+    }
+
+    /// Lets the other look show through a finished frame.
+    pub fn apply(&mut self, camera: &Camera, frame: &mut Frame) -> Result<(), RenderError> {
+        let other = self.other.draw(camera)?;
+        let encoder = SrgbEncoder::new();
+        let size = frame.size;
+        let pixels = frame.rgba.as_chunks_mut().0.iter_mut();
+        for (i, (pixel, other)) in pixels.zip(other.rgba.as_chunks().0).enumerate() {
+            let place = [i as u32 % size[0], i as u32 / size[0]];
+            let share = self.share.at(place, size);
+            if share < 1.0 && pixel != other {
+                *pixel = self.share.mixed(*pixel, *other, share, &encoder);
+            }
+        }
+        frame.times.extend(other.times);
+        Ok(())
+    }
+}
+
+impl Share {
+    fn at(&self, place: [u32; 2], size: [u32; 2]) -> f32 {
+        let Some(start) = self.mask else {
+            return self.amount;
+        };
+        let words = self.store.words();
+        let at = start as usize;
+        let mask_px = [words[at] as f32, words[at + 1] as f32];
+        let frame_px = place.map(|v| v as f32 + 0.5);
+        let (uv, footprint) = cover(frame_px, size.map(|side| side as f32), mask_px);
+        let [r, g, b, _] = sample(words, start, uv, footprint);
+        (r + g + b) / 3.0 * self.amount
+    }
+
+    fn mixed(&self, first: [u8; 4], second: [u8; 4], share: f32, encoder: &SrgbEncoder) -> [u8; 4] {
+        let linear = |pixel: [u8; 4]| {
+            let [r, g, b, a] = linear_texel(self.store.words(), u32::from_le_bytes(pixel));
+            [r * a, g * a, b * a, a]
+        };
+        let [r, g, b, a] = blend(linear(first), linear(second), share);
+        let [r, g, b] = [r, g, b].map(|v| encoder.byte(v / a.max(1e-6)) as u8);
+        [r, g, b, (a * 255.0 + 0.5) as u8]
+    }
+}

@@ -1,0 +1,193 @@
+//! What strokes on surfaces run along, part by part.
+
+use crate::model::Model;
+use glam::Vec3;
+use npr_core::camera::Camera;
+use npr_core::color::linear_from_srgb;
+use npr_core::geometry::Vertex;
+use npr_core::math;
+use npr_mesh::direction_field::{Guide, PartGuide};
+use npr_style::lighting::LightSource;
+use npr_style::{Follow, Ink, Mapping, StrokeSpace};
+
+/// Length of a vertex colour's direction up to which it says nothing: middle grey after rounding to bytes.
+const SAYS_NOTHING: f32 = 0.05;
+
+/// Length on the picture of a unit vector to the light under which it points nowhere there.
+const STRAIGHT_ON: f32 = 1e-3;
+
+/// Who says how strokes run on a part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Source {
+    /// Its own bends.
+    Shape { across: bool },
+    /// The style, in the world.
+    World([f32; 3]),
+    /// The style, in the space of the object.
+    Object([f32; 3]),
+    /// The file, by a vertex attribute.
+    Attribute,
+    /// The file, by vertex colours.
+    VertexColor,
+    /// The strongest light.
+    Light,
+}
+
+/// What the strokes of one part run along.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct StrokeGuide {
+    source: Source,
+    /// Angle in radians by which they turn away from it.
+    pub angle: f32,
+    /// Whether they are asked of an attribute or colours that the part has not.
+    pub is_unsaid: bool,
+}
+
+impl StrokeGuide {
+    /// What a part's ink asks for; `has` says whether its vertices have directions, and colours.
+    fn of(ink: &Ink, has: [bool; 2]) -> Self {
+        let across = ink.follow != Follow::Along;
+        let source = match (ink.direction, ink.follow) {
+            (Some(direction), _) if ink.direction_space == StrokeSpace::Object => {
+                Source::Object(direction)
+            }
+            (Some(direction), _) => Source::World(direction),
+            (None, Follow::Light) => Source::Light,
+            (None, Follow::Attribute) if has[0] => Source::Attribute,
+            (None, Follow::VertexColor) if has[1] => Source::VertexColor,
+            (None, _) => Source::Shape { across },
+        };
+        let asks = matches!(ink.follow, Follow::Attribute | Follow::VertexColor);
+        Self {
+            source,
+            angle: ink.hatch.angle_deg.to_radians(),
+            is_unsaid: asks && matches!(source, Source::Shape { .. }),
+        }
+    }
+
+    /// Whether strokes turn with the light.
+    pub fn follows_light(&self) -> bool {
+        self.source == Source::Light
+    }
+
+    /// The same for charts.
+    fn of_chart(&self) -> PartGuide {
+        PartGuide {
+            guide: match self.source {
+                Source::Shape { across } => Guide::Curvature { across },
+                Source::World(direction) => Guide::Along(direction),
+                _ => Guide::Painted,
+            },
+            angle: self.angle,
+        }
+    }
+}
+
+/// What the strokes of every part run along.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Guides {
+    pub of_parts: Vec<StrokeGuide>,
+}
+
+impl Guides {
+    /// What the inks of a model's parts ask for.
+    pub fn new(model: &Model, inks: &[Ink]) -> Self {
+        let asks = |ink: &Ink| {
+            let paints = matches!(ink.follow, Follow::Attribute | Follow::VertexColor);
+            paints && ink.mapping != Mapping::Screen
+        };
+        let mut has = vec![[false; 2]; inks.len()];
+        if inks.iter().any(asks) {
+            for (i, vertex) in model.vertices.iter().enumerate() {
+                // Vertices without triangles may have no part.
+                if let Some([attribute, color]) = has.get_mut(vertex.part as usize) {
+                    *attribute |= painted(model, i) != Vec3::ZERO;
+                    *color |= color_direction(vertex) != Vec3::ZERO;
+                }
+            }
+        }
+        let guides = inks.iter().zip(has);
+        Self {
+            of_parts: guides.map(|(ink, has)| StrokeGuide::of(ink, has)).collect(),
+        }
+    }
+
+    /// The guides that charts take.
+    pub fn of_charts(&self) -> Vec<PartGuide> {
+        self.of_parts.iter().map(StrokeGuide::of_chart).collect()
+    }
+
+    /// A direction in the world at every vertex whose part needs one, zero at others; none at all where no part does.
+    /// `positions` are those of the vertices in the world.
+    pub fn directions(
+        &self,
+        model: &Model,
+        positions: &[[f32; 3]],
+        light: &LightSource,
+    ) -> Vec<[f32; 3]> {
+        let is_painted = |guide: &StrokeGuide| guide.of_chart().guide == Guide::Painted;
+        if !self.of_parts.iter().any(is_painted) {
+            return Vec::new();
+        }
+        let vertices = model.vertices.iter().zip(&model.influences).enumerate();
+        let direction = |(i, (vertex, influence)): (usize, (&Vertex, _))| {
+            let guide = self.of_parts.get(vertex.part as usize);
+            let own = match guide.map(|guide| guide.source) {
+                None | Some(Source::Shape { .. } | Source::World(_)) => Vec3::ZERO,
+                Some(Source::Light) => return light.towards(positions[i]),
+                Some(Source::Object(direction)) => Vec3::from(direction),
+                Some(Source::Attribute) => painted(model, i),
+                Some(Source::VertexColor) => color_direction(vertex),
+            };
+            model.posed_direction(own, influence).to_array()
+        };
+        vertices.map(direction).collect()
+    }
+}
+
+/// The direction that the file has for a vertex; zero where it has none.
+fn painted(model: &Model, vertex: usize) -> Vec3 {
+    model
+        .painted
+        .get(vertex)
+        .copied()
+        .unwrap_or_default()
+        .into()
+}
+
+/// The direction that a vertex colour stands for; zero where it says nothing.
+fn color_direction(vertex: &Vertex) -> Vec3 {
+    let [r, g, b, _] = vertex.color.to_le_bytes();
+    if [r, g, b] == [255; 3] {
+        return Vec3::ZERO;
+    }
+    let part = |byte: u8| linear_from_srgb(f32::from(byte) / 255.0) * 2.0 - 1.0;
+    let direction = Vec3::from([r, g, b].map(part));
+    if direction.length() < SAYS_NOTHING {
+        Vec3::ZERO
+    } else {
+        direction
+    }
+}
+
+/// Cosine and sine of the turn that lets strokes on the picture run towards a light, and by `angle` radians beside it.
+///
+/// A light at a place counts from `middle`. Upright where it stands right before or behind the picture.
+pub(crate) fn turn_to_light(
+    light: &LightSource,
+    camera: &Camera,
+    middle: [f32; 3],
+    angle: f32,
+) -> [f32; 2] {
+    let [right, up, _] = camera.axes().map(Vec3::from);
+    let towards = Vec3::from(light.towards(middle));
+    let on_picture = glam::vec2(towards.dot(right), -towards.dot(up));
+    let along = if on_picture.length() > STRAIGHT_ON {
+        on_picture.normalize()
+    } else {
+        glam::Vec2::Y
+    };
+    // Strokes of a tile turned by (c, s) run along (-s, c).
+    let (sin, cos) = (math::sin(angle), math::cos(angle));
+    [along.y * cos + along.x * sin, along.y * sin - along.x * cos]
+}

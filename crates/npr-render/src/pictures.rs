@@ -1,0 +1,120 @@
+//! The pictures that a style's tones are made from.
+
+use crate::error::RenderError;
+use crate::model::Model;
+use crate::stage::Picture;
+use npr_core::geometry::Part;
+use npr_core::texture::{TextureStore, linear_texel};
+use npr_style::Style;
+use npr_style::hatch::{self, HatchTile};
+use npr_style::tone_row::{row_words, tone_row};
+use std::collections::BTreeMap;
+
+/// The pictures given for a style, all that it names.
+pub(crate) struct Pictures<'a> {
+    given: &'a BTreeMap<String, Picture>,
+    named: Vec<(String, &'a str)>,
+}
+
+impl<'a> Pictures<'a> {
+    /// Checks that every picture that a style names was given.
+    pub fn new(
+        style: &'a Style,
+        given: &'a BTreeMap<String, Picture>,
+    ) -> Result<Self, RenderError> {
+        let named = style.named_pictures();
+        match named.iter().find(|(_, name)| !given.contains_key(*name)) {
+            Some((key, name)) => Err(RenderError::MissingPicture {
+                key: key.clone(),
+                name: (*name).to_owned(),
+            }),
+            None => Ok(Self { given, named }),
+        }
+    }
+
+    /// A picture of the style.
+    pub fn of(&self, name: &str) -> Result<&Picture, RenderError> {
+        let missing = || RenderError::MissingPicture {
+            key: self.key_of(name),
+            name: name.to_owned(),
+        };
+        self.given.get(name).ok_or_else(missing)
+    }
+
+    /// A picture of the style as a hatch tile with `side` texels a side, laid over its own half turn if wanted.
+    pub fn hatch_tile(
+        &self,
+        name: &str,
+        side: u32,
+        turned: bool,
+    ) -> Result<HatchTile, RenderError> {
+        let picture = self.of(name)?;
+        let luminance = luminance_of(picture);
+        let hatch_picture = hatch::Picture {
+            width: picture.size[0] as usize,
+            height: picture.size[1] as usize,
+            luminance: &luminance,
+            turned,
+        };
+        hatch::from_image(side, &hatch_picture).map_err(|source| RenderError::Hatch {
+            key: self.key_of(name),
+            source,
+        })
+    }
+
+    /// The first key that names a picture.
+    pub fn key_of(&self, name: &str) -> String {
+        let mut named = self.named.iter();
+        let found = named.find(|(_, other)| *other == name);
+        found.map_or_else(String::new, |(key, _)| key.clone())
+    }
+}
+
+/// Share of each channel in luminance [ITU-R BT.709].
+const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
+
+/// Luminance 0..1 of every pixel over white paper, in linear light.
+fn luminance_of(picture: &Picture) -> Vec<f32> {
+    let store = TextureStore::new();
+    let luminance = |pixel: &[u8; 4]| {
+        let [r, g, b, a] = linear_texel(store.words(), u32::from_le_bytes(*pixel));
+        let own = r * LUMA[0] + g * LUMA[1] + b * LUMA[2];
+        1.0 + (own - 1.0) * a
+    };
+    picture.rgba.as_chunks().0.iter().map(luminance).collect()
+}
+
+/// Gives the parts whose tones come from pictures their rows, each made once.
+pub(crate) fn add_tone_rows(
+    model: &Model,
+    style: &Style,
+    pictures: &Pictures<'_>,
+    parts: &mut [Part],
+    textures: &mut TextureStore,
+) -> Result<(), RenderError> {
+    let mut made: BTreeMap<&str, Option<u32>> = BTreeMap::new();
+    for (part, info) in parts.iter_mut().zip(&model.parts) {
+        let look = style.resolve_for(&info.material_name, &info.object_name);
+        if look.ramp_image.is_empty() || look.beam.is_some() {
+            continue;
+        }
+        let start = match made.get(look.ramp_image) {
+            Some(start) => *start,
+            None => {
+                let picture = pictures.of(look.ramp_image)?;
+                let row = tone_row(picture.size, &picture.rgba, style.shade.softness);
+                let row = row.map_err(|source| RenderError::Ramp {
+                    key: pictures.key_of(look.ramp_image),
+                    source,
+                })?;
+                textures.add_words(row_words(&row))
+            }
+        };
+        made.insert(look.ramp_image, start);
+        if let Some(start) = start {
+            part.tone_row = start;
+            part.flags |= Part::TONE_ROW;
+        }
+    }
+    Ok(())
+}

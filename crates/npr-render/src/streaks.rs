@@ -1,0 +1,306 @@
+//! Speed lines behind parts that move, over a finished frame.
+
+use crate::error::RenderError;
+use crate::frame::Frame;
+use crate::model::Model;
+use crate::placement::bounds_of;
+use crate::stage::{Stage, StageOptions};
+use glam::{Mat4, Vec2, Vec3};
+use npr_core::camera::Camera;
+use npr_core::color::SrgbEncoder;
+use npr_core::texture::{TextureStore, linear_texel};
+use npr_core::window::View;
+use npr_gpu::engine::Engine;
+use npr_style::blend::blend;
+use npr_style::motion::{Motion, trail_of};
+use npr_style::{Color, Style};
+
+/// Longest trail in the picture, in pixels: more than the diagonal of any frame shows no more.
+const LONGEST_PX: f32 = 65_536.0;
+
+/// Shortest trail that is drawn, in pixels.
+const SHORTEST_PX: f32 = 1.0;
+
+/// Narrowest spacing of lines, in pixels: nearer ones are grey.
+const SPACING_PX_MIN: f32 = 1.5;
+
+/// The speed lines of a style.
+pub(crate) struct Streaks<'a> {
+    /// Shows what moves and nothing else.
+    seen: Box<Stage<'a>>,
+    motion: Motion,
+    movers: Vec<Mover>,
+    height_px: u32,
+    dpi: f32,
+}
+
+/// Parts that share a trail.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Mover {
+    trail: Vec3,
+    /// Middle of their box, in the world.
+    middle: Vec3,
+}
+
+/// A trail on the picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Sweep {
+    /// Unit vector away from the part, in pixels.
+    along: Vec2,
+    length_px: f32,
+    /// The place that lines are counted from.
+    middle_px: Vec2,
+    spacing_px: f32,
+}
+
+impl<'a> Streaks<'a> {
+    /// The speed lines that a style asks for; none where nothing moves. `planned_bytes` of the memory are spoken for.
+    pub fn new(
+        engine: &dyn Engine,
+        model: &'a Model,
+        style: &Style,
+        options: &StageOptions,
+        planned_bytes: u64,
+    ) -> Result<Option<Self>, RenderError> {
+        let trails = style.trails();
+        if trails.is_empty() {
+            return Ok(None);
+        }
+        let left = StageOptions {
+            memory_limit: options.memory_limit - planned_bytes,
+            ..StageOptions::new(options.size)
+        };
+        let left = StageOptions {
+            tile_pixels: options.tile_pixels,
+            ..left
+        };
+        let movers = trails.iter().map(|trail| Mover::new(model, style, *trail));
+        Ok(Some(Self {
+            seen: Box::new(Stage::new(engine, model, &style.of_motion(), &left)?),
+            motion: style.motion.clone(),
+            movers: movers.collect(),
+            height_px: options.size[1],
+            dpi: options.dpi,
+        }))
+    }
+
+    /// Memory that they need.
+    pub fn planned_bytes(&self) -> u64 {
+        self.seen.planned_bytes()
+    }
+
+    /// Draws them over a frame. O(pixels * trails).
+    pub fn apply(
+        &mut self,
+        camera: &Camera,
+        view: &View,
+        frame: &mut Frame,
+    ) -> Result<(), RenderError> {
+        let seen = self.seen.draw(camera)?;
+        let movers: Vec<Option<usize>> = seen
+            .rgba
+            .as_chunks()
+            .0
+            .iter()
+            .map(|pixel| trail_of(*pixel))
+            .collect();
+        let pen = Pen::new(self.motion.color);
+        for (index, mover) in self.movers.iter().enumerate() {
+            let Some(sweep) = self.sweep_of(mover, view) else {
+                continue;
+            };
+            let distances = distances(&movers, index, frame.size, sweep.along);
+            for (i, distance) in distances.into_iter().enumerate() {
+                // Nothing is drawn over what moves itself.
+                if distance > 0.0 && distance < sweep.length_px && movers[i].is_none() {
+                    let place = glam::vec2(
+                        (i as u32 % frame.size[0]) as f32,
+                        (i as u32 / frame.size[0]) as f32,
+                    );
+                    let across = (place - sweep.middle_px).perp_dot(sweep.along) / sweep.spacing_px;
+                    let along = distance / sweep.length_px;
+                    let share = self.motion.coverage(across, along, sweep.spacing_px);
+                    pen.lay_over(&mut frame.rgba[4 * i..4 * i + 4], share);
+                }
+            }
+        }
+        frame.times.extend(seen.times);
+        Ok(())
+    }
+
+    /// Where a trail lies in a view; none where it is behind the eye or too short to see.
+    fn sweep_of(&self, mover: &Mover, view: &View) -> Option<Sweep> {
+        let start = place_px(mover.middle, view)?;
+        let end = place_px(mover.middle + mover.trail, view)?;
+        let length_px = (end - start).length();
+        if !(SHORTEST_PX..=LONGEST_PX).contains(&length_px) {
+            return None;
+        }
+        let forward = Vec3::from(view.forward_world);
+        let depth = (mover.middle - Vec3::from(view.eye_world)).dot(forward);
+        let world_px = 1.0 / view.pixel_at(depth);
+        let spacing = self.motion.spacing;
+        Some(Sweep {
+            along: (end - start) / length_px,
+            length_px,
+            middle_px: start,
+            spacing_px: spacing
+                .to_px(self.height_px as f32, self.dpi, world_px)
+                .max(SPACING_PX_MIN),
+        })
+    }
+}
+
+impl Mover {
+    fn new(model: &Model, style: &Style, trail: [f32; 3]) -> Self {
+        let moves = |part: u32| {
+            let info = &model.parts[part as usize];
+            let look = style.resolve_for(&info.material_name, &info.object_name);
+            look.trail == Some(trail)
+        };
+        let corners = model
+            .triangles
+            .iter()
+            .filter(|triangle| moves(triangle.part));
+        let points = corners.flat_map(|triangle| triangle.corners).map(|v| {
+            let v = v as usize;
+            model.posed_point(&model.vertices[v], &model.influences[v])
+        });
+        let (low, high) = bounds_of(points);
+        Self {
+            trail: Vec3::from(trail),
+            middle: (Vec3::from(low) + Vec3::from(high)) * 0.5,
+        }
+    }
+}
+
+/// Where a place in the world lies in the frame, in pixels; none behind the eye.
+fn place_px(place: Vec3, view: &View) -> Option<Vec2> {
+    let clip = Mat4::from_cols_array_2d(&view.clip_from_world) * place.extend(1.0);
+    let ndc = glam::vec2(clip.x, -clip.y) / clip.w;
+    let px = (ndc + 1.0) * 0.5 * Vec2::from(view.frame_px);
+    (clip.w > 0.0 && px.is_finite()).then_some(px)
+}
+
+/// How far each pixel lies behind the mover `index` along a unit vector, in pixels; 0 on it, and where it never was.
+///
+/// The picture is cut into slanted rows of pixels, each walked once: O(pixels).
+fn distances(movers: &[Option<usize>], index: usize, size: [u32; 2], along: Vec2) -> Vec<f32> {
+    let mut found = vec![0.0; movers.len()];
+    let [width, height] = size.map(i64::from);
+    let steep = along.y.abs() > along.x.abs();
+    // Walk along the axis that changes most, in its direction.
+    let (major, minor) = if steep {
+        (along.y, along.x)
+    } else {
+        (along.x, along.y)
+    };
+    let (length, rows) = if steep {
+        (height, width)
+    } else {
+        (width, height)
+    };
+    let slope = minor / major.abs();
+    let step_px = (1.0 + slope * slope).sqrt();
+    let shift = |step: i64| (slope * step as f32).round() as i64;
+    let most = shift(length - 1);
+    for row in -most.max(0)..rows - most.min(0) {
+        let mut behind: Option<f32> = None;
+        for step in 0..length {
+            let (at, other) = (
+                if major < 0.0 { length - 1 - step } else { step },
+                row + shift(step),
+            );
+            if !(0..rows).contains(&other) {
+                continue;
+            }
+            let [x, y] = if steep { [other, at] } else { [at, other] };
+            let i = (y * width + x) as usize;
+            behind = match (movers[i] == Some(index), behind) {
+                (true, _) => Some(0.0),
+                (false, Some(distance)) => Some(distance + step_px),
+                (false, None) => None,
+            };
+            found[i] = behind.unwrap_or(0.0);
+        }
+    }
+    found
+}
+
+/// Lays a colour over pixels.
+struct Pen {
+    /// Linear light and alpha.
+    color: [f32; 4],
+    /// Holds the table of linear light.
+    store: TextureStore,
+    encoder: SrgbEncoder,
+}
+
+impl Pen {
+    fn new(color: Color) -> Self {
+        Self {
+            color: color.linear(),
+            store: TextureStore::new(),
+            encoder: SrgbEncoder::new(),
+        }
+    }
+
+    fn lay_over(&self, pixel: &mut [u8], share: f32) {
+        let bytes: [u8; 4] = std::array::from_fn(|i| pixel[i]);
+        let share = share * self.color[3];
+        if share > 0.0 {
+            let [r, g, b, a] = linear_texel(self.store.words(), u32::from_le_bytes(bytes));
+            let [red, green, blue, _] = self.color;
+            let [r, g, b, a] = blend([red, green, blue, 1.0], [r * a, g * a, b * a, a], share);
+            let [r, g, b] = [r, g, b].map(|v| self.encoder.byte(v / a.max(1e-6)) as u8);
+            pixel.copy_from_slice(&[r, g, b, (a * 255.0 + 0.5) as u8]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn distances_run_from_the_trailing_edge() {
+        let mut movers = vec![None; 8 * 3];
+        movers[8 + 2] = Some(0);
+        movers[8 + 3] = Some(0);
+        let row = |along: Vec2| distances(&movers, 0, [8, 3], along)[8..16].to_vec();
+        assert_eq!(row(Vec2::X), [0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(row(-Vec2::X), [2.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(distances(&movers, 1, [8, 3], Vec2::X), [0.0; 24]);
+        let column = distances(&movers, 0, [8, 3], Vec2::Y);
+        assert_eq!(
+            [column[2], column[10], column[18], column[19]],
+            [0.0, 0.0, 1.0, 1.0]
+        );
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+        /// A pixel lies behind a mover where a straight walk back meets it, give or take the pixels beside the walk.
+        #[test]
+        fn distances_are_those_of_a_walk_back(
+            size in prop::array::uniform2(1u32..20), cells in prop::collection::vec(any::<u8>(), 400), angle in 0f32..6.3,
+        ) {
+            let along = glam::vec2(npr_core::math::cos(angle), npr_core::math::sin(angle));
+            let count = (size[0] * size[1]) as usize;
+            let movers: Vec<Option<usize>> = cells[..count].iter().map(|cell| (cell % 12 == 0).then_some(0)).collect();
+            let found = distances(&movers, 0, size, along);
+            let is_mover = |x: i64, y: i64| {
+                let inside = (0..i64::from(size[0])).contains(&x) && (0..i64::from(size[1])).contains(&y);
+                inside && movers[(y * i64::from(size[0]) + x) as usize].is_some()
+            };
+            for (i, distance) in found.iter().enumerate().filter(|(_, distance)| **distance > 0.0) {
+                let place = glam::vec2((i as u32 % size[0]) as f32, (i as u32 / size[0]) as f32);
+                let back = place - along * *distance;
+                let [x, y] = [back.x.round() as i64, back.y.round() as i64];
+                let near = (-1..=1).any(|u| (-1..=1).any(|v| is_mover(x + u, y + v)));
+                prop_assert!(near && movers[i].is_none(), "{i}: {distance}");
+            }
+        }
+    }
+}

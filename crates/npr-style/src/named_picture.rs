@@ -1,0 +1,82 @@
+//! The pictures that a style names for its tones.
+
+use crate::Style;
+
+/// Keys that name pictures, within a style or a rule.
+const RAMP: &str = "shade.ramp_image";
+const HATCH: &str = "ink.hatch.image";
+const BLEND_MASK: &str = "blend.mask";
+
+impl Style {
+    /// The pictures that tones and blends are made from: key and name as the style has them, each name where it stands first.
+    ///
+    /// Callers load them: no files are opened here. Background and line widths name theirs elsewhere.
+    pub fn named_pictures(&self) -> Vec<(String, &str)> {
+        let mut named = vec![
+            (RAMP.to_owned(), self.shade.ramp_image.as_str()),
+            (HATCH.to_owned(), self.ink.hatch.image.as_str()),
+            (BLEND_MASK.to_owned(), self.blend.mask.as_str()),
+        ];
+        for (i, rule) in self.rule.iter().enumerate() {
+            let of_rule = [
+                (RAMP, &rule.shade.ramp_image),
+                (HATCH, &rule.ink.hatch.image),
+            ];
+            for (key, name) in of_rule {
+                named.extend(
+                    name.iter()
+                        .map(|name| (format!("rule.{i}.{key}"), name.as_str())),
+                );
+            }
+        }
+        let mut seen = vec![""];
+        named.retain(|(_, name)| {
+            let is_new = !seen.contains(name);
+            seen.push(name);
+            is_new
+        });
+        named
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Style;
+
+    #[test]
+    fn each_picture_is_named_once_by_its_first_key() {
+        let text = "shade.ramp_image = 'a.png'\n[[rule]]\nshade.ramp_image = 'b.png'\n\
+                    [[rule]]\nshade.ramp_image = ''\n[[rule]]\nshade.ramp_image = 'a.png'";
+        let style = Style::from_toml(text, &|_| Err(String::new())).unwrap();
+        let named = style.named_pictures();
+        let wanted = [
+            ("shade.ramp_image", "a.png"),
+            ("rule.0.shade.ramp_image", "b.png"),
+        ];
+        assert_eq!(named, wanted.map(|(key, name)| (key.to_owned(), name)));
+        assert!(Style::default().named_pictures().is_empty());
+    }
+
+    #[test]
+    fn a_rule_hatches_with_a_pattern_or_a_picture() {
+        let text = "ink.hatch.image = 'a.png'\n[[rule]]\nmatch.object = 'B'\nink.hatch.image = 'b.png'\n\
+                    [[rule]]\nmatch.object = 'C'\nink.hatch.pattern = 'dots'";
+        let style = Style::from_toml(text, &|_| Err(String::new())).unwrap();
+        let of = |object| style.resolve_for("", object).ink.hatch.image;
+        assert_eq!([of("A"), of("B"), of("C")], ["a.png", "b.png", ""]);
+        let keys = style.named_pictures().into_iter().map(|(key, _)| key);
+        assert_eq!(
+            keys.collect::<Vec<_>>(),
+            ["ink.hatch.image", "rule.0.ink.hatch.image"]
+        );
+    }
+
+    #[test]
+    fn a_rule_takes_stops_or_a_picture() {
+        let text = "shade.ramp_image = 'a.png'\n[[rule]]\nmatch.object = 'B'\nshade.ramp_image = 'b.png'\n\
+                    [[rule]]\nmatch.object = 'C'\nshade.ramp = [{ at = 0, light = 1 }]";
+        let style = Style::from_toml(text, &|_| Err(String::new())).unwrap();
+        let of = |object| style.resolve_for("", object).ramp_image;
+        assert_eq!([of("A"), of("B"), of("C")], ["a.png", "b.png", ""]);
+    }
+}

@@ -1,0 +1,77 @@
+//! Parts whose lines are drawn as curves, in frames.
+
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+use npr_gpu::processor::Processor;
+use npr_mesh::testing::icosphere;
+use npr_render::{Frame, LineModel, LineModelOptions, Model, Stage, StageOptions};
+use npr_scene::Scene;
+use npr_style::Style;
+use npr_tests::comic::{SIZE, front};
+use npr_tests::{Ink, Object, lines, placed, scene_of};
+
+fn scene() -> Scene {
+    scene_of(&[
+        Object::new("Left", placed(&icosphere(4), [0.6; 3], [-0.7, 0.0, 0.0])),
+        Object::new("Right", placed(&icosphere(4), [0.6; 3], [0.4, 0.0, -1.0])),
+    ])
+}
+
+fn drawn(style: &Style, with_lines: bool) -> Frame {
+    let scene = scene();
+    let model = Model::new(&scene).unwrap();
+    let lines = LineModel::for_style(&scene, style, &LineModelOptions::default(), None).unwrap();
+    let mut stage = Stage::new(&Processor, &model, style, &StageOptions::new(SIZE)).unwrap();
+    if with_lines {
+        stage = stage.with_lines(&lines);
+    }
+    stage.draw(&front()).unwrap()
+}
+
+/// Number of inked pixels left and right of where the balls meet in the picture.
+fn sides(frame: &Frame) -> [usize; 2] {
+    let ink = Ink::of(frame);
+    let (left, right): (Vec<[f32; 2]>, Vec<[f32; 2]>) =
+        ink.centers().partition(|center| center[0] < 150.0);
+    [left.len(), right.len()]
+}
+
+#[test]
+fn curves_ink_what_shapes_ink() {
+    let [as_shape, as_curves] =
+        ["shape", "curves"].map(|method| Ink::of(&drawn(&lines(method), true)));
+    assert!(as_curves.count() > 500);
+    let strayed = as_curves.without(&as_shape.grown(2)).count();
+    let missing = as_shape.without(&as_curves.grown(2)).count();
+    assert!(
+        strayed + missing < as_shape.count() / 50,
+        "{strayed} {missing}"
+    );
+}
+
+#[test]
+fn a_rule_chooses_curves_for_a_part() {
+    let mut style = lines("none");
+    let rule = "[[rule]]\nmatch.object = 'Right'\nline.method = 'curves'";
+    style.rule = Style::from_toml(rule, &|_| Err(String::new()))
+        .unwrap()
+        .rule;
+    let [left, right] = sides(&drawn(&style, true));
+    // What of the right ball's outline the left one hides is not drawn over it.
+    assert!(left < 10 && right > 200, "{left} {right}");
+    style.rule[0].line.method = None;
+    style.line.method = npr_style::LineMethod::Curves;
+    let [left, right] = sides(&drawn(&style, true));
+    assert!(left > 200 && right > 200, "{left} {right}");
+}
+
+#[test]
+fn without_a_line_model_they_are_left_out_and_told_of() {
+    let frame = drawn(&lines("curves"), false);
+    assert_eq!(Ink::of(&frame).count(), 0);
+    assert_eq!(
+        frame.notices,
+        ["lines as curves are left out: no line model was given"]
+    );
+    assert!(drawn(&lines("shape"), false).notices.is_empty());
+}
