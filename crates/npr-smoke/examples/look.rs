@@ -2,9 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use image::{Rgb, RgbImage};
-use npr_smoke::{
-    Distances, Smoke, SmokeSettings, Source, Sphere, Track, TrackSettings, covered_share,
-};
+use npr_smoke::{Smoke, SmokeSettings, Source, Sphere, Track, TrackSettings};
 
 /// Pixels along a side of the picture.
 const SIDE: u32 = 512;
@@ -19,30 +17,23 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .collect::<Result<Vec<u32>, _>>()
     };
     let size = numbers(word(1, "15x15x20"))?;
+    let size = size.try_into().map_err(|_| "a size has three sides")?;
     let frames = numbers(word(2, "1,24,48,96"))?;
-    let size = [size[0], size[1], size[2]];
     let mut smoke = Smoke::new(SmokeSettings {
         size,
         ..SmokeSettings::of(source)
     })?;
     let count = word(4, "200").parse()?;
-    smoke.step();
     let settings = TrackSettings {
         count,
-        ..TrackSettings::default()
+        ..Default::default()
     };
+    smoke.step();
     let mut track = Track::new(&smoke.volume(), settings);
     for frame in 1..=frames.iter().copied().max().unwrap_or(0) {
         if frames.contains(&frame) {
-            let (volume, spheres) = (smoke.volume(), track.spheres());
-            let distances = Distances::new(&volume, settings.threshold);
-            let share = covered_share(&spheres, &volume, &distances);
-            println!(
-                "frame {frame}: {} spheres cover {share:.3} of {} voxels",
-                spheres.len(),
-                distances.dense_count()
-            );
-            draw(&spheres).save(format!("{}_{frame:04}.png", word(3, "smoke")))?;
+            println!("frame {frame}: {} spheres", track.spheres().len());
+            draw(&track.spheres()).save(format!("{}_{frame:04}.png", word(3, "smoke")))?;
         }
         smoke.step();
         track.step(&smoke.volume());

@@ -115,6 +115,9 @@ pub(crate) fn sum(count: usize, term: impl Fn(usize) -> f64 + Sync) -> f64 {
         let end = (block + SERIAL_BELOW).min(count);
         (block..end).map(&term).sum::<f64>()
     };
+    if count <= SERIAL_BELOW {
+        return block_sum(0);
+    }
     let blocks: Vec<usize> = (0..count).step_by(SERIAL_BELOW).collect();
     let sums: Vec<f64> = blocks.into_par_iter().map(block_sum).collect();
     sums.into_iter().sum()

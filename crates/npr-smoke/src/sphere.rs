@@ -58,11 +58,11 @@ pub fn covered_share(spheres: &[Sphere], volume: &Volume, distances: &Distances)
     }
     let lattice = volume.lattice();
     let [_, height, depth] = lattice.size;
-    let planes: Vec<Vec<usize>> = spheres_by_plane(spheres, volume, depth);
-    let covered_in = |(z, touching): (usize, &Vec<usize>)| {
+    let planes = touches_by_plane(spheres, volume, depth);
+    let covered_in = |(z, touches): (usize, &Vec<Touch>)| {
         let mut inside = vec![false; lattice.size[0] * height];
-        for &sphere in touching {
-            mark_plane(&spheres[sphere], volume, lattice, z, &mut inside);
+        for touch in touches {
+            mark_plane(touch, volume, lattice, z, &mut inside);
         }
         let is_dense = |at: usize| {
             let [x, y, _] = lattice.point(at);
@@ -76,13 +76,26 @@ pub fn covered_share(spheres: &[Sphere], volume: &Volume, distances: &Distances)
     (covered as f64 / dense as f64) as f32
 }
 
+/// A sphere that may touch a plane of equal z, and the voxels that it may reach there.
+#[derive(Clone)]
+struct Touch {
+    sphere: Sphere,
+    along_x: RangeInclusive<usize>,
+    along_y: RangeInclusive<usize>,
+}
+
 /// For each plane of equal z the spheres that may touch it.
-fn spheres_by_plane(spheres: &[Sphere], volume: &Volume, depth: usize) -> Vec<Vec<usize>> {
+fn touches_by_plane(spheres: &[Sphere], volume: &Volume, depth: usize) -> Vec<Vec<Touch>> {
     let mut planes = vec![Vec::new(); depth];
-    for (number, sphere) in spheres.iter().enumerate() {
-        if let Some([_, _, along_z]) = index_bounds(sphere, volume) {
+    for &sphere in spheres {
+        if let Some([along_x, along_y, along_z]) = index_bounds(&sphere, volume) {
+            let touch = Touch {
+                sphere,
+                along_x,
+                along_y,
+            };
             for plane in &mut planes[along_z] {
-                plane.push(number);
+                plane.push(touch.clone());
             }
         }
     }
@@ -112,14 +125,12 @@ fn index_bounds(sphere: &Sphere, volume: &Volume) -> Option<[RangeInclusive<usiz
 }
 
 /// Marks the voxels of one plane whose centres lie inside a sphere.
-fn mark_plane(sphere: &Sphere, volume: &Volume, lattice: Lattice, z: usize, inside: &mut [bool]) {
-    let Some([along_x, along_y, _]) = index_bounds(sphere, volume) else {
-        return;
-    };
-    for y in along_y {
-        for x in along_x.clone() {
+fn mark_plane(touch: &Touch, volume: &Volume, lattice: Lattice, z: usize, inside: &mut [bool]) {
+    let Sphere { center, radius, .. } = touch.sphere;
+    for y in touch.along_y.clone() {
+        for x in touch.along_x.clone() {
             let centre = volume.world_from_index(Vec3::new(x as f32, y as f32, z as f32));
-            if centre.distance_squared(sphere.center) <= sphere.radius * sphere.radius {
+            if centre.distance_squared(center) <= radius * radius {
                 inside[lattice.index([x, y, 0])] = true;
             }
         }
