@@ -28,11 +28,11 @@ fn drawn(style: &Style, with_lines: bool) -> Frame {
     stage.draw(&front()).unwrap()
 }
 
-/// Number of inked pixels left and right of where the balls meet in the picture.
+/// Number of inked pixels where only the left ball is, and elsewhere.
 fn sides(frame: &Frame) -> [usize; 2] {
     let ink = Ink::of(frame);
     let (left, right): (Vec<[f32; 2]>, Vec<[f32; 2]>) =
-        ink.centers().partition(|center| center[0] < 150.0);
+        ink.centers().partition(|center| center[0] < 135.0);
     [left.len(), right.len()]
 }
 
@@ -56,9 +56,15 @@ fn a_rule_chooses_curves_for_a_part() {
     style.rule = Style::from_toml(rule, &|_| Err(String::new()))
         .unwrap()
         .rule;
-    let [left, right] = sides(&drawn(&style, true));
-    // What of the right ball's outline the left one hides is not drawn over it.
-    assert!(left < 10 && right > 200, "{left} {right}");
+    let frame = drawn(&style, true);
+    let [left, right] = sides(&frame);
+    assert!(left == 0 && right > 200, "{left} {right}");
+    // The right ball's outline begins at 141, behind the left ball that ends at 150.
+    let ink = Ink::of(&frame);
+    assert!(
+        (138..149).all(|x| !ink.at(x, 120)),
+        "hidden lines are not drawn"
+    );
     style.rule[0].line.method = None;
     style.line.method = npr_style::LineMethod::Curves;
     let [left, right] = sides(&drawn(&style, true));

@@ -6,6 +6,9 @@ use npr_style::Style;
 use npr_style::lighting::LightSource;
 use std::collections::BTreeMap;
 
+/// Part of a beam's light that each of several pieces gives: between two of them both shine.
+const PIECE_SHARE: f32 = 0.5;
+
 /// Most lights along a single beam.
 const PIECES_MAX: usize = 4;
 
@@ -19,16 +22,18 @@ pub(crate) fn beam_lights(style: &Style, model: &Model) -> Vec<LightSource> {
         let info = &model.parts[part];
         let look = style.resolve_for(&info.material_name, &info.object_name);
         let Some(beam) = look.beam else { continue };
+        let pieces = pieces_of(&triangles);
+        let share = if pieces.len() > 1 { PIECE_SHARE } else { 1.0 };
         let light = |piece: Piece| LightSource {
             position: piece.middle().to_array(),
             kind: LightSource::POINT,
-            intensity: beam.light,
+            intensity: beam.light * share,
             color: beam.light_color(),
             range: piece.radius() * beam.light_reach,
             ..LightSource::default()
         };
-        let pieces = pieces_of(&triangles).into_iter();
-        lights.extend(pieces.filter(Piece::is_lit).map(light));
+        let lit = pieces.into_iter().filter(Piece::is_lit);
+        lights.extend(lit.map(light));
     }
     lights
 }
@@ -201,6 +206,7 @@ mod tests {
         let laser = lights_of(boxed([0.0, -0.1, -0.1], [8.0, 0.1, 0.1]), "light = 0.5");
         let places: Vec<f32> = laser.iter().map(|light| light.position[0]).collect();
         assert_eq!(places.len(), 4);
+        assert!(laser.iter().all(|light| light.intensity == 0.25));
         for (place, wanted) in places.iter().zip([1.0, 3.0, 5.0, 7.0]) {
             assert!((place - wanted).abs() < 0.05, "{places:?}");
         }

@@ -4,8 +4,10 @@ use crate::error::RenderError;
 use crate::model::Model;
 use crate::stage::Picture;
 use npr_core::geometry::Part;
+use npr_core::surface::dot;
 use npr_core::texture::{TextureStore, linear_texel};
 use npr_style::Style;
+use npr_style::compose::LUMA;
 use npr_style::hatch::{self, HatchTile};
 use npr_style::tone_row::{row_words, tone_row};
 use std::collections::BTreeMap;
@@ -70,16 +72,12 @@ impl<'a> Pictures<'a> {
     }
 }
 
-/// Share of each channel in luminance [ITU-R BT.709].
-const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
-
 /// Luminance 0..1 of every pixel over white paper, in linear light.
 fn luminance_of(picture: &Picture) -> Vec<f32> {
     let store = TextureStore::new();
     let luminance = |pixel: &[u8; 4]| {
         let [r, g, b, a] = linear_texel(store.words(), u32::from_le_bytes(*pixel));
-        let own = r * LUMA[0] + g * LUMA[1] + b * LUMA[2];
-        1.0 + (own - 1.0) * a
+        1.0 + (dot([r, g, b], LUMA) - 1.0) * a
     };
     picture.rgba.as_chunks().0.iter().map(luminance).collect()
 }

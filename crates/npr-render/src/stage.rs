@@ -20,6 +20,7 @@ use npr_gpu::graph::ResourceId;
 use npr_scene::Image;
 use npr_style::Style;
 use npr_style::compose::Compose;
+use npr_style::lighting::LightSource;
 use npr_style::shadow::SHADOW_SIDE;
 use npr_vector::artwork::ArtworkOptions;
 use npr_vector::drawing::{paint_drawing_over, paint_over};
@@ -293,38 +294,56 @@ impl<'a> Stage<'a> {
         write(session, self.plan.compose, &[compose])?;
         let lights = self.lights.of_frame(&self.style, self.model, camera, &view);
         write(session, self.plan.lights, &[lights])?;
+        for (id, matrix) in self.plan.light_views.iter().zip(&lights.shadows) {
+            write(session, *id, &[*matrix])?;
+        }
+        self.turn_strokes(&light::strongest(&lights), camera)?;
+        let mut frame = Frame::new(self.options.size);
+        frame.notices.extend_from_slice(self.notices());
+        for origin in self.tiles.origins() {
+            self.draw_tile(&view, origin, &mut frame)?;
+        }
+        self.finish(camera, &view, &mut frame)?;
+        Ok(frame)
+    }
+
+    /// Turns the strokes that follow the light to the strongest one.
+    fn turn_strokes(&mut self, light: &LightSource, camera: &Camera) -> Result<(), EngineError> {
         let [parts_turned, charts_turned] = self.styled.inked.follow_light(
             self.model,
             &self.style,
-            &light::strongest(&lights),
+            light,
             camera,
             &mut self.styled.parts,
         );
+        let session = self.session.as_mut();
         if parts_turned {
             write(session, self.plan.parts, &self.styled.parts)?;
         }
         if charts_turned {
             write(session, self.plan.charts, &self.styled.inked.charts)?;
         }
-        for (id, matrix) in self.plan.light_views.iter().zip(&lights.shadows) {
-            write(session, *id, &[*matrix])?;
-        }
-        let mut frame = Frame::new(self.options.size);
-        frame.notices.extend_from_slice(self.notices());
-        for origin in self.tiles.origins() {
-            self.draw_tile(&view, origin, &mut frame)?;
-        }
-        self.draw_curves(camera, &mut frame)?;
+        Ok(())
+    }
+
+    /// Adds what is drawn over a whole frame, the same on every engine: curves, speed lines, the other look, words.
+    fn finish(
+        &mut self,
+        camera: &Camera,
+        view: &View,
+        frame: &mut Frame,
+    ) -> Result<(), RenderError> {
+        self.draw_curves(camera, frame)?;
         if let Some(streaks) = &mut self.streaks {
-            streaks.apply(camera, &view, &mut frame)?;
+            streaks.apply(camera, view, frame)?;
         }
         if let Some(blending) = &mut self.blending {
-            blending.apply(camera, &mut frame)?;
+            blending.apply(camera, frame)?;
         }
-        for words in self.lettering.placed(&view, self.options.dpi) {
+        for words in self.lettering.placed(view, self.options.dpi) {
             paint_over(&words.marks, &mut frame.rgba, frame.size);
         }
-        Ok(frame)
+        Ok(())
     }
 
     /// Draws the tile whose kept part starts at `origin`.

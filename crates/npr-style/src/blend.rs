@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn what_is_no_preset_is_no_other_look() {
-        let told = read("blend.with = 'plane'").unwrap_err().to_string();
+        let told = read("blend.with = 'plainn'").unwrap_err().to_string();
         assert!(
             told.starts_with("blend.with") && told.ends_with("did you mean 'plain'?"),
             "{told}"

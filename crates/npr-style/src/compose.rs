@@ -15,6 +15,9 @@ use crate::lighting::Lights;
 use crate::shadow::SHADOWS_MAX;
 use crate::tone::Corners;
 
+/// Share of each channel in luminance [ITU-R BT.709].
+pub const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
+
 /// Settings of the last pass.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]

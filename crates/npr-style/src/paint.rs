@@ -3,15 +3,12 @@
 //! Pictures on paper show no colours, but eyes, stripes and dark leather must not be lost with them. A printer of
 //! black and white keeps them as tone: the white that light leaves is multiplied by the white that paint leaves.
 
-use crate::compose::Layers;
+use crate::compose::{LUMA, Layers};
 use crate::tone::footprint;
 use npr_core::geometry::{NONE, Part, Triangle};
 use npr_core::raster::ID_MASK;
 use npr_core::surface::{blend2, dot};
 use npr_core::texture;
-
-/// Share of each channel in luminance [ITU-R BT.709].
-pub(crate) const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
 
 /// Lightness, the root of luminance, up to which paint is solid ink in any light.
 const INKY: f32 = 0.12;

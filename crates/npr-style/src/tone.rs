@@ -3,11 +3,10 @@
 //! What is the same all over a triangle is found once a frame (`known.rs`), what changes gently once a pixel, at the middle
 //! of the samples that show the triangle; what has edges at every sample.
 
-use crate::compose::Layers;
+use crate::compose::{LUMA, Layers};
 use crate::gloss::shines_gently;
 use crate::inking::ink_over;
 use crate::known::Known;
-use crate::paint::LUMA;
 use crate::ramp::{Level, ramp_coordinate, ramp_light};
 use crate::tone_row::{row_is_even, row_light};
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
