@@ -12,6 +12,7 @@ pub mod digest;
 pub mod doubles;
 pub mod drawn;
 pub mod ink;
+pub mod layers;
 pub mod measures;
 mod net;
 pub mod occluders;

@@ -6,6 +6,7 @@ use npr_core::camera::Camera;
 use npr_vector::stroke::Kind;
 
 use super::chains::{cut, joined};
+use super::layers::Layer;
 use super::reference::{Piece, Reference, Sample, Sight};
 use super::viewpoint::{Viewpoint, wide};
 
@@ -68,7 +69,11 @@ impl Solid {
             reference
                 .pieces
                 .extend(seen.map(|(place, sample)| piece(place, sample, &view)));
-            let runs = cut(Kind::Contour, true, samples);
+            let layer = Layer {
+                kind: Kind::Contour,
+                object: 0,
+            };
+            let runs = cut(layer, true, samples);
             reference.joined.extend(joined(&runs));
             reference.runs.extend(runs);
         }

@@ -34,6 +34,8 @@ pub struct Candidate {
     pub half_edge: Option<u32>,
     /// What it is.
     pub kind: Kind,
+    /// The object that it lies on.
+    pub object: u32,
     /// Where it is seen it must be drawn; otherwise it may be.
     ///
     /// Open to choice are contours that lie in a valley and creases seen from behind, which only surfaces that are
@@ -94,6 +96,7 @@ impl<'a> Seen<'a> {
             ends: self.soup.ends_of(side),
             half_edge: None,
             kind,
+            object: self.soup.objects[side as usize / 3],
             due,
             beside: beside(*best.unwrap_or(&side)),
         }

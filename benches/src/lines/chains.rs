@@ -7,6 +7,7 @@ use npr_vector::stroke::Kind;
 
 use super::candidates::{Candidate, Seen};
 use super::ink::distance;
+use super::layers::Layer;
 use super::reference::{Sample, Sight};
 use super::soup::{Soup, SoupEdge};
 
@@ -22,8 +23,8 @@ const NONE: u32 = u32::MAX;
 /// A visible run of one line, from where it appears to where it is lost.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// What it is.
-    pub kind: Kind,
+    /// What it is, and what it lies on.
+    pub layer: Layer,
     /// It runs on from its end to its start.
     pub closed: bool,
     /// In pixels.
@@ -179,7 +180,8 @@ impl Joints {
         }
     }
 
-    fn join_if_free(&mut self, a: (u32, bool), b: (u32, bool)) {
+    /// Joins two ends unless one of them goes on already.
+    pub(crate) fn join_if_free(&mut self, a: (u32, bool), b: (u32, bool)) {
         if self.end(a).is_none() && self.end(b).is_none() {
             self.join(a, b);
         }
@@ -238,8 +240,12 @@ pub(crate) fn runs(
                 .links
                 .iter()
                 .flat_map(|(line, backwards)| walked(&samples[*line as usize], *backwards));
-            let kind = lines[chain.links[0].0 as usize].kind;
-            cut(kind, chain.closed, walk.collect())
+            let first = &lines[chain.links[0].0 as usize];
+            let layer = Layer {
+                kind: first.kind,
+                object: first.object,
+            };
+            cut(layer, chain.closed, walk.collect())
         })
         .collect()
 }
@@ -257,7 +263,7 @@ fn walked(samples: &[Sample], backwards: bool) -> Vec<Sample> {
 }
 
 /// Cuts a walk where it is hidden.
-pub(crate) fn cut(kind: Kind, closed: bool, mut walk: Vec<Sample>) -> Vec<Run> {
+pub(crate) fn cut(layer: Layer, closed: bool, mut walk: Vec<Sample>) -> Vec<Run> {
     let hidden = |sample: &Sample| sample.sight == Sight::Hidden;
     let gap = walk.iter().position(hidden);
     // A loop is cut at its first gap, so that the piece over its seam stays whole.
@@ -267,7 +273,7 @@ pub(crate) fn cut(kind: Kind, closed: bool, mut walk: Vec<Sample>) -> Vec<Run> {
     walk.split(hidden)
         .filter(|run| run.iter().any(|sample| sample.sight == Sight::Visible))
         .map(|run| Run {
-            kind,
+            layer,
             closed: closed && gap.is_none(),
             points: path(run),
             length: run.iter().map(|sample| sample.length).sum(),
@@ -318,6 +324,11 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    const CONTOUR: Layer = Layer {
+        kind: Kind::Contour,
+        object: 0,
+    };
+
     proptest! {
         #[test]
         fn runs_hold_every_visible_piece_once(closed: bool, sights in prop::collection::vec(0..3u8, 1..40)) {
@@ -327,7 +338,7 @@ mod tests {
                 length: 1.0,
                 sight: [Sight::Visible, Sight::Either, Sight::Hidden][usize::from(*sight)],
             }).collect();
-            let found = cut(Kind::Contour, closed, walk);
+            let found = cut(CONTOUR, closed, walk);
             let mut xs: Vec<usize> = found
                 .iter()
                 .flat_map(|run| run.points.windows(2).filter(|pair| pair[0][0] < pair[1][0]).map(|pair| pair[0][0] as usize))
@@ -348,7 +359,7 @@ mod tests {
     #[test]
     fn short_gaps_are_joined_and_short_rests_left_out() {
         let run = |from: f64, to: f64| Run {
-            kind: Kind::Contour,
+            layer: CONTOUR,
             closed: false,
             points: vec![[from, 0.0], [to, 0.0]],
             length: to - from,

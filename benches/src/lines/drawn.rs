@@ -4,9 +4,12 @@
 //! can tell apart; counted along the mesh, that is hundreds of runs where a draughtsman draws two. So lines are
 //! drawn with a pen of 3 pixels ([`super::pen`]), thinned to their middle, and followed from end to end. Lines nearer than the pen
 //! count once. A pen goes round any corner, so a square is one stroke; where lines meet, it goes on in the straightest one,
-//! if that turns by less than 45 degrees. No constant here comes from what drawings scored.
+//! if that turns by less than 45 degrees. Strokes are cut where the line becomes one of another kind or object
+//! ([`super::layers`]), and lines of one kind find each other first. No constant here comes from what drawings scored.
 
+use super::chains::Run;
 use super::ink::Curve;
+use super::layers::LayeredInk;
 use super::net::Net;
 use super::pen::Paper;
 
@@ -21,10 +24,11 @@ pub struct DrawnStroke {
     pub length: f64,
 }
 
-/// The strokes that a picture of `curves` takes; size in pixels.
+/// The strokes that a picture of `runs` takes; size in pixels.
 ///
-/// O(pixels of the picture + length of the curves times the pen's width), and the square of the spurs of one picture.
-pub fn drawn_strokes(curves: &[Curve], size: [u32; 2]) -> Vec<DrawnStroke> {
+/// O(pixels of the picture + length of the runs times the pen's width), and the square of the spurs of one picture.
+pub fn drawn_strokes(runs: &[Run], size: [u32; 2]) -> Vec<DrawnStroke> {
+    let curves: Vec<Curve> = runs.iter().map(Curve::of_run).collect();
     let mut paper = Paper::new(size);
     curves
         .iter()
@@ -35,7 +39,12 @@ pub fn drawn_strokes(curves: &[Curve], size: [u32; 2]) -> Vec<DrawnStroke> {
     let mut net = Net::read(&paper);
     net.cut_spurs();
     net.contract_bridges();
-    net.strokes()
+    let ink = LayeredInk::new(runs, &curves);
+    let whole = net.strokes(&|points| ink.layers_from(points));
+    whole
+        .into_iter()
+        .flat_map(|stroke| ink.cut(stroke))
+        .collect()
 }
 
 #[cfg(test)]
@@ -43,6 +52,7 @@ mod tests {
     use super::*;
     use crate::lines::analytic::Solid;
     use crate::lines::ink::sample;
+    use crate::lines::layers::Layer;
     use crate::lines::net::SHORTEST_PX;
     use crate::lines::pen::PEN_PX;
     use crate::lines::subjects::benchmark_camera;
@@ -176,7 +186,16 @@ mod tests {
         ]
     }
 
-    fn placed(picture: &Picture, angle: f64, offset: [f64; 2]) -> Vec<Curve> {
+    fn run(kind: Kind, closed: bool, points: Vec<[f64; 2]>) -> Run {
+        Run {
+            layer: Layer { kind, object: 0 },
+            closed,
+            points,
+            length: 0.0,
+        }
+    }
+
+    fn placed(picture: &Picture, angle: f64, offset: [f64; 2]) -> Vec<Run> {
         let [cos, sin] = [libm::cos(angle), libm::sin(angle)];
         let place = |[x, y]: &[f64; 2]| {
             [
@@ -184,12 +203,10 @@ mod tests {
                 120.0 + offset[1] + sin * x + cos * y,
             ]
         };
-        let curve = |(points, closed): &(Vec<[f64; 2]>, bool)| Curve {
-            kind: Kind::Contour,
-            closed: *closed,
-            points: points.iter().map(place).collect(),
+        let placed = |(points, closed): &(Vec<[f64; 2]>, bool)| {
+            run(Kind::Contour, *closed, points.iter().map(place).collect())
         };
-        picture.iter().map(curve).collect()
+        picture.iter().map(placed).collect()
     }
 
     proptest! {
@@ -205,9 +222,9 @@ mod tests {
         #[test]
         fn strokes_lie_on_the_lines_and_show_all_that_is_long(points in prop::collection::vec((5.0..235.0f64, 5.0..235.0f64), 0..12), closed: bool) {
             let points = points.into_iter().map(|(x, y)| [x, y]).collect();
-            let curves = [Curve { kind: Kind::Crease, closed, points }];
-            let ink: Vec<[f64; 2]> = sample(&curves).iter().map(|point| point.at).collect();
-            let strokes = drawn_strokes(&curves, SIZE);
+            let runs = [run(Kind::Crease, closed, points)];
+            let ink: Vec<[f64; 2]> = sample(&[Curve::of_run(&runs[0])]).iter().map(|point| point.at).collect();
+            let strokes = drawn_strokes(&runs, SIZE);
             let near = |place: &[f64; 2], px: f64| ink.iter().any(|at| super::super::ink::distance(*at, *place) < px);
             for stroke in &strokes {
                 prop_assert!(stroke.length >= SHORTEST_PX);
@@ -218,8 +235,8 @@ mod tests {
 
         #[test]
         fn any_numbers_may_be_drawn(points in prop::collection::vec(any::<[f64; 2]>(), 0..9), closed: bool, size in prop::array::uniform2(0..40u32)) {
-            let curves = [Curve { kind: Kind::Crease, closed, points: points.into_iter().map(|p| p.map(|v| v % 1e5)).collect() }];
-            prop_assert!(drawn_strokes(&curves, size).len() < 40);
+            let points = points.into_iter().map(|p| p.map(|v| v % 1e5)).collect();
+            prop_assert!(drawn_strokes(&[run(Kind::Crease, closed, points)], size).len() < 40);
         }
     }
 
@@ -248,7 +265,9 @@ mod tests {
         };
         let size = [960, 540];
         let exact = Solid::Ring { tube: 0.4 }.reference(&camera, size);
-        let curves: Vec<Curve> = exact.runs.iter().map(Curve::of_run).collect();
-        assert_eq!((curves.len(), drawn_strokes(&curves, size).len()), (2, 2));
+        assert_eq!(
+            (exact.runs.len(), drawn_strokes(&exact.runs, size).len()),
+            (2, 2)
+        );
     }
 }

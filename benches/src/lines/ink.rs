@@ -25,7 +25,7 @@ impl Curve {
     /// A visible run of the reference.
     pub fn of_run(run: &Run) -> Self {
         Self {
-            kind: run.kind,
+            kind: run.layer.kind,
             closed: run.closed,
             points: run.points.clone(),
         }

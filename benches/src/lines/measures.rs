@@ -6,6 +6,7 @@ use npr_vector::stroke::{Drawing, Kind};
 
 use super::doubles::double_share;
 use super::ink::{Bins, Curve, InkPoint, distance, sample};
+use super::net::SHORTEST_PX;
 use super::reference::{Piece, Reference};
 
 /// Distances up to which ink and reference count as being in one place, in pixels.
@@ -92,6 +93,8 @@ impl Against {
 pub struct Pieces {
     /// How many.
     pub count: usize,
+    /// How many that are no specks: of 8 pixels and more, as a pen's strokes have to be.
+    pub long: usize,
     /// Mean length weighted by length, in pixels: the length of the stroke that a random spot of ink lies on.
     pub mean_px: f64,
     /// Share of pieces under 9 pixels.
@@ -100,13 +103,15 @@ pub struct Pieces {
 
 impl Measures {
     /// Strokes for each run that there is to draw; 1 where there is none of either.
+    ///
+    /// Against the strokes of a pen, which are no specks, only strokes that are none count either.
     pub fn fragmentation(&self, against: Against) -> f64 {
-        let runs = match against {
-            Against::Runs => self.runs,
-            Against::Joined => self.joined,
-            Against::Drawn => self.drawn,
+        let counts = match against {
+            Against::Runs => (self.strokes.count, self.runs.count),
+            Against::Joined => (self.strokes.count, self.joined.count),
+            Against::Drawn => (self.strokes.long, self.drawn.long),
         };
-        match (self.strokes.count, runs.count) {
+        match counts {
             (0, 0) => 1.0,
             (strokes, runs) => strokes as f64 / runs as f64,
         }
@@ -268,8 +273,10 @@ fn pieces(lengths: impl Iterator<Item = f64>) -> Pieces {
     let sum: f64 = lengths.iter().sum();
     let squares: f64 = lengths.iter().map(|length| length * length).sum();
     let short = lengths.iter().filter(|length| **length < SHORT_PX).count();
+    let is_long = |length: &&f64| **length >= SHORTEST_PX;
     Pieces {
         count: lengths.len(),
+        long: lengths.iter().filter(is_long).count(),
         mean_px: if sum > 0.0 { squares / sum } else { 0.0 },
         short: short as f64 / lengths.len().max(1) as f64,
     }
@@ -325,6 +332,7 @@ fn merged(members: &[Fault]) -> Option<Fault> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::drawn::DrawnStroke;
     use super::*;
     use npr_vector::stroke::{Stroke, StrokePoint};
 
@@ -364,7 +372,10 @@ mod tests {
             outward: [0.0, -1.0],
         };
         let run = super::super::chains::Run {
-            kind: Kind::Contour,
+            layer: super::super::layers::Layer {
+                kind: Kind::Contour,
+                object: 0,
+            },
             closed: false,
             points: (0..600).map(at).collect(),
             length: 300.0,
@@ -454,6 +465,29 @@ mod tests {
         let rows = [100.0, 101.0].map(|y| stroke(&[[50.0, y], [350.0, y]], Kind::Contour));
         let found = measure(&drawing(rows.to_vec()), &line());
         assert!(near(found.extra_doubles(), 1.0) && found.fragmentation(Against::Runs) == 2.0);
+    }
+
+    #[test]
+    fn specks_count_on_neither_side_against_a_pen() {
+        let speck = |x: f64| stroke(&[[x, 120.0], [x + 7.0, 120.0]], Kind::Contour);
+        let whole = stroke(&[[50.0, 100.0], [350.0, 100.0]], Kind::Contour);
+        let drawn = |length: f64| DrawnStroke {
+            closed: false,
+            points: Vec::new(),
+            length,
+        };
+        let reference = Reference {
+            drawn: vec![drawn(300.0), drawn(7.0)],
+            ..line()
+        };
+        let found = measure(&drawing(vec![whole, speck(60.0), speck(90.0)]), &reference);
+        assert_eq!(
+            (found.strokes.count, found.strokes.long, found.drawn.long),
+            (3, 1, 1)
+        );
+        assert_eq!(found.fragmentation(Against::Drawn), 1.0);
+        assert_eq!(found.fragmentation(Against::Runs), 3.0);
+        assert!(near(found.strokes.short, 2.0 / 3.0));
     }
 
     #[test]

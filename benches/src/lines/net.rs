@@ -8,6 +8,7 @@ use npr_vector::stroke::Kind;
 use super::chains::{Chain, Joints};
 use super::drawn::DrawnStroke;
 use super::ink::Curve;
+use super::layers::Layer;
 use super::pen::{PEN_PX, Paper};
 
 /// Shorter strokes are specks, shorter spurs and bridges artefacts of thinning, in pixels: under three widths of the pen.
@@ -49,6 +50,15 @@ impl Arc {
         self.points.reverse();
         self.ends.reverse();
         self
+    }
+
+    /// The points from one end on.
+    fn from_end(&self, at_tail: bool) -> Vec<[f64; 2]> {
+        let mut points = self.points.clone();
+        if !at_tail {
+            points.reverse();
+        }
+        points
     }
 
     /// Unit vector away from one end.
@@ -165,13 +175,39 @@ impl Net {
     }
 
     /// Joins lines through meetings; specks are left out.
-    pub(crate) fn strokes(&self) -> Vec<DrawnStroke> {
+    ///
+    /// First the straightest of one layer, then around corners the only two of a layer, then the straightest of those left.
+    /// `layers_of` tells the layers in which a line leaves a meeting, by its points from there on.
+    pub(crate) fn strokes(
+        &self,
+        layers_of: &dyn Fn(&[[f64; 2]]) -> Vec<Layer>,
+    ) -> Vec<DrawnStroke> {
         let mut joints = Joints::new(self.arcs.len());
         for ends in self.meetings().into_values() {
-            let direction =
-                |(arc, at_tail): &(u32, bool)| self.arcs[*arc as usize].direction(*at_tail);
+            let arc_of = |(arc, at_tail): &(u32, bool)| (&self.arcs[*arc as usize], *at_tail);
+            let direction = |end: &(u32, bool)| {
+                let (arc, at_tail) = arc_of(end);
+                arc.direction(at_tail)
+            };
             let directions: Vec<DVec2> = ends.iter().map(direction).collect();
-            joints.join_straightest(&ends, |a, b| -directions[a].dot(directions[b]));
+            let straight = |a: usize, b: usize| -directions[a].dot(directions[b]);
+            let layers = ends.iter().map(|end| {
+                let (arc, at_tail) = arc_of(end);
+                layers_of(&arc.from_end(at_tail))
+            });
+            let layers: Vec<Vec<Layer>> = layers.collect();
+            let is_shared = |a: usize, b: usize| layers[a].iter().any(|l| layers[b].contains(l));
+            joints.join_straightest(&ends, |a, b| {
+                if is_shared(a, b) {
+                    straight(a, b)
+                } else {
+                    -1.0
+                }
+            });
+            for [a, b] in only_two(&layers) {
+                joints.join_if_free(ends[a], ends[b]);
+            }
+            joints.join_straightest(&ends, straight);
         }
         let strokes = joints.chains().into_iter().map(|chain| self.stroke(&chain));
         strokes
@@ -202,6 +238,21 @@ impl Net {
             length: arcs().map(|(arc, _)| arc.length).sum(),
         }
     }
+}
+
+/// Pairs of ends that are the only two of a layer in their meeting; the least layer first.
+fn only_two(layers: &[Vec<Layer>]) -> Vec<[usize; 2]> {
+    let mut all: Vec<Layer> = layers.concat();
+    all.sort_unstable();
+    all.dedup();
+    let ends_of = |layer: Layer| -> Vec<usize> {
+        (0..layers.len())
+            .filter(|end| layers[*end].contains(&layer))
+            .collect()
+    };
+    all.into_iter()
+        .filter_map(|layer| ends_of(layer).try_into().ok())
+        .collect()
 }
 
 /// Follows thinned lines.

@@ -66,7 +66,9 @@ impl Paper {
         }
     }
 
-    /// Blackens white specks smaller than the blot of the pen: no pen can leave them out.
+    /// Blackens white specks smaller than the blot of the pen, and slits half a pixel wide: no pen can leave them out.
+    ///
+    /// Where two lines part slowly, slits open and close with every step of the paper's pixels; they would be islands of two lines.
     pub fn fill_specks(&mut self) {
         let blot = (std::f64::consts::PI * (PEN_PX * FINENESS / 2.0).powi(2)) as usize;
         for pixel in self.black_pixels() {
@@ -77,22 +79,32 @@ impl Paper {
         }
     }
 
-    /// The white pixels that hang together with one by their sides; none where they are `most` or more.
+    /// The white pixels that hang together with one by their sides; none where they are `most` or more and not all in slits.
     fn white_around(&self, start: usize, most: usize) -> Vec<usize> {
         let mut found = Vec::new();
         let mut open = vec![start];
+        let mut is_slit = true;
         while let Some(pixel) = open.pop() {
             if self.black[pixel] || found.contains(&pixel) {
                 continue;
             }
             found.push(pixel);
             // The margin hangs together with all that is outside.
-            if found.len() >= most || self.is_margin(pixel) {
+            is_slit = is_slit && !self.is_in_white_square(pixel);
+            if self.is_margin(pixel) || (found.len() >= most && !is_slit) {
                 return Vec::new();
             }
             open.extend(self.sides(pixel));
         }
         found
+    }
+
+    /// Whether four white pixels meet at a corner of this one.
+    fn is_in_white_square(&self, pixel: usize) -> bool {
+        let white = self.around(pixel).map(|near| !self.black[near]);
+        (0..8)
+            .step_by(2)
+            .any(|side| white[side] && white[side + 1] && white[(side + 2) % 8])
     }
 
     fn is_margin(&self, pixel: usize) -> bool {

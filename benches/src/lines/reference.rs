@@ -11,7 +11,6 @@ use rayon::prelude::*;
 use super::candidates::{Candidate, Seen, Wanted};
 use super::chains::{Run, chain, joined, runs};
 use super::drawn::{DrawnStroke, drawn_strokes};
-use super::ink::Curve;
 use super::occluders::Occluders;
 use super::soup::Soup;
 use super::viewpoint::Viewpoint;
@@ -108,8 +107,7 @@ impl Reference {
 
     /// Draws the runs with a pen.
     pub(super) fn draw(&mut self, view: &Viewpoint) {
-        let curves: Vec<Curve> = self.runs.iter().map(Curve::of_run).collect();
-        self.drawn = drawn_strokes(&curves, view.size().map(|side| side as u32));
+        self.drawn = drawn_strokes(&self.runs, view.size().map(|side| side as u32));
     }
 
     /// Length of all that must be drawn, in pixels.
@@ -251,14 +249,20 @@ mod tests {
     #[test]
     fn a_cube_shows_nine_of_its_twelve_edges() {
         let found = reference(&cube(), [3.0, 4.0, 5.0]);
-        let count = |kind| found.runs.iter().filter(|run| run.kind == kind).count();
+        let count = |kind| {
+            found
+                .runs
+                .iter()
+                .filter(|run| run.layer.kind == kind)
+                .count()
+        };
         // The six contours are one loop; of six creases three end in the near corner, three lie behind.
         assert_eq!(count(Kind::Contour), 1);
         assert!(
             found
                 .runs
                 .iter()
-                .any(|run| run.kind == Kind::Contour && run.closed)
+                .any(|run| run.layer.kind == Kind::Contour && run.closed)
         );
         assert_eq!(count(Kind::Crease), 3);
         assert!(found.pieces.iter().all(|piece| piece.due));

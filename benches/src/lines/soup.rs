@@ -22,6 +22,8 @@ pub struct Soup {
     pub faces: Vec<[u32; 3]>,
     /// A number for the material of each face.
     pub materials: Vec<u32>,
+    /// Number of the object of each face: no edge has faces of two.
+    pub objects: Vec<u32>,
 }
 
 /// An edge and its faces.
@@ -89,6 +91,7 @@ impl Soup {
 
     /// Adds the faces of one object, without those that are a line or a point and without repetitions.
     fn add_faces(&mut self, faces: impl Iterator<Item = ([u32; 3], u32)>) {
+        let object = self.objects.last().map_or(0, |last| last + 1);
         let mut known = HashSet::new();
         for (corners, material) in faces {
             let mut sorted = corners;
@@ -97,6 +100,7 @@ impl Soup {
             if a != b && b != c && known.insert(sorted) {
                 self.faces.push(corners);
                 self.materials.push(material);
+                self.objects.push(object);
             }
         }
     }

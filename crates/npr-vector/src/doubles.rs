@@ -5,6 +5,7 @@
 
 use crate::run::{Run, distance};
 use std::collections::{BTreeSet, HashMap};
+use std::ops::Range;
 
 /// Within this distance of a longer run a sample is a double, in pixels.
 const BESIDE_PX: f64 = 2.25;
@@ -35,7 +36,8 @@ const HAIR_PX: f64 = 12.0;
 
 /// Runs without doubles; order is kept. Runs must be sampled about evenly.
 ///
-/// O(samples) for lines that do not crowd in one place.
+/// What is left of a run is cut by majority, so that noise leaves no shreds, but not where it holds two ends together: a short bare
+/// part between the ends of two lines stays, however little it is. O(samples) for lines that do not crowd in one place.
 pub fn suppress(runs: Vec<Run>) -> Vec<Run> {
     let mut taken = Taken::default();
     let mut kept: Vec<Vec<Run>> = vec![Vec::new(); runs.len()];
@@ -95,7 +97,12 @@ struct Sample {
     /// Distance from the start of its run, in pixels.
     at: f64,
     occluded: bool,
+    /// The end of its run that it lies within a pen's width of.
+    tip: Option<Tip>,
 }
+
+/// An end of a run: the number of the run, and whether it is the last.
+type Tip = (usize, bool);
 
 /// The samples of all runs taken so far, in cells.
 #[derive(Default)]
@@ -106,30 +113,27 @@ struct Taken {
 impl Taken {
     /// Which samples of a run lie along something taken, by majority.
     fn doubled(&mut self, run: &Run, index: usize) -> Vec<bool> {
-        let directions = directions(run);
-        let stations = stations(run);
-        let raw: Vec<bool> = (0..run.points.len())
-            .map(|i| {
-                let (place, along) = (run.points[i].place, directions[i]);
-                let doubled = self.near(place, BESIDE_PX, |other| {
-                    let apart = other.run != index || stations[i] - other.at > OWN_PX;
-                    let cos = along[0] * other.along[0] + along[1] * other.along[1];
-                    other.occluded == (run.occluders > 0) && apart && cos.abs() > ALONG_COS
-                });
-                // Later samples of this run are compared with this one.
-                if !doubled {
-                    self.add(Sample {
-                        place,
-                        along,
-                        run: index,
-                        at: stations[i],
-                        occluded: run.occluders > 0,
-                    });
-                }
-                doubled
-            })
-            .collect();
-        majority(&raw)
+        let samples = samples(run, index);
+        let mut beside: Vec<Option<Option<Tip>>> = Vec::with_capacity(samples.len());
+        for sample in samples {
+            let is_beside = |other: &Sample| {
+                let apart = other.run != index || sample.at - other.at > OWN_PX;
+                let [a, b] = [sample.along, other.along];
+                let cos = a[0] * b[0] + a[1] * b[1];
+                other.occluded == sample.occluded && apart && cos.abs() > ALONG_COS
+            };
+            let nearest = self.nearest(sample.place, BESIDE_PX, is_beside);
+            beside.push(nearest.map(|other| other.tip));
+            // Later samples of this run are compared with this one.
+            if nearest.is_none() {
+                self.add(sample);
+            }
+        }
+        let mut doubled = majority(&beside);
+        for bridge in bridges(&beside) {
+            doubled[bridge].fill(false);
+        }
+        doubled
     }
 
     fn add(&mut self, sample: Sample) {
@@ -139,29 +143,24 @@ impl Taken {
 
     /// Takes all samples of a run.
     fn take(&mut self, run: &Run, index: usize) {
-        let (directions, stations) = (directions(run), stations(run));
-        for ((point, along), at) in run.points.iter().zip(directions).zip(stations) {
-            self.add(Sample {
-                place: point.place,
-                along,
-                run: index,
-                at,
-                occluded: run.occluders > 0,
-            });
-        }
+        samples(run, index)
+            .into_iter()
+            .for_each(|sample| self.add(sample));
     }
 
     /// Whether the pen that drew what is taken has touched a place of a run.
     fn inks(&self, run: &Run, place: [f64; 2]) -> bool {
-        self.near(place, PEN_PX, |other| other.occluded == (run.occluders > 0))
+        self.nearest(place, PEN_PX, |other| other.occluded == (run.occluders > 0))
+            .is_some()
     }
 
     /// Whether something taken lies beside every sample but one in five.
     fn surrounds(&self, run: &Run) -> bool {
         let beside = |place| {
-            self.near(place, BESIDE_PX, |other| {
+            self.nearest(place, BESIDE_PX, |other| {
                 other.occluded == (run.occluders > 0)
             })
+            .is_some()
         };
         let count = run
             .points
@@ -171,19 +170,25 @@ impl Taken {
         5 * count >= 4 * run.points.len()
     }
 
-    fn near(&self, place: [f64; 2], reach: f64, is: impl Fn(&Sample) -> bool) -> bool {
+    /// The nearest sample within a reach of at most the pen's width; of equally near ones the one taken first in its cell.
+    fn nearest(
+        &self,
+        place: [f64; 2],
+        reach: f64,
+        is: impl Fn(&Sample) -> bool,
+    ) -> Option<&Sample> {
         let [x, y] = cell_of(place);
-        (-1..=1).any(|dx| {
-            (-1..=1).any(|dy| {
-                self.cells
-                    .get(&[x.saturating_add(dx), y.saturating_add(dy)])
-                    .is_some_and(|samples| {
-                        samples
-                            .iter()
-                            .any(|other| distance(other.place, place) < reach && is(other))
-                    })
-            })
-        })
+        let cells = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [dx, dy]));
+        let around = cells.filter_map(|[dx, dy]| {
+            self.cells
+                .get(&[x.saturating_add(dx), y.saturating_add(dy)])
+        });
+        around
+            .flatten()
+            .map(|other| (distance(other.place, place), other))
+            .filter(|(apart, other)| *apart < reach && is(other))
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, other)| other)
     }
 }
 
@@ -218,13 +223,51 @@ fn stations(run: &Run) -> Vec<f64> {
     std::iter::once(0.0).chain(steps).collect()
 }
 
-fn majority(raw: &[bool]) -> Vec<bool> {
-    (0..raw.len())
-        .map(|i| {
-            let window = &raw[i.saturating_sub(MAJORITY)..(i + MAJORITY + 1).min(raw.len())];
-            2 * window.iter().filter(|doubled| **doubled).count() > window.len()
+/// The points of a run, of a number, as samples.
+fn samples(run: &Run, index: usize) -> Vec<Sample> {
+    let (stations, length) = (stations(run), run.length());
+    let tip = |at: f64| match run.closed {
+        false if at < PEN_PX => Some((index, false)),
+        false if length - at < PEN_PX => Some((index, true)),
+        _ => None,
+    };
+    let points = run.points.iter().zip(directions(run)).zip(stations);
+    points
+        .map(|((point, along), at)| Sample {
+            place: point.place,
+            along,
+            run: index,
+            at,
+            occluded: run.occluders > 0,
+            tip: tip(at),
         })
         .collect()
+}
+
+/// Of every sample, whether most around it are beside something.
+fn majority<T>(beside: &[Option<T>]) -> Vec<bool> {
+    (0..beside.len())
+        .map(|i| {
+            let window = &beside[i.saturating_sub(MAJORITY)..(i + MAJORITY + 1).min(beside.len())];
+            2 * window.iter().filter(|beside| beside.is_some()).count() > window.len()
+        })
+        .collect()
+}
+
+/// The parts beside nothing that hold two ends together: before and after each, the run is beside an end, and not the same one.
+fn bridges(beside: &[Option<Option<Tip>>]) -> Vec<Range<usize>> {
+    let mut found = Vec::new();
+    let mut from = 0;
+    for part in beside.chunk_by(|a, b| a.is_none() == b.is_none()) {
+        let range = from..from + part.len();
+        from = range.end;
+        let before = range.start.checked_sub(1).and_then(|i| beside[i].flatten());
+        let after = beside.get(range.end).copied().flatten().flatten();
+        if part[0].is_none() && before.is_some() && after.is_some() && before != after {
+            found.push(range);
+        }
+    }
+    found
 }
 
 /// What is left of a run.
@@ -274,6 +317,7 @@ fn parts(run: &Run, doubled: &[bool]) -> Vec<Run> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::merge::{FACING_PX, merge_ends};
     use crate::run::testing::{run_along, straight};
     use proptest::prelude::*;
 
@@ -361,6 +405,23 @@ mod tests {
                     prop_assert!(nearest < BESIDE_PX + 1.5 * (MAJORITY + 1) as f64, "{} px", nearest);
                 }
             }
+        }
+
+        /// Where one line ends and the next begins, a third over both ends holds them together, however short its own part is.
+        #[test]
+        fn what_holds_two_ends_together_stays(angle in 0.0_f64..6.3, gap in 4.0_f64..20.0, over in prop::array::uniform2(3.0_f64..30.0), off in -1.0_f64..1.0) {
+            let [sin, cos] = [angle.sin(), angle.cos()];
+            let along = |id: u64, from: f64, to: f64, off: f64| {
+                straight(id, [from * cos - off * sin, from * sin + off * cos], angle, to - from)
+            };
+            let runs = vec![
+                along(1, -90.0, 0.0, 0.0),
+                along(2, gap, gap + 90.0, 0.0),
+                along(3, -over[0], gap + over[1], off),
+            ];
+            let joined = merge_ends(suppress(runs), FACING_PX);
+            prop_assert_eq!(joined.len(), 1);
+            prop_assert!((joined[0].length() - gap - 180.0).abs() < 6.0, "{}", joined[0].length());
         }
 
         /// Which lines stay does not depend on their order.

@@ -152,23 +152,27 @@ impl<'a> PolygonOutline<'a> {
     ///
     /// Pieces along an edge that is a contour of the polygons take over what is seen of that. Samples of others take the least number of
     /// occluders of the contours beside them within tolerance that are nearest in the world; where there is none, the smooth
-    /// contour is none of the polygons and counts as hidden once. Gaps and specks of up to four pixels are settled along the line.
+    /// contour is none of the polygons and counts as hidden once. Gaps and specks of up to four pixels are settled along the line, except on edges,
+    /// where sights have decided: hidden parts of a fringe would lie double beside the line that hides them.
     pub fn spans(&self, graph: &CurveGraph, pieces: &[Option<Piece>]) -> Vec<Vec<Span>> {
-        let mut counts: Vec<Vec<u32>> = (0..graph.nodes.len())
+        let mut sampled: Vec<Sampled> = (0..graph.nodes.len())
             .into_par_iter()
             .with_min_len(64)
             .map(|node| match &pieces[node] {
-                Some(piece) => self.occluders_along(graph, node as u32, piece),
-                None => Vec::new(),
+                Some(piece) => self.sampled(graph, node as u32, piece),
+                None => Sampled::default(),
             })
             .collect();
         for chain in graph.chains() {
-            settle_chain(&chain, pieces, &mut counts);
+            settle_chain(&chain, &mut sampled);
         }
-        counts.iter().map(|counts| spans_of(counts)).collect()
+        sampled
+            .iter()
+            .map(|piece| spans_of(&piece.occluders))
+            .collect()
     }
 
-    fn occluders_along(&self, graph: &CurveGraph, node: u32, piece: &Piece) -> Vec<u32> {
+    fn sampled(&self, graph: &CurveGraph, node: u32, piece: &Piece) -> Sampled {
         let CurveNode { edge, face, .. } = graph.nodes[node as usize];
         let first = self
             .by_edge
@@ -190,7 +194,11 @@ impl<'a> PolygonOutline<'a> {
                 own => self.occluders_on(own, world),
             }
         };
-        (0..samples).map(sample).collect()
+        Sampled {
+            step_px: piece.length() / samples as f64,
+            is_known: !own.is_empty(),
+            occluders: (0..samples).map(sample).collect(),
+        }
     }
 
     /// Occluders of the nearest of some parts of one edge.
@@ -332,28 +340,32 @@ fn sample_count(length_px: f64) -> usize {
     ((length_px / STEP_PX).ceil() as usize).clamp(1, 1 << 14)
 }
 
-/// Closes gaps and drops specks along a chain of sampled pieces.
-fn settle_chain(chain: &[u32], pieces: &[Option<Piece>], counts: &mut [Vec<u32>]) {
+/// What is seen of a piece, at equal distances along it.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Sampled {
+    step_px: f64,
+    /// Sights have decided it, not what lies beside.
+    is_known: bool,
+    occluders: Vec<u32>,
+}
+
+/// Closes gaps and drops specks along a chain of sampled pieces; what is known stays.
+fn settle_chain(chain: &[u32], sampled: &mut [Sampled]) {
     let (mut hidden, mut lengths) = (Vec::new(), Vec::new());
     for node in chain {
-        if let Some(piece) = &pieces[*node as usize] {
-            let of_node = &counts[*node as usize];
-            hidden.extend(of_node.iter().map(|count| *count > 0));
-            lengths.extend(
-                of_node
-                    .iter()
-                    .map(|_| piece.length() / of_node.len() as f64),
-            );
-        }
+        let piece = &sampled[*node as usize];
+        hidden.extend(piece.occluders.iter().map(|count| *count > 0));
+        lengths.extend(piece.occluders.iter().map(|_| piece.step_px));
     }
     settle_runs(&mut hidden, &lengths, SETTLE_PX);
     let mut settled = hidden.into_iter();
     for node in chain {
-        for count in &mut counts[*node as usize] {
-            *count = match settled.next() {
-                Some(true) => (*count).max(1),
-                _ => 0,
-            };
+        let piece = &mut sampled[*node as usize];
+        for count in &mut piece.occluders {
+            let is_hidden = settled.next().unwrap_or(false);
+            if !piece.is_known {
+                *count = if is_hidden { (*count).max(1) } else { 0 };
+            }
         }
     }
 }

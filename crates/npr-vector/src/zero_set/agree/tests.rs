@@ -162,3 +162,35 @@ fn hidden_contours_hide_the_smooth_line_beside_them() {
         }
     }
 }
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    /// What sights decided stays; the rest is settled as if they had decided nothing.
+    #[test]
+    fn settling_leaves_what_is_known(pieces in prop::collection::vec((any::<bool>(), 0.2_f64..1.5, prop::collection::vec(0_u32..3, 0..6)), 0..20)) {
+        let piece = |(is_known, step_px, occluders): &(bool, f64, Vec<u32>)| Sampled {
+            step_px: *step_px,
+            is_known: *is_known,
+            occluders: occluders.clone(),
+        };
+        let before: Vec<Sampled> = pieces.iter().map(piece).collect();
+        let chain: Vec<u32> = (0..before.len() as u32).collect();
+        let mut after = before.clone();
+        settle_chain(&chain, &mut after);
+        let mut hidden: Vec<bool> = before.iter().flat_map(|p| &p.occluders).map(|count| *count > 0).collect();
+        let lengths: Vec<f64> = before.iter().flat_map(|p| vec![p.step_px; p.occluders.len()]).collect();
+        settle_runs(&mut hidden, &lengths, SETTLE_PX);
+        let mut hidden = hidden.into_iter();
+        for (before, after) in before.iter().zip(&after) {
+            for (count, found) in before.occluders.iter().zip(&after.occluders) {
+                let is_hidden = hidden.next() == Some(true);
+                if before.is_known {
+                    prop_assert_eq!(count, found);
+                } else {
+                    prop_assert_eq!(*found, if is_hidden { (*count).max(1) } else { 0 });
+                }
+            }
+        }
+    }
+}
