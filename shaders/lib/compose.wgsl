@@ -8,7 +8,7 @@ struct Compose {
     saturation: f32,
     samples: u32,
     right_world: vec3<f32>,
-    unused: u32,
+    smoke_shadow_side: u32,
     back_world: vec3<f32>,
     unused_b: u32,
     streak_world: vec3<f32>,
@@ -20,3 +20,4 @@ struct Compose {
 const COMPOSE_RIBBONS: u32 = 1u;
 const COMPOSE_OVERLAY: u32 = 2u;
 const COMPOSE_BEAMS: u32 = 4u;
+const COMPOSE_SMOKE: u32 = 8u;

@@ -14,6 +14,9 @@ const OPEN_PAPER: f32 = 0.08;
 // Change of luminance over the distance between strokes from which the strokes give way to the tone's own edge.
 const ABRUPT: f32 = 0.4;
 
+// Part of the hatch, of what inks last, that a knot fills at once.
+const KNOT_FILL: f32 = 0.22;
+
 fn shade_level(x: f32, dark_at: f32, light_at: f32) -> f32 {
     if light_at <= dark_at { return select(1.0, 0.0, x < light_at); }
     return clamp((x - dark_at) / (light_at - dark_at), 0.0, 1.0);
@@ -51,6 +54,8 @@ fn ink_over(part: u32, range: vec2<f32>) -> f32 {
 struct Hatching {
     s: f32,
     slope: vec2<f32>,
+    // Least change over a pixel that its edges are smoothed with.
+    hairline: f32,
 }
 
 // Where a pixel lies in a hatch, in tiles, and how far it is from there to its neighbours.
@@ -85,11 +90,9 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
         l[i] = level_of(part, lit.x);
     }
     // Strokes show no change of the light that is faster than they follow one another.
-    let per_px = length(vec2<f32>(l[1] - l[0], l[2] - l[0]));
-    if (flags & PART_PAINTED) != 0u {
-        let white = paint_at(id, part, weights);
-        for (var i = 0u; i < 3u; i++) { l[i] = painted_level(l[i], white[i], parts[part].threshold); }
-    }
+    let white = paint_at(id, part, weights);
+    let per_px = length(vec2<f32>(l[1] - l[0], l[2] - l[0])) * white[0];
+    for (var i = 0u; i < 3u; i++) { l[i] = painted_level(l[i], white[i], parts[part].threshold); }
     // Beyond a silhouette the surface runs on to anywhere.
     let darkens = clamp(2.0 * vec2<f32>(l[1] - l[0], l[2] - l[0]), vec2<f32>(-1.0), vec2<f32>(1.0));
     if (flags & PART_HATCH) == 0u {
@@ -98,7 +101,7 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
     let ink = ink_of_level(part, l[0]);
     if ink >= 0.0 { return ink; }
     var calm: Calm;
-    calm.knot = knot_at(id, weights[0]);
+    calm.knot = knot_at(id, weights[0]) * white[0];
     calm.abrupt = abruptness(per_px, parts[part].spacing_px);
     return ink_of_hatch(part, place_in_hatch(id, part, weights, places), l[0], darkens, calm);
 }
@@ -138,8 +141,7 @@ fn ink_of_hatch(part: u32, place: Place, l: f32, darkens: vec2<f32>, calm: Calm)
 
 fn hatch_coverage(part: u32, layer: Hatching, l: f32, darkens: vec2<f32>, calm: Calm) -> f32 {
     let hatching = toned_hatch(untied(layer, calm.knot), calm.abrupt);
-    // On the ridge of a stroke S is flat, and a hairline would be all ink in one pixel and none in the next.
-    let slope = max(length(hatching.slope + darkens), 1.0 / parts[part].spacing_px);
+    let slope = max(length(hatching.slope + darkens), hatching.hairline);
     return ink_coverage(tone_value(hatching.s, l), slope, parts[part].threshold);
 }
 
@@ -178,6 +180,7 @@ fn toned_hatch(full: Hatching, abrupt: f32) -> Hatching {
     var hatching = full;
     hatching.s += (NO_HATCH - hatching.s) * abrupt;
     hatching.slope *= 1.0 - abrupt;
+    hatching.hairline *= 1.0 - abrupt;
     return hatching;
 }
 
@@ -187,13 +190,15 @@ fn knot_at(id: u32, weights: vec3<f32>) -> f32 {
     return blend(weights, vertices[at.x].knot, vertices[at.y].knot, vertices[at.z].knot);
 }
 
-// A hatch without the white of its knots: the last strokes to merge do so as soon as half of the paper is inked.
+// A hatch without the white of its knots: the last strokes merge together, a fifth of the way before they would.
 fn untied(tied: Hatching, knot: f32) -> Hatching {
     var hatching = tied;
-    let most = 1.0 - 0.5 * clamp(knot, 0.0, 1.0);
+    let most = 1.0 - KNOT_FILL * clamp(knot, 0.0, 1.0);
     if hatching.s <= most { return hatching; }
+    // What is left is the edge of the tone, which is crisp.
     hatching.s = most;
     hatching.slope = vec2<f32>(0.0);
+    hatching.hairline = 0.0;
     return hatching;
 }
 
@@ -218,6 +223,7 @@ fn scaled(layer: Hatching, by: vec2<f32>) -> Hatching {
     var hatching: Hatching;
     hatching.s = by.x;
     hatching.slope = layer.slope * by.y;
+    hatching.hairline = layer.hairline;
     return hatching;
 }
 
@@ -248,6 +254,8 @@ fn hatch_layer(part: u32, place: Place) -> Hatching {
     var hatching: Hatching;
     hatching.s = found.x;
     hatching.slope = vec2<f32>(dot(found.yz, place.right), dot(found.yz, place.down)) * f32(level_side);
+    // On the ridge of a stroke S is flat, and a hairline would be all ink in one pixel and none in the next.
+    hatching.hairline = 1.0 / parts[part].spacing_px;
     return hatching;
 }
 

@@ -1,5 +1,7 @@
 // What a surface is lit by. Twin: npr_style::lighting. The shader declares `lights: Lights`.
 
+//# use lib/step
+
 struct LightSource {
     position: vec3<f32>,
     kind: u32,
@@ -40,12 +42,6 @@ fn only_distant() -> bool {
     return lights.count == 1u && lights.sources[0].kind == LIGHT_DISTANT && lights.sources[0].intensity == 1.0;
 }
 
-fn smooth_step(low: f32, high: f32, x: f32) -> f32 {
-    if high <= low { return select(0.0, 1.0, x >= low); }
-    let t = clamp((x - low) / (high - low), 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
-}
-
 fn fading(distance: f32, range: f32) -> f32 {
     if range <= 0.0 { return 1.0; }
     let ratio = distance / range;
@@ -63,17 +59,31 @@ fn towards_light(source: LightSource, world: vec3<f32>) -> vec3<f32> {
     return unit_or_z(source.position - world);
 }
 
-// What a light adds to the ramp coordinate at a place, at most `most` of itself.
-fn share_at(source: LightSource, world: vec3<f32>, normal: vec3<f32>, most: f32) -> f32 {
-    if is_far(source) { return min(ramp_coordinate(dot(normal, source.direction)), most) * source.intensity; }
+// Unit vector from a place towards a light, and how strong it shines there.
+struct Reach {
+    towards: vec3<f32>,
+    strength: f32,
+}
+
+fn reach_at(source: LightSource, world: vec3<f32>) -> Reach {
+    var reach: Reach;
+    reach.towards = source.direction;
+    reach.strength = source.intensity;
+    if is_far(source) { return reach; }
     let offset = source.position - world;
     let distance = sqrt(dot(offset, offset));
-    let towards = unit_or_z(offset);
-    var strength = source.intensity * fading(distance, source.range);
+    reach.towards = unit_or_z(offset);
+    reach.strength = source.intensity * fading(distance, source.range);
     if source.kind == LIGHT_SPOT {
-        strength *= smooth_step(source.cone.x, source.cone.y, -dot(towards, source.direction));
+        reach.strength *= smooth_step(source.cone.x, source.cone.y, -dot(reach.towards, source.direction));
     }
-    return min(ramp_coordinate(dot(normal, towards)), most) * strength;
+    return reach;
+}
+
+// What a light adds to the ramp coordinate at a place, at most `most` of itself.
+fn share_at(source: LightSource, world: vec3<f32>, normal: vec3<f32>, most: f32) -> f32 {
+    let reach = reach_at(source, world);
+    return min(ramp_coordinate(dot(normal, reach.towards)), most) * reach.strength;
 }
 
 // Bit `i` of `dark` says that the place lies in the shadow of light `i`.

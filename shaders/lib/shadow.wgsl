@@ -49,7 +49,9 @@ fn shadowed(id: u32, corners: Corners, weights: vec3<f32>) -> u32 {
         if lights.sources[i].shadow == 0u { continue; }
         let towards = towards_light(lights.sources[i], world);
         let facing = dot(normal, towards);
-        if facing > 0.0 && is_dark(id, i, world, towards, facing) { dark |= 1u << i; }
+        if facing <= 0.0 { continue; }
+        let map = lights.sources[i].shadow - 1u;
+        if is_dark(id, i, world, towards, facing) || is_behind_smoke(map, world) { dark |= 1u << i; }
     }
     return dark;
 }

@@ -35,6 +35,12 @@ override WG: u32 = 64u;
 @group(0) @binding(16) var shadow_1: texture_2d<u32>;
 @group(0) @binding(17) var shadow_2: texture_2d<u32>;
 @group(0) @binding(18) var shadow_3: texture_2d<u32>;
+@group(0) @binding(19) var smoke_colors: texture_2d<f32>;
+@group(0) @binding(20) var smoke_depths: texture_2d<u32>;
+@group(0) @binding(21) var smoke_shadow_0: texture_depth_2d;
+@group(0) @binding(22) var smoke_shadow_1: texture_depth_2d;
+@group(0) @binding(23) var smoke_shadow_2: texture_depth_2d;
+@group(0) @binding(24) var smoke_shadow_3: texture_depth_2d;
 
 //# use lib/texture
 //# use lib/tone_row
@@ -45,6 +51,7 @@ override WG: u32 = 64u;
 //# use lib/beam
 //# use lib/cutout
 //# use lib/shadow
+//# use lib/veil
 
 // How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
 const TONE_ROOM: f32 = 0.002;
@@ -301,8 +308,9 @@ fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
     return drawn + (line - drawn) * lined;
 }
 
-// The surfaces of a pixel, premultiplied.
-fn surfaces(pixel: vec2<u32>, frame_px: vec2<f32>) -> vec4<f32> {
+// The surfaces of a pixel but for what smoke hides of them, premultiplied.
+fn surfaces(pixel: vec2<u32>, veil: Veil, frame_px: vec2<f32>) -> vec4<f32> {
+    var hidden = veil.hidden;
     var seen: array<u32, 4>;
     let count = compose.samples * compose.samples;
     for (var i = 0u; i < count; i++) {
@@ -319,7 +327,12 @@ fn surfaces(pixel: vec2<u32>, frame_px: vec2<f32>) -> vec4<f32> {
         }
         left &= ~members;
         if seen[i] == 0u { continue; }
-        let share = f32(countOneBits(members)) / f32(count);
+        var shown = 0.0;
+        for (var j = i; j < count; j++) {
+            if (members & (1u << j)) != 0u { shown += 1.0 - hidden[j]; }
+        }
+        if shown == 0.0 { continue; }
+        let share = shown / f32(count);
         sum += vec4<f32>(shade(seen[i], members, frame_px), 1.0) * share;
     }
     return sum;
@@ -356,23 +369,28 @@ fn main(
 
     let pixel = pixel_of(element, window.size);
     let frame_px = frame_at(window, pixel);
-    let surface = surfaces(pixel, frame_px);
+    let veil = veil_of(pixel, frame_px);
+    var surface = surfaces(pixel, veil, frame_px);
+    surface += vec4<f32>(veil.color.rgb, 1.0) * veil_shown(veil);
     var color = surface;
     if surface.a < 1.0 { color += background(frame_px) * (1.0 - surface.a); }
+    var faded = -1.0;
     var covered = 0.0;
     if (compose.flags & COMPOSE_BEAMS) != 0u {
-        let beams = add_beams(pixel, frame_px, color);
+        let beams = add_beams(pixel, veil, frame_px, color);
         color = beams.color;
         covered = beams.covered;
     }
     if (compose.flags & COMPOSE_RIBBONS) != 0u {
         var line = linear_of(textureLoad(ribbons, pixel, 0));
-        line.a *= 1.0 - covered;
+        if line.a > 0.0 { faded = line_fade(veil, pixel, frame_px); }
+        line.a *= (1.0 - covered) * (1.0 - max(faded, 0.0));
         color = over(line, color);
     }
     if (compose.flags & COMPOSE_OVERLAY) != 0u {
         var line = linear_texel(overlay[element]);
-        line.a *= 1.0 - covered;
+        if line.a > 0.0 && faded < 0.0 { faded = line_fade(veil, pixel, frame_px); }
+        line.a *= (1.0 - covered) * (1.0 - max(faded, 0.0));
         color = over(line, color);
     }
     let straight = color.rgb / max(color.a, 1e-6);

@@ -104,6 +104,22 @@ shaders! {
     VECTOR_WEIGH_SAMPLES = "vector/weigh_samples";
     /// Lets lines change only where it is clear.
     VECTOR_FILTER_VISIBILITY = "vector/filter_visibility";
+    /// Draws the numbers of spheres with depth.
+    RASTER_DRAW_SPHERES = "raster/draw_spheres";
+    /// Projects spheres of smoke.
+    SMOKE_PROJECT_SPHERES = "smoke/project_spheres";
+    /// Lights spheres of smoke.
+    SMOKE_SHADE_SPHERES = "smoke/shade_spheres";
+    /// Adds up the tones of smoke in cells.
+    SMOKE_GATHER_TONES = "smoke/gather_tones";
+    /// Smooths cells along rows.
+    SMOKE_BLUR_ROWS = "smoke/blur_rows";
+    /// Smooths cells along columns.
+    SMOKE_BLUR_COLUMNS = "smoke/blur_columns";
+    /// Gives every pixel its smoothed tone.
+    SMOKE_SMOOTH_TONES = "smoke/smooth_tones";
+    /// Draws tones and outlines of smoke.
+    SMOKE_RESOLVE_PICTURE = "smoke/resolve_picture";
     /// Shades surfaces and lays lines over them.
     SHADE_COMPOSE_FRAME = "shade/compose_frame";
 }
@@ -132,6 +148,11 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/paint", include_str!("../lib/paint.wgsl")),
     ("lib/tone_row", include_str!("../lib/tone_row.wgsl")),
     ("lib/lighting", include_str!("../lib/lighting.wgsl")),
+    ("lib/step", include_str!("../lib/step.wgsl")),
+    ("lib/sphere", include_str!("../lib/sphere.wgsl")),
+    ("lib/smoke", include_str!("../lib/smoke.wgsl")),
+    ("lib/smoke_line", include_str!("../lib/smoke_line.wgsl")),
+    ("lib/veil", include_str!("../lib/veil.wgsl")),
     ("lib/shadow", include_str!("../lib/shadow.wgsl")),
     ("lib/ribbon", include_str!("../lib/ribbon.wgsl")),
 ];

@@ -3,7 +3,7 @@
 //! Deterministic math ([`math`]), colour encoding ([`color`]), cameras ([`camera`]), the structs that
 //! passes read and write on both engines ([`geometry`], [`window`]), the surface point under a pixel
 //! ([`surface`]), packed textures ([`texture`]), and a triangle rasteriser with a stated fill rule
-//! ([`raster`]). Nothing here knows about files, styles or graphics devices.
+//! ([`raster`]); spheres of smoke ([`smoke`]). Nothing here knows about files, styles or graphics devices.
 //!
 //! ```
 //! use npr_core::camera::Camera;
@@ -23,6 +23,7 @@ pub mod math;
 pub mod outline;
 pub mod raster;
 pub mod shape;
+pub mod smoke;
 pub mod surface;
 pub mod texture;
 pub mod window;

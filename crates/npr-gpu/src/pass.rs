@@ -107,6 +107,13 @@ pub enum Agreement {
     Exact,
     /// Every float field within this relative bound (against the larger magnitude, at least 1); integers exact.
     Relative(f32),
+    /// The same, but for a share of elements, where a place lies on the edge of a shadow.
+    NearlyAll {
+        /// Share of elements that may differ.
+        share: f32,
+        /// Relative bound of all others.
+        bound: f32,
+    },
     /// Pictures: at most this share of texels may differ by more than 2 of 255 in a channel.
     Texels(f32),
 }

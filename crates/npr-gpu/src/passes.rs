@@ -6,6 +6,7 @@ pub mod line;
 pub mod mesh;
 pub mod raster;
 pub mod shade;
+pub mod smoke;
 pub mod vector;
 
 /// All passes: each is checked against its shader and its twin.
@@ -48,5 +49,13 @@ pub const ALL: &[&Pass] = &[
     &vector::SAMPLE_VISIBILITY,
     &vector::WEIGH_SAMPLES,
     &vector::FILTER_VISIBILITY,
+    &smoke::PROJECT_SPHERES,
+    &smoke::DRAW_SPHERES,
+    &smoke::SHADE_SPHERES,
+    &smoke::GATHER_TONES,
+    &smoke::BLUR_ROWS,
+    &smoke::BLUR_COLUMNS,
+    &smoke::SMOOTH_TONES,
+    &smoke::RESOLVE_PICTURE,
     &shade::COMPOSE_FRAME,
 ];

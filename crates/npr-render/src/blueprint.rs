@@ -1,5 +1,6 @@
 //! The graph of a frame: which passes a style needs, over which resources.
 
+use crate::smoke::{Needs, SmokePlan};
 use npr_core::geometry::{
     ChartCorners, Edge, GPixel, Influence, Part, PosedVertex, Stamp, Triangle, Vertex,
 };
@@ -30,6 +31,8 @@ pub(crate) struct Counts {
     pub beams: usize,
     /// Lights that throw shadows.
     pub shadows: usize,
+    /// What smoke needs, where there is any.
+    pub smoke: Option<Needs>,
 }
 
 /// Pixel grids of a tile.
@@ -142,6 +145,8 @@ pub(crate) struct Blueprint {
     pub parts: ResourceId,
     pub texels: ResourceId,
     pub frame: ResourceId,
+    /// Smoke, where there is any.
+    pub smoke: Option<SmokePlan>,
     posed: ResourceId,
     ids: ResourceId,
     beam_ids: ResourceId,
@@ -166,6 +171,9 @@ impl Blueprint {
         }
         if counts.beams > 0 {
             plan.draw_beams(grids);
+        }
+        if let Some(needs) = &counts.smoke {
+            plan.smoke = Some(SmokePlan::new(&mut plan.graph, needs, plan.output_window));
         }
         plan.compose_frame();
         plan
@@ -201,6 +209,7 @@ impl Blueprint {
             parts: graph.buffer::<Part>("parts", counts.parts),
             texels: graph.buffer::<u32>("texels", counts.texel_words),
             frame: graph.buffer::<u32>("frame", pixel_count(grids.output)),
+            smoke: None,
             posed: graph.buffer::<PosedVertex>("posed", counts.vertices),
             ids: graph.image("ids", Format::U32, color),
             beam_ids: graph.image("beam ids", Format::U32, only(counts.beams > 0, color)),
@@ -416,7 +425,8 @@ impl Blueprint {
             self.overlay,
             self.frame,
         ];
-        let bound = [&bound[..], &self.shadows].concat();
+        let smoke = SmokePlan::composed(self.smoke.as_ref(), &mut self.graph);
+        let bound = [&bound[..], &self.shadows, &smoke].concat();
         self.graph.compute(&shade::COMPOSE_FRAME, &bound);
     }
 }

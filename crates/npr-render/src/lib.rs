@@ -2,6 +2,7 @@
 //!
 //! [`Model::new`] prepares a scene once: welds it, finds its edges and curvature. A [`Stage`] joins a model with a style and a
 //! frame size on an engine, and [`Stage::draw`] makes a picture for a camera, as often as wanted.
+//! [`Smoke`] among its options is drawn with it, or alone with a model of an empty scene.
 //! [`LineModel`] draws the same scene as curves instead; a [`LineStage`] lets a device do its part.
 //!
 //! ```
@@ -35,6 +36,7 @@ mod look;
 mod model;
 mod pictures;
 mod placement;
+mod smoke;
 mod stage;
 mod streaks;
 mod textures;
@@ -45,6 +47,8 @@ pub use frame::Frame;
 pub use lettering::Lettering;
 pub use lines::{KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage};
 pub use model::{Model, PartInfo};
+pub use npr_core::smoke::Sphere;
 pub use npr_vector::lettering::Font;
 pub use npr_vector::stroke::{Drawing, Kind};
+pub use smoke::Smoke;
 pub use stage::{Picture, Stage, StageOptions};

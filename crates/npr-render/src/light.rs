@@ -142,6 +142,22 @@ impl ChosenLights {
         }
     }
 
+    /// The lights of a style's smoke, and whether they are these: its own, or these with shadows where none throws any.
+    pub fn of_smoke(&self, style: &Style, model: &Model) -> (Self, bool) {
+        if let Some(direction) = style.smoke.light {
+            let mut own = style.clone();
+            (own.light.direction, own.light.shadow) = (direction, style.smoke.shadow);
+            (own.light.file, own.light.extra) = (false, Vec::new());
+            return (Self::new(&own, model), false);
+        }
+        let mut lights = self.clone();
+        let are_same = self.shadow_count() > 0;
+        for light in &mut lights.lights {
+            light.shadow = light.shadow || (style.smoke.shadow && !are_same);
+        }
+        (lights, are_same)
+    }
+
     /// How many of them throw shadows.
     pub fn shadow_count(&self) -> usize {
         let casting = self.lights.iter().filter(|light| light.casts()).count();
@@ -157,11 +173,13 @@ impl ChosenLights {
     }
 
     /// The lights of a frame as a camera sees it.
-    pub fn of_frame(&self, style: &Style, model: &Model, camera: &Camera, view: &View) -> Lights {
+    ///
+    /// `bounds` is the box of all that throws shadows.
+    pub fn of_frame(&self, style: &Style, bounds: Bounds, camera: &Camera, view: &View) -> Lights {
         let mut lights = Lights {
             count: self.lights.len() as u32,
             shadow_at: style.light.shadow_at,
-            bias_world: model.radius() * BIAS_RADII,
+            bias_world: radius_of(bounds) * BIAS_RADII,
             ..Lights::default()
         };
         let mut shadow_count = 0;
@@ -171,7 +189,7 @@ impl ChosenLights {
                 source.direction = look::in_world(camera, source.direction);
             }
             if light.casts() && shadow_count < SHADOWS_MAX {
-                lights.shadows[shadow_count] = light_view(source, model, camera, view);
+                lights.shadows[shadow_count] = light_view(source, bounds, camera, view);
                 shadow_count += 1;
                 source.shadow = shadow_count as u32;
             }
@@ -245,12 +263,12 @@ impl Chosen {
 }
 
 /// What a light sees: a spot its cone, a distant light what throws shadows into the picture.
-fn light_view(source: &LightSource, model: &Model, camera: &Camera, view: &View) -> Matrix {
+fn light_view(source: &LightSource, bounds: Bounds, camera: &Camera, view: &View) -> Matrix {
     if source.kind == LightSource::SPOT {
-        let near = model.radius() * SPOT_NEAR_RADII;
+        let near = radius_of(bounds) * SPOT_NEAR_RADII;
         return spot_view(source.position, source.direction, source.cone[0], near);
     }
-    let casters = box_corners(model.bounds());
+    let casters = box_corners(bounds);
     distant_view(source.direction, &casters, &seen(&casters, camera, view))
 }
 

@@ -9,11 +9,14 @@ use crate::light::{self, ChosenLights};
 use crate::lines::{LineModel, LineOptions};
 use crate::look::{self, StyledModel};
 use crate::model::Model;
+use crate::placement::Bounds;
+use crate::smoke::{self, Measure, Needs, Smoke};
 use crate::streaks::Streaks;
 use crate::tiles::{TILE_PIXELS, Tiles};
 use bytemuck::{NoUninit, cast_slice};
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
+use npr_core::smoke::{Lens, Sphere};
 use npr_core::window::{View, Window};
 use npr_gpu::engine::{Engine, EngineError, Session};
 use npr_gpu::graph::ResourceId;
@@ -66,6 +69,8 @@ pub struct StageOptions {
     pub pictures: BTreeMap<String, Picture>,
     /// Fonts of the style's words, by the names that the style gives them.
     pub fonts: BTreeMap<String, Font>,
+    /// Smoke beside the model; [`Stage::set_smoke`] changes it from frame to frame.
+    pub smoke: Option<Smoke>,
     /// Most bytes that may be planned.
     pub memory_limit: u64,
     /// Most pixels drawn at once, 4 million by default and at most; a larger frame is drawn in tiles. Fewer need less
@@ -74,7 +79,7 @@ pub struct StageOptions {
 }
 
 impl StageOptions {
-    /// Options for a frame of `size` pixels: 96 pixels per inch, no pictures or fonts, 4 GiB.
+    /// Options for a frame of `size` pixels: 96 pixels per inch, no pictures, fonts or smoke, 4 GiB.
     pub fn new(size: [u32; 2]) -> Self {
         Self {
             size,
@@ -83,6 +88,7 @@ impl StageOptions {
             width_image: None,
             pictures: BTreeMap::new(),
             fonts: BTreeMap::new(),
+            smoke: None,
             memory_limit: 4 << 30,
             tile_pixels: TILE_PIXELS,
         }
@@ -99,6 +105,8 @@ pub struct Stage<'a> {
     method: Method,
     styled: StyledModel,
     lights: ChosenLights,
+    /// The lights of the smoke, and whether they are those of the scene.
+    smoke_lights: (ChosenLights, bool),
     lettering: Lettering,
     /// Gives the lines of parts whose method is `curves`.
     lines: Option<&'a LineModel>,
@@ -135,8 +143,17 @@ impl<'a> Stage<'a> {
             options.dpi,
             options.size[1] as f32 / model.radius(),
         );
-        let margin =
-            look::largest_half_width(style, &styled.parts, base_px).min(1e4) as u32 + TILE_ROOM;
+        let mut reach = look::largest_half_width(style, &styled.parts, base_px);
+        let mut measure = Measure {
+            height_px: options.size[1] as f32,
+            dpi: options.dpi,
+            size: options.size,
+            samples: if style.antialias.samples > 1 { 2 } else { 1 },
+        };
+        if options.smoke.is_some() {
+            reach = reach.max(measure.reach_px(&style.smoke));
+        }
+        let margin = reach.min(1e4) as u32 + TILE_ROOM;
         let tiles = Tiles::new(options.size, margin, options.tile_pixels);
         let scale = style.detect.scale;
         let grids = Grids {
@@ -144,8 +161,10 @@ impl<'a> Stage<'a> {
             mask: tiles
                 .size()
                 .map(|side| ((side as f32 / scale).round() as u32).max(1)),
-            samples: if style.antialias.samples > 1 { 2 } else { 1 },
+            samples: measure.samples,
         };
+        measure.size = grids.output;
+        let smoke_lights = lights.of_smoke(style, model);
         let counts = Counts {
             vertices: styled.vertices.len(),
             joints: model.palette.len(),
@@ -156,10 +175,20 @@ impl<'a> Stage<'a> {
             texel_words: styled.textures.words().len(),
             beams: styled.beam_count(),
             shadows: lights.shadow_count(),
+            smoke: options.smoke.as_ref().map(|smoke| Needs {
+                spheres: smoke.spheres.len(),
+                cells: measure.cell_count(&style.smoke),
+                lights: smoke_lights.0.shadow_count(),
+                side: style.smoke.shadow_px,
+                size: grids.output,
+            }),
         };
         let mut method = Method::of(style);
         if counts.beams > 0 {
             method.layers |= Compose::BEAMS;
+        }
+        if counts.smoke.is_some() {
+            method.layers |= Compose::SMOKE;
         }
         let plan = Blueprint::new(&counts, &grids, method);
         let mut budget = Budget::new(options.memory_limit);
@@ -193,6 +222,7 @@ impl<'a> Stage<'a> {
             method,
             styled,
             lights,
+            smoke_lights,
             lettering,
             lines: None,
             streaks,
@@ -246,7 +276,77 @@ impl<'a> Stage<'a> {
         let shadow_px = [SHADOW_SIDE as f32; 2];
         let window = Window::over(shadow_px, [0.0; 2], shadow_px, [SHADOW_SIDE; 2]);
         write(session, plan.shadow_window, &[window])?;
-        write(session, plan.texels, styled.textures.words())
+        write(session, plan.texels, styled.textures.words())?;
+        self.upload_smoke()
+    }
+
+    /// Hands over the spheres of the smoke.
+    fn upload_smoke(&mut self) -> Result<(), EngineError> {
+        let (Some(plan), Some(smoke)) = (&self.plan.smoke, &self.options.smoke) else {
+            return Ok(());
+        };
+        let mut spheres = smoke.styled(&self.style.smoke);
+        let planned = self.plan.graph.element_count(plan.spheres);
+        spheres.resize(planned, Sphere::default());
+        let side = self.style.smoke.shadow_px;
+        let side_px = [side as f32; 2];
+        let window = Window::over(side_px, [0.0; 2], side_px, [side; 2]);
+        write(self.session.as_mut(), plan.light_window, &[window])?;
+        write(self.session.as_mut(), plan.spheres, &spheres)
+    }
+
+    /// Draws other smoke from now on, of at most as many spheres as the smoke that the stage was made with.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError::TooMany`] for more spheres, or for any where there was no smoke; or a failing engine.
+    pub fn set_smoke(&mut self, smoke: &Smoke) -> Result<(), RenderError> {
+        let plan = self.plan.smoke.as_ref();
+        let limit = plan.map_or(0, |plan| self.plan.graph.element_count(plan.spheres));
+        smoke::check_count(smoke.spheres.len(), limit)?;
+        self.options.smoke = Some(smoke.clone());
+        Ok(self.upload_smoke()?)
+    }
+
+    /// The box of all that is drawn.
+    fn bounds(&self) -> Bounds {
+        let model = self.model.bounds();
+        let Some(smoke) = self.options.smoke.as_ref().map(Smoke::extent) else {
+            return model;
+        };
+        if self.model.triangles.is_empty() {
+            return smoke;
+        }
+        (
+            std::array::from_fn(|i| model.0[i].min(smoke.0[i])),
+            std::array::from_fn(|i| model.1[i].max(smoke.1[i])),
+        )
+    }
+
+    /// Hands over how a camera sees the smoke.
+    fn upload_smoke_view(&mut self, camera: &Camera, view: &View) -> Result<(), EngineError> {
+        let (Some(plan), Some(smoke)) = (&self.plan.smoke, &self.options.smoke) else {
+            return Ok(());
+        };
+        let lens = smoke::lens_of(view, &self.style.smoke);
+        let chosen = &self.smoke_lights.0;
+        let lights = chosen.of_frame(&self.style, self.bounds(), camera, view);
+        let measure = Measure {
+            height_px: self.options.size[1] as f32,
+            dpi: self.options.dpi,
+            size: self.grids.output,
+            samples: self.grids.samples,
+        };
+        let look = measure.look(&self.style, &lens, smoke.bounds(), &lights);
+        let session = self.session.as_mut();
+        write(session, plan.lens, &[lens])?;
+        write(session, plan.look, &[look])?;
+        write(session, plan.lights, &[lights])?;
+        for (id, matrix) in plan.light_lenses.iter().zip(&lights.shadows) {
+            let light = Lens::of_light(matrix, self.style.smoke.shadow_px);
+            write(session, *id, &[light])?;
+        }
+        Ok(())
     }
 
     /// Bytes that were planned, for what is drawn beside it.
@@ -265,7 +365,8 @@ impl<'a> Stage<'a> {
     ///
     /// [`RenderError::Engine`] where the device fails; nothing half drawn is returned.
     pub fn draw(&mut self, camera: &Camera) -> Result<Frame, RenderError> {
-        let view = camera.view(self.options.size, self.model.bounds());
+        let bounds = self.bounds();
+        let view = camera.view(self.options.size, bounds);
         let world_px = look::nearest_world_px(&view, camera, self.model);
         let base_px = look::base_px(
             &self.style,
@@ -288,16 +389,20 @@ impl<'a> Stage<'a> {
             self.styled.background_texture,
         );
         compose.flags = self.method.layers;
+        if self.plan.smoke.is_some() && self.smoke_lights.1 && self.style.smoke.casts {
+            compose.smoke_shadow_side = self.style.smoke.shadow_px;
+        }
         let session = self.session.as_mut();
         write(session, self.plan.view, &[view])?;
         write(session, self.plan.outline, &[outline])?;
         write(session, self.plan.compose, &[compose])?;
-        let lights = self.lights.of_frame(&self.style, self.model, camera, &view);
+        let lights = self.lights.of_frame(&self.style, bounds, camera, &view);
         write(session, self.plan.lights, &[lights])?;
         for (id, matrix) in self.plan.light_views.iter().zip(&lights.shadows) {
             write(session, *id, &[*matrix])?;
         }
         self.turn_strokes(&light::strongest(&lights), camera)?;
+        self.upload_smoke_view(camera, &view)?;
         let mut frame = Frame::new(self.options.size);
         frame.notices.extend_from_slice(self.notices());
         for origin in self.tiles.origins() {

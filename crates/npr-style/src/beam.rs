@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::Color;
 use crate::compose::{Layers, Samples};
 use crate::ramp::{Level, ramp_light};
+use crate::smoke::Veil;
 
 /// Most steps of a beam's ramp.
 pub const BEAM_STOPS_MAX: usize = 4;
@@ -142,6 +143,7 @@ impl Layers<'_> {
         &self,
         seen: &Samples,
         beams: &Samples,
+        veil: Option<&Veil>,
         frame_px: [f32; 2],
         color: &mut [f32; 4],
     ) -> f32 {
@@ -154,7 +156,8 @@ impl Layers<'_> {
             }
             let shown = (i..beams.len())
                 .filter(|&j| beams[j] == id && self.beam_shows(id, seen[j], j as u32, frame_px))
-                .count() as f32
+                .map(|j| veil.map_or(1.0, |veil| 1.0 - veil.over(self, id, j as u32, frame_px)))
+                .sum::<f32>()
                 * share;
             let part = self.part_of(id);
             let [r, g, b, a] = beam_color(part, self.beam_place(id, frame_px));
@@ -187,7 +190,7 @@ impl Layers<'_> {
     }
 
     /// Depth of the plane of a triangle under a place of the frame.
-    fn depth_of(&self, id: u32, frame_px: [f32; 2]) -> f32 {
+    pub(crate) fn depth_of(&self, id: u32, frame_px: [f32; 2]) -> f32 {
         let corners = self.triangles[((id & ID_MASK) - 1) as usize]
             .corners
             .map(|v| &self.posed[v as usize]);

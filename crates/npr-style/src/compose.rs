@@ -28,7 +28,7 @@ pub struct Compose {
     pub line_color: [f32; 4],
     /// Header of the background texture, or [`NONE`].
     pub background_texture: u32,
-    /// Bits of [`Compose::RIBBONS`] to [`Compose::BEAMS`].
+    /// Bits of [`Compose::RIBBONS`] to [`Compose::SMOKE`].
     pub flags: u32,
     /// Strength of surface colours: 0 grey, 1 as they are.
     pub saturation: f32,
@@ -36,8 +36,8 @@ pub struct Compose {
     pub samples: u32,
     /// Unit vector to the right of the picture, in the world: the axis of shaped highlights.
     pub right_world: [f32; 3],
-    /// Keeps rows of 16 bytes.
-    pub unused: u32,
+    /// Texels along a side of the pictures that lights have of the smoke; 0 where it throws no shadow on surfaces.
+    pub smoke_shadow_side: u32,
     /// Unit vector towards the light behind, in the world.
     pub back_world: [f32; 3],
     /// Keeps rows of 16 bytes.
@@ -59,7 +59,7 @@ gpu_layout!(Compose {
     saturation,
     samples,
     right_world,
-    unused,
+    smoke_shadow_side,
     back_world,
     unused_b,
     streak_world,
@@ -75,6 +75,8 @@ impl Compose {
     pub const OVERLAY: u32 = 2;
     /// Lays beams of light over the surfaces.
     pub const BEAMS: u32 = 4;
+    /// Lays smoke over what it stands before.
+    pub const SMOKE: u32 = 8;
 }
 
 /// What a frame is composed from.
@@ -110,6 +112,12 @@ pub struct Layers<'a> {
     pub overlay: &'a [u32],
     /// Triangle numbers as the lights with shadows see them, [`Lights::shadow_side`] texels square; not read where that is 0.
     pub shadows: [&'a [u32]; SHADOWS_MAX],
+    /// Smoke, sRGB bytes with straight alpha; not read without smoke.
+    pub smoke_colors: &'a [u32],
+    /// Depth of the smoke and which samples it covers, see [`crate::smoke::resolve`].
+    pub smoke_depths: &'a [u32],
+    /// Reversed depths of the smoke as the lights with shadows see it, [`Compose::smoke_shadow_side`] texels square.
+    pub smoke_shadows: [&'a [u32]; SHADOWS_MAX],
 }
 
 /// Composes the output as sRGB bytes with straight alpha.
@@ -189,31 +197,42 @@ impl<'a> Composer<'a> {
         let seen = self.layers.samples_of(x, y);
         let lines = self.layers.lines_at(x, y);
         let beams = self.layers.beams_of(x, y);
+        let veil = self.layers.veil_of(x, y, &seen, frame_px);
         let is_one = seen.iter().all(|id| *id == seen[0]);
-        let is_bare = lines == [0; 2] && beams.iter().all(|id| *id == 0);
+        let is_bare = lines == [0; 2] && veil.is_none() && beams.iter().all(|id| *id == 0);
         if is_one
             && is_bare
             && let Some(texel) = self.even_texel(seen[0])
         {
             return texel;
         }
-        let mut color = if is_one && seen[0] != 0 {
+        let hidden = veil.map_or([0.0; 4], |veil| veil.hidden);
+        let mut color = if is_one && seen[0] != 0 && veil.is_none() {
             let [r, g, b] = self.surface(seen[0], (1 << seen.len()) - 1, frame_px);
             [r, g, b, 1.0]
         } else {
-            self.even_surfaces(&seen)
-                .unwrap_or_else(|| self.surfaces(&seen, frame_px))
+            self.even_surfaces(&seen, &hidden)
+                .unwrap_or_else(|| self.surfaces(&seen, &hidden, frame_px))
         };
+        if let Some(veil) = &veil {
+            veil.add_to(&mut color, seen.len());
+        }
         if color[3] < 1.0 {
             let behind = self.layers.background(frame_px);
             let left = 1.0 - color[3];
             color = std::array::from_fn(|i| color[i] + behind[i] * left);
         }
-        let covered = self.layers.add_beams(&seen, &beams, frame_px, &mut color);
+        let covered = self
+            .layers
+            .add_beams(&seen, &beams, veil.as_ref(), frame_px, &mut color);
+        let faded = match &veil {
+            Some(veil) if lines != [0; 2] => veil.line_fade(self.layers, [x, y], frame_px),
+            _ => 0.0,
+        };
         for line in lines {
             if line >> 24 != 0 {
                 let mut line = self.layers.linear_texel(line);
-                line[3] *= 1.0 - covered;
+                line[3] *= (1.0 - covered) * (1.0 - faded);
                 color = over(line, color);
             }
         }
@@ -241,10 +260,10 @@ impl<'a> Composer<'a> {
     }
 
     /// The surfaces of a pixel, premultiplied, where each has one colour all over.
-    fn even_surfaces(&self, seen: &[u32]) -> Option<[f32; 4]> {
-        let share = 1.0 / seen.len() as f32;
+    fn even_surfaces(&self, seen: &[u32], hidden: &[f32; 4]) -> Option<[f32; 4]> {
         let mut sum = [0.0; 4];
-        for id in seen.iter().filter(|id| **id != 0) {
+        for (id, hidden) in seen.iter().zip(hidden).filter(|(id, _)| **id != 0) {
+            let share = (1.0 - hidden) / seen.len() as f32;
             let color = self.even_color(*id)?;
             sum = std::array::from_fn(|i| sum[i] + color[i] * share);
         }
@@ -252,7 +271,7 @@ impl<'a> Composer<'a> {
     }
 
     /// The surfaces of a pixel, premultiplied.
-    fn surfaces(&mut self, seen: &[u32], frame_px: [f32; 2]) -> [f32; 4] {
+    fn surfaces(&mut self, seen: &[u32], hidden: &[f32; 4], frame_px: [f32; 2]) -> [f32; 4] {
         let count = seen.len();
         let mut sum = [0.0; 4];
         let mut left = (1u32 << count) - 1;
@@ -267,7 +286,14 @@ impl<'a> Composer<'a> {
             if seen[i] == 0 {
                 continue;
             }
-            let share = members.count_ones() as f32 / count as f32;
+            let shown = (i..count)
+                .filter(|j| members & (1 << j) != 0)
+                .map(|j| 1.0 - hidden[j])
+                .sum::<f32>();
+            if shown == 0.0 {
+                continue;
+            }
+            let share = shown / count as f32;
             let [r, g, b] = self.surface(seen[i], members, frame_px);
             sum = [
                 sum[0] + r * share,
@@ -453,6 +479,9 @@ mod tests {
             charts: &[],
             overlay: &[0; 16],
             shadows: [&[]; SHADOWS_MAX],
+            smoke_colors: &[],
+            smoke_depths: &[],
+            smoke_shadows: [&[]; SHADOWS_MAX],
         };
         let mut frame = vec![0; 16];
         compose(&layers, &mut frame);

@@ -27,6 +27,9 @@ const OPEN_PAPER: f32 = 0.08;
 /// much they are gone.
 const ABRUPT: f32 = 0.4;
 
+/// Part of the hatch, of what inks last, that a knot fills at once.
+const KNOT_FILL: f32 = 0.22;
+
 /// Luminance L of the shade ramp at coordinate `x`: black up to `dark_at`, white from `light_at`, grey between.
 pub fn shade_level(x: f32, dark_at: f32, light_at: f32) -> f32 {
     if light_at <= dark_at {
@@ -95,6 +98,8 @@ fn second_may_ink(part: &Part, l: f32) -> bool {
 struct Hatching {
     s: f32,
     slope: [f32; 2],
+    /// Least change over a pixel that its edges are smoothed with.
+    hairline: f32,
 }
 
 /// Where a pixel lies in a hatch, in tiles, and how far it is from there to its neighbours.
@@ -154,7 +159,8 @@ impl Layers<'_> {
         let (ndc, step) = (self.view.ndc_at(px), self.view.pixel_ndc());
         let weights = weights_around(corners.clip, ndc, step);
         let lit = self.levels_at(part, corners, weights, dark);
-        let l = self.painted_levels(id, part, weights, lit);
+        let white = self.paint_at(id, part, weights);
+        let l: [f32; 3] = std::array::from_fn(|i| painted_level(lit[i], white[i], part.threshold));
         // Beyond a silhouette the surface runs on to anywhere.
         let darkens = [
             (2.0 * (l[1] - l[0])).clamp(-1.0, 1.0),
@@ -168,9 +174,9 @@ impl Layers<'_> {
             return ink;
         }
         let place = self.place_in_hatch(id, part, weights, places);
-        let per_px = length([lit[1] - lit[0], lit[2] - lit[0]]);
+        let per_px = length([lit[1] - lit[0], lit[2] - lit[0]]) * white[0];
         let calm = Calm {
-            knot: self.knot_at(id, weights[0]),
+            knot: self.knot_at(id, weights[0]) * white[0],
             abrupt: abruptness(per_px, part.spacing_px),
         };
         self.ink_of_hatch(part, &place, l[0], darkens, calm)
@@ -188,10 +194,7 @@ impl Layers<'_> {
         let coverage = |layer: Hatching| {
             let hatching = toned_hatch(untied(layer, calm.knot), calm.abrupt);
             let [right, down] = hatching.slope;
-            let slope = edge_gradient(
-                length([right + darkens[0], down + darkens[1]]),
-                part.spacing_px,
-            );
+            let slope = length([right + darkens[0], down + darkens[1]]).max(hatching.hairline);
             ink_coverage(tone_value(hatching.s, l), slope, part.threshold)
         };
         let layer = self.layer(part, place);
@@ -232,21 +235,6 @@ impl Layers<'_> {
             }),
         };
         x.map(|x| level_of(part, x))
-    }
-
-    /// The same where the surface is painted.
-    fn painted_levels(
-        &self,
-        id: u32,
-        part: &Part,
-        weights: [[f32; 3]; 3],
-        l: [f32; 3],
-    ) -> [f32; 3] {
-        if part.flags & Part::PAINTED == 0 {
-            return l;
-        }
-        let white = self.paint_at(id, part, weights);
-        std::array::from_fn(|i| painted_level(l[i], white[i], part.threshold))
     }
 
     /// Where a pixel and its neighbours to the right and below lie in the hatch of a part.
@@ -307,19 +295,24 @@ impl Layers<'_> {
         Hatching {
             s: found.luminance,
             slope: [along(place.right), along(place.down)],
+            hairline: edge_gradient(0.0, part.spacing_px),
         }
     }
 }
 
-/// A hatch without the white of its knots: the last strokes to merge do so as soon as half of the paper is inked.
+/// A hatch without the white of its knots: the last strokes merge together, a fifth of the way before they would.
 ///
 /// Where directions turn round, strokes cannot all end well; what is seen of it is mostly white in the dark.
 fn untied(hatching: Hatching, knot: f32) -> Hatching {
-    let most = 1.0 - 0.5 * knot.clamp(0.0, 1.0);
+    let most = 1.0 - KNOT_FILL * knot.clamp(0.0, 1.0);
     if hatching.s <= most {
         return hatching;
     }
-    scaled(hatching, [most, 0.0])
+    // What is left is the edge of the tone, which is crisp.
+    Hatching {
+        hairline: 0.0,
+        ..scaled(hatching, [most, 0.0])
+    }
 }
 
 /// How far a tone changes from dark to light too fast for strokes to show, 0..1.
@@ -333,7 +326,10 @@ pub fn abruptness(per_px: f32, spacing_px: f32) -> f32 {
 /// A hatch that gives way to the edge of the tone itself.
 fn toned_hatch(hatching: Hatching, abrupt: f32) -> Hatching {
     let s = hatching.s + (NO_HATCH - hatching.s) * abrupt;
-    scaled(hatching, [s, 1.0 - abrupt])
+    Hatching {
+        hairline: hatching.hairline * (1.0 - abrupt),
+        ..scaled(hatching, [s, 1.0 - abrupt])
+    }
 }
 
 /// A layer as `[value, steepness]` says.
@@ -341,6 +337,7 @@ fn scaled(layer: Hatching, [s, steepness]: [f32; 2]) -> Hatching {
     Hatching {
         s,
         slope: layer.slope.map(|d| d * steepness),
+        ..layer
     }
 }
 
@@ -418,7 +415,7 @@ mod tests {
 
         #[test]
         fn strokes_give_way_to_edges_within_their_spacing(s in 0f32..=1.0, per_px in 0f32..2.0, spacing in 2f32..20.0) {
-            let hatching = Hatching { s, slope: [0.3, 0.1] };
+            let hatching = Hatching { s, slope: [0.3, 0.1], hairline: 0.2 };
             let change = per_px * spacing;
             let after = toned_hatch(hatching, abruptness(per_px, spacing));
             prop_assert!((after.s - NO_HATCH).abs() <= (s - NO_HATCH).abs() + 1e-6);
@@ -428,12 +425,13 @@ mod tests {
 
         #[test]
         fn a_knot_only_fills_the_dark(s in 0f32..=1.0, l in 0f32..=1.0, knot in 0f32..=1.0) {
-            let before = Hatching { s, slope: [0.3, 0.1] };
+            let before = Hatching { s, slope: [0.3, 0.1], hairline: 0.2 };
             let after = untied(before, knot);
             prop_assert!(after.s <= s);
-            // In the lighter half nothing changes sides.
-            prop_assert!(l < 0.5 || (tone_value(after.s, l) < 0.5) == (tone_value(s, l) < 0.5));
-            prop_assert!(knot < 1.0 || l >= 0.5 || tone_value(after.s, l) < 0.5);
+            // Where enough is white, nothing changes sides.
+            prop_assert!(l < 0.251 + 0.5 * KNOT_FILL || (tone_value(after.s, l) < 0.5) == (tone_value(s, l) < 0.5));
+            let tied = untied(before, 1.0);
+            prop_assert!(l > 0.249 + 0.5 * KNOT_FILL || tone_value(tied.s, l) < 0.5);
         }
 
         #[test]

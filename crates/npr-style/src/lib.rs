@@ -64,6 +64,7 @@ mod schema;
 mod set;
 mod shade;
 pub mod shadow;
+pub mod smoke;
 mod style;
 mod tone;
 pub mod tone_row;
@@ -91,5 +92,6 @@ pub use rule::{
 };
 pub use schema::schema;
 pub use shade::{Shade, ShadeMode, levels};
+pub use smoke::{SmokeLine, SmokeLines, SmokeMethod, SmokeStop, SmokeStyle};
 pub use style::Style;
 pub use width::{Channel, ControlPoint, Width, WidthSource};

@@ -163,11 +163,11 @@ impl LightSource {
         self.kind == Self::DISTANT || self.kind == Self::SKY
     }
 
-    /// What the light adds to the ramp coordinate at a place, at most `most` of itself.
+    /// Unit vector from a place in the world towards the light, and how strong it shines there.
     #[inline]
-    fn share_at(&self, world: [f32; 3], normal: [f32; 3], most: f32) -> f32 {
+    pub fn reach_at(&self, world: [f32; 3]) -> ([f32; 3], f32) {
         if self.is_far() {
-            return ramp_coordinate(dot(normal, self.direction)).min(most) * self.intensity;
+            return (self.direction, self.intensity);
         }
         let offset: [f32; 3] = std::array::from_fn(|i| self.position[i] - world[i]);
         let distance = dot(offset, offset).sqrt();
@@ -176,6 +176,13 @@ impl LightSource {
         if self.kind == Self::SPOT {
             strength *= math::smoothstep(self.cone[0], self.cone[1], -dot(towards, self.direction));
         }
+        (towards, strength)
+    }
+
+    /// What the light adds to the ramp coordinate at a place, at most `most` of itself.
+    #[inline]
+    fn share_at(&self, world: [f32; 3], normal: [f32; 3], most: f32) -> f32 {
+        let (towards, strength) = self.reach_at(world);
         ramp_coordinate(dot(normal, towards)).min(most) * strength
     }
 }

@@ -42,8 +42,12 @@ pub fn painted_level(l: f32, white: f32, threshold: f32) -> f32 {
 }
 
 impl Layers<'_> {
-    /// White that the paint of triangle `id` leaves at a pixel and its neighbours to the right and below.
+    /// White that the paint of triangle `id` leaves at a pixel and its neighbours to the right and below; all where it does
+    /// not count.
     pub(crate) fn paint_at(&self, id: u32, part: &Part, weights: [[f32; 3]; 3]) -> [f32; 3] {
+        if part.flags & Part::PAINTED == 0 {
+            return [1.0; 3];
+        }
         let Triangle { corners, .. } = self.triangles[((id & ID_MASK) - 1) as usize];
         let vertices = corners.map(|v| &self.vertices[v as usize]);
         let [r, g, b, strength] = self.linear_texel(part.paint_color);

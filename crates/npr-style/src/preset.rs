@@ -99,6 +99,36 @@ const PRESETS: &[Preset] = &[
         text: include_str!("../presets/plain.toml"),
     },
     Preset {
+        name: "smoke-cel-2",
+        version: 1,
+        title: "Smoke in two tones under a dark line, as painted on a cel",
+        text: include_str!("../presets/smoke-cel-2.toml"),
+    },
+    Preset {
+        name: "smoke-cel-3",
+        version: 1,
+        title: "Smoke in three tones under a dark line",
+        text: include_str!("../presets/smoke-cel-3.toml"),
+    },
+    Preset {
+        name: "smoke-ink",
+        version: 1,
+        title: "Smoke in brush lines and solid blacks on white",
+        text: include_str!("../presets/smoke-ink.toml"),
+    },
+    Preset {
+        name: "cloud",
+        version: 1,
+        title: "Bright clouds in four soft tones without lines",
+        text: include_str!("../presets/cloud.toml"),
+    },
+    Preset {
+        name: "explosion",
+        version: 1,
+        title: "Fire and smoke by heat: white heart, yellow, orange, soot",
+        text: include_str!("../presets/explosion.toml"),
+    },
+    Preset {
         name: "okuya",
         version: 1,
         title: "Comparison: lines found on images and drawn on every edge, as published",

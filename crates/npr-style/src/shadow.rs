@@ -84,7 +84,10 @@ impl Layers<'_> {
             }
             let towards = source.towards(world);
             let facing = dot(normal, towards);
-            if facing > 0.0 && self.is_dark(id, source, world, towards, facing) {
+            if facing > 0.0
+                && (self.is_dark(id, source, world, towards, facing)
+                    || self.is_behind_smoke(source.shadow as usize - 1, world))
+            {
                 dark |= 1 << i;
             }
         }
@@ -332,6 +335,9 @@ mod tests {
                 charts: &[],
                 overlay: &[],
                 shadows: [&self.image, &[], &[], &[]],
+                smoke_colors: &[],
+                smoke_depths: &[],
+                smoke_shadows: [&[]; SHADOWS_MAX],
             };
             let posed = self.triangles[own].corners.map(|v| &self.posed[v as usize]);
             let corners = Corners {

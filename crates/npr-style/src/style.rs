@@ -9,7 +9,7 @@ use crate::ramp::{Stop, first_unsorted};
 use crate::width::WidthSource;
 use crate::{
     Antialias, Background, Blend, Detect, Highlight, Ink, Lettering, Light, Line, LineMethod,
-    Motion, Rule, Shade, preset, set,
+    Motion, Rule, Shade, SmokeStyle, preset, set,
 };
 
 /// What a picture should look like.
@@ -42,6 +42,8 @@ pub struct Style {
     pub line: Line,
     /// How the line mask is found.
     pub detect: Detect,
+    /// How smoke looks, where the scene has any.
+    pub smoke: SmokeStyle,
     /// How edges are smoothed.
     pub antialias: Antialias,
     /// How speed lines behind parts that move are drawn; rules say which move.
@@ -70,6 +72,7 @@ impl Default for Style {
             light: Light::default(),
             line: Line::default(),
             detect: Detect::default(),
+            smoke: SmokeStyle::default(),
             antialias: Antialias::default(),
             motion: Motion::default(),
             blend: Blend::default(),
@@ -158,6 +161,7 @@ impl Style {
         check_direction(self.ink.direction, "ink.direction")?;
         check_width(&self.line.width)?;
         check_ramp(&self.shade.ramp, "shade.ramp")?;
+        self.smoke.sanity_check()?;
         let mut words = self.lettering.iter().enumerate();
         words.try_for_each(|(i, words)| words.check(i))?;
         self.rule.iter().enumerate().try_for_each(|(i, rule)| {

@@ -532,6 +532,7 @@ mod tests {
                 view: &View::default(), window: &Window::default(), compose: &compose, lights: &Lights::distant(unit_or_z(light)),
                  ids: &[], beam_ids: &[], ribbons: &[], posed: &posed, vertices: &[Vertex::default(); 3],
                 triangles: &[triangle], parts: &[part], texels: &[], charts: &[], overlay: &[], shadows: [&[]; 4],
+                smoke_colors: &[], smoke_depths: &[], smoke_shadows: [&[]; 4],
             };
             let corners = layers.corners_of(&triangle);
             if let Some(light) = layers.even_light(&part, &corners) {

@@ -6,7 +6,7 @@ use npr_core::window::{View, Window};
 use npr_style::compose::{Compose, Layers, compose};
 use npr_style::lighting::Lights;
 
-/// Surfaces shaded by their ramps, ink and lines over them, background behind.
+/// Surfaces shaded by their ramps, ink, smoke and lines over them, background behind.
 pub const COMPOSE_FRAME: Pass = Pass {
     name: "shade.compose_frame",
     shader: npr_shaders::SHADE_COMPOSE_FRAME,
@@ -30,6 +30,12 @@ pub const COMPOSE_FRAME: Pass = Pass {
         texture("shadow_1", Format::U32),
         texture("shadow_2", Format::U32),
         texture("shadow_3", Format::U32),
+        texture("smoke_colors", Format::Rgba8),
+        texture("smoke_depths", Format::U32),
+        texture("smoke_shadow_0", Format::Depth),
+        texture("smoke_shadow_1", Format::Depth),
+        texture("smoke_shadow_2", Format::Depth),
+        texture("smoke_shadow_3", Format::Depth),
     ],
     work: Work::PerElement { of: "frame" },
     agreement: Agreement::Texels(0.001),
@@ -51,6 +57,9 @@ pub const COMPOSE_FRAME: Pass = Pass {
             charts: b.read(12),
             overlay: b.read(13),
             shadows: std::array::from_fn(|i| b.image(15 + i).texels),
+            smoke_colors: b.image(19).texels,
+            smoke_depths: b.image(20).texels,
+            smoke_shadows: std::array::from_fn(|i| b.image(21 + i).texels),
         };
         compose(&layers, b.write(14));
     },

@@ -1,11 +1,14 @@
 //! What every slot of every pass holds in a frame: the scene, and what the twins make of it.
 
-use crate::scene::{FRAME_PX, Look, SHADOW_SIDE, Scene, compose, lights, outline, view};
+use crate::scene::{
+    FRAME_PX, Look, SHADOW_SIDE, Scene, compose, lights, outline, smoke_look, spheres, view,
+};
+use npr_core::smoke::Lens;
 use npr_core::window::Window;
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::{Graph, Kind, ResourceId};
 use npr_gpu::pass::{Access, Format, Pass};
-use npr_gpu::passes::{line, mesh, raster, shade};
+use npr_gpu::passes::{line, mesh, raster, shade, smoke};
 use npr_gpu::processor::Processor;
 use std::collections::BTreeMap;
 
@@ -42,7 +45,7 @@ pub struct Frame {
 
 impl Frame {
     /// The names of what passes make.
-    pub const MADE: [&str; 18] = [
+    pub const MADE: [&str; 28] = [
         "posed",
         "projected",
         "shadow_0",
@@ -50,6 +53,16 @@ impl Frame {
         "hull",
         "ids",
         "beam_ids",
+        "balls",
+        "smoke_ids",
+        "smoke_light_0",
+        "pixels",
+        "gathered",
+        "blurred",
+        "cells",
+        "tones",
+        "smoke_colors",
+        "smoke_depths",
         "depth",
         "mask_ids",
         "gbuffer",
@@ -143,12 +156,62 @@ impl Builder {
         for name in ["shadow_1", "shadow_2", "shadow_3"] {
             self.make_image(name, Format::U32, [1, 1]);
         }
+        self.give_smoke(look, size);
         self.make_buffer("hull", 16, scene.vertices.len());
         self.make_buffer("kinds", 4, scene.edges.len());
         self.make_image("ids", Format::U32, size.map(|side| side * samples));
         self.make_image("beam_ids", Format::U32, size.map(|side| side * samples));
         self.make_image("depth", Format::Depth, size.map(|side| side * samples));
         self.make_image("beam_depth", Format::Depth, size.map(|side| side * samples));
+    }
+
+    fn give_smoke(&mut self, look: Look, size: [u32; 2]) {
+        let smoke = smoke_look(look, size);
+        let spheres = spheres();
+        self.give_uniform("lens", &[Lens::of_view(&view(look))]);
+        let light = Lens::of_light(&lights(look).shadows[0], SHADOW_SIDE);
+        self.give_uniform("light_lens", &[light]);
+        self.give_uniform("look", &[smoke]);
+        self.give_buffer("spheres", &spheres);
+        self.make_buffer("balls", 32, spheres.len());
+        self.make_buffer("light_balls", 32, spheres.len());
+        self.make_image("smoke_ids", Format::U32, size);
+        self.make_image("smoke_id_depths", Format::Depth, size);
+        self.make_image("smoke_light_0", Format::U32, [SHADOW_SIDE; 2]);
+        self.make_image("smoke_shadow_0", Format::Depth, [SHADOW_SIDE; 2]);
+        for name in ["smoke_light_1", "smoke_light_2", "smoke_light_3"] {
+            self.make_image(name, Format::U32, [1, 1]);
+        }
+        for name in ["smoke_shadow_1", "smoke_shadow_2", "smoke_shadow_3"] {
+            self.make_image(name, Format::Depth, [1, 1]);
+        }
+        self.make_buffer("pixels", 16, area(size));
+        for name in ["gathered", "blurred", "cells"] {
+            self.make_buffer(name, 8, smoke.cell_count());
+        }
+        self.make_buffer("tones", 4, area(size));
+        self.make_image("smoke_colors", Format::Rgba8, size);
+        self.make_image("smoke_depths", Format::U32, size);
+    }
+
+    fn line_up_smoke(&mut self) {
+        let id = |name: &str| self.ids[name].0;
+        let from_light = [id("light_lens"), id("spheres"), id("light_balls")];
+        let light_bound = [id("shadow_window"), id("light_lens"), id("light_balls")];
+        let light_targets = [id("smoke_light_0"), id("smoke_shadow_0")];
+        self.graph.compute(&smoke::PROJECT_SPHERES, &from_light);
+        self.graph
+            .draw(&smoke::DRAW_SPHERES, &light_bound, &light_targets, true);
+        self.compute(&smoke::PROJECT_SPHERES);
+        let targets = ["smoke_ids", "smoke_id_depths"];
+        self.draw(&smoke::DRAW_SPHERES, "window", targets, true);
+        self.compute(&smoke::SHADE_SPHERES);
+        self.compute(&smoke::GATHER_TONES);
+        self.compute(&smoke::BLUR_ROWS);
+        self.compute(&smoke::BLUR_COLUMNS);
+        self.compute(&smoke::SMOOTH_TONES);
+        let targets = ["smoke_colors", "smoke_depths"];
+        self.draw(&smoke::RESOLVE_PICTURE, "window", targets, true);
     }
 
     fn line_up_passes(&mut self, look: Look, size: [u32; 2], mask_size: [u32; 2]) {
@@ -165,6 +228,7 @@ impl Builder {
         self.make_buffer("overlay", 4, pixels);
         self.make_buffer("frame", 4, pixels);
 
+        self.line_up_smoke();
         self.compute(&mesh::POSE_VERTICES);
         self.compute(&mesh::PROJECT_SHADOW);
         let shadow = ["shadow_0", "shadow_depth"];
@@ -295,5 +359,6 @@ pub fn grids_for(pass: &Pass, count: u32) -> [[u32; 2]; 2] {
 
 /// Whether a pass reads its counted slot, so that the grids do not decide how many elements there are.
 pub fn counts_input(pass: &Pass) -> bool {
-    pass.slots[pass.counted_slot()].access == Access::Read
+    let counted = pass.slots[pass.counted_slot()];
+    counted.access == Access::Read || ["gathered", "blurred", "cells"].contains(&counted.name)
 }

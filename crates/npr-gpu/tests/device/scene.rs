@@ -5,12 +5,14 @@ use npr_core::geometry::{ChartCorners, Edge, Influence, NONE, Part, Triangle, Ve
 use npr_core::light_view::{distant_view, spot_view};
 use npr_core::math;
 use npr_core::outline::Outline;
+use npr_core::smoke::Sphere;
 use npr_core::texture::{TextureStore, Wrap};
 use npr_core::window::View;
 use npr_mesh::testing::{Random, torus, uv_sphere};
 use npr_mesh::{EdgeFlags, NO_FACE, smooth_normals, unique_edges, weld};
 use npr_style::compose::Compose;
 use npr_style::lighting::{LightSource, Lights};
+use npr_style::smoke::SmokeLook;
 use npr_style::tone_row::{row_words, tone_row};
 
 /// Width and height of the frame that windows are laid over.
@@ -193,8 +195,7 @@ fn part(object: u32, flags: u32, texture: u32) -> Part {
         dark_at: 0.2,
         light_at: 0.7,
         threshold: 0.5,
-        paint: 0.4,
-        paint_color: 0xff8c_60c0,
+        paint_color: 0x668c_60c0,
         spacing_px: 3.0,
         hatch_gain: 1.2,
         second_from: 0.4,
@@ -280,13 +281,14 @@ pub fn compose(look: Look, scene: &Scene) -> Compose {
     let (samples, flags, background_texture) = match look {
         Look::Ours => (
             2,
-            Compose::RIBBONS | Compose::OVERLAY | Compose::BEAMS,
+            Compose::RIBBONS | Compose::OVERLAY | Compose::BEAMS | Compose::SMOKE,
             NONE,
         ),
-        Look::Published => (1, Compose::OVERLAY, scene.parts[1].texture),
+        Look::Published => (1, Compose::OVERLAY | Compose::SMOKE, scene.parts[1].texture),
     };
     Compose {
         samples,
+        smoke_shadow_side: SHADOW_SIDE,
         right_world: [0.8, 0.0, -0.6],
         back_world: [0.36, 0.48, -0.8],
         streak_world: [0.3, 0.4, 0.2],
@@ -337,4 +339,58 @@ pub fn lights(look: Look) -> Lights {
         lights.shadows[0] = spot_view(spot.position, spot.direction, spot.cone[0], 0.05);
     }
     lights
+}
+
+/// Puffs around, before and behind the shapes, and some that nobody sees.
+pub fn spheres() -> Vec<Sphere> {
+    let mut random = Random::new(11);
+    let mut spheres: Vec<Sphere> = (0..150)
+        .map(|_| {
+            let center = [0; 3].map(|_| random.unit() * 3.2 - 1.6);
+            Sphere {
+                heat: random.unit(),
+                ..Sphere::new(center, 0.08 + random.unit() * 0.3)
+            }
+        })
+        .collect();
+    spheres[3].radius = 0.0;
+    spheres[4].center[1] = f32::NAN;
+    spheres[5].center = [2.1, 1.7, 3.6];
+    spheres
+}
+
+/// Settings of smoke of a look: smoothed on grids with drawn lines, or in windows with published ones.
+pub fn smoke_look(look: Look, size: [u32; 2]) -> SmokeLook {
+    let is_ours = look == Look::Ours;
+    let mut ramp = [[1.0, 1.0, 1.0, 2.0]; 8];
+    ramp[0] = [0.2, 0.2, 0.4, 0.0];
+    ramp[1] = [0.6, 0.5, 0.4, 0.3];
+    ramp[2] = [0.9, 0.9, 0.8, 0.6];
+    let mut settings = SmokeLook {
+        layers: 4,
+        flags: if is_ours { 0 } else { SmokeLook::PUBLISHED },
+        range_start: 2.6,
+        range_size: 0.8,
+        range_blend: if is_ours { 0.5 } else { 0.0 },
+        softness: 0.02,
+        heat: 0.3,
+        wrap: if is_ours { 0.5 } else { 0.0 },
+        line_px: 2.5,
+        line_inner: 0.5,
+        line_from: 0.3,
+        line_weight: 20.0,
+        depth_start: 2.6,
+        depth_size: 3.2,
+        swell: 0.3,
+        alpha: 0.9,
+        line_color: [0.1, 0.05, 0.0, 0.9],
+        towards_light: [-0.5, 0.7, -0.5],
+        ambient: 0.1,
+        samples: if is_ours { 2 } else { 1 },
+        shadow_side: SHADOW_SIDE,
+        ramp,
+        ..SmokeLook::default()
+    };
+    settings.smooth(size, if is_ours { 7.0 } else { 1.2 });
+    settings
 }

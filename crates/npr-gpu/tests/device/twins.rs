@@ -7,7 +7,7 @@ use crate::scene::{FRAME_PX, Look};
 use crate::shared;
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::{Graph, Kind, ResourceId};
-use npr_gpu::pass::{Access, Agreement, Element, Pass, Slot};
+use npr_gpu::pass::{Access, Agreement, Element, Format, Pass, Slot};
 use npr_gpu::passes::ALL;
 use npr_gpu::passes::shade::COMPOSE_FRAME;
 use npr_gpu::processor::Processor;
@@ -91,7 +91,10 @@ impl Case {
                 },
             },
         );
-        self.inputs.push((id, words));
+        // No host writes depth images: here they stay empty, and frames drawn whole fill them.
+        if slot.access != Access::Texture(Format::Depth) {
+            self.inputs.push((id, words));
+        }
         id
     }
 

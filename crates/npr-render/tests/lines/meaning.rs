@@ -299,7 +299,8 @@ fn beams_have_no_lines_and_hide_none() {
     });
     let bare = model_of(&scene);
     add(&mut scene, "Beam", &screen);
-    let rule = "[[rule]]\nmatch.material = 'Beam'\n[rule.beam]\n";
+    // Widths that follow bends are measured against the size of the whole model.
+    let rule = "line.width.source = 'constant'\n[[rule]]\nmatch.material = 'Beam'\n[rule.beam]\n";
     let style = Style::from_toml(rule, &|_| Err(String::new())).expect("a style");
     let model = LineModel::for_style(&scene, &style, &LineModelOptions::default(), None);
     let model = model.expect("a small scene");

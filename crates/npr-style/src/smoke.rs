@@ -1,0 +1,17 @@
+//! Cartoon smoke [Hoshino 2004]: spheres become a few flat tones under an outline.
+//!
+//! The twins of the passes `smoke.*`, in the order in which a frame runs them: [`project`], [`draw`], [`shade`],
+//! [`blur`] and [`resolve`]; then [`crate::compose`] lays the result over the scene.
+
+pub mod blur;
+pub mod draw;
+mod line;
+mod look;
+pub mod resolve;
+pub mod shade;
+mod style;
+mod veil;
+
+pub use look::{CELLS_MAX, LAYERS_MAX, SmokeLook, TAPS_MAX};
+pub use style::{SmokeLine, SmokeLines, SmokeMethod, SmokeStop, SmokeStyle};
+pub(crate) use veil::Veil;

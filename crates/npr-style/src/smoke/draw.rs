@@ -1,0 +1,339 @@
+//! Spheres to pixels: the twins of `smoke.project_spheres` and `raster.draw_spheres`.
+
+use npr_core::geometry::FAR_DEPTH;
+use npr_core::smoke::{Ball, Lens, Sphere};
+use npr_core::window::Window;
+use rayon::prelude::*;
+
+/// Rows of a tile.
+const TILE_ROWS: usize = 16;
+
+/// Columns of a tile.
+const TILE_COLUMNS: usize = 64;
+
+/// Every sphere as a lens sees it. O(spheres).
+pub fn project_spheres(lens: &Lens, spheres: &[Sphere], balls: &mut [Ball]) {
+    for (sphere, ball) in spheres.iter().zip(balls) {
+        *ball = lens.project(sphere);
+    }
+}
+
+/// Fills `ids` with the number of the nearest ball plus one at every pixel, 0 where there is none, and `depths` with its
+/// reversed depth.
+///
+/// Both are row-major and of the window's size. Of equal depths the earlier ball wins. Tiles take the balls from front to
+/// back and leave out those behind all that is drawn, so of a dense plume little more than its skin is computed.
+/// O(balls log balls + what is not hidden).
+pub fn draw_spheres(
+    lens: &Lens,
+    window: &Window,
+    balls: &[Ball],
+    ids: &mut [u32],
+    depths: &mut [u32],
+) {
+    let width = window.size[0] as usize;
+    if width == 0 {
+        return;
+    }
+    let bands = sorted_into_bands(lens, window, balls);
+    let rows = TILE_ROWS * width;
+    ids.par_chunks_mut(rows)
+        .zip(depths.par_chunks_mut(rows))
+        .zip(&bands)
+        .enumerate()
+        .for_each(|(band, ((ids, depths), members))| {
+            let mut tile = Tile::new(lens, window, band * TILE_ROWS, ids.len() / width);
+            for left in (0..width).step_by(TILE_COLUMNS) {
+                match tile.fill(left, balls, members) {
+                    true => tile.store(ids, depths),
+                    false => tile.store_nothing(ids, depths),
+                }
+            }
+        });
+}
+
+/// A ball in a window: which, its nearest depth, and the pixels around its image.
+#[derive(Clone, Copy)]
+struct Member {
+    ball: u32,
+    front: f32,
+    left: u32,
+    right: u32,
+    top: u32,
+    bottom: u32,
+}
+
+impl Member {
+    /// `None` where the ball lies beside the window.
+    fn new(lens: &Lens, window: &Window, ball: &Ball, number: u32) -> Option<Self> {
+        let [left, top, right, bottom] = ball.bounds;
+        if left > right || top > bottom {
+            return None;
+        }
+        // One pixel more on each side: rounding must not cut what the ray meets.
+        let reach = |low: f32, high: f32, i: usize| {
+            let at = |px: f32| (px - window.frame_origin[i]) / window.frame_step[i];
+            let (low, high) = (at(low).floor() - 1.0, at(high).ceil() + 1.0);
+            let last = window.size[i] as f32 - 1.0;
+            (high >= 0.0 && low <= last).then(|| (low.max(0.0) as u32, high.min(last) as u32))
+        };
+        let (left, right) = reach(left, right, 0)?;
+        let (top, bottom) = reach(top, bottom, 1)?;
+        let depth = ball.center[2];
+        let front = if lens.discs > 0.5 {
+            depth
+        } else {
+            depth - ball.radius
+        };
+        Some(Self {
+            ball: number,
+            front,
+            left,
+            right,
+            top,
+            bottom,
+        })
+    }
+}
+
+/// The balls that touch each band of rows, from front to back.
+fn sorted_into_bands(lens: &Lens, window: &Window, balls: &[Ball]) -> Vec<Vec<Member>> {
+    let numbered = (0u32..).zip(balls);
+    let mut members: Vec<Member> = numbered
+        .filter_map(|(number, ball)| Member::new(lens, window, ball, number))
+        .collect();
+    members.sort_unstable_by(|a, b| a.front.total_cmp(&b.front).then(a.ball.cmp(&b.ball)));
+    let count = (window.size[1] as usize).div_ceil(TILE_ROWS);
+    let mut bands = vec![Vec::new(); count];
+    for member in members {
+        let (top, bottom) = (
+            member.top as usize / TILE_ROWS,
+            member.bottom as usize / TILE_ROWS,
+        );
+        for band in &mut bands[top..=bottom] {
+            band.push(member);
+        }
+    }
+    bands
+}
+
+/// Part of a band being drawn.
+struct Tile<'a> {
+    lens: &'a Lens,
+    window: &'a Window,
+    top: usize,
+    rows: usize,
+    left: usize,
+    columns: usize,
+    /// Rays of the columns, to the right.
+    across: [f32; TILE_COLUMNS],
+    /// View depths and numbers plus one, row by row, [`TILE_COLUMNS`] wide.
+    depths: [f32; TILE_ROWS * TILE_COLUMNS],
+    ids: [u32; TILE_ROWS * TILE_COLUMNS],
+}
+
+impl<'a> Tile<'a> {
+    fn new(lens: &'a Lens, window: &'a Window, top: usize, rows: usize) -> Self {
+        Self {
+            lens,
+            window,
+            top,
+            rows,
+            left: 0,
+            columns: 0,
+            across: [0.0; TILE_COLUMNS],
+            depths: [FAR_DEPTH; TILE_ROWS * TILE_COLUMNS],
+            ids: [0; TILE_ROWS * TILE_COLUMNS],
+        }
+    }
+
+    /// Draws the balls over the columns from `left` on; says whether there were any.
+    fn fill(&mut self, left: usize, balls: &[Ball], members: &[Member]) -> bool {
+        self.left = left;
+        self.columns = TILE_COLUMNS.min(self.window.size[0] as usize - left);
+        let last = (left + self.columns - 1) as u32;
+        let touches = |member: &&Member| member.right >= left as u32 && member.left <= last;
+        let mut members = members.iter().filter(touches).peekable();
+        if members.peek().is_none() {
+            return false;
+        }
+        self.clear();
+        let mut farthest = FAR_DEPTH;
+        for member in members {
+            if member.front > farthest {
+                break;
+            }
+            self.draw(member, &balls[member.ball as usize]);
+            farthest = self.farthest();
+        }
+        true
+    }
+
+    /// Texels beyond the picture count as nearest, so that they keep nothing from being hidden.
+    fn clear(&mut self) {
+        self.ids.fill(0);
+        self.depths.fill(f32::MIN);
+        for row in self.depths.chunks_mut(TILE_COLUMNS).take(self.rows) {
+            row[..self.columns].fill(FAR_DEPTH);
+        }
+        for (column, across) in self.across[..self.columns].iter_mut().enumerate() {
+            let at = self.window.frame_at((self.left + column) as u32, 0);
+            *across = self.lens.ray(at)[0];
+        }
+    }
+
+    fn farthest(&self) -> f32 {
+        let mut lanes = [f32::MIN; 8];
+        for depths in self.depths.chunks_exact(8) {
+            for (lane, depth) in lanes.iter_mut().zip(depths) {
+                *lane = if *depth > *lane { *depth } else { *lane };
+            }
+        }
+        lanes.into_iter().fold(f32::MIN, f32::max)
+    }
+
+    fn draw(&mut self, member: &Member, ball: &Ball) {
+        let id = member.ball + 1;
+        let first = (member.left as usize).max(self.left) - self.left;
+        let last = (member.right as usize).min(self.left + self.columns - 1) - self.left;
+        let top = (member.top as usize).max(self.top) - self.top;
+        let bottom = (member.bottom as usize).min(self.top + self.rows - 1) - self.top;
+        let lens = *self.lens;
+        for row in top..=bottom {
+            let at = self.window.frame_at(0, (self.top + row) as u32);
+            let up = lens.ray(at)[1];
+            let start = row * TILE_COLUMNS;
+            let texels = self.depths[start + first..=start + last]
+                .iter_mut()
+                .zip(&mut self.ids[start + first..=start + last])
+                .zip(&self.across[first..=last]);
+            if lens.discs > 0.5 {
+                for ((nearest, holder), across) in texels {
+                    keep(lens.depth_of(ball, [*across, up]), id, nearest, holder);
+                }
+            } else {
+                for ((nearest, holder), across) in texels {
+                    let depth = lens.depth_of_sphere(ball, [*across, up]);
+                    keep(depth, id, nearest, holder);
+                }
+            }
+        }
+    }
+
+    /// Writes the tile to its band, depths reversed.
+    fn store(&self, ids: &mut [u32], depths: &mut [u32]) {
+        let width = self.window.size[0] as usize;
+        for row in 0..self.rows {
+            let (from, to) = (row * TILE_COLUMNS, row * width + self.left);
+            for column in 0..self.columns {
+                let id = self.ids[from + column];
+                let depth = self.lens.reversed(self.depths[from + column]).min(1.0);
+                let shows = (id != 0) & (depth > 0.0);
+                ids[to + column] = if shows { id } else { 0 };
+                depths[to + column] = if shows { depth.to_bits() } else { 0 };
+            }
+        }
+    }
+
+    /// Writes that nothing is seen.
+    fn store_nothing(&self, ids: &mut [u32], depths: &mut [u32]) {
+        let width = self.window.size[0] as usize;
+        for row in 0..self.rows {
+            let start = row * width + self.left;
+            ids[start..start + self.columns].fill(0);
+            depths[start..start + self.columns].fill(0);
+        }
+    }
+}
+
+/// Keeps the nearer of two balls at a texel, and of two equally near ones the earlier.
+#[inline]
+fn keep(depth: f32, id: u32, nearest: &mut f32, holder: &mut u32) {
+    let wins = (depth < *nearest) | ((depth == *nearest) & (id < *holder));
+    *nearest = if wins { depth } else { *nearest };
+    *holder = if wins { id } else { *holder };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use npr_core::camera::{Camera, Projection};
+    use proptest::prelude::*;
+
+    const SIZE: [u32; 2] = [150, 37];
+
+    fn lens(parallel: bool) -> Lens {
+        let projection = match parallel {
+            true => Projection::Parallel { height: 3.0 },
+            false => Projection::Perspective { fov_y: 0.8 },
+        };
+        let camera = Camera {
+            eye: [1.0, 2.0, 6.0],
+            target: [0.0; 3],
+            up: [0.0, 1.0, 0.0],
+            projection,
+        };
+        Lens::of_view(&camera.view([300, 200], ([-2.5; 3], [2.5; 3])))
+    }
+
+    fn balls_of(lens: &Lens, spheres: &[([f32; 3], f32)]) -> Vec<Ball> {
+        let of = |(center, radius): &([f32; 3], f32)| lens.project(&Sphere::new(*center, *radius));
+        spheres.iter().map(of).collect()
+    }
+
+    fn draw(lens: &Lens, window: &Window, balls: &[Ball]) -> (Vec<u32>, Vec<u32>) {
+        let count = (window.size[0] * window.size[1]) as usize;
+        let (mut ids, mut depths) = (vec![7; count], vec![7; count]);
+        draw_spheres(lens, window, balls, &mut ids, &mut depths);
+        (ids, depths)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        /// Every pixel asked of every ball.
+        #[test]
+        fn tiles_give_what_every_ray_sees(
+            parallel: bool, discs: bool, origin in prop::array::uniform2(-20f32..150.0), step in 0.3f32..2.0,
+            spheres in prop::collection::vec((prop::array::uniform3(-2f32..2.0), 0f32..1.2), 0..12),
+        ) {
+            let mut lens = lens(parallel);
+            lens.discs = f32::from(discs);
+            let extent = SIZE.map(|side| side as f32 * step);
+            let window = Window::over([300.0, 200.0], origin, extent, SIZE);
+            let balls = balls_of(&lens, &spheres);
+            let (ids, depths) = draw(&lens, &window, &balls);
+            for y in 0..SIZE[1] {
+                for x in 0..SIZE[0] {
+                    let ray = lens.ray(window.frame_at(x, y));
+                    let (mut best, mut nearest) = (0, FAR_DEPTH);
+                    for (i, ball) in balls.iter().enumerate() {
+                        let depth = lens.depth_of(ball, ray);
+                        if depth < nearest {
+                            (best, nearest) = (i as u32 + 1, depth);
+                        }
+                    }
+                    if best != 0 && lens.reversed(nearest) <= 0.0 {
+                        // Beyond the far plane of a parallel view.
+                        best = 0;
+                    }
+                    let at = (y * SIZE[0] + x) as usize;
+                    prop_assert_eq!(ids[at], best);
+                    let depth = if best == 0 { 0.0 } else { lens.reversed(nearest).min(1.0) };
+                    prop_assert_eq!(depths[at], depth.to_bits());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn of_twins_the_first_shows_and_empty_windows_are_left_alone() {
+        let lens = lens(false);
+        let twins = balls_of(&lens, &[([0.0; 3], 1.0), ([0.0; 3], 1.0)]);
+        let window = Window::over([300.0, 200.0], [0.0; 2], [300.0, 200.0], SIZE);
+        let (ids, _) = draw(&lens, &window, &twins);
+        assert!(ids.contains(&1) && !ids.contains(&2));
+        let empty = Window::over([300.0, 200.0], [0.0; 2], [1.0; 2], [0, 0]);
+        assert!(draw(&lens, &empty, &twins).0.is_empty());
+    }
+}

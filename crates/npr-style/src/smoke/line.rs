@@ -1,0 +1,209 @@
+//! Outlines of spheres, found where their rims are.
+//!
+//! A pixel of a sphere knows where the rim nearest to it lies, and the picture just beyond the rim says whether that part of
+//! it is an outline: nothing, or smoke far behind. So lines are as smooth as circles, as wide as wanted, and cost one look.
+
+use npr_core::geometry::FAR_DEPTH;
+use npr_core::math;
+use npr_core::smoke::{Ball, Lens};
+use npr_core::surface::{dot, unit_or_z};
+
+use super::resolve::Resolving;
+
+/// How far beyond a rim the picture is looked at, in pixels: far enough that the pixel's middle lies beyond it too.
+const BEYOND_PX: f32 = 1.25;
+
+/// Steps along the rim, in widths of the line, to where a line that ends is looked for.
+const END_STEPS: [f32; 3] = [0.25, 0.55, 0.9];
+
+/// Part of the jump that a line starts with from which it is as wide as lines inside get.
+const INNER_JUMP: f32 = 2.0;
+
+/// The same for as wide as the outer line.
+const OUTER_JUMP: f32 = 8.0;
+
+/// A place on a sphere's rim.
+#[derive(Debug, Clone, Copy)]
+struct Rim {
+    /// Frame position.
+    px: [f32; 2],
+    /// Unit vector away from the sphere, in the frame.
+    outward: [f32; 2],
+    /// View depth.
+    depth: f32,
+}
+
+/// The rim of a ball in a direction.
+struct Disc {
+    /// Unit vector to the middle, and two across; the first leads towards the ray that was asked for.
+    axes: [[f32; 3]; 3],
+    /// How far along the axis the rim lies, and how far across.
+    along: f32,
+    across: f32,
+    middle_px: [f32; 2],
+}
+
+impl Disc {
+    fn new(lens: &Lens, ball: &Ball, ray: [f32; 2]) -> Self {
+        let (axis, towards, along, across);
+        if lens.perspective > 0.5 && lens.discs < 0.5 {
+            let square = dot(ball.center, ball.center);
+            let distance = square.sqrt();
+            axis = ball.center.map(|v| v / distance);
+            towards = [ray[0], ray[1], 1.0];
+            // Rays from the eye touch the sphere in a circle a little nearer and narrower than its own.
+            let shrunk = (1.0 - ball.radius * ball.radius / square).max(0.0);
+            along = distance * shrunk;
+            across = ball.radius * shrunk.sqrt();
+        } else {
+            axis = [0.0, 0.0, 1.0];
+            let place = lens.place_at(ray, ball.center[2]);
+            towards = [place[0] - ball.center[0], place[1] - ball.center[1], 0.0];
+            along = ball.center[2];
+            across = ball.radius;
+        }
+        let part = dot(towards, axis);
+        let first = unit_or_z(std::array::from_fn(|i| towards[i] - axis[i] * part));
+        let second = [
+            axis[1] * first[2] - axis[2] * first[1],
+            axis[2] * first[0] - axis[0] * first[2],
+            axis[0] * first[1] - axis[1] * first[0],
+        ];
+        Self {
+            axes: [axis, first, second],
+            along,
+            across,
+            middle_px: lens.frame_of(ball.center),
+        }
+    }
+
+    /// The rim at an angle, given by its sine and cosine, from the ray.
+    fn rim(&self, lens: &Lens, ball: &Ball, [sin, cos]: [f32; 2]) -> Rim {
+        let [axis, first, second] = self.axes;
+        let middle = if lens.perspective > 0.5 && lens.discs < 0.5 {
+            axis.map(|v| v * self.along)
+        } else {
+            ball.center
+        };
+        let place =
+            std::array::from_fn(|i| middle[i] + (first[i] * cos + second[i] * sin) * self.across);
+        let px = lens.frame_of(place);
+        let out = [px[0] - self.middle_px[0], px[1] - self.middle_px[1]];
+        let length = (out[0] * out[0] + out[1] * out[1]).sqrt().max(1e-12);
+        Rim {
+            px,
+            outward: [out[0] / length, out[1] / length],
+            depth: place[2],
+        }
+    }
+}
+
+impl Resolving<'_> {
+    /// How much of the outline of sphere `id` covers a place of the frame in its image, 0..1.
+    pub(super) fn line_at(&self, id: u32, frame_px: [f32; 2]) -> f32 {
+        let ball = &self.balls[(id - 1) as usize];
+        let widest = self.look.line_px * (1.0 + self.look.swell);
+        let ray = self.lens.ray(frame_px);
+        if self.is_far_inside(ball, ray, widest + 0.5) {
+            return 0.0;
+        }
+        let disc = Disc::new(self.lens, ball, ray);
+        let rim = disc.rim(self.lens, ball, [0.0, 1.0]);
+        let away = inside_by(&rim, frame_px);
+        if away > widest + 0.5 {
+            return 0.0;
+        }
+        let width = self.width_at(id, ball, &rim);
+        let covered = coverage(width, away.max(0.0));
+        if width > 0.0 {
+            return covered;
+        }
+        // Round off lines that end near by.
+        let mut covered = covered;
+        let radius_px = distance(rim.px, disc.middle_px).max(1.0);
+        for step in END_STEPS {
+            for side in [-step, step] {
+                let sin = (side * self.look.line_px / radius_px).clamp(-0.7, 0.7);
+                let rim = disc.rim(self.lens, ball, [sin, (1.0 - sin * sin).sqrt()]);
+                let width = self.width_at(id, ball, &rim);
+                covered = covered.max(coverage(width, distance(rim.px, frame_px)));
+            }
+        }
+        covered
+    }
+
+    /// Whether a ray passes so close to the middle of a ball that the rim is farther than `reach_px` for certain.
+    fn is_far_inside(&self, ball: &Ball, ray: [f32; 2], reach_px: f32) -> bool {
+        let room = self.lens.pixel_at(ball.center[2] + ball.radius) * reach_px;
+        let start = self.lens.place_at(ray, 0.0);
+        let towards = self.lens.place_at(ray, 1.0);
+        let towards: [f32; 3] = std::array::from_fn(|i| towards[i] - start[i]);
+        let offset: [f32; 3] = std::array::from_fn(|i| ball.center[i] - start[i]);
+        let middle = dot(offset, towards) / dot(towards, towards);
+        let beside: [f32; 3] = std::array::from_fn(|i| offset[i] - towards[i] * middle);
+        let inner = (ball.radius - room).max(0.0);
+        dot(beside, beside) < inner * inner
+    }
+
+    /// How wide the outline of a sphere is at a place of its rim, in pixels; 0 where the rim is none.
+    ///
+    /// Full where nothing lies beyond; inside the smoke it grows with the jump in depth, so lines there begin thin and end
+    /// thin. It swells where the sphere turns away from the light.
+    fn width_at(&self, id: u32, ball: &Ball, rim: &Rim) -> f32 {
+        let beyond = std::array::from_fn(|i| {
+            rim.px[i] + rim.outward[i] * BEYOND_PX * self.window.frame_step[i]
+        });
+        let [x, y] = self.window.pixel_at(beyond);
+        let texel = (y * self.window.size[0] + x) as usize;
+        if self.ids[texel] == id {
+            return 0.0;
+        }
+        let part = self.part_at((self.pixels[texel].depth - rim.depth) / ball.radius);
+        let towards = self.look.towards_light;
+        let facing = rim.outward[0] * towards[0] - rim.outward[1] * towards[1];
+        self.look.line_px * part * (1.0 - self.look.swell * facing)
+    }
+
+    /// The part of its width that a line has at a jump in depth, in radii.
+    fn part_at(&self, jump: f32) -> f32 {
+        let from = self.look.line_from;
+        let inner = math::smoothstep(from, from * INNER_JUMP, jump);
+        let outer = math::smoothstep(from * INNER_JUMP, from * OUTER_JUMP, jump);
+        if jump <= 0.0 {
+            return 0.0;
+        }
+        self.look.line_inner * inner + (1.0 - self.look.line_inner) * outer
+    }
+
+    /// The published line: 1 where depths of diagonal neighbours differ [Hoshino 2004, section 3.5].
+    ///
+    /// Depths run from 0 at the front of the smoke to 1 at its back and behind it. The result is the darkness 1 - l.
+    pub(super) fn published_line(&self, x: u32, y: u32) -> f32 {
+        let d = |dx: i32, dy: i32| {
+            let depth = self.pixels[self.texel_near(x, y, dx, dy)].depth;
+            let place = (depth - self.look.depth_start) / self.look.depth_size;
+            if depth >= FAR_DEPTH {
+                1.0
+            } else {
+                place.clamp(0.0, 1.0)
+            }
+        };
+        let (a, b) = (d(-1, 1) - d(1, -1), d(-1, -1) - d(1, 1));
+        (self.look.line_weight * (a * a + b * b)).clamp(0.0, 1.0)
+    }
+}
+
+/// How far inside its rim a place lies, in pixels; below 0 outside.
+fn inside_by(rim: &Rim, frame_px: [f32; 2]) -> f32 {
+    (rim.px[0] - frame_px[0]) * rim.outward[0] + (rim.px[1] - frame_px[1]) * rim.outward[1]
+}
+
+fn distance(a: [f32; 2], b: [f32; 2]) -> f32 {
+    let d = [a[0] - b[0], a[1] - b[1]];
+    (d[0] * d[0] + d[1] * d[1]).sqrt()
+}
+
+/// How much of a pixel a line covers that is `width` wide from its edge, `away` from the pixel's middle.
+fn coverage(width: f32, away: f32) -> f32 {
+    (width - away + 0.5).clamp(0.0, 1.0) * width.min(1.0)
+}

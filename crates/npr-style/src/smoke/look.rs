@@ -1,0 +1,182 @@
+//! Settings of smoke, as passes read them.
+
+use bytemuck::{Pod, Zeroable};
+use npr_core::gpu_layout;
+use npr_core::math;
+
+/// Most layers that smoke is smoothed in.
+pub const LAYERS_MAX: u32 = 16;
+
+/// Farthest pixel or cell that the Gaussian reaches.
+pub const TAPS_MAX: u32 = 11;
+
+/// Most cells of all layers together: two floats each fill 64 MiB.
+pub const CELLS_MAX: u64 = 8 << 20;
+
+/// Deviations that the Gaussian reaches: what lies beyond weighs less than 0.0005 of a row.
+const DEVIATIONS: f32 = 3.5;
+
+/// Deviation in cells below which no coarser grid is taken.
+const FINEST: f32 = 1.5;
+
+/// Deviation in pixels below which every pixel of the window is added up.
+const WINDOWED: f32 = 3.0;
+
+/// How smoke is toned and outlined.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct SmokeLook {
+    /// How many layers of depth are smoothed apart, 1..16.
+    pub layers: u32,
+    /// A cell of the grids that layers are smoothed on is `2^shift` pixels wide; 0 for whole windows instead of grids.
+    pub shift: u32,
+    /// How many cells, or pixels, the Gaussian reaches to each side; 0 for none.
+    pub taps: u32,
+    /// Bits of [`SmokeLook::PUBLISHED`] and [`SmokeLook::UNLIT`].
+    pub flags: u32,
+    /// Width and height of a grid.
+    pub cells: [u32; 2],
+    /// View depth where the first layer begins.
+    pub range_start: f32,
+    /// Depth of a layer.
+    pub range_size: f32,
+    /// Part of a layer, 0..1, over which spheres pass on to the next one.
+    pub range_blend: f32,
+    /// Width of the step between two tones, in tone.
+    pub softness: f32,
+    /// How much of a tone is the sphere's heat instead of light, 0..1.
+    pub heat: f32,
+    /// How far light reaches round a sphere: 0 half of it, 1 all of it.
+    pub wrap: f32,
+    /// Width of the outer line in frame pixels.
+    pub line_px: f32,
+    /// Part of that which lines inside the smoke have.
+    pub line_inner: f32,
+    /// Jump in depth, in radii, from which one sphere is outlined before another.
+    pub line_from: f32,
+    /// Darkness of the published line.
+    pub line_weight: f32,
+    /// View depth where the smoke begins.
+    pub depth_start: f32,
+    /// How deep the smoke is.
+    pub depth_size: f32,
+    /// How much lines swell away from the light, 0..1.
+    pub swell: f32,
+    /// How much the smoke covers.
+    pub alpha: f32,
+    /// Colour of lines, linear light, straight alpha.
+    pub line_color: [f32; 4],
+    /// Unit vector towards the main light: right, up, along the view axis.
+    pub towards_light: [f32; 3],
+    /// Light that reaches everything, 0..1.
+    pub ambient: f32,
+    /// Samples per pixel along each axis, 1 or 2.
+    pub samples: u32,
+    /// Texels along a side of the pictures that lights have of the smoke; 0 where it throws no shadow on itself.
+    pub shadow_side: u32,
+    /// Keeps rows of 16 bytes.
+    pub unused: [u32; 2],
+    /// Weights of the Gaussian from the middle outwards.
+    pub kernel: [[f32; 4]; 3],
+    /// Colours in linear light, each with the tone it begins at; see [`crate::ramp::Level`].
+    pub ramp: [[f32; 4]; 8],
+}
+gpu_layout!(SmokeLook {
+    layers,
+    shift,
+    taps,
+    flags,
+    cells,
+    range_start,
+    range_size,
+    range_blend,
+    softness,
+    heat,
+    wrap,
+    line_px,
+    line_inner,
+    line_from,
+    line_weight,
+    depth_start,
+    depth_size,
+    swell,
+    alpha,
+    line_color,
+    towards_light,
+    ambient,
+    samples,
+    shadow_side,
+    unused,
+    kernel,
+    ramp,
+});
+
+impl SmokeLook {
+    /// Lines from differences of depth between diagonal neighbours, as published.
+    pub const PUBLISHED: u32 = 1;
+    /// No light: the baseline of discs has one tone.
+    pub const UNLIT: u32 = 2;
+
+    /// Sets how far tones are smoothed, on a picture of `size` pixels, for a Gaussian of deviation `sigma` pixels.
+    ///
+    /// Up to 3 pixels every pixel in reach is added up. Beyond, layers are smoothed on grids whose cells double as the
+    /// deviation does, so the cost stays that of 1.5 to 3 cells. Adding up cells and reading between them smooths too:
+    /// what it adds to the variance is taken off the kernel's.
+    pub fn smooth(&mut self, size: [u32; 2], sigma: f32) {
+        let sigma = if sigma.is_finite() {
+            sigma.clamp(0.0, 1e4)
+        } else {
+            0.0
+        };
+        (self.shift, self.cells) = (0, [1, 1]);
+        let mut deviation = sigma;
+        if sigma >= WINDOWED {
+            self.shift = shift_for(size, sigma, self.layers);
+            self.cells = cells_of(size, self.shift);
+            let cell = (1u32 << self.shift) as f32;
+            let added = (1.0 - 1.0 / (cell * cell)) / 12.0 + 1.0 / 3.0;
+            let wanted = sigma / cell;
+            deviation = (wanted * wanted - added).max(0.05).sqrt();
+        }
+        self.taps = ((deviation * DEVIATIONS).ceil() as u32).min(TAPS_MAX);
+        if deviation < 0.1 {
+            self.taps = 0;
+        }
+        for i in 0..=TAPS_MAX {
+            let d = i as f32 / deviation.max(1e-6);
+            let weight = math::exp(-0.5 * d * d);
+            self.kernel[i as usize / 4][i as usize % 4] = if i <= self.taps { weight } else { 0.0 };
+        }
+    }
+
+    /// Weight of the Gaussian at a distance of `i` cells.
+    pub(super) fn weight(&self, i: u32) -> f32 {
+        self.kernel[i as usize / 4][i as usize % 4]
+    }
+
+    /// How many cells all grids have together; 1 where there are no grids.
+    pub fn cell_count(&self) -> usize {
+        if self.shift == 0 {
+            return 1;
+        }
+        self.layers as usize * self.cells[0] as usize * self.cells[1] as usize
+    }
+}
+
+fn cells_of(size: [u32; 2], shift: u32) -> [u32; 2] {
+    size.map(|side| side.div_ceil(1 << shift))
+}
+
+/// How often cells double: until the deviation is less than 3 of them and all fit.
+fn shift_for(size: [u32; 2], sigma: f32, layers: u32) -> u32 {
+    let mut shift = 1;
+    let is_coarse = |shift: u32| {
+        let cells = cells_of(size, shift).map(u64::from);
+        sigma / ((1u32 << shift) as f32) < 2.0 * FINEST
+            && cells[0] * cells[1] * u64::from(layers) <= CELLS_MAX
+    };
+    while shift < 14 && !is_coarse(shift) {
+        shift += 1;
+    }
+    shift
+}

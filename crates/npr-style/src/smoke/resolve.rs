@@ -1,0 +1,304 @@
+//! Tones and outlines of every pixel: the twin of `smoke.resolve`.
+
+use npr_core::color::SrgbEncoder;
+use npr_core::geometry::FAR_DEPTH;
+use npr_core::smoke::{Ball, Lens, SmokePixel};
+use npr_core::window::Window;
+use rayon::prelude::*;
+
+use super::SmokeLook;
+use crate::ramp::Level;
+
+/// The low bits of a depth say which samples of the pixel the smoke covers.
+pub const MASK: u32 = 15;
+
+/// Neighbours of a pixel, itself first, then those beside it.
+const AROUND: [[i32; 2]; 9] = [
+    [0, 0],
+    [-1, 0],
+    [1, 0],
+    [0, -1],
+    [0, 1],
+    [-1, -1],
+    [1, -1],
+    [-1, 1],
+    [1, 1],
+];
+
+/// What a picture of smoke is resolved from.
+#[derive(Debug, Clone, Copy)]
+pub struct Resolving<'a> {
+    /// The eye.
+    pub lens: &'a Lens,
+    /// The pixel grid.
+    pub window: &'a Window,
+    /// Settings.
+    pub look: &'a SmokeLook,
+    /// Numbers of the nearest spheres, plus one.
+    pub ids: &'a [u32],
+    /// The spheres as the eye sees them.
+    pub balls: &'a [Ball],
+    /// Depth and layer of every pixel.
+    pub pixels: &'a [SmokePixel],
+    /// Smoothed tones.
+    pub tones: &'a [f32],
+}
+
+/// Gives colours as sRGB bytes with straight alpha, and depths as bits of a float whose low four say which samples are
+/// covered; both 0 without smoke.
+///
+/// Most pixels show one sphere. Where several meet, or smoke ends, the spheres of the nine pixels around are asked for
+/// every sample, so edges are as smooth as the frame's samples. O(pixels).
+pub fn resolve(with: &Resolving<'_>, colors: &mut [u32], depths: &mut [u32]) {
+    let width = with.window.size[0] as usize;
+    if width == 0 {
+        return;
+    }
+    let encoder = SrgbEncoder::new();
+    colors
+        .par_chunks_mut(width)
+        .zip(depths.par_chunks_mut(width))
+        .enumerate()
+        .for_each(|(y, (colors, depths))| {
+            for x in 0..width {
+                let (color, depth) = with.texel(x as u32, y as u32);
+                (colors[x], depths[x]) = (packed(&encoder, color), depth);
+            }
+        });
+}
+
+/// Which spheres the samples of a pixel show: neighbours by their place in [`AROUND`].
+struct Seen {
+    owners: [Option<usize>; 4],
+    count: usize,
+}
+
+impl Resolving<'_> {
+    /// Index of a neighbour, clamped to the picture.
+    pub(super) fn texel_near(&self, x: u32, y: u32, dx: i32, dy: i32) -> usize {
+        let [width, height] = self.window.size.map(|side| side as i32);
+        let (x, y) = (
+            (x as i32 + dx).clamp(0, width - 1),
+            (y as i32 + dy).clamp(0, height - 1),
+        );
+        (y * width + x) as usize
+    }
+
+    fn texel(&self, x: u32, y: u32) -> ([f32; 4], u32) {
+        if let Some(id) = self.only_around(x, y) {
+            let texel = self.texel_near(x, y, 0, 0);
+            return match id {
+                0 => ([0.0; 4], 0),
+                _ => (
+                    self.paint(id, texel, self.window.frame_at(x, y)),
+                    with_mask(self.pixels[texel].depth, MASK),
+                ),
+            };
+        }
+        let around = AROUND.map(|[dx, dy]| self.texel_near(x, y, dx, dy));
+        let ids = around.map(|texel| self.ids[texel]);
+        if ids.iter().all(|id| *id == 0) {
+            return ([0.0; 4], 0);
+        }
+        if self.look.flags & SmokeLook::PUBLISHED != 0 {
+            return self.published(x, y, &around);
+        }
+        let frame_px = self.window.frame_at(x, y);
+        if ids.iter().all(|id| *id == ids[0]) {
+            let color = self.paint(ids[0], around[0], frame_px);
+            return (color, with_mask(self.pixels[around[0]].depth, MASK));
+        }
+        let seen = self.seen(&ids, frame_px);
+        self.blended(&seen, &ids, &around, frame_px)
+    }
+
+    /// The number that a pixel and its eight neighbours share, where they do; not asked at the picture's border or where
+    /// lines lie on pixels without smoke.
+    fn only_around(&self, x: u32, y: u32) -> Option<u32> {
+        let [width, height] = self.window.size;
+        let is_inside = x > 0 && y > 0 && x + 1 < width && y + 1 < height;
+        if !is_inside || self.look.flags & SmokeLook::PUBLISHED != 0 {
+            return None;
+        }
+        let (here, width) = ((y * width + x) as usize, width as usize);
+        let id = self.ids[here];
+        let is_same = |middle: usize| {
+            let row = &self.ids[middle - 1..=middle + 1];
+            row[0] == id && row[1] == id && row[2] == id
+        };
+        let same = is_same(here) && is_same(here - width) && is_same(here + width);
+        same.then_some(id)
+    }
+
+    /// The sphere nearest to the eye in every sample, among those around.
+    fn seen(&self, ids: &[u32; 9], frame_px: [f32; 2]) -> Seen {
+        let samples = self.look.samples;
+        let mut seen = Seen {
+            owners: [None; 4],
+            count: (samples * samples) as usize,
+        };
+        for (i, owner) in seen.owners[..seen.count].iter_mut().enumerate() {
+            let ray = self.lens.ray(self.sample_at(frame_px, i));
+            let mut nearest = FAR_DEPTH;
+            for k in 0..9 {
+                if ids[k] == 0 || ids[..k].contains(&ids[k]) {
+                    continue;
+                }
+                let depth = self.lens.depth_of(&self.balls[(ids[k] - 1) as usize], ray);
+                if depth < nearest {
+                    (nearest, *owner) = (depth, Some(k));
+                }
+            }
+        }
+        seen
+    }
+
+    /// Frame position of sample `i` of the pixel at `frame_px`.
+    fn sample_at(&self, frame_px: [f32; 2], i: usize) -> [f32; 2] {
+        if self.look.samples == 1 {
+            return frame_px;
+        }
+        let step = self.window.frame_step;
+        [
+            frame_px[0] + ((i & 1) as f32 * 0.5 - 0.25) * step[0],
+            frame_px[1] + ((i >> 1) as f32 * 0.5 - 0.25) * step[1],
+        ]
+    }
+
+    /// The mean of what the samples show, and the depth of the first.
+    fn blended(
+        &self,
+        seen: &Seen,
+        ids: &[u32; 9],
+        around: &[usize; 9],
+        frame_px: [f32; 2],
+    ) -> ([f32; 4], u32) {
+        let owners = &seen.owners[..seen.count];
+        let (mut sum, mut covered, mut mask, mut depth) = ([0.0; 4], 0.0, 0, FAR_DEPTH);
+        for (i, owner) in owners.iter().enumerate() {
+            let Some(k) = *owner else { continue };
+            mask |= 1 << i;
+            covered += 1.0;
+            if owners[..i].contains(owner) {
+                continue;
+            }
+            let count = owners[i..].iter().filter(|other| *other == owner).count() as f32;
+            let [r, g, b, a] = self.paint(ids[k], around[k], frame_px);
+            let weight = a * count;
+            sum = [
+                sum[0] + r * weight,
+                sum[1] + g * weight,
+                sum[2] + b * weight,
+                sum[3] + weight,
+            ];
+            depth = depth.min(self.pixels[around[k]].depth);
+        }
+        if mask == 0 {
+            return ([0.0; 4], 0);
+        }
+        let whole = sum[3].max(1e-6);
+        let color = [
+            sum[0] / whole,
+            sum[1] / whole,
+            sum[2] / whole,
+            sum[3] / covered,
+        ];
+        (color, with_mask(depth, mask))
+    }
+
+    /// Tone and line of sphere `id` at a place, with the tone that pixel `texel` has; linear light, straight alpha.
+    fn paint(&self, id: u32, texel: usize, frame_px: [f32; 2]) -> [f32; 4] {
+        let [r, g, b] = self.look.color_of(self.tones[texel], self.slope_at(texel));
+        self.look
+            .under_line([r, g, b, self.look.alpha], self.line_at(id, frame_px))
+    }
+
+    /// How fast the smoothed tone changes at a pixel, per pixel, among neighbours of the same layer.
+    fn slope_at(&self, texel: usize) -> f32 {
+        let width = self.window.size[0] as usize;
+        let (x, y) = ((texel % width) as u32, (texel / width) as u32);
+        let across = self.change([
+            self.texel_near(x, y, -1, 0),
+            texel,
+            self.texel_near(x, y, 1, 0),
+        ]);
+        let down = self.change([
+            self.texel_near(x, y, 0, -1),
+            texel,
+            self.texel_near(x, y, 0, 1),
+        ]);
+        (across * across + down * down).sqrt()
+    }
+
+    /// Change of tone from pixel to pixel of three in a row.
+    fn change(&self, [before, here, after]: [usize; 3]) -> f32 {
+        let place = self.pixels[here].place;
+        let is_same =
+            |texel: usize| texel != here && (self.pixels[texel].place - place).abs() < 0.5;
+        match (is_same(before), is_same(after)) {
+            (true, true) => (self.tones[after] - self.tones[before]) * 0.5,
+            (true, false) => self.tones[here] - self.tones[before],
+            (false, true) => self.tones[after] - self.tones[here],
+            (false, false) => 0.0,
+        }
+    }
+
+    /// As published: one tone a pixel, lines from differences of depth.
+    fn published(&self, x: u32, y: u32, around: &[usize; 9]) -> ([f32; 4], u32) {
+        let line = self.published_line(x, y);
+        let is_smoke = self.ids[around[0]] != 0;
+        if line == 0.0 && !is_smoke {
+            return ([0.0; 4], 0);
+        }
+        let mut color = [0.0; 4];
+        if is_smoke {
+            let [r, g, b] = self.look.color_of(self.tones[around[0]], 0.0);
+            color = [r, g, b, self.look.alpha];
+        }
+        let nearest = around
+            .iter()
+            .map(|texel| self.pixels[*texel].depth)
+            .fold(FAR_DEPTH, f32::min);
+        let color = self.look.under_line(color, line);
+        (color, with_mask(nearest, MASK))
+    }
+}
+
+impl SmokeLook {
+    /// The colour of a tone that changes by `slope` a pixel, linear light: steps are as wide as a pixel, or softer.
+    ///
+    /// Each step is a ramp over the width that the tone changes in over one pixel, so edges are smooth at one sample a pixel.
+    pub(super) fn color_of(&self, tone: f32, slope: f32) -> [f32; 3] {
+        let width = self.softness.max(slope).max(1e-6);
+        let levels: &[Level] = bytemuck::cast_slice(&self.ramp);
+        let mut color = levels[0].light;
+        for level in &levels[1..] {
+            if level.at > 1.5 {
+                break;
+            }
+            let t = ((tone - level.at) / width + 0.5).clamp(0.0, 1.0);
+            color = std::array::from_fn(|i| color[i] + (level.light[i] - color[i]) * t);
+        }
+        color
+    }
+
+    /// A colour with a line over it that covers `line` of it; linear light, straight alpha.
+    fn under_line(&self, color: [f32; 4], line: f32) -> [f32; 4] {
+        let top = line * self.line_color[3];
+        let alpha = top + color[3] * (1.0 - top);
+        let part = top / alpha.max(1e-6);
+        let mixed = |i: usize| color[i] + (self.line_color[i] - color[i]) * part;
+        [mixed(0), mixed(1), mixed(2), alpha]
+    }
+}
+
+/// Linear light with straight alpha as sRGB bytes.
+fn packed(encoder: &SrgbEncoder, [r, g, b, a]: [f32; 4]) -> u32 {
+    let [r, g, b] = [r, g, b].map(|light| encoder.byte(light));
+    r | g << 8 | b << 16 | ((a.clamp(0.0, 1.0) * 255.0 + 0.5) as u32) << 24
+}
+
+/// A depth whose low bits say which samples are covered; it keeps 19 bits of its own.
+fn with_mask(depth: f32, mask: u32) -> u32 {
+    depth.to_bits() & !MASK | mask
+}

@@ -1,0 +1,239 @@
+//! How smoke looks: the table `smoke` of a style.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::LAYERS_MAX;
+use crate::ramp::Level;
+use crate::{Color, Length, StyleError};
+
+/// What stands for a puff of smoke.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SmokeMethod {
+    /// Spheres in their own sizes, lit and smoothed [Hoshino 2004].
+    #[default]
+    Spheres,
+    /// Comparison: discs of one size that face the view, unlit, lines from differences of depth [Selle 2004].
+    Billboards,
+}
+
+/// How smoke is outlined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SmokeLines {
+    /// Lines of a width, along the rims of spheres.
+    #[default]
+    Drawn,
+    /// Comparison: differences of depth between diagonal neighbours, as published.
+    Published,
+    /// No lines.
+    Off,
+}
+
+/// A colour of smoke from a tone on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SmokeStop {
+    /// Where the colour begins, 0..1: 0 the darkest shade, 1 full light. The first stop also covers everything before it.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub at: f32,
+    /// The colour itself.
+    pub color: Color,
+}
+
+/// How smoke looks.
+///
+/// Used where a scene has smoke; styles without this table draw it in two tones under a dark line.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SmokeStyle {
+    /// What stands for a puff; default `spheres`.
+    pub method: SmokeMethod,
+    /// The tones, 1 to 8, sorted by `at`; default two, blue-grey shade and white. Three make rounder puffs, six a painting.
+    #[schemars(length(min = 1, max = 8))]
+    pub ramp: Vec<SmokeStop>,
+    /// Width of the step between two tones, 0..0.5; default 0, cut paper. 0.1 a soft brush.
+    #[schemars(range(min = 0.0, max = 0.5))]
+    pub softness: f32,
+    /// How far tones are smoothed, as the deviation of a Gaussian; default 14. 0 shows every sphere, 8 is lively, 30 one large
+    /// shade. As published, use `"3px"`.
+    pub sigma: Length,
+    /// How many layers of depth are smoothed apart, 1..16; default 4. More let near puffs stand out from far ones.
+    #[schemars(range(min = 1, max = 16))]
+    pub layers: u32,
+    /// Depth of a layer in units of the scene, 0..1e9; default 0: the smoke's depth divided by `layers`.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub layer_depth: f32,
+    /// Part of a layer over which puffs pass on to the next, 0..1; default 0.6. 0 as published: tones jump when a puff
+    /// changes its layer.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub layer_blend: f32,
+    /// How far light reaches round a puff, 0..1; default 0.3. 0 half of it, as published; 1 all of it, as on surfaces.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub wrap: f32,
+    /// Light that reaches everything, 0..1; default 0.1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub ambient: f32,
+    /// How much of a tone is a puff's heat instead of light, 0..1; default 0. 0.7 for fire.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub heat: f32,
+    /// How much the smoke covers, 0..1; default 1. 0.6 a haze.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub opacity: f32,
+    /// Whether puffs throw shadows on one another; default true.
+    pub shadow: bool,
+    /// Texels of a light's picture of the smoke along a side, 64..4096; default 1024. Shadows end in circles at any size;
+    /// smaller ones lose small puffs. Published: 2048.
+    #[schemars(range(min = 64, max = 4096))]
+    pub shadow_px: u32,
+    /// Whether smoke throws shadows on surfaces, in lights that throw shadows; default true.
+    pub casts: bool,
+    /// Towards a light of the smoke's own, as `light.direction`; default none: the lights of the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    pub light: Option<[f32; 3]>,
+    /// How the smoke is outlined.
+    pub line: SmokeLine,
+}
+
+/// How smoke is outlined.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SmokeLine {
+    /// How; default `drawn`.
+    pub method: SmokeLines,
+    /// Colour; default a blue black. Alpha is how much it covers.
+    pub color: Color,
+    /// Width of the outer line; default 3.2. 2 a pen, 6 a brush.
+    pub width: Length,
+    /// Part of that which lines inside the smoke have, 0..1; default 0.6. 0 only the outer line.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub inner: f32,
+    /// From which jump in depth a puff is outlined before another, in radii of the puff, 0.01..10; default 0.4. Lower draws more lines.
+    #[schemars(range(min = 0.01, max = 10.0))]
+    pub jump: f32,
+    /// How much lines swell away from the light, 0..1; default 0.35. 0 even.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub swell: f32,
+    /// Darkness of the published line, 0..100000; default 200.
+    #[schemars(range(min = 0.0, max = 100_000.0))]
+    pub weight: f32,
+}
+
+impl Default for SmokeLine {
+    fn default() -> Self {
+        Self {
+            method: SmokeLines::Drawn,
+            color: Color::rgb(0x1c, 0x1e, 0x2c),
+            width: Length::ref_px(3.2),
+            inner: 0.6,
+            jump: 0.4,
+            swell: 0.35,
+            weight: 200.0,
+        }
+    }
+}
+
+impl Default for SmokeStyle {
+    fn default() -> Self {
+        let stop = |at, color| SmokeStop { at, color };
+        Self {
+            method: SmokeMethod::Spheres,
+            ramp: vec![
+                stop(0.0, Color::rgb(0x9f, 0xa6, 0xbd)),
+                stop(0.45, Color::rgb(0xf8, 0xf8, 0xfb)),
+            ],
+            softness: 0.0,
+            sigma: Length::ref_px(14.0),
+            layers: 4,
+            layer_depth: 0.0,
+            layer_blend: 0.6,
+            wrap: 0.3,
+            ambient: 0.1,
+            heat: 0.0,
+            opacity: 1.0,
+            shadow: true,
+            shadow_px: 1024,
+            casts: true,
+            light: None,
+            line: SmokeLine::default(),
+        }
+    }
+}
+
+impl SmokeStyle {
+    /// The tones as passes read them: linear light and where each begins; unused rows never begin.
+    pub fn levels(&self) -> [[f32; 4]; 8] {
+        let mut levels = [[1.0, 1.0, 1.0, Level::UNUSED]; 8];
+        for (level, stop) in levels.iter_mut().zip(&self.ramp) {
+            let [r, g, b, _] = stop.color.linear();
+            *level = [r, g, b, stop.at];
+        }
+        levels
+    }
+
+    /// Refuses tones out of order and a light that points nowhere.
+    pub(crate) fn sanity_check(&self) -> Result<(), StyleError> {
+        let unsorted = self
+            .ramp
+            .windows(2)
+            .position(|pair| pair[1].at < pair[0].at);
+        if let Some(i) = unsorted {
+            let key = format!("smoke.ramp.{}.at", i + 1);
+            return Err(StyleError::unfit(key, "lies before the stop ahead of it"));
+        }
+        match self.light {
+            Some([0.0, 0.0, 0.0]) => Err(StyleError::unfit("smoke.light", "points nowhere")),
+            _ => Ok(()),
+        }
+    }
+}
+
+const _: () = assert!(LAYERS_MAX == 16, "the range of `layers` says so");
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Style;
+
+    fn read(text: &str) -> Result<Style, StyleError> {
+        Style::from_toml(text, &|parent| Err(format!("no '{parent}'")))
+    }
+
+    #[test]
+    fn what_is_written_is_read_again() {
+        let text = "[smoke]\nmethod = 'billboards'\nsigma = '3px'\nlight = [0, 1, 0]\nline.method = 'published'\n\
+                    ramp = [{ at = 0.0, color = 'black' }, { at = 0.5, color = 'white' }]";
+        let style = read(text).expect("a style");
+        assert_eq!(style.smoke.levels()[1], [1.0, 1.0, 1.0, 0.5]);
+        assert_eq!(style.smoke.levels()[2][3], Level::UNUSED);
+        assert_eq!(read(&style.to_toml().expect("TOML")), Ok(style));
+    }
+
+    #[test]
+    fn slips_are_told_by_name() {
+        let told = |text: &str| read(text).expect_err("a slip").to_string();
+        for (text, key, fault) in [
+            (
+                "smoke.layers = 17",
+                "smoke.layers",
+                "is 17, but must lie in 1..16",
+            ),
+            ("smoke.light = [0, 0, 0]", "smoke.light", "points nowhere"),
+            (
+                "smoke.ramp = [{ at = 0.5, color = 'red' }, { at = 0.2, color = 'red' }]",
+                "smoke.ramp.1.at",
+                "lies before the stop ahead of it",
+            ),
+            (
+                "smoke.opacty = 1",
+                "unknown key 'smoke.opacty'",
+                "did you mean 'smoke.opacity'?",
+            ),
+        ] {
+            let told = told(text);
+            assert!(told.starts_with(key) && told.ends_with(fault), "{told}");
+        }
+    }
+}

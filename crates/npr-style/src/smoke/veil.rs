@@ -1,0 +1,170 @@
+//! Smoke over the surfaces of a pixel, and its shadow on them: the twin of `lib/veil`.
+
+use npr_core::geometry::FAR_DEPTH;
+use npr_core::surface::apply_point;
+
+use crate::compose::{Compose, Layers, Samples};
+
+/// Distances in pixels around a line where surfaces are looked for that it may belong to.
+const LINE_RINGS_PX: [f32; 3] = [1.0, 2.5, 5.0];
+
+/// Smoke over a pixel.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Veil {
+    /// Linear light, straight alpha.
+    color: [f32; 4],
+    depth: f32,
+    /// Which samples it covers.
+    mask: u32,
+    /// How much it hides of the surface or background in each sample.
+    pub(crate) hidden: [f32; 4],
+}
+
+impl Veil {
+    /// Lays the smoke over surfaces that already lack what it hides; premultiplied.
+    pub(crate) fn add_to(&self, color: &mut [f32; 4], samples: usize) {
+        let shown = self.hidden[..samples].iter().sum::<f32>() / samples as f32;
+        let [r, g, b, _] = self.color;
+        *color = [
+            color[0] + r * shown,
+            color[1] + g * shown,
+            color[2] + b * shown,
+            color[3] + shown,
+        ];
+    }
+
+    /// How much the smoke hides of triangle `id` in sample `i`.
+    pub(crate) fn over(&self, layers: &Layers<'_>, id: u32, i: u32, frame_px: [f32; 2]) -> f32 {
+        if self.mask & (1 << i) == 0 {
+            return 0.0;
+        }
+        let offset = layers.sample_offset(i);
+        let at = [frame_px[0] + offset[0], frame_px[1] + offset[1]];
+        if id != 0 && layers.depth_of(id, at) < self.depth {
+            return 0.0;
+        }
+        self.color[3]
+    }
+
+    /// How much of the lines of a pixel the smoke hides.
+    ///
+    /// Nothing where a surface near by lies before the smoke: the line belongs to the foremost, and half of it lies beside.
+    pub(crate) fn line_fade(
+        &self,
+        layers: &Layers<'_>,
+        pixel: [u32; 2],
+        frame_px: [f32; 2],
+    ) -> f32 {
+        let whole = (layers.compose.samples * layers.compose.samples) as f32;
+        let shown = self.color[3] * self.mask.count_ones() as f32 / whole;
+        if self.is_before(layers, pixel, frame_px, [0.0; 2]) {
+            return 0.0;
+        }
+        for ring in LINE_RINGS_PX {
+            for [x, y] in DIRECTIONS {
+                if self.is_before(layers, pixel, frame_px, [x * ring, y * ring]) {
+                    return 0.0;
+                }
+            }
+        }
+        shown
+    }
+
+    /// Whether a surface some pixels away lies before the smoke.
+    fn is_before(
+        &self,
+        layers: &Layers<'_>,
+        pixel: [u32; 2],
+        frame_px: [f32; 2],
+        step: [f32; 2],
+    ) -> bool {
+        let (window, samples) = (layers.window, layers.compose.samples);
+        let at: [u32; 2] = std::array::from_fn(|i| {
+            let px = (pixel[i] as f32 + step[i] + 0.5).floor();
+            px.clamp(0.0, window.size[i] as f32 - 1.0) as u32
+        });
+        let stride = window.size[0] * samples;
+        let id = layers.ids[(at[1] * samples * stride + at[0] * samples) as usize];
+        let moved: [f32; 2] = std::array::from_fn(|i| {
+            frame_px[i] + (at[i] as f32 - pixel[i] as f32) * window.frame_step[i]
+        });
+        let offset = layers.sample_offset(0);
+        let there = [moved[0] + offset[0], moved[1] + offset[1]];
+        id != 0 && layers.depth_of(id, there) < self.depth
+    }
+}
+
+/// The eight directions in which a line's surface is looked for.
+const DIRECTIONS: [[f32; 2]; 8] = [
+    [1.0, 0.0],
+    [0.7, 0.7],
+    [0.0, 1.0],
+    [-0.7, 0.7],
+    [-1.0, 0.0],
+    [-0.7, -0.7],
+    [0.0, -1.0],
+    [0.7, -0.7],
+];
+
+impl Layers<'_> {
+    /// The smoke over a pixel whose samples show `seen`; `None` without any.
+    pub(crate) fn veil_of(
+        &self,
+        x: u32,
+        y: u32,
+        seen: &Samples,
+        frame_px: [f32; 2],
+    ) -> Option<Veil> {
+        if self.compose.flags & Compose::SMOKE == 0 {
+            return None;
+        }
+        let texel = (y * self.window.size[0] + x) as usize;
+        let bits = self.smoke_depths[texel];
+        let mask = bits & crate::smoke::resolve::MASK;
+        if mask == 0 {
+            return None;
+        }
+        let depth = f32::from_bits(bits & !crate::smoke::resolve::MASK);
+        let mut veil = Veil {
+            color: self.linear_texel(self.smoke_colors[texel]),
+            depth: depth.min(FAR_DEPTH),
+            mask,
+            hidden: [0.0; 4],
+        };
+        for (i, id) in seen.iter().enumerate() {
+            veil.hidden[i] = veil.over(self, *id, i as u32, frame_px);
+        }
+        Some(veil)
+    }
+
+    /// Whether smoke stands between a place and the light of a shadow picture.
+    ///
+    /// The four texels around it vote by how near they are, so the edge runs smoothly between texels.
+    pub(crate) fn is_behind_smoke(&self, map: usize, world: [f32; 3]) -> bool {
+        let side = self.compose.smoke_shadow_side;
+        if side == 0 {
+            return false;
+        }
+        let clip = apply_point(&self.lights.shadows[map], world);
+        let (nearness, length) = (clip[2] / clip[3], side as f32);
+        let at = [
+            (clip[0] / clip[3] + 1.0) * 0.5 * length - 0.5,
+            (1.0 - clip[1] / clip[3]) * 0.5 * length - 0.5,
+        ];
+        let is_inside = |x: f32| x >= 0.0 && x < length - 1.0;
+        if !(clip[3] > 0.0 && is_inside(at[0]) && is_inside(at[1])) {
+            return false;
+        }
+        let low = at.map(|v| v as u32);
+        let part = [at[0] - low[0] as f32, at[1] - low[1] as f32];
+        let is_dark = |x: u32, y: u32| {
+            let depth = f32::from_bits(
+                self.smoke_shadows[map][((low[1] + y) * side + low[0] + x) as usize],
+            );
+            f32::from(u8::from(depth > nearness))
+        };
+        let upper = is_dark(0, 0) + (is_dark(1, 0) - is_dark(0, 0)) * part[0];
+        let lower = is_dark(0, 1) + (is_dark(1, 1) - is_dark(0, 1)) * part[0];
+        upper + (lower - upper) * part[1] > 0.5
+    }
+}

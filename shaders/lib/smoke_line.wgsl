@@ -1,0 +1,142 @@
+// Outlines of spheres, found where their rims are. Twin: npr_style::smoke::line.
+// The shader declares `window`, `lens`, `look`, `smoke_ids`, `balls` and `pixels`.
+
+// How far beyond a rim the picture is looked at, in pixels.
+const BEYOND_PX: f32 = 1.25;
+// Parts of the jump that a line starts with, from which it is as wide as lines inside get, and as the outer line.
+const INNER_JUMP: f32 = 2.0;
+const OUTER_JUMP: f32 = 8.0;
+
+// A place on a sphere's rim.
+struct Rim {
+    px: vec2<f32>,
+    outward: vec2<f32>,
+    depth: f32,
+}
+
+// The rim of a ball in a direction.
+struct Disc {
+    first: vec3<f32>,
+    second: vec3<f32>,
+    middle: vec3<f32>,
+    across: f32,
+    middle_px: vec2<f32>,
+}
+
+fn disc_of(ball: Ball, ray: vec2<f32>) -> Disc {
+    var disc: Disc;
+    var axis = vec3<f32>(0.0, 0.0, 1.0);
+    var towards: vec3<f32>;
+    if lens.perspective > 0.5 && lens.discs < 0.5 {
+        let square = dot(ball.center, ball.center);
+        let distance = sqrt(square);
+        axis = ball.center / distance;
+        towards = vec3<f32>(ray, 1.0);
+        // Rays from the eye touch the sphere in a circle a little nearer and narrower than its own.
+        let shrunk = max(1.0 - ball.radius * ball.radius / square, 0.0);
+        disc.middle = axis * (distance * shrunk);
+        disc.across = ball.radius * sqrt(shrunk);
+    } else {
+        let place = place_on(lens, ray, ball.center.z);
+        towards = vec3<f32>(place.xy - ball.center.xy, 0.0);
+        disc.middle = ball.center;
+        disc.across = ball.radius;
+    }
+    disc.first = unit_or_z(towards - axis * dot(towards, axis));
+    disc.second = cross(axis, disc.first);
+    disc.middle_px = frame_of(lens, ball.center);
+    return disc;
+}
+
+// The rim at an angle, given by its sine and cosine, from the ray.
+fn rim_of(disc: Disc, sine: f32, cosine: f32) -> Rim {
+    let place = disc.middle + (disc.first * cosine + disc.second * sine) * disc.across;
+    var rim: Rim;
+    rim.px = frame_of(lens, place);
+    let out = rim.px - disc.middle_px;
+    rim.outward = out / max(sqrt(out.x * out.x + out.y * out.y), 1e-12);
+    rim.depth = place.z;
+    return rim;
+}
+
+fn distance_px(a: vec2<f32>, b: vec2<f32>) -> f32 {
+    let d = a - b;
+    return sqrt(d.x * d.x + d.y * d.y);
+}
+
+// How much of a pixel a line covers that is `width` wide from its edge, `away` from the pixel's middle.
+fn line_coverage(width: f32, away: f32) -> f32 {
+    return clamp(width - away + 0.5, 0.0, 1.0) * min(width, 1.0);
+}
+
+// The part of its width that a line has at a jump in depth, in radii.
+fn line_part_at(jump: f32) -> f32 {
+    let start = look.line_from;
+    let inner = smooth_step(start, start * INNER_JUMP, jump);
+    let outer = smooth_step(start * INNER_JUMP, start * OUTER_JUMP, jump);
+    if jump <= 0.0 { return 0.0; }
+    return look.line_inner * inner + (1.0 - look.line_inner) * outer;
+}
+
+// How wide the outline of a sphere is at a place of its rim, in pixels; 0 where the rim is none.
+fn width_at(id: u32, ball: Ball, rim: Rim) -> f32 {
+    let beyond = rim.px + rim.outward * BEYOND_PX * window.frame_step;
+    let pixel = pixel_at(window, beyond);
+    if textureLoad(smoke_ids, pixel, 0).x == id { return 0.0; }
+    let depth = pixels[pixel.y * window.size.x + pixel.x].depth;
+    let part = line_part_at((depth - rim.depth) / ball.radius);
+    let facing = rim.outward.x * look.towards_light.x - rim.outward.y * look.towards_light.y;
+    return look.line_px * part * (1.0 - look.swell * facing);
+}
+
+// Whether a ray passes so close to the middle of a ball that the rim is farther than `reach_px` for certain.
+fn is_far_inside(ball: Ball, ray: vec2<f32>, reach_px: f32) -> bool {
+    let room = lens_pixel_at(lens, ball.center.z + ball.radius) * reach_px;
+    let start = place_on(lens, ray, 0.0);
+    let towards = place_on(lens, ray, 1.0) - start;
+    let offset = ball.center - start;
+    let middle = dot(offset, towards) / dot(towards, towards);
+    let beside = offset - towards * middle;
+    let inner = max(ball.radius - room, 0.0);
+    return dot(beside, beside) < inner * inner;
+}
+
+// How much of the outline of sphere `id` covers a place of the frame in its image, 0..1.
+fn line_at(id: u32, frame_px: vec2<f32>) -> f32 {
+    let ball = balls[id - 1u];
+    let widest = look.line_px * (1.0 + look.swell);
+    let ray = ray_at(lens, frame_px);
+    if is_far_inside(ball, ray, widest + 0.5) { return 0.0; }
+    let disc = disc_of(ball, ray);
+    let rim = rim_of(disc, 0.0, 1.0);
+    let away = dot(rim.px - frame_px, rim.outward);
+    if away > widest + 0.5 { return 0.0; }
+    let width = width_at(id, ball, rim);
+    var covered = line_coverage(width, max(away, 0.0));
+    if width > 0.0 { return covered; }
+    // Round off lines that end near by: steps along the rim, in widths of the line.
+    let steps = vec3<f32>(0.25, 0.55, 0.9);
+    let radius_px = max(distance_px(rim.px, disc.middle_px), 1.0);
+    for (var k = 0u; k < 6u; k++) {
+        let side = select(steps[k / 2u], -steps[k / 2u], k % 2u == 0u);
+        let sine = clamp(side * look.line_px / radius_px, -0.7, 0.7);
+        let rim = rim_of(disc, sine, sqrt(1.0 - sine * sine));
+        let width = width_at(id, ball, rim);
+        covered = max(covered, line_coverage(width, distance_px(rim.px, frame_px)));
+    }
+    return covered;
+}
+
+// Depth of a pixel for the published line: 0 at the front of the smoke, 1 at its back and behind it.
+fn published_depth(pixel: vec2<i32>) -> f32 {
+    let depth = pixels[texel_near(pixel, vec2<i32>(0))].depth;
+    if depth >= FAR_DEPTH { return 1.0; }
+    return clamp((depth - look.depth_start) / look.depth_size, 0.0, 1.0);
+}
+
+// The published line: 1 where depths of diagonal neighbours differ.
+fn published_line(pixel: vec2<i32>) -> f32 {
+    let a = published_depth(pixel + vec2<i32>(-1, 1)) - published_depth(pixel + vec2<i32>(1, -1));
+    let b = published_depth(pixel + vec2<i32>(-1, -1)) - published_depth(pixel + vec2<i32>(1, 1));
+    return clamp(look.line_weight * (a * a + b * b), 0.0, 1.0);
+}
