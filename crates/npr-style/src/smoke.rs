@@ -1,7 +1,7 @@
 //! Cartoon smoke [Hoshino 2004]: spheres become a few flat tones under an outline.
 //!
-//! The twins of the passes `smoke.*`, in the order in which a frame runs them: [`project`], [`draw`], [`shade`],
-//! [`blur`] and [`resolve`]; then [`crate::compose`] lays the result over the scene.
+//! The twins of the passes `smoke.*`, in the order in which a frame runs them: [`draw`], [`shade`], [`blur`] and
+//! [`resolve`]; then [`crate::compose`] lays the result over the scene.
 
 pub mod blur;
 pub mod draw;

@@ -16,10 +16,10 @@ const BEYOND_PX: f32 = 1.25;
 /// Steps along the rim, in widths of the line, to where a line that ends is looked for.
 const END_STEPS: [f32; 3] = [0.25, 0.55, 0.9];
 
-/// Part of the jump that a line starts with from which it is as wide as lines inside get.
+/// Multiple of the jump where a line starts at which it is as wide as lines inside the smoke get.
 const INNER_JUMP: f32 = 2.0;
 
-/// The same for as wide as the outer line.
+/// Multiple of that jump at which it is as wide as the outer line.
 const OUTER_JUMP: f32 = 8.0;
 
 /// A place on a sphere's rim.

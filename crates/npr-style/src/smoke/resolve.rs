@@ -60,9 +60,9 @@ pub fn resolve(with: &Resolving<'_>, colors: &mut [u32], depths: &mut [u32]) {
         .zip(depths.par_chunks_mut(width))
         .enumerate()
         .for_each(|(y, (colors, depths))| {
-            for x in 0..width {
-                let (color, depth) = with.texel(x as u32, y as u32);
-                (colors[x], depths[x]) = (packed(&encoder, color), depth);
+            for (x, (color, depth)) in colors.iter_mut().zip(depths).enumerate() {
+                let (drawn, bits) = with.texel(x as u32, y as u32);
+                (*color, *depth) = (packed(&encoder, drawn), bits);
             }
         });
 }
