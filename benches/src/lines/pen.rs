@@ -90,8 +90,11 @@ impl Paper {
             }
             found.push(pixel);
             // The margin hangs together with all that is outside.
+            if self.is_margin(pixel) {
+                return Vec::new();
+            }
             is_slit = is_slit && !self.is_in_white_square(pixel);
-            if self.is_margin(pixel) || (found.len() >= most && !is_slit) {
+            if found.len() >= most && !is_slit {
                 return Vec::new();
             }
             open.extend(self.sides(pixel));
@@ -99,7 +102,7 @@ impl Paper {
         found
     }
 
-    /// Whether four white pixels meet at a corner of this one.
+    /// Whether four white pixels meet at a corner of this one, which lies inside the margin.
     fn is_in_white_square(&self, pixel: usize) -> bool {
         let white = self.around(pixel).map(|near| !self.black[near]);
         (0..8)
