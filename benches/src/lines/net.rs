@@ -53,7 +53,7 @@ impl Arc {
     }
 
     /// The points from one end on.
-    fn from_end(&self, at_tail: bool) -> Vec<[f64; 2]> {
+    fn points_from(&self, at_tail: bool) -> Vec<[f64; 2]> {
         let mut points = self.points.clone();
         if !at_tail {
             points.reverse();
@@ -193,7 +193,7 @@ impl Net {
             let straight = |a: usize, b: usize| -directions[a].dot(directions[b]);
             let layers = ends.iter().map(|end| {
                 let (arc, at_tail) = arc_of(end);
-                layers_of(&arc.from_end(at_tail))
+                layers_of(&arc.points_from(at_tail))
             });
             let layers: Vec<Vec<Layer>> = layers.collect();
             let is_shared = |a: usize, b: usize| layers[a].iter().any(|l| layers[b].contains(l));
