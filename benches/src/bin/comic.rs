@@ -1,5 +1,5 @@
-//! Measures comic pictures and prints the tables kept in `benches/results/comic.md`; with `prices [ENGINE [PRESET..]]` only
-//! the times, with `gallery FOLDER [PRESET..]` sheets of the presets instead.
+//! Measures comic pictures and prints the tables kept in `benches/results/comic.md`; with `prices [ENGINE [SIZE] [PRESET..]]`
+//! only the times, with `gallery FOLDER [PRESET..]` sheets of the presets instead.
 //!
 //! Run by `cargo xtask measure comic` and `cargo xtask gallery`. A measuring program, not a test: it fails only where loading or
 //! drawing fails.
@@ -60,7 +60,7 @@ fn main() -> Outcome<()> {
             gallery::write(Path::new(folder), presets)
         }
         _ => Err(
-            "usage: comic > benches/results/comic.md, comic prices [processor|device [PRESET..]], or comic gallery FOLDER [PRESET..]".into(),
+            "usage: comic > benches/results/comic.md, comic prices [processor|device [WIDTHxHEIGHT] [PRESET..]], or comic gallery FOLDER [PRESET..]".into(),
         ),
     }
 }
@@ -204,33 +204,51 @@ fn prices(choice: &[String]) -> Outcome<()> {
         return Ok(());
     };
     let subject = Subject::from_file(&path)?;
+    let (engine, size, named) = match choice {
+        [] => (None, None, choice),
+        [engine] => (Some(engine.as_str()), None, &[][..]),
+        [engine, second, rest @ ..] => match size_of(second) {
+            Some(size) => (Some(engine.as_str()), Some(size), rest),
+            None => (Some(engine.as_str()), None, &choice[1..]),
+        },
+    };
+    let size = size.unwrap_or(FULL_HD);
     let mut presets = PRICED.to_vec();
-    if let [_, named @ ..] = choice
-        && !named.is_empty()
-    {
+    if !named.is_empty() {
         presets.truncate(1);
         presets.extend(named.iter().map(String::as_str));
     }
     println!("## What ink and hatching cost\n");
     println!(
         "The bunny at {}x{}: medians of {RUNS} frames drawn by turns and, in brackets, the least, in ms. Preparing is done once \
-         and holds tiles and charts. Published: 8 % more than plain shading.\n",
-        FULL_HD[0], FULL_HD[1]
+         and holds tiles and charts. Work is what all threads of the process did in a frame: unlike the time it hardly hangs on \
+         what else the machine does. Published: 8 % more than plain shading.\n",
+        size[0], size[1]
     );
-    let engine = choice.first().map(String::as_str);
     if engine != Some("device") {
-        prices_on(&Processor, &subject, &presets)?;
+        prices_on(&Processor, &subject, size, &presets)?;
     }
     if engine != Some("processor")
         && let Some(device) = device::open()
     {
-        prices_on(&*device, &subject, &presets)?;
+        prices_on(&*device, &subject, size, &presets)?;
     }
     Ok(())
 }
 
+/// Width and height from a text as `1920x1080`.
+fn size_of(text: &str) -> Option<[u32; 2]> {
+    let (width, height) = text.split_once('x')?;
+    Some([width.parse().ok()?, height.parse().ok()?])
+}
+
 /// The table of an engine; the first preset is what the others are compared with.
-fn prices_on(engine: &dyn Engine, subject: &Subject, presets: &[&str]) -> Outcome<()> {
+fn prices_on(
+    engine: &dyn Engine,
+    subject: &Subject,
+    size: [u32; 2],
+    presets: &[&str],
+) -> Outcome<()> {
     let styles = presets.iter().map(|name| Style::preset(name));
     let styles = styles.collect::<Result<Vec<_>, _>>()?;
     println!(
@@ -238,7 +256,7 @@ fn prices_on(engine: &dyn Engine, subject: &Subject, presets: &[&str]) -> Outcom
         engine.describe(),
         machine::load()
     );
-    let prices = price::prices(engine, subject, &styles, FULL_HD, RUNS)?;
+    let prices = price::prices(engine, subject, &styles, size, RUNS)?;
     let mut table = Table::new([
         "preset",
         "frame",
