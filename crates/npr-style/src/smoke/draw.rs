@@ -305,7 +305,12 @@ mod tests {
             let (ids, depths) = draw(&lens, &window, &balls);
             for y in 0..SIZE[1] {
                 for x in 0..SIZE[0] {
-                    let ray = lens.ray(window.frame_at(x, y));
+                    let px = window.frame_at(x, y);
+                    if !(0.0..=300.0).contains(&px[0]) || !(0.0..=200.0).contains(&px[1]) {
+                        // Nothing is promised beyond the frame.
+                        continue;
+                    }
+                    let ray = lens.ray(px);
                     let (mut best, mut nearest) = (0, FAR_DEPTH);
                     for (i, ball) in balls.iter().enumerate() {
                         let depth = lens.depth_of(ball, ray);
