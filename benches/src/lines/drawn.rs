@@ -39,7 +39,7 @@ pub fn drawn_strokes(runs: &[Run], size: [u32; 2]) -> Vec<DrawnStroke> {
     let mut net = Net::read(&paper);
     net.cut_spurs();
     net.contract_bridges();
-    let ink = LayeredInk::new(runs, &curves);
+    let ink = LayeredInk::new(runs, &curves, size);
     let whole = net.strokes(&|points| ink.layers_from(points));
     whole
         .into_iter()
