@@ -218,7 +218,10 @@ fn tinted_parts(model: &Model, style: &Style) -> Vec<bool> {
     let mut tinted = vec![false; model.parts.len()];
     if style.shade.use_vertex_colors {
         for vertex in &model.vertices {
-            tinted[vertex.part as usize] |= vertex.color | 0xff00_0000 != u32::MAX;
+            // A scene without triangles has no parts, whatever its vertices say.
+            if let Some(tinted) = tinted.get_mut(vertex.part as usize) {
+                *tinted |= vertex.color | 0xff00_0000 != u32::MAX;
+            }
         }
     }
     tinted

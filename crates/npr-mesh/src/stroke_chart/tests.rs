@@ -267,13 +267,18 @@ fn painted_chart(mesh: &Mesh, directions: &[[f32; 3]]) -> StrokeChart {
 fn strokes_turn_as_they_are_painted() {
     let (mesh, directions) = painted_sheet(5);
     let chart = painted_chart(&mesh, &directions);
+    let mut sum = 0.0;
     for (face, corners) in mesh.triangles().iter().enumerate() {
         let painted = corners.map(|vertex| Vec3::from(directions[vertex as usize]));
         let painted = (painted[0] + painted[1] + painted[2]).normalize();
         let [_, v] = gradients(corners_of(&mesh, face), &chart.corners[face]);
         let cos = v.normalize().dot(painted).abs();
-        assert!(cos > 0.97, "{face}: {cos}");
+        sum += cos;
+        // Gradients have no curl, and what is painted has: a few triangles turn away from it.
+        assert!(cos > 0.9, "{face}: {cos}");
     }
+    // Ten degrees in the mean.
+    assert!(sum / mesh.triangles().len() as f32 > 0.985, "{sum}");
 }
 
 proptest! {
