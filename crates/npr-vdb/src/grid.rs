@@ -149,7 +149,7 @@ impl<V: Voxel> Grid<V> {
 
     /// All values of the box of `size` voxels with its lowest corner at `low`, tiles expanded.
     ///
-    /// z runs fastest, then y: voxel `low + [x, y, z]` is at `(x * size[1] + y) * size[2] + z`, as in an array [x][y][z]. O(voxels).
+    /// z runs fastest, then y: voxel `low + [x, y, z]` is at `(x * size[1] + y) * size[2] + z`, as in an array `[x][y][z]`. O(voxels).
     ///
     /// # Errors
     ///

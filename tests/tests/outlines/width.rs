@@ -57,9 +57,9 @@ fn curvature_swells_tight_bends() {
 
 #[test]
 fn projected_curvature_follows_the_line_as_seen() {
-    // From its side an egg swells at the tip.
+    // From its side an egg swells at the tip, to a fifth of the radius that the line turns with there.
     let [tip, top] = tip_and_top(0, 0.9, "projected-curvature");
-    assert!(tip > top + 2.0, "{tip} px at the tip, {top} on the flank");
+    assert!(tip >= 2.0 * top, "{tip} px at the tip, {top} on the flank");
     // Seen along its axis it is a circle, and the line does not know how long the egg is.
     let [short, _] = tip_and_top(2, 0.4, "projected-curvature");
     let [long, _] = tip_and_top(2, 0.9, "projected-curvature");
