@@ -91,7 +91,6 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
     }
     // Strokes show no change of the light that is faster than they follow one another.
     let white = paint_at(id, part, weights);
-    if white[0] <= 0.0 { return 1.0; }
     let per_px = length(vec2<f32>(l[1] - l[0], l[2] - l[0])) * white[0];
     for (var i = 0u; i < 3u; i++) { l[i] = painted_level(l[i], white[i], parts[part].threshold); }
     // Beyond a silhouette the surface runs on to anywhere.

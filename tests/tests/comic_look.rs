@@ -185,7 +185,9 @@ fn painted_walls(left: f32, right: f32, settings: &[&str]) -> [f32; 2] {
 #[test]
 fn dark_paint_is_drawn_on_paper_where_the_style_says() {
     let pen = ["ink.tone=ink+hatch", "ink.paint=1"];
-    assert_eq!(painted_walls(0.0, 0.9, &pen), [1.0, 0.0]);
+    // All ink, but for a trace of grey between strokes that only just meet.
+    let [black, white] = painted_walls(0.0, 0.9, &pen);
+    assert!(black > 0.99 && white == 0.0, "{black} {white}");
     assert_eq!(painted_walls(0.0, 0.9, &["ink.tone=ink+hatch"]), [0.0; 2]);
     let [dark, light] = painted_walls(0.05, 0.2, &pen);
     assert!(

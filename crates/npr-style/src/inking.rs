@@ -160,9 +160,6 @@ impl Layers<'_> {
         let weights = weights_around(corners.clip, ndc, step);
         let lit = self.levels_at(part, corners, weights, dark);
         let white = self.paint_at(id, part, weights);
-        if white[0] <= 0.0 {
-            return 1.0;
-        }
         let l: [f32; 3] = std::array::from_fn(|i| painted_level(lit[i], white[i], part.threshold));
         // Beyond a silhouette the surface runs on to anywhere.
         let darkens = [
