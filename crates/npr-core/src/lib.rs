@@ -1,6 +1,6 @@
 //! What every other crate of the drawing machine stands on.
 //!
-//! Deterministic math ([`math`]), colour encoding ([`color`]), cameras ([`camera`]), the structs that
+//! Deterministic math ([`math`]), numbers that look random ([`random`]), colour encoding ([`color`]), cameras ([`camera`]), the structs that
 //! passes read and write on both engines ([`geometry`], [`window`]), the surface point under a pixel
 //! ([`surface`]), packed textures ([`texture`]), and a triangle rasteriser with a stated fill rule
 //! ([`raster`]); spheres of smoke ([`smoke`]). Nothing here knows about files, styles or graphics devices.
@@ -21,6 +21,7 @@ pub mod layout;
 pub mod light_view;
 pub mod math;
 pub mod outline;
+pub mod random;
 pub mod raster;
 pub mod shape;
 pub mod smoke;

@@ -2,12 +2,11 @@
 
 use glam::Vec3;
 use npr_core::math::{mix, mix_bits, smoothstep};
+use npr_core::random;
 
 /// A number of 0..1, 1 left out, for a question put as three numbers.
 pub(crate) fn unit(seed: u32, subject: u32, question: u32) -> f32 {
-    let mixed = mix_bits(mix_bits(seed ^ 0x9e37_79b9).wrapping_add(subject));
-    let bits = mix_bits(mixed.wrapping_add(question.wrapping_mul(0x85eb_ca6b)));
-    (bits >> 8) as f32 / (1 << 24) as f32
+    random::unit(random::hash(seed, subject, question))
 }
 
 /// Three numbers of -1..1, 1 left out.

@@ -7,12 +7,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::beam::{Beam, BeamStop};
-use crate::hatch::noise::{hash, unit};
 use crate::ramp::Stop;
 use crate::{
     Background, Color, Highlight, Ink, Length, LineMethod, Rule, RuleShade, ShadeMode, Style,
     StyleError,
 };
+use npr_core::random::{hash, unit};
 
 /// Most different trails in a style.
 pub const TRAILS_MAX: usize = 16;

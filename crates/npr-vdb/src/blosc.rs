@@ -3,16 +3,6 @@
 //! A container of format 2 [Blosc 1.x, README_CHUNK_FORMAT] holds blocks of equal size, each packed on its own, each
 //! either whole or split into one stream for every byte of an element; before packing, bytes or bits may be shuffled so that those
 //! of equal rank lie together.
-#![cfg_attr(
-    not(test),
-    deny(
-        clippy::unwrap_used,
-        clippy::expect_used,
-        clippy::panic,
-        clippy::indexing_slicing,
-        clippy::arithmetic_side_effects
-    )
-)]
 
 mod blosclz;
 mod shuffle;

@@ -1,11 +1,4 @@
 //! Runs of bytes, stored plainly or packed.
-#![deny(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::indexing_slicing,
-    clippy::arithmetic_side_effects
-)]
 
 use miniz_oxide::inflate::decompress_slice_iter_to_slice;
 

@@ -1,14 +1,4 @@
 //! A place in a file's bytes that moves on as they are read.
-#![cfg_attr(
-    not(test),
-    deny(
-        clippy::unwrap_used,
-        clippy::expect_used,
-        clippy::panic,
-        clippy::indexing_slicing,
-        clippy::arithmetic_side_effects
-    )
-)]
 
 use crate::fault::Fault;
 

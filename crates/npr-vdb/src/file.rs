@@ -1,11 +1,4 @@
 //! An OpenVDB file and its grids.
-#![deny(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::indexing_slicing,
-    clippy::arithmetic_side_effects
-)]
 
 use crate::chunk::Compression;
 use crate::cursor::Cursor;

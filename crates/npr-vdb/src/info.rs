@@ -1,11 +1,4 @@
 //! What a file says of its grids before any is read.
-#![deny(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::indexing_slicing,
-    clippy::arithmetic_side_effects
-)]
 
 use crate::grid::Bounds;
 use crate::metadata::{MetaValue, Metadata};

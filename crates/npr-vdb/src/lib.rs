@@ -40,11 +40,33 @@
 //! every offset is checked. A file never makes its lists longer than 256 times its own size, whatever it states.
 //! Values themselves are handed on as they are: NaN and infinities too.
 
+// Every byte comes from a stranger.
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::unwrap_used,
+        clippy::expect_used,
+        clippy::panic,
+        clippy::indexing_slicing,
+        clippy::arithmetic_side_effects
+    )
+)]
+
 mod blosc;
 mod chunk;
 mod cursor;
+#[allow(
+    clippy::arithmetic_side_effects,
+    clippy::indexing_slicing,
+    reason = "holds what was read and checked"
+)]
 mod fault;
 mod file;
+#[allow(
+    clippy::arithmetic_side_effects,
+    clippy::indexing_slicing,
+    reason = "holds what was read and checked"
+)]
 mod grid;
 mod half;
 mod info;
@@ -54,6 +76,14 @@ mod metadata;
 pub mod npy;
 mod packed;
 #[cfg(any(test, feature = "testing"))]
+#[allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::indexing_slicing,
+    clippy::arithmetic_side_effects,
+    reason = "writes what tests ask for"
+)]
 pub mod testing;
 mod transform;
 mod tree;

@@ -1,14 +1,4 @@
 //! One bit for every place of a node.
-#![cfg_attr(
-    not(test),
-    deny(
-        clippy::unwrap_used,
-        clippy::expect_used,
-        clippy::panic,
-        clippy::indexing_slicing,
-        clippy::arithmetic_side_effects
-    )
-)]
 
 /// One bit for every place of a node, as the file stores them: the lowest bit of the first byte comes first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,14 +1,4 @@
 //! What a file says about itself and its grids.
-#![cfg_attr(
-    not(test),
-    deny(
-        clippy::unwrap_used,
-        clippy::expect_used,
-        clippy::panic,
-        clippy::indexing_slicing,
-        clippy::arithmetic_side_effects
-    )
-)]
 
 use crate::cursor::Cursor;
 use crate::fault::Fault;

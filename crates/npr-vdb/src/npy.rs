@@ -10,16 +10,6 @@
 //! assert_eq!(array.values, npy::Values::Scalars(vec![1.0, 2.0]));
 //! # Ok::<(), npr_vdb::Fault>(())
 //! ```
-#![cfg_attr(
-    not(test),
-    deny(
-        clippy::unwrap_used,
-        clippy::expect_used,
-        clippy::panic,
-        clippy::indexing_slicing,
-        clippy::arithmetic_side_effects
-    )
-)]
 
 mod header;
 

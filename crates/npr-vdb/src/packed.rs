@@ -1,11 +1,4 @@
 //! Values of one node as files store them: without inactive ones where a few numbers say all.
-#![deny(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::indexing_slicing,
-    clippy::arithmetic_side_effects
-)]
 
 use crate::chunk::{Compression, Room};
 use crate::cursor::Cursor;

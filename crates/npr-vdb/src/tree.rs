@@ -2,16 +2,6 @@
 //!
 //! Under the root stand nodes of 32 x 32 x 32 places, under those nodes of 16 x 16 x 16, under those leaves of 8 x 8 x 8
 //! voxels. A place without a child is a tile: one value for all its voxels [Museth 2013].
-#![cfg_attr(
-    not(test),
-    deny(
-        clippy::unwrap_used,
-        clippy::expect_used,
-        clippy::panic,
-        clippy::indexing_slicing,
-        clippy::arithmetic_side_effects
-    )
-)]
 
 use std::ops::Range;
 

@@ -6,8 +6,9 @@
 //! of both.
 
 use super::drawing::{Drawing, Hand, STEPS};
-use super::noise::{bit_reversed, closed_noise, hash, scaled_noise, signed, unit};
+use super::noise::{bit_reversed, closed_noise, scaled_noise};
 use npr_core::math;
+use npr_core::random::{hash, signed, unit};
 
 /// Names of tracks: their places among this many, so that the names do not hang on the level.
 const TRACK_IDS: u32 = 1 << 16;

@@ -1,22 +1,6 @@
-//! Numbers that look random: hashes, and smooth noise along a closed line.
+//! Smooth noise along a closed line.
 
-use npr_core::math::mix_bits;
-
-/// A well mixed number from three, each stirred in by [`mix_bits`].
-pub fn hash(seed: u32, a: u32, b: u32) -> u32 {
-    let mixed = mix_bits(mix_bits(seed ^ 0x9e37_79b9).wrapping_add(a));
-    mix_bits(mixed.wrapping_add(b.wrapping_mul(0x85eb_ca6b)))
-}
-
-/// A hash as a number of 0..1, 1 left out.
-pub fn unit(hash: u32) -> f32 {
-    (hash >> 8) as f32 / (1 << 24) as f32
-}
-
-/// A hash as a number of -1..1.
-pub fn signed(hash: u32) -> f32 {
-    2.0 * unit(hash) - 1.0
-}
+use npr_core::random::{hash, signed, unit};
 
 /// Smooth noise of -1..1 with period 1 in `x`, through `cells` random heights per period.
 ///
@@ -63,18 +47,6 @@ mod tests {
     fn the_first_numbers_halve_what_is_left() {
         let first: Vec<f32> = (0..5).map(bit_reversed).collect();
         assert_eq!(first, [0.0, 0.5, 0.25, 0.75, 0.125]);
-    }
-
-    #[test]
-    fn hashes_fill_the_range_evenly() {
-        let mut counts = [0u32; 16];
-        for i in 0..16_000 {
-            counts[(unit(hash(3, i, 7)) * 16.0) as usize] += 1;
-        }
-        assert!(
-            counts.iter().all(|&n| (850..1150).contains(&n)),
-            "{counts:?}"
-        );
     }
 
     proptest! {

@@ -281,9 +281,9 @@ mod tests {
             width in 1usize..40, height in 1usize..40, power in 4u32..7, turned: bool, seed: u32,
         ) {
             let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30];
-            let grey = |i: usize| match super::super::noise::hash(seed, i as u32, 0) {
+            let grey = |i: usize| match npr_core::random::hash(seed, i as u32, 0) {
                 hash if hash % 16 < 4 => odd[hash as usize % 16],
-                hash => super::super::noise::unit(hash),
+                hash => npr_core::random::unit(hash),
             };
             let luminance: Vec<f32> = (0..width * height).map(grey).collect();
             let picture = Picture { turned, ..picture(width, height, &luminance) };

@@ -1,6 +1,6 @@
 //! Points in an order whose every beginning covers the tile evenly.
 
-use super::noise::{hash, signed, unit};
+use npr_core::random::{hash, signed, unit};
 
 /// Candidates per point: more follow the widest gap closer, at a cost that grows with their number.
 const CANDIDATES: u32 = 4;

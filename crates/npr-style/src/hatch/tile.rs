@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use super::dots::{self, Stipple};
 use super::drawing::{Drawing, Hand, SPACING_TEXELS, STEPS};
 use super::lines::Strokes;
-use super::noise::{hash, unit};
 use super::{Hatch, Pattern, points, rank};
+use npr_core::random::{hash, unit};
 
 /// Fewest texels per side: a level with two strokes.
 pub const SIDE_MIN: u32 = 2 * SPACING_TEXELS;

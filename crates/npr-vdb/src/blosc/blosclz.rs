@@ -2,16 +2,6 @@
 //!
 //! The first control byte opens a run of new bytes whatever its upper three bits say. From then on, below 32 it is one less than the
 //! length of such a run; else its upper three bits are the length of a repeat and its lower five the upper bits of its distance.
-#![cfg_attr(
-    not(test),
-    deny(
-        clippy::unwrap_used,
-        clippy::expect_used,
-        clippy::panic,
-        clippy::indexing_slicing,
-        clippy::arithmetic_side_effects
-    )
-)]
 
 /// Distances above this are stored in 16 bits of their own.
 const NEAR: usize = 8191;

@@ -1,14 +1,4 @@
 //! Bytes or bits of equal rank lie together; here they go back to their elements.
-#![cfg_attr(
-    not(test),
-    deny(
-        clippy::unwrap_used,
-        clippy::expect_used,
-        clippy::panic,
-        clippy::indexing_slicing,
-        clippy::arithmetic_side_effects
-    )
-)]
 
 /// Puts the bytes of elements together again; both slices have one length.
 ///

@@ -1,14 +1,4 @@
 //! The text at the beginning of a `.npy` file: a Python dictionary of three entries.
-#![cfg_attr(
-    not(test),
-    deny(
-        clippy::unwrap_used,
-        clippy::expect_used,
-        clippy::panic,
-        clippy::indexing_slicing,
-        clippy::arithmetic_side_effects
-    )
-)]
 
 use super::NpyFault;
 
