@@ -13,9 +13,6 @@ const BESIDE_PX: f64 = 2.25;
 /// Width of the pen that draws the lines, in pixels: within it of a line there is ink already.
 const PEN_PX: f64 = 3.0;
 
-/// A run shorter than this is a crumb, in pixels: too short for the eye to follow.
-const CRUMB_PX: f64 = 8.0;
-
 /// Cosine of the largest angle at which lines count as running along each other.
 const ALONG_COS: f64 = 0.8;
 
@@ -54,7 +51,7 @@ pub fn suppress(runs: Vec<Run>) -> Vec<Run> {
 
 /// Runs without the crumbs that add less ink than half the pen's width to longer runs; order is kept.
 ///
-/// A run shorter than 8 pixels is left out if less than 1.5 pixels of it lie farther than 3 from runs that stay. Crumbs away from
+/// A run is left out if less than 1.5 pixels of it lie farther than 3 from longer runs that stay. Runs away from
 /// others, parts cut at corners, and the longest run of every object always stay. Runs must be sampled about evenly. O(samples) for
 /// lines that do not crowd in one place.
 pub fn leave_out_crumbs(mut runs: Vec<Run>) -> Vec<Run> {
@@ -64,7 +61,7 @@ pub fn leave_out_crumbs(mut runs: Vec<Run>) -> Vec<Run> {
     for (index, length) in longest_first(&runs) {
         let run = &runs[index];
         let is_first = objects.insert((run.object, run.occluders > 0));
-        if length < CRUMB_PX && !is_first && run.cut == [false; 2] {
+        if !is_first && run.cut == [false; 2] {
             let bare = run.points.iter().filter(|p| !taken.inks(run, p.place));
             stays[index] = bare.count() as f64 * length >= 0.5 * PEN_PX * run.points.len() as f64;
         }
@@ -475,7 +472,7 @@ mod tests {
             let mut left = kept.iter().peekable();
             for run in &runs {
                 if left.next_if_eq(&run).is_none() {
-                    prop_assert!(run.length() < CRUMB_PX && run.cut == [false; 2]);
+                    prop_assert!(run.cut == [false; 2]);
                     prop_assert!(bare(run) < PEN_PX, "{} px", bare(run));
                     prop_assert!(kept.iter().any(|other| other.object == run.object && other.length() >= run.length()));
                 }

@@ -10,6 +10,9 @@ use std::collections::BTreeMap;
 /// How near two ends must be that only noise keeps apart, in pixels: the width of a pen, within which nobody tells lines apart.
 pub const TOUCHING_PX: f64 = 3.0;
 
+/// How near two ends must be that meet at a corner, in pixels: half a pen's width of paper between the caps is not seen.
+const CORNER_PX: f64 = 4.5;
+
 /// How near two ends must be that face each other across a gap, in pixels.
 pub const FACING_PX: f64 = 8.0;
 
@@ -38,8 +41,8 @@ const DIRECTION_PX: f64 = 6.0;
 /// Runs with ends up to `reach_px` apart joined in pairs, the best pairs first.
 ///
 /// Both must be of one kind, object, surface and visibility; each end is used once. A run whose two ends fit closes. Of ends that run
-/// past each other both lose half of the overlap. Around a corner of up to 120 degrees only those ends are joined that touch
-/// and that no third one of the kind and object touches. The result keeps the order of the runs' first members, and runs the
+/// past each other both lose half of the overlap. Around a corner of up to 120 degrees only those ends are joined whose
+/// tips are within 4.5 pixels and that no third one of the kind and object comes as near. The result keeps the order of the runs' first members, and runs the
 /// way of the one with the least id, whichever comes first. Ends that were cut at corners stay apart. O(n log n) for ends that
 /// are spread over the picture.
 pub fn merge_ends(mut runs: Vec<Run>, reach_px: f64) -> Vec<Run> {
@@ -136,8 +139,8 @@ struct Meetings<'a> {
     runs: &'a [Run],
     ends: &'a [Option<End>],
     pairs: Vec<[usize; 2]>,
-    /// How many other ends of the kind and object touch each.
-    touching: Vec<u32>,
+    /// How many other ends of the kind and object are as near each as ends of a corner.
+    beside: Vec<u32>,
 }
 
 impl<'a> Meetings<'a> {
@@ -146,15 +149,15 @@ impl<'a> Meetings<'a> {
             runs,
             ends,
             pairs: near_pairs(ends, reach_px),
-            touching: vec![0; ends.len()],
+            beside: vec![0; ends.len()],
         };
         for [a, b] in &found.pairs {
             let (run_a, run_b) = (&runs[a / 2], &runs[b / 2]);
             let alike = run_a.kind == run_b.kind && run_a.object == run_b.object;
             let gap = found.gap([*a, *b]);
-            if alike && gap.is_some_and(|gap| gap <= TOUCHING_PX) {
-                found.touching[*a] += 1;
-                found.touching[*b] += 1;
+            if alike && gap.is_some_and(|gap| gap <= CORNER_PX) {
+                found.beside[*a] += 1;
+                found.beside[*b] += 1;
             }
         }
         found
@@ -181,8 +184,8 @@ impl<'a> Meetings<'a> {
         let gap = self.gap([a, b])?;
         let straight = -dot(end_a.out, end_b.out);
         let cost = gap / TOUCHING_PX + (1.0 - straight);
-        let alone = self.touching[a] == 1 && self.touching[b] == 1;
-        let at_corner = alone && gap <= TOUCHING_PX && straight >= CORNER_COS && !same;
+        let alone = self.beside[a] == 1 && self.beside[b] == 1;
+        let at_corner = alone && gap <= CORNER_PX && straight >= CORNER_COS && !same;
         match go_on(end_a, end_b) {
             true => Some(cost),
             false => at_corner.then_some(CORNER_COST + cost),
