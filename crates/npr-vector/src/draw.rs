@@ -3,6 +3,7 @@
 //! [`Prepared`] holds what does not depend on the camera; [`strokes`] does the rest for one view: it gathers the
 //! pieces of all lines, finds what is seen of them, joins what goes on, and smooths.
 
+use crate::adopt::adopt_kinds;
 use crate::bvh::FaceTree;
 use crate::contour::{EdgeContours, Eye};
 use crate::corner::split;
@@ -193,7 +194,7 @@ pub fn strokes_with(
     let mut found: Vec<Run> = contour_runs.into_iter().chain(other_runs).collect();
     found.retain(|run| settings.hidden || run.occluders == 0);
     if settings.smooth {
-        found = merge_ends(found, TOUCHING_PX);
+        found = merge_ends(adopt_kinds(found), TOUCHING_PX);
     }
     if let Some(least_turn) = settings.split {
         found = split(found, least_turn);

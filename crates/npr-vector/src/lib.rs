@@ -10,6 +10,7 @@
 //! assert_eq!(npr_vector::ribbon::line_coverage(0.0, 0.5), 1.0);
 //! ```
 
+pub mod adopt;
 pub mod artwork;
 pub mod bvh;
 mod clip;

@@ -17,7 +17,7 @@ const CORNER_PX: f64 = 4.5;
 pub const FACING_PX: f64 = 8.0;
 
 /// A run shorter than this is a dot: what direction its ends have is noise, in pixels.
-const DOT_PX: f64 = 8.0;
+pub(crate) const DOT_PX: f64 = 8.0;
 
 /// Cosine of the largest bend where two runs are joined, and of the largest angle between an end and the gap it is joined across.
 const STRAIGHT_COS: f64 = 0.85;
@@ -107,6 +107,13 @@ impl End {
 
 fn cell_of(place: [f64; 2], reach_px: f64) -> [i64; 2] {
     place.map(|v| (v / reach_px).floor() as i64)
+}
+
+/// Pairs of ends of runs up to `reach_px` apart, the lower number first; ends that were cut at corners have no pairs.
+///
+/// End `2 r` is the first point of run `r`, `2 r + 1` its last.
+pub(crate) fn near_ends(runs: &[Run], reach_px: f64) -> Vec<[usize; 2]> {
+    near_pairs(&ends_of(runs), reach_px)
 }
 
 /// Pairs of ends up to `reach_px` apart, the lower number first.

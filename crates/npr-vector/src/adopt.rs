@@ -1,0 +1,119 @@
+//! Makes one line of what changes kind every few pixels.
+//!
+//! Where a shape is pressed into another with about the same outline, a peg into a hole, the line between the two is now a contour
+//! of the one and now where they intersect, a facet each. To the eye it is one line, and only runs of one kind are joined.
+
+use crate::merge::{DOT_PX, TOUCHING_PX, near_ends};
+use crate::run::Run;
+use crate::stroke::Kind;
+
+/// Short runs between the ends of two others take the kind of the stronger of these; order is kept.
+///
+/// A run of less than 8 pixels is short. The others must touch one end of it each, be of its object and visibility, and of kinds that come
+/// before its own in [`Kind::ALL`]. It takes their surface too, so that they can be joined. O(n log n) for ends that are spread
+/// over the picture.
+pub fn adopt_kinds(mut runs: Vec<Run>) -> Vec<Run> {
+    let mut stronger: Vec<[Option<(Kind, u32)>; 2]> = vec![[None; 2]; runs.len()];
+    for [a, b] in near_ends(&runs, TOUCHING_PX) {
+        let (run_a, run_b) = (&runs[a / 2], &runs[b / 2]);
+        let alike = run_a.object == run_b.object && (run_a.occluders > 0) == (run_b.occluders > 0);
+        let (weaker, other) = match run_a.kind.cmp(&run_b.kind) {
+            _ if !alike => continue,
+            std::cmp::Ordering::Less => (b, run_a),
+            std::cmp::Ordering::Equal => continue,
+            std::cmp::Ordering::Greater => (a, run_b),
+        };
+        let found = &mut stronger[weaker / 2][weaker % 2];
+        let offered = (other.kind, other.surface);
+        *found = Some(found.map_or(offered, |before| before.min(offered)));
+    }
+    for (run, sides) in runs.iter_mut().zip(stronger) {
+        if let [Some(a), Some(b)] = sides
+            && run.length() < DOT_PX
+        {
+            (run.kind, run.surface) = a.min(b);
+        }
+    }
+    runs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::merge::merge_ends;
+    use crate::run::testing::{ring, run_along};
+    use proptest::prelude::*;
+
+    /// A circle of facets, contours and intersections in turns.
+    fn peg(count: usize, radius: f64, first: Kind) -> Vec<Run> {
+        let places = ring(0, radius, count).points;
+        let place = |i: usize| places[i % count].place;
+        let facet = |i: usize| {
+            let kind = match (i % 2 == 0) == (first == Kind::Contour) {
+                true => Kind::Contour,
+                false => Kind::Intersection,
+            };
+            let surface = u32::from(kind == Kind::Intersection);
+            Run {
+                kind,
+                surface,
+                ..run_along(i as u64, &[place(i), place(i + 1)])
+            }
+        };
+        (0..count).map(facet).collect()
+    }
+
+    #[test]
+    fn a_long_line_keeps_its_kind() {
+        let between = |length: f64| {
+            let middle = run_along(1, &[[20.0, 0.0], [20.0 + length, 0.0]]);
+            vec![
+                run_along(0, &[[0.0, 0.0], [20.0, 0.0]]),
+                Run {
+                    kind: Kind::Crease,
+                    ..middle
+                },
+                run_along(2, &[[20.0 + length, 0.0], [60.0, 0.0]]),
+            ]
+        };
+        assert_eq!(adopt_kinds(between(7.0))[1].kind, Kind::Contour);
+        assert_eq!(adopt_kinds(between(9.0))[1].kind, Kind::Crease);
+        let mut hidden = between(7.0);
+        hidden[2].occluders = 1;
+        assert_eq!(adopt_kinds(hidden.clone()), hidden);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        /// What is left of a peg in a hole is one closed line.
+        #[test]
+        fn a_peg_in_a_hole_is_one_line(half in 8_usize..60, facet in 3.2_f64..7.5, starts in prop::bool::ANY) {
+            let count = 2 * half;
+            let radius = facet / (2.0 * (std::f64::consts::PI / count as f64).sin());
+            let first = if starts { Kind::Contour } else { Kind::Intersection };
+            let runs = merge_ends(adopt_kinds(peg(count, radius, first)), TOUCHING_PX);
+            prop_assert_eq!(runs.len(), 1);
+            prop_assert!(runs[0].closed && runs[0].kind == Kind::Contour);
+        }
+
+        /// Places, order and number of runs never change, and no kind gets weaker.
+        #[test]
+        fn only_kinds_change(
+            lines in prop::collection::vec((prop::array::uniform2(0.0_f64..20.0), prop::array::uniform2(0.0_f64..20.0), 0_usize..Kind::ALL.len(), 0_u32..2), 0..30),
+        ) {
+            let made = |(id, (from, to, kind, occluders)): (u64, &([f64; 2], [f64; 2], usize, u32))| {
+                Run { kind: Kind::ALL[*kind], occluders: *occluders, ..run_along(id, &[*from, *to]) }
+            };
+            let runs: Vec<Run> = (0..).zip(&lines).map(made).collect();
+            let adopted = adopt_kinds(runs.clone());
+            prop_assert_eq!(adopted.len(), runs.len());
+            for (new, old) in adopted.iter().zip(&runs) {
+                prop_assert!(new.kind <= old.kind);
+                let kept = Run { kind: old.kind, surface: old.surface, ..new.clone() };
+                prop_assert_eq!(&kept, old);
+                prop_assert!(new == old || old.length() < DOT_PX);
+            }
+        }
+    }
+}
