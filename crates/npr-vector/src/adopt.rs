@@ -1,4 +1,4 @@
-//! Makes one line of what changes kind every few pixels.
+//! Makes one line of what changes between an intersection and another kind every few pixels.
 //!
 //! Where a shape is pressed into another with about the same outline, a peg into a hole, the line between the two is now a contour
 //! of the one and now where they intersect, a facet each. To the eye it is one line, and only runs of one kind are joined.
@@ -7,21 +7,23 @@ use crate::merge::{DOT_PX, TOUCHING_PX, near_ends};
 use crate::run::Run;
 use crate::stroke::Kind;
 
-/// Short runs between the ends of two others take the kind of the stronger of these; order is kept.
+/// Short intersections between the ends of two runs of other kinds take the kind of one of these; order is kept.
 ///
-/// A run of less than 8 pixels is short. The others must touch one end of it each, be of its object and visibility, and of kinds that come
-/// before its own in [`Kind::ALL`]. It takes their surface too, so that they can be joined. O(n log n) for ends that are spread
-/// over the picture.
-pub fn adopt_kinds(mut runs: Vec<Run>) -> Vec<Run> {
+/// Less than 8 pixels is short. The others must touch one end each and be of the object and visibility; of two kinds the one that
+/// comes first in [`Kind::ALL`] is taken, and its surface too, so that they can be joined. Edges of the mesh keep their kinds:
+/// each stands for itself. O(n log n) for ends that are spread over the picture.
+pub fn adopt_intersections(mut runs: Vec<Run>) -> Vec<Run> {
     let mut stronger: Vec<[Option<(Kind, u32)>; 2]> = vec![[None; 2]; runs.len()];
     for [a, b] in near_ends(&runs, TOUCHING_PX) {
         let (run_a, run_b) = (&runs[a / 2], &runs[b / 2]);
-        let alike = run_a.object == run_b.object && (run_a.occluders > 0) == (run_b.occluders > 0);
-        let (weaker, other) = match run_a.kind.cmp(&run_b.kind) {
-            _ if !alike => continue,
-            std::cmp::Ordering::Less => (b, run_a),
-            std::cmp::Ordering::Equal => continue,
-            std::cmp::Ordering::Greater => (a, run_b),
+        if run_a.object != run_b.object || (run_a.occluders > 0) != (run_b.occluders > 0) {
+            continue;
+        }
+        let (weaker, other) = match (run_a.kind, run_b.kind) {
+            (Kind::Intersection, Kind::Intersection) => continue,
+            (Kind::Intersection, _) => (a, run_b),
+            (_, Kind::Intersection) => (b, run_a),
+            _ => continue,
         };
         let found = &mut stronger[weaker / 2][weaker % 2];
         let offered = (other.kind, other.surface);
@@ -70,17 +72,20 @@ mod tests {
             vec![
                 run_along(0, &[[0.0, 0.0], [20.0, 0.0]]),
                 Run {
-                    kind: Kind::Crease,
+                    kind: Kind::Intersection,
                     ..middle
                 },
                 run_along(2, &[[20.0 + length, 0.0], [60.0, 0.0]]),
             ]
         };
-        assert_eq!(adopt_kinds(between(7.0))[1].kind, Kind::Contour);
-        assert_eq!(adopt_kinds(between(9.0))[1].kind, Kind::Crease);
+        assert_eq!(adopt_intersections(between(7.0))[1].kind, Kind::Contour);
+        assert_eq!(
+            adopt_intersections(between(9.0))[1].kind,
+            Kind::Intersection
+        );
         let mut hidden = between(7.0);
         hidden[2].occluders = 1;
-        assert_eq!(adopt_kinds(hidden.clone()), hidden);
+        assert_eq!(adopt_intersections(hidden.clone()), hidden);
     }
 
     proptest! {
@@ -92,12 +97,12 @@ mod tests {
             let count = 2 * half;
             let radius = facet / (2.0 * (std::f64::consts::PI / count as f64).sin());
             let first = if starts { Kind::Contour } else { Kind::Intersection };
-            let runs = merge_ends(adopt_kinds(peg(count, radius, first)), TOUCHING_PX);
+            let runs = merge_ends(adopt_intersections(peg(count, radius, first)), TOUCHING_PX);
             prop_assert_eq!(runs.len(), 1);
             prop_assert!(runs[0].closed && runs[0].kind == Kind::Contour);
         }
 
-        /// Places, order and number of runs never change, and no kind gets weaker.
+        /// Places, order and number of runs never change, and no kind but that of short intersections.
         #[test]
         fn only_kinds_change(
             lines in prop::collection::vec((prop::array::uniform2(0.0_f64..20.0), prop::array::uniform2(0.0_f64..20.0), 0_usize..Kind::ALL.len(), 0_u32..2), 0..30),
@@ -106,13 +111,12 @@ mod tests {
                 Run { kind: Kind::ALL[*kind], occluders: *occluders, ..run_along(id, &[*from, *to]) }
             };
             let runs: Vec<Run> = (0..).zip(&lines).map(made).collect();
-            let adopted = adopt_kinds(runs.clone());
+            let adopted = adopt_intersections(runs.clone());
             prop_assert_eq!(adopted.len(), runs.len());
             for (new, old) in adopted.iter().zip(&runs) {
-                prop_assert!(new.kind <= old.kind);
                 let kept = Run { kind: old.kind, surface: old.surface, ..new.clone() };
                 prop_assert_eq!(&kept, old);
-                prop_assert!(new == old || old.length() < DOT_PX);
+                prop_assert!(new == old || old.kind == Kind::Intersection && old.length() < DOT_PX);
             }
         }
     }

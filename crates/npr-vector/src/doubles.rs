@@ -3,7 +3,7 @@
 //! Where a mesh is noisy its contour doubles back, and a cusp grows a fringe of hairs beside the line it ends. Runs are taken
 //! from the longest to the shortest; what lies beside a run already taken, and along it, is cut away.
 
-use crate::run::{Run, distance};
+use crate::run::{Run, RunPoint, distance};
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
@@ -52,7 +52,7 @@ pub fn suppress(runs: Vec<Run>) -> Vec<Run> {
 /// Runs without the crumbs that add less ink than half the pen's width to longer runs; order is kept.
 ///
 /// A run is left out if less than 1.5 pixels of it lie farther than 3 from longer runs that stay. Runs away from
-/// others, parts cut at corners, and the longest run of every object always stay. Runs must be sampled about evenly. O(samples) for
+/// others, those that hold two ends together, parts cut at corners, and the longest run of every object always stay. Runs must be sampled about evenly. O(samples) for
 /// lines that do not crowd in one place.
 pub fn leave_out_crumbs(mut runs: Vec<Run>) -> Vec<Run> {
     let mut taken = Taken::default();
@@ -61,7 +61,7 @@ pub fn leave_out_crumbs(mut runs: Vec<Run>) -> Vec<Run> {
     for (index, length) in longest_first(&runs) {
         let run = &runs[index];
         let is_first = objects.insert((run.object, run.occluders > 0));
-        if !is_first && run.cut == [false; 2] {
+        if !is_first && run.cut == [false; 2] && !taken.joins_ends(run) {
             let bare = run.points.iter().filter(|p| !taken.inks(run, p.place));
             stays[index] = bare.count() as f64 * length >= 0.5 * PEN_PX * run.points.len() as f64;
         }
@@ -149,6 +149,22 @@ impl Taken {
     fn inks(&self, run: &Run, place: [f64; 2]) -> bool {
         self.nearest(place, PEN_PX, |other| other.occluded == (run.occluders > 0))
             .is_some()
+    }
+
+    /// Whether a run that adds no ink leads from an end of something taken to another end, with nothing else to run along.
+    fn joins_ends(&self, run: &Run) -> bool {
+        let tip = |point: &RunPoint| {
+            let is_tip =
+                |other: &Sample| other.tip.is_some() && other.occluded == (run.occluders > 0);
+            self.nearest(point.place, PEN_PX, is_tip)?.tip
+        };
+        let [Some(first), Some(last)] =
+            [&run.points[0], &run.points[run.points.len() - 1]].map(tip)
+        else {
+            return false;
+        };
+        // A pen's width at each end is inked by what ends there; any longer, more lines lie beside it.
+        !run.closed && first != last && run.length() < 2.5 * PEN_PX
     }
 
     /// Whether something taken lies beside every sample but one in five.

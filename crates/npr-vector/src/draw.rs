@@ -3,7 +3,7 @@
 //! [`Prepared`] holds what does not depend on the camera; [`strokes`] does the rest for one view: it gathers the
 //! pieces of all lines, finds what is seen of them, joins what goes on, and smooths.
 
-use crate::adopt::adopt_kinds;
+use crate::adopt::adopt_intersections;
 use crate::bvh::FaceTree;
 use crate::contour::{EdgeContours, Eye};
 use crate::corner::split;
@@ -16,6 +16,7 @@ use crate::merge::{FACING_PX, TOUCHING_PX, merge_ends};
 use crate::project::Projector;
 use crate::run::{Line, Run, distance, runs};
 use crate::smooth::smooth;
+use crate::spurs::cut_spurs;
 use crate::stroke::{Kind, Stroke, StrokePoint};
 use crate::visibility::{Circumstances, OutlineGrid, Piece, Seen, Span};
 use crate::zero_set::{CornerNormals, PolygonOutline, SeenContour, zero_set};
@@ -194,14 +195,14 @@ pub fn strokes_with(
     let mut found: Vec<Run> = contour_runs.into_iter().chain(other_runs).collect();
     found.retain(|run| settings.hidden || run.occluders == 0);
     if settings.smooth {
-        found = merge_ends(adopt_kinds(found), TOUCHING_PX);
+        found = merge_ends(adopt_intersections(found), TOUCHING_PX);
     }
     if let Some(least_turn) = settings.split {
         found = split(found, least_turn);
     }
     if settings.smooth {
         smooth(&mut found);
-        found = merge_ends(suppress(found), FACING_PX);
+        found = merge_ends(cut_spurs(suppress(found)), FACING_PX);
         smooth(&mut found);
         found = leave_out_crumbs(found);
     }

@@ -43,6 +43,7 @@ pub mod ribbon;
 pub mod run;
 pub mod sample;
 pub mod smooth;
+pub mod spurs;
 pub mod stroke;
 pub mod svg;
 pub mod visibility;
