@@ -8,6 +8,8 @@ mod lines;
 mod point;
 mod render;
 mod size;
+mod smoke;
+mod volume;
 
 pub use camera::CameraArguments;
 pub use drawing::{Backend, DrawingArguments, TimingsForm};
@@ -16,10 +18,11 @@ pub use lines::{
     HiddenLines, LineArguments, LineFormat, LinesArguments, MethodName, PathForm, SheetArguments,
     Switch,
 };
-#[cfg(test)]
 pub use point::Point;
 pub use render::{LookArguments, RenderArguments};
 pub use size::Size;
+pub use smoke::SmokeArguments;
+pub use volume::{PlacedVolume, VolumeArguments, VolumeUp};
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
@@ -47,6 +50,11 @@ pub enum Command {
     /// Without options, `npr lines model.glb` draws the model from three quarters above and writes model.svg
     /// into the current folder.
     Lines(Box<LinesArguments>),
+    /// Draw cartoon smoke: from a built-in simulation, a volume file, or a series of them.
+    ///
+    /// Without options, `npr smoke plume` lets a plume rise and writes plume.png into the current folder;
+    /// `npr smoke plume --frames 1..96 -o smoke_####.png` draws the film.
+    Smoke(Box<SmokeArguments>),
     /// Tell what is in a file, what of it is drawn, and what is ignored and why.
     Info(InfoArguments),
     /// List, show and check styles.
@@ -76,7 +84,7 @@ pub enum Command {
 /// What the user said to `npr info`.
 #[derive(Debug, Args)]
 pub struct InfoArguments {
-    /// Scene: .glb, .gltf, .vrm, .obj, .stl or .ply; - reads standard input.
+    /// Scene: .glb, .gltf, .vrm, .obj, .stl or .ply; or volume: .vdb or .npy; - reads standard input.
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// As JSON.

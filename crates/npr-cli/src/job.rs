@@ -1,11 +1,12 @@
 //! One picture to draw: what the user said, resolved.
 
-use crate::arguments::{RenderArguments, Size};
+use crate::arguments::{DrawingArguments, LookArguments, RenderArguments, Size};
 use crate::fault::{Exit, Fault};
 use crate::look::Look;
 use crate::message::quoted;
 use crate::output::Output;
-use crate::source::Source;
+use crate::source::{Source, has_volume_name};
+use crate::volume::USUAL_STYLE;
 use npr_render::StageOptions;
 use std::path::{Path, PathBuf};
 
@@ -29,22 +30,13 @@ pub struct Job<'a> {
 impl<'a> Job<'a> {
     /// Resolves what the user said; reads the style and its pictures and fonts, but not the scene.
     pub fn resolve(said: &'a RenderArguments) -> Result<Self, Fault> {
-        check_size(said.drawing.size)?;
         let source = Source::of(said.scene.as_deref().unwrap_or(Path::new("-")));
         let path = output_path(said.output.as_deref(), &source, "png")?;
         check_ending(&path)?;
         let output = Output::of(&path)?;
         let external = said.drawing.allow_external.as_deref();
-        let look = Look::resolve(&said.drawing.look, external)?;
-        let limits = said.drawing.limits.limits();
-        let options = StageOptions {
-            background_image: look.background_picture(&limits, external)?,
-            width_image: look.width_picture(&limits, external)?,
-            pictures: look.pictures(&limits, external)?,
-            fonts: look.fonts(&limits, external)?,
-            memory_limit: limits.memory_bytes,
-            ..StageOptions::new([said.drawing.size.width, said.drawing.size.height])
-        };
+        let look = Look::resolve(&said.look(), external)?;
+        let options = stage_options(&said.drawing, &look)?;
         Ok(Self {
             said,
             source,
@@ -53,6 +45,30 @@ impl<'a> Job<'a> {
             options,
         })
     }
+}
+
+impl RenderArguments {
+    /// What the user said about the style; a volume alone has a style of its own where nothing is said.
+    pub fn look(&self) -> LookArguments {
+        match &self.scene {
+            Some(scene) if has_volume_name(scene) => self.drawing.look.or_style(USUAL_STYLE),
+            _ => self.drawing.look.clone(),
+        }
+    }
+}
+
+/// How pictures are drawn: reads the pictures and fonts of the look. Refuses sizes beyond the limit.
+pub fn stage_options(said: &DrawingArguments, look: &Look) -> Result<StageOptions, Fault> {
+    check_size(said.size)?;
+    let (limits, external) = (said.limits.limits(), said.allow_external.as_deref());
+    Ok(StageOptions {
+        background_image: look.background_picture(&limits, external)?,
+        width_image: look.width_picture(&limits, external)?,
+        pictures: look.pictures(&limits, external)?,
+        fonts: look.fonts(&limits, external)?,
+        memory_limit: limits.memory_bytes,
+        ..StageOptions::new([said.size.width, said.size.height])
+    })
 }
 
 /// Refuses sides beyond the limit.
@@ -67,7 +83,8 @@ pub fn check_size(size: Size) -> Result<(), Fault> {
     Err(Fault::new(Exit::Limit, message))
 }
 
-fn check_ending(path: &Path) -> Result<(), Fault> {
+/// Refuses files that are no pictures.
+pub fn check_ending(path: &Path) -> Result<(), Fault> {
     if path.as_os_str() == "-" || has_ending(path, "png") {
         return Ok(());
     }

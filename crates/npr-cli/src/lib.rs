@@ -31,15 +31,18 @@ mod lines;
 mod look;
 mod manual;
 mod message;
+mod numbered;
 mod output;
 mod picture;
 mod progress;
 mod render;
+mod smoke;
 mod source;
 mod style_source;
 mod styles;
 mod timings;
 mod viewpoint;
+mod volume;
 
 use arguments::{Arguments, Command};
 use clap::{CommandFactory, Parser};
@@ -77,6 +80,7 @@ fn obey(command: Command) -> Result<(), Fault> {
     match command {
         Command::Render(arguments) => render::render(&arguments),
         Command::Lines(arguments) => lines::lines(&arguments),
+        Command::Smoke(arguments) => smoke::smoke(&arguments),
         Command::Info(arguments) => info::info(&arguments),
         Command::Styles { command } => styles::styles(&command),
         Command::Doctor { json } => doctor::doctor(json),

@@ -22,7 +22,8 @@ use std::io::Write;
 /// Draws the lines that the user asked for, or prints the style.
 pub fn lines(said: &LinesArguments) -> Result<(), Fault> {
     if said.drawing.look.dump_style {
-        return render::dump_style(&said.drawing);
+        let external = said.drawing.allow_external.as_deref();
+        return render::dump_style(&said.drawing.look, external);
     }
     let mut progress = Progress::new(said.drawing.quiet);
     let drawn = draw(&LineJob::resolve(said)?, &mut progress)?;
@@ -111,6 +112,10 @@ fn draw_lines(
 fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<LineModel, Fault> {
     let external = job.said.drawing.allow_external.as_deref();
     let loaded = progress.step("load", || job.source.load(&job.limits, external))?;
+    if loaded.volume.is_some() || !job.said.drawing.volumes.volumes.is_empty() {
+        let message = "smoke is not drawn as curves: npr render draws it in pixels";
+        return Err(Fault::new(Exit::Usage, message));
+    }
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
     job.output.refuse_any_of(&inputs)?;

@@ -1,6 +1,7 @@
 //! What is being done right now, on a terminal, and how long each step took.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::cell::Cell;
 use std::time::{Duration, Instant};
 
 /// How often the line on the terminal moves.
@@ -40,6 +41,14 @@ impl Progress {
         result
     }
 
+    /// Tells how far a step is that goes on in parts.
+    pub fn counter(&self) -> Counter {
+        Counter {
+            bar: self.bar.clone(),
+            start: Cell::new(None),
+        }
+    }
+
     /// Writes a line by `write`, with the progress out of its way.
     pub fn suspend(&self, write: impl FnOnce()) {
         self.bar.suspend(write);
@@ -51,9 +60,52 @@ impl Progress {
     }
 }
 
+/// How far one step is, with an estimate of what is left.
+pub struct Counter {
+    bar: ProgressBar,
+    /// When the first part was told of, and how many were done then.
+    start: Cell<Option<(Instant, usize)>>,
+}
+
+impl Counter {
+    /// Shows that `done` parts of `of` are done.
+    pub fn tell(&self, name: &str, done: usize, of: usize) {
+        let (start, before) = self.start.get().unwrap_or((Instant::now(), done));
+        self.start.set(Some((start, before)));
+        let left = time_left(
+            start.elapsed(),
+            done - before.min(done),
+            of.saturating_sub(done),
+        );
+        let left = left.map_or(String::new(), |left| format!(", {} s left", left.as_secs()));
+        self.bar
+            .set_message(format!("{name} {done} of {of}{left},"));
+    }
+}
+
+/// Time for the parts that are left, at the pace so far; none before the first is done.
+fn time_left(elapsed: Duration, done: usize, left: usize) -> Option<Duration> {
+    let seconds = elapsed.as_secs_f64() / done as f64 * left as f64;
+    Duration::try_from_secs_f64(seconds).ok()
+}
+
 impl Drop for Progress {
     /// Leaves a clean terminal to whatever is said next.
     fn drop(&mut self) {
         self.bar.finish_and_clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_takes_as_long_as_what_is_done() {
+        let left = |done, left| time_left(Duration::from_secs(6), done, left);
+        assert_eq!(left(3, 2), Some(Duration::from_secs(4)));
+        assert_eq!(left(3, 0), Some(Duration::ZERO));
+        assert_eq!(left(0, 5), None);
+        assert_eq!(left(0, 0), None);
     }
 }

@@ -1,6 +1,6 @@
 //! `npr render`: one picture of a scene.
 
-use crate::arguments::{DrawingArguments, RenderArguments};
+use crate::arguments::{DrawingArguments, LookArguments, RenderArguments};
 use crate::encoder;
 use crate::engine::{self, Drawn};
 use crate::fault::{Exit, Fault};
@@ -11,16 +11,22 @@ use crate::message;
 use crate::output;
 use crate::progress::Progress;
 use crate::timings::Timings;
-use crate::viewpoint;
+use crate::viewpoint::{self, Seen};
+use crate::volume::{self, Film};
 use npr_core::camera::Camera;
 use npr_gpu::engine::Engine;
-use npr_render::{Frame, LineModel, LineModelOptions, Model, Stage};
+use npr_render::{
+    Frame, LineModel, LineModelOptions, Model, RenderError, Smoke, Stage, StageOptions,
+};
+use npr_scene::{Limits, Scene};
+use npr_style::Style;
 use std::io::Write;
+use std::path::Path;
 
 /// Draws what the user asked for, or prints its style.
 pub fn render(said: &RenderArguments) -> Result<(), Fault> {
     if said.drawing.look.dump_style {
-        return dump_style(&said.drawing);
+        return dump_style(&said.look(), said.drawing.allow_external.as_deref());
     }
     if said
         .output
@@ -40,8 +46,8 @@ pub fn render(said: &RenderArguments) -> Result<(), Fault> {
 }
 
 /// Prints a style as it comes out.
-pub fn dump_style(said: &DrawingArguments) -> Result<(), Fault> {
-    let look = Look::resolve(&said.look, said.allow_external.as_deref())?;
+pub fn dump_style(said: &LookArguments, external: Option<&Path>) -> Result<(), Fault> {
+    let look = Look::resolve(said, external)?;
     let text = look
         .style
         .to_toml()
@@ -51,9 +57,14 @@ pub fn dump_style(said: &DrawingArguments) -> Result<(), Fault> {
 
 /// From the scene's file to the picture's.
 fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
-    let (model, lines) = prepare(job, progress)?;
-    let camera = viewpoint::camera(&job.said.drawing.camera, &model, job.said.drawing.size)?;
-    let drawn = draw_frame(job, &model, lines.as_ref(), &camera, progress)?;
+    let (prepared, smoke) = prepare(job, progress)?;
+    let empty = Smoke::default();
+    let camera = prepared.camera(&job.said.drawing, smoke.as_ref().unwrap_or(&empty))?;
+    let options = StageOptions {
+        smoke,
+        ..job.options.clone()
+    };
+    let drawn = draw_frame(job, &prepared, &options, &camera, progress)?;
     let frame = &drawn.picture;
     progress.suspend(|| {
         for notice in &frame.notices {
@@ -68,8 +79,59 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     Ok(drawn)
 }
 
-/// Loads the scene and makes it ready, for lines as curves too where the style has any; says what is ignored.
-fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Model, Option<LineModel>), Fault> {
+/// A scene made ready, for lines as curves too where the style has any.
+pub struct Prepared {
+    model: Model,
+    lines: Option<LineModel>,
+}
+
+impl Prepared {
+    /// The camera that the user asked for, or one that frames the scene and the smoke in it.
+    pub fn camera(&self, said: &DrawingArguments, smoke: &Smoke) -> Result<Camera, Fault> {
+        let model = &self.model;
+        viewpoint::camera(&said.camera, &Seen { model, smoke }, said.size)
+    }
+
+    /// The scene in a style on an engine.
+    pub fn stage<'a>(
+        &'a self,
+        engine: &dyn Engine,
+        style: &Style,
+        options: &StageOptions,
+    ) -> Result<Stage<'a>, RenderError> {
+        let stage = Stage::new(engine, &self.model, style, options)?;
+        Ok(match &self.lines {
+            Some(lines) => stage.with_lines(lines),
+            None => stage,
+        })
+    }
+}
+
+/// Makes a scene ready.
+pub fn prepared(
+    scene: &Scene,
+    style: &Style,
+    limits: &Limits,
+    progress: &mut Progress,
+) -> Result<Prepared, Fault> {
+    let model = progress.step("prepare", || Model::new(scene))?;
+    let lines = style.has_curves().then(|| {
+        let options = LineModelOptions {
+            memory_limit: limits.memory_bytes,
+            ..LineModelOptions::default()
+        };
+        progress.step("prepare", || {
+            LineModel::for_style(scene, style, &options, None)
+        })
+    });
+    Ok(Prepared {
+        model,
+        lines: lines.transpose()?,
+    })
+}
+
+/// Loads the scene and the smoke in it, and makes them ready; says what is ignored.
+fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<Smoke>), Fault> {
     let (limits, external) = (
         job.said.drawing.limits.limits(),
         job.said.drawing.allow_external.as_deref(),
@@ -78,25 +140,19 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Model, Option<Line
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
     job.output.refuse_any_of(&inputs)?;
-    let model = progress.step("prepare", || Model::new(&loaded.scene))?;
-    let style = &job.look.style;
-    let lines = style.has_curves().then(|| {
-        let options = LineModelOptions {
-            memory_limit: limits.memory_bytes,
-            ..LineModelOptions::default()
-        };
-        progress.step("prepare", || {
-            LineModel::for_style(&loaded.scene, style, &options, None)
-        })
-    });
-    let lines = lines.transpose()?;
-    progress.suspend(|| warn_of(job, &model));
-    Ok((model, lines))
+    let smoke = progress.step("smoke", || {
+        volume::still(&job.said.drawing.volumes, loaded.volume, &limits)
+    })?;
+    let (smoke, told) = smoke.map_or((None, Film::default()), |(smoke, told)| (Some(smoke), told));
+    job.output.refuse_any_of(&told.inputs)?;
+    let prepared = prepared(&loaded.scene, &job.look.style, &limits, progress)?;
+    progress.suspend(|| warn_of(job, &prepared.model, &told));
+    Ok((prepared, smoke))
 }
 
-fn warn_of(job: &Job<'_>, model: &Model) {
+fn warn_of(job: &Job<'_>, model: &Model, smoke: &Film) {
     let quiet = job.said.drawing.quiet;
-    for notice in model.notices() {
+    for notice in model.notices().iter().chain(&smoke.notices) {
         message::warn(quiet, notice);
     }
     if let Some(warning) = job.look.width_warning(job.said.drawing.size.height) {
@@ -106,16 +162,13 @@ fn warn_of(job: &Job<'_>, model: &Model) {
 
 fn draw_frame(
     job: &Job<'_>,
-    model: &Model,
-    lines: Option<&LineModel>,
+    prepared: &Prepared,
+    options: &StageOptions,
     camera: &Camera,
     progress: &mut Progress,
 ) -> Result<Drawn<Frame>, Fault> {
     let picture = |engine: &dyn Engine| {
-        let mut stage = Stage::new(engine, model, &job.look.style, &job.options)?;
-        if let Some(lines) = lines {
-            stage = stage.with_lines(lines);
-        }
+        let mut stage = prepared.stage(engine, &job.look.style, options)?;
         stage.draw(camera)
     };
     engine::draw_as_step(

@@ -2,8 +2,11 @@
 
 use crate::fault::Fault;
 use crate::input::{read_file, read_standard};
+use crate::job::has_ending;
 use crate::message::quoted;
 use crate::output::folder_of;
+use crate::volume::VolumeSource;
+use npr_render::volume::is_volume;
 use npr_scene::{
     FolderResources, Format, Limits, MemoryResources, ResourceError, Resources, Scene, load_bytes,
 };
@@ -26,6 +29,8 @@ pub struct Loaded {
     pub scene: Scene,
     /// Its format, by name or else by content.
     pub format: Option<Format>,
+    /// The volume that the file is, beside an empty scene.
+    pub volume: Option<VolumeSource>,
     /// The scene's own file and all that it refers to.
     pub inputs: Vec<PathBuf>,
 }
@@ -51,6 +56,9 @@ impl Source {
 
 fn load_standard(limits: &Limits, external: Option<&Path>) -> Result<Loaded, Fault> {
     let bytes = read_standard(limits.file_bytes)?;
+    if is_volume(&bytes) {
+        return Ok(Loaded::of_volume("standard input".to_owned(), bytes));
+    }
     let resources: Box<dyn Resources> = match external {
         Some(folder) => Box::new(FolderResources::new(folder, None)?),
         None => Box::new(MemoryResources::default()),
@@ -60,12 +68,19 @@ fn load_standard(limits: &Limits, external: Option<&Path>) -> Result<Loaded, Fau
     Ok(Loaded {
         scene,
         format: Format::of_content(&bytes),
+        volume: None,
         inputs: Vec::new(),
     })
 }
 
 fn load_file(path: &Path, limits: &Limits, external: Option<&Path>) -> Result<Loaded, Fault> {
     let bytes = read_file(path, limits.file_bytes)?;
+    if has_volume_name(path) || is_volume(&bytes) {
+        return Ok(Loaded {
+            inputs: vec![path.to_owned()],
+            ..Loaded::of_volume(quoted(path), bytes)
+        });
+    }
     let resources = Recorder::new(folder_of(path), external)?;
     let format = Format::of_path(path).or_else(|| Format::of_content(&bytes));
     let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -77,8 +92,29 @@ fn load_file(path: &Path, limits: &Limits, external: Option<&Path>) -> Result<Lo
     Ok(Loaded {
         scene,
         format,
+        volume: None,
         inputs,
     })
+}
+
+/// Whether a file is a volume by its name, whatever is in it.
+pub fn has_volume_name(path: &Path) -> bool {
+    has_ending(path, "vdb") || has_ending(path, "npy")
+}
+
+impl Loaded {
+    /// A volume called `name` in messages, beside an empty scene.
+    fn of_volume(name: String, bytes: Vec<u8>) -> Self {
+        Self {
+            scene: Scene {
+                file_bytes: bytes.len() as u64,
+                ..Scene::default()
+            },
+            format: None,
+            volume: Some(VolumeSource::Read(name, bytes)),
+            inputs: Vec::new(),
+        }
+    }
 }
 
 /// Files of a folder, and which of them were asked for.

@@ -4,7 +4,7 @@ use crate::arguments::{CameraArguments, Size};
 use crate::fault::{Exit, Fault};
 use crate::message;
 use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
-use npr_render::{LineModel, Model};
+use npr_render::{LineModel, Model, Smoke};
 
 /// Most cameras that a message lists.
 const LISTED_CAMERAS: usize = 5;
@@ -19,26 +19,41 @@ pub trait Viewed {
     fn framing(&self, aspect: f32, fov_y: f32) -> Camera;
 }
 
-/// Both sorts of model have methods of these names and meanings.
-macro_rules! viewed {
-    ($($model:ty),+) => {$(
-        impl Viewed for $model {
-            fn cameras(&self) -> &[(String, Camera)] {
-                self.cameras()
-            }
+impl Viewed for LineModel {
+    fn cameras(&self) -> &[(String, Camera)] {
+        self.cameras()
+    }
 
-            fn bounds(&self) -> ([f32; 3], [f32; 3]) {
-                self.bounds()
-            }
+    fn bounds(&self) -> ([f32; 3], [f32; 3]) {
+        self.bounds()
+    }
 
-            fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
-                self.framing(aspect, fov_y)
-            }
-        }
-    )+};
+    fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
+        self.framing(aspect, fov_y)
+    }
 }
 
-viewed!(Model, LineModel);
+/// A model together with smoke.
+pub struct Seen<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// The smoke, perhaps none.
+    pub smoke: &'a Smoke,
+}
+
+impl Viewed for Seen<'_> {
+    fn cameras(&self) -> &[(String, Camera)] {
+        self.model.cameras()
+    }
+
+    fn bounds(&self) -> ([f32; 3], [f32; 3]) {
+        self.model.bounds_with(self.smoke)
+    }
+
+    fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
+        self.model.framing_with(self.smoke, aspect, fov_y)
+    }
+}
 
 /// The camera that the user asked for, or one that frames the whole model from three quarters above.
 pub fn camera(said: &CameraArguments, model: &dyn Viewed, size: Size) -> Result<Camera, Fault> {

@@ -41,6 +41,7 @@ mod stage;
 mod streaks;
 mod textures;
 mod tiles;
+pub mod volume;
 
 pub use error::RenderError;
 pub use frame::Frame;
@@ -52,3 +53,4 @@ pub use npr_vector::lettering::Font;
 pub use npr_vector::stroke::{Drawing, Kind};
 pub use smoke::Smoke;
 pub use stage::{Picture, Stage, StageOptions};
+pub use volume::{UpAxis, VolumeFault, VolumeFile, VolumeOptions};

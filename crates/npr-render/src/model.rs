@@ -4,6 +4,7 @@ use crate::error::RenderError;
 use crate::instance::Instance;
 use crate::light::{self, FileLight};
 use crate::placement::{self, Bounds};
+use crate::smoke::{Smoke, around};
 use crate::textures::Textures;
 use glam::{Mat4, Vec3};
 use npr_core::camera::Camera;
@@ -205,6 +206,23 @@ impl Model {
             aspect,
             fov_y,
         )
+    }
+
+    /// The same view of the model together with smoke.
+    pub fn framing_with(&self, smoke: &Smoke, aspect: f32, fov_y: f32) -> Camera {
+        let points = self.posed_points().chain(smoke.reach());
+        Camera::framing_points(points.map(|point| point.to_array()), aspect, fov_y)
+    }
+
+    /// The box around the model and smoke; that of one alone where the other has nothing to draw.
+    pub fn bounds_with(&self, smoke: &Smoke) -> Bounds {
+        if smoke.reach().next().is_none() {
+            return self.bounds;
+        }
+        if self.triangles.is_empty() {
+            return smoke.extent();
+        }
+        around(self.bounds, smoke.extent())
     }
 
     /// Positions in the world of all vertices that triangles use.

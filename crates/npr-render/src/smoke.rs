@@ -3,11 +3,13 @@
 use crate::error::RenderError;
 use crate::placement::{Bounds, bounds_of, radius_of};
 use glam::Vec3;
+use npr_core::camera::Camera;
 use npr_core::smoke::{Ball, Lens, REACH, SmokePixel, Sphere};
 use npr_core::window::{View, Window};
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::Format;
 use npr_gpu::passes::smoke;
+use npr_smoke::Track;
 use npr_style::lighting::Lights;
 use npr_style::shadow::SHADOWS_MAX;
 use npr_style::smoke::SmokeLook;
@@ -39,14 +41,81 @@ impl Smoke {
 
     /// The box around the spheres that are drawn; a unit box without any.
     pub fn extent(&self) -> Bounds {
-        let is_drawn = |s: &&Sphere| {
-            s.radius > 0.0 && s.radius < REACH && s.center.iter().all(|x| x.abs() < REACH)
-        };
         let corners = self.spheres.iter().filter(is_drawn).flat_map(|sphere| {
             let (center, reach) = (Vec3::from(sphere.center), Vec3::splat(sphere.radius));
             [center - reach, center + reach]
         });
         bounds_of(corners)
+    }
+
+    /// The spheres of a moment of a track, in the order of their birth. Heat is still the temperature of the volume: see
+    /// [`with_hottest`](Self::with_hottest).
+    pub fn of_track(track: &Track) -> Self {
+        let spheres = track.spheres().into_iter().map(|sphere| Sphere {
+            heat: sphere.temperature,
+            ..Sphere::new(sphere.center.to_array(), sphere.radius)
+        });
+        Self::new(spheres.collect())
+    }
+
+    /// The same with heat 1 for what is as hot as `hottest` and more, and in proportion below; no heat where nothing is hot.
+    pub fn with_hottest(mut self, hottest: f32) -> Self {
+        for sphere in &mut self.spheres {
+            let share = sphere.heat / hottest;
+            sphere.heat = if hottest > 0.0 && share.is_finite() {
+                share.clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
+        }
+        self
+    }
+
+    /// The same, `scale` times as large, with the place `from` moved to `to`.
+    pub fn moved(mut self, from: [f32; 3], to: [f32; 3], scale: f32) -> Self {
+        let moved = |place: [f32; 3]| std::array::from_fn(|i| to[i] + (place[i] - from[i]) * scale);
+        for sphere in &mut self.spheres {
+            sphere.center = moved(sphere.center);
+            sphere.radius *= scale;
+        }
+        self.space = self.space.map(|(low, high)| (moved(low), moved(high)));
+        self
+    }
+
+    /// Both together, the spheres of `other` after those of this one; in the box around both spaces.
+    pub fn with(mut self, other: Self) -> Self {
+        if self.spheres.is_empty() || other.spheres.is_empty() {
+            let is_other = self.spheres.is_empty() && !other.spheres.is_empty();
+            return if is_other { other } else { self };
+        }
+        self.space = match (self.space, other.space) {
+            (None, None) => None,
+            _ => Some(around(self.bounds(), other.bounds())),
+        };
+        self.spheres.extend(other.spheres);
+        self
+    }
+
+    /// A view of all spheres from three quarters above, for a frame of width / height `aspect`; `fov_y` is in radians.
+    pub fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
+        Camera::framing_points(self.reach().map(|point| point.to_array()), aspect, fov_y)
+    }
+
+    /// Points all over the spheres that are drawn, for framing.
+    pub(crate) fn reach(&self) -> impl Iterator<Item = Vec3> + '_ {
+        let directions =
+            (0..27).map(|i| Vec3::new((i % 3) as f32, (i / 3 % 3) as f32, (i / 9) as f32));
+        let directions: Vec<Vec3> = directions
+            .filter_map(|corner| (corner - 1.0).try_normalize())
+            .collect();
+        self.spheres
+            .iter()
+            .filter(is_drawn)
+            .flat_map(move |sphere| {
+                let center = Vec3::from(sphere.center);
+                let points = directions.iter().map(|d| center + *d * sphere.radius);
+                points.collect::<Vec<_>>()
+            })
     }
 
     /// The spheres as a style draws them: in their own sizes, or all in their mean one.
@@ -66,6 +135,20 @@ impl Smoke {
         }
         spheres
     }
+}
+
+/// Whether anything of a sphere can be seen.
+fn is_drawn(sphere: &&Sphere) -> bool {
+    let is_near = sphere.center.iter().all(|x| x.abs() < REACH);
+    sphere.radius > 0.0 && sphere.radius < REACH && is_near
+}
+
+/// The box around two.
+pub(crate) fn around(a: Bounds, b: Bounds) -> Bounds {
+    (
+        std::array::from_fn(|i| a.0[i].min(b.0[i])),
+        std::array::from_fn(|i| a.1[i].max(b.1[i])),
+    )
 }
 
 /// Numbers that decide what smoke takes of a plan.

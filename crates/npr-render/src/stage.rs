@@ -317,10 +317,7 @@ impl<'a> Stage<'a> {
         if self.model.triangles.is_empty() {
             return smoke;
         }
-        (
-            std::array::from_fn(|i| model.0[i].min(smoke.0[i])),
-            std::array::from_fn(|i| model.1[i].max(smoke.1[i])),
-        )
+        smoke::around(model, smoke)
     }
 
     /// Hands over how a camera sees the smoke.

@@ -23,6 +23,7 @@
 
 pub mod cover;
 pub mod distance;
+pub mod footage;
 mod lattice;
 pub mod motion;
 pub mod particle;
@@ -35,6 +36,7 @@ pub mod track;
 pub mod volume;
 
 pub use distance::Distances;
+pub use footage::Footage;
 pub use particle::{Birthplace, Particle, ParticleSettings, Particles};
 pub use solver::{Smoke, SmokeError, SmokeSettings, Source};
 pub use sphere::{Sphere, covered_share};

@@ -1,6 +1,6 @@
 //! What the user said to any command that draws.
 
-use super::{CameraArguments, LimitArguments, LookArguments, Size};
+use super::{CameraArguments, LimitArguments, LookArguments, Size, VolumeArguments};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -19,6 +19,9 @@ pub struct DrawingArguments {
     /// The style.
     #[command(flatten)]
     pub look: LookArguments,
+    /// Smoke.
+    #[command(flatten)]
+    pub volumes: VolumeArguments,
     /// What draws.
     #[arg(long, value_enum, default_value_t = Backend::Auto, help_heading = "Work")]
     pub backend: Backend,

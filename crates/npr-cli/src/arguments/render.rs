@@ -8,7 +8,7 @@ use std::path::PathBuf;
 /// What the user said to `npr render`.
 #[derive(Debug, Args)]
 pub struct RenderArguments {
-    /// Scene: .glb, .gltf, .vrm, .obj, .stl or .ply; - reads standard input.
+    /// Scene: .glb, .gltf, .vrm, .obj, .stl or .ply; or a volume of smoke: .vdb or .npy; - reads standard input.
     #[arg(required_unless_present = "dump_style")]
     pub scene: Option<PathBuf>,
     /// Picture to write, .png, or .svg where the style is lines only; - writes a .png to standard output
@@ -24,7 +24,7 @@ pub struct RenderArguments {
 #[derive(Debug, Clone, Default, PartialEq, Args)]
 #[command(next_help_heading = "Style")]
 pub struct LookArguments {
-    /// A preset, alone or with its version, or a style file [default: toon].
+    /// A preset, alone or with its version, or a style file [default: toon; for smoke alone smoke-cel-2, explosion or cloud].
     #[arg(long, value_name = "NAME|FILE.toml")]
     pub style: Option<String>,
     /// Override one value of the style; repeatable, later ones win.
@@ -36,6 +36,15 @@ pub struct LookArguments {
     /// Print the style as it comes out, with every value, and draw nothing.
     #[arg(long)]
     pub dump_style: bool,
+}
+
+impl LookArguments {
+    /// The same, with a preset where no style is said.
+    pub fn or_style(&self, preset: &str) -> Self {
+        let mut look = self.clone();
+        look.style.get_or_insert_with(|| preset.to_owned());
+        look
+    }
 }
 
 fn background(text: &str) -> Result<Background, String> {

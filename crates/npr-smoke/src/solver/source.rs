@@ -60,6 +60,14 @@ impl Source {
         Self::ALL.into_iter().find(|source| source.name() == name)
     }
 
+    /// The temperature that counts as hottest when it is drawn, for settings of a heat: about that of its heart.
+    pub fn hottest(self, heat: f32) -> f32 {
+        match self {
+            Self::Plume | Self::Puff | Self::Explosion => heat,
+            Self::Cloud => f32::MAX,
+        }
+    }
+
     /// Settings under which it looks like itself.
     pub(super) fn settings(self) -> SmokeSettings {
         let plume = SmokeSettings {

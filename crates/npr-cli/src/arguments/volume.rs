@@ -1,0 +1,150 @@
+//! What the user said about smoke.
+
+use super::Point;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+use std::str::FromStr;
+
+/// What the user said about volumes of smoke.
+#[derive(Debug, Clone, Default, PartialEq, Args)]
+#[command(next_help_heading = "Smoke")]
+pub struct VolumeArguments {
+    /// Smoke inside the scene, from a .vdb or .npy file or a built-in source (plume, puff, explosion, cloud); repeatable. It lies
+    /// where the file puts it; with @x,y,z the middle of its lowest plane stands there, and *scale makes it larger.
+    #[arg(long = "volume", value_name = "FILE[@X,Y,Z[*SCALE]]")]
+    pub volumes: Vec<PlacedVolume>,
+    /// Most spheres that a volume is drawn with: 30 bold and simple, 2000 a busy eruption [default: 200].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub spheres: Option<u32>,
+    /// Density up to which there is no smoke [default: 0.1].
+    #[arg(long, value_name = "DENSITY", value_parser = threshold)]
+    pub threshold: Option<f32>,
+    /// Voxels along the longest side in which the shape of smoke is seen: 20 a few bold puffs, 200 every wisp [default: 40].
+    #[arg(long, value_name = "VOXELS", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub detail: Option<u32>,
+    /// The grid of densities in .vdb files [default: density, or the only one].
+    #[arg(long, value_name = "NAME")]
+    pub density: Option<String>,
+    /// The grid of velocities, or those of their three components [default: velocity, vel or v].
+    #[arg(long, value_name = "NAME[,NAME,NAME]", value_delimiter = ',')]
+    pub velocity: Vec<String>,
+    /// The grid of temperatures [default: temperature, heat or temp].
+    #[arg(long, value_name = "NAME")]
+    pub heat: Option<String>,
+    /// Which axis of volume files points up: z in those of Blender.
+    #[arg(long, value_enum, default_value_t)]
+    pub volume_up: VolumeUp,
+    /// Other numbers give other smoke of the same kind.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u32,
+}
+
+/// Which axis points up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum VolumeUp {
+    /// As in the scene.
+    #[default]
+    Y,
+    /// As in Blender.
+    Z,
+}
+
+/// A volume as the user names it, and where it goes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlacedVolume {
+    /// A file, a series, or a built-in source.
+    pub name: PathBuf,
+    /// Where the middle of its lowest plane goes, and how much larger it becomes; where it lies without.
+    pub place: Option<(Point, f32)>,
+}
+
+impl FromStr for PlacedVolume {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let is_place = |text: &str| {
+            let mut bytes = text.bytes();
+            !text.is_empty() && bytes.all(|byte| b"0123456789+-.,*eE ".contains(&byte))
+        };
+        // Names of files may hold the sign too.
+        match text.rsplit_once('@') {
+            Some((name, place)) if is_place(place) => Ok(Self {
+                name: PathBuf::from(name),
+                place: Some(placement(place)?),
+            }),
+            _ => Ok(Self {
+                name: PathBuf::from(text),
+                place: None,
+            }),
+        }
+    }
+}
+
+/// `x,y,z` or `x,y,z*scale`.
+fn placement(text: &str) -> Result<(Point, f32), String> {
+    let (point, scale) = text.split_once('*').unwrap_or((text, "1"));
+    let point = point
+        .parse()
+        .map_err(|reason| format!("the place behind @ {reason}"))?;
+    match scale.trim().parse::<f32>() {
+        Ok(scale) if scale > 0.0 && scale.is_finite() => Ok((point, scale)),
+        _ => Err("the scale behind * must be a number above 0".to_owned()),
+    }
+}
+
+/// A density.
+fn threshold(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(density) if density >= 0.0 && density.is_finite() => Ok(density),
+        _ => Err("must be a number, 0 or more".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn placed(text: &str) -> Result<(String, Option<([f32; 3], f32)>), String> {
+        let volume: PlacedVolume = text.parse()?;
+        let place = volume.place.map(|(point, scale)| (point.0, scale));
+        Ok((volume.name.to_string_lossy().into_owned(), place))
+    }
+
+    #[test]
+    fn a_place_stands_behind_the_last_sign() {
+        let at = |name: &str, place| Ok((name.to_owned(), place));
+        assert_eq!(placed("a.vdb"), at("a.vdb", None));
+        assert_eq!(
+            placed("a.vdb@1,-2,.5"),
+            at("a.vdb", Some(([1.0, -2.0, 0.5], 1.0)))
+        );
+        assert_eq!(
+            placed("a@b.vdb@0,0,0*2e-1"),
+            at("a@b.vdb", Some(([0.0; 3], 0.2)))
+        );
+        assert_eq!(placed("me@home.vdb"), at("me@home.vdb", None));
+    }
+
+    #[test]
+    fn a_place_that_is_none_is_refused() {
+        for text in [
+            "a@1,2",
+            "a@1,2,3*0",
+            "a@1,2,3*-1",
+            "a@1,2,3*",
+            "a@1,2,3,4",
+            "a@1e99,0,0",
+            "a@*2",
+        ] {
+            assert!(placed(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_threshold_is_no_less_than_nothing() {
+        assert_eq!(threshold("0"), Ok(0.0));
+        for text in ["-0.1", "nan", "inf", "thick"] {
+            assert!(threshold(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,526 @@
+//! Volumes that a command line names, turned into spheres that can be drawn.
+
+use crate::arguments::{PlacedVolume, VolumeArguments, VolumeUp};
+use crate::fault::{Exit, Fault};
+use crate::input::read_file;
+use crate::message::quoted;
+use crate::numbered::Numbered;
+use npr_core::budget::Budget;
+use npr_render::volume::{Extent, mended_notice};
+use npr_render::{Smoke, Sphere, UpAxis, VolumeFault, VolumeFile, VolumeOptions};
+use npr_scene::Limits;
+use npr_smoke::solver::{self, SmokeError, SmokeSettings};
+use npr_smoke::{Footage, Source, Track, TrackSettings, Volume};
+use std::path::{Path, PathBuf};
+
+/// Frames per second where none are said.
+pub const DEFAULT_FPS: f32 = 24.0;
+
+/// The preset of smoke that has none of its own.
+pub const USUAL_STYLE: &str = "smoke-cel-2";
+
+/// The preset that suits a source.
+pub fn usual_style(source: &VolumeSource) -> &'static str {
+    match source {
+        VolumeSource::BuiltIn(Source::Explosion) => "explosion",
+        VolumeSource::BuiltIn(Source::Cloud) => "cloud",
+        _ => USUAL_STYLE,
+    }
+}
+
+/// Where a volume comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum VolumeSource {
+    /// The solver.
+    BuiltIn(Source),
+    /// One file.
+    File(PathBuf),
+    /// Files with numbers.
+    Series(Numbered),
+    /// A file that was read already, and what it is called in messages.
+    Read(String, Vec<u8>),
+}
+
+impl VolumeSource {
+    /// The source that a name stands for: a built-in one, a series if there is a `#` in it, or a file.
+    pub fn of(name: &Path) -> Self {
+        let built_in = name.to_str().and_then(Source::of_name);
+        let series = || Numbered::of(name).map(Self::Series);
+        built_in
+            .map(Self::BuiltIn)
+            .or_else(series)
+            .unwrap_or_else(|| Self::File(name.to_owned()))
+    }
+}
+
+/// Which moments of a volume are drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shots {
+    /// First and last frame; a single telling one without.
+    pub frames: Option<(u32, u32)>,
+    /// Frames from one picture to the next.
+    pub step: f64,
+    /// Frames of the volume per second.
+    pub fps: f32,
+    /// Cells of the built-in simulation along x, y and z, which is up.
+    pub grid: Option<[u32; 3]>,
+}
+
+impl Default for Shots {
+    fn default() -> Self {
+        Self {
+            frames: None,
+            step: 1.0,
+            fps: DEFAULT_FPS,
+            grid: None,
+        }
+    }
+}
+
+/// Smoke for one picture or many.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Film {
+    /// One for every picture, all in one space. At least one.
+    pub frames: Vec<Smoke>,
+    /// The frame that the first picture shows.
+    pub first: u32,
+    /// The files that it was made from.
+    pub inputs: Vec<PathBuf>,
+    /// What was guessed, mended or found missing, for the user.
+    pub notices: Vec<String>,
+}
+
+impl Film {
+    /// Adds smoke that stands still to every picture.
+    pub fn join(&mut self, still: &Smoke, told: Self) {
+        let frames = self.frames.drain(..).map(|smoke| Smoke {
+            space: Some(still.clone().with(smoke.clone()).bounds()),
+            ..smoke.with(still.clone())
+        });
+        self.frames = frames.collect();
+        self.inputs.extend(told.inputs);
+        self.notices.extend(told.notices);
+    }
+}
+
+/// The smoke of a still picture: that of the scene's own file, where it is a volume, and of every `--volume`; none without any.
+pub fn still(
+    said: &VolumeArguments,
+    own: Option<VolumeSource>,
+    limits: &Limits,
+) -> Result<Option<(Smoke, Film)>, Fault> {
+    let own = own.map(|source| (source, None));
+    let placed = said.volumes.iter();
+    let placed = placed.map(|volume| (VolumeSource::of(&volume.name), Some(volume)));
+    let mut all: Option<(Smoke, Film)> = None;
+    for (source, volume) in own.into_iter().chain(placed) {
+        if let VolumeSource::Series(_) = source {
+            let message = "names a series, but a picture shows one frame: name one of its files";
+            return Err(Fault::new(Exit::Usage, format!("--volume: '#' {message}")));
+        }
+        let mut film = film(&source, said, &Shots::default(), limits, &mut |_, _| {})?;
+        let smoke = film.frames.pop().unwrap_or_default();
+        let smoke = volume.map_or(smoke.clone(), |volume| placed_at(volume, smoke));
+        let (joined, told) = all.take().unwrap_or_default();
+        film.inputs.extend(told.inputs);
+        film.notices.extend(told.notices);
+        all = Some((joined.with(smoke), film));
+    }
+    Ok(all)
+}
+
+/// Smoke with the middle of its lowest plane where the user wants it.
+fn placed_at(volume: &PlacedVolume, smoke: Smoke) -> Smoke {
+    let Some((place, scale)) = volume.place else {
+        return smoke;
+    };
+    let (low, high) = smoke.bounds();
+    let foot = [(low[0] + high[0]) * 0.5, low[1], (low[2] + high[2]) * 0.5];
+    smoke.moved(foot, place.0, scale)
+}
+
+/// The smoke of a source at every moment asked for, followed from moment to moment; `tell` learns how far the work is.
+///
+/// A simulation is followed from its first frame on, whatever frames are asked for: a frame looks the same alone and in a film.
+pub fn film(
+    source: &VolumeSource,
+    said: &VolumeArguments,
+    shots: &Shots,
+    limits: &Limits,
+    tell: &mut dyn FnMut(usize, usize),
+) -> Result<Film, Fault> {
+    match source {
+        VolumeSource::BuiltIn(source) => simulated(*source, said, shots, limits, tell),
+        VolumeSource::Series(series) => read_series(series, said, shots, limits, tell),
+        VolumeSource::File(path) => {
+            let bytes = read_file(path, limits.file_bytes)?;
+            let mut film = read_still(&quoted(path), &bytes, said, shots, limits)?;
+            film.inputs.push(path.clone());
+            Ok(film)
+        }
+        VolumeSource::Read(name, bytes) => read_still(name, bytes, said, shots, limits),
+    }
+}
+
+/// A grid on which a source looks good within seconds.
+fn usual_grid(source: Source) -> [u32; 3] {
+    match source {
+        Source::Plume => [30, 30, 60],
+        Source::Puff => [32, 32, 40],
+        Source::Explosion => [40, 40, 40],
+        Source::Cloud => [48, 30, 24],
+    }
+}
+
+/// A frame, of 24 a second, that shows what the source is.
+fn telling_frame(source: Source) -> u32 {
+    match source {
+        Source::Plume => 72,
+        Source::Puff => 30,
+        Source::Explosion => 16,
+        Source::Cloud => 24,
+    }
+}
+
+fn simulated(
+    source: Source,
+    said: &VolumeArguments,
+    shots: &Shots,
+    limits: &Limits,
+    tell: &mut dyn FnMut(usize, usize),
+) -> Result<Film, Fault> {
+    let settings = SmokeSettings {
+        size: shots.grid.unwrap_or(usual_grid(source)),
+        frame_seconds: 1.0 / shots.fps,
+        seed: said.seed,
+        ..SmokeSettings::of(source)
+    };
+    let mut budget = Budget::new(limits.memory_bytes);
+    let mut smoke = solver::Smoke::within(&mut budget, settings)?;
+    let telling = f64::from(telling_frame(source)) / f64::from(DEFAULT_FPS) * f64::from(shots.fps);
+    let telling = (telling.round() as u32).max(1);
+    let (first, last) = shots.frames.unwrap_or((telling, telling));
+    let mut done = 0;
+    let read = |frame: u32| {
+        while done < frame {
+            smoke.step();
+            done += 1;
+        }
+        Ok(smoke.volume())
+    };
+    let footage = Footage::new(read, u32::MAX, 1.0 / shots.fps);
+    let moments = Moments::new(first, last, shots.step, 1);
+    let film = followed(footage, &moments, said, shots, &mut budget, tell)?;
+    Ok(finished(
+        film,
+        first,
+        source.hottest(settings.heat),
+        Vec::new(),
+    ))
+}
+
+fn read_still(
+    name: &str,
+    bytes: &[u8],
+    said: &VolumeArguments,
+    shots: &Shots,
+    limits: &Limits,
+) -> Result<Film, Fault> {
+    if shots.frames.is_some_and(|frames| frames != (1, 1)) {
+        let message =
+            format!("{name} is one frame: --frames needs a series such as smoke_####.vdb");
+        return Err(Fault::new(Exit::Usage, message));
+    }
+    let options = options(said, limits);
+    let read = || {
+        let file = VolumeFile::read(bytes, &options)?;
+        Ok((file.volume(&file.extent())?, file.notices().to_vec()))
+    };
+    let (volume, notices) = read().map_err(|fault| of_volume(name, fault))?;
+    let (peak, hottest) = (peak(&volume), hottest(&volume));
+    let mut notes: Vec<String> = notices;
+    notes.extend(mended_notice(volume.mended()));
+    notes.extend(thin_notice(peak, said));
+    let notes = notes.into_iter().map(|notice| format!("{name}: {notice}"));
+    let notes = notes.collect();
+    let track = Track::new(&volume, track_settings(said, shots));
+    Ok(finished(vec![Smoke::of_track(&track)], 1, hottest, notes))
+}
+
+fn read_series(
+    series: &Numbered,
+    said: &VolumeArguments,
+    shots: &Shots,
+    limits: &Limits,
+    tell: &mut dyn FnMut(usize, usize),
+) -> Result<Film, Fault> {
+    let found = || {
+        series.found().ok_or_else(|| {
+            let first = quoted(&series.path(1));
+            Fault::new(Exit::Failed, format!("there is no file such as {first}"))
+        })
+    };
+    let (first, last) = shots.frames.map_or_else(found, Ok)?;
+    let (options, mut notices) = (options(said, limits), Vec::new());
+    let open = |frame: u32| {
+        let path = series.path(frame);
+        let bytes = read_file(&path, limits.file_bytes)?;
+        VolumeFile::read(&bytes, &options).map_err(|fault| of_volume(&quoted(&path), fault))
+    };
+    let extent = shared_extent(series, first, last, &open)?;
+    let (mut most, mut hot) = (0.0f32, 0.0f32);
+    let read = |frame: u32| {
+        let file = open(frame)?;
+        let volume = file.volume(&extent);
+        let volume = volume.map_err(|fault| of_volume(&quoted(&series.path(frame)), fault))?;
+        (most, hot) = (most.max(peak(&volume)), hot.max(hottest(&volume)));
+        let own = file
+            .notices()
+            .iter()
+            .cloned()
+            .chain(mended_notice(volume.mended()));
+        notices.extend(own.map(|notice| format!("{}: {notice}", quoted(&series.path(frame)))));
+        Ok(volume)
+    };
+    let mut footage = Footage::new(read, last, 1.0 / shots.fps);
+    let moments = Moments::new(first, last, shots.step, first);
+    let mut budget = Budget::new(limits.memory_bytes);
+    let frames = followed(&mut footage, &moments, said, shots, &mut budget, tell)?;
+    let estimates = footage.has_estimates();
+    drop(footage);
+    if estimates {
+        notices.push("velocities are estimated from densities: the files bring none".to_owned());
+    }
+    notices.extend(thin_notice(most, said));
+    let mut film = finished(frames, first, hot, notices);
+    film.inputs = (first..=last).map(|frame| series.path(frame)).collect();
+    Ok(film)
+}
+
+/// The box of voxels that holds all frames of a series.
+fn shared_extent(
+    series: &Numbered,
+    first: u32,
+    last: u32,
+    open: &dyn Fn(u32) -> Result<VolumeFile, Fault>,
+) -> Result<Extent, Fault> {
+    let mut all = open(first)?.extent();
+    for frame in first.saturating_add(1)..=last {
+        all = all.union(&open(frame)?.extent()).ok_or_else(|| {
+            let (here, start) = (quoted(&series.path(frame)), quoted(&series.path(first)));
+            let message =
+                format!("cannot read {here}: its voxels do not lie on the grid of {start}");
+            Fault::new(Exit::Input, message)
+        })?;
+    }
+    Ok(all)
+}
+
+/// Moments in frames, in equal steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Moments {
+    start: f64,
+    step: f64,
+    /// How many come before the first that is drawn, so that smoke is followed from its beginning.
+    unseen: usize,
+    seen: usize,
+}
+
+impl Moments {
+    /// From frame `first` to `last` and no further; `begin` is the frame that smoke may be followed from.
+    fn new(first: u32, last: u32, step: f64, begin: u32) -> Self {
+        let steps = |frames: u32| (f64::from(frames) / step + 1e-9).floor();
+        let unseen = steps(first.saturating_sub(begin));
+        Self {
+            start: f64::from(first) - unseen * step,
+            step,
+            unseen: unseen as usize,
+            seen: steps(last.saturating_sub(first)) as usize + 1,
+        }
+    }
+
+    fn count(&self) -> usize {
+        self.unseen.saturating_add(self.seen)
+    }
+
+    fn at(&self, number: usize) -> f64 {
+        self.start + number as f64 * self.step
+    }
+}
+
+/// How many pictures there are from one frame to another, in steps.
+pub fn picture_count(first: u32, last: u32, step: f64) -> usize {
+    Moments::new(first, last, step, first).seen
+}
+
+/// The smoke of every moment that is drawn, its heat in the units of the volume.
+fn followed<R>(
+    mut footage: impl std::borrow::BorrowMut<Footage<R>>,
+    moments: &Moments,
+    said: &VolumeArguments,
+    shots: &Shots,
+    budget: &mut Budget,
+    tell: &mut dyn FnMut(usize, usize),
+) -> Result<Vec<Smoke>, Fault>
+where
+    R: FnMut(u32) -> Result<Volume, Fault>,
+{
+    let settings = track_settings(said, shots);
+    let spheres = (settings.count as usize).saturating_mul(moments.seen);
+    budget
+        .take("the smoke of all frames", spheres, size_of::<Sphere>())
+        .map_err(|error| limit_of(&error))?;
+    let (mut track, mut frames) = (None::<Track>, Vec::new());
+    for number in 0..moments.count() {
+        tell(number, moments.count());
+        let volume = footage.borrow_mut().at(moments.at(number))?;
+        let track = match &mut track {
+            Some(track) => {
+                track.step(&volume);
+                track
+            }
+            none => none.insert(Track::new(&volume, settings)),
+        };
+        if number >= moments.unseen {
+            frames.push(Smoke::of_track(track));
+        }
+    }
+    Ok(frames)
+}
+
+/// Frames in one space, with heats from 0 to 1.
+fn finished(frames: Vec<Smoke>, first: u32, hottest: f32, mut notices: Vec<String>) -> Film {
+    // What holds for every frame is said once.
+    let mut said = std::collections::BTreeSet::new();
+    notices.retain(|notice| said.insert(notice.clone()));
+    let all = frames.iter().fold(Smoke::default(), |all, smoke| {
+        all.with(Smoke::new(smoke.spheres.clone()))
+    });
+    let space = (!all.spheres.is_empty()).then(|| all.bounds());
+    let finish = |smoke: Smoke| Smoke {
+        space,
+        ..smoke.with_hottest(hottest)
+    };
+    Film {
+        frames: frames.into_iter().map(finish).collect(),
+        first,
+        inputs: Vec::new(),
+        notices,
+    }
+}
+
+fn options(said: &VolumeArguments, limits: &Limits) -> VolumeOptions {
+    VolumeOptions {
+        density: said.density.clone(),
+        velocity: said.velocity.clone(),
+        heat: said.heat.clone(),
+        up: match said.volume_up {
+            VolumeUp::Y => UpAxis::Y,
+            VolumeUp::Z => UpAxis::Z,
+        },
+        memory_limit: limits.memory_bytes,
+    }
+}
+
+fn track_settings(said: &VolumeArguments, shots: &Shots) -> TrackSettings {
+    let usual = TrackSettings::default();
+    let step = shots.step as f32;
+    TrackSettings {
+        count: said.spheres.unwrap_or(usual.count),
+        threshold: said.threshold.unwrap_or(usual.threshold),
+        detail: said.detail.unwrap_or(usual.detail),
+        frame_seconds: step / shots.fps,
+        // The same pace whatever the steps and the frames.
+        ease: (usual.ease * step * DEFAULT_FPS / shots.fps).min(1.0),
+        seed: said.seed,
+        ..usual
+    }
+}
+
+fn peak(volume: &Volume) -> f32 {
+    volume
+        .density()
+        .iter()
+        .fold(0.0, |most, density| most.max(*density))
+}
+
+fn hottest(volume: &Volume) -> f32 {
+    let heats = volume.temperature().unwrap_or_default();
+    heats.iter().fold(0.0, |most, heat| most.max(*heat))
+}
+
+/// What to say where nothing is dense enough to be drawn.
+fn thin_notice(peak: f32, said: &VolumeArguments) -> Option<String> {
+    let threshold = said.threshold.unwrap_or(TrackSettings::default().threshold);
+    let text = match peak {
+        0.0 => "there is no smoke".to_owned(),
+        _ => format!(
+            "no density is above {threshold}: the greatest is {peak}; --threshold draws thinner smoke"
+        ),
+    };
+    (peak <= threshold).then_some(text)
+}
+
+/// A fault of a volume called `name`, which is quoted.
+pub fn of_volume(name: &str, fault: VolumeFault) -> Fault {
+    let exit = match &fault {
+        fault if fault.is_limit() => Exit::Limit,
+        VolumeFault::Components { .. } | VolumeFault::Read(npr_vdb::Fault::NoGrid { .. }) => {
+            Exit::Usage
+        }
+        _ => Exit::Input,
+    };
+    let remedy = match (fault.is_memory(), exit) {
+        (true, _) => "; --memory-limit lifts that",
+        (false, Exit::Limit) => ", and no option lifts that",
+        (false, _) => "",
+    };
+    Fault::new(exit, format!("cannot read {name}: {fault}{remedy}"))
+}
+
+fn limit_of(error: &npr_core::budget::OverBudget) -> Fault {
+    Fault::new(Exit::Limit, format!("{error}; --memory-limit lifts that"))
+}
+
+impl From<SmokeError> for Fault {
+    fn from(error: SmokeError) -> Self {
+        match &error {
+            SmokeError::OverBudget(error) => limit_of(error),
+            _ => Self::new(Exit::Usage, format!("--grid: {error}")),
+        }
+    }
+}
+
+impl From<npr_smoke::VolumeError> for Fault {
+    fn from(error: npr_smoke::VolumeError) -> Self {
+        Self::new(Exit::Input, error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_tell_where_smoke_comes_from() {
+        let of = |name: &str| VolumeSource::of(Path::new(name));
+        assert_eq!(of("cloud"), VolumeSource::BuiltIn(Source::Cloud));
+        assert_eq!(of("./cloud"), VolumeSource::File("./cloud".into()));
+        assert_eq!(of("a.vdb"), VolumeSource::File("a.vdb".into()));
+        assert!(matches!(of("a_##.vdb"), VolumeSource::Series(_)));
+    }
+
+    #[test]
+    fn moments_end_with_the_last_frame_and_begin_with_the_smoke() {
+        let all = |moments: Moments| {
+            let numbers = moments.unseen..moments.count();
+            numbers.map(|number| moments.at(number)).collect::<Vec<_>>()
+        };
+        assert_eq!(all(Moments::new(3, 5, 1.0, 1)), [3.0, 4.0, 5.0]);
+        assert_eq!(all(Moments::new(3, 4, 0.5, 1)), [3.0, 3.5, 4.0]);
+        assert_eq!(all(Moments::new(3, 8, 2.0, 1)), [3.0, 5.0, 7.0]);
+        assert_eq!(Moments::new(3, 4, 0.5, 1).at(0), 1.0);
+        assert_eq!(Moments::new(4, 4, 2.0, 1).at(0), 2.0);
+        assert_eq!(picture_count(1, 96, 0.1), 951);
+    }
+}
