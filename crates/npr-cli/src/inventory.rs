@@ -1,6 +1,9 @@
 //! What is in a scene, as data that can be told in words or as JSON.
 
+mod volume;
 mod words;
+
+pub use volume::VolumeInventory;
 
 use crate::source::Loaded;
 use npr_scene::{AlphaMode, Format, LightKind, Projection, Scene};

@@ -1,5 +1,6 @@
 //! Smoke from files: which grids of a file it is made of, and the volume they give.
 
+use crate::placement::bounds_of;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use npr_core::budget::{Budget, OverBudget};
 use npr_smoke::{MAX_SIDE, Mended, Volume, VolumeError};
@@ -172,6 +173,23 @@ impl Extent {
             size: std::array::from_fn(|axis| size(axis).max(0) as usize),
             ..*self
         })
+    }
+
+    /// Lowest and highest corner of its voxels in the world; none where there are none.
+    pub fn bounds(&self) -> Option<([f32; 3], [f32; 3])> {
+        let corner = |i: usize| {
+            let index = |axis: usize| {
+                let end = if i >> axis & 1 == 0 {
+                    0.0
+                } else {
+                    self.size[axis] as f64
+                };
+                f64::from(self.low[axis]) + end - 0.5
+            };
+            let index = DVec3::from_array(std::array::from_fn(index));
+            self.world_from_index.transform_point3(index).as_vec3()
+        };
+        (!self.is_empty()).then(|| bounds_of((0..8).map(corner)))
     }
 
     /// Whether there is no voxel in it.
@@ -513,6 +531,17 @@ impl Choice {
             heat: heat.filter(|heat| *heat != density),
             guess,
         })
+    }
+
+    /// What a grid is used as, by its place in the file.
+    pub fn use_of(&self, place: usize) -> Option<&'static str> {
+        if place == self.density {
+            Some("density")
+        } else if self.velocity.contains(&place) {
+            Some("velocity")
+        } else {
+            (self.heat == Some(place)).then_some("temperature")
+        }
     }
 
     fn read_velocity(&self, file: &File<'_>) -> Result<Velocity, VolumeFault> {

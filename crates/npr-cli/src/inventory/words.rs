@@ -68,7 +68,7 @@ impl Inventory {
 }
 
 /// A line per entry, the first few of them.
-fn list(text: &mut String, what: &str, entries: impl IntoIterator<Item = String>) {
+pub(super) fn list(text: &mut String, what: &str, entries: impl IntoIterator<Item = String>) {
     let mut entries = entries.into_iter();
     for entry in entries.by_ref().take(LISTED) {
         let _ = writeln!(text, "  {what} {entry}");
@@ -127,12 +127,12 @@ impl Skin {
     }
 }
 
-fn point([x, y, z]: [f32; 3], decimals: usize) -> String {
+pub(super) fn point([x, y, z]: [f32; 3], decimals: usize) -> String {
     format!("{x:.decimals$},{y:.decimals$},{z:.decimals$}")
 }
 
 /// Decimal places that show a box to about five digits of its longest side.
-fn decimals_for(min: [f32; 3], max: [f32; 3]) -> usize {
+pub(super) fn decimals_for(min: [f32; 3], max: [f32; 3]) -> usize {
     let longest = (0..3).map(|axis| max[axis] - min[axis]).fold(0.0, f32::max);
     (0..12)
         .find(|places| longest * 10f32.powi(*places) >= 1e4)

@@ -7,6 +7,7 @@ mod info;
 mod lines;
 mod looks;
 mod scenes;
+mod smoke;
 mod streams;
 mod timings;
 mod usage;
