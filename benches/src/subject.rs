@@ -62,6 +62,11 @@ impl Subject {
     }
 }
 
+/// The folder of shared volumes beside the project, whether it is there or not.
+pub fn shared_volumes() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/assets/volumes")
+}
+
 /// The scanned bunny of 69 k triangles, where the folder of shared models lies beside the project.
 ///
 /// Says on standard error that it is left out, where not.

@@ -33,6 +33,7 @@ usage: cargo xtask COMMAND
                     measure line drawings, in release, and keep the tables; ARGS go to the
                     measuring program: --models DIR, --peers DIR, --only NAME, --quick
   measure comic     measure comic pictures, in release, and keep the tables
+  measure smoke     measure cartoon smoke, in release, and keep the tables
   gallery [PRESETS] draw every preset, or those named, on the shared models into target/gallery
   names             check that no file names a machine, and that every crate has a README
   snapshots bless FILTER
@@ -65,6 +66,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["coverage"] => coverage::check(root),
         ["measure", "lines", rest @ ..] => measure::lines(root, rest),
         ["measure", "comic"] => measure::comic(root),
+        ["measure", "smoke"] => measure::smoke(root),
         ["gallery", presets @ ..] => gallery::draw(root, presets),
         ["names"] => names::check(root),
         ["snapshots", "bless", filter] => snapshots::bless(root, filter),

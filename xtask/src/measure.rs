@@ -14,6 +14,9 @@ const LINES: &str = "benches/results/lines.md";
 /// Where the tables of comic pictures are kept.
 const COMIC: &str = "benches/results/comic.md";
 
+/// Where the tables of smoke are kept.
+const SMOKE: &str = "benches/results/smoke.md";
+
 /// Flags of a run that is only part of the whole, so that its tables are not kept.
 const PARTIAL: [&str; 3] = ["--quick", "--only", "--strokes"];
 
@@ -30,6 +33,12 @@ pub fn lines(root: &Path, arguments: &[&str]) -> Result<()> {
 pub fn comic(root: &Path) -> Result<()> {
     let tables = tables_of(root, "comic", &[])?;
     write_whole(&root.join(COMIC), &tables)
+}
+
+/// Measures smoke in release, prints the tables and keeps them.
+pub fn smoke(root: &Path) -> Result<()> {
+    let tables = tables_of(root, "smoke", &[])?;
+    write_whole(&root.join(SMOKE), &tables)
 }
 
 /// What a measuring program prints, printed once more.

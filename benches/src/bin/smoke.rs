@@ -1,0 +1,393 @@
+//! Measures cartoon smoke and prints the tables kept in `benches/results/smoke.md`; with `times`, `growth` or `calm` only that part.
+//!
+//! Run by `cargo xtask measure smoke`. A measuring program, not a test: it fails only where loading or drawing fails.
+
+use std::error::Error;
+
+use npr_benches::machine;
+use npr_benches::smoke::calm::{Change, Shown};
+use npr_benches::smoke::ledger::{Ledger, precise};
+use npr_benches::smoke::subject::{camera, drawn, plume, space_of, volume_of};
+use npr_benches::subject::shared_volumes;
+use npr_benches::table::Table;
+use npr_core::camera::Camera;
+use npr_gpu::processor::Processor;
+use npr_render::{Frame, Model, Stage, StageOptions};
+use npr_scene::Scene;
+use npr_smoke::{Distances, Smoke, Sphere, Track, TrackSettings, Volume};
+use npr_style::Style;
+
+type Outcome<T> = Result<T, Box<dyn Error>>;
+
+/// The paper's grid and picture.
+const PAPER_GRID: [u32; 3] = [15, 15, 20];
+const PAPER_SIZE: [u32; 2] = [512, 512];
+
+const FULL_HD: [u32; 2] = [1920, 1080];
+
+/// Spheres of the busy case.
+const MANY: u32 = 2000;
+
+/// Frames behind every time.
+const RUNS: usize = 25;
+
+/// Frames of an orbit, a degree apart, and of a plume.
+const FRAMES: u32 = 72;
+
+/// What is held against the baseline, and the baseline itself at the end.
+const CALM: [(&str, &[&str]); 3] = [
+    ("drawn, smoke-cel-2", &[]),
+    (
+        "as published",
+        &[
+            "smoke.line.method=published",
+            "smoke.layer_blend=0",
+            "smoke.sigma=3px",
+            "smoke.wrap=0",
+        ],
+    ),
+    ("billboards", &["smoke.method=billboards"]),
+];
+
+fn main() -> Outcome<()> {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    match words
+        .iter()
+        .map(String::as_str)
+        .collect::<Vec<_>>()
+        .as_slice()
+    {
+        [] => {
+            head();
+            times()?;
+            growth()?;
+            calm()
+        }
+        ["times"] => times(),
+        ["growth"] => growth(),
+        ["calm"] => calm(),
+        _ => Err("usage: smoke [times|growth|calm] > benches/results/smoke.md".into()),
+    }
+}
+
+fn head() {
+    println!("# Cartoon smoke\n");
+    println!("- machine: {}", machine::description());
+    println!(
+        "- code: {}, measured {}",
+        machine::commit(),
+        machine::today()
+    );
+    println!("- load average at the start: {}\n", machine::load());
+}
+
+/// The look that is measured, with the paper's pictures of lights.
+fn look(settings: &[&str]) -> Outcome<Style> {
+    let mut style = Style::preset("smoke-cel-2")?;
+    style.set("smoke.shadow_px=2048")?;
+    style.set("light.space=world")?;
+    for setting in settings {
+        style.set(setting)?;
+    }
+    Ok(style)
+}
+
+/// A picture of smoke alone.
+struct Picture<'a> {
+    stage: Stage<'a>,
+    size: [u32; 2],
+}
+
+impl<'a> Picture<'a> {
+    /// For at most `count` spheres.
+    fn new(model: &'a Model, style: &Style, size: [u32; 2], count: u32) -> Outcome<Self> {
+        let spheres = vec![npr_render::Sphere::default(); count as usize];
+        let options = StageOptions {
+            smoke: Some(npr_render::Smoke::new(spheres)),
+            ..StageOptions::new(size)
+        };
+        let stage = Stage::new(&Processor, model, style, &options)?;
+        Ok(Self { stage, size })
+    }
+
+    fn draw(&mut self, spheres: &[Sphere], volume: &Volume, camera: &Camera) -> Outcome<Frame> {
+        self.stage.set_smoke(&drawn(spheres, volume))?;
+        Ok(self.stage.draw(camera)?)
+    }
+
+    fn camera(&self, volume: &Volume, degrees: f32) -> Camera {
+        camera(space_of(volume), self.size, degrees)
+    }
+}
+
+fn empty() -> Outcome<Model> {
+    Ok(Model::new(&Scene::default())?)
+}
+
+/// The two cases that must be fast, stage by stage.
+fn times() -> Outcome<()> {
+    println!("## A frame, stage by stage\n");
+    println!(
+        "Medians of {RUNS} frames in one process and, in brackets, the least, in ms. Work is what all threads of the process did: \
+         unlike the time it hardly hangs on what else the machine does. Preset smoke-cel-2, lights see the smoke in 2048 x 2048 \
+         texels. Load average {}.\n",
+        machine::load()
+    );
+    println!("### The paper's case: 15 x 15 x 20 cells, 200 spheres at most, 512 x 512 pixels\n");
+    println!("Wanted: 25 ms a frame, from the solver's step to the picture.\n");
+    println!("{}", paper_case()?);
+    println!("### A million voxels, {MANY} spheres, 1920 x 1080 pixels\n");
+    println!("Wanted: 250 ms a frame, without reading the file.\n");
+    match tall()? {
+        Some(volume) => println!("{}", busy_case(&volume)?),
+        None => println!("Left out: the shared volumes are not there.\n"),
+    }
+    Ok(())
+}
+
+fn paper_case() -> Outcome<Ledger> {
+    let mut smoke = Smoke::new(plume(PAPER_GRID))?;
+    (0..48).for_each(|_| smoke.step());
+    let settings = TrackSettings::default();
+    let mut track = Track::new(&smoke.volume(), settings);
+    let model = empty()?;
+    let mut picture = Picture::new(&model, &look(&[])?, PAPER_SIZE, settings.count)?;
+    let mut ledger = Ledger::default();
+    let camera = picture.camera(&smoke.volume(), 0.0);
+    picture.draw(&track.spheres(), &smoke.volume(), &camera)?;
+    for _ in 0..RUNS {
+        let mut stages = Ledger::default();
+        let frame = ledger.time("whole frame", || -> Outcome<Frame> {
+            stages.time("solver", || smoke.step());
+            let volume = stages.time("volume", || smoke.volume());
+            stages.time("distances and spheres", || track.step(&volume));
+            let spheres = track.spheres();
+            stages.time("drawing", || picture.draw(&spheres, &volume, &camera))
+        })?;
+        ledger.take(&stages);
+        ledger.enter_passes(&frame);
+    }
+    Ok(ledger)
+}
+
+fn busy_case(volume: &Volume) -> Outcome<Ledger> {
+    let settings = TrackSettings {
+        count: MANY,
+        detail: 200,
+        ..TrackSettings::default()
+    };
+    let mut track = Track::new(volume, settings);
+    eprintln!("{} spheres", track.spheres().len());
+    let model = empty()?;
+    let mut picture = Picture::new(&model, &look(&[])?, FULL_HD, MANY)?;
+    let mut ledger = Ledger::default();
+    picture.draw(&track.spheres(), volume, &picture.camera(volume, 0.0))?;
+    for run in 0..RUNS {
+        let camera = picture.camera(volume, run as f32);
+        let mut stages = Ledger::default();
+        let frame = ledger.time("whole frame", || -> Outcome<Frame> {
+            stages.time("distances and spheres", || track.step(volume));
+            let spheres = track.spheres();
+            stages.time("drawing", || picture.draw(&spheres, volume, &camera))
+        })?;
+        ledger.take(&stages);
+        ledger.enter_passes(&frame);
+    }
+    Ok(ledger)
+}
+
+fn tall() -> Outcome<Option<Volume>> {
+    let path = shared_volumes().join("smoke_tall_houdini.vdb");
+    if !path.is_file() {
+        return Ok(None);
+    }
+    Ok(Some(volume_of(&path)?))
+}
+
+/// How the stages grow with what they have to do.
+fn growth() -> Outcome<()> {
+    println!("## How costs grow\n");
+    println!(
+        "Work of all threads in ms, medians of 9 runs. Voxels and spheres: the tall smoke, coarser by whole factors.\n"
+    );
+    let Some(volume) = tall()? else {
+        return Ok(());
+    };
+    let mut table = Table::new([
+        "voxels",
+        "distances",
+        "2000 spheres that follow, detail 200",
+    ]);
+    for block in [4, 3, 2, 1] {
+        let volume = volume.coarsened(block);
+        let mut ledger = Ledger::default();
+        let settings = TrackSettings {
+            count: MANY,
+            detail: 1000,
+            ..TrackSettings::default()
+        };
+        let mut track = Track::new(&volume, settings);
+        for _ in 0..9 {
+            ledger.time("distances", || Distances::new(&volume, settings.threshold));
+            ledger.time("follow", || track.step(&volume));
+        }
+        let cells = ["distances", "follow"].map(|name| work_of(&ledger, name));
+        table.add(volume.density().len().to_string(), cells);
+    }
+    println!("{table}");
+    let mut table = Table::new([
+        "spheres",
+        "pixels",
+        "sigma, px",
+        "drawing",
+        "`smoke` passes that smooth, time",
+    ]);
+    let (k, px) = (
+        [200, 2000, 20_000],
+        [PAPER_SIZE, [1024, 1024], FULL_HD, [3840, 2160]],
+    );
+    let sigmas = [0.0, 1.5, 3.0, 6.0, 14.0, 50.0, 200.0];
+    let cases = k.iter().map(|k| (*k, FULL_HD, 14.0));
+    let cases = cases.chain(px.iter().map(|px| (MANY, *px, 14.0)));
+    let cases = cases.chain(sigmas.iter().map(|sigma| (MANY, FULL_HD, *sigma)));
+    for (count, size, sigma) in cases {
+        let cells = grown(&volume, count, size, sigma)?;
+        table.add(count.to_string(), cells);
+    }
+    println!("{table}");
+    Ok(())
+}
+
+fn work_of(ledger: &Ledger, name: &str) -> String {
+    ledger
+        .of(name)
+        .map_or(String::new(), |(_, work)| precise(work))
+}
+
+/// The cells of a row of [`growth`].
+fn grown(volume: &Volume, count: u32, size: [u32; 2], sigma: f32) -> Outcome<[String; 4]> {
+    let settings = TrackSettings {
+        count,
+        detail: 200,
+        ..TrackSettings::default()
+    };
+    let spheres = Track::new(volume, settings).spheres();
+    let model = empty()?;
+    let style = look(&[&format!("smoke.sigma={sigma}px")])?;
+    let mut picture = Picture::new(&model, &style, size, spheres.len() as u32)?;
+    let camera = picture.camera(volume, 0.0);
+    let mut ledger = Ledger::default();
+    picture.draw(&spheres, volume, &camera)?;
+    for _ in 0..9 {
+        let frame = ledger.time("drawing", || picture.draw(&spheres, volume, &camera))?;
+        ledger.enter_passes(&frame);
+    }
+    let smoothing = ["gather_tones", "blur_rows", "blur_columns", "smooth_tones"];
+    let smoothing = smoothing
+        .iter()
+        .filter_map(|name| ledger.of(&format!("`smoke.{name}`")));
+    let smoothing: f64 = smoothing.map(|(clock, _)| clock.median).sum();
+    Ok([
+        format!("{}x{}", size[0], size[1]),
+        sigma.to_string(),
+        work_of(&ledger, "drawing"),
+        format!("{smoothing:.2}"),
+    ])
+}
+
+/// Tones that change without cause.
+fn calm() -> Outcome<()> {
+    println!("## Tones that change without cause\n");
+    println!(
+        "{FRAMES} steps of pictures 512 x 512 under a light fixed to the world. Every pixel's true point, on the spheres \
+         that stand for the smoke, is carried to the frame before with its sphere and through that frame's camera. Where it is \
+         seen there too, its tone must be found within a pixel of it, to a tenth of the way from black to white, in both \
+         pictures; else it changed without cause. All styles are held against the same points.\n"
+    );
+    let mut table = Table::new([
+        "subject",
+        "style",
+        "pixels compared a frame",
+        "change without cause",
+        "of the billboards'",
+    ]);
+    if let Some(volume) = tall()? {
+        let name = "camera round still smoke, a degree a frame";
+        add_rows(&mut table, name, |settings| orbit(&volume, settings))?;
+    }
+    add_rows(&mut table, "the built-in plume, camera still", rising)?;
+    println!("{table}");
+    Ok(())
+}
+
+/// A row for every style of a subject.
+fn add_rows(
+    table: &mut Table,
+    subject: &str,
+    of: impl Fn(&[&str]) -> Outcome<Change>,
+) -> Outcome<()> {
+    let changes = CALM.iter().map(|(_, settings)| of(settings));
+    let changes = changes.collect::<Outcome<Vec<Change>>>()?;
+    let baseline = changes.last().map_or(1.0, Change::share);
+    for ((style, _), change) in CALM.iter().zip(&changes) {
+        let cells = [
+            (*style).to_owned(),
+            (change.compared / FRAMES as usize).to_string(),
+            format!("{:.3} %", 100.0 * change.share()),
+            format!("{:.2}", change.share() / baseline),
+        ];
+        eprintln!("{subject}: {}", cells.join(", "));
+        table.add(subject, cells);
+    }
+    Ok(())
+}
+
+fn orbit(volume: &Volume, settings: &[&str]) -> Outcome<Change> {
+    let track = TrackSettings {
+        count: 600,
+        ..TrackSettings::default()
+    };
+    let spheres = Track::new(volume, track).spheres();
+    let model = empty()?;
+    let mut picture = Picture::new(&model, &look(settings)?, PAPER_SIZE, spheres.len() as u32)?;
+    let shown = |step: u32| {
+        let camera = picture.camera(volume, step as f32);
+        let frame = picture.draw(&spheres, volume, &camera)?;
+        Ok(Shown::new(&frame, &camera, &spheres))
+    };
+    sum_of_changes(shown)
+}
+
+fn rising(settings: &[&str]) -> Outcome<Change> {
+    let mut smoke = Smoke::new(plume([30, 30, 60]))?;
+    (0..24).for_each(|_| smoke.step());
+    let track = TrackSettings {
+        count: 300,
+        ..TrackSettings::default()
+    };
+    let count = track.count;
+    let mut track = Track::new(&smoke.volume(), track);
+    let model = empty()?;
+    let mut picture = Picture::new(&model, &look(settings)?, PAPER_SIZE, count)?;
+    let shown = |_| {
+        smoke.step();
+        let volume = smoke.volume();
+        track.step(&volume);
+        let (spheres, camera) = (track.spheres(), picture.camera(&volume, 0.0));
+        let frame = picture.draw(&spheres, &volume, &camera)?;
+        Ok(Shown::new(&frame, &camera, &spheres))
+    };
+    sum_of_changes(shown)
+}
+
+/// All changes of a series of frames together.
+fn sum_of_changes(mut shown: impl FnMut(u32) -> Outcome<Shown>) -> Outcome<Change> {
+    let mut before = shown(0)?;
+    let mut sum = Change::default();
+    for step in 1..=FRAMES {
+        let after = shown(step)?;
+        sum = sum.and(after.change_since(&before));
+        before = after;
+    }
+    Ok(sum)
+}
