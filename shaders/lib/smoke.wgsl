@@ -25,7 +25,8 @@ struct SmokeLook {
     ambient: f32,
     samples: u32,
     shadow_side: u32,
-    unused: vec2<u32>,
+    surface_maps: u32,
+    surface_side: u32,
     kernel: array<vec4<f32>, 3>,
     ramp: array<vec4<f32>, 8>,
 }

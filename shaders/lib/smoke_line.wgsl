@@ -121,8 +121,11 @@ fn line_at(id: u32, frame_px: vec2<f32>) -> f32 {
         let side = select(steps[k / 2u], -steps[k / 2u], k % 2u == 0u);
         let sine = clamp(side * look.line_px / radius_px, -0.7, 0.7);
         let rim = rim_of(disc, sine, sqrt(1.0 - sine * sine));
+        let away = distance_px(rim.px, frame_px);
+        // The rule: even the widest line covers no more than is covered.
+        if line_coverage(widest, away) <= covered { continue; }
         let width = width_at(id, ball, rim);
-        covered = max(covered, line_coverage(width, distance_px(rim.px, frame_px)));
+        covered = max(covered, line_coverage(width, away));
     }
     return covered;
 }

@@ -86,22 +86,17 @@ fn smoke_texel(map: u32, at: vec2<u32>) -> f32 {
     }
 }
 
-// Whether smoke stands between a place and the light of a shadow picture: the four texels around it vote.
+// Whether smoke stands between a place and the light of a shadow picture.
 fn is_behind_smoke(map: u32, world: vec3<f32>) -> bool {
     let side = compose.smoke_shadow_side;
     if side == 0u { return false; }
-    let clip = apply_point(lights.shadows[map], world);
-    let nearness = clip.z / clip.w;
-    let length = f32(side);
-    let at = vec2<f32>((clip.x / clip.w + 1.0) * 0.5 * length - 0.5, (1.0 - clip.y / clip.w) * 0.5 * length - 0.5);
-    if !(clip.w > 0.0 && all(at >= vec2<f32>(0.0)) && all(at < vec2<f32>(length - 1.0))) { return false; }
-    let low = vec2<u32>(at);
-    let part = at - vec2<f32>(low);
-    let a = select(0.0, 1.0, smoke_texel(map, low) > nearness);
-    let b = select(0.0, 1.0, smoke_texel(map, low + vec2<u32>(1u, 0u)) > nearness);
-    let c = select(0.0, 1.0, smoke_texel(map, low + vec2<u32>(0u, 1u)) > nearness);
-    let d = select(0.0, 1.0, smoke_texel(map, low + vec2<u32>(1u, 1u)) > nearness);
-    let upper = a + (b - a) * part.x;
-    let lower = c + (d - c) * part.x;
-    return upper + (lower - upper) * part.y > 0.5;
+    let texels = texels_around(lights.shadows[map], side, world);
+    if !texels.is_seen { return false; }
+    let low = texels.low;
+    return are_nearer(texels, vec4<f32>(
+        smoke_texel(map, low),
+        smoke_texel(map, low + vec2<u32>(1u, 0u)),
+        smoke_texel(map, low + vec2<u32>(0u, 1u)),
+        smoke_texel(map, low + vec2<u32>(1u, 1u)),
+    ));
 }

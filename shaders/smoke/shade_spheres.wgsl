@@ -9,6 +9,7 @@
 //# use lib/window
 //# use lib/sphere
 //# use lib/smoke
+//# use lib/depth_map
 
 override WG: u32 = 64u;
 
@@ -24,6 +25,10 @@ override WG: u32 = 64u;
 @group(0) @binding(9) var smoke_light_1: texture_2d<u32>;
 @group(0) @binding(10) var smoke_light_2: texture_2d<u32>;
 @group(0) @binding(11) var smoke_light_3: texture_2d<u32>;
+@group(0) @binding(12) var surface_depth_0: texture_depth_2d;
+@group(0) @binding(13) var surface_depth_1: texture_depth_2d;
+@group(0) @binding(14) var surface_depth_2: texture_depth_2d;
+@group(0) @binding(15) var surface_depth_3: texture_depth_2d;
 
 //# use lib/lighting
 
@@ -52,6 +57,31 @@ fn is_dark(own: u32, light: u32, world: vec3<f32>, towards: vec3<f32>) -> bool {
     return ahead > 0.0 && dot(offset, offset) - ahead * ahead < caster.radius * caster.radius;
 }
 
+fn surface_texel(map: u32, at: vec2<u32>) -> f32 {
+    switch map {
+        case 0u: { return textureLoad(surface_depth_0, at, 0); }
+        case 1u: { return textureLoad(surface_depth_1, at, 0); }
+        case 2u: { return textureLoad(surface_depth_2, at, 0); }
+        default: { return textureLoad(surface_depth_3, at, 0); }
+    }
+}
+
+// Whether a surface stands between a place and a light.
+fn is_behind_surface(light: u32, world: vec3<f32>) -> bool {
+    let number = lights.sources[light].shadow;
+    if number == 0u || number > look.surface_maps { return false; }
+    let map = number - 1u;
+    let texels = texels_around(lights.shadows[map], look.surface_side, world);
+    if !texels.is_seen { return false; }
+    let low = texels.low;
+    return are_nearer(texels, vec4<f32>(
+        surface_texel(map, low),
+        surface_texel(map, low + vec2<u32>(1u, 0u)),
+        surface_texel(map, low + vec2<u32>(0u, 1u)),
+        surface_texel(map, low + vec2<u32>(1u, 1u)),
+    ));
+}
+
 // Light on a place of sphere `id` that faces along `normal`, 0..1.
 fn light_at(id: u32, world: vec3<f32>, normal: vec3<f32>) -> f32 {
     var sum = look.ambient;
@@ -61,7 +91,8 @@ fn light_at(id: u32, world: vec3<f32>, normal: vec3<f32>) -> f32 {
         let wrap = select(look.wrap, 1.0, source.kind == LIGHT_SKY);
         let facing = (dot(normal, reach.towards) + wrap) / (1.0 + wrap);
         var lit = clamp(facing, 0.0, 1.0);
-        if lit > lights.shadow_at && is_dark(id, i, world, reach.towards) { lit = lights.shadow_at; }
+        if lit > lights.shadow_at
+            && (is_dark(id, i, world, reach.towards) || is_behind_surface(i, world)) { lit = lights.shadow_at; }
         sum += lit * reach.strength;
     }
     return min(sum, 1.0);

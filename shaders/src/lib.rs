@@ -152,6 +152,7 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/sphere", include_str!("../lib/sphere.wgsl")),
     ("lib/smoke", include_str!("../lib/smoke.wgsl")),
     ("lib/smoke_line", include_str!("../lib/smoke_line.wgsl")),
+    ("lib/depth_map", include_str!("../lib/depth_map.wgsl")),
     ("lib/veil", include_str!("../lib/veil.wgsl")),
     ("lib/shadow", include_str!("../lib/shadow.wgsl")),
     ("lib/ribbon", include_str!("../lib/ribbon.wgsl")),

@@ -62,6 +62,16 @@ pub(crate) struct Method {
 }
 
 impl Method {
+    /// No lines at all.
+    pub const NONE: Self = Self {
+        mask: false,
+        ribbons: false,
+        residual: false,
+        filter: false,
+        hull: false,
+        layers: 0,
+    };
+
     /// What a style's own method and those of its rules need together.
     pub fn of(style: &Style) -> Self {
         let rules = style.rule.iter().filter_map(|rule| rule.line.method);
@@ -81,14 +91,7 @@ impl Method {
     }
 
     fn of_one(method: LineMethod, style: &Style) -> Self {
-        let none = Self {
-            mask: false,
-            ribbons: false,
-            residual: false,
-            filter: false,
-            hull: false,
-            layers: 0,
-        };
+        let none = Self::NONE;
         let masked = Self { mask: true, ..none };
         let filter = Self {
             filter: true,
@@ -155,6 +158,8 @@ pub(crate) struct Blueprint {
     ribbons: ResourceId,
     overlay: ResourceId,
     shadows: [ResourceId; SHADOWS_MAX],
+    /// Depths of the same, kept apart only where they fall on smoke.
+    shadow_depths: [ResourceId; SHADOWS_MAX],
 }
 
 impl Blueprint {
@@ -173,7 +178,8 @@ impl Blueprint {
             plan.draw_beams(grids);
         }
         if let Some(needs) = &counts.smoke {
-            plan.smoke = Some(SmokePlan::new(&mut plan.graph, needs, plan.output_window));
+            let (window, surfaces) = (plan.output_window, plan.shadow_depths);
+            plan.smoke = Some(SmokePlan::new(&mut plan.graph, needs, window, surfaces));
         }
         plan.compose_frame();
         plan
@@ -186,6 +192,14 @@ impl Blueprint {
         let only = |needed: bool, size: [u32; 2]| if needed { size } else { [1, 1] };
         let color = grids.output.map(|side| side * grids.samples);
         let shadow = |i| only(i < counts.shadows, [SHADOW_SIDE; 2]);
+        let first = graph.image("shadow depths", Format::Depth, shadow(0));
+        let takes_shadows = counts.smoke.is_some_and(|needs| needs.takes_shadows);
+        let mut shadow_depths = [first; SHADOWS_MAX];
+        if takes_shadows {
+            for (i, depths) in (1..).zip(&mut shadow_depths[1..]) {
+                *depths = graph.image("shadow depths", Format::Depth, shadow(i));
+            }
+        }
         let overlay = pixel_count(only(method.residual || method.filter, grids.output));
         Self {
             view: graph.uniform::<View>("view"),
@@ -200,6 +214,7 @@ impl Blueprint {
                 .map(|_| graph.uniform::<Matrix>("light view"))
                 .collect(),
             shadows: std::array::from_fn(|i| graph.image("shadow", Format::U32, shadow(i))),
+            shadow_depths,
             vertices: graph.buffer::<Vertex>("vertices", counts.vertices),
             influences: graph.buffer::<Influence>("influences", counts.vertices),
             palette: graph.buffer::<Matrix>("palette", counts.joints),
@@ -234,16 +249,14 @@ impl Blueprint {
         self.graph.compute(&mesh::POSE_VERTICES, &bound);
     }
 
-    /// What every light with shadows sees; one list of vertices and one depth image serve them all in turn.
+    /// What every light with shadows sees; one list of vertices serves them all in turn.
     fn draw_shadows(&mut self, counts: &Counts) {
         if counts.shadows == 0 {
             return;
         }
         let projected = self.graph.buffer::<[f32; 4]>("projected", counts.vertices);
-        let depths = self
-            .graph
-            .image("shadow depths", Format::Depth, [SHADOW_SIDE; 2]);
-        for (view, shadow) in self.light_views.iter().zip(self.shadows) {
+        let targets = self.shadows.into_iter().zip(self.shadow_depths);
+        for (view, (shadow, depths)) in self.light_views.iter().zip(targets) {
             let project = [*view, self.posed, projected];
             self.graph.compute(&mesh::PROJECT_SHADOW, &project);
             let bound = [

@@ -151,6 +151,7 @@ impl ChosenLights {
             return (Self::new(&own, model), false);
         }
         let mut lights = self.clone();
+        // Points alone throw no shadows on surfaces, so smoke has shadows of its own beside them.
         let are_same = self.shadow_count() > 0;
         for light in &mut lights.lights {
             light.shadow = light.shadow || (style.smoke.shadow && !are_same);
@@ -164,6 +165,12 @@ impl ChosenLights {
         casting.min(SHADOWS_MAX)
     }
 
+    /// How many of them throw shadows of smoke on smoke: those that throw any, then points.
+    pub fn smoke_shadow_count(&self) -> usize {
+        let casting = self.lights.iter().filter(|light| light.casts_on_smoke());
+        casting.count().min(SHADOWS_MAX)
+    }
+
     /// Says that there are more lights than the 16 that a frame takes; `None` where there are not.
     pub fn notice(&self) -> Option<String> {
         let dropped = self.dropped;
@@ -174,25 +181,41 @@ impl ChosenLights {
 
     /// The lights of a frame as a camera sees it.
     ///
-    /// `bounds` is the box of all that throws shadows.
-    pub fn of_frame(&self, style: &Style, bounds: Bounds, camera: &Camera, view: &View) -> Lights {
+    /// `bounds` is the box of all that throws shadows. With the box of a frame's smoke they are the lights of that: points
+    /// throw shadows there too, in pictures that come after those of the others, so that these keep their numbers.
+    pub fn of_frame(
+        &self,
+        style: &Style,
+        bounds: Bounds,
+        smoke: Option<Bounds>,
+        camera: &Camera,
+        view: &View,
+    ) -> Lights {
         let mut lights = Lights {
             count: self.lights.len() as u32,
             shadow_at: style.light.shadow_at,
             bias_world: radius_of(bounds) * BIAS_RADII,
             ..Lights::default()
         };
-        let mut shadow_count = 0;
         for (source, light) in lights.sources.iter_mut().zip(&self.lights) {
             *source = light.source;
             if light.on_camera {
                 source.direction = look::in_world(camera, source.direction);
             }
-            if light.casts() && shadow_count < SHADOWS_MAX {
-                lights.shadows[shadow_count] = light_view(source, bounds, camera, view);
-                shadow_count += 1;
-                source.shadow = shadow_count as u32;
-            }
+        }
+        let sources = lights.sources.iter_mut().zip(&self.lights);
+        let (first, others): (Vec<_>, Vec<_>) = sources.partition(|(_, light)| light.casts());
+        let mut shadow_count = 0;
+        for (source, light) in first.into_iter().chain(others) {
+            let matrix = match smoke {
+                _ if shadow_count == SHADOWS_MAX => break,
+                _ if light.casts() => light_view(source, bounds, camera, view),
+                Some(smoke) if light.casts_on_smoke() => point_view(source.position, smoke),
+                _ => continue,
+            };
+            lights.shadows[shadow_count] = matrix;
+            shadow_count += 1;
+            source.shadow = shadow_count as u32;
         }
         if shadow_count > 0 {
             lights.shadow_side = SHADOW_SIDE;
@@ -260,6 +283,22 @@ impl Chosen {
     fn casts(&self) -> bool {
         self.shadow && matches!(self.source.kind, LightSource::DISTANT | LightSource::SPOT)
     }
+
+    /// Whether it throws shadows of smoke on smoke: skies do not.
+    fn casts_on_smoke(&self) -> bool {
+        self.shadow && self.source.kind != LightSource::SKY
+    }
+}
+
+/// What a point sees of a box: all of it from outside, from inside up to 87 degrees from the direction to its middle.
+fn point_view(position: [f32; 3], bounds: Bounds) -> Matrix {
+    let radius = radius_of(bounds);
+    let middle = (Vec3::from(bounds.0) + Vec3::from(bounds.1)) * 0.5;
+    let towards = middle - Vec3::from(position);
+    let sine = (radius / towards.length().max(radius)).min(1.0);
+    let cosine = (1.0 - sine * sine).sqrt();
+    let axis = towards.normalize_or(Vec3::NEG_Y).to_array();
+    spot_view(position, axis, cosine, radius * SPOT_NEAR_RADII)
 }
 
 /// What a light sees: a spot its cone, a distant light what throws shadows into the picture.

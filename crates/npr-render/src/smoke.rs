@@ -11,7 +11,7 @@ use npr_gpu::pass::Format;
 use npr_gpu::passes::smoke;
 use npr_smoke::Track;
 use npr_style::lighting::Lights;
-use npr_style::shadow::SHADOWS_MAX;
+use npr_style::shadow::{SHADOW_SIDE, SHADOWS_MAX};
 use npr_style::smoke::SmokeLook;
 use npr_style::{SmokeLines, SmokeMethod, SmokeStyle, Style, Unit};
 
@@ -162,6 +162,8 @@ pub(crate) struct Needs {
     pub lights: usize,
     /// Texels of their pictures along a side.
     pub side: u32,
+    /// Whether the scene's shadows fall on it.
+    pub takes_shadows: bool,
     /// Output pixels.
     pub size: [u32; 2],
 }
@@ -205,7 +207,16 @@ impl Measure {
     }
 
     /// Settings of a frame: `bounds` is the space of the smoke, `lights` what it is lit by.
-    pub fn look(&self, style: &Style, lens: &Lens, bounds: Bounds, lights: &Lights) -> SmokeLook {
+    ///
+    /// `surface_maps` says how many lights' pictures hold surfaces.
+    pub fn look(
+        &self,
+        style: &Style,
+        lens: &Lens,
+        bounds: Bounds,
+        lights: &Lights,
+        surface_maps: u32,
+    ) -> SmokeLook {
         let smoke = &style.smoke;
         let center = (Vec3::from(bounds.0) + Vec3::from(bounds.1)) * 0.5;
         let radius = radius_of(bounds);
@@ -250,6 +261,8 @@ impl Measure {
             } else {
                 0
             },
+            surface_maps,
+            surface_side: SHADOW_SIDE,
             ramp: smoke.levels(),
             ..SmokeLook::default()
         };
@@ -297,10 +310,17 @@ pub(crate) struct SmokePlan {
 
 impl SmokePlan {
     /// Adds the resources and passes of smoke to a graph, for a picture on the grid of `window`.
-    pub fn new(graph: &mut Graph, needs: &Needs, window: ResourceId) -> Self {
+    ///
+    /// `surfaces` are the depths of what the scene's lights see of it.
+    pub fn new(
+        graph: &mut Graph,
+        needs: &Needs,
+        window: ResourceId,
+        surfaces: [ResourceId; SHADOWS_MAX],
+    ) -> Self {
         let plan = Self::inputs(graph, needs);
         plan.draw_for_lights(graph);
-        plan.draw(graph, needs, window);
+        plan.draw(graph, needs, window, surfaces);
         plan
     }
 
@@ -339,7 +359,13 @@ impl SmokePlan {
         }
     }
 
-    fn draw(&self, graph: &mut Graph, needs: &Needs, window: ResourceId) {
+    fn draw(
+        &self,
+        graph: &mut Graph,
+        needs: &Needs,
+        window: ResourceId,
+        surfaces: [ResourceId; SHADOWS_MAX],
+    ) {
         let pixel_count = needs.size[0] as usize * needs.size[1] as usize;
         let ids = graph.image("smoke ids", Format::U32, needs.size);
         let depths = graph.image("smoke id depths", Format::Depth, needs.size);
@@ -361,7 +387,7 @@ impl SmokePlan {
             self.balls,
             pixels,
         ];
-        let shade = [&shade[..], &self.light_ids].concat();
+        let shade = [&shade[..], &self.light_ids, &surfaces].concat();
         graph.compute(&smoke::SHADE_SPHERES, &shade);
         let gathered = graph.buffer::<[f32; 2]>("gathered tones", needs.cells);
         let blurred = graph.buffer::<[f32; 2]>("blurred tones", needs.cells);
@@ -374,7 +400,8 @@ impl SmokePlan {
         );
         let bound = [window, self.lens, self.look, ids, self.balls, pixels, tones];
         let targets = [self.colors, self.depths];
-        graph.draw(&smoke::RESOLVE_PICTURE, &bound, &targets, true);
+        // Every texel is written, so none is cleared first.
+        graph.draw(&smoke::RESOLVE_PICTURE, &bound, &targets, false);
     }
 
     /// What the last pass binds of smoke, whether there is any or not.

@@ -178,12 +178,16 @@ impl<'a> Stage<'a> {
             smoke: options.smoke.as_ref().map(|smoke| Needs {
                 spheres: smoke.spheres.len(),
                 cells: measure.cell_count(&style.smoke),
-                lights: smoke_lights.0.shadow_count(),
+                lights: smoke_lights.0.smoke_shadow_count(),
                 side: style.smoke.shadow_px,
+                takes_shadows: smoke_lights.1,
                 size: grids.output,
             }),
         };
-        let mut method = Method::of(style);
+        let mut method = match model.triangles.is_empty() {
+            true => Method::NONE,
+            false => Method::of(style),
+        };
         if counts.beams > 0 {
             method.layers |= Compose::BEAMS;
         }
@@ -327,14 +331,19 @@ impl<'a> Stage<'a> {
         };
         let lens = smoke::lens_of(view, &self.style.smoke);
         let chosen = &self.smoke_lights.0;
-        let lights = chosen.of_frame(&self.style, self.bounds(), camera, view);
+        let extent = Some(smoke.extent());
+        let lights = chosen.of_frame(&self.style, self.bounds(), extent, camera, view);
         let measure = Measure {
             height_px: self.options.size[1] as f32,
             dpi: self.options.dpi,
             size: self.grids.output,
             samples: self.grids.samples,
         };
-        let look = measure.look(&self.style, &lens, smoke.bounds(), &lights);
+        let surface_maps = match self.smoke_lights.1 {
+            true => self.lights.shadow_count() as u32,
+            false => 0,
+        };
+        let look = measure.look(&self.style, &lens, smoke.bounds(), &lights, surface_maps);
         let session = self.session.as_mut();
         write(session, plan.lens, &[lens])?;
         write(session, plan.look, &[look])?;
@@ -393,7 +402,9 @@ impl<'a> Stage<'a> {
         write(session, self.plan.view, &[view])?;
         write(session, self.plan.outline, &[outline])?;
         write(session, self.plan.compose, &[compose])?;
-        let lights = self.lights.of_frame(&self.style, bounds, camera, &view);
+        let lights = self
+            .lights
+            .of_frame(&self.style, bounds, None, camera, &view);
         write(session, self.plan.lights, &[lights])?;
         for (id, matrix) in self.plan.light_views.iter().zip(&lights.shadows) {
             write(session, *id, &[*matrix])?;

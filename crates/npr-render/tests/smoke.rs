@@ -315,6 +315,103 @@ fn smoke_throws_its_shadow_on_a_wall() {
     );
 }
 
+/// Dark pixels of a puff before the camera, under lights and a ramp of two tones.
+fn dark_pixels(model: &Model, smoke: &Smoke, text: &str, name: &str) -> usize {
+    let tones = "sigma = 0\nwrap = 1\nambient = 0\nramp = [{ at = 0.0, color = '#600' }, { at = 0.2, color = '#ffe' }]";
+    let text = format!("{text}\n{PLAIN}{tones}");
+    let frame = draw_on(&Processor, model, smoke, &style(&text), &camera(0.0), SIZE);
+    keep(name, &frame);
+    frame
+        .rgba
+        .chunks(4)
+        .filter(|p| p[0] == 0x66 && p[1] == 0)
+        .count()
+}
+
+#[test]
+fn surfaces_throw_their_shadow_on_smoke() {
+    let smoke = Smoke::new(vec![Sphere::new([0.1, 1.65, -1.0], 0.9)]);
+    let sun = "light.direction = [0, 0.8, 1]\nlight.space = 'world'\nlight.shadow_at = 0.1";
+    // A board above the view from the camera, right in the way of the light.
+    let board = wall(0.5, [0.1, 3.0], 0.7);
+    let dark = |shadow: bool, board: &Model| {
+        let text = format!("{sun}\nlight.shadow = {shadow}");
+        dark_pixels(board, &smoke, &text, "board-on-smoke")
+    };
+    let (without, with) = (dark(false, &board), dark(true, &board));
+    assert!(
+        with > without + 800,
+        "{with} dark pixels, {without} without shadows"
+    );
+    assert!(
+        dark(true, &wall(0.5, [0.1, 1.65], -4.0)) < without + 50,
+        "behind the smoke"
+    );
+}
+
+#[test]
+fn a_lamp_throws_shadows_of_smoke_on_smoke_from_outside_and_within() {
+    let large = Sphere::new([0.1, 1.65, -1.0], 0.9);
+    let lamp = |z: f32| {
+        format!(
+            "light.intensity = 0\nlight.shadow_at = 0.1\n[[light.extra]]\nkind = 'point'\nposition = [0.1, 1.65, {z}]\nshadow = true"
+        )
+    };
+    let dark = |z: f32, puffs: &[Sphere]| {
+        let smoke = Smoke::new(puffs.to_vec());
+        dark_pixels(&empty(), &smoke, &lamp(z), "lamp-on-smoke")
+    };
+    // A puff beside the axis throws its shadow on the large one: seen from the camera it covers little of it.
+    let small = Sphere::new([0.35, 1.65, 0.6], 0.12);
+    let alone = dark(3.0, &[large]);
+    let shaded = dark(3.0, &[large, small]);
+    assert!(shaded > alone + 60, "{shaded} dark pixels, {alone} alone");
+    // The lamp amid the smoke, between the two.
+    let between = dark(0.9, &[large, small, Sphere::new([0.1, 1.65, 2.2], 0.1)]);
+    assert!(between > alone + 60, "{between} dark pixels");
+    let behind = dark(0.2, &[large, small]);
+    assert!(behind < alone + 200, "a puff behind the lamp: {behind}");
+}
+
+#[test]
+fn every_light_throws_a_shadow_of_its_own() {
+    let smoke = Smoke::new(vec![
+        Sphere::new([0.1, 1.65, -1.0], 0.9),
+        Sphere::new([0.1, 1.65, 0.9], 0.1),
+    ]);
+    let light = |x: f32| {
+        format!(
+            "[[light.extra]]\nkind = 'distant'\nintensity = 0.6\nshadow = true\ndirection = [{x}, 0, 1]\n"
+        )
+    };
+    let lamp = "[[light.extra]]\nkind = 'point'\nintensity = 0.6\nshadow = true\nposition = [0.1, 3.2, 2.2]\n";
+    let lit = |lights: &str| {
+        let tones = "sigma = 0\nwrap = 1\nambient = 0\nline.method = 'off'\n\
+                     ramp = [{ at = 0.0, color = '#600' }, { at = 0.6, color = '#888' }, { at = 0.97, color = '#ffe' }]";
+        let text = format!(
+            "line.method = 'none'\nlight.intensity = 0\nlight.shadow_at = 0\nsmoke = {{ {} }}\n{lights}",
+            tones.replace('\n', ", ")
+        );
+        let frame = draw(&smoke, &style(&text), &camera(0.0));
+        keep("many-lights", &frame);
+        let of = |x: u32, y: u32| at(&frame, x, y)[0];
+        // Shadows lie to the left, to the right and below the middle.
+        let dark = |x: std::ops::Range<u32>, y: std::ops::Range<u32>| {
+            x.flat_map(|x| y.clone().map(move |y| (x, y)))
+                .filter(|(x, y)| of(*x, *y) < 0xf0)
+                .count()
+        };
+        [
+            dark(60..120, 118..138),
+            dark(136..196, 118..138),
+            dark(118..138, 140..200),
+        ]
+    };
+    let all = lit(&[light(0.6), light(-0.6), lamp.to_owned()].concat());
+    println!("{all:?}");
+    assert!(all.iter().all(|count| *count > 20), "{all:?}");
+}
+
 #[test]
 fn nothing_and_hostile_smoke_are_drawn_as_nothing() {
     let blank = draw(&Smoke::default(), &style(""), &camera(0.0));
@@ -394,6 +491,9 @@ fn engines_agree() {
     for look in LOOKS {
         let mut style = Style::preset(look).unwrap();
         style.light.shadow = true;
+        style
+            .set("light.extra=[{kind='point',position=[1.5,2,2],intensity=0.4,shadow=true}]")
+            .unwrap();
         let here = draw_on(&Processor, &model, &plume(150), &style, &camera(0.0), SIZE);
         let there = draw_on(&device, &model, &plume(150), &style, &camera(0.0), SIZE);
         let pairs = here.rgba.chunks(4).zip(there.rgba.chunks(4));

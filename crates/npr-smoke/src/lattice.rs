@@ -6,6 +6,9 @@ use rayon::prelude::*;
 /// Below this many values a loop runs on the calling thread: handing it out would cost more.
 const SERIAL_BELOW: usize = 1 << 14;
 
+/// The same where a value takes far more than a few additions.
+const SERIAL_BELOW_IF_COSTLY: usize = 1 << 10;
+
 /// The size of a grid whose values lie in one list, x fastest, then y, then z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Lattice {
@@ -91,6 +94,25 @@ impl Lattice {
     pub fn map<T: Send + Clone + Default>(self, value: impl Fn([usize; 3]) -> T + Sync) -> Vec<T> {
         let mut out = vec![T::default(); self.len()];
         self.fill(&mut out, value);
+        out
+    }
+
+    /// [`map`](Self::map) for values that take long: small grids are handed out too.
+    pub fn map_costly<T: Send + Clone + Default>(
+        self,
+        value: impl Fn([usize; 3]) -> T + Sync,
+    ) -> Vec<T> {
+        if self.len() < SERIAL_BELOW_IF_COSTLY {
+            return self.map(value);
+        }
+        let mut out = vec![T::default(); self.len()];
+        let [width, height, _] = self.size;
+        let fill_row = |(row, out): (usize, &mut [T])| {
+            for (x, out) in out.iter_mut().enumerate() {
+                *out = value([x, row % height, row / height]);
+            }
+        };
+        out.par_chunks_mut(width).enumerate().for_each(fill_row);
         out
     }
 }

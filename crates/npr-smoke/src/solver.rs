@@ -9,7 +9,7 @@ use npr_core::budget::{Budget, OverBudget};
 
 use crate::lattice::{Lattice, greatest, sum};
 use crate::{MAX_SIDE, Volume, VolumeError};
-use advect::advect;
+use advect::{Outside, Paths, advect};
 use flow::{Field, Flow};
 use pressure::Pressure;
 
@@ -256,13 +256,9 @@ impl Smoke {
     /// Carries density and temperature along, lets them fade, and never makes smoke out of nothing.
     fn carry(&mut self, seconds: f32) {
         let before = total(&self.density);
-        self.density = advect(&self.density, &self.flow, seconds, advect::Outside::Nothing);
-        self.temperature = advect(
-            &self.temperature,
-            &self.flow,
-            seconds,
-            advect::Outside::Nothing,
-        );
+        let paths = Paths::new(&self.density, &self.flow, seconds);
+        self.density = paths.carry(&self.density, Outside::Nothing);
+        self.temperature = paths.carry(&self.temperature, Outside::Nothing);
         let after = total(&self.density);
         let surplus = if after > before {
             (before / after) as f32
@@ -277,7 +273,7 @@ impl Smoke {
 
 /// The flow carried along itself.
 fn advect_flow(flow: &Flow, seconds: f32) -> Flow {
-    let along = |axis: usize| advect(&flow.faces[axis], flow, seconds, advect::Outside::Same);
+    let along = |axis: usize| advect(&flow.faces[axis], flow, seconds, Outside::Same);
     let mut carried = Flow {
         cells: flow.cells,
         faces: [along(0), along(1), along(2)],

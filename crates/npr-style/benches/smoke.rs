@@ -77,6 +77,8 @@ impl Frame {
     fn draw(&mut self) {
         draw::project_spheres(&self.lens, &self.spheres, &mut self.balls);
         let (ids, depths) = (&mut self.ids, &mut self.depths);
+        ids.fill(0);
+        depths.fill(0);
         draw::draw_spheres(&self.lens, &self.window, &self.balls, ids, depths);
     }
 
@@ -88,6 +90,7 @@ impl Frame {
             lights: &self.lights,
             ids: &self.ids,
             shadows: [&[]; 4],
+            surfaces: [&[]; 4],
             spheres: &self.spheres,
             balls: &self.balls,
         };

@@ -197,6 +197,12 @@ impl<'a> Composer<'a> {
         let seen = self.layers.samples_of(x, y);
         let lines = self.layers.lines_at(x, y);
         let beams = self.layers.beams_of(x, y);
+        if lines == [0; 2]
+            && beams.iter().all(|id| *id == 0)
+            && let Some(texel) = self.layers.smoke_alone(x, y, &seen)
+        {
+            return texel;
+        }
         let veil = self.layers.veil_of(x, y, &seen, frame_px);
         let is_one = seen.iter().all(|id| *id == seen[0]);
         let is_bare = lines == [0; 2] && veil.is_none() && beams.iter().all(|id| *id == 0);

@@ -70,7 +70,8 @@ impl Default for Light {
 pub enum LightShape {
     /// Parallel rays from one direction: a sun, a second main light.
     Distant,
-    /// Rays to all sides from one place: a lamp, a flash. Throws no shadows.
+    /// Rays to all sides from one place: a lamp, a flash. Throws shadows of smoke on smoke, and no others; where it stands amid
+    /// the smoke, on the side of the smoke's middle.
     #[default]
     Point,
     /// Rays from one place into a cone: a torch, a stage light.

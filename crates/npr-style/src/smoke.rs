@@ -4,6 +4,7 @@
 //! [`resolve`]; then [`crate::compose`] lays the result over the scene.
 
 pub mod blur;
+mod depth_map;
 pub mod draw;
 mod line;
 mod look;

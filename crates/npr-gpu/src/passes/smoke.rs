@@ -61,6 +61,10 @@ pub const SHADE_SPHERES: Pass = Pass {
         texture("smoke_light_1", Format::U32),
         texture("smoke_light_2", Format::U32),
         texture("smoke_light_3", Format::U32),
+        texture("surface_depth_0", Format::Depth),
+        texture("surface_depth_1", Format::Depth),
+        texture("surface_depth_2", Format::Depth),
+        texture("surface_depth_3", Format::Depth),
     ],
     work: Work::PerElement { of: "pixels" },
     agreement: Agreement::NearlyAll {
@@ -76,6 +80,7 @@ pub const SHADE_SPHERES: Pass = Pass {
             lights: &lights,
             ids: b.image(4).texels,
             shadows: std::array::from_fn(|i| b.image(8 + i).texels),
+            surfaces: std::array::from_fn(|i| b.image(12 + i).texels),
             spheres: b.read(5),
             balls: b.read(6),
         };

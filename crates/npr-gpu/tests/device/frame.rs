@@ -152,7 +152,10 @@ impl Builder {
         self.make_buffer("posed", 48, scene.vertices.len());
         self.make_buffer("projected", 16, scene.vertices.len());
         self.make_image("shadow_0", Format::U32, [SHADOW_SIDE; 2]);
-        self.make_image("shadow_depth", Format::Depth, [SHADOW_SIDE; 2]);
+        self.make_image("surface_depth_0", Format::Depth, [SHADOW_SIDE; 2]);
+        for name in ["surface_depth_1", "surface_depth_2", "surface_depth_3"] {
+            self.make_image(name, Format::Depth, [1, 1]);
+        }
         for name in ["shadow_1", "shadow_2", "shadow_3"] {
             self.make_image(name, Format::U32, [1, 1]);
         }
@@ -228,11 +231,11 @@ impl Builder {
         self.make_buffer("overlay", 4, pixels);
         self.make_buffer("frame", 4, pixels);
 
-        self.line_up_smoke();
         self.compute(&mesh::POSE_VERTICES);
         self.compute(&mesh::PROJECT_SHADOW);
-        let shadow = ["shadow_0", "shadow_depth"];
+        let shadow = ["shadow_0", "surface_depth_0"];
         self.draw(&raster::DRAW_SHADOW, "shadow_window", shadow, true);
+        self.line_up_smoke();
         self.compute(&mesh::CLASSIFY_EDGES);
         self.compute(&mesh::EXTRUDE_HULL);
         self.draw(&raster::DRAW_IDS, "sample_window", ["ids", "depth"], true);

@@ -388,6 +388,8 @@ pub fn smoke_look(look: Look, size: [u32; 2]) -> SmokeLook {
         ambient: 0.1,
         samples: if is_ours { 2 } else { 1 },
         shadow_side: SHADOW_SIDE,
+        surface_maps: 1,
+        surface_side: SHADOW_SIDE,
         ramp,
         ..SmokeLook::default()
     };

@@ -21,32 +21,52 @@ struct Carried {
     most: f32,
 }
 
-/// The field after `seconds` of flow [Selle et al. 2008].
-///
-/// A semi-Lagrangian step forth, one back to see its error, and half of that error taken off. Results stay within the range of
-/// the values that they came from, so nothing overshoots: the extremes of a field never grow.
-pub(super) fn advect(field: &Field, flow: &Flow, seconds: f32, outside: Outside) -> Field {
-    let lattice = field.lattice;
-    let there =
-        lattice.map(|point| fetch(field, trace(flow, field.place(point), seconds), outside));
-    let forth = Field {
-        values: there.iter().map(|carried| carried.value).collect(),
-        ..*field
-    };
-    let mut result = Field::new(lattice, field.origin);
-    lattice.fill(&mut result.values, |point| {
-        let at = lattice.index(point);
-        let Carried { value, least, most } = there[at];
-        let back = fetch(&forth, trace(flow, field.place(point), -seconds), outside).value;
-        (value + 0.5 * (field.values[at] - back)).clamp(least, most)
-    });
-    result
+/// Where the points of a field come from and where they go.
+pub(super) struct Paths {
+    /// Places `seconds` ago, and in `seconds`, point by point.
+    ways: Vec<[Vec3; 2]>,
 }
 
-/// Where what is now at `place` was `seconds` ago, by the midpoint rule.
-fn trace(flow: &Flow, place: Vec3, seconds: f32) -> Vec3 {
-    let middle = place - flow.at(place) * (0.5 * seconds);
-    place - flow.at(middle) * seconds
+impl Paths {
+    /// The ways of a field's points through `seconds` of flow, by the midpoint rule. Fields on the same points share them.
+    pub fn new(field: &Field, flow: &Flow, seconds: f32) -> Self {
+        let ways = field.lattice.map_costly(|point| {
+            let place = field.place(point);
+            let here = flow.at(place);
+            let after = |seconds: f32| {
+                let middle = place - here * (0.5 * seconds);
+                place - flow.at(middle) * seconds
+            };
+            [after(seconds), after(-seconds)]
+        });
+        Self { ways }
+    }
+
+    /// The field after its points have gone their ways [Selle et al. 2008].
+    ///
+    /// A semi-Lagrangian step forth, one back to see its error, and half of that error taken off. Results stay within the
+    /// range of the values that they came from, so nothing overshoots: the extremes of a field never grow.
+    pub fn carry(&self, field: &Field, outside: Outside) -> Field {
+        let lattice = field.lattice;
+        let there =
+            lattice.map_costly(|point| fetch(field, self.ways[lattice.index(point)][0], outside));
+        let forth = Field {
+            values: there.iter().map(|carried| carried.value).collect(),
+            ..*field
+        };
+        let values = lattice.map_costly(|point| {
+            let at = lattice.index(point);
+            let Carried { value, least, most } = there[at];
+            let back = fetch(&forth, self.ways[at][1], outside).value;
+            (value + 0.5 * (field.values[at] - back)).clamp(least, most)
+        });
+        Field { values, ..*field }
+    }
+}
+
+/// The field after `seconds` of flow.
+pub(super) fn advect(field: &Field, flow: &Flow, seconds: f32, outside: Outside) -> Field {
+    Paths::new(field, flow, seconds).carry(field, outside)
 }
 
 /// The value at a place with the range of its eight neighbours.
@@ -98,8 +118,9 @@ mod tests {
         let mut soft = sharp.clone();
         for _ in 0..40 {
             sharp = advect(&sharp, &flow, 0.4, Outside::Nothing);
-            let place = |point| trace(&flow, soft.place(point), 0.4);
-            soft.values = cells.map(|point| fetch(&soft, place(point), Outside::Nothing).value);
+            let paths = Paths::new(&soft, &flow, 0.4);
+            let once = |point| fetch(&soft, paths.ways[cells.index(point)][0], Outside::Nothing);
+            soft.values = cells.map(|point| once(point).value);
         }
         let peak = |field: &Field| field.values.iter().fold(0.0f32, |a, &b| a.max(b));
         assert!(

@@ -4,6 +4,7 @@ use npr_core::geometry::FAR_DEPTH;
 use npr_core::smoke::{Ball, Lens, Sphere};
 use npr_core::window::Window;
 use rayon::prelude::*;
+use std::ops::RangeInclusive;
 
 /// Rows of a tile.
 const TILE_ROWS: usize = 16;
@@ -21,9 +22,9 @@ pub fn project_spheres(lens: &Lens, spheres: &[Sphere], balls: &mut [Ball]) {
 /// Fills `ids` with the number of the nearest ball plus one at every pixel, 0 where there is none, and `depths` with its
 /// reversed depth.
 ///
-/// Both are row-major and of the window's size. Of equal depths the earlier ball wins. Tiles take the balls from front to
-/// back and leave out those behind all that is drawn, so of a dense plume little more than its skin is computed.
-/// O(balls log balls + what is not hidden).
+/// Both are row-major, of the window's size, and hold zeros before: where there is no ball nothing is written. Of equal depths
+/// the earlier ball wins. Tiles take the balls from front to back, and their rows leave out those behind all that is drawn,
+/// so of a dense plume little more than its skin is computed. O(balls log balls + what is not hidden).
 pub fn draw_spheres(
     lens: &Lens,
     window: &Window,
@@ -44,9 +45,8 @@ pub fn draw_spheres(
         .for_each(|(band, ((ids, depths), members))| {
             let mut tile = Tile::new(lens, window, band * TILE_ROWS, ids.len() / width);
             for left in (0..width).step_by(TILE_COLUMNS) {
-                match tile.fill(left, balls, members) {
-                    true => tile.store(ids, depths),
-                    false => tile.store_nothing(ids, depths),
+                if tile.fill(left, balls, members) {
+                    tile.store(ids, depths);
                 }
             }
         });
@@ -125,8 +125,13 @@ struct Tile<'a> {
     rows: usize,
     left: usize,
     columns: usize,
-    /// Rays of the columns, to the right.
+    /// Rays of the columns, to the right, and of the rows, up.
     across: [f32; TILE_COLUMNS],
+    up: [f32; TILE_ROWS],
+    /// One over the squared length of every ray, where they meet at the eye.
+    scales: [f32; TILE_ROWS * TILE_COLUMNS],
+    /// The farthest depth of every row.
+    farthest: [f32; TILE_ROWS],
     /// View depths and numbers plus one, row by row, [`TILE_COLUMNS`] wide.
     depths: [f32; TILE_ROWS * TILE_COLUMNS],
     ids: [u32; TILE_ROWS * TILE_COLUMNS],
@@ -142,6 +147,9 @@ impl<'a> Tile<'a> {
             left: 0,
             columns: 0,
             across: [0.0; TILE_COLUMNS],
+            up: [0.0; TILE_ROWS],
+            scales: [1.0; TILE_ROWS * TILE_COLUMNS],
+            farthest: [f32::MIN; TILE_ROWS],
             depths: [FAR_DEPTH; TILE_ROWS * TILE_COLUMNS],
             ids: [0; TILE_ROWS * TILE_COLUMNS],
         }
@@ -158,13 +166,11 @@ impl<'a> Tile<'a> {
             return false;
         }
         self.clear();
-        let mut farthest = FAR_DEPTH;
         for member in members {
-            if member.front > farthest {
+            if self.farthest.iter().all(|depth| member.front > *depth) {
                 break;
             }
             self.draw(member, &balls[member.ball as usize]);
-            farthest = self.farthest();
         }
         true
     }
@@ -180,42 +186,59 @@ impl<'a> Tile<'a> {
             let at = self.window.frame_at((self.left + column) as u32, 0);
             *across = self.lens.ray(at)[0];
         }
-    }
-
-    fn farthest(&self) -> f32 {
-        let mut lanes = [f32::MIN; 8];
-        for depths in self.depths.chunks_exact(8) {
-            for (lane, depth) in lanes.iter_mut().zip(depths) {
-                *lane = if *depth > *lane { *depth } else { *lane };
+        self.farthest.fill(f32::MIN);
+        for row in 0..self.rows {
+            let at = self.window.frame_at(0, (self.top + row) as u32);
+            let up = self.lens.ray(at)[1];
+            (self.up[row], self.farthest[row]) = (up, FAR_DEPTH);
+            if self.lens.perspective > 0.5 {
+                let scales = &mut self.scales[row * TILE_COLUMNS..][..TILE_COLUMNS];
+                for (scale, across) in scales.iter_mut().zip(&self.across) {
+                    *scale = 1.0 / (across * across + up * up + 1.0);
+                }
             }
         }
-        lanes.into_iter().fold(f32::MIN, f32::max)
     }
 
     fn draw(&mut self, member: &Member, ball: &Ball) {
-        let id = member.ball + 1;
         let first = (member.left as usize).max(self.left) - self.left;
         let last = (member.right as usize).min(self.left + self.columns - 1) - self.left;
         let top = (member.top as usize).max(self.top) - self.top;
         let bottom = (member.bottom as usize).min(self.top + self.rows - 1) - self.top;
-        let lens = *self.lens;
         for row in top..=bottom {
-            let at = self.window.frame_at(0, (self.top + row) as u32);
-            let up = lens.ray(at)[1];
+            if member.front > self.farthest[row] {
+                continue;
+            }
+            self.draw_row(row, first..=last, member.ball + 1, ball);
             let start = row * TILE_COLUMNS;
-            let texels = self.depths[start + first..=start + last]
-                .iter_mut()
-                .zip(&mut self.ids[start + first..=start + last])
-                .zip(&self.across[first..=last]);
-            if lens.discs > 0.5 {
-                for ((nearest, holder), across) in texels {
-                    keep(lens.depth_of(ball, [*across, up]), id, nearest, holder);
-                }
-            } else {
-                for ((nearest, holder), across) in texels {
-                    let depth = lens.depth_of_sphere(ball, [*across, up]);
-                    keep(depth, id, nearest, holder);
-                }
+            self.farthest[row] = farthest(&self.depths[start..start + TILE_COLUMNS]);
+        }
+    }
+
+    /// Draws a ball over some columns of a row.
+    fn draw_row(&mut self, row: usize, columns: RangeInclusive<usize>, id: u32, ball: &Ball) {
+        let (lens, up) = (*self.lens, self.up[row]);
+        let here = |list: &RangeInclusive<usize>| {
+            row * TILE_COLUMNS + list.start()..=row * TILE_COLUMNS + list.end()
+        };
+        let texels = self.depths[here(&columns)]
+            .iter_mut()
+            .zip(&mut self.ids[here(&columns)])
+            .zip(&self.across[columns.clone()]);
+        if lens.discs > 0.5 {
+            for ((nearest, holder), across) in texels {
+                keep(lens.depth_of(ball, [*across, up]), id, nearest, holder);
+            }
+        } else if lens.perspective > 0.5 {
+            let scales = &self.scales[here(&columns)];
+            for (((nearest, holder), across), scale) in texels.zip(scales) {
+                let depth = depth_meeting(&lens, ball, [*across, up], *scale);
+                keep(depth, id, nearest, holder);
+            }
+        } else {
+            for ((nearest, holder), across) in texels {
+                let depth = depth_parallel(&lens, ball, [*across, up]);
+                keep(depth, id, nearest, holder);
             }
         }
     }
@@ -234,16 +257,50 @@ impl<'a> Tile<'a> {
             }
         }
     }
+}
 
-    /// Writes that nothing is seen.
-    fn store_nothing(&self, ids: &mut [u32], depths: &mut [u32]) {
-        let width = self.window.size[0] as usize;
-        for row in 0..self.rows {
-            let start = row * width + self.left;
-            ids[start..start + self.columns].fill(0);
-            depths[start..start + self.columns].fill(0);
+/// [`Lens::depth_of_sphere`] where rays meet at the eye, bit for bit, with one over the ray's squared length given.
+#[inline]
+fn depth_meeting(lens: &Lens, ball: &Ball, [x, y]: [f32; 2], scale: f32) -> f32 {
+    let offset = ball.center;
+    let middle = (offset[0] * x + offset[1] * y + offset[2]) * scale;
+    let beside = [
+        offset[0] - middle * x,
+        offset[1] - middle * y,
+        offset[2] - middle,
+    ];
+    let left = ball.radius * ball.radius
+        - (beside[0] * beside[0] + beside[1] * beside[1] + beside[2] * beside[2]);
+    let depth = middle - (left.max(0.0) * scale).sqrt();
+    if (left > 0.0) & (depth >= lens.near) {
+        depth
+    } else {
+        FAR_DEPTH
+    }
+}
+
+/// [`Lens::depth_of_sphere`] where rays are parallel, bit for bit: all that is multiplied by 0 there left out.
+#[inline]
+fn depth_parallel(lens: &Lens, ball: &Ball, ray: [f32; 2]) -> f32 {
+    let beside = [ball.center[0] - ray[0], ball.center[1] - ray[1]];
+    let left = ball.radius * ball.radius - (beside[0] * beside[0] + beside[1] * beside[1]);
+    let depth = ball.center[2] - left.max(0.0).sqrt();
+    if (left > 0.0) & (depth >= lens.near) {
+        depth
+    } else {
+        FAR_DEPTH
+    }
+}
+
+/// The greatest of some depths, in lanes.
+fn farthest(depths: &[f32]) -> f32 {
+    let mut lanes = [f32::MIN; 8];
+    for depths in depths.chunks_exact(8) {
+        for (lane, depth) in lanes.iter_mut().zip(depths) {
+            *lane = if *depth > *lane { *depth } else { *lane };
         }
     }
+    lanes.into_iter().fold(f32::MIN, f32::max)
 }
 
 /// Keeps the nearer of two balls at a texel, and of two equally near ones the earlier.
@@ -283,7 +340,7 @@ mod tests {
 
     fn draw(lens: &Lens, window: &Window, balls: &[Ball]) -> (Vec<u32>, Vec<u32>) {
         let count = (window.size[0] * window.size[1]) as usize;
-        let (mut ids, mut depths) = (vec![7; count], vec![7; count]);
+        let (mut ids, mut depths) = (vec![0; count], vec![0; count]);
         draw_spheres(lens, window, balls, &mut ids, &mut depths);
         (ids, depths)
     }

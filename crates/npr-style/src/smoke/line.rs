@@ -125,8 +125,13 @@ impl Resolving<'_> {
             for side in [-step, step] {
                 let sin = (side * self.look.line_px / radius_px).clamp(-0.7, 0.7);
                 let rim = disc.rim(self.lens, ball, [sin, (1.0 - sin * sin).sqrt()]);
+                let away = distance(rim.px, frame_px);
+                // The rule: even the widest line covers no more than is covered.
+                if coverage(widest, away) <= covered {
+                    continue;
+                }
                 let width = self.width_at(id, ball, &rim);
-                covered = covered.max(coverage(width, distance(rim.px, frame_px)));
+                covered = covered.max(coverage(width, away));
             }
         }
         covered
@@ -206,4 +211,141 @@ fn distance(a: [f32; 2], b: [f32; 2]) -> f32 {
 /// How much of a pixel a line covers that is `width` wide from its edge, `away` from the pixel's middle.
 fn coverage(width: f32, away: f32) -> f32 {
     (width - away + 0.5).clamp(0.0, 1.0) * width.min(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::smoke::SmokeLook;
+    use crate::smoke::resolve::resolve;
+    use npr_core::color::{linear_from_srgb, srgb_from_linear};
+    use npr_core::smoke::SmokePixel;
+    use npr_core::window::Window;
+    use proptest::prelude::*;
+
+    const SIDE: u32 = 5;
+
+    /// Depths of a picture in parts of the smoke's depth; `None` where nothing is seen.
+    type Depths = [[Option<f32>; SIDE as usize]; SIDE as usize];
+
+    const GREY: f32 = 0.5;
+    const LINE: [f32; 4] = [0.25, 0.0, 0.125, 1.0];
+
+    /// A look of one grey tone under published lines, for smoke from depth 10 to 30.
+    fn look(weight: f32) -> SmokeLook {
+        let mut ramp = [[1.0, 1.0, 1.0, 2.0]; 8];
+        ramp[0] = [GREY, GREY, GREY, 0.0];
+        SmokeLook {
+            flags: SmokeLook::PUBLISHED,
+            depth_start: 10.0,
+            depth_size: 20.0,
+            line_weight: weight,
+            line_color: LINE,
+            alpha: 1.0,
+            samples: 1,
+            ramp,
+            ..SmokeLook::default()
+        }
+    }
+
+    /// What is asked of a picture of these depths.
+    fn with_picture<T>(depths: &Depths, weight: f32, ask: impl FnOnce(&Resolving<'_>) -> T) -> T {
+        let pixel = |part: &Option<f32>| SmokePixel {
+            depth: part.map_or(FAR_DEPTH, |part| 10.0 + 20.0 * part),
+            ..SmokePixel::default()
+        };
+        let pixels: Vec<SmokePixel> = depths.iter().flatten().map(pixel).collect();
+        let ids = depths.iter().flatten();
+        let ids: Vec<u32> = ids.map(|part| u32::from(part.is_some())).collect();
+        let extent = [SIDE as f32; 2];
+        ask(&Resolving {
+            lens: &Lens::default(),
+            window: &Window::over(extent, [0.0; 2], extent, [SIDE; 2]),
+            look: &look(weight),
+            ids: &ids,
+            balls: &[Ball::default()],
+            tones: &vec![1.0; pixels.len()],
+            pixels: &pixels,
+        })
+    }
+
+    /// Equations of section 3.5 as they stand: l' from the depth image d, 1 where nothing is seen, and l = 1 - w l',
+    /// not below 0. Beyond the picture its border goes on.
+    fn published(depths: &Depths, w: f64, x: i64, y: i64) -> f64 {
+        let d = |x: i64, y: i64| {
+            let last = i64::from(SIDE) - 1;
+            let part = depths[y.clamp(0, last) as usize][x.clamp(0, last) as usize];
+            part.map_or(1.0, |part| f64::from(part).clamp(0.0, 1.0))
+        };
+        let l_prime = (d(x - 1, y + 1) - d(x + 1, y - 1)).powi(2)
+            + (d(x - 1, y - 1) - d(x + 1, y + 1)).powi(2);
+        (1.0 - w * l_prime).max(0.0)
+    }
+
+    #[test]
+    fn differences_between_diagonal_neighbours_make_the_line() {
+        let mut depths: Depths = [[Some(0.5); 5]; 5];
+        (depths[3][1], depths[1][3]) = (Some(0.75), Some(0.25));
+        (depths[1][1], depths[3][3]) = (Some(0.5), Some(0.375));
+        // l' = (0.75 - 0.25)^2 + (0.5 - 0.375)^2 = 0.265625 in the middle.
+        for (weight, darkness) in [(0.0, 0.0), (1.0, 0.265_625), (2.0, 0.531_25), (4.0, 1.0)] {
+            let line = with_picture(&depths, weight, |picture| picture.published_line(2, 2));
+            assert!((line - darkness).abs() < 1e-6, "{weight}: {line}");
+        }
+        // Beside itself a pixel does not count, nor do those right beside it.
+        depths[2] = [Some(0.0); 5];
+        let line = with_picture(&depths, 1.0, |picture| picture.published_line(2, 2));
+        assert!((line - 0.265_625).abs() < 1e-6, "{line}");
+    }
+
+    #[test]
+    fn nothing_counts_as_the_back_of_the_smoke() {
+        let mut depths: Depths = [[None; 5]; 5];
+        let empty = with_picture(&depths, 100.0, |picture| picture.published_line(2, 2));
+        assert_eq!(empty, 0.0);
+        depths[1][1] = Some(0.5);
+        let beside = with_picture(&depths, 1.0, |picture| picture.published_line(2, 2));
+        assert!((beside - 0.25).abs() < 1e-6);
+        depths[1][1] = Some(1.0);
+        let back = with_picture(&depths, 100.0, |picture| picture.published_line(2, 2));
+        assert_eq!(back, 0.0);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        #[test]
+        fn lines_are_the_published_formula(
+            depths in prop::array::uniform5(prop::array::uniform5(prop::option::weighted(0.8, -0.2f32..1.2))),
+            weight in 0f32..50.0, x in 0..SIDE, y in 0..SIDE,
+        ) {
+            let line = with_picture(&depths, weight, |picture| picture.published_line(x, y));
+            let expected = 1.0 - published(&depths, f64::from(weight), i64::from(x), i64::from(y));
+            prop_assert!((f64::from(line) - expected).abs() < 1e-4, "{line} instead of {expected}");
+        }
+
+        /// Over smoke the darkness mixes paint and line; beside it the line stands alone, as much as it covers.
+        #[test]
+        fn the_line_goes_into_alpha_and_lies_over_the_tones(
+            depths in prop::array::uniform5(prop::array::uniform5(prop::option::weighted(0.7, 0f32..1.0))),
+            weight in 0f32..4.0, x in 1..SIDE - 1, y in 1..SIDE - 1,
+        ) {
+            let mut colors = vec![0; (SIDE * SIDE) as usize];
+            let mut bits = colors.clone();
+            with_picture(&depths, weight, |picture| resolve(picture, &mut colors, &mut bits));
+            let darkness = 1.0 - published(&depths, f64::from(weight), i64::from(x), i64::from(y));
+            let drawn = colors[(y * SIDE + x) as usize].to_le_bytes();
+            let is_smoke = depths[y as usize][x as usize].is_some();
+            let alpha = if is_smoke { 1.0 } else { darkness };
+            prop_assert!((f64::from(drawn[3]) / 255.0 - alpha).abs() < 0.0025, "{drawn:?}");
+            prop_assume!(alpha > 0.05);
+            for (byte, line) in drawn.into_iter().zip(&LINE[..3]) {
+                let part = if is_smoke { darkness } else { 1.0 };
+                let light = f64::from(GREY) + (f64::from(*line) - f64::from(GREY)) * part;
+                let wanted = srgb_from_linear(light as f32) * 255.0;
+                prop_assert!((f32::from(byte) - wanted).abs() < 1.0, "{byte} instead of {wanted}");
+                prop_assert!(linear_from_srgb(f32::from(byte) / 255.0) <= 0.51);
+            }
+        }
+    }
 }

@@ -74,8 +74,11 @@ pub struct SmokeLook {
     pub samples: u32,
     /// Texels along a side of the pictures that lights have of the smoke; 0 where it throws no shadow on itself.
     pub shadow_side: u32,
-    /// Keeps rows of 16 bytes.
-    pub unused: [u32; 2],
+    /// How many of the lights' pictures, from the first, also hold surfaces, and texels of those along a side; 0 where surfaces
+    /// throw no shadow on smoke.
+    pub surface_maps: u32,
+    /// See `surface_maps`.
+    pub surface_side: u32,
     /// Weights of the Gaussian from the middle outwards.
     pub kernel: [[f32; 4]; 3],
     /// Colours in linear light, each with the tone it begins at; see [`crate::ramp::Level`].
@@ -106,7 +109,8 @@ gpu_layout!(SmokeLook {
     ambient,
     samples,
     shadow_side,
-    unused,
+    surface_maps,
+    surface_side,
     kernel,
     ramp,
 });

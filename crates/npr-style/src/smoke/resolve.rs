@@ -5,6 +5,7 @@ use npr_core::geometry::FAR_DEPTH;
 use npr_core::smoke::{Ball, Lens, SmokePixel};
 use npr_core::window::Window;
 use rayon::prelude::*;
+use std::ops::Range;
 
 use super::SmokeLook;
 use crate::ramp::Level;
@@ -24,6 +25,9 @@ const AROUND: [[i32; 2]; 9] = [
     [-1, 1],
     [1, 1],
 ];
+
+/// Pixels in a row that are looked through together for smoke.
+const RUN: usize = 32;
 
 /// What a picture of smoke is resolved from.
 #[derive(Debug, Clone, Copy)]
@@ -60,9 +64,18 @@ pub fn resolve(with: &Resolving<'_>, colors: &mut [u32], depths: &mut [u32]) {
         .zip(depths.par_chunks_mut(width))
         .enumerate()
         .for_each(|(y, (colors, depths))| {
-            for (x, (color, depth)) in colors.iter_mut().zip(depths).enumerate() {
-                let (drawn, bits) = with.texel(x as u32, y as u32);
-                (*color, *depth) = (packed(&encoder, drawn), bits);
+            for left in (0..width).step_by(RUN) {
+                let run = left..width.min(left + RUN);
+                let (colors, depths) = (&mut colors[run.clone()], &mut depths[run.clone()]);
+                if with.is_empty_around(run, y) {
+                    colors.fill(0);
+                    depths.fill(0);
+                    continue;
+                }
+                for (x, (color, depth)) in (left as u32..).zip(colors.iter_mut().zip(depths)) {
+                    let (drawn, bits) = with.texel(x, y as u32);
+                    (*color, *depth) = (packed(&encoder, drawn), bits);
+                }
             }
         });
 }
@@ -74,14 +87,29 @@ struct Seen {
 }
 
 impl Resolving<'_> {
+    /// A neighbour, clamped to the picture.
+    fn pixel_near(&self, x: u32, y: u32, dx: i32, dy: i32) -> [u32; 2] {
+        let [width, height] = self.window.size.map(|side| side as i32);
+        [
+            (x as i32 + dx).clamp(0, width - 1) as u32,
+            (y as i32 + dy).clamp(0, height - 1) as u32,
+        ]
+    }
+
     /// Index of a neighbour, clamped to the picture.
     pub(super) fn texel_near(&self, x: u32, y: u32, dx: i32, dy: i32) -> usize {
-        let [width, height] = self.window.size.map(|side| side as i32);
-        let (x, y) = (
-            (x as i32 + dx).clamp(0, width - 1),
-            (y as i32 + dy).clamp(0, height - 1),
-        );
-        (y * width + x) as usize
+        let [x, y] = self.pixel_near(x, y, dx, dy);
+        (y * self.window.size[0] + x) as usize
+    }
+
+    /// Whether there is no smoke in some pixels of a row and all around them.
+    fn is_empty_around(&self, run: Range<usize>, y: usize) -> bool {
+        let [width, height] = self.window.size.map(|side| side as usize);
+        let (left, right) = (run.start.saturating_sub(1), width.min(run.end + 1));
+        (y.saturating_sub(1)..height.min(y + 2)).all(|row| {
+            let ids = &self.ids[row * width + left..row * width + right];
+            ids.iter().fold(0, |all, id| all | id) == 0
+        })
     }
 
     fn texel(&self, x: u32, y: u32) -> ([f32; 4], u32) {
@@ -90,7 +118,7 @@ impl Resolving<'_> {
             return match id {
                 0 => ([0.0; 4], 0),
                 _ => (
-                    self.paint(id, texel, self.window.frame_at(x, y)),
+                    self.paint(id, [x, y], self.window.frame_at(x, y)),
                     with_mask(self.pixels[texel].depth, MASK),
                 ),
             };
@@ -105,11 +133,11 @@ impl Resolving<'_> {
         }
         let frame_px = self.window.frame_at(x, y);
         if ids.iter().all(|id| *id == ids[0]) {
-            let color = self.paint(ids[0], around[0], frame_px);
+            let color = self.paint(ids[0], [x, y], frame_px);
             return (color, with_mask(self.pixels[around[0]].depth, MASK));
         }
         let seen = self.seen(&ids, frame_px);
-        self.blended(&seen, &ids, &around, frame_px)
+        self.blended(&seen, &ids, [x, y], frame_px)
     }
 
     /// The number that a pixel and its eight neighbours share, where they do; not asked at the picture's border or where
@@ -137,16 +165,18 @@ impl Resolving<'_> {
             owners: [None; 4],
             count: (samples * samples) as usize,
         };
-        for (i, owner) in seen.owners[..seen.count].iter_mut().enumerate() {
-            let ray = self.lens.ray(self.sample_at(frame_px, i));
-            let mut nearest = FAR_DEPTH;
-            for k in 0..9 {
-                if ids[k] == 0 || ids[..k].contains(&ids[k]) {
-                    continue;
-                }
-                let depth = self.lens.depth_of(&self.balls[(ids[k] - 1) as usize], ray);
-                if depth < nearest {
-                    (nearest, *owner) = (depth, Some(k));
+        let mut nearest = [FAR_DEPTH; 4];
+        let rays: [[f32; 2]; 4] =
+            std::array::from_fn(|i| self.lens.ray(self.sample_at(frame_px, i)));
+        for k in 0..9 {
+            if ids[k] == 0 || ids[..k].contains(&ids[k]) {
+                continue;
+            }
+            let ball = &self.balls[(ids[k] - 1) as usize];
+            for i in 0..seen.count {
+                let depth = self.lens.depth_of(ball, rays[i]);
+                if depth < nearest[i] {
+                    (nearest[i], seen.owners[i]) = (depth, Some(k));
                 }
             }
         }
@@ -170,7 +200,7 @@ impl Resolving<'_> {
         &self,
         seen: &Seen,
         ids: &[u32; 9],
-        around: &[usize; 9],
+        [x, y]: [u32; 2],
         frame_px: [f32; 2],
     ) -> ([f32; 4], u32) {
         let owners = &seen.owners[..seen.count];
@@ -183,7 +213,8 @@ impl Resolving<'_> {
                 continue;
             }
             let count = owners[i..].iter().filter(|other| *other == owner).count() as f32;
-            let [r, g, b, a] = self.paint(ids[k], around[k], frame_px);
+            let shown = self.pixel_near(x, y, AROUND[k][0], AROUND[k][1]);
+            let [r, g, b, a] = self.paint(ids[k], shown, frame_px);
             let weight = a * count;
             sum = [
                 sum[0] + r * weight,
@@ -191,7 +222,7 @@ impl Resolving<'_> {
                 sum[2] + b * weight,
                 sum[3] + weight,
             ];
-            depth = depth.min(self.pixels[around[k]].depth);
+            depth = depth.min(self.pixels[self.texel_near(x, y, AROUND[k][0], AROUND[k][1])].depth);
         }
         if mask == 0 {
             return ([0.0; 4], 0);
@@ -206,27 +237,20 @@ impl Resolving<'_> {
         (color, with_mask(depth, mask))
     }
 
-    /// Tone and line of sphere `id` at a place, with the tone that pixel `texel` has; linear light, straight alpha.
-    fn paint(&self, id: u32, texel: usize, frame_px: [f32; 2]) -> [f32; 4] {
-        let [r, g, b] = self.look.color_of(self.tones[texel], self.slope_at(texel));
+    /// Tone and line of sphere `id` at a place, with the tone of a pixel that shows it; linear light, straight alpha.
+    fn paint(&self, id: u32, pixel: [u32; 2], frame_px: [f32; 2]) -> [f32; 4] {
+        let tone = self.tones[self.texel_near(pixel[0], pixel[1], 0, 0)];
+        let [r, g, b] = self.look.color_of(tone, self.slope_at(pixel));
         self.look
             .under_line([r, g, b, self.look.alpha], self.line_at(id, frame_px))
     }
 
     /// How fast the smoothed tone changes at a pixel, per pixel, among neighbours of the same layer.
-    fn slope_at(&self, texel: usize) -> f32 {
-        let width = self.window.size[0] as usize;
-        let (x, y) = ((texel % width) as u32, (texel / width) as u32);
-        let across = self.change([
-            self.texel_near(x, y, -1, 0),
-            texel,
-            self.texel_near(x, y, 1, 0),
-        ]);
-        let down = self.change([
-            self.texel_near(x, y, 0, -1),
-            texel,
-            self.texel_near(x, y, 0, 1),
-        ]);
+    fn slope_at(&self, [x, y]: [u32; 2]) -> f32 {
+        let near = |dx, dy| self.texel_near(x, y, dx, dy);
+        let here = near(0, 0);
+        let across = self.change([near(-1, 0), here, near(1, 0)]);
+        let down = self.change([near(0, -1), here, near(0, 1)]);
         (across * across + down * down).sqrt()
     }
 

@@ -7,6 +7,7 @@ use npr_core::window::Window;
 use rayon::prelude::*;
 
 use super::SmokeLook;
+use super::depth_map::DepthTexels;
 use crate::lighting::{LightSource, Lights};
 use crate::shadow::SHADOWS_MAX;
 
@@ -25,6 +26,9 @@ pub struct Shading<'a> {
     pub ids: &'a [u32],
     /// The same as the lights with shadows see them, [`SmokeLook::shadow_side`] texels square.
     pub shadows: [&'a [u32]; SHADOWS_MAX],
+    /// Reversed depths of the surfaces that the first [`SmokeLook::surface_maps`] of those lights see,
+    /// [`SmokeLook::surface_side`] texels square.
+    pub surfaces: [&'a [u32]; SHADOWS_MAX],
     /// The spheres.
     pub spheres: &'a [Sphere],
     /// The spheres as the eye sees them.
@@ -34,7 +38,7 @@ pub struct Shading<'a> {
 /// Light, depth and layer of every pixel [Hoshino 2004, section 3.2].
 ///
 /// Light is Lambert's, reaching round the sphere as far as [`SmokeLook::wrap`] says, summed over lights and cut at 1; what
-/// another sphere hides from a light is no brighter in it than [`Lights::shadow_at`]. O(pixels x lights).
+/// another sphere or a surface hides from a light is no brighter in it than [`Lights::shadow_at`]. O(pixels x lights).
 pub fn shade_spheres(with: &Shading<'_>, pixels: &mut [SmokePixel]) {
     let width = with.window.size[0] as usize;
     if width == 0 {
@@ -95,7 +99,10 @@ impl Shading<'_> {
             };
             let facing = (dot(normal, towards) + wrap) / (1.0 + wrap);
             let mut lit = facing.clamp(0.0, 1.0);
-            if lit > self.lights.shadow_at && self.is_dark(id, source, world, towards) {
+            if lit > self.lights.shadow_at
+                && (self.is_dark(id, source, world, towards)
+                    || self.is_behind_surface(source, world))
+            {
                 lit = self.lights.shadow_at;
             }
             sum += lit * strength;
@@ -130,6 +137,19 @@ impl Shading<'_> {
         let offset: [f32; 3] = std::array::from_fn(|i| caster.center[i] - world[i]);
         let ahead = dot(offset, towards);
         ahead > 0.0 && dot(offset, offset) - ahead * ahead < caster.radius * caster.radius
+    }
+}
+
+impl Shading<'_> {
+    /// Whether a surface stands between a place and a light.
+    fn is_behind_surface(&self, source: &LightSource, world: [f32; 3]) -> bool {
+        let side = self.look.surface_side;
+        if source.shadow == 0 || source.shadow > self.look.surface_maps {
+            return false;
+        }
+        let map = source.shadow as usize - 1;
+        DepthTexels::around(&self.lights.shadows[map], side, world)
+            .is_some_and(|texels| texels.are_nearer(self.surfaces[map], side))
     }
 }
 

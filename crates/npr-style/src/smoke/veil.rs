@@ -1,8 +1,8 @@
 //! Smoke over the surfaces of a pixel, and its shadow on them: the twin of `lib/veil`.
 
 use npr_core::geometry::FAR_DEPTH;
-use npr_core::surface::apply_point;
 
+use super::depth_map::DepthTexels;
 use crate::compose::{Compose, Layers, Samples};
 
 /// Distances in pixels around a line where surfaces are looked for that it may belong to.
@@ -107,6 +107,18 @@ const DIRECTIONS: [[f32; 2]; 8] = [
 ];
 
 impl Layers<'_> {
+    /// The smoke's own texel where it covers all of a pixel without surfaces: what all that follows would give.
+    pub(crate) fn smoke_alone(&self, x: u32, y: u32, seen: &Samples) -> Option<u32> {
+        if self.compose.flags & Compose::SMOKE == 0 || seen.iter().any(|id| *id != 0) {
+            return None;
+        }
+        let texel = (y * self.window.size[0] + x) as usize;
+        let whole = (1 << seen.len()) - 1;
+        let mask = self.smoke_depths[texel] & crate::smoke::resolve::MASK;
+        let color = self.smoke_colors[texel];
+        (mask & whole == whole && color >> 24 == 255).then_some(color)
+    }
+
     /// The smoke over a pixel whose samples show `seen`; `None` without any.
     pub(crate) fn veil_of(
         &self,
@@ -138,33 +150,12 @@ impl Layers<'_> {
     }
 
     /// Whether smoke stands between a place and the light of a shadow picture.
-    ///
-    /// The four texels around it vote by how near they are, so the edge runs smoothly between texels.
     pub(crate) fn is_behind_smoke(&self, map: usize, world: [f32; 3]) -> bool {
         let side = self.compose.smoke_shadow_side;
         if side == 0 {
             return false;
         }
-        let clip = apply_point(&self.lights.shadows[map], world);
-        let (nearness, length) = (clip[2] / clip[3], side as f32);
-        let at = [
-            (clip[0] / clip[3] + 1.0) * 0.5 * length - 0.5,
-            (1.0 - clip[1] / clip[3]) * 0.5 * length - 0.5,
-        ];
-        let is_inside = |x: f32| x >= 0.0 && x < length - 1.0;
-        if !(clip[3] > 0.0 && is_inside(at[0]) && is_inside(at[1])) {
-            return false;
-        }
-        let low = at.map(|v| v as u32);
-        let part = [at[0] - low[0] as f32, at[1] - low[1] as f32];
-        let is_dark = |x: u32, y: u32| {
-            let depth = f32::from_bits(
-                self.smoke_shadows[map][((low[1] + y) * side + low[0] + x) as usize],
-            );
-            f32::from(u8::from(depth > nearness))
-        };
-        let upper = is_dark(0, 0) + (is_dark(1, 0) - is_dark(0, 0)) * part[0];
-        let lower = is_dark(0, 1) + (is_dark(1, 1) - is_dark(0, 1)) * part[0];
-        upper + (lower - upper) * part[1] > 0.5
+        DepthTexels::around(&self.lights.shadows[map], side, world)
+            .is_some_and(|texels| texels.are_nearer(self.smoke_shadows[map], side))
     }
 }
