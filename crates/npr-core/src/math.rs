@@ -9,6 +9,9 @@ pub use libm::{
     expf as exp, log2f as log2, logf as ln, powf, sinf as sin, tanf as tan,
 };
 
+/// The same in double precision, for curves.
+pub use libm::{acos as acos_f64, atan2 as atan2_f64, cos as cos_f64, sin as sin_f64};
+
 /// Tangent in double precision, the same on every platform.
 pub fn tan_f64(x: f64) -> f64 {
     libm::tan(x)

@@ -4,6 +4,7 @@ mod assembly;
 mod cache;
 mod options;
 mod paint;
+mod smoke;
 mod stage;
 mod widths;
 
@@ -11,14 +12,16 @@ pub use options::{KindSet, LineMethod, LineModelOptions, LineOptions};
 pub use stage::LineStage;
 
 use crate::error::RenderError;
+use crate::light::{self, FileLight};
 use crate::look;
-use crate::model::PartInfo;
+use crate::model::{Model, PartInfo};
 use crate::placement::{self, Bounds};
+use crate::smoke::Smoke;
 use crate::stage::check_size;
 use assembly::{Assembly, place_key};
 use glam::Vec3;
 use npr_core::budget::Budget;
-use npr_core::camera::Camera;
+use npr_core::camera::{Camera, box_corners};
 use npr_core::shape::{Shape, Surface};
 use npr_gpu::engine::EngineError;
 use npr_scene::Scene;
@@ -26,8 +29,10 @@ use npr_style::{Look, Style};
 use npr_vector::contour::{EdgeContours, Eye};
 use npr_vector::draw::{LineSettings, Prepared, eye_of, strokes_with};
 use npr_vector::project::Projector;
+use npr_vector::puff::{RimPoint, SmokeLines};
 use npr_vector::stroke::{Drawing, Kind, Stroke};
 use paint::Paint;
+use smoke::SmokeView;
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use widths::{ShapeBends, WidthInput, Widths};
@@ -58,6 +63,9 @@ pub struct LineModel {
     points: Vec<[f32; 3]>,
     bounds: Bounds,
     cameras: Vec<(String, Camera)>,
+    /// The lights of the file, for smoke.
+    lights: Vec<FileLight>,
+    smoke: Option<Smoke>,
     notices: Vec<String>,
     triangle_count: usize,
     /// What was prepared last, for views to come.
@@ -73,6 +81,16 @@ struct LineView<'a> {
     camera: &'a Camera,
     projector: &'a Projector,
     contours: &'a EdgeContours,
+    smoke: Option<&'a SmokeLines<'a>>,
+}
+
+/// What a drawing is made of besides contours.
+struct Wanted<'a> {
+    camera: &'a Camera,
+    style: &'a Style,
+    options: &'a LineOptions,
+    /// Smoke that hides lines, and whether it is drawn itself.
+    smoke: Option<(&'a Smoke, bool)>,
 }
 
 impl LineModel {
@@ -138,10 +156,13 @@ impl LineModel {
         shape.surfaces = assembly.surfaces();
         mark_materials(&mut shape, &assembly.marked);
         let points = assembly.used_points();
+        let bounds = placement::bounds_of(points.iter().copied().map(Vec3::from));
         Self {
             parts: assembly.parts.clone(),
             colors: colors_of(&shape, assembly),
-            bounds: placement::bounds_of(points.iter().copied().map(Vec3::from)),
+            bounds,
+            lights: light::of_scene(scene, bounds),
+            smoke: None,
             points,
             cameras: placement::cameras_of(scene),
             notices: notices_of(scene, assembly),
@@ -175,6 +196,19 @@ impl LineModel {
         })
     }
 
+    /// Draws smoke with the scene from now on, or none.
+    ///
+    /// Smoke is outlined by [`SmokeStyle::line`](npr_style::SmokeStyle), as strokes of kind [`Kind::Contour`] on a surface
+    /// `smoke`: exact arcs of its spheres, where nothing lies behind them or smoke far enough behind, as thick as in pictures.
+    /// Billboards and the published line have these outlines too. Scene and smoke hide each other's lines; smoke of opacity
+    /// below 0.5 hides none. [`LineModel::bounds`] and [`LineModel::framing`] take it in.
+    pub fn set_smoke(&mut self, smoke: Option<Smoke>) {
+        self.smoke = smoke;
+        let points = self.points.iter().copied().map(Vec3::from);
+        let bounds = placement::bounds_of(points);
+        self.bounds = smoke::joined(self.smoke.as_ref(), bounds, self.points.is_empty());
+    }
+
     /// The same, with contours along edges as `find` finds them for an eye.
     fn draw_with(
         &self,
@@ -183,38 +217,65 @@ impl LineModel {
         options: &LineOptions,
         find: impl FnOnce(&Eye) -> Result<EdgeContours, EngineError>,
     ) -> Result<Drawing, RenderError> {
-        self.draw_some(camera, style, options, find, |_| true)
+        let wanted = Wanted {
+            camera,
+            style,
+            options,
+            smoke: self.smoke.as_ref().map(|smoke| (smoke, true)),
+        };
+        self.draw_some(&wanted, find, |_| true)
     }
 
-    /// The lines of the parts whose method is `curves`, on the processor.
+    /// The lines of the parts whose method is `curves`, on the processor, as far as `smoke` does not hide them.
     pub(crate) fn draw_curves(
         &self,
         camera: &Camera,
         style: &Style,
         options: &LineOptions,
+        smoke: Option<&Smoke>,
     ) -> Result<Drawing, RenderError> {
         let find = |eye: &Eye| Ok(EdgeContours::new(&self.shape, eye));
         let is_curve = |look: &Look<'_>| look.line_method == npr_style::LineMethod::Curves;
-        self.draw_some(camera, style, options, find, is_curve)
+        let wanted = Wanted {
+            camera,
+            style,
+            options,
+            smoke: smoke.map(|smoke| (smoke, false)),
+        };
+        self.draw_some(&wanted, find, is_curve)
     }
 
     /// The lines of the parts whose look `has_lines` says so of.
     fn draw_some(
         &self,
-        camera: &Camera,
-        style: &Style,
-        options: &LineOptions,
+        wanted: &Wanted<'_>,
         find: impl FnOnce(&Eye) -> Result<EdgeContours, EngineError>,
         has_lines: impl Fn(&Look<'_>) -> bool,
     ) -> Result<Drawing, RenderError> {
+        let Wanted {
+            camera,
+            style,
+            options,
+            smoke,
+        } = *wanted;
         check_size(options.size)?;
-        let projector = Projector::new(camera, options.size, self.bounds);
+        let is_empty = self.points.is_empty();
+        let bounds = smoke::joined(smoke.map(|(smoke, _)| smoke), self.bounds, is_empty);
+        let projector = Projector::new(camera, options.size, bounds);
         let contours = find(&eye_of(&self.shape, &projector))?;
         let prepared = self.prepared(options);
+        let mist = match smoke {
+            Some((smoke, _)) => Some(self.smoke_view(wanted, smoke, &projector, bounds)?),
+            None => None,
+        };
+        let width_at = |point: &RimPoint| mist.as_ref().map_or(0.0, |mist| mist.width_at(point));
+        let is_drawn = smoke.is_some_and(|(_, is_drawn)| is_drawn);
+        let smoke_lines = mist.as_ref().map(|mist| mist.lines(is_drawn, &width_at));
         let view = LineView {
             camera,
             projector: &projector,
             contours: &contours,
+            smoke: smoke_lines.as_ref(),
         };
         let mut strokes = self.strokes(&prepared, &view, style, options);
         let paint = Paint::new(&self.parts, style, has_lines);
@@ -227,16 +288,41 @@ impl LineModel {
                 &projector,
                 options.size,
                 &strokes,
+                mist.as_ref().filter(|_| is_drawn),
             )?
         } else {
             Vec::new()
         };
+        let mut surfaces = paint.into_surfaces(&self.parts);
+        let object_number = surfaces.iter().map(|s| s.object_number + 1).max();
+        if let Some(mist) = mist.filter(|_| is_drawn) {
+            surfaces.extend(mist.surfaces(object_number.unwrap_or(0)));
+        }
         Ok(Drawing {
             size: options.size,
-            surfaces: paint.into_surfaces(&self.parts),
+            surfaces,
             strokes,
             regions,
         })
+    }
+
+    /// Smoke as a view sees it, lit as in pictures but for beams.
+    fn smoke_view<'a>(
+        &self,
+        wanted: &Wanted<'a>,
+        smoke: &Smoke,
+        projector: &Projector,
+        bounds: Bounds,
+    ) -> Result<SmokeView<'a>, RenderError> {
+        let mut lamps = Model::new(&Scene::default())?;
+        lamps.lights.clone_from(&self.lights);
+        Ok(SmokeView::new(
+            smoke,
+            (wanted.style, wanted.options),
+            (wanted.camera, projector, bounds),
+            &lamps,
+            self.parts.len() as u32,
+        ))
     }
 
     fn strokes(
@@ -274,6 +360,7 @@ impl LineModel {
             &settings,
             view.contours,
             &|vertex| widths.at(vertex),
+            view.smoke,
         )
     }
 
@@ -307,9 +394,13 @@ impl LineModel {
 
     /// A view of the whole model from three quarters above, for a frame of width / height `aspect`; `fov_y` is in radians.
     ///
-    /// The same as [`Model::framing`](crate::Model::framing) gives for the scene.
+    /// The same as [`Model::framing`](crate::Model::framing) gives for the scene; the space of the smoke is taken in.
     pub fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
-        Camera::framing_points(self.points.iter().copied(), aspect, fov_y)
+        let smoke = self
+            .smoke
+            .iter()
+            .flat_map(|smoke| box_corners(smoke.bounds()));
+        Camera::framing_points(self.points.iter().copied().chain(smoke), aspect, fov_y)
     }
 }
 

@@ -261,7 +261,8 @@ impl<'a> Stage<'a> {
             dpi: self.options.dpi,
             ..LineOptions::of_style(&self.style, frame.size)
         };
-        let drawing = lines.draw_curves(camera, &self.style, &options)?;
+        let smoke = self.options.smoke.as_ref();
+        let drawing = lines.draw_curves(camera, &self.style, &options, smoke)?;
         paint_drawing_over(&drawing, &ArtworkOptions::default(), &mut frame.rgba);
         Ok(())
     }

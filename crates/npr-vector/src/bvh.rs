@@ -135,13 +135,25 @@ impl FaceTree {
 
     /// Where the line between two vertices goes through faces that it does not touch, 0..1 from the first, ascending.
     pub fn piercings(&self, shape: &Shape, [from, to]: [u32; 2]) -> Vec<f64> {
-        let start = shape.point(from);
-        let direction = shape.point(to) - start;
-        let mut places = Vec::new();
-        self.along(start, direction, |face| {
+        let touches = |face: u32| {
             let corners = shape.faces[face as usize];
-            if !corners.contains(&from) && !corners.contains(&to) {
-                let place = crossing(shape, face, start, direction);
+            corners.contains(&from) || corners.contains(&to)
+        };
+        self.piercings_between(shape, [from, to].map(|v| shape.point(v)), touches)
+    }
+
+    /// Where the way between two points goes through faces that `skip` does not name, 0..1 from the first, ascending.
+    pub fn piercings_between(
+        &self,
+        shape: &Shape,
+        [from, to]: [DVec3; 2],
+        skip: impl Fn(u32) -> bool,
+    ) -> Vec<f64> {
+        let direction = to - from;
+        let mut places = Vec::new();
+        self.along(from, direction, |face| {
+            if !skip(face) {
+                let place = crossing(shape, face, from, direction);
                 places.extend(place.filter(|t| (0.0..=1.0).contains(t)));
             }
             true

@@ -14,7 +14,8 @@ use crate::graph::{CurveGraph, CurveNode};
 use crate::intersect::Crossings;
 use crate::merge::{FACING_PX, TOUCHING_PX, merge_ends};
 use crate::project::Projector;
-use crate::run::{Line, Run, distance, runs};
+use crate::puff::SmokeLines;
+use crate::run::{Line, Run, RunPoint, distance, runs};
 use crate::smooth::smooth;
 use crate::spurs::cut_spurs;
 use crate::stroke::{Kind, Stroke, StrokePoint};
@@ -135,10 +136,15 @@ pub fn strokes(
     width_at: &(dyn Fn(u32) -> f32 + Sync),
 ) -> Vec<Stroke> {
     let contours = EdgeContours::new(shape, &eye_of(shape, projector));
-    strokes_with(shape, prepared, projector, settings, &contours, width_at)
+    let smoke = None;
+    strokes_with(
+        shape, prepared, projector, settings, &contours, width_at, smoke,
+    )
 }
 
-/// The same, with the contours along edges found by the caller for [`eye_of`] the view.
+/// The same, with the contours along edges found by the caller for [`eye_of`] the view, and among smoke.
+///
+/// Dense smoke hides lines of the shape and counts as one surface; its own outline comes after them.
 pub fn strokes_with(
     shape: &Shape,
     prepared: &Prepared,
@@ -146,6 +152,7 @@ pub fn strokes_with(
     settings: &LineSettings,
     contours: &EdgeContours,
     width_at: &(dyn Fn(u32) -> f32 + Sync),
+    smoke: Option<&SmokeLines<'_>>,
 ) -> Vec<Stroke> {
     let EdgeContours {
         front,
@@ -165,6 +172,9 @@ pub fn strokes_with(
         tree: &prepared.tree,
         projector,
         outlines: &outlines,
+        puffs: smoke
+            .filter(|smoke| smoke.is_dense)
+            .map(|smoke| smoke.puffs),
         count_limit: if settings.hidden {
             HIDDEN_COUNT_LIMIT
         } else {
@@ -194,6 +204,23 @@ pub fn strokes_with(
         .flat_map(|graph| runs(shape, projector, graph, &view.lines(graph, &seen, wanted)));
     let mut found: Vec<Run> = contour_runs.into_iter().chain(other_runs).collect();
     found.retain(|run| settings.hidden || run.occluders == 0);
+    let mut strokes = strokes_of(calmed(found, settings), &|run: &Run, point: &RunPoint| {
+        let [a, b] = shape.ends(point.edge).map(|v| f64::from(width_at(v)));
+        (a + (b - a) * f64::from(point.t)) * run.weight
+    });
+    if let Some(smoke) = smoke {
+        let seen = Seen {
+            puffs: None,
+            ..seen
+        };
+        strokes.extend(smoke.strokes(&seen, settings));
+    }
+    strokes.sort_by_key(|stroke| stroke.occluders > 0);
+    strokes
+}
+
+/// Runs joined, cut at corners and smoothed, as far as the settings ask for it.
+pub(crate) fn calmed(mut found: Vec<Run>, settings: &LineSettings) -> Vec<Run> {
     if settings.smooth {
         found = merge_ends(adopt_intersections(found), TOUCHING_PX);
     }
@@ -206,7 +233,7 @@ pub fn strokes_with(
         smooth(&mut found);
         found = leave_out_crumbs(found);
     }
-    into_strokes(shape, found, width_at)
+    found
 }
 
 /// The eye of a view, as decisions about facing read it. O(vertices), in parallel.
@@ -471,31 +498,25 @@ fn first_kind(kinds: u32) -> Option<Kind> {
     Kind::ALL.into_iter().find(|kind| kinds & kind.bit() != 0)
 }
 
-fn into_strokes(
-    shape: &Shape,
+/// Runs as strokes, in their order; `width_at` gives the whole line width in pixels at a point of a run.
+pub(crate) fn strokes_of(
     runs: Vec<Run>,
-    width_at: &(dyn Fn(u32) -> f32 + Sync),
+    width_at: &(dyn Fn(&Run, &RunPoint) -> f64 + Sync),
 ) -> Vec<Stroke> {
-    let mut strokes: Vec<Stroke> = runs
-        .into_par_iter()
-        .with_min_len(16)
-        .map(|run| into_stroke(shape, run, width_at))
-        .collect();
-    strokes.sort_by_key(|stroke| stroke.occluders > 0);
-    strokes
+    let runs = runs.into_par_iter().with_min_len(16);
+    runs.map(|run| stroke_of(&run, width_at)).collect()
 }
 
-fn into_stroke(shape: &Shape, run: Run, width_at: &(dyn Fn(u32) -> f32 + Sync)) -> Stroke {
+fn stroke_of(run: &Run, width_at: &(dyn Fn(&Run, &RunPoint) -> f64 + Sync)) -> Stroke {
     let mut u = 0.0;
     let mut last = run.points.first().map(|point| point.place);
     let points = run.points.iter().map(|point| {
         u += last.map_or(0.0, |last| distance(last, point.place));
         last = Some(point.place);
-        let [a, b] = shape.ends(point.edge).map(|v| f64::from(width_at(v)));
         StrokePoint {
             position: point.place,
             depth: point.depth,
-            width: (a + (b - a) * f64::from(point.t)) * run.weight,
+            width: width_at(run, point),
             u,
             world: point.world.as_vec3().to_array(),
         }

@@ -37,6 +37,7 @@ mod page;
 pub mod pdf;
 pub mod plot;
 pub mod project;
+pub mod puff;
 pub mod rank;
 pub mod residual;
 pub mod ribbon;

@@ -64,15 +64,26 @@ impl Projector {
 
     /// Place of a point in the picture, in pixels, y down; its depth must be positive in perspective.
     pub fn project(&self, world: DVec3) -> [f64; 2] {
+        self.project_from_eye(self.from_eye(world))
+    }
+
+    /// A point as the eye has it: to the right, up, and along the view axis.
+    pub fn from_eye(&self, world: DVec3) -> DVec3 {
         let v = world - self.eye;
-        let scale = if self.perspective {
-            self.scale_px / v.dot(self.forward)
-        } else {
-            self.scale_px
-        };
+        DVec3::new(v.dot(self.right), v.dot(self.up), v.dot(self.forward))
+    }
+
+    /// The point in the world of one as the eye has it.
+    pub fn world_of(&self, from_eye: DVec3) -> DVec3 {
+        self.eye + self.right * from_eye.x + self.up * from_eye.y + self.forward * from_eye.z
+    }
+
+    /// [`Projector::project`] of a point as the eye has it.
+    pub fn project_from_eye(&self, v: DVec3) -> [f64; 2] {
+        let scale = self.pixels_per_unit(v.z);
         [
-            self.center_px[0] + scale * v.dot(self.right),
-            self.center_px[1] - scale * v.dot(self.up),
+            self.center_px[0] + scale * v.x,
+            self.center_px[1] - scale * v.y,
         ]
     }
 

@@ -6,11 +6,12 @@
 
 use crate::bvh::{FaceTree, Sight};
 use crate::project::Projector;
+use crate::puff::Puffs;
 use glam::DVec3;
 use npr_core::shape::Shape;
 
 /// How far outside the frame lines are still followed, as a share of its larger side.
-const MARGIN: f64 = 0.02;
+pub(crate) const MARGIN: f64 = 0.02;
 
 /// Spans shorter than this are not looked at by themselves, in pixels.
 const LEAST_SPAN_PX: f64 = 1e-4;
@@ -263,6 +264,8 @@ pub struct Seen<'a> {
     pub projector: &'a Projector,
     /// The outlines of the view.
     pub outlines: &'a OutlineGrid,
+    /// Smoke that hides lines, where there is any.
+    pub puffs: Option<&'a Puffs>,
     /// Up to how many surfaces in front are counted; 1 only tells visible from hidden.
     pub count_limit: u32,
 }
@@ -303,6 +306,7 @@ impl Seen<'_> {
             self.projector
                 .image_share((t - from) / (to - from), piece.depth)
         }));
+        cuts.extend(self.puffs.iter().flat_map(|puffs| puffs.cuts(piece)));
         cuts.sort_by(f64::total_cmp);
         let least = LEAST_SPAN_PX / piece.length().max(LEAST_SPAN_PX);
         let mut kept = vec![0.0];
@@ -328,12 +332,18 @@ impl Seen<'_> {
             point: point.to_array(),
         };
         let own = &circumstances.own_faces;
+        let veiled = u32::from(self.puffs.is_some_and(|puffs| puffs.hide(point)));
         if self.count_limit == 1 {
+            if veiled == 1 {
+                return 1;
+            }
             let hider = self.tree.hider(self.shape, &sight, own, *last);
             *last = hider.or(*last);
             return u32::from(hider.is_some());
         }
-        self.tree
-            .occluders(self.shape, &sight, own, self.count_limit)
+        let faces = self
+            .tree
+            .occluders(self.shape, &sight, own, self.count_limit);
+        (faces + veiled).min(self.count_limit)
     }
 }

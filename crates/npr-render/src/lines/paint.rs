@@ -1,5 +1,6 @@
 //! Colours of lines and fills, by the style's rules.
 
+use super::smoke::SmokeView;
 use crate::error::RenderError;
 use crate::look;
 use crate::model::PartInfo;
@@ -44,12 +45,13 @@ impl Paint {
         }
     }
 
-    /// Scales widths by the factors of surfaces, and removes the strokes of those that have no lines.
+    /// Scales widths by the factors of surfaces, and removes the strokes of those that have no lines. Strokes of no part, which
+    /// are those of smoke, stay as they are.
     pub fn apply(&self, strokes: &mut Vec<Stroke>) {
         let of = |stroke: &Stroke| self.surfaces.get(stroke.surface as usize);
         strokes.retain(|stroke| of(stroke).is_none_or(|paint| paint.has_lines));
         for stroke in strokes {
-            let factor = self.surfaces[stroke.surface as usize].width_factor;
+            let factor = of(stroke).map_or(1.0, |paint| paint.width_factor);
             for point in &mut stroke.points {
                 point.width *= factor;
             }
@@ -76,22 +78,32 @@ fn bytes_of(color: [f32; 4]) -> [u8; 4] {
     color.map(|v| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)
 }
 
-/// The visible surfaces between lines, each in one piece as far as no line parts it.
-pub(crate) fn regions(
+/// The visible surfaces between lines, each in one piece as far as no line parts it; smoke among them.
+pub(super) fn regions(
     shape: &Shape,
     tree: &FaceTree,
     projector: &Projector,
     size: [u32; 2],
     strokes: &[Stroke],
+    smoke: Option<&SmokeView<'_>>,
 ) -> Result<Vec<Region>, RenderError> {
-    let surface_at = |place: [f64; 2]| {
-        let point = projector.unproject(place, projector.far());
+    let far = projector.far();
+    let face_at = |place: [f64; 2]| {
+        let point = projector.unproject(place, far);
+        let start = projector.sight_start(point);
         let sight = Sight {
-            eye: projector.sight_start(point).to_array(),
+            eye: start.to_array(),
             point: point.to_array(),
         };
-        let (face, _) = tree.first_face(shape, &sight, 1.0)?;
-        Some(shape.face_surfaces[face as usize])
+        let (face, share) = tree.first_face(shape, &sight, 1.0)?;
+        let depth = projector.depth(start.lerp(point, share));
+        Some((shape.face_surfaces[face as usize], depth))
+    };
+    let surface_at = |place: [f64; 2]| {
+        let face = face_at(place);
+        let depth = face.map_or(f64::INFINITY, |(_, depth)| depth);
+        let veil = smoke.and_then(|smoke| smoke.surface_before(place, depth));
+        veil.or(face.map(|(surface, _)| surface))
     };
     Ok(fill::regions(size, &segments_of(strokes), &surface_at)?)
 }

@@ -8,6 +8,7 @@ use npr_core::math;
 use npr_core::smoke::{Ball, Lens};
 use npr_core::surface::{dot, unit_or_z};
 
+use super::SmokeLook;
 use super::resolve::Resolving;
 
 /// How far beyond a rim the picture is looked at, in pixels: far enough that the pixel's middle lies beyond it too.
@@ -163,21 +164,8 @@ impl Resolving<'_> {
         if self.ids[texel] == id {
             return 0.0;
         }
-        let part = self.part_at((self.pixels[texel].depth - rim.depth) / ball.radius);
-        let towards = self.look.towards_light;
-        let facing = rim.outward[0] * towards[0] - rim.outward[1] * towards[1];
-        self.look.line_px * part * (1.0 - self.look.swell * facing)
-    }
-
-    /// The part of its width that a line has at a jump in depth, in radii.
-    fn part_at(&self, jump: f32) -> f32 {
-        let from = self.look.line_from;
-        let inner = math::smoothstep(from, from * INNER_JUMP, jump);
-        let outer = math::smoothstep(from * INNER_JUMP, from * OUTER_JUMP, jump);
-        if jump <= 0.0 {
-            return 0.0;
-        }
-        self.look.line_inner * inner + (1.0 - self.look.line_inner) * outer
+        let jump = (self.pixels[texel].depth - rim.depth) / ball.radius;
+        self.look.line_width(jump, rim.outward)
     }
 
     /// The published line: 1 where depths of diagonal neighbours differ [Hoshino 2004, section 3.5].
@@ -195,6 +183,28 @@ impl Resolving<'_> {
         };
         let (a, b) = (d(-1, 1) - d(1, -1), d(-1, -1) - d(1, 1));
         (self.look.line_weight * (a * a + b * b)).clamp(0.0, 1.0)
+    }
+}
+
+impl SmokeLook {
+    /// Width of a puff's outline in frame pixels where the next smoke lies `jump` radii behind it; 0 where that is too little.
+    ///
+    /// `outward` is the unit vector away from the puff in the picture, y down: lines swell away from the light.
+    pub fn line_width(&self, jump: f32, outward: [f32; 2]) -> f32 {
+        let towards = self.towards_light;
+        let facing = outward[0] * towards[0] - outward[1] * towards[1];
+        self.line_px * self.part_at(jump) * (1.0 - self.swell * facing)
+    }
+
+    /// The part of its width that a line has at a jump in depth, in radii.
+    fn part_at(&self, jump: f32) -> f32 {
+        let from = self.line_from;
+        let inner = math::smoothstep(from, from * INNER_JUMP, jump);
+        let outer = math::smoothstep(from * INNER_JUMP, from * OUTER_JUMP, jump);
+        if jump <= 0.0 {
+            return 0.0;
+        }
+        self.line_inner * inner + (1.0 - self.line_inner) * outer
     }
 }
 

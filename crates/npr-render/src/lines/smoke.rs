@@ -1,0 +1,113 @@
+//! Smoke among the lines of a scene: what it hides, and its own outline.
+
+use super::LineOptions;
+use crate::light::ChosenLights;
+use crate::model::Model;
+use crate::placement::Bounds;
+use crate::smoke::{Measure, Smoke, lens_of};
+use npr_core::camera::Camera;
+use npr_style::smoke::SmokeLook;
+use npr_style::{SmokeLines as Outlining, Style};
+use npr_vector::project::Projector;
+use npr_vector::puff::{Puffs, RimPoint, SmokeLines};
+use npr_vector::stroke::StrokeSurface;
+
+/// Opacity from which smoke hides lines: less is haze.
+const DENSE: f32 = 0.5;
+
+/// Name of the object that smoke is in drawings.
+const OBJECT: &str = "smoke";
+
+/// Smoke as one camera sees it.
+pub(super) struct SmokeView<'a> {
+    pub puffs: Puffs,
+    look: SmokeLook,
+    style: &'a Style,
+    /// Index of its first surface among those of the drawing.
+    pub first_surface: u32,
+}
+
+impl<'a> SmokeView<'a> {
+    /// `bounds` is the box of all that is drawn; `model` lends its lights.
+    pub fn new(
+        smoke: &Smoke,
+        (style, options): (&'a Style, &LineOptions),
+        (camera, projector, bounds): (&Camera, &Projector, Bounds),
+        model: &Model,
+        first_surface: u32,
+    ) -> Self {
+        let view = camera.view(options.size, bounds);
+        let (lights, _) = ChosenLights::new(style, model).of_smoke(style, model);
+        let measure = Measure {
+            height_px: options.size[1] as f32,
+            dpi: options.dpi,
+            size: options.size,
+            samples: 1,
+        };
+        let lens = lens_of(&view, &style.smoke);
+        let lights = lights.of_frame(style, bounds, camera, &view);
+        Self {
+            puffs: Puffs::new(projector, options.size, &smoke.styled(&style.smoke)),
+            look: measure.look(style, &lens, smoke.bounds(), &lights),
+            style,
+            first_surface,
+        }
+    }
+
+    /// Whole width of the outline at a place, in pixels.
+    pub fn width_at(&self, point: &RimPoint) -> f64 {
+        let outward = point.outward.map(|v| v as f32);
+        f64::from(self.look.line_width(point.jump as f32, outward))
+    }
+
+    /// The smoke as lines take it, drawn by itself where `is_outlined`.
+    pub fn lines<'b>(
+        &'b self,
+        is_outlined: bool,
+        width_at: &'b (dyn Fn(&RimPoint) -> f64 + Sync),
+    ) -> SmokeLines<'b> {
+        let smoke = &self.style.smoke;
+        SmokeLines {
+            puffs: &self.puffs,
+            is_dense: smoke.opacity >= DENSE,
+            is_outlined: is_outlined && smoke.line.method != Outlining::Off,
+            jump: f64::from(smoke.line.jump),
+            surface: self.first_surface,
+            width_at,
+        }
+    }
+
+    /// The surface of the smoke that a place in the picture shows before what lies at `depth`.
+    pub fn surface_before(&self, place: [f64; 2], depth: f64) -> Option<u32> {
+        let smoke = self.puffs.depth_at(place)?;
+        (smoke < depth).then_some(self.first_surface)
+    }
+
+    /// Its surfaces in a drawing, one for every tone: what is drawn with one object's number and the colours of the style.
+    pub fn surfaces(&self, object_number: u32) -> impl Iterator<Item = StrokeSurface> {
+        let smoke = &self.style.smoke;
+        let alpha = (smoke.opacity.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+        let line = smoke.line.color;
+        (1..)
+            .zip(&smoke.ramp)
+            .map(move |(tone, stop)| StrokeSurface {
+                object: OBJECT.to_owned(),
+                object_number,
+                material: format!("tone {tone}"),
+                line_color: [line.r, line.g, line.b, line.a],
+                fill_color: [stop.color.r, stop.color.g, stop.color.b, alpha],
+            })
+    }
+}
+
+/// The box of all that is drawn of a scene within `bounds`, which may be empty, and of smoke.
+pub(super) fn joined(smoke: Option<&Smoke>, bounds: Bounds, is_empty: bool) -> Bounds {
+    match smoke.map(Smoke::extent) {
+        None => bounds,
+        Some(smoke) if is_empty => smoke,
+        Some(smoke) => (
+            std::array::from_fn(|i| bounds.0[i].min(smoke.0[i])),
+            std::array::from_fn(|i| bounds.1[i].max(smoke.1[i])),
+        ),
+    }
+}
