@@ -14,6 +14,10 @@ struct Compose {
     streak_world: vec3<f32>,
     unused_c: u32,
     center_world: vec3<f32>,
+    smoke_part: u32,
+    smoke_line: vec4<f32>,
+    smoke_anchor_px: vec2<f32>,
+    smoke_tiles: f32,
     unused_d: u32,
 }
 
@@ -21,3 +25,4 @@ const COMPOSE_RIBBONS: u32 = 1u;
 const COMPOSE_OVERLAY: u32 = 2u;
 const COMPOSE_BEAMS: u32 = 4u;
 const COMPOSE_SMOKE: u32 = 8u;
+const COMPOSE_SMOKE_PEN: u32 = 16u;

@@ -297,3 +297,25 @@ fn sample_hatch(first: u32, side: u32, uv: vec2<f32>, f: f32) -> vec3<f32> {
         mix(s01 - s00, s11 - s10, t.x),
     );
 }
+
+// Ink at a tone that changes by `change` to the right and down, on a flat sheet: `at` is the place on it in pixels, of which
+// `scale` tiles go to one.
+fn ink_on_sheet(part: u32, at: vec2<f32>, scale: f32, tone: f32, change: vec2<f32>) -> f32 {
+    if (parts[part].flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
+    let l = level_of(part, tone);
+    let darker = vec2<f32>(level_of(part, tone + change.x) - l, level_of(part, tone + change.y) - l);
+    let darkens = clamp(2.0 * darker, vec2<f32>(-1.0), vec2<f32>(1.0));
+    if (parts[part].flags & PART_HATCH) == 0u {
+        return ink_coverage(tone_value(NO_HATCH, l), length(darkens), parts[part].threshold);
+    }
+    let ink = ink_of_level(part, l);
+    if ink >= 0.0 { return ink; }
+    let turn = parts[part].turn;
+    var place: Place;
+    place.uv = vec2<f32>(at.x * turn.x + at.y * turn.y, at.y * turn.x - at.x * turn.y) * scale;
+    place.right = vec2<f32>(turn.x, -turn.y) * scale;
+    place.down = vec2<f32>(turn.y, turn.x) * scale;
+    var calm: Calm;
+    calm.abrupt = abruptness(length(darker), parts[part].spacing_px);
+    return ink_of_hatch(part, place, l, darkens, calm);
+}

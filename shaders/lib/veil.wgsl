@@ -21,6 +21,7 @@ fn veil_of(pixel: vec2<u32>, frame_px: vec2<f32>) -> Veil {
     if veil.mask == 0u { return veil; }
     veil.depth = min(bitcast<f32>(bits & ~VEIL_MASK), FAR_DEPTH);
     veil.color = linear_of(textureLoad(smoke_colors, pixel, 0));
+    if (compose.flags & COMPOSE_SMOKE_PEN) != 0u { veil.color = penned(pixel, frame_px, veil.color); }
     for (var i = 0u; i < compose.samples * compose.samples; i++) {
         let at = pixel * compose.samples + vec2<u32>(i & 1u, i >> 1u);
         veil.hidden[i] = veil_over(veil, textureLoad(ids, at, 0).x, i, frame_px);

@@ -52,6 +52,7 @@ override WG: u32 = 64u;
 //# use lib/cutout
 //# use lib/shadow
 //# use lib/depth_map
+//# use lib/smoke_pen
 //# use lib/veil
 
 // How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.

@@ -153,6 +153,7 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/smoke", include_str!("../lib/smoke.wgsl")),
     ("lib/smoke_line", include_str!("../lib/smoke_line.wgsl")),
     ("lib/depth_map", include_str!("../lib/depth_map.wgsl")),
+    ("lib/smoke_pen", include_str!("../lib/smoke_pen.wgsl")),
     ("lib/veil", include_str!("../lib/veil.wgsl")),
     ("lib/shadow", include_str!("../lib/shadow.wgsl")),
     ("lib/ribbon", include_str!("../lib/ribbon.wgsl")),

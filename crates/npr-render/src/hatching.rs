@@ -22,7 +22,7 @@ const TILE_SIDE: u32 = 1024;
 /// Size of a hatch tile on an object that is all of its scene, as a part of its radius. Framed as a whole it shows strokes 8
 /// pixels apart three octaves above the finest level: the camera may come eight times nearer, and go eight times farther,
 /// before strokes change their size. Larger tiles do not fit around thin limbs.
-const TILE_RADII: f32 = 0.3;
+pub(crate) const TILE_RADII: f32 = 0.3;
 
 /// How fast tiles shrink with the objects of a scene, as an exponent of their radius: less than 1, as small objects are mostly
 /// seen from as far as large ones.
@@ -52,7 +52,7 @@ pub(crate) struct Inked {
     lit_by: Option<LightSource>,
 }
 
-/// Gives `parts` their ink and adds the tiles they need to `textures`.
+/// Gives `parts`, and what stands for the `smoke`, their ink and adds the tiles they need to `textures`.
 ///
 /// Charts of strokes that follow the light stay empty until [`Inked::follow_light`].
 pub(crate) fn add_ink(
@@ -61,6 +61,7 @@ pub(crate) fn add_ink(
     pictures: &Pictures<'_>,
     frame: &FrameScale,
     parts: &mut [Part],
+    smoke: Option<&mut Part>,
     textures: &mut TextureStore,
 ) -> Result<Inked, RenderError> {
     let mut tiles = Tiles {
@@ -77,6 +78,11 @@ pub(crate) fn add_ink(
             set_paint(part, look.ink.paint, tinted);
         }
         inks.push(look.ink);
+    }
+    if let Some(part) = smoke {
+        let ink = style.smoke.ink.on_picture();
+        let tones = ink.tone.ink_and_hatch(0.0, 1.0);
+        set_pen(part, &ink, tones, ink.mapping, frame, &mut tiles)?;
     }
     let guides = Guides::new(model, &inks);
     let mut inked = Inked {
@@ -168,11 +174,23 @@ fn set_ink(
     frame: &FrameScale,
     tiles: &mut Tiles<'_>,
 ) -> Result<(), RenderError> {
-    let [inked, hatched] = ink.tone.ink_and_hatch(info.metallic, info.roughness);
+    let tones = ink.tone.ink_and_hatch(info.metallic, info.roughness);
     let mapping = match ink.mapping {
         Mapping::Uv if !info.has_uvs => Mapping::Surface,
         other => other,
     };
+    set_pen(part, ink, tones, mapping, frame, tiles)
+}
+
+/// The same for a part that is inked, hatched or both, with strokes fixed to what `mapping` says.
+fn set_pen(
+    part: &mut Part,
+    ink: &Ink,
+    [inked, hatched]: [bool; 2],
+    mapping: Mapping,
+    frame: &FrameScale,
+    tiles: &mut Tiles<'_>,
+) -> Result<(), RenderError> {
     let hatch = &ink.hatch;
     let spacing_px = hatch
         .spacing

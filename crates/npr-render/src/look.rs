@@ -24,6 +24,8 @@ use npr_style::{
 pub(crate) struct StyledModel {
     pub vertices: Vec<Vertex>,
     pub parts: Vec<Part>,
+    /// Number of the part behind all others that finishes smoke, where a pen or a picture does.
+    pub smoke_part: Option<u32>,
     /// Stroke charts, and what was done in another way than asked.
     pub inked: Inked,
     pub textures: TextureStore,
@@ -49,13 +51,28 @@ impl StyledModel {
             world_px: options.size[1] as f32 * 0.5 / model.radius(),
         };
         add_tone_rows(model, style, &pictures, &mut parts, &mut textures)?;
-        let inked = add_ink(model, style, &pictures, &frame, &mut parts, &mut textures)?;
+        let mut smoke = match options.smoke.is_some() && style.smoke.is_finished_late() {
+            true => Some(pictures.smoke_part(&style.smoke, &mut textures)?),
+            false => None,
+        };
+        let inked = add_ink(
+            model,
+            style,
+            &pictures,
+            &frame,
+            &mut parts,
+            smoke.as_mut(),
+            &mut textures,
+        )?;
         if parts.is_empty() {
             parts.push(Part::default());
         }
+        let smoke_part = smoke.is_some().then_some(parts.len() as u32);
+        parts.extend(smoke);
         Ok(Self {
             vertices: styled_vertices(model, style, options, &inked.knots),
             parts,
+            smoke_part,
             inked,
             textures,
             background_texture,

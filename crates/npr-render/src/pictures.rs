@@ -3,13 +3,13 @@
 use crate::error::RenderError;
 use crate::model::Model;
 use crate::stage::Picture;
-use npr_core::geometry::Part;
+use npr_core::geometry::{NONE, Part};
 use npr_core::surface::dot;
 use npr_core::texture::{TextureStore, linear_texel};
-use npr_style::Style;
 use npr_style::compose::LUMA;
 use npr_style::hatch::{self, HatchTile};
 use npr_style::tone_row::{row_words, tone_row};
+use npr_style::{SmokeStyle, Style};
 use std::collections::BTreeMap;
 
 /// The pictures given for a style, all that it names.
@@ -64,6 +64,45 @@ impl<'a> Pictures<'a> {
         })
     }
 
+    /// What stands for smoke among the parts: its tones, from a picture where the style names one.
+    pub fn smoke_part(
+        &self,
+        smoke: &SmokeStyle,
+        textures: &mut TextureStore,
+    ) -> Result<Part, RenderError> {
+        let mut part = Part {
+            texture: NONE,
+            hatch: NONE,
+            softness: smoke.softness,
+            ramp: smoke.levels(),
+            ..Part::default()
+        };
+        let name = &smoke.ramp_image;
+        if !name.is_empty()
+            && let Some(start) = self.tone_row(name, smoke.softness, textures)?
+        {
+            part.tone_row = start;
+            part.flags |= Part::TONE_ROW;
+        }
+        Ok(part)
+    }
+
+    /// Where the row of tones of a picture starts in the texture store; `None` where that has no room.
+    fn tone_row(
+        &self,
+        name: &str,
+        softness: f32,
+        textures: &mut TextureStore,
+    ) -> Result<Option<u32>, RenderError> {
+        let picture = self.of(name)?;
+        let row = tone_row(picture.size, &picture.rgba, softness);
+        let row = row.map_err(|source| RenderError::Ramp {
+            key: self.key_of(name),
+            source,
+        })?;
+        Ok(textures.add_words(row_words(&row)))
+    }
+
     /// The first key that names a picture.
     pub fn key_of(&self, name: &str) -> String {
         let mut named = self.named.iter();
@@ -98,15 +137,7 @@ pub(crate) fn add_tone_rows(
         }
         let start = match made.get(look.ramp_image) {
             Some(start) => *start,
-            None => {
-                let picture = pictures.of(look.ramp_image)?;
-                let row = tone_row(picture.size, &picture.rgba, style.shade.softness);
-                let row = row.map_err(|source| RenderError::Ramp {
-                    key: pictures.key_of(look.ramp_image),
-                    source,
-                })?;
-                textures.add_words(row_words(&row))
-            }
+            None => pictures.tone_row(look.ramp_image, style.shade.softness, textures)?,
         };
         made.insert(look.ramp_image, start);
         if let Some(start) = start {

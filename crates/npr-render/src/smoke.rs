@@ -1,6 +1,7 @@
 //! Smoke in a frame: what the passes of smoke need, and where they stand in the graph.
 
 use crate::error::RenderError;
+use crate::hatching::TILE_RADII;
 use crate::placement::{Bounds, bounds_of, radius_of};
 use glam::Vec3;
 use npr_core::camera::Camera;
@@ -12,7 +13,7 @@ use npr_gpu::passes::smoke;
 use npr_smoke::Track;
 use npr_style::lighting::Lights;
 use npr_style::shadow::{SHADOW_SIDE, SHADOWS_MAX};
-use npr_style::smoke::SmokeLook;
+use npr_style::smoke::{SmokeLook, pen};
 use npr_style::{SmokeLines, SmokeMethod, SmokeStyle, Style, Unit};
 
 /// Smoke as spheres, beside or without a model.
@@ -266,9 +267,36 @@ impl Measure {
             ramp: smoke.levels(),
             ..SmokeLook::default()
         };
+        if smoke.is_finished_late() {
+            let ([r, g, b], alpha) = (pen::OUTLINE, look.line_color[3]);
+            (look.ramp, look.softness) = (pen::TONES, 0.5);
+            look.line_color = [r, g, b, alpha];
+        }
         look.smooth(self.size, self.sigma_px(smoke, world_px));
         look
     }
+}
+
+/// Tells the last pass that part `part` finishes the smoke, and hangs the sheet that strokes lie on in the middle of its space.
+///
+/// Strokes move and grow with that place as the camera moves, so they neither swim through smoke that stands still nor crawl
+/// over puffs that do not.
+pub(crate) fn hang_sheet(
+    compose: &mut npr_style::compose::Compose,
+    part: u32,
+    smoke: &Smoke,
+    style: &SmokeStyle,
+    view: &View,
+) {
+    let (lens, bounds) = (Lens::of_view(view), smoke.bounds());
+    let offset = (Vec3::from(bounds.0) + Vec3::from(bounds.1)) * 0.5 - Vec3::from(lens.eye_world);
+    let [x, y, z] = [lens.right_world, lens.up_world, lens.forward_world]
+        .map(|axis| offset.dot(Vec3::from(axis)));
+    let depth = z.max(lens.near).max(1e-12);
+    compose.smoke_part = part;
+    compose.smoke_line = style.line.color.linear();
+    compose.smoke_anchor_px = lens.frame_of([x, y, depth]).map(|px| px.clamp(-1e5, 1e5));
+    compose.smoke_tiles = lens.pixel_at(depth) / (radius_of(bounds) * TILE_RADII);
 }
 
 fn flag(on: bool, bit: u32) -> u32 {

@@ -194,6 +194,9 @@ impl<'a> Stage<'a> {
         if counts.smoke.is_some() {
             method.layers |= Compose::SMOKE;
         }
+        if styled.smoke_part.is_some() {
+            method.layers |= Compose::SMOKE_PEN;
+        }
         let plan = Blueprint::new(&counts, &grids, method);
         let mut budget = Budget::new(options.memory_limit);
         budget.take(
@@ -396,6 +399,9 @@ impl<'a> Stage<'a> {
             self.styled.background_texture,
         );
         compose.flags = self.method.layers;
+        if let (Some(part), Some(smoke)) = (self.styled.smoke_part, &self.options.smoke) {
+            smoke::hang_sheet(&mut compose, part, smoke, &self.style.smoke, &view);
+        }
         if self.plan.smoke.is_some() && self.smoke_lights.1 && self.style.smoke.casts {
             compose.smoke_shadow_side = self.style.smoke.shadow_px;
         }

@@ -9,7 +9,7 @@ use npr_core::math::{cos, mix_bits, sin};
 use npr_gpu::device::{AdapterChoice, Device};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
-use npr_render::{Frame, Model, RenderError, Smoke, Sphere, Stage, StageOptions};
+use npr_render::{Frame, Model, Picture, RenderError, Smoke, Sphere, Stage, StageOptions};
 use npr_scene::{Mesh, Node, Part, Scene};
 use npr_style::Style;
 
@@ -473,10 +473,11 @@ fn pictures_are_the_same_for_any_number_of_threads_and_nearly_in_tiles() {
     assert!(apart < 0.01, "{apart} of all pixels differ in tiles");
 }
 
-const LOOKS: [&str; 5] = [
+const LOOKS: [&str; 6] = [
     "smoke-cel-2",
     "smoke-cel-3",
     "smoke-ink",
+    "smoke-comic",
     "cloud",
     "explosion",
 ];
@@ -543,4 +544,102 @@ fn plumes_to_look_at() {
             &camera(0.0),
         ),
     );
+}
+
+/// A picture of as many pixels as there are tones.
+fn strip(tones: &[[u8; 3]]) -> Picture {
+    Picture {
+        size: [tones.len() as u32, 1],
+        rgba: tones
+            .iter()
+            .flat_map(|[r, g, b]| [*r, *g, *b, 255])
+            .collect(),
+    }
+}
+
+/// The ramp alone, without lines: as many tones as the picture has pixels, and those of the same stops where they are few.
+#[test]
+fn a_picture_gives_the_tones() {
+    let smoke = Smoke::new(vec![Sphere::new([0.1, 1.65, 0.0], 1.2)]);
+    let common = "background = 'blue'\nsmoke.line.method = 'off'\nsmoke.sigma = '0px'\nsmoke.shadow = false\nantialias.samples = 1\n\
+                  smoke.light = [1, 0, 0]\nsmoke.ambient = 0.0\nsmoke.wrap = 1.0\n";
+    let with = |tones: &[[u8; 3]]| {
+        let style = style(&format!("{common}smoke.ramp_image = 'tones.png'"));
+        let options = StageOptions {
+            smoke: Some(smoke.clone()),
+            pictures: [("tones.png".to_owned(), strip(tones))].into(),
+            ..StageOptions::new(SIZE)
+        };
+        let model = empty();
+        let mut stage = Stage::new(&Processor, &model, &style, &options).unwrap();
+        stage.draw(&camera(0.0)).unwrap()
+    };
+    let greys: Vec<[u8; 3]> = (0..12).map(|i| [20 * i; 3]).collect();
+    let frame = with(&greys);
+    let row: Vec<[u8; 3]> = (0..SIZE[0]).map(|x| at(&frame, x, 128)).collect();
+    let mut seen: Vec<u8> = row.iter().filter(|c| c[0] == c[2]).map(|c| c[0]).collect();
+    seen.dedup();
+    let steps = seen.iter().filter(|grey| **grey % 20 == 0).count();
+    assert!(
+        seen.is_sorted() && steps == 12,
+        "light from the right gives every tone in turn: {seen:?}"
+    );
+    let few = with(&[[200, 30, 30], [250, 250, 60]]);
+    let stops = "smoke.ramp = [{ at = 0, color = '#c81e1e' }, { at = 0.5, color = '#fafa3c' }]";
+    let plain = draw(&smoke, &style(&format!("{common}{stops}")), &camera(0.0));
+    assert!(changed(&few, &plain) < 0.005, "{}", changed(&few, &plain));
+}
+
+#[test]
+fn a_picture_that_is_missing_is_told() {
+    let style = style("smoke.ramp_image = 'tones.png'");
+    let options = StageOptions {
+        smoke: Some(plume(3)),
+        ..StageOptions::new(SIZE)
+    };
+    let model = empty();
+    let refused = Stage::new(&Processor, &model, &style, &options)
+        .err()
+        .unwrap();
+    assert!(
+        refused.to_string().contains("smoke.ramp_image"),
+        "{refused}"
+    );
+}
+
+/// The comic look: paper in the light, strokes in the shade, ink in the dark; and strokes that stay where they are.
+#[test]
+fn smoke_is_inked_and_hatched() {
+    let text = "background = 'white'\nsmoke.line.method = 'off'\nsmoke.ramp = [{ at = 0, color = 'white' }]\nsmoke.ambient = 0.0\n\
+                smoke.light = [1, 0.3, 0.3]\nsmoke.ink = { tone = 'ink+hatch', dark_at = 0.1, light_at = 0.8 }";
+    let smoke = Smoke::new(vec![Sphere::new([0.1, 1.65, 0.0], 1.2)]);
+    let frame = draw(&smoke, &style(text), &camera(0.0));
+    keep("hatched-ball", &frame);
+    let changes = |columns: std::ops::Range<u32>| {
+        let dark = |x: u32, y: u32| at(&frame, x, y)[0] < 128;
+        let flips = |x: u32| (60..190).filter(|y| dark(x, *y) != dark(x, y + 1)).count();
+        columns.map(flips).sum::<usize>()
+    };
+    let is_dark = |x: u32| at(&frame, x, 128)[0] < 60;
+    assert!(!is_dark(200), "light is paper");
+    assert!(is_dark(52), "the dark is ink");
+    assert!(
+        changes(80..130) > 100,
+        "strokes between: {}",
+        changes(80..130)
+    );
+    // A camera that slides sideways takes the sheet along: the picture moves, nothing else.
+    let moved = |shift: f32| {
+        let mut camera = camera(0.0);
+        camera.projection = Projection::Parallel { height: 4.0 };
+        camera.eye = [camera.eye[0] + shift, 1.65, camera.eye[2]];
+        camera.target = [camera.target[0] + shift, 1.65, camera.target[2]];
+        draw(&smoke, &style(text), &camera)
+    };
+    let (still, slid) = (moved(0.0), moved(-4.0 * 20.0 / 256.0));
+    let differ = (30..220u32)
+        .flat_map(|y| (0..230u32).map(move |x| (x, y)))
+        .filter(|(x, y)| at(&still, *x, *y)[0].abs_diff(at(&slid, x + 20, *y)[0]) > 40)
+        .count();
+    assert!(differ < 190 * 230 / 200, "{differ} pixels");
 }

@@ -28,7 +28,7 @@ pub struct Compose {
     pub line_color: [f32; 4],
     /// Header of the background texture, or [`NONE`].
     pub background_texture: u32,
-    /// Bits of [`Compose::RIBBONS`] to [`Compose::SMOKE`].
+    /// Bits of [`Compose::RIBBONS`] to [`Compose::SMOKE_PEN`].
     pub flags: u32,
     /// Strength of surface colours: 0 grey, 1 as they are.
     pub saturation: f32,
@@ -48,6 +48,14 @@ pub struct Compose {
     pub unused_c: u32,
     /// Middle of the model.
     pub center_world: [f32; 3],
+    /// Number of the part whose ramp and ink finish the smoke, with [`Compose::SMOKE_PEN`].
+    pub smoke_part: u32,
+    /// Colour of the smoke's outline, linear light.
+    pub smoke_line: [f32; 4],
+    /// Where the sheet of the smoke's strokes hangs, in frame pixels.
+    pub smoke_anchor_px: [f32; 2],
+    /// Hatch tiles of that sheet to a frame pixel.
+    pub smoke_tiles: f32,
     /// Keeps rows of 16 bytes.
     pub unused_d: u32,
 }
@@ -65,6 +73,10 @@ gpu_layout!(Compose {
     streak_world,
     unused_c,
     center_world,
+    smoke_part,
+    smoke_line,
+    smoke_anchor_px,
+    smoke_tiles,
     unused_d,
 });
 
@@ -77,6 +89,8 @@ impl Compose {
     pub const BEAMS: u32 = 4;
     /// Lays smoke over what it stands before.
     pub const SMOKE: u32 = 8;
+    /// Finishes the smoke: its colours are tones and lines yet, see [`crate::smoke::pen`].
+    pub const SMOKE_PEN: u32 = 16;
 }
 
 /// What a frame is composed from.

@@ -300,6 +300,45 @@ impl Layers<'_> {
     }
 }
 
+impl Layers<'_> {
+    /// Ink at a tone that changes by `change` to the right and down, on a flat sheet: `at` is the place on it in pixels, of
+    /// which `scale` tiles go to one.
+    pub(crate) fn ink_on_sheet(
+        &self,
+        part: &Part,
+        at: [f32; 2],
+        scale: f32,
+        tone: f32,
+        change: [f32; 2],
+    ) -> f32 {
+        if part.flags & (Part::INK | Part::HATCH) == 0 {
+            return 0.0;
+        }
+        let l = level_of(part, tone);
+        let darker = change.map(|change| level_of(part, tone + change) - l);
+        let darkens = darker.map(|d| (2.0 * d).clamp(-1.0, 1.0));
+        if part.flags & Part::HATCH == 0 {
+            return ink_coverage(tone_value(NO_HATCH, l), length(darkens), part.threshold);
+        }
+        if let Some(ink) = ink_of_level(part, l) {
+            return ink;
+        }
+        let [cos, sin] = part.turn;
+        let on_sheet =
+            |[x, y]: [f32; 2]| [(x * cos + y * sin) * scale, (y * cos - x * sin) * scale];
+        let place = Place {
+            uv: on_sheet(at),
+            right: on_sheet([1.0, 0.0]),
+            down: on_sheet([0.0, 1.0]),
+        };
+        let calm = Calm {
+            knot: 0.0,
+            abrupt: abruptness(length(darker), part.spacing_px),
+        };
+        self.ink_of_hatch(part, &place, l, darkens, calm)
+    }
+}
+
 /// A hatch without the white of its knots: the last strokes merge together, a fifth of the way before they would.
 ///
 /// Where directions turn round, strokes cannot all end well; what is seen of it is mostly white in the dark.

@@ -92,6 +92,6 @@ pub use rule::{
 };
 pub use schema::schema;
 pub use shade::{Shade, ShadeMode, levels};
-pub use smoke::{SmokeLine, SmokeLines, SmokeMethod, SmokeStop, SmokeStyle};
+pub use smoke::{SmokeInk, SmokeLine, SmokeLines, SmokeMethod, SmokeStop, SmokeStyle};
 pub use style::Style;
 pub use width::{Channel, ControlPoint, Width, WidthSource};

@@ -6,6 +6,8 @@ use crate::Style;
 const RAMP: &str = "shade.ramp_image";
 const HATCH: &str = "ink.hatch.image";
 const BLEND_MASK: &str = "blend.mask";
+const SMOKE_RAMP: &str = "smoke.ramp_image";
+const SMOKE_HATCH: &str = "smoke.ink.hatch.image";
 
 impl Style {
     /// The pictures that tones and blends are made from: key and name as the style has them, each name where it stands first.
@@ -16,6 +18,8 @@ impl Style {
             (RAMP.to_owned(), self.shade.ramp_image.as_str()),
             (HATCH.to_owned(), self.ink.hatch.image.as_str()),
             (BLEND_MASK.to_owned(), self.blend.mask.as_str()),
+            (SMOKE_RAMP.to_owned(), self.smoke.ramp_image.as_str()),
+            (SMOKE_HATCH.to_owned(), self.smoke.ink.hatch.image.as_str()),
         ];
         for (i, rule) in self.rule.iter().enumerate() {
             let of_rule = [

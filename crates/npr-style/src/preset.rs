@@ -117,6 +117,12 @@ const PRESETS: &[Preset] = &[
         text: include_str!("../presets/smoke-ink.toml"),
     },
     Preset {
+        name: "smoke-comic",
+        version: 1,
+        title: "Smoke in pen strokes that swell into solid ink, as in comics",
+        text: include_str!("../presets/smoke-comic.toml"),
+    },
+    Preset {
         name: "cloud",
         version: 1,
         title: "Bright clouds in four soft tones without lines",

@@ -8,11 +8,12 @@ mod depth_map;
 pub mod draw;
 mod line;
 mod look;
+pub mod pen;
 pub mod resolve;
 pub mod shade;
 mod style;
 mod veil;
 
 pub use look::{CELLS_MAX, LAYERS_MAX, SmokeLook, TAPS_MAX};
-pub use style::{SmokeLine, SmokeLines, SmokeMethod, SmokeStop, SmokeStyle};
+pub use style::{SmokeInk, SmokeLine, SmokeLines, SmokeMethod, SmokeStop, SmokeStyle};
 pub(crate) use veil::Veil;

@@ -404,12 +404,17 @@ impl<'a> Layers<'a> {
             return [1.0; 3];
         }
         let (x, color) = self.lights.coordinate_at(world, normal, dark);
-        let light = if part.flags & Part::TONE_ROW != 0 {
+        let light = self.ramp_of(part, x);
+        std::array::from_fn(|i| light[i] * color[i])
+    }
+
+    /// Light of a part's ramp at coordinate `x`.
+    pub(crate) fn ramp_of(&self, part: &Part, x: f32) -> [f32; 3] {
+        if part.flags & Part::TONE_ROW != 0 {
             row_light(self.texels, part.tone_row, x)
         } else {
             ramp_light(bytemuck::cast_slice(&part.ramp), part.softness, x)
-        };
-        std::array::from_fn(|i| light[i] * color[i])
+        }
     }
 
     /// Lowest and highest ramp coordinate that a triangle can have anywhere, where the normal alone decides.

@@ -12,7 +12,7 @@ use npr_mesh::testing::{Random, torus, uv_sphere};
 use npr_mesh::{EdgeFlags, NO_FACE, smooth_normals, unique_edges, weld};
 use npr_style::compose::Compose;
 use npr_style::lighting::{LightSource, Lights};
-use npr_style::smoke::SmokeLook;
+use npr_style::smoke::{SmokeLook, pen};
 use npr_style::tone_row::{row_words, tone_row};
 
 /// Width and height of the frame that windows are laid over.
@@ -278,10 +278,11 @@ pub fn outline(look: Look) -> Outline {
 
 /// Settings of the last pass of a look; the texture lies behind everything in one of them.
 pub fn compose(look: Look, scene: &Scene) -> Compose {
+    let smoke = Compose::SMOKE | Compose::SMOKE_PEN;
     let (samples, flags, background_texture) = match look {
         Look::Ours => (
             2,
-            Compose::RIBBONS | Compose::OVERLAY | Compose::BEAMS | Compose::SMOKE,
+            Compose::RIBBONS | Compose::OVERLAY | Compose::BEAMS | smoke,
             NONE,
         ),
         Look::Published => (1, Compose::OVERLAY | Compose::SMOKE, scene.parts[1].texture),
@@ -289,6 +290,10 @@ pub fn compose(look: Look, scene: &Scene) -> Compose {
     Compose {
         samples,
         smoke_shadow_side: SHADOW_SIDE,
+        smoke_part: hatched_part(scene),
+        smoke_line: [0.1, 0.0, 0.05, 1.0],
+        smoke_anchor_px: [31.0, 17.0],
+        smoke_tiles: 0.004,
         right_world: [0.8, 0.0, -0.6],
         back_world: [0.36, 0.48, -0.8],
         streak_world: [0.3, 0.4, 0.2],
@@ -300,6 +305,12 @@ pub fn compose(look: Look, scene: &Scene) -> Compose {
         saturation: 1.2,
         ..Compose::default()
     }
+}
+
+/// The first part that strokes are drawn on.
+fn hatched_part(scene: &Scene) -> u32 {
+    let is_hatched = |part: &Part| part.flags & Part::HATCH != 0;
+    scene.parts.iter().position(is_hatched).unwrap_or(0) as u32
 }
 
 /// Texels of the shadow image along a side.
@@ -393,6 +404,12 @@ pub fn smoke_look(look: Look, size: [u32; 2]) -> SmokeLook {
         ramp,
         ..SmokeLook::default()
     };
+    if is_ours {
+        // The last pass finishes what tells of tones.
+        (settings.ramp, settings.softness) = (pen::TONES, 0.5);
+        let [r, g, b] = pen::OUTLINE;
+        settings.line_color = [r, g, b, 0.9];
+    }
     settings.smooth(size, if is_ours { 7.0 } else { 1.2 });
     settings
 }

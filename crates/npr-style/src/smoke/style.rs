@@ -4,6 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::LAYERS_MAX;
+use crate::hatch::Hatch;
+use crate::ink::{Ink, Mapping, Tone};
 use crate::ramp::Level;
 use crate::{Color, Length, StyleError};
 
@@ -93,8 +95,67 @@ pub struct SmokeStyle {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
     pub light: Option<[f32; 3]>,
+    /// A picture whose middle row gives the tones in place of `ramp`, from shade on the left to full light on the right; default
+    /// empty, none. As many tones as it has pixels, as hard as they are, or as soft as `softness`; gradients may have any shape.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub ramp_image: String,
+    /// The pen's part of the shade; default none.
+    pub ink: SmokeInk,
     /// How the smoke is outlined.
     pub line: SmokeLine,
+}
+
+/// The pen's part of the shade of smoke, as `ink` is of surfaces, over the tones of the ramp.
+///
+/// Strokes lie on a sheet that hangs in the middle of the space that smoke moves in and faces the eye: they keep their distance
+/// on the picture and their place in the smoke, neither crawl over puffs that swell nor break where two of them meet.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SmokeInk {
+    /// What the shade is drawn with; default `none`. `auto` is `ink+hatch`.
+    pub tone: Tone,
+    /// Colour of ink and strokes; default black. Alpha is how much it covers.
+    pub color: Color,
+    /// Tone, 0..1, up to which the shade ramp is black; default 0.1. Raise it for more solid black.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub dark_at: f32,
+    /// Tone, 0..1, from which it is white; default 0.7. Close to `dark_at` strokes are short and stubby.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub light_at: f32,
+    /// Where hatch and shade together are cut, 0..1; default 0.5. Higher is blacker all over.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub threshold: f32,
+    /// The strokes; their angle is that on the picture.
+    pub hatch: Hatch,
+}
+
+impl Default for SmokeInk {
+    fn default() -> Self {
+        Self {
+            tone: Tone::Off,
+            color: Color::rgb(0, 0, 0),
+            dark_at: 0.1,
+            light_at: 0.7,
+            threshold: 0.5,
+            hatch: Hatch::default(),
+        }
+    }
+}
+
+impl SmokeInk {
+    /// The same pen on surfaces, laid on the picture.
+    pub fn on_picture(&self) -> Ink {
+        Ink {
+            tone: self.tone,
+            color: self.color,
+            dark_at: self.dark_at,
+            light_at: self.light_at,
+            threshold: self.threshold,
+            mapping: Mapping::Screen,
+            hatch: self.hatch.clone(),
+            ..Ink::default()
+        }
+    }
 }
 
 /// How smoke is outlined.
@@ -157,6 +218,8 @@ impl Default for SmokeStyle {
             shadow_px: 1024,
             casts: true,
             light: None,
+            ramp_image: String::new(),
+            ink: SmokeInk::default(),
             line: SmokeLine::default(),
         }
     }
@@ -171,6 +234,11 @@ impl SmokeStyle {
             *level = [r, g, b, stop.at];
         }
         levels
+    }
+
+    /// Whether the last pass finishes the picture, with the pen or the tones of a picture.
+    pub fn is_finished_late(&self) -> bool {
+        self.ink.tone != Tone::Off || !self.ramp_image.is_empty()
     }
 
     /// Refuses tones out of order and a light that points nowhere.

@@ -137,8 +137,12 @@ impl Layers<'_> {
             return None;
         }
         let depth = f32::from_bits(bits & !crate::smoke::resolve::MASK);
+        let mut color = self.linear_texel(self.smoke_colors[texel]);
+        if self.compose.flags & Compose::SMOKE_PEN != 0 {
+            color = self.penned([x, y], frame_px, color);
+        }
         let mut veil = Veil {
-            color: self.linear_texel(self.smoke_colors[texel]),
+            color,
             depth: depth.min(FAR_DEPTH),
             mask,
             hidden: [0.0; 4],

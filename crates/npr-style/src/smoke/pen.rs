@@ -1,0 +1,119 @@
+//! The last hand on smoke: its tones, and its ink and hatching. The twin of `lib/smoke_pen`.
+//!
+//! Where a pen or the tones of a picture finish smoke, the passes of smoke draw [`TONES`] in place of colours: red and green
+//! hold the tone, blue how much the outline covers. So they need to know nothing of ramps, tiles and pens, which
+//! the last pass has at hand for surfaces.
+
+use npr_core::geometry::Part;
+
+use super::resolve::MASK;
+use crate::compose::{Compose, Layers};
+use crate::ramp::Level;
+
+/// Places of a pixel's range of tones that stand for all.
+const TONE_TAPS: u32 = 4;
+
+/// Part of a pixel that its line may cover so that the tone beside it is still known.
+const LINED: f32 = 0.95;
+
+/// Colours for [`SmokeLook::ramp`](super::SmokeLook) that tell tones: red counts up to the half, green on from there, so
+/// that bytes tell more of them apart than one colour could. They need a softness of 0.5.
+pub const TONES: [[f32; 4]; 8] = [
+    [0.0, 0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.0, 0.25],
+    [1.0, 1.0, 0.0, 0.75],
+    [1.0, 1.0, 0.0, Level::UNUSED],
+    [1.0, 1.0, 0.0, Level::UNUSED],
+    [1.0, 1.0, 0.0, Level::UNUSED],
+    [1.0, 1.0, 0.0, Level::UNUSED],
+    [1.0, 1.0, 0.0, Level::UNUSED],
+];
+
+/// Colour of the outline beside them, before its opacity.
+pub const OUTLINE: [f32; 3] = [0.0, 0.0, 1.0];
+
+/// Tone of a colour of smoke that is not finished; below 0 under its outline.
+fn tone_of([r, g, b, _]: [f32; 4]) -> f32 {
+    if b > LINED {
+        return -1.0;
+    }
+    let left = 1.0 - b;
+    0.5 * ((r / left).min(1.0) + (g / left).min(1.0))
+}
+
+impl Layers<'_> {
+    /// Tone of a neighbour, or `tone` where that is none.
+    fn tone_beside(&self, pixel: [u32; 2], step: [i32; 2], tone: f32) -> f32 {
+        let [width, height] = self.window.size.map(|side| side as i32);
+        let at = [pixel[0] as i32 + step[0], pixel[1] as i32 + step[1]];
+        if at[0] < 0 || at[1] < 0 || at[0] >= width || at[1] >= height {
+            return tone;
+        }
+        let texel = (at[1] * width + at[0]) as usize;
+        if self.smoke_depths[texel] & MASK == 0 {
+            return tone;
+        }
+        let beside = tone_of(self.linear_texel(self.smoke_colors[texel]));
+        if beside < 0.0 { tone } else { beside }
+    }
+
+    /// The colour of a pixel of smoke whose picture holds its tone and how much its outline covers; linear light.
+    pub(super) fn penned(&self, pixel: [u32; 2], frame_px: [f32; 2], color: [f32; 4]) -> [f32; 4] {
+        let Compose {
+            smoke_part,
+            smoke_line,
+            smoke_anchor_px,
+            smoke_tiles,
+            ..
+        } = *self.compose;
+        let pen: &Part = &self.parts[smoke_part as usize];
+        let tone = tone_of(color).max(0.0);
+        let beside = |x: i32, y: i32| self.tone_beside(pixel, [x, y], tone);
+        let change = [
+            0.5 * (beside(1, 0) - beside(-1, 0)),
+            0.5 * (beside(0, 1) - beside(0, -1)),
+        ];
+        let slope = (change[0] * change[0] + change[1] * change[1]).sqrt();
+        let mut light = [0.0; 3];
+        for i in 0..TONE_TAPS {
+            let step = (i as f32 + 0.5) / TONE_TAPS as f32 - 0.5;
+            let tap = self.ramp_of(pen, tone + slope * step);
+            light = std::array::from_fn(|k| light[k] + tap[k] / TONE_TAPS as f32);
+        }
+        let at = [
+            frame_px[0] - smoke_anchor_px[0],
+            frame_px[1] - smoke_anchor_px[1],
+        ];
+        let ink = self.ink_on_sheet(pen, at, smoke_tiles, tone, change) * pen.ink_color[3];
+        let [r, g, b] = std::array::from_fn(|k| {
+            let inked = light[k] + (pen.ink_color[k] - light[k]) * ink;
+            inked + (smoke_line[k] - inked) * color[2]
+        });
+        [r, g, b, color[3]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::smoke::SmokeLook;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        /// What the passes of smoke draw is read again, to less than a pixel of any gradient that is smoothed.
+        #[test]
+        fn tones_come_back_from_bytes(tone in 0f32..=1.0, line in 0f32..=0.9) {
+            let look = SmokeLook { softness: 0.5, ramp: TONES, ..SmokeLook::default() };
+            let [r, g, b] = look.color_of(tone, 0.0);
+            prop_assert!(b == 0.0);
+            let lined = [r * (1.0 - line), g * (1.0 - line), line];
+            let encoder = npr_core::color::SrgbEncoder::new();
+            let back = lined.map(|v| npr_core::color::linear_from_srgb(encoder.byte(v) as f32 / 255.0));
+            let room = 0.004 / (1.0 - line) + 0.002;
+            let found = tone_of([back[0], back[1], back[2], 1.0]);
+            prop_assert!((found - tone).abs() < room, "{} is not {}", found, tone);
+        }
+    }
+}

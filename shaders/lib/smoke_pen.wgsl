@@ -1,0 +1,43 @@
+// The last hand on smoke: its tones, and its ink and hatching. Twin: npr_style::smoke::pen.
+// The shader declares `compose`, `parts`, `texels`, `window` and the pictures `smoke_*`.
+
+// Places of a pixel's range of tones that stand for all.
+const TONE_TAPS: u32 = 4u;
+// Part of a pixel that its line may cover so that the tone beside it is still known.
+const LINED: f32 = 0.95;
+
+// Tone of a colour of smoke that is not finished; below 0 under its outline.
+fn tone_of(color: vec4<f32>) -> f32 {
+    if color.b > LINED { return -1.0; }
+    let left = 1.0 - color.b;
+    return 0.5 * (min(color.r / left, 1.0) + min(color.g / left, 1.0));
+}
+
+// Tone of a neighbour, or `tone` where that is none.
+fn tone_beside(pixel: vec2<u32>, step: vec2<i32>, tone: f32) -> f32 {
+    let at = vec2<i32>(pixel) + step;
+    if any(at < vec2<i32>(0)) || any(at >= vec2<i32>(window.size)) { return tone; }
+    if (textureLoad(smoke_depths, at, 0).x & VEIL_MASK) == 0u { return tone; }
+    let beside = tone_of(linear_of(textureLoad(smoke_colors, at, 0)));
+    if beside < 0.0 { return tone; }
+    return beside;
+}
+
+// The colour of a pixel of smoke whose picture holds its tone and how much its outline covers.
+fn penned(pixel: vec2<u32>, frame_px: vec2<f32>, color: vec4<f32>) -> vec4<f32> {
+    let pen = compose.smoke_part;
+    let tone = max(tone_of(color), 0.0);
+    let change = 0.5 * vec2<f32>(
+        tone_beside(pixel, vec2<i32>(1, 0), tone) - tone_beside(pixel, vec2<i32>(-1, 0), tone),
+        tone_beside(pixel, vec2<i32>(0, 1), tone) - tone_beside(pixel, vec2<i32>(0, -1), tone),
+    );
+    var light = vec3<f32>(0.0);
+    for (var i = 0u; i < TONE_TAPS; i++) {
+        let step = (f32(i) + 0.5) / f32(TONE_TAPS) - 0.5;
+        light += ramp_light(pen, tone + length(change) * step) / f32(TONE_TAPS);
+    }
+    let ink = ink_on_sheet(pen, (frame_px - compose.smoke_anchor_px), compose.smoke_tiles, tone, change);
+    light += (parts[pen].ink_color.rgb - light) * (ink * parts[pen].ink_color.a);
+    light += (compose.smoke_line.rgb - light) * color.b;
+    return vec4<f32>(light, color.a);
+}
