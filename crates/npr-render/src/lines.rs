@@ -6,6 +6,7 @@ mod options;
 mod paint;
 mod smoke;
 mod stage;
+mod tones;
 mod widths;
 
 pub use options::{KindSet, LineMethod, LineModelOptions, LineOptions};
@@ -201,7 +202,7 @@ impl LineModel {
     /// Smoke is outlined by [`SmokeStyle::line`](npr_style::SmokeStyle), as strokes of kind [`Kind::Contour`] on a surface
     /// `smoke`: exact arcs of its spheres, where nothing lies behind them or smoke far enough behind, as thick as in pictures.
     /// Billboards and the published line have these outlines too. Scene and smoke hide each other's lines; smoke of opacity
-    /// below 0.5 hides none. [`LineModel::bounds`] and [`LineModel::framing`] take it in.
+    /// below 0.5 hides none. Fills are the tones of pictures, traced, in the colours of the style's `smoke.ramp`. [`LineModel::bounds`] and [`LineModel::framing`] take it in.
     pub fn set_smoke(&mut self, smoke: Option<Smoke>) {
         self.smoke = smoke;
         let points = self.points.iter().copied().map(Vec3::from);
@@ -316,13 +317,13 @@ impl LineModel {
     ) -> Result<SmokeView<'a>, RenderError> {
         let mut lamps = Model::new(&Scene::default())?;
         lamps.lights.clone_from(&self.lights);
-        Ok(SmokeView::new(
+        SmokeView::new(
             smoke,
             (wanted.style, wanted.options),
             (wanted.camera, projector, bounds),
             &lamps,
             self.parts.len() as u32,
-        ))
+        )
     }
 
     fn strokes(

@@ -105,7 +105,9 @@ pub(super) fn regions(
         let veil = smoke.and_then(|smoke| smoke.surface_before(place, depth));
         veil.or(face.map(|(surface, _)| surface))
     };
-    Ok(fill::regions(size, &segments_of(strokes), &surface_at)?)
+    let mut segments = segments_of(strokes);
+    segments.extend(smoke.iter().flat_map(|smoke| smoke.tone_edges()));
+    Ok(fill::regions(size, &segments, &surface_at)?)
 }
 
 /// The pieces of all visible strokes.

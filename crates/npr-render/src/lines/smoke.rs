@@ -1,6 +1,8 @@
 //! Smoke among the lines of a scene: what it hides, and its own outline.
 
 use super::LineOptions;
+use super::tones::ToneMap;
+use crate::error::RenderError;
 use crate::light::ChosenLights;
 use crate::model::Model;
 use crate::placement::Bounds;
@@ -23,6 +25,8 @@ pub(super) struct SmokeView<'a> {
     pub puffs: Puffs,
     look: SmokeLook,
     style: &'a Style,
+    /// Its tones, where they are filled.
+    tones: Option<ToneMap>,
     /// Index of its first surface among those of the drawing.
     pub first_surface: u32,
 }
@@ -35,7 +39,7 @@ impl<'a> SmokeView<'a> {
         (camera, projector, bounds): (&Camera, &Projector, Bounds),
         model: &Model,
         first_surface: u32,
-    ) -> Self {
+    ) -> Result<Self, RenderError> {
         let view = camera.view(options.size, bounds);
         let (lights, _) = ChosenLights::new(style, model).of_smoke(style, model);
         let measure = Measure {
@@ -46,12 +50,15 @@ impl<'a> SmokeView<'a> {
         };
         let lens = lens_of(&view, &style.smoke);
         let lights = lights.of_frame(style, bounds, camera, &view);
-        Self {
+        let is_toned = options.fill && style.smoke.ramp.len() > 1;
+        let tones = is_toned.then(|| ToneMap::new(smoke, model, style, options, camera));
+        Ok(Self {
             puffs: Puffs::new(projector, options.size, &smoke.styled(&style.smoke)),
             look: measure.look(style, &lens, smoke.bounds(), &lights),
             style,
+            tones: tones.transpose()?,
             first_surface,
-        }
+        })
     }
 
     /// Whole width of the outline at a place, in pixels.
@@ -80,7 +87,13 @@ impl<'a> SmokeView<'a> {
     /// The surface of the smoke that a place in the picture shows before what lies at `depth`.
     pub fn surface_before(&self, place: [f64; 2], depth: f64) -> Option<u32> {
         let smoke = self.puffs.depth_at(place)?;
-        (smoke < depth).then_some(self.first_surface)
+        let level = self.tones.as_ref().map_or(0, |tones| tones.level_at(place));
+        (smoke < depth).then_some(self.first_surface + level)
+    }
+
+    /// The lines between its tones, which are not drawn but part colours.
+    pub fn tone_edges(&self) -> Vec<[[f64; 2]; 2]> {
+        self.tones.as_ref().map_or_else(Vec::new, ToneMap::edges)
     }
 
     /// Its surfaces in a drawing, one for every tone: what is drawn with one object's number and the colours of the style.

@@ -6,7 +6,7 @@ use super::{Puff, Puffs};
 use crate::draw::{LineSettings, calmed, strokes_of};
 use crate::graph::{CurveGraph, CurveNode};
 use crate::run::{Line, Run, RunPoint, distance, runs};
-use crate::stroke::{Kind, Stroke};
+use crate::stroke::{Kind, Stroke, StrokePoint};
 use crate::visibility::{Circumstances, Piece, Seen};
 use glam::DVec3;
 use npr_core::geometry::NONE;
@@ -23,6 +23,12 @@ const CHORD_PX: f64 = 4.0;
 
 /// Most chords of a circle: the largest in sight leave it by more than [`SAGITTA_PX`].
 const CHORDS_MAX: f64 = 65_536.0;
+
+/// Ends of strokes thinner than this are left off, in pixels: paler than paper is rough.
+const HAIR_PX: f64 = 0.4;
+
+/// Strokes shorter than this without such ends are left out, in pixels.
+const SPECK_PX: f64 = 4.0;
 
 /// Set in ids of strokes of smoke, above all bits of those on meshes; still a whole number in every reader of JSON.
 const SMOKE_ID: u64 = 1 << 50;
@@ -88,13 +94,18 @@ impl SmokeLines<'_> {
             run.surface = self.surface;
         }
         let by_number = self.puffs.by_number();
-        strokes_of(found, &|run: &Run, point: &RunPoint| {
+        let mut strokes = strokes_of(found, &|run: &Run, point: &RunPoint| {
             let puff = by_number.binary_search_by_key(&point.edge, |puff| puff.number);
             let puff = puff.ok().map(|index| &by_number[index]);
             puff.map_or(0.0, |puff| {
                 (self.width_at)(&self.puffs.rim_point(puff, point.world)) * run.weight
             })
-        })
+        });
+        if settings.smooth {
+            strokes.iter_mut().for_each(trim_hairs);
+            strokes.retain(|stroke| stroke.length() >= SPECK_PX);
+        }
+        strokes
     }
 
     /// The free arcs of all rims as chains of chords.
@@ -112,6 +123,22 @@ impl SmokeLines<'_> {
             }
         }
         (graph, pieces)
+    }
+}
+
+/// Leaves off the ends of an open stroke that are hardly to be seen; nothing stays of one that is so all along.
+fn trim_hairs(stroke: &mut Stroke) {
+    let is_seen = |point: &StrokePoint| point.width >= HAIR_PX;
+    let Some(last) = stroke.points.iter().rposition(is_seen) else {
+        stroke.points.clear();
+        return;
+    };
+    if !stroke.closed {
+        stroke.points.truncate(last + 1);
+        let first = stroke.points.iter().position(is_seen).unwrap_or(0);
+        stroke.points.drain(..first);
+        let start = stroke.points.first().map_or(0.0, |point| point.u);
+        stroke.points.iter_mut().for_each(|point| point.u -= start);
     }
 }
 
