@@ -12,7 +12,10 @@ const RIDGE: f32 = 0.16;
 const OPEN_PAPER: f32 = 0.08;
 
 // Change of luminance over the distance between strokes from which the strokes give way to the tone's own edge.
-const ABRUPT: f32 = 0.4;
+const ABRUPT: f32 = 0.25;
+
+// How badly a chart lies, 0..1, from which dots are set on the screen instead.
+const LOOSE: f32 = 0.3;
 
 // Part of the hatch, of what inks last, that a knot fills at once.
 const KNOT_FILL: f32 = 0.22;
@@ -100,10 +103,26 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
     }
     let ink = ink_of_level(part, l[0]);
     if ink >= 0.0 { return ink; }
+    let knot = knot_at(id, weights[0]);
     var calm: Calm;
-    calm.knot = knot_at(id, weights[0]) * white[0];
+    calm.knot = knot * white[0];
     calm.abrupt = abruptness(per_px, parts[part].spacing_px);
+    if (flags & PART_ISOTROPIC) != 0u && knot >= LOOSE {
+        calm.knot = 0.0;
+        return ink_of_hatch(part, place_on_screen(part, px), l[0], darkens, calm);
+    }
     return ink_of_hatch(part, place_in_hatch(id, part, weights, places), l[0], darkens, calm);
+}
+
+// Where a pixel and its neighbours lie in the hatch of a part if that is laid on the picture.
+fn place_on_screen(part: u32, px: vec2<f32>) -> Place {
+    let header = parts[part].hatch;
+    let scale = bitcast<f32>(texels[header + 3u]) / (f32(texels[header]) * parts[part].spacing_px);
+    var place: Place;
+    place.uv = px * scale;
+    place.right = vec2<f32>(scale, 0.0);
+    place.down = vec2<f32>(0.0, scale);
+    return place;
 }
 
 // Ink of hatched surface at luminance `l` where the level alone decides: 1, 0, or -1 where the hatch does.

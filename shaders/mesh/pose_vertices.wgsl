@@ -45,19 +45,25 @@ fn projected_curvature(vertex: Vertex, normal: vec3<f32>, direction: vec3<f32>, 
 // Width of a line as a share of the radius that it turns with, at most: wider, it would fill what it goes round.
 const BEND_SHARE: f32 = 0.2;
 
-// Widest line, in pixels, round a bend of this curvature, in 1 / pixel.
-fn widest_round(bend_px: f32) -> f32 {
-    return BEND_SHARE / max(abs(bend_px), 1e-6);
+// Width of a line as a share of the tightest radius of the surface, at most.
+const GIRTH_SHARE: f32 = 0.5;
+
+// Widest line, in pixels, round a bend on a surface of these curvatures, in 1 / pixel.
+fn widest_round(bend_px: f32, tightest_px: f32) -> f32 {
+    let round_bend = BEND_SHARE / max(abs(bend_px), 1e-6);
+    return min(round_bend, GIRTH_SHARE / max(abs(tightest_px), 1e-6));
 }
 
-// Width factor 0..1 of a vertex, and the curvature of the line drawn there in 1 / pixel, 0 where it does not matter.
+// Width factor 0..1 of a vertex, and the widest line that there is room for, in pixels.
 fn width_at(vertex: Vertex, normal: vec3<f32>, direction: vec3<f32>, world: vec3<f32>, depth: f32) -> vec2<f32> {
-    if (outline.flags & OUTLINE_PROJECTED_CURVATURE) == 0u { return vec2<f32>(vertex.width, 0.0); }
+    if (outline.flags & OUTLINE_PROJECTED_CURVATURE) == 0u { return vec2<f32>(vertex.width, widest_round(0.0, 0.0)); }
     let eye = to_eye(view, world);
     let curvature = projected_curvature(vertex, normal, direction, eye) / outline.radius_world;
+    let tightest = vertex.width / outline.radius_world;
     let height = height_at(view, depth);
     let s = width_of_curvature(curvature * height * 0.1, outline.gain);
-    return vec2<f32>(s, curvature * height / view.frame_px.y);
+    let world_px = height / view.frame_px.y;
+    return vec2<f32>(s, widest_round(curvature * world_px, tightest * world_px));
 }
 
 // One invocation per vertex.
@@ -84,7 +90,7 @@ fn main(
         base /= max(world_per_pixel(view, max(depth, view.near)), 1e-20);
     }
     var width = base * (outline.min_factor + (outline.max_factor - outline.min_factor) * s.x);
-    width = min(width, max(widest_round(s.y), base * outline.min_factor));
+    width = min(width, max(s.y, base * outline.min_factor));
 
     var vertex_out: PosedVertex;
     vertex_out.clip = apply_point(view.clip_from_world, world);

@@ -29,7 +29,8 @@ pub struct Vertex {
     pub curvatures: [f32; 2],
     /// Unit normal averaged over all vertices at this position, packed: hulls grow along it without cracks.
     pub weld_normal: u32,
-    /// The line width that the style's width source gives here, 0..1, where it depends on the vertex alone.
+    /// The line width that the style's width source gives here, 0..1, where it depends on the vertex alone; where width follows
+    /// the projected curvature, the size of the tightest curvature, in 1 / bounding radius of the scene.
     pub width: f32,
     /// Index into the parts.
     pub part: u32,

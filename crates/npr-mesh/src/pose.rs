@@ -21,6 +21,10 @@ const CURVATURE_SCALE: f32 = 0.1;
 /// Fingers, rivets and far things draw tight bends, which are not to be drawn with the widest pen; nor is the noise of a scan.
 const BEND_SHARE: f32 = 0.2;
 
+/// Width of a line as a share of the tightest radius of the surface, at most: ribs and folds as close as lines are wide would
+/// close to black.
+const GIRTH_SHARE: f32 = 0.5;
+
 /// What vertices are posed with.
 #[derive(Debug, Clone, Copy)]
 pub struct Pose<'a> {
@@ -62,13 +66,13 @@ pub fn pose_vertex(with: &Pose<'_>, vertex: &Vertex, influence: &Influence) -> P
     let depth = dot(from_eye, view.forward_world);
 
     // Turn the width factor into pixels.
-    let (s, bend_px) = width_at(with, vertex, normal, direction, world, depth);
+    let (s, widest) = width_at(with, vertex, normal, direction, world, depth);
     let mut base = outline.base_width * with.parts[vertex.part as usize].width_factor;
     if outline.flags & Outline::WORLD_WIDTH != 0 {
         base /= view.pixel_at(depth.max(view.near)).max(1e-20);
     }
     let width = base * (outline.min_factor + (outline.max_factor - outline.min_factor) * s);
-    let width = width.min(widest_round(bend_px).max(base * outline.min_factor));
+    let width = width.min(widest.max(base * outline.min_factor));
     PosedVertex {
         clip: apply_point(&view.clip_from_world, world),
         world,
@@ -78,12 +82,14 @@ pub fn pose_vertex(with: &Pose<'_>, vertex: &Vertex, influence: &Influence) -> P
     }
 }
 
-/// Widest line, in pixels, round a bend of this curvature, in 1 / pixel.
-pub fn widest_round(bend_px: f32) -> f32 {
-    BEND_SHARE / bend_px.abs().max(1e-6)
+/// Widest line, in pixels, round a bend of the curvature `bend_px` on a surface whose tightest is `tightest_px`, both in
+/// 1 / pixel.
+pub fn widest_round(bend_px: f32, tightest_px: f32) -> f32 {
+    let round_bend = BEND_SHARE / bend_px.abs().max(1e-6);
+    round_bend.min(GIRTH_SHARE / tightest_px.abs().max(1e-6))
 }
 
-/// Width factor 0..1 of a vertex, and the curvature of the line drawn there in 1 / pixel, 0 where it does not matter.
+/// Width factor 0..1 of a vertex, and the widest line that there is room for, in pixels.
 fn width_at(
     with: &Pose<'_>,
     vertex: &Vertex,
@@ -93,14 +99,16 @@ fn width_at(
     depth: f32,
 ) -> (f32, f32) {
     if with.outline.flags & Outline::PROJECTED_CURVATURE == 0 {
-        return (vertex.width, 0.0);
+        return (vertex.width, widest_round(0.0, 0.0));
     }
     let eye = with.view.to_eye(world);
     let curvature = projected_curvature(vertex.curvatures, normal, direction, eye);
     let curvature = curvature / with.outline.radius_world;
+    let tightest = vertex.width / with.outline.radius_world;
     let height = with.view.height_at(depth);
     let s = width_of_curvature(curvature * height * CURVATURE_SCALE, with.outline.gain);
-    (s, curvature * height / with.view.frame_px[1])
+    let world_px = height / with.view.frame_px[1];
+    (s, widest_round(curvature * world_px, tightest * world_px))
 }
 
 /// Curvature of the outline that a surface would have at a point, seen along `eye`.
@@ -232,6 +240,17 @@ mod tests {
             prop_assert!(width <= room.max(base * least) * 1.001);
             prop_assert!(width >= base * least * 0.999);
             prop_assert!(room < 2.0 * base || width > base * least);
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+        #[test]
+        fn ribs_stay_apart_from_their_lines(bend in -1f32..1.0, radius_px in 0.1f32..100.0) {
+            // A line on either side of a rib takes half of it, whatever bend they follow.
+            let widest = widest_round(bend, 1.0 / radius_px);
+            prop_assert!(2.0 * widest <= radius_px * 1.001);
+            prop_assert!(widest <= widest_round(bend, 0.0) && widest > 0.0);
         }
     }
 

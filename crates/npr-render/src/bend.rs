@@ -1,10 +1,20 @@
 //! How a surface bends at its vertices, calmed for drawing.
 
+use crate::placement::bounds_of;
+use glam::Vec3;
 use npr_core::math;
-use npr_mesh::{Edge, Weld};
+use npr_core::surface::unit_or_z;
+use npr_mesh::{Curvature, Edge, Weld};
 
 /// Rounds of averaging that calm curvature on scanned meshes.
 const CURVATURE_ROUNDS: u32 = 2;
+
+/// How far normals are averaged before bends are measured, as a share of the mesh's radius: the grain of a scan is finer,
+/// what a line swells with is not. Meshes of longer edges stay as they are.
+const CALM_SHARE: f32 = 0.04;
+
+/// Most rounds of averaging normals: on the finest meshes they reach less far, but cost no more.
+const CALM_ROUNDS_MAX: u32 = 16;
 
 /// How the surface bends at a welded vertex.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,6 +23,8 @@ pub(crate) struct Bend {
     pub curvatures: [f32; 2],
     /// Direction of the first, packed by [`math::pack_unit`].
     pub direction: u32,
+    /// Size of the larger curvature of the surface as it is, with its grain: what a line has to fit round.
+    pub tightest: f32,
 }
 
 /// The bend of every welded vertex; `normals` holds one smooth normal for each.
@@ -26,18 +38,145 @@ pub(crate) fn bends(
     normals: &[[f32; 3]],
     scale: f32,
 ) -> Vec<Bend> {
-    let curvature = npr_mesh::curvature(positions, triangles, weld, normals);
-    let areas = npr_mesh::smoothing::vertex_areas(positions, triangles, weld);
-    let calm = |values: Vec<f32>| {
-        npr_mesh::smooth_curvature(&values, edges, weld, &areas, CURVATURE_ROUNDS)
+    let surface = Surface {
+        positions,
+        triangles,
+        weld,
+        edges,
+        areas: npr_mesh::smoothing::vertex_areas(positions, triangles, weld),
+        scale,
     };
-    let max = calm(curvature.iter().map(|c| c.max / scale).collect());
-    let min = calm(curvature.iter().map(|c| c.min / scale).collect());
-    let bends = curvature.iter().zip(max.into_iter().zip(min));
-    bends
-        .map(|(c, (max, min))| Bend {
-            curvatures: [max, min],
-            direction: math::pack_unit(c.direction),
-        })
+    let as_it_is = surface.bends(normals);
+    let rounds = surface.calm_rounds();
+    if rounds == 0 {
+        return as_it_is;
+    }
+    let calm = surface.bends(&surface.calm_normals(normals, rounds));
+    let both = calm.into_iter().zip(as_it_is);
+    both.map(|(calm, Bend { tightest, .. })| Bend { tightest, ..calm })
         .collect()
+}
+
+/// A welded mesh whose bends are measured.
+struct Surface<'a> {
+    positions: &'a [[f32; 3]],
+    triangles: &'a [[u32; 3]],
+    weld: &'a Weld,
+    edges: &'a [Edge],
+    /// Area around every welded vertex.
+    areas: Vec<f32>,
+    /// How much longer things are in the world.
+    scale: f32,
+}
+
+impl Surface<'_> {
+    /// Bends of the surface as if these were its normals.
+    fn bends(&self, normals: &[[f32; 3]]) -> Vec<Bend> {
+        let curvature = npr_mesh::curvature(self.positions, self.triangles, self.weld, normals);
+        let calm = |of: fn(&Curvature) -> f32| {
+            let values: Vec<f32> = curvature.iter().map(|c| of(c) / self.scale).collect();
+            self.averaged(&values, CURVATURE_ROUNDS)
+        };
+        let pairs = calm(|c| c.max).into_iter().zip(calm(|c| c.min));
+        let bends = curvature.iter().zip(pairs);
+        bends
+            .map(|(c, (max, min))| Bend {
+                curvatures: [max, min],
+                direction: math::pack_unit(c.direction),
+                tightest: max.abs().max(min.abs()),
+            })
+            .collect()
+    }
+
+    /// Normals averaged with those around them.
+    ///
+    /// Bends of calm normals are what is left of curvature without its grain: averaged itself, curvature keeps it, as the
+    /// larger of two is never below what the grain adds.
+    fn calm_normals(&self, normals: &[[f32; 3]], rounds: u32) -> Vec<[f32; 3]> {
+        let axes = [0, 1, 2].map(|axis| {
+            let along: Vec<f32> = normals.iter().map(|normal| normal[axis]).collect();
+            self.averaged(&along, rounds)
+        });
+        (0..normals.len())
+            .map(|i| unit_or_z(axes.each_ref().map(|along| along[i])))
+            .collect()
+    }
+
+    /// Rounds in which normals reach [`CALM_SHARE`] of the radius.
+    fn calm_rounds(&self) -> u32 {
+        let (low, high) = bounds_of(self.positions.iter().map(|p| Vec3::from(*p)));
+        let reach = CALM_SHARE * (Vec3::from(high) - Vec3::from(low)).length() * 0.5;
+        let area: f64 = self.areas.iter().map(|area| f64::from(*area)).sum();
+        let rounds = f64::from(reach) * f64::from(reach) * self.areas.len() as f64 / area;
+        // Without area there is no number of rounds, or no end to it.
+        if rounds.is_finite() {
+            (rounds as u32).min(CALM_ROUNDS_MAX)
+        } else {
+            0
+        }
+    }
+
+    fn averaged(&self, values: &[f32], rounds: u32) -> Vec<f32> {
+        npr_mesh::smooth_curvature(values, self.edges, self.weld, &self.areas, rounds)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use npr_core::random::{hash, unit};
+    use npr_mesh::testing::icosphere;
+    use proptest::prelude::*;
+
+    /// Bends of a ball of radius 1 whose vertices lie off it by up to `grain`.
+    fn bends_of_ball(level: u32, grain: f32, seed: u32) -> Vec<Bend> {
+        let ball = icosphere(level);
+        let moved = |(i, p): (usize, &[f32; 3])| {
+            let off = 1.0 + grain * (2.0 * unit(hash(seed, 0, i as u32)) - 1.0);
+            p.map(|x| x * off)
+        };
+        let positions: Vec<[f32; 3]> = ball.positions().iter().enumerate().map(moved).collect();
+        let weld = npr_mesh::weld(&positions, 0.0);
+        let edges = npr_mesh::unique_edges(&positions, ball.triangles(), &weld, &[]);
+        let normals = npr_mesh::smooth_normals(&positions, ball.triangles(), &weld);
+        bends(&positions, ball.triangles(), &weld, &edges, &normals, 1.0)
+    }
+
+    /// Mean distance of curvatures from those of the ball.
+    fn error(of: impl Fn(&Bend) -> f32, bends: &[Bend]) -> f32 {
+        bends.iter().map(|bend| (of(bend) - 1.0).abs()).sum::<f32>() / bends.len() as f32
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(8))]
+        #[test]
+        fn the_grain_of_a_scan_does_not_bend_its_lines(seed: u32) {
+            let bends = bends_of_ball(6, 0.002, seed);
+            let calm = error(|bend| bend.curvatures[0], &bends);
+            let grainy = error(|bend| bend.tightest, &bends);
+            prop_assert!(calm < 0.2 && calm < 0.4 * grainy, "{} of {}", calm, grainy);
+        }
+    }
+
+    #[test]
+    fn a_coarse_ball_bends_as_it_is() {
+        for bend in bends_of_ball(3, 0.0, 0) {
+            let [max, min] = bend.curvatures;
+            assert_eq!(bend.tightest, max.abs().max(min.abs()));
+            assert!((max - 1.0).abs() < 0.05 && (min - 1.0).abs() < 0.05);
+        }
+    }
+
+    #[test]
+    fn a_mesh_without_area_bends_nowhere() {
+        let positions = [[0.0; 3]; 3];
+        let weld = npr_mesh::weld(&positions, 0.0);
+        let normals = vec![[0.0, 0.0, 1.0]; weld.count()];
+        let bends = bends(&positions, &[[0, 1, 2]], &weld, &[], &normals, 1.0);
+        assert!(
+            bends
+                .iter()
+                .all(|bend| bend.curvatures == [0.0; 2] && bend.tightest == 0.0)
+        );
+    }
 }

@@ -115,6 +115,7 @@ impl Instance {
             let bend = bends[*welded as usize];
             vertex.curvatures = bend.curvatures;
             vertex.direction = bend.direction;
+            vertex.width = bend.tightest;
             vertex.weld_normal = math::pack_unit(smooth[*welded as usize]);
         }
     }

@@ -257,11 +257,12 @@ impl<'a> VertexWidth<'a> {
         }
     }
 
-    /// Width factor 0..1 of vertex `i`; 1 where the source is missing.
+    /// Width factor 0..1 of vertex `i`, 1 where the source is missing; for projected curvature the tightest there is.
     fn at(&self, i: usize) -> f32 {
         let (vertex, width) = (&self.model.vertices[i], &self.style.line.width);
         match width.source {
-            WidthSource::Constant | WidthSource::ProjectedCurvature => 1.0,
+            WidthSource::Constant => 1.0,
+            WidthSource::ProjectedCurvature => vertex.width,
             WidthSource::Curvature => {
                 let largest = vertex.curvatures[0].abs().max(vertex.curvatures[1].abs());
                 width_of_curvature(largest, width.gain)

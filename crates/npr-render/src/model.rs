@@ -107,6 +107,7 @@ impl Model {
         let radius = self.radius();
         for vertex in &mut self.vertices {
             vertex.curvatures = vertex.curvatures.map(|curvature| curvature * radius);
+            vertex.width *= radius;
         }
     }
 

@@ -25,7 +25,10 @@ const OPEN_PAPER: f32 = 0.08;
 
 /// Change of luminance over the distance between strokes from which the strokes give way to the tone's own edge; at twice as
 /// much they are gone.
-const ABRUPT: f32 = 0.4;
+const ABRUPT: f32 = 0.25;
+
+/// How badly a chart lies, 0..1, from which dots are set on the screen instead: stretched, they would be streaks.
+const LOOSE: f32 = 0.3;
 
 /// Part of the hatch, of what inks last, that a knot fills at once.
 const KNOT_FILL: f32 = 0.22;
@@ -173,12 +176,16 @@ impl Layers<'_> {
         if let Some(ink) = ink_of_level(part, l[0]) {
             return ink;
         }
-        let place = self.place_in_hatch(id, part, weights, places);
+        let knot = self.knot_at(id, weights[0]);
         let per_px = length([lit[1] - lit[0], lit[2] - lit[0]]) * white[0];
-        let calm = Calm {
-            knot: self.knot_at(id, weights[0]) * white[0],
-            abrupt: abruptness(per_px, part.spacing_px),
+        let abrupt = abruptness(per_px, part.spacing_px);
+        let (place, knot) = if part.flags & Part::ISOTROPIC != 0 && knot >= LOOSE {
+            (self.place_on_screen(part, px), 0.0)
+        } else {
+            let place = self.place_in_hatch(id, part, weights, places);
+            (place, knot * white[0])
         };
+        let calm = Calm { knot, abrupt };
         self.ink_of_hatch(part, &place, l[0], darkens, calm)
     }
 
@@ -266,6 +273,18 @@ impl Layers<'_> {
             uv: uvs[0],
             right: [uvs[1][0] - uvs[0][0], uvs[1][1] - uvs[0][1]],
             down: [uvs[2][0] - uvs[0][0], uvs[2][1] - uvs[0][1]],
+        }
+    }
+
+    /// Where a pixel and its neighbours lie in the hatch of a part if that is laid on the picture.
+    fn place_on_screen(&self, part: &Part, px: [f32; 2]) -> Place {
+        let header = part.hatch as usize;
+        let spacing_texels = f32::from_bits(self.texels[header + 3]);
+        let scale = spacing_texels / (self.texels[header] as f32 * part.spacing_px);
+        Place {
+            uv: px.map(|at| at * scale),
+            right: [scale, 0.0],
+            down: [0.0, scale],
         }
     }
 

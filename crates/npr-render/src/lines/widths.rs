@@ -39,6 +39,7 @@ impl ShapeBends {
         let mut bends = bends(&shape.positions, &shape.faces, &weld, &edges, &normals, 1.0);
         for bend in &mut bends {
             bend.curvatures = bend.curvatures.map(|curvature| curvature * radius);
+            bend.tightest *= radius;
         }
         Self { bends, normals }
     }
@@ -125,7 +126,8 @@ impl<'a> Widths<'a> {
         if width.is_finite() { width } else { 0.0 }
     }
 
-    /// The width factor 0..1 that the style's source gives a vertex; 1 where the source is missing.
+    /// The width factor 0..1 that the style's source gives a vertex, 1 where the source is missing; for projected curvature
+    /// the tightest there is.
     fn share(&self, i: usize) -> f32 {
         let width = &self.input.style.line.width;
         match width.source {
@@ -137,7 +139,11 @@ impl<'a> Widths<'a> {
                 f32::from(color.to_le_bytes()[width.channel.index()]) / 255.0
             }),
             WidthSource::ControlPoints => look::share_at(width, self.input.shape.positions[i]),
-            WidthSource::Constant | WidthSource::ProjectedCurvature | WidthSource::Texture => 1.0,
+            WidthSource::ProjectedCurvature => self
+                .input
+                .bends
+                .map_or(0.0, |measured| measured.bends[i].tightest),
+            WidthSource::Constant | WidthSource::Texture => 1.0,
         }
     }
 }
