@@ -49,12 +49,12 @@ impl<'a> SmokeView<'a> {
             samples: 1,
         };
         let lens = lens_of(&view, &style.smoke);
-        let lights = lights.of_frame(style, bounds, camera, &view);
+        let lights = lights.of_frame(style, bounds, None, camera, &view);
         let is_toned = options.fill && style.smoke.ramp.len() > 1;
         let tones = is_toned.then(|| ToneMap::new(smoke, model, style, options, camera));
         Ok(Self {
             puffs: Puffs::new(projector, options.size, &smoke.styled(&style.smoke)),
-            look: measure.look(style, &lens, smoke.bounds(), &lights),
+            look: measure.look(style, &lens, smoke.bounds(), &lights, 0),
             style,
             tones: tones.transpose()?,
             first_surface,
