@@ -31,6 +31,7 @@ mod lines;
 mod look;
 mod manual;
 mod message;
+mod moments;
 mod numbered;
 mod output;
 mod picture;

@@ -7,6 +7,7 @@ use crate::fault::{Exit, Fault};
 use crate::job;
 use crate::look::Look;
 use crate::message;
+use crate::moments::Moments;
 use crate::numbered::Numbered;
 use crate::output::Output;
 use crate::progress::{Counter, Progress};
@@ -164,7 +165,7 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, 
     let is_still = matches!(source, VolumeSource::File(_) | VolumeSource::Read(..));
     if let (Some((first, last)), false) = (job.shots.frames, is_still) {
         job.target
-            .check_count(volume::picture_count(first, last, job.shots.step))?;
+            .check_count(Moments::new(first, last, job.shots.step, first).seen)?;
     }
     let counter = progress.counter();
     let mut film = progress.step("smoke", || {

@@ -4,6 +4,7 @@ use crate::arguments::{PlacedVolume, VolumeArguments, VolumeUp};
 use crate::fault::{Exit, Fault};
 use crate::input::read_file;
 use crate::message::quoted;
+use crate::moments::Moments;
 use crate::numbered::Numbered;
 use npr_core::budget::Budget;
 use npr_render::volume::{Extent, mended_notice};
@@ -210,7 +211,7 @@ fn simulated(
     };
     let footage = Footage::new(read, u32::MAX, 1.0 / shots.fps);
     let moments = Moments::new(first, last, shots.step, 1);
-    let film = followed(footage, &moments, said, shots, &mut budget, tell)?;
+    let film = followed(footage, &moments, said, shots.fps, &mut budget, tell)?;
     Ok(finished(
         film,
         first,
@@ -243,7 +244,7 @@ fn read_still(
     notes.extend(thin_notice(peak, said));
     let notes = notes.into_iter().map(|notice| format!("{name}: {notice}"));
     let notes = notes.collect();
-    let track = Track::new(&volume, track_settings(said, shots));
+    let track = Track::new(&volume, track_settings(said, 1.0, shots.fps));
     Ok(finished(vec![Smoke::of_track(&track)], 1, hottest, notes))
 }
 
@@ -285,7 +286,7 @@ fn read_series(
     let mut footage = Footage::new(read, last, 1.0 / shots.fps);
     let moments = Moments::new(first, last, shots.step, first);
     let mut budget = Budget::new(limits.memory_bytes);
-    let frames = followed(&mut footage, &moments, said, shots, &mut budget, tell)?;
+    let frames = followed(&mut footage, &moments, said, shots.fps, &mut budget, tell)?;
     let estimates = footage.has_estimates();
     drop(footage);
     if estimates {
@@ -316,56 +317,19 @@ fn shared_extent(
     Ok(all)
 }
 
-/// Moments in frames, in equal steps.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Moments {
-    start: f64,
-    step: f64,
-    /// How many come before the first that is drawn, so that smoke is followed from its beginning.
-    unseen: usize,
-    seen: usize,
-}
-
-impl Moments {
-    /// From frame `first` to `last` and no further; `begin` is the frame that smoke may be followed from.
-    fn new(first: u32, last: u32, step: f64, begin: u32) -> Self {
-        let steps = |frames: u32| (f64::from(frames) / step + 1e-9).floor();
-        let unseen = steps(first.saturating_sub(begin));
-        Self {
-            start: f64::from(first) - unseen * step,
-            step,
-            unseen: unseen as usize,
-            seen: steps(last.saturating_sub(first)) as usize + 1,
-        }
-    }
-
-    fn count(&self) -> usize {
-        self.unseen.saturating_add(self.seen)
-    }
-
-    fn at(&self, number: usize) -> f64 {
-        self.start + number as f64 * self.step
-    }
-}
-
-/// How many pictures there are from one frame to another, in steps.
-pub fn picture_count(first: u32, last: u32, step: f64) -> usize {
-    Moments::new(first, last, step, first).seen
-}
-
 /// The smoke of every moment that is drawn, its heat in the units of the volume.
 fn followed<R>(
     mut footage: impl std::borrow::BorrowMut<Footage<R>>,
     moments: &Moments,
     said: &VolumeArguments,
-    shots: &Shots,
+    fps: f32,
     budget: &mut Budget,
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Vec<Smoke>, Fault>
 where
     R: FnMut(u32) -> Result<Volume, Fault>,
 {
-    let settings = track_settings(said, shots);
+    let settings = track_settings(said, moments.step, fps);
     let spheres = (settings.count as usize).saturating_mul(moments.seen);
     budget
         .take("the smoke of all frames", spheres, size_of::<Sphere>())
@@ -381,7 +345,7 @@ where
             }
             none => none.insert(Track::new(&volume, settings)),
         };
-        if number >= moments.unseen {
+        if moments.is_seen(number) {
             frames.push(Smoke::of_track(track));
         }
     }
@@ -422,16 +386,17 @@ fn options(said: &VolumeArguments, limits: &Limits) -> VolumeOptions {
     }
 }
 
-fn track_settings(said: &VolumeArguments, shots: &Shots) -> TrackSettings {
+/// How spheres follow smoke that goes on by `step` frames at a time.
+fn track_settings(said: &VolumeArguments, step: f64, fps: f32) -> TrackSettings {
     let usual = TrackSettings::default();
-    let step = shots.step as f32;
+    let step = step as f32;
     TrackSettings {
         count: said.spheres.unwrap_or(usual.count),
         threshold: said.threshold.unwrap_or(usual.threshold),
         detail: said.detail.unwrap_or(usual.detail),
-        frame_seconds: step / shots.fps,
+        frame_seconds: step / fps,
         // The same pace whatever the steps and the frames.
-        ease: (usual.ease * step * DEFAULT_FPS / shots.fps).min(1.0),
+        ease: (usual.ease * step * DEFAULT_FPS / fps).min(1.0),
         seed: said.seed,
         ..usual
     }
@@ -508,19 +473,5 @@ mod tests {
         assert_eq!(of("./cloud"), VolumeSource::File("./cloud".into()));
         assert_eq!(of("a.vdb"), VolumeSource::File("a.vdb".into()));
         assert!(matches!(of("a_##.vdb"), VolumeSource::Series(_)));
-    }
-
-    #[test]
-    fn moments_end_with_the_last_frame_and_begin_with_the_smoke() {
-        let all = |moments: Moments| {
-            let numbers = moments.unseen..moments.count();
-            numbers.map(|number| moments.at(number)).collect::<Vec<_>>()
-        };
-        assert_eq!(all(Moments::new(3, 5, 1.0, 1)), [3.0, 4.0, 5.0]);
-        assert_eq!(all(Moments::new(3, 4, 0.5, 1)), [3.0, 3.5, 4.0]);
-        assert_eq!(all(Moments::new(3, 8, 2.0, 1)), [3.0, 5.0, 7.0]);
-        assert_eq!(Moments::new(3, 4, 0.5, 1).at(0), 1.0);
-        assert_eq!(Moments::new(4, 4, 2.0, 1).at(0), 2.0);
-        assert_eq!(picture_count(1, 96, 0.1), 951);
     }
 }

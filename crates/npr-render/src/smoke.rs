@@ -50,13 +50,25 @@ impl Smoke {
     }
 
     /// The spheres of a moment of a track, in the order of their birth. Heat is still the temperature of the volume: see
-    /// [`with_hottest`](Self::with_hottest).
+    /// [`with_hottest`](Self::with_hottest). Spheres that come or go and are still or already tiny are left out.
     pub fn of_track(track: &Track) -> Self {
-        let spheres = track.spheres().into_iter().map(|sphere| Sphere {
+        let spheres = track.spheres();
+        let largest = spheres
+            .iter()
+            .map(|sphere| sphere.radius)
+            .fold(0.0, f32::max);
+        let drawn = spheres.into_iter().map(|sphere| Sphere {
             heat: sphere.temperature,
-            ..Sphere::new(sphere.center.to_array(), sphere.radius)
+            ..Sphere::new(
+                sphere.center.to_array(),
+                if sphere.radius < largest * SPECK {
+                    0.0
+                } else {
+                    sphere.radius
+                },
+            )
         });
-        Self::new(spheres.collect())
+        Self::new(drawn.collect())
     }
 
     /// The same with heat 1 for what is as hot as `hottest` and more, and in proportion below; no heat where nothing is hot.
@@ -137,6 +149,9 @@ impl Smoke {
         spheres
     }
 }
+
+/// Share of the largest radius under which a sphere is a speck of dirt rather than a puff.
+const SPECK: f32 = 0.06;
 
 /// Whether anything of a sphere can be seen.
 fn is_drawn(sphere: &&Sphere) -> bool {

@@ -244,6 +244,7 @@ impl Smoke {
             scale * seconds,
         );
         forces::confine(&mut self.flow, settings.curl, seconds);
+        forces::brake(&mut self.flow, settings.source.drag(), seconds);
         self.flow
             .limit(CELLS_PER_STEP * MAX_STEPS as f32 / settings.frame_seconds);
         let wanted = source::expansion(&settings, self.seconds);

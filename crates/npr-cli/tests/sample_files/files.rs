@@ -5,6 +5,9 @@ use std::path::{Path, PathBuf};
 /// Extensions of scenes that are read.
 pub const SCENES: [&str; 6] = ["gltf", "glb", "vrm", "obj", "stl", "ply"];
 
+/// Extensions of volumes that are read.
+pub const VOLUMES: [&str; 2] = ["vdb", "npy"];
+
 /// Every file below a folder of the samples that ends in one of `extensions`, in any case, sorted.
 ///
 /// None, with a line that says so, where there is no such folder.

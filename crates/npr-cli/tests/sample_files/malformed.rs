@@ -1,6 +1,6 @@
 //! Every broken file gives a picture or one clear line, soon and in little memory.
 
-use crate::files::{SCENES, samples};
+use crate::files::{SCENES, VOLUMES, samples};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -13,29 +13,38 @@ const MEMORY_LIMIT_KIB: u32 = 1_500_000;
 
 #[test]
 fn info_survives_every_malformed_file() {
-    for file in malformed_files() {
+    for file in [malformed_files(), malformed_volumes()].concat() {
         check(&file, &["info", "--json"], None);
     }
 }
 
 #[test]
+fn volumes_that_are_broken_or_hold_no_smoke_are_refused() {
+    let files = [malformed_volumes(), samples("volumes", &VOLUMES)].concat();
+    for command in ["render", "smoke"] {
+        survives(&[command], "out.png", &files);
+    }
+}
+
+#[test]
 fn render_survives_every_malformed_file() {
-    survives_every_malformed_file(&["render"], "out.png");
+    survives(&["render"], "out.png", &malformed_files());
 }
 
 #[test]
 fn lines_survives_every_malformed_file() {
-    survives_every_malformed_file(&["lines", "--hidden", "layer", "--fill"], "out.svg");
+    let lines = ["lines", "--hidden", "layer", "--fill"];
+    survives(&lines, "out.svg", &malformed_files());
 }
 
-/// Draws every malformed file; each gives a picture called `name` or nothing.
-fn survives_every_malformed_file(command: &[&str], name: &str) {
+/// Draws files; each gives a picture called `name` or nothing.
+fn survives(command: &[&str], name: &str, files: &[PathBuf]) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let picture = folder.path().join(name);
-    for file in malformed_files() {
+    for file in files {
         let out = picture.to_string_lossy();
         let options = ["--size", "64x64", "--backend", "cpu", "-o", out.as_ref()];
-        check(&file, &[command, &options].concat(), Some(&picture));
+        check(file, &[command, &options].concat(), Some(&picture));
         let left = std::fs::read_dir(folder.path())
             .expect("the folder")
             .count();
@@ -108,4 +117,9 @@ fn limited() -> Command {
 /// Every malformed scene, and some of a format that is not read.
 fn malformed_files() -> Vec<PathBuf> {
     samples("malformed", &[&SCENES[..], &["off"]].concat())
+}
+
+/// Every malformed volume.
+fn malformed_volumes() -> Vec<PathBuf> {
+    samples("malformed", &VOLUMES)
 }

@@ -69,6 +69,15 @@ pub(super) fn confine(flow: &mut Flow, strength: f32, seconds: f32) {
     }
 }
 
+/// Takes a share of all motion away, `drag` per second.
+pub(super) fn brake(flow: &mut Flow, drag: f32, seconds: f32) {
+    if drag <= 0.0 {
+        return;
+    }
+    let left = npr_core::math::exp(-drag * seconds);
+    flow.faces.iter_mut().for_each(|field| field.scale(left));
+}
+
 /// Central difference along an axis, one-sided at the border.
 fn slope(values: &[Vec3], size: [usize; 3], cell: [usize; 3], axis: usize) -> Vec3 {
     let lattice = crate::lattice::Lattice { size };

@@ -110,6 +110,13 @@ impl Source {
         }
     }
 
+    /// Share of all motion that the air takes away per second.
+    ///
+    /// A blast is over at once and its smoke hangs; without, it shot out of any box.
+    pub(super) fn drag(self) -> f32 {
+        if self == Self::Explosion { 1.5 } else { 0.0 }
+    }
+
     /// What it gives to a place at a time.
     fn gift(self, stage: &Stage, place: Vec3) -> Gift {
         match self {
@@ -215,7 +222,7 @@ impl Stage {
         let far = Vec3::from_array(settings.size.map(|side| side as f32)) / scale;
         // A blast needs room to swell.
         let share = if settings.source == Source::Explosion {
-            0.15
+            0.13
         } else {
             0.17
         };

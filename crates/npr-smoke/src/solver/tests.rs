@@ -155,3 +155,27 @@ proptest! {
         prop_assert!(volume.density().iter().all(|&d| (0.0..=1.001).contains(&d)));
     }
 }
+
+#[test]
+fn an_explosion_stays_in_its_box() {
+    for seed in [0, 5] {
+        let settings = SmokeSettings {
+            seed,
+            ..SmokeSettings::of(Source::Explosion)
+        };
+        let mut smoke = smoke(settings, 0);
+        let [side, ..] = smoke.cells.size;
+        for frame in 1..=96 {
+            smoke.step();
+            let is_dense = |at: &usize| smoke.density.values[*at] > 0.1;
+            let dense = (0..smoke.cells.len()).filter(is_dense);
+            let dense: Vec<_> = dense.map(|at| smoke.cells.point(at)).collect();
+            assert!(dense.len() > 50, "seed {seed} frame {frame}: it is gone");
+            let is_inside = |[x, y, z]: &[usize; 3]| {
+                let is_within = |at: &usize| (1..side - 1).contains(at);
+                is_within(x) && is_within(y) && *z < side - 2
+            };
+            assert!(dense.iter().all(is_inside), "seed {seed} frame {frame}");
+        }
+    }
+}
