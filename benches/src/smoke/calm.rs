@@ -4,8 +4,10 @@
 //! draws in their place: the first surface of them along a pixel's ray is what that pixel *truly* shows. Its point is
 //! carried to the frame before with its own sphere, which may have moved and swelled, and through that frame's camera.
 //! Where the frame before truly shows the same sphere within a pixel of there, the two pictures are held against each
-//! other: a tone has *changed* where it lies farther than [`STEP`] outside all tones within a pixel of its counterpart, in
-//! either picture. So edges may slide by a pixel, and smoke that comes into view or is born counts for nothing.
+//! other. A tone *differs* where it lies farther than [`STEP`] from the tone at its place before, read between pixels. It
+//! *jumps* where besides no tone within a pixel of its place before, and none within a pixel of it now, comes that near: so
+//! edges that crawl from pixel to pixel differ, and what comes or goes at once jumps. What comes into view or is born
+//! counts for nothing.
 //!
 //! Light is no cause: where a shadow of smoke passes over smoke, tones count as changed. That is so for every style.
 
@@ -18,8 +20,8 @@ use npr_render::Frame;
 use npr_smoke::Sphere as Puff;
 use npr_style::smoke::draw::{draw_spheres, project_spheres};
 
-/// Differences of tone up to this are none: a tenth of the way from black to white, less than between any two paints.
-pub const STEP: f32 = 0.1;
+/// Differences of tone up to this are none: half of what parts the two tones of paint, a sixth of what parts line and paint.
+pub const STEP: f32 = 0.16;
 
 /// A picture of smoke and what it truly shows.
 #[derive(Debug, Clone)]
@@ -43,21 +45,25 @@ pub struct Shown {
 pub struct Change {
     /// Pixels that truly show what the frame before shows too.
     pub compared: usize,
-    /// Those of them whose tone changed without cause.
-    pub changed: usize,
+    /// Those of them whose tone differs without cause.
+    pub differing: usize,
+    /// Those of them whose tone jumps.
+    pub jumping: usize,
 }
 
 impl Change {
-    /// Changed pixels among those compared, 0..1.
-    pub fn share(&self) -> f64 {
-        self.changed as f64 / self.compared.max(1) as f64
+    /// Differing and jumping pixels among those compared, 0..1.
+    pub fn shares(&self) -> [f64; 2] {
+        let share = |count: usize| count as f64 / self.compared.max(1) as f64;
+        [share(self.differing), share(self.jumping)]
     }
 
     /// Both together.
     pub fn and(self, other: Self) -> Self {
         Self {
             compared: self.compared + other.compared,
-            changed: self.changed + other.changed,
+            differing: self.differing + other.differing,
+            jumping: self.jumping + other.jumping,
         }
     }
 }
@@ -95,21 +101,26 @@ impl Shown {
         let mut change = Change::default();
         for y in 0..self.size[1] {
             for x in 0..self.size[0] {
-                let Some(there) = self.pixel_before(before, [x, y]) else {
+                let Some(place) = self.place_before(before, [x, y]) else {
                     continue;
                 };
                 change.compared += 1;
-                let here = [x as i32, y as i32];
-                let is_alike =
+                let tone = self.tones[(y * self.size[0] + x) as usize];
+                if (tone - before.tone_at(place)).abs() <= STEP {
+                    continue;
+                }
+                change.differing += 1;
+                let (here, there) = ([x as i32, y as i32], place.map(|px| px.floor() as i32));
+                let is_near =
                     self.is_near(before, here, there) && before.is_near(self, there, here);
-                change.changed += usize::from(!is_alike);
+                change.jumping += usize::from(!is_near);
             }
         }
         change
     }
 
-    /// Which pixel of the frame before shows what a pixel of this one truly shows; none where none does.
-    fn pixel_before(&self, before: &Self, [x, y]: [u32; 2]) -> Option<[i32; 2]> {
+    /// Where the frame before shows what a pixel of this one truly shows; none where it does not.
+    fn place_before(&self, before: &Self, [x, y]: [u32; 2]) -> Option<[f32; 2]> {
         let id = self.ids[(y * self.size[0] + x) as usize];
         let at = id.checked_sub(1)? as usize;
         let (ball, sphere) = (&self.balls[at], &self.spheres[at]);
@@ -130,11 +141,26 @@ impl Shown {
             before.lens.forward_world,
         ];
         let seen = axes.map(|axis| (0..3).map(|i| axis[i] * world[i]).sum::<f32>());
-        let px = before.lens.frame_of(seen).map(|px| px.floor() as i32);
+        let px = before.lens.frame_of(seen);
         let is_shown = before
-            .around(px)
+            .around(px.map(|px| px.floor() as i32))
             .any(|texel| before.ids[texel] == earlier + 1);
         is_shown.then_some(px)
+    }
+
+    /// The tone at a place between pixels; beyond the picture its border goes on.
+    fn tone_at(&self, place: [f32; 2]) -> f32 {
+        let last = self.size.map(|side| side as f32 - 1.0);
+        let at: [f32; 2] = std::array::from_fn(|i| (place[i] - 0.5).clamp(0.0, last[i]));
+        let low = at.map(f32::floor);
+        let texel = |dx: f32, dy: f32| {
+            let (x, y) = ((low[0] + dx).min(last[0]), (low[1] + dy).min(last[1]));
+            self.tones[y as usize * self.size[0] as usize + x as usize]
+        };
+        let (tx, ty) = (at[0] - low[0], at[1] - low[1]);
+        let upper = texel(0.0, 0.0) * (1.0 - tx) + texel(1.0, 0.0) * tx;
+        let lower = texel(0.0, 1.0) * (1.0 - tx) + texel(1.0, 1.0) * tx;
+        upper * (1.0 - ty) + lower * ty
     }
 
     /// Whether the tone of a pixel is found near a pixel of another frame.
@@ -230,19 +256,27 @@ mod tests {
     #[test]
     fn what_moves_with_the_smoke_or_the_camera_does_not_change() {
         // A pixel is 0.04 wide.
-        for (by, moved, aside) in [(0, 0.0, 0.0), (5, 0.2, 0.0), (5, 0.0, -0.2), (1, 0.0, 0.0)] {
+        for (by, moved, aside) in [(0, 0.0, 0.0), (5, 0.2, 0.0), (5, 0.0, -0.2)] {
             let change = change(by, moved, aside);
             assert!(change.compared > 1500, "{change:?}");
-            assert_eq!(change.changed, 0, "{by} {moved} {aside}");
+            assert_eq!(change.differing, 0, "{by} {moved} {aside}");
         }
     }
 
     #[test]
+    fn what_slips_by_a_pixel_differs_but_does_not_jump() {
+        let [differing, jumping] = change(1, 0.0, 0.0).shares();
+        assert!((differing - 0.1).abs() < 0.02, "{differing}");
+        assert_eq!(jumping, 0.0);
+    }
+
+    #[test]
     fn what_slides_over_the_smoke_changes() {
-        // Of each 10 pixels 5 are new, of which the one beside the edge may be taken for slipped.
+        // Of each 10 pixels 5 are new, of which those beside edges may be taken for slipped.
         for (by, moved, aside) in [(5, 0.0, 0.0), (0, 0.2, 0.0), (0, 0.0, -0.2)] {
-            let share = change(by, moved, aside).share();
-            assert!((0.35..0.5).contains(&share), "{share}");
+            let [differing, jumping] = change(by, moved, aside).shares();
+            assert!((differing - 0.5).abs() < 0.05, "{differing}");
+            assert!((0.2..0.5).contains(&jumping), "{jumping}");
         }
     }
 
@@ -262,7 +296,7 @@ mod tests {
         let large = Shown::new(&stripes(0), &camera(0.0), &[puff(0.0, 1.0, 7)]);
         let change = large.change_since(&small);
         assert!(
-            change.changed > 200,
+            change.differing > 200,
             "stripes stand while smoke swells: {change:?}"
         );
     }

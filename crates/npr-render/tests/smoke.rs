@@ -318,7 +318,7 @@ fn smoke_throws_its_shadow_on_a_wall() {
 /// Dark pixels of a puff before the camera, under lights and a ramp of two tones.
 fn dark_pixels(model: &Model, smoke: &Smoke, text: &str, name: &str) -> usize {
     let tones = "sigma = 0\nwrap = 1\nambient = 0\nramp = [{ at = 0.0, color = '#600' }, { at = 0.2, color = '#ffe' }]";
-    let text = format!("{text}\n{PLAIN}{tones}");
+    let text = format!("line.method = 'none'\n{text}\n[smoke]\nline.method = 'off'\n{tones}");
     let frame = draw_on(&Processor, model, smoke, &style(&text), &camera(0.0), SIZE);
     keep(name, &frame);
     frame
@@ -388,10 +388,8 @@ fn every_light_throws_a_shadow_of_its_own() {
     let lit = |lights: &str| {
         let tones = "sigma = 0\nwrap = 1\nambient = 0\nline.method = 'off'\n\
                      ramp = [{ at = 0.0, color = '#600' }, { at = 0.6, color = '#888' }, { at = 0.97, color = '#ffe' }]";
-        let text = format!(
-            "line.method = 'none'\nlight.intensity = 0\nlight.shadow_at = 0\nsmoke = {{ {} }}\n{lights}",
-            tones.replace('\n', ", ")
-        );
+        let dark = "line.method = 'none'\nlight.intensity = 0\nlight.shadow_at = 0";
+        let text = format!("{dark}\n{lights}\n[smoke]\n{tones}");
         let frame = draw(&smoke, &style(&text), &camera(0.0));
         keep("many-lights", &frame);
         let of = |x: u32, y: u32| at(&frame, x, y)[0];

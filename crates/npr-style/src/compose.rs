@@ -9,6 +9,7 @@ use npr_core::raster::{HULL_BIT, ID_MASK};
 use npr_core::texture;
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
+use std::ops::Range;
 
 use crate::known::Known;
 use crate::lighting::Lights;
@@ -154,8 +155,18 @@ pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
                 last: (0, 0),
                 near: None,
             };
-            for (x, texel) in row.iter_mut().enumerate() {
-                *texel = composer.texel(x as u32, y as u32);
+            for left in (0..width).step_by(RUN) {
+                let run = left..width.min(left + RUN);
+                let texels = &mut row[run.clone()];
+                if let Some(empty) = composer.empty
+                    && layers.is_bare(run, y)
+                {
+                    texels.fill(empty);
+                    continue;
+                }
+                for (x, texel) in (left as u32..).zip(texels) {
+                    *texel = composer.texel(x, y as u32);
+                }
             }
         });
 }
@@ -174,6 +185,9 @@ pub fn draw_mask(windows: [&Window; 2], settings: &Compose, mask: &[u32], overla
         *texel = if found { color } else { 0 };
     }
 }
+
+/// Pixels in a row that are looked through together for anything but background.
+const RUN: usize = 32;
 
 /// Triangle numbers of a pixel's samples.
 #[derive(Debug, Clone, Copy)]
@@ -374,6 +388,35 @@ impl<'a> Layers<'a> {
     fn empty_texel(&self, encoder: &SrgbEncoder) -> Option<u32> {
         (self.compose.background_texture == NONE)
             .then(|| encoded(encoder, self.background([0.0; 2])))
+    }
+
+    /// Whether some pixels of a row show nothing but the background.
+    fn is_bare(&self, run: Range<usize>, y: usize) -> bool {
+        let (width, samples) = (self.window.size[0] as usize, self.compose.samples as usize);
+        let holds = |bit: u32| self.compose.flags & bit != 0;
+        let pixels = y * width + run.start..y * width + run.end;
+        let is_zero = |texels: &[u32], mask: u32| {
+            texels.iter().fold(0, |all, texel| all | (texel & mask)) == 0
+        };
+        let is_free = |ids: &[u32]| {
+            (y * samples..(y + 1) * samples).all(|row| {
+                let start = row * width * samples;
+                let texels = start + run.start * samples..start + run.end * samples;
+                is_zero(&ids[texels], u32::MAX)
+            })
+        };
+        let is_off = |bit: u32, texels: &[u32], mask: u32| {
+            !holds(bit) || is_zero(&texels[pixels.clone()], mask)
+        };
+        is_free(self.ids)
+            && (!holds(Compose::BEAMS) || is_free(self.beam_ids))
+            && is_off(Compose::RIBBONS, self.ribbons, u32::MAX)
+            && is_off(Compose::OVERLAY, self.overlay, u32::MAX)
+            && is_off(
+                Compose::SMOKE,
+                self.smoke_depths,
+                crate::smoke::resolve::MASK,
+            )
     }
 
     /// The triangle numbers of the beams over a pixel's samples; zeros where there are none.

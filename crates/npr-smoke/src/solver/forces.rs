@@ -39,8 +39,8 @@ pub(super) fn confine(flow: &mut Flow, strength: f32, seconds: f32) {
         return;
     }
     let cells = flow.cells;
-    let centres = cells.map(|cell| flow.at_centre(cell));
-    let curls = cells.map(|cell| {
+    let centres = cells.map_costly(|cell| flow.at_centre(cell));
+    let curls = cells.map_costly(|cell| {
         let [dx, dy, dz] = [0, 1, 2].map(|axis| slope(&centres, cells.size, cell, axis));
         Vec3::new(dy.z - dz.y, dz.x - dx.z, dx.y - dy.x)
     });
@@ -48,7 +48,7 @@ pub(super) fn confine(flow: &mut Flow, strength: f32, seconds: f32) {
         .iter()
         .map(|curl| Vec3::splat(curl.length()))
         .collect();
-    let pushes = cells.map(|cell| {
+    let pushes = cells.map_costly(|cell| {
         let towards = [0, 1, 2].map(|axis| slope(&lengths, cells.size, cell, axis).x);
         let towards = Vec3::from_array(towards).normalize_or_zero();
         towards.cross(curls[cells.index(cell)]) * (strength * seconds)
