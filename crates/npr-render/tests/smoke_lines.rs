@@ -287,6 +287,44 @@ fn fills_are_the_smoke_and_what_it_leaves_of_the_scene() {
     );
 }
 
+/// No line is drawn where smoke goes through a surface, but colours end there: on a circle.
+#[test]
+fn fills_end_where_smoke_goes_through_a_surface() {
+    let filled = LineOptions {
+        fill: true,
+        ..options()
+    };
+    let white = style("smoke.ramp = [{ at = 0, color = 'white' }]");
+    let drawing = draw(&wall(0.1), &ball(), &white, &filled);
+    let smoke = drawing
+        .regions
+        .iter()
+        .filter(|region| drawing.surfaces[region.surface as usize].object == "smoke");
+    let points: Vec<[f64; 2]> = smoke.flat_map(|region| region.rings.concat()).collect();
+    let before_wall: Vec<f64> = points
+        .iter()
+        .map(|place| place.map(|v| v - 160.0))
+        .filter(|[x, _]| *x > 1.5)
+        .map(|[x, y]| (x * x + y * y).sqrt())
+        .collect();
+    let radius_px = (0.25f64 - 0.01).sqrt() / 7.9 * 160.0 / 0.25f64.tan();
+    let outermost = before_wall.iter().copied().fold(0.0, f64::max);
+    assert!(before_wall.len() > 50, "{} points", before_wall.len());
+    assert!(
+        (outermost - radius_px).abs() < 0.7,
+        "{outermost}, not {radius_px}"
+    );
+    let on_circle = before_wall
+        .iter()
+        .filter(|r| (**r - radius_px).abs() < 0.5)
+        .count();
+    assert!(
+        on_circle * 10 > before_wall.len() * 9,
+        "{on_circle} of {}",
+        before_wall.len()
+    );
+}
+
 #[test]
 fn hostile_smoke_draws_something_or_nothing() {
     let odd = [f32::NAN, f32::INFINITY, -1.0, 0.0, 1e-30, 1e30, 8.0];

@@ -106,7 +106,11 @@ pub(super) fn regions(
         veil.or(face.map(|(surface, _)| surface))
     };
     let mut segments = segments_of(strokes);
-    segments.extend(smoke.iter().flat_map(|smoke| smoke.tone_edges()));
+    if let Some(smoke) = smoke {
+        let depth_at = |place: [f64; 2]| Some(face_at(place)?.1);
+        segments.extend(smoke.tone_edges());
+        segments.extend(smoke.seams(size, &depth_at));
+    }
     Ok(fill::regions(size, &segments, &surface_at)?)
 }
 

@@ -1,7 +1,7 @@
 //! Smoke among the lines of a scene: what it hides, and its own outline.
 
 use super::LineOptions;
-use super::tones::ToneMap;
+use super::tones::{ToneMap, level_lines};
 use crate::error::RenderError;
 use crate::light::ChosenLights;
 use crate::model::Model;
@@ -16,6 +16,9 @@ use npr_vector::stroke::StrokeSurface;
 
 /// Opacity from which smoke hides lines: less is haze.
 const DENSE: f32 = 0.5;
+
+/// Most places along a side of the picture where smoke and surfaces are compared.
+const SEAM_CELLS: u32 = 1280;
 
 /// Name of the object that smoke is in drawings.
 const OBJECT: &str = "smoke";
@@ -94,6 +97,25 @@ impl<'a> SmokeView<'a> {
     /// The lines between its tones, which are not drawn but part colours.
     pub fn tone_edges(&self) -> Vec<[[f64; 2]; 2]> {
         self.tones.as_ref().map_or_else(Vec::new, ToneMap::edges)
+    }
+
+    /// The lines along which it lies in surfaces, which are not drawn either: there one passes behind the other.
+    ///
+    /// `depth_at` tells how deep the surface at a place of the picture lies. Both are looked at in up to a million places.
+    pub fn seams(
+        &self,
+        size: [u32; 2],
+        depth_at: &dyn Fn([f64; 2]) -> Option<f64>,
+    ) -> Vec<[[f64; 2]; 2]> {
+        let cell_px = f64::from(size[0].max(size[1]).div_ceil(SEAM_CELLS).max(1));
+        let cells = size.map(|side| (f64::from(side) / cell_px).ceil() as usize);
+        let gap = |x: usize, y: usize| {
+            let place = [x, y].map(|i| (i as f64 + 0.5) * cell_px);
+            let smoke = self.puffs.depth_at(place);
+            let gap = smoke.and_then(|smoke| Some(smoke - depth_at(place)?));
+            gap.map_or(f32::NAN, |gap| gap as f32)
+        };
+        level_lines(cells, cell_px, &gap, &[0.0])
     }
 
     /// Its surfaces in a drawing, one for every tone: what is drawn with one object's number and the colours of the style.

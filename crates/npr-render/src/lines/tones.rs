@@ -96,19 +96,37 @@ impl ToneMap {
 
     /// The lines between tones, in pieces shorter than two pixels.
     pub fn edges(&self) -> Vec<[[f64; 2]; 2]> {
-        let mut edges = Vec::new();
-        for y in 0..self.size[1].saturating_sub(1) {
-            for x in 0..self.size[0].saturating_sub(1) {
-                let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| self.at(x + i, y + j));
-                if corners.iter().all(|tone| !tone.is_nan()) {
-                    for step in &self.steps {
-                        add_edges([x as f64 + 0.5, y as f64 + 0.5], corners, *step, &mut edges);
-                    }
-                }
+        level_lines(self.size, 1.0, &|x, y| self.at(x, y), &self.steps)
+    }
+}
+
+/// Where values, known in the middles of cells of a picture, pass through any of the steps, in pieces within a cell of four of them;
+/// none where a value is no number.
+pub(super) fn level_lines(
+    cells: [usize; 2],
+    cell_px: f64,
+    value_at: &dyn Fn(usize, usize) -> f32,
+    steps: &[f32],
+) -> Vec<[[f64; 2]; 2]> {
+    let row = |y: usize| -> Vec<f32> { (0..cells[0]).map(|x| value_at(x, y)).collect() };
+    let mut edges = Vec::new();
+    let mut upper = row(0);
+    for y in 1..cells[1] {
+        let lower = row(y);
+        for x in 1..cells[0] {
+            let corners = [upper[x - 1], upper[x], lower[x], lower[x - 1]];
+            if corners.iter().all(|value| !value.is_nan()) {
+                let origin = [x as f64 - 0.5, y as f64 - 0.5];
+                let steps = steps.iter();
+                steps.for_each(|step| add_edges(origin, corners, *step, &mut edges));
             }
         }
-        edges
+        upper = lower;
     }
+    for place in edges.as_flattened_mut() {
+        *place = place.map(|v| v * cell_px);
+    }
+    edges
 }
 
 /// A style whose smoke tells its tone: red counts up to the half, green on from there.
