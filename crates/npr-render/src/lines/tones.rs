@@ -15,6 +15,12 @@ use npr_style::{
 /// How far tones go on beyond the smoke, in pixels, so that their edges reach its outline.
 const BEYOND_PX: usize = 3;
 
+/// Rounds in which tones are evened out, over a pixel more each.
+const ROUNDS: usize = 4;
+
+/// Tones that differ by less are of one slope.
+const ALIKE: f32 = 0.06;
+
 /// Smoothed tones of a picture of smoke.
 #[derive(Debug)]
 pub(super) struct ToneMap {
@@ -56,6 +62,9 @@ impl ToneMap {
         for _ in 0..BEYOND_PX {
             map.grow();
         }
+        for _ in 0..ROUNDS {
+            map.even_out();
+        }
         Ok(map)
     }
 
@@ -86,6 +95,25 @@ impl ToneMap {
             sum / count
         });
         self.tones = grown.collect();
+    }
+
+    /// Gives pixels the mean of those around with about their tone: bytes make steps of gentle slopes, which edges would follow.
+    fn even_out(&mut self) {
+        let evened = (0..self.tones.len()).map(|i| {
+            let (x, y, own) = (i % self.size[0], i / self.size[0], self.tones[i]);
+            let (mut sum, mut count) = (0.0, 0.0);
+            for step in 0..9 {
+                let beside = self.at(
+                    (x + step % 3).wrapping_sub(1),
+                    (y + step / 3).wrapping_sub(1),
+                );
+                if (beside - own).abs() < ALIKE {
+                    (sum, count) = (sum + beside, count + 1.0);
+                }
+            }
+            sum / count
+        });
+        self.tones = evened.collect();
     }
 
     /// Which tone of the style a place in the picture has, from 0.
@@ -219,6 +247,8 @@ mod tests {
         assert_eq!(map.edges(), Vec::<[[f64; 2]; 2]>::new());
         map.grow();
         assert!((map.at(2, 2) - 0.7).abs() < 1e-6 && map.at(1, 1).is_nan());
+        map.even_out();
+        assert!((map.at(3, 3) - 0.7).abs() < 1e-6 && map.at(1, 1).is_nan());
         assert_eq!(map.level_at([3.5, 3.5]), 1);
         assert_eq!(map.level_at([-9.0, 1e9]), 0);
     }
