@@ -25,7 +25,7 @@ fn plume(count: u32) -> Smoke {
     let puff = |i: u32| {
         let height = share(i, 1);
         let (angle, out) = (
-            share(i, 2) * 6.283,
+            share(i, 2) * std::f32::consts::TAU,
             share(i, 3).sqrt() * (0.15 + 0.6 * height),
         );
         let radius = (0.08 + 0.24 * height) * (0.5 + 0.8 * share(i, 4));

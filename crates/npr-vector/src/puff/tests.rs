@@ -60,7 +60,7 @@ proptest! {
     /// A place of a rim is drawn where no sphere stands before it, nor within the jump behind it.
     #[test]
     fn free_arcs_are_what_rays_to_all_spheres_say(
-        parallel: bool, list in any_spheres(10), jump in 0.01f64..1.5, angles in prop::collection::vec(0f64..6.28, 20),
+        parallel: bool, list in any_spheres(10), jump in 0.01f64..1.5, angles in prop::collection::vec(0f64..std::f64::consts::TAU, 20),
     ) {
         let (projector, spheres) = (projector(parallel), spheres_of(&list));
         let puffs = Puffs::new(&projector, SIZE, &spheres);
