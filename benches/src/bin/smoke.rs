@@ -218,7 +218,7 @@ fn growth() -> Outcome<()> {
     let mut table = Table::new([
         "voxels",
         "distances",
-        "2000 spheres that follow, detail 200",
+        "2000 spheres that follow",
     ]);
     for block in [4, 3, 2, 1] {
         let volume = volume.coarsened(block);
@@ -302,8 +302,9 @@ fn calm() -> Outcome<()> {
     println!("## Tones that change without cause\n");
     println!(
         "{FRAMES} steps of pictures 512 x 512 under a light fixed to the world. Every pixel's true point, on the spheres \
-         that stand for the smoke, is carried to the frame before with its sphere and through that frame's camera, and compared \
-         where it is seen there too. Its tone differs where it lies more than {STEP} of the way from black to white off the tone \
+         that stand for the smoke, is carried to the frame before with its sphere and through that frame's camera, once as paint on \
+         the sphere and once as part of its image, as outlines are; it is compared where it is seen there too, and either way may \
+         explain its tone. Its tone differs where it lies more than {STEP} of the way from black to white off the tone \
          there; it jumps where nothing within a pixel comes nearer either. All styles are held against the same points. \
          Billboards are lit by nothing: of them only lines can change.\n"
     );

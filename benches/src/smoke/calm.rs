@@ -2,8 +2,9 @@
 //!
 //! What moves with good reason is taken out first. Both frames know the spheres that stand for the smoke, whatever a style
 //! draws in their place: the first surface of them along a pixel's ray is what that pixel *truly* shows. Its point is
-//! carried to the frame before with its own sphere, which may have moved and swelled, and through that frame's camera.
-//! Where the frame before truly shows the same sphere within a pixel of there, the two pictures are held against each
+//! carried to the frame before with its own sphere, which may have moved and swelled, and through that frame's camera:
+//! once as paint on the sphere, once as part of the sphere's image, for outlines stay on rims while surfaces turn below
+//! them. Either may explain a tone. Where the frame before truly shows the same sphere within a pixel of there, the two pictures are held against each
 //! other. A tone *differs* where it lies farther than [`STEP`] from the tone at its place before, read between pixels. It
 //! *jumps* where besides no tone within a pixel of its place before, and none within a pixel of it now, comes that near: so
 //! edges that crawl from pixel to pixel differ, and what comes or goes at once jumps. What comes into view or is born
@@ -101,26 +102,30 @@ impl Shown {
         let mut change = Change::default();
         for y in 0..self.size[1] {
             for x in 0..self.size[0] {
-                let Some(place) = self.place_before(before, [x, y]) else {
+                let Some(places) = self.places_before(before, [x, y]) else {
                     continue;
                 };
                 change.compared += 1;
                 let tone = self.tones[(y * self.size[0] + x) as usize];
-                if (tone - before.tone_at(place)).abs() <= STEP {
+                let is_same = |place: [f32; 2]| (tone - before.tone_at(place)).abs() <= STEP;
+                if places.into_iter().any(is_same) {
                     continue;
                 }
                 change.differing += 1;
-                let (here, there) = ([x as i32, y as i32], place.map(|px| px.floor() as i32));
-                let is_near =
-                    self.is_near(before, here, there) && before.is_near(self, there, here);
+                let here = [x as i32, y as i32];
+                let is_near = places.into_iter().any(|place| {
+                    let there = place.map(|px| px.floor() as i32);
+                    self.is_near(before, here, there) && before.is_near(self, there, here)
+                });
                 change.jumping += usize::from(!is_near);
             }
         }
         change
     }
 
-    /// Where the frame before shows what a pixel of this one truly shows; none where it does not.
-    fn place_before(&self, before: &Self, [x, y]: [u32; 2]) -> Option<[f32; 2]> {
+    /// Where the frame before shows what a pixel of this one truly shows, as paint on its sphere and as part of that sphere's
+    /// image; none where it does not.
+    fn places_before(&self, before: &Self, [x, y]: [u32; 2]) -> Option<[[f32; 2]; 2]> {
         let id = self.ids[(y * self.size[0] + x) as usize];
         let at = id.checked_sub(1)? as usize;
         let (ball, sphere) = (&self.balls[at], &self.spheres[at]);
@@ -145,7 +150,14 @@ impl Shown {
         let is_shown = before
             .around(px.map(|px| px.floor() as i32))
             .any(|texel| before.ids[texel] == earlier + 1);
-        is_shown.then_some(px)
+        // An outline stays on the image of its sphere, not on its surface.
+        let (then, frame_px) = (&before.balls[earlier as usize], self.window.frame_at(x, y));
+        let [middle, middle_then] = [(&self.lens, ball), (&before.lens, then)]
+            .map(|(lens, ball)| lens.frame_of(ball.center));
+        let size = |lens: &Lens, ball: &Ball| ball.radius / lens.pixel_at(ball.center[2]);
+        let grown = size(&before.lens, then) / size(&self.lens, ball);
+        let in_image = std::array::from_fn(|i| middle_then[i] + (frame_px[i] - middle[i]) * grown);
+        is_shown.then_some([px, in_image])
     }
 
     /// The tone at a place between pixels; beyond the picture its border goes on.
@@ -274,6 +286,7 @@ mod tests {
     fn what_slides_over_the_smoke_changes() {
         // Of each 10 pixels 5 are new, of which those beside edges may be taken for slipped.
         for (by, moved, aside) in [(5, 0.0, 0.0), (0, 0.2, 0.0), (0, 0.0, -0.2)] {
+            // Both ways to carry a tone agree: the sphere does not turn.
             let [differing, jumping] = change(by, moved, aside).shares();
             assert!((differing - 0.5).abs() < 0.05, "{differing}");
             assert!((0.2..0.5).contains(&jumping), "{jumping}");

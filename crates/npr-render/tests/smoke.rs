@@ -366,48 +366,63 @@ fn a_lamp_throws_shadows_of_smoke_on_smoke_from_outside_and_within() {
     let alone = dark(3.0, &[large]);
     let shaded = dark(3.0, &[large, small]);
     assert!(shaded > alone + 60, "{shaded} dark pixels, {alone} alone");
-    // The lamp amid the smoke, between the two.
-    let between = dark(0.9, &[large, small, Sphere::new([0.1, 1.65, 2.2], 0.1)]);
-    assert!(between > alone + 60, "{between} dark pixels");
-    let behind = dark(0.2, &[large, small]);
-    assert!(behind < alone + 200, "a puff behind the lamp: {behind}");
+    // The lamp amid the smoke: the puff between it and the large one, then the lamp between the two.
+    let before = Sphere::new([0.1, 1.65, 2.2], 0.1);
+    let (alone, shaded) = (
+        dark(0.9, &[large, before]),
+        dark(0.9, &[large, before, small]),
+    );
+    assert!(shaded > alone + 60, "{shaded} dark pixels, {alone} alone");
+    let (alone, behind) = (dark(0.2, &[large]), dark(0.2, &[large, small]));
+    assert!(
+        behind < alone + 200,
+        "{behind} dark pixels, {alone} without a puff behind the lamp"
+    );
 }
 
 #[test]
 fn every_light_throws_a_shadow_of_its_own() {
-    let smoke = Smoke::new(vec![
-        Sphere::new([0.1, 1.65, -1.0], 0.9),
-        Sphere::new([0.1, 1.65, 0.9], 0.1),
-    ]);
+    let large = Sphere::new([0.1, 1.65, -1.0], 0.9);
+    let small = Sphere::new([0.1, 1.65, 0.9], 0.1);
     let light = |x: f32| {
         format!(
-            "[[light.extra]]\nkind = 'distant'\nintensity = 0.6\nshadow = true\ndirection = [{x}, 0, 1]\n"
+            "[[light.extra]]\nkind = 'distant'\nintensity = 0.4\nshadow = true\ndirection = [{x}, 0, 1]\n"
         )
     };
-    let lamp = "[[light.extra]]\nkind = 'point'\nintensity = 0.6\nshadow = true\nposition = [0.1, 3.2, 2.2]\n";
-    let lit = |lights: &str| {
-        let tones = "sigma = 0\nwrap = 1\nambient = 0\nline.method = 'off'\n\
-                     ramp = [{ at = 0.0, color = '#600' }, { at = 0.6, color = '#888' }, { at = 0.97, color = '#ffe' }]";
-        let dark = "line.method = 'none'\nlight.intensity = 0\nlight.shadow_at = 0";
-        let text = format!("{dark}\n{lights}\n[smoke]\n{tones}");
-        let frame = draw(&smoke, &style(&text), &camera(0.0));
+    let lamp = "[[light.extra]]\nkind = 'point'\nintensity = 0.4\nshadow = true\nposition = [0.1, 2.4, 2.2]\n";
+    let tones = "sigma = 0\nwrap = 1\nambient = 0\nline.method = 'off'\n\
+                 ramp = [{ at = 0.0, color = '#600' }, { at = 0.9, color = '#ffe' }]";
+    let dark = "line.method = 'none'\nlight.intensity = 0\nlight.shadow_at = 0";
+    let text = [
+        dark,
+        "\n",
+        &light(0.3),
+        &light(-0.3),
+        lamp,
+        "[smoke]\n",
+        tones,
+    ]
+    .concat();
+    // Dark pixels to the left, to the right and below the puff.
+    let dark = |puffs: &[Sphere]| {
+        let frame = draw(&Smoke::new(puffs.to_vec()), &style(&text), &camera(0.0));
         keep("many-lights", &frame);
-        let of = |x: u32, y: u32| at(&frame, x, y)[0];
-        // Shadows lie to the left, to the right and below the middle.
-        let dark = |x: std::ops::Range<u32>, y: std::ops::Range<u32>| {
-            x.flat_map(|x| y.clone().map(move |y| (x, y)))
-                .filter(|(x, y)| of(*x, *y) < 0xf0)
-                .count()
-        };
         [
-            dark(60..120, 118..138),
-            dark(136..196, 118..138),
-            dark(118..138, 140..200),
+            (100..117, 105..145),
+            (139..156, 105..145),
+            (116..140, 145..180),
         ]
+        .map(|(xs, ys)| {
+            let all = xs.flat_map(|x| ys.clone().map(move |y| (x, y)));
+            all.filter(|(x, y)| at(&frame, *x, *y)[1] == 0).count()
+        })
     };
-    let all = lit(&[light(0.6), light(-0.6), lamp.to_owned()].concat());
-    println!("{all:?}");
-    assert!(all.iter().all(|count| *count > 20), "{all:?}");
+    let (without, with) = (dark(&[large]), dark(&[large, small]));
+    println!("{without:?} {with:?}");
+    assert!(
+        (0..3).all(|i| with[i] > without[i] + 20),
+        "{without:?} {with:?}"
+    );
 }
 
 #[test]
