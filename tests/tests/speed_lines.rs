@@ -67,6 +67,37 @@ fn lines_trail_behind_what_moves_and_thin_out() {
 }
 
 #[test]
+fn what_stands_before_the_part_hides_its_lines() {
+    // How many pixels of the post are drawn over, which shows where the trail passes, so far from the wall or the ball.
+    let drawn_over = |depth: f32| {
+        let post = placed(&icosphere(4), [0.15; 3], [0.2, 0.3, depth]);
+        let objects = [
+            Object::new("Wall", wall(2.0, -1.0)),
+            Object::new("Ball", placed(&icosphere(4), [0.4; 3], [-0.6, 0.3, 0.0])),
+            Object::new("Post", post),
+        ];
+        let model = Model::new(&scene_of(&objects)).unwrap();
+        let of = |rule: &str| {
+            let style = moving(&["motion.spacing=6px"], rule);
+            draw_with(
+                &Processor,
+                &model,
+                &style,
+                &front(),
+                &StageOptions::new(SIZE),
+            )
+        };
+        let (trailed, still) = (of("motion.trail = [1.5, 0, 0]"), of("line.on = false"));
+        let middle = (172..186).flat_map(|x| (84..98).map(move |y| (x, y)));
+        middle
+            .filter(|(x, y)| pixel(&trailed, *x, *y) != pixel(&still, *x, *y))
+            .count()
+    };
+    assert_eq!(drawn_over(1.0), 0, "lines go behind what stands before");
+    assert!(drawn_over(-0.7) > 20, "lines go over what stands behind");
+}
+
+#[test]
 fn a_trail_of_no_length_or_out_of_sight_draws_nothing() {
     let still = drawn(&[], "line.on = false");
     for trail in ["[0, 0, 0]", "[0, 0, -3]", "[1e9, 1e9, 1e9]"] {

@@ -2,14 +2,17 @@
 
 use crate::error::RenderError;
 use crate::frame::Frame;
+use crate::look::part;
 use crate::model::Model;
 use crate::placement::bounds_of;
 use crate::stage::{Stage, StageOptions};
 use glam::{Mat4, Vec2, Vec3};
 use npr_core::camera::Camera;
 use npr_core::color::SrgbEncoder;
+use npr_core::geometry::Part;
+use npr_core::raster::{Fill, Sides, fill_triangles};
 use npr_core::texture::{TextureStore, linear_texel};
-use npr_core::window::View;
+use npr_core::window::{View, Window};
 use npr_gpu::engine::Engine;
 use npr_style::blend::blend;
 use npr_style::motion::{Motion, trail_of};
@@ -18,19 +21,29 @@ use npr_style::{Color, Style};
 /// Longest trail in the picture, in pixels: more than the diagonal of any frame shows no more.
 const LONGEST_PX: f32 = 65_536.0;
 
+/// Memory for numbers and depths, movers, and what they left behind.
+const BYTES_PER_PIXEL: u64 = 32;
+
 /// Shortest trail that is drawn, in pixels.
 const SHORTEST_PX: f32 = 1.0;
+
+/// How much nearer to the eye than a trail a surface has to be to cover it, as a share of the reversed depth: what a thing
+/// slides along does not.
+const COVER_ROOM: f32 = 0.01;
 
 /// Narrowest spacing of lines, in pixels: nearer ones are grey.
 const SPACING_PX_MIN: f32 = 1.5;
 
 /// The speed lines of a style.
 pub(crate) struct Streaks<'a> {
+    model: &'a Model,
+    /// What of a part decides which of its sides are seen.
+    parts: Vec<Part>,
     /// Shows what moves and nothing else.
     seen: Box<Stage<'a>>,
     motion: Motion,
     movers: Vec<Mover>,
-    height_px: u32,
+    size: [u32; 2],
     dpi: f32,
 }
 
@@ -48,6 +61,8 @@ struct Sweep {
     /// Unit vector away from the part, in pixels.
     along: Vec2,
     length_px: f32,
+    /// Change of reversed depth over a pixel along it.
+    deepens: f32,
     /// The place that lines are counted from.
     middle_px: Vec2,
     spacing_px: f32,
@@ -76,20 +91,23 @@ impl<'a> Streaks<'a> {
         };
         let movers = trails.iter().map(|trail| Mover::new(model, style, *trail));
         Ok(Some(Self {
+            model,
+            parts: model.parts.iter().map(|info| part(info, style)).collect(),
             seen: Box::new(Stage::new(engine, model, &style.of_motion(), &left)?),
             motion: style.motion.clone(),
             movers: movers.collect(),
-            height_px: options.size[1],
+            size: options.size,
             dpi: options.dpi,
         }))
     }
 
     /// Memory that they need.
     pub fn planned_bytes(&self) -> u64 {
-        self.seen.planned_bytes()
+        let pixels = u64::from(self.size[0]) * u64::from(self.size[1]);
+        self.seen.planned_bytes() + pixels * BYTES_PER_PIXEL
     }
 
-    /// Draws them over a frame. O(pixels * trails).
+    /// Draws them over a frame, behind what stands before the part they belong to. O(triangles + pixels * trails).
     pub fn apply(
         &mut self,
         camera: &Camera,
@@ -104,15 +122,18 @@ impl<'a> Streaks<'a> {
             .iter()
             .map(|pixel| trail_of(*pixel))
             .collect();
+        let depths = self.depths(view);
         let pen = Pen::new(self.motion.color);
         for (index, mover) in self.movers.iter().enumerate() {
             let Some(sweep) = self.sweep_of(mover, view) else {
                 continue;
             };
-            let distances = distances(&movers, index, frame.size, sweep.along);
-            for (i, distance) in distances.into_iter().enumerate() {
+            let behind = behind(&movers, index, frame.size, sweep.along);
+            for (i, Behind { distance, edge }) in behind.into_iter().enumerate() {
                 // Nothing is drawn over what moves itself.
-                if distance > 0.0 && distance < sweep.length_px && movers[i].is_none() {
+                let is_free = distance > 0.0 && distance < sweep.length_px && movers[i].is_none();
+                let trail = || depths[edge as usize] + sweep.deepens * distance;
+                if is_free && depths[i] <= trail() * (1.0 + COVER_ROOM) {
                     let place = glam::vec2(
                         (i as u32 % frame.size[0]) as f32,
                         (i as u32 / frame.size[0]) as f32,
@@ -128,10 +149,35 @@ impl<'a> Streaks<'a> {
         Ok(())
     }
 
+    /// Reversed depth of the surface that each pixel shows.
+    fn depths(&self, view: &View) -> Vec<f32> {
+        let clip_from_world = Mat4::from_cols_array_2d(&view.clip_from_world);
+        let points = self.model.vertices.iter().zip(&self.model.influences);
+        let clip: Vec<[f32; 4]> = points
+            .map(|(vertex, influence)| {
+                let point = self.model.posed_point(vertex, influence);
+                (clip_from_world * point.extend(1.0)).to_array()
+            })
+            .collect();
+        let fill = Fill {
+            window: &Window::over(view.frame_px, [0.0; 2], view.frame_px, self.size),
+            triangles: &self.model.triangles,
+            parts: &self.parts,
+            sides: Sides::AsParts,
+            id_bits: 0,
+            clip_of: |v| clip[v as usize],
+            keep: |_, _, _| true,
+        };
+        let count = self.size[0] as usize * self.size[1] as usize;
+        let (mut ids, mut depths) = (vec![0; count], vec![0; count]);
+        fill_triangles(&fill, &mut ids, &mut depths);
+        depths.into_iter().map(f32::from_bits).collect()
+    }
+
     /// Where a trail lies in a view; none where it is behind the eye or too short to see.
     fn sweep_of(&self, mover: &Mover, view: &View) -> Option<Sweep> {
-        let start = place_px(mover.middle, view)?;
-        let end = place_px(mover.middle + mover.trail, view)?;
+        let (start, start_depth) = place_px(mover.middle, view)?;
+        let (end, end_depth) = place_px(mover.middle + mover.trail, view)?;
         let length_px = (end - start).length();
         if !(SHORTEST_PX..=LONGEST_PX).contains(&length_px) {
             return None;
@@ -143,9 +189,10 @@ impl<'a> Streaks<'a> {
         Some(Sweep {
             along: (end - start) / length_px,
             length_px,
+            deepens: (end_depth - start_depth) / length_px,
             middle_px: start,
             spacing_px: spacing
-                .to_px(self.height_px as f32, self.dpi, world_px)
+                .to_px(self.size[1] as f32, self.dpi, world_px)
                 .max(SPACING_PX_MIN),
         })
     }
@@ -174,19 +221,28 @@ impl Mover {
     }
 }
 
-/// Where a place in the world lies in the frame, in pixels; none behind the eye.
-fn place_px(place: Vec3, view: &View) -> Option<Vec2> {
+/// Where a place in the world lies in the frame, in pixels, and its reversed depth; none behind the eye.
+fn place_px(place: Vec3, view: &View) -> Option<(Vec2, f32)> {
     let clip = Mat4::from_cols_array_2d(&view.clip_from_world) * place.extend(1.0);
     let ndc = glam::vec2(clip.x, -clip.y) / clip.w;
     let px = (ndc + 1.0) * 0.5 * Vec2::from(view.frame_px);
-    (clip.w > 0.0 && px.is_finite()).then_some(px)
+    (clip.w > 0.0 && px.is_finite()).then_some((px, clip.z / clip.w))
 }
 
-/// How far each pixel lies behind the mover `index` along a unit vector, in pixels; 0 on it, and where it never was.
+/// What a mover left behind at a pixel.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Behind {
+    /// How far it lies behind, in pixels; 0 on the mover, and where it never was.
+    distance: f32,
+    /// The pixel of the mover's trailing edge that went through it.
+    edge: u32,
+}
+
+/// What the mover `index` left behind along a unit vector, a pixel each.
 ///
 /// The picture is cut into slanted rows of pixels, each walked once: O(pixels).
-fn distances(movers: &[Option<usize>], index: usize, size: [u32; 2], along: Vec2) -> Vec<f32> {
-    let mut found = vec![0.0; movers.len()];
+fn behind(movers: &[Option<usize>], index: usize, size: [u32; 2], along: Vec2) -> Vec<Behind> {
+    let mut found = vec![Behind::default(); movers.len()];
     let [width, height] = size.map(i64::from);
     let steep = along.y.abs() > along.x.abs();
     // Walk along the axis that changes most, in its direction.
@@ -205,7 +261,7 @@ fn distances(movers: &[Option<usize>], index: usize, size: [u32; 2], along: Vec2
     let shift = |step: i64| (slope * step as f32).round() as i64;
     let most = shift(length - 1);
     for row in -most.max(0)..rows - most.min(0) {
-        let mut behind: Option<f32> = None;
+        let mut behind: Option<Behind> = None;
         for step in 0..length {
             let (at, other) = (
                 if major < 0.0 { length - 1 - step } else { step },
@@ -217,11 +273,17 @@ fn distances(movers: &[Option<usize>], index: usize, size: [u32; 2], along: Vec2
             let [x, y] = if steep { [other, at] } else { [at, other] };
             let i = (y * width + x) as usize;
             behind = match (movers[i] == Some(index), behind) {
-                (true, _) => Some(0.0),
-                (false, Some(distance)) => Some(distance + step_px),
+                (true, _) => Some(Behind {
+                    distance: 0.0,
+                    edge: i as u32,
+                }),
+                (false, Some(behind)) => Some(Behind {
+                    distance: behind.distance + step_px,
+                    ..behind
+                }),
                 (false, None) => None,
             };
-            found[i] = behind.unwrap_or(0.0);
+            found[i] = behind.unwrap_or_default();
         }
     }
     found
@@ -268,11 +330,15 @@ mod tests {
         let mut movers = vec![None; 8 * 3];
         movers[8 + 2] = Some(0);
         movers[8 + 3] = Some(0);
-        let row = |along: Vec2| distances(&movers, 0, [8, 3], along)[8..16].to_vec();
+        let distances = |index: usize, along: Vec2| -> Vec<f32> {
+            let found = behind(&movers, index, [8, 3], along);
+            found.iter().map(|behind| behind.distance).collect()
+        };
+        let row = |along: Vec2| distances(0, along)[8..16].to_vec();
         assert_eq!(row(Vec2::X), [0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0]);
         assert_eq!(row(-Vec2::X), [2.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        assert_eq!(distances(&movers, 1, [8, 3], Vec2::X), [0.0; 24]);
-        let column = distances(&movers, 0, [8, 3], Vec2::Y);
+        assert_eq!(distances(1, Vec2::X), [0.0; 24]);
+        let column = distances(0, Vec2::Y);
         assert_eq!(
             [column[2], column[10], column[18], column[19]],
             [0.0, 0.0, 1.0, 1.0]
@@ -289,12 +355,13 @@ mod tests {
             let along = glam::vec2(npr_core::math::cos(angle), npr_core::math::sin(angle));
             let count = (size[0] * size[1]) as usize;
             let movers: Vec<Option<usize>> = cells[..count].iter().map(|cell| (cell % 12 == 0).then_some(0)).collect();
-            let found = distances(&movers, 0, size, along);
+            let found = behind(&movers, 0, size, along);
             let is_mover = |x: i64, y: i64| {
                 let inside = (0..i64::from(size[0])).contains(&x) && (0..i64::from(size[1])).contains(&y);
                 inside && movers[(y * i64::from(size[0]) + x) as usize].is_some()
             };
-            for (i, distance) in found.iter().enumerate().filter(|(_, distance)| **distance > 0.0) {
+            for (i, Behind { distance, edge }) in found.iter().enumerate().filter(|(_, behind)| behind.distance > 0.0) {
+                prop_assert_eq!(movers[*edge as usize], Some(0));
                 let place = glam::vec2((i as u32 % size[0]) as f32, (i as u32 / size[0]) as f32);
                 let back = place - along * *distance;
                 let [x, y] = [back.x.round() as i64, back.y.round() as i64];
