@@ -215,11 +215,7 @@ fn growth() -> Outcome<()> {
     let Some(volume) = tall()? else {
         return Ok(());
     };
-    let mut table = Table::new([
-        "voxels",
-        "distances",
-        "2000 spheres that follow",
-    ]);
+    let mut table = Table::new(["voxels", "distances", "2000 spheres that follow"]);
     for block in [4, 3, 2, 1] {
         let volume = volume.coarsened(block);
         let mut ledger = Ledger::default();

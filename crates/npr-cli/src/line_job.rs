@@ -1,14 +1,16 @@
 //! One line drawing: what the user said, resolved.
 
 use crate::arguments::{
-    HiddenLines, LineArguments, LineFormat, LinesArguments, MethodName, PathForm, Switch,
+    HiddenLines, LineArguments, LineFormat, LinesArguments, LookArguments, MethodName, PathForm,
+    Switch,
 };
 use crate::fault::{Exit, Fault};
 use crate::job::{check_size, has_ending, output_path};
 use crate::look::Look;
 use crate::message::quoted;
 use crate::output::Output;
-use crate::source::Source;
+use crate::source::{Source, has_volume_name};
+use crate::volume::{self, VolumeSource};
 use npr_render::{Drawing, Kind, KindSet, Lettering, LineMethod, LineOptions};
 use npr_scene::Limits;
 use npr_style::{Background, Style};
@@ -55,7 +57,7 @@ impl<'a> LineJob<'a> {
         check_page(said, format)?;
         let output = Output::of(&path)?;
         let external = said.drawing.allow_external.as_deref();
-        let look = Look::resolve(&said.drawing.look, external)?;
+        let look = Look::resolve(&said.look(), external)?;
         let fonts = look.fonts(&said.drawing.limits.limits(), external)?;
         Ok(Self {
             lettering: Lettering::new(&look.style, &fonts)?,
@@ -72,6 +74,30 @@ impl<'a> LineJob<'a> {
             cache: cache_folder(said.cache.as_deref())?,
             said,
         })
+    }
+}
+
+impl LinesArguments {
+    /// The built-in source of smoke that the scene names; none where there is a file of that name.
+    pub fn built_in(&self) -> Option<VolumeSource> {
+        let name = self.scene.as_deref().filter(|name| !name.exists())?;
+        let source = VolumeSource::of(name);
+        matches!(source, VolumeSource::BuiltIn(_)).then_some(source)
+    }
+
+    /// Whether the scene is smoke and nothing else, as far as its name tells.
+    fn is_smoke(&self) -> bool {
+        self.scene.as_deref().is_some_and(has_volume_name) || self.built_in().is_some()
+    }
+
+    /// What the user said about the style; smoke alone has a style of its own where nothing is said.
+    pub fn look(&self) -> LookArguments {
+        let look = &self.drawing.look;
+        match self.built_in() {
+            Some(source) => look.or_style(volume::usual_style(&source)),
+            None if self.is_smoke() => look.or_style(volume::USUAL_STYLE),
+            None => look.clone(),
+        }
     }
 }
 
@@ -152,7 +178,8 @@ fn options(said: &LinesArguments, style: &Style) -> LineOptions {
         },
         smooth: *smooth == Switch::On,
         hidden: *hidden != HiddenLines::None,
-        fill: *fill,
+        // Smoke is more than its outline, but for a pen.
+        fill: *fill || said.is_smoke() && said.sheet.svg == PathForm::Outline,
         dpi: said
             .sheet
             .page

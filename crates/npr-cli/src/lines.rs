@@ -11,8 +11,10 @@ use crate::look::Look;
 use crate::message;
 use crate::progress::Progress;
 use crate::render;
+use crate::source::Loaded;
 use crate::timings::Timings;
 use crate::viewpoint;
+use crate::volume::{self, Film};
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{Drawing, LineMethod, LineModel, LineModelOptions, LineStage};
@@ -23,7 +25,7 @@ use std::io::Write;
 pub fn lines(said: &LinesArguments) -> Result<(), Fault> {
     if said.drawing.look.dump_style {
         let external = said.drawing.allow_external.as_deref();
-        return render::dump_style(&said.drawing.look, external);
+        return render::dump_style(&said.look(), external);
     }
     let mut progress = Progress::new(said.drawing.quiet);
     let drawn = draw(&LineJob::resolve(said)?, &mut progress)?;
@@ -111,19 +113,23 @@ fn draw_lines(
 /// Loads the scene and makes it ready; says what is ignored.
 fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<LineModel, Fault> {
     let external = job.said.drawing.allow_external.as_deref();
-    let loaded = progress.step("load", || job.source.load(&job.limits, external))?;
-    if loaded.volume.is_some() || !job.said.drawing.volumes.volumes.is_empty() {
-        let message = "smoke is not drawn as curves: npr render draws it in pixels";
-        return Err(Fault::new(Exit::Usage, message));
-    }
+    let loaded = progress.step("load", || match job.said.built_in() {
+        Some(source) => Ok(Loaded::of_smoke(source)),
+        None => job.source.load(&job.limits, external),
+    })?;
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
     job.output.refuse_any_of(&inputs)?;
+    let smoke = progress.step("smoke", || {
+        volume::still(&job.said.drawing.volumes, loaded.volume, &job.limits)
+    })?;
+    let (smoke, told) = smoke.map_or((None, Film::default()), |(smoke, told)| (Some(smoke), told));
+    job.output.refuse_any_of(&told.inputs)?;
     let options = LineModelOptions {
         weld: job.said.lines.weld,
         memory_limit: job.limits.memory_bytes,
     };
-    let model = progress.step("prepare", || {
+    let mut model = progress.step("prepare", || {
         LineModel::for_style(
             &loaded.scene,
             &job.look.style,
@@ -131,13 +137,14 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<LineModel, Faul
             job.cache.as_deref(),
         )
     })?;
-    progress.suspend(|| warn_of(job, &model));
+    model.set_smoke(smoke);
+    progress.suspend(|| warn_of(job, &model, &told));
     Ok(model)
 }
 
-fn warn_of(job: &LineJob<'_>, model: &LineModel) {
+fn warn_of(job: &LineJob<'_>, model: &LineModel, smoke: &Film) {
     let warn = |text: &str| message::warn(job.said.drawing.quiet, text);
-    for notice in model.notices() {
+    for notice in model.notices().iter().chain(&smoke.notices) {
         warn(notice);
     }
     for notice in job.lettering.notices() {

@@ -103,6 +103,16 @@ pub fn has_volume_name(path: &Path) -> bool {
 }
 
 impl Loaded {
+    /// Smoke of a source beside an empty scene.
+    pub fn of_smoke(source: VolumeSource) -> Self {
+        Self {
+            scene: Scene::default(),
+            format: None,
+            volume: Some(source),
+            inputs: Vec::new(),
+        }
+    }
+
     /// A volume called `name` in messages, beside an empty scene.
     fn of_volume(name: String, bytes: Vec<u8>) -> Self {
         Self {

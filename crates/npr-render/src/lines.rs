@@ -22,7 +22,7 @@ use crate::stage::check_size;
 use assembly::{Assembly, place_key};
 use glam::Vec3;
 use npr_core::budget::Budget;
-use npr_core::camera::{Camera, box_corners};
+use npr_core::camera::Camera;
 use npr_core::shape::{Shape, Surface};
 use npr_gpu::engine::EngineError;
 use npr_scene::Scene;
@@ -395,12 +395,13 @@ impl LineModel {
 
     /// A view of the whole model from three quarters above, for a frame of width / height `aspect`; `fov_y` is in radians.
     ///
-    /// The same as [`Model::framing`](crate::Model::framing) gives for the scene; the space of the smoke is taken in.
+    /// The same as [`Model::framing_with`](crate::Model::framing_with) gives for the scene with its smoke.
     pub fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
         let smoke = self
             .smoke
             .iter()
-            .flat_map(|smoke| box_corners(smoke.bounds()));
+            .flat_map(Smoke::reach)
+            .map(|point| point.to_array());
         Camera::framing_points(self.points.iter().copied().chain(smoke), aspect, fov_y)
     }
 }

@@ -10,7 +10,8 @@ use std::path::PathBuf;
 /// What the user said to `npr lines`.
 #[derive(Debug, Args)]
 pub struct LinesArguments {
-    /// Scene: .glb, .gltf, .vrm, .obj, .stl or .ply; - reads standard input.
+    /// Scene: .glb, .gltf, .vrm, .obj, .stl or .ply; or smoke: .vdb, .npy, plume, puff, explosion or cloud; - reads standard
+    /// input.
     #[arg(required_unless_present = "dump_style")]
     pub scene: Option<PathBuf>,
     /// File to write: .svg, .json, .pdf or .png; - writes to standard output [default: the scene's name
@@ -59,7 +60,7 @@ pub struct LineArguments {
     /// Whether strokes are smoothed, their ends joined, and what is too short to read left out.
     #[arg(long, value_enum, default_value_t)]
     pub smooth: Switch,
-    /// Fill visible surfaces with flat colour.
+    /// Fill visible surfaces with flat colour; smoke alone is filled in any case, but for centrelines.
     #[arg(long)]
     pub fill: bool,
     /// Distance up to which vertices are one, as a fraction of each mesh's diagonal: 1e-6 closes the cracks of

@@ -387,3 +387,59 @@ fn info_tells_what_is_in_a_volume() {
         array.text()
     );
 }
+
+/// The numbers of the paths of each layer of a drawing that hold something.
+fn layers(svg: &str) -> Vec<(String, usize)> {
+    let layers = svg.split("<g id=\"").skip(1);
+    let named = layers.filter_map(|layer| {
+        let (name, rest) = layer.split_once('"')?;
+        Some((name.to_owned(), rest.matches("<path").count()))
+    });
+    named.filter(|(_, count)| *count > 0).collect()
+}
+
+#[test]
+fn smoke_is_drawn_in_curves_and_filled() {
+    let place = Workplace::with_scene();
+    place.put("ball.vdb", &ball(0));
+    let size = [
+        "--size",
+        "96x64",
+        "--backend",
+        "cpu",
+        "--spheres",
+        "20",
+        "-q",
+    ];
+    let draw = |more: &[&str]| {
+        let outcome = place.npr(&[&["lines"], more, &size[..], &["-o", "-"]].concat());
+        outcome.assert_silent_success();
+        outcome.text().to_owned()
+    };
+    let filled = draw(&["ball.vdb"]);
+    let names: Vec<String> = layers(&filled).into_iter().map(|(name, _)| name).collect();
+    assert!(names.iter().any(|name| name.contains("fills")), "{names:?}");
+    assert!(
+        names.iter().any(|name| name.contains("contour")),
+        "{names:?}"
+    );
+    let pen = draw(&["ball.vdb", "--svg", "centreline"]);
+    assert!(!pen.contains("fills") && pen.contains("contour"));
+    let built_in = draw(&["puff"]);
+    assert!(built_in.contains("fills") && built_in.contains("smoke"));
+    let among = draw(&["scene.obj", "--volume", "ball.vdb@0.5,0,0.5*0.05"]);
+    assert!(!among.contains("fills") && among.contains("smoke"));
+}
+
+#[test]
+fn curves_of_smoke_are_the_same_for_any_number_of_threads() {
+    let place = Workplace::new();
+    let draw = |threads: &str| {
+        let mut command = place.command(&["lines", "puff", "--spheres", "60", "-q", "-o", "-"]);
+        let output = command.env("RAYON_NUM_THREADS", threads).output();
+        let outcome = Outcome::of(output.expect("the command runs"));
+        outcome.assert_silent_success();
+        outcome.text().to_owned()
+    };
+    assert_eq!(draw("1"), draw("3"));
+}

@@ -6,7 +6,7 @@ use crate::error::RenderError;
 use crate::light::ChosenLights;
 use crate::model::Model;
 use crate::placement::Bounds;
-use crate::smoke::{Measure, Smoke, lens_of};
+use crate::smoke::{Measure, Smoke, around, lens_of};
 use npr_core::camera::Camera;
 use npr_style::smoke::SmokeLook;
 use npr_style::{SmokeLines as Outlining, Style};
@@ -140,9 +140,6 @@ pub(super) fn joined(smoke: Option<&Smoke>, bounds: Bounds, is_empty: bool) -> B
     match smoke.map(Smoke::extent) {
         None => bounds,
         Some(smoke) if is_empty => smoke,
-        Some(smoke) => (
-            std::array::from_fn(|i| bounds.0[i].min(smoke.0[i])),
-            std::array::from_fn(|i| bounds.1[i].max(smoke.1[i])),
-        ),
+        Some(smoke) => around(bounds, smoke),
     }
 }

@@ -109,7 +109,9 @@ const DIRECTIONS: [[f32; 2]; 8] = [
 impl Layers<'_> {
     /// The smoke's own texel where it covers all of a pixel without surfaces: what all that follows would give.
     pub(crate) fn smoke_alone(&self, x: u32, y: u32, seen: &Samples) -> Option<u32> {
-        if self.compose.flags & Compose::SMOKE == 0 || seen.iter().any(|id| *id != 0) {
+        // A tone that the pen has still to draw is no color yet.
+        let alone = Compose::SMOKE | Compose::SMOKE_PEN;
+        if self.compose.flags & alone != Compose::SMOKE || seen.iter().any(|id| *id != 0) {
             return None;
         }
         let texel = (y * self.window.size[0] + x) as usize;
