@@ -6,13 +6,13 @@ use crate::{Volume, VolumeError};
 /// Volumes numbered in the order of time, read one by one as they are needed.
 ///
 /// Where a volume brings no velocity, the motion to the next one is [estimated](estimate_velocity), so that spheres follow the
-/// smoke and moments between frames show it once. Holds two volumes at a time. All of a series must lie on one grid.
+/// smoke and moments between frames show it once. Holds three volumes at a time. All of a series must lie on one grid.
 #[derive(Debug, Clone)]
 pub struct Footage<R> {
     read: R,
     last: u32,
     frame_seconds: f32,
-    /// At most two, by number.
+    /// By number: two that a moment lies between, and the one after, which the motion of the second leads to.
     held: Vec<(u32, Volume)>,
     estimates: bool,
 }
@@ -102,7 +102,7 @@ where
         self.held.retain(|(number, _)| *number != frame);
         self.held.push((frame, volume));
         self.held.sort_unstable_by_key(|(number, _)| *number);
-        if self.held.len() > 2 {
+        if self.held.len() > 3 {
             self.held.remove(0);
         }
     }
