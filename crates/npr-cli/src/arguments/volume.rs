@@ -104,7 +104,10 @@ fn threshold(text: &str) -> Result<f32, String> {
 mod tests {
     use super::*;
 
-    fn placed(text: &str) -> Result<(String, Option<([f32; 3], f32)>), String> {
+    /// A name, a place and a scale.
+    type Placed = (String, Option<([f32; 3], f32)>);
+
+    fn placed(text: &str) -> Result<Placed, String> {
         let volume: PlacedVolume = text.parse()?;
         let place = volume.place.map(|(point, scale)| (point.0, scale));
         Ok((volume.name.to_string_lossy().into_owned(), place))
