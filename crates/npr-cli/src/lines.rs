@@ -120,10 +120,8 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<LineModel, Faul
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
     job.output.refuse_any_of(&inputs)?;
-    let smoke = progress.step("smoke", || {
-        volume::still(&job.said.drawing.volumes, loaded.volume, &job.limits)
-    })?;
-    let (smoke, told) = smoke.map_or((None, Film::default()), |(smoke, told)| (Some(smoke), told));
+    let volumes = &job.said.drawing.volumes;
+    let (smoke, told) = volume::step(progress, volumes, loaded.volume, &job.limits)?;
     job.output.refuse_any_of(&told.inputs)?;
     let options = LineModelOptions {
         weld: job.said.lines.weld,

@@ -140,10 +140,8 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<S
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
     job.output.refuse_any_of(&inputs)?;
-    let smoke = progress.step("smoke", || {
-        volume::still(&job.said.drawing.volumes, loaded.volume, &limits)
-    })?;
-    let (smoke, told) = smoke.map_or((None, Film::default()), |(smoke, told)| (Some(smoke), told));
+    let volumes = &job.said.drawing.volumes;
+    let (smoke, told) = volume::step(progress, volumes, loaded.volume, &limits)?;
     job.output.refuse_any_of(&told.inputs)?;
     let prepared = prepared(&loaded.scene, &job.look.style, &limits, progress)?;
     progress.suspend(|| warn_of(job, &prepared.model, &told));

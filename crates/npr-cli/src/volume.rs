@@ -6,6 +6,7 @@ use crate::input::read_file;
 use crate::message::quoted;
 use crate::moments::Moments;
 use crate::numbered::Numbered;
+use crate::progress::Progress;
 use npr_core::budget::Budget;
 use npr_render::volume::{Extent, mended_notice};
 use npr_render::{Smoke, Sphere, UpAxis, VolumeFault, VolumeFile, VolumeOptions};
@@ -102,6 +103,20 @@ impl Film {
         self.inputs.extend(told.inputs);
         self.notices.extend(told.notices);
     }
+}
+
+/// The smoke of a still picture as a step of the work, which is not told of where there is none; see [`still`].
+pub fn step(
+    progress: &mut Progress,
+    said: &VolumeArguments,
+    own: Option<VolumeSource>,
+    limits: &Limits,
+) -> Result<(Option<Smoke>, Film), Fault> {
+    if said.volumes.is_empty() && own.is_none() {
+        return Ok((None, Film::default()));
+    }
+    let smoke = progress.step("smoke", || still(said, own, limits))?;
+    Ok(smoke.map_or_else(Default::default, |(smoke, told)| (Some(smoke), told)))
 }
 
 /// The smoke of a still picture: that of the scene's own file, where it is a volume, and of every `--volume`; none without any.

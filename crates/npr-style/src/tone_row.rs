@@ -73,7 +73,8 @@ pub fn tone_row(size: [u32; 2], rgba: &[u8], softness: f32) -> Result<Vec<RowTon
         if softness > 0.0 {
             softened(&pixels, softness, x)
         } else {
-            pixels[place * width / ROW_LENGTH]
+            // The pixel that the middle of the place lies in.
+            pixels[(2 * place + 1) * width / (2 * ROW_LENGTH)]
         }
     };
     let mut tones: Vec<RowTone> = (0..ROW_LENGTH)

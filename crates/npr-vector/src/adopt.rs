@@ -51,7 +51,7 @@ mod tests {
         let places = ring(0, radius, count).points;
         let place = |i: usize| places[i % count].place;
         let facet = |i: usize| {
-            let kind = match (i % 2 == 0) == (first == Kind::Contour) {
+            let kind = match i.is_multiple_of(2) == (first == Kind::Contour) {
                 true => Kind::Contour,
                 false => Kind::Intersection,
             };
@@ -107,10 +107,9 @@ mod tests {
         fn only_kinds_change(
             lines in prop::collection::vec((prop::array::uniform2(0.0_f64..20.0), prop::array::uniform2(0.0_f64..20.0), 0_usize..Kind::ALL.len(), 0_u32..2), 0..30),
         ) {
-            let made = |(id, (from, to, kind, occluders)): (u64, &([f64; 2], [f64; 2], usize, u32))| {
-                Run { kind: Kind::ALL[*kind], occluders: *occluders, ..run_along(id, &[*from, *to]) }
-            };
-            let runs: Vec<Run> = (0..).zip(&lines).map(made).collect();
+            let runs: Vec<Run> = lines.iter().enumerate().map(|(id, (from, to, kind, occluders))| {
+                Run { kind: Kind::ALL[*kind], occluders: *occluders, ..run_along(id as u64, &[*from, *to]) }
+            }).collect();
             let adopted = adopt_intersections(runs.clone());
             prop_assert_eq!(adopted.len(), runs.len());
             for (new, old) in adopted.iter().zip(&runs) {

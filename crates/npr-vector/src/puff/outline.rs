@@ -24,8 +24,8 @@ const CHORD_PX: f64 = 4.0;
 /// Most chords of a circle: the largest in sight leave it by more than [`SAGITTA_PX`].
 const CHORDS_MAX: f64 = 65_536.0;
 
-/// Ends of strokes thinner than this are left off, in pixels: paler than paper is rough.
-const HAIR_PX: f64 = 0.4;
+/// Ends of strokes thinner than this are left off, as a share of the widest place of all: paler than paper is rough.
+const HAIR_SHARE: f64 = 0.13;
 
 /// Strokes shorter than this without such ends are left out, in pixels.
 const SPECK_PX: f64 = 4.0;
@@ -102,7 +102,11 @@ impl SmokeLines<'_> {
             })
         });
         if settings.smooth {
-            strokes.iter_mut().for_each(trim_hairs);
+            let points = strokes.iter().flat_map(|stroke| &stroke.points);
+            let widest = points.map(|point| point.width).fold(0.0, f64::max);
+            for stroke in &mut strokes {
+                trim_hairs(stroke, HAIR_SHARE * widest);
+            }
             strokes.retain(|stroke| stroke.length() >= SPECK_PX);
         }
         strokes
@@ -127,8 +131,8 @@ impl SmokeLines<'_> {
 }
 
 /// Leaves off the ends of an open stroke that are hardly to be seen; nothing stays of one that is so all along.
-fn trim_hairs(stroke: &mut Stroke) {
-    let is_seen = |point: &StrokePoint| point.width >= HAIR_PX;
+fn trim_hairs(stroke: &mut Stroke, hair: f64) {
+    let is_seen = |point: &StrokePoint| point.width >= hair;
     let Some(last) = stroke.points.iter().rposition(is_seen) else {
         stroke.points.clear();
         return;
