@@ -24,6 +24,7 @@ pub mod device;
 pub mod lines;
 pub mod machine;
 pub mod memory;
+pub mod orbit;
 pub mod smoke;
 pub mod solid;
 pub mod subject;

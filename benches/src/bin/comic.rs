@@ -7,17 +7,17 @@
 use std::error::Error;
 use std::path::Path;
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use npr_benches::comic::motion::{Change, Inked};
 use npr_benches::comic::{gallery, price};
 use npr_benches::lines::soup::Soup;
 use npr_benches::lines::subjects::{scene_of, shared_models};
+use npr_benches::orbit::turned;
 use npr_benches::subject::{Subject, bunny_path};
 use npr_benches::table::Table;
 use npr_benches::timing::median;
 use npr_benches::{device, machine};
 use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
-use npr_core::math::{cos, sin};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
@@ -177,17 +177,7 @@ fn orbiting(model: &Model, soup: &Soup, degrees: f32) -> Camera {
     let aspect = ORBIT_SIZE[0] as f32 / ORBIT_SIZE[1] as f32;
     let camera = model.framing(aspect, DEFAULT_FOV_DEG.to_radians());
     let (middle, _): (DVec3, f64) = soup.ball();
-    let middle = middle.as_vec3();
-    let (s, c) = (sin(degrees.to_radians()), cos(degrees.to_radians()));
-    let turned = |point: [f32; 3]| {
-        let p = Vec3::from(point) - middle;
-        (Vec3::new(c * p.x + s * p.z, p.y, c * p.z - s * p.x) + middle).to_array()
-    };
-    Camera {
-        eye: turned(camera.eye),
-        target: turned(camera.target),
-        ..camera
-    }
+    turned(camera, middle.as_vec3(), degrees)
 }
 
 /// The value that a share of the values does not exceed; 0 of none.

@@ -5,10 +5,11 @@ use std::path::Path;
 
 use glam::{DAffine3, DVec3, Vec3};
 use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
-use npr_core::math::{cos, sin};
 use npr_render::Smoke;
 use npr_smoke::{SmokeSettings, Source, Sphere, Volume};
 use npr_vdb::{Limits, read};
+
+use crate::orbit::turned;
 
 /// The built-in plume on a grid.
 pub fn plume(size: [u32; 3]) -> SmokeSettings {
@@ -80,16 +81,7 @@ pub fn camera(space: ([f32; 3], [f32; 3]), size: [u32; 2], degrees: f32) -> Came
     let fov_y = DEFAULT_FOV_DEG.to_radians();
     let camera = Camera::framing_for(space.0, space.1, aspect, fov_y);
     let middle = (Vec3::from(space.0) + Vec3::from(space.1)) * 0.5;
-    let (s, c) = (sin(degrees.to_radians()), cos(degrees.to_radians()));
-    let turned = |point: [f32; 3]| {
-        let p = Vec3::from(point) - middle;
-        (Vec3::new(c * p.x + s * p.z, p.y, c * p.z - s * p.x) + middle).to_array()
-    };
-    Camera {
-        eye: turned(camera.eye),
-        target: turned(camera.target),
-        ..camera
-    }
+    turned(camera, middle, degrees)
 }
 
 #[cfg(test)]
