@@ -49,6 +49,16 @@ impl Row {
         let [recall, precision] = [m.recall, m.precision].map(|of| of[bar.tolerance]);
         let [fewest, most] = FRAGMENTATION;
         let per_run = m.fragmentation(bar.against);
+        let mut fragments = format!("{per_run:.2} strokes a {}", bar.against.word());
+        if bar.against == Against::Runs {
+            // Fewer than the edges of a noisy mesh come apart into, and still no fewer than a picture takes?
+            let _ = write!(
+                fragments,
+                ", {:.2} a {}",
+                m.fragmentation(Against::Drawn),
+                Against::Drawn.word()
+            );
+        }
         let faults = [
             (
                 recall < bar.recall,
@@ -65,11 +75,7 @@ impl Row {
                 true,
                 format!("doubles {:+.4}", m.extra_doubles()),
             ),
-            (
-                !(fewest..=most).contains(&per_run),
-                false,
-                format!("{per_run:.2} strokes a {}", bar.against.word()),
-            ),
+            (!(fewest..=most).contains(&per_run), false, fragments),
         ];
         let there = faults.into_iter().filter(|(is_there, ..)| *is_there);
         there
