@@ -284,12 +284,12 @@ mod tests {
 
     #[test]
     fn what_slides_over_the_smoke_changes() {
-        // Of each 10 pixels 5 are new, of which those beside edges may be taken for slipped.
+        // Of each 10 pixels 5 are new. None of them is taken for slipped: beside an edge of one frame there is none of the other.
         for (by, moved, aside) in [(5, 0.0, 0.0), (0, 0.2, 0.0), (0, 0.0, -0.2)] {
             // Both ways to carry a tone agree: the sphere does not turn.
             let [differing, jumping] = change(by, moved, aside).shares();
             assert!((differing - 0.5).abs() < 0.05, "{differing}");
-            assert!((0.2..0.5).contains(&jumping), "{jumping}");
+            assert!((0.4..=differing).contains(&jumping), "{jumping}");
         }
     }
 
