@@ -31,6 +31,11 @@ fn processor() -> String {
     )
 }
 
+/// What is measured and when: [`commit`] and [`today`], in words.
+pub fn code() -> String {
+    format!("{}, measured {}", commit(), today())
+}
+
 /// The commit and whether files differ from it, in words.
 pub fn commit() -> String {
     let commit = first_line_of("git", &["rev-parse", "--short", "HEAD"]);

@@ -68,11 +68,7 @@ fn main() -> Outcome<()> {
 fn report() -> Outcome<()> {
     println!("# Comic pictures\n");
     println!("- machine: {}", machine::description());
-    println!(
-        "- code: {}, measured {}",
-        machine::commit(),
-        machine::today()
-    );
+    println!("- code: {}", machine::code());
     println!("- load average at the start: {}\n", machine::load());
     motion()?;
     prices(&[])

@@ -81,11 +81,7 @@ impl Look {
 fn report() -> Outcome<()> {
     println!("# Whole frames\n");
     println!("- machine: {}; no graphics device", machine::description());
-    println!(
-        "- code: {}, measured {}",
-        machine::commit(),
-        machine::today()
-    );
+    println!("- code: {}", machine::code());
     println!(
         "- each figure: the median of {RUNS} frames and, in brackets, the least, in ms, on the processor engine; loading, welding and curvature happen before the clock starts"
     );

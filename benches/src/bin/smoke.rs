@@ -75,11 +75,7 @@ fn main() -> Outcome<()> {
 fn head() {
     println!("# Cartoon smoke\n");
     println!("- machine: {}", machine::description());
-    println!(
-        "- code: {}, measured {}",
-        machine::commit(),
-        machine::today()
-    );
+    println!("- code: {}", machine::code());
     println!("- load average at the start: {}\n", machine::load());
 }
 

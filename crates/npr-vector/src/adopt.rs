@@ -13,10 +13,13 @@ use crate::stroke::Kind;
 /// comes first in [`Kind::ALL`] is taken, and its surface too, so that they can be joined. Edges of the mesh keep their kinds:
 /// each stands for itself. O(n log n) for ends that are spread over the picture.
 pub fn adopt_intersections(mut runs: Vec<Run>) -> Vec<Run> {
+    if runs.iter().all(|run| run.kind != Kind::Intersection) {
+        return runs;
+    }
     let mut stronger: Vec<[Option<(Kind, u32)>; 2]> = vec![[None; 2]; runs.len()];
     for [a, b] in near_ends(&runs, TOUCHING_PX) {
         let (run_a, run_b) = (&runs[a / 2], &runs[b / 2]);
-        if run_a.object != run_b.object || (run_a.occluders > 0) != (run_b.occluders > 0) {
+        if !run_a.is_beside(run_b) {
             continue;
         }
         let (weaker, other) = match (run_a.kind, run_b.kind) {

@@ -3,6 +3,7 @@
 //! Where a mesh is noisy its contour doubles back, and a cusp grows a fringe of hairs beside the line it ends. Runs are taken
 //! from the longest to the shortest; what lies beside a run already taken, and along it, is cut away.
 
+use crate::near::{cell_of, cells_around};
 use crate::run::{Run, RunPoint, distance};
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
@@ -51,8 +52,9 @@ pub fn suppress(runs: Vec<Run>) -> Vec<Run> {
 
 /// Runs without the crumbs that add less ink than half the pen's width to longer runs; order is kept.
 ///
-/// A run is left out if less than 1.5 pixels of it lie farther than 3 from longer runs that stay. Runs away from
-/// others, those that hold two ends together, parts cut at corners, and the longest run of every object always stay. Runs must be sampled about evenly. O(samples) for
+/// A run is left out if less than 1.5 pixels of it lie farther than 3 from longer runs that stay. Runs away from others, those
+/// that hold two ends together, parts cut at corners, and the longest run of every object always stay. Runs must be sampled
+/// about evenly. O(samples) for
 /// lines that do not crowd in one place.
 pub fn leave_out_crumbs(mut runs: Vec<Run>) -> Vec<Run> {
     let mut taken = Taken::default();
@@ -134,7 +136,7 @@ impl Taken {
     }
 
     fn add(&mut self, sample: Sample) {
-        let cell = self.cells.entry(cell_of(sample.place)).or_default();
+        let cell = self.cells.entry(cell_of(sample.place, PEN_PX)).or_default();
         cell.push(sample);
     }
 
@@ -190,12 +192,7 @@ impl Taken {
         reach: f64,
         is: impl Fn(&Sample) -> bool,
     ) -> Option<&Sample> {
-        let [x, y] = cell_of(place);
-        let cells = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [dx, dy]));
-        let around = cells.filter_map(|[dx, dy]| {
-            self.cells
-                .get(&[x.saturating_add(dx), y.saturating_add(dy)])
-        });
+        let around = cells_around(cell_of(place, PEN_PX)).filter_map(|cell| self.cells.get(&cell));
         around
             .flatten()
             .map(|other| (distance(other.place, place), other))
@@ -203,10 +200,6 @@ impl Taken {
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .map(|(_, other)| other)
     }
-}
-
-fn cell_of(place: [f64; 2]) -> [i64; 2] {
-    place.map(|v| (v / PEN_PX).floor() as i64)
 }
 
 /// Unit direction of a run at every point.

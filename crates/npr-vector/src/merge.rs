@@ -4,6 +4,7 @@
 //! ends face each other, where they run past each other side by side, and around a corner that nothing else leaves.
 
 use crate::corner::start_at_head;
+use crate::near::cell_of;
 use crate::run::{Run, RunPoint, distance};
 use std::collections::BTreeMap;
 
@@ -105,10 +106,6 @@ impl End {
     }
 }
 
-fn cell_of(place: [f64; 2], reach_px: f64) -> [i64; 2] {
-    place.map(|v| (v / reach_px).floor() as i64)
-}
-
 /// Pairs of ends of runs up to `reach_px` apart, the lower number first; ends that were cut at corners have no pairs.
 ///
 /// End `2 r` is the first point of run `r`, `2 r + 1` its last.
@@ -179,13 +176,9 @@ impl<'a> Meetings<'a> {
     fn cost(&self, [a, b]: [usize; 2]) -> Option<f64> {
         let (run_a, run_b) = (&self.runs[a / 2], &self.runs[b / 2]);
         let (end_a, end_b) = (self.ends[a].as_ref()?, self.ends[b].as_ref()?);
-        let alike = run_a.kind == run_b.kind
-            && run_a.object == run_b.object
-            && run_a.surface == run_b.surface
-            && (run_a.occluders > 0) == (run_b.occluders > 0);
         let near = (end_a.depth - end_b.depth).abs() <= DEPTH_SHARE * end_a.depth.abs();
         let same = a / 2 == b / 2;
-        if !alike || !near || (same && run_a.length() < 4.0 * DIRECTION_PX) {
+        if !run_a.may_join(run_b) || !near || (same && run_a.length() < 4.0 * DIRECTION_PX) {
             return None;
         }
         let gap = self.gap([a, b])?;

@@ -72,6 +72,16 @@ impl Run {
         }
     }
 
+    /// Whether both may be parts of one line: of one kind, object and surface, and both seen or both hidden.
+    pub(crate) fn may_join(&self, other: &Self) -> bool {
+        self.kind == other.kind && self.surface == other.surface && self.is_beside(other)
+    }
+
+    /// Whether both are of one object, and both seen or both hidden.
+    pub(crate) fn is_beside(&self, other: &Self) -> bool {
+        self.object == other.object && (self.occluders > 0) == (other.occluders > 0)
+    }
+
     /// Length in the picture, in pixels.
     pub fn length(&self) -> f64 {
         let open: f64 = self

@@ -4,6 +4,7 @@
 //! to its cusp. On paper that is a whisker on the corner of one line, so a pen goes round the corner and leaves it out.
 
 use crate::merge::{DOT_PX, TOUCHING_PX};
+use crate::near::{cell_of, cells_around};
 use crate::run::{Run, distance};
 use std::collections::BTreeMap;
 
@@ -46,11 +47,14 @@ impl Near {
         for (index, run) in runs.iter().enumerate() {
             let last = run.points.len() - 1;
             for (i, point) in run.points.iter().enumerate() {
-                cells.entry(cell_of(point.place)).or_default().push(Sample {
-                    place: point.place,
-                    run: index,
-                    is_end: !run.closed && (i == 0 || i == last),
-                });
+                cells
+                    .entry(cell_of(point.place, TOUCHING_PX))
+                    .or_default()
+                    .push(Sample {
+                        place: point.place,
+                        run: index,
+                        is_end: !run.closed && (i == 0 || i == last),
+                    });
             }
         }
         Self { cells }
@@ -75,7 +79,7 @@ impl Near {
             if from_tip >= DOT_PX {
                 break;
             }
-            let ends_here = |other: &Sample| other.is_end && alike(run, &runs[other.run]);
+            let ends_here = |other: &Sample| other.is_end && run.may_join(&runs[other.run]);
             if self.others(place(i), index).any(ends_here) {
                 spur = i;
             }
@@ -85,28 +89,11 @@ impl Near {
 
     /// The points of other runs that touch a place.
     fn others(&self, place: [f64; 2], run: usize) -> impl Iterator<Item = &Sample> {
-        let [x, y] = cell_of(place);
-        let cells = (-1..=1).flat_map(move |dx| (-1..=1).map(move |dy| [dx, dy]));
-        cells
-            .filter_map(move |[dx, dy]| {
-                let cell = [x.saturating_add(dx), y.saturating_add(dy)];
-                self.cells.get(&cell)
-            })
+        cells_around(cell_of(place, TOUCHING_PX))
+            .filter_map(|cell| self.cells.get(&cell))
             .flatten()
             .filter(move |other| other.run != run && distance(other.place, place) <= TOUCHING_PX)
     }
-}
-
-fn cell_of(place: [f64; 2]) -> [i64; 2] {
-    place.map(|v| (v / TOUCHING_PX).floor() as i64)
-}
-
-/// Whether two runs may be one line.
-fn alike(a: &Run, b: &Run) -> bool {
-    a.kind == b.kind
-        && a.object == b.object
-        && a.surface == b.surface
-        && (a.occluders > 0) == (b.occluders > 0)
 }
 
 #[cfg(test)]

@@ -34,11 +34,7 @@ fn main() -> Outcome<()> {
 fn report(arguments: &Arguments) -> Outcome<()> {
     println!("# Line drawings\n");
     println!("- machine: {}", machine::description());
-    println!(
-        "- code: {}, measured {}",
-        machine::commit(),
-        machine::today()
-    );
+    println!("- code: {}", machine::code());
     println!(
         "- frame {}x{}; contours, boundaries and creases over 45.57 degrees",
         SIZE[0], SIZE[1]
