@@ -388,6 +388,17 @@ mod tests {
         (0..).zip(lines).map(made).collect()
     }
 
+    #[test]
+    fn a_crumb_that_holds_two_ends_together_stays() {
+        let ends = [
+            line(0, [0.0, 0.0], [40.0, 0.0]),
+            line(1, [45.0, 0.0], [80.0, 0.0]),
+        ];
+        let with = |crumb: Run| leave_out_crumbs([&ends[..], &[crumb]].concat()).len();
+        assert_eq!(with(line(2, [40.0, 0.0], [45.0, 0.0])), 3);
+        assert_eq!(with(line(2, [20.0, 1.0], [25.0, 1.0])), 2);
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
