@@ -21,10 +21,13 @@ pub mod device;
 #[cfg(not(feature = "wgpu"))]
 #[path = "no_device.rs"]
 pub mod device;
+pub mod ledger;
 pub mod lines;
 pub mod machine;
 pub mod memory;
 pub mod orbit;
+pub mod outline_color;
+pub mod sheet;
 pub mod smoke;
 pub mod solid;
 pub mod subject;

@@ -2,5 +2,4 @@
 //! many tones change without cause while smoke or camera move, in [`calm`].
 
 pub mod calm;
-pub mod ledger;
 pub mod subject;

@@ -1,5 +1,6 @@
 //! A bumpy ball of an exact number of triangles.
 
+use glam::{Mat4, Vec3};
 use npr_core::math::{cos, sin};
 use npr_mesh::testing::{mapped, uv_sphere};
 use npr_scene::{Mesh, Node, Part, Scene};
@@ -29,6 +30,31 @@ pub fn bumpy_ball(triangle_count: usize) -> Scene {
     };
     cut_faces(&mut part, (triangle_count - 2 * bands * meridians) / 2);
     scene_of(part)
+}
+
+/// `count` bumpy balls in a row, each an object of its own, that seen from z cover as much together whatever their number; the row is
+/// as wide as a single ball of radius sqrt(`count`) would need, about the origin.
+///
+/// # Panics
+///
+/// As [`bumpy_ball`].
+pub fn row_of_balls(count: usize, triangle_count: usize) -> Scene {
+    let mut scene = bumpy_ball(triangle_count);
+    let radius = 1.0 / (count as f32).sqrt();
+    let node = scene.nodes[0].clone();
+    let places = (0..count).map(|i| 2.3 * radius * (i as f32 - 0.5 * (count as f32 - 1.0)));
+    let placed = |(i, x): (usize, f32)| {
+        let place =
+            Mat4::from_translation(Vec3::new(x, 0.0, 0.0)) * Mat4::from_scale(Vec3::splat(radius));
+        Node {
+            name: format!("ball {i}"),
+            local: place.to_cols_array_2d(),
+            world_from_node: place.to_cols_array_2d(),
+            ..node.clone()
+        }
+    };
+    scene.nodes = places.enumerate().map(placed).collect();
+    scene
 }
 
 /// A point of the unit ball pushed out or in, with its pole turned from z to y.
@@ -82,6 +108,17 @@ mod tests {
             prop_assert_eq!(scene.triangle_count(), 2 * half);
             // Every edge of a closed surface has two faces: E = 3 F / 2, and V - E + F = 2.
             prop_assert_eq!(scene.vertex_count(), half + 2);
+        }
+
+        #[test]
+        fn rows_of_balls_do_not_overlap(count in 2usize..12) {
+            let scene = row_of_balls(count, 64);
+            prop_assert_eq!(scene.nodes.len(), count);
+            let radius = 1.0 / (count as f32).sqrt() * (1.0 + BUMP_HEIGHT);
+            for pair in scene.nodes.windows(2) {
+                let apart = pair[1].local[3][0] - pair[0].local[3][0];
+                prop_assert!(apart > 2.0 * radius && pair[0].local[0][0] == pair[1].local[1][1]);
+            }
         }
     }
 }

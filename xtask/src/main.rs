@@ -34,6 +34,8 @@ usage: cargo xtask COMMAND
                     measuring program: --models DIR, --peers DIR, --only NAME, --quick
   measure comic     measure comic pictures, in release, and keep the tables
   measure smoke     measure cartoon smoke, in release, and keep the tables
+  measure outline-colour
+                    measure outlines before backgrounds, in release, and keep the tables
   gallery [PRESETS] draw every preset, or those named, on the shared models into target/gallery
   names             check that no file names a machine, and that every crate has a README
   snapshots bless FILTER
@@ -67,6 +69,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["measure", "lines", rest @ ..] => measure::lines(root, rest),
         ["measure", "comic"] => measure::comic(root),
         ["measure", "smoke"] => measure::smoke(root),
+        ["measure", "outline-colour"] => measure::outline_color(root),
         ["gallery", presets @ ..] => gallery::draw(root, presets),
         ["names"] => names::check(root),
         ["snapshots", "bless", filter] => snapshots::bless(root, filter),

@@ -17,6 +17,9 @@ const COMIC: &str = "benches/results/comic.md";
 /// Where the tables of smoke are kept.
 const SMOKE: &str = "benches/results/smoke.md";
 
+/// Where the tables of outlines before backgrounds are kept.
+const OUTLINE_COLOR: &str = "benches/results/outline_color.md";
+
 /// Flags of a run that is only part of the whole, so that its tables are not kept.
 const PARTIAL: [&str; 3] = ["--quick", "--only", "--strokes"];
 
@@ -39,6 +42,12 @@ pub fn comic(root: &Path) -> Result<()> {
 pub fn smoke(root: &Path) -> Result<()> {
     let tables = tables_of(root, "smoke", &[])?;
     write_whole(&root.join(SMOKE), &tables)
+}
+
+/// Measures outlines before backgrounds in release, prints the tables and keeps them.
+pub fn outline_color(root: &Path) -> Result<()> {
+    let tables = tables_of(root, "outline", &[])?;
+    write_whole(&root.join(OUTLINE_COLOR), &tables)
 }
 
 /// What a measuring program prints, printed once more.

@@ -4,9 +4,9 @@
 
 use std::error::Error;
 
+use npr_benches::ledger::{Ledger, precise};
 use npr_benches::machine;
 use npr_benches::smoke::calm::{Change, STEP, Shown};
-use npr_benches::smoke::ledger::{Ledger, precise};
 use npr_benches::smoke::subject::{camera, drawn, plume, space_of, volume_of};
 use npr_benches::subject::shared_volumes;
 use npr_benches::table::Table;

@@ -1,17 +1,16 @@
 //! Sheets of every preset on a few models, for people to look at.
 
 use std::error::Error;
-use std::fs::File;
-use std::io::BufWriter;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use npr_core::camera::DEFAULT_FOV_DEG;
 use npr_gpu::processor::Processor;
-use npr_render::{Frame, Model, Stage, StageOptions};
+use npr_render::{Model, Stage, StageOptions};
 use npr_scene::{LoadOptions, load};
 use npr_style::{Style, presets};
 
 use crate::lines::subjects::shared_models;
+use crate::sheet::Sheet;
 
 /// What is drawn, in this order: textures, a character, a machine, plain surfaces, a figure, a scan.
 pub const MODELS: [&str; 6] = [
@@ -60,33 +59,12 @@ pub fn write(folder: &Path, names: &[String]) -> Result<(), Box<dyn Error>> {
 }
 
 /// Draws every model in a style and writes them beside each other.
-fn write_sheet(path: &PathBuf, models: &[Model], style: &Style) -> Result<(), Box<dyn Error>> {
-    let columns = models.len().min(COLUMNS);
-    let rows = models.len().div_ceil(columns);
-    let width = columns * SIDE as usize;
-    let mut sheet = vec![255; width * rows * SIDE as usize * 4];
-    for (i, model) in models.iter().enumerate() {
+fn write_sheet(path: &Path, models: &[Model], style: &Style) -> Result<(), Box<dyn Error>> {
+    let mut sheet = Sheet::new(models.len().min(COLUMNS), [SIDE; 2]);
+    for model in models {
         let options = StageOptions::new([SIDE; 2]);
         let camera = model.framing(1.0, DEFAULT_FOV_DEG.to_radians());
-        let frame = Stage::new(&Processor, model, style, &options)?.draw(&camera)?;
-        let corner = [i % columns, i / columns].map(|at| at * SIDE as usize);
-        paste(&frame, &mut sheet, width, corner);
+        sheet.add(&Stage::new(&Processor, model, style, &options)?.draw(&camera)?);
     }
-    #[allow(
-        clippy::disallowed_methods,
-        reason = "sheets are for people who look at once"
-    )]
-    let file = BufWriter::new(File::create(path)?);
-    let mut encoder = png::Encoder::new(file, width as u32, rows as u32 * SIDE);
-    encoder.set_color(png::ColorType::Rgba);
-    encoder.write_header()?.write_image_data(&sheet)?;
-    Ok(())
-}
-
-fn paste(frame: &Frame, sheet: &mut [u8], width: usize, [left, top]: [usize; 2]) {
-    let row_bytes = frame.size[0] as usize * 4;
-    for (row, y) in frame.rgba.chunks_exact(row_bytes).zip(top..) {
-        let start = (y * width + left) * 4;
-        sheet[start..start + row_bytes].copy_from_slice(row);
-    }
+    sheet.write(path)
 }
