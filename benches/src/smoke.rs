@@ -1,5 +1,4 @@
-//! What cartoon smoke costs and how calm it is: [`subject`]s, a [`ledger`] of what the stages of a frame take, and how
-//! many tones change without cause while smoke or camera move, in [`calm`].
+//! How calm cartoon smoke is: [`subject`]s, and how many tones change without cause while smoke or camera move, in [`calm`].
 
 pub mod calm;
 pub mod subject;
