@@ -31,6 +31,7 @@
 //! ```
 
 mod antialias;
+pub mod backdrop;
 mod background;
 pub mod beam;
 pub mod blend;
@@ -52,6 +53,7 @@ mod lettering;
 mod light;
 pub mod lighting;
 mod line;
+mod line_background;
 pub mod motion;
 mod named_picture;
 mod nearest;
@@ -84,6 +86,9 @@ pub use length::{LONGEST, Length, LengthError, REFERENCE_HEIGHT_PX, Unit};
 pub use lettering::{LETTERING_MAX, Lettering, LetteringOutline};
 pub use light::{ExtraLight, Light, LightShape, LightSpace};
 pub use line::{Kinds, Line, LineMethod};
+pub use line_background::{
+    BackgroundMethod, Direction, Likeness, LineBackground, LineScope, Measure, RuleBackground,
+};
 pub use motion::{Motion, RuleMotion};
 pub use preset::{DEFAULT_PRESET, Preset, find as find_preset, presets};
 pub use ramp::{Level, Stop};

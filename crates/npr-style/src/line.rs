@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Color, Width};
+use crate::{Color, LineBackground, Width};
 
 /// How lines are found and drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -88,6 +88,8 @@ pub struct Line {
     pub kinds: Kinds,
     /// How wide lines are.
     pub width: Width,
+    /// How their colour minds what lies behind them.
+    pub background: LineBackground,
 }
 
 impl Default for Line {
@@ -101,6 +103,7 @@ impl Default for Line {
             angle_threshold_deg: 15.0,
             kinds: Kinds::default(),
             width: Width::default(),
+            background: LineBackground::default(),
         }
     }
 }

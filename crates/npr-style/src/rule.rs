@@ -8,7 +8,7 @@ use crate::hatch::{Hatch, Pattern};
 use crate::highlight::{Edge, Highlight};
 use crate::ink::{Follow, Ink, Mapping, StrokeSpace, Tone};
 use crate::ramp::Stop;
-use crate::{Color, Length, LineMethod, RuleMotion, Style, glob};
+use crate::{Color, Length, LineBackground, LineMethod, RuleBackground, RuleMotion, Style, glob};
 
 /// What a rule applies to: both patterns have to match.
 ///
@@ -52,6 +52,8 @@ pub struct RuleLine {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 90.0))]
     pub angle_threshold_deg: Option<f32>,
+    /// How its lines mind what lies behind them.
+    pub background: RuleBackground,
 }
 
 /// What a rule changes about the fill; what is absent stays.
@@ -239,6 +241,10 @@ pub struct Rule {
     /// What the rule applies to.
     #[serde(rename = "match")]
     pub matching: Match,
+    /// The subject that the part belongs to, whose outline minds the background; default the object at the top of the file's
+    /// tree that it hangs on. Parts of one name are one subject; `background` is part of none, as suits ground and walls.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub subject: Option<String>,
     /// What changes about its lines.
     pub line: RuleLine,
     /// What changes about its fill.
@@ -275,6 +281,10 @@ pub struct Look<'a> {
     pub width_factor: f32,
     /// Its angle for method `angle`, in degrees off the silhouette.
     pub angle_threshold_deg: f32,
+    /// How its lines mind what lies behind them.
+    pub line_background: LineBackground,
+    /// The subject that it belongs to, where a rule names one.
+    pub subject: Option<&'a str>,
     /// Colour instead of its material's.
     pub shade_color: Option<Color>,
     /// Its tones, sorted.
@@ -300,6 +310,8 @@ impl<'a> Look<'a> {
             line_color: style.line.color,
             width_factor: 1.0,
             angle_threshold_deg: style.line.angle_threshold_deg,
+            line_background: style.line.background.clone(),
+            subject: None,
             shade_color: None,
             ramp: &style.shade.ramp,
             ramp_image: &style.shade.ramp_image,
@@ -319,6 +331,8 @@ impl<'a> Look<'a> {
             line_color: line.color.unwrap_or(self.line_color),
             width_factor: line.width_factor.unwrap_or(self.width_factor),
             angle_threshold_deg: line.angle_threshold_deg.unwrap_or(self.angle_threshold_deg),
+            line_background: line.background.over(self.line_background),
+            subject: rule.subject.as_deref().or(self.subject),
             shade_color: shade.color.or(self.shade_color),
             ramp: shade.ramp.as_deref().unwrap_or(self.ramp),
             ramp_image: shade.ramp_image_over(self.ramp_image),

@@ -1,0 +1,221 @@
+//! How lines mind what lies behind them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::Length;
+use crate::backdrop;
+
+/// By which rule a line's colour minds the background.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BackgroundMethod {
+    /// By none: lines have their own colour everywhere.
+    #[default]
+    Off,
+    /// As published: where surface and background are alike, the surface's colour times `intensity` [Tsuji 2014].
+    Published,
+    /// Lines that read keep their colour; others move in lightness until they do.
+    Contrast,
+}
+
+/// Which way a line moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Direction {
+    /// Whichever reaches the target; of both the smaller step. As published: brighter before dark backgrounds.
+    #[default]
+    Auto,
+    /// Brighter alone.
+    Brighter,
+    /// Darker alone.
+    Darker,
+}
+
+/// What contrast is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Measure {
+    /// Difference of OKLab lightness: even to the eye from dark to light.
+    #[default]
+    Lightness,
+    /// Ratio of luminances of WCAG 2, as for text.
+    Wcag,
+}
+
+/// Which lines mind the background.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LineScope {
+    /// Those between a subject and anything else.
+    #[default]
+    Outline,
+    /// Those inside a subject too, each before the surface that it lies on.
+    All,
+}
+
+/// How alike two colours must be.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Likeness {
+    /// Largest difference of any channel of RGB, 0..1; default 0.25. 1 takes the criterion out.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub rgb: f32,
+    /// Largest difference of V, the greatest channel, 0..1; default 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub value: f32,
+    /// Largest difference of saturation, 0..1; default 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub saturation: f32,
+    /// Largest difference of hue in degrees, 0..180; default 180.
+    #[schemars(range(min = 0.0, max = 180.0))]
+    pub hue_deg: f32,
+}
+
+impl Default for Likeness {
+    fn default() -> Self {
+        Self {
+            rgb: 0.25,
+            value: 1.0,
+            saturation: 1.0,
+            hue_deg: 180.0,
+        }
+    }
+}
+
+/// How lines mind what lies behind them.
+///
+/// A line is judged before what is really there, other subjects included; where nothing is, before a transparent
+/// background, it keeps its colour. What counts as one subject, rules say by `subject`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct LineBackground {
+    /// By which rule; default `off`.
+    pub method: BackgroundMethod,
+    /// Which way lines move; default `auto`.
+    pub direction: Direction,
+    /// What `contrast` is measured in; default `lightness`.
+    pub measure: Measure,
+    /// For `contrast` by lightness: the difference that every line must have, 0..0.9; default 0.3. 0.15 a hint, 0.5 loud.
+    #[schemars(range(min = 0.0, max = 0.9))]
+    pub lightness: f32,
+    /// For `contrast` by `wcag`: the ratio that every line must have, 1..21; default 3, as for large text.
+    #[schemars(range(min = 1.0, max = 21.0))]
+    pub ratio: f32,
+    /// For `published`: what the surface's colour is multiplied or divided by, 1..20; default 2.
+    #[schemars(range(min = 1.0, max = 20.0))]
+    pub intensity: f32,
+    /// For `published`: how alike surface and background must be in everything.
+    pub likeness: Likeness,
+    /// Which lines follow the rule; default `outline`.
+    pub scope: LineScope,
+    /// Length of outline over which colours are blended; default 5 of 1080 px, at most 24 px of the frame. 0 for every pixel by
+    /// itself; `published` always is.
+    pub smooth: Length,
+}
+
+impl Default for LineBackground {
+    fn default() -> Self {
+        Self {
+            method: BackgroundMethod::Off,
+            direction: Direction::Auto,
+            measure: Measure::Lightness,
+            lightness: 0.3,
+            ratio: 3.0,
+            intensity: 2.0,
+            likeness: Likeness::default(),
+            scope: LineScope::Outline,
+            smooth: Length::ref_px(5.0),
+        }
+    }
+}
+
+impl LineBackground {
+    /// The rule as passes read it.
+    pub fn rule(&self) -> backdrop::Rule {
+        let direction = match self.direction {
+            Direction::Auto => backdrop::Rule::AUTO,
+            Direction::Brighter => backdrop::Rule::BRIGHTER,
+            Direction::Darker => backdrop::Rule::DARKER,
+        };
+        if self.method == BackgroundMethod::Published {
+            return self.criteria().rule(self.intensity, direction);
+        }
+        let (measure, target) = match self.measure {
+            Measure::Lightness => (backdrop::Rule::LIGHTNESS, self.lightness),
+            Measure::Wcag => (backdrop::Rule::WCAG, self.ratio),
+        };
+        backdrop::Rule {
+            method: match self.method {
+                BackgroundMethod::Off => backdrop::Rule::OFF,
+                _ => backdrop::Rule::BY_CONTRAST,
+            },
+            direction,
+            measure,
+            target,
+            ..backdrop::Rule::CONTRAST
+        }
+    }
+
+    /// The criteria of the published method; thresholds that nothing exceeds are left out.
+    fn criteria(&self) -> backdrop::Criteria {
+        let below = |threshold: f32, most: f32| (threshold < most).then_some(threshold);
+        let Likeness {
+            rgb,
+            value,
+            saturation,
+            hue_deg,
+        } = self.likeness;
+        let some = backdrop::Criteria {
+            rgb: below(rgb, 1.0),
+            value: below(value, 1.0),
+            saturation: below(saturation, 1.0),
+            hue_deg: below(hue_deg, 180.0),
+        };
+        match some == backdrop::Criteria::default() {
+            true => backdrop::Criteria {
+                rgb: Some(1.0),
+                ..some
+            },
+            false => some,
+        }
+    }
+}
+
+/// What a rule changes about how lines mind the background; what is absent stays.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RuleBackground {
+    /// By which rule: hair may keep its line while clothes adapt.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub method: Option<BackgroundMethod>,
+    /// Which way its lines move.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub direction: Option<Direction>,
+    /// The difference of lightness that its lines must have, 0..0.9.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 0.9))]
+    pub lightness: Option<f32>,
+    /// The ratio that its lines must have, 1..21.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1.0, max = 21.0))]
+    pub ratio: Option<f32>,
+    /// What its colour is multiplied or divided by, 1..20.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1.0, max = 20.0))]
+    pub intensity: Option<f32>,
+}
+
+impl RuleBackground {
+    /// `background` with what the rule states in place of what it had.
+    pub(crate) fn over(&self, background: LineBackground) -> LineBackground {
+        LineBackground {
+            method: self.method.unwrap_or(background.method),
+            direction: self.direction.unwrap_or(background.direction),
+            lightness: self.lightness.unwrap_or(background.lightness),
+            ratio: self.ratio.unwrap_or(background.ratio),
+            intensity: self.intensity.unwrap_or(background.intensity),
+            ..background
+        }
+    }
+}
