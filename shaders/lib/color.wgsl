@@ -10,3 +10,20 @@ fn srgb_from_linear(v: f32) -> f32 {
     if c <= 0.0031308 { return c * 12.92; }
     return 1.055 * pow(c, 1.0 / 2.4) - 0.055;
 }
+
+fn unpack_rgba8(packed: u32) -> vec4<f32> {
+    return vec4<f32>(f32(packed & 255u), f32((packed >> 8u) & 255u), f32((packed >> 16u) & 255u), f32(packed >> 24u)) / 255.0;
+}
+
+fn linear_from_srgb(v: f32) -> f32 {
+    if v <= 0.04045 { return v / 12.92; }
+    return pow((v + 0.055) / 1.055, 2.4);
+}
+
+fn linear_rgb(srgb: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(linear_from_srgb(srgb.r), linear_from_srgb(srgb.g), linear_from_srgb(srgb.b));
+}
+
+fn srgb_of(light: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(srgb_from_linear(light.r), srgb_from_linear(light.g), srgb_from_linear(light.b));
+}

@@ -81,6 +81,18 @@ struct Part {
     back: vec4<f32>,
     beam_alpha: vec4<f32>,
     ramp: array<vec4<f32>, 8>,
+    line_kinds: array<u32, 5>,
+    line_flags: u32,
+    line_factor: f32,
+    line_texture: u32,
+    line_depth_row: u32,
+    line_light_row: u32,
+    line_depth: vec2<f32>,
+    line_opacity: vec2<f32>,
+    line_width: vec2<f32>,
+    line_tint: u32,
+    line_rim: f32,
+    unused: vec2<u32>,
 }
 
 const PART_DOUBLE_SIDED: u32 = 1u;
@@ -107,6 +119,19 @@ const PART_ANGLE: u32 = 524288u;
 const PART_PAINTED: u32 = 1048576u;
 const PART_PLAIN: u32 = 2097152u;
 const PART_TONE_ROW: u32 = 4194304u;
+
+const LINE_SURFACE: u32 = 32u;
+const LINE_VERTEX: u32 = 64u;
+const LINE_TEXTURE: u32 = 128u;
+const LINE_DEPTH: u32 = 256u;
+const LINE_FROM_MIDDLE: u32 = 512u;
+const LINE_LIGHT: u32 = 1024u;
+const LINE_OPACITY: u32 = 2048u;
+const LINE_TINT: u32 = 4096u;
+const LINE_RIM: u32 = 8192u;
+const LINE_WIDTH: u32 = 16384u;
+const LINE_SOURCES: u32 = 224u;
+const LINE_PLACED: u32 = 15840u;
 
 struct GPixel {
     plane_step: vec2<f32>,

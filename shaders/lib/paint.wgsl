@@ -1,7 +1,7 @@
 // Paint under the pen. Twin: npr_style::paint. The shader declares what its twin's layers hold, and has `tint` and `uv_at`.
 
-// Share of each channel in luminance [ITU-R BT.709].
-const LUMA: vec3<f32> = vec3<f32>(0.2126, 0.7152, 0.0722);
+//# use lib/compose
+
 // Lightness, the root of luminance, up to which paint is solid ink in any light.
 const INKY: f32 = 0.12;
 // Lightness from which paint is paper.

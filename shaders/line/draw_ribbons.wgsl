@@ -25,6 +25,9 @@
 @group(0) @binding(8) var<storage, read> kinds: array<u32>;
 @group(0) @binding(9) var<storage, read> gbuffer: array<GPixel>;
 @group(0) @binding(10) var<storage, read> mask: array<u32>;
+@group(0) @binding(11) var<storage, read> tints: array<LineTint>;
+
+//# use lib/tints
 
 // Depth that an edge may lie behind the surface around it and still be seen, in mask pixels.
 const DEPTH_TOLERANCE_PX: f32 = 1.0;
@@ -203,7 +206,7 @@ fn fragment(passed: Varying) -> Ink {
     if is_covered(px, reference, depth, parts[part].object) { discard; }
 
     var ink: Ink;
-    let color = parts[part].line_color;
+    let color = line_color_at(part, kind_of_edge(passed.part_and_kind.y), reference);
     ink.color = vec4<f32>(color.rgb, color.a * point.coverage);
     ink.key = line_key(point.coverage, nearness(depth));
     return ink;

@@ -21,7 +21,10 @@ override WG: u32 = 64u;
 @group(0) @binding(3) var<storage, read> parts: array<Part>;
 @group(0) @binding(4) var<storage, read> stamps: array<Stamp>;
 @group(0) @binding(5) var<storage, read> tiles: array<u32>;
-@group(0) @binding(6) var<storage, read_write> stamped: array<u32>;
+@group(0) @binding(6) var<storage, read> tints: array<LineTint>;
+@group(0) @binding(7) var<storage, read_write> stamped: array<u32>;
+
+//# use lib/tints
 
 // Whether any tile that meets the box of mask pixels holds a stamp.
 fn any_stamp(low: vec2<u32>, high: vec2<u32>) -> bool {
@@ -51,6 +54,7 @@ fn main(
     let high = pixel_at(mask_window, px + reach);
     var best = 0.0;
     var part = NONE;
+    var center = vec2<f32>(0.0);
     if any_stamp(low, high) {
         for (var y = low.y; y <= high.y; y++) {
             for (var x = low.x; x <= high.x; x++) {
@@ -61,13 +65,14 @@ fn main(
                 if coverage > best {
                     best = coverage;
                     part = stamp.part;
+                    center = stamp.center;
                 }
             }
         }
     }
     var packed = 0u;
     if part != NONE {
-        let color = parts[part].line_color;
+        let color = line_color_at(part, KIND_OF_INTERSECTION, center);
         packed = pack_rgba8(vec4<f32>(color.rgb, color.a * best));
     }
     stamped[element] = packed;

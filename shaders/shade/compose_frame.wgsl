@@ -45,6 +45,8 @@ override WG: u32 = 64u;
 //# use lib/texture
 //# use lib/tone_row
 //# use lib/lighting
+//# use lib/surface_color
+//# use lib/line_place
 //# use lib/paint
 //# use lib/inking
 //# use lib/gloss
@@ -59,34 +61,6 @@ override WG: u32 = 64u;
 const TONE_ROOM: f32 = 0.002;
 // Width of a tone step from which on it is so gentle that one place of a pixel stands for all.
 const GENTLE: f32 = 0.25;
-
-struct Corners {
-    clip: array<vec4<f32>, 3>,
-    normals: array<vec3<f32>, 3>,
-    world: array<vec3<f32>, 3>,
-    // 1 where the front is seen, -1 where the back is.
-    side: f32,
-}
-
-fn corners_of(triangle: Triangle) -> Corners {
-    let a = posed[triangle.corners.x];
-    let b = posed[triangle.corners.y];
-    let c = posed[triangle.corners.z];
-    var corners: Corners;
-    corners.clip = array<vec4<f32>, 3>(a.clip, b.clip, c.clip);
-    corners.normals = array<vec3<f32>, 3>(a.normal, b.normal, c.normal);
-    corners.world = array<vec3<f32>, 3>(a.world, b.world, c.world);
-    corners.side = select(-1.0, 1.0, faces_eye(corners.clip));
-    return corners;
-}
-
-fn normal_of(corners: Corners, weights: vec3<f32>) -> vec3<f32> {
-    return unit_or_z(blend3(weights, corners.normals[0], corners.normals[1], corners.normals[2])) * corners.side;
-}
-
-fn world_of(corners: Corners, weights: vec3<f32>) -> vec3<f32> {
-    return blend3(weights, corners.world[0], corners.world[1], corners.world[2]);
-}
 
 // Light of a group of samples, where one place stands for all of them.
 struct Even {
@@ -179,56 +153,10 @@ fn grazing(part: u32, world: vec3<f32>, normal: vec3<f32>) -> f32 {
     return select(0.0, 1.0, abs(dot(normal, to_eye(view, world))) < parts[part].facing_threshold);
 }
 
-// Vertex colours of a triangle where its corners have these weights, linear light.
-fn tint(triangle: Triangle, weights: vec3<f32>) -> vec3<f32> {
-    let at = triangle.corners;
-    return blend3(
-        weights,
-        linear_texel(vertices[at.x].color).rgb,
-        linear_texel(vertices[at.y].color).rgb,
-        linear_texel(vertices[at.z].color).rgb,
-    );
-}
-
-// How far a pixel reaches in coordinates of a texture that are `uv` there, and what they are to the right and below.
-fn footprint(uv: vec2<f32>, right: vec2<f32>, down: vec2<f32>) -> f32 {
-    let dx = right - uv;
-    let dy = down - uv;
-    return sqrt(max(dx.x * dx.x + dx.y * dx.y, dy.x * dy.x + dy.y * dy.y));
-}
-
-// Surface colour without light.
-fn base_color(triangle: Triangle, corners: Corners, frame_px: vec2<f32>) -> vec3<f32> {
-    var color = parts[triangle.part].base_color.rgb;
-    if (parts[triangle.part].flags & PART_PLAIN) != 0u { return color; }
-    let weights = weights_at(corners.clip, ndc_at(view, frame_px));
-    color *= tint(triangle, weights);
-    let texture = parts[triangle.part].texture;
-    if texture != NONE {
-        let right = weights_at(corners.clip, ndc_at(view, frame_px + vec2<f32>(1.0, 0.0)));
-        let down = weights_at(corners.clip, ndc_at(view, frame_px + vec2<f32>(0.0, 1.0)));
-        let uv = uv_at(triangle, weights);
-        color *= sample_texture(texture, uv, footprint(uv, uv_at(triangle, right), uv_at(triangle, down))).rgb;
-    }
-    return color;
-}
-
-// A colour as strong as the style wants it.
-fn strengthened(color: vec3<f32>) -> vec3<f32> {
-    if compose.saturation == 1.0 { return color; }
-    let luma = dot(color, LUMA);
-    return max(vec3<f32>(luma) + (color - luma) * compose.saturation, vec3<f32>(0.0));
-}
-
 // A lit surface under so much ink, 0..1.
 fn inked(part: u32, lit: vec3<f32>, share: f32) -> vec3<f32> {
     let ink = parts[part].ink_color;
     return lit + (ink.rgb - lit) * (share * ink.a);
-}
-
-fn uv_at(triangle: Triangle, weights: vec3<f32>) -> vec2<f32> {
-    let at = triangle.corners;
-    return vertices[at.x].uv * weights.x + vertices[at.y].uv * weights.y + vertices[at.z].uv * weights.z;
 }
 
 fn linear_of(srgb: vec4<f32>) -> vec4<f32> {
@@ -255,8 +183,7 @@ struct InkSum {
 fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
     let triangle = triangles[(id & ID_MASK) - 1u];
     let part = triangle.part;
-    let line = linear_of(parts[part].line_color).rgb;
-    if (id & HULL_BIT) != 0u { return line; }
+    if (id & HULL_BIT) != 0u { return line_light(triangle, corners_of(triangle), frame_px, vec2<f32>(1.0), true); }
     var center = frame_px;
     let count = f32(countOneBits(members));
     for (var i = 0u; i < 4u; i++) {
@@ -307,6 +234,8 @@ fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
         if !by_sample { break; }
     }
     let drawn = inked(part, color * light, ink.mean) + gloss;
+    if lined == 0.0 { return drawn; }
+    let line = line_light(triangle, corners, center, vec2<f32>(1.0), false);
     return drawn + (line - drawn) * lined;
 }
 

@@ -48,6 +48,10 @@ shaders! {
     LINE_RESOLVE_GBUFFER = "line/resolve_gbuffer";
     /// Detects lines on the G-buffer.
     LINE_DETECT = "line/detect";
+    /// Decides the colour of lines at the pixels of the mask.
+    LINE_COLOR_MASK = "line/color_mask";
+    /// Lets light change the width of lines.
+    LINE_LIGHT_WIDTHS = "line/light_widths";
     /// Draws edges as ribbons where the mask is set.
     LINE_DRAW_RIBBONS = "line/draw_ribbons";
     /// Finds mask pixels that no ribbon inked.
@@ -147,6 +151,14 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/inking", include_str!("../lib/inking.wgsl")),
     ("lib/paint", include_str!("../lib/paint.wgsl")),
     ("lib/tone_row", include_str!("../lib/tone_row.wgsl")),
+    ("lib/line_color", include_str!("../lib/line_color.wgsl")),
+    ("lib/line_place", include_str!("../lib/line_place.wgsl")),
+    ("lib/line_tint", include_str!("../lib/line_tint.wgsl")),
+    ("lib/tints", include_str!("../lib/tints.wgsl")),
+    (
+        "lib/surface_color",
+        include_str!("../lib/surface_color.wgsl"),
+    ),
     ("lib/lighting", include_str!("../lib/lighting.wgsl")),
     ("lib/step", include_str!("../lib/step.wgsl")),
     ("lib/sphere", include_str!("../lib/sphere.wgsl")),

@@ -200,6 +200,32 @@ pub struct Part {
     pub beam_alpha: [f32; 4],
     /// Tone steps: linear light rgb from coordinate `a` upwards; unused ones start at 2.
     pub ramp: [[f32; 4]; 8],
+    /// Colours of single kinds of its lines, sRGB bytes: contour, border, crease, material, intersection. Those count that
+    /// have their bit in `line_flags`.
+    pub line_kinds: [u32; 5],
+    /// What decides the colour of its lines beside `line_color`: bits 1 to 16 for kinds with a colour of their own, then
+    /// [`Part::LINE_SURFACE`] to [`Part::LINE_WIDTH`].
+    pub line_flags: u32,
+    /// What a colour of the surface is multiplied by for lines, in linear light.
+    pub line_factor: f32,
+    /// Where the header of the picture of its lines' colours starts in the texture store, with [`Part::LINE_TEXTURE`].
+    pub line_texture: u32,
+    /// Where the row over depth starts there, with [`Part::LINE_DEPTH`].
+    pub line_depth_row: u32,
+    /// Where the row over light starts there, with [`Part::LINE_LIGHT`].
+    pub line_light_row: u32,
+    /// View depth where the row over depth begins, and 1 / its length; in the world.
+    pub line_depth: [f32; 2],
+    /// Opacity of lines in the dark and in full light.
+    pub line_opacity: [f32; 2],
+    /// Factor on their width in the dark and in full light.
+    pub line_width: [f32; 2],
+    /// Laid over all of its lines, sRGB bytes; alpha is how much.
+    pub line_tint: u32,
+    /// How much lines take the colour of the light behind where that lights them, 0..1.
+    pub line_rim: f32,
+    /// Keeps rows of 16 bytes.
+    pub unused: [u32; 2],
 }
 gpu_layout!(Part {
     base_color,
@@ -232,6 +258,18 @@ gpu_layout!(Part {
     back,
     beam_alpha,
     ramp,
+    line_kinds,
+    line_flags,
+    line_factor,
+    line_texture,
+    line_depth_row,
+    line_light_row,
+    line_depth,
+    line_opacity,
+    line_width,
+    line_tint,
+    line_rim,
+    unused,
 });
 
 impl Part {
@@ -285,6 +323,34 @@ impl Part {
     pub const OUTLINES: u32 = Self::LINES | Self::HULL | Self::ANGLE;
     /// Any highlight.
     pub const HIGHLIGHTS: u32 = Self::CRISP | Self::SOFT | Self::BACK_LIGHT | Self::STREAK;
+
+    /// In `line_flags`: lines take the colour that the surface shows without light.
+    pub const LINE_SURFACE: u32 = 32;
+    /// Lines take the colour of the vertices.
+    pub const LINE_VERTEX: u32 = 64;
+    /// Lines take the colour of a picture, at the surface's texture coordinates.
+    pub const LINE_TEXTURE: u32 = 128;
+    /// A row of the texture store lies over lines by their depth.
+    pub const LINE_DEPTH: u32 = 256;
+    /// Depth counts from the depth of the model's middle, not from the eye.
+    pub const LINE_FROM_MIDDLE: u32 = 512;
+    /// A row lies over lines by the light on their surface.
+    pub const LINE_LIGHT: u32 = 1024;
+    /// Light changes their opacity.
+    pub const LINE_OPACITY: u32 = 2048;
+    /// A tint lies over all lines.
+    pub const LINE_TINT: u32 = 4096;
+    /// The light behind colours lines that it lights.
+    pub const LINE_RIM: u32 = 8192;
+    /// Light changes their width.
+    pub const LINE_WIDTH: u32 = 16384;
+    /// Anything that gives lines a colour of the surface.
+    pub const LINE_SOURCES: u32 = Self::LINE_SURFACE | Self::LINE_VERTEX | Self::LINE_TEXTURE;
+    /// Anything that lies over the colour of lines.
+    pub const LINE_GLAZES: u32 =
+        Self::LINE_DEPTH | Self::LINE_LIGHT | Self::LINE_TINT | Self::LINE_RIM;
+    /// Anything that is decided at a line's place.
+    pub const LINE_PLACED: u32 = Self::LINE_SOURCES | Self::LINE_GLAZES | Self::LINE_OPACITY;
 }
 
 /// A disc of ink in frame pixels; half width 0 where there is none.

@@ -19,6 +19,7 @@ pub mod cutout;
 pub mod geometry;
 pub mod layout;
 pub mod light_view;
+pub mod line_color;
 pub mod math;
 pub mod outline;
 pub mod random;

@@ -21,6 +21,8 @@ pub const ALL: &[&Pass] = &[
     &raster::DRAW_BEAMS,
     &line::RESOLVE_GBUFFER,
     &line::DETECT,
+    &line::LIGHT_WIDTHS,
+    &line::COLOR_MASK,
     &line::DRAW_RIBBONS,
     &line::FIND_RESIDUAL,
     &line::SMOOTH_STAMPS,

@@ -4,6 +4,7 @@ use crate::smoke::{Needs, SmokePlan};
 use npr_core::geometry::{
     ChartCorners, Edge, GPixel, Influence, Part, PosedVertex, Stamp, Triangle, Vertex,
 };
+use npr_core::line_color::LineTint;
 use npr_core::outline::Outline;
 use npr_core::window::{View, Window};
 use npr_gpu::graph::{Graph, ResourceId};
@@ -57,6 +58,10 @@ pub(crate) struct Method {
     pub filter: bool,
     /// A hull is drawn behind.
     pub hull: bool,
+    /// The colour of lines is decided at their place.
+    pub paints: bool,
+    /// Light changes the width of lines.
+    pub light_widths: bool,
     /// Layers that the last pass lays over the surfaces.
     pub layers: u32,
 }
@@ -69,6 +74,8 @@ impl Method {
         residual: false,
         filter: false,
         hull: false,
+        paints: false,
+        light_widths: false,
         layers: 0,
     };
 
@@ -86,6 +93,8 @@ impl Method {
             residual: self.residual || other.residual && !self.filter,
             filter: self.filter || other.filter,
             hull: self.hull || other.hull,
+            paints: self.paints || other.paints,
+            light_widths: self.light_widths || other.light_widths,
             layers: self.layers | other.layers,
         }
     }
@@ -155,6 +164,7 @@ pub(crate) struct Blueprint {
     beam_ids: ResourceId,
     depths: ResourceId,
     mask: ResourceId,
+    tints: ResourceId,
     ribbons: ResourceId,
     overlay: ResourceId,
     shadows: [ResourceId; SHADOWS_MAX],
@@ -166,6 +176,9 @@ impl Blueprint {
     pub fn new(counts: &Counts, grids: &Grids, method: Method) -> Self {
         let mut plan = Self::inputs(counts, grids, method);
         plan.pose();
+        if method.light_widths {
+            plan.light_widths(counts.vertices);
+        }
         plan.draw_shadows(counts);
         plan.draw_ids(plan.color_window, plan.ids, plan.depths);
         if method.mask {
@@ -230,6 +243,10 @@ impl Blueprint {
             beam_ids: graph.image("beam ids", Format::U32, only(counts.beams > 0, color)),
             depths: graph.image("depths", Format::Depth, color),
             mask: graph.buffer::<u32>("mask", pixel_count(only(method.mask, grids.mask))),
+            tints: graph.buffer::<LineTint>(
+                "line tints",
+                pixel_count(only(method.mask && method.paints, grids.mask)),
+            ),
             ribbons: graph.image("ribbons", Format::Rgba8, only(method.ribbons, grids.output)),
             overlay: graph.buffer::<u32>("overlay", overlay),
             graph,
@@ -247,6 +264,14 @@ impl Blueprint {
             self.posed,
         ];
         self.graph.compute(&mesh::POSE_VERTICES, &bound);
+    }
+
+    /// Widths by light, for all that follows.
+    fn light_widths(&mut self, vertex_count: usize) {
+        let lit = self.graph.buffer::<PosedVertex>("lit", vertex_count);
+        let bound = [self.lights, self.parts, self.vertices, self.posed, lit];
+        self.graph.compute(&line::LIGHT_WIDTHS, &bound);
+        self.posed = lit;
     }
 
     /// What every light with shadows sees; one list of vertices serves them all in turn.
@@ -310,6 +335,9 @@ impl Blueprint {
             self.mask,
         ];
         self.graph.compute(&line::DETECT, &detect);
+        if method.paints {
+            self.color_mask(ids);
+        }
         if method.ribbons {
             self.draw_ribbons(grids, gbuffer);
         }
@@ -318,9 +346,36 @@ impl Blueprint {
         }
         if method.filter {
             let (output, mask) = (self.output_window, self.mask_window);
-            let bound = [output, mask, self.compose, self.mask, self.overlay];
+            let bound = [
+                output,
+                mask,
+                self.compose,
+                self.parts,
+                self.mask,
+                self.tints,
+                self.overlay,
+            ];
             self.graph.compute(&line::DRAW_MASK, &bound);
         }
+    }
+
+    /// What lines have their colours from, where they run.
+    fn color_mask(&mut self, ids: ResourceId) {
+        let bound = [
+            self.view,
+            self.mask_window,
+            self.compose,
+            self.lights,
+            ids,
+            self.posed,
+            self.vertices,
+            self.triangles,
+            self.parts,
+            self.texels,
+            self.mask,
+            self.tints,
+        ];
+        self.graph.compute(&line::COLOR_MASK, &bound);
     }
 
     /// Triangle numbers on the mask's grid; the colour samples serve where both grids are the same.
@@ -359,6 +414,7 @@ impl Blueprint {
             kinds,
             gbuffer,
             self.mask,
+            self.tints,
         ];
         self.graph
             .draw(&line::DRAW_RIBBONS, &ribbons, &[self.ribbons, keys], true);
@@ -391,6 +447,7 @@ impl Blueprint {
             self.parts,
             smoothed,
             tiles,
+            self.tints,
             self.overlay,
         ];
         self.graph.compute(&line::STAMP_RESIDUAL, &stamp);

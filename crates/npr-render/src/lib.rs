@@ -31,6 +31,7 @@ mod instance;
 mod joined;
 mod lettering;
 mod light;
+mod line_colors;
 mod lines;
 mod look;
 mod model;

@@ -2,6 +2,7 @@
 
 use crate::error::RenderError;
 use crate::hatching::{FrameScale, Inked, add_ink};
+use crate::line_colors::add_line_colors;
 use crate::model::{Model, PartInfo};
 use crate::pictures::{Pictures, add_tone_rows};
 use crate::stage::StageOptions;
@@ -51,11 +52,19 @@ impl StyledModel {
             world_px: options.size[1] as f32 * 0.5 / model.radius(),
         };
         add_tone_rows(model, style, &pictures, &mut parts, &mut textures)?;
+        add_line_colors(
+            &model.parts,
+            style,
+            Some(&pictures),
+            model.radius(),
+            &mut parts,
+            &mut textures,
+        )?;
         let mut smoke = match options.smoke.is_some() && style.smoke.is_finished_late() {
             true => Some(pictures.smoke_part(&style.smoke, &mut textures)?),
             false => None,
         };
-        let inked = add_ink(
+        let mut inked = add_ink(
             model,
             style,
             &pictures,
@@ -64,6 +73,7 @@ impl StyledModel {
             smoke.as_mut(),
             &mut textures,
         )?;
+        inked.notices.extend(style.line_paint_notices());
         if parts.is_empty() {
             parts.push(Part::default());
         }
@@ -291,7 +301,10 @@ pub(crate) fn share_at(width: &Width, position: [f32; 3]) -> f32 {
 pub(crate) fn largest_half_width(style: &Style, parts: &[Part], base_px: f32) -> f32 {
     let factor = parts
         .iter()
-        .map(|part| part.width_factor)
+        .map(|part| match part.line_flags & Part::LINE_WIDTH {
+            0 => part.width_factor,
+            _ => part.width_factor * part.line_width[0].max(part.line_width[1]),
+        })
         .fold(1.0, f32::max);
     base_px * style.line.width.max * factor * 0.5
 }

@@ -6,6 +6,7 @@ use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::lettering::Lettering;
 use crate::light::{self, ChosenLights};
+use crate::line_colors::{is_any_painted, is_any_width_lit};
 use crate::lines::{LineModel, LineOptions};
 use crate::look::{self, StyledModel};
 use crate::model::Model;
@@ -188,6 +189,8 @@ impl<'a> Stage<'a> {
             true => Method::NONE,
             false => Method::of(style),
         };
+        method.paints = is_any_painted(&styled.parts);
+        method.light_widths = is_any_width_lit(&styled.parts);
         if counts.beams > 0 {
             method.layers |= Compose::BEAMS;
         }

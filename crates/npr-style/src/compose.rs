@@ -4,7 +4,6 @@ use bytemuck::{Pod, Zeroable};
 use npr_core::color::{SrgbEncoder, pack_rgba8};
 use npr_core::geometry::{ChartCorners, NONE, Part, PosedVertex, Triangle, Vertex};
 use npr_core::gpu_layout;
-use npr_core::outline::MASK_KINDS;
 use npr_core::raster::{HULL_BIT, ID_MASK};
 use npr_core::texture;
 use npr_core::window::{View, Window};
@@ -13,6 +12,7 @@ use std::ops::Range;
 
 use crate::known::Known;
 use crate::lighting::Lights;
+use crate::line_color::LinePlace;
 use crate::shadow::SHADOWS_MAX;
 use crate::tone::Corners;
 
@@ -169,21 +169,6 @@ pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
                 }
             }
         });
-}
-
-/// Draws the mask itself in one colour, as the image filters do: the twin of `line.draw_mask`.
-///
-/// `mask_window` is the mask's pixel grid; texels are sRGB bytes with straight alpha. O(pixels).
-pub fn draw_mask(windows: [&Window; 2], settings: &Compose, mask: &[u32], overlay: &mut [u32]) {
-    let [window, mask_window] = windows;
-    let color = pack_rgba8(settings.line_color);
-    let width = window.size[0] as usize;
-    for (element, texel) in overlay.iter_mut().enumerate() {
-        let frame_px = window.frame_at((element % width) as u32, (element / width) as u32);
-        let at = mask_window.pixel_at(frame_px);
-        let found = mask[(at[1] * mask_window.size[0] + at[0]) as usize] & MASK_KINDS != 0;
-        *texel = if found { color } else { 0 };
-    }
 }
 
 /// Pixels in a row that are looked through together for anything but background.
@@ -343,9 +328,15 @@ impl<'a> Composer<'a> {
     fn surface(&mut self, id: u32, members: u32, frame_px: [f32; 2]) -> [f32; 3] {
         let index = ((id & ID_MASK) - 1) as usize;
         if id & HULL_BIT != 0 {
-            return self
-                .layers
-                .line_of(&self.layers.parts[self.layers.triangles[index].part as usize]);
+            let triangle = &self.layers.triangles[index];
+            let part = &self.layers.parts[triangle.part as usize];
+            let corners = self.layers.corners_of(triangle);
+            let place = LinePlace {
+                px: frame_px,
+                step_px: [1.0; 2],
+                is_hull: true,
+            };
+            return self.layers.line_light(triangle, part, &corners, &place);
         }
         let known = &self.known[index];
         if let Some(color) = known.whole() {

@@ -39,6 +39,7 @@ mod check;
 mod color;
 pub mod compose;
 mod detect;
+pub mod draw_mask;
 mod error;
 mod glob;
 pub mod gloss;
@@ -54,6 +55,8 @@ mod light;
 pub mod lighting;
 mod line;
 mod line_background;
+pub mod line_color;
+mod line_paint;
 pub mod motion;
 mod named_picture;
 mod nearest;
@@ -88,6 +91,10 @@ pub use light::{ExtraLight, Light, LightShape, LightSpace};
 pub use line::{Kinds, Line, LineMethod};
 pub use line_background::{
     BackgroundMethod, Direction, Likeness, LineBackground, LineScope, Measure, RuleBackground,
+};
+pub use line_paint::{
+    DepthSpace, HUE_STOPS_MAX, HUES, HueStop, KindColors, LineDepth, LineLight, LinePaint,
+    LineSource, RuleLineDepth, RuleLineLight, RulePaint, hue_row,
 };
 pub use motion::{Motion, RuleMotion};
 pub use preset::{DEFAULT_PRESET, Preset, find as find_preset, presets};

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Color, LineBackground, Width};
+use crate::{Color, LineBackground, LinePaint, Width};
 
 /// How lines are found and drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -72,6 +72,8 @@ pub struct Line {
     /// How much the ink covers, 0..1; default 1. 0.3 a hard pencil, 1 ink.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub opacity: f32,
+    /// What else decides their colour: kind, surface, light, depth.
+    pub paint: LinePaint,
     /// Angle between face normals, in degrees, from which an edge is a crease, 0..180; default 40.
     /// 20 draws every bevel, 80 only corners.
     #[schemars(range(min = 0.0, max = 180.0))]
@@ -98,6 +100,7 @@ impl Default for Line {
             method: LineMethod::Shape,
             color: Color::rgb(0x2b, 0x1a, 0x12),
             opacity: 1.0,
+            paint: LinePaint::default(),
             crease_angle_deg: 40.0,
             split_angle_deg: 180.0,
             angle_threshold_deg: 15.0,

@@ -8,7 +8,10 @@ use crate::hatch::{Hatch, Pattern};
 use crate::highlight::{Edge, Highlight};
 use crate::ink::{Follow, Ink, Mapping, StrokeSpace, Tone};
 use crate::ramp::Stop;
-use crate::{Color, Length, LineBackground, LineMethod, RuleBackground, RuleMotion, Style, glob};
+use crate::{
+    Color, Length, LineBackground, LineMethod, LinePaint, RuleBackground, RuleMotion, RulePaint,
+    Style, glob,
+};
 
 /// What a rule applies to: both patterns have to match.
 ///
@@ -44,6 +47,8 @@ pub struct RuleLine {
     /// Colour of the part's lines.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
+    /// What else decides their colour.
+    pub paint: RulePaint,
     /// What the part's line width is multiplied by, 0..10: 0.5 for faces, 1.5 for a hero.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 10.0))]
@@ -277,6 +282,8 @@ pub struct Look<'a> {
     pub line_method: LineMethod,
     /// Colour of its lines.
     pub line_color: Color,
+    /// What else decides their colour.
+    pub line_paint: LinePaint,
     /// What its line width is multiplied by.
     pub width_factor: f32,
     /// Its angle for method `angle`, in degrees off the silhouette.
@@ -308,6 +315,7 @@ impl<'a> Look<'a> {
             line_on: true,
             line_method: style.line.method,
             line_color: style.line.color,
+            line_paint: style.line.paint.clone(),
             width_factor: 1.0,
             angle_threshold_deg: style.line.angle_threshold_deg,
             line_background: style.line.background.clone(),
@@ -329,6 +337,7 @@ impl<'a> Look<'a> {
             line_on: line.on.unwrap_or(self.line_on),
             line_method: line.method.unwrap_or(self.line_method),
             line_color: line.color.unwrap_or(self.line_color),
+            line_paint: line.paint.over(self.line_paint),
             width_factor: line.width_factor.unwrap_or(self.width_factor),
             angle_threshold_deg: line.angle_threshold_deg.unwrap_or(self.angle_threshold_deg),
             line_background: line.background.over(self.line_background),

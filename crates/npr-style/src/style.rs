@@ -160,6 +160,7 @@ impl Style {
         self.check_trails()?;
         check_direction(self.ink.direction, "ink.direction")?;
         check_width(&self.line.width)?;
+        self.check_line_paint()?;
         check_ramp(&self.shade.ramp, "shade.ramp")?;
         self.smoke.sanity_check()?;
         let mut words = self.lettering.iter().enumerate();

@@ -7,6 +7,7 @@ use crate::compose::{LUMA, Layers};
 use crate::gloss::shines_gently;
 use crate::inking::ink_over;
 use crate::known::Known;
+use crate::line_color::LinePlace;
 use crate::ramp::{Level, ramp_coordinate, ramp_light};
 use crate::tone_row::{row_is_even, row_light};
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
@@ -218,14 +219,13 @@ impl<'a> Layers<'a> {
         if sampled.line == 0.0 {
             return drawn;
         }
-        let line = self.line_of(part);
+        let place = LinePlace {
+            px: group.center,
+            step_px: [1.0; 2],
+            is_hull: false,
+        };
+        let line = self.line_light(triangle, part, corners, &place);
         std::array::from_fn(|i| drawn[i] + (line[i] - drawn[i]) * sampled.line)
-    }
-
-    /// Linear light of a part's lines.
-    pub(crate) fn line_of(&self, part: &Part) -> [f32; 3] {
-        let [r, g, b, _] = self.linear_of(part.line_color);
-        [r, g, b]
     }
 
     fn group(&self, id: u32, members: u32, frame_px: [f32; 2]) -> Group {
@@ -446,11 +446,6 @@ impl<'a> Layers<'a> {
             return [r, g, b];
         }
         let weights = weights_at(corners.clip, self.view.ndc_at(frame_px));
-        let tint = self.tint(weights, vertices);
-        let color = [r * tint[0], g * tint[1], b * tint[2]];
-        if part.texture == NONE {
-            return color;
-        }
         let uvs = vertices.map(|v| v.uv);
         let uv_near = |dx: f32, dy: f32| {
             blend2(
@@ -461,8 +456,32 @@ impl<'a> Layers<'a> {
                 uvs,
             )
         };
+        if part.texture == NONE {
+            return self.color_at(part, vertices, weights, [0.0; 2], 0.0);
+        }
         let (uv, right, down) = (blend2(weights, uvs), uv_near(1.0, 0.0), uv_near(0.0, 1.0));
         let covered = footprint([uv, right, down]);
+        self.color_at(part, vertices, weights, uv, covered)
+    }
+
+    /// Surface colour without light where the corners have these weights; a pixel covers so much of the texture.
+    pub(crate) fn color_at(
+        &self,
+        part: &Part,
+        vertices: [&Vertex; 3],
+        weights: [f32; 3],
+        uv: [f32; 2],
+        covered: f32,
+    ) -> [f32; 3] {
+        let [r, g, b, _] = part.base_color;
+        if part.flags & Part::PLAIN != 0 {
+            return [r, g, b];
+        }
+        let tint = self.tint(weights, vertices);
+        let color = [r * tint[0], g * tint[1], b * tint[2]];
+        if part.texture == NONE {
+            return color;
+        }
         let texel = texture::sample(self.texels, part.texture, uv, covered);
         std::array::from_fn(|i| color[i] * texel[i])
     }

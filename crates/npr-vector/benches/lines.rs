@@ -112,6 +112,7 @@ impl Picture {
             parts: &self.parts,
             gbuffer: &self.gbuffer,
             mask: &self.mask,
+            tints: &[],
         };
         keys.fill(0);
         ribbon::draw(&with, edges, kinds, layer, keys);
@@ -139,6 +140,7 @@ impl Picture {
             parts: &self.parts,
             stamps,
             tiles,
+            tints: &[],
         };
         residual::stamp(&with, stamped);
     }

@@ -7,6 +7,7 @@
 use crate::ribbon::line_coverage;
 use npr_core::color;
 use npr_core::geometry::{GPixel, NONE, Part, Stamp};
+use npr_core::line_color::{KIND_INTERSECTION, LineTint, LineTints};
 use npr_core::outline::{MASK_OWNER, MASK_SIDE, Outline};
 use npr_core::window::Window;
 use rayon::prelude::*;
@@ -289,6 +290,8 @@ pub struct Inking<'a> {
     pub stamps: &'a [Stamp],
     /// Which tiles hold one.
     pub tiles: &'a [u32],
+    /// What is decided about the colours of lines, on the mask's grid; may be shorter where no part asks for it.
+    pub tints: &'a [LineTint],
 }
 
 /// Inks the output around every stamp, as sRGB bytes with coverage in alpha; 0 where there is none.
@@ -341,7 +344,7 @@ impl Inking<'_> {
         if !self.any_stamp(low, high) {
             return 0;
         }
-        let (mut best, mut part) = (0.0, NONE);
+        let (mut best, mut part, mut center) = (0.0, NONE, [0.0; 2]);
         for y in low[1]..=high[1] {
             let row = (y * self.mask_window.size[0]) as usize;
             for stamp in &self.stamps[row + low[0] as usize..=row + high[0] as usize] {
@@ -350,7 +353,7 @@ impl Inking<'_> {
                     let distance = (off[0] * off[0] + off[1] * off[1]).sqrt();
                     let coverage = line_coverage(distance, stamp.half_width);
                     if coverage > best {
-                        (best, part) = (coverage, stamp.part);
+                        (best, part, center) = (coverage, stamp.part, stamp.center);
                     }
                 }
             }
@@ -358,7 +361,11 @@ impl Inking<'_> {
         if part == NONE {
             return 0;
         }
-        let [r, g, b, a] = self.parts[part as usize].line_color;
+        let tints = LineTints {
+            mask_window: self.mask_window,
+            tints: self.tints,
+        };
+        let [r, g, b, a] = tints.color_at(self.parts, part, KIND_INTERSECTION, center);
         color::pack_rgba8([r, g, b, a * best])
     }
 
@@ -401,6 +408,7 @@ mod tests {
             parts: &parts,
             stamps,
             tiles: &tiles,
+            tints: &[],
         };
         let mut stamped = vec![0; 40 * 24];
         stamp(&inking, &mut stamped);

@@ -2,6 +2,7 @@
 
 use npr_core::color;
 use npr_core::geometry::{Edge, FAR_DEPTH, GPixel, NONE, Part, PosedVertex, Triangle};
+use npr_core::line_color::{LineTint, LineTints, kind_of_edge};
 use npr_core::outline::{MASK_KINDS, Outline};
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
@@ -94,6 +95,8 @@ pub struct Drawing<'a> {
     pub gbuffer: &'a [GPixel],
     /// The mask.
     pub mask: &'a [u32],
+    /// What is decided about the colours of lines, on the mask's grid; may be shorter where no part asks for it.
+    pub tints: &'a [LineTint],
 }
 
 /// Draws the edges that have a kind, as sRGB bytes with coverage in alpha, where the mask shows them
@@ -277,7 +280,12 @@ impl Drawing<'_> {
         if self.shows_at(reference, depth, direction, spine.kind)
             && !self.is_covered(px, reference, depth, part.object)
         {
-            let [r, g, b, a] = part.line_color;
+            let tints = LineTints {
+                mask_window: self.mask_window,
+                tints: self.tints,
+            };
+            let kind = kind_of_edge(spine.kind);
+            let [r, g, b, a] = tints.color_at(self.parts, spine.part, kind, reference);
             *texel = color::pack_rgba8([r, g, b, a * coverage]);
             *best = key;
         }

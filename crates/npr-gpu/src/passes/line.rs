@@ -1,10 +1,14 @@
 //! Passes that find lines on images and draw them on shapes.
 
 use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
-use npr_core::geometry::{Edge, GPixel, Part, PosedVertex, Stamp, Triangle};
+use npr_core::geometry::{Edge, GPixel, Part, PosedVertex, Stamp, Triangle, Vertex};
+use npr_core::line_color::{LineTint, LineTints};
 use npr_core::outline::Outline;
 use npr_core::window::{View, Window};
-use npr_style::compose::{self, Compose};
+use npr_style::compose::Compose;
+use npr_style::draw_mask::{MaskInk, draw_mask};
+use npr_style::lighting::Lights;
+use npr_style::line_color::{Deciding, LineScene, decide, light_widths};
 use npr_vector::detect::{Detection, detect};
 use npr_vector::gbuffer::{Surfaces, resolve};
 use npr_vector::residual::{self, Inking, Search};
@@ -64,6 +68,69 @@ pub const DETECT: Pass = Pass {
     },
 };
 
+/// Half widths of lines by the light that falls on vertices.
+pub const LIGHT_WIDTHS: Pass = Pass {
+    name: "line.light_widths",
+    shader: npr_shaders::LINE_LIGHT_WIDTHS,
+    slots: &[
+        uniform::<Lights>("lights"),
+        read::<Part>("parts"),
+        read::<Vertex>("vertices"),
+        read::<PosedVertex>("posed"),
+        write::<PosedVertex>("lit"),
+    ],
+    work: Work::PerElement { of: "lit" },
+    agreement: Agreement::Relative(1e-4),
+    twin: |b| {
+        let scene = LineScene {
+            view: &View::default(),
+            lights: &b.one(0),
+            back_world: [0.0; 3],
+            center_world: [0.0; 3],
+            texels: &[],
+        };
+        light_widths(&scene, b.read(1), b.read(2), b.read(3), b.write(4));
+    },
+};
+
+/// The colour of lines at the pixels of the mask that they run through, or beside.
+pub const COLOR_MASK: Pass = Pass {
+    name: "line.color_mask",
+    shader: npr_shaders::LINE_COLOR_MASK,
+    slots: &[
+        uniform::<View>("view"),
+        uniform::<Window>("window"),
+        uniform::<Compose>("compose"),
+        uniform::<Lights>("lights"),
+        texture("ids", Format::U32),
+        read::<PosedVertex>("posed"),
+        read::<Vertex>("vertices"),
+        read::<Triangle>("triangles"),
+        read::<Part>("parts"),
+        read::<u32>("texels"),
+        read::<u32>("mask"),
+        write::<LineTint>("tints"),
+    ],
+    work: Work::PerElement { of: "tints" },
+    agreement: Agreement::Texels(0.001),
+    twin: |b| {
+        let on = Deciding {
+            view: &b.one(0),
+            window: &b.one(1),
+            compose: &b.one(2),
+            lights: &b.one(3),
+            ids: b.image(4).texels,
+            posed: b.read(5),
+            vertices: b.read(6),
+            triangles: b.read(7),
+            parts: b.read(8),
+            texels: b.read(9),
+            mask: b.read(10),
+        };
+        decide(&on, b.write(11));
+    },
+};
+
 /// Edges as ribbons of varying width, where the mask shows them.
 pub const DRAW_RIBBONS: Pass = Pass {
     name: "line.draw_ribbons",
@@ -80,6 +147,7 @@ pub const DRAW_RIBBONS: Pass = Pass {
         read::<u32>("kinds"),
         read::<GPixel>("gbuffer"),
         read::<u32>("mask"),
+        read::<LineTint>("tints"),
     ],
     work: Work::Draw {
         of: "edges",
@@ -99,13 +167,14 @@ pub const DRAW_RIBBONS: Pass = Pass {
             parts: b.read(6),
             gbuffer: b.read(9),
             mask: b.read(10),
+            tints: b.read(11),
         };
         ribbon::draw(
             &with,
             b.read(7),
             b.read(8),
-            b.image_mut(11).texels,
             b.image_mut(12).texels,
+            b.image_mut(13).texels,
         );
     },
 };
@@ -178,6 +247,7 @@ pub const STAMP_RESIDUAL: Pass = Pass {
         read::<Part>("parts"),
         read::<Stamp>("stamps"),
         read::<u32>("tiles"),
+        read::<LineTint>("tints"),
         write::<u32>("stamped"),
     ],
     work: Work::PerElement { of: "stamped" },
@@ -191,12 +261,13 @@ pub const STAMP_RESIDUAL: Pass = Pass {
             parts: b.read(3),
             stamps: b.read(4),
             tiles: b.read(5),
+            tints: b.read(6),
         };
-        residual::stamp(&with, b.write(6));
+        residual::stamp(&with, b.write(7));
     },
 };
 
-/// The mask itself in one colour.
+/// The mask itself.
 pub const DRAW_MASK: Pass = Pass {
     name: "line.draw_mask",
     shader: npr_shaders::LINE_DRAW_MASK,
@@ -204,13 +275,24 @@ pub const DRAW_MASK: Pass = Pass {
         uniform::<Window>("window"),
         uniform::<Window>("mask_window"),
         uniform::<Compose>("compose"),
+        read::<Part>("parts"),
         read::<u32>("mask"),
+        read::<LineTint>("tints"),
         write::<u32>("overlay"),
     ],
     work: Work::PerElement { of: "overlay" },
     agreement: Agreement::Texels(0.001),
     twin: |b| {
-        let (window, mask_window, settings) = (b.one(0), b.one(1), b.one(2));
-        compose::draw_mask([&window, &mask_window], &settings, b.read(3), b.write(4));
+        let with = MaskInk {
+            window: &b.one(0),
+            compose: &b.one(2),
+            parts: b.read(3),
+            mask: b.read(4),
+            tints: LineTints {
+                mask_window: &b.one(1),
+                tints: b.read(5),
+            },
+        };
+        draw_mask(&with, b.write(6));
     },
 };

@@ -13,11 +13,13 @@ use npr_gpu::processor::Processor;
 use std::collections::BTreeMap;
 
 /// Slots that bind a resource of another name: two passes work on the grid of the mask only and call it the window.
-const RENAMED: [(&str, &str, &str); 7] = [
+const RENAMED: [(&str, &str, &str); 9] = [
     ("raster.draw_shadow", "window", "shadow_window"),
     ("line.resolve_gbuffer", "window", "mask_window"),
     ("line.resolve_gbuffer", "ids", "mask_ids"),
     ("line.detect", "window", "mask_window"),
+    ("line.color_mask", "window", "mask_window"),
+    ("line.color_mask", "ids", "mask_ids"),
     ("line.flag_tiles", "stamps", "smoothed"),
     ("line.stamp_residual", "stamps", "smoothed"),
     ("line.stamp_residual", "stamped", "overlay"),
@@ -45,8 +47,9 @@ pub struct Frame {
 
 impl Frame {
     /// The names of what passes make.
-    pub const MADE: [&str; 28] = [
+    pub const MADE: [&str; 30] = [
         "posed",
+        "lit",
         "projected",
         "shadow_0",
         "kinds",
@@ -67,6 +70,7 @@ impl Frame {
         "mask_ids",
         "gbuffer",
         "mask",
+        "tints",
         "ribbons",
         "keys",
         "stamps",
@@ -150,6 +154,7 @@ impl Builder {
         self.give_buffer("charts", &scene.charts);
         self.give_buffer("texels", &scene.texels);
         self.make_buffer("posed", 48, scene.vertices.len());
+        self.make_buffer("lit", 48, scene.vertices.len());
         self.make_buffer("projected", 16, scene.vertices.len());
         self.make_image("shadow_0", Format::U32, [SHADOW_SIDE; 2]);
         self.make_image("surface_depth_0", Format::Depth, [SHADOW_SIDE; 2]);
@@ -223,6 +228,7 @@ impl Builder {
         self.make_image("mask_depth", Format::Depth, mask_size);
         self.make_buffer("gbuffer", 32, mask_pixels);
         self.make_buffer("mask", 4, mask_pixels);
+        self.make_buffer("tints", 12, mask_pixels);
         self.make_image("ribbons", Format::Rgba8, size);
         self.make_image("keys", Format::Depth, size);
         self.make_buffer("stamps", 16, mask_pixels);
@@ -232,6 +238,7 @@ impl Builder {
         self.make_buffer("frame", 4, pixels);
 
         self.compute(&mesh::POSE_VERTICES);
+        self.compute(&line::LIGHT_WIDTHS);
         self.compute(&mesh::PROJECT_SHADOW);
         let shadow = ["shadow_0", "surface_depth_0"];
         self.draw(&raster::DRAW_SHADOW, "shadow_window", shadow, true);
@@ -252,6 +259,7 @@ impl Builder {
         );
         self.compute(&line::RESOLVE_GBUFFER);
         self.compute(&line::DETECT);
+        self.compute(&line::COLOR_MASK);
         self.draw(&line::DRAW_RIBBONS, "window", ["ribbons", "keys"], true);
         self.compute(&line::FIND_RESIDUAL);
         self.compute(&line::SMOOTH_STAMPS);

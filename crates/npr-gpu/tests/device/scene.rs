@@ -14,6 +14,7 @@ use npr_style::compose::Compose;
 use npr_style::lighting::{LightSource, Lights};
 use npr_style::smoke::{SmokeLook, pen};
 use npr_style::tone_row::{row_words, tone_row};
+use npr_style::{HUES, HueStop, hue_row};
 
 /// Width and height of the frame that windows are laid over.
 pub const FRAME_PX: [u32; 2] = [160, 90];
@@ -52,6 +53,17 @@ impl Scene {
         let hatch = store.add_tile(64, 8.0, &hatch_levels()).unwrap();
         let row = tone_row([5, 1], &rgba[..20], 0.1).unwrap();
         let tone_row = store.add_words(row_words(&row)).unwrap();
+        let hues = [0, 1].map(|i| {
+            let stops = [(0.1, "#fff0"), (0.5, "#20c0ff80"), (1.0, "#ffd0a0e0")];
+            let stops = stops.map(|(at, color)| HueStop {
+                at: if i == 0 { at } else { 1.0 - at },
+                color: color.parse().unwrap(),
+            });
+            let mut stops = stops.to_vec();
+            stops.sort_by(|a, b| a.at.total_cmp(&b.at));
+            let size = [HUES as u32, 1];
+            store.add(size, &hue_row(&stops), [Wrap::Clamp; 2]).unwrap()
+        });
         let mut scene = Self {
             texels: store.words().to_vec(),
             palette: palette(),
@@ -67,6 +79,17 @@ impl Scene {
             | Part::BACK_LIGHT;
         let hatched = Part {
             hatch,
+            line_flags: Part::LINE_SURFACE
+                | Part::LINE_DEPTH
+                | Part::LINE_FROM_MIDDLE
+                | Part::LINE_LIGHT
+                | Part::LINE_RIM
+                | Part::LINE_TINT
+                | Part::LINE_WIDTH
+                | 4,
+            line_depth_row: hues[0],
+            line_light_row: hues[1],
+            line_depth: [-1.7, 0.3],
             ..part(1, flags, NONE)
         };
         scene.add(&torus(24, 12, 1.0, 0.4), hatched, &mut random);
@@ -83,6 +106,10 @@ impl Scene {
         let hatched = Part {
             hatch,
             tone_row,
+            line_flags: Part::LINE_TEXTURE | Part::LINE_OPACITY | Part::LINE_DEPTH | 2,
+            line_texture: texture,
+            line_depth_row: hues[1],
+            line_depth: [2.0, 0.25],
             ..part(2, flags, texture)
         };
         scene.add(&uv_sphere(16, 10), hatched, &mut random);
@@ -207,6 +234,18 @@ fn part(object: u32, flags: u32, texture: u32) -> Part {
         highlight_shape: [0.1, -0.1, 0.3, 0.4],
         highlight_turn: [0.8, 0.6, 0.1, 0.05],
         back: [0.4, 0.7, 0.2, 0.3],
+        line_kinds: [
+            0xff00_80ff,
+            0xc0ff_2010,
+            0x80a0_b0c0,
+            0xffff_ffff,
+            0xff10_2030,
+        ],
+        line_factor: 0.4,
+        line_opacity: [1.0, 0.3],
+        line_width: [1.3, 0.4],
+        line_tint: 0x3080_20c0,
+        line_rim: 0.8,
         ramp,
         ..Part::default()
     }

@@ -1,0 +1,326 @@
+//! The colour of a line at a place, put together from what was decided there: the twin of `lib/line_tint`.
+//!
+//! `npr_style::line_color` decides, once for every pixel of the mask; whoever draws a line looks up what was decided under
+//! the line's reference coordinate with [`LineTints::at`] and gets its colour from [`line_color`].
+
+use crate::color::{linear_from_srgb, pack_rgba8, srgb_from_linear, unpack_rgba8};
+use crate::geometry::{NONE, Part};
+use crate::gpu_layout;
+use crate::outline::Outline;
+use crate::window::Window;
+use bytemuck::{Pod, Zeroable};
+
+/// Kinds of line that may have colours of their own, in the order of [`Part::line_kinds`].
+pub const LINE_KINDS: usize = 5;
+
+/// The kind of a contour, and of anything that is of no kind.
+pub const KIND_CONTOUR: u32 = 0;
+/// The kind of a border.
+pub const KIND_BORDER: u32 = 1;
+/// The kind of a crease.
+pub const KIND_CREASE: u32 = 2;
+/// The kind of a line between materials.
+pub const KIND_MATERIAL: u32 = 3;
+/// The kind of a line where surfaces cut through each other.
+pub const KIND_INTERSECTION: u32 = 4;
+
+/// The kind that an edge of several kinds is coloured as: the first of contour, border, crease, material.
+#[inline]
+pub fn kind_of_edge(kinds: u32) -> u32 {
+    let known = Outline::CONTOUR | Outline::BORDER | Outline::CREASE | Outline::MATERIAL;
+    match kinds & known {
+        0 => KIND_CONTOUR,
+        kinds => kinds.trailing_zeros(),
+    }
+}
+
+/// The kind that a pixel of the mask is coloured as, by what found it.
+#[inline]
+pub fn kind_of_mask(found: u32) -> u32 {
+    if found & Outline::PIECE != 0 {
+        KIND_INTERSECTION
+    } else if found & (Outline::DEPTH | Outline::OBJECT_ID) != 0 {
+        KIND_CONTOUR
+    } else if found & Outline::MATERIAL_ID != 0 {
+        KIND_MATERIAL
+    } else {
+        KIND_CREASE
+    }
+}
+
+/// What is decided about lines at a pixel of the mask.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+pub struct LineTint {
+    /// The colour that the surface gives its lines, sRGB bytes; alpha is what light leaves of their opacity.
+    pub own: u32,
+    /// What light, depth and the picture's tint lay over that, sRGB bytes with straight alpha.
+    pub glaze: u32,
+    /// Index of the part it is decided for, or [`NONE`] where nothing is.
+    pub part: u32,
+}
+gpu_layout!(LineTint { own, glaze, part });
+
+impl LineTint {
+    /// Nothing is decided.
+    pub const NONE: Self = Self {
+        own: 0,
+        glaze: 0,
+        part: NONE,
+    };
+}
+
+/// A [`LineTint`] with values 0..1, sRGB encoded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tint {
+    /// The surface's colour for its lines, and what is left of their opacity.
+    pub own: [f32; 4],
+    /// What lies over it, straight alpha.
+    pub glaze: [f32; 4],
+}
+
+/// What is decided over a mask.
+#[derive(Debug, Clone, Copy)]
+pub struct LineTints<'a> {
+    /// The pixel grid of the mask.
+    pub mask_window: &'a Window,
+    /// A tint for every pixel of the mask; shorter where no style asks for any.
+    pub tints: &'a [LineTint],
+}
+
+/// Sums over the pixels around a place.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sum {
+    weight: f32,
+    own: [f32; 4],
+    glaze: [f32; 3],
+    glaze_weight: f32,
+}
+
+impl Sum {
+    fn add(&mut self, tint: &LineTint, weight: f32) {
+        let (own, glaze) = (unpack_rgba8(tint.own), unpack_rgba8(tint.glaze));
+        self.weight += weight;
+        self.own = std::array::from_fn(|i| self.own[i] + own[i] * weight);
+        self.glaze = std::array::from_fn(|i| self.glaze[i] + glaze[i] * (glaze[3] * weight));
+        self.glaze_weight += glaze[3] * weight;
+    }
+
+    fn mean(&self) -> Option<Tint> {
+        if self.weight <= 0.0 {
+            return None;
+        }
+        let [r, g, b] = self.glaze.map(|sum| sum / self.glaze_weight.max(1e-6));
+        Some(Tint {
+            own: self.own.map(|sum| sum / self.weight),
+            glaze: [r, g, b, self.glaze_weight / self.weight],
+        })
+    }
+}
+
+impl LineTints<'_> {
+    /// Whether anything may be decided.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.tints.len() < self.mask_window.size[0] as usize * self.mask_window.size[1] as usize
+    }
+
+    /// What is decided for a part at a point of the frame; `None` where nothing is.
+    ///
+    /// The mean over the 3x3 mask pixels around the point, weighted by a tent that ends 1.5 pixels away, so it changes
+    /// smoothly along a line. Pixels of the part count alone, unless there are none. 9 look-ups.
+    pub fn at(&self, px: [f32; 2], part: u32) -> Option<Tint> {
+        if self.is_empty() {
+            return None;
+        }
+        let window = self.mask_window;
+        let center = window.pixel_at(px);
+        let (mut own, mut any) = (Sum::default(), Sum::default());
+        for y in center[1].saturating_sub(1)..=(center[1] + 1).min(window.size[1] - 1) {
+            for x in center[0].saturating_sub(1)..=(center[0] + 1).min(window.size[0] - 1) {
+                let tint = &self.tints[(y * window.size[0] + x) as usize];
+                if tint.part == NONE {
+                    continue;
+                }
+                let middle = window.frame_at(x, y);
+                let [dx, dy]: [f32; 2] =
+                    std::array::from_fn(|i| ((px[i] - middle[i]) / window.frame_step[i]).abs());
+                let weight = (1.5 - dx).max(0.0) * (1.5 - dy).max(0.0);
+                any.add(tint, weight);
+                if tint.part == part {
+                    own.add(tint, weight);
+                }
+            }
+        }
+        own.mean().or(any.mean())
+    }
+
+    /// Colour of a part's lines of a kind at a point of the frame, sRGB with straight alpha.
+    #[inline]
+    pub fn color_at(&self, parts: &[Part], part: u32, kind: u32, px: [f32; 2]) -> [f32; 4] {
+        let of = &parts[part as usize];
+        let placed = of.line_flags & Part::LINE_PLACED != 0;
+        let tint = if placed { self.at(px, part) } else { None };
+        line_color(of, kind, tint)
+    }
+}
+
+/// Colour of a part's lines of a kind, sRGB with straight alpha, where `tint` is decided.
+///
+/// A kind's own colour goes before that of the surface, and this before the part's. Without a tint only the first and the
+/// last count. The glaze is mixed in linear light; where there is none the colour stays as it is, to the bit.
+#[inline]
+pub fn line_color(part: &Part, kind: u32, tint: Option<Tint>) -> [f32; 4] {
+    let mut color = part.line_color;
+    if part.line_flags == 0 {
+        return color;
+    }
+    let has_own = part.line_flags & (1 << kind) != 0;
+    if has_own {
+        color = unpack_rgba8(part.line_kinds[kind as usize]);
+    }
+    let Some(Tint { own, glaze }) = tint else {
+        return color;
+    };
+    if !has_own && part.line_flags & Part::LINE_SOURCES != 0 {
+        color = [own[0], own[1], own[2], color[3]];
+    }
+    let [r, g, b] = glazed([color[0], color[1], color[2]], glaze);
+    [r, g, b, color[3] * own[3]]
+}
+
+/// A colour under a glaze, both sRGB encoded; mixed in linear light.
+#[inline]
+pub fn glazed(color: [f32; 3], glaze: [f32; 4]) -> [f32; 3] {
+    if glaze[3] <= 0.0 {
+        return color;
+    }
+    std::array::from_fn(|i| {
+        let (under, over) = (linear_from_srgb(color[i]), linear_from_srgb(glaze[i]));
+        srgb_from_linear(under + (over - under) * glaze[3])
+    })
+}
+
+impl Tint {
+    /// As bytes, for a part.
+    pub fn packed(&self, part: u32) -> LineTint {
+        LineTint {
+            own: pack_rgba8(self.own),
+            glaze: pack_rgba8(self.glaze),
+            part,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn window() -> Window {
+        Window::over([8.0; 2], [0.0; 2], [8.0; 2], [8, 8])
+    }
+
+    fn color() -> impl Strategy<Value = [f32; 4]> {
+        prop::array::uniform4(0u8..=255).prop_map(|bytes| bytes.map(|b| f32::from(b) / 255.0))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        #[test]
+        fn a_part_that_asks_for_nothing_keeps_its_colour(own in color(), tint in (color(), color()), kind in 0u32..5) {
+            let part = Part { line_color: own, ..Part::default() };
+            let tint = Tint { own: tint.0, glaze: tint.1 };
+            prop_assert_eq!(line_color(&part, kind, Some(tint)), own);
+        }
+
+        #[test]
+        fn a_clear_glaze_changes_no_bit(own in color(), kind_color in color(), flags in 0u32..32, kind in 0u32..5) {
+            let part = Part {
+                line_color: own,
+                line_kinds: [pack_rgba8(kind_color); LINE_KINDS],
+                line_flags: flags | Part::LINE_DEPTH,
+                ..Part::default()
+            };
+            let tint = Tint { own: [0.3, 0.2, 0.1, 1.0], glaze: [0.9, 0.9, 0.9, 0.0] };
+            let expected = if flags & (1 << kind) != 0 { kind_color } else { own };
+            prop_assert_eq!(line_color(&part, kind, Some(tint)), expected);
+        }
+
+        /// A mixed colour lies between both, channel by channel.
+        #[test]
+        fn a_glaze_never_overshoots(under in color(), glaze in color()) {
+            let mixed = glazed([under[0], under[1], under[2]], glaze);
+            for i in 0..3 {
+                let (low, high) = (under[i].min(glaze[i]), under[i].max(glaze[i]));
+                prop_assert!((low - 1e-4..=high + 1e-4).contains(&mixed[i]));
+            }
+        }
+
+        /// A step of a hundredth of a pixel along a line moves what is found there by at most a few hundredths.
+        #[test]
+        fn what_is_found_changes_smoothly(values in prop::collection::vec(0u32..=255, 64), x in 0f32..7.9, y in 0f32..8.0) {
+            let tint = |v: &u32| LineTint { own: 0xff00_0000 | v, glaze: 0, part: 0 };
+            let tints: Vec<LineTint> = values.iter().map(tint).collect();
+            let window = window();
+            let on = LineTints { mask_window: &window, tints: &tints };
+            let at = |x: f32| on.at([x, y], 0).map_or(-1.0, |tint| tint.own[0]);
+            prop_assert!((at(x) - at(x + 0.01)).abs() < 0.03);
+        }
+
+        #[test]
+        fn the_parts_own_pixels_go_before_others(owner in prop::collection::vec(0u32..3, 64), x in -2f32..10.0, y in -2f32..10.0) {
+            let tint = |part: &u32| match part {
+                2 => LineTint::NONE,
+                part => LineTint { own: 0xff00_0000 | part * 255, glaze: 0, part: *part },
+            };
+            let tints: Vec<LineTint> = owner.iter().map(tint).collect();
+            let window = window();
+            let on = LineTints { mask_window: &window, tints: &tints };
+            let center = window.pixel_at([x, y]);
+            let near = |part: u32| (0..64u32).any(|i| {
+                let far = |axis: usize, v: u32| {
+                    let middle = v as f32 + 0.5;
+                    v.abs_diff(center[axis]) > 1 || ([x, y][axis] - middle).abs() >= 1.5
+                };
+                owner[i as usize] == part && !far(0, i % 8) && !far(1, i / 8)
+            });
+            match on.at([x, y], 1) {
+                None => prop_assert!(!near(0) && !near(1)),
+                Some(found) if near(1) => prop_assert_eq!(found.own[0], 1.0),
+                Some(found) => prop_assert_eq!(found.own[0], 0.0),
+            }
+        }
+    }
+
+    #[test]
+    fn kinds_come_from_edges_and_masks() {
+        assert_eq!(
+            kind_of_edge(Outline::CREASE | Outline::MATERIAL),
+            KIND_CREASE
+        );
+        assert_eq!(kind_of_edge(Outline::ANY), KIND_CONTOUR);
+        assert_eq!(kind_of_edge(0), KIND_CONTOUR);
+        assert_eq!(
+            kind_of_mask(Outline::PIECE | Outline::DEPTH),
+            KIND_INTERSECTION
+        );
+        assert_eq!(kind_of_mask(Outline::NORMAL | Outline::DEPTH), KIND_CONTOUR);
+        assert_eq!(
+            kind_of_mask(Outline::NORMAL | Outline::MATERIAL_ID),
+            KIND_MATERIAL
+        );
+        assert_eq!(kind_of_mask(Outline::NORMAL), KIND_CREASE);
+    }
+
+    #[test]
+    fn without_tints_nothing_is_decided() {
+        let window = window();
+        let on = LineTints {
+            mask_window: &window,
+            tints: &[],
+        };
+        assert_eq!(on.at([3.0, 3.0], 0), None);
+    }
+}

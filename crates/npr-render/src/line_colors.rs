@@ -1,0 +1,95 @@
+//! What styles say about the colour of lines, in parts and in the texture store.
+
+use crate::error::RenderError;
+use crate::model::PartInfo;
+use crate::pictures::Pictures;
+use npr_core::geometry::{NONE, Part};
+use npr_core::texture::{TextureStore, Wrap};
+use npr_style::{HUES, HueStop, LinePaint, Style, hue_row};
+use std::collections::BTreeMap;
+
+/// Rows and pictures that are in a texture store already, each once.
+#[derive(Debug, Default)]
+struct Kept<'a> {
+    rows: BTreeMap<Vec<u8>, u32>,
+    pictures: BTreeMap<&'a str, u32>,
+}
+
+/// Gives parts the colours of their lines by the style, with rows and pictures in the texture store.
+///
+/// `infos` are those of the first parts, `radius` is that of all of them together. Without `pictures` a picture's colour is
+/// white.
+pub(crate) fn add_line_colors(
+    infos: &[PartInfo],
+    style: &Style,
+    pictures: Option<&Pictures<'_>>,
+    radius: f32,
+    parts: &mut [Part],
+    textures: &mut TextureStore,
+) -> Result<(), RenderError> {
+    let looks: Vec<LinePaint> = infos
+        .iter()
+        .map(|info| {
+            let look = style.resolve_for(&info.material_name, &info.object_name);
+            look.line_paint
+        })
+        .collect();
+    let mut kept = Kept::default();
+    for (part, paint) in parts.iter_mut().zip(&looks) {
+        paint.give_to(part, style.line.opacity, radius);
+        part.line_depth_row = kept.row(&paint.depth.ramp, textures);
+        part.line_light_row = kept.row(&paint.light.ramp, textures);
+        part.line_texture = NONE;
+        if part.line_flags & Part::LINE_TEXTURE != 0
+            && let Some(pictures) = pictures
+        {
+            part.line_texture = kept.picture(&paint.image, pictures, textures)?;
+        }
+    }
+    Ok(())
+}
+
+impl<'a> Kept<'a> {
+    /// Where the row of some stops starts; [`NONE`] where there are none.
+    fn row(&mut self, stops: &[HueStop], textures: &mut TextureStore) -> u32 {
+        if stops.is_empty() {
+            return NONE;
+        }
+        let row = hue_row(stops);
+        if let Some(start) = self.rows.get(&row) {
+            return *start;
+        }
+        let start = textures.add([HUES as u32, 1], &row, [Wrap::Clamp; 2]);
+        let start = start.unwrap_or(NONE);
+        self.rows.insert(row, start);
+        start
+    }
+
+    /// Where a picture starts; [`NONE`] where the store has no room.
+    fn picture(
+        &mut self,
+        name: &'a str,
+        pictures: &Pictures<'_>,
+        textures: &mut TextureStore,
+    ) -> Result<u32, RenderError> {
+        if let Some(start) = self.pictures.get(name) {
+            return Ok(*start);
+        }
+        let picture = pictures.of(name)?;
+        let start = textures.add(picture.size, &picture.rgba, [Wrap::Repeat; 2]);
+        let start = start.unwrap_or(NONE);
+        self.pictures.insert(name, start);
+        Ok(start)
+    }
+}
+
+/// Whether the colour of any line is more than its part's.
+pub(crate) fn is_any_painted(parts: &[Part]) -> bool {
+    parts.iter().any(|part| part.line_flags != 0)
+}
+
+/// Whether light changes the width of any line.
+pub(crate) fn is_any_width_lit(parts: &[Part]) -> bool {
+    let is_lit = |part: &Part| part.line_flags & Part::LINE_WIDTH != 0;
+    parts.iter().any(is_lit)
+}

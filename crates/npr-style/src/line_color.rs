@@ -1,0 +1,598 @@
+//! Where the colour of a line comes from: the twins of `lib/line_color`, `line.color_mask` and `line.light_widths`.
+//!
+//! A line's colour has two halves. *Its own*: of its kind, of the surface under it, or the constant `line.color`. And the
+//! *glaze*, what lies over that: light, the light behind, depth, tint, in this order. Own colours hang on the kind, glazes on
+//! the place alone, so both are decided once at a place and put together by whoever draws there
+//! ([`npr_core::line_color::line_color`]). Colours mix in linear light; rows of stops were mixed in OKLab before
+//! ([`crate::hue_row`]).
+//!
+//! Frames decide at the pixels of the mask that lines run through; hulls and grazing surfaces at their own pixel; drawings
+//! as curves at every point of a stroke. All of them ask [`LineScene`].
+
+use npr_core::color::{linear_rgba, srgb_from_linear, unpack_rgba8};
+use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
+use npr_core::line_color::{LineTint, Tint, line_color};
+use npr_core::outline::MASK_KINDS;
+use npr_core::raster::ID_MASK;
+use npr_core::surface::{blend2, dot, weights_at};
+use npr_core::texture;
+use npr_core::window::{View, Window};
+use rayon::prelude::*;
+
+use crate::compose::{Compose, Layers};
+use crate::gloss::back_light;
+use crate::lighting::Lights;
+use crate::line_paint::HUES;
+use crate::shadow::SHADOWS_MAX;
+use crate::tone::{Corners, footprint};
+
+/// How far the surface's texture is averaged under a line, in pixels of the mask: less makes lines speckled.
+const LINE_BLUR_PX: f32 = 2.0;
+
+/// What all lines of a view share.
+#[derive(Debug, Clone, Copy)]
+pub struct LineScene<'a> {
+    /// Camera and frame.
+    pub view: &'a View,
+    /// The lights of the scene; shadows play no part.
+    pub lights: &'a Lights,
+    /// Unit vector towards the light behind, in the world.
+    pub back_world: [f32; 3],
+    /// Middle of the model.
+    pub center_world: [f32; 3],
+    /// The texture store.
+    pub texels: &'a [u32],
+}
+
+/// What the place of a line decides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Decided {
+    /// What lies over the line's own colour, linear light, straight alpha.
+    pub glaze: [f32; 4],
+    /// What is left of its opacity, 0..1.
+    pub opacity: f32,
+}
+
+impl Decided {
+    /// As lines look it up, under a surface's colour in linear light.
+    pub fn tint(&self, own: [f32; 3]) -> Tint {
+        let [r, g, b] = own.map(srgb_from_linear);
+        let [glaze_r, glaze_g, glaze_b, glaze_a] = self.glaze;
+        let glaze = [glaze_r, glaze_g, glaze_b].map(srgb_from_linear);
+        Tint {
+            own: [r, g, b, self.opacity],
+            glaze: [glaze[0], glaze[1], glaze[2], glaze_a],
+        }
+    }
+}
+
+/// A straight-alpha colour laid over another one, both in linear light.
+fn laid(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
+    if top[3] <= 0.0 {
+        return below;
+    }
+    let left = below[3] * (1.0 - top[3]);
+    let alpha = top[3] + left;
+    let mix = |i: usize| (top[i] * top[3] + below[i] * left) / alpha;
+    [mix(0), mix(1), mix(2), alpha]
+}
+
+impl LineScene<'_> {
+    /// What a place in the world decides for lines of a part whose surface faces along the unit vector `normal`. O(lights).
+    pub fn decide(&self, part: &Part, world: [f32; 3], normal: [f32; 3]) -> Decided {
+        let flags = part.line_flags;
+        let mut glaze = [0.0; 4];
+        let mut opacity = 1.0;
+        if flags & (Part::LINE_LIGHT | Part::LINE_OPACITY) != 0 {
+            let x = self.lights.coordinate_at(world, normal, 0).0;
+            if flags & Part::LINE_LIGHT != 0 {
+                glaze = laid(self.hue(part.line_light_row, x), glaze);
+            }
+            let [dark, lit] = part.line_opacity;
+            opacity = dark + (lit - dark) * x;
+        }
+        if flags & Part::LINE_RIM != 0 {
+            let [r, g, b, strength] = part.back_color;
+            let [from, to, _, _] = part.back;
+            let rim = back_light(normal, self.back_world, from, to) * strength * part.line_rim;
+            glaze = laid([r, g, b, rim.clamp(0.0, 1.0)], glaze);
+        }
+        if flags & Part::LINE_DEPTH != 0 {
+            glaze = laid(
+                self.hue(part.line_depth_row, self.depth_share(part, world)),
+                glaze,
+            );
+        }
+        if flags & Part::LINE_TINT != 0 {
+            glaze = laid(linear_rgba(unpack_rgba8(part.line_tint)), glaze);
+        }
+        Decided { glaze, opacity }
+    }
+
+    /// How far along a part's row over depth a place lies, 0..1.
+    fn depth_share(&self, part: &Part, world: [f32; 3]) -> f32 {
+        let from = if part.line_flags & Part::LINE_FROM_MIDDLE != 0 {
+            self.center_world
+        } else {
+            self.view.eye_world
+        };
+        let offset: [f32; 3] = std::array::from_fn(|i| world[i] - from[i]);
+        let depth = dot(offset, self.view.forward_world);
+        ((depth - part.line_depth[0]) * part.line_depth[1]).clamp(0.0, 1.0)
+    }
+
+    /// The colour of a row at a share of its length, linear light, straight alpha.
+    fn hue(&self, row: u32, share: f32) -> [f32; 4] {
+        let u = (share * (HUES - 1) as f32 + 0.5) / HUES as f32;
+        texture::sample(self.texels, row, [u, 0.5], 0.0)
+    }
+
+    /// Factor on the width of a part's lines at a place.
+    pub fn width_at(&self, part: &Part, world: [f32; 3], normal: [f32; 3]) -> f32 {
+        if part.line_flags & Part::LINE_WIDTH == 0 {
+            return 1.0;
+        }
+        let x = self.lights.coordinate_at(world, normal, 0).0;
+        let [dark, lit] = part.line_width;
+        dark + (lit - dark) * x
+    }
+
+    /// Colour of a line at a place, sRGB with straight alpha: all of the model in one call, for drawings as curves.
+    ///
+    /// `own` is the colour of the surface there times the part's factor, in linear light; it is only looked at where the part
+    /// asks for it.
+    pub fn color_at(
+        &self,
+        part: &Part,
+        kind: u32,
+        own: [f32; 3],
+        world: [f32; 3],
+        normal: [f32; 3],
+    ) -> [f32; 4] {
+        if part.line_flags & Part::LINE_PLACED == 0 {
+            return line_color(part, kind, None);
+        }
+        let tint = self.decide(part, world, normal).tint(own);
+        line_color(part, kind, Some(tint))
+    }
+}
+
+/// What lines are decided on, over the pixels of a mask.
+#[derive(Debug, Clone, Copy)]
+pub struct Deciding<'a> {
+    /// Camera and frame.
+    pub view: &'a View,
+    /// The pixel grid of the mask.
+    pub window: &'a Window,
+    /// Settings.
+    pub compose: &'a Compose,
+    /// What surfaces are lit by.
+    pub lights: &'a Lights,
+    /// Triangle numbers on the mask's grid.
+    pub ids: &'a [u32],
+    /// Posed vertices.
+    pub posed: &'a [PosedVertex],
+    /// Stored vertices.
+    pub vertices: &'a [Vertex],
+    /// Triangles.
+    pub triangles: &'a [Triangle],
+    /// Parts.
+    pub parts: &'a [Part],
+    /// The texture store.
+    pub texels: &'a [u32],
+    /// The mask.
+    pub mask: &'a [u32],
+}
+
+/// Decides the colour of lines at every pixel of the mask that a line runs through, or beside; nothing elsewhere, and
+/// nothing for parts that ask for nothing: the twin of `line.color_mask`.
+///
+/// O(mask pixels + lights * line pixels), parallel over rows.
+pub fn decide(on: &Deciding<'_>, tints: &mut [LineTint]) {
+    let layers = on.layers();
+    let width = on.window.size[0] as usize;
+    tints
+        .par_chunks_mut(width)
+        .enumerate()
+        .for_each(|(y, row)| {
+            for (x, tint) in row.iter_mut().enumerate() {
+                *tint = on
+                    .tint_at(&layers, x as u32, y as u32)
+                    .unwrap_or(LineTint::NONE);
+            }
+        });
+}
+
+impl<'a> Deciding<'a> {
+    /// The same as layers of a picture, which know the colours of surfaces.
+    fn layers(&self) -> Layers<'a> {
+        Layers {
+            view: self.view,
+            window: self.window,
+            compose: self.compose,
+            lights: self.lights,
+            ids: self.ids,
+            beam_ids: &[],
+            ribbons: &[],
+            posed: self.posed,
+            vertices: self.vertices,
+            triangles: self.triangles,
+            parts: self.parts,
+            texels: self.texels,
+            charts: &[],
+            overlay: &[],
+            shadows: [&[]; SHADOWS_MAX],
+            smoke_colors: &[],
+            smoke_depths: &[],
+            smoke_shadows: [&[]; SHADOWS_MAX],
+        }
+    }
+
+    fn tint_at(&self, layers: &Layers<'_>, x: u32, y: u32) -> Option<LineTint> {
+        if !self.is_near_line([x, y]) {
+            return None;
+        }
+        let id = self.ids[(y * self.window.size[0] + x) as usize] & ID_MASK;
+        if id == 0 {
+            return None;
+        }
+        let triangle = &self.triangles[(id - 1) as usize];
+        let part = &self.parts[triangle.part as usize];
+        if part.line_flags == 0 {
+            return None;
+        }
+        let corners = layers.corners_of(triangle);
+        let place = LinePlace {
+            px: self.window.frame_at(x, y),
+            step_px: self.window.frame_step.map(|step| step * LINE_BLUR_PX),
+            is_hull: false,
+        };
+        Some(
+            layers
+                .line_tint(triangle, part, &corners, &place)
+                .packed(triangle.part),
+        )
+    }
+
+    /// Whether any of the 3x3 pixels around one is set.
+    fn is_near_line(&self, [x, y]: [u32; 2]) -> bool {
+        let [width, height] = self.window.size;
+        (y.saturating_sub(1)..=(y + 1).min(height - 1)).any(|y| {
+            let left = (y * width + x.saturating_sub(1)) as usize;
+            let right = (y * width + (x + 1).min(width - 1)) as usize;
+            self.mask[left..=right]
+                .iter()
+                .any(|found| found & MASK_KINDS != 0)
+        })
+    }
+}
+
+/// Where a line lies in the frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LinePlace {
+    /// Frame pixels.
+    pub px: [f32; 2],
+    /// How far it reaches, in frame pixels.
+    pub step_px: [f32; 2],
+    /// It lies on a hull, beside its triangle: the nearest place of that counts.
+    pub is_hull: bool,
+}
+
+impl LinePlace {
+    /// Weights of a triangle's corners there, moved by so many reaches.
+    fn weights(&self, view: &View, corners: &Corners<'_>, dx: f32, dy: f32) -> [f32; 3] {
+        let px = [
+            self.px[0] + dx * self.step_px[0],
+            self.px[1] + dy * self.step_px[1],
+        ];
+        let weights = weights_at(corners.clip, view.ndc_at(px));
+        if !self.is_hull {
+            return weights;
+        }
+        let held = weights.map(|weight| weight.max(0.0));
+        let sum = held[0] + held[1] + held[2];
+        if !(sum > 0.0) {
+            return [1.0, 0.0, 0.0];
+        }
+        held.map(|weight| weight / sum)
+    }
+}
+
+impl Layers<'_> {
+    /// What lines share in this view.
+    pub(crate) fn line_scene(&self) -> LineScene<'_> {
+        LineScene {
+            view: self.view,
+            lights: self.lights,
+            back_world: self.compose.back_world,
+            center_world: self.compose.center_world,
+            texels: self.texels,
+        }
+    }
+
+    /// What is decided about the lines of a triangle at a place.
+    pub(crate) fn line_tint(
+        &self,
+        triangle: &Triangle,
+        part: &Part,
+        corners: &Corners<'_>,
+        place: &LinePlace,
+    ) -> Tint {
+        let weights = place.weights(self.view, corners, 0.0, 0.0);
+        // Hulls show the backs of faces, but their outline is where the front turns away.
+        let side = if place.is_hull { corners.side } else { 1.0 };
+        let normal = corners.normal(weights).map(|v| v * side);
+        let decided = self
+            .line_scene()
+            .decide(part, corners.world(weights), normal);
+        decided.tint(self.line_own(triangle, part, corners, place))
+    }
+
+    /// Colour of the surface for its lines, linear light; black where the part does not ask for it.
+    fn line_own(
+        &self,
+        triangle: &Triangle,
+        part: &Part,
+        corners: &Corners<'_>,
+        place: &LinePlace,
+    ) -> [f32; 3] {
+        if part.line_flags & Part::LINE_SOURCES == 0 {
+            return [0.0; 3];
+        }
+        let vertices = triangle.corners.map(|v| &self.vertices[v as usize]);
+        let [weights, right, down] = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]
+            .map(|(dx, dy)| place.weights(self.view, corners, dx, dy));
+        let uvs = [weights, right, down].map(|weights| blend2(weights, vertices.map(|v| v.uv)));
+        let covered = footprint(uvs);
+        let color = if part.line_flags & Part::LINE_SURFACE != 0 {
+            let color = self.color_at(part, vertices, weights, uvs[0], covered);
+            self.strengthened(color)
+        } else if part.line_flags & Part::LINE_VERTEX != 0 {
+            self.tint(weights, vertices)
+        } else if part.line_texture != NONE {
+            let [r, g, b, _] = texture::sample(self.texels, part.line_texture, uvs[0], covered);
+            [r, g, b]
+        } else {
+            [1.0; 3]
+        };
+        color.map(|light| light * part.line_factor)
+    }
+
+    /// Linear light of the line that a hull or a grazing surface shows at a place.
+    pub(crate) fn line_light(
+        &self,
+        triangle: &Triangle,
+        part: &Part,
+        corners: &Corners<'_>,
+        place: &LinePlace,
+    ) -> [f32; 3] {
+        let color = if part.line_flags & Part::LINE_PLACED == 0 {
+            line_color(part, 0, None)
+        } else {
+            let tint = self.line_tint(triangle, part, corners, place);
+            line_color(part, 0, Some(tint))
+        };
+        let [r, g, b, _] = self.linear_of(color);
+        [r, g, b]
+    }
+}
+
+/// Half widths by the light that falls on vertices; all else stays: the twin of `line.light_widths`.
+///
+/// `lit` gets every vertex of `posed`. O(vertices * lights), parallel.
+pub fn light_widths(
+    scene: &LineScene<'_>,
+    parts: &[Part],
+    vertices: &[Vertex],
+    posed: &[PosedVertex],
+    lit: &mut [PosedVertex],
+) {
+    let places = posed.par_iter().zip(vertices).zip(lit).with_min_len(1024);
+    places.for_each(|((posed, vertex), lit)| {
+        let factor = scene.width_at(&parts[vertex.part as usize], posed.world, posed.normal);
+        *lit = PosedVertex {
+            half_width: posed.half_width * factor,
+            ..*posed
+        };
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{HueStop, LinePaint, Style, hue_row};
+    use npr_core::math;
+    use npr_core::surface::unit_or_z;
+    use npr_core::texture::{TextureStore, Wrap};
+    use proptest::prelude::*;
+
+    fn view() -> View {
+        View {
+            eye_world: [0.0, 0.0, 5.0],
+            forward_world: [0.0, 0.0, -1.0],
+            perspective: 1.0,
+            ..View::default()
+        }
+    }
+
+    /// A part of a model of radius 1 in a paint, with its rows.
+    fn painted(text: &str) -> (Part, TextureStore) {
+        let style =
+            Style::from_toml(&format!("line.paint = {text}"), &|_| Err(String::new())).unwrap();
+        let paint: &LinePaint = &style.line.paint;
+        let mut store = TextureStore::new();
+        let mut row = |stops: &[HueStop]| {
+            let size = [HUES as u32, 1];
+            store.add(size, &hue_row(stops), [Wrap::Clamp; 2]).unwrap()
+        };
+        let mut part = Part {
+            base_color: [0.8, 0.4, 0.2, 1.0],
+            line_color: [0.2, 0.1, 0.05, 1.0],
+            back_color: [0.2, 0.4, 1.0, 1.0],
+            back: [0.6, 0.8, 0.0, 0.0],
+            line_depth_row: row(&paint.depth.ramp),
+            line_light_row: row(&paint.light.ramp),
+            line_texture: NONE,
+            ..Part::default()
+        };
+        paint.give_to(&mut part, 1.0, 1.0);
+        (part, store)
+    }
+
+    fn scene<'a>(view: &'a View, lights: &'a Lights, store: &'a TextureStore) -> LineScene<'a> {
+        LineScene {
+            view,
+            lights,
+            back_world: [0.0, 0.0, -1.0],
+            center_world: [0.0; 3],
+            texels: store.words(),
+        }
+    }
+
+    /// The colour by the definition, a step after the other, each mixed into the last.
+    fn one_after_the_other(
+        scene: &LineScene<'_>,
+        part: &Part,
+        kind: u32,
+        own: [f32; 3],
+        world: [f32; 3],
+        normal: [f32; 3],
+    ) -> [f32; 4] {
+        let of_kind = part.line_flags & (1 << kind) != 0;
+        let start = if of_kind {
+            unpack_rgba8(part.line_kinds[kind as usize])
+        } else {
+            part.line_color
+        };
+        let mut color = linear_rgba(start);
+        if !of_kind && part.line_flags & Part::LINE_SOURCES != 0 {
+            color = [own[0], own[1], own[2], color[3]];
+        }
+        let mut lay = |top: [f32; 4]| {
+            for i in 0..3 {
+                color[i] += (top[i] - color[i]) * top[3];
+            }
+        };
+        let x = scene.lights.coordinate_at(world, normal, 0).0;
+        if part.line_flags & Part::LINE_LIGHT != 0 {
+            lay(scene.hue(part.line_light_row, x));
+        }
+        if part.line_flags & Part::LINE_RIM != 0 {
+            let rim = back_light(normal, scene.back_world, part.back[0], part.back[1]);
+            let [r, g, b, a] = part.back_color;
+            lay([r, g, b, a * rim * part.line_rim]);
+        }
+        if part.line_flags & Part::LINE_DEPTH != 0 {
+            let depth = 5.0 - world[2];
+            let from = if part.line_flags & Part::LINE_FROM_MIDDLE != 0 {
+                5.0
+            } else {
+                0.0
+            };
+            let share = ((depth - from - part.line_depth[0]) * part.line_depth[1]).clamp(0.0, 1.0);
+            lay(scene.hue(part.line_depth_row, share));
+        }
+        lay(linear_rgba(unpack_rgba8(part.line_tint)));
+        let opacity = part.line_opacity[0] + (part.line_opacity[1] - part.line_opacity[0]) * x;
+        [
+            srgb_from_linear(color[0]),
+            srgb_from_linear(color[1]),
+            srgb_from_linear(color[2]),
+            color[3] * opacity,
+        ]
+    }
+
+    const EVERYTHING: &str = "{ source = 'surface', kinds = { crease = '#aabbcc80' }, tint = '#80ff0040', \
+         depth = { near = 0.2, far = 0.9, ramp = [{ at = 0.1, color = '#fff0' }, { at = 1, color = '#cceeffc0' }] }, \
+         light = { rim = 0.7, opacity = [1, 0.4], ramp = [{ at = 0, color = '#0008' }, { at = 1, color = '#ffa040c0' }] } }";
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        #[test]
+        fn the_glaze_is_its_layers_in_order(
+            own in prop::array::uniform3(0f32..1.0),
+            world in prop::array::uniform3(-1f32..1.0),
+            normal in prop::array::uniform3(-1f32..1.0),
+            towards in prop::array::uniform3(-1f32..1.0),
+            kind in 0u32..5,
+        ) {
+            let (part, store) = painted(EVERYTHING);
+            let (view, lights) = (view(), Lights::distant(unit_or_z(towards)));
+            let scene = scene(&view, &lights, &store);
+            let normal = unit_or_z(normal);
+            let got = scene.color_at(&part, kind, own, world, normal);
+            let want = one_after_the_other(&scene, &part, kind, own, world, normal);
+            for i in 0..4 {
+                prop_assert!((got[i] - want[i]).abs() < 2e-3, "{got:?} for {want:?}");
+            }
+        }
+
+        #[test]
+        fn a_constant_is_the_lines_own_colour_to_the_bit(
+            world in prop::array::uniform3(-1e6f32..1e6), normal in prop::array::uniform3(-1f32..1.0), kind in 0u32..5,
+        ) {
+            let (part, store) = painted("{}");
+            let (view, lights) = (view(), Lights::distant([0.0, 1.0, 0.0]));
+            let color = scene(&view, &lights, &store).color_at(&part, kind, [0.5; 3], world, unit_or_z(normal));
+            prop_assert_eq!(color, [0.2, 0.1, 0.05, 1.0]);
+        }
+
+        /// A thousandth of the model's size further back, or of a turn, no channel jumps.
+        #[test]
+        fn colour_is_continuous_over_depth_and_light(z in -1f32..1.0, angle in 0f32..6.2) {
+            let (part, store) = painted(EVERYTHING);
+            let (view, lights) = (view(), Lights::distant([0.6, 0.0, 0.8]));
+            let scene = scene(&view, &lights, &store);
+            let at = |z: f32, angle: f32| {
+                let normal = [math::sin(angle), 0.0, math::sin(angle + 1.570_796_4)];
+                scene.color_at(&part, 0, [0.2; 3], [0.0, 0.0, z], normal)
+            };
+            let (here, back, turned) = (at(z, angle), at(z - 0.001, angle), at(z, angle + 0.001));
+            for i in 0..4 {
+                prop_assert!((here[i] - back[i]).abs() < 0.02 && (here[i] - turned[i]).abs() < 0.03);
+            }
+        }
+
+        /// Numbers that are none, and far too large, still give a colour.
+        #[test]
+        fn any_place_has_a_colour(world in prop::array::uniform3(any::<f32>()), normal in prop::array::uniform3(any::<f32>())) {
+            let (part, store) = painted(EVERYTHING);
+            let (view, lights) = (view(), Lights::distant([0.0, 1.0, 0.0]));
+            let scene = scene(&view, &lights, &store);
+            scene.color_at(&part, 0, [f32::NAN; 3], world, normal);
+            scene.width_at(&part, world, normal);
+        }
+    }
+
+    #[test]
+    fn depth_counts_from_the_models_nearest_place() {
+        let (part, store) =
+            painted("{ depth.ramp = [{ at = 0, color = '#fff0' }, { at = 1, color = '#fff' }] }");
+        let (view, lights) = (view(), Lights::distant([0.0, 1.0, 0.0]));
+        let scene = scene(&view, &lights, &store);
+        let at = |z: f32| scene.color_at(&part, 0, [0.0; 3], [0.0, 0.0, z], [0.0, 0.0, 1.0]);
+        assert_eq!(
+            at(1.0),
+            [0.2, 0.1, 0.05, 1.0],
+            "a sphere of radius 1 begins here"
+        );
+        assert!(at(-1.0)[0] > 0.999);
+        assert_eq!(at(-1.0), at(-9.0), "it stays");
+        assert!(at(0.0)[0] > at(0.5)[0]);
+    }
+
+    #[test]
+    fn light_thins_and_rims_shine() {
+        let (part, store) = painted("{ light = { width = [1.2, 0.4], rim = 1 } }");
+        let (view, lights) = (view(), Lights::distant([0.0, 1.0, 0.0]));
+        let scene = scene(&view, &lights, &store);
+        let width = |normal| scene.width_at(&part, [0.0; 3], normal);
+        assert!((width([0.0, 1.0, 0.0]) - 0.4).abs() < 1e-6);
+        assert!((width([0.0, -1.0, 0.0]) - 1.2).abs() < 1e-6);
+        let color = |normal| scene.color_at(&part, 0, [0.0; 3], [0.0; 3], normal);
+        let behind = color([0.0, 0.0, -1.0]);
+        assert!((behind[2] - 1.0).abs() < 1e-5, "the light behind is blue");
+        assert_eq!(color([0.0, 0.0, 1.0]), [0.2, 0.1, 0.05, 1.0]);
+    }
+}

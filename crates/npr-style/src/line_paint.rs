@@ -1,0 +1,545 @@
+//! Where the colour of lines comes from, as styles say it; [`crate::line_color`] does the arithmetic.
+
+use color::{AlphaColor, HueDirection, Oklab, Srgb};
+use npr_core::color::{pack_rgba8, srgb_from_linear};
+use npr_core::geometry::Part;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::error::StyleError;
+use crate::{Color, LineMethod, Style};
+
+/// Colours of a row, from its begin to its end.
+pub const HUES: usize = 256;
+
+/// Most stops of a row.
+pub const HUE_STOPS_MAX: usize = 16;
+
+/// Where the colour of a line comes from, before light, depth and tint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LineSource {
+    /// From `line.color`.
+    #[default]
+    Constant,
+    /// From the surface at the line, as it is without light, times `factor`: a darker version of the fill.
+    Surface,
+    /// From the colours of its vertices, times `factor`.
+    VertexColor,
+    /// From `image` at the surface's texture coordinates, times `factor`.
+    Texture,
+}
+
+/// What depth is counted in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum DepthSpace {
+    /// 0 where the sphere around the model is nearest to the eye, 1 where it is farthest.
+    #[default]
+    Model,
+    /// Distance along the view axis, in the scene's unit.
+    World,
+}
+
+/// A colour of a row and its place on it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HueStop {
+    /// Its place, 0..1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub at: f32,
+    /// What is laid over the line there; alpha is how much: `#fff0` leaves the line as it is, `#fff` makes it white.
+    pub color: Color,
+}
+
+/// Colours for single kinds of line; what is absent has the colour of all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct KindColors {
+    /// Of contours.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contour: Option<Color>,
+    /// Of borders.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub border: Option<Color>,
+    /// Of creases.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crease: Option<Color>,
+    /// Of lines between materials.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub material: Option<Color>,
+    /// Of lines where surfaces cut through each other.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub intersection: Option<Color>,
+}
+
+impl KindColors {
+    /// In the order of [`Part::line_kinds`].
+    fn in_order(&self) -> [Option<Color>; 5] {
+        let Self {
+            contour,
+            border,
+            crease,
+            material,
+            intersection,
+        } = *self;
+        [contour, border, crease, material, intersection]
+    }
+
+    /// These, and those of `below` where there are none.
+    fn over(self, below: Self) -> Self {
+        Self {
+            contour: self.contour.or(below.contour),
+            border: self.border.or(below.border),
+            crease: self.crease.or(below.crease),
+            material: self.material.or(below.material),
+            intersection: self.intersection.or(below.intersection),
+        }
+    }
+}
+
+/// How the colour of lines changes with depth: far lines pale, or blend into snow and mist.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct LineDepth {
+    /// What `near` and `far` count in; default `model`.
+    pub space: DepthSpace,
+    /// Where the ramp begins, -1e6..1e6; default 0.
+    #[schemars(range(min = -1e6, max = 1e6))]
+    pub near: f32,
+    /// Where it ends, -1e6..1e6, beyond `near`; default 1.
+    #[schemars(range(min = -1e6, max = 1e6))]
+    pub far: f32,
+    /// What is laid over lines on the way, up to 16 stops sorted by `at`; default none.
+    #[schemars(length(max = 16))]
+    pub ramp: Vec<HueStop>,
+}
+
+impl Default for LineDepth {
+    fn default() -> Self {
+        Self {
+            space: DepthSpace::Model,
+            near: 0.0,
+            far: 1.0,
+            ramp: Vec::new(),
+        }
+    }
+}
+
+/// How lines change with the light on their surface. Its scale is that of tones: 0 faces away, 0.5 lies across, 1 faces
+/// the light. Shadows that things throw play no part.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct LineLight {
+    /// What is laid over lines from dark to light, up to 16 stops sorted by `at`; default none.
+    #[schemars(length(max = 16))]
+    pub ramp: Vec<HueStop>,
+    /// Factor on the width in the dark and in full light, 0..4 each; default `[1, 1]`. `[1.2, 0.5]` thins lines in the sun.
+    #[schemars(inner(range(min = 0.0, max = 4.0)))]
+    pub width: [f32; 2],
+    /// Factor on the opacity in the dark and in full light, 0..1 each; default `[1, 1]`. `[1, 0]` lets light wash lines away.
+    #[schemars(inner(range(min = 0.0, max = 1.0)))]
+    pub opacity: [f32; 2],
+    /// How much lines take the colour of the light behind where it lights them, 0..1; default 0. That light is
+    /// `highlight.back`, whether or not it brightens surfaces too.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub rim: f32,
+}
+
+impl Default for LineLight {
+    fn default() -> Self {
+        Self {
+            ramp: Vec::new(),
+            width: [1.0; 2],
+            opacity: [1.0; 2],
+            rim: 0.0,
+        }
+    }
+}
+
+/// Where the colour of lines comes from, for every method.
+///
+/// First the colour itself: of the kind, else of `source`. Then what lies over it, in this order: light, the light behind,
+/// depth, tint.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct LinePaint {
+    /// Colours for single kinds; they go before `source`. Default none.
+    pub kinds: KindColors,
+    /// Where the colour of all others comes from; default `constant`.
+    pub source: LineSource,
+    /// What a surface's, vertex's or picture's colour is multiplied by, in linear light, 0..4; default 0.2.
+    /// 0.05 nearly black, 0.2 a deep shade of the fill, 1 the fill itself.
+    #[schemars(range(min = 0.0, max = 4.0))]
+    pub factor: f32,
+    /// Picture for source `texture`; default none.
+    pub image: String,
+    /// How colour changes with depth.
+    pub depth: LineDepth,
+    /// How colour, opacity and width change with light.
+    pub light: LineLight,
+    /// Laid over all lines at last; alpha is how much. Default `#0000`, nothing.
+    pub tint: Color,
+}
+
+impl Default for LinePaint {
+    fn default() -> Self {
+        Self {
+            kinds: KindColors::default(),
+            source: LineSource::Constant,
+            factor: 0.2,
+            image: String::new(),
+            depth: LineDepth::default(),
+            light: LineLight::default(),
+            tint: Color::rgba(0, 0, 0, 0),
+        }
+    }
+}
+
+impl LinePaint {
+    /// The bits of [`Part::line_flags`].
+    pub fn flags(&self) -> u32 {
+        let bit = |bit: u32, when: bool| if when { bit } else { 0 };
+        let kinds = self.kinds.in_order().into_iter().enumerate();
+        let (light, depth) = (&self.light, &self.depth);
+        kinds.fold(0, |bits, (kind, color)| {
+            bits | bit(1 << kind, color.is_some())
+        }) | match self.source {
+            LineSource::Constant => 0,
+            LineSource::Surface => Part::LINE_SURFACE,
+            LineSource::VertexColor => Part::LINE_VERTEX,
+            LineSource::Texture => Part::LINE_TEXTURE,
+        } | bit(Part::LINE_DEPTH, !depth.ramp.is_empty())
+            | bit(
+                Part::LINE_FROM_MIDDLE,
+                !depth.ramp.is_empty() && depth.space == DepthSpace::Model,
+            )
+            | bit(Part::LINE_LIGHT, !light.ramp.is_empty())
+            | bit(Part::LINE_OPACITY, light.opacity != [1.0; 2])
+            | bit(Part::LINE_WIDTH, light.width != [1.0; 2])
+            | bit(Part::LINE_RIM, light.rim > 0.0)
+            | bit(Part::LINE_TINT, self.tint.a > 0)
+    }
+
+    /// Gives a part what it says but for rows and picture, which hang on where they are kept.
+    ///
+    /// `part` has its `line_color` and `base_color`; `opacity` is the style's, `radius` the model's.
+    pub fn give_to(&self, part: &mut Part, opacity: f32, radius: f32) {
+        let LineDepth { near, far, .. } = self.depth;
+        let kind = |color: Option<Color>| {
+            let [r, g, b, a] = color.map_or([0.0; 4], Color::srgb);
+            pack_rgba8([r, g, b, a * opacity])
+        };
+        part.line_flags = self.flags();
+        part.line_kinds = self.kinds.in_order().map(kind);
+        part.line_factor = self.factor;
+        // From the middle of the model, its nearest place lies a radius before and its farthest as far behind.
+        let [start, end] = match self.depth.space {
+            DepthSpace::Model => [near, far].map(|share| (2.0 * share - 1.0) * radius),
+            DepthSpace::World => [near, far],
+        };
+        part.line_depth = [start, 1.0 / (end - start).max(1e-20)];
+        part.line_opacity = self.light.opacity;
+        part.line_width = self.light.width;
+        part.line_tint = pack_rgba8(self.tint.srgb());
+        part.line_rim = self.light.rim;
+        if self.source != LineSource::Constant {
+            // For the few places where nothing is known of the surface.
+            let [r, g, b, _] = part.base_color;
+            let [r, g, b] = [r, g, b].map(|light| srgb_from_linear(light * self.factor));
+            part.line_color = [r, g, b, part.line_color[3]];
+        }
+    }
+
+    /// Checks what no single value shows.
+    pub(crate) fn check(&self, key: &str) -> Result<(), StyleError> {
+        for (name, ramp) in [("depth", &self.depth.ramp), ("light", &self.light.ramp)] {
+            let unsorted = ramp.windows(2).position(|pair| pair[1].at < pair[0].at);
+            if let Some(i) = unsorted {
+                return Err(StyleError::unfit(
+                    format!("{key}.{name}.ramp.{}.at", i + 1),
+                    "lies before the stop ahead of it",
+                ));
+            }
+        }
+        if self.depth.far <= self.depth.near {
+            return Err(StyleError::unfit(
+                format!("{key}.depth.far"),
+                "has to lie beyond near",
+            ));
+        }
+        if self.source == LineSource::Texture && self.image.is_empty() {
+            return Err(StyleError::unfit(
+                format!("{key}.source"),
+                format!("is texture, but {key}.image names no picture"),
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// A row of stops as [`HUES`] sRGB colours with straight alpha, for the texture store.
+///
+/// Between stops colours mix in OKLab with premultiplied alpha; before the first and after the last they stay. Empty stops
+/// give a clear row. O([`HUES`] * stops).
+pub fn hue_row(stops: &[HueStop]) -> Vec<u8> {
+    let place = |i: usize| i as f32 / (HUES - 1) as f32;
+    (0..HUES)
+        .flat_map(|i| hue_at(stops, place(i)).map(|v| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u8))
+        .collect()
+}
+
+fn hue_at(stops: &[HueStop], x: f32) -> [f32; 4] {
+    let next = stops.partition_point(|stop| stop.at <= x);
+    let (Some(below), above) = (stops.get(next.saturating_sub(1)), stops.get(next)) else {
+        return [0.0; 4];
+    };
+    let Some(above) = above.filter(|_| next > 0) else {
+        return below.color.srgb();
+    };
+    let t = (x - below.at) / (above.at - below.at);
+    let [a, b] =
+        [below, above].map(|stop| AlphaColor::<Srgb>::new(stop.color.srgb()).convert::<Oklab>());
+    if t <= 0.0 {
+        return below.color.srgb();
+    }
+    let mixed = a.lerp(b, t, HueDirection::default());
+    mixed.convert::<Srgb>().components
+}
+
+/// What a rule changes about the colour of lines; what is absent stays.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RulePaint {
+    /// Colours for single kinds of its lines.
+    pub kinds: KindColors,
+    /// Where the colour of its other lines comes from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub source: Option<LineSource>,
+    /// What its colour is multiplied by, in linear light, 0..4.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 4.0))]
+    pub factor: Option<f32>,
+    /// Its picture for source `texture`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub image: Option<String>,
+    /// How the colour of its lines changes with depth.
+    pub depth: RuleLineDepth,
+    /// How its lines change with light.
+    pub light: RuleLineLight,
+    /// Laid over all of its lines; `#0000` for nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tint: Option<Color>,
+}
+
+/// What a rule changes about the colour of lines over depth; what is absent stays.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RuleLineDepth {
+    /// What `near` and `far` count in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub space: Option<DepthSpace>,
+    /// Where the ramp begins, -1e6..1e6.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -1e6, max = 1e6))]
+    pub near: Option<f32>,
+    /// Where it ends, -1e6..1e6, beyond `near`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -1e6, max = 1e6))]
+    pub far: Option<f32>,
+    /// What is laid over lines on the way; `[]` for nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(length(max = 16))]
+    pub ramp: Option<Vec<HueStop>>,
+}
+
+/// What a rule changes about lines in the light; what is absent stays.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RuleLineLight {
+    /// What is laid over lines from dark to light; `[]` for nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(length(max = 16))]
+    pub ramp: Option<Vec<HueStop>>,
+    /// Factor on the width in the dark and in full light, 0..4 each.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(inner(range(min = 0.0, max = 4.0))))]
+    pub width: Option<[f32; 2]>,
+    /// Factor on the opacity in the dark and in full light, 0..1 each.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(inner(range(min = 0.0, max = 1.0))))]
+    pub opacity: Option<[f32; 2]>,
+    /// How much lines take the colour of the light behind, 0..1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub rim: Option<f32>,
+}
+
+impl RulePaint {
+    /// `paint` with what the rule states in place of what it had.
+    pub(crate) fn over(&self, paint: LinePaint) -> LinePaint {
+        let (depth, light) = (&self.depth, &self.light);
+        LinePaint {
+            kinds: self.kinds.over(paint.kinds),
+            source: self.source.unwrap_or(paint.source),
+            factor: self.factor.unwrap_or(paint.factor),
+            image: self.image.clone().unwrap_or(paint.image),
+            depth: LineDepth {
+                space: depth.space.unwrap_or(paint.depth.space),
+                near: depth.near.unwrap_or(paint.depth.near),
+                far: depth.far.unwrap_or(paint.depth.far),
+                ramp: depth.ramp.clone().unwrap_or(paint.depth.ramp),
+            },
+            light: LineLight {
+                ramp: light.ramp.clone().unwrap_or(paint.light.ramp),
+                width: light.width.unwrap_or(paint.light.width),
+                opacity: light.opacity.unwrap_or(paint.light.opacity),
+                rim: light.rim.unwrap_or(paint.light.rim),
+            },
+            tint: self.tint.unwrap_or(paint.tint),
+        }
+    }
+}
+
+impl Style {
+    /// Checks the colours of lines, with each rule laid over the style's own.
+    pub(crate) fn check_line_paint(&self) -> Result<(), StyleError> {
+        self.line.paint.check("line.paint")?;
+        self.rule.iter().enumerate().try_for_each(|(i, rule)| {
+            let paint = rule.line.paint.over(self.line.paint.clone());
+            paint.check(&format!("rule.{i}.line.paint"))
+        })
+    }
+
+    /// What its line methods cannot honour of how it colours lines, a sentence each, for the user.
+    pub fn line_paint_notices(&self) -> Vec<String> {
+        let paints = || {
+            let rules = self.rule.iter();
+            let of_rules = rules.map(|rule| rule.line.paint.over(self.line.paint.clone()));
+            std::iter::once(self.line.paint.clone()).chain(of_rules)
+        };
+        let has = |bits: u32| paints().any(|paint| paint.flags() & bits != 0);
+        let rules = self.rule.iter().filter_map(|rule| rule.line.method);
+        let methods: Vec<LineMethod> = std::iter::once(self.line.method).chain(rules).collect();
+        let draws = |wanted: &[LineMethod]| methods.iter().any(|method| wanted.contains(method));
+        let filters = [LineMethod::Filter, LineMethod::FilterHull];
+        let hulls = [LineMethod::Hull, LineMethod::FilterHull];
+        let even = [filters[0], filters[1], LineMethod::Angle];
+        let mut notices = Vec::new();
+        if has(Part::LINE_WIDTH) && draws(&even) {
+            notices.push("line.paint.light.width changes no lines of method filter or angle");
+        }
+        if has(Part::LINE_OPACITY) && draws(&[hulls[0], hulls[1], LineMethod::Angle]) {
+            notices.push("line.paint.light.opacity changes no lines of method hull or angle");
+        }
+        if has(0b11110) && draws(&[hulls[0], hulls[1], LineMethod::Angle]) {
+            notices.push("lines of method hull or angle are all contours to line.paint.kinds");
+        }
+        if has(Part::LINE_VERTEX) && !self.shade.use_vertex_colors {
+            notices.push("line.paint.source is vertex-color, but shade.use_vertex_colors is off");
+        }
+        notices.into_iter().map(str::to_owned).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn read(text: &str) -> Result<Style, StyleError> {
+        Style::from_toml(text, &|_| Err(String::new()))
+    }
+
+    #[test]
+    fn a_style_without_paint_sets_no_flag() {
+        assert_eq!(LinePaint::default().flags(), 0);
+        assert!(Style::default().line_paint_notices().is_empty());
+    }
+
+    #[test]
+    fn rules_change_what_they_state_in_order() {
+        let style = read(
+            "line.paint = { source = 'surface', factor = 0.3, kinds = { crease = '#fff' } }\n\
+             [[rule]]\nline.paint.factor = 0.5\nline.paint.kinds.border = '#f00'\n\
+             [[rule]]\nmatch.object = 'B'\nline.paint.source = 'constant'\nline.paint.depth.ramp = [{ at = 0, color = '#123' }]",
+        )
+        .unwrap();
+        let a = style.resolve_for("", "A").line_paint;
+        assert_eq!((a.source, a.factor), (LineSource::Surface, 0.5));
+        assert_eq!(
+            a.flags(),
+            Part::LINE_SURFACE | 0b110,
+            "a border and a crease have colours"
+        );
+        let b = style.resolve_for("", "B").line_paint;
+        assert_eq!(b.flags(), 0b110 | Part::LINE_DEPTH | Part::LINE_FROM_MIDDLE);
+    }
+
+    #[test]
+    fn what_contradicts_itself_is_named() {
+        let fault = |text: &str| read(text).unwrap_err().to_string();
+        assert!(fault("line.paint.source = 'texture'").contains("line.paint.source"));
+        assert!(fault("line.paint.depth = { near = 2, far = 1 }").contains("line.paint.depth.far"));
+        let text = "[[rule]]\nline.paint.light.ramp = [{ at = 0.5, color = '#fff' }, { at = 0.2, color = '#000' }]";
+        assert!(fault(text).contains("rule.0.line.paint.light.ramp.1.at"));
+        assert!(fault("line.paint.light.width = [1, 9]").contains("line.paint.light.width"));
+    }
+
+    #[test]
+    fn what_a_method_cannot_do_is_said_once() {
+        let style = read("line.method = 'filter'\nline.paint.light.width = [1, 0]").unwrap();
+        assert_eq!(style.line_paint_notices().len(), 1);
+        let style = read("line.paint.light.width = [1, 0]").unwrap();
+        assert!(style.line_paint_notices().is_empty());
+    }
+
+    #[test]
+    fn a_row_begins_and_ends_with_its_stops() {
+        let stop = |at, color: &str| HueStop {
+            at,
+            color: color.parse().unwrap(),
+        };
+        let row = hue_row(&[stop(0.25, "#10203040"), stop(0.75, "#ff8000ff")]);
+        assert_eq!(row.len(), 4 * HUES);
+        assert_eq!(row[..4], [0x10, 0x20, 0x30, 0x40]);
+        assert_eq!(row[4 * HUES - 4..], [0xff, 0x80, 0, 0xff]);
+        assert_eq!(hue_row(&[]), [0; 4 * HUES]);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        /// Alpha, and colour as far as it shows, never jump between neighbours where stops lie apart.
+        #[test]
+        fn rows_are_continuous(colors in prop::collection::vec(any::<[u8; 4]>(), 1..6)) {
+            let count = colors.len();
+            let stops: Vec<HueStop> = colors.iter().enumerate().map(|(i, [r, g, b, a])| HueStop {
+                at: i as f32 / count as f32,
+                color: Color::rgba(*r, *g, *b, *a),
+            }).collect();
+            let row = hue_row(&stops);
+            let shown: Vec<[f32; 4]> = row.chunks_exact(4).map(|c| {
+                let a = f32::from(c[3]) / 255.0;
+                [f32::from(c[0]) * a, f32::from(c[1]) * a, f32::from(c[2]) * a, f32::from(c[3])]
+            }).collect();
+            // 256 places over at most 6 pieces; the sRGB curve is up to 12.92 times as steep as light.
+            for pair in shown.windows(2) {
+                for i in 0..4 {
+                    prop_assert!((pair[0][i] - pair[1][i]).abs() < 40.0, "{:?}", pair);
+                }
+            }
+        }
+
+        /// Stops at any places, doubled ones too, give colours.
+        #[test]
+        fn any_stops_give_a_row(mut stops in prop::collection::vec((0f32..=1.0, any::<[u8; 4]>()), 0..HUE_STOPS_MAX)) {
+            stops.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let stops: Vec<HueStop> = stops.into_iter().map(|(at, [r, g, b, a])| HueStop {
+                at: (at * 4.0).round() / 4.0,
+                color: Color::rgba(r, g, b, a),
+            }).collect();
+            prop_assert_eq!(hue_row(&stops).len(), 4 * HUES);
+        }
+    }
+}

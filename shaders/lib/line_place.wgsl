@@ -1,0 +1,55 @@
+// The colour that a surface gives its lines at a pixel. Twin: npr_style::line_color. The shader declares what
+// lib/surface_color and lib/line_color ask for.
+
+//# use lib/geometry
+//# use lib/surface_color
+//# use lib/line_color
+
+// Weights of a triangle's corners at a point of the frame; those of its nearest place on a hull, which lies beside it.
+fn line_weights(corners: Corners, px: vec2<f32>, is_hull: bool) -> vec3<f32> {
+    let weights = weights_at(corners.clip, ndc_at(view, px));
+    if !is_hull { return weights; }
+    let held = max(weights, vec3<f32>(0.0));
+    let sum = held.x + held.y + held.z;
+    if !(sum > 0.0) { return vec3<f32>(1.0, 0.0, 0.0); }
+    return held / sum;
+}
+
+// Colour of the surface for its lines, linear light; black where the part does not ask for it.
+fn line_own(triangle: Triangle, corners: Corners, px: vec2<f32>, step_px: vec2<f32>, is_hull: bool) -> vec3<f32> {
+    let part = triangle.part;
+    let flags = parts[part].line_flags;
+    if (flags & LINE_SOURCES) == 0u { return vec3<f32>(0.0); }
+    let weights = line_weights(corners, px, is_hull);
+    let right = line_weights(corners, px + vec2<f32>(step_px.x, 0.0), is_hull);
+    let down = line_weights(corners, px + vec2<f32>(0.0, step_px.y), is_hull);
+    let uv = uv_at(triangle, weights);
+    let covered = footprint(uv, uv_at(triangle, right), uv_at(triangle, down));
+    var color = vec3<f32>(1.0);
+    if (flags & LINE_SURFACE) != 0u {
+        color = strengthened(color_at(triangle, weights, uv, covered));
+    } else if (flags & LINE_VERTEX) != 0u {
+        color = tint(triangle, weights);
+    } else if parts[part].line_texture != NONE {
+        color = sample_texture(parts[part].line_texture, uv, covered).rgb;
+    }
+    return color * parts[part].line_factor;
+}
+
+// What is decided about the lines of a triangle at a point of the frame.
+fn line_tint(triangle: Triangle, corners: Corners, px: vec2<f32>, step_px: vec2<f32>, is_hull: bool) -> Tint {
+    let weights = line_weights(corners, px, is_hull);
+    // Hulls show the backs of faces, but their outline is where the front turns away.
+    let normal = normal_of(corners, weights) * select(1.0, corners.side, is_hull);
+    let own = line_own(triangle, corners, px, step_px, is_hull);
+    return decide(triangle.part, own, world_of(corners, weights), normal);
+}
+
+// Linear light of the line that a hull or a grazing surface shows at a point of the frame.
+fn line_light(triangle: Triangle, corners: Corners, px: vec2<f32>, step_px: vec2<f32>, is_hull: bool) -> vec3<f32> {
+    var tint: Tint;
+    if (parts[triangle.part].line_flags & LINE_PLACED) != 0u {
+        tint = line_tint(triangle, corners, px, step_px, is_hull);
+    }
+    return linear_texel(pack_rgba8(line_color(triangle.part, KIND_OF_CONTOUR, tint))).rgb;
+}

@@ -1,0 +1,55 @@
+// The colour of a line, put together from what was decided at its place. Twin: npr_core::line_color. The shader declares
+// `parts: array<Part>`.
+
+//# use lib/color
+//# use lib/outline
+
+const KIND_OF_CONTOUR: u32 = 0u;
+const KIND_OF_CREASE: u32 = 2u;
+const KIND_OF_MATERIAL: u32 = 3u;
+const KIND_OF_INTERSECTION: u32 = 4u;
+
+// What is decided about lines at a pixel of the mask.
+struct LineTint {
+    own: u32,
+    glaze: u32,
+    part: u32,
+}
+
+// The same with values 0..1, sRGB encoded.
+struct Tint {
+    is_known: bool,
+    own: vec4<f32>,
+    glaze: vec4<f32>,
+}
+
+fn kind_of_edge(kinds: u32) -> u32 {
+    let known = kinds & (KIND_CONTOUR | KIND_BORDER | KIND_CREASE | KIND_MATERIAL);
+    return select(firstTrailingBit(known), KIND_OF_CONTOUR, known == 0u);
+}
+
+fn kind_of_mask(found: u32) -> u32 {
+    if (found & DETECT_PIECE) != 0u { return KIND_OF_INTERSECTION; }
+    if (found & (DETECT_DEPTH | DETECT_OBJECT)) != 0u { return KIND_OF_CONTOUR; }
+    if (found & DETECT_MATERIAL) != 0u { return KIND_OF_MATERIAL; }
+    return KIND_OF_CREASE;
+}
+
+// Colour of a part's lines of a kind, sRGB with straight alpha, where `tint` is decided.
+fn line_color(part: u32, kind: u32, tint: Tint) -> vec4<f32> {
+    var color = parts[part].line_color;
+    let flags = parts[part].line_flags;
+    if flags == 0u { return color; }
+    let has_own = (flags & (1u << kind)) != 0u;
+    if has_own { color = unpack_rgba8(parts[part].line_kinds[kind]); }
+    if !tint.is_known { return color; }
+    if !has_own && (flags & LINE_SOURCES) != 0u { color = vec4<f32>(tint.own.rgb, color.a); }
+    return vec4<f32>(glazed(color.rgb, tint.glaze), color.a * tint.own.a);
+}
+
+// A colour under a glaze, both sRGB encoded; mixed in linear light.
+fn glazed(color: vec3<f32>, glaze: vec4<f32>) -> vec3<f32> {
+    if glaze.a <= 0.0 { return color; }
+    let under = linear_rgb(color);
+    return srgb_of(under + (linear_rgb(glaze.rgb) - under) * glaze.a);
+}

@@ -1,0 +1,85 @@
+// Corners of triangles, and the colour of surfaces without light. Twins: npr_style::tone, npr_style::compose::Layers.
+// The shader declares `view`, `compose`, `posed`, `vertices`, `triangles`, `parts` and `texels`.
+
+//# use lib/surface
+//# use lib/window
+//# use lib/texture
+//# use lib/compose
+
+struct Corners {
+    clip: array<vec4<f32>, 3>,
+    normals: array<vec3<f32>, 3>,
+    world: array<vec3<f32>, 3>,
+    // 1 where the front is seen, -1 where the back is.
+    side: f32,
+}
+
+fn corners_of(triangle: Triangle) -> Corners {
+    let a = posed[triangle.corners.x];
+    let b = posed[triangle.corners.y];
+    let c = posed[triangle.corners.z];
+    var corners: Corners;
+    corners.clip = array<vec4<f32>, 3>(a.clip, b.clip, c.clip);
+    corners.normals = array<vec3<f32>, 3>(a.normal, b.normal, c.normal);
+    corners.world = array<vec3<f32>, 3>(a.world, b.world, c.world);
+    corners.side = select(-1.0, 1.0, faces_eye(corners.clip));
+    return corners;
+}
+
+fn normal_of(corners: Corners, weights: vec3<f32>) -> vec3<f32> {
+    return unit_or_z(blend3(weights, corners.normals[0], corners.normals[1], corners.normals[2])) * corners.side;
+}
+
+fn world_of(corners: Corners, weights: vec3<f32>) -> vec3<f32> {
+    return blend3(weights, corners.world[0], corners.world[1], corners.world[2]);
+}
+
+fn uv_at(triangle: Triangle, weights: vec3<f32>) -> vec2<f32> {
+    let at = triangle.corners;
+    return vertices[at.x].uv * weights.x + vertices[at.y].uv * weights.y + vertices[at.z].uv * weights.z;
+}
+
+// Vertex colours of a triangle where its corners have these weights, linear light.
+fn tint(triangle: Triangle, weights: vec3<f32>) -> vec3<f32> {
+    let at = triangle.corners;
+    return blend3(
+        weights,
+        linear_texel(vertices[at.x].color).rgb,
+        linear_texel(vertices[at.y].color).rgb,
+        linear_texel(vertices[at.z].color).rgb,
+    );
+}
+
+// How far a pixel reaches in coordinates of a texture that are `uv` there, and what they are to the right and below.
+fn footprint(uv: vec2<f32>, right: vec2<f32>, down: vec2<f32>) -> f32 {
+    let dx = right - uv;
+    let dy = down - uv;
+    return sqrt(max(dx.x * dx.x + dx.y * dx.y, dy.x * dy.x + dy.y * dy.y));
+}
+
+// Surface colour without light where the corners have these weights; a pixel covers so much of the texture.
+fn color_at(triangle: Triangle, weights: vec3<f32>, uv: vec2<f32>, covered: f32) -> vec3<f32> {
+    var color = parts[triangle.part].base_color.rgb;
+    if (parts[triangle.part].flags & PART_PLAIN) != 0u { return color; }
+    color *= tint(triangle, weights);
+    let texture = parts[triangle.part].texture;
+    if texture != NONE { color *= sample_texture(texture, uv, covered).rgb; }
+    return color;
+}
+
+// The same at a pixel.
+fn base_color(triangle: Triangle, corners: Corners, frame_px: vec2<f32>) -> vec3<f32> {
+    let weights = weights_at(corners.clip, ndc_at(view, frame_px));
+    if parts[triangle.part].texture == NONE { return color_at(triangle, weights, vec2<f32>(0.0), 0.0); }
+    let right = weights_at(corners.clip, ndc_at(view, frame_px + vec2<f32>(1.0, 0.0)));
+    let down = weights_at(corners.clip, ndc_at(view, frame_px + vec2<f32>(0.0, 1.0)));
+    let uv = uv_at(triangle, weights);
+    return color_at(triangle, weights, uv, footprint(uv, uv_at(triangle, right), uv_at(triangle, down)));
+}
+
+// A colour as strong as the style wants it.
+fn strengthened(color: vec3<f32>) -> vec3<f32> {
+    if compose.saturation == 1.0 { return color; }
+    let luma = dot(color, LUMA);
+    return max(vec3<f32>(luma) + (color - luma) * compose.saturation, vec3<f32>(0.0));
+}
