@@ -9,7 +9,7 @@ use npr_render::Frame;
 use palette::{IntoColor, LinSrgb, Oklab};
 
 /// Lightness, in OKLab, that a line must differ by from what lies behind it.
-pub const CONTRAST: f32 = 0.25;
+pub const CONTRAST: f32 = 0.3;
 
 /// What rounding to bytes may take from that.
 const ROUNDING: f32 = 0.01;
