@@ -4,8 +4,13 @@
 // How far beyond a rim the picture is looked at, in pixels.
 const BEYOND_PX: f32 = 1.25;
 // Parts of the jump that a line starts with, from which it is as wide as lines inside get, and as the outer line.
-const INNER_JUMP: f32 = 2.0;
-const OUTER_JUMP: f32 = 8.0;
+const INNER_JUMP: f32 = 4.0;
+const OUTER_JUMP: f32 = 16.0;
+// Width of the line of a small puff, in its radii.
+const THICKEST: f32 = 0.2;
+// How far lines run out along the rim, in widths of the line, and looks beyond it to each side over that length.
+const TAPER: f32 = 3.0;
+const LOOKS: u32 = 8u;
 
 // A place on a sphere's rim.
 struct Rim {
@@ -78,15 +83,18 @@ fn line_part_at(jump: f32) -> f32 {
     return look.line_inner * inner + (1.0 - look.line_inner) * outer;
 }
 
-// How wide the outline of a sphere is at a place of its rim, in pixels; 0 where the rim is none.
-fn width_at(id: u32, ball: Ball, rim: Rim) -> f32 {
+// Width of the outer line of a puff.
+fn whole_line_width(outward: vec2<f32>, radius_px: f32) -> f32 {
+    let facing = outward.x * look.towards_light.x - outward.y * look.towards_light.y;
+    return min(look.line_px, THICKEST * radius_px) * (1.0 - look.swell * facing);
+}
+
+// The part of its width that a sphere's outline has at a place of its rim, by what is seen beyond; 0 where the rim is hidden.
+fn part_beyond(ball: Ball, rim: Rim) -> f32 {
     let beyond = rim.px + rim.outward * BEYOND_PX * window.frame_step;
     let pixel = pixel_at(window, beyond);
-    if textureLoad(smoke_ids, pixel, 0).x == id { return 0.0; }
     let depth = pixels[pixel.y * window.size.x + pixel.x].depth;
-    let part = line_part_at((depth - rim.depth) / ball.radius);
-    let facing = rim.outward.x * look.towards_light.x - rim.outward.y * look.towards_light.y;
-    return look.line_px * part * (1.0 - look.swell * facing);
+    return line_part_at((depth - rim.depth) / ball.radius);
 }
 
 // Whether a ray passes so close to the middle of a ball that the rim is farther than `reach_px` for certain.
@@ -109,25 +117,22 @@ fn line_at(id: u32, frame_px: vec2<f32>) -> f32 {
     if is_far_inside(ball, ray, widest + 0.5) { return 0.0; }
     let disc = disc_of(ball, ray);
     let rim = rim_of(disc, 0.0, 1.0);
-    let away = dot(rim.px - frame_px, rim.outward);
-    if away > widest + 0.5 { return 0.0; }
-    let width = width_at(id, ball, rim);
-    var covered = line_coverage(width, max(away, 0.0));
-    if width > 0.0 { return covered; }
-    // Round off lines that end near by: steps along the rim, in widths of the line.
-    let steps = vec3<f32>(0.25, 0.55, 0.9);
-    let radius_px = max(distance_px(rim.px, disc.middle_px), 1.0);
-    for (var k = 0u; k < 6u; k++) {
-        let side = select(steps[k / 2u], -steps[k / 2u], k % 2u == 0u);
-        let sine = clamp(side * look.line_px / radius_px, -0.7, 0.7);
-        let rim = rim_of(disc, sine, sqrt(1.0 - sine * sine));
-        let away = distance_px(rim.px, frame_px);
-        // The rule: even the widest line covers no more than is covered.
-        if line_coverage(widest, away) <= covered { continue; }
-        let width = width_at(id, ball, rim);
-        covered = max(covered, line_coverage(width, away));
+    let away = max(dot(rim.px - frame_px, rim.outward), 0.0);
+    let radius_px = distance_px(rim.px, disc.middle_px);
+    let whole = whole_line_width(rim.outward, radius_px);
+    var part = part_beyond(ball, rim);
+    // Let lines near by run out to here.
+    let step = TAPER * look.line_px / (f32(LOOKS + 1u) * max(radius_px, 1.0));
+    for (var k = 1u; k <= LOOKS; k++) {
+        let left = 1.0 - f32(k) / f32(LOOKS + 1u);
+        // The rule: what is left of the widest line adds nothing.
+        if left <= part || whole * left + 0.5 <= away { break; }
+        let sine = min(f32(k) * step, 0.7);
+        let cosine = sqrt(1.0 - sine * sine);
+        part = max(part, left * part_beyond(ball, rim_of(disc, -sine, cosine)));
+        part = max(part, left * part_beyond(ball, rim_of(disc, sine, cosine)));
     }
-    return covered;
+    return line_coverage(whole * part, away);
 }
 
 // Depth of a pixel for the published line: 0 at the front of the smoke, 1 at its back and behind it.

@@ -67,7 +67,8 @@ impl<'a> SmokeView<'a> {
     /// Whole width of the outline at a place, in pixels.
     pub fn width_at(&self, point: &RimPoint) -> f64 {
         let outward = point.outward.map(|v| v as f32);
-        f64::from(self.look.line_width(point.jump as f32, outward))
+        let (jump, radius_px) = (point.jump as f32, point.radius_px as f32);
+        f64::from(self.look.line_width(jump, outward, radius_px))
     }
 
     /// The smoke as lines take it, drawn by itself where `is_outlined`.

@@ -1,7 +1,10 @@
 //! Outlines of spheres, found where their rims are.
 //!
 //! A pixel of a sphere knows where the rim nearest to it lies, and the picture just beyond the rim says whether that part of
-//! it is an outline: nothing, or smoke far behind. So lines are as smooth as circles, as wide as wanted, and cost one look.
+//! it is an outline: nothing, or smoke far behind. So lines are as smooth as circles and as wide as wanted.
+//!
+//! Nothing about them comes or goes at once. Their width grows from nothing with the jump in depth; where what lies beyond
+//! the rim changes, they run out along it like the stroke of a brush.
 
 use npr_core::geometry::FAR_DEPTH;
 use npr_core::math;
@@ -14,14 +17,20 @@ use super::resolve::Resolving;
 /// How far beyond a rim the picture is looked at, in pixels: far enough that the pixel's middle lies beyond it too.
 const BEYOND_PX: f32 = 1.25;
 
-/// Steps along the rim, in widths of the line, to where a line that ends is looked for.
-const END_STEPS: [f32; 3] = [0.25, 0.55, 0.9];
+/// How far lines run out along the rim, in widths of the line.
+const TAPER: f32 = 3.0;
+
+/// Looks beyond the rim to each side of a place, over the length that lines run out in.
+const LOOKS: u32 = 8;
+
+/// Width of the line of a small puff, in its radii: a speck that swells is no blot at first.
+const THICKEST: f32 = 0.2;
 
 /// Multiple of the jump where a line starts at which it is as wide as lines inside the smoke get.
-const INNER_JUMP: f32 = 2.0;
+const INNER_JUMP: f32 = 4.0;
 
 /// Multiple of that jump at which it is as wide as the outer line.
-const OUTER_JUMP: f32 = 8.0;
+const OUTER_JUMP: f32 = 16.0;
 
 /// A place on a sphere's rim.
 #[derive(Debug, Clone, Copy)]
@@ -110,32 +119,25 @@ impl Resolving<'_> {
         }
         let disc = Disc::new(self.lens, ball, ray);
         let rim = disc.rim(self.lens, ball, [0.0, 1.0]);
-        let away = inside_by(&rim, frame_px);
-        if away > widest + 0.5 {
-            return 0.0;
-        }
-        let width = self.width_at(id, ball, &rim);
-        let covered = coverage(width, away.max(0.0));
-        if width > 0.0 {
-            return covered;
-        }
-        // Round off lines that end near by.
-        let mut covered = covered;
-        let radius_px = distance(rim.px, disc.middle_px).max(1.0);
-        for step in END_STEPS {
-            for side in [-step, step] {
-                let sin = (side * self.look.line_px / radius_px).clamp(-0.7, 0.7);
+        let away = inside_by(&rim, frame_px).max(0.0);
+        let radius_px = distance(rim.px, disc.middle_px);
+        let whole = self.look.whole_width(rim.outward, radius_px);
+        let mut part = self.part_beyond(ball, &rim);
+        // Let lines near by run out to here.
+        let step = TAPER * self.look.line_px / ((LOOKS + 1) as f32 * radius_px.max(1.0));
+        for k in 1..=LOOKS {
+            let left = 1.0 - k as f32 / (LOOKS + 1) as f32;
+            // The rule: what is left of the widest line adds nothing.
+            if left <= part || whole * left + 0.5 <= away {
+                break;
+            }
+            let sin = (k as f32 * step).min(0.7);
+            for sin in [-sin, sin] {
                 let rim = disc.rim(self.lens, ball, [sin, (1.0 - sin * sin).sqrt()]);
-                let away = distance(rim.px, frame_px);
-                // The rule: even the widest line covers no more than is covered.
-                if coverage(widest, away) <= covered {
-                    continue;
-                }
-                let width = self.width_at(id, ball, &rim);
-                covered = covered.max(coverage(width, away));
+                part = part.max(left * self.part_beyond(ball, &rim));
             }
         }
-        covered
+        coverage(whole * part, away)
     }
 
     /// Whether a ray passes so close to the middle of a ball that the rim is farther than `reach_px` for certain.
@@ -151,21 +153,15 @@ impl Resolving<'_> {
         dot(beside, beside) < inner * inner
     }
 
-    /// How wide the outline of a sphere is at a place of its rim, in pixels; 0 where the rim is none.
-    ///
-    /// Full where nothing lies beyond; inside the smoke it grows with the jump in depth, so lines there begin thin and end
-    /// thin. It swells where the sphere turns away from the light.
-    fn width_at(&self, id: u32, ball: &Ball, rim: &Rim) -> f32 {
+    /// The part of its width that a sphere's outline has at a place of its rim, by what is seen beyond; 0 where the rim is
+    /// hidden.
+    fn part_beyond(&self, ball: &Ball, rim: &Rim) -> f32 {
         let beyond = std::array::from_fn(|i| {
             rim.px[i] + rim.outward[i] * BEYOND_PX * self.window.frame_step[i]
         });
         let [x, y] = self.window.pixel_at(beyond);
-        let texel = (y * self.window.size[0] + x) as usize;
-        if self.ids[texel] == id {
-            return 0.0;
-        }
-        let jump = (self.pixels[texel].depth - rim.depth) / ball.radius;
-        self.look.line_width(jump, rim.outward)
+        let depth = self.pixels[(y * self.window.size[0] + x) as usize].depth;
+        self.look.part_at((depth - rim.depth) / ball.radius)
     }
 
     /// The published line: 1 where depths of diagonal neighbours differ [Hoshino 2004, section 3.5].
@@ -189,11 +185,17 @@ impl Resolving<'_> {
 impl SmokeLook {
     /// Width of a puff's outline in frame pixels where the next smoke lies `jump` radii behind it; 0 where that is too little.
     ///
-    /// `outward` is the unit vector away from the puff in the picture, y down: lines swell away from the light.
-    pub fn line_width(&self, jump: f32, outward: [f32; 2]) -> f32 {
+    /// Full where nothing lies behind; inside the smoke it grows from nothing with the jump in depth. `outward` is the unit
+    /// vector away from the puff in the picture, y down: lines swell away from the light.
+    pub fn line_width(&self, jump: f32, outward: [f32; 2], radius_px: f32) -> f32 {
+        self.whole_width(outward, radius_px) * self.part_at(jump)
+    }
+
+    /// Width of the outer line of a puff in frame pixels.
+    fn whole_width(&self, outward: [f32; 2], radius_px: f32) -> f32 {
         let towards = self.towards_light;
         let facing = outward[0] * towards[0] - outward[1] * towards[1];
-        self.line_px * self.part_at(jump) * (1.0 - self.swell * facing)
+        self.line_px.min(THICKEST * radius_px) * (1.0 - self.swell * facing)
     }
 
     /// The part of its width that a line has at a jump in depth, in radii.

@@ -40,6 +40,8 @@ pub struct RimPoint {
     pub jump: f64,
     /// Unit vector away from the puff in the picture, y down.
     pub outward: [f64; 2],
+    /// How far it lies from the puff's middle in the picture, in pixels.
+    pub radius_px: f64,
 }
 
 /// The smoke of a view, and how it is outlined.
@@ -257,6 +259,7 @@ impl Puffs {
         RimPoint {
             jump: behind.fold(f64::INFINITY, f64::min),
             outward: [0, 1].map(|i| (place[i] - middle[i]) / away),
+            radius_px: away,
         }
     }
 }
