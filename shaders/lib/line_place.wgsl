@@ -9,7 +9,8 @@
 fn line_weights(corners: Corners, px: vec2<f32>, is_hull: bool) -> vec3<f32> {
     let weights = weights_at(corners.clip, ndc_at(view, px));
     if !is_hull { return weights; }
-    let held = max(weights, vec3<f32>(0.0));
+    // Beside a face seen edge-on, weights are far too large, or no numbers.
+    let held = select(vec3<f32>(0.0), min(weights, vec3<f32>(1e3)), weights > vec3<f32>(0.0));
     let sum = held.x + held.y + held.z;
     if !(sum > 0.0) { return vec3<f32>(1.0, 0.0, 0.0); }
     return held / sum;

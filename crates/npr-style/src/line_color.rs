@@ -289,7 +289,8 @@ impl LinePlace {
         if !self.is_hull {
             return weights;
         }
-        let held = weights.map(|weight| weight.max(0.0));
+        // Beside a face seen edge-on, weights are far too large, or no numbers.
+        let held = weights.map(|weight| weight.max(0.0).min(1e3));
         let sum = held[0] + held[1] + held[2];
         if !(sum > 0.0) {
             return [1.0, 0.0, 0.0];

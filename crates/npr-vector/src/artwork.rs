@@ -5,6 +5,7 @@
 
 use crate::clip::{clip_ring, clip_stroke};
 use crate::fit::{FitOptions, fit};
+use crate::hue;
 use crate::lettering::Lettered;
 use crate::outline::outline;
 use crate::page::Placing;
@@ -281,20 +282,51 @@ impl Maker<'_> {
         let pad = 0.5 * widest(&stroke.points) + 1.0;
         let dashed = hidden && self.options.hidden == Hidden::Dashed;
         let parts = clip_stroke(stroke, self.drawing.size.map(f64::from), pad);
+        let own = self.surface(stroke.surface).line_color;
         parts
             .iter()
-            .filter_map(|(points, closed)| {
-                let is_even = widest(points) * (1.0 - EVEN) <= narrowest(points);
-                let mark = if dashed || is_even {
-                    self.line(stroke, points, *closed, hidden)
-                } else {
-                    let tolerance = self.options.tolerance_px / 3.0;
-                    let path = outline(points, *closed, tolerance);
-                    self.mark(stroke, path, Paint::Ink, hidden)
-                };
-                Some((stroke.surface, mark?))
+            .flat_map(|(points, closed)| {
+                if dashed || points.iter().all(|point| point.color.is_none()) {
+                    return Vec::from_iter(self.ink(stroke, points, *closed, hidden));
+                }
+                let pieces = hue::pieces(points, *closed, own);
+                let marks = pieces.iter();
+                marks
+                    .filter_map(|piece| self.piece(stroke, piece, hidden))
+                    .collect()
             })
+            .map(|mark| (stroke.surface, mark))
             .collect()
+    }
+
+    /// A stroke or a part of it in one colour: a line where its width is even, else its ink.
+    fn ink(
+        &self,
+        stroke: &Stroke,
+        points: &[StrokePoint],
+        closed: bool,
+        hidden: bool,
+    ) -> Option<Mark> {
+        let dashed = hidden && self.options.hidden == Hidden::Dashed;
+        let is_even = widest(points) * (1.0 - EVEN) <= narrowest(points);
+        if dashed || is_even {
+            return self.line(stroke, points, closed, hidden);
+        }
+        let tolerance = self.options.tolerance_px / 3.0;
+        let path = outline(points, closed, tolerance);
+        self.mark(stroke, path, Paint::Ink, hidden, hue::mean(points))
+    }
+
+    /// A piece of a stroke that changes colour.
+    fn piece(&self, stroke: &Stroke, piece: &hue::Piece, hidden: bool) -> Option<Mark> {
+        let translucent = hidden || piece.color[3] < 255;
+        if translucent && piece.goes_on != [false; 2] {
+            let path = piece.outline(self.options.tolerance_px / 3.0, true);
+            return self.mark(stroke, path, Paint::Ink, hidden, Some(piece.color));
+        }
+        let mark = self.ink(stroke, &piece.points, piece.closed, hidden)?;
+        let color = self.shown(piece.color, hidden);
+        Some(Mark { color, ..mark })
     }
 
     /// Marks of strokes of a layer as pen lines, in a good order object by object.
@@ -349,12 +381,25 @@ impl Maker<'_> {
         } else {
             Paint::Line(width)
         };
-        self.mark(stroke, path, paint, hidden)
+        self.mark(stroke, path, paint, hidden, hue::mean(points))
     }
 
-    fn mark(&self, stroke: &Stroke, path: BezPath, paint: Paint, hidden: bool) -> Option<Mark> {
-        let [r, g, b, a] = self.surface(stroke.surface).line_color;
-        let color = [r, g, b, if hidden { a / 2 } else { a }];
+    /// A colour as a line shows it that may be hidden.
+    fn shown(&self, [r, g, b, a]: [u8; 4], hidden: bool) -> [u8; 4] {
+        [r, g, b, if hidden { a / 2 } else { a }]
+    }
+
+    /// A mark of a stroke, in the colour of its surface unless it has another.
+    fn mark(
+        &self,
+        stroke: &Stroke,
+        path: BezPath,
+        paint: Paint,
+        hidden: bool,
+        color: Option<[u8; 4]>,
+    ) -> Option<Mark> {
+        let own = self.surface(stroke.surface).line_color;
+        let color = self.shown(color.unwrap_or(own), hidden);
         (!path.is_empty()).then(|| Mark {
             stroke: Some(stroke.id),
             path: self.placing.affine() * path,

@@ -77,14 +77,11 @@ fn between(a: &StrokePoint, b: &StrokePoint, t: f64, low: [f64; 2], high: [f64; 
     if t == 1.0 {
         return *b;
     }
-    let mix = |a: f64, b: f64| a * (1.0 - t) + b * t;
-    StrokePoint {
-        position: std::array::from_fn(|i| mix(a.position[i], b.position[i]).clamp(low[i], high[i])),
-        depth: mix(a.depth, b.depth),
-        width: mix(a.width, b.width),
-        u: mix(a.u, b.u),
-        world: std::array::from_fn(|i| mix(a.world[i].into(), b.world[i].into()) as f32),
+    let mut point = a.toward(b, t);
+    for (i, v) in point.position.iter_mut().enumerate() {
+        *v = v.clamp(low[i], high[i]);
     }
+    point
 }
 
 /// The part of a ring in the picture [Sutherland, Hodgman 1974]; empty where nothing is left.

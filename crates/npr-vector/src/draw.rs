@@ -53,6 +53,30 @@ pub struct LineSettings {
     pub split: Option<f32>,
 }
 
+/// What a point of a stroke is drawn with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointPaint {
+    /// Colour, sRGB bytes and alpha; none for that of its surface.
+    pub color: Option<[u8; 4]>,
+    /// Factor on its width.
+    pub width: f64,
+}
+
+/// What is drawn at a point of a stroke of a kind on a surface.
+pub type PaintAt<'a> = &'a (dyn Fn(Kind, u32, &RunPoint) -> PointPaint + Sync);
+
+/// How strokes look along themselves.
+#[derive(Clone, Copy)]
+pub struct StrokeLook<'a> {
+    /// Whole line width in pixels at a vertex of the shape.
+    pub width_at: &'a (dyn Fn(u32) -> f32 + Sync),
+    /// Colours and factors on widths, where they change from place to place. Long pieces get more points then.
+    pub paint_at: Option<PaintAt<'a>>,
+}
+
+/// Pieces longer than this, in pixels, are broken up where colours change from place to place.
+const PAINT_STEP_PX: f64 = 6.0;
+
 /// How far smooth contours may leave the polygons' outline, in pixels.
 pub(crate) const OUTLINE_TOLERANCE_PX: f64 = 2.0;
 
@@ -114,6 +138,12 @@ impl Prepared {
         }
     }
 
+    /// Smooth normals at the corners of the shape's faces, made when first asked for.
+    pub fn corner_normals(&self, shape: &Shape) -> &CornerNormals {
+        self.normals
+            .get_or_init(|| CornerNormals::new(shape, self.crease_cos))
+    }
+
     fn may_show_backs(&self, shape: &Shape, face: u32) -> bool {
         let object = object_of(shape, face) as usize;
         self.is_open.get(object).copied().unwrap_or(false)
@@ -137,8 +167,12 @@ pub fn strokes(
 ) -> Vec<Stroke> {
     let contours = EdgeContours::new(shape, &eye_of(shape, projector));
     let smoke = None;
+    let look = StrokeLook {
+        width_at,
+        paint_at: None,
+    };
     strokes_with(
-        shape, prepared, projector, settings, &contours, width_at, smoke,
+        shape, prepared, projector, settings, &contours, &look, smoke,
     )
 }
 
@@ -151,7 +185,7 @@ pub fn strokes_with(
     projector: &Projector,
     settings: &LineSettings,
     contours: &EdgeContours,
-    width_at: &(dyn Fn(u32) -> f32 + Sync),
+    look: &StrokeLook<'_>,
     smoke: Option<&SmokeLines<'_>>,
 ) -> Vec<Stroke> {
     let EdgeContours {
@@ -204,9 +238,22 @@ pub fn strokes_with(
         .flat_map(|graph| runs(shape, projector, graph, &view.lines(graph, &seen, wanted)));
     let mut found: Vec<Run> = contour_runs.into_iter().chain(other_runs).collect();
     found.retain(|run| settings.hidden || run.occluders == 0);
-    let mut strokes = strokes_of(calmed(found, settings), &|run: &Run, point: &RunPoint| {
-        let [a, b] = shape.ends(point.edge).map(|v| f64::from(width_at(v)));
-        (a + (b - a) * f64::from(point.t)) * run.weight
+    let mut found = calmed(found, settings);
+    if look.paint_at.is_some() {
+        found = broken_up(shape, found);
+    }
+    let mut strokes = strokes_of(found, &|run: &Run, point: &RunPoint| {
+        let [a, b] = shape
+            .ends(point.edge)
+            .map(|v| f64::from((look.width_at)(v)));
+        let width = (a + (b - a) * f64::from(point.t)) * run.weight;
+        let paint = look
+            .paint_at
+            .map_or(PLAIN, |paint_at| paint_at(run.kind, run.surface, point));
+        PointPaint {
+            width: width * paint.width,
+            ..paint
+        }
     });
     if let Some(smoke) = smoke {
         let seen = Seen {
@@ -217,6 +264,52 @@ pub fn strokes_with(
     }
     strokes.sort_by_key(|stroke| stroke.occluders > 0);
     strokes
+}
+
+/// Nothing changes.
+const PLAIN: PointPaint = PointPaint {
+    color: None,
+    width: 1.0,
+};
+
+/// Runs with no piece longer than [`PAINT_STEP_PX`]; new points lie on the edge of the point before them, as near as can be.
+fn broken_up(shape: &Shape, runs: Vec<Run>) -> Vec<Run> {
+    let broken = |run: Run| {
+        let back = run.points.first().copied().filter(|_| run.closed);
+        let next = run.points.iter().skip(1).copied().chain(back);
+        let mut points = Vec::with_capacity(run.points.len());
+        for (from, to) in run.points.iter().zip(next) {
+            points.push(*from);
+            let count = (distance(from.place, to.place) / PAINT_STEP_PX).ceil();
+            let steps = 1..count.clamp(1.0, 1e4) as u32;
+            points.extend(steps.map(|i| point_between(shape, from, &to, f64::from(i) / count)));
+        }
+        if !run.closed {
+            points.extend(run.points.last());
+        }
+        Run { points, ..run }
+    };
+    runs.into_par_iter().with_min_len(16).map(broken).collect()
+}
+
+/// A point a share of the way between two of a run.
+fn point_between(shape: &Shape, from: &RunPoint, to: &RunPoint, share: f64) -> RunPoint {
+    let mix = |a: f64, b: f64| a + (b - a) * share;
+    let world = from.world.lerp(to.world, share);
+    let [low, high] = shape.ends(from.edge).map(|vertex| shape.point(vertex));
+    let along = high - low;
+    let t = (world - low).dot(along) / along.length_squared().max(1e-300);
+    RunPoint {
+        place: std::array::from_fn(|i| mix(from.place[i], to.place[i])),
+        depth: mix(from.depth, to.depth),
+        world,
+        edge: from.edge,
+        t: if t.is_finite() {
+            t.clamp(0.0, 1.0) as f32
+        } else {
+            from.t
+        },
+    }
 }
 
 /// Runs joined, cut at corners and smoothed, as far as the settings ask for it.
@@ -411,9 +504,7 @@ impl View<'_> {
             return None;
         }
         let prepared = self.prepared;
-        let normals = prepared
-            .normals
-            .get_or_init(|| CornerNormals::new(self.shape, prepared.crease_cos));
+        let normals = prepared.corner_normals(self.shape);
         let convex = contours.nodes.iter().zip(lines).filter_map(|(node, line)| {
             let line = line.as_ref()?;
             (node.flags & CurveNode::CONCAVE == 0).then_some((node, line))
@@ -498,27 +589,29 @@ fn first_kind(kinds: u32) -> Option<Kind> {
     Kind::ALL.into_iter().find(|kind| kinds & kind.bit() != 0)
 }
 
-/// Runs as strokes, in their order; `width_at` gives the whole line width in pixels at a point of a run.
+/// Runs as strokes, in their order; `paint_at` gives colour and whole width in pixels at a point of a run.
 pub(crate) fn strokes_of(
     runs: Vec<Run>,
-    width_at: &(dyn Fn(&Run, &RunPoint) -> f64 + Sync),
+    paint_at: &(dyn Fn(&Run, &RunPoint) -> PointPaint + Sync),
 ) -> Vec<Stroke> {
     let runs = runs.into_par_iter().with_min_len(16);
-    runs.map(|run| stroke_of(&run, width_at)).collect()
+    runs.map(|run| stroke_of(&run, paint_at)).collect()
 }
 
-fn stroke_of(run: &Run, width_at: &(dyn Fn(&Run, &RunPoint) -> f64 + Sync)) -> Stroke {
+fn stroke_of(run: &Run, paint_at: &(dyn Fn(&Run, &RunPoint) -> PointPaint + Sync)) -> Stroke {
     let mut u = 0.0;
     let mut last = run.points.first().map(|point| point.place);
     let points = run.points.iter().map(|point| {
         u += last.map_or(0.0, |last| distance(last, point.place));
         last = Some(point.place);
+        let paint = paint_at(run, point);
         StrokePoint {
             position: point.place,
             depth: point.depth,
-            width: width_at(run, point),
+            width: paint.width,
             u,
             world: point.world.as_vec3().to_array(),
+            color: paint.color,
         }
     });
     Stroke {

@@ -1,7 +1,8 @@
 //! Line data as JSON: every stroke with its points, depth, width and place in the world.
 //!
 //! One stroke per line of text. Pixels are written to a thousandth, depth, texture coordinate and world with seven digits.
-//! Flat colour is not part of it.
+//! Flat colour is not part of it, and colours of lines only of strokes that change theirs: `colors`, four bytes a point, sRGB
+//! and alpha.
 
 use crate::number::{push_fixed, push_significant};
 use crate::stroke::{Drawing, Kind, Stroke, StrokePoint, StrokeSurface};
@@ -84,6 +85,13 @@ fn push_stroke(text: &mut String, stroke: &Stroke, surface: &StrokeSurface) -> b
             push_significant(text, f64::from(*v));
         }
     });
+    if points.iter().any(|p| p.color.is_some()) {
+        text.push_str("],\"colors\":[");
+        push_list(text, &points, |text, p| {
+            let [r, g, b, a] = p.color.unwrap_or(surface.line_color);
+            *text += &format!("{r},{g},{b},{a}");
+        });
+    }
     text.push_str("]}");
     true
 }
@@ -154,6 +162,8 @@ struct FileStroke {
     closed: bool,
     points: Vec<[f64; 5]>,
     world: Vec<[f32; 3]>,
+    #[serde(default)]
+    colors: Option<Vec<[u8; 4]>>,
 }
 
 #[derive(Deserialize, PartialEq)]
@@ -210,10 +220,14 @@ fn check(stroke: &FileStroke) -> Result<(), &'static str> {
         Visibility::Visible => stroke.occluders.unwrap_or(0) == 0,
         Visibility::Hidden => hidden,
     };
+    let colors = stroke.colors.as_ref();
+    let colors_fit = colors.is_none_or(|colors| colors.len() == stroke.points.len());
     if stroke.points.len() < 2 {
         Err("fewer than two points")
     } else if stroke.points.len() != stroke.world.len() {
         Err("as many places in the world as points are needed")
+    } else if !colors_fit {
+        Err("as many colours as points are needed")
     } else if !finite {
         Err("a number is out of range")
     } else if !agrees {
@@ -254,7 +268,8 @@ impl Names {
 }
 
 fn stroke_of(stroke: FileStroke, names: &mut Names) -> Stroke {
-    let points = stroke.points.iter().zip(&stroke.world);
+    let points = stroke.points.iter().zip(&stroke.world).enumerate();
+    let color_of = |i: usize| stroke.colors.as_ref()?.get(i).copied();
     Stroke {
         id: stroke.id,
         kind: stroke.kind,
@@ -264,12 +279,13 @@ fn stroke_of(stroke: FileStroke, names: &mut Names) -> Stroke {
         surface: names.surface(stroke.object, stroke.material),
         closed: stroke.closed,
         points: points
-            .map(|([x, y, depth, width, u], world)| StrokePoint {
+            .map(|(i, ([x, y, depth, width, u], world))| StrokePoint {
                 position: [*x, *y],
                 depth: *depth,
                 width: *width,
                 u: *u,
                 world: *world,
+                color: color_of(i),
             })
             .collect(),
     }
@@ -285,6 +301,7 @@ mod tests {
             [-1e4..1e4f64, -1e4..1e4f64],
             (0.0..1e6f64, 0.0..99.0f64, -1e5..1e5f64),
             prop::array::uniform3(-1e5..1e5f32),
+            any::<[u8; 4]>(),
         );
         let points = prop::collection::vec(point, 2..9);
         let stroke = (
@@ -293,7 +310,7 @@ mod tests {
             0u32..3,
             any::<bool>(),
             points,
-            0u32..2,
+            (0u32..2, any::<bool>()),
         );
         let surface = (".*", ".*");
         let surfaces = prop::collection::vec(surface, 2);
@@ -309,23 +326,26 @@ mod tests {
                 .collect(),
             strokes: strokes
                 .into_iter()
-                .map(|(id, kind, occluders, closed, points, surface)| Stroke {
-                    id,
-                    kind: Kind::ALL[kind],
-                    occluders,
-                    surface,
-                    closed,
-                    points: points
-                        .into_iter()
-                        .map(|(position, (depth, width, u), world)| StrokePoint {
-                            position,
-                            depth,
-                            width,
-                            u,
-                            world,
-                        })
-                        .collect(),
-                })
+                .map(
+                    |(id, kind, occluders, closed, points, (surface, colored))| Stroke {
+                        id,
+                        kind: Kind::ALL[kind],
+                        occluders,
+                        surface,
+                        closed,
+                        points: points
+                            .into_iter()
+                            .map(|(position, (depth, width, u), world, color)| StrokePoint {
+                                position,
+                                depth,
+                                width,
+                                u,
+                                world,
+                                color: colored.then_some(color),
+                            })
+                            .collect(),
+                    },
+                )
                 .collect(),
             regions: Vec::new(),
         })
@@ -365,6 +385,7 @@ mod tests {
             width: v,
             u: v,
             world: [v as f32; 3],
+            color: None,
         };
         let stroke = |points: Vec<StrokePoint>| Stroke {
             id: 1,

@@ -26,6 +26,7 @@ pub mod fill;
 pub mod fit;
 pub mod gbuffer;
 pub mod graph;
+mod hue;
 pub mod intersect;
 pub mod json;
 pub mod lettering;

@@ -80,6 +80,8 @@ pub struct StrokePoint {
     pub u: f64,
     /// Place in the world.
     pub world: [f32; 3],
+    /// Colour of the line here, sRGB bytes and alpha, where it is more than that of its surface.
+    pub color: Option<[u8; 4]>,
 }
 
 /// A run of one line with one kind, one object and one visibility.

@@ -3,7 +3,7 @@
 use super::cover::{Arc, Cover};
 use super::rim::Rim;
 use super::{Puff, Puffs};
-use crate::draw::{LineSettings, calmed, strokes_of};
+use crate::draw::{LineSettings, PointPaint, calmed, strokes_of};
 use crate::graph::{CurveGraph, CurveNode};
 use crate::run::{Line, Run, RunPoint, distance, runs};
 use crate::stroke::{Kind, Stroke, StrokePoint};
@@ -99,9 +99,10 @@ impl SmokeLines<'_> {
         let mut strokes = strokes_of(found, &|run: &Run, point: &RunPoint| {
             let puff = by_number.binary_search_by_key(&point.edge, |puff| puff.number);
             let puff = puff.ok().map(|index| &by_number[index]);
-            puff.map_or(0.0, |puff| {
+            let width = puff.map_or(0.0, |puff| {
                 (self.width_at)(&self.puffs.rim_point(puff, point.world)) * run.weight
-            })
+            });
+            PointPaint { color: None, width }
         });
         if settings.smooth {
             let points = strokes.iter().flat_map(|stroke| &stroke.points);
