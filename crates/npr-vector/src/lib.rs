@@ -48,5 +48,6 @@ pub mod smooth;
 pub mod spurs;
 pub mod stroke;
 pub mod svg;
+pub mod trace;
 pub mod visibility;
 pub mod zero_set;

@@ -1,0 +1,193 @@
+//! Bitmaps to smooth closed curves, by the method of Potrace [Selinger 2003].
+//!
+//! Each stage is a function usable alone: [`decompose()`] finds the closed paths along pixel edges, [`nest()`] which
+//! lies in which, [`optimal_polygon`] the polygon with the fewest sides near a path (by way of [`straight_lengths`]),
+//! [`adjust_corners`] moves its corners to where the sides meet best, [`bends`] tells corners from arcs, [`curve()`] makes segments
+//! of them, and [`join_arcs`] joins arcs to fewer. [`trace`] does it all, on all threads.
+//!
+//! Written from the paper. What it leaves open is decided by mathematics, or so that results equal those of the program Potrace, run and
+//! measured as a whole; each such place says so.
+//!
+//! ```
+//! use npr_vector::trace::{Bitmap, TraceOptions, trace};
+//!
+//! // A square of ink with a hole.
+//! let mut bitmap = Bitmap::new(12, 12)?;
+//! for (x, y) in (0..100).map(|i| (1 + i % 10, 1 + i / 10)) {
+//!     bitmap.set(x, y, !((4..8).contains(&x) && (4..8).contains(&y)));
+//! }
+//! let tracing = trace(&bitmap, &TraceOptions::default());
+//! let [shape, hole] = &tracing.paths[..] else { panic!("two paths") };
+//! assert!(shape.is_ink && shape.parent.is_none() && shape.area == 100);
+//! assert!(!hole.is_ink && hole.parent == Some(0) && hole.area == 16);
+//! assert_eq!(shape.segments.len(), 4);
+//! # Ok::<(), npr_vector::trace::BitmapError>(())
+//! ```
+
+mod adjust;
+mod bitmap;
+mod curve;
+mod decompose;
+mod edges;
+mod join;
+mod nest;
+mod polygon;
+mod straight;
+#[cfg(test)]
+mod tests;
+mod turn;
+
+pub use adjust::adjust_corners;
+pub use bitmap::{Bitmap, BitmapError, SIDE_LIMIT};
+pub use curve::{Bend, Segment, bends, curve};
+pub use decompose::{Decomposition, Loops, PixelLoop, STEPS, decompose};
+pub use join::join_arcs;
+pub use nest::nest;
+pub use polygon::optimal_polygon;
+pub use straight::straight_lengths;
+pub use turn::TurnPolicy;
+
+use glam::DVec2;
+use std::sync::mpsc;
+
+/// How a bitmap is traced; names and defaults are those of the program Potrace.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TraceOptions {
+    /// Paths with up to so many pixels inside are left out.
+    pub turd_size: u64,
+    /// Which way paths turn at ambiguous corners.
+    pub turn_policy: TurnPolicy,
+    /// From which sharpness on a bend is a corner, see [`bends`]: 0 makes polygons, more than 4/3 rounds all.
+    pub alpha_max: f64,
+    /// How far, in pixels, an arc may lie from those it joins; see [`join_arcs`]. None joins none.
+    pub join_tolerance: Option<f64>,
+}
+
+impl Default for TraceOptions {
+    fn default() -> Self {
+        Self {
+            turd_size: 2,
+            turn_policy: TurnPolicy::default(),
+            alpha_max: 1.0,
+            join_tolerance: Some(0.2),
+        }
+    }
+}
+
+/// What was found in a bitmap.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Tracing {
+    /// Width and height of the bitmap, in pixels.
+    pub size: [u32; 2],
+    /// Outlines of shapes and holes by the places of their uppermost, then leftmost corners: each after those around it.
+    pub paths: Vec<TracedPath>,
+}
+
+/// The outline of a shape or of a hole.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TracedPath<T = Vec<Segment>> {
+    /// Whether it goes around ink; else around a hole.
+    pub is_ink: bool,
+    /// Pixels inside, those of holes and of shapes within them included.
+    pub area: u64,
+    /// Number of the innermost path around it. Ink lies in holes or in nothing, and holes in ink, where no speck between was left out.
+    pub parent: Option<u32>,
+    /// The closed curve, with ink on its left; pixels, y down. The first segment starts where the last one ends.
+    pub segments: T,
+}
+
+/// Traces a bitmap.
+///
+/// Paths are found one after the other in one thread, while the others already turn found ones to curves; the same for any number of
+/// threads. Time grows with the paths' length. No path where there is no ink.
+pub fn trace(bitmap: &Bitmap, options: &TraceOptions) -> Tracing {
+    Tracing {
+        size: [bitmap.width(), bitmap.height()],
+        paths: trace_map(bitmap, options, |_, segments| segments),
+    }
+}
+
+/// [`trace`], with each curve at once made into something else, such as its text: what is not kept needs no memory.
+///
+/// `each` gets the loop that a curve comes from; it runs on all threads.
+pub fn trace_map<T: Send>(
+    bitmap: &Bitmap,
+    options: &TraceOptions,
+    each: impl Fn(&PixelLoop<'_>, Vec<Segment>) -> T + Sync,
+) -> Vec<TracedPath<T>> {
+    let (sender, receiver) = mpsc::channel();
+    let each = &each;
+    rayon::scope(|scope| {
+        let batches = Decomposition::new(bitmap, options.turn_policy, options.turd_size);
+        for (number, batch) in batches.enumerate() {
+            let sender = sender.clone();
+            scope.spawn(move |_| {
+                let mut outliner = Outliner::new(options);
+                let outlines: Vec<T> = batch
+                    .iter()
+                    .map(|pixels| each(&pixels, outliner.outline(&pixels)))
+                    .collect();
+                // The receiver lives until all is sent.
+                let _ = sender.send((number, batch, outlines));
+            });
+        }
+    });
+    drop(sender);
+    let mut batches: Vec<_> = receiver.into_iter().collect();
+    batches.sort_unstable_by_key(|(number, ..)| *number);
+    let loops = batches.iter().flat_map(|(_, batch, _)| batch.iter());
+    let mut parents = nest([bitmap.width(), bitmap.height()], loops).into_iter();
+    let mut paths = Vec::with_capacity(parents.len());
+    for (_, batch, outlines) in batches {
+        paths.extend(
+            batch
+                .iter()
+                .zip(outlines)
+                .map(|(pixels, segments)| TracedPath {
+                    is_ink: pixels.is_ink,
+                    area: pixels.area,
+                    parent: parents.next().flatten(),
+                    segments,
+                }),
+        );
+    }
+    paths
+}
+
+/// Makes curves of loops, with its memory kept from one to the next.
+struct Outliner {
+    options: TraceOptions,
+    search: polygon::Search,
+    lines: Vec<adjust::Line>,
+    corners: Vec<DVec2>,
+    bends: Vec<Bend>,
+    joiner: join::Joiner,
+}
+
+impl Outliner {
+    fn new(options: &TraceOptions) -> Self {
+        Self {
+            options: *options,
+            search: polygon::Search::default(),
+            lines: Vec::new(),
+            corners: Vec::new(),
+            bends: Vec::new(),
+            joiner: join::Joiner::default(),
+        }
+    }
+
+    fn outline(&mut self, pixels: &PixelLoop<'_>) -> Vec<Segment> {
+        self.search.run(pixels.steps);
+        let polygon = &self.search.polygon;
+        adjust::adjust_into(pixels, polygon, &mut self.lines, &mut self.corners);
+        if !pixels.is_ink {
+            // So that ink lies on the left of every curve.
+            self.corners.reverse();
+        }
+        curve::bends_into(&self.corners, self.options.alpha_max, &mut self.bends);
+        match self.options.join_tolerance {
+            Some(tolerance) => self.joiner.run(&self.bends, tolerance),
+            None => curve(&self.bends),
+        }
+    }
+}

@@ -1,0 +1,222 @@
+//! Bitmaps to closed paths along pixel edges [Selinger 2003, 2.1].
+
+use super::bitmap::Bitmap;
+use super::edges::EdgeMap;
+use super::turn::{TurnPolicy, pixels_around};
+
+/// Steps after which a batch of loops is handed on.
+const BATCH_STEPS: usize = 1 << 15;
+
+/// Directions of steps: right, up, left, down. Each is a left turn from the one before.
+pub const STEPS: [[i32; 2]; 4] = [[1, 0], [0, -1], [-1, 0], [0, 1]];
+
+/// Closed paths along pixel edges, in the order of their first corners.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Loops {
+    heads: Vec<LoopHead>,
+    /// The steps of all loops, one after the other.
+    steps: Vec<u8>,
+}
+
+/// What is known of a loop besides its steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct LoopHead {
+    start: [u32; 2],
+    is_ink: bool,
+    area: u64,
+    /// Where its steps end among those of all.
+    end: usize,
+}
+
+/// A closed path along pixel edges, its inside on the left.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PixelLoop<'a> {
+    /// The uppermost of its corners, and of those the leftmost. The first step leads down from it.
+    pub start: [u32; 2],
+    /// Whether its inside is ink: the outline of a shape, not of a hole.
+    pub is_ink: bool,
+    /// Pixels inside, those of holes and of shapes within them included.
+    pub area: u64,
+    /// Directions of its steps of one pixel each, as indices into [`STEPS`].
+    pub steps: &'a [u8],
+}
+
+impl PixelLoop<'_> {
+    /// Its corners from the start on, one for every step. Pixels, y down.
+    pub fn corners(&self) -> impl Iterator<Item = [i32; 2]> {
+        let mut here = self.start.map(|v| v as i32);
+        self.steps.iter().map(move |direction| {
+            let corner = here;
+            let step = STEPS[usize::from(direction & 3)];
+            here = [here[0] + step[0], here[1] + step[1]];
+            corner
+        })
+    }
+}
+
+impl Loops {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.heads.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.heads.is_empty()
+    }
+
+    /// The loop of a number.
+    pub fn get(&self, index: usize) -> Option<PixelLoop<'_>> {
+        let head = self.heads.get(index)?;
+        let before = index.checked_sub(1).and_then(|i| self.heads.get(i));
+        let start = before.map_or(0, |head| head.end);
+        Some(PixelLoop {
+            start: head.start,
+            is_ink: head.is_ink,
+            area: head.area,
+            steps: self.steps.get(start..head.end)?,
+        })
+    }
+
+    /// All loops in order.
+    pub fn iter(&self) -> impl Iterator<Item = PixelLoop<'_>> + Clone {
+        (0..self.len()).filter_map(|index| self.get(index))
+    }
+}
+
+/// The closed paths of a bitmap whose area is more than `turd_size` pixels.
+///
+/// The method of the paper: the first ink pixel, rows from the top, starts a path around what hangs together with it; the inside
+/// is inverted; and so on until all is white. Here no pixel is inverted: edges that a path took are taken away,
+/// and of what is left the same paths follow, since a pixel is inverted where an odd number of paths lies around it.
+///
+/// One thread, O(pixels / 64 + steps): which way a path turns hangs on the paths before it. The curves of
+/// finished loops can be worked on meanwhile, see [`Decomposition`].
+pub fn decompose(bitmap: &Bitmap, policy: TurnPolicy, turd_size: u64) -> Loops {
+    let mut loops = Loops::default();
+    let mut decomposition = Decomposition::new(bitmap, policy, turd_size);
+    while let Some(batch) = decomposition.next() {
+        let offset = loops.steps.len();
+        loops.steps.extend_from_slice(&batch.steps);
+        loops.heads.extend(batch.heads.iter().map(|head| LoopHead {
+            end: offset + head.end,
+            ..*head
+        }));
+    }
+    loops
+}
+
+/// A decomposition under way: an iterator over batches of loops, each of some ten thousand steps or one long loop.
+#[derive(Debug)]
+pub struct Decomposition<'a> {
+    bitmap: &'a Bitmap,
+    policy: TurnPolicy,
+    turd_size: u64,
+    map: EdgeMap,
+    /// Where to look for the next loop.
+    from: [u32; 2],
+}
+
+impl<'a> Decomposition<'a> {
+    /// Begins to take a bitmap apart.
+    pub fn new(bitmap: &'a Bitmap, policy: TurnPolicy, turd_size: u64) -> Self {
+        Self {
+            bitmap,
+            policy,
+            turd_size,
+            map: EdgeMap::new(bitmap),
+            from: [0; 2],
+        }
+    }
+
+    /// Follows the loop that starts at a corner; its steps are added to `steps`. Gives the area inside.
+    fn follow(&self, start: [u32; 2], is_ink: bool, steps: &mut Vec<u8>) -> u64 {
+        let [mut x, mut y] = start;
+        let mut direction = 3u8;
+        let mut area = 0i64;
+        loop {
+            steps.push(direction);
+            match direction {
+                0 => x += 1,
+                1 => {
+                    y -= 1;
+                    area += i64::from(x);
+                }
+                2 => x -= 1,
+                _ => {
+                    y += 1;
+                    area -= i64::from(x);
+                }
+            }
+            if [x, y] == start {
+                return area.unsigned_abs();
+            }
+            direction = self.turn([x, y], direction, is_ink);
+        }
+    }
+
+    /// The direction in which a path leaves a corner that it came to in a direction.
+    #[inline]
+    fn turn(&self, [x, y]: [u32; 2], direction: u8, is_ink: bool) -> u8 {
+        let (left, right) = ((direction + 1) & 3, (direction + 3) & 3);
+        if !self.map.leads(x, y, left) {
+            return if self.map.leads(x, y, direction) {
+                direction
+            } else {
+                right
+            };
+        }
+        if !self.map.leads(x, y, right) {
+            return left;
+        }
+        // With all four edges there, what lies behind on the left is inside, and so is what lies ahead on the right.
+        let upper_left = direction & 1 == 0;
+        let around = || pixels_around(&self.map, [x, y], upper_left);
+        if self.policy.joins_inside([x, y], is_ink, around) {
+            right
+        } else {
+            left
+        }
+    }
+
+    /// Takes the edges of a loop away.
+    fn take(&mut self, start: [u32; 2], steps: &[u8]) {
+        let [mut x, mut y] = start;
+        for direction in steps {
+            self.map.take(x, y, *direction);
+            let step = STEPS[usize::from(direction & 3)];
+            x = x.wrapping_add_signed(step[0]);
+            y = y.wrapping_add_signed(step[1]);
+        }
+    }
+}
+
+impl Iterator for Decomposition<'_> {
+    type Item = Loops;
+
+    /// The next loops that are large enough; none where there are no more.
+    fn next(&mut self) -> Option<Loops> {
+        let mut batch = Loops::default();
+        while batch.steps.len() < BATCH_STEPS {
+            let Some(start) = self.map.next_upright(self.from) else {
+                break;
+            };
+            self.from = start;
+            let is_ink = self.bitmap.is_ink(i64::from(start[0]), i64::from(start[1]));
+            let before = batch.steps.len();
+            let area = self.follow(start, is_ink, &mut batch.steps);
+            self.take(start, batch.steps.get(before..).unwrap_or(&[]));
+            if area <= self.turd_size {
+                batch.steps.truncate(before);
+                continue;
+            }
+            batch.heads.push(LoopHead {
+                start,
+                is_ink,
+                area,
+                end: batch.steps.len(),
+            });
+        }
+        (!batch.is_empty()).then_some(batch)
+    }
+}

@@ -1,0 +1,128 @@
+//! The pixel edges of a bitmap: sides between ink and white.
+
+use super::bitmap::Bitmap;
+
+/// Columns and rows of nothing around the picture, so that the 8x8 pixels around any corner can be asked for.
+const PAD: usize = 8;
+
+/// Which sides of pixels lie between different colours; walked paths take theirs away.
+///
+/// Corners are numbered from the top left one, `x` to the right and `y` down. An *upright* edge runs from the corner `(x, y)`
+/// down to `(x, y + 1)`, a *level* edge from `(x, y)` right to `(x + 1, y)`.
+#[derive(Debug, Clone)]
+pub(super) struct EdgeMap {
+    /// Words of a row.
+    stride: usize,
+    upright: Vec<u64>,
+    level: Vec<u64>,
+}
+
+impl EdgeMap {
+    /// All pixel edges of a bitmap. O(pixels / 64).
+    pub fn new(bitmap: &Bitmap) -> Self {
+        let (width, height) = (bitmap.width(), bitmap.height());
+        let stride = (width as usize + 2 * PAD).div_ceil(64) + 1;
+        let rows = height as usize + 2 * PAD;
+        let mut map = Self {
+            stride,
+            upright: vec![0; stride * rows],
+            level: vec![0; stride * rows],
+        };
+        let mut above = vec![0; stride];
+        let mut here = vec![0; stride];
+        for y in 0..=height as usize {
+            spread(bitmap.row(y), &mut here);
+            let start = (y + PAD) * stride;
+            let rows = map.upright[start..].iter_mut().zip(&mut map.level[start..]);
+            let mut carry = 0;
+            for ((upright, level), (here, above)) in rows.zip(here.iter().zip(&above)) {
+                *upright = here ^ (here << 1 | carry);
+                carry = here >> 63;
+                *level = here ^ above;
+            }
+            std::mem::swap(&mut above, &mut here);
+        }
+        map
+    }
+
+    #[inline]
+    fn place(&self, x: u32, y: u32) -> (usize, u32) {
+        let column = x as usize + PAD;
+        (
+            (y as usize + PAD) * self.stride + column / 64,
+            column as u32 % 64,
+        )
+    }
+
+    /// Whether an edge leads from the corner in a direction: 0 right, 1 up, 2 left, 3 down.
+    #[inline]
+    pub fn leads(&self, x: u32, y: u32, direction: u8) -> bool {
+        let (word, bit) = self.place(x, y);
+        let word = match direction & 3 {
+            0 => self.level[word] >> bit,
+            // The column before is in the word before where the bit is the first.
+            2 if bit == 0 => self.level[word - 1] >> 63,
+            2 => self.level[word] >> (bit - 1),
+            1 => self.upright[word - self.stride] >> bit,
+            _ => self.upright[word] >> bit,
+        };
+        word & 1 == 1
+    }
+
+    /// 1 if a level edge leads to the right from the corner `dx` columns and `dy` rows away, else 0.
+    #[inline]
+    pub fn is_level_around(&self, x: u32, y: u32, dx: i32, dy: i32) -> u64 {
+        let column = (x as usize + PAD).wrapping_add_signed(dx as isize);
+        let row = (y as usize + PAD).wrapping_add_signed(dy as isize);
+        self.level[row * self.stride + column / 64] >> (column % 64) & 1
+    }
+
+    /// The seven upright edges between the eight pixels around the corner's column, in the row `dy` below the corner.
+    #[inline]
+    pub fn upright_around(&self, x: u32, y: u32, dy: i32) -> u64 {
+        let column = x as usize + PAD - 3;
+        let row = (y as usize + PAD).wrapping_add_signed(dy as isize);
+        let at = row * self.stride + column / 64;
+        let bit = column % 64;
+        // Two shifts, since one by 64 is none.
+        let both = self.upright[at] >> bit | self.upright[at + 1] << 1 << (63 - bit);
+        both & 0x7f
+    }
+
+    /// Takes the edge away that leads from the corner in a direction.
+    #[inline]
+    pub fn take(&mut self, x: u32, y: u32, direction: u8) {
+        let (x, y) = match direction & 3 {
+            1 => (x, y.wrapping_sub(1)),
+            2 => (x.wrapping_sub(1), y),
+            _ => (x, y),
+        };
+        let (word, bit) = self.place(x, y);
+        if direction & 1 == 1 {
+            self.upright[word] &= !(1 << bit);
+        } else {
+            self.level[word] &= !(1 << bit);
+        }
+    }
+
+    /// The first upright edge at or after a place, rows before columns; its upper corner.
+    pub fn next_upright(&self, [x, y]: [u32; 2]) -> Option<[u32; 2]> {
+        let (mut word, bit) = self.place(x, y);
+        let mut bits = *self.upright.get(word)? & (u64::MAX << bit);
+        while bits == 0 {
+            word += 1;
+            bits = *self.upright.get(word)?;
+        }
+        let column = word % self.stride * 64 + bits.trailing_zeros() as usize;
+        Some([(column - PAD) as u32, (word / self.stride - PAD) as u32])
+    }
+}
+
+/// Copies a row of pixels to where its columns stand in the map.
+fn spread(row: &[u64], to: &mut [u64]) {
+    to.fill(0);
+    for (i, word) in row.iter().enumerate() {
+        to[i] |= word << PAD;
+        to[i + 1] |= word >> (64 - PAD);
+    }
+}

@@ -1,0 +1,430 @@
+use super::*;
+use proptest::prelude::*;
+
+/// A bitmap from rows of text, `#` for ink.
+fn drawn(rows: &[&str]) -> Bitmap {
+    let width = rows.first().map_or(0, |row| row.len());
+    let mut bitmap = Bitmap::new(width as u32, rows.len() as u32).expect("small");
+    for (y, row) in (0..).zip(rows) {
+        for (x, mark) in (0..).zip(row.bytes()) {
+            bitmap.set(x, y, mark == b'#');
+        }
+    }
+    bitmap
+}
+
+/// Any small bitmap: from nearly white to nearly black, single pixels or blocks of them.
+fn bitmaps() -> impl Strategy<Value = Bitmap> {
+    (1u32..24, 1u32..20, 0u8..=100, 1u32..4, any::<u32>()).prop_map(
+        |(width, height, percent, block, seed)| {
+            let mut bitmap = Bitmap::new(width, height).expect("small");
+            for (x, y) in (0..width * height).map(|i| (i % width, i / width)) {
+                let place = (x / block) << 16 | (y / block);
+                let number = npr_core::math::mix_bits(place ^ npr_core::math::mix_bits(seed));
+                bitmap.set(x, y, number % 100 < u32::from(percent));
+            }
+            bitmap
+        },
+    )
+}
+
+/// A bitmap as the paper sees it: pixels that are inverted.
+struct Pixels {
+    now: Vec<Vec<bool>>,
+}
+
+impl Pixels {
+    fn new(bitmap: &Bitmap) -> Self {
+        let row = |y| {
+            (0..bitmap.width())
+                .map(|x| bitmap.is_ink(i64::from(x), y))
+                .collect()
+        };
+        Self {
+            now: (0..i64::from(bitmap.height())).map(row).collect(),
+        }
+    }
+
+    fn at(&self, x: i32, y: i32) -> bool {
+        let row = usize::try_from(y).ok().and_then(|y| self.now.get(y));
+        let pixel = usize::try_from(x).ok().and_then(|x| row?.get(x));
+        pixel.copied().unwrap_or(false)
+    }
+
+    fn first(&self) -> Option<[i32; 2]> {
+        let y = self.now.iter().position(|row| row.contains(&true))?;
+        let x = self.now[y].iter().position(|ink| *ink)?;
+        Some([x as i32, y as i32])
+    }
+
+    /// Whether ink prevails in the smallest square around a corner, of sides 4, 6 and 8, that has no tie.
+    fn prevails(&self, x: i32, y: i32) -> bool {
+        for reach in 2..=4 {
+            let inks = (y - reach..y + reach)
+                .flat_map(|row| (x - reach..x + reach).map(move |column| (column, row)))
+                .filter(|(column, row)| self.at(*column, *row))
+                .count() as i32;
+            if inks != 2 * reach * reach {
+                return inks > 2 * reach * reach;
+            }
+        }
+        false
+    }
+}
+
+/// Decomposition word by word from the paper: follow a path around ink, invert its inside, go on.
+fn decompose_slowly(bitmap: &Bitmap, policy: TurnPolicy) -> Vec<(bool, Vec<[i32; 2]>)> {
+    let mut pixels = Pixels::new(bitmap);
+    let mut found = Vec::new();
+    while let Some(start) = pixels.first() {
+        let is_ink = bitmap.is_ink(i64::from(start[0]), i64::from(start[1]));
+        let [mut x, mut y] = start;
+        let [mut dx, mut dy] = [0, 1];
+        let mut corners = Vec::new();
+        loop {
+            corners.push([x, y]);
+            (x, y) = (x + dx, y + dy);
+            if [x, y] == start {
+                break;
+            }
+            // The pixels ahead on both sides: a corner's lower right pixel has its coordinates.
+            let ahead = |side: i32| {
+                let (sx, sy) = (dx + side * dy, dy - side * dx);
+                pixels.at(x + (sx - 1) / 2, y + (sy - 1) / 2)
+            };
+            let (left, right) = (ahead(1), ahead(-1));
+            let turns_left = match (left, right) {
+                (true, true) => false,
+                (false, false) => true,
+                (true, false) => continue,
+                (false, true) => !match policy {
+                    TurnPolicy::Black => is_ink,
+                    TurnPolicy::White => !is_ink,
+                    TurnPolicy::Left => false,
+                    TurnPolicy::Right => true,
+                    TurnPolicy::Majority => pixels.prevails(x, y),
+                    TurnPolicy::Minority => !pixels.prevails(x, y),
+                    TurnPolicy::Random => {
+                        let hash = npr_core::math::mix_bits;
+                        (hash(x as u32 ^ hash(y as u32)) & 1 == 1) == is_ink
+                    }
+                },
+            };
+            (dx, dy) = if turns_left { (dy, -dx) } else { (-dy, dx) };
+        }
+        for (corner, next) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+            if corner[0] == next[0] {
+                let row = &mut pixels.now[corner[1].min(next[1]) as usize];
+                for pixel in &mut row[corner[0] as usize..] {
+                    *pixel = !*pixel;
+                }
+            }
+        }
+        found.push((is_ink, corners));
+    }
+    found
+}
+
+/// Whether a pixel lies inside a closed path along pixel edges.
+fn holds(corners: &[[i32; 2]], [x, y]: [i32; 2]) -> bool {
+    let next = corners.iter().cycle().skip(1);
+    let crossed = corners
+        .iter()
+        .zip(next)
+        .filter(|(a, b)| a[0] == b[0] && a[0] <= x && a[1].min(b[1]) == y);
+    crossed.count() % 2 == 1
+}
+
+/// The definition of the paper: every three corners pass, and a direction is missing.
+fn is_straight(corners: &[[i32; 2]]) -> bool {
+    let mut directions: Vec<[i32; 2]> = corners
+        .windows(2)
+        .map(|pair| [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]])
+        .collect();
+    directions.sort_unstable();
+    directions.dedup();
+    let passes = |i: usize, j: usize, k: usize| {
+        let [a, b, c] = [corners[i], corners[j], corners[k]];
+        let (dx, dy) = (c[0] - a[0], c[1] - a[1]);
+        ((b[0] - a[0]) * dy - (b[1] - a[1]) * dx).abs() <= dx.abs() + dy.abs()
+    };
+    let count = corners.len();
+    let all = |i| (i + 2..count).all(|k| (i + 1..k).all(|j| passes(i, j, k)));
+    directions.len() < 4 && (0..count).all(all)
+}
+
+/// The path from one corner to another, around the end of the list if need be.
+fn stretch(corners: &[[i32; 2]], from: usize, length: usize) -> Vec<[i32; 2]> {
+    (from..=from + length)
+        .map(|i| corners[i % corners.len()])
+        .collect()
+}
+
+/// Length of a side times the standard deviation of the corners from its line, one by one.
+fn penalty(corners: &[[i32; 2]]) -> f64 {
+    let [from, to] = [corners[0], corners[corners.len() - 1]].map(|c| c.map(f64::from));
+    let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+    // Distance times length of the side, which may be 0.
+    let squares = corners.iter().map(|corner| {
+        let [x, y] = corner.map(f64::from);
+        let area = (x - from[0]) * dy - (y - from[1]) * dx;
+        area * area
+    });
+    (squares.sum::<f64>() / corners.len() as f64).sqrt()
+}
+
+/// Fewest sides and least penalty of all polygons from the start, by trying every side that is allowed.
+fn best_polygon(corners: &[[i32; 2]]) -> (usize, f64) {
+    let count = corners.len();
+    let mut best = vec![(usize::MAX, f64::INFINITY); count + 1];
+    best[0] = (0, 0.0);
+    for to in 1..=count {
+        for from in 0..to {
+            let wide = stretch(corners, from + count - 1, to - from + 2);
+            let allowed = to - from == 1 || (to - from + 3 <= count && is_straight(&wide));
+            if !allowed || best[from].0 == usize::MAX {
+                continue;
+            }
+            let (sides, cost) = best[from];
+            let way = (
+                sides + 1,
+                cost + penalty(&stretch(corners, from, to - from)),
+            );
+            if way.0 < best[to].0 || (way.0 == best[to].0 && way.1 < best[to].1) {
+                best[to] = way;
+            }
+        }
+    }
+    best[count]
+}
+
+/// Twice the signed area of a closed curve, by many short chords.
+fn doubled_area(segments: &[Segment]) -> f64 {
+    let mut area = 0.0;
+    let mut at = segments.last().map_or(DVec2::ZERO, Segment::end);
+    for segment in segments {
+        for place in places(at, segment) {
+            area += at.perp_dot(place);
+            at = place;
+        }
+    }
+    area
+}
+
+fn places(start: DVec2, segment: &Segment) -> Vec<DVec2> {
+    match *segment {
+        Segment::Corner { corner, end } => vec![corner, end],
+        Segment::Arc { from, to, end } => (1..=64)
+            .map(|i| {
+                let (t, s) = (f64::from(i) / 64.0, 1.0 - f64::from(i) / 64.0);
+                start * (s * s * s)
+                    + from * (3.0 * s * s * t)
+                    + to * (3.0 * s * t * t)
+                    + end * (t * t * t)
+            })
+            .collect(),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn loops_are_those_of_the_paper(bitmap in bitmaps(), policy in 0usize..7, turd_size in 0u64..5) {
+        let policy = TurnPolicy::ALL[policy];
+        let slow: Vec<_> = decompose_slowly(&bitmap, policy)
+            .into_iter()
+            .map(|(is_ink, corners)| {
+                let size = [bitmap.width() as i32, bitmap.height() as i32];
+                let inside = (0..size[0] * size[1]).filter(|i| holds(&corners, [i % size[0], i / size[0]]));
+                (is_ink, inside.count() as u64, corners)
+            })
+            .filter(|(_, area, _)| *area > turd_size)
+            .collect();
+        let fast: Vec<_> = decompose(&bitmap, policy, turd_size)
+            .iter()
+            .map(|l| (l.is_ink, l.area, l.corners().collect::<Vec<_>>()))
+            .collect();
+        prop_assert_eq!(fast, slow);
+    }
+
+    #[test]
+    fn parents_are_the_innermost_around(bitmap in bitmaps(), turd_size in 0u64..5) {
+        let loops = decompose(&bitmap, TurnPolicy::Minority, turd_size);
+        let parents = nest([bitmap.width(), bitmap.height()], loops.iter());
+        prop_assert_eq!(parents.len(), loops.len());
+        let all: Vec<_> = loops.iter().map(|l| (l.area, l.corners().collect::<Vec<_>>())).collect();
+        for (index, inner) in loops.iter().enumerate() {
+            // The first pixel of a loop is inside it, and inside what is around it.
+            let pixel = inner.start.map(|v| v as i32);
+            let around = (0u32..).zip(&all).filter(|(i, (_, corners))| *i != index as u32 && holds(corners, pixel));
+            let innermost = around.min_by_key(|(_, (area, _))| *area).map(|(i, _)| i);
+            prop_assert_eq!(parents[index], innermost);
+        }
+    }
+
+    #[test]
+    fn straight_is_what_the_paper_defines(bitmap in bitmaps()) {
+        for pixels in decompose(&bitmap, TurnPolicy::Minority, 0).iter().take(3) {
+            let corners: Vec<_> = pixels.corners().collect();
+            for (from, length) in straight_lengths(pixels.steps).into_iter().enumerate().take(60) {
+                prop_assert!(is_straight(&stretch(&corners, from, length as usize)));
+                prop_assert!(!is_straight(&stretch(&corners, from, length as usize + 1)));
+            }
+        }
+    }
+
+    #[test]
+    fn polygons_are_the_best(bitmap in bitmaps()) {
+        for pixels in decompose(&bitmap, TurnPolicy::Black, 0).iter().filter(|l| l.steps.len() < 60).take(3) {
+            let corners: Vec<_> = pixels.corners().collect();
+            let polygon = optimal_polygon(&pixels);
+            let ends = polygon.iter().skip(1).map(|i| *i as usize).chain([corners.len()]);
+            let cost: f64 = polygon
+                .iter()
+                .zip(ends)
+                .map(|(from, to)| penalty(&stretch(&corners, *from as usize, to - *from as usize)))
+                .sum();
+            let (sides, least) = best_polygon(&corners);
+            prop_assert_eq!((polygon[0], polygon.len()), (0, sides));
+            prop_assert!((cost - least).abs() <= 1e-9 * (1.0 + least), "{cost} {least}");
+        }
+    }
+
+    #[test]
+    fn no_place_nearby_is_nearer_to_both_lines(bitmap in bitmaps()) {
+        for pixels in decompose(&bitmap, TurnPolicy::White, 2).iter().take(3) {
+            let corners: Vec<_> = pixels.corners().map(|c| DVec2::new(f64::from(c[0]), f64::from(c[1]))).collect();
+            let polygon = optimal_polygon(&pixels);
+            let adjusted = adjust_corners(&pixels, &polygon);
+            prop_assert_eq!(adjusted.len(), polygon.len());
+            let line = |k: usize| {
+                let from = polygon[k] as usize;
+                let to = polygon.get(k + 1).map_or(corners.len(), |to| *to as usize);
+                let side: Vec<_> = (from..=to).map(|i| corners[i % corners.len()]).collect();
+                let middle = side.iter().sum::<DVec2>() / side.len() as f64;
+                // The axis of least spread, by trying many.
+                let spread = |n: &DVec2| side.iter().map(|p| n.dot(*p - middle).powi(2)).sum::<f64>();
+                let axes = (0..720).map(|i| {
+                    let angle = f64::from(i) * std::f64::consts::PI / 720.0;
+                    DVec2::new(npr_core::math::cos_f64(angle), npr_core::math::sin_f64(angle))
+                });
+                let least = axes.clone().min_by(|a, b| spread(a).total_cmp(&spread(b))).expect("some");
+                let most = axes.map(|axis| spread(&axis)).fold(0.0, f64::max);
+                // Where the corners spread alike to all sides, no line fits better than another.
+                (spread(&least) < 0.9 * most).then_some((middle, least))
+            };
+            for (k, place) in adjusted.iter().enumerate() {
+                let lines = [line((k + polygon.len() - 1) % polygon.len()), line(k)];
+                let [Some(before), Some(after)] = lines else { continue };
+                let lines = [before, after];
+                let away = |p: DVec2| lines.iter().map(|(m, n)| n.dot(p - *m).powi(2)).sum::<f64>();
+                let corner = corners[polygon[k] as usize];
+                prop_assert!((*place - corner).abs().max_element() <= 0.5);
+                for i in 0..=10 {
+                    for j in 0..=10 {
+                        let other = corner + DVec2::new(f64::from(i), f64::from(j)) / 10.0 - 0.5;
+                        prop_assert!(away(*place) <= away(other) + 0.02, "{place} {other}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn joined_curves_are_shorter_lists_of_the_same_area(bitmap in bitmaps(), tolerance in 0.0..1.0f64) {
+        for pixels in decompose(&bitmap, TurnPolicy::Minority, 2).iter().take(3) {
+            let bends = bends(&adjust_corners(&pixels, &optimal_polygon(&pixels)), 1.0);
+            let plain = curve(&bends);
+            let joined = join_arcs(&bends, tolerance);
+            prop_assert!(joined.len() <= plain.len());
+            let area = doubled_area(&plain);
+            prop_assert!((doubled_area(&joined) - area).abs() < 0.02 * (1.0 + area.abs()));
+            let corners = |s: &[Segment]| s.iter().filter(|s| matches!(s, Segment::Corner { .. })).count();
+            prop_assert_eq!(corners(&joined), corners(&plain));
+            for segment in &joined {
+                prop_assert!(plain.iter().any(|s| s.end().distance(segment.end()) < 1e-9));
+            }
+        }
+    }
+
+    #[test]
+    fn curves_stay_near_their_paths(bitmap in bitmaps(), alpha_max in 0.0..1.4f64) {
+        let options = TraceOptions { alpha_max, ..TraceOptions::default() };
+        for path in trace(&bitmap, &options).paths {
+            prop_assert!(!path.segments.is_empty());
+            // Ink on the left, with y down: outlines turn one way, holes the other.
+            let area = doubled_area(&path.segments) / 2.0;
+            let size = if path.is_ink { -area } else { area };
+            prop_assert!((size - path.area as f64).abs() <= 2.0 + 0.8 * path.area as f64, "{size} {}", path.area);
+            for place in path.segments.iter().map(Segment::end) {
+                let [w, h] = [bitmap.width(), bitmap.height()].map(f64::from);
+                prop_assert!(place.cmpge(DVec2::splat(-0.5)).all() && place.x <= w + 0.5 && place.y <= h + 0.5);
+            }
+        }
+    }
+
+    #[test]
+    fn threads_do_not_matter(bitmap in bitmaps()) {
+        let options = TraceOptions::default();
+        let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let one = pool(1).install(|| trace(&bitmap, &options));
+        prop_assert_eq!(pool(3).install(|| trace(&bitmap, &options)), one);
+    }
+}
+
+#[test]
+fn nothing_gives_nothing() {
+    for (width, height) in [(0, 0), (0, 5), (5, 0), (1, 1), (70, 3)] {
+        let bitmap = Bitmap::new(width, height).expect("small");
+        let tracing = trace(&bitmap, &TraceOptions::default());
+        assert!(tracing.paths.is_empty() && tracing.size == [width, height]);
+    }
+}
+
+#[test]
+fn one_pixel_is_a_square_or_a_speck() {
+    let bitmap = drawn(&["#"]);
+    let options = TraceOptions {
+        turd_size: 0,
+        ..TraceOptions::default()
+    };
+    let tracing = trace(&bitmap, &options);
+    assert_eq!(
+        (tracing.paths.len(), tracing.paths[0].segments.len()),
+        (1, 4)
+    );
+    assert!(trace(&bitmap, &TraceOptions::default()).paths.is_empty());
+}
+
+#[test]
+fn touching_pixels_are_one_shape_or_two() {
+    let bitmap = drawn(&["##..", "##..", "..##", "..##"]);
+    for (policy, count) in [(TurnPolicy::Black, 1), (TurnPolicy::White, 2)] {
+        assert_eq!(decompose(&bitmap, policy, 0).len(), count, "{policy:?}");
+    }
+}
+
+#[test]
+fn no_tolerance_joins_nothing_and_nonsense_does_not_hang() {
+    let bitmap = drawn(&[".###.", "#####", "#####", "#####", ".###."]);
+    for tolerance in [
+        None,
+        Some(0.0),
+        Some(f64::NAN),
+        Some(f64::INFINITY),
+        Some(-1.0),
+    ] {
+        for alpha_max in [f64::NAN, -1.0, f64::INFINITY] {
+            let options = TraceOptions {
+                join_tolerance: tolerance,
+                alpha_max,
+                ..TraceOptions::default()
+            };
+            let tracing = trace(&bitmap, &options);
+            assert_eq!(tracing.paths.len(), 1);
+            let finite = |s: &Segment| s.end().is_finite();
+            assert!(tracing.paths[0].segments.iter().all(finite));
+        }
+    }
+}
