@@ -9,6 +9,7 @@ mod point;
 mod render;
 mod size;
 mod smoke;
+mod trace;
 mod volume;
 
 pub use camera::CameraArguments;
@@ -22,6 +23,7 @@ pub use point::Point;
 pub use render::{LookArguments, RenderArguments};
 pub use size::Size;
 pub use smoke::SmokeArguments;
+pub use trace::{TraceArguments, TracedFormat};
 pub use volume::{PlacedVolume, VolumeArguments, VolumeUp};
 
 use clap::{Args, Parser, Subcommand};
@@ -55,6 +57,10 @@ pub enum Command {
     /// Without options, `npr smoke plume` lets a plume rise and writes plume.png into the current folder;
     /// `npr smoke plume --frames 1..96 -o smoke_####.png` draws the film.
     Smoke(Box<SmokeArguments>),
+    /// Trace bitmaps: turn black and white pictures into curves, by the method of Potrace.
+    ///
+    /// Without options, `npr trace drawing.png` writes drawing.svg into the current folder.
+    Trace(Box<TraceArguments>),
     /// Tell what is in a file, what of it is drawn, and what is ignored and why.
     Info(InfoArguments),
     /// List, show and check styles.

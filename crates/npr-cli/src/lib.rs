@@ -42,6 +42,7 @@ mod source;
 mod style_source;
 mod styles;
 mod timings;
+mod trace;
 mod viewpoint;
 mod volume;
 
@@ -82,6 +83,7 @@ fn obey(command: Command) -> Result<(), Fault> {
         Command::Render(arguments) => render::render(&arguments),
         Command::Lines(arguments) => lines::lines(&arguments),
         Command::Smoke(arguments) => smoke::smoke(&arguments),
+        Command::Trace(arguments) => trace::trace(&arguments),
         Command::Info(arguments) => info::info(&arguments),
         Command::Styles { command } => styles::styles(&command),
         Command::Doctor { json } => doctor::doctor(json),

@@ -1,25 +1,57 @@
-//! Pictures that a style names: backgrounds and width textures.
+//! Pictures that a style names, backgrounds and width textures, and bitmaps to trace.
 
 use crate::fault::{Exit, Fault};
-use image::{DynamicImage, ImageDecoder, ImageReader};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
+use npr_core::budget::Budget;
 use npr_render::Picture;
 use npr_scene::{LimitError, Limits};
+use npr_vector::trace::Bitmap;
 use std::io::Cursor;
 
 /// The pixels of a PNG or JPEG file. Its size is checked before any pixel is decoded.
 pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Picture, Fault> {
-    let broken = |error: image::ImageError| Fault::new(Exit::Input, error);
-    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
-    reader.limits(decoder_limits(limits));
-    let decoder = reader.into_decoder().map_err(broken)?;
-    check_size(decoder.dimensions(), limits)?;
-    let pixels = DynamicImage::from_decoder(decoder)
-        .map_err(broken)?
-        .into_rgba8();
+    let pixels = image(bytes, limits, &[ImageFormat::Png, ImageFormat::Jpeg])?.into_rgba8();
     Ok(Picture {
         size: [pixels.width(), pixels.height()],
         rgba: pixels.into_raw(),
     })
+}
+
+/// The pixels of an image file of any format that is read, black up to a brightness.
+///
+/// What is planned for its pixels has to stay within the memory limit.
+pub fn decode_bitmap(bytes: &[u8], limits: &Limits, black_level: f64) -> Result<Bitmap, Fault> {
+    use ImageFormat::{Bmp, Jpeg, Png, Pnm, Tiff, WebP};
+    let image = image(bytes, limits, &[Png, Jpeg, WebP, Pnm, Tiff, Bmp])?;
+    let (width, height) = (image.width(), image.height());
+    let bitmap = match image {
+        DynamicImage::ImageLuma8(grey) => {
+            Bitmap::from_luminance(width, height, grey.as_raw(), black_level)
+        }
+        other => Bitmap::from_rgba(width, height, other.into_rgba8().as_raw(), black_level),
+    };
+    bitmap.map_err(|error| Fault::new(Exit::Input, error))
+}
+
+/// An image file of one of some formats. Its size is checked before any pixel is decoded.
+fn image(bytes: &[u8], limits: &Limits, formats: &[ImageFormat]) -> Result<DynamicImage, Fault> {
+    let broken = |error: image::ImageError| Fault::new(Exit::Input, error);
+    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
+    if reader
+        .format()
+        .is_some_and(|format| !formats.contains(&format))
+    {
+        return Err(Fault::new(Exit::Input, "the image format is not supported"));
+    }
+    reader.limits(decoder_limits(limits));
+    let decoder = reader.into_decoder().map_err(broken)?;
+    let (width, height) = decoder.dimensions();
+    check_size((width, height), limits)?;
+    // Pixels as they are read and as they are used, up to eight bytes and four.
+    let pixels = width as usize * height as usize;
+    let planned = Budget::new(limits.memory_bytes).take("the image", pixels, 12);
+    planned.map_err(|error| Fault::from(npr_render::RenderError::from(error)))?;
+    DynamicImage::from_decoder(decoder).map_err(broken)
 }
 
 fn check_size((width, height): (u32, u32), limits: &Limits) -> Result<(), Fault> {

@@ -34,6 +34,13 @@ pub(crate) fn decode(
     let reader = reader
         .with_guessed_format()
         .map_err(|_| DecodeFault::Broken)?;
+    // A program around may have switched on more formats than scenes may hold.
+    if !matches!(
+        reader.format(),
+        Some(::image::ImageFormat::Png | ::image::ImageFormat::Jpeg)
+    ) {
+        return Err(DecodeFault::Broken);
+    }
     let decoder = reader.into_decoder().map_err(|_| DecodeFault::Broken)?;
     let (width, height) = decoder.dimensions();
     allowance

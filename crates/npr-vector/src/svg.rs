@@ -171,13 +171,7 @@ fn paint(attribute: &str, [r, g, b, a]: [u8; 4]) -> String {
 ///
 /// Pieces without length on the grid are left out; nothing is left of a path of only such.
 fn path_data(path: &BezPath, decimals: u32) -> Option<String> {
-    let mut data = PathData {
-        text: String::new(),
-        decimals,
-        here: [0; 2],
-        start: [0; 2],
-        letter: ' ',
-    };
+    let mut data = PathData::new(decimals);
     for element in path.elements() {
         match element {
             PathEl::MoveTo(p) => data.begin(*p),
@@ -190,8 +184,10 @@ fn path_data(path: &BezPath, decimals: u32) -> Option<String> {
     (!data.text.is_empty()).then_some(data.text)
 }
 
-struct PathData {
-    text: String,
+/// The value of `d` as it is written.
+pub(crate) struct PathData {
+    /// What is written so far.
+    pub text: String,
     decimals: u32,
     /// Where the pen is, on the grid.
     here: [i64; 2],
@@ -202,18 +198,31 @@ struct PathData {
 }
 
 impl PathData {
+    /// Nothing yet, for a grid of `10^-decimals`.
+    pub fn new(decimals: u32) -> Self {
+        Self {
+            text: String::new(),
+            decimals,
+            here: [0; 2],
+            start: [0; 2],
+            letter: ' ',
+        }
+    }
+
     fn grid(&self, p: Point) -> [i64; 2] {
         [p.x, p.y].map(|v| on_grid(v, self.decimals))
     }
 
-    fn begin(&mut self, p: Point) {
+    /// Begins a subpath.
+    pub fn begin(&mut self, p: Point) {
         self.here = self.grid(p);
         self.start = self.here;
         self.letter = ' ';
     }
 
-    fn piece(&mut self, letter: char, points: &[Point]) {
-        let ends: Vec<[i64; 2]> = points.iter().map(|p| self.grid(*p)).collect();
+    /// Goes on by a relative command; `points` are absolute.
+    pub fn piece<const N: usize>(&mut self, letter: char, points: &[Point; N]) {
+        let ends = points.map(|p| self.grid(p));
         if ends.iter().all(|end| *end == self.here) {
             return;
         }
@@ -233,7 +242,8 @@ impl PathData {
         self.here = ends[ends.len() - 1];
     }
 
-    fn close(&mut self) {
+    /// Closes the subpath, if anything of it was written.
+    pub fn close(&mut self) {
         if self.letter != ' ' {
             self.text.push('z');
             self.here = self.start;

@@ -3,7 +3,7 @@
 //! Each stage is a function usable alone: [`decompose()`] finds the closed paths along pixel edges, [`nest()`] which
 //! lies in which, [`optimal_polygon`] the polygon with the fewest sides near a path (by way of [`straight_lengths`]),
 //! [`adjust_corners`] moves its corners to where the sides meet best, [`bends`] tells corners from arcs, [`curve()`] makes segments
-//! of them, and [`join_arcs`] joins arcs to fewer. [`trace`] does it all, on all threads.
+//! of them, and [`join_arcs`] joins arcs to fewer. [`trace`] does it all, on all threads, and [`write_tracing`] makes files of it.
 //!
 //! Written from the paper. What it leaves open is decided by mathematics, or so that results equal those of the program Potrace, run and
 //! measured as a whole; each such place says so.
@@ -29,6 +29,7 @@ mod bitmap;
 mod curve;
 mod decompose;
 mod edges;
+mod file;
 mod join;
 mod nest;
 mod polygon;
@@ -41,6 +42,7 @@ pub use adjust::adjust_corners;
 pub use bitmap::{Bitmap, BitmapError, SIDE_LIMIT};
 pub use curve::{Bend, Segment, bends, curve};
 pub use decompose::{Decomposition, Loops, PixelLoop, STEPS, decompose};
+pub use file::{TraceFormat, trace_to_file, write_tracing};
 pub use join::join_arcs;
 pub use nest::nest;
 pub use polygon::optimal_polygon;
@@ -90,7 +92,7 @@ pub struct TracedPath<T = Vec<Segment>> {
     pub is_ink: bool,
     /// Pixels inside, those of holes and of shapes within them included.
     pub area: u64,
-    /// Number of the innermost path around it. Ink lies in holes or in nothing, and holes in ink, where no speck between was left out.
+    /// Number of the innermost path around it: a hole for ink, if any, and ink for a hole.
     pub parent: Option<u32>,
     /// The closed curve, with ink on its left; pixels, y down. The first segment starts where the last one ends.
     pub segments: T,

@@ -10,5 +10,6 @@ mod scenes;
 mod smoke;
 mod streams;
 mod timings;
+mod trace;
 mod usage;
 mod workplace;

@@ -1,5 +1,6 @@
 //! The command on files that lie beside the checkout: sound ones and broken ones.
 
+mod bitmaps;
 mod files;
 mod malformed;
 mod models;

@@ -373,6 +373,92 @@ proptest! {
     }
 }
 
+/// Whether the middles of pixels are covered by a picture of the file.
+fn rendered(svg: &[u8], size: [u32; 2]) -> Vec<bool> {
+    let tree = resvg::usvg::Tree::from_data(svg, &resvg::usvg::Options::default()).expect("SVG");
+    let mut canvas = resvg::tiny_skia::Pixmap::new(size[0], size[1]).expect("a canvas");
+    resvg::render(
+        &tree,
+        resvg::tiny_skia::Transform::identity(),
+        &mut canvas.as_mut(),
+    );
+    canvas
+        .pixels()
+        .iter()
+        .map(|pixel| pixel.alpha() > 127)
+        .collect()
+}
+
+#[test]
+fn files_show_what_was_traced() {
+    let rows = [
+        "################....",
+        "##............##....",
+        "##.####.......##....",
+        "##.#..#.......##....",
+        "##.#..#.......##....",
+        "##.####.......##....",
+        "##............##....",
+        "################....",
+        "..................##",
+        "..................##",
+    ];
+    let bitmap = drawn(&rows);
+    let tracing = trace(
+        &bitmap,
+        &TraceOptions {
+            alpha_max: 0.0,
+            ..TraceOptions::default()
+        },
+    );
+    assert_eq!(tracing.paths.len(), 5);
+    let svg = write_tracing(&tracing, TraceFormat::Svg);
+    let drawn_again = rendered(&svg, tracing.size);
+    let ink = (0..10)
+        .flat_map(|y| (0..20).map(move |x| (x, y)))
+        .map(|(x, y)| bitmap.is_ink(x, y));
+    assert!(drawn_again.into_iter().eq(ink));
+
+    let geo: serde_json::Value =
+        serde_json::from_slice(&write_tracing(&tracing, TraceFormat::GeoJson)).expect("JSON");
+    let shapes = geo["features"].as_array().expect("a list");
+    let rings = |f: &serde_json::Value| f["geometry"]["coordinates"].as_array().map_or(0, Vec::len);
+    assert_eq!(shapes.iter().map(rings).collect::<Vec<_>>(), [2, 2, 1]);
+    let ring = shapes[0]["geometry"]["coordinates"][0]
+        .as_array()
+        .expect("a list");
+    assert_eq!(ring.first(), ring.last());
+
+    let json: serde_json::Value =
+        serde_json::from_slice(&write_tracing(&tracing, TraceFormat::Json)).expect("JSON");
+    let parents: Vec<_> = json["paths"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|p| p["parent"].as_u64())
+        .collect();
+    assert_eq!(parents, [None, Some(0), Some(1), Some(2), None]);
+    assert!(write_tracing(&tracing, TraceFormat::Pdf).starts_with(b"%PDF-"));
+}
+
+#[test]
+fn files_made_at_once_are_the_same() {
+    let bitmap = drawn(&[".###.", "##.##", "#...#", "##.##", ".###."]);
+    let options = TraceOptions::default();
+    let tracing = trace(&bitmap, &options);
+    for format in [
+        TraceFormat::Svg,
+        TraceFormat::Pdf,
+        TraceFormat::Json,
+        TraceFormat::GeoJson,
+    ] {
+        assert_eq!(
+            trace_to_file(&bitmap, &options, format),
+            write_tracing(&tracing, format)
+        );
+    }
+}
+
 #[test]
 fn nothing_gives_nothing() {
     for (width, height) in [(0, 0), (0, 5), (5, 0), (1, 1), (70, 3)] {

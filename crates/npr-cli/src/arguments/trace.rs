@@ -1,0 +1,177 @@
+//! What the user said to `npr trace`.
+
+use super::LimitArguments;
+use clap::{Args, ValueEnum};
+use npr_vector::trace::{TraceFormat, TraceOptions, TurnPolicy};
+use std::path::PathBuf;
+
+/// What the user said to `npr trace`.
+#[derive(Debug, Args)]
+pub struct TraceArguments {
+    /// Bitmaps: .png, .jpg, .webp, .pbm, .pgm, .ppm, .tif or .bmp, told by their content; - reads standard input.
+    #[arg(required = true, value_name = "BITMAP")]
+    pub bitmaps: Vec<PathBuf>,
+    /// File to write: .svg, .pdf, .json or .geojson; of several bitmaps the folder for their files; - writes to
+    /// standard output [default: the bitmap's name with .svg, in the current folder].
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+    /// Format of the output, whatever its name [default: by the name; svg for folders and standard output].
+    #[arg(long, value_enum)]
+    pub format: Option<TracedFormat>,
+    /// How paths are found.
+    #[command(flatten)]
+    pub method: TraceMethodArguments,
+    /// Show no progress and no warnings.
+    #[arg(short, long)]
+    pub quiet: bool,
+    /// Safety limits.
+    #[command(flatten)]
+    pub limits: LimitArguments,
+}
+
+/// How paths are found; names and defaults are those of the program Potrace.
+#[derive(Debug, Clone, PartialEq, Args)]
+#[command(next_help_heading = "Tracing")]
+pub struct TraceMethodArguments {
+    /// Leave out shapes and holes of up to this many pixels.
+    #[arg(short, long, value_name = "PIXELS", default_value_t = 2)]
+    pub turdsize: u64,
+    /// Which colour hangs together where pixels meet at a corner only.
+    #[arg(short = 'z', long, value_enum, default_value_t)]
+    pub turnpolicy: TurnPolicyName,
+    /// Sharpness from which a bend is a corner: 0 makes polygons, 1.34 rounds everything.
+    #[arg(short, long, value_name = "N", default_value_t = 1.0, allow_hyphen_values = true, value_parser = not_negative)]
+    pub alphamax: f64,
+    /// How far curves may stray where they are joined, in pixels.
+    #[arg(short = 'O', long, value_name = "N", default_value_t = 0.2, allow_hyphen_values = true, value_parser = not_negative)]
+    pub opttolerance: f64,
+    /// Do not join curves.
+    #[arg(short = 'n', long)]
+    pub longcurve: bool,
+    /// Brightness up to which a pixel is ink, of 0 to 1; transparent pixels are laid over white.
+    #[arg(short = 'k', long, value_name = "N", default_value_t = 0.5, allow_hyphen_values = true, value_parser = level)]
+    pub blacklevel: f64,
+    /// Trace what is white.
+    #[arg(short, long)]
+    pub invert: bool,
+}
+
+impl TraceMethodArguments {
+    /// The same as options of the library.
+    pub fn options(&self) -> TraceOptions {
+        TraceOptions {
+            turd_size: self.turdsize,
+            turn_policy: self.turnpolicy.policy(),
+            alpha_max: self.alphamax,
+            join_tolerance: (!self.longcurve).then_some(self.opttolerance),
+        }
+    }
+}
+
+/// A file format of traced bitmaps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum TracedFormat {
+    /// Vector graphics.
+    Svg,
+    /// A page to print.
+    Pdf,
+    /// Outlines with their segments, for programs.
+    Json,
+    /// Polygons, for maps and geometry libraries.
+    Geojson,
+}
+
+impl TracedFormat {
+    /// All of them, with the ending of their files.
+    pub const ENDINGS: [(Self, &str); 4] = [
+        (Self::Svg, "svg"),
+        (Self::Pdf, "pdf"),
+        (Self::Json, "json"),
+        (Self::Geojson, "geojson"),
+    ];
+
+    /// The format of the library.
+    pub fn format(self) -> TraceFormat {
+        match self {
+            Self::Svg => TraceFormat::Svg,
+            Self::Pdf => TraceFormat::Pdf,
+            Self::Json => TraceFormat::Json,
+            Self::Geojson => TraceFormat::GeoJson,
+        }
+    }
+}
+
+/// Which colour hangs together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum TurnPolicyName {
+    /// Ink.
+    Black,
+    /// White.
+    White,
+    /// Paths turn left.
+    Left,
+    /// Paths turn right.
+    Right,
+    /// The rarer colour nearby.
+    #[default]
+    Minority,
+    /// The more frequent colour nearby.
+    Majority,
+    /// By chance, the same in every run.
+    Random,
+}
+
+impl TurnPolicyName {
+    fn policy(self) -> TurnPolicy {
+        match self {
+            Self::Black => TurnPolicy::Black,
+            Self::White => TurnPolicy::White,
+            Self::Left => TurnPolicy::Left,
+            Self::Right => TurnPolicy::Right,
+            Self::Minority => TurnPolicy::Minority,
+            Self::Majority => TurnPolicy::Majority,
+            Self::Random => TurnPolicy::Random,
+        }
+    }
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (0.0..=1e6).contains(&value) => Ok(value),
+        _ => Err("must be a number from 0 to 1000000".to_owned()),
+    }
+}
+
+fn level(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (0.0..=1.0).contains(&value) => Ok(value),
+        _ => Err("must be a number from 0 to 1".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_bounds() {
+        assert_eq!((not_negative("1.3"), level("0.5")), (Ok(1.3), Ok(0.5)));
+        for text in ["-1", "nan", "inf", "much", ""] {
+            assert!(
+                not_negative(text).is_err() && level(text).is_err(),
+                "{text}"
+            );
+        }
+        assert!(level("1.01").is_err());
+    }
+
+    #[test]
+    fn policies_are_named_as_in_the_library() {
+        for name in TurnPolicyName::value_variants() {
+            let shown = name
+                .to_possible_value()
+                .map(|value| value.get_name().to_owned());
+            assert_eq!(shown.as_deref(), Some(name.policy().name()));
+        }
+    }
+}

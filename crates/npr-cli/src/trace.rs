@@ -1,0 +1,144 @@
+//! `npr trace`: bitmaps as curves.
+
+use crate::arguments::{TraceArguments, TracedFormat};
+use crate::fault::{Exit, Fault};
+use crate::input::{read_file, read_standard};
+use crate::job::{has_ending, output_path};
+use crate::message::quoted;
+use crate::output::Output;
+use crate::picture;
+use crate::progress::Progress;
+use crate::source::Source;
+use npr_scene::Limits;
+use npr_vector::trace::trace_to_file;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// Traces the bitmaps that the user named, one after the other.
+pub fn trace(said: &TraceArguments) -> Result<(), Fault> {
+    let jobs = resolve(said)?;
+    let limits = said.limits.limits();
+    let mut progress = Progress::new(said.quiet);
+    for job in &jobs {
+        draw(job, said, &limits, &mut progress)?;
+    }
+    progress.finish();
+    Ok(())
+}
+
+/// One bitmap to trace. Everything that can be checked without reading it has been.
+struct TraceJob {
+    source: Source,
+    output: Output,
+    format: TracedFormat,
+}
+
+fn draw(
+    job: &TraceJob,
+    said: &TraceArguments,
+    limits: &Limits,
+    progress: &mut Progress,
+) -> Result<(), Fault> {
+    let bytes = progress.step("load", || match &job.source {
+        Source::Standard => read_standard(limits.file_bytes),
+        Source::File(path) => read_file(path, limits.file_bytes),
+    })?;
+    let bitmap = progress.step("decode", || {
+        let level = said.method.blacklevel;
+        let bitmap = picture::decode_bitmap(&bytes, limits, level).map_err(|fault| {
+            let name = match &job.source {
+                Source::Standard => "standard input".to_owned(),
+                Source::File(path) => quoted(path),
+            };
+            fault.while_doing(format_args!("cannot read {name}"))
+        });
+        drop(bytes);
+        bitmap.map(|mut bitmap| {
+            if said.method.invert {
+                bitmap.invert();
+            }
+            bitmap
+        })
+    })?;
+    let options = said.method.options();
+    let bytes = progress.step("trace", || {
+        trace_to_file(&bitmap, &options, job.format.format())
+    });
+    progress.step("write", || job.output.write(&bytes))
+}
+
+/// What is to be done, one job a bitmap.
+fn resolve(said: &TraceArguments) -> Result<Vec<TraceJob>, Fault> {
+    let sources: Vec<Source> = said.bitmaps.iter().map(|path| Source::of(path)).collect();
+    if sources
+        .iter()
+        .filter(|source| **source == Source::Standard)
+        .count()
+        > 1
+    {
+        let message = "standard input can be read only once";
+        return Err(Fault::new(Exit::Usage, message));
+    }
+    let inputs: Vec<PathBuf> = said.bitmaps.clone();
+    let mut taken = BTreeSet::new();
+    let mut jobs = Vec::new();
+    for source in sources {
+        let path = path_for(said, &source)?;
+        let format = format_of(said.format, &path)?;
+        let output = Output::of(&path)?;
+        output.refuse_any_of(&inputs)?;
+        if !taken.insert(path.clone()) {
+            let message = format!("two bitmaps would be written to {}", quoted(&path));
+            return Err(Fault::new(Exit::Usage, message));
+        }
+        jobs.push(TraceJob {
+            source,
+            output,
+            format,
+        });
+    }
+    Ok(jobs)
+}
+
+/// Where the tracing of one bitmap goes.
+fn path_for(said: &TraceArguments, source: &Source) -> Result<PathBuf, Fault> {
+    let asked = said.output.as_deref();
+    let folder = match asked {
+        Some(path) if path.is_dir() => Some(path),
+        Some(path) if said.bitmaps.len() > 1 => {
+            let message = format!(
+                "there is no folder {}: several bitmaps are written into one",
+                quoted(path)
+            );
+            return Err(Fault::new(Exit::Usage, message));
+        }
+        _ => None,
+    };
+    let ending = TracedFormat::ENDINGS
+        .into_iter()
+        .find(|(format, _)| Some(*format) == said.format)
+        .map_or("svg", |(_, ending)| ending);
+    match folder {
+        Some(folder) => Ok(folder.join(output_path(None, source, ending)?)),
+        None => output_path(asked, source, ending),
+    }
+}
+
+/// The format asked for, or else that of the name; svg on standard output.
+fn format_of(asked: Option<TracedFormat>, path: &Path) -> Result<TracedFormat, Fault> {
+    if let Some(format) = asked {
+        return Ok(format);
+    }
+    if path.as_os_str() == "-" {
+        return Ok(TracedFormat::Svg);
+    }
+    let mut endings = TracedFormat::ENDINGS.into_iter();
+    let found = endings.find(|(_, ending)| has_ending(path, ending));
+    found.map(|(format, _)| format).ok_or_else(|| {
+        let message = format!(
+            "cannot write {}: bitmaps are traced to .svg, .pdf, .json or .geojson",
+            quoted(path)
+        );
+        Fault::new(Exit::Usage, message)
+    })
+}
