@@ -20,7 +20,11 @@ fn laid(top: vec4<f32>, below: vec4<f32>) -> vec4<f32> {
 
 // The colour of a row at a share of its length, linear light, straight alpha.
 fn hue_at(row: u32, share: f32) -> vec4<f32> {
-    return sample_texture(row, vec2<f32>((share * (HUES - 1.0) + 0.5) / HUES, 0.5), 0.0);
+    let place = clamp(share, 0.0, 1.0) * (HUES - 1.0);
+    let below = min(u32(place), u32(HUES) - 2u);
+    let first = row + HEADER_WORDS + below;
+    let low = linear_texel(texels[first]);
+    return low + (linear_texel(texels[first + 1u]) - low) * (place - f32(below));
 }
 
 // How far along a part's row over depth a place lies, 0..1.

@@ -22,18 +22,20 @@ fn line_own(triangle: Triangle, corners: Corners, px: vec2<f32>, step_px: vec2<f
     let flags = parts[part].line_flags;
     if (flags & LINE_SOURCES) == 0u { return vec3<f32>(0.0); }
     let weights = line_weights(corners, px, is_hull);
-    let right = line_weights(corners, px + vec2<f32>(step_px.x, 0.0), is_hull);
-    let down = line_weights(corners, px + vec2<f32>(0.0, step_px.y), is_hull);
-    let uv = uv_at(triangle, weights);
-    let covered = footprint(uv, uv_at(triangle, right), uv_at(triangle, down));
+    let shows_surface = (flags & LINE_SURFACE) != 0u;
+    let is_plain = (parts[part].flags & PART_PLAIN) != 0u;
+    var start = NONE;
+    if shows_surface && !is_plain { start = parts[part].texture; }
+    if (flags & LINE_TEXTURE) != 0u { start = parts[part].line_texture; }
     var color = vec3<f32>(1.0);
-    if (flags & LINE_SURFACE) != 0u {
-        color = strengthened(color_at(triangle, weights, uv, covered));
-    } else if (flags & LINE_VERTEX) != 0u {
-        color = tint(triangle, weights);
-    } else if parts[part].line_texture != NONE {
-        color = sample_texture(parts[part].line_texture, uv, covered).rgb;
+    if start != NONE {
+        let right = line_weights(corners, px + vec2<f32>(step_px.x, 0.0), is_hull);
+        let down = line_weights(corners, px + vec2<f32>(0.0, step_px.y), is_hull);
+        let uv = uv_at(triangle, weights);
+        color = sample_texture(start, uv, footprint(uv, uv_at(triangle, right), uv_at(triangle, down))).rgb;
     }
+    if (flags & LINE_TEXTURE) == 0u && !(shows_surface && is_plain) { color *= tint(triangle, weights); }
+    if shows_surface { color = strengthened(color * parts[part].base_color.rgb); }
     return color * parts[part].line_factor;
 }
 

@@ -179,17 +179,37 @@ struct InkSum {
     mean: f32,
 }
 
+// What the samples in `members` show of a triangle, and how much of it a line covers.
+struct Drawn {
+    light: vec3<f32>,
+    lined: f32,
+}
+
 // Light of what the samples in `members` show, a triangle or its hull.
 fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
     let triangle = triangles[(id & ID_MASK) - 1u];
-    let part = triangle.part;
-    if (id & HULL_BIT) != 0u { return line_light(triangle, corners_of(triangle), frame_px, vec2<f32>(1.0), true); }
-    var center = frame_px;
-    let count = f32(countOneBits(members));
-    for (var i = 0u; i < 4u; i++) {
-        if (members & (1u << i)) != 0u { center += sample_offset(i) / count; }
-    }
     let corners = corners_of(triangle);
+    let is_hull = (id & HULL_BIT) != 0u;
+    var drawn: Drawn;
+    drawn.lined = 1.0;
+    var center = frame_px;
+    if !is_hull {
+        let count = f32(countOneBits(members));
+        for (var i = 0u; i < 4u; i++) {
+            if (members & (1u << i)) != 0u { center += sample_offset(i) / count; }
+        }
+        drawn = shade_surface(id, members, frame_px, center, corners);
+    }
+    if drawn.lined == 0.0 { return drawn.light; }
+    let line = line_light(triangle, corners, center, vec2<f32>(1.0), is_hull);
+    return drawn.light + (line - drawn.light) * drawn.lined;
+}
+
+// Light of a triangle, `center` being the middle of its samples.
+fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, corners: Corners) -> Drawn {
+    let triangle = triangles[id - 1u];
+    let part = triangle.part;
+    let count = f32(countOneBits(members));
     let color = strengthened(base_color(triangle, corners, center));
     var even = even_light(part, corners);
     if !even.is_so && is_gentle(part) {
@@ -233,10 +253,10 @@ fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
         ink.mean += (ink.last - ink.first) / count;
         if !by_sample { break; }
     }
-    let drawn = inked(part, color * light, ink.mean) + gloss;
-    if lined == 0.0 { return drawn; }
-    let line = line_light(triangle, corners, center, vec2<f32>(1.0), false);
-    return drawn + (line - drawn) * lined;
+    var drawn: Drawn;
+    drawn.light = inked(part, color * light, ink.mean) + gloss;
+    drawn.lined = lined;
+    return drawn;
 }
 
 // The surfaces of a pixel but for what smoke hides of them, premultiplied.

@@ -11,6 +11,7 @@ use crate::message::quoted;
 use crate::output::Output;
 use crate::source::{Source, has_volume_name};
 use crate::volume::{self, VolumeSource};
+use npr_core::geometry::Part;
 use npr_render::{Drawing, Kind, KindSet, Lettering, LineMethod, LineOptions};
 use npr_scene::Limits;
 use npr_style::{Background, Style};
@@ -63,7 +64,7 @@ impl<'a> LineJob<'a> {
             lettering: Lettering::new(&look.style, &fonts)?,
             source,
             limits: Limits {
-                decode_images: false,
+                decode_images: look.style.line_paint_flags() & Part::LINE_SURFACE != 0,
                 ..said.drawing.limits.limits()
             },
             output,

@@ -16,6 +16,7 @@ use crate::timings::Timings;
 use crate::viewpoint;
 use crate::volume::{self, Film};
 use npr_core::camera::Camera;
+use npr_core::geometry::Part;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{Drawing, LineMethod, LineModel, LineModelOptions, LineStage};
 use npr_style::{Background, WidthSource};
@@ -136,6 +137,12 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<LineModel, Faul
         )
     })?;
     model.set_smoke(smoke);
+    if job.look.style.line_paint_flags() & Part::LINE_TEXTURE != 0 {
+        model.set_pictures(
+            job.look
+                .pictures(&job.said.drawing.limits.limits(), external)?,
+        );
+    }
     progress.suspend(|| warn_of(job, &model, &told));
     Ok(model)
 }
@@ -153,6 +160,9 @@ fn warn_of(job: &LineJob<'_>, model: &LineModel, smoke: &Film) {
     }
     if matches!(job.look.style.background, Background::Image(_)) {
         warn("the picture behind is left out: lines are drawn on a colour or on nothing");
+    }
+    if let Some(notice) = job.look.style.line_source_notice() {
+        warn(notice);
     }
     if job.look.style.line.width.source == WidthSource::Texture {
         warn("line widths do not follow the texture: lines have the full width");

@@ -23,6 +23,8 @@ pub const KIND_CREASE: u32 = 2;
 pub const KIND_MATERIAL: u32 = 3;
 /// The kind of a line where surfaces cut through each other.
 pub const KIND_INTERSECTION: u32 = 4;
+/// A kind that never has a colour of its own.
+pub const KIND_NONE: u32 = 31;
 
 /// The kind that an edge of several kinds is coloured as: the first of contour, border, crease, material.
 #[inline]

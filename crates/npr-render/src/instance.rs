@@ -186,7 +186,7 @@ pub(crate) fn packed_color([r, g, b, a]: [f32; 4]) -> u32 {
 }
 
 /// A texture coordinate after the material's transform [KHR_texture_transform].
-fn placed_uv(uv: [f32; 2], material: Option<&Material>) -> [f32; 2] {
+pub(crate) fn placed_uv(uv: [f32; 2], material: Option<&Material>) -> [f32; 2] {
     let Some(texture) = material.and_then(|material| material.base_color_texture.as_ref()) else {
         return uv;
     };

@@ -2,7 +2,7 @@
 
 use crate::error::RenderError;
 use crate::model::PartInfo;
-use crate::pictures::Pictures;
+use crate::stage::Picture;
 use npr_core::geometry::{NONE, Part};
 use npr_core::texture::{TextureStore, Wrap};
 use npr_style::{HUES, HueStop, LinePaint, Style, hue_row};
@@ -17,12 +17,11 @@ struct Kept<'a> {
 
 /// Gives parts the colours of their lines by the style, with rows and pictures in the texture store.
 ///
-/// `infos` are those of the first parts, `radius` is that of all of them together. Without `pictures` a picture's colour is
-/// white.
+/// `infos` are those of the first parts, `radius` is that of all of them together; `pictures` holds those of the style by name.
 pub(crate) fn add_line_colors(
     infos: &[PartInfo],
     style: &Style,
-    pictures: Option<&Pictures<'_>>,
+    pictures: &BTreeMap<String, Picture>,
     radius: f32,
     parts: &mut [Part],
     textures: &mut TextureStore,
@@ -40,9 +39,7 @@ pub(crate) fn add_line_colors(
         part.line_depth_row = kept.row(&paint.depth.ramp, textures);
         part.line_light_row = kept.row(&paint.light.ramp, textures);
         part.line_texture = NONE;
-        if part.line_flags & Part::LINE_TEXTURE != 0
-            && let Some(pictures) = pictures
-        {
+        if part.line_flags & Part::LINE_TEXTURE != 0 {
             part.line_texture = kept.picture(&paint.image, pictures, textures)?;
         }
     }
@@ -69,13 +66,18 @@ impl<'a> Kept<'a> {
     fn picture(
         &mut self,
         name: &'a str,
-        pictures: &Pictures<'_>,
+        pictures: &BTreeMap<String, Picture>,
         textures: &mut TextureStore,
     ) -> Result<u32, RenderError> {
         if let Some(start) = self.pictures.get(name) {
             return Ok(*start);
         }
-        let picture = pictures.of(name)?;
+        let picture = pictures
+            .get(name)
+            .ok_or_else(|| RenderError::MissingPicture {
+                key: "line.paint.image".to_owned(),
+                name: name.to_owned(),
+            })?;
         let start = textures.add(picture.size, &picture.rgba, [Wrap::Repeat; 2]);
         let start = start.unwrap_or(NONE);
         self.pictures.insert(name, start);

@@ -2,10 +2,12 @@
 
 mod assembly;
 mod cache;
+mod colors;
 mod options;
 mod paint;
 mod smoke;
 mod stage;
+mod texture_map;
 mod tones;
 mod widths;
 
@@ -18,24 +20,29 @@ use crate::look;
 use crate::model::{Model, PartInfo};
 use crate::placement::{self, Bounds};
 use crate::smoke::Smoke;
-use crate::stage::check_size;
+use crate::stage::{Picture, check_size};
 use assembly::{Assembly, place_key};
+use colors::{ColorInput, StrokeColors};
 use glam::Vec3;
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
+use npr_core::geometry::Part;
 use npr_core::shape::{Shape, Surface};
 use npr_gpu::engine::EngineError;
 use npr_scene::Scene;
 use npr_style::{Look, Style};
 use npr_vector::contour::{EdgeContours, Eye};
-use npr_vector::draw::{LineSettings, Prepared, eye_of, strokes_with};
+use npr_vector::draw::{LineSettings, PointPaint, Prepared, StrokeLook, eye_of, strokes_with};
 use npr_vector::project::Projector;
 use npr_vector::puff::{RimPoint, SmokeLines};
+use npr_vector::run::RunPoint;
 use npr_vector::stroke::{Drawing, Kind, Stroke};
 use paint::Paint;
 use smoke::SmokeView;
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use texture_map::TextureMap;
 use widths::{ShapeBends, WidthInput, Widths};
 
 /// Bytes of a shape and its hierarchy for every triangle, its three half-edges and its share of the vertices.
@@ -49,7 +56,7 @@ const POINT_LIMIT: u64 = 20_000_000;
 
 /// A scene prepared for line drawings: one welded surface, whatever the camera and the style.
 ///
-/// Lines come from the geometry alone: textures play no part, so a cut-out leaf is drawn as the card it lies on.
+/// Lines come from the geometry alone: textures may colour them but hide nothing, so a cut-out leaf is drawn as the card it lies on.
 /// Surfaces whose base colour is too transparent for pictures are left out.
 ///
 /// A glTF file asks for lines of its own by the vertex attribute `_NPR_LINE` (an edge between two vertices above one half),
@@ -72,6 +79,10 @@ pub struct LineModel {
     /// What was prepared last, for views to come.
     prepared: Mutex<Option<(PreparedKey, Arc<Prepared>)>>,
     bends: OnceLock<ShapeBends>,
+    /// Where textures lie, for lines that take their colour from there.
+    map: Option<TextureMap>,
+    /// Pictures of styles, by name.
+    pictures: BTreeMap<String, Picture>,
 }
 
 /// What lines are prepared for: the cosine of the crease angle, as bits, and whether intersections are wanted.
@@ -83,6 +94,8 @@ struct LineView<'a> {
     projector: &'a Projector,
     contours: &'a EdgeContours,
     smoke: Option<&'a SmokeLines<'a>>,
+    /// Colours of strokes along themselves, where the style has any.
+    colors: Option<&'a StrokeColors<'a>>,
 }
 
 /// What a drawing is made of besides contours.
@@ -92,6 +105,8 @@ struct Wanted<'a> {
     options: &'a LineOptions,
     /// Smoke that hides lines, and whether it is drawn itself.
     smoke: Option<(&'a Smoke, bool)>,
+    /// The style's pictures by name.
+    pictures: &'a BTreeMap<String, Picture>,
 }
 
 impl LineModel {
@@ -106,7 +121,8 @@ impl LineModel {
         Self::of_assembly(scene, &Assembly::new(scene, None), options, None)
     }
 
-    /// The same without what a style makes beams of: light has no lines and hides none. With a `folder` the surface is kept
+    /// The same without what a style makes beams of: light has no lines and hides none; and with textures, where the style
+    /// colours lines by them, in which case the scene's images have to be there. With a `folder` the surface is kept
     /// there as by [`LineModel::cached`].
     ///
     /// # Errors
@@ -118,7 +134,14 @@ impl LineModel {
         options: &LineModelOptions,
         folder: Option<&Path>,
     ) -> Result<Self, RenderError> {
-        Self::of_assembly(scene, &Assembly::new(scene, Some(style)), options, folder)
+        let assembly = Assembly::new(scene, Some(style));
+        let mut model = Self::of_assembly(scene, &assembly, options, folder)?;
+        if style.line_paint_flags() & (Part::LINE_SURFACE | Part::LINE_TEXTURE) != 0 {
+            let mut map = TextureMap::new(scene, &assembly, &model.shape);
+            model.notices.extend(map.notice.take());
+            model.map = Some(map);
+        }
+        Ok(model)
     }
 
     fn of_assembly(
@@ -170,13 +193,15 @@ impl LineModel {
             triangle_count: assembly.triangle_count(),
             prepared: Mutex::new(None),
             bends: OnceLock::new(),
+            map: None,
+            pictures: BTreeMap::new(),
             shape,
         }
     }
 
     /// The lines that a camera sees.
     ///
-    /// Line colours, width factors and whether a part has lines at all follow the style's rules; kinds and the crease angle
+    /// Line colours (`line.paint` with them, for every point of a stroke), width factors and whether a part has lines at all follow the style's rules; kinds and the crease angle
     /// are those of the options ([`LineOptions::of_style`] takes them from the style). Width source `texture` counts as
     /// full. Strokes of the same lines keep their ids from camera to camera. Of a scene out of sight the drawing is empty.
     ///
@@ -195,6 +220,11 @@ impl LineModel {
         self.draw_with(camera, style, options, |eye| {
             Ok(EdgeContours::new(&self.shape, eye))
         })
+    }
+
+    /// Gives the pictures that styles name in `line.paint.image`, by these names.
+    pub fn set_pictures(&mut self, pictures: BTreeMap<String, Picture>) {
+        self.pictures = pictures;
     }
 
     /// Draws smoke with the scene from now on, or none.
@@ -223,6 +253,7 @@ impl LineModel {
             style,
             options,
             smoke: self.smoke.as_ref().map(|smoke| (smoke, true)),
+            pictures: &self.pictures,
         };
         self.draw_some(&wanted, find, |_| true)
     }
@@ -233,7 +264,7 @@ impl LineModel {
         camera: &Camera,
         style: &Style,
         options: &LineOptions,
-        smoke: Option<&Smoke>,
+        (smoke, pictures): (Option<&Smoke>, &BTreeMap<String, Picture>),
     ) -> Result<Drawing, RenderError> {
         let find = |eye: &Eye| Ok(EdgeContours::new(&self.shape, eye));
         let is_curve = |look: &Look<'_>| look.line_method == npr_style::LineMethod::Curves;
@@ -242,6 +273,7 @@ impl LineModel {
             style,
             options,
             smoke: smoke.map(|smoke| (smoke, false)),
+            pictures,
         };
         self.draw_some(&wanted, find, is_curve)
     }
@@ -258,6 +290,7 @@ impl LineModel {
             style,
             options,
             smoke,
+            pictures,
         } = *wanted;
         check_size(options.size)?;
         let is_empty = self.points.is_empty();
@@ -272,11 +305,16 @@ impl LineModel {
         let width_at = |point: &RimPoint| mist.as_ref().map_or(0.0, |mist| mist.width_at(point));
         let is_drawn = smoke.is_some_and(|(_, is_drawn)| is_drawn);
         let smoke_lines = mist.as_ref().map(|mist| mist.lines(is_drawn, &width_at));
+        let colors = match colors::is_painted(style) {
+            true => Some(self.colors(wanted, &prepared, &contours, pictures)?),
+            false => None,
+        };
         let view = LineView {
             camera,
             projector: &projector,
             contours: &contours,
             smoke: smoke_lines.as_ref(),
+            colors: colors.as_ref(),
         };
         let mut strokes = self.strokes(&prepared, &view, style, options);
         let paint = Paint::new(&self.parts, style, has_lines);
@@ -305,6 +343,29 @@ impl LineModel {
             strokes,
             regions,
         })
+    }
+
+    /// Colours of strokes along themselves, lit as in pictures but for beams and shadows.
+    fn colors<'a>(
+        &'a self,
+        wanted: &Wanted<'a>,
+        prepared: &'a Prepared,
+        contours: &'a EdgeContours,
+        pictures: &'a BTreeMap<String, Picture>,
+    ) -> Result<StrokeColors<'a>, RenderError> {
+        let input = ColorInput {
+            shape: &self.shape,
+            infos: &self.parts,
+            vertex_colors: &self.colors,
+            map: self.map.as_ref(),
+            lights: &self.lights,
+            pictures,
+            bounds: self.bounds,
+            style: wanted.style,
+        };
+        let normals = prepared.corner_normals(&self.shape);
+        let size = wanted.options.size;
+        StrokeColors::new(input, normals, &contours.front, wanted.camera, size)
     }
 
     /// Smoke as a view sees it, lit as in pictures but for beams.
@@ -354,13 +415,24 @@ impl LineModel {
             hidden: options.hidden,
             split: options.split,
         };
+        let paint_at = |kind: Kind, surface: u32, point: &RunPoint| match view.colors {
+            Some(colors) => colors.paint_at(kind, surface, point),
+            None => PointPaint {
+                color: None,
+                width: 1.0,
+            },
+        };
+        let look = StrokeLook {
+            width_at: &|vertex| widths.at(vertex),
+            paint_at: view.colors.is_some().then_some(&paint_at),
+        };
         strokes_with(
             &self.shape,
             prepared,
             view.projector,
             &settings,
             view.contours,
-            &|vertex| widths.at(vertex),
+            &look,
             view.smoke,
         )
     }

@@ -55,7 +55,7 @@ impl StyledModel {
         add_line_colors(
             &model.parts,
             style,
-            Some(&pictures),
+            &options.pictures,
             model.radius(),
             &mut parts,
             &mut textures,
@@ -387,7 +387,6 @@ pub(crate) fn compose(
     let [right, up, _] = camera.axes().map(Vec3::from);
     let streak = style.highlight.streak.angle_deg.to_radians();
     let across = right * -math::sin(streak) + up * math::cos(streak);
-    let back = Vec3::from(style.highlight.back.direction).normalize_or(Vec3::NEG_Z);
     let (min, max) = model.bounds();
     Compose {
         background: match style.background {
@@ -401,11 +400,17 @@ pub(crate) fn compose(
         saturation: style.shade.saturation,
         samples: if style.antialias.samples > 1 { 2 } else { 1 },
         right_world: right.to_array(),
-        back_world: in_world(camera, back.to_array()),
+        back_world: back_world(style, camera),
         streak_world: (across / model.radius()).to_array(),
         center_world: ((Vec3::from(min) + Vec3::from(max)) * 0.5).to_array(),
         ..Compose::default()
     }
+}
+
+/// Unit vector towards the light behind, in the world.
+pub(crate) fn back_world(style: &Style, camera: &Camera) -> [f32; 3] {
+    let back = Vec3::from(style.highlight.back.direction).normalize_or(Vec3::NEG_Z);
+    in_world(camera, back.to_array())
 }
 
 /// What a vector in the camera's axes is in the world.

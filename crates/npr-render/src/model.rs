@@ -273,7 +273,7 @@ pub(crate) fn check_count(what: &'static str, have: usize, more: usize) -> Resul
 }
 
 /// Where the texture of a part starts in the store, or [`NONE`].
-fn base_color_texture(scene: &Scene, part: &Part, textures: &mut Textures) -> u32 {
+pub(crate) fn base_color_texture(scene: &Scene, part: &Part, textures: &mut Textures) -> u32 {
     let material = part.material.and_then(|m| scene.materials.get(m as usize));
     let texture = material.and_then(|material| material.base_color_texture.as_ref());
     texture

@@ -267,8 +267,8 @@ impl<'a> Stage<'a> {
             dpi: self.options.dpi,
             ..LineOptions::of_style(&self.style, frame.size)
         };
-        let smoke = self.options.smoke.as_ref();
-        let drawing = lines.draw_curves(camera, &self.style, &options, smoke)?;
+        let beside = (self.options.smoke.as_ref(), &self.options.pictures);
+        let drawing = lines.draw_curves(camera, &self.style, &options, beside)?;
         paint_drawing_over(&drawing, &ArtworkOptions::default(), &mut frame.rgba);
         Ok(())
     }

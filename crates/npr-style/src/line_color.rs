@@ -15,11 +15,11 @@ use npr_core::line_color::{LineTint, Tint, line_color};
 use npr_core::outline::MASK_KINDS;
 use npr_core::raster::ID_MASK;
 use npr_core::surface::{blend2, dot, weights_at};
-use npr_core::texture;
+use npr_core::texture::{self, HEADER_WORDS};
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
 
-use crate::compose::{Compose, Layers};
+use crate::compose::{Compose, LUMA, Layers};
 use crate::gloss::back_light;
 use crate::lighting::Lights;
 use crate::line_paint::HUES;
@@ -27,7 +27,7 @@ use crate::shadow::SHADOWS_MAX;
 use crate::tone::{Corners, footprint};
 
 /// How far the surface's texture is averaged under a line, in pixels of the mask: less makes lines speckled.
-const LINE_BLUR_PX: f32 = 2.0;
+pub const LINE_BLUR_PX: f32 = 2.0;
 
 /// What all lines of a view share.
 #[derive(Debug, Clone, Copy)]
@@ -64,6 +64,16 @@ impl Decided {
             glaze: [glaze[0], glaze[1], glaze[2], glaze_a],
         }
     }
+}
+
+/// A colour of linear light as strong as a style wants it: grey at `saturation` 0, as it is at 1.
+#[inline]
+pub fn strengthened(color: [f32; 3], saturation: f32) -> [f32; 3] {
+    if saturation == 1.0 {
+        return color;
+    }
+    let luma = dot(color, LUMA);
+    color.map(|v| (luma + (v - luma) * saturation).max(0.0))
 }
 
 /// A straight-alpha colour laid over another one, both in linear light.
@@ -123,8 +133,12 @@ impl LineScene<'_> {
 
     /// The colour of a row at a share of its length, linear light, straight alpha.
     fn hue(&self, row: u32, share: f32) -> [f32; 4] {
-        let u = (share * (HUES - 1) as f32 + 0.5) / HUES as f32;
-        texture::sample(self.texels, row, [u, 0.5], 0.0)
+        let place = share.clamp(0.0, 1.0) * (HUES - 1) as f32;
+        let below = (place as u32).min(HUES as u32 - 2);
+        let first = (row + HEADER_WORDS + below) as usize;
+        let [low, high] =
+            [0, 1].map(|i| texture::linear_texel(self.texels, self.texels[first + i]));
+        std::array::from_fn(|i| low[i] + (high[i] - low[i]) * (place - below as f32))
     }
 
     /// Factor on the width of a part's lines at a place.
@@ -340,22 +354,37 @@ impl Layers<'_> {
         if part.line_flags & Part::LINE_SOURCES == 0 {
             return [0.0; 3];
         }
+        let weights = place.weights(self.view, corners, 0.0, 0.0);
         let vertices = triangle.corners.map(|v| &self.vertices[v as usize]);
-        let [weights, right, down] = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]
-            .map(|(dx, dy)| place.weights(self.view, corners, dx, dy));
-        let uvs = [weights, right, down].map(|weights| blend2(weights, vertices.map(|v| v.uv)));
-        let covered = footprint(uvs);
-        let color = if part.line_flags & Part::LINE_SURFACE != 0 {
-            let color = self.color_at(part, vertices, weights, uvs[0], covered);
-            self.strengthened(color)
-        } else if part.line_flags & Part::LINE_VERTEX != 0 {
-            self.tint(weights, vertices)
-        } else if part.line_texture != NONE {
-            let [r, g, b, _] = texture::sample(self.texels, part.line_texture, uvs[0], covered);
-            [r, g, b]
+        let shows_surface = part.line_flags & Part::LINE_SURFACE != 0;
+        let is_plain = part.flags & Part::PLAIN != 0;
+        let start = if part.line_flags & Part::LINE_TEXTURE != 0 {
+            part.line_texture
+        } else if shows_surface && !is_plain {
+            part.texture
         } else {
-            [1.0; 3]
+            NONE
         };
+        let mut color = [1.0; 3];
+        if start != NONE {
+            let around = [
+                weights,
+                place.weights(self.view, corners, 1.0, 0.0),
+                place.weights(self.view, corners, 0.0, 1.0),
+            ];
+            let uvs = around.map(|weights| blend2(weights, vertices.map(|v| v.uv)));
+            let [r, g, b, _] = texture::sample(self.texels, start, uvs[0], footprint(uvs));
+            color = [r, g, b];
+        }
+        if part.line_flags & Part::LINE_TEXTURE == 0 && !(shows_surface && is_plain) {
+            let tint = self.tint(weights, vertices);
+            color = std::array::from_fn(|i| color[i] * tint[i]);
+        }
+        if shows_surface {
+            let base = part.base_color;
+            let color_here = std::array::from_fn(|i| color[i] * base[i]);
+            color = self.strengthened(color_here);
+        }
         color.map(|light| light * part.line_factor)
     }
 

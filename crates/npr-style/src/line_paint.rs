@@ -411,14 +411,17 @@ impl Style {
         })
     }
 
+    /// The bits of [`Part::line_flags`] that any part of a scene may have.
+    pub fn line_paint_flags(&self) -> u32 {
+        let rules = self.rule.iter();
+        rules.fold(self.line.paint.flags(), |flags, rule| {
+            flags | rule.line.paint.over(self.line.paint.clone()).flags()
+        })
+    }
+
     /// What its line methods cannot honour of how it colours lines, a sentence each, for the user.
     pub fn line_paint_notices(&self) -> Vec<String> {
-        let paints = || {
-            let rules = self.rule.iter();
-            let of_rules = rules.map(|rule| rule.line.paint.over(self.line.paint.clone()));
-            std::iter::once(self.line.paint.clone()).chain(of_rules)
-        };
-        let has = |bits: u32| paints().any(|paint| paint.flags() & bits != 0);
+        let has = |bits: u32| self.line_paint_flags() & bits != 0;
         let rules = self.rule.iter().filter_map(|rule| rule.line.method);
         let methods: Vec<LineMethod> = std::iter::once(self.line.method).chain(rules).collect();
         let draws = |wanted: &[LineMethod]| methods.iter().any(|method| wanted.contains(method));
@@ -435,10 +438,15 @@ impl Style {
         if has(0b11110) && draws(&[hulls[0], hulls[1], LineMethod::Angle]) {
             notices.push("lines of method hull or angle are all contours to line.paint.kinds");
         }
-        if has(Part::LINE_VERTEX) && !self.shade.use_vertex_colors {
-            notices.push("line.paint.source is vertex-color, but shade.use_vertex_colors is off");
-        }
+        notices.extend(self.line_source_notice());
         notices.into_iter().map(str::to_owned).collect()
+    }
+
+    /// What is missing for the source of its lines' colours, for the user.
+    pub fn line_source_notice(&self) -> Option<&'static str> {
+        let asks = self.line_paint_flags() & Part::LINE_VERTEX != 0;
+        (asks && !self.shade.use_vertex_colors)
+            .then_some("line.paint.source is vertex-color, but shade.use_vertex_colors is off")
     }
 }
 

@@ -93,6 +93,24 @@ const PRESETS: &[Preset] = &[
         text: include_str!("../presets/cel-3.toml"),
     },
     Preset {
+        name: "coloured-lines",
+        version: 1,
+        title: "Flat tones under lines in a deep shade of each surface's own colour",
+        text: include_str!("../presets/coloured-lines.toml"),
+    },
+    Preset {
+        name: "atmosphere",
+        version: 1,
+        title: "Flat tones under dark lines that pale and cool with distance",
+        text: include_str!("../presets/atmosphere.toml"),
+    },
+    Preset {
+        name: "lit-lines",
+        version: 1,
+        title: "Lines thin and warm where lit, heavy and cool in the shade, bright where light from behind catches them",
+        text: include_str!("../presets/lit-lines.toml"),
+    },
+    Preset {
         name: "plain",
         version: 1,
         title: "Materials in soft light, without lines or ink",

@@ -3,11 +3,11 @@
 //! What is the same all over a triangle is found once a frame (`known.rs`), what changes gently once a pixel, at the middle
 //! of the samples that show the triangle; what has edges at every sample.
 
-use crate::compose::{LUMA, Layers};
+use crate::compose::Layers;
 use crate::gloss::shines_gently;
 use crate::inking::ink_over;
 use crate::known::Known;
-use crate::line_color::LinePlace;
+use crate::line_color::{LinePlace, strengthened};
 use crate::ramp::{Level, ramp_coordinate, ramp_light};
 use crate::tone_row::{row_is_even, row_light};
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
@@ -424,12 +424,7 @@ impl<'a> Layers<'a> {
 
     /// A colour as strong as the style wants it.
     pub(crate) fn strengthened(&self, color: [f32; 3]) -> [f32; 3] {
-        let saturation = self.compose.saturation;
-        if saturation == 1.0 {
-            return color;
-        }
-        let luma = dot(color, LUMA);
-        color.map(|v| (luma + (v - luma) * saturation).max(0.0))
+        strengthened(color, self.compose.saturation)
     }
 
     /// Surface colour without light.
@@ -446,6 +441,11 @@ impl<'a> Layers<'a> {
             return [r, g, b];
         }
         let weights = weights_at(corners.clip, self.view.ndc_at(frame_px));
+        let tint = self.tint(weights, vertices);
+        let color = [r * tint[0], g * tint[1], b * tint[2]];
+        if part.texture == NONE {
+            return color;
+        }
         let uvs = vertices.map(|v| v.uv);
         let uv_near = |dx: f32, dy: f32| {
             blend2(
@@ -456,32 +456,8 @@ impl<'a> Layers<'a> {
                 uvs,
             )
         };
-        if part.texture == NONE {
-            return self.color_at(part, vertices, weights, [0.0; 2], 0.0);
-        }
         let (uv, right, down) = (blend2(weights, uvs), uv_near(1.0, 0.0), uv_near(0.0, 1.0));
         let covered = footprint([uv, right, down]);
-        self.color_at(part, vertices, weights, uv, covered)
-    }
-
-    /// Surface colour without light where the corners have these weights; a pixel covers so much of the texture.
-    pub(crate) fn color_at(
-        &self,
-        part: &Part,
-        vertices: [&Vertex; 3],
-        weights: [f32; 3],
-        uv: [f32; 2],
-        covered: f32,
-    ) -> [f32; 3] {
-        let [r, g, b, _] = part.base_color;
-        if part.flags & Part::PLAIN != 0 {
-            return [r, g, b];
-        }
-        let tint = self.tint(weights, vertices);
-        let color = [r * tint[0], g * tint[1], b * tint[2]];
-        if part.texture == NONE {
-            return color;
-        }
         let texel = texture::sample(self.texels, part.texture, uv, covered);
         std::array::from_fn(|i| color[i] * texel[i])
     }

@@ -190,6 +190,15 @@ impl Placed {
         }
     }
 
+    /// Every triangle: its corners as stored vertices, its surface, and where its corners stand in the world.
+    pub fn drawn(&self) -> impl Iterator<Item = ([u32; 3], u32, [[f32; 3]; 3])> {
+        let triangles = self.triangles.iter().zip(&self.surfaces);
+        triangles.map(|(corners, surface)| {
+            let world = corners.map(|corner| self.world[corner as usize]);
+            (*corners, *surface, world)
+        })
+    }
+
     fn used_points(&self) -> impl Iterator<Item = [f32; 3]> + '_ {
         let mut used = vec![false; self.world.len()];
         for corner in self.triangles.iter().chain(&self.glowing).flatten() {

@@ -1,0 +1,258 @@
+//! The colour of strokes along themselves: what frames decide at the pixels of their mask, at every point of a stroke.
+
+use super::texture_map::TextureMap;
+use crate::error::RenderError;
+use crate::light::{ChosenLights, FileLight};
+use crate::line_colors::add_line_colors;
+use crate::look;
+use crate::model::{Model, PartInfo};
+use crate::placement::Bounds;
+use crate::stage::Picture;
+use glam::Vec3;
+use npr_core::camera::Camera;
+use npr_core::color::{linear_rgba, unpack_rgba8};
+use npr_core::geometry::{NONE, Part};
+use npr_core::line_color::{
+    KIND_BORDER, KIND_CONTOUR, KIND_CREASE, KIND_INTERSECTION, KIND_MATERIAL, KIND_NONE,
+};
+use npr_core::shape::Shape;
+use npr_core::surface::unit_or_z;
+use npr_core::texture::{self, TextureStore};
+use npr_core::window::View;
+use npr_scene::Scene;
+use npr_style::Style;
+use npr_style::lighting::Lights;
+use npr_style::line_color::{LINE_BLUR_PX, LineScene, strengthened};
+use npr_vector::draw::PointPaint;
+use npr_vector::run::RunPoint;
+use npr_vector::stroke::Kind;
+use npr_vector::zero_set::CornerNormals;
+use std::collections::BTreeMap;
+
+/// What the colours of strokes are found on.
+#[derive(Clone, Copy)]
+pub(super) struct ColorInput<'a> {
+    pub shape: &'a Shape,
+    pub infos: &'a [PartInfo],
+    /// Colour of every vertex of the shape; empty where the scene has none.
+    pub vertex_colors: &'a [u32],
+    /// Where textures lie, if the style looks at any.
+    pub map: Option<&'a TextureMap>,
+    pub lights: &'a [FileLight],
+    pub pictures: &'a BTreeMap<String, Picture>,
+    pub bounds: Bounds,
+    pub style: &'a Style,
+}
+
+/// Everything that a view makes of it.
+pub(super) struct StrokeColors<'a> {
+    input: ColorInput<'a>,
+    normals: &'a CornerNormals,
+    /// A bit per face: it is turned to the eye.
+    front: &'a [u8],
+    view: View,
+    lights: Lights,
+    parts: Vec<Part>,
+    textures: TextureStore,
+    back_world: [f32; 3],
+    center_world: [f32; 3],
+}
+
+/// Whether lines of a style are more than of one colour and width a surface.
+pub(super) fn is_painted(style: &Style) -> bool {
+    style.line_paint_flags() != 0
+}
+
+impl<'a> StrokeColors<'a> {
+    /// For a view of `size` pixels; `normals` and `front` are those of the shape.
+    pub fn new(
+        input: ColorInput<'a>,
+        normals: &'a CornerNormals,
+        front: &'a [u8],
+        camera: &Camera,
+        size: [u32; 2],
+    ) -> Result<Self, RenderError> {
+        let ColorInput {
+            style,
+            infos,
+            bounds,
+            ..
+        } = input;
+        let view = camera.view(size, bounds);
+        let mut lamps = Model::new(&Scene::default())?;
+        lamps.lights = input.lights.to_vec();
+        let lights = ChosenLights::new(style, &lamps).of_frame(style, bounds, None, camera, &view);
+        let mut textures = input
+            .map
+            .map_or_else(TextureStore::new, |map| map.textures.clone());
+        let mut parts: Vec<Part> = infos.iter().map(|info| look::part(info, style)).collect();
+        if let Some(map) = input.map
+            && style.shade.use_textures
+        {
+            for (part, (info, start)) in parts.iter_mut().zip(infos.iter().zip(&map.starts)) {
+                let look = style.resolve_for(&info.material_name, &info.object_name);
+                part.texture = if look.shade_color.is_none() {
+                    *start
+                } else {
+                    NONE
+                };
+            }
+        }
+        let (low, high) = (Vec3::from(bounds.0), Vec3::from(bounds.1));
+        let radius = 0.5 * (high - low).length();
+        add_line_colors(
+            infos,
+            style,
+            input.pictures,
+            radius,
+            &mut parts,
+            &mut textures,
+        )?;
+        Ok(Self {
+            input,
+            normals,
+            front,
+            view,
+            lights,
+            parts,
+            textures,
+            back_world: look::back_world(style, camera),
+            center_world: ((low + high) * 0.5).to_array(),
+        })
+    }
+
+    /// The final colour of a line at a point of a run, and the factor on its width: the one place where strokes are coloured.
+    pub fn paint_at(&self, kind: Kind, surface: u32, point: &RunPoint) -> PointPaint {
+        let Some(part) = self.parts.get(surface as usize) else {
+            return PointPaint {
+                color: None,
+                width: 1.0,
+            };
+        };
+        let scene = LineScene {
+            view: &self.view,
+            lights: &self.lights,
+            back_world: self.back_world,
+            center_world: self.center_world,
+            texels: self.textures.words(),
+        };
+        let world = point.world.as_vec3().to_array();
+        let normal = self.normal_at(surface, point);
+        let own = self.own_at(part, surface, point);
+        let color = scene.color_at(part, number_of(kind), own, world, normal);
+        PointPaint {
+            color: Some(color.map(|v| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)),
+            width: f64::from(scene.width_at(part, world, normal)),
+        }
+    }
+
+    /// The half-edges beside a point: those of its surface that are seen, or else of its surface, or else all.
+    fn sides(&self, surface: u32, point: &RunPoint) -> impl Iterator<Item = u32> {
+        let shape = self.input.shape;
+        let sides = shape.sides(point.edge);
+        let is_own = move |side: &u32| shape.face_surfaces[*side as usize / 3] == surface;
+        let is_front = |side: &u32| self.front.get(*side as usize / 3) == Some(&1);
+        let any_own = sides.iter().any(is_own);
+        let any_front = sides.iter().any(|side| is_own(side) && is_front(side));
+        sides
+            .iter()
+            .copied()
+            .filter(move |side| (!any_own || is_own(side)) && (!any_front || is_front(side)))
+    }
+
+    /// How far a point lies along a half-edge of its edge.
+    fn share_along(&self, side: u32, point: &RunPoint) -> f32 {
+        match self.input.shape.runs_up(side) {
+            true => point.t,
+            false => 1.0 - point.t,
+        }
+    }
+
+    /// Unit normal of the surface at a point, of both faces where both are seen; towards the eye where only its back is.
+    fn normal_at(&self, surface: u32, point: &RunPoint) -> [f32; 3] {
+        let mut sum = [0.0; 3];
+        for side in self.sides(surface, point) {
+            let share = self.share_along(side, point);
+            let [tail, head] = [side, Shape::following(side)].map(|c| self.normals.normal(c));
+            let is_back = self.front.get(side as usize / 3) == Some(&0);
+            let way = if is_back { -1.0 } else { 1.0 };
+            sum = std::array::from_fn(|i| sum[i] + way * (tail[i] + (head[i] - tail[i]) * share));
+        }
+        unit_or_z(sum)
+    }
+
+    /// Colour of the surface for its lines, in linear light; black where the part does not ask for it.
+    fn own_at(&self, part: &Part, surface: u32, point: &RunPoint) -> [f32; 3] {
+        let flags = part.line_flags;
+        if flags & Part::LINE_SOURCES == 0 {
+            return [0.0; 3];
+        }
+        let color = if flags & Part::LINE_VERTEX != 0 {
+            self.vertex_color_at(point)
+        } else if flags & Part::LINE_TEXTURE != 0 {
+            self.texel_at(part.line_texture, surface, point)
+        } else {
+            let [r, g, b, _] = part.base_color;
+            let mut color = [r, g, b];
+            if part.flags & Part::PLAIN == 0 {
+                let (tint, texel) = (
+                    self.vertex_color_at(point),
+                    self.texel_at(part.texture, surface, point),
+                );
+                color = std::array::from_fn(|i| color[i] * tint[i] * texel[i]);
+            }
+            strengthened(color, self.input.style.shade.saturation)
+        };
+        color.map(|light| light * part.line_factor)
+    }
+
+    /// Vertex colour at a point, linear light; white where pictures show none.
+    fn vertex_color_at(&self, point: &RunPoint) -> [f32; 3] {
+        let colors = self.input.vertex_colors;
+        if !self.input.style.shade.use_vertex_colors || colors.is_empty() {
+            return [1.0; 3];
+        }
+        let [low, high] = self.input.shape.ends(point.edge).map(|vertex| {
+            let packed = colors.get(vertex as usize).copied().unwrap_or(u32::MAX);
+            linear_rgba(unpack_rgba8(packed))
+        });
+        std::array::from_fn(|i| low[i] + (high[i] - low[i]) * point.t)
+    }
+
+    /// Linear light of a texture at a point; white where there is none.
+    fn texel_at(&self, start: u32, surface: u32, point: &RunPoint) -> [f32; 3] {
+        let white = [1.0; 3];
+        let (Some(map), Some(side)) = (self.input.map, self.sides(surface, point).next()) else {
+            return white;
+        };
+        if start == NONE {
+            return white;
+        }
+        let Some(uvs) = map.corners(side / 3) else {
+            return white;
+        };
+        let shape = self.input.shape;
+        let share = self.share_along(side, point);
+        let [tail, head] = [side, Shape::following(side)].map(|c| uvs[c as usize % 3]);
+        let uv = [0, 1].map(|i| tail[i] + (head[i] - tail[i]) * share);
+        // As much of the texture as frames average under a line.
+        let [a, b] = shape.ends_of_half_edge(side).map(|v| shape.point(v));
+        let run = ((head[0] - tail[0]).powi(2) + (head[1] - tail[1]).powi(2)).sqrt();
+        let length = (b - a).length().max(1e-30) as f32;
+        let pixel = self.view.pixel_at(point.depth as f32) * LINE_BLUR_PX;
+        let [r, g, b, _] = texture::sample(self.textures.words(), start, uv, run / length * pixel);
+        [r, g, b]
+    }
+}
+
+/// The number that a kind has in parts.
+fn number_of(kind: Kind) -> u32 {
+    match kind {
+        Kind::Contour => KIND_CONTOUR,
+        Kind::Boundary => KIND_BORDER,
+        Kind::Crease => KIND_CREASE,
+        Kind::Material => KIND_MATERIAL,
+        Kind::Intersection => KIND_INTERSECTION,
+        Kind::Marked => KIND_NONE,
+    }
+}
