@@ -40,6 +40,8 @@ pub enum Work {
         vertices: u32,
         /// What is drawn into; a depth image last. Depth is reversed: greater wins, equal keeps what is there.
         targets: &'static [Format],
+        /// Whether the twin writes every texel that a device clears or draws, so that nothing is cleared before it.
+        fills: bool,
     },
 }
 

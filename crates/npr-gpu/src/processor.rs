@@ -3,7 +3,7 @@
 use crate::engine::{Engine, EngineError, PassTime, Session};
 use crate::graph::Kind;
 use crate::graph::{Graph, Node, ResourceId, writes};
-use crate::pass::{Access, Bindings, Bound};
+use crate::pass::{Access, Bindings, Bound, Work};
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -64,7 +64,8 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
         .iter()
         .map(|id| std::mem::take(&mut memory[id.index()]))
         .collect();
-    if node.clears {
+    let fills = matches!(node.pass.work, Work::Draw { fills: true, .. });
+    if node.clears && !(fills && graph.work_count(node) > 0) {
         clear_targets(node, &written, &mut lent);
     }
     if graph.work_count(node) > 0 {

@@ -59,6 +59,7 @@ impl Lattice {
     }
 
     /// The eight grid points round `place`, which is moved onto the grid first. Of a grid that has points only.
+    #[inline]
     pub fn cell(self, place: Vec3) -> Cell {
         let mut cell = Cell {
             base: 0,
@@ -168,6 +169,7 @@ pub(crate) struct Cell {
 
 impl Cell {
     /// Places of the eight corners in the list, x fastest.
+    #[inline]
     pub fn corners(&self) -> [usize; 8] {
         std::array::from_fn(|corner| {
             let step = |axis: usize| ((corner >> axis) & 1) * self.steps[axis];
@@ -176,6 +178,7 @@ impl Cell {
     }
 
     /// Trilinear blend of the values at the corners.
+    #[inline]
     pub fn blend<T>(&self, value: impl Fn(usize) -> T) -> T
     where
         T: Copy
@@ -183,12 +186,23 @@ impl Cell {
             + std::ops::Sub<Output = T>
             + std::ops::Mul<f32, Output = T>,
     {
+        self.blend_of(&self.corners().map(value))
+    }
+
+    /// Trilinear blend of values that the corners have.
+    #[inline]
+    pub fn blend_of<T>(&self, values: &[T; 8]) -> T
+    where
+        T: Copy
+            + std::ops::Add<Output = T>
+            + std::ops::Sub<Output = T>
+            + std::ops::Mul<f32, Output = T>,
+    {
         let [tx, ty, tz] = self.t;
-        let [dx, dy, dz] = self.steps;
         let mix = |a: T, b: T, t: f32| a + (b - a) * t;
-        let along_x = |at: usize| mix(value(at), value(at + dx), tx);
-        let along_y = |at: usize| mix(along_x(at), along_x(at + dy), ty);
-        mix(along_y(self.base), along_y(self.base + dz), tz)
+        let along_x = |at: usize| mix(values[at], values[at + 1], tx);
+        let along_y = |at: usize| mix(along_x(at), along_x(at + 2), ty);
+        mix(along_y(0), along_y(4), tz)
     }
 }
 

@@ -153,6 +153,7 @@ pub const DRAW_RIBBONS: Pass = Pass {
         of: "edges",
         vertices: 6,
         targets: &[Format::Rgba8, Format::Depth],
+        fills: false,
     },
     agreement: Agreement::Texels(0.002),
     twin: |b| {

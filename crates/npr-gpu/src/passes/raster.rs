@@ -12,6 +12,7 @@ const NUMBERS: Work = Work::Draw {
     of: "triangles",
     vertices: 3,
     targets: &[Format::U32, Format::Depth],
+    fills: false,
 };
 
 /// The number of the nearest triangle, plus one, at every pixel.

@@ -35,6 +35,7 @@ pub const DRAW_SPHERES: Pass = Pass {
         of: "balls",
         vertices: 6,
         targets: &[Format::U32, Format::Depth],
+        fills: true,
     },
     agreement: Agreement::Texels(0.001),
     twin: |b| {
@@ -170,6 +171,7 @@ pub const RESOLVE_PICTURE: Pass = Pass {
         of: "look",
         vertices: 3,
         targets: &[Format::Rgba8, Format::U32],
+        fills: true,
     },
     agreement: Agreement::Texels(0.002),
     twin: |b| {

@@ -63,6 +63,7 @@ pub const DRAW_LARGEST: Pass = Pass {
         of: "numbers",
         vertices: 3,
         targets: &[Format::U32, Format::Depth],
+        fills: false,
     },
     agreement: Agreement::Exact,
     twin: |bindings| {

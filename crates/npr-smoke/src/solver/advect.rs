@@ -81,7 +81,7 @@ fn fetch(field: &Field, place: Vec3, outside: Outside) -> Carried {
     let most = corners.into_iter().fold(f32::NEG_INFINITY, f32::max);
     Carried {
         // Rounding may carry a blend past its ends.
-        value: cell.blend(|at| field.values[at]).clamp(least, most),
+        value: cell.blend_of(&corners).clamp(least, most),
         least,
         most,
     }

@@ -29,6 +29,7 @@ impl Field {
     }
 
     /// Blended value at a place; outside the grid that of the nearest place in it.
+    #[inline]
     pub fn at(&self, place: Vec3) -> f32 {
         let cell = self.lattice.cell(place - self.origin);
         cell.blend(|at| self.values[at])

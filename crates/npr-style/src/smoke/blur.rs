@@ -137,14 +137,16 @@ pub fn smooth_tones(
         look,
         pixels,
         cells,
+        columns: (0..size[0]).map(|x| Taps::new(look, x, 0)).collect(),
     };
     let width = size[0].max(1) as usize;
     tones
         .par_chunks_mut(width)
         .enumerate()
         .for_each(|(y, row)| {
+            let rows = Taps::new(look, y as u32, 1);
             for (x, tone) in row.iter_mut().enumerate() {
-                *tone = with.tone(x as u32, y as u32);
+                *tone = with.tone([x as u32, y as u32], &rows);
             }
         });
 }
@@ -154,10 +156,31 @@ struct Smoothing<'a> {
     look: &'a SmokeLook,
     pixels: &'a [SmokePixel],
     cells: &'a [Cell],
+    /// What every column of pixels reads.
+    columns: Vec<Taps>,
+}
+
+/// The four cells that a row or column of pixels reads along an axis, and their weights.
+struct Taps {
+    cells: [u32; 4],
+    weights: [f32; 4],
+}
+
+impl Taps {
+    fn new(look: &SmokeLook, px: u32, axis: usize) -> Self {
+        let cell = (1u32 << look.shift) as f32;
+        let at = (px as f32 + 0.5) / cell - 0.5;
+        let low = at.floor();
+        let last = look.cells[axis] as f32 - 1.0;
+        Self {
+            cells: std::array::from_fn(|k| (low + k as f32 - 1.0).clamp(0.0, last) as u32),
+            weights: spline(at - low),
+        }
+    }
 }
 
 impl Smoothing<'_> {
-    fn tone(&self, x: u32, y: u32) -> f32 {
+    fn tone(&self, [x, y]: [u32; 2], rows: &Taps) -> f32 {
         let own = self.pixels[(y * self.size[0] + x) as usize];
         if own.place < 0.0 {
             return 0.0;
@@ -167,18 +190,18 @@ impl Smoothing<'_> {
         }
         let layer = own.place as u32;
         let passed = own.place - layer as f32;
-        let mut tone = self.mean_of(x, y, layer, own.tone);
+        let mut tone = self.mean_of([x, y], rows, layer, own.tone);
         if passed > 0.0 {
-            tone += (self.mean_of(x, y, layer + 1, own.tone) - tone) * passed;
+            tone += (self.mean_of([x, y], rows, layer + 1, own.tone) - tone) * passed;
         }
         tone
     }
 
     /// The mean of a layer around a pixel; `own` where nothing of it is near.
-    fn mean_of(&self, x: u32, y: u32, layer: u32, own: f32) -> f32 {
+    fn mean_of(&self, [x, y]: [u32; 2], rows: &Taps, layer: u32, own: f32) -> f32 {
         let sum = match self.look.shift {
             0 => self.window_sum(x, y, layer),
-            _ => self.grid_sum(x, y, layer),
+            _ => self.grid_sum(&self.columns[x as usize], rows, layer),
         };
         if sum[1] > 1e-12 { sum[0] / sum[1] } else { own }
     }
@@ -202,22 +225,13 @@ impl Smoothing<'_> {
     }
 
     /// What lies between the sixteen cells around a pixel, by a cubic B-spline: tones' edges bend without kinks.
-    fn grid_sum(&self, x: u32, y: u32, layer: u32) -> Cell {
-        let cell = (1u32 << self.look.shift) as f32;
-        let at = [x, y].map(|px| (px as f32 + 0.5) / cell - 0.5);
-        let low = at.map(f32::floor);
-        let columns = spline(at[0] - low[0]);
-        let rows = spline(at[1] - low[1]);
-        let near = |low: f32, k: usize, i: usize| {
-            let last = self.look.cells[i] as f32 - 1.0;
-            (low + k as f32 - 1.0).clamp(0.0, last) as u32
-        };
+    fn grid_sum(&self, columns: &Taps, rows: &Taps, layer: u32) -> Cell {
         let mut sum = [0.0; 2];
-        for (j, row) in rows.into_iter().enumerate() {
-            let start = self.look.row_start(near(low[1], j, 1), layer);
-            for (i, column) in columns.into_iter().enumerate() {
-                let from = self.cells[start + near(low[0], i, 0) as usize];
-                let weight = row * column;
+        for (row, weight_y) in rows.cells.into_iter().zip(rows.weights) {
+            let start = self.look.row_start(row, layer);
+            for (column, weight_x) in columns.cells.into_iter().zip(columns.weights) {
+                let from = self.cells[start + column as usize];
+                let weight = weight_y * weight_x;
                 sum = [sum[0] + from[0] * weight, sum[1] + from[1] * weight];
             }
         }

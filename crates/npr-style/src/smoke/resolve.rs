@@ -118,7 +118,7 @@ impl Resolving<'_> {
             return match id {
                 0 => ([0.0; 4], 0),
                 _ => (
-                    self.paint(id, [x, y], self.window.frame_at(x, y)),
+                    self.paint_inside(id, texel, self.window.frame_at(x, y)),
                     with_mask(self.pixels[texel].depth, MASK),
                 ),
             };
@@ -241,6 +241,17 @@ impl Resolving<'_> {
     fn paint(&self, id: u32, pixel: [u32; 2], frame_px: [f32; 2]) -> [f32; 4] {
         let tone = self.tones[self.texel_near(pixel[0], pixel[1], 0, 0)];
         let [r, g, b] = self.look.color_of(tone, self.slope_at(pixel));
+        self.look
+            .under_line([r, g, b, self.look.alpha], self.line_at(id, frame_px))
+    }
+
+    /// [`paint`](Self::paint) of a pixel that shows the same sphere as all eight around it: they lie in one layer.
+    fn paint_inside(&self, id: u32, texel: usize, frame_px: [f32; 2]) -> [f32; 4] {
+        let width = self.window.size[0] as usize;
+        let across = (self.tones[texel + 1] - self.tones[texel - 1]) * 0.5;
+        let down = (self.tones[texel + width] - self.tones[texel - width]) * 0.5;
+        let slope = (across * across + down * down).sqrt();
+        let [r, g, b] = self.look.color_of(self.tones[texel], slope);
         self.look
             .under_line([r, g, b, self.look.alpha], self.line_at(id, frame_px))
     }

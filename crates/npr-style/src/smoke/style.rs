@@ -171,7 +171,8 @@ pub struct SmokeLine {
     /// Part of that which lines inside the smoke have, 0..1; default 0.6. 0 only the outer line.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub inner: f32,
-    /// From which jump in depth a puff is outlined before another, in radii of the puff, 0.01..10; default 0.4. Lower draws more lines.
+    /// From which jump in depth a puff is outlined before another, in radii of the puff, 0.01..10; default 0.4. Lines begin as
+    /// nothing there, reach `inner` at four times the jump and the full width at sixteen times. Lower draws more lines.
     #[schemars(range(min = 0.01, max = 10.0))]
     pub jump: f32,
     /// How much lines swell away from the light, 0..1; default 0.35. 0 even.
