@@ -326,6 +326,27 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
+        /// However the jump, the rule and the place are chosen, a line that is not there begins as nothing, and a small
+        /// change of the jump is a small change of what it covers.
+        #[test]
+        fn lines_grow_from_nothing_without_a_leap(
+            from in 0.01f32..10.0, inner in 0f32..=1.0, times in 0f32..20.0, more in 0f32..0.05, away in 0f32..8.0,
+            radius_px in 0f32..60.0, outward in prop::sample::select(vec![[1.0f32, 0.0], [0.0, -1.0], [-0.6, 0.8]]),
+        ) {
+            let look = SmokeLook {
+                line_px: 3.2, line_inner: inner, line_from: from, swell: 0.35, towards_light: [0.6, 0.8, 0.0],
+                ..SmokeLook::default()
+            };
+            prop_assert_eq!(look.line_width(from, outward, radius_px), 0.0);
+            let [thin, wide] = [times, times + more].map(|times| look.line_width(from * times, outward, radius_px));
+            prop_assert!(thin <= wide + 1e-5 && wide <= THICKEST * radius_px * 1.36 && wide <= 3.2 * 1.36);
+            // The steepest: half the width while the jump grows by what it began with.
+            prop_assert!(wide - thin <= 0.5 * 3.2 * 1.36 * more + 1e-4, "{} to {}", thin, wide);
+            prop_assert!(coverage(wide, away) - coverage(thin, away) <= 2.0 * (wide - thin) + 1e-5);
+            prop_assert_eq!(coverage(0.0, away), 0.0);
+            prop_assert_eq!(look.line_width(FAR_DEPTH, outward, 1e4), look.whole_width(outward, 1e4));
+        }
+
         #[test]
         fn lines_are_the_published_formula(
             depths in prop::array::uniform5(prop::array::uniform5(prop::option::weighted(0.8, -0.2f32..1.2))),
