@@ -41,6 +41,9 @@ override WG: u32 = 64u;
 @group(0) @binding(22) var smoke_shadow_1: texture_depth_2d;
 @group(0) @binding(23) var smoke_shadow_2: texture_depth_2d;
 @group(0) @binding(24) var smoke_shadow_3: texture_depth_2d;
+@group(0) @binding(25) var<uniform> rules: Rules;
+@group(0) @binding(26) var fronts: texture_2d<f32>;
+@group(0) @binding(27) var backs: texture_2d<f32>;
 
 //# use lib/texture
 //# use lib/tone_row
@@ -56,6 +59,7 @@ override WG: u32 = 64u;
 //# use lib/depth_map
 //# use lib/smoke_pen
 //# use lib/veil
+//# use lib/adapt
 
 // How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
 const TONE_ROOM: f32 = 0.002;
@@ -149,7 +153,7 @@ fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32) -> vec3<f
 
 // 1 where the surface-angle method draws a line, else 0.
 fn grazing(part: u32, world: vec3<f32>, normal: vec3<f32>) -> f32 {
-    if (parts[part].flags & PART_ANGLE) == 0u { return 0.0; }
+    if (parts[part].flags & PART_ANGLE) == 0u || (compose.flags & COMPOSE_BARE) != 0u { return 0.0; }
     return select(0.0, 1.0, abs(dot(normal, to_eye(view, world))) < parts[part].facing_threshold);
 }
 
@@ -179,6 +183,17 @@ struct InkSum {
     mean: f32,
 }
 
+// A line's colour as it minds what lies behind it there.
+fn minding(line: vec3<f32>, frame_px: vec2<f32>) -> vec3<f32> {
+    if (compose.flags & COMPOSE_BACKDROP) == 0u { return line; }
+    let pixel = pixel_at(window, frame_px);
+    let front = textureLoad(fronts, pixel, 0);
+    let back = textureLoad(backs, pixel, 0);
+    if front.a == 0.0 { return line; }
+    let adapted = adapted_light(line, linear_of(front).rgb, linear_of(back).rgb, u32(back.a * 255.0 + 0.5));
+    return line + (adapted - line) * front.a;
+}
+
 // What the samples in `members` show of a triangle, and how much of it a line covers.
 struct Drawn {
     light: vec3<f32>,
@@ -201,7 +216,7 @@ fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
         drawn = shade_surface(id, members, frame_px, center, corners);
     }
     if drawn.lined == 0.0 { return drawn.light; }
-    let line = line_light(triangle, corners, center, vec2<f32>(1.0), is_hull);
+    let line = minding(line_light(triangle, corners, center, vec2<f32>(1.0), is_hull), frame_px);
     return drawn.light + (line - drawn.light) * drawn.lined;
 }
 
@@ -319,6 +334,10 @@ fn main(
     if element >= arrayLength(&frame) { return; }
 
     let pixel = pixel_of(element, window.size);
+    if (compose.flags & COMPOSE_BARE) != 0u && textureLoad(fronts, pixel / BORDER_TILE, 0).a == 0.0 {
+        frame[element] = 0u;
+        return;
+    }
     let frame_px = frame_at(window, pixel);
     let veil = veil_of(pixel, frame_px);
     var surface = surfaces(pixel, veil, frame_px);
@@ -332,16 +351,13 @@ fn main(
         color = beams.color;
         covered = beams.covered;
     }
-    if (compose.flags & COMPOSE_RIBBONS) != 0u {
-        var line = linear_of(textureLoad(ribbons, pixel, 0));
-        if line.a > 0.0 { faded = line_fade(veil, pixel, frame_px); }
-        line.a *= (1.0 - covered) * (1.0 - max(faded, 0.0));
-        color = over(line, color);
-    }
-    if (compose.flags & COMPOSE_OVERLAY) != 0u {
-        var line = linear_texel(overlay[element]);
-        if line.a > 0.0 && faded < 0.0 { faded = line_fade(veil, pixel, frame_px); }
-        line.a *= (1.0 - covered) * (1.0 - max(faded, 0.0));
+    for (var layer = 0u; layer < 2u; layer++) {
+        var line = vec4<f32>(0.0);
+        if layer == 0u && (compose.flags & COMPOSE_RIBBONS) != 0u { line = linear_of(textureLoad(ribbons, pixel, 0)); }
+        if layer == 1u && (compose.flags & COMPOSE_OVERLAY) != 0u { line = linear_texel(overlay[element]); }
+        if line.a == 0.0 { continue; }
+        if faded < 0.0 { faded = line_fade(veil, pixel, frame_px); }
+        line = vec4<f32>(minding(line.rgb, frame_px), line.a * (1.0 - covered) * (1.0 - faded));
         color = over(line, color);
     }
     let straight = color.rgb / max(color.a, 1e-6);

@@ -28,6 +28,18 @@ macro_rules! shaders {
 }
 
 shaders! {
+    /// Marks the tiles that lie near a border between subjects.
+    BACKDROP_FLAG_TILES = "backdrop/flag_tiles";
+    /// Finds the colours of both sides of such borders.
+    BACKDROP_FIND_RIMS = "backdrop/find_rims";
+    /// Draws them as outlines of one pixel.
+    BACKDROP_DRAW_RIMS = "backdrop/draw_rims";
+    /// Blends them along the outline.
+    BACKDROP_SMOOTH_RIMS = "backdrop/smooth_rims";
+    /// Finds the nearest one in every row.
+    BACKDROP_SPREAD_ROWS = "backdrop/spread_rows";
+    /// Carries the nearest one to every pixel.
+    BACKDROP_SPREAD_RIMS = "backdrop/spread_rims";
     /// Poses and projects vertices.
     MESH_POSE_VERTICES = "mesh/pose_vertices";
     /// Decides which edges may become lines.
@@ -146,6 +158,9 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/stamp", include_str!("../lib/stamp.wgsl")),
     ("lib/color", include_str!("../lib/color.wgsl")),
     ("lib/compose", include_str!("../lib/compose.wgsl")),
+    ("lib/backdrop", include_str!("../lib/backdrop.wgsl")),
+    ("lib/adapt", include_str!("../lib/adapt.wgsl")),
+    ("lib/scenery", include_str!("../lib/scenery.wgsl")),
     ("lib/beam", include_str!("../lib/beam.wgsl")),
     ("lib/gloss", include_str!("../lib/gloss.wgsl")),
     ("lib/inking", include_str!("../lib/inking.wgsl")),

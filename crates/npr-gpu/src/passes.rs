@@ -2,6 +2,7 @@
 
 use crate::pass::Pass;
 
+pub mod backdrop;
 pub mod line;
 pub mod mesh;
 pub mod raster;
@@ -59,5 +60,11 @@ pub const ALL: &[&Pass] = &[
     &smoke::BLUR_COLUMNS,
     &smoke::SMOOTH_TONES,
     &smoke::RESOLVE_PICTURE,
+    &backdrop::FLAG_TILES,
+    &backdrop::FIND_RIMS,
+    &backdrop::DRAW_RIMS,
+    &backdrop::SMOOTH_RIMS,
+    &backdrop::SPREAD_ROWS,
+    &backdrop::SPREAD_RIMS,
     &shade::COMPOSE_FRAME,
 ];

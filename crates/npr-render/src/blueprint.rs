@@ -9,8 +9,9 @@ use npr_core::outline::Outline;
 use npr_core::window::{View, Window};
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::Format;
-use npr_gpu::passes::{line, mesh, raster, shade};
+use npr_gpu::passes::{backdrop, line, mesh, raster, shade};
 use npr_mesh::pose::Matrix;
+use npr_style::backdrop::{Rim, Rules, TILE, Wearer};
 use npr_style::compose::Compose;
 use npr_style::lighting::Lights;
 use npr_style::shadow::{SHADOW_SIDE, SHADOWS_MAX};
@@ -62,6 +63,10 @@ pub(crate) struct Method {
     pub paints: bool,
     /// Light changes the width of lines.
     pub light_widths: bool,
+    /// Pixels around subjects are drawn.
+    pub rim: bool,
+    /// Borders between subjects are found: some lines mind what lies behind them.
+    pub minds: bool,
     /// Layers that the last pass lays over the surfaces.
     pub layers: u32,
 }
@@ -76,6 +81,8 @@ impl Method {
         hull: false,
         paints: false,
         light_widths: false,
+        rim: false,
+        minds: false,
         layers: 0,
     };
 
@@ -90,11 +97,13 @@ impl Method {
         Self {
             mask: self.mask || other.mask,
             ribbons: self.ribbons || other.ribbons,
-            residual: self.residual || other.residual && !self.filter,
+            residual: self.residual || other.residual && !self.filter && !self.rim,
             filter: self.filter || other.filter,
             hull: self.hull || other.hull,
             paints: self.paints || other.paints,
             light_widths: self.light_widths || other.light_widths,
+            rim: self.rim || other.rim,
+            minds: self.minds || other.minds,
             layers: self.layers | other.layers,
         }
     }
@@ -126,6 +135,11 @@ impl Method {
             },
             LineMethod::Filter => filter,
             LineMethod::Hull => Self { hull: true, ..none },
+            LineMethod::Rim => Self {
+                rim: true,
+                layers: Compose::OVERLAY,
+                ..none
+            },
             LineMethod::FilterHull => Self {
                 hull: true,
                 ..filter
@@ -144,6 +158,11 @@ pub(crate) struct Blueprint {
     pub mask_window: ResourceId,
     pub outline: ResourceId,
     pub compose: ResourceId,
+    /// Where borders between subjects are found, if anywhere.
+    pub backdrop: Option<BackdropPlan>,
+    pub rules: ResourceId,
+    pub fronts: ResourceId,
+    pub backs: ResourceId,
     pub lights: ResourceId,
     /// The grid of every shadow image, and the views of the lights that throw shadows.
     pub shadow_window: ResourceId,
@@ -172,6 +191,16 @@ pub(crate) struct Blueprint {
     shadow_depths: [ResourceId; SHADOWS_MAX],
 }
 
+/// What the host fills where borders between subjects are found.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BackdropPlan {
+    /// The grid of tiles over the output.
+    pub tile_window: ResourceId,
+    /// Settings of the picture without lines.
+    pub bare_compose: ResourceId,
+    pub wearers: ResourceId,
+}
+
 impl Blueprint {
     pub fn new(counts: &Counts, grids: &Grids, method: Method) -> Self {
         let mut plan = Self::inputs(counts, grids, method);
@@ -194,7 +223,15 @@ impl Blueprint {
             let (window, surfaces) = (plan.output_window, plan.shadow_depths);
             plan.smoke = Some(SmokePlan::new(&mut plan.graph, needs, window, surfaces));
         }
-        plan.compose_frame();
+        if method.rim || method.minds {
+            plan.find_rims(counts, grids, method);
+        }
+        plan.compose_frame(
+            plan.compose,
+            plan.ids,
+            [plan.fronts, plan.backs],
+            plan.frame,
+        );
         plan
     }
 
@@ -213,7 +250,9 @@ impl Blueprint {
                 *depths = graph.image("shadow depths", Format::Depth, shadow(i));
             }
         }
-        let overlay = pixel_count(only(method.residual || method.filter, grids.output));
+        let overlay = method.residual || method.filter || method.rim;
+        let overlay = pixel_count(only(overlay, grids.output));
+        let sides = only(method.rim || method.minds, grids.output);
         Self {
             view: graph.uniform::<View>("view"),
             output_window: graph.uniform::<Window>("output window"),
@@ -221,6 +260,10 @@ impl Blueprint {
             mask_window: graph.uniform::<Window>("mask window"),
             outline: graph.uniform::<Outline>("outline"),
             compose: graph.uniform::<Compose>("compose"),
+            backdrop: None,
+            rules: graph.uniform::<Rules>("rules"),
+            fronts: graph.image("fronts", Format::Rgba8, sides),
+            backs: graph.image("backs", Format::Rgba8, sides),
             lights: graph.uniform::<Lights>("lights"),
             shadow_window: graph.uniform::<Window>("shadow window"),
             light_views: (0..counts.shadows)
@@ -477,13 +520,91 @@ impl Blueprint {
             .draw(&raster::DRAW_BEAMS, &bound, &[self.beam_ids, depths], true);
     }
 
-    fn compose_frame(&mut self) {
+    /// The picture without lines near borders between subjects, the colours of both sides, and where they reach.
+    fn find_rims(&mut self, counts: &Counts, grids: &Grids, method: Method) {
+        let pixels = grids.output[0] as usize * grids.output[1] as usize;
+        let tiles = grids.output.map(|side| side.div_ceil(TILE));
+        let plan = BackdropPlan {
+            tile_window: self.graph.uniform::<Window>("tile window"),
+            bare_compose: self.graph.uniform::<Compose>("bare compose"),
+            wearers: self.graph.buffer::<Wearer>("wearers", counts.parts),
+        };
+        let [ids, depths] = self.bare_ids(grids, method);
+        let busy = self.graph.image("busy", Format::Rgba8, tiles);
+        let bare = self.graph.buffer::<u32>("bare", pixels);
+        let rims = self.graph.buffer::<Rim>("rims", pixels);
+        let smoothed = self.graph.buffer::<Rim>("smoothed rims", pixels);
+        let columns = self.graph.buffer::<u32>("columns", pixels);
+        let (window, rules) = (self.output_window, self.rules);
+        let flag = [
+            plan.tile_window,
+            window,
+            rules,
+            ids,
+            self.triangles,
+            plan.wearers,
+        ];
+        self.graph.draw(&backdrop::FLAG_TILES, &flag, &[busy], true);
+        self.compose_frame(plan.bare_compose, ids, [busy; 2], bare);
+        let find = [
+            window,
+            rules,
+            ids,
+            depths,
+            self.ids,
+            busy,
+            self.ribbons,
+            self.triangles,
+            self.parts,
+            plan.wearers,
+            bare,
+            self.overlay,
+            rims,
+        ];
+        self.graph.compute(&backdrop::FIND_RIMS, &find);
+        if method.rim {
+            let draw = [self.parts, rims, self.overlay];
+            self.graph.compute(&backdrop::DRAW_RIMS, &draw);
+        }
+        self.graph
+            .compute(&backdrop::SMOOTH_RIMS, &[window, rules, rims, smoothed]);
+        self.graph
+            .compute(&backdrop::SPREAD_ROWS, &[window, rules, smoothed, columns]);
+        let (spread, sides) = (
+            [window, rules, smoothed, columns],
+            [self.fronts, self.backs],
+        );
+        self.graph
+            .draw(&backdrop::SPREAD_RIMS, &spread, &sides, true);
+        self.backdrop = Some(plan);
+    }
+
+    /// Triangle numbers and depths without hulls.
+    fn bare_ids(&mut self, grids: &Grids, method: Method) -> [ResourceId; 2] {
+        if !method.hull {
+            return [self.ids, self.depths];
+        }
+        let color = grids.output.map(|side| side * grids.samples);
+        let ids = self.graph.image("bare ids", Format::U32, color);
+        let depths = self.graph.image("bare depths", Format::Depth, color);
+        self.draw_ids(self.color_window, ids, depths);
+        [ids, depths]
+    }
+
+    /// The last pass, by some settings over some triangle numbers.
+    fn compose_frame(
+        &mut self,
+        compose: ResourceId,
+        ids: ResourceId,
+        sides: [ResourceId; 2],
+        frame: ResourceId,
+    ) {
         let bound = [
             self.view,
             self.output_window,
-            self.compose,
+            compose,
             self.lights,
-            self.ids,
+            ids,
             self.beam_ids,
             self.ribbons,
             self.posed,
@@ -493,10 +614,10 @@ impl Blueprint {
             self.texels,
             self.charts,
             self.overlay,
-            self.frame,
+            frame,
         ];
         let smoke = SmokePlan::composed(self.smoke.as_ref(), &mut self.graph);
-        let bound = [&bound[..], &self.shadows, &smoke].concat();
+        let bound = [&bound[..], &self.shadows, &smoke, &[self.rules], &sides].concat();
         self.graph.compute(&shade::COMPOSE_FRAME, &bound);
     }
 }

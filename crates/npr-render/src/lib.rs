@@ -19,6 +19,7 @@
 //! # Ok::<(), npr_render::RenderError>(())
 //! ```
 
+mod backdrop;
 mod beam_light;
 mod bend;
 mod blending;

@@ -26,6 +26,8 @@ pub struct PartInfo {
     pub material_name: String,
     /// Number of the object, the same for all its parts.
     pub object: u32,
+    /// Number of the node at the top of the file's tree that the object hangs on; its own where it hangs on none.
+    pub root: u32,
     /// Number of the material.
     pub material: u32,
     /// Base colour factor, linear light, straight alpha.
@@ -298,6 +300,7 @@ impl PartInfo {
             object_name: object_name.to_owned(),
             material_name: found.name.clone(),
             object,
+            root: Self::root_of(scene, object),
             material: material.unwrap_or(NONE - 1),
             base_color: found.base_color,
             texture: NONE,

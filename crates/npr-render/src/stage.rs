@@ -1,5 +1,6 @@
 //! A model, a style and a frame size on an engine, ready to draw.
 
+use crate::backdrop::{Backdrop, Sides};
 use crate::blending::Blending;
 use crate::blueprint::{Blueprint, Counts, Grids, Method};
 use crate::error::RenderError;
@@ -23,6 +24,7 @@ use npr_gpu::engine::{Engine, EngineError, Session};
 use npr_gpu::graph::ResourceId;
 use npr_scene::Image;
 use npr_style::Style;
+use npr_style::backdrop::{Rules, TILE};
 use npr_style::compose::Compose;
 use npr_style::lighting::LightSource;
 use npr_style::shadow::SHADOW_SIDE;
@@ -105,6 +107,7 @@ pub struct Stage<'a> {
     grids: Grids,
     method: Method,
     styled: StyledModel,
+    backdrop: Backdrop,
     lights: ChosenLights,
     /// The lights of the smoke, and whether they are those of the scene.
     smoke_lights: (ChosenLights, bool),
@@ -151,6 +154,22 @@ impl<'a> Stage<'a> {
             size: options.size,
             samples: if style.antialias.samples > 1 { 2 } else { 1 },
         };
+        let backdrop = Backdrop::new(model, style, styled.parts.len());
+        styled.inked.notices.extend(backdrop.notice.clone());
+        let mut method = match model.triangles.is_empty() {
+            true => Method::NONE,
+            false => Method::of(style),
+        };
+        method.minds = backdrop.is_on;
+        if method.rim || method.minds {
+            let px = [
+                measure.height_px,
+                options.dpi,
+                options.size[1] as f32 / model.radius(),
+            ];
+            let rules = backdrop.rules(style, method, reach, px, measure.samples);
+            reach = reach.max(rules.room_px() as f32);
+        }
         if options.smoke.is_some() {
             reach = reach.max(measure.reach_px(&style.smoke));
         }
@@ -185,12 +204,11 @@ impl<'a> Stage<'a> {
                 size: grids.output,
             }),
         };
-        let mut method = match model.triangles.is_empty() {
-            true => Method::NONE,
-            false => Method::of(style),
-        };
         method.paints = is_any_painted(&styled.parts);
         method.light_widths = is_any_width_lit(&styled.parts);
+        if method.minds {
+            method.layers |= Compose::BACKDROP;
+        }
         if counts.beams > 0 {
             method.layers |= Compose::BEAMS;
         }
@@ -231,6 +249,7 @@ impl<'a> Stage<'a> {
             grids,
             method,
             styled,
+            backdrop,
             lights,
             smoke_lights,
             lettering,
@@ -254,7 +273,12 @@ impl<'a> Stage<'a> {
     }
 
     /// Draws the lines of parts whose method is `curves` over a frame.
-    fn draw_curves(&self, camera: &Camera, frame: &mut Frame) -> Result<(), RenderError> {
+    fn draw_curves(
+        &self,
+        camera: &Camera,
+        minded: Option<&(Sides, Rules)>,
+        frame: &mut Frame,
+    ) -> Result<(), RenderError> {
         if !self.style.has_curves() {
             return Ok(());
         }
@@ -269,7 +293,14 @@ impl<'a> Stage<'a> {
         };
         let beside = (self.options.smoke.as_ref(), &self.options.pictures);
         let drawing = lines.draw_curves(camera, &self.style, &options, beside)?;
-        paint_drawing_over(&drawing, &ArtworkOptions::default(), &mut frame.rgba);
+        let options = ArtworkOptions::default();
+        let Some((sides, rules)) = minded else {
+            paint_drawing_over(&drawing, &options, &mut frame.rgba);
+            return Ok(());
+        };
+        let mut lines = vec![0; frame.rgba.len()];
+        paint_drawing_over(&drawing, &options, &mut lines);
+        sides.lay(&lines, rules, &mut frame.rgba);
         Ok(())
     }
 
@@ -288,6 +319,9 @@ impl<'a> Stage<'a> {
         let window = Window::over(shadow_px, [0.0; 2], shadow_px, [SHADOW_SIDE; 2]);
         write(session, plan.shadow_window, &[window])?;
         write(session, plan.texels, styled.textures.words())?;
+        if let Some(minding) = &plan.backdrop {
+            write(session, minding.wearers, &self.backdrop.wearers)?;
+        }
         self.upload_smoke()
     }
 
@@ -408,7 +442,23 @@ impl<'a> Stage<'a> {
         if self.plan.smoke.is_some() && self.smoke_lights.1 && self.style.smoke.casts {
             compose.smoke_shadow_side = self.style.smoke.shadow_px;
         }
+        let rules = self.backdrop.rules(
+            &self.style,
+            self.method,
+            half,
+            [self.options.size[1] as f32, self.options.dpi, world_px],
+            self.grids.samples,
+        );
         let session = self.session.as_mut();
+        write(session, self.plan.rules, &[rules])?;
+        if let Some(minding) = &self.plan.backdrop {
+            let lines = Compose::RIBBONS | Compose::OVERLAY | Compose::BACKDROP;
+            let bare = Compose {
+                flags: compose.flags & !lines | Compose::BARE,
+                ..compose
+            };
+            write(session, minding.bare_compose, &[bare])?;
+        }
         write(session, self.plan.view, &[view])?;
         write(session, self.plan.outline, &[outline])?;
         write(session, self.plan.compose, &[compose])?;
@@ -423,10 +473,13 @@ impl<'a> Stage<'a> {
         self.upload_smoke_view(camera, &view)?;
         let mut frame = Frame::new(self.options.size);
         frame.notices.extend_from_slice(self.notices());
+        let curves = self.lines.is_some() && self.style.has_curves();
+        let mut sides = (self.method.minds && curves).then(|| Sides::new(self.options.size));
         for origin in self.tiles.origins() {
-            self.draw_tile(&view, origin, &mut frame)?;
+            self.draw_tile(&view, origin, &mut frame, sides.as_mut())?;
         }
-        self.finish(camera, &view, &mut frame)?;
+        let minded = sides.map(|sides| (sides, rules));
+        self.finish(camera, &view, minded.as_ref(), &mut frame)?;
         Ok(frame)
     }
 
@@ -454,9 +507,10 @@ impl<'a> Stage<'a> {
         &mut self,
         camera: &Camera,
         view: &View,
+        minded: Option<&(Sides, Rules)>,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
-        self.draw_curves(camera, frame)?;
+        self.draw_curves(camera, minded, frame)?;
         if let Some(streaks) = &mut self.streaks {
             streaks.apply(camera, view, frame)?;
         }
@@ -475,6 +529,7 @@ impl<'a> Stage<'a> {
         view: &View,
         origin: [u32; 2],
         frame: &mut Frame,
+        sides: Option<&mut Sides>,
     ) -> Result<(), EngineError> {
         let size = self.tiles.size();
         let corner = self.tiles.corner_px(origin);
@@ -488,6 +543,12 @@ impl<'a> Stage<'a> {
             &[over(size.map(|side| side * self.grids.samples))],
         )?;
         write(session, self.plan.mask_window, &[over(self.grids.mask)])?;
+        if let Some(minding) = &self.plan.backdrop {
+            let tiles = size.map(|side| side.div_ceil(TILE));
+            let covered = tiles.map(|count| (count * TILE) as f32);
+            let window = Window::over(view.frame_px, corner, covered, tiles);
+            write(session, minding.tile_window, &[window])?;
+        }
         let times = session.run()?;
         let tile = session.read(self.plan.frame)?;
         frame.paste(
@@ -498,6 +559,17 @@ impl<'a> Stage<'a> {
             self.tiles.kept,
         );
         frame.add_times(&times);
+        if let Some(sides) = sides {
+            let margin = [self.tiles.margin; 2];
+            let kept = self.tiles.kept;
+            for (id, picture) in [
+                (self.plan.fronts, &mut sides.fronts),
+                (self.plan.backs, &mut sides.backs),
+            ] {
+                let texels = session.read(id)?;
+                picture.paste(&texels, size[0], margin, origin, kept);
+            }
+        }
         Ok(())
     }
 }

@@ -6,7 +6,7 @@
 //! ```
 //! use npr_style::backdrop::{Rule, adapt};
 //!
-//! let rule = Rule { target: 0.3, ..Rule::CONTRAST };
+//! let rule = Rule { goal: 0.3, ..Rule::CONTRAST };
 //! let (line, sleeve) = ([0.0; 3], [0.1, 0.1, 0.3]);
 //!
 //! // On white a black line reads; before a dark wall it becomes a lighter blue of the sleeve.
@@ -18,9 +18,18 @@
 mod adapt;
 mod oklab;
 pub mod published;
+mod rims;
 mod rule;
+mod spread;
 
 pub use adapt::{adapt, adapted_light, contrast};
 pub use oklab::{light_of_oklab, oklab_of_light};
 pub use published::Criteria;
+pub use rims::{
+    Rim, Scenery, Search, TILE, Wearer, draw_rims, find_rims, flag_tiles, tiles_across,
+};
 pub use rule::{RULES_MAX, Rule, Rules};
+pub use spread::{SMOOTH_MOST, smooth_rims, spread_rims, spread_rows};
+
+#[cfg(test)]
+mod tests;

@@ -10,6 +10,7 @@ use npr_core::window::{View, Window};
 use rayon::prelude::*;
 use std::ops::Range;
 
+use crate::backdrop::{self, Rules};
 use crate::known::Known;
 use crate::lighting::Lights;
 use crate::line_color::LinePlace;
@@ -92,6 +93,10 @@ impl Compose {
     pub const SMOKE: u32 = 8;
     /// Finishes the smoke: its colours are tones and lines yet, see [`crate::smoke::pen`].
     pub const SMOKE_PEN: u32 = 16;
+    /// Lines mind what lies behind them: [`Layers::fronts`] and [`Layers::backs`] say what that is.
+    pub const BACKDROP: u32 = 64;
+    /// The picture without any lines, and only in the tiles that [`Layers::fronts`] marks.
+    pub const BARE: u32 = 128;
 }
 
 /// What a frame is composed from.
@@ -133,6 +138,13 @@ pub struct Layers<'a> {
     pub smoke_depths: &'a [u32],
     /// Reversed depths of the smoke as the lights with shadows see it, [`Compose::smoke_shadow_side`] texels square.
     pub smoke_shadows: [&'a [u32]; SHADOWS_MAX],
+    /// The rules by which lines mind what lies behind them.
+    pub rules: &'a Rules,
+    /// With [`Compose::BACKDROP`] the subject's colour beside every line, see [`backdrop::spread_rims`]; with [`Compose::BARE`]
+    /// a texel for every tile, see [`backdrop::flag_tiles`].
+    pub fronts: &'a [u32],
+    /// With [`Compose::BACKDROP`] the colour behind every line.
+    pub backs: &'a [u32],
 }
 
 /// Composes the output as sRGB bytes with straight alpha.
@@ -159,13 +171,17 @@ pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
                 let run = left..width.min(left + RUN);
                 let texels = &mut row[run.clone()];
                 if let Some(empty) = composer.empty
+                    && layers.compose.flags & Compose::BARE == 0
                     && layers.is_bare(run, y)
                 {
                     texels.fill(empty);
                     continue;
                 }
                 for (x, texel) in (left as u32..).zip(texels) {
-                    *texel = composer.texel(x, y as u32);
+                    *texel = match layers.is_left_out(x, y as u32) {
+                        true => 0,
+                        false => composer.texel(x, y as u32),
+                    };
                 }
             }
         });
@@ -250,9 +266,10 @@ impl<'a> Composer<'a> {
         };
         for line in lines {
             if line >> 24 != 0 {
-                let mut line = self.layers.linear_texel(line);
-                line[3] *= (1.0 - covered) * (1.0 - faded);
-                color = over(line, color);
+                let [r, g, b, a] = self.layers.linear_texel(line);
+                let [r, g, b] = self.layers.minding([r, g, b], frame_px);
+                let a = a * (1.0 - covered) * (1.0 - faded);
+                color = over([r, g, b, a], color);
             }
         }
         encoded(self.encoder, color)
@@ -336,7 +353,8 @@ impl<'a> Composer<'a> {
                 step_px: [1.0; 2],
                 is_hull: true,
             };
-            return self.layers.line_light(triangle, part, &corners, &place);
+            let line = self.layers.line_light(triangle, part, &corners, &place);
+            return self.layers.minding(line, frame_px);
         }
         let known = &self.known[index];
         if let Some(color) = known.whole() {
@@ -456,6 +474,33 @@ impl<'a> Layers<'a> {
         ]
     }
 
+    /// Whether a pixel of the picture without lines is not needed.
+    fn is_left_out(&self, x: u32, y: u32) -> bool {
+        if self.compose.flags & Compose::BARE == 0 {
+            return false;
+        }
+        let across = backdrop::tiles_across(self.window.size);
+        self.fronts[(y / backdrop::TILE * across + x / backdrop::TILE) as usize] == 0
+    }
+
+    /// A line's colour as it minds what lies behind it there; linear light.
+    pub(crate) fn minding(&self, line: [f32; 3], frame_px: [f32; 2]) -> [f32; 3] {
+        if self.compose.flags & Compose::BACKDROP == 0 {
+            return line;
+        }
+        let [x, y] = self.window.pixel_at(frame_px);
+        let element = (y * self.window.size[0] + x) as usize;
+        let (front, back) = (self.fronts[element], self.backs[element]);
+        if front >> 24 == 0 {
+            return line;
+        }
+        let rule = &self.rules.rules[(back >> 24) as usize];
+        let [rim_r, rim_g, rim_b, weight] = self.linear_texel(front);
+        let [r, g, b, _] = self.linear_texel(back);
+        let adapted = backdrop::adapted_light(line, [rim_r, rim_g, rim_b], [r, g, b], rule);
+        std::array::from_fn(|i| line[i] + (adapted[i] - line[i]) * weight)
+    }
+
     /// What lies behind everything, premultiplied.
     fn background(&self, frame_px: [f32; 2]) -> [f32; 4] {
         let mut color = self.compose.background;
@@ -536,6 +581,9 @@ mod tests {
             smoke_colors: &[],
             smoke_depths: &[],
             smoke_shadows: [&[]; SHADOWS_MAX],
+            rules: &Rules::default(),
+            fronts: &[],
+            backs: &[],
         };
         let mut frame = vec![0; 16];
         compose(&layers, &mut frame);

@@ -198,7 +198,7 @@ mod tests {
                 view: &view, window: &Window::default(), compose: &compose, lights: &Lights::distant(unit_or_z(light)),
                 ids: &[], beam_ids: &[], ribbons: &[], posed: &posed, vertices: &vertices,
                 triangles: &triangles, parts: &parts, texels: store.words(), charts: &[], overlay: &[], shadows: [&[]; 4],
-                smoke_colors: &[], smoke_depths: &[], smoke_shadows: [&[]; 4],
+                smoke_colors: &[], smoke_depths: &[], smoke_shadows: [&[]; 4], rules: &crate::backdrop::Rules::default(), fronts: &[], backs: &[],
             };
             let known = layers.known(&triangles[0]);
             let corners = layers.corners_of(&triangles[0]);

@@ -26,6 +26,8 @@ pub enum LineMethod {
     FilterHull,
     /// Edges between a front and a back face [Marshall 2001].
     Edges,
+    /// The pixels outside of a subject that touch it: one pixel wide, whatever `width` says [Tsuji 2014].
+    Rim,
     /// Pixels whose surface lies near its silhouette, by an angle [Gooch et al. 1999].
     Angle,
     /// Strokes of `npr lines`: exact, with hidden lines removed, joined and smoothed, drawn over the finished surfaces, their

@@ -152,7 +152,7 @@ impl LineBackground {
             },
             direction,
             measure,
-            target,
+            goal: target,
             ..backdrop::Rule::CONTRAST
         }
     }

@@ -19,6 +19,7 @@ use npr_core::texture::{self, HEADER_WORDS};
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
 
+use crate::backdrop::Rules;
 use crate::compose::{Compose, LUMA, Layers};
 use crate::gloss::back_light;
 use crate::lighting::Lights;
@@ -239,6 +240,9 @@ impl<'a> Deciding<'a> {
             smoke_colors: &[],
             smoke_depths: &[],
             smoke_shadows: [&[]; SHADOWS_MAX],
+            rules: &Rules::NONE,
+            fronts: &[],
+            backs: &[],
         }
     }
 

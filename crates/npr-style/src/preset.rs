@@ -111,6 +111,12 @@ const PRESETS: &[Preset] = &[
         text: include_str!("../presets/lit-lines.toml"),
     },
     Preset {
+        name: "night",
+        version: 1,
+        title: "Dark cel paint whose lines lift from dark backgrounds, just enough to read",
+        text: include_str!("../presets/night.toml"),
+    },
+    Preset {
         name: "plain",
         version: 1,
         title: "Materials in soft light, without lines or ink",

@@ -338,6 +338,9 @@ mod tests {
                 smoke_colors: &[],
                 smoke_depths: &[],
                 smoke_shadows: [&[]; SHADOWS_MAX],
+                rules: &crate::backdrop::Rules::default(),
+                fronts: &[],
+                backs: &[],
             };
             let posed = self.triangles[own].corners.map(|v| &self.posed[v as usize]);
             let corners = Corners {

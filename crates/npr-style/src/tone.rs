@@ -3,7 +3,7 @@
 //! What is the same all over a triangle is found once a frame (`known.rs`), what changes gently once a pixel, at the middle
 //! of the samples that show the triangle; what has edges at every sample.
 
-use crate::compose::Layers;
+use crate::compose::{Compose, Layers};
 use crate::gloss::shines_gently;
 use crate::inking::ink_over;
 use crate::known::Known;
@@ -224,7 +224,7 @@ impl<'a> Layers<'a> {
             step_px: [1.0; 2],
             is_hull: false,
         };
-        let line = self.line_light(triangle, part, corners, &place);
+        let line = self.minding(self.line_light(triangle, part, corners, &place), frame_px);
         std::array::from_fn(|i| drawn[i] + (line[i] - drawn[i]) * sampled.line)
     }
 
@@ -354,6 +354,7 @@ impl<'a> Layers<'a> {
     /// Whether the surface-angle method draws a line on a surface at `world` that faces along `normal`.
     fn is_grazing(&self, part: &Part, world: [f32; 3], normal: [f32; 3]) -> bool {
         part.flags & Part::ANGLE != 0
+            && self.compose.flags & Compose::BARE == 0
             && dot(normal, self.view.to_eye(world)).abs() < part.facing_threshold
     }
 
@@ -532,7 +533,7 @@ mod tests {
                 view: &View::default(), window: &Window::default(), compose: &compose, lights: &Lights::distant(unit_or_z(light)),
                  ids: &[], beam_ids: &[], ribbons: &[], posed: &posed, vertices: &[Vertex::default(); 3],
                 triangles: &[triangle], parts: &[part], texels: &[], charts: &[], overlay: &[], shadows: [&[]; 4],
-                smoke_colors: &[], smoke_depths: &[], smoke_shadows: [&[]; 4],
+                smoke_colors: &[], smoke_depths: &[], smoke_shadows: [&[]; 4], rules: &crate::backdrop::Rules::default(), fronts: &[], backs: &[],
             };
             let corners = layers.corners_of(&triangle);
             if let Some(light) = layers.even_light(&part, &corners) {

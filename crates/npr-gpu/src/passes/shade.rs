@@ -3,6 +3,7 @@
 use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
 use npr_core::geometry::{ChartCorners, Part, PosedVertex, Triangle, Vertex};
 use npr_core::window::{View, Window};
+use npr_style::backdrop::Rules;
 use npr_style::compose::{Compose, Layers, compose};
 use npr_style::lighting::Lights;
 
@@ -36,11 +37,15 @@ pub const COMPOSE_FRAME: Pass = Pass {
         texture("smoke_shadow_1", Format::Depth),
         texture("smoke_shadow_2", Format::Depth),
         texture("smoke_shadow_3", Format::Depth),
+        uniform::<Rules>("rules"),
+        texture("fronts", Format::Rgba8),
+        texture("backs", Format::Rgba8),
     ],
     work: Work::PerElement { of: "frame" },
     agreement: Agreement::Texels(0.001),
     twin: |b| {
         let (view, window, settings, lights) = (b.one(0), b.one(1), b.one(2), b.one(3));
+        let rules = b.one(25);
         let layers = Layers {
             view: &view,
             window: &window,
@@ -60,6 +65,9 @@ pub const COMPOSE_FRAME: Pass = Pass {
             smoke_colors: b.image(19).texels,
             smoke_depths: b.image(20).texels,
             smoke_shadows: std::array::from_fn(|i| b.image(21 + i).texels),
+            rules: &rules,
+            fronts: b.image(26).texels,
+            backs: b.image(27).texels,
         };
         compose(&layers, b.write(14));
     },

@@ -1,25 +1,37 @@
 //! What every slot of every pass holds in a frame: the scene, and what the twins make of it.
 
 use crate::scene::{
-    FRAME_PX, Look, SHADOW_SIDE, Scene, compose, lights, outline, smoke_look, spheres, view,
+    FRAME_PX, Look, SHADOW_SIDE, Scene, bare_compose, compose, lights, outline, rules, smoke_look,
+    spheres, view, wearers,
 };
 use npr_core::smoke::Lens;
 use npr_core::window::Window;
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::{Graph, Kind, ResourceId};
 use npr_gpu::pass::{Access, Format, Pass};
-use npr_gpu::passes::{line, mesh, raster, shade, smoke};
+use npr_gpu::passes::{backdrop, line, mesh, raster, shade, smoke};
 use npr_gpu::processor::Processor;
+use npr_style::backdrop::TILE;
 use std::collections::BTreeMap;
 
 /// Slots that bind a resource of another name: two passes work on the grid of the mask only and call it the window.
-const RENAMED: [(&str, &str, &str); 9] = [
+const RENAMED: [(&str, &str, &str); 19] = [
+    ("backdrop.flag_tiles", "window", "tile_window"),
+    ("backdrop.flag_tiles", "output_window", "window"),
+    ("backdrop.flag_tiles", "ids", "bare_ids"),
+    ("backdrop.find_rims", "ids", "bare_ids"),
+    ("backdrop.find_rims", "depths", "bare_depth"),
+    ("backdrop.find_rims", "drawn_ids", "ids"),
+    ("backdrop.draw_rims", "overlay", "rim_lines"),
+    ("backdrop.spread_rows", "rims", "smoothed_rims"),
+    ("backdrop.spread_rims", "rims", "smoothed_rims"),
     ("raster.draw_shadow", "window", "shadow_window"),
     ("line.resolve_gbuffer", "window", "mask_window"),
     ("line.resolve_gbuffer", "ids", "mask_ids"),
     ("line.detect", "window", "mask_window"),
     ("line.color_mask", "window", "mask_window"),
     ("line.color_mask", "ids", "mask_ids"),
+    ("backdrop.smooth_rims", "smoothed", "smoothed_rims"),
     ("line.flag_tiles", "stamps", "smoothed"),
     ("line.stamp_residual", "stamps", "smoothed"),
     ("line.stamp_residual", "stamped", "overlay"),
@@ -47,7 +59,7 @@ pub struct Frame {
 
 impl Frame {
     /// The names of what passes make.
-    pub const MADE: [&str; 30] = [
+    pub const MADE: [&str; 38] = [
         "posed",
         "lit",
         "projected",
@@ -77,6 +89,14 @@ impl Frame {
         "smoothed",
         "tiles",
         "overlay",
+        "busy",
+        "bare",
+        "rims",
+        "smoothed_rims",
+        "rim_lines",
+        "columns",
+        "fronts",
+        "backs",
         "frame",
     ];
 
@@ -133,6 +153,9 @@ impl Builder {
         self.give_uniform("view", &[view(look)]);
         self.give_uniform("outline", &[outline(look)]);
         self.give_uniform("compose", &[compose(look, &scene)]);
+        self.give_uniform("bare_compose", &[bare_compose(look, &scene)]);
+        self.give_uniform("rules", &[rules(look)]);
+        self.give_buffer("wearers", &wearers());
         self.give_uniform("lights", &[lights(look)]);
         self.give_uniform("light_from_world", &[lights(look).shadows[0]]);
         let shadow_px = [SHADOW_SIDE as f32; 2];
@@ -236,6 +259,7 @@ impl Builder {
         self.make_buffer("tiles", 4, area(mask_size.map(|side| side.div_ceil(16))));
         self.make_buffer("overlay", 4, pixels);
         self.make_buffer("frame", 4, pixels);
+        self.make_backdrop(look, size);
 
         self.compute(&mesh::POSE_VERTICES);
         self.compute(&line::LIGHT_WIDTHS);
@@ -248,6 +272,12 @@ impl Builder {
         self.draw(&raster::DRAW_IDS, "sample_window", ["ids", "depth"], true);
         let targets = ["beam_ids", "beam_depth"];
         self.draw(&raster::DRAW_BEAMS, "sample_window", targets, true);
+        self.draw(
+            &raster::DRAW_IDS,
+            "sample_window",
+            ["bare_ids", "bare_depth"],
+            true,
+        );
         if look == Look::Ours {
             self.draw(&raster::DRAW_HULL, "sample_window", ["ids", "depth"], false);
         }
@@ -268,7 +298,51 @@ impl Builder {
             Look::Ours => self.compute(&line::STAMP_RESIDUAL),
             Look::Published => self.compute(&line::DRAW_MASK),
         }
+        self.line_up_backdrop();
         self.compute(&shade::COMPOSE_FRAME);
+    }
+
+    fn make_backdrop(&mut self, look: Look, size: [u32; 2]) {
+        let samples = size.map(|side| side * rules(look).samples);
+        let tiles = size.map(|side| side.div_ceil(TILE));
+        let frame_px = FRAME_PX.map(|side| side as f32);
+        let extent = tiles.map(|side| (side * TILE) as f32);
+        let window = Window::over(frame_px, [0.0; 2], extent, tiles);
+        self.give_uniform("tile_window", &[window]);
+        self.make_image("bare_ids", Format::U32, samples);
+        self.make_image("bare_depth", Format::Depth, samples);
+        self.make_image("busy", Format::Rgba8, tiles);
+        self.make_image("fronts", Format::Rgba8, size);
+        self.make_image("backs", Format::Rgba8, size);
+        self.make_buffer("bare", 4, area(size));
+        self.make_buffer("rims", 16, area(size));
+        self.make_buffer("smoothed_rims", 16, area(size));
+        self.make_buffer("columns", 4, area(size));
+        self.make_buffer("rim_lines", 4, area(size));
+    }
+
+    fn line_up_backdrop(&mut self) {
+        let id = |name: &str| self.ids[name].0;
+        let flag = self.bound(&backdrop::FLAG_TILES, "tile_window");
+        self.graph
+            .draw(&backdrop::FLAG_TILES, &flag, &[id("busy")], true);
+        let bare = shade::COMPOSE_FRAME.slots.iter().map(|slot| {
+            id(match slot.name {
+                "compose" => "bare_compose",
+                "ids" => "bare_ids",
+                "fronts" | "backs" => "busy",
+                "frame" => "bare",
+                name => name,
+            })
+        });
+        let bare: Vec<_> = bare.collect();
+        self.graph.compute(&shade::COMPOSE_FRAME, &bare);
+        self.compute(&backdrop::FIND_RIMS);
+        self.compute(&backdrop::DRAW_RIMS);
+        self.compute(&backdrop::SMOOTH_RIMS);
+        self.compute(&backdrop::SPREAD_ROWS);
+        let targets = ["fronts", "backs"];
+        self.draw(&backdrop::SPREAD_RIMS, "window", targets, true);
     }
 
     fn give_uniform<T: bytemuck::Pod>(&mut self, name: &'static str, value: &[T; 1]) {

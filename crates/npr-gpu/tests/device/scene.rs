@@ -10,6 +10,7 @@ use npr_core::texture::{TextureStore, Wrap};
 use npr_core::window::View;
 use npr_mesh::testing::{Random, torus, uv_sphere};
 use npr_mesh::{EdgeFlags, NO_FACE, smooth_normals, unique_edges, weld};
+use npr_style::backdrop::{Criteria, Rule, Rules, Wearer};
 use npr_style::compose::Compose;
 use npr_style::lighting::{LightSource, Lights};
 use npr_style::smoke::{SmokeLook, pen};
@@ -321,10 +322,14 @@ pub fn compose(look: Look, scene: &Scene) -> Compose {
     let (samples, flags, background_texture) = match look {
         Look::Ours => (
             2,
-            Compose::RIBBONS | Compose::OVERLAY | Compose::BEAMS | smoke,
+            Compose::RIBBONS | Compose::OVERLAY | Compose::BEAMS | Compose::BACKDROP | smoke,
             NONE,
         ),
-        Look::Published => (1, Compose::OVERLAY | Compose::SMOKE, scene.parts[1].texture),
+        Look::Published => (
+            1,
+            Compose::OVERLAY | Compose::BACKDROP | Compose::SMOKE,
+            scene.parts[1].texture,
+        ),
     };
     Compose {
         samples,
@@ -344,6 +349,53 @@ pub fn compose(look: Look, scene: &Scene) -> Compose {
         saturation: 1.2,
         ..Compose::default()
     }
+}
+
+/// The same for the picture without lines.
+pub fn bare_compose(look: Look, scene: &Scene) -> Compose {
+    let drawn = compose(look, scene);
+    let lines = Compose::RIBBONS | Compose::OVERLAY | Compose::BACKDROP;
+    Compose {
+        flags: drawn.flags & !lines | Compose::BARE,
+        ..drawn
+    }
+}
+
+/// By which rules lines mind the background in a look.
+pub fn rules(look: Look) -> Rules {
+    let mut rules = Rules {
+        samples: if look == Look::Ours { 2 } else { 1 },
+        smooth_px: 5.0,
+        whole_px: 2.0,
+        reach_px: 4,
+        within: match look {
+            Look::Ours => Rules::ALWAYS | Rules::RIBBONS | Rules::OVERLAY,
+            Look::Published => 0,
+        },
+        ..Rules::default()
+    };
+    let criteria = Criteria {
+        rgb: Some(0.8),
+        saturation: Some(0.9),
+        hue_deg: Some(170.0),
+        ..Criteria::default()
+    };
+    rules.rules[1] = Rule::CONTRAST;
+    rules.rules[2] = match look {
+        Look::Ours => Rule {
+            measure: Rule::WCAG,
+            goal: 3.0,
+            direction: Rule::BRIGHTER,
+            ..Rule::CONTRAST
+        },
+        Look::Published => criteria.rule(1.7, Rule::AUTO),
+    };
+    rules
+}
+
+/// A subject for either surface; the beam is of none.
+pub fn wearers() -> [Wearer; 3] {
+    [(1, 1), (2, 2), (0, 0)].map(|(subject, rule)| Wearer { subject, rule })
 }
 
 /// The first part that strokes are drawn on.

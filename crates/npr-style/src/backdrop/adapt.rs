@@ -98,10 +98,7 @@ pub fn adapted_light(line: [f32; 3], rim: [f32; 3], behind: [f32; 3], rule: &Rul
     }
     let edge = oklab_of_light(rim);
     let share = smoothstep(0.0, target * HUE_AT, step);
-    if rule.measure == Rule::WCAG {
-        return at_luminance(luminance_at(to), own, edge, share);
-    }
-    at_lightness(to, own, edge, share)
+    at_place(to, own, edge, share, rule)
 }
 
 /// Where a colour lies on the scale of the rule's measure, 0 black to 1 white.
@@ -120,9 +117,9 @@ fn luminance_at(place: f32) -> f32 {
 /// The rule's target as a distance on that scale.
 fn target_of(rule: &Rule) -> f32 {
     if rule.measure == Rule::WCAG {
-        return math::ln(rule.target.clamp(1.0, WCAG_LARGEST)) / math::ln(WCAG_LARGEST);
+        return math::ln(rule.goal.clamp(1.0, WCAG_LARGEST)) / math::ln(WCAG_LARGEST);
     }
-    rule.target.clamp(0.0, 1.0)
+    rule.goal.clamp(0.0, 1.0)
 }
 
 /// Where a line at `line` moves before a background at `ground`, both on a scale of 0 to 1.
@@ -175,18 +172,27 @@ fn at_lightness(lightness: f32, own: [f32; 3], edge: [f32; 3], share: f32) -> [f
     light_of_oklab([lightness, a * fits, b * fits]).map(|light| light.clamp(0.0, 1.0))
 }
 
-/// The same for a luminance: the lightness at which the fitted colour has it.
-fn at_luminance(luminance: f32, own: [f32; 3], edge: [f32; 3], share: f32) -> [f32; 3] {
+/// The same for a place on the scale of the rule's measure: of WCAG the lightness at which the fitted colour has that luminance.
+fn at_place(place: f32, own: [f32; 3], edge: [f32; 3], share: f32, rule: &Rule) -> [f32; 3] {
+    let by_luminance = rule.measure == Rule::WCAG;
+    let luminance = luminance_at(place);
+    let rounds = if by_luminance { FIT_ROUNDS } else { 0 };
     let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..FIT_ROUNDS {
-        let middle = 0.5 * (low + high);
-        if dot(LUMA, at_lightness(middle, own, edge, share)) < luminance {
-            low = middle;
+    let mut light = [0.0; 3];
+    for _ in 0..=rounds {
+        let lightness = if by_luminance {
+            0.5 * (low + high)
         } else {
-            high = middle;
+            place
+        };
+        light = at_lightness(lightness, own, edge, share);
+        if dot(LUMA, light) < luminance {
+            low = lightness;
+        } else {
+            high = lightness;
         }
     }
-    at_lightness(0.5 * (low + high), own, edge, share)
+    light
 }
 
 fn is_in_gamut(light: [f32; 3], room: f32) -> bool {
@@ -215,7 +221,7 @@ mod tests {
         ];
         (measure, 0u32..3).prop_map(|((measure, target), direction)| Rule {
             measure,
-            target,
+            goal: target,
             direction,
             ..Rule::CONTRAST
         })
@@ -334,7 +340,7 @@ mod tests {
             line in color(), rim in color(), behind in color(), rule in rule(),
             which in 0usize..3, channel in 0usize..3, step in -1f32..1.0,
         ) {
-            let rule = Rule { target: if rule.measure == Rule::WCAG { rule.target.max(1.5) } else { rule.target.max(0.1) }, ..rule };
+            let rule = Rule { goal: if rule.measure == Rule::WCAG { rule.goal.max(1.5) } else { rule.goal.max(0.1) }, ..rule };
             let step = step * 1e-3;
             let mut other = [line, rim, behind];
             other[which][channel] = (other[which][channel] + step).clamp(0.0, 1.0);
@@ -349,7 +355,7 @@ mod tests {
             behind in prop::array::uniform3(prop::num::f32::ANY), target in prop::num::f32::ANY, intensity in prop::num::f32::ANY,
             method in 0u32..4, direction in 0u32..4, measure in 0u32..3, thresholds in prop::array::uniform4(prop::num::f32::ANY),
         ) {
-            let rule = Rule { thresholds, method, direction, measure, target, intensity, unused: [0; 3] };
+            let rule = Rule { thresholds, method, direction, measure, goal: target, intensity, ..Rule::CONTRAST };
             let adapted = adapt(line, rim, behind, &rule);
             prop_assert!(adapted.iter().all(|channel| (0.0..=1.0).contains(channel)), "{adapted:?}");
         }

@@ -20,19 +20,22 @@ pub struct Rule {
     /// [`Rule::LIGHTNESS`] or [`Rule::WCAG`].
     pub measure: u32,
     /// Contrast that a line must have: difference of OKLab lightness, 0..1, or the ratio of WCAG, 1..21.
-    pub target: f32,
+    pub goal: f32,
     /// What the published method multiplies or divides by, from 1.
     pub intensity: f32,
     /// Keeps rows of 16 bytes.
-    pub unused: [u32; 3],
+    pub unused_a: u32,
+    /// The same.
+    pub unused: [u32; 2],
 }
 gpu_layout!(Rule {
     thresholds,
     method,
     direction,
     measure,
-    target,
+    goal,
     intensity,
+    unused_a,
     unused,
 });
 
@@ -62,9 +65,10 @@ impl Rule {
         method: Self::BY_CONTRAST,
         direction: Self::AUTO,
         measure: Self::LIGHTNESS,
-        target: 0.3,
+        goal: 0.3,
         intensity: 1.0,
-        unused: [0; 3],
+        unused_a: 0,
+        unused: [0; 2],
     };
 }
 
@@ -76,9 +80,9 @@ impl Rule {
             false => value.clamp(least, most),
         };
         Self {
-            target: match self.measure {
-                Self::WCAG => within(self.target, 1.0, 21.0),
-                _ => within(self.target, 0.0, 1.0),
+            goal: match self.measure {
+                Self::WCAG => within(self.goal, 1.0, 21.0),
+                _ => within(self.goal, 0.0, 1.0),
             },
             intensity: within(self.intensity, 1.0, 1e6),
             ..*self
@@ -86,18 +90,23 @@ impl Rule {
     }
 }
 
+impl Rule {
+    /// None: lines stay as they are.
+    const NONE: Self = Self {
+        method: Self::OFF,
+        ..Self::CONTRAST
+    };
+}
+
 impl Default for Rule {
     fn default() -> Self {
-        Self {
-            method: Self::OFF,
-            ..Self::CONTRAST
-        }
+        Self::NONE
     }
 }
 
 /// The rules of a frame, and how far they reach.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct Rules {
     /// By number; number 0 is off.
     pub rules: [Rule; RULES_MAX],
@@ -107,13 +116,57 @@ pub struct Rules {
     pub whole_px: f32,
     /// Distance from which they do not follow it at all, in whole pixels.
     pub reach_px: u32,
+    /// Samples per pixel along each axis, 1 or 2.
+    pub samples: u32,
+    /// Where lines within subjects mind the background: [`Rules::ALWAYS`] with the layers that hold lines; else 0.
+    pub within: u32,
     /// Keeps rows of 16 bytes.
-    pub unused: u32,
+    pub unused_a: u32,
+    /// The same.
+    pub unused: [u32; 2],
 }
 gpu_layout!(Rules {
     rules,
     smooth_px,
     whole_px,
     reach_px,
+    samples,
+    within,
+    unused_a,
     unused,
 });
+
+impl Rules {
+    /// Rules of frames whose lines mind nothing.
+    pub const NONE: Self = Self {
+        rules: [Rule::NONE; RULES_MAX],
+        smooth_px: 0.0,
+        whole_px: 0.0,
+        reach_px: 0,
+        samples: 0,
+        within: 0,
+        unused_a: 0,
+        unused: [0; 2],
+    };
+}
+
+impl Default for Rules {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
+impl Rules {
+    /// Lines lie in the ribbons.
+    pub const RIBBONS: u32 = 1;
+    /// Lines lie in the overlay.
+    pub const OVERLAY: u32 = 2;
+    /// Lines within subjects mind the background.
+    pub const ALWAYS: u32 = 4;
+
+    /// Pixels around a place that may decide about its line.
+    pub fn room_px(&self) -> u32 {
+        let smoothed = (self.smooth_px.max(0.0) as u32).min(super::SMOOTH_MOST);
+        self.reach_px + smoothed + 3
+    }
+}

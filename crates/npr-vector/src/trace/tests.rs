@@ -376,10 +376,10 @@ proptest! {
 /// Whether the middles of pixels are covered by a picture of the file.
 fn rendered(svg: &[u8], size: [u32; 2]) -> Vec<bool> {
     let tree = resvg::usvg::Tree::from_data(svg, &resvg::usvg::Options::default()).expect("SVG");
-    let mut canvas = resvg::tiny_skia::Pixmap::new(size[0], size[1]).expect("a canvas");
+    let mut canvas = tiny_skia::Pixmap::new(size[0], size[1]).expect("a canvas");
     resvg::render(
         &tree,
-        resvg::tiny_skia::Transform::identity(),
+        tiny_skia::Transform::identity(),
         &mut canvas.as_mut(),
     );
     canvas

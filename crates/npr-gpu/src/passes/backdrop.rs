@@ -1,0 +1,158 @@
+//! Passes that find what lies behind outlines.
+
+use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
+use npr_core::geometry::{Part, Triangle};
+use npr_core::window::Window;
+use npr_style::backdrop::{
+    Rim, Rules, Scenery, Search, Wearer, draw_rims, find_rims, flag_tiles, smooth_rims,
+    spread_rims, spread_rows,
+};
+
+/// Which tiles of the output lie near a border between two subjects; its window is the grid of tiles.
+pub const FLAG_TILES: Pass = Pass {
+    name: "backdrop.flag_tiles",
+    shader: npr_shaders::BACKDROP_FLAG_TILES,
+    slots: &[
+        uniform::<Window>("window"),
+        uniform::<Window>("output_window"),
+        uniform::<Rules>("rules"),
+        texture("ids", Format::U32),
+        read::<Triangle>("triangles"),
+        read::<Wearer>("wearers"),
+    ],
+    work: Work::Draw {
+        of: "rules",
+        fills: false,
+        vertices: 3,
+        targets: &[Format::Rgba8],
+    },
+    agreement: Agreement::Exact,
+    twin: |b| {
+        let (window, rules) = (b.one(1), b.one(2));
+        let scenery = Scenery {
+            window: &window,
+            rules: &rules,
+            ids: b.image(3).texels,
+            triangles: b.read(4),
+            wearers: b.read(5),
+        };
+        flag_tiles(&scenery, b.image_mut(6).texels);
+    },
+};
+
+/// The colours of both sides of every border between subjects.
+pub const FIND_RIMS: Pass = Pass {
+    name: "backdrop.find_rims",
+    shader: npr_shaders::BACKDROP_FIND_RIMS,
+    slots: &[
+        uniform::<Window>("window"),
+        uniform::<Rules>("rules"),
+        texture("ids", Format::U32),
+        texture("depths", Format::Depth),
+        texture("drawn_ids", Format::U32),
+        texture("busy", Format::Rgba8),
+        texture("ribbons", Format::Rgba8),
+        read::<Triangle>("triangles"),
+        read::<Part>("parts"),
+        read::<Wearer>("wearers"),
+        read::<u32>("bare"),
+        read::<u32>("overlay"),
+        write::<Rim>("rims"),
+    ],
+    work: Work::PerElement { of: "rims" },
+    agreement: Agreement::Texels(0.002),
+    twin: |b| {
+        let (window, rules) = (b.one(0), b.one(1));
+        let search = Search {
+            scenery: Scenery {
+                window: &window,
+                rules: &rules,
+                ids: b.image(2).texels,
+                triangles: b.read(7),
+                wearers: b.read(9),
+            },
+            depths: b.image(3).texels,
+            drawn_ids: b.image(4).texels,
+            busy: b.image(5).texels,
+            ribbons: b.image(6).texels,
+            parts: b.read(8),
+            bare: b.read(10),
+            overlay: b.read(11),
+        };
+        find_rims(&search, b.write(12));
+    },
+};
+
+/// Outlines of one pixel outside of the shape.
+pub const DRAW_RIMS: Pass = Pass {
+    name: "backdrop.draw_rims",
+    shader: npr_shaders::BACKDROP_DRAW_RIMS,
+    slots: &[
+        read::<Part>("parts"),
+        read::<Rim>("rims"),
+        write::<u32>("overlay"),
+    ],
+    work: Work::PerElement { of: "overlay" },
+    agreement: Agreement::Exact,
+    twin: |b| draw_rims(b.read(0), b.read(1), b.write(2)),
+};
+
+/// Rims blended along the outline.
+pub const SMOOTH_RIMS: Pass = Pass {
+    name: "backdrop.smooth_rims",
+    shader: npr_shaders::BACKDROP_SMOOTH_RIMS,
+    slots: &[
+        uniform::<Window>("window"),
+        uniform::<Rules>("rules"),
+        read::<Rim>("rims"),
+        write::<Rim>("smoothed"),
+    ],
+    work: Work::PerElement { of: "smoothed" },
+    agreement: Agreement::Texels(0.002),
+    twin: |b| {
+        let (window, rules) = (b.one(0), b.one(1));
+        smooth_rims(&window, &rules, b.read(2), b.write(3));
+    },
+};
+
+/// The nearest rim in every row.
+pub const SPREAD_ROWS: Pass = Pass {
+    name: "backdrop.spread_rows",
+    shader: npr_shaders::BACKDROP_SPREAD_ROWS,
+    slots: &[
+        uniform::<Window>("window"),
+        uniform::<Rules>("rules"),
+        read::<Rim>("rims"),
+        write::<u32>("columns"),
+    ],
+    work: Work::PerElement { of: "columns" },
+    agreement: Agreement::Exact,
+    twin: |b| {
+        let (window, rules) = (b.one(0), b.one(1));
+        spread_rows(&window, &rules, b.read(2), b.write(3));
+    },
+};
+
+/// The nearest rim of every pixel, as pictures.
+pub const SPREAD_RIMS: Pass = Pass {
+    name: "backdrop.spread_rims",
+    shader: npr_shaders::BACKDROP_SPREAD_RIMS,
+    slots: &[
+        uniform::<Window>("window"),
+        uniform::<Rules>("rules"),
+        read::<Rim>("rims"),
+        read::<u32>("columns"),
+    ],
+    work: Work::Draw {
+        of: "rules",
+        fills: false,
+        vertices: 3,
+        targets: &[Format::Rgba8, Format::Rgba8],
+    },
+    agreement: Agreement::Texels(0.001),
+    twin: |b| {
+        let (window, rules) = (b.one(0), b.one(1));
+        let (fronts, backs) = (b.image_mut(4).texels, b.image_mut(5).texels);
+        spread_rims(&window, &rules, b.read(2), b.read(3), fronts, backs);
+    },
+};

@@ -1,0 +1,207 @@
+//! Which subjects a scene has, and by which rules their lines mind the background.
+
+use crate::blueprint::Method;
+use crate::frame::Frame;
+use crate::model::{Model, PartInfo};
+use npr_core::color::{linear_from_srgb, srgb_from_linear};
+use npr_style::backdrop::{RULES_MAX, Rule, Rules, SMOOTH_MOST, Wearer, adapted_light};
+use npr_style::compose::Compose;
+use npr_style::{BackgroundMethod, LineScope, Style};
+use std::collections::BTreeMap;
+
+/// Most frame pixels from an outline at which its line may still mind the background.
+const REACH_MOST: f32 = 64.0;
+
+/// Frame pixels over which the rule ends beyond a line's own half width.
+const FADE_PX: f32 = 3.0;
+
+/// The subject whose parts are the background of all others.
+const BACKGROUND: &str = "background";
+
+/// What makes parts one subject.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+enum SubjectKey<'a> {
+    /// The name that a rule gives.
+    Named(&'a str),
+    /// The node at the top of the tree.
+    Root(u32),
+}
+
+/// The subjects and rules of a scene in a style.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Backdrop {
+    /// One for every part.
+    pub wearers: Vec<Wearer>,
+    rules: [Rule; RULES_MAX],
+    /// Whether any part follows a rule.
+    pub is_on: bool,
+    /// What was done in another way than asked.
+    pub notice: Option<String>,
+}
+
+impl Backdrop {
+    /// Those of `part_count` parts; what follows a model's own parts is of the background.
+    pub fn new(model: &Model, style: &Style, part_count: usize) -> Self {
+        let mut made = Self::default();
+        let mut subjects = BTreeMap::new();
+        let mut rule_count = 1;
+        for info in &model.parts {
+            let look = style.resolve_for(&info.material_name, &info.object_name);
+            let key = match look.subject {
+                Some(name) => SubjectKey::Named(name),
+                None => SubjectKey::Root(info.root),
+            };
+            let next = subjects.len() as u32 + 1;
+            let subject = match key == SubjectKey::Named(BACKGROUND) || look.beam.is_some() {
+                true => 0,
+                false => *subjects.entry(key).or_insert(next),
+            };
+            let minds = look.line_background.method != BackgroundMethod::Off && look.line_on;
+            let rule = match minds && subject != 0 {
+                true => made.number_of(look.line_background.rule(), &mut rule_count),
+                false => 0,
+            };
+            made.is_on |= rule != 0;
+            made.wearers.push(Wearer { subject, rule });
+        }
+        made.wearers.resize(part_count, Wearer::default());
+        made
+    }
+
+    /// The number of a rule, which may be new.
+    fn number_of(&mut self, rule: Rule, count: &mut usize) -> u32 {
+        if let Some(found) = (1..*count).find(|i| self.rules[*i] == rule) {
+            return found as u32;
+        }
+        if *count == RULES_MAX {
+            let most = RULES_MAX - 1;
+            self.notice = Some(format!(
+                "lines mind the background by at most {most} different rules; more are drawn by the last"
+            ));
+            return most as u32;
+        }
+        self.rules[*count] = rule;
+        *count += 1;
+        *count as u32 - 1
+    }
+
+    /// The rules of a frame whose widest line is `half_width` to each side, with `samples` a pixel along each axis.
+    pub fn rules(
+        &self,
+        style: &Style,
+        method: Method,
+        half_width: f32,
+        px: [f32; 3],
+        samples: u32,
+    ) -> Rules {
+        let background = &style.line.background;
+        let [height_px, dpi, world_px] = px;
+        let smooth = background.smooth.to_px(height_px, dpi, world_px);
+        // A hull lies outside of its shape with its whole width.
+        let width = if method.hull { 2.0 } else { 1.0 } * half_width;
+        let whole_px = (width + 1.0).min(REACH_MOST - FADE_PX);
+        let bit = |bit: u32, when: bool| if when { bit } else { 0 };
+        let layers = Rules::ALWAYS
+            | bit(Rules::RIBBONS, method.layers & Compose::RIBBONS != 0)
+            | bit(
+                Rules::OVERLAY,
+                method.layers & Compose::OVERLAY != 0 && !method.rim,
+            );
+        Rules {
+            rules: self.rules,
+            smooth_px: smooth.min(SMOOTH_MOST as f32),
+            whole_px,
+            reach_px: (whole_px + FADE_PX).ceil() as u32,
+            samples,
+            within: bit(layers, background.scope == LineScope::All && self.is_on),
+            ..Rules::default()
+        }
+    }
+}
+
+impl PartInfo {
+    /// The node without a parent that node `object` hangs on.
+    pub(crate) fn root_of(scene: &npr_scene::Scene, object: u32) -> u32 {
+        let mut root = object;
+        while let Some(parent) = scene.nodes.get(root as usize).and_then(|node| node.parent) {
+            // A parent stands before its children, so this ends.
+            if parent >= root {
+                break;
+            }
+            root = parent;
+        }
+        root
+    }
+}
+
+/// What lies on both sides of the lines of a frame, for lines that the host draws.
+#[derive(Debug, Clone)]
+pub(crate) struct Sides {
+    /// The subject's colour with its weight in alpha, and that behind with the number of the rule, as bytes.
+    pub fronts: Frame,
+    pub backs: Frame,
+}
+
+impl Sides {
+    pub fn new(size: [u32; 2]) -> Self {
+        Self {
+            fronts: Frame::new(size),
+            backs: Frame::new(size),
+        }
+    }
+
+    /// Lays lines over a frame, each in the colour that minds what lies behind it.
+    ///
+    /// Both are sRGB bytes with straight alpha; edges are blended in sRGB, as curves are everywhere.
+    pub fn lay(&self, lines: &[u8], rules: &Rules, rgba: &mut [u8]) {
+        let texels = |bytes: &'_ [u8]| -> Vec<[u8; 4]> {
+            bytes
+                .chunks_exact(4)
+                .filter_map(|c| c.try_into().ok())
+                .collect()
+        };
+        let (fronts, backs, lines) = (
+            texels(&self.fronts.rgba),
+            texels(&self.backs.rgba),
+            texels(lines),
+        );
+        let sides = fronts.iter().zip(&backs);
+        for ((under, line), (front, back)) in rgba.chunks_exact_mut(4).zip(&lines).zip(sides) {
+            if line[3] != 0 {
+                let color = minding(*line, *front, *back, rules);
+                blend(under, color, f32::from(line[3]) / 255.0);
+            }
+        }
+    }
+}
+
+/// A line's colour before what lies behind it, sRGB-encoded.
+fn minding(line: [u8; 4], front: [u8; 4], back: [u8; 4], rules: &Rules) -> [f32; 3] {
+    let encoded =
+        |texel: [u8; 4]| [texel[0], texel[1], texel[2]].map(|byte| f32::from(byte) / 255.0);
+    if front[3] == 0 {
+        return encoded(line);
+    }
+    let rule = rules
+        .rules
+        .get(usize::from(back[3]))
+        .copied()
+        .unwrap_or_default();
+    let [line, rim, behind] = [line, front, back].map(|texel| encoded(texel).map(linear_from_srgb));
+    let adapted = adapted_light(line, rim, behind, &rule);
+    let weight = f32::from(front[3]) / 255.0;
+    let mixed: [f32; 3] = std::array::from_fn(|i| line[i] + (adapted[i] - line[i]) * weight);
+    mixed.map(srgb_from_linear)
+}
+
+/// Lays a colour over a texel of bytes with straight alpha.
+fn blend(under: &mut [u8], color: [f32; 3], alpha: f32) {
+    let [r, g, b, a] = under else { return };
+    let below = f32::from(*a) / 255.0 * (1.0 - alpha);
+    let whole = alpha + below;
+    for (channel, over) in [r, g, b].into_iter().zip(color) {
+        let mixed = (over * alpha + f32::from(*channel) / 255.0 * below) / whole.max(1e-6);
+        *channel = (mixed.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+    }
+    *a = (whole.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+}

@@ -1,0 +1,364 @@
+//! Where subjects end in a picture, and what lies on both sides: the twins of `backdrop.flag_tiles` and `backdrop.find_rims`.
+
+use super::rule::{Rule, Rules};
+use bytemuck::{Pod, Zeroable};
+use npr_core::color::{pack_rgba8, unpack_rgba8};
+use npr_core::geometry::{Part, Triangle};
+use npr_core::gpu_layout;
+use npr_core::raster::{HULL_BIT, ID_MASK};
+use npr_core::window::Window;
+use rayon::prelude::*;
+
+/// Side of the square tiles in which borders are looked for, in output pixels.
+pub const TILE: u32 = 16;
+
+/// How far around its tile a border makes it busy: a rim's neighbours may lie in the next tile, and theirs one farther.
+const TILE_RIM: u32 = 2;
+
+/// Whose line a part's outline is, and by which rule it minds the background.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct Wearer {
+    /// Number of its subject, from 1; 0 where it belongs to the background.
+    pub subject: u32,
+    /// Number of its rule in [`Rules`]; 0 where its lines keep their colour.
+    pub rule: u32,
+}
+gpu_layout!(Wearer { subject, rule });
+
+/// What an output pixel at the border of a subject knows: the colours of both sides.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct Rim {
+    /// Mean colour of the subject, sRGB bytes; the highest is how much its rule counts here.
+    pub rim: u32,
+    /// Mean colour of what lies behind, sRGB bytes; the highest is the number of the rule.
+    pub behind: u32,
+    /// The subject, with the bits [`Rim::OUTSIDE`] and [`Rim::WITHIN`]; 0 where there is no border.
+    pub subject: u32,
+    /// The part of the subject that ends here.
+    pub part: u32,
+}
+gpu_layout!(Rim {
+    rim,
+    behind,
+    subject,
+    part
+});
+
+impl Rim {
+    /// The pixel itself does not lie on the subject.
+    pub const OUTSIDE: u32 = 1 << 31;
+    /// The line lies within the subject, not at its border.
+    pub const WITHIN: u32 = 1 << 30;
+    /// What tells the borders of subjects apart, and borders from lines within.
+    pub const WHOSE: u32 = !Self::OUTSIDE;
+}
+
+/// A frame in which borders are looked for.
+#[derive(Debug, Clone, Copy)]
+pub struct Scenery<'a> {
+    /// The pixel grid of the output.
+    pub window: &'a Window,
+    /// The rules.
+    pub rules: &'a Rules,
+    /// Triangle numbers without hulls, [`Rules::samples`] times the output's size each way.
+    pub ids: &'a [u32],
+    /// Triangles.
+    pub triangles: &'a [Triangle],
+    /// A wearer for every part.
+    pub wearers: &'a [Wearer],
+}
+
+/// What one pixel shows, where all of its samples show the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Shown {
+    subject: u32,
+    part: u32,
+}
+
+/// What a mixed pixel shows: nothing for certain.
+const MIXED: u32 = u32::MAX;
+
+/// White for every tile near a border between two subjects, as wide as [`tiles_across`]; 0 for all others.
+///
+/// O(samples), parallel over rows of tiles.
+pub fn flag_tiles(scenery: &Scenery<'_>, busy: &mut [u32]) {
+    let across = tiles_across(scenery.window.size) as usize;
+    busy.par_chunks_mut(across)
+        .enumerate()
+        .for_each(|(y, row)| {
+            for (x, tile) in row.iter_mut().enumerate() {
+                let is_busy = scenery.rules.within != 0 || scenery.is_busy([x as u32, y as u32]);
+                *tile = if is_busy { u32::MAX } else { 0 };
+            }
+        });
+}
+
+/// Tiles in a row over an output of this size.
+pub fn tiles_across(size: [u32; 2]) -> u32 {
+    size[0].div_ceil(TILE)
+}
+
+impl Scenery<'_> {
+    fn is_busy(&self, tile: [u32; 2]) -> bool {
+        let samples = self.rules.samples;
+        let low = tile.map(|at| (at * TILE).saturating_sub(TILE_RIM) * samples);
+        let high: [u32; 2] = std::array::from_fn(|i| {
+            ((tile[i] + 1) * TILE + TILE_RIM).min(self.window.size[i]) * samples
+        });
+        let width = self.window.size[0] * samples;
+        let first = self.ids[(low[1] * width + low[0]) as usize];
+        let subject = self.wearer_of(first).subject;
+        let mut last = first;
+        for y in low[1]..high[1] {
+            for x in low[0]..high[0] {
+                let id = self.ids[(y * width + x) as usize];
+                if id != last {
+                    if self.wearer_of(id).subject != subject {
+                        return true;
+                    }
+                    last = id;
+                }
+            }
+        }
+        false
+    }
+
+    /// Part of a triangle number, which is not 0.
+    fn part_of(&self, id: u32) -> u32 {
+        self.triangles[((id & ID_MASK) - 1) as usize].part
+    }
+
+    fn wearer_of(&self, id: u32) -> Wearer {
+        if id == 0 {
+            return Wearer::default();
+        }
+        self.wearers[self.part_of(id) as usize]
+    }
+
+    /// The number that the first sample of a pixel shows.
+    fn first_id(&self, x: u32, y: u32) -> u32 {
+        let samples = self.rules.samples;
+        self.ids[(y * samples * self.window.size[0] * samples + x * samples) as usize]
+    }
+
+    /// What a pixel shows; of subject [`MIXED`] where its samples disagree.
+    fn shown(&self, x: u32, y: u32) -> Shown {
+        let samples = self.rules.samples;
+        let width = self.window.size[0] * samples;
+        let first = self.first_id(x, y);
+        let mut shown = Shown {
+            subject: self.wearer_of(first).subject,
+            part: if first == 0 { 0 } else { self.part_of(first) },
+        };
+        for i in 1..samples * samples {
+            let at = (y * samples + i / samples) * width + x * samples + i % samples;
+            if self.wearer_of(self.ids[at as usize]).subject != shown.subject {
+                shown.subject = MIXED;
+            }
+        }
+        shown
+    }
+}
+
+/// What rims are found on.
+#[derive(Debug, Clone, Copy)]
+pub struct Search<'a> {
+    /// The frame.
+    pub scenery: Scenery<'a>,
+    /// Reversed depths of the same samples.
+    pub depths: &'a [u32],
+    /// Tiles near borders, from [`flag_tiles`].
+    pub busy: &'a [u32],
+    /// The picture without lines where tiles are busy, sRGB bytes with straight alpha.
+    pub bare: &'a [u32],
+    /// Parts.
+    pub parts: &'a [Part],
+    /// Triangle numbers with hulls.
+    pub drawn_ids: &'a [u32],
+    /// Ribbons; read where lines within subjects mind the background.
+    pub ribbons: &'a [u32],
+    /// Overlay; the same.
+    pub overlay: &'a [u32],
+}
+
+/// Colours of some pixels, summed, with alpha as their number.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sum {
+    color: [f32; 4],
+    count: f32,
+}
+
+impl Sum {
+    fn add(&mut self, texel: u32) {
+        let [r, g, b, a] = unpack_rgba8(texel);
+        let sum = self.color;
+        self.color = [sum[0] + r * a, sum[1] + g * a, sum[2] + b * a, sum[3] + a];
+        self.count += 1.0;
+    }
+
+    /// The mean colour, and the mean alpha.
+    fn mean(&self) -> [f32; 4] {
+        let weight = self.color[3].max(1e-6);
+        [
+            self.color[0] / weight,
+            self.color[1] / weight,
+            self.color[2] / weight,
+            self.color[3] / self.count.max(1.0),
+        ]
+    }
+}
+
+/// A rim for every pixel among whose 3 x 3 a subject meets anything else; empty ones elsewhere.
+///
+/// The subject nearest to the eye owns the border. Only pixels whose samples all show the same count as a side, so colours
+/// are never blends of both. O(pixels of busy tiles), parallel over rows.
+pub fn find_rims(search: &Search<'_>, rims: &mut [Rim]) {
+    let width = search.scenery.window.size[0] as usize;
+    rims.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+        for (x, rim) in row.iter_mut().enumerate() {
+            *rim = search.rim_at(x as u32, y as u32);
+        }
+    });
+}
+
+impl Search<'_> {
+    fn rim_at(&self, x: u32, y: u32) -> Rim {
+        let scenery = &self.scenery;
+        let size = scenery.window.size;
+        let across = tiles_across(size);
+        if self.busy[(y / TILE * across + x / TILE) as usize] == 0 {
+            return Rim::default();
+        }
+        let (low, high) = around(size, x, y);
+        let owner = self.owner(low, high);
+        if owner == 0 {
+            return Rim::default();
+        }
+        let (mut rim, mut behind) = (Sum::default(), Sum::default());
+        let (mut part, mut rule, mut minding) = (0, 0, 0.0);
+        for row in low[1]..=high[1] {
+            for column in low[0]..=high[0] {
+                let shown = scenery.shown(column, row);
+                let texel = self.bare[(row * size[0] + column) as usize];
+                if shown.subject == owner {
+                    if rim.count == 0.0 {
+                        part = shown.part;
+                    }
+                    rim.add(texel);
+                    let own = scenery.wearers[shown.part as usize].rule;
+                    if own != 0 {
+                        minding += 1.0;
+                        rule = own;
+                    }
+                } else if shown.subject != MIXED {
+                    behind.add(texel);
+                }
+            }
+        }
+        let here = scenery.shown(x, y).subject;
+        let outside = if here == owner { 0 } else { Rim::OUTSIDE };
+        if scenery.rules.rules[rule as usize].method == Rule::BY_LIKENESS && outside != 0 {
+            behind = Sum::default();
+            behind.add(self.bare[(y * size[0] + x) as usize]);
+        }
+        if behind.count == 0.0 {
+            return self.inner_rim(x, y, &rim, [here, part]);
+        }
+        let share = minding / rim.count;
+        packed(&rim, &behind, share, rule, [owner | outside, part])
+    }
+
+    /// The subject nearest to the eye among some pixels; 0 where there is none.
+    fn owner(&self, low: [u32; 2], high: [u32; 2]) -> u32 {
+        let samples = self.scenery.rules.samples;
+        let width = self.scenery.window.size[0] * samples;
+        let (mut owner, mut nearest) = (0, -1.0);
+        for row in low[1]..=high[1] {
+            for column in low[0]..=high[0] {
+                let shown = self.scenery.shown(column, row);
+                if shown.subject == 0 || shown.subject == MIXED {
+                    continue;
+                }
+                let at = row * samples * width + column * samples;
+                let depth = f32::from_bits(self.depths[at as usize]);
+                if depth > nearest {
+                    (owner, nearest) = (shown.subject, depth);
+                }
+            }
+        }
+        owner
+    }
+
+    /// A line within a subject, where those mind the background: both sides are the surface that it lies on.
+    fn inner_rim(&self, x: u32, y: u32, sum: &Sum, [here, part]: [u32; 2]) -> Rim {
+        if self.scenery.rules.within == 0 || !self.is_inked(x, y, part) {
+            return Rim::default();
+        }
+        let rule = self.scenery.wearers[part as usize].rule;
+        let share = if rule == 0 { 0.0 } else { 1.0 };
+        packed(sum, sum, share, rule, [here | Rim::WITHIN, part])
+    }
+
+    /// Whether any line may lie on a pixel.
+    fn is_inked(&self, x: u32, y: u32, part: u32) -> bool {
+        let element = (y * self.scenery.window.size[0] + x) as usize;
+        let layers = self.scenery.rules.within;
+        if layers & Rules::RIBBONS != 0 && self.ribbons[element] >> 24 != 0 {
+            return true;
+        }
+        if layers & Rules::OVERLAY != 0 && self.overlay[element] >> 24 != 0 {
+            return true;
+        }
+        if self.parts[part as usize].flags & Part::ANGLE != 0 {
+            return true;
+        }
+        let samples = self.scenery.rules.samples;
+        let width = self.scenery.window.size[0] * samples;
+        (0..samples * samples).any(|i| {
+            let at = (y * samples + i / samples) * width + x * samples + i % samples;
+            self.drawn_ids[at as usize] & HULL_BIT != 0
+        })
+    }
+}
+
+/// The pixels that touch one, and itself: from the first to the last, each included.
+fn around(size: [u32; 2], x: u32, y: u32) -> ([u32; 2], [u32; 2]) {
+    (
+        [x.saturating_sub(1), y.saturating_sub(1)],
+        [(x + 1).min(size[0] - 1), (y + 1).min(size[1] - 1)],
+    )
+}
+
+/// A rim of these sides, whose rule counts as much as there is something behind.
+fn packed(rim: &Sum, behind: &Sum, share: f32, rule: u32, [subject, part]: [u32; 2]) -> Rim {
+    let (front, back) = (rim.mean(), behind.mean());
+    Rim {
+        rim: pack_rgba8([front[0], front[1], front[2], share * back[3]]),
+        behind: pack_rgba8([back[0], back[1], back[2], 0.0]) | rule << 24,
+        subject,
+        part,
+    }
+}
+
+/// Lines of method `rim`: every pixel that lies outside of a subject and touches it, in the colour of the part that ends there.
+///
+/// Texels are sRGB bytes with coverage in alpha: the twin of `backdrop.draw_rims`. O(pixels).
+pub fn draw_rims(parts: &[Part], rims: &[Rim], overlay: &mut [u32]) {
+    overlay
+        .par_iter_mut()
+        .zip(rims)
+        .for_each(|(texel, rim)| *texel = rim_texel(parts, rim));
+}
+
+fn rim_texel(parts: &[Part], rim: &Rim) -> u32 {
+    if rim.subject & Rim::OUTSIDE == 0 {
+        return 0;
+    }
+    let part = &parts[rim.part as usize];
+    if part.flags & Part::LINES == 0 {
+        return 0;
+    }
+    pack_rgba8(part.line_color)
+}

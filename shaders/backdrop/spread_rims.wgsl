@@ -1,0 +1,60 @@
+// backdrop.spread_rims: carries the nearest rim to every pixel, as two pictures.
+//
+// The first holds the rim's colour with its weight in alpha, the second that of what lies
+// behind with the rule's number. Weights fall with the distance from the outline.
+//
+// Twin    npr_style::backdrop::spread_rims
+//
+//# use lib/window
+
+@group(0) @binding(0) var<uniform> window: Window;
+@group(0) @binding(1) var<uniform> rules: Rules;
+@group(0) @binding(2) var<storage, read> rims: array<Rim>;
+@group(0) @binding(3) var<storage, read> columns: array<u32>;
+
+//# use lib/backdrop
+
+struct Sides {
+    @location(0) front: vec4<f32>,
+    @location(1) back: vec4<f32>,
+}
+
+fn spread_at(x: u32, y: u32) -> Sides {
+    let low = max(y, rules.reach_px) - rules.reach_px;
+    let high = min(y + rules.reach_px, window.size.y - 1u);
+    var nearest = rules.reach_px * rules.reach_px + 1u;
+    var found = 0u;
+    for (var row = low; row <= high; row++) {
+        let column = columns[row * window.size.x + x];
+        if column == 0u { continue; }
+        let dx = max(x, column - 1u) - min(x, column - 1u);
+        let dy = max(y, row) - min(y, row);
+        let square = dx * dx + dy * dy;
+        if square < nearest {
+            nearest = square;
+            found = row * window.size.x + column;
+        }
+    }
+    var sides: Sides;
+    if found == 0u { return sides; }
+    let rim = rims[found - 1u];
+    let color = unpack4x8unorm(rim.rim);
+    let distance = sqrt(f32(nearest));
+    let kept = 1.0 - smooth_step(rules.whole_px, f32(rules.reach_px), distance);
+    sides.front = vec4<f32>(color.rgb, color.a * kept);
+    sides.back = unpack4x8unorm(rim.behind);
+    return sides;
+}
+
+// A triangle over the whole picture.
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
+    let at = vec2<f32>(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0);
+    return vec4<f32>(at, 0.5, 1.0);
+}
+
+@fragment
+fn fragment(@builtin(position) position: vec4<f32>) -> Sides {
+    let pixel = vec2<u32>(position.xy);
+    return spread_at(pixel.x, pixel.y);
+}

@@ -1,0 +1,220 @@
+// A line's colour before a background. Twin: npr_style::backdrop::adapted_light. The shader declares `rules`.
+
+//# use lib/backdrop
+
+// How much contrast is given up for the smaller step, and half the band in which a line turns.
+const TURN: f32 = 0.02;
+// Largest difference of two steps that still counts as about the same, in lightness.
+const EVEN_STEP: f32 = 0.06;
+// Share of the goal by which a line must be moved to take all of its hue from the rim.
+const HUE_AT: f32 = 0.5;
+const FIT_ROUNDS: u32 = 14u;
+// How far a channel may lie outside 0..1 and still count as in gamut, as a share of a grey of that lightness.
+const GAMUT_ROOM: f32 = 1e-3;
+const WCAG_LARGEST: f32 = 21.0;
+const BACKDROP_LUMA: vec3<f32> = vec3<f32>(0.2126, 0.7152, 0.0722);
+
+fn linear_from_srgb(v: f32) -> f32 {
+    if v <= 0.04045 { return v / 12.92; }
+    return pow((v + 0.055) / 1.055, 2.4);
+}
+
+fn cube_root(x: f32) -> f32 {
+    if x <= 0.0 { return 0.0; }
+    return pow(x, 1.0 / 3.0);
+}
+
+fn oklab_of_light(light: vec3<f32>) -> vec3<f32> {
+    let l = cube_root(0.41222146 * light.r + 0.53633255 * light.g + 0.051445995 * light.b);
+    let m = cube_root(0.2119035 * light.r + 0.6806995 * light.g + 0.10739696 * light.b);
+    let s = cube_root(0.08830246 * light.r + 0.28171885 * light.g + 0.6299787 * light.b);
+    return vec3<f32>(
+        0.21045426 * l + 0.7936178 * m - 0.004072047 * s,
+        1.9779985 * l - 2.4285922 * m + 0.4505937 * s,
+        0.025904037 * l + 0.78277177 * m - 0.80867577 * s,
+    );
+}
+
+fn light_of_oklab(lab: vec3<f32>) -> vec3<f32> {
+    var l = lab.x + 0.39633778 * lab.y + 0.21580376 * lab.z;
+    var m = lab.x - 0.105561346 * lab.y - 0.06385417 * lab.z;
+    var s = lab.x - 0.08948418 * lab.y - 1.2914855 * lab.z;
+    l = l * l * l;
+    m = m * m * m;
+    s = s * s * s;
+    return vec3<f32>(
+        4.0767417 * l - 3.3077116 * m + 0.23096994 * s,
+        -1.268438 * l + 2.6097574 * m - 0.34131938 * s,
+        -0.004196086 * l - 0.7034186 * m + 1.7076147 * s,
+    );
+}
+
+fn value_of(color: vec3<f32>) -> f32 {
+    return max(max(color.r, color.g), color.b);
+}
+
+fn saturation_of(color: vec3<f32>) -> f32 {
+    let most = value_of(color);
+    if most <= 0.0 { return 0.0; }
+    return (most - min(min(color.r, color.g), color.b)) / most;
+}
+
+fn hue_of(color: vec3<f32>) -> f32 {
+    let most = value_of(color);
+    let span = most - min(min(color.r, color.g), color.b);
+    if span <= 1e-6 { return -1.0; }
+    var sixths = (color.r - color.g) / span + 4.0;
+    if most == color.r {
+        sixths = (color.g - color.b) / span;
+    } else if most == color.g {
+        sixths = (color.b - color.r) / span + 2.0;
+    }
+    if sixths < 0.0 { return (sixths + 6.0) / 6.0; }
+    return sixths / 6.0;
+}
+
+fn hue_difference(a: vec3<f32>, b: vec3<f32>) -> f32 {
+    let first = hue_of(a);
+    let second = hue_of(b);
+    if first < 0.0 || second < 0.0 { return 0.0; }
+    let way = abs(first - second);
+    return min(way, 1.0 - way);
+}
+
+fn are_alike(a: vec3<f32>, b: vec3<f32>, thresholds: vec4<f32>) -> bool {
+    let step = abs(a - b);
+    let differences = vec4<f32>(
+        value_of(step),
+        abs(value_of(a) - value_of(b)),
+        abs(saturation_of(a) - saturation_of(b)),
+        hue_difference(a, b),
+    );
+    var any = false;
+    for (var i = 0u; i < 4u; i++) {
+        if thresholds[i] >= 0.0 {
+            any = true;
+            if differences[i] > thresholds[i] { return false; }
+        }
+    }
+    return any;
+}
+
+// The published method, on sRGB-encoded colours.
+fn published_color(line: vec3<f32>, rim: vec3<f32>, behind: vec3<f32>, rule: u32) -> vec3<f32> {
+    if !are_alike(rim, behind, rules.rules[rule].thresholds) { return line; }
+    let direction = rules.rules[rule].direction;
+    let is_brighter = direction == RULE_BRIGHTER || (direction != RULE_DARKER && value_of(behind) <= 0.5);
+    let intensity = rules.rules[rule].intensity;
+    let factor = select(1.0 / max(intensity, 1.0), intensity, is_brighter);
+    return min(rim * factor, vec3<f32>(1.0));
+}
+
+fn encoded_color(light: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(srgb_from_linear(light.r), srgb_from_linear(light.g), srgb_from_linear(light.b));
+}
+
+fn decoded_color(color: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(linear_from_srgb(color.r), linear_from_srgb(color.g), linear_from_srgb(color.b));
+}
+
+// Where a colour lies on the scale of the rule's measure, 0 black to 1 white.
+fn place_of(light: vec3<f32>, lightness: f32, rule: u32) -> f32 {
+    if rules.rules[rule].measure == RULE_WCAG {
+        return log(dot(BACKDROP_LUMA, light) * 20.0 + 1.0) / log(WCAG_LARGEST);
+    }
+    return lightness;
+}
+
+fn luminance_at(place: f32) -> f32 {
+    return (exp(place * log(WCAG_LARGEST)) - 1.0) / 20.0;
+}
+
+fn target_of(rule: u32) -> f32 {
+    let goal = rules.rules[rule].goal;
+    if rules.rules[rule].measure == RULE_WCAG {
+        return log(clamp(goal, 1.0, WCAG_LARGEST)) / log(WCAG_LARGEST);
+    }
+    return clamp(goal, 0.0, 1.0);
+}
+
+// Where a line at `line` moves before a background at `ground`, both on a scale of 0 to 1.
+fn moved(line: f32, ground: f32, distance: f32, direction: u32) -> f32 {
+    var darker = max(min(line, ground - distance), 0.0);
+    var brighter = min(max(line, ground + distance), 1.0);
+    if direction == RULE_BRIGHTER { darker = min(line, ground); }
+    if direction == RULE_DARKER { brighter = max(line, ground); }
+    let lack_darker = max(distance - (ground - darker), 0.0);
+    let lack_brighter = max(distance - (brighter - ground), 0.0);
+    let longer = (line - darker) - (brighter - line);
+    let turn = min(TURN, 0.5 * distance);
+    var bias = turn * clamp(longer / max(min(EVEN_STEP, distance), 1e-6), -1.0, 1.0);
+    if direction == RULE_BRIGHTER { bias = -turn; }
+    if direction == RULE_DARKER { bias = turn; }
+    let score = lack_darker - lack_brighter + bias;
+    let share = smooth_step(-turn, turn, score);
+    return darker * (1.0 - share) + brighter * share;
+}
+
+fn is_in_gamut(light: vec3<f32>, room: f32) -> bool {
+    return all(light >= vec3<f32>(-room)) && all(light <= vec3<f32>(1.0 + room));
+}
+
+// The colour of a lightness: chroma between those of the line and its rim, as far as sRGB has it.
+fn at_lightness(lightness: f32, own: vec3<f32>, edge: vec3<f32>, share: f32) -> vec3<f32> {
+    let paler = clamp((lightness + 0.1) / (edge.x + 0.1), 0.5, 2.0);
+    let a = own.y * (1.0 - share) + edge.y * paler * share;
+    let b = own.z * (1.0 - share) + edge.z * paler * share;
+    let room = GAMUT_ROOM * lightness * lightness * lightness;
+    let whole = light_of_oklab(vec3<f32>(lightness, a, b));
+    if is_in_gamut(whole, room) { return clamp(whole, vec3<f32>(0.0), vec3<f32>(1.0)); }
+    var fits = 0.0;
+    var spills = 1.0;
+    for (var i = 0u; i < FIT_ROUNDS; i++) {
+        let middle = 0.5 * (fits + spills);
+        if is_in_gamut(light_of_oklab(vec3<f32>(lightness, a * middle, b * middle)), room) {
+            fits = middle;
+        } else {
+            spills = middle;
+        }
+    }
+    return clamp(light_of_oklab(vec3<f32>(lightness, a * fits, b * fits)), vec3<f32>(0.0), vec3<f32>(1.0));
+}
+
+// The same for a place on the scale of the rule's measure: of WCAG the lightness at which the fitted colour has that luminance.
+fn at_place(place: f32, own: vec3<f32>, edge: vec3<f32>, share: f32, rule: u32) -> vec3<f32> {
+    let by_luminance = rules.rules[rule].measure == RULE_WCAG;
+    let luminance = luminance_at(place);
+    let rounds = select(0u, FIT_ROUNDS, by_luminance);
+    var low = 0.0;
+    var high = 1.0;
+    var light = vec3<f32>(0.0);
+    for (var i = 0u; i <= rounds; i++) {
+        let lightness = select(place, 0.5 * (low + high), by_luminance);
+        light = at_lightness(lightness, own, edge, share);
+        if dot(BACKDROP_LUMA, light) < luminance {
+            low = lightness;
+        } else {
+            high = lightness;
+        }
+    }
+    return light;
+}
+
+// A line's colour where its surface ends before `behind`, in linear light.
+fn adapted_light(line: vec3<f32>, rim: vec3<f32>, behind: vec3<f32>, rule: u32) -> vec3<f32> {
+    let method = rules.rules[rule].method;
+    if method == RULE_OFF { return line; }
+    if method == RULE_BY_LIKENESS {
+        return decoded_color(published_color(encoded_color(line), encoded_color(rim), encoded_color(behind), rule));
+    }
+    let own = oklab_of_light(line);
+    let ground = oklab_of_light(behind);
+    let start = place_of(line, own.x, rule);
+    let distance = target_of(rule);
+    let end = moved(start, place_of(behind, ground.x, rule), distance, rules.rules[rule].direction);
+    let step = abs(end - start);
+    if step == 0.0 { return line; }
+    let edge = oklab_of_light(rim);
+    let share = smooth_step(0.0, distance * HUE_AT, step);
+    return at_place(end, own, edge, share, rule);
+}
