@@ -188,6 +188,7 @@ fn ribbons(edges: &[Edge]) -> Vec<u32> {
         }],
         gbuffer: &[GPixel::EMPTY; 120 * 120],
         mask: &[Outline::NORMAL; 120 * 120],
+        tints: &[],
     };
     let (mut layer, mut keys) = (vec![0; 120 * 120], vec![0; 120 * 120]);
     npr_vector::ribbon::draw(
