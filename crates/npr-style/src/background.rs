@@ -20,7 +20,7 @@ pub enum Background {
     Transparent,
     /// One colour.
     Color(Color),
-    /// An image file, stretched over the frame.
+    /// An image file, which covers the frame, centred: where its shape is another, two sides are cut.
     Image(String),
 }
 
