@@ -3,9 +3,9 @@
 //# use lib/backdrop
 
 // How much contrast is given up for the smaller step, and half the band in which a line turns.
-const TURN: f32 = 0.02;
+const TURN: f32 = 0.006;
 // Largest difference of two steps that still counts as about the same, in lightness.
-const EVEN_STEP: f32 = 0.06;
+const EVEN_STEP: f32 = 0.018;
 // Share of the goal by which a line must be moved to take all of its hue from the rim.
 const HUE_AT: f32 = 0.5;
 const FIT_ROUNDS: u32 = 14u;

@@ -14,7 +14,7 @@ const RULES_OVERLAY: u32 = 2u;
 const RIM_OUTSIDE: u32 = 0x80000000u;
 const RIM_WITHIN: u32 = 0x40000000u;
 // Side of the tiles in which borders are looked for, in output pixels.
-const BORDER_TILE: u32 = 16u;
+const BORDER_TILE: u32 = 4u;
 
 struct Rule {
     thresholds: vec4<f32>,

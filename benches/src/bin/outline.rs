@@ -1,5 +1,5 @@
 //! Measures how well outlines mind the background and prints the tables kept in `benches/results/outline_color.md`; with
-//! `--sheets DIR` writes contact sheets instead.
+//! `contrast`, `orbits` or `objects` only that part; with `--sheets DIR` writes contact sheets instead.
 //!
 //! Run by `cargo xtask measure outline-colour`. A measuring program, not a test: it fails only where loading or drawing fails.
 
@@ -48,17 +48,22 @@ const RUNS: usize = 31;
 
 fn main() -> Outcome<()> {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    if let [flag, folder] = words.as_slice()
-        && flag == "--sheets"
-    {
-        return sheets(Path::new(folder));
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    match words.as_slice() {
+        [] => {
+            println!("# Outlines that mind the background\n");
+            println!("- machine: {}; no graphics device", machine::description());
+            println!("- code: {}\n", machine::code());
+            contrast()?;
+            orbits()?;
+            objects()
+        }
+        ["contrast"] => contrast(),
+        ["orbits"] => orbits(),
+        ["objects"] => objects(),
+        ["--sheets", folder] => sheets(Path::new(folder)),
+        _ => Err("arguments are none, contrast, orbits, objects, or --sheets DIR".into()),
     }
-    println!("# Outlines that mind the background\n");
-    println!("- machine: {}; no graphics device", machine::description());
-    println!("- code: {}\n", machine::code());
-    contrast()?;
-    orbits()?;
-    objects()
 }
 
 /// How well outlines read, and how near they stay to the rim.
@@ -184,7 +189,13 @@ fn objects() -> Outcome<()> {
         let mut ledger = Ledger::default();
         for _ in 0..RUNS {
             for (name, stage) in ["one", "ten"].into_iter().zip(&mut stages) {
-                ledger.time(name, || stage.draw(&camera))?;
+                let frame = ledger.time(name, || stage.draw(&camera))?;
+                if method.name == "ours" {
+                    let passes = frame.times.iter().map(|pass| (pass.name, pass.time));
+                    passes.for_each(|(pass, time)| {
+                        eprintln!("{name} {pass} {:.3}", time.as_secs_f64() * 1e3)
+                    });
+                }
             }
         }
         let [Some(one), Some(ten)] = ["one", "ten"].map(|name| ledger.of(name)) else {

@@ -53,7 +53,11 @@ pub const METHODS: [Method; 4] = [
     },
     Method {
         name: "ours",
-        settings: &["line.color=black", "line.background.method=contrast"],
+        settings: &[
+            "line.paint.source=surface",
+            "line.paint.factor=0.6",
+            "line.background.method=contrast",
+        ],
     },
 ];
 

@@ -13,10 +13,10 @@ use npr_core::surface::dot;
 /// A line that is lighter than a dark background and darker than a light one must pass through the background's own
 /// lightness somewhere between, if it is to change without a jump. Smaller makes that stretch of outline shorter, and
 /// the change steeper.
-pub(super) const TURN: f32 = 0.02;
+pub(super) const TURN: f32 = 0.006;
 
 /// Largest difference of two steps that still counts as about the same, in lightness.
-const EVEN_STEP: f32 = 0.06;
+const EVEN_STEP: f32 = 0.018;
 
 /// Share of the target by which a line must be moved to take all of its hue from the rim.
 const HUE_AT: f32 = 0.5;

@@ -10,7 +10,7 @@ use npr_core::window::Window;
 use rayon::prelude::*;
 
 /// Side of the square tiles in which borders are looked for, in output pixels.
-pub const TILE: u32 = 16;
+pub const TILE: u32 = 4;
 
 /// How far around its tile a border makes it busy: a rim's neighbours may lie in the next tile, and theirs one farther.
 const TILE_RIM: u32 = 2;
@@ -112,8 +112,11 @@ impl Scenery<'_> {
         let subject = self.wearer_of(first).subject;
         let mut last = first;
         for y in low[1]..high[1] {
-            for x in low[0]..high[0] {
-                let id = self.ids[(y * width + x) as usize];
+            let row = &self.ids[(y * width + low[0]) as usize..(y * width + high[0]) as usize];
+            if are_all(row, last) {
+                continue;
+            }
+            for id in row.iter().copied() {
                 if id != last {
                     if self.wearer_of(id).subject != subject {
                         return true;
@@ -135,6 +138,21 @@ impl Scenery<'_> {
             return Wearer::default();
         }
         self.wearers[self.part_of(id) as usize]
+    }
+
+    /// Whether all samples of some pixels, the last ones included, show the same number.
+    fn is_one(&self, low: [u32; 2], high: [u32; 2]) -> bool {
+        let samples = self.rules.samples;
+        let width = self.window.size[0] * samples;
+        let first = self.first_id(low[0], low[1]);
+        (low[1] * samples..(high[1] + 1) * samples).all(|y| {
+            let row = y * width;
+            let columns = row + low[0] * samples..row + (high[0] + 1) * samples;
+            are_all(
+                &self.ids[columns.start as usize..columns.end as usize],
+                first,
+            )
+        })
     }
 
     /// The number that the first sample of a pixel shows.
@@ -160,6 +178,11 @@ impl Scenery<'_> {
         }
         shown
     }
+}
+
+/// Whether all numbers are one, without a branch for each.
+fn are_all(ids: &[u32], one: u32) -> bool {
+    ids.iter().fold(0, |bits, id| bits | (id ^ one)) == 0
 }
 
 /// What rims are found on.
@@ -232,6 +255,10 @@ impl Search<'_> {
             return Rim::default();
         }
         let (low, high) = around(size, x, y);
+        // Where all is one triangle there is no border.
+        if scenery.rules.within == 0 && scenery.is_one(low, high) {
+            return Rim::default();
+        }
         let owner = self.owner(low, high);
         if owner == 0 {
             return Rim::default();
