@@ -308,9 +308,9 @@ impl LinePlace {
             return weights;
         }
         // Beside a face seen edge-on, weights are far too large, or no numbers.
-        let held = weights.map(|weight| weight.max(0.0).min(1e3));
+        let held = weights.map(|weight| if weight > 0.0 { weight.min(1e3) } else { 0.0 });
         let sum = held[0] + held[1] + held[2];
-        if !(sum > 0.0) {
+        if sum <= 0.0 {
             return [1.0, 0.0, 0.0];
         }
         held.map(|weight| weight / sum)

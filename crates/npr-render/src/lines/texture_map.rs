@@ -7,7 +7,7 @@ use crate::textures::Textures;
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 use npr_core::texture::TextureStore;
-use npr_scene::Scene;
+use npr_scene::{Mesh, Scene};
 
 /// The textures of a scene, and texture coordinates at the corners of a shape's faces.
 #[derive(Debug, Default)]
@@ -22,71 +22,93 @@ pub(super) struct TextureMap {
     pub notice: Option<String>,
 }
 
-/// A triangle of the file: its surface and the sorted places of its corners.
+/// A triangle of the file by its surface and the sorted places of its corners.
 type FaceKey = (u32, [[u32; 3]; 3]);
+
+/// A triangle of the file.
+#[derive(Debug)]
+struct StoredFace {
+    key: FaceKey,
+    /// Where its corners stand, in its own order.
+    places: [[u32; 3]; 3],
+    uvs: [[f32; 2]; 3],
+}
 
 impl TextureMap {
     /// Finds the faces of `shape` again among the triangles that it was made from. O(n log n).
     pub fn new(scene: &Scene, assembly: &Assembly, shape: &Shape) -> Self {
         let mut textures = Textures::new(scene);
-        let mut map = Self {
-            starts: vec![NONE; assembly.parts.len()],
-            ..Self::default()
-        };
-        let mut known: Vec<(FaceKey, [[u32; 3]; 3], [[f32; 2]; 3])> = Vec::new();
+        let mut starts = vec![NONE; assembly.parts.len()];
+        let mut known: Vec<StoredFace> = Vec::new();
         let meshes = scene.nodes.iter().filter_map(|node| {
             let mesh = node.mesh?;
             scene.meshes.get(mesh as usize)
         });
         for (mesh, placed) in meshes.zip(&assembly.meshes) {
-            let mut uvs: Vec<[f32; 2]> = Vec::new();
-            let mut starts = Vec::new();
-            for part in &mesh.parts {
-                let material = part.material.and_then(|m| scene.materials.get(m as usize));
-                let start = base_color_texture(scene, part, &mut textures);
-                starts.resize(starts.len() + part.positions.len(), start);
-                match &part.uvs {
-                    Some(own) => uvs.extend(own.iter().map(|uv| placed_uv(*uv, material))),
-                    None => uvs.resize(uvs.len() + part.positions.len(), [0.0; 2]),
-                }
-            }
+            let (uvs, of_vertices) = coordinates_of(scene, mesh, &mut textures);
             for (corners, surface, world) in placed.drawn() {
+                let uv_at = |corner: u32| uvs.get(corner as usize).copied().unwrap_or_default();
                 let places = world.map(place_key);
-                let at = corners.map(|corner| uvs.get(corner as usize).copied());
-                let [Some(a), Some(b), Some(c)] = at else {
-                    continue;
-                };
-                known.push((key_of(surface, places), places, [a, b, c]));
-                if let Some(of_surface) = map.starts.get_mut(surface as usize)
-                    && let Some(start) = starts.get(corners[0] as usize)
-                {
+                known.push(StoredFace {
+                    key: key_of(surface, places),
+                    places,
+                    uvs: corners.map(uv_at),
+                });
+                let start = of_vertices.get(corners[0] as usize);
+                if let (Some(of_surface), Some(start)) = (starts.get_mut(surface as usize), start) {
                     *of_surface = *start;
                 }
             }
         }
-        known.sort_by_key(|(key, _, _)| *key);
-        map.corners = (shape.faces.iter().zip(&shape.face_surfaces))
-            .map(|(face, surface)| {
-                let places = face.map(|v| place_key(shape.positions[v as usize]));
-                let key = key_of(*surface, places);
-                let found = known.binary_search_by_key(&key, |(key, _, _)| *key).ok()?;
-                let (_, stored, uvs) = &known[found];
-                let uv_at = |place: &[u32; 3]| {
-                    let corner = stored.iter().position(|other| other == place);
-                    uvs[corner.unwrap_or(0)]
-                };
-                Some([0, 1, 2].map(|i| uv_at(&places[i])))
-            })
-            .collect();
-        map.textures = textures.store;
-        map.notice = textures.notice;
-        map
+        known.sort_by_key(|face| face.key);
+        let faces = shape.faces.iter().zip(&shape.face_surfaces);
+        Self {
+            corners: faces
+                .map(|(face, surface)| {
+                    let places = face.map(|v| place_key(shape.positions[v as usize]));
+                    corners_in(&known, *surface, places)
+                })
+                .collect(),
+            starts,
+            textures: textures.store,
+            notice: textures.notice,
+        }
     }
 
     /// Texture coordinates at the corners of a face.
     pub fn corners(&self, face: u32) -> Option<[[f32; 2]; 3]> {
         self.corners.get(face as usize).copied().flatten()
     }
+}
+
+/// Texture coordinates of a mesh's vertices, all parts behind one another, and where the texture of each starts.
+fn coordinates_of(
+    scene: &Scene,
+    mesh: &Mesh,
+    textures: &mut Textures,
+) -> (Vec<[f32; 2]>, Vec<u32>) {
+    let mut uvs: Vec<[f32; 2]> = Vec::new();
+    let mut starts = Vec::new();
+    for part in &mesh.parts {
+        let material = part.material.and_then(|m| scene.materials.get(m as usize));
+        let count = uvs.len() + part.positions.len();
+        starts.resize(count, base_color_texture(scene, part, textures));
+        let own = part.uvs.iter().flatten();
+        uvs.extend(own.map(|uv| placed_uv(*uv, material)));
+        uvs.resize(count, [0.0; 2]);
+    }
+    (uvs, starts)
+}
+
+/// Texture coordinates at corners that stand at these places, in their order.
+fn corners_in(known: &[StoredFace], surface: u32, places: [[u32; 3]; 3]) -> Option<[[f32; 2]; 3]> {
+    let key = key_of(surface, places);
+    let found = known.binary_search_by_key(&key, |face| face.key).ok()?;
+    let face = &known[found];
+    Some(places.map(|place| {
+        let corner = face.places.iter().position(|other| *other == place);
+        face.uvs[corner.unwrap_or(0)]
+    }))
 }
 
 fn key_of(surface: u32, mut places: [[u32; 3]; 3]) -> FaceKey {
