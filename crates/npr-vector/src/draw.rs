@@ -21,6 +21,7 @@ use crate::spurs::cut_spurs;
 use crate::stroke::{Kind, Stroke, StrokePoint};
 use crate::visibility::{Circumstances, OutlineGrid, Piece, Seen, Span};
 use crate::zero_set::{CornerNormals, PolygonOutline, SeenContour, zero_set};
+use glam::DVec3;
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 use rayon::prelude::*;
@@ -275,6 +276,7 @@ const PLAIN: PointPaint = PointPaint {
 /// Runs with no piece longer than [`PAINT_STEP_PX`]; new points lie on the edge of the point before them, as near as can be.
 fn broken_up(shape: &Shape, runs: Vec<Run>) -> Vec<Run> {
     let broken = |run: Run| {
+        let run = reseated(shape, run);
         let back = run.points.first().copied().filter(|_| run.closed);
         let next = run.points.iter().skip(1).copied().chain(back);
         let mut points = Vec::with_capacity(run.points.len());
@@ -292,23 +294,42 @@ fn broken_up(shape: &Shape, runs: Vec<Run>) -> Vec<Run> {
     runs.into_par_iter().with_min_len(16).map(broken).collect()
 }
 
+/// A run whose points lie on the edge that is nearest to them, of their own and that of the point before: points made by
+/// smoothing name the edge of the nearer of two others, which round a corner is another side of the surface.
+fn reseated(shape: &Shape, mut run: Run) -> Run {
+    for i in 1..run.points.len() {
+        let (before, here) = (run.points[i - 1].edge, run.points[i]);
+        let [own, other] = [here.edge, before].map(|edge| seat(shape, edge, here.world));
+        if other.1 < own.1 {
+            (run.points[i].edge, run.points[i].t) = (before, other.0);
+        }
+    }
+    run
+}
+
+/// Where on an edge a place lies nearest, 0 at its lower end and 1 at its higher, and the square of how far off.
+fn seat(shape: &Shape, edge: u32, world: DVec3) -> (f32, f64) {
+    let [low, high] = shape.ends(edge).map(|vertex| shape.point(vertex));
+    let along = high - low;
+    let t = (world - low).dot(along) / along.length_squared().max(1e-300);
+    let t = if t.is_finite() {
+        t.clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    (t as f32, (low + along * t - world).length_squared())
+}
+
 /// A point a share of the way between two of a run.
 fn point_between(shape: &Shape, from: &RunPoint, to: &RunPoint, share: f64) -> RunPoint {
     let mix = |a: f64, b: f64| a + (b - a) * share;
     let world = from.world.lerp(to.world, share);
-    let [low, high] = shape.ends(from.edge).map(|vertex| shape.point(vertex));
-    let along = high - low;
-    let t = (world - low).dot(along) / along.length_squared().max(1e-300);
     RunPoint {
         place: std::array::from_fn(|i| mix(from.place[i], to.place[i])),
         depth: mix(from.depth, to.depth),
         world,
         edge: from.edge,
-        t: if t.is_finite() {
-            t.clamp(0.0, 1.0) as f32
-        } else {
-            from.t
-        },
+        t: seat(shape, from.edge, world).0,
     }
 }
 
