@@ -18,6 +18,20 @@ override WG: u32 = 64u;
 
 // Longest length over which rims are blended, in pixels.
 const SMOOTH_MOST: u32 = 24u;
+// Difference of a channel from which two rims are not blended any more.
+const UNLIKE: f32 = 0.2;
+
+fn apart(a: u32, b: u32) -> f32 {
+    let off = abs(unpack4x8unorm(a) - unpack4x8unorm(b));
+    return max(max(off.r, off.g), off.b);
+}
+
+// 1 for rims of the same colours on both sides, down to 0 where any channel differs by UNLIKE.
+fn likeness(a: Rim, b: Rim) -> f32 {
+    let most = max(apart(a.rim, b.rim), apart(a.behind, b.behind));
+    let left = max(1.0 - most / UNLIKE, 0.0);
+    return left * left;
+}
 
 fn smoothed_rim(x: u32, y: u32) -> Rim {
     let here = rims[y * window.size.x + x];
@@ -35,7 +49,7 @@ fn smoothed_rim(x: u32, y: u32) -> Rim {
             let rim = rims[row * window.size.x + column];
             if (rim.subject & ~RIM_OUTSIDE) != (here.subject & ~RIM_OUTSIDE) { continue; }
             let off = vec2<f32>(f32(column) - f32(x), f32(row) - f32(y));
-            let near = exp((off.x * off.x + off.y * off.y) * falloff);
+            let near = exp((off.x * off.x + off.y * off.y) * falloff) * likeness(here, rim);
             let own = unpack4x8unorm(rim.rim);
             let beyond = unpack4x8unorm(rim.behind);
             let weight = near * own.a;

@@ -49,7 +49,11 @@ pub const METHODS: [Method; 4] = [
     },
     Method {
         name: "published",
-        settings: &["line.color=black", "line.background.method=published"],
+        settings: &[
+            "line.method=rim",
+            "line.color=black",
+            "line.background.method=published",
+        ],
     },
     Method {
         name: "ours",

@@ -51,6 +51,9 @@ pub struct Place {
     pub rim: Oklab,
     /// Mean colour of what lies behind.
     pub behind: Oklab,
+    /// By how much the line's lightness differs from what lies behind: the median over the pixels around, for the mean of a dark and
+    /// a light wall is a wall that is not there. 0 without a line.
+    pub contrast: f32,
     /// Colour of the line, where there is any.
     pub line: Option<Oklab>,
 }
@@ -73,7 +76,7 @@ impl Verdict {
         for place in places {
             let Some(line) = place.line else { continue };
             verdict.lined += 1;
-            verdict.below += usize::from((line.l - place.behind.l).abs() < CONTRAST - ROUNDING);
+            verdict.below += usize::from(place.contrast < CONTRAST - ROUNDING);
             verdict.distance += f64::from(distance(line, place.rim));
         }
         verdict
@@ -139,11 +142,17 @@ fn place(pictures: &Pictures<'_>, px: [i32; 2]) -> Option<Place> {
             ((drawn.light[i] - (1.0 - share) * bare.light[i]) / share).clamp(0.0, 1.0)
         }))
     });
+    let line = line.map(lab);
+    let against = |line: Oklab| {
+        let grounds = free().filter_map(|at| Pixel::of(pictures.bare, at));
+        median(grounds.map(|ground| (lab(ground.light).l - line.l).abs()))
+    };
     Some(Place {
         px,
         rim: lab(rim),
         behind: lab(behind),
-        line: line.map(lab),
+        contrast: line.map_or(0.0, against),
+        line,
     })
 }
 
@@ -211,6 +220,12 @@ fn mean(colors: impl Iterator<Item = [f32; 3]>) -> Option<[f32; 3]> {
         count += 1.0;
     }
     (count > 0.0).then(|| sum.map(|v| v / count))
+}
+
+fn median(values: impl Iterator<Item = f32>) -> f32 {
+    let mut values: Vec<f32> = values.collect();
+    values.sort_by(f32::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or_default()
 }
 
 fn lab([r, g, b]: [f32; 3]) -> Oklab {

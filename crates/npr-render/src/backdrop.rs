@@ -6,7 +6,7 @@ use crate::model::{Model, PartInfo};
 use npr_core::color::{linear_from_srgb, srgb_from_linear};
 use npr_style::backdrop::{RULES_MAX, Rule, Rules, SMOOTH_MOST, Wearer, adapted_light};
 use npr_style::compose::Compose;
-use npr_style::{BackgroundMethod, LineScope, Style};
+use npr_style::{BackgroundMethod, LineScope, Style, Subjects};
 use std::collections::BTreeMap;
 
 /// Most frame pixels from an outline at which its line may still mind the background.
@@ -23,8 +23,10 @@ const BACKGROUND: &str = "background";
 enum SubjectKey<'a> {
     /// The name that a rule gives.
     Named(&'a str),
-    /// The node at the top of the tree.
-    Root(u32),
+    /// Everything else.
+    Scene,
+    /// A node: at the top of the tree, or an object's own.
+    Node(u32),
 }
 
 /// The subjects and rules of a scene in a style.
@@ -49,7 +51,11 @@ impl Backdrop {
             let look = style.resolve_for(&info.material_name, &info.object_name);
             let key = match look.subject {
                 Some(name) => SubjectKey::Named(name),
-                None => SubjectKey::Root(info.root),
+                None => match style.line.background.subjects {
+                    Subjects::Scene => SubjectKey::Scene,
+                    Subjects::Root => SubjectKey::Node(info.root),
+                    Subjects::Object => SubjectKey::Node(info.object),
+                },
             };
             let next = subjects.len() as u32 + 1;
             let subject = match key == SubjectKey::Named(BACKGROUND) || look.beam.is_some() {

@@ -91,6 +91,7 @@ pub use light::{ExtraLight, Light, LightShape, LightSpace};
 pub use line::{Kinds, Line, LineMethod};
 pub use line_background::{
     BackgroundMethod, Direction, Likeness, LineBackground, LineScope, Measure, RuleBackground,
+    Subjects,
 };
 pub use line_paint::{
     DepthSpace, HUE_STOPS_MAX, HUES, HueStop, KindColors, LineDepth, LineLight, LinePaint,

@@ -54,6 +54,19 @@ pub enum LineScope {
     All,
 }
 
+/// What is one subject, where no rule names it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Subjects {
+    /// All of the scene: only what lies behind all of it is background.
+    #[default]
+    Scene,
+    /// Each node without a parent, with all that hangs on it.
+    Root,
+    /// Each object.
+    Object,
+}
+
 /// How alike two colours must be.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -107,6 +120,9 @@ pub struct LineBackground {
     pub intensity: f32,
     /// For `published`: how alike surface and background must be in everything.
     pub likeness: Likeness,
+    /// What is one subject; default `scene`. Where several characters stand together, `root` or `object` judge each before the
+    /// others; rules name single ones by `subject`.
+    pub subjects: Subjects,
     /// Which lines follow the rule; default `outline`.
     pub scope: LineScope,
     /// Length of outline over which colours are blended; default 5 of 1080 px, at most 24 px of the frame. 0 for every pixel by
@@ -124,6 +140,7 @@ impl Default for LineBackground {
             ratio: 3.0,
             intensity: 2.0,
             likeness: Likeness::default(),
+            subjects: Subjects::Scene,
             scope: LineScope::Outline,
             smooth: Length::ref_px(5.0),
         }

@@ -11,9 +11,13 @@ use rayon::prelude::*;
 /// Longest length over which rims are blended, in pixels.
 pub const SMOOTH_MOST: u32 = 24;
 
+/// Difference of a channel from which two rims are not blended any more.
+const UNLIKE: f32 = 0.2;
+
 /// Blends every rim with those of the same subject around it, by a Gaussian that ends at [`Rules::smooth_px`].
 ///
-/// Colours then change over a few pixels of outline, and do not flicker from frame to frame. The rule is the pixel's own; where
+/// Colours then change over a few pixels of outline, and do not flicker from frame to frame. Rims weigh less the more their colours
+/// differ: the mean of a dark and a light wall is a wall that is not there [Tomasi and Manduchi 1998]. The rule is the pixel's own; where
 /// rims of another count for less, so does this one. Rims of the published method stay as they are. O(rims * length squared),
 /// parallel over rows.
 pub fn smooth_rims(window: &Window, rules: &Rules, rims: &[Rim], smoothed: &mut [Rim]) {
@@ -51,6 +55,7 @@ fn smoothed_rim(size: [u32; 2], rules: &Rules, rims: &[Rim], [x, y]: [u32; 2]) -
             let off = [column as f32 - x as f32, row as f32 - y as f32];
             let near = math::exp((off[0] * off[0] + off[1] * off[1]) * falloff);
             let (own, beyond) = (unpack_rgba8(rim.rim), unpack_rgba8(rim.behind));
+            let near = near * likeness(&here, &rim);
             let weight = near * own[3];
             total += near;
             counted += weight;
@@ -72,6 +77,20 @@ fn smoothed_rim(size: [u32; 2], rules: &Rules, rims: &[Rim], [x, y]: [u32; 2]) -
         behind: pack_rgba8([back[0], back[1], back[2], 0.0]) | rule,
         ..here
     }
+}
+
+/// 1 for rims of the same colours on both sides, down to 0 where any channel differs by [`UNLIKE`].
+fn likeness(a: &Rim, b: &Rim) -> f32 {
+    let apart = |a: u32, b: u32| {
+        let (a, b) = (unpack_rgba8(a), unpack_rgba8(b));
+        (a[0] - b[0])
+            .abs()
+            .max((a[1] - b[1]).abs())
+            .max((a[2] - b[2]).abs())
+    };
+    let most = apart(a.rim, b.rim).max(apart(a.behind, b.behind));
+    let left = (1.0 - most / UNLIKE).max(0.0);
+    left * left
 }
 
 /// For every pixel the column of the nearest rim in its row, counted from 1, within [`Rules::reach_px`]; 0 where there is none.
