@@ -22,6 +22,11 @@ pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Picture, Fault> {
 /// What is planned for its pixels has to stay within the memory limit.
 pub fn decode_bitmap(bytes: &[u8], limits: &Limits, black_level: f64) -> Result<Bitmap, Fault> {
     use ImageFormat::{Bmp, Jpeg, Png, Pnm, Tiff, WebP};
+    if let Some((size, packed)) = packed_rows(bytes) {
+        check_size(size, limits)?;
+        let bitmap = Bitmap::from_packed(size.0, size.1, packed);
+        return bitmap.map_err(|error| Fault::new(Exit::Input, error));
+    }
     let image = image(bytes, limits, &[Png, Jpeg, WebP, Pnm, Tiff, Bmp])?;
     let (width, height) = (image.width(), image.height());
     let bitmap = match image {
@@ -31,6 +36,29 @@ pub fn decode_bitmap(bytes: &[u8], limits: &Limits, black_level: f64) -> Result<
         other => Bitmap::from_rgba(width, height, other.into_rgba8().as_raw(), black_level),
     };
     bitmap.map_err(|error| Fault::new(Exit::Input, error))
+}
+
+/// Size and rows of a sound file of the format PBM with eight pixels a byte, which need no decoding.
+fn packed_rows(bytes: &[u8]) -> Option<((u32, u32), &[u8])> {
+    let mut rest = bytes.strip_prefix(b"P4")?;
+    let mut sides = [0u32; 2];
+    for side in &mut sides {
+        // Files with comments go the longer way.
+        rest = rest.trim_ascii_start();
+        let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+        *side = std::str::from_utf8(rest.get(..digits)?)
+            .ok()?
+            .parse()
+            .ok()?;
+        rest = rest.get(digits..)?;
+    }
+    let (_, rows) = rest
+        .split_first()
+        .filter(|(byte, _)| byte.is_ascii_whitespace())?;
+    let [width, height] = sides;
+    let length = (width.div_ceil(8) as usize).checked_mul(height as usize)?;
+    let rows = rows.get(..length).filter(|rows| !rows.is_empty())?;
+    Some(((width, height), rows))
 }
 
 /// An image file of one of some formats. Its size is checked before any pixel is decoded.
@@ -122,6 +150,22 @@ mod tests {
             decode(&bytes, &limits).map_err(|fault| fault.exit),
             Err(Exit::Limit)
         );
+    }
+
+    #[test]
+    fn packed_bitmaps_are_read_as_they_are() {
+        let (size, rows) = packed_rows(b"P4 9\n2\n\x80\x80\x00\x00rest").expect("sound");
+        assert_eq!((size, rows), ((9, 2), &[0x80, 0x80, 0, 0][..]));
+        for other in [
+            &b"P4 9 2 \x80"[..],
+            b"P4 # 9\n9 2\n1234",
+            b"P4 0 0\n",
+            b"P4",
+            b"P1 1 1 1",
+            b"P4 9 2",
+        ] {
+            assert_eq!(packed_rows(other), None);
+        }
     }
 
     #[test]

@@ -15,22 +15,34 @@ pub(crate) fn on_grid(value: f64, decimals: u32) -> i64 {
 
 /// Writes a number of `10^-decimals`, without zeros at its end.
 pub(crate) fn push_steps(text: &mut String, steps: i64, decimals: u32) {
-    use std::fmt::Write;
-    let one = 10i64.pow(decimals);
-    let (whole, mut part) = (steps.abs() / one, steps.abs() % one);
+    let one = 10u64.pow(decimals);
+    let (whole, mut part) = (steps.unsigned_abs() / one, steps.unsigned_abs() % one);
     if steps < 0 {
         text.push('-');
     }
+    push_digits(text, whole, 1);
+    if part == 0 {
+        return;
+    }
     let mut digits = decimals as usize;
-    while part != 0 && part % 10 == 0 {
+    while part % 10 == 0 {
         part /= 10;
         digits -= 1;
     }
-    // Writing to a string cannot fail.
-    let _ = match part {
-        0 => write!(text, "{whole}"),
-        _ => write!(text, "{whole}.{part:0digits$}"),
-    };
+    text.push('.');
+    push_digits(text, part, digits);
+}
+
+/// Writes a whole number with at least so many digits: several times faster than formatting, which files of curves spend their time in.
+fn push_digits(text: &mut String, mut number: u64, least: usize) {
+    let mut digits = [b'0'; 20];
+    let mut start = digits.len();
+    while number > 0 || digits.len() - start < least {
+        start -= 1;
+        digits[start] = b'0' + (number % 10) as u8;
+        number /= 10;
+    }
+    text.extend(digits[start..].iter().map(|digit| char::from(*digit)));
 }
 
 /// Writes a value rounded to a multiple of `10^-decimals`.

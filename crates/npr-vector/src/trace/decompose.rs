@@ -5,7 +5,7 @@ use super::edges::EdgeMap;
 use super::turn::{TurnPolicy, pixels_around};
 
 /// Steps after which a batch of loops is handed on.
-const BATCH_STEPS: usize = 1 << 15;
+const BATCH_STEPS: usize = 1 << 12;
 
 /// Directions of steps: right, up, left, down. Each is a left turn from the one before.
 pub const STEPS: [[i32; 2]; 4] = [[1, 0], [0, -1], [-1, 0], [0, 1]];
@@ -106,7 +106,7 @@ pub fn decompose(bitmap: &Bitmap, policy: TurnPolicy, turd_size: u64) -> Loops {
     loops
 }
 
-/// A decomposition under way: an iterator over batches of loops, each of some ten thousand steps or one long loop.
+/// A decomposition under way: an iterator over batches of loops, each of some thousand steps or one long loop.
 #[derive(Debug)]
 pub struct Decomposition<'a> {
     bitmap: &'a Bitmap,

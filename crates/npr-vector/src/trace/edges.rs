@@ -1,6 +1,7 @@
 //! The pixel edges of a bitmap: sides between ink and white.
 
 use super::bitmap::Bitmap;
+use rayon::prelude::*;
 
 /// Columns and rows of nothing around the picture, so that the 8x8 pixels around any corner can be asked for.
 const PAD: usize = 8;
@@ -28,20 +29,27 @@ impl EdgeMap {
             upright: vec![0; stride * rows],
             level: vec![0; stride * rows],
         };
-        let mut above = vec![0; stride];
-        let mut here = vec![0; stride];
-        for y in 0..=height as usize {
-            spread(bitmap.row(y), &mut here);
-            let start = (y + PAD) * stride;
-            let rows = map.upright[start..].iter_mut().zip(&mut map.level[start..]);
-            let mut carry = 0;
-            for ((upright, level), (here, above)) in rows.zip(here.iter().zip(&above)) {
-                *upright = here ^ (here << 1 | carry);
-                carry = here >> 63;
-                *level = here ^ above;
-            }
-            std::mem::swap(&mut above, &mut here);
-        }
+        let uprights = map.upright.par_chunks_mut(stride);
+        let rows = uprights.zip(map.level.par_chunks_mut(stride));
+        rows.enumerate()
+            .with_min_len(64)
+            .for_each(|(row, (upright, level))| {
+                let Some(y) = row.checked_sub(PAD) else {
+                    return;
+                };
+                let words = bitmap.row(y);
+                spread(words, upright);
+                level.copy_from_slice(upright);
+                let above = y.checked_sub(1).map_or(&[][..], |y| bitmap.row(y));
+                spread(above, level);
+                // Pixels become borders to the pixel before.
+                let mut carry = 0;
+                for word in upright {
+                    let before = *word << 1 | carry;
+                    carry = *word >> 63;
+                    *word ^= before;
+                }
+            });
         map
     }
 
@@ -118,11 +126,10 @@ impl EdgeMap {
     }
 }
 
-/// Copies a row of pixels to where its columns stand in the map.
+/// Flips what a row of pixels has of ink, where its columns stand in the map.
 fn spread(row: &[u64], to: &mut [u64]) {
-    to.fill(0);
     for (i, word) in row.iter().enumerate() {
-        to[i] |= word << PAD;
-        to[i + 1] |= word >> (64 - PAD);
+        to[i] ^= word << PAD;
+        to[i + 1] ^= word >> (64 - PAD);
     }
 }

@@ -183,10 +183,11 @@ impl Joiner {
     /// The sum of squared distances of an arc from the polygon and from the arcs that it replaces, if all are small.
     fn penalty(&self, start: usize, end: usize, cubic: &[DVec2; 4], tolerance: f64) -> Option<f64> {
         let mut penalty = 0.0;
+        let is_pair = end - start == 2;
         for index in start + 1..end {
             let [from, to] = [self.corner(index), self.corner(index + 1)];
             let side = to - from;
-            let touch = touch(cubic, side)?;
+            let touch = touch(cubic, side, is_pair)?;
             let distance = (touch - from).perp_dot(side) / side.length();
             let along = (touch - from).dot(side);
             if distance.abs() > tolerance || along < 0.0 || along > side.length_squared() {
@@ -198,7 +199,7 @@ impl Joiner {
             let bend = &self.bends[index];
             let from = self.end(index - 1);
             let chord = self.end(index) - from;
-            let touch = touch(cubic, chord)?;
+            let touch = touch(cubic, chord, is_pair)?;
             let mut distance = (touch - from).perp_dot(chord) / chord.length();
             let mut reach = (bend.corner - from).perp_dot(chord) / chord.length();
             reach *= 0.75 * bend.alpha.unwrap_or(1.0);
@@ -237,12 +238,14 @@ impl Joiner {
 }
 
 /// The place at which an arc is parallel to a direction.
-fn touch(cubic: &[DVec2; 4], direction: DVec2) -> Option<DVec2> {
+///
+/// Not in the paper, and measured on the program Potrace: for an arc in the place of a pair there is none where the equation for it
+/// is linear, as for pairs that are each other's mirror image. They stay apart.
+fn touch(cubic: &[DVec2; 4], direction: DVec2, is_pair: bool) -> Option<DVec2> {
     let [a, b, c] = [0, 1, 2].map(|i| (cubic[i + 1] - cubic[i]).perp_dot(direction));
     // a (1 - t)^2 + 2 b t (1 - t) + c t^2 = 0
     let (square, linear) = (a - 2.0 * b + c, 2.0 * (b - a));
-    // Not in the paper, and measured on the program Potrace: arcs stay apart where the equation is linear.
-    if square == 0.0 {
+    if square == 0.0 && is_pair {
         return None;
     }
     let root = (linear * linear - 4.0 * square * a).sqrt();

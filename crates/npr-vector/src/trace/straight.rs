@@ -1,6 +1,10 @@
 //! How far a path along pixel edges is straight [Selinger 2003, 2.2.1].
 
 use super::decompose::STEPS;
+use std::ops::Range;
+
+/// Paths longer than this many steps are measured on several threads.
+const PIECE_STEPS: usize = 1 << 11;
 
 /// For every corner of a closed path, how many steps from there on are straight.
 ///
@@ -25,32 +29,103 @@ pub(super) fn measure(steps: &[u8], lengths: &mut Vec<u32>) {
     lengths.clear();
     lengths.resize(n, 0);
     let runs = Run::all(steps);
-    let (Some(first), Some(last)) = (runs.first(), steps.last()) else {
-        return;
+    let whole = Path {
+        runs: &runs,
+        // The last run may go on where the first one stands.
+        seam: match (runs.first(), steps.last()) {
+            (Some(first), Some(last)) if first.direction() == *last & 3 => first.length(),
+            _ => 0,
+        },
+        steps: n as u32,
     };
-    // A stretch is straight only if all within it are: none ends after the one that starts a step later.
-    let mut most = n as u32;
-    let seam = if first.direction() == *last & 3 {
-        first.length()
-    } else {
-        0
-    };
-    let mut from = n;
-    for (index, run) in runs.iter().enumerate().rev() {
-        let tail = if index + 1 == runs.len() { seam } else { 0 };
-        for left in 1..=run.length() {
-            from -= 1;
-            most = length_from(&runs, index, left, tail, most + 1);
-            lengths[from] = most;
+    whole.measure(0..runs.len(), lengths);
+    // A stretch is straight only if all within it are: none ends after one that starts a step later. The last ones are
+    // followed by the first.
+    let mut most = lengths.first().map_or(0, |first| first.saturating_add(1));
+    for _ in 0..2 {
+        for length in lengths.iter_mut().rev() {
+            *length = most.min(*length);
+            most = *length + 1;
         }
     }
-    // Around the seam: the last stretches end no later than the first ones.
-    for length in lengths.iter_mut().rev() {
-        most += 1;
-        if *length <= most {
-            break;
+}
+
+/// A closed path, run by run.
+struct Path<'a> {
+    runs: &'a [Run],
+    /// Steps by which the last run goes on over the seam.
+    seam: u32,
+    steps: u32,
+}
+
+impl Path<'_> {
+    /// Measures from every corner of some runs on; `lengths` are those of these runs' steps. Long paths are halved for other threads.
+    fn measure(&self, runs: Range<usize>, lengths: &mut [u32]) {
+        let middle = runs.start + runs.len() / 2;
+        if lengths.len() > PIECE_STEPS && runs.len() > 1 {
+            let part = self.runs.get(runs.start..middle).unwrap_or(&[]);
+            let count: u32 = part.iter().map(|run| run.length()).sum();
+            let (first, second) = lengths.split_at_mut(count as usize);
+            rayon::join(
+                || self.measure(runs.start..middle, first),
+                || self.measure(middle..runs.end, second),
+            );
+            return;
         }
-        *length = most;
+        let mut most = self.steps;
+        let mut places = lengths.iter_mut().rev();
+        for index in runs.rev() {
+            let run = self.runs[index];
+            let tail = if index + 1 == self.runs.len() {
+                self.seam
+            } else {
+                0
+            };
+            for (left, place) in (1..=run.length()).zip(&mut places) {
+                // No longer than from the step after, which saves looking further.
+                most = self.length_from(index, left + tail, usize::from(tail > 0), most + 1);
+                *place = most;
+            }
+        }
+    }
+
+    /// How many steps from a corner on are straight by the triples that begin there, at most `most`.
+    ///
+    /// The corner has `left` steps before it in the direction of the run `index`, which may take in the first `skipped` runs.
+    #[inline]
+    fn length_from(&self, index: usize, left: u32, skipped: usize, most: u32) -> u32 {
+        let mut cone = Cone::default();
+        let mut seen = 0u8;
+        let mut place = [0i32; 2];
+        let mut length = 0;
+        let mut next = index + 1;
+        let (mut direction, mut count) = (self.runs[index].direction(), left);
+        loop {
+            seen |= 1 << direction;
+            if seen == 0b1111 {
+                return length;
+            }
+            let step = STEPS[usize::from(direction)];
+            let end = [
+                place[0] + step[0] * count as i32,
+                place[1] + step[1] * count as i32,
+            ];
+            if !cone.holds(end) {
+                return most.min(length + cone.steps_inside(place, step, count));
+            }
+            length += count;
+            if length >= most {
+                return most;
+            }
+            place = end;
+            cone.narrow(place);
+            if next >= self.runs.len() {
+                next = skipped;
+            }
+            let run = self.runs[next];
+            (direction, count) = (run.direction(), run.length());
+            next += 1;
+        }
     }
 }
 
@@ -76,42 +151,6 @@ impl Run {
     }
 }
 
-/// How many steps from a corner on are straight by the triples that begin there, at most `most`.
-///
-/// The corner has `left` steps of the run `index` before it, and `tail` more where that run goes on over the seam.
-#[inline]
-fn length_from(runs: &[Run], index: usize, left: u32, tail: u32, most: u32) -> u32 {
-    let mut cone = Cone::default();
-    let mut seen = 0u8;
-    let mut place = [0i32; 2];
-    let mut length = 0;
-    let following = runs
-        .iter()
-        .skip(index + 1)
-        .chain(runs.iter().skip(usize::from(tail > 0)));
-    let mut direction = runs.get(index).map_or(0, |run| run.direction());
-    let mut count = left + tail;
-    for next in following {
-        seen |= 1 << direction;
-        if seen == 0b1111 {
-            return length;
-        }
-        let step = STEPS[usize::from(direction)];
-        let wanted = count.min(most - length);
-        let inside = cone.steps_inside(place, step, wanted);
-        length += inside;
-        if inside < count {
-            return length;
-        }
-        let far = inside as i32;
-        place = [place[0] + step[0] * far, place[1] + step[1] * far];
-        cone.narrow(place);
-        (direction, count) = (next.direction(), next.length());
-    }
-    // Twice around a closed path: it has all four directions, and was left before.
-    length
-}
-
 /// The directions from a corner that pass within a pixel, along each axis, of all corners seen.
 ///
 /// Bounded by two vectors: allowed is what lies to the left of `right` and to the right of `left`, with y up; as long as both are
@@ -123,6 +162,12 @@ struct Cone {
 }
 
 impl Cone {
+    /// Whether a place lies within.
+    #[inline]
+    fn holds(&self, place: [i32; 2]) -> bool {
+        cross(self.right, place) >= 0 && cross(self.left, place) <= 0
+    }
+
     /// How many steps can be made from a place, at most `count`, without leaving the cone.
     #[inline]
     fn steps_inside(&self, place: [i32; 2], step: [i32; 2], count: u32) -> u32 {
