@@ -74,6 +74,9 @@ fn image(bytes: &[u8], limits: &Limits, formats: &[ImageFormat]) -> Result<Dynam
     reader.limits(decoder_limits(limits));
     let decoder = reader.into_decoder().map_err(broken)?;
     let (width, height) = decoder.dimensions();
+    if width == 0 || height == 0 {
+        return Err(Fault::new(Exit::Input, "the image has no pixels"));
+    }
     check_size((width, height), limits)?;
     // Pixels as they are read and as they are used, up to eight bytes and four.
     let pixels = width as usize * height as usize;

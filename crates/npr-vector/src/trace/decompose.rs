@@ -94,8 +94,7 @@ impl Loops {
 /// finished loops can be worked on meanwhile, see [`Decomposition`].
 pub fn decompose(bitmap: &Bitmap, policy: TurnPolicy, turd_size: u64) -> Loops {
     let mut loops = Loops::default();
-    let mut decomposition = Decomposition::new(bitmap, policy, turd_size);
-    while let Some(batch) = decomposition.next() {
+    for batch in Decomposition::new(bitmap, policy, turd_size) {
         let offset = loops.steps.len();
         loops.steps.extend_from_slice(&batch.steps);
         loops.heads.extend(batch.heads.iter().map(|head| LoopHead {
