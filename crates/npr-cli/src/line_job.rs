@@ -56,6 +56,7 @@ impl<'a> LineJob<'a> {
         let path = output_path(said.output.as_deref(), &source, ending)?;
         let format = format_of(said.format, &path)?;
         check_page(said, format)?;
+        check_hidden(&said.lines)?;
         let output = Output::of(&path)?;
         let external = said.drawing.allow_external.as_deref();
         let look = Look::resolve(&said.look(), external)?;
@@ -151,6 +152,16 @@ fn check_page(said: &LinesArguments, format: LineFormat) -> Result<(), Fault> {
     Err(Fault::new(Exit::Usage, message))
 }
 
+/// Refuses hidden lines of a method that knows none.
+fn check_hidden(said: &LineArguments) -> Result<(), Fault> {
+    if said.method != MethodName::Potrace || said.hidden == HiddenLines::None {
+        return Ok(());
+    }
+    let message = "--hidden: --method potrace finds lines in a picture, which shows no hidden ones: \
+                   use --method edges or surface";
+    Err(Fault::new(Exit::Usage, message))
+}
+
 /// The lines that the style asks for, with what the user said in place of its own values.
 fn options(said: &LinesArguments, style: &Style) -> LineOptions {
     let of_style =
@@ -176,6 +187,7 @@ fn options(said: &LinesArguments, style: &Style) -> LineOptions {
         method: match method {
             MethodName::Edges => LineMethod::Edges,
             MethodName::Surface => LineMethod::Surface,
+            MethodName::Potrace => LineMethod::Potrace,
         },
         smooth: *smooth == Switch::On,
         hidden: *hidden != HiddenLines::None,

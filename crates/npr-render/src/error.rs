@@ -39,6 +39,9 @@ pub enum RenderError {
     /// Lines could not be closed to regions.
     #[error(transparent)]
     Fill(#[from] npr_vector::fill::FillError),
+    /// Sides of pixels could not be put in rows.
+    #[error("line.potrace: {0}")]
+    Rank(#[from] npr_vector::rank::RankError),
     /// Words of the style cannot be set.
     #[error("lettering.{index}: {source}")]
     Lettering {

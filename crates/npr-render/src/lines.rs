@@ -5,6 +5,7 @@ mod cache;
 mod colors;
 mod options;
 mod paint;
+mod pixels;
 mod smoke;
 mod stage;
 mod texture_map;
@@ -76,6 +77,8 @@ pub struct LineModel {
     smoke: Option<Smoke>,
     notices: Vec<String>,
     triangle_count: usize,
+    /// Most bytes that a drawing may take.
+    memory_limit: u64,
     /// What was prepared last, for views to come.
     prepared: Mutex<Option<(PreparedKey, Arc<Prepared>)>>,
     bends: OnceLock<ShapeBends>,
@@ -93,6 +96,7 @@ struct LineView<'a> {
     camera: &'a Camera,
     projector: &'a Projector,
     contours: &'a EdgeContours,
+    bounds: Bounds,
     smoke: Option<&'a SmokeLines<'a>>,
     /// Colours of strokes along themselves, where the style has any.
     colors: Option<&'a StrokeColors<'a>>,
@@ -156,7 +160,10 @@ impl LineModel {
             Some(folder) => cache::shape(assembly, options, folder, build),
             None => build(assembly.plain_surfaces()),
         };
-        Ok(Self::of_shape(scene, assembly, shape))
+        Ok(Self {
+            memory_limit: options.memory_limit,
+            ..Self::of_shape(scene, assembly, shape)
+        })
     }
 
     /// The same, with the surface kept in `folder` between runs.
@@ -191,6 +198,7 @@ impl LineModel {
             cameras: placement::cameras_of(scene),
             notices: notices_of(scene, assembly),
             triangle_count: assembly.triangle_count(),
+            memory_limit: u64::MAX,
             prepared: Mutex::new(None),
             bends: OnceLock::new(),
             map: None,
@@ -296,7 +304,12 @@ impl LineModel {
         let is_empty = self.points.is_empty();
         let bounds = smoke::joined(smoke.map(|(smoke, _)| smoke), self.bounds, is_empty);
         let projector = Projector::new(camera, options.size, bounds);
-        let contours = find(&eye_of(&self.shape, &projector))?;
+        // A picture of lines finds its own contours.
+        let contours = if options.method == LineMethod::Potrace && smoke.is_none() {
+            EdgeContours::default()
+        } else {
+            find(&eye_of(&self.shape, &projector))?
+        };
         let prepared = self.prepared(options);
         let mist = match smoke {
             Some((smoke, _)) => Some(self.smoke_view(wanted, smoke, &projector, bounds)?),
@@ -313,11 +326,12 @@ impl LineModel {
             camera,
             projector: &projector,
             contours: &contours,
+            bounds,
             smoke: smoke_lines.as_ref(),
             colors: colors.as_ref(),
         };
-        let mut strokes = self.strokes(&prepared, &view, style, options);
         let paint = Paint::new(&self.parts, style, has_lines);
+        let mut strokes = self.strokes(&prepared, &view, style, options, &paint)?;
         paint.apply(&mut strokes);
         check_points(&strokes)?;
         let regions = if options.fill {
@@ -393,7 +407,8 @@ impl LineModel {
         view: &LineView<'_>,
         style: &Style,
         options: &LineOptions,
-    ) -> Vec<Stroke> {
+        paint: &Paint,
+    ) -> Result<Vec<Stroke>, RenderError> {
         let radius = self.radius();
         let input = WidthInput {
             shape: &self.shape,
@@ -410,7 +425,7 @@ impl LineModel {
         let settings = LineSettings {
             size: options.size,
             kinds: options.kinds.bits(),
-            method: options.method,
+            method: options.method.on_mesh(),
             smooth: options.smooth,
             hidden: options.hidden,
             split: options.split,
@@ -426,7 +441,10 @@ impl LineModel {
             width_at: &|vertex| widths.at(vertex),
             paint_at: view.colors.is_some().then_some(&paint_at),
         };
-        strokes_with(
+        if options.method == LineMethod::Potrace {
+            return self.pixel_strokes(prepared, view, options, (&settings, paint), &look);
+        }
+        Ok(strokes_with(
             &self.shape,
             prepared,
             view.projector,
@@ -434,13 +452,14 @@ impl LineModel {
             view.contours,
             &look,
             view.smoke,
-        )
+        ))
     }
 
     /// What does not depend on the camera, made once for every crease angle in a row.
     fn prepared(&self, options: &LineOptions) -> Arc<Prepared> {
         let crease_cos = npr_core::math::cos(options.crease);
-        let with_crossings = options.kinds.has(Kind::Intersection);
+        let is_on_mesh = options.method != LineMethod::Potrace;
+        let with_crossings = is_on_mesh && options.kinds.has(Kind::Intersection);
         let key = (crease_cos.to_bits(), with_crossings);
         let mut last = self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
         match &*last {

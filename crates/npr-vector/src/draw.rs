@@ -75,6 +75,23 @@ pub struct StrokeLook<'a> {
     pub paint_at: Option<PaintAt<'a>>,
 }
 
+impl StrokeLook<'_> {
+    /// Colour and whole width in pixels at a point of a run.
+    pub(crate) fn paint(&self, shape: &Shape, run: &Run, point: &RunPoint) -> PointPaint {
+        let [a, b] = shape
+            .ends(point.edge)
+            .map(|v| f64::from((self.width_at)(v)));
+        let width = (a + (b - a) * f64::from(point.t)) * run.weight;
+        let paint = self
+            .paint_at
+            .map_or(PLAIN, |paint_at| paint_at(run.kind, run.surface, point));
+        PointPaint {
+            width: width * paint.width,
+            ..paint
+        }
+    }
+}
+
 /// Pieces longer than this, in pixels, are broken up where colours change from place to place.
 const PAINT_STEP_PX: f64 = 6.0;
 
@@ -244,17 +261,7 @@ pub fn strokes_with(
         found = broken_up(shape, found);
     }
     let mut strokes = strokes_of(found, &|run: &Run, point: &RunPoint| {
-        let [a, b] = shape
-            .ends(point.edge)
-            .map(|v| f64::from((look.width_at)(v)));
-        let width = (a + (b - a) * f64::from(point.t)) * run.weight;
-        let paint = look
-            .paint_at
-            .map_or(PLAIN, |paint_at| paint_at(run.kind, run.surface, point));
-        PointPaint {
-            width: width * paint.width,
-            ..paint
-        }
+        look.paint(shape, run, point)
     });
     if let Some(smoke) = smoke {
         let seen = Seen {

@@ -27,7 +27,7 @@ pub fn features(shape: &Shape, crease_cos: f32) -> CurveGraph {
 }
 
 /// What an edge is whatever the view; none where it is nothing.
-fn static_flags(shape: &Shape, edge: u32, crease_cos: f32) -> Option<u32> {
+pub(crate) fn static_flags(shape: &Shape, edge: u32, crease_cos: f32) -> Option<u32> {
     let traits = shape.edge_traits[edge as usize];
     let bit = |has: bool, bit: u32| if has { bit } else { 0 };
     let bends = shape.dihedral_cos[edge as usize] < crease_cos;

@@ -36,6 +36,7 @@ mod number;
 pub mod outline;
 mod page;
 pub mod pdf;
+pub mod pixel_contour;
 pub mod plot;
 pub mod project;
 pub mod puff;

@@ -334,7 +334,7 @@ pub(crate) fn base_id(edge: u32, kind: Kind) -> u64 {
 }
 
 /// Tells apart runs that hang on the same edge, in the order in which they lie along it.
-fn number(runs: &mut [Run]) {
+pub(crate) fn number(runs: &mut [Run]) {
     let mut order: Vec<usize> = (0..runs.len()).collect();
     order.sort_by(|a, b| {
         let along = |i: usize| (runs[i].id, runs[i].occluders > 0);

@@ -102,6 +102,8 @@ pub enum MethodName {
     /// Along mesh edges, exact for the polygons.
     #[default]
     Edges,
+    /// From a picture of all lines, pixel by pixel, as published in 2022: for comparison.
+    Potrace,
 }
 
 /// What becomes of hidden lines.

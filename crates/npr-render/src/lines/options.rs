@@ -1,7 +1,9 @@
 //! What is asked of a line model and of a drawing.
 
 use npr_style::Style;
+use npr_vector::draw::Method;
 use npr_vector::graph::CurveNode;
+use npr_vector::pixel_contour::PublishedPath;
 use npr_vector::stroke::Kind;
 
 /// How a scene is prepared for line drawings.
@@ -105,9 +107,32 @@ pub struct LineOptions {
     pub fill: bool,
     /// Pixels per inch, for widths in millimetres; default 96.
     pub dpi: f32,
+    /// The constants of [`LineMethod::Potrace`].
+    pub potrace: PublishedPath,
 }
 
-pub use npr_vector::draw::Method as LineMethod;
+/// How lines are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LineMethod {
+    /// Contours along mesh edges, exact for the polygons.
+    #[default]
+    Edges,
+    /// Contours where interpolated normals turn away, smooth.
+    Surface,
+    /// All lines from a picture of them, as published [Jiang et al. 2022]: visible ones alone, none of intersections, and
+    /// [`LineOptions::smooth`] is about places only. See [`npr_vector::pixel_contour`].
+    Potrace,
+}
+
+impl LineMethod {
+    /// How contours on the mesh are found; those of pictures start from edges.
+    pub(crate) fn on_mesh(self) -> Method {
+        match self {
+            Self::Edges | Self::Potrace => Method::Edges,
+            Self::Surface => Method::Surface,
+        }
+    }
+}
 
 impl LineOptions {
     /// All visible lines of a picture of `size` pixels, smoothed.
@@ -122,6 +147,7 @@ impl LineOptions {
             split: None,
             fill: false,
             dpi: 96.0,
+            potrace: PublishedPath::default(),
         }
     }
 

@@ -45,6 +45,11 @@ impl Paint {
         }
     }
 
+    /// For every surface whether it has lines.
+    pub fn lined_surfaces(&self) -> Vec<bool> {
+        self.surfaces.iter().map(|paint| paint.has_lines).collect()
+    }
+
     /// Scales widths by the factors of surfaces, and removes the strokes of those that have no lines. Strokes of no part, which
     /// are those of smoke, stay as they are.
     pub fn apply(&self, strokes: &mut Vec<Stroke>) {

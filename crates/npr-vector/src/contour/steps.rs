@@ -219,10 +219,20 @@ impl Marked<'_> {
         let (tail, head) = (tail_of(half_edge), tail_of(following));
         let own = tail_of(Shape::following(following));
         let across = tail_of(Shape::following(Shape::following(twin)));
-        let eye = Eye::from(self.viewer);
-        let from_tail = |p| eye.scaled_difference(p, tail);
-        dot(cross(from_tail(head), from_tail(own)), from_tail(across)) > 0.0
+        is_raised(&Eye::from(self.viewer), tail, head, own, across)
     }
+}
+
+/// Whether `across` lies above the plane of the face of `tail`, `head` and `own`.
+pub(crate) fn is_raised(
+    eye: &Eye,
+    tail: [f32; 3],
+    head: [f32; 3],
+    own: [f32; 3],
+    across: [f32; 3],
+) -> bool {
+    let from_tail = |p| eye.scaled_difference(p, tail);
+    dot(cross(from_tail(head), from_tail(own)), from_tail(across)) > 0.0
 }
 
 fn point(positions: &[f32], vertex: u32) -> [f32; 3] {
