@@ -81,3 +81,23 @@ fn without_a_line_model_they_are_left_out_and_told_of() {
     );
     assert!(drawn(&lines("shape"), false).notices.is_empty());
 }
+
+/// Strokes from pixels are drawn over surfaces as curves are, and cover about as much.
+#[test]
+fn strokes_from_pixels_are_drawn_as_curves_are() {
+    let [curves, potrace] = ["curves", "potrace"].map(|method| drawn(&lines(method), true));
+    let [of_curves, of_pixels] = [&curves, &potrace].map(|frame| Ink::of(frame).count());
+    assert!(
+        of_pixels > of_curves / 2 && of_pixels < 2 * of_curves,
+        "{of_pixels} {of_curves}"
+    );
+    let mut style = lines("potrace");
+    style.line.potrace.speck_area = 1e6;
+    assert_eq!(
+        Ink::of(&drawn(&style, true)).count(),
+        0,
+        "its constants are those of the style"
+    );
+    let told = ["lines as curves are left out: no line model was given"];
+    assert_eq!(drawn(&lines("potrace"), false).notices, told);
+}

@@ -100,6 +100,30 @@ fn camera(middle: DVec3, radius: f64, direction: [f64; 3]) -> Camera {
     }
 }
 
+/// Eight views around a subject, from three radii and 15 degrees above.
+pub fn pilot_cameras(subject: &LineSubject) -> Vec<Camera> {
+    let (middle, radius) = subject.soup.ball();
+    let up = 15f64.to_radians();
+    let view = |turn: f64| {
+        let direction = [
+            libm::cos(up) * libm::sin(turn),
+            libm::sin(up),
+            libm::cos(up) * libm::cos(turn),
+        ];
+        let eye = middle + DVec3::from(direction) * (3.0 * radius);
+        Camera {
+            eye: eye.as_vec3().to_array(),
+            projection: Projection::Perspective {
+                fov_y: 45f32.to_radians(),
+            },
+            ..camera(middle, radius, direction)
+        }
+    };
+    (0..8)
+        .map(|step| view(f64::from(step) * 45f64.to_radians()))
+        .collect()
+}
+
 /// The view that other programs were measured with, of a shape within the unit ball.
 pub fn benchmark_camera() -> Camera {
     camera(DVec3::ZERO, 1.0, DIRECTIONS[0])

@@ -18,7 +18,7 @@ use crate::volume::{self, Film};
 use npr_core::camera::Camera;
 use npr_core::geometry::Part;
 use npr_gpu::engine::{Engine, PassTime};
-use npr_render::{Drawing, LineMethod, LineModel, LineModelOptions, LineStage};
+use npr_render::{Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineStage};
 use npr_style::{Background, WidthSource};
 use std::io::Write;
 
@@ -101,11 +101,15 @@ fn draw_lines(
         job.said.drawing.quiet,
         progress,
     )?;
-    if job.said.drawing.backend == Backend::Gpu && job.options.method == LineMethod::Surface {
-        let text = format!(
-            "{} finds contours along edges; smooth ones are made from them on the processor",
-            drawn.engine
-        );
+    let told = match job.options.method {
+        LineMethod::Edges => None,
+        LineMethod::Surface => {
+            Some("finds contours along edges; smooth ones are made from them on the processor")
+        }
+        LineMethod::Potrace => Some("has no part in --method potrace, which runs on the processor"),
+    };
+    if let Some(told) = told.filter(|_| job.said.drawing.backend == Backend::Gpu) {
+        let text = format!("{} {told}", drawn.engine);
         progress.suspend(|| message::warn(job.said.drawing.quiet, &text));
     }
     Ok(drawn)
@@ -147,6 +151,10 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<LineModel, Faul
     Ok(model)
 }
 
+fn is_intersection(kind: &Kind) -> bool {
+    *kind == Kind::Intersection
+}
+
 fn warn_of(job: &LineJob<'_>, model: &LineModel, smoke: &Film) {
     let warn = |text: &str| message::warn(job.said.drawing.quiet, text);
     for notice in model.notices().iter().chain(&smoke.notices) {
@@ -163,6 +171,10 @@ fn warn_of(job: &LineJob<'_>, model: &LineModel, smoke: &Film) {
     }
     if let Some(notice) = job.look.style.line_source_notice() {
         warn(notice);
+    }
+    let mut named = job.said.lines.kinds.iter().flatten();
+    if job.options.method == LineMethod::Potrace && named.any(is_intersection) {
+        warn("lines of kind intersection are left out: --method potrace draws edges of meshes");
     }
     if job.look.style.line.width.source == WidthSource::Texture {
         warn("line widths do not follow the texture: lines have the full width");

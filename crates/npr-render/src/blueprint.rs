@@ -117,7 +117,7 @@ impl Method {
             ..masked
         };
         match method {
-            LineMethod::Off | LineMethod::Angle | LineMethod::Curves => none,
+            LineMethod::Off | LineMethod::Angle | LineMethod::Curves | LineMethod::Potrace => none,
             LineMethod::Shape => {
                 let residual = style.line.kinds.intersection;
                 let stamps = if residual { Compose::OVERLAY } else { 0 };

@@ -266,16 +266,16 @@ impl LineModel {
         self.draw_some(&wanted, find, |_| true)
     }
 
-    /// The lines of the parts whose method is `curves`, on the processor, as far as `smoke` does not hide them.
+    /// The lines of the parts whose method of the style is `of_parts`, on the processor, as far as `smoke` does not hide them.
     pub(crate) fn draw_curves(
         &self,
         camera: &Camera,
-        style: &Style,
+        (style, of_parts): (&Style, npr_style::LineMethod),
         options: &LineOptions,
         (smoke, pictures): (Option<&Smoke>, &BTreeMap<String, Picture>),
     ) -> Result<Drawing, RenderError> {
         let find = |eye: &Eye| Ok(EdgeContours::new(&self.shape, eye));
-        let is_curve = |look: &Look<'_>| look.line_method == npr_style::LineMethod::Curves;
+        let is_curve = |look: &Look<'_>| look.line_method == of_parts;
         let wanted = Wanted {
             camera,
             style,

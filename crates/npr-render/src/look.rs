@@ -190,7 +190,7 @@ fn highlighted(highlight: &Highlight) -> Part {
 /// The bits of a part whose outline is drawn by a method.
 fn outline_flags(method: LineMethod) -> u32 {
     match method {
-        LineMethod::Off | LineMethod::Curves => 0,
+        LineMethod::Off | LineMethod::Curves | LineMethod::Potrace => 0,
         LineMethod::Hull => Part::HULL,
         LineMethod::FilterHull => Part::LINES | Part::HULL,
         LineMethod::Angle => Part::ANGLE,

@@ -8,7 +8,7 @@ use crate::frame::Frame;
 use crate::lettering::Lettering;
 use crate::light::{self, ChosenLights};
 use crate::line_colors::{is_any_painted, is_any_width_lit};
-use crate::lines::{LineModel, LineOptions};
+use crate::lines::{LineMethod, LineModel, LineOptions};
 use crate::look::{self, StyledModel};
 use crate::model::Model;
 use crate::placement::Bounds;
@@ -112,7 +112,7 @@ pub struct Stage<'a> {
     /// The lights of the smoke, and whether they are those of the scene.
     smoke_lights: (ChosenLights, bool),
     lettering: Lettering,
-    /// Gives the lines of parts whose method is `curves`.
+    /// Gives the lines of parts whose method is `curves` or `potrace`.
     lines: Option<&'a LineModel>,
     streaks: Option<Streaks<'a>>,
     blending: Option<Blending<'a>>,
@@ -264,7 +264,7 @@ impl<'a> Stage<'a> {
         Ok(stage)
     }
 
-    /// The same, with the lines of parts whose `line.method` is `curves` from a line model of the scene.
+    /// The same, with the lines of parts whose `line.method` is `curves` or `potrace` from a line model of the scene.
     ///
     /// Without one they have no lines, and [`Frame::notices`] tells.
     pub fn with_lines(mut self, lines: &'a LineModel) -> Self {
@@ -272,7 +272,7 @@ impl<'a> Stage<'a> {
         self
     }
 
-    /// Draws the lines of parts whose method is `curves` over a frame.
+    /// Draws the lines of parts whose method is `curves` or `potrace` over a frame.
     fn draw_curves(
         &self,
         camera: &Camera,
@@ -292,15 +292,25 @@ impl<'a> Stage<'a> {
             ..LineOptions::of_style(&self.style, frame.size)
         };
         let beside = (self.options.smoke.as_ref(), &self.options.pictures);
-        let drawing = lines.draw_curves(camera, &self.style, &options, beside)?;
-        let options = ArtworkOptions::default();
-        let Some((sides, rules)) = minded else {
-            paint_drawing_over(&drawing, &options, &mut frame.rgba);
-            return Ok(());
-        };
-        let mut lines = vec![0; frame.rgba.len()];
-        paint_drawing_over(&drawing, &options, &mut lines);
-        sides.lay(&lines, rules, &mut frame.rgba);
+        for (of_parts, method) in [
+            (npr_style::LineMethod::Curves, LineMethod::Edges),
+            (npr_style::LineMethod::Potrace, LineMethod::Potrace),
+        ] {
+            if !self.style.has_method(of_parts) {
+                continue;
+            }
+            let options = LineOptions { method, ..options };
+            let of_style = (&self.style, of_parts);
+            let drawing = lines.draw_curves(camera, of_style, &options, beside)?;
+            let options = ArtworkOptions::default();
+            let Some((sides, rules)) = minded else {
+                paint_drawing_over(&drawing, &options, &mut frame.rgba);
+                continue;
+            };
+            let mut lines = vec![0; frame.rgba.len()];
+            paint_drawing_over(&drawing, &options, &mut lines);
+            sides.lay(&lines, rules, &mut frame.rgba);
+        }
         Ok(())
     }
 

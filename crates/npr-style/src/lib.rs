@@ -62,6 +62,7 @@ mod named_picture;
 mod nearest;
 pub mod paint;
 mod place;
+mod potrace;
 mod preset;
 pub mod ramp;
 mod rule;
@@ -98,6 +99,7 @@ pub use line_paint::{
     LineSource, RuleLineDepth, RuleLineLight, RulePaint, hue_row,
 };
 pub use motion::{Motion, RuleMotion};
+pub use potrace::Potrace;
 pub use preset::{DEFAULT_PRESET, Preset, find as find_preset, presets};
 pub use ramp::{Level, Stop};
 pub use rule::{

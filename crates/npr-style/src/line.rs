@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Color, LineBackground, LinePaint, Width};
+use crate::{Color, LineBackground, LinePaint, Potrace, Width};
 
 /// How lines are found and drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -33,6 +33,8 @@ pub enum LineMethod {
     /// Strokes of `npr lines`: exact, with hidden lines removed, joined and smoothed, drawn over the finished surfaces, their
     /// beams and everything. They cost what a line drawing costs.
     Curves,
+    /// Strokes made of the pixels of a picture of all lines, as published [Jiang et al. 2022]; drawn as those of `curves`.
+    Potrace,
 }
 
 /// The kinds of line.
@@ -90,6 +92,8 @@ pub struct Line {
     pub angle_threshold_deg: f32,
     /// The kinds of line that are drawn.
     pub kinds: Kinds,
+    /// The constants of method `potrace`.
+    pub potrace: Potrace,
     /// How wide lines are.
     pub width: Width,
     /// How their colour minds what lies behind them.
@@ -107,6 +111,7 @@ impl Default for Line {
             split_angle_deg: 180.0,
             angle_threshold_deg: 15.0,
             kinds: Kinds::default(),
+            potrace: Potrace::default(),
             width: Width::default(),
             background: LineBackground::default(),
         }

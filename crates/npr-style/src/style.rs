@@ -141,10 +141,13 @@ impl Style {
 
     /// Whether any part may have its lines drawn as curves, which takes a line model of the scene.
     pub fn has_curves(&self) -> bool {
-        let rules = self.rule.iter().filter_map(|rule| rule.line.method);
-        std::iter::once(self.line.method)
-            .chain(rules)
-            .any(|method| method == LineMethod::Curves)
+        self.has_method(LineMethod::Curves) || self.has_method(LineMethod::Potrace)
+    }
+
+    /// Whether any part may have its lines drawn by a method.
+    pub fn has_method(&self, method: LineMethod) -> bool {
+        let mut rules = self.rule.iter().filter_map(|rule| rule.line.method);
+        self.line.method == method || rules.any(|of_rule| of_rule == method)
     }
 
     /// Checks what no single value shows: order, contradictions, missing companions.
@@ -203,11 +206,12 @@ fn check_method(method: Option<LineMethod>, rule: usize) -> Result<(), StyleErro
             | LineMethod::Shape
             | LineMethod::Hull
             | LineMethod::Angle
-            | LineMethod::Curves,
+            | LineMethod::Curves
+            | LineMethod::Potrace,
         ) => Ok(()),
         Some(_) => Err(StyleError::unfit(
             format!("rule.{rule}.line.method"),
-            "works on whole pictures; a part may have shape, hull, angle, curves or none",
+            "works on whole pictures; a part may have shape, hull, angle, curves, potrace or none",
         )),
     }
 }

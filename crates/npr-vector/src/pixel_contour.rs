@@ -371,7 +371,8 @@ pub fn ranked_sides(ink: &Ink<'_>, rounds: Option<u32>) -> Result<(Vec<u32>, Ran
     Ok((sides, ranked))
 }
 
-fn standings_of(ranked: &Ranked) -> Vec<Standing> {
+/// Where every node is in its chain.
+pub fn standings_of(ranked: &Ranked) -> Vec<Standing> {
     let fields = ranked.head.iter().zip(&ranked.rank).zip(&ranked.length);
     fields
         .map(|((head, rank), length)| Standing {

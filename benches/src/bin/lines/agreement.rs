@@ -99,8 +99,11 @@ fn write_picture(path: &Path, svg: &str) -> Outcome<()> {
 
 /// Every model in every view and every way.
 pub fn agreement(arguments: &Arguments) -> Outcome<()> {
-    let ways = ways();
-    let mut rows: [Vec<Row>; 4] = Default::default();
+    let ways: Vec<_> = ways()
+        .into_iter()
+        .filter(|way| arguments.takes_way(way.name))
+        .collect();
+    let mut rows: Vec<Vec<Row>> = ways.iter().map(|_| Vec::new()).collect();
     for (path, unit) in files(arguments) {
         let subject = LineSubject::load(&path, unit)?;
         if arguments.quick && subject.soup.faces.len() > QUICK_TRIANGLES {

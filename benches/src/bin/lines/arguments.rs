@@ -6,12 +6,15 @@ use crate::Outcome;
 
 /// How the program is called.
 pub const USAGE: &str = "\
-usage: lines [--models DIR] [--peers DIR] [--only NAME] [--quick] [--pictures DIR]
+usage: lines [--models DIR] [--peers DIR] [--only NAME] [--method NAME] [--quick] [--pictures DIR]
+       lines --pilot [--models DIR] [--only NAME] [--method NAME]
        lines --strokes FILE.json --model SCENE [--eye X,Y,Z --target X,Y,Z --fov DEG] [--crease DEG]
 
   --models DIR    folder of the shared models
   --peers DIR     folder of the meshes that other programs drew, as OBJ
   --only NAME     only models whose name holds NAME
+  --method NAME   only ways whose name holds NAME
+  --pilot         the views that the published path's emulation was measured in
   --quick         one view, small models, few runs
   --pictures DIR  writes an SVG of every view and way: the reference's runs, drawn runs, our strokes with doubles marked
   --strokes FILE  judges the lines that any program wrote instead of drawing";
@@ -25,6 +28,10 @@ pub struct Arguments {
     pub peers: Option<PathBuf>,
     /// Part of the names to measure.
     pub only: Option<String>,
+    /// Part of the names of ways to measure.
+    pub method: Option<String>,
+    /// The views of the published path's emulation.
+    pub pilot: bool,
     /// One view, small models, few runs.
     pub quick: bool,
     /// Folder for pictures of every view and way.
@@ -43,10 +50,22 @@ pub struct Arguments {
     pub crease: Option<f64>,
 }
 
+impl Arguments {
+    /// Whether a way of drawing is asked for.
+    pub fn takes_way(&self, name: &str) -> bool {
+        let part = self.method.as_ref();
+        part.is_none_or(|part| name.contains(part.as_str()))
+    }
+}
+
 /// Reads the words after the program's name.
 pub fn parse(mut words: impl Iterator<Item = String>) -> Outcome<Arguments> {
     let mut arguments = Arguments::default();
     while let Some(word) = words.next() {
+        if word == "--pilot" {
+            arguments.pilot = true;
+            continue;
+        }
         if word == "--quick" {
             arguments.quick = true;
             continue;
@@ -56,6 +75,7 @@ pub fn parse(mut words: impl Iterator<Item = String>) -> Outcome<Arguments> {
             "--models" => arguments.models = Some(value.into()),
             "--peers" => arguments.peers = Some(value.into()),
             "--only" => arguments.only = Some(value),
+            "--method" => arguments.method = Some(value),
             "--pictures" => arguments.pictures = Some(value.into()),
             "--strokes" => arguments.strokes = Some(value.into()),
             "--model" => arguments.model = Some(value.into()),

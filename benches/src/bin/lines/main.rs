@@ -9,6 +9,7 @@ mod counts;
 mod determinism;
 mod growth;
 mod known;
+mod pilot;
 mod preparation;
 mod way;
 
@@ -25,6 +26,7 @@ type Outcome<T> = Result<T, Box<dyn Error>>;
 fn main() -> Outcome<()> {
     let arguments = arguments::parse(std::env::args().skip(1))?;
     match (&arguments.strokes, &arguments.model) {
+        (None, None) if arguments.pilot => pilot::pilot(&arguments),
         (Some(strokes), Some(model)) => agreement::judge(&arguments, strokes, model),
         (None, None) => report(&arguments),
         _ => Err(arguments::USAGE.into()),

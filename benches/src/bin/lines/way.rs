@@ -30,7 +30,7 @@ pub struct Way {
 }
 
 /// All ways that contours are drawn.
-pub fn ways() -> [Way; 4] {
+pub fn ways() -> [Way; 5] {
     let way = |name, method, smooth, bar: (usize, f64, f64)| Way {
         name,
         method,
@@ -52,6 +52,13 @@ pub fn ways() -> [Way; 4] {
         way("edges, smoothed", edges, true, (2, 0.99, 0.99)),
         way("surface, not smoothed", surface, false, (2, 0.97, 0.99)),
         way("surface, smoothed", surface, true, (2, 0.97, 0.99)),
+        // What an emulation of the publication reaches at worst, of contours alone.
+        way(
+            "potrace, as published",
+            LineMethod::Potrace,
+            true,
+            (2, 0.925, 0.98),
+        ),
     ]
 }
 
@@ -73,7 +80,17 @@ impl Way {
 
     /// Draws the kinds that the reference knows.
     pub fn draw(&self, model: &LineModel, camera: &Camera) -> Outcome<Drawing> {
-        Ok(model.draw(camera, &Style::default(), &self.options(&Wanted::default()))?)
+        self.draw_kinds(model, camera, &Wanted::default())
+    }
+
+    /// Draws the kinds that are wanted.
+    pub fn draw_kinds(
+        &self,
+        model: &LineModel,
+        camera: &Camera,
+        wanted: &Wanted,
+    ) -> Outcome<Drawing> {
+        Ok(model.draw(camera, &Style::default(), &self.options(wanted))?)
     }
 }
 

@@ -303,11 +303,38 @@ fn degenerate_triangles_are_drawn() {
     let place = Workplace::new();
     for text in cases {
         place.put("scene.obj", text.as_bytes());
-        for method in ["edges", "surface"] {
+        for method in ["edges", "surface", "potrace"] {
             let outcome = lines(&place, "scene.obj", &["--method", method, "--fill"]);
             assert_eq!(outcome.code, Some(0), "{text}: {}", outcome.stderr);
         }
     }
+}
+
+#[test]
+fn strokes_from_pixels_are_visible_ones_alone() {
+    let place = Workplace::with_scene();
+    let data = data(&place, "scene.obj", &["--method", "potrace"]);
+    assert!(!strokes(&data).is_empty());
+    for hidden in ["layer", "dashed"] {
+        let more = ["--method", "potrace", "--hidden", hidden];
+        let outcome = lines(&place, "scene.obj", &more);
+        assert_eq!(outcome.code, Some(2), "{}", outcome.stderr);
+        assert!(
+            outcome.stderr.contains("--method potrace"),
+            "{}",
+            outcome.stderr
+        );
+    }
+    let more = ["--method", "potrace", "--set", "line.potrace.rounds=1"];
+    let outcome = lines(&place, "scene.obj", &more);
+    assert_eq!(outcome.code, Some(1), "{}", outcome.stderr);
+    let kinds = ["--method", "potrace", "--kinds", "intersection,boundary"];
+    let outcome = lines(&place, "scene.obj", &kinds);
+    assert!(
+        outcome.stderr.contains("intersection"),
+        "{}",
+        outcome.stderr
+    );
 }
 
 #[test]
