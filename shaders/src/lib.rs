@@ -120,6 +120,40 @@ shaders! {
     VECTOR_WEIGH_SAMPLES = "vector/weigh_samples";
     /// Lets lines change only where it is clear.
     VECTOR_FILTER_VISIBILITY = "vector/filter_visibility";
+    /// Marks the edges that a picture of lines shows.
+    VECTOR_MARK_EDGES = "vector/mark_edges";
+    /// Lays edges on the fine grid of a picture.
+    VECTOR_PROJECT_EDGES = "vector/project_edges";
+    /// Places the fragments of lines.
+    VECTOR_EMIT_FRAGMENTS = "vector/emit_fragments";
+    /// Tests fragments of lines against depths.
+    VECTOR_TEST_FRAGMENTS = "vector/test_fragments";
+    /// Keeps the nearest fragment of every pixel.
+    VECTOR_DRAW_NEAREST = "vector/draw_nearest";
+    /// Finds the sides of inked pixels.
+    VECTOR_MARK_SIDES = "vector/mark_sides";
+    /// Links the sides of inked pixels.
+    VECTOR_LINK_SIDES = "vector/link_sides";
+    /// Puts sides in the order of their loops.
+    VECTOR_GATHER_SIDES = "vector/gather_sides";
+    /// Drops loops that are too small.
+    VECTOR_DROP_SPECKS = "vector/drop_specks";
+    /// Smooths vectors along loops.
+    VECTOR_SMOOTH_LOOPS = "vector/smooth_loops";
+    /// Fits tangents to loops.
+    VECTOR_FIT_TANGENTS = "vector/fit_tangents";
+    /// Keeps sides that run as their contour does.
+    VECTOR_CULL_SIDES = "vector/cull_sides";
+    /// Lets neighbours decide about sides.
+    VECTOR_VOTE_SIDES = "vector/vote_sides";
+    /// Finds where strips of kept sides start.
+    VECTOR_START_STRIPS = "vector/start_strips";
+    /// Ranks the sides of strips.
+    VECTOR_RANK_STRIPS = "vector/rank_strips";
+    /// Measures the lengths of strips.
+    VECTOR_MEASURE_STRIPS = "vector/measure_strips";
+    /// Drops strips that are too short.
+    VECTOR_DROP_SHORT = "vector/drop_short";
     /// Draws the numbers of spheres with depth.
     RASTER_DRAW_SPHERES = "raster/draw_spheres";
     /// Projects spheres of smoke.

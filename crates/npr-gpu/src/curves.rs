@@ -15,6 +15,7 @@
 //! ```
 
 pub mod contours;
+pub mod pixels;
 pub mod ranking;
 mod resident;
 pub mod sampling;

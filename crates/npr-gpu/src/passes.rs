@@ -5,6 +5,7 @@ use crate::pass::Pass;
 pub mod backdrop;
 pub mod line;
 pub mod mesh;
+pub mod pixels;
 pub mod raster;
 pub mod shade;
 pub mod smoke;
@@ -52,6 +53,23 @@ pub const ALL: &[&Pass] = &[
     &vector::SAMPLE_VISIBILITY,
     &vector::WEIGH_SAMPLES,
     &vector::FILTER_VISIBILITY,
+    &pixels::MARK_EDGES,
+    &pixels::PROJECT_EDGES,
+    &pixels::EMIT_FRAGMENTS,
+    &pixels::TEST_FRAGMENTS,
+    &pixels::DRAW_NEAREST,
+    &pixels::MARK_SIDES,
+    &pixels::LINK_SIDES,
+    &pixels::GATHER_SIDES,
+    &pixels::DROP_SPECKS,
+    &pixels::SMOOTH_LOOPS,
+    &pixels::FIT_TANGENTS,
+    &pixels::CULL_SIDES,
+    &pixels::VOTE_SIDES,
+    &pixels::START_STRIPS,
+    &pixels::RANK_STRIPS,
+    &pixels::MEASURE_STRIPS,
+    &pixels::DROP_SHORT,
     &smoke::PROJECT_SPHERES,
     &smoke::DRAW_SPHERES,
     &smoke::SHADE_SPHERES,

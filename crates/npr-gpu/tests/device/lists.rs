@@ -1,5 +1,6 @@
 //! What every slot of the passes over shapes and lists holds: contours, and chains of all lengths, as the twins find them.
 
+use crate::pixels::is_over_pixels;
 use crate::sampled::Sampled;
 use crate::shapes::{eyes, shape_of};
 use npr_core::math::mix_bits;
@@ -51,7 +52,7 @@ const RENAMED: [(&str, &str, &str); 12] = [
 
 /// Whether the inputs of a pass are lists, not a frame.
 pub fn is_over_lists(pass: &Pass) -> bool {
-    pass.name.starts_with("vector.")
+    pass.name.starts_with("vector.") && !is_over_pixels(pass)
 }
 
 /// The contents of all slots, for lists of a number of nodes.

@@ -12,6 +12,7 @@ mod draws;
 mod frame;
 mod lists;
 mod memory;
+mod pixels;
 mod sample_passes;
 mod sampled;
 mod scene;

@@ -3,6 +3,7 @@
 use crate::agreement::{Meaning, disagreement};
 use crate::frame::{Content, Frame, counts_input, grids_for};
 use crate::lists::{Chains, Jumping, Lists, is_over_lists};
+use crate::pixels::is_over_pixels;
 use crate::scene::{FRAME_PX, Look};
 use crate::shared;
 use npr_gpu::engine::Engine;
@@ -156,7 +157,7 @@ impl Case {
 
 /// Runs every pass over a frame on both engines and lists where they differ.
 fn check_all(cases: impl Fn(&'static Pass) -> Vec<(String, Case)>) {
-    check(|pass| !is_over_lists(pass), cases);
+    check(|pass| !is_over_lists(pass) && !is_over_pixels(pass), cases);
 }
 
 /// The same for those passes that are `chosen`.

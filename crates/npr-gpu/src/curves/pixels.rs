@@ -1,0 +1,451 @@
+//! Passes that draw lines into a picture, link the sides of its pixels, put them in rows, and make strips of them.
+
+use super::CurvesError;
+use super::ranking::{RankedLists, Scheme, add_ranking, read_rows};
+use super::sums::{Compacted, add_compact, add_scan};
+use crate::engine::{Engine, Session};
+use crate::graph::{Graph, ResourceId};
+use crate::pass::Format;
+use crate::passes::{pixels, vector};
+use npr_core::shape::Shape;
+use npr_vector::contour::steps::{HalfEdge, Viewer, half_edges, judges};
+use npr_vector::pixel_contour::edge::{DrawnEdge, drawn_edges};
+use npr_vector::pixel_contour::fragment::Fragment;
+use npr_vector::pixel_contour::looped::{Filter, Planar, SpeckRule, Spot, gaussian, tent};
+use npr_vector::pixel_contour::segment::{PixelView, Segment};
+use npr_vector::pixel_contour::strip::{CullRule, StripSpot};
+use npr_vector::pixel_contour::{PixelScene, PublishedPath, Traced, standings_of};
+use npr_vector::rank::Link;
+
+/// For how many of each there is room.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PixelRoom {
+    /// Edges drawn.
+    pub segments: usize,
+    /// Their fragments.
+    pub fragments: usize,
+    /// Sides of pixels.
+    pub sides: usize,
+}
+
+impl PixelRoom {
+    /// What most views need.
+    pub const FIRST: Self = Self {
+        segments: 4096,
+        fragments: 1 << 16,
+        sides: 1 << 15,
+    };
+
+    /// Whether there is room for others.
+    fn holds(self, needed: Self) -> bool {
+        let pairs = [
+            (self.segments, needed.segments),
+            (self.fragments, needed.fragments),
+            (self.sides, needed.sides),
+        ];
+        pairs.iter().all(|(room, needed)| needed <= room)
+    }
+
+    /// The next powers of two that hold both.
+    fn grown(self, needed: Self) -> Self {
+        let grow = |room: usize, needed: usize| room.max(needed.next_power_of_two());
+        Self {
+            segments: grow(self.segments, needed.segments),
+            fragments: grow(self.fragments, needed.fragments),
+            sides: grow(self.sides, needed.sides),
+        }
+    }
+}
+
+/// What [`add_pixel_contours`] puts into a graph.
+#[derive(Debug, Clone, Copy)]
+pub struct PixelContours {
+    /// [`Viewer`]; written for every view.
+    pub viewer: ResourceId,
+    /// [`PixelView`]; written for every view.
+    pub view: ResourceId,
+    /// Coordinates of the vertices; written whenever they move.
+    pub positions: ResourceId,
+    /// [`HalfEdge`]s; written once.
+    pub half_edges: ResourceId,
+    /// The face that decides about each face; written once.
+    pub judges: ResourceId,
+    /// [`DrawnEdge`]s; written once.
+    pub edges: ResourceId,
+    /// Reversed depth of every pixel of the scene; written for every view.
+    pub scene: ResourceId,
+    /// [`Segment`]s.
+    pub segments: ResourceId,
+    /// Number of edges drawn, also where they have no room: one element.
+    pub segment_count: ResourceId,
+    /// Number of fragments of the segments that have room: one element.
+    pub fragment_count: ResourceId,
+    /// Segment of every pixel plus one: an image.
+    pub owners: ResourceId,
+    /// Its reversed depth as bits: an image.
+    pub nearest: ResourceId,
+    /// Pixel and direction of every side.
+    pub sides: ResourceId,
+    /// Number of sides: one element.
+    pub side_count: ResourceId,
+    /// Their loops in rows.
+    pub lists: RankedLists,
+}
+
+/// Appends passes from a shape to the sides of its contours' pixels in rows, for a picture of `size` pixels.
+///
+/// Takes 24 bytes a pixel, 12 a fragment, and about 180 a side. Where counts exceed the room what is there is of no use; the host
+/// runs a graph with more.
+pub fn add_pixel_contours(
+    graph: &mut Graph,
+    shape: &Shape,
+    size: [u32; 2],
+    room: PixelRoom,
+    scheme: Scheme,
+) -> PixelContours {
+    let viewer = graph.uniform::<Viewer>("viewer");
+    let view = graph.uniform::<PixelView>("pixel view");
+    let positions = graph.buffer::<f32>("positions", 3 * shape.positions.len());
+    let half_edges = graph.buffer::<HalfEdge>("half-edges", 3 * shape.faces.len());
+    let judges = graph.buffer::<u32>("judges", shape.faces.len());
+    let front = graph.buffer::<u32>("front faces", shape.faces.len());
+    graph.compute(
+        &vector::FACE_EYE,
+        &[viewer, positions, half_edges, judges, front],
+    );
+    let edges = graph.buffer::<DrawnEdge>("edges", shape.edge_count());
+    let flags = graph.buffer::<u32>("edge flags", shape.edge_count());
+    let marks = graph.buffer::<u32>("edge marks", shape.edge_count());
+    graph.compute(
+        &pixels::MARK_EDGES,
+        &[viewer, view, positions, front, edges, flags, marks],
+    );
+    let Compacted { list, count, .. } = add_compact(graph, flags, room.segments);
+    let segments = graph.buffer::<Segment>("segments", room.segments);
+    let counts = graph.buffer::<u32>("fragments of segments", room.segments);
+    graph.compute(
+        &pixels::PROJECT_EDGES,
+        &[view, count, list, marks, edges, positions, segments, counts],
+    );
+    let starts = add_scan(graph, counts);
+    let pixel_count = size[0] as usize * size[1] as usize;
+    let scene = graph.buffer::<f32>("scene depths", pixel_count);
+    let [owners, nearest] = add_picture(
+        graph,
+        (view, scene),
+        (starts.total, starts.prefixes, segments),
+        (size, room.fragments),
+    );
+    let (sides, side_count, links) = add_sides(graph, owners, pixel_count, room.sides);
+    PixelContours {
+        viewer,
+        view,
+        positions,
+        half_edges,
+        judges,
+        edges,
+        scene,
+        segments,
+        segment_count: count,
+        fragment_count: starts.total,
+        owners,
+        nearest,
+        sides,
+        side_count,
+        lists: add_ranking(graph, links, scheme),
+    }
+}
+
+/// Fragments, tested and drawn: the owners of pixels, and their depths.
+fn add_picture(
+    graph: &mut Graph,
+    (view, scene): (ResourceId, ResourceId),
+    (total, starts, segments): (ResourceId, ResourceId, ResourceId),
+    (size, room): ([u32; 2], usize),
+) -> [ResourceId; 2] {
+    let fragments = graph.buffer::<Fragment>("fragments", room);
+    graph.compute(
+        &pixels::EMIT_FRAGMENTS,
+        &[view, total, starts, segments, fragments],
+    );
+    let shown = graph.buffer::<u32>("fragments shown", room);
+    graph.compute(&pixels::TEST_FRAGMENTS, &[view, scene, fragments, shown]);
+    let owners = graph.image("owners", Format::U32, size);
+    let nearest = graph.image("nearest", Format::U32, size);
+    let depths = graph.image("depths of lines", Format::Depth, size);
+    graph.draw(
+        &pixels::DRAW_NEAREST,
+        &[view, fragments, shown],
+        &[owners, nearest, depths],
+        true,
+    );
+    [owners, nearest]
+}
+
+/// Sides of the picture's pixels, their number and their links.
+fn add_sides(
+    graph: &mut Graph,
+    owners: ResourceId,
+    pixel_count: usize,
+    room: usize,
+) -> (ResourceId, ResourceId, ResourceId) {
+    let masks = graph.buffer::<u32>("side masks", pixel_count);
+    let counts = graph.buffer::<u32>("sides of pixels", pixel_count);
+    graph.compute(&pixels::MARK_SIDES, &[owners, masks, counts]);
+    let starts = add_scan(graph, counts);
+    let sides = graph.buffer::<u32>("sides", room);
+    let links = graph.buffer::<Link>("links", room);
+    graph.compute(
+        &pixels::LINK_SIDES,
+        &[starts.total, owners, masks, starts.prefixes, sides, links],
+    );
+    (sides, starts.total, links)
+}
+
+/// What [`add_strips`] puts into a graph.
+#[derive(Debug, Clone, Copy)]
+pub struct PixelStrips {
+    /// [`SpeckRule`]; written by [`PixelStrips::write`], as all that follows up to `tent`.
+    pub speck_rule: ResourceId,
+    /// [`CullRule`].
+    pub cull_rule: ResourceId,
+    /// [`Filter`]s of places, tangents, directions and of the fit.
+    pub filters: [ResourceId; 4],
+    /// Weights of smoothing, of directions, and of the fit.
+    pub weights: [ResourceId; 3],
+    /// Smoothed places, in the order of loops.
+    pub places: ResourceId,
+    /// Whether each side is part of a stroke.
+    pub kept: ResourceId,
+    /// [`StripSpot`]s.
+    pub strips: ResourceId,
+    /// Sides of each strip at its first.
+    pub lengths: ResourceId,
+}
+
+/// Appends passes that filter loops in rows and cut them to strips.
+pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -> PixelStrips {
+    let path = path.within_limits();
+    let count = graph.element_count(on.sides);
+    let rows = on.lists.rows;
+    let spots = graph.buffer::<Spot>("spots", count);
+    let [mut places, mut directions] =
+        ["places", "directions"].map(|name| graph.buffer::<Planar>(name, count));
+    let areas = graph.buffer::<u32>("areas", count);
+    let bound = [
+        rows.order,
+        rows.standings,
+        on.sides,
+        on.owners,
+        on.segments,
+        spots,
+        places,
+        directions,
+        areas,
+    ];
+    graph.compute(&pixels::GATHER_SIDES, &bound);
+    let sums = add_scan(graph, areas).prefixes;
+    let speck_rule = graph.uniform::<SpeckRule>("speck rule");
+    let whole = graph.buffer::<u32>("loops kept", count);
+    graph.compute(
+        &pixels::DROP_SPECKS,
+        &[speck_rule, spots, areas, sums, whole],
+    );
+    let filters =
+        ["places", "tangents", "directions", "fit"].map(|name| graph.uniform::<Filter>(name));
+    let radii = [path.smooth_radius, path.direction_radius, path.fit_radius];
+    let weights = radii.map(|radius| graph.buffer::<f32>("weights", radius as usize + 1));
+    let smoothed = |graph: &mut Graph, filter, weights, from| {
+        let to = graph.buffer::<Planar>("smoothed", count);
+        graph.compute(&pixels::SMOOTH_LOOPS, &[filter, weights, spots, from, to]);
+        to
+    };
+    let raw = places;
+    for _ in 0..path.smooth_passes {
+        places = smoothed(graph, filters[0], weights[0], places);
+    }
+    let mut tangents = graph.buffer::<Planar>("tangents", count);
+    graph.compute(
+        &pixels::FIT_TANGENTS,
+        &[filters[3], weights[2], spots, places, tangents],
+    );
+    for _ in 0..path.smooth_passes {
+        tangents = smoothed(graph, filters[1], weights[0], tangents);
+    }
+    directions = smoothed(graph, filters[2], weights[1], directions);
+    let cull_rule = graph.uniform::<CullRule>("cull rule");
+    let [culled, voted, kept] =
+        ["culled", "voted", "kept"].map(|name| graph.buffer::<u32>(name, count));
+    graph.compute(
+        &pixels::CULL_SIDES,
+        &[cull_rule, tangents, directions, whole, culled],
+    );
+    graph.compute(&pixels::VOTE_SIDES, &[cull_rule, spots, culled, voted]);
+    let [strips, lengths] = add_segments(graph, spots, voted);
+    graph.compute(&pixels::DROP_SHORT, &[cull_rule, strips, lengths, kept]);
+    let [strips, lengths] = add_segments(graph, spots, kept);
+    PixelStrips {
+        speck_rule,
+        cull_rule,
+        filters,
+        weights,
+        places: if path.smooth_places { places } else { raw },
+        kept,
+        strips,
+        lengths,
+    }
+}
+
+/// Strips of kept sides, and their lengths.
+fn add_segments(graph: &mut Graph, spots: ResourceId, kept: ResourceId) -> [ResourceId; 2] {
+    let count = graph.element_count(spots);
+    let flags = graph.buffer::<u32>("first sides", count);
+    graph.compute(&pixels::START_STRIPS, &[spots, kept, flags]);
+    let Compacted { list, slots, .. } = add_compact(graph, flags, count);
+    let strips = graph.buffer::<StripSpot>("strips", count);
+    graph.compute(
+        &pixels::RANK_STRIPS,
+        &[spots, kept, flags, slots, list, strips],
+    );
+    let lengths = graph.buffer::<u32>("lengths of strips", count);
+    graph.compute(&pixels::MEASURE_STRIPS, &[spots, kept, strips, lengths]);
+    [strips, lengths]
+}
+
+impl PixelStrips {
+    /// Hands the constants of a path over.
+    ///
+    /// # Errors
+    ///
+    /// [`CurvesError::Engine`] where the engine fails.
+    pub fn write(
+        &self,
+        session: &mut dyn Session,
+        path: &PublishedPath,
+    ) -> Result<(), CurvesError> {
+        let path = path.within_limits();
+        let (places, smooth) = path.smoothing(false);
+        let (tangents, _) = path.smoothing(true);
+        let with = |radius: u32| Filter { radius, ..tangents };
+        let filters = [
+            places,
+            tangents,
+            with(path.direction_radius),
+            with(path.fit_radius),
+        ];
+        session.write(self.speck_rule, bytemuck::cast_slice(&[path.speck_rule()]))?;
+        session.write(self.cull_rule, bytemuck::cast_slice(&[path.cull_rule()]))?;
+        for (id, filter) in self.filters.iter().zip(filters) {
+            session.write(*id, bytemuck::cast_slice(&[filter]))?;
+        }
+        let directions = gaussian(path.direction_radius, path.direction_sigma);
+        for (id, weights) in self
+            .weights
+            .iter()
+            .zip([smooth, directions, tent(path.fit_radius)])
+        {
+            session.write(*id, bytemuck::cast_slice(&weights))?;
+        }
+        Ok(())
+    }
+}
+
+impl PixelContours {
+    /// Hands a scene over, with its depths by [`npr_vector::pixel_contour::scene_depths`].
+    ///
+    /// # Errors
+    ///
+    /// [`CurvesError::Engine`] where the engine fails.
+    pub fn write(
+        &self,
+        session: &mut dyn Session,
+        on: &PixelScene<'_>,
+        path: &PublishedPath,
+        depths: &[f32],
+    ) -> Result<(), CurvesError> {
+        let shape = on.shape;
+        let edges = drawn_edges(shape, on.crease_cos, on.is_drawn);
+        let view = on.pixel_view(path);
+        session.write(self.viewer, bytemuck::cast_slice(&[Viewer::from(on.eye)]))?;
+        session.write(self.view, bytemuck::cast_slice(&[view]))?;
+        session.write(self.positions, bytemuck::cast_slice(&shape.positions))?;
+        session.write(self.half_edges, bytemuck::cast_slice(&half_edges(shape)))?;
+        session.write(self.judges, &judges(shape))?;
+        session.write(self.edges, bytemuck::cast_slice(&edges))?;
+        session.write(self.scene, bytemuck::cast_slice(depths))?;
+        let links = session.read(self.sides)?.len() as u32;
+        session.write(self.lists.node_count, &[links])?;
+        session.write(self.lists.rounds, &[self.lists.round_count])?;
+        Ok(())
+    }
+
+    /// Numbers of what the last run found.
+    fn needed(&self, session: &mut dyn Session) -> Result<PixelRoom, CurvesError> {
+        let mut count = |id| Ok::<usize, CurvesError>(session.read(id)?[0] as usize);
+        Ok(PixelRoom {
+            segments: count(self.segment_count)?,
+            fragments: count(self.fragment_count)?,
+            sides: count(self.side_count)?,
+        })
+    }
+}
+
+/// Draws the lines of a view into a picture on an engine: what [`npr_vector::pixel_contour::trace`] gives, bit for bit.
+///
+/// The shape is handed over in every call, and again with more room where counts exceed it.
+///
+/// # Errors
+///
+/// [`CurvesError::Rank`] where the rounds of the path are too few, [`CurvesError::Engine`] where the engine fails.
+pub fn trace_on(
+    engine: &dyn Engine,
+    on: &PixelScene<'_>,
+    path: &PublishedPath,
+    depths: &[f32],
+) -> Result<Traced, CurvesError> {
+    let view = on.pixel_view(path);
+    let pixel_count = view.size[0] as usize * view.size[1] as usize;
+    if pixel_count == 0 || depths.len() != pixel_count || on.shape.faces.is_empty() {
+        return Ok(npr_vector::pixel_contour::trace(on, path, depths)?);
+    }
+    let scheme = Scheme::Wyllie {
+        rounds: path.rounds,
+    };
+    let mut room = PixelRoom::FIRST;
+    loop {
+        let mut graph = Graph::new();
+        let contours = add_pixel_contours(&mut graph, on.shape, view.size, room, scheme);
+        let mut session = engine.prepare(graph)?;
+        contours.write(session.as_mut(), on, path, depths)?;
+        session.run()?;
+        let needed = contours.needed(session.as_mut())?;
+        if room.holds(needed) {
+            return traced(session.as_mut(), &contours, view, needed);
+        }
+        room = room.grown(needed);
+    }
+}
+
+/// What a run found.
+fn traced(
+    session: &mut dyn Session,
+    from: &PixelContours,
+    view: PixelView,
+    count: PixelRoom,
+) -> Result<Traced, CurvesError> {
+    let ranked = read_rows(session, &from.lists, count.sides)?;
+    let mut segments = session.read(from.segments)?;
+    segments.truncate(count.segments * size_of::<Segment>() / 4);
+    let mut sides = session.read(from.sides)?;
+    sides.truncate(count.sides);
+    Ok(Traced {
+        size: view.size,
+        view,
+        segments: bytemuck::cast_slice(&segments).to_vec(),
+        owners: session.read(from.owners)?,
+        nearest: session.read(from.nearest)?,
+        sides,
+        standings: standings_of(&ranked),
+        order: ranked.order,
+    })
+}

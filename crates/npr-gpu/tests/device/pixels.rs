@@ -1,0 +1,177 @@
+//! Lines drawn into a picture: the whole path on both engines, and each of its passes on the same input.
+
+use crate::agreement::{Meaning, disagreement};
+use crate::shared;
+use npr_core::camera::{Camera, Projection};
+use npr_core::shape::Shape;
+use npr_gpu::curves::Scheme;
+use npr_gpu::curves::pixels::{PixelRoom, add_pixel_contours, add_strips, trace_on};
+use npr_gpu::engine::{Engine, Session};
+use npr_gpu::graph::{Graph, Kind, ResourceId};
+use npr_gpu::pass::{Access, Pass};
+use npr_gpu::passes::ALL;
+use npr_gpu::processor::Processor;
+use npr_mesh::testing::{cube, shape_of, torus, uv_sphere};
+use npr_vector::draw::eye_of;
+use npr_vector::graph::CurveNode;
+use npr_vector::pixel_contour::{PixelScene, PublishedPath, scene_depths, trace};
+use npr_vector::project::Projector;
+
+const SIZE: [u32; 2] = [160, 120];
+
+/// The passes that are tested here.
+const OWN: [&str; 17] = [
+    "vector.mark_edges",
+    "vector.project_edges",
+    "vector.emit_fragments",
+    "vector.test_fragments",
+    "vector.draw_nearest",
+    "vector.mark_sides",
+    "vector.link_sides",
+    "vector.gather_sides",
+    "vector.drop_specks",
+    "vector.smooth_loops",
+    "vector.fit_tangents",
+    "vector.cull_sides",
+    "vector.vote_sides",
+    "vector.start_strips",
+    "vector.rank_strips",
+    "vector.measure_strips",
+    "vector.drop_short",
+];
+
+/// Whether a pass is tested here.
+pub fn is_over_pixels(pass: &Pass) -> bool {
+    OWN.contains(&pass.name)
+}
+
+fn scenes() -> Vec<(Shape, Projection)> {
+    let perspective = Projection::Perspective { fov_y: 0.7 };
+    vec![
+        (shape_of(&uv_sphere(24, 12)), perspective),
+        (shape_of(&torus(30, 14, 1.0, 0.4)), perspective),
+        (
+            shape_of(&torus(30, 14, 1.0, 0.4)),
+            Projection::Parallel { height: 3.0 },
+        ),
+        (shape_of(&cube()), perspective),
+    ]
+}
+
+/// Calls `test` with a scene and its depths.
+fn with_scene(shape: &Shape, projection: Projection, test: impl Fn(&PixelScene<'_>, &[f32])) {
+    let camera = Camera {
+        eye: [2.0, 1.7, 3.1],
+        target: [0.0; 3],
+        up: [0.0, 1.0, 0.0],
+        projection,
+    };
+    let bounds = ([-1.5; 3], [1.5; 3]);
+    let view = camera.view(SIZE, bounds);
+    let projector = Projector::new(&camera, SIZE, bounds);
+    let scene = PixelScene {
+        shape,
+        view: &view,
+        eye: &eye_of(shape, &projector),
+        kinds: CurveNode::KINDS,
+        crease_cos: 0.766,
+        is_drawn: &[],
+    };
+    test(&scene, &scene_depths(shape, &view));
+}
+
+#[test]
+fn pictures_and_rows_are_those_of_the_processor() {
+    let path = PublishedPath::default();
+    for (shape, projection) in scenes() {
+        with_scene(&shape, projection, |scene, depths| {
+            let expected = trace(scene, &path, depths).unwrap();
+            assert!(expected.sides.len() > 100);
+            assert!(trace_on(&Processor, scene, &path, depths).unwrap() == expected);
+            if let Some(device) = shared::device() {
+                assert!(trace_on(device, scene, &path, depths).unwrap() == expected);
+            }
+        });
+    }
+}
+
+#[test]
+fn every_pass_agrees_with_its_twin() {
+    let Some(device) = shared::device() else {
+        return;
+    };
+    let path = PublishedPath::default();
+    for (shape, projection) in scenes() {
+        with_scene(&shape, projection, |scene, depths| {
+            let mut graph = Graph::new();
+            let room = PixelRoom {
+                segments: 300,
+                fragments: 4000,
+                sides: 4001,
+            };
+            let contours = add_pixel_contours(&mut graph, scene.shape, SIZE, room, Scheme::WYLLIE);
+            let strips = add_strips(&mut graph, &contours, &path);
+            let mut session = Processor.prepare(graph.clone()).unwrap();
+            contours
+                .write(session.as_mut(), scene, &path, depths)
+                .unwrap();
+            strips.write(session.as_mut(), &path).unwrap();
+            session.run().unwrap();
+            check_nodes(&graph, session.as_mut(), device);
+        });
+    }
+    assert!(ALL.iter().filter(|pass| is_over_pixels(pass)).count() == OWN.len());
+}
+
+/// Runs every node of a graph by itself on both engines, on what the whole graph left in `session`.
+fn check_nodes(graph: &Graph, session: &mut dyn Session, device: &dyn Engine) {
+    for node in graph
+        .nodes()
+        .iter()
+        .filter(|node| is_over_pixels(node.pass))
+    {
+        let mut alone = Graph::new();
+        let (mut bound, mut inputs, mut outputs) = (Vec::new(), Vec::new(), Vec::new());
+        for (index, id) in node.bound.iter().enumerate() {
+            let resource = graph.resource(*id);
+            let own = alone.add(resource.name, resource.kind);
+            bound.push(own);
+            match node.pass.slots.get(index) {
+                Some(slot) if slot.access == Access::Write => {
+                    outputs.push((own, Meaning::Elements(slot.element)));
+                }
+                Some(_) => inputs.push((own, session.read(*id).unwrap())),
+                None => {
+                    if let Kind::Image { format, .. } = resource.kind {
+                        outputs.push((own, Meaning::Texels(format)));
+                    }
+                }
+            }
+        }
+        let (slots, targets) = bound.split_at(node.pass.slots.len());
+        if targets.is_empty() {
+            alone.compute(node.pass, slots);
+        } else {
+            alone.draw(node.pass, slots, targets, true);
+        }
+        let run = |engine: &dyn Engine| -> Vec<Vec<u32>> {
+            let mut session = engine.prepare(alone.clone()).unwrap();
+            for (id, words) in &inputs {
+                session.write(*id, words).unwrap();
+            }
+            session.run().unwrap();
+            let read = |(id, _): &(ResourceId, Meaning)| session.read(*id).unwrap();
+            outputs.iter().map(read).collect()
+        };
+        let (expected, found) = (run(&Processor), run(device));
+        for ((expected, found), (_, meaning)) in expected.iter().zip(&found).zip(&outputs) {
+            let wrong = disagreement(node.pass, *meaning, expected, found);
+            assert!(
+                wrong.is_none(),
+                "{}: {}",
+                node.pass.name,
+                wrong.unwrap_or_default()
+            );
+        }
+    }
+}

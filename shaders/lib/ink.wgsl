@@ -1,0 +1,25 @@
+// Ink in a picture and the sides of its pixels. Twin: npr_vector::pixel_contour::side.
+
+//# use lib/grid
+
+// Steps in the four directions: right, down, left, up.
+fn ahead_of(direction: u32) -> vec2<i32> {
+    switch direction & 3u {
+        case 0u: { return vec2<i32>(1, 0); }
+        case 1u: { return vec2<i32>(0, 1); }
+        case 2u: { return vec2<i32>(-1, 0); }
+        default: { return vec2<i32>(0, -1); }
+    }
+}
+
+// The step from a pixel over its side: a quarter turn to the left of the way along it.
+fn outward(direction: u32) -> vec2<i32> {
+    return ahead_of(direction + 3u);
+}
+
+// Whether there is ink; none beyond the picture.
+fn ink_at(ink: texture_2d<u32>, at: vec2<i32>) -> bool {
+    let size = vec2<i32>(textureDimensions(ink));
+    if any(at < vec2<i32>(0)) || any(at >= size) { return false; }
+    return textureLoad(ink, at, 0).r != 0u;
+}

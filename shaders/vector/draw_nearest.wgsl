@@ -1,0 +1,52 @@
+// vector.draw_nearest: the nearest fragment of every pixel that shows, as the number of its segment plus one.
+//
+// A triangle around the middle of one pixel each. Of fragments at one depth the first wins.
+//
+// Source  Jiang et al. 2022, hard visibility test
+// Twin    npr_vector::pixel_contour::fragment::draw_nearest
+//
+//# use lib/grid
+//# use lib/pixel
+
+@group(0) @binding(0) var<uniform> view: PixelView;
+@group(0) @binding(1) var<storage, read> fragments: array<Fragment>;
+@group(0) @binding(2) var<storage, read> shown: array<u32>;
+
+const LEAST_Z: f32 = 1e-30;
+
+struct Passed {
+    @builtin(position) position: vec4<f32>,
+    @location(0) @interpolate(flat, either) element: u32,
+}
+
+struct Seen {
+    @location(0) owner: u32,
+    @location(1) nearest: u32,
+    @builtin(frag_depth) depth: f32,
+}
+
+// Three vertices per fragment; what does not show collapses to a point.
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> Passed {
+    var passed: Passed;
+    passed.element = index / 3u;
+    passed.position = vec4<f32>(0.0);
+    let here = fragments[passed.element];
+    if shown[passed.element] == 0u || here.pixel == NONE { return passed; }
+    let corner = index % 3u;
+    let reach = vec2<f32>(select(0.1, 1.3, corner == 1u), select(0.1, 1.3, corner == 2u));
+    let pixel = vec2<f32>(pixel_of(here.pixel, view.size)) + reach;
+    let ndc = pixel / vec2<f32>(view.size) * 2.0 - 1.0;
+    passed.position = vec4<f32>(ndc.x, -ndc.y, 0.5, 1.0);
+    return passed;
+}
+
+@fragment
+fn fragment(passed: Passed) -> Seen {
+    var seen: Seen;
+    let z = max(fragments[passed.element].z, LEAST_Z);
+    seen.owner = fragments[passed.element].segment + 1u;
+    seen.nearest = bitcast<u32>(z);
+    seen.depth = z;
+    return seen;
+}

@@ -1,0 +1,103 @@
+// vector.link_sides: links every side of ink to those before and after it.
+//
+// Two pixels ahead decide: ink joined by a corner is joined.
+//
+// Source  Selinger 2003, path decomposition; Jiang et al. 2022
+// Twin    npr_vector::pixel_contour::side::link_sides
+//
+//# use lib/grid
+//# use lib/list
+//# use lib/ink
+
+override WG: u32 = 64u;
+
+@group(0) @binding(0) var<storage, read> extent: array<u32>;
+@group(0) @binding(1) var ink: texture_2d<u32>;
+@group(0) @binding(2) var<storage, read> masks: array<u32>;
+@group(0) @binding(3) var<storage, read> starts: array<u32>;
+@group(0) @binding(4) var<storage, read_write> sides: array<u32>;
+@group(0) @binding(5) var<storage, read_write> links: array<Link>;
+
+// The last element of ascending starts that is not above a value.
+fn holder_of(value: u32) -> u32 {
+    var low = 0u;
+    var high = arrayLength(&starts);
+    while low + 1u < high {
+        let middle = low + (high - low) / 2u;
+        if starts[middle] <= value { low = middle; } else { high = middle; }
+    }
+    return low;
+}
+
+// The place of the bit of a mask before which as many others are set.
+fn nth_bit(mask: u32, rank: u32) -> u32 {
+    var left = rank;
+    var found = 0u;
+    for (var bit = 0u; bit < 4u; bit++) {
+        if ((mask >> bit) & 1u) != 0u {
+            if left == 0u {
+                found = bit;
+                break;
+            }
+            left -= 1u;
+        }
+    }
+    return found;
+}
+
+fn index_of(at: vec2<i32>, direction: u32) -> u32 {
+    let pixel = u32(at.y) * textureDimensions(ink).x + u32(at.x);
+    let before = masks[pixel] & ((1u << direction) - 1u);
+    return starts[pixel] + countOneBits(before);
+}
+
+// The side that goes on where one ends (turn 3), or with a sign of -1 and turn 1 the one that ends where it starts.
+fn neighbour(at: vec2<i32>, direction: u32, sign: i32, turn: u32) -> u32 {
+    let along = ahead_of(direction) * sign;
+    let beside = at + along + outward(direction);
+    if ink_at(ink, beside) { return index_of(beside, (direction + turn) & 3u); }
+    if ink_at(ink, at + along) { return index_of(at + along, direction); }
+    return index_of(at, (direction + 4u - turn) & 3u);
+}
+
+// Bits of two 16-bit numbers in turns, those of the first lowest.
+fn spread(number: u32) -> u32 {
+    var v = number & 0xffffu;
+    v = (v | (v << 8u)) & 0x00ff00ffu;
+    v = (v | (v << 4u)) & 0x0f0f0f0fu;
+    v = (v | (v << 2u)) & 0x33333333u;
+    return (v | (v << 1u)) & 0x55555555u;
+}
+
+// The number that mix_bits makes this one of.
+fn unmix_bits(number: u32) -> u32 {
+    var x = number;
+    x = (x ^ (x >> 16u)) * 0x43021123u;
+    x = (x ^ (x >> 15u) ^ (x >> 30u)) * 0x1d69e2a5u;
+    return x ^ (x >> 16u);
+}
+
+// One invocation per side.
+@compute @workgroup_size(WG)
+fn main(
+    @builtin(workgroup_id) wid: vec3<u32>,
+    @builtin(num_workgroups) nwg: vec3<u32>,
+    @builtin(local_invocation_id) lid: vec3<u32>,
+) {
+    let element = element_index(wid, nwg, lid, WG);
+    if element >= arrayLength(&sides) { return; }
+
+    sides[element] = 0u;
+    links[element].next = element;
+    links[element].prev = element;
+    links[element].key = 0u;
+    if element >= extent[0] { return; }
+    let pixel = holder_of(element);
+    let direction = nth_bit(masks[pixel], element - starts[pixel]);
+    let at = pixel_of(pixel, textureDimensions(ink));
+    sides[element] = 4u * pixel + direction;
+    links[element].next = neighbour(vec2<i32>(at), direction, 1, 3u);
+    links[element].prev = neighbour(vec2<i32>(at), direction, -1, 1u);
+    let code = spread(2u * at.x + (direction >> 1u)) | (spread(2u * at.y + (direction & 1u)) << 1u);
+    links[element].key = unmix_bits(~code);
+}

@@ -1,0 +1,40 @@
+// vector.test_fragments: whether each fragment shows, by the depths of the pixels around it.
+//
+// Source  Jiang et al. 2022, soft visibility test
+// Twin    npr_vector::pixel_contour::fragment::test_fragments
+//
+//# use lib/grid
+//# use lib/pixel
+
+override WG: u32 = 64u;
+
+@group(0) @binding(0) var<uniform> view: PixelView;
+@group(0) @binding(1) var<storage, read> scene: array<f32>;
+@group(0) @binding(2) var<storage, read> fragments: array<Fragment>;
+@group(0) @binding(3) var<storage, read_write> shown: array<u32>;
+
+// One invocation per fragment.
+@compute @workgroup_size(WG)
+fn main(
+    @builtin(workgroup_id) wid: vec3<u32>,
+    @builtin(num_workgroups) nwg: vec3<u32>,
+    @builtin(local_invocation_id) lid: vec3<u32>,
+) {
+    let element = element_index(wid, nwg, lid, WG);
+    if element >= arrayLength(&fragments) { return; }
+
+    shown[element] = 0u;
+    let fragment = fragments[element];
+    if fragment.pixel == NONE { return; }
+    let at = pixel_of(fragment.pixel, view.size);
+    let depth = depth_of(view, fragment.z);
+    var count = 0u;
+    for (var y = max(at.y, 1u) - 1u; y < min(at.y + 2u, view.size.y); y++) {
+        for (var x = max(at.x, 1u) - 1u; x < min(at.x + 2u, view.size.x); x++) {
+            let z = scene[y * view.size.x + x];
+            let is_free = z <= 0.0 || depth <= rounded(view, depth_of(view, z) + view.tolerance);
+            count += select(0u, 1u, is_free);
+        }
+    }
+    shown[element] = select(0u, 1u, count >= view.least_visible);
+}
