@@ -275,7 +275,7 @@ mod tests {
         fn the_parts_own_pixels_go_before_others(owner in prop::collection::vec(0u32..3, 64), x in -2f32..10.0, y in -2f32..10.0) {
             let tint = |part: &u32| match part {
                 2 => LineTint::NONE,
-                part => LineTint { own: 0xff00_0000 | part * 255, glaze: 0, part: *part },
+                part => LineTint { own: 0xff00_0000 | (part * 255), glaze: 0, part: *part },
             };
             let tints: Vec<LineTint> = owner.iter().map(tint).collect();
             let window = window();

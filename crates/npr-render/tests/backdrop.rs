@@ -13,7 +13,13 @@ const SIZE: [u32; 2] = [240, 160];
 
 /// Every pixel left of the middle black, all others white.
 fn two_colors() -> Picture {
-    let texel = |i: u32| if i % 2 == 0 { [0, 0, 0, 255] } else { [255; 4] };
+    let texel = |i: u32| {
+        if i.is_multiple_of(2) {
+            [0, 0, 0, 255]
+        } else {
+            [255; 4]
+        }
+    };
     Picture {
         size: [2, 2],
         rgba: (0..4).flat_map(texel).collect(),

@@ -118,6 +118,7 @@ pub const DRAW_NEAREST: Pass = Pass {
     ],
     work: Work::Draw {
         of: "fragments",
+        fills: false,
         vertices: 3,
         targets: &[Format::U32, Format::U32, Format::Depth],
     },
