@@ -12,12 +12,6 @@ const FIT_ROUNDS: u32 = 14u;
 // How far a channel may lie outside 0..1 and still count as in gamut, as a share of a grey of that lightness.
 const GAMUT_ROOM: f32 = 1e-3;
 const WCAG_LARGEST: f32 = 21.0;
-const BACKDROP_LUMA: vec3<f32> = vec3<f32>(0.2126, 0.7152, 0.0722);
-
-fn linear_from_srgb(v: f32) -> f32 {
-    if v <= 0.04045 { return v / 12.92; }
-    return pow((v + 0.055) / 1.055, 2.4);
-}
 
 fn cube_root(x: f32) -> f32 {
     if x <= 0.0 { return 0.0; }
@@ -120,7 +114,7 @@ fn decoded_color(color: vec3<f32>) -> vec3<f32> {
 // Where a colour lies on the scale of the rule's measure, 0 black to 1 white.
 fn place_of(light: vec3<f32>, lightness: f32, rule: u32) -> f32 {
     if rules.rules[rule].measure == RULE_WCAG {
-        return log(dot(BACKDROP_LUMA, light) * 20.0 + 1.0) / log(WCAG_LARGEST);
+        return log(dot(LUMA, light) * 20.0 + 1.0) / log(WCAG_LARGEST);
     }
     return lightness;
 }
@@ -191,7 +185,7 @@ fn at_place(place: f32, own: vec3<f32>, edge: vec3<f32>, share: f32, rule: u32) 
     for (var i = 0u; i <= rounds; i++) {
         let lightness = select(place, 0.5 * (low + high), by_luminance);
         light = at_lightness(lightness, own, edge, share);
-        if dot(BACKDROP_LUMA, light) < luminance {
+        if dot(LUMA, light) < luminance {
             low = lightness;
         } else {
             high = lightness;

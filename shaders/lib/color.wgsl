@@ -1,5 +1,8 @@
 // Packed colours. Twin: npr_core::color.
 
+// Share of each channel in luminance [ITU-R BT.709].
+const LUMA: vec3<f32> = vec3<f32>(0.2126, 0.7152, 0.0722);
+
 fn pack_rgba8(rgba: vec4<f32>) -> u32 {
     let bytes = vec4<u32>(clamp(rgba, vec4<f32>(0.0), vec4<f32>(1.0)) * 255.0 + 0.5);
     return bytes.x | (bytes.y << 8u) | (bytes.z << 16u) | (bytes.w << 24u);

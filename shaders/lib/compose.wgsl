@@ -26,8 +26,5 @@ const COMPOSE_OVERLAY: u32 = 2u;
 const COMPOSE_BEAMS: u32 = 4u;
 const COMPOSE_SMOKE: u32 = 8u;
 const COMPOSE_SMOKE_PEN: u32 = 16u;
-
-// Share of each channel in luminance [ITU-R BT.709].
-const LUMA: vec3<f32> = vec3<f32>(0.2126, 0.7152, 0.0722);
 const COMPOSE_BACKDROP: u32 = 64u;
 const COMPOSE_BARE: u32 = 128u;

@@ -1,5 +1,6 @@
 // Paint under the pen. Twin: npr_style::paint. The shader declares what its twin's layers hold, and has `tint` and `uv_at`.
 
+//# use lib/color
 //# use lib/compose
 
 // Lightness, the root of luminance, up to which paint is solid ink in any light.
