@@ -13,16 +13,13 @@ const SIZE: [u32; 2] = [240, 160];
 
 /// Every pixel left of the middle black, all others white.
 fn two_colors() -> Picture {
-    let texel = |i: u32| {
-        if i.is_multiple_of(2) {
-            [0, 0, 0, 255]
-        } else {
-            [255; 4]
-        }
+    let texel = |i: u32| match i % SIZE[0] < SIZE[0] / 2 {
+        true => [0, 0, 0, 255],
+        false => [255; 4],
     };
     Picture {
-        size: [2, 2],
-        rgba: (0..4).flat_map(texel).collect(),
+        size: SIZE,
+        rgba: (0..SIZE[0] * SIZE[1]).flat_map(texel).collect(),
     }
 }
 
@@ -118,9 +115,12 @@ const ALL: u32 = 4_000_000;
 #[test]
 fn a_black_line_lifts_before_black_and_stays_before_white_by_every_method() {
     let model = squares(&["hero"]);
-    for method in ["shape", "okuya", "filter", "hull", "edges", "filter+hull"] {
+    for method in ["shape", "okuya", "filter", "edges", "filter+hull"] {
         let frame = draw(&model, &style(&format!("line.method={method}")), ALL);
-        let reads = contrast(at(&frame, SIDES[0], 80), [0.0; 3], &Rule::CONTRAST);
+        // Across the border; the surface itself reads by half as much. A flat square has no hull.
+        let across = SIDES[0] - 4..SIDES[0] + 2;
+        let reads = across.map(|x| contrast(at(&frame, x, 80), [0.0; 3], &Rule::CONTRAST));
+        let reads = reads.fold(0.0, f32::max);
         assert!(reads > 0.2, "{method}: {reads}");
         // Outside of the shape, where only the line may lie.
         let right = (174..177).map(|x| at(&frame, x, 80)[0]).fold(1.0, f32::min);
@@ -135,7 +135,7 @@ fn the_publication_s_outline_is_a_pixel_wide_and_multiplies_the_rim() {
     let row: Vec<u8> = (0..SIZE[0])
         .map(|x| frame[(80 * SIZE[0] + x) as usize][0])
         .collect();
-    let brightened: Vec<usize> = (0..120).filter(|x| row[*x] > 40).collect();
+    let brightened: Vec<usize> = (0..120).filter(|x| row[*x] > 20).collect();
     assert_eq!(brightened.len(), 1, "{row:?}");
     assert_eq!(row[brightened[0]], 4 * row[brightened[0] + 1]);
     assert_eq!((120..240).filter(|x| row[*x] == 0).count(), 1, "{row:?}");
@@ -149,7 +149,8 @@ fn parts_keep_their_line_by_rule_and_belong_to_subjects_by_name() {
     let reads = |frame: &[[u8; 4]], x: u32| {
         contrast(at(frame, x, 80), at(frame, x + 8, 80), &Rule::CONTRAST)
     };
-    let apart = draw(&model, &style(""), ALL);
+    let roots = "line.background.subjects=root";
+    let apart = draw(&model, &style(roots), ALL);
     assert!(
         reads(&apart, inner) > 0.2,
         "subjects of their own: {}",
@@ -158,7 +159,7 @@ fn parts_keep_their_line_by_rule_and_belong_to_subjects_by_name() {
     let hair = "[[rule]]\nmatch.object = \"hair\"\n";
     let kept = draw(
         &model,
-        &with_rules("", &format!("{hair}line.background.method = \"off\"\n")),
+        &with_rules(roots, &format!("{hair}line.background.method = \"off\"\n")),
         ALL,
     );
     assert!(
@@ -168,7 +169,7 @@ fn parts_keep_their_line_by_rule_and_belong_to_subjects_by_name() {
     );
     let one = draw(
         &model,
-        &with_rules("", "[[rule]]\nsubject = \"hero\"\n"),
+        &with_rules(roots, "[[rule]]\nsubject = \"hero\"\n"),
         ALL,
     );
     assert!(
@@ -188,7 +189,7 @@ fn parts_keep_their_line_by_rule_and_belong_to_subjects_by_name() {
     );
     let ground = draw(
         &model,
-        &with_rules("", "[[rule]]\nsubject = \"background\"\n"),
+        &with_rules(roots, "[[rule]]\nsubject = \"background\"\n"),
         ALL,
     );
     let off = draw(&model, &style("line.background.method=off"), ALL);

@@ -246,8 +246,8 @@ pub struct Rule {
     /// What the rule applies to.
     #[serde(rename = "match")]
     pub matching: Match,
-    /// The subject that the part belongs to, whose outline minds the background; default the object at the top of the file's
-    /// tree that it hangs on. Parts of one name are one subject; `background` is part of none, as suits ground and walls.
+    /// The subject that the part belongs to, whose outline minds the background; default what `line.background.subjects` says. Parts
+    /// of one name are one subject; `background` is part of none, as suits ground and walls.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub subject: Option<String>,
     /// What changes about its lines.

@@ -120,8 +120,8 @@ fn wrong_options_exit_with_2_and_leave_nothing() {
             "between 10 and 180",
         ),
         (
-            &["lines", "scene.obj", "--method", "potrace"],
-            "surface, edges",
+            &["lines", "scene.obj", "--method", "pencil"],
+            "surface, edges, potrace",
         ),
         (
             &["lines", "scene.obj", "--hidden", "dotted"],

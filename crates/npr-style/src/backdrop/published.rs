@@ -52,7 +52,7 @@ impl Criteria {
 ///
 /// `alone` is the character, alpha 0 everywhere else; `composed` is the character before its background; both sRGB-encoded,
 /// 0..1, row by row. A pixel whose alpha is the same in both shows the character (section 2.2). One that does not, and has
-/// such a pixel among its eight neighbours, lies on the outline; [`color`] says how it is drawn, from the mean of those
+/// such a pixel among its eight neighbours, lies on the outline; [`color()`] says how it is drawn, from the mean of those
 /// neighbours and its own colour. `default` is the colour of lines that need no change, black as published.
 ///
 /// `None` where the pictures are not of `size`. O(pixels), parallel over rows.

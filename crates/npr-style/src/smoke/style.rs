@@ -171,7 +171,7 @@ pub struct SmokeLine {
     /// Part of that which lines inside the smoke have, 0..1; default 0.6. 0 only the outer line.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub inner: f32,
-    /// From which jump in depth a puff is outlined before another, in radii of the puff, 0.01..10; default 0.4. Lines begin as
+    /// From which jump in depth a puff is outlined before another, in radii of the puff, 0.01..10; default 0.2. Lines begin as
     /// nothing there, reach `inner` at four times the jump and the full width at sixteen times. Lower draws more lines.
     #[schemars(range(min = 0.01, max = 10.0))]
     pub jump: f32,
@@ -190,7 +190,7 @@ impl Default for SmokeLine {
             color: Color::rgb(0x1c, 0x1e, 0x2c),
             width: Length::ref_px(3.2),
             inner: 0.6,
-            jump: 0.4,
+            jump: 0.2,
             swell: 0.35,
             weight: 200.0,
         }
