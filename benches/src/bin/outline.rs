@@ -73,7 +73,7 @@ fn main() -> Outcome<()> {
 fn contrast() -> Outcome<()> {
     println!("## Twelve frames\n");
     println!(
-        "Preset toon with black lines, {} x {} pixels. Below: share of the outline whose line differs by less than {CONTRAST} in OKLab's \
+        "Preset toon; black lines, but ours in the surface's colour times 0.6, {} x {} pixels. Below: share of the outline whose line differs by less than {CONTRAST} in OKLab's \
          lightness from what lies behind. Distance: mean distance in OKLab between line and rim. How places are judged stands in \
          the [README](../README.md).\n",
         SIZE[0], SIZE[1]
