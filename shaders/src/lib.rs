@@ -183,6 +183,7 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/texture", include_str!("../lib/texture.wgsl")),
     ("lib/curve", include_str!("../lib/curve.wgsl")),
     ("lib/list", include_str!("../lib/list.wgsl")),
+    ("lib/holder", include_str!("../lib/holder.wgsl")),
     ("lib/ink", include_str!("../lib/ink.wgsl")),
     ("lib/looped", include_str!("../lib/looped.wgsl")),
     ("lib/pixel", include_str!("../lib/pixel.wgsl")),

@@ -16,16 +16,7 @@ override WG: u32 = 64u;
 @group(0) @binding(3) var<storage, read> segments: array<Segment>;
 @group(0) @binding(4) var<storage, read_write> fragments: array<Fragment>;
 
-// The last element of ascending starts that is not above a value.
-fn holder_of(value: u32) -> u32 {
-    var low = 0u;
-    var high = arrayLength(&starts);
-    while low + 1u < high {
-        let middle = low + (high - low) / 2u;
-        if starts[middle] <= value { low = middle; } else { high = middle; }
-    }
-    return low;
-}
+//# use lib/holder
 
 fn pixel_along(place: f32, r: f32, size: u32) -> u32 {
     let step = floor(max(place, 0.0)) + 0.5;

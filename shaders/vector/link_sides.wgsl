@@ -18,16 +18,7 @@ override WG: u32 = 64u;
 @group(0) @binding(4) var<storage, read_write> sides: array<u32>;
 @group(0) @binding(5) var<storage, read_write> links: array<Link>;
 
-// The last element of ascending starts that is not above a value.
-fn holder_of(value: u32) -> u32 {
-    var low = 0u;
-    var high = arrayLength(&starts);
-    while low + 1u < high {
-        let middle = low + (high - low) / 2u;
-        if starts[middle] <= value { low = middle; } else { high = middle; }
-    }
-    return low;
-}
+//# use lib/holder
 
 // The place of the bit of a mask before which as many others are set.
 fn nth_bit(mask: u32, rank: u32) -> u32 {

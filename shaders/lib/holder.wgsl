@@ -1,0 +1,12 @@
+// Which element of a scan a place belongs to. Twin: npr_vector::pixel_contour::fragment::holder_of. The shader declares `starts`.
+
+// The last element of ascending starts that is not above a value.
+fn holder_of(value: u32) -> u32 {
+    var low = 0u;
+    var high = arrayLength(&starts);
+    while low + 1u < high {
+        let middle = low + (high - low) / 2u;
+        if starts[middle] <= value { low = middle; } else { high = middle; }
+    }
+    return low;
+}
