@@ -26,10 +26,9 @@ fn apart(a: u32, b: u32) -> f32 {
     return max(max(off.r, off.g), off.b);
 }
 
-// 1 for rims of the same colours on both sides, down to 0 where any channel differs by UNLIKE.
+// 1 for rims before the same colour, down to 0 where any channel differs by UNLIKE.
 fn likeness(a: Rim, b: Rim) -> f32 {
-    let most = max(apart(a.rim, b.rim), apart(a.behind, b.behind));
-    let left = max(1.0 - most / UNLIKE, 0.0);
+    let left = max(1.0 - apart(a.behind, b.behind) / UNLIKE, 0.0);
     return left * left;
 }
 

@@ -1,7 +1,8 @@
 // backdrop.spread_rims: carries the nearest rim to every pixel, as two pictures.
 //
 // The first holds the rim's colour with its weight in alpha, the second that of what lies
-// behind with the rule's number. Weights fall with the distance from the outline.
+// behind with the rule's number: its colour for the published method, what
+// the stretch of outline must read before for ours. Weights fall with the distance from the outline.
 //
 // Twin    npr_style::backdrop::spread_rims
 //
@@ -11,12 +12,45 @@
 @group(0) @binding(1) var<uniform> rules: Rules;
 @group(0) @binding(2) var<storage, read> rims: array<Rim>;
 @group(0) @binding(3) var<storage, read> columns: array<u32>;
+@group(0) @binding(4) var<storage, read> leans: array<Lean>;
 
 //# use lib/backdrop
+//# use lib/stretch
 
 struct Sides {
     @location(0) front: vec4<f32>,
     @location(1) back: vec4<f32>,
+}
+
+// What is decided for a rim, between the four tiles around: those of the same subject alone. Of nobody where there is none.
+fn lean_between(whose: u32, pixel: vec2<u32>) -> Lean {
+    let across = tiles_across(window.size);
+    let down = arrayLength(&leans) / across;
+    let place = (vec2<f32>(pixel) + 0.5) / f32(BORDER_TILE) - 0.5;
+    var sum = vec3<f32>(0.0);
+    var rim = vec3<f32>(0.0);
+    var total = 0.0;
+    for (var i = 0u; i < 4u; i++) {
+        let tile = floor(place) + vec2<f32>(f32(i & 1u), f32(i >> 1u));
+        if any(tile < vec2<f32>(0.0)) || tile.x >= f32(across) || tile.y >= f32(down) { continue; }
+        let lean = leans[u32(tile.y) * across + u32(tile.x)];
+        if lean.whose != whose { continue; }
+        let near = 1.0 - abs(place - tile);
+        let weight = near.x * near.y + 1e-4;
+        sum += vec3<f32>(lean.low, lean.high, lean.lean) * weight;
+        rim += rim_of(lean) * weight;
+        total += weight;
+    }
+    var mean: Lean;
+    if total == 0.0 { return mean; }
+    sum /= total;
+    rim /= total;
+    mean.low = sum.x;
+    mean.high = sum.y;
+    mean.lean = sum.z;
+    mean.rim = array<f32, 3>(rim.r, rim.g, rim.b);
+    mean.whose = whose;
+    return mean;
 }
 
 fn spread_at(x: u32, y: u32) -> Sides {
@@ -42,7 +76,17 @@ fn spread_at(x: u32, y: u32) -> Sides {
     let distance = sqrt(f32(nearest));
     let kept = 1.0 - smooth_step(rules.whole_px, f32(rules.reach_px), distance);
     sides.front = vec4<f32>(color.rgb, color.a * kept);
+    let at = vec2<u32>((found - 1u) % window.size.x, (found - 1u) / window.size.x);
     sides.back = unpack4x8unorm(rim.behind);
+    let rule = rim.behind >> 24u;
+    if rules.rules[rule].method != RULE_BY_CONTRAST { return sides; }
+    let lean = lean_between(rim.subject & RIM_WHOSE, at);
+    if lean.whose == 0u {
+        sides.back = vec4<f32>(0.0);
+        return sides;
+    }
+    if rules.rules[rule].rim_factor > 0.0 { sides.front = vec4<f32>(rim_of(lean), sides.front.a); }
+    sides.back = vec4<f32>(lean.low, lean.high, 0.5 + 0.5 * lean.lean, sides.back.a);
     return sides;
 }
 

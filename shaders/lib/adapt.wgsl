@@ -2,10 +2,10 @@
 
 //# use lib/backdrop
 
-// How much contrast is given up for the smaller step, and half the band in which a line turns.
-const TURN: f32 = 0.006;
-// Largest difference of two steps that still counts as about the same, in lightness.
-const EVEN_STEP: f32 = 0.018;
+// What a lack of contrast is worth in a vote, as a multiple of a step in lightness.
+const LACK_WORTH: f32 = 50.0;
+// Vote of a rule that knows one direction alone.
+const FORCED: f32 = 0.05;
 // Share of the goal by which a line must be moved to take all of its hue from the rim.
 const HUE_AT: f32 = 0.5;
 const FIT_ROUNDS: u32 = 14u;
@@ -119,6 +119,11 @@ fn place_of(light: vec3<f32>, lightness: f32, rule: u32) -> f32 {
     return lightness;
 }
 
+// The same of a colour alone.
+fn place_of_light(light: vec3<f32>, rule: u32) -> f32 {
+    return place_of(light, oklab_of_light(light).x, rule);
+}
+
 fn luminance_at(place: f32) -> f32 {
     return (exp(place * log(WCAG_LARGEST)) - 1.0) / 20.0;
 }
@@ -131,22 +136,49 @@ fn target_of(rule: u32) -> f32 {
     return clamp(goal, 0.0, 1.0);
 }
 
-// Where a line at `line` moves before a background at `ground`, both on a scale of 0 to 1.
-fn moved(line: f32, ground: f32, distance: f32, direction: u32) -> f32 {
-    var darker = max(min(line, ground - distance), 0.0);
-    var brighter = min(max(line, ground + distance), 1.0);
-    if direction == RULE_BRIGHTER { darker = min(line, ground); }
-    if direction == RULE_DARKER { brighter = max(line, ground); }
-    let lack_darker = max(distance - (ground - darker), 0.0);
-    let lack_brighter = max(distance - (brighter - ground), 0.0);
-    let longer = (line - darker) - (brighter - line);
-    let turn = min(TURN, 0.5 * distance);
-    var bias = turn * clamp(longer / max(min(EVEN_STEP, distance), 1e-6), -1.0, 1.0);
-    if direction == RULE_BRIGHTER { bias = -turn; }
-    if direction == RULE_DARKER { bias = turn; }
-    let score = lack_darker - lack_brighter + bias;
-    let share = smooth_step(-turn, turn, score);
-    return darker * (1.0 - share) + brighter * share;
+// What lies behind a line: the darkest and the brightest that it must read before, and how much of the brighter way is taken.
+struct Ground {
+    low: f32,
+    high: f32,
+    brighter: f32,
+}
+
+// Where a line may move, and by how much each falls short of the target.
+struct Candidates {
+    darker: f32,
+    brighter: f32,
+    lack_darker: f32,
+    lack_brighter: f32,
+    // By how much the step to the darker one is longer.
+    longer: f32,
+}
+
+fn candidates_of(line: f32, low: f32, high: f32, distance: f32, direction: u32) -> Candidates {
+    var both: Candidates;
+    both.darker = max(min(line, low - distance), 0.0);
+    both.brighter = min(max(line, high + distance), 1.0);
+    if direction == RULE_BRIGHTER { both.darker = min(line, low); }
+    if direction == RULE_DARKER { both.brighter = max(line, high); }
+    both.lack_darker = max(distance - (low - both.darker), 0.0);
+    both.lack_brighter = max(distance - (both.brighter - high), 0.0);
+    both.longer = (line - both.darker) - (both.brighter - line);
+    return both;
+}
+
+// Where a line at `line` moves before a ground, on a scale of 0 to 1.
+fn moved(line: f32, ground: Ground, distance: f32, direction: u32) -> f32 {
+    let both = candidates_of(line, ground.low, ground.high, distance, direction);
+    return both.darker * (1.0 - ground.brighter) + both.brighter * ground.brighter;
+}
+
+// Which way a line had better move before grounds from the first to the second: from -1, darker, to 1, brighter.
+fn preference(line: f32, grounds: vec2<f32>, rule: u32) -> f32 {
+    let direction = rules.rules[rule].direction;
+    let both = candidates_of(line, grounds.x, grounds.y, target_of(rule), direction);
+    var forced = 0.0;
+    if direction == RULE_BRIGHTER { forced = -FORCED; }
+    if direction == RULE_DARKER { forced = FORCED; }
+    return clamp(both.longer + LACK_WORTH * (both.lack_darker - both.lack_brighter) + forced, -1.0, 1.0);
 }
 
 fn is_in_gamut(light: vec3<f32>, room: f32) -> bool {
@@ -194,18 +226,26 @@ fn at_place(place: f32, own: vec3<f32>, edge: vec3<f32>, share: f32, rule: u32) 
     return light;
 }
 
-// A line's colour where its surface ends before `behind`, in linear light.
-fn adapted_light(line: vec3<f32>, rim: vec3<f32>, behind: vec3<f32>, rule: u32) -> vec3<f32> {
-    let method = rules.rules[rule].method;
-    if method == RULE_OFF { return line; }
-    if method == RULE_BY_LIKENESS {
-        return decoded_color(published_color(encoded_color(line), encoded_color(rim), encoded_color(behind), rule));
-    }
+// The colour that a line starts from: its own, or a share of the rim's.
+fn started(line: vec3<f32>, rim: vec3<f32>, rule: u32) -> vec3<f32> {
+    let factor = rules.rules[rule].rim_factor;
+    if factor > 0.0 { return rim * factor; }
+    return line;
+}
+
+// A line's colour by the published method where its surface ends before `behind`, in linear light.
+fn published_light(line: vec3<f32>, rim: vec3<f32>, behind: vec3<f32>, rule: u32) -> vec3<f32> {
+    if rules.rules[rule].method == RULE_OFF { return line; }
+    return decoded_color(published_color(encoded_color(line), encoded_color(rim), encoded_color(behind), rule));
+}
+
+// A line's colour where its surface ends before a ground, in linear light.
+fn adapted_light(own_light: vec3<f32>, rim: vec3<f32>, ground: Ground, rule: u32) -> vec3<f32> {
+    let line = started(own_light, rim, rule);
     let own = oklab_of_light(line);
-    let ground = oklab_of_light(behind);
-    let start = place_of(line, own.x, rule);
     let distance = target_of(rule);
-    let end = moved(start, place_of(behind, ground.x, rule), distance, rules.rules[rule].direction);
+    let start = place_of(line, own.x, rule);
+    let end = moved(start, ground, distance, rules.rules[rule].direction);
     let step = abs(end - start);
     if step == 0.0 { return line; }
     let edge = oklab_of_light(rim);

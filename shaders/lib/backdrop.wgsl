@@ -5,6 +5,7 @@
 
 const RULE_OFF: u32 = 0u;
 const RULE_BY_LIKENESS: u32 = 1u;
+const RULE_BY_CONTRAST: u32 = 2u;
 const RULE_AUTO: u32 = 0u;
 const RULE_BRIGHTER: u32 = 1u;
 const RULE_DARKER: u32 = 2u;
@@ -23,7 +24,7 @@ struct Rule {
     measure: u32,
     goal: f32,
     intensity: f32,
-    unused_a: u32,
+    rim_factor: f32,
     unused: vec2<u32>,
 }
 
@@ -34,8 +35,9 @@ struct Rules {
     reach_px: u32,
     samples: u32,
     within: u32,
-    unused_a: u32,
-    unused: vec2<u32>,
+    lean_px: f32,
+    hold: f32,
+    fade: f32,
 }
 
 struct Wearer {

@@ -36,6 +36,14 @@ shaders! {
     BACKDROP_DRAW_RIMS = "backdrop/draw_rims";
     /// Blends them along the outline.
     BACKDROP_SMOOTH_RIMS = "backdrop/smooth_rims";
+    /// What the lines of every tile start from, and what they stand before.
+    BACKDROP_GATHER_TILES = "backdrop/gather_tiles";
+    /// The bounds of what the lines of every tile stand before, and its own vote.
+    BACKDROP_BOUND_TILES = "backdrop/bound_tiles";
+    /// Decides which way the lines of every tile move.
+    BACKDROP_LEAN_TILES = "backdrop/lean_tiles";
+    /// Keeps what was decided for the frame that comes next.
+    BACKDROP_BLEND_LEANS = "backdrop/blend_leans";
     /// Finds the nearest one in every row.
     BACKDROP_SPREAD_ROWS = "backdrop/spread_rows";
     /// Carries the nearest one to every pixel.
@@ -197,6 +205,7 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/color", include_str!("../lib/color.wgsl")),
     ("lib/compose", include_str!("../lib/compose.wgsl")),
     ("lib/backdrop", include_str!("../lib/backdrop.wgsl")),
+    ("lib/stretch", include_str!("../lib/stretch.wgsl")),
     ("lib/adapt", include_str!("../lib/adapt.wgsl")),
     ("lib/scenery", include_str!("../lib/scenery.wgsl")),
     ("lib/beam", include_str!("../lib/beam.wgsl")),

@@ -228,3 +228,43 @@ fn pictures_and_directions_of_tones_look_alike() {
     });
     check(pictures);
 }
+
+/// Frames that go on from one another, as lines before a background do.
+#[test]
+fn films_agree() {
+    let Some(device) = device() else { return };
+    let model = Model::new(&asset("still_life.glb")).unwrap();
+    let size = [480, 270];
+    let mut style = Style::preset("night").unwrap();
+    for setting in [
+        "background=grey.png",
+        "line.background.start=rim",
+        "line.background.subjects=object",
+    ] {
+        style.set(setting).unwrap();
+    }
+    let grey = |i: u32| {
+        let level = (i % size[0] / 2) as u8 ^ (i / size[0] / 24 % 2 * 40) as u8;
+        [level, level, level, 255]
+    };
+    let options = StageOptions {
+        background_image: Some(Picture {
+            size,
+            rgba: (0..size[0] * size[1]).flat_map(grey).collect(),
+        }),
+        ..StageOptions::new(size)
+    };
+    let mut camera = models_camera(&model, size);
+    let engines: [&dyn npr_gpu::engine::Engine; 2] = [&Processor, device];
+    let mut stages =
+        engines.map(|engine| npr_render::Stage::new(engine, &model, &style, &options).unwrap());
+    let mut first = None;
+    for frame in 0..8 {
+        let [one, two] = stages.each_mut().map(|stage| stage.draw(&camera).unwrap());
+        let agreement = Agreement::between(&one, &two, 2);
+        assert!(agreement.holds(), "frame {frame}: {agreement}");
+        camera.eye[0] += 0.02;
+        let first = first.get_or_insert(one.rgba.clone());
+        assert!(frame == 0 || *first != one.rgba, "the camera moves");
+    }
+}

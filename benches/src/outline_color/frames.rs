@@ -58,9 +58,10 @@ pub const METHODS: [Method; 4] = [
     Method {
         name: "ours",
         settings: &[
-            "line.paint.source=surface",
-            "line.paint.factor=0.6",
+            "line.color=black",
             "line.background.method=contrast",
+            "line.background.start=rim",
+            "line.background.factor=1",
         ],
     },
 ];

@@ -4,7 +4,10 @@ use crate::blueprint::Method;
 use crate::frame::Frame;
 use crate::model::{Model, PartInfo};
 use npr_core::color::{linear_from_srgb, srgb_from_linear};
-use npr_style::backdrop::{RULES_MAX, Rule, Rules, SMOOTH_MOST, Wearer, adapted_light};
+use npr_style::backdrop::{
+    Ground, LEAN_MOST, RULES_MAX, Rule, Rules, SMOOTH_MOST, TILE, Wearer, adapted_light,
+    published_light,
+};
 use npr_style::compose::Compose;
 use npr_style::{BackgroundMethod, LineScope, Style, Subjects};
 use std::collections::BTreeMap;
@@ -14,6 +17,9 @@ const REACH_MOST: f32 = 64.0;
 
 /// Frame pixels over which the rule ends beyond a line's own half width.
 const FADE_PX: f32 = 3.0;
+
+/// How much longer the stretches are that decide together which way their lines move than those over which colours are blended.
+const LEAN_OF_SMOOTH: f32 = 12.0;
 
 /// The subject whose parts are the background of all others.
 const BACKGROUND: &str = "background";
@@ -116,11 +122,13 @@ impl Backdrop {
         Rules {
             rules: self.rules,
             smooth_px: smooth.min(SMOOTH_MOST as f32),
+            lean_px: (LEAN_OF_SMOOTH * smooth).min((LEAN_MOST * TILE) as f32),
             whole_px,
             reach_px: (whole_px + FADE_PX).ceil() as u32,
+            hold: background.hold,
+            fade: 1.0 / background.fade.max(1.0),
             samples,
             within: bit(layers, background.scope == LineScope::All && self.is_on),
-            ..Rules::default()
         }
     }
 }
@@ -193,8 +201,13 @@ fn minding(line: [u8; 4], front: [u8; 4], back: [u8; 4], rules: &Rules) -> [f32;
         .get(usize::from(back[3]))
         .copied()
         .unwrap_or_default();
-    let [line, rim, behind] = [line, front, back].map(|texel| encoded(texel).map(linear_from_srgb));
-    let adapted = adapted_light(line, rim, behind, &rule);
+    let [line, rim] = [line, front].map(|texel| encoded(texel).map(linear_from_srgb));
+    let adapted = if rule.method == Rule::BY_CONTRAST {
+        let ground = Ground::unpacked(u32::from_le_bytes(back));
+        adapted_light(line, rim, &ground, &rule)
+    } else {
+        published_light(line, rim, encoded(back).map(linear_from_srgb), &rule)
+    };
     let weight = f32::from(front[3]) / 255.0;
     let mixed: [f32; 3] = std::array::from_fn(|i| line[i] + (adapted[i] - line[i]) * weight);
     mixed.map(srgb_from_linear)

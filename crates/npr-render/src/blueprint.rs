@@ -11,7 +11,7 @@ use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::Format;
 use npr_gpu::passes::{backdrop, line, mesh, raster, shade};
 use npr_mesh::pose::Matrix;
-use npr_style::backdrop::{Rim, Rules, TILE, Wearer};
+use npr_style::backdrop::{Lean, Rim, Rules, TILE, TileRims, Wearer};
 use npr_style::compose::Compose;
 use npr_style::lighting::Lights;
 use npr_style::shadow::{SHADOW_SIDE, SHADOWS_MAX};
@@ -199,6 +199,8 @@ pub(crate) struct BackdropPlan {
     /// Settings of the picture without lines.
     pub bare_compose: ResourceId,
     pub wearers: ResourceId,
+    /// Which way lines moved in the frame before.
+    pub kept_leans: ResourceId,
 }
 
 impl Blueprint {
@@ -524,10 +526,12 @@ impl Blueprint {
     fn find_rims(&mut self, counts: &Counts, grids: &Grids, method: Method) {
         let pixels = grids.output[0] as usize * grids.output[1] as usize;
         let tiles = grids.output.map(|side| side.div_ceil(TILE));
+        let tile_count = tiles[0] as usize * tiles[1] as usize;
         let plan = BackdropPlan {
             tile_window: self.graph.uniform::<Window>("tile window"),
             bare_compose: self.graph.uniform::<Compose>("bare compose"),
             wearers: self.graph.buffer::<Wearer>("wearers", counts.parts),
+            kept_leans: self.graph.buffer::<Lean>("kept leans", tile_count),
         };
         let [ids, depths] = self.bare_ids(grids, method);
         let busy = self.graph.image("busy", Format::Rgba8, tiles);
@@ -535,6 +539,10 @@ impl Blueprint {
         let rims = self.graph.buffer::<Rim>("rims", pixels);
         let smoothed = self.graph.buffer::<Rim>("smoothed rims", pixels);
         let columns = self.graph.buffer::<u32>("columns", pixels);
+        let gathered = self.graph.buffer::<TileRims>("gathered", tile_count);
+        let bounds = self.graph.buffer::<Lean>("bounds", tile_count);
+        let leans = self.graph.buffer::<Lean>("leans", tile_count);
+        let blended = self.graph.buffer::<Lean>("blended leans", tile_count);
         let (window, rules) = (self.output_window, self.rules);
         let flag = [
             plan.tile_window,
@@ -568,10 +576,18 @@ impl Blueprint {
         }
         self.graph
             .compute(&backdrop::SMOOTH_RIMS, &[window, rules, rims, smoothed]);
+        let gather = [window, rules, self.parts, smoothed, gathered];
+        self.graph.compute(&backdrop::GATHER_TILES, &gather);
+        self.graph
+            .compute(&backdrop::BOUND_TILES, &[window, rules, gathered, bounds]);
+        let lean = [window, rules, gathered, bounds, plan.kept_leans, leans];
+        self.graph.compute(&backdrop::LEAN_TILES, &lean);
+        let blend = [window, rules, leans, plan.kept_leans, blended];
+        self.graph.compute(&backdrop::BLEND_LEANS, &blend);
         self.graph
             .compute(&backdrop::SPREAD_ROWS, &[window, rules, smoothed, columns]);
         let (spread, sides) = (
-            [window, rules, smoothed, columns],
+            [window, rules, smoothed, columns, blended],
             [self.fronts, self.backs],
         );
         self.graph

@@ -16,6 +16,7 @@ use crate::smoke::{self, Measure, Needs, Smoke};
 use crate::streaks::Streaks;
 use crate::tiles::{TILE_PIXELS, Tiles};
 use bytemuck::{NoUninit, cast_slice};
+use glam::Vec3;
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
 use npr_core::smoke::{Lens, Sphere};
@@ -98,6 +99,12 @@ impl StageOptions {
     }
 }
 
+/// Cosine of the turn, 10 degrees, from which two views are not of one movement but a cut.
+const CUT_COS: f32 = 0.985;
+
+/// The same for the eye's way, as a multiple of the model's radius.
+const CUT_RADII: f32 = 0.5;
+
 /// A model, a style and a frame size on an engine: draws a picture for any camera.
 pub struct Stage<'a> {
     model: &'a Model,
@@ -120,6 +127,8 @@ pub struct Stage<'a> {
     planned_bytes: u64,
     plan: Blueprint,
     session: Box<dyn Session>,
+    /// How the frame before was seen.
+    before: Option<View>,
 }
 
 impl<'a> Stage<'a> {
@@ -259,6 +268,7 @@ impl<'a> Stage<'a> {
             planned_bytes,
             plan,
             session,
+            before: None,
         };
         stage.upload()?;
         Ok(stage)
@@ -416,6 +426,18 @@ impl<'a> Stage<'a> {
         &self.styled.inked.notices
     }
 
+    /// Whether a frame goes on from the one before: not the first, nor after a cut. Tiles of a frame share their buffers, so they never do.
+    fn follows(&self, view: &View) -> bool {
+        let Some(before) = &self.before else {
+            return false;
+        };
+        let turned = Vec3::from(view.forward_world).dot(Vec3::from(before.forward_world));
+        let moved = Vec3::from(view.eye_world).distance(Vec3::from(before.eye_world));
+        self.tiles.kept == self.tiles.frame
+            && turned > CUT_COS
+            && moved < CUT_RADII * self.model.radius()
+    }
+
     /// Draws the model as a camera sees it.
     ///
     /// # Errors
@@ -459,6 +481,11 @@ impl<'a> Stage<'a> {
             [self.options.size[1] as f32, self.options.dpi, world_px],
             self.grids.samples,
         );
+        let rules = match self.follows(&view) {
+            true => rules,
+            false => rules.of_first_frame(),
+        };
+        self.before = Some(view);
         let session = self.session.as_mut();
         write(session, self.plan.rules, &[rules])?;
         if let Some(minding) = &self.plan.backdrop {

@@ -4,6 +4,8 @@
 //! drawn with a margin that is cut off again; with a mask of full resolution, a picture in tiles is the same as one drawn
 //! whole, up to a pixel in ten thousand where a corner rounds differently. Coarser masks start anew in every tile.
 
+use npr_style::backdrop::TILE;
+
 /// Most pixels of a tile with its margin: its G-buffer must fit the 128 MiB that every device binds.
 pub(crate) const TILE_PIXELS: u32 = 4_000_000;
 
@@ -40,11 +42,16 @@ impl Tiles {
                 margin: 0,
             };
         }
-        let margin = margin.min(600);
+        // Tiles in which the outline is looked through together lie on one grid over the whole frame.
+        let margin = margin.min(600).next_multiple_of(TILE);
         let least = 2 * margin + KEPT_SIDE;
         let side = most_pixels.isqrt().clamp(least, SQUARE_SIDE) - 2 * margin;
         // Tiles of equal size: a narrow last one would cost as much as a full one.
-        let kept = frame.map(|length| length.div_ceil(length.div_ceil(side)));
+        let kept = frame.map(|length| {
+            length
+                .div_ceil(length.div_ceil(side))
+                .next_multiple_of(TILE)
+        });
         Self {
             frame,
             kept,

@@ -223,3 +223,28 @@ fn tiles_do_not_show() {
         assert_eq!(whole, draw(&model, &style, 9000), "{text}");
     }
 }
+
+/// What was decided for one view must not show in another: a still scene stays still, and a cut starts anew.
+#[test]
+fn still_frames_are_alike_and_cuts_start_anew() {
+    let model = squares(&["body", "hair"]);
+    let style = style("line.background.start=rim\nline.background.hold=2");
+    let options = StageOptions {
+        background_image: Some(two_colors()),
+        ..StageOptions::new(SIZE)
+    };
+    let camera = |x: f32| Camera {
+        eye: [x, 0.0, 5.0],
+        target: [x, 0.0, 0.0],
+        up: [0.0, 1.0, 0.0],
+        projection: Projection::Parallel { height: 3.0 },
+    };
+    let fresh = |x: f32| {
+        let mut stage = Stage::new(&Processor, &model, &style, &options).unwrap();
+        stage.draw(&camera(x)).unwrap().rgba
+    };
+    let mut stage = Stage::new(&Processor, &model, &style, &options).unwrap();
+    for x in [0.0, 0.0, 0.0, 1.0, 1.0, -0.5] {
+        assert_eq!(stage.draw(&camera(x)).unwrap().rgba, fresh(x), "at {x}");
+    }
+}

@@ -21,8 +21,9 @@ pub mod published;
 mod rims;
 mod rule;
 mod spread;
+mod stretch;
 
-pub use adapt::{adapt, adapted_light, contrast};
+pub use adapt::{Ground, adapt, adapted_light, contrast, published_light};
 pub use oklab::{light_of_oklab, oklab_of_light};
 pub use published::Criteria;
 pub use rims::{
@@ -30,6 +31,7 @@ pub use rims::{
 };
 pub use rule::{RULES_MAX, Rule, Rules};
 pub use spread::{SMOOTH_MOST, smooth_rims, spread_rims, spread_rows};
+pub use stretch::{LEAN_MOST, Lean, TileRims, blend_leans, bound_tiles, gather_tiles, lean_tiles};
 
 #[cfg(test)]
 mod tests;

@@ -91,8 +91,8 @@ pub use lettering::{LETTERING_MAX, Lettering, LetteringOutline};
 pub use light::{ExtraLight, Light, LightShape, LightSpace};
 pub use line::{Kinds, Line, LineMethod};
 pub use line_background::{
-    BackgroundMethod, Direction, Likeness, LineBackground, LineScope, Measure, RuleBackground,
-    Subjects,
+    BackgroundMethod, Direction, Likeness, LineBackground, LineScope, LineStart, Measure,
+    RuleBackground, Subjects,
 };
 pub use line_paint::{
     DepthSpace, HUE_STOPS_MAX, HUES, HueStop, KindColors, LineDepth, LineLight, LinePaint,

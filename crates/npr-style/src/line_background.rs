@@ -67,6 +67,17 @@ pub enum Subjects {
     Object,
 }
 
+/// What colour lines start from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LineStart {
+    /// Their own.
+    #[default]
+    Line,
+    /// That of the surface beside them, as it is lit, times `factor`: outlines that never look put on.
+    Rim,
+}
+
 /// How alike two colours must be.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -115,6 +126,11 @@ pub struct LineBackground {
     /// For `contrast` by `wcag`: the ratio that every line must have, 1..21; default 3, as for large text.
     #[schemars(range(min = 1.0, max = 21.0))]
     pub ratio: f32,
+    /// For `contrast`: what colour lines start from; default `line`.
+    pub start: LineStart,
+    /// For `contrast` that starts from the `rim`: share of the surface's light, 0..1; default 0.7. 0.3 a deep shade, 0.9 nearly the surface.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub factor: f32,
     /// For `published`: what the surface's colour is multiplied or divided by, 1..20; default 2.
     #[schemars(range(min = 1.0, max = 20.0))]
     pub intensity: f32,
@@ -125,9 +141,17 @@ pub struct LineBackground {
     pub subjects: Subjects,
     /// Which lines follow the rule; default `outline`.
     pub scope: LineScope,
-    /// Length of outline over which colours are blended; default 5 of 1080 px, at most 24 px of the frame. 0 for every pixel by
-    /// itself; `published` always is.
+    /// Length of outline over which colours are blended; default 8 of 1080 px, at most 24 px of the frame; which way lines turn is
+    /// decided over 12 times that length. 0 for every pixel by itself; `published` always is.
     pub smooth: Length,
+    /// For `contrast`: how much a stretch of outline that was brighter or darker in the frame before stays so, 0..2; default 1. 0 decides
+    /// every frame anew, 1 turns a line only where it would not read any more. Frames too large for one piece are always drawn by themselves.
+    #[schemars(range(min = 0.0, max = 2.0))]
+    pub hold: f32,
+    /// For `contrast`: frames in which a line that must turn fades from darker to brighter, 1..60; default 20. 1 turns at once. After a cut, and in
+    /// frames too large for one piece, lines do not fade.
+    #[schemars(range(min = 1.0, max = 60.0))]
+    pub fade: f32,
 }
 
 impl Default for LineBackground {
@@ -138,11 +162,15 @@ impl Default for LineBackground {
             measure: Measure::Lightness,
             lightness: 0.3,
             ratio: 3.0,
+            start: LineStart::Line,
+            factor: 0.7,
             intensity: 2.0,
             likeness: Likeness::default(),
             subjects: Subjects::Scene,
             scope: LineScope::Outline,
-            smooth: Length::ref_px(5.0),
+            smooth: Length::ref_px(8.0),
+            hold: 1.0,
+            fade: 20.0,
         }
     }
 }
@@ -170,6 +198,10 @@ impl LineBackground {
             direction,
             measure,
             goal: target,
+            rim_factor: match self.start {
+                LineStart::Line => 0.0,
+                LineStart::Rim => self.factor.max(1e-4),
+            },
             ..backdrop::Rule::CONTRAST
         }
     }

@@ -4,8 +4,8 @@ use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
 use npr_core::geometry::{Part, Triangle};
 use npr_core::window::Window;
 use npr_style::backdrop::{
-    Rim, Rules, Scenery, Search, Wearer, draw_rims, find_rims, flag_tiles, smooth_rims,
-    spread_rims, spread_rows,
+    Lean, Rim, Rules, Scenery, Search, TileRims, Wearer, blend_leans, bound_tiles, draw_rims,
+    find_rims, flag_tiles, gather_tiles, lean_tiles, smooth_rims, spread_rims, spread_rows,
 };
 
 /// Which tiles of the output lie near a border between two subjects; its window is the grid of tiles.
@@ -115,6 +115,84 @@ pub const SMOOTH_RIMS: Pass = Pass {
     },
 };
 
+/// What the lines of every tile of the output start from, and what they stand before.
+pub const GATHER_TILES: Pass = Pass {
+    name: "backdrop.gather_tiles",
+    shader: npr_shaders::BACKDROP_GATHER_TILES,
+    slots: &[
+        uniform::<Window>("window"),
+        uniform::<Rules>("rules"),
+        read::<Part>("parts"),
+        read::<Rim>("rims"),
+        write::<TileRims>("tile_rims"),
+    ],
+    work: Work::PerElement { of: "tile_rims" },
+    agreement: Agreement::Relative(1e-4),
+    twin: |b| {
+        let (window, rules) = (b.one(0), b.one(1));
+        gather_tiles(&window, &rules, b.read(2), b.read(3), b.write(4));
+    },
+};
+
+/// The bounds of what the lines of every tile stand before, and its own vote.
+pub const BOUND_TILES: Pass = Pass {
+    name: "backdrop.bound_tiles",
+    shader: npr_shaders::BACKDROP_BOUND_TILES,
+    slots: &[
+        uniform::<Window>("window"),
+        uniform::<Rules>("rules"),
+        read::<TileRims>("tile_rims"),
+        write::<Lean>("bounds"),
+    ],
+    work: Work::PerElement { of: "bounds" },
+    agreement: Agreement::Relative(1e-4),
+    twin: |b| {
+        let (window, rules) = (b.one(0), b.one(1));
+        bound_tiles(&window, &rules, b.read(2), b.write(3));
+    },
+};
+
+/// Which way the lines of every tile move.
+pub const LEAN_TILES: Pass = Pass {
+    name: "backdrop.lean_tiles",
+    shader: npr_shaders::BACKDROP_LEAN_TILES,
+    slots: &[
+        uniform::<Window>("window"),
+        uniform::<Rules>("rules"),
+        read::<TileRims>("tile_rims"),
+        read::<Lean>("bounds"),
+        read::<Lean>("before"),
+        write::<Lean>("leans"),
+    ],
+    work: Work::PerElement { of: "leans" },
+    agreement: Agreement::Relative(1e-4),
+    twin: |b| {
+        let (window, rules) = (b.one(0), b.one(1));
+        let (gathered, bounds, before) = (b.read(2), b.read(3), b.read(4));
+        lean_tiles(&window, &rules, gathered, bounds, before, b.write(5));
+    },
+};
+
+/// What was decided, kept for the next frame and blended along the outline for this one.
+pub const BLEND_LEANS: Pass = Pass {
+    name: "backdrop.blend_leans",
+    shader: npr_shaders::BACKDROP_BLEND_LEANS,
+    slots: &[
+        uniform::<Window>("window"),
+        uniform::<Rules>("rules"),
+        read::<Lean>("leans"),
+        write::<Lean>("kept"),
+        write::<Lean>("blended"),
+    ],
+    work: Work::PerElement { of: "blended" },
+    agreement: Agreement::Relative(1e-4),
+    twin: |b| {
+        let (window, rules) = (b.one(0), b.one(1));
+        let leans = b.read(2);
+        blend_leans(&window, &rules, leans, b.write(3), b.write(4));
+    },
+};
+
 /// The nearest rim in every row.
 pub const SPREAD_ROWS: Pass = Pass {
     name: "backdrop.spread_rows",
@@ -142,6 +220,7 @@ pub const SPREAD_RIMS: Pass = Pass {
         uniform::<Rules>("rules"),
         read::<Rim>("rims"),
         read::<u32>("columns"),
+        read::<Lean>("leans"),
     ],
     work: Work::Draw {
         of: "rules",
@@ -152,7 +231,8 @@ pub const SPREAD_RIMS: Pass = Pass {
     agreement: Agreement::Texels(0.001),
     twin: |b| {
         let (window, rules) = (b.one(0), b.one(1));
-        let (fronts, backs) = (b.image_mut(4).texels, b.image_mut(5).texels);
-        spread_rims(&window, &rules, b.read(2), b.read(3), fronts, backs);
+        let (rims, columns, leans) = (b.read(2), b.read(3), b.read(4));
+        let (fronts, backs) = (b.image_mut(5).texels, b.image_mut(6).texels);
+        spread_rims(&window, &rules, rims, columns, leans, fronts, backs);
     },
 };

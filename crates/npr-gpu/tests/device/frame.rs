@@ -11,11 +11,11 @@ use npr_gpu::graph::{Graph, Kind, ResourceId};
 use npr_gpu::pass::{Access, Format, Pass};
 use npr_gpu::passes::{backdrop, line, mesh, raster, shade, smoke};
 use npr_gpu::processor::Processor;
-use npr_style::backdrop::TILE;
+use npr_style::backdrop::{Lean, TILE, TileRims};
 use std::collections::BTreeMap;
 
 /// Slots that bind a resource of another name: two passes work on the grid of the mask only and call it the window.
-const RENAMED: [(&str, &str, &str); 19] = [
+const RENAMED: [(&str, &str, &str); 24] = [
     ("backdrop.flag_tiles", "window", "tile_window"),
     ("backdrop.flag_tiles", "output_window", "window"),
     ("backdrop.flag_tiles", "ids", "bare_ids"),
@@ -23,8 +23,13 @@ const RENAMED: [(&str, &str, &str); 19] = [
     ("backdrop.find_rims", "depths", "bare_depth"),
     ("backdrop.find_rims", "drawn_ids", "ids"),
     ("backdrop.draw_rims", "overlay", "rim_lines"),
+    ("backdrop.gather_tiles", "rims", "smoothed_rims"),
+    ("backdrop.lean_tiles", "before", "kept_leans"),
+    ("backdrop.blend_leans", "kept", "kept_leans"),
+    ("backdrop.blend_leans", "blended", "blended_leans"),
     ("backdrop.spread_rows", "rims", "smoothed_rims"),
     ("backdrop.spread_rims", "rims", "smoothed_rims"),
+    ("backdrop.spread_rims", "leans", "blended_leans"),
     ("raster.draw_shadow", "window", "shadow_window"),
     ("line.resolve_gbuffer", "window", "mask_window"),
     ("line.resolve_gbuffer", "ids", "mask_ids"),
@@ -59,7 +64,7 @@ pub struct Frame {
 
 impl Frame {
     /// The names of what passes make.
-    pub const MADE: [&str; 38] = [
+    pub const MADE: [&str; 43] = [
         "posed",
         "lit",
         "projected",
@@ -93,6 +98,11 @@ impl Frame {
         "bare",
         "rims",
         "smoothed_rims",
+        "tile_rims",
+        "bounds",
+        "kept_leans",
+        "leans",
+        "blended_leans",
         "rim_lines",
         "columns",
         "fronts",
@@ -319,6 +329,10 @@ impl Builder {
         self.make_buffer("smoothed_rims", 16, area(size));
         self.make_buffer("columns", 4, area(size));
         self.make_buffer("rim_lines", 4, area(size));
+        self.make_buffer("tile_rims", size_of::<TileRims>(), area(tiles));
+        for leans in ["bounds", "kept_leans", "leans", "blended_leans"] {
+            self.make_buffer(leans, size_of::<Lean>(), area(tiles));
+        }
     }
 
     fn line_up_backdrop(&mut self) {
@@ -340,6 +354,10 @@ impl Builder {
         self.compute(&backdrop::FIND_RIMS);
         self.compute(&backdrop::DRAW_RIMS);
         self.compute(&backdrop::SMOOTH_RIMS);
+        self.compute(&backdrop::GATHER_TILES);
+        self.compute(&backdrop::BOUND_TILES);
+        self.compute(&backdrop::LEAN_TILES);
+        self.compute(&backdrop::BLEND_LEANS);
         self.compute(&backdrop::SPREAD_ROWS);
         let targets = ["fronts", "backs"];
         self.draw(&backdrop::SPREAD_RIMS, "window", targets, true);
@@ -438,6 +456,7 @@ pub fn grids_for(pass: &Pass, count: u32) -> [[u32; 2]; 2] {
     let count = count.max(1);
     match pass.slots[pass.counted_slot()].name {
         "tiles" => [[count, 1], [16 * count, 5]],
+        "tile_rims" | "bounds" | "leans" | "blended" => [[TILE * count, 3], [count, 1]],
         _ => [[count, 1], [count, 1]],
     }
 }

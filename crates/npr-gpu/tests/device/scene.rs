@@ -368,6 +368,9 @@ pub fn rules(look: Look) -> Rules {
         smooth_px: 5.0,
         whole_px: 2.0,
         reach_px: 4,
+        lean_px: 20.0,
+        hold: 1.0,
+        fade: 0.1,
         within: match look {
             Look::Ours => Rules::ALWAYS | Rules::RIBBONS | Rules::OVERLAY,
             Look::Published => 0,

@@ -3,8 +3,9 @@
 use super::oklab::{light_of_oklab, oklab_of_light};
 use super::published;
 use super::rule::Rule;
+use super::stretch::Lean;
 use crate::compose::LUMA;
-use npr_core::color::{linear_from_srgb, srgb_from_linear};
+use npr_core::color::{linear_from_srgb, pack_rgba8, srgb_from_linear, unpack_rgba8};
 use npr_core::math::{self, mix, smoothstep};
 use npr_core::surface::dot;
 
@@ -17,6 +18,12 @@ pub(super) const TURN: f32 = 0.006;
 
 /// Largest difference of two steps that still counts as about the same, in lightness.
 const EVEN_STEP: f32 = 0.018;
+
+/// What a lack of contrast is worth in a vote, as a multiple of a step in lightness: a line must read.
+const LACK_WORTH: f32 = 50.0;
+
+/// Vote of a rule that knows one direction alone; the other stays where it reads already.
+const FORCED: f32 = 0.05;
 
 /// Share of the target by which a line must be moved to take all of its hue from the rim.
 const HUE_AT: f32 = 0.5;
@@ -47,7 +54,11 @@ pub fn adapt(line: [f32; 3], rim: [f32; 3], behind: [f32; 3], rule: &Rule) -> [f
     }
     let light = |color: [f32; 3]| color.map(linear_from_srgb);
     let before = light(line);
-    let adapted = adapted_light(before, light(rim), light(behind), rule);
+    if rule.method == Rule::OFF {
+        return line;
+    }
+    let ground = Ground::of_light(light(behind), rule);
+    let adapted = adapted_light(before, light(rim), &ground, rule);
     match adapted == before {
         true => line,
         false => adapted.map(srgb_from_linear),
@@ -73,25 +84,60 @@ pub fn contrast(line: [f32; 3], behind: [f32; 3], rule: &Rule) -> f32 {
     (a - b).abs()
 }
 
-/// [`adapt`] in linear light of 0..1, as passes do it.
-pub fn adapted_light(line: [f32; 3], rim: [f32; 3], behind: [f32; 3], rule: &Rule) -> [f32; 3] {
-    if rule.method == Rule::OFF {
-        return line;
+/// What lies behind a line, on the scale of the rule's measure: 0 black, 1 white.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ground {
+    /// The darkest that it must read before.
+    pub low: f32,
+    /// The brightest.
+    pub high: f32,
+    /// How much of the brighter of both ways is taken, 0..1; by itself where it is `None`.
+    pub brighter: Option<f32>,
+}
+
+impl Ground {
+    /// One colour in linear light.
+    pub fn of_light(behind: [f32; 3], rule: &Rule) -> Self {
+        let place = place_of_light(behind, rule);
+        Self {
+            low: place,
+            high: place,
+            brighter: None,
+        }
     }
-    if rule.method == Rule::BY_LIKENESS {
-        let [line, rim, behind] = [line, rim, behind].map(|light| light.map(srgb_from_linear));
-        return published::color(line, rim, behind, rule).map(linear_from_srgb);
+
+    pub(super) fn of_lean(lean: &Lean) -> Self {
+        Self {
+            low: lean.low,
+            high: lean.high,
+            brighter: Some(0.5 + 0.5 * lean.lean),
+        }
     }
+
+    /// As a texel with the number of a rule.
+    pub(super) fn packed(&self, rule: u32) -> u32 {
+        let share = self.brighter.unwrap_or(0.5);
+        pack_rgba8([self.low, self.high, share, 0.0]) | rule << 24
+    }
+
+    /// Of such a texel.
+    pub fn unpacked(texel: u32) -> Self {
+        let [low, high, share, _] = unpack_rgba8(texel);
+        Self {
+            low,
+            high,
+            brighter: Some(share),
+        }
+    }
+}
+
+/// [`adapt`] by contrast in linear light of 0..1, as passes do it.
+pub fn adapted_light(line: [f32; 3], rim: [f32; 3], ground: &Ground, rule: &Rule) -> [f32; 3] {
+    let line = started(line, rim, rule);
     let own = oklab_of_light(line);
-    let ground = oklab_of_light(behind);
-    let from = place_of(line, own[0], rule);
     let target = target_of(rule);
-    let to = moved(
-        from,
-        place_of(behind, ground[0], rule),
-        target,
-        rule.direction,
-    );
+    let from = place_of(line, own[0], rule);
+    let to = moved(from, ground, target, rule.direction);
     let step = (to - from).abs();
     if step == 0.0 {
         return line;
@@ -101,12 +147,34 @@ pub fn adapted_light(line: [f32; 3], rim: [f32; 3], behind: [f32; 3], rule: &Rul
     at_place(to, own, edge, share, rule)
 }
 
+/// The published method in linear light of 0..1, as passes do it.
+pub fn published_light(line: [f32; 3], rim: [f32; 3], behind: [f32; 3], rule: &Rule) -> [f32; 3] {
+    if rule.method == Rule::OFF {
+        return line;
+    }
+    let [line, rim, behind] = [line, rim, behind].map(|light| light.map(srgb_from_linear));
+    published::color(line, rim, behind, rule).map(linear_from_srgb)
+}
+
+/// The colour that a line starts from: its own, or a share of the rim's.
+pub(super) fn started(line: [f32; 3], rim: [f32; 3], rule: &Rule) -> [f32; 3] {
+    if rule.rim_factor > 0.0 {
+        return rim.map(|channel| channel * rule.rim_factor);
+    }
+    line
+}
+
 /// Where a colour lies on the scale of the rule's measure, 0 black to 1 white.
 fn place_of(light: [f32; 3], lightness: f32, rule: &Rule) -> f32 {
     if rule.measure == Rule::WCAG {
         return math::ln(dot(LUMA, light) * 20.0 + 1.0) / math::ln(WCAG_LARGEST);
     }
     lightness
+}
+
+/// The same of a colour alone.
+pub(super) fn place_of_light(light: [f32; 3], rule: &Rule) -> f32 {
+    place_of(light, oklab_of_light(light)[0], rule)
 }
 
 /// The luminance at a place on the scale of WCAG.
@@ -122,31 +190,74 @@ fn target_of(rule: &Rule) -> f32 {
     rule.goal.clamp(0.0, 1.0)
 }
 
-/// Where a line at `line` moves before a background at `ground`, both on a scale of 0 to 1.
+/// Where a line at `line` moves before a ground, on a scale of 0 to 1.
 ///
-/// Two candidates, darker and brighter, each no farther from the line than the target asks. The one that falls shorter of the
-/// target loses; about equal, the longer step loses; between, they are blended.
-fn moved(line: f32, ground: f32, target: f32, direction: u32) -> f32 {
-    let mut darker = line.min(ground - target).max(0.0);
-    let mut brighter = line.max(ground + target).min(1.0);
-    // In a forced direction the other candidate is to stay on that side as it is.
-    if direction == Rule::BRIGHTER {
-        darker = line.min(ground);
-    }
-    if direction == Rule::DARKER {
-        brighter = line.max(ground);
-    }
-    let lack_darker = (target - (ground - darker)).max(0.0);
-    let lack_brighter = (target - (brighter - ground)).max(0.0);
-    let longer = (line - darker) - (brighter - line);
-    let turn = TURN.min(0.5 * target);
-    let bias = match direction {
-        Rule::BRIGHTER => -turn,
-        Rule::DARKER => turn,
-        _ => turn * (longer / EVEN_STEP.min(target).max(1e-6)).clamp(-1.0, 1.0),
+/// Two candidates, darker and brighter, each no farther from the line than the target asks. Where the ground does not say which one is
+/// taken, the one that falls shorter of the target loses; about equal, the longer step loses; between, they are blended.
+fn moved(line: f32, ground: &Ground, target: f32, direction: u32) -> f32 {
+    let both = Candidates::of(line, [ground.low, ground.high], target, direction);
+    let share = ground.brighter.unwrap_or_else(|| {
+        let turn = TURN.min(0.5 * target);
+        let bias = match direction {
+            Rule::BRIGHTER => -turn,
+            Rule::DARKER => turn,
+            _ => turn * (both.longer(line) / EVEN_STEP.min(target).max(1e-6)).clamp(-1.0, 1.0),
+        };
+        let [lack_darker, lack_brighter] = both.lacks;
+        smoothstep(-turn, turn, lack_darker - lack_brighter + bias)
+    });
+    mix(both.darker, both.brighter, share)
+}
+
+/// Which way a line at `line` had better move before grounds from the first to the second: from -1, darker, to 1, brighter.
+///
+/// The difference in what both candidates cost: how far the line moves and, much more, by how much it falls short of the target.
+pub(super) fn preference(line: f32, grounds: [f32; 2], rule: &Rule) -> f32 {
+    let both = Candidates::of(line, grounds, target_of(rule), rule.direction);
+    let [lack_darker, lack_brighter] = both.lacks;
+    let forced = match rule.direction {
+        Rule::BRIGHTER => -FORCED,
+        Rule::DARKER => FORCED,
+        _ => 0.0,
     };
-    let score = lack_darker - lack_brighter + bias;
-    mix(darker, brighter, smoothstep(-turn, turn, score))
+    let cost = both.longer(line) + LACK_WORTH * (lack_darker - lack_brighter) + forced;
+    cost.clamp(-1.0, 1.0)
+}
+
+/// Where a line may move.
+struct Candidates {
+    darker: f32,
+    brighter: f32,
+    /// By how much each falls short of the target.
+    lacks: [f32; 2],
+}
+
+impl Candidates {
+    fn of(line: f32, [low, high]: [f32; 2], target: f32, direction: u32) -> Self {
+        let mut darker = line.min(low - target).max(0.0);
+        let mut brighter = line.max(high + target).min(1.0);
+        // In a forced direction the other candidate is to stay on that side as it is.
+        if direction == Rule::BRIGHTER {
+            darker = line.min(low);
+        }
+        if direction == Rule::DARKER {
+            brighter = line.max(high);
+        }
+        let lacks = [
+            (target - (low - darker)).max(0.0),
+            (target - (brighter - high)).max(0.0),
+        ];
+        Self {
+            darker,
+            brighter,
+            lacks,
+        }
+    }
+
+    /// By how much the step to the darker one is longer.
+    fn longer(&self, line: f32) -> f32 {
+        (line - self.darker) - (self.brighter - line)
+    }
 }
 
 /// The colour of a lightness: chroma between those of the line and its rim, as far as sRGB has it.

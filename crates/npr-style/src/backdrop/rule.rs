@@ -3,6 +3,9 @@
 use bytemuck::{Pod, Zeroable};
 use npr_core::gpu_layout;
 
+use super::rims::TILE;
+use super::stretch::{LEAN_MOST, STRETCH_TILES};
+
 /// Most different rules of a frame, the first of which never applies.
 pub const RULES_MAX: usize = 16;
 
@@ -23,9 +26,9 @@ pub struct Rule {
     pub goal: f32,
     /// What the published method multiplies or divides by, from 1.
     pub intensity: f32,
+    /// By contrast: what lines start from, as a share of the rim's linear light; 0 for their own colour.
+    pub rim_factor: f32,
     /// Keeps rows of 16 bytes.
-    pub unused_a: u32,
-    /// The same.
     pub unused: [u32; 2],
 }
 gpu_layout!(Rule {
@@ -35,7 +38,7 @@ gpu_layout!(Rule {
     measure,
     goal,
     intensity,
-    unused_a,
+    rim_factor,
     unused,
 });
 
@@ -67,7 +70,7 @@ impl Rule {
         measure: Self::LIGHTNESS,
         goal: 0.3,
         intensity: 1.0,
-        unused_a: 0,
+        rim_factor: 0.0,
         unused: [0; 2],
     };
 }
@@ -85,6 +88,7 @@ impl Rule {
                 _ => within(self.goal, 0.0, 1.0),
             },
             intensity: within(self.intensity, 1.0, 1e6),
+            rim_factor: within(self.rim_factor, 0.0, 1.0),
             ..*self
         }
     }
@@ -120,10 +124,12 @@ pub struct Rules {
     pub samples: u32,
     /// Where lines within subjects mind the background: [`Rules::ALWAYS`] with the layers that hold lines; else 0.
     pub within: u32,
-    /// Keeps rows of 16 bytes.
-    pub unused_a: u32,
-    /// The same.
-    pub unused: [u32; 2],
+    /// Distance up to which rims decide together which way their lines move, in frame pixels; 0 for each alone.
+    pub lean_px: f32,
+    /// Votes of each rim that what was decided in the frame before counts as; 0 for frames by themselves.
+    pub hold: f32,
+    /// How much of the way from darker to brighter a line may change a frame; 1 for all at once.
+    pub fade: f32,
 }
 gpu_layout!(Rules {
     rules,
@@ -132,8 +138,9 @@ gpu_layout!(Rules {
     reach_px,
     samples,
     within,
-    unused_a,
-    unused,
+    lean_px,
+    hold,
+    fade,
 });
 
 impl Rules {
@@ -145,8 +152,9 @@ impl Rules {
         reach_px: 0,
         samples: 0,
         within: 0,
-        unused_a: 0,
-        unused: [0; 2],
+        lean_px: 0.0,
+        hold: 0.0,
+        fade: 1.0,
     };
 }
 
@@ -164,9 +172,23 @@ impl Rules {
     /// Lines within subjects mind the background.
     pub const ALWAYS: u32 = 4;
 
+    /// The same where there is no frame before.
+    pub fn of_first_frame(self) -> Self {
+        Self {
+            hold: 0.0,
+            fade: 1.0,
+            ..self
+        }
+    }
+
     /// Pixels around a place that may decide about its line.
     pub fn room_px(&self) -> u32 {
         let smoothed = (self.smooth_px.max(0.0) as u32).min(super::SMOOTH_MOST);
-        self.reach_px + smoothed + 3
+        let tiles = (self.lean_px.max(0.0) / TILE as f32).ceil() as u32;
+        let stretch = match tiles {
+            0 => 1,
+            tiles => tiles.min(LEAN_MOST) + STRETCH_TILES + 1,
+        };
+        self.reach_px + smoothed + 3 + stretch * TILE
     }
 }

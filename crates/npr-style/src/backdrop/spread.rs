@@ -1,8 +1,10 @@
 //! What rims say, blended along the outline and carried to the pixels of its line: the twins of `backdrop.smooth_rims`,
 //! `backdrop.spread_rows` and `backdrop.spread_rims`.
 
+use super::adapt::Ground;
 use super::rims::Rim;
 use super::rule::{Rule, Rules};
+use super::stretch::{Lean, lean_between};
 use npr_core::color::{pack_rgba8, unpack_rgba8};
 use npr_core::math;
 use npr_core::window::Window;
@@ -79,7 +81,7 @@ fn smoothed_rim(size: [u32; 2], rules: &Rules, rims: &[Rim], [x, y]: [u32; 2]) -
     }
 }
 
-/// 1 for rims of the same colours on both sides, down to 0 where any channel differs by [`UNLIKE`].
+/// 1 for rims before the same colour, down to 0 where any channel differs by [`UNLIKE`].
 fn likeness(a: &Rim, b: &Rim) -> f32 {
     let apart = |a: u32, b: u32| {
         let (a, b) = (unpack_rgba8(a), unpack_rgba8(b));
@@ -88,8 +90,7 @@ fn likeness(a: &Rim, b: &Rim) -> f32 {
             .max((a[1] - b[1]).abs())
             .max((a[2] - b[2]).abs())
     };
-    let most = apart(a.rim, b.rim).max(apart(a.behind, b.behind));
-    let left = (1.0 - most / UNLIKE).max(0.0);
+    let left = (1.0 - apart(a.behind, b.behind) / UNLIKE).max(0.0);
     left * left
 }
 
@@ -123,7 +124,8 @@ fn nearest_column(rims: &[Rim], x: u32, reach: u32) -> u32 {
 
 /// Carries the nearest rim to every pixel: its colours, and how much it counts there, as two pictures of the output's size.
 ///
-/// `fronts` holds the rim's colour with its weight in alpha, `backs` that of what lies behind with the rule's number. Weights fall
+/// `fronts` holds the rim's colour with its weight in alpha, `backs` what lies behind: for the published method its colour, for ours a
+/// [`Ground`]; with the number of the rule. Weights fall
 /// from [`Rules::whole_px`] to [`Rules::reach_px`], where lines that merely end at an outline begin. Of rims as near, the upper
 /// one. O(pixels * reach), parallel over rows.
 pub fn spread_rims(
@@ -131,6 +133,7 @@ pub fn spread_rims(
     rules: &Rules,
     rims: &[Rim],
     columns: &[u32],
+    leans: &[Lean],
     fronts: &mut [u32],
     backs: &mut [u32],
 ) {
@@ -141,8 +144,8 @@ pub fn spread_rims(
         .enumerate()
         .for_each(|(y, (fronts, backs))| {
             for (x, (front, back)) in fronts.iter_mut().zip(backs).enumerate() {
-                (*front, *back) =
-                    spread_at(window.size, rules, rims, columns, [x as u32, y as u32]);
+                let place = [x as u32, y as u32];
+                (*front, *back) = spread_at(window.size, rules, rims, columns, leans, place);
             }
         });
 }
@@ -152,6 +155,7 @@ fn spread_at(
     rules: &Rules,
     rims: &[Rim],
     columns: &[u32],
+    leans: &[Lean],
     [x, y]: [u32; 2],
 ) -> (u32, u32) {
     let low = y.saturating_sub(rules.reach_px);
@@ -175,5 +179,20 @@ fn spread_at(
     let [r, g, b, weight] = unpack_rgba8(rim.rim);
     let distance = (nearest as f32).sqrt();
     let kept = 1.0 - math::smoothstep(rules.whole_px, rules.reach_px as f32, distance);
-    (pack_rgba8([r, g, b, weight * kept]), rim.behind)
+    let (column, row) = ((found - 1) % size[0], (found - 1) / size[0]);
+    let whose = rim.subject & Rim::WHOSE;
+    let rule = rim.behind >> 24;
+    let front = |[r, g, b]: [f32; 3]| pack_rgba8([r, g, b, weight * kept]);
+    let ruling = &rules.rules[rule as usize];
+    if ruling.method != Rule::BY_CONTRAST {
+        return (front([r, g, b]), rim.behind);
+    }
+    let Some(lean) = lean_between(leans, size, whose, [column, row]) else {
+        return (front([r, g, b]), 0);
+    };
+    let edge = match ruling.rim_factor > 0.0 {
+        true => lean.rim,
+        false => [r, g, b],
+    };
+    (front(edge), Ground::of_lean(&lean).packed(rule))
 }

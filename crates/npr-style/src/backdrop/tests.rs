@@ -1,5 +1,7 @@
 //! Rims of small pictures against slow oracles.
 
+mod stretch;
+
 use super::*;
 use npr_core::color::{pack_rgba8, unpack_rgba8};
 use npr_core::geometry::{Part, Triangle};
@@ -147,12 +149,16 @@ proptest! {
 
     #[test]
     fn every_pixel_gets_the_nearest_rim_within_reach(picture in picture()) {
-        let (rules, window) = (rules(), picture.window());
+        // The published method carries what lies behind as it is.
+        let (mut rules, window) = (rules(), picture.window());
+        rules.rules[1].method = Rule::BY_LIKENESS;
         let rims = picture.rims(&rules);
         let count = rims.len();
         let (mut columns, mut fronts, mut backs) = (vec![0; count], vec![0; count], vec![0; count]);
         spread_rows(&window, &rules, &rims, &mut columns);
-        spread_rims(&window, &rules, &rims, &columns, &mut fronts, &mut backs);
+        let rows = picture.size[1].div_ceil(TILE);
+        let leans = vec![Lean::default(); (tiles_across(picture.size) * rows) as usize];
+        spread_rims(&window, &rules, &rims, &columns, &leans, &mut fronts, &mut backs);
         let width = picture.size[0];
         let place = |i: usize| [i as u32 % width, i as u32 / width];
         for i in 0..count {

@@ -1,0 +1,46 @@
+// What is decided for stretches of outline. Twin: npr_style::backdrop::stretch.
+
+// What lines of a tile read before, and which way they move: -1 darker, 1 brighter.
+struct Lean {
+    low: f32,
+    high: f32,
+    lean: f32,
+    whose: u32,
+    // Colour of the rims, sRGB-encoded.
+    rim: array<f32, 3>,
+    unused: u32,
+}
+
+// Whose rims lie in a tile, and what their lines start from and stand before.
+struct TileRims {
+    line: f32,
+    behind: f32,
+    low: f32,
+    high: f32,
+    count: f32,
+    whose: u32,
+    rule: u32,
+    rim: u32,
+}
+
+fn rim_of(lean: Lean) -> vec3<f32> {
+    return vec3<f32>(lean.rim[0], lean.rim[1], lean.rim[2]);
+}
+
+const RIM_WHOSE: u32 = 0x7fffffffu;
+// Difference of backgrounds from which they are two walls, and not one with a pattern.
+const UNLIKE_WALLS: f32 = 0.42;
+
+fn tiles_across(size: vec2<u32>) -> u32 {
+    return (size.x + BORDER_TILE - 1u) / BORDER_TILE;
+}
+
+// The first of the tiles around one, up to so many each way.
+fn first_around(x: u32, y: u32, reach: u32) -> vec2<u32> {
+    return max(vec2<u32>(x, y), vec2<u32>(reach)) - reach;
+}
+
+// The last of them.
+fn last_around(x: u32, y: u32, reach: u32, across: u32, tile_count: u32) -> vec2<u32> {
+    return min(vec2<u32>(x, y) + reach, vec2<u32>(across, tile_count / across) - 1u);
+}
