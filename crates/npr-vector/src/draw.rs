@@ -16,12 +16,11 @@ use crate::merge::{FACING_PX, TOUCHING_PX, merge_ends};
 use crate::project::Projector;
 use crate::puff::SmokeLines;
 use crate::run::{Line, Run, RunPoint, distance, runs};
-use crate::smooth::smooth;
+use crate::smooth::{between, smooth};
 use crate::spurs::cut_spurs;
 use crate::stroke::{Kind, Stroke, StrokePoint};
 use crate::visibility::{Circumstances, OutlineGrid, Piece, Seen, Span};
 use crate::zero_set::{CornerNormals, PolygonOutline, SeenContour, zero_set};
-use glam::DVec3;
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 use rayon::prelude::*;
@@ -78,10 +77,12 @@ pub struct StrokeLook<'a> {
 impl StrokeLook<'_> {
     /// Colour and whole width in pixels at a point of a run.
     pub(crate) fn paint(&self, shape: &Shape, run: &Run, point: &RunPoint) -> PointPaint {
-        let [a, b] = shape
-            .ends(point.edge)
-            .map(|v| f64::from((self.width_at)(v)));
-        let width = (a + (b - a) * f64::from(point.t)) * run.weight;
+        let (vertices, shares) = point.seat.place(shape, point.world);
+        let width: f64 = (0..3)
+            .filter(|i| shares[*i] > 0.0)
+            .map(|i| f64::from((self.width_at)(vertices[i])) * shares[i])
+            .sum();
+        let width = width * run.weight;
         let paint = self
             .paint_at
             .map_or(PLAIN, |paint_at| paint_at(run.kind, run.surface, point));
@@ -258,7 +259,7 @@ pub fn strokes_with(
     found.retain(|run| settings.hidden || run.occluders == 0);
     let mut found = calmed(found, settings);
     if look.paint_at.is_some() {
-        found = broken_up(shape, found);
+        found = broken_up(found);
     }
     let mut strokes = strokes_of(found, &|run: &Run, point: &RunPoint| {
         look.paint(shape, run, point)
@@ -280,10 +281,9 @@ const PLAIN: PointPaint = PointPaint {
     width: 1.0,
 };
 
-/// Runs with no piece longer than [`PAINT_STEP_PX`]; new points lie on the edge of the point before them, as near as can be.
-fn broken_up(shape: &Shape, runs: Vec<Run>) -> Vec<Run> {
+/// Runs with no piece longer than [`PAINT_STEP_PX`].
+fn broken_up(runs: Vec<Run>) -> Vec<Run> {
     let broken = |run: Run| {
-        let run = reseated(shape, run);
         let back = run.points.first().copied().filter(|_| run.closed);
         let next = run.points.iter().skip(1).copied().chain(back);
         let mut points = Vec::with_capacity(run.points.len());
@@ -291,7 +291,7 @@ fn broken_up(shape: &Shape, runs: Vec<Run>) -> Vec<Run> {
             points.push(*from);
             let count = (distance(from.place, to.place) / PAINT_STEP_PX).ceil();
             let steps = 1..count.clamp(1.0, 1e4) as u32;
-            points.extend(steps.map(|i| point_between(shape, from, &to, f64::from(i) / count)));
+            points.extend(steps.map(|i| between(from, &to, f64::from(i) / count)));
         }
         if !run.closed {
             points.extend(run.points.last());
@@ -299,45 +299,6 @@ fn broken_up(shape: &Shape, runs: Vec<Run>) -> Vec<Run> {
         Run { points, ..run }
     };
     runs.into_par_iter().with_min_len(16).map(broken).collect()
-}
-
-/// A run whose points lie on the edge that is nearest to them, of their own and that of the point before: points made by
-/// smoothing name the edge of the nearer of two others, which round a corner is another side of the surface.
-fn reseated(shape: &Shape, mut run: Run) -> Run {
-    for i in 1..run.points.len() {
-        let (before, here) = (run.points[i - 1].edge, run.points[i]);
-        let [own, other] = [here.edge, before].map(|edge| seat(shape, edge, here.world));
-        if other.1 < own.1 {
-            (run.points[i].edge, run.points[i].t) = (before, other.0);
-        }
-    }
-    run
-}
-
-/// Where on an edge a place lies nearest, 0 at its lower end and 1 at its higher, and the square of how far off.
-fn seat(shape: &Shape, edge: u32, world: DVec3) -> (f32, f64) {
-    let [low, high] = shape.ends(edge).map(|vertex| shape.point(vertex));
-    let along = high - low;
-    let t = (world - low).dot(along) / along.length_squared().max(1e-300);
-    let t = if t.is_finite() {
-        t.clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    (t as f32, (low + along * t - world).length_squared())
-}
-
-/// A point a share of the way between two of a run.
-fn point_between(shape: &Shape, from: &RunPoint, to: &RunPoint, share: f64) -> RunPoint {
-    let mix = |a: f64, b: f64| a + (b - a) * share;
-    let world = from.world.lerp(to.world, share);
-    RunPoint {
-        place: std::array::from_fn(|i| mix(from.place[i], to.place[i])),
-        depth: mix(from.depth, to.depth),
-        world,
-        edge: from.edge,
-        t: seat(shape, from.edge, world).0,
-    }
 }
 
 /// Runs joined, cut at corners and smoothed, as far as the settings ask for it.
@@ -629,10 +590,11 @@ pub(crate) fn strokes_of(
 fn stroke_of(run: &Run, paint_at: &(dyn Fn(&Run, &RunPoint) -> PointPaint + Sync)) -> Stroke {
     let mut u = 0.0;
     let mut last = run.points.first().map(|point| point.place);
-    let points = run.points.iter().map(|point| {
+    let points = run.points.iter().enumerate().map(|(index, point)| {
         u += last.map_or(0.0, |last| distance(last, point.place));
         last = Some(point.place);
-        let paint = paint_at(run, point);
+        let seat = run.seat_at(index);
+        let paint = paint_at(run, &RunPoint { seat, ..*point });
         StrokePoint {
             position: point.place,
             depth: point.depth,

@@ -45,6 +45,7 @@ pub mod residual;
 pub mod ribbon;
 pub mod run;
 pub mod sample;
+pub mod seat;
 pub mod smooth;
 pub mod spurs;
 pub mod stroke;

@@ -270,6 +270,7 @@ fn follow(runs: &[Run], mates: &[usize], start: usize, used: &mut [bool]) -> (us
             break;
         }
         if used[mate / 2] {
+            rest_end(&mut whole);
             whole.closed = true;
             break;
         }
@@ -280,7 +281,7 @@ fn follow(runs: &[Run], mates: &[usize], start: usize, used: &mut [bool]) -> (us
         end = mate;
     }
     if leader.1 % 2 == 1 {
-        reverse(&mut whole);
+        whole.reverse();
     }
     start_at_head(&mut whole);
     (first, whole)
@@ -290,14 +291,15 @@ fn follow(runs: &[Run], mates: &[usize], start: usize, used: &mut [bool]) -> (us
 fn oriented(run: &Run, end: usize) -> Run {
     let mut run = run.clone();
     if end % 2 == 1 {
-        reverse(&mut run);
+        run.reverse();
     }
     run
 }
 
-fn reverse(run: &mut Run) {
-    run.points.reverse();
-    run.cut.reverse();
+/// Lets a line go on beyond its end on what it has come along.
+fn rest_end(run: &mut Run) {
+    let last = run.points.len() - 1;
+    run.points[last].seat = run.seat_at(last);
 }
 
 fn extend(run: &mut Run, more: &Run) {
@@ -307,6 +309,10 @@ fn extend(run: &mut Run, more: &Run) {
             .last()
             .is_some_and(|last| touches(last, &more.points[0])),
     );
+    rest_end(run);
+    if let Some(last) = run.points.last_mut().filter(|_| skip > 0) {
+        last.seat = more.points[0].seat;
+    }
     run.points.extend_from_slice(&more.points[skip..]);
     run.id = run.id.min(more.id);
     run.occluders = run.occluders.min(more.occluders);
@@ -469,7 +475,7 @@ mod tests {
             let from = [angle.cos(), angle.sin()].map(|v| 100.0 + v * (parts[0] + gap));
             let mut other = straight(2, from, angle, parts[1]);
             if turned {
-                reverse(&mut other);
+                other.reverse();
             }
             let joined = merge_ends(vec![one.clone(), other.clone()], TOUCHING_PX);
             prop_assert_eq!(joined.len(), 1);
@@ -488,7 +494,7 @@ mod tests {
             let from = [100.0 + along * cos - off * sin, 100.0 + along * sin + off * cos];
             let mut other = straight(2, from, angle, 40.0);
             if turned {
-                reverse(&mut other);
+                other.reverse();
             }
             let joined = merge_ends(vec![one, other], FACING_PX);
             prop_assert_eq!(joined.len(), 1);

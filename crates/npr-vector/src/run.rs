@@ -4,9 +4,11 @@ use crate::corner::start_at_head;
 use crate::graph::CurveGraph;
 use crate::project::Projector;
 use crate::rank::hash_key;
+use crate::seat::Seat;
 use crate::stroke::Kind;
 use crate::visibility::{Piece, Span};
 use glam::DVec3;
+use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 
 /// Gaps in a line up to this length are closed, in pixels: nobody sees them, and each would cost a stroke.
@@ -34,10 +36,12 @@ pub struct RunPoint {
     pub depth: f64,
     /// Place in the world.
     pub world: DVec3,
-    /// The mesh edge it lies on or near.
+    /// The mesh edge it lies on or near: its identity, not where it is.
     pub edge: u32,
     /// Where on that edge, from its lower vertex.
     pub t: f32,
+    /// What the line lies on from here to the next point.
+    pub seat: Seat,
 }
 
 /// A connected part of a line with one kind, surface and visibility.
@@ -80,6 +84,24 @@ impl Run {
     /// Whether both are of one object, and both seen or both hidden.
     pub(crate) fn is_beside(&self, other: &Self) -> bool {
         self.object == other.object && (self.occluders > 0) == (other.occluders > 0)
+    }
+
+    /// The same line, travelled the other way.
+    pub(crate) fn reverse(&mut self) {
+        // What lay after a point now lies before it.
+        let seats: Vec<Seat> = self.points.iter().map(|point| point.seat).collect();
+        self.points.reverse();
+        self.cut.reverse();
+        let count = self.points.len();
+        for (i, point) in self.points.iter_mut().enumerate() {
+            point.seat = seats[(2 * count - 2 - i) % count];
+        }
+    }
+
+    /// What the line lies on at a point of a number: at an open end on what it has come along.
+    pub(crate) fn seat_at(&self, index: usize) -> Seat {
+        let is_end = !self.closed && index + 1 == self.points.len();
+        self.points[index - usize::from(is_end && index > 0)].seat
     }
 
     /// Length in the picture, in pixels.
@@ -260,10 +282,16 @@ impl Maker<'_> {
     fn run(&self, items: &[Item<'_>], closed: bool) -> Run {
         let first = items[0].line;
         let mut points = vec![self.point(&items[0], items[0].span.from)];
-        for item in items {
-            let point = self.point(item, item.span.to);
-            if point.place != points[points.len() - 1].place {
-                points.push(point);
+        for (item, next) in items
+            .iter()
+            .zip(items.iter().skip(1).chain([&items[items.len() - 1]]))
+        {
+            let mut point = self.point(item, item.span.to);
+            point.seat = self.seat(next);
+            let last = points.len() - 1;
+            match point.place == points[last].place {
+                true => points[last].seat = point.seat,
+                false => points.push(point),
             }
         }
         // The last point of a closed run is its first.
@@ -297,6 +325,17 @@ impl Maker<'_> {
         (hash_key(edge), base_id(edge, item.line.kind))
     }
 
+    /// What the piece of an item lies on.
+    fn seat(&self, item: &Item<'_>) -> Seat {
+        let node = &self.graph.nodes[item.node as usize];
+        let other = &self.graph.nodes[node.next as usize];
+        let is_along = node.is_along_edge() || node.edge == other.edge;
+        Seat {
+            edge: node.edge,
+            face: if is_along { NONE } else { node.face },
+        }
+    }
+
     fn point(&self, item: &Item<'_>, share: f64) -> RunPoint {
         let piece = &item.line.piece;
         let node = &self.graph.nodes[item.node as usize];
@@ -324,6 +363,7 @@ impl Maker<'_> {
             world,
             edge,
             t: t.clamp(0.0, 1.0),
+            seat: self.seat(item),
         }
     }
 }
@@ -363,6 +403,7 @@ pub(crate) mod testing {
             world: DVec3::new(place[0], place[1], 0.0),
             edge: 0,
             t: 0.0,
+            seat: Seat::along(0),
         };
         Run {
             id,
@@ -398,5 +439,45 @@ pub(crate) mod testing {
             [from[0] + at * angle.cos(), from[1] + at * angle.sin()]
         };
         run_along(id, &(0..=count as u32).map(place).collect::<Vec<_>>())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::testing::{ring, run_along};
+    use super::*;
+
+    /// For every piece its two ends, the lesser first, with what it lies on.
+    fn seated(run: &Run) -> Vec<([u64; 2], Seat)> {
+        let count = run.points.len();
+        let pieces = if run.closed { count } else { count - 1 };
+        let mut found: Vec<([u64; 2], Seat)> = (0..pieces)
+            .map(|i| {
+                let mut ends = [i, (i + 1) % count].map(|k| run.points[k].place[0].to_bits());
+                ends.sort_unstable();
+                (ends, run.seat_at(i))
+            })
+            .collect();
+        found.sort_unstable_by_key(|(ends, _)| *ends);
+        found
+    }
+
+    #[test]
+    fn pieces_keep_their_seats_when_a_run_is_turned_round() {
+        let open = run_along(0, &[0.0, 3.0, 7.0, 8.0, 11.0].map(|x| [x, 0.0]));
+        for mut run in [open, ring(0, 30.0, 7)] {
+            for (edge, point) in (0..).zip(&mut run.points) {
+                point.seat = Seat::along(edge);
+            }
+            let before = seated(&run);
+            run.reverse();
+            assert_eq!(seated(&run), before);
+            let last = run.points.len() - 1;
+            if !run.closed {
+                assert_eq!(run.seat_at(last), run.seat_at(last - 1));
+            }
+            run.reverse();
+            assert_eq!(seated(&run), before);
+        }
     }
 }

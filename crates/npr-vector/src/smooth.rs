@@ -147,7 +147,8 @@ fn push_even(path: &[RunPoint], samples: &mut Vec<RunPoint>) {
     samples.extend(path.last());
 }
 
-fn between(a: &RunPoint, b: &RunPoint, share: f64) -> RunPoint {
+/// A point a share of the way from a point of a run to the next.
+pub(crate) fn between(a: &RunPoint, b: &RunPoint, share: f64) -> RunPoint {
     let mix = |p: f64, q: f64| p + (q - p) * share;
     let nearer = if share < 0.5 { a } else { b };
     RunPoint {
@@ -160,6 +161,7 @@ fn between(a: &RunPoint, b: &RunPoint, share: f64) -> RunPoint {
         } else {
             nearer.t
         },
+        seat: a.seat,
     }
 }
 

@@ -8,7 +8,7 @@ use crate::look;
 use crate::model::{Model, PartInfo};
 use crate::placement::Bounds;
 use crate::stage::Picture;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use npr_core::camera::Camera;
 use npr_core::color::{linear_rgba, unpack_rgba8};
 use npr_core::geometry::{NONE, Part};
@@ -137,7 +137,7 @@ impl<'a> StrokeColors<'a> {
             texels: self.textures.words(),
         };
         let world = point.world.as_vec3().to_array();
-        let normal = self.normal_at(surface, point);
+        let normal = self.normal_at(kind, surface, point);
         let own = self.own_at(part, surface, point);
         let color = scene.color_at(part, number_of(kind), own, world, normal);
         PointPaint {
@@ -146,10 +146,38 @@ impl<'a> StrokeColors<'a> {
         }
     }
 
-    /// The half-edges beside a point: those of its surface that are seen, or else of its surface, or else all.
-    fn sides(&self, surface: u32, point: &RunPoint) -> impl Iterator<Item = u32> {
+    /// Where a point lies in the faces that it is coloured by: the face that its line crosses, or those beside its edge.
+    fn spots(&self, surface: u32, point: &RunPoint) -> impl Iterator<Item = Spot> {
         let shape = self.input.shape;
-        let sides = shape.sides(point.edge);
+        let (vertices, shares) = point.seat.place(shape, point.world);
+        let shares = shares.map(|share| share as f32);
+        let crossed = point.seat.crossed_face().map(|face| Spot {
+            corners: [0, 1, 2].map(|corner| 3 * face + corner),
+            shares,
+        });
+        let sides = match crossed {
+            Some(_) => &[],
+            None => shape.sides(point.seat.edge),
+        };
+        let beside = self.sides(surface, sides).map(move |side| {
+            let [tail, _] = shape.ends_of_half_edge(side);
+            let [low, high] = [shares[0], shares[1]];
+            let runs_up = tail == vertices[0];
+            Spot {
+                corners: [side, Shape::following(side), NONE],
+                shares: if runs_up {
+                    [low, high, 0.0]
+                } else {
+                    [high, low, 0.0]
+                },
+            }
+        });
+        crossed.into_iter().chain(beside)
+    }
+
+    /// Of half-edges those of a surface that are seen, or else of the surface, or else all.
+    fn sides<'s>(&'s self, surface: u32, sides: &'s [u32]) -> impl Iterator<Item = u32> + 's {
+        let shape = self.input.shape;
         let is_own = move |side: &u32| shape.face_surfaces[*side as usize / 3] == surface;
         let is_front = |side: &u32| self.front.get(*side as usize / 3) == Some(&1);
         let any_own = sides.iter().any(is_own);
@@ -160,23 +188,19 @@ impl<'a> StrokeColors<'a> {
             .filter(move |side| (!any_own || is_own(side)) && (!any_front || is_front(side)))
     }
 
-    /// How far a point lies along a half-edge of its edge.
-    fn share_along(&self, side: u32, point: &RunPoint) -> f32 {
-        match self.input.shape.runs_up(side) {
-            true => point.t,
-            false => 1.0 - point.t,
-        }
-    }
-
     /// Unit normal of the surface at a point, of both faces where both are seen; towards the eye where only its back is.
-    fn normal_at(&self, surface: u32, point: &RunPoint) -> [f32; 3] {
+    fn normal_at(&self, kind: Kind, surface: u32, point: &RunPoint) -> [f32; 3] {
         let mut sum = [0.0; 3];
-        for side in self.sides(surface, point) {
-            let share = self.share_along(side, point);
-            let [tail, head] = [side, Shape::following(side)].map(|c| self.normals.normal(c));
-            let is_back = self.front.get(side as usize / 3) == Some(&0);
-            let way = if is_back { -1.0 } else { 1.0 };
-            sum = std::array::from_fn(|i| sum[i] + way * (tail[i] + (head[i] - tail[i]) * share));
+        for spot in self.spots(surface, point) {
+            let normal = spot.mean(|corner| self.normals.normal(corner));
+            // A contour ends what is seen from outside, though a smooth one may cross faces that are turned away.
+            let is_back = self.front.get(spot.face() as usize) == Some(&0);
+            let way = if is_back && kind != Kind::Contour {
+                -1.0
+            } else {
+                1.0
+            };
+            sum = std::array::from_fn(|i| sum[i] + way * normal[i]);
         }
         unit_or_z(sum)
     }
@@ -188,7 +212,7 @@ impl<'a> StrokeColors<'a> {
             return [0.0; 3];
         }
         let color = if flags & Part::LINE_VERTEX != 0 {
-            self.vertex_color_at(point)
+            self.vertex_color_at(surface, point)
         } else if flags & Part::LINE_TEXTURE != 0 {
             self.texel_at(part.line_texture, surface, point)
         } else {
@@ -196,7 +220,7 @@ impl<'a> StrokeColors<'a> {
             let mut color = [r, g, b];
             if part.flags & Part::PLAIN == 0 {
                 let (tint, texel) = (
-                    self.vertex_color_at(point),
+                    self.vertex_color_at(surface, point),
                     self.texel_at(part.texture, surface, point),
                 );
                 color = std::array::from_fn(|i| color[i] * tint[i] * texel[i]);
@@ -207,41 +231,78 @@ impl<'a> StrokeColors<'a> {
     }
 
     /// Vertex colour at a point, linear light; white where pictures show none.
-    fn vertex_color_at(&self, point: &RunPoint) -> [f32; 3] {
-        let colors = self.input.vertex_colors;
+    fn vertex_color_at(&self, surface: u32, point: &RunPoint) -> [f32; 3] {
+        let (shape, colors) = (self.input.shape, self.input.vertex_colors);
+        let white = [1.0; 3];
         if !self.input.style.shade.use_vertex_colors || colors.is_empty() {
-            return [1.0; 3];
+            return white;
         }
-        let [low, high] = self.input.shape.ends(point.edge).map(|vertex| {
+        let color_at = |corner: u32| {
+            let [vertex, _] = shape.ends_of_half_edge(corner);
             let packed = colors.get(vertex as usize).copied().unwrap_or(u32::MAX);
-            linear_rgba(unpack_rgba8(packed))
-        });
-        std::array::from_fn(|i| low[i] + (high[i] - low[i]) * point.t)
+            let [r, g, b, _] = linear_rgba(unpack_rgba8(packed));
+            [r, g, b]
+        };
+        let spot = self.spots(surface, point).next();
+        spot.map_or(white, |spot| spot.mean(color_at))
     }
 
     /// Linear light of a texture at a point; white where there is none.
     fn texel_at(&self, start: u32, surface: u32, point: &RunPoint) -> [f32; 3] {
         let white = [1.0; 3];
-        let (Some(map), Some(side)) = (self.input.map, self.sides(surface, point).next()) else {
+        let (Some(map), Some(spot)) = (self.input.map, self.spots(surface, point).next()) else {
             return white;
         };
+        let face = spot.face();
         if start == NONE {
             return white;
         }
-        let Some(uvs) = map.corners(side / 3) else {
+        let Some(uvs) = map.corners(face) else {
             return white;
         };
-        let shape = self.input.shape;
-        let share = self.share_along(side, point);
-        let [tail, head] = [side, Shape::following(side)].map(|c| uvs[c as usize % 3]);
-        let uv = [0, 1].map(|i| tail[i] + (head[i] - tail[i]) * share);
+        let [u, v, _] = spot.mean(|corner| {
+            let [u, v] = uvs[corner as usize % 3];
+            [u, v, 0.0]
+        });
         // As much of the texture as frames average under a line.
-        let [a, b] = shape.ends_of_half_edge(side).map(|v| shape.point(v));
-        let run = ((head[0] - tail[0]).powi(2) + (head[1] - tail[1]).powi(2)).sqrt();
-        let length = (b - a).length().max(1e-30) as f32;
+        let shape = self.input.shape;
+        let corners = shape.faces[face as usize].map(|vertex| shape.point(vertex).as_vec3());
+        let around =
+            |length: &dyn Fn(usize, usize) -> f32| length(0, 1) + length(1, 2) + length(2, 0);
+        let uvs = uvs.map(Vec2::from);
+        let run = around(&|a, b| uvs[b].distance(uvs[a]));
+        let length = around(&|a, b| corners[b].distance(corners[a]));
         let pixel = self.view.pixel_at(point.depth as f32) * LINE_BLUR_PX;
-        let [r, g, b, _] = texture::sample(self.textures.words(), start, uv, run / length * pixel);
+        let blur = run / length.max(1e-30) * pixel;
+        let [r, g, b, _] = texture::sample(self.textures.words(), start, [u, v], blur);
         [r, g, b]
+    }
+}
+
+/// Where a point lies in a face.
+#[derive(Debug, Clone, Copy)]
+struct Spot {
+    /// Half-edges that start at corners of the face; [`NONE`] for one that does not count.
+    corners: [u32; 3],
+    /// How much each corner counts, 1 together.
+    shares: [f32; 3],
+}
+
+impl Spot {
+    fn face(&self) -> u32 {
+        self.corners[0] / 3
+    }
+
+    /// The mean of what lies at the corners.
+    fn mean(&self, at: impl Fn(u32) -> [f32; 3]) -> [f32; 3] {
+        let mut sum = [0.0; 3];
+        for (corner, share) in self.corners.into_iter().zip(self.shares) {
+            if share > 0.0 {
+                let value = at(corner);
+                sum = std::array::from_fn(|i| sum[i] + share * value[i]);
+            }
+        }
+        sum
     }
 }
 

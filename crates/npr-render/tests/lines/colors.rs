@@ -2,9 +2,9 @@
 
 use crate::scenes::{SIZE, camera_at, scene_of};
 use npr_mesh::testing::{cube, icosphere};
-use npr_render::{Drawing, Kind, LineModel, LineModelOptions, LineOptions};
+use npr_render::{Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineOptions};
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_style::{HUES, Style, hue_row};
 use npr_vector::artwork::ArtworkOptions;
 use npr_vector::drawing::rasterise;
 use npr_vector::json::{read_json, write_json};
@@ -24,6 +24,10 @@ fn drawn(scene: &Scene, text: &str) -> Drawing {
         .draw(&camera_at(EYE), &style, &options);
     drawing.expect("drawn")
 }
+
+/// A ball, lit from above, whose lines are black in the dark and white in the light.
+const LIT: &str = "light = { direction = [0, 1, 0], space = 'world' }\n\
+     line.paint.light.ramp = [{ at = 0, color = '#000' }, { at = 1, color = '#fff' }]";
 
 fn colors(drawing: &Drawing) -> Vec<[u8; 4]> {
     let points = drawing.strokes.iter().flat_map(|stroke| &stroke.points);
@@ -134,4 +138,38 @@ fn line_data_keeps_the_colours() {
             .windows(8)
             .any(|text| text == b"\"colors\"")
     );
+}
+
+/// On a ball every point has the light of its own place, by every method: no facet shows, and none of another place.
+#[test]
+fn points_have_the_light_of_their_own_place() {
+    let style = style(LIT);
+    let row = hue_row(&style.line.paint.light.ramp);
+    for level in [1, 2, 3] {
+        let scene = scene_of(&icosphere(level));
+        let model = LineModel::for_style(&scene, &style, &LineModelOptions::default(), None);
+        let model = model.expect("small");
+        for method in [LineMethod::Edges, LineMethod::Surface] {
+            let options = LineOptions {
+                method,
+                ..LineOptions::new(SIZE)
+            };
+            let drawing = model.draw(&camera_at(EYE), &style, &options);
+            let drawing = drawing.expect("drawn");
+            let mut farthest = 0;
+            for point in drawing.strokes.iter().flat_map(|stroke| &stroke.points) {
+                // The normal of a ball is the place itself, and light is counted from -1 to 1.
+                let [x, y, z] = point.world;
+                let up = y / (x * x + y * y + z * z).sqrt();
+                let place = (0.5 + 0.5 * up) * (HUES - 1) as f32;
+                let wanted = row[4 * place.round() as usize];
+                let color = point.color.expect("coloured");
+                farthest = farthest.max(color[0].abs_diff(wanted));
+            }
+            assert!(
+                !drawing.strokes.is_empty() && farthest < 12,
+                "{level} {method:?}: {farthest}"
+            );
+        }
+    }
 }

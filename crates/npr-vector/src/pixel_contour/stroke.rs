@@ -15,6 +15,7 @@ use crate::project::Projector;
 use crate::rank::hash_key;
 use crate::rank::scan::exclusive_scan;
 use crate::run::{Run, RunPoint, base_id, number};
+use crate::seat::{Seat, share_along};
 use crate::stroke::{Kind, Stroke};
 use npr_core::shape::Shape;
 use std::collections::BTreeMap;
@@ -276,15 +277,14 @@ impl Maker<'_> {
         let world = self.projector.unproject(place, depth);
         let is_sound = world.is_finite() && place.iter().all(|v| v.is_finite());
         is_sound.then(|| {
-            let [low, high] = self.shape.ends(segment.edge).map(|v| self.shape.point(v));
-            let along = high - low;
-            let share = (world - low).dot(along) / along.length_squared().max(1e-300);
+            let ends = self.shape.ends(segment.edge).map(|v| self.shape.point(v));
             let point = RunPoint {
                 place,
                 depth,
                 world,
                 edge: segment.edge,
-                t: share.clamp(0.0, 1.0) as f32,
+                t: share_along(ends, world) as f32,
+                seat: Seat::along(segment.edge),
             };
             (segment, point)
         })
