@@ -2,37 +2,94 @@
 #![cfg(unix)]
 
 use crate::workplace::Workplace;
-use std::process::{Command, Stdio};
-use std::time::Duration;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
 
-/// How long a run may draw before it is interrupted.
+/// How long a run may work before it is interrupted.
 const HEAD_START: Duration = Duration::from_secs(1);
+
+/// How long the first picture of a film may take.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+const SIGNALS: [&str; 2] = ["-INT", "-TERM"];
+
+fn started(place: &Workplace, arguments: &[&str]) -> Child {
+    let mut command = place.command(arguments);
+    command
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the command starts")
+}
+
+/// Sends a signal to a run, and the code that it ends with.
+fn interrupted(mut child: Child, signal: &str) -> Option<i32> {
+    let process = child.id().to_string();
+    let sent = Command::new("kill")
+        .args([signal, &process])
+        .status()
+        .expect("kill starts");
+    assert!(sent.success(), "the run should still work");
+    child.wait().expect("the command ends").code()
+}
 
 #[test]
 fn an_interrupted_run_exits_with_130_and_leaves_nothing() {
     let place = Workplace::with_scene();
-    for signal in ["-INT", "-TERM"] {
-        let arguments = [
-            "render",
-            "scene.obj",
+    let large = ["--size", "12000x12000", "--backend", "cpu"];
+    let scene = [&["render", "scene.obj"], &large[..]].concat();
+    let smoke = [&["smoke", "cloud", "-o", "cloud.png"], &large[..]].concat();
+    // Before there is anything to draw: a simulation of hours.
+    let simulation = [
+        &["smoke", "plume", "-o", "plume.png", "--grid", "160x160x160"],
+        &["--frames", "900..900"][..],
+    ]
+    .concat();
+    for signal in SIGNALS {
+        for arguments in [&scene, &smoke, &simulation] {
+            let child = started(&place, arguments);
+            std::thread::sleep(HEAD_START);
+            assert_eq!(interrupted(child, signal), Some(130), "{arguments:?}");
+            assert_eq!(place.names(), ["scene.obj"], "{arguments:?}");
+        }
+    }
+}
+
+#[test]
+fn an_interrupted_film_leaves_whole_pictures_alone() {
+    let film = [
+        &[
+            "smoke",
+            "explosion",
+            "-o",
+            "film_###.png",
+            "--grid",
+            "16x24x16",
+        ],
+        &[
+            "--frames",
+            "1..200",
             "--size",
-            "12000x12000",
+            "160x120",
             "--backend",
             "cpu",
-        ];
-        let mut command = place.command(&arguments);
-        let mut child = command
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("the command starts");
-        std::thread::sleep(HEAD_START);
-        let process = child.id().to_string();
-        let sent = Command::new("kill")
-            .args([signal, &process])
-            .status()
-            .expect("kill starts");
-        assert!(sent.success(), "the run should still draw");
-        assert_eq!(child.wait().expect("the command ends").code(), Some(130));
-        assert_eq!(place.names(), ["scene.obj"]);
+        ][..],
+    ]
+    .concat();
+    for signal in SIGNALS {
+        let place = Workplace::new();
+        let child = started(&place, &film);
+        let begun = Instant::now();
+        while place.names().iter().all(|name| !name.ends_with(".png")) {
+            assert!(begun.elapsed() < PATIENCE, "no picture yet");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        assert_eq!(interrupted(child, signal), Some(130));
+        let names = place.names();
+        assert!(!names.is_empty() && names.len() < 200, "{names:?}");
+        for (number, name) in (1..).zip(&names) {
+            assert_eq!(*name, format!("film_{number:03}.png"));
+            let picture = image::load_from_memory(&place.get(name)).expect("a whole picture");
+            assert_eq!((picture.width(), picture.height()), (160, 120));
+        }
     }
 }
