@@ -5,14 +5,14 @@ use crate::arguments::{
     Switch,
 };
 use crate::fault::{Exit, Fault};
-use crate::job::{check_size, has_ending, output_path};
+use crate::job::{check_size, has_ending, output_path, stage_options};
 use crate::look::Look;
 use crate::message::quoted;
 use crate::output::Output;
 use crate::source::{Source, has_volume_name};
 use crate::volume::{self, VolumeSource};
 use npr_core::geometry::Part;
-use npr_render::{Drawing, Kind, KindSet, Lettering, LineMethod, LineOptions};
+use npr_render::{Drawing, Kind, KindSet, Lettering, LineMethod, LineOptions, StageOptions};
 use npr_scene::Limits;
 use npr_style::{Background, Style};
 use npr_vector::artwork::{ArtworkOptions, Hidden, Page, Paths, arrange};
@@ -43,6 +43,8 @@ pub struct LineJob<'a> {
     pub artwork: ArtworkOptions,
     /// Words over the lines, set in their fonts.
     pub lettering: Lettering,
+    /// How the picture is drawn that lines are judged before, where the style lets them mind it.
+    pub backdrop: Option<StageOptions>,
     /// Where prepared surfaces are kept between runs.
     pub cache: Option<PathBuf>,
 }
@@ -61,11 +63,13 @@ impl<'a> LineJob<'a> {
         let external = said.drawing.allow_external.as_deref();
         let look = Look::resolve(&said.look(), external)?;
         let fonts = look.fonts(&said.drawing.limits.limits(), external)?;
+        let minds = look.style.minds_background();
+        let backdrop = minds.then(|| stage_options(&said.drawing, &look));
         Ok(Self {
             lettering: Lettering::new(&look.style, &fonts)?,
             source,
             limits: Limits {
-                decode_images: look.style.line_paint_flags() & Part::LINE_SURFACE != 0,
+                decode_images: minds || look.style.line_paint_flags() & Part::LINE_SURFACE != 0,
                 ..said.drawing.limits.limits()
             },
             output,
@@ -73,6 +77,7 @@ impl<'a> LineJob<'a> {
             options: options(said, &look.style),
             artwork: artwork(said, &look.style),
             look,
+            backdrop: backdrop.transpose()?,
             cache: cache_folder(said.cache.as_deref())?,
             said,
         })

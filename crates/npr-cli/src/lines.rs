@@ -18,7 +18,9 @@ use crate::volume::{self, Film};
 use npr_core::camera::Camera;
 use npr_core::geometry::Part;
 use npr_gpu::engine::{Engine, PassTime};
-use npr_render::{Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineStage};
+use npr_render::{
+    Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineStage, Model, RenderError,
+};
 use npr_style::{Background, WidthSource};
 use std::io::Write;
 
@@ -66,14 +68,36 @@ pub fn lines_of_picture(said: &RenderArguments) -> Result<(), Fault> {
 fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, Fault> {
     line_file::check_memory(job)?;
     let model = prepare(job, progress)?;
-    let camera = viewpoint::camera(&job.said.drawing.camera, &model, job.said.drawing.size)?;
+    let lines = &model.lines;
+    let camera = viewpoint::camera(&job.said.drawing.camera, lines, job.said.drawing.size)?;
     let drawn = draw_lines(job, &model, &camera, progress)?;
     let drawing = &drawn.picture.drawing;
-    let view = camera.view(drawing.size, model.bounds());
+    let view = camera.view(drawing.size, lines.bounds());
     let lettering = job.lettering.placed(&view, job.options.dpi);
     let bytes = progress.step("encode", || line_file::encode(job, drawing, lettering))?;
     progress.step("write", || job.output.write(&bytes))?;
     Ok(drawn)
+}
+
+/// A scene made ready.
+struct Prepared {
+    lines: LineModel,
+    /// The scene as pictures show it, where lines mind what lies behind them.
+    behind: Option<Model>,
+}
+
+impl Prepared {
+    fn stage<'a>(
+        &'a self,
+        engine: &'a dyn Engine,
+        job: &'a LineJob<'_>,
+    ) -> Result<LineStage<'a>, RenderError> {
+        let stage = LineStage::new(engine, &self.lines)?;
+        Ok(match (&self.behind, &job.backdrop) {
+            (Some(model), Some(options)) => stage.with_backdrop(model, options),
+            _ => stage,
+        })
+    }
 }
 
 /// A drawing, and how long the passes on its engine took.
@@ -84,12 +108,12 @@ struct LineFrame {
 
 fn draw_lines(
     job: &LineJob<'_>,
-    model: &LineModel,
+    model: &Prepared,
     camera: &Camera,
     progress: &mut Progress,
 ) -> Result<Drawn<LineFrame>, Fault> {
     let picture = |engine: &dyn Engine| {
-        let mut stage = LineStage::new(engine, model)?;
+        let mut stage = model.stage(engine, job)?;
         Ok(LineFrame {
             drawing: stage.draw(camera, &job.look.style, &job.options)?,
             times: stage.times().to_vec(),
@@ -116,7 +140,7 @@ fn draw_lines(
 }
 
 /// Loads the scene and makes it ready; says what is ignored.
-fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<LineModel, Fault> {
+fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault> {
     let external = job.said.drawing.allow_external.as_deref();
     let loaded = progress.step("load", || match job.said.built_in() {
         Some(source) => Ok(Loaded::of_smoke(source)),
@@ -147,8 +171,15 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<LineModel, Faul
                 .pictures(&job.said.drawing.limits.limits(), external)?,
         );
     }
+    let behind = match job.backdrop {
+        Some(_) => Some(progress.step("prepare", || Model::new(&loaded.scene))?),
+        None => None,
+    };
     progress.suspend(|| warn_of(job, &model, &told));
-    Ok(model)
+    Ok(Prepared {
+        lines: model,
+        behind,
+    })
 }
 
 fn is_intersection(kind: &Kind) -> bool {
@@ -167,7 +198,12 @@ fn warn_of(job: &LineJob<'_>, model: &LineModel, smoke: &Film) {
         warn("words are left out: .json files hold lines alone");
     }
     if matches!(job.look.style.background, Background::Image(_)) {
-        warn("the picture behind is left out: lines are drawn on a colour or on nothing");
+        warn(match job.backdrop {
+            Some(_) => {
+                "the picture behind is left out: lines mind it, but are drawn on a colour or on nothing"
+            }
+            None => "the picture behind is left out: lines are drawn on a colour or on nothing",
+        });
     }
     if let Some(notice) = job.look.style.line_source_notice() {
         warn(notice);

@@ -3,6 +3,7 @@
 mod assembly;
 mod cache;
 mod colors;
+mod minding;
 mod options;
 mod paint;
 mod pixels;
@@ -16,6 +17,7 @@ pub use options::{KindSet, LineMethod, LineModelOptions, LineOptions};
 pub use stage::LineStage;
 
 use crate::error::RenderError;
+use crate::frame::Frame;
 use crate::light::{self, FileLight};
 use crate::look;
 use crate::model::{Model, PartInfo};
@@ -25,6 +27,7 @@ use crate::stage::{Picture, check_size};
 use assembly::{Assembly, place_key};
 use colors::{ColorInput, StrokeColors};
 use glam::Vec3;
+use minding::Minding;
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
 use npr_core::geometry::Part;
@@ -100,6 +103,8 @@ struct LineView<'a> {
     smoke: Option<&'a SmokeLines<'a>>,
     /// Colours of strokes along themselves, where the style has any.
     colors: Option<&'a StrokeColors<'a>>,
+    /// Whether colours change from place to place for another reason.
+    changes: bool,
 }
 
 /// What a drawing is made of besides contours.
@@ -111,6 +116,8 @@ struct Wanted<'a> {
     smoke: Option<(&'a Smoke, bool)>,
     /// The style's pictures by name.
     pictures: &'a BTreeMap<String, Picture>,
+    /// The scene without lines before its background, for lines that mind it.
+    behind: Option<&'a Frame>,
 }
 
 impl LineModel {
@@ -211,7 +218,7 @@ impl LineModel {
     ///
     /// Line colours (`line.paint` with them, for every point of a stroke), width factors and whether a part has lines at all follow the style's rules; kinds and the crease angle
     /// are those of the options ([`LineOptions::of_style`] takes them from the style). Width source `texture` counts as
-    /// full. Strokes of the same lines keep their ids from camera to camera. Of a scene out of sight the drawing is empty.
+    /// full. What lies behind lines takes a picture of it: [`LineStage::with_backdrop`] lets them mind it. Strokes of the same lines keep their ids from camera to camera. Of a scene out of sight the drawing is empty.
     ///
     /// The first drawing with a crease angle also prepares creases and, where they are wanted, intersections; every
     /// further one is O(faces + lines log lines), on all threads, with the same result for any number of them.
@@ -225,7 +232,18 @@ impl LineModel {
         style: &Style,
         options: &LineOptions,
     ) -> Result<Drawing, RenderError> {
-        self.draw_with(camera, style, options, |eye| {
+        self.draw_before(camera, style, options, None)
+    }
+
+    /// The same before a picture of what lies behind.
+    fn draw_before(
+        &self,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+        behind: Option<&Frame>,
+    ) -> Result<Drawing, RenderError> {
+        self.draw_with(camera, style, options, behind, |eye| {
             Ok(EdgeContours::new(&self.shape, eye))
         })
     }
@@ -248,12 +266,13 @@ impl LineModel {
         self.bounds = smoke::joined(self.smoke.as_ref(), bounds, self.points.is_empty());
     }
 
-    /// The same, with contours along edges as `find` finds them for an eye.
+    /// The same before a picture, with contours along edges as `find` finds them for an eye.
     fn draw_with(
         &self,
         camera: &Camera,
         style: &Style,
         options: &LineOptions,
+        behind: Option<&Frame>,
         find: impl FnOnce(&Eye) -> Result<EdgeContours, EngineError>,
     ) -> Result<Drawing, RenderError> {
         let wanted = Wanted {
@@ -262,6 +281,7 @@ impl LineModel {
             options,
             smoke: self.smoke.as_ref().map(|smoke| (smoke, true)),
             pictures: &self.pictures,
+            behind,
         };
         self.draw_some(&wanted, find, |_| true)
     }
@@ -282,6 +302,7 @@ impl LineModel {
             options,
             smoke: smoke.map(|smoke| (smoke, false)),
             pictures,
+            behind: None,
         };
         self.draw_some(&wanted, find, is_curve)
     }
@@ -299,6 +320,7 @@ impl LineModel {
             options,
             smoke,
             pictures,
+            behind,
         } = *wanted;
         check_size(options.size)?;
         let is_empty = self.points.is_empty();
@@ -322,6 +344,14 @@ impl LineModel {
             true => Some(self.colors(wanted, &prepared, &contours, pictures)?),
             false => None,
         };
+        let minding = match behind {
+            Some(picture) => {
+                let seen = (&self.shape, &prepared.tree);
+                let px = self.px(options);
+                Minding::new(seen, &projector, picture, &self.parts, style, px)?
+            }
+            None => None,
+        };
         let view = LineView {
             camera,
             projector: &projector,
@@ -329,10 +359,14 @@ impl LineModel {
             bounds,
             smoke: smoke_lines.as_ref(),
             colors: colors.as_ref(),
+            changes: minding.is_some(),
         };
         let paint = Paint::new(&self.parts, style, has_lines);
         let mut strokes = self.strokes(&prepared, &view, style, options, &paint)?;
         paint.apply(&mut strokes);
+        if let Some(minding) = minding {
+            minding.apply(&mut strokes, &|surface| paint.line_color(surface));
+        }
         check_points(&strokes)?;
         let regions = if options.fill {
             paint::regions(
@@ -357,6 +391,12 @@ impl LineModel {
             strokes,
             regions,
         })
+    }
+
+    /// What lengths count in: the height of the picture, pixels per inch, and pixels of the model's radius.
+    fn px(&self, options: &LineOptions) -> [f32; 3] {
+        let height = options.size[1] as f32;
+        [height, options.dpi, height / self.radius()]
     }
 
     /// Colours of strokes along themselves, lit as in pictures but for beams and shadows.
@@ -439,7 +479,7 @@ impl LineModel {
         };
         let look = StrokeLook {
             width_at: &|vertex| widths.at(vertex),
-            paint_at: view.colors.is_some().then_some(&paint_at),
+            paint_at: (view.changes || view.colors.is_some()).then_some(&paint_at),
         };
         if options.method == LineMethod::Potrace {
             return self.pixel_strokes(prepared, view, options, (&settings, paint), &look);

@@ -8,8 +8,8 @@ use crate::layers::{self, Parents};
 use crate::ramp::{Stop, first_unsorted};
 use crate::width::WidthSource;
 use crate::{
-    Antialias, Background, Blend, Detect, Highlight, Ink, Lettering, Light, Line, LineMethod,
-    Motion, Rule, Shade, SmokeStyle, preset, set,
+    Antialias, Background, BackgroundMethod, Blend, Detect, Highlight, Ink, Lettering, Light, Line,
+    LineBackground, LineMethod, Motion, Rule, RuleBackground, Shade, SmokeStyle, preset, set,
 };
 
 /// What a picture should look like.
@@ -148,6 +148,30 @@ impl Style {
     pub fn has_method(&self, method: LineMethod) -> bool {
         let mut rules = self.rule.iter().filter_map(|rule| rule.line.method);
         self.line.method == method || rules.any(|of_rule| of_rule == method)
+    }
+
+    /// Whether the lines of any part may mind what lies behind them.
+    pub fn minds_background(&self) -> bool {
+        let rules = self.rule.iter().map(|rule| rule.line.background.method);
+        let mut methods = rules.chain([Some(self.line.background.method)]).flatten();
+        methods.any(|method| method != BackgroundMethod::Off)
+    }
+
+    /// The look of everything but what is drawn over it: no lines, trails, words, and no other look blended in.
+    pub fn without_lines(&self) -> Self {
+        let mut style = Self {
+            blend: Blend::default(),
+            lettering: Vec::new(),
+            ..self.clone()
+        };
+        style.line.method = LineMethod::Off;
+        style.line.background = LineBackground::default();
+        for rule in &mut style.rule {
+            rule.line.method = None;
+            rule.line.background = RuleBackground::default();
+            rule.motion.trail = None;
+        }
+        style
     }
 
     /// Checks what no single value shows: order, contradictions, missing companions.

@@ -485,3 +485,40 @@ fn times_of_all_steps_are_told() {
         .collect();
     assert_eq!(names, ["load", "prepare", "draw", "encode", "write"]);
 }
+
+#[test]
+fn lines_lift_before_what_is_dark() {
+    let place = Workplace::with_scene();
+    let minding = [
+        "--set",
+        "line.color=\"#000\"",
+        "--set",
+        "line.background.method=\"contrast\"",
+    ];
+    let colored = |background: &str, minding: &[&str]| {
+        let drawn = data(
+            &place,
+            "scene.obj",
+            &[&["--background", background], minding].concat(),
+        );
+        strokes(&drawn)
+            .iter()
+            .any(|stroke| stroke.get("colors").is_some())
+    };
+    assert!(colored("#000000", &minding) && !colored("#ffffff", &minding));
+    assert!(!colored("transparent", &minding) && !colored("#000000", &[]));
+    // A picture behind is minded too, as far as the frame covers it, but not drawn.
+    place.put("night.png", &tiny_png());
+    let arguments = [
+        &["--background", "night.png", "-o", "out.svg"],
+        &minding[..],
+    ]
+    .concat();
+    let outcome = lines(&place, "scene.obj", &arguments);
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    assert!(
+        outcome.stderr.contains("lines mind it"),
+        "{}",
+        outcome.stderr
+    );
+}

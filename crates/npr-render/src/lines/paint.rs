@@ -63,6 +63,12 @@ impl Paint {
         }
     }
 
+    /// Colour of the lines of a surface; of smoke, which is none of the parts, black.
+    pub fn line_color(&self, surface: u32) -> [u8; 4] {
+        let of = self.surfaces.get(surface as usize);
+        of.map_or([0, 0, 0, 255], |paint| paint.line_color)
+    }
+
     /// The surfaces as drawings list them.
     pub fn into_surfaces(self, parts: &[PartInfo]) -> Vec<StrokeSurface> {
         let painted = parts.iter().zip(self.surfaces);
@@ -92,16 +98,8 @@ pub(super) fn regions(
     strokes: &[Stroke],
     smoke: Option<&SmokeView<'_>>,
 ) -> Result<Vec<Region>, RenderError> {
-    let far = projector.far();
     let face_at = |place: [f64; 2]| {
-        let point = projector.unproject(place, far);
-        let start = projector.sight_start(point);
-        let sight = Sight {
-            eye: start.to_array(),
-            point: point.to_array(),
-        };
-        let (face, share) = tree.first_face(shape, &sight, 1.0)?;
-        let depth = projector.depth(start.lerp(point, share));
+        let (face, depth) = face_at(shape, tree, projector, place)?;
         Some((shape.face_surfaces[face as usize], depth))
     };
     let surface_at = |place: [f64; 2]| {
@@ -117,6 +115,23 @@ pub(super) fn regions(
         segments.extend(smoke.seams(size, &depth_at));
     }
     Ok(fill::regions(size, &segments, &surface_at)?)
+}
+
+/// The face that shows at a place of the picture, and its depth.
+pub(super) fn face_at(
+    shape: &Shape,
+    tree: &FaceTree,
+    projector: &Projector,
+    place: [f64; 2],
+) -> Option<(u32, f64)> {
+    let point = projector.unproject(place, projector.far());
+    let start = projector.sight_start(point);
+    let sight = Sight {
+        eye: start.to_array(),
+        point: point.to_array(),
+    };
+    let (face, share) = tree.first_face(shape, &sight, 1.0)?;
+    Some((face, projector.depth(start.lerp(point, share))))
 }
 
 /// The pieces of all visible strokes.

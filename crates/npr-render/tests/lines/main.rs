@@ -3,5 +3,6 @@
 mod cache;
 mod colors;
 mod meaning;
+mod minding;
 mod robustness;
 mod scenes;
