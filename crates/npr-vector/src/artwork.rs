@@ -206,6 +206,9 @@ struct Maker<'a> {
     placing: &'a Placing,
 }
 
+/// Points along a stroke, and whether the last runs on to the first.
+type Way<'a> = (&'a [StrokePoint], bool);
+
 impl Maker<'_> {
     fn surface(&self, index: u32) -> &StrokeSurface {
         self.drawing
@@ -287,7 +290,7 @@ impl Maker<'_> {
             .iter()
             .flat_map(|(points, closed)| {
                 if dashed || points.iter().all(|point| point.color.is_none()) {
-                    return Vec::from_iter(self.ink(stroke, points, *closed, hidden));
+                    return Vec::from_iter(self.ink(stroke, (points, *closed), hidden));
                 }
                 let pieces = hue::pieces(points, *closed, own);
                 let marks = pieces.iter();
@@ -300,17 +303,12 @@ impl Maker<'_> {
     }
 
     /// A stroke or a part of it in one colour: a line where its width is even, else its ink.
-    fn ink(
-        &self,
-        stroke: &Stroke,
-        points: &[StrokePoint],
-        closed: bool,
-        hidden: bool,
-    ) -> Option<Mark> {
+    fn ink(&self, stroke: &Stroke, way: Way<'_>, hidden: bool) -> Option<Mark> {
+        let (points, closed) = way;
         let dashed = hidden && self.options.hidden == Hidden::Dashed;
         let is_even = widest(points) * (1.0 - EVEN) <= narrowest(points);
         if dashed || is_even {
-            return self.line(stroke, points, closed, hidden);
+            return self.line(stroke, way, hidden);
         }
         let tolerance = self.options.tolerance_px / 3.0;
         let path = outline(points, closed, tolerance);
@@ -324,7 +322,7 @@ impl Maker<'_> {
             let path = piece.outline(self.options.tolerance_px / 3.0, true);
             return self.mark(stroke, path, Paint::Ink, hidden, Some(piece.color));
         }
-        let mark = self.ink(stroke, &piece.points, piece.closed, hidden)?;
+        let mark = self.ink(stroke, (&piece.points, piece.closed), hidden)?;
         let color = self.shown(piece.color, hidden);
         Some(Mark { color, ..mark })
     }
@@ -355,19 +353,15 @@ impl Maker<'_> {
             .filter_map(|visit| {
                 let (stroke, points, closed) = &parts[visit.route];
                 let points = visit.walk(points);
-                Some((stroke.surface, self.line(stroke, &points, *closed, hidden)?))
+                let line = self.line(stroke, (&points, *closed), hidden)?;
+                Some((stroke.surface, line))
             })
             .collect()
     }
 
     /// A stroke as a line of its mean width.
-    fn line(
-        &self,
-        stroke: &Stroke,
-        points: &[StrokePoint],
-        closed: bool,
-        hidden: bool,
-    ) -> Option<Mark> {
+    fn line(&self, stroke: &Stroke, way: Way<'_>, hidden: bool) -> Option<Mark> {
+        let (points, closed) = way;
         let positions: Vec<[f64; 2]> = points.iter().map(|p| p.position).collect();
         let options = FitOptions {
             tolerance: self.options.tolerance_px,
