@@ -11,6 +11,7 @@ mod smoke;
 mod stage;
 mod texture_map;
 mod tones;
+mod welded;
 mod widths;
 
 pub use options::{KindSet, LineMethod, LineModelOptions, LineOptions};
@@ -24,14 +25,13 @@ use crate::model::{Model, PartInfo};
 use crate::placement::{self, Bounds};
 use crate::smoke::Smoke;
 use crate::stage::{Picture, check_size};
-use assembly::{Assembly, place_key};
+use assembly::Assembly;
 use colors::{ColorInput, StrokeColors};
 use glam::Vec3;
 use minding::Minding;
-use npr_core::budget::Budget;
 use npr_core::camera::Camera;
 use npr_core::geometry::Part;
-use npr_core::shape::{Shape, Surface};
+use npr_core::shape::Shape;
 use npr_gpu::engine::EngineError;
 use npr_scene::Scene;
 use npr_style::{Look, Style};
@@ -47,13 +47,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use texture_map::TextureMap;
+use welded::{build, check_budget, colors_of, mark_materials, notices_of};
 use widths::{ShapeBends, WidthInput, Widths};
-
-/// Bytes of a shape and its hierarchy for every triangle, its three half-edges and its share of the vertices.
-const BYTES_PER_TRIANGLE: usize = 260;
-
-/// Bytes of a stored vertex: where it rests, where it stands, and its place in the shape.
-const BYTES_PER_VERTEX: usize = 48;
 
 /// Most points of all strokes of a drawing together.
 const POINT_LIMIT: u64 = 20_000_000;
@@ -535,68 +530,6 @@ impl LineModel {
             .map(|point| point.to_array());
         Camera::framing_points(self.points.iter().copied().chain(smoke), aspect, fov_y)
     }
-}
-
-fn check_budget(assembly: &Assembly, options: &LineModelOptions) -> Result<(), RenderError> {
-    crate::model::check_count("half-edges", 0, 3 * assembly.triangle_count())?;
-    let mut budget = Budget::new(options.memory_limit);
-    budget.take("vertices", assembly.vertex_count(), BYTES_PER_VERTEX)?;
-    budget.take(
-        "triangles with their edges",
-        assembly.triangle_count(),
-        BYTES_PER_TRIANGLE,
-    )?;
-    Ok(())
-}
-
-fn build(assembly: &Assembly, surfaces: Vec<Surface>, options: &LineModelOptions) -> Shape {
-    let mut shape = Shape {
-        surfaces,
-        ..Shape::default()
-    };
-    for mesh in &assembly.meshes {
-        npr_mesh::shape::add_mesh(&mut shape, &mesh.view(), options.weld);
-    }
-    shape
-}
-
-/// Marks the edges where a material that asks for lines meets another.
-fn mark_materials(shape: &mut Shape, marked: &[bool]) {
-    if !marked.contains(&true) {
-        return;
-    }
-    for edge in 0..shape.edge_count() as u32 {
-        let asks = |side: &u32| marked[shape.face_surfaces[*side as usize / 3] as usize];
-        let meets = shape.edge_traits[edge as usize] & Shape::MATERIAL != 0;
-        if meets && shape.sides(edge).iter().any(asks) {
-            shape.edge_traits[edge as usize] |= Shape::MARKED;
-        }
-    }
-}
-
-/// The colour of every vertex of a shape; empty where the scene has no colours.
-fn colors_of(shape: &Shape, assembly: &Assembly) -> Vec<u32> {
-    let colors = assembly.colors();
-    if colors.is_empty() {
-        return Vec::new();
-    }
-    let color_at = |position: &[f32; 3]| {
-        let found = colors.binary_search_by_key(&place_key(*position), |(place, _)| *place);
-        found.map_or(u32::MAX, |index| colors[index].1)
-    };
-    shape.positions.iter().map(color_at).collect()
-}
-
-fn notices_of(scene: &Scene, assembly: &Assembly) -> Vec<String> {
-    let mut notices: Vec<String> = scene.notices.iter().map(ToString::to_string).collect();
-    let cut_out = |info: &PartInfo| info.alpha_cutoff.is_some() && info.base_color[3] >= 1.0;
-    if let Some(info) = assembly.parts.iter().find(|info| cut_out(info)) {
-        notices.push(format!(
-            "material '{}' may be cut out by its texture, but lines follow its triangles",
-            info.material_name
-        ));
-    }
-    notices
 }
 
 fn check_points(strokes: &[Stroke]) -> Result<(), RenderError> {
