@@ -7,7 +7,7 @@ use crate::Outcome;
 /// How the program is called.
 pub const USAGE: &str = "\
 usage: lines [--models DIR] [--peers DIR] [--only NAME] [--method NAME] [--quick] [--pictures DIR]
-       lines --pilot [--models DIR] [--only NAME] [--method NAME]
+       lines --pilot [--models DIR] [--only NAME | --model SCENE] [--method NAME] [--pictures DIR]
        lines --strokes FILE.json --model SCENE [--eye X,Y,Z --target X,Y,Z --fov DEG] [--crease DEG]
 
   --models DIR    folder of the shared models

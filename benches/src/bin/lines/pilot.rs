@@ -2,25 +2,64 @@
 
 use npr_benches::lines::candidates::Wanted;
 use npr_benches::lines::measures::measure;
+use npr_benches::lines::picture::picture;
 use npr_benches::lines::reference::Reference;
 use npr_benches::lines::subjects::{LineSubject, SIZE, pilot_cameras, shared_models};
 use npr_benches::lines::viewpoint::Viewpoint;
 use npr_benches::table::Table;
-use npr_render::{LineModel, LineModelOptions};
+use npr_render::{LineMethod, LineModel, LineModelOptions};
+use npr_vector::pixel_contour::PublishedPath;
 use npr_vector::stroke::Kind;
 
 use crate::Outcome;
 use crate::arguments::Arguments;
-use crate::way::ways;
+use crate::way::{Way, ways};
+use std::path::PathBuf;
 
-/// Models like those of the pilot.
-const MODELS: [&str; 5] = [
-    "stanford_bunny.glb",
-    "utah_teapot.glb",
-    "spot_textured.glb",
-    "fox.glb",
-    "suzanne.glb",
+/// How a model is brought to fewer triangles: how many, and rounds of smoothing before.
+type Fewer = Option<(usize, usize)>;
+
+/// Models like those of the pilot. Its bunny had 4968 triangles and none of the scan's noise.
+const MODELS: [(&str, Fewer); 7] = [
+    ("stanford_bunny.glb", Some((4968, 20))),
+    ("stanford_bunny.glb", Some((4968, 0))),
+    ("stanford_bunny.glb", None),
+    ("utah_teapot.glb", None),
+    ("spot_textured.glb", None),
+    ("fox.glb", None),
+    ("suzanne.glb", None),
 ];
+
+/// The files to measure.
+fn subjects(arguments: &Arguments) -> Vec<(PathBuf, Fewer)> {
+    if let Some(file) = &arguments.model {
+        return vec![(file.clone(), None)];
+    }
+    let folder = arguments.models.clone().unwrap_or_else(shared_models);
+    let is_wanted = |name: &str| {
+        arguments
+            .only
+            .as_ref()
+            .is_none_or(|part| name.contains(part))
+    };
+    let wanted = MODELS.into_iter().filter(|(name, _)| is_wanted(name));
+    wanted
+        .map(|(name, fewer)| (folder.join(name), fewer))
+        .collect()
+}
+
+/// The published path with nothing taken for a speck, so that what despeckling costs shows.
+fn without_specks(way: &Way) -> Way {
+    Way {
+        name: "the same without despeckling",
+        potrace: PublishedPath {
+            speck_area: 0.0,
+            thin_speck_area: 0.0,
+            ..PublishedPath::default()
+        },
+        ..*way
+    }
+}
 
 /// Contours and boundaries of the method in the pilot's views: means over views.
 pub fn pilot(arguments: &Arguments) -> Outcome<()> {
@@ -30,7 +69,13 @@ pub fn pilot(arguments: &Arguments) -> Outcome<()> {
     };
     let ways = ways();
     let chosen = ways.iter().filter(|way| arguments.takes_way(way.name));
-    let chosen: Vec<_> = chosen.collect();
+    let chosen: Vec<Way> = chosen
+        .flat_map(|way| {
+            let is_published = way.method == LineMethod::Potrace;
+            [Some(*way), is_published.then(|| without_specks(way))]
+        })
+        .flatten()
+        .collect();
     let mut table = Table::new([
         "model and way",
         "recall at 3 px",
@@ -39,25 +84,26 @@ pub fn pilot(arguments: &Arguments) -> Outcome<()> {
         "least",
         "doubles",
         "strokes",
+        "contour px",
     ]);
-    let folder = arguments.models.clone().unwrap_or_else(shared_models);
-    for name in MODELS {
-        if arguments
-            .only
-            .as_ref()
-            .is_some_and(|part| !name.contains(part.as_str()))
-        {
-            continue;
-        }
-        let subject = LineSubject::load(&folder.join(name), false)?;
+    for (path, fewer) in subjects(arguments) {
+        let whole = LineSubject::load(&path, false)?;
+        let subject = fewer.map_or(whole.clone(), |(count, rounds)| {
+            whole.decimated(count, rounds)
+        });
         let model = LineModel::new(&subject.scene, &LineModelOptions::default())?;
         let cameras = pilot_cameras(&subject);
         let mut found = vec![Vec::new(); chosen.len()];
-        for camera in &cameras {
+        for (number, camera) in cameras.iter().enumerate() {
             let view = Viewpoint::new(camera, SIZE);
             let reference = Reference::new(&subject.soup, &view, &wanted);
             for (way, found) in chosen.iter().zip(&mut found) {
                 let drawing = way.draw_kinds(&model, camera, &wanted)?;
+                if let Some(folder) = &arguments.pictures {
+                    let file = format!("{}_{number}_{}.svg", subject.name, way.file_word());
+                    std::fs::create_dir_all(folder)?;
+                    std::fs::write(folder.join(file), picture(&reference, &drawing))?;
+                }
                 found.push(measure(&drawing, &reference));
             }
         }
@@ -76,6 +122,7 @@ pub fn pilot(arguments: &Arguments) -> Outcome<()> {
                 format!("{:.4}", least(&precision)),
                 format!("{:+.4}", mean(&|i| found[i].extra_doubles())),
                 format!("{:.1}", mean(&|i| found[i].strokes.count as f64)),
+                format!("{:.0}", mean(&|i| found[i].due_px)),
             ];
             table.add(format!("{}, {}", subject.name, way.name), cells);
         }

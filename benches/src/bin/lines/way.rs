@@ -10,6 +10,7 @@ use npr_benches::timing::{Times, elapsed_ms};
 use npr_core::camera::Camera;
 use npr_render::{LineMethod, LineModel, LineOptions};
 use npr_style::Style;
+use npr_vector::pixel_contour::PublishedPath;
 use npr_vector::stroke::Drawing;
 
 use crate::Outcome;
@@ -18,6 +19,7 @@ use crate::Outcome;
 pub const RUNS: usize = 5;
 
 /// A way of drawing, and what it must reach.
+#[derive(Debug, Clone, Copy)]
 pub struct Way {
     /// In words.
     pub name: &'static str,
@@ -25,6 +27,8 @@ pub struct Way {
     pub method: LineMethod,
     /// Whether strokes are smoothed.
     pub smooth: bool,
+    /// The constants of the published path.
+    pub potrace: PublishedPath,
     /// What it must reach.
     pub bar: Bar,
 }
@@ -35,6 +39,7 @@ pub fn ways() -> [Way; 5] {
         name,
         method,
         smooth,
+        potrace: PublishedPath::default(),
         bar: Bar {
             tolerance: bar.0,
             recall: bar.1,
@@ -69,6 +74,7 @@ impl Way {
             crease: wanted.crease as f32,
             method: self.method,
             smooth: self.smooth,
+            potrace: self.potrace,
             ..LineOptions::new(SIZE)
         }
     }
