@@ -55,3 +55,32 @@ fn precedence(link: Link) -> u32 {
     if link.prev == NONE { return 0u; }
     return hash_key(link.key);
 }
+
+// Whether a node stands before the one that a reach has found.
+fn precedes(hash: u32, node: u32, found: Reach) -> bool {
+    return hash < found.hash || (hash == found.hash && node < found.least);
+}
+
+// What an element sees that looks on from where its reach ends: one round of loop breaking.
+fn looked_on(here: Reach, there: Reach) -> Reach {
+    var reach = here;
+    if precedes(there.hash, there.least, here) { reach = there; }
+    reach.far = there.far;
+    return reach;
+}
+
+// The hop of an element, which is the first of its chain where it knows its chain's head.
+fn cut_hop(first: Reach, settled: Reach, hop: Hop, element: u32) -> Hop {
+    let is_first = first.least == settled.least;
+    var cut = hop;
+    cut.far = select(hop.far, element, is_first);
+    cut.dist = select(hop.dist, 0u, is_first);
+    return cut;
+}
+
+// A hop and the one from where it leads: one round of ranking.
+fn hopped_on(here: Hop, there: Hop) -> Hop {
+    var hop = there;
+    hop.dist = here.dist + there.dist;
+    return hop;
+}

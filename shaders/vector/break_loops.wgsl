@@ -29,12 +29,5 @@ fn main(
     if element >= extent[0] { return; }
 
     let here = reach_in[element];
-    let there = reach_in[here.far];
-    var nearer = here;
-    if there.hash < here.hash || (there.hash == here.hash && there.least < here.least) {
-        nearer = there;
-    }
-    reach_out[element].far = there.far;
-    reach_out[element].least = nearer.least;
-    reach_out[element].hash = nearer.hash;
+    reach_out[element] = looked_on(here, reach_in[here.far]);
 }

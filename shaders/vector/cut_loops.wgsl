@@ -24,8 +24,5 @@ fn main(
     let element = element_index(wid, nwg, lid, WG);
     if element >= extent[0] { return; }
 
-    let is_first = first[element].least == settled[element].least;
-    let hop = hops_in[element];
-    hops_out[element].far = select(hop.far, element, is_first);
-    hops_out[element].dist = select(hop.dist, 0u, is_first);
+    hops_out[element] = cut_hop(first[element], settled[element], hops_in[element], element);
 }

@@ -27,7 +27,5 @@ fn main(
     if element >= extent[0] { return; }
 
     let here = hops_in[element];
-    let there = hops_in[here.far];
-    hops_out[element].far = there.far;
-    hops_out[element].dist = here.dist + there.dist;
+    hops_out[element] = hopped_on(here, hops_in[here.far]);
 }

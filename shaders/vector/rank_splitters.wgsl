@@ -18,24 +18,6 @@ override WG: u32 = 64u;
 @group(0) @binding(6) var<storage, read_write> hops: array<Hop>;
 @group(0) @binding(7) var<storage, read_write> hops_scratch: array<Hop>;
 
-fn broken(here: Reach) -> Reach {
-    let there = settled[here.far];
-    var reach = here;
-    if there.hash < here.hash || (there.hash == here.hash && there.least < here.least) {
-        reach = there;
-    }
-    reach.far = there.far;
-    return reach;
-}
-
-fn jumped(here: Hop) -> Hop {
-    let there = hops[here.far];
-    var hop: Hop;
-    hop.far = there.far;
-    hop.dist = here.dist + there.dist;
-    return hop;
-}
-
 // One workgroup in all; each invocation takes every WG-th element.
 @compute @workgroup_size(WG)
 fn main(@builtin(local_invocation_id) lid: vec3<u32>) {
@@ -43,24 +25,17 @@ fn main(@builtin(local_invocation_id) lid: vec3<u32>) {
     for (var i = lid.x; i < count; i += WG) { settled[i] = first[i]; }
     storageBarrier();
     for (var round = 0u; round < rounds; round++) {
-        for (var i = lid.x; i < count; i += WG) { reach_scratch[i] = broken(settled[i]); }
+        for (var i = lid.x; i < count; i += WG) { reach_scratch[i] = looked_on(settled[i], settled[settled[i].far]); }
         storageBarrier();
         for (var i = lid.x; i < count; i += WG) { settled[i] = reach_scratch[i]; }
         storageBarrier();
     }
 
     // Cut every chain at its head.
-    for (var i = lid.x; i < count; i += WG) {
-        var hop = hops_in[i];
-        if first[i].least == settled[i].least {
-            hop.far = i;
-            hop.dist = 0u;
-        }
-        hops[i] = hop;
-    }
+    for (var i = lid.x; i < count; i += WG) { hops[i] = cut_hop(first[i], settled[i], hops_in[i], i); }
     storageBarrier();
     for (var round = 0u; round < rounds; round++) {
-        for (var i = lid.x; i < count; i += WG) { hops_scratch[i] = jumped(hops[i]); }
+        for (var i = lid.x; i < count; i += WG) { hops_scratch[i] = hopped_on(hops[i], hops[hops[i].far]); }
         storageBarrier();
         for (var i = lid.x; i < count; i += WG) { hops[i] = hops_scratch[i]; }
         storageBarrier();

@@ -31,15 +31,16 @@ fn main(
 
     let node = splitters[slot];
     let link = links[node];
-    var least = node;
-    var least_hash = precedence(link);
-    var far = slot;
+    var found: Reach;
+    found.least = node;
+    found.hash = precedence(link);
+    found.far = slot;
     var dist = 0u;
     if link.prev != NONE {
         let before = walks[link.prev];
         // A walk that was too long is reported by the node that walked it.
         if before.slot != NONE {
-            far = before.slot;
+            found.far = before.slot;
             dist = before.steps + 1u;
         }
     }
@@ -47,14 +48,12 @@ fn main(
     for (var step = 1u; step < dist; step++) {
         at = links[at].prev;
         let hash = precedence(links[at]);
-        if hash < least_hash || (hash == least_hash && at < least) {
-            least = at;
-            least_hash = hash;
+        if precedes(hash, at, found) {
+            found.least = at;
+            found.hash = hash;
         }
     }
-    hops[slot].far = far;
+    hops[slot].far = found.far;
     hops[slot].dist = dist;
-    reach[slot].far = far;
-    reach[slot].least = least;
-    reach[slot].hash = least_hash;
+    reach[slot] = found;
 }
