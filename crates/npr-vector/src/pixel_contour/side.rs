@@ -32,7 +32,7 @@ impl Ink<'_> {
     }
 
     /// The sides of a pixel, a bit for each direction.
-    fn sides_of(&self, pixel: u32) -> u32 {
+    pub fn sides_of(&self, pixel: u32) -> u32 {
         let [x, y] = self.place_of(pixel);
         if !self.at(x, y) {
             return 0;
@@ -49,7 +49,7 @@ impl Ink<'_> {
     /// The two pixels ahead decide: with ink outside, the line turns left onto that pixel, so that ink joined by a corner is
     /// joined, whatever lies inside; else it goes straight on ink, or turns right around its own pixel. All 16 patterns
     /// of two by two pixels are covered, and of both that are ambiguous the ink is one ("black" in Potrace's words).
-    fn after(&self, pixel: u32, direction: u32) -> (u32, u32) {
+    pub fn after(&self, pixel: u32, direction: u32) -> (u32, u32) {
         let ([x, y], [vx, vy], [ox, oy]) = self.frame_of(pixel, direction, 1);
         if self.at(x + vx + ox, y + vy + oy) {
             (self.number(x + vx + ox, y + vy + oy), (direction + 3) % 4)
