@@ -132,6 +132,8 @@ shaders! {
     VECTOR_MARK_EDGES = "vector/mark_edges";
     /// Lays edges on the fine grid of a picture.
     VECTOR_PROJECT_EDGES = "vector/project_edges";
+    /// Draws the depths of surfaces that hide lines.
+    VECTOR_DRAW_SURFACES = "vector/draw_surfaces";
     /// Places the fragments of lines.
     VECTOR_EMIT_FRAGMENTS = "vector/emit_fragments";
     /// Tests fragments of lines against depths.

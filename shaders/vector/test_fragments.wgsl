@@ -9,9 +9,17 @@
 override WG: u32 = 64u;
 
 @group(0) @binding(0) var<uniform> view: PixelView;
-@group(0) @binding(1) var<storage, read> scene: array<f32>;
-@group(0) @binding(2) var<storage, read> fragments: array<Fragment>;
-@group(0) @binding(3) var<storage, read_write> shown: array<u32>;
+@group(0) @binding(1) var surfaces: texture_2d<u32>;
+@group(0) @binding(2) var veil: texture_2d<u32>;
+@group(0) @binding(3) var<storage, read> fragments: array<Fragment>;
+@group(0) @binding(4) var<storage, read_write> shown: array<u32>;
+
+// Reversed depth of what hides lines at a pixel. A veil of another size than the picture is none.
+fn hidden_behind(at: vec2<u32>) -> f32 {
+    let z = bitcast<f32>(textureLoad(surfaces, at, 0).x);
+    if any(textureDimensions(veil) != textureDimensions(surfaces)) { return z; }
+    return max(z, bitcast<f32>(textureLoad(veil, at, 0).x));
+}
 
 // One invocation per fragment.
 @compute @workgroup_size(WG)
@@ -31,7 +39,7 @@ fn main(
     var count = 0u;
     for (var y = max(at.y, 1u) - 1u; y < min(at.y + 2u, view.size.y); y++) {
         for (var x = max(at.x, 1u) - 1u; x < min(at.x + 2u, view.size.x); x++) {
-            let z = scene[y * view.size.x + x];
+            let z = hidden_behind(vec2<u32>(x, y));
             let is_free = z <= 0.0 || depth <= rounded(view, depth_of(view, z) + view.tolerance);
             count += select(0u, 1u, is_free);
         }

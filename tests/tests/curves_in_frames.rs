@@ -4,7 +4,7 @@
 
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
-use npr_render::{Frame, LineModel, LineModelOptions, Model, Stage, StageOptions};
+use npr_render::{Frame, LineModel, LineModelOptions, LineStage, Model, Stage, StageOptions};
 use npr_scene::Scene;
 use npr_style::Style;
 use npr_tests::comic::{SIZE, front};
@@ -23,7 +23,7 @@ fn drawn(style: &Style, with_lines: bool) -> Frame {
     let lines = LineModel::for_style(&scene, style, &LineModelOptions::default(), None).unwrap();
     let mut stage = Stage::new(&Processor, &model, style, &StageOptions::new(SIZE)).unwrap();
     if with_lines {
-        stage = stage.with_lines(&lines);
+        stage = stage.with_lines(LineStage::new(&Processor, &lines));
     }
     stage.draw(&front()).unwrap()
 }

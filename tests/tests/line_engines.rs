@@ -42,7 +42,7 @@ fn check(path: &Path) {
     let Some(device) = device() else { return };
     let model = model_of(path);
     // One stage for all views: the shape stays on the device.
-    let mut stage = LineStage::new(device, &model).unwrap();
+    let mut stage = LineStage::new(device, &model);
     for camera in cameras(&model) {
         for method in [LineMethod::Edges, LineMethod::Surface] {
             let options = LineOptions {
@@ -98,7 +98,7 @@ fn colors_that_mind_the_background_agree() {
         let camera = lines.framing(SIZE[0] as f32 / SIZE[1] as f32, 0.7);
         let engines: [&dyn Engine; 2] = [&Processor, device];
         let [plain, found] = engines.map(|engine| {
-            let stage = LineStage::new(engine, &lines).unwrap();
+            let stage = LineStage::new(engine, &lines);
             let mut stage = stage.with_backdrop(&model, &behind);
             let options = LineOptions::new(SIZE);
             stage.draw(&camera, &style, &options).unwrap()

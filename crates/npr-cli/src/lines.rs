@@ -18,9 +18,7 @@ use crate::volume::{self, Film};
 use npr_core::camera::Camera;
 use npr_core::geometry::Part;
 use npr_gpu::engine::{Engine, PassTime};
-use npr_render::{
-    Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineStage, Model, RenderError,
-};
+use npr_render::{Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineStage, Model};
 use npr_style::{Background, WidthSource};
 use std::io::Write;
 
@@ -87,16 +85,12 @@ struct Prepared {
 }
 
 impl Prepared {
-    fn stage<'a>(
-        &'a self,
-        engine: &'a dyn Engine,
-        job: &'a LineJob<'_>,
-    ) -> Result<LineStage<'a>, RenderError> {
-        let stage = LineStage::new(engine, &self.lines)?;
-        Ok(match (&self.behind, &job.backdrop) {
+    fn stage<'a>(&'a self, engine: &'a dyn Engine, job: &'a LineJob<'_>) -> LineStage<'a> {
+        let stage = LineStage::new(engine, &self.lines);
+        match (&self.behind, &job.backdrop) {
             (Some(model), Some(options)) => stage.with_backdrop(model, options),
             _ => stage,
-        })
+        }
     }
 }
 
@@ -113,7 +107,7 @@ fn draw_lines(
     progress: &mut Progress,
 ) -> Result<Drawn<LineFrame>, Fault> {
     let picture = |engine: &dyn Engine| {
-        let mut stage = model.stage(engine, job)?;
+        let mut stage = model.stage(engine, job);
         Ok(LineFrame {
             drawing: stage.draw(camera, &job.look.style, &job.options)?,
             times: stage.times().to_vec(),
@@ -126,11 +120,10 @@ fn draw_lines(
         progress,
     )?;
     let told = match job.options.method {
-        LineMethod::Edges => None,
+        LineMethod::Edges | LineMethod::Potrace => None,
         LineMethod::Surface => {
             Some("finds contours along edges; smooth ones are made from them on the processor")
         }
-        LineMethod::Potrace => Some("has no part in --method potrace, which runs on the processor"),
     };
     if let Some(told) = told.filter(|_| job.said.drawing.backend == Backend::Gpu) {
         let text = format!("{} {told}", drawn.engine);

@@ -16,7 +16,7 @@ use crate::volume::{self, Film};
 use npr_core::camera::Camera;
 use npr_gpu::engine::Engine;
 use npr_render::{
-    Frame, LineModel, LineModelOptions, Model, RenderError, Smoke, Stage, StageOptions,
+    Frame, LineModel, LineModelOptions, LineStage, Model, RenderError, Smoke, Stage, StageOptions,
 };
 use npr_scene::{Limits, Scene};
 use npr_style::Style;
@@ -95,13 +95,13 @@ impl Prepared {
     /// The scene in a style on an engine.
     pub fn stage<'a>(
         &'a self,
-        engine: &dyn Engine,
+        engine: &'a dyn Engine,
         style: &Style,
         options: &StageOptions,
     ) -> Result<Stage<'a>, RenderError> {
         let stage = Stage::new(engine, &self.model, style, options)?;
         Ok(match &self.lines {
-            Some(lines) => stage.with_lines(lines),
+            Some(lines) => stage.with_lines(LineStage::new(engine, lines)),
             None => stage,
         })
     }

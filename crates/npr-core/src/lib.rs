@@ -3,7 +3,7 @@
 //! Deterministic math ([`math`]), numbers that look random ([`random`]), colour encoding ([`color`]), cameras ([`camera`]), the structs that
 //! passes read and write on both engines ([`geometry`], [`window`]), the surface point under a pixel
 //! ([`surface`]), packed textures ([`texture`]), and a triangle rasteriser with a stated fill rule
-//! ([`raster`]); spheres of smoke ([`smoke`]). Nothing here knows about files, styles or graphics devices.
+//! ([`raster`]); spheres of smoke ([`smoke`]); constants that styles and lines share ([`published_path`]). Nothing here knows about files, styles or graphics devices.
 //!
 //! ```
 //! use npr_core::camera::Camera;
@@ -22,6 +22,7 @@ pub mod light_view;
 pub mod line_color;
 pub mod math;
 pub mod outline;
+pub mod published_path;
 pub mod random;
 pub mod raster;
 pub mod shape;

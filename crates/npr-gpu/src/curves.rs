@@ -18,11 +18,13 @@ pub mod contours;
 pub mod pixels;
 pub mod ranking;
 mod resident;
+mod resident_pixels;
 pub mod sampling;
 pub mod sums;
 
 pub use ranking::{Scheme, rank_on};
 pub use resident::ResidentShape;
+pub use resident_pixels::{Hiders, ResidentPixels, trace_on};
 
 use crate::engine::EngineError;
 use npr_vector::rank::RankError;
@@ -37,4 +39,18 @@ pub enum CurvesError {
     /// The engine failed.
     #[error(transparent)]
     Engine(#[from] EngineError),
+}
+
+impl CurvesError {
+    /// What is wrong with the lists; the engine's failure where nothing is.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError`] where the engine failed.
+    pub fn split(self) -> Result<RankError, EngineError> {
+        match self {
+            Self::Rank(error) => Ok(error),
+            Self::Engine(error) => Err(error),
+        }
+    }
 }

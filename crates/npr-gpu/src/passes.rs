@@ -55,6 +55,7 @@ pub const ALL: &[&Pass] = &[
     &vector::FILTER_VISIBILITY,
     &pixels::MARK_EDGES,
     &pixels::PROJECT_EDGES,
+    &pixels::DRAW_SURFACES,
     &pixels::EMIT_FRAGMENTS,
     &pixels::TEST_FRAGMENTS,
     &pixels::DRAW_NEAREST,

@@ -1,6 +1,7 @@
 //! Why a picture could not be made.
 
 use npr_core::budget::OverBudget;
+use npr_gpu::curves::CurvesError;
 use npr_gpu::engine::EngineError;
 
 /// Why a picture could not be made.
@@ -86,4 +87,13 @@ pub enum RenderError {
     /// The engine failed.
     #[error(transparent)]
     Engine(#[from] EngineError),
+}
+
+impl From<CurvesError> for RenderError {
+    fn from(error: CurvesError) -> Self {
+        match error.split() {
+            Ok(lists) => Self::Rank(lists),
+            Err(engine) => Self::Engine(engine),
+        }
+    }
 }

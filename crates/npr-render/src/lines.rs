@@ -3,6 +3,7 @@
 mod assembly;
 mod cache;
 mod colors;
+mod finder;
 mod minding;
 mod options;
 mod paint;
@@ -27,15 +28,15 @@ use crate::smoke::Smoke;
 use crate::stage::{Picture, check_size};
 use assembly::Assembly;
 use colors::{ColorInput, StrokeColors};
+use finder::{Finder, OnProcessor};
 use glam::Vec3;
 use minding::Minding;
 use npr_core::camera::Camera;
 use npr_core::geometry::Part;
 use npr_core::shape::Shape;
-use npr_gpu::engine::EngineError;
 use npr_scene::Scene;
 use npr_style::{Look, Style};
-use npr_vector::contour::{EdgeContours, Eye};
+use npr_vector::contour::EdgeContours;
 use npr_vector::draw::{LineSettings, PointPaint, Prepared, StrokeLook, eye_of, strokes_with};
 use npr_vector::project::Projector;
 use npr_vector::puff::{RimPoint, SmokeLines};
@@ -238,9 +239,8 @@ impl LineModel {
         options: &LineOptions,
         behind: Option<&Frame>,
     ) -> Result<Drawing, RenderError> {
-        self.draw_with(camera, style, options, behind, |eye| {
-            Ok(EdgeContours::new(&self.shape, eye))
-        })
+        let find = &mut OnProcessor(&self.shape);
+        self.draw_with(camera, style, options, behind, find)
     }
 
     /// Gives the pictures that styles name in `line.paint.image`, by these names.
@@ -261,14 +261,14 @@ impl LineModel {
         self.bounds = smoke::joined(self.smoke.as_ref(), bounds, self.points.is_empty());
     }
 
-    /// The same before a picture, with contours along edges as `find` finds them for an eye.
+    /// The same before a picture, with lines as `find` finds them.
     fn draw_with(
         &self,
         camera: &Camera,
         style: &Style,
         options: &LineOptions,
         behind: Option<&Frame>,
-        find: impl FnOnce(&Eye) -> Result<EdgeContours, EngineError>,
+        find: &mut dyn Finder,
     ) -> Result<Drawing, RenderError> {
         let wanted = Wanted {
             camera,
@@ -281,15 +281,15 @@ impl LineModel {
         self.draw_some(&wanted, find, |_| true)
     }
 
-    /// The lines of the parts whose method of the style is `of_parts`, on the processor, as far as `smoke` does not hide them.
+    /// The lines of the parts whose method of the style is `of_parts`, as far as `smoke` does not hide them.
     pub(crate) fn draw_curves(
         &self,
         camera: &Camera,
         (style, of_parts): (&Style, npr_style::LineMethod),
         options: &LineOptions,
         (smoke, pictures): (Option<&Smoke>, &BTreeMap<String, Picture>),
+        find: &mut dyn Finder,
     ) -> Result<Drawing, RenderError> {
-        let find = |eye: &Eye| Ok(EdgeContours::new(&self.shape, eye));
         let is_curve = |look: &Look<'_>| look.line_method == of_parts;
         let wanted = Wanted {
             camera,
@@ -306,7 +306,7 @@ impl LineModel {
     fn draw_some(
         &self,
         wanted: &Wanted<'_>,
-        find: impl FnOnce(&Eye) -> Result<EdgeContours, EngineError>,
+        find: &mut dyn Finder,
         has_lines: impl Fn(&Look<'_>) -> bool,
     ) -> Result<Drawing, RenderError> {
         let Wanted {
@@ -325,7 +325,7 @@ impl LineModel {
         let contours = if options.method == LineMethod::Potrace && smoke.is_none() {
             EdgeContours::default()
         } else {
-            find(&eye_of(&self.shape, &projector))?
+            find.contours(&eye_of(&self.shape, &projector))?
         };
         let prepared = self.prepared(options);
         let mist = match smoke {
@@ -357,7 +357,7 @@ impl LineModel {
             changes: minding.is_some(),
         };
         let paint = Paint::new(&self.parts, style, has_lines);
-        let mut strokes = self.strokes(&prepared, &view, style, options, &paint)?;
+        let mut strokes = self.strokes(&prepared, &view, (style, options), &paint, find)?;
         paint.apply(&mut strokes);
         if let Some(minding) = minding {
             minding.apply(&mut strokes, &|surface| paint.line_color(surface));
@@ -440,9 +440,9 @@ impl LineModel {
         &self,
         prepared: &Prepared,
         view: &LineView<'_>,
-        style: &Style,
-        options: &LineOptions,
+        (style, options): (&Style, &LineOptions),
         paint: &Paint,
+        find: &mut dyn Finder,
     ) -> Result<Vec<Stroke>, RenderError> {
         let radius = self.radius();
         let input = WidthInput {
@@ -477,7 +477,8 @@ impl LineModel {
             paint_at: (view.changes || view.colors.is_some()).then_some(&paint_at),
         };
         if options.method == LineMethod::Potrace {
-            return self.pixel_strokes(prepared, view, options, (&settings, paint), &look);
+            let line = (&settings, paint, &look);
+            return self.pixel_strokes(prepared, view, options, line, find);
         }
         Ok(strokes_with(
             &self.shape,

@@ -8,7 +8,7 @@ use crate::frame::Frame;
 use crate::lettering::Lettering;
 use crate::light::{self, ChosenLights};
 use crate::line_colors::{is_any_painted, is_any_width_lit};
-use crate::lines::{LineMethod, LineModel, LineOptions};
+use crate::lines::{LineMethod, LineOptions, LineStage};
 use crate::look::{self, StyledModel};
 use crate::model::Model;
 use crate::placement::Bounds;
@@ -120,7 +120,7 @@ pub struct Stage<'a> {
     smoke_lights: (ChosenLights, bool),
     lettering: Lettering,
     /// Gives the lines of parts whose method is `curves` or `potrace`.
-    lines: Option<&'a LineModel>,
+    lines: Option<LineStage<'a>>,
     streaks: Option<Streaks<'a>>,
     blending: Option<Blending<'a>>,
     /// Memory of all that it is made of.
@@ -274,17 +274,18 @@ impl<'a> Stage<'a> {
         Ok(stage)
     }
 
-    /// The same, with the lines of parts whose `line.method` is `curves` or `potrace` from a line model of the scene.
+    /// The same, with the lines of parts whose `line.method` is `curves` or `potrace` from a line model of the scene, on
+    /// an engine that may be another one.
     ///
     /// Without one they have no lines, and [`Frame::notices`] tells.
-    pub fn with_lines(mut self, lines: &'a LineModel) -> Self {
+    pub fn with_lines(mut self, lines: LineStage<'a>) -> Self {
         self.lines = Some(lines);
         self
     }
 
     /// Draws the lines of parts whose method is `curves` or `potrace` over a frame.
     fn draw_curves(
-        &self,
+        &mut self,
         camera: &Camera,
         minded: Option<&(Sides, Rules)>,
         frame: &mut Frame,
@@ -292,7 +293,7 @@ impl<'a> Stage<'a> {
         if !self.style.has_curves() {
             return Ok(());
         }
-        let Some(lines) = self.lines else {
+        let Some(lines) = &mut self.lines else {
             let notice = "lines as curves are left out: no line model was given";
             frame.notices.push(notice.to_owned());
             return Ok(());
@@ -312,6 +313,7 @@ impl<'a> Stage<'a> {
             let options = LineOptions { method, ..options };
             let of_style = (&self.style, of_parts);
             let drawing = lines.draw_curves(camera, of_style, &options, beside)?;
+            frame.times.extend_from_slice(lines.times());
             let options = ArtworkOptions::default();
             let Some((sides, rules)) = minded else {
                 paint_drawing_over(&drawing, &options, &mut frame.rgba);
@@ -539,7 +541,7 @@ impl<'a> Stage<'a> {
         Ok(())
     }
 
-    /// Adds what is drawn over a whole frame, the same on every engine: curves, speed lines, the other look, words.
+    /// Adds what is drawn over a whole frame: curves, speed lines, the other look, words.
     fn finish(
         &mut self,
         camera: &Camera,

@@ -1,9 +1,11 @@
 //! Constants of strokes from pixels.
 
+use npr_core::published_path::PublishedPath;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The constants of method `potrace` and of `npr lines --method potrace` [Jiang et al. 2022]. Sides are those of pixels.
+/// The constants of method `potrace` and of `npr lines --method potrace` [Jiang et al. 2022]. Sides are those of pixels;
+/// defaults are those of [`PublishedPath`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Potrace {
@@ -31,18 +33,27 @@ pub struct Potrace {
     /// Area for each side up to which a loop is thin, in pixels, 0..1000; default 1.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub thinness: f32,
-    /// Reach of smoothing, in sides, 0..64; default 16.
+    /// Reach of smoothing places, in sides, 0..64; default 16.
     #[schemars(range(min = 0, max = 64))]
     pub smooth_radius: u32,
     /// Standard deviation of smoothing, in sides, 0..64; default 5. 1 keeps the steps of pixels, 12 rounds every corner.
     #[schemars(range(min = 0.0, max = 64.0))]
     pub smooth_sigma: f32,
-    /// How often places and tangents are smoothed, 0..16; default 2.
+    /// How often places are smoothed, 0..16; default 2.
     #[schemars(range(min = 0, max = 16))]
     pub smooth_passes: u32,
     /// Sides on each side that a tangent is fitted to, 0..64; default 12.
     #[schemars(range(min = 0, max = 64))]
     pub fit_radius: u32,
+    /// Reach of smoothing tangents, in sides, 0..64; default 16. More of it moves where strokes end.
+    #[schemars(range(min = 0, max = 64))]
+    pub tangent_radius: u32,
+    /// Standard deviation of smoothing tangents, in sides, 0..64; default 5.
+    #[schemars(range(min = 0.0, max = 64.0))]
+    pub tangent_sigma: f32,
+    /// How often tangents are smoothed, 0..16; default 2.
+    #[schemars(range(min = 0, max = 16))]
+    pub tangent_passes: u32,
     /// Reach of the mean of contours' directions, in sides, 0..64; default 16.
     #[schemars(range(min = 0, max = 64))]
     pub direction_radius: u32,
@@ -65,25 +76,69 @@ pub struct Potrace {
 
 impl Default for Potrace {
     fn default() -> Self {
+        let path = PublishedPath::default();
         Self {
-            convex_only: true,
-            oversampling: 2,
-            depth_tolerance: 0.02,
-            least_visible: 2,
-            rounds: 0,
-            speck_area: 32.0,
-            thin_speck_area: 64.0,
-            thinness: 1.0,
-            smooth_radius: 16,
-            smooth_sigma: 5.0,
-            smooth_passes: 2,
-            fit_radius: 12,
-            direction_radius: 16,
-            direction_sigma: 6.5,
-            least_cos: 0.1,
-            vote_radius: 7,
-            vote_margin: 2,
-            short: 8,
+            convex_only: path.is_convex_only,
+            oversampling: path.oversampling,
+            depth_tolerance: path.depth_tolerance,
+            least_visible: path.least_visible,
+            rounds: path.rounds.unwrap_or(0),
+            speck_area: path.speck_area,
+            thin_speck_area: path.thin_speck_area,
+            thinness: path.thinness,
+            smooth_radius: path.smooth_radius,
+            smooth_sigma: path.smooth_sigma,
+            smooth_passes: path.smooth_passes,
+            fit_radius: path.fit_radius,
+            tangent_radius: path.tangent_radius,
+            tangent_sigma: path.tangent_sigma,
+            tangent_passes: path.tangent_passes,
+            direction_radius: path.direction_radius,
+            direction_sigma: path.direction_sigma,
+            least_cos: path.least_cos,
+            vote_radius: path.vote_radius,
+            vote_margin: path.vote_margin,
+            short: path.short,
         }
+    }
+}
+
+impl Potrace {
+    /// The constants as the path reads them.
+    pub fn path(&self) -> PublishedPath {
+        PublishedPath {
+            is_convex_only: self.convex_only,
+            oversampling: self.oversampling,
+            depth_tolerance: self.depth_tolerance,
+            least_visible: self.least_visible,
+            rounds: (self.rounds > 0).then_some(self.rounds),
+            speck_area: self.speck_area,
+            thin_speck_area: self.thin_speck_area,
+            thinness: self.thinness,
+            smooth_places: true,
+            smooth_radius: self.smooth_radius,
+            smooth_sigma: self.smooth_sigma,
+            smooth_passes: self.smooth_passes,
+            fit_radius: self.fit_radius,
+            tangent_radius: self.tangent_radius,
+            tangent_sigma: self.tangent_sigma,
+            tangent_passes: self.tangent_passes,
+            direction_radius: self.direction_radius,
+            direction_sigma: self.direction_sigma,
+            least_cos: self.least_cos,
+            vote_radius: self.vote_radius,
+            vote_margin: self.vote_margin,
+            short: self.short,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn constants_of_styles_are_those_of_the_path() {
+        assert_eq!(Potrace::default().path(), PublishedPath::default());
     }
 }

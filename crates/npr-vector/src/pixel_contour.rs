@@ -5,7 +5,7 @@
 //!
 //! 1. [`edge`]: which edges are drawn, and which way round;
 //! 2. [`segment`]: cut to the view and projected; [`fragment`]: drawn by two parallel passes, tested softly against the depths of
-//!    surfaces, then the nearest wins;
+//!    surfaces ([`surface`]), then the nearest wins;
 //! 3. [`side`]: sides of pixels and what follows each; ranking is [`crate::rank`]'s, with Morton codes for keys;
 //! 4. [`looped`]: specks dropped, loops smoothed, tangents fitted;
 //! 5. [`strip`]: what runs against its contour is culled, the rest cut to strips;
@@ -24,6 +24,7 @@ pub mod segment;
 pub mod side;
 pub mod strip;
 pub mod stroke;
+pub mod surface;
 #[cfg(test)]
 mod tests;
 
@@ -34,108 +35,12 @@ use crate::rank::scan::{compact, exclusive_scan};
 use crate::rank::{RankError, Ranked, walk, wyllie};
 use edge::{Facing, drawn_edges, mark_edges};
 use fragment::{Fragment, draw_nearest, emit_fragments, test_fragments};
-use npr_core::geometry::{Part, Triangle};
-use npr_core::raster::{Fill, Sides, fill_triangles};
+pub use npr_core::published_path::PublishedPath;
 use npr_core::shape::Shape;
-use npr_core::window::{View, Window};
+use npr_core::window::View;
 use segment::{Drawn, PixelView, Segment, project_edges};
 use side::{Ink, link_sides, mark_sides};
-
-/// Every constant of the published path.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PublishedPath {
-    /// Leaves out contours in valleys, which their own surface hides; default true, as published.
-    pub is_convex_only: bool,
-    /// Steps of the grid that lines are drawn on to a pixel, 1..8; default 2.
-    pub oversampling: u32,
-    /// How far behind a surface a line still shows, as a share of the scene's radius; default 0.02.
-    ///
-    /// Larger lets hidden lines through thin parts, smaller breaks lines on steep slopes. The publication's is absolute.
-    pub depth_tolerance: f32,
-    /// Of a pixel and the eight around it, how many have to show a line; default 2.
-    pub least_visible: u32,
-    /// Rounds of pointer jumping for each of loop breaking and ranking, of which the published 16 rank loops up to 65,536 sides; default
-    /// as many as it takes.
-    pub rounds: Option<u32>,
-    /// A loop of less area is a speck and dropped, in pixels; default 32.
-    pub speck_area: f32,
-    /// A thin loop of less area is a speck too; default 64.
-    pub thin_speck_area: f32,
-    /// Area for each side up to which a loop is thin, in pixels; default 1.
-    pub thinness: f32,
-    /// Smooths places along loops; default true. Without, strokes run through the middles of sides.
-    pub smooth_places: bool,
-    /// Reach of the filter that smooths places and tangents, in sides, up to 64; default 16.
-    pub smooth_radius: u32,
-    /// Standard deviation of its Gaussian, in sides; default 5.
-    pub smooth_sigma: f32,
-    /// How often places and then tangents are smoothed, up to 16; default 2.
-    pub smooth_passes: u32,
-    /// Sides on each side that a tangent is fitted to, up to 64; default 12.
-    pub fit_radius: u32,
-    /// Reach of the mean of directions of contours, in sides, up to 64; default 16.
-    pub direction_radius: u32,
-    /// Standard deviation of that mean, in sides; default 6.5.
-    pub direction_sigma: f32,
-    /// Cosine between loop and contour over which a side is kept, 0..1; default 0.1.
-    pub least_cos: f32,
-    /// Sides on each side that vote on whether one is kept, up to 64; default 7.
-    pub vote_radius: u32,
-    /// By how many votes it has to win; default 2.
-    pub vote_margin: u32,
-    /// Strokes of at most as many sides are dropped; default 8.
-    pub short: u32,
-}
-
-impl Default for PublishedPath {
-    fn default() -> Self {
-        Self {
-            is_convex_only: true,
-            oversampling: 2,
-            depth_tolerance: 0.02,
-            least_visible: 2,
-            rounds: None,
-            speck_area: 32.0,
-            thin_speck_area: 64.0,
-            thinness: 1.0,
-            smooth_places: true,
-            smooth_radius: 16,
-            smooth_sigma: 5.0,
-            smooth_passes: 2,
-            fit_radius: 12,
-            direction_radius: 16,
-            direction_sigma: 6.5,
-            least_cos: 0.1,
-            vote_radius: 7,
-            vote_margin: 2,
-            short: 8,
-        }
-    }
-}
-
-/// Widest window along a loop, in sides on each side.
-const RADIUS_LIMIT: u32 = 64;
-
-/// Most rounds of smoothing.
-const PASS_LIMIT: u32 = 16;
-
-impl PublishedPath {
-    /// The same with every value within its limits.
-    pub fn within_limits(&self) -> Self {
-        let radius = |radius: u32| radius.min(RADIUS_LIMIT);
-        Self {
-            oversampling: self.oversampling.clamp(1, 8),
-            least_visible: self.least_visible.min(9),
-            smooth_passes: self.smooth_passes.min(PASS_LIMIT),
-            smooth_radius: radius(self.smooth_radius),
-            fit_radius: radius(self.fit_radius),
-            direction_radius: radius(self.direction_radius),
-            vote_radius: radius(self.vote_radius),
-            vote_margin: self.vote_margin.min(2 * RADIUS_LIMIT + 1),
-            ..*self
-        }
-    }
-}
+pub use surface::scene_depths;
 
 /// Bytes for each pixel of a picture that [`trace`] takes: what shows, how deep, and the sides.
 pub const BYTES_PER_PIXEL: u64 = 32;
@@ -186,38 +91,6 @@ fn radius_of(shape: &Shape) -> f32 {
     }
     let square = (0..3).map(|axis| (high[axis] - low[axis]).max(0.0));
     0.5 * square.map(|side| side * side).sum::<f32>().sqrt()
-}
-
-/// Reversed depth of the surface at every pixel, 0 where there is none: what lines are tested against.
-///
-/// Both sides of all faces hide. O(faces + pixels), in parallel.
-pub fn scene_depths(shape: &Shape, view: &View) -> Vec<f32> {
-    let size = view.frame_px.map(|side| side as u32);
-    let count = size[0] as usize * size[1] as usize;
-    let triangles: Vec<Triangle> = shape
-        .faces
-        .iter()
-        .map(|corners| Triangle {
-            corners: *corners,
-            part: 0,
-        })
-        .collect();
-    let m = &view.clip_from_world;
-    let fill = Fill {
-        window: &Window::over(view.frame_px, [0.0; 2], view.frame_px, size),
-        triangles: &triangles,
-        parts: &[Part::default()],
-        sides: Sides::Both,
-        id_bits: 0,
-        clip_of: |vertex: u32| {
-            let [x, y, z] = shape.positions[vertex as usize];
-            std::array::from_fn(|i| m[0][i] * x + m[1][i] * y + m[2][i] * z + m[3][i])
-        },
-        keep: |_, _, _| true,
-    };
-    let (mut ids, mut depths) = (vec![0; count], vec![0; count]);
-    fill_triangles(&fill, &mut ids, &mut depths);
-    depths.into_iter().map(f32::from_bits).collect()
 }
 
 /// A picture of lines with the sides of its pixels in rows.
@@ -338,7 +211,7 @@ fn draw(
             &mut fragments,
         );
         let mut shown = vec![0; fragments.len()];
-        test_fragments(view, scene, &fragments, &mut shown);
+        test_fragments(view, [scene, &[]], &fragments, &mut shown);
         for fragment in &mut fragments {
             fragment.segment += first as u32;
         }

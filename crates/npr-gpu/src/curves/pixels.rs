@@ -1,20 +1,20 @@
 //! Passes that draw lines into a picture, link the sides of its pixels, put them in rows, and make strips of them.
 
 use super::CurvesError;
-use super::ranking::{RankedLists, Scheme, add_ranking, read_rows};
+use super::ranking::{RankedLists, Scheme, add_ranking};
 use super::sums::{Compacted, add_compact, add_scan};
-use crate::engine::{Engine, Session};
+use crate::engine::Session;
 use crate::graph::{Graph, ResourceId};
 use crate::pass::Format;
 use crate::passes::{pixels, vector};
 use npr_core::shape::Shape;
 use npr_vector::contour::steps::{HalfEdge, Viewer, half_edges, judges};
-use npr_vector::pixel_contour::edge::{DrawnEdge, drawn_edges};
+use npr_vector::pixel_contour::edge::DrawnEdge;
 use npr_vector::pixel_contour::fragment::Fragment;
-use npr_vector::pixel_contour::looped::{Filter, Planar, SpeckRule, Spot, gaussian, tent};
+use npr_vector::pixel_contour::looped::{Filter, Planar, SpeckRule, Spot};
 use npr_vector::pixel_contour::segment::{PixelView, Segment};
 use npr_vector::pixel_contour::strip::{CullRule, StripSpot};
-use npr_vector::pixel_contour::{PixelScene, PublishedPath, Traced, standings_of};
+use npr_vector::pixel_contour::{PixelScene, PublishedPath};
 use npr_vector::rank::Link;
 
 /// For how many of each there is room.
@@ -37,7 +37,7 @@ impl PixelRoom {
     };
 
     /// Whether there is room for others.
-    fn holds(self, needed: Self) -> bool {
+    pub(super) fn holds(self, needed: Self) -> bool {
         let pairs = [
             (self.segments, needed.segments),
             (self.fragments, needed.fragments),
@@ -47,7 +47,7 @@ impl PixelRoom {
     }
 
     /// The next powers of two that hold both.
-    fn grown(self, needed: Self) -> Self {
+    pub(super) fn grown(self, needed: Self) -> Self {
         let grow = |room: usize, needed: usize| room.max(needed.next_power_of_two());
         Self {
             segments: grow(self.segments, needed.segments),
@@ -55,6 +55,17 @@ impl PixelRoom {
             sides: grow(self.sides, needed.sides),
         }
     }
+}
+
+/// What hides lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Hiding {
+    /// The shape's surfaces, drawn by the engine.
+    Surfaces,
+    /// These, and a veil that the host hands over.
+    Veiled,
+    /// What the host hands over, and nothing else.
+    Given,
 }
 
 /// What [`add_pixel_contours`] puts into a graph.
@@ -72,8 +83,8 @@ pub struct PixelContours {
     pub judges: ResourceId,
     /// [`DrawnEdge`]s; written once.
     pub edges: ResourceId,
-    /// Reversed depth of every pixel of the scene; written for every view.
-    pub scene: ResourceId,
+    /// Reversed depth, as bits, of every pixel of what the host hands over; written for every view, unless surfaces alone hide lines.
+    pub veil: ResourceId,
     /// [`Segment`]s.
     pub segments: ResourceId,
     /// Number of edges drawn, also where they have no room: one element.
@@ -88,18 +99,20 @@ pub struct PixelContours {
     pub sides: ResourceId,
     /// Number of sides: one element.
     pub side_count: ResourceId,
+    /// Sides for which there is room.
+    pub side_room: usize,
     /// Their loops in rows.
     pub lists: RankedLists,
 }
 
 /// Appends passes from a shape to the sides of its contours' pixels in rows, for a picture of `size` pixels.
 ///
-/// Takes 24 bytes a pixel, 12 a fragment, and about 180 a side. Where counts exceed the room what is there is of no use; the host
-/// runs a graph with more.
+/// Takes 36 bytes a pixel, 4 more with a veil, 12 a fragment, and about 180 a side. Where counts exceed the room what is there is of
+/// no use; the host runs a graph with more.
 pub fn add_pixel_contours(
     graph: &mut Graph,
     shape: &Shape,
-    size: [u32; 2],
+    (size, hiding): ([u32; 2], Hiding),
     room: PixelRoom,
     scheme: Scheme,
 ) -> PixelContours {
@@ -129,10 +142,17 @@ pub fn add_pixel_contours(
     );
     let starts = add_scan(graph, counts);
     let pixel_count = size[0] as usize * size[1] as usize;
-    let scene = graph.buffer::<f32>("scene depths", pixel_count);
+    let surfaces = graph.image("surfaces", Format::U32, size);
+    if hiding != Hiding::Given {
+        let depths = graph.image("depths of surfaces", Format::Depth, size);
+        let (bound, targets) = ([view, positions, half_edges], [surfaces, depths]);
+        graph.draw(&pixels::DRAW_SURFACES, &bound, &targets, true);
+    }
+    let is_veiled = hiding != Hiding::Surfaces;
+    let veil = graph.image("veil", Format::U32, if is_veiled { size } else { [1; 2] });
     let [owners, nearest] = add_picture(
         graph,
-        (view, scene),
+        (view, [surfaces, veil]),
         (starts.total, starts.prefixes, segments),
         (size, room.fragments),
     );
@@ -144,7 +164,7 @@ pub fn add_pixel_contours(
         half_edges,
         judges,
         edges,
-        scene,
+        veil,
         segments,
         segment_count: count,
         fragment_count: starts.total,
@@ -152,6 +172,7 @@ pub fn add_pixel_contours(
         nearest,
         sides,
         side_count,
+        side_room: room.sides,
         lists: add_ranking(graph, links, scheme),
     }
 }
@@ -159,7 +180,7 @@ pub fn add_pixel_contours(
 /// Fragments, tested and drawn: the owners of pixels, and their depths.
 fn add_picture(
     graph: &mut Graph,
-    (view, scene): (ResourceId, ResourceId),
+    (view, [surfaces, veil]): (ResourceId, [ResourceId; 2]),
     (total, starts, segments): (ResourceId, ResourceId, ResourceId),
     (size, room): ([u32; 2], usize),
 ) -> [ResourceId; 2] {
@@ -169,7 +190,10 @@ fn add_picture(
         &[view, total, starts, segments, fragments],
     );
     let shown = graph.buffer::<u32>("fragments shown", room);
-    graph.compute(&pixels::TEST_FRAGMENTS, &[view, scene, fragments, shown]);
+    graph.compute(
+        &pixels::TEST_FRAGMENTS,
+        &[view, surfaces, veil, fragments, shown],
+    );
     let owners = graph.image("owners", Format::U32, size);
     let nearest = graph.image("nearest", Format::U32, size);
     let depths = graph.image("depths of lines", Format::Depth, size);
@@ -205,16 +229,20 @@ fn add_sides(
 /// What [`add_strips`] puts into a graph.
 #[derive(Debug, Clone, Copy)]
 pub struct PixelStrips {
-    /// [`SpeckRule`]; written by [`PixelStrips::write`], as all that follows up to `tent`.
+    /// [`SpeckRule`]; written by [`PixelStrips::write`], as all that follows up to `means`.
     pub speck_rule: ResourceId,
     /// [`CullRule`].
     pub cull_rule: ResourceId,
-    /// [`Filter`]s of places, tangents, directions and of the fit.
-    pub filters: [ResourceId; 4],
-    /// Weights of smoothing, of directions, and of the fit.
-    pub weights: [ResourceId; 3],
-    /// Smoothed places, in the order of loops.
+    /// [`Filter`]s and weights of places, tangents, directions and of the fit.
+    pub means: [[ResourceId; 2]; 4],
+    /// [`Spot`]s, in the order of loops.
+    pub spots: ResourceId,
+    /// Smoothed places.
     pub places: ResourceId,
+    /// Unit tangents.
+    pub tangents: ResourceId,
+    /// Mean directions of the contours around.
+    pub directions: ResourceId,
     /// Whether each side is part of a stroke.
     pub kept: ResourceId,
     /// [`StripSpot`]s.
@@ -251,28 +279,34 @@ pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -
         &pixels::DROP_SPECKS,
         &[speck_rule, spots, areas, sums, whole],
     );
-    let filters =
-        ["places", "tangents", "directions", "fit"].map(|name| graph.uniform::<Filter>(name));
-    let radii = [path.smooth_radius, path.direction_radius, path.fit_radius];
-    let weights = radii.map(|radius| graph.buffer::<f32>("weights", radius as usize + 1));
-    let smoothed = |graph: &mut Graph, filter, weights, from| {
+    let radii = [
+        path.smooth_radius,
+        path.tangent_radius,
+        path.direction_radius,
+        path.fit_radius,
+    ];
+    let means = radii.map(|radius| {
+        let filter = graph.uniform::<Filter>("means");
+        let weights = graph.buffer::<f32>("weights", radius as usize + 1);
+        [filter, weights]
+    });
+    let [of_places, of_tangents, of_directions, of_fit] = means;
+    let smoothed = |graph: &mut Graph, [filter, weights]: [ResourceId; 2], from| {
         let to = graph.buffer::<Planar>("smoothed", count);
         graph.compute(&pixels::SMOOTH_LOOPS, &[filter, weights, spots, from, to]);
         to
     };
     let raw = places;
     for _ in 0..path.smooth_passes {
-        places = smoothed(graph, filters[0], weights[0], places);
+        places = smoothed(graph, of_places, places);
     }
     let mut tangents = graph.buffer::<Planar>("tangents", count);
-    graph.compute(
-        &pixels::FIT_TANGENTS,
-        &[filters[3], weights[2], spots, places, tangents],
-    );
-    for _ in 0..path.smooth_passes {
-        tangents = smoothed(graph, filters[1], weights[0], tangents);
+    let [fit, tent] = of_fit;
+    graph.compute(&pixels::FIT_TANGENTS, &[fit, tent, spots, places, tangents]);
+    for _ in 0..path.tangent_passes {
+        tangents = smoothed(graph, of_tangents, tangents);
     }
-    directions = smoothed(graph, filters[2], weights[1], directions);
+    directions = smoothed(graph, of_directions, directions);
     let cull_rule = graph.uniform::<CullRule>("cull rule");
     let [culled, voted, kept] =
         ["culled", "voted", "kept"].map(|name| graph.buffer::<u32>(name, count));
@@ -287,9 +321,11 @@ pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -
     PixelStrips {
         speck_rule,
         cull_rule,
-        filters,
-        weights,
+        means,
+        spots,
         places: if path.smooth_places { places } else { raw },
+        tangents,
+        directions,
         kept,
         strips,
         lengths,
@@ -323,64 +359,68 @@ impl PixelStrips {
         session: &mut dyn Session,
         path: &PublishedPath,
     ) -> Result<(), CurvesError> {
-        let path = path.within_limits();
-        let (places, smooth) = path.smoothing(false);
-        let (tangents, _) = path.smoothing(true);
-        let with = |radius: u32| Filter { radius, ..tangents };
-        let filters = [
-            places,
-            tangents,
-            with(path.direction_radius),
-            with(path.fit_radius),
+        let path = &path.within_limits();
+        session.write(
+            self.speck_rule,
+            bytemuck::cast_slice(&[SpeckRule::of(path)]),
+        )?;
+        session.write(self.cull_rule, bytemuck::cast_slice(&[CullRule::of(path)]))?;
+        let means = [
+            Filter::of_places(path),
+            Filter::of_tangents(path),
+            Filter::of_directions(path),
+            Filter::of_fit(path),
         ];
-        session.write(self.speck_rule, bytemuck::cast_slice(&[path.speck_rule()]))?;
-        session.write(self.cull_rule, bytemuck::cast_slice(&[path.cull_rule()]))?;
-        for (id, filter) in self.filters.iter().zip(filters) {
-            session.write(*id, bytemuck::cast_slice(&[filter]))?;
-        }
-        let directions = gaussian(path.direction_radius, path.direction_sigma);
-        for (id, weights) in self
-            .weights
-            .iter()
-            .zip([smooth, directions, tent(path.fit_radius)])
-        {
-            session.write(*id, bytemuck::cast_slice(&weights))?;
+        for ([filter_id, weights_id], (filter, weights)) in self.means.iter().zip(means) {
+            session.write(*filter_id, bytemuck::cast_slice(&[filter]))?;
+            session.write(*weights_id, bytemuck::cast_slice(&weights))?;
         }
         Ok(())
     }
 }
 
 impl PixelContours {
-    /// Hands a scene over, with its depths by [`npr_vector::pixel_contour::scene_depths`].
+    /// Hands over what stays from view to view.
     ///
     /// # Errors
     ///
     /// [`CurvesError::Engine`] where the engine fails.
-    pub fn write(
+    pub fn write_shape(
         &self,
         session: &mut dyn Session,
-        on: &PixelScene<'_>,
-        path: &PublishedPath,
-        depths: &[f32],
+        shape: &Shape,
+        edges: &[DrawnEdge],
     ) -> Result<(), CurvesError> {
-        let shape = on.shape;
-        let edges = drawn_edges(shape, on.crease_cos, on.is_drawn);
-        let view = on.pixel_view(path);
-        session.write(self.viewer, bytemuck::cast_slice(&[Viewer::from(on.eye)]))?;
-        session.write(self.view, bytemuck::cast_slice(&[view]))?;
         session.write(self.positions, bytemuck::cast_slice(&shape.positions))?;
         session.write(self.half_edges, bytemuck::cast_slice(&half_edges(shape)))?;
         session.write(self.judges, &judges(shape))?;
-        session.write(self.edges, bytemuck::cast_slice(&edges))?;
-        session.write(self.scene, bytemuck::cast_slice(depths))?;
-        let links = session.read(self.sides)?.len() as u32;
-        session.write(self.lists.node_count, &[links])?;
+        session.write(self.edges, bytemuck::cast_slice(edges))?;
+        session.write(self.lists.node_count, &[self.side_room as u32])?;
         session.write(self.lists.rounds, &[self.lists.round_count])?;
         Ok(())
     }
 
+    /// Hands a view over, and the depths of what hides lines besides what the engine draws; of these none where `veil` is empty.
+    ///
+    /// # Errors
+    ///
+    /// [`CurvesError::Engine`] where the engine fails.
+    pub fn write_view(
+        &self,
+        session: &mut dyn Session,
+        on: &PixelScene<'_>,
+        path: &PublishedPath,
+        veil: &[f32],
+    ) -> Result<(), CurvesError> {
+        let view = on.pixel_view(path);
+        session.write(self.viewer, bytemuck::cast_slice(&[Viewer::from(on.eye)]))?;
+        session.write(self.view, bytemuck::cast_slice(&[view]))?;
+        session.write(self.veil, bytemuck::cast_slice(veil))?;
+        Ok(())
+    }
+
     /// Numbers of what the last run found.
-    fn needed(&self, session: &mut dyn Session) -> Result<PixelRoom, CurvesError> {
+    pub(super) fn needed(&self, session: &mut dyn Session) -> Result<PixelRoom, CurvesError> {
         let mut count = |id| Ok::<usize, CurvesError>(session.read(id)?[0] as usize);
         Ok(PixelRoom {
             segments: count(self.segment_count)?,
@@ -388,64 +428,4 @@ impl PixelContours {
             sides: count(self.side_count)?,
         })
     }
-}
-
-/// Draws the lines of a view into a picture on an engine: what [`npr_vector::pixel_contour::trace`] gives, bit for bit.
-///
-/// The shape is handed over in every call, and again with more room where counts exceed it.
-///
-/// # Errors
-///
-/// [`CurvesError::Rank`] where the rounds of the path are too few, [`CurvesError::Engine`] where the engine fails.
-pub fn trace_on(
-    engine: &dyn Engine,
-    on: &PixelScene<'_>,
-    path: &PublishedPath,
-    depths: &[f32],
-) -> Result<Traced, CurvesError> {
-    let view = on.pixel_view(path);
-    let pixel_count = view.size[0] as usize * view.size[1] as usize;
-    if pixel_count == 0 || depths.len() != pixel_count || on.shape.faces.is_empty() {
-        return Ok(npr_vector::pixel_contour::trace(on, path, depths)?);
-    }
-    let scheme = Scheme::Wyllie {
-        rounds: path.rounds,
-    };
-    let mut room = PixelRoom::FIRST;
-    loop {
-        let mut graph = Graph::new();
-        let contours = add_pixel_contours(&mut graph, on.shape, view.size, room, scheme);
-        let mut session = engine.prepare(graph)?;
-        contours.write(session.as_mut(), on, path, depths)?;
-        session.run()?;
-        let needed = contours.needed(session.as_mut())?;
-        if room.holds(needed) {
-            return traced(session.as_mut(), &contours, view, needed);
-        }
-        room = room.grown(needed);
-    }
-}
-
-/// What a run found.
-fn traced(
-    session: &mut dyn Session,
-    from: &PixelContours,
-    view: PixelView,
-    count: PixelRoom,
-) -> Result<Traced, CurvesError> {
-    let ranked = read_rows(session, &from.lists, count.sides)?;
-    let mut segments = session.read(from.segments)?;
-    segments.truncate(count.segments * size_of::<Segment>() / 4);
-    let mut sides = session.read(from.sides)?;
-    sides.truncate(count.sides);
-    Ok(Traced {
-        size: view.size,
-        view,
-        segments: bytemuck::cast_slice(&segments).to_vec(),
-        owners: session.read(from.owners)?,
-        nearest: session.read(from.nearest)?,
-        sides,
-        standings: standings_of(&ranked),
-        order: ranked.order,
-    })
 }

@@ -4,13 +4,14 @@
 //! a side whose direction lies on a threshold may be kept by one engine alone.
 
 use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
-use npr_vector::contour::steps::Viewer;
+use npr_vector::contour::steps::{HalfEdge, Viewer};
 use npr_vector::pixel_contour::edge::{DrawnEdge, Facing, mark_edges};
 use npr_vector::pixel_contour::fragment::{self, Fragment};
 use npr_vector::pixel_contour::looped::{self, Filter, Gathered, Ordered, Planar, SpeckRule, Spot};
 use npr_vector::pixel_contour::segment::{Drawn, PixelView, Segment, project_edges};
 use npr_vector::pixel_contour::side::{self, Ink};
 use npr_vector::pixel_contour::strip::{self, CullRule, StripSpot};
+use npr_vector::pixel_contour::surface;
 use npr_vector::rank::Link;
 use npr_vector::rank::place::Standing;
 
@@ -73,6 +74,33 @@ pub const PROJECT_EDGES: Pass = Pass {
     },
 };
 
+/// Depths of the surfaces that hide lines, as bits.
+pub const DRAW_SURFACES: Pass = Pass {
+    name: "vector.draw_surfaces",
+    shader: npr_shaders::VECTOR_DRAW_SURFACES,
+    slots: &[
+        uniform::<PixelView>("view"),
+        read::<f32>("positions"),
+        read::<HalfEdge>("half_edges"),
+    ],
+    work: Work::Draw {
+        of: "half_edges",
+        vertices: 1,
+        targets: &[Format::U32, Format::Depth],
+        fills: true,
+    },
+    // Corners lie within 1/256 of a pixel, and a device is free in which: slopes shift depths, and edges shift pixels.
+    agreement: Agreement::NearlyAll {
+        share: 0.001,
+        bound: 1e-4,
+    },
+    twin: |b| {
+        let (bits, depths) = (b.image_mut(3), b.image_mut(4));
+        surface::draw_surfaces(&b.one(0), b.read(1), b.read(2), bits.texels);
+        depths.texels.copy_from_slice(bits.texels);
+    },
+};
+
 /// The fragments of all segments.
 pub const EMIT_FRAGMENTS: Pass = Pass {
     name: "vector.emit_fragments",
@@ -98,13 +126,17 @@ pub const TEST_FRAGMENTS: Pass = Pass {
     shader: npr_shaders::VECTOR_TEST_FRAGMENTS,
     slots: &[
         uniform::<PixelView>("view"),
-        read::<f32>("scene"),
+        texture("surfaces", Format::U32),
+        texture("veil", Format::U32),
         read::<Fragment>("fragments"),
         write::<u32>("shown"),
     ],
     work: Work::PerElement { of: "fragments" },
     agreement: Agreement::Exact,
-    twin: |b| fragment::test_fragments(&b.one(0), b.read(1), b.read(2), b.write(3)),
+    twin: |b| {
+        let scene = [b.read(1), b.read(2)];
+        fragment::test_fragments(&b.one(0), scene, b.read(3), b.write(4));
+    },
 };
 
 /// The nearest fragment of every pixel, and its reversed depth as bits.

@@ -4,8 +4,8 @@ use crate::agreement::{Meaning, disagreement};
 use crate::shared;
 use npr_core::camera::{Camera, Projection};
 use npr_core::shape::Shape;
-use npr_gpu::curves::Scheme;
-use npr_gpu::curves::pixels::{PixelRoom, add_pixel_contours, add_strips, trace_on};
+use npr_gpu::curves::pixels::{Hiding, PixelRoom, add_pixel_contours, add_strips};
+use npr_gpu::curves::{Hiders, ResidentPixels, Scheme, trace_on};
 use npr_gpu::engine::{Engine, Session};
 use npr_gpu::graph::{Graph, Kind, ResourceId};
 use npr_gpu::pass::{Access, Pass};
@@ -14,15 +14,18 @@ use npr_gpu::processor::Processor;
 use npr_mesh::testing::{cube, shape_of, torus, uv_sphere};
 use npr_vector::draw::eye_of;
 use npr_vector::graph::CurveNode;
+use npr_vector::pixel_contour::edge::drawn_edges;
+use npr_vector::pixel_contour::stroke::Loops;
 use npr_vector::pixel_contour::{PixelScene, PublishedPath, scene_depths, trace};
 use npr_vector::project::Projector;
 
 const SIZE: [u32; 2] = [160, 120];
 
 /// The passes that are tested here.
-const OWN: [&str; 17] = [
+const OWN: [&str; 18] = [
     "vector.mark_edges",
     "vector.project_edges",
+    "vector.draw_surfaces",
     "vector.emit_fragments",
     "vector.test_fragments",
     "vector.draw_nearest",
@@ -59,7 +62,11 @@ fn scenes() -> Vec<(Shape, Projection)> {
 }
 
 /// Calls `test` with a scene and its depths.
-fn with_scene(shape: &Shape, projection: Projection, test: impl Fn(&PixelScene<'_>, &[f32])) {
+fn with_scene(
+    shape: &Shape,
+    projection: Projection,
+    mut test: impl FnMut(&PixelScene<'_>, &[f32]),
+) {
     let camera = Camera {
         eye: [2.0, 1.7, 3.1],
         target: [0.0; 3],
@@ -95,6 +102,40 @@ fn pictures_and_rows_are_those_of_the_processor() {
     }
 }
 
+/// A shape that stays on an engine gives every view what it gives the first, and the processor's strips within rounding.
+#[test]
+fn views_leave_nothing_behind() {
+    let path = PublishedPath::default();
+    let shape = shape_of(&torus(30, 14, 1.0, 0.4));
+    let parallel = |height| Projection::Parallel { height };
+    let device = shared::device().map(|device| device as &dyn Engine);
+    for engine in [Some(&Processor as &dyn Engine), device]
+        .into_iter()
+        .flatten()
+    {
+        let mut resident = ResidentPixels::new(engine, &shape);
+        for projection in [
+            parallel(3.0),
+            parallel(9.0),
+            Projection::Perspective { fov_y: 0.4 },
+        ] {
+            with_scene(&shape, projection, |scene, depths| {
+                for hiders in [Hiders::Surfaces, Hiders::Given(depths)] {
+                    let (traced, loops) = resident.draw(scene, &path, hiders).unwrap();
+                    let (fresh, fresh_loops) = ResidentPixels::new(engine, &shape)
+                        .draw(scene, &path, hiders)
+                        .unwrap();
+                    assert!(traced == fresh && traced.sides.len() > 100);
+                    let strips: Vec<_> = loops.strips().collect();
+                    assert!(strips == fresh_loops.strips().collect::<Vec<_>>());
+                    let expected: Vec<_> = Loops::new(&traced, &path).strips().collect();
+                    assert!(!expected.is_empty() && strips == expected);
+                }
+            });
+        }
+    }
+}
+
 #[test]
 fn every_pass_agrees_with_its_twin() {
     let Some(device) = shared::device() else {
@@ -109,11 +150,22 @@ fn every_pass_agrees_with_its_twin() {
                 fragments: 4000,
                 sides: 4001,
             };
-            let contours = add_pixel_contours(&mut graph, scene.shape, SIZE, room, Scheme::WYLLIE);
+            let picture = (SIZE, Hiding::Veiled);
+            let contours =
+                add_pixel_contours(&mut graph, scene.shape, picture, room, Scheme::WYLLIE);
             let strips = add_strips(&mut graph, &contours, &path);
             let mut session = Processor.prepare(graph.clone()).unwrap();
+            let edges = drawn_edges(scene.shape, scene.crease_cos, scene.is_drawn);
             contours
-                .write(session.as_mut(), scene, &path, depths)
+                .write_shape(session.as_mut(), scene.shape, &edges)
+                .unwrap();
+            // A veil that hides a strip of the picture.
+            let veil: Vec<f32> = (0..)
+                .zip(depths)
+                .map(|(i, z)| if i % SIZE[0] < 40 { 2.0 * z } else { 0.0 })
+                .collect();
+            contours
+                .write_view(session.as_mut(), scene, &path, &veil)
                 .unwrap();
             strips.write(session.as_mut(), &path).unwrap();
             session.run().unwrap();

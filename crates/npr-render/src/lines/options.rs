@@ -1,6 +1,6 @@
 //! What is asked of a line model and of a drawing.
 
-use npr_style::{Potrace, Style};
+use npr_style::Style;
 use npr_vector::draw::Method;
 use npr_vector::graph::CurveNode;
 use npr_vector::pixel_contour::PublishedPath;
@@ -111,31 +111,6 @@ pub struct LineOptions {
     pub potrace: PublishedPath,
 }
 
-/// The constants that a style states.
-fn path_of(style: &Potrace) -> PublishedPath {
-    PublishedPath {
-        is_convex_only: style.convex_only,
-        oversampling: style.oversampling,
-        depth_tolerance: style.depth_tolerance,
-        least_visible: style.least_visible,
-        rounds: (style.rounds > 0).then_some(style.rounds),
-        speck_area: style.speck_area,
-        thin_speck_area: style.thin_speck_area,
-        thinness: style.thinness,
-        smooth_places: true,
-        smooth_radius: style.smooth_radius,
-        smooth_sigma: style.smooth_sigma,
-        smooth_passes: style.smooth_passes,
-        fit_radius: style.fit_radius,
-        direction_radius: style.direction_radius,
-        direction_sigma: style.direction_sigma,
-        least_cos: style.least_cos,
-        vote_radius: style.vote_radius,
-        vote_margin: style.vote_margin,
-        short: style.short,
-    }
-}
-
 /// How lines are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LineMethod {
@@ -184,7 +159,7 @@ impl LineOptions {
             kinds: KindSet::of_style(style),
             crease: style.line.crease_angle_deg.to_radians(),
             split: Self::split_at(style.line.split_angle_deg),
-            potrace: path_of(&style.line.potrace),
+            potrace: style.line.potrace.path(),
             ..Self::new(size)
         }
     }
@@ -192,15 +167,5 @@ impl LineOptions {
     /// What [`LineOptions::split`] is for an angle in degrees: no line turns by more than 180, which stands for never.
     pub fn split_at(angle_deg: f32) -> Option<f32> {
         (angle_deg < 180.0).then(|| angle_deg.to_radians())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn constants_of_styles_are_those_of_the_path() {
-        assert_eq!(path_of(&Potrace::default()), PublishedPath::default());
     }
 }

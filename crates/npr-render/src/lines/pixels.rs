@@ -1,5 +1,6 @@
 //! Lines from a picture of them, as published.
 
+use super::finder::Finder;
 use super::paint::Paint;
 use super::{LineModel, LineOptions, LineView};
 use crate::error::RenderError;
@@ -7,9 +8,8 @@ use npr_core::budget::Budget;
 use npr_core::window::View;
 use npr_vector::draw::{LineSettings, Prepared, StrokeLook, eye_of, strokes_with};
 use npr_vector::pixel_contour::segment::PixelView;
-use npr_vector::pixel_contour::{
-    BYTES_PER_PIXEL, PixelScene, PublishedPath, Traced, scene_depths, trace,
-};
+use npr_vector::pixel_contour::stroke::Loops;
+use npr_vector::pixel_contour::{BYTES_PER_PIXEL, PixelScene, PublishedPath, Traced};
 use npr_vector::puff::{Puffs, SmokeLines};
 use npr_vector::stroke::Stroke;
 
@@ -20,13 +20,12 @@ impl LineModel {
         prepared: &Prepared,
         view: &LineView<'_>,
         options: &LineOptions,
-        (settings, paint): (&LineSettings, &Paint),
-        look: &StrokeLook<'_>,
+        (settings, paint, look): (&LineSettings, &Paint, &StrokeLook<'_>),
+        find: &mut dyn Finder,
     ) -> Result<Vec<Stroke>, RenderError> {
-        let path = path_of(options);
-        let traced = self.traced(view, options, &path, paint)?;
+        let (traced, loops) = self.traced(view, options, paint, find)?;
         let (shape, projector) = (&self.shape, view.projector);
-        let mut strokes = traced.strokes(shape, projector, &path, options.split, look);
+        let mut strokes = traced.strokes(shape, projector, &loops, options.split, look);
         if let Some(smoke) = view.smoke {
             let contours = view.contours;
             let all = strokes_with(
@@ -46,14 +45,14 @@ impl LineModel {
         Ok(strokes)
     }
 
-    /// Draws the lines of a view into a picture and ranks the sides of its pixels.
+    /// Draws the lines of a view into a picture, ranks the sides of its pixels and cuts their loops.
     fn traced(
         &self,
         view: &LineView<'_>,
         options: &LineOptions,
-        path: &PublishedPath,
         paint: &Paint,
-    ) -> Result<Traced, RenderError> {
+        find: &mut dyn Finder,
+    ) -> Result<(Traced, Loops), RenderError> {
         let [width, height] = options.size.map(|side| side as usize);
         let mut budget = Budget::new(self.memory_limit);
         budget.take(
@@ -62,10 +61,7 @@ impl LineModel {
             BYTES_PER_PIXEL as usize,
         )?;
         let of_frame = view.camera.view(options.size, view.bounds);
-        let mut depths = scene_depths(&self.shape, &of_frame);
-        if let Some(smoke) = view.smoke {
-            lay_smoke(&mut depths, &of_frame, smoke);
-        }
+        let veil = view.smoke.and_then(|smoke| veil_of(&of_frame, smoke));
         let scene = PixelScene {
             shape: &self.shape,
             view: &of_frame,
@@ -74,7 +70,7 @@ impl LineModel {
             crease_cos: npr_core::math::cos(options.crease),
             is_drawn: &paint.lined_surfaces(),
         };
-        Ok(trace(&scene, path, &depths)?)
+        find.pixels(&scene, &path_of(options), veil.as_deref())
     }
 }
 
@@ -86,21 +82,18 @@ fn path_of(options: &LineOptions) -> PublishedPath {
     }
 }
 
-/// Brings depths nearer where dense smoke stands before the scene.
-fn lay_smoke(depths: &mut [f32], view: &View, smoke: &SmokeLines<'_>) {
+/// Reversed depths of dense smoke, 0 where there is none; nothing where no smoke hides lines.
+fn veil_of(view: &View, smoke: &SmokeLines<'_>) -> Option<Vec<f32>> {
     let puffs: &Puffs = smoke.puffs;
     if !smoke.is_dense || puffs.is_empty() {
-        return;
+        return None;
     }
     let of_pixels = PixelView::new(view);
-    let width = of_pixels.size[0] as usize;
-    let rows = depths.chunks_mut(width.max(1)).enumerate();
-    for (y, row) in rows {
-        for (x, z) in row.iter_mut().enumerate() {
-            let place = [x as f64 + 0.5, y as f64 + 0.5];
-            if let Some(depth) = puffs.depth_at(place) {
-                *z = z.max(of_pixels.z_of(depth as f32).clamp(0.0, 1.0));
-            }
-        }
-    }
+    let [width, height] = of_pixels.size;
+    let depth_at = |pixel: u32| {
+        let place = [pixel % width, pixel / width].map(|at| f64::from(at) + 0.5);
+        let depth = puffs.depth_at(place);
+        depth.map_or(0.0, |depth| of_pixels.z_of(depth as f32).clamp(0.0, 1.0))
+    };
+    Some((0..width * height).map(depth_at).collect())
 }

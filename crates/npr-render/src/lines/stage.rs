@@ -1,27 +1,32 @@
 //! A line model on an engine.
 
+use super::finder::{Finder, OnDevice, OnProcessor};
 use super::{LineModel, LineOptions};
 use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::model::Model;
-use crate::stage::{Stage, StageOptions};
+use crate::smoke::Smoke;
+use crate::stage::{Picture, Stage, StageOptions};
 use npr_core::camera::Camera;
-use npr_gpu::curves::ResidentShape;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_style::Style;
 use npr_vector::stroke::Drawing;
+use std::collections::BTreeMap;
 
 /// A line model on an engine: what a device finds of its lines is found there, the rest on the processor.
 ///
-/// A device decides which faces are turned to the eye, marks contours along edges and links them; their shape stays in its memory
-/// from view to view. Visibility, smooth contours, features and strokes are the processor's. Every engine gives
-/// the drawing of [`LineModel::draw`], bit for bit; only colours that mind a backdrop may differ as far as pictures do.
+/// A device decides which faces are turned to the eye, marks contours along edges and links them; or draws surfaces and lines into a
+/// picture, links the sides of its pixels, ranks and filters their loops and cuts them to strips. The shape stays in its memory
+/// from view to view. Exact visibility, smooth contours, features and strokes are the processor's.
+///
+/// Every engine gives the drawing of [`LineModel::draw`] bit for bit, but for [`LineMethod::Potrace`](super::LineMethod): there a
+/// device draws the depths that hide lines, and smooths, within rounding; and colours that mind a backdrop may differ as far as pictures do.
 pub struct LineStage<'a> {
     engine: &'a dyn Engine,
     model: &'a LineModel,
     backdrop: Option<Backdrop<'a>>,
-    /// The shape on a device; nothing on the processor, where the plain functions are faster than their passes.
-    resident: Option<ResidentShape<'a>>,
+    /// The plain functions on the processor, where they are faster than their passes.
+    finder: Box<dyn Finder + 'a>,
 }
 
 /// What the picture behind lines is made from.
@@ -31,21 +36,18 @@ struct Backdrop<'a> {
 }
 
 impl<'a> LineStage<'a> {
-    /// Hands the model's shape to an engine.
-    ///
-    /// # Errors
-    ///
-    /// [`RenderError::Engine`] where a device fails, or has no room for the shape: beyond 2.7 million triangles none has.
-    pub fn new(engine: &'a dyn Engine, model: &'a LineModel) -> Result<Self, RenderError> {
-        let on_device = !engine.runs_twins();
-        let resident = on_device.then(|| ResidentShape::new(engine, model.shape()));
-        let resident = resident.transpose()?;
-        Ok(Self {
+    /// Takes a model; its shape is handed to a device with the first view that needs it.
+    pub fn new(engine: &'a dyn Engine, model: &'a LineModel) -> Self {
+        let shape = model.shape();
+        Self {
             engine,
             model,
             backdrop: None,
-            resident,
-        })
+            finder: match engine.runs_twins() {
+                true => Box::new(OnProcessor(shape)),
+                false => Box::new(OnDevice::new(engine, shape)),
+            },
+        }
     }
 
     /// The same, with the scene and the pictures that lines are judged before, where the style lets them mind it
@@ -63,8 +65,8 @@ impl<'a> LineStage<'a> {
     ///
     /// # Errors
     ///
-    /// Those of [`LineModel::draw`], and [`RenderError::Engine`] where the device fails; those of [`Stage::new`] for a
-    /// picture behind.
+    /// Those of [`LineModel::draw`], and [`RenderError::Engine`] where the device fails or has no room for the shape: beyond
+    /// 2.7 million triangles none has; those of [`Stage::new`] for a picture behind.
     pub fn draw(
         &mut self,
         camera: &Camera,
@@ -72,13 +74,24 @@ impl<'a> LineStage<'a> {
         options: &LineOptions,
     ) -> Result<Drawing, RenderError> {
         let behind = self.picture(camera, style, options)?;
-        let (model, behind) = (self.model, behind.as_ref());
-        match &mut self.resident {
-            Some(shape) => {
-                model.draw_with(camera, style, options, behind, |eye| shape.contours(eye))
-            }
-            None => model.draw_before(camera, style, options, behind),
-        }
+        self.finder.start_view();
+        let find = self.finder.as_mut();
+        self.model
+            .draw_with(camera, style, options, behind.as_ref(), find)
+    }
+
+    /// The lines of the parts whose method of the style is `of_parts`, as far as `smoke` does not hide them.
+    pub(crate) fn draw_curves(
+        &mut self,
+        camera: &Camera,
+        of_style: (&Style, npr_style::LineMethod),
+        options: &LineOptions,
+        beside: (Option<&Smoke>, &BTreeMap<String, Picture>),
+    ) -> Result<Drawing, RenderError> {
+        self.finder.start_view();
+        let find = self.finder.as_mut();
+        self.model
+            .draw_curves(camera, of_style, options, beside, find)
     }
 
     /// What lies behind the lines, where any mind it.
@@ -108,6 +121,6 @@ impl<'a> LineStage<'a> {
 
     /// How long each pass of the last view took; none on the processor.
     pub fn times(&self) -> &[PassTime] {
-        self.resident.as_ref().map_or(&[], ResidentShape::times)
+        self.finder.times()
     }
 }

@@ -57,7 +57,7 @@ fn drawn(
         background_image: Some(two_colors(split)),
         ..StageOptions::new(SIZE)
     };
-    let stage = LineStage::new(&Processor, &lines).expect("the processor");
+    let stage = LineStage::new(&Processor, &lines);
     let mut stage = stage.with_backdrop(&model, &behind);
     stage.draw(&camera_at(eye), style, options).expect("drawn")
 }

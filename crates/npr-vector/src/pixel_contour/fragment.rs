@@ -93,9 +93,15 @@ fn fragment_of(view: &PixelView, segment: &Segment, step: u32) -> Fragment {
 
 /// Whether each fragment shows: the soft test against the depths of the pixels around it.
 ///
-/// `scene` holds the reversed depth of every pixel, 0 where there is nothing. A pixel shows a fragment that lies at most the
-/// view's tolerance behind it; `least_visible` of those within the picture have to.
-pub fn test_fragments(view: &PixelView, scene: &[f32], fragments: &[Fragment], shown: &mut [u32]) {
+/// `scene` holds the reversed depth of every pixel, 0 where there is nothing, of surfaces and of a veil before them; of a veil that
+/// has not as many pixels there is none. A pixel shows a fragment that lies at most the view's tolerance behind it;
+/// `least_visible` of those within the picture have to.
+pub fn test_fragments(
+    view: &PixelView,
+    scene: [&[f32]; 2],
+    fragments: &[Fragment],
+    shown: &mut [u32],
+) {
     let outputs = shown.par_iter_mut().with_min_len(1024).zip(fragments);
     outputs.for_each(|(shown, fragment)| {
         *shown = 0;
@@ -107,14 +113,20 @@ pub fn test_fragments(view: &PixelView, scene: &[f32], fragments: &[Fragment], s
 }
 
 /// How many of the nine pixels around a fragment show it.
-fn showing_pixels(view: &PixelView, scene: &[f32], fragment: &Fragment) -> u32 {
+fn showing_pixels(view: &PixelView, [surfaces, veil]: [&[f32]; 2], fragment: &Fragment) -> u32 {
     let [width, height] = view.size;
+    let is_veiled = veil.len() == surfaces.len();
     let (column, row) = (fragment.pixel % width, fragment.pixel / width);
     let depth = view.depth_of(fragment.z);
     let mut count = 0;
     for y in row.max(1) - 1..(row + 2).min(height) {
         for x in column.max(1) - 1..(column + 2).min(width) {
-            let z = scene[(y * width + x) as usize];
+            let at = (y * width + x) as usize;
+            let z = if is_veiled {
+                surfaces[at].max(veil[at])
+            } else {
+                surfaces[at]
+            };
             let is_free = z <= 0.0 || depth <= view.depth_of(z) + view.tolerance;
             count += u32::from(is_free);
         }

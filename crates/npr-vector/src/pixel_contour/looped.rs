@@ -8,6 +8,7 @@ use super::segment::Segment;
 use crate::rank::place::Standing;
 use bytemuck::{Pod, Zeroable};
 use npr_core::gpu_layout;
+use npr_core::published_path::PublishedPath;
 use rayon::prelude::*;
 
 /// Where a side is in the list of all loops.
@@ -167,6 +168,18 @@ gpu_layout!(SpeckRule {
     unused
 });
 
+impl SpeckRule {
+    /// The rule of a path.
+    pub fn of(path: &PublishedPath) -> Self {
+        Self {
+            area: path.speck_area,
+            thin_area: path.thin_speck_area,
+            thinness: path.thinness,
+            unused: 0,
+        }
+    }
+}
+
 /// Marks the sides of all loops that are no specks with 1, others with 0.
 ///
 /// `sums` is the scan of `areas`, so the area of a loop is a difference.
@@ -207,6 +220,42 @@ gpu_layout!(Filter {
     unit,
     unused
 });
+
+impl Filter {
+    fn new(radius: u32, is_unit: bool) -> Self {
+        Self {
+            radius,
+            unit: u32::from(is_unit),
+            ..Self::default()
+        }
+    }
+
+    /// How a path smooths places, and the weights.
+    pub fn of_places(path: &PublishedPath) -> (Self, Vec<f32>) {
+        let radius = path.smooth_radius;
+        let weights = gaussian(radius, path.smooth_sigma);
+        (Self::new(radius, false), weights)
+    }
+
+    /// What a path fits tangents to, and the weights.
+    pub fn of_fit(path: &PublishedPath) -> (Self, Vec<f32>) {
+        (Self::new(path.fit_radius, false), tent(path.fit_radius))
+    }
+
+    /// How a path smooths tangents, and the weights.
+    pub fn of_tangents(path: &PublishedPath) -> (Self, Vec<f32>) {
+        let radius = path.tangent_radius;
+        let weights = gaussian(radius, path.tangent_sigma);
+        (Self::new(radius, true), weights)
+    }
+
+    /// How a path takes means of the directions of contours, and the weights.
+    pub fn of_directions(path: &PublishedPath) -> (Self, Vec<f32>) {
+        let radius = path.direction_radius;
+        let weights = gaussian(radius, path.direction_sigma);
+        (Self::new(radius, true), weights)
+    }
+}
 
 /// Weights of a Gaussian of `sigma` sides from 0 to `radius`, which add up to 1 over both sides.
 pub fn gaussian(radius: u32, sigma: f32) -> Vec<f32> {

@@ -9,6 +9,7 @@ use crate::rank::scan::{compact, exclusive_scan};
 use bytemuck::{Pod, Zeroable};
 use npr_core::geometry::NONE;
 use npr_core::gpu_layout;
+use npr_core::published_path::PublishedPath;
 use rayon::prelude::*;
 
 /// Which sides make strokes.
@@ -30,6 +31,18 @@ gpu_layout!(CullRule {
     vote_margin,
     short
 });
+
+impl CullRule {
+    /// The rule of a path.
+    pub fn of(path: &PublishedPath) -> Self {
+        Self {
+            least_cos: path.least_cos,
+            vote_radius: path.vote_radius,
+            vote_margin: path.vote_margin,
+            short: path.short,
+        }
+    }
+}
 
 /// Keeps the sides along which a loop runs as the contour does, of loops that are kept.
 ///

@@ -3,10 +3,10 @@
 use super::edge::DrawnEdge;
 use super::looped::{
     Filter, Gathered, Ordered, Planar, SpeckRule, Spot, drop_specks, fit_tangents, gather_sides,
-    gaussian, smooth_loops, tent,
+    smooth_loops,
 };
 use super::segment::Segment;
-use super::strip::{CullRule, Strips, cull_sides, drop_short, strips, vote_sides};
+use super::strip::{CullRule, StripSpot, Strips, cull_sides, drop_short, strips, vote_sides};
 use super::{PublishedPath, Traced};
 use crate::corner::split;
 use crate::draw::{StrokeLook, strokes_of};
@@ -35,38 +35,6 @@ pub struct Loops {
     pub kept: Vec<u32>,
     /// The strokes.
     pub strips: Strips,
-}
-
-impl PublishedPath {
-    /// The filter of places, or of tangents.
-    pub fn smoothing(&self, unit: bool) -> (Filter, Vec<f32>) {
-        let filter = Filter {
-            radius: self.smooth_radius,
-            unit: u32::from(unit),
-            ..Filter::default()
-        };
-        (filter, gaussian(self.smooth_radius, self.smooth_sigma))
-    }
-
-    /// What is a speck.
-    pub fn speck_rule(&self) -> SpeckRule {
-        SpeckRule {
-            area: self.speck_area,
-            thin_area: self.thin_speck_area,
-            thinness: self.thinness,
-            unused: 0,
-        }
-    }
-
-    /// What becomes strokes.
-    pub fn cull_rule(&self) -> CullRule {
-        CullRule {
-            least_cos: self.least_cos,
-            vote_radius: self.vote_radius,
-            vote_margin: self.vote_margin,
-            short: self.short,
-        }
-    }
 }
 
 impl Loops {
@@ -100,7 +68,7 @@ impl Loops {
         gather_sides(&on, into);
         let (sums, _) = exclusive_scan(&areas);
         drop_specks(
-            &path.speck_rule(),
+            &SpeckRule::of(path),
             &loops.spots,
             &areas,
             &sums,
@@ -114,40 +82,31 @@ impl Loops {
     /// Smooths places, fits tangents, smooths these, and takes means of directions.
     fn smooth(&mut self, path: &PublishedPath) {
         let spots = &self.spots;
-        let smoothed = |filter: &Filter, weights: &[f32], from: &[Planar]| {
+        let smoothed = |(filter, weights): &(Filter, Vec<f32>), from: &[Planar]| {
             let mut to = vec![Planar::default(); from.len()];
             smooth_loops(filter, weights, spots, from, &mut to);
             to
         };
-        let (filter, weights) = path.smoothing(false);
+        let of_places = Filter::of_places(path);
         let raw = self.places.clone();
         for _ in 0..path.smooth_passes {
-            self.places = smoothed(&filter, &weights, &self.places);
+            self.places = smoothed(&of_places, &self.places);
         }
-        let fit = Filter {
-            radius: path.fit_radius,
-            ..Filter::default()
-        };
-        let tent = tent(path.fit_radius);
+        let (fit, tent) = Filter::of_fit(path);
         fit_tangents(&fit, &tent, spots, &self.places, &mut self.tangents);
         if !path.smooth_places {
             self.places = raw;
         }
-        let (unit_filter, weights) = path.smoothing(true);
-        for _ in 0..path.smooth_passes {
-            self.tangents = smoothed(&unit_filter, &weights, &self.tangents);
+        let of_tangents = Filter::of_tangents(path);
+        for _ in 0..path.tangent_passes {
+            self.tangents = smoothed(&of_tangents, &self.tangents);
         }
-        let mean = Filter {
-            radius: path.direction_radius,
-            ..unit_filter
-        };
-        let weights = gaussian(path.direction_radius, path.direction_sigma);
-        self.directions = smoothed(&mean, &weights, &self.directions);
+        self.directions = smoothed(&Filter::of_directions(path), &self.directions);
     }
 
     /// Culls sides and cuts what is left to strips; short ones are dropped, then all is cut anew.
     fn cut(&mut self, path: &PublishedPath) {
-        let rule = path.cull_rule();
+        let rule = CullRule::of(path);
         let mut culled = vec![0; self.kept.len()];
         cull_sides(
             &rule,
@@ -164,12 +123,14 @@ impl Loops {
 
     /// The sides of every strip, and whether it is a whole loop; strips by the place of their first side.
     pub fn strips(&self) -> impl Iterator<Item = (Vec<u32>, bool)> + '_ {
-        let starts = (0..).zip(&self.strips.lengths).filter(|(_, n)| **n > 0);
-        starts.map(|(start, length): (u32, &u32)| {
+        let sides = (0..).zip(&self.strips.spots);
+        let starts = sides.filter(|(side, spot): &(u32, &StripSpot)| spot.start == *side);
+        starts.map(|(start, _)| {
             let spot = self.spots[start as usize];
+            let length = self.strips.lengths[start as usize];
             let after = |at: &u32| Some(spot.after(*at));
-            let sides = std::iter::successors(Some(start), after).take(*length as usize);
-            let is_whole = *length == spot.length;
+            let sides = std::iter::successors(Some(start), after).take(length as usize);
+            let is_whole = length == spot.length;
             let is_cut = self.kept[spot.before(start) as usize] == 0;
             (sides.collect(), is_whole && !is_cut)
         })
@@ -183,11 +144,11 @@ impl Traced {
         &self,
         shape: &Shape,
         projector: &Projector,
-        path: &PublishedPath,
+        loops: &Loops,
         split_at: Option<f32>,
         look: &StrokeLook<'_>,
     ) -> Vec<Stroke> {
-        let mut runs = self.runs(shape, projector, &Loops::new(self, path));
+        let mut runs = self.runs(shape, projector, loops);
         if let Some(least_turn) = split_at {
             runs = split(runs, least_turn);
         }

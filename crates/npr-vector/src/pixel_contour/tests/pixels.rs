@@ -177,11 +177,14 @@ proptest! {
 
     #[test]
     fn fragments_show_where_enough_pixels_do(
-        scene in prop::collection::vec(prop_oneof![Just(0.0f32), 0.05..1.0f32], 30), pixel in 0u32..30, z in 0.05..1.0f32, least in 0u32..10,
+        surfaces in prop::collection::vec(prop_oneof![Just(0.0f32), 0.05..1.0f32], 30), veil in prop::collection::vec(0.0..1.0f32, 30),
+        is_veiled: bool, pixel in 0u32..30, z in 0.05..1.0f32, least in 0u32..10,
     ) {
         let view = PixelView { size: [6, 5], least_visible: least, ..view([6, 5], 2.0) };
         let mut shown = [7];
-        test_fragments(&view, &scene, &[Fragment { pixel, z, segment: 0 }], &mut shown);
+        let veil = if is_veiled { veil } else { vec![0.0] };
+        test_fragments(&view, [&surfaces, &veil], &[Fragment { pixel, z, segment: 0 }], &mut shown);
+        let scene: Vec<f32> = (0..30).map(|i| surfaces[i].max(if is_veiled { veil[i] } else { 0.0 })).collect();
         let [x, y] = [pixel % 6, pixel / 6].map(i64::from);
         let mut count = 0;
         for (i, scene) in (0i64..).zip(&scene) {

@@ -3,6 +3,7 @@
 use crate::draw::StrokeLook;
 use crate::draw::eye_of;
 use crate::graph::CurveNode;
+use crate::pixel_contour::stroke::Loops;
 use crate::pixel_contour::{PixelScene, PublishedPath, scene_depths, trace};
 use crate::project::Projector;
 use crate::stroke::{Kind, Stroke};
@@ -43,7 +44,8 @@ fn strokes(shape: &Shape, camera: &Camera, size: [u32; 2], path: &PublishedPath)
         width_at: &|_| 2.0,
         paint_at: None,
     };
-    traced.strokes(shape, &projector, path, None, &look)
+    let loops = Loops::new(&traced, path);
+    traced.strokes(shape, &projector, &loops, None, &look)
 }
 
 #[test]
@@ -152,6 +154,19 @@ fn every_constant_works() {
     let culls = [
         PublishedPath {
             fit_radius: 64,
+            ..usual
+        },
+        PublishedPath {
+            tangent_radius: 64,
+            tangent_sigma: 30.0,
+            ..usual
+        },
+        PublishedPath {
+            tangent_sigma: 1.0,
+            ..usual
+        },
+        PublishedPath {
+            tangent_passes: 16,
             ..usual
         },
         PublishedPath {

@@ -1,0 +1,265 @@
+//! A shape whose lines are drawn into pictures by an engine, from view to view.
+
+use super::CurvesError;
+use super::pixels::{
+    Hiding, PixelContours, PixelRoom, PixelStrips, add_pixel_contours, add_strips,
+};
+use super::ranking::{Scheme, read_rows};
+use crate::engine::{Engine, PassTime, Session};
+use crate::graph::{Graph, ResourceId};
+use bytemuck::Pod;
+use npr_core::shape::Shape;
+use npr_vector::pixel_contour::edge::drawn_edges;
+use npr_vector::pixel_contour::segment::PixelView;
+use npr_vector::pixel_contour::strip::Strips;
+use npr_vector::pixel_contour::stroke::Loops;
+use npr_vector::pixel_contour::{
+    PixelScene, PublishedPath, Traced, scene_depths, standings_of, trace,
+};
+
+/// What hides the lines of a view.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Hiders<'a> {
+    /// The shape's surfaces, whose depths the engine draws.
+    Surfaces,
+    /// These, and what stands before them: reversed depths of all pixels, 0 where there is nothing.
+    Veiled(&'a [f32]),
+    /// What lies at these reversed depths, and nothing else.
+    Given(&'a [f32]),
+}
+
+impl<'a> Hiders<'a> {
+    fn kind(self) -> Hiding {
+        match self {
+            Self::Surfaces => Hiding::Surfaces,
+            Self::Veiled(_) => Hiding::Veiled,
+            Self::Given(_) => Hiding::Given,
+        }
+    }
+
+    /// The depths that the host hands over.
+    fn given(self) -> &'a [f32] {
+        match self {
+            Self::Surfaces => &[],
+            Self::Veiled(depths) | Self::Given(depths) => depths,
+        }
+    }
+
+    /// All depths, found on the processor.
+    fn depths(self, on: &PixelScene<'_>) -> Vec<f32> {
+        match self {
+            Self::Given(depths) => depths.to_vec(),
+            Self::Surfaces => scene_depths(on.shape, on.view),
+            Self::Veiled(veil) => {
+                let mut depths = scene_depths(on.shape, on.view);
+                for (depth, veil) in depths.iter_mut().zip(veil) {
+                    *depth = depth.max(*veil);
+                }
+                depths
+            }
+        }
+    }
+}
+
+/// A shape in an engine's memory, for the published path of any number of views: from surfaces to strips without a stop.
+///
+/// What does not change is handed over once, a view in each drawing. A view with more edges, fragments or sides than any before makes
+/// room for the next power of two, and only then, or with another size of the picture or other numbers of filters, is the shape
+/// handed over again.
+pub struct ResidentPixels<'a> {
+    engine: &'a dyn Engine,
+    shape: &'a Shape,
+    room: PixelRoom,
+    made: Option<Made>,
+    times: Vec<PassTime>,
+}
+
+/// What a graph is made for.
+#[derive(Debug, Clone, PartialEq)]
+struct Plan {
+    size: [u32; 2],
+    hiding: Hiding,
+    path: PublishedPath,
+    room: PixelRoom,
+    crease_cos: f32,
+    is_drawn: Vec<bool>,
+}
+
+/// A graph in an engine's memory.
+struct Made {
+    plan: Plan,
+    session: Box<dyn Session>,
+    contours: PixelContours,
+    strips: PixelStrips,
+}
+
+impl<'a> ResidentPixels<'a> {
+    /// Takes a shape; nothing is handed over before the first view.
+    pub fn new(engine: &'a dyn Engine, shape: &'a Shape) -> Self {
+        Self {
+            engine,
+            shape,
+            room: PixelRoom::FIRST,
+            made: None,
+            times: Vec::new(),
+        }
+    }
+
+    /// The picture of a view's lines with the sides of its pixels in rows, and their loops cut to strips.
+    ///
+    /// The shape is this one's, whatever the scene says. Given the same depths, [`Traced`] is that of [`trace`], bit for bit; [`Loops`]
+    /// are those of [`Loops::new`] within rounding.
+    ///
+    /// # Errors
+    ///
+    /// [`CurvesError::Rank`] where the rounds of the path are too few, [`CurvesError::Engine`] where the engine fails or has no room.
+    pub fn draw(
+        &mut self,
+        on: &PixelScene<'_>,
+        path: &PublishedPath,
+        hiders: Hiders<'_>,
+    ) -> Result<(Traced, Loops), CurvesError> {
+        self.times.clear();
+        let on = &PixelScene {
+            shape: self.shape,
+            ..*on
+        };
+        let view = on.pixel_view(path);
+        let pixel_count = view.size[0] as usize * view.size[1] as usize;
+        if pixel_count == 0 || self.shape.faces.is_empty() {
+            let traced = trace(on, path, &hiders.depths(on))?;
+            let loops = Loops::new(&traced, path);
+            return Ok((traced, loops));
+        }
+        loop {
+            let made = self.prepared(on, path, hiders.kind())?;
+            let (session, contours) = (made.session.as_mut(), &made.contours);
+            contours.write_view(session, on, path, hiders.given())?;
+            made.strips.write(session, path)?;
+            let times = session.run()?;
+            let needed = contours.needed(session)?;
+            if made.plan.room.holds(needed) {
+                let found = made.found(view, needed);
+                self.times = times;
+                return found;
+            }
+            self.room = self.room.grown(needed);
+        }
+    }
+
+    /// How long each pass of the last view took.
+    pub fn times(&self) -> &[PassTime] {
+        &self.times
+    }
+
+    /// The graph for a view; the last one where it fits.
+    fn prepared(
+        &mut self,
+        on: &PixelScene<'_>,
+        path: &PublishedPath,
+        hiding: Hiding,
+    ) -> Result<&mut Made, CurvesError> {
+        let plan = Plan {
+            size: on.pixel_view(path).size,
+            hiding,
+            path: *path,
+            room: self.room,
+            crease_cos: on.crease_cos,
+            is_drawn: on.is_drawn.to_vec(),
+        };
+        let last = self.made.take().filter(|made| made.plan == plan);
+        let made = match last {
+            Some(made) => made,
+            None => Made::new(self.engine, self.shape, plan)?,
+        };
+        Ok(self.made.insert(made))
+    }
+}
+
+impl Made {
+    fn new(engine: &dyn Engine, shape: &Shape, plan: Plan) -> Result<Self, CurvesError> {
+        let mut graph = Graph::new();
+        let scheme = Scheme::Wyllie {
+            rounds: plan.path.rounds,
+        };
+        let picture = (plan.size, plan.hiding);
+        let contours = add_pixel_contours(&mut graph, shape, picture, plan.room, scheme);
+        let strips = add_strips(&mut graph, &contours, &plan.path);
+        let mut session = engine.prepare(graph)?;
+        let edges = drawn_edges(shape, plan.crease_cos, &plan.is_drawn);
+        contours.write_shape(session.as_mut(), shape, &edges)?;
+        Ok(Self {
+            plan,
+            session,
+            contours,
+            strips,
+        })
+    }
+
+    /// What a run found.
+    fn found(&mut self, view: PixelView, count: PixelRoom) -> Result<(Traced, Loops), CurvesError> {
+        let session = self.session.as_mut();
+        let (from, strips) = (&self.contours, &self.strips);
+        let ranked = read_rows(session, &from.lists, count.sides)?;
+        let traced = Traced {
+            size: view.size,
+            view,
+            segments: first(session, from.segments, count.segments)?,
+            owners: session.read(from.owners)?,
+            nearest: session.read(from.nearest)?,
+            sides: first(session, from.sides, count.sides)?,
+            standings: standings_of(&ranked),
+            order: ranked.order,
+        };
+        let loops = Loops {
+            spots: first(session, strips.spots, count.sides)?,
+            places: first(session, strips.places, count.sides)?,
+            tangents: first(session, strips.tangents, count.sides)?,
+            directions: first(session, strips.directions, count.sides)?,
+            kept: first(session, strips.kept, count.sides)?,
+            strips: Strips {
+                spots: first(session, strips.strips, count.sides)?,
+                lengths: first(session, strips.lengths, count.sides)?,
+            },
+        };
+        Ok((traced, loops))
+    }
+}
+
+/// The first elements of a buffer.
+fn first<T: Pod>(
+    session: &mut dyn Session,
+    id: ResourceId,
+    count: usize,
+) -> Result<Vec<T>, CurvesError> {
+    let mut words = session.read(id)?;
+    words.truncate(count * size_of::<T>() / 4);
+    Ok(bytemuck::cast_slice(&words).to_vec())
+}
+
+/// Draws the lines of a view into a picture on an engine: what [`trace`] gives, bit for bit.
+///
+/// The shape is handed over in every call, and again with more room where counts exceed it; [`ResidentPixels`] keeps it.
+///
+/// # Errors
+///
+/// [`CurvesError::Rank`] where the rounds of the path are too few, [`CurvesError::Engine`] where the engine fails.
+pub fn trace_on(
+    engine: &dyn Engine,
+    on: &PixelScene<'_>,
+    path: &PublishedPath,
+    depths: &[f32],
+) -> Result<Traced, CurvesError> {
+    let pixel_count: usize = on
+        .pixel_view(path)
+        .size
+        .iter()
+        .map(|side| *side as usize)
+        .product();
+    if depths.len() != pixel_count {
+        return Ok(trace(on, path, depths)?);
+    }
+    let (traced, _) =
+        ResidentPixels::new(engine, on.shape).draw(on, path, Hiders::Given(depths))?;
+    Ok(traced)
+}

@@ -1,0 +1,112 @@
+//! What finds the lines of a view, before they become strokes.
+
+use crate::error::RenderError;
+use npr_core::shape::Shape;
+use npr_gpu::curves::{Hiders, ResidentPixels, ResidentShape};
+use npr_gpu::engine::{Engine, PassTime};
+use npr_vector::contour::{EdgeContours, Eye};
+use npr_vector::pixel_contour::stroke::Loops;
+use npr_vector::pixel_contour::{PixelScene, PublishedPath, Traced, scene_depths, trace};
+
+/// Finds the lines of a shape.
+pub(crate) trait Finder {
+    /// Contours along mesh edges.
+    fn contours(&mut self, eye: &Eye) -> Result<EdgeContours, RenderError>;
+
+    /// All lines by a picture of them. What stands before the shape's own surfaces has the reversed depths of `veil`, where there is
+    /// any.
+    fn pixels(
+        &mut self,
+        on: &PixelScene<'_>,
+        path: &PublishedPath,
+        veil: Option<&[f32]>,
+    ) -> Result<(Traced, Loops), RenderError>;
+
+    /// Forgets the times of the last view.
+    fn start_view(&mut self) {}
+
+    /// How long passes took since the view was started; none where no passes run.
+    fn times(&self) -> &[PassTime] {
+        &[]
+    }
+}
+
+/// The plain functions.
+pub(crate) struct OnProcessor<'a>(pub(crate) &'a Shape);
+
+impl Finder for OnProcessor<'_> {
+    fn contours(&mut self, eye: &Eye) -> Result<EdgeContours, RenderError> {
+        Ok(EdgeContours::new(self.0, eye))
+    }
+
+    fn pixels(
+        &mut self,
+        on: &PixelScene<'_>,
+        path: &PublishedPath,
+        veil: Option<&[f32]>,
+    ) -> Result<(Traced, Loops), RenderError> {
+        let mut depths = scene_depths(on.shape, on.view);
+        for (depth, veil) in depths.iter_mut().zip(veil.unwrap_or_default()) {
+            *depth = depth.max(*veil);
+        }
+        let traced = trace(on, path, &depths)?;
+        let loops = Loops::new(&traced, path);
+        Ok((traced, loops))
+    }
+}
+
+/// Passes on a device, which keeps the shape from view to view.
+pub(crate) struct OnDevice<'a> {
+    engine: &'a dyn Engine,
+    shape: &'a Shape,
+    contours: Option<ResidentShape<'a>>,
+    pixels: Option<ResidentPixels<'a>>,
+    times: Vec<PassTime>,
+}
+
+impl<'a> OnDevice<'a> {
+    /// Hands nothing over before something is drawn.
+    pub(crate) fn new(engine: &'a dyn Engine, shape: &'a Shape) -> Self {
+        Self {
+            engine,
+            shape,
+            contours: None,
+            pixels: None,
+            times: Vec::new(),
+        }
+    }
+}
+
+impl Finder for OnDevice<'_> {
+    fn contours(&mut self, eye: &Eye) -> Result<EdgeContours, RenderError> {
+        let resident = match self.contours.take() {
+            Some(resident) => resident,
+            None => ResidentShape::new(self.engine, self.shape)?,
+        };
+        let resident = self.contours.insert(resident);
+        let found = resident.contours(eye)?;
+        self.times.extend_from_slice(resident.times());
+        Ok(found)
+    }
+
+    fn pixels(
+        &mut self,
+        on: &PixelScene<'_>,
+        path: &PublishedPath,
+        veil: Option<&[f32]>,
+    ) -> Result<(Traced, Loops), RenderError> {
+        let make = || ResidentPixels::new(self.engine, self.shape);
+        let resident = self.pixels.get_or_insert_with(make);
+        let found = resident.draw(on, path, veil.map_or(Hiders::Surfaces, Hiders::Veiled))?;
+        self.times.extend_from_slice(resident.times());
+        Ok(found)
+    }
+
+    fn start_view(&mut self) {
+        self.times.clear();
+    }
+
+    fn times(&self) -> &[PassTime] {
+        &self.times
+    }
+}
