@@ -28,9 +28,6 @@ use std::path::{Path, PathBuf};
 
 const SIZE: [u32; 2] = [480, 270];
 
-/// The size of frames drawn whole, which take long on a device in software.
-const FRAME: [u32; 2] = [192, 108];
-
 /// Models beside the checkout: one with holes, one with a skeleton.
 const MODELS: [&str; 2] = ["stanford_bunny.glb", "fox.glb"];
 
@@ -218,7 +215,7 @@ fn frames_draw_these_lines_on_the_device_too() {
     let lines = LineModel::for_style(&scene, &style, &LineModelOptions::default(), None).unwrap();
     let camera = cameras(&lines)[0];
     let drawn = |engine: &dyn Engine| {
-        let stage = Stage::new(engine, &model, &style, &StageOptions::new(FRAME)).unwrap();
+        let stage = Stage::new(engine, &model, &style, &StageOptions::new(SIZE)).unwrap();
         let mut stage = stage.with_lines(LineStage::new(engine, &lines));
         stage.draw(&camera).unwrap()
     };
@@ -226,7 +223,7 @@ fn frames_draw_these_lines_on_the_device_too() {
     let pixels = plain.rgba.chunks(4).zip(found.rgba.chunks(4));
     let is_off = |(a, b): &(&[u8], &[u8])| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 2);
     let off = pixels.filter(is_off).count();
-    assert!(off < 20, "{off} pixels differ");
+    assert!(off < 100, "{off} pixels differ");
     let is_ink = |pixel: &[u8]| pixel[0] < 128;
-    assert!(plain.rgba.chunks(4).filter(|pixel| is_ink(pixel)).count() > 200);
+    assert!(plain.rgba.chunks(4).filter(|pixel| is_ink(pixel)).count() > 500);
 }
