@@ -7,7 +7,6 @@ use npr_core::camera::{Camera, Projection};
 use npr_scene::{LoadOptions, Mesh, Node, Part, Scene, SceneError, load};
 
 use super::analytic::{Triangles, tube_mesh};
-use super::decimate::{decimated, smoothed};
 use super::soup::Soup;
 
 /// Frame of all measures.
@@ -69,37 +68,22 @@ impl LineSubject {
     ///
     /// Whatever loading says.
     pub fn load(path: &Path, unit: bool) -> Result<Self, SceneError> {
-        let name = path.file_stem().unwrap_or_default().to_string_lossy();
         let scene = load(path, &LoadOptions::default())?;
-        Ok(Self::of_scene(name.into_owned(), scene, unit))
-    }
-
-    fn of_scene(name: String, scene: Scene, unit: bool) -> Self {
         let soup = Soup::of_scene(&scene);
         let (middle, radius) = if unit {
             (DVec3::ZERO, 1.0)
         } else {
             soup.ball()
         };
-        Self {
-            name,
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        Ok(Self {
+            name: name.into_owned(),
             cameras: DIRECTIONS
                 .map(|direction| camera(middle, radius, direction))
                 .to_vec(),
             scene,
             soup,
-        }
-    }
-
-    /// The same with about `face_count` triangles, smoothed for some rounds before; see [`decimated`] and [`smoothed`].
-    pub fn decimated(&self, face_count: usize, rounds: usize) -> Self {
-        let mesh = decimated(&smoothed(&self.soup, rounds), face_count);
-        let count = mesh.1.len();
-        let name = match rounds {
-            0 => format!("{} of {count} triangles", self.name),
-            _ => format!("{}, noise smoothed, of {count} triangles", self.name),
-        };
-        Self::of_scene(name, scene_of(mesh), false)
+        })
     }
 }
 

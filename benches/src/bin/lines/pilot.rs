@@ -16,36 +16,29 @@ use crate::arguments::Arguments;
 use crate::way::{Way, ways};
 use std::path::PathBuf;
 
-/// How a model is brought to fewer triangles: how many, and rounds of smoothing before.
-type Fewer = Option<(usize, usize)>;
-
-/// Models like those of the pilot. Its bunny had 4968 triangles and none of the scan's noise.
-const MODELS: [(&str, Fewer); 7] = [
-    ("stanford_bunny.glb", Some((4968, 20))),
-    ("stanford_bunny.glb", Some((4968, 0))),
-    ("stanford_bunny.glb", None),
-    ("utah_teapot.glb", None),
-    ("spot_textured.glb", None),
-    ("fox.glb", None),
-    ("suzanne.glb", None),
+/// Models like those of the pilot.
+const MODELS: [&str; 5] = [
+    "stanford_bunny.glb",
+    "utah_teapot.glb",
+    "spot_textured.glb",
+    "fox.glb",
+    "suzanne.glb",
 ];
 
 /// The files to measure.
-fn subjects(arguments: &Arguments) -> Vec<(PathBuf, Fewer)> {
+fn subjects(arguments: &Arguments) -> Vec<PathBuf> {
     if let Some(file) = &arguments.model {
-        return vec![(file.clone(), None)];
+        return vec![file.clone()];
     }
     let folder = arguments.models.clone().unwrap_or_else(shared_models);
-    let is_wanted = |name: &str| {
+    let is_wanted = |name: &&str| {
         arguments
             .only
             .as_ref()
             .is_none_or(|part| name.contains(part))
     };
-    let wanted = MODELS.into_iter().filter(|(name, _)| is_wanted(name));
-    wanted
-        .map(|(name, fewer)| (folder.join(name), fewer))
-        .collect()
+    let wanted = MODELS.into_iter().filter(is_wanted);
+    wanted.map(|name| folder.join(name)).collect()
 }
 
 /// The published path with nothing taken for a speck, so that what despeckling costs shows.
@@ -86,11 +79,8 @@ pub fn pilot(arguments: &Arguments) -> Outcome<()> {
         "strokes",
         "contour px",
     ]);
-    for (path, fewer) in subjects(arguments) {
-        let whole = LineSubject::load(&path, false)?;
-        let subject = fewer.map_or(whole.clone(), |(count, rounds)| {
-            whole.decimated(count, rounds)
-        });
+    for path in subjects(arguments) {
+        let subject = LineSubject::load(&path, false)?;
         let model = LineModel::new(&subject.scene, &LineModelOptions::default())?;
         let cameras = pilot_cameras(&subject);
         let mut found = vec![Vec::new(); chosen.len()];
