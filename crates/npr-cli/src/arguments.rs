@@ -10,6 +10,7 @@ mod render;
 mod size;
 mod smoke;
 mod trace;
+mod trace_form;
 mod volume;
 
 pub use camera::CameraArguments;
@@ -23,7 +24,7 @@ pub use point::Point;
 pub use render::{LookArguments, RenderArguments};
 pub use size::Size;
 pub use smoke::SmokeArguments;
-pub use trace::{TraceArguments, TracedFormat};
+pub use trace::{TraceArguments, TracedForm, TracedFormat};
 pub use volume::{PlacedVolume, VolumeArguments, VolumeUp};
 
 use clap::{Args, Parser, Subcommand};

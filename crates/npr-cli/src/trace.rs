@@ -1,6 +1,6 @@
 //! `npr trace`: bitmaps as curves.
 
-use crate::arguments::{TraceArguments, TracedFormat};
+use crate::arguments::{TraceArguments, TracedForm, TracedFormat};
 use crate::fault::{Exit, Fault};
 use crate::input::{read_file, read_standard};
 use crate::job::{has_ending, output_path};
@@ -10,7 +10,9 @@ use crate::picture;
 use crate::progress::Progress;
 use crate::source::Source;
 use npr_scene::Limits;
-use npr_vector::trace::trace_to_file;
+use npr_vector::centreline::{centrelines, write_centrelines};
+use npr_vector::fill::mesh::FlatMesh;
+use npr_vector::trace::{Bitmap, trace as trace_bitmap, trace_to_file};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -60,11 +62,25 @@ fn draw(
             bitmap
         })
     })?;
-    let options = said.method.options();
-    let bytes = progress.step("trace", || {
-        trace_to_file(&bitmap, &options, job.format.format())
-    });
+    let bytes = progress.step("trace", || found(&bitmap, said, job.format.form()))?;
     progress.step("write", || job.output.write(&bytes))
+}
+
+/// What was found in a bitmap, as the bytes of a file.
+fn found(bitmap: &Bitmap, said: &TraceArguments, form: TracedForm) -> Result<Vec<u8>, Fault> {
+    let options = said.method.options();
+    match form {
+        TracedForm::Curves(format) if said.form.centreline => {
+            let options = said.form.centreline_options(&options);
+            Ok(write_centrelines(&centrelines(bitmap, &options), format))
+        }
+        TracedForm::Curves(format) => Ok(trace_to_file(bitmap, &options, format)),
+        TracedForm::Mesh(format) => {
+            let mesh = FlatMesh::of_tracing(&trace_bitmap(bitmap, &options));
+            let mesh = mesh.map_err(|error| Fault::new(Exit::Limit, error))?;
+            Ok(mesh.write(format))
+        }
+    }
 }
 
 /// What is to be done, one job a bitmap.
@@ -85,6 +101,10 @@ fn resolve(said: &TraceArguments) -> Result<Vec<TraceJob>, Fault> {
     for source in sources {
         let path = path_for(said, &source)?;
         let format = format_of(said.format, &path)?;
+        if said.form.centreline && matches!(format.form(), TracedForm::Mesh(_)) {
+            let message = "centre lines have no inside to fill: .obj and .glb hold filled shapes";
+            return Err(Fault::new(Exit::Usage, message));
+        }
         let output = Output::of(&path)?;
         output.refuse_any_of(&inputs)?;
         if !taken.insert(path.clone()) {
@@ -136,7 +156,7 @@ fn format_of(asked: Option<TracedFormat>, path: &Path) -> Result<TracedFormat, F
     let found = endings.find(|(_, ending)| has_ending(path, ending));
     found.map(|(format, _)| format).ok_or_else(|| {
         let message = format!(
-            "cannot write {}: bitmaps are traced to .svg, .pdf, .json or .geojson",
+            "cannot write {}: bitmaps are traced to .svg, .pdf, .json, .geojson, .obj or .glb",
             quoted(path)
         );
         Fault::new(Exit::Usage, message)

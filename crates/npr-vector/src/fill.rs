@@ -4,6 +4,7 @@
 //! and most of an area's surface decides its colour. Neighbouring regions share their points exactly, so no background shows between them.
 
 mod map;
+pub mod mesh;
 mod snap;
 #[cfg(test)]
 mod tests;

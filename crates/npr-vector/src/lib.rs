@@ -13,6 +13,7 @@
 pub mod adopt;
 pub mod artwork;
 pub mod bvh;
+pub mod centreline;
 mod clip;
 pub mod contour;
 pub mod corner;

@@ -1,7 +1,9 @@
 //! What the user said to `npr trace`.
 
 use super::LimitArguments;
+use super::trace_form::TraceFormArguments;
 use clap::{Args, ValueEnum};
+use npr_vector::fill::mesh::MeshFormat;
 use npr_vector::trace::{TraceFormat, TraceOptions, TurnPolicy};
 use std::path::PathBuf;
 
@@ -11,7 +13,7 @@ pub struct TraceArguments {
     /// Bitmaps: .png, .jpg, .webp, .pbm, .pgm, .ppm, .tif or .bmp, told by their content; - reads standard input.
     #[arg(required = true, value_name = "BITMAP")]
     pub bitmaps: Vec<PathBuf>,
-    /// File to write: .svg, .pdf, .json or .geojson; of several bitmaps the folder for their files; - writes to
+    /// File to write: .svg, .pdf, .json, .geojson, or filled shapes as triangles in .obj or .glb; of several bitmaps the folder for their files; - writes to
     /// standard output [default: the bitmap's name with .svg, in the current folder].
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
@@ -21,6 +23,9 @@ pub struct TraceArguments {
     /// How paths are found.
     #[command(flatten)]
     pub method: TraceMethodArguments,
+    /// What becomes of the ink.
+    #[command(flatten)]
+    pub form: TraceFormArguments,
     /// Show no progress and no warnings.
     #[arg(short, long)]
     pub quiet: bool,
@@ -79,26 +84,43 @@ pub enum TracedFormat {
     Json,
     /// Polygons, for maps and geometry libraries.
     Geojson,
+    /// Triangles.
+    Obj,
+    /// Triangles, as binary glTF.
+    Glb,
 }
 
 impl TracedFormat {
     /// All of them, with the ending of their files.
-    pub const ENDINGS: [(Self, &str); 4] = [
+    pub const ENDINGS: [(Self, &str); 6] = [
         (Self::Svg, "svg"),
         (Self::Pdf, "pdf"),
         (Self::Json, "json"),
         (Self::Geojson, "geojson"),
+        (Self::Obj, "obj"),
+        (Self::Glb, "glb"),
     ];
 
     /// The format of the library.
-    pub fn format(self) -> TraceFormat {
+    pub fn form(self) -> TracedForm {
         match self {
-            Self::Svg => TraceFormat::Svg,
-            Self::Pdf => TraceFormat::Pdf,
-            Self::Json => TraceFormat::Json,
-            Self::Geojson => TraceFormat::GeoJson,
+            Self::Svg => TracedForm::Curves(TraceFormat::Svg),
+            Self::Pdf => TracedForm::Curves(TraceFormat::Pdf),
+            Self::Json => TracedForm::Curves(TraceFormat::Json),
+            Self::Geojson => TracedForm::Curves(TraceFormat::GeoJson),
+            Self::Obj => TracedForm::Mesh(MeshFormat::Obj),
+            Self::Glb => TracedForm::Mesh(MeshFormat::Glb),
         }
     }
+}
+
+/// What a file of a traced bitmap holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TracedForm {
+    /// Curves.
+    Curves(TraceFormat),
+    /// Filled shapes as triangles.
+    Mesh(MeshFormat),
 }
 
 /// Which colour hangs together.

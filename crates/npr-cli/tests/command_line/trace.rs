@@ -199,3 +199,55 @@ fn broken_bitmaps_are_refused_and_leave_nothing() {
     assert_eq!(outcome.code, Some(5), "{}", outcome.stderr);
     assert_eq!(place.npr(&["trace", "missing.png"]).code, Some(1));
 }
+
+#[test]
+fn centre_lines_are_strokes() {
+    let place = Workplace::new();
+    // An L of two lines, one pixel wide.
+    let bar =
+        b"P1\n9 7\n000000000\n011111110\n010000000\n010000000\n010000000\n010000000\n000000000\n";
+    place.put("bar.pbm", bar);
+    for (format, wanted) in [
+        ("svg", "stroke-width="),
+        ("json", "\"strokes\""),
+        ("geojson", "LineString"),
+        ("pdf", "%PDF-"),
+    ] {
+        let outcome = place.npr(&[
+            "trace",
+            "bar.pbm",
+            "--centreline",
+            "-o",
+            "-",
+            "--format",
+            format,
+        ]);
+        outcome.assert_silent_success();
+        let text = String::from_utf8_lossy(&outcome.stdout).into_owned();
+        assert!(text.contains(wanted), "{format}: {text}");
+        if format == "svg" {
+            assert_eq!(paths(text.as_bytes()), 1, "{text}");
+        }
+    }
+    place
+        .npr(&["trace", "bar.pbm", "--spur", "1"])
+        .assert_fault(2, "entre");
+    place
+        .npr(&["trace", "bar.pbm", "--centreline", "-o", "bar.obj"])
+        .assert_fault(2, "entre");
+}
+
+#[test]
+fn filled_shapes_become_meshes_that_are_read_again() {
+    let place = Workplace::new();
+    place.put("ring.pbm", RING);
+    for name in ["ring.obj", "ring.glb"] {
+        place
+            .npr(&["trace", "ring.pbm", "-o", name])
+            .assert_silent_success();
+        let outcome = place.npr(&["info", name, "--json"]);
+        assert_eq!(outcome.code, Some(0), "{name}");
+        let data: serde_json::Value = serde_json::from_slice(&outcome.stdout).expect("JSON");
+        assert!(data.to_string().contains("triangle"), "{data}");
+    }
+}

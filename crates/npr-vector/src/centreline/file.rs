@@ -1,0 +1,80 @@
+//! Centre lines as files.
+
+use super::Centrelines;
+use crate::artwork::ArtworkOptions;
+use crate::fit::{FitOptions, fit};
+use crate::json::write_json;
+use crate::number::push_fixed;
+use crate::pdf::write_pdf;
+use crate::svg::write_svg;
+use crate::trace::TraceFormat;
+use kurbo::PathEl;
+use rayon::prelude::*;
+
+/// How far written curves may be from the smooth lines, in pixels.
+const TOLERANCE_PX: f64 = 0.1;
+
+/// How far the lines of GeoJSON files are from the curves, in pixels.
+const FLATNESS_PX: f64 = 0.05;
+
+/// Centre lines as the bytes of a file. Same lines, same bytes.
+///
+/// SVG and PDF hold stroked curves with the measured width, and the outline of the ink where it varies; JSON the points of
+/// [`write_json`]; GeoJSON is that of [`write_centreline_geojson`].
+pub fn write_centrelines(lines: &Centrelines, format: TraceFormat) -> Vec<u8> {
+    let options = ArtworkOptions {
+        tolerance_px: TOLERANCE_PX,
+        ..ArtworkOptions::default()
+    };
+    match format {
+        TraceFormat::Svg => write_svg(&lines.drawing(), &options),
+        TraceFormat::Pdf => write_pdf(&lines.drawing(), &options),
+        TraceFormat::Json => write_json(&lines.drawing()),
+        TraceFormat::GeoJson => write_centreline_geojson(lines),
+    }
+}
+
+/// A `LineString` for every stroke, with its mean width in pixels; y up from the lower edge. A closed one ends where it starts.
+pub fn write_centreline_geojson(lines: &Centrelines) -> Vec<u8> {
+    let height = f64::from(lines.size[1]);
+    let features: Vec<String> = lines
+        .strokes
+        .par_iter()
+        .map(|stroke| {
+            let places: Vec<[f64; 2]> = stroke.points.iter().map(|point| point.place).collect();
+            let options = FitOptions {
+                tolerance: TOLERANCE_PX,
+                ..FitOptions::default()
+            };
+            let widths: f64 = stroke.points.iter().map(|point| point.width).sum();
+            let mut text = "{\"type\":\"Feature\",\"properties\":{\"width\":".to_owned();
+            push_fixed(&mut text, widths / stroke.points.len().max(1) as f64, 3);
+            text += "},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[";
+            let mut comma = "";
+            let mut push = |[x, y]: [f64; 2]| {
+                text += std::mem::replace(&mut comma, ",");
+                text.push('[');
+                push_fixed(&mut text, x, 2);
+                text.push(',');
+                push_fixed(&mut text, height - y, 2);
+                text.push(']');
+            };
+            let mut start = None;
+            kurbo::flatten(
+                fit(&places, stroke.closed, &options),
+                FLATNESS_PX,
+                |element| match element {
+                    PathEl::MoveTo(p) | PathEl::LineTo(p) => {
+                        start.get_or_insert([p.x, p.y]);
+                        push([p.x, p.y]);
+                    }
+                    PathEl::ClosePath => start.into_iter().for_each(&mut push),
+                    _ => {}
+                },
+            );
+            text + "]}}"
+        })
+        .collect();
+    let head = "{\"type\":\"FeatureCollection\",\"features\":[\n";
+    format!("{head}{}\n]}}\n", features.join(",\n")).into_bytes()
+}

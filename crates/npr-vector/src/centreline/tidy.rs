@@ -1,0 +1,304 @@
+//! A network without what thinning adds to lines: spurs, hooks at ends, and junctions torn apart.
+
+use super::network::{Branch, Network};
+use glam::DVec2;
+use npr_core::geometry::NONE;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// How fast, per pixel, a line may swell from its end on: along the bisector of a square end's corner it swells by 0.71.
+const SWELL: f64 = 0.5;
+
+/// How far apart, in sums of their half widths, two junctions may be one: lines that cross by 30 degrees are torn apart by 1.4, by 15
+/// degrees by 3.3.
+const TORN: f64 = 3.5;
+
+/// Half the width, in pixels, from which lines are wide enough to be torn at any angle.
+const WIDE_PX: f64 = 1.2;
+
+/// How far apart, in sums of their half widths, junctions of wide lines are one in any case.
+const OVERLAP: f64 = 0.6;
+
+/// What is added to [`TORN`], in pixels: thin lines that cross at a small angle share some.
+const SHARED_PX: f64 = 4.0;
+
+/// Cosine of the angle to the bridge below which lines at a crossing leave it: 72 degrees. Those of a ladder leave at right angles.
+const AWAY: f64 = 0.3;
+
+/// Cosine of the most that a line may turn across a bridge: 40 degrees.
+const STRAIGHT: f64 = 0.766;
+
+impl Network {
+    /// The middle of a node.
+    pub fn middle(&self, node: u32) -> DVec2 {
+        let pixels = &self.nodes[node as usize].pixels;
+        let sum: DVec2 = pixels.iter().map(|pixel| self.place(*pixel)).sum();
+        sum / pixels.len().max(1) as f64
+    }
+
+    /// Half the width of the ink at a node, where it is widest.
+    pub fn radius(&self, node: u32) -> f64 {
+        let pixels = self.nodes[node as usize].pixels.iter();
+        let radii = pixels.map(|pixel| self.radii[*pixel as usize]);
+        radii.fold(0.0, f64::max)
+    }
+
+    /// How many branches end at a node.
+    pub fn degree(&self, node: u32) -> usize {
+        self.nodes[node as usize].branches.len()
+    }
+
+    /// Takes away branches that stick out of the disc around their junction by less than `spur` of its width, the shortest first, and
+    /// what hooks into the corners of square ends.
+    ///
+    /// A junction of which two branches are left becomes part of one branch. O(n log n) in branches.
+    pub fn cut_spurs(&mut self, spur: f64) {
+        let key = |reach: f64, branch: u32| Reverse((reach.max(0.0).to_bits(), branch));
+        let mut queue: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
+        for branch in 0..self.branches.len() as u32 {
+            queue.extend(self.spur(branch, spur).map(|reach| key(reach, branch)));
+        }
+        while let Some(Reverse((reach, branch))) = queue.pop() {
+            // What was joined since may no longer be a spur, or be another one.
+            if self
+                .spur(branch, spur)
+                .map(|reach| reach.max(0.0).to_bits())
+                != Some(reach)
+            {
+                continue;
+            }
+            let [a, b] = self.branches[branch as usize].ends;
+            self.remove(branch);
+            for node in [a, b] {
+                if let Some(joined) = self.dissolve(node) {
+                    queue.extend(self.spur(joined, spur).map(|reach| key(reach, joined)));
+                }
+            }
+        }
+        for branch in 0..self.branches.len() as u32 {
+            self.unhook(branch);
+        }
+    }
+
+    /// How far a branch sticks out of the disc around its junction, if it is a spur.
+    fn spur(&self, branch: u32, spur: f64) -> Option<f64> {
+        let Branch { ends, pixels } = &self.branches[branch as usize];
+        let (first, last) = (*pixels.first()?, *pixels.last()?);
+        if ends.contains(&NONE) {
+            return None;
+        }
+        let [a, b] = ends.map(|node| self.degree(node));
+        let (junction, root, tip) = match (a, b) {
+            (1, 3..) => (ends[1], last, first),
+            (3.., 1) => (ends[0], first, last),
+            _ => return None,
+        };
+        let disc = self.radius(junction);
+        let length = self.place(root).distance(self.place(tip));
+        let reach = length + self.radii[tip as usize] - disc;
+        // Of lines one and two pixels wide, nothing is rough.
+        (reach < spur * (2.0 * disc - 1.0)).then_some(reach)
+    }
+
+    fn remove(&mut self, branch: u32) {
+        for node in self.branches[branch as usize].ends {
+            if node != NONE {
+                self.nodes[node as usize].branches.retain(|b| *b != branch);
+            }
+        }
+        self.branches[branch as usize] = Branch {
+            ends: [NONE; 2],
+            pixels: Vec::new(),
+        };
+    }
+
+    /// Makes one branch of the two at a node; gives its number.
+    fn dissolve(&mut self, node: u32) -> Option<u32> {
+        let [a, b] = self.nodes[node as usize].branches[..] else {
+            return None;
+        };
+        self.nodes[node as usize].branches.clear();
+        if a == b {
+            let branch = &mut self.branches[a as usize];
+            branch.ends = [NONE; 2];
+            if branch.pixels.len() > 1 && branch.pixels.first() == branch.pixels.last() {
+                branch.pixels.pop();
+            }
+            return None;
+        }
+        let mut first = std::mem::take(&mut self.branches[a as usize]);
+        let mut second = std::mem::take(&mut self.branches[b as usize]);
+        self.branches[b as usize].ends = [NONE; 2];
+        if first.ends[0] == node {
+            first.turn();
+        }
+        if second.ends[1] == node {
+            second.turn();
+        }
+        let shared = first.pixels.last() == second.pixels.first();
+        first.pixels.extend(&second.pixels[usize::from(shared)..]);
+        let far = second.ends[1];
+        first.ends[1] = far;
+        for branch in &mut self.nodes[far as usize].branches {
+            if *branch == b {
+                *branch = a;
+            }
+        }
+        self.branches[a as usize] = first;
+        Some(a)
+    }
+
+    /// Takes free ends back to where the ink is widest, as long as it swells quickly towards there.
+    fn unhook(&mut self, branch: u32) {
+        for end in 0..2 {
+            let Branch { ends, pixels } = &self.branches[branch as usize];
+            let node = ends[end];
+            if node == NONE || self.degree(node) != 1 || pixels.len() < 2 {
+                continue;
+            }
+            let at = |k: usize| pixels[if end == 0 { k } else { pixels.len() - 1 - k }];
+            let (mut best, mut length) = ((self.radii[at(0) as usize], 0), 0.0);
+            for k in 1..pixels.len() {
+                length += self.place(at(k)).distance(self.place(at(k - 1)));
+                let gain = self.radii[at(k) as usize] - SWELL * length;
+                if gain > best.0 {
+                    best = (gain, k);
+                }
+                // Nothing further away can gain as much.
+                if length > 4.0 * (best.0 + 1.0) {
+                    break;
+                }
+            }
+            let tip = at(best.1);
+            let pixels = &mut self.branches[branch as usize].pixels;
+            if end == 0 {
+                pixels.drain(..best.1);
+            } else {
+                pixels.truncate(pixels.len() - best.1);
+            }
+            self.nodes[node as usize].pixels = vec![tip];
+        }
+    }
+
+    /// Makes one of junctions that thinning tore apart: where lines cross at an angle, their ink is one for a while.
+    ///
+    /// The bridge between them goes where two lines go straight on across it, or where the ink of both is the same. The shortest go
+    /// first, and no junction grows beyond what one crossing can span.
+    pub fn join_junctions(&mut self) {
+        // What was joined may be a crossing with what is beside it.
+        while self.join_round() {}
+    }
+
+    /// Joins what is torn now; whether there was anything.
+    fn join_round(&mut self) -> bool {
+        let mut bridges: Vec<(u64, u32)> = (0..self.branches.len() as u32)
+            .filter_map(|branch| Some((self.bridge(branch)?.to_bits(), branch)))
+            .collect();
+        bridges.sort_unstable();
+        for (_, branch) in &bridges {
+            if self.bridge(*branch).is_none() {
+                continue;
+            }
+            let [a, b] = self.branches[*branch as usize].ends;
+            self.remove(*branch);
+            let other = std::mem::take(&mut self.nodes[b as usize]);
+            for moved in &other.branches {
+                for end in &mut self.branches[*moved as usize].ends {
+                    if *end == b {
+                        *end = a;
+                    }
+                }
+            }
+            self.nodes[a as usize].branches.extend(other.branches);
+            self.nodes[a as usize].pixels.extend(other.pixels);
+        }
+        !bridges.is_empty()
+    }
+
+    /// The length of a branch between two junctions that are one.
+    fn bridge(&self, branch: u32) -> Option<f64> {
+        let Branch {
+            ends: [a, b],
+            pixels,
+        } = &self.branches[branch as usize];
+        if a == b || pixels.is_empty() || *a == NONE || *b == NONE {
+            return None;
+        }
+        if self.degree(*a) < 3 || self.degree(*b) < 3 {
+            return None;
+        }
+        // Farthest pixels of both, so that chains of junctions do not run together.
+        let [mut low, mut high] = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+        let nodes = [a, b].map(|node| &self.nodes[*node as usize].pixels);
+        for pixel in nodes.into_iter().flatten() {
+            let place = self.place(*pixel);
+            (low, high) = (low.min(place), high.max(place));
+        }
+        let [from, to] = [*a, *b].map(|node| self.middle(node));
+        let limit = TORN * (self.radius(*a) + self.radius(*b)) + SHARED_PX;
+        let is_short = from.distance(to) <= limit && low.distance(high) <= limit + 1.0;
+        let [a, b] = [*a, *b].map(|node| self.radius(node));
+        let is_one = a.min(b) >= WIDE_PX && from.distance(to) <= OVERLAP * (a + b);
+        (is_short && (is_one || self.is_crossing(branch))).then(|| from.distance(to))
+    }
+
+    /// Whether two lines cross along a branch: at either end two others lead away from it, and each goes on straight at the other end.
+    fn is_crossing(&self, branch: u32) -> bool {
+        let ends = self.branches[branch as usize].ends;
+        let [from, to] = ends.map(|node| self.middle(node));
+        let across = (to - from).normalize_or_zero();
+        let [before, after] = [(ends[0], -across), (ends[1], across)].map(|(node, away)| {
+            let mut found = Vec::new();
+            for other in &self.nodes[node as usize].branches {
+                if *other != branch {
+                    found.extend(self.direction(*other, node).filter(|d| d.dot(away) > AWAY));
+                }
+            }
+            found
+        });
+        let straight = |a: DVec2, b: DVec2| a.dot(b) < -STRAIGHT;
+        match (&before[..], &after[..]) {
+            ([a, b], [c, d]) => {
+                straight(*a, *c) && straight(*b, *d) || straight(*a, *d) && straight(*b, *c)
+            }
+            _ => false,
+        }
+    }
+
+    /// Where a branch leads from a node, over the first pixels beyond the junction's ink; none of a stub.
+    fn direction(&self, branch: u32, node: u32) -> Option<DVec2> {
+        let Branch { ends, pixels } = &self.branches[branch as usize];
+        let last = pixels.len() - 1;
+        // Arms of few pixels lead anywhere.
+        if last < if self.radius(node) < 1.0 { 5 } else { 2 } {
+            return None;
+        }
+        let skip = (self.radius(node).ceil() as usize).min(last / 2);
+        let far = (skip + (6.0 * self.radius(node)).clamp(5.0, 24.0) as usize).min(last);
+        let [near, far] = [skip, far].map(|k| {
+            let index = if ends[0] == node {
+                k
+            } else {
+                pixels.len() - 1 - k
+            };
+            self.place(pixels[index])
+        });
+        (far - near).try_normalize()
+    }
+
+    /// How far from a junction's middle lines still run into each other.
+    pub fn reach(&self, node: u32) -> f64 {
+        let middle = self.middle(node);
+        let pixels = self.nodes[node as usize].pixels.iter();
+        let spread = pixels.map(|pixel| self.place(*pixel).distance(middle));
+        spread.fold(0.0, f64::max) + self.radius(node)
+    }
+}
+
+impl Branch {
+    /// The same branch from its other end.
+    pub fn turn(&mut self) {
+        self.ends.reverse();
+        self.pixels.reverse();
+    }
+}
