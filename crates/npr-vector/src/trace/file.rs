@@ -47,7 +47,10 @@ pub fn write_tracing(tracing: &Tracing, format: TraceFormat) -> Vec<u8> {
 pub fn trace_to_file(bitmap: &Bitmap, options: &TraceOptions, format: TraceFormat) -> Vec<u8> {
     let height = f64::from(bitmap.height());
     let pieces = trace_map(bitmap, options, |_, segments| {
-        format.piece(&segments, height)
+        let mut piece = format.piece(&segments, height);
+        // Of a million specks the spare room would be the most.
+        piece.shrink_to_fit();
+        piece
     });
     format.assemble([bitmap.width(), bitmap.height()], pieces)
 }

@@ -11,21 +11,28 @@ use super::straight;
 ///
 /// O(n w) for n steps and at most w places that one corner can take.
 ///
-/// Differs: the polygon begins at the loop's start, as that of the program Potrace does. Another corner could save one side.
+/// Differs: sides of a loop of `n` steps span at most `2^30 / n` steps, or 64 if that is less, so that chequers, one loop of
+/// millions of steps and long diagonals, take seconds; loops in pictures of up to 4096 pixels a side are not concerned up to
+/// 100 000 steps. And the polygon begins at the loop's start, as that of the program Potrace does. Another corner could save one
+/// side.
 pub fn optimal_polygon(pixels: &PixelLoop<'_>) -> Vec<u32> {
     let mut search = Search::default();
     search.run(pixels.steps);
     search.polygon
 }
 
+/// Sides that may be weighed for a loop: its steps times the steps of its longest side.
+const SIDE_WORK: usize = 1 << 30;
+
+/// Steps that the longest side may always have.
+const LEAST_LONGEST: usize = 64;
+
 /// The search for polygons, with its memory kept from loop to loop.
 #[derive(Debug, Default)]
 pub(super) struct Search {
     /// What was found: corners of the polygon.
     pub polygon: Vec<u32>,
-    /// For every corner, how many steps from it are straight.
-    lengths: Vec<u32>,
-    /// For every corner, the furthest one that a side can lead to.
+    /// For every corner, the furthest one that a side can lead to; before that, how many steps from it are straight.
     reach: Vec<u32>,
     /// The first and the last corner that can be a polygon's k-th, of polygons with the fewest sides.
     layers: Vec<[u32; 2]>,
@@ -41,8 +48,7 @@ impl Search {
     pub fn run(&mut self, steps: &[u8]) {
         self.polygon.clear();
         let n = steps.len() as u32;
-        straight::measure(steps, &mut self.lengths);
-        self.find_reach(n);
+        self.find_reach(steps);
         self.find_layers(n);
         self.find_best(steps);
         // Walk back from the end, which is the start again.
@@ -54,15 +60,17 @@ impl Search {
         self.polygon.reverse();
     }
 
-    fn find_reach(&mut self, n: u32) {
+    fn find_reach(&mut self, steps: &[u8]) {
+        let n = steps.len() as u32;
+        let longest = (SIDE_WORK / steps.len().max(1)).max(LEAST_LONGEST) as u32;
+        straight::measure(steps, longest, &mut self.reach);
         let most = n.saturating_sub(3).max(1);
-        self.reach.clear();
-        let before = self.lengths.last().into_iter().chain(&self.lengths);
-        self.reach.extend(before.zip(0..n).map(|(length, corner)| {
-            // The straight stretch begins a step before the corner and ends a step after the other.
-            let side = length.saturating_sub(2).clamp(1, most);
-            (corner + side).min(n)
-        }));
+        // The straight stretch begins a step before the corner and ends a step after the other.
+        self.reach.rotate_right(usize::from(n > 0));
+        for (corner, reach) in (0..n).zip(&mut self.reach) {
+            let side = reach.saturating_sub(2).clamp(1, most);
+            *reach = (corner + side).min(n);
+        }
     }
 
     /// Finds where the k-th corner can lie: as far as k sides reach, but not so near that the rest becomes too long.

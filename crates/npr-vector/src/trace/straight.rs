@@ -19,12 +19,12 @@ const PIECE_STEPS: usize = 1 << 11;
 /// both ends of a run comes as near to all between.
 pub fn straight_lengths(steps: &[u8]) -> Vec<u32> {
     let mut lengths = Vec::new();
-    measure(steps, &mut lengths);
+    measure(steps, steps.len() as u32, &mut lengths);
     lengths
 }
 
-/// [`straight_lengths`] into a vector that is used again.
-pub(super) fn measure(steps: &[u8], lengths: &mut Vec<u32>) {
+/// [`straight_lengths`], of which none is more than `limit`, into a vector that is used again.
+pub(super) fn measure(steps: &[u8], limit: u32, lengths: &mut Vec<u32>) {
     let n = steps.len();
     lengths.clear();
     lengths.resize(n, 0);
@@ -36,7 +36,7 @@ pub(super) fn measure(steps: &[u8], lengths: &mut Vec<u32>) {
             (Some(first), Some(last)) if first.direction() == *last & 3 => first.length(),
             _ => 0,
         },
-        steps: n as u32,
+        limit: limit.min(n as u32),
     };
     whole.measure(0..runs.len(), lengths);
     // A stretch is straight only if all within it are: none ends after one that starts a step later. The last ones are
@@ -55,7 +55,8 @@ struct Path<'a> {
     runs: &'a [Run],
     /// Steps by which the last run goes on over the seam.
     seam: u32,
-    steps: u32,
+    /// Nothing longer is looked for.
+    limit: u32,
 }
 
 impl Path<'_> {
@@ -72,7 +73,7 @@ impl Path<'_> {
             );
             return;
         }
-        let mut most = self.steps;
+        let mut most = self.limit;
         let mut places = lengths.iter_mut().rev();
         for index in runs.rev() {
             let run = self.runs[index];
@@ -83,7 +84,8 @@ impl Path<'_> {
             };
             for (left, place) in (1..=run.length()).zip(&mut places) {
                 // No longer than from the step after, which saves looking further.
-                most = self.length_from(index, left + tail, usize::from(tail > 0), most + 1);
+                let most_here = self.limit.min(most + 1);
+                most = self.length_from(index, left + tail, usize::from(tail > 0), most_here);
                 *place = most;
             }
         }

@@ -108,6 +108,16 @@ proptest! {
     }
 
     #[test]
+    fn limited_lengths_are_cut_off(bitmap in bitmaps(), limit in 0u32..12) {
+        let mut limited = Vec::new();
+        for pixels in decompose(&bitmap, TurnPolicy::Minority, 0).iter().take(3) {
+            straight::measure(pixels.steps, limit, &mut limited);
+            let cut: Vec<_> = straight_lengths(pixels.steps).into_iter().map(|length| length.min(limit)).collect();
+            prop_assert_eq!(&limited, &cut);
+        }
+    }
+
+    #[test]
     fn polygons_are_the_best(bitmap in bitmaps()) {
         for pixels in decompose(&bitmap, TurnPolicy::Black, 0).iter().filter(|l| l.steps.len() < 60).take(3) {
             let corners: Vec<_> = pixels.corners().collect();
