@@ -48,6 +48,19 @@ impl TurnPolicy {
         }
     }
 
+    /// What it means, in a few words for users.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Black => "Ink",
+            Self::White => "White",
+            Self::Left => "Paths turn left",
+            Self::Right => "Paths turn right",
+            Self::Minority => "The rarer colour nearby",
+            Self::Majority => "The more frequent colour nearby",
+            Self::Random => "By chance, the same in every run",
+        }
+    }
+
     /// Whether the inside of a path hangs together at an ambiguous corner, so that the path turns right.
     ///
     /// `is_ink` tells whether the inside of the path is ink in the bitmap. `around` gives the pixels around the corner as they
