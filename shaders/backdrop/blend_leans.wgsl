@@ -1,7 +1,7 @@
 // backdrop.blend_leans: keeps what was decided for the frame that comes next, and blends it along the outline for this one.
 //
 // Where a stretch that turns brighter meets one that turns darker, the line passes slowly from
-// one to the other. Bounds stay; tiles of other subjects do not count, those before other walls less.
+// one to the other. Bounds stay; tiles of other subjects do not count, those before other walls or of other paint less.
 //
 // Twin    npr_style::backdrop::blend_leans
 //
@@ -41,12 +41,12 @@ fn blended_at(x: u32, y: u32, across: u32) -> Lean {
             let off = vec2<f32>(f32(column) - f32(x), f32(row) - f32(y));
             let near = exp((off.x * off.x + off.y * off.y) * falloff);
             let wall = 0.5 * ((there.low + there.high) - (here.low + here.high));
-            let weight = near * max(1.0 - abs(wall) / UNLIKE_WALLS, 0.0);
-            lean += there.lean * weight;
-            leaning += weight;
             let off_rim = abs(rim_of(here) - rim_of(there));
             let most = max(max(off_rim.r, off_rim.g), off_rim.b);
             let paint = near * max(1.0 - most / UNLIKE_RIMS, 0.0);
+            let weight = paint * max(1.0 - abs(wall) / UNLIKE_WALLS, 0.0);
+            lean += there.lean * weight;
+            leaning += weight;
             rim += rim_of(there) * paint;
             coloring += paint;
         }

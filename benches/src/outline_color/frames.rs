@@ -58,7 +58,8 @@ pub const METHODS: [Method; 4] = [
     Method {
         name: "ours",
         settings: &[
-            "line.color=black",
+            "line.paint.source=surface",
+            "line.paint.factor=0.6",
             "line.background.method=contrast",
             "line.background.start=rim",
             "line.background.factor=1",

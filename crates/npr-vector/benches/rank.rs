@@ -128,7 +128,9 @@ const PICTURES: [Pictures; 3] = [
         Picture::new(count, 0.5, |x, y| x % 4 < 2 && y % 4 < 2)
     }),
     ("random ink", |count| {
-        Picture::new(count, 1.0, |x, y| mix_bits(x ^ mix_bits(y)) % 2 == 0)
+        Picture::new(count, 1.0, |x, y| {
+            mix_bits(x ^ mix_bits(y)).is_multiple_of(2)
+        })
     }),
 ];
 

@@ -93,7 +93,7 @@ fn files(arguments: &Arguments) -> Vec<(PathBuf, bool)> {
     clippy::disallowed_methods,
     reason = "to look at once; half of one shows that it is half"
 )]
-fn write_picture(path: &Path, svg: &str) -> Outcome<()> {
+pub fn write_picture(path: &Path, svg: &str) -> Outcome<()> {
     Ok(std::fs::write(path, svg)?)
 }
 

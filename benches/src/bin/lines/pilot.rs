@@ -12,6 +12,7 @@ use npr_vector::pixel_contour::PublishedPath;
 use npr_vector::stroke::Kind;
 
 use crate::Outcome;
+use crate::agreement::write_picture;
 use crate::arguments::Arguments;
 use crate::way::{Way, ways};
 use std::path::PathBuf;
@@ -92,7 +93,7 @@ pub fn pilot(arguments: &Arguments) -> Outcome<()> {
                 if let Some(folder) = &arguments.pictures {
                     let file = format!("{}_{number}_{}.svg", subject.name, way.file_word());
                     std::fs::create_dir_all(folder)?;
-                    std::fs::write(folder.join(file), picture(&reference, &drawing))?;
+                    write_picture(&folder.join(file), &picture(&reference, &drawing))?;
                 }
                 found.push(measure(&drawing, &reference));
             }

@@ -405,7 +405,7 @@ fn held(before: &[Lean], here: &Lean, across: u32, [x, y]: [u32; 2]) -> Option<L
 /// Keeps leans for the next frame, and blends them along the outline for this one.
 ///
 /// Where a stretch that turns brighter meets one that turns darker, the line passes from one to the other over a length that the eye takes
-/// for shading. A Gaussian that ends at [`BLEND_TILES`]; bounds stay as they are, and tiles before another wall count less.
+/// for shading. A Gaussian that ends at [`BLEND_TILES`]; bounds stay as they are, and tiles before another wall or of other paint count less.
 /// O(tiles with rims * 289), parallel over rows of tiles.
 pub fn blend_leans(
     window: &Window,
@@ -439,10 +439,10 @@ fn blended_at(rules: &Rules, leans: &[Lean], across: u32, [x, y]: [u32; 2]) -> L
             let off = [column as f32 - x as f32, row as f32 - y as f32];
             let near = math::exp((off[0] * off[0] + off[1] * off[1]) * falloff);
             let wall = 0.5 * ((there.low + there.high) - (here.low + here.high));
-            let weight = near * (1.0 - wall.abs() / UNLIKE).max(0.0);
+            let paint = near * (1.0 - apart(here.rim, there.rim) / UNLIKE_RIMS).max(0.0);
+            let weight = paint * (1.0 - wall.abs() / UNLIKE).max(0.0);
             lean += there.lean * weight;
             leaning += weight;
-            let paint = near * (1.0 - apart(here.rim, there.rim) / UNLIKE_RIMS).max(0.0);
             rim = std::array::from_fn(|i| rim[i] + there.rim[i] * paint);
             coloring += paint;
         }
