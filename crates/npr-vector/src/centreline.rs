@@ -4,7 +4,7 @@
 //! [`despeckle`] takes out specks and pinholes, [`thin`] leaves lines one pixel thin, [`Network::of`] makes a network of
 //! them, [`Network::cut_spurs`] and [`Network::join_junctions`] take out what thinning adds, [`link`] makes strokes that
 //! run straight through junctions, and each is measured across its ink and made smooth. [`centrelines`] does it all. What comes out is
-//! a [`Drawing`](crate::stroke::Drawing) for the writers of lines by [`Centrelines::drawing`].
+//! a [`crate::stroke::Drawing`] for the writers of lines by [`Centrelines::drawing`].
 //!
 //! ```
 //! use npr_vector::centreline::{CentrelineOptions, centrelines};

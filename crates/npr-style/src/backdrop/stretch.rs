@@ -257,8 +257,8 @@ fn places_of(rim: &Rim, rule: &Rule, parts: &[Part]) -> [f32; 2] {
 
 /// Gives every tile the bounds of what its lines stand before, and its own vote as the lean.
 ///
-/// Bounds are envelopes over [`ENVELOPE_TILES`] tiles each way, which fall with the distance: a line that follows them changes slowly.
-/// Another wall, by [`UNLIKE`] darker or brighter, does not count. O(tiles with rims * 81), parallel over rows of tiles.
+/// Bounds are envelopes over 4 tiles each way, which fall with the distance: a line that follows them changes slowly.
+/// Another wall, by 0.42 darker or brighter, does not count. O(tiles with rims * 81), parallel over rows of tiles.
 pub fn bound_tiles(window: &Window, rules: &Rules, gathered: &[TileRims], bounds: &mut [Lean]) {
     let across = tiles_across(window.size);
     for_tiles(window, bounds, |tile| {
@@ -405,8 +405,8 @@ fn held(before: &[Lean], here: &Lean, across: u32, [x, y]: [u32; 2]) -> Option<L
 /// Keeps leans for the next frame, and blends them along the outline for this one.
 ///
 /// Where a stretch that turns brighter meets one that turns darker, the line passes from one to the other over a length that the eye takes
-/// for shading. A Gaussian that ends at [`BLEND_TILES`]; bounds stay as they are, and tiles before another wall or of other paint count less.
-/// O(tiles with rims * 289), parallel over rows of tiles.
+/// for shading. A Gaussian that ends at 6 tiles; bounds stay as they are, and tiles before another wall or of other paint count less.
+/// O(tiles with rims * 169), parallel over rows of tiles.
 pub fn blend_leans(
     window: &Window,
     rules: &Rules,
