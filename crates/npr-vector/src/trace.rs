@@ -4,6 +4,7 @@
 //! lies in which, [`optimal_polygon`] the polygon with the fewest sides near a path (by way of [`straight_lengths`]),
 //! [`adjust_corners`] moves its corners to where the sides meet best, [`bends`] tells corners from arcs, [`curve()`] makes segments
 //! of them, and [`join_arcs`] joins arcs to fewer. [`trace`] does it all, on all threads, and [`write_tracing`] makes files of it.
+//! Pictures of few colours become a stack of bitmaps by [`layers`], and files by [`trace_colours_to_file`].
 //!
 //! Written from the paper. What it leaves open is decided by mathematics, or so that results equal those of the program Potrace, run and
 //! measured as a whole; each such place says so.
@@ -26,6 +27,8 @@
 
 mod adjust;
 mod bitmap;
+mod colour_file;
+mod colours;
 mod curve;
 mod decompose;
 mod edges;
@@ -40,6 +43,8 @@ mod turn;
 
 pub use adjust::adjust_corners;
 pub use bitmap::{Bitmap, BitmapError, SIDE_LIMIT};
+pub use colour_file::trace_colours_to_file;
+pub use colours::{ColorLayer, IndexPicture, IndexPictureError, Layers, layers, stacking_order};
 pub use curve::{Bend, Segment, bends, curve};
 pub use decompose::{Decomposition, Loops, PixelLoop, STEPS, decompose};
 pub use file::{TraceFormat, trace_to_file, write_tracing};

@@ -45,14 +45,23 @@ pub fn write_tracing(tracing: &Tracing, format: TraceFormat) -> Vec<u8> {
 
 /// [`write_tracing`] of [`trace`](super::trace()), without keeping the curves: takes less memory, and gives the same bytes.
 pub fn trace_to_file(bitmap: &Bitmap, options: &TraceOptions, format: TraceFormat) -> Vec<u8> {
+    let pieces = pieces(bitmap, options, format);
+    format.assemble([bitmap.width(), bitmap.height()], pieces)
+}
+
+/// The paths of a bitmap as text.
+pub(super) fn pieces(
+    bitmap: &Bitmap,
+    options: &TraceOptions,
+    format: TraceFormat,
+) -> Vec<TracedPath<String>> {
     let height = f64::from(bitmap.height());
-    let pieces = trace_map(bitmap, options, |_, segments| {
+    trace_map(bitmap, options, |_, segments| {
         let mut piece = format.piece(&segments, height);
         // Of a million specks the spare room would be the most.
         piece.shrink_to_fit();
         piece
-    });
-    format.assemble([bitmap.width(), bitmap.height()], pieces)
+    })
 }
 
 impl TraceFormat {
@@ -72,43 +81,72 @@ impl TraceFormat {
     fn assemble(self, size: [u32; 2], paths: Vec<TracedPath<String>>) -> Vec<u8> {
         let length: usize = paths.iter().map(|path| path.segments.len() + 48).sum();
         let mut text = String::with_capacity(length + 400);
-        let [width, height] = size;
         match self {
             Self::Svg => {
-                text += &format!(
-                    "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-                     viewBox=\"0 0 {width} {height}\">\n<g fill=\"#000000\">\n"
-                );
-                push_shapes(&mut text, paths, ["<path d=\"", "", "\"/>\n"], |_| {
-                    String::new()
-                });
+                text += &svg_head(size);
+                text += "<g fill=\"#000000\">\n";
+                push_svg_shapes(&mut text, paths);
                 text += "</g>\n</svg>\n";
             }
             Self::Pdf => {
-                push_shapes(&mut text, paths, ["", "", "f\n"], |_| String::new());
+                push_pdf_shapes(&mut text, paths);
                 return page(size, &text);
             }
             Self::Json => {
-                text += &format!("{{\"version\":1,\"size\":[{width},{height}],\"paths\":[");
+                text += &json_head(size);
+                text += "\"paths\":[";
                 push_list(&mut text, &paths);
                 text += "\n]}\n";
             }
             Self::GeoJson => {
-                text += "{\"type\":\"FeatureCollection\",\"features\":[";
-                let mut comma = "\n";
-                let head = |area: u64| {
-                    let comma = std::mem::replace(&mut comma, ",\n");
-                    format!(
-                        "{comma}{{\"type\":\"Feature\",\"properties\":{{\"area\":{area}}},\
-                         \"geometry\":{{\"type\":\"Polygon\",\"coordinates\":["
-                    )
-                };
-                push_shapes(&mut text, paths, ["", ",", "]}}"], head);
+                text += FEATURES_HEAD;
+                push_features(&mut text, paths, "", &mut "\n");
                 text += "\n]}\n";
             }
         }
         text.into_bytes()
     }
+}
+
+/// What opens an SVG file.
+pub(super) fn svg_head([width, height]: [u32; 2]) -> String {
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\">\n"
+    )
+}
+
+/// What opens a JSON file.
+pub(super) fn json_head([width, height]: [u32; 2]) -> String {
+    format!("{{\"version\":1,\"size\":[{width},{height}],")
+}
+
+/// What opens a GeoJSON file.
+pub(super) const FEATURES_HEAD: &str = "{\"type\":\"FeatureCollection\",\"features\":[";
+
+pub(super) fn push_svg_shapes(text: &mut String, paths: Vec<TracedPath<String>>) {
+    push_shapes(text, paths, ["<path d=\"", "", "\"/>\n"], |_| String::new());
+}
+
+pub(super) fn push_pdf_shapes(text: &mut String, paths: Vec<TracedPath<String>>) {
+    push_shapes(text, paths, ["", "", "f\n"], |_| String::new());
+}
+
+/// Writes a feature a shape, with `properties` after its area; `comma` comes before the first and is that between them afterwards.
+pub(super) fn push_features(
+    text: &mut String,
+    paths: Vec<TracedPath<String>>,
+    properties: &str,
+    comma: &mut &str,
+) {
+    let head = |area: u64| {
+        let comma = std::mem::replace(comma, ",\n");
+        format!(
+            "{comma}{{\"type\":\"Feature\",\"properties\":{{\"area\":{area}{properties}}},\
+             \"geometry\":{{\"type\":\"Polygon\",\"coordinates\":["
+        )
+    };
+    push_shapes(text, paths, ["", ",", "]}}"], head);
 }
 
 /// Writes every shape, then its holes: `head` of the area, what opens, the pieces with what parts them, what closes.
@@ -149,7 +187,7 @@ fn push_shapes(
     }
 }
 
-fn push_list(text: &mut String, paths: &[TracedPath<String>]) {
+pub(super) fn push_list(text: &mut String, paths: &[TracedPath<String>]) {
     for (index, path) in paths.iter().enumerate() {
         let comma = if index == 0 { "" } else { "," };
         let (is_ink, area) = (path.is_ink, path.area);
@@ -259,7 +297,7 @@ fn ring(start: DVec2, segments: &[Segment], height: f64) -> String {
 }
 
 /// A PDF file of one page with the shapes of a text of operators.
-fn page(size: [u32; 2], shapes: &str) -> Vec<u8> {
+pub(super) fn page(size: [u32; 2], shapes: &str) -> Vec<u8> {
     let [catalog, pages, page, content] = [1, 2, 3, 4].map(Ref::new);
     let [width, height] = size.map(|side| f64::from(side) * POINTS_PER_PX);
     let mut pdf = Pdf::new();

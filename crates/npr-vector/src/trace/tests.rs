@@ -1,3 +1,4 @@
+mod colours;
 mod oracle;
 
 use super::*;
