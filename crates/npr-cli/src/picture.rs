@@ -1,7 +1,7 @@
 //! Pictures that a style names, backgrounds and width textures, and bitmaps to trace.
 
 use crate::fault::{Exit, Fault};
-use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
+use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
 use npr_core::budget::Budget;
 use npr_render::Picture;
 use npr_scene::{LimitError, Limits};
@@ -61,9 +61,15 @@ fn packed_rows(bytes: &[u8]) -> Option<((u32, u32), &[u8])> {
     Some(((width, height), rows))
 }
 
+/// What a decoder says, on one line.
+fn broken(error: ImageError) -> Fault {
+    let text = error.to_string();
+    let words: Vec<&str> = text.split_whitespace().collect();
+    Fault::new(Exit::Input, words.join(" "))
+}
+
 /// An image file of one of some formats. Its size is checked before any pixel is decoded.
 fn image(bytes: &[u8], limits: &Limits, formats: &[ImageFormat]) -> Result<DynamicImage, Fault> {
-    let broken = |error: image::ImageError| Fault::new(Exit::Input, error);
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     if reader
         .format()

@@ -1,11 +1,13 @@
 //! The command `npr` as scripts see it: exit codes, messages, streams and files.
 
+mod broken_bitmaps;
 mod closing;
 mod determinism;
 mod files;
 mod info;
 mod lines;
 mod looks;
+mod odd_bitmaps;
 mod scenes;
 mod smoke;
 mod streams;

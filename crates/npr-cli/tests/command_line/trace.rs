@@ -11,7 +11,7 @@ fn paths(svg: &[u8]) -> usize {
 }
 
 /// An image in memory as a file of a format.
-fn encoded(image: &image::DynamicImage, format: image::ImageFormat) -> Vec<u8> {
+pub fn encoded(image: &image::DynamicImage, format: image::ImageFormat) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     image.write_to(&mut bytes, format).expect("a small image");
     bytes.into_inner()

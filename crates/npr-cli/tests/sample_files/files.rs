@@ -8,6 +8,11 @@ pub const SCENES: [&str; 6] = ["gltf", "glb", "vrm", "obj", "stl", "ply"];
 /// Extensions of volumes that are read.
 pub const VOLUMES: [&str; 2] = ["vdb", "npy"];
 
+/// Extensions of images that are traced.
+pub const IMAGES: [&str; 10] = [
+    "png", "jpg", "jpeg", "webp", "tif", "tiff", "bmp", "pbm", "pgm", "ppm",
+];
+
 /// Every file below a folder of the samples that ends in one of `extensions`, in any case, sorted.
 ///
 /// None, with a line that says so, where there is no such folder.

@@ -1,6 +1,6 @@
 //! Every broken file gives a picture or one clear line, soon and in little memory.
 
-use crate::files::{SCENES, VOLUMES, samples};
+use crate::files::{IMAGES, SCENES, VOLUMES, samples};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -10,6 +10,9 @@ const TIME_LIMIT: Duration = Duration::from_secs(5);
 
 /// Most address space that a run may ask for, in KiB.
 const MEMORY_LIMIT_KIB: u32 = 1_500_000;
+
+/// Options of small drawings without a device.
+const SMALL: [&str; 4] = ["--size", "64x64", "--backend", "cpu"];
 
 #[test]
 fn info_survives_every_malformed_file() {
@@ -22,19 +25,28 @@ fn info_survives_every_malformed_file() {
 fn volumes_that_are_broken_or_hold_no_smoke_are_refused() {
     let files = [malformed_volumes(), samples("volumes", &VOLUMES)].concat();
     for command in ["render", "smoke"] {
-        survives(&[command], "out.png", &files);
+        survives(&[&[command], &SMALL[..]].concat(), "out.png", &files);
     }
 }
 
 #[test]
 fn render_survives_every_malformed_file() {
-    survives(&["render"], "out.png", &malformed_files());
+    let render = [&["render"], &SMALL[..]].concat();
+    survives(&render, "out.png", &malformed_files());
 }
 
 #[test]
 fn lines_survives_every_malformed_file() {
     let lines = ["lines", "--hidden", "layer", "--fill"];
+    let lines = [&lines, &SMALL[..]].concat();
     survives(&lines, "out.svg", &malformed_files());
+}
+
+#[test]
+fn trace_survives_every_malformed_file() {
+    let files = [malformed_images(), malformed_files(), malformed_volumes()].concat();
+    survives(&["trace"], "out.svg", &files);
+    survives(&["trace", "--centreline"], "out.svg", &malformed_images());
 }
 
 /// Draws files; each gives a picture called `name` or nothing.
@@ -43,8 +55,8 @@ fn survives(command: &[&str], name: &str, files: &[PathBuf]) {
     let picture = folder.path().join(name);
     for file in files {
         let out = picture.to_string_lossy();
-        let options = ["--size", "64x64", "--backend", "cpu", "-o", out.as_ref()];
-        check(file, &[command, &options].concat(), Some(&picture));
+        let output = ["-o", out.as_ref()];
+        check(file, &[command, &output].concat(), Some(&picture));
         let left = std::fs::read_dir(folder.path())
             .expect("the folder")
             .count();
@@ -93,6 +105,7 @@ fn check_refusal(file: &Path, stderr: &str, picture: Option<&Path>) {
         "{stderr}"
     );
     assert!(lines[0].chars().count() < 300, "{stderr}");
+    assert!(!lines[0].contains("\\u{a}"), "{stderr}");
     assert!(
         picture.is_none_or(|picture| !picture.exists()),
         "{name} was refused but drawn"
@@ -122,4 +135,9 @@ fn malformed_files() -> Vec<PathBuf> {
 /// Every malformed volume.
 fn malformed_volumes() -> Vec<PathBuf> {
     samples("malformed", &VOLUMES)
+}
+
+/// Every malformed image, and some that only a scene uses wrongly.
+fn malformed_images() -> Vec<PathBuf> {
+    samples("malformed", &IMAGES)
 }
