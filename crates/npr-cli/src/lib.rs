@@ -10,6 +10,7 @@
 //! ```
 
 mod arguments;
+mod colours;
 mod completions;
 mod doctor;
 mod encoder;

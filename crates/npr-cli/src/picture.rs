@@ -1,16 +1,34 @@
 //! Pictures that a style names, backgrounds and width textures, and bitmaps to trace.
 
+use crate::colours::reduce;
 use crate::fault::{Exit, Fault};
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
 use npr_core::budget::Budget;
 use npr_render::Picture;
 use npr_scene::{LimitError, Limits};
-use npr_vector::trace::Bitmap;
+use npr_vector::trace::{Bitmap, IndexPicture};
 use std::io::Cursor;
+
+/// Formats of the bitmaps that are traced.
+const BITMAPS: [ImageFormat; 6] = [
+    ImageFormat::Png,
+    ImageFormat::Jpeg,
+    ImageFormat::WebP,
+    ImageFormat::Pnm,
+    ImageFormat::Tiff,
+    ImageFormat::Bmp,
+];
+
+/// Bytes of a pixel as it is read and as it is used, up to eight and four.
+const PIXEL_BYTES: usize = 12;
+
+/// Bytes of a pixel more while a picture is reduced to few colours, or cut into layers.
+const COLOUR_BYTES: usize = 16;
 
 /// The pixels of a PNG or JPEG file. Its size is checked before any pixel is decoded.
 pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Picture, Fault> {
-    let pixels = image(bytes, limits, &[ImageFormat::Png, ImageFormat::Jpeg])?.into_rgba8();
+    let formats = [ImageFormat::Png, ImageFormat::Jpeg];
+    let pixels = image(bytes, limits, &formats, PIXEL_BYTES)?.into_rgba8();
     Ok(Picture {
         size: [pixels.width(), pixels.height()],
         rgba: pixels.into_raw(),
@@ -21,13 +39,12 @@ pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Picture, Fault> {
 ///
 /// What is planned for its pixels has to stay within the memory limit.
 pub fn decode_bitmap(bytes: &[u8], limits: &Limits, black_level: f64) -> Result<Bitmap, Fault> {
-    use ImageFormat::{Bmp, Jpeg, Png, Pnm, Tiff, WebP};
     if let Some((size, packed)) = packed_rows(bytes) {
         check_size(size, limits)?;
         let bitmap = Bitmap::from_packed(size.0, size.1, packed);
         return bitmap.map_err(|error| Fault::new(Exit::Input, error));
     }
-    let image = image(bytes, limits, &[Png, Jpeg, WebP, Pnm, Tiff, Bmp])?;
+    let image = image(bytes, limits, &BITMAPS, PIXEL_BYTES)?;
     let (width, height) = (image.width(), image.height());
     let bitmap = match image {
         DynamicImage::ImageLuma8(grey) => {
@@ -36,6 +53,14 @@ pub fn decode_bitmap(bytes: &[u8], limits: &Limits, black_level: f64) -> Result<
         other => Bitmap::from_rgba(width, height, other.into_rgba8().as_raw(), black_level),
     };
     bitmap.map_err(|error| Fault::new(Exit::Input, error))
+}
+
+/// The pixels of an image file of any format that is read, in at most so many colours.
+///
+/// What is planned for its pixels, and for the layers made of them, has to stay within the memory limit.
+pub fn decode_colours(bytes: &[u8], limits: &Limits, most: u16) -> Result<IndexPicture, Fault> {
+    let pixels = image(bytes, limits, &BITMAPS, PIXEL_BYTES + COLOUR_BYTES)?.into_rgba8();
+    reduce([pixels.width(), pixels.height()], pixels.as_raw(), most)
 }
 
 /// Size and rows of a sound file of the format PBM with eight pixels a byte, which need no decoding.
@@ -68,8 +93,13 @@ fn broken(error: ImageError) -> Fault {
     Fault::new(Exit::Input, words.join(" "))
 }
 
-/// An image file of one of some formats. Its size is checked before any pixel is decoded.
-fn image(bytes: &[u8], limits: &Limits, formats: &[ImageFormat]) -> Result<DynamicImage, Fault> {
+/// An image file of one of some formats. Its size, and the bytes planned for its pixels, are checked before any is decoded.
+fn image(
+    bytes: &[u8],
+    limits: &Limits,
+    formats: &[ImageFormat],
+    pixel_bytes: usize,
+) -> Result<DynamicImage, Fault> {
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     if reader
         .format()
@@ -84,9 +114,8 @@ fn image(bytes: &[u8], limits: &Limits, formats: &[ImageFormat]) -> Result<Dynam
         return Err(Fault::new(Exit::Input, "the image has no pixels"));
     }
     check_size((width, height), limits)?;
-    // Pixels as they are read and as they are used, up to eight bytes and four.
     let pixels = width as usize * height as usize;
-    let planned = Budget::new(limits.memory_bytes).take("the image", pixels, 12);
+    let planned = Budget::new(limits.memory_bytes).take("the image", pixels, pixel_bytes);
     planned.map_err(|error| Fault::from(npr_render::RenderError::from(error)))?;
     DynamicImage::from_decoder(decoder).map_err(broken)
 }

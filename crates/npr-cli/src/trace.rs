@@ -12,7 +12,9 @@ use crate::source::Source;
 use npr_scene::Limits;
 use npr_vector::centreline::{centrelines, write_centrelines};
 use npr_vector::fill::mesh::FlatMesh;
-use npr_vector::trace::{Bitmap, trace as trace_bitmap, trace_to_file};
+use npr_vector::trace::{
+    Bitmap, IndexPicture, trace as trace_bitmap, trace_colours_to_file, trace_to_file,
+};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -45,9 +47,8 @@ fn draw(
         Source::Standard => read_standard(limits.file_bytes),
         Source::File(path) => read_file(path, limits.file_bytes),
     })?;
-    let bitmap = progress.step("decode", || {
-        let level = said.method.blacklevel;
-        let bitmap = picture::decode_bitmap(&bytes, limits, level).map_err(|fault| {
+    let picture = progress.step("decode", || {
+        let picture = decoded(&bytes, said, limits).map_err(|fault| {
             let name = match &job.source {
                 Source::Standard => "standard input".to_owned(),
                 Source::File(path) => quoted(path),
@@ -55,20 +56,41 @@ fn draw(
             fault.while_doing(format_args!("cannot read {name}"))
         });
         drop(bytes);
-        bitmap.map(|mut bitmap| {
-            if said.method.invert {
-                bitmap.invert();
-            }
-            bitmap
-        })
+        picture
     })?;
-    let bytes = progress.step("trace", || found(&bitmap, said, job.format.form()))?;
+    let bytes = progress.step("trace", || found(&picture, said, job.format.form()))?;
     progress.step("write", || job.output.write(&bytes))
 }
 
-/// What was found in a bitmap, as the bytes of a file.
-fn found(bitmap: &Bitmap, said: &TraceArguments, form: TracedForm) -> Result<Vec<u8>, Fault> {
+/// What is traced.
+enum Traced {
+    Ink(Bitmap),
+    Colours(IndexPicture),
+}
+
+fn decoded(bytes: &[u8], said: &TraceArguments, limits: &Limits) -> Result<Traced, Fault> {
+    if let Some(most) = said.form.colours {
+        return Ok(Traced::Colours(picture::decode_colours(
+            bytes, limits, most,
+        )?));
+    }
+    let mut bitmap = picture::decode_bitmap(bytes, limits, said.method.blacklevel)?;
+    if said.method.invert {
+        bitmap.invert();
+    }
+    Ok(Traced::Ink(bitmap))
+}
+
+/// What was found in a picture, as the bytes of a file.
+fn found(picture: &Traced, said: &TraceArguments, form: TracedForm) -> Result<Vec<u8>, Fault> {
     let options = said.method.options();
+    let bitmap = match (picture, form) {
+        (Traced::Ink(bitmap), _) => bitmap,
+        (Traced::Colours(picture), TracedForm::Curves(format)) => {
+            return Ok(trace_colours_to_file(picture, &options, format));
+        }
+        (Traced::Colours(_), TracedForm::Mesh(_)) => return Err(colours_are_no_mesh()),
+    };
     match form {
         TracedForm::Curves(format) if said.form.centreline => {
             let options = said.form.centreline_options(&options);
@@ -105,6 +127,9 @@ fn resolve(said: &TraceArguments) -> Result<Vec<TraceJob>, Fault> {
             let message = "centre lines have no inside to fill: .obj and .glb hold filled shapes";
             return Err(Fault::new(Exit::Usage, message));
         }
+        if said.form.colours.is_some() && matches!(format.form(), TracedForm::Mesh(_)) {
+            return Err(colours_are_no_mesh());
+        }
         let output = Output::of(&path)?;
         output.refuse_any_of(&inputs)?;
         if !taken.insert(path.clone()) {
@@ -118,6 +143,11 @@ fn resolve(said: &TraceArguments) -> Result<Vec<TraceJob>, Fault> {
         });
     }
     Ok(jobs)
+}
+
+fn colours_are_no_mesh() -> Fault {
+    let message = "layers in colour are written to .svg, .pdf, .json or .geojson: triangles in .obj and .glb have no colours";
+    Fault::new(Exit::Usage, message)
 }
 
 /// Where the tracing of one bitmap goes.

@@ -2,6 +2,7 @@
 
 mod broken_bitmaps;
 mod closing;
+mod colours;
 mod determinism;
 mod files;
 mod info;
