@@ -33,6 +33,7 @@ mod curve;
 mod decompose;
 mod edges;
 mod file;
+mod flat;
 mod join;
 mod nest;
 mod polygon;
@@ -48,6 +49,8 @@ pub use colours::{ColorLayer, IndexPicture, IndexPictureError, Layers, layers, s
 pub use curve::{Bend, Segment, bends, curve};
 pub use decompose::{Decomposition, Loops, PixelLoop, STEPS, decompose};
 pub use file::{TraceFormat, trace_to_file, write_tracing};
+pub use flat::FLATNESS_PX;
+pub(crate) use flat::flattened;
 pub use join::join_arcs;
 pub use nest::nest;
 pub use polygon::optimal_polygon;

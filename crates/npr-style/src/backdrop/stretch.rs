@@ -266,6 +266,24 @@ pub fn bound_tiles(window: &Window, rules: &Rules, gathered: &[TileRims], bounds
     });
 }
 
+/// The tiles up to `reach` around one, itself included, row by row: their numbers, and the squares of how many tiles they are away.
+fn around(
+    across: u32,
+    tile_count: usize,
+    [x, y]: [u32; 2],
+    reach: u32,
+) -> impl Iterator<Item = (usize, f32)> {
+    let down = tile_count as u32 / across;
+    let columns = x.saturating_sub(reach)..=(x + reach).min(across - 1);
+    (y.saturating_sub(reach)..=(y + reach).min(down - 1)).flat_map(move |row| {
+        columns.clone().map(move |column| {
+            let off = [column as f32 - x as f32, row as f32 - y as f32];
+            let square = off[0] * off[0] + off[1] * off[1];
+            ((row * across + column) as usize, square)
+        })
+    })
+}
+
 fn bound_at(rules: &Rules, gathered: &[TileRims], across: u32, [x, y]: [u32; 2]) -> Lean {
     let here = gathered[(y * across + x) as usize];
     if here.whose == 0 {
@@ -277,16 +295,10 @@ fn bound_at(rules: &Rules, gathered: &[TileRims], across: u32, [x, y]: [u32; 2])
     } else {
         0
     };
-    let down = gathered.len() as u32 / across;
-    for row in y.saturating_sub(reach)..=(y + reach).min(down - 1) {
-        for column in x.saturating_sub(reach)..=(x + reach).min(across - 1) {
-            let there = gathered[(row * across + column) as usize];
-            if there.whose != here.whose {
-                continue;
-            }
-            let off = [column as f32 - x as f32, row as f32 - y as f32];
-            let far = (off[0] * off[0] + off[1] * off[1]).sqrt();
-            let loss = (far - WHOLE_TILES).max(0.0) * SLOPE;
+    for (index, square) in around(across, gathered.len(), [x, y], reach) {
+        let there = gathered[index];
+        if there.whose == here.whose {
+            let loss = (square.sqrt() - WHOLE_TILES).max(0.0) * SLOPE;
             let unlike = ((there.behind - here.behind).abs() - UNLIKE).max(0.0) * UNLIKE_SLOPE;
             low = low.min(there.low + loss + unlike);
             high = high.max(there.high - loss - unlike);
@@ -336,23 +348,17 @@ fn lean_at(
     if here.whose == 0 {
         return Lean::default();
     }
-    let down = gathered.len() as u32 / across;
     let tiles = rules.lean_px / TILE as f32;
     let reach = (tiles.max(0.0).ceil() as u32).min(LEAN_MOST);
     let falloff = -2.0 / (tiles * tiles).max(1.0);
     let (mut sum, mut count) = (0.0, 0.0);
-    for row in y.saturating_sub(reach)..=(y + reach).min(down - 1) {
-        for column in x.saturating_sub(reach)..=(x + reach).min(across - 1) {
-            let other = (row * across + column) as usize;
-            let there = gathered[other];
-            if there.whose != here.whose {
-                continue;
-            }
-            let off = [column as f32 - x as f32, row as f32 - y as f32];
-            let near = math::exp((off[0] * off[0] + off[1] * off[1]) * falloff);
+    for (index, square) in around(across, gathered.len(), [x, y], reach) {
+        let there = gathered[index];
+        if there.whose == here.whose {
+            let near = math::exp(square * falloff);
             let alike = 1.0 - (there.behind - here.behind).abs() / (2.0 * UNLIKE);
             let weight = near * alike.max(0.0) * there.count;
-            sum += bounds[other].lean * weight;
+            sum += bounds[index].lean * weight;
             count += weight;
         }
     }
@@ -389,14 +395,10 @@ fn held(before: &[Lean], here: &Lean, across: u32, [x, y]: [u32; 2]) -> Option<L
     if is_same(&own) {
         return Some(own);
     }
-    let down = before.len() as u32 / across;
     let mut mean = Mean::default();
-    for row in y.saturating_sub(1)..=(y + 1).min(down - 1) {
-        for column in x.saturating_sub(1)..=(x + 1).min(across - 1) {
-            let lean = before[(row * across + column) as usize];
-            if is_same(&lean) {
-                mean.add(&lean, 1.0);
-            }
+    for (index, _) in around(across, before.len(), [x, y], 1) {
+        if is_same(&before[index]) {
+            mean.add(&before[index], 1.0);
         }
     }
     mean.of(here.whose)
@@ -426,18 +428,13 @@ fn blended_at(rules: &Rules, leans: &[Lean], across: u32, [x, y]: [u32; 2]) -> L
     if here.whose == 0 || rules.lean_px <= 0.0 {
         return here;
     }
-    let down = leans.len() as u32 / across;
     let falloff = -2.0 / (BLEND_TILES * BLEND_TILES) as f32;
     let (mut lean, mut leaning) = (0.0, 0.0);
     let (mut rim, mut coloring) = ([0.0; 3], 0.0);
-    for row in y.saturating_sub(BLEND_TILES)..=(y + BLEND_TILES).min(down - 1) {
-        for column in x.saturating_sub(BLEND_TILES)..=(x + BLEND_TILES).min(across - 1) {
-            let there = leans[(row * across + column) as usize];
-            if there.whose != here.whose {
-                continue;
-            }
-            let off = [column as f32 - x as f32, row as f32 - y as f32];
-            let near = math::exp((off[0] * off[0] + off[1] * off[1]) * falloff);
+    for (index, square) in around(across, leans.len(), [x, y], BLEND_TILES) {
+        let there = &leans[index];
+        if there.whose == here.whose {
+            let near = math::exp(square * falloff);
             let wall = 0.5 * ((there.low + there.high) - (here.low + here.high));
             let paint = near * (1.0 - apart(here.rim, there.rim) / UNLIKE_RIMS).max(0.0);
             let weight = paint * (1.0 - wall.abs() / UNLIKE).max(0.0);

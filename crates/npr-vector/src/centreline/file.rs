@@ -7,15 +7,12 @@ use crate::json::write_json;
 use crate::number::push_fixed;
 use crate::pdf::write_pdf;
 use crate::svg::write_svg;
-use crate::trace::TraceFormat;
+use crate::trace::{FLATNESS_PX, TraceFormat};
 use kurbo::PathEl;
 use rayon::prelude::*;
 
 /// How far written curves may be from the smooth lines, in pixels.
 const TOLERANCE_PX: f64 = 0.1;
-
-/// How far the lines of GeoJSON files are from the curves, in pixels.
-const FLATNESS_PX: f64 = 0.05;
 
 /// Centre lines as the bytes of a file. Same lines, same bytes.
 ///

@@ -4,12 +4,11 @@ use super::map::Map;
 use super::snap::{Point, snapped};
 use super::{FINENESS, FillError, LONGEST_SIDE, on_grid};
 use crate::number::push_fixed;
-use crate::trace::{Segment, Tracing};
-use kurbo::{BezPath, PathEl};
+use crate::trace::{Segment, Tracing, flattened};
+use glam::DVec2;
 use serde_json::json;
 
-/// How far the sides of meshes are from traced curves, in pixels.
-pub const FLATNESS_PX: f64 = 0.05;
+pub use crate::trace::FLATNESS_PX;
 
 /// Height of the bands in which segments are looked up, in grid units.
 const BAND: i64 = 4 * FINENESS as i64;
@@ -157,7 +156,7 @@ impl FlatMesh {
             .paths
             .iter()
             .map(|path| {
-                let mut ring = flattened(&path.segments);
+                let mut ring = corners(&path.segments);
                 ring.iter_mut().for_each(|[_, y]| *y = height - *y);
                 if (area(&ring) > 0.0) != path.is_ink {
                     ring.reverse();
@@ -260,30 +259,10 @@ fn container(mut json: Vec<u8>, bytes: Vec<u8>) -> Vec<u8> {
 }
 
 /// A closed curve as points, the first not repeated.
-fn flattened(segments: &[Segment]) -> Vec<[f64; 2]> {
-    let point = |p: glam::DVec2| (p.x, p.y);
-    let mut path = BezPath::new();
-    let Some(start) = segments.last().map(Segment::end) else {
-        return Vec::new();
-    };
-    path.move_to(point(start));
-    for segment in segments {
-        match *segment {
-            Segment::Corner { corner, end } => {
-                path.line_to(point(corner));
-                path.line_to(point(end));
-            }
-            Segment::Arc { from, to, end } => path.curve_to(point(from), point(to), point(end)),
-        }
-    }
-    let mut ring = Vec::new();
-    kurbo::flatten(path, FLATNESS_PX, |element| {
-        if let PathEl::MoveTo(p) | PathEl::LineTo(p) = element {
-            ring.push([p.x, p.y]);
-        }
-    });
+fn corners(segments: &[Segment]) -> Vec<[f64; 2]> {
+    let mut ring = flattened(segments);
     ring.pop();
-    ring
+    ring.iter().map(DVec2::to_array).collect()
 }
 
 /// The signed area of a ring, by the shoelace formula.
@@ -416,7 +395,7 @@ mod tests {
             assert_sound(&mesh);
             let (mut rings, mut length) = (0.0, 0.0);
             for path in &tracing.paths {
-                let ring = flattened(&path.segments);
+                let ring = corners(&path.segments);
                 let next = ring.iter().cycle().skip(1);
                 length += ring.iter().zip(next).map(|(a, b)| crate::run::distance(*a, *b)).sum::<f64>();
                 rings += if path.is_ink { area(&ring).abs() } else { -area(&ring).abs() };

@@ -1,18 +1,16 @@
 //! Traced bitmaps as files.
 
+use super::flat::flattened;
 use super::{Bitmap, Segment, TraceOptions, TracedPath, Tracing, trace_map};
 use crate::number::push_fixed;
 use crate::svg::PathData;
 use glam::DVec2;
-use kurbo::{BezPath, PathEl, Point};
+use kurbo::Point;
 use pdf_writer::{Pdf, Rect, Ref};
 use rayon::prelude::*;
 
 /// Decimals of coordinates: hundredths of a pixel.
 const DECIMALS: u32 = 2;
-
-/// How far the polygons of GeoJSON files are from the curves, in pixels.
-const FLATNESS_PX: f64 = 0.05;
 
 /// Points per pixel: 96 pixels are an inch.
 const POINTS_PER_PX: f64 = 0.75;
@@ -74,7 +72,7 @@ impl TraceFormat {
             Self::Svg => svg_piece(start, segments),
             Self::Pdf => pdf_piece(start, segments),
             Self::Json => json_piece(segments),
-            Self::GeoJson => ring(start, segments, height),
+            Self::GeoJson => ring(segments, height),
         }
     }
 
@@ -272,26 +270,13 @@ fn json_piece(segments: &[Segment]) -> String {
 }
 
 /// The curve as a closed ring of points, y up.
-fn ring(start: DVec2, segments: &[Segment], height: f64) -> String {
-    let mut path = BezPath::new();
-    path.move_to(point(start));
-    for segment in segments {
-        match *segment {
-            Segment::Corner { corner, end } => {
-                path.line_to(point(corner));
-                path.line_to(point(end));
-            }
-            Segment::Arc { from, to, end } => path.curve_to(point(from), point(to), point(end)),
-        }
-    }
+fn ring(segments: &[Segment], height: f64) -> String {
     let mut text = String::new();
-    kurbo::flatten(path, FLATNESS_PX, |element| {
-        if let PathEl::MoveTo(p) | PathEl::LineTo(p) = element {
-            text += if text.is_empty() { "[[" } else { ",[" };
-            push_point(&mut text, DVec2::new(p.x, height - p.y), ',');
-            text.push(']');
-        }
-    });
+    for p in flattened(segments) {
+        text += if text.is_empty() { "[[" } else { ",[" };
+        push_point(&mut text, DVec2::new(p.x, height - p.y), ',');
+        text.push(']');
+    }
     text.push(']');
     text
 }
