@@ -37,33 +37,21 @@ fn is_same(lean: Lean, here: Lean) -> bool {
 // What was decided before for the same lines before the same wall: in the tile itself, or else the mean of those that touch it. Of nobody
 // where there was none.
 fn held(here: Lean, x: u32, y: u32, across: u32) -> Lean {
-    var was: Lean;
     let own = before[y * across + x];
     if is_same(own, here) { return own; }
     let low = first_around(x, y, 1u);
     let high = last_around(x, y, 1u, across, arrayLength(&before));
-    var rim = vec3<f32>(0.0);
+    var sum: Lean;
     var count = 0.0;
     for (var row = low.y; row <= high.y; row++) {
         for (var column = low.x; column <= high.x; column++) {
             let lean = before[row * across + column];
             if !is_same(lean, here) { continue; }
-            was.low += lean.low;
-            was.high += lean.high;
-            was.lean += lean.lean;
-            rim += rim_of(lean);
+            sum = add_lean(sum, lean, 1.0);
             count += 1.0;
         }
     }
-    if count > 0.0 {
-        was.low /= count;
-        was.high /= count;
-        was.lean /= count;
-        rim /= count;
-        was.rim = array<f32, 3>(rim.r, rim.g, rim.b);
-        was.whose = here.whose;
-    }
-    return was;
+    return mean_lean(sum, count, here.whose);
 }
 
 // A value moved towards another by no more than a step.

@@ -46,7 +46,7 @@ fn smoothed_rim(x: u32, y: u32) -> Rim {
     for (var row = low.y; row <= high.y; row++) {
         for (var column = low.x; column <= high.x; column++) {
             let rim = rims[row * window.size.x + column];
-            if (rim.subject & ~RIM_OUTSIDE) != (here.subject & ~RIM_OUTSIDE) { continue; }
+            if (rim.subject & RIM_WHOSE) != (here.subject & RIM_WHOSE) { continue; }
             let off = vec2<f32>(f32(column) - f32(x), f32(row) - f32(y));
             let near = exp((off.x * off.x + off.y * off.y) * falloff) * likeness(here, rim);
             let own = unpack4x8unorm(rim.rim);

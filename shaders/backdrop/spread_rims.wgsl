@@ -27,8 +27,7 @@ fn lean_between(whose: u32, pixel: vec2<u32>) -> Lean {
     let across = tiles_across(window.size);
     let down = arrayLength(&leans) / across;
     let place = (vec2<f32>(pixel) + 0.5) / f32(BORDER_TILE) - 0.5;
-    var sum = vec3<f32>(0.0);
-    var rim = vec3<f32>(0.0);
+    var sum: Lean;
     var total = 0.0;
     for (var i = 0u; i < 4u; i++) {
         let tile = floor(place) + vec2<f32>(f32(i & 1u), f32(i >> 1u));
@@ -37,20 +36,10 @@ fn lean_between(whose: u32, pixel: vec2<u32>) -> Lean {
         if lean.whose != whose { continue; }
         let near = 1.0 - abs(place - tile);
         let weight = near.x * near.y + 1e-4;
-        sum += vec3<f32>(lean.low, lean.high, lean.lean) * weight;
-        rim += rim_of(lean) * weight;
+        sum = add_lean(sum, lean, weight);
         total += weight;
     }
-    var mean: Lean;
-    if total == 0.0 { return mean; }
-    sum /= total;
-    rim /= total;
-    mean.low = sum.x;
-    mean.high = sum.y;
-    mean.lean = sum.z;
-    mean.rim = array<f32, 3>(rim.r, rim.g, rim.b);
-    mean.whose = whose;
-    return mean;
+    return mean_lean(sum, total, whose);
 }
 
 fn spread_at(x: u32, y: u32) -> Sides {

@@ -14,6 +14,7 @@ const RULES_RIBBONS: u32 = 1u;
 const RULES_OVERLAY: u32 = 2u;
 const RIM_OUTSIDE: u32 = 0x80000000u;
 const RIM_WITHIN: u32 = 0x40000000u;
+const RIM_WHOSE: u32 = 0x7fffffffu;
 // Side of the tiles in which borders are looked for, in output pixels.
 const BORDER_TILE: u32 = 4u;
 

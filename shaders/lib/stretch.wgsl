@@ -27,9 +27,30 @@ fn rim_of(lean: Lean) -> vec3<f32> {
     return vec3<f32>(lean.rim[0], lean.rim[1], lean.rim[2]);
 }
 
-const RIM_WHOSE: u32 = 0x7fffffffu;
 // Difference of backgrounds from which they are two walls, and not one with a pattern.
 const UNLIKE_WALLS: f32 = 0.42;
+
+// Adds a lean with a weight to a sum of them.
+fn add_lean(sum: Lean, lean: Lean, weight: f32) -> Lean {
+    var more = sum;
+    more.low += lean.low * weight;
+    more.high += lean.high * weight;
+    more.lean += lean.lean * weight;
+    for (var i = 0u; i < 3u; i++) { more.rim[i] += lean.rim[i] * weight; }
+    return more;
+}
+
+// The mean of such a sum for some lines; of nobody where nothing was added.
+fn mean_lean(sum: Lean, weight: f32, whose: u32) -> Lean {
+    var mean: Lean;
+    if weight <= 0.0 { return mean; }
+    mean.low = sum.low / weight;
+    mean.high = sum.high / weight;
+    mean.lean = sum.lean / weight;
+    for (var i = 0u; i < 3u; i++) { mean.rim[i] = sum.rim[i] / weight; }
+    mean.whose = whose;
+    return mean;
+}
 
 fn tiles_across(size: vec2<u32>) -> u32 {
     return (size.x + BORDER_TILE - 1u) / BORDER_TILE;

@@ -91,6 +91,14 @@ pub fn linear_rgba(srgb: [f32; 4]) -> [f32; 4] {
     ]
 }
 
+/// The largest difference of a channel of two colours.
+pub fn largest_difference(a: [f32; 3], b: [f32; 3]) -> f32 {
+    (a[0] - b[0])
+        .abs()
+        .max((a[1] - b[1]).abs())
+        .max((a[2] - b[2]).abs())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

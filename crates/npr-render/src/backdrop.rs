@@ -2,11 +2,10 @@
 
 use crate::blueprint::Method;
 use crate::frame::Frame;
-use crate::model::{Model, PartInfo};
-use npr_core::color::{linear_from_srgb, srgb_from_linear};
+use crate::model::PartInfo;
+use npr_core::color::{linear_from_srgb, linear_rgba, srgb_from_linear, unpack_rgba8};
 use npr_style::backdrop::{
-    Ground, LEAN_MOST, RULES_MAX, Rule, Rules, SMOOTH_MOST, TILE, Wearer, adapted_light,
-    published_light,
+    LEAN_MOST, RULES_MAX, Rule, Rules, SMOOTH_MOST, TILE, Wearer, minded_light,
 };
 use npr_style::compose::Compose;
 use npr_style::{BackgroundMethod, LineScope, Style, Subjects};
@@ -48,12 +47,12 @@ pub(crate) struct Backdrop {
 }
 
 impl Backdrop {
-    /// Those of `part_count` parts; what follows a model's own parts is of the background.
-    pub fn new(model: &Model, style: &Style, part_count: usize) -> Self {
+    /// Those of `part_count` parts; what follows a model's own parts, `infos`, is of the background.
+    pub fn new(infos: &[PartInfo], style: &Style, part_count: usize) -> Self {
         let mut made = Self::default();
         let mut subjects = BTreeMap::new();
         let mut rule_count = 1;
-        for info in &model.parts {
+        for info in infos {
             let look = style.resolve_for(&info.material_name, &info.object_name);
             let key = match look.subject {
                 Some(name) => SubjectKey::Named(name),
@@ -201,16 +200,14 @@ fn minding(line: [u8; 4], front: [u8; 4], back: [u8; 4], rules: &Rules) -> [f32;
         .get(usize::from(back[3]))
         .copied()
         .unwrap_or_default();
-    let [line, rim] = [line, front].map(|texel| encoded(texel).map(linear_from_srgb));
-    let adapted = if rule.method == Rule::BY_CONTRAST {
-        let ground = Ground::unpacked(u32::from_le_bytes(back));
-        adapted_light(line, rim, &ground, &rule)
-    } else {
-        published_light(line, rim, encoded(back).map(linear_from_srgb), &rule)
-    };
-    let weight = f32::from(front[3]) / 255.0;
-    let mixed: [f32; 3] = std::array::from_fn(|i| line[i] + (adapted[i] - line[i]) * weight);
-    mixed.map(srgb_from_linear)
+    let light = |texel: u32| linear_rgba(unpack_rgba8(texel));
+    let rim = light(u32::from_le_bytes(front));
+    let line = encoded(line).map(linear_from_srgb);
+    let minded = minded_light(line, rim, u32::from_le_bytes(back), &rule, |texel| {
+        let [r, g, b, _] = light(texel);
+        [r, g, b]
+    });
+    minded.map(srgb_from_linear)
 }
 
 /// Lays a colour over a texel of bytes with straight alpha.

@@ -343,7 +343,7 @@ impl LineModel {
             Some(picture) => {
                 let seen = (&self.shape, &prepared.tree);
                 let px = self.px(options);
-                Minding::new(seen, &projector, picture, &self.parts, style, px)?
+                Minding::new(seen, &projector, picture, &self.parts, style, px)
             }
             None => None,
         };

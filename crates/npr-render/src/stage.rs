@@ -163,7 +163,7 @@ impl<'a> Stage<'a> {
             size: options.size,
             samples: if style.antialias.samples > 1 { 2 } else { 1 },
         };
-        let backdrop = Backdrop::new(model, style, styled.parts.len());
+        let backdrop = Backdrop::new(&model.parts, style, styled.parts.len());
         styled.inked.notices.extend(backdrop.notice.clone());
         let mut method = match model.triangles.is_empty() {
             true => Method::NONE,

@@ -23,14 +23,14 @@ mod rule;
 mod spread;
 mod stretch;
 
-pub use adapt::{Ground, adapt, adapted_light, contrast, published_light};
+pub use adapt::{Ground, adapt, adapted_light, contrast, minded_light};
 pub use oklab::{light_of_oklab, oklab_of_light};
 pub use published::Criteria;
 pub use rims::{
     Rim, Scenery, Search, TILE, Wearer, draw_rims, find_rims, flag_tiles, tiles_across,
 };
 pub use rule::{RULES_MAX, Rule, Rules};
-pub use spread::{SMOOTH_MOST, smooth_rims, spread_rims, spread_rows};
+pub use spread::{SMOOTH_MOST, UNLIKE_COLORS, smooth_rims, spread_rims, spread_rows};
 pub use stretch::{LEAN_MOST, Lean, TileRims, blend_leans, bound_tiles, gather_tiles, lean_tiles};
 
 #[cfg(test)]

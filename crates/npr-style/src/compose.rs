@@ -10,7 +10,7 @@ use npr_core::window::{View, Window};
 use rayon::prelude::*;
 use std::ops::Range;
 
-use crate::backdrop::{self, Ground, Rule, Rules};
+use crate::backdrop::{self, Rules};
 use crate::known::Known;
 use crate::lighting::Lights;
 use crate::line_color::LinePlace;
@@ -495,15 +495,10 @@ impl<'a> Layers<'a> {
             return line;
         }
         let rule = &self.rules.rules[(back >> 24) as usize];
-        let [rim_r, rim_g, rim_b, weight] = self.linear_texel(front);
-        let rim = [rim_r, rim_g, rim_b];
-        let adapted = if rule.method == Rule::BY_CONTRAST {
-            backdrop::adapted_light(line, rim, &Ground::unpacked(back), rule)
-        } else {
-            let [r, g, b, _] = self.linear_texel(back);
-            backdrop::published_light(line, rim, [r, g, b], rule)
-        };
-        std::array::from_fn(|i| line[i] + (adapted[i] - line[i]) * weight)
+        backdrop::minded_light(line, self.linear_texel(front), back, rule, |texel| {
+            let [r, g, b, _] = self.linear_texel(texel);
+            [r, g, b]
+        })
     }
 
     /// What lies behind everything, premultiplied.

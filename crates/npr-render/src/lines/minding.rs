@@ -6,14 +6,12 @@
 use super::paint::face_at;
 use crate::backdrop::Backdrop;
 use crate::blueprint::Method;
-use crate::error::RenderError;
 use crate::frame::Frame;
-use crate::model::{Model, PartInfo};
-use npr_core::color::{linear_from_srgb, srgb_from_linear};
+use crate::model::PartInfo;
+use npr_core::color::{largest_difference, linear_from_srgb, srgb_from_linear};
 use npr_core::math;
 use npr_core::shape::Shape;
-use npr_scene::Scene;
-use npr_style::backdrop::{Rule, Rules, Wearer, adapt};
+use npr_style::backdrop::{Rule, Rules, UNLIKE_COLORS, Wearer, adapt};
 use npr_style::{LineScope, Style};
 use npr_vector::bvh::FaceTree;
 use npr_vector::project::Projector;
@@ -28,9 +26,6 @@ const FINDING: usize = 3;
 
 /// How many in a row a mean is taken of.
 const MEAN_OF: usize = 3;
-
-/// Difference of a channel from which what two points see is not blended any more, as in frames.
-const UNLIKE: f32 = 0.2;
 
 /// What strokes are judged before.
 pub(super) struct Minding<'a> {
@@ -71,10 +66,8 @@ impl<'a> Minding<'a> {
         infos: &[PartInfo],
         style: &Style,
         px: [f32; 3],
-    ) -> Result<Option<Self>, RenderError> {
-        let mut parts = Model::new(&Scene::default())?;
-        parts.parts = infos.to_vec();
-        let backdrop = Backdrop::new(&parts, style, infos.len());
+    ) -> Option<Self> {
+        let backdrop = Backdrop::new(infos, style, infos.len());
         let rules = backdrop.rules(style, Method::NONE, 0.0, px, 1);
         let minding = Self {
             shape,
@@ -85,7 +78,7 @@ impl<'a> Minding<'a> {
             rules,
             scope: style.line.background.scope,
         };
-        Ok(backdrop.is_on.then_some(minding))
+        backdrop.is_on.then_some(minding)
     }
 
     /// Gives visible strokes the colours that mind what lies behind them.
@@ -355,11 +348,11 @@ impl Blend {
     }
 }
 
-/// 1 for the same colours on both sides, down to 0 where any channel differs by [`UNLIKE`].
+/// 1 for the same colours on both sides, down to 0 where any channel differs by [`UNLIKE_COLORS`]. Frames ask the side behind alone,
+/// since stretches of outline settle the other.
 fn likeness(a: &Sides, b: &Sides) -> f32 {
-    let apart = |a: [f32; 3], b: [f32; 3]| (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f32::max);
-    let most = apart(a.rim, b.rim).max(apart(a.behind, b.behind));
-    let left = (1.0 - most / UNLIKE).max(0.0);
+    let most = largest_difference(a.rim, b.rim).max(largest_difference(a.behind, b.behind));
+    let left = (1.0 - most / UNLIKE_COLORS).max(0.0);
     left * left
 }
 

@@ -5,7 +5,7 @@ use super::adapt::Ground;
 use super::rims::Rim;
 use super::rule::{Rule, Rules};
 use super::stretch::{Lean, lean_between};
-use npr_core::color::{pack_rgba8, unpack_rgba8};
+use npr_core::color::{largest_difference, pack_rgba8, unpack_rgba8};
 use npr_core::math;
 use npr_core::window::Window;
 use rayon::prelude::*;
@@ -13,8 +13,8 @@ use rayon::prelude::*;
 /// Longest length over which rims are blended, in pixels.
 pub const SMOOTH_MOST: u32 = 24;
 
-/// Difference of a channel from which two rims are not blended any more.
-const UNLIKE: f32 = 0.2;
+/// Difference of a channel from which what two places see is not blended any more.
+pub const UNLIKE_COLORS: f32 = 0.2;
 
 /// Blends every rim with those of the same subject around it, by a Gaussian that ends at [`Rules::smooth_px`].
 ///
@@ -81,16 +81,13 @@ fn smoothed_rim(size: [u32; 2], rules: &Rules, rims: &[Rim], [x, y]: [u32; 2]) -
     }
 }
 
-/// 1 for rims before the same colour, down to 0 where any channel differs by [`UNLIKE`].
+/// 1 for rims before the same colour, down to 0 where any channel differs by [`UNLIKE_COLORS`].
 fn likeness(a: &Rim, b: &Rim) -> f32 {
-    let apart = |a: u32, b: u32| {
-        let (a, b) = (unpack_rgba8(a), unpack_rgba8(b));
-        (a[0] - b[0])
-            .abs()
-            .max((a[1] - b[1]).abs())
-            .max((a[2] - b[2]).abs())
-    };
-    let left = (1.0 - apart(a.behind, b.behind) / UNLIKE).max(0.0);
+    let [a, b] = [a, b].map(|rim| {
+        let [r, g, b, _] = unpack_rgba8(rim.behind);
+        [r, g, b]
+    });
+    let left = (1.0 - largest_difference(a, b) / UNLIKE_COLORS).max(0.0);
     left * left
 }
 

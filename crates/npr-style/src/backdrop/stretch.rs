@@ -9,7 +9,7 @@ use super::adapt::{place_of_light, preference, started};
 use super::rims::{Rim, TILE, tiles_across};
 use super::rule::{Rule, Rules};
 use bytemuck::{Pod, Zeroable};
-use npr_core::color::{linear_from_srgb, pack_rgba8, unpack_rgba8};
+use npr_core::color::{largest_difference, linear_from_srgb, pack_rgba8, unpack_rgba8};
 use npr_core::geometry::Part;
 use npr_core::gpu_layout;
 use npr_core::math;
@@ -436,7 +436,8 @@ fn blended_at(rules: &Rules, leans: &[Lean], across: u32, [x, y]: [u32; 2]) -> L
         if there.whose == here.whose {
             let near = math::exp(square * falloff);
             let wall = 0.5 * ((there.low + there.high) - (here.low + here.high));
-            let paint = near * (1.0 - apart(here.rim, there.rim) / UNLIKE_RIMS).max(0.0);
+            let paint =
+                near * (1.0 - largest_difference(here.rim, there.rim) / UNLIKE_RIMS).max(0.0);
             let weight = paint * (1.0 - wall.abs() / UNLIKE).max(0.0);
             lean += there.lean * weight;
             leaning += weight;
@@ -449,14 +450,6 @@ fn blended_at(rules: &Rules, leans: &[Lean], across: u32, [x, y]: [u32; 2]) -> L
         rim: rim.map(|channel| channel / coloring),
         ..here
     }
-}
-
-/// The largest difference of a channel.
-fn apart(a: [f32; 3], b: [f32; 3]) -> f32 {
-    (a[0] - b[0])
-        .abs()
-        .max((a[1] - b[1]).abs())
-        .max((a[2] - b[2]).abs())
 }
 
 /// The lean of a pixel's rim, between the four tiles around: those of the same subject alone; `None` where there is none of it.
