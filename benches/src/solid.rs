@@ -57,6 +57,26 @@ pub fn row_of_balls(count: usize, triangle_count: usize) -> Scene {
     scene
 }
 
+/// The same row as a single object: what it shows is the same, and what it costs besides its pixels and triangles is that of one.
+///
+/// # Panics
+///
+/// As [`bumpy_ball`].
+pub fn row_as_one(count: usize, triangle_count: usize) -> Scene {
+    let row = row_of_balls(count, triangle_count);
+    let mut all = Part::default();
+    for node in &row.nodes {
+        let place = Mat4::from_cols_array_2d(&node.local);
+        let ball = &row.meshes[0].parts[0];
+        let first = all.positions.len() as u32;
+        let placed = |position: &[f32; 3]| place.transform_point3(Vec3::from(*position)).to_array();
+        all.positions.extend(ball.positions.iter().map(placed));
+        let moved = |triangle: &[u32; 3]| triangle.map(|corner| first + corner);
+        all.triangles.extend(ball.triangles.iter().map(moved));
+    }
+    scene_of(all)
+}
+
 /// A point of the unit ball pushed out or in, with its pole turned from z to y.
 fn bumped([x, y, z]: [f32; 3]) -> [f32; 3] {
     let radius = 1.0 + BUMP_HEIGHT * sin(5.0 * x) * cos(4.0 * y) * sin(6.0 * z + 1.0);
@@ -115,6 +135,12 @@ mod tests {
             let scene = row_of_balls(count, 64);
             prop_assert_eq!(scene.nodes.len(), count);
             let radius = 1.0 / (count as f32).sqrt() * (1.0 + BUMP_HEIGHT);
+            let one = row_as_one(count, 64);
+            prop_assert_eq!((one.nodes.len(), one.triangle_count()), (1, 64 * count));
+            let (low, high) = (scene.nodes[0].local[3][0], scene.nodes[count - 1].local[3][0]);
+            let ends = one.meshes[0].parts[0].positions.iter().map(|p| p[0]);
+            let (least, most) = ends.fold((f32::MAX, f32::MIN), |(a, b), x| (a.min(x), b.max(x)));
+            prop_assert!(least < low && low - least < radius && most > high && most - high < radius);
             for pair in scene.nodes.windows(2) {
                 let apart = pair[1].local[3][0] - pair[0].local[3][0];
                 prop_assert!(apart > 2.0 * radius && pair[0].local[0][0] == pair[1].local[1][1]);

@@ -3,6 +3,7 @@
 //! Shading and blending happen on linear light; files and textures hold sRGB [IEC 61966-2-1].
 
 use crate::math;
+use std::sync::LazyLock;
 
 /// Linear light of an sRGB-encoded value, both 0..1.
 pub fn linear_from_srgb(v: f32) -> f32 {
@@ -11,6 +12,14 @@ pub fn linear_from_srgb(v: f32) -> f32 {
     } else {
         math::powf((v + 0.055) / 1.055, 2.4)
     }
+}
+
+/// Linear light of an sRGB byte: [`linear_from_srgb`] by table.
+#[inline]
+pub fn linear_from_byte(byte: u8) -> f32 {
+    static LIGHT: LazyLock<[f32; 256]> =
+        LazyLock::new(|| std::array::from_fn(|byte| linear_from_srgb(byte as f32 / 255.0)));
+    LIGHT[usize::from(byte)]
 }
 
 /// The sRGB encoding of linear light, both 0..1; values outside are clamped.

@@ -135,26 +135,28 @@ impl LineTints<'_> {
         if self.is_empty() {
             return None;
         }
+        self.mean_around(px, |of| of == part)
+            .or_else(|| self.mean_around(px, |of| of != NONE))
+    }
+
+    /// The mean around a point over the pixels of some parts.
+    fn mean_around(&self, px: [f32; 2], is_wanted: impl Fn(u32) -> bool) -> Option<Tint> {
         let window = self.mask_window;
         let center = window.pixel_at(px);
-        let (mut own, mut any) = (Sum::default(), Sum::default());
+        let mut sum = Sum::default();
         for y in center[1].saturating_sub(1)..=(center[1] + 1).min(window.size[1] - 1) {
             for x in center[0].saturating_sub(1)..=(center[0] + 1).min(window.size[0] - 1) {
                 let tint = &self.tints[(y * window.size[0] + x) as usize];
-                if tint.part == NONE {
+                if !is_wanted(tint.part) {
                     continue;
                 }
                 let middle = window.frame_at(x, y);
                 let [dx, dy]: [f32; 2] =
                     std::array::from_fn(|i| ((px[i] - middle[i]) / window.frame_step[i]).abs());
-                let weight = (1.5 - dx).max(0.0) * (1.5 - dy).max(0.0);
-                any.add(tint, weight);
-                if tint.part == part {
-                    own.add(tint, weight);
-                }
+                sum.add(tint, (1.5 - dx).max(0.0) * (1.5 - dy).max(0.0));
             }
         }
-        own.mean().or(any.mean())
+        sum.mean()
     }
 
     /// Colour of a part's lines of a kind at a point of the frame, sRGB with straight alpha.

@@ -5,8 +5,8 @@
 //! Square roots, `floor`, `abs` and the four operations are exact in IEEE 754 and need no stand-in.
 
 pub use libm::{
-    acosf as acos, asinf as asin, atan2f as atan2, atanf as atan, cosf as cos, exp2f as exp2,
-    expf as exp, log2f as log2, logf as ln, powf, sinf as sin, tanf as tan,
+    acosf as acos, asinf as asin, atan2f as atan2, atanf as atan, cbrtf as cbrt, cosf as cos,
+    exp2f as exp2, expf as exp, log2f as log2, logf as ln, powf, sinf as sin, tanf as tan,
 };
 
 /// The same in double precision, for curves.

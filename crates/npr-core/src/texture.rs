@@ -35,7 +35,7 @@ impl Default for TextureStore {
 impl TextureStore {
     /// A store without textures.
     pub fn new() -> Self {
-        let table = (0..256).map(|byte| color::linear_from_srgb(byte as f32 / 255.0).to_bits());
+        let table = (0..=255).map(|byte| color::linear_from_byte(byte).to_bits());
         Self {
             words: table.collect(),
         }

@@ -4,9 +4,7 @@ use crate::blueprint::Method;
 use crate::frame::Frame;
 use crate::model::PartInfo;
 use npr_core::color::{linear_from_srgb, linear_rgba, srgb_from_linear, unpack_rgba8};
-use npr_style::backdrop::{
-    LEAN_MOST, RULES_MAX, Rule, Rules, SMOOTH_MOST, TILE, Wearer, minded_light,
-};
+use npr_style::backdrop::{LEAN_MOST, Minding, RULES_MAX, Rule, Rules, SMOOTH_MOST, TILE, Wearer};
 use npr_style::compose::Compose;
 use npr_style::{BackgroundMethod, LineScope, Style, Subjects};
 use std::collections::BTreeMap;
@@ -179,35 +177,22 @@ impl Sides {
             texels(lines),
         );
         let sides = fronts.iter().zip(&backs);
+        let mut minding = Minding::default();
         for ((under, line), (front, back)) in rgba.chunks_exact_mut(4).zip(&lines).zip(sides) {
-            if line[3] != 0 {
-                let color = minding(*line, *front, *back, rules);
-                blend(under, color, f32::from(line[3]) / 255.0);
+            if line[3] == 0 {
+                continue;
             }
+            let [r, g, b, alpha] = unpack_rgba8(u32::from_le_bytes(*line));
+            let mut color = [r, g, b];
+            if front[3] != 0 {
+                let sides = [front, back].map(|texel| u32::from_le_bytes(*texel));
+                let light_of = |texel| linear_rgba(unpack_rgba8(texel));
+                let light = minding.light(color.map(linear_from_srgb), sides, rules, light_of);
+                color = light.map(srgb_from_linear);
+            }
+            blend(under, color, alpha);
         }
     }
-}
-
-/// A line's colour before what lies behind it, sRGB-encoded.
-fn minding(line: [u8; 4], front: [u8; 4], back: [u8; 4], rules: &Rules) -> [f32; 3] {
-    let encoded =
-        |texel: [u8; 4]| [texel[0], texel[1], texel[2]].map(|byte| f32::from(byte) / 255.0);
-    if front[3] == 0 {
-        return encoded(line);
-    }
-    let rule = rules
-        .rules
-        .get(usize::from(back[3]))
-        .copied()
-        .unwrap_or_default();
-    let light = |texel: u32| linear_rgba(unpack_rgba8(texel));
-    let rim = light(u32::from_le_bytes(front));
-    let line = encoded(line).map(linear_from_srgb);
-    let minded = minded_light(line, rim, u32::from_le_bytes(back), &rule, |texel| {
-        let [r, g, b, _] = light(texel);
-        [r, g, b]
-    });
-    minded.map(srgb_from_linear)
 }
 
 /// Lays a colour over a texel of bytes with straight alpha.

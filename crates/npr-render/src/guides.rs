@@ -3,7 +3,7 @@
 use crate::model::Model;
 use glam::Vec3;
 use npr_core::camera::Camera;
-use npr_core::color::linear_from_srgb;
+use npr_core::color::linear_from_byte;
 use npr_core::geometry::Vertex;
 use npr_core::math;
 use npr_mesh::direction_field::{Guide, PartGuide};
@@ -161,7 +161,7 @@ fn color_direction(vertex: &Vertex) -> Vec3 {
     if [r, g, b] == [255; 3] {
         return Vec3::ZERO;
     }
-    let part = |byte: u8| linear_from_srgb(f32::from(byte) / 255.0) * 2.0 - 1.0;
+    let part = |byte: u8| linear_from_byte(byte) * 2.0 - 1.0;
     let direction = Vec3::from([r, g, b].map(part));
     if direction.length() < SAYS_NOTHING {
         Vec3::ZERO

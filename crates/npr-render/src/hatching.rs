@@ -6,7 +6,7 @@ use crate::model::{Model, PartInfo};
 use crate::pictures::Pictures;
 use glam::{Vec2, Vec3};
 use npr_core::camera::Camera;
-use npr_core::color::linear_from_srgb;
+use npr_core::color::linear_from_byte;
 use npr_core::geometry::{ChartCorners, NONE, Part, Triangle};
 use npr_core::math;
 use npr_core::texture::TextureStore;
@@ -247,10 +247,7 @@ fn tinted_parts(model: &Model, style: &Style) -> Vec<bool> {
 
 /// Lets the paint of a part darken its shade, where there is a pen and the paint is not all as light as paper.
 fn set_paint(part: &mut Part, strength: f32, tinted: bool) {
-    let [r, g, b] = [0, 8, 16].map(|shift| {
-        let byte = part.paint_color >> shift & 255;
-        linear_from_srgb(byte as f32 / 255.0)
-    });
+    let [r, g, b, _] = part.paint_color.to_le_bytes().map(linear_from_byte);
     let varies = tinted || part.texture != NONE;
     let pen = part.flags & (Part::INK | Part::HATCH) != 0;
     if pen && strength > 0.0 && (varies || paint_white([r, g, b], strength) < 1.0) {

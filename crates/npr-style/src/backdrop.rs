@@ -16,6 +16,8 @@
 //! ```
 
 mod adapt;
+mod minding;
+mod occupied;
 mod oklab;
 pub mod published;
 mod rims;
@@ -23,7 +25,8 @@ mod rule;
 mod spread;
 mod stretch;
 
-pub use adapt::{Ground, adapt, adapted_light, contrast, minded_light};
+pub use adapt::{Ground, adapt, adapted_light, contrast};
+pub use minding::Minding;
 pub use oklab::{light_of_oklab, oklab_of_light};
 pub use published::Criteria;
 pub use rims::{

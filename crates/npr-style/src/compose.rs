@@ -10,7 +10,7 @@ use npr_core::window::{View, Window};
 use rayon::prelude::*;
 use std::ops::Range;
 
-use crate::backdrop::{self, Rules};
+use crate::backdrop::{self, Minding, Rules};
 use crate::known::Known;
 use crate::lighting::Lights;
 use crate::line_color::LinePlace;
@@ -155,18 +155,20 @@ pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
     let encoder = SrgbEncoder::new();
     let known = layers.known_triangles();
     let width = layers.window.size[0] as usize;
+    let empty = layers.empty_texel(&encoder);
+    let new = || Composer {
+        layers,
+        encoder: &encoder,
+        known: &known,
+        empty,
+        last: (0, 0),
+        near: None,
+        minding: Minding::default(),
+    };
     frame
         .par_chunks_mut(width)
         .enumerate()
-        .for_each(|(y, row)| {
-            let mut composer = Composer {
-                layers,
-                encoder: &encoder,
-                known: &known,
-                empty: layers.empty_texel(&encoder),
-                last: (0, 0),
-                near: None,
-            };
+        .for_each_init(new, |composer, (y, row)| {
             for left in (0..width).step_by(RUN) {
                 let run = left..width.min(left + RUN);
                 let texels = &mut row[run.clone()];
@@ -205,7 +207,7 @@ impl std::ops::Deref for Samples {
     }
 }
 
-/// Composes the pixels of a row.
+/// Composes the pixels of some rows.
 struct Composer<'a> {
     layers: &'a Layers<'a>,
     encoder: &'a SrgbEncoder,
@@ -217,6 +219,7 @@ struct Composer<'a> {
     last: (u32, u32),
     /// The triangle that was shaded last, and its corners: mostly that of the next pixel too.
     near: Option<(u32, Corners<'a>)>,
+    minding: Minding,
 }
 
 impl<'a> Composer<'a> {
@@ -267,7 +270,7 @@ impl<'a> Composer<'a> {
         for line in lines {
             if line >> 24 != 0 {
                 let [r, g, b, a] = self.layers.linear_texel(line);
-                let [r, g, b] = self.layers.minding([r, g, b], frame_px);
+                let [r, g, b] = self.layers.minded(&mut self.minding, [r, g, b], frame_px);
                 let a = a * (1.0 - covered) * (1.0 - faded);
                 color = over([r, g, b, a], color);
             }
@@ -354,7 +357,7 @@ impl<'a> Composer<'a> {
                 is_hull: true,
             };
             let line = self.layers.line_light(triangle, part, &corners, &place);
-            return self.layers.minding(line, frame_px);
+            return self.layers.minded(&mut self.minding, line, frame_px);
         }
         let known = &self.known[index];
         if let Some(color) = known.whole() {
@@ -484,21 +487,19 @@ impl<'a> Layers<'a> {
     }
 
     /// A line's colour as it minds what lies behind it there; linear light.
-    pub(crate) fn minding(&self, line: [f32; 3], frame_px: [f32; 2]) -> [f32; 3] {
+    pub(crate) fn minded(
+        &self,
+        minding: &mut Minding,
+        line: [f32; 3],
+        frame_px: [f32; 2],
+    ) -> [f32; 3] {
         if self.compose.flags & Compose::BACKDROP == 0 {
             return line;
         }
         let [x, y] = self.window.pixel_at(frame_px);
         let element = (y * self.window.size[0] + x) as usize;
-        let (front, back) = (self.fronts[element], self.backs[element]);
-        if front >> 24 == 0 {
-            return line;
-        }
-        let rule = &self.rules.rules[(back >> 24) as usize];
-        backdrop::minded_light(line, self.linear_texel(front), back, rule, |texel| {
-            let [r, g, b, _] = self.linear_texel(texel);
-            [r, g, b]
-        })
+        let sides = [self.fronts[element], self.backs[element]];
+        minding.light(line, sides, self.rules, |texel| self.linear_texel(texel))
     }
 
     /// What lies behind everything, premultiplied.

@@ -3,6 +3,7 @@
 //! What is the same all over a triangle is found once a frame (`known.rs`), what changes gently once a pixel, at the middle
 //! of the samples that show the triangle; what has edges at every sample.
 
+use crate::backdrop::Minding;
 use crate::compose::{Compose, Layers};
 use crate::gloss::shines_gently;
 use crate::inking::ink_over;
@@ -224,7 +225,8 @@ impl<'a> Layers<'a> {
             step_px: [1.0; 2],
             is_hull: false,
         };
-        let line = self.minding(self.line_light(triangle, part, corners, &place), frame_px);
+        let line = self.line_light(triangle, part, corners, &place);
+        let line = self.minded(&mut Minding::default(), line, frame_px);
         std::array::from_fn(|i| drawn[i] + (line[i] - drawn[i]) * sampled.line)
     }
 

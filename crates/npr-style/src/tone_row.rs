@@ -4,7 +4,7 @@
 //! look-up whatever the picture holds.
 
 use bytemuck::{Pod, Zeroable};
-use npr_core::color::linear_from_srgb;
+use npr_core::color::linear_from_byte;
 use npr_core::math;
 
 /// Tones of a row: steps lie within 1/2048 of where the picture has them.
@@ -107,7 +107,7 @@ fn check([width, height]: [u32; 2], rgba: &[u8]) -> Result<(), RowError> {
 }
 
 fn linear(pixel: &[u8]) -> [f32; 3] {
-    std::array::from_fn(|i| linear_from_srgb(f32::from(pixel[i]) / 255.0))
+    std::array::from_fn(|i| linear_from_byte(pixel[i]))
 }
 
 /// The tone at `x` where every step between two pixels is a smooth one, `softness` wide.
@@ -227,7 +227,7 @@ mod tests {
         ) {
             let tones = row(&bytes, softness);
             let levels: Vec<Level> = bytes.iter().enumerate().map(|(i, byte)| Level {
-                light: [linear_from_srgb(f32::from(*byte) / 255.0); 3],
+                light: [linear_from_byte(*byte); 3],
                 at: i as f32 / bytes.len() as f32,
             }).collect();
             let x = (place as f32 + 0.5) / ROW_LENGTH as f32;
@@ -250,7 +250,7 @@ mod tests {
         fn tones_stay_within_their_picture(size in prop::array::uniform2(0u32..40), softness in 0f32..0.5, byte: u8) {
             let rgba = greys(&vec![byte; (size[0] * size[1]) as usize]);
             if let Ok(tones) = tone_row(size, &rgba, softness) {
-                let wanted = linear_from_srgb(f32::from(byte) / 255.0);
+                let wanted = linear_from_byte(byte);
                 prop_assert!(tones.iter().all(|tone| (tone.light[0] - wanted).abs() < 1e-6));
             }
         }

@@ -144,7 +144,10 @@ pub fn draw(
 /// An edge ready to draw.
 struct Spine {
     ribbon: Ribbon,
-    depths: [f32; 2],
+    /// Unit vector from one end to the other, in frame pixels.
+    direction: [f32; 2],
+    /// [`View::plane_coordinate`] of both ends.
+    coordinates: [f32; 2],
     part: u32,
     kind: u32,
 }
@@ -206,9 +209,12 @@ impl Drawing<'_> {
             half_b,
         };
         let part = self.triangles[edge.faces[0] as usize].part;
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let length = (along[0] * along[0] + along[1] * along[1]).sqrt().max(1e-6);
         Some(Spine {
             ribbon,
-            depths: [depth_a, depth_b],
+            direction: [along[0] / length, along[1] / length],
+            coordinates: [depth_a, depth_b].map(|depth| self.view.plane_coordinate(depth)),
             part,
             kind,
         })
@@ -266,7 +272,7 @@ impl Drawing<'_> {
         // Find the reference coordinate and its depth.
         let along = [ribbon.b[0] - ribbon.a[0], ribbon.b[1] - ribbon.a[1]];
         let reference = [ribbon.a[0] + along[0] * t, ribbon.a[1] + along[1] * t];
-        let [from_a, to_b] = spine.depths.map(|depth| self.view.plane_coordinate(depth));
+        let [from_a, to_b] = spine.coordinates;
         let depth = self.view.plane_coordinate(from_a + (to_b - from_a) * t);
 
         // Skip the costly look-ups where a better line is there already.
@@ -274,10 +280,8 @@ impl Drawing<'_> {
         if key <= *best {
             return;
         }
-        let length = (along[0] * along[0] + along[1] * along[1]).sqrt().max(1e-6);
-        let direction = [along[0] / length, along[1] / length];
         let part = &self.parts[spine.part as usize];
-        if self.shows_at(reference, depth, direction, spine.kind)
+        if self.shows_at(reference, depth, spine.direction, spine.kind)
             && !self.is_covered(px, reference, depth, part.object)
         {
             let tints = LineTints {

@@ -6,7 +6,7 @@ use crate::model::Model;
 use crate::smoke::Smoke;
 use crate::stage::{Stage, StageOptions};
 use npr_core::camera::Camera;
-use npr_core::color::linear_from_srgb;
+use npr_core::color::linear_from_byte;
 use npr_gpu::processor::Processor;
 use npr_style::{
     Background, Color, SmokeInk, SmokeLines, SmokeMethod, SmokeStop, SmokeStyle, Style,
@@ -49,10 +49,9 @@ impl ToneMap {
         let mut stage = Stage::new(&Processor, model, &telling, &stage_options)?;
         let frame = stage.draw(camera)?;
         let pixels = frame.rgba.as_chunks::<4>().0;
-        let linear = |byte: u8| linear_from_srgb(f32::from(byte) / 255.0);
         let tone = |[r, g, _, a]: &[u8; 4]| match a {
             0 => f32::NAN,
-            _ => 0.5 * (linear(*r) + linear(*g)),
+            _ => 0.5 * (linear_from_byte(*r) + linear_from_byte(*g)),
         };
         let mut map = Self {
             size: frame.size.map(|side| side as usize),

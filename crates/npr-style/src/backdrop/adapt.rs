@@ -45,7 +45,7 @@ const WCAG_LARGEST: f32 = 21.0;
 /// Its contrast never falls, but for backgrounds from which it turns from darker to brighter: a band of about 1 % of lightness.
 ///
 /// By likeness: the published method, see [`published::color`]. Channels outside 0..1 are clamped, and those that are no
-/// number count as 0. About 40 cube roots and 200 products.
+/// number count as 0. About 10 cube roots and 200 products.
 pub fn adapt(line: [f32; 3], rim: [f32; 3], behind: [f32; 3], rule: &Rule) -> [f32; 3] {
     let [line, rim, behind] = [line, rim, behind].map(|color| color.map(sane));
     let rule = &rule.sane();
@@ -121,7 +121,7 @@ impl Ground {
     }
 
     /// Of such a texel.
-    fn unpacked(texel: u32) -> Self {
+    pub(super) fn unpacked(texel: u32) -> Self {
         let [low, high, share, _] = unpack_rgba8(texel);
         Self {
             low,
@@ -133,7 +133,7 @@ impl Ground {
 
 /// [`adapt`] by contrast in linear light of 0..1, as passes do it.
 pub fn adapted_light(line: [f32; 3], rim: [f32; 3], ground: &Ground, rule: &Rule) -> [f32; 3] {
-    let line = started(line, rim, rule);
+    let line = started(|| line, rim, rule);
     let own = oklab_of_light(line);
     let target = target_of(rule);
     let from = place_of(line, own[0], rule);
@@ -142,33 +142,21 @@ pub fn adapted_light(line: [f32; 3], rim: [f32; 3], ground: &Ground, rule: &Rule
     if step == 0.0 {
         return line;
     }
-    let edge = oklab_of_light(rim);
+    let edge = match rim == line {
+        true => own,
+        false => oklab_of_light(rim),
+    };
     let share = smoothstep(0.0, target * HUE_AT, step);
     at_place(to, own, edge, share, rule)
 }
 
-/// A line's light before what a frame found on both of its sides: what every layer of lines ends with.
-///
-/// `rim` is the rim's light and, last, how much it counts; `back` the texel that [`spread_rims`](super::spread_rims) wrote for a rule,
-/// whose light `light_of` gives where it holds a colour.
-pub fn minded_light(
-    line: [f32; 3],
-    rim: [f32; 4],
-    back: u32,
-    rule: &Rule,
-    light_of: impl FnOnce(u32) -> [f32; 3],
-) -> [f32; 3] {
-    let [r, g, b, weight] = rim;
-    let adapted = if rule.method == Rule::BY_CONTRAST {
-        adapted_light(line, [r, g, b], &Ground::unpacked(back), rule)
-    } else {
-        published_light(line, [r, g, b], light_of(back), rule)
-    };
-    std::array::from_fn(|i| line[i] + (adapted[i] - line[i]) * weight)
-}
-
 /// The published method in linear light of 0..1, as passes do it.
-fn published_light(line: [f32; 3], rim: [f32; 3], behind: [f32; 3], rule: &Rule) -> [f32; 3] {
+pub(super) fn published_light(
+    line: [f32; 3],
+    rim: [f32; 3],
+    behind: [f32; 3],
+    rule: &Rule,
+) -> [f32; 3] {
     if rule.method == Rule::OFF {
         return line;
     }
@@ -177,11 +165,11 @@ fn published_light(line: [f32; 3], rim: [f32; 3], behind: [f32; 3], rule: &Rule)
 }
 
 /// The colour that a line starts from: its own, or a share of the rim's.
-pub(super) fn started(line: [f32; 3], rim: [f32; 3], rule: &Rule) -> [f32; 3] {
+pub(super) fn started(line: impl FnOnce() -> [f32; 3], rim: [f32; 3], rule: &Rule) -> [f32; 3] {
     if rule.rim_factor > 0.0 {
         return rim.map(|channel| channel * rule.rim_factor);
     }
-    line
+    line()
 }
 
 /// Where a colour lies on the scale of the rule's measure, 0 black to 1 white.

@@ -36,7 +36,7 @@ fn cube_root(x: f32) -> f32 {
     if x <= 0.0 {
         return 0.0;
     }
-    math::powf(x, 1.0 / 3.0)
+    math::cbrt(x)
 }
 
 #[cfg(test)]

@@ -71,7 +71,7 @@ pub struct Scenery<'a> {
 }
 
 /// What one pixel shows, where all of its samples show the same.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct Shown {
     subject: u32,
     part: u32,
@@ -172,7 +172,8 @@ impl Scenery<'_> {
         };
         for i in 1..samples * samples {
             let at = (y * samples + i / samples) * width + x * samples + i % samples;
-            if self.wearer_of(self.ids[at as usize]).subject != shown.subject {
+            let id = self.ids[at as usize];
+            if id != first && self.wearer_of(id).subject != shown.subject {
                 shown.subject = MIXED;
             }
         }
@@ -236,55 +237,96 @@ impl Sum {
 /// A rim for every pixel among whose 3 x 3 a subject meets anything else; empty ones elsewhere.
 ///
 /// The subject nearest to the eye owns the border. Only pixels whose samples all show the same count as a side, so colours
-/// are never blends of both. O(pixels of busy tiles), parallel over rows.
+/// are never blends of both. O(pixels of busy tiles), parallel over rows of tiles.
 pub fn find_rims(search: &Search<'_>, rims: &mut [Rim]) {
     let width = search.scenery.window.size[0] as usize;
-    rims.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-        for (x, rim) in row.iter_mut().enumerate() {
-            *rim = search.rim_at(x as u32, y as u32);
-        }
-    });
+    let across = tiles_across(search.scenery.window.size) as usize;
+    rims.par_chunks_mut(width * TILE as usize)
+        .zip(search.busy.par_chunks(across))
+        .enumerate()
+        .for_each(|(row, (band, busy))| {
+            band.fill(Rim::default());
+            for (column, _) in busy.iter().enumerate().filter(|(_, busy)| **busy != 0) {
+                search.find_in_tile([column as u32, row as u32], band);
+            }
+        });
+}
+
+/// What a tile and the pixels around it show.
+struct Near {
+    /// The first of them.
+    low: [u32; 2],
+    shown: [[Shown; (TILE + 2) as usize]; (TILE + 2) as usize],
+}
+
+impl Near {
+    fn at(&self, x: u32, y: u32) -> Shown {
+        self.shown[(y - self.low[1]) as usize][(x - self.low[0]) as usize]
+    }
 }
 
 impl Search<'_> {
-    fn rim_at(&self, x: u32, y: u32) -> Rim {
+    /// Finds the rims of a tile, in a band of the rows that it lies in.
+    fn find_in_tile(&self, tile: [u32; 2], band: &mut [Rim]) {
         let scenery = &self.scenery;
         let size = scenery.window.size;
-        let across = tiles_across(size);
-        if self.busy[(y / TILE * across + x / TILE) as usize] == 0 {
-            return Rim::default();
-        }
-        let (low, high) = around(size, x, y);
+        let first = tile.map(|at| at * TILE);
+        let end: [u32; 2] = std::array::from_fn(|i| (first[i] + TILE).min(size[i]));
+        let low = first.map(|at| at.saturating_sub(1));
+        let high: [u32; 2] = std::array::from_fn(|i| end[i].min(size[i] - 1));
         // Where all is one triangle there is no border.
         if scenery.rules.within == 0 && scenery.is_one(low, high) {
+            return;
+        }
+        let mut near = Near {
+            low,
+            shown: Default::default(),
+        };
+        for y in low[1]..=high[1] {
+            for x in low[0]..=high[0] {
+                near.shown[(y - low[1]) as usize][(x - low[0]) as usize] = scenery.shown(x, y);
+            }
+        }
+        for y in first[1]..end[1] {
+            for x in first[0]..end[0] {
+                band[((y - first[1]) * size[0] + x) as usize] = self.rim_at(&near, x, y);
+            }
+        }
+    }
+
+    fn rim_at(&self, near: &Near, x: u32, y: u32) -> Rim {
+        let scenery = &self.scenery;
+        let size = scenery.window.size;
+        let (low, high) = around(size, x, y);
+        let here = near.at(x, y).subject;
+        let pixels =
+            || (low[1]..=high[1]).flat_map(move |y| (low[0]..=high[0]).map(move |x| (x, y)));
+        if scenery.rules.within == 0 && pixels().all(|(x, y)| near.at(x, y).subject == here) {
             return Rim::default();
         }
-        let owner = self.owner(low, high);
+        let owner = self.owner(near, pixels());
         if owner == 0 {
             return Rim::default();
         }
         let (mut rim, mut behind) = (Sum::default(), Sum::default());
         let (mut part, mut rule, mut minding) = (0, 0, 0.0);
-        for row in low[1]..=high[1] {
-            for column in low[0]..=high[0] {
-                let shown = scenery.shown(column, row);
-                let texel = self.bare[(row * size[0] + column) as usize];
-                if shown.subject == owner {
-                    if rim.count == 0.0 {
-                        part = shown.part;
-                    }
-                    rim.add(texel);
-                    let own = scenery.wearers[shown.part as usize].rule;
-                    if own != 0 {
-                        minding += 1.0;
-                        rule = own;
-                    }
-                } else if shown.subject != MIXED {
-                    behind.add(texel);
+        for (x, y) in pixels() {
+            let shown = near.at(x, y);
+            let texel = self.bare[(y * size[0] + x) as usize];
+            if shown.subject == owner {
+                if rim.count == 0.0 {
+                    part = shown.part;
                 }
+                rim.add(texel);
+                let own = scenery.wearers[shown.part as usize].rule;
+                if own != 0 {
+                    minding += 1.0;
+                    rule = own;
+                }
+            } else if shown.subject != MIXED {
+                behind.add(texel);
             }
         }
-        let here = scenery.shown(x, y).subject;
         let outside = if here == owner { 0 } else { Rim::OUTSIDE };
         if scenery.rules.rules[rule as usize].method == Rule::BY_LIKENESS && outside != 0 {
             behind = Sum::default();
@@ -298,21 +340,18 @@ impl Search<'_> {
     }
 
     /// The subject nearest to the eye among some pixels; 0 where there is none.
-    fn owner(&self, low: [u32; 2], high: [u32; 2]) -> u32 {
+    fn owner(&self, near: &Near, pixels: impl Iterator<Item = (u32, u32)>) -> u32 {
         let samples = self.scenery.rules.samples;
         let width = self.scenery.window.size[0] * samples;
         let (mut owner, mut nearest) = (0, -1.0);
-        for row in low[1]..=high[1] {
-            for column in low[0]..=high[0] {
-                let shown = self.scenery.shown(column, row);
-                if shown.subject == 0 || shown.subject == MIXED {
-                    continue;
-                }
-                let at = row * samples * width + column * samples;
-                let depth = f32::from_bits(self.depths[at as usize]);
-                if depth > nearest {
-                    (owner, nearest) = (shown.subject, depth);
-                }
+        for (x, y) in pixels {
+            let subject = near.at(x, y).subject;
+            if subject == 0 || subject == MIXED {
+                continue;
+            }
+            let depth = f32::from_bits(self.depths[(y * samples * width + x * samples) as usize]);
+            if depth > nearest {
+                (owner, nearest) = (subject, depth);
             }
         }
         owner

@@ -2,6 +2,7 @@
 //! `backdrop.spread_rows` and `backdrop.spread_rims`.
 
 use super::adapt::Ground;
+use super::occupied::{Gaussian, Occupied};
 use super::rims::Rim;
 use super::rule::{Rule, Rules};
 use super::stretch::{Lean, lean_between};
@@ -16,6 +17,9 @@ pub const SMOOTH_MOST: u32 = 24;
 /// Difference of a channel from which what two places see is not blended any more.
 pub const UNLIKE_COLORS: f32 = 0.2;
 
+/// Where a texel of what lies behind holds the number of the rule.
+const RULE: u32 = 0xff00_0000;
+
 /// Blends every rim with those of the same subject around it, by a Gaussian that ends at [`Rules::smooth_px`].
 ///
 /// Colours then change over a few pixels of outline, and do not flicker from frame to frame. Rims weigh less the more their colours
@@ -23,72 +27,103 @@ pub const UNLIKE_COLORS: f32 = 0.2;
 /// rims of another count for less, so does this one. Rims of the published method stay as they are. O(rims * length squared),
 /// parallel over rows.
 pub fn smooth_rims(window: &Window, rules: &Rules, rims: &[Rim], smoothed: &mut [Rim]) {
+    smoothed.copy_from_slice(rims);
+    if rules.smooth_px <= 0.0 {
+        return;
+    }
     let width = window.size[0] as usize;
-    smoothed
-        .par_chunks_mut(width)
-        .enumerate()
-        .for_each(|(y, row)| {
-            for (x, out) in row.iter_mut().enumerate() {
-                let rim = rims[y * width + x];
-                *out = rim;
-                let method = rules.rules[(rim.behind >> 24) as usize].method;
-                if rim.subject != 0 && method != Rule::BY_LIKENESS && rules.smooth_px > 0.0 {
-                    *out = smoothed_rim(window.size, rules, rims, [x as u32, y as u32]);
-                }
-            }
-        });
+    let reach = (rules.smooth_px as u32).min(SMOOTH_MOST);
+    let falloff = -2.0 / (rules.smooth_px * rules.smooth_px);
+    let occupied = Occupied::of(rims, width, |rim| rim.subject != 0);
+    let smoothing = Smoothing {
+        rules,
+        rims,
+        width,
+        reach,
+        nearness: Gaussian::new(falloff, reach),
+        known: occupied.each(|[x, y]| Known::of(&rims[y as usize * width + x as usize])),
+        occupied,
+    };
+    let occupied = &smoothing.occupied;
+    occupied.make(smoothed, width, |place| smoothing.rim_at(place));
 }
 
-fn smoothed_rim(size: [u32; 2], rules: &Rules, rims: &[Rim], [x, y]: [u32; 2]) -> Rim {
-    let here = rims[(y * size[0] + x) as usize];
-    let reach = (rules.smooth_px as u32).min(SMOOTH_MOST);
-    let low = [x.saturating_sub(reach), y.saturating_sub(reach)];
-    let high = [(x + reach).min(size[0] - 1), (y + reach).min(size[1] - 1)];
-    let falloff = -2.0 / (rules.smooth_px * rules.smooth_px);
-    let (mut total, mut counted) = (0.0, 0.0);
-    let (mut front, mut back) = ([0.0; 3], [0.0; 3]);
-    let mut rule = here.behind & 0xff00_0000;
-    for row in low[1]..=high[1] {
-        for column in low[0]..=high[0] {
-            let rim = rims[(row * size[0] + column) as usize];
-            if rim.subject & Rim::WHOSE != here.subject & Rim::WHOSE {
-                continue;
-            }
-            let off = [column as f32 - x as f32, row as f32 - y as f32];
-            let near = math::exp((off[0] * off[0] + off[1] * off[1]) * falloff);
-            let (own, beyond) = (unpack_rgba8(rim.rim), unpack_rgba8(rim.behind));
-            let near = near * likeness(&here, &rim);
-            let weight = near * own[3];
-            total += near;
-            counted += weight;
-            for i in 0..3 {
-                front[i] += own[i] * weight;
-                back[i] += beyond[i] * weight;
-            }
-            if rule == 0 {
-                rule = rim.behind & 0xff00_0000;
-            }
+/// Rims that are blended with each other.
+struct Smoothing<'a> {
+    rules: &'a Rules,
+    rims: &'a [Rim],
+    width: usize,
+    reach: u32,
+    nearness: Gaussian,
+    occupied: Occupied,
+    /// One for every place that is occupied, in that order.
+    known: Vec<Known>,
+}
+
+/// What of a rim is blended.
+struct Known {
+    whose: u32,
+    rule: u32,
+    /// Its colour with its weight, and that behind.
+    own: [f32; 4],
+    beyond: [f32; 3],
+}
+
+impl Known {
+    fn of(rim: &Rim) -> Self {
+        let [r, g, b, _] = unpack_rgba8(rim.behind);
+        Self {
+            whose: rim.subject & Rim::WHOSE,
+            rule: rim.behind & RULE,
+            own: unpack_rgba8(rim.rim),
+            beyond: [r, g, b],
         }
     }
-    if counted <= 0.0 {
-        return here;
-    }
-    let [front, back] = [front, back].map(|sum| sum.map(|channel| channel / counted));
-    Rim {
-        rim: pack_rgba8([front[0], front[1], front[2], counted / total]),
-        behind: pack_rgba8([back[0], back[1], back[2], 0.0]) | rule,
-        ..here
+
+    /// 1 for rims before the same colour, down to 0 where any channel differs by [`UNLIKE_COLORS`].
+    fn likeness(&self, other: &Self) -> f32 {
+        let left = (1.0 - largest_difference(self.beyond, other.beyond) / UNLIKE_COLORS).max(0.0);
+        left * left
     }
 }
 
-/// 1 for rims before the same colour, down to 0 where any channel differs by [`UNLIKE_COLORS`].
-fn likeness(a: &Rim, b: &Rim) -> f32 {
-    let [a, b] = [a, b].map(|rim| {
-        let [r, g, b, _] = unpack_rgba8(rim.behind);
-        [r, g, b]
-    });
-    let left = (1.0 - largest_difference(a, b) / UNLIKE_COLORS).max(0.0);
-    left * left
+impl Smoothing<'_> {
+    fn rim_at(&self, [x, y]: [u32; 2]) -> Rim {
+        let rim = &self.rims[y as usize * self.width + x as usize];
+        let here = Known::of(rim);
+        let mut rule = here.rule;
+        if self.rules.rules[(rule >> 24) as usize].method == Rule::BY_LIKENESS {
+            return *rim;
+        }
+        let (mut total, mut counted) = (0.0, 0.0);
+        let (mut front, mut back) = ([0.0; 3], [0.0; 3]);
+        for near in self.occupied.around([x, y], self.reach) {
+            let there = &self.known[near.ordinal];
+            if there.whose != here.whose {
+                continue;
+            }
+            let nearness = self.nearness.at(near.square) * here.likeness(there);
+            let weight = nearness * there.own[3];
+            total += nearness;
+            counted += weight;
+            for i in 0..3 {
+                front[i] += there.own[i] * weight;
+                back[i] += there.beyond[i] * weight;
+            }
+            if rule == 0 {
+                rule = there.rule;
+            }
+        }
+        if counted <= 0.0 {
+            return *rim;
+        }
+        let [front, back] = [front, back].map(|sum| sum.map(|channel| channel / counted));
+        Rim {
+            rim: pack_rgba8([front[0], front[1], front[2], counted / total]),
+            behind: pack_rgba8([back[0], back[1], back[2], 0.0]) | rule,
+            ..*rim
+        }
+    }
 }
 
 /// For every pixel the column of the nearest rim in its row, counted from 1, within [`Rules::reach_px`]; 0 where there is none.
@@ -135,61 +170,87 @@ pub fn spread_rims(
     backs: &mut [u32],
 ) {
     let width = window.size[0] as usize;
+    let carrying = Carrying {
+        size: window.size,
+        rules,
+        rims,
+        columns,
+        leans,
+    };
     fronts
         .par_chunks_mut(width)
         .zip(backs.par_chunks_mut(width))
         .enumerate()
         .for_each(|(y, (fronts, backs))| {
+            // Pixels beside each other mostly have the same rim.
+            let mut last = (0, [0.0; 4], 0);
             for (x, (front, back)) in fronts.iter_mut().zip(backs).enumerate() {
-                let place = [x as u32, y as u32];
-                (*front, *back) = spread_at(window.size, rules, rims, columns, leans, place);
+                let (found, square) = carrying.nearest([x as u32, y as u32]);
+                if found == 0 {
+                    (*front, *back) = (0, 0);
+                    continue;
+                }
+                if found != last.0 {
+                    let (color, behind) = carrying.sides(found);
+                    last = (found, color, behind);
+                }
+                let (_, [r, g, b, weight], behind) = last;
+                let distance = (square as f32).sqrt();
+                let reach = rules.reach_px as f32;
+                let kept = 1.0 - math::smoothstep(rules.whole_px, reach, distance);
+                (*front, *back) = (pack_rgba8([r, g, b, weight * kept]), behind);
             }
         });
 }
 
-fn spread_at(
+/// What is carried to pixels.
+struct Carrying<'a> {
     size: [u32; 2],
-    rules: &Rules,
-    rims: &[Rim],
-    columns: &[u32],
-    leans: &[Lean],
-    [x, y]: [u32; 2],
-) -> (u32, u32) {
-    let low = y.saturating_sub(rules.reach_px);
-    let high = (y + rules.reach_px).min(size[1] - 1);
-    let (mut nearest, mut found) = (rules.reach_px * rules.reach_px + 1, 0);
-    for row in low..=high {
-        let column = columns[(row * size[0] + x) as usize];
-        if column == 0 {
-            continue;
+    rules: &'a Rules,
+    rims: &'a [Rim],
+    columns: &'a [u32],
+    leans: &'a [Lean],
+}
+
+impl Carrying<'_> {
+    /// The number of the rim nearest to a pixel, counted from 1, and the square of its distance; 0 where there is none.
+    fn nearest(&self, [x, y]: [u32; 2]) -> (u32, u32) {
+        let reach = self.rules.reach_px;
+        let low = y.saturating_sub(reach);
+        let high = (y + reach).min(self.size[1] - 1);
+        let (mut nearest, mut found) = (reach * reach + 1, 0);
+        for row in low..=high {
+            let column = self.columns[(row * self.size[0] + x) as usize];
+            if column == 0 {
+                continue;
+            }
+            let (dx, dy) = (x.abs_diff(column - 1), y.abs_diff(row));
+            let square = dx * dx + dy * dy;
+            if square < nearest {
+                (nearest, found) = (square, row * self.size[0] + column);
+            }
         }
-        let (dx, dy) = (x.abs_diff(column - 1), y.abs_diff(row));
-        let square = dx * dx + dy * dy;
-        if square < nearest {
-            (nearest, found) = (square, row * size[0] + column);
+        (found, nearest)
+    }
+
+    /// The colour of a rim with its weight, and a texel of what lies behind it.
+    fn sides(&self, number: u32) -> ([f32; 4], u32) {
+        let rim = &self.rims[(number - 1) as usize];
+        let color = unpack_rgba8(rim.rim);
+        let rule = rim.behind >> 24;
+        let ruling = &self.rules.rules[rule as usize];
+        if ruling.method != Rule::BY_CONTRAST {
+            return (color, rim.behind);
         }
+        let pixel = [(number - 1) % self.size[0], (number - 1) / self.size[0]];
+        let Some(lean) = lean_between(self.leans, self.size, rim.subject & Rim::WHOSE, pixel)
+        else {
+            return (color, 0);
+        };
+        let [r, g, b] = match ruling.rim_factor > 0.0 {
+            true => lean.rim,
+            false => [color[0], color[1], color[2]],
+        };
+        ([r, g, b, color[3]], Ground::of_lean(&lean).packed(rule))
     }
-    if found == 0 {
-        return (0, 0);
-    }
-    let rim = rims[(found - 1) as usize];
-    let [r, g, b, weight] = unpack_rgba8(rim.rim);
-    let distance = (nearest as f32).sqrt();
-    let kept = 1.0 - math::smoothstep(rules.whole_px, rules.reach_px as f32, distance);
-    let (column, row) = ((found - 1) % size[0], (found - 1) / size[0]);
-    let whose = rim.subject & Rim::WHOSE;
-    let rule = rim.behind >> 24;
-    let front = |[r, g, b]: [f32; 3]| pack_rgba8([r, g, b, weight * kept]);
-    let ruling = &rules.rules[rule as usize];
-    if ruling.method != Rule::BY_CONTRAST {
-        return (front([r, g, b]), rim.behind);
-    }
-    let Some(lean) = lean_between(leans, size, whose, [column, row]) else {
-        return (front([r, g, b]), 0);
-    };
-    let edge = match ruling.rim_factor > 0.0 {
-        true => lean.rim,
-        false => [r, g, b],
-    };
-    (front(edge), Ground::of_lean(&lean).packed(rule))
 }

@@ -6,13 +6,15 @@
 //! the outline, and the stretch votes which way to move.
 
 use super::adapt::{place_of_light, preference, started};
+use super::occupied::{Gaussian, Occupied};
 use super::rims::{Rim, TILE, tiles_across};
 use super::rule::{Rule, Rules};
 use bytemuck::{Pod, Zeroable};
-use npr_core::color::{largest_difference, linear_from_srgb, pack_rgba8, unpack_rgba8};
+use npr_core::color::{
+    largest_difference, linear_from_byte, linear_from_srgb, pack_rgba8, unpack_rgba8,
+};
 use npr_core::geometry::Part;
 use npr_core::gpu_layout;
-use npr_core::math;
 use npr_core::window::Window;
 use rayon::prelude::*;
 
@@ -148,20 +150,13 @@ pub fn gather_tiles(
     rims: &[Rim],
     gathered: &mut [TileRims],
 ) {
-    for_tiles(window, gathered, |tile| {
-        gathered_at(window.size, rules, parts, rims, tile)
-    });
-}
-
-/// Makes something of every tile.
-fn for_tiles<T: Send>(window: &Window, tiles: &mut [T], made: impl Fn([u32; 2]) -> T + Sync) {
     let across = tiles_across(window.size) as usize;
-    tiles
+    gathered
         .par_chunks_mut(across)
         .enumerate()
         .for_each(|(y, row)| {
             for (x, tile) in row.iter_mut().enumerate() {
-                *tile = made([x as u32, y as u32]);
+                *tile = gathered_at(window.size, rules, parts, rims, [x as u32, y as u32]);
             }
         });
 }
@@ -173,14 +168,14 @@ fn gathered_at(
     rims: &[Rim],
     tile: [u32; 2],
 ) -> TileRims {
-    let all = summed(size, rules, parts, rims, tile, [0.0, 1.0]);
+    let found = Found::in_tile(size, rules, parts, rims, tile);
+    let all = found.summed([0.0, 1.0]);
     if all.high - all.low <= UNLIKE {
         return all;
     }
     // Where two walls meet, the tile is of the one that more of its rims stand before.
     let middle = 0.5 * (all.low + all.high);
-    let dark = summed(size, rules, parts, rims, tile, [0.0, middle]);
-    let bright = summed(size, rules, parts, rims, tile, [middle, 1.0]);
+    let (dark, bright) = (found.summed([0.0, middle]), found.summed([middle, 1.0]));
     if dark.count >= bright.count {
         dark
     } else {
@@ -188,71 +183,98 @@ fn gathered_at(
     }
 }
 
-/// The rims of a tile that stand before a ground between two places.
-fn summed(
-    size: [u32; 2],
-    rules: &Rules,
-    parts: &[Part],
-    rims: &[Rim],
-    tile: [u32; 2],
-    within: [f32; 2],
-) -> TileRims {
-    let mut sum = TileRims {
-        low: 1.0,
-        ..TileRims::default()
-    };
-    let mut color = [0.0; 3];
-    for y in tile[1] * TILE..((tile[1] + 1) * TILE).min(size[1]) {
-        for x in tile[0] * TILE..((tile[0] + 1) * TILE).min(size[0]) {
-            let rim = &rims[(y * size[0] + x) as usize];
-            let (whose, rule) = (rim.subject & Rim::WHOSE, rim.behind >> 24);
-            if whose == 0 || rules.rules[rule as usize].method != Rule::BY_CONTRAST {
-                continue;
+/// The rims of a tile that are of the same subject and rule as the first.
+#[derive(Default)]
+struct Found {
+    whose: u32,
+    rule: u32,
+    /// Where their lines start, what lies behind, and their colour, in as many places as are `count`.
+    rims: [([f32; 2], u32); (TILE * TILE) as usize],
+    count: usize,
+}
+
+impl Found {
+    fn in_tile(
+        size: [u32; 2],
+        rules: &Rules,
+        parts: &[Part],
+        rims: &[Rim],
+        tile: [u32; 2],
+    ) -> Self {
+        let mut found = Self::default();
+        for y in tile[1] * TILE..((tile[1] + 1) * TILE).min(size[1]) {
+            for x in tile[0] * TILE..((tile[0] + 1) * TILE).min(size[0]) {
+                let rim = &rims[(y * size[0] + x) as usize];
+                let (whose, number) = (rim.subject & Rim::WHOSE, rim.behind >> 24);
+                if whose == 0 {
+                    continue;
+                }
+                let rule = &rules.rules[number as usize];
+                if rule.method != Rule::BY_CONTRAST {
+                    continue;
+                }
+                if found.whose == 0 {
+                    (found.whose, found.rule) = (whose, number);
+                }
+                if found.whose == whose && found.rule == number {
+                    found.rims[found.count] = (places_of(rim, rule, parts), rim.rim);
+                    found.count += 1;
+                }
             }
-            if sum.whose == 0 {
-                (sum.whose, sum.rule) = (whose, rule);
-            }
-            if sum.whose != whose || sum.rule != rule {
-                continue;
-            }
-            let [line, behind] = places_of(rim, &rules.rules[rule as usize], parts);
-            if behind < within[0] || behind > within[1] {
+        }
+        found
+    }
+
+    /// Those that stand before a ground between two places.
+    fn summed(&self, within: [f32; 2]) -> TileRims {
+        let mut sum = TileRims {
+            low: 1.0,
+            whose: self.whose,
+            rule: self.rule,
+            ..TileRims::default()
+        };
+        let mut color = [0.0; 3];
+        for ([line, behind], rim) in &self.rims[..self.count] {
+            if *behind < within[0] || *behind > within[1] {
                 continue;
             }
             sum.line += line;
             sum.behind += behind;
-            sum.low = sum.low.min(behind);
-            sum.high = sum.high.max(behind);
-            let [r, g, b, _] = unpack_rgba8(rim.rim);
+            sum.low = sum.low.min(*behind);
+            sum.high = sum.high.max(*behind);
+            let [r, g, b, _] = unpack_rgba8(*rim);
             color = [color[0] + r, color[1] + g, color[2] + b];
             sum.count += 1.0;
         }
-    }
-    let count = sum.count.max(1.0);
-    let [r, g, b] = color.map(|channel| channel / count);
-    TileRims {
-        rim: pack_rgba8([r, g, b, 0.0]),
-        line: sum.line / count,
-        behind: sum.behind / count,
-        ..sum
+        let count = sum.count.max(1.0);
+        let [r, g, b] = color.map(|channel| channel / count);
+        TileRims {
+            rim: pack_rgba8([r, g, b, 0.0]),
+            line: sum.line / count,
+            behind: sum.behind / count,
+            ..sum
+        }
     }
 }
 
 /// Where the line that a rim's part is expected to have, and what lies behind it, lie on the scale of the rule.
 fn places_of(rim: &Rim, rule: &Rule, parts: &[Part]) -> [f32; 2] {
-    let light = |texel: u32| {
-        let [r, g, b, _] = unpack_rgba8(texel);
-        [r, g, b].map(linear_from_srgb)
-    };
     let part = &parts[rim.part as usize];
-    let edge = light(rim.rim);
-    let own = if part.line_flags & Part::LINE_SURFACE != 0 {
-        edge.map(|channel| (channel * part.line_factor).clamp(0.0, 1.0))
-    } else {
+    let edge = light_of(rim.rim);
+    let own = || {
+        if part.line_flags & Part::LINE_SURFACE != 0 {
+            return edge.map(|channel| (channel * part.line_factor).clamp(0.0, 1.0));
+        }
         let [r, g, b, _] = part.line_color;
         [r, g, b].map(linear_from_srgb)
     };
-    [started(own, edge, rule), light(rim.behind)].map(|light| place_of_light(light, rule))
+    [started(own, edge, rule), light_of(rim.behind)].map(|light| place_of_light(light, rule))
+}
+
+/// Linear light of sRGB bytes.
+fn light_of(texel: u32) -> [f32; 3] {
+    let [r, g, b, _] = texel.to_le_bytes();
+    [r, g, b].map(linear_from_byte)
 }
 
 /// Gives every tile the bounds of what its lines stand before, and its own vote as the lean.
@@ -260,45 +282,60 @@ fn places_of(rim: &Rim, rule: &Rule, parts: &[Part]) -> [f32; 2] {
 /// Bounds are envelopes over 4 tiles each way, which fall with the distance: a line that follows them changes slowly.
 /// Another wall, by 0.42 darker or brighter, does not count. O(tiles with rims * 81), parallel over rows of tiles.
 pub fn bound_tiles(window: &Window, rules: &Rules, gathered: &[TileRims], bounds: &mut [Lean]) {
-    let across = tiles_across(window.size);
-    for_tiles(window, bounds, |tile| {
-        bound_at(rules, gathered, across, tile)
-    });
+    let tiles = Tiles::of(window, gathered, |tile| tile.whose);
+    tiles.make(bounds, |tile| bound_at(rules, &tiles, tile));
 }
 
-/// The tiles up to `reach` around one, itself included, row by row: their numbers, and the squares of how many tiles they are away.
-fn around(
-    across: u32,
-    tile_count: usize,
-    [x, y]: [u32; 2],
-    reach: u32,
-) -> impl Iterator<Item = (usize, f32)> {
-    let down = tile_count as u32 / across;
-    let columns = x.saturating_sub(reach)..=(x + reach).min(across - 1);
-    (y.saturating_sub(reach)..=(y + reach).min(down - 1)).flat_map(move |row| {
-        columns.clone().map(move |column| {
-            let off = [column as f32 - x as f32, row as f32 - y as f32];
-            let square = off[0] * off[0] + off[1] * off[1];
-            ((row * across + column) as usize, square)
-        })
-    })
+/// Tiles of which only those are looked at that hold rims.
+struct Tiles<'a, T> {
+    tiles: &'a [T],
+    across: usize,
+    occupied: Occupied,
 }
 
-fn bound_at(rules: &Rules, gathered: &[TileRims], across: u32, [x, y]: [u32; 2]) -> Lean {
-    let here = gathered[(y * across + x) as usize];
-    if here.whose == 0 {
-        return Lean::default();
+impl<'a, T: Sync> Tiles<'a, T> {
+    fn of(window: &Window, tiles: &'a [T], whose: impl Fn(&T) -> u32 + Sync) -> Self {
+        let across = tiles_across(window.size) as usize;
+        Self {
+            tiles,
+            across,
+            occupied: Occupied::of(tiles, across, |tile| whose(tile) != 0),
+        }
     }
+
+    fn number(&self, [x, y]: [u32; 2]) -> usize {
+        y as usize * self.across + x as usize
+    }
+
+    fn at(&self, tile: [u32; 2]) -> &'a T {
+        &self.tiles[self.number(tile)]
+    }
+
+    /// Those up to `reach` tiles around one, itself included, row by row: their numbers, what they hold, and the squares of how many tiles
+    /// they are away.
+    fn around(&self, tile: [u32; 2], reach: u32) -> impl Iterator<Item = (usize, &'a T, u32)> {
+        let near = self.occupied.around(tile, reach);
+        near.map(|near| (self.number(near.place), self.at(near.place), near.square))
+    }
+
+    /// Makes something of every tile that holds rims; all others become empty.
+    fn make<U: Default + Clone + Send>(&self, made: &mut [U], of: impl Fn([u32; 2]) -> U + Sync) {
+        made.fill(U::default());
+        self.occupied.make(made, self.across, of);
+    }
+}
+
+fn bound_at(rules: &Rules, gathered: &Tiles<'_, TileRims>, tile: [u32; 2]) -> Lean {
+    let here = gathered.at(tile);
     let (mut low, mut high) = (here.low, here.high);
     let reach = if rules.lean_px > 0.0 {
         ENVELOPE_TILES
     } else {
         0
     };
-    for (index, square) in around(across, gathered.len(), [x, y], reach) {
-        let there = gathered[index];
+    for (_, there, square) in gathered.around(tile, reach) {
         if there.whose == here.whose {
-            let loss = (square.sqrt() - WHOLE_TILES).max(0.0) * SLOPE;
+            let loss = ((square as f32).sqrt() - WHOLE_TILES).max(0.0) * SLOPE;
             let unlike = ((there.behind - here.behind).abs() - UNLIKE).max(0.0) * UNLIKE_SLOPE;
             low = low.min(there.low + loss + unlike);
             high = high.max(there.high - loss - unlike);
@@ -329,79 +366,83 @@ pub fn lean_tiles(
     before: &[Lean],
     leans: &mut [Lean],
 ) {
-    let across = tiles_across(window.size);
-    for_tiles(window, leans, |tile| {
-        lean_at(rules, gathered, bounds, before, across, tile)
-    });
-}
-
-fn lean_at(
-    rules: &Rules,
-    gathered: &[TileRims],
-    bounds: &[Lean],
-    before: &[Lean],
-    across: u32,
-    [x, y]: [u32; 2],
-) -> Lean {
-    let at = (y * across + x) as usize;
-    let here = gathered[at];
-    if here.whose == 0 {
-        return Lean::default();
-    }
     let tiles = rules.lean_px / TILE as f32;
     let reach = (tiles.max(0.0).ceil() as u32).min(LEAN_MOST);
-    let falloff = -2.0 / (tiles * tiles).max(1.0);
-    let (mut sum, mut count) = (0.0, 0.0);
-    for (index, square) in around(across, gathered.len(), [x, y], reach) {
-        let there = gathered[index];
-        if there.whose == here.whose {
-            let near = math::exp(square * falloff);
-            let alike = 1.0 - (there.behind - here.behind).abs() / (2.0 * UNLIKE);
-            let weight = near * alike.max(0.0) * there.count;
-            sum += bounds[index].lean * weight;
-            count += weight;
+    let voting = Voting {
+        rules,
+        bounds,
+        reach,
+        nearness: Gaussian::new(-2.0 / (tiles * tiles).max(1.0), reach),
+        gathered: Tiles::of(window, gathered, |tile| tile.whose),
+        before: Tiles::of(window, before, |lean| lean.whose),
+    };
+    voting.gathered.make(leans, |tile| voting.lean_at(tile));
+}
+
+/// What the leans of a frame are decided from.
+struct Voting<'a> {
+    rules: &'a Rules,
+    bounds: &'a [Lean],
+    reach: u32,
+    nearness: Gaussian,
+    gathered: Tiles<'a, TileRims>,
+    before: Tiles<'a, Lean>,
+}
+
+impl Voting<'_> {
+    fn lean_at(&self, tile: [u32; 2]) -> Lean {
+        let here = self.gathered.at(tile);
+        let (mut sum, mut count) = (0.0, 0.0);
+        for (number, there, square) in self.gathered.around(tile, self.reach) {
+            if there.whose == here.whose {
+                let alike = 1.0 - (there.behind - here.behind).abs() / (2.0 * UNLIKE);
+                let weight = self.nearness.at(square) * alike.max(0.0) * there.count;
+                sum += self.bounds[number].lean * weight;
+                count += weight;
+            }
+        }
+        let vote = sum / count.max(1e-6);
+        let (hold, fade) = (self.rules.hold, self.rules.fade);
+        let decided = |held: f32| ((vote + hold * held) / DECIDED).clamp(-1.0, 1.0);
+        let bound = self.bounds[self.gathered.number(tile)];
+        let was = self.held(&bound, tile);
+        let decided = Lean {
+            lean: decided(was.map_or(0.0, |was| was.lean)),
+            ..bound
+        };
+        match was {
+            Some(was) if fade < 1.0 => Lean {
+                lean: nearer(was.lean, decided.lean, 2.0 * fade),
+                ..decided.with(&was, |to, from| nearer(from, to, FADE_BOUNDS * fade))
+            },
+            _ => decided,
         }
     }
-    let vote = sum / count.max(1e-6);
-    let decided = |held: f32| ((vote + rules.hold * held) / DECIDED).clamp(-1.0, 1.0);
-    let bound = bounds[at];
-    let was = held(before, &bound, across, [x, y]);
-    let decided = Lean {
-        lean: decided(was.map_or(0.0, |was| was.lean)),
-        ..bound
-    };
-    match was {
-        Some(was) if rules.fade < 1.0 => Lean {
-            lean: nearer(was.lean, decided.lean, 2.0 * rules.fade),
-            ..decided.with(&was, |to, from| nearer(from, to, FADE_BOUNDS * rules.fade))
-        },
-        _ => decided,
+
+    /// What was decided before for the same lines before the same wall: in the tile itself, or else the mean of those that touch it, for an
+    /// outline moves between frames.
+    fn held(&self, here: &Lean, tile: [u32; 2]) -> Option<Lean> {
+        let is_same = |lean: &Lean| {
+            let off = (lean.low + lean.high) - (here.low + here.high);
+            lean.whose == here.whose && off.abs() < 2.0 * UNLIKE
+        };
+        let own = self.before.at(tile);
+        if is_same(own) {
+            return Some(*own);
+        }
+        let mut mean = Mean::default();
+        for (_, lean, _) in self.before.around(tile, 1) {
+            if is_same(lean) {
+                mean.add(lean, 1.0);
+            }
+        }
+        mean.of(here.whose)
     }
 }
 
 /// A value moved towards another by no more than a step.
 fn nearer(from: f32, to: f32, step: f32) -> f32 {
     from + (to - from).clamp(-step, step)
-}
-
-/// What was decided before for the same lines before the same wall: in the tile itself, or else the mean of those that touch it, for an outline
-/// moves between frames.
-fn held(before: &[Lean], here: &Lean, across: u32, [x, y]: [u32; 2]) -> Option<Lean> {
-    let is_same = |lean: &Lean| {
-        let off = (lean.low + lean.high) - (here.low + here.high);
-        lean.whose == here.whose && off.abs() < 2.0 * UNLIKE
-    };
-    let own = before[(y * across + x) as usize];
-    if is_same(&own) {
-        return Some(own);
-    }
-    let mut mean = Mean::default();
-    for (index, _) in around(across, before.len(), [x, y], 1) {
-        if is_same(&before[index]) {
-            mean.add(&before[index], 1.0);
-        }
-    }
-    mean.of(here.whose)
 }
 
 /// Keeps leans for the next frame, and blends them along the outline for this one.
@@ -417,24 +458,23 @@ pub fn blend_leans(
     blended: &mut [Lean],
 ) {
     kept.copy_from_slice(leans);
-    let across = tiles_across(window.size);
-    for_tiles(window, blended, |tile| {
-        blended_at(rules, leans, across, tile)
-    });
+    if rules.lean_px <= 0.0 {
+        blended.copy_from_slice(leans);
+        return;
+    }
+    let tiles = Tiles::of(window, leans, |lean| lean.whose);
+    let falloff = -2.0 / (BLEND_TILES * BLEND_TILES) as f32;
+    let nearness = Gaussian::new(falloff, BLEND_TILES);
+    tiles.make(blended, |tile| blended_at(&tiles, &nearness, tile));
 }
 
-fn blended_at(rules: &Rules, leans: &[Lean], across: u32, [x, y]: [u32; 2]) -> Lean {
-    let here = leans[(y * across + x) as usize];
-    if here.whose == 0 || rules.lean_px <= 0.0 {
-        return here;
-    }
-    let falloff = -2.0 / (BLEND_TILES * BLEND_TILES) as f32;
+fn blended_at(leans: &Tiles<'_, Lean>, nearness: &Gaussian, tile: [u32; 2]) -> Lean {
+    let here = leans.at(tile);
     let (mut lean, mut leaning) = (0.0, 0.0);
     let (mut rim, mut coloring) = ([0.0; 3], 0.0);
-    for (index, square) in around(across, leans.len(), [x, y], BLEND_TILES) {
-        let there = &leans[index];
+    for (_, there, square) in leans.around(tile, BLEND_TILES) {
         if there.whose == here.whose {
-            let near = math::exp(square * falloff);
+            let near = nearness.at(square);
             let wall = 0.5 * ((there.low + there.high) - (here.low + here.high));
             let paint =
                 near * (1.0 - largest_difference(here.rim, there.rim) / UNLIKE_RIMS).max(0.0);
@@ -448,7 +488,7 @@ fn blended_at(rules: &Rules, leans: &[Lean], across: u32, [x, y]: [u32; 2]) -> L
     Lean {
         lean: lean / leaning,
         rim: rim.map(|channel| channel / coloring),
-        ..here
+        ..*here
     }
 }
 
