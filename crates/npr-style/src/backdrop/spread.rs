@@ -128,30 +128,34 @@ impl Smoothing<'_> {
 
 /// For every pixel the column of the nearest rim in its row, counted from 1, within [`Rules::reach_px`]; 0 where there is none.
 ///
-/// Of two as near, the left one. O(pixels * reach), parallel over rows.
+/// Of two as near, the left one. O(pixels), parallel over rows.
 pub fn spread_rows(window: &Window, rules: &Rules, rims: &[Rim], columns: &mut [u32]) {
     let width = window.size[0] as usize;
     columns
         .par_chunks_mut(width)
         .zip(rims.par_chunks(width))
-        .for_each(|(columns, rims)| {
-            for (x, column) in columns.iter_mut().enumerate() {
-                *column = nearest_column(rims, x as u32, rules.reach_px);
-            }
-        });
+        .for_each(|(columns, rims)| spread_row(rims, rules.reach_px as usize, columns));
 }
 
-fn nearest_column(rims: &[Rim], x: u32, reach: u32) -> u32 {
-    let width = rims.len() as u32;
-    for off in 0..=reach {
-        if x >= off && rims[(x - off) as usize].subject != 0 {
-            return x - off + 1;
+fn spread_row(rims: &[Rim], reach: usize, columns: &mut [u32]) {
+    columns.fill(0);
+    // Up to here every pixel has its rim.
+    let mut done = 0;
+    let mut last: Option<usize> = None;
+    let held = |(x, rim): (usize, &Rim)| (rim.subject != 0).then_some(x);
+    for x in rims.iter().enumerate().filter_map(held) {
+        if let Some(left) = last {
+            let end = ((left + x) / 2 + 1).min(left + reach + 1);
+            columns[done..end].fill(left as u32 + 1);
+            done = end;
         }
-        if x + off < width && rims[(x + off) as usize].subject != 0 {
-            return x + off + 1;
-        }
+        done = done.max(x.saturating_sub(reach));
+        last = Some(x);
     }
-    0
+    if let Some(left) = last {
+        let end = (left + reach + 1).min(columns.len());
+        columns[done..end].fill(left as u32 + 1);
+    }
 }
 
 /// Carries the nearest rim to every pixel: its colours, and how much it counts there, as two pictures of the output's size.
@@ -177,17 +181,20 @@ pub fn spread_rims(
         columns,
         leans,
     };
+    let runs = Runs::of(columns, width);
     fronts
         .par_chunks_mut(width)
         .zip(backs.par_chunks_mut(width))
         .enumerate()
         .for_each(|(y, (fronts, backs))| {
+            fronts.fill(0);
+            backs.fill(0);
             // Pixels beside each other mostly have the same rim.
             let mut last = (0, [0.0; 4], 0);
-            for (x, (front, back)) in fronts.iter_mut().zip(backs).enumerate() {
+            for x in runs.near(y, rules.reach_px as usize) {
+                let (front, back) = (&mut fronts[x], &mut backs[x]);
                 let (found, square) = carrying.nearest([x as u32, y as u32]);
                 if found == 0 {
-                    (*front, *back) = (0, 0);
                     continue;
                 }
                 if found != last.0 {
@@ -201,6 +208,34 @@ pub fn spread_rims(
                 (*front, *back) = (pack_rgba8([r, g, b, weight * kept]), behind);
             }
         });
+}
+
+/// Pixels in a row that are looked through together for any rim.
+const RUN: usize = 32;
+
+/// Which runs of a picture's rows have a rim near.
+struct Runs {
+    width: usize,
+    rows: Vec<Vec<bool>>,
+}
+
+impl Runs {
+    fn of(columns: &[u32], width: usize) -> Self {
+        let any = |run: &[u32]| run.iter().fold(0, |all, column| all | column) != 0;
+        let rows = columns.par_chunks(width);
+        Self {
+            width,
+            rows: rows.map(|row| row.chunks(RUN).map(any).collect()).collect(),
+        }
+    }
+
+    /// The pixels of a row in runs that have a rim in any of the rows up to `reach` away.
+    fn near(&self, y: usize, reach: usize) -> impl Iterator<Item = usize> {
+        let rows = &self.rows[y.saturating_sub(reach)..(y + reach + 1).min(self.rows.len())];
+        let runs = 0..self.width.div_ceil(RUN);
+        let near = runs.filter(move |run| rows.iter().any(|row| row[*run]));
+        near.flat_map(|run| run * RUN..((run + 1) * RUN).min(self.width))
+    }
 }
 
 /// What is carried to pixels.
