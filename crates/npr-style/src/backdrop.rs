@@ -16,6 +16,7 @@
 //! ```
 
 mod adapt;
+mod gather;
 mod minding;
 mod occupied;
 mod oklab;
@@ -26,6 +27,7 @@ mod spread;
 mod stretch;
 
 pub use adapt::{Ground, adapt, adapted_light, contrast};
+pub use gather::{TileRims, gather_tiles};
 pub use minding::Minding;
 pub use oklab::{light_of_oklab, oklab_of_light};
 pub use published::Criteria;
@@ -34,7 +36,7 @@ pub use rims::{
 };
 pub use rule::{RULES_MAX, Rule, Rules};
 pub use spread::{SMOOTH_MOST, UNLIKE_COLORS, smooth_rims, spread_rims, spread_rows};
-pub use stretch::{LEAN_MOST, Lean, TileRims, blend_leans, bound_tiles, gather_tiles, lean_tiles};
+pub use stretch::{LEAN_MOST, Lean, blend_leans, bound_tiles, lean_tiles};
 
 #[cfg(test)]
 mod tests;

@@ -1,22 +1,18 @@
-//! Stretches of outline, whose lines move together: the twins of `backdrop.gather_tiles`, `backdrop.bound_tiles`, `backdrop.lean_tiles` and
-//! `backdrop.blend_leans`.
+//! Stretches of outline, whose lines move together: the twins of `backdrop.bound_tiles`, `backdrop.lean_tiles` and `backdrop.blend_leans`.
 //!
 //! Where line and background are nearly alike, grain alone would decide at every pixel whether a line turns brighter or darker, and the
 //! line would repeat every brick behind it. Here it reads before all that lies behind a stretch, by an envelope that changes slowly along
 //! the outline, and the stretch votes which way to move.
 
-use super::adapt::{place_of_light, preference, started};
+use super::adapt::preference;
+use super::gather::{TileRims, UNLIKE};
 use super::occupied::{Gaussian, Occupied};
-use super::rims::{Rim, TILE, tiles_across};
-use super::rule::{Rule, Rules};
+use super::rims::{TILE, tiles_across};
+use super::rule::Rules;
 use bytemuck::{Pod, Zeroable};
-use npr_core::color::{
-    largest_difference, linear_from_byte, linear_from_srgb, pack_rgba8, unpack_rgba8,
-};
-use npr_core::geometry::Part;
+use npr_core::color::{largest_difference, unpack_rgba8};
 use npr_core::gpu_layout;
 use npr_core::window::Window;
-use rayon::prelude::*;
 
 /// Most tiles in each direction whose votes a tile counts.
 pub const LEAN_MOST: u32 = 24;
@@ -29,9 +25,6 @@ const WHOLE_TILES: f32 = 1.0;
 
 /// How much an envelope falls from tile to tile, on a scale of 0 black to 1 white: less than the eye follows.
 const SLOPE: f32 = 0.08;
-
-/// Difference of backgrounds from which they are two walls, and not one with a pattern.
-const UNLIKE: f32 = 0.42;
 
 /// How fast another wall stops to count, as a multiple of how much more it differs.
 const UNLIKE_SLOPE: f32 = 4.0;
@@ -50,38 +43,6 @@ const UNLIKE_RIMS: f32 = 0.5;
 
 /// Mean of votes from which a stretch is decided.
 const DECIDED: f32 = 0.01;
-
-/// Whose rims lie in a tile, and what their lines start from and stand before; places from 0 black to 1 white in the rule's measure.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
-pub struct TileRims {
-    /// Mean of what lines start from.
-    pub line: f32,
-    /// Mean of what lies behind.
-    pub behind: f32,
-    /// The darkest that lies behind.
-    pub low: f32,
-    /// The brightest.
-    pub high: f32,
-    /// How many rims there are.
-    pub count: f32,
-    /// Whose they are, see [`Rim::WHOSE`]: those of the first rim in the tile; 0 where there is none.
-    pub whose: u32,
-    /// The number of their rule.
-    pub rule: u32,
-    /// Mean colour of the rims, sRGB bytes.
-    pub rim: u32,
-}
-gpu_layout!(TileRims {
-    line,
-    behind,
-    low,
-    high,
-    count,
-    whose,
-    rule,
-    rim
-});
 
 /// What lines of a tile read before, and which way they move.
 #[repr(C)]
@@ -140,141 +101,6 @@ impl Mean {
         let mean = self.sum.with(&self.sum, |sum, _| sum / self.weight);
         (self.weight > 0.0).then_some(Lean { whose, ..mean })
     }
-}
-
-/// Gathers the rims of every tile of [`TILE`] pixels a side. O(pixels), parallel over rows of tiles.
-pub fn gather_tiles(
-    window: &Window,
-    rules: &Rules,
-    parts: &[Part],
-    rims: &[Rim],
-    gathered: &mut [TileRims],
-) {
-    let across = tiles_across(window.size) as usize;
-    gathered
-        .par_chunks_mut(across)
-        .enumerate()
-        .for_each(|(y, row)| {
-            for (x, tile) in row.iter_mut().enumerate() {
-                *tile = gathered_at(window.size, rules, parts, rims, [x as u32, y as u32]);
-            }
-        });
-}
-
-fn gathered_at(
-    size: [u32; 2],
-    rules: &Rules,
-    parts: &[Part],
-    rims: &[Rim],
-    tile: [u32; 2],
-) -> TileRims {
-    let found = Found::in_tile(size, rules, parts, rims, tile);
-    let all = found.summed([0.0, 1.0]);
-    if all.high - all.low <= UNLIKE {
-        return all;
-    }
-    // Where two walls meet, the tile is of the one that more of its rims stand before.
-    let middle = 0.5 * (all.low + all.high);
-    let (dark, bright) = (found.summed([0.0, middle]), found.summed([middle, 1.0]));
-    if dark.count >= bright.count {
-        dark
-    } else {
-        bright
-    }
-}
-
-/// The rims of a tile that are of the same subject and rule as the first.
-#[derive(Default)]
-struct Found {
-    whose: u32,
-    rule: u32,
-    /// Where their lines start, what lies behind, and their colour, in as many places as are `count`.
-    rims: [([f32; 2], u32); (TILE * TILE) as usize],
-    count: usize,
-}
-
-impl Found {
-    fn in_tile(
-        size: [u32; 2],
-        rules: &Rules,
-        parts: &[Part],
-        rims: &[Rim],
-        tile: [u32; 2],
-    ) -> Self {
-        let mut found = Self::default();
-        for y in tile[1] * TILE..((tile[1] + 1) * TILE).min(size[1]) {
-            for x in tile[0] * TILE..((tile[0] + 1) * TILE).min(size[0]) {
-                let rim = &rims[(y * size[0] + x) as usize];
-                let (whose, number) = (rim.subject & Rim::WHOSE, rim.behind >> 24);
-                if whose == 0 {
-                    continue;
-                }
-                let rule = &rules.rules[number as usize];
-                if rule.method != Rule::BY_CONTRAST {
-                    continue;
-                }
-                if found.whose == 0 {
-                    (found.whose, found.rule) = (whose, number);
-                }
-                if found.whose == whose && found.rule == number {
-                    found.rims[found.count] = (places_of(rim, rule, parts), rim.rim);
-                    found.count += 1;
-                }
-            }
-        }
-        found
-    }
-
-    /// Those that stand before a ground between two places.
-    fn summed(&self, within: [f32; 2]) -> TileRims {
-        let mut sum = TileRims {
-            low: 1.0,
-            whose: self.whose,
-            rule: self.rule,
-            ..TileRims::default()
-        };
-        let mut color = [0.0; 3];
-        for ([line, behind], rim) in &self.rims[..self.count] {
-            if *behind < within[0] || *behind > within[1] {
-                continue;
-            }
-            sum.line += line;
-            sum.behind += behind;
-            sum.low = sum.low.min(*behind);
-            sum.high = sum.high.max(*behind);
-            let [r, g, b, _] = unpack_rgba8(*rim);
-            color = [color[0] + r, color[1] + g, color[2] + b];
-            sum.count += 1.0;
-        }
-        let count = sum.count.max(1.0);
-        let [r, g, b] = color.map(|channel| channel / count);
-        TileRims {
-            rim: pack_rgba8([r, g, b, 0.0]),
-            line: sum.line / count,
-            behind: sum.behind / count,
-            ..sum
-        }
-    }
-}
-
-/// Where the line that a rim's part is expected to have, and what lies behind it, lie on the scale of the rule.
-fn places_of(rim: &Rim, rule: &Rule, parts: &[Part]) -> [f32; 2] {
-    let part = &parts[rim.part as usize];
-    let edge = light_of(rim.rim);
-    let own = || {
-        if part.line_flags & Part::LINE_SURFACE != 0 {
-            return edge.map(|channel| (channel * part.line_factor).clamp(0.0, 1.0));
-        }
-        let [r, g, b, _] = part.line_color;
-        [r, g, b].map(linear_from_srgb)
-    };
-    [started(own, edge, rule), light_of(rim.behind)].map(|light| place_of_light(light, rule))
-}
-
-/// Linear light of sRGB bytes.
-fn light_of(texel: u32) -> [f32; 3] {
-    let [r, g, b, _] = texel.to_le_bytes();
-    [r, g, b].map(linear_from_byte)
 }
 
 /// Gives every tile the bounds of what its lines stand before, and its own vote as the lean.
