@@ -1,21 +1,19 @@
 //! Surfaces shaded by their ramps, lines over them, background behind: the twin of `shade.compose_frame`.
 
 use bytemuck::{Pod, Zeroable};
-use npr_core::color::{SrgbEncoder, pack_rgba8};
+use npr_core::color::pack_rgba8;
 use npr_core::geometry::{ChartCorners, NONE, Part, PosedVertex, Triangle, Vertex};
 use npr_core::gpu_layout;
-use npr_core::raster::{HULL_BIT, ID_MASK};
 use npr_core::texture;
 use npr_core::window::{View, Window};
-use rayon::prelude::*;
-use std::ops::Range;
 
 use crate::backdrop::{self, Minding, Rules};
-use crate::known::Known;
 use crate::lighting::Lights;
-use crate::line_color::LinePlace;
 use crate::shadow::SHADOWS_MAX;
-use crate::tone::Corners;
+
+mod composer;
+
+pub use composer::compose;
 
 /// Share of each channel in luminance [ITU-R BT.709].
 pub const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
@@ -147,51 +145,6 @@ pub struct Layers<'a> {
     pub backs: &'a [u32],
 }
 
-/// Composes the output as sRGB bytes with straight alpha.
-///
-/// Every pixel has one or four samples that say which triangles it shows; each triangle is shaded once, at the middle of
-/// its samples. Layers go over each other as in [Porter & Duff 1984], in linear light. O(pixels), parallel over rows.
-pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
-    let encoder = SrgbEncoder::new();
-    let known = layers.known_triangles();
-    let width = layers.window.size[0] as usize;
-    let empty = layers.empty_texel(&encoder);
-    let new = || Composer {
-        layers,
-        encoder: &encoder,
-        known: &known,
-        empty,
-        last: (0, 0),
-        near: None,
-        minding: Minding::default(),
-    };
-    frame
-        .par_chunks_mut(width)
-        .enumerate()
-        .for_each_init(new, |composer, (y, row)| {
-            for left in (0..width).step_by(RUN) {
-                let run = left..width.min(left + RUN);
-                let texels = &mut row[run.clone()];
-                if let Some(empty) = composer.empty
-                    && layers.compose.flags & Compose::BARE == 0
-                    && layers.is_bare(run, y)
-                {
-                    texels.fill(empty);
-                    continue;
-                }
-                for (x, texel) in (left as u32..).zip(texels) {
-                    *texel = match layers.is_left_out(x, y as u32) {
-                        true => 0,
-                        false => composer.texel(x, y as u32),
-                    };
-                }
-            }
-        });
-}
-
-/// Pixels in a row that are looked through together for anything but background.
-const RUN: usize = 32;
-
 /// Triangle numbers of a pixel's samples.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Samples {
@@ -207,230 +160,7 @@ impl std::ops::Deref for Samples {
     }
 }
 
-/// Composes the pixels of some rows.
-struct Composer<'a> {
-    layers: &'a Layers<'a>,
-    encoder: &'a SrgbEncoder,
-    /// What is known of every triangle.
-    known: &'a [Known],
-    /// A pixel that shows nothing but a plain background.
-    empty: Option<u32>,
-    /// The last number whose single colour filled a pixel, and that pixel.
-    last: (u32, u32),
-    /// The triangle that was shaded last, and its corners: mostly that of the next pixel too.
-    near: Option<(u32, Corners<'a>)>,
-    minding: Minding,
-}
-
-impl<'a> Composer<'a> {
-    /// A pixel of the output as sRGB bytes with straight alpha.
-    fn texel(&mut self, x: u32, y: u32) -> u32 {
-        let frame_px = self.layers.window.frame_at(x, y);
-        let seen = self.layers.samples_of(x, y);
-        let lines = self.layers.lines_at(x, y);
-        let beams = self.layers.beams_of(x, y);
-        if lines == [0; 2]
-            && beams.iter().all(|id| *id == 0)
-            && let Some(texel) = self.layers.smoke_alone(x, y, &seen)
-        {
-            return texel;
-        }
-        let veil = self.layers.veil_of(x, y, &seen, frame_px);
-        let is_one = seen.iter().all(|id| *id == seen[0]);
-        let is_bare = lines == [0; 2] && veil.is_none() && beams.iter().all(|id| *id == 0);
-        if is_one
-            && is_bare
-            && let Some(texel) = self.even_texel(seen[0])
-        {
-            return texel;
-        }
-        let hidden = veil.map_or([0.0; 4], |veil| veil.hidden);
-        let mut color = if is_one && seen[0] != 0 && veil.is_none() {
-            let [r, g, b] = self.surface(seen[0], (1 << seen.len()) - 1, frame_px);
-            [r, g, b, 1.0]
-        } else {
-            self.even_surfaces(&seen, &hidden)
-                .unwrap_or_else(|| self.surfaces(&seen, &hidden, frame_px))
-        };
-        if let Some(veil) = &veil {
-            veil.add_to(&mut color, seen.len());
-        }
-        if color[3] < 1.0 {
-            let behind = self.layers.background(frame_px);
-            let left = 1.0 - color[3];
-            color = std::array::from_fn(|i| color[i] + behind[i] * left);
-        }
-        let covered = self
-            .layers
-            .add_beams(&seen, &beams, veil.as_ref(), frame_px, &mut color);
-        let faded = match &veil {
-            Some(veil) if lines != [0; 2] => veil.line_fade(self.layers, [x, y], frame_px),
-            _ => 0.0,
-        };
-        for line in lines {
-            if line >> 24 != 0 {
-                let [r, g, b, a] = self.layers.linear_texel(line);
-                let [r, g, b] = self.layers.minded(&mut self.minding, [r, g, b], frame_px);
-                let a = a * (1.0 - covered) * (1.0 - faded);
-                color = over([r, g, b, a], color);
-            }
-        }
-        encoded(self.encoder, color)
-    }
-
-    /// The pixel that a single number fills, where that is of one colour.
-    fn even_texel(&mut self, id: u32) -> Option<u32> {
-        if id == 0 {
-            return self.empty;
-        }
-        if self.last.0 != id {
-            self.last = (id, encoded(self.encoder, self.even_color(id)?));
-        }
-        Some(self.last.1)
-    }
-
-    /// Colour of a triangle that has one colour all over.
-    fn even_color(&self, id: u32) -> Option<[f32; 4]> {
-        if id & HULL_BIT != 0 {
-            return None;
-        }
-        let [r, g, b] = self.known[(id - 1) as usize].whole()?;
-        Some([r, g, b, 1.0])
-    }
-
-    /// The surfaces of a pixel, premultiplied, where each has one colour all over.
-    fn even_surfaces(&self, seen: &[u32], hidden: &[f32; 4]) -> Option<[f32; 4]> {
-        let mut sum = [0.0; 4];
-        for (id, hidden) in seen.iter().zip(hidden).filter(|(id, _)| **id != 0) {
-            let share = (1.0 - hidden) / seen.len() as f32;
-            let color = self.even_color(*id)?;
-            sum = std::array::from_fn(|i| sum[i] + color[i] * share);
-        }
-        Some(sum)
-    }
-
-    /// The surfaces of a pixel, premultiplied.
-    fn surfaces(&mut self, seen: &[u32], hidden: &[f32; 4], frame_px: [f32; 2]) -> [f32; 4] {
-        let count = seen.len();
-        let mut sum = [0.0; 4];
-        let mut left = (1u32 << count) - 1;
-        for i in 0..count {
-            if left & (1 << i) == 0 {
-                continue;
-            }
-            let members = (i..count)
-                .filter(|j| seen[*j] == seen[i])
-                .fold(0, |bits, j| bits | 1 << j);
-            left &= !members;
-            if seen[i] == 0 {
-                continue;
-            }
-            let shown = (i..count)
-                .filter(|j| members & (1 << j) != 0)
-                .map(|j| 1.0 - hidden[j])
-                .sum::<f32>();
-            if shown == 0.0 {
-                continue;
-            }
-            let share = shown / count as f32;
-            let [r, g, b] = self.surface(seen[i], members, frame_px);
-            sum = [
-                sum[0] + r * share,
-                sum[1] + g * share,
-                sum[2] + b * share,
-                sum[3] + share,
-            ];
-        }
-        sum
-    }
-
-    /// Light of what the samples in `members` show, a triangle or its hull.
-    fn surface(&mut self, id: u32, members: u32, frame_px: [f32; 2]) -> [f32; 3] {
-        let index = ((id & ID_MASK) - 1) as usize;
-        if id & HULL_BIT != 0 {
-            let triangle = &self.layers.triangles[index];
-            let part = &self.layers.parts[triangle.part as usize];
-            let corners = self.layers.corners_of(triangle);
-            let place = LinePlace {
-                px: frame_px,
-                step_px: [1.0; 2],
-                is_hull: true,
-            };
-            let line = self.layers.line_light(triangle, part, &corners, &place);
-            return self.layers.minded(&mut self.minding, line, frame_px);
-        }
-        let known = &self.known[index];
-        if let Some(color) = known.whole() {
-            return color;
-        }
-        let corners = self.corners(id);
-        self.layers.shade(id, members, frame_px, known, &corners)
-    }
-
-    /// The corners of a triangle.
-    fn corners(&mut self, id: u32) -> Corners<'a> {
-        match self.near {
-            Some((near, corners)) if near == id => corners,
-            _ => {
-                let corners = self
-                    .layers
-                    .corners_of(&self.layers.triangles[(id - 1) as usize]);
-                self.near = Some((id, corners));
-                corners
-            }
-        }
-    }
-}
-
-/// Premultiplied linear light as sRGB bytes with straight alpha.
-#[inline]
-fn encoded(encoder: &SrgbEncoder, [r, g, b, a]: [f32; 4]) -> u32 {
-    let scale = a.max(1e-6);
-    let [r, g, b] = if scale == 1.0 {
-        [r, g, b]
-    } else {
-        [r, g, b].map(|light| light / scale)
-    };
-    let [r, g, b] = [r, g, b].map(|light| encoder.byte(light));
-    r | g << 8 | b << 16 | ((a.clamp(0.0, 1.0) * 255.0 + 0.5) as u32) << 24
-}
-
 impl<'a> Layers<'a> {
-    /// A pixel that shows only the background, where that is of one colour.
-    fn empty_texel(&self, encoder: &SrgbEncoder) -> Option<u32> {
-        (self.compose.background_texture == NONE)
-            .then(|| encoded(encoder, self.background([0.0; 2])))
-    }
-
-    /// Whether some pixels of a row show nothing but the background.
-    fn is_bare(&self, run: Range<usize>, y: usize) -> bool {
-        let (width, samples) = (self.window.size[0] as usize, self.compose.samples as usize);
-        let holds = |bit: u32| self.compose.flags & bit != 0;
-        let pixels = y * width + run.start..y * width + run.end;
-        let is_zero = |texels: &[u32], mask: u32| {
-            texels.iter().fold(0, |all, texel| all | (texel & mask)) == 0
-        };
-        let is_free = |ids: &[u32]| {
-            (y * samples..(y + 1) * samples).all(|row| {
-                let start = row * width * samples;
-                let texels = start + run.start * samples..start + run.end * samples;
-                is_zero(&ids[texels], u32::MAX)
-            })
-        };
-        let is_off = |bit: u32, texels: &[u32], mask: u32| {
-            !holds(bit) || is_zero(&texels[pixels.clone()], mask)
-        };
-        is_free(self.ids)
-            && (!holds(Compose::BEAMS) || is_free(self.beam_ids))
-            && is_off(Compose::RIBBONS, self.ribbons, u32::MAX)
-            && is_off(Compose::OVERLAY, self.overlay, u32::MAX)
-            && is_off(
-                Compose::SMOKE,
-                self.smoke_depths,
-                crate::smoke::resolve::MASK,
-            )
-    }
-
     /// The triangle numbers of the beams over a pixel's samples; zeros where there are none.
     fn beams_of(&self, x: u32, y: u32) -> Samples {
         if self.compose.flags & Compose::BEAMS == 0 {
@@ -535,25 +265,10 @@ pub fn cover(frame_px: [f32; 2], frame: [f32; 2], size: [f32; 2]) -> ([f32; 2], 
     (uv, 1.0 / (size[0].max(size[1]) * zoom))
 }
 
-/// A straight-alpha layer laid over a premultiplied one.
-fn over(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
-    let a = top[3];
-    if a == 0.0 {
-        return below;
-    }
-    [
-        top[0] * a + below[0] * (1.0 - a),
-        top[1] * a + below[1] * (1.0 - a),
-        top[2] * a + below[2] * (1.0 - a),
-        a + below[3] * (1.0 - a),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use npr_core::texture::TextureStore;
-    use proptest::prelude::*;
 
     /// A frame of 4x4 pixels without triangles.
     fn empty_frame(compose_settings: &Compose, ribbons: &[u32]) -> Vec<u32> {
@@ -620,15 +335,5 @@ mod tests {
             empty_frame(&settings, &[0x8010_2030; 16]),
             [0x8010_2030; 16]
         );
-    }
-
-    proptest! {
-        #[test]
-        fn a_layer_over_another_never_lightens_coverage(top in prop::array::uniform4(0f32..1.0), below in prop::array::uniform4(0f32..1.0)) {
-            let premultiplied = [below[0] * below[3], below[1] * below[3], below[2] * below[3], below[3]];
-            let both = over(top, premultiplied);
-            prop_assert!(both[3] >= top[3].max(below[3]) - 1e-6 && both[3] <= 1.0 + 1e-6);
-            prop_assert!(both[..3].iter().all(|c| *c >= 0.0 && *c <= both[3] + 1e-6));
-        }
     }
 }
