@@ -101,9 +101,14 @@ struct Sum {
 
 impl Sum {
     fn add(&mut self, tint: &LineTint, weight: f32) {
-        let (own, glaze) = (unpack_rgba8(tint.own), unpack_rgba8(tint.glaze));
+        let own = unpack_rgba8(tint.own);
         self.weight += weight;
         self.own = std::array::from_fn(|i| self.own[i] + own[i] * weight);
+        // Most lines have no glaze.
+        if tint.glaze >> 24 == 0 {
+            return;
+        }
+        let glaze = unpack_rgba8(tint.glaze);
         self.glaze = std::array::from_fn(|i| self.glaze[i] + glaze[i] * (glaze[3] * weight));
         self.glaze_weight += glaze[3] * weight;
     }
