@@ -25,6 +25,7 @@
 
 mod calm;
 mod corner;
+mod crossing;
 mod despeckle;
 mod distance;
 mod file;

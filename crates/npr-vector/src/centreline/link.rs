@@ -287,7 +287,7 @@ fn steps(from: DVec2, to: DVec2) -> Vec<WayPoint> {
 }
 
 /// The line along places, led away from another one.
-fn line(places: &[DVec2], from: DVec2) -> [DVec2; 2] {
+pub fn line(places: &[DVec2], from: DVec2) -> [DVec2; 2] {
     let mean = |places: &[DVec2]| places.iter().sum::<DVec2>() / places.len().max(1) as f64;
     let half = places.len().div_ceil(2);
     let [near, far] = [mean(&places[..half]), mean(&places[places.len() - half..])];

@@ -1,3 +1,7 @@
+mod crossings;
+mod hostile;
+mod skeleton;
+
 use super::network::Network;
 use super::*;
 use glam::DVec2;
@@ -183,15 +187,6 @@ proptest! {
     }
 
     #[test]
-    fn threads_change_nothing(bitmap in bitmaps()) {
-        let run = |count: usize| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().expect("threads");
-            pool.install(|| write_centrelines(&centrelines(&bitmap, &CentrelineOptions::default()), crate::trace::TraceFormat::GeoJson))
-        };
-        prop_assert_eq!(run(1), run(4));
-    }
-
-    #[test]
     fn a_line_is_found_where_it_was_drawn(angle in 0.0..3.2f64, width in 1.5..9.0f64, dx in 0.0..1.0f64, dy in 0.0..1.0f64) {
         let middle = DVec2::new(60.0 + dx, 60.0 + dy);
         let reach = DVec2::from_angle(angle) * 45.0;
@@ -209,26 +204,6 @@ proptest! {
         for end in line {
             let nearest = ends.iter().map(|p| DVec2::from(p.place).distance(end)).fold(f64::INFINITY, f64::min);
             prop_assert!(nearest < 1.3, "{} from {:?}: {:?}", nearest, end, ends);
-        }
-    }
-
-    #[test]
-    fn lines_that_cross_are_two_strokes(angle in 0.0..3.2f64, between in 0.7..1.5f64, width in 3.0..7.0f64) {
-        let middle = DVec2::splat(80.3);
-        let lines = [angle, angle + between].map(|angle| {
-            let reach = DVec2::from_angle(angle) * 65.0;
-            [middle - reach, middle + reach]
-        });
-        // Pixels close the sharp corners of a crossing before its lines meet, which leaves pinholes.
-        let options = CentrelineOptions { turd_size: 12, ..CentrelineOptions::default() };
-        let found = centrelines(&drawn(160, &lines, width), &options);
-        prop_assert_eq!((found.strokes.len(), found.end_count(), found.junctions.len()), (2, 4, 1));
-        prop_assert!(DVec2::from(found.junctions[0]).distance(middle) < 2.0);
-        for stroke in &found.strokes {
-            let astray = |line: &[DVec2; 2]| {
-                stroke.points.iter().map(|p| distance_to(p.place.into(), line)).fold(0.0, f64::max)
-            };
-            prop_assert!(lines.iter().map(astray).fold(f64::INFINITY, f64::min) < 1.2);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A network without what thinning adds to lines: spurs, hooks at ends, and junctions torn apart.
+//! A network without what thinning adds to lines: spurs, and hooks at ends.
 
 use super::network::{Branch, Network};
 use glam::DVec2;
@@ -8,25 +8,6 @@ use std::collections::BinaryHeap;
 
 /// How fast, per pixel, a line may swell from its end on: along the bisector of a square end's corner it swells by 0.71.
 const SWELL: f64 = 0.5;
-
-/// How far apart, in sums of their half widths, two junctions may be one: lines that cross by 30 degrees are torn apart by 1.4, by 15
-/// degrees by 3.3.
-const TORN: f64 = 3.5;
-
-/// Half the width, in pixels, from which lines are wide enough to be torn at any angle.
-const WIDE_PX: f64 = 1.2;
-
-/// How far apart, in sums of their half widths, junctions of wide lines are one in any case.
-const OVERLAP: f64 = 0.6;
-
-/// What is added to [`TORN`], in pixels: thin lines that cross at a small angle share some.
-const SHARED_PX: f64 = 4.0;
-
-/// Cosine of the angle to the bridge below which lines at a crossing leave it: 72 degrees. Those of a ladder leave at right angles.
-const AWAY: f64 = 0.3;
-
-/// Cosine of the most that a line may turn across a bridge: 40 degrees.
-const STRAIGHT: f64 = 0.766;
 
 impl Network {
     /// The middle of a node.
@@ -100,7 +81,7 @@ impl Network {
         (reach < spur * (2.0 * disc - 1.0)).then_some(reach)
     }
 
-    fn remove(&mut self, branch: u32) {
+    pub(super) fn remove(&mut self, branch: u32) {
         for node in self.branches[branch as usize].ends {
             if node != NONE {
                 self.nodes[node as usize].branches.retain(|b| *b != branch);
@@ -178,112 +159,6 @@ impl Network {
             }
             self.nodes[node as usize].pixels = vec![tip];
         }
-    }
-
-    /// Makes one of junctions that thinning tore apart: where lines cross at an angle, their ink is one for a while.
-    ///
-    /// The bridge between them goes where two lines go straight on across it, or where the ink of both is the same. The shortest go
-    /// first, and no junction grows beyond what one crossing can span.
-    pub fn join_junctions(&mut self) {
-        // What was joined may be a crossing with what is beside it.
-        while self.join_round() {}
-    }
-
-    /// Joins what is torn now; whether there was anything.
-    fn join_round(&mut self) -> bool {
-        let mut bridges: Vec<(u64, u32)> = (0..self.branches.len() as u32)
-            .filter_map(|branch| Some((self.bridge(branch)?.to_bits(), branch)))
-            .collect();
-        bridges.sort_unstable();
-        for (_, branch) in &bridges {
-            if self.bridge(*branch).is_none() {
-                continue;
-            }
-            let [a, b] = self.branches[*branch as usize].ends;
-            self.remove(*branch);
-            let other = std::mem::take(&mut self.nodes[b as usize]);
-            for moved in &other.branches {
-                for end in &mut self.branches[*moved as usize].ends {
-                    if *end == b {
-                        *end = a;
-                    }
-                }
-            }
-            self.nodes[a as usize].branches.extend(other.branches);
-            self.nodes[a as usize].pixels.extend(other.pixels);
-        }
-        !bridges.is_empty()
-    }
-
-    /// The length of a branch between two junctions that are one.
-    fn bridge(&self, branch: u32) -> Option<f64> {
-        let Branch {
-            ends: [a, b],
-            pixels,
-        } = &self.branches[branch as usize];
-        if a == b || pixels.is_empty() || *a == NONE || *b == NONE {
-            return None;
-        }
-        if self.degree(*a) < 3 || self.degree(*b) < 3 {
-            return None;
-        }
-        // Farthest pixels of both, so that chains of junctions do not run together.
-        let [mut low, mut high] = [DVec2::INFINITY, DVec2::NEG_INFINITY];
-        let nodes = [a, b].map(|node| &self.nodes[*node as usize].pixels);
-        for pixel in nodes.into_iter().flatten() {
-            let place = self.place(*pixel);
-            (low, high) = (low.min(place), high.max(place));
-        }
-        let [from, to] = [*a, *b].map(|node| self.middle(node));
-        let limit = TORN * (self.radius(*a) + self.radius(*b)) + SHARED_PX;
-        let is_short = from.distance(to) <= limit && low.distance(high) <= limit + 1.0;
-        let [a, b] = [*a, *b].map(|node| self.radius(node));
-        let is_one = a.min(b) >= WIDE_PX && from.distance(to) <= OVERLAP * (a + b);
-        (is_short && (is_one || self.is_crossing(branch))).then(|| from.distance(to))
-    }
-
-    /// Whether two lines cross along a branch: at either end two others lead away from it, and each goes on straight at the other end.
-    fn is_crossing(&self, branch: u32) -> bool {
-        let ends = self.branches[branch as usize].ends;
-        let [from, to] = ends.map(|node| self.middle(node));
-        let across = (to - from).normalize_or_zero();
-        let [before, after] = [(ends[0], -across), (ends[1], across)].map(|(node, away)| {
-            let mut found = Vec::new();
-            for other in &self.nodes[node as usize].branches {
-                if *other != branch {
-                    found.extend(self.direction(*other, node).filter(|d| d.dot(away) > AWAY));
-                }
-            }
-            found
-        });
-        let straight = |a: DVec2, b: DVec2| a.dot(b) < -STRAIGHT;
-        match (&before[..], &after[..]) {
-            ([a, b], [c, d]) => {
-                straight(*a, *c) && straight(*b, *d) || straight(*a, *d) && straight(*b, *c)
-            }
-            _ => false,
-        }
-    }
-
-    /// Where a branch leads from a node, over the first pixels beyond the junction's ink; none of a stub.
-    fn direction(&self, branch: u32, node: u32) -> Option<DVec2> {
-        let Branch { ends, pixels } = &self.branches[branch as usize];
-        let last = pixels.len() - 1;
-        // Arms of few pixels lead anywhere.
-        if last < if self.radius(node) < 1.0 { 5 } else { 2 } {
-            return None;
-        }
-        let skip = (self.radius(node).ceil() as usize).min(last / 2);
-        let far = (skip + (6.0 * self.radius(node)).clamp(5.0, 24.0) as usize).min(last);
-        let [near, far] = [skip, far].map(|k| {
-            let index = if ends[0] == node {
-                k
-            } else {
-                pixels.len() - 1 - k
-            };
-            self.place(pixels[index])
-        });
-        (far - near).try_normalize()
     }
 
     /// How far from a junction's middle lines still run into each other.

@@ -1,0 +1,303 @@
+//! Junctions that thinning tore apart made one again.
+//!
+//! Where lines cross at an angle their ink is one for a while: the network has two forks there and a bridge between them, and
+//! where pixels close the sharp corners of a crossing, small loops beside it. Forks that happen to be near each other look alike, so
+//! the arms decide: they must be those of straight lines that cross.
+
+use super::link::line;
+use super::network::Network;
+use glam::DVec2;
+use npr_core::geometry::NONE;
+
+/// How far apart, in sums of their half widths, the forks of a crossing may lie: lines that cross by 30 degrees are torn apart by 1.4, by
+/// 15 degrees by 3.3.
+const TORN: f64 = 3.5;
+
+/// What is added to [`TORN`], in pixels: lines of single pixels that cross by 20 degrees touch that long.
+const SHARED_PX: f64 = 10.0;
+
+/// How far apart, as a share of the lesser half width, junctions are one in any case: the disc of ink around one holds the other.
+const OVERLAP: f64 = 1.0;
+
+/// Half the width, in pixels, from which that holds: of thinner lines pixels show nothing between forks.
+const WIDE_PX: f64 = 1.2;
+
+/// Cosine of the most that a line may turn across a crossing: 40 degrees.
+const STRAIGHT: f64 = 0.766;
+
+/// How far beside each other, in pixels and as a share of their half width, the two arms of a line may lie.
+const ASIDE: [f64; 2] = [1.0, 0.5];
+
+/// Most junctions that a crossing may have been torn into, with the loops beside it.
+const MOST_FORKS: usize = 12;
+
+/// Pixels of an arm that say where it leads, at least and at most; in between three widths.
+const ARM_PIXELS: [f64; 2] = [10.0, 24.0];
+
+/// Fewest pixels of an arm that lead anywhere.
+const LEAST_ARM: f64 = 5.0;
+
+/// Times that all junctions are looked at: what was joined may be part of a crossing with what is beside it.
+const ROUNDS: usize = 2;
+
+/// Junctions that may be one.
+struct Cluster {
+    nodes: Vec<u32>,
+    /// Distance of the two farthest.
+    extent: f64,
+}
+
+/// What leads away from a cluster.
+struct Arm {
+    /// A place on its middle line, and the way it leads.
+    line: [DVec2; 2],
+    radius: f64,
+}
+
+impl Network {
+    /// Makes one of junctions that thinning tore apart: those within the same disc of ink, and those of a crossing.
+    ///
+    /// Forks make a crossing where four arms or six lead away from them that are, in pairs, the two ends of straight lines, each of which has
+    /// ends of every other line on both of its sides. Arms must be seen for as long as they are not between the forks:
+    /// lines that run together for a while and part again are two forks. O(junctions), the nearest first.
+    pub fn join_junctions(&mut self) {
+        self.join_overlapping();
+        for _ in 0..ROUNDS {
+            let mut found: Vec<Cluster> = (0..self.nodes.len() as u32)
+                .filter_map(|seed| self.crossing(seed))
+                .collect();
+            found.sort_by(|a, b| {
+                let by_extent = a.extent.total_cmp(&b.extent);
+                by_extent.then_with(|| a.nodes.cmp(&b.nodes))
+            });
+            let mut is_changed = vec![false; self.nodes.len()];
+            for cluster in &found {
+                if cluster.nodes.iter().any(|node| is_changed[*node as usize]) {
+                    continue;
+                }
+                for node in &cluster.nodes {
+                    is_changed[*node as usize] = true;
+                }
+                self.join(&cluster.nodes);
+            }
+            if found.is_empty() {
+                return;
+            }
+        }
+    }
+
+    /// Joins junctions of wide lines whose discs of ink hold each other's middle.
+    fn join_overlapping(&mut self) {
+        let mut bridges: Vec<(u64, u32)> = (0..self.branches.len() as u32)
+            .filter_map(|branch| Some((self.overlap(branch)?.to_bits(), branch)))
+            .collect();
+        bridges.sort_unstable();
+        for (_, branch) in bridges {
+            // What was joined since may have moved its middle away.
+            if self.overlap(branch).is_some() {
+                let mut ends = self.branches[branch as usize].ends;
+                ends.sort_unstable();
+                self.join(&ends);
+            }
+        }
+    }
+
+    /// The length of a branch between two junctions in one disc of ink.
+    fn overlap(&self, branch: u32) -> Option<f64> {
+        let [a, b] = self.branches[branch as usize].ends;
+        if a == b || !self.is_fork(a) || !self.is_fork(b) {
+            return None;
+        }
+        let least = self.radius(a).min(self.radius(b));
+        let apart = self.middle(a).distance(self.middle(b));
+        (least >= WIDE_PX && apart <= OVERLAP * least).then_some(apart)
+    }
+
+    fn is_fork(&self, node: u32) -> bool {
+        node != NONE && self.degree(node) > 2
+    }
+
+    /// The fewest junctions around one that make a crossing with it.
+    fn crossing(&self, seed: u32) -> Option<Cluster> {
+        if !self.is_fork(seed) {
+            return None;
+        }
+        let mut cluster = Cluster {
+            nodes: vec![seed],
+            extent: 0.0,
+        };
+        while cluster.nodes.len() < MOST_FORKS {
+            let (next, extent) = self.nearest_beside(&cluster)?;
+            cluster.nodes.push(next);
+            cluster.extent = extent;
+            if self.is_crossing(&cluster) {
+                cluster.nodes.sort_unstable();
+                return Some(cluster);
+            }
+        }
+        None
+    }
+
+    /// The junction nearest to the first of a cluster that a short branch joins to it, and the extent with it.
+    fn nearest_beside(&self, cluster: &Cluster) -> Option<(u32, f64)> {
+        let seed = self.middle(cluster.nodes[0]);
+        let mut best: Option<(f64, u32, f64)> = None;
+        for node in &cluster.nodes {
+            for branch in &self.nodes[*node as usize].branches {
+                let [a, b] = self.branches[*branch as usize].ends;
+                let other = if a == *node { b } else { a };
+                if cluster.nodes.contains(&other) || !self.is_fork(other) {
+                    continue;
+                }
+                let Some(extent) = self.extent_with(cluster, *branch, other) else {
+                    continue;
+                };
+                let apart = self.middle(other).distance(seed);
+                if best.is_none_or(|(least, known, _)| (apart, other) < (least, known)) {
+                    best = Some((apart, other, extent));
+                }
+            }
+        }
+        best.map(|(_, node, extent)| (node, extent))
+    }
+
+    /// The extent of a cluster with one more junction; none where a crossing cannot be as wide.
+    fn extent_with(&self, cluster: &Cluster, branch: u32, node: u32) -> Option<f64> {
+        let (middle, radius) = (self.middle(node), self.radius(node));
+        let widest = cluster.nodes.iter().map(|other| self.radius(*other));
+        let limit = TORN * (radius + widest.fold(0.0, f64::max)) + SHARED_PX;
+        let away = cluster
+            .nodes
+            .iter()
+            .map(|other| self.middle(*other).distance(middle));
+        let extent = away.fold(cluster.extent, f64::max);
+        let length = self.branches[branch as usize].pixels.len() as f64;
+        (extent <= limit && length <= 1.5 * limit).then_some(extent)
+    }
+
+    /// Whether the arms of a cluster are those of straight lines that cross.
+    fn is_crossing(&self, cluster: &Cluster) -> bool {
+        let Some(arms) = self.arms_of(cluster) else {
+            return false;
+        };
+        let Some(pairs) = straight_pairs(&arms) else {
+            return false;
+        };
+        let lines: Vec<[DVec2; 2]> = pairs
+            .iter()
+            .map(|pair| pair.map(|arm| arms[arm].line[0]))
+            .collect();
+        (0..lines.len()).all(|i| lines[..i].iter().all(|other| do_cross(&lines[i], other)))
+    }
+
+    /// The arms of a cluster; none unless they are four or six and each is as long as the cluster.
+    fn arms_of(&self, cluster: &Cluster) -> Option<Vec<Arm>> {
+        let mut arms = Vec::new();
+        for node in &cluster.nodes {
+            for branch in &self.nodes[*node as usize].branches {
+                let ends = self.branches[*branch as usize].ends;
+                let is_inside = ends.iter().all(|end| cluster.nodes.contains(end));
+                if is_inside {
+                    continue;
+                }
+                if arms.len() == 6 {
+                    return None;
+                }
+                arms.push(self.arm_from(*branch, *node, cluster.extent)?);
+            }
+        }
+        matches!(arms.len(), 4 | 6).then_some(arms)
+    }
+
+    /// Where a branch leads from a junction, beyond the junction's ink; none where it is shorter than `extent`.
+    fn arm_from(&self, branch: u32, node: u32, extent: f64) -> Option<Arm> {
+        let there = &self.branches[branch as usize];
+        let radius = self.radius(node);
+        let count = there.pixels.len();
+        let skip = (radius.ceil() as usize).min(count - 1);
+        if ((count - 1 - skip) as f64) < extent.max(LEAST_ARM) {
+            return None;
+        }
+        let [least, most] = ARM_PIXELS;
+        let last = (skip + (6.0 * radius).clamp(least, most) as usize).min(count - 1);
+        let is_first = there.ends[0] == node;
+        let places: Vec<DVec2> = (skip..=last)
+            .map(|k| self.place(there.pixels[if is_first { k } else { count - 1 - k }]))
+            .collect();
+        Some(Arm {
+            line: line(&places, self.middle(node)),
+            radius: self.radii[there.pixels[count / 2] as usize],
+        })
+    }
+
+    /// Makes one of several junctions, in the place of the first, and drops the branches between them.
+    fn join(&mut self, nodes: &[u32]) {
+        let is_inside = |ends: [u32; 2]| ends.iter().all(|end| nodes.contains(end));
+        let mut inner: Vec<u32> = nodes
+            .iter()
+            .flat_map(|node| &self.nodes[*node as usize].branches)
+            .copied()
+            .filter(|branch| is_inside(self.branches[*branch as usize].ends))
+            .collect();
+        inner.sort_unstable();
+        inner.dedup();
+        for branch in inner {
+            self.remove(branch);
+        }
+        let first = nodes[0];
+        for node in &nodes[1..] {
+            let other = std::mem::take(&mut self.nodes[*node as usize]);
+            for moved in &other.branches {
+                for end in &mut self.branches[*moved as usize].ends {
+                    if *end == *node {
+                        *end = first;
+                    }
+                }
+            }
+            let into = &mut self.nodes[first as usize];
+            into.branches.extend(other.branches);
+            into.pixels.extend(other.pixels);
+        }
+    }
+}
+
+/// The arms in pairs, each of one straight line, those that turn least first; none where any has no partner.
+fn straight_pairs(arms: &[Arm]) -> Option<Vec<[usize; 2]>> {
+    let mut turns: Vec<(f64, [usize; 2])> = Vec::new();
+    for (i, a) in arms.iter().enumerate() {
+        for (j, b) in arms.iter().enumerate().skip(i + 1) {
+            turns.extend(turn_between(a, b).map(|cosine| (cosine, [i, j])));
+        }
+    }
+    turns.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+    let mut pairs: Vec<[usize; 2]> = Vec::new();
+    for (_, [i, j]) in turns {
+        let is_taken = |arm: &usize| pairs.iter().flatten().any(|taken| taken == arm);
+        if !is_taken(&i) && !is_taken(&j) {
+            pairs.push([i, j]);
+        }
+    }
+    (2 * pairs.len() == arms.len()).then_some(pairs)
+}
+
+/// -1 where one arm goes straight on as the other; none where they are not one line.
+fn turn_between(a: &Arm, b: &Arm) -> Option<f64> {
+    let cosine = a.line[1].dot(b.line[1]);
+    if cosine > -STRAIGHT {
+        return None;
+    }
+    // A bent line leaves and comes back at the same angle to its chord.
+    let along = (b.line[1] - a.line[1]).try_normalize()?;
+    let aside = (b.line[0] - a.line[0]).perp_dot(along).abs();
+    let [px, share] = ASIDE;
+    (aside <= px + share * (a.radius + b.radius)).then_some(cosine)
+}
+
+/// Whether two lines, each given by places on its two arms, cross.
+fn do_cross(one: &[DVec2; 2], other: &[DVec2; 2]) -> bool {
+    let are_apart = |line: &[DVec2; 2], places: &[DVec2; 2]| {
+        let [a, b] = places.map(|place| (line[1] - line[0]).perp_dot(place - line[0]));
+        a * b < 0.0
+    };
+    are_apart(one, other) && are_apart(other, one)
+}
