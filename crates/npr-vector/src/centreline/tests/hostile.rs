@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::trace::TraceFormat;
-use std::time::{Duration, Instant};
 
 /// What a hostile bitmap is made of.
 #[derive(Debug, Clone, Copy)]
@@ -93,31 +92,5 @@ proptest! {
         let one = run(1);
         prop_assert_eq!(&one, &run(2));
         prop_assert_eq!(&one, &run(4));
-    }
-}
-
-/// The least of three times.
-fn time_of(bitmap: &Bitmap) -> Duration {
-    let once = || {
-        let start = Instant::now();
-        std::hint::black_box(centrelines(bitmap, &CentrelineOptions::default()));
-        start.elapsed()
-    };
-    (0..3).map(|_| once()).min().unwrap_or_default()
-}
-
-/// Sixteen times the pixels take sixteen times as long: nothing in the network is looked for everywhere.
-#[test]
-fn time_grows_with_the_pixels() {
-    for pattern in [
-        Pattern::Chequer(1),
-        Pattern::Chequer(2),
-        Pattern::Noise(50),
-        Pattern::Grid(4),
-        Pattern::Holes,
-        Pattern::Frames,
-    ] {
-        let [small, large] = [96, 384].map(|side| time_of(&hostile(side, side, pattern)));
-        assert!(large < 64 * small, "{pattern:?}: {small:?}, {large:?}");
     }
 }
