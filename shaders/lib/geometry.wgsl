@@ -92,7 +92,8 @@ struct Part {
     line_width: vec2<f32>,
     line_tint: u32,
     line_rim: f32,
-    unused: vec2<u32>,
+    component: u32,
+    unused: u32,
 }
 
 const PART_DOUBLE_SIDED: u32 = 1u;

@@ -52,7 +52,8 @@ fn separations(here: GPixel, there: GPixel, step: vec2<f32>) -> u32 {
     if here.normal != there.normal {
         let turn = dot(unpack_unit(here.normal), unpack_unit(there.normal));
         if turn < outline.normal_cos { found |= DETECT_NORMAL; }
-        let meets = here.part != there.part && here.object == there.object && here.material == there.material;
+        let meets = here.object == there.object && here.material == there.material
+            && parts[here.part].component != parts[there.part].component;
         if meets && turn < PIECE_COS { found |= DETECT_PIECE; }
     }
     return found & outline.detects & MASK_KINDS;

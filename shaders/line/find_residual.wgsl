@@ -40,15 +40,19 @@ const RUN_COUNT: u32 = 8u;
 const BETWEEN: u32 = DETECT_OBJECT | DETECT_MATERIAL | DETECT_PIECE;
 
 // Whether a surface is parted from itself along a line through a mask pixel, not at a few pixels alone.
-fn runs_on(at: vec2<u32>, part: u32) -> bool {
+fn runs_on(at: vec2<u32>, pixel: GPixel) -> bool {
     let size = mask_window.size;
+    let component = parts[pixel.part].component;
     let low = max(at, vec2<u32>(RUN_BOX_PX)) - RUN_BOX_PX;
     let high = min(at + RUN_BOX_PX, size - 1u);
     var count = 0u;
     for (var y = low.y; y <= high.y; y++) {
         for (var x = low.x; x <= high.x; x++) {
             let element = y * size.x + x;
-            if (mask[element] & MASK_OWNER) != 0u && gbuffer[element].part == part { count += 1u; }
+            if (mask[element] & MASK_OWNER) == 0u { continue; }
+            let other = gbuffer[element];
+            if other.part == NONE || other.object != pixel.object || other.material != pixel.material { continue; }
+            if parts[other.part].component == component { count += 1u; }
         }
     }
     return count >= RUN_COUNT;
@@ -117,7 +121,7 @@ fn main(
     let pixel = gbuffer[element];
     let at = pixel_of(element, mask_window.size);
     var is_line = (found & MASK_OWNER) != 0u && pixel.part != NONE && (parts[pixel.part].flags & PART_LINES) != 0u;
-    if is_line && (found & BETWEEN) == 0u { is_line = runs_on(at, pixel.part); }
+    if is_line && (found & BETWEEN) == 0u { is_line = runs_on(at, pixel); }
     if is_line {
         let center = frame_at(mask_window, at)
             + toward_line(found) * mask_window.frame_step;

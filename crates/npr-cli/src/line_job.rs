@@ -69,7 +69,10 @@ impl<'a> LineJob<'a> {
             lettering: Lettering::new(&look.style, &fonts)?,
             source,
             limits: Limits {
-                decode_images: minds || look.style.line_paint_flags() & Part::LINE_SURFACE != 0,
+                // Id maps lie as textures do, which are known where images are.
+                decode_images: minds
+                    || !look.style.id_map.is_empty()
+                    || look.style.line_paint_flags() & Part::LINE_SURFACE != 0,
                 ..said.drawing.limits.limits()
             },
             output,

@@ -135,7 +135,7 @@ fn draw_lines(
 /// Loads the scene and makes it ready; says what is ignored.
 fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault> {
     let external = job.said.drawing.allow_external.as_deref();
-    let loaded = progress.step("load", || match job.said.built_in() {
+    let mut loaded = progress.step("load", || match job.said.built_in() {
         Some(source) => Ok(Loaded::of_smoke(source)),
         None => job.source.load(&job.limits, external),
     })?;
@@ -145,6 +145,8 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
     let volumes = &job.said.drawing.volumes;
     let (smoke, told) = volume::step(progress, volumes, loaded.volume, &job.limits)?;
     job.output.refuse_any_of(&told.inputs)?;
+    job.look
+        .apply_id_maps(&mut loaded.scene, &job.limits, external)?;
     let options = LineModelOptions {
         weld: job.said.lines.weld,
         memory_limit: job.limits.memory_bytes,

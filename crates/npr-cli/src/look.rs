@@ -8,7 +8,7 @@ use crate::output::folder_of;
 use crate::picture;
 use crate::style_source::StyleSource;
 use npr_render::{Font, Picture};
-use npr_scene::{FolderResources, Limits, Resources};
+use npr_scene::{FolderResources, Limits, Resources, Scene};
 use npr_style::{
     Background, Color, LineMethod, Rule, ShadeMode, Stop, Style, Tone, Unit, WidthSource,
     WidthWarning, width_rule,
@@ -27,6 +27,8 @@ pub struct Look {
     fonts: Vec<NamedFile>,
     /// Pictures that its tones are made from.
     pictures: Vec<NamedFile>,
+    /// Pictures of its id maps.
+    id_maps: Vec<NamedFile>,
     style_file: Option<PathBuf>,
 }
 
@@ -73,7 +75,8 @@ impl Look {
             background: file(background_name(&style), background_name(&written)),
             width: file(width_name(&style), width_name(&written)),
             fonts: font_files(&style, &written, source.file()),
-            pictures: picture_files(&style, &written, source.file()),
+            pictures: picture_files(&style, &written, source.file(), Style::named_pictures),
+            id_maps: picture_files(&style, &written, source.file(), Style::id_map_pictures),
             style_file: source.file().map(Path::to_owned),
             style,
         })
@@ -121,6 +124,17 @@ impl Look {
         load_named(&self.pictures, |file| file.load(limits, external))
     }
 
+    /// Cuts the parts of a scene up by the style's id maps, whose pictures it reads.
+    pub fn apply_id_maps(
+        &self,
+        scene: &mut Scene,
+        limits: &Limits,
+        external: Option<&Path>,
+    ) -> Result<(), Fault> {
+        let pictures = load_named(&self.id_maps, |file| file.load(limits, external))?;
+        Ok(npr_render::apply_id_maps(scene, &self.style, &pictures)?)
+    }
+
     /// The files that this look is made from.
     pub fn inputs(&self) -> impl Iterator<Item = PathBuf> {
         let pictures = self
@@ -128,7 +142,7 @@ impl Look {
             .iter()
             .chain(&self.width)
             .map(PictureFile::path);
-        let named = self.fonts.iter().chain(&self.pictures);
+        let named = self.fonts.iter().chain(&self.pictures).chain(&self.id_maps);
         let named = named.map(|named| named.file.path());
         pictures.chain(named).chain(self.style_file.clone())
     }
@@ -219,9 +233,14 @@ fn font_files(style: &Style, written: &Style, style_file: Option<&Path>) -> Vec<
     fonts
 }
 
-/// The pictures that a style's tones are made from; names that stand in the style file too are looked for beside it.
-fn picture_files(style: &Style, written: &Style, style_file: Option<&Path>) -> Vec<NamedFile> {
-    let written = written.named_pictures();
+/// The pictures of a style that `listed` lists; names that stand in the style file too are looked for beside it.
+fn picture_files(
+    style: &Style,
+    written: &Style,
+    style_file: Option<&Path>,
+    listed: impl Fn(&Style) -> Vec<(String, &str)>,
+) -> Vec<NamedFile> {
+    let written = listed(written);
     let file = |(key, name): (String, &str)| {
         let is_written = written.iter().any(|(_, other)| *other == name);
         NamedFile {
@@ -230,7 +249,7 @@ fn picture_files(style: &Style, written: &Style, style_file: Option<&Path>) -> V
             key,
         }
     };
-    style.named_pictures().into_iter().map(file).collect()
+    listed(style).into_iter().map(file).collect()
 }
 
 /// Everything that `files` hold, by name; what goes wrong tells the key first.

@@ -136,13 +136,15 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<S
         job.said.drawing.limits.limits(),
         job.said.drawing.allow_external.as_deref(),
     );
-    let loaded = progress.step("load", || job.source.load(&limits, external))?;
+    let mut loaded = progress.step("load", || job.source.load(&limits, external))?;
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
     job.output.refuse_any_of(&inputs)?;
     let volumes = &job.said.drawing.volumes;
     let (smoke, told) = volume::step(progress, volumes, loaded.volume, &limits)?;
     job.output.refuse_any_of(&told.inputs)?;
+    job.look
+        .apply_id_maps(&mut loaded.scene, &limits, external)?;
     let prepared = prepared(&loaded.scene, &job.look.style, &limits, progress)?;
     progress.suspend(|| warn_of(job, &prepared.model, &told));
     Ok((prepared, smoke))

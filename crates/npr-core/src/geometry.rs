@@ -224,8 +224,10 @@ pub struct Part {
     pub line_tint: u32,
     /// How much lines take the colour of the light behind where that lights them, 0..1.
     pub line_rim: f32,
+    /// Number of its connected surface within the object: parts of one number are one skin, however many materials and ids it has.
+    pub component: u32,
     /// Keeps rows of 16 bytes.
-    pub unused: [u32; 2],
+    pub unused: u32,
 }
 gpu_layout!(Part {
     base_color,
@@ -269,6 +271,7 @@ gpu_layout!(Part {
     line_width,
     line_tint,
     line_rim,
+    component,
     unused,
 });
 

@@ -213,6 +213,20 @@ fn wrapped(index: i32, size: u32, wrap: u32) -> u32 {
     }) as u32
 }
 
+/// The texel that a coordinate of an image of `size` pixels lies in, without filtering.
+pub fn texel_at(uv: [f32; 2], size: [u32; 2], wrap: [Wrap; 2]) -> [u32; 2] {
+    std::array::from_fn(|axis| {
+        let scaled = uv[axis] * size[axis] as f32;
+        // As for filtering: casts must not overflow.
+        let scaled = if scaled.abs() < 4_194_304.0 {
+            scaled
+        } else {
+            0.0
+        };
+        wrapped(scaled.floor() as i32, size[axis], wrap[axis] as u32)
+    })
+}
+
 /// Linear light of a packed texel, by the table at the start of the store.
 #[inline]
 pub fn linear_texel(words: &[u32], texel: u32) -> [f32; 4] {

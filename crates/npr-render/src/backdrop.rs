@@ -51,7 +51,7 @@ impl Backdrop {
         let mut subjects = BTreeMap::new();
         let mut rule_count = 1;
         for info in infos {
-            let look = style.resolve_for(&info.material_name, &info.object_name);
+            let look = info.look(style);
             let key = match look.subject {
                 Some(name) => SubjectKey::Named(name),
                 None => match style.line.background.subjects {

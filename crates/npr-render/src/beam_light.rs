@@ -20,7 +20,7 @@ pub(crate) fn beam_lights(style: &Style, model: &Model) -> Vec<LightSource> {
     let mut lights = Vec::new();
     for (part, triangles) in triangles_of_beams(style, model) {
         let info = &model.parts[part];
-        let look = style.resolve_for(&info.material_name, &info.object_name);
+        let look = info.look(style);
         let Some(beam) = look.beam else { continue };
         let pieces = pieces_of(&triangles);
         let share = if pieces.len() > 1 { PIECE_SHARE } else { 1.0 };
@@ -42,7 +42,7 @@ pub(crate) fn beam_lights(style: &Style, model: &Model) -> Vec<LightSource> {
 fn triangles_of_beams(style: &Style, model: &Model) -> BTreeMap<usize, Vec<[Vec3; 3]>> {
     let gives_light = |part: usize| {
         let info = &model.parts[part];
-        let look = style.resolve_for(&info.material_name, &info.object_name);
+        let look = info.look(style);
         look.beam.is_some_and(|beam| beam.light > 0.0)
     };
     let mut first_parts: BTreeMap<(u32, u32), usize> = BTreeMap::new();

@@ -72,7 +72,7 @@ pub(crate) fn add_ink(
     let mut inks = Vec::with_capacity(model.parts.len());
     let tinted = tinted_parts(model, style);
     for ((part, info), tinted) in parts.iter_mut().zip(&model.parts).zip(tinted) {
-        let look = style.resolve_for(&info.material_name, &info.object_name);
+        let look = info.look(style);
         if look.beam.is_none() {
             set_ink(part, info, &look.ink, frame, &mut tiles)?;
             set_paint(part, look.ink.paint, tinted);

@@ -21,8 +21,17 @@ pub(crate) struct Instance {
     /// Triangles with the number of their piece instead of the model's part.
     pub triangles: Vec<Triangle>,
     pub edges: Vec<geometry::Edge>,
-    /// The mesh part of every piece: one for each connected component in each material.
-    pub pieces: Vec<u32>,
+    /// One for each connected component in each part of the mesh.
+    pub pieces: Vec<Piece>,
+}
+
+/// What a connected component has of a part of the mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Piece {
+    /// Number of the mesh's part.
+    pub part: u32,
+    /// Number of the component.
+    pub component: u32,
 }
 
 impl Instance {
@@ -86,8 +95,12 @@ impl Instance {
             .iter()
             .zip(components)
             .map(|(part, component)| {
-                *numbers.entry((*part, *component)).or_insert_with(|| {
-                    self.pieces.push(*part);
+                let piece = Piece {
+                    part: *part,
+                    component: *component,
+                };
+                *numbers.entry(piece).or_insert_with(|| {
+                    self.pieces.push(piece);
                     self.pieces.len() as u32 - 1
                 })
             });

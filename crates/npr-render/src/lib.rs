@@ -28,6 +28,7 @@ mod error;
 mod frame;
 mod guides;
 mod hatching;
+mod id_map;
 mod instance;
 mod joined;
 mod lettering;
@@ -47,6 +48,7 @@ pub mod volume;
 
 pub use error::RenderError;
 pub use frame::Frame;
+pub use id_map::apply_id_maps;
 pub use lettering::Lettering;
 pub use lines::{KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage};
 pub use model::{Model, PartInfo};

@@ -3,9 +3,10 @@
 use crate::error::RenderError;
 use crate::model::PartInfo;
 use crate::stage::Picture;
+use npr_core::color::pack_rgba8;
 use npr_core::geometry::{NONE, Part};
 use npr_core::texture::{TextureStore, Wrap};
-use npr_style::{HUES, HueStop, LinePaint, Style, hue_row};
+use npr_style::{HUES, HueStop, LineMethod, LineSource, Look, Style, hue_row};
 use std::collections::BTreeMap;
 
 /// Rows and pictures that are in a texture store already, each once.
@@ -26,16 +27,20 @@ pub(crate) fn add_line_colors(
     parts: &mut [Part],
     textures: &mut TextureStore,
 ) -> Result<(), RenderError> {
-    let looks: Vec<LinePaint> = infos
-        .iter()
-        .map(|info| {
-            let look = style.resolve_for(&info.material_name, &info.object_name);
-            look.line_paint
-        })
-        .collect();
+    let looks: Vec<Look<'_>> = infos.iter().map(|info| info.look(style)).collect();
+    // A mask drawn as it is has the style's colour of lines, but for parts of which more is decided.
+    let is_filtered = matches!(
+        style.line.method,
+        LineMethod::Filter | LineMethod::FilterHull
+    );
     let mut kept = Kept::default();
-    for (part, paint) in parts.iter_mut().zip(&looks) {
+    for (part, look) in parts.iter_mut().zip(&looks) {
+        let paint = &look.line_paint;
         paint.give_to(part, style.line.opacity, radius);
+        let has_own = paint.source == LineSource::Constant && look.line_color != style.line.color;
+        if is_filtered && has_own {
+            give_to_kinds(part);
+        }
         part.line_depth_row = kept.row(&paint.depth.ramp, textures);
         part.line_light_row = kept.row(&paint.light.ramp, textures);
         part.line_texture = NONE;
@@ -44,6 +49,16 @@ pub(crate) fn add_line_colors(
         }
     }
     Ok(())
+}
+
+/// Makes a part's colour of lines that of every kind without one of its own.
+fn give_to_kinds(part: &mut Part) {
+    for (i, kind) in part.line_kinds.iter_mut().enumerate() {
+        if part.line_flags & 1 << i == 0 {
+            *kind = pack_rgba8(part.line_color);
+            part.line_flags |= 1 << i;
+        }
+    }
 }
 
 impl<'a> Kept<'a> {

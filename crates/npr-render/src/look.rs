@@ -103,7 +103,7 @@ impl StyledModel {
 
 /// A part in the style that its names ask for.
 pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
-    let look = style.resolve_for(&info.material_name, &info.object_name);
+    let look = info.look(style);
     let shade = &style.shade;
     let paper = shade.mode == ShadeMode::Paper;
     let own_color = look.shade_color.map(|color| color.linear());
@@ -126,6 +126,7 @@ pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
         line_color,
         object: info.object,
         material: info.material,
+        component: info.component,
         texture: if shade.use_textures && own_color.is_none() {
             info.texture
         } else {

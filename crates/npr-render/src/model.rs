@@ -12,12 +12,12 @@ use npr_core::geometry::{Edge, Influence, NONE, Triangle, Vertex};
 use npr_core::texture::TextureStore;
 use npr_mesh::pose::Matrix;
 use npr_scene::{AlphaMode, Material, Node, Part, Scene};
-use npr_style::Style;
+use npr_style::{Look, PartNames, Style};
 
 /// Numbers must leave room for "none" and for the bit that marks hulls.
 const COUNT_LIMIT: u64 = 1 << 30;
 
-/// One connected surface of one object in one material, before a style is applied.
+/// One connected surface of one object in one material and of one id, before a style is applied.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PartInfo {
     /// Name of the node it hangs on.
@@ -30,6 +30,10 @@ pub struct PartInfo {
     pub root: u32,
     /// Number of the material.
     pub material: u32,
+    /// What styles may call its region of an id map; empty where it belongs to none.
+    pub ids: Vec<String>,
+    /// Number of its connected surface within the object, whatever materials and ids that has; 0 in line models, which need none.
+    pub component: u32,
     /// Base colour factor, linear light, straight alpha.
     pub base_color: [f32; 4],
     /// Where its texture's header starts in the store, or [`NONE`].
@@ -177,16 +181,16 @@ impl Model {
                 PartInfo {
                     texture,
                     has_uvs: part.uvs.is_some(),
+                    ids: part.ids.clone(),
                     ..info
                 }
             })
             .collect();
-        self.parts.extend(
-            instance
-                .pieces
-                .iter()
-                .map(|part| infos[*part as usize].clone()),
-        );
+        self.parts
+            .extend(instance.pieces.iter().map(|piece| PartInfo {
+                component: piece.component,
+                ..infos[piece.part as usize].clone()
+            }));
         Ok(())
     }
 
@@ -302,6 +306,8 @@ impl PartInfo {
             object,
             root: Self::root_of(scene, object),
             material: material.unwrap_or(NONE - 1),
+            ids: Vec::new(),
+            component: 0,
             base_color: found.base_color,
             texture: NONE,
             alpha_cutoff: match found.alpha {
@@ -317,10 +323,18 @@ impl PartInfo {
         }
     }
 
+    /// How a style draws it.
+    pub(crate) fn look<'a>(&self, style: &'a Style) -> Look<'a> {
+        style.resolve(PartNames {
+            material: &self.material_name,
+            object: &self.object_name,
+            ids: &self.ids,
+        })
+    }
+
     /// Whether a style makes it a beam of light.
     pub(crate) fn is_beam(&self, style: &Style) -> bool {
-        let look = style.resolve_for(&self.material_name, &self.object_name);
-        look.beam.is_some()
+        self.look(style).beam.is_some()
     }
 
     /// Whether the base colour alone is so transparent that nothing of the part is drawn.

@@ -131,7 +131,7 @@ pub(crate) fn add_tone_rows(
 ) -> Result<(), RenderError> {
     let mut made: BTreeMap<&str, Option<u32>> = BTreeMap::new();
     for (part, info) in parts.iter_mut().zip(&model.parts) {
-        let look = style.resolve_for(&info.material_name, &info.object_name);
+        let look = info.look(style);
         if look.ramp_image.is_empty() || look.beam.is_some() {
             continue;
         }

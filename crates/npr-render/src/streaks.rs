@@ -202,7 +202,7 @@ impl Mover {
     fn new(model: &Model, style: &Style, trail: [f32; 3]) -> Self {
         let moves = |part: u32| {
             let info = &model.parts[part as usize];
-            let look = style.resolve_for(&info.material_name, &info.object_name);
+            let look = info.look(style);
             look.trail == Some(trail)
         };
         let corners = model

@@ -59,7 +59,8 @@ impl Textures {
     }
 }
 
-fn packed_wrap(wrap: npr_scene::Wrap) -> Wrap {
+/// The way of wrapping as stores have it.
+pub(crate) fn packed_wrap(wrap: npr_scene::Wrap) -> Wrap {
     match wrap {
         npr_scene::Wrap::Repeat => Wrap::Repeat,
         npr_scene::Wrap::Mirror => Wrap::Mirror,

@@ -44,6 +44,7 @@ mod scene;
 mod shown;
 mod skin;
 mod soundness;
+mod split;
 mod stl;
 #[cfg(any(test, feature = "testing"))]
 pub mod testing;

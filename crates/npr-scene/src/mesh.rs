@@ -11,7 +11,7 @@ pub const POSITION_LIMIT: f32 = 1e18;
 pub struct Mesh {
     /// Name as in the file; empty where it has none.
     pub name: String,
-    /// One part per material.
+    /// One part per material, and per id where an id map cuts it up.
     pub parts: Vec<Part>,
 }
 
@@ -48,6 +48,8 @@ pub struct Part {
     pub material: Option<u32>,
     /// Morph targets in file order; all parts of a mesh are meant to have the same number.
     pub morphs: Vec<Morph>,
+    /// What styles may call the region of an id map that it is; empty where it is none. Files have none.
+    pub ids: Vec<String>,
 }
 
 /// One morph target: offsets that a weight scales and adds.

@@ -74,6 +74,7 @@ impl Style {
             background: self.background.clone(),
             light: self.light.clone(),
             antialias: self.antialias.clone(),
+            id_map: self.id_map.clone(),
             rule: other
                 .rule
                 .iter()

@@ -182,12 +182,14 @@ fn names(extends: Option<Value>) -> Vec<String> {
     }
 }
 
-/// Lays `upper` over `lower`: tables merge, `rule` lists add up, anything else replaces.
+/// Lays `upper` over `lower`: tables merge, lists of `rule` and `id_map` add up, anything else replaces.
 pub(crate) fn merge(lower: &mut Table, upper: Table) {
     for (key, value) in upper {
         match (lower.get_mut(&key), value) {
             (Some(Value::Table(below)), Value::Table(above)) => merge(below, above),
-            (Some(Value::Array(below)), Value::Array(above)) if key == "rule" => {
+            (Some(Value::Array(below)), Value::Array(above))
+                if matches!(key.as_str(), "rule" | "id_map") =>
+            {
                 below.extend(above)
             }
             (_, value) => {

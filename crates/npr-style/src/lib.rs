@@ -45,6 +45,7 @@ mod glob;
 pub mod gloss;
 pub mod hatch;
 mod highlight;
+mod id_map;
 mod ink;
 pub mod inking;
 mod known;
@@ -84,6 +85,7 @@ pub use color::{Color, ColorError};
 pub use detect::{DepthTest, Detect, IdTest, MASK_LINE_PX, NormalTest, WidthWarning, width_rule};
 pub use error::{Place, Problem, StyleError};
 pub use highlight::{Back, Edge, Highlight, HighlightModel, Streak};
+pub use id_map::{ID_MAPS_MAX, IDS_MAX, IdMap, IdRegion, NamedId};
 pub use ink::{Follow, Ink, Mapping, StrokeSpace, Tone};
 pub use layers::{PARENTS_MAX, Parents, TEXT_BYTES_MAX};
 pub use length::{LONGEST, Length, LengthError, REFERENCE_HEIGHT_PX, Unit};
@@ -103,7 +105,8 @@ pub use potrace::Potrace;
 pub use preset::{DEFAULT_PRESET, Preset, find as find_preset, presets};
 pub use ramp::{Level, Stop};
 pub use rule::{
-    Look, Match, Rule, RuleHatch, RuleHighlight, RuleInk, RuleLine, RuleShade, RuleSwitch,
+    Look, Match, PartNames, Rule, RuleHatch, RuleHighlight, RuleInk, RuleLine, RuleShade,
+    RuleSwitch,
 };
 pub use schema::schema;
 pub use shade::{Shade, ShadeMode, levels};

@@ -1,4 +1,4 @@
-//! Exceptions for single materials and objects.
+//! Exceptions for single materials, objects and ids.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,10 +10,10 @@ use crate::ink::{Follow, Ink, Mapping, StrokeSpace, Tone};
 use crate::ramp::Stop;
 use crate::{
     Color, Length, LineBackground, LineMethod, LinePaint, RuleBackground, RuleMotion, RulePaint,
-    Style, glob,
+    Style, glob, id_map,
 };
 
-/// What a rule applies to: both patterns have to match.
+/// What a rule applies to: all patterns have to match.
 ///
 /// `*` stands for any run of characters and `?` for one; letters match by case.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -23,6 +23,9 @@ pub struct Match {
     pub material: String,
     /// Pattern for the object's name; default `*`, any.
     pub object: String,
+    /// Pattern for the name of a region of an `id_map`, or its colour as `#rrggbb`; default `*`, any and none. `?*` takes all
+    /// regions, and an empty text what belongs to none.
+    pub id: String,
 }
 
 impl Default for Match {
@@ -30,6 +33,7 @@ impl Default for Match {
         Self {
             material: "*".to_owned(),
             object: "*".to_owned(),
+            id: "*".to_owned(),
         }
     }
 }
@@ -265,11 +269,23 @@ pub struct Rule {
     pub beam: Option<Beam>,
 }
 
+/// What a part is called, for rules.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct PartNames<'a> {
+    /// Its material's name.
+    pub material: &'a str,
+    /// Its object's name.
+    pub object: &'a str,
+    /// The names of its region of an id map, as [`IdRegion`](crate::IdRegion) has them; none where it belongs to none.
+    pub ids: &'a [String],
+}
+
 impl Rule {
     /// Whether the rule applies to a part.
-    pub fn applies_to(&self, material: &str, object: &str) -> bool {
-        glob::matches(&self.matching.material, material)
-            && glob::matches(&self.matching.object, object)
+    pub fn applies_to(&self, part: PartNames<'_>) -> bool {
+        glob::matches(&self.matching.material, part.material)
+            && glob::matches(&self.matching.object, part.object)
+            && id_map::matches(&self.matching.id, part.ids)
     }
 }
 
@@ -354,12 +370,22 @@ impl<'a> Look<'a> {
 }
 
 impl Style {
-    /// How a part with these names looks: the style's own values, then every rule that applies, in order.
-    pub fn resolve_for(&self, material: &str, object: &str) -> Look<'_> {
+    /// How a part looks: the style's own values, then every rule that applies, in order.
+    pub fn resolve(&self, part: PartNames<'_>) -> Look<'_> {
         self.rule
             .iter()
-            .filter(|rule| rule.applies_to(material, object))
+            .filter(|rule| rule.applies_to(part))
             .fold(Look::plain(self), Look::with)
+    }
+
+    /// The same for a part that belongs to no region of an id map.
+    pub fn resolve_for(&self, material: &str, object: &str) -> Look<'_> {
+        let ids = &[];
+        self.resolve(PartNames {
+            material,
+            object,
+            ids,
+        })
     }
 }
 
@@ -371,6 +397,7 @@ mod tests {
         let matching = Match {
             material: material.to_owned(),
             object: object.to_owned(),
+            ..Match::default()
         };
         Rule {
             matching,

@@ -8,8 +8,9 @@ use crate::layers::{self, Parents};
 use crate::ramp::{Stop, first_unsorted};
 use crate::width::WidthSource;
 use crate::{
-    Antialias, Background, BackgroundMethod, Blend, Detect, Highlight, Ink, Lettering, Light, Line,
-    LineBackground, LineMethod, Motion, Rule, RuleBackground, Shade, SmokeStyle, preset, set,
+    Antialias, Background, BackgroundMethod, Blend, Detect, Highlight, IdMap, Ink, Lettering,
+    Light, Line, LineBackground, LineMethod, Motion, Rule, RuleBackground, Shade, SmokeStyle,
+    preset, set,
 };
 
 /// What a picture should look like.
@@ -50,7 +51,11 @@ pub struct Style {
     pub motion: Motion,
     /// How much of the look is drawn, over another one.
     pub blend: Blend,
-    /// Exceptions for single materials and objects; later ones win.
+    /// Pictures that tell regions of surfaces apart, for rules, up to 64; where several lie on one part, the last counts.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 64))]
+    pub id_map: Vec<IdMap>,
+    /// Exceptions for single materials, objects and ids; later ones win.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rule: Vec<Rule>,
     /// Words over the picture, up to 64, the last on top; default none.
@@ -76,6 +81,7 @@ impl Default for Style {
             antialias: Antialias::default(),
             motion: Motion::default(),
             blend: Blend::default(),
+            id_map: Vec::new(),
             rule: Vec::new(),
             lettering: Vec::new(),
         }
@@ -87,7 +93,7 @@ impl Style {
     ///
     /// Its parents in `extends` are laid below it: presets by name, anything else through `load`, which
     /// is given the parent as named and answers with its text or with why there is none. Tables merge key
-    /// by key, `rule` blocks add up, and any other value of the file replaces its parents'.
+    /// by key, `rule` and `id_map` blocks add up, and any other value of the file replaces its parents'.
     ///
     /// # Errors
     ///
@@ -185,6 +191,7 @@ impl Style {
         self.light.sanity_check()?;
         self.blend.sanity_check()?;
         self.check_trails()?;
+        self.check_ids()?;
         check_direction(self.ink.direction, "ink.direction")?;
         check_width(&self.line.width)?;
         self.check_line_paint()?;

@@ -150,9 +150,10 @@ impl Detector<'_> {
             if turn < outline.normal_cos {
                 found |= Outline::NORMAL;
             }
-            let meets = here.part != there.part
-                && here.object == there.object
-                && here.material == there.material;
+            let component = |pixel: &GPixel| self.with.parts[pixel.part as usize].component;
+            let meets = here.object == there.object
+                && here.material == there.material
+                && component(here) != component(there);
             if meets && turn < PIECE_COS {
                 found |= Outline::PIECE;
             }

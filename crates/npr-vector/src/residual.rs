@@ -79,7 +79,7 @@ impl Search<'_> {
         if self.parts[pixel.part as usize].flags & Part::LINES == 0 {
             return None;
         }
-        if found & BETWEEN == 0 && !self.runs_on([x, y], pixel.part) {
+        if found & BETWEEN == 0 && !self.runs_on([x, y], pixel) {
             return None;
         }
         let (middle, toward) = (self.mask_window.frame_at(x, y), toward_line(found));
@@ -96,7 +96,7 @@ impl Search<'_> {
     ///
     /// Four faces that meet in a blunt corner differ across it though none of its edges is a crease, and so do the dents of a
     /// scan: lines so short would be dots.
-    fn runs_on(&self, at: [u32; 2], part: u32) -> bool {
+    fn runs_on(&self, at: [u32; 2], pixel: &GPixel) -> bool {
         let size = self.mask_window.size;
         let low = at.map(|v| v.saturating_sub(RUN_BOX_PX));
         let high: [u32; 2] = std::array::from_fn(|i| (at[i] + RUN_BOX_PX).min(size[i] - 1));
@@ -105,10 +105,19 @@ impl Search<'_> {
             for x in low[0]..=high[0] {
                 let element = (y * size[0] + x) as usize;
                 let is_owned = self.mask[element] & MASK_OWNER != 0;
-                count += u32::from(is_owned && self.gbuffer[element].part == part);
+                count += u32::from(is_owned && self.is_one_skin(&self.gbuffer[element], pixel));
             }
         }
         count >= RUN_COUNT
+    }
+
+    /// Whether two pixels show one connected surface in one material, whatever ids it has.
+    fn is_one_skin(&self, a: &GPixel, b: &GPixel) -> bool {
+        let component = |pixel: &GPixel| self.parts[pixel.part as usize].component;
+        a.part != NONE
+            && a.object == b.object
+            && a.material == b.material
+            && component(a) == component(b)
     }
 
     /// Whether a ribbon runs through a point of the frame: ink enough under it, and enough around to be a line.

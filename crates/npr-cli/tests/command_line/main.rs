@@ -5,6 +5,7 @@ mod closing;
 mod colours;
 mod determinism;
 mod files;
+mod id_maps;
 mod info;
 mod lines;
 mod looks;

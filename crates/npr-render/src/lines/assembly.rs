@@ -30,7 +30,7 @@ pub(crate) struct Placed {
 pub(crate) struct Assembly {
     /// Meshes in node order.
     pub meshes: Vec<Placed>,
-    /// One for every object in every material, in the order in which faces name them.
+    /// One for every object in every material and id, in the order in which faces name them.
     pub parts: Vec<PartInfo>,
     /// Of every part, whether the file asks for a line around its material.
     pub marked: Vec<bool>,
@@ -98,7 +98,7 @@ impl Assembly {
         });
     }
 
-    /// Adds a surface for every material of a mesh, and says what each part is.
+    /// Adds a surface for every material and id of a mesh, and says what each part is.
     fn add_surfaces(
         &mut self,
         scene: &Scene,
@@ -107,10 +107,13 @@ impl Assembly {
         node: &Node,
         mesh: &Mesh,
     ) -> Vec<Role> {
-        let mut roles: BTreeMap<Option<u32>, Role> = BTreeMap::new();
+        let mut roles: BTreeMap<(Option<u32>, &[String]), Role> = BTreeMap::new();
         let parts = mesh.parts.iter().map(|part| {
-            *roles.entry(part.material).or_insert_with(|| {
-                let info = PartInfo::new(scene, object, &node.name, part.material);
+            *roles.entry((part.material, &part.ids)).or_insert_with(|| {
+                let info = PartInfo {
+                    ids: part.ids.clone(),
+                    ..PartInfo::new(scene, object, &node.name, part.material)
+                };
                 if info.is_invisible() {
                     return Role::Unseen;
                 }

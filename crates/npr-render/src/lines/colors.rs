@@ -90,7 +90,7 @@ impl<'a> StrokeColors<'a> {
             && style.shade.use_textures
         {
             for (part, (info, start)) in parts.iter_mut().zip(infos.iter().zip(&map.starts)) {
-                let look = style.resolve_for(&info.material_name, &info.object_name);
+                let look = info.look(style);
                 part.texture = if look.shade_color.is_none() {
                     *start
                 } else {

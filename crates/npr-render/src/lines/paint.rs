@@ -31,7 +31,7 @@ impl Paint {
     pub fn new(parts: &[PartInfo], style: &Style, has_lines: impl Fn(&Look<'_>) -> bool) -> Self {
         let paint = |info: &PartInfo| {
             let part = look::part(info, style);
-            let look = style.resolve_for(&info.material_name, &info.object_name);
+            let look = info.look(style);
             let [r, g, b] = [0, 1, 2].map(|i| srgb_from_linear(part.base_color[i]));
             SurfacePaint {
                 has_lines: look.line_on && look.beam.is_none() && has_lines(&look),

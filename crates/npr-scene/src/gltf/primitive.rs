@@ -95,6 +95,7 @@ impl Reader<'_, '_, '_> {
             triangles: self.triangles(place)?,
             material: self.material()?,
             morphs: self.morphs(weights)?,
+            ids: Vec::new(),
         };
         apply_morphs(&mut part);
         Ok(part)

@@ -1,0 +1,311 @@
+//! Id maps: pictures that tell the regions of a surface apart, so that rules can name them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+use crate::error::StyleError;
+use crate::nearest::nearest;
+use crate::{Color, Style, glob};
+
+/// Most id maps of a style.
+pub const ID_MAPS_MAX: usize = 64;
+
+/// Most colours that one id map names.
+pub const IDS_MAX: usize = 256;
+
+/// A colour of an id map, with a name for rules.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NamedId {
+    /// The name, such as `hair`; several colours may share one.
+    pub name: String,
+    /// The colour of its region, opaque: these three bytes and no others.
+    pub color: Color,
+}
+
+/// A picture that is laid on a surface as its base colour texture is, each region in a flat colour of its own.
+///
+/// Every triangle belongs to the region that covers most of it. Colours with a name here, and those that rules name by
+/// `#rrggbb`, are ids; all others, and what is less than half opaque, are none. Where several maps lie on one part, the last counts.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct IdMap {
+    /// The picture, PNG or JPEG, found as other pictures are; channels of 16 bits are rounded to 8.
+    pub image: String,
+    /// Pattern for the names of the objects that it lies on; default `*`, any.
+    #[serde(default = "any")]
+    pub object: String,
+    /// Pattern for the names of the materials that it lies on; default `*`, any.
+    #[serde(default = "any")]
+    pub material: String,
+    /// Its colours with names, up to 256. Where two cover as much of a triangle, the earlier has it.
+    #[serde(default)]
+    #[schemars(length(max = 256))]
+    pub ids: Vec<NamedId>,
+    /// Whether lines of kind material run between its regions, as between materials; default no: regions are told apart by rules alone.
+    #[serde(default)]
+    pub border: bool,
+}
+
+fn any() -> String {
+    "*".to_owned()
+}
+
+/// A region of an id map.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct IdRegion {
+    /// Its colour, sRGB bytes.
+    pub color: [u8; 3],
+    /// What rules may call it: its name, if it has one, and its colour as `#rrggbb`.
+    pub names: Vec<String>,
+}
+
+impl IdRegion {
+    fn new(color: Color, name: Option<&str>) -> Self {
+        let names = name.map(str::to_owned).into_iter();
+        Self {
+            color: [color.r, color.g, color.b],
+            names: names.chain([color.to_string()]).collect(),
+        }
+    }
+}
+
+/// The colour that a rule names instead of an id.
+fn color_of(pattern: &str) -> Option<Color> {
+    pattern.starts_with('#').then(|| pattern.parse().ok())?
+}
+
+/// Whether a rule's pattern matches a part that ids have these names for; none where it belongs to no region.
+///
+/// `*` matches all parts, `?*` those with an id, and an empty pattern those without.
+pub(crate) fn matches(pattern: &str, names: &[String]) -> bool {
+    let color = color_of(pattern).map(|color| color.to_string());
+    let pattern = color.as_deref().unwrap_or(pattern);
+    if names.is_empty() {
+        return glob::matches(pattern, "");
+    }
+    names.iter().any(|name| glob::matches(pattern, name))
+}
+
+impl Style {
+    /// The regions that may be told apart on an id map: its named colours, then those that rules name by colour alone.
+    pub fn id_regions(&self, map: &IdMap) -> Vec<IdRegion> {
+        let named = map.ids.iter();
+        let mut regions: Vec<IdRegion> = named
+            .map(|id| IdRegion::new(id.color, Some(&id.name)))
+            .collect();
+        let mut known: BTreeMap<[u8; 3], ()> = regions.iter().map(|r| (r.color, ())).collect();
+        let colors = self
+            .rule
+            .iter()
+            .filter_map(|rule| color_of(&rule.matching.id));
+        for region in colors.map(|color| IdRegion::new(color, None)) {
+            if known.insert(region.color, ()).is_none() {
+                regions.push(region);
+            }
+        }
+        regions
+    }
+
+    /// The pictures of the id maps: key and name as the style has them, each name where it stands first. Callers load them.
+    pub fn id_map_pictures(&self) -> Vec<(String, &str)> {
+        let mut named: Vec<(String, &str)> = Vec::new();
+        for (i, map) in self.id_map.iter().enumerate() {
+            if named.iter().all(|(_, name)| *name != map.image) {
+                named.push((format!("id_map.{i}.image"), &map.image));
+            }
+        }
+        named
+    }
+
+    /// Checks the maps, and that rules name ids that there are.
+    pub(crate) fn check_ids(&self) -> Result<(), StyleError> {
+        let mut maps = self.id_map.iter().enumerate();
+        maps.try_for_each(|(i, map)| map.check(&format!("id_map.{i}")))?;
+        let names = || {
+            let ids = self.id_map.iter().flat_map(|map| &map.ids);
+            ids.map(|id| id.name.as_str())
+        };
+        for (i, rule) in self.rule.iter().enumerate() {
+            let pattern = rule.matching.id.as_str();
+            let unfit =
+                |reason: String| Err(StyleError::unfit(format!("rule.{i}.match.id"), reason));
+            if pattern.contains(['*', '?']) || pattern.is_empty() {
+                continue;
+            }
+            if self.id_map.is_empty() {
+                return unfit("names an id, but the style has no id_map".to_owned());
+            }
+            if pattern.starts_with('#') {
+                match color_of(pattern) {
+                    Some(color) if color.a == 255 => continue,
+                    _ => return unfit("is no colour such as #ff8000".to_owned()),
+                }
+            }
+            if !names().any(|name| name == pattern) {
+                let hint = nearest(pattern, names());
+                let hint =
+                    hint.map_or_else(String::new, |name| format!("; did you mean '{name}'?"));
+                return unfit(format!("is no id of an id_map{hint}"));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl IdMap {
+    /// Whether it lies on a part, unless a later map does.
+    pub fn lies_on(&self, material: &str, object: &str) -> bool {
+        glob::matches(&self.material, material) && glob::matches(&self.object, object)
+    }
+
+    /// Refuses maps without a picture, names that rules cannot say, and colours with two names.
+    fn check(&self, key: &str) -> Result<(), StyleError> {
+        if self.image.is_empty() {
+            return Err(StyleError::unfit(format!("{key}.image"), "names no file"));
+        }
+        let mut known: BTreeMap<[u8; 3], &str> = BTreeMap::new();
+        for (i, id) in self.ids.iter().enumerate() {
+            let unfit = |of: &str, reason: String| {
+                Err(StyleError::unfit(format!("{key}.ids.{i}.{of}"), reason))
+            };
+            if id.name.is_empty() || id.name.starts_with('#') || id.name.contains(['*', '?']) {
+                let reason = "must not be empty, start with #, or have * or ? in it";
+                return unfit("name", reason.to_owned());
+            }
+            if id.color.a < 255 {
+                return unfit("color", "must be opaque".to_owned());
+            }
+            if let Some(other) = known.insert([id.color.r, id.color.g, id.color.b], &id.name) {
+                let other: String = other
+                    .chars()
+                    .take(60)
+                    .flat_map(char::escape_debug)
+                    .collect();
+                return unfit("color", format!("is that of '{other}' too"));
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MAP: &str = "[[id_map]]\nimage = 'ids.png'\n\
+        ids = [{ name = 'hair', color = '#f00' }, { name = 'coat', color = '#00ff00' }]\n";
+
+    fn read(text: &str) -> Result<Style, StyleError> {
+        Style::from_toml(text, &|_| Err(String::new()))
+    }
+
+    fn told(text: &str) -> String {
+        read(text).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn rules_match_names_and_colours_of_regions() {
+        let rules = "[[rule]]\nmatch.id = 'hair'\nline.width_factor = 2\n\
+            [[rule]]\nmatch.id = '#0F0'\nline.width_factor = 3\n\
+            [[rule]]\nmatch.id = '#0000ff'\nline.width_factor = 4\n\
+            [[rule]]\nmatch.id = ''\nline.width_factor = 5";
+        let style = read(&format!("{MAP}{rules}")).unwrap();
+        let regions = style.id_regions(&style.id_map[0]);
+        let names: Vec<_> = regions.iter().map(|region| region.names.clone()).collect();
+        assert_eq!(
+            names,
+            [
+                vec!["hair", "#ff0000"],
+                vec!["coat", "#00ff00"],
+                vec!["#0000ff"]
+            ]
+        );
+        let width = |ids: &[String]| {
+            let names = crate::PartNames {
+                ids,
+                ..crate::PartNames::default()
+            };
+            style.resolve(names).width_factor
+        };
+        let widths: Vec<f32> = regions.iter().map(|region| width(&region.names)).collect();
+        assert_eq!(widths, [2.0, 3.0, 4.0]);
+        assert_eq!(width(&[]), 5.0);
+        assert_eq!(style.resolve_for("m", "o").width_factor, 5.0);
+    }
+
+    #[test]
+    fn patterns_take_all_those_with_an_id_or_those_without() {
+        let names = vec!["hair".to_owned(), "#ff0000".to_owned()];
+        for pattern in ["*", "?*", "h*", "#ff0000", "#F00", "#ff*"] {
+            assert!(matches(pattern, &names), "{pattern}");
+        }
+        for pattern in ["", "hai", "#ff0001", "#FF*"] {
+            assert!(!matches(pattern, &names), "{pattern}");
+        }
+        assert!(matches("*", &[]) && matches("", &[]));
+        assert!(!matches("?*", &[]) && !matches("hair", &[]));
+    }
+
+    #[test]
+    fn what_is_written_is_read_again_and_parents_add_their_maps() {
+        let style = read(&format!("{MAP}border = true\nobject = 'Hero*'")).unwrap();
+        assert_eq!(read(&style.to_toml().unwrap()), Ok(style.clone()));
+        assert_eq!(
+            style.id_map_pictures(),
+            [("id_map.0.image".to_owned(), "ids.png")]
+        );
+        let load = |_: &str| Ok(MAP.to_owned());
+        let child =
+            "extends = 'a.toml'\n[[id_map]]\nimage = 'more.png'\n[[rule]]\nmatch.id = 'hair'";
+        let child = Style::from_toml(child, &load).unwrap();
+        let images: Vec<_> = child.id_map.iter().map(|map| map.image.as_str()).collect();
+        assert_eq!(images, ["ids.png", "more.png"]);
+    }
+
+    #[test]
+    fn slips_are_told() {
+        assert_eq!(
+            told(&format!("{MAP}[[rule]]\nmatch.id = 'hiar'")),
+            "rule.0.match.id at line 5, column 7 is no id of an id_map; did you mean 'hair'?"
+        );
+        assert_eq!(
+            told("[[rule]]\nmatch.id = '#ff0000'"),
+            "rule.0.match.id at line 2, column 7 names an id, but the style has no id_map"
+        );
+        for (slip, wanted) in [
+            (
+                "[[rule]]\nmatch.id = '#f00000zz'",
+                "is no colour such as #ff8000",
+            ),
+            (
+                "[[rule]]\nmatch.id = '#ff000080'",
+                "is no colour such as #ff8000",
+            ),
+            ("[[id_map]]\nimage = ''", "names no file"),
+            ("[[id_map]]\nids = []", "lacks 'image'"),
+        ] {
+            let told = told(&format!("{MAP}{slip}"));
+            assert!(told.ends_with(wanted), "{told}");
+        }
+        for (id, wanted) in [
+            (
+                "{ name = '#a', color = 'red' }",
+                "must not be empty, start with #, or have * or ? in it",
+            ),
+            ("{ name = 'a', color = '#ff000080' }", "must be opaque"),
+            (
+                "{ name = 'a', color = 'red' }, { name = 'b', color = '#f00' }",
+                "is that of 'a' too",
+            ),
+            (
+                "{ name = 'a', color = 'reddish' }",
+                "is not a CSS colour such as #1e1a18 or saddlebrown",
+            ),
+        ] {
+            let told = told(&format!("[[id_map]]\nimage = 'a.png'\nids = [{id}]"));
+            assert!(told.ends_with(wanted), "{told}");
+        }
+    }
+}
