@@ -55,6 +55,18 @@ impl Eye {
     }
 }
 
+/// Room for the nodes of a view's contours by the number of faces: a power of two that hardly a view exceeds.
+///
+/// Contours grow with a power of the number of faces: its root on smooth surfaces, whose contours are curves however finely they are
+/// cut up, and about 0.8 over models of all sorts, for finer ones have finer detail [McGuire 2004]. Twice that law, rounded up, holds every view of
+/// the sample models (`tests/tests/contour_growth.rs`); small meshes have room for every half-edge.
+pub fn usual_room(face_count: usize) -> usize {
+    const LEAST: usize = 1024;
+    let law = 2.0 * npr_core::math::powf(face_count as f32, 0.8);
+    let room = (law as usize).next_power_of_two().max(LEAST);
+    room.min(3 * face_count)
+}
+
 /// Which faces are turned to the eye of a view, and the contours that follow from it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct EdgeContours {

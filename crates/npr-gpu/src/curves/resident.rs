@@ -8,17 +8,15 @@ use crate::graph::Graph;
 use crate::passes::vector;
 use npr_core::shape::Shape;
 use npr_vector::contour::steps::{Viewer, half_edges, judges};
-use npr_vector::contour::{EdgeContours, Eye};
+use npr_vector::contour::{EdgeContours, Eye, usual_room};
 use npr_vector::graph::{CurveGraph, CurveNode};
 use npr_vector::rank::{Link, Ranked};
 
-/// Contour nodes for which there is room at first; few views have more.
-const FIRST_CAPACITY: usize = 4096;
-
 /// A shape in an engine's memory, for contours of any number of views.
 ///
-/// Positions, half-edges and judges are handed over once; a view hands over its eye and takes the contours back. A view with
-/// more contours than any before makes room for the next power of two, and only then is the shape handed over again.
+/// Positions, half-edges and judges are handed over once; a view hands over its eye and takes the contours back. There is
+/// [usual room](usual_room) for contours at first; a view with more makes room for the next power of two, and only then is the shape handed over
+/// again.
 /// Takes 12 bytes for each vertex and about 95 for each face on the engine, and 32 for each node that there is room for.
 pub struct ResidentShape<'a> {
     engine: &'a dyn Engine,
@@ -65,7 +63,7 @@ impl<'a> ResidentShape<'a> {
         shape: &'a Shape,
         scheme: Option<Scheme>,
     ) -> Result<Self, EngineError> {
-        let capacity = FIRST_CAPACITY.min(3 * shape.faces.len());
+        let capacity = usual_room(shape.faces.len());
         Ok(Self {
             engine,
             shape,

@@ -12,7 +12,7 @@ use npr_mesh::testing::{
     random_winding, torus, uv_sphere,
 };
 use npr_vector::contour::steps::Viewer;
-use npr_vector::contour::{EdgeContours, Eye};
+use npr_vector::contour::{EdgeContours, Eye, usual_room};
 use npr_vector::rank::rank_curves;
 use std::cell::Cell;
 use std::rc::Rc;
@@ -104,7 +104,7 @@ fn contours_are_ranked_where_they_are_found() {
 fn contours_without_room_are_found_again() {
     let soup = shape_from(&random_soup(4000, 9));
     let eye = &eyes(1.0)[0];
-    assert!(plain(&soup, eye).graph.nodes.len() > 4096);
+    assert!(plain(&soup, eye).graph.nodes.len() > usual_room(4000));
     check("soup", &soup, &eyes(1.0));
     check_ranked("soup", &soup, eye);
 }
@@ -177,10 +177,31 @@ fn a_view_hands_over_its_eye_only() {
     }
 }
 
-/// The processor, counting the words that are written.
+/// Smooth shapes of any size have room for their contours from the first view on; soups make room once.
+#[test]
+fn smooth_shapes_are_prepared_once() {
+    for (name, mesh, wanted) in [
+        ("cube", cube(), 1),
+        ("icosphere", icosphere(6), 1),
+        ("torus", torus(192, 96, 0.7, 0.3), 1),
+        ("cylinder", cylinder(300, 300), 1),
+        ("soup", random_soup(4000, 9), 2),
+    ] {
+        let shape = shape_from(&mesh);
+        let counting = Counting::default();
+        let mut resident = ResidentShape::new(&counting, &shape).unwrap();
+        for eye in &eyes(1.0) {
+            resident.contours(eye).unwrap();
+        }
+        assert_eq!(counting.prepared.get(), wanted, "{name}");
+    }
+}
+
+/// The processor, counting the words that are written and how often memory is made ready.
 #[derive(Default)]
 struct Counting {
     words: Rc<Cell<usize>>,
+    prepared: Cell<usize>,
 }
 
 struct CountingSession {
@@ -194,6 +215,7 @@ impl Engine for Counting {
     }
 
     fn prepare(&self, graph: Graph) -> Result<Box<dyn Session>, EngineError> {
+        self.prepared.set(self.prepared.get() + 1);
         Ok(Box::new(CountingSession {
             words: self.words.clone(),
             session: Processor.prepare(graph)?,
