@@ -43,9 +43,17 @@ impl Output {
 
     /// Writes all bytes. A reader that closes standard output early has had enough: that is no fault.
     pub fn write(&self, bytes: &[u8]) -> Result<(), Fault> {
+        self.write_with(|sink| sink.write_all(bytes))
+    }
+
+    /// Writes what `fill` writes, as it comes; else as [`Self::write`].
+    pub fn write_with(
+        &self,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Fault> {
         match self {
-            Self::Standard => print(bytes),
-            Self::File(path) => write_atomic(path, bytes).map_err(|error| {
+            Self::Standard => print_with(fill),
+            Self::File(path) => write_atomic(path, fill).map_err(|error| {
                 Fault::from(error).while_doing(format_args!("cannot write {}", quoted(path)))
             }),
         }
@@ -54,8 +62,12 @@ impl Output {
 
 /// Writes to standard output; a closed pipe is a quiet success.
 pub fn print(bytes: &[u8]) -> Result<(), Fault> {
+    print_with(|sink| sink.write_all(bytes))
+}
+
+fn print_with(fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Fault> {
     let mut stdout = io::stdout().lock();
-    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
+    match fill(&mut stdout).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         Err(error) => Err(Fault::from(error).while_doing("cannot write to standard output")),
         Ok(()) => Ok(()),
@@ -100,11 +112,22 @@ pub fn folder_of(path: &Path) -> &Path {
 }
 
 /// Writes a file beside its place and renames it when whole, so that whoever looks sees the old file or
-/// the new one. Nothing stays behind where it fails. Interrupts wait until it is done.
-fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
+/// the new one. Nothing stays behind where it fails or is interrupted.
+fn write_atomic(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut file = {
+        let _writing = interrupt::hold_off();
+        let file = new_file_in(folder_of(path))?;
+        *interrupt::unfinished() = Some(file.path().to_owned());
+        file
+    };
+    let filled = fill(&mut file);
+    // From here on an interrupt waits until it is done.
     let _writing = interrupt::hold_off();
-    let mut file = new_file_in(folder_of(path))?;
-    file.write_all(bytes)?;
+    *interrupt::unfinished() = None;
+    filled?;
     file.as_file().sync_all()?;
     file.persist(path)?;
     Ok(())

@@ -58,7 +58,24 @@ fn draw(
         drop(bytes);
         picture
     })?;
-    let bytes = progress.step("trace", || found(&picture, said, job.format.form()))?;
+    let options = said.method.options();
+    // Curves are written as they come, so that few of them are in memory.
+    let bytes = match (&picture, job.format.form()) {
+        (Traced::Ink(bitmap), TracedForm::Curves(format)) if !said.form.centreline => {
+            return progress.step("trace", || {
+                let output = &job.output;
+                output.write_with(|sink| trace_to_file(bitmap, &options, format, sink))
+            });
+        }
+        (Traced::Colours(picture), TracedForm::Curves(format)) => {
+            return progress.step("trace", || {
+                let output = &job.output;
+                output.write_with(|sink| trace_colours_to_file(picture, &options, format, sink))
+            });
+        }
+        (Traced::Colours(_), TracedForm::Mesh(_)) => return Err(colours_are_no_mesh()),
+        (Traced::Ink(bitmap), form) => progress.step("trace", || found(bitmap, said, form))?,
+    };
     progress.step("write", || job.output.write(&bytes))
 }
 
@@ -81,22 +98,14 @@ fn decoded(bytes: &[u8], said: &TraceArguments, limits: &Limits) -> Result<Trace
     Ok(Traced::Ink(bitmap))
 }
 
-/// What was found in a picture, as the bytes of a file.
-fn found(picture: &Traced, said: &TraceArguments, form: TracedForm) -> Result<Vec<u8>, Fault> {
+/// Centre lines or triangles found in a bitmap, as the bytes of a file.
+fn found(bitmap: &Bitmap, said: &TraceArguments, form: TracedForm) -> Result<Vec<u8>, Fault> {
     let options = said.method.options();
-    let bitmap = match (picture, form) {
-        (Traced::Ink(bitmap), _) => bitmap,
-        (Traced::Colours(picture), TracedForm::Curves(format)) => {
-            return Ok(trace_colours_to_file(picture, &options, format));
-        }
-        (Traced::Colours(_), TracedForm::Mesh(_)) => return Err(colours_are_no_mesh()),
-    };
     match form {
-        TracedForm::Curves(format) if said.form.centreline => {
+        TracedForm::Curves(format) => {
             let options = said.form.centreline_options(&options);
             Ok(write_centrelines(&centrelines(bitmap, &options), format))
         }
-        TracedForm::Curves(format) => Ok(trace_to_file(bitmap, &options, format)),
         TracedForm::Mesh(format) => {
             let mesh = FlatMesh::of_tracing(&trace_bitmap(bitmap, &options));
             let mesh = mesh.map_err(|error| Fault::new(Exit::Limit, error))?;

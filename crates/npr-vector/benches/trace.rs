@@ -3,9 +3,11 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use npr_vector::trace::{
     Bitmap, Loops, PixelLoop, TraceFormat, TraceOptions, TurnPolicy, adjust_corners, bends,
-    decompose, join_arcs, nest, optimal_polygon, straight_lengths, trace, write_tracing,
+    decompose, join_arcs, nest, optimal_polygon, straight_lengths, trace, trace_to_file,
+    write_tracing,
 };
 use std::hint::black_box;
+use std::io::sink;
 use std::time::Duration;
 
 /// Sides of the bitmaps, in pixels.
@@ -36,8 +38,45 @@ fn spiral(side: u32) -> Bitmap {
     bitmap
 }
 
+/// A chequer of single pixels: as many edges as a picture can have.
+fn chequer(side: u32) -> Bitmap {
+    let mut bitmap = Bitmap::new(side, side).unwrap_or_else(|error| panic!("{error}"));
+    for (x, y) in (0..side * side).map(|i| (i % side, i / side)) {
+        bitmap.set(x, y, (x ^ y) & 1 == 0);
+    }
+    bitmap
+}
+
+/// Chequers as each turn policy sees them, from specks to loops within loops: in all and without curves.
+fn chequers(c: &mut Criterion) {
+    let mut group = c.benchmark_group("trace chequer");
+    group
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_millis(700));
+    for side in SIDES {
+        let bitmap = chequer(side);
+        group.throughput(Throughput::Elements(2 * u64::from(side) * u64::from(side)));
+        for turn_policy in TurnPolicy::ALL {
+            let options = TraceOptions {
+                turn_policy,
+                turd_size: 0,
+                ..TraceOptions::default()
+            };
+            let name = turn_policy.name();
+            group.bench_function(BenchmarkId::new(format!("decompose {name}"), side), |b| {
+                b.iter(|| black_box(decompose(&bitmap, turn_policy, 0)));
+            });
+            group.bench_function(BenchmarkId::new(format!("file {name}"), side), |b| {
+                b.iter(|| trace_to_file(&bitmap, &options, TraceFormat::Svg, &mut sink()));
+            });
+        }
+    }
+    group.finish();
+}
+
 fn steps(loops: &Loops) -> u64 {
-    loops.iter().map(|pixels| pixels.steps.len() as u64).sum()
+    loops.step_count() as u64
 }
 
 fn stages(c: &mut Criterion) {
@@ -89,7 +128,7 @@ fn stages(c: &mut Criterion) {
             });
             let tracing = trace(&bitmap, &options);
             bench("svg", &|| {
-                black_box(write_tracing(&tracing, TraceFormat::Svg));
+                black_box(write_tracing(&tracing, TraceFormat::Svg, &mut sink())).ok();
             });
             bench("all", &|| {
                 black_box(trace(&bitmap, &options));
@@ -99,5 +138,5 @@ fn stages(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, stages);
+criterion_group!(benches, stages, chequers);
 criterion_main!(benches);

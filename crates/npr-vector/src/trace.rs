@@ -36,8 +36,12 @@ mod file;
 mod flat;
 mod join;
 mod nest;
+mod paths;
+mod pdf;
+mod pen;
 mod polygon;
 mod straight;
+mod strip;
 #[cfg(test)]
 mod tests;
 mod turn;
@@ -58,6 +62,7 @@ pub use straight::straight_lengths;
 pub use turn::TurnPolicy;
 
 use glam::DVec2;
+use pen::Pen;
 use std::sync::mpsc;
 
 /// How a bitmap is traced; names and defaults are those of the program Potrace.
@@ -95,7 +100,7 @@ pub struct Tracing {
 
 /// The outline of a shape or of a hole.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TracedPath<T = Vec<Segment>> {
+pub struct TracedPath {
     /// Whether it goes around ink; else around a hole.
     pub is_ink: bool,
     /// Pixels inside, those of holes and of shapes within them included.
@@ -103,7 +108,7 @@ pub struct TracedPath<T = Vec<Segment>> {
     /// Number of the innermost path around it: a hole for ink, if any, and ink for a hole.
     pub parent: Option<u32>,
     /// The closed curve, with ink on its left; pixels, y down. The first segment starts where the last one ends.
-    pub segments: T,
+    pub segments: Vec<Segment>,
 }
 
 /// Traces a bitmap.
@@ -111,66 +116,70 @@ pub struct TracedPath<T = Vec<Segment>> {
 /// Paths are found one after the other in one thread, while the others already turn found ones to curves; the same for any number of
 /// threads. Time grows with the paths' length. No path where there is no ink.
 pub fn trace(bitmap: &Bitmap, options: &TraceOptions) -> Tracing {
+    let size = [bitmap.width(), bitmap.height()];
+    let (loops, curves) = found(bitmap, options, usize::MAX, |outliner, batch| {
+        let curves = batch.iter().map(|pixels| {
+            let mut segments = Vec::new();
+            outliner.outline(&pixels, &mut segments);
+            segments
+        });
+        curves.collect::<Vec<_>>()
+    });
+    let curves = curves.into_iter().flat_map(|(_, curves)| curves);
+    let parents = nest(size, loops.iter());
+    let paths = loops.iter().zip(parents).zip(curves);
+    let paths = paths.map(|((pixels, parent), segments)| TracedPath {
+        is_ink: pixels.is_ink,
+        area: pixels.area,
+        parent,
+        segments,
+    });
     Tracing {
-        size: [bitmap.width(), bitmap.height()],
-        paths: trace_map(bitmap, options, |_, segments| segments),
+        size,
+        paths: paths.collect(),
     }
 }
 
-/// [`trace`], with each curve at once made into something else, such as its text: what is not kept needs no memory.
-///
-/// `each` gets the loop that a curve comes from; it runs on all threads.
-pub fn trace_map<T: Send>(
+/// The loops of a bitmap, and what `each` makes of the first of them while others are still looked for: of as many batches as have no more
+/// than `early_steps` steps, with the number of each one's first loop.
+fn found<T: Send>(
     bitmap: &Bitmap,
     options: &TraceOptions,
-    each: impl Fn(&PixelLoop<'_>, Vec<Segment>) -> T + Sync,
-) -> Vec<TracedPath<T>> {
+    early_steps: usize,
+    each: impl Fn(&mut Outliner, &Loops) -> T + Sync,
+) -> (Loops, Vec<(usize, T)>) {
     let (sender, receiver) = mpsc::channel();
     let each = &each;
-    rayon::scope(|scope| {
-        let batches = Decomposition::new(bitmap, options.turn_policy, options.turd_size);
-        for (number, batch) in batches.enumerate() {
+    let loops = rayon::scope(|scope| {
+        let mut loops = Loops::default();
+        for batch in Decomposition::new(bitmap, options.turn_policy, options.turd_size) {
+            let first = loops.len();
+            loops.append(&batch);
+            if loops.step_count() > early_steps {
+                continue;
+            }
             let sender = sender.clone();
             scope.spawn(move |_| {
-                let mut outliner = Outliner::new(options);
-                let outlines: Vec<T> = batch
-                    .iter()
-                    .map(|pixels| each(&pixels, outliner.outline(&pixels)))
-                    .collect();
                 // The receiver lives until all is sent.
-                let _ = sender.send((number, batch, outlines));
+                let _ = sender.send((first, each(&mut Outliner::new(options), &batch)));
             });
         }
+        loops
     });
     drop(sender);
-    let mut batches: Vec<_> = receiver.into_iter().collect();
-    batches.sort_unstable_by_key(|(number, ..)| *number);
-    let loops = batches.iter().flat_map(|(_, batch, _)| batch.iter());
-    let mut parents = nest([bitmap.width(), bitmap.height()], loops).into_iter();
-    let mut paths = Vec::with_capacity(parents.len());
-    for (_, batch, outlines) in batches {
-        paths.extend(
-            batch
-                .iter()
-                .zip(outlines)
-                .map(|(pixels, segments)| TracedPath {
-                    is_ink: pixels.is_ink,
-                    area: pixels.area,
-                    parent: parents.next().flatten(),
-                    segments,
-                }),
-        );
-    }
-    paths
+    let mut made: Vec<(usize, T)> = receiver.into_iter().collect();
+    made.sort_unstable_by_key(|(first, _)| *first);
+    (loops, made)
 }
+
+/// Steps of loops after which memory is not kept for the next one.
+const LONG_STEPS: usize = 1 << 18;
 
 /// Makes curves of loops, with its memory kept from one to the next.
 struct Outliner {
     options: TraceOptions,
     search: polygon::Search,
-    lines: Vec<adjust::Line>,
     corners: Vec<DVec2>,
-    bends: Vec<Bend>,
     joiner: join::Joiner,
 }
 
@@ -179,25 +188,49 @@ impl Outliner {
         Self {
             options: *options,
             search: polygon::Search::default(),
-            lines: Vec::new(),
             corners: Vec::new(),
-            bends: Vec::new(),
             joiner: join::Joiner::default(),
         }
     }
 
-    fn outline(&mut self, pixels: &PixelLoop<'_>) -> Vec<Segment> {
+    /// Draws the curve of a loop.
+    fn outline(&mut self, pixels: &PixelLoop<'_>, pen: &mut impl Pen) {
         self.search.run(pixels.steps);
-        let polygon = &self.search.polygon;
-        adjust::adjust_into(pixels, polygon, &mut self.lines, &mut self.corners);
+        let is_long = pixels.steps.len() > LONG_STEPS;
+        if is_long {
+            self.search.keep_polygon();
+        }
+        adjust::adjust_into(pixels, &self.search.polygon, &mut self.corners);
+        if is_long {
+            self.search = polygon::Search::default();
+        }
         if !pixels.is_ink {
             // So that ink lies on the left of every curve.
             self.corners.reverse();
         }
-        curve::bends_into(&self.corners, self.options.alpha_max, &mut self.bends);
-        match self.options.join_tolerance {
-            Some(tolerance) => self.joiner.run(&self.bends, tolerance),
-            None => curve(&self.bends),
+        self.draw(pen);
+        if is_long {
+            self.corners = Vec::new();
         }
+    }
+
+    fn draw(&mut self, pen: &mut impl Pen) {
+        let corners = &self.corners;
+        let [Some(first), Some(last)] = [corners.first(), corners.last()] else {
+            return;
+        };
+        let bend = |index| curve::bend_at(corners, index, self.options.alpha_max);
+        match self.options.join_tolerance {
+            Some(tolerance) if corners.len() > 2 => {
+                pen.begin(first.midpoint(corners[1]));
+                let draw = |segment| pen.draw(segment);
+                self.joiner.run(corners.len(), bend, tolerance, draw);
+            }
+            _ => {
+                pen.begin(last.midpoint(*first));
+                curve::draw_curve(corners.len(), bend, |segment| pen.draw(segment));
+            }
+        }
+        pen.end();
     }
 }

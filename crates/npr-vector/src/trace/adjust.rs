@@ -12,38 +12,43 @@ use glam::{DMat2, DVec2};
 /// Not in the paper: where both lines are parallel, the place nearest to the polygon's corner is taken of all equally good ones.
 pub fn adjust_corners(pixels: &PixelLoop<'_>, polygon: &[u32]) -> Vec<DVec2> {
     let mut adjusted = Vec::new();
-    adjust_into(pixels, polygon, &mut Vec::new(), &mut adjusted);
+    adjust_into(pixels, polygon, &mut adjusted);
     adjusted
 }
 
-/// [`adjust_corners`] into a vector that is used again, as is the one for lines.
-pub(super) fn adjust_into(
-    pixels: &PixelLoop<'_>,
-    polygon: &[u32],
-    lines: &mut Vec<Line>,
-    adjusted: &mut Vec<DVec2>,
-) {
-    lines.clear();
+/// [`adjust_corners`] into a vector that is used again.
+pub(super) fn adjust_into(pixels: &PixelLoop<'_>, polygon: &[u32], adjusted: &mut Vec<DVec2>) {
     adjusted.clear();
     let mut ends = polygon.iter().skip(1).map(|corner| *corner as usize);
     let mut place = pixels.start.map(i64::from);
-    for corner in polygon {
+    let lines = polygon.iter().map(|corner| {
         let end = ends.next().unwrap_or(pixels.steps.len());
         let side = pixels.steps.get(*corner as usize..end).unwrap_or(&[]);
         let (line, next) = Line::along(side, place);
-        lines.push(line);
         place = next;
+        line
+    });
+    let mut both: Option<[Line; 2]> = None;
+    for line in lines {
+        let [first, before] = both.unwrap_or([line; 2]);
+        adjusted.push(corner_between(&before, &line));
+        both = Some([first, line]);
     }
-    let before = lines.iter().rev().take(1).chain(lines.iter());
-    adjusted.extend(before.zip(lines.iter()).map(|(before, after)| {
-        let corner = DVec2::from(after.start);
-        corner + nearest_to_both(corner, before, after)
-    }));
+    // The first corner has the last line before it.
+    if let (Some(place), Some([first, last])) = (adjusted.first_mut(), both) {
+        *place = corner_between(&last, &first);
+    }
+}
+
+/// The corner from which the second line starts, moved.
+fn corner_between(before: &Line, after: &Line) -> DVec2 {
+    let corner = DVec2::from(after.start);
+    corner + nearest_to_both(corner, before, after)
 }
 
 /// The line that fits the corners along a side best.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Line {
+struct Line {
     /// Where the side starts.
     start: [f64; 2],
     /// The middle of its corners, from its start.

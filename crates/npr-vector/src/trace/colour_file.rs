@@ -1,11 +1,11 @@
 //! Pictures of few colours as files of filled shapes.
 
 use super::colours::{IndexPicture, layers};
-use super::file::{
-    FEATURES_HEAD, json_head, page, pieces, push_features, push_list, push_pdf_shapes,
-    push_svg_shapes, svg_head,
-};
-use super::{TraceFormat, TraceOptions, TracedPath};
+use super::file::{FEATURES_HEAD, Sheet, json_head, svg_head};
+use super::paths::{EARLY_STEPS, Outlines};
+use super::pdf::write_page;
+use super::{TraceFormat, TraceOptions};
+use std::io::{self, BufWriter, Write};
 
 /// Traces every layer of a picture and writes them, the lowest first, each filled with its colour.
 ///
@@ -13,29 +13,38 @@ use super::{TraceFormat, TraceOptions, TracedPath};
 /// in GeoJSON every shape has the property `fill`. What is left out as a speck shows what lies under it.
 ///
 /// O(pixels) for [`layers`], then for each the time of [`trace`](super::trace()): the picture's whole ink for a colour that is
-/// everywhere. The same bytes for any number of threads.
+/// everywhere. The same bytes for any number of threads. A byte a step of every layer's paths is held until all are found.
+///
+/// # Errors
+///
+/// What `sink` says.
 pub fn trace_colours_to_file(
     picture: &IndexPicture,
     options: &TraceOptions,
     format: TraceFormat,
-) -> Vec<u8> {
-    let mut stack: Vec<Painted> = layers(picture)
-        .map(|layer| {
-            let color = picture.palette().get(usize::from(layer.index));
-            Painted {
-                color: color.copied().unwrap_or_default(),
-                paths: pieces(&layer.ink, options, format),
-            }
-        })
-        .collect();
+    sink: &mut dyn Write,
+) -> io::Result<()> {
+    let mut early = EARLY_STEPS;
+    let mut stack = Vec::new();
+    for layer in layers(picture) {
+        let color = picture.palette().get(usize::from(layer.index));
+        let outlines = Outlines::of(&layer.ink, options, format, early);
+        early = early.saturating_sub(outlines.step_count());
+        stack.push(Painted {
+            color: color.copied().unwrap_or_default(),
+            outlines,
+        });
+    }
     stack.reverse();
-    write(picture.size(), stack, format)
+    let mut sink = BufWriter::new(sink);
+    write(picture.size(), &stack, options, format, &mut sink)?;
+    sink.flush()
 }
 
 /// A traced layer.
 struct Painted {
     color: [u8; 3],
-    paths: Vec<TracedPath<String>>,
+    outlines: Outlines,
 }
 
 impl Painted {
@@ -45,46 +54,59 @@ impl Painted {
     }
 }
 
-fn write(size: [u32; 2], stack: Vec<Painted>, format: TraceFormat) -> Vec<u8> {
-    let mut text = String::new();
+fn write(
+    size: [u32; 2],
+    stack: &[Painted],
+    options: &TraceOptions,
+    format: TraceFormat,
+    sink: &mut dyn Write,
+) -> io::Result<()> {
+    let sheets = stack.iter().map(|layer| {
+        let sheet = Sheet {
+            paths: &layer.outlines,
+            size,
+            options,
+            format,
+        };
+        (layer, sheet)
+    });
     match format {
         TraceFormat::Svg => {
-            text += &svg_head(size);
-            for layer in stack {
-                text += &format!("<g fill=\"{}\">\n", layer.fill());
-                push_svg_shapes(&mut text, layer.paths);
-                text += "</g>\n";
+            sink.write_all(svg_head(size).as_bytes())?;
+            for (layer, sheet) in sheets {
+                writeln!(sink, "<g fill=\"{}\">", layer.fill())?;
+                sheet.write_svg_shapes(sink)?;
+                sink.write_all(b"</g>\n")?;
             }
-            text += "</svg>\n";
+            sink.write_all(b"</svg>\n")
         }
-        TraceFormat::Pdf => {
-            for layer in stack {
+        TraceFormat::Pdf => write_page(size, sink, |sink| {
+            for (layer, sheet) in sheets {
                 let [r, g, b] = layer.color.map(|byte| f32::from(byte) / 255.0);
-                text += &format!("{r:.4} {g:.4} {b:.4} rg\n");
-                push_pdf_shapes(&mut text, layer.paths);
+                writeln!(sink, "{r:.4} {g:.4} {b:.4} rg")?;
+                sheet.write_pdf_shapes(sink)?;
             }
-            return page(size, &text);
-        }
+            Ok(())
+        }),
         TraceFormat::Json => {
-            text += &json_head(size);
-            text += "\"layers\":[";
-            for (index, layer) in stack.iter().enumerate() {
+            sink.write_all(json_head(size).as_bytes())?;
+            sink.write_all(b"\"layers\":[")?;
+            for (index, (layer, sheet)) in sheets.enumerate() {
                 let comma = if index == 0 { "" } else { "," };
-                text += &format!("{comma}\n{{\"fill\":\"{}\",\"paths\":[", layer.fill());
-                push_list(&mut text, &layer.paths);
-                text += "\n]}";
+                write!(sink, "{comma}\n{{\"fill\":\"{}\",\"paths\":[", layer.fill())?;
+                sheet.write_list(sink)?;
+                sink.write_all(b"\n]}")?;
             }
-            text += "\n]}\n";
+            sink.write_all(b"\n]}\n")
         }
         TraceFormat::GeoJson => {
-            text += FEATURES_HEAD;
+            sink.write_all(FEATURES_HEAD)?;
             let mut comma = "\n";
-            for layer in stack {
+            for (layer, sheet) in sheets {
                 let fill = format!(",\"fill\":\"{}\"", layer.fill());
-                push_features(&mut text, layer.paths, &fill, &mut comma);
+                sheet.write_features(&fill, &mut comma, sink)?;
             }
-            text += "\n]}\n";
+            sink.write_all(b"\n]}\n")
         }
     }
-    text.into_bytes()
 }

@@ -50,24 +50,22 @@ const ALPHA_LEAST: f64 = 0.55;
 /// the square of one pixel around `a`; its control points lie the share `alpha` of the way from `b` and `c` to `a`. The sharper the corner
 /// and the longer its sides, the greater alpha, up to 4/3. So 0 makes polygons, and more than 4/3 leaves no corner.
 pub fn bends(corners: &[DVec2], alpha_max: f64) -> Vec<Bend> {
-    let mut bends = Vec::new();
-    bends_into(corners, alpha_max, &mut bends);
-    bends
+    (0..corners.len())
+        .map(|index| bend_at(corners, index, alpha_max))
+        .collect()
 }
 
-/// [`bends`] into a vector that is used again.
-pub(super) fn bends_into(corners: &[DVec2], alpha_max: f64, bends: &mut Vec<Bend>) {
+/// The bend at one corner.
+pub(super) fn bend_at(corners: &[DVec2], index: usize, alpha_max: f64) -> Bend {
     let count = corners.len();
-    bends.clear();
-    bends.extend(corners.iter().enumerate().map(|(index, corner)| {
-        let before = corners[(index + count - 1) % count];
-        let after = corners[(index + 1) % count];
-        let alpha = alpha_at(before, *corner, after);
-        Bend {
-            corner: *corner,
-            alpha: (alpha < alpha_max).then(|| alpha.clamp(ALPHA_LEAST, 1.0)),
-        }
-    }));
+    let corner = corners[index];
+    let before = corners[if index == 0 { count - 1 } else { index - 1 }];
+    let after = corners[if index + 1 == count { 0 } else { index + 1 }];
+    let alpha = alpha_at(before, corner, after);
+    Bend {
+        corner,
+        alpha: (alpha < alpha_max).then(|| alpha.clamp(ALPHA_LEAST, 1.0)),
+    }
 }
 
 /// The share that control points would lie towards a corner for the arc to touch the unit square around it.
@@ -87,19 +85,32 @@ fn alpha_at(before: DVec2, corner: DVec2, after: DVec2) -> f64 {
 
 /// The curve through the middles of a polygon's sides, one segment for every corner, the first from the last side's middle.
 pub fn curve(bends: &[Bend]) -> Vec<Segment> {
-    let mut segments = Vec::new();
-    let mut start = match (bends.last(), bends.first()) {
-        (Some(last), Some(first)) => last.corner.midpoint(first.corner),
-        _ => return segments,
-    };
-    let after = bends.iter().skip(1).chain(bends.first());
-    segments.extend(bends.iter().zip(after).map(|(bend, after)| {
-        let end = bend.corner.midpoint(after.corner);
-        let segment = segment(start, bend, end);
-        start = end;
-        segment
-    }));
+    let mut segments = Vec::with_capacity(bends.len());
+    draw_curve(
+        bends.len(),
+        |index| bends[index],
+        |segment| segments.push(segment),
+    );
     segments
+}
+
+/// [`curve`], of bends by their numbers, segment by segment.
+pub(super) fn draw_curve(
+    count: usize,
+    bend: impl Fn(usize) -> Bend,
+    mut draw: impl FnMut(Segment),
+) {
+    let Some(last) = count.checked_sub(1) else {
+        return;
+    };
+    let mut here = bend(0);
+    let mut start = bend(last).corner.midpoint(here.corner);
+    for index in 0..count {
+        let after = bend(if index == last { 0 } else { index + 1 });
+        let end = here.corner.midpoint(after.corner);
+        draw(segment(start, &here, end));
+        (start, here) = (end, after);
+    }
 }
 
 /// The segment of one bend between the middles of the sides around it.

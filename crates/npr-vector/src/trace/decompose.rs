@@ -18,14 +18,34 @@ pub struct Loops {
     steps: Vec<u8>,
 }
 
-/// What is known of a loop besides its steps.
+/// What is known of a loop besides its steps: 12 bytes, for there may be millions.
+///
+/// Sides are up to [`SIDE_LIMIT`](super::SIDE_LIMIT), so places of pixels have 15 bits, and areas and all steps together less than 32.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct LoopHead {
-    start: [u32; 2],
-    is_ink: bool,
-    area: u64,
+    /// The start: 15 bits of x, as many of y, and on top whether its inside is ink.
+    place: u32,
+    area: u32,
     /// Where its steps end among those of all.
-    end: usize,
+    end: u32,
+}
+
+impl LoopHead {
+    fn new([x, y]: [u32; 2], is_ink: bool, area: u64, end: usize) -> Self {
+        Self {
+            place: x | y << 15 | u32::from(is_ink) << 30,
+            area: area as u32,
+            end: end as u32,
+        }
+    }
+
+    fn start(self) -> [u32; 2] {
+        [self.place & 0x7fff, self.place >> 15 & 0x7fff]
+    }
+
+    fn is_ink(self) -> bool {
+        self.place >> 30 & 1 == 1
+    }
 }
 
 /// A closed path along pixel edges, its inside on the left.
@@ -69,13 +89,29 @@ impl Loops {
     pub fn get(&self, index: usize) -> Option<PixelLoop<'_>> {
         let head = self.heads.get(index)?;
         let before = index.checked_sub(1).and_then(|i| self.heads.get(i));
-        let start = before.map_or(0, |head| head.end);
+        let start = before.map_or(0, |head| head.end) as usize;
         Some(PixelLoop {
-            start: head.start,
-            is_ink: head.is_ink,
-            area: head.area,
-            steps: self.steps.get(start..head.end)?,
+            start: head.start(),
+            is_ink: head.is_ink(),
+            area: u64::from(head.area),
+            steps: self.steps.get(start..head.end as usize)?,
         })
+    }
+
+    /// Steps of all loops.
+    pub fn step_count(&self) -> usize {
+        self.steps.len()
+    }
+
+    /// Puts the loops of another list behind these.
+    pub(super) fn append(&mut self, other: &Self) {
+        let offset = self.steps.len() as u32;
+        self.steps.extend_from_slice(&other.steps);
+        let moved = |head: &LoopHead| LoopHead {
+            end: offset + head.end,
+            ..*head
+        };
+        self.heads.extend(other.heads.iter().map(moved));
     }
 
     /// All loops in order.
@@ -95,12 +131,7 @@ impl Loops {
 pub fn decompose(bitmap: &Bitmap, policy: TurnPolicy, turd_size: u64) -> Loops {
     let mut loops = Loops::default();
     for batch in Decomposition::new(bitmap, policy, turd_size) {
-        let offset = loops.steps.len();
-        loops.steps.extend_from_slice(&batch.steps);
-        loops.heads.extend(batch.heads.iter().map(|head| LoopHead {
-            end: offset + head.end,
-            ..*head
-        }));
+        loops.append(&batch);
     }
     loops
 }
@@ -209,12 +240,8 @@ impl Iterator for Decomposition<'_> {
                 batch.steps.truncate(before);
                 continue;
             }
-            batch.heads.push(LoopHead {
-                start,
-                is_ink,
-                area,
-                end: batch.steps.len(),
-            });
+            let end = batch.steps.len();
+            batch.heads.push(LoopHead::new(start, is_ink, area, end));
         }
         (!batch.is_empty()).then_some(batch)
     }

@@ -2,34 +2,44 @@
 
 use super::Segment;
 use glam::DVec2;
-use kurbo::{BezPath, PathEl, Point};
+use kurbo::{PathEl, Point};
 
 /// How far polygons are from traced curves, in pixels.
 pub const FLATNESS_PX: f64 = 0.05;
 
 /// A closed curve as points, the first repeated as the last; none of no segments. O(points).
 pub(crate) fn flattened(segments: &[Segment]) -> Vec<DVec2> {
-    let mut path = BezPath::new();
     let Some(start) = segments.last().map(Segment::end) else {
         return Vec::new();
     };
-    path.move_to(point(start));
+    let mut ring = vec![start];
+    let mut here = start;
     for segment in segments {
-        match *segment {
-            Segment::Corner { corner, end } => {
-                path.line_to(point(corner));
-                path.line_to(point(end));
-            }
-            Segment::Arc { from, to, end } => path.curve_to(point(from), point(to), point(end)),
+        flatten(here, segment, |p| ring.push(p));
+        here = segment.end();
+    }
+    ring
+}
+
+/// Gives the points of a segment after its start.
+pub(super) fn flatten(start: DVec2, segment: &Segment, mut each: impl FnMut(DVec2)) {
+    match *segment {
+        Segment::Corner { corner, end } => {
+            each(corner);
+            each(end);
+        }
+        Segment::Arc { from, to, end } => {
+            let arc = [
+                PathEl::MoveTo(point(start)),
+                PathEl::CurveTo(point(from), point(to), point(end)),
+            ];
+            kurbo::flatten(arc, FLATNESS_PX, |element| {
+                if let PathEl::LineTo(p) = element {
+                    each(DVec2::new(p.x, p.y));
+                }
+            });
         }
     }
-    let mut ring = Vec::new();
-    kurbo::flatten(path, FLATNESS_PX, |element| {
-        if let PathEl::MoveTo(p) | PathEl::LineTo(p) = element {
-            ring.push(DVec2::new(p.x, p.y));
-        }
-    });
-    ring
 }
 
 fn point(p: DVec2) -> Point {

@@ -16,25 +16,34 @@ const TURN_LIMIT: f64 = -0.999_847_695_156_391_3;
 ///
 /// O(n t) arcs are tried for n bends, of which t turn by half a circle.
 pub fn join_arcs(bends: &[Bend], tolerance: f64) -> Vec<Segment> {
-    let mut joiner = Joiner::default();
-    joiner.run(bends, tolerance)
+    let mut segments = Vec::new();
+    let bend = |index| bends[index];
+    Joiner::default().run(bends.len(), bend, tolerance, |s| segments.push(s));
+    segments
 }
 
 /// The search for joined curves, with its memory kept from loop to loop.
+///
+/// No arc goes past a bend that turns to the other side, or not at all, so bends are taken stretch by stretch, as far as they turn to one side.
+/// They are numbered from the one before the stretch, which is 0.
 #[derive(Debug, Default)]
 pub(super) struct Joiner {
-    /// Twice around, and two more.
+    /// Those of the stretch, one before and one after.
     bends: Vec<Bend>,
     /// The best way to every bend.
     best: Vec<Step>,
     /// Which side every bend turns to.
     turns: Vec<f64>,
-    /// Sums of signed areas up to every bend.
+    /// Sums of signed areas up to every bend, from the loop's first on.
     areas: Vec<f64>,
+    /// Whence areas are summed.
+    origin: DVec2,
+    /// Segments of the stretch, the last one first.
+    segments: Vec<Segment>,
 }
 
 /// The best way to the end of a bend's arc.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Step {
     count: u32,
     penalty: f64,
@@ -51,54 +60,80 @@ struct Arc {
 }
 
 impl Joiner {
-    /// Joins what can be joined.
-    pub fn run(&mut self, bends: &[Bend], tolerance: f64) -> Vec<Segment> {
-        let count = bends.len();
+    /// Joins what can be joined of so many bends, and draws segment by segment, from the end of the arc at bend 0.
+    pub fn run(
+        &mut self,
+        count: usize,
+        bend: impl Fn(usize) -> Bend,
+        tolerance: f64,
+        mut draw: impl FnMut(Segment),
+    ) {
         if count < 3 {
-            return super::curve(bends);
+            return super::curve::draw_curve(count, bend, draw);
         }
-        self.prepare(bends);
-        self.best.clear();
-        self.best.push(Step {
-            count: 0,
-            penalty: 0.0,
-            from: 0,
-            arc: None,
-        });
-        for end in 1..=count {
-            let step = self.best_to(end, count, tolerance);
-            self.best.push(step);
+        self.bends.clear();
+        self.origin = bend(0).corner;
+        let mut before = Step::default();
+        let mut area = 0.0;
+        let mut first = 1;
+        while first <= count {
+            area = self.take_stretch(first, count, &bend, area);
+            self.best.clear();
+            self.best.push(before);
+            let last = self.turns.len() - 1;
+            for end in 1..=last {
+                let step = self.best_to(end, count, tolerance);
+                self.best.push(step);
+            }
+            before = self.best[last];
+            self.collect(last, &mut draw);
+            self.bends.drain(..last);
+            first += last;
         }
-        self.collect(count)
     }
 
-    fn prepare(&mut self, bends: &[Bend]) {
-        let count = bends.len();
-        self.bends.clear();
-        self.bends.extend(bends.iter().cycle().take(2 * count + 2));
+    /// Takes bends from one on, as long as they turn to one side; gives the sum of areas up to the last one.
+    fn take_stretch(
+        &mut self,
+        first: usize,
+        count: usize,
+        bend: &impl Fn(usize) -> Bend,
+        mut area: f64,
+    ) -> f64 {
         self.turns.clear();
+        self.turns.push(0.0);
         self.areas.clear();
-        let origin = bends[0].corner;
-        let mut area = 0.0;
-        for index in 0..=count {
-            let before = self.bends[index + count - 1].corner;
-            let bend = &self.bends[index + count];
-            let after = self.bends[index + count + 1].corner;
-            let corner = bend.corner;
-            let turn = (corner - before).perp_dot(after - corner);
-            self.turns
-                .push(if bend.alpha.is_none() { 0.0 } else { turn });
-            // Up to the end of the first bend's arc nothing is summed.
-            if index > 0 {
-                let (start, end) = (before.midpoint(corner), corner.midpoint(after));
-                if let Some(alpha) = bend.alpha {
-                    let triangle = (corner - start).perp_dot(end - start);
-                    area += 0.3 * alpha * (4.0 - alpha) * triangle;
-                }
-                area += (start - origin).perp_dot(end - origin);
+        self.areas.push(area);
+        for index in 1..=count + 1 - first {
+            while self.bends.len() < index + 2 {
+                let next = first - 1 + self.bends.len();
+                self.bends
+                    .push(bend(if next >= count { next - count } else { next }));
             }
+            let turn = self.turn(index);
+            if index > 1 && turn * self.turns[1] <= 0.0 {
+                break;
+            }
+            self.turns.push(turn);
+            let bend = &self.bends[index];
+            let (start, end) = (self.end(index - 1), self.end(index));
+            if let Some(alpha) = bend.alpha {
+                let triangle = (bend.corner - start).perp_dot(end - start);
+                area += 0.3 * alpha * (4.0 - alpha) * triangle;
+            }
+            area += (start - self.origin).perp_dot(end - self.origin);
             self.areas.push(area);
         }
+        area
+    }
+
+    /// Twice the signed area of a bend's triangle; 0 for a corner.
+    fn turn(&self, index: usize) -> f64 {
+        let [before, corner, after] = [index - 1, index, index + 1].map(|i| self.corner(i));
+        if self.bends[index].alpha.is_none() {
+            return 0.0;
+        }
+        (corner - before).perp_dot(after - corner)
     }
 
     /// The corner of a bend.
@@ -163,8 +198,8 @@ impl Joiner {
         let back = self.corner(end) - self.corner(end + 1);
         let meet = p0 + out * ((p3 - p0).perp_dot(back) / out.perp_dot(back));
         let triangle = (meet - p0).perp_dot(p3 - p0);
-        let origin = self.corner(0);
-        let area = self.areas[end] - self.areas[start] - (p0 - origin).perp_dot(p3 - origin);
+        let [from, to] = [p0, p3].map(|p| p - self.origin);
+        let area = self.areas[end] - self.areas[start] - from.perp_dot(to);
         // The area below an arc is 0.3 alpha (4 - alpha) of its triangle's.
         let share = area / triangle / 0.3;
         if share.is_nan() || share > 4.0 {
@@ -216,13 +251,14 @@ impl Joiner {
         Some(penalty)
     }
 
-    fn collect(&self, count: usize) -> Vec<Segment> {
-        let mut segments = Vec::with_capacity(self.best[count].count as usize);
-        let mut end = count;
+    /// Draws the best way to a bend.
+    fn collect(&mut self, last: usize, draw: &mut impl FnMut(Segment)) {
+        self.segments.clear();
+        let mut end = last;
         while end > 0 {
             let step = &self.best[end];
             let place = self.end(end);
-            segments.push(match step.arc {
+            self.segments.push(match step.arc {
                 Some(arc) => Segment::Arc {
                     from: arc.from,
                     to: arc.to,
@@ -232,8 +268,9 @@ impl Joiner {
             });
             end = step.from;
         }
-        segments.reverse();
-        segments
+        while let Some(segment) = self.segments.pop() {
+            draw(segment);
+        }
     }
 }
 

@@ -2,6 +2,9 @@
 
 use super::decompose::PixelLoop;
 
+/// No loop.
+pub(super) const NONE: u32 = u32::MAX;
+
 /// For every loop the number of the innermost one around it; none where there is none.
 ///
 /// `loops` are in the order of [`decompose`](super::decompose()), which puts every loop after those around it; loops left out, as specks are, count as
@@ -13,6 +16,17 @@ pub fn nest<'a>(
     size: [u32; 2],
     loops: impl Iterator<Item = PixelLoop<'a>> + Clone,
 ) -> Vec<Option<u32>> {
+    let parents = parents(size, loops).into_iter();
+    parents
+        .map(|parent| (parent != NONE).then_some(parent))
+        .collect()
+}
+
+/// [`nest`], with [`NONE`] for none: eight bytes a loop at once, and a few bits a pixel.
+pub(super) fn parents<'a>(
+    size: [u32; 2],
+    loops: impl Iterator<Item = PixelLoop<'a>> + Clone,
+) -> Vec<u32> {
     let mut edges = Uprights::new(size);
     for pixels in loops.clone() {
         for (place, _) in uprights(&pixels) {
@@ -20,36 +34,35 @@ pub fn nest<'a>(
         }
     }
     // Ask for the edge on the left of every start.
-    let left: Vec<Option<[u32; 2]>> = loops.clone().map(|l| edges.left_of(l.start)).collect();
-    let mut asked: Vec<[u32; 2]> = left.iter().flatten().map(|[x, y]| [*y, *x]).collect();
-    asked.sort_unstable();
-    asked.dedup();
-    edges.bits.fill(0);
-    for [y, x] in &asked {
-        edges.set([*x, *y]);
+    let mut asked = Uprights::new(size);
+    let mut count = 0;
+    for pixels in loops.clone() {
+        count += 1;
+        if let Some(place) = edges.left_of(pixels.start) {
+            asked.set(place);
+        }
     }
     // Find whose they are, and whether the inside is on their right.
-    let mut owners = vec![(0u32, false); asked.len()];
-    for (number, pixels) in (0..).zip(loops) {
-        for (place @ [x, y], is_down) in uprights(&pixels) {
-            if !edges.has(place) {
-                continue;
-            }
-            let found = asked.binary_search(&[y, x]);
-            if let Some(owner) = found.ok().and_then(|at| owners.get_mut(at)) {
-                *owner = (number, is_down);
+    let ranks = asked.ranks();
+    let mut owners = vec![NONE; asked.count()];
+    for (number, pixels) in (0..).zip(loops.clone()) {
+        for (place, is_down) in uprights(&pixels) {
+            if asked.has(place)
+                && let Some(owner) = owners.get_mut(asked.rank(&ranks, place))
+            {
+                *owner = number << 1 | u32::from(is_down);
             }
         }
     }
-    let mut parents: Vec<Option<u32>> = Vec::with_capacity(left.len());
-    for place in left {
-        let owner = place.and_then(|[x, y]| owners.get(asked.binary_search(&[y, x]).ok()?));
-        parents.push(owner.and_then(|(number, is_around)| {
-            if *is_around {
-                return Some(*number);
-            }
-            parents.get(*number as usize).copied().flatten()
-        }));
+    let mut parents = Vec::with_capacity(count);
+    for pixels in loops {
+        let place = edges.left_of(pixels.start);
+        let owner = place.and_then(|place| owners.get(asked.rank(&ranks, place)).copied());
+        parents.push(match owner {
+            None | Some(NONE) => NONE,
+            Some(owner) if owner & 1 == 1 => owner >> 1,
+            Some(owner) => parents.get((owner >> 1) as usize).copied().unwrap_or(NONE),
+        });
     }
     parents
 }
@@ -93,6 +106,34 @@ impl Uprights {
     fn has(&self, place: [u32; 2]) -> bool {
         let word = self.bits.get(self.word(place));
         word.is_some_and(|word| word >> (place[0] % 64) & 1 == 1)
+    }
+
+    fn count(&self) -> usize {
+        self.bits
+            .iter()
+            .map(|word| word.count_ones() as usize)
+            .sum()
+    }
+
+    /// How many edges there are before every word.
+    fn ranks(&self) -> Vec<u32> {
+        let mut before = 0;
+        let words = self.bits.iter();
+        words
+            .map(|word| {
+                let rank = before;
+                before += word.count_ones();
+                rank
+            })
+            .collect()
+    }
+
+    /// How many edges there are before one.
+    fn rank(&self, ranks: &[u32], place: [u32; 2]) -> usize {
+        let word = self.word(place);
+        let bits = self.bits.get(word).copied().unwrap_or(0);
+        let before = (bits & ((1 << (place[0] % 64)) - 1)).count_ones();
+        ranks.get(word).map_or(0, |rank| (rank + before) as usize)
     }
 
     /// The next edge to the left in the same row.

@@ -60,6 +60,14 @@ impl Search {
         self.polygon.reverse();
     }
 
+    /// Gives all memory back but the polygon's.
+    pub fn keep_polygon(&mut self) {
+        *self = Self {
+            polygon: std::mem::take(&mut self.polygon),
+            ..Self::default()
+        };
+    }
+
     fn find_reach(&mut self, steps: &[u8]) {
         let n = steps.len() as u32;
         let longest = (SIDE_WORK / steps.len().max(1)).max(LEAST_LONGEST) as u32;

@@ -1,10 +1,16 @@
 //! How far a path along pixel edges is straight [Selinger 2003, 2.2.1].
 
 use super::decompose::STEPS;
+use super::strip::Strip;
 use std::ops::Range;
 
 /// Paths longer than this many steps are measured on several threads.
 const PIECE_STEPS: usize = 1 << 11;
+
+/// Stretches of more runs than this are followed from corner to corner by their hulls, instead of being walked anew from each.
+///
+/// About where both take the same time.
+const LONG_RUNS: usize = 128;
 
 /// For every corner of a closed path, how many steps from there on are straight.
 ///
@@ -13,7 +19,7 @@ const PIECE_STEPS: usize = 1 << 11;
 /// theorem that is so where every three corners of it pass the test: the middle one lies within one pixel, along each axis,
 /// of the line through the outer two.
 ///
-/// O(n t) for n steps and at most t turns in a stretch.
+/// O(n t) for n steps and t turns in a stretch, of which at most 128 count; beyond that, O(n log^2 t).
 ///
 /// Differs: the paper tests every corner; here only those at which the path turns, since a line that comes within a pixel of
 /// both ends of a run comes as near to all between.
@@ -23,13 +29,24 @@ pub fn straight_lengths(steps: &[u8]) -> Vec<u32> {
     lengths
 }
 
-/// [`straight_lengths`], of which none is more than `limit`, into a vector that is used again.
-pub(super) fn measure(steps: &[u8], limit: u32, lengths: &mut Vec<u32>) {
+/// [`straight_lengths`], of which none is more than `limit`, into a vector that is used again. Gives how many runs and corners were looked at.
+pub(super) fn measure(steps: &[u8], limit: u32, lengths: &mut Vec<u32>) -> u64 {
+    measure_from(steps, limit, LONG_RUNS, lengths)
+}
+
+/// [`measure`], with stretches of more than `long_runs` runs followed by their hulls.
+pub(super) fn measure_from(
+    steps: &[u8],
+    limit: u32,
+    long_runs: usize,
+    lengths: &mut Vec<u32>,
+) -> u64 {
     let n = steps.len();
     lengths.clear();
     lengths.resize(n, 0);
     let runs = Run::all(steps);
     let whole = Path {
+        steps,
         runs: &runs,
         // The last run may go on where the first one stands.
         seam: match (runs.first(), steps.last()) {
@@ -37,8 +54,9 @@ pub(super) fn measure(steps: &[u8], limit: u32, lengths: &mut Vec<u32>) {
             _ => 0,
         },
         limit: limit.min(n as u32),
+        long_runs,
     };
-    whole.measure(0..runs.len(), lengths);
+    let looks = whole.measure(0..runs.len(), 0, lengths);
     // A stretch is straight only if all within it are: none ends after one that starts a step later. The last ones are
     // followed by the first.
     let mut most = lengths.first().map_or(0, |first| first.saturating_add(1));
@@ -48,32 +66,40 @@ pub(super) fn measure(steps: &[u8], limit: u32, lengths: &mut Vec<u32>) {
             most = *length + 1;
         }
     }
+    looks
 }
 
 /// A closed path, run by run.
 struct Path<'a> {
+    steps: &'a [u8],
     runs: &'a [Run],
     /// Steps by which the last run goes on over the seam.
     seam: u32,
     /// Nothing longer is looked for.
     limit: u32,
+    /// Stretches of more runs are followed by their hulls.
+    long_runs: usize,
 }
 
 impl Path<'_> {
-    /// Measures from every corner of some runs on; `lengths` are those of these runs' steps. Long paths are halved for other threads.
-    fn measure(&self, runs: Range<usize>, lengths: &mut [u32]) {
+    /// Measures from every corner of some runs on; `lengths` are those of these runs' steps, the first of which is number `from`.
+    /// Long paths are halved for other threads. Gives how much was looked at.
+    fn measure(&self, runs: Range<usize>, from: usize, lengths: &mut [u32]) -> u64 {
         let middle = runs.start + runs.len() / 2;
         if lengths.len() > PIECE_STEPS && runs.len() > 1 {
             let part = self.runs.get(runs.start..middle).unwrap_or(&[]);
             let count: u32 = part.iter().map(|run| run.length()).sum();
             let (first, second) = lengths.split_at_mut(count as usize);
-            rayon::join(
-                || self.measure(runs.start..middle, first),
-                || self.measure(middle..runs.end, second),
+            let (a, b) = rayon::join(
+                || self.measure(runs.start..middle, from, first),
+                || self.measure(middle..runs.end, from + count as usize, second),
             );
-            return;
+            return a + b;
         }
         let mut most = self.limit;
+        let mut looks = 0;
+        let mut strip: Option<Strip<'_>> = None;
+        let mut corner = from + lengths.len();
         let mut places = lengths.iter_mut().rev();
         for index in runs.rev() {
             let run = self.runs[index];
@@ -83,29 +109,48 @@ impl Path<'_> {
                 0
             };
             for (left, place) in (1..=run.length()).zip(&mut places) {
+                corner -= 1;
+                if let Some(moving) = &mut strip {
+                    most = moving.step_back(self.limit);
+                    *place = most;
+                    if (most as usize) < self.long_runs / 2 {
+                        looks += moving.looks;
+                        strip = None;
+                    }
+                    continue;
+                }
                 // No longer than from the step after, which saves looking further.
                 let most_here = self.limit.min(most + 1);
-                most = self.length_from(index, left + tail, usize::from(tail > 0), most_here);
+                let skipped = usize::from(tail > 0);
+                let seen;
+                (most, seen) = self.length_from(index, left + tail, skipped, most_here);
                 *place = most;
+                looks += seen as u64;
+                if seen > self.long_runs && most > 1 {
+                    strip = Some(Strip::new(self.steps, corner, corner + most as usize));
+                }
             }
         }
+        looks + strip.map_or(0, |strip| strip.looks)
     }
 
-    /// How many steps from a corner on are straight by the triples that begin there, at most `most`.
+    /// How many steps from a corner on are straight by the triples that begin there, at most `most`; and how many runs that took.
     ///
     /// The corner has `left` steps before it in the direction of the run `index`, which may take in the first `skipped` runs.
     #[inline]
-    fn length_from(&self, index: usize, left: u32, skipped: usize, most: u32) -> u32 {
+    fn length_from(&self, index: usize, left: u32, skipped: usize, most: u32) -> (u32, usize) {
         let mut cone = Cone::default();
         let mut seen = 0u8;
         let mut place = [0i32; 2];
         let mut length = 0;
+        let mut looks = 0;
         let mut next = index + 1;
         let (mut direction, mut count) = (self.runs[index].direction(), left);
         loop {
+            looks += 1;
             seen |= 1 << direction;
             if seen == 0b1111 {
-                return length;
+                return (length, looks);
             }
             let step = STEPS[usize::from(direction)];
             let end = [
@@ -113,11 +158,12 @@ impl Path<'_> {
                 place[1] + step[1] * count as i32,
             ];
             if !cone.holds(end) {
-                return most.min(length + cone.steps_inside(place, step, count));
+                let length = length + cone.steps_inside(place, step, count);
+                return (most.min(length), looks);
             }
             length += count;
             if length >= most {
-                return most;
+                return (most, looks);
             }
             place = end;
             cone.narrow(place);

@@ -5,6 +5,20 @@ use super::*;
 use oracle::{best_polygon, decompose_slowly, holds, is_straight, penalty, stretch};
 use proptest::prelude::*;
 
+/// A tracing as the bytes of a file.
+fn file_of(tracing: &Tracing, format: TraceFormat) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    write_tracing(tracing, format, &mut bytes).expect("memory");
+    bytes
+}
+
+/// A bitmap as the bytes of a file.
+fn traced(bitmap: &Bitmap, options: &TraceOptions, format: TraceFormat) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    trace_to_file(bitmap, options, format, &mut bytes).expect("memory");
+    bytes
+}
+
 /// A bitmap from rows of text, `#` for ink.
 fn drawn(rows: &[&str]) -> Bitmap {
     let width = rows.first().map_or(0, |row| row.len());
@@ -58,6 +72,43 @@ fn places(start: DVec2, segment: &Segment) -> Vec<DVec2> {
             })
             .collect(),
     }
+}
+
+/// A closed path of four digital lines, 300 steps or so each, every third corner of which may stick out by a step; turned by quarters.
+fn slanted(rise: i32, run: i32, jag: u32, turns: usize) -> Vec<u8> {
+    let side: Vec<u8> = (1..=300)
+        .flat_map(|i| {
+            let height = |x: i32| (x * rise).div_euclid(run + rise.abs());
+            let (up, sign) = (height(i) - height(i - 1), rise.signum());
+            let climb = (0..up.abs()).map(move |_| if sign > 0 { 1u8 } else { 3 });
+            let out = if jag > 0 && (i as u32).is_multiple_of(jag + 2) {
+                [1u8, 0, 3].to_vec()
+            } else {
+                vec![0]
+            };
+            climb.chain(out)
+        })
+        .collect();
+    (0..4u8)
+        .flat_map(|quarter| {
+            side.iter()
+                .map(move |step| (step + quarter + turns as u8) & 3)
+        })
+        .collect()
+}
+
+#[test]
+fn long_stretches_take_no_more_than_short_ones() {
+    // The outline of a chequer whose white hangs together runs to and fro along the border, as straight as can be.
+    let looks = |side: u32| {
+        let crenels = |quarter: u8| {
+            (0..side).flat_map(move |_| [0, 3, 0, 1].map(|step: u8| (step + quarter) & 3))
+        };
+        let steps: Vec<u8> = (0..4).flat_map(|quarter| crenels(4 - quarter)).collect();
+        straight::measure(&steps, u32::MAX, &mut Vec::new()) as f64 / steps.len() as f64
+    };
+    let (short, long) = (looks(500), looks(8000));
+    assert!(long < 2.0 * short, "{short} {long} looks a step");
 }
 
 proptest! {
@@ -116,6 +167,26 @@ proptest! {
             let cut: Vec<_> = straight_lengths(pixels.steps).into_iter().map(|length| length.min(limit)).collect();
             prop_assert_eq!(&limited, &cut);
         }
+    }
+
+    #[test]
+    fn stretches_followed_by_hulls_are_those_walked(bitmap in bitmaps(), limit in 2u32..200, long_runs in 0usize..8) {
+        let mut followed = Vec::new();
+        for pixels in decompose(&bitmap, TurnPolicy::Majority, 0).iter().take(5) {
+            straight::measure_from(pixels.steps, limit, long_runs, &mut followed);
+            let mut walked = Vec::new();
+            straight::measure_from(pixels.steps, limit, usize::MAX, &mut walked);
+            prop_assert_eq!(&followed, &walked);
+        }
+    }
+
+    #[test]
+    fn long_stretches_are_followed_around_every_corner(rise in -40i32..40, run in 1i32..40, jag in 0u32..4, turns in 0usize..4) {
+        let steps = slanted(rise, run, jag, turns);
+        let (mut followed, mut walked) = (Vec::new(), Vec::new());
+        straight::measure_from(&steps, u32::MAX, 4, &mut followed);
+        straight::measure_from(&steps, u32::MAX, usize::MAX, &mut walked);
+        prop_assert_eq!(followed, walked);
     }
 
     #[test]
@@ -209,12 +280,86 @@ proptest! {
     }
 
     #[test]
+    fn paths_drawn_early_late_or_by_hand_give_the_same_files(bitmap in bitmaps(), early_steps in 0usize..200) {
+        let options = TraceOptions { turd_size: 0, ..TraceOptions::default() };
+        let tracing = trace(&bitmap, &options);
+        for format in TraceFormat::ALL {
+            let outlines = paths::Outlines::of(&bitmap, &options, format, early_steps);
+            let mut bytes = Vec::new();
+            file::write(&outlines, tracing.size, &options, format, &mut bytes).expect("memory");
+            prop_assert!(bytes == file_of(&tracing, format), "{format:?}");
+            prop_assert!(bytes == traced(&bitmap, &options, format), "{format:?}");
+        }
+    }
+
+    #[test]
     fn threads_do_not_matter(bitmap in bitmaps()) {
         let options = TraceOptions::default();
         let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         let one = pool(1).install(|| trace(&bitmap, &options));
         prop_assert_eq!(pool(3).install(|| trace(&bitmap, &options)), one);
+        let file = |threads| pool(threads).install(|| traced(&bitmap, &options, TraceFormat::Svg));
+        prop_assert_eq!(file(1), file(3));
     }
+}
+
+#[test]
+fn only_so_many_paths_are_held_as_text() {
+    let mut bitmap = Bitmap::new(120, 90).expect("small");
+    for (x, y) in (0..120 * 90).map(|i| (i % 120, i / 120)) {
+        bitmap.set(x, y, (x ^ y) & 1 == 0);
+    }
+    let options = TraceOptions {
+        turd_size: 0,
+        turn_policy: TurnPolicy::White,
+        ..TraceOptions::default()
+    };
+    // All are squares of four steps; batches have some thousand.
+    for early_steps in [0, 5000, 13_000, usize::MAX] {
+        let outlines = paths::Outlines::of(&bitmap, &options, TraceFormat::Svg, early_steps);
+        let drawn = (0..5400).filter(|number| paths::Paths::drawn(&outlines, *number).is_some());
+        let (steps, all) = (4 * drawn.count(), 4 * 5400);
+        assert!(
+            steps <= early_steps && steps + 8000 > early_steps.min(all),
+            "{steps} of {early_steps}"
+        );
+        assert_eq!(outlines.step_count(), all);
+    }
+}
+
+#[test]
+fn pages_say_where_everything_is() {
+    let bitmap = drawn(&["###.", "#.#.", "####"]);
+    let options = TraceOptions {
+        turd_size: 0,
+        ..TraceOptions::default()
+    };
+    let page = traced(&bitmap, &options, TraceFormat::Pdf);
+    let text = String::from_utf8_lossy(&page).replace('\u{fffd}', "?");
+    let after = |mark: &str| text.rsplit_once(mark).expect(mark).1;
+    let table: usize = after("startxref\n")
+        .lines()
+        .next()
+        .expect("a number")
+        .parse()
+        .expect("a number");
+    assert!(text[table..].starts_with("xref\n0 6\n"));
+    for (number, entry) in text[table..].lines().skip(3).take(5).enumerate() {
+        let place: usize = entry[..10].parse().expect("a number");
+        assert!(
+            text[place..].starts_with(&format!("{} 0 obj\n", number + 1)),
+            "{entry}"
+        );
+    }
+    let (_, content) = text.split_once("stream\n").expect("content");
+    let length: usize = after("5 0 obj\n")
+        .lines()
+        .next()
+        .expect("a number")
+        .parse()
+        .expect("a number");
+    assert!(content[length..].starts_with("\nendstream"));
+    assert!(content.contains(" m\n") && content[..length].ends_with("f\n"));
 }
 
 /// Whether the middles of pixels are covered by a picture of the file.
@@ -256,7 +401,7 @@ fn files_show_what_was_traced() {
         },
     );
     assert_eq!(tracing.paths.len(), 5);
-    let svg = write_tracing(&tracing, TraceFormat::Svg);
+    let svg = file_of(&tracing, TraceFormat::Svg);
     let drawn_again = rendered(&svg, tracing.size);
     let ink = (0..10)
         .flat_map(|y| (0..20).map(move |x| (x, y)))
@@ -264,7 +409,7 @@ fn files_show_what_was_traced() {
     assert!(drawn_again.into_iter().eq(ink));
 
     let geo: serde_json::Value =
-        serde_json::from_slice(&write_tracing(&tracing, TraceFormat::GeoJson)).expect("JSON");
+        serde_json::from_slice(&file_of(&tracing, TraceFormat::GeoJson)).expect("JSON");
     let shapes = geo["features"].as_array().expect("a list");
     let rings = |f: &serde_json::Value| f["geometry"]["coordinates"].as_array().map_or(0, Vec::len);
     assert_eq!(shapes.iter().map(rings).collect::<Vec<_>>(), [2, 2, 1]);
@@ -274,7 +419,7 @@ fn files_show_what_was_traced() {
     assert_eq!(ring.first(), ring.last());
 
     let json: serde_json::Value =
-        serde_json::from_slice(&write_tracing(&tracing, TraceFormat::Json)).expect("JSON");
+        serde_json::from_slice(&file_of(&tracing, TraceFormat::Json)).expect("JSON");
     let parents: Vec<_> = json["paths"]
         .as_array()
         .expect("a list")
@@ -282,25 +427,7 @@ fn files_show_what_was_traced() {
         .map(|p| p["parent"].as_u64())
         .collect();
     assert_eq!(parents, [None, Some(0), Some(1), Some(2), None]);
-    assert!(write_tracing(&tracing, TraceFormat::Pdf).starts_with(b"%PDF-"));
-}
-
-#[test]
-fn files_made_at_once_are_the_same() {
-    let bitmap = drawn(&[".###.", "##.##", "#...#", "##.##", ".###."]);
-    let options = TraceOptions::default();
-    let tracing = trace(&bitmap, &options);
-    for format in [
-        TraceFormat::Svg,
-        TraceFormat::Pdf,
-        TraceFormat::Json,
-        TraceFormat::GeoJson,
-    ] {
-        assert_eq!(
-            trace_to_file(&bitmap, &options, format),
-            write_tracing(&tracing, format)
-        );
-    }
+    assert!(file_of(&tracing, TraceFormat::Pdf).starts_with(b"%PDF-"));
 }
 
 #[test]

@@ -4,6 +4,13 @@ use super::*;
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
+/// A picture in colour as the bytes of a file.
+fn file_of_colours(picture: &IndexPicture, options: &TraceOptions, format: TraceFormat) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    trace_colours_to_file(picture, options, format, &mut bytes).expect("memory");
+    bytes
+}
+
 /// One thread, and more.
 static POOLS: LazyLock<[rayon::ThreadPool; 2]> = LazyLock::new(|| {
     [1, 3].map(|count| {
@@ -92,8 +99,8 @@ proptest! {
     #[test]
     fn colours_are_the_same_for_any_number_of_threads(picture in pictures(), turd_size in 0u64..4) {
         let options = TraceOptions { turd_size, ..TraceOptions::default() };
-        for format in [TraceFormat::Svg, TraceFormat::Pdf, TraceFormat::Json, TraceFormat::GeoJson] {
-            let write = || trace_colours_to_file(&picture, &options, format);
+        for format in TraceFormat::ALL {
+            let write = || file_of_colours(&picture, &options, format);
             let [alone, several] = POOLS.each_ref().map(|pool| pool.install(write));
             prop_assert_eq!(several, alone);
         }
@@ -109,9 +116,9 @@ proptest! {
         prop_assume!(picture.counts() != [0]);
         let options = TraceOptions::default();
         for format in [TraceFormat::Svg, TraceFormat::GeoJson] {
-            let text = String::from_utf8(trace_colours_to_file(&picture, &options, format)).expect("text");
+            let text = String::from_utf8(file_of_colours(&picture, &options, format)).expect("text");
             let plain = text.replace(",\"fill\":\"#000000\"", "");
-            prop_assert_eq!(plain.into_bytes(), trace_to_file(&bitmap, &options, format));
+            prop_assert_eq!(plain.into_bytes(), traced(&bitmap, &options, format));
         }
     }
 }
@@ -139,7 +146,7 @@ fn specks_of_a_layer_show_what_lies_under_it() {
             turd_size,
             ..TraceOptions::default()
         };
-        let svg = trace_colours_to_file(&picture, &options, TraceFormat::Svg);
+        let svg = file_of_colours(&picture, &options, TraceFormat::Svg);
         String::from_utf8_lossy(&svg).matches("<path").count()
     };
     assert_eq!((count(0), count(1), count(64)), (2, 1, 0));
