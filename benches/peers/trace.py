@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""Our tracings beside those of potrace, on every bitmap of a folder and four turn policies; prints tables in Markdown.
+"""Our tracings beside those of other programs, as tables in Markdown; run by `cargo xtask measure trace`.
 
-Usage: trace.py NPR FOLDER [FOLDER ..]
-NPR is the command, built in release. Needs potrace; without resvg the column of pixels is left out, and a line says so.
-Both programs read the same PBM and write SVG. Outlines are alike where, traced as polygons without joining, all corners lie
-within 0.03 px of each other's; nodes are those of the default options. Pixels are compared at four times the size.
+Usage: trace.py NPR [--made FOLDER] FOLDER [FOLDER ..]
+NPR is the command, built in release. FOLDER holds bitmaps as PNG; --made one that make_bitmaps.py filled, for the race with vtracer
+and OpenCV, which is left out without it. Needs potrace, resvg and GNU time, and numpy and pillow of Python; vtracer and opencv-python where raced.
+All programs read the same PBM, and their times take turns: the least of some rounds counts. Output goes to standard output, so no disk is timed.
+Outlines are alike where, traced as polygons without joining, all corners lie within 0.03 px of each other's; nodes are those of the
+default options. Pixels are compared at four times the size.
 """
-import os, re, resource, shutil, subprocess, sys, tempfile, time
+import os, platform, re, resource, subprocess, sys, tempfile, time
 import numpy as np
 from PIL import Image
 
@@ -14,12 +16,14 @@ POLICIES = ["black", "white", "minority", "majority"]
 SCALE = 4
 # Larger pictures are compared at their own size.
 LARGEST_SCALED = 2048
-TIMED_RUNS = 5
+ROUNDS = 7
+# Enlarged to 4096 pixels a side for the clock.
+ENLARGED = "halftone_dots_512"
 
 
-def pbm(path, folder):
-    """The bitmap as a packed PBM, and its size."""
-    ink = np.asarray(Image.open(path).convert("L")) < 128
+def pbm(image, folder):
+    """An image, or booleans of ink, as a packed PBM, and its size."""
+    ink = image if isinstance(image, np.ndarray) else np.asarray(image.convert("L")) < 128
     out = os.path.join(folder, "bitmap.pbm")
     with open(out, "wb") as file:
         file.write(b"P4\n%d %d\n" % (ink.shape[1], ink.shape[0]))
@@ -85,55 +89,174 @@ def ink_drawn(svg, size, folder):
     return np.asarray(Image.open(png))[:, :, 3] > 127
 
 
-def least_work(command, threads=1):
-    """Least processor time of some runs, and the wall time of that run, in ms."""
-    best = (1e9, 1e9)
-    for _ in range(TIMED_RUNS):
-        before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
-        subprocess.run(command, check=True, env={**os.environ, "RAYON_NUM_THREADS": str(threads)})
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        work = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        best = min(best, (work * 1e3, (time.perf_counter() - start) * 1e3))
-    return best
+def run_once(command, threads=1):
+    """Processor time and wall time in ms of one run; its output is thrown away."""
+    start = time.perf_counter()
+    env = {**os.environ, "RAYON_NUM_THREADS": str(threads)}
+    child = subprocess.Popen(command, stdout=subprocess.DEVNULL, env=env)
+    _, status, usage = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    wall = (time.perf_counter() - start) * 1e3
+    if child.returncode:
+        raise subprocess.CalledProcessError(child.returncode, command)
+    return [(usage.ru_utime + usage.ru_stime) * 1e3, wall]
+
+
+def peak(command, threads=1):
+    """The most memory of a run, in MB; by GNU time, for what the system tells of a child begins with its parent's."""
+    env = {**os.environ, "RAYON_NUM_THREADS": str(threads)}
+    timed = ["/usr/bin/time", "-f", "%M", *command]
+    run = subprocess.run(timed, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, env=env, check=True)
+    return int(run.stderr.split()[-1]) * 1024 / 1e6
+
+
+def commands(npr, bitmap):
+    """Ours in one thread, in two, and potrace."""
+    ours = [npr, "trace", bitmap, "-o", "-"]
+    return [(ours, 1), (ours, 2), (["potrace", "-s", bitmap, "-o", "-"], 1)]
+
+
+def race(npr, bitmap):
+    """The least of both figures of `run_once`, of all that take turns."""
+    runners = commands(npr, bitmap)
+    rounds = [[run_once(*runner) for runner in runners] for _ in range(ROUNDS)]
+    return np.min(np.array(rounds), axis=0)
+
+
+def compare(npr, name, image, folder):
+    """Prints what is found in a bitmap by both, a line a turn policy."""
+    bitmap, size = pbm(image, folder)
+    ours, theirs = (os.path.join(folder, name) for name in ("ours.svg", "theirs.svg"))
+    for policy in POLICIES:
+
+        def both(*options):
+            last = ["-z", policy, *options, bitmap, "-o"]
+            subprocess.run([npr, "trace", *last, ours], check=True)
+            subprocess.run(["potrace", "-s", "-u", "100", *last, theirs], check=True)
+            return outlines(ours), outlines(theirs, size[1])
+
+        polygons = both("-a", "0", "-n")
+        same = alike(*polygons)
+        mine, potraces = both()
+        nodes = [sum(map(len, paths)) for paths in (mine, potraces)]
+        ratio = f"{nodes[0] / nodes[1]:.4f}" if nodes[1] else "-"
+        drawn = [ink_drawn(svg, size, folder) for svg in (ours, theirs)]
+        share = f"{100 * np.mean(drawn[0] != drawn[1]):.4f} %"
+        cells = [name, policy, f"{len(mine)} / {len(potraces)}", same, ratio, share]
+        print("| " + " | ".join(map(str, cells)) + " |", flush=True)
+
+
+def print_times(npr, images, folder):
+    """Prints a line a bitmap: times, their ratios, memory."""
+    print("| bitmap | ours, 1 thread | potrace | ours / potrace | ours, 2 threads | 1 / 2 threads | memory, ours | potrace |")
+    print("|---|---:|---:|---:|---:|---:|---:|---:|")
+    for name, image in images:
+        bitmap, _ = pbm(image, folder)
+        (cpu, wall), (_, wall2), (peer_cpu, peer_wall) = race(npr, bitmap)
+        *memory, peer_memory = [peak(*runner) for runner in commands(npr, bitmap)]
+        cells = [
+            name,
+            f"{cpu:.0f} / {wall:.0f}",
+            f"{peer_cpu:.0f} / {peer_wall:.0f}",
+            f"{wall / peer_wall:.2f}",
+            f"{wall2:.0f}",
+            f"{wall / wall2:.2f}",
+            f"{max(memory):.0f}",
+            f"{peer_memory:.0f}",
+        ]
+        print("| " + " | ".join(cells) + " |", flush=True)
+
+
+def hard_bitmaps():
+    """Bitmaps of 3840x2160 pixels with as many edges as can be, by kind."""
+    y, x = np.mgrid[0:2160, 0:3840]
+    random = np.random.Generator(np.random.PCG64(1))
+    yield "chequer of 1 px", (x + y) % 2 == 0
+    yield "half noise", random.random(x.shape) < 0.5
+    yield "dots of 3 px", (x % 3 < 2) & (y % 3 < 2) & ~((x % 3 == 1) & (y % 3 == 1))
+    # A tree of passages two pixels apart: every node goes on to the right or up.
+    tree = np.zeros(x.shape, bool)
+    rows, columns = 1079, 1919
+    right = random.random((rows, columns)) < 0.5
+    right[0], right[:, -1] = True, False
+    tree[1 : 2 * rows : 2, 1 : 2 * columns : 2] = True
+    tree[1 : 2 * rows : 2, 2 : 2 * columns + 1 : 2] |= right
+    tree[2 : 2 * rows : 2, 1 : 2 * columns : 2] |= ~right[1:]
+    yield "maze, one loop", tree
+
+
+def print_memory(npr, folder):
+    print("| bitmap | policy | 1 thread | 2 threads | seconds, 2 threads |")
+    print("|---|---|---:|---:|---:|")
+    for name, ink in hard_bitmaps():
+        bitmap, _ = pbm(ink, folder)
+        for policy in ("black", "white", "minority", "majority"):
+            command = [npr, "trace", "-t", "0", "-z", policy, bitmap, "-o", "-"]
+            one, two = peak(command, 1), peak(command, 2)
+            _, wall = run_once(command, 2)
+            print(f"| {name} | {policy} | {one:.0f} | {two:.0f} | {wall / 1e3:.1f} |", flush=True)
+
+
+def least(work):
+    """Least wall time of some calls, in ms."""
+    times = []
+    for _ in range(ROUNDS):
+        start = time.perf_counter()
+        work()
+        times.append((time.perf_counter() - start) * 1e3)
+    return min(times)
+
+
+def print_others(npr, made, folder):
+    """Prints a line a bitmap of the folder: ours and potrace as processes, vtracer and OpenCV called in this one, from pixels in memory."""
+    import io
+
+    import cv2, vtracer
+
+    cv2.setNumThreads(1)
+    print("| bitmap | ours, 1 thread | 2 threads | potrace | vtracer | OpenCV, contours only |")
+    print("|---|---:|---:|---:|---:|---:|")
+    for file in sorted(name for name in os.listdir(made) if name.endswith(".png")):
+        image = Image.open(os.path.join(made, file))
+        bitmap, _ = pbm(image, folder)
+        one, two, potrace = race(npr, bitmap)[:, 1]
+        ink = (np.asarray(image.convert("L")) < 128).astype(np.uint8)
+        png = io.BytesIO()
+        image.convert("RGBA").save(png, "PNG")
+
+        def by_vtracer():
+            vtracer.convert_raw_image_to_svg(png.getvalue(), img_format="png", colormode="binary", mode="spline")
+
+        try:
+            vector = f"{least(by_vtracer):.0f}"
+        except BaseException:  # It panics on some bitmaps.
+            vector = "fails"
+        contours = least(lambda: cv2.findContours(ink, cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE))
+        print(f"| {os.path.splitext(file)[0]} | {one:.0f} | {two:.0f} | {potrace:.0f} | {vector} | {contours:.0f} |", flush=True)
 
 
 def main():
-    npr, folders = sys.argv[1], sys.argv[2:]
-    files = sorted(
-        os.path.join(folder, name) for folder in folders for name in os.listdir(folder) if name.endswith(".png")
-    )
-    draws = shutil.which("resvg") is not None
-    if not draws:
-        print("There is no resvg: pixels are not compared.\n")
-    times = []
+    npr, *rest = sys.argv[1:]
+    made = rest[1] if rest[:1] == ["--made"] else None
+    folders = rest[2:] if made else rest
+    files = sorted((name, folder) for folder in folders for name in os.listdir(folder) if name.endswith(".png"))
+    images = [(os.path.splitext(name)[0], Image.open(os.path.join(folder, name))) for name, folder in files]
+    version = subprocess.run(["potrace", "--version"], capture_output=True, text=True).stdout.split("\n")[0].split(". ")[0]
+    print(f"# Tracings beside potrace\n\n{os.cpu_count()} cores, {platform.machine()}, load {os.getloadavg()[0]:.1f}; {version}.\n")
+    print("## What is found\n")
     print("| bitmap | policy | paths, ours / potrace | outlines alike | nodes, ours / potrace | pixels that differ |")
     print("|---|---|---:|---:|---:|---:|")
     with tempfile.TemporaryDirectory() as folder:
-        ours, theirs = (os.path.join(folder, name) for name in ("ours.svg", "theirs.svg"))
-        for file in files:
-            bitmap, size = pbm(file, folder)
-            name = os.path.splitext(os.path.basename(file))[0]
-            for policy in POLICIES:
-                def both(*options):
-                    last = ["-z", policy, *options, bitmap, "-o"]
-                    subprocess.run([npr, "trace", *last, ours], check=True)
-                    subprocess.run(["potrace", "-s", "-u", "100", *last, theirs], check=True)
-                    return outlines(ours), outlines(theirs, size[1])
-                corners = alike(*both("-a", "0", "-n"))
-                mine, potraces = both()
-                nodes = [sum(map(len, paths)) for paths in (mine, potraces)]
-                share = "-"
-                if draws:
-                    drawn = [ink_drawn(svg, size, folder) for svg in (ours, theirs)]
-                    share = f"{100 * np.mean(drawn[0] != drawn[1]):.4f} %"
-                print(f"| {name} | {policy} | {len(mine)} / {len(potraces)} | {corners} | {nodes[0]} / {nodes[1]} | {share} |", flush=True)
-            commands = [([npr, "trace", bitmap, "-o", ours], threads) for threads in (1, 2)]
-            times.append((name, [least_work(*c) for c in [*commands, (["potrace", "-s", bitmap, "-o", theirs], 1)]]))
-    print("\nWhole process, SVG, default options: processor time and wall time of the run with the least, ms.\n")
-    print("| bitmap | ours, 1 thread | ours, 2 threads | potrace |")
-    print("|---|---:|---:|---:|")
-    for name, runs in times:
-        print(f"| {name} | " + " | ".join(f"{work:.0f} / {wall:.0f}" for work, wall in runs) + " |")
+        for name, image in images:
+            compare(npr, name, image, folder)
+        print(f"\n## Time\n\nWhole process, PBM to SVG, default options, least of {ROUNDS} rounds: processor time / wall time, ms; ratios of wall times; memory in MB.\n")
+        larger = [(f"{name} at 4096", image.convert("L").resize((4096, 4096), Image.BICUBIC)) for name, image in images if name == ENLARGED]
+        print_times(npr, images + larger, folder)
+        print("\n## Most memory at 3840x2160\n\nPeak in MB, without despeckling.\n")
+        print_memory(npr, folder)
+        if made:
+            print(f"\n## Other tracers\n\nWall time, ms, least of {ROUNDS}. vtracer and OpenCV without process and file; OpenCV fits no curves.\n")
+            print_others(npr, made, folder)
 
 
 main()

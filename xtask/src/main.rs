@@ -36,6 +36,7 @@ usage: cargo xtask COMMAND
   measure smoke     measure cartoon smoke, in release, and keep the tables
   measure outline-colour
                     measure outlines before backgrounds, in release, and keep the tables
+  measure trace     measure tracings beside potrace, vtracer and OpenCV, in release, and keep the tables
   gallery [PRESETS] draw every preset, or those named, on the shared models into target/gallery
   names             check that no file names a machine, and that every crate has a README
   snapshots bless FILTER
@@ -70,6 +71,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["measure", "comic"] => measure::comic(root),
         ["measure", "smoke"] => measure::smoke(root),
         ["measure", "outline-colour"] => measure::outline_color(root),
+        ["measure", "trace"] => measure::trace(root),
         ["gallery", presets @ ..] => gallery::draw(root, presets),
         ["names"] => names::check(root),
         ["snapshots", "bless", filter] => snapshots::bless(root, filter),

@@ -1,7 +1,7 @@
 //! `cargo xtask measure`: runs a measuring program and keeps the tables that it prints.
 
-use std::path::Path;
-use std::process::Stdio;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, ensure};
 
@@ -19,6 +19,21 @@ const SMOKE: &str = "benches/results/smoke.md";
 
 /// Where the tables of outlines before backgrounds are kept.
 const OUTLINE_COLOR: &str = "benches/results/outline_color.md";
+
+/// Where the tables of tracings are kept.
+const TRACE: &str = "benches/results/trace.md";
+
+/// What the tables of tracings need: a program, arguments with which it only says that it is there, and whence it comes.
+const TRACE_NEEDS: [(&str, &[&str], &str); 4] = [
+    ("/usr/bin/time", &["--version"], "apt: time"),
+    ("potrace", &["--version"], "apt: potrace"),
+    ("resvg", &["--version"], "cargo install resvg"),
+    (
+        "python3",
+        &["-c", "import numpy, PIL, cv2, vtracer"],
+        "with numpy, pillow, opencv-python-headless and vtracer",
+    ),
+];
 
 /// Flags of a run that is only part of the whole, so that its tables are not kept.
 const PARTIAL: [&str; 3] = ["--quick", "--only", "--strokes"];
@@ -50,23 +65,65 @@ pub fn outline_color(root: &Path) -> Result<()> {
     write_whole(&root.join(OUTLINE_COLOR), &tables)
 }
 
+/// Measures tracings beside other programs, prints the tables and keeps them.
+pub fn trace(root: &Path) -> Result<()> {
+    let missing: Vec<String> = TRACE_NEEDS
+        .iter()
+        .filter(|(program, arguments, _)| !is_there(program, arguments))
+        .map(|(program, _, whence)| format!("{program} ({whence})"))
+        .collect();
+    ensure!(missing.is_empty(), "missing: {}", missing.join(", "));
+    let shared = root.join("../shared");
+    let bitmaps = shared.join("assets/bitmaps");
+    ensure!(bitmaps.is_dir(), "there is no {}", bitmaps.display());
+    let build = ["build", "--release", "-p", "npr-cli"];
+    let status = cargo(root).args(build).status();
+    ensure!(
+        status.context("cannot run cargo")?.success(),
+        "npr does not build"
+    );
+    let made = tempfile::tempdir()?;
+    let maker = Command::new("python3")
+        .arg(shared.join("peers/make_bitmaps.py"))
+        .arg(made.path())
+        .stdout(Stdio::null())
+        .status()?;
+    ensure!(maker.success(), "make_bitmaps.py failed: {maker}");
+    let target = std::env::var_os("CARGO_TARGET_DIR");
+    let target = target.map_or_else(|| root.join("target"), PathBuf::from);
+    let mut program = Command::new("python3");
+    program
+        .arg(root.join("benches/peers/trace.py"))
+        .arg(target.join("release/npr"))
+        .arg("--made")
+        .arg(made.path())
+        .args([bitmaps.join("edge_cases"), bitmaps]);
+    write_whole(&root.join(TRACE), &printed(program)?)
+}
+
+/// Whether a program runs with some arguments.
+fn is_there(program: &str, arguments: &[&str]) -> bool {
+    let mut command = Command::new(program);
+    command.args(arguments).stdin(Stdio::null());
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    command.status().is_ok_and(|status| status.success())
+}
+
 /// What a measuring program prints, printed once more.
 fn tables_of(root: &Path, program: &str, arguments: &[&str]) -> Result<Vec<u8>> {
-    let output = cargo(root)
-        .args([
-            "run",
-            "--release",
-            "-p",
-            "npr-benches",
-            "--features",
-            "wgpu",
-        ])
-        .args(["--bin", program])
+    let mut command = cargo(root);
+    command
+        .args(["run", "--release", "-p", "npr-benches"])
+        .args(["--features", "wgpu", "--bin", program])
         .arg("--")
-        .args(arguments)
-        .stderr(Stdio::inherit())
-        .output()
-        .context("cannot run cargo")?;
+        .args(arguments);
+    printed(command)
+}
+
+/// What a command prints, printed once more.
+fn printed(mut command: Command) -> Result<Vec<u8>> {
+    let output = command.stderr(Stdio::inherit()).output();
+    let output = output.context("cannot run the measuring program")?;
     print!("{}", String::from_utf8_lossy(&output.stdout));
     ensure!(
         output.status.success(),
