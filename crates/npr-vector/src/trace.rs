@@ -117,16 +117,18 @@ pub struct TracedPath {
 /// threads. Time grows with the paths' length. No path where there is no ink.
 pub fn trace(bitmap: &Bitmap, options: &TraceOptions) -> Tracing {
     let size = [bitmap.width(), bitmap.height()];
-    let (loops, curves) = found(bitmap, options, usize::MAX, |outliner, batch| {
-        let curves = batch.iter().map(|pixels| {
-            let mut segments = Vec::new();
-            outliner.outline(&pixels, &mut segments);
-            segments
+    let (Found { loops, parents }, curves) =
+        found(bitmap, options, usize::MAX, |outliner, batch| {
+            let curves = batch.iter().map(|pixels| {
+                let mut segments = Vec::new();
+                outliner.outline(&pixels, &mut segments);
+                segments
+            });
+            curves.collect::<Vec<_>>()
         });
-        curves.collect::<Vec<_>>()
-    });
     let curves = curves.into_iter().flat_map(|(_, curves)| curves);
-    let parents = nest(size, loops.iter());
+    let parents = parents.into_iter();
+    let parents = parents.map(|parent| (parent != nest::NONE).then_some(parent));
     let paths = loops.iter().zip(parents).zip(curves);
     let paths = paths.map(|((pixels, parent), segments)| TracedPath {
         is_ink: pixels.is_ink,
@@ -140,6 +142,13 @@ pub fn trace(bitmap: &Bitmap, options: &TraceOptions) -> Tracing {
     }
 }
 
+/// The loops of a bitmap.
+struct Found {
+    loops: Loops,
+    /// For each the innermost around it, or [`nest::NONE`].
+    parents: Vec<u32>,
+}
+
 /// The loops of a bitmap, and what `each` makes of the first of them while others are still looked for: of as many batches as have no more
 /// than `early_steps` steps, with the number of each one's first loop.
 fn found<T: Send>(
@@ -147,10 +156,10 @@ fn found<T: Send>(
     options: &TraceOptions,
     early_steps: usize,
     each: impl Fn(&mut Outliner, &Loops) -> T + Sync,
-) -> (Loops, Vec<(usize, T)>) {
+) -> (Found, Vec<(usize, T)>) {
     let (sender, receiver) = mpsc::channel();
     let each = &each;
-    let loops = rayon::scope(|scope| {
+    let found = rayon::scope(|scope| {
         let mut loops = Loops::default();
         for batch in Decomposition::new(bitmap, options.turn_policy, options.turd_size) {
             let first = loops.len();
@@ -164,12 +173,14 @@ fn found<T: Send>(
                 let _ = sender.send((first, each(&mut Outliner::new(options), &batch)));
             });
         }
-        loops
+        // The other threads are at work still.
+        let parents = nest::parents([bitmap.width(), bitmap.height()], loops.iter());
+        Found { loops, parents }
     });
     drop(sender);
     let mut made: Vec<(usize, T)> = receiver.into_iter().collect();
     made.sort_unstable_by_key(|(first, _)| *first);
-    (loops, made)
+    (found, made)
 }
 
 /// Steps of loops after which memory is not kept for the next one.

@@ -1,8 +1,8 @@
 //! What files of tracings are written from: paths that are drawn when their turn comes, so that few are held as text.
 
-use super::nest::{NONE, parents};
+use super::nest::NONE;
 use super::pen::{Pen, TextPen};
-use super::{Bitmap, Loops, Outliner, TraceFormat, TraceOptions, Tracing, found};
+use super::{Bitmap, Found, Outliner, TraceFormat, TraceOptions, Tracing, found};
 use rayon::prelude::*;
 use std::io;
 
@@ -73,8 +73,7 @@ impl Paths for Tracing {
 
 /// The paths of a bitmap, some of them drawn.
 pub(super) struct Outlines {
-    loops: Loops,
-    parents: Vec<u32>,
+    found: Found,
     /// Text of the first loops, by the number of the first of each batch.
     early: Vec<(usize, Texts)>,
 }
@@ -88,7 +87,7 @@ impl Outlines {
         early_steps: usize,
     ) -> Self {
         let height = f64::from(bitmap.height());
-        let (loops, early) = found(bitmap, options, early_steps, |outliner, batch| {
+        let (found, early) = found(bitmap, options, early_steps, |outliner, batch| {
             let mut texts = Texts::new(format, height);
             for pixels in batch.iter() {
                 outliner.outline(&pixels, &mut texts.pen);
@@ -96,28 +95,23 @@ impl Outlines {
             }
             texts.finished()
         });
-        let parents = parents([bitmap.width(), bitmap.height()], loops.iter());
-        Self {
-            loops,
-            parents,
-            early,
-        }
+        Self { found, early }
     }
 
     /// Steps of all paths.
     pub fn step_count(&self) -> usize {
-        self.loops.step_count()
+        self.found.loops.step_count()
     }
 }
 
 impl Paths for Outlines {
     fn count(&self) -> usize {
-        self.loops.len()
+        self.found.loops.len()
     }
 
     fn head(&self, number: usize) -> PathHead {
-        let pixels = self.loops.get(number);
-        let parent = self.parents.get(number).copied();
+        let pixels = self.found.loops.get(number);
+        let parent = self.found.parents.get(number).copied();
         PathHead {
             is_ink: pixels.is_some_and(|pixels| pixels.is_ink),
             area: pixels.map_or(0, |pixels| pixels.area),
@@ -126,13 +120,14 @@ impl Paths for Outlines {
     }
 
     fn work(&self, number: usize) -> usize {
-        self.loops
+        self.found
+            .loops
             .get(number)
             .map_or(0, |pixels| pixels.steps.len())
     }
 
     fn draw(&self, number: usize, outliner: &mut Outliner, pen: &mut TextPen) {
-        if let Some(pixels) = self.loops.get(number) {
+        if let Some(pixels) = self.found.loops.get(number) {
             outliner.outline(&pixels, pen);
         }
     }
