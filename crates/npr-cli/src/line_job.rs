@@ -71,6 +71,7 @@ impl<'a> LineJob<'a> {
             limits: Limits {
                 // Id maps lie as textures do, which are known where images are.
                 decode_images: minds
+                    || said.lines.painted
                     || !look.style.id_map.is_empty()
                     || look.style.line_paint_flags() & Part::LINE_SURFACE != 0,
                 ..said.drawing.limits.limits()
@@ -162,11 +163,18 @@ fn check_page(said: &LinesArguments, format: LineFormat) -> Result<(), Fault> {
 
 /// Refuses hidden lines of a method that knows none.
 fn check_hidden(said: &LineArguments) -> Result<(), Fault> {
-    if said.method != MethodName::Potrace || said.hidden == HiddenLines::None {
+    let name = match said.method {
+        MethodName::Potrace => "potrace",
+        MethodName::Image => "image",
+        MethodName::Edges | MethodName::Surface => return Ok(()),
+    };
+    if said.hidden == HiddenLines::None {
         return Ok(());
     }
-    let message = "--hidden: --method potrace finds lines in a picture, which shows no hidden ones: \
-                   use --method edges or surface";
+    let message = format!(
+        "--hidden: --method {name} finds lines in a picture, which shows no hidden ones: \
+         use --method edges or surface"
+    );
     Err(Fault::new(Exit::Usage, message))
 }
 
@@ -196,7 +204,9 @@ fn options(said: &LinesArguments, style: &Style) -> LineOptions {
             MethodName::Edges => LineMethod::Edges,
             MethodName::Surface => LineMethod::Surface,
             MethodName::Potrace => LineMethod::Potrace,
+            MethodName::Image => LineMethod::Image,
         },
+        painted: said.lines.painted,
         smooth: *smooth == Switch::On,
         hidden: *hidden != HiddenLines::None,
         // Smoke is more than its outline, but for a pen.

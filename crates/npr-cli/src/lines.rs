@@ -124,6 +124,9 @@ fn draw_lines(
         LineMethod::Surface => {
             Some("finds contours along edges; smooth ones are made from them on the processor")
         }
+        LineMethod::Image => {
+            Some("finds marked lines; those of pictures are found on the processor")
+        }
     };
     if let Some(told) = told.filter(|_| job.said.drawing.backend == Backend::Gpu) {
         let text = format!("{} {told}", drawn.engine);
@@ -150,6 +153,7 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
     let options = LineModelOptions {
         weld: job.said.lines.weld,
         memory_limit: job.limits.memory_bytes,
+        painted: job.options.painted,
     };
     let mut model = progress.step("prepare", || {
         LineModel::for_style(

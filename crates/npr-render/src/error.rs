@@ -43,6 +43,9 @@ pub enum RenderError {
     /// Sides of pixels could not be put in rows.
     #[error("line.potrace: {0}")]
     Rank(#[from] npr_vector::rank::RankError),
+    /// Lines could not be looked for in a picture.
+    #[error(transparent)]
+    Bitmap(#[from] npr_vector::trace::BitmapError),
     /// Words of the style cannot be set.
     #[error("lettering.{index}: {source}")]
     Lettering {

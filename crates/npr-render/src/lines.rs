@@ -4,6 +4,7 @@ mod assembly;
 mod cache;
 mod colors;
 mod finder;
+mod image;
 mod minding;
 mod options;
 mod paint;
@@ -143,7 +144,9 @@ impl LineModel {
     ) -> Result<Self, RenderError> {
         let assembly = Assembly::new(scene, Some(style));
         let mut model = Self::of_assembly(scene, &assembly, options, folder)?;
-        if style.line_paint_flags() & (Part::LINE_SURFACE | Part::LINE_TEXTURE) != 0 {
+        if options.painted
+            || style.line_paint_flags() & (Part::LINE_SURFACE | Part::LINE_TEXTURE) != 0
+        {
             let mut map = TextureMap::new(scene, &assembly, &model.shape);
             model.notices.extend(map.notice.take());
             model.map = Some(map);
@@ -476,25 +479,45 @@ impl LineModel {
             width_at: &|vertex| widths.at(vertex),
             paint_at: (view.changes || view.colors.is_some()).then_some(&paint_at),
         };
-        if options.method == LineMethod::Potrace {
-            let line = (&settings, paint, &look);
-            return self.pixel_strokes(prepared, view, options, line, find);
+        let line = (&settings, paint, &look);
+        let mut strokes = match options.method {
+            LineMethod::Potrace => self.pixel_strokes(prepared, view, options, line, find)?,
+            LineMethod::Image => {
+                self.of_mesh(prepared, view, &image::beside_image(&settings), &look)
+            }
+            LineMethod::Edges | LineMethod::Surface => {
+                self.of_mesh(prepared, view, &settings, &look)
+            }
+        };
+        if options.method == LineMethod::Image || options.painted {
+            strokes.extend(self.image_strokes(prepared, view, options, line)?);
         }
-        Ok(strokes_with(
+        Ok(strokes)
+    }
+
+    /// The strokes of lines on the mesh, and of smoke.
+    fn of_mesh(
+        &self,
+        prepared: &Prepared,
+        view: &LineView<'_>,
+        settings: &LineSettings,
+        look: &StrokeLook<'_>,
+    ) -> Vec<Stroke> {
+        strokes_with(
             &self.shape,
             prepared,
             view.projector,
-            &settings,
+            settings,
             view.contours,
-            &look,
+            look,
             view.smoke,
-        ))
+        )
     }
 
     /// What does not depend on the camera, made once for every crease angle in a row.
     fn prepared(&self, options: &LineOptions) -> Arc<Prepared> {
         let crease_cos = npr_core::math::cos(options.crease);
-        let is_on_mesh = options.method != LineMethod::Potrace;
+        let is_on_mesh = !options.method.is_of_pixels();
         let with_crossings = is_on_mesh && options.kinds.has(Kind::Intersection);
         let key = (crease_cos.to_bits(), with_crossings);
         let mut last = self.prepared.lock().unwrap_or_else(PoisonError::into_inner);

@@ -28,6 +28,7 @@ pub mod fit;
 pub mod gbuffer;
 pub mod graph;
 mod hue;
+pub mod image_line;
 pub mod intersect;
 pub mod json;
 pub mod lettering;

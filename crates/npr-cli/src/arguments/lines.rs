@@ -63,6 +63,9 @@ pub struct LineArguments {
     /// Fill visible surfaces with flat colour; smoke alone is filled in any case, but for centrelines.
     #[arg(long)]
     pub fill: bool,
+    /// Make strokes of dark lines painted in textures too, up to 8 pixels wide, as marked lines.
+    #[arg(long)]
+    pub painted: bool,
     /// Distance up to which vertices are one, as a fraction of each mesh's diagonal: 1e-6 closes the cracks of
     /// most exports.
     #[arg(long, value_name = "FRACTION", default_value_t = 0.0, allow_hyphen_values = true, value_parser = weld_tolerance)]
@@ -104,6 +107,8 @@ pub enum MethodName {
     Edges,
     /// From a picture of all lines, pixel by pixel, as published in 2022: for comparison.
     Potrace,
+    /// From a picture of the surfaces: all lines where neighbouring pixels differ, each followed once along its middle.
+    Image,
 }
 
 /// What becomes of hidden lines.

@@ -121,7 +121,7 @@ fn wrong_options_exit_with_2_and_leave_nothing() {
         ),
         (
             &["lines", "scene.obj", "--method", "pencil"],
-            "surface, edges, potrace",
+            "surface, edges, potrace, image",
         ),
         (
             &["lines", "scene.obj", "--hidden", "dotted"],
@@ -303,7 +303,7 @@ fn degenerate_triangles_are_drawn() {
     let place = Workplace::new();
     for text in cases {
         place.put("scene.obj", text.as_bytes());
-        for method in ["edges", "surface", "potrace"] {
+        for method in ["edges", "surface", "potrace", "image"] {
             let outcome = lines(&place, "scene.obj", &["--method", method, "--fill"]);
             assert_eq!(outcome.code, Some(0), "{text}: {}", outcome.stderr);
         }
@@ -313,17 +313,16 @@ fn degenerate_triangles_are_drawn() {
 #[test]
 fn strokes_from_pixels_are_visible_ones_alone() {
     let place = Workplace::with_scene();
-    let data = data(&place, "scene.obj", &["--method", "potrace"]);
-    assert!(!strokes(&data).is_empty());
-    for hidden in ["layer", "dashed"] {
-        let more = ["--method", "potrace", "--hidden", hidden];
-        let outcome = lines(&place, "scene.obj", &more);
-        assert_eq!(outcome.code, Some(2), "{}", outcome.stderr);
-        assert!(
-            outcome.stderr.contains("--method potrace"),
-            "{}",
-            outcome.stderr
-        );
+    for method in ["potrace", "image"] {
+        let data = data(&place, "scene.obj", &["--method", method]);
+        assert!(!strokes(&data).is_empty());
+        for hidden in ["layer", "dashed"] {
+            let more = ["--method", method, "--hidden", hidden];
+            let outcome = lines(&place, "scene.obj", &more);
+            assert_eq!(outcome.code, Some(2), "{}", outcome.stderr);
+            let told = format!("--method {method}");
+            assert!(outcome.stderr.contains(&told), "{}", outcome.stderr);
+        }
     }
     let more = ["--method", "potrace", "--set", "line.potrace.rounds=1"];
     let outcome = lines(&place, "scene.obj", &more);

@@ -15,6 +15,10 @@ pub struct LineModelOptions {
     pub weld: f32,
     /// Most bytes that may be planned; default 4 GiB.
     pub memory_limit: u64,
+    /// Whether textures are kept to find painted lines in ([`LineOptions::painted`]); default false.
+    ///
+    /// The scene's images have to be there, and [`LineModel::for_style`](super::LineModel::for_style) to make the model.
+    pub painted: bool,
 }
 
 impl Default for LineModelOptions {
@@ -22,6 +26,7 @@ impl Default for LineModelOptions {
         Self {
             weld: 0.0,
             memory_limit: 4 << 30,
+            painted: false,
         }
     }
 }
@@ -109,6 +114,10 @@ pub struct LineOptions {
     pub dpi: f32,
     /// The constants of [`LineMethod::Potrace`].
     pub potrace: PublishedPath,
+    /// Depth jump, as a share of the picture's height at that depth, from which [`LineMethod::Image`] separates surfaces by a line.
+    pub depth_threshold: f32,
+    /// Whether dark lines painted in textures are strokes of kind [`Kind::Marked`], whatever the method; default false.
+    pub painted: bool,
 }
 
 /// How lines are found.
@@ -122,13 +131,21 @@ pub enum LineMethod {
     /// All lines from a picture of them, as published [Jiang et al. 2022]: visible ones alone, none of intersections, and
     /// [`LineOptions::smooth`] is about places only. See [`npr_vector::pixel_contour`].
     Potrace,
+    /// All lines from a picture of the surfaces, where neighbouring pixels differ, each followed once along its middle: visible ones
+    /// alone, borders as contours. See [`npr_vector::image_line`].
+    Image,
 }
 
 impl LineMethod {
+    /// Whether all lines come from a picture of the view.
+    pub(crate) fn is_of_pixels(self) -> bool {
+        matches!(self, Self::Potrace | Self::Image)
+    }
+
     /// How contours on the mesh are found; those of pictures start from edges.
     pub(crate) fn on_mesh(self) -> Method {
         match self {
-            Self::Edges | Self::Potrace => Method::Edges,
+            Self::Edges | Self::Potrace | Self::Image => Method::Edges,
             Self::Surface => Method::Surface,
         }
     }
@@ -148,6 +165,8 @@ impl LineOptions {
             fill: false,
             dpi: 96.0,
             potrace: PublishedPath::default(),
+            depth_threshold: Style::default().detect.depth_threshold(),
+            painted: false,
         }
     }
 
@@ -160,6 +179,7 @@ impl LineOptions {
             crease: style.line.crease_angle_deg.to_radians(),
             split: Self::split_at(style.line.split_angle_deg),
             potrace: style.line.potrace.path(),
+            depth_threshold: style.detect.depth_threshold(),
             ..Self::new(size)
         }
     }

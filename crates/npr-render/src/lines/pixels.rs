@@ -6,7 +6,7 @@ use super::{LineModel, LineOptions, LineView};
 use crate::error::RenderError;
 use npr_core::budget::Budget;
 use npr_core::window::View;
-use npr_vector::draw::{LineSettings, Prepared, StrokeLook, eye_of, strokes_with};
+use npr_vector::draw::{LineSettings, Prepared, StrokeLook, eye_of};
 use npr_vector::pixel_contour::segment::PixelView;
 use npr_vector::pixel_contour::stroke::Loops;
 use npr_vector::pixel_contour::{BYTES_PER_PIXEL, PixelScene, PublishedPath, Traced};
@@ -27,16 +27,7 @@ impl LineModel {
         let (shape, projector) = (&self.shape, view.projector);
         let mut strokes = traced.strokes(shape, projector, &loops, options.split, look);
         if let Some(smoke) = view.smoke {
-            let contours = view.contours;
-            let all = strokes_with(
-                shape,
-                prepared,
-                projector,
-                settings,
-                contours,
-                look,
-                Some(smoke),
-            );
+            let all = self.of_mesh(prepared, view, settings, look);
             let of_smoke = all
                 .into_iter()
                 .filter(|stroke| stroke.surface == smoke.surface);
@@ -83,7 +74,7 @@ fn path_of(options: &LineOptions) -> PublishedPath {
 }
 
 /// Reversed depths of dense smoke, 0 where there is none; nothing where no smoke hides lines.
-fn veil_of(view: &View, smoke: &SmokeLines<'_>) -> Option<Vec<f32>> {
+pub(super) fn veil_of(view: &View, smoke: &SmokeLines<'_>) -> Option<Vec<f32>> {
     let puffs: &Puffs = smoke.puffs;
     if !smoke.is_dense || puffs.is_empty() {
         return None;

@@ -2,6 +2,7 @@
 
 mod cache;
 mod colors;
+mod image;
 mod meaning;
 mod minding;
 mod robustness;

@@ -11,7 +11,7 @@ use npr_core::window::{View, Window};
 ///
 /// Both sides of all faces hide. O(faces + pixels), in parallel.
 pub fn scene_depths(shape: &Shape, view: &View) -> Vec<f32> {
-    let depths = fill(&PixelView::new(view), &shape.faces, |vertex| {
+    let (_, depths) = fill(&PixelView::new(view), &shape.faces, |vertex| {
         shape.positions[vertex as usize]
     });
     depths.into_iter().map(f32::from_bits).collect()
@@ -29,17 +29,18 @@ pub fn draw_surfaces(
         .iter()
         .map(|sides| sides.map(|side| side.tail))
         .collect();
-    let found = fill(view, &faces, |vertex| {
+    let (_, found) = fill(view, &faces, |vertex| {
         std::array::from_fn(|i| positions[3 * vertex as usize + i])
     });
     depths.copy_from_slice(&found);
 }
 
-fn fill(
+/// The number plus one of the face that shows at every pixel, 0 where there is none, and its reversed depth as bits.
+pub(crate) fn fill(
     view: &PixelView,
     faces: &[[u32; 3]],
     position: impl Fn(u32) -> [f32; 3] + Sync,
-) -> Vec<u32> {
+) -> (Vec<u32>, Vec<u32>) {
     let frame_px = view.size.map(|side| side as f32);
     let count = view.size[0] as usize * view.size[1] as usize;
     let triangles: Vec<Triangle> = faces
@@ -64,5 +65,5 @@ fn fill(
     };
     let (mut ids, mut depths) = (vec![0; count], vec![0; count]);
     fill_triangles(&fill, &mut ids, &mut depths);
-    depths
+    (ids, depths)
 }

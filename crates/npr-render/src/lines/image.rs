@@ -1,0 +1,125 @@
+//! Lines from a picture of the surfaces, and lines painted in textures.
+
+use super::paint::Paint;
+use super::pixels::veil_of;
+use super::texture_map::TextureMap;
+use super::{LineMethod, LineModel, LineOptions, LineView};
+use crate::error::RenderError;
+use glam::{DVec3, Vec2};
+use npr_core::budget::Budget;
+use npr_core::color::srgb_from_linear;
+use npr_core::geometry::NONE;
+use npr_core::shape::Shape;
+use npr_core::texture;
+use npr_core::window::View;
+use npr_vector::draw::{LineSettings, Prepared, StrokeLook};
+use npr_vector::graph::CurveNode;
+use npr_vector::image_line::{BYTES_PER_PIXEL, ImageScene, PaintedRule, SurfacePicture, painted};
+use npr_vector::project::Projector;
+use npr_vector::seat::Seat;
+use npr_vector::stroke::Stroke;
+use rayon::prelude::*;
+
+/// What is drawn on the mesh beside lines of a picture: marked lines, which no picture of surfaces shows.
+pub(super) fn beside_image(settings: &LineSettings) -> LineSettings {
+    LineSettings {
+        kinds: 0,
+        hidden: false,
+        ..settings.clone()
+    }
+}
+
+impl LineModel {
+    /// The strokes of a view by [`LineMethod::Image`], and painted ones, as far as each is asked for. Dense smoke hides them.
+    pub(super) fn image_strokes(
+        &self,
+        prepared: &Prepared,
+        view: &LineView<'_>,
+        options: &LineOptions,
+        (settings, paint, look): (&LineSettings, &Paint, &StrokeLook<'_>),
+    ) -> Result<Vec<Stroke>, RenderError> {
+        let [width, height] = options.size.map(|side| side as usize);
+        let mut budget = Budget::new(self.memory_limit);
+        budget.take("a picture of surfaces", width * height, BYTES_PER_PIXEL)?;
+        let of_frame = view.camera.view(options.size, view.bounds);
+        let scene = ImageScene {
+            shape: &self.shape,
+            normals: prepared.corner_normals(&self.shape),
+            view: &of_frame,
+            is_drawn: &paint.lined_surfaces(),
+            kinds: settings.kinds,
+            crease_cos: npr_core::math::cos(options.crease),
+            depth_threshold: options.depth_threshold,
+        };
+        let picture = SurfacePicture::new(&scene);
+        let veil = view.smoke.and_then(|smoke| veil_of(&of_frame, smoke));
+        let on = (&scene, view.projector, &picture);
+        let mut strokes = Vec::new();
+        if options.method == LineMethod::Image {
+            let lines = picture.lines(&scene, veil.as_deref());
+            strokes = lines.strokes(on, settings, look)?;
+        }
+        if let Some(map) = self.map.as_ref().filter(|_| options.painted) {
+            let all = ImageScene {
+                kinds: CurveNode::KINDS,
+                ..scene
+            };
+            let lines = picture.lines(&all, None);
+            let lightness = lightness(&self.shape, map, (&of_frame, view.projector), &picture);
+            let mut ink = painted(&picture, &lightness, &lines, &PaintedRule::default());
+            ink.retain(|pixel| {
+                veil.as_ref()
+                    .is_none_or(|veil| veil[pixel] <= picture.depths[pixel])
+            });
+            strokes.extend(ink.strokes(on, settings, look)?);
+        }
+        Ok(strokes)
+    }
+}
+
+/// How light the textures of a view are at every pixel, 0 to 1 as seen; 1 where there is none.
+fn lightness(
+    shape: &Shape,
+    map: &TextureMap,
+    (view, projector): (&View, &Projector),
+    picture: &SurfacePicture,
+) -> Vec<f32> {
+    let width = picture.size[0] as usize;
+    let pixels = picture.faces.par_iter().zip(&picture.pixels).enumerate();
+    let at = |(pixel, (face, surface)): (usize, (&u32, &npr_core::geometry::GPixel))| {
+        let start = map.starts.get(surface.part as usize).copied();
+        let Some(start) = start.filter(|start| *face != NONE && *start != NONE) else {
+            return 1.0;
+        };
+        let place = [pixel % width, pixel / width].map(|v| v as f64 + 0.5);
+        let world = projector.unproject(place, f64::from(surface.depth));
+        let Some((uv, per_unit)) = coordinates(shape, map, *face, world) else {
+            return 1.0;
+        };
+        let footprint = per_unit * view.pixel_at(surface.depth);
+        let [r, g, b, alpha] = texture::sample(map.textures.words(), start, uv, footprint);
+        // Rec. 709; what is clear shows paper.
+        let light = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        srgb_from_linear((light * alpha + 1.0 - alpha).clamp(0.0, 1.0))
+    };
+    pixels.map(at).collect()
+}
+
+/// Texture coordinates at a place of a face, and how much they change over a unit of the world.
+fn coordinates(
+    shape: &Shape,
+    map: &TextureMap,
+    face: u32,
+    world: DVec3,
+) -> Option<([f32; 2], f32)> {
+    let uvs = map.corners(face)?.map(Vec2::from);
+    let edge = shape.edge_of[3 * face as usize];
+    let (_, shares) = Seat { edge, face }.place(shape, world);
+    let uv = (0..3).fold(Vec2::ZERO, |sum, i| sum + uvs[i] * shares[i] as f32);
+    let corners = shape.faces[face as usize].map(|vertex| shape.point(vertex).as_vec3());
+    let around = |length: &dyn Fn(usize, usize) -> f32| length(0, 1) + length(1, 2) + length(2, 0);
+    let run = around(&|a, b| uvs[b].distance(uvs[a]));
+    let length = around(&|a, b| corners[b].distance(corners[a]));
+    let per_unit = run / length.max(1e-30);
+    (uv.is_finite() && per_unit.is_finite()).then_some((uv.to_array(), per_unit))
+}

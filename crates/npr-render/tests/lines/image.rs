@@ -1,0 +1,276 @@
+//! Lines from a picture of the surfaces, and lines painted in textures.
+
+use crate::scenes::{SIZE, add, camera_at, even_style, scene_of};
+use npr_core::camera::Camera;
+use npr_gpu::processor::Processor;
+use npr_mesh::testing::{cube, icosphere, mapped, torus};
+use npr_render::{
+    Drawing, Kind, KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage,
+};
+use npr_scene::{Image, Material, Mesh, Node, Part, Scene, TextureTransform, TextureUse, Wrap};
+use npr_style::Style;
+
+fn model_of(scene: &Scene, painted: bool) -> LineModel {
+    let options = LineModelOptions {
+        painted,
+        ..LineModelOptions::default()
+    };
+    LineModel::for_style(scene, &Style::default(), &options, None).expect("small")
+}
+
+fn drawn(model: &LineModel, camera: &Camera, options: &LineOptions) -> Drawing {
+    let style = even_style("2px");
+    model.draw(camera, &style, options).expect("drawn")
+}
+
+fn with(method: LineMethod) -> LineOptions {
+    LineOptions {
+        method,
+        ..LineOptions::new(SIZE)
+    }
+}
+
+fn length(drawing: &Drawing) -> f64 {
+    drawing.strokes.iter().map(|stroke| stroke.length()).sum()
+}
+
+/// A cube that cuts through a ball, and a ring behind them.
+fn group() -> Scene {
+    let mut scene = scene_of(&cube());
+    let moved = |mesh: &npr_mesh::Mesh, by: [f32; 3]| {
+        mapped(mesh, move |[x, y, z]| [x + by[0], y + by[1], z + by[2]])
+    };
+    add(&mut scene, "ball", &moved(&icosphere(4), [0.9, 0.4, 0.2]));
+    add(
+        &mut scene,
+        "ring",
+        &moved(&torus(96, 32, 1.6, 0.35), [-0.8, 0.3, -2.0]),
+    );
+    scene
+}
+
+/// A wall with a picture on it: white, a dark cross of two lines, and a dark square.
+fn painted_wall() -> Scene {
+    let side = 256;
+    let is_dark = |x: u32, y: u32| {
+        let cross = (60..66).contains(&y) || (90..96).contains(&x);
+        cross || (150..210).contains(&x) && (150..210).contains(&y)
+    };
+    let pixel = |i: u32| {
+        if is_dark(i % side, i / side) {
+            [20, 20, 30, 255]
+        } else {
+            [240, 235, 220, 255]
+        }
+    };
+    Scene {
+        images: vec![Image {
+            name: "drawing".to_owned(),
+            width: side,
+            height: side,
+            rgba: (0..side * side).flat_map(pixel).collect(),
+        }],
+        materials: vec![Material {
+            base_color_texture: Some(TextureUse {
+                image: 0,
+                uv_set: 0,
+                wrap: [Wrap::Clamp; 2],
+                transform: TextureTransform::default(),
+            }),
+            ..Material::default()
+        }],
+        meshes: vec![Mesh {
+            parts: vec![Part {
+                positions: vec![
+                    [-2.0, -2.0, 0.0],
+                    [2.0, -2.0, 0.0],
+                    [2.0, 2.0, 0.0],
+                    [-2.0, 2.0, 0.0],
+                ],
+                triangles: vec![[0, 1, 2], [0, 2, 3]],
+                uvs: Some(vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]]),
+                material: Some(0),
+                ..Part::default()
+            }],
+            ..Mesh::default()
+        }],
+        nodes: vec![Node {
+            name: "wall".to_owned(),
+            mesh: Some(0),
+            ..Node::default()
+        }],
+        ..Scene::default()
+    }
+}
+
+#[test]
+fn lines_of_pictures_are_those_of_the_mesh_each_once() {
+    let model = model_of(&group(), false);
+    let camera = camera_at([2.0, 2.5, 7.0]);
+    let [image, edges] =
+        [LineMethod::Image, LineMethod::Edges].map(|method| drawn(&model, &camera, &with(method)));
+    let (of_image, of_edges) = (length(&image), length(&edges));
+    assert!(
+        (of_image / of_edges - 1.0).abs() < 0.05,
+        "{of_image} and {of_edges} px"
+    );
+    for kind in [Kind::Contour, Kind::Crease, Kind::Intersection] {
+        assert!(
+            image.strokes.iter().any(|stroke| stroke.kind == kind),
+            "{kind:?}"
+        );
+    }
+    // Every point lies on a line of the mesh.
+    let places = || {
+        edges.strokes.iter().flat_map(|stroke| {
+            let closing = stroke
+                .points
+                .last()
+                .zip(stroke.points.first())
+                .filter(|_| stroke.closed);
+            stroke
+                .points
+                .windows(2)
+                .map(|pair| (&pair[0], &pair[1]))
+                .chain(closing)
+        })
+    };
+    let off = |p: [f64; 2]| {
+        let distance = places().map(|(a, b)| {
+            let (a, b) = (a.position, b.position);
+            let along = [b[0] - a[0], b[1] - a[1]];
+            let t = ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1])
+                / (along[0].powi(2) + along[1].powi(2)).max(1e-12);
+            let t = t.clamp(0.0, 1.0);
+            (p[0] - a[0] - t * along[0]).hypot(p[1] - a[1] - t * along[1])
+        });
+        distance.fold(f64::INFINITY, f64::min)
+    };
+    let points: Vec<[f64; 2]> = image
+        .strokes
+        .iter()
+        .flat_map(|stroke| &stroke.points)
+        .map(|point| point.position)
+        .collect();
+    let near = points.iter().filter(|point| off(**point) < 1.5).count();
+    assert!(near * 50 >= points.len() * 49, "{near} of {}", points.len());
+}
+
+#[test]
+fn kinds_and_parts_without_lines_are_left_out() {
+    let model = model_of(&group(), false);
+    let camera = camera_at([2.0, 2.5, 7.0]);
+    let options = LineOptions {
+        kinds: [Kind::Crease].into_iter().collect::<KindSet>(),
+        ..with(LineMethod::Image)
+    };
+    let drawing = drawn(&model, &camera, &options);
+    assert!(!drawing.strokes.is_empty());
+    assert!(
+        drawing
+            .strokes
+            .iter()
+            .all(|stroke| stroke.kind == Kind::Crease)
+    );
+    let style = Style::from_toml("[[rule]]\nmatch.object = 'ball'\nline.on = false", &|_| {
+        Err(String::new())
+    });
+    let drawing = model
+        .draw(&camera, &style.expect("a style"), &with(LineMethod::Image))
+        .expect("drawn");
+    let of_ball = drawing
+        .strokes
+        .iter()
+        .filter(|stroke| drawing.surfaces[stroke.surface as usize].object == "ball");
+    assert!(of_ball.count() == 0 && !drawing.strokes.is_empty());
+}
+
+#[test]
+fn engines_and_threads_give_the_same() {
+    let model = model_of(&painted_wall(), true);
+    let camera = camera_at([1.0, 0.5, 6.0]);
+    let options = LineOptions {
+        painted: true,
+        ..with(LineMethod::Image)
+    };
+    let alone = drawn(&model, &camera, &options);
+    let staged = LineStage::new(&Processor, &model).draw(&camera, &even_style("2px"), &options);
+    assert_eq!(staged.expect("drawn"), alone);
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("a thread");
+    assert_eq!(pool.install(|| drawn(&model, &camera, &options)), alone);
+}
+
+#[test]
+fn lines_painted_in_a_texture_become_marked_strokes_of_the_style() {
+    let camera = camera_at([0.0, 0.0, 6.0]);
+    for method in [LineMethod::Edges, LineMethod::Surface, LineMethod::Image] {
+        let options = LineOptions {
+            painted: true,
+            ..with(method)
+        };
+        let drawing = drawn(&model_of(&painted_wall(), true), &camera, &options);
+        let painted: Vec<_> = drawing
+            .strokes
+            .iter()
+            .filter(|stroke| stroke.kind == Kind::Marked)
+            .collect();
+        assert_eq!(painted.len(), 2, "{method:?}");
+        for stroke in painted {
+            // Both lines go from edge to edge along an axis, but for round ends of 2 pixels; 45.6 pixels are a unit.
+            let [dx, dy] = [0, 1].map(|i| {
+                let along = stroke.points.iter().map(|point| point.world[i]);
+                along.clone().fold(f32::MIN, f32::max) - along.fold(f32::MAX, f32::min)
+            });
+            assert!(
+                dx.max(dy) > 4.0 - 10.0 / 45.6 && dx.min(dy) < 0.04,
+                "{dx} {dy}"
+            );
+            assert!(
+                stroke
+                    .points
+                    .iter()
+                    .all(|point| (point.width - 2.0).abs() < 1e-4)
+            );
+            assert!(
+                stroke
+                    .points
+                    .iter()
+                    .all(|point| (point.depth - 6.0).abs() < 0.01)
+            );
+        }
+        // Nothing else of the drawing changes, and nobody has painted lines who does not ask.
+        let rest = drawing
+            .strokes
+            .iter()
+            .filter(|stroke| stroke.kind != Kind::Marked)
+            .cloned();
+        let plain = drawn(&model_of(&painted_wall(), false), &camera, &with(method));
+        assert_eq!(rest.collect::<Vec<_>>(), plain.strokes);
+    }
+}
+
+/// The camera turns by 0.3 degrees a step.
+#[test]
+fn strokes_stay_while_the_camera_turns() {
+    for mesh in [torus(96, 48, 1.4, 0.5), icosphere(4)] {
+        let model = model_of(&scene_of(&mesh), false);
+        let views = (0..25).map(|step| {
+            let angle = 0.4 + 0.005 * f64::from(step);
+            let [x, z] = [
+                npr_core::math::sin_f64(angle),
+                npr_core::math::cos_f64(angle),
+            ]
+            .map(|v| 7.0 * v as f32);
+            drawn(&model, &camera_at([x, 2.5, z]), &with(LineMethod::Image))
+        });
+        let views: Vec<Drawing> = views.collect();
+        for pair in views.windows(2) {
+            assert_eq!(pair[0].strokes.len(), pair[1].strokes.len());
+            let change = length(&pair[1]) / length(&pair[0]) - 1.0;
+            assert!(change.abs() < 0.005, "{change}");
+        }
+    }
+}

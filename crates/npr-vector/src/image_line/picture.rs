@@ -1,0 +1,241 @@
+//! Which surface every pixel of a view shows.
+
+use super::ink::LineInk;
+use crate::detect::{Detection, detect};
+use crate::gbuffer::{Surfaces, resolve};
+use crate::graph::CurveNode;
+use crate::pixel_contour::segment::PixelView;
+use crate::pixel_contour::surface::fill;
+use crate::zero_set::CornerNormals;
+use npr_core::geometry::{GPixel, NONE, Part, PosedVertex, Triangle};
+use npr_core::outline::{MASK_OWNER, MASK_SIDE, Outline};
+use npr_core::raster::triangle_of;
+use npr_core::shape::Shape;
+use npr_core::window::{View, Window};
+use rayon::prelude::*;
+
+/// Bits that each say something about where a line comes from.
+const DETECTS: u32 = Outline::DEPTH
+    | Outline::NORMAL
+    | Outline::OBJECT_ID
+    | Outline::MATERIAL_ID
+    | Outline::PLANE_DEPTH
+    | Outline::PIECE;
+
+/// A view of a shape whose lines are looked for in a picture.
+#[derive(Clone, Copy)]
+pub struct ImageScene<'a> {
+    /// The surfaces; both sides of all faces hide what is behind them.
+    pub shape: &'a Shape,
+    /// Normals at the corners of its faces: no crease lies where they are smooth.
+    pub normals: &'a CornerNormals,
+    /// Camera and picture.
+    pub view: &'a View,
+    /// For every surface whether it has lines; all do where there are no more entries.
+    pub is_drawn: &'a [bool],
+    /// Kinds of line that are looked for, bits of [`CurveNode::KINDS`].
+    pub kinds: u32,
+    /// Cosine of the angle between normals from which a bend is a crease.
+    pub crease_cos: f32,
+    /// Depth jump, as a share of the picture's height at that depth, from which surfaces are separated by a line.
+    pub depth_threshold: f32,
+}
+
+impl ImageScene<'_> {
+    fn size(&self) -> [u32; 2] {
+        self.view.frame_px.map(|side| side as u32)
+    }
+
+    fn window(&self) -> Window {
+        let px = self.view.frame_px;
+        Window::over(px, [0.0; 2], px, self.size())
+    }
+
+    /// Surfaces as detection reads them.
+    fn parts(&self) -> Vec<Part> {
+        let surfaces = self.shape.surfaces.iter().enumerate();
+        let part = surfaces.map(|(index, surface)| Part {
+            object: surface.object,
+            material: surface.material,
+            flags: match self.is_drawn.get(index) {
+                Some(false) => 0,
+                _ => Part::LINES,
+            },
+            ..Part::default()
+        });
+        part.collect()
+    }
+}
+
+/// A view of a shape, pixel by pixel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfacePicture {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// The face that each pixel shows, or [`NONE`].
+    pub faces: Vec<u32>,
+    /// Reversed depth of each pixel, 0 where nothing is seen.
+    pub depths: Vec<f32>,
+    /// Depth, normal, object and material there; the part is the surface's number.
+    pub pixels: Vec<GPixel>,
+}
+
+impl SurfacePicture {
+    /// Draws the faces of a view. O(faces + pixels), in parallel; the same for any number of threads.
+    pub fn new(scene: &ImageScene<'_>) -> Self {
+        let shape = scene.shape;
+        let (ids, depths) = fill(&PixelView::new(scene.view), &shape.faces, |vertex| {
+            shape.positions[vertex as usize]
+        });
+        let faces: Vec<u32> = ids.par_iter().map(|id| triangle_of(*id)).collect();
+        Self {
+            size: scene.size(),
+            pixels: resolved(scene, &faces),
+            faces,
+            depths: depths.into_iter().map(f32::from_bits).collect(),
+        }
+    }
+
+    /// Marks the pixels beside lines of the wanted kinds, where nothing of `veil` (reversed depths, where given) lies before them.
+    pub fn lines(&self, scene: &ImageScene<'_>, veil: Option<&[f32]>) -> LineInk {
+        let outline = Outline {
+            crease_cos: scene.crease_cos,
+            normal_cos: scene.crease_cos,
+            depth_threshold: scene.depth_threshold,
+            kinds: Outline::CONTOUR | Outline::BORDER | Outline::CREASE | Outline::MATERIAL,
+            detects: DETECTS,
+            ..Outline::default()
+        };
+        let parts = scene.parts();
+        let with = Detection {
+            view: scene.view,
+            window: &scene.window(),
+            outline: &outline,
+            parts: &parts,
+        };
+        let mut mask = vec![0; self.faces.len()];
+        if !mask.is_empty() {
+            detect(&with, &self.pixels, &mut mask);
+        }
+        let mut ink = LineInk::new(self.size);
+        for (pixel, bits) in (0..).zip(&mask) {
+            let kind = kind_of(*bits);
+            let is_owner = bits & MASK_OWNER != 0 && kind & scene.kinds != 0;
+            let depth = self.depths[pixel as usize];
+            let is_veiled = veil.is_some_and(|veil| veil[pixel as usize] > depth);
+            if is_owner && !is_veiled {
+                ink.add(pixel, kind, bits / MASK_SIDE);
+            }
+        }
+        if scene.kinds & CurveNode::CREASE != 0 {
+            self.add_grazing_creases(scene, &mask, &mut ink);
+        }
+        ink
+    }
+
+    /// Marks creases beside faces that turn away steeply, which detection leaves out because normals of smooth surfaces differ there too:
+    /// where two pixels show faces that share a sharp edge.
+    fn add_grazing_creases(&self, scene: &ImageScene<'_>, mask: &[u32], ink: &mut LineInk) {
+        let width = self.size[0] as usize;
+        let is_unowned = |pixel: usize| mask.get(pixel) == Some(&Outline::NORMAL);
+        for pixel in (0..mask.len()).filter(|pixel| is_unowned(*pixel)) {
+            let is_last = (pixel + 1).is_multiple_of(width);
+            // Side of the first pixel on which the second lies, and the other way round.
+            for (other, side, back) in [(pixel + 1, 1, 0), (pixel + width, 3, 2)] {
+                let is_beside = is_unowned(other) && (side != 1 || !is_last);
+                if !is_beside || !self.share_crease(scene, pixel, other) {
+                    continue;
+                }
+                let is_first = self.pixels[pixel].depth < self.pixels[other].depth;
+                let (owner, side) = if is_first {
+                    (pixel, side)
+                } else {
+                    (other, back)
+                };
+                if scene.is_drawn.get(self.pixels[owner].part as usize) != Some(&false) {
+                    ink.add(owner as u32, CurveNode::CREASE, 1 << side);
+                }
+            }
+        }
+    }
+
+    /// Whether two pixels show faces on both sides of an edge that is a crease.
+    fn share_crease(&self, scene: &ImageScene<'_>, pixel: usize, other: usize) -> bool {
+        let (shape, [a, b]) = (scene.shape, [pixel, other].map(|at| self.faces[at]));
+        if a == NONE || b == NONE {
+            return false;
+        }
+        let edges = (3 * a..3 * a + 3).map(|half_edge| shape.edge_of[half_edge as usize]);
+        edges.into_iter().any(|edge| {
+            let is_sharp = shape.dihedral_cos[edge as usize] < scene.crease_cos;
+            is_sharp && shape.sides(edge).iter().any(|side| side / 3 == b)
+        })
+    }
+}
+
+/// What a line is that was found for these reasons, a bit of [`CurveNode::KINDS`].
+fn kind_of(mask: u32) -> u32 {
+    let has = |bits: u32| mask & bits != 0;
+    if has(Outline::DEPTH) {
+        CurveNode::CONTOUR
+    } else if has(Outline::OBJECT_ID | Outline::PIECE) {
+        CurveNode::INTERSECTION
+    } else if has(Outline::MATERIAL_ID) {
+        CurveNode::MATERIAL
+    } else {
+        CurveNode::CREASE
+    }
+}
+
+fn clip_of(view: &View, [x, y, z]: [f32; 3]) -> [f32; 4] {
+    let m = &view.clip_from_world;
+    std::array::from_fn(|i| m[0][i] * x + m[1][i] * y + m[2][i] * z + m[3][i])
+}
+
+/// The surface under every pixel, of the faces that are seen.
+fn resolved(scene: &ImageScene<'_>, faces: &[u32]) -> Vec<GPixel> {
+    let mut seen: Vec<u32> = faces.iter().copied().filter(|face| *face != NONE).collect();
+    seen.par_sort_unstable();
+    seen.dedup();
+    let shape = scene.shape;
+    let corner = |face: u32, k: usize| {
+        let world = shape.positions[shape.faces[face as usize][k] as usize];
+        let eye = scene.view.eye_world;
+        let away = [0, 1, 2].map(|i| (world[i] - eye[i]) * scene.view.forward_world[i]);
+        PosedVertex {
+            clip: clip_of(scene.view, world),
+            world,
+            depth: away[0] + away[1] + away[2],
+            normal: scene.normals.normal(3 * face + k as u32),
+            half_width: 0.5,
+        }
+    };
+    let posed: Vec<PosedVertex> = seen
+        .par_iter()
+        .flat_map_iter(|face| [0, 1, 2].map(|k| corner(*face, k)))
+        .collect();
+    let triangles: Vec<Triangle> = (0..)
+        .zip(&seen)
+        .map(|(slot, face): (u32, &u32)| Triangle {
+            corners: [0, 1, 2].map(|k| 3 * slot + k),
+            part: shape.face_surfaces[*face as usize],
+        })
+        .collect();
+    let ids: Vec<u32> = faces
+        .par_iter()
+        .map(|face| seen.binary_search(face).map_or(0, |slot| slot as u32 + 1))
+        .collect();
+    let mut pixels = vec![GPixel::EMPTY; faces.len()];
+    if pixels.is_empty() {
+        return pixels;
+    }
+    let on = Surfaces {
+        view: scene.view,
+        window: &scene.window(),
+        posed: &posed,
+        triangles: &triangles,
+        parts: &scene.parts(),
+    };
+    resolve(&on, &ids, &mut pixels);
+    pixels
+}
