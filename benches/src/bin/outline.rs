@@ -159,7 +159,7 @@ fn orbit(name: &str, scenery: Scenery, method: &Method) -> Outcome<String> {
     ))
 }
 
-/// What ten objects cost beside one, on every engine of this machine.
+/// What ten objects cost beside one, on the processor and on graphics hardware.
 fn objects() -> Outcome<()> {
     println!("## Ten objects beside one\n");
     println!(
@@ -170,7 +170,7 @@ fn objects() -> Outcome<()> {
         machine::load()
     );
     objects_on(&Processor)?;
-    if let Some(device) = device::open() {
+    if let Some(device) = device::open_hardware() {
         objects_on(&*device)?;
     }
     Ok(())
