@@ -94,8 +94,9 @@ fn the_outline_of_a_ball_is_one_closed_stroke_on_its_edge() {
         let place = glam::DVec2::from(point.position) - glam::DVec2::new(200.0, 150.0);
         assert!((place.length() - 100.0).abs() < 0.8, "{point:?}");
         let [x, y, _] = point.world.map(f64::from);
+        // Smoothing moves places, not what they were found on: by less than the stairs of pixels.
         assert!(
-            (place - 100.0 * glam::DVec2::new(x, -y)).length() < 0.01,
+            (place - 100.0 * glam::DVec2::new(x, -y)).length() < 0.5,
             "{point:?}"
         );
         assert!((point.depth - 6.0).abs() < 0.5, "{point:?}");
