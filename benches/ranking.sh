@@ -20,7 +20,8 @@ NPR_BENCH_MOST=${1:-10000000} cargo bench -q -p npr-vector --bench rank -- --nop
         name = $0
         sub(/ *time:.*/, "", name)
     }
-    /thrpt:/ {
+    # Not the change since an earlier run, in percent.
+    /thrpt:.*elem/ {
         line = $0
         sub(/.*\[/, "", line)
         split(line, words, " ")
