@@ -242,7 +242,10 @@ def main():
     files = sorted((name, folder) for folder in folders for name in os.listdir(folder) if name.endswith(".png"))
     images = [(os.path.splitext(name)[0], Image.open(os.path.join(folder, name))) for name, folder in files]
     version = subprocess.run(["potrace", "--version"], capture_output=True, text=True).stdout.split("\n")[0].split(". ")[0]
-    print(f"# Tracings beside potrace\n\n{os.cpu_count()} cores, {platform.machine()}, load {os.getloadavg()[0]:.1f}; {version}.\n")
+    here = os.path.dirname(os.path.abspath(__file__))
+    code = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=here, capture_output=True, text=True).stdout.strip()
+    machine = f"{os.cpu_count()} cores, {platform.machine()}, load {os.getloadavg()[0]:.1f}"
+    print(f"# Tracings beside potrace\n\n{machine}; {version}; code: {code or 'unknown'}.\n")
     print("## What is found\n")
     print("| bitmap | policy | paths, ours / potrace | outlines alike | nodes, ours / potrace | pixels that differ |")
     print("|---|---|---:|---:|---:|---:|")

@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::error::StyleError;
 use crate::nearest::nearest;
@@ -95,13 +95,13 @@ impl Style {
         let mut regions: Vec<IdRegion> = named
             .map(|id| IdRegion::new(id.color, Some(&id.name)))
             .collect();
-        let mut known: BTreeMap<[u8; 3], ()> = regions.iter().map(|r| (r.color, ())).collect();
+        let mut known: BTreeSet<[u8; 3]> = regions.iter().map(|region| region.color).collect();
         let colors = self
             .rule
             .iter()
             .filter_map(|rule| color_of(&rule.matching.id));
         for region in colors.map(|color| IdRegion::new(color, None)) {
-            if known.insert(region.color, ()).is_none() {
+            if known.insert(region.color) {
                 regions.push(region);
             }
         }

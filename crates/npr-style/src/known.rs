@@ -129,6 +129,7 @@ impl Layers<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::backdrop::Minding;
     use crate::compose::Compose;
     use crate::lighting::Lights;
     use crate::ramp::Level;
@@ -202,7 +203,10 @@ mod tests {
             };
             let known = layers.known(&triangles[0]);
             let corners = layers.corners_of(&triangles[0]);
-            let shade = |known: &Known| layers.shade(1, members, [4.5, 3.5], known, &corners);
+            let shade = |known: &Known| {
+                let minding = &mut Minding::default();
+                layers.shade(1, members, [4.5, 3.5], known, &corners, minding)
+            };
             let with = known.whole().unwrap_or_else(|| shade(&known));
             let without = shade(&Known::default());
             prop_assert!((0..3).all(|i| (with[i] - without[i]).abs() < 1e-4), "{with:?}, not {without:?}: {known:?}");

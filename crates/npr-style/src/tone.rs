@@ -191,7 +191,8 @@ impl<'a> Layers<'a> {
             && (part.softness >= GENTLE || part.ramp[1][3] >= Level::UNUSED)
     }
 
-    /// Light of triangle `id`, which the samples in `members` show; `known` is what is known of it.
+    /// Light of triangle `id`, which the samples in `members` show; `known` is what is known of it, and `minding` keeps what lines
+    /// were told before.
     pub(crate) fn shade(
         &self,
         id: u32,
@@ -199,6 +200,7 @@ impl<'a> Layers<'a> {
         frame_px: [f32; 2],
         known: &Known,
         corners: &Corners<'_>,
+        minding: &mut Minding,
     ) -> [f32; 3] {
         let triangle = &self.triangles[((id & ID_MASK) - 1) as usize];
         let part = &self.parts[triangle.part as usize];
@@ -226,7 +228,7 @@ impl<'a> Layers<'a> {
             is_hull: false,
         };
         let line = self.line_light(triangle, part, corners, &place);
-        let line = self.minded(&mut Minding::default(), line, frame_px);
+        let line = self.minded(minding, line, frame_px);
         std::array::from_fn(|i| drawn[i] + (line[i] - drawn[i]) * sampled.line)
     }
 

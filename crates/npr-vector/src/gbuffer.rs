@@ -119,6 +119,7 @@ impl Surfaces<'_> {
 mod tests {
     use super::*;
     use npr_core::camera::{Camera, Projection};
+    use npr_core::surface::apply_point;
     use proptest::prelude::*;
 
     fn plane_seen(projection: Projection, corners: [[f32; 3]; 3]) -> Vec<GPixel> {
@@ -130,18 +131,12 @@ mod tests {
             projection,
         };
         let view = camera.view(size, ([-4.0; 3], [4.0; 3]));
-        let posed = corners.map(|world| {
-            let m = view.clip_from_world;
-            let clip = std::array::from_fn(|i| {
-                m[0][i] * world[0] + m[1][i] * world[1] + m[2][i] * world[2] + m[3][i]
-            });
-            PosedVertex {
-                clip,
-                world,
-                depth: 5.0 - world[2],
-                normal: [0.0, 0.0, 1.0],
-                half_width: 1.0,
-            }
+        let posed = corners.map(|world| PosedVertex {
+            clip: apply_point(&view.clip_from_world, world),
+            world,
+            depth: 5.0 - world[2],
+            normal: [0.0, 0.0, 1.0],
+            half_width: 1.0,
         });
         let window = Window::over([16.0; 2], [0.0; 2], [16.0; 2], size);
         let triangles = [Triangle {

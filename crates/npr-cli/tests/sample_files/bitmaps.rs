@@ -1,8 +1,7 @@
 //! Every sample bitmap is traced, to the pixel.
 
-use crate::files::samples;
+use crate::files::{samples, written};
 use std::path::Path;
-use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// Longest time that a run may take, on a busy machine too.
@@ -83,18 +82,10 @@ fn edge_cases_give_their_shapes() {
 /// What the command writes for a bitmap; a word on standard error is a fault.
 fn traced(file: &Path, options: &[&str]) -> String {
     let start = Instant::now();
-    let output = Command::new(env!("CARGO_BIN_EXE_npr"))
-        .args(["trace", "-o", "-"])
-        .args(options)
-        .arg(file)
-        .stdin(Stdio::null())
-        .output()
-        .expect("it starts");
+    let text = written(&[&["trace"], options].concat(), file);
     let name = file.display();
-    assert_eq!(String::from_utf8_lossy(&output.stderr), "", "{name}");
-    assert_eq!(output.status.code(), Some(0), "{name}");
     assert!(start.elapsed() < TIME_LIMIT, "{name} {options:?}");
-    String::from_utf8(output.stdout).expect("text")
+    String::from_utf8(text).expect("text")
 }
 
 /// Size and number of paths of an SVG file, which has to be well-formed.

@@ -1,6 +1,7 @@
 //! Scene files that lie beside the checkout.
 
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 
 /// Extensions of scenes that are read.
 pub const SCENES: [&str; 6] = ["gltf", "glb", "vrm", "obj", "stl", "ply"];
@@ -38,4 +39,19 @@ pub fn samples(folder: &str, extensions: &[&str]) -> Vec<PathBuf> {
     }
     files.sort();
     files
+}
+
+/// What the command writes to standard output for a sound file; a word on standard error is a fault.
+pub fn written(arguments: &[&str], file: &Path) -> Vec<u8> {
+    let output = Command::new(env!("CARGO_BIN_EXE_npr"))
+        .args(arguments)
+        .args(["-o", "-"])
+        .arg(file)
+        .stdin(Stdio::null())
+        .output()
+        .expect("it starts");
+    let name = file.display();
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "", "{name}");
+    assert_eq!(output.status.code(), Some(0), "{name}");
+    output.stdout
 }

@@ -1,22 +1,14 @@
 //! Every sample model gives a line drawing.
 
-use crate::files::{SCENES, samples};
-use std::process::{Command, Stdio};
+use crate::files::{SCENES, samples, written};
 
 #[test]
 fn every_model_has_lines() {
     for file in samples("models", &SCENES) {
-        let output = Command::new(env!("CARGO_BIN_EXE_npr"))
-            .args(["lines", "--size", "320x240", "--quiet", "-o", "-"])
-            .args(["--format", "json"])
-            .arg(&file)
-            .stdin(Stdio::null())
-            .output()
-            .expect("it starts");
+        let lines = ["lines", "--size", "320x240", "--quiet", "--format", "json"];
+        let json = written(&lines, &file);
         let name = file.display();
-        assert_eq!(String::from_utf8_lossy(&output.stderr), "", "{name}");
-        assert_eq!(output.status.code(), Some(0), "{name}");
-        let data: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let data: serde_json::Value = serde_json::from_slice(&json).expect("JSON");
         let strokes = data["strokes"].as_array().expect("a list");
         assert!(!strokes.is_empty(), "{name} has no lines");
         let inside = |point: &serde_json::Value| {

@@ -10,8 +10,10 @@ use npr_core::budget::Budget;
 use npr_core::color::srgb_from_linear;
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
+use npr_core::surface::dot;
 use npr_core::texture;
 use npr_core::window::View;
+use npr_style::compose::LUMA;
 use npr_vector::draw::{LineSettings, Prepared, StrokeLook};
 use npr_vector::graph::CurveNode;
 use npr_vector::image_line::{BYTES_PER_PIXEL, ImageScene, PaintedRule, SurfacePicture, painted};
@@ -67,10 +69,7 @@ impl LineModel {
             let lines = picture.lines(&all, None);
             let lightness = lightness(&self.shape, map, (&of_frame, view.projector), &picture);
             let mut ink = painted(&picture, &lightness, &lines, &PaintedRule::default());
-            ink.retain(|pixel| {
-                veil.as_ref()
-                    .is_none_or(|veil| veil[pixel] <= picture.depths[pixel])
-            });
+            ink.retain(|pixel| picture.is_clear(veil.as_deref(), pixel));
             strokes.extend(ink.strokes(on, settings, look)?);
         }
         Ok(strokes)
@@ -98,8 +97,8 @@ fn lightness(
         };
         let footprint = per_unit * view.pixel_at(surface.depth);
         let [r, g, b, alpha] = texture::sample(map.textures.words(), start, uv, footprint);
-        // Rec. 709; what is clear shows paper.
-        let light = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        // What is clear shows paper.
+        let light = dot(LUMA, [r, g, b]);
         srgb_from_linear((light * alpha + 1.0 - alpha).clamp(0.0, 1.0))
     };
     pixels.map(at).collect()

@@ -213,7 +213,9 @@ impl<'a> Composer<'a> {
             return color;
         }
         let corners = self.corners(id);
-        self.layers.shade(id, members, frame_px, known, &corners)
+        let minding = &mut self.minding;
+        self.layers
+            .shade(id, members, frame_px, known, &corners, minding)
     }
 
     /// The corners of a triangle.

@@ -11,6 +11,7 @@ use npr_core::geometry::{GPixel, NONE, Part, PosedVertex, Triangle};
 use npr_core::outline::{MASK_OWNER, MASK_SIDE, Outline};
 use npr_core::raster::triangle_of;
 use npr_core::shape::Shape;
+use npr_core::surface::{apply_point, dot};
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
 
@@ -121,21 +122,30 @@ impl SurfacePicture {
         for (pixel, bits) in (0..).zip(&mask) {
             let kind = kind_of(*bits);
             let is_owner = bits & MASK_OWNER != 0 && kind & scene.kinds != 0;
-            let depth = self.depths[pixel as usize];
-            let is_veiled = veil.is_some_and(|veil| veil[pixel as usize] > depth);
-            if is_owner && !is_veiled {
+            if is_owner && self.is_clear(veil, pixel as usize) {
                 ink.add(pixel, kind, bits / MASK_SIDE);
             }
         }
         if scene.kinds & CurveNode::CREASE != 0 {
-            self.add_grazing_creases(scene, &mask, &mut ink);
+            self.add_grazing_creases(scene, &mask, veil, &mut ink);
         }
         ink
     }
 
+    /// Whether nothing of a veil (reversed depths, where given) lies before a pixel.
+    pub fn is_clear(&self, veil: Option<&[f32]>, pixel: usize) -> bool {
+        veil.is_none_or(|veil| veil[pixel] <= self.depths[pixel])
+    }
+
     /// Marks creases beside faces that turn away steeply, which detection leaves out because normals of smooth surfaces differ there too:
     /// where two pixels show faces that share a sharp edge.
-    fn add_grazing_creases(&self, scene: &ImageScene<'_>, mask: &[u32], ink: &mut LineInk) {
+    fn add_grazing_creases(
+        &self,
+        scene: &ImageScene<'_>,
+        mask: &[u32],
+        veil: Option<&[f32]>,
+        ink: &mut LineInk,
+    ) {
         let width = self.size[0] as usize;
         let is_unowned = |pixel: usize| mask.get(pixel) == Some(&Outline::NORMAL);
         for pixel in (0..mask.len()).filter(|pixel| is_unowned(*pixel)) {
@@ -152,7 +162,8 @@ impl SurfacePicture {
                 } else {
                     (other, back)
                 };
-                if scene.is_drawn.get(self.pixels[owner].part as usize) != Some(&false) {
+                let is_drawn = scene.is_drawn.get(self.pixels[owner].part as usize);
+                if is_drawn != Some(&false) && self.is_clear(veil, owner) {
                     ink.add(owner as u32, CurveNode::CREASE, 1 << side);
                 }
             }
@@ -187,11 +198,6 @@ fn kind_of(mask: u32) -> u32 {
     }
 }
 
-fn clip_of(view: &View, [x, y, z]: [f32; 3]) -> [f32; 4] {
-    let m = &view.clip_from_world;
-    std::array::from_fn(|i| m[0][i] * x + m[1][i] * y + m[2][i] * z + m[3][i])
-}
-
 /// The surface under every pixel, of the faces that are seen.
 fn resolved(scene: &ImageScene<'_>, faces: &[u32]) -> Vec<GPixel> {
     let mut seen: Vec<u32> = faces.iter().copied().filter(|face| *face != NONE).collect();
@@ -201,11 +207,11 @@ fn resolved(scene: &ImageScene<'_>, faces: &[u32]) -> Vec<GPixel> {
     let corner = |face: u32, k: usize| {
         let world = shape.positions[shape.faces[face as usize][k] as usize];
         let eye = scene.view.eye_world;
-        let away = [0, 1, 2].map(|i| (world[i] - eye[i]) * scene.view.forward_world[i]);
+        let away = [0, 1, 2].map(|i| world[i] - eye[i]);
         PosedVertex {
-            clip: clip_of(scene.view, world),
+            clip: apply_point(&scene.view.clip_from_world, world),
             world,
-            depth: away[0] + away[1] + away[2],
+            depth: dot(away, scene.view.forward_world),
             normal: scene.normals.normal(3 * face + k as u32),
             half_width: 0.5,
         }

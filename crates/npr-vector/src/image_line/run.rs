@@ -92,13 +92,13 @@ impl Maker<'_> {
         let places = stroke.points.iter().map(|point| point.place);
         let mut found: Vec<Found> = places.filter_map(|place| self.found(place)).collect();
         found.dedup_by(|a, b| a.point.place == b.point.place);
-        let mut parts = parts(&found.iter().map(|at| at.label).collect::<Vec<_>>());
+        let mut parts = parts(&found);
         let is_whole = parts.len() == 1;
         if stroke.closed && !is_whole {
             // Around the seam a part goes on.
             let start = parts.first().map_or(0, |part| part.1);
             found.rotate_left(start);
-            parts = self::parts(&found.iter().map(|at| at.label).collect::<Vec<_>>());
+            parts = self::parts(&found);
         }
         let count = found.len();
         let runs = parts.into_iter().filter_map(|(from, to, label)| {
@@ -176,19 +176,20 @@ impl Maker<'_> {
 }
 
 /// Stretches of equal labels, as first, end and label; short ones belong to what is before them, or else after.
-fn parts(labels: &[[u32; 2]]) -> Vec<(usize, usize, [u32; 2])> {
+fn parts(found: &[Found]) -> Vec<(usize, usize, [u32; 2])> {
     let mut parts: Vec<(usize, usize, [u32; 2])> = Vec::new();
-    for stretch in labels.chunk_by(|a, b| a == b) {
+    for stretch in found.chunk_by(|a, b| a.label == b.label) {
+        let own = stretch[0].label;
         let from = parts.last().map_or(0, |part| part.1);
         let to = from + stretch.len();
         match parts.last_mut() {
             Some((first, last, label)) if *last - *first < LEAST_PART => {
-                (*last, *label) = (to, stretch[0]);
+                (*last, *label) = (to, own);
             }
-            Some((_, last, label)) if stretch.len() < LEAST_PART || *label == stretch[0] => {
+            Some((_, last, label)) if stretch.len() < LEAST_PART || *label == own => {
                 *last = to;
             }
-            _ => parts.push((from, to, stretch[0])),
+            _ => parts.push((from, to, own)),
         }
     }
     parts

@@ -87,18 +87,32 @@ fn length_of(strokes: &[Stroke], kind: Kind) -> f64 {
 fn the_outline_of_a_ball_is_one_closed_stroke_on_its_edge() {
     let ball = shape_of(&uv_sphere(96, 48));
     let view = Projection::Parallel { height: 3.0 };
-    let found = Subject::new(ball, [0.0, 0.0, 6.0], view, [400, 300]).strokes();
+    let subject = Subject::new(ball, [0.0, 0.0, 6.0], view, [400, 300]);
+    let of_world = |[x, y, _]: [f64; 3]| 100.0 * glam::DVec2::new(x, -y);
+    let middle = glam::DVec2::new(200.0, 150.0);
+
+    // What is found lies where the picture shows it.
+    let picture = SurfacePicture::new(&subject.scene());
+    let ink = picture.lines(&subject.scene(), None);
+    let runs = ink.runs(&subject.scene(), &subject.projector, &picture);
+    for point in runs
+        .expect("a small picture")
+        .iter()
+        .flat_map(|run| &run.points)
+    {
+        let off = glam::DVec2::from(point.place) - middle - of_world(point.world.to_array());
+        assert!(off.length() < 0.01, "{point:?}");
+    }
+
+    let found = subject.strokes();
     assert_eq!(found.len(), 1);
     assert!(found[0].closed && found[0].kind == Kind::Contour);
     for point in &found[0].points {
-        let place = glam::DVec2::from(point.position) - glam::DVec2::new(200.0, 150.0);
+        let place = glam::DVec2::from(point.position) - middle;
         assert!((place.length() - 100.0).abs() < 0.8, "{point:?}");
-        let [x, y, _] = point.world.map(f64::from);
         // Smoothing moves places, not what they were found on: by less than the stairs of pixels.
-        assert!(
-            (place - 100.0 * glam::DVec2::new(x, -y)).length() < 0.5,
-            "{point:?}"
-        );
+        let off = place - of_world(point.world.map(f64::from));
+        assert!(off.length() < 0.5, "{point:?}");
         assert!((point.depth - 6.0).abs() < 0.5, "{point:?}");
     }
     let around = 100.0 * std::f64::consts::TAU;
@@ -157,6 +171,23 @@ fn only_the_kinds_asked_for_are_found() {
     assert!(!found.is_empty() && found.iter().all(|stroke| stroke.kind == Kind::Crease));
     cube.kinds = CurveNode::MATERIAL;
     assert_eq!(cube.strokes(), []);
+}
+
+/// One face of the cube turns away steeply, so that its creases are found by its edges.
+#[test]
+fn nothing_is_found_behind_a_veil() {
+    let view = Projection::Perspective { fov_y: 0.8 };
+    let cube = Subject::new(shape_of(&cube()), [1.2, 4.0, 5.0], view, [400, 300]);
+    let picture = SurfacePicture::new(&cube.scene());
+    let count = |veil: Option<&[f32]>| {
+        let ink = picture.lines(&cube.scene(), veil);
+        let places = (0..300).flat_map(|y| (0..400).map(move |x| (x, y)));
+        places.filter(|(x, y)| ink.is_ink(*x, *y)).count()
+    };
+    let near = vec![f32::MAX; picture.depths.len()];
+    assert_eq!(count(Some(&near)), 0);
+    assert!(count(None) > 500);
+    assert_eq!(count(Some(&picture.depths)), count(None));
 }
 
 /// A wall that fills the picture, with a dark line 3 pixels wide across it and a dark square.

@@ -6,6 +6,7 @@
 use super::edge::DrawnEdge;
 use bytemuck::{Pod, Zeroable};
 use npr_core::gpu_layout;
+use npr_core::surface::apply_point;
 use npr_core::window::View;
 use rayon::prelude::*;
 
@@ -227,9 +228,8 @@ impl Drawn<'_> {
 
     /// Clip position of a vertex.
     fn clip(&self, vertex: u32) -> [f32; 4] {
-        let [x, y, z] = std::array::from_fn(|i| self.positions[3 * vertex as usize + i]);
-        let m = &self.view.clip_from_world;
-        std::array::from_fn(|i| m[0][i] * x + m[1][i] * y + m[2][i] * z + m[3][i])
+        let position = std::array::from_fn(|i| self.positions[3 * vertex as usize + i]);
+        apply_point(&self.view.clip_from_world, position)
     }
 
     /// Place on the fine grid and reversed depth of a clip position.

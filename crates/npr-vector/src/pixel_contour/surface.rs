@@ -5,6 +5,7 @@ use crate::contour::steps::HalfEdge;
 use npr_core::geometry::{Part, Triangle};
 use npr_core::raster::{Fill, Sides, fill_triangles};
 use npr_core::shape::Shape;
+use npr_core::surface::apply_point;
 use npr_core::window::{View, Window};
 
 /// Reversed depth of the surface at every pixel, 0 where there is none: what lines are tested against.
@@ -50,17 +51,13 @@ pub(crate) fn fill(
             part: 0,
         })
         .collect();
-    let m = &view.clip_from_world;
     let fill = Fill {
         window: &Window::over(frame_px, [0.0; 2], frame_px, view.size),
         triangles: &triangles,
         parts: &[Part::default()],
         sides: Sides::Both,
         id_bits: 0,
-        clip_of: |vertex: u32| {
-            let [x, y, z] = position(vertex);
-            std::array::from_fn(|i| m[0][i] * x + m[1][i] * y + m[2][i] * z + m[3][i])
-        },
+        clip_of: |vertex: u32| apply_point(&view.clip_from_world, position(vertex)),
         keep: |_, _, _| true,
     };
     let (mut ids, mut depths) = (vec![0; count], vec![0; count]);
