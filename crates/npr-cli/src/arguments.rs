@@ -2,6 +2,7 @@
 
 mod byte_count;
 mod camera;
+mod deferred;
 mod drawing;
 mod limits;
 mod lines;
@@ -14,6 +15,7 @@ mod trace_form;
 mod volume;
 
 pub use camera::CameraArguments;
+pub use deferred::Deferred;
 pub use drawing::{Backend, DrawingArguments, TimingsForm};
 pub use limits::LimitArguments;
 pub use lines::{
@@ -47,21 +49,21 @@ pub enum Command {
     ///
     /// Without options, `npr render model.glb` draws the model from three quarters above in the style
     /// `toon` and writes model.png into the current folder.
-    Render(Box<RenderArguments>),
+    Render(Box<Deferred<RenderArguments>>),
     /// Draw only the lines of a scene, as curves.
     ///
     /// Without options, `npr lines model.glb` draws the model from three quarters above and writes model.svg
     /// into the current folder.
-    Lines(Box<LinesArguments>),
+    Lines(Box<Deferred<LinesArguments>>),
     /// Draw cartoon smoke: from a built-in simulation, a volume file, or a series of them.
     ///
     /// Without options, `npr smoke plume` lets a plume rise and writes plume.png into the current folder;
     /// `npr smoke plume --frames 1..96 -o smoke_####.png` draws the film.
-    Smoke(Box<SmokeArguments>),
+    Smoke(Box<Deferred<SmokeArguments>>),
     /// Trace bitmaps: turn black and white pictures into curves, by the method of Potrace.
     ///
     /// Without options, `npr trace drawing.png` writes drawing.svg into the current folder.
-    Trace(Box<TraceArguments>),
+    Trace(Box<Deferred<TraceArguments>>),
     /// Tell what is in a file, what of it is drawn, and what is ignored and why.
     Info(InfoArguments),
     /// List, show and check styles.
@@ -86,6 +88,20 @@ pub enum Command {
         /// The shell it is for.
         shell: Shell,
     },
+}
+
+impl Command {
+    /// Whether doing it may open a graphics device.
+    pub fn may_open_device(&self) -> bool {
+        let backend = match self {
+            Self::Render(arguments) => arguments.0.drawing.backend,
+            Self::Lines(arguments) => arguments.0.drawing.backend,
+            Self::Smoke(arguments) => arguments.0.drawing.backend,
+            Self::Doctor { .. } => return true,
+            _ => return false,
+        };
+        backend != Backend::Cpu
+    }
 }
 
 /// What the user said to `npr info`.
@@ -122,4 +138,33 @@ pub enum StylesCommand {
     },
     /// Print the JSON Schema of style files, for editors.
     Schema,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn devices_are_opened_for_pictures_only_and_not_where_the_processor_draws() {
+        let may_open = |line: &str| {
+            let arguments = Arguments::try_parse_from(line.split(' ')).expect("a right line");
+            arguments.command.may_open_device()
+        };
+        assert!(may_open("npr render a.glb") && may_open("npr doctor"));
+        assert!(may_open("npr smoke plume --backend gpu"));
+        assert!(!may_open("npr lines a.glb --backend cpu"));
+        assert!(!may_open("npr trace a.png") && !may_open("npr info a.glb"));
+    }
+
+    #[test]
+    fn commands_say_what_they_do() {
+        let mut command = <Arguments as clap::CommandFactory>::command();
+        command.build();
+        for name in ["render", "lines", "smoke", "trace"] {
+            let found = command.find_subcommand(name).expect("a command");
+            let long = found.get_long_about().map(ToString::to_string);
+            assert!(long.is_some_and(|text| text.contains("Without options, `npr ")));
+            assert!(found.get_arguments().count() > 10);
+        }
+    }
 }

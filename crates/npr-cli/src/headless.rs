@@ -9,7 +9,7 @@ const SELECTION_OFF: &str = "NODEVICE_SELECT";
 /// The layer complains of a missing display before it says anything useful, and only an environment set before the
 /// process starts silences it. Where the program cannot be started again, it goes on as it is.
 #[cfg(target_os = "linux")]
-pub(crate) fn quiet_drivers() {
+pub fn quiet_drivers() {
     use std::os::unix::process::CommandExt;
 
     let has_display = std::env::var_os("XDG_RUNTIME_DIR").is_some();
@@ -27,4 +27,4 @@ pub(crate) fn quiet_drivers() {
 
 /// Other systems have no such layer.
 #[cfg(not(target_os = "linux"))]
-pub(crate) fn quiet_drivers() {}
+pub fn quiet_drivers() {}

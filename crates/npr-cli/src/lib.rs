@@ -58,10 +58,21 @@ use std::process::ExitCode;
 /// 0 done, 1 failed while working, 2 command line or style file wrong, 3 input invalid or unsupported,
 /// 4 no graphics device, 5 a safety limit hit; an interrupt ends the process with 130. Takes over the
 /// process's signals for interruption, so it is called once.
-pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    interrupt::install();
+///
+/// `before_devices` is called before anything else is done for a command that may open a graphics device.
+pub fn run(
+    arguments: impl IntoIterator<Item = OsString>,
+    before_devices: impl FnOnce(),
+) -> ExitCode {
     let done = match Arguments::try_parse_from(arguments) {
-        Ok(arguments) => obey(arguments.command),
+        Ok(arguments) => {
+            if arguments.command.may_open_device() {
+                before_devices();
+            }
+            interrupt::install();
+            join_workers();
+            obey(arguments.command)
+        }
         Err(error) if !error.use_stderr() => output::print(error.render().to_string().as_bytes()),
         Err(error) => Err(Fault::new(Exit::Usage, message::of_usage(&error))),
     };
@@ -79,12 +90,21 @@ pub fn command() -> clap::Command {
     Arguments::command()
 }
 
+/// Makes this thread one of those that share parallel work, so that one thread less is started.
+///
+/// Where workers cannot be started, parallel work says so when it comes.
+fn join_workers() {
+    let _ = rayon::ThreadPoolBuilder::new()
+        .use_current_thread()
+        .build_global();
+}
+
 fn obey(command: Command) -> Result<(), Fault> {
     match command {
-        Command::Render(arguments) => render::render(&arguments),
-        Command::Lines(arguments) => lines::lines(&arguments),
-        Command::Smoke(arguments) => smoke::smoke(&arguments),
-        Command::Trace(arguments) => trace::trace(&arguments),
+        Command::Render(arguments) => render::render(&arguments.0),
+        Command::Lines(arguments) => lines::lines(&arguments.0),
+        Command::Smoke(arguments) => smoke::smoke(&arguments.0),
+        Command::Trace(arguments) => trace::trace(&arguments.0),
         Command::Info(arguments) => info::info(&arguments),
         Command::Styles { command } => styles::styles(&command),
         Command::Doctor { json } => doctor::doctor(json),

@@ -5,6 +5,5 @@ mod headless;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    headless::quiet_drivers();
-    npr_cli::run(std::env::args_os())
+    npr_cli::run(std::env::args_os(), headless::quiet_drivers)
 }

@@ -25,7 +25,10 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
             bar.set_style(style);
         }
-        bar.enable_steady_tick(TICK);
+        // Ticks cost a thread.
+        if !bar.is_hidden() {
+            bar.enable_steady_tick(TICK);
+        }
         Self {
             bar,
             done: Vec::new(),

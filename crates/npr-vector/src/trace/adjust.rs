@@ -97,7 +97,11 @@ fn least_axis(xx: f64, xy: f64, yy: f64) -> DVec2 {
         DVec2::new(xy, right)
     };
     let length = (axis.x * axis.x + axis.y * axis.y).sqrt();
-    if length > 0.0 { axis / length } else { DVec2::ZERO }
+    if length > 0.0 {
+        axis / length
+    } else {
+        DVec2::ZERO
+    }
 }
 
 /// The place within half a pixel, along each axis, of the corner between two sides that is nearest to both lines.
