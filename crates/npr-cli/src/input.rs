@@ -17,11 +17,18 @@ pub fn read_file(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, Fault> {
 }
 
 fn read_regular(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, Fault> {
+    let (file, _) = regular_file(path)?;
+    read_limited(file, limit_bytes)
+}
+
+/// The regular file at `path`, and its bytes.
+pub fn regular_file(path: &Path) -> Result<(File, u64), Fault> {
     // Opening a pipe would wait for its writer, so the kind is asked first.
-    if !std::fs::metadata(path)?.is_file() {
+    let about = std::fs::metadata(path)?;
+    if !about.is_file() {
         return Err(Fault::new(Exit::Input, "it is not a regular file"));
     }
-    read_limited(File::open(path)?, limit_bytes)
+    Ok((File::open(path)?, about.len()))
 }
 
 /// All bytes of standard input, at most `limit_bytes` of them.

@@ -2,12 +2,14 @@
 
 use crate::colours::reduce;
 use crate::fault::{Exit, Fault};
+use crate::input::regular_file;
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
 use npr_core::budget::Budget;
 use npr_render::Picture;
 use npr_scene::{LimitError, Limits};
 use npr_vector::trace::{Bitmap, IndexPicture};
-use std::io::Cursor;
+use std::io::{Cursor, Read, Seek, SeekFrom};
+use std::path::Path;
 
 /// Formats of the bitmaps that are traced.
 const BITMAPS: [ImageFormat; 6] = [
@@ -18,6 +20,9 @@ const BITMAPS: [ImageFormat; 6] = [
     ImageFormat::Tiff,
     ImageFormat::Bmp,
 ];
+
+/// Bytes at most before the rows of a file that is read without being held.
+const HEAD_BYTES: u64 = 256;
 
 /// Bytes of a pixel as it is read and as it is used, up to eight and four.
 const PIXEL_BYTES: usize = 12;
@@ -63,8 +68,50 @@ pub fn decode_colours(bytes: &[u8], limits: &Limits, most: u16) -> Result<IndexP
     reduce([pixels.width(), pixels.height()], pixels.as_raw(), most)
 }
 
+/// The pixels of a file of packed rows, read without holding its bytes; none of any other file, nor of one that is too large or broken.
+pub fn read_packed(path: &Path, limits: &Limits) -> Result<Option<Bitmap>, Fault> {
+    let (mut file, length) = regular_file(path)?;
+    if length > limits.file_bytes {
+        return Ok(None);
+    }
+    let mut head = Vec::new();
+    (&mut file).take(HEAD_BYTES).read_to_end(&mut head)?;
+    let Some(head) = packed_head(&head).filter(|head| head.end().is_some_and(|end| end <= length))
+    else {
+        return Ok(None);
+    };
+    check_size(head.size, limits)?;
+    let (width, height) = head.size;
+    let mut bitmap = Bitmap::new(width, height).map_err(|error| Fault::new(Exit::Input, error))?;
+    file.seek(SeekFrom::Start(head.length))?;
+    bitmap.read_packed(file)?;
+    Ok(Some(bitmap))
+}
+
 /// Size and rows of a sound file of the format PBM with eight pixels a byte, which need no decoding.
 fn packed_rows(bytes: &[u8]) -> Option<((u32, u32), &[u8])> {
+    let head = packed_head(bytes)?;
+    let rows = bytes.get(head.length as usize..head.end()? as usize)?;
+    Some((head.size, rows))
+}
+
+/// What opens a file of the format PBM with eight pixels a byte.
+struct PackedHead {
+    size: (u32, u32),
+    /// Bytes before the rows.
+    length: u64,
+}
+
+impl PackedHead {
+    /// Bytes up to the end of the rows, if there are so many.
+    fn end(&self) -> Option<u64> {
+        let row = u64::from(self.size.0.div_ceil(8));
+        let rows = row.checked_mul(u64::from(self.size.1))?;
+        (rows > 0).then(|| self.length.checked_add(rows))?
+    }
+}
+
+fn packed_head(bytes: &[u8]) -> Option<PackedHead> {
     let mut rest = bytes.strip_prefix(b"P4")?;
     let mut sides = [0u32; 2];
     for side in &mut sides {
@@ -80,10 +127,10 @@ fn packed_rows(bytes: &[u8]) -> Option<((u32, u32), &[u8])> {
     let (_, rows) = rest
         .split_first()
         .filter(|(byte, _)| byte.is_ascii_whitespace())?;
-    let [width, height] = sides;
-    let length = (width.div_ceil(8) as usize).checked_mul(height as usize)?;
-    let rows = rows.get(..length).filter(|rows| !rows.is_empty())?;
-    Some(((width, height), rows))
+    Some(PackedHead {
+        size: (sides[0], sides[1]),
+        length: (bytes.len() - rows.len()) as u64,
+    })
 }
 
 /// What a decoder says, on one line.
@@ -166,6 +213,7 @@ fn decoder_limits(limits: &Limits) -> image::Limits {
 mod tests {
     use super::*;
     use crate::encoder::png;
+    use crate::output::Output;
 
     #[test]
     fn what_is_encoded_is_decoded_again() {
@@ -204,6 +252,47 @@ mod tests {
         ] {
             assert_eq!(packed_rows(other), None);
         }
+    }
+
+    #[test]
+    fn packed_files_are_read_as_their_bytes_are_decoded() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("rows.pbm");
+        let limits = Limits::default();
+        let read = |bytes: &[u8], limits: &Limits| {
+            let output = Output::of(&path);
+            output
+                .and_then(|output| output.write(bytes))
+                .expect("written");
+            read_packed(&path, limits)
+        };
+        let file = b"P4 9\n2\n\x80\x80\x00\x00rest";
+        let bitmap = decode_bitmap(file, &limits, 0.5).expect("sound");
+        assert!(bitmap.is_ink(8, 0));
+        assert_eq!(read(file, &limits), Ok(Some(bitmap)));
+        // Others go the longer way, which says what is wrong with them.
+        for other in [
+            &file[..10],
+            b"P4 # 9\n9 2\n1234",
+            b"P4 0 0\n",
+            b"",
+            b"P1 1 1 1",
+        ] {
+            assert_eq!(read(other, &limits), Ok(None));
+        }
+        let small = Limits {
+            file_bytes: 14,
+            ..limits
+        };
+        assert_eq!(read(file, &small), Ok(None));
+        let narrow = Limits {
+            image_side_px: 8,
+            ..limits
+        };
+        assert_eq!(
+            read(file, &narrow).map_err(|fault| fault.exit),
+            Err(Exit::Limit)
+        );
     }
 
     #[test]

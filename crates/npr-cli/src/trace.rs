@@ -24,7 +24,8 @@ pub fn trace(said: &TraceArguments) -> Result<(), Fault> {
     let limits = said.limits.limits();
     let mut progress = Progress::new(said.quiet);
     for job in &jobs {
-        draw(job, said, &limits, &mut progress)?;
+        // In the pool as a whole: every way into it waits for a thread to wake up.
+        rayon::scope(|_| draw(job, said, &limits, &mut progress))?;
     }
     progress.finish();
     Ok(())
@@ -43,21 +44,7 @@ fn draw(
     limits: &Limits,
     progress: &mut Progress,
 ) -> Result<(), Fault> {
-    let bytes = progress.step("load", || match &job.source {
-        Source::Standard => read_standard(limits.file_bytes),
-        Source::File(path) => read_file(path, limits.file_bytes),
-    })?;
-    let picture = progress.step("decode", || {
-        let picture = decoded(&bytes, said, limits).map_err(|fault| {
-            let name = match &job.source {
-                Source::Standard => "standard input".to_owned(),
-                Source::File(path) => quoted(path),
-            };
-            fault.while_doing(format_args!("cannot read {name}"))
-        });
-        drop(bytes);
-        picture
-    })?;
+    let picture = load(job, said, limits, progress)?;
     let options = said.method.options();
     // Curves are written as they come, so that few of them are in memory.
     let bytes = match (&picture, job.format.form()) {
@@ -85,17 +72,55 @@ enum Traced {
     Colours(IndexPicture),
 }
 
+impl Traced {
+    fn ink(mut bitmap: Bitmap, said: &TraceArguments) -> Self {
+        if said.method.invert {
+            bitmap.invert();
+        }
+        Self::Ink(bitmap)
+    }
+}
+
+/// Reads what is traced; packed rows without holding their bytes.
+fn load(
+    job: &TraceJob,
+    said: &TraceArguments,
+    limits: &Limits,
+    progress: &mut Progress,
+) -> Result<Traced, Fault> {
+    let name = match &job.source {
+        Source::Standard => "standard input".to_owned(),
+        Source::File(path) => quoted(path),
+    };
+    let broken = |fault: Fault| fault.while_doing(format_args!("cannot read {name}"));
+    let rows = progress.step("load", || match &job.source {
+        Source::File(path) if said.form.colours.is_none() => {
+            picture::read_packed(path, limits).map_err(&broken)
+        }
+        _ => Ok(None),
+    })?;
+    if let Some(bitmap) = rows {
+        return Ok(Traced::ink(bitmap, said));
+    }
+    let bytes = progress.step("load", || match &job.source {
+        Source::Standard => read_standard(limits.file_bytes),
+        Source::File(path) => read_file(path, limits.file_bytes),
+    })?;
+    progress.step("decode", || {
+        let picture = decoded(&bytes, said, limits).map_err(broken);
+        drop(bytes);
+        picture
+    })
+}
+
 fn decoded(bytes: &[u8], said: &TraceArguments, limits: &Limits) -> Result<Traced, Fault> {
     if let Some(most) = said.form.colours {
         return Ok(Traced::Colours(picture::decode_colours(
             bytes, limits, most,
         )?));
     }
-    let mut bitmap = picture::decode_bitmap(bytes, limits, said.method.blacklevel)?;
-    if said.method.invert {
-        bitmap.invert();
-    }
-    Ok(Traced::Ink(bitmap))
+    let bitmap = picture::decode_bitmap(bytes, limits, said.method.blacklevel)?;
+    Ok(Traced::ink(bitmap, said))
 }
 
 /// Centre lines or triangles found in a bitmap, as the bytes of a file.

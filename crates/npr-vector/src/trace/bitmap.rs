@@ -1,7 +1,14 @@
 //! Black and white pictures, a bit a pixel.
 
+use rayon::prelude::*;
+use std::io::{self, Read};
+use std::sync::{Mutex, PoisonError};
+
 /// Most pixels of a side; beyond it pixel edges could not be numbered.
 pub const SIDE_LIMIT: u32 = 32_768;
+
+/// Bytes that a thread reads at once: memory that is used again costs nothing, while every new page does.
+const READ_BYTES: usize = 1 << 16;
 
 /// A black and white picture: ink is 1. Outside of it all is white.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -133,18 +140,44 @@ impl Bitmap {
         check_length(width, height, row_bytes, data)?;
         let last = last_word_mask(width);
         for (row, words) in data.chunks_exact(row_bytes.max(1)).zip(bitmap.rows_mut()) {
-            for (word, bytes) in words.iter_mut().zip(row.chunks(8)) {
-                let mut eight = [0; 8];
-                for (to, byte) in eight.iter_mut().zip(bytes) {
-                    *to = byte.reverse_bits();
-                }
-                *word = u64::from_le_bytes(eight);
-            }
-            if let Some(word) = words.last_mut() {
-                *word &= last;
-            }
+            unpack_row(row, words, last);
         }
         Ok(bitmap)
+    }
+
+    /// Reads packed rows, as [`Self::from_packed`] takes them, in the place of what the picture shows.
+    ///
+    /// All threads read and unpack in turns, so that bytes need not be held; what follows the rows is not read.
+    ///
+    /// # Errors
+    ///
+    /// What `source` says, or that it ends before the rows do.
+    pub fn read_packed(&mut self, source: impl Read + Send) -> io::Result<()> {
+        let row_bytes = self.width.div_ceil(8) as usize;
+        let stride = self.row_words().max(1);
+        let row_count = (READ_BYTES / row_bytes.max(1)).max(1);
+        let last = last_word_mask(self.width);
+        let unread = Mutex::new((source, self.words.chunks_mut(row_count * stride)));
+        let read_next = |bytes: &mut Vec<u8>| {
+            let mut unread = unread.lock().unwrap_or_else(PoisonError::into_inner);
+            let (source, parts) = &mut *unread;
+            let Some(words) = parts.next() else {
+                return Ok(None);
+            };
+            bytes.resize(words.len() / stride * row_bytes, 0);
+            source.read_exact(bytes).map(|()| Some(words))
+        };
+        let threads = (0..rayon::current_num_threads()).into_par_iter();
+        threads.with_max_len(1).try_for_each(|_| {
+            let mut bytes = Vec::new();
+            while let Some(words) = read_next(&mut bytes)? {
+                let rows = bytes.chunks_exact(row_bytes);
+                for (row, words) in rows.zip(words.chunks_exact_mut(stride)) {
+                    unpack_row(row, words, last);
+                }
+            }
+            Ok(())
+        })
     }
 
     /// Pixels across.
@@ -211,6 +244,25 @@ impl Bitmap {
     }
 }
 
+/// Words of a packed row; of the last one the bits of a mask.
+fn unpack_row(row: &[u8], words: &mut [u64], last: u64) {
+    let (eights, rest) = row.as_chunks();
+    for (word, eight) in words.iter_mut().zip(eights) {
+        *word = u64::from_be_bytes(*eight).reverse_bits();
+    }
+    let Some(word) = words.last_mut() else {
+        return;
+    };
+    if !rest.is_empty() {
+        let mut eight = [0; 8];
+        for (to, byte) in eight.iter_mut().zip(rest) {
+            *to = *byte;
+        }
+        *word = u64::from_be_bytes(eight).reverse_bits();
+    }
+    *word &= last;
+}
+
 /// Bits of a row's last word that are pixels.
 fn last_word_mask(width: u32) -> u64 {
     match width % 64 {
@@ -253,6 +305,7 @@ fn level_table(black_level: f64, most: i64) -> Vec<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use npr_core::math::mix_bits;
     use proptest::prelude::*;
 
     proptest! {
@@ -289,6 +342,11 @@ mod tests {
             let row = width.div_ceil(8) as usize;
             let data = &bytes[..row * height as usize];
             let bitmap = Bitmap::from_packed(width, height, data).expect("fits");
+            let mut read = Bitmap::new(width, height).expect("small");
+            read.set(0, 0, true);
+            read.read_packed(&bytes[..]).expect("enough");
+            prop_assert_eq!(&read, &bitmap);
+            prop_assert!(read.read_packed(&data[1..]).is_err());
             for y in 0..height as usize {
                 for x in 0..width as usize {
                     let ink = data[y * row + x / 8] >> (7 - x % 8) & 1 == 1;
@@ -296,6 +354,23 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn long_rows_are_read_by_any_number_of_threads() {
+        let (width, height) = (1203, 900);
+        let bytes: Vec<u8> = (0..151 * height).map(|i| mix_bits(i) as u8).collect();
+        let plain = Bitmap::from_packed(width, height, &bytes).expect("fits");
+        for threads in [1, 3] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            let mut bitmap = Bitmap::new(width, height).expect("small");
+            let pool = pool.build().expect("threads");
+            let read = pool.install(|| bitmap.read_packed(&bytes[..]));
+            assert!(read.is_ok() && bitmap == plain, "{threads}");
+        }
+        let mut bitmap = Bitmap::new(width, height).expect("small");
+        let error = bitmap.read_packed(&bytes[1..]).expect_err("a byte less");
+        assert_eq!(error.kind(), io::ErrorKind::UnexpectedEof);
     }
 
     #[test]
