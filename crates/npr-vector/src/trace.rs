@@ -26,6 +26,7 @@
 //! ```
 
 mod adjust;
+mod batches;
 mod bitmap;
 mod colour_file;
 mod colours;
@@ -61,9 +62,10 @@ pub use polygon::optimal_polygon;
 pub use straight::straight_lengths;
 pub use turn::TurnPolicy;
 
+use batches::Batches;
 use glam::DVec2;
 use pen::Pen;
-use std::sync::mpsc;
+use std::sync::{Mutex, PoisonError, mpsc};
 
 /// How a bitmap is traced; names and defaults are those of the program Potrace.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -144,7 +146,7 @@ pub fn trace(bitmap: &Bitmap, options: &TraceOptions) -> Tracing {
 
 /// The loops of a bitmap.
 struct Found {
-    loops: Loops,
+    loops: Batches,
     /// For each the innermost around it, or [`nest::NONE`].
     parents: Vec<u32>,
 }
@@ -158,23 +160,32 @@ fn found<T: Send>(
     each: impl Fn(&mut Outliner, &Loops) -> T + Sync,
 ) -> (Found, Vec<(usize, T)>) {
     let (sender, receiver) = mpsc::channel();
+    // Their memory goes from batch to batch.
+    let idle = Mutex::new(Vec::new());
+    let idle = || idle.lock().unwrap_or_else(PoisonError::into_inner);
+    let idle = &idle;
     let each = &each;
     let found = rayon::scope(|scope| {
-        let mut loops = Loops::default();
-        for batch in Decomposition::new(bitmap, options.turn_policy, options.turd_size) {
+        let mut loops = Batches::default();
+        let mut decomposition = Decomposition::new(bitmap, options.turn_policy, options.turd_size);
+        for batch in decomposition.by_ref() {
             let first = loops.len();
-            loops.append(&batch);
+            let batch = loops.push(batch);
             if loops.step_count() > early_steps {
                 continue;
             }
             let sender = sender.clone();
             scope.spawn(move |_| {
+                let outliner = idle().pop();
+                let mut outliner = outliner.unwrap_or_else(|| Outliner::new(options));
                 // The receiver lives until all is sent.
-                let _ = sender.send((first, each(&mut Outliner::new(options), &batch)));
+                let _ = sender.send((first, each(&mut outliner, &batch)));
+                idle().push(outliner);
             });
         }
         // The other threads are at work still.
-        let parents = nest::parents([bitmap.width(), bitmap.height()], loops.iter());
+        let size = [bitmap.width(), bitmap.height()];
+        let parents = nest::parents(size, loops.iter(), decomposition.into_words());
         Found { loops, parents }
     });
     drop(sender);

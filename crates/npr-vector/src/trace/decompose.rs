@@ -4,8 +4,8 @@ use super::bitmap::Bitmap;
 use super::edges::EdgeMap;
 use super::turn::{TurnPolicy, pixels_around};
 
-/// Steps after which a batch of loops is handed on.
-const BATCH_STEPS: usize = 1 << 12;
+/// Steps after which a batch of loops is handed on: the last ones shall end at about the same time on all threads.
+const BATCH_STEPS: usize = 1 << 11;
 
 /// Directions of steps: right, up, left, down. Each is a left turn from the one before.
 pub const STEPS: [[i32; 2]; 4] = [[1, 0], [0, -1], [-1, 0], [0, 1]];
@@ -103,8 +103,14 @@ impl Loops {
         self.steps.len()
     }
 
+    /// Gives spare memory back.
+    pub(super) fn shrink(&mut self) {
+        self.heads.shrink_to_fit();
+        self.steps.shrink_to_fit();
+    }
+
     /// Puts the loops of another list behind these.
-    pub(super) fn append(&mut self, other: &Self) {
+    fn append(&mut self, other: &Self) {
         let offset = self.steps.len() as u32;
         self.steps.extend_from_slice(&other.steps);
         let moved = |head: &LoopHead| LoopHead {
@@ -136,7 +142,7 @@ pub fn decompose(bitmap: &Bitmap, policy: TurnPolicy, turd_size: u64) -> Loops {
     loops
 }
 
-/// A decomposition under way: an iterator over batches of loops, each of some thousand steps or one long loop.
+/// A decomposition under way: an iterator over batches of loops, each of some two thousand steps or one long loop.
 #[derive(Debug)]
 pub struct Decomposition<'a> {
     bitmap: &'a Bitmap,
@@ -157,6 +163,11 @@ impl<'a> Decomposition<'a> {
             map: EdgeMap::new(bitmap),
             from: [0; 2],
         }
+    }
+
+    /// The memory of its edges, which were all taken once there are no more loops: zero.
+    pub(super) fn into_words(self) -> [Vec<u64>; 2] {
+        self.map.into_words()
     }
 
     /// Follows the loop that starts at a corner; its steps are added to `steps`. Gives the area inside.
@@ -226,7 +237,10 @@ impl Iterator for Decomposition<'_> {
 
     /// The next loops that are large enough; none where there are no more.
     fn next(&mut self) -> Option<Loops> {
-        let mut batch = Loops::default();
+        let mut batch = Loops {
+            heads: Vec::new(),
+            steps: Vec::with_capacity(2 * BATCH_STEPS),
+        };
         while batch.steps.len() < BATCH_STEPS {
             let Some(start) = self.map.next_upright(self.from) else {
                 break;

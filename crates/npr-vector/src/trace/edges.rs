@@ -29,28 +29,27 @@ impl EdgeMap {
             upright: vec![0; stride * rows],
             level: vec![0; stride * rows],
         };
+        let white = vec![0; width.div_ceil(64) as usize];
         let uprights = map.upright.par_chunks_mut(stride);
         let rows = uprights.zip(map.level.par_chunks_mut(stride));
         rows.enumerate()
             .with_min_len(64)
             .for_each(|(row, (upright, level))| {
-                let Some(y) = row.checked_sub(PAD) else {
-                    return;
+                // Rows outside the picture are white.
+                let pixels = |y: Option<usize>| match y.map_or(&[][..], |y| bitmap.row(y)) {
+                    [] => &white[..],
+                    words => words,
                 };
-                let words = bitmap.row(y);
-                spread(words, upright);
-                level.copy_from_slice(upright);
-                let above = y.checked_sub(1).map_or(&[][..], |y| bitmap.row(y));
-                spread(above, level);
-                // Pixels become borders to the pixel before.
-                let mut carry = 0;
-                for word in upright {
-                    let before = *word << 1 | carry;
-                    carry = *word >> 63;
-                    *word ^= before;
+                if let Some(y) = row.checked_sub(PAD).filter(|y| *y <= height as usize) {
+                    set_row(pixels(y.checked_sub(1)), pixels(Some(y)), upright, level);
                 }
             });
         map
+    }
+
+    /// Its memory, for other maps; all zero where every edge was taken.
+    pub fn into_words(self) -> [Vec<u64>; 2] {
+        [self.upright, self.level]
     }
 
     #[inline]
@@ -126,10 +125,33 @@ impl EdgeMap {
     }
 }
 
-/// Flips what a row of pixels has of ink, where its columns stand in the map.
-fn spread(row: &[u64], to: &mut [u64]) {
-    for (i, word) in row.iter().enumerate() {
-        to[i] ^= word << PAD;
-        to[i + 1] ^= word >> (64 - PAD);
+/// Sets the edges of a row of pixels, and those between it and the row above it, which has as many words.
+fn set_row(above: &[u64], row: &[u64], upright: &mut [u64], level: &mut [u64]) {
+    // Every word of edges takes pixels of two words, the first and the last one of none besides.
+    let (Some((first_above, last_above)), Some((first, last))) = (ends(above), ends(row)) else {
+        return;
+    };
+    let mut edges = upright.iter_mut().zip(level);
+    if let Some((upright, level)) = edges.next() {
+        (*upright, *level) = edges_between([0, first_above], [0, first]);
     }
+    let pairs = above.windows(2).zip(row.windows(2));
+    for ((above, here), (upright, level)) in pairs.zip(&mut edges) {
+        (*upright, *level) = edges_between([above[0], above[1]], [here[0], here[1]]);
+    }
+    if let Some((upright, level)) = edges.next() {
+        (*upright, *level) = edges_between([last_above, 0], [last, 0]);
+    }
+}
+
+fn ends(words: &[u64]) -> Option<(u64, u64)> {
+    Some((*words.first()?, *words.last()?))
+}
+
+/// Upright and level edges of a word of the map, from two words each of the pixels above and of its own.
+#[inline]
+fn edges_between(above: [u64; 2], here: [u64; 2]) -> (u64, u64) {
+    let [pixels_above, pixels] = [above, here].map(|[a, b]| b << PAD | a >> (64 - PAD));
+    let before = here[1] << (PAD + 1) | here[0] >> (63 - PAD);
+    (pixels ^ before, pixels ^ pixels_above)
 }

@@ -61,6 +61,9 @@ pub fn trace_to_file(
     write(&outlines, size, options, format, sink)
 }
 
+/// Bytes that are handed on at once.
+const WRITTEN_BYTES: usize = 1 << 16;
+
 pub(super) fn write(
     paths: &impl Paths,
     size: [u32; 2],
@@ -68,7 +71,7 @@ pub(super) fn write(
     format: TraceFormat,
     sink: &mut dyn Write,
 ) -> io::Result<()> {
-    let mut sink = BufWriter::new(sink);
+    let mut sink = BufWriter::with_capacity(WRITTEN_BYTES, sink);
     let sheet = Sheet {
         paths,
         size,

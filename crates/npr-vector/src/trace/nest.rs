@@ -16,25 +16,26 @@ pub fn nest<'a>(
     size: [u32; 2],
     loops: impl Iterator<Item = PixelLoop<'a>> + Clone,
 ) -> Vec<Option<u32>> {
-    let parents = parents(size, loops).into_iter();
+    let parents = parents(size, loops, Default::default()).into_iter();
     parents
         .map(|parent| (parent != NONE).then_some(parent))
         .collect()
 }
 
-/// [`nest`], with [`NONE`] for none: eight bytes a loop at once, and a few bits a pixel.
+/// [`nest`], with [`NONE`] for none: eight bytes a loop at once, and two bits a pixel, in memory that may be there and is zero.
 pub(super) fn parents<'a>(
     size: [u32; 2],
     loops: impl Iterator<Item = PixelLoop<'a>> + Clone,
+    words: [Vec<u64>; 2],
 ) -> Vec<u32> {
-    let mut edges = Uprights::new(size);
+    let [edges, asked] = words.map(|words| Uprights::within(words, size));
+    let (mut edges, mut asked) = (edges, asked);
     for pixels in loops.clone() {
         for (place, _) in uprights(&pixels) {
             edges.set(place);
         }
     }
     // Ask for the edge on the left of every start.
-    let mut asked = Uprights::new(size);
     let mut count = 0;
     for pixels in loops.clone() {
         count += 1;
@@ -43,8 +44,8 @@ pub(super) fn parents<'a>(
         }
     }
     // Find whose they are, and whether the inside is on their right.
-    let ranks = asked.ranks();
-    let mut owners = vec![NONE; asked.count()];
+    let (ranks, asked_count) = asked.ranks();
+    let mut owners = vec![NONE; asked_count];
     for (number, pixels) in (0..).zip(loops.clone()) {
         for (place, is_down) in uprights(&pixels) {
             if asked.has(place)
@@ -67,6 +68,9 @@ pub(super) fn parents<'a>(
     parents
 }
 
+/// Words of a block at whose start edges are counted.
+const RANK_WORDS: usize = 8;
+
 /// The upright edges of a loop by their upper corners, and whether the loop runs down along them.
 fn uprights(pixels: &PixelLoop<'_>) -> impl Iterator<Item = ([u32; 2], bool)> {
     let steps = pixels.corners().zip(pixels.steps);
@@ -84,12 +88,12 @@ struct Uprights {
 }
 
 impl Uprights {
-    fn new([width, height]: [u32; 2]) -> Self {
+    /// None yet; in words that are zero.
+    fn within(mut bits: Vec<u64>, [width, height]: [u32; 2]) -> Self {
+        debug_assert!(bits.iter().all(|word| *word == 0), "no bit is set");
         let stride = width as usize / 64 + 1;
-        Self {
-            stride,
-            bits: vec![0; stride * height as usize],
-        }
+        bits.resize(stride * height as usize, 0);
+        Self { stride, bits }
     }
 
     fn word(&self, [x, y]: [u32; 2]) -> usize {
@@ -108,32 +112,27 @@ impl Uprights {
         word.is_some_and(|word| word >> (place[0] % 64) & 1 == 1)
     }
 
-    fn count(&self) -> usize {
-        self.bits
-            .iter()
-            .map(|word| word.count_ones() as usize)
-            .sum()
-    }
-
-    /// How many edges there are before every word.
-    fn ranks(&self) -> Vec<u32> {
+    /// How many edges there are before every block of words, and in all.
+    fn ranks(&self) -> (Vec<u32>, usize) {
         let mut before = 0;
-        let words = self.bits.iter();
-        words
-            .map(|word| {
-                let rank = before;
-                before += word.count_ones();
-                rank
-            })
-            .collect()
+        let blocks = self.bits.chunks(RANK_WORDS);
+        let ranks = blocks.map(|words| {
+            let rank = before;
+            before += ones(words);
+            rank
+        });
+        (ranks.collect(), before as usize)
     }
 
     /// How many edges there are before one.
     fn rank(&self, ranks: &[u32], place: [u32; 2]) -> usize {
         let word = self.word(place);
+        let block = word / RANK_WORDS;
         let bits = self.bits.get(word).copied().unwrap_or(0);
-        let before = (bits & ((1 << (place[0] % 64)) - 1)).count_ones();
-        ranks.get(word).map_or(0, |rank| (rank + before) as usize)
+        let inside = (bits & ((1 << (place[0] % 64)) - 1)).count_ones();
+        let before = ones(self.bits.get(block * RANK_WORDS..word).unwrap_or(&[]));
+        let rank = ranks.get(block);
+        rank.map_or(0, |rank| (rank + before + inside) as usize)
     }
 
     /// The next edge to the left in the same row.
@@ -150,4 +149,9 @@ impl Uprights {
         }
         None
     }
+}
+
+/// Bits that are set.
+fn ones(words: &[u64]) -> u32 {
+    words.iter().map(|word| word.count_ones()).sum()
 }

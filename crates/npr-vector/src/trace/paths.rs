@@ -88,7 +88,9 @@ impl Outlines {
     ) -> Self {
         let height = f64::from(bitmap.height());
         let (found, early) = found(bitmap, options, early_steps, |outliner, batch| {
-            let mut texts = Texts::new(format, height);
+            let mut texts = Texts::new(TextPen::new(format, height), batch.len());
+            // About as much as most take, so that it need not grow.
+            texts.pen.reserve(batch.step_count());
             for pixels in batch.iter() {
                 outliner.outline(&pixels, &mut texts.pen);
                 texts.end();
@@ -147,11 +149,9 @@ pub(super) struct Texts {
 }
 
 impl Texts {
-    fn new(format: TraceFormat, height: f64) -> Self {
-        Self {
-            pen: TextPen::new(format, height),
-            ends: Vec::new(),
-        }
+    fn new(pen: TextPen, count: usize) -> Self {
+        let ends = Vec::with_capacity(count);
+        Self { pen, ends }
     }
 
     fn end(&mut self) {
@@ -200,10 +200,7 @@ pub(super) fn for_each_text(
         let pieces = late.par_chunks(PIECE_LOOPS).map_init(
             || Outliner::new(options),
             |outliner, numbers| {
-                let mut texts = Texts {
-                    pen: pen(),
-                    ends: Vec::with_capacity(numbers.len()),
-                };
+                let mut texts = Texts::new(pen(), numbers.len());
                 for number in numbers {
                     paths.draw(*number, outliner, &mut texts.pen);
                     texts.end();
@@ -211,7 +208,12 @@ pub(super) fn for_each_text(
                 texts
             },
         );
-        let pieces: Vec<Texts> = pieces.collect();
+        // Without work the other threads need not wake up.
+        let pieces: Vec<Texts> = if late.is_empty() {
+            Vec::new()
+        } else {
+            pieces.collect()
+        };
         let mut drawn_late = pieces
             .iter()
             .flat_map(|texts| (0..texts.ends.len()).filter_map(|index| texts.get(index)));

@@ -59,6 +59,10 @@ impl TextPen {
         &self.data.text
     }
 
+    pub fn reserve(&mut self, bytes: usize) {
+        self.data.text.reserve(bytes);
+    }
+
     pub fn shrink(&mut self) {
         self.data.text.shrink_to_fit();
     }

@@ -303,12 +303,36 @@ proptest! {
     }
 }
 
-#[test]
-fn only_so_many_paths_are_held_as_text() {
+/// As many loops as a bitmap of 120x90 pixels can have.
+fn chequer() -> Bitmap {
     let mut bitmap = Bitmap::new(120, 90).expect("small");
     for (x, y) in (0..120 * 90).map(|i| (i % 120, i / 120)) {
         bitmap.set(x, y, (x ^ y) & 1 == 0);
     }
+    bitmap
+}
+
+#[test]
+fn batches_are_numbered_through() {
+    let bitmap = chequer();
+    let loops = decompose(&bitmap, TurnPolicy::White, 0);
+    let mut batches = Batches::default();
+    let mut count = 0;
+    for batch in Decomposition::new(&bitmap, TurnPolicy::White, 0) {
+        batches.push(batch);
+        count += 1;
+    }
+    assert!(count > 3 && batches.iter().eq(loops.iter()));
+    assert_eq!(batches.len(), loops.len());
+    assert_eq!(batches.step_count(), loops.step_count());
+    for number in 0..=loops.len() {
+        assert_eq!(batches.get(number), loops.get(number));
+    }
+}
+
+#[test]
+fn only_so_many_paths_are_held_as_text() {
+    let bitmap = chequer();
     let options = TraceOptions {
         turd_size: 0,
         turn_policy: TurnPolicy::White,
