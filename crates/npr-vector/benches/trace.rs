@@ -75,6 +75,32 @@ fn chequers(c: &mut Criterion) {
     group.finish();
 }
 
+/// Whole tracings in pools of one and two threads: many short paths, and one long one.
+fn threads(c: &mut Criterion) {
+    for (name, draw) in [("discs", discs as fn(u32) -> Bitmap), ("spiral", spiral)] {
+        let mut group = c.benchmark_group(format!("trace threads {name}"));
+        group
+            .sample_size(10)
+            .warm_up_time(Duration::from_millis(200))
+            .measurement_time(Duration::from_millis(700));
+        for side in SIDES {
+            let bitmap = draw(side);
+            let loops = decompose(&bitmap, TurnPolicy::Minority, 2);
+            group.throughput(Throughput::Elements(steps(&loops)));
+            for threads in [1, 2] {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+                let pool = pool.build().unwrap_or_else(|error| panic!("{error}"));
+                let options = TraceOptions::default();
+                let file = || trace_to_file(&bitmap, &options, TraceFormat::Svg, &mut sink());
+                group.bench_function(BenchmarkId::new(format!("file {threads}"), side), |b| {
+                    pool.install(|| b.iter(|| black_box(file()).is_ok()));
+                });
+            }
+        }
+        group.finish();
+    }
+}
+
 fn steps(loops: &Loops) -> u64 {
     loops.step_count() as u64
 }
@@ -138,5 +164,5 @@ fn stages(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, stages, chequers);
+criterion_group!(benches, stages, chequers, threads);
 criterion_main!(benches);
