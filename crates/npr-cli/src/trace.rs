@@ -47,7 +47,7 @@ fn draw(
     let picture = load(job, said, limits, progress)?;
     let options = said.method.options();
     // Curves are written as they come, so that few of them are in memory.
-    let bytes = match (&picture, job.format.form()) {
+    let bytes = match (picture, job.format.form()) {
         (Traced::Ink(bitmap), TracedForm::Curves(format)) if !said.form.centreline => {
             return progress.step("trace", || {
                 let output = &job.output;
@@ -57,11 +57,11 @@ fn draw(
         (Traced::Colours(picture), TracedForm::Curves(format)) => {
             return progress.step("trace", || {
                 let output = &job.output;
-                output.write_with(|sink| trace_colours_to_file(picture, &options, format, sink))
+                output.write_with(|sink| trace_colours_to_file(&picture, &options, format, sink))
             });
         }
         (Traced::Colours(_), TracedForm::Mesh(_)) => return Err(colours_are_no_mesh()),
-        (Traced::Ink(bitmap), form) => progress.step("trace", || found(bitmap, said, form))?,
+        (Traced::Ink(bitmap), form) => progress.step("trace", || found(&bitmap, said, form))?,
     };
     progress.step("write", || job.output.write(&bytes))
 }

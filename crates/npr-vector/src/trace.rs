@@ -65,6 +65,7 @@ pub use turn::TurnPolicy;
 use batches::Batches;
 use glam::DVec2;
 use pen::Pen;
+use std::borrow::Borrow;
 use std::sync::{Mutex, PoisonError, mpsc};
 
 /// How a bitmap is traced; names and defaults are those of the program Potrace.
@@ -154,7 +155,7 @@ struct Found {
 /// The loops of a bitmap, and what `each` makes of the first of them while others are still looked for: of as many batches as have no more
 /// than `early_steps` steps, with the number of each one's first loop.
 fn found<T: Send>(
-    bitmap: &Bitmap,
+    bitmap: impl Borrow<Bitmap> + Send,
     options: &TraceOptions,
     early_steps: usize,
     each: impl Fn(&mut Outliner, &Loops) -> T + Sync,
@@ -167,7 +168,9 @@ fn found<T: Send>(
     let each = &each;
     let found = rayon::scope(|scope| {
         let mut loops = Batches::default();
-        let mut decomposition = Decomposition::new(bitmap, options.turn_policy, options.turd_size);
+        let seen: &Bitmap = bitmap.borrow();
+        let size = [seen.width(), seen.height()];
+        let mut decomposition = Decomposition::new(seen, options.turn_policy, options.turd_size);
         for batch in decomposition.by_ref() {
             let first = loops.len();
             let batch = loops.push(batch);
@@ -184,8 +187,9 @@ fn found<T: Send>(
             });
         }
         // The other threads are at work still.
-        let size = [bitmap.width(), bitmap.height()];
-        let parents = nest::parents(size, loops.iter(), decomposition.into_words());
+        let words = decomposition.into_words();
+        drop(bitmap);
+        let parents = nest::parents(size, loops.iter(), words);
         Found { loops, parents }
     });
     drop(sender);

@@ -4,6 +4,7 @@ use super::paths::{EARLY_STEPS, Outlines, Paths, for_each_text, shapes};
 use super::pdf::write_page;
 use super::pen::TextPen;
 use super::{Bitmap, TraceOptions, Tracing};
+use std::borrow::Borrow;
 use std::io::{self, BufWriter, Write};
 
 /// A file format for traced bitmaps. Coordinates are pixels, to a hundredth.
@@ -45,19 +46,20 @@ pub fn write_tracing(
 }
 
 /// [`write_tracing`] of [`trace`](super::trace()), without keeping the curves: the same bytes, with some ten bytes a step of the
-/// longest path and 30 a path, and 40 MB of text at most, but for that of one path.
+/// longest path and 30 a path, and 40 MB of text at most, but for that of one path. A bitmap that is given away goes as soon as its paths are found.
 ///
 /// # Errors
 ///
 /// What `sink` says.
 pub fn trace_to_file(
-    bitmap: &Bitmap,
+    bitmap: impl Borrow<Bitmap> + Send,
     options: &TraceOptions,
     format: TraceFormat,
     sink: &mut dyn Write,
 ) -> io::Result<()> {
+    let seen: &Bitmap = bitmap.borrow();
+    let size = [seen.width(), seen.height()];
     let outlines = Outlines::of(bitmap, options, format, EARLY_STEPS);
-    let size = [bitmap.width(), bitmap.height()];
     write(&outlines, size, options, format, sink)
 }
 

@@ -4,6 +4,7 @@ use super::nest::NONE;
 use super::pen::{Pen, TextPen};
 use super::{Bitmap, Found, Outliner, TraceFormat, TraceOptions, Tracing, found};
 use rayon::prelude::*;
+use std::borrow::Borrow;
 use std::io;
 
 /// Steps of loops that are drawn while others are still looked for; of more, the text would take too much memory.
@@ -81,12 +82,12 @@ pub(super) struct Outlines {
 impl Outlines {
     /// Finds the paths of a bitmap, and draws the first of them, of so many steps.
     pub fn of(
-        bitmap: &Bitmap,
+        bitmap: impl Borrow<Bitmap> + Send,
         options: &TraceOptions,
         format: TraceFormat,
         early_steps: usize,
     ) -> Self {
-        let height = f64::from(bitmap.height());
+        let height = f64::from(bitmap.borrow().height());
         let (found, early) = found(bitmap, options, early_steps, |outliner, batch| {
             let mut texts = Texts::new(TextPen::new(format, height), batch.len());
             // About as much as most take, so that it need not grow.
