@@ -186,7 +186,7 @@ fn found<T: Send>(
                 idle().push(outliner);
             });
         }
-        // The other threads are at work still.
+        // The other threads are at work still, while its memory is given back.
         let words = decomposition.into_words();
         drop(bitmap);
         let parents = nest::parents(size, loops.iter(), words);

@@ -6,6 +6,9 @@ use rayon::prelude::*;
 /// Columns and rows of nothing around the picture, so that the 8x8 pixels around any corner can be asked for.
 const PAD: usize = 8;
 
+/// Least rows that are worth another thread.
+const LEAST_ROWS: usize = 64;
+
 /// Which sides of pixels lie between different colours; walked paths take theirs away.
 ///
 /// Corners are numbered from the top left one, `x` to the right and `y` down. An *upright* edge runs from the corner `(x, y)`
@@ -30,10 +33,12 @@ impl EdgeMap {
             level: vec![0; stride * rows],
         };
         let white = vec![0; width.div_ceil(64) as usize];
+        // A stretch for every thread, since new pages that lie close together are not given to two threads at once.
+        let least = (rows / rayon::current_num_threads()).max(LEAST_ROWS);
         let uprights = map.upright.par_chunks_mut(stride);
         let rows = uprights.zip(map.level.par_chunks_mut(stride));
         rows.enumerate()
-            .with_min_len(64)
+            .with_min_len(least)
             .for_each(|(row, (upright, level))| {
                 // Rows outside the picture are white.
                 let pixels = |y: Option<usize>| match y.map_or(&[][..], |y| bitmap.row(y)) {
