@@ -1,9 +1,9 @@
 // Which element of a scan a place belongs to. Twin: npr_vector::pixel_contour::fragment::holder_of. The shader declares `starts`.
 
-// The last element of ascending starts that is not above a value.
-fn holder_of(value: u32) -> u32 {
+// The last of the first `count` starts, which ascend, that is not above a value.
+fn holder_of(value: u32, count: u32) -> u32 {
     var low = 0u;
-    var high = arrayLength(&starts);
+    var high = min(count, arrayLength(&starts));
     while low + 1u < high {
         let middle = low + (high - low) / 2u;
         if starts[middle] <= value { low = middle; } else { high = middle; }

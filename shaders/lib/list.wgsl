@@ -61,6 +61,11 @@ fn precedes(hash: u32, node: u32, found: Reach) -> bool {
     return hash < found.hash || (hash == found.hash && node < found.least);
 }
 
+// Rounds after which chains of a number of elements are ranked: log2, rounded up.
+fn rounds_for(count: u32) -> u32 {
+    return 32u - countLeadingZeros(max(count, 1u) - 1u);
+}
+
 // What an element sees that looks on from where its reach ends: one round of loop breaking.
 fn looked_on(here: Reach, there: Reach) -> Reach {
     var reach = here;

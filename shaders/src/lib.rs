@@ -92,6 +92,8 @@ shaders! {
     VECTOR_LINK_CONTOURS = "vector/link_contours";
     /// Lets nodes of lines be ranked.
     VECTOR_LIST_NODES = "vector/list_nodes";
+    /// Sizes the passes over a list by its length.
+    VECTOR_SIZE_WORK = "vector/size_work";
     /// Sums values within blocks.
     VECTOR_SCAN_BLOCKS = "vector/scan_blocks";
     /// Adds the sums of earlier blocks.

@@ -26,7 +26,7 @@ fn main(
     @builtin(local_invocation_id) lid: vec3<u32>,
 ) {
     let element = element_index(wid, nwg, lid, WG);
-    if element >= extent[0] { return; }
+    if element >= min(extent[0], arrayLength(&reach_out)) { return; }
 
     let here = reach_in[element];
     reach_out[element] = looked_on(here, reach_in[here.far]);

@@ -22,7 +22,7 @@ fn main(
     @builtin(local_invocation_id) lid: vec3<u32>,
 ) {
     let element = element_index(wid, nwg, lid, WG);
-    if element >= extent[0] { return; }
+    if element >= min(extent[0], arrayLength(&hops_out)) { return; }
 
     hops_out[element] = cut_hop(first[element], settled[element], hops_in[element], element);
 }

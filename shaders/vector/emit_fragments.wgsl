@@ -12,9 +12,10 @@ override WG: u32 = 64u;
 
 @group(0) @binding(0) var<uniform> view: PixelView;
 @group(0) @binding(1) var<storage, read> extent: array<u32>;
-@group(0) @binding(2) var<storage, read> starts: array<u32>;
-@group(0) @binding(3) var<storage, read> segments: array<Segment>;
-@group(0) @binding(4) var<storage, read_write> fragments: array<Fragment>;
+@group(0) @binding(2) var<storage, read> segment_count: array<u32>;
+@group(0) @binding(3) var<storage, read> starts: array<u32>;
+@group(0) @binding(4) var<storage, read> segments: array<Segment>;
+@group(0) @binding(5) var<storage, read_write> fragments: array<Fragment>;
 
 //# use lib/holder
 
@@ -35,7 +36,7 @@ fn main(
 
     fragments[element].pixel = NONE;
     if element >= extent[0] { return; }
-    let number = holder_of(element);
+    let number = holder_of(element, segment_count[0]);
     let segment = segments[number];
     let step = element - starts[number];
     let extent_px = vec2<f32>(

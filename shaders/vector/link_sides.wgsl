@@ -83,7 +83,7 @@ fn main(
     links[element].prev = element;
     links[element].key = 0u;
     if element >= extent[0] { return; }
-    let pixel = holder_of(element);
+    let pixel = holder_of(element, arrayLength(&starts));
     let direction = nth_bit(masks[pixel], element - starts[pixel]);
     let at = pixel_of(pixel, textureDimensions(ink));
     sides[element] = 4u * pixel + direction;

@@ -24,7 +24,7 @@ fn main(
     @builtin(local_invocation_id) lid: vec3<u32>,
 ) {
     let element = element_index(wid, nwg, lid, WG);
-    if element >= extent[0] { return; }
+    if element >= min(extent[0], arrayLength(&hops_out)) { return; }
 
     let here = hops_in[element];
     hops_out[element] = hopped_on(here, hops_in[here.far]);

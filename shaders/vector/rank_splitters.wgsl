@@ -22,9 +22,11 @@ override WG: u32 = 64u;
 @compute @workgroup_size(WG)
 fn main(@builtin(local_invocation_id) lid: vec3<u32>) {
     let count = extent[0];
+    // More rounds would change nothing.
+    let round_count = min(rounds, rounds_for(count));
     for (var i = lid.x; i < count; i += WG) { settled[i] = first[i]; }
     storageBarrier();
-    for (var round = 0u; round < rounds; round++) {
+    for (var round = 0u; round < round_count; round++) {
         for (var i = lid.x; i < count; i += WG) { reach_scratch[i] = looked_on(settled[i], settled[settled[i].far]); }
         storageBarrier();
         for (var i = lid.x; i < count; i += WG) { settled[i] = reach_scratch[i]; }
@@ -34,7 +36,7 @@ fn main(@builtin(local_invocation_id) lid: vec3<u32>) {
     // Cut every chain at its head.
     for (var i = lid.x; i < count; i += WG) { hops[i] = cut_hop(first[i], settled[i], hops_in[i], i); }
     storageBarrier();
-    for (var round = 0u; round < rounds; round++) {
+    for (var round = 0u; round < round_count; round++) {
         for (var i = lid.x; i < count; i += WG) { hops_scratch[i] = hopped_on(hops[i], hops[hops[i].far]); }
         storageBarrier();
         for (var i = lid.x; i < count; i += WG) { hops[i] = hops_scratch[i]; }

@@ -1,5 +1,8 @@
 // vector.scan_blocks: within each workgroup, the sum of all values before; and the sum of the workgroup.
 //
+// Zeros follow the last sum up to a whole block, so that the next level may add up
+// whole blocks however many workgroups ran.
+//
 // Source  Hillis & Steele 1986
 // Twin    npr_vector::rank::scan::scan_blocks
 //
@@ -27,6 +30,12 @@ fn main(
     let is_inside = element < arrayLength(&values);
     var value = 0u;
     if is_inside { value = values[element]; }
+
+    // Each invocation of the first workgroup clears a sum that nobody writes, if it lies in the last block.
+    let group_count = nwg.x * nwg.y;
+    let behind = group_count + lid.x;
+    let is_last_block = behind / BLOCK == (group_count - 1u) / BLOCK;
+    if wid.x + wid.y == 0u && is_last_block && behind < arrayLength(&sums) { sums[behind] = 0u; }
 
     var here = 0u;
     var there = BLOCK;

@@ -21,6 +21,7 @@ mod resident;
 mod resident_pixels;
 pub mod sampling;
 pub mod sums;
+pub mod work;
 
 pub use ranking::{Scheme, rank_on};
 pub use resident::ResidentShape;

@@ -1,7 +1,9 @@
 //! A frame as data: resources, and the passes that fill them in order.
 
 use crate::pass::{Access, Format, Pass};
+use bytemuck::NoUninit;
 use npr_core::layout::GpuLayout;
+use npr_vector::rank::work::Arguments;
 
 /// A buffer or image of a graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -57,6 +59,15 @@ impl Resource {
     }
 }
 
+/// Where the engine finds how much work a node has: one of the [`Arguments`] of a buffer, which passes before it fill.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct WorkSize {
+    /// A buffer of [`Arguments`].
+    pub arguments: ResourceId,
+    /// Which of them.
+    pub index: usize,
+}
+
 /// A pass with what it binds.
 #[derive(Debug, Clone)]
 pub struct Node {
@@ -66,6 +77,8 @@ pub struct Node {
     pub bound: Vec<ResourceId>,
     /// Whether the targets are cleared to zero before drawing.
     pub clears: bool,
+    /// Where its size is found; without, it works on all elements of the slot that is counted.
+    pub size: Option<WorkSize>,
 }
 
 /// Resources and nodes, in the order in which the nodes run.
@@ -75,6 +88,7 @@ pub struct Node {
 pub struct Graph {
     resources: Vec<Resource>,
     nodes: Vec<Node>,
+    constants: Vec<(ResourceId, Vec<u32>)>,
 }
 
 impl Graph {
@@ -104,6 +118,24 @@ impl Graph {
         )
     }
 
+    /// Adds a uniform that holds `value` from the start; no host needs to write it.
+    pub fn constant<T: GpuLayout>(&mut self, name: &'static str, value: T) -> ResourceId {
+        let id = self.uniform::<T>(name);
+        self.hold(id, &[value])
+    }
+
+    /// Adds a buffer that holds `values` from the start; no host needs to write it.
+    pub fn constants<T: GpuLayout>(&mut self, name: &'static str, values: &[T]) -> ResourceId {
+        let id = self.buffer::<T>(name, values.len());
+        self.hold(id, values)
+    }
+
+    fn hold<T: NoUninit>(&mut self, id: ResourceId, values: &[T]) -> ResourceId {
+        self.constants
+            .push((id, bytemuck::cast_slice(values).to_vec()));
+        id
+    }
+
     /// Adds an image.
     pub fn image(&mut self, name: &'static str, format: Format, size: [u32; 2]) -> ResourceId {
         self.add(name, Kind::Image { format, size })
@@ -121,10 +153,25 @@ impl Graph {
     ///
     /// When `bound` does not fit the pass's slots.
     pub fn compute(&mut self, pass: &'static Pass, bound: &[ResourceId]) {
+        self.compute_sized(pass, bound, None);
+    }
+
+    /// Appends a compute pass that works on as many workgroups as `size` says when it runs, and on no more than there is room for.
+    ///
+    /// # Panics
+    ///
+    /// When `bound` does not fit the pass's slots, or `size` is no element of a buffer of [`Arguments`] or is in one that the pass writes.
+    pub fn compute_sized(
+        &mut self,
+        pass: &'static Pass,
+        bound: &[ResourceId],
+        size: Option<WorkSize>,
+    ) {
         self.push(Node {
             pass,
             bound: bound.to_vec(),
             clears: false,
+            size,
         });
     }
 
@@ -140,10 +187,26 @@ impl Graph {
         targets: &[ResourceId],
         clears: bool,
     ) {
+        self.draw_sized(pass, (bound, targets), clears, None);
+    }
+
+    /// Appends a draw pass of as many vertices as `size` says when it runs.
+    ///
+    /// # Panics
+    ///
+    /// As [`Graph::draw`] and [`Graph::compute_sized`].
+    pub fn draw_sized(
+        &mut self,
+        pass: &'static Pass,
+        (bound, targets): (&[ResourceId], &[ResourceId]),
+        clears: bool,
+        size: Option<WorkSize>,
+    ) {
         self.push(Node {
             pass,
             bound: [bound, targets].concat(),
             clears,
+            size,
         });
     }
 
@@ -182,6 +245,16 @@ impl Graph {
                 self.resource(*id).name
             );
         }
+        if let Some(WorkSize { arguments, index }) = node.size {
+            let fits = matches!(self.resource(arguments).kind, Kind::Buffer { stride, count }
+                if stride == size_of::<Arguments>() && index < count);
+            assert!(
+                fits && writes(&node).all(|id| id != arguments),
+                "pass {} cannot take its size from '{}'",
+                pass.name,
+                self.resource(arguments).name
+            );
+        }
         for id in writes(&node) {
             let uses = node.bound.iter().filter(|other| **other == id).count();
             assert_eq!(
@@ -195,6 +268,15 @@ impl Graph {
         self.nodes.push(node);
     }
 
+    /// The same graph with every pass over all that there is room for, for those who compare.
+    #[must_use]
+    pub fn without_sizes(mut self) -> Self {
+        for node in &mut self.nodes {
+            node.size = None;
+        }
+        self
+    }
+
     /// A resource by its id.
     pub fn resource(&self, id: ResourceId) -> &Resource {
         &self.resources[id.index()]
@@ -203,6 +285,11 @@ impl Graph {
     /// All resources; ids count along this.
     pub fn resources(&self) -> &[Resource] {
         &self.resources
+    }
+
+    /// Resources that hold words from the start, each with these.
+    pub(crate) fn held(&self) -> impl Iterator<Item = (ResourceId, &[u32])> {
+        self.constants.iter().map(|(id, words)| (*id, &words[..]))
     }
 
     /// All nodes in running order.
@@ -219,7 +306,7 @@ impl Graph {
         }
     }
 
-    /// The number of work items of a node: elements, or texels where an image is counted.
+    /// The number of work items that a node has room for: elements, or texels where an image is counted.
     pub fn work_count(&self, node: &Node) -> usize {
         self.element_count(node.bound[node.pass.counted_slot()])
     }

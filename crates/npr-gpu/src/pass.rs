@@ -165,6 +165,14 @@ impl Pass {
         }
     }
 
+    /// Vertices drawn for each element, none for compute passes.
+    pub fn vertices(&self) -> u32 {
+        match self.work {
+            Work::PerElement { .. } => 0,
+            Work::Draw { vertices, .. } => vertices,
+        }
+    }
+
     /// The position of the slot that counts the work.
     ///
     /// # Panics

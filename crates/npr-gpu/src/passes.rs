@@ -35,6 +35,7 @@ pub const ALL: &[&Pass] = &[
     &vector::MARK_CONTOURS,
     &vector::LINK_CONTOURS,
     &vector::LIST_NODES,
+    &vector::SIZE_WORK,
     &vector::SCAN_BLOCKS,
     &vector::SCAN_ADD,
     &vector::COMPACT,

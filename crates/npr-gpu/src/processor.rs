@@ -2,8 +2,9 @@
 
 use crate::engine::{Engine, EngineError, PassTime, Session};
 use crate::graph::Kind;
-use crate::graph::{Graph, Node, ResourceId, writes};
-use crate::pass::{Access, Bindings, Bound, Work};
+use crate::graph::{Graph, Node, ResourceId, WorkSize, writes};
+use crate::pass::{Access, Bindings, Bound, WORKGROUP_SIZE, Work};
+use npr_vector::rank::work::Arguments;
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -23,11 +24,14 @@ impl Engine for Processor {
     }
 
     fn prepare(&self, graph: Graph) -> Result<Box<dyn Session>, EngineError> {
-        let memory = graph
+        let mut memory: Vec<Vec<u32>> = graph
             .resources()
             .iter()
             .map(|resource| vec![0; resource.word_count()])
             .collect();
+        for (id, words) in graph.held() {
+            memory[id.index()].copy_from_slice(words);
+        }
         Ok(Box::new(ProcessorSession { graph, memory }))
     }
 }
@@ -60,15 +64,16 @@ impl Session for ProcessorSession {
 fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
     let start = Instant::now();
     let written: Vec<ResourceId> = writes(node).collect();
+    let work_count = work_count(graph, node, memory);
     let mut lent: Vec<Vec<u32>> = written
         .iter()
         .map(|id| std::mem::take(&mut memory[id.index()]))
         .collect();
     let fills = matches!(node.pass.work, Work::Draw { fills: true, .. });
-    if node.clears && !(fills && graph.work_count(node) > 0) {
+    if node.clears && !(fills && work_count > 0) {
         clear_targets(node, &written, &mut lent);
     }
-    if graph.work_count(node) > 0 {
+    if work_count > 0 {
         let mut free = lent.iter_mut();
         let bound = node.bound.iter().enumerate().map(|(i, id)| {
             let size = image_size(graph, *id);
@@ -78,9 +83,15 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
                 .get(i)
                 .is_some_and(|slot| slot.access != Access::Write);
             match if is_read { None } else { free.next() } {
-                Some(words) => Bound::Write { words, size },
+                Some(words) => {
+                    let end = words_for(graph, node, i, work_count);
+                    Bound::Write {
+                        words: &mut words[..end],
+                        size,
+                    }
+                }
                 None => Bound::Read {
-                    words: &memory[id.index()],
+                    words: &memory[id.index()][..words_for(graph, node, i, work_count)],
                     size,
                 },
             }
@@ -95,6 +106,38 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
     PassTime {
         name: node.pass.name,
         time: start.elapsed(),
+    }
+}
+
+/// How many work items a node has: as many as there is room for, or fewer where its size was made for less.
+fn work_count(graph: &Graph, node: &Node, memory: &[Vec<u32>]) -> usize {
+    let room = graph.work_count(node);
+    let Some(WorkSize { arguments, index }) = node.size else {
+        return room;
+    };
+    let made: &[Arguments] = bytemuck::cast_slice(&memory[arguments.index()]);
+    let Arguments { x, y, .. } = made[index];
+    let count = match node.pass.work {
+        Work::PerElement { .. } => u64::from(x) * u64::from(y) * u64::from(WORKGROUP_SIZE),
+        Work::Draw { vertices, .. } => u64::from(x / vertices.max(1)),
+    };
+    usize::try_from(count).map_or(room, |count| room.min(count))
+}
+
+/// The words of a binding that a node's work reaches: twins go as far as the slices that they are given.
+///
+/// The slot that is counted ends where the work does, and so does what is written in step with it.
+fn words_for(graph: &Graph, node: &Node, binding: usize, work_count: usize) -> usize {
+    let resource = graph.resource(node.bound[binding]);
+    let counted = node.pass.counted_slot();
+    let slot = node.pass.slots.get(binding);
+    let is_in_step = slot.is_some_and(|slot| slot.access == Access::Write)
+        && graph.element_count(node.bound[binding]) == graph.work_count(node);
+    match resource.kind {
+        Kind::Buffer { stride, .. } if binding == counted || is_in_step => {
+            (stride * work_count).div_ceil(4)
+        }
+        _ => resource.word_count(),
     }
 }
 

@@ -206,6 +206,7 @@ fn draw(
         emit_fragments(
             view,
             &[total],
+            &[(last - first) as u32],
             &starts,
             &segments[first..last],
             &mut fragments,

@@ -4,7 +4,7 @@
 //! starts, how long it is, which node comes when. [`walk()`] follows the links one by one and is what to use on a
 //! processor. [`wyllie`] and [`ruling_set`] give the same by steps in which all nodes work at once, as a graphics
 //! device does; their steps are the twins of the passes `vector.*` and are in [`jump`], [`splitter`], [`place`] and
-//! [`scan`].
+//! [`scan`]; [`work`] says how much work they have.
 //!
 //! A closed loop has no end of its own, so a head is chosen by a key that stays with a place on the mesh:
 //! the same drawing a frame later starts its loops at the same places.
@@ -25,6 +25,7 @@ pub mod splitter;
 #[cfg(test)]
 mod tests;
 mod walk;
+pub mod work;
 
 pub use jump::{rounds_for, wyllie};
 pub use splitter::{ruling_set, splitter_rounds_for};

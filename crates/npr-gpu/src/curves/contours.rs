@@ -1,10 +1,13 @@
 //! Passes that find the contours of a shape.
 
+use super::ranking::{RankedLists, Scheme, add_ranking};
 use super::sums::{Compacted, add_compact};
+use super::work::{Followers, ListWork, add_work};
 use crate::graph::{Graph, ResourceId};
 use crate::passes::vector;
 use npr_vector::contour::steps::{HalfEdge, Viewer};
 use npr_vector::graph::CurveNode;
+use npr_vector::rank::Link;
 
 /// What [`add_contours`] puts into a graph.
 #[derive(Debug, Clone, Copy)]
@@ -23,9 +26,15 @@ pub struct Contours {
     pub nodes: ResourceId,
     /// Number of nodes that there are, also where they have no room: one element.
     pub node_count: ResourceId,
+    /// How far passes over the nodes go.
+    pub work: ListWork,
+    /// The nodes in rows, where that was asked for.
+    pub lists: Option<RankedLists>,
 }
 
-/// Appends passes that find the contours of a shape and link them, with room for `capacity` nodes.
+/// Appends passes that find the contours of a shape, link them, and put them in rows where a scheme says how, with room for `capacity` nodes.
+///
+/// Passes over faces and half-edges work on all of them, those over nodes on as many as there are.
 ///
 /// Where there are more the nodes are of no use; the host runs a graph with more room. Takes 12 bytes for each half-edge besides
 /// the shape itself, and 28 for each node.
@@ -34,6 +43,7 @@ pub fn add_contours(
     vertex_count: usize,
     face_count: usize,
     capacity: usize,
+    scheme: Option<Scheme>,
 ) -> Contours {
     let viewer = graph.uniform::<Viewer>("viewer");
     let positions = graph.buffer::<f32>("positions", 3 * vertex_count);
@@ -46,14 +56,23 @@ pub fn add_contours(
     );
     let flags = graph.buffer::<u32>("contour flags", 3 * face_count);
     graph.compute(&vector::MARK_CONTOURS, &[front, half_edges, flags]);
-    let Compacted { list, count, slots } = add_compact(graph, flags, capacity);
+    let Compacted { list, count, slots } = add_compact(graph, flags, capacity, &ListWork::WHOLE);
+    let followers = scheme.map_or(Followers::default(), |scheme| scheme.followers(capacity));
+    let work = add_work(graph, count, capacity, followers);
     let nodes = graph.buffer::<CurveNode>("contour nodes", capacity);
-    graph.compute(
+    graph.compute_sized(
         &vector::LINK_CONTOURS,
         &[
             viewer, count, list, slots, flags, half_edges, positions, nodes,
         ],
+        work.elements(),
     );
+    let lists = scheme.map(|scheme| {
+        let links = graph.buffer::<Link>("links", capacity);
+        let bound = [count, nodes, links];
+        graph.compute_sized(&vector::LIST_NODES, &bound, work.elements());
+        add_ranking(graph, links, &work, scheme)
+    });
     Contours {
         viewer,
         positions,
@@ -62,5 +81,7 @@ pub fn add_contours(
         front,
         nodes,
         node_count: count,
+        work,
+        lists,
     }
 }

@@ -2,7 +2,8 @@
 
 use super::CurvesError;
 use super::ranking::{RankedLists, Scheme, add_ranking};
-use super::sums::{Compacted, add_compact, add_scan};
+use super::sums::{Compacted, Scan, add_compact, add_scan};
+use super::work::{Followers, ListWork, add_work};
 use crate::engine::Session;
 use crate::graph::{Graph, ResourceId};
 use crate::pass::Format;
@@ -99,8 +100,8 @@ pub struct PixelContours {
     pub sides: ResourceId,
     /// Number of sides: one element.
     pub side_count: ResourceId,
-    /// Sides for which there is room.
-    pub side_room: usize,
+    /// How far passes over the sides go.
+    pub side_work: ListWork,
     /// Their loops in rows.
     pub lists: RankedLists,
 }
@@ -108,7 +109,7 @@ pub struct PixelContours {
 /// Appends passes from a shape to the sides of its contours' pixels in rows, for a picture of `size` pixels.
 ///
 /// Takes 36 bytes a pixel, 4 more with a veil, 12 a fragment, and about 180 a side. Where counts exceed the room what is there is of
-/// no use; the host runs a graph with more.
+/// no use; the host runs a graph with more. Passes over edges drawn, fragments and sides work on as many as there are.
 pub fn add_pixel_contours(
     graph: &mut Graph,
     shape: &Shape,
@@ -133,14 +134,16 @@ pub fn add_pixel_contours(
         &pixels::MARK_EDGES,
         &[viewer, view, positions, front, edges, flags, marks],
     );
-    let Compacted { list, count, .. } = add_compact(graph, flags, room.segments);
+    let Compacted { list, count, .. } = add_compact(graph, flags, room.segments, &ListWork::WHOLE);
+    let drawn = add_work(graph, count, room.segments, Followers::default());
     let segments = graph.buffer::<Segment>("segments", room.segments);
     let counts = graph.buffer::<u32>("fragments of segments", room.segments);
-    graph.compute(
+    graph.compute_sized(
         &pixels::PROJECT_EDGES,
         &[view, count, list, marks, edges, positions, segments, counts],
+        drawn.elements(),
     );
-    let starts = add_scan(graph, counts);
+    let starts = add_scan(graph, counts, &drawn);
     let pixel_count = size[0] as usize * size[1] as usize;
     let surfaces = graph.image("surfaces", Format::U32, size);
     if hiding != Hiding::Given {
@@ -153,10 +156,11 @@ pub fn add_pixel_contours(
     let [owners, nearest] = add_picture(
         graph,
         (view, [surfaces, veil]),
-        (starts.total, starts.prefixes, segments),
+        (count, starts, segments),
         (size, room.fragments),
     );
-    let (sides, side_count, links) = add_sides(graph, owners, pixel_count, room.sides);
+    let (sides, side_count, links, side_work) =
+        add_sides(graph, owners, pixel_count, (room.sides, scheme));
     PixelContours {
         viewer,
         view,
@@ -172,8 +176,8 @@ pub fn add_pixel_contours(
         nearest,
         sides,
         side_count,
-        side_room: room.sides,
-        lists: add_ranking(graph, links, scheme),
+        side_work,
+        lists: add_ranking(graph, links, &side_work, scheme),
     }
 }
 
@@ -181,49 +185,53 @@ pub fn add_pixel_contours(
 fn add_picture(
     graph: &mut Graph,
     (view, [surfaces, veil]): (ResourceId, [ResourceId; 2]),
-    (total, starts, segments): (ResourceId, ResourceId, ResourceId),
+    (segment_count, starts, segments): (ResourceId, Scan, ResourceId),
     (size, room): ([u32; 2], usize),
 ) -> [ResourceId; 2] {
+    let Scan { prefixes, total } = starts;
+    let followers = Followers {
+        vertices: pixels::DRAW_NEAREST.vertices(),
+        ..Followers::default()
+    };
+    let work = add_work(graph, total, room, followers);
     let fragments = graph.buffer::<Fragment>("fragments", room);
-    graph.compute(
-        &pixels::EMIT_FRAGMENTS,
-        &[view, total, starts, segments, fragments],
-    );
+    let bound = [view, total, segment_count, prefixes, segments, fragments];
+    graph.compute_sized(&pixels::EMIT_FRAGMENTS, &bound, work.elements());
     let shown = graph.buffer::<u32>("fragments shown", room);
-    graph.compute(
-        &pixels::TEST_FRAGMENTS,
-        &[view, surfaces, veil, fragments, shown],
-    );
+    let bound = [view, surfaces, veil, fragments, shown];
+    graph.compute_sized(&pixels::TEST_FRAGMENTS, &bound, work.elements());
     let owners = graph.image("owners", Format::U32, size);
     let nearest = graph.image("nearest", Format::U32, size);
     let depths = graph.image("depths of lines", Format::Depth, size);
-    graph.draw(
+    graph.draw_sized(
         &pixels::DRAW_NEAREST,
-        &[view, fragments, shown],
-        &[owners, nearest, depths],
+        (&[view, fragments, shown], &[owners, nearest, depths]),
         true,
+        work.draw(),
     );
     [owners, nearest]
 }
 
-/// Sides of the picture's pixels, their number and their links.
+/// Sides of the picture's pixels, their number, their links, and how far passes over them go.
 fn add_sides(
     graph: &mut Graph,
     owners: ResourceId,
     pixel_count: usize,
-    room: usize,
-) -> (ResourceId, ResourceId, ResourceId) {
+    (room, scheme): (usize, Scheme),
+) -> (ResourceId, ResourceId, ResourceId, ListWork) {
     let masks = graph.buffer::<u32>("side masks", pixel_count);
     let counts = graph.buffer::<u32>("sides of pixels", pixel_count);
     graph.compute(&pixels::MARK_SIDES, &[owners, masks, counts]);
-    let starts = add_scan(graph, counts);
+    let starts = add_scan(graph, counts, &ListWork::WHOLE);
+    let work = add_work(graph, starts.total, room, scheme.followers(room));
     let sides = graph.buffer::<u32>("sides", room);
     let links = graph.buffer::<Link>("links", room);
-    graph.compute(
+    graph.compute_sized(
         &pixels::LINK_SIDES,
         &[starts.total, owners, masks, starts.prefixes, sides, links],
+        work.elements(),
     );
-    (sides, starts.total, links)
+    (sides, starts.total, links, work)
 }
 
 /// What [`add_strips`] puts into a graph.
@@ -254,6 +262,7 @@ pub struct PixelStrips {
 /// Appends passes that filter loops in rows and cut them to strips.
 pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -> PixelStrips {
     let path = path.within_limits();
+    let all = on.side_work.elements();
     let count = graph.element_count(on.sides);
     let rows = on.lists.rows;
     let spots = graph.buffer::<Spot>("spots", count);
@@ -271,14 +280,12 @@ pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -
         directions,
         areas,
     ];
-    graph.compute(&pixels::GATHER_SIDES, &bound);
-    let sums = add_scan(graph, areas).prefixes;
+    graph.compute_sized(&pixels::GATHER_SIDES, &bound, all);
+    let sums = add_scan(graph, areas, &on.side_work).prefixes;
     let speck_rule = graph.uniform::<SpeckRule>("speck rule");
     let whole = graph.buffer::<u32>("loops kept", count);
-    graph.compute(
-        &pixels::DROP_SPECKS,
-        &[speck_rule, spots, areas, sums, whole],
-    );
+    let bound = [speck_rule, spots, areas, sums, whole];
+    graph.compute_sized(&pixels::DROP_SPECKS, &bound, all);
     let radii = [
         path.smooth_radius,
         path.tangent_radius,
@@ -293,7 +300,8 @@ pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -
     let [of_places, of_tangents, of_directions, of_fit] = means;
     let smoothed = |graph: &mut Graph, [filter, weights]: [ResourceId; 2], from| {
         let to = graph.buffer::<Planar>("smoothed", count);
-        graph.compute(&pixels::SMOOTH_LOOPS, &[filter, weights, spots, from, to]);
+        let bound = [filter, weights, spots, from, to];
+        graph.compute_sized(&pixels::SMOOTH_LOOPS, &bound, all);
         to
     };
     let raw = places;
@@ -302,7 +310,8 @@ pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -
     }
     let mut tangents = graph.buffer::<Planar>("tangents", count);
     let [fit, tent] = of_fit;
-    graph.compute(&pixels::FIT_TANGENTS, &[fit, tent, spots, places, tangents]);
+    let bound = [fit, tent, spots, places, tangents];
+    graph.compute_sized(&pixels::FIT_TANGENTS, &bound, all);
     for _ in 0..path.tangent_passes {
         tangents = smoothed(graph, of_tangents, tangents);
     }
@@ -310,14 +319,14 @@ pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -
     let cull_rule = graph.uniform::<CullRule>("cull rule");
     let [culled, voted, kept] =
         ["culled", "voted", "kept"].map(|name| graph.buffer::<u32>(name, count));
-    graph.compute(
-        &pixels::CULL_SIDES,
-        &[cull_rule, tangents, directions, whole, culled],
-    );
-    graph.compute(&pixels::VOTE_SIDES, &[cull_rule, spots, culled, voted]);
-    let [strips, lengths] = add_segments(graph, spots, voted);
-    graph.compute(&pixels::DROP_SHORT, &[cull_rule, strips, lengths, kept]);
-    let [strips, lengths] = add_segments(graph, spots, kept);
+    let bound = [cull_rule, tangents, directions, whole, culled];
+    graph.compute_sized(&pixels::CULL_SIDES, &bound, all);
+    let bound = [cull_rule, spots, culled, voted];
+    graph.compute_sized(&pixels::VOTE_SIDES, &bound, all);
+    let [strips, lengths] = add_segments(graph, spots, voted, &on.side_work);
+    let bound = [cull_rule, strips, lengths, kept];
+    graph.compute_sized(&pixels::DROP_SHORT, &bound, all);
+    let [strips, lengths] = add_segments(graph, spots, kept, &on.side_work);
     PixelStrips {
         speck_rule,
         cull_rule,
@@ -333,18 +342,23 @@ pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -
 }
 
 /// Strips of kept sides, and their lengths.
-fn add_segments(graph: &mut Graph, spots: ResourceId, kept: ResourceId) -> [ResourceId; 2] {
+fn add_segments(
+    graph: &mut Graph,
+    spots: ResourceId,
+    kept: ResourceId,
+    work: &ListWork,
+) -> [ResourceId; 2] {
+    let all = work.elements();
     let count = graph.element_count(spots);
     let flags = graph.buffer::<u32>("first sides", count);
-    graph.compute(&pixels::START_STRIPS, &[spots, kept, flags]);
-    let Compacted { list, slots, .. } = add_compact(graph, flags, count);
+    graph.compute_sized(&pixels::START_STRIPS, &[spots, kept, flags], all);
+    let Compacted { list, slots, .. } = add_compact(graph, flags, count, work);
     let strips = graph.buffer::<StripSpot>("strips", count);
-    graph.compute(
-        &pixels::RANK_STRIPS,
-        &[spots, kept, flags, slots, list, strips],
-    );
+    let bound = [spots, kept, flags, slots, list, strips];
+    graph.compute_sized(&pixels::RANK_STRIPS, &bound, all);
     let lengths = graph.buffer::<u32>("lengths of strips", count);
-    graph.compute(&pixels::MEASURE_STRIPS, &[spots, kept, strips, lengths]);
+    let bound = [spots, kept, strips, lengths];
+    graph.compute_sized(&pixels::MEASURE_STRIPS, &bound, all);
     [strips, lengths]
 }
 
@@ -395,8 +409,6 @@ impl PixelContours {
         session.write(self.half_edges, bytemuck::cast_slice(&half_edges(shape)))?;
         session.write(self.judges, &judges(shape))?;
         session.write(self.edges, bytemuck::cast_slice(edges))?;
-        session.write(self.lists.node_count, &[self.side_room as u32])?;
-        session.write(self.lists.rounds, &[self.lists.round_count])?;
         Ok(())
     }
 

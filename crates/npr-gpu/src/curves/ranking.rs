@@ -2,6 +2,7 @@
 
 use super::CurvesError;
 use super::sums::{Compacted, add_compact, add_scan, add_sum};
+use super::work::{Followers, ListWork, add_work};
 use crate::engine::{Engine, Session};
 use crate::graph::{Graph, ResourceId};
 use crate::passes::vector;
@@ -41,6 +42,18 @@ impl Scheme {
         };
         asked.unwrap_or(enough).min(u32::BITS)
     }
+
+    /// What follows the length of a list with room for a number of nodes: only where all of them jump, rounds.
+    pub(super) fn followers(self, room: usize) -> Followers {
+        let rounds = match self {
+            Self::Wyllie { .. } => self.rounds(room),
+            Self::RulingSet { .. } => 0,
+        };
+        Followers {
+            rounds,
+            ..Followers::default()
+        }
+    }
 }
 
 /// Nodes up to which all rounds among splitters run in one pass.
@@ -51,11 +64,7 @@ const ONE_PASS_NODES: usize = 8192;
 /// What [`add_ranking`] leaves in a graph.
 #[derive(Debug, Clone, Copy)]
 pub struct RankedLists {
-    /// One element, which the host sets to the number of nodes before the graph runs.
-    pub node_count: ResourceId,
-    /// A uniform, which the host sets to [`RankedLists::round_count`].
-    pub rounds: ResourceId,
-    /// Rounds of pointer jumping.
+    /// Rounds of pointer jumping at most.
     pub round_count: u32,
     /// Number of nodes whose place is unknown: one element. The rows hold only where it is 0.
     pub unsettled: ResourceId,
@@ -78,28 +87,33 @@ pub struct Rows {
 
 /// Elements that jump, and how nodes hang on them.
 struct Elements {
+    work: ListWork,
     extent: ResourceId,
     first: ResourceId,
     hops: ResourceId,
     walks: ResourceId,
 }
 
-/// Appends passes that rank a buffer of [`Link`], which must be lists.
+/// Appends passes that rank a buffer of [`Link`], which must be lists as far as the work reaches. Of [`ListWork`] made for a list's
+/// length, the rounds must be those of the [scheme](Scheme) for the buffer's room, where all nodes jump.
 ///
-/// Up to 4096 nodes take 21 passes by splitters and up to 39 by Wyllie's ranking; a million take 69 and 65. About 170 bytes
-/// for each node.
-pub fn add_ranking(graph: &mut Graph, links: ResourceId, scheme: Scheme) -> RankedLists {
+/// Up to 4096 nodes take 21 passes by splitters and up to 39 by Wyllie's ranking; a million take 70 and 65. About 170 bytes
+/// for each node. Splitters are counted by a pass, and passes over them are sized by their number; rounds that change nothing are empty.
+pub fn add_ranking(
+    graph: &mut Graph,
+    links: ResourceId,
+    work: &ListWork,
+    scheme: Scheme,
+) -> RankedLists {
     let count = graph.element_count(links);
     let round_count = scheme.rounds(count);
-    let node_count = graph.buffer::<u32>("node count", 1);
-    let rounds = graph.uniform::<u32>("rounds");
-    let elements = match scheme {
-        Scheme::Wyllie { .. } => add_nodes(graph, links, node_count),
-        Scheme::RulingSet { .. } => add_splitters(graph, links),
-    };
     let is_short = matches!(scheme, Scheme::RulingSet { .. }) && count <= ONE_PASS_NODES;
+    let elements = match scheme {
+        Scheme::Wyllie { .. } => add_nodes(graph, links, work),
+        Scheme::RulingSet { .. } => add_splitters(graph, links, work, is_short, round_count),
+    };
     let (settled, hops) = if is_short {
-        add_short_ranking(graph, &elements, rounds)
+        add_short_ranking(graph, &elements, round_count)
     } else {
         let settled = add_breaking(graph, &elements, round_count);
         let hops = add_jumping(graph, &elements, settled, round_count);
@@ -108,15 +122,14 @@ pub fn add_ranking(graph: &mut Graph, links: ResourceId, scheme: Scheme) -> Rank
     let places = graph.buffer::<Place>("places", count);
     let unsettled = graph.buffer::<u32>("unsettled nodes", count);
     let Elements { first, walks, .. } = elements;
-    graph.compute(
+    graph.compute_sized(
         &vector::SCATTER_RANKS,
         &[walks, first, settled, hops, places, unsettled],
+        work.elements(),
     );
-    let unsettled = add_sum(graph, unsettled);
-    let rows = add_rows(graph, links, places);
+    let unsettled = add_sum(graph, unsettled, work);
+    let rows = add_rows(graph, links, places, work);
     RankedLists {
-        node_count,
-        rounds,
         round_count,
         unsettled,
         rows,
@@ -124,36 +137,42 @@ pub fn add_ranking(graph: &mut Graph, links: ResourceId, scheme: Scheme) -> Rank
 }
 
 /// Puts nodes whose places are known in rows.
-fn add_rows(graph: &mut Graph, links: ResourceId, places: ResourceId) -> Rows {
+fn add_rows(graph: &mut Graph, links: ResourceId, places: ResourceId, work: &ListWork) -> Rows {
+    let all = work.elements();
     let count = graph.element_count(links);
     let lengths = graph.buffer::<u32>("lengths", count);
-    graph.compute(&vector::MEASURE_CHAINS, &[links, places, lengths]);
+    graph.compute_sized(&vector::MEASURE_CHAINS, &[links, places, lengths], all);
     let standings = graph.buffer::<Standing>("standings", count);
     let sizes = graph.buffer::<u32>("sizes of chains", count);
     let heads = graph.buffer::<u32>("heads", count);
-    graph.compute(
+    graph.compute_sized(
         &vector::TURN_RANKS,
         &[places, lengths, standings, sizes, heads],
+        all,
     );
-    let starts = add_scan(graph, sizes).prefixes;
+    let starts = add_scan(graph, sizes, work).prefixes;
     let order = graph.buffer::<u32>("nodes in order", count);
-    graph.compute(&vector::ORDER_NODES, &[standings, starts, order]);
+    graph.compute_sized(&vector::ORDER_NODES, &[standings, starts, order], all);
     Rows {
         standings,
         order,
         starts,
-        chains: add_compact(graph, heads, count),
+        chains: add_compact(graph, heads, count, work),
     }
 }
 
 /// All nodes jump.
-fn add_nodes(graph: &mut Graph, links: ResourceId, extent: ResourceId) -> Elements {
+fn add_nodes(graph: &mut Graph, links: ResourceId, work: &ListWork) -> Elements {
     let count = graph.element_count(links);
+    // Behind a list's end lie loops of one node, up to the last workgroup's: these jump too.
+    let extent = graph.constants("node count", &[count as u32]);
     let hops = graph.buffer::<Hop>("first hops", count);
     let first = graph.buffer::<Reach>("first reach", count);
     let walks = graph.buffer::<Walk>("walks", count);
-    graph.compute(&vector::START_NODES, &[links, hops, first, walks]);
+    let bound = [links, hops, first, walks];
+    graph.compute_sized(&vector::START_NODES, &bound, work.elements());
     Elements {
+        work: *work,
         extent,
         first,
         hops,
@@ -162,23 +181,46 @@ fn add_nodes(graph: &mut Graph, links: ResourceId, extent: ResourceId) -> Elemen
 }
 
 /// Splitters jump, and nodes count from them.
-fn add_splitters(graph: &mut Graph, links: ResourceId) -> Elements {
+fn add_splitters(
+    graph: &mut Graph,
+    links: ResourceId,
+    work: &ListWork,
+    is_short: bool,
+    rounds: u32,
+) -> Elements {
+    let all = work.elements();
     let count = graph.element_count(links);
     let flags = graph.buffer::<u32>("splitter flags", count);
-    graph.compute(&vector::FIND_SPLITTERS, &[links, flags]);
-    let splitters = add_compact(graph, flags, count);
+    graph.compute_sized(&vector::FIND_SPLITTERS, &[links, flags], all);
+    let splitters = add_compact(graph, flags, count, work);
     let walks = graph.buffer::<Walk>("walks", count);
-    graph.compute(
+    graph.compute_sized(
         &vector::WALK_TO_SPLITTER,
         &[links, flags, splitters.slots, walks],
+        all,
     );
+    // One pass over a few hundred splitters is not worth another that sizes it.
+    let among = match is_short {
+        true => *work,
+        false => add_work(
+            graph,
+            splitters.count,
+            count,
+            Followers {
+                rounds,
+                ..Followers::default()
+            },
+        ),
+    };
     let hops = graph.buffer::<Hop>("first hops", count);
     let first = graph.buffer::<Reach>("first reach", count);
-    graph.compute(
+    graph.compute_sized(
         &vector::START_SPLITTERS,
         &[splitters.count, links, splitters.list, walks, hops, first],
+        among.elements(),
     );
     Elements {
+        work: among,
         extent: splitters.count,
         first,
         hops,
@@ -190,8 +232,9 @@ fn add_splitters(graph: &mut Graph, links: ResourceId) -> Elements {
 fn add_short_ranking(
     graph: &mut Graph,
     elements: &Elements,
-    rounds: ResourceId,
+    rounds: u32,
 ) -> (ResourceId, ResourceId) {
+    let rounds = graph.constant("rounds", rounds);
     let count = graph.element_count(elements.first);
     let [settled, reach_scratch] = [0; 2].map(|_| graph.buffer::<Reach>("reach", count));
     let [hops, hops_scratch] = [0; 2].map(|_| graph.buffer::<Hop>("hops", count));
@@ -217,9 +260,10 @@ fn add_breaking(graph: &mut Graph, elements: &Elements, rounds: u32) -> Resource
     let count = graph.element_count(elements.first);
     let pair = [0; 2].map(|_| graph.buffer::<Reach>("reach", count));
     let mut settled = elements.first;
-    for round in 0..rounds as usize {
-        let to = pair[round % 2];
-        graph.compute(&vector::BREAK_LOOPS, &[elements.extent, settled, to]);
+    for round in 0..rounds {
+        let to = pair[round as usize % 2];
+        let bound = [elements.extent, settled, to];
+        graph.compute_sized(&vector::BREAK_LOOPS, &bound, elements.work.round(round));
         settled = to;
     }
     settled
@@ -234,16 +278,19 @@ fn add_jumping(
 ) -> ResourceId {
     let count = graph.element_count(elements.hops);
     let &Elements {
+        work,
         extent,
         first,
         hops,
         ..
     } = elements;
     let pair = [0; 2].map(|_| graph.buffer::<Hop>("hops", count));
-    graph.compute(&vector::CUT_LOOPS, &[extent, first, settled, hops, pair[0]]);
-    for round in 0..rounds as usize {
-        let (from, to) = (pair[round % 2], pair[(round + 1) % 2]);
-        graph.compute(&vector::RANK_JUMP, &[extent, from, to]);
+    let bound = [extent, first, settled, hops, pair[0]];
+    graph.compute_sized(&vector::CUT_LOOPS, &bound, work.elements());
+    for round in 0..rounds {
+        let at = round as usize;
+        let (from, to) = (pair[at % 2], pair[(at + 1) % 2]);
+        graph.compute_sized(&vector::RANK_JUMP, &[extent, from, to], work.round(round));
     }
     pair[rounds as usize % 2]
 }
@@ -263,11 +310,9 @@ pub fn rank_on(
     let links = link(next, keys)?;
     let mut graph = Graph::new();
     let bound = graph.buffer::<Link>("links", links.len());
-    let lists = add_ranking(&mut graph, bound, scheme);
+    let lists = add_ranking(&mut graph, bound, &ListWork::WHOLE, scheme);
     let mut session = engine.prepare(graph)?;
     session.write(bound, bytemuck::cast_slice(&links))?;
-    session.write(lists.node_count, &[links.len() as u32])?;
-    session.write(lists.rounds, &[lists.round_count])?;
     session.run()?;
 
     read_rows(session.as_mut(), &lists, links.len())

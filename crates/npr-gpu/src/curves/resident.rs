@@ -2,15 +2,14 @@
 
 use super::CurvesError;
 use super::contours::{Contours, add_contours};
-use super::ranking::{RankedLists, Scheme, add_ranking, read_rows};
+use super::ranking::{Scheme, read_rows};
 use crate::engine::{Engine, EngineError, PassTime, Session};
 use crate::graph::Graph;
-use crate::passes::vector;
 use npr_core::shape::Shape;
 use npr_vector::contour::steps::{Viewer, half_edges, judges};
 use npr_vector::contour::{EdgeContours, Eye, usual_room};
 use npr_vector::graph::{CurveGraph, CurveNode};
-use npr_vector::rank::{Link, Ranked};
+use npr_vector::rank::Ranked;
 
 /// A shape in an engine's memory, for contours of any number of views.
 ///
@@ -31,7 +30,6 @@ pub struct ResidentShape<'a> {
 struct Room {
     session: Box<dyn Session>,
     contours: Contours,
-    lists: Option<RankedLists>,
     capacity: usize,
 }
 
@@ -108,7 +106,7 @@ impl<'a> ResidentShape<'a> {
     ///
     /// [`CurvesError::Engine`] where the engine fails, [`CurvesError::Rank`] where the rounds of the scheme are too few.
     pub fn rows(&mut self) -> Result<Ranked, CurvesError> {
-        match &self.room.lists {
+        match &self.room.contours.lists {
             Some(lists) => read_rows(self.room.session.as_mut(), lists, self.node_count),
             None => Ok(Ranked::default()),
         }
@@ -139,17 +137,10 @@ impl Room {
     ) -> Result<Self, EngineError> {
         let mut graph = Graph::new();
         let sizes = [shape.positions.len(), shape.faces.len()];
-        let contours = add_contours(&mut graph, sizes[0], sizes[1], capacity);
-        let lists = scheme.map(|scheme| {
-            let links = graph.buffer::<Link>("links", capacity);
-            let bound = [contours.node_count, contours.nodes, links];
-            graph.compute(&vector::LIST_NODES, &bound);
-            add_ranking(&mut graph, links, scheme)
-        });
+        let contours = add_contours(&mut graph, sizes[0], sizes[1], capacity, scheme);
         let mut room = Self {
             session: engine.prepare(graph)?,
             contours,
-            lists,
             capacity,
         };
         room.hand_over(shape)?;
@@ -160,11 +151,6 @@ impl Room {
         let (session, into) = (self.session.as_mut(), &self.contours);
         session.write(into.positions, bytemuck::cast_slice(&shape.positions))?;
         session.write(into.half_edges, bytemuck::cast_slice(&half_edges(shape)))?;
-        session.write(into.judges, &judges(shape))?;
-        if let Some(lists) = &self.lists {
-            session.write(lists.node_count, &[self.capacity as u32])?;
-            session.write(lists.rounds, &[lists.round_count])?;
-        }
-        Ok(())
+        session.write(into.judges, &judges(shape))
     }
 }

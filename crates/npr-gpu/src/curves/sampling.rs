@@ -1,6 +1,7 @@
 //! Passes that find what is seen of lines on a frame's G-buffer.
 
 use super::sums::{Compacted, add_compact};
+use super::work::ListWork;
 use crate::graph::{Graph, ResourceId};
 use crate::passes::vector;
 
@@ -41,7 +42,7 @@ pub fn add_sampling(graph: &mut Graph, on: &SampledFrame) -> ResourceId {
         clear,
     ];
     graph.compute(&vector::WEIGH_SAMPLES, &weighed);
-    let Compacted { list, slots, .. } = add_compact(graph, clear, count);
+    let Compacted { list, slots, .. } = add_compact(graph, clear, count, &ListWork::WHOLE);
     let visible = graph.buffer::<u32>("visible samples", count);
     let filtered = [verdicts, clear, slots, list, visible];
     graph.compute(&vector::FILTER_VISIBILITY, &filtered);

@@ -1,5 +1,6 @@
 //! Passes that number elements by sums.
 
+use super::work::ListWork;
 use crate::graph::{Graph, ResourceId};
 use crate::passes::vector;
 use npr_vector::rank::scan::BLOCK;
@@ -13,39 +14,55 @@ pub struct Scan {
     pub total: ResourceId,
 }
 
-/// Appends passes that sum up a buffer of `u32`.
+/// Appends passes that sum up a buffer of `u32`, or as much of it as the work reaches.
 ///
 /// Three passes up to 4096 values, two more for every 64 times as many. Sums wrap.
-pub fn add_scan(graph: &mut Graph, values: ResourceId) -> Scan {
+pub fn add_scan(graph: &mut Graph, values: ResourceId, work: &ListWork) -> Scan {
+    add_scan_of_level(graph, values, work, 0)
+}
+
+fn add_scan_of_level(graph: &mut Graph, values: ResourceId, work: &ListWork, level: u32) -> Scan {
     let count = graph.element_count(values);
-    let prefixes = graph.buffer::<u32>("prefixes within blocks", count);
-    let total = graph.buffer::<u32>("sums of blocks", count.div_ceil(BLOCK).max(1));
-    graph.compute(&vector::SCAN_BLOCKS, &[values, prefixes, total]);
+    let [prefixes, total] = add_blocks(graph, values, work, level);
     if count <= BLOCK {
         return Scan { prefixes, total };
     }
-    let offsets = add_scan(graph, total);
+    let offsets = add_scan_of_level(graph, total, work, level + 1);
     let whole = graph.buffer::<u32>("prefixes", count);
-    graph.compute(&vector::SCAN_ADD, &[prefixes, offsets.prefixes, whole]);
+    let bound = [prefixes, offsets.prefixes, whole];
+    graph.compute_sized(&vector::SCAN_ADD, &bound, work.level(level));
     Scan {
         prefixes: whole,
         total: offsets.total,
     }
 }
 
-/// Appends passes that sum up a buffer of `u32` into one element, which it gives. The sum wraps.
-pub fn add_sum(graph: &mut Graph, values: ResourceId) -> ResourceId {
+/// Sums within blocks, and of blocks.
+fn add_blocks(
+    graph: &mut Graph,
+    values: ResourceId,
+    work: &ListWork,
+    level: u32,
+) -> [ResourceId; 2] {
+    let count = graph.element_count(values);
+    let prefixes = graph.buffer::<u32>("prefixes within blocks", count);
+    let sums = graph.buffer::<u32>("sums of blocks", count.div_ceil(BLOCK).max(1));
+    let bound = [values, prefixes, sums];
+    graph.compute_sized(&vector::SCAN_BLOCKS, &bound, work.level(level));
+    [prefixes, sums]
+}
+
+/// Appends passes that sum up a buffer of `u32`, or as much of it as the work reaches, into one element, which it gives. The sum wraps.
+pub fn add_sum(graph: &mut Graph, values: ResourceId, work: &ListWork) -> ResourceId {
     let mut sums = values;
-    loop {
+    for level in 0.. {
         let count = graph.element_count(sums);
-        let prefixes = graph.buffer::<u32>("prefixes within blocks", count);
-        let above = graph.buffer::<u32>("sums of blocks", count.div_ceil(BLOCK).max(1));
-        graph.compute(&vector::SCAN_BLOCKS, &[sums, prefixes, above]);
+        [_, sums] = add_blocks(graph, sums, work, level);
         if count <= BLOCK {
-            return above;
+            break;
         }
-        sums = above;
     }
+    sums
 }
 
 /// The indices of marked elements, in order.
@@ -59,13 +76,18 @@ pub struct Compacted {
     pub slots: ResourceId,
 }
 
-/// Appends passes that put the indices of marked elements in a row; `flags` are 0 or 1.
+/// Appends passes that put the indices of marked elements in a row; `flags` are 0 or 1, and count as far as the work reaches.
 ///
 /// `capacity` is the room in the list. Where more elements are marked the count says so, and the rest is left out.
-pub fn add_compact(graph: &mut Graph, flags: ResourceId, capacity: usize) -> Compacted {
-    let Scan { prefixes, total } = add_scan(graph, flags);
+pub fn add_compact(
+    graph: &mut Graph,
+    flags: ResourceId,
+    capacity: usize,
+    work: &ListWork,
+) -> Compacted {
+    let Scan { prefixes, total } = add_scan(graph, flags, work);
     let list = graph.buffer::<u32>("marked elements", capacity);
-    graph.compute(&vector::COMPACT, &[flags, prefixes, list]);
+    graph.compute_sized(&vector::COMPACT, &[flags, prefixes, list], work.elements());
     Compacted {
         list,
         count: total,

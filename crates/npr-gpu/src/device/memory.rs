@@ -17,7 +17,13 @@ pub(super) enum Memory {
 
 impl Memory {
     /// Zeroed memory for a resource.
-    pub(super) fn new(gpu: &Gpu, resource: &Resource) -> Result<Self, EngineError> {
+    ///
+    /// `more` is what else a buffer is used for than being bound and copied.
+    pub(super) fn new(
+        gpu: &Gpu,
+        resource: &Resource,
+        more: wgpu::BufferUsages,
+    ) -> Result<Self, EngineError> {
         check_size(&gpu.device.limits(), resource)?;
         let made = gpu.scoped(|| match resource.kind {
             Kind::Uniform { size } => Self::Buffer(new_buffer(
@@ -30,7 +36,7 @@ impl Memory {
                 gpu,
                 resource.name,
                 stride * count.max(1),
-                wgpu::BufferUsages::STORAGE,
+                wgpu::BufferUsages::STORAGE | more,
             )),
             Kind::Image { format, size } => {
                 Self::Image(Image::new(gpu, resource.name, format, size))

@@ -6,8 +6,9 @@ use super::memory::Memory;
 use super::pipeline::Stage;
 use super::step::{Extent, Step};
 use crate::engine::{EngineError, PassTime, Session};
-use crate::graph::{Graph, Node, ResourceId};
+use crate::graph::{Graph, Node, ResourceId, WorkSize};
 use crate::pass::Format;
+use npr_vector::rank::work::Arguments;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -27,11 +28,21 @@ pub(super) struct DeviceSession {
 impl DeviceSession {
     pub(super) fn new(gpu: Arc<Gpu>, graph: Graph) -> Result<Self, EngineError> {
         gpu.check()?;
+        let sizes = graph.nodes().iter().filter_map(|node| node.size);
+        let mut more = vec![wgpu::BufferUsages::empty(); graph.resources().len()];
+        for WorkSize { arguments, .. } in sizes {
+            more[arguments.index()] = wgpu::BufferUsages::INDIRECT;
+        }
         let memory: Vec<Memory> = graph
             .resources()
             .iter()
-            .map(|resource| Memory::new(&gpu, resource))
+            .zip(more)
+            .map(|(resource, more)| Memory::new(&gpu, resource, more))
             .collect::<Result<_, _>>()?;
+        for (id, words) in graph.held() {
+            let name = graph.resource(id).name;
+            gpu.guarded(name, || memory[id.index()].write(&gpu.queue, words))?;
+        }
         let steps = Step::all_of(&gpu, &graph, &memory)?;
         let clock = gpu.guarded("the clock", || Clock::new(&gpu, steps.len()))?;
         gpu.check()?;
@@ -57,18 +68,38 @@ impl DeviceSession {
                 });
                 pass.set_pipeline(pipeline);
                 pass.set_bind_group(0, &step.bindings, &[]);
-                pass.dispatch_workgroups(groups[0], groups[1], 1);
+                match node.size {
+                    None => pass.dispatch_workgroups(groups[0], groups[1], 1),
+                    Some(size) => {
+                        let (buffer, offset) = self.arguments(size);
+                        pass.dispatch_workgroups_indirect(buffer, offset);
+                    }
+                }
             }
             (Stage::Draw(pipeline), Extent::Vertices(count)) => {
                 let mut pass = self.begin_draw(encoder, number, node);
                 pass.set_pipeline(pipeline);
                 pass.set_bind_group(0, &step.bindings, &[]);
-                pass.draw(0..count, 0..1);
+                match node.size {
+                    None => pass.draw(0..count, 0..1),
+                    Some(size) => {
+                        let (buffer, offset) = self.arguments(size);
+                        pass.draw_indirect(buffer, offset);
+                    }
+                }
             }
             _ => unreachable!(
                 "pass {} was compiled for another kind of work",
                 node.pass.name
             ),
+        }
+    }
+
+    /// Where the device finds the size of a node: a buffer, and bytes from its start.
+    fn arguments(&self, WorkSize { arguments, index }: WorkSize) -> (&wgpu::Buffer, u64) {
+        match &self.memory[arguments.index()] {
+            Memory::Buffer(buffer) => (buffer, (index * size_of::<Arguments>()) as u64),
+            Memory::Image(_) => unreachable!("graphs take sizes from buffers alone"),
         }
     }
 

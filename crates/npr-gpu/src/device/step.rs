@@ -5,11 +5,9 @@ use super::memory::Memory;
 use super::pipeline::Pipeline;
 use crate::engine::EngineError;
 use crate::graph::{Graph, Node};
-use crate::pass::{WORKGROUP_SIZE, Work};
+use crate::pass::Work;
+use npr_vector::rank::work;
 use std::sync::Arc;
-
-/// Most workgroups along one dimension, by WebGPU's limits.
-const MAX_GROUPS: u32 = 65535;
 
 /// A node that has something to do.
 #[derive(Debug)]
@@ -20,11 +18,11 @@ pub(super) struct Step {
     pub(super) pipeline: Arc<Pipeline>,
     /// Group 0.
     pub(super) bindings: wgpu::BindGroup,
-    /// How much it does.
+    /// How much it does at most.
     pub(super) extent: Extent,
 }
 
-/// How much a step does.
+/// How much a step has room for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Extent {
     /// Workgroups in x and y.
@@ -103,25 +101,28 @@ fn extent_of(graph: &Graph, node: &Node) -> Result<Extent, EngineError> {
     })
 }
 
-/// Workgroups in x and y for a number of elements: rows of the largest width once one row is not enough.
+/// Workgroups in x and y for a number of elements, none for none; nothing where there are more than a dispatch can have.
 fn groups_for(element_count: usize) -> Option<[u32; 2]> {
-    let groups = u32::try_from(element_count.div_ceil(WORKGROUP_SIZE as usize)).ok()?;
-    let rows = groups.div_ceil(MAX_GROUPS).max(1);
-    (rows <= MAX_GROUPS).then_some([groups.min(MAX_GROUPS), rows])
+    let count = u32::try_from(element_count).ok()?;
+    if count == 0 {
+        return Some([0, 1]);
+    }
+    Some(work::groups_for(count))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pass::WORKGROUP_SIZE;
 
     #[test]
     fn groups_turn_into_rows_when_one_row_is_full() {
-        let row = (MAX_GROUPS * WORKGROUP_SIZE) as usize;
+        let row = (work::MAX_GROUPS * WORKGROUP_SIZE) as usize;
         assert_eq!(groups_for(0), Some([0, 1]));
         assert_eq!(groups_for(1), Some([1, 1]));
         assert_eq!(groups_for(65), Some([2, 1]));
         assert_eq!(groups_for(row), Some([65535, 1]));
-        assert_eq!(groups_for(row + 1), Some([65535, 2]));
+        assert_eq!(groups_for(row + 1), Some([32768, 2]));
         assert_eq!(groups_for(usize::MAX), None);
     }
 }

@@ -108,6 +108,7 @@ pub const EMIT_FRAGMENTS: Pass = Pass {
     slots: &[
         uniform::<PixelView>("view"),
         read::<u32>("extent"),
+        read::<u32>("segment_count"),
         read::<u32>("starts"),
         read::<Segment>("segments"),
         write::<Fragment>("fragments"),
@@ -115,8 +116,16 @@ pub const EMIT_FRAGMENTS: Pass = Pass {
     work: Work::PerElement { of: "fragments" },
     agreement: Agreement::Exact,
     twin: |b| {
-        let fragments = b.write(4);
-        fragment::emit_fragments(&b.one(0), b.read(1), b.read(2), b.read(3), fragments);
+        let (segment_count, starts) = (b.read(2), b.read(3));
+        let fragments = b.write(5);
+        fragment::emit_fragments(
+            &b.one(0),
+            b.read(1),
+            segment_count,
+            starts,
+            b.read(4),
+            fragments,
+        );
     },
 };
 

@@ -1,7 +1,8 @@
 //! Passes that link points to lines, put lines in a row, and find what is seen of them.
 //!
 //! [`crate::curves`] lines them up. Passes with an `extent` work on its first element's number of elements, since
-//! how many there are is found on the device; what lies behind stays as it is.
+//! how many there are is found on the device; what lies behind stays as it is. [`SIZE_WORK`] makes the sizes of passes that work on no more
+//! workgroups than hold a list.
 
 use crate::pass::{Agreement, Pass, Work, read, uniform, write};
 use npr_core::geometry::GPixel;
@@ -10,6 +11,7 @@ use npr_vector::contour::steps::{self, HalfEdge, Marked, Viewer};
 use npr_vector::graph::CurveNode;
 use npr_vector::rank::jump::{self, Hop, Reach};
 use npr_vector::rank::place::{self, Place, Standing, Walk};
+use npr_vector::rank::work::{Arguments, WorkRule, size_work};
 use npr_vector::rank::{Link, scan, splitter};
 use npr_vector::sample::{self, SpineSample, Surroundings};
 
@@ -86,6 +88,20 @@ pub const LIST_NODES: Pass = Pass {
     work: Work::PerElement { of: "nodes" },
     agreement: Agreement::Exact,
     twin: |b| steps::list_nodes(b.read(0), b.read(1), b.write(2)),
+};
+
+/// The sizes of all passes that follow the length of a list.
+pub const SIZE_WORK: Pass = Pass {
+    name: "vector.size_work",
+    shader: npr_shaders::VECTOR_SIZE_WORK,
+    slots: &[
+        uniform::<WorkRule>("rule"),
+        read::<u32>("extent"),
+        write::<Arguments>("arguments"),
+    ],
+    work: Work::PerElement { of: "arguments" },
+    agreement: Agreement::Exact,
+    twin: |b| size_work(&b.one(0), b.read(1), b.write(2)),
 };
 
 /// Sums within blocks of 64 values.

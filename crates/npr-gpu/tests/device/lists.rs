@@ -14,6 +14,7 @@ use npr_vector::rank::place::{Place, Standing, Walk};
 use npr_vector::rank::place::{measure_chains, scatter_ranks, turn_ranks};
 use npr_vector::rank::scan::{BLOCK, compact, exclusive_scan, scan_blocks};
 use npr_vector::rank::splitter::{find_splitters, start_splitters, walk_to_splitter};
+use npr_vector::rank::work::WorkRule;
 use npr_vector::rank::{Link, link, rounds_for};
 use npr_vector::sample::{SampledLines, Surroundings, sample_visibility, weigh_samples};
 use std::collections::BTreeMap;
@@ -91,6 +92,7 @@ impl Lists {
     pub fn output_count(&self, pass: &Pass, slot: &str) -> usize {
         match (pass.name, slot) {
             (_, "sums") => self.node_count.div_ceil(BLOCK),
+            (_, "arguments") => work_rule(self.node_count).argument_count(),
             ("vector.mark_contours" | "vector.link_contours" | "vector.list_nodes", _) => {
                 3 * self.node_count
             }
@@ -135,6 +137,7 @@ impl Lists {
         }
         self.give("extent", &extent);
         self.give("rounds", &[rounds_for(self.node_count)]);
+        self.give("rule", &[work_rule(self.node_count)]);
         self.give("first_hops", &hops);
         self.give("first", &first);
         Elements {
@@ -293,6 +296,15 @@ fn renamed(pass: &Pass, slot: &'static str) -> &'static str {
         .iter()
         .find(|(name, other, _)| (*name, *other) == (pass.name, slot));
     found.map_or(slot, |(_, _, content)| *content)
+}
+
+/// Sizes of all kinds, for a list that its room may be too small for.
+fn work_rule(node_count: usize) -> WorkRule {
+    WorkRule {
+        round_count: rounds_for(node_count),
+        vertices: 3,
+        ..WorkRule::of_room(node_count - node_count / 3)
+    }
 }
 
 /// Nodes strewn over memory, linked to chains.

@@ -20,3 +20,4 @@ mod shapes;
 mod shared;
 mod trouble;
 mod twins;
+mod work;

@@ -7,7 +7,7 @@ use npr_core::shape::Shape;
 use npr_gpu::curves::pixels::{Hiding, PixelRoom, add_pixel_contours, add_strips};
 use npr_gpu::curves::{Hiders, ResidentPixels, Scheme, trace_on};
 use npr_gpu::engine::{Engine, Session};
-use npr_gpu::graph::{Graph, Kind, ResourceId};
+use npr_gpu::graph::{Graph, Kind, ResourceId, WorkSize};
 use npr_gpu::pass::{Access, Pass};
 use npr_gpu::passes::ALL;
 use npr_gpu::processor::Processor;
@@ -200,11 +200,20 @@ fn check_nodes(graph: &Graph, session: &mut dyn Session, device: &dyn Engine) {
                 }
             }
         }
+        let size = node.size.map(|WorkSize { arguments, index }| {
+            let resource = graph.resource(arguments);
+            let own = alone.add(resource.name, resource.kind);
+            inputs.push((own, session.read(arguments).unwrap()));
+            WorkSize {
+                arguments: own,
+                index,
+            }
+        });
         let (slots, targets) = bound.split_at(node.pass.slots.len());
         if targets.is_empty() {
-            alone.compute(node.pass, slots);
+            alone.compute_sized(node.pass, slots, size);
         } else {
-            alone.draw(node.pass, slots, targets, true);
+            alone.draw_sized(node.pass, (slots, targets), true, size);
         }
         let run = |engine: &dyn Engine| -> Vec<Vec<u32>> {
             let mut session = engine.prepare(alone.clone()).unwrap();

@@ -37,15 +37,17 @@ pub fn holder_of(starts: &[u32], value: u32) -> u32 {
 
 /// Places every fragment: the second pass of parallel line drawing [Jiang et al. 2022, Bresenham in two passes].
 ///
-/// `starts` is the scan of the counts of fragments and `extent[0]` their sum. Positions lie on centres of the fine grid along the
+/// `starts` is the scan of the counts of fragments of the first `segment_count[0]` segments, and `extent[0]` their sum. Positions lie on centres of the fine grid along the
 /// longer axis; reversed depth is linear. A fragment beyond the sum has [`NONE`] for its pixel.
 pub fn emit_fragments(
     view: &PixelView,
     extent: &[u32],
+    segment_count: &[u32],
     starts: &[u32],
     segments: &[Segment],
     fragments: &mut [Fragment],
 ) {
+    let starts = &starts[..starts.len().min(segment_count[0] as usize)];
     let outputs = fragments.par_iter_mut().with_min_len(1024).enumerate();
     outputs.for_each(|(element, fragment)| {
         let element = element as u32;

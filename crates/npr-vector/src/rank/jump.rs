@@ -3,7 +3,8 @@
 //! In each round the reach of every node doubles, so a chain of n nodes takes log2(n) rounds, whatever its shape.
 //!
 //! Every step works on the first `extent[0]` elements: nodes for [`wyllie`], splitters for
-//! [`ruling_set`](super::ruling_set). What lies behind stays as it is.
+//! [`ruling_set`](super::ruling_set). What lies behind stays as it is, and so does what there
+//! is no room for.
 
 use super::place::{self, Walk};
 use super::{Link, RankError, Ranked, link};
@@ -134,7 +135,8 @@ pub fn start_nodes(links: &[Link], hops: &mut [Hop], reach: &mut [Reach], walks:
 
 /// One round of finding the head of every chain: the twin of `vector.break_loops`.
 pub fn break_loops(extent: &[u32], reach_in: &[Reach], reach_out: &mut [Reach]) {
-    reach_out[..extent[0] as usize]
+    let count = (extent[0] as usize).min(reach_out.len());
+    reach_out[..count]
         .par_iter_mut()
         .enumerate()
         .for_each(|(element, out)| {
@@ -157,7 +159,8 @@ pub fn cut_loops(
     hops_in: &[Hop],
     hops_out: &mut [Hop],
 ) {
-    hops_out[..extent[0] as usize]
+    let count = (extent[0] as usize).min(hops_out.len());
+    hops_out[..count]
         .par_iter_mut()
         .enumerate()
         .for_each(|(element, out)| {
@@ -170,7 +173,8 @@ pub fn cut_loops(
 
 /// One round of ranking: doubles how far each element sees [Wyllie 1979]; the twin of `vector.rank_jump`.
 pub fn rank_jump(extent: &[u32], hops_in: &[Hop], hops_out: &mut [Hop]) {
-    hops_out[..extent[0] as usize]
+    let count = (extent[0] as usize).min(hops_out.len());
+    hops_out[..count]
         .par_iter_mut()
         .enumerate()
         .for_each(|(element, out)| {

@@ -9,10 +9,14 @@ pub const BLOCK: usize = 64;
 
 /// Within each block, the sum of all values before; and the sum of every block: the twin of `vector.scan_blocks`.
 ///
-/// Sums are those of 32-bit numbers and wrap.
+/// Sums are those of 32-bit numbers and wrap. Behind the last block's sum zeros are written up to a whole block, as far as there
+/// is room, so that sums of sums may be taken in whole blocks wherever the values end.
 ///
 /// Differs: a workgroup adds in steps of doubling width [Hillis & Steele 1986]; sums of integers are the same in any order.
 pub fn scan_blocks(values: &[u32], prefixes: &mut [u32], sums: &mut [u32]) {
+    let (sums, behind) = sums.split_at_mut(values.len().div_ceil(BLOCK).min(sums.len()));
+    let whole = sums.len().next_multiple_of(BLOCK) - sums.len();
+    behind.iter_mut().take(whole).for_each(|sum| *sum = 0);
     let blocks = values
         .par_chunks(BLOCK)
         .zip(prefixes.par_chunks_mut(BLOCK).zip(sums));

@@ -181,6 +181,8 @@ pub fn rank_splitters(
     into: Workspace<'_>,
 ) {
     let elements = ..extent[0] as usize;
+    // More rounds would change nothing.
+    let rounds = rounds.min(rounds_for(extent[0] as usize));
     let Workspace {
         settled,
         reach_scratch,

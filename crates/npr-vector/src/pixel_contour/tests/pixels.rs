@@ -154,7 +154,7 @@ proptest! {
         let segment = Segment { start: place(from), end: place(to), start_z: z[0], end_z: z[1], edge: 0, mark: 1 };
         let count = segment.fragment_count();
         let mut fragments = vec![Fragment::default(); count as usize + 2];
-        emit_fragments(&view, &[count], &[0], &[segment], &mut fragments);
+        emit_fragments(&view, &[count], &[1], &[0], &[segment], &mut fragments);
         prop_assert!(fragments[count as usize..].iter().all(|f| f.pixel == NONE));
         fragments.truncate(count as usize);
         let pixels: Vec<[i64; 2]> = fragments.iter().map(|f| [f.pixel % 80, f.pixel / 80].map(i64::from)).collect();

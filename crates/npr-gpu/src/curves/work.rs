@@ -1,0 +1,113 @@
+//! Sizes of passes over lists whose lengths only the engine knows.
+
+use crate::graph::{Graph, ResourceId, WorkSize};
+use crate::passes::vector;
+use npr_vector::rank::work::{Arguments, WorkRule};
+
+/// How far passes over a list go: as far as there is room, or as the list is long.
+///
+/// Every pass over a list is appended with the same one, so that all of them work on the same elements.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ListWork {
+    /// [`Arguments`] in the order of the rule; nothing where the room is full.
+    arguments: Option<ResourceId>,
+    rule: WorkRule,
+}
+
+/// What follows a list's length besides passes over its elements and sums over them.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Followers {
+    /// Rounds of pointer jumping.
+    pub rounds: u32,
+    /// Vertices drawn for each element.
+    pub vertices: u32,
+}
+
+impl ListWork {
+    /// All elements that there is room for.
+    pub const WHOLE: Self = Self {
+        arguments: None,
+        rule: WorkRule {
+            room: 0,
+            level_count: 0,
+            round_count: 0,
+            vertices: 0,
+        },
+    };
+
+    /// The arguments, for those who look at them; nothing where the room is full.
+    pub fn arguments(&self) -> Option<ResourceId> {
+        self.arguments
+    }
+
+    /// The size of passes over the elements.
+    pub fn elements(&self) -> Option<WorkSize> {
+        self.level(0)
+    }
+
+    /// The size of passes over the elements, over the sums of their blocks, over the sums of these, and so on.
+    ///
+    /// # Panics
+    ///
+    /// When there is no such level in the list's room.
+    pub fn level(&self, level: u32) -> Option<WorkSize> {
+        assert!(
+            self.arguments.is_none() || level < self.rule.level_count,
+            "sums reach beyond the room"
+        );
+        self.at(level)
+    }
+
+    /// The size of a round of pointer jumping: nothing is left to do in the last.
+    ///
+    /// # Panics
+    ///
+    /// When the list's work was made for fewer rounds.
+    pub fn round(&self, round: u32) -> Option<WorkSize> {
+        assert!(
+            self.arguments.is_none() || round < self.rule.round_count,
+            "work for fewer rounds"
+        );
+        self.at(self.rule.level_count + round)
+    }
+
+    /// The size of draws of the elements.
+    ///
+    /// # Panics
+    ///
+    /// When the list's work was made without vertices.
+    pub fn draw(&self) -> Option<WorkSize> {
+        assert!(
+            self.arguments.is_none() || self.rule.vertices > 0,
+            "work without draws"
+        );
+        self.at(self.rule.level_count + self.rule.round_count)
+    }
+
+    fn at(&self, index: u32) -> Option<WorkSize> {
+        let arguments = self.arguments?;
+        let index = index as usize;
+        Some(WorkSize { arguments, index })
+    }
+}
+
+/// Appends the pass that makes the sizes of all passes over a list of `count[0]` elements, with room for `room`.
+pub fn add_work(
+    graph: &mut Graph,
+    count: ResourceId,
+    room: usize,
+    followers: Followers,
+) -> ListWork {
+    let rule = WorkRule {
+        round_count: followers.rounds,
+        vertices: followers.vertices,
+        ..WorkRule::of_room(room)
+    };
+    let held = graph.constant("work rule", rule);
+    let arguments = graph.buffer::<Arguments>("sizes of passes", rule.argument_count());
+    graph.compute(&vector::SIZE_WORK, &[held, count, arguments]);
+    ListWork {
+        arguments: Some(arguments),
+        rule,
+    }
+}

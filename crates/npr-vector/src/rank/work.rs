@@ -1,0 +1,219 @@
+//! How much work passes have over a list whose length only the device knows.
+//!
+//! Room for a list is made before it is known how long it gets. A device that reads the length itself can start as many
+//! workgroups as the list needs instead of as many as fit its room: an indirect dispatch takes its size from a buffer, and
+//! [`size_work`] fills that buffer once for all passes that follow the same length.
+//!
+//! Passes work on whole workgroups, and on one at least. So what they do to a list of n elements is what they do where
+//! the room ends with the last of these workgroups, to the bit; what lies behind stays as it is.
+
+use super::rounds_for;
+use super::scan::BLOCK;
+use bytemuck::{Pod, Zeroable};
+use npr_core::gpu_layout;
+
+/// Most workgroups along one dimension, by WebGPU's limits.
+pub const MAX_GROUPS: u32 = 65535;
+
+/// What a device reads when a pass starts: the size of a dispatch, or of a draw.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct Arguments {
+    /// Workgroups along x; vertices of a draw.
+    pub x: u32,
+    /// Rows of workgroups; instances of a draw.
+    pub y: u32,
+    /// Workgroups along z, which is 1; the first vertex of a draw, which is 0.
+    pub z: u32,
+    /// The first instance of a draw, which is 0.
+    pub w: u32,
+}
+gpu_layout!(Arguments { x, y, z, w });
+
+impl Arguments {
+    /// A dispatch of workgroups in rows.
+    pub fn of_groups([x, y]: [u32; 2]) -> Self {
+        Self { x, y, z: 1, w: 0 }
+    }
+
+    /// A draw of one instance.
+    pub fn of_vertices(count: u32) -> Self {
+        Self {
+            x: count,
+            y: 1,
+            z: 0,
+            w: 0,
+        }
+    }
+}
+
+/// What the arguments of a list are made for, one after the other: levels of sums, rounds of ranking, a draw.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct WorkRule {
+    /// Elements that there is room for.
+    pub room: u32,
+    /// Dispatches over the elements, over sums of their blocks, over sums of these, and so on.
+    pub level_count: u32,
+    /// Dispatches over the elements in rounds of pointer jumping; those that nothing is left for are empty.
+    pub round_count: u32,
+    /// Vertices that are drawn for an element; without any there is no draw.
+    pub vertices: u32,
+}
+gpu_layout!(WorkRule {
+    room,
+    level_count,
+    round_count,
+    vertices,
+});
+
+impl WorkRule {
+    /// The rule for a room, with a level for every step of [`exclusive_scan`](super::scan::exclusive_scan).
+    pub fn of_room(room: usize) -> Self {
+        let (mut level_count, mut count) = (1, room);
+        while count > BLOCK {
+            count = count.div_ceil(BLOCK);
+            level_count += 1;
+        }
+        Self {
+            room: u32::try_from(room).unwrap_or(u32::MAX),
+            level_count,
+            ..Self::default()
+        }
+    }
+
+    /// Number of [`Arguments`] that the rule asks for.
+    pub fn argument_count(&self) -> usize {
+        (self.level_count + self.round_count + u32::from(self.vertices > 0)) as usize
+    }
+}
+
+/// Workgroups in x and y for a number of elements, at least one: rows of equal width, so that few are left over.
+///
+/// ```
+/// use npr_vector::rank::work::groups_for;
+/// assert_eq!(groups_for(0), [1, 1]);
+/// assert_eq!(groups_for(65), [2, 1]);
+/// assert_eq!(groups_for(65535 * 64 + 1), [32768, 2]);
+/// ```
+pub fn groups_for(element_count: u32) -> [u32; 2] {
+    let groups = element_count.div_ceil(BLOCK as u32).max(1);
+    let rows = groups.div_ceil(MAX_GROUPS);
+    [groups.div_ceil(rows), rows]
+}
+
+/// Rounds of pointer jumping that are run of those that are planned, where `count` elements jump.
+///
+/// More than [`rounds_for`] of them change nothing. Two buffers alternate, so an odd number of rounds must not stop after an even
+/// one, nor the other way round: the result would be in the other buffer.
+pub fn rounds_run(round_count: u32, count: u32) -> u32 {
+    let needed = rounds_for(count as usize).max(1);
+    let run = needed + (needed ^ round_count) % 2;
+    run.min(round_count)
+}
+
+/// Makes the arguments of all passes that follow a list's length, `extent[0]`: the twin of `vector.size_work`.
+///
+/// Lengths beyond the room count as the room. O(arguments).
+pub fn size_work(rule: &WorkRule, extent: &[u32], arguments: &mut [Arguments]) {
+    let count = extent[0].min(rule.room);
+    for (index, into) in (0..).zip(arguments) {
+        let last_round = rule.level_count + rule.round_count;
+        *into = if index < rule.level_count {
+            Arguments::of_groups(groups_of_level(count, index))
+        } else if index < last_round {
+            let is_run = index - rule.level_count < rounds_run(rule.round_count, count);
+            let [x, y] = groups_for(count);
+            Arguments::of_groups([if is_run { x } else { 0 }, y])
+        } else {
+            Arguments::of_vertices(count.wrapping_mul(rule.vertices))
+        };
+    }
+}
+
+/// Workgroups over the elements, over a sum for each of these workgroups, and so on.
+fn groups_of_level(count: u32, level: u32) -> [u32; 2] {
+    let mut groups = groups_for(count);
+    for _ in 0..level {
+        groups = groups_for(groups[0] * groups[1]);
+    }
+    groups
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_rule_has_a_level_for_every_step_of_a_scan() {
+        for (room, levels) in [
+            (0, 1),
+            (1, 1),
+            (64, 1),
+            (65, 2),
+            (4096, 2),
+            (4097, 3),
+            (1 << 20, 4),
+        ] {
+            assert_eq!(WorkRule::of_room(room).level_count, levels, "{room}");
+        }
+    }
+
+    #[test]
+    fn arguments_come_level_by_level_then_round_by_round_then_the_draw() {
+        let rule = WorkRule {
+            round_count: 5,
+            vertices: 3,
+            ..WorkRule::of_room(5000)
+        };
+        let made = |count: u32| {
+            let mut arguments = vec![Arguments::default(); rule.argument_count()];
+            size_work(&rule, &[count], &mut arguments);
+            arguments
+        };
+        let groups = |x| Arguments::of_groups([x, 1]);
+        let vertices = Arguments::of_vertices;
+        let (one, none) = (groups(1), groups(0));
+        assert_eq!(
+            made(0),
+            [one, one, one, one, none, none, none, none, vertices(0)]
+        );
+        // Two elements settle in a round, four in two, and an odd number of rounds is run.
+        assert_eq!(made(2)[3..8], [one, none, none, none, none]);
+        assert_eq!(made(4)[3..8], [one, one, one, none, none]);
+        let (level, full) = (groups(2), groups(79));
+        assert_eq!(
+            made(5000),
+            [
+                full,
+                level,
+                one,
+                full,
+                full,
+                full,
+                full,
+                full,
+                vertices(15000)
+            ]
+        );
+        assert_eq!(made(u32::MAX), made(5000));
+    }
+
+    proptest! {
+        #[test]
+        fn workgroups_hold_all_elements_and_hardly_more(count in any::<u32>()) {
+            let [x, y] = groups_for(count).map(u64::from);
+            prop_assert!(x.max(y) <= u64::from(MAX_GROUPS));
+            let wanted = u64::from(count).div_ceil(64).max(1);
+            prop_assert!(x * y >= wanted && x * y < wanted + y);
+        }
+
+        #[test]
+        fn rounds_stop_in_the_buffer_in_which_all_would(planned in 0u32..33, count in any::<u32>()) {
+            let run = rounds_run(planned, count);
+            prop_assert!(run <= planned && (planned - run).is_multiple_of(2));
+            prop_assert!(run == planned || run >= rounds_for(count as usize).max(1));
+        }
+    }
+}

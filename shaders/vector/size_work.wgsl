@@ -1,0 +1,87 @@
+// vector.size_work: turns the length of a list into the sizes of all passes that follow it.
+//
+// Lengths beyond the room count as the room. Workgroups past 65535 come in rows.
+// Rounds of ranking that nothing is left for get no workgroups.
+//
+// Source  Jiang et al. 2022, indirect dispatches
+// Twin    npr_vector::rank::work::size_work
+//
+//# use lib/grid
+//# use lib/list
+
+override WG: u32 = 64u;
+
+const BLOCK: u32 = 64u;
+const MAX_GROUPS: u32 = 65535u;
+
+struct Arguments {
+    x: u32,
+    y: u32,
+    z: u32,
+    w: u32,
+}
+
+struct WorkRule {
+    room: u32,
+    level_count: u32,
+    round_count: u32,
+    vertices: u32,
+}
+
+@group(0) @binding(0) var<uniform> rule: WorkRule;
+@group(0) @binding(1) var<storage, read> extent: array<u32>;
+@group(0) @binding(2) var<storage, read_write> arguments: array<Arguments>;
+
+// Workgroups in x and y for a number of elements, at least one: rows of equal width.
+fn groups_for(element_count: u32) -> vec2<u32> {
+    let whole = element_count / BLOCK;
+    let groups = max(whole + select(0u, 1u, element_count % BLOCK != 0u), 1u);
+    let rows = (groups + MAX_GROUPS - 1u) / MAX_GROUPS;
+    return vec2<u32>((groups + rows - 1u) / rows, rows);
+}
+
+// Workgroups over the elements, over a sum for each of these workgroups, and so on.
+fn groups_of_level(count: u32, level: u32) -> vec2<u32> {
+    var groups = groups_for(count);
+    for (var above = 0u; above < level; above++) { groups = groups_for(groups.x * groups.y); }
+    return groups;
+}
+
+// Rounds that are run of those that are planned; the last must write the buffer that the last of all would.
+fn rounds_run(round_count: u32, count: u32) -> u32 {
+    let needed = max(rounds_for(count), 1u);
+    let run = needed + ((needed ^ round_count) & 1u);
+    return min(run, round_count);
+}
+
+// One invocation per pass.
+@compute @workgroup_size(WG)
+fn main(
+    @builtin(workgroup_id) wid: vec3<u32>,
+    @builtin(num_workgroups) nwg: vec3<u32>,
+    @builtin(local_invocation_id) lid: vec3<u32>,
+) {
+    let element = element_index(wid, nwg, lid, WG);
+    if element >= arrayLength(&arguments) { return; }
+
+    let count = min(extent[0], rule.room);
+    let last_round = rule.level_count + rule.round_count;
+    var sized: Arguments;
+    sized.z = 1u;
+    sized.w = 0u;
+    if element < rule.level_count {
+        let groups = groups_of_level(count, element);
+        sized.x = groups.x;
+        sized.y = groups.y;
+    } else if element < last_round {
+        let is_run = element - rule.level_count < rounds_run(rule.round_count, count);
+        let groups = groups_for(count);
+        sized.x = select(0u, groups.x, is_run);
+        sized.y = groups.y;
+    } else {
+        sized.x = count * rule.vertices;
+        sized.y = 1u;
+        sized.z = 0u;
+    }
+    arguments[element] = sized;
+}
