@@ -30,6 +30,7 @@ mod batches;
 mod bitmap;
 mod colour_file;
 mod colours;
+mod conveyor;
 mod curve;
 mod decompose;
 mod edges;
@@ -63,10 +64,11 @@ pub use straight::straight_lengths;
 pub use turn::TurnPolicy;
 
 use batches::Batches;
+use conveyor::Conveyor;
 use glam::DVec2;
 use pen::Pen;
 use std::borrow::Borrow;
-use std::sync::{Mutex, PoisonError, mpsc};
+use std::sync::{Arc, mpsc};
 
 /// How a bitmap is traced; names and defaults are those of the program Potrace.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -161,12 +163,23 @@ fn found<T: Send>(
     each: impl Fn(&mut Outliner, &Loops) -> T + Sync,
 ) -> (Found, Vec<(usize, T)>) {
     let (sender, receiver) = mpsc::channel();
-    // Their memory goes from batch to batch.
-    let idle = Mutex::new(Vec::new());
-    let idle = || idle.lock().unwrap_or_else(PoisonError::into_inner);
-    let idle = &idle;
-    let each = &each;
+    let conveyor = Conveyor::new(rayon::current_num_threads() - 1);
+    let outliner = || {
+        // Its memory goes from batch to batch.
+        let mut outliner = Outliner::new(options);
+        let (sender, each) = (&sender, &each);
+        move |(first, batch): (usize, Arc<Loops>)| {
+            // The receiver lives until all is sent.
+            let _ = sender.send((first, each(&mut outliner, &batch)));
+        }
+    };
     let found = rayon::scope(|scope| {
+        let call_worker = || {
+            if conveyor.enter() {
+                scope.spawn(|_| conveyor.work(outliner()));
+            }
+        };
+        call_worker();
         let mut loops = Batches::default();
         let seen: &Bitmap = bitmap.borrow();
         let size = [seen.width(), seen.height()];
@@ -174,22 +187,17 @@ fn found<T: Send>(
         for batch in decomposition.by_ref() {
             let first = loops.len();
             let batch = loops.push(batch);
-            if loops.step_count() > early_steps {
-                continue;
+            if loops.step_count() <= early_steps {
+                conveyor.put((first, batch));
+                call_worker();
             }
-            let sender = sender.clone();
-            scope.spawn(move |_| {
-                let outliner = idle().pop();
-                let mut outliner = outliner.unwrap_or_else(|| Outliner::new(options));
-                // The receiver lives until all is sent.
-                let _ = sender.send((first, each(&mut outliner, &batch)));
-                idle().push(outliner);
-            });
         }
+        conveyor.close();
         // The other threads are at work still, while its memory is given back.
         let words = decomposition.into_words();
         drop(bitmap);
         let parents = nest::parents(size, loops.iter(), words);
+        conveyor.finish(outliner());
         Found { loops, parents }
     });
     drop(sender);
