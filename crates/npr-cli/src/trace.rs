@@ -24,8 +24,7 @@ pub fn trace(said: &TraceArguments) -> Result<(), Fault> {
     let limits = said.limits.limits();
     let mut progress = Progress::new(said.quiet);
     for job in &jobs {
-        // In the pool as a whole: every way into it waits for a thread to wake up.
-        rayon::scope(|_| draw(job, said, &limits, &mut progress))?;
+        draw(job, said, &limits, &mut progress)?;
     }
     progress.finish();
     Ok(())

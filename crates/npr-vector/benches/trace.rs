@@ -1,6 +1,9 @@
 //! The stages of bitmap tracing, in steps along pixel edges per second.
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{
+    BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main,
+};
 use npr_vector::trace::{
     Bitmap, Loops, PixelLoop, TraceFormat, TraceOptions, TurnPolicy, adjust_corners, bends,
     decompose, join_arcs, nest, optimal_polygon, straight_lengths, trace, trace_to_file,
@@ -49,11 +52,7 @@ fn chequer(side: u32) -> Bitmap {
 
 /// Chequers as each turn policy sees them, from specks to loops within loops: in all and without curves.
 fn chequers(c: &mut Criterion) {
-    let mut group = c.benchmark_group("trace chequer");
-    group
-        .sample_size(10)
-        .warm_up_time(Duration::from_millis(200))
-        .measurement_time(Duration::from_millis(700));
+    let mut group = short_group(c, "trace chequer");
     for side in SIDES {
         let bitmap = chequer(side);
         group.throughput(Throughput::Elements(2 * u64::from(side) * u64::from(side)));
@@ -75,14 +74,20 @@ fn chequers(c: &mut Criterion) {
     group.finish();
 }
 
+/// A group whose benchmarks take less than a second each.
+fn short_group<'a>(c: &'a mut Criterion, name: &str) -> BenchmarkGroup<'a, WallTime> {
+    let mut group = c.benchmark_group(name);
+    group
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_millis(700));
+    group
+}
+
 /// Whole tracings in pools of one and two threads: many short paths, and one long one.
 fn threads(c: &mut Criterion) {
     for (name, draw) in [("discs", discs as fn(u32) -> Bitmap), ("spiral", spiral)] {
-        let mut group = c.benchmark_group(format!("trace threads {name}"));
-        group
-            .sample_size(10)
-            .warm_up_time(Duration::from_millis(200))
-            .measurement_time(Duration::from_millis(700));
+        let mut group = short_group(c, &format!("trace threads {name}"));
         for side in SIDES {
             let bitmap = draw(side);
             let loops = decompose(&bitmap, TurnPolicy::Minority, 2);
@@ -107,11 +112,7 @@ fn steps(loops: &Loops) -> u64 {
 
 fn stages(c: &mut Criterion) {
     for (name, draw) in [("discs", discs as fn(u32) -> Bitmap), ("spiral", spiral)] {
-        let mut group = c.benchmark_group(format!("trace {name}"));
-        group
-            .sample_size(10)
-            .warm_up_time(Duration::from_millis(200))
-            .measurement_time(Duration::from_millis(700));
+        let mut group = short_group(c, &format!("trace {name}"));
         for side in SIDES {
             let bitmap = draw(side);
             let options = TraceOptions::default();
