@@ -91,6 +91,14 @@ pub enum Command {
 }
 
 impl Command {
+    /// Whether it makes drawings, on all threads; other commands need none besides their own.
+    pub fn draws(&self) -> bool {
+        matches!(
+            self,
+            Self::Render(_) | Self::Lines(_) | Self::Smoke(_) | Self::Trace(_)
+        )
+    }
+
     /// Whether doing it may open a graphics device.
     pub fn may_open_device(&self) -> bool {
         let backend = match self {

@@ -64,13 +64,15 @@ pub fn run(
     arguments: impl IntoIterator<Item = OsString>,
     before_devices: impl FnOnce(),
 ) -> ExitCode {
-    join_workers();
     let done = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => {
             if arguments.command.may_open_device() {
                 before_devices();
             }
             interrupt::install();
+            if arguments.command.draws() {
+                join_workers();
+            }
             obey(arguments.command)
         }
         Err(error) if !error.use_stderr() => output::print(error.render().to_string().as_bytes()),
@@ -90,7 +92,7 @@ pub fn command() -> clap::Command {
     Arguments::command()
 }
 
-/// Makes this thread one of those that share parallel work, so that one thread less is started; the others start meanwhile.
+/// Makes this thread one of those that share parallel work, so that one thread less is started.
 ///
 /// Where workers cannot be started, parallel work says so when it comes.
 fn join_workers() {

@@ -200,17 +200,14 @@ fn add_splitters(
         all,
     );
     // One pass over a few hundred splitters is not worth another that sizes it.
-    let among = match is_short {
-        true => *work,
-        false => add_work(
-            graph,
-            splitters.count,
-            count,
-            Followers {
-                rounds,
-                ..Followers::default()
-            },
-        ),
+    let among = if is_short {
+        *work
+    } else {
+        let followers = Followers {
+            rounds,
+            ..Followers::default()
+        };
+        add_work(graph, splitters.count, count, followers)
     };
     let hops = graph.buffer::<Hop>("first hops", count);
     let first = graph.buffer::<Reach>("first reach", count);
