@@ -65,7 +65,7 @@ pub enum Command {
     /// Without options, `npr trace drawing.png` writes drawing.svg into the current folder.
     Trace(Box<Deferred<TraceArguments>>),
     /// Tell what is in a file, what of it is drawn, and what is ignored and why.
-    Info(InfoArguments),
+    Info(Deferred<InfoArguments>),
     /// List, show and check styles.
     Styles {
         /// What to do with them.

@@ -107,7 +107,7 @@ fn obey(command: Command) -> Result<(), Fault> {
         Command::Lines(arguments) => lines::lines(&arguments.0),
         Command::Smoke(arguments) => smoke::smoke(&arguments.0),
         Command::Trace(arguments) => trace::trace(&arguments.0),
-        Command::Info(arguments) => info::info(&arguments),
+        Command::Info(arguments) => info::info(&arguments.0),
         Command::Styles { command } => styles::styles(&command),
         Command::Doctor { json } => doctor::doctor(json),
         Command::Man { command } => manual::manual(command.as_deref()),

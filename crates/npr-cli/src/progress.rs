@@ -1,7 +1,8 @@
 //! What is being done right now, on a terminal, and how long each step took.
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressStyle};
 use std::cell::Cell;
+use std::io::{self, IsTerminal};
 use std::time::{Duration, Instant};
 
 /// How often the line on the terminal moves.
@@ -9,24 +10,19 @@ const TICK: Duration = Duration::from_millis(100);
 
 /// Steps of a run: shown while they last, timed when they are over.
 pub struct Progress {
-    bar: ProgressBar,
+    /// Where somebody may see it.
+    bar: Option<ProgressBar>,
     done: Vec<(&'static str, Duration)>,
 }
 
 impl Progress {
     /// A line on standard error, where that is a terminal and `quiet` is not asked for.
     pub fn new(quiet: bool) -> Self {
-        let target = if quiet {
-            ProgressDrawTarget::hidden()
-        } else {
-            ProgressDrawTarget::stderr()
-        };
-        let bar = ProgressBar::with_draw_target(None, target);
-        if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
-            bar.set_style(style);
-        }
-        // Ticks cost a thread.
-        if !bar.is_hidden() {
+        let bar = (!quiet && io::stderr().is_terminal()).then(ProgressBar::new_spinner);
+        if let Some(bar) = &bar {
+            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
+                bar.set_style(style);
+            }
             bar.enable_steady_tick(TICK);
         }
         Self {
@@ -37,7 +33,9 @@ impl Progress {
 
     /// Does one step of the work.
     pub fn step<R>(&mut self, name: &'static str, work: impl FnOnce() -> R) -> R {
-        self.bar.set_message(name);
+        if let Some(bar) = &self.bar {
+            bar.set_message(name);
+        }
         let start = Instant::now();
         let result = work();
         self.done.push((name, start.elapsed()));
@@ -54,7 +52,10 @@ impl Progress {
 
     /// Writes a line by `write`, with the progress out of its way.
     pub fn suspend(&self, write: impl FnOnce()) {
-        self.bar.suspend(write);
+        match &self.bar {
+            Some(bar) => bar.suspend(write),
+            None => write(),
+        }
     }
 
     /// Ends the show; the steps with the time each took.
@@ -65,7 +66,7 @@ impl Progress {
 
 /// How far one step is, with an estimate of what is left.
 pub struct Counter {
-    bar: ProgressBar,
+    bar: Option<ProgressBar>,
     /// When the first part was told of, and how many were done then.
     start: Cell<Option<(Instant, usize)>>,
 }
@@ -73,6 +74,9 @@ pub struct Counter {
 impl Counter {
     /// Shows that `done` parts of `of` are done.
     pub fn tell(&self, name: &str, done: usize, of: usize) {
+        let Some(bar) = &self.bar else {
+            return;
+        };
         let (start, before) = self.start.get().unwrap_or((Instant::now(), done));
         self.start.set(Some((start, before)));
         let left = time_left(
@@ -81,8 +85,7 @@ impl Counter {
             of.saturating_sub(done),
         );
         let left = left.map_or(String::new(), |left| format!(", {} s left", left.as_secs()));
-        self.bar
-            .set_message(format!("{name} {done} of {of}{left},"));
+        bar.set_message(format!("{name} {done} of {of}{left},"));
     }
 }
 
@@ -95,7 +98,9 @@ fn time_left(elapsed: Duration, done: usize, left: usize) -> Option<Duration> {
 impl Drop for Progress {
     /// Leaves a clean terminal to whatever is said next.
     fn drop(&mut self) {
-        self.bar.finish_and_clear();
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
     }
 }
 

@@ -47,6 +47,7 @@ mod strip;
 #[cfg(test)]
 mod tests;
 mod turn;
+mod words;
 
 pub use adjust::adjust_corners;
 pub use bitmap::{Bitmap, BitmapError, SIDE_LIMIT};

@@ -3,6 +3,7 @@
 use super::bitmap::Bitmap;
 use super::edges::EdgeMap;
 use super::turn::{TurnPolicy, pixels_around};
+use super::words::Words;
 
 /// Steps after which a batch of loops is handed on: the last ones shall end at about the same time on all threads.
 const BATCH_STEPS: usize = 1 << 11;
@@ -166,7 +167,7 @@ impl<'a> Decomposition<'a> {
     }
 
     /// The memory of its edges, which were all taken once there are no more loops: zero.
-    pub(super) fn into_words(self) -> [Vec<u64>; 2] {
+    pub(super) fn into_words(self) -> Words {
         self.map.into_words()
     }
 

@@ -1,6 +1,7 @@
 //! The pixel edges of a bitmap: sides between ink and white.
 
 use super::bitmap::Bitmap;
+use super::words::Words;
 use rayon::prelude::*;
 
 /// Columns and rows of nothing around the picture, so that the 8x8 pixels around any corner can be asked for.
@@ -17,8 +18,9 @@ const LEAST_ROWS: usize = 64;
 pub(super) struct EdgeMap {
     /// Words of a row.
     stride: usize,
-    upright: Vec<u64>,
-    level: Vec<u64>,
+    /// Words of the upright edges; those of the level ones follow.
+    half: usize,
+    words: Words,
 }
 
 impl EdgeMap {
@@ -27,16 +29,14 @@ impl EdgeMap {
         let (width, height) = (bitmap.width(), bitmap.height());
         let stride = (width as usize + 2 * PAD).div_ceil(64) + 1;
         let rows = height as usize + 2 * PAD;
-        let mut map = Self {
-            stride,
-            upright: vec![0; stride * rows],
-            level: vec![0; stride * rows],
-        };
+        let half = stride * rows;
+        let mut words = Words::zeros(2 * half);
         let white = vec![0; width.div_ceil(64) as usize];
         // A stretch for every thread, since new pages that lie close together are not given to two threads at once.
         let least = (rows / rayon::current_num_threads()).max(LEAST_ROWS);
-        let uprights = map.upright.par_chunks_mut(stride);
-        let rows = uprights.zip(map.level.par_chunks_mut(stride));
+        let (upright, level) = words.split_at_mut(half);
+        let uprights = upright.par_chunks_mut(stride);
+        let rows = uprights.zip(level.par_chunks_mut(stride));
         rows.enumerate()
             .with_min_len(least)
             .for_each(|(row, (upright, level))| {
@@ -49,12 +49,16 @@ impl EdgeMap {
                     set_row(pixels(y.checked_sub(1)), pixels(Some(y)), upright, level);
                 }
             });
-        map
+        Self {
+            stride,
+            half,
+            words,
+        }
     }
 
-    /// Its memory, for other maps; all zero where every edge was taken.
-    pub fn into_words(self) -> [Vec<u64>; 2] {
-        [self.upright, self.level]
+    /// Its memory, more than two bits a pixel; all zero where every edge was taken.
+    pub fn into_words(self) -> Words {
+        self.words
     }
 
     #[inline]
@@ -71,12 +75,12 @@ impl EdgeMap {
     pub fn leads(&self, x: u32, y: u32, direction: u8) -> bool {
         let (word, bit) = self.place(x, y);
         let word = match direction & 3 {
-            0 => self.level[word] >> bit,
+            0 => self.words[self.half + word] >> bit,
             // The column before is in the word before where the bit is the first.
-            2 if bit == 0 => self.level[word - 1] >> 63,
-            2 => self.level[word] >> (bit - 1),
-            1 => self.upright[word - self.stride] >> bit,
-            _ => self.upright[word] >> bit,
+            2 if bit == 0 => self.words[self.half + word - 1] >> 63,
+            2 => self.words[self.half + word] >> (bit - 1),
+            1 => self.words[word - self.stride] >> bit,
+            _ => self.words[word] >> bit,
         };
         word & 1 == 1
     }
@@ -86,7 +90,7 @@ impl EdgeMap {
     pub fn is_level_around(&self, x: u32, y: u32, dx: i32, dy: i32) -> u64 {
         let column = (x as usize + PAD).wrapping_add_signed(dx as isize);
         let row = (y as usize + PAD).wrapping_add_signed(dy as isize);
-        self.level[row * self.stride + column / 64] >> (column % 64) & 1
+        self.words[self.half + row * self.stride + column / 64] >> (column % 64) & 1
     }
 
     /// The seven upright edges between the eight pixels around the corner's column, in the row `dy` below the corner.
@@ -97,7 +101,7 @@ impl EdgeMap {
         let at = row * self.stride + column / 64;
         let bit = column % 64;
         // Two shifts, since one by 64 is none.
-        let both = self.upright[at] >> bit | self.upright[at + 1] << 1 << (63 - bit);
+        let both = self.words[at] >> bit | self.words[at + 1] << 1 << (63 - bit);
         both & 0x7f
     }
 
@@ -111,19 +115,20 @@ impl EdgeMap {
         };
         let (word, bit) = self.place(x, y);
         if direction & 1 == 1 {
-            self.upright[word] &= !(1 << bit);
+            self.words[word] &= !(1 << bit);
         } else {
-            self.level[word] &= !(1 << bit);
+            self.words[self.half + word] &= !(1 << bit);
         }
     }
 
     /// The first upright edge at or after a place, rows before columns; its upper corner.
     pub fn next_upright(&self, [x, y]: [u32; 2]) -> Option<[u32; 2]> {
+        let (upright, _) = self.words.split_at(self.half);
         let (mut word, bit) = self.place(x, y);
-        let mut bits = *self.upright.get(word)? & (u64::MAX << bit);
+        let mut bits = *upright.get(word)? & (u64::MAX << bit);
         while bits == 0 {
             word += 1;
-            bits = *self.upright.get(word)?;
+            bits = *upright.get(word)?;
         }
         let column = word % self.stride * 64 + bits.trailing_zeros() as usize;
         Some([(column - PAD) as u32, (word / self.stride - PAD) as u32])

@@ -1,6 +1,7 @@
 //! Which path lies in which.
 
 use super::decompose::PixelLoop;
+use super::words::Words;
 
 /// No loop.
 pub(super) const NONE: u32 = u32::MAX;
@@ -16,20 +17,23 @@ pub fn nest<'a>(
     size: [u32; 2],
     loops: impl Iterator<Item = PixelLoop<'a>> + Clone,
 ) -> Vec<Option<u32>> {
-    let parents = parents(size, loops, Default::default()).into_iter();
+    let words = Words::zeros(2 * Uprights::words_of(size));
+    let parents = parents(size, loops, words).into_iter();
     parents
         .map(|parent| (parent != NONE).then_some(parent))
         .collect()
 }
 
-/// [`nest`], with [`NONE`] for none: eight bytes a loop at once, and two bits a pixel, in memory that may be there and is zero.
+/// [`nest`], with [`NONE`] for none: eight bytes a loop at once, and two bits a pixel, in zeros that are there: twice [`Uprights::words_of`] at least.
 pub(super) fn parents<'a>(
     size: [u32; 2],
     loops: impl Iterator<Item = PixelLoop<'a>> + Clone,
-    words: [Vec<u64>; 2],
+    mut words: Words,
 ) -> Vec<u32> {
-    let [edges, asked] = words.map(|words| Uprights::within(words, size));
-    let (mut edges, mut asked) = (edges, asked);
+    debug_assert!(words.iter().all(|word| *word == 0), "no bit is set");
+    let count = Uprights::words_of(size);
+    let (edges, asked) = words[..2 * count].split_at_mut(count);
+    let [mut edges, mut asked] = [edges, asked].map(|bits| Uprights::within(bits, size));
     for pixels in loops.clone() {
         for (place, _) in uprights(&pixels) {
             edges.set(place);
@@ -82,18 +86,25 @@ fn uprights(pixels: &PixelLoop<'_>) -> impl Iterator<Item = ([u32; 2], bool)> {
 }
 
 /// A bit for every upright edge.
-struct Uprights {
+struct Uprights<'a> {
     stride: usize,
-    bits: Vec<u64>,
+    bits: &'a mut [u64],
 }
 
-impl Uprights {
-    /// None yet; in words that are zero.
-    fn within(mut bits: Vec<u64>, [width, height]: [u32; 2]) -> Self {
-        debug_assert!(bits.iter().all(|word| *word == 0), "no bit is set");
-        let stride = width as usize / 64 + 1;
-        bits.resize(stride * height as usize, 0);
+impl<'a> Uprights<'a> {
+    /// None yet; in as many words as they need, which are zero.
+    fn within(bits: &'a mut [u64], [width, _]: [u32; 2]) -> Self {
+        let stride = Self::row_words(width);
         Self { stride, bits }
+    }
+
+    /// Words that the edges of a picture need.
+    fn words_of([width, height]: [u32; 2]) -> usize {
+        Self::row_words(width) * height as usize
+    }
+
+    fn row_words(width: u32) -> usize {
+        width as usize / 64 + 1
     }
 
     fn word(&self, [x, y]: [u32; 2]) -> usize {
