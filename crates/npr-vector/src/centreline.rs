@@ -41,8 +41,10 @@ mod tidy;
 pub use despeckle::despeckle;
 pub use distance::distance2;
 pub use file::{write_centreline_geojson, write_centrelines};
+pub(crate) use link::line as line_of;
 pub use link::{Way, WayPoint, Ways, link};
 pub use network::{Branch, Network, Node};
+pub(crate) use stroke::smooth_border;
 pub use thin::thin;
 
 use crate::graph::{CurveGraph, CurveNode};

@@ -53,10 +53,7 @@ fn packed_distance(a: u32, b: u32) -> u32 {
 /// O(pixels), parallel over rows.
 pub fn detect(with: &Detection<'_>, gbuffer: &[GPixel], mask: &mut [u32]) {
     let width = with.window.size[0] as usize;
-    let detector = Detector {
-        quiet_distance: quiet_distance(with.outline),
-        with,
-    };
+    let detector = Detector::new(with);
     mask.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
         row.fill(0);
         let line = |y: usize| &gbuffer[y * width..(y + 1) * width];
@@ -71,21 +68,47 @@ pub fn detect(with: &Detection<'_>, gbuffer: &[GPixel], mask: &mut [u32]) {
 }
 
 /// A detection with what need not be worked out for every pixel.
-struct Detector<'a> {
+pub(crate) struct Detector<'a> {
     with: &'a Detection<'a>,
     /// How far apart packed normals may lie and surely pass the threshold.
     quiet_distance: u32,
 }
 
-impl Detector<'_> {
+impl<'a> Detector<'a> {
+    pub fn new(with: &'a Detection<'a>) -> Self {
+        Self {
+            quiet_distance: quiet_distance(with.outline),
+            with,
+        }
+    }
+
+    /// Which buffers separate a pixel from another, which lies to the right (`side` 1) or below (3); 0 where neither has lines.
+    pub fn kinds(&self, first: &GPixel, second: &GPixel, side: u32) -> u32 {
+        let step = if side == 1 { [1.0, 0.0] } else { [0.0, 1.0] };
+        let kinds = self.separations(first, second, step);
+        if self.has_lines(first) || self.has_lines(second) {
+            kinds
+        } else {
+            0
+        }
+    }
+
+    /// The mask bits that two pixels have for what separates them, as [`Self::kinds`] says.
+    pub fn marks(&self, first: &GPixel, second: &GPixel, kinds: u32, side: u32) -> [u32; 2] {
+        [
+            self.mark(first, second, kinds, side),
+            self.mark(second, first, kinds, side - 1),
+        ]
+    }
+
     /// Marks what neighbours in a row find; each pair is compared once for both of its pixels.
     fn mark_along(&self, line: &[GPixel], row: &mut [u32]) {
         for x in 1..line.len() {
-            let (left, right) = (&line[x - 1], &line[x]);
-            let kinds = self.separations(left, right, [1.0, 0.0]);
-            if kinds != 0 && (self.has_lines(left) || self.has_lines(right)) {
-                row[x - 1] |= self.mark(left, right, kinds, 1);
-                row[x] |= self.mark(right, left, kinds, 0);
+            let kinds = self.kinds(&line[x - 1], &line[x], 1);
+            if kinds != 0 {
+                let [left, right] = self.marks(&line[x - 1], &line[x], kinds, 1);
+                row[x - 1] |= left;
+                row[x] |= right;
             }
         }
     }

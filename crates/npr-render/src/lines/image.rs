@@ -16,7 +16,9 @@ use npr_core::window::View;
 use npr_style::compose::LUMA;
 use npr_vector::draw::{LineSettings, Prepared, StrokeLook};
 use npr_vector::graph::CurveNode;
-use npr_vector::image_line::{BYTES_PER_PIXEL, ImageScene, PaintedRule, SurfacePicture, painted};
+use npr_vector::image_line::{
+    BYTES_PER_PIXEL, ImageScene, PaintedRule, SurfacePicture, painted, strokes_from,
+};
 use npr_vector::project::Projector;
 use npr_vector::seat::Seat;
 use npr_vector::stroke::Stroke;
@@ -58,19 +60,19 @@ impl LineModel {
         let on = (&scene, view.projector, &picture);
         let mut strokes = Vec::new();
         if options.method == LineMethod::Image {
-            let lines = picture.lines(&scene, veil.as_deref());
-            strokes = lines.strokes(on, settings, look)?;
+            let runs = picture.borders(&scene, veil.as_deref()).runs(on);
+            strokes = strokes_from(runs, &self.shape, settings, look);
         }
         if let Some(map) = self.map.as_ref().filter(|_| options.painted) {
             let all = ImageScene {
                 kinds: CurveNode::KINDS,
                 ..scene
             };
-            let lines = picture.lines(&all, None);
+            let lines = picture.borders(&all, None).ink();
             let lightness = lightness(&self.shape, map, (&of_frame, view.projector), &picture);
             let mut ink = painted(&picture, &lightness, &lines, &PaintedRule::default());
             ink.retain(|pixel| picture.is_clear(veil.as_deref(), pixel));
-            strokes.extend(ink.strokes(on, settings, look)?);
+            strokes.extend(strokes_from(ink.runs(on)?, &self.shape, settings, look));
         }
         Ok(strokes)
     }

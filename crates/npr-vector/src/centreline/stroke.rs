@@ -20,6 +20,24 @@ const WINDOW: usize = 64;
 /// Half the length of a dot, in pixels, so that it has a direction.
 pub const DOT_PX: f64 = 0.05;
 
+/// Places between pixels, about a pixel apart, made smooth but for corners of `corner` radians and more; as many as there are.
+///
+/// Ends that are pinned stay where they are, as far as a parabola can.
+pub(crate) fn smooth_border(
+    places: &[DVec2],
+    closed: bool,
+    pinned: [bool; 2],
+    corner: f64,
+) -> Vec<DVec2> {
+    let how = Calm {
+        tolerance: TOLERANCE_PX,
+        most: WINDOW,
+        closed,
+        pinned,
+    };
+    smooth_between(places, &corners(places, |_| 1, corner, &how), &how)
+}
+
 /// The stroke along a way; `corner` in radians.
 pub fn stroke(way: &Way, ink: &Bitmap, corner: f64) -> CentreStroke {
     if way.points.len() < 3 {

@@ -1,27 +1,16 @@
 //! Which surface every pixel of a view shows.
 
-use super::ink::LineInk;
-use crate::detect::{Detection, detect};
+use super::border::Borders;
 use crate::gbuffer::{Surfaces, resolve};
-use crate::graph::CurveNode;
 use crate::pixel_contour::segment::PixelView;
 use crate::pixel_contour::surface::fill;
 use crate::zero_set::CornerNormals;
 use npr_core::geometry::{GPixel, NONE, Part, PosedVertex, Triangle};
-use npr_core::outline::{MASK_OWNER, MASK_SIDE, Outline};
 use npr_core::raster::triangle_of;
 use npr_core::shape::Shape;
 use npr_core::surface::{apply_point, dot};
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
-
-/// Bits that each say something about where a line comes from.
-const DETECTS: u32 = Outline::DEPTH
-    | Outline::NORMAL
-    | Outline::OBJECT_ID
-    | Outline::MATERIAL_ID
-    | Outline::PLANE_DEPTH
-    | Outline::PIECE;
 
 /// A view of a shape whose lines are looked for in a picture.
 #[derive(Clone, Copy)]
@@ -47,13 +36,13 @@ impl ImageScene<'_> {
         self.view.frame_px.map(|side| side as u32)
     }
 
-    fn window(&self) -> Window {
+    pub(super) fn window(&self) -> Window {
         let px = self.view.frame_px;
         Window::over(px, [0.0; 2], px, self.size())
     }
 
     /// Surfaces as detection reads them.
-    fn parts(&self) -> Vec<Part> {
+    pub(super) fn parts(&self) -> Vec<Part> {
         let surfaces = self.shape.surfaces.iter().enumerate();
         let part = surfaces.map(|(index, surface)| Part {
             object: surface.object,
@@ -97,104 +86,14 @@ impl SurfacePicture {
         }
     }
 
-    /// Marks the pixels beside lines of the wanted kinds, where nothing of `veil` (reversed depths, where given) lies before them.
-    pub fn lines(&self, scene: &ImageScene<'_>, veil: Option<&[f32]>) -> LineInk {
-        let outline = Outline {
-            crease_cos: scene.crease_cos,
-            normal_cos: scene.crease_cos,
-            depth_threshold: scene.depth_threshold,
-            kinds: Outline::CONTOUR | Outline::BORDER | Outline::CREASE | Outline::MATERIAL,
-            detects: DETECTS,
-            ..Outline::default()
-        };
-        let parts = scene.parts();
-        let with = Detection {
-            view: scene.view,
-            window: &scene.window(),
-            outline: &outline,
-            parts: &parts,
-        };
-        let mut mask = vec![0; self.faces.len()];
-        if !mask.is_empty() {
-            detect(&with, &self.pixels, &mut mask);
-        }
-        let mut ink = LineInk::new(self.size);
-        for (pixel, bits) in (0..).zip(&mask) {
-            let kind = kind_of(*bits);
-            let is_owner = bits & MASK_OWNER != 0 && kind & scene.kinds != 0;
-            if is_owner && self.is_clear(veil, pixel as usize) {
-                ink.add(pixel, kind, bits / MASK_SIDE);
-            }
-        }
-        if scene.kinds & CurveNode::CREASE != 0 {
-            self.add_grazing_creases(scene, &mask, veil, &mut ink);
-        }
-        ink
+    /// The borders between pixels that are lines of the wanted kinds, where nothing of `veil` (reversed depths, where given) lies before them.
+    pub fn borders(&self, scene: &ImageScene<'_>, veil: Option<&[f32]>) -> Borders {
+        Borders::of(self, scene, veil)
     }
 
     /// Whether nothing of a veil (reversed depths, where given) lies before a pixel.
     pub fn is_clear(&self, veil: Option<&[f32]>, pixel: usize) -> bool {
         veil.is_none_or(|veil| veil[pixel] <= self.depths[pixel])
-    }
-
-    /// Marks creases beside faces that turn away steeply, which detection leaves out because normals of smooth surfaces differ there too:
-    /// where two pixels show faces that share a sharp edge.
-    fn add_grazing_creases(
-        &self,
-        scene: &ImageScene<'_>,
-        mask: &[u32],
-        veil: Option<&[f32]>,
-        ink: &mut LineInk,
-    ) {
-        let width = self.size[0] as usize;
-        let is_unowned = |pixel: usize| mask.get(pixel) == Some(&Outline::NORMAL);
-        for pixel in (0..mask.len()).filter(|pixel| is_unowned(*pixel)) {
-            let is_last = (pixel + 1).is_multiple_of(width);
-            // Side of the first pixel on which the second lies, and the other way round.
-            for (other, side, back) in [(pixel + 1, 1, 0), (pixel + width, 3, 2)] {
-                let is_beside = is_unowned(other) && (side != 1 || !is_last);
-                if !is_beside || !self.share_crease(scene, pixel, other) {
-                    continue;
-                }
-                let is_first = self.pixels[pixel].depth < self.pixels[other].depth;
-                let (owner, side) = if is_first {
-                    (pixel, side)
-                } else {
-                    (other, back)
-                };
-                let is_drawn = scene.is_drawn.get(self.pixels[owner].part as usize);
-                if is_drawn != Some(&false) && self.is_clear(veil, owner) {
-                    ink.add(owner as u32, CurveNode::CREASE, 1 << side);
-                }
-            }
-        }
-    }
-
-    /// Whether two pixels show faces on both sides of an edge that is a crease.
-    fn share_crease(&self, scene: &ImageScene<'_>, pixel: usize, other: usize) -> bool {
-        let (shape, [a, b]) = (scene.shape, [pixel, other].map(|at| self.faces[at]));
-        if a == NONE || b == NONE {
-            return false;
-        }
-        let edges = (3 * a..3 * a + 3).map(|half_edge| shape.edge_of[half_edge as usize]);
-        edges.into_iter().any(|edge| {
-            let is_sharp = shape.dihedral_cos[edge as usize] < scene.crease_cos;
-            is_sharp && shape.sides(edge).iter().any(|side| side / 3 == b)
-        })
-    }
-}
-
-/// What a line is that was found for these reasons, a bit of [`CurveNode::KINDS`].
-fn kind_of(mask: u32) -> u32 {
-    let has = |bits: u32| mask & bits != 0;
-    if has(Outline::DEPTH) {
-        CurveNode::CONTOUR
-    } else if has(Outline::OBJECT_ID | Outline::PIECE) {
-        CurveNode::INTERSECTION
-    } else if has(Outline::MATERIAL_ID) {
-        CurveNode::MATERIAL
-    } else {
-        CurveNode::CREASE
     }
 }
 

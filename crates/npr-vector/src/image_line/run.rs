@@ -1,8 +1,10 @@
-//! From ink to runs.
+//! From borders and ink to runs.
 
+use super::border::Borders;
+use super::chain::{Chain, Label, chains, cuts, middle_of, place_of};
 use super::ink::LineInk;
 use super::picture::{ImageScene, SurfacePicture};
-use crate::centreline::{CentreStroke, CentrelineOptions, centrelines};
+use crate::centreline::{CentrelineOptions, centrelines, smooth_border};
 use crate::draw::{LineSettings, StrokeLook, calmed, strokes_of};
 use crate::project::Projector;
 use crate::rank::hash_key;
@@ -10,39 +12,41 @@ use crate::run::{Run, RunPoint, base_id, number};
 use crate::seat::{Seat, share_along};
 use crate::stroke::{Kind, Stroke};
 use crate::trace::{Bitmap, BitmapError};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
+use npr_core::shape::Shape;
 use rayon::prelude::*;
 
-/// Parts of a line with fewer points than this take on the kind and surface of what is beside them: pixels at corners show either.
-const LEAST_PART: usize = 6;
+/// Angle, in radians, from which a bend between straight sides is a corner.
+const CORNER: f64 = 0.7;
+
+/// Closed lines of fewer borders go around a few pixels, which come and go.
+const LEAST_RING: usize = 12;
 
 /// A point of a line, and what it was found on.
 #[derive(Debug, Clone, Copy)]
 struct Found {
     point: RunPoint,
     /// A bit of kinds, and the surface.
-    label: [u32; 2],
+    label: Label,
+}
+
+/// What runs are made on.
+pub type On<'a> = (&'a ImageScene<'a>, &'a Projector, &'a SurfacePicture);
+
+/// The strokes of runs found in a picture, as `look` has them along themselves: joined, cut at corners and smoothed as those of meshes are,
+/// as far as the settings ask for it.
+pub fn strokes_from(
+    runs: Vec<Run>,
+    shape: &Shape,
+    settings: &LineSettings,
+    look: &StrokeLook<'_>,
+) -> Vec<Stroke> {
+    strokes_of(calmed(runs, settings), &|run, point| {
+        look.paint(shape, run, point)
+    })
 }
 
 impl LineInk {
-    /// The strokes of the ink, as `look` has them along themselves: its runs joined, cut at corners and smoothed as those of meshes are, as
-    /// far as the settings ask for it.
-    ///
-    /// # Errors
-    ///
-    /// As [`LineInk::runs`].
-    pub fn strokes(
-        &self,
-        (scene, projector, picture): (&ImageScene<'_>, &Projector, &SurfacePicture),
-        settings: &LineSettings,
-        look: &StrokeLook<'_>,
-    ) -> Result<Vec<Stroke>, BitmapError> {
-        let runs = calmed(self.runs(scene, projector, picture)?, settings);
-        Ok(strokes_of(runs, &|run, point| {
-            look.paint(scene.shape, run, point)
-        }))
-    }
-
     /// The lines of the ink as runs of the shape: each line once, along its middle, cut where its kind or surface changes.
     ///
     /// Places, depths and identities are those of the pixels that own the ink: the identity hangs on the mesh edge with the least hash of
@@ -51,60 +55,112 @@ impl LineInk {
     /// # Errors
     ///
     /// [`BitmapError`] for pictures beyond its limit.
-    pub fn runs(
-        &self,
-        scene: &ImageScene<'_>,
-        projector: &Projector,
-        picture: &SurfacePicture,
-    ) -> Result<Vec<Run>, BitmapError> {
+    pub fn runs(&self, (scene, projector, picture): On<'_>) -> Result<Vec<Run>, BitmapError> {
         let mut bitmap = Bitmap::new(self.size[0], self.size[1])?;
         for y in 0..self.size[1] {
             for x in (0..self.size[0]).filter(|x| self.is_ink(*x, y)) {
                 bitmap.set(x, y, true);
             }
         }
-        let found = centrelines(&bitmap, &CentrelineOptions::default());
+        let lines = centrelines(&bitmap, &CentrelineOptions::default());
         let maker = Maker {
-            ink: self,
             scene,
             projector,
             picture,
         };
-        let mut runs: Vec<Run> = found
-            .strokes
-            .par_iter()
-            .flat_map_iter(|stroke| maker.runs(stroke))
-            .collect();
+        let runs = lines.strokes.par_iter().flat_map_iter(|stroke| {
+            let found = stroke.points.iter().filter_map(|point| {
+                let owner = self.owner_near(point.place)?;
+                maker.found(point.place, owner, self.kinds[owner as usize])
+            });
+            maker.runs(found.collect(), stroke.closed)
+        });
+        let mut runs: Vec<Run> = runs.collect();
         number(&mut runs);
         Ok(runs)
     }
 }
 
+impl Borders {
+    /// The lines of the borders as runs of the shape: each line once, cut where its kind or surface changes.
+    ///
+    /// Where lines meet, those go on as one that lie on one surface: an outline runs past what it hides. Places, depths and identities
+    /// are those of the pixels that own the borders, as for [`LineInk::runs`]. O(borders log borders), in parallel.
+    pub fn runs(&self, (scene, projector, picture): On<'_>) -> Vec<Run> {
+        let maker = Maker {
+            scene,
+            projector,
+            picture,
+        };
+        let surface_of = |pixel: u32| picture.pixels[pixel as usize].part;
+        let chains = chains(self, surface_of);
+        let is_dot = |chain: &Chain| chain.closed && chain.borders.len() < LEAST_RING;
+        let lines = chains.par_iter().filter(|chain| !is_dot(chain));
+        let runs = lines.filter_map(|chain| {
+            let found = self.along(chain, &maker);
+            let is_enough = found.len() >= if chain.closed { 3 } else { 2 };
+            let points = found.into_iter().map(|found| found.point).collect();
+            is_enough
+                .then(|| maker.run(points, chain.label, chain.closed))
+                .flatten()
+        });
+        let mut runs: Vec<Run> = runs.collect();
+        number(&mut runs);
+        runs
+    }
+
+    /// Smooth places along a chain, with what lies there: one for every border, and the ends of an open one.
+    fn along(&self, chain: &Chain, maker: &Maker<'_>) -> Vec<Found> {
+        let borders = chain
+            .borders
+            .iter()
+            .map(|border| self.all[*border as usize]);
+        let mut along: Vec<(DVec2, u32)> = borders
+            .map(|border| (middle_of(self.size, border.side), border.owner))
+            .collect();
+        if let ([first, ..], [.., last], false) = (&along[..], &along[..], chain.closed) {
+            let [start, end] = [(chain.ends[0], first.1), (chain.ends[1], last.1)]
+                .map(|(corner, owner)| (place_of(self.size, corner), owner));
+            along.insert(0, start);
+            along.push(end);
+        }
+        let places: Vec<DVec2> = along.iter().map(|(place, _)| *place).collect();
+        let pinned = chain.free.map(|free| !free);
+        let smooth = smooth_border(&places, chain.closed, pinned, CORNER);
+        let found = smooth
+            .into_iter()
+            .zip(along)
+            .filter_map(|(place, (_, owner))| maker.found(place.to_array(), owner, chain.label[0]));
+        let mut found: Vec<Found> = found.collect();
+        found.dedup_by(|a, b| a.point.place == b.point.place);
+        found
+    }
+}
+
 struct Maker<'a> {
-    ink: &'a LineInk,
     scene: &'a ImageScene<'a>,
     projector: &'a Projector,
     picture: &'a SurfacePicture,
 }
 
 impl Maker<'_> {
-    fn runs(&self, stroke: &CentreStroke) -> Vec<Run> {
-        let places = stroke.points.iter().map(|point| point.place);
-        let mut found: Vec<Found> = places.filter_map(|place| self.found(place)).collect();
+    /// The runs of a line, cut where what it is changes.
+    fn runs(&self, mut found: Vec<Found>, is_closed: bool) -> Vec<Run> {
         found.dedup_by(|a, b| a.point.place == b.point.place);
-        let mut parts = parts(&found);
+        let labels = |found: &[Found]| found.iter().map(|found| found.label).collect::<Vec<_>>();
+        let mut parts = cuts(&labels(&found));
         let is_whole = parts.len() == 1;
-        if stroke.closed && !is_whole {
+        if is_closed && !is_whole {
             // Around the seam a part goes on.
             let start = parts.first().map_or(0, |part| part.1);
             found.rotate_left(start);
-            parts = self::parts(&found);
+            parts = cuts(&labels(&found));
         }
         let count = found.len();
         let runs = parts.into_iter().filter_map(|(from, to, label)| {
-            let closed = stroke.closed && is_whole;
+            let closed = is_closed && is_whole;
             // A part runs on to the first point of the next.
-            let reach = if to < count || (stroke.closed && !is_whole) {
+            let reach = if to < count || (is_closed && !is_whole) {
                 to + 1
             } else {
                 to
@@ -116,7 +172,7 @@ impl Maker<'_> {
         runs.collect()
     }
 
-    fn run(&self, points: Vec<RunPoint>, [kind, surface]: [u32; 2], closed: bool) -> Option<Run> {
+    fn run(&self, points: Vec<RunPoint>, [kind, surface]: Label, closed: bool) -> Option<Run> {
         let kind = Kind::ALL.into_iter().find(|known| known.bit() == kind)?;
         let shape = self.scene.shape;
         let edges = points
@@ -152,11 +208,10 @@ impl Maker<'_> {
         nearest.unwrap_or(edges[0])
     }
 
-    /// A point of a run at a place of the picture; none where no line is near.
-    fn found(&self, place: [f64; 2]) -> Option<Found> {
-        let owner = self.ink.owner_near(place)? as usize;
-        let face = *self.picture.faces.get(owner)?;
-        let pixel = self.picture.pixels[owner];
+    /// A point of a run at a place of the picture, on the surface of a pixel; none where that shows nothing.
+    fn found(&self, place: [f64; 2], owner: u32, kind: u32) -> Option<Found> {
+        let face = *self.picture.faces.get(owner as usize)?;
+        let pixel = self.picture.pixels[owner as usize];
         let surface = *self.scene.shape.face_surfaces.get(face as usize)?;
         let depth = f64::from(pixel.depth);
         let world = self.projector.unproject(place, depth);
@@ -170,27 +225,7 @@ impl Maker<'_> {
                 t: 0.5,
                 seat: Seat { edge, face },
             },
-            label: [self.ink.kinds[owner], surface],
+            label: [kind, surface],
         })
     }
-}
-
-/// Stretches of equal labels, as first, end and label; short ones belong to what is before them, or else after.
-fn parts(found: &[Found]) -> Vec<(usize, usize, [u32; 2])> {
-    let mut parts: Vec<(usize, usize, [u32; 2])> = Vec::new();
-    for stretch in found.chunk_by(|a, b| a.label == b.label) {
-        let own = stretch[0].label;
-        let from = parts.last().map_or(0, |part| part.1);
-        let to = from + stretch.len();
-        match parts.last_mut() {
-            Some((first, last, label)) if *last - *first < LEAST_PART => {
-                (*last, *label) = (to, own);
-            }
-            Some((_, last, label)) if stretch.len() < LEAST_PART || *label == own => {
-                *last = to;
-            }
-            _ => parts.push((from, to, own)),
-        }
-    }
-    parts
 }

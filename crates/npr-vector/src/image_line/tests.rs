@@ -4,6 +4,7 @@ use super::*;
 use crate::draw::{LineSettings, Method, StrokeLook};
 use crate::graph::CurveNode;
 use crate::project::Projector;
+use crate::run::Run;
 use crate::stroke::{Kind, Stroke};
 use crate::zero_set::CornerNormals;
 use npr_core::camera::{Camera, Projection};
@@ -55,26 +56,37 @@ impl Subject {
         }
     }
 
-    fn strokes_of(&self, ink: &LineInk, picture: &SurfacePicture) -> Vec<Stroke> {
+    fn strokes_of(&self, runs: Vec<Run>, size: [u32; 2]) -> Vec<Stroke> {
         let look = StrokeLook {
             width_at: &|_| 2.0,
             paint_at: None,
         };
-        let on = (&self.scene(), &self.projector, picture);
         let settings = LineSettings {
-            size: picture.size,
+            size,
             kinds: self.kinds,
             method: Method::Edges,
             smooth: true,
             hidden: false,
             split: None,
         };
-        ink.strokes(on, &settings, &look).expect("a small picture")
+        strokes_from(runs, &self.shape, &settings, &look)
+    }
+
+    /// The strokes of ink.
+    fn inked(&self, ink: &LineInk, picture: &SurfacePicture) -> Vec<Stroke> {
+        let runs = ink.runs((&self.scene(), &self.projector, picture));
+        self.strokes_of(runs.expect("a small picture"), picture.size)
+    }
+
+    /// The runs of the borders of a picture.
+    fn runs(&self, picture: &SurfacePicture) -> Vec<Run> {
+        let borders = picture.borders(&self.scene(), None);
+        borders.runs((&self.scene(), &self.projector, picture))
     }
 
     fn strokes(&self) -> Vec<Stroke> {
         let picture = SurfacePicture::new(&self.scene());
-        self.strokes_of(&picture.lines(&self.scene(), None), &picture)
+        self.strokes_of(self.runs(&picture), picture.size)
     }
 }
 
@@ -93,13 +105,7 @@ fn the_outline_of_a_ball_is_one_closed_stroke_on_its_edge() {
 
     // What is found lies where the picture shows it.
     let picture = SurfacePicture::new(&subject.scene());
-    let ink = picture.lines(&subject.scene(), None);
-    let runs = ink.runs(&subject.scene(), &subject.projector, &picture);
-    for point in runs
-        .expect("a small picture")
-        .iter()
-        .flat_map(|run| &run.points)
-    {
+    for point in subject.runs(&picture).iter().flat_map(|run| &run.points) {
         let off = glam::DVec2::from(point.place) - middle - of_world(point.world.to_array());
         assert!(off.length() < 0.01, "{point:?}");
     }
@@ -180,7 +186,7 @@ fn nothing_is_found_behind_a_veil() {
     let cube = Subject::new(shape_of(&cube()), [1.2, 4.0, 5.0], view, [400, 300]);
     let picture = SurfacePicture::new(&cube.scene());
     let count = |veil: Option<&[f32]>| {
-        let ink = picture.lines(&cube.scene(), veil);
+        let ink = picture.borders(&cube.scene(), veil).ink();
         let places = (0..300).flat_map(|y| (0..400).map(move |x| (x, y)));
         places.filter(|(x, y)| ink.is_ink(*x, *y)).count()
     };
@@ -214,7 +220,7 @@ fn painted_lines_are_strokes_and_dark_surfaces_are_not() {
         .collect();
     let none = LineInk::new(picture.size);
     let ink = painted(&picture, &lightness, &none, &PaintedRule::default());
-    let found = wall.strokes_of(&ink, &picture);
+    let found = wall.inked(&ink, &picture);
     let on_wall = |x: u32| picture.faces[(31 * width + x) as usize] != NONE;
     let expected = (3..width).filter(|x| on_wall(*x)).count() as f64;
     assert_eq!(found.len(), 1);
@@ -237,7 +243,7 @@ fn painted_lines_are_strokes_and_dark_surfaces_are_not() {
         .map(|light| 0.9 + 0.2 * (light - 0.9))
         .collect();
     let ink = painted(&picture, &faint, &none, &PaintedRule::default());
-    assert_eq!(wall.strokes_of(&ink, &picture), []);
+    assert_eq!(wall.inked(&ink, &picture), []);
 }
 
 proptest! {

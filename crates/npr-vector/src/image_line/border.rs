@@ -1,0 +1,306 @@
+//! Borders between pixels that show different things.
+
+use super::ink::LineInk;
+use super::picture::{ImageScene, SurfacePicture};
+use super::sheet::are_one_sheet;
+use crate::detect::{Detection, Detector};
+use crate::graph::CurveNode;
+use glam::DVec2;
+use npr_core::geometry::NONE;
+use npr_core::outline::{MASK_OWNER, Outline};
+use rayon::prelude::*;
+
+/// Bits that each say something about where a line comes from.
+const DETECTS: u32 = Outline::DEPTH
+    | Outline::NORMAL
+    | Outline::OBJECT_ID
+    | Outline::MATERIAL_ID
+    | Outline::PLANE_DEPTH
+    | Outline::PIECE;
+
+/// The side that two pixels share, and the line that runs along it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Border {
+    /// Twice the number of its pixel, and 0 for the pixel's left side, 1 for its upper side.
+    pub side: u32,
+    /// The one of the two pixels whose surface the line lies on: of contours the one in front.
+    pub owner: u32,
+    /// What the line is, a bit of [`CurveNode::KINDS`].
+    pub kind: u32,
+}
+
+/// The borders of a picture that are lines, in the order of their sides.
+///
+/// They are the edges of a graph on the corners of pixels: a line goes through corners with two of them, and lines meet at those
+/// with three or four.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Borders {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Ascending sides.
+    pub all: Vec<Border>,
+}
+
+impl Borders {
+    /// The borders of the wanted kinds, where nothing of `veil` (reversed depths, where given) lies before them. O(pixels), in parallel
+    /// over rows.
+    ///
+    /// What is found within one or two pixels is noise: they join the neighbours that they share most sides with.
+    pub(super) fn of(
+        picture: &SurfacePicture,
+        scene: &ImageScene<'_>,
+        veil: Option<&[f32]>,
+    ) -> Self {
+        let outline = Outline {
+            crease_cos: scene.crease_cos,
+            normal_cos: scene.crease_cos,
+            depth_threshold: scene.depth_threshold,
+            kinds: Outline::CONTOUR | Outline::BORDER | Outline::CREASE | Outline::MATERIAL,
+            detects: DETECTS,
+            ..Outline::default()
+        };
+        let with = Detection {
+            view: scene.view,
+            window: &scene.window(),
+            outline: &outline,
+            parts: &scene.parts(),
+        };
+        let finder = Finder {
+            detector: Detector::new(&with),
+            picture,
+            scene,
+            veil,
+        };
+        let [width, height] = picture.size;
+        let rows = (0..height).into_par_iter().map(|y| {
+            let pixels = y * width..(y + 1) * width;
+            let sides = pixels.flat_map(|pixel| [(pixel, 0), (pixel, 1)]);
+            let found = sides.filter_map(|(pixel, side)| finder.border(pixel, side));
+            found.collect::<Vec<_>>()
+        });
+        let rows: Vec<Vec<Border>> = rows.collect();
+        let mut borders = Self {
+            size: picture.size,
+            all: rows.concat(),
+        };
+        borders.despeckle(picture);
+        borders.all.retain(|border| border.kind & scene.kinds != 0);
+        borders
+    }
+
+    /// The border along a side of a pixel.
+    pub(super) fn at(&self, side: u32) -> Option<usize> {
+        self.all
+            .binary_search_by_key(&side, |border| border.side)
+            .ok()
+    }
+
+    /// The pixels on both sides of all borders, as ink of their owners.
+    pub fn ink(&self) -> LineInk {
+        let mut ink = LineInk::new(self.size);
+        for border in &self.all {
+            let pixels = self.beside(border.side);
+            // A pixel that owns a line is its own.
+            for pixel in pixels.filter(|pixel| *pixel != border.owner) {
+                if ink.owners[pixel as usize] == NONE {
+                    ink.owners[pixel as usize] = border.owner;
+                }
+            }
+            ink.add(border.owner, border.kind, 0);
+        }
+        ink
+    }
+
+    /// The pixels on both sides of a side.
+    fn beside(&self, side: u32) -> impl Iterator<Item = u32> + use<> {
+        let [pixel, step] = [side / 2, if side & 1 == 0 { 1 } else { self.size[0] }];
+        [pixel - step, pixel].into_iter()
+    }
+
+    /// The four sides of a pixel, each with the pixel beyond: left, right, above, below. Sides beyond the picture have no number.
+    fn sides_of(&self, pixel: u32) -> [Option<(u32, u32)>; 4] {
+        let [width, height] = self.size;
+        let [x, y] = [pixel % width, pixel / width];
+        [
+            (x > 0).then(|| (2 * pixel, pixel - 1)),
+            (x + 1 < width).then(|| (2 * pixel + 2, pixel + 1)),
+            (y > 0).then(|| (2 * pixel + 1, pixel - width)),
+            (y + 1 < height).then(|| (2 * (pixel + width) + 1, pixel + width)),
+        ]
+    }
+
+    /// Takes specks out: one pixel or two within borders lose those to the surface that they share most with, first of all their own.
+    fn despeckle(&mut self, picture: &SurfacePicture) {
+        let mut dropped = vec![false; self.all.len()];
+        for index in 0..self.all.len() {
+            for pixel in self.beside(self.all[index].side) {
+                let Some(speck) = self.speck(pixel) else {
+                    continue;
+                };
+                let surface = |pixel: u32| picture.pixels[pixel as usize].part;
+                let walls: Vec<(usize, u32)> = speck
+                    .iter()
+                    .flat_map(|pixel| self.sides_of(*pixel).into_iter().flatten())
+                    .filter_map(|(side, beyond)| Some((self.at(side)?, surface(beyond))))
+                    .collect();
+                // A speck that was joined already stays so.
+                if walls.iter().any(|(wall, _)| dropped[*wall]) {
+                    continue;
+                }
+                let own = surface(speck[0]);
+                let shared = |wanted: u32| {
+                    let count = walls.iter().filter(|(_, beyond)| *beyond == wanted).count();
+                    (wanted == own, count, u32::MAX - wanted)
+                };
+                let most = walls
+                    .iter()
+                    .map(|(_, beyond)| *beyond)
+                    .max_by_key(|beyond| shared(*beyond));
+                for (wall, beyond) in &walls {
+                    dropped[*wall] |= Some(*beyond) == most;
+                }
+            }
+        }
+        let mut dropped = dropped.into_iter();
+        self.all.retain(|_| dropped.next() == Some(false));
+    }
+
+    /// The one pixel or the two that borders, or the picture's edge, close in.
+    fn speck(&self, pixel: u32) -> Option<Vec<u32>> {
+        let open = |pixel: u32| {
+            let sides = self.sides_of(pixel).into_iter().flatten();
+            sides
+                .filter(|(side, _)| self.at(*side).is_none())
+                .map(|(_, beyond)| beyond)
+                .collect::<Vec<u32>>()
+        };
+        match open(pixel)[..] {
+            [] => Some(vec![pixel]),
+            [other] if open(other)[..] == [pixel] => Some(vec![pixel.min(other), pixel.max(other)]),
+            _ => None,
+        }
+    }
+}
+
+/// What borders are looked for with.
+struct Finder<'a> {
+    detector: Detector<'a>,
+    picture: &'a SurfacePicture,
+    scene: &'a ImageScene<'a>,
+    veil: Option<&'a [f32]>,
+}
+
+impl Finder<'_> {
+    /// The border along the left side of a pixel (0) or its upper one (1).
+    fn border(&self, pixel: u32, side: u32) -> Option<Border> {
+        let width = self.picture.size[0];
+        let other = match side {
+            0 if pixel.is_multiple_of(width) => return None,
+            0 => pixel - 1,
+            _ => pixel.checked_sub(width)?,
+        };
+        let [first, second] = [other, pixel].map(|at| &self.picture.pixels[at as usize]);
+        let mut kinds = self.detector.kinds(first, second, 2 * side + 1);
+        let is_one_part = kinds & (Outline::OBJECT_ID | Outline::MATERIAL_ID | Outline::PIECE) == 0;
+        if kinds & Outline::DEPTH != 0 && is_one_part && self.are_one_sheet([other, pixel]) {
+            // At the rim of a round surface depth jumps between its own pixels.
+            kinds &= !Outline::DEPTH;
+        }
+        if kinds == 0 {
+            return None;
+        }
+        let marks = self.detector.marks(first, second, kinds, 2 * side + 1);
+        let owner = match marks.map(|mark| mark & MASK_OWNER != 0) {
+            [true, _] => other,
+            [_, true] => pixel,
+            // Normals of smooth surfaces differ too where they turn away steeply; what is left are sharp edges.
+            _ if marks == [Outline::NORMAL; 2] && self.share_crease(pixel, other) => {
+                let owner = if first.depth < second.depth {
+                    other
+                } else {
+                    pixel
+                };
+                let is_drawn = self
+                    .scene
+                    .is_drawn
+                    .get(self.picture.pixels[owner as usize].part as usize);
+                return (is_drawn != Some(&false))
+                    .then(|| self.seen(pixel, side, owner, CurveNode::CREASE))
+                    .flatten();
+            }
+            _ => return None,
+        };
+        let kind = kind_of(if owner == other { marks[0] } else { marks[1] });
+        let is_between = kind == CurveNode::INTERSECTION || kind == CurveNode::MATERIAL;
+        let owner = if is_between {
+            self.owner_between(other, pixel)
+        } else {
+            owner
+        };
+        self.seen(pixel, side, owner, kind)
+    }
+
+    /// Of two pixels whose surfaces meet, the one to whose surface the line belongs: neither is in front, so not depth, which rounding decides,
+    /// but the surfaces' order does, among those with lines.
+    fn owner_between(&self, first: u32, second: u32) -> u32 {
+        let order = |pixel: &u32| {
+            let surface = self.picture.pixels[*pixel as usize].part;
+            let is_drawn = self.scene.is_drawn.get(surface as usize) != Some(&false);
+            (!is_drawn, surface)
+        };
+        [first, second]
+            .into_iter()
+            .min_by_key(order)
+            .unwrap_or(first)
+    }
+
+    fn seen(&self, pixel: u32, side: u32, owner: u32, kind: u32) -> Option<Border> {
+        self.picture
+            .is_clear(self.veil, owner as usize)
+            .then_some(Border {
+                side: 2 * pixel + side,
+                owner,
+                kind,
+            })
+    }
+
+    /// Whether two pixels show one sheet of a surface.
+    fn are_one_sheet(&self, pixels: [u32; 2]) -> bool {
+        let width = self.picture.size[0];
+        let middles = pixels.map(|pixel| {
+            let place = [pixel % width, pixel / width];
+            DVec2::from(place.map(|at| f64::from(at) + 0.5))
+        });
+        let faces = pixels.map(|pixel| self.picture.faces[pixel as usize]);
+        let are_seen = faces.iter().all(|face| *face != NONE);
+        are_seen && are_one_sheet(self.scene.shape, self.scene.view, middles, faces)
+    }
+
+    /// Whether two pixels show faces on both sides of an edge that is a crease.
+    fn share_crease(&self, pixel: u32, other: u32) -> bool {
+        let shape = self.scene.shape;
+        let [a, b] = [pixel, other].map(|at| self.picture.faces[at as usize]);
+        if a == NONE || b == NONE {
+            return false;
+        }
+        let edges = (3 * a..3 * a + 3).map(|half_edge| shape.edge_of[half_edge as usize]);
+        edges.into_iter().any(|edge| {
+            let is_sharp = shape.dihedral_cos[edge as usize] < self.scene.crease_cos;
+            is_sharp && shape.sides(edge).iter().any(|side| side / 3 == b)
+        })
+    }
+}
+
+/// What a line is that was found for these reasons, a bit of [`CurveNode::KINDS`].
+fn kind_of(mask: u32) -> u32 {
+    let has = |bits: u32| mask & bits != 0;
+    if has(Outline::DEPTH) {
+        CurveNode::CONTOUR
+    } else if has(Outline::OBJECT_ID | Outline::PIECE) {
+        CurveNode::INTERSECTION
+    } else if has(Outline::MATERIAL_ID) {
+        CurveNode::MATERIAL
+    } else {
+        CurveNode::CREASE
+    }
+}

@@ -1,0 +1,535 @@
+//! Borders linked to lines: through the places where lines meet they go on as what they are.
+
+use super::border::{Border, Borders};
+use crate::centreline::line_of;
+use glam::DVec2;
+use npr_core::geometry::NONE;
+
+/// Parts of a line with fewer borders than this take on what is beside them: pixels at corners show either side.
+pub(super) const LEAST_PART: usize = 6;
+
+/// Borders of a line that say where it leads from a junction.
+const ARM_BORDERS: usize = 10;
+
+/// Cosine of the most that a line may turn where three or more of its kind meet, or where it is too short to tell what it is: 46 degrees.
+const STRAIGHT: f64 = 0.697;
+
+/// What a line is: a bit of kinds, and the surface that it lies on.
+pub(super) type Label = [u32; 2];
+
+/// Borders one after the other that are one line.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Chain {
+    /// Indices of borders.
+    pub borders: Vec<u32>,
+    pub label: Label,
+    /// Corners of pixels at which it starts and ends; of a closed one the same.
+    pub ends: [u32; 2],
+    /// The last border runs on to the first.
+    pub closed: bool,
+    /// Whether nothing else is at its start and end.
+    pub free: [bool; 2],
+}
+
+/// What lies between two junctions, or ends, or places where the label changes.
+struct Part {
+    chain: Chain,
+    /// It is too short between junctions to tell what it is.
+    is_vague: bool,
+    /// The arms that its start and end run on to.
+    partners: [u32; 2],
+}
+
+/// Links all borders; each is part of one chain. `surface_of` gives the surface of a pixel.
+///
+/// Where lines meet, an outline goes on around the same pixels: of one that covers others, both arms belong to what is in front. Others of
+/// one label go on where they turn little. O(borders log borders).
+pub(super) fn chains(borders: &Borders, surface_of: impl Fn(u32) -> u32) -> Vec<Chain> {
+    let grid = Grid { borders };
+    let labels: Vec<Label> = borders
+        .all
+        .iter()
+        .map(|border| [border.kind, surface_of(border.owner)])
+        .collect();
+    let stretches = grid.stretches();
+    let mut parts: Vec<Part> = stretches
+        .into_iter()
+        .flat_map(|stretch| grid.parts(stretch, &labels))
+        .collect();
+    grid.pair(&mut parts);
+    joined(parts)
+}
+
+/// The corners of pixels, with borders between them.
+struct Grid<'a> {
+    borders: &'a Borders,
+}
+
+impl Grid<'_> {
+    /// The corners at both ends of a border.
+    fn ends(&self, border: u32) -> [u32; 2] {
+        let width = self.borders.size[0];
+        let side = self.borders.all[border as usize].side;
+        let pixel = side / 2;
+        let first = pixel / width * (width + 1) + pixel % width;
+        [first, first + if side & 1 == 0 { width + 1 } else { 1 }]
+    }
+
+    /// The borders at a corner: above, below, left, right.
+    fn around(&self, corner: u32) -> impl Iterator<Item = u32> {
+        let [width, height] = self.borders.size;
+        let [x, y] = [corner % (width + 1), corner / (width + 1)];
+        let side = |x: Option<u32>, y: Option<u32>, of: u32| {
+            let [x, y] = [x.filter(|x| *x < width)?, y.filter(|y| *y < height)?];
+            Some(2 * (y * width + x) + of)
+        };
+        let sides = [
+            side(Some(x), y.checked_sub(1), 0),
+            side(Some(x), Some(y), 0),
+            side(x.checked_sub(1), Some(y), 1),
+            side(Some(x), Some(y), 1),
+        ];
+        let there = sides.into_iter().flatten();
+        there.filter_map(|side| self.borders.at(side).map(|index| index as u32))
+    }
+
+    /// All borders in stretches between corners that do not have two; those without such are closed.
+    fn stretches(&self) -> Vec<Chain> {
+        let count = self.borders.all.len() as u32;
+        let mut taken = vec![false; count as usize];
+        let mut stretches = Vec::new();
+        for border in 0..count {
+            for corner in self.ends(border) {
+                if !taken[border as usize] && self.around(corner).count() != 2 {
+                    stretches.push(self.walk(corner, border, &mut taken));
+                }
+            }
+        }
+        for border in 0..count {
+            if !taken[border as usize] {
+                stretches.push(self.walk(self.ends(border)[0], border, &mut taken));
+            }
+        }
+        stretches
+    }
+
+    /// Follows borders from a corner on, up to a corner that does not have two or back to the start.
+    fn walk(&self, start: u32, first: u32, taken: &mut [bool]) -> Chain {
+        let mut stretch = Chain::default();
+        let (mut corner, mut border) = (start, first);
+        let closed = loop {
+            taken[border as usize] = true;
+            stretch.borders.push(border);
+            let [a, b] = self.ends(border);
+            corner = if a == corner { b } else { a };
+            let around: Vec<u32> = self.around(corner).collect();
+            let next = around.iter().find(|next| !taken[**next as usize]);
+            match next {
+                Some(next) if around.len() == 2 => border = *next,
+                _ => break around.len() == 2 && corner == start,
+            }
+        };
+        stretch.ends = [start, corner];
+        stretch.closed = closed;
+        stretch.free = stretch
+            .ends
+            .map(|end| !closed && self.around(end).count() == 1);
+        stretch
+    }
+
+    /// A stretch cut where its label changes.
+    fn parts(&self, mut stretch: Chain, labels: &[Label]) -> Vec<Part> {
+        let label = |border: &u32| labels[*border as usize];
+        let mut cuts = cuts(&stretch.borders.iter().map(label).collect::<Vec<_>>());
+        if stretch.closed && cuts.len() > 1 {
+            // Around the seam a part goes on.
+            let seam = cuts[0].1;
+            stretch.borders.rotate_left(seam);
+            cuts = self::cuts(&stretch.borders.iter().map(label).collect::<Vec<_>>());
+            stretch.closed = false;
+            let corner = self.shared(
+                stretch.borders[0],
+                stretch.borders[stretch.borders.len() - 1],
+            );
+            stretch.ends = [corner; 2];
+        }
+        let is_junction = |corner: u32| self.around(corner).count() > 2;
+        let is_vague =
+            stretch.borders.len() < LEAST_PART && stretch.ends.iter().all(|end| is_junction(*end));
+        let last = cuts.len() - 1;
+        let parts = cuts.iter().enumerate().map(|(number, (from, to, label))| {
+            let borders = stretch.borders[*from..*to].to_vec();
+            let cut = |at: usize| self.shared(stretch.borders[at - 1], stretch.borders[at]);
+            let chain = Chain {
+                label: *label,
+                ends: [
+                    if number == 0 {
+                        stretch.ends[0]
+                    } else {
+                        cut(*from)
+                    },
+                    if number == last {
+                        stretch.ends[1]
+                    } else {
+                        cut(*to)
+                    },
+                ],
+                closed: stretch.closed,
+                free: [
+                    number == 0 && stretch.free[0],
+                    number == last && stretch.free[1],
+                ],
+                borders,
+            };
+            Part {
+                chain,
+                is_vague,
+                partners: [NONE; 2],
+            }
+        });
+        parts.collect()
+    }
+
+    /// The corner that two borders share.
+    fn shared(&self, a: u32, b: u32) -> u32 {
+        let there = self.ends(b);
+        let ends = self.ends(a);
+        if there.contains(&ends[0]) {
+            ends[0]
+        } else {
+            ends[1]
+        }
+    }
+
+    /// Finds which parts run on to each other where they meet.
+    fn pair(&self, parts: &mut [Part]) {
+        let mut arms: Vec<(u32, u32)> = Vec::new();
+        for (number, part) in (0..).zip(&*parts) {
+            for end in 0..2 {
+                let corner = part.chain.ends[end as usize];
+                if !part.chain.closed && self.around(corner).count() > 2 {
+                    arms.push((corner, 2 * number + end));
+                }
+            }
+        }
+        arms.sort_unstable();
+        let mut pairs: Vec<Pair> = arms
+            .chunk_by(|a, b| a.0 == b.0)
+            .flat_map(|group| self.pairs_at(parts, group))
+            .collect();
+        let key = |pair: &Pair| (pair.rank, pair.arms);
+        pairs.sort_by(|a, b| {
+            let by_turn = a.cosine.total_cmp(&b.cosine);
+            a.rank.cmp(&b.rank).then(by_turn).then(key(a).cmp(&key(b)))
+        });
+        for pair in pairs {
+            let [a, b] = pair.arms.map(|arm| [arm as usize / 2, arm as usize % 2]);
+            let [one, other] = [&parts[a[0]], &parts[b[0]]];
+            let are_free = one.partners[a[1]] == NONE && other.partners[b[1]] == NONE;
+            let are_one = one.chain.label == other.chain.label || one.is_vague || other.is_vague;
+            if !are_free || !are_one {
+                continue;
+            }
+            // What may be anything is now what it runs on to.
+            let surer = if one.is_vague { other } else { one };
+            let (label, is_vague) = (surer.chain.label, surer.is_vague);
+            for ([part, end], partner) in [(a, pair.arms[1]), (b, pair.arms[0])] {
+                parts[part].partners[end] = partner;
+                parts[part].chain.label = label;
+                parts[part].is_vague = is_vague;
+            }
+        }
+    }
+
+    /// The arms of a junction, by corner and number, that may be one line.
+    fn pairs_at(&self, parts: &[Part], group: &[(u32, u32)]) -> Vec<Pair> {
+        let arms: Vec<Arm> = group
+            .iter()
+            .map(|(corner, arm)| self.arm(parts, *corner, *arm))
+            .collect();
+        let mut pairs = Vec::new();
+        for (i, a) in arms.iter().enumerate() {
+            for b in &arms[i + 1..] {
+                pairs.extend(rank([a, b], &arms).map(|rank| Pair {
+                    rank,
+                    cosine: a.direction.dot(b.direction),
+                    arms: [a.number, b.number],
+                }));
+            }
+        }
+        pairs
+    }
+
+    /// What of a part is at a junction.
+    fn arm(&self, parts: &[Part], corner: u32, number: u32) -> Arm {
+        let part = &parts[number as usize / 2];
+        let borders = &part.chain.borders;
+        let count = borders.len();
+        let first: Vec<&Border> = (0..count.min(ARM_BORDERS))
+            .map(|k| if number & 1 == 0 { k } else { count - 1 - k })
+            .map(|k| &self.borders.all[borders[k] as usize])
+            .collect();
+        let size = self.borders.size;
+        let places: Vec<DVec2> = first
+            .iter()
+            .map(|border| middle_of(size, border.side))
+            .collect();
+        Arm {
+            number,
+            label: part.chain.label,
+            is_vague: part.is_vague,
+            region: self.region(corner, first[0].owner),
+            direction: line_of(&places, place_of(size, corner))[1],
+        }
+    }
+
+    /// The first of the pixels around a corner that no border parts from one of them.
+    fn region(&self, corner: u32, pixel: u32) -> u32 {
+        let [width, _] = self.borders.size;
+        let below_right = corner / (width + 1) * width + corner % (width + 1);
+        // Each side as its own pixel, and the one before it.
+        let sides = [
+            (below_right.wrapping_sub(width), 0, 1),
+            (below_right, 0, 1),
+            (below_right.wrapping_sub(1), 1, width),
+            (below_right, 1, width),
+        ];
+        let open = sides.into_iter().find(|(own, of, step)| {
+            let is_beside = pixel == *own || pixel == own.wrapping_sub(*step);
+            is_beside && self.borders.at(own.wrapping_mul(2) + of).is_none()
+        });
+        open.map_or(pixel, |(own, _, step)| own.wrapping_sub(step))
+    }
+}
+
+/// The end of a part at a junction.
+struct Arm {
+    number: u32,
+    label: Label,
+    is_vague: bool,
+    /// Whose outline it is: the first of the pixels at the junction that belong together with its owner.
+    region: u32,
+    /// Where it leads, away from the junction.
+    direction: DVec2,
+}
+
+/// Two arms that may be one line.
+struct Pair {
+    /// How surely they are; the least first.
+    rank: u32,
+    /// Of the angle between them: -1 where one goes straight on as the other.
+    cosine: f64,
+    arms: [u32; 2],
+}
+
+/// How surely two arms of a junction are one line, the least first: the only two around one region, two that go straight on, and after those what may be
+/// anything, for what is sure makes others sure; none where they are not.
+fn rank([a, b]: [&Arm; 2], all: &[Arm]) -> Option<u32> {
+    let may_be_one = |a: &Arm, b: &Arm| a.label == b.label || a.is_vague || b.is_vague;
+    let may_go_around = |other: &Arm| other.region == a.region && may_be_one(a, other);
+    let is_outline = may_go_around(b) && all.iter().filter(|arm| may_go_around(arm)).count() == 2;
+    let is_straight = a.direction.dot(b.direction) < -STRAIGHT;
+    let is_one = may_be_one(a, b) && (is_outline || is_straight);
+    is_one.then(|| match u32::from(a.is_vague) + u32::from(b.is_vague) {
+        0 => u32::from(!is_outline),
+        vague => 1 + vague,
+    })
+}
+
+/// Stretches of equal labels, as first, end and label; short ones belong to what is before them, or else after.
+pub(super) fn cuts(labels: &[Label]) -> Vec<(usize, usize, Label)> {
+    let mut parts: Vec<(usize, usize, Label)> = Vec::new();
+    for stretch in labels.chunk_by(|a, b| a == b) {
+        let own = stretch[0];
+        let from = parts.last().map_or(0, |part| part.1);
+        let to = from + stretch.len();
+        match parts.last_mut() {
+            Some((first, last, label)) if *last - *first < LEAST_PART => {
+                (*last, *label) = (to, own);
+            }
+            Some((_, last, label)) if stretch.len() < LEAST_PART || *label == own => {
+                *last = to;
+            }
+            _ => parts.push((from, to, own)),
+        }
+    }
+    parts
+}
+
+/// Parts joined to those that they run on to.
+fn joined(parts: Vec<Part>) -> Vec<Chain> {
+    let mut taken = vec![false; parts.len()];
+    let mut chains = Vec::new();
+    // Open chains begin at an arm without a partner; what is left then goes around.
+    for is_open in [true, false] {
+        for arm in 0..2 * parts.len() as u32 {
+            let part = &parts[arm as usize / 2];
+            let is_start = !is_open || part.partners[arm as usize % 2] == NONE;
+            if is_start && !taken[arm as usize / 2] {
+                chains.push(follow(&parts, arm, &mut taken));
+            }
+        }
+    }
+    chains
+}
+
+/// The chain from an arm on.
+fn follow(parts: &[Part], start: u32, taken: &mut [bool]) -> Chain {
+    let first = &parts[start as usize / 2].chain;
+    let end = start as usize % 2;
+    let mut chain = Chain {
+        ends: [first.ends[end]; 2],
+        free: [first.free[end], false],
+        closed: first.closed,
+        ..Chain::default()
+    };
+    let mut lengths: Vec<(Label, usize)> = Vec::new();
+    let mut arm = start;
+    loop {
+        let part = &parts[arm as usize / 2];
+        let [here, there] = [arm as usize % 2, 1 - arm as usize % 2];
+        taken[arm as usize / 2] = true;
+        let borders = part.chain.borders.iter().copied();
+        if here == 0 {
+            chain.borders.extend(borders);
+        } else {
+            chain.borders.extend(borders.rev());
+        }
+        let weight = if part.is_vague {
+            0
+        } else {
+            part.chain.borders.len()
+        };
+        match lengths
+            .iter_mut()
+            .find(|(label, _)| *label == part.chain.label)
+        {
+            Some((_, length)) => *length += weight,
+            None => lengths.push((part.chain.label, weight)),
+        }
+        chain.ends[1] = part.chain.ends[there];
+        chain.free[1] = part.chain.free[there];
+        arm = part.partners[there];
+        if arm == start {
+            chain.closed = true;
+        }
+        if arm == NONE || arm == start {
+            break;
+        }
+    }
+    let longest = lengths.iter().rev().max_by_key(|(_, length)| *length);
+    chain.label = longest.map_or(first.label, |(label, _)| *label);
+    chain
+}
+
+/// Where a corner of pixels lies.
+pub(super) fn place_of(size: [u32; 2], corner: u32) -> DVec2 {
+    DVec2::new(
+        f64::from(corner % (size[0] + 1)),
+        f64::from(corner / (size[0] + 1)),
+    )
+}
+
+/// The middle of a side.
+pub(super) fn middle_of(size: [u32; 2], side: u32) -> DVec2 {
+    let pixel = side / 2;
+    let [x, y] = [pixel % size[0], pixel / size[0]].map(f64::from);
+    if side & 1 == 0 {
+        DVec2::new(x, y + 0.5)
+    } else {
+        DVec2::new(x + 0.5, y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::CurveNode;
+    use npr_core::math::mix_bits;
+    use proptest::prelude::*;
+
+    /// The borders of a picture of surfaces, of which the one with the lesser number is in front.
+    fn borders_of(size: [u32; 2], surface: &dyn Fn(u32) -> u32) -> Borders {
+        let [width, height] = size;
+        let mut all = Vec::new();
+        for pixel in 0..width * height {
+            let left = (pixel % width > 0).then(|| (2 * pixel, pixel - 1));
+            let above = pixel.checked_sub(width).map(|other| (2 * pixel + 1, other));
+            for (side, other) in [left, above].into_iter().flatten() {
+                let (here, there) = (surface(pixel), surface(other));
+                if here != there {
+                    all.push(Border {
+                        side,
+                        owner: if here < there { pixel } else { other },
+                        kind: CurveNode::CONTOUR,
+                    });
+                }
+            }
+        }
+        Borders { size, all }
+    }
+
+    #[test]
+    fn an_outline_runs_past_what_it_hides() {
+        // A disc before a wall in two halves.
+        let surface = |pixel: u32| {
+            let [x, y] = [pixel % 40, pixel / 40].map(|at| f64::from(at) - 19.5);
+            match x.hypot(y) < 9.0 {
+                true => 0,
+                false => 1 + u32::from(x > 0.0),
+            }
+        };
+        let borders = borders_of([40, 40], &surface);
+        let found = chains(&borders, surface);
+        let rings: Vec<&Chain> = found.iter().filter(|chain| chain.closed).collect();
+        assert_eq!((found.len(), rings.len()), (3, 1));
+        assert_eq!(rings[0].label[1], 0);
+        for line in found.iter().filter(|chain| !chain.closed) {
+            assert_eq!(line.label[1], 1);
+            // One end at the picture's edge, one at the disc.
+            assert_eq!(line.free.iter().filter(|free| **free).count(), 1);
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(500))]
+
+        #[test]
+        fn chains_are_ways_that_take_every_border_once(width in 1u32..14, height in 1u32..14, surfaces in 1u32..6, seed: u32) {
+            let surface = |pixel: u32| mix_bits(seed ^ mix_bits(pixel)) % surfaces;
+            let borders = borders_of([width, height], &surface);
+            let grid = Grid { borders: &borders };
+            let found = chains(&borders, surface);
+            let mut taken: Vec<u32> = found.iter().flat_map(|chain| chain.borders.iter().copied()).collect();
+            taken.sort_unstable();
+            prop_assert!(taken.into_iter().eq(0..borders.all.len() as u32));
+            for chain in &found {
+                // Walk it from corner to corner.
+                let mut corner = chain.ends[0];
+                for border in &chain.borders {
+                    let [a, b] = grid.ends(*border);
+                    prop_assert!(corner == a || corner == b);
+                    corner = if corner == a { b } else { a };
+                }
+                prop_assert_eq!(corner, chain.ends[1]);
+                prop_assert!(!chain.closed || corner == chain.ends[0]);
+                for end in [0, 1] {
+                    let alone = !chain.closed && grid.around(chain.ends[end]).count() == 1;
+                    prop_assert_eq!(chain.free[end], alone);
+                }
+            }
+        }
+
+        /// Where all is one surface before another, lines end nowhere but at the picture's edge and where four borders meet.
+        #[test]
+        fn lines_of_one_label_end_at_meetings_only(width in 2u32..14, height in 2u32..14, seed: u32) {
+            let surface = |pixel: u32| mix_bits(seed ^ mix_bits(pixel)) % 2;
+            let borders = borders_of([width, height], &surface);
+            let grid = Grid { borders: &borders };
+            for chain in chains(&borders, surface) {
+                let counts = chain.ends.map(|end| grid.around(end).count());
+                prop_assert!(chain.closed || counts.iter().all(|count| *count == 1 || *count == 4));
+            }
+        }
+    }
+}
