@@ -10,6 +10,7 @@
 //! ```
 
 mod arguments;
+mod broken_image;
 mod colours;
 mod completions;
 mod doctor;

@@ -1,5 +1,6 @@
 //! Pictures that a style names, backgrounds and width textures, and bitmaps to trace.
 
+use crate::broken_image::broken;
 use crate::colours::reduce;
 use crate::fault::{Exit, Fault};
 use crate::input::regular_file;
@@ -133,13 +134,6 @@ fn packed_head(bytes: &[u8]) -> Option<PackedHead> {
     })
 }
 
-/// What a decoder says, on one line.
-fn broken(error: ImageError) -> Fault {
-    let text = error.to_string();
-    let words: Vec<&str> = text.split_whitespace().collect();
-    Fault::new(Exit::Input, words.join(" "))
-}
-
 /// An image file of one of some formats. Its size, and the bytes planned for its pixels, are checked before any is decoded.
 fn image(
     bytes: &[u8],
@@ -152,9 +146,15 @@ fn image(
         .format()
         .is_some_and(|format| !formats.contains(&format))
     {
-        return Err(Fault::new(Exit::Input, "the image format is not supported"));
+        return Err(Fault::new(
+            Exit::Input,
+            "this is none of the image formats that are read",
+        ));
     }
-    reader.limits(decoder_limits(limits));
+    let bounds = decoder_limits(limits);
+    let (format, most_bytes) = (reader.format(), bounds.max_alloc.unwrap_or(u64::MAX));
+    let broken = |error: ImageError| broken(&error, format, most_bytes);
+    reader.limits(bounds);
     let decoder = reader.into_decoder().map_err(broken)?;
     let (width, height) = decoder.dimensions();
     if width == 0 || height == 0 {
