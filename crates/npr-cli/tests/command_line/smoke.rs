@@ -312,6 +312,7 @@ fn what_does_not_fit_together_is_refused_before_any_work() {
             "pictures are written as .png",
         ),
         (&["smoke", "plume", "--camera", "0"], "no camera '0'"),
+        (&["smoke", "plume", "--camera", "-1"], "no camera '-1'"),
         (
             &["render", "scene.obj", "--volume", "a.vdb@1,2"],
             "three numbers",
