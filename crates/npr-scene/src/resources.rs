@@ -54,7 +54,7 @@ pub enum ResourceError {
     Unreadable {
         /// The name as the scene gives it.
         name: String,
-        /// The system's own words.
+        /// The system's own words, without its number for them.
         fault: String,
     },
     /// It is larger than the limit for files.
@@ -184,9 +184,14 @@ fn canonical(folder: &Path) -> Result<PathBuf, ResourceError> {
 }
 
 fn unreadable(name: &str, fault: impl ToString) -> ResourceError {
+    let mut fault = fault.to_string();
+    // The number of a system error tells people nothing.
+    if let Some(start) = fault.rfind(" (os error ") {
+        fault.truncate(start);
+    }
     ResourceError::Unreadable {
         name: name.to_owned(),
-        fault: fault.to_string(),
+        fault,
     }
 }
 
@@ -237,6 +242,14 @@ mod tests {
             resources.read("mesh.bin", 3),
             Err(ResourceError::TooLarge(_))
         ));
+    }
+
+    #[test]
+    fn a_missing_file_is_told_in_words() {
+        let (_outer, resources) = folder_with_secret();
+        let fault = resources.read("absent.mtl", 100).expect_err("absent");
+        assert!(matches!(fault, ResourceError::Unreadable { .. }));
+        assert!(!fault.to_string().contains("os error"), "{fault}");
     }
 
     #[test]
