@@ -38,7 +38,7 @@ const MAX_STEPS: u32 = 8;
 #[non_exhaustive]
 pub enum SmokeError {
     /// A side of the grid is too short or too long.
-    #[error("a grid of {size:?} cells has a side outside {MIN_SIDE}..={MAX_SIDE}")]
+    #[error("a grid of {} cells has a side outside {MIN_SIDE}..{MAX_SIDE}", size.map(|side| side.to_string()).join("x"))]
     BadSize {
         /// Cells along x, y and z as asked for.
         size: [u32; 3],

@@ -13,7 +13,7 @@ pub const MAX_SIDE: u32 = 32_767;
 #[non_exhaustive]
 pub enum VolumeError {
     /// A side is longer than [`MAX_SIDE`].
-    #[error("a volume of {size:?} voxels has a side of more than {MAX_SIDE}")]
+    #[error("a volume of {} voxels has a side of more than {MAX_SIDE}", size.map(|side| side.to_string()).join("x"))]
     TooLarge {
         /// Voxels along x, y and z as given.
         size: [u32; 3],

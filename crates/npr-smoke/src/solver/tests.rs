@@ -127,6 +127,11 @@ fn grids_that_do_not_fit_are_refused() {
         Smoke::new(sized([3, 9, 9])),
         Err(SmokeError::BadSize { .. })
     ));
+    let told = Smoke::new(sized([0, 5, 9])).map_err(|error| error.to_string());
+    assert_eq!(
+        told.err().as_deref(),
+        Some("a grid of 0x5x9 cells has a side outside 4..32767")
+    );
     assert!(matches!(
         Smoke::new(sized([9, 9, MAX_SIDE + 1])),
         Err(SmokeError::BadSize { .. })
