@@ -30,7 +30,7 @@ pub enum Problem {
         found: &'static str,
     },
     /// It is a number outside its range.
-    #[error("is {}, but must lie in {}..{}", number(*value), number(*min), number(*max))]
+    #[error("is {}, but must {}", number(*value), within(*min, *max))]
     OutOfRange {
         /// The number as read.
         value: f64,
@@ -202,10 +202,29 @@ fn at(place: Option<Place>) -> String {
 fn number(value: f64) -> String {
     let size = value.abs();
     let plain = size == 0.0 || (1e-6..1e6).contains(&size) || !size.is_finite();
+    // Styles hold single precision: 1.3 of them must not come out as 1.2999999523162842.
+    let single = value as f32;
+    if f64::from(single) == value {
+        return if plain {
+            single.to_string()
+        } else {
+            format!("{single:e}")
+        };
+    }
     if plain {
         value.to_string()
     } else {
         format!("{value:e}")
+    }
+}
+
+/// What a number must do to lie within bounds, of which either may be missing.
+fn within(min: f64, max: f64) -> String {
+    match (min.is_finite(), max.is_finite()) {
+        (true, true) => format!("lie in {}..{}", number(min), number(max)),
+        (true, false) => format!("be {} or more", number(min)),
+        (false, true) => format!("be {} or less", number(max)),
+        (false, false) => "be finite".to_owned(),
     }
 }
 

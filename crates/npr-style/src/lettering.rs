@@ -201,6 +201,18 @@ mod tests {
             "lettering.0.bend at line 4, column 1 is 2, but must lie in -1..1"
         );
         assert_eq!(
+            told(&format!("{words}anchor = [0, nan, 0]")),
+            "lettering.0.anchor.1 at line 4, column 14 is NaN, but must be finite"
+        );
+        assert_eq!(
+            told("[line.width]\nmin = 10\nmax = 1.3"),
+            "line.width.min at line 2, column 1 is 10, but must lie in 0..1.3"
+        );
+        assert_eq!(
+            told("[ink.hatch]\nseed = -1"),
+            "ink.hatch.seed at line 2, column 1 is -1, but must be 0 or more"
+        );
+        assert_eq!(
             told(&format!("{words}size = \"1world\"")),
             "lettering.0.size at line 4, column 1 is in world units, but the words have no anchor"
         );
