@@ -22,6 +22,7 @@ override WG: u32 = 64u;
 const FLIPPED: u32 = 64u;
 const CROWDED: u32 = 128u;
 const OPEN: u32 = 256u;
+const WIRE: u32 = 1024u;
 const KINDS: u32 = 63u;
 
 fn position_of(vertex: u32) -> vec3<f32> {
@@ -40,6 +41,7 @@ fn is_concave(edge: DrawnEdge) -> bool {
 
 // The kind and the direction of an edge; 0 where it is not drawn.
 fn mark_of(edge: DrawnEdge) -> u32 {
+    if (edge.bits & WIRE) != 0u { return edge.bits & view.wanted & KINDS; }
     if edge.face == NONE { return 0u; }
     let is_front = front[edge.face] != 0u;
     let has_pair = edge.across != NONE && (edge.bits & CROWDED) == 0u;

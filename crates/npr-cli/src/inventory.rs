@@ -22,9 +22,12 @@ pub struct Inventory {
     mesh_count: usize,
     /// As stored: an instanced mesh counts once.
     triangle_count: usize,
+    /// Segments of lines that are geometry themselves, likewise.
+    line_segment_count: usize,
     vertex_count: usize,
     /// Counted for every instance.
     drawn_triangle_count: usize,
+    drawn_line_segment_count: usize,
     /// In the world, in the pose of the file; none where nothing is drawn.
     bounds: Option<Bounds>,
     drawn: Vec<Drawn>,
@@ -50,6 +53,7 @@ struct Drawn {
     object: String,
     material: Option<String>,
     triangle_count: usize,
+    line_segment_count: usize,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -94,10 +98,15 @@ impl Inventory {
             node_count: scene.nodes.len(),
             mesh_count: scene.meshes.len(),
             triangle_count: scene.triangle_count(),
+            line_segment_count: scene.segment_count(),
             vertex_count: scene.vertex_count(),
             drawn_triangle_count: scene
                 .drawn_parts()
                 .map(|(_, part)| part.triangles.len())
+                .sum(),
+            drawn_line_segment_count: scene
+                .drawn_parts()
+                .map(|(_, part)| part.segments.len())
                 .sum(),
             bounds: scene.bounds_world().map(|(min, max)| Bounds { min, max }),
             drawn: drawn(&scene),
@@ -149,6 +158,7 @@ fn drawn(scene: &Scene) -> Vec<Drawn> {
         object: node.name.clone(),
         material: part.material.and_then(material),
         triangle_count: part.triangles.len(),
+        line_segment_count: part.segments.len(),
     };
     scene.drawn_parts().map(surface).collect()
 }

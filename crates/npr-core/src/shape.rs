@@ -34,7 +34,12 @@ pub struct Shape {
     /// Faces without area, ascending, each with the face whose orientation it takes over: the nearest with
     /// area across its longest edges, or [`NONE`].
     pub slivers: Vec<[u32; 2]>,
-    /// What faces belong to.
+    /// Lines that are geometry themselves, without faces: the two vertices of each segment, which differ, in the direction of
+    /// the file. Segment `k` has the edge number `edge_count() + k`.
+    pub wires: Vec<[u32; 2]>,
+    /// Index of each wire's [`Surface`].
+    pub wire_surfaces: Vec<u32>,
+    /// What faces and wires belong to.
     pub surfaces: Vec<Surface>,
 }
 
@@ -67,23 +72,41 @@ impl Shape {
     /// The user asks for a line here.
     pub const MARKED: u32 = 16;
 
-    /// Number of unique edges.
+    /// Number of unique edges; wires are numbered behind them.
     #[inline]
     pub fn edge_count(&self) -> usize {
         self.edge_traits.len()
     }
 
-    /// Half-edges of an edge.
+    /// Edge numbers of all wires.
+    pub fn wire_edges(&self) -> std::ops::Range<u32> {
+        let first = self.edge_count() as u32;
+        first..first + self.wires.len() as u32
+    }
+
+    /// Which wire an edge number means; none for edges of faces.
+    #[inline]
+    pub fn wire_of(&self, edge: u32) -> Option<usize> {
+        (edge as usize).checked_sub(self.edge_count())
+    }
+
+    /// Half-edges of an edge; a wire has none.
     #[inline]
     pub fn sides(&self, edge: u32) -> &[u32] {
+        if self.wire_of(edge).is_some() {
+            return &[];
+        }
         let [from, to] = [edge, edge + 1].map(|e| self.edge_starts[e as usize] as usize);
         &self.edge_sides[from..to]
     }
 
-    /// The two vertices of an edge, the lower first.
+    /// The two vertices of an edge or a wire, the lower first.
     #[inline]
     pub fn ends(&self, edge: u32) -> [u32; 2] {
-        let [a, b] = self.ends_of_half_edge(self.sides(edge)[0]);
+        let [a, b] = match self.wire_of(edge) {
+            Some(wire) => self.wires[wire],
+            None => self.ends_of_half_edge(self.sides(edge)[0]),
+        };
         [a.min(b), a.max(b)]
     }
 
@@ -157,7 +180,8 @@ impl Shape {
         self.check_faces()?;
         self.check_edges()?;
         self.check_twins()?;
-        self.check_slivers()
+        self.check_slivers()?;
+        self.check_wires()
     }
 
     fn check_lengths(&self) -> Result<(), BrokenShape> {
@@ -177,6 +201,11 @@ impl Shape {
                 half_edges,
             ),
             ("an angle per edge", self.dihedral_cos.len(), edges),
+            (
+                "a surface per wire",
+                self.wire_surfaces.len(),
+                self.wires.len(),
+            ),
             (
                 "starts of edges",
                 self.edge_starts.len() + usize::from(never_filled),
@@ -205,6 +234,20 @@ impl Shape {
         })?;
         all("surfaces of faces exist", self.faces.len(), |face| {
             (self.face_surfaces[face] as usize) < self.surfaces.len()
+        })
+    }
+
+    fn check_wires(&self) -> Result<(), BrokenShape> {
+        all(
+            "ends of a wire exist and differ",
+            self.wires.len(),
+            |wire| {
+                let [a, b] = self.wires[wire];
+                a != b && (a.max(b) as usize) < self.positions.len()
+            },
+        )?;
+        all("surfaces of wires exist", self.wires.len(), |wire| {
+            (self.wire_surfaces[wire] as usize) < self.surfaces.len()
         })
     }
 

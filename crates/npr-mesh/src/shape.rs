@@ -1,5 +1,6 @@
 //! From triangles as stored to a [`Shape`]: welded, with half-edges, unique edges and their traits.
 
+use std::collections::HashSet;
 use std::ops::AddAssign;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -26,6 +27,10 @@ pub struct PlacedMesh<'a> {
     pub surfaces: &'a [u32],
     /// Ends of edges that the user wants drawn, as stored vertices.
     pub marks: &'a [[u32; 2]],
+    /// Lines that are geometry themselves: the two stored vertices of every segment.
+    pub wires: &'a [[u32; 2]],
+    /// Index into [`Shape::surfaces`] for every segment.
+    pub wire_surfaces: &'a [u32],
     /// Placing turned the mesh inside out; two corners of every face are swapped to undo that.
     pub mirrored: bool,
 }
@@ -47,6 +52,11 @@ pub struct Preparation {
     pub flipped_count: usize,
     /// Edges that the user marked.
     pub marked_count: usize,
+    /// Segments of lines that are geometry themselves.
+    pub wire_count: usize,
+    /// Such segments removed because their ends weld, an earlier one has the same ends, or an end or surface does not exist
+    /// or is not finite.
+    pub lost_wire_count: usize,
     /// Faces without area that are left, because they hold the surface together.
     pub sliver_count: usize,
     /// Those of them that found no face to take an orientation from.
@@ -79,6 +89,7 @@ impl Preparation {
             non_manifold_count: with(Shape::NON_MANIFOLD),
             flipped_count: with(Shape::FLIPPED),
             marked_count: with(Shape::MARKED),
+            wire_count: shape.wires.len(),
             sliver_count: shape.slivers.len(),
             lost_sliver_count: shape.slivers.iter().filter(|s| s[1] == NONE).count(),
             ..Self::default()
@@ -100,6 +111,8 @@ impl AddAssign for Preparation {
         self.non_manifold_count += other.non_manifold_count;
         self.flipped_count += other.flipped_count;
         self.marked_count += other.marked_count;
+        self.wire_count += other.wire_count;
+        self.lost_wire_count += other.lost_wire_count;
         self.sliver_count += other.sliver_count;
         self.lost_sliver_count += other.lost_sliver_count;
         self.collapsed_count += other.collapsed_count;
@@ -132,6 +145,7 @@ pub fn add_mesh(shape: &mut Shape, mesh: &PlacedMesh, weld_tolerance: f32) -> Pr
     removed.double_count = connect(&mut part);
     measure(&mut part, &shape.surfaces);
     removed.lost_mark_count = mark(&mut part, mesh.marks, &weld);
+    removed.lost_wire_count = add_wires(&mut part, mesh, &weld, shape.surfaces.len());
 
     let mut preparation = Preparation::of(&part);
     preparation += removed;
@@ -180,13 +194,17 @@ impl Welding<'_> {
 
     /// Whether a vertex exists and has finite positions.
     fn sound(&self, vertex: u32) -> bool {
-        let Some(&welded) = self.weld.of_vertex.get(vertex as usize) else {
-            return false;
-        };
-        let first = self.weld.first[welded as usize] as usize;
-        let (rest, world) = (&self.mesh.rest[vertex as usize], &self.mesh.world[first]);
-        self.all_finite || is_finite(rest) && is_finite(world)
+        is_sound(self.mesh, self.weld, vertex, self.all_finite)
     }
+}
+
+/// Whether a vertex exists and has finite positions; `all_finite` where all have.
+fn is_sound(mesh: &PlacedMesh<'_>, weld: &Weld, vertex: u32, all_finite: bool) -> bool {
+    let Some(&welded) = weld.of_vertex.get(vertex as usize) else {
+        return false;
+    };
+    let first = weld.first[welded as usize] as usize;
+    all_finite || is_finite(&mesh.rest[vertex as usize]) && is_finite(&mesh.world[first])
 }
 
 fn is_finite(position: &[f32; 3]) -> bool {
@@ -379,6 +397,24 @@ fn mark(part: &mut Shape, marks: &[[u32; 2]], weld: &Weld) -> usize {
     lost
 }
 
+/// Takes over the wires of a mesh, each pair of vertices once; gives the number of those that are left out.
+fn add_wires(part: &mut Shape, mesh: &PlacedMesh<'_>, weld: &Weld, surface_count: usize) -> usize {
+    let mut known = HashSet::with_capacity(mesh.wires.len());
+    for (index, ends) in mesh.wires.iter().enumerate() {
+        let surface = mesh.wire_surfaces.get(index).copied().unwrap_or(NONE);
+        let exists = ends.iter().all(|end| is_sound(mesh, weld, *end, false));
+        if !exists || surface as usize >= surface_count {
+            continue;
+        }
+        let [a, b] = ends.map(|end| weld.of_vertex[end as usize]);
+        if a != b && known.insert([a.min(b), a.max(b)]) {
+            part.wires.push([a, b]);
+            part.wire_surfaces.push(surface);
+        }
+    }
+    mesh.wires.len() - part.wires.len()
+}
+
 /// The edge between two vertices, by bisection.
 fn find_edge(part: &Shape, ends: [u32; 2]) -> Option<usize> {
     let (mut from, mut to) = (0, part.edge_count());
@@ -442,4 +478,7 @@ fn extend(shape: &mut Shape, part: Shape) {
         .iter()
         .map(|&[s, stand_in]| [s + face, moved(stand_in, face)]);
     shape.slivers.extend(slivers);
+    let wires = part.wires.iter().map(|ends| ends.map(|v| v + vertex));
+    shape.wires.extend(wires);
+    shape.wire_surfaces.extend(part.wire_surfaces);
 }

@@ -3,7 +3,7 @@
 //! [`encode`] and [`decode`] turn a shape into bytes and back; whoever calls them reads and writes the file.
 //! [`shape_key`] names the input: a cache that was made from anything else is refused.
 //!
-//! All numbers are little-endian. A header of 64 bytes:
+//! All numbers are little-endian. A header of 72 bytes:
 //!
 //! | bytes | content |
 //! |---|---|
@@ -11,7 +11,7 @@
 //! | 4 | [`VERSION`] |
 //! | 4 | number of surfaces |
 //! | 16 | key of the input |
-//! | 4 each | number of vertices, faces, edges, slivers |
+//! | 4 each | number of vertices, faces, edges, slivers, wires, and 0 |
 //! | 8 | bytes of the surfaces |
 //! | 8 | checksum of everything else |
 //!
@@ -25,11 +25,11 @@ use crate::content_hash::ContentHash;
 use crate::shape::PlacedMesh;
 
 /// Counts up with every change of the layout or of what a prepared shape holds.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 const MAGIC: [u8; 8] = *b"NPRSHAPE";
-const HEADER: usize = 64;
-const CHECKSUM: std::ops::Range<usize> = 56..64;
+const HEADER: usize = 72;
+const CHECKSUM: std::ops::Range<usize> = 64..72;
 
 /// Why a cache cannot be used. None of these is worth a message to the user: prepare the mesh again.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -87,6 +87,8 @@ pub fn shape_key(surfaces: &[Surface], meshes: &[PlacedMesh<'_>], weld_tolerance
         hash.numbers(mesh.triangles.as_flattened());
         hash.numbers(mesh.surfaces);
         hash.numbers(mesh.marks.as_flattened());
+        hash.numbers(mesh.wires.as_flattened());
+        hash.numbers(mesh.wire_surfaces);
         hash.numbers(&[u32::from(mesh.mirrored)]);
     }
     hash.finish()
@@ -111,6 +113,7 @@ pub fn encode(shape: &Shape, key: u128) -> Vec<u8> {
         faces: count(shape.faces.len()),
         edges: count(shape.edge_count()),
         slivers: count(shape.slivers.len()),
+        wires: count(shape.wires.len()),
         surface_bytes: surfaces.len() as u64,
     };
     let mut bytes = Vec::with_capacity(counts.file_size().unwrap_or(0) as usize);
@@ -133,6 +136,8 @@ pub fn encode(shape: &Shape, key: u128) -> Vec<u8> {
     put(&mut shape.dihedral_cos.iter().map(|v| v.to_bits()));
     put(&mut shape.edge_traits.iter().copied());
     put(&mut shape.slivers.as_flattened().iter().copied());
+    put(&mut shape.wires.as_flattened().iter().copied());
+    put(&mut shape.wire_surfaces.iter().copied());
     bytes.extend_from_slice(&surfaces);
     let sum = checksum(&bytes);
     bytes[CHECKSUM].copy_from_slice(&sum.to_le_bytes());
@@ -150,8 +155,7 @@ pub fn encode(shape: &Shape, key: u128) -> Vec<u8> {
 pub fn decode(bytes: &[u8], key: u128) -> Result<Shape, CacheError> {
     let counts = Counts::read(bytes, key)?;
     let mut rest = Reader(bytes.get(HEADER..).unwrap_or_default());
-    let [vertices, faces, edges, slivers] =
-        [counts.vertices, counts.faces, counts.edges, counts.slivers].map(|n| n as usize);
+    let [vertices, faces, edges, slivers, wires] = counts.of_lists().map(|n| n as usize);
     let mut shape = Shape {
         positions: rest
             .rows(vertices)?
@@ -171,6 +175,8 @@ pub fn decode(bytes: &[u8], key: u128) -> Result<Shape, CacheError> {
             .collect(),
         edge_traits: rest.numbers(edges)?,
         slivers: rest.rows(slivers)?,
+        wires: rest.rows(wires)?,
+        wire_surfaces: rest.numbers(wires)?,
         surfaces: Vec::new(),
     };
     shape.edge_of = edge_of(&shape).ok_or(CacheError::Damaged)?;
@@ -209,15 +215,26 @@ struct Counts {
     faces: u32,
     edges: u32,
     slivers: u32,
+    wires: u32,
     surface_bytes: u64,
 }
 
 impl Counts {
+    /// Of vertices, faces, edges, slivers and wires.
+    fn of_lists(&self) -> [u32; 5] {
+        [
+            self.vertices,
+            self.faces,
+            self.edges,
+            self.slivers,
+            self.wires,
+        ]
+    }
+
     fn file_size(&self) -> Option<u64> {
-        let [vertices, faces, edges, slivers] =
-            [self.vertices, self.faces, self.edges, self.slivers].map(u64::from);
-        // Corners, surface, twins and sides of a face; start, angle and traits of an edge.
-        let numbers = 3 * vertices + 10 * faces + 3 * edges + 1 + 2 * slivers;
+        let [vertices, faces, edges, slivers, wires] = self.of_lists().map(u64::from);
+        // Corners, surface, twins and sides of a face; start, angle and traits of an edge; ends and surface of a wire.
+        let numbers = 3 * vertices + 10 * faces + 3 * edges + 1 + 2 * slivers + 3 * wires;
         (HEADER as u64 + 4 * numbers).checked_add(self.surface_bytes)
     }
 
@@ -227,7 +244,7 @@ impl Counts {
         bytes.extend_from_slice(&VERSION.to_le_bytes());
         bytes.extend_from_slice(&self.surfaces.to_le_bytes());
         bytes.extend_from_slice(&key.to_le_bytes());
-        for number in [self.vertices, self.faces, self.edges, self.slivers] {
+        for number in self.of_lists().into_iter().chain([0]) {
             bytes.extend_from_slice(&number.to_le_bytes());
         }
         bytes.extend_from_slice(&self.surface_bytes.to_le_bytes());
@@ -254,6 +271,7 @@ impl Counts {
         }
         let mut number = || header.bytes().map(u32::from_le_bytes).ok_or(cut.clone());
         let (vertices, faces, edges, slivers) = (number()?, number()?, number()?, number()?);
+        let (wires, _) = (number()?, number()?);
         let mut long = || header.bytes().map(u64::from_le_bytes).ok_or(cut.clone());
         let (surface_bytes, sum) = (long()?, long()?);
         let counts = Self {
@@ -262,6 +280,7 @@ impl Counts {
             faces,
             edges,
             slivers,
+            wires,
             surface_bytes,
         };
         let expected = counts.file_size().unwrap_or(u64::MAX);

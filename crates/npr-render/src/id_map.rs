@@ -182,7 +182,7 @@ struct Knife<'a> {
 impl Knife<'_> {
     /// A part of an object as the pieces that its map makes of it.
     fn cut(&mut self, part: Part, map: Option<usize>, object: &str) -> Vec<Part> {
-        let Some(number) = map else {
+        let Some(number) = map.filter(|_| !part.triangles.is_empty()) else {
             return vec![part];
         };
         let (map, tally) = (&self.maps[number], &mut self.tallies[number]);

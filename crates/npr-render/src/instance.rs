@@ -37,7 +37,7 @@ pub(crate) struct Piece {
 impl Instance {
     /// Prepares the parts of a mesh. `scale` is how much longer things are in the world than in the mesh, and `mirrored`
     /// whether the node turns shapes inside out.
-    pub fn new(scene: &Scene, parts: &[Part], scale: f32, mirrored: bool) -> Self {
+    pub fn new(scene: &Scene, parts: &[&Part], scale: f32, mirrored: bool) -> Self {
         let mut joined = Joined::new(parts);
         let weld = npr_mesh::weld(&joined.positions, 0.0);
         let edges = npr_mesh::unique_edges(
@@ -50,7 +50,7 @@ impl Instance {
         let smooth = npr_mesh::smooth_normals(&joined.positions, &joined.triangles, &weld);
         let mut instance = Self {
             vertices: stored_vertices(scene, parts, &joined),
-            influences: parts.iter().flat_map(influences).collect(),
+            influences: parts.iter().copied().flat_map(influences).collect(),
             painted: painted(parts),
             edges: edges.iter().map(shared_edge).collect(),
             ..Self::default()
@@ -164,7 +164,7 @@ impl Instance {
 }
 
 /// The vertices of all parts, without curvature.
-fn stored_vertices(scene: &Scene, parts: &[Part], joined: &Joined) -> Vec<Vertex> {
+fn stored_vertices(scene: &Scene, parts: &[&Part], joined: &Joined) -> Vec<Vertex> {
     let mut vertices = Vec::with_capacity(joined.positions.len());
     for part in parts {
         let material = part.material.and_then(|m| scene.materials.get(m as usize));
@@ -233,11 +233,11 @@ fn influences(part: &Part) -> Vec<Influence> {
 }
 
 /// Directions of strokes at the vertices of all parts; empty where none has any.
-fn painted(parts: &[Part]) -> Vec<[f32; 3]> {
+fn painted(parts: &[&Part]) -> Vec<[f32; 3]> {
     if parts.iter().all(|part| part.directions.is_none()) {
         return Vec::new();
     }
-    let of_part = |part: &Part| match &part.directions {
+    let of_part = |part: &&Part| match &part.directions {
         Some(directions) => directions.clone(),
         None => vec![[0.0; 3]; part.positions.len()],
     };

@@ -9,6 +9,10 @@ pub(crate) struct Joined {
     pub positions: Vec<[f32; 3]>,
     pub normals: Vec<[f32; 3]>,
     pub triangles: Vec<[u32; 3]>,
+    /// Ends of each line segment.
+    pub segments: Vec<[u32; 2]>,
+    /// Part of each line segment.
+    pub segment_parts: Vec<u32>,
     /// Part of each triangle.
     pub parts: Vec<u32>,
     /// Material of each triangle.
@@ -17,7 +21,7 @@ pub(crate) struct Joined {
 }
 
 impl Joined {
-    pub fn new(parts: &[Part]) -> Self {
+    pub fn new(parts: &[&Part]) -> Self {
         let mut joined = Self {
             has_normals: parts.iter().all(|part| part.normals.is_some()),
             ..Self::default()
@@ -33,6 +37,12 @@ impl Joined {
                     .iter()
                     .map(|corners| corners.map(|corner| corner + base)),
             );
+            joined
+                .segments
+                .extend(part.segments.iter().map(|ends| ends.map(|end| end + base)));
+            joined
+                .segment_parts
+                .resize(joined.segments.len(), index as u32);
             joined.parts.resize(joined.triangles.len(), index as u32);
             joined
                 .materials

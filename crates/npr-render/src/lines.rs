@@ -62,7 +62,8 @@ const POINT_LIMIT: u64 = 20_000_000;
 ///
 /// A glTF file asks for lines of its own by the vertex attribute `_NPR_LINE` (an edge between two vertices above one half),
 /// and by `"extras": {"npr": {"lines": true}}` in a material (wherever it meets another material). They are of kind
-/// [`Kind::Marked`], and drawn whatever kinds are asked for.
+/// [`Kind::Marked`], and drawn whatever kinds are asked for. So are lines that a file has as geometry: linked where two segments
+/// meet, hidden by the surfaces before them and shown where they lie on one (within [`npr_vector::wire::TOUCH_SHARE`]).
 #[derive(Debug)]
 pub struct LineModel {
     shape: Shape,

@@ -65,6 +65,8 @@ pub struct Model {
     pub(crate) parts: Vec<PartInfo>,
     pub(crate) textures: TextureStore,
     pub(crate) lights: Vec<FileLight>,
+    /// Where lines of the file end in the world: only strokes as curves draw them, and all frames take them in.
+    line_points: Vec<Vec3>,
     bounds: Bounds,
     cameras: Vec<(String, Camera)>,
     notices: Vec<String>,
@@ -90,6 +92,7 @@ impl Model {
             parts: Vec::new(),
             textures: TextureStore::new(),
             lights: Vec::new(),
+            line_points: line_points(scene),
             bounds: ([0.0; 3], [0.0; 3]),
             cameras: placement::cameras_of(scene),
             notices: scene.notices.iter().map(ToString::to_string).collect(),
@@ -129,7 +132,9 @@ impl Model {
         self.palette.extend(placement::matrices_of(scene, node));
         let determinant = placement::determinant_of(&self.palette[first_joint as usize]);
         let scale = npr_core::math::powf(determinant.abs(), 1.0 / 3.0).max(1e-12);
-        let instance = Instance::new(scene, &mesh.parts, scale, determinant < 0.0);
+        let is_surface = |part: &&Part| !part.triangles.is_empty();
+        let parts: Vec<&Part> = mesh.parts.iter().filter(is_surface).collect();
+        let instance = Instance::new(scene, &parts, scale, determinant < 0.0);
         let base = [
             self.vertices.len() as u32,
             self.triangles.len() as u32,
@@ -172,8 +177,7 @@ impl Model {
                 ..*edge
             }
         }));
-        let infos: Vec<PartInfo> = mesh
-            .parts
+        let infos: Vec<PartInfo> = parts
             .iter()
             .map(|part| {
                 let info = PartInfo::new(scene, object, &node.name, part.material);
@@ -201,6 +205,16 @@ impl Model {
         self.triangles.len()
     }
 
+    /// Whether there is nothing to see, whatever the style.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.triangles.is_empty() && self.line_points.is_empty()
+    }
+
+    /// Whether the file has lines as geometry, which only line methods `curves` and `potrace` draw.
+    pub fn has_lines(&self) -> bool {
+        !self.line_points.is_empty()
+    }
+
     /// Number of unique edges.
     pub fn edge_count(&self) -> usize {
         self.edges.len()
@@ -226,13 +240,13 @@ impl Model {
         if smoke.reach().next().is_none() {
             return self.bounds;
         }
-        if self.triangles.is_empty() {
+        if self.is_empty() {
             return smoke.extent();
         }
         around(self.bounds, smoke.extent())
     }
 
-    /// Positions in the world of all vertices that triangles use.
+    /// Positions in the world of all vertices that triangles and lines use.
     fn posed_points(&self) -> impl Iterator<Item = Vec3> + '_ {
         let mut used = vec![false; self.vertices.len()];
         for corner in self.triangles.iter().flat_map(|triangle| triangle.corners) {
@@ -244,7 +258,9 @@ impl Model {
             .zip(&self.influences)
             .zip(used)
             .filter(|(_, used)| *used);
-        posed.map(|((vertex, influence), _)| self.posed_point(vertex, influence))
+        posed
+            .map(|((vertex, influence), _)| self.posed_point(vertex, influence))
+            .chain(self.line_points.iter().copied())
     }
 
     /// Where a vertex lies in the world.
@@ -266,6 +282,23 @@ impl Model {
         };
         moved(0) + moved(1) + moved(2) + moved(3)
     }
+}
+
+/// Where the lines of a scene end in the world, each vertex of a part once.
+fn line_points(scene: &Scene) -> Vec<Vec3> {
+    let drawn = scene.drawn_parts();
+    let lined = drawn.filter(|(_, part)| !part.segments.is_empty());
+    let points = lined.flat_map(|(node, part)| {
+        let mut used = vec![false; part.positions.len()];
+        for end in part.segments.iter().flatten() {
+            used[*end as usize] = true;
+        }
+        let world = scene.positions_world(node, part).into_iter().zip(used);
+        world
+            .filter(|(_, used)| *used)
+            .map(|(point, _)| Vec3::from(point))
+    });
+    points.collect()
 }
 
 pub(crate) fn check_count(what: &'static str, have: usize, more: usize) -> Result<(), RenderError> {

@@ -165,6 +165,11 @@ impl<'a> Stage<'a> {
         };
         let backdrop = Backdrop::new(&model.parts, style, styled.parts.len());
         styled.inked.notices.extend(backdrop.notice.clone());
+        if model.has_lines() && !style.has_curves() {
+            let notice =
+                "lines of the file are left out: only line.method curves and potrace draw them";
+            styled.inked.notices.push(notice.to_owned());
+        }
         let mut method = match model.triangles.is_empty() {
             true => Method::NONE,
             false => Method::of(style),
@@ -381,7 +386,7 @@ impl<'a> Stage<'a> {
         let Some(smoke) = self.options.smoke.as_ref().map(Smoke::extent) else {
             return model;
         };
-        if self.model.triangles.is_empty() {
+        if self.model.is_empty() {
             return smoke;
         }
         smoke::around(model, smoke)

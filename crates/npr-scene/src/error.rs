@@ -40,6 +40,12 @@ pub enum SceneError {
         /// How many triangles the file has.
         triangle_count: usize,
     },
+    /// The file has lines and no triangles, and every line uses such a position.
+    #[error("all {segment_count} line segments use positions that are not finite or out of range")]
+    NoFiniteLine {
+        /// How many segments the file has.
+        segment_count: usize,
+    },
 }
 
 impl SceneError {

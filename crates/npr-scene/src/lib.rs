@@ -64,7 +64,7 @@ pub use matrix::Matrix;
 pub use mesh::{Mesh, Morph, POSITION_LIMIT, Part};
 pub use node::Node;
 pub use notice::Notice;
-pub use obj::ObjError;
+pub use obj::{Element as ObjElement, ObjError};
 pub use ply::PlyError;
 pub use resources::{FolderResources, MemoryResources, ResourceError, Resources};
 pub use scene::Scene;

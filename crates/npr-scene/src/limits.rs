@@ -127,6 +127,11 @@ impl Allowance {
         self.take::<[u32; 3]>("triangles", count)
     }
 
+    /// Plans memory for `count` more segments of lines.
+    pub(crate) fn take_segments(&mut self, count: usize) -> Result<(), LimitError> {
+        self.take::<[u32; 2]>("line segments", count)
+    }
+
     /// Plans the decoded bytes of an image of `width` x `height` pixels.
     pub(crate) fn take_image(&mut self, width: u32, height: u32) -> Result<(), LimitError> {
         let side = u64::from(width.max(height));

@@ -1,4 +1,4 @@
-//! Meshes: triangles that share a node.
+//! Meshes: triangles and lines that share a node.
 
 /// Largest magnitude of a position coordinate that counts as in range.
 ///
@@ -15,10 +15,10 @@ pub struct Mesh {
     pub parts: Vec<Part>,
 }
 
-/// Triangles of one material.
+/// Triangles and lines of one material.
 ///
 /// All vertex lists are as long as `positions`. Triangles wind counter-clockwise seen from outside,
-/// may be degenerate, and name existing vertices only.
+/// may be degenerate, and name existing vertices only, as line segments do.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Part {
     /// Vertex positions in mesh space, morphed by the default weights.
@@ -44,6 +44,8 @@ pub struct Part {
     pub directions: Option<Vec<[f32; 3]>>,
     /// Vertices of each triangle.
     pub triangles: Vec<[u32; 3]>,
+    /// Vertices of each segment of lines that the file has as geometry, in its order; both may be the same.
+    pub segments: Vec<[u32; 2]>,
     /// Index into the scene's materials.
     pub material: Option<u32>,
     /// Morph targets in file order; all parts of a mesh are meant to have the same number.
@@ -72,11 +74,10 @@ impl Part {
     /// reaches a picture is not finite.
     pub fn sanity_check(&self) {
         let count = self.positions.len();
+        let corners = self.triangles.iter().flatten();
+        let ends = self.segments.iter().flatten();
         assert!(
-            self.triangles
-                .iter()
-                .flatten()
-                .all(|&v| (v as usize) < count),
+            corners.chain(ends).all(|&v| (v as usize) < count),
             "vertex in range"
         );
         assert!(

@@ -38,38 +38,38 @@ pub enum ObjError {
         /// How many numbers it needs.
         wanted: usize,
     },
-    /// A corner of a face is no index.
+    /// A corner of a face or a polyline is no index.
     #[error(
-        "line {line}: face {face} has the corner '{}', which is no index",
+        "line {line}: {element} has the corner '{}', which is no index",
         crate::shown::shown(corner)
     )]
     Corner {
         /// Line, counted from 1.
         line: usize,
-        /// Which face, counted from 1.
-        face: usize,
+        /// What it belongs to.
+        element: Element,
         /// The corner as read.
         corner: String,
     },
-    /// A face has too few corners.
-    #[error("line {line}: face {face} has only {corner_count} corners")]
+    /// A face or a polyline has too few corners.
+    #[error("line {line}: {element} has only {corner_count} corners")]
     FewCorners {
         /// Line, counted from 1.
         line: usize,
-        /// Which face, counted from 1.
-        face: usize,
+        /// What has them.
+        element: Element,
         /// How many corners it has.
         corner_count: usize,
     },
-    /// A face names something that was not defined before it.
+    /// A face or a polyline names something that was not defined before it.
     #[error(
-        "line {line}: face {face} uses {what} {index}, but only {count} are defined so far, counted from 1"
+        "line {line}: {element} uses {what} {index}, but only {count} are defined so far, counted from 1"
     )]
     Missing {
         /// Line, counted from 1.
         line: usize,
-        /// Which face, counted from 1.
-        face: usize,
+        /// What names it.
+        element: Element,
         /// What it names: a vertex, a normal or a texture coordinate.
         what: &'static str,
         /// The index as read.
@@ -77,6 +77,34 @@ pub enum ObjError {
         /// How many are defined before the line.
         count: usize,
     },
+}
+
+/// What corners belong to, counted from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Element {
+    /// A face, from a line `f`.
+    Face(usize),
+    /// A line through points, from a line `l`.
+    Polyline(usize),
+}
+
+impl Element {
+    /// How many corners it has at least.
+    fn least(self) -> usize {
+        match self {
+            Self::Face(_) => 3,
+            Self::Polyline(_) => 2,
+        }
+    }
+}
+
+impl std::fmt::Display for Element {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Face(number) => write!(f, "face {number}"),
+            Self::Polyline(number) => write!(f, "polyline {number}"),
+        }
+    }
 }
 
 /// Reads an OBJ file.
@@ -111,6 +139,7 @@ struct Reader {
     groups: Groups,
     library: Library,
     face_count: usize,
+    polyline_count: usize,
 }
 
 impl Reader {
@@ -138,9 +167,10 @@ impl Reader {
                 .groups
                 .set_material(self.library.index(rest.trim_ascii())),
             b"mtllib" => self.library.load(rest.trim_ascii(), loading),
-            b"p" | b"l" => loading
+            b"l" => self.polyline(line, rest, loading)?,
+            b"p" => loading
                 .notices
-                .add("points and lines are not drawn, only faces are"),
+                .add("points are not drawn, only faces and lines are"),
             b"curv" | b"curv2" | b"surf" => loading
                 .notices
                 .add("curves and curved surfaces are not drawn, only faces are"),
@@ -175,20 +205,37 @@ impl Reader {
 
     fn face(&mut self, line: usize, rest: &[u8], loading: &mut Loading) -> Result<(), SceneError> {
         self.face_count = self.face_count.saturating_add(1);
-        let corners = self.tables.corners(line, self.face_count, rest)?;
+        let element = Element::Face(self.face_count);
+        let corners = self.tables.corners(line, element, rest)?;
         Ok(self.groups.add_face(&corners, loading)?)
+    }
+
+    fn polyline(
+        &mut self,
+        line: usize,
+        rest: &[u8],
+        loading: &mut Loading,
+    ) -> Result<(), SceneError> {
+        self.polyline_count = self.polyline_count.saturating_add(1);
+        let element = Element::Polyline(self.polyline_count);
+        let corners = self.tables.corners(line, element, rest)?;
+        Ok(self.groups.add_polyline(&corners, loading)?)
     }
 
     fn scene(self, loading: &mut Loading) -> Result<Scene, SceneError> {
         let mut meshes = Vec::new();
         for group in self.groups.into_list() {
-            let parts = group
-                .parts
-                .into_iter()
-                .map(|(material, corners)| self.tables.part(material, &corners, loading));
+            let mut parts = Vec::new();
+            for (material, triangles) in &group.parts {
+                parts.push(self.tables.part(*material, triangles, &[], loading)?);
+            }
+            // Lines have no normals; in parts of their own they take none from faces.
+            for (material, segments) in &group.lines {
+                parts.push(self.tables.part(*material, &[], segments, loading)?);
+            }
             meshes.push(Mesh {
                 name: group.name,
-                parts: parts.collect::<Result<_, _>>()?,
+                parts,
             });
         }
         let (materials, images) = self.library.finish(loading)?;

@@ -49,6 +49,16 @@ pub enum PlyError {
     /// Vertices have no positions.
     #[error("the vertices have no x, y and z")]
     NoPositions,
+    /// An edge names a vertex that does not exist.
+    #[error("edge {edge} uses vertex {vertex}, but the file has only {vertex_count}")]
+    MissingEnd {
+        /// Which edge, counted from 0.
+        edge: usize,
+        /// The vertex index as read; 0 where it is none.
+        vertex: i64,
+        /// How many vertices there are.
+        vertex_count: usize,
+    },
     /// A face names a vertex that does not exist.
     #[error("face {face} uses vertex {vertex}, but the file has only {vertex_count}")]
     MissingVertex {
@@ -70,10 +80,12 @@ pub(crate) fn read(bytes: &[u8], loading: &mut Loading) -> Result<Scene, SceneEr
         ..Part::default()
     };
     let mut faces = Faces::default();
+    let mut edges = Vec::new();
     for element in &header.elements {
         match element.name.as_str() {
             "vertex" => read_vertices(element, &mut body, &mut part)?,
             "face" => faces.read(element, &mut body)?,
+            "edge" => read_edges(element, &mut body, &mut edges)?,
             _ => body.rows(element, |_| {})?,
         }
     }
@@ -88,13 +100,17 @@ pub(crate) fn read(bytes: &[u8], loading: &mut Loading) -> Result<Scene, SceneEr
     }
     loading.allowance.take_triangles(faces.triangle_count())?;
     part.triangles = faces.triangles(part.positions.len())?;
+    loading.allowance.take_segments(edges.len())?;
+    part.segments = segments(&edges, part.positions.len())?;
     Ok(scene(part, loading))
 }
 
 fn scene(part: Part, loading: &mut Loading) -> Scene {
-    if part.triangles.is_empty() {
+    if part.triangles.is_empty() && part.segments.is_empty() {
         if !part.positions.is_empty() {
-            loading.notices.add("points are not drawn, only faces are");
+            loading
+                .notices
+                .add("points are not drawn, only faces and edges are");
         }
         return Scene::default();
     }
@@ -191,6 +207,35 @@ fn push<const N: usize, const M: usize>(
     if let (Some(list), Some(columns)) = (list, columns) {
         list.push(value(columns));
     }
+}
+
+/// The numbers of both ends of every edge, as read.
+fn read_edges(
+    element: &Element,
+    body: &mut Body,
+    edges: &mut Vec<[f64; 2]>,
+) -> Result<(), PlyError> {
+    let column = |name| element.properties.iter().position(|p| p.name == name);
+    let columns = ["vertex1", "vertex2"].map(column);
+    body.rows(element, |row| {
+        if let [Some(a), Some(b)] = columns.map(|c| c.and_then(|c| row.singles.get(c))) {
+            edges.push([*a, *b]);
+        }
+    })
+}
+
+/// Edges as line segments.
+fn segments(edges: &[[f64; 2]], vertex_count: usize) -> Result<Vec<[u32; 2]>, PlyError> {
+    let is_missing = |vertex: &&f64| !(0.0..vertex_count as f64).contains(*vertex);
+    let segment = |(edge, ends): (usize, &[f64; 2])| match ends.iter().find(is_missing) {
+        Some(vertex) => Err(PlyError::MissingEnd {
+            edge,
+            vertex: *vertex as i64,
+            vertex_count,
+        }),
+        None => Ok(ends.map(|vertex| vertex as u32)),
+    };
+    edges.iter().enumerate().map(segment).collect()
 }
 
 /// Faces as lists of vertices, one after another.

@@ -48,24 +48,26 @@ impl Scene {
         self.parts().map(|part| part.triangles.len()).sum()
     }
 
+    /// Segments of lines as stored: an instanced mesh counts once.
+    pub fn segment_count(&self) -> usize {
+        self.parts().map(|part| part.segments.len()).sum()
+    }
+
     /// Vertices as stored: an instanced mesh counts once.
     pub fn vertex_count(&self) -> usize {
         self.parts().map(|part| part.positions.len()).sum()
     }
 
     /// Lowest and highest corner of all drawn vertices in world space, in the pose of the file; none
-    /// where nothing is drawn. O(corners of triangles).
+    /// where nothing is drawn. O(corners of triangles and ends of lines).
     pub fn bounds_world(&self) -> Option<([f32; 3], [f32; 3])> {
         let mut low = [f32::INFINITY; 3];
         let mut high = [f32::NEG_INFINITY; 3];
         for (node, part) in self.drawn_parts() {
             let placed = self.positions_world(node, part);
-            for position in part
-                .triangles
-                .iter()
-                .flatten()
-                .map(|&vertex| placed[vertex as usize])
-            {
+            let corners = part.triangles.iter().flatten();
+            let used = corners.chain(part.segments.iter().flatten());
+            for position in used.map(|&vertex| placed[vertex as usize]) {
                 low = std::array::from_fn(|axis| low[axis].min(position[axis]));
                 high = std::array::from_fn(|axis| high[axis].max(position[axis]));
             }

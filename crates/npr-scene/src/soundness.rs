@@ -14,14 +14,18 @@ const ANY_NORMAL: [f32; 3] = [0.0, 0.0, 1.0];
 ///
 /// # Errors
 ///
-/// [`SceneError::NothingFinite`] where no triangle is left of those the file has.
+/// [`SceneError::NothingFinite`] or [`SceneError::NoFiniteLine`] where nothing is left of the triangles and lines that the file has.
 pub(crate) fn mend(scene: &mut Scene, notices: &mut Notices) -> Result<(), SceneError> {
-    let triangle_count = scene.triangle_count();
+    let (triangle_count, segment_count) = (scene.triangle_count(), scene.segment_count());
     for mesh in &mut scene.meshes {
         mend_mesh(mesh, notices);
     }
-    if triangle_count > 0 && scene.triangle_count() == 0 {
+    let is_empty = scene.triangle_count() == 0 && scene.segment_count() == 0;
+    if is_empty && triangle_count > 0 {
         return Err(SceneError::NothingFinite { triangle_count });
+    }
+    if is_empty && segment_count > 0 {
+        return Err(SceneError::NoFiniteLine { segment_count });
     }
     reach::bound(scene, notices);
     Ok(())
@@ -29,12 +33,17 @@ pub(crate) fn mend(scene: &mut Scene, notices: &mut Notices) -> Result<(), Scene
 
 fn mend_mesh(Mesh { name, parts }: &mut Mesh, notices: &mut Notices) {
     for part in parts {
-        let dropped_count = drop_unsound_triangles(part);
-        if dropped_count > 0 {
-            notices.add(format!(
-                "mesh '{}': {dropped_count} triangles with positions that are not finite or out of range are left out",
-                shown(name),
-            ));
+        let (triangle_count, segment_count) = drop_unsound_geometry(part);
+        for (dropped_count, what) in [
+            (triangle_count, "triangles"),
+            (segment_count, "line segments"),
+        ] {
+            if dropped_count > 0 {
+                notices.add(format!(
+                    "mesh '{}': {dropped_count} {what} with positions that are not finite or out of range are left out",
+                    shown(name),
+                ));
+            }
         }
         part.morphs.iter_mut().for_each(|morph| {
             drop_unsound(&mut morph.positions, "morph offsets", name, notices);
@@ -58,22 +67,27 @@ fn mend_mesh(Mesh { name, parts }: &mut Mesh, notices: &mut Notices) {
     }
 }
 
-/// Removes triangles that use an unsound position, and zeroes such positions. Returns how many.
-fn drop_unsound_triangles(part: &mut Part) -> usize {
+/// Removes triangles and line segments that use an unsound position, and zeroes such positions. Returns how many of each.
+fn drop_unsound_geometry(part: &mut Part) -> (usize, usize) {
     let is_sound = |position: &[f32; 3]| position.iter().all(|v| v.abs() <= POSITION_LIMIT);
     if part.positions.iter().all(is_sound) {
-        return 0;
+        return (0, 0);
     }
     let sound: Vec<bool> = part.positions.iter().map(is_sound).collect();
-    let before = part.triangles.len();
+    let before = (part.triangles.len(), part.segments.len());
     part.triangles
         .retain(|triangle| triangle.iter().all(|&vertex| sound[vertex as usize]));
+    part.segments
+        .retain(|ends| ends.iter().all(|&vertex| sound[vertex as usize]));
     for (position, sound) in part.positions.iter_mut().zip(sound) {
         if !sound {
             *position = [0.0; 3];
         }
     }
-    before - part.triangles.len()
+    (
+        before.0 - part.triangles.len(),
+        before.1 - part.segments.len(),
+    )
 }
 
 fn drop_unsound<const N: usize>(
@@ -196,12 +210,8 @@ mod tests {
         assert_eq!(texts.len(), 1);
     }
 
-    #[test]
-    fn a_scene_of_bad_positions_only_is_refused() {
-        let part = Part {
-            triangles: vec![[0, 1, 3]],
-            ..triangle()
-        };
+    /// What mending says of a scene of one part.
+    fn fault_of(part: Part) -> Result<(), SceneError> {
         let mesh = Mesh {
             name: String::new(),
             parts: vec![part],
@@ -210,8 +220,40 @@ mod tests {
             meshes: vec![mesh],
             ..Scene::default()
         };
-        let result = mend(&mut scene, &mut Notices::default());
+        mend(&mut scene, &mut Notices::default())
+    }
+
+    #[test]
+    fn a_scene_of_bad_positions_only_is_refused() {
+        let part = Part {
+            triangles: vec![[0, 1, 3]],
+            ..triangle()
+        };
+        let result = fault_of(part.clone());
         assert_eq!(result, Err(SceneError::NothingFinite { triangle_count: 1 }));
+        let lines = Part {
+            triangles: Vec::new(),
+            segments: vec![[0, 3], [3, 1]],
+            ..part.clone()
+        };
+        let result = fault_of(lines);
+        assert_eq!(result, Err(SceneError::NoFiniteLine { segment_count: 2 }));
+        // What is left of either is drawn.
+        let both = Part {
+            segments: vec![[0, 1]],
+            ..part
+        };
+        assert_eq!(fault_of(both), Ok(()));
+    }
+
+    #[test]
+    fn lines_with_bad_positions_go_and_the_others_stay() {
+        let (part, texts) = mended(Part {
+            segments: vec![[0, 1], [1, 3], [3, 3], [2, 0]],
+            ..triangle()
+        });
+        assert_eq!(part.segments, [[0, 1], [2, 0]]);
+        assert!(texts[1].contains("2 line segments"), "{texts:?}");
     }
 
     #[test]

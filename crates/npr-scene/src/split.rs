@@ -7,8 +7,8 @@ impl Part {
     /// The part cut into one for every number that its triangles have, in ascending order of numbers.
     ///
     /// Each piece keeps its triangles and the vertices that they use in the order that they had; vertices where pieces meet are
-    /// stored in each of them, equal in all they hold, so that welding joins the pieces again. A part whose triangles have one
-    /// number stays as it is.
+    /// stored in each of them, equal in all they hold, so that welding joins the pieces again. Line segments stay with the first
+    /// piece. A part whose triangles have one number, or that has none, stays as it is.
     ///
     /// O(n log k) for `n` vertices and triangles and `k` numbers.
     ///
@@ -21,25 +21,35 @@ impl Part {
         for (number, corners) in numbers.iter().zip(&self.triangles) {
             triangles.entry(*number).or_default().push(*corners);
         }
-        if let [number] = *triangles.keys().copied().collect::<Vec<_>>() {
+        if triangles.len() < 2 {
+            let number = triangles.keys().next().copied().unwrap_or(0);
             return vec![(number, self)];
         }
         let mut places = vec![u32::MAX; self.positions.len()];
-        let pieces = triangles
-            .into_iter()
-            .map(|(number, triangles)| (number, self.piece(triangles, &mut places)));
+        let mut segments = self.segments.clone();
+        let pieces = triangles.into_iter().map(|(number, triangles)| {
+            let segments = std::mem::take(&mut segments);
+            (number, self.piece(triangles, segments, &mut places))
+        });
         pieces.collect()
     }
 
-    /// Some of the triangles with the vertices they use. `places` is room for a number per vertex.
-    fn piece(&self, mut triangles: Vec<[u32; 3]>, places: &mut [u32]) -> Self {
-        let mut kept: Vec<u32> = triangles.iter().flatten().copied().collect();
+    /// Some of the triangles and segments with the vertices they use. `places` is room for a number per vertex.
+    fn piece(
+        &self,
+        mut triangles: Vec<[u32; 3]>,
+        mut segments: Vec<[u32; 2]>,
+        places: &mut [u32],
+    ) -> Self {
+        let used = triangles.iter().flatten().chain(segments.iter().flatten());
+        let mut kept: Vec<u32> = used.copied().collect();
         kept.sort_unstable();
         kept.dedup();
         for (place, vertex) in (0..).zip(&kept) {
             places[*vertex as usize] = place;
         }
-        for corner in triangles.iter_mut().flatten() {
+        let ends = segments.iter_mut().flatten();
+        for corner in triangles.iter_mut().flatten().chain(ends) {
             *corner = places[*corner as usize];
         }
         let morph = |morph: &Morph| Morph {
@@ -57,6 +67,7 @@ impl Part {
             marks: gathered(&self.marks, &kept),
             directions: gathered(&self.directions, &kept),
             triangles,
+            segments,
             material: self.material,
             morphs: self.morphs.iter().map(morph).collect(),
             ids: self.ids.clone(),
@@ -92,6 +103,7 @@ mod tests {
             weights: Some(numbers().map(|v| [v, 0.0, 0.0, 0.0]).collect()),
             marks: Some((0..count).map(|v| v % 2 == 0).collect()),
             directions: Some(numbers().map(|v| [0.0, 0.0, v]).collect()),
+            segments: Vec::new(),
             triangles,
             material: Some(3),
             morphs: vec![morph],
@@ -139,6 +151,23 @@ mod tests {
                 prop_assert!(pieces.len() == 1 || used.len() == piece.positions.len());
             }
             prop_assert_eq!(found, faces.len());
+        }
+
+        #[test]
+        fn lines_stay_with_the_first_piece(
+            faces in prop::collection::vec((prop::array::uniform3(0u32..20), 0u32..4), 0..20),
+            segments in prop::collection::vec(prop::array::uniform2(0u32..20), 0..20),
+        ) {
+            let (triangles, numbers): (Vec<_>, Vec<_>) = faces.into_iter().unzip();
+            let whole = Part { segments: segments.clone(), ..part(20, triangles) };
+            let pieces = whole.split(&numbers);
+            for (index, (_, piece)) in pieces.iter().enumerate() {
+                piece.sanity_check();
+                let ends = piece.segments.iter().map(|ends| ends.map(|v| number_of(piece, v)));
+                let wanted = segments.iter().map(|ends| ends.map(|v| Some(v as f32)));
+                let wanted = wanted.filter(|_| index == 0);
+                prop_assert_eq!(ends.collect::<Vec<_>>(), wanted.collect::<Vec<_>>());
+            }
         }
     }
 }

@@ -174,8 +174,54 @@ fn bytes_of<T: Copy, const N: usize>(rows: &[[T; N]], bytes: impl Fn(T) -> [u8; 
         .collect()
 }
 
+/// A binary glTF file of one mesh at the node `drawing`: triangles, if there are any, and behind them a primitive for each list
+/// of vertices in `lines`, with its mode (1 lines, 2 loop, 3 strip).
+pub fn lines_glb(
+    positions: &[[f32; 3]],
+    triangles: &[[u32; 3]],
+    lines: &[(u32, &[u32])],
+) -> Vec<u8> {
+    let surface = (4, triangles.as_flattened());
+    let surface = Some(&surface).filter(|_| !triangles.is_empty());
+    let mut bin = bytes_of(positions, f32::to_le_bytes);
+    let mut views = format!(r#"{{"buffer":0,"byteLength":{}}}"#, bin.len());
+    let mut accessors = format!(
+        r#"{{"bufferView":0,"componentType":5126,"count":{},"type":"VEC3"}}"#,
+        positions.len()
+    );
+    let mut primitives = Vec::new();
+    for (number, (mode, indices)) in (1..).zip(surface.into_iter().chain(lines)) {
+        let (start, length, count) = (bin.len(), 4 * indices.len(), indices.len());
+        bin.extend(indices.iter().flat_map(|index| index.to_le_bytes()));
+        views += &format!(r#",{{"buffer":0,"byteOffset":{start},"byteLength":{length}}}"#);
+        accessors += &format!(
+            r#",{{"bufferView":{number},"componentType":5125,"count":{count},"type":"SCALAR"}}"#
+        );
+        primitives.push(format!(
+            r#"{{"attributes":{{"POSITION":0}},"indices":{number},"mode":{mode}}}"#
+        ));
+    }
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],
+        "nodes":[{{"name":"drawing","mesh":0}}],"meshes":[{{"primitives":[{}]}}],
+        "accessors":[{accessors}],"bufferViews":[{views}],"buffers":[{{"byteLength":{}}}]}}"#,
+        primitives.join(","),
+        bin.len(),
+    );
+    glb(&json, &bin)
+}
+
 /// A triangle bent by two joints, with a morph target, as a binary glTF file.
 pub fn skinned_glb() -> Vec<u8> {
+    bent_glb(4)
+}
+
+/// The same with a line through its corners instead of the triangle.
+pub fn skinned_lines_glb() -> Vec<u8> {
+    bent_glb(3)
+}
+
+fn bent_glb(mode: u32) -> Vec<u8> {
     let mut bin = bytes_of(&TRIANGLE, f32::to_le_bytes);
     bin.extend([0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0]);
     bin.extend(bytes_of(&[[0.5f32, 1.5, 0.0, 0.0]; 3], f32::to_le_bytes));
@@ -184,7 +230,7 @@ pub fn skinned_glb() -> Vec<u8> {
         "nodes":[{"name":"body","mesh":0,"skin":0},{"name":"hip","children":[2]},{"name":"knee","translation":[0,1,0]}],
         "skins":[{"joints":[1,2]}],
         "meshes":[{"weights":[0.5],"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2},
-          "targets":[{"POSITION":3}]}]}],
+          "mode":MODE,"targets":[{"POSITION":3}]}]}],
         "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
           {"bufferView":1,"componentType":5121,"count":3,"type":"VEC4"},
           {"bufferView":2,"componentType":5126,"count":3,"type":"VEC4"},
@@ -192,7 +238,7 @@ pub fn skinned_glb() -> Vec<u8> {
         "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":12},
           {"buffer":0,"byteOffset":48,"byteLength":48},{"buffer":0,"byteOffset":96,"byteLength":36}],
         "buffers":[{"byteLength":132}]}"#;
-    glb(json, &bin)
+    glb(&json.replace("MODE", &mode.to_string()), &bin)
 }
 
 /// A triangle whose second vertex a sparse accessor replaces by (9, 9, 9), as a binary glTF file.

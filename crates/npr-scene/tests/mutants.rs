@@ -1,6 +1,6 @@
 //! Damaged files never panic, and what still loads is sound.
 
-use npr_scene::testing::{Sheet, skinned_glb, sparse_glb};
+use npr_scene::testing::{Sheet, lines_glb, skinned_glb, skinned_lines_glb, sparse_glb};
 use npr_scene::{Format, Limits, MemoryResources, load_bytes};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -41,6 +41,13 @@ fn apply(file: &mut Vec<u8>, damage: &Damage) {
     }
 }
 
+/// Lines of every mode beside a triangle.
+fn drawing() -> Vec<u8> {
+    let positions = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let lines: [(u32, &[u32]); 3] = [(1, &[0, 1, 2, 3]), (2, &[0, 1, 2]), (3, &[3, 2, 1])];
+    lines_glb(&positions, &[[0, 1, 2]], &lines)
+}
+
 fn survives(mut file: Vec<u8>, format: Format, damages: &[Damage]) {
     damages.iter().for_each(|damage| apply(&mut file, damage));
     let limits = Limits {
@@ -67,11 +74,14 @@ proptest! {
         survives(Sheet::new(3).glb(), Format::Glb, &damages);
         survives(skinned_glb(), Format::Glb, &damages);
         survives(sparse_glb(), Format::Glb, &damages);
+        survives(skinned_lines_glb(), Format::Glb, &damages);
+        survives(drawing(), Format::Glb, &damages);
     }
 
     #[test]
     fn obj(damages in prop::collection::vec(damage(), 1..5)) {
         survives(Sheet::new(3).obj(), Format::Obj, &damages);
+        survives([Sheet::new(1).obj(), b"l 1 2 3\nl -1/1 -2".to_vec()].concat(), Format::Obj, &damages);
     }
 
     #[test]

@@ -45,6 +45,8 @@ pub struct Sight {
     pub eye: [f64; 3],
     /// The point looked at.
     pub point: [f64; 3],
+    /// Faces hide the point only if it lies farther than this behind their plane; 0 for points of faces themselves.
+    pub touch: f64,
 }
 
 impl FaceTree {
@@ -82,7 +84,7 @@ impl FaceTree {
         }
         let mut count = 0;
         self.along(eye, direction, |face| {
-            if !skip.contains(&face) && hides(shape, face, eye, direction) {
+            if !skip.contains(&face) && hides(shape, face, (eye, direction), sight.touch) {
                 count += 1;
             }
             count < limit
@@ -105,7 +107,8 @@ impl FaceTree {
         if !direction.is_finite() {
             return None;
         }
-        let is_hider = |face: &u32| !skip.contains(face) && hides(shape, *face, eye, direction);
+        let is_hider =
+            |face: &u32| !skip.contains(face) && hides(shape, *face, (eye, direction), sight.touch);
         let mut found = last.filter(is_hider);
         if found.is_none() {
             self.along(eye, direction, |face| {
@@ -260,8 +263,23 @@ impl Slab {
     }
 }
 
-fn hides(shape: &Shape, face: u32, eye: DVec3, direction: DVec3) -> bool {
-    crossing(shape, face, eye, direction).is_some_and(|at| at > NEARER && at < 1.0 - NEARER)
+/// Whether a face is crossed on the way from the eye, and the point at its end lies farther than `touch` behind its plane.
+fn hides(shape: &Shape, face: u32, (eye, direction): (DVec3, DVec3), touch: f64) -> bool {
+    let at = crossing(shape, face, eye, direction);
+    at.is_some_and(|at| {
+        let is_before = at > NEARER && at < 1.0 - NEARER;
+        is_before && (touch == 0.0 || (1.0 - at) * slope(shape, face, direction) > touch)
+    })
+}
+
+/// How far a way leads away from the plane of a face; 0 for faces without area.
+fn slope(shape: &Shape, face: u32, direction: DVec3) -> f64 {
+    let [a, b, c] = shape.faces[face as usize].map(|v| shape.point(v));
+    (b - a)
+        .cross(c - a)
+        .normalize_or_zero()
+        .dot(direction)
+        .abs()
 }
 
 /// Where on the way from the eye, in units of `direction`, a face is crossed.

@@ -20,6 +20,7 @@ use crate::smooth::{between, smooth};
 use crate::spurs::cut_spurs;
 use crate::stroke::{Kind, Stroke, StrokePoint};
 use crate::visibility::{Circumstances, OutlineGrid, Piece, Seen, Span};
+use crate::wire::{touch, wires};
 use crate::zero_set::{CornerNormals, PolygonOutline, SeenContour, zero_set};
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
@@ -111,6 +112,10 @@ pub struct Prepared {
     pub features: CurveGraph,
     /// Where surfaces cut through each other.
     pub crossings: Crossings,
+    /// Lines that are geometry themselves, linked.
+    pub wires: CurveGraph,
+    /// How near to a face they may lie without being hidden by it.
+    touch: f64,
     /// Edges that can hide something in every view: borders, and edges of more than two faces.
     rims: Vec<u32>,
     /// For every object, whether it has a border, so that backs of faces may be seen.
@@ -149,6 +154,8 @@ impl Prepared {
             tree,
             features,
             crossings,
+            wires: wires(shape),
+            touch: touch(shape),
             rims,
             is_open,
             crease_cos,
@@ -251,7 +258,11 @@ pub fn strokes_with(
         covered: covered.unwrap_or_default(),
         ..view
     };
-    let others = [&prepared.features, &prepared.crossings.graph];
+    let others = [
+        &prepared.features,
+        &prepared.wires,
+        &prepared.crossings.graph,
+    ];
     let other_runs = others
         .iter()
         .flat_map(|graph| runs(shape, projector, graph, &view.lines(graph, &seen, wanted)));
@@ -400,7 +411,7 @@ impl View<'_> {
     fn kinds_of(&self, node: &CurveNode) -> u32 {
         let feature = CurveNode::KINDS & !(CurveNode::CONTOUR | CurveNode::INTERSECTION);
         let in_loop = node.flags & (CurveNode::CONTOUR | CurveNode::SEAM | CurveNode::INTERSECTION);
-        if in_loop != 0 {
+        if in_loop != 0 || self.shape.wire_of(node.edge).is_some() {
             return node.flags & CurveNode::KINDS;
         }
         let flags = node.flags & feature;
@@ -448,9 +459,13 @@ impl View<'_> {
         }
         let (piece, other) = self.piece_after(graph, node)?;
         let spans: Vec<Span> = seen.spans(&piece, &self.circumstances(node, other), last);
+        let surface = match self.shape.wire_of(node.edge) {
+            Some(wire) => self.shape.wire_surfaces[wire],
+            None => self.shape.face_surfaces[node.face as usize],
+        };
         Some(Line {
             kind,
-            surface: self.shape.face_surfaces[node.face as usize],
+            surface,
             piece,
             spans,
         })
@@ -472,7 +487,7 @@ impl View<'_> {
     /// Where the piece along the edge of a node goes through faces, from its start.
     fn piercings(&self, node: &CurveNode) -> Vec<f64> {
         let up = node.t < 0.5;
-        if self.prepared.has_crossings {
+        if self.prepared.has_crossings && self.shape.wire_of(node.edge).is_none() {
             let known = self.prepared.crossings.of_edge(node.edge).iter();
             return known
                 .map(|p| f64::from(if up { p.t } else { 1.0 - p.t }))
@@ -555,9 +570,11 @@ impl View<'_> {
             .map(|side| side / 3)
             .collect();
         if node.is_along_edge() {
+            let is_wire = self.shape.wire_of(node.edge).is_some();
             return Circumstances {
                 piercings: self.piercings(node),
                 own_faces,
+                touch: if is_wire { self.prepared.touch } else { 0.0 },
             };
         }
         own_faces.extend(self.shape.sides(other.edge).iter().map(|side| side / 3));
@@ -568,7 +585,7 @@ impl View<'_> {
         }
         Circumstances {
             own_faces,
-            piercings: Vec::new(),
+            ..Circumstances::default()
         }
     }
 }

@@ -94,7 +94,7 @@ fn group_of(shape: &Shape, edge: u32, flags: u32) -> u32 {
     object << 3 | first_kind
 }
 
-fn pair(mates: &mut [u32], a: u32, b: u32) {
+pub(crate) fn pair(mates: &mut [u32], a: u32, b: u32) {
     mates[a as usize] = b;
     mates[b as usize] = a;
 }
@@ -139,7 +139,7 @@ fn direction(shape: &Shape, candidates: &[(u32, u32)], end: u32) -> DVec3 {
 }
 
 /// Walks along the mates: open lines first, then closed ones, each from its first candidate.
-fn chain(shape: &Shape, candidates: &[(u32, u32)], mates: &[u32]) -> CurveGraph {
+pub(crate) fn chain(shape: &Shape, candidates: &[(u32, u32)], mates: &[u32]) -> CurveGraph {
     let mut graph = CurveGraph::default();
     let mut used = vec![false; candidates.len()];
     let open_ends = (0..mates.len() as u32).filter(|end| mates[*end as usize] == NONE);
@@ -194,6 +194,6 @@ fn node_at(shape: &Shape, candidates: &[(u32, u32)], end: u32, index: u32) -> Cu
         next: index + 1,
         prev: index.wrapping_sub(1),
         flags,
-        face: shape.sides(edge)[0] / 3,
+        face: shape.sides(edge).first().map_or(NONE, |side| side / 3),
     }
 }

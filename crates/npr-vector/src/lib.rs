@@ -54,4 +54,5 @@ pub mod stroke;
 pub mod svg;
 pub mod trace;
 pub mod visibility;
+pub mod wire;
 pub mod zero_set;

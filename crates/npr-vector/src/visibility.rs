@@ -114,6 +114,8 @@ pub struct Circumstances {
     pub own_faces: Vec<u32>,
     /// Places where it goes through a face, along the uncut piece in the world, 0..1.
     pub piercings: Vec<f64>,
+    /// How near the piece may lie to a face without being hidden by it; 0 for lines of faces themselves.
+    pub touch: f64,
 }
 
 /// A part of a piece with one visibility; shares of its image.
@@ -330,6 +332,7 @@ impl Seen<'_> {
         let sight = Sight {
             eye: self.projector.sight_start(point).to_array(),
             point: point.to_array(),
+            touch: circumstances.touch,
         };
         let own = &circumstances.own_faces;
         let veiled = u32::from(self.puffs.is_some_and(|puffs| puffs.hide(point)));

@@ -172,7 +172,7 @@ proptest! {
     ) {
         let shape = shape_of(&mesh);
         let tree = FaceTree::new(&shape);
-        let sight = Sight { eye: eye.map(f64::from), point };
+        let sight = Sight { eye: eye.map(f64::from), point, touch: 0.0 };
         let all = tree.occluders(&shape, &sight, &[], u32::MAX);
         prop_assert_eq!(all, plainly_between(&shape, &sight));
         prop_assert_eq!(tree.occluders(&shape, &sight, &[], 1), all.min(1));

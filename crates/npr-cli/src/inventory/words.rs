@@ -48,10 +48,11 @@ impl Inventory {
             self.generator.iter().map(|generator| name(generator)),
         );
         let (nodes, meshes) = (self.node_count, self.mesh_count);
-        let (triangles, vertices) = (self.triangle_count, self.vertex_count);
+        let geometry = counted(self.triangle_count, self.line_segment_count);
+        let vertices = self.vertex_count;
         let _ = writeln!(
             text,
-            "contains {nodes} nodes, {meshes} meshes, {triangles} triangles, {vertices} vertices"
+            "contains {nodes} nodes, {meshes} meshes, {geometry}, {vertices} vertices"
         );
         if let Some(Bounds { min, max }) = &self.bounds {
             let decimals = decimals_for(*min, *max);
@@ -62,8 +63,18 @@ impl Inventory {
                 point(*max, decimals)
             );
         }
-        let _ = writeln!(text, "draws {} triangles", self.drawn_triangle_count);
+        let drawn = counted(self.drawn_triangle_count, self.drawn_line_segment_count);
+        let _ = writeln!(text, "draws {drawn}");
         text
+    }
+}
+
+/// Numbers of triangles and of line segments, as far as there are any; no triangles where there is neither.
+fn counted(triangles: usize, segments: usize) -> String {
+    match (triangles, segments) {
+        (_, 0) => format!("{triangles} triangles"),
+        (0, _) => format!("{segments} line segments"),
+        _ => format!("{triangles} triangles, {segments} line segments"),
     }
 }
 
@@ -86,7 +97,8 @@ impl Drawn {
             .as_deref()
             .map(|material| format!(" in '{}'", name(material)));
         let (object, material) = (name(&self.object), material.unwrap_or_default());
-        format!("'{object}'{material}, {} triangles", self.triangle_count)
+        let geometry = counted(self.triangle_count, self.line_segment_count);
+        format!("'{object}'{material}, {geometry}")
     }
 }
 

@@ -1,7 +1,7 @@
 //! `npr info`.
 
 use crate::workplace::Workplace;
-use npr_scene::testing::{Sheet, glb, skinned_glb};
+use npr_scene::testing::{Sheet, glb, lines_glb, skinned_glb};
 
 #[test]
 fn every_format_is_told_with_its_counts() {
@@ -44,6 +44,28 @@ fn skins_and_what_is_ignored_are_told() {
     let info: serde_json::Value = serde_json::from_str(outcome.text()).expect("JSON");
     assert_eq!(info["skins"][0]["joint_count"], 2);
     assert!(info["ignored"].is_array());
+}
+
+#[test]
+fn lines_of_files_are_counted() {
+    let place = Workplace::new();
+    let positions = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    place.put("ring.glb", &lines_glb(&positions, &[], &[(2, &[0, 1, 2])]));
+    let info: serde_json::Value =
+        serde_json::from_str(place.npr(&["info", "ring.glb", "--json"]).text()).expect("JSON");
+    assert_eq!(
+        (&info["triangle_count"], &info["line_segment_count"]),
+        (&0.into(), &3.into())
+    );
+    assert_eq!(info["drawn"][0]["line_segment_count"], 3);
+    assert_eq!(info["bounds"]["max"][0], 1.0);
+    let text = place.npr(&["info", "ring.glb"]);
+    text.assert_silent_success();
+    assert!(
+        text.text().contains("draws 3 line segments"),
+        "{}",
+        text.text()
+    );
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use crate::files::tiny_png;
 use crate::info::named_glb;
 use crate::workplace::{Outcome, Workplace};
-use npr_scene::testing::{Sheet, glb};
+use npr_scene::testing::{Sheet, glb, lines_glb};
 use serde_json::Value;
 
 /// Runs a small line drawing of a scene.
@@ -520,4 +520,85 @@ fn lines_lift_before_what_is_dark() {
         "{}",
         outcome.stderr
     );
+}
+
+/// The same drawing from every format: a roof of two faces, and a bent line and a short one above it.
+#[test]
+fn lines_of_files_become_marked_strokes() {
+    let place = Workplace::new();
+    let positions = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [0.0, 0.0, 2.0],
+        [2.0, 0.5, 2.0],
+        [0.2, 1.0, 0.2],
+        [1.0, 1.25, 0.5],
+        [1.5, 1.0, 1.5],
+        [0.5, 1.5, 1.5],
+        [0.75, 1.5, 1.5],
+    ];
+    let faces = [[0, 2, 1], [1, 2, 3]];
+    let strips: [(u32, &[u32]); 2] = [(3, &[4, 5, 6]), (1, &[7, 8])];
+    place.put("roof.glb", &lines_glb(&positions, &faces, &strips));
+    let vertices: String = positions
+        .iter()
+        .map(|[x, y, z]| format!("v {x} {y} {z}\n"))
+        .collect();
+    let obj = format!("{vertices}f 1 3 2\nf 2 3 4\nl 5 6 7\nl 8 9\n");
+    place.put("roof.obj", obj.as_bytes());
+    let vertices: String = positions
+        .iter()
+        .map(|[x, y, z]| format!("{x} {y} {z}\n"))
+        .collect();
+    let ply = format!(
+        "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\nproperty float y\nproperty float z\n\
+         element face 2\nproperty list uchar int vertex_indices\nelement edge 3\nproperty int vertex1\nproperty int vertex2\n\
+         end_header\n{vertices}3 0 2 1\n3 1 2 3\n4 5\n5 6\n7 8\n"
+    );
+    place.put("roof.ply", ply.as_bytes());
+    let marked = |data: &Value| -> Vec<usize> {
+        let strokes = strokes(data)
+            .iter()
+            .filter(|stroke| stroke["kind"] == "marked");
+        strokes
+            .map(|stroke| stroke["points"].as_array().expect("a list").len())
+            .collect()
+    };
+    for scene in ["roof.glb", "roof.obj", "roof.ply"] {
+        let found = data(&place, scene, &["--smooth", "off", "--kinds", "crease"]);
+        let mut counts = marked(&found);
+        counts.sort_unstable();
+        assert_eq!(counts, [2, 3], "{scene}");
+        for method in ["edges", "surface", "image"] {
+            let found = data(&place, scene, &["--method", method, "--smooth", "off"]);
+            let mut counts = marked(&found);
+            counts.sort_unstable();
+            assert_eq!(counts, [2, 3], "{scene} {method}");
+        }
+        let outcome = lines(&place, scene, &["-o", "-"]);
+        assert!(outcome.text().contains("marked"), "a layer of {scene}");
+    }
+}
+
+#[test]
+fn many_and_broken_lines_end_soon() {
+    let place = Workplace::new();
+    let far: Vec<[f32; 3]> = (0..1000)
+        .map(|i| [(i % 31) as f32, (i % 37) as f32, (i % 41) as f32])
+        .collect();
+    let ends: Vec<u32> = (0..1_000_000_u32)
+        .map(|i| i.wrapping_mul(2_654_435_761) % 1000)
+        .collect();
+    place.put("many.glb", &lines_glb(&far, &[], &[(3, &ends)]));
+    lines(&place, "many.glb", &["--memory-limit", "4M"]).assert_fault(5, "--memory-limit");
+    place.put(
+        "none.glb",
+        &lines_glb(&far, &[], &[(1, &[]), (2, &[5]), (3, &[7])]),
+    );
+    let outcome = lines(&place, "none.glb", &["-o", "none.svg"]);
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("one end"), "{}", outcome.stderr);
+    place.put("broken.glb", &lines_glb(&far, &[], &[(1, &[0, 1000])]));
+    let fault = "line segment 0 uses vertex 1000, but the part has only 1000";
+    lines(&place, "broken.glb", &["-o", "broken.svg"]).assert_fault(3, fault);
 }

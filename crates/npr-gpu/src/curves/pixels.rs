@@ -127,9 +127,10 @@ pub fn add_pixel_contours(
         &vector::FACE_EYE,
         &[viewer, positions, half_edges, judges, front],
     );
-    let edges = graph.buffer::<DrawnEdge>("edges", shape.edge_count());
-    let flags = graph.buffer::<u32>("edge flags", shape.edge_count());
-    let marks = graph.buffer::<u32>("edge marks", shape.edge_count());
+    let edge_count = shape.edge_count() + shape.wires.len();
+    let edges = graph.buffer::<DrawnEdge>("edges", edge_count);
+    let flags = graph.buffer::<u32>("edge flags", edge_count);
+    let marks = graph.buffer::<u32>("edge marks", edge_count);
     graph.compute(
         &pixels::MARK_EDGES,
         &[viewer, view, positions, front, edges, flags, marks],

@@ -37,6 +37,8 @@ fn shape(seed: u64) -> Shape {
             triangles: mesh.triangles(),
             surfaces: &surfaces,
             marks: &[[0, 1], [1, 2]],
+            wires: &[[0, 2], [3, 1]],
+            wire_surfaces: &[0, 1],
             mirrored: seed % 2 == 0,
         };
         add_mesh(&mut shape, &placed, 0.0);
@@ -74,7 +76,7 @@ fn each_difference_has_its_error() {
 
 #[test]
 fn a_header_that_asks_for_everything_allocates_nothing() {
-    for at in [12, 32, 36, 40, 44, 48, 52] {
+    for at in [12, 32, 36, 40, 44, 48, 56, 60] {
         let mut bytes = encode(&shape(1), KEY);
         bytes[at..at + 4].copy_from_slice(&[0xff; 4]);
         assert!(decode(&sealed(bytes), KEY).is_err());
@@ -101,6 +103,8 @@ fn every_part_of_the_input_is_in_the_key() {
         triangles: &[[0, 1, 2]],
         surfaces: &[0],
         marks: &[],
+        wires: &[],
+        wire_surfaces: &[],
         mirrored: false,
     };
     let keys = [

@@ -20,6 +20,9 @@ pub(crate) struct Placed {
     glowing: Vec<[u32; 3]>,
     surfaces: Vec<u32>,
     marks: Vec<[u32; 2]>,
+    /// Lines that are geometry themselves, and what they belong to.
+    wires: Vec<[u32; 2]>,
+    wire_surfaces: Vec<u32>,
     mirrored: bool,
     /// Vertex colours, sRGB bytes; empty where the mesh has none.
     colors: Vec<u32>,
@@ -68,7 +71,7 @@ impl Assembly {
         node: &Node,
         mesh: &Mesh,
     ) {
-        let joined = Joined::new(&mesh.parts);
+        let joined = Joined::new(&mesh.parts.iter().collect::<Vec<_>>());
         let roles = self.add_surfaces(scene, style, object, node, mesh);
         let placed = || joined.triangles.iter().zip(&joined.parts);
         let drawn: Vec<([u32; 3], u32)> = placed()
@@ -79,6 +82,13 @@ impl Assembly {
             .collect();
         let glowing = placed().filter(|(_, part)| roles[**part as usize] == Role::Beam);
         let glowing = glowing.map(|(corners, _)| *corners).collect();
+        let segments = joined.segments.iter().zip(&joined.segment_parts);
+        let (wires, wire_surfaces) = segments
+            .filter_map(|(ends, part)| match roles[*part as usize] {
+                Role::Surface(surface) => Some((*ends, surface)),
+                Role::Beam | Role::Unseen => None,
+            })
+            .unzip();
         let marked = marked_vertices(&mesh.parts);
         let triangles: Vec<[u32; 3]> = drawn.iter().map(|(corners, _)| *corners).collect();
         let world = mesh
@@ -91,6 +101,8 @@ impl Assembly {
             rest: joined.positions,
             surfaces: drawn.iter().map(|(_, surface)| *surface).collect(),
             marks: marked_edges(&triangles, &marked),
+            wires,
+            wire_surfaces,
             mirrored: placement::determinant_of(first_matrix) < 0.0,
             colors: vertex_colors(&mesh.parts),
             triangles,
@@ -134,6 +146,11 @@ impl Assembly {
         self.meshes.iter().map(|mesh| mesh.triangles.len()).sum()
     }
 
+    /// Number of segments of lines that are geometry themselves.
+    pub fn wire_count(&self) -> usize {
+        self.meshes.iter().map(|mesh| mesh.wires.len()).sum()
+    }
+
     /// Number of stored vertices.
     pub fn vertex_count(&self) -> usize {
         self.meshes.iter().map(|mesh| mesh.world.len()).sum()
@@ -162,7 +179,7 @@ impl Assembly {
         surfaces.collect()
     }
 
-    /// Positions in the world of all vertices that triangles use.
+    /// Positions in the world of all vertices that triangles and wires use.
     pub fn used_points(&self) -> Vec<[f32; 3]> {
         self.meshes.iter().flat_map(Placed::used_points).collect()
     }
@@ -189,6 +206,8 @@ impl Placed {
             triangles: &self.triangles,
             surfaces: &self.surfaces,
             marks: &self.marks,
+            wires: &self.wires,
+            wire_surfaces: &self.wire_surfaces,
             mirrored: self.mirrored,
         }
     }
@@ -204,7 +223,8 @@ impl Placed {
 
     fn used_points(&self) -> impl Iterator<Item = [f32; 3]> + '_ {
         let mut used = vec![false; self.world.len()];
-        for corner in self.triangles.iter().chain(&self.glowing).flatten() {
+        let corners = self.triangles.iter().chain(&self.glowing).flatten();
+        for corner in corners.chain(self.wires.iter().flatten()) {
             used[*corner as usize] = true;
         }
         let points = self.world.iter().zip(used);

@@ -202,6 +202,10 @@ impl<'a> StrokeColors<'a> {
             };
             sum = std::array::from_fn(|i| sum[i] + way * normal[i]);
         }
+        // A line without a surface is lit as one that faces the eye.
+        if self.input.shape.wire_of(point.seat.edge).is_some() {
+            sum = self.view.to_eye(point.world.as_vec3().to_array());
+        }
         unit_or_z(sum)
     }
 
@@ -237,12 +241,17 @@ impl<'a> StrokeColors<'a> {
         if !self.input.style.shade.use_vertex_colors || colors.is_empty() {
             return white;
         }
-        let color_at = |corner: u32| {
-            let [vertex, _] = shape.ends_of_half_edge(corner);
+        let of_vertex = |vertex: u32| {
             let packed = colors.get(vertex as usize).copied().unwrap_or(u32::MAX);
             let [r, g, b, _] = linear_rgba(unpack_rgba8(packed));
             [r, g, b]
         };
+        if shape.wire_of(point.seat.edge).is_some() {
+            let ([low, high, _], [_, share, _]) = point.seat.place(shape, point.world);
+            let [low, high] = [low, high].map(|vertex| Vec3::from(of_vertex(vertex)));
+            return low.lerp(high, share as f32).to_array();
+        }
+        let color_at = |corner: u32| of_vertex(shape.ends_of_half_edge(corner)[0]);
         let spot = self.spots(surface, point).next();
         spot.map_or(white, |spot| spot.mean(color_at))
     }

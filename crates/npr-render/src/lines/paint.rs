@@ -129,6 +129,7 @@ pub(super) fn face_at(
     let sight = Sight {
         eye: start.to_array(),
         point: point.to_array(),
+        touch: 0.0,
     };
     let (face, share) = tree.first_face(shape, &sight, 1.0)?;
     Some((face, projector.depth(start.lerp(point, share))))

@@ -11,6 +11,9 @@ use npr_scene::Scene;
 /// Bytes of a shape and its hierarchy for every triangle, its three half-edges and its share of the vertices.
 const BYTES_PER_TRIANGLE: usize = 260;
 
+/// Bytes of a line segment in a shape, linked, and in a view with what is seen of it.
+const BYTES_PER_WIRE: usize = 320;
+
 /// Bytes of a stored vertex: where it rests, where it stands, and its place in the shape.
 const BYTES_PER_VERTEX: usize = 48;
 
@@ -19,7 +22,8 @@ pub(super) fn check_budget(
     assembly: &Assembly,
     options: &LineModelOptions,
 ) -> Result<(), RenderError> {
-    crate::model::check_count("half-edges", 0, 3 * assembly.triangle_count())?;
+    let half_edges = 3 * assembly.triangle_count();
+    crate::model::check_count("half-edges", half_edges, assembly.wire_count())?;
     let mut budget = Budget::new(options.memory_limit);
     budget.take("vertices", assembly.vertex_count(), BYTES_PER_VERTEX)?;
     budget.take(
@@ -27,6 +31,7 @@ pub(super) fn check_budget(
         assembly.triangle_count(),
         BYTES_PER_TRIANGLE,
     )?;
+    budget.take("line segments", assembly.wire_count(), BYTES_PER_WIRE)?;
     Ok(())
 }
 

@@ -17,11 +17,17 @@ const IDENTITY: Matrix = [
     [0.0, 0.0, 0.0, 1.0],
 ];
 
+/// Width factor of lines without a surface, where widths follow how it bends: the middle of the range, as where curvature times
+/// gain is 1.
+const BARE_SHARE: f32 = 0.5;
+
 /// How a shape bends, for widths that follow it.
 #[derive(Debug, Clone)]
 pub(crate) struct ShapeBends {
     bends: Vec<Bend>,
     normals: Vec<[f32; 3]>,
+    /// Whether a vertex is part of no face: lines of their own end there.
+    is_bare: Vec<bool>,
 }
 
 impl ShapeBends {
@@ -41,7 +47,15 @@ impl ShapeBends {
             bend.curvatures = bend.curvatures.map(|curvature| curvature * radius);
             bend.tightest *= radius;
         }
-        Self { bends, normals }
+        let mut is_bare = vec![true; shape.positions.len()];
+        for corner in shape.faces.iter().flatten() {
+            is_bare[*corner as usize] = false;
+        }
+        Self {
+            bends,
+            normals,
+            is_bare,
+        }
     }
 }
 
@@ -80,6 +94,8 @@ pub(crate) struct Widths<'a> {
     input: WidthInput<'a>,
     view: &'a View,
     outline: Outline,
+    /// The same for lines without a surface.
+    bare_outline: Outline,
     /// A part that leaves widths alone.
     plain: [Part; 1],
 }
@@ -94,6 +110,10 @@ impl<'a> Widths<'a> {
             input,
             view,
             outline,
+            bare_outline: Outline {
+                flags: outline.flags & !Outline::PROJECTED_CURVATURE,
+                ..outline
+            },
             plain: [plain],
         }
     }
@@ -101,9 +121,10 @@ impl<'a> Widths<'a> {
     /// Whole width of lines at a vertex, in pixels, before the factor of the surface.
     pub fn at(&self, vertex: u32) -> f32 {
         let i = vertex as usize;
+        let is_bare = self.input.bends.is_some_and(|measured| measured.is_bare[i]);
         let mut stored = Vertex {
             position: self.input.shape.positions[i],
-            width: self.share(i),
+            width: if is_bare { BARE_SHARE } else { self.share(i) },
             ..Vertex::default()
         };
         if let Some(measured) = self.input.bends {
@@ -113,7 +134,11 @@ impl<'a> Widths<'a> {
         }
         let with = Pose {
             view: self.view,
-            outline: &self.outline,
+            outline: if is_bare {
+                &self.bare_outline
+            } else {
+                &self.outline
+            },
             influences: &[],
             palette: &[IDENTITY],
             parts: &self.plain,

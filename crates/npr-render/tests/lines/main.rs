@@ -7,3 +7,4 @@ mod meaning;
 mod minding;
 mod robustness;
 mod scenes;
+mod wires;

@@ -202,6 +202,22 @@ pub enum GltfError {
         /// How many vertices there are.
         vertex_count: usize,
     },
+    /// A line segment names a vertex that does not exist.
+    #[error(
+        "mesh {mesh}, part {part}: line segment {segment} uses vertex {vertex}, but the part has only {vertex_count}"
+    )]
+    MissingEnd {
+        /// Index of the mesh.
+        mesh: usize,
+        /// Index of the primitive in the mesh.
+        part: usize,
+        /// Which segment, counted from 0.
+        segment: usize,
+        /// The vertex index as read.
+        vertex: u32,
+        /// How many vertices there are.
+        vertex_count: usize,
+    },
     /// A node is reached on two ways, or hangs on itself.
     #[error("node {node} is reached twice: nodes must form a tree")]
     NodeReachedTwice {

@@ -41,11 +41,11 @@ struct Reader<'a, 'l, 'r> {
     loading: &'l mut Loading<'r>,
 }
 
-/// The part that `primitive` describes, morphed by `weights`; none where it has no triangles to draw.
+/// The part that `primitive` describes, morphed by `weights`; none where it has neither triangles nor lines to draw.
 ///
 /// # Errors
 ///
-/// A list that cannot be read, that has another length than the positions, or a triangle that names a
+/// A list that cannot be read, that has another length than the positions, or a triangle or line that names a
 /// missing vertex.
 pub(crate) fn read(
     accessors: &Accessors,
@@ -61,10 +61,10 @@ pub(crate) fn read(
         ));
         return Ok(None);
     };
-    if !topology::is_surface(primitive) {
+    if !topology::is_surface(primitive) && !topology::is_of_lines(primitive) {
         loading
             .notices
-            .add("points and lines are not drawn, only triangles are");
+            .add("points are not drawn, only triangles and lines are");
         return Ok(None);
     }
     let vertex_count = accessors.count(index, user)?;
@@ -93,6 +93,7 @@ impl Reader<'_, '_, '_> {
             marks: self.marks()?,
             directions: self.list(Semantic::Extras(DIRECTIONS.to_owned()))?,
             triangles: self.triangles(place)?,
+            segments: self.segments(place)?,
             material: self.material()?,
             morphs: self.morphs(weights)?,
             ids: Vec::new(),
@@ -171,45 +172,84 @@ impl Reader<'_, '_, '_> {
     }
 
     fn triangles(&mut self, place: Place) -> Result<Vec<[u32; 3]>, SceneError> {
-        let corner_count = match self.primitive.indices {
-            Some(index) => self.accessors.count(index.value(), self.user)?,
-            None => self.vertex_count,
-        };
-        let allowance = &mut self.loading.allowance;
-        allowance.take_triangles(topology::triangle_count(self.primitive, corner_count))?;
-        let corners = match self.primitive.indices {
-            Some(index) => self
-                .accessors
-                .integers(index.value(), self.user, allowance)?,
-            None => (0u32..).take(corner_count).map(|corner| [corner]).collect(),
-        };
+        if !topology::is_surface(self.primitive) {
+            return Ok(Vec::new());
+        }
+        let corner_count = self.index_count()?;
+        let triangle_count = topology::triangle_count(self.primitive, corner_count);
+        self.loading.allowance.take_triangles(triangle_count)?;
+        let corners = self.indices(corner_count)?;
         let triangles = topology::triangles(self.primitive, &corners);
-        self.check_vertices(place, &triangles)?;
-        Ok(triangles)
+        let Place { mesh, part } = place;
+        match self.missing_vertex(&triangles) {
+            Some((triangle, vertex)) => Err(GltfError::MissingVertex {
+                mesh,
+                part,
+                triangle,
+                vertex,
+                vertex_count: self.vertex_count,
+            }
+            .into()),
+            None => Ok(triangles),
+        }
     }
 
-    fn check_vertices(
-        &self,
-        Place { mesh, part }: Place,
-        triangles: &[[u32; 3]],
-    ) -> Result<(), GltfError> {
-        let vertex_count = self.vertex_count;
-        let is_missing = |vertex: &u32| *vertex as usize >= vertex_count;
-        let Some(triangle) = triangles
-            .iter()
-            .position(|corners| corners.iter().any(is_missing))
-        else {
-            return Ok(());
-        };
-        let corners = triangles.get(triangle).into_iter().flatten();
-        let vertex = corners.copied().find(is_missing).unwrap_or_default();
-        Err(GltfError::MissingVertex {
-            mesh,
-            part,
-            triangle,
-            vertex,
-            vertex_count,
-        })
+    fn segments(&mut self, place: Place) -> Result<Vec<[u32; 2]>, SceneError> {
+        if !topology::is_of_lines(self.primitive) {
+            return Ok(Vec::new());
+        }
+        let end_count = self.index_count()?;
+        let segment_count = topology::segment_count(self.primitive, end_count);
+        self.loading.allowance.take_segments(segment_count)?;
+        let ends = self.indices(end_count)?;
+        let segments = topology::segments(self.primitive, &ends);
+        if topology::has_odd_end(self.primitive, end_count) {
+            let user = self.user;
+            self.loading.notices.add(format!(
+                "{user} has a line with one end, which is not drawn"
+            ));
+        }
+        let Place { mesh, part } = place;
+        match self.missing_vertex(&segments) {
+            Some((segment, vertex)) => Err(GltfError::MissingEnd {
+                mesh,
+                part,
+                segment,
+                vertex,
+                vertex_count: self.vertex_count,
+            }
+            .into()),
+            None => Ok(segments),
+        }
+    }
+
+    /// How many vertices the primitive names, one after another.
+    fn index_count(&self) -> Result<usize, GltfError> {
+        match self.primitive.indices {
+            Some(index) => self.accessors.count(index.value(), self.user),
+            None => Ok(self.vertex_count),
+        }
+    }
+
+    /// The vertices that the primitive names: all in their order where it has no indices.
+    fn indices(&mut self, count: usize) -> Result<Vec<[u32; 1]>, SceneError> {
+        match self.primitive.indices {
+            Some(index) => {
+                let allowance = &mut self.loading.allowance;
+                self.accessors.integers(index.value(), self.user, allowance)
+            }
+            None => Ok((0u32..).take(count).map(|index| [index]).collect()),
+        }
+    }
+
+    /// The first triangle or segment that names a vertex which does not exist, with that vertex.
+    fn missing_vertex<const N: usize>(&self, list: &[[u32; N]]) -> Option<(usize, u32)> {
+        let is_missing = |vertex: &u32| *vertex as usize >= self.vertex_count;
+        let mut found = list.iter().enumerate().filter_map(|(index, corners)| {
+            let vertex = corners.iter().copied().find(is_missing)?;
+            Some((index, vertex))
+        });
+        found.next()
     }
 
     fn material(&self) -> Result<Option<u32>, GltfError> {

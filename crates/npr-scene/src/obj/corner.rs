@@ -1,4 +1,4 @@
-//! Corners of faces: which position, texture coordinate and normal meet there.
+//! Corners of faces and polylines: which position, texture coordinate and normal meet there.
 #![deny(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -9,7 +9,7 @@
 
 use std::collections::HashMap;
 
-use super::ObjError;
+use super::{Element, ObjError};
 use crate::limits::LimitError;
 use crate::load::Loading;
 use crate::mesh::Part;
@@ -47,27 +47,27 @@ impl Tables {
         }
     }
 
-    /// The corners that `rest`, the line of a face after its keyword, names.
+    /// The corners that `rest`, the line of an element after its keyword, names.
     pub(crate) fn corners(
         &self,
         line: usize,
-        face: usize,
+        element: Element,
         rest: &[u8],
     ) -> Result<Vec<Corner>, ObjError> {
         let corners: Vec<Corner> = words(rest)
-            .map(|word| self.corner(line, face, word))
+            .map(|word| self.corner(line, element, word))
             .collect::<Result<_, _>>()?;
-        if corners.len() < 3 {
+        if corners.len() < element.least() {
             return Err(ObjError::FewCorners {
                 line,
-                face,
+                element,
                 corner_count: corners.len(),
             });
         }
         Ok(corners)
     }
 
-    fn corner(&self, line: usize, face: usize, word: &[u8]) -> Result<Corner, ObjError> {
+    fn corner(&self, line: usize, element: Element, word: &[u8]) -> Result<Corner, ObjError> {
         let mut fields = word.split(|&byte| byte == b'/');
         let mut index = |what, count| {
             let field = fields.next().unwrap_or_default();
@@ -76,7 +76,7 @@ impl Tables {
             }
             let bad = || ObjError::Corner {
                 line,
-                face,
+                element,
                 corner: String::from_utf8_lossy(word).into_owned(),
             };
             let index: i64 = str::from_utf8(field)
@@ -85,7 +85,7 @@ impl Tables {
                 .ok_or_else(bad)?;
             resolve(index, count).ok_or(ObjError::Missing {
                 line,
-                face,
+                element,
                 what,
                 index,
                 count,
@@ -96,7 +96,11 @@ impl Tables {
         let normal = index("normal", self.normals.len())?;
         if position == NONE {
             let corner = String::from_utf8_lossy(word).into_owned();
-            return Err(ObjError::Corner { line, face, corner });
+            return Err(ObjError::Corner {
+                line,
+                element,
+                corner,
+            });
         }
         Ok(Corner {
             position,
@@ -105,14 +109,18 @@ impl Tables {
         })
     }
 
-    /// The part of these triangles, with one vertex for each distinct corner, in order of first use.
+    /// The part of these triangles and segments, with one vertex for each distinct corner, in order of first use.
     pub(crate) fn part(
         &self,
         material: Option<u32>,
         triangles: &[[Corner; 3]],
+        segments: &[[Corner; 2]],
         loading: &mut Loading,
     ) -> Result<Part, LimitError> {
-        let (vertices, triangles) = index_corners(triangles);
+        let mut numbers = Numbers::default();
+        let triangles = numbers.of_all(triangles);
+        let segments = numbers.of_all(segments);
+        let vertices = numbers.vertices;
         loading
             .allowance
             .take::<[f32; 12]>("vertex data", vertices.len())?;
@@ -126,6 +134,7 @@ impl Tables {
             colors: colors
                 .then(|| opaque(gather(&vertices, &self.colors, |corner| corner.position))),
             triangles,
+            segments,
             material,
             ..Part::default()
         })
@@ -143,21 +152,27 @@ fn resolve(index: i64, count: usize) -> Option<u32> {
     (index != 0 && (0..count).contains(&from_zero)).then_some(from_zero as u32)
 }
 
-fn index_corners(triangles: &[[Corner; 3]]) -> (Vec<Corner>, Vec<[u32; 3]>) {
-    let mut vertices = Vec::new();
-    // Only looked up, never walked, so its order cannot reach the result.
-    let mut known: HashMap<Corner, u32> = HashMap::with_capacity(triangles.len());
-    let mut vertex = |corner: Corner| {
-        *known.entry(corner).or_insert_with(|| {
-            vertices.push(corner);
-            (vertices.len() as u32).saturating_sub(1)
-        })
-    };
-    let triangles = triangles
-        .iter()
-        .map(|corners| corners.map(&mut vertex))
-        .collect();
-    (vertices, triangles)
+/// Numbers distinct corners in order of first use.
+#[derive(Default)]
+struct Numbers {
+    vertices: Vec<Corner>,
+    /// Only looked up, never walked, so its order cannot reach the result.
+    known: HashMap<Corner, u32>,
+}
+
+impl Numbers {
+    fn of_all<const N: usize>(&mut self, list: &[[Corner; N]]) -> Vec<[u32; N]> {
+        self.known.reserve(list.len());
+        let mut number = |corner: Corner| {
+            *self.known.entry(corner).or_insert_with(|| {
+                self.vertices.push(corner);
+                (self.vertices.len() as u32).saturating_sub(1)
+            })
+        };
+        list.iter()
+            .map(|corners| corners.map(&mut number))
+            .collect()
+    }
 }
 
 fn gather<const N: usize>(

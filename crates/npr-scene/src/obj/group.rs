@@ -17,11 +17,15 @@ use crate::polygon;
 /// Triangles by material.
 type Parts = BTreeMap<Option<u32>, Vec<[Corner; 3]>>;
 
+/// Line segments by material.
+type Lines = BTreeMap<Option<u32>, Vec<[Corner; 2]>>;
+
 /// What one `o` or `g` line opens.
 #[derive(Debug, Default)]
 pub(crate) struct Group {
     pub(crate) name: String,
     pub(crate) parts: Parts,
+    pub(crate) lines: Lines,
 }
 
 /// All groups in order of first mention; a name that comes back continues its group.
@@ -62,7 +66,7 @@ impl Groups {
         self.places.insert(name.to_owned(), self.current);
         self.list.push(Group {
             name: name.to_owned(),
-            parts: Parts::new(),
+            ..Group::default()
         });
         Ok(())
     }
@@ -91,10 +95,26 @@ impl Groups {
         Ok(())
     }
 
-    /// The groups that have faces.
+    /// Adds a line through points to the open group.
+    pub(crate) fn add_polyline(
+        &mut self,
+        corners: &[Corner],
+        loading: &mut Loading,
+    ) -> Result<(), LimitError> {
+        let count = corners.len().saturating_sub(1);
+        loading.allowance.take_segments(count)?;
+        loading.allowance.take::<[Corner; 2]>("lines", count)?;
+        if let Some(group) = self.list.get_mut(self.current) {
+            let lines = group.lines.entry(self.material).or_default();
+            lines.extend(corners.array_windows::<2>());
+        }
+        Ok(())
+    }
+
+    /// The groups that have faces or lines.
     pub(crate) fn into_list(self) -> impl Iterator<Item = Group> {
         self.list
             .into_iter()
-            .filter(|group| !group.parts.is_empty())
+            .filter(|group| !group.parts.is_empty() || !group.lines.is_empty())
     }
 }

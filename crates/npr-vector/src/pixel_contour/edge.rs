@@ -50,6 +50,8 @@ impl DrawnEdge {
     pub const OPEN: u32 = 256;
     /// In a mark: it is drawn from head to tail.
     pub const REVERSED: u32 = 512;
+    /// It is a line of its own, without faces, and drawn in every view.
+    pub const WIRE: u32 = 1024;
 
     /// An edge of a shape; `bits` are those that the shape does not know.
     fn new(shape: &Shape, edge: u32, bits: u32) -> Self {
@@ -67,18 +69,41 @@ impl DrawnEdge {
             bits,
         }
     }
+
+    /// A wire, from its first vertex to its second.
+    fn of_wire([tail, head]: [u32; 2]) -> Self {
+        Self {
+            tail,
+            head,
+            bits: Self::WIRE | CurveNode::MARKED,
+            ..Self::nothing()
+        }
+    }
+
+    /// What is never drawn, and only keeps the numbers of others.
+    fn nothing() -> Self {
+        Self {
+            face: NONE,
+            across: NONE,
+            ..Self::default()
+        }
+    }
 }
 
-/// All edges of a shape in their order; edges that bend under `crease_cos` are creases.
+/// All edges of a shape in their order, and its wires behind them; edges that bend under `crease_cos` are creases.
 ///
 /// `is_drawn` says of every surface whether it has lines; where it is empty, all have. O(edges), in parallel.
 pub fn drawn_edges(shape: &Shape, crease_cos: f32, is_drawn: &[bool]) -> Vec<DrawnEdge> {
     let is_open = open_objects(shape);
-    let has_lines = |side: &u32| {
-        let surface = shape.face_surfaces[*side as usize / 3] as usize;
-        is_drawn.is_empty() || is_drawn.get(surface) == Some(&true)
-    };
-    (0..shape.edge_count() as u32)
+    let is_lined =
+        |surface: u32| is_drawn.is_empty() || is_drawn.get(surface as usize) == Some(&true);
+    let has_lines = |side: &u32| is_lined(shape.face_surfaces[*side as usize / 3]);
+    let wires = shape.wires.iter().zip(&shape.wire_surfaces);
+    let wires = wires.map(|(ends, surface)| match is_lined(*surface) {
+        true => DrawnEdge::of_wire(*ends),
+        false => DrawnEdge::nothing(),
+    });
+    let mut edges: Vec<DrawnEdge> = (0..shape.edge_count() as u32)
         .into_par_iter()
         .with_min_len(4096)
         .map(|edge| {
@@ -93,13 +118,12 @@ pub fn drawn_edges(shape: &Shape, crease_cos: f32, is_drawn: &[bool]) -> Vec<Dra
             if shape.sides(edge).iter().any(has_lines) {
                 DrawnEdge::new(shape, edge, bits)
             } else {
-                DrawnEdge {
-                    face: NONE,
-                    ..DrawnEdge::default()
-                }
+                DrawnEdge::nothing()
             }
         })
-        .collect()
+        .collect();
+    edges.extend(wires);
+    edges
 }
 
 /// For every object, whether it has a border.
@@ -156,6 +180,9 @@ pub fn mark_edges(on: &Facing<'_>, edges: &[DrawnEdge], flags: &mut [u32], marks
 impl Facing<'_> {
     /// The kind and the direction of an edge; 0 where it is not drawn.
     fn mark_of(&self, edge: &DrawnEdge) -> u32 {
+        if edge.bits & DrawnEdge::WIRE != 0 {
+            return edge.bits & self.wanted & CurveNode::KINDS;
+        }
         if edge.face == NONE {
             return 0;
         }

@@ -218,6 +218,9 @@ impl Maker<'_> {
 
     /// The surface of the face whose winding gave a segment its direction.
     fn surface_of(&self, segment: &Segment) -> u32 {
+        if let Some(wire) = self.shape.wire_of(segment.edge) {
+            return self.shape.wire_surfaces[wire];
+        }
         let sides = self.shape.sides(segment.edge);
         let is_reversed = segment.mark & DrawnEdge::REVERSED != 0;
         let side = sides[usize::from(is_reversed && sides.len() > 1)];

@@ -159,6 +159,7 @@ fn line(seen: &Seen<'_>, piece: Piece, last: &mut Option<u32>) -> Line {
     let circumstances = Circumstances {
         own_faces: Vec::new(),
         piercings: through.iter().map(|t| from + (to - from) * t).collect(),
+        touch: 0.0,
     };
     Line {
         kind: Kind::Contour,
