@@ -19,8 +19,8 @@ pub use deferred::Deferred;
 pub use drawing::{Backend, DrawingArguments, TimingsForm};
 pub use limits::LimitArguments;
 pub use lines::{
-    HiddenLines, LineArguments, LineFormat, LinesArguments, MethodName, PathForm, SheetArguments,
-    Switch,
+    HiddenLines, LineArguments, LineFormat, LinesArguments, MethodName, PaintedName, PathForm,
+    SheetArguments, Switch,
 };
 pub use point::Point;
 pub use render::{LookArguments, RenderArguments};

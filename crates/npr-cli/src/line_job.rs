@@ -1,8 +1,8 @@
 //! One line drawing: what the user said, resolved.
 
 use crate::arguments::{
-    HiddenLines, LineArguments, LineFormat, LinesArguments, LookArguments, MethodName, PathForm,
-    Switch,
+    HiddenLines, LineArguments, LineFormat, LinesArguments, LookArguments, MethodName, PaintedName,
+    PathForm, Switch,
 };
 use crate::fault::{Exit, Fault};
 use crate::job::{check_size, has_ending, output_path, stage_options};
@@ -12,7 +12,9 @@ use crate::output::Output;
 use crate::source::{Source, has_volume_name};
 use crate::volume::{self, VolumeSource};
 use npr_core::geometry::Part;
-use npr_render::{Drawing, Kind, KindSet, Lettering, LineMethod, LineOptions, StageOptions};
+use npr_render::{
+    Drawing, Kind, KindSet, Lettering, LineMethod, LineOptions, PaintedLines, StageOptions,
+};
 use npr_scene::Limits;
 use npr_style::{Background, Style};
 use npr_vector::artwork::{ArtworkOptions, Hidden, Page, Paths, arrange};
@@ -71,7 +73,7 @@ impl<'a> LineJob<'a> {
             limits: Limits {
                 // Id maps lie as textures do, which are known where images are.
                 decode_images: minds
-                    || said.lines.painted
+                    || said.lines.painted.is_some()
                     || !look.style.id_map.is_empty()
                     || look.style.line_paint_flags() & Part::LINE_SURFACE != 0,
                 ..said.drawing.limits.limits()
@@ -206,7 +208,11 @@ fn options(said: &LinesArguments, style: &Style) -> LineOptions {
             MethodName::Potrace => LineMethod::Potrace,
             MethodName::Image => LineMethod::Image,
         },
-        painted: said.lines.painted,
+        painted: said.lines.painted.map(|painted| match painted {
+            PaintedName::Dark => PaintedLines::Dark,
+            PaintedName::Light => PaintedLines::Light,
+            PaintedName::Both => PaintedLines::Both,
+        }),
         smooth: *smooth == Switch::On,
         hidden: *hidden != HiddenLines::None,
         // Smoke is more than its outline, but for a pen.

@@ -153,7 +153,7 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
     let options = LineModelOptions {
         weld: job.said.lines.weld,
         memory_limit: job.limits.memory_bytes,
-        painted: job.options.painted,
+        painted: job.options.painted.is_some(),
     };
     let mut model = progress.step("prepare", || {
         LineModel::for_style(

@@ -50,7 +50,9 @@ pub use error::RenderError;
 pub use frame::Frame;
 pub use id_map::apply_id_maps;
 pub use lettering::Lettering;
-pub use lines::{KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage};
+pub use lines::{
+    KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage, PaintedLines,
+};
 pub use model::{Model, PartInfo};
 pub use npr_core::smoke::Sphere;
 pub use npr_vector::lettering::Font;

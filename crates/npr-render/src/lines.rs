@@ -16,7 +16,7 @@ mod tones;
 mod welded;
 mod widths;
 
-pub use options::{KindSet, LineMethod, LineModelOptions, LineOptions};
+pub use options::{KindSet, LineMethod, LineModelOptions, LineOptions, PaintedLines};
 pub use stage::LineStage;
 
 use crate::error::RenderError;
@@ -490,7 +490,7 @@ impl LineModel {
                 self.of_mesh(prepared, view, &settings, &look)
             }
         };
-        if options.method == LineMethod::Image || options.painted {
+        if options.method == LineMethod::Image || options.painted.is_some() {
             strokes.extend(self.image_strokes(prepared, view, options, line)?);
         }
         Ok(strokes)

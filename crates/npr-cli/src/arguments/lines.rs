@@ -63,9 +63,9 @@ pub struct LineArguments {
     /// Fill visible surfaces with flat colour; smoke alone is filled in any case, but for centrelines.
     #[arg(long)]
     pub fill: bool,
-    /// Make strokes of dark lines painted in textures too, up to 8 pixels wide, as marked lines.
-    #[arg(long)]
-    pub painted: bool,
+    /// Make strokes of lines painted in textures too, up to 8 pixels wide, as marked lines; alone it means dark ones.
+    #[arg(long, value_enum, value_name = "TONE", num_args = 0..=1, require_equals = true, default_missing_value = "dark")]
+    pub painted: Option<PaintedName>,
     /// Distance up to which vertices are one, as a fraction of each mesh's diagonal: 1e-6 closes the cracks of
     /// most exports.
     #[arg(long, value_name = "FRACTION", default_value_t = 0.0, allow_hyphen_values = true, value_parser = weld_tolerance)]
@@ -109,6 +109,17 @@ pub enum MethodName {
     Potrace,
     /// From a picture of the surfaces: all lines where neighbouring pixels differ, each followed once along its middle.
     Image,
+}
+
+/// Which painted lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PaintedName {
+    /// Dark lines on lighter paint.
+    Dark,
+    /// Light lines on darker paint.
+    Light,
+    /// Both, as far as they differ from what is around them on the whole.
+    Both,
 }
 
 /// What becomes of hidden lines.

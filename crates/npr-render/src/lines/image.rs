@@ -16,9 +16,7 @@ use npr_core::window::View;
 use npr_style::compose::LUMA;
 use npr_vector::draw::{LineSettings, Prepared, StrokeLook};
 use npr_vector::graph::CurveNode;
-use npr_vector::image_line::{
-    BYTES_PER_PIXEL, ImageScene, PaintedRule, SurfacePicture, painted, strokes_from,
-};
+use npr_vector::image_line::{BYTES_PER_PIXEL, ImageScene, SurfacePicture, painted, strokes_from};
 use npr_vector::project::Projector;
 use npr_vector::seat::Seat;
 use npr_vector::stroke::Stroke;
@@ -63,22 +61,24 @@ impl LineModel {
             let runs = picture.borders(&scene, veil.as_deref()).runs(on);
             strokes = strokes_from(runs, &self.shape, settings, look);
         }
-        if let Some(map) = self.map.as_ref().filter(|_| options.painted) {
+        if let (Some(map), Some(wanted)) = (&self.map, options.painted) {
             let all = ImageScene {
                 kinds: CurveNode::KINDS,
                 ..scene
             };
             let lines = picture.borders(&all, None).ink();
             let lightness = lightness(&self.shape, map, (&of_frame, view.projector), &picture);
-            let mut ink = painted(&picture, &lightness, &lines, &PaintedRule::default());
-            ink.retain(|pixel| picture.is_clear(veil.as_deref(), pixel));
-            strokes.extend(strokes_from(ink.runs(on)?, &self.shape, settings, look));
+            for rule in wanted.rules() {
+                let mut ink = painted(&picture, &lightness, &lines, &rule);
+                ink.retain(|pixel| picture.is_clear(veil.as_deref(), pixel));
+                strokes.extend(strokes_from(ink.runs(on)?, &self.shape, settings, look));
+            }
         }
         Ok(strokes)
     }
 }
 
-/// How light the textures of a view are at every pixel, 0 to 1 as seen; 1 where there is none.
+/// How light the textures of a view are at every pixel, 0 to 1 as seen; no number where there is none.
 fn lightness(
     shape: &Shape,
     map: &TextureMap,
@@ -90,12 +90,12 @@ fn lightness(
     let at = |(pixel, (face, surface)): (usize, (&u32, &npr_core::geometry::GPixel))| {
         let start = map.starts.get(surface.part as usize).copied();
         let Some(start) = start.filter(|start| *face != NONE && *start != NONE) else {
-            return 1.0;
+            return f32::NAN;
         };
         let place = [pixel % width, pixel / width].map(|v| v as f64 + 0.5);
         let world = projector.unproject(place, f64::from(surface.depth));
         let Some((uv, per_unit)) = coordinates(shape, map, *face, world) else {
-            return 1.0;
+            return f32::NAN;
         };
         let footprint = per_unit * view.pixel_at(surface.depth);
         let [r, g, b, alpha] = texture::sample(map.textures.words(), start, uv, footprint);

@@ -3,6 +3,7 @@
 use npr_style::Style;
 use npr_vector::draw::Method;
 use npr_vector::graph::CurveNode;
+use npr_vector::image_line::{PaintedRule, PaintedTone};
 use npr_vector::pixel_contour::PublishedPath;
 use npr_vector::stroke::Kind;
 
@@ -116,8 +117,36 @@ pub struct LineOptions {
     pub potrace: PublishedPath,
     /// Depth jump, as a share of the picture's height at that depth, from which [`LineMethod::Image`] separates surfaces by a line.
     pub depth_threshold: f32,
-    /// Whether dark lines painted in textures are strokes of kind [`Kind::Marked`], whatever the method; default false.
-    pub painted: bool,
+    /// Which lines painted in textures are strokes of kind [`Kind::Marked`], whatever the method; default none.
+    pub painted: Option<PaintedLines>,
+}
+
+/// Lines painted in textures, by how they stand before the paint beside them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PaintedLines {
+    /// Dark lines on lighter paint.
+    #[default]
+    Dark,
+    /// Light lines on darker paint.
+    Light,
+    /// Both, as far as they differ from what is around them on the whole: a gap between two lines is none.
+    Both,
+}
+
+impl PaintedLines {
+    /// What of a texture is such a line, one rule for each tone.
+    pub(crate) fn rules(self) -> Vec<PaintedRule> {
+        let rule = |tone| PaintedRule {
+            tone,
+            on_ground: self == Self::Both,
+            ..PaintedRule::default()
+        };
+        match self {
+            Self::Dark => vec![rule(PaintedTone::Dark)],
+            Self::Light => vec![rule(PaintedTone::Light)],
+            Self::Both => vec![rule(PaintedTone::Dark), rule(PaintedTone::Light)],
+        }
+    }
 }
 
 /// How lines are found.
@@ -166,7 +195,7 @@ impl LineOptions {
             dpi: 96.0,
             potrace: PublishedPath::default(),
             depth_threshold: Style::default().detect.depth_threshold(),
-            painted: false,
+            painted: None,
         }
     }
 

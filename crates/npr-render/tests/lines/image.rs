@@ -6,6 +6,7 @@ use npr_gpu::processor::Processor;
 use npr_mesh::testing::{cube, icosphere, mapped, torus};
 use npr_render::{
     Drawing, Kind, KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage,
+    PaintedLines,
 };
 use npr_scene::{Image, Material, Mesh, Node, Part, Scene, TextureTransform, TextureUse, Wrap};
 use npr_style::Style;
@@ -191,7 +192,7 @@ fn engines_and_threads_give_the_same() {
     let model = model_of(&painted_wall(), true);
     let camera = camera_at([1.0, 0.5, 6.0]);
     let options = LineOptions {
-        painted: true,
+        painted: Some(PaintedLines::Dark),
         ..with(LineMethod::Image)
     };
     let alone = drawn(&model, &camera, &options);
@@ -209,7 +210,7 @@ fn lines_painted_in_a_texture_become_marked_strokes_of_the_style() {
     let camera = camera_at([0.0, 0.0, 6.0]);
     for method in [LineMethod::Edges, LineMethod::Surface, LineMethod::Image] {
         let options = LineOptions {
-            painted: true,
+            painted: Some(PaintedLines::Dark),
             ..with(method)
         };
         let drawing = drawn(&model_of(&painted_wall(), true), &camera, &options);
@@ -251,6 +252,72 @@ fn lines_painted_in_a_texture_become_marked_strokes_of_the_style() {
         let plain = drawn(&model_of(&painted_wall(), false), &camera, &with(method));
         assert_eq!(rest.collect::<Vec<_>>(), plain.strokes);
     }
+}
+
+/// A wall that is white on the left, with a dark line and two dark ones near each other, and on the right black with the same in white.
+fn two_tones() -> Scene {
+    let mut scene = painted_wall();
+    let side = scene.images[0].width;
+    let is_light = |x: u32, y: u32| {
+        let on_line = (60..65).contains(&y) || (180..184).contains(&y) || (188..192).contains(&y);
+        let inside = (8..120).contains(&(x % 128));
+        (x < 128) != (on_line && inside)
+    };
+    let pixel = |i: u32| match is_light(i % side, i / side) {
+        true => [240, 235, 220, 255],
+        false => [20, 20, 30, 255],
+    };
+    scene.images[0].rgba = (0..side * side).flat_map(pixel).collect();
+    scene
+}
+
+#[test]
+fn light_lines_on_dark_paint_are_found_when_asked_for() {
+    let camera = camera_at([0.0, 0.0, 6.0]);
+    let model = model_of(&two_tones(), true);
+    // Heights of all marked strokes on each side, in rows of the texture.
+    let rows = |painted| {
+        let options = LineOptions {
+            painted: Some(painted),
+            kinds: KindSet::from_iter([Kind::Marked]),
+            ..LineOptions::new([640, 400])
+        };
+        let drawing = drawn(&model, &camera, &options);
+        let ids: std::collections::BTreeSet<u64> = drawing.strokes.iter().map(|s| s.id).collect();
+        assert_eq!(ids.len(), drawing.strokes.len(), "{painted:?}");
+        let mut rows = [Vec::new(), Vec::new()];
+        for stroke in drawing
+            .strokes
+            .iter()
+            .filter(|stroke| stroke.length() > 100.0)
+        {
+            let middle = stroke.points[stroke.points.len() / 2].world;
+            rows[usize::from(middle[0] > 0.0)].push(((2.0 - middle[1]) * 64.0).round() as u32);
+        }
+        rows.iter_mut().for_each(|rows| rows.sort_unstable());
+        rows
+    };
+    let near = |found: &[u32], wanted: &[u32]| {
+        let pairs = found.iter().zip(wanted);
+        found.len() == wanted.len() && pairs.into_iter().all(|(a, b)| a.abs_diff(*b) <= 1)
+    };
+    let (lines, gap): (&[u32], &[u32]) = (&[62, 182, 190], &[186]);
+    let [on_white, on_black] = rows(PaintedLines::Dark);
+    assert!(
+        near(&on_white, lines) && near(&on_black, gap),
+        "{on_white:?} {on_black:?}"
+    );
+    let [on_white, on_black] = rows(PaintedLines::Light);
+    assert!(
+        near(&on_white, gap) && near(&on_black, lines),
+        "{on_white:?} {on_black:?}"
+    );
+    // Of both, gaps between lines are none.
+    let [on_white, on_black] = rows(PaintedLines::Both);
+    assert!(
+        near(&on_white, lines) && near(&on_black, lines),
+        "{on_white:?} {on_black:?}"
+    );
 }
 
 /// The camera turns by 0.3 degrees a step.

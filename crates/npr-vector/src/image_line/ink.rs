@@ -11,6 +11,8 @@ pub struct LineInk {
     pub owners: Vec<u32>,
     /// What the line is, a bit of [`crate::graph::CurveNode::KINDS`]; 0 of pixels that own none.
     pub kinds: Vec<u32>,
+    /// It is that of light painted lines, whose strokes have other identities than dark ones.
+    pub is_light: bool,
 }
 
 impl LineInk {
@@ -21,6 +23,7 @@ impl LineInk {
             size,
             owners: vec![NONE; count],
             kinds: vec![0; count],
+            is_light: false,
         }
     }
 

@@ -64,6 +64,7 @@ impl LineInk {
         }
         let lines = centrelines(&bitmap, &CentrelineOptions::default());
         let maker = Maker {
+            paint: 1 + u64::from(self.is_light),
             scene,
             projector,
             picture,
@@ -88,6 +89,7 @@ impl Borders {
     /// are those of the pixels that own the borders, as for [`LineInk::runs`]. O(borders log borders), in parallel.
     pub fn runs(&self, (scene, projector, picture): On<'_>) -> Vec<Run> {
         let maker = Maker {
+            paint: 0,
             scene,
             projector,
             picture,
@@ -138,6 +140,8 @@ impl Borders {
 }
 
 struct Maker<'a> {
+    /// What tells the identities of painted lines from those of marked edges.
+    paint: u64,
     scene: &'a ImageScene<'a>,
     projector: &'a Projector,
     picture: &'a SurfacePicture,
@@ -179,8 +183,8 @@ impl Maker<'_> {
             .iter()
             .map(|point| (hash_key(point.edge), point.edge));
         let (_, edge) = edges.min()?;
-        // Painted lines are told apart from marked edges by the number after the last kind.
-        let of_paint = u64::from(kind == Kind::Marked);
+        // Painted lines are told apart from marked edges by the numbers after the last kind.
+        let of_paint = u64::from(kind == Kind::Marked) * self.paint;
         Some(Run {
             id: base_id(edge, kind) + of_paint,
             kind,

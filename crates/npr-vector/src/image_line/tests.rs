@@ -257,7 +257,7 @@ proptest! {
         let picture = SurfacePicture::new(&wall.scene());
         let light = |i: u32| (npr_core::math::mix_bits(seed ^ npr_core::math::mix_bits(i)) % 16) as f32 / 15.0;
         let lightness: Vec<f32> = (0..480).map(light).collect();
-        let rule = PaintedRule { reach_px: reach, contrast: 0.3 };
+        let rule = PaintedRule { reach_px: reach, contrast: 0.3, ..PaintedRule::default() };
         let ink = painted(&picture, &lightness, &LineInk::new(picture.size), &rule);
         let reach = i64::from(reach);
         let square = |x: i64, y: i64| {
@@ -272,6 +272,54 @@ proptest! {
             let closed = square(x, y).iter().map(greatest).fold(1.0, f32::min);
             let is_line = closed - at(&(x, y)) >= 0.3 && picture.faces[(y * 24 + x) as usize] != NONE;
             prop_assert_eq!(ink.is_ink(x as u32, y as u32), is_line, "{} {}", x, y);
+        }
+    }
+
+    /// Light lines are the dark ones of the negative, and lines on their ground those where the mean of a plain walk lies beyond half way.
+    #[test]
+    fn light_lines_are_those_of_the_negative(seed: u32, bare in 0u32..4) {
+        let view = Projection::Parallel { height: 1.0 };
+        let wall = Subject::new(shape_of(&plane(1, 1)), [0.0, 0.0, 5.0], view, [24, 20]);
+        let picture = SurfacePicture::new(&wall.scene());
+        // Sixteenths, so that the negative is exact; some pixels have no paint.
+        let light = |i: u32| {
+            let bits = npr_core::math::mix_bits(seed ^ npr_core::math::mix_bits(i));
+            if bits >> 8 & 15 < bare { f32::NAN } else { (bits % 17) as f32 / 16.0 }
+        };
+        let lightness: Vec<f32> = (0..480).map(light).collect();
+        let negative: Vec<f32> = lightness.iter().map(|light| 1.0 - light).collect();
+        let ink_of = |lightness: &[f32], tone, on_ground| {
+            let rule = PaintedRule { reach_px: 1, contrast: 0.3, tone, on_ground };
+            painted(&picture, lightness, &LineInk::new(picture.size), &rule)
+        };
+        for on_ground in [false, true] {
+            let light = ink_of(&lightness, PaintedTone::Light, on_ground);
+            let dark = ink_of(&negative, PaintedTone::Dark, on_ground);
+            prop_assert!(light.is_light && !dark.is_light);
+            prop_assert_eq!(light.owners, dark.owners);
+        }
+        let all = ink_of(&lightness, PaintedTone::Dark, false);
+        let grounded = ink_of(&lightness, PaintedTone::Dark, true);
+        let around = |x: i64, y: i64, reach: i64| {
+            let square = (-reach..=reach).flat_map(move |dy| (-reach..=reach).map(move |dx| (x + dx, y + dy)));
+            let inside = square.filter(|(x, y)| (0..24).contains(x) && (0..20).contains(y));
+            let own = picture.pixels[(y * 24 + x) as usize].object;
+            let values = inside.map(|(x, y)| (y * 24 + x) as usize);
+            let values = values.filter(|at| picture.pixels[*at].object == own && !lightness[*at].is_nan());
+            values.collect::<Vec<usize>>()
+        };
+        for (x, y) in (0..480).map(|i| (i % 24, i / 24)) {
+            let at = |pixels: Vec<usize>| pixels.into_iter().map(|at| f64::from(lightness[at])).collect::<Vec<f64>>();
+            let greatest = |pixel: usize| at(around((pixel % 24) as i64, (pixel / 24) as i64, 1)).into_iter().fold(0.0, f64::max);
+            let closed = around(x, y, 1).into_iter().map(greatest).fold(1.0, f64::min);
+            let ground = at(around(x, y, i64::from(GROUND)));
+            let mean = ground.iter().sum::<f64>() / ground.len() as f64;
+            let half_way = (f64::from(lightness[(y * 24 + x) as usize]) + closed) / 2.0;
+            let (x, y) = (x as u32, y as u32);
+            prop_assert!(!lightness[(y * 24 + x) as usize].is_nan() || !all.is_ink(x, y));
+            if (mean - half_way).abs() > 1e-5 {
+                prop_assert_eq!(grounded.is_ink(x, y), all.is_ink(x, y) && mean > half_way);
+            }
         }
     }
 
