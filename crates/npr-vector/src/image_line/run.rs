@@ -220,7 +220,7 @@ impl Maker<'_> {
         let depth = f64::from(pixel.depth);
         let world = self.projector.unproject(place, depth);
         let edge = self.edge_beside(face, world);
-        world.is_finite().then(|| Found {
+        world.is_finite().then_some(Found {
             point: RunPoint {
                 place,
                 depth,

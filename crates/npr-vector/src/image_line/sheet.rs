@@ -117,8 +117,11 @@ mod tests {
         hits.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
+    /// The middles of neighbouring pixels, and what each shows.
+    type Neighbours = ([DVec2; 2], [(f64, u32, f64); 2]);
+
     /// All neighbouring pixels of a row or column that both show the shape.
-    fn pairs(shape: &Shape, view: &View) -> Vec<([DVec2; 2], [(f64, u32, f64); 2])> {
+    fn pairs(shape: &Shape, view: &View) -> Vec<Neighbours> {
         let middle = |x: u32, y: u32| DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
         let [width, height] = SIZE;
         let pixels = (0..height - 1).flat_map(|y| (0..width - 1).map(move |x| (x, y)));
