@@ -202,7 +202,10 @@ impl Finder<'_> {
         let [first, second] = [other, pixel].map(|at| &self.picture.pixels[at as usize]);
         let mut kinds = self.detector.kinds(first, second, 2 * side + 1);
         let is_one_part = kinds & (Outline::OBJECT_ID | Outline::MATERIAL_ID | Outline::PIECE) == 0;
-        if kinds & Outline::DEPTH != 0 && is_one_part && self.are_one_sheet([other, pixel]) {
+        if kinds & Outline::DEPTH != 0
+            && is_one_part
+            && self.are_one_sheet([other, pixel]) == Some(true)
+        {
             // At the rim of a round surface depth jumps between its own pixels.
             kinds &= !Outline::DEPTH;
         }
@@ -213,19 +216,18 @@ impl Finder<'_> {
         let owner = match marks.map(|mark| mark & MASK_OWNER != 0) {
             [true, _] => other,
             [_, true] => pixel,
-            // Normals of smooth surfaces differ too where they turn away steeply; what is left are sharp edges.
-            _ if marks == [Outline::NORMAL; 2] && self.share_crease(pixel, other) => {
+            // Normals of smooth surfaces differ too where they turn away steeply; what is left are sharp edges, and surfaces close behind others.
+            _ if marks == [Outline::NORMAL; 2] => {
+                let kind = self.hidden_kind(pixel, other)?;
                 let owner = if first.depth < second.depth {
                     other
                 } else {
                     pixel
                 };
-                let is_drawn = self
-                    .scene
-                    .is_drawn
-                    .get(self.picture.pixels[owner as usize].part as usize);
-                return (is_drawn != Some(&false))
-                    .then(|| self.seen(pixel, side, owner, CurveNode::CREASE))
+                let surface = self.picture.pixels[owner as usize].part;
+                let is_drawn = self.scene.is_drawn.get(surface as usize) != Some(&false);
+                return is_drawn
+                    .then(|| self.seen(pixel, side, owner, kind))
                     .flatten();
             }
             _ => return None,
@@ -264,8 +266,8 @@ impl Finder<'_> {
             })
     }
 
-    /// Whether two pixels show one sheet of a surface.
-    fn are_one_sheet(&self, pixels: [u32; 2]) -> bool {
+    /// Whether two pixels show one sheet of a surface; none where that cannot be told.
+    fn are_one_sheet(&self, pixels: [u32; 2]) -> Option<bool> {
         let width = self.picture.size[0];
         let middles = pixels.map(|pixel| {
             let place = [pixel % width, pixel / width];
@@ -273,7 +275,19 @@ impl Finder<'_> {
         });
         let faces = pixels.map(|pixel| self.picture.faces[pixel as usize]);
         let are_seen = faces.iter().all(|face| *face != NONE);
-        are_seen && are_one_sheet(self.scene.shape, self.scene.view, middles, faces)
+        let (shape, view) = (self.scene.shape, self.scene.view);
+        are_seen
+            .then(|| are_one_sheet(shape, view, middles, faces))
+            .flatten()
+    }
+
+    /// What line runs between two pixels of a surface seen at a grazing angle, whose depths and normals do not tell.
+    fn hidden_kind(&self, pixel: u32, other: u32) -> Option<u32> {
+        if self.share_crease(pixel, other) {
+            return Some(CurveNode::CREASE);
+        }
+        let is_cut = self.are_one_sheet([other, pixel]) == Some(false);
+        is_cut.then_some(CurveNode::CONTOUR)
     }
 
     /// Whether two pixels show faces on both sides of an edge that is a crease.
