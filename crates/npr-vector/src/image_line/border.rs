@@ -7,7 +7,9 @@ use crate::detect::{Detection, Detector};
 use crate::graph::CurveNode;
 use glam::DVec2;
 use npr_core::geometry::NONE;
+use npr_core::math;
 use npr_core::outline::{MASK_OWNER, Outline};
+use npr_core::surface::dot;
 use rayon::prelude::*;
 
 /// Bits that each say something about where a line comes from.
@@ -213,47 +215,45 @@ impl Finder<'_> {
             return None;
         }
         let marks = self.detector.marks(first, second, kinds, 2 * side + 1);
-        let owner = match marks.map(|mark| mark & MASK_OWNER != 0) {
-            [true, _] => other,
-            [_, true] => pixel,
-            // Normals of smooth surfaces differ too where they turn away steeply; what is left are sharp edges, and surfaces close behind others.
-            _ if marks == [Outline::NORMAL; 2] => {
-                let kind = self.hidden_kind(pixel, other)?;
-                let owner = if first.depth < second.depth {
-                    other
-                } else {
-                    pixel
-                };
-                let surface = self.picture.pixels[owner as usize].part;
-                let is_drawn = self.scene.is_drawn.get(surface as usize) != Some(&false);
-                return is_drawn
-                    .then(|| self.seen(pixel, side, owner, kind))
-                    .flatten();
-            }
-            _ => return None,
-        };
-        let kind = kind_of(if owner == other { marks[0] } else { marks[1] });
-        let is_between = kind == CurveNode::INTERSECTION || kind == CurveNode::MATERIAL;
-        let owner = if is_between {
-            self.owner_between(other, pixel)
+        let [is_first, is_second] = marks.map(|mark| mark & MASK_OWNER != 0);
+        let kind = if is_first || is_second {
+            kind_of(marks[usize::from(!is_first)])
+        } else if marks == [Outline::NORMAL; 2] {
+            self.hidden_kind(pixel, other)?
         } else {
-            owner
+            return None;
         };
-        self.seen(pixel, side, owner, kind)
+        let is_nearer = is_first || (!is_second && first.depth < second.depth);
+        let owner = match kind {
+            CurveNode::CONTOUR if is_nearer => other,
+            CurveNode::CONTOUR => pixel,
+            _ => self.owner_between([other, pixel]),
+        };
+        self.is_drawn(owner)
+            .then(|| self.seen(pixel, side, owner, kind))
+            .flatten()
     }
 
-    /// Of two pixels whose surfaces meet, the one to whose surface the line belongs: neither is in front, so not depth, which rounding decides,
-    /// but the surfaces' order does, among those with lines.
-    fn owner_between(&self, first: u32, second: u32) -> u32 {
-        let order = |pixel: &u32| {
-            let surface = self.picture.pixels[*pixel as usize].part;
-            let is_drawn = self.scene.is_drawn.get(surface as usize) != Some(&false);
-            (!is_drawn, surface)
+    fn is_drawn(&self, pixel: u32) -> bool {
+        let surface = self.picture.pixels[pixel as usize].part;
+        self.scene.is_drawn.get(surface as usize) != Some(&false)
+    }
+
+    /// Of two pixels between which surfaces meet, the one to whose surface the line belongs: neither is in front, so not depth, which rounding
+    /// decides, but the order of surfaces does, among those with lines; on both sides of a crease what is turned to the eye more.
+    fn owner_between(&self, pixels: [u32; 2]) -> u32 {
+        let order = |pixel: u32| {
+            let surface = &self.picture.pixels[pixel as usize];
+            let normal = math::unpack_unit(surface.normal);
+            let facing = dot(normal, self.scene.view.forward_world).abs();
+            (!self.is_drawn(pixel), surface.part, -facing)
         };
-        [first, second]
-            .into_iter()
-            .min_by_key(order)
-            .unwrap_or(first)
+        let [a, b] = pixels.map(order);
+        let is_first = (a.0, a.1)
+            .cmp(&(b.0, b.1))
+            .then(a.2.total_cmp(&b.2))
+            .is_le();
+        pixels[usize::from(!is_first)]
     }
 
     fn seen(&self, pixel: u32, side: u32, owner: u32, kind: u32) -> Option<Border> {
