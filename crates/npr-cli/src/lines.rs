@@ -190,6 +190,9 @@ fn warn_of(job: &LineJob<'_>, model: &LineModel, smoke: &Film) {
     for notice in model.notices().iter().chain(&smoke.notices) {
         warn(notice);
     }
+    if let Some(notice) = model.lacks(&job.options) {
+        warn(notice);
+    }
     for notice in job.lettering.notices() {
         warn(notice);
     }

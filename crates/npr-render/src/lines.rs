@@ -532,6 +532,15 @@ impl LineModel {
         }
     }
 
+    /// What drawings with these options lack, where that is something: lines of intersection, where so many faces cut each other that nobody could
+    /// read them. Takes the time of what all views share, which the first drawing then does not.
+    pub fn lacks(&self, options: &LineOptions) -> Option<&'static str> {
+        self.prepared(options)
+            .crossings
+            .overflow
+            .then_some("so many faces cut each other that lines of intersection are left out")
+    }
+
     /// The welded surface in the world that lines are drawn of.
     pub fn shape(&self) -> &Shape {
         &self.shape

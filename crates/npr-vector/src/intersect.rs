@@ -29,6 +29,11 @@ pub const PAIRS: usize = 1 << 20;
 /// Pairs of faces looked at exactly, for every face of the shape.
 pub const PAIRS_PER_FACE: usize = 16;
 
+/// Pieces of intersection that become lines, beside [`PAIRS_PER_FACE`] for every face: each is looked at with all outlines before it.
+///
+/// Where a thousand faces all cut each other nobody could read them.
+pub const PIECES: usize = 1 << 15;
+
 /// A place where a mesh edge goes through the inside of a face that it does not touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piercing {
@@ -54,7 +59,8 @@ pub struct Crossings {
     /// An edge that starts or ends on a face counts for one of its sides, so that a path along edges through a
     /// face is counted once. Edges that lie in the plane of a face pierce nothing.
     pub piercings: Vec<Piercing>,
-    /// Too many faces overlap, [`PAIRS`] and [`PAIRS_PER_FACE`]: lines and piercings are missing.
+    /// Too many faces overlap, [`PAIRS`] and [`PAIRS_PER_FACE`], so that lines and piercings are missing; or too many cut each other, [`PIECES`],
+    /// so that there are no lines.
     pub overflow: bool,
 }
 
@@ -81,11 +87,15 @@ pub fn crossings(shape: &Shape, tree: &FaceTree) -> Crossings {
         .collect();
     let piercings = piercings(&segments);
     segments.retain(|segment| !segment.contact);
+    let is_dense = segments.len() > PIECES + PAIRS_PER_FACE * shape.faces.len();
+    if is_dense {
+        segments.clear();
+    }
     segments.par_sort_unstable_by_key(|segment| segment.faces);
     Crossings {
         graph: link::link(shape, &segments),
         piercings,
-        overflow: found.overflow,
+        overflow: found.overflow || is_dense,
     }
 }
 

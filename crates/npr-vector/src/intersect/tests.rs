@@ -457,18 +457,34 @@ fn a_copy_in_the_same_place_has_no_line() {
     assert_eq!(found(&shape).graph.nodes.len(), 0);
 }
 
-#[test]
-fn thousands_of_overlapping_faces_are_reported() {
+/// Faces with corners anywhere in a cube.
+fn shape_of_soup(count: u32) -> Shape {
     let mut random = Random::new(7);
-    let count = 10_000;
     let positions: Vec<[f32; 3]> = (0..3 * count)
         .map(|_| [random.unit(), random.unit(), random.unit()])
         .collect();
     let faces: Vec<[u32; 3]> = (0..count).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect();
-    let shape = shape_of(&positions, &faces);
+    shape_of(&positions, &faces)
+}
+
+#[test]
+fn thousands_of_overlapping_faces_are_reported() {
+    let shape = shape_of_soup(10_000);
     let found = crossings(&shape, &FaceTree::new(&shape));
     assert!(found.overflow);
     assert!(!found.piercings.is_empty());
+}
+
+/// Fewer pairs than are looked at, but more pieces than can be drawn.
+#[test]
+fn a_thousand_faces_that_all_cut_each_other_have_piercings_and_no_lines() {
+    let shape = shape_of_soup(1000);
+    let found = crossings(&shape, &FaceTree::new(&shape));
+    assert!(found.overflow && found.graph.nodes.is_empty());
+    assert!(found.piercings.len() > PIECES);
+    let few = shape_of_soup(200);
+    let found = crossings(&few, &FaceTree::new(&few));
+    assert!(!found.overflow && !found.graph.nodes.is_empty());
 }
 
 #[test]
