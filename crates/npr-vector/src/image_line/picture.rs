@@ -23,7 +23,7 @@ pub struct ImageScene<'a> {
     pub view: &'a View,
     /// For every surface whether it has lines; all do where there are no more entries.
     pub is_drawn: &'a [bool],
-    /// Kinds of line that are looked for, bits of [`CurveNode::KINDS`].
+    /// Kinds of line that are looked for, bits of [`CurveNode::KINDS`](crate::graph::CurveNode::KINDS).
     pub kinds: u32,
     /// Cosine of the angle between normals from which a bend is a crease.
     pub crease_cos: f32,
