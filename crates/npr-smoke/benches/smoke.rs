@@ -60,7 +60,7 @@ fn volumes(c: &mut Criterion) {
             b.iter(|| {
                 particles.step(&volume);
                 let distances = Distances::new(&volume, settings.threshold);
-                around_particles(particles.list(), &volume, &distances, 1.0)
+                around_particles(particles.list(), &volume, &distances)
             })
         });
         for detail in [40, 1000] {
@@ -119,9 +119,9 @@ fn spheres(c: &mut Criterion) {
         };
         let particles = Particles::new(&volume, settings);
         group.bench_function(BenchmarkId::new("around particles", count), |b| {
-            b.iter(|| around_particles(particles.list(), &volume, &distances, 1.0))
+            b.iter(|| around_particles(particles.list(), &volume, &distances))
         });
-        let spheres = around_particles(particles.list(), &volume, &distances, 1.0);
+        let spheres = around_particles(particles.list(), &volume, &distances);
         group.bench_function(BenchmarkId::new("covered share", count), |b| {
             b.iter(|| covered_share(&spheres, &volume, &distances))
         });

@@ -79,6 +79,49 @@ impl Distances {
         cell.blend(|at| f32::from(self.steps[at]))
     }
 
+    /// Half the side of the box round a place of index space that grows until it takes in the centre of a thin voxel
+    /// [Hoshino 2004, 3.1], in voxels. 0 outside the voxels' cubes.
+    ///
+    /// Exact. The nearest voxel's distance tells in which shell of voxels round that voxel the first thin one lies, so no other
+    /// is looked at: O(d^2) for a half side d.
+    pub fn half_side(&self, index: Vec3) -> f32 {
+        let turned = Vec3::new(index.z, index.x, index.y);
+        let Some(home) = self.swept.nearest(turned) else {
+            return 0.0;
+        };
+        let home = home.map(|side| side as i64);
+        let reach = self.steps_at(home);
+        let mut half_side = f32::MAX;
+        for (a, b) in (-reach..=reach).flat_map(|a| (-reach..=reach).map(move |b| (a, b))) {
+            let is_face = a.abs() == reach || b.abs() == reach;
+            let mut c = -reach;
+            while c <= reach {
+                let voxel = [home[0] + a, home[1] + b, home[2] + c];
+                let steps = self.steps_at(voxel);
+                if steps == 0 {
+                    let away = Vec3::from_array(voxel.map(|side| side as f32)) - turned;
+                    half_side = half_side.min(away.abs().max_element());
+                }
+                // Go on by as much as is certainly dense, or to the other face.
+                c += if is_face { steps.max(1) } else { 2 * reach };
+            }
+        }
+        half_side
+    }
+
+    /// The distance at a voxel in the order of the sweeps; 0 outside the grid.
+    fn steps_at(&self, voxel: [i64; 3]) -> i64 {
+        let inside = |axis: usize| {
+            usize::try_from(voxel[axis])
+                .ok()
+                .filter(|at| *at < self.swept.size[axis])
+        };
+        match (inside(0), inside(1), inside(2)) {
+            (Some(a), Some(b), Some(c)) => i64::from(self.steps[self.swept.index([a, b, c])]),
+            _ => 0,
+        }
+    }
+
     /// Whether the voxel that a place of index space lies in is dense.
     pub fn is_dense(&self, index: Vec3) -> bool {
         let turned = Vec3::new(index.z, index.x, index.y);
@@ -266,6 +309,27 @@ mod tests {
         unreachable!("a box leaves every grid")
     }
 
+    /// Half the side of the box round any place: how far the nearest of all thin voxels lies, along the axis on which it is farthest.
+    fn half_side(volume: &Volume, threshold: f32, place: Vec3) -> f32 {
+        let size = volume.size();
+        let range = |axis: usize| -1..=size[axis] as i32;
+        let voxels =
+            range(0).flat_map(|x| range(1).flat_map(move |y| range(2).map(move |z| [x, y, z])));
+        let is_thin = |at: &[i32; 3]| {
+            let is_outside = at
+                .iter()
+                .zip(size)
+                .any(|(&at, side)| at < 0 || at >= side as i32);
+            is_outside || volume.density_at(Vec3::from_array(at.map(|v| v as f32))) <= threshold
+        };
+        let away = |at: [i32; 3]| {
+            (Vec3::from_array(at.map(|v| v as f32)) - place)
+                .abs()
+                .max_element()
+        };
+        voxels.filter(is_thin).map(away).fold(f32::MAX, f32::min)
+    }
+
     fn volume(size: [u32; 3], density: Vec<f32>) -> Volume {
         Volume::new(size, density, DAffine3::IDENTITY).unwrap()
     }
@@ -298,18 +362,20 @@ mod tests {
         ) {
             let size = volume.size();
             let place = Vec3::from_array(std::array::from_fn(|i| place[i] * (size[i] - 1) as f32));
-            let range = |axis: usize| -1..=size[axis] as i32;
-            let mut half_side = f32::MAX;
-            for (x, y, z) in range(0).flat_map(|x| range(1).flat_map(move |y| range(2).map(move |z| (x, y, z)))) {
-                let is_thin = [x, y, z].iter().zip(size).any(|(&at, side)| at < 0 || at >= side as i32)
-                    || volume.density_at(Vec3::new(x as f32, y as f32, z as f32)) <= 0.1;
-                if is_thin {
-                    let away = (Vec3::new(x as f32, y as f32, z as f32) - place).abs();
-                    half_side = half_side.min(away.max_element());
-                }
-            }
+            let half_side = half_side(&volume, 0.1, place);
             let near = Distances::new(&volume, 0.1).near(place);
             prop_assert!((near - half_side).abs() <= 0.6, "{} for {}", near, half_side);
+        }
+
+        /// Anywhere in the voxels' cubes, dense or thin.
+        #[test]
+        fn the_box_round_any_place_is_that_of_the_paper(
+            volume in volumes(), place in prop::array::uniform3(0.0f32..1.0), threshold in prop_oneof![Just(0.1f32), 0.0f32..2.0],
+        ) {
+            let size = volume.size();
+            let place = Vec3::from_array(std::array::from_fn(|i| place[i] * size[i] as f32 - 0.5));
+            let found = Distances::new(&volume, threshold).half_side(place);
+            prop_assert_eq!(found, half_side(&volume, threshold, place));
         }
     }
 
@@ -335,6 +401,9 @@ mod tests {
         let distances = Distances::new(&full, f32::NEG_INFINITY);
         assert_eq!(distances.dense_count(), 8);
         assert_eq!(distances.near(Vec3::splat(f32::NAN)), 0.0);
+        assert_eq!(distances.half_side(Vec3::splat(f32::NAN)), 0.0);
+        assert_eq!(empty.half_side(Vec3::ZERO), 0.0);
+        assert_eq!(distances.half_side(Vec3::splat(9.0)), 0.0);
     }
 
     #[test]

@@ -2,7 +2,8 @@
 //!
 //! A [`Volume`] is one moment of smoke: from a file, or from the built-in solver [`Smoke`]. [`Distances`] says how large a
 //! sphere may be at every place in it. [`Particles`] with [`sphere::around_particles`] are the spheres of the paper;
-//! [`Track`] covers the smoke with fewer, which live on from frame to frame without popping.
+//! [`Track`] covers the smoke with fewer, which live on from frame to frame without popping. [`Puffs`] are either, as a user
+//! may choose.
 //!
 //! ```
 //! use npr_smoke::{Smoke, SmokeSettings, Source, Track, TrackSettings};
@@ -27,6 +28,7 @@ pub mod footage;
 mod lattice;
 pub mod motion;
 pub mod particle;
+pub mod puffs;
 mod random;
 pub mod solver;
 pub mod sphere;
@@ -38,6 +40,7 @@ pub mod volume;
 pub use distance::Distances;
 pub use footage::Footage;
 pub use particle::{Birthplace, Particle, ParticleSettings, Particles};
+pub use puffs::{PuffSettings, Puffs};
 pub use solver::{Smoke, SmokeError, SmokeSettings, Source};
 pub use sphere::{Sphere, covered_share};
 pub use track::{Placement, Track, TrackSettings};

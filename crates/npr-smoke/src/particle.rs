@@ -92,6 +92,11 @@ impl Particles {
         }
     }
 
+    /// How they live.
+    pub fn settings(&self) -> &ParticleSettings {
+        &self.settings
+    }
+
     /// The particles, by slot.
     pub fn list(&self) -> &[Particle] {
         &self.list

@@ -8,7 +8,7 @@ use glam::{DAffine3, DMat3, DVec3, Vec3};
 use npr_core::budget::{Budget, OverBudget};
 
 use crate::lattice::{Lattice, greatest, sum};
-use crate::{MAX_SIDE, Volume, VolumeError};
+use crate::{Birthplace, MAX_SIDE, Volume, VolumeError};
 use advect::{Outside, Paths, advect};
 use flow::{Field, Flow};
 use pressure::Pressure;
@@ -82,6 +82,18 @@ impl SmokeSettings {
     /// Settings under which a source looks like itself.
     pub fn of(source: Source) -> Self {
         source.settings()
+    }
+
+    /// Where the source gives off its smoke in the world of the volumes; anywhere for a cloud, which is there from the start.
+    pub fn birthplace(&self) -> Birthplace {
+        source::emitter(self).map_or(Birthplace::Anywhere, |(place, radius)| {
+            let index = place * box_cells(self.size) - 0.5;
+            let world = index_to_world(self.size).transform_point3(index.as_dvec3());
+            Birthplace::Emitter {
+                center: world.as_vec3(),
+                radius,
+            }
+        })
     }
 
     /// The same with every number finite and in its range.

@@ -25,19 +25,19 @@ pub struct Sphere {
 
 /// A sphere round every living particle, as large as the smoke allows [Hoshino 2004, 3.1].
 ///
-/// The radius is that of the growing box, looked up in constant time, times `scale`; particles in thin places have
-/// none. Order is that of the particles. O(particles).
+/// The radius is [half the side](Distances::half_side) of the growing box round the particle. Order is that of the particles.
+/// O(particles x squares of their boxes' half sides in voxels), in parallel.
 pub fn around_particles(
     particles: &[Particle],
     volume: &Volume,
     distances: &Distances,
-    scale: f32,
 ) -> Vec<Sphere> {
-    let width = volume.voxel_width() * scale;
+    let width = volume.voxel_width();
     let around = |particle: &Particle| {
         let index = volume.index_from_world(particle.place);
-        let radius = distances.near(index) * width;
-        (particle.alive && radius > 0.0).then(|| Sphere {
+        let radius = distances.half_side(index) * width;
+        let is_seen = particle.alive && radius > 0.0 && radius.is_finite();
+        is_seen.then(|| Sphere {
             center: particle.place,
             radius,
             id: particle.id,

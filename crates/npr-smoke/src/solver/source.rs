@@ -139,6 +139,17 @@ pub(super) fn start(settings: &SmokeSettings, density: &mut Field) {
     cells.fill(&mut density.values, |cell| stage.cloud(stage.place(cell)));
 }
 
+/// A ball, in box lengths, that holds nearly all that a source gives off; none of a source that fills a wide space.
+pub(super) fn emitter(settings: &SmokeSettings) -> Option<(Vec3, f32)> {
+    let stage = Stage::new(settings, 0.0);
+    match settings.source {
+        Source::Plume => Some((stage.above(0.5 * stage.radius), 1.3 * stage.radius)),
+        Source::Puff => Some((stage.above(0.7 * stage.radius), 1.3 * stage.radius)),
+        Source::Explosion => Some((stage.blast_center(), 1.1 * stage.radius)),
+        Source::Cloud => None,
+    }
+}
+
 /// Gives every cell what the source has for it at a time.
 pub(super) fn emit(
     settings: &SmokeSettings,

@@ -35,6 +35,91 @@ fn every_source_smokes_and_reaches_upward() {
     assert_eq!(Source::of_name("bonfire"), None);
 }
 
+/// What makes a fair-weather cloud of the same solver: it is there before the first frame, keeps its flat base at its height and its
+/// heaps above it, drifts with the wind, and is wider than tall. A plume does none of that.
+#[test]
+fn a_cloud_keeps_its_flat_base_and_drifts() {
+    let settings = SmokeSettings::of(Source::Cloud);
+    let (first, last) = (smoke(settings, 0).volume(), smoke(settings, 72).volume());
+    let (before, after) = (Heap::of(&first), Heap::of(&last));
+    for heap in [&before, &after] {
+        assert!(
+            heap.base_spread < 1.2 && heap.top_spread > 1.5 * heap.base_spread,
+            "{heap:?}"
+        );
+        assert!(heap.wide > 1.5 * heap.tall, "{heap:?}");
+    }
+    assert!(
+        (after.base - before.base).abs() < 1.0,
+        "{before:?} to {after:?}"
+    );
+    assert!(
+        after.middle > before.middle + 0.5,
+        "it drifts: {before:?} to {after:?}"
+    );
+    let plume = SmokeSettings::of(Source::Plume);
+    assert_eq!(
+        smoke(plume, 0).volume().dense_count(0.1),
+        0,
+        "a plume is not there from the start"
+    );
+    let plume = Heap::of(&smoke(plume, 48).volume());
+    assert!(plume.wide < plume.tall, "{plume:?}");
+}
+
+/// What columns of dense voxels are like, in voxels.
+#[derive(Debug)]
+struct Heap {
+    /// Mean height of the lowest dense voxel of a column, and how far columns lie off it.
+    base: f32,
+    base_spread: f32,
+    /// How far the highest ones lie off their mean.
+    top_spread: f32,
+    wide: f32,
+    tall: f32,
+    /// Where its middle lies along x.
+    middle: f32,
+}
+
+impl Heap {
+    fn of(volume: &Volume) -> Self {
+        let [width, depth, height] = volume.size();
+        let is_dense = |x, y, z| volume.density()[(x + width * (y + depth * z)) as usize] > 0.1;
+        let column = |x, y| {
+            let mut dense = (0..height).filter(|z| is_dense(x, y, *z));
+            let low = dense.next()?;
+            Some([x as f32, low as f32, dense.last().unwrap_or(low) as f32])
+        };
+        let places = (0..depth).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let columns: Vec<[f32; 3]> = places.filter_map(|(x, y)| column(x, y)).collect();
+        // Thin columns are rims, where base and top meet.
+        let thick: Vec<[f32; 3]> = columns
+            .iter()
+            .copied()
+            .filter(|[_, low, high]| high - low >= 2.0)
+            .collect();
+        let mean = |i: usize| thick.iter().map(|c| c[i]).sum::<f32>() / thick.len() as f32;
+        let spread = |i: usize| {
+            let squares = thick.iter().map(|c| (c[i] - mean(i)) * (c[i] - mean(i)));
+            (squares.sum::<f32>() / thick.len() as f32).sqrt()
+        };
+        let reach = |i: usize| {
+            let (low, high) = columns.iter().fold((f32::MAX, f32::MIN), |(low, high), c| {
+                (low.min(c[i]), high.max(c[i]))
+            });
+            (low, high)
+        };
+        Self {
+            base: mean(1),
+            base_spread: spread(1),
+            top_spread: spread(2),
+            wide: reach(0).1 - reach(0).0 + 1.0,
+            tall: reach(2).1 - reach(1).0 + 1.0,
+            middle: mean(0),
+        }
+    }
+}
+
 #[test]
 fn flow_is_free_of_divergence_after_every_frame() {
     for source in Source::ALL {
