@@ -35,7 +35,7 @@ impl<'a> Job<'a> {
         check_ending(&path)?;
         let output = Output::of(&path)?;
         let external = said.drawing.allow_external.as_deref();
-        let look = Look::resolve(&said.look(), external)?;
+        let look = Look::resolve(&said.look(), external)?.with_smoke(&said.drawing.volumes);
         let options = stage_options(&said.drawing, &look)?;
         Ok(Self {
             said,

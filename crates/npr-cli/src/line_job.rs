@@ -63,7 +63,7 @@ impl<'a> LineJob<'a> {
         check_hidden(&said.lines)?;
         let output = Output::of(&path)?;
         let external = said.drawing.allow_external.as_deref();
-        let look = Look::resolve(&said.look(), external)?;
+        let look = Look::resolve(&said.look(), external)?.with_smoke(&said.drawing.volumes);
         let fonts = look.fonts(&said.drawing.limits.limits(), external)?;
         let minds = look.style.minds_background();
         let backdrop = minds.then(|| stage_options(&said.drawing, &look));

@@ -14,19 +14,18 @@ use crate::render;
 use crate::source::Loaded;
 use crate::timings::Timings;
 use crate::viewpoint;
-use crate::volume::{self, Film};
+use crate::volume::{self, Order};
 use npr_core::camera::Camera;
 use npr_core::geometry::Part;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineStage, Model};
-use npr_style::{Background, WidthSource};
+use npr_style::{Background, SmokeOutput, WidthSource};
 use std::io::Write;
 
 /// Draws the lines that the user asked for, or prints the style.
 pub fn lines(said: &LinesArguments) -> Result<(), Fault> {
     if said.drawing.look.dump_style {
-        let external = said.drawing.allow_external.as_deref();
-        return render::dump_style(&said.look(), external);
+        return render::dump_style(&said.look(), &said.drawing);
     }
     let mut progress = Progress::new(said.drawing.quiet);
     let drawn = draw(&LineJob::resolve(said)?, &mut progress)?;
@@ -145,8 +144,16 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
     job.output.refuse_any_of(&inputs)?;
-    let volumes = &job.said.drawing.volumes;
-    let (smoke, told) = volume::step(progress, volumes, loaded.volume, &job.limits)?;
+    let order = Order {
+        said: &job.said.drawing.volumes,
+        style: &job.look.style.smoke,
+        limits: &job.limits,
+    };
+    let (smoke, told) = volume::step(progress, &order, loaded.volume)?;
+    let idle = match smoke {
+        Some(_) => order.idle_notices(SmokeOutput::Lines),
+        None => Vec::new(),
+    };
     job.output.refuse_any_of(&told.inputs)?;
     job.look
         .apply_id_maps(&mut loaded.scene, &job.limits, external)?;
@@ -174,7 +181,8 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
         Some(_) => Some(progress.step("prepare", || Model::new(&loaded.scene))?),
         None => None,
     };
-    progress.suspend(|| warn_of(job, &model, &told));
+    let of_smoke = told.notices.iter().chain(&idle);
+    progress.suspend(|| warn_of(job, &model, of_smoke));
     Ok(Prepared {
         lines: model,
         behind,
@@ -185,9 +193,13 @@ fn is_intersection(kind: &Kind) -> bool {
     *kind == Kind::Intersection
 }
 
-fn warn_of(job: &LineJob<'_>, model: &LineModel, smoke: &Film) {
+fn warn_of<'a>(
+    job: &LineJob<'_>,
+    model: &'a LineModel,
+    of_smoke: impl Iterator<Item = &'a String>,
+) {
     let warn = |text: &str| message::warn(job.said.drawing.quiet, text);
-    for notice in model.notices().iter().chain(&smoke.notices) {
+    for notice in model.notices().iter().chain(of_smoke) {
         warn(notice);
     }
     if let Some(notice) = model.lacks(&job.options) {

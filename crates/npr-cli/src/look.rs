@@ -1,6 +1,6 @@
 //! The style of a picture, resolved from preset or file and overrides, with the pictures and fonts it names.
 
-use crate::arguments::LookArguments;
+use crate::arguments::{LookArguments, VolumeArguments};
 use crate::fault::{Exit, Fault};
 use crate::input::read_file;
 use crate::message::quoted;
@@ -80,6 +80,12 @@ impl Look {
             style_file: source.file().map(Path::to_owned),
             style,
         })
+    }
+
+    /// The same with what the user said about smoke.
+    pub fn with_smoke(mut self, said: &VolumeArguments) -> Self {
+        self.style.smoke = said.over(&self.style.smoke);
+        self
     }
 
     /// The picture behind the scene, where there is one.

@@ -12,21 +12,20 @@ use crate::output;
 use crate::progress::Progress;
 use crate::timings::Timings;
 use crate::viewpoint::{self, Seen};
-use crate::volume::{self, Film};
+use crate::volume::{self, Order};
 use npr_core::camera::Camera;
 use npr_gpu::engine::Engine;
 use npr_render::{
     Frame, LineModel, LineModelOptions, LineStage, Model, RenderError, Smoke, Stage, StageOptions,
 };
 use npr_scene::{Limits, Scene};
-use npr_style::Style;
+use npr_style::{SmokeOutput, Style};
 use std::io::Write;
-use std::path::Path;
 
 /// Draws what the user asked for, or prints its style.
 pub fn render(said: &RenderArguments) -> Result<(), Fault> {
     if said.drawing.look.dump_style {
-        return dump_style(&said.look(), said.drawing.allow_external.as_deref());
+        return dump_style(&said.look(), &said.drawing);
     }
     if said
         .output
@@ -46,8 +45,8 @@ pub fn render(said: &RenderArguments) -> Result<(), Fault> {
 }
 
 /// Prints a style as it comes out.
-pub fn dump_style(said: &LookArguments, external: Option<&Path>) -> Result<(), Fault> {
-    let look = Look::resolve(said, external)?;
+pub fn dump_style(said: &LookArguments, drawing: &DrawingArguments) -> Result<(), Fault> {
+    let look = Look::resolve(said, drawing.allow_external.as_deref())?.with_smoke(&drawing.volumes);
     let text = look
         .style
         .to_toml()
@@ -140,19 +139,27 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<S
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
     job.output.refuse_any_of(&inputs)?;
-    let volumes = &job.said.drawing.volumes;
-    let (smoke, told) = volume::step(progress, volumes, loaded.volume, &limits)?;
+    let order = Order {
+        said: &job.said.drawing.volumes,
+        style: &job.look.style.smoke,
+        limits: &limits,
+    };
+    let (smoke, told) = volume::step(progress, &order, loaded.volume)?;
     job.output.refuse_any_of(&told.inputs)?;
     job.look
         .apply_id_maps(&mut loaded.scene, &limits, external)?;
     let prepared = prepared(&loaded.scene, &job.look.style, &limits, progress)?;
-    progress.suspend(|| warn_of(job, &prepared.model, &told));
+    let idle = match smoke {
+        Some(_) => order.idle_notices(SmokeOutput::Frame),
+        None => Vec::new(),
+    };
+    progress.suspend(|| warn_of(job, &prepared.model, told.notices.iter().chain(&idle)));
     Ok((prepared, smoke))
 }
 
-fn warn_of(job: &Job<'_>, model: &Model, smoke: &Film) {
+fn warn_of<'a>(job: &Job<'_>, model: &'a Model, of_smoke: impl Iterator<Item = &'a String>) {
     let quiet = job.said.drawing.quiet;
-    for notice in model.notices().iter().chain(&smoke.notices) {
+    for notice in model.notices().iter().chain(of_smoke) {
         message::warn(quiet, notice);
     }
     if let Some(warning) = job.look.width_warning(job.said.drawing.size.height) {

@@ -14,10 +14,11 @@ use crate::progress::{Counter, Progress};
 use crate::render::{self, Prepared};
 use crate::source::{Loaded, Source};
 use crate::timings::Timings;
-use crate::volume::{self, Film, Shots, VolumeSource};
+use crate::volume::{self, Film, Order, Shots, VolumeSource};
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{Frame, RenderError, Smoke, StageOptions};
+use npr_style::SmokeOutput;
 use std::cell::{Cell, RefCell};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -30,7 +31,7 @@ pub fn smoke(said: &SmokeArguments) -> Result<(), Fault> {
         .map_or(volume::USUAL_STYLE, volume::usual_style);
     let look = said.drawing.look.or_style(style);
     if look.dump_style {
-        return render::dump_style(&look, said.drawing.allow_external.as_deref());
+        return render::dump_style(&look, &said.drawing);
     }
     let mut progress = Progress::new(said.drawing.quiet);
     let drawn = draw(&Job::resolve(said, &look)?, &mut progress)?;
@@ -82,7 +83,7 @@ impl<'a> Job<'a> {
         check_grid(&source, &shots)?;
         let target = Target::of(&output_path(said, &source)?)?;
         let external = said.drawing.allow_external.as_deref();
-        let look = Look::resolve(look, external)?;
+        let look = Look::resolve(look, external)?.with_smoke(&said.drawing.volumes);
         let options = job::stage_options(&said.drawing, &look)?;
         Ok(Self {
             said,
@@ -167,16 +168,19 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, 
         job.target
             .check_count(Moments::new(first, last, job.shots.step, first).seen)?;
     }
+    let order = Order {
+        said: &job.said.drawing.volumes,
+        style: &job.look.style.smoke,
+        limits: &limits,
+    };
     let counter = progress.counter();
     let mut film = progress.step("smoke", || {
         let mut tell = |done, of| counter.tell("smoke", done, of);
-        let said = &job.said.drawing.volumes;
-        volume::film(&source, said, &job.shots, &limits, &mut tell)
+        volume::film(&source, &order, &job.shots, &mut tell)
     })?;
     job.target.check_count(film.frames.len())?;
-    let more = progress.step("load", || {
-        volume::still(&job.said.drawing.volumes, None, &limits)
-    })?;
+    film.notices.extend(order.idle_notices(SmokeOutput::Frame));
+    let more = progress.step("load", || volume::still(&order, None))?;
     if let Some((smoke, told)) = more {
         film.join(&smoke, told);
     }

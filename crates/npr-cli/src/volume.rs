@@ -9,10 +9,11 @@ use crate::numbered::Numbered;
 use crate::progress::Progress;
 use npr_core::budget::Budget;
 use npr_render::volume::{Extent, mended_notice};
-use npr_render::{Smoke, Sphere, UpAxis, VolumeFault, VolumeFile, VolumeOptions};
+use npr_render::{Following, Smoke, Sphere, UpAxis, VolumeFault, VolumeFile, VolumeOptions};
 use npr_scene::Limits;
 use npr_smoke::solver::{self, SmokeError, SmokeSettings};
-use npr_smoke::{Footage, Source, Track, TrackSettings, Volume};
+use npr_smoke::{Birthplace, Footage, PuffSettings, Puffs, Source, Volume};
+use npr_style::{SmokeOutput, SmokeParticles, SmokeStyle};
 use std::path::{Path, PathBuf};
 
 /// Frames per second where none are said.
@@ -79,6 +80,17 @@ impl Default for Shots {
     }
 }
 
+/// What smoke is made of, and how.
+#[derive(Debug, Clone, Copy)]
+pub struct Order<'a> {
+    /// What the user said about volumes.
+    pub said: &'a VolumeArguments,
+    /// The style of the smoke, with what the user said in place of its own values.
+    pub style: &'a SmokeStyle,
+    /// What it may cost.
+    pub limits: &'a Limits,
+}
+
 /// Smoke for one picture or many.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Film {
@@ -108,25 +120,20 @@ impl Film {
 /// The smoke of a still picture as a step of the work, which is not told of where there is none; see [`still`].
 pub fn step(
     progress: &mut Progress,
-    said: &VolumeArguments,
+    order: &Order<'_>,
     own: Option<VolumeSource>,
-    limits: &Limits,
 ) -> Result<(Option<Smoke>, Film), Fault> {
-    if said.volumes.is_empty() && own.is_none() {
+    if order.said.volumes.is_empty() && own.is_none() {
         return Ok((None, Film::default()));
     }
-    let smoke = progress.step("smoke", || still(said, own, limits))?;
+    let smoke = progress.step("smoke", || still(order, own))?;
     Ok(smoke.map_or_else(Default::default, |(smoke, told)| (Some(smoke), told)))
 }
 
 /// The smoke of a still picture: that of the scene's own file, where it is a volume, and of every `--volume`; none without any.
-pub fn still(
-    said: &VolumeArguments,
-    own: Option<VolumeSource>,
-    limits: &Limits,
-) -> Result<Option<(Smoke, Film)>, Fault> {
+pub fn still(order: &Order<'_>, own: Option<VolumeSource>) -> Result<Option<(Smoke, Film)>, Fault> {
     let own = own.map(|source| (source, None));
-    let placed = said.volumes.iter();
+    let placed = order.said.volumes.iter();
     let placed = placed.map(|volume| (VolumeSource::of(&volume.name), Some(volume)));
     let mut all: Option<(Smoke, Film)> = None;
     for (source, volume) in own.into_iter().chain(placed) {
@@ -134,7 +141,7 @@ pub fn still(
             let message = "names a series, but a picture shows one frame: name one of its files";
             return Err(Fault::new(Exit::Usage, format!("--volume: '#' {message}")));
         }
-        let mut film = film(&source, said, &Shots::default(), limits, &mut |_, _| {})?;
+        let mut film = film(&source, order, &Shots::default(), &mut |_, _| {})?;
         let smoke = film.frames.pop().unwrap_or_default();
         let smoke = volume.map_or(smoke.clone(), |volume| placed_at(volume, smoke));
         let (joined, told) = all.take().unwrap_or_default();
@@ -160,21 +167,20 @@ fn placed_at(volume: &PlacedVolume, smoke: Smoke) -> Smoke {
 /// A simulation is followed from its first frame on, whatever frames are asked for: a frame looks the same alone and in a film.
 pub fn film(
     source: &VolumeSource,
-    said: &VolumeArguments,
+    order: &Order<'_>,
     shots: &Shots,
-    limits: &Limits,
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Film, Fault> {
     match source {
-        VolumeSource::BuiltIn(source) => simulated(*source, said, shots, limits, tell),
-        VolumeSource::Series(series) => read_series(series, said, shots, limits, tell),
+        VolumeSource::BuiltIn(source) => simulated(*source, order, shots, tell),
+        VolumeSource::Series(series) => read_series(series, order, shots, tell),
         VolumeSource::File(path) => {
-            let bytes = read_file(path, limits.file_bytes)?;
-            let mut film = read_still(&quoted(path), &bytes, said, shots, limits)?;
+            let bytes = read_file(path, order.limits.file_bytes)?;
+            let mut film = read_still(&quoted(path), &bytes, order, shots)?;
             film.inputs.push(path.clone());
             Ok(film)
         }
-        VolumeSource::Read(name, bytes) => read_still(name, bytes, said, shots, limits),
+        VolumeSource::Read(name, bytes) => read_still(name, bytes, order, shots),
     }
 }
 
@@ -200,18 +206,17 @@ fn telling_frame(source: Source) -> u32 {
 
 fn simulated(
     source: Source,
-    said: &VolumeArguments,
+    order: &Order<'_>,
     shots: &Shots,
-    limits: &Limits,
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Film, Fault> {
     let settings = SmokeSettings {
         size: shots.grid.unwrap_or(usual_grid(source)),
         frame_seconds: 1.0 / shots.fps,
-        seed: said.seed,
+        seed: order.said.seed,
         ..SmokeSettings::of(source)
     };
-    let mut budget = Budget::new(limits.memory_bytes);
+    let mut budget = Budget::new(order.limits.memory_bytes);
     let mut smoke = solver::Smoke::within(&mut budget, settings)?;
     let telling = f64::from(telling_frame(source)) / f64::from(DEFAULT_FPS) * f64::from(shots.fps);
     let telling = (telling.round() as u32).max(1);
@@ -226,7 +231,8 @@ fn simulated(
     };
     let footage = Footage::new(read, u32::MAX, 1.0 / shots.fps);
     let moments = Moments::new(first, last, shots.step, 1);
-    let film = followed(footage, &moments, said, shots.fps, &mut budget, tell)?;
+    let puffs = order.puffs(moments.step, shots.fps, settings.birthplace());
+    let film = followed(footage, &moments, puffs, &mut budget, tell)?;
     Ok(finished(
         film,
         first,
@@ -235,19 +241,13 @@ fn simulated(
     ))
 }
 
-fn read_still(
-    name: &str,
-    bytes: &[u8],
-    said: &VolumeArguments,
-    shots: &Shots,
-    limits: &Limits,
-) -> Result<Film, Fault> {
+fn read_still(name: &str, bytes: &[u8], order: &Order<'_>, shots: &Shots) -> Result<Film, Fault> {
     if shots.frames.is_some_and(|frames| frames != (1, 1)) {
         let message =
             format!("{name} is one frame: --frames needs a series such as smoke_####.vdb");
         return Err(Fault::new(Exit::Usage, message));
     }
-    let options = options(said, limits);
+    let options = order.options();
     let read = || {
         let file = VolumeFile::read(bytes, &options)?;
         Ok((file.volume(&file.extent())?, file.notices().to_vec()))
@@ -256,18 +256,18 @@ fn read_still(
     let (peak, hottest) = (peak(&volume), hottest(&volume));
     let mut notes: Vec<String> = notices;
     notes.extend(mended_notice(volume.mended()));
-    notes.extend(thin_notice(peak, said));
+    notes.extend(thin_notice(peak, order.style));
     let notes = notes.into_iter().map(|notice| format!("{name}: {notice}"));
     let notes = notes.collect();
-    let track = Track::new(&volume, track_settings(said, 1.0, shots.fps));
-    Ok(finished(vec![Smoke::of_track(&track)], 1, hottest, notes))
+    let settings = order.puffs(1.0, shots.fps, Birthplace::Anywhere);
+    let puffs = Puffs::new(&volume, settings);
+    Ok(finished(vec![Smoke::of_puffs(&puffs)], 1, hottest, notes))
 }
 
 fn read_series(
     series: &Numbered,
-    said: &VolumeArguments,
+    order: &Order<'_>,
     shots: &Shots,
-    limits: &Limits,
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Film, Fault> {
     let found = || {
@@ -277,10 +277,10 @@ fn read_series(
         })
     };
     let (first, last) = shots.frames.map_or_else(found, Ok)?;
-    let (options, mut notices) = (options(said, limits), Vec::new());
+    let (options, mut notices) = (order.options(), Vec::new());
     let open = |frame: u32| {
         let path = series.path(frame);
-        let bytes = read_file(&path, limits.file_bytes)?;
+        let bytes = read_file(&path, order.limits.file_bytes)?;
         VolumeFile::read(&bytes, &options).map_err(|fault| of_volume(&quoted(&path), fault))
     };
     let extent = shared_extent(series, first, last, &open)?;
@@ -300,14 +300,15 @@ fn read_series(
     };
     let mut footage = Footage::new(read, last, 1.0 / shots.fps);
     let moments = Moments::new(first, last, shots.step, first);
-    let mut budget = Budget::new(limits.memory_bytes);
-    let frames = followed(&mut footage, &moments, said, shots.fps, &mut budget, tell)?;
+    let mut budget = Budget::new(order.limits.memory_bytes);
+    let puffs = order.puffs(moments.step, shots.fps, Birthplace::Anywhere);
+    let frames = followed(&mut footage, &moments, puffs, &mut budget, tell)?;
     let estimates = footage.has_estimates();
     drop(footage);
     if estimates {
         notices.push("velocities are estimated from densities: the files bring none".to_owned());
     }
-    notices.extend(thin_notice(most, said));
+    notices.extend(thin_notice(most, order.style));
     let mut film = finished(frames, first, hot, notices);
     film.inputs = (first..=last).map(|frame| series.path(frame)).collect();
     Ok(film)
@@ -336,32 +337,30 @@ fn shared_extent(
 fn followed<R>(
     mut footage: impl std::borrow::BorrowMut<Footage<R>>,
     moments: &Moments,
-    said: &VolumeArguments,
-    fps: f32,
+    settings: PuffSettings,
     budget: &mut Budget,
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Vec<Smoke>, Fault>
 where
     R: FnMut(u32) -> Result<Volume, Fault>,
 {
-    let settings = track_settings(said, moments.step, fps);
-    let spheres = (settings.count as usize).saturating_mul(moments.seen);
+    let spheres = (settings.count() as usize).saturating_mul(moments.seen);
     budget
         .take("the smoke of all frames", spheres, size_of::<Sphere>())
         .map_err(|error| limit_of(&error))?;
-    let (mut track, mut frames) = (None::<Track>, Vec::new());
+    let (mut puffs, mut frames) = (None::<Puffs>, Vec::new());
     for number in 0..moments.count() {
         tell(number, moments.count());
         let volume = footage.borrow_mut().at(moments.at(number))?;
-        let track = match &mut track {
-            Some(track) => {
-                track.step(&volume);
-                track
+        let puffs = match &mut puffs {
+            Some(puffs) => {
+                puffs.step(&volume);
+                puffs
             }
-            none => none.insert(Track::new(&volume, settings)),
+            none => none.insert(Puffs::new(&volume, settings)),
         };
         if moments.is_seen(number) {
-            frames.push(Smoke::of_track(track));
+            frames.push(Smoke::of_puffs(puffs));
         }
     }
     Ok(frames)
@@ -388,32 +387,39 @@ fn finished(frames: Vec<Smoke>, first: u32, hottest: f32, mut notices: Vec<Strin
     }
 }
 
-fn options(said: &VolumeArguments, limits: &Limits) -> VolumeOptions {
-    VolumeOptions {
-        density: said.density.clone(),
-        velocity: said.velocity.clone(),
-        heat: said.heat.clone(),
-        up: match said.volume_up {
-            VolumeUp::Y => UpAxis::Y,
-            VolumeUp::Z => UpAxis::Z,
-        },
-        memory_limit: limits.memory_bytes,
+impl Order<'_> {
+    /// What the user said or the style has that cannot act on smoke, by name.
+    pub fn idle_notices(&self, output: SmokeOutput) -> Vec<String> {
+        let mut notices = self.style.idle_notices(output);
+        if self.said.emitter.is_some() && self.style.particles == SmokeParticles::Cover {
+            notices.push("--emitter does nothing: smoke.particles is cover".to_owned());
+        }
+        notices
     }
-}
 
-/// How spheres follow smoke that goes on by `step` frames at a time.
-fn track_settings(said: &VolumeArguments, step: f64, fps: f32) -> TrackSettings {
-    let usual = TrackSettings::default();
-    let step = step as f32;
-    TrackSettings {
-        count: said.spheres.unwrap_or(usual.count),
-        threshold: said.threshold.unwrap_or(usual.threshold),
-        detail: said.detail.unwrap_or(usual.detail),
-        frame_seconds: step / fps,
-        // The same pace whatever the steps and the frames.
-        ease: (usual.ease * step * DEFAULT_FPS / fps).min(1.0),
-        seed: said.seed,
-        ..usual
+    fn options(&self) -> VolumeOptions {
+        let said = self.said;
+        VolumeOptions {
+            density: said.density.clone(),
+            velocity: said.velocity.clone(),
+            heat: said.heat.clone(),
+            up: match said.volume_up {
+                VolumeUp::Y => UpAxis::Y,
+                VolumeUp::Z => UpAxis::Z,
+            },
+            memory_limit: self.limits.memory_bytes,
+        }
+    }
+
+    /// How spheres follow smoke that goes on by `step` frames at a time; `known` is where it comes from, if the user does not say.
+    fn puffs(&self, step: f64, fps: f32, known: Birthplace) -> PuffSettings {
+        let following = Following {
+            step: step as f32,
+            fps,
+            birthplace: self.said.emitter.map_or(known, Into::into),
+            seed: self.said.seed,
+        };
+        following.settings(self.style)
     }
 }
 
@@ -430,8 +436,8 @@ fn hottest(volume: &Volume) -> f32 {
 }
 
 /// What to say where nothing is dense enough to be drawn.
-fn thin_notice(peak: f32, said: &VolumeArguments) -> Option<String> {
-    let threshold = said.threshold.unwrap_or(TrackSettings::default().threshold);
+fn thin_notice(peak: f32, style: &SmokeStyle) -> Option<String> {
+    let threshold = style.puffs.threshold;
     let text = match peak {
         0.0 => "there is no smoke".to_owned(),
         _ => format!(

@@ -10,7 +10,7 @@ use npr_core::window::{View, Window};
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::Format;
 use npr_gpu::passes::smoke;
-use npr_smoke::Track;
+use npr_smoke::Puffs;
 use npr_style::lighting::Lights;
 use npr_style::shadow::{SHADOW_SIDE, SHADOWS_MAX};
 use npr_style::smoke::{SmokeLook, pen};
@@ -49,14 +49,18 @@ impl Smoke {
         bounds_of(corners)
     }
 
-    /// The spheres of a moment of a track, in the order of their birth. Heat is still the temperature of the volume: see
-    /// [`with_hottest`](Self::with_hottest). Spheres that come or go and are still or already tiny are left out.
-    pub fn of_track(track: &Track) -> Self {
-        let spheres = track.spheres();
-        let largest = spheres
-            .iter()
-            .map(|sphere| sphere.radius)
-            .fold(0.0, f32::max);
+    /// The spheres of a moment. Heat is still the temperature of the volume: see [`with_hottest`](Self::with_hottest).
+    ///
+    /// Spheres that grow from nothing or shrink away are left out while they are tiny; published ones are drawn at any size.
+    pub fn of_puffs(puffs: &Puffs) -> Self {
+        let spheres = puffs.spheres();
+        let largest = match puffs {
+            Puffs::Cover(_) => spheres
+                .iter()
+                .map(|sphere| sphere.radius)
+                .fold(0.0, f32::max),
+            Puffs::Published(_) => 0.0,
+        };
         let drawn = spheres.into_iter().map(|sphere| Sphere {
             heat: sphere.temperature,
             ..Sphere::new(
@@ -263,7 +267,11 @@ impl Measure {
             },
             line_inner: smoke.line.inner,
             line_from: smoke.line.jump,
-            line_weight: smoke.line.weight,
+            line_weight: if smoke.line.method == SmokeLines::Off {
+                0.0
+            } else {
+                smoke.line.weight
+            },
             depth_start: depth - radius,
             depth_size: 2.0 * radius,
             swell: smoke.line.swell,

@@ -110,6 +110,9 @@ pub use rule::{
 };
 pub use schema::schema;
 pub use shade::{Shade, ShadeMode, levels};
-pub use smoke::{SmokeInk, SmokeLine, SmokeLines, SmokeMethod, SmokeStop, SmokeStyle};
+pub use smoke::{
+    SmokeInk, SmokeLine, SmokeLines, SmokeMethod, SmokeOutput, SmokeParticles, SmokePlacement,
+    SmokePuffs, SmokeStop, SmokeStyle,
+};
 pub use style::Style;
 pub use width::{Channel, ControlPoint, Width, WidthSource};

@@ -6,6 +6,7 @@
 pub mod blur;
 mod depth_map;
 pub mod draw;
+mod idle;
 mod line;
 mod look;
 pub mod pen;
@@ -14,6 +15,10 @@ pub mod shade;
 mod style;
 mod veil;
 
+pub use idle::{IdleKeys, SmokeOutput};
 pub use look::{CELLS_MAX, LAYERS_MAX, SmokeLook, TAPS_MAX};
-pub use style::{SmokeInk, SmokeLine, SmokeLines, SmokeMethod, SmokeStop, SmokeStyle};
+pub use style::{
+    SmokeInk, SmokeLine, SmokeLines, SmokeMethod, SmokeParticles, SmokePlacement, SmokePuffs,
+    SmokeStop, SmokeStyle,
+};
 pub(crate) use veil::Veil;

@@ -2,6 +2,8 @@
 
 use super::Point;
 use clap::{Args, ValueEnum};
+use npr_smoke::Birthplace;
+use npr_style::{SmokeParticles, SmokeStyle};
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -13,13 +15,22 @@ pub struct VolumeArguments {
     /// where the file puts it; with @x,y,z the middle of its lowest plane stands there, and *scale makes it larger.
     #[arg(long = "volume", value_name = "FILE[@X,Y,Z[*SCALE]]")]
     pub volumes: Vec<PlacedVolume>,
-    /// Most spheres that a volume is drawn with: 30 bold and simple, 2000 a busy eruption [default: 200].
+    /// Which spheres stand for smoke [default: the style's, cover unless it says otherwise].
+    #[arg(long, value_enum)]
+    pub particles: Option<ParticlesName>,
+    /// Where smoke of a file comes from, for published particles: a point of the file's own world, and a radius round it; they are
+    /// born there [default: where the built-in simulation smokes, anywhere in a file's smoke].
+    #[arg(long, value_name = "X,Y,Z*RADIUS", allow_hyphen_values = true)]
+    pub emitter: Option<Emitter>,
+    /// Most spheres that a volume is drawn with: 30 bold and simple, 2000 a busy eruption; published particles are always as many
+    /// [default: the style's, 200 unless it says otherwise].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub spheres: Option<u32>,
-    /// Density up to which there is no smoke [default: 0.1].
+    /// Density up to which there is no smoke [default: the style's, 0.1 unless it says otherwise].
     #[arg(long, value_name = "DENSITY", value_parser = threshold)]
     pub threshold: Option<f32>,
-    /// Voxels along the longest side in which the shape of smoke is seen: 20 a few bold puffs, 200 every wisp [default: 40].
+    /// Voxels along the longest side in which the shape of smoke is seen: 20 a few bold puffs, 200 every wisp [default: the
+    /// style's, 40 unless it says otherwise].
     #[arg(long, value_name = "VOXELS", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub detail: Option<u32>,
     /// The grid of densities in .vdb files [default: density, or the only one].
@@ -37,6 +48,65 @@ pub struct VolumeArguments {
     /// Other numbers give other smoke of the same kind.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub seed: u32,
+}
+
+impl VolumeArguments {
+    /// A style of smoke with what the user said in place of its own values.
+    pub fn over(&self, style: &SmokeStyle) -> SmokeStyle {
+        let mut style = style.clone();
+        if let Some(particles) = self.particles {
+            style.particles = match particles {
+                ParticlesName::Cover => SmokeParticles::Cover,
+                ParticlesName::Published => SmokeParticles::Published,
+            };
+        }
+        style.puffs.count = self.spheres.unwrap_or(style.puffs.count);
+        style.puffs.threshold = self.threshold.unwrap_or(style.puffs.threshold);
+        style.puffs.detail = self.detail.unwrap_or(style.puffs.detail);
+        style
+    }
+}
+
+/// Which spheres stand for smoke.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ParticlesName {
+    /// As few as cover it, which follow it without popping.
+    Cover,
+    /// For comparison, as published in 2004: a constant number, born and dying at random, each as large as the smoke allows.
+    Published,
+}
+
+/// A ball that smoke comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Emitter {
+    center: Point,
+    radius: f32,
+}
+
+impl FromStr for Emitter {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let (center, radius) = text
+            .split_once('*')
+            .ok_or("must be a point and a radius, such as 0,1,0*0.2")?;
+        match radius.trim().parse::<f32>() {
+            Ok(radius) if radius > 0.0 && radius.is_finite() => Ok(Self {
+                center: center.parse()?,
+                radius,
+            }),
+            _ => Err("the radius behind * must be a number above 0".to_owned()),
+        }
+    }
+}
+
+impl From<Emitter> for Birthplace {
+    fn from(emitter: Emitter) -> Self {
+        Self::Emitter {
+            center: emitter.center.0.into(),
+            radius: emitter.radius,
+        }
+    }
 }
 
 /// Which axis points up.
@@ -141,6 +211,30 @@ mod tests {
         ] {
             assert!(placed(text).is_err(), "{text}");
         }
+    }
+
+    #[test]
+    fn an_emitter_is_a_point_and_a_radius() {
+        let emitter = |text: &str| text.parse::<Emitter>().map(|e| (e.center.0, e.radius));
+        assert_eq!(emitter("1,-2,.5*2"), Ok(([1.0, -2.0, 0.5], 2.0)));
+        for text in ["1,2,3", "1,2*3", "1,2,3*0", "1,2,3*nan", "*1", ""] {
+            assert!(emitter(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_said_wins_over_the_style() {
+        let mut style = SmokeStyle::default();
+        style.puffs.count = 7;
+        assert_eq!(VolumeArguments::default().over(&style), style);
+        let said = VolumeArguments {
+            particles: Some(ParticlesName::Published),
+            threshold: Some(0.3),
+            ..VolumeArguments::default()
+        };
+        let styled = said.over(&style);
+        assert_eq!(styled.particles, SmokeParticles::Published);
+        assert_eq!((styled.puffs.count, styled.puffs.threshold), (7, 0.3));
     }
 
     #[test]

@@ -50,23 +50,165 @@ fn every_built_in_source_gives_a_picture() {
     }
 }
 
+/// How many pixels of a picture are not as white as the paper.
+fn covered(place: &Workplace, name: &str) -> usize {
+    let picture = image::load_from_memory(&place.get(name))
+        .expect("a picture")
+        .into_rgba8();
+    picture.pixels().filter(|pixel| pixel.0 != [255; 4]).count()
+}
+
+/// Smoke is born and grows from frame to frame, and covers as much in a frame alone as in that of a film.
 #[test]
-fn a_film_is_a_file_a_frame_and_a_frame_alone_is_the_same() {
+fn a_film_shows_the_birth_of_smoke_and_a_frame_alone_is_one_of_it() {
     let place = Workplace::new();
-    let plume = ["plume", "--grid", "15x15x20", "--eye", "0,0.5,3"];
-    let film = ["--frames", "9..12", "-o", "p_##.png"];
-    smoke(&place, &[&plume[..], &film].concat()).assert_silent_success();
-    assert_eq!(
-        place.names(),
-        ["p_09.png", "p_10.png", "p_11.png", "p_12.png"]
+    let plume = [
+        "plume", "--grid", "15x15x20", "--eye", "0,0.5,3", "--target", "0,0.5,0",
+    ];
+    let film = ["--frames", "3..24", "-o", "p_##.png"];
+    for particles in ["cover", "published"] {
+        let chosen = [&plume[..], &["--particles", particles]].concat();
+        smoke(&place, &[&chosen[..], &film].concat()).assert_silent_success();
+        let names: Vec<String> = (3..=24).map(|frame| format!("p_{frame:02}.png")).collect();
+        assert!(names.iter().all(|name| place.names().contains(name)));
+        let sizes = [3, 10, 17, 24].map(|frame| covered(&place, &format!("p_{frame:02}.png")));
+        assert!(sizes[0] > 0 && sizes.is_sorted(), "{particles}: {sizes:?}");
+        assert!(sizes[3] > 2 * sizes[0], "{particles}: {sizes:?}");
+        let alone = ["--frames", "17", "-o", "again.png"];
+        smoke(&place, &[&chosen[..], &alone].concat()).assert_silent_success();
+        assert_eq!(covered(&place, "again.png"), sizes[2], "{particles}");
+    }
+}
+
+/// Every command that draws volumes draws the published particles where they are asked for, by option or by style, the same for any
+/// number of threads; and ours without.
+#[test]
+fn published_particles_are_drawn_by_every_command() {
+    let place = Workplace::with_scene();
+    place.put("ball.vdb", &ball(0));
+    let commands: [&[&str]; 5] = [
+        &["smoke", "plume", "--grid", "12x12x16", "--frames", "12"],
+        &["smoke", "ball.vdb"],
+        &["render", "ball.vdb"],
+        &["render", "scene.obj", "--volume", "ball.vdb@0.3,0,1*0.1"],
+        &["lines", "scene.obj", "--volume", "puff"],
+    ];
+    for command in commands {
+        let drawn = |threads: &str, more: &[&str]| {
+            let mut command = place.command(&[command, &SMALL[..], &["-o", "-"], more].concat());
+            command.env("RAYON_NUM_THREADS", threads);
+            let outcome = Outcome::of(command.output().expect("it starts"));
+            assert_eq!(
+                (outcome.code, outcome.stderr.as_str()),
+                (Some(0), ""),
+                "{more:?}"
+            );
+            outcome.stdout
+        };
+        let published = drawn("1", &["--particles", "published"]);
+        assert!(
+            published == drawn("3", &["--particles", "published"]),
+            "{command:?}: threads"
+        );
+        assert!(
+            published == drawn("2", &["--set", "smoke.particles=published"]),
+            "{command:?}: --set"
+        );
+        assert!(published != drawn("2", &[]), "{command:?}: ours");
+        assert!(
+            drawn("1", &[]) == drawn("2", &["--particles", "cover"]),
+            "{command:?}: cover"
+        );
+        assert!(
+            published != drawn("2", &["--particles", "published", "--seed", "9"]),
+            "{command:?}: seeds"
+        );
+    }
+}
+
+#[test]
+fn the_number_of_spheres_is_the_users_for_both_kinds() {
+    let place = Workplace::new();
+    let strokes = |particles: &str, count: &str| {
+        let command = [
+            "lines",
+            "plume",
+            "--particles",
+            particles,
+            "--spheres",
+            count,
+            "--format",
+            "json",
+        ];
+        let outcome = place.npr(&[&command[..], &["-q", "-o", "-", "--size", "320x240"]].concat());
+        outcome.assert_silent_success();
+        let drawing: serde_json::Value = serde_json::from_str(outcome.text()).expect("JSON");
+        drawing["strokes"].as_array().expect("strokes").len()
+    };
+    for particles in ["cover", "published"] {
+        let (few, many) = (strokes(particles, "8"), strokes(particles, "300"));
+        assert!(
+            0 < few && 2 * few < many,
+            "{particles}: {few} strokes, then {many}"
+        );
+    }
+}
+
+#[test]
+fn particles_are_born_where_the_user_says() {
+    let place = Workplace::new();
+    place.put("ball.vdb", &ball(0));
+    let published = [
+        "ball.vdb",
+        "--particles",
+        "published",
+        "--eye",
+        "0,0,20",
+        "--target",
+        "0,0,0",
+    ];
+    let drawn = |more: &[&str]| {
+        let outcome = smoke(&place, &[&published[..], &["-o", "out.png"], more].concat());
+        outcome.assert_silent_success();
+        covered(&place, "out.png")
+    };
+    let (anywhere, above) = (drawn(&[]), drawn(&["--emitter", "0,3,0*1.5"]));
+    assert!(
+        0 < above && above < anywhere,
+        "{above} of {anywhere} pixels"
     );
-    assert_ne!(place.get("p_09.png"), place.get("p_12.png"));
-    smoke(
-        &place,
-        &[&plume[..], &["--frames", "11", "-o", "again.png"]].concat(),
-    )
-    .assert_silent_success();
-    assert!(!is_blank(&place, "again.png"));
+    smoke(&place, &[&published[..], &["--emitter", "0,3,0"]].concat())
+        .assert_fault(2, "a point and a radius");
+    let idle = smoke(&place, &["ball.vdb", "--emitter", "0,3,0*1.5"]);
+    assert_eq!(idle.stderr, "npr: warning: --emitter does nothing: smoke.particles is cover\n");
+}
+
+/// Said once, by name, and only where there is smoke.
+#[test]
+fn keys_that_cannot_act_are_named() {
+    let place = Workplace::with_scene();
+    place.put("ball.vdb", &ball(0));
+    let boards = [
+        "--set",
+        "smoke.method=billboards",
+        "--set",
+        "smoke.sigma=3px",
+        "--set",
+        "smoke.line.width=9",
+    ];
+    let told = |command: &[&str]| {
+        let outcome = place.npr(&[command, &SMALL[..], &boards, &["-o", "-"]].concat());
+        assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+        outcome.stderr
+    };
+    let wanted = "npr: warning: smoke.sigma does nothing: smoke.method is billboards\n\
+                  npr: warning: smoke.line.width does nothing: smoke.method is billboards\n";
+    assert_eq!(told(&["smoke", "ball.vdb"]), wanted);
+    assert_eq!(
+        told(&["render", "scene.obj", "--volume", "ball.vdb"]),
+        wanted
+    );
+    assert_eq!(told(&["render", "scene.obj"]), "");
 }
 
 #[test]

@@ -33,6 +33,74 @@ pub enum SmokeLines {
     Off,
 }
 
+/// Which spheres stand for smoke.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SmokeParticles {
+    /// As few as cover it, which follow it from frame to frame without popping.
+    #[default]
+    Cover,
+    /// Comparison: a constant number of particles, born at random in the smoke or where it comes from, dead where they rest or leave
+    /// it, each as large as the smoke allows in every frame [Hoshino 2004, 3.1].
+    Published,
+}
+
+/// Where new spheres are placed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SmokePlacement {
+    /// Where much smoke is not covered yet, the deepest first.
+    #[default]
+    Cover,
+    /// Anywhere in the smoke, as in the publication.
+    Random,
+}
+
+/// The spheres that stand for smoke: how many there are, and how they follow it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SmokePuffs {
+    /// Most spheres of a volume, 1..1000000; default 200. 30 bold and simple, 2000 a busy eruption. Published particles are always as
+    /// many.
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub count: u32,
+    /// Density up to which there is no smoke, 0..1e9; default 0.1. Lower shows thinner smoke.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub threshold: f32,
+    /// Voxels along the longest side in which the shape of the smoke is seen, 1..1024; default 40. 20 a few bold puffs, 200 every
+    /// wisp. Published particles see all voxels there are.
+    #[schemars(range(min = 1, max = 1024))]
+    pub detail: u32,
+    /// Radius as a multiple of the way to where the smoke ends, 0.1..4; default 1.2. 1 keeps within the smoke, 1.4 makes fat,
+    /// overlapping puffs. Published particles have 1.
+    #[schemars(range(min = 0.1, max = 4.0))]
+    pub scale: f32,
+    /// Greatest change of a radius in a 24th of a second, as a share of the larger one, 0.001..1; default 0.12. 0.05 swells slowly,
+    /// 0.3 is nervous, 1 follows at once, as published particles do.
+    #[schemars(range(min = 0.001, max = 1.0))]
+    pub ease: f32,
+    /// Where new spheres are placed; default `cover`. Published particles are born as in the publication.
+    pub placement: SmokePlacement,
+    /// Speed up to which published particles rest and die, in units of the volume a second, 0..1e9; default 0, as published. Other
+    /// spheres live on where smoke stands still.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub still: f32,
+}
+
+impl Default for SmokePuffs {
+    fn default() -> Self {
+        Self {
+            count: 200,
+            threshold: 0.1,
+            detail: 40,
+            scale: 1.2,
+            ease: 0.12,
+            placement: SmokePlacement::Cover,
+            still: 0.0,
+        }
+    }
+}
+
 /// A colour of smoke from a tone on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -52,6 +120,10 @@ pub struct SmokeStop {
 pub struct SmokeStyle {
     /// What stands for a puff; default `spheres`.
     pub method: SmokeMethod,
+    /// Which spheres stand for smoke; default `cover`.
+    pub particles: SmokeParticles,
+    /// How many spheres there are, and how they follow the smoke.
+    pub puffs: SmokePuffs,
     /// The tones, 1 to 8, sorted by `at`; default two, blue-grey shade and white. Three make rounder puffs, six a painting.
     #[schemars(length(min = 1, max = 8))]
     pub ramp: Vec<SmokeStop>,
@@ -202,6 +274,8 @@ impl Default for SmokeStyle {
         let stop = |at, color| SmokeStop { at, color };
         Self {
             method: SmokeMethod::Spheres,
+            particles: SmokeParticles::Cover,
+            puffs: SmokePuffs::default(),
             ramp: vec![
                 stop(0.0, Color::rgb(0x9f, 0xa6, 0xbd)),
                 stop(0.45, Color::rgb(0xf8, 0xf8, 0xfb)),
@@ -272,7 +346,7 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_again() {
-        let text = "[smoke]\nmethod = 'billboards'\nsigma = '3px'\nlight = [0, 1, 0]\nline.method = 'published'\n\
+        let text = "[smoke]\nparticles = 'published'\npuffs = { count = 30, placement = 'random' }\nmethod = 'billboards'\nsigma = '3px'\nlight = [0, 1, 0]\nline.method = 'published'\n\
                     ramp = [{ at = 0.0, color = 'black' }, { at = 0.5, color = 'white' }]";
         let style = read(text).expect("a style");
         assert_eq!(style.smoke.levels()[1], [1.0, 1.0, 1.0, 0.5]);
@@ -294,6 +368,16 @@ mod tests {
                 "smoke.ramp = [{ at = 0.5, color = 'red' }, { at = 0.2, color = 'red' }]",
                 "smoke.ramp.1.at",
                 "lies before the stop ahead of it",
+            ),
+            (
+                "smoke.puffs.ease = 0",
+                "smoke.puffs.ease",
+                "is 0, but must lie in 0.001..1",
+            ),
+            (
+                "smoke.particles = 'puplished'",
+                "smoke.particles",
+                "is 'puplished', but must be one of cover, published",
             ),
             (
                 "smoke.opacty = 1",
