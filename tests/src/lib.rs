@@ -23,6 +23,7 @@ mod ink;
 mod montage;
 mod object;
 mod png;
+mod smoke;
 mod wanted;
 
 pub use agreement::Agreement;
@@ -34,4 +35,5 @@ pub use ink::Ink;
 pub use montage::{beside, cropped, enlarged, reduced};
 pub use object::{Object, boxed, crossing_boxes, placed, scene_of};
 pub use png::{read_png, write_png};
+pub use smoke::{SmokeFilm, draw_smoke, front_camera, orbit_camera};
 pub use wanted::Wanted;

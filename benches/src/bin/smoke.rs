@@ -12,9 +12,9 @@ use npr_benches::subject::shared_volumes;
 use npr_benches::table::Table;
 use npr_core::camera::Camera;
 use npr_gpu::processor::Processor;
-use npr_render::{Frame, Model, Stage, StageOptions};
+use npr_render::{Following, Frame, Model, Stage, StageOptions};
 use npr_scene::Scene;
-use npr_smoke::{Distances, Smoke, Sphere, Track, TrackSettings, Volume};
+use npr_smoke::{Distances, Puffs, Smoke, Sphere, Track, TrackSettings, Volume, covered_share};
 use npr_style::Style;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
@@ -35,13 +35,23 @@ const RUNS: usize = 25;
 const FRAMES: u32 = 36;
 
 /// What is held against the baseline, and the baseline itself at the end.
-const CALM: [(&str, &[&str]); 5] = [
+const CALM: [(&str, &[&str]); 6] = [
     ("smoke-cel-2", &[]),
     ("its lines alone", &["smoke.ramp=[{at=0,color='#f8f8fb'}]"]),
     ("its tones alone", &["smoke.line.method=off"]),
     (
-        "as published",
+        "published tones and lines on our spheres",
         &[
+            "smoke.line.method=published",
+            "smoke.layer_blend=0",
+            "smoke.sigma=3px",
+            "smoke.wrap=0",
+        ],
+    ),
+    (
+        "as published, particles too",
+        &[
+            "smoke.particles=published",
             "smoke.line.method=published",
             "smoke.layer_blend=0",
             "smoke.sigma=3px",
@@ -297,8 +307,8 @@ fn calm() -> Outcome<()> {
          that stand for the smoke, is carried to the frame before with its sphere and through that frame's camera, once as paint on \
          the sphere and once as part of its image, as outlines are; it is compared where it is seen there too, and either way may \
          explain its tone. Its tone differs where it lies more than {STEP} of the way from black to white off the tone \
-         there; it jumps where nothing within a pixel comes nearer either. All styles are held against the same points. \
-         Billboards are lit by nothing: of them only lines can change.\n"
+         there; it jumps where nothing within a pixel comes nearer either. All styles are held against the same points, those of our \
+         spheres, whatever spheres they draw. Billboards are lit by nothing: of them only lines can change.\n"
     );
     let mut table = Table::new([
         "subject",
@@ -315,7 +325,117 @@ fn calm() -> Outcome<()> {
     }
     add_rows(&mut table, "the built-in plume, camera still", rising)?;
     println!("{table}");
+    lives()
+}
+
+/// How spheres come, go and change their size, whatever is drawn of them.
+fn lives() -> Outcome<()> {
+    println!("### The spheres themselves\n");
+    println!(
+        "The same plume. A sphere comes or goes at once where it is there in one frame, larger than a tenth of the largest, and not \
+         in the next. Radii: by how much a sphere changes from frame to frame, as a share of the larger radius. Billboards stand where \
+         our spheres do, all of their mean size.\n"
+    );
+    let mut table = Table::new([
+        "spheres",
+        "in a frame",
+        "smoke that they cover",
+        "come or go at once, a frame",
+        "mean change of a radius",
+        "greatest",
+    ]);
+    for particles in ["cover", "published"] {
+        let style = look(&[&format!("smoke.particles={particles}"), PLUME_COUNT])?;
+        let mut film = Film::new(&style)?;
+        let mut life = Life::default();
+        let mut before = film.puffs.spheres();
+        for _ in 0..FRAMES {
+            let volume = film.step();
+            let after = film.puffs.spheres();
+            life.enter(&before, &after, &volume);
+            before = after;
+        }
+        table.add(particles, life.cells());
+    }
+    println!("{table}");
     Ok(())
+}
+
+/// What happens to spheres over a film.
+#[derive(Default)]
+struct Life {
+    spheres: usize,
+    covered: f32,
+    pops: usize,
+    changes: Vec<f32>,
+}
+
+impl Life {
+    fn enter(&mut self, before: &[Sphere], after: &[Sphere], volume: &Volume) {
+        let distances = Distances::new(volume, TrackSettings::default().threshold);
+        let largest = after.iter().map(|sphere| sphere.radius).fold(0.0, f32::max);
+        let popped = |here: &[Sphere], there: &[Sphere]| {
+            let seen = here.iter().filter(|sphere| sphere.radius > 0.1 * largest);
+            seen.filter(|sphere| there.iter().all(|other| other.id != sphere.id))
+                .count()
+        };
+        self.spheres += after.len();
+        self.covered += covered_share(after, volume, &distances);
+        self.pops += popped(before, after) + popped(after, before);
+        for sphere in after {
+            if let Some(was) = before.iter().find(|was| was.id == sphere.id) {
+                let larger = was.radius.max(sphere.radius);
+                self.changes
+                    .push((was.radius - sphere.radius).abs() / larger);
+            }
+        }
+    }
+
+    fn cells(&self) -> [String; 5] {
+        let frames = FRAMES as f32;
+        let mean = self.changes.iter().sum::<f32>() / self.changes.len().max(1) as f32;
+        let greatest = self.changes.iter().copied().fold(0.0, f32::max);
+        [
+            (self.spheres / FRAMES as usize).to_string(),
+            format!("{:.0} %", 100.0 * self.covered / frames),
+            format!("{:.1}", self.pops as f32 / frames),
+            format!("{:.1} %", 100.0 * mean),
+            format!("{:.0} %", 100.0 * greatest),
+        ]
+    }
+}
+
+/// Most spheres of the plume.
+const PLUME_COUNT: &str = "smoke.puffs.count=300";
+
+/// The built-in plume from its 24th frame on, followed by the spheres of a style from its first.
+struct Film {
+    smoke: Smoke,
+    puffs: Puffs,
+}
+
+impl Film {
+    fn new(style: &Style) -> Outcome<Self> {
+        let settings = plume([30, 30, 60]);
+        let mut smoke = Smoke::new(settings)?;
+        smoke.step();
+        let following = Following {
+            birthplace: settings.birthplace(),
+            ..Following::default()
+        };
+        let puffs = Puffs::new(&smoke.volume(), following.settings(&style.smoke));
+        let mut film = Self { smoke, puffs };
+        (1..24).for_each(|_| drop(film.step()));
+        Ok(film)
+    }
+
+    /// Goes on by a frame.
+    fn step(&mut self) -> Volume {
+        self.smoke.step();
+        let volume = self.smoke.volume();
+        self.puffs.step(&volume);
+        volume
+    }
 }
 
 /// A row for every style of a subject.
@@ -343,39 +463,34 @@ fn add_rows(
 }
 
 fn orbit(volume: &Volume, settings: &[&str]) -> Outcome<Change> {
-    let track = TrackSettings {
-        count: 600,
-        ..TrackSettings::default()
+    let spheres_of = |settings: &[&str]| -> Outcome<Vec<Sphere>> {
+        let style = look(&[settings, &["smoke.puffs.count=600"]].concat())?;
+        let puffs = Puffs::new(volume, Following::default().settings(&style.smoke));
+        Ok(puffs.spheres())
     };
-    let spheres = Track::new(volume, track).spheres();
+    let (points, spheres) = (spheres_of(&[])?, spheres_of(settings)?);
     let model = empty()?;
     let mut picture = Picture::new(&model, &look(settings)?, PAPER_SIZE, spheres.len() as u32)?;
     let shown = |step: u32| {
         let camera = picture.camera(volume, step as f32);
         let frame = picture.draw(&spheres, volume, &camera)?;
-        Ok(Shown::new(&frame, &camera, &spheres))
+        Ok(Shown::new(&frame, &camera, &points))
     };
     sum_of_changes(shown)
 }
 
 fn rising(settings: &[&str]) -> Outcome<Change> {
-    let mut smoke = Smoke::new(plume([30, 30, 60]))?;
-    (0..24).for_each(|_| smoke.step());
-    let track = TrackSettings {
-        count: 300,
-        ..TrackSettings::default()
-    };
-    let count = track.count;
-    let mut track = Track::new(&smoke.volume(), track);
+    let style = look(&[settings, &[PLUME_COUNT]].concat())?;
+    let mut points = Film::new(&look(&[PLUME_COUNT])?)?;
+    let mut film = Film::new(&style)?;
     let model = empty()?;
-    let mut picture = Picture::new(&model, &look(settings)?, PAPER_SIZE, count)?;
+    let mut picture = Picture::new(&model, &style, PAPER_SIZE, style.smoke.puffs.count)?;
     let shown = |_| {
-        smoke.step();
-        let volume = smoke.volume();
-        track.step(&volume);
-        let (spheres, camera) = (track.spheres(), picture.camera(&volume, 0.0));
+        let volume = film.step();
+        points.step();
+        let (spheres, camera) = (film.puffs.spheres(), picture.camera(&volume, 0.0));
         let frame = picture.draw(&spheres, &volume, &camera)?;
-        Ok(Shown::new(&frame, &camera, &spheres))
+        Ok(Shown::new(&frame, &camera, &points.puffs.spheres()))
     };
     sum_of_changes(shown)
 }

@@ -180,7 +180,10 @@ fn particles_are_born_where_the_user_says() {
     smoke(&place, &[&published[..], &["--emitter", "0,3,0"]].concat())
         .assert_fault(2, "a point and a radius");
     let idle = smoke(&place, &["ball.vdb", "--emitter", "0,3,0*1.5"]);
-    assert_eq!(idle.stderr, "npr: warning: --emitter does nothing: smoke.particles is cover\n");
+    assert_eq!(
+        idle.stderr,
+        "npr: warning: --emitter does nothing: smoke.particles is cover\n"
+    );
 }
 
 /// Said once, by name, and only where there is smoke.
