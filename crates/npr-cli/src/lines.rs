@@ -70,6 +70,11 @@ fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, 
     let camera = viewpoint::camera(&job.said.drawing.camera, lines, job.said.drawing.size)?;
     let drawn = draw_lines(job, &model, &camera, progress)?;
     let drawing = &drawn.picture.drawing;
+    progress.suspend(|| {
+        for notice in &drawing.notices {
+            message::warn(job.said.drawing.quiet, notice);
+        }
+    });
     let view = camera.view(drawing.size, lines.bounds());
     let lettering = job.lettering.placed(&view, job.options.dpi);
     let bytes = progress.step("encode", || line_file::encode(job, drawing, lettering))?;
@@ -188,9 +193,6 @@ fn is_intersection(kind: &Kind) -> bool {
 fn warn_of(job: &LineJob<'_>, model: &LineModel, smoke: &Film) {
     let warn = |text: &str| message::warn(job.said.drawing.quiet, text);
     for notice in model.notices().iter().chain(&smoke.notices) {
-        warn(notice);
-    }
-    if let Some(notice) = model.lacks(&job.options) {
         warn(notice);
     }
     for notice in job.lettering.notices() {

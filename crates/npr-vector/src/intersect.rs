@@ -18,6 +18,7 @@ mod tests;
 use crate::bvh::FaceTree;
 use crate::graph::CurveGraph;
 use cut::Segment;
+use npr_core::budget::{Budget, OverBudget};
 use npr_core::shape::Shape;
 use rayon::prelude::*;
 
@@ -77,9 +78,20 @@ impl Crossings {
 ///
 /// Exact for any finite positions, the same for any number of threads. About O(n log n) in faces plus the number of
 /// overlapping pairs, which is bounded; memory likewise. Faces that share an edge meet there alone.
-pub fn crossings(shape: &Shape, tree: &FaceTree) -> Crossings {
+///
+/// # Errors
+///
+/// [`OverBudget`] where there is no memory for the pairs.
+pub fn crossings(
+    shape: &Shape,
+    tree: &FaceTree,
+    budget: &mut Budget,
+) -> Result<Crossings, OverBudget> {
     let limit = PAIRS + PAIRS_PER_FACE * shape.faces.len();
-    let found = pairs::find(shape, tree, limit);
+    let bytes = size_of::<[u32; 2]>() + size_of::<Segment>() + 2 * size_of::<Piercing>();
+    let found = pairs::find(shape, tree, limit, &mut |count| {
+        budget.take("pairs of faces that overlap", count, bytes)
+    })?;
     let mut segments: Vec<Segment> = found
         .pairs
         .par_iter()
@@ -92,11 +104,11 @@ pub fn crossings(shape: &Shape, tree: &FaceTree) -> Crossings {
         segments.clear();
     }
     segments.par_sort_unstable_by_key(|segment| segment.faces);
-    Crossings {
+    Ok(Crossings {
         graph: link::link(shape, &segments),
         piercings,
         overflow: found.overflow || is_dense,
-    }
+    })
 }
 
 /// Every piercing once, though each is the end of a segment on all faces of its edge.

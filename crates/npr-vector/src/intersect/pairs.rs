@@ -1,6 +1,7 @@
 //! Pairs of faces that may cut each other: boxes overlap, and neither lies wholly beside the other's plane.
 
 use crate::bvh::FaceTree;
+use npr_core::budget::OverBudget;
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 use rayon::prelude::*;
@@ -34,8 +35,13 @@ pub(super) struct Pairs {
     pub(super) overflow: bool,
 }
 
-/// Finds pairs until there are `limit` of them.
-pub(super) fn find(shape: &Shape, tree: &FaceTree, limit: usize) -> Pairs {
+/// Finds pairs until there are `limit` of them; `take` plans memory for so many more.
+pub(super) fn find(
+    shape: &Shape,
+    tree: &FaceTree,
+    limit: usize,
+    take: &mut dyn FnMut(usize) -> Result<(), OverBudget>,
+) -> Result<Pairs, OverBudget> {
     let nodes = walk_order(tree);
     let groups = groups(&nodes);
     let mut found = Pairs {
@@ -56,10 +62,11 @@ pub(super) fn find(shape: &Shape, tree: &FaceTree, limit: usize) -> Pairs {
             .collect();
         for group in per_group {
             found.overflow |= group.overflow;
+            take(group.pairs.len())?;
             found.pairs.extend(group.pairs);
         }
     }
-    found
+    Ok(found)
 }
 
 /// Lays the nodes out so that a walk without a stack reads them front to back.

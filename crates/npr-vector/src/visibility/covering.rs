@@ -1,0 +1,237 @@
+//! The faces of a view in boxes of the picture: which parts of a line they hide, without looking at outlines.
+
+use super::{Circumstances, Piece, Seen};
+use crate::bvh::{FaceTree, bounds, hidden_range};
+use crate::project::Projector;
+use glam::DVec3;
+use npr_core::shape::Shape;
+
+/// How far boxes are grown for rounding, in pixels and as a share of a depth.
+const ROOM: f64 = 1e-6;
+
+/// Parts of a line found before they are joined.
+const BATCH: usize = 64;
+
+/// Where the faces below each node of a [`FaceTree`] lie in the picture, for one view.
+#[derive(Debug)]
+pub struct FaceImages(Vec<ImageBox>);
+
+/// A box in the picture, and the depth before which nothing of it lies.
+#[derive(Debug, Clone, Copy)]
+struct ImageBox {
+    low: [f64; 2],
+    high: [f64; 2],
+    near: f64,
+}
+
+impl ImageBox {
+    /// Holds nothing.
+    const EMPTY: Self = Self {
+        low: [f64::INFINITY; 2],
+        high: [f64::NEG_INFINITY; 2],
+        near: f64::INFINITY,
+    };
+
+    /// The box of a face; all of the picture where the face reaches before the near plane.
+    fn of(shape: &Shape, face: u32, projector: &Projector) -> Self {
+        let corners = shape.faces[face as usize].map(|v| shape.point(v));
+        let depths = corners.map(|corner| projector.depth(corner));
+        let near = depths.into_iter().fold(f64::INFINITY, f64::min);
+        let mut found = Self {
+            near: near - near.abs() * ROOM,
+            ..Self::EMPTY
+        };
+        let in_front = !projector.is_perspective() || near >= projector.near();
+        for corner in corners {
+            for (axis, place) in projector.project(corner).into_iter().enumerate() {
+                let known = in_front && place.is_finite();
+                let room = ROOM * (1.0 + place.abs());
+                let [low, high] = match known {
+                    true => [place - room, place + room],
+                    false => [f64::NEG_INFINITY, f64::INFINITY],
+                };
+                found.low[axis] = found.low[axis].min(low);
+                found.high[axis] = found.high[axis].max(high);
+            }
+        }
+        found
+    }
+
+    fn join(&mut self, other: &Self) {
+        for axis in 0..2 {
+            self.low[axis] = self.low[axis].min(other.low[axis]);
+            self.high[axis] = self.high[axis].max(other.high[axis]);
+        }
+        self.near = self.near.min(other.near);
+    }
+
+    /// The part of a line's image that lies in the box; none where none does.
+    fn part_of(&self, [a, b]: [[f64; 2]; 2]) -> Option<[f64; 2]> {
+        let mut part: [f64; 2] = [0.0, 1.0];
+        for axis in 0..2 {
+            let along = b[axis] - a[axis];
+            let [low, high] = [self.low[axis] - a[axis], self.high[axis] - a[axis]];
+            if along == 0.0 {
+                if low > 0.0 || high < 0.0 {
+                    return None;
+                }
+                continue;
+            }
+            let [enter, leave] = [low / along, high / along];
+            part[0] = part[0].max(enter.min(leave));
+            part[1] = part[1].min(enter.max(leave));
+        }
+        (part[0] <= part[1]).then_some(part)
+    }
+}
+
+impl FaceImages {
+    /// Bytes of a face's share.
+    pub(crate) const BYTES_PER_FACE: usize = 2 * size_of::<ImageBox>();
+
+    /// Finds the boxes. O(faces).
+    pub fn new(shape: &Shape, tree: &FaceTree, projector: &Projector) -> Self {
+        let nodes = &tree.bvh.nodes;
+        let mut boxes = vec![ImageBox::EMPTY; nodes.len()];
+        // Parents before children, then back.
+        let mut order: Vec<u32> = Vec::with_capacity(nodes.len());
+        let mut stack: Vec<u32> = (!nodes.is_empty()).then_some(0).into_iter().collect();
+        while let Some(index) = stack.pop() {
+            order.push(index);
+            let node = &nodes[index as usize];
+            if !node.is_leaf() {
+                stack.extend([node.first_index, node.first_index + 1]);
+            }
+        }
+        for index in order.into_iter().rev() {
+            let node = &nodes[index as usize];
+            let mut found = ImageBox::EMPTY;
+            if node.is_leaf() {
+                for face in tree.faces_of(node) {
+                    found.join(&ImageBox::of(shape, *face, projector));
+                }
+            } else {
+                found.join(&boxes[node.first_index as usize]);
+                found.join(&boxes[node.first_index as usize + 1]);
+            }
+            boxes[index as usize] = found;
+        }
+        Self(boxes)
+    }
+
+    /// The parts of a piece that faces hide, in shares of its image: ascending, apart from each other.
+    ///
+    /// Boxes near the eye come first, and those over parts that are hidden already are passed by: a line behind many faces is done with
+    /// when the first few have covered it.
+    pub(super) fn hidden_parts(
+        &self,
+        seen: &Seen<'_>,
+        piece: &Piece,
+        circumstances: &Circumstances,
+    ) -> Vec<[f64; 2]> {
+        let nodes = &seen.tree.bvh.nodes;
+        let sights = piece.world.map(|end| seen.sight(end, circumstances));
+        let reach = Reach::of(&sights.map(|sight| [sight.eye, sight.point].map(DVec3::from)));
+        let farthest = piece.depth[0].max(piece.depth[1]);
+        let enter = |index: u32| {
+            let image = &self.0[index as usize];
+            let is_before = image.near < farthest && reach.meets(seen.tree, index);
+            Some((index, image.part_of(piece.place).filter(|_| is_before)?))
+        };
+        let mut cover = Cover::default();
+        let mut stack: Vec<(u32, [f64; 2])> = Vec::with_capacity(64);
+        stack.extend((!nodes.is_empty()).then(|| enter(0)).flatten());
+        while let Some((index, part)) = stack.pop() {
+            if cover.holds(part) {
+                continue;
+            }
+            let node = &nodes[index as usize];
+            if node.is_leaf() {
+                let faces = seen.tree.faces_of(node).iter();
+                for face in faces.filter(|face| !circumstances.own_faces.contains(face)) {
+                    let range = hidden_range(seen.shape, *face, &sights);
+                    cover.add(range.map(|ends| {
+                        ends.map(|share| seen.projector.image_share(share, piece.depth))
+                    }));
+                }
+                continue;
+            }
+            let near = |index: u32| self.0[index as usize].near;
+            let (one, other) = (node.first_index, node.first_index + 1);
+            // The nearer comes off the stack first.
+            let [first, last] = if near(one) <= near(other) { [other, one] } else { [one, other] };
+            stack.extend(enter(first));
+            stack.extend(enter(last));
+        }
+        cover.join();
+        cover.joined
+    }
+}
+
+/// The box in the world around all ways from the eye to a line, without their last bit: what lies beside it, or only touches the line, hides
+/// nothing of it.
+struct Reach {
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Reach {
+    fn of(ways: &[[DVec3; 2]; 2]) -> Self {
+        let ends = ways.map(|[eye, point]| eye + (point - eye) * (1.0 - crate::bvh::NEARER));
+        let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+        let eyes = ways.map(|[eye, _]| eye);
+        Self {
+            low: low.min(eyes[0]).min(eyes[1]),
+            high: high.max(eyes[0]).max(eyes[1]),
+        }
+    }
+
+    fn meets(&self, tree: &FaceTree, index: u32) -> bool {
+        let [low, high] = bounds(tree.bvh.nodes[index as usize].aabb());
+        let (low, high) = (low.truncate().as_dvec3(), high.truncate().as_dvec3());
+        low.cmple(self.high).all() && high.cmpge(self.low).all()
+    }
+}
+
+/// Parts of a line, joined where they meet.
+#[derive(Debug, Default)]
+struct Cover {
+    /// Ascending, apart from each other.
+    joined: Vec<[f64; 2]>,
+    /// Found since they were joined last.
+    found: Vec<[f64; 2]>,
+}
+
+impl Cover {
+    /// Takes a part in. O(log n) on the whole.
+    fn add(&mut self, part: Option<[f64; 2]>) {
+        self.found.extend(part);
+        // The longer the list, the rarer it is gone through.
+        if self.found.len() >= BATCH.max(self.joined.len()) || part.is_some_and(is_long) {
+            self.join();
+        }
+    }
+
+    fn join(&mut self) {
+        let mut parts = std::mem::take(&mut self.joined);
+        parts.append(&mut self.found);
+        parts.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        for part in parts {
+            match self.joined.last_mut() {
+                Some(last) if part[0] <= last[1] => last[1] = last[1].max(part[1]),
+                _ => self.joined.push(part),
+            }
+        }
+    }
+
+    /// Whether a part lies in what was joined.
+    fn holds(&self, [from, to]: [f64; 2]) -> bool {
+        let after = self.joined.partition_point(|part| part[0] <= from);
+        after > 0 && to <= self.joined[after - 1][1]
+    }
+}
+
+/// Worth joining at once: what it covers need not be looked at again.
+fn is_long([from, to]: [f64; 2]) -> bool {
+    to - from > 1.0 / 16.0
+}
