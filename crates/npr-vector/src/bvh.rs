@@ -310,7 +310,10 @@ pub(crate) fn hidden_range(shape: &Shape, face: u32, sights: &[Sight; 2]) -> Opt
                 let (to, from) = (corners[to] - eye, corners[from] - eye);
                 -sign * (DVec3::from(s.point) - eye).dot(to.cross(from))
             };
-            keep([side(&sights[0]), side(&sights[1])], (low < high) == (sign < 0.0))
+            keep(
+                [side(&sights[0]), side(&sights[1])],
+                (low < high) == (sign < 0.0),
+            )
         };
         (stays && passes.map(inside).all(|kept| kept)).then_some(range)
     })

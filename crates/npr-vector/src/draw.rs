@@ -284,6 +284,7 @@ pub fn strokes_with(
         projector,
         outlines: &outlines,
         images: &images,
+        size: settings.size,
         puffs: smoke
             .filter(|smoke| smoke.is_dense)
             .map(|smoke| smoke.puffs),
@@ -566,8 +567,10 @@ impl View<'_> {
                     let piece = lines[*index].as_ref().map(|line| &line.piece)?;
                     let node = &graph.nodes[*index];
                     let other = graph.nodes.get(node.next as usize)?;
-                    let is_free = !toll.ink.is_black_along(piece);
-                    is_free.then(|| seen.spans(piece, &self.circumstances(node, other), &mut None))
+                    let black = toll.ink.black_parts(piece);
+                    let is_free = black != [[0.0, 1.0]];
+                    let of_piece = || self.circumstances(node, other, true);
+                    is_free.then(|| seen.crowded_spans(piece, &of_piece(), &black))
                 })
                 .collect();
             for (index, spans) in round.iter().zip(found) {
@@ -603,7 +606,7 @@ impl View<'_> {
         let (piece, other) = self.piece_after(graph, node)?;
         let spans: Vec<Span> = match seen.outlines.is_crowded(&piece) {
             true => Vec::new(),
-            false => seen.spans(&piece, &self.circumstances(node, other), last),
+            false => seen.spans(&piece, &self.circumstances(node, other, false), last),
         };
         let surface = match self.shape.wire_of(node.edge) {
             Some(wire) => self.shape.wire_surfaces[wire],
@@ -707,8 +710,13 @@ impl View<'_> {
         Some((graph, lines))
     }
 
-    /// Faces that a piece lies in, and where it goes through others.
-    fn circumstances(&self, node: &CurveNode, other: &CurveNode) -> Circumstances {
+    /// Faces that a piece lies in, and where it goes through others, which a crowded piece need not know.
+    fn circumstances(
+        &self,
+        node: &CurveNode,
+        other: &CurveNode,
+        is_crowded: bool,
+    ) -> Circumstances {
         let mut own_faces: Vec<u32> = self
             .shape
             .sides(node.edge)
@@ -718,7 +726,11 @@ impl View<'_> {
         if node.is_along_edge() {
             let is_wire = self.shape.wire_of(node.edge).is_some();
             return Circumstances {
-                piercings: self.piercings(node),
+                piercings: if is_crowded {
+                    Vec::new()
+                } else {
+                    self.piercings(node)
+                },
                 own_faces,
                 touch: if is_wire { self.prepared.touch } else { 0.0 },
             };
@@ -726,8 +738,8 @@ impl View<'_> {
         own_faces.extend(self.shape.sides(other.edge).iter().map(|side| side / 3));
         own_faces.push(node.face);
         for end in [node, other] {
-            let pierced = self.prepared.crossings.of_edge(end.edge).iter();
-            own_faces.extend(pierced.filter(|p| p.t == end.t).map(|p| p.face));
+            let pierced = self.prepared.crossings.at(end.edge, end.t).iter();
+            own_faces.extend(pierced.map(|p| p.face));
         }
         Circumstances {
             own_faces,

@@ -22,10 +22,10 @@ use npr_core::budget::{Budget, OverBudget};
 use npr_core::shape::Shape;
 use rayon::prelude::*;
 
-/// Pairs of faces looked at exactly, beside [`PAIRS_PER_FACE`] for every face: some seconds of work.
+/// Pairs of faces looked at exactly, beside [`PAIRS_PER_FACE`] for every face: a second of work.
 ///
 /// Where thousands of faces all overlap each other, pairs grow with the square of their number.
-pub const PAIRS: usize = 1 << 20;
+pub const PAIRS: usize = 1 << 18;
 
 /// Pairs of faces looked at exactly, for every face of the shape.
 pub const PAIRS_PER_FACE: usize = 16;
@@ -66,6 +66,13 @@ pub struct Crossings {
 }
 
 impl Crossings {
+    /// The piercings at a place of an edge. O(log n).
+    pub fn at(&self, edge: u32, t: f32) -> &[Piercing] {
+        let of_edge = self.of_edge(edge);
+        let from = of_edge.partition_point(|p| p.t < t);
+        &of_edge[from..from + of_edge[from..].partition_point(|p| p.t == t)]
+    }
+
     /// The piercings of an edge, by place. O(log n).
     pub fn of_edge(&self, edge: u32) -> &[Piercing] {
         let from = self.piercings.partition_point(|p| p.edge < edge);

@@ -64,7 +64,8 @@ impl Piece {
             let (low, high) = (-margin, f64::from(size[axis]) + margin);
             let [p, q] = place.map(|place| place[axis]);
             if !cut_range(&mut shown, [p - low, q - low])
-                || !cut_range(&mut shown, [high - p, high - q]) {
+                || !cut_range(&mut shown, [high - p, high - q])
+            {
                 return None;
             }
         }
@@ -297,6 +298,8 @@ pub struct Seen<'a> {
     pub images: &'a OnceLock<FaceImages>,
     /// Smoke that hides lines, where there is any.
     pub puffs: Option<&'a Puffs>,
+    /// Width and height of the picture in pixels.
+    pub size: [u32; 2],
     /// Up to how many surfaces in front are counted; 1 only tells visible from hidden.
     pub count_limit: u32,
 }
@@ -313,7 +316,7 @@ impl Seen<'_> {
         last: &mut Option<u32>,
     ) -> Vec<Span> {
         if self.outlines.is_crowded(piece) {
-            return self.crowded_spans(piece, circumstances);
+            return self.crowded_spans(piece, circumstances, &[]);
         }
         let cuts = self.cuts(piece, &circumstances.piercings);
         let mut spans: Vec<Span> = Vec::with_capacity(1);
@@ -325,13 +328,20 @@ impl Seen<'_> {
         spans
     }
 
-    /// The spans of a piece by the parts of it that each face hides. About O(log n) for each face that hides a part no other does.
-    fn crowded_spans(&self, piece: &Piece, circumstances: &Circumstances) -> Vec<Span> {
+    /// The spans of a piece by the parts of it that each face hides, without those parts, ascending, that are `left_out`. About O(log n) for each
+    /// face that hides a part no other does.
+    pub(crate) fn crowded_spans(
+        &self,
+        piece: &Piece,
+        circumstances: &Circumstances,
+        left_out: &[[f64; 2]],
+    ) -> Vec<Span> {
         let images = self
             .images
-            .get_or_init(|| FaceImages::new(self.shape, self.tree, self.projector));
+            .get_or_init(|| FaceImages::new(self.shape, self.tree, self.projector, self.size));
         let mut ends = vec![0.0];
-        ends.extend(images.hidden_parts(self, piece, circumstances).as_flattened());
+        let hidden = images.hidden_parts(self, piece, circumstances, left_out);
+        ends.extend(hidden.as_flattened());
         ends.push(1.0);
         let mut spans: Vec<Span> = Vec::with_capacity(ends.len());
         for (pair, occluders) in ends.windows(2).zip([0, 1].into_iter().cycle()) {
@@ -346,16 +356,25 @@ impl Seen<'_> {
         for span in spans {
             let is_short = span.to - span.from < least;
             let occluders = kept.last().filter(|_| is_short).map(|last| last.occluders);
-            push(&mut kept, [span.from, span.to], occluders.unwrap_or(span.occluders));
+            push(
+                &mut kept,
+                [span.from, span.to],
+                occluders.unwrap_or(span.occluders),
+            );
         }
-        kept
+        without(&kept, left_out)
     }
 
     /// The spans of a part that no face hides: smoke may.
     fn push_veiled(&self, piece: &Piece, [from, to]: [f64; 2], spans: &mut Vec<Span>) {
         let mut cuts = vec![from];
         if let Some(puffs) = self.puffs {
-            cuts.extend(puffs.cuts(piece).into_iter().filter(|cut| from < *cut && *cut < to));
+            cuts.extend(
+                puffs
+                    .cuts(piece)
+                    .into_iter()
+                    .filter(|cut| from < *cut && *cut < to),
+            );
         }
         cuts.push(to);
         cuts.sort_by(f64::total_cmp);
@@ -421,6 +440,30 @@ impl Seen<'_> {
             touch: circumstances.touch,
         }
     }
+}
+
+/// What is left of spans beside some parts, ascending; neither overlap among themselves.
+fn without(spans: &[Span], parts: &[[f64; 2]]) -> Vec<Span> {
+    let mut left = Vec::with_capacity(spans.len());
+    for span in spans {
+        let first = parts.partition_point(|part| part[1] <= span.from);
+        let inside = parts[first..].iter().take_while(|part| part[0] < span.to);
+        let mut from = span.from;
+        for part in inside {
+            if from < part[0] {
+                left.push(Span {
+                    from,
+                    to: part[0],
+                    ..*span
+                });
+            }
+            from = part[1];
+        }
+        if from < span.to {
+            left.push(Span { from, ..*span });
+        }
+    }
+    left
 }
 
 /// Appends a span, or makes the last one longer where both are alike; nothing where it has no length.

@@ -299,18 +299,33 @@ impl Plane {
 struct Subject {
     corners: Corners,
     plane: Plane,
+    /// The axis that it lies across, and where.
+    level: Option<(usize, f32)>,
 }
 
 impl Subject {
     fn of(shape: &Shape, face: u32) -> Self {
         let corners = Corners::of(shape, face);
         let plane = Plane::of(&corners);
-        Self { corners, plane }
+        let [a, b, c] = corners.vertices.map(|v| shape.positions[v as usize]);
+        let axis = (0..3).find(|axis| a[*axis] == b[*axis] && b[*axis] == c[*axis]);
+        Self {
+            corners,
+            plane,
+            level: axis.map(|axis| (axis, a[axis])),
+        }
     }
 
     /// Faces that share an edge meet there alone, and those beside each other nowhere but at a shared corner.
     fn may_cut(&self, shape: &Shape, face: u32) -> bool {
         let vertices = shape.faces[face as usize];
+        // Faces in one plane across an axis: the commonest flat surfaces, and the dearest to decide exactly.
+        if let Some((axis, level)) = self.level {
+            let is_level = |v: u32| shape.positions[v as usize][axis] == level;
+            if vertices.into_iter().all(is_level) {
+                return false;
+            }
+        }
         let mut shared: Shared = None;
         for (i, vertex) in self.corners.vertices.iter().enumerate() {
             if let Some(j) = vertices.iter().position(|v| v == vertex) {
@@ -324,7 +339,6 @@ impl Subject {
         !are_apart(&self.corners, &other, shared)
             && !self.plane.clears(&other, shared.map(|s| s[1]))
             && !Plane::of(&other).clears(&self.corners, shared.map(|s| s[0]))
-            && !lie_level(&self.corners, &other)
     }
 }
 
@@ -353,13 +367,4 @@ fn are_apart(a: &Corners, b: &Corners, shared: Shared) -> bool {
         Some(_) => low > 0.0 && high < 0.0,
         None => low > high,
     }
-}
-
-/// Both faces lie in one plane across an axis: the commonest flat surfaces, and the dearest to decide exactly.
-fn lie_level(a: &Corners, b: &Corners) -> bool {
-    (0..3).any(|axis| {
-        let level = a.points[0][axis];
-        let mut points = a.points.iter().chain(&b.points);
-        points.all(|point| point[axis] == level)
-    })
 }

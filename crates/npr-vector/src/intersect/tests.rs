@@ -446,9 +446,7 @@ fn hostile_shapes_do_no_harm() {
             });
         let shape = scene.shape();
         if shape.positions.iter().flatten().all(|v| v.is_finite()) {
-            unlimited(&shape)
-                .graph
-                .sanity_check();
+            unlimited(&shape).graph.sanity_check();
         }
     }
 }

@@ -3,7 +3,8 @@
 use super::{Circumstances, Piece, Seen};
 use crate::bvh::{FaceTree, bounds, hidden_range};
 use crate::project::Projector;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
+use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 
 /// How far boxes are grown for rounding, in pixels and as a share of a depth.
@@ -12,9 +13,18 @@ const ROOM: f64 = 1e-6;
 /// Parts of a line found before they are joined.
 const BATCH: usize = 64;
 
+/// Side of the cells in which the nearest face is known that fills them, in pixels.
+const CELL_PX: f64 = 16.0;
+
 /// Where the faces below each node of a [`FaceTree`] lie in the picture, for one view.
 #[derive(Debug)]
-pub struct FaceImages(Vec<ImageBox>);
+pub struct FaceImages {
+    /// By node of the tree.
+    boxes: Vec<ImageBox>,
+    /// The nearest face that fills a cell of the picture, row by row, or [`NONE`]: what most likely hides a line there.
+    fillers: Vec<u32>,
+    columns: usize,
+}
 
 /// A box in the picture, and the depth before which nothing of it lies.
 #[derive(Debug, Clone, Copy)]
@@ -89,8 +99,8 @@ impl FaceImages {
     /// Bytes of a face's share.
     pub(crate) const BYTES_PER_FACE: usize = 2 * size_of::<ImageBox>();
 
-    /// Finds the boxes. O(faces).
-    pub fn new(shape: &Shape, tree: &FaceTree, projector: &Projector) -> Self {
+    /// Finds them for a picture of a size. O(faces + cells that they fill).
+    pub fn new(shape: &Shape, tree: &FaceTree, projector: &Projector, size: [u32; 2]) -> Self {
         let nodes = &tree.bvh.nodes;
         let mut boxes = vec![ImageBox::EMPTY; nodes.len()];
         // Parents before children, then back.
@@ -116,10 +126,35 @@ impl FaceImages {
             }
             boxes[index as usize] = found;
         }
-        Self(boxes)
+        let [columns, rows] = size.map(|side| (f64::from(side) / CELL_PX) as usize + 1);
+        let mut fillers = vec![(f64::INFINITY, NONE); columns * rows];
+        for face in 0..shape.faces.len() as u32 {
+            fill_cells(shape, face, projector, [columns, rows], &mut fillers);
+        }
+        Self {
+            boxes,
+            fillers: fillers.into_iter().map(|(_, face)| face).collect(),
+            columns,
+        }
     }
 
-    /// The parts of a piece that faces hide, in shares of its image: ascending, apart from each other.
+    /// Tries the faces that fill the cells along a piece: a line behind many is done with after few.
+    fn try_fillers(&self, piece: &Piece, mut hide: impl FnMut(u32)) {
+        let count = (piece.length() / CELL_PX).ceil().clamp(1.0, 4096.0);
+        let mut last = NONE;
+        for step in 0..count as u32 {
+            let place = piece.place_at((f64::from(step) + 0.5) / count);
+            let [column, row] = place.map(|v| (v / CELL_PX).max(0.0) as usize);
+            let cell = (column < self.columns).then_some(row * self.columns + column);
+            let face = cell.and_then(|cell| self.fillers.get(cell)).copied();
+            if let Some(face) = face.filter(|face| *face != NONE && *face != last) {
+                hide(face);
+                last = face;
+            }
+        }
+    }
+
+    /// The parts of a piece that faces hide or that need no looking at, in shares of its image: ascending, apart from each other.
     ///
     /// Boxes near the eye come first, and those over parts that are hidden already are passed by: a line behind many faces is done with
     /// when the first few have covered it.
@@ -128,17 +163,32 @@ impl FaceImages {
         seen: &Seen<'_>,
         piece: &Piece,
         circumstances: &Circumstances,
+        known: &[[f64; 2]],
     ) -> Vec<[f64; 2]> {
         let nodes = &seen.tree.bvh.nodes;
         let sights = piece.world.map(|end| seen.sight(end, circumstances));
         let reach = Reach::of(&sights.map(|sight| [sight.eye, sight.point].map(DVec3::from)));
+        let mut own_faces = circumstances.own_faces.clone();
+        own_faces.sort_unstable();
         let farthest = piece.depth[0].max(piece.depth[1]);
         let enter = |index: u32| {
-            let image = &self.0[index as usize];
+            let image = &self.boxes[index as usize];
             let is_before = image.near < farthest && reach.meets(seen.tree, index);
             Some((index, image.part_of(piece.place).filter(|_| is_before)?))
         };
-        let mut cover = Cover::default();
+        let mut cover = Cover {
+            joined: known.to_vec(),
+            found: Vec::new(),
+        };
+        let hide = |face: u32, cover: &mut Cover| {
+            if own_faces.binary_search(&face).is_err() {
+                let range = hidden_range(seen.shape, face, &sights);
+                let share = |share: f64| seen.projector.image_share(share, piece.depth);
+                cover.add(range.map(|ends| ends.map(share)));
+            }
+        };
+        self.try_fillers(piece, |face| hide(face, &mut cover));
+        cover.join();
         let mut stack: Vec<(u32, [f64; 2])> = Vec::with_capacity(64);
         stack.extend((!nodes.is_empty()).then(|| enter(0)).flatten());
         while let Some((index, part)) = stack.pop() {
@@ -148,23 +198,64 @@ impl FaceImages {
             let node = &nodes[index as usize];
             if node.is_leaf() {
                 let faces = seen.tree.faces_of(node).iter();
-                for face in faces.filter(|face| !circumstances.own_faces.contains(face)) {
-                    let range = hidden_range(seen.shape, *face, &sights);
-                    cover.add(range.map(|ends| {
-                        ends.map(|share| seen.projector.image_share(share, piece.depth))
-                    }));
-                }
+                faces.for_each(|face| hide(*face, &mut cover));
                 continue;
             }
-            let near = |index: u32| self.0[index as usize].near;
+            let near = |index: u32| self.boxes[index as usize].near;
             let (one, other) = (node.first_index, node.first_index + 1);
             // The nearer comes off the stack first.
-            let [first, last] = if near(one) <= near(other) { [other, one] } else { [one, other] };
+            let [first, last] = if near(one) <= near(other) {
+                [other, one]
+            } else {
+                [one, other]
+            };
             stack.extend(enter(first));
             stack.extend(enter(last));
         }
         cover.join();
         cover.joined
+    }
+}
+
+/// Notes a face in the cells that its image fills, where no nearer one does.
+fn fill_cells(
+    shape: &Shape,
+    face: u32,
+    projector: &Projector,
+    [columns, rows]: [usize; 2],
+    fillers: &mut [(f64, u32)],
+) {
+    let corners = shape.faces[face as usize].map(|v| shape.point(v));
+    let depths = corners.map(|corner| projector.depth(corner));
+    if projector.is_perspective() && depths.iter().any(|depth| *depth < projector.near()) {
+        return;
+    }
+    let [a, b, c] = corners.map(|corner| DVec2::from(projector.project(corner)) / CELL_PX);
+    let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+    let area = (b - a).perp_dot(c - a);
+    if !(area != 0.0 && low.is_finite() && high.is_finite()) {
+        return;
+    }
+    let first = low.ceil().max(DVec2::ZERO);
+    let last = high.floor().min(DVec2::new(columns as f64, rows as f64));
+    // Of each side's distance the least corner of a cell counts.
+    let sides = [[b, c], [c, a], [a, b]].map(|[from, to]| {
+        let along = (to - from) / area;
+        (from, along, (-along.y).min(0.0) + along.x.min(0.0))
+    });
+    for row in first.y as usize..(last.y.max(0.0) as usize) {
+        for column in first.x as usize..(last.x.max(0.0) as usize) {
+            let place = DVec2::new(column as f64, row as f64);
+            let shares = sides.map(|(from, along, _)| along.perp_dot(place - from));
+            if (0..3).any(|i| shares[i] + sides[i].2 < 0.0) {
+                continue;
+            }
+            let depth: f64 = (0..3).map(|i| shares[i] * depths[i]).sum();
+            let filler = &mut fillers[row * columns + column];
+            if depth < filler.0 {
+                *filler = (depth, face);
+            }
+        }
     }
 }
 

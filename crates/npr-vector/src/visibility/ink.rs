@@ -2,9 +2,9 @@
 
 use super::{MARGIN, Piece, Span};
 
-/// Length of line in a cell, in pixels of length for every pixel of area, from which it is black: with lines one pixel wide at random places
+/// Length of line in a cell, in pixels of length for every pixel of area, from which it is black: with lines two pixels wide at random places
 /// one part in e^6 of the paper still shows, less than a step of eight bits.
-pub const BLACK: u64 = 6;
+pub const BLACK: u64 = 3;
 
 /// Side of a cell in pixels.
 const CELL_PX: f64 = 8.0;
@@ -38,16 +38,31 @@ impl Ink {
         }
     }
 
-    /// Whether a piece lies over black paper all along.
-    pub(crate) fn is_black_along(&self, piece: &Piece) -> bool {
+    /// The parts of a piece over black paper, in shares of its image: ascending, apart from each other.
+    pub(crate) fn black_parts(&self, piece: &Piece) -> Vec<[f64; 2]> {
         let full = BLACK * (CELL_PX * CELL_PX * PARTS) as u64;
-        let mut steps = self.steps(piece, 0.0, 1.0);
-        steps.all(|(cell, _)| self.cells[cell] >= full)
+        let steps: Vec<bool> = self
+            .steps(piece, 0.0, 1.0)
+            .map(|(cell, _)| self.cells[cell] >= full)
+            .collect();
+        let share = |step: usize| step as f64 / steps.len() as f64;
+        let mut parts = Vec::new();
+        let mut from = 0;
+        for run in steps.chunk_by(|a, b| a == b) {
+            let to = from + run.len();
+            if run[0] {
+                parts.push([share(from), share(to)]);
+            }
+            from = to;
+        }
+        parts
     }
 
     /// Draws the spans of a piece that a drawing shows.
     pub(crate) fn draw(&mut self, piece: &Piece, spans: &[Span], with_hidden: bool) {
-        let shown = spans.iter().filter(|span| with_hidden || span.occluders == 0);
+        let shown = spans
+            .iter()
+            .filter(|span| with_hidden || span.occluders == 0);
         for span in shown {
             let steps: Vec<(usize, f64)> = self.steps(piece, span.from, span.to).collect();
             for (cell, length) in steps {
