@@ -117,7 +117,7 @@ pub(crate) const OUTLINE_TOLERANCE_PX: f64 = 2.0;
 const HIDDEN_COUNT_LIMIT: u32 = 255;
 
 /// Crowded pieces looked at between two looks at the ink on the paper.
-const ROUND: usize = 1024;
+const ROUND: usize = 256;
 
 /// What can be known of a shape's lines before there is a camera.
 #[derive(Debug)]

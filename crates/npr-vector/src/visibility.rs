@@ -6,6 +6,8 @@
 
 mod covering;
 mod ink;
+#[cfg(test)]
+mod tests;
 
 pub use covering::FaceImages;
 pub(crate) use ink::Ink;
@@ -28,10 +30,13 @@ const LEAST_SPAN_PX: f64 = 1e-4;
 ///
 /// What hides it is then looked for face by face: looking at every crossing with an outline would take the square of their number. Lines of
 /// usual models pass some dozens, the longest some hundreds.
-pub const CROWD: usize = 1024;
+pub const CROWD: usize = 512;
 
 /// Spans of crowded pieces shorter than this, in pixels, are left out: nobody sees them, and there may be as many as faces.
 const LEAST_CROWDED_PX: f64 = 1.0 / 64.0;
+
+/// Of a crowded piece behind more faces than this, they are not counted: it is hidden or not.
+const COUNTED_MOST: usize = 1024;
 
 /// A straight piece of line in space and in the picture, cut to the frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -305,8 +310,8 @@ pub struct Seen<'a> {
 }
 
 impl Seen<'_> {
-    /// The spans of a piece, which cover it in order; neighbours differ. Of crowded pieces ([`OutlineGrid::is_crowded`]) the surfaces in front
-    /// are not counted: those hidden have one.
+    /// The spans of a piece, which cover it in order; neighbours differ. Of crowded pieces ([`OutlineGrid::is_crowded`]) behind more
+    /// than 1024 faces these are not counted: what is hidden has one in front.
     ///
     /// `last` keeps the face that hid something last, to be tried first: it changes the time taken and nothing else.
     pub fn spans(
@@ -339,6 +344,12 @@ impl Seen<'_> {
         let images = self
             .images
             .get_or_init(|| FaceImages::new(self.shape, self.tree, self.projector, self.size));
+        if self.count_limit > 1 && left_out.is_empty() && self.puffs.is_none() {
+            let parts = images.parts_by_face(self, piece, circumstances, COUNTED_MOST);
+            if let Some(parts) = parts {
+                return joined(counted(&parts, self.count_limit), piece);
+            }
+        }
         let mut ends = vec![0.0];
         let hidden = images.hidden_parts(self, piece, circumstances, left_out);
         ends.extend(hidden.as_flattened());
@@ -351,18 +362,7 @@ impl Seen<'_> {
                 push(&mut spans, [pair[0], pair[1]], 1);
             }
         }
-        let least = LEAST_CROWDED_PX / piece.length().max(2.0 * LEAST_CROWDED_PX);
-        let mut kept: Vec<Span> = Vec::with_capacity(spans.len());
-        for span in spans {
-            let is_short = span.to - span.from < least;
-            let occluders = kept.last().filter(|_| is_short).map(|last| last.occluders);
-            push(
-                &mut kept,
-                [span.from, span.to],
-                occluders.unwrap_or(span.occluders),
-            );
-        }
-        without(&kept, left_out)
+        without(&joined(spans, piece), left_out)
     }
 
     /// The spans of a part that no face hides: smoke may.
@@ -440,6 +440,42 @@ impl Seen<'_> {
             touch: circumstances.touch,
         }
     }
+}
+
+/// How many of some parts, up to a limit, lie over each place.
+fn counted(parts: &[[f64; 2]], limit: u32) -> Vec<Span> {
+    let starts = parts.iter().map(|part| (part[0], 1));
+    let mut steps: Vec<(f64, i32)> = starts
+        .chain(parts.iter().map(|part| (part[1], -1)))
+        .collect();
+    // Where one part ends and another starts, there is nothing between them.
+    steps.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+    let (mut spans, mut from, mut count) = (Vec::new(), 0.0, 0_i32);
+    for (at, step) in steps.into_iter().chain([(1.0, 0)]) {
+        let at = at.clamp(0.0, 1.0);
+        if from < at {
+            push(&mut spans, [from, at], count.unsigned_abs().min(limit));
+            from = at;
+        }
+        count += step;
+    }
+    spans
+}
+
+/// Spans of a crowded piece without those too short to see, which go to the one before.
+fn joined(spans: Vec<Span>, piece: &Piece) -> Vec<Span> {
+    let least = LEAST_CROWDED_PX / piece.length().max(2.0 * LEAST_CROWDED_PX);
+    let mut kept: Vec<Span> = Vec::with_capacity(spans.len());
+    for span in spans {
+        let is_short = span.to - span.from < least;
+        let before = kept.last().filter(|_| is_short).map(|last| last.occluders);
+        push(
+            &mut kept,
+            [span.from, span.to],
+            before.unwrap_or(span.occluders),
+        );
+    }
+    kept
 }
 
 /// What is left of spans beside some parts, ascending; neither overlap among themselves.

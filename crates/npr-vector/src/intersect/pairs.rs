@@ -14,6 +14,12 @@ const GROUP: u32 = 16;
 /// Most pairs that one group may find: 2048 for each of its faces.
 const GROUP_LIMIT: usize = 2048 * GROUP as usize;
 
+/// Pairs of faces whose boxes overlap that are looked at, beside [`LOOKS_PER_FACE`] for every face: a second of work.
+const LOOKS: usize = 1 << 23;
+
+/// Pairs of faces whose boxes overlap that are looked at, for every face.
+const LOOKS_PER_FACE: usize = 256;
+
 /// Groups searched between two looks at the number of pairs found.
 const ROUND: usize = 64;
 
@@ -32,6 +38,8 @@ struct Node {
 pub(super) struct Pairs {
     /// The lower face first; in an order that depends on the tree alone.
     pub(super) pairs: Vec<[u32; 2]>,
+    /// How many were looked at.
+    looks: usize,
     pub(super) overflow: bool,
 }
 
@@ -46,10 +54,12 @@ pub(super) fn find(
     let groups = groups(&nodes);
     let mut found = Pairs {
         pairs: Vec::new(),
+        looks: 0,
         overflow: false,
     };
     for round in groups.chunks(ROUND) {
-        if found.pairs.len() >= limit {
+        let looks_most = LOOKS + LOOKS_PER_FACE * shape.faces.len();
+        if found.pairs.len() >= limit || found.looks >= looks_most {
             found.overflow = true;
             break;
         }
@@ -62,6 +72,7 @@ pub(super) fn find(
             .collect();
         for group in per_group {
             found.overflow |= group.overflow;
+            found.looks += group.looks;
             take(group.pairs.len())?;
             found.pairs.extend(group.pairs);
         }
@@ -163,6 +174,7 @@ impl Candidates {
     fn pairs(&mut self, shape: &Shape) -> Pairs {
         let mut found = Pairs {
             pairs: Vec::new(),
+            looks: 0,
             overflow: false,
         };
         for place in 0..self.own {
@@ -172,6 +184,12 @@ impl Candidates {
                 continue;
             }
             let subject = Subject::of(shape, leaf.face);
+            // Faces in one plane across an axis are told apart at once.
+            found.looks += if subject.level.is_some() {
+                0
+            } else {
+                self.near.len()
+            };
             let faces = self.near.iter();
             let faces = faces.filter(|other| subject.may_cut(shape, **other));
             let pairs = faces.map(|other| [leaf.face.min(*other), leaf.face.max(*other)]);

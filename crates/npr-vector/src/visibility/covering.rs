@@ -1,7 +1,7 @@
 //! The faces of a view in boxes of the picture: which parts of a line they hide, without looking at outlines.
 
 use super::{Circumstances, Piece, Seen};
-use crate::bvh::{FaceTree, bounds, hidden_range};
+use crate::bvh::{FaceTree, Sight, bounds, hidden_range};
 use crate::project::Projector;
 use glam::{DVec2, DVec3};
 use npr_core::geometry::NONE;
@@ -26,19 +26,25 @@ pub struct FaceImages {
     columns: usize,
 }
 
-/// A box in the picture, and the depth before which nothing of it lies.
+/// An octagon in the picture, and the depth before which nothing of it lies.
 #[derive(Debug, Clone, Copy)]
 struct ImageBox {
-    low: [f64; 2],
-    high: [f64; 2],
+    /// To the right, down, and along both diagonals ([`along_axes`]).
+    low: [f64; 4],
+    high: [f64; 4],
     near: f64,
+}
+
+/// Where a place lies along the axes of an octagon: thin faces across the picture leave less room than in boxes.
+fn along_axes([x, y]: [f64; 2]) -> [f64; 4] {
+    [x, y, x + y, x - y]
 }
 
 impl ImageBox {
     /// Holds nothing.
     const EMPTY: Self = Self {
-        low: [f64::INFINITY; 2],
-        high: [f64::NEG_INFINITY; 2],
+        low: [f64::INFINITY; 4],
+        high: [f64::NEG_INFINITY; 4],
         near: f64::INFINITY,
     };
 
@@ -53,7 +59,10 @@ impl ImageBox {
         };
         let in_front = !projector.is_perspective() || near >= projector.near();
         for corner in corners {
-            for (axis, place) in projector.project(corner).into_iter().enumerate() {
+            for (axis, place) in along_axes(projector.project(corner))
+                .into_iter()
+                .enumerate()
+            {
                 let known = in_front && place.is_finite();
                 let room = ROOM * (1.0 + place.abs());
                 let [low, high] = match known {
@@ -68,7 +77,7 @@ impl ImageBox {
     }
 
     fn join(&mut self, other: &Self) {
-        for axis in 0..2 {
+        for axis in 0..4 {
             self.low[axis] = self.low[axis].min(other.low[axis]);
             self.high[axis] = self.high[axis].max(other.high[axis]);
         }
@@ -76,9 +85,9 @@ impl ImageBox {
     }
 
     /// The part of a line's image that lies in the box; none where none does.
-    fn part_of(&self, [a, b]: [[f64; 2]; 2]) -> Option<[f64; 2]> {
+    fn part_of(&self, [a, b]: &[[f64; 4]; 2]) -> Option<[f64; 2]> {
         let mut part: [f64; 2] = [0.0, 1.0];
-        for axis in 0..2 {
+        for axis in 0..4 {
             let along = b[axis] - a[axis];
             let [low, high] = [self.low[axis] - a[axis], self.high[axis] - a[axis]];
             if along == 0.0 {
@@ -90,8 +99,11 @@ impl ImageBox {
             let [enter, leave] = [low / along, high / along];
             part[0] = part[0].max(enter.min(leave));
             part[1] = part[1].min(enter.max(leave));
+            if part[0] > part[1] {
+                return None;
+            }
         }
-        (part[0] <= part[1]).then_some(part)
+        Some(part)
     }
 }
 
@@ -165,55 +177,117 @@ impl FaceImages {
         circumstances: &Circumstances,
         known: &[[f64; 2]],
     ) -> Vec<[f64; 2]> {
-        let nodes = &seen.tree.bvh.nodes;
-        let sights = piece.world.map(|end| seen.sight(end, circumstances));
-        let reach = Reach::of(&sights.map(|sight| [sight.eye, sight.point].map(DVec3::from)));
-        let mut own_faces = circumstances.own_faces.clone();
-        own_faces.sort_unstable();
-        let farthest = piece.depth[0].max(piece.depth[1]);
-        let enter = |index: u32| {
-            let image = &self.boxes[index as usize];
-            let is_before = image.near < farthest && reach.meets(seen.tree, index);
-            Some((index, image.part_of(piece.place).filter(|_| is_before)?))
-        };
+        let search = Search::new(self, seen, piece, circumstances);
         let mut cover = Cover {
             joined: known.to_vec(),
             found: Vec::new(),
         };
-        let hide = |face: u32, cover: &mut Cover| {
-            if own_faces.binary_search(&face).is_err() {
-                let range = hidden_range(seen.shape, face, &sights);
-                let share = |share: f64| seen.projector.image_share(share, piece.depth);
-                cover.add(range.map(|ends| ends.map(share)));
-            }
-        };
-        self.try_fillers(piece, |face| hide(face, &mut cover));
+        self.try_fillers(piece, |face| cover.add(search.hidden_by(face)));
         cover.join();
-        let mut stack: Vec<(u32, [f64; 2])> = Vec::with_capacity(64);
-        stack.extend((!nodes.is_empty()).then(|| enter(0)).flatten());
+        let mut stack: Vec<(u32, [f64; 2])> = search.enter(0).into_iter().collect();
         while let Some((index, part)) = stack.pop() {
-            if cover.holds(part) {
-                continue;
+            if !cover.holds(part) {
+                let faces = search.open(index, &mut stack);
+                faces
+                    .iter()
+                    .for_each(|face| cover.add(search.hidden_by(*face)));
             }
-            let node = &nodes[index as usize];
-            if node.is_leaf() {
-                let faces = seen.tree.faces_of(node).iter();
-                faces.for_each(|face| hide(*face, &mut cover));
-                continue;
-            }
-            let near = |index: u32| self.boxes[index as usize].near;
-            let (one, other) = (node.first_index, node.first_index + 1);
-            // The nearer comes off the stack first.
-            let [first, last] = if near(one) <= near(other) {
-                [other, one]
-            } else {
-                [one, other]
-            };
-            stack.extend(enter(first));
-            stack.extend(enter(last));
         }
         cover.join();
         cover.joined
+    }
+
+    /// The part that each face hides, in no order; none where there are more than `most`.
+    pub(super) fn parts_by_face(
+        &self,
+        seen: &Seen<'_>,
+        piece: &Piece,
+        circumstances: &Circumstances,
+        most: usize,
+    ) -> Option<Vec<[f64; 2]>> {
+        let search = Search::new(self, seen, piece, circumstances);
+        let mut parts = Vec::new();
+        let mut stack: Vec<(u32, [f64; 2])> = search.enter(0).into_iter().collect();
+        while let Some((index, _)) = stack.pop() {
+            let faces = search.open(index, &mut stack);
+            parts.extend(faces.iter().filter_map(|face| search.hidden_by(*face)));
+            if parts.len() > most {
+                return None;
+            }
+        }
+        Some(parts)
+    }
+}
+
+/// A walk over the faces that may hide a piece.
+struct Search<'a> {
+    images: &'a FaceImages,
+    seen: &'a Seen<'a>,
+    piece: &'a Piece,
+    ends: [[f64; 4]; 2],
+    sights: [Sight; 2],
+    reach: Reach,
+    /// Depth of the end that lies farther.
+    farthest: f64,
+    /// Faces that the piece lies in, ascending.
+    own_faces: Vec<u32>,
+}
+
+impl<'a> Search<'a> {
+    fn new(
+        images: &'a FaceImages,
+        seen: &'a Seen<'a>,
+        piece: &'a Piece,
+        circumstances: &Circumstances,
+    ) -> Self {
+        let sights = piece.world.map(|end| seen.sight(end, circumstances));
+        let mut own_faces = circumstances.own_faces.clone();
+        own_faces.sort_unstable();
+        Self {
+            images,
+            seen,
+            piece,
+            ends: piece.place.map(along_axes),
+            reach: Reach::of(&sights.map(|sight| [sight.eye, sight.point].map(DVec3::from))),
+            sights,
+            farthest: piece.depth[0].max(piece.depth[1]),
+            own_faces,
+        }
+    }
+
+    /// A node with the part of the piece that may lie behind what is below it; none where nothing does.
+    fn enter(&self, index: u32) -> Option<(u32, [f64; 2])> {
+        let image = self.images.boxes.get(index as usize)?;
+        let part = (image.near < self.farthest).then(|| image.part_of(&self.ends))??;
+        self.reach
+            .meets(self.seen.tree, index)
+            .then_some((index, part))
+    }
+
+    /// The faces of a leaf; of another node none, but its children are put on the stack, the nearer on top.
+    fn open(&self, index: u32, stack: &mut Vec<(u32, [f64; 2])>) -> &'a [u32] {
+        let node = &self.seen.tree.bvh.nodes[index as usize];
+        if node.is_leaf() {
+            return self.seen.tree.faces_of(node);
+        }
+        let near = |index: u32| self.images.boxes[index as usize].near;
+        let (one, other) = (node.first_index, node.first_index + 1);
+        let order = if near(one) <= near(other) {
+            [other, one]
+        } else {
+            [one, other]
+        };
+        stack.extend(order.into_iter().filter_map(|child| self.enter(child)));
+        &[]
+    }
+
+    /// The part of the piece's image that a face hides.
+    fn hidden_by(&self, face: u32) -> Option<[f64; 2]> {
+        if self.own_faces.binary_search(&face).is_ok() {
+            return None;
+        }
+        let range = hidden_range(self.seen.shape, face, &self.sights)?;
+        Some(range.map(|share| self.seen.projector.image_share(share, self.piece.depth)))
     }
 }
 
