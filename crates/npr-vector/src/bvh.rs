@@ -281,8 +281,8 @@ fn hides(shape: &Shape, face: u32, (eye, direction): (DVec3, DVec3), touch: f64)
 
 /// The part of a line that a face hides, in shares of the line in the world; `sights` lead to its ends.
 ///
-/// What [`FaceTree::occluders`] asks of one point holds where five or six numbers are positive, each of which changes evenly along the line: they are
-/// taken at its ends, so that the range costs as much as two points.
+/// What [`FaceTree::occluders`] asks of one point holds where five or six numbers are positive, each of which
+/// changes evenly along the line: they are taken at its ends, so that the range costs as much as two points.
 pub(crate) fn hidden_range(shape: &Shape, face: u32, sights: &[Sight; 2]) -> Option<[f64; 2]> {
     let corners = shape.faces[face as usize].map(|v| shape.point(v));
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
@@ -319,7 +319,8 @@ pub(crate) fn hidden_range(shape: &Shape, face: u32, sights: &[Sight; 2]) -> Opt
     })
 }
 
-/// Shortens a range to where a number is not negative that changes evenly, given at 0 and 1; false where nothing is left.
+/// Shortens a range to where a number is not negative that changes evenly, given at 0 and 1; false where nothing is
+/// left.
 pub(crate) fn cut_range(range: &mut [f64; 2], [at_start, at_end]: [f64; 2]) -> bool {
     match (at_start >= 0.0, at_end >= 0.0) {
         (true, true) => {}

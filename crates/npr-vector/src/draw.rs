@@ -248,8 +248,9 @@ pub fn strokes(
 
 /// The same, with the contours along edges found by the caller for [`eye_of`] the view, and among smoke.
 ///
-/// Dense smoke hides lines of the shape and counts as one surface; its own outline comes after them. Where lines lie so close that the paper is
-/// black, further ones are left out: those over it whose edges have the greater hashes ([`hash_key`]), whatever the number of threads.
+/// Dense smoke hides lines of the shape and counts as one surface; its own outline comes after them. Where lines lie
+/// so close that the paper is black, further ones are left out: those over it whose edges have the greater hashes
+/// ([`hash_key`]), whatever the number of threads.
 ///
 /// # Errors
 ///
@@ -321,14 +322,7 @@ pub fn strokes_with(
         let lines = view.lines(graph, &seen, wanted, &mut toll)?;
         found.extend(runs(shape, projector, graph, &lines));
     }
-    found.retain(|run| settings.hidden || run.occluders == 0);
-    let mut found = calmed(found, settings);
-    if look.paint_at.is_some() {
-        found = broken_up(found);
-    }
-    let mut strokes = strokes_of(found, &|run: &Run, point: &RunPoint| {
-        look.paint(shape, run, point)
-    });
+    let mut strokes = strokes_of_runs(found, shape, settings, look);
     if let Some(smoke) = smoke {
         let seen = Seen {
             puffs: None,
@@ -340,6 +334,23 @@ pub fn strokes_with(
     Ok(ViewStrokes {
         strokes,
         left_out: toll.left_out,
+    })
+}
+
+/// The runs of a view as strokes, calmed and painted.
+fn strokes_of_runs(
+    mut found: Vec<Run>,
+    shape: &Shape,
+    settings: &LineSettings,
+    look: &StrokeLook<'_>,
+) -> Vec<Stroke> {
+    found.retain(|run| settings.hidden || run.occluders == 0);
+    let mut found = calmed(found, settings);
+    if look.paint_at.is_some() {
+        found = broken_up(found);
+    }
+    strokes_of(found, &|run: &Run, point: &RunPoint| {
+        look.paint(shape, run, point)
     })
 }
 
@@ -539,7 +550,8 @@ impl View<'_> {
         Ok(lines)
     }
 
-    /// Finds what is seen of crowded lines, those with the least hashes of their edges first, until the paper under the others is black.
+    /// Finds what is seen of crowded lines, those with the least hashes of their edges first, until the paper under
+    /// the others is black.
     fn add_crowded(
         &self,
         graph: &CurveGraph,

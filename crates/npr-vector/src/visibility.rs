@@ -28,11 +28,12 @@ const LEAST_SPAN_PX: f64 = 1e-4;
 
 /// A piece is crowded where the cells that its image passes hold more outlines than this.
 ///
-/// What hides it is then looked for face by face: looking at every crossing with an outline would take the square of their number. Lines of
-/// usual models pass some dozens, the longest some hundreds.
+/// What hides it is then looked for face by face: looking at every crossing with an outline would take the square of
+/// their number. Lines of usual models pass some dozens, the longest some hundreds.
 pub const CROWD: usize = 512;
 
-/// Spans of crowded pieces shorter than this, in pixels, are left out: nobody sees them, and there may be as many as faces.
+/// Spans of crowded pieces shorter than this, in pixels, are left out: nobody sees them, and there may be as many as
+/// faces.
 const LEAST_CROWDED_PX: f64 = 1.0 / 64.0;
 
 /// Of a crowded piece behind more faces than this, they are not counted: it is hidden or not.
@@ -310,8 +311,9 @@ pub struct Seen<'a> {
 }
 
 impl Seen<'_> {
-    /// The spans of a piece, which cover it in order; neighbours differ. Of crowded pieces ([`OutlineGrid::is_crowded`]) behind more
-    /// than 1024 faces these are not counted: what is hidden has one in front.
+    /// The spans of a piece, which cover it in order; neighbours differ. Of crowded pieces
+    /// ([`OutlineGrid::is_crowded`]) behind more than 1024 faces these are not counted: what is hidden has one in
+    /// front.
     ///
     /// `last` keeps the face that hid something last, to be tried first: it changes the time taken and nothing else.
     pub fn spans(
@@ -333,8 +335,8 @@ impl Seen<'_> {
         spans
     }
 
-    /// The spans of a piece by the parts of it that each face hides, without those parts, ascending, that are `left_out`. About O(log n) for each
-    /// face that hides a part no other does.
+    /// The spans of a piece by the parts of it that each face hides, without those parts, ascending, that are
+    /// `left_out`. About O(log n) for each face that hides a part no other does.
     pub(crate) fn crowded_spans(
         &self,
         piece: &Piece,

@@ -13,7 +13,8 @@ use npr_vector::project::Projector;
 
 const SIZE: [u32; 2] = [400, 300];
 
-/// Bytes that are enough for every crowd of these tests, and less than a thousandth of what all their crossings would take.
+/// Bytes that are enough for every crowd of these tests, and less than a thousandth of what all their crossings
+/// would take.
 const ENOUGH: u64 = 64 << 20;
 
 fn drawn(
@@ -57,7 +58,8 @@ fn crowds() -> [(&'static str, Mesh); 4] {
     ]
 }
 
-/// No crowd needs more memory than a few thousand lines do, and none is drawn blacker than black: 3 pixels of line a square pixel, and one round.
+/// No crowd needs more memory than a few thousand lines do, and none is drawn blacker than black: 3 pixels of line a
+/// square pixel, and one round.
 #[test]
 fn crowds_are_drawn_in_bounds() {
     for (name, mesh) in crowds() {

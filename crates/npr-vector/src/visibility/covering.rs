@@ -21,7 +21,8 @@ const CELL_PX: f64 = 16.0;
 pub struct FaceImages {
     /// By node of the tree.
     boxes: Vec<ImageBox>,
-    /// The nearest face that fills a cell of the picture, row by row, or [`NONE`]: what most likely hides a line there.
+    /// The nearest face that fills a cell of the picture, row by row, or [`NONE`]: what most likely hides a line
+    /// there.
     fillers: Vec<u32>,
     columns: usize,
 }
@@ -166,10 +167,11 @@ impl FaceImages {
         }
     }
 
-    /// The parts of a piece that faces hide or that need no looking at, in shares of its image: ascending, apart from each other.
+    /// The parts of a piece that faces hide or that need no looking at, in shares of its image: ascending, apart
+    /// from each other.
     ///
-    /// Boxes near the eye come first, and those over parts that are hidden already are passed by: a line behind many faces is done with
-    /// when the first few have covered it.
+    /// Boxes near the eye come first, and those over parts that are hidden already are passed by: a line behind many
+    /// faces is done with when the first few have covered it.
     pub(super) fn hidden_parts(
         &self,
         seen: &Seen<'_>,
@@ -333,8 +335,8 @@ fn fill_cells(
     }
 }
 
-/// The box in the world around all ways from the eye to a line, without their last bit: what lies beside it, or only touches the line, hides
-/// nothing of it.
+/// The box in the world around all ways from the eye to a line, without their last bit: what lies beside it, or only
+/// touches the line, hides nothing of it.
 struct Reach {
     low: DVec3,
     high: DVec3,

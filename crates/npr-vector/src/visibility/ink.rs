@@ -2,8 +2,8 @@
 
 use super::{MARGIN, Piece, Span};
 
-/// Length of line in a cell, in pixels of length for every pixel of area, from which it is black: with lines two pixels wide at random places
-/// one part in e^6 of the paper still shows, less than a step of eight bits.
+/// Length of line in a cell, in pixels of length for every pixel of area, from which it is black: with lines two
+/// pixels wide at random places one part in e^6 of the paper still shows, less than a step of eight bits.
 pub const BLACK: u64 = 3;
 
 /// Side of a cell in pixels.

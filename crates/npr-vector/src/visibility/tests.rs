@@ -34,7 +34,8 @@ fn plainly_in_front(seen: &Seen<'_>, piece: &Piece, share: f64) -> Option<u32> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
-    /// What faces hide of a crowded piece is what sights to its places say, counted or not; what is left out has no span.
+    /// What faces hide of a crowded piece is what sights to its places say, counted or not; what is left out has no
+    /// span.
     #[test]
     fn crowded_pieces_are_hidden_where_sights_say_so(
         faces in 0_usize..40, seed: u64, is_parallel: bool, is_counted: bool,
