@@ -246,7 +246,7 @@ proptest! {
         let mut all: Vec<[u32; 2]> = all_segments(&shape).iter().map(|s| s.faces).collect();
         all.retain(|pair| !flat(*pair));
         all.sort_unstable();
-        let found = pairs::find(&shape, &FaceTree::new(&shape), usize::MAX);
+        let found = pairs::find(&shape, &FaceTree::new(&shape), usize::MAX, &mut |_| Ok(())).expect("no limit is set");
         prop_assert!(!found.overflow);
         for pair in all {
             prop_assert_eq!(found.pairs.iter().filter(|p| **p == pair).count(), 1);
