@@ -69,6 +69,11 @@ fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, 
     let camera = viewpoint::camera(&job.said.drawing.camera, lines, job.said.drawing.size)?;
     let drawn = draw_lines(job, &model, &camera, progress)?;
     let drawing = &drawn.picture.drawing;
+    progress.suspend(|| {
+        for notice in &drawing.notices {
+            message::warn(job.said.drawing.quiet, notice);
+        }
+    });
     let view = camera.view(drawing.size, lines.bounds());
     let lettering = job.lettering.placed(&view, job.options.dpi);
     let bytes = progress.step("encode", || line_file::encode(job, drawing, lettering))?;
@@ -200,9 +205,6 @@ fn warn_of<'a>(
 ) {
     let warn = |text: &str| message::warn(job.said.drawing.quiet, text);
     for notice in model.notices().iter().chain(of_smoke) {
-        warn(notice);
-    }
-    if let Some(notice) = model.lacks(&job.options) {
         warn(notice);
     }
     for notice in job.lettering.notices() {

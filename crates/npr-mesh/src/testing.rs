@@ -188,6 +188,35 @@ pub fn random_soup(faces: usize, seed: u64) -> Mesh {
     Mesh::of_sound_parts(positions, triangles)
 }
 
+/// Random triangles with corners anywhere in the cube from -1 to 1: most cut each other.
+pub fn crossing_soup(faces: usize, seed: u64) -> Mesh {
+    let mut random = Random::new(seed);
+    let corners = (0..3 * faces).map(|_| [0; 3].map(|_| 2.0 * random.unit() - 1.0));
+    of_corners(corners.collect())
+}
+
+/// Random triangles over each other in the plane z = 0.
+pub fn coplanar_soup(faces: usize, seed: u64) -> Mesh {
+    mapped(&crossing_soup(faces, seed), |[x, y, _]| [x, y, 0.0])
+}
+
+/// Triangles almost without width from the origin to places around it, each a little higher than the one before.
+pub fn needles(count: usize) -> Mesh {
+    let tip = |at: usize| {
+        let (angle, height) = (at as f32, at as f32 * 1e-6);
+        let [x, y] = [cos(angle), sin(angle)];
+        [[0.0; 3], [x, y, height], [x, y, height + 1e-6]]
+    };
+    of_corners((0..count).flat_map(tip).collect())
+}
+
+/// Triangles of three corners each.
+fn of_corners(corners: Vec<[f32; 3]>) -> Mesh {
+    let faces = 0..corners.len() as u32 / 3;
+    let triangles = faces.map(|face| [3 * face, 3 * face + 1, 3 * face + 2]);
+    Mesh::of_sound_parts(corners, triangles.collect())
+}
+
 /// The same surface with three vertices of its own for every face, as STL files store it.
 pub fn unindexed(mesh: &Mesh) -> Mesh {
     let corners = mesh.triangles().as_flattened();
@@ -195,9 +224,7 @@ pub fn unindexed(mesh: &Mesh) -> Mesh {
         .iter()
         .map(|&vertex| mesh.positions()[vertex as usize])
         .collect();
-    let triangles =
-        (0..mesh.triangles().len() as u32).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]);
-    Mesh::of_sound_parts(positions, triangles.collect())
+    of_corners(positions)
 }
 
 /// The same faces over vertices in random order, and the new number of every old vertex.

@@ -32,13 +32,16 @@ use colors::{ColorInput, StrokeColors};
 use finder::{Finder, OnProcessor};
 use glam::Vec3;
 use minding::Minding;
+use npr_core::budget::Budget;
 use npr_core::camera::Camera;
 use npr_core::geometry::Part;
 use npr_core::shape::Shape;
 use npr_scene::Scene;
 use npr_style::{Look, Style};
 use npr_vector::contour::EdgeContours;
-use npr_vector::draw::{LineSettings, PointPaint, Prepared, StrokeLook, eye_of, strokes_with};
+use npr_vector::draw::{
+    LineSettings, PointPaint, Prepared, StrokeLook, ViewStrokes, eye_of, strokes_with,
+};
 use npr_vector::project::Projector;
 use npr_vector::puff::{RimPoint, SmokeLines};
 use npr_vector::run::RunPoint;
@@ -331,7 +334,7 @@ impl LineModel {
         } else {
             find.contours(&eye_of(&self.shape, &projector))?
         };
-        let prepared = self.prepared(options);
+        let prepared = self.prepared(options)?;
         let mist = match smoke {
             Some((smoke, _)) => Some(self.smoke_view(wanted, smoke, &projector, bounds)?),
             None => None,
@@ -361,7 +364,10 @@ impl LineModel {
             changes: minding.is_some(),
         };
         let paint = Paint::new(&self.parts, style, has_lines);
-        let mut strokes = self.strokes(&prepared, &view, (style, options), &paint, find)?;
+        let ViewStrokes {
+            mut strokes,
+            left_out,
+        } = self.strokes(&prepared, &view, (style, options), &paint, find)?;
         paint.apply(&mut strokes);
         if let Some(minding) = minding {
             minding.apply(&mut strokes, &|surface| paint.line_color(surface));
@@ -389,6 +395,7 @@ impl LineModel {
             surfaces,
             strokes,
             regions,
+            notices: notices_of_view(&prepared, left_out),
         })
     }
 
@@ -447,7 +454,7 @@ impl LineModel {
         (style, options): (&Style, &LineOptions),
         paint: &Paint,
         find: &mut dyn Finder,
-    ) -> Result<Vec<Stroke>, RenderError> {
+    ) -> Result<ViewStrokes, RenderError> {
         let radius = self.radius();
         let input = WidthInput {
             shape: &self.shape,
@@ -468,6 +475,7 @@ impl LineModel {
             smooth: options.smooth,
             hidden: options.hidden,
             split: options.split,
+            memory_limit: self.memory_limit,
         };
         let paint_at = |kind: Kind, surface: u32, point: &RunPoint| match view.colors {
             Some(colors) => colors.paint_at(kind, surface, point),
@@ -481,19 +489,23 @@ impl LineModel {
             paint_at: (view.changes || view.colors.is_some()).then_some(&paint_at),
         };
         let line = (&settings, paint, &look);
-        let mut strokes = match options.method {
-            LineMethod::Potrace => self.pixel_strokes(prepared, view, options, line, find)?,
+        let mut found = match options.method {
+            LineMethod::Potrace => ViewStrokes {
+                strokes: self.pixel_strokes(prepared, view, options, line, find)?,
+                left_out: 0,
+            },
             LineMethod::Image => {
-                self.of_mesh(prepared, view, &image::beside_image(&settings), &look)
+                self.of_mesh(prepared, view, &image::beside_image(&settings), &look)?
             }
             LineMethod::Edges | LineMethod::Surface => {
-                self.of_mesh(prepared, view, &settings, &look)
+                self.of_mesh(prepared, view, &settings, &look)?
             }
         };
         if options.method == LineMethod::Image || options.painted.is_some() {
-            strokes.extend(self.image_strokes(prepared, view, options, line)?);
+            let of_image = self.image_strokes(prepared, view, options, line)?;
+            found.strokes.extend(of_image);
         }
-        Ok(strokes)
+        Ok(found)
     }
 
     /// The strokes of lines on the mesh, and of smoke.
@@ -503,8 +515,8 @@ impl LineModel {
         view: &LineView<'_>,
         settings: &LineSettings,
         look: &StrokeLook<'_>,
-    ) -> Vec<Stroke> {
-        strokes_with(
+    ) -> Result<ViewStrokes, RenderError> {
+        let found = strokes_with(
             &self.shape,
             prepared,
             view.projector,
@@ -512,33 +524,27 @@ impl LineModel {
             view.contours,
             look,
             view.smoke,
-        )
+        );
+        Ok(found?)
     }
 
     /// What does not depend on the camera, made once for every crease angle in a row.
-    fn prepared(&self, options: &LineOptions) -> Arc<Prepared> {
+    fn prepared(&self, options: &LineOptions) -> Result<Arc<Prepared>, RenderError> {
         let crease_cos = npr_core::math::cos(options.crease);
         let is_on_mesh = !options.method.is_of_pixels();
         let with_crossings = is_on_mesh && options.kinds.has(Kind::Intersection);
         let key = (crease_cos.to_bits(), with_crossings);
         let mut last = self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
         match &*last {
-            Some((of, prepared)) if *of == key => Arc::clone(prepared),
+            Some((of, prepared)) if *of == key => Ok(Arc::clone(prepared)),
             _ => {
-                let prepared = Arc::new(Prepared::new(&self.shape, crease_cos, with_crossings));
+                let mut budget = Budget::new(self.memory_limit);
+                let made = Prepared::within(&self.shape, crease_cos, with_crossings, &mut budget);
+                let prepared = Arc::new(made?);
                 *last = Some((key, Arc::clone(&prepared)));
-                prepared
+                Ok(prepared)
             }
         }
-    }
-
-    /// What drawings with these options lack, where that is something: lines of intersection, where so many faces cut each other that nobody could
-    /// read them. Takes the time of what all views share, which the first drawing then does not.
-    pub fn lacks(&self, options: &LineOptions) -> Option<&'static str> {
-        self.prepared(options)
-            .crossings
-            .overflow
-            .then_some("so many faces cut each other that lines of intersection are left out")
     }
 
     /// The welded surface in the world that lines are drawn of.
@@ -564,6 +570,21 @@ impl LineModel {
             .map(|point| point.to_array());
         Camera::framing_points(self.points.iter().copied().chain(smoke), aspect, fov_y)
     }
+}
+
+/// What a drawing lacks that nobody could read, a sentence each.
+fn notices_of_view(prepared: &Prepared, left_out: usize) -> Vec<String> {
+    let mut notices = Vec::new();
+    if prepared.crossings.overflow {
+        let text = "so many faces cut each other that lines of intersection are left out";
+        notices.push(text.to_owned());
+    }
+    if left_out > 0 {
+        notices.push(format!(
+            "lines lie so close that the paper is black: {left_out} pieces over it are left out"
+        ));
+    }
+    notices
 }
 
 fn check_points(strokes: &[Stroke]) -> Result<(), RenderError> {

@@ -319,6 +319,7 @@ impl<'a> Stage<'a> {
             let of_style = (&self.style, of_parts);
             let drawing = lines.draw_curves(camera, of_style, &options, beside)?;
             frame.times.extend_from_slice(lines.times());
+            frame.notices.extend_from_slice(&drawing.notices);
             let options = ArtworkOptions::default();
             let Some((sides, rules)) = minded else {
                 paint_drawing_over(&drawing, &options, &mut frame.rgba);

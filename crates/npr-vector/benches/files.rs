@@ -48,7 +48,7 @@ fn drawing(point_count: usize) -> Drawing {
         strokes: (0..point_count as u64 / 200)
             .map(|id| stroke(id, 200))
             .collect(),
-        regions: Vec::new(),
+        ..Drawing::default()
     }
 }
 

@@ -1,6 +1,7 @@
 //! Crossings of a shape with itself, in faces per second, with and without building the tree.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use npr_core::budget::Budget;
 use npr_core::geometry::NONE;
 use npr_core::shape::{Shape, Surface};
 use npr_mesh::mesh::Mesh;
@@ -92,7 +93,7 @@ fn measure(c: &mut Criterion) {
         group.throughput(Throughput::Elements(count as u64));
         let tree = FaceTree::new(shape);
         group.bench_function(BenchmarkId::new(name, count), |b| {
-            b.iter(|| black_box(crossings(shape, &tree)))
+            b.iter(|| black_box(crossings(shape, &tree, &mut Budget::new(u64::MAX))))
         });
     };
     for size in SPHERES {

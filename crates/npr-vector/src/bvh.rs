@@ -5,6 +5,7 @@ use npr_core::shape::Shape;
 use obvhs::Boundable;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::node::Bvh2Node;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 use rayon::prelude::*;
 
@@ -165,6 +166,12 @@ impl FaceTree {
         places
     }
 
+    /// The faces of a leaf.
+    pub(crate) fn faces_of(&self, leaf: &Bvh2Node) -> &[u32] {
+        let from = leaf.first_index as usize;
+        &self.bvh.primitive_indices[from..from + leaf.prim_count as usize]
+    }
+
     /// Calls `visit` for every face whose box the way passes, until it returns false.
     fn along(&self, eye: DVec3, direction: DVec3, mut visit: impl FnMut(u32) -> bool) {
         let nodes = &self.bvh.nodes;
@@ -213,7 +220,7 @@ fn box_of(corners: [[f32; 3]; 3]) -> Aabb {
 /// Lowest and highest corner; the fourth components mean nothing.
 ///
 /// By way of bytes, because the hierarchy's crate may use another version of the vector types.
-fn bounds(b: &Aabb) -> [Vec4; 2] {
+pub(crate) fn bounds(b: &Aabb) -> [Vec4; 2] {
     let [low, high]: [Vec4; 2] = bytemuck::cast(*b);
     [low.with_w(0.0), high.with_w(0.0)]
 }
@@ -270,6 +277,58 @@ fn hides(shape: &Shape, face: u32, (eye, direction): (DVec3, DVec3), touch: f64)
         let is_before = at > NEARER && at < 1.0 - NEARER;
         is_before && (touch == 0.0 || (1.0 - at) * slope(shape, face, direction) > touch)
     })
+}
+
+/// The part of a line that a face hides, in shares of the line in the world; `sights` lead to its ends.
+///
+/// What [`FaceTree::occluders`] asks of one point holds where five or six numbers are positive, each of which
+/// changes evenly along the line: they are taken at its ends, so that the range costs as much as two points.
+pub(crate) fn hidden_range(shape: &Shape, face: u32, sights: &[Sight; 2]) -> Option<[f64; 2]> {
+    let corners = shape.faces[face as usize].map(|v| shape.point(v));
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    let before = sights.map(|s| normal.dot(corners[0] - DVec3::from(s.eye)));
+    let behind = sights.map(|s| normal.dot(DVec3::from(s.point) - corners[0]));
+    // Seen from the front and from the back; in parallel view a face across the near plane may be both.
+    [1.0, -1.0].into_iter().find_map(|sign| {
+        let mut range = [0.0, 1.0];
+        let mut keep = |at: [f64; 2], holds_at_zero: bool| {
+            let is_zero = at == [0.0; 2];
+            is_zero && holds_at_zero || !is_zero && cut_range(&mut range, at)
+        };
+        let [before, behind] = [before, behind].map(|pair| pair.map(|v| v * sign));
+        let reach = sights[0].touch * normal.length();
+        let is_behind = |i: usize| (1.0 - NEARER) * behind[i] - NEARER * before[i];
+        let is_before = |i: usize| (1.0 - NEARER) * before[i] - NEARER * behind[i];
+        let stays = keep([0, 1].map(is_behind), false)
+            && keep([0, 1].map(is_before), false)
+            && (reach == 0.0 || keep(behind.map(|v| v - reach), false));
+        let [i, j, k] = shape.faces[face as usize];
+        let passes = [(2, 1, j, k), (0, 2, k, i), (1, 0, i, j)].into_iter();
+        let inside = |(to, from, low, high): (usize, usize, u32, u32)| {
+            let side = |s: &Sight| {
+                let eye = DVec3::from(s.eye);
+                let (to, from) = (corners[to] - eye, corners[from] - eye);
+                -sign * (DVec3::from(s.point) - eye).dot(to.cross(from))
+            };
+            keep(
+                [side(&sights[0]), side(&sights[1])],
+                (low < high) == (sign < 0.0),
+            )
+        };
+        (stays && passes.map(inside).all(|kept| kept)).then_some(range)
+    })
+}
+
+/// Shortens a range to where a number is not negative that changes evenly, given at 0 and 1; false where nothing is
+/// left.
+pub(crate) fn cut_range(range: &mut [f64; 2], [at_start, at_end]: [f64; 2]) -> bool {
+    match (at_start >= 0.0, at_end >= 0.0) {
+        (true, true) => {}
+        (false, false) => return false,
+        (true, false) => range[1] = range[1].min(at_start / (at_start - at_end)),
+        (false, true) => range[0] = range[0].max(at_start / (at_start - at_end)),
+    }
+    range[0] < range[1]
 }
 
 /// How far a way leads away from the plane of a face; 0 for faces without area.

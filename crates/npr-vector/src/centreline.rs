@@ -223,7 +223,7 @@ impl Centrelines {
                 ..StrokeSurface::default()
             }],
             strokes: strokes.collect(),
-            regions: Vec::new(),
+            ..Drawing::default()
         }
     }
 }

@@ -15,13 +15,15 @@ use crate::intersect::Crossings;
 use crate::merge::{FACING_PX, TOUCHING_PX, merge_ends};
 use crate::project::Projector;
 use crate::puff::SmokeLines;
+use crate::rank::hash_key;
 use crate::run::{Line, Run, RunPoint, distance, runs};
 use crate::smooth::{between, smooth};
 use crate::spurs::cut_spurs;
 use crate::stroke::{Kind, Stroke, StrokePoint};
-use crate::visibility::{Circumstances, OutlineGrid, Piece, Seen, Span};
+use crate::visibility::{Circumstances, FaceImages, Ink, OutlineGrid, Piece, Seen, Span};
 use crate::wire::{touch, wires};
 use crate::zero_set::{CornerNormals, PolygonOutline, SeenContour, zero_set};
+use npr_core::budget::{Budget, OverBudget};
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 use rayon::prelude::*;
@@ -52,6 +54,17 @@ pub struct LineSettings {
     pub hidden: bool,
     /// Turn, in radians, from which strokes are cut at a corner; none never.
     pub split: Option<f32>,
+    /// Most bytes that what is found of a view may take.
+    pub memory_limit: u64,
+}
+
+/// The lines of a view.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ViewStrokes {
+    /// The strokes; visible ones first where hidden ones are asked for, then by chain.
+    pub strokes: Vec<Stroke>,
+    /// Pieces of line that were left out because the paper under them was black already.
+    pub left_out: usize,
 }
 
 /// What a point of a stroke is drawn with.
@@ -103,6 +116,9 @@ pub(crate) const OUTLINE_TOLERANCE_PX: f64 = 2.0;
 /// Up to how many surfaces in front of a hidden line are counted.
 const HIDDEN_COUNT_LIMIT: u32 = 255;
 
+/// Crowded pieces looked at between two looks at the ink on the paper.
+const ROUND: usize = 256;
+
 /// What can be known of a shape's lines before there is a camera.
 #[derive(Debug)]
 pub struct Prepared {
@@ -133,10 +149,29 @@ impl Prepared {
     ///
     /// Intersections cost more than the rest together, and are needed only as lines: without them, a view finds for itself
     /// where its lines go through faces.
+    ///
+    /// # Panics
+    ///
+    /// Never: memory is not limited. [`Prepared::within`] does that.
     pub fn new(shape: &Shape, crease_cos: f32, with_crossings: bool) -> Self {
+        let mut budget = Budget::new(u64::MAX);
+        Self::within(shape, crease_cos, with_crossings, &mut budget).expect("no limit is set")
+    }
+
+    /// The same within a limit of memory.
+    ///
+    /// # Errors
+    ///
+    /// [`OverBudget`] where so many faces cut each other that there is no memory for the pairs.
+    pub fn within(
+        shape: &Shape,
+        crease_cos: f32,
+        with_crossings: bool,
+        budget: &mut Budget,
+    ) -> Result<Self, OverBudget> {
         let (tree, features) = rayon::join(|| FaceTree::new(shape), || features(shape, crease_cos));
         let crossings = if with_crossings {
-            crate::intersect::crossings(shape, &tree)
+            crate::intersect::crossings(shape, &tree, budget)?
         } else {
             Crossings::default()
         };
@@ -150,7 +185,7 @@ impl Prepared {
             is_open.resize(is_open.len().max(object + 1), false);
             is_open[object] = true;
         }
-        Self {
+        Ok(Self {
             tree,
             features,
             crossings,
@@ -161,7 +196,7 @@ impl Prepared {
             crease_cos,
             has_crossings: with_crossings,
             normals: OnceLock::new(),
-        }
+        })
     }
 
     /// Smooth normals at the corners of the shape's faces, made when first asked for.
@@ -183,7 +218,11 @@ fn object_of(shape: &Shape, face: u32) -> u32 {
 /// The lines of a view as strokes; visible ones first where hidden ones are asked for, then by chain.
 ///
 /// `width_at` gives the whole line width in pixels at a vertex of the shape. O(faces + lines log lines); most of
-/// the time goes into one sight for every span of every line.
+/// the time goes into one sight for every span of every line. The memory limit of the settings does not count.
+///
+/// # Panics
+///
+/// Never: memory is not limited.
 pub fn strokes(
     shape: &Shape,
     prepared: &Prepared,
@@ -197,14 +236,25 @@ pub fn strokes(
         width_at,
         paint_at: None,
     };
-    strokes_with(
-        shape, prepared, projector, settings, &contours, &look, smoke,
-    )
+    let settings = LineSettings {
+        memory_limit: u64::MAX,
+        ..settings.clone()
+    };
+    let found = strokes_with(
+        shape, prepared, projector, &settings, &contours, &look, smoke,
+    );
+    found.expect("no limit is set").strokes
 }
 
 /// The same, with the contours along edges found by the caller for [`eye_of`] the view, and among smoke.
 ///
-/// Dense smoke hides lines of the shape and counts as one surface; its own outline comes after them.
+/// Dense smoke hides lines of the shape and counts as one surface; its own outline comes after them. Where lines lie
+/// so close that the paper is black, further ones are left out: those over it whose edges have the greater hashes
+/// ([`hash_key`]), whatever the number of threads.
+///
+/// # Errors
+///
+/// [`OverBudget`] where what is found would take more than the settings' limit.
 pub fn strokes_with(
     shape: &Shape,
     prepared: &Prepared,
@@ -213,7 +263,7 @@ pub fn strokes_with(
     contours: &EdgeContours,
     look: &StrokeLook<'_>,
     smoke: Option<&SmokeLines<'_>>,
-) -> Vec<Stroke> {
+) -> Result<ViewStrokes, OverBudget> {
     let EdgeContours {
         front,
         graph: edge_contours,
@@ -226,12 +276,16 @@ pub fn strokes_with(
         front,
         covered: Vec::new(),
     };
-    let outlines = OutlineGrid::new(settings.size, view.outlines(edge_contours));
+    let mut toll = Toll::new(settings);
+    let outlines = view.outlines(edge_contours, &mut toll.budget)?;
+    let images = OnceLock::new();
     let seen = Seen {
         shape,
         tree: &prepared.tree,
         projector,
         outlines: &outlines,
+        images: &images,
+        size: settings.size,
         puffs: smoke
             .filter(|smoke| smoke.is_dense)
             .map(|smoke| smoke.puffs),
@@ -242,7 +296,7 @@ pub fn strokes_with(
         },
     };
     let wanted = settings.kinds | CurveNode::MARKED;
-    let contour_lines = view.lines(edge_contours, &seen, wanted);
+    let contour_lines = view.lines(edge_contours, &seen, wanted, &mut toll)?;
     let smooth_contours = view.smooth_contours(edge_contours, &contour_lines);
     let contour_runs = match &smooth_contours {
         Some((graph, lines)) => runs(shape, projector, graph, lines),
@@ -263,18 +317,12 @@ pub fn strokes_with(
         &prepared.wires,
         &prepared.crossings.graph,
     ];
-    let other_runs = others
-        .iter()
-        .flat_map(|graph| runs(shape, projector, graph, &view.lines(graph, &seen, wanted)));
-    let mut found: Vec<Run> = contour_runs.into_iter().chain(other_runs).collect();
-    found.retain(|run| settings.hidden || run.occluders == 0);
-    let mut found = calmed(found, settings);
-    if look.paint_at.is_some() {
-        found = broken_up(found);
+    let mut found = contour_runs;
+    for graph in others {
+        let lines = view.lines(graph, &seen, wanted, &mut toll)?;
+        found.extend(runs(shape, projector, graph, &lines));
     }
-    let mut strokes = strokes_of(found, &|run: &Run, point: &RunPoint| {
-        look.paint(shape, run, point)
-    });
+    let mut strokes = strokes_of_runs(found, shape, settings, look);
     if let Some(smoke) = smoke {
         let seen = Seen {
             puffs: None,
@@ -283,7 +331,44 @@ pub fn strokes_with(
         strokes.extend(smoke.strokes(&seen, settings));
     }
     strokes.sort_by_key(|stroke| stroke.occluders > 0);
-    strokes
+    Ok(ViewStrokes {
+        strokes,
+        left_out: toll.left_out,
+    })
+}
+
+/// The runs of a view as strokes, calmed and painted.
+fn strokes_of_runs(
+    mut found: Vec<Run>,
+    shape: &Shape,
+    settings: &LineSettings,
+    look: &StrokeLook<'_>,
+) -> Vec<Stroke> {
+    found.retain(|run| settings.hidden || run.occluders == 0);
+    let mut found = calmed(found, settings);
+    if look.paint_at.is_some() {
+        found = broken_up(found);
+    }
+    strokes_of(found, &|run: &Run, point: &RunPoint| {
+        look.paint(shape, run, point)
+    })
+}
+
+/// What a view has used up.
+struct Toll {
+    budget: Budget,
+    ink: Ink,
+    left_out: usize,
+}
+
+impl Toll {
+    fn new(settings: &LineSettings) -> Self {
+        Self {
+            budget: Budget::new(settings.memory_limit),
+            ink: Ink::new(settings.size),
+            left_out: 0,
+        }
+    }
 }
 
 /// Nothing changes.
@@ -365,7 +450,14 @@ struct View<'a> {
 
 impl View<'_> {
     /// Everything that can begin or end hiding something: contours, borders, and edges of more than two faces.
-    fn outlines(&self, contours: &CurveGraph) -> Vec<Piece> {
+    fn outlines(
+        &self,
+        contours: &CurveGraph,
+        budget: &mut Budget,
+    ) -> Result<OutlineGrid, OverBudget> {
+        let lists = [&contours.nodes, &self.prepared.features.nodes].map(Vec::len);
+        let most = lists[0] + lists[1] + self.prepared.rims.len();
+        budget.take("outlines", most, size_of::<Piece>())?;
         let loops = contours
             .nodes
             .par_iter()
@@ -386,7 +478,8 @@ impl View<'_> {
             .par_iter()
             .with_min_len(1024)
             .filter_map(|edge| self.edge_piece(*edge));
-        loops.chain(odd).chain(rims).collect()
+        let pieces = loops.chain(odd).chain(rims).collect();
+        OutlineGrid::new(self.settings.size, pieces, budget)
     }
 
     /// Feature edges that are contours of the polygons in this view.
@@ -431,8 +524,17 @@ impl View<'_> {
     }
 
     /// What is drawn of every node of a graph, and what is seen of it.
-    fn lines(&self, graph: &CurveGraph, seen: &Seen<'_>, wanted: u32) -> Vec<Option<Line>> {
-        graph
+    fn lines(
+        &self,
+        graph: &CurveGraph,
+        seen: &Seen<'_>,
+        wanted: u32,
+        toll: &mut Toll,
+    ) -> Result<Vec<Option<Line>>, OverBudget> {
+        let count = graph.nodes.len();
+        toll.budget
+            .take("lines of a view", count, size_of::<Option<Line>>())?;
+        let mut lines: Vec<Option<Line>> = graph
             .nodes
             .par_iter()
             .with_min_len(64)
@@ -440,9 +542,65 @@ impl View<'_> {
                 || None,
                 |last, node| self.line(graph, node, seen, wanted, last),
             )
-            .collect()
+            .collect();
+        let spans = lines.iter().flatten().map(|line| line.spans.len()).sum();
+        toll.budget
+            .take("parts of lines", spans, size_of::<Span>())?;
+        self.add_crowded(graph, seen, &mut lines, toll)?;
+        Ok(lines)
     }
 
+    /// Finds what is seen of crowded lines, those with the least hashes of their edges first, until the paper under
+    /// the others is black.
+    fn add_crowded(
+        &self,
+        graph: &CurveGraph,
+        seen: &Seen<'_>,
+        lines: &mut [Option<Line>],
+        toll: &mut Toll,
+    ) -> Result<(), OverBudget> {
+        let is_crowded = |line: &Option<Line>| line.as_ref().is_some_and(|l| l.spans.is_empty());
+        let mut crowded: Vec<usize> = (0..lines.len())
+            .filter(|index| is_crowded(&lines[*index]))
+            .collect();
+        if crowded.is_empty() {
+            return Ok(());
+        }
+        if seen.images.get().is_none() {
+            let (count, bytes) = (self.shape.faces.len(), FaceImages::BYTES_PER_FACE);
+            toll.budget.take("boxes of faces", count, bytes)?;
+        }
+        crowded.sort_unstable_by_key(|index| (hash_key(graph.nodes[*index].edge), *index));
+        for round in crowded.chunks(ROUND) {
+            // What is left out hangs on the rounds before alone, so on no thread.
+            let found: Vec<Option<Vec<Span>>> = round
+                .par_iter()
+                .map(|index| {
+                    let piece = lines[*index].as_ref().map(|line| &line.piece)?;
+                    let node = &graph.nodes[*index];
+                    let other = graph.nodes.get(node.next as usize)?;
+                    let black = toll.ink.black_parts(piece);
+                    let is_free = black != [[0.0, 1.0]];
+                    let of_piece = || self.circumstances(node, other, true);
+                    is_free.then(|| seen.crowded_spans(piece, &of_piece(), &black))
+                })
+                .collect();
+            for (index, spans) in round.iter().zip(found) {
+                let (Some(line), Some(spans)) = (&mut lines[*index], spans) else {
+                    lines[*index] = None;
+                    toll.left_out += 1;
+                    continue;
+                };
+                toll.budget
+                    .take("parts of lines", spans.len(), size_of::<Span>())?;
+                toll.ink.draw(&line.piece, &spans, self.settings.hidden);
+                line.spans = spans;
+            }
+        }
+        Ok(())
+    }
+
+    /// What is drawn of a node; of a crowded one without what is seen of it.
     fn line(
         &self,
         graph: &CurveGraph,
@@ -458,7 +616,10 @@ impl View<'_> {
             return None;
         }
         let (piece, other) = self.piece_after(graph, node)?;
-        let spans: Vec<Span> = seen.spans(&piece, &self.circumstances(node, other), last);
+        let spans: Vec<Span> = match seen.outlines.is_crowded(&piece) {
+            true => Vec::new(),
+            false => seen.spans(&piece, &self.circumstances(node, other, false), last),
+        };
         let surface = match self.shape.wire_of(node.edge) {
             Some(wire) => self.shape.wire_surfaces[wire],
             None => self.shape.face_surfaces[node.face as usize],
@@ -561,8 +722,13 @@ impl View<'_> {
         Some((graph, lines))
     }
 
-    /// Faces that a piece lies in, and where it goes through others.
-    fn circumstances(&self, node: &CurveNode, other: &CurveNode) -> Circumstances {
+    /// Faces that a piece lies in, and where it goes through others, which a crowded piece need not know.
+    fn circumstances(
+        &self,
+        node: &CurveNode,
+        other: &CurveNode,
+        is_crowded: bool,
+    ) -> Circumstances {
         let mut own_faces: Vec<u32> = self
             .shape
             .sides(node.edge)
@@ -572,7 +738,11 @@ impl View<'_> {
         if node.is_along_edge() {
             let is_wire = self.shape.wire_of(node.edge).is_some();
             return Circumstances {
-                piercings: self.piercings(node),
+                piercings: if is_crowded {
+                    Vec::new()
+                } else {
+                    self.piercings(node)
+                },
                 own_faces,
                 touch: if is_wire { self.prepared.touch } else { 0.0 },
             };
@@ -580,8 +750,8 @@ impl View<'_> {
         own_faces.extend(self.shape.sides(other.edge).iter().map(|side| side / 3));
         own_faces.push(node.face);
         for end in [node, other] {
-            let pierced = self.prepared.crossings.of_edge(end.edge).iter();
-            own_faces.extend(pierced.filter(|p| p.t == end.t).map(|p| p.face));
+            let pierced = self.prepared.crossings.at(end.edge, end.t).iter();
+            own_faces.extend(pierced.map(|p| p.face));
         }
         Circumstances {
             own_faces,

@@ -18,13 +18,14 @@ mod tests;
 use crate::bvh::FaceTree;
 use crate::graph::CurveGraph;
 use cut::Segment;
+use npr_core::budget::{Budget, OverBudget};
 use npr_core::shape::Shape;
 use rayon::prelude::*;
 
-/// Pairs of faces looked at exactly, beside [`PAIRS_PER_FACE`] for every face: some seconds of work.
+/// Pairs of faces looked at exactly, beside [`PAIRS_PER_FACE`] for every face: a second of work.
 ///
 /// Where thousands of faces all overlap each other, pairs grow with the square of their number.
-pub const PAIRS: usize = 1 << 20;
+pub const PAIRS: usize = 1 << 18;
 
 /// Pairs of faces looked at exactly, for every face of the shape.
 pub const PAIRS_PER_FACE: usize = 16;
@@ -65,6 +66,13 @@ pub struct Crossings {
 }
 
 impl Crossings {
+    /// The piercings at a place of an edge. O(log n).
+    pub fn at(&self, edge: u32, t: f32) -> &[Piercing] {
+        let of_edge = self.of_edge(edge);
+        let from = of_edge.partition_point(|p| p.t < t);
+        &of_edge[from..from + of_edge[from..].partition_point(|p| p.t == t)]
+    }
+
     /// The piercings of an edge, by place. O(log n).
     pub fn of_edge(&self, edge: u32) -> &[Piercing] {
         let from = self.piercings.partition_point(|p| p.edge < edge);
@@ -77,9 +85,20 @@ impl Crossings {
 ///
 /// Exact for any finite positions, the same for any number of threads. About O(n log n) in faces plus the number of
 /// overlapping pairs, which is bounded; memory likewise. Faces that share an edge meet there alone.
-pub fn crossings(shape: &Shape, tree: &FaceTree) -> Crossings {
+///
+/// # Errors
+///
+/// [`OverBudget`] where there is no memory for the pairs.
+pub fn crossings(
+    shape: &Shape,
+    tree: &FaceTree,
+    budget: &mut Budget,
+) -> Result<Crossings, OverBudget> {
     let limit = PAIRS + PAIRS_PER_FACE * shape.faces.len();
-    let found = pairs::find(shape, tree, limit);
+    let bytes = size_of::<[u32; 2]>() + size_of::<Segment>() + 2 * size_of::<Piercing>();
+    let found = pairs::find(shape, tree, limit, &mut |count| {
+        budget.take("pairs of faces that overlap", count, bytes)
+    })?;
     let mut segments: Vec<Segment> = found
         .pairs
         .par_iter()
@@ -92,11 +111,11 @@ pub fn crossings(shape: &Shape, tree: &FaceTree) -> Crossings {
         segments.clear();
     }
     segments.par_sort_unstable_by_key(|segment| segment.faces);
-    Crossings {
+    Ok(Crossings {
         graph: link::link(shape, &segments),
         piercings,
         overflow: found.overflow || is_dense,
-    }
+    })
 }
 
 /// Every piercing once, though each is the end of a segment on all faces of its edge.

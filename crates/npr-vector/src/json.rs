@@ -347,7 +347,7 @@ mod tests {
                     },
                 )
                 .collect(),
-            regions: Vec::new(),
+            ..Drawing::default()
         })
     }
 

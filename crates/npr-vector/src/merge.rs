@@ -36,6 +36,10 @@ const CORNER_COST: f64 = 10.0;
 /// that within few pixels.
 const DEPTH_SHARE: f64 = 0.03;
 
+/// Ends in one cell as wide as the reach, above which they stay as they are: nobody could tell which goes on in
+/// which.
+const ENDS_MOST: usize = 128;
+
 /// Over how much of a run its direction at an end is taken, in pixels.
 const DIRECTION_PX: f64 = 6.0;
 
@@ -44,8 +48,8 @@ const DIRECTION_PX: f64 = 6.0;
 /// Both must be of one kind, object, surface and visibility; each end is used once. A run whose two ends fit closes. Of ends that run
 /// past each other both lose half of the overlap. Around a corner of up to 120 degrees only those ends are joined whose
 /// tips are within 4.5 pixels and that no third one of the kind and object comes as near. The result keeps the order of the runs' first members, and runs the
-/// way of the one with the least id, whichever comes first. Ends that were cut at corners stay apart. O(n log n) for ends that
-/// are spread over the picture.
+/// way of the one with the least id, whichever comes first. Ends that were cut at corners stay apart, and so do
+/// those of more than 128 in one place. O(n log n).
 pub fn merge_ends(mut runs: Vec<Run>, reach_px: f64) -> Vec<Run> {
     let ends = ends_of(&runs);
     let mates = mates(&Meetings::new(&runs, &ends, reach_px));
@@ -122,6 +126,7 @@ fn near_pairs(ends: &[Option<End>], reach_px: f64) -> Vec<[usize; 2]> {
             cell.push((index, end));
         }
     }
+    cells.retain(|_, members| members.len() <= ENDS_MOST);
     let mut pairs = Vec::new();
     for (cell, members) in &cells {
         for step in [[0, 0], [1, 0], [-1, 1], [0, 1], [1, 1]] {

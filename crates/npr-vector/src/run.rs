@@ -23,7 +23,7 @@ pub struct Line {
     pub surface: u32,
     /// Where it lies.
     pub piece: Piece,
-    /// What is seen of it.
+    /// What is seen of it; gaps between them are left out.
     pub spans: Vec<Span>,
 }
 
@@ -218,7 +218,11 @@ fn items<'a>(
         };
         let whole_start = line.piece.range[0] == 0.0;
         for (i, span) in line.spans.iter().enumerate() {
-            let follows = if i == 0 { open && whole_start } else { true };
+            // Where paper is black already there is no span.
+            let follows = match i.checked_sub(1) {
+                Some(before) => line.spans[before].to == span.from,
+                None => open && whole_start && span.from == 0.0,
+            };
             items.push(Item {
                 node: *node,
                 line,
@@ -226,12 +230,13 @@ fn items<'a>(
                 follows,
             });
         }
-        open = line.piece.range[1] == 1.0;
+        open = line.piece.range[1] == 1.0 && line.spans.last().is_some_and(|span| span.to == 1.0);
     }
     let first = chain[0];
     let is_loop = graph.is_loop(chain) && open;
     if let (Some(item), Some(line)) = (items.first_mut(), &lines[first as usize]) {
-        item.follows = is_loop && line.piece.range[0] == 0.0 && item.node == first;
+        let is_whole = line.piece.range[0] == 0.0 && item.span.from == 0.0;
+        item.follows = is_loop && is_whole && item.node == first;
     }
     (items, is_loop)
 }

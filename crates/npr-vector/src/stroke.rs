@@ -161,4 +161,6 @@ pub struct Drawing {
     pub strokes: Vec<Stroke>,
     /// Flat colour under the lines; empty unless asked for.
     pub regions: Vec<Region>,
+    /// What of the lines is left out, a sentence each, for the user; files do not hold it.
+    pub notices: Vec<String>,
 }

@@ -4,17 +4,40 @@
 //! and where it goes through a face [Appel 1967]. So a piece is cut there, and one sight from the eye to the
 //! middle of each span decides for all of it.
 
-use crate::bvh::{FaceTree, Sight};
+mod covering;
+mod ink;
+#[cfg(test)]
+mod tests;
+
+pub use covering::FaceImages;
+pub(crate) use ink::Ink;
+
+use crate::bvh::{FaceTree, Sight, cut_range};
 use crate::project::Projector;
 use crate::puff::Puffs;
 use glam::DVec3;
+use npr_core::budget::{Budget, OverBudget};
 use npr_core::shape::Shape;
+use std::sync::OnceLock;
 
 /// How far outside the frame lines are still followed, as a share of its larger side.
 pub(crate) const MARGIN: f64 = 0.02;
 
 /// Spans shorter than this are not looked at by themselves, in pixels.
 const LEAST_SPAN_PX: f64 = 1e-4;
+
+/// A piece is crowded where the cells that its image passes hold more outlines than this.
+///
+/// What hides it is then looked for face by face: looking at every crossing with an outline would take the square of
+/// their number. Lines of usual models pass some dozens, the longest some hundreds.
+pub const CROWD: usize = 512;
+
+/// Spans of crowded pieces shorter than this, in pixels, are left out: nobody sees them, and there may be as many as
+/// faces.
+const LEAST_CROWDED_PX: f64 = 1.0 / 64.0;
+
+/// Of a crowded piece behind more faces than this, they are not counted: it is hidden or not.
+const COUNTED_MOST: usize = 1024;
 
 /// A straight piece of line in space and in the picture, cut to the frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +58,7 @@ impl Piece {
         let near = projector.near();
         let uncut = [projector.depth(a), projector.depth(b)];
         let mut range = [0.0, 1.0];
-        if projector.is_perspective() && !cut(&mut range, uncut[0] - near, uncut[1] - near) {
+        if projector.is_perspective() && !cut_range(&mut range, uncut.map(|depth| depth - near)) {
             return None;
         }
         let front = range.map(|t| a.lerp(b, t));
@@ -46,7 +69,9 @@ impl Piece {
         for axis in 0..2 {
             let (low, high) = (-margin, f64::from(size[axis]) + margin);
             let [p, q] = place.map(|place| place[axis]);
-            if !cut(&mut shown, p - low, q - low) || !cut(&mut shown, high - p, high - q) {
+            if !cut_range(&mut shown, [p - low, q - low])
+                || !cut_range(&mut shown, [high - p, high - q])
+            {
                 return None;
             }
         }
@@ -96,17 +121,6 @@ impl Piece {
     }
 }
 
-/// Shortens a range to where a linear function, given at 0 and 1, is not negative; false where nothing is left.
-fn cut(range: &mut [f64; 2], at_start: f64, at_end: f64) -> bool {
-    match (at_start >= 0.0, at_end >= 0.0) {
-        (true, true) => {}
-        (false, false) => return false,
-        (true, false) => range[1] = range[1].min(at_start / (at_start - at_end)),
-        (false, true) => range[0] = range[0].max(at_start / (at_start - at_end)),
-    }
-    range[0] < range[1]
-}
-
 /// What decides about one piece besides its geometry.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Circumstances {
@@ -143,7 +157,15 @@ pub struct OutlineGrid {
 
 impl OutlineGrid {
     /// Sorts outlines into cells; O(outlines + cells they touch).
-    pub fn new(size: [u32; 2], outlines: Vec<Piece>) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// [`OverBudget`] where there is no memory for them.
+    pub fn new(
+        size: [u32; 2],
+        outlines: Vec<Piece>,
+        budget: &mut Budget,
+    ) -> Result<Self, OverBudget> {
         let margin = MARGIN * f64::from(size[0].max(size[1])) + 1.0;
         let [width, height] = size.map(|side| f64::from(side) + 2.0 * margin);
         let total: f64 = outlines.iter().map(Piece::length).sum();
@@ -161,11 +183,11 @@ impl OutlineGrid {
             starts: Vec::new(),
             entries: Vec::new(),
         };
-        grid.fill();
-        grid
+        grid.fill(budget)?;
+        Ok(grid)
     }
 
-    fn fill(&mut self) {
+    fn fill(&mut self, budget: &mut Budget) -> Result<(), OverBudget> {
         let mut counts = vec![0_u32; self.columns * self.rows + 1];
         for outline in &self.outlines {
             self.cells_of(outline, |cell| counts[cell + 1] += 1);
@@ -173,7 +195,9 @@ impl OutlineGrid {
         for cell in 1..counts.len() {
             counts[cell] += counts[cell - 1];
         }
-        let mut entries = vec![0; counts[counts.len() - 1] as usize];
+        let count = counts[counts.len() - 1] as usize;
+        budget.take("outlines in the picture", count, size_of::<u32>())?;
+        let mut entries = vec![0; count];
         let mut cursor = counts.clone();
         for (index, outline) in self.outlines.iter().enumerate() {
             self.cells_of(outline, |cell| {
@@ -183,6 +207,16 @@ impl OutlineGrid {
         }
         self.starts = counts;
         self.entries = entries;
+        Ok(())
+    }
+
+    /// Whether the cells that a piece's image passes hold more than [`CROWD`] outlines. O(cells).
+    pub fn is_crowded(&self, piece: &Piece) -> bool {
+        let mut count = 0;
+        self.cells_of(piece, |cell| {
+            count += (self.starts[cell + 1] - self.starts[cell]) as usize;
+        });
+        count > CROWD
     }
 
     /// Visits the cells that a piece's image passes, row by row.
@@ -266,14 +300,20 @@ pub struct Seen<'a> {
     pub projector: &'a Projector,
     /// The outlines of the view.
     pub outlines: &'a OutlineGrid,
+    /// The faces as the view has them; made when a crowded piece first asks.
+    pub images: &'a OnceLock<FaceImages>,
     /// Smoke that hides lines, where there is any.
     pub puffs: Option<&'a Puffs>,
+    /// Width and height of the picture in pixels.
+    pub size: [u32; 2],
     /// Up to how many surfaces in front are counted; 1 only tells visible from hidden.
     pub count_limit: u32,
 }
 
 impl Seen<'_> {
-    /// The spans of a piece, which cover it in order; neighbours differ.
+    /// The spans of a piece, which cover it in order; neighbours differ. Of crowded pieces
+    /// ([`OutlineGrid::is_crowded`]) behind more than 1024 faces these are not counted: what is hidden has one in
+    /// front.
     ///
     /// `last` keeps the face that hid something last, to be tried first: it changes the time taken and nothing else.
     pub fn spans(
@@ -282,21 +322,69 @@ impl Seen<'_> {
         circumstances: &Circumstances,
         last: &mut Option<u32>,
     ) -> Vec<Span> {
+        if self.outlines.is_crowded(piece) {
+            return self.crowded_spans(piece, circumstances, &[]);
+        }
         let cuts = self.cuts(piece, &circumstances.piercings);
         let mut spans: Vec<Span> = Vec::with_capacity(1);
         for pair in cuts.windows(2) {
             let middle = (pair[0] + pair[1]) * 0.5;
             let occluders = self.occluders(piece, middle, circumstances, last);
-            match spans.last_mut() {
-                Some(span) if span.occluders == occluders => span.to = pair[1],
-                _ => spans.push(Span {
-                    from: pair[0],
-                    to: pair[1],
-                    occluders,
-                }),
-            }
+            push(&mut spans, [pair[0], pair[1]], occluders);
         }
         spans
+    }
+
+    /// The spans of a piece by the parts of it that each face hides, without those parts, ascending, that are
+    /// `left_out`. About O(log n) for each face that hides a part no other does.
+    pub(crate) fn crowded_spans(
+        &self,
+        piece: &Piece,
+        circumstances: &Circumstances,
+        left_out: &[[f64; 2]],
+    ) -> Vec<Span> {
+        let images = self
+            .images
+            .get_or_init(|| FaceImages::new(self.shape, self.tree, self.projector, self.size));
+        if self.count_limit > 1 && left_out.is_empty() && self.puffs.is_none() {
+            let parts = images.parts_by_face(self, piece, circumstances, COUNTED_MOST);
+            if let Some(parts) = parts {
+                return joined(counted(&parts, self.count_limit), piece);
+            }
+        }
+        let mut ends = vec![0.0];
+        let hidden = images.hidden_parts(self, piece, circumstances, left_out);
+        ends.extend(hidden.as_flattened());
+        ends.push(1.0);
+        let mut spans: Vec<Span> = Vec::with_capacity(ends.len());
+        for (pair, occluders) in ends.windows(2).zip([0, 1].into_iter().cycle()) {
+            if occluders == 0 {
+                self.push_veiled(piece, [pair[0], pair[1]], &mut spans);
+            } else {
+                push(&mut spans, [pair[0], pair[1]], 1);
+            }
+        }
+        without(&joined(spans, piece), left_out)
+    }
+
+    /// The spans of a part that no face hides: smoke may.
+    fn push_veiled(&self, piece: &Piece, [from, to]: [f64; 2], spans: &mut Vec<Span>) {
+        let mut cuts = vec![from];
+        if let Some(puffs) = self.puffs {
+            cuts.extend(
+                puffs
+                    .cuts(piece)
+                    .into_iter()
+                    .filter(|cut| from < *cut && *cut < to),
+            );
+        }
+        cuts.push(to);
+        cuts.sort_by(f64::total_cmp);
+        for pair in cuts.windows(2) {
+            let middle = piece.world_at(self.projector, (pair[0] + pair[1]) * 0.5);
+            let is_veiled = self.puffs.is_some_and(|puffs| puffs.hide(middle));
+            push(spans, [pair[0], pair[1]], u32::from(is_veiled));
+        }
     }
 
     /// All places where visibility may change, with both ends.
@@ -329,11 +417,7 @@ impl Seen<'_> {
         last: &mut Option<u32>,
     ) -> u32 {
         let point = piece.world_at(self.projector, share);
-        let sight = Sight {
-            eye: self.projector.sight_start(point).to_array(),
-            point: point.to_array(),
-            touch: circumstances.touch,
-        };
+        let sight = self.sight(point, circumstances);
         let own = &circumstances.own_faces;
         let veiled = u32::from(self.puffs.is_some_and(|puffs| puffs.hide(point)));
         if self.count_limit == 1 {
@@ -348,5 +432,87 @@ impl Seen<'_> {
             .tree
             .occluders(self.shape, &sight, own, self.count_limit);
         (faces + veiled).min(self.count_limit)
+    }
+
+    /// The way from the eye to a point of a piece.
+    fn sight(&self, point: DVec3, circumstances: &Circumstances) -> Sight {
+        Sight {
+            eye: self.projector.sight_start(point).to_array(),
+            point: point.to_array(),
+            touch: circumstances.touch,
+        }
+    }
+}
+
+/// How many of some parts, up to a limit, lie over each place.
+fn counted(parts: &[[f64; 2]], limit: u32) -> Vec<Span> {
+    let starts = parts.iter().map(|part| (part[0], 1));
+    let mut steps: Vec<(f64, i32)> = starts
+        .chain(parts.iter().map(|part| (part[1], -1)))
+        .collect();
+    // Where one part ends and another starts, there is nothing between them.
+    steps.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+    let (mut spans, mut from, mut count) = (Vec::new(), 0.0, 0_i32);
+    for (at, step) in steps.into_iter().chain([(1.0, 0)]) {
+        let at = at.clamp(0.0, 1.0);
+        if from < at {
+            push(&mut spans, [from, at], count.unsigned_abs().min(limit));
+            from = at;
+        }
+        count += step;
+    }
+    spans
+}
+
+/// Spans of a crowded piece without those too short to see, which go to the one before.
+fn joined(spans: Vec<Span>, piece: &Piece) -> Vec<Span> {
+    let least = LEAST_CROWDED_PX / piece.length().max(2.0 * LEAST_CROWDED_PX);
+    let mut kept: Vec<Span> = Vec::with_capacity(spans.len());
+    for span in spans {
+        let is_short = span.to - span.from < least;
+        let before = kept.last().filter(|_| is_short).map(|last| last.occluders);
+        push(
+            &mut kept,
+            [span.from, span.to],
+            before.unwrap_or(span.occluders),
+        );
+    }
+    kept
+}
+
+/// What is left of spans beside some parts, ascending; neither overlap among themselves.
+fn without(spans: &[Span], parts: &[[f64; 2]]) -> Vec<Span> {
+    let mut left = Vec::with_capacity(spans.len());
+    for span in spans {
+        let first = parts.partition_point(|part| part[1] <= span.from);
+        let inside = parts[first..].iter().take_while(|part| part[0] < span.to);
+        let mut from = span.from;
+        for part in inside {
+            if from < part[0] {
+                left.push(Span {
+                    from,
+                    to: part[0],
+                    ..*span
+                });
+            }
+            from = part[1];
+        }
+        if from < span.to {
+            left.push(Span { from, ..*span });
+        }
+    }
+    left
+}
+
+/// Appends a span, or makes the last one longer where both are alike; nothing where it has no length.
+fn push(spans: &mut Vec<Span>, [from, to]: [f64; 2], occluders: u32) {
+    match spans.last_mut() {
+        Some(span) if span.occluders == occluders => span.to = to,
+        _ if from < to => spans.push(Span {
+            from,
+            to,
+            occluders,
+        }),
+        _ => {}
     }
 }

@@ -126,6 +126,7 @@ fn sampler() -> Drawing {
                 rings: vec![square(110.0, 130.0, 100.0)],
             },
         ],
+        ..Drawing::default()
     }
 }
 
@@ -389,6 +390,7 @@ fn strokes_far_outside_are_cut() {
             surface: 0,
             rings: vec![vec![[-1e9, -1e9], [1e9, -1e9], [50.0, 1e12]]],
         }],
+        ..Drawing::default()
     };
     for paths in [Paths::Outline, Paths::Centreline] {
         let svg = text(&drawing, &options(paths, Hidden::None));

@@ -34,6 +34,7 @@ fn settings(smooth: bool) -> LineSettings {
         smooth,
         hidden: false,
         split: None,
+        memory_limit: u64::MAX,
     }
 }
 

@@ -76,10 +76,10 @@ fn off_px(mesh: &Mesh, eye: [f32; 3], settings: &LineSettings) -> (f64, f64) {
         paint_at: Some(&paint_at),
     };
     let contours = EdgeContours::new(&shape, &eye_of(&shape, &projector));
-    let strokes = strokes_with(
+    let found = strokes_with(
         &shape, &prepared, &projector, settings, &contours, &look, None,
     );
-    assert!(!strokes.is_empty());
+    assert!(!found.expect("no limit is set").strokes.is_empty());
     let all = all.into_inner().expect("no panic");
     let farthest = all.iter().copied().fold(0.0, f64::max);
     (farthest, all.iter().sum::<f64>() / all.len() as f64)
@@ -100,7 +100,7 @@ proptest! {
         mesh in any_mesh(), eye in any_eye(), smooth: bool, hidden: bool, on_surface: bool, split in prop::option::of(0.2_f32..3.0),
     ) {
         let method = if on_surface { Method::Surface } else { Method::Edges };
-        let settings = LineSettings { size: SIZE, kinds: CurveNode::KINDS, method, smooth, hidden, split };
+        let settings = LineSettings { size: SIZE, kinds: CurveNode::KINDS, method, smooth, hidden, split, memory_limit: u64::MAX };
         let (farthest, mean) = off_px(&mesh, eye, &settings);
         let most = if smooth { GAP_PX } else { 0.01 };
         prop_assert!(farthest < most && mean < NEAR_PX, "{} px, {} px", farthest, mean);

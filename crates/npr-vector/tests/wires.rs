@@ -77,6 +77,7 @@ fn draw(shape: &Shape, eye: [f32; 3], hidden: bool) -> Vec<Stroke> {
         smooth: false,
         hidden,
         split: None,
+        memory_limit: u64::MAX,
     };
     let prepared = Prepared::new(shape, 0.77, false);
     strokes(shape, &prepared, &projector(eye), &settings, &|_| 2.0)
@@ -210,6 +211,7 @@ proptest! {
         let shape = shape_with(Some(&ball), &points, &segments);
         let settings = LineSettings {
             size: SIZE, kinds: 0, method: Method::Edges, smooth: false, hidden: false, split: None,
+            memory_limit: u64::MAX,
         };
         let prepared = Prepared::new(&shape, 0.77, false);
         let of_camera = camera(eye.map(|v| v * scale));

@@ -21,3 +21,14 @@ fn every_model_has_lines() {
         assert!(points.all(inside), "{name} has points far outside");
     }
 }
+
+/// Crowds of faces are drawn in a gigabyte, and nobody gets a file of all that lies over black paper.
+#[test]
+fn crowds_of_faces_are_drawn_in_bounds() {
+    for file in samples("torture", &["stl"]) {
+        let lines = ["lines", "--quiet", "--memory-limit", "1G"];
+        let svg = written(&lines, &file);
+        assert!(svg.ends_with(b"</svg>\n"), "{}", file.display());
+        assert!((10_000..4_000_000).contains(&svg.len()), "{}", file.display());
+    }
+}

@@ -27,8 +27,9 @@ impl LineModel {
         let (shape, projector) = (&self.shape, view.projector);
         let mut strokes = traced.strokes(shape, projector, &loops, options.split, look);
         if let Some(smoke) = view.smoke {
-            let all = self.of_mesh(prepared, view, settings, look);
+            let all = self.of_mesh(prepared, view, settings, look)?;
             let of_smoke = all
+                .strokes
                 .into_iter()
                 .filter(|stroke| stroke.surface == smoke.surface);
             strokes.extend(of_smoke);

@@ -68,6 +68,7 @@ impl Subject {
             smooth: true,
             hidden: false,
             split: None,
+            memory_limit: u64::MAX,
         };
         strokes_from(runs, &self.shape, &settings, &look)
     }

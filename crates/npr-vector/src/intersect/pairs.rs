@@ -1,6 +1,7 @@
 //! Pairs of faces that may cut each other: boxes overlap, and neither lies wholly beside the other's plane.
 
 use crate::bvh::FaceTree;
+use npr_core::budget::OverBudget;
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 use rayon::prelude::*;
@@ -12,6 +13,12 @@ const GROUP: u32 = 16;
 
 /// Most pairs that one group may find: 2048 for each of its faces.
 const GROUP_LIMIT: usize = 2048 * GROUP as usize;
+
+/// Pairs of faces whose boxes overlap that are looked at, beside [`LOOKS_PER_FACE`] for every face: a second of work.
+const LOOKS: usize = 1 << 23;
+
+/// Pairs of faces whose boxes overlap that are looked at, for every face.
+const LOOKS_PER_FACE: usize = 256;
 
 /// Groups searched between two looks at the number of pairs found.
 const ROUND: usize = 64;
@@ -31,19 +38,28 @@ struct Node {
 pub(super) struct Pairs {
     /// The lower face first; in an order that depends on the tree alone.
     pub(super) pairs: Vec<[u32; 2]>,
+    /// How many were looked at.
+    looks: usize,
     pub(super) overflow: bool,
 }
 
-/// Finds pairs until there are `limit` of them.
-pub(super) fn find(shape: &Shape, tree: &FaceTree, limit: usize) -> Pairs {
+/// Finds pairs until there are `limit` of them; `take` plans memory for so many more.
+pub(super) fn find(
+    shape: &Shape,
+    tree: &FaceTree,
+    limit: usize,
+    take: &mut dyn FnMut(usize) -> Result<(), OverBudget>,
+) -> Result<Pairs, OverBudget> {
     let nodes = walk_order(tree);
     let groups = groups(&nodes);
     let mut found = Pairs {
         pairs: Vec::new(),
+        looks: 0,
         overflow: false,
     };
     for round in groups.chunks(ROUND) {
-        if found.pairs.len() >= limit {
+        let looks_most = LOOKS + LOOKS_PER_FACE * shape.faces.len();
+        if found.pairs.len() >= limit || found.looks >= looks_most {
             found.overflow = true;
             break;
         }
@@ -56,10 +72,12 @@ pub(super) fn find(shape: &Shape, tree: &FaceTree, limit: usize) -> Pairs {
             .collect();
         for group in per_group {
             found.overflow |= group.overflow;
+            found.looks += group.looks;
+            take(group.pairs.len())?;
             found.pairs.extend(group.pairs);
         }
     }
-    found
+    Ok(found)
 }
 
 /// Lays the nodes out so that a walk without a stack reads them front to back.
@@ -156,6 +174,7 @@ impl Candidates {
     fn pairs(&mut self, shape: &Shape) -> Pairs {
         let mut found = Pairs {
             pairs: Vec::new(),
+            looks: 0,
             overflow: false,
         };
         for place in 0..self.own {
@@ -165,6 +184,12 @@ impl Candidates {
                 continue;
             }
             let subject = Subject::of(shape, leaf.face);
+            // Faces in one plane across an axis are told apart at once.
+            found.looks += if subject.level.is_some() {
+                0
+            } else {
+                self.near.len()
+            };
             let faces = self.near.iter();
             let faces = faces.filter(|other| subject.may_cut(shape, **other));
             let pairs = faces.map(|other| [leaf.face.min(*other), leaf.face.max(*other)]);
@@ -292,18 +317,33 @@ impl Plane {
 struct Subject {
     corners: Corners,
     plane: Plane,
+    /// The axis that it lies across, and where.
+    level: Option<(usize, f32)>,
 }
 
 impl Subject {
     fn of(shape: &Shape, face: u32) -> Self {
         let corners = Corners::of(shape, face);
         let plane = Plane::of(&corners);
-        Self { corners, plane }
+        let [a, b, c] = corners.vertices.map(|v| shape.positions[v as usize]);
+        let axis = (0..3).find(|axis| a[*axis] == b[*axis] && b[*axis] == c[*axis]);
+        Self {
+            corners,
+            plane,
+            level: axis.map(|axis| (axis, a[axis])),
+        }
     }
 
     /// Faces that share an edge meet there alone, and those beside each other nowhere but at a shared corner.
     fn may_cut(&self, shape: &Shape, face: u32) -> bool {
         let vertices = shape.faces[face as usize];
+        // Faces in one plane across an axis: the commonest flat surfaces, and the dearest to decide exactly.
+        if let Some((axis, level)) = self.level {
+            let is_level = |v: u32| shape.positions[v as usize][axis] == level;
+            if vertices.into_iter().all(is_level) {
+                return false;
+            }
+        }
         let mut shared: Shared = None;
         for (i, vertex) in self.corners.vertices.iter().enumerate() {
             if let Some(j) = vertices.iter().position(|v| v == vertex) {
@@ -317,7 +357,6 @@ impl Subject {
         !are_apart(&self.corners, &other, shared)
             && !self.plane.clears(&other, shared.map(|s| s[1]))
             && !Plane::of(&other).clears(&self.corners, shared.map(|s| s[0]))
-            && !lie_level(&self.corners, &other)
     }
 }
 
@@ -346,13 +385,4 @@ fn are_apart(a: &Corners, b: &Corners, shared: Shared) -> bool {
         Some(_) => low > 0.0 && high < 0.0,
         None => low > high,
     }
-}
-
-/// Both faces lie in one plane across an axis: the commonest flat surfaces, and the dearest to decide exactly.
-fn lie_level(a: &Corners, b: &Corners) -> bool {
-    (0..3).any(|axis| {
-        let level = a.points[0][axis];
-        let mut points = a.points.iter().chain(&b.points);
-        points.all(|point| point[axis] == level)
-    })
 }

@@ -60,8 +60,13 @@ impl Scene {
     }
 }
 
+fn unlimited(shape: &Shape) -> Crossings {
+    let mut budget = Budget::new(u64::MAX);
+    crossings(shape, &FaceTree::new(shape), &mut budget).expect("no limit is set")
+}
+
 fn found(shape: &Shape) -> Crossings {
-    let found = crossings(shape, &FaceTree::new(shape));
+    let found = unlimited(shape);
     found.graph.sanity_check();
     check_pieces(shape, &found.graph);
     found
@@ -241,7 +246,7 @@ proptest! {
         let mut all: Vec<[u32; 2]> = all_segments(&shape).iter().map(|s| s.faces).collect();
         all.retain(|pair| !flat(*pair));
         all.sort_unstable();
-        let found = pairs::find(&shape, &FaceTree::new(&shape), usize::MAX);
+        let found = pairs::find(&shape, &FaceTree::new(&shape), usize::MAX, &mut |_| Ok(())).expect("no limit is set");
         prop_assert!(!found.overflow);
         for pair in all {
             prop_assert_eq!(found.pairs.iter().filter(|p| **p == pair).count(), 1);
@@ -441,9 +446,7 @@ fn hostile_shapes_do_no_harm() {
             });
         let shape = scene.shape();
         if shape.positions.iter().flatten().all(|v| v.is_finite()) {
-            crossings(&shape, &FaceTree::new(&shape))
-                .graph
-                .sanity_check();
+            unlimited(&shape).graph.sanity_check();
         }
     }
 }
@@ -470,7 +473,7 @@ fn shape_of_soup(count: u32) -> Shape {
 #[test]
 fn thousands_of_overlapping_faces_are_reported() {
     let shape = shape_of_soup(10_000);
-    let found = crossings(&shape, &FaceTree::new(&shape));
+    let found = unlimited(&shape);
     assert!(found.overflow);
     assert!(!found.piercings.is_empty());
 }
@@ -479,11 +482,11 @@ fn thousands_of_overlapping_faces_are_reported() {
 #[test]
 fn a_thousand_faces_that_all_cut_each_other_have_piercings_and_no_lines() {
     let shape = shape_of_soup(1000);
-    let found = crossings(&shape, &FaceTree::new(&shape));
+    let found = unlimited(&shape);
     assert!(found.overflow && found.graph.nodes.is_empty());
     assert!(found.piercings.len() > PIECES);
     let few = shape_of_soup(200);
-    let found = crossings(&few, &FaceTree::new(&few));
+    let found = unlimited(&few);
     assert!(!found.overflow && !found.graph.nodes.is_empty());
 }
 
