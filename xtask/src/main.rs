@@ -5,6 +5,7 @@
 mod assets;
 mod ci;
 mod coverage;
+mod decoders;
 mod file;
 mod floors;
 mod gallery;
@@ -29,6 +30,7 @@ usage: cargo xtask COMMAND
   assets [--check]  write the sample models, or only compare them
   floors            check that imports go down and stay light
   coverage          check docs/coverage.toml and print counts
+  decoders          check that decoders of others are called behind one door
   measure lines [ARGS]
                     measure line drawings, in release, and keep the tables; ARGS go to the
                     measuring program: --models DIR, --peers DIR, --only NAME, --quick
@@ -67,6 +69,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["assets", "--check"] => assets::check(&root.join("assets")),
         ["floors"] => floors::check(root),
         ["coverage"] => coverage::check(root),
+        ["decoders"] => decoders::check(root),
         ["measure", "lines", rest @ ..] => measure::lines(root, rest),
         ["measure", "comic"] => measure::comic(root),
         ["measure", "smoke"] => measure::smoke(root),

@@ -6,7 +6,6 @@
 
 use npr_core::camera::{Camera, Projection};
 use npr_core::math::{cos, mix_bits, sin};
-use npr_gpu::device::{AdapterChoice, Device};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_render::{Frame, Model, Picture, RenderError, Smoke, Sphere, Stage, StageOptions};
@@ -497,9 +496,8 @@ const LOOKS: [&str; 6] = [
 
 #[test]
 fn engines_agree() {
-    let device = match Device::open(AdapterChoice::Any) {
-        Ok(device) => device,
-        Err(error) => return eprintln!("skipped: {error}"),
+    let Some(device) = npr_gpu::device::testing::device() else {
+        return;
     };
     let model = wall(0.5, [0.3, 1.5], 0.2);
     for look in LOOKS {
@@ -509,7 +507,7 @@ fn engines_agree() {
             .set("light.extra=[{kind='point',position=[1.5,2,2],intensity=0.4,shadow=true}]")
             .unwrap();
         let here = draw_on(&Processor, &model, &plume(150), &style, &camera(0.0), SIZE);
-        let there = draw_on(&device, &model, &plume(150), &style, &camera(0.0), SIZE);
+        let there = draw_on(device, &model, &plume(150), &style, &camera(0.0), SIZE);
         let pairs = here.rgba.chunks(4).zip(there.rgba.chunks(4));
         let apart = pairs
             .filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 2))

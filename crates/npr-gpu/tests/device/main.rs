@@ -17,7 +17,8 @@ mod sample_passes;
 mod sampled;
 mod scene;
 mod shapes;
-mod shared;
 mod trouble;
 mod twins;
 mod work;
+
+use npr_gpu::device::testing as shared;
