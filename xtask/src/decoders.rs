@@ -1,13 +1,12 @@
 //! `cargo xtask decoders`: decoders that others wrote are called behind one door, and a panic inside can be caught.
 
 use std::ffi::OsStr;
-use std::ops::Range;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 
 use crate::packages::members;
-use crate::source::{SourceFile, rust_files};
+use crate::source::{SourceFile, code_of, insides, rust_files, starts};
 
 /// The door, `npr_core::decoding::guard`, as calls of it begin.
 const DOOR: &str = "guard(";
@@ -80,10 +79,12 @@ fn calls(file: &SourceFile) -> (usize, Vec<usize>) {
         return (0, Vec::new());
     }
     let program = file.text.split("#[cfg(test)]\nmod tests").next();
-    let code = without_text(program.unwrap_or_default());
-    let doors = insides(&code, DOOR);
-    let starts = CALLS.iter().flat_map(|call| starts(&code, call));
-    let starts: Vec<usize> = starts.collect();
+    let code = code_of(program.unwrap_or_default());
+    let doors = insides(&code, DOOR, ['(', ')']);
+    let starts: Vec<usize> = CALLS
+        .iter()
+        .flat_map(|call| calls_of(&code, call))
+        .collect();
     let outside = starts
         .iter()
         .filter(|start| !doors.iter().any(|door| door.contains(start)));
@@ -91,51 +92,9 @@ fn calls(file: &SourceFile) -> (usize, Vec<usize>) {
     (starts.len(), outside.map(line).collect())
 }
 
-/// Where calls begin that `call` opens: names that only end like it, and functions of that name, are others.
-fn starts<'a>(code: &'a str, call: &'a str) -> impl Iterator<Item = usize> + 'a {
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let places = code.match_indices(call).map(|(start, _)| start);
-    places.filter(move |&start| {
-        let before = &code[..start];
-        let joins = call.starts_with(is_word) && before.ends_with(is_word);
-        !joins && !before.ends_with("fn ") && !before.ends_with("Self::")
-    })
-}
-
-/// What stands between the brackets of every call that `opening` begins.
-fn insides(code: &str, opening: &str) -> Vec<Range<usize>> {
-    let inside = |start: usize| {
-        let from = start + opening.len();
-        let mut depth = 1;
-        let end = code[from..].find(|c| {
-            depth += i32::from(c == '(') - i32::from(c == ')');
-            depth == 0
-        });
-        from..end.map_or(code.len(), |end| from + end)
-    };
-    starts(code, opening).map(inside).collect()
-}
-
-/// Source with blanks for comments and quoted text, so that what stands there is no code.
-fn without_text(source: &str) -> String {
-    let mut code = String::with_capacity(source.len());
-    for line in source.lines() {
-        let mut is_quoted = false;
-        let mut before = ' ';
-        let mut letters = line.chars().peekable();
-        while let Some(c) = letters.next() {
-            if c == '/' && letters.peek() == Some(&'/') && !is_quoted {
-                break;
-            }
-            // A quote behind a backslash, or as a character of its own, opens and closes nothing.
-            let is_quote = c == '"' && before != '\\' && before != '\'';
-            code.push(if is_quoted || is_quote { ' ' } else { c });
-            is_quoted ^= is_quote;
-            before = if before == '\\' { ' ' } else { c };
-        }
-        code.push('\n');
-    }
-    code
+/// Where calls begin that `call` opens, functions of that name left out.
+fn calls_of<'a>(code: &'a str, call: &'a str) -> impl Iterator<Item = usize> + 'a {
+    starts(code, call).filter(|&start| !code[..start].ends_with("fn "))
 }
 
 /// Profiles with which a panic ends the program, door or not.

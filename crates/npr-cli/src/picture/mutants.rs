@@ -6,6 +6,7 @@ use image::{DynamicImage, ImageFormat};
 use npr_scene::Limits;
 use proptest::prelude::*;
 use std::io::Cursor;
+use std::sync::OnceLock;
 
 /// What happens to a file.
 #[derive(Debug, Clone)]
@@ -153,11 +154,11 @@ fn survives(file: &[u8], limits: &Limits) -> Result<(), TestCaseError> {
 
 fn check(
     format: ImageFormat,
+    files: &[Vec<u8>],
     which: usize,
     damages: &[Damage],
     sums: bool,
 ) -> Result<(), TestCaseError> {
-    let files = files(format);
     let mut file = files[which % files.len()].clone();
     damages.iter().for_each(|damage| damage.apply(&mut file));
     if sums && format == ImageFormat::Png {
@@ -176,7 +177,7 @@ macro_rules! mutants_of {
     ($($name:ident: $format:ident,)*) => {
         proptest! {
             #![proptest_config(ProptestConfig {
-                cases: ProptestConfig::default().cases.max(2000),
+                cases: ProptestConfig::default().cases.max(1000),
                 max_shrink_iters: 200,
                 ..ProptestConfig::default()
             })]
@@ -185,7 +186,9 @@ macro_rules! mutants_of {
                 fn $name(
                     which in any::<usize>(), damages in prop::collection::vec(damage(), 1..4), sums in any::<bool>(),
                 ) {
-                    check(ImageFormat::$format, which, &damages, sums)?;
+                    static FILES: OnceLock<Vec<Vec<u8>>> = OnceLock::new();
+                    let files = FILES.get_or_init(|| files(ImageFormat::$format));
+                    check(ImageFormat::$format, files, which, &damages, sums)?;
                 }
             )*
         }
