@@ -44,9 +44,10 @@ impl Notices {
         self.kept.push(Notice { text });
     }
 
-    /// Whether a notice holds `text`.
+    /// Whether a notice holds `text`; of a full list nobody asks.
     pub(crate) fn tell_of(&self, text: &str) -> bool {
-        self.kept.iter().any(|notice| notice.text.contains(text))
+        let is_open = self.kept.len() < NOTICE_LIMIT;
+        is_open && self.kept.iter().any(|notice| notice.text.contains(text))
     }
 
     /// The notices, with a last one that says so if some were left out.

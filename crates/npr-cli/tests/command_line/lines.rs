@@ -3,6 +3,7 @@
 use crate::files::tiny_png;
 use crate::info::named_glb;
 use crate::workplace::{Outcome, Workplace};
+use npr_gpu::testing::is_device_required;
 use npr_scene::testing::{Sheet, glb, lines_glb};
 use serde_json::Value;
 

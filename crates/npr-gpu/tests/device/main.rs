@@ -8,6 +8,7 @@ mod agreement;
 mod cliffs;
 mod contours;
 mod curves;
+mod detection;
 mod draws;
 mod frame;
 mod lists;
