@@ -1,4 +1,5 @@
-//! What tests need beside the checkout, and which of them do without: shared assets, graphics devices, cases by chance.
+//! What tests need beside the checkout, and which of them do without: shared assets, graphics devices, cases by
+//! chance.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -70,8 +71,8 @@ fn own_devices(file: &SourceFile) -> Vec<String> {
 
 /// Names of the tests among a package's files that do nothing without the assets beside the checkout.
 ///
-/// A function leans on them where it names their folder or calls one of its package that does, and on the project's own
-/// samples likewise; whoever has those does something without the others.
+/// A function leans on them where it names their folder or calls one of its package that does, and on the project's
+/// own samples likewise; whoever has those does something without the others.
 pub fn tests_on_shared_assets(files: &[SourceFile]) -> BTreeSet<String> {
     let functions: Vec<(usize, Function)> = (0..files.len())
         .flat_map(|file| files[file].functions().into_iter().map(move |f| (file, f)))

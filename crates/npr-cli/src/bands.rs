@@ -20,7 +20,8 @@ enum Try {
 
 /// Draws a picture of `size` into its file, and never holds more of it than a band.
 ///
-/// Without `keep_alpha` it is taken for opaque, and drawn again where it turns out not to be. The inner result is that of writing.
+/// Without `keep_alpha` it is taken for opaque, and drawn again where it turns out not to be. The inner result is
+/// that of writing.
 ///
 /// # Errors
 ///

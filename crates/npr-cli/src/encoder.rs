@@ -22,8 +22,8 @@ pub fn png(size: [u32; 2], rgba: &[u8], keep_alpha: bool) -> Result<Vec<u8>, Fau
     Ok(file)
 }
 
-/// Writes a PNG file whose rows `fill` hands over from the top, some whole ones at a time, so that neither picture nor file has to
-/// fit into memory. The same bytes as [`png`], whatever the pieces.
+/// Writes a PNG file whose rows `fill` hands over from the top, some whole ones at a time, so that neither picture
+/// nor file has to fit into memory. The same bytes as [`png`], whatever the pieces.
 pub fn encode(
     size: [u32; 2],
     color: ColorType,

@@ -1,7 +1,8 @@
 //! The one door to decoders that others wrote.
 //!
-//! Decoders of pictures, fonts, packed bytes and texts come from elsewhere, and some of them panic on broken input. Each
-//! call of one stands inside [`guard`], which turns such a panic into an error; `cargo xtask decoders` checks that.
+//! Decoders of pictures, fonts, packed bytes and texts come from elsewhere, and some of them panic on broken input.
+//! Each call of one stands inside [`guard`], which turns such a panic into an error; `cargo xtask decoders` checks
+//! that.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
@@ -21,9 +22,9 @@ pub struct DecoderPanic;
 ///
 /// What `decode` changed outside of itself may be half done after a panic: drop it.
 ///
-/// A panic inside writes nothing to standard error. For that the first call puts a hook before that of the process, which
-/// passes on every panic outside of guards, also from other threads at the same time. A hook that the program sets later
-/// replaces it. A thread that `decode` itself starts is not guarded. O(1) beside `decode`.
+/// A panic inside writes nothing to standard error. For that the first call puts a hook before that of the process,
+/// which passes on every panic outside of guards, also from other threads at the same time. A hook that the program
+/// sets later replaces it. A thread that `decode` itself starts is not guarded. O(1) beside `decode`.
 ///
 /// # Errors
 ///

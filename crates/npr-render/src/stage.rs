@@ -462,8 +462,9 @@ impl<'a> Stage<'a> {
         draws_bands(&self.style, &self.tiles)
     }
 
-    /// Draws the model as a camera sees it, one row of tiles after the other, and hands each to `take` as a frame as wide as the
-    /// whole; the same pixels as [`Self::draw`], without ever holding them all. Ends early where `take` says no.
+    /// Draws the model as a camera sees it, one row of tiles after the other, and hands each to `take` as a frame as
+    /// wide as the whole; the same pixels as [`Self::draw`], without ever holding them all. Ends early where `take`
+    /// says no.
     ///
     /// What comes back has times and notices, and no pixels.
     ///
@@ -685,7 +686,8 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// Whether a frame in such tiles is done with its last tile: curves, speed lines, a second look and words go over it as a whole.
+/// Whether a frame in such tiles is done with its last tile: curves, speed lines, a second look and words go over it
+/// as a whole.
 fn draws_bands(style: &Style, tiles: &Tiles) -> bool {
     let goes_over = style.has_curves()
         || !style.trails().is_empty()

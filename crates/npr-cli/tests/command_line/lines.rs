@@ -432,7 +432,8 @@ fn with_tetrahedron() -> Workplace {
     place
 }
 
-/// Draws the scene on a device; `None` where there is none and none is required, which is told by exit code 4 and no file.
+/// Draws the scene on a device; `None` where there is none and none is required, which is told by exit code 4 and no
+/// file.
 fn drawn_on_device(place: &Workplace, options: &[&str]) -> Option<Outcome> {
     let all = [&["--backend", "gpu", "-o", "gpu.svg"], options].concat();
     let outcome = lines(place, "scene.obj", &all);

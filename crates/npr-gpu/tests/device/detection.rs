@@ -12,7 +12,8 @@ use npr_gpu::processor::Processor;
 /// A grid whose pixels fill no whole number of workgroups.
 const SIZE: [u32; 2] = [37, 29];
 
-/// The first `count` pixels of the mask of a chessboard of two objects, on which every pixel differs from its neighbours.
+/// The first `count` pixels of the mask of a chessboard of two objects, on which every pixel differs from its
+/// neighbours.
 fn mask_of_chessboard(engine: &dyn Engine, count: usize) -> Vec<u32> {
     let squares: Vec<GPixel> = (0..SIZE[0] * SIZE[1])
         .map(|i| GPixel {
@@ -76,8 +77,8 @@ fn each_pixel_of_the_mask_is_marked_by_a_thread_of_its_own() {
             .iter()
             .all(|mark| mark & MASK_KINDS == Outline::OBJECT_ID)
     );
-    // A mask of fewer pixels has fewer threads: each of them marks its own pixel, also where they end within a row, and within a
-    // workgroup, and none stands for its neighbours.
+    // A mask of fewer pixels has fewer threads: each of them marks its own pixel, also where they end within a row,
+    // and within a workgroup, and none stands for its neighbours.
     for count in [1, 2, 36, 37, 38, 63, 64, 65, 640, all - 1, all] {
         let marks = mask_of_chessboard(device, count);
         assert_eq!(marks.len(), count);

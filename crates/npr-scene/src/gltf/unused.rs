@@ -17,7 +17,8 @@ use super::accessor::{Accessors, type_width};
 use super::error::Item;
 use crate::load::Loading;
 
-/// Notes every part of a file that is broken and was not needed. What was needed has been read and is sound, or was told of.
+/// Notes every part of a file that is broken and was not needed. What was needed has been read and is sound, or was
+/// told of.
 pub(crate) fn note(accessors: &Accessors, loading: &mut Loading) {
     let root = accessors.root;
     for (index, accessor) in root.accessors.iter().enumerate() {
