@@ -15,8 +15,6 @@
 
 mod agreement;
 pub mod comic;
-#[cfg(feature = "gpu")]
-mod device;
 mod draw;
 mod files;
 mod ink;
@@ -27,12 +25,12 @@ mod smoke;
 mod wanted;
 
 pub use agreement::Agreement;
-#[cfg(feature = "gpu")]
-pub use device::device;
 pub use draw::{Drawing, draw, draw_from, draw_on, draw_with, lines, models_camera};
 pub use files::{asset, models, samples};
 pub use ink::Ink;
 pub use montage::{beside, cropped, enlarged, reduced};
+#[cfg(feature = "gpu")]
+pub use npr_gpu::device::testing::device;
 pub use object::{Object, boxed, crossing_boxes, placed, scene_of};
 pub use png::{read_png, write_png};
 pub use smoke::{SmokeFilm, draw_smoke, front_camera, orbit_camera};

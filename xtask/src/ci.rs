@@ -5,18 +5,20 @@ use std::path::Path;
 use anyhow::{Result, bail, ensure};
 
 use crate::packages::cargo;
-use crate::{assets, coverage, floors, names, suite};
+use crate::{assets, coverage, decoders, floors, harness, names, suite};
 
 /// A step: its name, and what it runs at the root of the workspace.
 type Step = (&'static str, fn(&Path) -> Result<()>);
 
 /// The steps, quick ones first.
-const STEPS: [Step; 8] = [
+const STEPS: [Step; 11] = [
     ("format", |root| {
         run_cargo(root, &["fmt", "--all", "--check"], &[])
     }),
     ("names", names::check),
     ("floors", floors::check),
+    ("decoders", decoders::check),
+    ("devices", harness::check_devices),
     ("coverage", coverage::check),
     ("assets", |root| assets::check(&root.join("assets"))),
     ("clippy", |root| run_cargo(root, &CLIPPY, &[])),
@@ -24,6 +26,7 @@ const STEPS: [Step; 8] = [
         run_cargo(root, &DOCS, &[("RUSTDOCFLAGS", "-D warnings")])
     }),
     ("tests", |root| suite::run(root, &[])),
+    ("properties", suite::again),
 ];
 
 /// Lints of everything that compiles.

@@ -5,9 +5,11 @@
 mod assets;
 mod ci;
 mod coverage;
+mod decoders;
 mod file;
 mod floors;
 mod gallery;
+mod harness;
 mod measure;
 mod names;
 mod packages;
@@ -25,10 +27,13 @@ const USAGE: &str = "\
 usage: cargo xtask COMMAND
 
   test [ARGS]       run every test of the workspace; ARGS go to cargo test
+  properties        run half of the property tests with a seed drawn from the commit
   ci                run what must pass before a change is handed in
   assets [--check]  write the sample models, or only compare them
   floors            check that imports go down and stay light
   coverage          check docs/coverage.toml and print counts
+  devices           check that tests come by devices in one way
+  decoders          check that decoders of others are called behind one door
   measure lines [ARGS]
                     measure line drawings, in release, and keep the tables; ARGS go to the
                     measuring program: --models DIR, --peers DIR, --only NAME, --quick
@@ -62,11 +67,14 @@ fn main() -> ExitCode {
 fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
     Some(match words {
         ["test", rest @ ..] => suite::run(root, rest),
+        ["properties"] => suite::again(root),
         ["ci"] => ci::run(root),
         ["assets"] => assets::write(&root.join("assets")),
         ["assets", "--check"] => assets::check(&root.join("assets")),
         ["floors"] => floors::check(root),
         ["coverage"] => coverage::check(root),
+        ["devices"] => harness::check_devices(root),
+        ["decoders"] => decoders::check(root),
         ["measure", "lines", rest @ ..] => measure::lines(root, rest),
         ["measure", "comic"] => measure::comic(root),
         ["measure", "smoke"] => measure::smoke(root),

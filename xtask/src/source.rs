@@ -1,5 +1,6 @@
 //! Rust source as lines of text.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
@@ -57,6 +58,141 @@ impl SourceFile {
     }
 }
 
+/// A function with its attributes' verdict and its text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Function {
+    /// Its name.
+    pub name: String,
+    /// From its name to its last brace.
+    pub text: String,
+    /// The same without comments and literals.
+    pub code: String,
+    /// Whether it is marked as a test.
+    pub is_test: bool,
+    /// Whether it draws its cases by chance, inside of `proptest!`.
+    pub is_property: bool,
+}
+
+impl SourceFile {
+    /// Every function with a body, in order.
+    pub fn functions(&self) -> Vec<Function> {
+        let code = code_of(&self.text);
+        let drawn = insides(&code, "proptest! {", ['{', '}']);
+        let functions = starts(&code, "fn ").filter_map(|start| {
+            let rest = &code[start + 3..];
+            let name_length = rest.find(|c: char| !is_word(c))?;
+            let arguments = start + 3 + rest.find('(')? + 1;
+            let behind = inside(&code, arguments, ['(', ')']).end;
+            let opening = behind + code[behind..].find(['{', ';'])?;
+            if !code[opening..].starts_with('{') {
+                return None;
+            }
+            let body = inside(&code, opening + 1, ['{', '}']);
+            let line = self.text[..start].rfind('\n').map_or(0, |end| end + 1);
+            let above: Vec<&str> = self.text[..line].lines().map(str::trim).collect();
+            let is_test = is_marked_as_test(&above);
+            Some(Function {
+                name: rest[..name_length].to_owned(),
+                text: self.text[start..body.end].to_owned(),
+                code: code[start..body.end].to_owned(),
+                is_test,
+                is_property: is_test && drawn.iter().any(|inside| inside.contains(&start)),
+            })
+        });
+        functions.collect()
+    }
+}
+
+/// Source with blanks in place of comments and literals, as long as it was.
+pub fn code_of(source: &str) -> String {
+    let mut code = source.as_bytes().to_vec();
+    let mut at = 0;
+    while let Some(rest) = source.get(at..).filter(|rest| !rest.is_empty()) {
+        let before = source[..at].chars().next_back();
+        let (length, is_blank) = match text_length(rest, before) {
+            Some(length) => (length, true),
+            None => (rest.chars().next().map_or(1, char::len_utf8), false),
+        };
+        let end = (at + length).min(code.len());
+        if is_blank {
+            let bytes = code[at..end].iter_mut();
+            bytes
+                .filter(|byte| **byte != b'\n')
+                .for_each(|byte| *byte = b' ');
+        }
+        at = end;
+    }
+    String::from_utf8_lossy(&code).into_owned()
+}
+
+/// Bytes of the comment or literal that `rest` opens with, if it does.
+fn text_length(rest: &str, before: Option<char>) -> Option<usize> {
+    let until = |opening: usize, closing: &str| {
+        let end = rest[opening..].find(closing);
+        end.map_or(rest.len(), |end| opening + end + closing.len())
+    };
+    if rest.starts_with("//") {
+        return Some(rest.find('\n').unwrap_or(rest.len()));
+    }
+    if rest.starts_with("/*") {
+        return Some(until(2, "*/"));
+    }
+    let hashes = rest
+        .strip_prefix('r')
+        .map(|rest| rest.len() - rest.trim_start_matches('#').len());
+    if let Some(hashes) = hashes
+        && rest[1 + hashes..].starts_with('"')
+        && !before.is_some_and(|c| is_word(c) && c != 'b')
+    {
+        return Some(until(2 + hashes, &format!("\"{}", "#".repeat(hashes))));
+    }
+    let mut letters = rest.char_indices();
+    match letters.next()?.1 {
+        '"' => {
+            let mut is_escaped = false;
+            let end = letters.find(|(_, c)| {
+                let ends = *c == '"' && !is_escaped;
+                is_escaped = *c == '\\' && !is_escaped;
+                ends
+            });
+            Some(end.map_or(rest.len(), |(at, _)| at + 1))
+        }
+        // A quote opens a character where one closes behind it, else a lifetime.
+        '\'' => match (letters.next()?.1, letters.next()) {
+            ('\\', Some((at, _))) => Some(at + 1 + rest[at + 1..].find('\'')? + 1),
+            (_, Some((at, '\''))) => Some(at + 1),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// Where `name` begins in code as a word of its own.
+pub fn starts<'a>(code: &'a str, name: &'a str) -> impl Iterator<Item = usize> + 'a {
+    let places = code.match_indices(name).map(|(start, _)| start);
+    places.filter(move |&start| !(name.starts_with(is_word) && code[..start].ends_with(is_word)))
+}
+
+/// What stands between the brackets of every place that `opening` begins, whose end is the opening bracket.
+pub fn insides(code: &str, opening: &str, brackets: [char; 2]) -> Vec<Range<usize>> {
+    let inside = |start: usize| inside(code, start + opening.len(), brackets);
+    starts(code, opening).map(inside).collect()
+}
+
+/// From behind an opening bracket to the closing one.
+fn inside(code: &str, from: usize, [open, close]: [char; 2]) -> Range<usize> {
+    let mut depth = 1;
+    let end = code[from..].find(|c| {
+        depth += i32::from(c == open) - i32::from(c == close);
+        depth == 0
+    });
+    from..end.map_or(code.len(), |end| from + end)
+}
+
+fn is_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
 /// Whether the attributes and comments right above a function, the end of `lines`, hold `#[test]`.
 fn is_marked_as_test(lines: &[&str]) -> bool {
     let above = lines.iter().rev();
@@ -83,6 +219,28 @@ mod tests {
         let file = file("src/lib.rs", text);
         assert!(file.has_test("works") && file.has_test("works_too"));
         assert!(!file.has_test("helper") && !file.has_test("work"));
+    }
+
+    #[test]
+    fn functions_are_told_from_words_about_them() {
+        let text = "fn a(f: impl Fn(u8) -> u8) -> u8 { f(b'{') } // fn not_this() {}\n\
+                    trait T { fn open(&self); }\n\
+                    const S: &str = r#\"fn \"nor\" this() {\"#;\n\
+                    proptest! {\n    #[test]\n    fn drawn(x in 0..4) { if x > 1 { b(\"}\"); } }\n}\n\
+                    #[test]\nfn plain<'a>() { let _: &'a str = \"\\\"\"; }\n";
+        let functions = file("src/lib.rs", text).functions();
+        let told: Vec<_> = functions
+            .iter()
+            .map(|f| (f.name.as_str(), f.is_test, f.is_property))
+            .collect();
+        let wanted = [
+            ("a", false, false),
+            ("drawn", true, true),
+            ("plain", true, false),
+        ];
+        assert_eq!(told, wanted);
+        assert!(functions[1].text.contains("b(\"}\")") && functions[1].code.ends_with("} "));
+        assert_eq!(code_of(text).len(), text.len());
     }
 
     #[test]

@@ -1,12 +1,14 @@
 //! `cargo xtask test`: every test of the workspace, and one line that says how it went.
 
+use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
 
-use crate::packages::cargo;
+use crate::packages::{cargo, members, output};
+use crate::source::rust_files;
 
 /// How many tests went which way.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -23,10 +25,15 @@ struct Tally {
 
 /// Runs `cargo test` over the workspace with all features and `arguments` added.
 pub fn run(root: &Path, arguments: &[&str]) -> Result<()> {
+    run_with(root, arguments, &[])
+}
+
+fn run_with(root: &Path, arguments: &[&str], environment: &[(&str, String)]) -> Result<()> {
     let mut command = cargo(root);
     command
         .args(["test", "--workspace", "--all-features", "--no-fail-fast"])
-        .args(arguments);
+        .args(arguments)
+        .envs(environment.iter().map(|(name, value)| (name, value)));
     let mut child = command
         .stdout(Stdio::piped())
         .spawn()
@@ -44,6 +51,52 @@ pub fn run(root: &Path, arguments: &[&str]) -> Result<()> {
         bail!("cargo test failed: {status}");
     }
     Ok(())
+}
+
+/// Runs half of the property tests again, drawn by a seed, as are their cases.
+///
+/// The seed is that of the commit, so that the same commit gets the same answer. An even seed draws one half of the tests
+/// and an odd one the other, which keeps the time of a run in bounds: all of them have run with the first seed before.
+pub fn again(root: &Path) -> Result<()> {
+    let seed = seed_of_commit(root)?;
+    let first = std::env::var(SEED).unwrap_or_else(|_| "chance".to_owned());
+    let mut names = BTreeSet::new();
+    for package in members(root)? {
+        for file in rust_files(package.folder())? {
+            let functions = file.functions().into_iter();
+            names.extend(functions.filter(|f| f.is_property).map(|f| f.name));
+        }
+    }
+    let chosen: Vec<&str> = names
+        .iter()
+        .map(String::as_str)
+        .filter(|name| is_drawn(name, seed))
+        .collect();
+    println!(
+        "property tests: seed {first} for all of them, then {SEED}={seed} of this commit for {} of {}",
+        chosen.len(),
+        names.len()
+    );
+    let only_tests = ["--lib", "--bins", "--tests", "--"];
+    let arguments: Vec<&str> = only_tests.into_iter().chain(chosen).collect();
+    run_with(root, &arguments, &[(SEED, seed.to_string())])
+}
+
+/// Where property tests look for their seed.
+const SEED: &str = "PROPTEST_RNG_SEED";
+
+/// A number of the commit that stands in the folder: the first digits of its hash.
+fn seed_of_commit(root: &Path) -> Result<u64> {
+    let mut git = Command::new("git");
+    let hash = output(git.current_dir(root).args(["rev-parse", "HEAD"]))?;
+    let digits = hash.get(..8).context("a commit has a hash")?;
+    u64::from_str_radix(digits, 16).context("a hash is a number")
+}
+
+/// Whether a test belongs to the half that a seed draws: the other half for the next one.
+fn is_drawn(name: &str, seed: u64) -> bool {
+    let sum: u64 = name.bytes().map(u64::from).sum();
+    (sum + seed).is_multiple_of(2)
 }
 
 impl Tally {
@@ -81,6 +134,13 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn two_seeds_in_a_row_draw_every_test_once() {
+        for name in ["a", "b", "lines_are_lines"] {
+            assert_ne!(is_drawn(name, 20_031), is_drawn(name, 20_032), "{name}");
+        }
+    }
 
     #[test]
     fn results_add_up() {

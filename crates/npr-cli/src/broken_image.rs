@@ -48,6 +48,12 @@ pub fn broken(error: &ImageError, format: Option<ImageFormat>, most_bytes: u64) 
     Fault::new(Exit::Input, message)
 }
 
+/// A file of a format stopped its decoder.
+pub fn stopped(format: Option<ImageFormat>) -> Fault {
+    let name = format.map_or("image", name_of);
+    Fault::new(Exit::Input, format!("the {name} data are broken"))
+}
+
 fn name_of(format: ImageFormat) -> &'static str {
     match format {
         ImageFormat::Png => "PNG",

@@ -2,7 +2,7 @@
 
 use crate::fault::{Exit, Fault};
 use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};
-use std::io::Write;
+use std::io::{self, Write};
 
 /// A PNG file of sRGB bytes with straight alpha, row by row from the top.
 ///
@@ -15,28 +15,39 @@ pub fn png(size: [u32; 2], rgba: &[u8], keep_alpha: bool) -> Result<Vec<u8>, Fau
     } else {
         ColorType::Rgb
     };
-    encode(size, rgba, color)
-        .map_err(|error| Fault::new(Exit::Failed, format!("cannot encode the picture: {error}")))
+    let mut file = Vec::new();
+    let encoded = encode(size, color, &mut file, |take| take(rgba));
+    encoded
+        .map_err(|error| Fault::new(Exit::Failed, format!("cannot encode the picture: {error}")))?;
+    Ok(file)
 }
 
-/// Encodes row by row, so that no second picture has to fit into memory.
-fn encode(size: [u32; 2], rgba: &[u8], color: ColorType) -> Result<Vec<u8>, png::EncodingError> {
-    let mut file = Vec::new();
-    let mut encoder = Encoder::new(&mut file, size[0], size[1]);
+/// Writes a PNG file whose rows `fill` hands over from the top, some whole ones at a time, so that neither picture
+/// nor file has to fit into memory. The same bytes as [`png`], whatever the pieces.
+pub fn encode(
+    size: [u32; 2],
+    color: ColorType,
+    sink: &mut dyn Write,
+    fill: impl FnOnce(&mut dyn FnMut(&[u8]) -> io::Result<()>) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut encoder = Encoder::new(sink, size[0], size[1]);
     encoder.set_color(color);
     encoder.set_depth(BitDepth::Eight);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
     let mut writer = encoder.write_header()?;
     let mut rows = writer.stream_writer()?;
-    for row in rgba.chunks_exact(size[0] as usize * 4) {
-        match color {
-            ColorType::Rgb => rows.write_all(&without_alpha(row))?,
-            _ => rows.write_all(row)?,
+    fill(&mut |rgba| {
+        for row in rgba.chunks_exact(size[0] as usize * 4) {
+            match color {
+                ColorType::Rgb => rows.write_all(&without_alpha(row))?,
+                _ => rows.write_all(row)?,
+            }
         }
-    }
+        Ok(())
+    })?;
     rows.finish()?;
     writer.finish()?;
-    Ok(file)
+    Ok(())
 }
 
 fn without_alpha(rgba: &[u8]) -> Vec<u8> {

@@ -10,6 +10,7 @@
 //! ```
 
 mod arguments;
+mod bands;
 mod broken_image;
 mod colours;
 mod completions;

@@ -1,11 +1,12 @@
 //! Pictures that a style names, backgrounds and width textures, and bitmaps to trace.
 
-use crate::broken_image::broken;
+use crate::broken_image::{broken, stopped};
 use crate::colours::reduce;
 use crate::fault::{Exit, Fault};
 use crate::input::regular_file;
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
 use npr_core::budget::Budget;
+use npr_core::decoding::guard;
 use npr_render::Picture;
 use npr_scene::{LimitError, Limits};
 use npr_vector::trace::{Bitmap, IndexPicture};
@@ -141,30 +142,37 @@ fn image(
     formats: &[ImageFormat],
     pixel_bytes: usize,
 ) -> Result<DynamicImage, Fault> {
-    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
-    if reader
-        .format()
-        .is_some_and(|format| !formats.contains(&format))
-    {
-        return Err(Fault::new(
-            Exit::Input,
-            "this is none of the image formats that are read",
-        ));
-    }
-    let bounds = decoder_limits(limits);
-    let (format, most_bytes) = (reader.format(), bounds.max_alloc.unwrap_or(u64::MAX));
-    let broken = |error: ImageError| broken(&error, format, most_bytes);
-    reader.limits(bounds);
-    let decoder = reader.into_decoder().map_err(broken)?;
-    let (width, height) = decoder.dimensions();
+    let mut format = None;
+    let decoded = guard(|| {
+        let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
+        format = reader.format();
+        if format.is_some_and(|format| !formats.contains(&format)) {
+            return Err(Fault::new(
+                Exit::Input,
+                "this is none of the image formats that are read",
+            ));
+        }
+        let bounds = decoder_limits(limits);
+        let most_bytes = bounds.max_alloc.unwrap_or(u64::MAX);
+        let broken = |error: ImageError| broken(&error, format, most_bytes);
+        reader.limits(bounds);
+        let decoder = reader.into_decoder().map_err(broken)?;
+        check_plan(decoder.dimensions(), limits, pixel_bytes)?;
+        DynamicImage::from_decoder(decoder).map_err(broken)
+    });
+    decoded.unwrap_or_else(|_| Err(stopped(format)))
+}
+
+/// Refuses an image without pixels, and one beyond the limits.
+fn check_plan(size: (u32, u32), limits: &Limits, pixel_bytes: usize) -> Result<(), Fault> {
+    let (width, height) = size;
     if width == 0 || height == 0 {
         return Err(Fault::new(Exit::Input, "the image has no pixels"));
     }
-    check_size((width, height), limits)?;
+    check_size(size, limits)?;
     let pixels = width as usize * height as usize;
     let planned = Budget::new(limits.memory_bytes).take("the image", pixels, pixel_bytes);
-    planned.map_err(|error| Fault::from(npr_render::RenderError::from(error)))?;
-    DynamicImage::from_decoder(decoder).map_err(broken)
+    planned.map_err(|error| Fault::from(npr_render::RenderError::from(error)))
 }
 
 fn check_size((width, height): (u32, u32), limits: &Limits) -> Result<(), Fault> {
@@ -208,6 +216,9 @@ fn decoder_limits(limits: &Limits) -> image::Limits {
     bounds.max_alloc = Some(limits.image_bytes.saturating_mul(3));
     bounds
 }
+
+#[cfg(test)]
+mod mutants;
 
 #[cfg(test)]
 mod tests {

@@ -1,6 +1,7 @@
 //! `npr render`: one picture of a scene.
 
 use crate::arguments::{DrawingArguments, LookArguments, RenderArguments};
+use crate::bands::draw_into;
 use crate::encoder;
 use crate::engine::{self, Drawn};
 use crate::fault::{Exit, Fault};
@@ -10,7 +11,7 @@ use crate::look::Look;
 use crate::message;
 use crate::output;
 use crate::progress::Progress;
-use crate::timings::Timings;
+use crate::timings::{DRAW, Timings};
 use crate::viewpoint::{self, Seen};
 use crate::volume::{self, Order};
 use npr_core::camera::Camera;
@@ -61,21 +62,39 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     let camera = prepared.camera(&job.said.drawing, smoke.as_ref().unwrap_or(&empty))?;
     let options = StageOptions {
         smoke,
+        in_bands: true,
         ..job.options.clone()
     };
     let drawn = draw_frame(job, &prepared, &options, &camera, progress)?;
-    let frame = &drawn.picture;
+    let (frame, is_written) = match drawn.picture {
+        Picture::Whole(frame) => (frame, false),
+        Picture::InBands(written) => (written?, true),
+    };
     progress.suspend(|| {
         for notice in &frame.notices {
             message::warn(job.said.drawing.quiet, notice);
         }
     });
-    let keep_alpha = job.look.is_transparent();
-    let bytes = progress.step("encode", || {
-        encoder::png(frame.size, &frame.rgba, keep_alpha)
-    })?;
-    progress.step("write", || job.output.write(&bytes))?;
-    Ok(drawn)
+    if !is_written {
+        let keep_alpha = job.look.is_transparent();
+        let bytes = progress.step("encode", || {
+            encoder::png(frame.size, &frame.rgba, keep_alpha)
+        })?;
+        progress.step("write", || job.output.write(&bytes))?;
+    }
+    let engine = drawn.engine;
+    Ok(Drawn {
+        picture: frame,
+        engine,
+    })
+}
+
+/// A picture that was drawn.
+enum Picture {
+    /// To be written.
+    Whole(Frame),
+    /// Written as it was drawn, or not; the frame has no pixels.
+    InBands(Result<Frame, Fault>),
 }
 
 /// A scene made ready, for lines as curves too where the style has any.
@@ -173,10 +192,18 @@ fn draw_frame(
     options: &StageOptions,
     camera: &Camera,
     progress: &mut Progress,
-) -> Result<Drawn<Frame>, Fault> {
+) -> Result<Drawn<Picture>, Fault> {
+    let counter = progress.counter();
+    let tell = |done, of| counter.tell(DRAW, done, of);
     let picture = |engine: &dyn Engine| {
-        let mut stage = prepared.stage(engine, &job.look.style, options)?;
-        stage.draw(camera)
+        let stage = prepared.stage(engine, &job.look.style, options)?;
+        let mut stage = stage.with_progress(&tell);
+        if !stage.draws_bands() {
+            return stage.draw(camera).map(Picture::Whole);
+        }
+        let keep_alpha = job.look.is_transparent();
+        let written = draw_into(&job.output, &mut stage, camera, options.size, keep_alpha)?;
+        Ok(Picture::InBands(written))
     };
     engine::draw_as_step(
         job.said.drawing.backend,

@@ -3,7 +3,8 @@
 //! Deterministic math ([`math`]), numbers that look random ([`random`]), colour encoding ([`color`]), cameras ([`camera`]), the structs that
 //! passes read and write on both engines ([`geometry`], [`window`]), the surface point under a pixel
 //! ([`surface`]), packed textures ([`texture`]), and a triangle rasteriser with a stated fill rule
-//! ([`raster`]); spheres of smoke ([`smoke`]); constants that styles and lines share ([`published_path`]). Nothing here knows about files, styles or graphics devices.
+//! ([`raster`]); spheres of smoke ([`smoke`]); constants that styles and lines share ([`published_path`]); the door
+//! to decoders of others ([`decoding`]). Nothing here knows about files, styles or graphics devices.
 //!
 //! ```
 //! use npr_core::camera::Camera;
@@ -16,6 +17,7 @@ pub mod budget;
 pub mod camera;
 pub mod color;
 pub mod cutout;
+pub mod decoding;
 pub mod geometry;
 pub mod layout;
 pub mod light_view;

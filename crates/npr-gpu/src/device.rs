@@ -13,6 +13,8 @@ mod pipeline;
 mod session;
 mod staging;
 mod step;
+#[cfg(any(test, feature = "testing"))]
+pub mod testing;
 
 pub use adapter::{AdapterChoice, AdapterKind, AdapterSummary, adapters};
 pub use fault::TIME_LIMIT;

@@ -33,3 +33,5 @@ pub mod graph;
 pub mod pass;
 pub mod passes;
 pub mod processor;
+#[cfg(any(test, feature = "testing"))]
+pub mod testing;

@@ -3,7 +3,7 @@
 use npr_gpu::engine::PassTime;
 
 /// A finished picture and how long its passes took.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Frame {
     /// Width and height in pixels.
     pub size: [u32; 2],

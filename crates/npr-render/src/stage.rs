@@ -80,6 +80,8 @@ pub struct StageOptions {
     /// Most pixels drawn at once, 4 million by default and at most; a larger frame is drawn in tiles. Fewer need less
     /// memory and more time. Tiles keep at least 64 pixels a side.
     pub tile_pixels: u32,
+    /// Whether the frame is taken by [`Stage::draw_bands`] where that can be: only a band of it is planned then.
+    pub in_bands: bool,
 }
 
 impl StageOptions {
@@ -95,6 +97,7 @@ impl StageOptions {
             smoke: None,
             memory_limit: 4 << 30,
             tile_pixels: TILE_PIXELS,
+            in_bands: false,
         }
     }
 }
@@ -129,6 +132,8 @@ pub struct Stage<'a> {
     session: Box<dyn Session>,
     /// How the frame before was seen.
     before: Option<View>,
+    /// Hears how many tiles of a frame are done, of how many.
+    tell: Option<&'a dyn Fn(usize, usize)>,
 }
 
 impl<'a> Stage<'a> {
@@ -234,11 +239,11 @@ impl<'a> Stage<'a> {
         }
         let plan = Blueprint::new(&counts, &grids, method);
         let mut budget = Budget::new(options.memory_limit);
-        budget.take(
-            "the picture",
-            options.size[0] as usize * options.size[1] as usize,
-            4,
-        )?;
+        let rows = match options.in_bands && draws_bands(style, &tiles) {
+            true => tiles.kept[1].min(options.size[1]),
+            false => options.size[1],
+        };
+        budget.take("the picture", options.size[0] as usize * rows as usize, 4)?;
         budget.take(
             "the plan of the frame",
             plan.graph.planned_bytes() as usize,
@@ -274,6 +279,7 @@ impl<'a> Stage<'a> {
             plan,
             session,
             before: None,
+            tell: None,
         };
         stage.upload()?;
         Ok(stage)
@@ -285,6 +291,12 @@ impl<'a> Stage<'a> {
     /// Without one they have no lines, and [`Frame::notices`] tells.
     pub fn with_lines(mut self, lines: LineStage<'a>) -> Self {
         self.lines = Some(lines);
+        self
+    }
+
+    /// The same, with somebody told after each tile how many are done, of how many; not of a frame in one piece.
+    pub fn with_progress(mut self, tell: &'a dyn Fn(usize, usize)) -> Self {
+        self.tell = Some(tell);
         self
     }
 
@@ -446,12 +458,72 @@ impl<'a> Stage<'a> {
             && moved < CUT_RADII * self.model.radius()
     }
 
+    /// Whether the frame is drawn in tiles and nothing goes over it as a whole, so that [`Self::draw_bands`] draws it.
+    pub fn draws_bands(&self) -> bool {
+        draws_bands(&self.style, &self.tiles)
+    }
+
+    /// Draws the model as a camera sees it, one row of tiles after the other, and hands each to `take` as a frame as
+    /// wide as the whole; the same pixels as [`Self::draw`], without ever holding them all. Ends early where `take`
+    /// says no.
+    ///
+    /// What comes back has times and notices, and no pixels.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::draw`]; what was handed out before is then part of no picture.
+    ///
+    /// # Panics
+    ///
+    /// Where [`Self::draws_bands`] says no.
+    pub fn draw_bands(
+        &mut self,
+        camera: &Camera,
+        take: &mut dyn FnMut(&Frame) -> bool,
+    ) -> Result<Frame, RenderError> {
+        assert!(
+            self.draws_bands(),
+            "the frame needs all of its pixels at once"
+        );
+        let (view, _) = self.aim(camera)?;
+        let [width, height] = self.options.size;
+        let mut told = Frame::new([width, 0]);
+        told.notices.extend_from_slice(self.notices());
+        for top in (0..height).step_by(self.tiles.kept[1] as usize) {
+            let rows = self.tiles.kept[1].min(height - top);
+            let mut band = Frame::new([width, rows]);
+            for origin in self.tiles.origins().filter(|origin| origin[1] == top) {
+                self.draw_tile(&view, origin, top, &mut band, None)?;
+            }
+            told.add_times(&band.times);
+            if !take(&band) {
+                break;
+            }
+        }
+        Ok(told)
+    }
+
     /// Draws the model as a camera sees it.
     ///
     /// # Errors
     ///
     /// [`RenderError::Engine`] where the device fails; nothing half drawn is returned.
     pub fn draw(&mut self, camera: &Camera) -> Result<Frame, RenderError> {
+        let (view, rules) = self.aim(camera)?;
+        let mut frame = Frame::new(self.options.size);
+        frame.notices.extend_from_slice(self.notices());
+        let curves = self.lines.is_some() && self.style.has_curves();
+        let mut sides = (self.method.minds && curves).then(|| Sides::new(self.options.size));
+        for origin in self.tiles.origins() {
+            self.draw_tile(&view, origin, 0, &mut frame, sides.as_mut())?;
+        }
+        let minded = sides.map(|sides| (sides, rules));
+        self.finish(camera, &view, minded.as_ref(), &mut frame)?;
+        Ok(frame)
+    }
+
+    /// Hands over how a camera sees the scene.
+    fn aim(&mut self, camera: &Camera) -> Result<(View, Rules), RenderError> {
         let bounds = self.bounds();
         let view = camera.view(self.options.size, bounds);
         let world_px = look::nearest_world_px(&view, camera, self.model);
@@ -516,16 +588,7 @@ impl<'a> Stage<'a> {
         }
         self.turn_strokes(&light::strongest(&lights), camera)?;
         self.upload_smoke_view(camera, &view)?;
-        let mut frame = Frame::new(self.options.size);
-        frame.notices.extend_from_slice(self.notices());
-        let curves = self.lines.is_some() && self.style.has_curves();
-        let mut sides = (self.method.minds && curves).then(|| Sides::new(self.options.size));
-        for origin in self.tiles.origins() {
-            self.draw_tile(&view, origin, &mut frame, sides.as_mut())?;
-        }
-        let minded = sides.map(|sides| (sides, rules));
-        self.finish(camera, &view, minded.as_ref(), &mut frame)?;
-        Ok(frame)
+        Ok((view, rules))
     }
 
     /// Turns the strokes that follow the light to the strongest one.
@@ -568,11 +631,12 @@ impl<'a> Stage<'a> {
         Ok(())
     }
 
-    /// Draws the tile whose kept part starts at `origin`.
+    /// Draws the tile whose kept part starts at `origin` into a frame that begins `top` rows below the whole one.
     fn draw_tile(
         &mut self,
         view: &View,
         origin: [u32; 2],
+        top: u32,
         frame: &mut Frame,
         sides: Option<&mut Sides>,
     ) -> Result<(), EngineError> {
@@ -600,10 +664,14 @@ impl<'a> Stage<'a> {
             &tile,
             size[0],
             [self.tiles.margin; 2],
-            origin,
+            [origin[0], origin[1] - top],
             self.tiles.kept,
         );
         frame.add_times(&times);
+        let [done, of] = self.tiles.progress(origin);
+        if let Some(tell) = self.tell.filter(|_| of > 1) {
+            tell(done, of);
+        }
         if let Some(sides) = sides {
             let margin = [self.tiles.margin; 2];
             let kept = self.tiles.kept;
@@ -617,6 +685,16 @@ impl<'a> Stage<'a> {
         }
         Ok(())
     }
+}
+
+/// Whether a frame in such tiles is done with its last tile: curves, speed lines, a second look and words go over it
+/// as a whole.
+fn draws_bands(style: &Style, tiles: &Tiles) -> bool {
+    let goes_over = style.has_curves()
+        || !style.trails().is_empty()
+        || style.blend.shows()
+        || !style.lettering.is_empty();
+    tiles.kept != tiles.frame && !goes_over
 }
 
 pub(crate) fn check_size([width, height]: [u32; 2]) -> Result<(), RenderError> {

@@ -72,6 +72,13 @@ impl Tiles {
             .flat_map(move |y| (0..frame[0]).step_by(kept[0] as usize).map(move |x| [x, y]))
     }
 
+    /// How many tiles are done once that at `origin` is, and how many there are.
+    pub fn progress(&self, origin: [u32; 2]) -> [usize; 2] {
+        let [columns, rows] = [0, 1].map(|axis| self.frame[axis].div_ceil(self.kept[axis]));
+        let before = origin[1] / self.kept[1] * columns + origin[0] / self.kept[0];
+        [before + 1, columns * rows].map(|count| count as usize)
+    }
+
     /// Frame position of the top left corner of the tile whose kept part starts at `origin`.
     pub fn corner_px(&self, origin: [u32; 2]) -> [f32; 2] {
         origin.map(|at| at as f32 - self.margin as f32)
@@ -94,6 +101,10 @@ mod tests {
                 u64::from(tiles.kept[0].min(w - x)) * u64::from(tiles.kept[1].min(h - y))
             }).sum();
             prop_assert_eq!(covered, u64::from(w) * u64::from(h));
+            let count = tiles.origins().count();
+            for (index, origin) in tiles.origins().enumerate() {
+                prop_assert_eq!(tiles.progress(origin), [index + 1, count]);
+            }
         }
     }
 }

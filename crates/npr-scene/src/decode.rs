@@ -10,6 +10,7 @@
 use std::io::Cursor;
 
 use ::image::{DynamicImage, ImageDecoder, ImageReader, Limits};
+use npr_core::decoding::guard;
 
 use crate::image::Image;
 use crate::limits::{Allowance, LimitError};
@@ -29,31 +30,34 @@ pub(crate) fn decode(
     bytes: &[u8],
     allowance: &mut Allowance,
 ) -> Result<Image, DecodeFault> {
-    let mut reader = ImageReader::new(Cursor::new(bytes));
-    reader.limits(decoder_limits(allowance));
-    let reader = reader
-        .with_guessed_format()
-        .map_err(|_| DecodeFault::Broken)?;
-    // A program around may have switched on more formats than scenes may hold.
-    if !matches!(
-        reader.format(),
-        Some(::image::ImageFormat::Png | ::image::ImageFormat::Jpeg)
-    ) {
-        return Err(DecodeFault::Broken);
-    }
-    let decoder = reader.into_decoder().map_err(|_| DecodeFault::Broken)?;
-    let (width, height) = decoder.dimensions();
-    allowance
-        .take_image(width, height)
-        .map_err(DecodeFault::TooLarge)?;
+    let decoded = guard(|| {
+        let mut reader = ImageReader::new(Cursor::new(bytes));
+        reader.limits(decoder_limits(allowance));
+        let reader = reader
+            .with_guessed_format()
+            .map_err(|_| DecodeFault::Broken)?;
+        // A program around may have switched on more formats than scenes may hold.
+        if !matches!(
+            reader.format(),
+            Some(::image::ImageFormat::Png | ::image::ImageFormat::Jpeg)
+        ) {
+            return Err(DecodeFault::Broken);
+        }
+        let decoder = reader.into_decoder().map_err(|_| DecodeFault::Broken)?;
+        let (width, height) = decoder.dimensions();
+        allowance
+            .take_image(width, height)
+            .map_err(DecodeFault::TooLarge)?;
 
-    let pixels = DynamicImage::from_decoder(decoder).map_err(|_| DecodeFault::Broken)?;
-    Ok(Image {
-        name: name.to_owned(),
-        width,
-        height,
-        rgba: pixels.into_rgba8().into_raw(),
-    })
+        let pixels = DynamicImage::from_decoder(decoder).map_err(|_| DecodeFault::Broken)?;
+        Ok(Image {
+            name: name.to_owned(),
+            width,
+            height,
+            rgba: pixels.into_rgba8().into_raw(),
+        })
+    });
+    decoded.unwrap_or(Err(DecodeFault::Broken))
 }
 
 /// Bounds the decoder's own memory: four bytes a pixel grow to at most eight while decoding 16-bit

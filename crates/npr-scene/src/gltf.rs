@@ -16,6 +16,7 @@ pub(crate) mod skin;
 pub(crate) mod texture;
 pub(crate) mod topology;
 pub(crate) mod tree;
+pub(crate) mod unused;
 pub(crate) mod viewpoint;
 pub(crate) mod vrm;
 
@@ -71,6 +72,7 @@ fn read_document(
     vrm::turn_to_front(&root, &mut scene);
     tree::place(&mut scene, loading);
 
+    unused::note(&accessors, loading);
     note_what_is_ignored(&root, loading);
     describe(root, &tree, &mut scene);
     Ok(scene)

@@ -44,6 +44,12 @@ impl Notices {
         self.kept.push(Notice { text });
     }
 
+    /// Whether a notice holds `text`; of a full list nobody asks.
+    pub(crate) fn tell_of(&self, text: &str) -> bool {
+        let is_open = self.kept.len() < NOTICE_LIMIT;
+        is_open && self.kept.iter().any(|notice| notice.text.contains(text))
+    }
+
     /// The notices, with a last one that says so if some were left out.
     pub(crate) fn into_list(mut self) -> Vec<Notice> {
         if self.has_more {

@@ -8,6 +8,7 @@
 )]
 
 pub(crate) mod corner;
+pub(crate) mod encoding;
 pub(crate) mod group;
 pub(crate) mod library;
 
@@ -109,7 +110,8 @@ impl std::fmt::Display for Element {
 
 /// Reads an OBJ file.
 pub(crate) fn read(bytes: &[u8], loading: &mut Loading) -> Result<Scene, SceneError> {
-    let text = join_continued_lines(bytes);
+    let text = encoding::utf8(bytes, loading)?;
+    let text = join_continued_lines(&text);
     let mut reader = Reader::default();
     for (line, text) in numbered_lines(&text) {
         reader.statement(line, text, loading)?;

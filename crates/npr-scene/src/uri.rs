@@ -10,6 +10,7 @@
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use npr_core::decoding::guard;
 use percent_encoding::percent_decode_str;
 
 use crate::resources::{ResourceError, Resources};
@@ -44,7 +45,11 @@ pub(crate) fn mention(uri: &str, resources: &dyn Resources) {
 fn decode_data(data: &str) -> Result<Vec<u8>, ResourceError> {
     let (kind, payload) = data.split_once(',').ok_or(ResourceError::BadData)?;
     if kind.ends_with(";base64") {
-        return BASE64.decode(payload).map_err(|_| ResourceError::BadData);
+        let decoded = guard(|| BASE64.decode(payload));
+        return decoded
+            .ok()
+            .and_then(Result::ok)
+            .ok_or(ResourceError::BadData);
     }
     Ok(percent_decode_str(payload).collect())
 }

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use npr_core::decoding::guard;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -60,7 +61,8 @@ impl FromStr for Color {
     type Err = ColorError;
 
     fn from_str(text: &str) -> Result<Self, ColorError> {
-        let parsed = color::parse_color(text.trim()).map_err(|_| ColorError)?;
+        let parsed = guard(|| color::parse_color(text.trim()));
+        let parsed = parsed.ok().and_then(Result::ok).ok_or(ColorError)?;
         let bytes = parsed.to_alpha_color::<color::Srgb>().to_rgba8();
         Ok(Self {
             r: bytes.r,

@@ -1,5 +1,6 @@
 //! Reads a style and lays it over its parents.
 
+use npr_core::decoding::guard;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
@@ -164,11 +165,14 @@ fn parse(text: &str) -> Result<Table, StyleError> {
             message: format!("more than {DOTS_MAX} dots in a line"),
         });
     }
-    text.parse()
-        .map_err(|error: toml::de::Error| StyleError::Syntax {
-            place: error.span().map(|span| place::of_byte(text, span.start)),
-            message: brief(error.message()),
-        })
+    let parsed = guard(|| text.parse::<Table>()).map_err(|stopped| StyleError::Syntax {
+        place: None,
+        message: stopped.to_string(),
+    })?;
+    parsed.map_err(|error| StyleError::Syntax {
+        place: error.span().map(|span| place::of_byte(text, span.start)),
+        message: brief(error.message()),
+    })
 }
 
 fn names(extends: Option<Value>) -> Vec<String> {

@@ -1,5 +1,6 @@
 //! Where in a text things stand.
 
+use npr_core::decoding::guard;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -17,7 +18,7 @@ pub(crate) fn of_byte(text: &str, byte: usize) -> Place {
 
 /// Where `key`, a path with dots, stands in a TOML text; for an absent key, where its table stands.
 pub(crate) fn of_key(text: &str, key: &str) -> Option<Place> {
-    let document = DeTable::parse(text).ok()?;
+    let document = guard(|| DeTable::parse(text)).ok()?.ok()?;
     let mut found = None;
     let mut table = document.get_ref();
     let mut rest = Some(key);

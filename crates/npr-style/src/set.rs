@@ -1,5 +1,6 @@
 //! Overrides by `key.path=value`.
 
+use npr_core::decoding::guard;
 use toml::{Table, Value};
 
 use crate::error::StyleError;
@@ -32,7 +33,8 @@ pub(crate) fn assign(style: &Style, assignment: &str) -> Result<Style, StyleErro
 /// The TOML value of a text; what is no TOML is text itself.
 fn parse(text: &str) -> Value {
     let deep = text.matches(['.', '[', '{']).count() > 1000;
-    let parsed = if deep { None } else { text.parse().ok() };
+    let parse = || guard(|| text.parse::<Value>()).ok()?.ok();
+    let parsed = if deep { None } else { parse() };
     parsed.unwrap_or_else(|| Value::String(text.to_owned()))
 }
 

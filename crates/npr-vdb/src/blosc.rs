@@ -10,6 +10,7 @@ mod zstd;
 
 use crate::chunk::{WRONG_SIZE, inflate};
 use crate::cursor::Cursor;
+use npr_core::decoding::guard;
 use shuffle::{unshuffle_bits, unshuffle_bytes};
 
 /// What is wrong with a container.
@@ -169,7 +170,9 @@ impl Codec {
         let length = bytes.len();
         let written = match self {
             Self::BloscLz => blosclz::unpack(packed, bytes),
-            Self::Lz4 => lz4_flex::block::decompress_into(packed, bytes).ok(),
+            Self::Lz4 => guard(|| lz4_flex::block::decompress_into(packed, bytes).ok())
+                .ok()
+                .flatten(),
             Self::Zlib => return inflate(packed, bytes),
             Self::Zstd => return zstd::unpack(packed, bytes),
         };

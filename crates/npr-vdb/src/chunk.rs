@@ -1,6 +1,7 @@
 //! Runs of bytes, stored plainly or packed.
 
 use miniz_oxide::inflate::decompress_slice_iter_to_slice;
+use npr_core::decoding::guard;
 
 use crate::blosc;
 use crate::cursor::Cursor;
@@ -106,9 +107,10 @@ pub(crate) struct Room {
 /// Unpacks a zlib stream [RFC 1950] that must fill `bytes` exactly.
 pub(crate) fn inflate(packed: &[u8], bytes: &mut [u8]) -> Result<(), &'static str> {
     let length = bytes.len();
-    match decompress_slice_iter_to_slice(bytes, std::iter::once(packed), true, false) {
-        Ok(written) if written == length => Ok(()),
-        Ok(_) => Err(WRONG_SIZE),
-        Err(_) => Err("its zlib stream is broken"),
+    let packed = std::iter::once(packed);
+    match guard(|| decompress_slice_iter_to_slice(bytes, packed, true, false)) {
+        Ok(Ok(written)) if written == length => Ok(()),
+        Ok(Ok(_)) => Err(WRONG_SIZE),
+        Ok(Err(_)) | Err(_) => Err("its zlib stream is broken"),
     }
 }

@@ -6,6 +6,7 @@
 
 use crate::number::{push_fixed, push_significant};
 use crate::stroke::{Drawing, Kind, Stroke, StrokePoint, StrokeSurface};
+use npr_core::decoding::guard;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -182,9 +183,11 @@ enum Visibility {
 /// Where the text is no line data of version 1, holds unknown keys or values out of range, or more than
 /// [`POINT_LIMIT`] points.
 pub fn read_json(bytes: &[u8]) -> Result<Drawing, JsonError> {
-    let file: File = serde_json::from_slice(bytes).map_err(|error| JsonError::Form {
-        reason: error.to_string(),
-    })?;
+    let broken = |reason: &dyn std::fmt::Display| JsonError::Form {
+        reason: reason.to_string(),
+    };
+    let parsed = guard(|| serde_json::from_slice(bytes)).map_err(|stopped| broken(&stopped))?;
+    let file: File = parsed.map_err(|error: serde_json::Error| broken(&error))?;
     if file.version != 1 {
         return Err(JsonError::Version {
             found: file.version,

@@ -76,6 +76,68 @@ fn enormous_claims_are_refused_at_once() {
     }
 }
 
+/// A picture on which its decoder panics.
+const SHORT_PALETTE: &[u8] = include_bytes!("../data/palette_of_5_bytes.png");
+
+#[test]
+fn a_decoder_that_panics_makes_a_broken_picture() {
+    let place = Workplace::with_scene();
+    place.put("p.png", SHORT_PALETTE);
+    let told = "npr: cannot read 'p.png': the PNG data are broken\n";
+    let refused: [&[&str]; 4] = [
+        &["trace", "p.png", "-o", "out.svg"],
+        &["trace", "p.png", "-o", "out.svg", "--colours", "3"],
+        &[
+            "render",
+            "scene.obj",
+            "-o",
+            "out.png",
+            "--background",
+            "p.png",
+        ],
+        &[
+            "render",
+            "scene.obj",
+            "-o",
+            "out.png",
+            "--set",
+            "shade.ramp_image=\"p.png\"",
+        ],
+    ];
+    for arguments in refused {
+        let outcome = place.npr(arguments);
+        outcome.assert_fault(3, "cannot read 'p.png'");
+        assert!(
+            outcome.stderr.ends_with(&told["npr: ".len()..]),
+            "{}",
+            outcome.stderr
+        );
+    }
+    assert_eq!(place.names(), ["p.png", "scene.obj"]);
+}
+
+#[test]
+fn a_texture_that_stops_its_decoder_is_left_out_by_name() {
+    let place = Workplace::new();
+    let positions = [0f32, 0., 0., 1., 0., 0., 0., 1., 0.];
+    let mut bin: Vec<u8> = positions.into_iter().flat_map(f32::to_le_bytes).collect();
+    bin.extend(SHORT_PALETTE);
+    let (all, picture) = (bin.len(), SHORT_PALETTE.len());
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],"scenes":[{{"nodes":[0]}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"material":0}}]}}],
+        "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}],"textures":[{{"source":0}}],
+        "images":[{{"name":"skin","bufferView":1,"mimeType":"image/png"}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}}],
+        "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":{picture}}}],
+        "buffers":[{{"byteLength":{all}}}]}}"#
+    );
+    place.put("scene.glb", &npr_scene::testing::glb(&json, &bin));
+    let outcome = place.render("scene.glb", &["-o", "out.png"]);
+    let told = "npr: warning: image 0 is left out: 'skin' is no sound PNG or JPEG\n";
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), told));
+}
+
 /// Traces a broken file: a drawing and no word, or no drawing and one line with the right exit code.
 #[track_caller]
 fn check(place: &Workplace, name: &str, what: &str) {

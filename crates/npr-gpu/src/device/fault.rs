@@ -5,7 +5,7 @@
 
 use super::Gpu;
 use crate::engine::EngineError;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use npr_core::decoding::guard;
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
@@ -80,7 +80,7 @@ impl Gpu {
 
     fn poll(&self, kind: wgpu::PollType) -> Result<(), EngineError> {
         // wgpu 30 panics in here when the driver answers a wait with "device lost".
-        match catch_unwind(AssertUnwindSafe(|| self.device.poll(kind))) {
+        match guard(|| self.device.poll(kind)) {
             Ok(Ok(_)) => {}
             Ok(Err(error)) => self.watch.lose(&error.to_string()),
             Err(_) => self.watch.lose("the driver stopped while waited for"),

@@ -8,6 +8,7 @@ mod agreement;
 mod cliffs;
 mod contours;
 mod curves;
+mod detection;
 mod draws;
 mod frame;
 mod lists;
@@ -17,7 +18,8 @@ mod sample_passes;
 mod sampled;
 mod scene;
 mod shapes;
-mod shared;
 mod trouble;
 mod twins;
 mod work;
+
+use npr_gpu::device::testing as shared;

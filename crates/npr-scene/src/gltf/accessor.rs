@@ -80,6 +80,30 @@ impl<'a> Accessors<'a> {
         self.read(index, user, "unsigned integers", allowance, integer_rows)
     }
 
+    /// Checks that accessor `index` could be read, without reading it.
+    pub(crate) fn check(&self, index: usize) -> Result<(), GltfError> {
+        let item = Item::new("accessor", index);
+        let accessor = self.get(index, item)?;
+        let width = type_width(accessor);
+        let component = component_type(accessor).filter(|_| width > 0);
+        let component = component.ok_or(GltfError::UnknownElements { accessor: index })?;
+        let layout = Layout::of_accessor(index, accessor, component, width);
+        if let Some(view) = accessor.buffer_view {
+            self.rows(view.value(), &layout)?;
+        }
+        self.check_count(index, accessor)?;
+        let Some(sparse) = &accessor.sparse else {
+            return Ok(());
+        };
+        self.check_sparse_count(index, sparse, self.count(index, item)?)?;
+        self.sparse_rows(index, sparse)?;
+        self.rows(
+            sparse.values.buffer_view.value(),
+            &layout.of_sparse_values(sparse),
+        )?;
+        Ok(())
+    }
+
     fn get(&self, index: usize, user: Item) -> Result<&'a Accessor, GltfError> {
         let item = Item::new("accessor", index);
         let count = self.root.accessors.len();
@@ -121,15 +145,8 @@ impl<'a> Accessors<'a> {
         };
         if let Some(sparse) = &accessor.sparse {
             let places = self.sparse_places(index, sparse, count)?;
-            let (offset, count) = (sparse.values.byte_offset.0, sparse.count.0);
-            let rows = self.rows(
-                sparse.values.buffer_view.value(),
-                &Layout {
-                    offset,
-                    count,
-                    ..layout
-                },
-            )?;
+            let values = layout.of_sparse_values(sparse);
+            let rows = self.rows(sparse.values.buffer_view.value(), &values)?;
             let values = decode(&rows).ok_or_else(mismatch)?;
             replace(index, &mut elements, &places, &values)?;
         }
@@ -156,22 +173,32 @@ impl<'a> Accessors<'a> {
         sparse: &Sparse,
         count: usize,
     ) -> Result<Vec<[u32; 1]>, GltfError> {
-        if sparse.count.0 > count as u64 {
-            let element = u32::try_from(sparse.count.0).unwrap_or(u32::MAX);
-            return Err(GltfError::SparseElement {
-                accessor: index,
-                element,
-                count,
-            });
+        self.check_sparse_count(index, sparse, count)?;
+        integer_rows(&self.sparse_rows(index, sparse)?).ok_or(no_sparse_indices(index))
+    }
+
+    /// Refuses more replaced elements than there are.
+    fn check_sparse_count(
+        &self,
+        index: usize,
+        sparse: &Sparse,
+        count: usize,
+    ) -> Result<(), GltfError> {
+        if sparse.count.0 <= count as u64 {
+            return Ok(());
         }
-        let user = Item::new("accessor", index);
-        let mismatch = GltfError::ElementType {
-            user,
+        let element = u32::try_from(sparse.count.0).unwrap_or(u32::MAX);
+        Err(GltfError::SparseElement {
             accessor: index,
-            wanted: "sparse indices",
-        };
+            element,
+            count,
+        })
+    }
+
+    /// The bytes that say which elements `sparse` replaces.
+    fn sparse_rows(&self, index: usize, sparse: &Sparse) -> Result<Rows<'a>, GltfError> {
         let Checked::Valid(component) = sparse.indices.component_type else {
-            return Err(mismatch);
+            return Err(no_sparse_indices(index));
         };
         let layout = Layout {
             accessor: index,
@@ -181,7 +208,7 @@ impl<'a> Accessors<'a> {
             element_bytes: component.0.size(),
             normalized: false,
         };
-        integer_rows(&self.rows(sparse.indices.buffer_view.value(), &layout)?).ok_or(mismatch)
+        self.rows(sparse.indices.buffer_view.value(), &layout)
     }
 
     /// The bytes of a list in `view`, checked against its end.
@@ -246,6 +273,15 @@ impl Layout {
         }
     }
 
+    /// Those of the values that `sparse` puts in the place of others.
+    fn of_sparse_values(&self, sparse: &Sparse) -> Self {
+        Self {
+            offset: sparse.values.byte_offset.0,
+            count: sparse.count.0,
+            ..*self
+        }
+    }
+
     /// Where the last element ends, counted from the start of the view.
     fn end(&self, stride: usize) -> u64 {
         let Some(last) = self.count.checked_sub(1) else {
@@ -273,6 +309,14 @@ impl Rows<'_> {
             .take(self.count)
             .map(element)
             .collect()
+    }
+}
+
+fn no_sparse_indices(accessor: usize) -> GltfError {
+    GltfError::ElementType {
+        user: Item::new("accessor", accessor),
+        accessor,
+        wanted: "sparse indices",
     }
 }
 
@@ -337,7 +381,8 @@ fn component_type(accessor: &Accessor) -> Option<ComponentType> {
     }
 }
 
-fn type_width(accessor: &Accessor) -> usize {
+/// How many components an element has; 0 where its type is unknown.
+pub(crate) fn type_width(accessor: &Accessor) -> usize {
     match accessor.type_ {
         Checked::Valid(Type::Scalar) => 1,
         Checked::Valid(Type::Vec2) => 2,

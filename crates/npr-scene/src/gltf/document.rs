@@ -8,6 +8,7 @@
 )]
 
 use ::gltf::json::Root;
+use npr_core::decoding::guard;
 use serde_json::Value;
 use serde_json::error::Category;
 
@@ -61,13 +62,35 @@ fn trim(json: &[u8]) -> &[u8] {
 }
 
 fn parse_types(json: &[u8]) -> Result<Root, GltfError> {
-    serde_json::from_slice(json).or_else(|fault| {
-        // An empty scene may leave out its list of nodes, which the types insist on.
-        let Ok(document) = serde_json::from_slice(json) else {
-            return Err(json_fault(&fault));
-        };
-        serde_json::from_value(with_scene_nodes(document)).map_err(|_| json_fault(&fault))
-    })
+    let parsed = guard(|| {
+        serde_json::from_slice(json).or_else(|fault| {
+            // An empty scene may leave out its list of nodes, which the types insist on.
+            let Ok(document) = serde_json::from_slice(json) else {
+                return Err(json_fault(&fault));
+            };
+            if let Some(version) = first_version(&document) {
+                return Err(GltfError::Version { version });
+            }
+            serde_json::from_value(with_scene_nodes(document)).map_err(|_| json_fault(&fault))
+        })
+    });
+    parsed.unwrap_or(Err(GltfError::Unreadable))
+}
+
+/// The version of a document of glTF 1.x, whose lists are tables by name, so that the types never come to read it.
+fn first_version(document: &Value) -> Option<String> {
+    let stated = document.get("asset").and_then(|asset| asset.get("version"));
+    let version = match stated {
+        Some(Value::String(version)) => version.clone(),
+        Some(Value::Number(version)) => version.to_string(),
+        _ => "1.0".to_owned(),
+    };
+    let lists = ["nodes", "meshes", "accessors", "buffers"];
+    let has_tables = lists
+        .iter()
+        .any(|list| document.get(list).is_some_and(Value::is_object));
+    let is_old = matches!(version.split('.').next(), Some("0" | "1"));
+    (is_old && (stated.is_some() || has_tables)).then_some(version)
 }
 
 fn with_scene_nodes(mut document: Value) -> Value {

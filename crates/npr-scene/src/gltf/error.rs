@@ -26,6 +26,14 @@ impl fmt::Display for Item {
     }
 }
 
+/// What makes a file of an older version readable, as the end of a sentence.
+fn converter(version: &str) -> &'static str {
+    match version.split('.').next() {
+        Some("0" | "1") => "; gltf-pipeline converts it",
+        _ => "",
+    }
+}
+
 /// What is wrong with a glTF or VRM file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -34,7 +42,10 @@ pub enum GltfError {
     #[error("the file does not begin with 'glTF'")]
     NotGlb,
     /// The container has another version than 2.
-    #[error("the container has version {version}, and only 2 is supported")]
+    #[error(
+        "the container has version {version}, and only 2 is supported{}",
+        converter(&version.to_string())
+    )]
     ContainerVersion {
         /// The version as read.
         version: u32,
@@ -62,8 +73,15 @@ pub enum GltfError {
         /// What is wrong there.
         fault: &'static str,
     },
+    /// The text stopped its decoder.
+    #[error("the JSON text is broken")]
+    Unreadable,
     /// The file is of another major version than 2.
-    #[error("glTF version '{}' is not supported, only 2.0 is", shown(version))]
+    #[error(
+        "glTF version '{}' is not supported, only 2.0 is{}",
+        shown(version),
+        converter(version)
+    )]
     Version {
         /// The version as the file states it.
         version: String,
@@ -173,6 +191,12 @@ pub enum GltfError {
         accessor: usize,
         /// What is needed.
         wanted: &'static str,
+    },
+    /// An accessor has elements of a type that glTF does not know.
+    #[error("accessor {accessor} has elements of an unknown type")]
+    UnknownElements {
+        /// Index of the accessor.
+        accessor: usize,
     },
     /// Two lists that belong together differ in length.
     #[error("{user}: accessor {accessor} has {count} elements where {wanted} are needed")]

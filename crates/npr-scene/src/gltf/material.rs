@@ -14,6 +14,7 @@ use ::gltf::json::mesh::Primitive;
 use ::gltf::json::texture::Info;
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Index, Root};
+use npr_core::decoding::guard;
 use serde_json::Value;
 
 use super::accessor::Accessors;
@@ -106,7 +107,8 @@ fn surface(source: &JsonMaterial) -> Material {
 /// Whether the extras say `{"npr": {"lines": true}}`; what else they say is somebody else's.
 fn asks_for_lines(source: &JsonMaterial) -> bool {
     let extras = source.extras.as_ref();
-    let said = extras.and_then(|extras| serde_json::from_str::<Value>(extras.get()).ok());
+    let parsed = |text| guard(|| serde_json::from_str::<Value>(text));
+    let said = extras.and_then(|extras| parsed(extras.get()).ok()?.ok());
     let lines = said.as_ref().and_then(|said| said.pointer("/npr/lines"));
     lines.and_then(Value::as_bool).unwrap_or(false)
 }

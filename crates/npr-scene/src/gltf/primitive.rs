@@ -62,9 +62,12 @@ pub(crate) fn read(
         return Ok(None);
     };
     if !topology::is_surface(primitive) && !topology::is_of_lines(primitive) {
-        loading
-            .notices
-            .add("points are not drawn, only triangles and lines are");
+        loading.notices.add(match primitive.mode {
+            Checked::Valid(_) => "points are not drawn, only triangles and lines are".to_owned(),
+            Checked::Invalid => {
+                format!("{user} has a part of a mode that glTF does not know, which is not drawn")
+            }
+        });
         return Ok(None);
     }
     let vertex_count = accessors.count(index, user)?;
@@ -168,7 +171,7 @@ impl Reader<'_, '_, '_> {
             .accessors
             .integers::<4>(joints, self.user, &mut self.loading.allowance)?;
         let weights: Vec<[f32; 4]> = self.floats(weights)?;
-        Ok((Some(narrow_joints(&wide, &weights)), Some(weights)))
+        Ok((Some(narrow_joints(&wide)), Some(weights)))
     }
 
     fn triangles(&mut self, place: Place) -> Result<Vec<[u32; 3]>, SceneError> {
@@ -296,16 +299,10 @@ fn attribute(primitive: &Primitive, semantic: Semantic) -> Option<usize> {
         .map(Index::value)
 }
 
-/// Joint indices in 16 bits; those without weight become 0, since files leave anything there.
-fn narrow_joints(wide: &[[u32; 4]], weights: &[[f32; 4]]) -> Vec<[u16; 4]> {
-    let narrow = |(joint, weight): (u32, f32)| match weight > 0.0 {
-        true => u16::try_from(joint).unwrap_or(u16::MAX),
-        false => 0,
-    };
-    let vertices = wide.iter().zip(weights);
-    vertices
-        .map(|(&[a, b, c, d], &[p, q, r, s])| [(a, p), (b, q), (c, r), (d, s)].map(narrow))
-        .collect()
+/// Joint indices in 16 bits, as the file has them.
+fn narrow_joints(wide: &[[u32; 4]]) -> Vec<[u16; 4]> {
+    let narrow = |joint| u16::try_from(joint).unwrap_or(u16::MAX);
+    wide.iter().map(|joints| joints.map(narrow)).collect()
 }
 
 fn apply_morphs(part: &mut Part) {

@@ -34,7 +34,8 @@ pub(crate) fn read(
     scene: &mut Scene,
     loading: &mut Loading,
 ) -> Result<(), SceneError> {
-    let highest: Vec<Option<u16>> = scene.meshes.iter().map(highest_joint).collect();
+    let highest: Vec<Option<Highest>> = scene.meshes.iter().map(Highest::of).collect();
+    scene.meshes.iter_mut().for_each(drop_idle_joints);
     let mut skins: Pool<usize, Skin> = Pool::default();
     for (node_index, source, node) in tree.nodes_with_source(accessors.root, scene) {
         let Some(index) = source.skin.as_ref().map(Index::value) else {
@@ -42,40 +43,82 @@ pub(crate) fn read(
         };
         let user = Item::new("node", node_index);
         let place = skins.place(index, || read_skin(accessors, tree, index, user, loading))?;
-        let skin = place.and_then(|place| skins.items.get(place as usize));
-        let fits = skin.is_some_and(|skin| fits(node, skin, &highest, loading));
+        let Some(skin) = place.and_then(|place| skins.items.get(place as usize)) else {
+            continue;
+        };
+        let fits = fits(node, skin, &highest, loading);
         node.skin = place.filter(|_| fits);
     }
     scene.skins = skins.items;
     Ok(())
 }
 
-/// The highest joint that a vertex of `mesh` follows; none where a part follows no joints.
-fn highest_joint(mesh: &Mesh) -> Option<u16> {
-    let highest = |joints: &Vec<[u16; 4]>| joints.iter().flatten().copied().max().unwrap_or(0);
-    let parts: Option<Vec<u16>> = mesh
-        .parts
-        .iter()
-        .map(|part| part.joints.as_ref().map(highest))
-        .collect();
-    Some(parts?.into_iter().max().unwrap_or(0))
+/// The highest joints that vertices of a mesh name.
+#[derive(Debug, Clone, Copy, Default)]
+struct Highest {
+    /// Among those that a vertex follows.
+    followed: u16,
+    /// Among all, those without weight too.
+    named: u16,
 }
 
-/// Whether every joint that the mesh of `node` asks for is in `skin`.
-fn fits(node: &Node, skin: &Skin, highest: &[Option<u16>], loading: &mut Loading) -> bool {
-    let highest = node
-        .mesh
-        .and_then(|mesh| highest.get(mesh as usize).copied());
-    let fits = highest
-        .flatten()
-        .is_some_and(|joint| usize::from(joint) < skin.joints.len());
-    if !fits && node.mesh.is_some() {
-        let name = shown(&node.name);
+impl Highest {
+    /// Those of `mesh`; none where a part follows no joints.
+    fn of(mesh: &Mesh) -> Option<Self> {
+        let mut highest = Self::default();
+        for part in &mesh.parts {
+            let (joints, weights) = (part.joints.as_ref()?, part.weights.as_ref()?);
+            for (joint, weight) in joints.as_flattened().iter().zip(weights.as_flattened()) {
+                highest.named = highest.named.max(*joint);
+                if *weight > 0.0 {
+                    highest.followed = highest.followed.max(*joint);
+                }
+            }
+        }
+        Some(highest)
+    }
+}
+
+/// Lets vertices name the first joint wherever they follow none, since files leave anything there.
+fn drop_idle_joints(mesh: &mut Mesh) {
+    for part in &mut mesh.parts {
+        let (Some(joints), Some(weights)) = (&mut part.joints, &part.weights) else {
+            continue;
+        };
+        let joints = joints.as_flattened_mut().iter_mut();
+        for (joint, weight) in joints.zip(weights.as_flattened()) {
+            // What is no number is no weight.
+            if weight.is_nan() || *weight <= 0.0 {
+                *joint = 0;
+            }
+        }
+    }
+}
+
+/// Whether every joint that the mesh of `node` follows is in `skin`; says which is not.
+fn fits(node: &Node, skin: &Skin, highest: &[Option<Highest>], loading: &mut Loading) -> bool {
+    let Some(mesh) = node.mesh else {
+        return false;
+    };
+    let (name, count) = (shown(&node.name), skin.joints.len());
+    let has = |joint: u16| usize::from(joint) < count;
+    let Some(highest) = highest.get(mesh as usize).copied().flatten() else {
         loading.notices.add(format!(
-            "the mesh of node '{name}' does not fit its skin and is drawn at rest"
+            "the mesh of node '{name}' names no joints of its skin and is drawn at rest"
+        ));
+        return false;
+    };
+    let Highest { followed, named } = highest;
+    if !has(followed) {
+        loading.notices.add(format!(
+            "the mesh of node '{name}' follows joint {followed}, but its skin has only {count}: it is drawn at rest"
+        ));
+    } else if !has(named) {
+        loading.notices.add(format!(
+            "the mesh of node '{name}' names joint {named} without weight, but its skin has only {count}"
         ));
     }
-    fits
+    has(followed)
 }
 
 fn read_skin(
@@ -92,6 +135,12 @@ fn read_skin(
         item,
         count: skins.len(),
     })?;
+    if source.joints.is_empty() {
+        loading.notices.add(format!(
+            "{item} has no joints, and its meshes are drawn at rest"
+        ));
+        return Ok(None);
+    }
     let Some(joints) = joints(accessors, tree, source, item)? else {
         loading.notices.add(format!(
             "{item} has joints outside the scene, and its meshes are drawn at rest"

@@ -2,6 +2,7 @@
 
 use std::io::Read;
 
+use npr_core::decoding::guard;
 use ruzstd::decoding::StreamingDecoder;
 
 use crate::cursor::Cursor;
@@ -18,12 +19,15 @@ pub(super) fn unpack(packed: &[u8], bytes: &mut [u8]) -> Result<(), &'static str
     if window > MOST_WINDOW_BYTES {
         return Err("its zstd stream asks for too much memory");
     }
-    let mut decoder = StreamingDecoder::new(packed).map_err(|_| BROKEN)?;
-    decoder.read_exact(bytes).map_err(|_| BROKEN)?;
-    match decoder.read(&mut [0]) {
-        Ok(0) => Ok(()),
-        _ => Err(BROKEN),
-    }
+    let unpacked = guard(|| {
+        let mut decoder = StreamingDecoder::new(packed).map_err(|_| BROKEN)?;
+        decoder.read_exact(bytes).map_err(|_| BROKEN)?;
+        match decoder.read(&mut [0]) {
+            Ok(0) => Ok(()),
+            _ => Err(BROKEN),
+        }
+    });
+    unpacked.unwrap_or(Err(BROKEN))
 }
 
 /// Bytes that the frame's header asks a decoder to keep; nothing if it makes no sense.

@@ -4,6 +4,7 @@ use super::LetteringError;
 use harfrust::font::glyph::outline::{DrawMemory, DrawOptions, PathSink};
 use harfrust::{Buffer, GlyphId, ShapeOptions, ShaperFont, shape};
 use kurbo::BezPath;
+use npr_core::decoding::guard;
 use std::fmt;
 use std::sync::Arc;
 
@@ -66,49 +67,58 @@ impl Font {
     pub fn new(bytes: Vec<u8>) -> Result<Self, LetteringError> {
         let bytes = Arc::new(bytes);
         let shared: Arc<dyn AsRef<[u8]> + Send + Sync> = bytes.clone();
-        let font = harfrust::Font::new(shared, 0).ok_or(LetteringError::NotAFont)?;
-        if font.outline_glyphs().is_empty() {
-            return Err(LetteringError::NoOutlines);
-        }
-        let units = font.metrics().raw_units_per_em;
+        let read = guard(|| {
+            let font = harfrust::Font::new(shared, 0).ok_or(LetteringError::NotAFont)?;
+            if font.outline_glyphs().is_empty() {
+                return Err(LetteringError::NoOutlines);
+            }
+            let metrics = font.metrics();
+            let stated = metrics.cap_height.map(|height| height.to_i32());
+            let units = metrics.raw_units_per_em;
+            Ok((font, units, stated))
+        });
+        let (font, units, stated) = read.unwrap_or(Err(LetteringError::NotAFont))?;
         if !(16..=16384).contains(&units) {
             return Err(LetteringError::Units { units });
         }
+        let em = f64::from(units);
         let mut font = Self {
             bytes,
             font,
-            cap_height: f64::from(units) * USUAL_CAP_HEIGHT,
+            cap_height: em * USUAL_CAP_HEIGHT,
         };
-        font.cap_height = font.measured_cap_height().unwrap_or(font.cap_height);
+        // Take what the font states, or else the height of its H, and nothing absurd.
+        let is_sound = |height: &f64| (0.2 * em..=2.0 * em).contains(height);
+        let stated = stated.map(f64::from).filter(is_sound);
+        let measured = stated.or_else(|| font.height_of_h().filter(is_sound));
+        font.cap_height = measured.unwrap_or(font.cap_height);
         Ok(font)
     }
 
-    /// Height of capitals in font units, as the font states it, or else that of its H; none that is absurd.
-    fn measured_cap_height(&self) -> Option<f64> {
-        let em = f64::from(self.font.units_per_em());
-        let is_sound = |height: &f64| (0.2 * em..=2.0 * em).contains(height);
-        let stated = self.font.metrics().cap_height;
-        let stated = stated.map(|height| f64::from(height.to_i32()));
-        stated.filter(is_sound).or_else(|| {
-            let h = self.shape("H").ok()?.first().copied()?;
-            let bounds = kurbo::Shape::bounding_box(&self.outline(&h).ok()?);
-            Some(-bounds.y0 * self.cap_height).filter(is_sound)
-        })
+    /// Height of the letter H in font units; none where the font has none.
+    fn height_of_h(&self) -> Option<f64> {
+        let h = self.shape("H").ok()?.first().copied()?;
+        let bounds = kurbo::Shape::bounding_box(&self.outline(&h).ok()?);
+        Some(-bounds.y0 * self.cap_height)
     }
 
     /// The letters of one line, from left to right.
     pub(super) fn shape(&self, text: &str) -> Result<Vec<Letter>, LetteringError> {
-        let mut buffer = Buffer::new();
         let characters: Vec<char> = text.chars().filter(|c| !c.is_control()).collect();
-        for (cluster, character) in characters.iter().enumerate() {
-            buffer.push(u32::from(*character), cluster as u32);
-        }
-        buffer.guess_segment_properties();
-        let shaper = ShaperFont::new(&self.font);
-        let shaped = shape(&shaper, &mut buffer, ShapeOptions::new());
-        if shaped.is_err() || !buffer.allocation_successful() {
-            return Err(LetteringError::TooComplex);
-        }
+        let shaped = guard(|| {
+            let mut buffer = Buffer::new();
+            for (cluster, character) in characters.iter().enumerate() {
+                buffer.push(u32::from(*character), cluster as u32);
+            }
+            buffer.guess_segment_properties();
+            let shaper = ShaperFont::new(&self.font);
+            let shaped = shape(&shaper, &mut buffer, ShapeOptions::new());
+            (shaped.is_ok() && buffer.allocation_successful()).then_some(buffer)
+        });
+        let shaped = shaped.map_err(|_| LetteringError::BrokenLetter {
+            letter: characters.first().copied().unwrap_or_default(),
+        })?;
+        let buffer = shaped.ok_or(LetteringError::TooComplex)?;
         let glyphs = buffer.glyph_infos().iter().zip(buffer.glyph_positions());
         glyphs
             .map(|(info, place)| {
@@ -138,21 +148,24 @@ impl Font {
         let broken = LetteringError::BrokenLetter {
             letter: letter.character,
         };
-        let Some(glyph) = self.font.outline_glyphs().get(letter.glyph) else {
-            return Ok(BezPath::new());
-        };
         let mut sink = Sink {
             path: BezPath::new(),
             scale: 1.0 / self.cap_height,
             is_open: false,
             is_sound: true,
         };
-        let drawn = glyph.draw(&DrawOptions::new(), DrawMemory::Scratch, &mut sink);
+        let drawn = guard(|| {
+            let glyphs = self.font.outline_glyphs();
+            let glyph = glyphs.get(letter.glyph);
+            glyph.map(|glyph| glyph.draw(&DrawOptions::new(), DrawMemory::Scratch, &mut sink))
+        });
         sink.close();
-        if drawn.is_err() || !sink.is_sound {
-            return Err(broken);
+        match drawn {
+            // A blank has no outline.
+            Ok(None) => Ok(BezPath::new()),
+            Ok(Some(Ok(_))) if sink.is_sound => Ok(sink.path),
+            _ => Err(broken),
         }
-        Ok(sink.path)
     }
 }
 

@@ -1,0 +1,190 @@
+//! Large pictures, written band by band as they are drawn.
+
+use crate::encoder;
+use crate::fault::Fault;
+use crate::output::Output;
+use npr_core::camera::Camera;
+use npr_render::{Frame, RenderError, Stage};
+use png::ColorType;
+use std::io::{self, BufWriter, Write};
+
+/// How a try to draw and write a picture went.
+enum Try {
+    /// The picture is in its place.
+    Written(Frame),
+    /// A picture without alpha turned out to need it.
+    SeesThrough,
+    /// The file could not be written.
+    Failed(Fault),
+}
+
+/// Draws a picture of `size` into its file, and never holds more of it than a band.
+///
+/// Without `keep_alpha` it is taken for opaque, and drawn again where it turns out not to be. The inner result is
+/// that of writing.
+///
+/// # Errors
+///
+/// [`RenderError`] where drawing fails: there is no file then, and another engine may try.
+pub fn draw_into(
+    output: &Output,
+    stage: &mut Stage<'_>,
+    camera: &Camera,
+    size: [u32; 2],
+    keep_alpha: bool,
+) -> Result<Result<Frame, Fault>, RenderError> {
+    let mut color = match keep_alpha {
+        true => ColorType::Rgba,
+        false => ColorType::Rgb,
+    };
+    loop {
+        match try_with(output, stage, camera, size, color)? {
+            Try::Written(told) => return Ok(Ok(told)),
+            Try::Failed(fault) => return Ok(Err(fault)),
+            Try::SeesThrough => color = ColorType::Rgba,
+        }
+    }
+}
+
+fn try_with(
+    output: &Output,
+    stage: &mut Stage<'_>,
+    camera: &Camera,
+    size: [u32; 2],
+    color: ColorType,
+) -> Result<Try, RenderError> {
+    let mut drawn = None;
+    let mut sees_through = false;
+    let written = whole(output, |sink| {
+        encoder::encode(size, color, sink, |write| {
+            let mut kept = Ok(());
+            let bands = stage.draw_bands(camera, &mut |band| {
+                let is_opaque = || band.rgba.chunks_exact(4).all(|pixel| pixel[3] == 255);
+                sees_through = color == ColorType::Rgb && !is_opaque();
+                if !sees_through {
+                    kept = write(&band.rgba);
+                }
+                !sees_through && kept.is_ok()
+            });
+            // Keep nothing that is not whole.
+            let is_whole = bands.is_ok() && !sees_through;
+            drawn = Some(bands);
+            match is_whole {
+                true => kept,
+                false => Err(io::Error::other("the picture is not whole")),
+            }
+        })
+    });
+    Ok(match (drawn.transpose()?, written) {
+        (Some(told), Ok(())) => Try::Written(told),
+        (Some(_), Err(_)) if sees_through => Try::SeesThrough,
+        (_, Err(fault)) => Try::Failed(fault),
+        // A closed pipe ends the writing in good order.
+        (None, Ok(())) => Try::Written(Frame::default()),
+    })
+}
+
+/// Writes what `fill` writes, if it is whole: a reader of standard output cannot be told to forget its beginning.
+fn whole(
+    output: &Output,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Fault> {
+    if *output == Output::Standard {
+        let mut bytes = Vec::new();
+        fill(&mut bytes)?;
+        return output.write(&bytes);
+    }
+    output.write_with(|sink| {
+        let mut sink = BufWriter::new(sink);
+        fill(&mut sink)?;
+        sink.flush()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use npr_gpu::processor::Processor;
+    use npr_render::{Model, StageOptions};
+    use npr_scene::testing::Sheet;
+    use npr_scene::{Limits, MemoryResources, load_bytes};
+    use npr_style::Style;
+    use std::cell::RefCell;
+
+    const SIZE: [u32; 2] = [300, 260];
+
+    fn model() -> Model {
+        let resources = MemoryResources::default();
+        let file = Sheet::new(4).glb();
+        let scene = load_bytes("sheet", &file, None, &resources, &Limits::default());
+        Model::new(&scene.expect("a sound file")).expect("a model")
+    }
+
+    fn style(background: &str) -> Style {
+        let mut style = Style::default();
+        style
+            .set(&format!("background={background}"))
+            .expect("a colour");
+        style
+    }
+
+    #[test]
+    fn a_picture_in_bands_has_the_bytes_of_a_whole_one() {
+        let model = model();
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("out.png");
+        let output = Output::of(&path).expect("a place");
+        let camera = Camera::framing([0.0; 3], [4.0, 0.1, 4.0]);
+        let options = StageOptions {
+            tile_pixels: 20_000,
+            in_bands: true,
+            ..StageOptions::new(SIZE)
+        };
+        // Paper, glass, and glass that was taken for paper.
+        for (background, keep_alpha) in [
+            ("white", false),
+            ("transparent", true),
+            ("transparent", false),
+        ] {
+            let told = RefCell::new(Vec::new());
+            let tell = |done, of| told.borrow_mut().push([done, of]);
+            let stage = Stage::new(&Processor, &model, &style(background), &options);
+            let mut stage = stage.expect("a stage").with_progress(&tell);
+            assert!(stage.draws_bands());
+            let written = draw_into(&output, &mut stage, &camera, SIZE, keep_alpha);
+            let frame = written.expect("drawn").expect("written");
+            assert!(frame.rgba.is_empty() && !frame.times.is_empty());
+            let tiles = told.borrow().clone();
+            let count = tiles[0][1];
+            let once: Vec<[usize; 2]> = (1..=count).map(|done| [done, count]).collect();
+            assert!(count > 4 && tiles.ends_with(&once), "{tiles:?}");
+
+            let whole = stage.draw(&camera).expect("drawn");
+            let wanted = encoder::png(SIZE, &whole.rgba, keep_alpha).expect("encoded");
+            let bytes = std::fs::read(&path).expect("a file");
+            assert!(bytes == wanted, "{background}, {keep_alpha}");
+        }
+        let names = std::fs::read_dir(folder.path()).expect("a folder").count();
+        assert_eq!(names, 1, "nothing stays beside the picture");
+    }
+
+    #[test]
+    fn what_goes_over_the_whole_frame_needs_it_whole() {
+        let model = model();
+        let options = StageOptions {
+            tile_pixels: 20_000,
+            ..StageOptions::new(SIZE)
+        };
+        let cases: [(&[&str], bool); 3] = [
+            (&["line.method=shape"], true),
+            (&["line.method=curves"], false),
+            (&["blend.with=toon", "blend.amount=0.5"], false),
+        ];
+        for (keys, in_bands) in cases {
+            let mut style = style("white");
+            keys.iter().for_each(|key| style.set(key).expect("a key"));
+            let stage = Stage::new(&Processor, &model, &style, &options).expect("a stage");
+            assert_eq!(stage.draws_bands(), in_bands, "{keys:?}");
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! Devices for tests of every crate: nothing else in a test opens one, so that all skip alike.
+
+use super::{AdapterChoice, Device};
+use crate::testing::is_device_required;
+use std::sync::OnceLock;
+
+/// The device that all tests of a program share; `None`, said once on standard error, where there is none.
+///
+/// # Panics
+///
+/// Where there is none and `NPR_REQUIRE_GPU=1` is set.
+pub fn device() -> Option<&'static Device> {
+    static DEVICE: OnceLock<Option<Device>> = OnceLock::new();
+    DEVICE.get_or_init(open).as_ref()
+}
+
+/// A device of its own for a test that breaks it; `None`, said on standard error, where there is none.
+///
+/// # Panics
+///
+/// As [`device`].
+pub fn open() -> Option<Device> {
+    match Device::open(AdapterChoice::Any) {
+        Ok(device) => Some(device),
+        Err(error) if is_device_required() => panic!("NPR_REQUIRE_GPU is set, but {error}"),
+        Err(error) => {
+            eprintln!("skipped: {error}");
+            None
+        }
+    }
+}
