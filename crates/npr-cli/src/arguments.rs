@@ -23,7 +23,7 @@ pub use lines::{
     HiddenLines, LineArguments, LineFormat, LinesArguments, MethodName, PaintedName, PathForm,
     SheetArguments, Switch,
 };
-pub use outline::{Behind, OutlineArguments, Way};
+pub use outline::{Behind, OutlineArguments};
 pub use point::Point;
 pub use render::{LookArguments, RenderArguments};
 pub use size::Size;
@@ -66,11 +66,11 @@ pub enum Command {
     ///
     /// Without options, `npr trace drawing.png` writes drawing.svg into the current folder.
     Trace(Box<Deferred<TraceArguments>>),
-    /// Outline a figure before a background by the method of Tsuji: where both are alike, the line becomes a lighter or darker
-    /// colour of the figure.
+    /// Outline a figure before a background by the method of Tsuji: where both are alike, the line becomes a lighter
+    /// or darker colour of the figure.
     ///
-    /// Without options, `npr outline hero.png street.png -o out.png` draws a black line of one pixel around what is opaque in hero.png,
-    /// before street.png, and changes it where it would not be seen.
+    /// Without options, `npr outline hero.png street.png -o out.png` draws a black line of one pixel around what is
+    /// opaque in hero.png, before street.png, and changes it where it would not be seen.
     Outline(Box<Deferred<OutlineArguments>>),
     /// Tell what is in a file, what of it is drawn, and what is ignored and why.
     Info(Deferred<InfoArguments>),

@@ -17,7 +17,8 @@ use npr_scene::Limits;
 use npr_style::backdrop::published;
 use std::path::PathBuf;
 
-/// Bytes of a pixel while it is drawn: three colours of four floats, that of its line, and the bytes of three pictures.
+/// Bytes of a pixel while it is drawn: three colours of four floats, that of its line, and the bytes of three
+/// pictures.
 const PIXEL_BYTES: usize = 3 * 16 + 16 + 12;
 
 /// Outlines the figure that the user named before its background.
@@ -115,13 +116,14 @@ fn load(source: &Source, limits: &Limits) -> Result<Picture, Fault> {
     picture.map_err(|fault| fault.while_doing(format_args!("cannot read {name}")))
 }
 
-fn check_sizes([width, height]: [u32; 2], behind: [u32; 2]) -> Result<(), Fault> {
-    if behind == [width, height] {
+fn check_sizes(size: [u32; 2], behind: [u32; 2]) -> Result<(), Fault> {
+    if behind == size {
         return Ok(());
     }
-    let [other_width, other_height] = behind;
+    let [width, height] = size;
     let message = format!(
-        "the picture has {width}x{height} pixels and its background {other_width}x{other_height}: they are compared one to one"
+        "the picture has {width}x{height} pixels and its background {}x{}: they are compared one to one",
+        behind[0], behind[1]
     );
     Err(Fault::new(Exit::Input, message))
 }

@@ -199,7 +199,8 @@ mod tests {
                 ..View::default()
             };
             let compose = Compose {
-                saturation: 1.0, samples: 2, right_world: [1.0, 0.0, 0.0], up_world: [0.0, 1.0, 0.0], near_world: [0.0, 0.0, 1.0],
+                saturation: 1.0, samples: 2,
+                right_world: [1.0, 0.0, 0.0], up_world: [0.0, 1.0, 0.0], near_world: [0.0, 0.0, 1.0],
                 ..Compose::default()
             };
             let triangles = [Triangle { corners: [0, 1, 2], part: 0 }];

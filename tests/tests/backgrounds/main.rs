@@ -1,5 +1,5 @@
-//! Outlines before backgrounds, in frames of both engines: held against geometry, against the publication's two pictures, and
-//! against what a reader sees.
+//! Outlines before backgrounds, in frames of both engines: held against geometry, against the publication's two
+//! pictures, and against what a reader sees.
 
 #![allow(
     clippy::unwrap_used,

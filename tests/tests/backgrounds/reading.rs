@@ -1,4 +1,5 @@
-//! What a reader sees: whether outlines differ from what lies behind them, and how far they are from the figure's own colours.
+//! What a reader sees: whether outlines differ from what lies behind them, and how far they are from the figure's own
+//! colours.
 //!
 //! The outline of method `rim` is every pixel beside the figure, so its colours are read from the picture as they are.
 

@@ -119,7 +119,8 @@ fn no_line_changes_where_the_background_is_unlike() {
     }
 }
 
-/// At one sample a pixel a frame is what the publication makes of two pictures: the figure alone, and what lies behind.
+/// At one sample a pixel a frame is what the publication makes of two pictures: the figure alone, and what lies
+/// behind.
 #[test]
 fn a_frame_is_what_the_publication_makes_of_two_pictures() {
     let scene = scene_of(&[

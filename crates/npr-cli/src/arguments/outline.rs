@@ -10,7 +10,8 @@ use std::str::FromStr;
 /// What the user said to `npr outline`.
 #[derive(Debug, Args)]
 pub struct OutlineArguments {
-    /// The figure, transparent where it is not: .png, .webp, .tif or .bmp, told by its content; - reads standard input.
+    /// The figure, transparent where it is not: .png, .webp, .tif or .bmp, told by its content; - reads standard
+    /// input.
     #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
     /// What lies behind it: a picture of the same size, also .jpg or .ppm; or a CSS colour such as teal or #204060.
@@ -37,7 +38,8 @@ pub struct OutlineArguments {
 #[derive(Debug, Clone, PartialEq, Args)]
 #[command(next_help_heading = "Where lines change, and how")]
 pub struct OutlineRuleArguments {
-    /// Largest difference of any channel of RGB, 0 to 1, at which figure and background are alike; 1 leaves it out [default: 0.25].
+    /// Largest difference of any channel of RGB, 0 to 1, at which figure and background are alike; 1 leaves it out
+    /// [default: 0.25].
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = share)]
     pub rgb: Option<f32>,
     /// The same of V = max(R, G, B) [default: 1].
@@ -52,7 +54,8 @@ pub struct OutlineRuleArguments {
     /// What the figure's colour is multiplied or divided by, 1 to 20 [default: 2].
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = factor)]
     pub intensity: Option<f32>,
-    /// Which way lines change: auto, brighter before dark backgrounds and darker before light ones; brighter; or darker.
+    /// Which way lines change: auto, brighter before dark backgrounds and darker before light ones; brighter; or
+    /// darker.
     #[arg(long, value_enum, value_name = "WAY", default_value_t = Way::Auto)]
     pub direction: Way,
 }

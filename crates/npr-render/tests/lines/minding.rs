@@ -222,7 +222,11 @@ fn boxes() -> Scene {
     for (name, x) in [("left", -1.1), ("right", 1.1)] {
         let turned = mapped(&npr_mesh::testing::cube(), move |[px, py, pz]| {
             let [a, b] = [px * 0.8 + pz * 0.6, pz * 0.8 - px * 0.6];
-            [0.4 * a + x, 0.4 * (py * 0.8 + b * 0.6), 0.4 * (b * 0.8 - py * 0.6)]
+            [
+                0.4 * a + x,
+                0.4 * (py * 0.8 + b * 0.6),
+                0.4 * (b * 0.8 - py * 0.6),
+            ]
         });
         add(&mut scene, name, &turned);
     }
@@ -232,19 +236,47 @@ fn boxes() -> Scene {
 /// Settings, a key that a rule has, and two of its values.
 const OWN_VALUES: [(&str, &str, [&str; 2]); 14] = [
     ("", "method", ["'off'", "'contrast'"]),
-    ("contrast", "direction", ["'brighter'", "'darker'"]),
-    ("contrast", "lightness", ["0.25", "0.6"]),
-    ("contrast", "measure", ["'lightness'", "'wcag'"]),
-    ("contrast; measure = 'wcag'", "ratio", ["2.0", "9.0"]),
-    ("contrast", "start", ["'line'", "'rim'"]),
-    ("contrast; start = 'rim'", "factor", ["0.1", "1.0"]),
-    ("contrast", "scope", ["'outline'", "'all'"]),
-    ("published", "intensity", ["2.0", "5.0"]),
-    ("published", "direction", ["'brighter'", "'darker'"]),
-    ("published", "likeness.rgb", ["0.01", "0.9"]),
-    ("published; likeness.rgb = 1.0", "likeness.value", ["0.01", "0.9"]),
-    ("published; likeness.rgb = 1.0", "likeness.saturation", ["0.01", "0.9"]),
-    ("published; likeness.rgb = 1.0", "likeness.hue_deg", ["1.0", "179.0"]),
+    (
+        "method = 'contrast'",
+        "direction",
+        ["'brighter'", "'darker'"],
+    ),
+    ("method = 'contrast'", "lightness", ["0.25", "0.6"]),
+    ("method = 'contrast'", "measure", ["'lightness'", "'wcag'"]),
+    (
+        "method = 'contrast'; measure = 'wcag'",
+        "ratio",
+        ["2.0", "9.0"],
+    ),
+    ("method = 'contrast'", "start", ["'line'", "'rim'"]),
+    (
+        "method = 'contrast'; start = 'rim'",
+        "factor",
+        ["0.1", "1.0"],
+    ),
+    ("method = 'contrast'", "scope", ["'outline'", "'all'"]),
+    ("method = 'published'", "intensity", ["2.0", "5.0"]),
+    (
+        "method = 'published'",
+        "direction",
+        ["'brighter'", "'darker'"],
+    ),
+    ("method = 'published'", "likeness.rgb", ["0.01", "0.9"]),
+    (
+        "method = 'published'; likeness.rgb = 1.0",
+        "likeness.value",
+        ["0.01", "0.9"],
+    ),
+    (
+        "method = 'published'; likeness.rgb = 1.0",
+        "likeness.saturation",
+        ["0.01", "0.9"],
+    ),
+    (
+        "method = 'published'; likeness.rgb = 1.0",
+        "likeness.hue_deg",
+        ["1.0", "179.0"],
+    ),
 ];
 
 /// Every stroke of an object is as if the whole style had the object's values.
@@ -253,33 +285,44 @@ fn every_value_may_be_a_part_s_own() {
     let scene = boxes();
     let base = "background = '#1c4030'\nshade.mode = 'flat'\nlight.intensity = 0.0\nline.color = '#000000'\n\
         line.background.subjects = 'object'\n";
-    let colors = "[[rule]]\nmatch.object = 'left'\nshade.color = '#28305a'\n[[rule]]\nmatch.object = 'right'\nshade.color = '#602418'\n";
+    let colors = "[[rule]]\nmatch.object = 'left'\nshade.color = '#28305a'\n\
+        [[rule]]\nmatch.object = 'right'\nshade.color = '#602418'\n";
     let of = |drawing: &Drawing, name: &str| {
-        let own = |stroke: &&npr_render::Stroke| drawing.surfaces[stroke.surface as usize].object == name;
-        let strokes = drawing.strokes.iter().filter(own);
-        let points = strokes.flat_map(|stroke| &stroke.points);
-        points.map(|point| (point.position, point.color)).collect::<Vec<_>>()
-    };
-    for (settings, key, values) in OWN_VALUES {
-        let mut text = base.to_owned();
-        for (i, setting) in settings.split("; ").filter(|text| !text.is_empty()).enumerate() {
-            match i {
-                0 => text += &format!("line.background.method = '{setting}'\n"),
-                _ => text += &format!("line.background.{setting}\n"),
+        let mut found = Vec::new();
+        for stroke in &drawing.strokes {
+            if drawing.surfaces[stroke.surface as usize].object == name {
+                let points = stroke.points.iter();
+                found.extend(points.map(|point| (point.position, point.color)));
             }
         }
-        let with = |value: &str| match settings.contains(&format!("{key} =")) {
-            true => text.clone(),
-            false => format!("{text}line.background.{key} = {value}\n"),
-        };
-        let [first, second] = values.map(|value| lines_of(&scene, &format!("{}{colors}", with(value))));
+        found
+    };
+    for (settings, key, values) in OWN_VALUES {
+        let settings = settings.split("; ").filter(|setting| !setting.is_empty());
+        let lines = settings.map(|setting| format!("line.background.{setting}\n"));
+        let text = base.to_owned() + &lines.collect::<String>();
+        let with = |value: &str| format!("{text}line.background.{key} = {value}\n");
+        let [first, second] =
+            values.map(|value| lines_of(&scene, &format!("{}{colors}", with(value))));
         let rule = format!("line.background.{key} = {}\n", values[1]);
         let mixed = lines_of(&scene, &format!("{}{colors}{rule}", with(values[0])));
         for name in ["left", "right"] {
-            assert_ne!(of(&first, name), of(&second, name), "{key} acts on the {name}");
+            assert_ne!(
+                of(&first, name),
+                of(&second, name),
+                "{key} acts on the {name}"
+            );
         }
-        assert_eq!(of(&mixed, "left"), of(&first, "left"), "{key} stays with the right");
-        assert_eq!(of(&mixed, "right"), of(&second, "right"), "{key} of the right");
+        assert_eq!(
+            of(&mixed, "left"),
+            of(&first, "left"),
+            "{key} stays with the right"
+        );
+        assert_eq!(
+            of(&mixed, "right"),
+            of(&second, "right"),
+            "{key} of the right"
+        );
     }
 }
 
@@ -288,7 +331,13 @@ fn every_value_may_be_a_part_s_own() {
 fn light_from_behind_may_be_a_part_s_own() {
     let mut scene = Scene::default();
     for (name, x) in [("left", -1.1), ("right", 1.1)] {
-        add(&mut scene, name, &mapped(&icosphere(3), move |[px, y, z]| [0.6 * px + x, 0.6 * y, 0.6 * z]));
+        add(
+            &mut scene,
+            name,
+            &mapped(&icosphere(3), move |[px, y, z]| {
+                [0.6 * px + x, 0.6 * y, 0.6 * z]
+            }),
+        );
     }
     let base = "line = { color = '#000000', paint.light.rim = 1.0 }\n";
     let keys = "direction = [-0.9, 0.1, -0.5], color = '#40a0ff', from = 0.3, to = 0.6";

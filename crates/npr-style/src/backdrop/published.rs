@@ -96,15 +96,17 @@ pub fn outline(
     Some(outline)
 }
 
-/// A figure before a background with its outline, where what lies around it is transparent: all sRGB-encoded with straight alpha.
+/// A figure before a background with its outline, where what lies around it is transparent: all sRGB-encoded with
+/// straight alpha.
 ///
-/// The figure is the first picture of the publication, and before its background the second; [`outline()`] compares them.
-/// `line` is the colour of lines that need no change; its alpha is the opacity of all. Also says how many pixels the outline has.
+/// The figure is the first picture of the publication, and before its background the second; [`outline()`] compares
+/// them. `line` is the colour of lines that need no change; its alpha is the opacity of all. Also says how many
+/// pixels the outline has.
 ///
 /// `None` where the pictures are not of `size`. O(pixels).
 ///
-/// Differs: a pixel that the figure covers in part is compared by the background's colour, not by the blend of both, which
-/// is always like the figure and would brighten the edge of every soft figure.
+/// Differs: a pixel that the figure covers in part is compared by the background's colour, not by the blend of both,
+/// which is always like the figure and would brighten the edge of every soft figure.
 pub fn draw(
     size: [u32; 2],
     figure: &[[f32; 4]],
@@ -351,8 +353,8 @@ mod tests {
         /// Straight from section 2.4: the sum over all neighbours, times I or over I, over their number.
         #[test]
         fn brighter_multiplies_the_sum_of_the_rim_and_darker_divides_it(
-            around in prop::collection::vec(prop::array::uniform3(0f32..0.3), 8), is_figure in prop::collection::vec(prop::bool::ANY, 8),
-            intensity in 1f32..3.0, brighter: bool,
+            around in prop::collection::vec(prop::array::uniform3(0f32..0.3), 8),
+            is_figure in prop::collection::vec(prop::bool::ANY, 8), intensity in 1f32..3.0, brighter: bool,
         ) {
             let mut alone = vec![[0.0; 4]; 9];
             let (mut sum, mut count) = ([0.0; 3], 0.0);
@@ -362,7 +364,8 @@ mod tests {
                 sum = [sum[0] + r, sum[1] + g, sum[2] + b];
                 count += 1.0;
             }
-            let composed: Vec<[f32; 4]> = alone.iter().map(|own| if own[3] > 0.0 { *own } else { [0.2, 0.1, 0.1, 1.0] }).collect();
+            let shown = |own: &[f32; 4]| if own[3] > 0.0 { *own } else { [0.2, 0.1, 0.1, 1.0] };
+            let composed: Vec<[f32; 4]> = alone.iter().map(shown).collect();
             let direction = if brighter { Rule::BRIGHTER } else { Rule::DARKER };
             let rule = Criteria { rgb: Some(1.0), ..Criteria::default() }.rule(intensity, direction);
             let middle = outline([3, 3], &alone, &composed, [0.0; 3], &rule).unwrap()[4];

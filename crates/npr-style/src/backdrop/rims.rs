@@ -237,9 +237,9 @@ impl Sum {
 /// A rim for every pixel among whose 3 x 3 a subject meets anything else; empty ones elsewhere.
 ///
 /// The subject nearest to the eye owns the border. Only pixels whose samples all show the same count as a side, so colours
-/// are never blends of both: a mixed pixel stands before the mean of those beside it that show what lies behind alone, and has no rim
-/// where there are none. The published method compares every other pixel outside of the subject by its own colour.
-/// O(pixels of busy tiles), parallel over rows of tiles.
+/// are never blends of both: a mixed pixel stands before the mean of those beside it that show what lies behind
+/// alone, and has no rim where there are none. The published method compares every other pixel outside of the subject
+/// by its own colour. O(pixels of busy tiles), parallel over rows of tiles.
 pub fn find_rims(search: &Search<'_>, rims: &mut [Rim]) {
     let width = search.scenery.window.size[0] as usize;
     let across = tiles_across(search.scenery.window.size) as usize;

@@ -126,7 +126,8 @@ pub struct Rules {
     pub reach_px: u32,
     /// Samples per pixel along each axis, 1 or 2.
     pub samples: u32,
-    /// Where lines within subjects mind the background by any rule: [`Rules::ALWAYS`] with the layers that hold lines; else 0.
+    /// Where lines within subjects mind the background by any rule: [`Rules::ALWAYS`] with the layers that hold
+    /// lines; else 0.
     pub within: u32,
     /// Distance up to which rims decide together which way their lines move, in frame pixels; 0 for each alone.
     pub lean_px: f32,

@@ -134,7 +134,8 @@ proptest! {
             let (x, y) = (i as u32 % SIZE[0], i as u32 / SIZE[0]);
             let here = disc.covered(x, y);
             let figure = Disc::around(x, y).filter(|(x, y)| disc.covered(*x, *y) == disc.all()).count();
-            let free: Vec<f32> = Disc::around(x, y).filter(|(x, y)| disc.covered(*x, *y) == 0).map(|(x, _)| disc.wall(x)).collect();
+            let free = Disc::around(x, y).filter(|(x, y)| disc.covered(*x, *y) == 0);
+            let free: Vec<f32> = free.map(|(x, _)| disc.wall(x)).collect();
             if figure == 0 || free.is_empty() {
                 prop_assert_eq!(*rim, Rim::default(), "at {}, {}", x, y);
                 continue;
