@@ -18,8 +18,13 @@ type Choice = (&'static str, [&'static str; 2]);
 type Case = (&'static [&'static str], Choice);
 
 const CONTRAST: &[&str] = &["line.background.method='contrast'"];
+const NEAR: &[&str] = &[
+    "line.background.method='contrast'",
+    "line.background.lightness=0.05",
+];
 const RIM: &[&str] = &[
     "line.background.method='contrast'",
+    "line.background.lightness=0.05",
     "line.background.start='rim'",
 ];
 const WCAG: &[&str] = &[
@@ -45,7 +50,7 @@ const MINDING: [Case; 14] = [
         ("line.background.measure", ["'lightness'", "'wcag'"]),
     ),
     (WCAG, ("line.background.ratio", ["2.0", "9.0"])),
-    (CONTRAST, ("line.background.start", ["'line'", "'rim'"])),
+    (NEAR, ("line.background.start", ["'line'", "'rim'"])),
     (RIM, ("line.background.factor", ["0.1", "1.0"])),
     (CONTRAST, ("line.background.scope", ["'outline'", "'all'"])),
     (PUBLISHED, ("line.background.intensity", ["2.0", "5.0"])),
@@ -72,6 +77,7 @@ const LONG: &[&str] = &[
     "highlight.stretch=0.8",
 ];
 const BACK: &[&str] = &["highlight.back.on=true"];
+const FLAT: &[&str] = &["highlight.streak.angle_deg=0", "highlight.streak.offset=0"];
 const STREAK: &[&str] = &[
     "highlight.streak.on=true",
     "highlight.streak.angle_deg=0",
@@ -108,7 +114,7 @@ const HIGHLIGHTS: [Case; 22] = [
     ),
     (BACK, ("highlight.back.from", ["0.4", "0.72"])),
     (BACK, ("highlight.back.to", ["0.76", "1.0"])),
-    (&[], ("highlight.streak.on", ["false", "true"])),
+    (FLAT, ("highlight.streak.on", ["false", "true"])),
     (STREAK, ("highlight.streak.angle_deg", ["0.0", "15.0"])),
     (STREAK, ("highlight.streak.offset", ["0.0", "0.15"])),
     (STREAK, ("highlight.streak.width", ["0.1", "0.25"])),
@@ -136,14 +142,14 @@ fn two_boxes() -> Scene {
         })
     };
     scene_of(&[
-        Object::new("Left", turned(-1.2)).colored([0.03, 0.04, 0.2]),
-        Object::new("Right", turned(1.2)).colored([0.2, 0.03, 0.02]),
+        Object::new("Left", turned(-1.2)).colored([0.008, 0.01, 0.03]),
+        Object::new("Right", turned(1.2)).colored([0.03, 0.016, 0.014]),
     ])
 }
 
 fn base() -> Style {
     let settings = [
-        "background='#1c4030'",
+        "background='#050d09'",
         "line.color='#000000'",
         "line.width.base='4px'",
         "line.background.subjects='object'",

@@ -4,7 +4,6 @@ use crate::fixture::{draw, engines, picture, pixel, styled};
 use npr_gpu::engine::Engine;
 use npr_mesh::testing::icosphere;
 use npr_render::{Frame, Picture};
-use npr_style::Style;
 use npr_tests::{Object, lines, placed, scene_of};
 
 const SIZE: [u32; 2] = [240, 160];
@@ -28,6 +27,7 @@ fn drawn(engine: &dyn Engine, source: &str, method: &str) -> Frame {
         "line.width.base=14px",
         "line.width.min=0.25",
         "line.width.max=1",
+        "line.width.gain=0.1",
         "line.background.lightness=0.4",
         source.as_str(),
         method.as_str(),
@@ -38,7 +38,7 @@ fn drawn(engine: &dyn Engine, source: &str, method: &str) -> Frame {
 
 /// Pixels along a row or column that show neither the ball nor the wall, in a row with the most of them.
 fn run(frame: &Frame, places: impl Iterator<Item = [u32; 2]>) -> Vec<[u8; 4]> {
-    let plain = [[128; 3], [48; 3], [225; 3]];
+    let plain: [[u8; 3]; 3] = [[128; 3], [48; 3], [225; 3]];
     let is_line = |[r, g, b, _]: &[u8; 4]| {
         let own = [*r, *g, *b];
         !plain
@@ -69,8 +69,8 @@ fn color(line: &[[u8; 4]]) -> [u8; 4] {
 #[test]
 fn widths_stay_where_colours_change_and_colours_where_widths_do() {
     for (name, engine) in engines() {
-        let swelling = lines_at(&drawn(engine, "projected-curvature", "contrast"));
-        let plain = lines_at(&drawn(engine, "projected-curvature", "off"));
+        let swelling = lines_at(&drawn(engine, "curvature", "contrast"));
+        let plain = lines_at(&drawn(engine, "curvature", "off"));
         let even = lines_at(&drawn(engine, "constant", "contrast"));
         // Widths swell at the tips, some pixels wide, and are the same in either colour.
         for i in 0..4 {
