@@ -24,8 +24,8 @@ fn drawn(engine: &dyn Engine, source: &str, method: &str) -> Frame {
     let settings = [
         "background=wall.png",
         "shade.paper=#808080",
-        "line.width.base=14px",
-        "line.width.min=0.25",
+        "line.width.base=24px",
+        "line.width.min=0",
         "line.width.max=1",
         "line.width.gain=0.1",
         "line.background.lightness=0.4",
@@ -82,11 +82,11 @@ fn widths_stay_where_colours_change_and_colours_where_widths_do() {
         }
         let [left, right, top, other] = [0, 1, 2, 3].map(|i| swelling[i].len());
         assert!(
-            left >= 8 && right >= 8 && top >= 2 && other >= 2,
+            left >= 6 && right >= 6 && top >= 3 && other >= 3,
             "{name}: {left} {right} {top} {other}"
         );
         assert!(
-            left >= 2 * top && right >= 2 * other,
+            5 * left >= 7 * top && 5 * right >= 7 * other,
             "{name}: {left} {right} {top} {other}"
         );
         assert!(
