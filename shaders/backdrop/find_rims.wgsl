@@ -1,7 +1,8 @@
 // backdrop.find_rims: the colours of both sides of every border between subjects.
 //
 // The subject nearest to the eye owns the border. Only pixels whose samples all show the
-// same count as a side, so colours are never blends of both.
+// same count as a side, so colours are never blends of both: a mixed pixel stands before
+// the mean of those beside it that show what lies behind alone.
 //
 // Source  Tsuji 2014, sections 2.2 to 2.4
 // Twin    npr_style::backdrop::find_rims
@@ -93,12 +94,14 @@ fn packed(rim: Sum, behind: Sum, share: f32, rule: u32, subject: u32, part: u32)
 }
 
 // A line within a subject, where those mind the background: both sides are the surface that it lies on.
-fn inner_rim(x: u32, y: u32, sum: Sum, here: u32, part: u32) -> Rim {
+// Lines of parts without a rule have a rim that counts for nothing, and so keep their colour beside others.
+fn inner_rim(x: u32, y: u32, sum: Sum, owner: u32, part: u32) -> Rim {
     var none: Rim;
-    if rules.within == 0u || !is_inked(x, y, part) { return none; }
     let rule = wearers[part].rule;
+    let is_left_out = rule != 0u && rules.rules[rule].within == 0u;
+    if rules.within == 0u || is_left_out || !is_inked(x, y, part) { return none; }
     let share = select(1.0, 0.0, rule == 0u);
-    return packed(sum, sum, share, rule, here | RIM_WITHIN, part);
+    return packed(sum, sum, share, rule, owner | RIM_WITHIN, part);
 }
 
 fn rim_at(x: u32, y: u32) -> Rim {
@@ -132,11 +135,12 @@ fn rim_at(x: u32, y: u32) -> Rim {
     }
     let here = shown_at(x, y).subject;
     let outside = select(RIM_OUTSIDE, 0u, here == owner);
-    if rules.rules[rule].method == RULE_BY_LIKENESS && outside != 0u {
+    let is_behind = outside != 0u && here != MIXED;
+    if rules.rules[rule].method == RULE_BY_LIKENESS && is_behind {
         var nothing: Sum;
         behind = added(nothing, bare[y * window.size.x + x]);
     }
-    if behind.count == 0.0 { return inner_rim(x, y, rim, here, part); }
+    if behind.count == 0.0 { return inner_rim(x, y, rim, owner, part); }
     let share = minding / rim.count;
     return packed(rim, behind, share, rule, owner | outside, part);
 }

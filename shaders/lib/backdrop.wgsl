@@ -26,7 +26,8 @@ struct Rule {
     goal: f32,
     intensity: f32,
     rim_factor: f32,
-    unused: vec2<u32>,
+    within: u32,
+    unused: u32,
 }
 
 struct Rules {

@@ -9,9 +9,9 @@ struct Compose {
     samples: u32,
     right_world: vec3<f32>,
     smoke_shadow_side: u32,
-    back_world: vec3<f32>,
-    unused_b: u32,
-    streak_world: vec3<f32>,
+    up_world: vec3<f32>,
+    radius: f32,
+    near_world: vec3<f32>,
     unused_c: u32,
     center_world: vec3<f32>,
     smoke_part: u32,
@@ -28,3 +28,8 @@ const COMPOSE_SMOKE: u32 = 8u;
 const COMPOSE_SMOKE_PEN: u32 = 16u;
 const COMPOSE_BACKDROP: u32 = 64u;
 const COMPOSE_BARE: u32 = 128u;
+
+// What a vector in the camera's axes is in the world.
+fn in_world(compose: Compose, direction: vec3<f32>) -> vec3<f32> {
+    return compose.right_world * direction.x + compose.up_world * direction.y + compose.near_world * direction.z;
+}

@@ -92,8 +92,9 @@ struct Part {
     line_width: vec2<f32>,
     line_tint: u32,
     line_rim: f32,
+    streak_across: vec2<f32>,
+    back_direction: vec3<f32>,
     component: u32,
-    unused: u32,
 }
 
 const PART_DOUBLE_SIDED: u32 = 1u;

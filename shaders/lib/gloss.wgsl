@@ -89,11 +89,13 @@ fn highlights_at(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32) -> v
     }
     if (flags & PART_BACK_LIGHT) != 0u {
         let color = parts[part].back_color;
-        let rim = smooth_step(parts[part].back.x, parts[part].back.y, ramp_coordinate(dot(normal, compose.back_world)));
+        let behind = in_world(compose, parts[part].back_direction);
+        let rim = smooth_step(parts[part].back.x, parts[part].back.y, ramp_coordinate(dot(normal, behind)));
         sum += color.rgb * (color.a * rim);
     }
     if (flags & PART_STREAK) != 0u && abs(dot(normal, eye)) > parts[part].back.w {
-        let across = dot(world - compose.center_world, compose.streak_world);
+        let aside = in_world(compose, vec3<f32>(parts[part].streak_across, 0.0)) / compose.radius;
+        let across = dot(world - compose.center_world, aside);
         let color = parts[part].highlight_color;
         sum += color.rgb * (color.a * streak(across - spot.w, parts[part].back.z));
     }

@@ -48,7 +48,7 @@ fn decide(part: u32, own: vec3<f32>, world: vec3<f32>, normal: vec3<f32>) -> Tin
     }
     if (flags & LINE_RIM) != 0u {
         let back = parts[part].back_color;
-        let facing = ramp_coordinate(dot(normal, compose.back_world));
+        let facing = ramp_coordinate(dot(normal, in_world(compose, parts[part].back_direction)));
         let rim = smooth_step(parts[part].back.x, parts[part].back.y, facing) * back.a * parts[part].line_rim;
         glaze = laid(vec4<f32>(back.rgb, clamp(rim, 0.0, 1.0)), glaze);
     }

@@ -6,6 +6,7 @@ mod deferred;
 mod drawing;
 mod limits;
 mod lines;
+mod outline;
 mod point;
 mod render;
 mod size;
@@ -22,6 +23,7 @@ pub use lines::{
     HiddenLines, LineArguments, LineFormat, LinesArguments, MethodName, PaintedName, PathForm,
     SheetArguments, Switch,
 };
+pub use outline::{Behind, OutlineArguments};
 pub use point::Point;
 pub use render::{LookArguments, RenderArguments};
 pub use size::Size;
@@ -64,6 +66,12 @@ pub enum Command {
     ///
     /// Without options, `npr trace drawing.png` writes drawing.svg into the current folder.
     Trace(Box<Deferred<TraceArguments>>),
+    /// Outline a figure before a background by the method of Tsuji: where both are alike, the line becomes a lighter
+    /// or darker colour of the figure.
+    ///
+    /// Without options, `npr outline hero.png street.png -o out.png` draws a black line of one pixel around what is
+    /// opaque in hero.png, before street.png, and changes it where it would not be seen.
+    Outline(Box<Deferred<OutlineArguments>>),
     /// Tell what is in a file, what of it is drawn, and what is ignored and why.
     Info(Deferred<InfoArguments>),
     /// List, show and check styles.
@@ -95,7 +103,7 @@ impl Command {
     pub fn draws(&self) -> bool {
         matches!(
             self,
-            Self::Render(_) | Self::Lines(_) | Self::Smoke(_) | Self::Trace(_)
+            Self::Render(_) | Self::Lines(_) | Self::Smoke(_) | Self::Trace(_) | Self::Outline(_)
         )
     }
 
@@ -168,7 +176,7 @@ mod tests {
     fn commands_say_what_they_do() {
         let mut command = <Arguments as clap::CommandFactory>::command();
         command.build();
-        for name in ["render", "lines", "smoke", "trace"] {
+        for name in ["render", "lines", "smoke", "trace", "outline"] {
             let found = command.find_subcommand(name).expect("a command");
             let long = found.get_long_about().map(ToString::to_string);
             assert!(long.is_some_and(|text| text.contains("Without options, `npr ")));

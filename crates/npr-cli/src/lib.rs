@@ -36,6 +36,7 @@ mod manual;
 mod message;
 mod moments;
 mod numbered;
+mod outline;
 mod output;
 mod picture;
 mod progress;
@@ -109,6 +110,7 @@ fn obey(command: Command) -> Result<(), Fault> {
         Command::Lines(arguments) => lines::lines(&arguments.0),
         Command::Smoke(arguments) => smoke::smoke(&arguments.0),
         Command::Trace(arguments) => trace::trace(&arguments.0),
+        Command::Outline(arguments) => outline::outline(&arguments.0),
         Command::Info(arguments) => info::info(&arguments.0),
         Command::Styles { command } => styles::styles(&command),
         Command::Doctor { json } => doctor::doctor(json),

@@ -13,7 +13,7 @@ use npr_vector::trace::{Bitmap, IndexPicture};
 use std::io::{Cursor, Read, Seek, SeekFrom};
 use std::path::Path;
 
-/// Formats of the bitmaps that are traced.
+/// Formats of pictures that are traced or outlined.
 const BITMAPS: [ImageFormat; 6] = [
     ImageFormat::Png,
     ImageFormat::Jpeg,
@@ -34,8 +34,16 @@ const COLOUR_BYTES: usize = 16;
 
 /// The pixels of a PNG or JPEG file. Its size is checked before any pixel is decoded.
 pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Picture, Fault> {
-    let formats = [ImageFormat::Png, ImageFormat::Jpeg];
-    let pixels = image(bytes, limits, &formats, PIXEL_BYTES)?.into_rgba8();
+    decode_as(bytes, limits, &[ImageFormat::Png, ImageFormat::Jpeg])
+}
+
+/// The same of an image file of any format that is read.
+pub fn decode_any(bytes: &[u8], limits: &Limits) -> Result<Picture, Fault> {
+    decode_as(bytes, limits, &BITMAPS)
+}
+
+fn decode_as(bytes: &[u8], limits: &Limits, formats: &[ImageFormat]) -> Result<Picture, Fault> {
+    let pixels = image(bytes, limits, formats, PIXEL_BYTES)?.into_rgba8();
     Ok(Picture {
         size: [pixels.width(), pixels.height()],
         rgba: pixels.into_raw(),

@@ -224,10 +224,12 @@ pub struct Part {
     pub line_tint: u32,
     /// How much lines take the colour of the light behind where that lights them, 0..1.
     pub line_rim: f32,
+    /// Across its streak, to the right and up in the picture: a unit vector.
+    pub streak_across: [f32; 2],
+    /// Unit vector towards the light behind it, in the camera's axes: to the right, up, and towards the eye.
+    pub back_direction: [f32; 3],
     /// Number of its connected surface within the object: parts of one number are one skin, however many materials and ids it has.
     pub component: u32,
-    /// Keeps rows of 16 bytes.
-    pub unused: u32,
 }
 gpu_layout!(Part {
     base_color,
@@ -271,8 +273,9 @@ gpu_layout!(Part {
     line_width,
     line_tint,
     line_rim,
+    streak_across,
+    back_direction,
     component,
-    unused,
 });
 
 impl Part {

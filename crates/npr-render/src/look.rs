@@ -162,6 +162,8 @@ fn pack_linear([r, g, b, a]: [f32; 4]) -> u32 {
 fn highlighted(highlight: &Highlight) -> Part {
     let turn = highlight.turn_deg.to_radians();
     let [split_u, split_v] = highlight.split;
+    let back = Vec3::from(highlight.back.direction).normalize_or(Vec3::NEG_Z);
+    let streak = highlight.streak.angle_deg.to_radians();
     Part {
         highlight_color: highlight.color.linear(),
         back_color: highlight.back.color.linear(),
@@ -184,6 +186,8 @@ fn highlighted(highlight: &Highlight) -> Part {
             highlight.streak.width,
             highlight.streak.facing,
         ],
+        back_direction: back.to_array(),
+        streak_across: [-math::sin(streak), math::cos(streak)],
         ..Part::default()
     }
 }
@@ -385,9 +389,7 @@ pub(crate) fn compose(
 ) -> Compose {
     let mut line_color = style.line.color.srgb();
     line_color[3] *= style.line.opacity;
-    let [right, up, _] = camera.axes().map(Vec3::from);
-    let streak = style.highlight.streak.angle_deg.to_radians();
-    let across = right * -math::sin(streak) + up * math::cos(streak);
+    let [right_world, up_world, near_world] = camera.axes();
     let (min, max) = model.bounds();
     Compose {
         background: match style.background {
@@ -400,18 +402,13 @@ pub(crate) fn compose(
         flags: 0,
         saturation: style.shade.saturation,
         samples: if style.antialias.samples > 1 { 2 } else { 1 },
-        right_world: right.to_array(),
-        back_world: back_world(style, camera),
-        streak_world: (across / model.radius()).to_array(),
+        right_world,
+        up_world,
+        near_world,
+        radius: model.radius(),
         center_world: ((Vec3::from(min) + Vec3::from(max)) * 0.5).to_array(),
         ..Compose::default()
     }
-}
-
-/// Unit vector towards the light behind, in the world.
-pub(crate) fn back_world(style: &Style, camera: &Camera) -> [f32; 3] {
-    let back = Vec3::from(style.highlight.back.direction).normalize_or(Vec3::NEG_Z);
-    in_world(camera, back.to_array())
 }
 
 /// What a vector in the camera's axes is in the world.

@@ -34,16 +34,16 @@ pub struct Compose {
     pub saturation: f32,
     /// Samples per pixel along each axis, 1 or 2.
     pub samples: u32,
-    /// Unit vector to the right of the picture, in the world: the axis of shaped highlights.
+    /// Unit vector to the right of the picture, in the world: the first axis of shaped highlights.
     pub right_world: [f32; 3],
     /// Texels along a side of the pictures that lights have of the smoke; 0 where it throws no shadow on surfaces.
     pub smoke_shadow_side: u32,
-    /// Unit vector towards the light behind, in the world.
-    pub back_world: [f32; 3],
-    /// Keeps rows of 16 bytes.
-    pub unused_b: u32,
-    /// Across streaks of gloss, in the world; as long as 1 / radius of the model.
-    pub streak_world: [f32; 3],
+    /// Unit vector up the picture, in the world.
+    pub up_world: [f32; 3],
+    /// Radius of the model, in which places of streaks are measured.
+    pub radius: f32,
+    /// Unit vector from the picture towards the eye, in the world.
+    pub near_world: [f32; 3],
     /// Keeps rows of 16 bytes.
     pub unused_c: u32,
     /// Middle of the model.
@@ -68,9 +68,9 @@ gpu_layout!(Compose {
     samples,
     right_world,
     smoke_shadow_side,
-    back_world,
-    unused_b,
-    streak_world,
+    up_world,
+    radius,
+    near_world,
     unused_c,
     center_world,
     smoke_part,
@@ -79,6 +79,13 @@ gpu_layout!(Compose {
     smoke_tiles,
     unused_d,
 });
+
+impl Compose {
+    /// The camera's axes in the world: to the right, up, and towards the eye.
+    pub fn axes(&self) -> [[f32; 3]; 3] {
+        [self.right_world, self.up_world, self.near_world]
+    }
+}
 
 impl Compose {
     /// Lays the ribbons over the surfaces.

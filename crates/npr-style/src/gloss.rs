@@ -49,6 +49,12 @@ pub fn gradient(term: f32, threshold: f32, m: f32) -> f32 {
     ((term - threshold) * lift * 0.5).clamp(0.0, 1.0)
 }
 
+/// What a vector in the camera's axes is in the world.
+pub(crate) fn in_world(axes: &[[f32; 3]; 3], direction: [f32; 3]) -> [f32; 3] {
+    let [right, up, near] = axes;
+    std::array::from_fn(|i| right[i] * direction[0] + up[i] * direction[1] + near[i] * direction[2])
+}
+
 /// How much a light from behind brightens a rim: a step from 0 to 1 between `from` and `to` on the ramp coordinate
 /// ((L . N) + 1) / 2 of its own direction [Suzuki 2004, section 3.6].
 pub fn back_light(normal: [f32; 3], light: [f32; 3], from: f32, to: f32) -> f32 {
@@ -254,14 +260,15 @@ impl Layers<'_> {
         }
         let [from, to, width, facing] = part.back;
         if part.flags & Part::BACK_LIGHT != 0 {
-            add(
-                part.back_color,
-                back_light(normal, self.compose.back_world, from, to),
-            );
+            let behind = in_world(&self.compose.axes(), part.back_direction);
+            add(part.back_color, back_light(normal, behind, from, to));
         }
         if part.flags & Part::STREAK != 0 && dot(normal, eye).abs() > facing {
             let offset: [f32; 3] = std::array::from_fn(|i| world[i] - self.compose.center_world[i]);
-            let across = dot(offset, self.compose.streak_world) - part.highlight[3];
+            let [right, up] = part.streak_across;
+            let aside = in_world(&self.compose.axes(), [right, up, 0.0]);
+            let aside = aside.map(|axis| axis / self.compose.radius);
+            let across = dot(offset, aside) - part.highlight[3];
             add(part.highlight_color, streak(across, width));
         }
         sum
@@ -270,8 +277,9 @@ impl Layers<'_> {
     /// Whether a highlight of a part may show somewhere on a triangle. Only a no is certain: shapes, streaks, Phong's term
     /// and near lights are always taken for a yes.
     pub(crate) fn may_shine(&self, part: &Part, corners: &Corners<'_>) -> bool {
+        let behind = || in_world(&self.compose.axes(), part.back_direction);
         let rim = part.flags & Part::BACK_LIGHT != 0
-            && corners.range_towards(self.compose.back_world)[1] >= part.back[0];
+            && corners.range_towards(behind())[1] >= part.back[0];
         let spot =
             part.flags & (Part::CRISP | Part::SOFT) != 0 && self.spot_may_show(part, corners);
         rim || spot || part.flags & Part::STREAK != 0

@@ -149,7 +149,13 @@ mod tests {
         })
     }
 
-    fn part(flags: u32, softness: f32, steps: [f32; 2], highlight: [f32; 2]) -> Part {
+    fn part(
+        flags: u32,
+        softness: f32,
+        steps: [f32; 2],
+        highlight: [f32; 2],
+        back_direction: [f32; 3],
+    ) -> Part {
         let mut ramp = [[1.0, 1.0, 1.0, Level::UNUSED]; 8];
         ramp[0] = [0.2, 0.3, 0.4, 0.0];
         ramp[1] = [0.5, 0.6, 0.5, steps[0].min(steps[1])];
@@ -165,6 +171,7 @@ mod tests {
             highlight_turn: [1.0, 0.0, 0.0, 0.0],
             back_color: [0.3, 0.4, 0.5, 0.6],
             back: [0.6, 0.8, 0.0, 0.0],
+            back_direction,
             ..Part::default()
         }
     }
@@ -183,7 +190,7 @@ mod tests {
             let posed = posed(bends.map(|bend| std::array::from_fn(|i| normal[i] + bend[i])));
             // Spots too sharp to be looked at once a pixel, which is as near as shading gets, not the same.
             let exponent = if flags == Part::SOFT { exponent + 100.0 } else { exponent };
-            let parts = [part(flags, softness, steps, [exponent, threshold])];
+            let parts = [part(flags, softness, steps, [exponent, threshold], unit_or_z(back))];
             let view = View {
                 frame_px: [8.0; 2],
                 perspective: perspective as f32,
@@ -191,7 +198,11 @@ mod tests {
                 forward_world: [0.0, 0.0, -1.0],
                 ..View::default()
             };
-            let compose = Compose { saturation: 1.0, samples: 2, back_world: unit_or_z(back), ..Compose::default() };
+            let compose = Compose {
+                saturation: 1.0, samples: 2,
+                right_world: [1.0, 0.0, 0.0], up_world: [0.0, 1.0, 0.0], near_world: [0.0, 0.0, 1.0],
+                ..Compose::default()
+            };
             let triangles = [Triangle { corners: [0, 1, 2], part: 0 }];
             let vertices = [Vertex { color: u32::MAX, ..Vertex::default() }; 3];
             let store = npr_core::texture::TextureStore::new();

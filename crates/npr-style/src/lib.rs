@@ -105,8 +105,8 @@ pub use potrace::Potrace;
 pub use preset::{DEFAULT_PRESET, Preset, find as find_preset, presets};
 pub use ramp::{Level, Stop};
 pub use rule::{
-    Look, Match, PartNames, Rule, RuleHatch, RuleHighlight, RuleInk, RuleLine, RuleShade,
-    RuleSwitch,
+    Look, Match, PartNames, Rule, RuleBack, RuleHatch, RuleHighlight, RuleInk, RuleLine, RuleShade,
+    RuleStreak,
 };
 pub use schema::schema;
 pub use shade::{Shade, ShadeMode, levels};

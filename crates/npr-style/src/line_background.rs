@@ -32,6 +32,17 @@ pub enum Direction {
     Darker,
 }
 
+impl Direction {
+    /// Its number in a [`backdrop::Rule`].
+    pub fn number(self) -> u32 {
+        match self {
+            Self::Auto => backdrop::Rule::AUTO,
+            Self::Brighter => backdrop::Rule::BRIGHTER,
+            Self::Darker => backdrop::Rule::DARKER,
+        }
+    }
+}
+
 /// What contrast is measured in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -94,6 +105,26 @@ pub struct Likeness {
     /// Largest difference of hue in degrees, 0..180; default 180.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub hue_deg: f32,
+}
+
+impl Likeness {
+    /// The criteria of the published method; thresholds that nothing exceeds are left out.
+    pub fn criteria(&self) -> backdrop::Criteria {
+        let below = |threshold: f32, most: f32| (threshold < most).then_some(threshold);
+        let some = backdrop::Criteria {
+            rgb: below(self.rgb, 1.0),
+            value: below(self.value, 1.0),
+            saturation: below(self.saturation, 1.0),
+            hue_deg: below(self.hue_deg, 180.0),
+        };
+        match some == backdrop::Criteria::default() {
+            true => backdrop::Criteria {
+                rgb: Some(1.0),
+                ..some
+            },
+            false => some,
+        }
+    }
 }
 
 impl Default for Likeness {
@@ -178,13 +209,14 @@ impl Default for LineBackground {
 impl LineBackground {
     /// The rule as passes read it.
     pub fn rule(&self) -> backdrop::Rule {
-        let direction = match self.direction {
-            Direction::Auto => backdrop::Rule::AUTO,
-            Direction::Brighter => backdrop::Rule::BRIGHTER,
-            Direction::Darker => backdrop::Rule::DARKER,
-        };
+        let direction = self.direction.number();
+        let within = u32::from(self.scope == LineScope::All);
         if self.method == BackgroundMethod::Published {
-            return self.criteria().rule(self.intensity, direction);
+            let published = self.likeness.criteria().rule(self.intensity, direction);
+            return backdrop::Rule {
+                within,
+                ..published
+            };
         }
         let (measure, target) = match self.measure {
             Measure::Lightness => (backdrop::Rule::LIGHTNESS, self.lightness),
@@ -202,31 +234,8 @@ impl LineBackground {
                 LineStart::Line => 0.0,
                 LineStart::Rim => self.factor.max(1e-4),
             },
+            within,
             ..backdrop::Rule::CONTRAST
-        }
-    }
-
-    /// The criteria of the published method; thresholds that nothing exceeds are left out.
-    fn criteria(&self) -> backdrop::Criteria {
-        let below = |threshold: f32, most: f32| (threshold < most).then_some(threshold);
-        let Likeness {
-            rgb,
-            value,
-            saturation,
-            hue_deg,
-        } = self.likeness;
-        let some = backdrop::Criteria {
-            rgb: below(rgb, 1.0),
-            value: below(value, 1.0),
-            saturation: below(saturation, 1.0),
-            hue_deg: below(hue_deg, 180.0),
-        };
-        match some == backdrop::Criteria::default() {
-            true => backdrop::Criteria {
-                rgb: Some(1.0),
-                ..some
-            },
-            false => some,
         }
     }
 }
@@ -249,10 +258,59 @@ pub struct RuleBackground {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1.0, max = 21.0))]
     pub ratio: Option<f32>,
+    /// What its contrast is measured in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measure: Option<Measure>,
+    /// What colour its lines start from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start: Option<LineStart>,
+    /// Share of its surface's light that lines start from, 0..1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub factor: Option<f32>,
     /// What its colour is multiplied or divided by, 1..20.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1.0, max = 20.0))]
     pub intensity: Option<f32>,
+    /// How alike it and what lies behind must be.
+    pub likeness: RuleLikeness,
+    /// Which of its lines follow the rule.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scope: Option<LineScope>,
+}
+
+/// What a rule changes about how alike two colours must be; what is absent stays.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RuleLikeness {
+    /// Largest difference of any channel of RGB, 0..1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub rgb: Option<f32>,
+    /// Largest difference of V, 0..1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub value: Option<f32>,
+    /// Largest difference of saturation, 0..1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub saturation: Option<f32>,
+    /// Largest difference of hue in degrees, 0..180.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 180.0))]
+    pub hue_deg: Option<f32>,
+}
+
+impl RuleLikeness {
+    /// `likeness` with what the rule states in place of what it had.
+    fn over(&self, likeness: Likeness) -> Likeness {
+        Likeness {
+            rgb: self.rgb.unwrap_or(likeness.rgb),
+            value: self.value.unwrap_or(likeness.value),
+            saturation: self.saturation.unwrap_or(likeness.saturation),
+            hue_deg: self.hue_deg.unwrap_or(likeness.hue_deg),
+        }
+    }
 }
 
 impl RuleBackground {
@@ -263,7 +321,12 @@ impl RuleBackground {
             direction: self.direction.unwrap_or(background.direction),
             lightness: self.lightness.unwrap_or(background.lightness),
             ratio: self.ratio.unwrap_or(background.ratio),
+            measure: self.measure.unwrap_or(background.measure),
+            start: self.start.unwrap_or(background.start),
+            factor: self.factor.unwrap_or(background.factor),
             intensity: self.intensity.unwrap_or(background.intensity),
+            likeness: self.likeness.over(background.likeness),
+            scope: self.scope.unwrap_or(background.scope),
             ..background
         }
     }

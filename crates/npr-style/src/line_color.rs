@@ -21,7 +21,7 @@ use rayon::prelude::*;
 
 use crate::backdrop::Rules;
 use crate::compose::{Compose, LUMA, Layers};
-use crate::gloss::back_light;
+use crate::gloss::{back_light, in_world};
 use crate::lighting::Lights;
 use crate::line_paint::HUES;
 use crate::shadow::SHADOWS_MAX;
@@ -37,8 +37,8 @@ pub struct LineScene<'a> {
     pub view: &'a View,
     /// The lights of the scene; shadows play no part.
     pub lights: &'a Lights,
-    /// Unit vector towards the light behind, in the world.
-    pub back_world: [f32; 3],
+    /// The camera's axes in the world: to the right, up, and towards the eye.
+    pub axes_world: [[f32; 3]; 3],
     /// Middle of the model.
     pub center_world: [f32; 3],
     /// The texture store.
@@ -105,7 +105,8 @@ impl LineScene<'_> {
         if flags & Part::LINE_RIM != 0 {
             let [r, g, b, strength] = part.back_color;
             let [from, to, _, _] = part.back;
-            let rim = back_light(normal, self.back_world, from, to) * strength * part.line_rim;
+            let behind = in_world(&self.axes_world, part.back_direction);
+            let rim = back_light(normal, behind, from, to) * strength * part.line_rim;
             glaze = laid([r, g, b, rim.clamp(0.0, 1.0)], glaze);
         }
         if flags & Part::LINE_DEPTH != 0 {
@@ -323,7 +324,7 @@ impl Layers<'_> {
         LineScene {
             view: self.view,
             lights: self.lights,
-            back_world: self.compose.back_world,
+            axes_world: self.compose.axes(),
             center_world: self.compose.center_world,
             texels: self.texels,
         }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::beam::Beam;
 use crate::hatch::{Hatch, Pattern};
-use crate::highlight::{Edge, Highlight};
+use crate::highlight::{Back, Edge, Highlight, HighlightModel, Streak};
 use crate::ink::{Follow, Ink, Mapping, StrokeSpace, Tone};
 use crate::ramp::Stop;
 use crate::{
@@ -196,6 +196,9 @@ pub struct RuleHighlight {
     /// How the spot ends: `none`, `crisp` or `soft`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub edge: Option<Edge>,
+    /// What the spot is computed by.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub model: Option<HighlightModel>,
     /// Colour of spot and streak; alpha is the strength.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
@@ -207,38 +210,134 @@ pub struct RuleHighlight {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub threshold: Option<f32>,
+    /// How fast a soft spot rises, 0..8.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 8.0))]
+    pub gradient: Option<f32>,
+    /// Moves the spot to the right and up, -1..1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(inner(range(min = -1.0, max = 1.0))))]
+    pub shift: Option<[f32; 2]>,
+    /// Turns the axes of its shape, in degrees, -180..180.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -180.0, max = 180.0))]
+    pub turn_deg: Option<f32>,
+    /// Stretches the spot along its first axis, 0..1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub stretch: Option<f32>,
+    /// Gaps along both axes that split the spot, 0..1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(inner(range(min = 0.0, max = 1.0))))]
+    pub split: Option<[f32; 2]>,
+    /// Makes the spot square, 0..1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub square: Option<f32>,
     /// Light from behind on its rims.
-    pub back: RuleSwitch,
+    pub back: RuleBack,
     /// Its straight streak.
-    pub streak: RuleSwitch,
+    pub streak: RuleStreak,
 }
 
-/// Whether a part has something; absent where the style decides.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+/// What a rule changes about light from behind; what is absent stays.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-pub struct RuleSwitch {
-    /// Whether it has.
+pub struct RuleBack {
+    /// Whether there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<bool>,
+    /// Colour of the rim; alpha is the strength.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color: Option<Color>,
+    /// Towards the light, in the camera's axes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    pub direction: Option<[f32; 3]>,
+    /// Place on its ramp, 0..1, where the rim begins.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub from: Option<f32>,
+    /// Place on its ramp, 0..1, where it is full.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub to: Option<f32>,
+}
+
+impl RuleBack {
+    /// `back` with what the rule states in place of what it had.
+    fn over(&self, back: Back) -> Back {
+        Back {
+            on: self.on.unwrap_or(back.on),
+            color: self.color.unwrap_or(back.color),
+            direction: self.direction.unwrap_or(back.direction),
+            from: self.from.unwrap_or(back.from),
+            to: self.to.unwrap_or(back.to),
+        }
+    }
+}
+
+/// What a rule changes about a straight streak; what is absent stays.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RuleStreak {
+    /// Whether there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub on: Option<bool>,
+    /// Angle of the streak in the picture, in degrees, -180..180.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -180.0, max = 180.0))]
+    pub angle_deg: Option<f32>,
+    /// How far from the middle of the model it lies, in radii, -2..2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -2.0, max = 2.0))]
+    pub offset: Option<f32>,
+    /// Width in radii of the model, 0..2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 2.0))]
+    pub width: Option<f32>,
+    /// How squarely, 0..1, a surface must face the eye to show it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub facing: Option<f32>,
+}
+
+impl RuleStreak {
+    /// `streak` with what the rule states in place of what it had.
+    fn over(&self, streak: Streak) -> Streak {
+        Streak {
+            on: self.on.unwrap_or(streak.on),
+            angle_deg: self.angle_deg.unwrap_or(streak.angle_deg),
+            offset: self.offset.unwrap_or(streak.offset),
+            width: self.width.unwrap_or(streak.width),
+            facing: self.facing.unwrap_or(streak.facing),
+        }
+    }
 }
 
 impl RuleHighlight {
     /// Whether it gives parts a highlight that they may lack without it.
     pub fn may_show(&self) -> bool {
-        let on = |switch: &RuleSwitch| switch.on == Some(true);
-        self.edge.is_some_and(|edge| edge != Edge::Off) || on(&self.back) || on(&self.streak)
+        let on = [self.back.on, self.streak.on].contains(&Some(true));
+        on || self.edge.is_some_and(|edge| edge != Edge::Off)
     }
 
     /// `highlight` with what the rule states in place of what it had.
-    fn over(&self, mut highlight: Highlight) -> Highlight {
-        highlight.back.on = self.back.on.unwrap_or(highlight.back.on);
-        highlight.streak.on = self.streak.on.unwrap_or(highlight.streak.on);
+    fn over(&self, highlight: Highlight) -> Highlight {
         Highlight {
             edge: self.edge.unwrap_or(highlight.edge),
+            model: self.model.unwrap_or(highlight.model),
             color: self.color.unwrap_or(highlight.color),
             exponent: self.exponent.unwrap_or(highlight.exponent),
             threshold: self.threshold.unwrap_or(highlight.threshold),
-            ..highlight
+            gradient: self.gradient.unwrap_or(highlight.gradient),
+            shift: self.shift.unwrap_or(highlight.shift),
+            turn_deg: self.turn_deg.unwrap_or(highlight.turn_deg),
+            stretch: self.stretch.unwrap_or(highlight.stretch),
+            split: self.split.unwrap_or(highlight.split),
+            square: self.square.unwrap_or(highlight.square),
+            back: self.back.over(highlight.back),
+            streak: self.streak.over(highlight.streak),
         }
     }
 }

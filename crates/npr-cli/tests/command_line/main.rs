@@ -10,6 +10,7 @@ mod info;
 mod lines;
 mod looks;
 mod odd_bitmaps;
+mod outline;
 mod scenes;
 mod smoke;
 mod streams;

@@ -85,7 +85,7 @@ pub const LIGHT_WIDTHS: Pass = Pass {
         let scene = LineScene {
             view: &View::default(),
             lights: &b.one(0),
-            back_world: [0.0; 3],
+            axes_world: [[0.0; 3]; 3],
             center_world: [0.0; 3],
             texels: &[],
         };

@@ -235,6 +235,8 @@ fn part(object: u32, flags: u32, texture: u32) -> Part {
         highlight_shape: [0.1, -0.1, 0.3, 0.4],
         highlight_turn: [0.8, 0.6, 0.1, 0.05],
         back: [0.4, 0.7, 0.2, 0.3],
+        back_direction: [0.28, 0.48 + 0.1 * object as f32, -0.8],
+        streak_across: [0.8, 0.6],
         line_kinds: [
             0xff00_80ff,
             0xc0ff_2010,
@@ -339,8 +341,9 @@ pub fn compose(look: Look, scene: &Scene) -> Compose {
         smoke_anchor_px: [31.0, 17.0],
         smoke_tiles: 0.004,
         right_world: [0.8, 0.0, -0.6],
-        back_world: [0.36, 0.48, -0.8],
-        streak_world: [0.3, 0.4, 0.2],
+        up_world: [0.0, 1.0, 0.0],
+        near_world: [0.6, 0.0, 0.8],
+        radius: 1.7,
         center_world: [0.1, 0.0, 0.0],
         background: [0.2, 0.3, 0.5, 0.5],
         line_color: [0.3, 0.0, 0.0, 0.7],
@@ -383,7 +386,10 @@ pub fn rules(look: Look) -> Rules {
         hue_deg: Some(170.0),
         ..Criteria::default()
     };
-    rules.rules[1] = Rule::CONTRAST;
+    rules.rules[1] = Rule {
+        within: u32::from(look == Look::Ours),
+        ..Rule::CONTRAST
+    };
     rules.rules[2] = match look {
         Look::Ours => Rule {
             measure: Rule::WCAG,

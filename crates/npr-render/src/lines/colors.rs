@@ -54,7 +54,7 @@ pub(super) struct StrokeColors<'a> {
     lights: Lights,
     parts: Vec<Part>,
     textures: TextureStore,
-    back_world: [f32; 3],
+    axes_world: [[f32; 3]; 3],
     center_world: [f32; 3],
 }
 
@@ -116,7 +116,7 @@ impl<'a> StrokeColors<'a> {
             lights,
             parts,
             textures,
-            back_world: look::back_world(style, camera),
+            axes_world: camera.axes(),
             center_world: ((low + high) * 0.5).to_array(),
         })
     }
@@ -132,7 +132,7 @@ impl<'a> StrokeColors<'a> {
         let scene = LineScene {
             view: &self.view,
             lights: &self.lights,
-            back_world: self.back_world,
+            axes_world: self.axes_world,
             center_world: self.center_world,
             texels: self.textures.words(),
         };

@@ -11,8 +11,8 @@ use crate::model::PartInfo;
 use npr_core::color::{largest_difference, linear_from_srgb, srgb_from_linear};
 use npr_core::math;
 use npr_core::shape::Shape;
+use npr_style::Style;
 use npr_style::backdrop::{Rule, Rules, UNLIKE_COLORS, Wearer, adapt};
-use npr_style::{LineScope, Style};
 use npr_vector::bvh::FaceTree;
 use npr_vector::project::Projector;
 use npr_vector::stroke::{Stroke, StrokePoint};
@@ -36,7 +36,6 @@ pub(super) struct Minding<'a> {
     picture: &'a Frame,
     wearers: Vec<Wearer>,
     rules: Rules,
-    scope: LineScope,
 }
 
 /// What a point of a stroke sees, sRGB-encoded.
@@ -76,7 +75,6 @@ impl<'a> Minding<'a> {
             picture,
             wearers: backdrop.wearers,
             rules,
-            scope: style.line.background.scope,
         };
         backdrop.is_on.then_some(minding)
     }
@@ -102,11 +100,8 @@ impl<'a> Minding<'a> {
         let count = stroke.points.len();
         let mut seen: Vec<Option<Sides>> = (0..count)
             .map(|index| {
-                self.sides(
-                    tangent(stroke, index),
-                    &stroke.points[index],
-                    wearer.subject,
-                )
+                let point = &stroke.points[index];
+                self.sides(tangent(stroke, index), point, (wearer.subject, rule))
             })
             .collect();
         // The published method judges every place by itself.
@@ -130,7 +125,12 @@ impl<'a> Minding<'a> {
     }
 
     /// What a point sees beside itself; nothing where no subject ends, but for rules about lines within.
-    fn sides(&self, tangent: Option<[f64; 2]>, point: &StrokePoint, own: u32) -> Option<Sides> {
+    fn sides(
+        &self,
+        tangent: Option<[f64; 2]>,
+        point: &StrokePoint,
+        (own, rule): (u32, &Rule),
+    ) -> Option<Sides> {
         let [x, y] = tangent?;
         let beside = [[-y, x], [y, -x]].map(|out| self.beside(point.position, out));
         let is_own = |ground: &Ground| ground.subject == own;
@@ -139,7 +139,8 @@ impl<'a> Minding<'a> {
         let rims = [0, 1].map(|side| beside[side].first(is_own));
         // Where both sides leave the subject, its rim is where it is found sooner.
         let outer = match ends {
-            [None, None] => return self.within(&beside, own),
+            [None, None] if rule.within == 0 => return None,
+            [None, None] => return within(&beside, own),
             [Some(_), None] => 0,
             [None, Some(_)] => 1,
             [Some(_), Some(_)] => {
@@ -153,21 +154,6 @@ impl<'a> Minding<'a> {
             rim: [rim[0], rim[1], rim[2]],
             behind: [behind[0], behind[1], behind[2]],
             weight: behind[3],
-        })
-    }
-
-    /// A line within its subject lies on the mean of both sides.
-    fn within(&self, beside: &[Beside; 2], own: u32) -> Option<Sides> {
-        if self.scope != LineScope::All {
-            return None;
-        }
-        let [a, b] = [0, 1].map(|side| beside[side].mean(0, |ground| ground.subject == own));
-        let (a, b) = (a?, b?);
-        let ground = std::array::from_fn(|i| 0.5 * (a[i] + b[i]));
-        Some(Sides {
-            rim: ground,
-            behind: ground,
-            weight: 1.0,
         })
     }
 
@@ -193,6 +179,18 @@ impl<'a> Minding<'a> {
             color: std::array::from_fn(|i| f32::from(bytes[i]) / 255.0),
         })
     }
+}
+
+/// A line within its subject lies on the mean of both sides.
+fn within(beside: &[Beside; 2], own: u32) -> Option<Sides> {
+    let [a, b] = [0, 1].map(|side| beside[side].mean(0, |ground| ground.subject == own));
+    let (a, b) = (a?, b?);
+    let ground = std::array::from_fn(|i| 0.5 * (a[i] + b[i]));
+    Some(Sides {
+        rim: ground,
+        behind: ground,
+        weight: 1.0,
+    })
 }
 
 /// One side of a point, look by look.

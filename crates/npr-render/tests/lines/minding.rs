@@ -216,6 +216,152 @@ fn parts_follow_their_own_rules_before_their_own_backgrounds() {
     );
 }
 
+/// Two turned boxes with lines within, called `left` and `right`.
+fn boxes() -> Scene {
+    let mut scene = Scene::default();
+    for (name, x) in [("left", -1.1), ("right", 1.1)] {
+        let turned = mapped(&npr_mesh::testing::cube(), move |[px, py, pz]| {
+            let [a, b] = [px * 0.8 + pz * 0.6, pz * 0.8 - px * 0.6];
+            [
+                0.4 * a + x,
+                0.4 * (py * 0.8 + b * 0.6),
+                0.4 * (b * 0.8 - py * 0.6),
+            ]
+        });
+        add(&mut scene, name, &turned);
+    }
+    scene
+}
+
+/// Settings, a key that a rule has, and two of its values.
+const OWN_VALUES: [(&str, &str, [&str; 2]); 14] = [
+    ("", "method", ["'off'", "'contrast'"]),
+    (
+        "method = 'contrast'",
+        "direction",
+        ["'brighter'", "'darker'"],
+    ),
+    ("method = 'contrast'", "lightness", ["0.25", "0.6"]),
+    ("method = 'contrast'", "measure", ["'lightness'", "'wcag'"]),
+    (
+        "method = 'contrast'; measure = 'wcag'",
+        "ratio",
+        ["2.0", "9.0"],
+    ),
+    (
+        "method = 'contrast'; lightness = 0.05",
+        "start",
+        ["'line'", "'rim'"],
+    ),
+    (
+        "method = 'contrast'; lightness = 0.05; start = 'rim'",
+        "factor",
+        ["0.1", "1.0"],
+    ),
+    ("method = 'contrast'", "scope", ["'outline'", "'all'"]),
+    ("method = 'published'", "intensity", ["2.0", "5.0"]),
+    (
+        "method = 'published'",
+        "direction",
+        ["'brighter'", "'darker'"],
+    ),
+    ("method = 'published'", "likeness.rgb", ["0.01", "0.9"]),
+    (
+        "method = 'published'; likeness.rgb = 1.0",
+        "likeness.value",
+        ["0.01", "0.9"],
+    ),
+    (
+        "method = 'published'; likeness.rgb = 1.0",
+        "likeness.saturation",
+        ["0.01", "0.9"],
+    ),
+    (
+        "method = 'published'; likeness.rgb = 1.0",
+        "likeness.hue_deg",
+        ["1.0", "179.0"],
+    ),
+];
+
+/// Every stroke of an object is as if the whole style had the object's values.
+#[test]
+fn every_value_may_be_a_part_s_own() {
+    let scene = boxes();
+    let base = "background = '#050d09'\nshade.mode = 'flat'\nlight.intensity = 0.0\nline.color = '#000000'\n\
+        line.background.subjects = 'object'\n";
+    let colors = "[[rule]]\nmatch.object = 'left'\nshade.color = '#161a30'\n\
+        [[rule]]\nmatch.object = 'right'\nshade.color = '#301612'\n";
+    let of = |drawing: &Drawing, name: &str| {
+        let mut found = Vec::new();
+        for stroke in &drawing.strokes {
+            if drawing.surfaces[stroke.surface as usize].object == name {
+                let points = stroke.points.iter();
+                found.extend(points.map(|point| (point.position, point.color)));
+            }
+        }
+        found
+    };
+    for (settings, key, values) in OWN_VALUES {
+        let settings = settings.split("; ").filter(|setting| !setting.is_empty());
+        let lines = settings.map(|setting| format!("line.background.{setting}\n"));
+        let text = base.to_owned() + &lines.collect::<String>();
+        let with = |value: &str| format!("{text}line.background.{key} = {value}\n");
+        let [first, second] =
+            values.map(|value| lines_of(&scene, &format!("{}{colors}", with(value))));
+        let rule = format!("line.background.{key} = {}\n", values[1]);
+        let mixed = lines_of(&scene, &format!("{}{colors}{rule}", with(values[0])));
+        for name in ["left", "right"] {
+            assert!(
+                of(&first, name) != of(&second, name),
+                "{key} acts on the {name}"
+            );
+        }
+        assert_eq!(
+            of(&mixed, "left"),
+            of(&first, "left"),
+            "{key} stays with the right"
+        );
+        assert_eq!(
+            of(&mixed, "right"),
+            of(&second, "right"),
+            "{key} of the right"
+        );
+    }
+}
+
+/// Lines that catch the light behind, from where each part has it.
+#[test]
+fn light_from_behind_may_be_a_part_s_own() {
+    let mut scene = Scene::default();
+    for (name, x) in [("left", -1.1), ("right", 1.1)] {
+        add(
+            &mut scene,
+            name,
+            &mapped(&icosphere(3), move |[px, y, z]| {
+                [0.6 * px + x, 0.6 * y, 0.6 * z]
+            }),
+        );
+    }
+    let base = "line = { color = '#000000', paint.light.rim = 1.0 }\n";
+    let keys = "direction = [-0.9, 0.1, -0.5], color = '#40a0ff', from = 0.3, to = 0.6";
+    let drawing = |text: &str| lines_of(&scene, text);
+    let first = drawing(base);
+    let second = drawing(&format!("{base}highlight.back = {{ {keys} }}\n"));
+    let mixed = drawing(&format!(
+        "{base}[[rule]]\nmatch.object = 'right'\nhighlight.back = {{ {keys} }}\n"
+    ));
+    let of = |drawing: &Drawing, name: &str| {
+        let mut only = drawing.clone();
+        only.strokes
+            .retain(|stroke| drawing.surfaces[stroke.surface as usize].object == name);
+        points(&only)
+    };
+    assert_ne!(of(&first, "left"), of(&second, "left"));
+    assert_ne!(of(&first, "right"), of(&second, "right"));
+    assert_eq!(of(&mixed, "left"), of(&first, "left"));
+    assert_eq!(of(&mixed, "right"), of(&second, "right"));
+}
+
 #[test]
 fn lines_within_follow_where_all_do() {
     let scene = scene_of(&npr_mesh::testing::cube());

@@ -58,7 +58,7 @@ impl Criteria {
 /// `None` where the pictures are not of `size`. O(pixels), parallel over rows.
 ///
 /// Differs: pixels of alpha 0 never show the character, or a picture without background would be all character; a
-/// difference of alpha up to 1/512 counts as none.
+/// difference of alpha up to 1/512 counts as none. Where `composed` shows nothing at all, lines keep `default`.
 pub fn outline(
     size: [u32; 2],
     alone: &[[f32; 4]],
@@ -86,11 +86,63 @@ pub fn outline(
                     continue;
                 }
                 let around = neighbours(size, x, y).filter(|i| is_character(*i));
-                *pixel = mean(around.map(|i| rgb(alone[i])))
-                    .map(|rim| color(default, rim, rgb(composed[here]), rule));
+                let is_before_nothing = sane(composed[here][3]) == 0.0;
+                *pixel = mean(around.map(|i| rgb(alone[i]))).map(|rim| match is_before_nothing {
+                    true => default,
+                    false => color(default, rim, rgb(composed[here]), rule),
+                });
             }
         });
     Some(outline)
+}
+
+/// A figure before a background with its outline, where what lies around it is transparent: all sRGB-encoded with
+/// straight alpha.
+///
+/// The figure is the first picture of the publication, and before its background the second; [`outline()`] compares
+/// them. `line` is the colour of lines that need no change; its alpha is the opacity of all. Also says how many
+/// pixels the outline has.
+///
+/// `None` where the pictures are not of `size`. O(pixels).
+///
+/// Differs: a pixel that the figure covers in part is compared by the background's colour, not by the blend of both,
+/// which is always like the figure and would brighten the edge of every soft figure.
+pub fn draw(
+    size: [u32; 2],
+    figure: &[[f32; 4]],
+    background: &[[f32; 4]],
+    line: [f32; 4],
+    rule: &Rule,
+) -> Option<(Vec<[f32; 4]>, usize)> {
+    if figure.len() != background.len() {
+        return None;
+    }
+    let pairs = || figure.par_iter().zip(background);
+    let mut drawn: Vec<[f32; 4]> = pairs().map(|(own, below)| laid(*own, *below)).collect();
+    // Where the figure does not cover all, what lies behind it.
+    let behind = |((own, below), both): ((&[f32; 4], &[f32; 4]), &[f32; 4])| match own[3] >= 1.0 {
+        true => *own,
+        false => [below[0], below[1], below[2], both[3]],
+    };
+    let compared: Vec<[f32; 4]> = pairs().zip(&drawn).map(behind).collect();
+    let [r, g, b, opacity] = line;
+    let lines = outline(size, figure, &compared, [r, g, b], rule)?;
+    let mut count = 0;
+    for (pixel, line) in drawn.iter_mut().zip(&lines) {
+        if let Some([r, g, b]) = line {
+            *pixel = laid([*r, *g, *b, opacity], *pixel);
+            count += 1;
+        }
+    }
+    Some((drawn, count))
+}
+
+/// A colour over another.
+fn laid(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
+    let left = below[3] * (1.0 - top[3]);
+    let alpha = top[3] + left;
+    let mix = |i: usize| (top[i] * top[3] + below[i] * left) / alpha.max(1e-6);
+    [mix(0), mix(1), mix(2), alpha]
 }
 
 /// The line's colour between a rim and what lies behind, all sRGB-encoded: equations of section 2.4.
@@ -298,6 +350,36 @@ mod tests {
             }
         }
 
+        /// Straight from section 2.4: the sum over all neighbours, times I or over I, over their number.
+        #[test]
+        fn brighter_multiplies_the_sum_of_the_rim_and_darker_divides_it(
+            around in prop::collection::vec(prop::array::uniform3(0f32..0.3), 8),
+            is_figure in prop::collection::vec(prop::bool::ANY, 8), intensity in 1f32..3.0, brighter: bool,
+        ) {
+            let mut alone = vec![[0.0; 4]; 9];
+            let (mut sum, mut count) = ([0.0; 3], 0.0);
+            for i in (0..8).filter(|i| is_figure[*i]) {
+                let [r, g, b] = around[i];
+                alone[if i < 4 { i } else { i + 1 }] = [r, g, b, 1.0];
+                sum = [sum[0] + r, sum[1] + g, sum[2] + b];
+                count += 1.0;
+            }
+            let shown = |own: &[f32; 4]| if own[3] > 0.0 { *own } else { [0.2, 0.1, 0.1, 1.0] };
+            let composed: Vec<[f32; 4]> = alone.iter().map(shown).collect();
+            let direction = if brighter { Rule::BRIGHTER } else { Rule::DARKER };
+            let rule = Criteria { rgb: Some(1.0), ..Criteria::default() }.rule(intensity, direction);
+            let middle = outline([3, 3], &alone, &composed, [0.0; 3], &rule).unwrap()[4];
+            if count == 0.0 {
+                prop_assert_eq!(middle, None);
+                return Ok(());
+            }
+            let [r, g, b] = middle.unwrap();
+            for (got, sum) in [r, g, b].into_iter().zip(sum) {
+                let want = if brighter { sum * intensity / count } else { sum / intensity / count };
+                prop_assert!((got - want.min(1.0)).abs() < 1e-5, "{got}, not {want}");
+            }
+        }
+
         #[test]
         fn one_factor_for_all_channels_keeps_their_ratios(rim in prop::array::uniform3(0.01f32..0.24), intensity in 1f32..4.0, up: bool) {
             let direction = if up { Rule::BRIGHTER } else { Rule::DARKER };
@@ -316,6 +398,70 @@ mod tests {
             let way = (turned - hue(color) - 1.0 / 3.0).rem_euclid(1.0);
             prop_assert!(way.min(1.0 - way) < 1e-4);
         }
+    }
+
+    /// Two neighbours, (0.2, 0.4, 0.1) and (0.4, 0.2, 0.3): their mean is (0.3, 0.3, 0.2).
+    #[test]
+    fn the_colours_of_a_line_by_hand() {
+        let alone = [[0.2, 0.4, 0.1, 1.0], [0.0; 4], [0.4, 0.2, 0.3, 1.0]];
+        let composed = [alone[0], [0.25, 0.3, 0.2, 1.0], alone[2]];
+        let middle = |rgb: f32, intensity: f32, direction: u32| {
+            let criteria = Criteria {
+                rgb: Some(rgb),
+                ..Criteria::default()
+            };
+            let rule = criteria.rule(intensity, direction);
+            let lines = outline([3, 1], &alone, &composed, [0.9, 0.0, 0.1], &rule).unwrap();
+            assert_eq!((lines[0], lines[2]), (None, None));
+            lines[1].unwrap().map(|channel| (channel * 1000.0).round())
+        };
+        assert_eq!(middle(0.1, 2.0, Rule::BRIGHTER), [600.0, 600.0, 400.0]);
+        assert_eq!(middle(0.1, 4.0, Rule::BRIGHTER), [1000.0, 1000.0, 800.0]);
+        assert_eq!(middle(0.1, 2.0, Rule::DARKER), [150.0, 150.0, 100.0]);
+        assert_eq!(middle(0.1, 5.0, Rule::DARKER), [60.0, 60.0, 40.0]);
+        // The background's V is 0.3: dark, so brighter by itself.
+        assert_eq!(middle(0.1, 2.0, Rule::AUTO), [600.0, 600.0, 400.0]);
+        // Red differs by 0.05: at the threshold it changes, above it does not.
+        assert_eq!(middle(0.0500001, 2.0, Rule::DARKER), [150.0, 150.0, 100.0]);
+        assert_eq!(middle(0.049, 2.0, Rule::DARKER), [900.0, 0.0, 100.0]);
+    }
+
+    /// Columns: figure, a pixel half covered by it, background, background; the background is black.
+    #[test]
+    fn what_is_half_covered_is_compared_by_what_lies_behind() {
+        let grey = |alpha: f32| [0.4, 0.4, 0.4, alpha];
+        let figure = [grey(1.0), grey(0.5), [0.0; 4], [0.0; 4]];
+        let black = [[0.0, 0.0, 0.0, 1.0]; 4];
+        let of = |threshold: f32, line: [f32; 4]| {
+            let criteria = Criteria {
+                rgb: Some(threshold),
+                ..Criteria::default()
+            };
+            let rule = criteria.rule(2.0, Rule::BRIGHTER);
+            draw([4, 1], &figure, &black, line, &rule).unwrap()
+        };
+        let red = [1.0, 0.0, 0.0, 1.0];
+        // 0.4 from the background, 0.2 from the blend.
+        let (drawn, count) = of(0.3, red);
+        assert_eq!((drawn[1], count), (red, 1));
+        assert_eq!(of(0.5, red).0[1], [0.8, 0.8, 0.8, 1.0]);
+        assert_eq!([drawn[0], drawn[2]], [grey(1.0), black[0]]);
+        // Half a line over the blend of 0.2.
+        assert_eq!(of(0.3, [1.0, 0.0, 0.0, 0.5]).0[1], [0.6, 0.1, 0.1, 1.0]);
+    }
+
+    #[test]
+    fn before_nothing_a_line_keeps_its_colour() {
+        let figure = [[0.1, 0.1, 0.1, 1.0], [0.0; 4], [0.0; 4]];
+        let rule = Criteria {
+            rgb: Some(1.0),
+            ..Criteria::default()
+        };
+        let rule = rule.rule(3.0, Rule::BRIGHTER);
+        let line = [0.0, 0.0, 1.0, 1.0];
+        let (drawn, count) = draw([3, 1], &figure, &[[0.0; 4]; 3], line, &rule).unwrap();
+        assert_eq!((drawn, count), (vec![figure[0], line, [0.0; 4]], 1));
+        assert_eq!(draw([3, 1], &figure, &[[0.0; 4]; 2], line, &rule), None);
     }
 
     #[test]

@@ -237,7 +237,9 @@ impl Sum {
 /// A rim for every pixel among whose 3 x 3 a subject meets anything else; empty ones elsewhere.
 ///
 /// The subject nearest to the eye owns the border. Only pixels whose samples all show the same count as a side, so colours
-/// are never blends of both. O(pixels of busy tiles), parallel over rows of tiles.
+/// are never blends of both: a mixed pixel stands before the mean of those beside it that show what lies behind
+/// alone, and has no rim where there are none. The published method compares every other pixel outside of the subject
+/// by its own colour. O(pixels of busy tiles), parallel over rows of tiles.
 pub fn find_rims(search: &Search<'_>, rims: &mut [Rim]) {
     let width = search.scenery.window.size[0] as usize;
     let across = tiles_across(search.scenery.window.size) as usize;
@@ -328,12 +330,13 @@ impl Search<'_> {
             }
         }
         let outside = if here == owner { 0 } else { Rim::OUTSIDE };
-        if scenery.rules.rules[rule as usize].method == Rule::BY_LIKENESS && outside != 0 {
+        let is_behind = outside != 0 && here != MIXED;
+        if scenery.rules.rules[rule as usize].method == Rule::BY_LIKENESS && is_behind {
             behind = Sum::default();
             behind.add(self.bare[(y * size[0] + x) as usize]);
         }
         if behind.count == 0.0 {
-            return self.inner_rim(x, y, &rim, [here, part]);
+            return self.inner_rim(x, y, &rim, [owner, part]);
         }
         let share = minding / rim.count;
         packed(&rim, &behind, share, rule, [owner | outside, part])
@@ -358,13 +361,17 @@ impl Search<'_> {
     }
 
     /// A line within a subject, where those mind the background: both sides are the surface that it lies on.
-    fn inner_rim(&self, x: u32, y: u32, sum: &Sum, [here, part]: [u32; 2]) -> Rim {
-        if self.scenery.rules.within == 0 || !self.is_inked(x, y, part) {
+    ///
+    /// Lines of parts without a rule have a rim that counts for nothing, and so keep their colour beside others.
+    fn inner_rim(&self, x: u32, y: u32, sum: &Sum, [owner, part]: [u32; 2]) -> Rim {
+        let rule = self.scenery.wearers[part as usize].rule;
+        let rules = self.scenery.rules;
+        let is_left_out = rule != 0 && rules.rules[rule as usize].within == 0;
+        if rules.within == 0 || is_left_out || !self.is_inked(x, y, part) {
             return Rim::default();
         }
-        let rule = self.scenery.wearers[part as usize].rule;
         let share = if rule == 0 { 0.0 } else { 1.0 };
-        packed(sum, sum, share, rule, [here | Rim::WITHIN, part])
+        packed(sum, sum, share, rule, [owner | Rim::WITHIN, part])
     }
 
     /// Whether any line may lie on a pixel.

@@ -28,8 +28,10 @@ pub struct Rule {
     pub intensity: f32,
     /// By contrast: what lines start from, as a share of the rim's linear light; 0 for their own colour.
     pub rim_factor: f32,
+    /// 1 where lines within the subject follow it too, 0 where those at its border do alone.
+    pub within: u32,
     /// Keeps rows of 16 bytes.
-    pub unused: [u32; 2],
+    pub unused: u32,
 }
 gpu_layout!(Rule {
     thresholds,
@@ -39,6 +41,7 @@ gpu_layout!(Rule {
     goal,
     intensity,
     rim_factor,
+    within,
     unused,
 });
 
@@ -71,7 +74,8 @@ impl Rule {
         goal: 0.3,
         intensity: 1.0,
         rim_factor: 0.0,
-        unused: [0; 2],
+        within: 0,
+        unused: 0,
     };
 }
 
@@ -122,7 +126,8 @@ pub struct Rules {
     pub reach_px: u32,
     /// Samples per pixel along each axis, 1 or 2.
     pub samples: u32,
-    /// Where lines within subjects mind the background: [`Rules::ALWAYS`] with the layers that hold lines; else 0.
+    /// Where lines within subjects mind the background by any rule: [`Rules::ALWAYS`] with the layers that hold
+    /// lines; else 0.
     pub within: u32,
     /// Distance up to which rims decide together which way their lines move, in frame pixels; 0 for each alone.
     pub lean_px: f32,

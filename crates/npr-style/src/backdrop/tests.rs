@@ -1,5 +1,6 @@
 //! Rims of small pictures against slow oracles.
 
+mod samples;
 mod stretch;
 
 use super::*;

@@ -30,6 +30,7 @@ fn painted(text: &str) -> (Part, TextureStore) {
         line_color: [0.2, 0.1, 0.05, 1.0],
         back_color: [0.2, 0.4, 1.0, 1.0],
         back: [0.6, 0.8, 0.0, 0.0],
+        back_direction: [0.0, 0.0, -1.0],
         line_depth_row: row(&paint.depth.ramp),
         line_light_row: row(&paint.light.ramp),
         line_texture: NONE,
@@ -43,7 +44,7 @@ fn scene<'a>(view: &'a View, lights: &'a Lights, store: &'a TextureStore) -> Lin
     LineScene {
         view,
         lights,
-        back_world: [0.0, 0.0, -1.0],
+        axes_world: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         center_world: [0.0; 3],
         texels: store.words(),
     }
@@ -77,7 +78,7 @@ fn one_after_the_other(
         lay(scene.hue(part.line_light_row, x));
     }
     if part.line_flags & Part::LINE_RIM != 0 {
-        let rim = back_light(normal, scene.back_world, part.back[0], part.back[1]);
+        let rim = back_light(normal, part.back_direction, part.back[0], part.back[1]);
         let [r, g, b, a] = part.back_color;
         lay([r, g, b, a * rim * part.line_rim]);
     }

@@ -1,0 +1,14 @@
+//! Outlines before backgrounds, in frames of both engines: held against geometry, against the publication's two
+//! pictures, and against what a reader sees.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "tests fail by panicking"
+)]
+
+mod fixture;
+mod parts;
+mod reading;
+mod samples;
+mod widths;
