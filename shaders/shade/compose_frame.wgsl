@@ -66,6 +66,9 @@ const TONE_ROOM: f32 = 0.002;
 // Width of a tone step from which on it is so gentle that one place of a pixel stands for all.
 const GENTLE: f32 = 0.25;
 
+// Widest line of the surface-angle method, in line widths: a surface that turns more slowly counts as flat.
+const ANGLE_WIDTHS: f32 = 6.0;
+
 // Light of a group of samples, where one place stands for all of them.
 struct Even {
     is_so: bool,
@@ -151,10 +154,33 @@ fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32) -> vec3<f
     return ramp_light(part, lit.x) * lit.color;
 }
 
-// 1 where the surface-angle method draws a line, else 0.
-fn grazing(part: u32, world: vec3<f32>, normal: vec3<f32>) -> f32 {
+// The one-dimensional texture of the surface-angle method over N . E.
+fn angle_ramp(facing: f32, threshold: f32, softness: f32) -> f32 {
+    if abs(facing) >= threshold { return 0.0; }
+    return 1.0 - smooth_step(threshold * (1.0 - softness), threshold, abs(facing));
+}
+
+// 1 up to `widest_px` from the contour of a surface, 0 farther away, where N . E is `facing` and changes by `change` a pixel.
+fn not_flat(facing: f32, change: f32, widest_px: f32) -> f32 {
+    let distance = max(facing, 0.0) * 0.5 / max(change, 1e-9);
+    return clamp(widest_px - distance + 0.5, 0.0, 1.0);
+}
+
+// How dark the line of the surface-angle method is on a surface at a place of the frame, 0..1.
+fn grazing(triangle: Triangle, corners: Corners, px: vec2<f32>) -> f32 {
+    let part = triangle.part;
     if (parts[part].flags & PART_ANGLE) == 0u || (compose.flags & COMPOSE_BARE) != 0u { return 0.0; }
-    return select(0.0, 1.0, abs(dot(normal, to_eye(view, world))) < parts[part].facing_threshold);
+    let around = weights_around(corners.clip, ndc_at(view, px), pixel_ndc(view));
+    // The eye is that of the place: so the normal alone turns, and on flat faces nothing does.
+    let eye = to_eye(view, world_of(corners, around[0]));
+    let here = dot(normal_of(corners, around[0]), eye);
+    let right = dot(normal_of(corners, around[1]), eye);
+    let down = dot(normal_of(corners, around[2]), eye);
+    let change = length(vec2<f32>(right - here, down - here));
+    let at = triangle.corners;
+    let half_width = blend(around[0], posed[at.x].half_width, posed[at.y].half_width, posed[at.z].half_width);
+    let widest_px = ANGLE_WIDTHS * 2.0 * half_width;
+    return angle_ramp(here, parts[part].facing_threshold, compose.angle_softness) * not_flat(here, change, widest_px);
 }
 
 // A lit surface under so much ink, 0..1.
@@ -258,7 +284,7 @@ fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, 
             if !even.is_so {
                 dark = shadowed(id, corners, weights);
                 light += light_of(part, world, normal, dark) * share;
-                lined += grazing(part, world, normal) * share;
+                lined += grazing(triangle, corners, at) * share;
             }
             gloss += highlights_at(part, world, normal, dark) * share;
         }

@@ -42,6 +42,7 @@ mod placement;
 mod smoke;
 mod stage;
 mod streaks;
+mod surfaces;
 mod textures;
 mod tiles;
 pub mod volume;

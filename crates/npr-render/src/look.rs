@@ -146,7 +146,7 @@ pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
         ramp: ramp(&look),
         ..highlighted(&look.highlight)
     };
-    if let Some(beam) = look.beam {
+    if let Some(beam) = &look.beam {
         beam.apply_to(&mut part);
     }
     part
@@ -403,6 +403,7 @@ pub(crate) fn compose(
         right_world: right.to_array(),
         back_world: back_world(style, camera),
         streak_world: (across / model.radius()).to_array(),
+        angle_softness: style.line.angle_softness,
         center_world: ((Vec3::from(min) + Vec3::from(max)) * 0.5).to_array(),
         ..Compose::default()
     }

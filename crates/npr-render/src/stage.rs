@@ -247,6 +247,10 @@ impl<'a> Stage<'a> {
         if !lettering.is_empty() {
             let pixels = options.size[0] as usize * options.size[1] as usize;
             budget.take("the words over the picture", pixels, 4)?;
+            if lettering.may_be_hidden() {
+                // A sheet of its own, and four samples of numbers and depths.
+                budget.take("what hides words", pixels, 4 + 4 * 12)?;
+            }
         }
         let mut planned_bytes = budget.used_bytes();
         let streaks = Streaks::new(engine, model, style, options, planned_bytes)?;
@@ -561,9 +565,11 @@ impl<'a> Stage<'a> {
         if let Some(blending) = &mut self.blending {
             blending.apply(camera, frame)?;
         }
-        for words in self.lettering.placed(view, self.options.dpi) {
-            paint_over(&words.marks, &mut frame.rgba, frame.size);
-        }
+        let (model, parts) = (self.model, &self.styled.parts);
+        self.lettering
+            .paint(view, self.options.dpi, frame, |size| {
+                surface_depths(model, parts, view, size)
+            });
         Ok(())
     }
 

@@ -44,8 +44,8 @@ pub struct Compose {
     pub unused_b: u32,
     /// Across streaks of gloss, in the world; as long as 1 / radius of the model.
     pub streak_world: [f32; 3],
-    /// Keeps rows of 16 bytes.
-    pub unused_c: u32,
+    /// Part of the surface-angle method's band over which its line fades out, 0..1.
+    pub angle_softness: f32,
     /// Middle of the model.
     pub center_world: [f32; 3],
     /// Number of the part whose ramp and ink finish the smoke, with [`Compose::SMOKE_PEN`].
@@ -71,7 +71,7 @@ gpu_layout!(Compose {
     back_world,
     unused_b,
     streak_world,
-    unused_c,
+    angle_softness,
     center_world,
     smoke_part,
     smoke_line,

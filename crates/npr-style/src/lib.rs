@@ -79,7 +79,7 @@ pub mod width;
 
 pub use antialias::Antialias;
 pub use background::{Background, BackgroundError};
-pub use beam::{Beam, BeamOverlap, BeamStop};
+pub use beam::{Beam, BeamOverlap, BeamStop, RuleBeam};
 pub use blend::Blend;
 pub use color::{Color, ColorError};
 pub use detect::{DepthTest, Detect, IdTest, MASK_LINE_PX, NormalTest, WidthWarning, width_rule};
