@@ -56,6 +56,7 @@ override WG: u32 = 64u;
 //# use lib/beam
 //# use lib/cutout
 //# use lib/shadow
+//# use lib/sky
 //# use lib/depth_map
 //# use lib/smoke_pen
 //# use lib/veil
@@ -127,7 +128,7 @@ fn even_light(part: u32, corners: Corners) -> Even {
     if !only_distant() || lights.shadow_side != 0u { return even; }
     let range = coordinate_range(corners);
     if !one_step(part, range) { return even; }
-    even.light = light_of(part, corners.world[0], corners.normals[0] * corners.side, 0u);
+    even.light = light_of(part, corners.world[0], corners.normals[0] * corners.side, 0u, Openness(1.0, 1.0));
     even.is_so = true;
     return even;
 }
@@ -147,10 +148,10 @@ fn even_ink(part: u32, corners: Corners, dark: u32) -> f32 {
     return ink_over(part, min(coordinate_range(corners), vec2<f32>(most)));
 }
 
-// Light on a surface at `world` that faces along `normal` and lies in the shadow of the lights in `dark`.
-fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32) -> vec3<f32> {
+// Light on a surface at `world` that faces along `normal`, lies in the shadow of the lights in `dark` and sees `open` of the sky.
+fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32, open: Openness) -> vec3<f32> {
     if (parts[part].flags & PART_UNLIT) != 0u { return vec3<f32>(1.0); }
-    let lit = coordinate_at(world, normal, dark);
+    let lit = coordinate_under(world, normal, dark, open);
     return ramp_light(part, lit.x) * lit.color;
 }
 
@@ -260,9 +261,12 @@ fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, 
     let count = f32(countOneBits(members));
     let color = strengthened(base_color(triangle, corners, center));
     var even = even_light(part, corners);
+    // The sky changes gently: what the middle sees of it, all samples see.
+    var open = Openness(1.0, 1.0);
+    if !even.is_so { open = openness(corners, weights_at(corners.clip, ndc_at(view, center))); }
     if !even.is_so && is_gentle(part) {
         let weights = weights_at(corners.clip, ndc_at(view, center));
-        even.light = light_of(part, world_of(corners, weights), normal_of(corners, weights), 0u);
+        even.light = light_of(part, world_of(corners, weights), normal_of(corners, weights), 0u, open);
         even.is_so = true;
     }
     let shines = (parts[part].flags & PART_HIGHLIGHTS) != 0u;
@@ -283,7 +287,7 @@ fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, 
             let normal = normal_of(corners, weights);
             if !even.is_so {
                 dark = shadowed(id, corners, weights);
-                light += light_of(part, world, normal, dark) * share;
+                light += light_of(part, world, normal, dark, open) * share;
                 lined += grazing(triangle, corners, at) * share;
             }
             gloss += highlights_at(part, world, normal, dark) * share;

@@ -434,7 +434,7 @@ mod tests {
             let view = Camera { eye, projection, ..camera() }.view([64, 48], BOUNDS);
             for words in lettering(anchored(anchor)).placed(&view, 96.0) {
                 let mut rgba = vec![0; 64 * 48 * 4];
-                npr_vector::drawing::paint_over(&words.marks, &mut rgba, [64, 48]);
+                paint_over(&words.marks, &mut rgba, [64, 48]);
             }
         }
     }

@@ -39,6 +39,7 @@ mod look;
 mod model;
 mod pictures;
 mod placement;
+mod sky;
 mod smoke;
 mod stage;
 mod streaks;

@@ -14,6 +14,7 @@ use crate::model::Model;
 use crate::placement::Bounds;
 use crate::smoke::{self, Measure, Needs, Smoke};
 use crate::streaks::Streaks;
+use crate::surfaces::surface_depths;
 use crate::tiles::{TILE_PIXELS, Tiles};
 use bytemuck::{NoUninit, cast_slice};
 use glam::Vec3;
@@ -30,7 +31,7 @@ use npr_style::compose::Compose;
 use npr_style::lighting::LightSource;
 use npr_style::shadow::SHADOW_SIDE;
 use npr_vector::artwork::ArtworkOptions;
-use npr_vector::drawing::{paint_drawing_over, paint_over};
+use npr_vector::drawing::paint_drawing_over;
 use npr_vector::lettering::Font;
 use std::collections::BTreeMap;
 
@@ -148,7 +149,7 @@ impl<'a> Stage<'a> {
         let mut styled = StyledModel::new(model, style, options)?;
         let lettering = Lettering::new(style, &options.fonts)?;
         styled.inked.notices.extend_from_slice(lettering.notices());
-        let lights = ChosenLights::new(style, model);
+        let lights = ChosenLights::new(style, model, &options.pictures);
         styled.inked.notices.extend(lights.notice());
         let base_px = look::base_px(
             style,
@@ -510,9 +511,12 @@ impl<'a> Stage<'a> {
         write(session, self.plan.view, &[view])?;
         write(session, self.plan.outline, &[outline])?;
         write(session, self.plan.compose, &[compose])?;
-        let lights = self
+        let mut lights = self
             .lights
             .of_frame(&self.style, bounds, None, camera, &view);
+        if let Some(sky) = &self.styled.sky {
+            sky.apply_to(&mut lights);
+        }
         write(session, self.plan.lights, &[lights])?;
         for (id, matrix) in self.plan.light_views.iter().zip(&lights.shadows) {
             write(session, *id, &[*matrix])?;

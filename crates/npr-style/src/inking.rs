@@ -238,7 +238,8 @@ impl Layers<'_> {
             Some(towards) if dark == 0 => corners.cosines(weights, towards).map(ramp_coordinate),
             _ => weights.map(|w| {
                 let (world, normal) = (corners.world(w), corners.normal(w));
-                self.lights.coordinate_at(world, normal, dark).0
+                let open = self.openness(corners, w);
+                self.lights.coordinate_under(world, normal, dark, open).0
             }),
         };
         x.map(|x| level_of(part, x))
@@ -403,7 +404,7 @@ fn sharpened(layer: Hatching, gain: f32) -> Hatching {
     scaled(layer, [sharpen(layer.s, gain), gain])
 }
 
-fn length(v: [f32; 2]) -> f32 {
+pub(crate) fn length(v: [f32; 2]) -> f32 {
     (v[0] * v[0] + v[1] * v[1]).sqrt()
 }
 

@@ -71,6 +71,7 @@ mod schema;
 mod set;
 mod shade;
 pub mod shadow;
+pub mod sky;
 pub mod smoke;
 mod style;
 mod tone;

@@ -6,10 +6,11 @@
 use crate::backdrop::Minding;
 use crate::compose::{Compose, Layers};
 use crate::gloss::shines_gently;
-use crate::inking::ink_over;
+use crate::inking::{ink_over, length};
 use crate::known::Known;
 use crate::line_color::{LinePlace, strengthened};
 use crate::ramp::{Level, ramp_coordinate, ramp_light};
+use crate::sky::Openness;
 use crate::tone_row::{row_is_even, row_light};
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
 use npr_core::raster::ID_MASK;
@@ -194,7 +195,7 @@ impl<'a> Layers<'a> {
             return None;
         }
         let normal = corners.posed[0].normal.map(|n| n * corners.side);
-        Some(self.light_of(part, corners.posed[0].world, normal, 0))
+        Some(self.light_of(part, corners.posed[0].world, normal, 0, Openness::FULL))
     }
 
     /// Whether a part's tones are the same for all coordinates in `range`.
@@ -312,7 +313,8 @@ impl<'a> Layers<'a> {
         }
         let weights = weights_at(corners.clip, self.view.ndc_at(group.center));
         let (world, normal) = (corners.world(weights), corners.normal(weights));
-        Some(self.light_of(part, world, normal, 0))
+        let open = self.openness(corners, weights);
+        Some(self.light_of(part, world, normal, 0, open))
     }
 
     /// What highlights add to a group that lies in no shadow.
@@ -366,10 +368,13 @@ impl<'a> Layers<'a> {
         let shines = part.flags & Part::HIGHLIGHTS != 0 && !known.is_matt();
         let mut sum = Sampled::default();
         let mut ink = None;
+        // The sky changes gently: what the middle sees of it, all samples see.
+        let middle = weights_at(corners.clip, self.view.ndc_at(group.center));
+        let open = self.openness(corners, middle);
         for (i, weights) in self.weights_of(group, corners) {
             let (world, normal) = (corners.world(weights), corners.normal(weights));
             let dark = self.shadowed(group.id, corners, weights);
-            let light = self.light_of(part, world, normal, dark);
+            let light = self.light_of(part, world, normal, dark, open);
             sum.light = std::array::from_fn(|k| sum.light[k] + light[k] / count);
             sum.line += self.grazing(part, corners, self.sample_px(group, i)) / count;
             if shines {
@@ -448,12 +453,20 @@ impl<'a> Layers<'a> {
         }
     }
 
-    /// Light on a surface at `world` that faces along `normal` and lies in the shadow of the lights in `dark`.
-    fn light_of(&self, part: &Part, world: [f32; 3], normal: [f32; 3], dark: u32) -> [f32; 3] {
+    /// Light on a surface at `world` that faces along `normal`, lies in the shadow of the lights in `dark` and sees `open` of
+    /// the sky.
+    fn light_of(
+        &self,
+        part: &Part,
+        world: [f32; 3],
+        normal: [f32; 3],
+        dark: u32,
+        open: Openness,
+    ) -> [f32; 3] {
         if part.flags & Part::UNLIT != 0 {
             return [1.0; 3];
         }
-        let (x, color) = self.lights.coordinate_at(world, normal, dark);
+        let (x, color) = self.lights.coordinate_under(world, normal, dark, open);
         let light = self.ramp_of(part, x);
         std::array::from_fn(|i| light[i] * color[i])
     }
@@ -587,7 +600,8 @@ mod tests {
             let corners = layers.corners_of(&triangle);
             if let Some(light) = layers.even_light(&part, &corners) {
                 let sum: f32 = weights.iter().sum();
-                let inside = layers.light_of(&part, [0.0; 3], corners.normal(weights.map(|w| w / sum)), 0);
+                let normal = corners.normal(weights.map(|w| w / sum));
+                let inside = layers.light_of(&part, [0.0; 3], normal, 0, Openness::FULL);
                 prop_assert_eq!(light, inside);
             }
         }
