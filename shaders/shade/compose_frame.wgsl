@@ -261,12 +261,11 @@ fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, 
     let count = f32(countOneBits(members));
     let color = strengthened(base_color(triangle, corners, center));
     var even = even_light(part, corners);
-    // The sky changes gently: what the middle sees of it, all samples see.
-    var open = Openness(1.0, 1.0);
-    if !even.is_so { open = openness(corners, weights_at(corners.clip, ndc_at(view, center))); }
+    var open: OpenPlace;
+    if !even.is_so { open = openness(corners, center); }
     if !even.is_so && is_gentle(part) {
         let weights = weights_at(corners.clip, ndc_at(view, center));
-        even.light = light_of(part, world_of(corners, weights), normal_of(corners, weights), 0u, open);
+        even.light = light_of(part, world_of(corners, weights), normal_of(corners, weights), 0u, open_at(open, vec2<f32>(0.0)));
         even.is_so = true;
     }
     let shines = (parts[part].flags & PART_HIGHLIGHTS) != 0u;
@@ -287,7 +286,7 @@ fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, 
             let normal = normal_of(corners, weights);
             if !even.is_so {
                 dark = shadowed(id, corners, weights);
-                light += light_of(part, world, normal, dark, open) * share;
+                light += light_of(part, world, normal, dark, open_at(open, at - center)) * share;
                 lined += grazing(triangle, corners, at) * share;
             }
             gloss += highlights_at(part, world, normal, dark) * share;

@@ -105,7 +105,7 @@ impl SkyMaps {
     }
 }
 
-/// Right, up and outwards of picture `i`: outwards, evenly over the sphere, from `up` downwards [Fibonacci's lattice].
+/// Right, up and outwards of picture `i`: outwards, evenly over the sphere, from `up` downwards, by Fibonacci's lattice.
 fn axes_of(i: u32, views: u32, up: Vec3) -> [Vec3; 3] {
     let height = 1.0 - (2 * i + 1) as f32 / views as f32;
     let ring = (1.0 - height * height).max(0.0).sqrt();

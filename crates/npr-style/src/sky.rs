@@ -11,7 +11,7 @@ use crate::compose::Layers;
 use crate::lighting::Lights;
 use crate::tone::Corners;
 use npr_core::math::{cos_f64, sin_f64};
-use npr_core::surface::dot;
+use npr_core::surface::{dot, weights_around};
 
 /// Words before the texels of the pictures, for each of them: right, up and outwards, each a vector and an empty word; of the
 /// last row it is 1 where the picture is of the lower half.
@@ -38,24 +38,67 @@ impl Openness {
     };
 }
 
+/// How much of the sky a place of the frame sees, and how that changes over a pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct OpenPlace {
+    here: [f32; 2],
+    right: [f32; 2],
+    down: [f32; 2],
+}
+
+impl OpenPlace {
+    /// Nothing is hidden.
+    const FULL: Self = Self {
+        here: [1.0; 2],
+        right: [0.0; 2],
+        down: [0.0; 2],
+    };
+
+    /// What is seen so many pixels to the right and down.
+    pub fn at(&self, offset: [f32; 2]) -> Openness {
+        let [above, below] = std::array::from_fn(|half| {
+            let moved = self.right[half] * offset[0] + self.down[half] * offset[1];
+            (self.here[half] + moved).clamp(0.0, 1.0)
+        });
+        Openness { above, below }
+    }
+}
+
 /// A distance outwards, -1..1 in radii, as the texels of pictures hold it; 0 is kept for nothing.
 pub fn sky_height(outwards: f32) -> f32 {
     (outwards + 1.0) * 0.5 * 65534.0 + 1.0
 }
 
+/// How far the sky is seen on one of the pictures, and how that changes over a texel to the right and down.
+type Seen = [f32; 3];
+
 impl Layers<'_> {
-    /// How much of the sky a place of a triangle sees. O(pictures).
-    pub(crate) fn openness(&self, corners: &Corners<'_>, weights: [f32; 3]) -> Openness {
+    /// How much of the sky a triangle sees at a place of the frame. O(pictures).
+    pub(crate) fn openness(&self, corners: &Corners<'_>, px: [f32; 2]) -> OpenPlace {
         let lights = self.lights;
         if lights.sky_views == 0 {
-            return Openness::FULL;
+            return OpenPlace::FULL;
         }
-        let (normal, lifted) = (corners.normal(weights), corners.lifted(weights));
+        // Find the place, lifted off its surface, and its steps over a pixel, in radii of the pictures.
+        let around = weights_around(corners.clip, self.view.ndc_at(px), self.view.pixel_ndc());
+        let (normal, lifted) = (corners.normal(around[0]), corners.lifted(around[0]));
+        let (world, radius) = (corners.world(around[0]), lights.sky_radius);
         let lift = LIFT_TEXELS * 2.0 / lights.sky_side as f32;
         let place: [f32; 3] = std::array::from_fn(|i| {
-            (lifted[i] - lights.sky_center[i]) / lights.sky_radius + normal[i] * lift
+            (lifted[i] - lights.sky_center[i]) / radius + normal[i] * lift
         });
-        let (mut whole, mut seen) = ([0.0; 2], [0.0; 2]);
+        let step = |weights: [f32; 3]| -> [f32; 3] {
+            let there = corners.world(weights);
+            std::array::from_fn(|i| (there[i] - world[i]) / radius)
+        };
+        let (right, down) = (step(around[1]), step(around[2]));
+        // Look up every picture from which light falls on the front of the surface.
+        let half_side = 0.5 * lights.sky_side as f32;
+        let mut whole = [0.0; 2];
+        let mut open = OpenPlace {
+            here: [0.0; 2],
+            ..OpenPlace::FULL
+        };
         for view in 0..lights.sky_views {
             let header = (lights.sky_maps + view * SKY_HEADER_WORDS) as usize;
             let outwards = self.floats(header + 8);
@@ -64,22 +107,29 @@ impl Layers<'_> {
                 continue;
             }
             let half = self.texels[header + 11] as usize;
-            let [right, up] = [header, header + 4].map(|at| dot(place, self.floats(at)));
+            let axes = [self.floats(header), self.floats(header + 4)];
             let height = sky_height(dot(place, outwards));
+            let [x, y] = axes.map(|axis| dot(place, axis));
+            let [seen, by_x, by_y] = self.sky_seen(view, [x, y], height);
+            let change = |step: [f32; 3]| {
+                half_side * (by_x * dot(step, axes[0]) - by_y * dot(step, axes[1]))
+            };
             whole[half] += facing;
-            seen[half] += facing * self.sky_seen(view, [right, up], height);
+            open.here[half] += facing * seen;
+            open.right[half] += facing * change(right);
+            open.down[half] += facing * change(down);
         }
-        let share = |half: usize| {
+        // Make shares of sums; a half that the surface does not face counts as open.
+        for half in 0..2 {
             if whole[half] > 0.0 {
-                seen[half] / whole[half]
+                open.here[half] /= whole[half];
+                open.right[half] /= whole[half];
+                open.down[half] /= whole[half];
             } else {
-                1.0
+                open.here[half] = 1.0;
             }
-        };
-        Openness {
-            above: share(0),
-            below: share(1),
         }
+        open
     }
 
     /// Three words of the texture store as numbers.
@@ -87,31 +137,33 @@ impl Layers<'_> {
         std::array::from_fn(|i| f32::from_bits(self.texels[at + i]))
     }
 
-    /// How far a place at a height sees the sky on one of the pictures, 0..1: the mean of the four texels around it by how near
-    /// they are, of which each is 1 where the scene reaches no farther outwards.
-    fn sky_seen(&self, view: u32, at: [f32; 2], height: f32) -> f32 {
+    /// How far a place at a height sees the sky on one of the pictures: the mean of the four texels around it by how near they
+    /// are, of which each is 1 where the scene reaches no farther outwards.
+    fn sky_seen(&self, view: u32, at: [f32; 2], height: f32) -> Seen {
         let lights = self.lights;
         let side = lights.sky_side as f32;
-        let (x, y) = (
-            (at[0] + 1.0) * 0.5 * side - 0.5,
-            (1.0 - at[1]) * 0.5 * side - 0.5,
-        );
+        let x = (at[0] + 1.0) * 0.5 * side - 0.5;
+        let y = (1.0 - at[1]) * 0.5 * side - 0.5;
         let is_inside = |v: f32| v >= 0.0 && v < side - 1.0;
         if !(is_inside(x) && is_inside(y)) {
-            return 1.0;
+            return [1.0, 0.0, 0.0];
         }
-        let first = lights.sky_maps + lights.sky_views * SKY_HEADER_WORDS;
         let left_top = (view * lights.sky_side + y as u32) * lights.sky_side + x as u32;
-        let seen = |texel: u32| {
-            let word = self.texels[(first + texel / 2) as usize];
-            let reach = (word >> (16 * (texel % 2))) & 0xffff;
-            if reach as f32 > height { 0.0 } else { 1.0 }
-        };
-        let (across, down) = (x - x.floor(), y - y.floor());
-        let upper = seen(left_top) * (1.0 - across) + seen(left_top + 1) * across;
         let left_low = left_top + lights.sky_side;
-        let lower = seen(left_low) * (1.0 - across) + seen(left_low + 1) * across;
-        upper * (1.0 - down) + lower * down
+        let [a, b] = [left_top, left_top + 1].map(|texel| self.texel_seen(texel, height));
+        let [c, d] = [left_low, left_low + 1].map(|texel| self.texel_seen(texel, height));
+        let (across, down) = (x - x.floor(), y - y.floor());
+        let (upper, lower) = (a + (b - a) * across, c + (d - c) * across);
+        let by_x = (b - a) * (1.0 - down) + (d - c) * down;
+        [upper + (lower - upper) * down, by_x, lower - upper]
+    }
+
+    /// 1 where the scene reaches no farther outwards than a height at a texel of the pictures, else 0.
+    fn texel_seen(&self, texel: u32, height: f32) -> f32 {
+        let first = self.lights.sky_maps + self.lights.sky_views * SKY_HEADER_WORDS;
+        let word = self.texels[(first + texel / 2) as usize];
+        let reach = (word >> (16 * (texel % 2))) & 0xffff;
+        if reach as f32 > height { 0.0 } else { 1.0 }
     }
 }
 

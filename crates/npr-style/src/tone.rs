@@ -313,8 +313,8 @@ impl<'a> Layers<'a> {
         }
         let weights = weights_at(corners.clip, self.view.ndc_at(group.center));
         let (world, normal) = (corners.world(weights), corners.normal(weights));
-        let open = self.openness(corners, weights);
-        Some(self.light_of(part, world, normal, 0, open))
+        let open = self.openness(corners, group.center);
+        Some(self.light_of(part, world, normal, 0, open.at([0.0; 2])))
     }
 
     /// What highlights add to a group that lies in no shadow.
@@ -368,15 +368,15 @@ impl<'a> Layers<'a> {
         let shines = part.flags & Part::HIGHLIGHTS != 0 && !known.is_matt();
         let mut sum = Sampled::default();
         let mut ink = None;
-        // The sky changes gently: what the middle sees of it, all samples see.
-        let middle = weights_at(corners.clip, self.view.ndc_at(group.center));
-        let open = self.openness(corners, middle);
+        let open = self.openness(corners, group.center);
         for (i, weights) in self.weights_of(group, corners) {
             let (world, normal) = (corners.world(weights), corners.normal(weights));
             let dark = self.shadowed(group.id, corners, weights);
+            let px = self.sample_px(group, i);
+            let open = open.at([px[0] - group.center[0], px[1] - group.center[1]]);
             let light = self.light_of(part, world, normal, dark, open);
             sum.light = std::array::from_fn(|k| sum.light[k] + light[k] / count);
-            sum.line += self.grazing(part, corners, self.sample_px(group, i)) / count;
+            sum.line += self.grazing(part, corners, px) / count;
             if shines {
                 let gloss = self.highlights_at(part, world, normal, dark);
                 sum.gloss = std::array::from_fn(|k| sum.gloss[k] + gloss[k] / count);
