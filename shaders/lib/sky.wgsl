@@ -67,7 +67,8 @@ fn openness(corners: Corners, px: vec2<f32>) -> OpenPlace {
     return open;
 }
 
-// How far a place at a height sees the sky on one of the pictures, and how that changes over a texel to the right and down.
+// How far a place at a height sees the sky on one of the pictures, and how that changes over a texel to the right and
+// down.
 fn sky_seen(picture: u32, at: vec2<f32>, height: f32) -> vec3<f32> {
     let side = f32(lights.sky_side);
     let x = (at.x + 1.0) * 0.5 * side - 0.5;

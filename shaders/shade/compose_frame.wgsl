@@ -148,7 +148,8 @@ fn even_ink(part: u32, corners: Corners, dark: u32) -> f32 {
     return ink_over(part, min(coordinate_range(corners), vec2<f32>(most)));
 }
 
-// Light on a surface at `world` that faces along `normal`, lies in the shadow of the lights in `dark` and sees `open` of the sky.
+// Light on a surface at `world` that faces along `normal`, lies in the shadow of the lights in `dark` and sees `open`
+// of the sky.
 fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32, open: Openness) -> vec3<f32> {
     if (parts[part].flags & PART_UNLIT) != 0u { return vec3<f32>(1.0); }
     let lit = coordinate_under(world, normal, dark, open);
@@ -161,7 +162,8 @@ fn angle_ramp(facing: f32, threshold: f32, softness: f32) -> f32 {
     return 1.0 - smooth_step(threshold * (1.0 - softness), threshold, abs(facing));
 }
 
-// 1 up to `widest_px` from the contour of a surface, 0 farther away, where N . E is `facing` and changes by `change` a pixel.
+// 1 up to `widest_px` from the contour of a surface, 0 farther away, where N . E is `facing` and changes by `change`
+// a pixel.
 fn not_flat(facing: f32, change: f32, widest_px: f32) -> f32 {
     let distance = max(facing, 0.0) * 0.5 / max(change, 1e-9);
     return clamp(widest_px - distance + 0.5, 0.0, 1.0);

@@ -47,7 +47,10 @@ fn ball(color: [f32; 3]) -> Scene {
 
 /// An egg that lies along x, 2 units long and 0.8 high: sharply bent at its tips, gently above and below.
 fn egg() -> Scene {
-    scene_of(&[Object::new("Egg", placed(&icosphere(6), [1.0, 0.4, 0.4], [0.0; 3]))])
+    scene_of(&[Object::new(
+        "Egg",
+        placed(&icosphere(6), [1.0, 0.4, 0.4], [0.0; 3]),
+    )])
 }
 
 /// Colours that cover more than one pixel in a hundred of the ball, up to a step of 2 of 255, with their shares.
@@ -59,10 +62,14 @@ fn tones(frame: &Frame) -> Vec<([u8; 3], f32)> {
     let mut counts: BTreeMap<[u8; 3], u32> = BTreeMap::new();
     let places = (0..SIZE[0]).flat_map(|x| (0..SIZE[1]).map(move |y| (x, y)));
     for (x, y) in places.filter(|(x, y)| is_inside(*x, *y)) {
-        *counts.entry(pixel(frame, x, y).map(|v| v / 3 * 3)).or_default() += 1;
+        *counts
+            .entry(pixel(frame, x, y).map(|v| v / 3 * 3))
+            .or_default() += 1;
     }
     let all: u32 = counts.values().sum();
-    let shares = counts.into_iter().map(|(color, count)| (color, count as f32 / all as f32));
+    let shares = counts
+        .into_iter()
+        .map(|(color, count)| (color, count as f32 / all as f32));
     shares.filter(|(_, share)| *share > 0.01).collect()
 }
 
@@ -81,11 +88,23 @@ fn outline_widths(name: &str) -> [f32; 2] {
 #[test]
 fn lines_swell_in_the_silver_age_and_are_thin_and_even_in_the_modern() {
     let [silver, modern] = ["comic-silver", "comic-modern"].map(outline_widths);
-    assert!(silver[0] > 1.5 * silver[1], "tips and sides of the Silver Age: {silver:?}");
-    assert!((modern[0] - modern[1]).abs() < 0.75, "those of the Modern Age: {modern:?}");
-    assert!(silver[0] > 2.0 * modern[0] && modern[1] > 0.9, "{silver:?} {modern:?}");
+    assert!(
+        silver[0] > 1.5 * silver[1],
+        "tips and sides of the Silver Age: {silver:?}"
+    );
+    assert!(
+        (modern[0] - modern[1]).abs() < 0.75,
+        "those of the Modern Age: {modern:?}"
+    );
+    assert!(
+        silver[0] > 2.0 * modern[0] && modern[1] > 0.9,
+        "{silver:?} {modern:?}"
+    );
     let older = outline_widths("comic-modern@1");
-    assert!(older[0] > 1.3 * older[1], "before they were even: {older:?}");
+    assert!(
+        older[0] > 1.3 * older[1],
+        "before they were even: {older:?}"
+    );
 }
 
 #[test]
@@ -111,22 +130,37 @@ fn cels_have_two_tones_or_three_with_a_highlight_under_thin_lines() {
     let [two, three] = ["cel-2", "cel-3"].map(fill);
     assert_eq!((two.len(), three.len()), (2, 3), "{two:?} {three:?}");
     let brightest = |tones: &[([u8; 3], f32)]| tones.iter().map(|(color, _)| color[1]).max();
-    assert!(brightest(&three) > brightest(&two), "the third is the highlight");
+    assert!(
+        brightest(&three) > brightest(&two),
+        "the third is the highlight"
+    );
     for name in ["cel-2", "cel-3"] {
         let [tip, side] = outline_widths(name);
-        assert!(tip.max(side) < 3.0 && tip.min(side) > 0.4, "{name}: {tip} {side}");
-        assert!(outline_widths("comic-silver")[0] > 1.5 * tip, "thinner than in comics");
+        assert!(
+            tip.max(side) < 3.0 && tip.min(side) > 0.4,
+            "{name}: {tip} {side}"
+        );
+        assert!(
+            outline_widths("comic-silver")[0] > 1.5 * tip,
+            "thinner than in comics"
+        );
     }
 }
 
 #[test]
 fn the_simple_comic_is_a_cel_with_black_shade_and_a_thick_line() {
-    let fill = tones(&drawn(&ball([0.6, 0.3, 0.2]), &preset("simple-comic", NO_LINES)));
+    let fill = tones(&drawn(
+        &ball([0.6, 0.3, 0.2]),
+        &preset("simple-comic", NO_LINES),
+    ));
     assert_eq!(fill.len(), 2, "{fill:?}");
     let (black, paint) = (fill[0], fill[1]);
     assert_eq!(black.0, [0; 3]);
     assert!((0.1..0.5).contains(&black.1), "{black:?}");
-    assert!(paint.0[0] > 150 && paint.0[0] > paint.0[2] + 40, "{paint:?}");
+    assert!(
+        paint.0[0] > 150 && paint.0[0] > paint.0[2] + 40,
+        "{paint:?}"
+    );
     let [tip, side] = outline_widths("simple-comic");
     assert!((tip - side).abs() < 0.75 && side > 4.0, "{tip} {side}");
     let cel = outline_widths("cel-2");
@@ -174,11 +208,17 @@ fn strokes_run_from_the_dark_into_the_light_and_end_in_points() {
     let found = places.map(|x| strokes(&frame, x, 160..560));
     println!("{found:?}");
     for pair in found.windows(2) {
-        assert!(pair[1][0] < pair[0][0] - 0.5, "thinner towards the light: {found:?}");
+        assert!(
+            pair[1][0] < pair[0][0] - 0.5,
+            "thinner towards the light: {found:?}"
+        );
     }
     assert!(found[0][0] > 2.0 * found[3][0], "{found:?}");
     // They thin out instead of becoming fewer.
-    assert!(found[3][1] > 0.7 * found[1][1] && found[1][1] > 8.0, "{found:?}");
+    assert!(
+        found[3][1] > 0.7 * found[1][1] && found[1][1] > 8.0,
+        "{found:?}"
+    );
 }
 
 /// Linear light of a byte.
@@ -200,7 +240,10 @@ fn a_gradient_is_the_flat_comic_times_a_ramp_under_the_same_ink() {
         [of(&flat), of(&gradient)]
     });
     let (mut inked, mut painted, mut darkest) = (0, 0, 1.0f32);
-    for (x, y) in (220..740).step_by(3).flat_map(|x| (300..420).map(move |y| (x, y))) {
+    for (x, y) in (220..740)
+        .step_by(3)
+        .flat_map(|x| (300..420).map(move |y| (x, y)))
+    {
         let at = |frames: &[Frame; 2]| [pixel(&frames[0], x, y), pixel(&frames[1], x, y)];
         let ([flat_red, soft_red], [flat_blue, soft_blue]) = (at(&red), at(&blue));
         if flat_red == [0; 3] {
@@ -209,7 +252,10 @@ fn a_gradient_is_the_flat_comic_times_a_ramp_under_the_same_ink() {
         } else if flat_red[0] > 200 && flat_blue[2] > 200 {
             let factor = linear(soft_red[0]) / linear(flat_red[0]);
             let other = linear(soft_blue[2]) / linear(flat_blue[2]);
-            assert!((factor - other).abs() < 0.03, "one factor for all paint: {factor} {other}");
+            assert!(
+                (factor - other).abs() < 0.03,
+                "one factor for all paint: {factor} {other}"
+            );
             darkest = darkest.min(factor);
             painted += 1;
         }
@@ -226,7 +272,10 @@ fn what_is_brighter_than_the_flat_comic_comes_from_the_highlight() {
         style.set("light.direction=[0.3,0.3,0.9]").unwrap();
         drawn(&ball([0.5, 0.2, 0.1]), &style)
     };
-    let [flat, lit] = [of(&[]), of(&["highlight.edge=soft", "highlight.exponent=30"])];
+    let [flat, lit] = [
+        of(&[]),
+        of(&["highlight.edge=soft", "highlight.exponent=30"]),
+    ];
     let rises = (300..660).map(|x| {
         let [before, after] = [&flat, &lit].map(|frame| pixel(frame, x, 310)[1]);
         assert!(after >= before, "{x}: {before} {after}");
@@ -234,7 +283,10 @@ fn what_is_brighter_than_the_flat_comic_comes_from_the_highlight() {
     });
     let rises: Vec<u8> = rises.collect();
     assert!(rises.iter().max().unwrap() > &60, "{rises:?}");
-    assert!(rises.iter().filter(|rise| (5..50).contains(*rise)).count() > 10, "a gradient: {rises:?}");
+    assert!(
+        rises.iter().filter(|rise| (5..50).contains(*rise)).count() > 10,
+        "a gradient: {rises:?}"
+    );
 }
 
 /// Black of a ball in a pattern: its share in three bands of light, and how long its edge is against its area.
@@ -267,8 +319,14 @@ fn pencil_is_another_texture_at_the_same_tones() {
     for (pen, pencil) in pen.iter().zip(pencil) {
         assert!((pen - pencil).abs() < 0.12, "as dark: {pen} {pencil}");
     }
-    assert!(pencil[0] > pencil[1] + 0.1 && pencil[1] > pencil[2] + 0.1, "{pencil:?}");
-    assert!(rough > 1.25 * smooth, "grain breaks strokes up: {rough} against {smooth}");
+    assert!(
+        pencil[0] > pencil[1] + 0.1 && pencil[1] > pencil[2] + 0.1,
+        "{pencil:?}"
+    );
+    assert!(
+        rough > 1.25 * smooth,
+        "grain breaks strokes up: {rough} against {smooth}"
+    );
 }
 
 #[test]
@@ -289,13 +347,21 @@ fn every_medium_is_one_ink_on_one_paper() {
         for pixel in frame.rgba.as_chunks::<4>().0 {
             let [r, g, b, _] = *pixel;
             // How much ink the red says; green and blue have to say the same.
-            let share = |i: usize, v: u8| (linear(v) - linear(paper[i])) / (linear(ink[i]) - linear(paper[i]));
+            let share = |i: usize, v: u8| {
+                (linear(v) - linear(paper[i])) / (linear(ink[i]) - linear(paper[i]))
+            };
             let [red, green, blue] = [share(0, r), share(1, g), share(2, b)];
-            assert!((red - green).abs() < 0.03 && (red - blue).abs() < 0.03, "{pattern}: {pixel:?}");
+            assert!(
+                (red - green).abs() < 0.03 && (red - blue).abs() < 0.03,
+                "{pattern}: {pixel:?}"
+            );
             pure[0] += u32::from([r, g, b] == ink);
             pure[1] += u32::from([r, g, b] == paper);
         }
-        assert!(pure.iter().all(|count| *count > 20_000), "{pattern}: {pure:?}");
+        assert!(
+            pure.iter().all(|count| *count > 20_000),
+            "{pattern}: {pure:?}"
+        );
     }
 }
 
@@ -308,7 +374,13 @@ fn every_beam_of_the_sample_shows() {
     let picture = |rule: &str| {
         let text = format!("extends = \"comic-light\"\n{rule}");
         let style = Style::from_toml(&text, &|_| Err(String::new())).unwrap();
-        npr_tests::draw_on(&npr_gpu::processor::Processor, &model, &style, &camera, SIZE)
+        npr_tests::draw_on(
+            &npr_gpu::processor::Processor,
+            &model,
+            &style,
+            &camera,
+            SIZE,
+        )
     };
     let whole = picture("");
     for name in beams {
@@ -316,7 +388,12 @@ fn every_beam_of_the_sample_shows() {
             "[[rule]]\nmatch.object = \"{name}*\"\nbeam.ramp = [{{ at = 0.0, color = \"#00000000\" }}]\n"
         );
         let without = picture(&clear);
-        let pairs = whole.rgba.as_chunks::<4>().0.iter().zip(without.rgba.as_chunks::<4>().0);
+        let pairs = whole
+            .rgba
+            .as_chunks::<4>()
+            .0
+            .iter()
+            .zip(without.rgba.as_chunks::<4>().0);
         // Light is brighter than what it lies over.
         let shown = pairs.filter(|(with, without)| {
             let sum = |pixel: &[u8; 4]| pixel[..3].iter().map(|v| u32::from(*v)).sum::<u32>();
@@ -330,7 +407,10 @@ fn every_beam_of_the_sample_shows() {
 
 /// Share of a square of the picture that the surface-angle method inks.
 fn angle_ink(scene: &Scene, camera: &Camera, settings: &[&str]) -> (Frame, usize) {
-    let style = preset("toon", &[LINES_ALONE, &["line.method=angle"], settings].concat());
+    let style = preset(
+        "toon",
+        &[LINES_ALONE, &["line.method=angle"], settings].concat(),
+    );
     let frame = draw_from(scene, &style, camera, SIZE).frame;
     let count = Ink::of(&frame).count();
     (frame, count)
@@ -358,7 +438,9 @@ fn the_surface_angle_line_darkens_towards_the_rim_by_its_ramp() {
     let row = |settings: &[&str]| {
         let (frame, _) = angle_ink(&scene, &front(), settings);
         // From the rim inwards: the ball ends at column 480 - 288.
-        (193..480).map(|x| pixel(&frame, x, 360)[0]).collect::<Vec<u8>>()
+        (193..480)
+            .map(|x| pixel(&frame, x, 360)[0])
+            .collect::<Vec<u8>>()
     };
     let inked = |row: &[u8]| row.iter().map(|v| 1.0 - linear(*v)).sum::<f32>();
     let wide = ["line.angle_threshold_deg=25", "line.width.base=12"];
@@ -368,14 +450,36 @@ fn the_surface_angle_line_darkens_towards_the_rim_by_its_ramp() {
     });
     for row in [&cut, &soft] {
         assert!(row[1] < 40, "dark at the rim: {:?}", &row[..40]);
-        assert!(row.windows(2).all(|pair| pair[1] >= pair[0]), "never darker inwards: {row:?}");
+        assert!(
+            row.windows(2).all(|pair| pair[1] >= pair[0]),
+            "never darker inwards: {row:?}"
+        );
         assert_eq!(row[286], 255);
     }
     let between = |row: &[u8]| row.iter().filter(|v| (20..235).contains(*v)).count();
-    assert!(between(&cut) <= 2 && between(&soft) > 8, "{} {}", between(&cut), between(&soft));
+    assert!(
+        between(&cut) <= 2 && between(&soft) > 8,
+        "{} {}",
+        between(&cut),
+        between(&soft)
+    );
     // A cut band of 25 degrees is 1 - cos 25 of the radius wide.
-    assert!((inked(&cut) - 288.0 * 0.0937).abs() < 1.5, "{}", inked(&cut));
+    assert!(
+        (inked(&cut) - 288.0 * 0.0937).abs() < 1.5,
+        "{}",
+        inked(&cut)
+    );
     // And never wider than six lines: 2 pixels each here.
-    let thin = row(&["line.angle_threshold_deg=25", "line.width.base=2px", "line.width.source=constant", "line.angle_softness=0", "line.width.max=1"]);
-    assert!(inked(&thin) < 13.0 && inked(&thin) > 8.0, "{}", inked(&thin));
+    let thin = row(&[
+        "line.angle_threshold_deg=25",
+        "line.width.base=2px",
+        "line.width.source=constant",
+        "line.angle_softness=0",
+        "line.width.max=1",
+    ]);
+    assert!(
+        inked(&thin) < 13.0 && inked(&thin) > 8.0,
+        "{}",
+        inked(&thin)
+    );
 }

@@ -15,9 +15,14 @@ use npr_vector::lettering::testing::block_font;
 /// Draws a scene on the processor and on a device, where there is one.
 fn on_engines(scene: &Scene, style: &Style, options: &StageOptions) -> Vec<Frame> {
     let model = Model::new(scene).unwrap();
-    let engines = [Some(&Processor as &dyn Engine), device().map(|device| device as &dyn Engine)];
+    let engines = [
+        Some(&Processor as &dyn Engine),
+        device().map(|device| device as &dyn Engine),
+    ];
     let engines = engines.into_iter().flatten();
-    engines.map(|engine| draw_with(engine, &model, style, &front(), options)).collect()
+    engines
+        .map(|engine| draw_with(engine, &model, style, &front(), options))
+        .collect()
 }
 
 /// A sheet that turns its back to the camera, opaque on its left and clear on its right.
@@ -37,7 +42,9 @@ fn a_hull_is_cut_out_as_its_part_is() {
     style.set("background=#0000ff").unwrap();
     let black = |frame: &Frame, x: std::ops::Range<u32>| {
         let places = x.flat_map(|x| (60..180).map(move |y| (x, y)));
-        places.filter(|(x, y)| pixel(frame, *x, *y) == [0; 3]).count()
+        places
+            .filter(|(x, y)| pixel(frame, *x, *y) == [0; 3])
+            .count()
     };
     let options = StageOptions::new(SIZE);
     // The sheet reaches 77 pixels to either side of the middle; alpha falls over the tenth beside it.
@@ -46,7 +53,11 @@ fn a_hull_is_cut_out_as_its_part_is() {
         assert_eq!(black(&frame, 185..230), 0, "where it is clear");
     }
     for frame in on_engines(&half_clear(AlphaMode::Opaque), &style, &options) {
-        assert_eq!(black(&frame, 185..230), 45 * 120, "an opaque part has no holes");
+        assert_eq!(
+            black(&frame, 185..230),
+            45 * 120,
+            "an opaque part has no holes"
+        );
     }
 }
 

@@ -38,14 +38,20 @@ fn coordinate(pixel: [u8; 3]) -> f32 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..30 {
         let middle = (low + high) * 0.5;
-        if ramp(middle) < light { low = middle } else { high = middle }
+        if ramp(middle) < light {
+            low = middle
+        } else {
+            high = middle
+        }
     }
     low
 }
 
 fn drawn(scene: &Scene, style: &Style, camera: &Camera, pictures: &[(&str, Picture)]) -> Frame {
     let model = Model::new(scene).unwrap();
-    let given = pictures.iter().map(|(name, picture)| ((*name).to_owned(), picture.clone()));
+    let given = pictures
+        .iter()
+        .map(|(name, picture)| ((*name).to_owned(), picture.clone()));
     let options = StageOptions {
         pictures: given.collect(),
         ..StageOptions::new(SIZE)
@@ -66,14 +72,28 @@ fn ball() -> Scene {
 
 #[test]
 fn a_sky_shines_in_one_colour_from_above_and_another_from_below() {
-    let frame = drawn(&ball(), &sky("color = '#c0d8ff'\nground = '#804000'"), &front(), &[]);
+    let frame = drawn(
+        &ball(),
+        &sky("color = '#c0d8ff'\nground = '#804000'"),
+        &front(),
+        &[],
+    );
     // The ball's radius is 96 pixels.
     let [top, middle, bottom] = [30, 120, 210].map(|y| pixel(&frame, 160, y));
     assert!(top[2] > top[0] + 20, "blue above: {top:?}");
-    assert!(bottom[0] > bottom[2] + 60 && bottom[0] > 60, "brown below: {bottom:?}");
-    assert!(top[1] > middle[1] && middle[1] > bottom[1], "{top:?} {middle:?} {bottom:?}");
+    assert!(
+        bottom[0] > bottom[2] + 60 && bottom[0] > 60,
+        "brown below: {bottom:?}"
+    );
+    assert!(
+        top[1] > middle[1] && middle[1] > bottom[1],
+        "{top:?} {middle:?} {bottom:?}"
+    );
     let dark = drawn(&ball(), &sky("ground = '#000000'"), &front(), &[]);
-    assert!(pixel(&dark, 160, 214)[0] < 20, "a black ground gives nothing");
+    assert!(
+        pixel(&dark, 160, 214)[0] < 20,
+        "a black ground gives nothing"
+    );
 }
 
 /// From above, so that x of the picture is x of the scene.
@@ -104,7 +124,10 @@ fn a_wall_hides_the_sky_by_the_angle_that_it_fills() {
         println!("{apart}: {got} for {wanted}");
         assert!((got - wanted).abs() < 0.06, "{apart}: {got} for {wanted}");
         assert!(got > before, "lighter away from the wall");
-        assert!(coordinate(pixel(&open, x, 120)) > 0.97, "without shadows nothing hides it");
+        assert!(
+            coordinate(pixel(&open, x, 120)) > 0.97,
+            "without shadows nothing hides it"
+        );
         before = got;
     }
 }
@@ -141,7 +164,10 @@ fn a_room_darkens_inwards_and_an_open_ball_does_not() {
     assert!(floor[0] > 0.7 && floor[3] < 0.25, "{floor:?}");
     let [hidden, open] = [style, sky("")].map(|style| drawn(&ball(), &style, &front(), &[]));
     let agreement = Agreement::between(&hidden, &open, 3);
-    assert!(agreement.within > 0.99, "nothing hides the sky of a lone ball: {agreement}");
+    assert!(
+        agreement.within > 0.99,
+        "nothing hides the sky of a lone ball: {agreement}"
+    );
 }
 
 /// A picture of the sky, 16 by 8, of one colour on its left and another on its right.
@@ -166,7 +192,10 @@ fn a_picture_of_the_sky_lights_what_faces_it() {
     let even = drawn(&ball(), &style, &front(), &[("sky.png", grey)]);
     for (x, y) in [(160, 120), (90, 120), (160, 40), (200, 190)] {
         let x_of = coordinate(pixel(&even, x, y));
-        assert!((x_of - 0.5).abs() < 0.06, "half the light from everywhere: {x_of}");
+        assert!(
+            (x_of - 0.5).abs() < 0.06,
+            "half the light from everywhere: {x_of}"
+        );
     }
 }
 

@@ -107,15 +107,19 @@ impl Lettering {
             let pixels = frame.rgba.as_chunks_mut().0.iter_mut();
             for (i, (under, over)) in pixels.zip(sheet.as_chunks().0).enumerate() {
                 if over[3] > 0 {
-                    lay_over(under, *over, seen_share(depths, i, frame.size[0], hidden_from));
+                    lay_over(
+                        under,
+                        *over,
+                        seen_share(depths, i, frame.size[0], hidden_from),
+                    );
                 }
             }
         }
     }
 }
 
-/// How much nearer to the eye than an anchor a surface has to be to hide its words, as a share of the reversed depth: what
-/// they are fixed to does not.
+/// How much nearer to the eye than an anchor a surface has to be to hide its words, as a share of the reversed depth:
+/// what they are fixed to does not.
 const COVER_ROOM: f32 = 0.01;
 
 /// Reversed depth from which on surfaces stand before a place.
@@ -124,15 +128,14 @@ fn depth_of(place: [f32; 3], view: &View) -> f32 {
     clip.z / clip.w * (1.0 + COVER_ROOM)
 }
 
-/// Share of pixel `i` of a picture of `width` pixels that no surface before a depth covers; `depths` are those of two samples
-/// a pixel along each axis.
+/// Share of pixel `i` of a picture of `width` pixels that no surface before a depth covers; `depths` are those of two
+/// samples a pixel along each axis.
 fn seen_share(depths: &[f32], i: usize, width: u32, hidden_from: f32) -> f32 {
     let width = width as usize;
     let (x, y) = (i % width, i / width);
     let samples = [(0, 0), (1, 0), (0, 1), (1, 1)];
-    let is_seen = |(dx, dy): &(usize, usize)| {
-        depths[(2 * y + dy) * 2 * width + 2 * x + dx] <= hidden_from
-    };
+    let is_seen =
+        |(dx, dy): &(usize, usize)| depths[(2 * y + dy) * 2 * width + 2 * x + dx] <= hidden_from;
     samples.iter().filter(|sample| is_seen(sample)).count() as f32 / 4.0
 }
 
@@ -404,9 +407,21 @@ mod tests {
     fn what_stands_before_the_anchor_hides_words_that_ask_for_it() {
         let [left, right] = shown(&Processor, false, 1.0);
         assert!(left > 300 && right > 300, "{left} {right}");
-        assert_eq!(shown(&Processor, true, 1.0), [left, 0], "a board before half of them");
-        assert_eq!(shown(&Processor, true, -1.0), [left, right], "a board behind them");
-        assert_eq!(shown(&Processor, true, 0.0), [left, right], "what they are fixed to");
+        assert_eq!(
+            shown(&Processor, true, 1.0),
+            [left, 0],
+            "a board before half of them"
+        );
+        assert_eq!(
+            shown(&Processor, true, -1.0),
+            [left, right],
+            "a board behind them"
+        );
+        assert_eq!(
+            shown(&Processor, true, 0.0),
+            [left, right],
+            "what they are fixed to"
+        );
     }
 
     proptest! {

@@ -273,7 +273,10 @@ fn extra(light: &ExtraLight, has_dome: bool) -> Chosen {
             range: light.range,
             cone,
             sky: bit(LightSource::HIDDEN, is_sky && light.shadow)
-                | bit(LightSource::PICTURE, is_sky && has_dome && !light.image.is_empty()),
+                | bit(
+                    LightSource::PICTURE,
+                    is_sky && has_dome && !light.image.is_empty(),
+                ),
             ground: ground.map(|part| part / strength.max(1e-6)),
             ground_strength: strength,
             ..LightSource::default()

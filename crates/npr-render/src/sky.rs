@@ -44,8 +44,8 @@ pub(crate) struct SkyMaps {
 }
 
 impl SkyMaps {
-    /// Draws them for the sky of a style that asks for it; none where none does, nothing is there to hide it, or the store has
-    /// no room for them. O(pictures * (triangles + texels)), parallel.
+    /// Draws them for the sky of a style that asks for it; none where none does, nothing is there to hide it, or the
+    /// store has no room for them. O(pictures * (triangles + texels)), parallel.
     pub fn new(
         model: &Model,
         style: &Style,
@@ -105,13 +105,15 @@ impl SkyMaps {
     }
 }
 
-/// Right, up and outwards of picture `i`: outwards, evenly over the sphere, from `up` downwards, by Fibonacci's lattice.
+/// Right, up and outwards of picture `i`: outwards, evenly over the sphere, from `up` downwards, by Fibonacci's
+/// lattice.
 fn axes_of(i: u32, views: u32, up: Vec3) -> [Vec3; 3] {
     let height = 1.0 - (2 * i + 1) as f32 / views as f32;
     let ring = (1.0 - height * height).max(0.0).sqrt();
     let turn = i as f32 * GOLDEN_ANGLE;
     let (right, ahead) = up.any_orthonormal_pair();
-    let outwards = up * height + right * (ring * math::cos(turn)) + ahead * (ring * math::sin(turn));
+    let outwards =
+        up * height + right * (ring * math::cos(turn)) + ahead * (ring * math::sin(turn));
     let outwards = outwards.normalize();
     let (right, up) = outwards.any_orthonormal_pair();
     [right, up, outwards]

@@ -570,10 +570,9 @@ impl<'a> Stage<'a> {
             blending.apply(camera, frame)?;
         }
         let (model, parts) = (self.model, &self.styled.parts);
-        self.lettering
-            .paint(view, self.options.dpi, frame, |size| {
-                surface_depths(model, parts, view, size)
-            });
+        self.lettering.paint(view, self.options.dpi, frame, |size| {
+            surface_depths(model, parts, view, size)
+        });
         Ok(())
     }
 

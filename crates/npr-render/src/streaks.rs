@@ -18,7 +18,8 @@ use npr_style::blend::blend;
 use npr_style::motion::{Motion, trail_of};
 use npr_style::{Color, Style};
 
-/// Longest trail in the picture, in pixels: more than the diagonal of any frame shows no more. What runs past the eye is cut there.
+/// Longest trail in the picture, in pixels: more than the diagonal of any frame shows no more. What runs past the eye
+/// is cut there.
 const LONGEST_PX: f32 = 65_536.0;
 
 /// Memory for numbers and depths, movers, and what they left behind.
@@ -157,7 +158,11 @@ impl<'a> Streaks<'a> {
         let (end, end_depth) = place_px(to, view)?;
         let length_px = (end - start).length();
         // What runs past the eye may be of any length on the picture.
-        let longest = if [from, to] == whole { LONGEST_PX } else { f32::MAX };
+        let longest = if [from, to] == whole {
+            LONGEST_PX
+        } else {
+            f32::MAX
+        };
         if !(SHORTEST_PX..=longest).contains(&length_px) {
             return None;
         }
@@ -362,7 +367,11 @@ mod tests {
         assert_eq!(before_eye([behind, ahead], &view), Some([cut, ahead]));
         assert_eq!(before_eye([behind; 2], &view), None);
         assert_eq!(before_eye([ahead; 2], &view), Some([ahead; 2]));
-        assert_eq!(before_eye([behind; 2], &eye_at_origin(0.0)), Some([behind; 2]), "parallel");
+        assert_eq!(
+            before_eye([behind; 2], &eye_at_origin(0.0)),
+            Some([behind; 2]),
+            "parallel"
+        );
     }
 
     proptest! {

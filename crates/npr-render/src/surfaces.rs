@@ -10,8 +10,8 @@ use npr_core::window::{View, Window};
 
 /// Reversed depth of the surface that each pixel of a grid over the whole frame shows, 0 where none does.
 ///
-/// `parts` say which sides are seen and which parts are beams, that hide nothing; cut-out parts have holes. Rows from the top.
-/// O(vertices + triangles + pixels).
+/// `parts` say which sides are seen and which parts are beams, that hide nothing; cut-out parts have holes. Rows from
+/// the top. O(vertices + triangles + pixels).
 pub(crate) fn surface_depths(
     model: &Model,
     parts: &[Part],
@@ -35,10 +35,7 @@ pub(crate) fn surface_depths(
     };
     let is_hole = |triangle: u32, ndc| {
         let corners = model.triangles[triangle as usize].corners;
-        cutout.is_hole_at(
-            triangle,
-            weights_at(corners.map(|v| clip[v as usize]), ndc),
-        )
+        cutout.is_hole_at(triangle, weights_at(corners.map(|v| clip[v as usize]), ndc))
     };
     let window = Window::over(view.frame_px, [0.0; 2], view.frame_px, size);
     let fill = Fill {

@@ -76,8 +76,8 @@ pub enum LightShape {
     Point,
     /// Rays from one place into a cone: a torch, a stage light.
     Spot,
-    /// Light from everywhere: the sky's from above, the ground's from below, or that of a picture. Fills what others leave
-    /// dark, and makes no highlights.
+    /// Light from everywhere: the sky's from above, the ground's from below, or that of a picture. Fills what others
+    /// leave dark, and makes no highlights.
     Sky,
 }
 
@@ -99,12 +99,12 @@ pub struct ExtraLight {
     pub intensity: f32,
     /// Colour of its light; default white.
     pub color: Color,
-    /// Colour of the light from below, for `sky`; default a dim earth, `#6b6259`. Its brightness is its strength: black gives
-    /// none, snow is nearly white.
+    /// Colour of the light from below, for `sky`; default a dim earth, `#6b6259`. Its brightness is its strength:
+    /// black gives none, snow is nearly white.
     pub ground: Color,
-    /// A picture of the whole sky and ground, for `sky`, whose light replaces both colours; default none. Twice as wide as high,
-    /// straight up in its first row, with the middle towards -z. Its details do not show: surfaces take the mean of the half that
-    /// they face. One light may have one.
+    /// A picture of the whole sky and ground, for `sky`, whose light replaces both colours; default none. Twice as
+    /// wide as high, straight up in its first row, with the middle towards -z. Its details do not show: surfaces take
+    /// the mean of the half that they face. One light may have one.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub image: String,
     /// Distance at which it has faded to nothing, in units of the scene, 0..1e9; default 0, it never fades. For `point` and `spot`.
@@ -117,8 +117,9 @@ pub struct ExtraLight {
     /// for a cut-out edge.
     #[schemars(range(min = 0.0, max = 85.0))]
     pub outer_deg: f32,
-    /// Whether things throw shadows in it; default false. Of all lights of a picture the first four throw shadows. In a `sky`
-    /// they hide what of it stands behind them: rooms darken inwards, and so does the ground beneath things. One sky may have that.
+    /// Whether things throw shadows in it; default false. Of all lights of a picture the first four throw shadows. In
+    /// a `sky` they hide what of it stands behind them: rooms darken inwards, and so does the ground beneath things.
+    /// One sky may have that.
     pub shadow: bool,
 }
 
@@ -176,11 +177,17 @@ impl Light {
         };
         if let Some((i, _)) = skies().filter(|(_, sky)| sky.shadow).nth(1) {
             let key = format!("light.extra.{i}.shadow");
-            return Err(StyleError::unfit(key, "is on in a second sky, but may be in one"));
+            return Err(StyleError::unfit(
+                key,
+                "is on in a second sky, but may be in one",
+            ));
         }
         if let Some((i, _)) = skies().filter(|(_, sky)| !sky.image.is_empty()).nth(1) {
             let key = format!("light.extra.{i}.image");
-            return Err(StyleError::unfit(key, "is the second picture of a sky, but there may be one"));
+            return Err(StyleError::unfit(
+                key,
+                "is the second picture of a sky, but there may be one",
+            ));
         }
         Ok(())
     }

@@ -65,8 +65,9 @@ impl LightSource {
     pub const POINT: u32 = 1;
     /// Light from a point into a cone.
     pub const SPOT: u32 = 2;
-    /// Light from everywhere: of one colour from above, of the ground's from below. Evenly bright, each half lights a surface
-    /// by the part of it that this faces: `(1 + N.up) / 2` of the upper one and the rest of the lower one. Makes no highlights.
+    /// Light from everywhere: of one colour from above, of the ground's from below. Evenly bright, each half lights a
+    /// surface by the part of it that this faces: `(1 + N.up) / 2` of the upper one and the rest of the lower one.
+    /// Makes no highlights.
     pub const SKY: u32 = 3;
 
     /// What stands in the way hides a sky.
@@ -370,10 +371,19 @@ mod tests {
         assert_eq!(at(1.0, Openness::FULL), (1.0, [0.5, 0.5, 1.0]));
         assert_eq!(at(-1.0, Openness::FULL), (0.4, [1.0, 0.5, 0.0]));
         let (x, [r, ..]) = at(0.0, Openness::FULL);
-        assert!((x - 0.7).abs() < 1e-6 && (r - (0.25 + 0.2) / 0.7).abs() < 1e-6, "{x} {r}");
-        let roofed = Openness { above: 0.0, below: 1.0 };
+        assert!(
+            (x - 0.7).abs() < 1e-6 && (r - (0.25 + 0.2) / 0.7).abs() < 1e-6,
+            "{x} {r}"
+        );
+        let roofed = Openness {
+            above: 0.0,
+            below: 1.0,
+        };
         assert_eq!([at(1.0, roofed).0, at(-1.0, roofed).0], [0.0, 0.4]);
-        let half = Openness { above: 0.5, below: 0.0 };
+        let half = Openness {
+            above: 0.5,
+            below: 0.0,
+        };
         assert_eq!([at(1.0, half).0, at(-1.0, half).0], [0.5, 0.0]);
     }
 

@@ -230,11 +230,13 @@ pub fn find(name: &str) -> Result<&'static Preset, StyleError> {
     };
     let mut versions = OLDER.iter().chain([newest]);
     let is_asked = |preset: &&Preset| preset.name == bare && asked.parse() == Ok(preset.version);
-    versions.find(is_asked).ok_or_else(|| StyleError::PresetVersion {
-        name: newest.name,
-        asked: asked.to_owned(),
-        newest: newest.version,
-    })
+    versions
+        .find(is_asked)
+        .ok_or_else(|| StyleError::PresetVersion {
+            name: newest.name,
+            asked: asked.to_owned(),
+            newest: newest.version,
+        })
 }
 
 #[cfg(test)]
@@ -250,12 +252,22 @@ mod tests {
                 let found = find(&name).unwrap_or_else(|error| panic!("{name}: {error}"));
                 assert_eq!((found.name, found.version), (preset.name, version));
                 let style = Style::preset(&name).unwrap_or_else(|error| panic!("{name}: {error}"));
-                assert_eq!((style.version, style.title.as_str()), (version, found.title));
+                assert_eq!(
+                    (style.version, style.title.as_str()),
+                    (version, found.title)
+                );
             }
-            assert_eq!(find(preset.name), Ok(preset), "without a version the newest");
+            assert_eq!(
+                find(preset.name),
+                Ok(preset),
+                "without a version the newest"
+            );
             for version in ["0", "99", "", "x", "1.0"] {
                 let fault = find(&format!("{}@{version}", preset.name));
-                assert!(matches!(fault, Err(StyleError::PresetVersion { .. })), "{version}");
+                assert!(
+                    matches!(fault, Err(StyleError::PresetVersion { .. })),
+                    "{version}"
+                );
             }
         }
     }
@@ -268,6 +280,9 @@ mod tests {
             (old.source, old.min, old.max),
             (WidthSource::ProjectedCurvature, 0.6, 1.3)
         );
-        assert_eq!((new.source, new.min, new.max), (WidthSource::Constant, 1.0, 1.0));
+        assert_eq!(
+            (new.source, new.min, new.max),
+            (WidthSource::Constant, 1.0, 1.0)
+        );
     }
 }

@@ -1,9 +1,9 @@
 //! How much of the sky a place sees, and the light of a picture of the sky: the twin of `lib/sky`.
 //!
-//! A sky is light from everywhere: of one colour from above, of another, the ground's, from below. What stands in its way is
-//! found on pictures of the scene from many sides, whose texels hold how far outwards the scene reaches there: a place whose
-//! own distance is less does not see the sky on that side. As in shadow maps [Williams 1978] of so many distant lights; the
-//! host draws them once a scene, so that frames only look up.
+//! A sky is light from everywhere: of one colour from above, of another, the ground's, from below. What stands in its
+//! way is found on pictures of the scene from many sides, whose texels hold how far outwards the scene reaches there:
+//! a place whose own distance is less does not see the sky on that side. As in shadow maps [Williams 1978] of so many
+//! distant lights; the host draws them once a scene, so that frames only look up.
 //!
 //! Limits: what is thinner than a texel may hide nothing, and within two texels of a corner places see too much.
 
@@ -13,15 +13,16 @@ use crate::tone::Corners;
 use npr_core::math::{cos_f64, sin_f64};
 use npr_core::surface::{dot, weights_around};
 
-/// Words before the texels of the pictures, for each of them: right, up and outwards, each a vector and an empty word; of the
-/// last row it is 1 where the picture is of the lower half.
+/// Words before the texels of the pictures, for each of them: right, up and outwards, each a vector and an empty
+/// word; of the last row it is 1 where the picture is of the lower half.
 pub const SKY_HEADER_WORDS: u32 = 12;
 
-/// How far a place is moved along its normal before it is looked up, in texels: enough for no flat face to hide itself, for
-/// the nearest four lie up to the root of two away.
+/// How far a place is moved along its normal before it is looked up, in texels: enough for no flat face to hide
+/// itself, for the nearest four lie up to the root of two away.
 const LIFT_TEXELS: f32 = 1.5;
 
-/// Share of the sky and of the ground below that shines on a surface, 0..1, by how squarely it faces each part of them.
+/// Share of the sky and of the ground below that shines on a surface, 0..1, by how squarely it faces each part of
+/// them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Openness {
     /// Of what lies above.
@@ -84,9 +85,8 @@ impl Layers<'_> {
         let (normal, lifted) = (corners.normal(around[0]), corners.lifted(around[0]));
         let (world, radius) = (corners.world(around[0]), lights.sky_radius);
         let lift = LIFT_TEXELS * 2.0 / lights.sky_side as f32;
-        let place: [f32; 3] = std::array::from_fn(|i| {
-            (lifted[i] - lights.sky_center[i]) / radius + normal[i] * lift
-        });
+        let place: [f32; 3] =
+            std::array::from_fn(|i| (lifted[i] - lights.sky_center[i]) / radius + normal[i] * lift);
         let step = |weights: [f32; 3]| -> [f32; 3] {
             let there = corners.world(weights);
             std::array::from_fn(|i| (there[i] - world[i]) / radius)
@@ -137,8 +137,8 @@ impl Layers<'_> {
         std::array::from_fn(|i| f32::from_bits(self.texels[at + i]))
     }
 
-    /// How far a place at a height sees the sky on one of the pictures: the mean of the four texels around it by how near they
-    /// are, of which each is 1 where the scene reaches no farther outwards.
+    /// How far a place at a height sees the sky on one of the pictures: the mean of the four texels around it by how
+    /// near they are, of which each is 1 where the scene reaches no farther outwards.
     fn sky_seen(&self, view: u32, at: [f32; 2], height: f32) -> Seen {
         let lights = self.lights;
         let side = lights.sky_side as f32;
@@ -167,8 +167,8 @@ impl Layers<'_> {
     }
 }
 
-/// The nine polynomials of a unit vector that a picture of the sky is summed up by: spherical harmonics up to the second
-/// order, not normalised.
+/// The nine polynomials of a unit vector that a picture of the sky is summed up by: spherical harmonics up to the
+/// second order, not normalised.
 pub fn harmonics([x, y, z]: [f32; 3]) -> [f32; 9] {
     [
         1.0,
@@ -183,25 +183,16 @@ pub fn harmonics([x, y, z]: [f32; 3]) -> [f32; 9] {
     ]
 }
 
-/// What [`harmonics`] of the sky are weighted by so that their sum is the mean of its light over the half that a surface faces,
-/// by how squarely [Ramamoorthi and Hanrahan 2001, equations 10 and 13].
-const HARMONIC_WEIGHTS: [f32; 9] = [
-    1.0,
-    2.0,
-    2.0,
-    2.0,
-    3.75,
-    3.75,
-    3.75,
-    0.312_5,
-    0.937_5,
-];
+/// What [`harmonics`] of the sky are weighted by so that their sum is the mean of its light over the half that a
+/// surface faces, by how squarely [Ramamoorthi and Hanrahan 2001, equations 10 and 13].
+const HARMONIC_WEIGHTS: [f32; 9] = [1.0, 2.0, 2.0, 2.0, 3.75, 3.75, 3.75, 0.312_5, 0.937_5];
 
-/// Sums a picture of the whole sky up: nine colours whose sum by [`harmonics`] of a normal is the light on a surface, 1 under a
-/// white sky.
+/// Sums a picture of the whole sky up: nine colours whose sum by [`harmonics`] of a normal is the light on a surface,
+/// 1 under a white sky.
 ///
-/// `texels` are `size` pixels in linear light, rows from the top: straight up to straight down. Columns go all the way round; the
-/// one in the middle lies towards -z, as seen by a camera that looks at the front of a scene, with +x right of it. O(pixels).
+/// `texels` are `size` pixels in linear light, rows from the top: straight up to straight down. Columns go all the
+/// way round; the one in the middle lies towards -z, as seen by a camera that looks at the front of a scene, with +x
+/// right of it. O(pixels).
 pub fn dome_of(size: [u32; 2], texels: &[[f32; 3]]) -> [[f32; 4]; 9] {
     use std::f64::consts::PI;
     let [width, height] = size.map(f64::from);
@@ -212,11 +203,7 @@ pub fn dome_of(size: [u32; 2], texels: &[[f32; 3]]) -> [[f32; 4]; 9] {
         let (sine, cosine) = (sin_f64(polar), cos_f64(polar));
         for (column, pixel) in pixels.iter().enumerate() {
             let turn = ((column as f64 + 0.5) / width - 0.5) * 2.0 * PI;
-            let direction = [
-                sine * sin_f64(turn),
-                cosine,
-                -sine * cos_f64(turn),
-            ];
+            let direction = [sine * sin_f64(turn), cosine, -sine * cos_f64(turn)];
             let values = harmonics(direction.map(|v| v as f32));
             whole += sine;
             for (sum, value) in sums.iter_mut().zip(values) {
@@ -299,7 +286,11 @@ mod tests {
         for (i, texel) in texels.iter().enumerate() {
             let polar = ((i / width) as f64 + 0.5) / height as f64 * PI;
             let turn = (((i % width) as f64 + 0.5) / width as f64 - 0.5) * 2.0 * PI;
-            let way = [polar.sin() * turn.sin(), polar.cos(), -polar.sin() * turn.cos()];
+            let way = [
+                polar.sin() * turn.sin(),
+                polar.cos(),
+                -polar.sin() * turn.cos(),
+            ];
             let facing: f64 = way.iter().zip(normal).map(|(a, b)| a * f64::from(b)).sum();
             sum += 4.0 * facing.max(0.0) * f64::from(texel[0]) * polar.sin();
             all += f64::from(texel[0]) * polar.sin();

@@ -13,8 +13,8 @@ use crate::ramp::{Level, ramp_coordinate, ramp_light};
 use crate::sky::Openness;
 use crate::tone_row::{row_is_even, row_light};
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
-use npr_core::raster::ID_MASK;
 use npr_core::math;
+use npr_core::raster::ID_MASK;
 use npr_core::surface::{
     blend, blend2, blend3, dot, faces_eye, unit_or_z, weights_around, weights_at,
 };
@@ -87,8 +87,8 @@ impl Corners<'_> {
 /// Widest line of the surface-angle method, in line widths: a surface that turns more slowly counts as flat.
 const ANGLE_WIDTHS: f32 = 6.0;
 
-/// The one-dimensional texture of the surface-angle method over N . E: dark where a surface is seen from the side, fading over
-/// the last part, `softness`, of what lies below `threshold` [Suzuki 2004, section 3.2.2].
+/// The one-dimensional texture of the surface-angle method over N . E: dark where a surface is seen from the side,
+/// fading over the last part, `softness`, of what lies below `threshold` [Suzuki 2004, section 3.2.2].
 pub fn angle_ramp(facing: f32, threshold: f32, softness: f32) -> f32 {
     if facing.abs() >= threshold {
         return 0.0;
@@ -96,10 +96,11 @@ pub fn angle_ramp(facing: f32, threshold: f32, softness: f32) -> f32 {
     1.0 - math::smoothstep(threshold * (1.0 - softness), threshold, facing.abs())
 }
 
-/// 1 up to `widest_px` from the contour of a surface, 0 farther away, where N . E is `facing` and changes by `change` a pixel.
+/// 1 up to `widest_px` from the contour of a surface, 0 farther away, where N . E is `facing` and changes by `change`
+/// a pixel.
 ///
-/// Near a contour N . E grows as the root of the distance, so that is half of `facing` over `change`. On flat faces nothing
-/// changes, and they lie infinitely far from any contour.
+/// Near a contour N . E grows as the root of the distance, so that is half of `facing` over `change`. On flat faces
+/// nothing changes, and they lie infinitely far from any contour.
 pub fn not_flat(facing: f32, change: f32, widest_px: f32) -> f32 {
     let distance = facing.max(0.0) * 0.5 / change.max(1e-9);
     (widest_px - distance + 0.5).clamp(0.0, 1.0)
@@ -397,11 +398,7 @@ impl<'a> Layers<'a> {
         if part.flags & Part::ANGLE == 0 || self.compose.flags & Compose::BARE != 0 {
             return 0.0;
         }
-        let around = weights_around(
-            corners.clip,
-            self.view.ndc_at(px),
-            self.view.pixel_ndc(),
-        );
+        let around = weights_around(corners.clip, self.view.ndc_at(px), self.view.pixel_ndc());
         // The eye is that of the place: so the normal alone turns, and on flat faces nothing does.
         let eye = self.view.to_eye(corners.world(around[0]));
         let [here, right, down] = around.map(|weights| dot(corners.normal(weights), eye));
@@ -453,8 +450,8 @@ impl<'a> Layers<'a> {
         }
     }
 
-    /// Light on a surface at `world` that faces along `normal`, lies in the shadow of the lights in `dark` and sees `open` of
-    /// the sky.
+    /// Light on a surface at `world` that faces along `normal`, lies in the shadow of the lights in `dark` and sees
+    /// `open` of the sky.
     fn light_of(
         &self,
         part: &Part,

@@ -104,11 +104,19 @@ fn presets_of_ink_say_what_they_are_for_and_what_to_take_elsewhere() {
         let others: Vec<&str> = words
             .filter(|word| *word != name && presets().iter().any(|preset| preset.name == *word))
             .collect();
-        assert!(!others.is_empty(), "{name} names nothing to take elsewhere: {advice}");
+        assert!(
+            !others.is_empty(),
+            "{name} names nothing to take elsewhere: {advice}"
+        );
     }
     // Every situation that strokes, crossed strokes or ink are advised for is told apart.
     let text = |name| npr_style::find_preset(name).expect("a preset").text;
-    for (name, situation) in [("ink", "metal"), ("comic-silver", "machines"), ("crosshatch", "cloth"), ("stipple", "skin")] {
+    for (name, situation) in [
+        ("ink", "metal"),
+        ("comic-silver", "machines"),
+        ("crosshatch", "cloth"),
+        ("stipple", "skin"),
+    ] {
         assert!(text(name).contains(situation), "{name}: {situation}");
     }
 }

@@ -95,7 +95,8 @@ pub const DRAW_SHADOW: Pass = Pass {
     },
 };
 
-/// The backs of the hull, into the same picture as the triangles; cut-out parts have the holes that they have themselves.
+/// The backs of the hull, into the same picture as the triangles; cut-out parts have the holes that they have
+/// themselves.
 pub const DRAW_HULL: Pass = Pass {
     name: "raster.draw_hull",
     shader: npr_shaders::RASTER_DRAW_HULL,

@@ -420,7 +420,12 @@ const SKY_SIDE: u32 = 8;
 
 /// Four pictures of what hides the sky, of which one is of the lower half, of anything.
 fn sky_words(random: &mut Random) -> Vec<u32> {
-    let outwards = [[0.0, 1.0, 0.0], [0.6, 0.8, 0.0], [0.0, 0.28, 0.96], [0.6, -0.8, 0.0]];
+    let outwards = [
+        [0.0, 1.0, 0.0],
+        [0.6, 0.8, 0.0],
+        [0.0, 0.28, 0.96],
+        [0.6, -0.8, 0.0],
+    ];
     let mut words = Vec::new();
     for [x, y, z] in outwards {
         let (right, up) = ([y, -x, 0.0], [-x * z, -y * z, x * x + y * y]);

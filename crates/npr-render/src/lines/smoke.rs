@@ -6,8 +6,8 @@ use crate::error::RenderError;
 use crate::light::ChosenLights;
 use crate::model::Model;
 use crate::placement::Bounds;
-use crate::stage::Picture;
 use crate::smoke::{Measure, Smoke, around, lens_of};
+use crate::stage::Picture;
 use npr_core::camera::Camera;
 use npr_style::smoke::SmokeLook;
 use npr_style::{SmokeLines as Outlining, Style};
@@ -56,7 +56,8 @@ impl<'a> SmokeView<'a> {
         let lens = lens_of(&view, &style.smoke);
         let lights = lights.of_frame(style, bounds, None, camera, &view);
         let is_toned = options.fill && style.smoke.ramp.len() > 1;
-        let tones = is_toned.then(|| ToneMap::new(smoke, (model, pictures), style, options, camera));
+        let tones =
+            is_toned.then(|| ToneMap::new(smoke, (model, pictures), style, options, camera));
         Ok(Self {
             puffs: Puffs::new(projector, options.size, &smoke.styled(&style.smoke)),
             look: measure.look(style, &lens, smoke.bounds(), &lights, 0),
