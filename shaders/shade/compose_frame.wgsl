@@ -158,8 +158,8 @@ fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32, open: Ope
 
 // The one-dimensional texture of the surface-angle method over N . E.
 fn angle_ramp(facing: f32, threshold: f32, softness: f32) -> f32 {
-    if abs(facing) >= threshold { return 0.0; }
-    return 1.0 - smooth_step(threshold * (1.0 - softness), threshold, abs(facing));
+    let half = 0.5 * softness * threshold;
+    return 1.0 - smooth_step(threshold - half, threshold + half, abs(facing));
 }
 
 // 1 up to `widest_px` from the contour of a surface, 0 farther away, where N . E is `facing` and changes by `change`

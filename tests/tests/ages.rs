@@ -97,7 +97,7 @@ fn lines_swell_in_the_silver_age_and_are_thin_and_even_in_the_modern() {
         "those of the Modern Age: {modern:?}"
     );
     assert!(
-        silver[0] > 2.0 * modern[0] && modern[1] > 0.9,
+        silver[0] > 1.5 * modern[0] && modern[1] > 0.9,
         "{silver:?} {modern:?}"
     );
     let older = outline_widths("comic-modern@1");
@@ -162,7 +162,10 @@ fn the_simple_comic_is_a_cel_with_black_shade_and_a_thick_line() {
         "{paint:?}"
     );
     let [tip, side] = outline_widths("simple-comic");
-    assert!((tip - side).abs() < 0.75 && side > 4.0, "{tip} {side}");
+    assert!(
+        (tip - side).abs() <= 1.0 && tip.min(side) >= 4.0,
+        "{tip} {side}"
+    );
     let cel = outline_widths("cel-2");
     assert!(side > 2.0 * cel[0].max(cel[1]), "{side} against {cel:?}");
 }
@@ -324,7 +327,7 @@ fn pencil_is_another_texture_at_the_same_tones() {
         "{pencil:?}"
     );
     assert!(
-        rough > 1.25 * smooth,
+        rough > 1.1 * smooth,
         "grain breaks strokes up: {rough} against {smooth}"
     );
 }
@@ -449,12 +452,29 @@ fn the_surface_angle_line_darkens_towards_the_rim_by_its_ramp() {
         row(&[&wide[..], &[softness.as_str()]].concat())
     });
     for row in [&cut, &soft] {
-        assert!(row[1] < 40, "dark at the rim: {:?}", &row[..40]);
         assert!(
             row.windows(2).all(|pair| pair[1] >= pair[0]),
             "never darker inwards: {row:?}"
         );
         assert_eq!(row[286], 255);
+    }
+    assert!(
+        cut[..20].iter().all(|v| *v == 0),
+        "dark at the rim: {:?}",
+        &cut[..40]
+    );
+    // The soft ramp by hand, at the middle of each pixel: N . E is the height of the ball there.
+    let threshold = 25f32.to_radians().sin();
+    for (i, value) in soft.iter().enumerate().skip(2).take(120) {
+        let from_middle = (480.0 - 193.5 - i as f32) / 288.0;
+        let facing = (1.0 - from_middle * from_middle).sqrt();
+        let t = ((facing / threshold - 0.5) / 1.0).clamp(0.0, 1.0);
+        let wanted = t * t * (3.0 - 2.0 * t);
+        assert!(
+            (linear(*value) - wanted).abs() < 0.05,
+            "{i}: {} for {wanted}",
+            linear(*value)
+        );
     }
     let between = |row: &[u8]| row.iter().filter(|v| (20..235).contains(*v)).count();
     assert!(

@@ -52,6 +52,7 @@ impl SkyMaps {
         parts: &[Part],
         textures: &mut TextureStore,
     ) -> Option<Self> {
+        // Choose how many pictures there are, and make sure that they fit.
         let sky = style.light.hidden_sky()?;
         let per_view = TRIANGLES_DRAWN.checked_div(model.triangles.len())?;
         let views = (per_view.clamp(VIEWS[0], VIEWS[1]) & !1) as u32;
@@ -59,6 +60,7 @@ impl SkyMaps {
         if textures.words().len() + words > STORE_WORDS {
             return None;
         }
+        // Draw them all in radii of the ball around the scene.
         let (low, high) = model.bounds();
         let center = (Vec3::from(low) + Vec3::from(high)) * 0.5;
         let radius = radius_of((low, high)) * ROOM;
@@ -76,6 +78,7 @@ impl SkyMaps {
                 (axes, texels)
             })
             .collect();
+        // Line up the headers, then the texels.
         let headers = drawn.iter().enumerate().flat_map(|(i, (axes, _))| {
             let is_lower = u32::from(i as u32 >= views / 2);
             let row = |axis: Vec3, last: u32| {

@@ -205,19 +205,24 @@ impl Mover {
     }
 }
 
-/// The ends of what of a segment lies before the near plane; none where nothing does. A parallel view has no eye that
-/// anything could be behind.
+/// Least depth of a trail's ends, as a part of that of the farther one: what runs past the eye is cut there, far outside any
+/// frame unless it runs into the eye itself.
+const NEAREST_SHARE: f32 = 1e-3;
+
+/// The ends of what of a segment lies before the eye; none where nothing does. A parallel view has no eye that anything could
+/// be behind.
 fn before_eye(ends: [Vec3; 2], view: &View) -> Option<[Vec3; 2]> {
     if view.perspective < 0.5 {
         return Some(ends);
     }
     let (eye, forward) = (Vec3::from(view.eye_world), Vec3::from(view.forward_world));
-    let ahead = ends.map(|end| (end - eye).dot(forward) - view.near);
+    let ahead = ends.map(|end| (end - eye).dot(forward));
+    let least = NEAREST_SHARE * ahead[0].max(ahead[1]);
     let cut = |kept: usize, lost: usize| {
-        let share = ahead[kept] / (ahead[kept] - ahead[lost]);
+        let share = (ahead[kept] - least) / (ahead[kept] - ahead[lost]);
         ends[kept] + (ends[lost] - ends[kept]) * share
     };
-    match ahead.map(|ahead| ahead >= 0.0) {
+    match ahead.map(|ahead| ahead > 0.0 && ahead >= least) {
         [true, true] => Some(ends),
         [true, false] => Some([ends[0], cut(0, 1)]),
         [false, true] => Some([cut(1, 0), ends[1]]),
@@ -353,17 +358,18 @@ mod tests {
         View {
             perspective,
             forward_world: [0.0, 0.0, -1.0],
-            near: 0.5,
             ..View::default()
         }
     }
 
     #[test]
-    fn what_runs_past_the_eye_is_cut_at_the_near_plane() {
+    fn what_runs_past_the_eye_is_cut_before_it() {
         let view = eye_at_origin(1.0);
         let [ahead, behind] = [glam::vec3(1.0, 0.0, -2.5), glam::vec3(3.0, 4.0, 1.5)];
-        let cut = glam::vec3(2.0, 2.0, -0.5);
-        assert_eq!(before_eye([ahead, behind], &view), Some([ahead, cut]));
+        // The eye's own plane is five eighths of the way.
+        let [start, cut] = before_eye([ahead, behind], &view).unwrap();
+        assert_eq!(start, ahead);
+        assert!(cut.distance(glam::vec3(2.25, 2.5, -0.0025)) < 2e-3, "{cut}");
         assert_eq!(before_eye([behind, ahead], &view), Some([cut, ahead]));
         assert_eq!(before_eye([behind; 2], &view), None);
         assert_eq!(before_eye([ahead; 2], &view), Some([ahead; 2]));
@@ -376,15 +382,16 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
-        /// What is left lies on the segment, before the near plane, and nothing of that is lost.
+        /// What is left lies on the segment, before the eye, and nothing of that is lost.
         #[test]
         fn the_part_before_the_eye_is_all_of_it(ends in prop::array::uniform2(prop::array::uniform3(-4f32..4.0)), share in 0f32..1.0) {
             let (view, ends) = (eye_at_origin(1.0), ends.map(Vec3::from));
             let kept = before_eye(ends, &view);
             let place = ends[0].lerp(ends[1], share);
-            let is_before = -place.z > view.near + 1e-4;
+            let least = NEAREST_SHARE * (-ends[0].z).max(-ends[1].z);
+            let is_before = -place.z > least.max(0.0) + 1e-4;
             if let Some(kept) = kept {
-                prop_assert!(kept.iter().all(|end| -end.z >= view.near - 1e-4), "{kept:?}");
+                prop_assert!(kept.iter().all(|end| -end.z >= least - 1e-5), "{kept:?}");
                 let parts = (place - kept[0]).length() + (kept[1] - place).length();
                 let is_inside = parts < (kept[1] - kept[0]).length() + 1e-3;
                 prop_assert!(is_inside || !is_before, "{place} is left out of {kept:?}");

@@ -44,7 +44,7 @@ pub struct Compose {
     pub unused_b: u32,
     /// Across streaks of gloss, in the world; as long as 1 / radius of the model.
     pub streak_world: [f32; 3],
-    /// Part of the surface-angle method's band over which its line fades out, 0..1.
+    /// How softly the surface-angle method's line ends, as a part of its band, 0..1.
     pub angle_softness: f32,
     /// Middle of the model.
     pub center_world: [f32; 3],

@@ -90,8 +90,7 @@ pub struct Line {
     /// thicker, up to six line widths; flat faces are not inked.
     #[schemars(range(min = 0.0, max = 90.0))]
     pub angle_threshold_deg: f32,
-    /// For method `angle`: part of that band over which the ink fades out, 0..1; default 0.15. 0 a cut edge, 1 an
-    /// airbrush.
+    /// For method `angle`: how softly the ink ends, as a part of that band, 0..1; default 0.1. 0 a cut edge, 1 an airbrush.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub angle_softness: f32,
     /// The kinds of line that are drawn.
@@ -114,7 +113,7 @@ impl Default for Line {
             crease_angle_deg: 40.0,
             split_angle_deg: 180.0,
             angle_threshold_deg: 15.0,
-            angle_softness: 0.15,
+            angle_softness: 0.1,
             kinds: Kinds::default(),
             potrace: Potrace::default(),
             width: Width::default(),

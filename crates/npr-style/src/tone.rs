@@ -87,13 +87,11 @@ impl Corners<'_> {
 /// Widest line of the surface-angle method, in line widths: a surface that turns more slowly counts as flat.
 const ANGLE_WIDTHS: f32 = 6.0;
 
-/// The one-dimensional texture of the surface-angle method over N . E: dark where a surface is seen from the side,
-/// fading over the last part, `softness`, of what lies below `threshold` [Suzuki 2004, section 3.2.2].
+/// The one-dimensional texture of the surface-angle method over N . E: dark where a surface is seen from the side, fading
+/// round `threshold` over `softness` of it [Suzuki 2004, section 3.2.2].
 pub fn angle_ramp(facing: f32, threshold: f32, softness: f32) -> f32 {
-    if facing.abs() >= threshold {
-        return 0.0;
-    }
-    1.0 - math::smoothstep(threshold * (1.0 - softness), threshold, facing.abs())
+    let half = 0.5 * softness * threshold;
+    1.0 - math::smoothstep(threshold - half, threshold + half, facing.abs())
 }
 
 /// 1 up to `widest_px` from the contour of a surface, 0 farther away, where N . E is `facing` and changes by `change`
