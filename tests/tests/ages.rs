@@ -446,7 +446,7 @@ fn the_surface_angle_line_darkens_towards_the_rim_by_its_ramp() {
             .collect::<Vec<u8>>()
     };
     let inked = |row: &[u8]| row.iter().map(|v| 1.0 - linear(*v)).sum::<f32>();
-    let wide = ["line.angle_threshold_deg=25", "line.width.base=12"];
+    let wide = ["line.angle_threshold_deg=25", "line.width.base=40"];
     let [cut, soft] = ["0", "1"].map(|softness| {
         let softness = format!("line.angle_softness={softness}");
         row(&[&wide[..], &[softness.as_str()]].concat())
@@ -464,7 +464,7 @@ fn the_surface_angle_line_darkens_towards_the_rim_by_its_ramp() {
         &cut[..40]
     );
     // The soft ramp by hand, at the middle of each pixel: N . E is the height of the ball there.
-    let threshold = 25f32.to_radians().sin();
+    let threshold = npr_core::math::sin(25f32.to_radians());
     for (i, value) in soft.iter().enumerate().skip(2).take(120) {
         let from_middle = (480.0 - 193.5 - i as f32) / 288.0;
         let facing = (1.0 - from_middle * from_middle).sqrt();

@@ -4,12 +4,11 @@
 
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
-use npr_mesh::testing::plane;
 use npr_render::{Font, Frame, Model, StageOptions};
 use npr_scene::{AlphaMode, Scene};
 use npr_style::{Lettering, Style};
 use npr_tests::comic::{SIZE, front, pixel, wall};
-use npr_tests::{Object, device, draw_with, placed, scene_of};
+use npr_tests::{Object, boxed, device, draw_with, placed, scene_of};
 use npr_vector::lettering::testing::block_font;
 
 /// Draws a scene on the processor and on a device, where there is one.
@@ -25,38 +24,39 @@ fn on_engines(scene: &Scene, style: &Style, options: &StageOptions) -> Vec<Frame
         .collect()
 }
 
-/// A sheet that turns its back to the camera, opaque on its left and clear on its right.
-fn half_clear(alpha: AlphaMode) -> Scene {
-    let mesh = placed(&plane(8, 8), [-1.6, 1.6, 1.0], [0.8, -0.8, 0.0]);
-    let mut sheet = Object::new("Sheet", mesh);
-    let opaque = |p: &[f32; 3]| if p[0] < 0.05 { 1.0 } else { 0.0 };
-    let alphas: Vec<f32> = sheet.mesh.positions().iter().map(opaque).collect();
-    sheet.colors = Some(alphas.iter().map(|a| [1.0, 1.0, 1.0, *a]).collect());
-    sheet.material.alpha = alpha;
-    scene_of(&[sheet])
+/// A flat box, opaque on its left and clear on its right: a lens in half a frame.
+fn half_clear() -> Scene {
+    let mut lens = Object::new("Lens", boxed([-0.8, -0.8, -0.1], [0.8, 0.8, 0.1]));
+    let alpha = |p: &[f32; 3]| if p[0] < 0.0 { 1.0 } else { 0.0 };
+    let alphas: Vec<f32> = lens.mesh.positions().iter().map(alpha).collect();
+    lens.colors = Some(alphas.iter().map(|a| [1.0, 1.0, 1.0, *a]).collect());
+    lens.material.alpha = AlphaMode::Mask(0.5);
+    scene_of(&[lens])
 }
 
 #[test]
 fn a_hull_is_cut_out_as_its_part_is() {
     let mut style = npr_tests::lines("hull");
     style.set("background=#0000ff").unwrap();
-    let black = |frame: &Frame, x: std::ops::Range<u32>| {
-        let places = x.flat_map(|x| (60..180).map(move |y| (x, y)));
-        places
-            .filter(|(x, y)| pixel(frame, *x, *y) == [0; 3])
-            .count()
-    };
+    style.set("line.width.base=6px").unwrap();
     let options = StageOptions::new(SIZE);
-    // The sheet reaches 77 pixels to either side of the middle; alpha falls over the tenth beside it.
-    for frame in on_engines(&half_clear(AlphaMode::Mask(0.5)), &style, &options) {
-        assert_eq!(black(&frame, 100..150), 50 * 120, "where it is opaque");
-        assert_eq!(black(&frame, 185..230), 0, "where it is clear");
-    }
-    for frame in on_engines(&half_clear(AlphaMode::Opaque), &style, &options) {
+    for frame in on_engines(&half_clear(), &style, &options) {
+        let of = |x: std::ops::Range<u32>, color: [u8; 3]| {
+            let places = x.flat_map(|x| (60..180).map(move |y| (x, y)));
+            places
+                .filter(|(x, y)| pixel(&frame, *x, *y) == color)
+                .count()
+        };
+        // The box reaches 77 pixels to either side of the middle, and its alpha falls to a half there.
         assert_eq!(
-            black(&frame, 185..230),
+            of(185..230, [0, 0, 255]),
             45 * 120,
-            "an opaque part has no holes"
+            "through the clear half"
+        );
+        assert_eq!(of(90..140, [255; 3]), 50 * 120, "the opaque half");
+        assert!(
+            of(70..83, [0; 3]) > 4 * 120,
+            "the outline of the opaque half"
         );
     }
 }

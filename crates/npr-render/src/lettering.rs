@@ -134,8 +134,11 @@ fn seen_share(depths: &[f32], i: usize, width: u32, hidden_from: f32) -> f32 {
     let width = width as usize;
     let (x, y) = (i % width, i / width);
     let samples = [(0, 0), (1, 0), (0, 1), (1, 1)];
-    let is_seen =
-        |(dx, dy): &(usize, usize)| depths[(2 * y + dy) * 2 * width + 2 * x + dx] <= hidden_from;
+    // Where no surface is the depth is 0; anchors beyond the far plane of a parallel view lie deeper.
+    let is_seen = |(dx, dy): &(usize, usize)| {
+        let depth = depths[(2 * y + dy) * 2 * width + 2 * x + dx];
+        depth == 0.0 || depth <= hidden_from
+    };
     samples.iter().filter(|sample| is_seen(sample)).count() as f32 / 4.0
 }
 

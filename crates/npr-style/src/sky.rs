@@ -120,11 +120,11 @@ impl Layers<'_> {
             open.down[half] += facing * change(down);
         }
         // Make shares of sums; a half that the surface does not face counts as open.
-        for half in 0..2 {
-            if whole[half] > 0.0 {
-                open.here[half] /= whole[half];
-                open.right[half] /= whole[half];
-                open.down[half] /= whole[half];
+        for (half, whole) in whole.into_iter().enumerate() {
+            if whole > 0.0 {
+                open.here[half] /= whole;
+                open.right[half] /= whole;
+                open.down[half] /= whole;
             } else {
                 open.here[half] = 1.0;
             }
