@@ -31,7 +31,9 @@ fn half_clear() -> Scene {
     let alphas: Vec<f32> = lens.mesh.positions().iter().map(alpha).collect();
     lens.colors = Some(alphas.iter().map(|a| [1.0, 1.0, 1.0, *a]).collect());
     lens.material.alpha = AlphaMode::Mask(0.5);
-    scene_of(&[lens])
+    // Hulls of what lies farthest are cut by the far plane of a parallel view: something lies behind the opaque half.
+    let behind = boxed([-0.5, -0.1, -1.0], [-0.4, 0.1, -0.9]);
+    scene_of(&[lens, Object::new("Behind", behind)])
 }
 
 #[test]
