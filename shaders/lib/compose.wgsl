@@ -12,7 +12,7 @@ struct Compose {
     up_world: vec3<f32>,
     radius: f32,
     near_world: vec3<f32>,
-    unused_c: u32,
+    angle_softness: f32,
     center_world: vec3<f32>,
     smoke_part: u32,
     smoke_line: vec4<f32>,

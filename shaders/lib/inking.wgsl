@@ -88,8 +88,10 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
     let places = array<vec2<f32>, 3>(px, px + vec2<f32>(1.0, 0.0), px + vec2<f32>(0.0, 1.0));
     let weights = weights_around(corners.clip, ndc_at(view, px), pixel_ndc(view));
     var l: array<f32, 3>;
+    let open = openness(corners, px);
     for (var i = 0u; i < 3u; i++) {
-        let lit = coordinate_at(world_of(corners, weights[i]), normal_of(corners, weights[i]), dark);
+        let seen = open_at(open, places[i] - px);
+        let lit = coordinate_under(world_of(corners, weights[i]), normal_of(corners, weights[i]), dark, seen);
         l[i] = level_of(part, lit.x);
     }
     // Strokes show no change of the light that is faster than they follow one another.

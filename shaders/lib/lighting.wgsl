@@ -1,6 +1,7 @@
 // What a surface is lit by. Twin: npr_style::lighting. The shader declares `lights: Lights`.
 
 //# use lib/step
+//# use lib/color
 
 struct LightSource {
     position: vec3<f32>,
@@ -11,7 +12,9 @@ struct LightSource {
     range: f32,
     cone: vec2<f32>,
     shadow: u32,
-    unused: f32,
+    sky: u32,
+    ground: vec3<f32>,
+    ground_strength: f32,
 }
 
 struct Lights {
@@ -21,11 +24,20 @@ struct Lights {
     bias_world: f32,
     sources: array<LightSource, 16>,
     shadows: array<mat4x4<f32>, 4>,
+    sky_center: vec3<f32>,
+    sky_radius: f32,
+    sky_maps: u32,
+    sky_views: u32,
+    sky_side: u32,
+    sky_unused: u32,
+    dome: array<vec4<f32>, 9>,
 }
 
 const LIGHT_DISTANT: u32 = 0u;
 const LIGHT_SPOT: u32 = 2u;
 const LIGHT_SKY: u32 = 3u;
+const SKY_HIDDEN: u32 = 1u;
+const SKY_PICTURE: u32 = 2u;
 
 struct Lit {
     // Place on the ramp, 0..1.
@@ -86,8 +98,61 @@ fn share_at(source: LightSource, world: vec3<f32>, normal: vec3<f32>, most: f32)
     return min(ramp_coordinate(dot(normal, reach.towards)), most) * reach.strength;
 }
 
-// Bit `i` of `dark` says that the place lies in the shadow of light `i`.
+// Share of the sky and of the ground below that shines on a surface, 0..1.
+struct Openness {
+    above: f32,
+    below: f32,
+}
+
+// What a sky gives to a surface.
+struct SkyLight {
+    // What it adds to the ramp coordinate.
+    share: f32,
+    // Colour of its light, times that.
+    color: vec3<f32>,
+}
+
+// Light of the picture of the sky on a surface that faces along a unit vector.
+fn dome_at(normal: vec3<f32>) -> vec3<f32> {
+    var sum = lights.dome[0].rgb;
+    sum += lights.dome[1].rgb * normal.x;
+    sum += lights.dome[2].rgb * normal.y;
+    sum += lights.dome[3].rgb * normal.z;
+    sum += lights.dome[4].rgb * (normal.x * normal.y);
+    sum += lights.dome[5].rgb * (normal.y * normal.z);
+    sum += lights.dome[6].rgb * (normal.x * normal.z);
+    sum += lights.dome[7].rgb * (3.0 * normal.z * normal.z - 1.0);
+    sum += lights.dome[8].rgb * (normal.x * normal.x - normal.y * normal.y);
+    return max(sum, vec3<f32>(0.0));
+}
+
+// What a sky gives to a surface that faces along a unit vector and sees `open` of it.
+fn sky_light(source: LightSource, normal: vec3<f32>, open: Openness) -> SkyLight {
+    let is_hidden = (source.sky & SKY_HIDDEN) != 0u;
+    let upper = clamp(ramp_coordinate(dot(normal, source.direction)), 0.0, 1.0);
+    let above = upper * select(1.0, open.above, is_hidden) * source.intensity;
+    var below = (1.0 - upper) * select(1.0, open.below, is_hidden) * source.intensity;
+    var given: SkyLight;
+    if (source.sky & SKY_PICTURE) != 0u {
+        let light = dome_at(normal);
+        let strength = above + below;
+        given.share = dot(light, LUMA) * strength;
+        given.color = light * source.color * strength;
+        return given;
+    }
+    below *= source.ground_strength;
+    given.share = above + below;
+    given.color = source.color * above + source.ground * below;
+    return given;
+}
+
+// Bit `i` of `dark` says that the place lies in the shadow of light `i`. Nothing hides the sky.
 fn coordinate_at(world: vec3<f32>, normal: vec3<f32>, dark: u32) -> Lit {
+    return coordinate_under(world, normal, dark, Openness(1.0, 1.0));
+}
+
+// The same where `open` of the sky is seen.
+fn coordinate_under(world: vec3<f32>, normal: vec3<f32>, dark: u32, open: Openness) -> Lit {
     var lit: Lit;
     // The rule: one sun, of which the mean is itself.
     if only_distant() && dark == 0u {
@@ -99,6 +164,12 @@ fn coordinate_at(world: vec3<f32>, normal: vec3<f32>, dark: u32) -> Lit {
     var sum = 0.0;
     var color = vec3<f32>(0.0);
     for (var i = 0u; i < lights.count; i++) {
+        if lights.sources[i].kind == LIGHT_SKY {
+            let light = sky_light(lights.sources[i], normal, open);
+            sum += light.share;
+            color += light.color;
+            continue;
+        }
         let most = select(1.0, lights.shadow_at, ((dark >> i) & 1u) != 0u);
         let share = share_at(lights.sources[i], world, normal, most);
         sum += share;

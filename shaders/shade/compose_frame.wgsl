@@ -56,6 +56,7 @@ override WG: u32 = 64u;
 //# use lib/beam
 //# use lib/cutout
 //# use lib/shadow
+//# use lib/sky
 //# use lib/depth_map
 //# use lib/smoke_pen
 //# use lib/veil
@@ -65,6 +66,9 @@ override WG: u32 = 64u;
 const TONE_ROOM: f32 = 0.002;
 // Width of a tone step from which on it is so gentle that one place of a pixel stands for all.
 const GENTLE: f32 = 0.25;
+
+// Widest line of the surface-angle method, in line widths: a surface that turns more slowly counts as flat.
+const ANGLE_WIDTHS: f32 = 6.0;
 
 // Light of a group of samples, where one place stands for all of them.
 struct Even {
@@ -124,7 +128,7 @@ fn even_light(part: u32, corners: Corners) -> Even {
     if !only_distant() || lights.shadow_side != 0u { return even; }
     let range = coordinate_range(corners);
     if !one_step(part, range) { return even; }
-    even.light = light_of(part, corners.world[0], corners.normals[0] * corners.side, 0u);
+    even.light = light_of(part, corners.world[0], corners.normals[0] * corners.side, 0u, Openness(1.0, 1.0));
     even.is_so = true;
     return even;
 }
@@ -144,17 +148,42 @@ fn even_ink(part: u32, corners: Corners, dark: u32) -> f32 {
     return ink_over(part, min(coordinate_range(corners), vec2<f32>(most)));
 }
 
-// Light on a surface at `world` that faces along `normal` and lies in the shadow of the lights in `dark`.
-fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32) -> vec3<f32> {
+// Light on a surface at `world` that faces along `normal`, lies in the shadow of the lights in `dark` and sees `open`
+// of the sky.
+fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32, open: Openness) -> vec3<f32> {
     if (parts[part].flags & PART_UNLIT) != 0u { return vec3<f32>(1.0); }
-    let lit = coordinate_at(world, normal, dark);
+    let lit = coordinate_under(world, normal, dark, open);
     return ramp_light(part, lit.x) * lit.color;
 }
 
-// 1 where the surface-angle method draws a line, else 0.
-fn grazing(part: u32, world: vec3<f32>, normal: vec3<f32>) -> f32 {
+// The one-dimensional texture of the surface-angle method over N . E.
+fn angle_ramp(facing: f32, threshold: f32, softness: f32) -> f32 {
+    let half = 0.5 * softness * threshold;
+    return 1.0 - smooth_step(threshold - half, threshold + half, abs(facing));
+}
+
+// 1 up to `widest_px` from the contour of a surface, 0 farther away, where N . E is `facing` and changes by `change`
+// a pixel.
+fn not_flat(facing: f32, change: f32, widest_px: f32) -> f32 {
+    let distance = max(facing, 0.0) * 0.5 / max(change, 1e-9);
+    return clamp(widest_px - distance + 0.5, 0.0, 1.0);
+}
+
+// How dark the line of the surface-angle method is on a surface at a place of the frame, 0..1.
+fn grazing(triangle: Triangle, corners: Corners, px: vec2<f32>) -> f32 {
+    let part = triangle.part;
     if (parts[part].flags & PART_ANGLE) == 0u || (compose.flags & COMPOSE_BARE) != 0u { return 0.0; }
-    return select(0.0, 1.0, abs(dot(normal, to_eye(view, world))) < parts[part].facing_threshold);
+    let around = weights_around(corners.clip, ndc_at(view, px), pixel_ndc(view));
+    // The eye is that of the place: so the normal alone turns, and on flat faces nothing does.
+    let eye = to_eye(view, world_of(corners, around[0]));
+    let here = dot(normal_of(corners, around[0]), eye);
+    let right = dot(normal_of(corners, around[1]), eye);
+    let down = dot(normal_of(corners, around[2]), eye);
+    let change = length(vec2<f32>(right - here, down - here));
+    let at = triangle.corners;
+    let half_width = blend(around[0], posed[at.x].half_width, posed[at.y].half_width, posed[at.z].half_width);
+    let widest_px = ANGLE_WIDTHS * 2.0 * half_width;
+    return angle_ramp(here, parts[part].facing_threshold, compose.angle_softness) * not_flat(here, change, widest_px);
 }
 
 // A lit surface under so much ink, 0..1.
@@ -234,9 +263,11 @@ fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, 
     let count = f32(countOneBits(members));
     let color = strengthened(base_color(triangle, corners, center));
     var even = even_light(part, corners);
+    var open: OpenPlace;
+    if !even.is_so { open = openness(corners, center); }
     if !even.is_so && is_gentle(part) {
         let weights = weights_at(corners.clip, ndc_at(view, center));
-        even.light = light_of(part, world_of(corners, weights), normal_of(corners, weights), 0u);
+        even.light = light_of(part, world_of(corners, weights), normal_of(corners, weights), 0u, open_at(open, vec2<f32>(0.0)));
         even.is_so = true;
     }
     let shines = (parts[part].flags & PART_HIGHLIGHTS) != 0u;
@@ -257,8 +288,8 @@ fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, 
             let normal = normal_of(corners, weights);
             if !even.is_so {
                 dark = shadowed(id, corners, weights);
-                light += light_of(part, world, normal, dark) * share;
-                lined += grazing(part, world, normal) * share;
+                light += light_of(part, world, normal, dark, open_at(open, at - center)) * share;
+                lined += grazing(triangle, corners, at) * share;
             }
             gloss += highlights_at(part, world, normal, dark) * share;
         }

@@ -87,8 +87,12 @@ fn light_at(id: u32, world: vec3<f32>, normal: vec3<f32>) -> f32 {
     var sum = look.ambient;
     for (var i = 0u; i < lights.count; i++) {
         let source = lights.sources[i];
+        if source.kind == LIGHT_SKY {
+            sum += sky_light(source, normal, Openness(1.0, 1.0)).share;
+            continue;
+        }
         let reach = reach_at(source, world);
-        let wrap = select(look.wrap, 1.0, source.kind == LIGHT_SKY);
+        let wrap = look.wrap;
         let facing = (dot(normal, reach.towards) + wrap) / (1.0 + wrap);
         var lit = clamp(facing, 0.0, 1.0);
         if lit > lights.shadow_at

@@ -234,6 +234,7 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/smoke_pen", include_str!("../lib/smoke_pen.wgsl")),
     ("lib/veil", include_str!("../lib/veil.wgsl")),
     ("lib/shadow", include_str!("../lib/shadow.wgsl")),
+    ("lib/sky", include_str!("../lib/sky.wgsl")),
     ("lib/ribbon", include_str!("../lib/ribbon.wgsl")),
 ];
 

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
+use npr_core::camera::{Camera, Projection};
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
 use npr_render::{Frame, Model, StageOptions};
@@ -104,6 +105,31 @@ fn a_trail_of_no_length_or_out_of_sight_draws_nothing() {
         let frame = drawn(&[], &format!("motion.trail = {trail}"));
         assert_eq!(frame.rgba, still.rgba, "{trail}");
     }
+}
+
+#[test]
+fn lines_run_past_the_eye() {
+    let camera = Camera {
+        eye: [0.0, 0.0, 3.0],
+        projection: Projection::Perspective { fov_y: 0.9 },
+        ..front()
+    };
+    let model = Model::new(&scene()).unwrap();
+    let of = |trail: &str| {
+        let style = moving(&["motion.spacing=6px"], &format!("motion.trail = {trail}"));
+        let options = StageOptions::new(SIZE);
+        draw_with(&Processor, &model, &style, &camera, &options)
+    };
+    // From the ball past the right and the upper side of the eye: on the picture its lines run to the border.
+    let [whole, still] = [of("[4, 0.4, 6]"), of("[0, 0, 0]")];
+    let changed = |x: std::ops::Range<u32>| {
+        let places = x.flat_map(|x| (0..SIZE[1]).map(move |y| (x, y)));
+        let differ = |(x, y): &(u32, u32)| pixel(&whole, *x, *y) != pixel(&still, *x, *y);
+        places.filter(differ).count()
+    };
+    let thirds = [110..180, 180..250, 250..320].map(changed);
+    assert!(thirds.iter().all(|count| *count > 300), "{thirds:?}");
+    assert_eq!(changed(0..40), 0, "before the ball");
 }
 
 #[test]

@@ -210,6 +210,9 @@ fn warn_of<'a>(
     for notice in job.lettering.notices() {
         warn(notice);
     }
+    if job.look.style.lettering.iter().any(|words| words.hidden) {
+        warn("lettering.hidden plays no part in line drawings: words lie over everything");
+    }
     if job.format == LineFormat::Json && !job.lettering.is_empty() {
         warn("words are left out: .json files hold lines alone");
     }

@@ -509,7 +509,15 @@ impl Blueprint {
             hull,
         ];
         self.graph.compute(&mesh::EXTRUDE_HULL, &extrude);
-        let bound = [self.color_window, hull, self.triangles, self.parts];
+        let bound = [
+            self.view,
+            self.color_window,
+            hull,
+            self.vertices,
+            self.triangles,
+            self.parts,
+            self.texels,
+        ];
         self.graph
             .draw(&raster::DRAW_HULL, &bound, &[self.ids, self.depths], false);
     }

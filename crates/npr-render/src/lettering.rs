@@ -1,9 +1,11 @@
 //! Words of a style, set in their fonts and placed in a view.
 
 use crate::error::RenderError;
+use crate::frame::Frame;
 use glam::{Mat4, Vec3};
 use npr_core::window::View;
 use npr_style::{Color, LetteringOutline, Style};
+use npr_vector::drawing::paint_over;
 use npr_vector::lettering::{Band, Font, Lettered, Setting, Words, set_words};
 use std::collections::BTreeMap;
 
@@ -48,9 +50,23 @@ impl Lettering {
         &self.notices
     }
 
+    /// Whether anything of the scene may hide any of the words.
+    pub(crate) fn may_be_hidden(&self) -> bool {
+        self.words.iter().any(|(said, _)| said.hidden)
+    }
+
     /// The words in a view, in pixels of its frame, the last on top; those anchored behind the eye are left out.
     pub fn placed(&self, view: &View, dpi: f32) -> Vec<Lettered> {
-        let placed = self.words.iter().filter_map(|(said, words)| {
+        self.stood(view, dpi).map(|(words, _)| words).collect()
+    }
+
+    /// The same, each with the reversed depth from which on surfaces hide it; none where nothing does.
+    fn stood<'a>(
+        &'a self,
+        view: &'a View,
+        dpi: f32,
+    ) -> impl Iterator<Item = (Lettered, Option<f32>)> + 'a {
+        let placed = self.words.iter().filter_map(move |(said, words)| {
             let (middle, world_px) = place_of(said, view)?;
             let px = |length: npr_style::Length| {
                 f64::from(length.to_px(view.frame_px[1], dpi, world_px))
@@ -61,13 +77,84 @@ impl Lettering {
             };
             let bands: Vec<Band> = said.bands().map(band).collect();
             let middle = middle.map(f64::from);
-            Some(Lettered {
+            let lettered = Lettered {
                 text: said.text.clone(),
                 marks: words.marks(middle, px(said.size), bytes_of(said.color), &bands),
-            })
+            };
+            let depth = said.anchor.filter(|_| said.hidden);
+            Some((lettered, depth.map(|anchor| depth_of(anchor, view))))
         });
-        placed.filter(|words| !words.marks.is_empty()).collect()
+        placed.filter(|(words, _)| !words.marks.is_empty())
     }
+
+    /// Paints the words over a finished frame; `depths_on` gives the reversed depths of surfaces on a grid over it.
+    pub(crate) fn paint(
+        &self,
+        view: &View,
+        dpi: f32,
+        frame: &mut Frame,
+        depths_on: impl Fn([u32; 2]) -> Vec<f32>,
+    ) {
+        let mut depths = None;
+        for (words, hidden_from) in self.stood(view, dpi) {
+            let Some(hidden_from) = hidden_from else {
+                paint_over(&words.marks, &mut frame.rgba, frame.size);
+                continue;
+            };
+            let depths = depths.get_or_insert_with(|| depths_on(frame.size.map(|side| 2 * side)));
+            let mut sheet = vec![0; frame.rgba.len()];
+            paint_over(&words.marks, &mut sheet, frame.size);
+            let pixels = frame.rgba.as_chunks_mut().0.iter_mut();
+            for (i, (under, over)) in pixels.zip(sheet.as_chunks().0).enumerate() {
+                if over[3] > 0 {
+                    lay_over(
+                        under,
+                        *over,
+                        seen_share(depths, i, frame.size[0], hidden_from),
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// How much nearer to the eye than an anchor a surface has to be to hide its words, as a share of the reversed depth:
+/// what they are fixed to does not.
+const COVER_ROOM: f32 = 0.01;
+
+/// Reversed depth from which on surfaces stand before a place.
+fn depth_of(place: [f32; 3], view: &View) -> f32 {
+    let clip = Mat4::from_cols_array_2d(&view.clip_from_world) * Vec3::from(place).extend(1.0);
+    clip.z / clip.w * (1.0 + COVER_ROOM)
+}
+
+/// Share of pixel `i` of a picture of `width` pixels that no surface before a depth covers; `depths` are those of two
+/// samples a pixel along each axis.
+fn seen_share(depths: &[f32], i: usize, width: u32, hidden_from: f32) -> f32 {
+    let width = width as usize;
+    let (x, y) = (i % width, i / width);
+    let samples = [(0, 0), (1, 0), (0, 1), (1, 1)];
+    // Where no surface is the depth is 0; anchors beyond the far plane of a parallel view lie deeper.
+    let is_seen = |(dx, dy): &(usize, usize)| {
+        let depth = depths[(2 * y + dy) * 2 * width + 2 * x + dx];
+        depth == 0.0 || depth <= hidden_from
+    };
+    samples.iter().filter(|sample| is_seen(sample)).count() as f32 / 4.0
+}
+
+/// Lays a share of a pixel over another, both sRGB bytes with straight alpha, blended as [`paint_over`] does.
+fn lay_over(under: &mut [u8; 4], over: [u8; 4], share: f32) {
+    let top = f32::from(over[3]) / 255.0 * share;
+    let left = f32::from(under[3]) / 255.0 * (1.0 - top);
+    let alpha = top + left;
+    if top == 0.0 {
+        return;
+    }
+    for (under, over) in under.iter_mut().zip(over).take(3) {
+        let sum = f32::from(over) * top + f32::from(*under) * left;
+        *under = (sum / alpha + 0.5) as u8;
+    }
+    under[3] = (alpha * 255.0 + 0.5) as u8;
 }
 
 fn bytes_of(color: Color) -> [u8; 4] {
@@ -272,8 +359,90 @@ mod tests {
         );
     }
 
+    /// A board across the view at a depth, right of x.
+    fn board(x: f32, z: f32) -> npr_scene::Scene {
+        let part = npr_scene::Part {
+            positions: vec![[x, -9.0, z], [9.0, -9.0, z], [9.0, 9.0, z], [x, 9.0, z]],
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            ..npr_scene::Part::default()
+        };
+        npr_scene::Scene {
+            nodes: vec![npr_scene::Node {
+                mesh: Some(0),
+                ..npr_scene::Node::default()
+            }],
+            meshes: vec![npr_scene::Mesh {
+                parts: vec![part],
+                ..npr_scene::Mesh::default()
+            }],
+            ..npr_scene::Scene::default()
+        }
+    }
+
+    /// Pixels of a bar in the middle of the frame, left and right of it, that show the words.
+    fn shown(engine: &dyn npr_gpu::engine::Engine, hidden: bool, board_z: f32) -> [usize; 2] {
+        let style = Style {
+            lettering: vec![npr_style::Lettering {
+                size: Length {
+                    value: 60.0,
+                    unit: Unit::Px,
+                },
+                hidden,
+                ..anchored([0.0; 3])
+            }],
+            ..Style::default()
+        };
+        let model = Model::new(&board(0.0, board_z)).expect("a board");
+        let options = StageOptions {
+            fonts: [("a.ttf".to_owned(), Font::new(block_font()).expect("a font"))].into(),
+            ..StageOptions::new([160, 120])
+        };
+        let mut stage = Stage::new(engine, &model, &style, &options).expect("a stage");
+        let frame = stage.draw(&camera()).expect("a picture");
+        let yellow = bytes_of(style.lettering[0].color);
+        let pixels = frame.rgba.as_chunks::<4>().0.iter().enumerate();
+        let words = pixels.filter(|(_, pixel)| **pixel == yellow);
+        let right = words.clone().filter(|(i, _)| i % 160 >= 80).count();
+        [words.count() - right, right]
+    }
+
+    #[test]
+    fn what_stands_before_the_anchor_hides_words_that_ask_for_it() {
+        let [left, right] = shown(&Processor, false, 1.0);
+        assert!(left > 300 && right > 300, "{left} {right}");
+        assert_eq!(
+            shown(&Processor, true, 1.0),
+            [left, 0],
+            "a board before half of them"
+        );
+        assert_eq!(
+            shown(&Processor, true, -1.0),
+            [left, right],
+            "a board behind them"
+        );
+        assert_eq!(
+            shown(&Processor, true, 0.0),
+            [left, right],
+            "what they are fixed to"
+        );
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
+        #[test]
+        fn a_layer_that_is_not_seen_changes_nothing_and_a_whole_one_is_painted(
+            under in prop::array::uniform4(any::<u8>()), over in prop::array::uniform4(any::<u8>()),
+        ) {
+            let laid = |over, share| {
+                let mut pixel = under;
+                lay_over(&mut pixel, over, share);
+                pixel
+            };
+            prop_assert_eq!(laid(over, 0.0), under);
+            let opaque = [over[0], over[1], over[2], 255];
+            prop_assert_eq!(laid(opaque, 1.0), opaque);
+        }
+
         #[test]
         fn no_place_panics(
             anchor in prop::array::uniform3(prop_oneof![-10_f32..10.0, Just(1e9_f32), Just(-1e9_f32)]),
@@ -283,7 +452,7 @@ mod tests {
             let view = Camera { eye, projection, ..camera() }.view([64, 48], BOUNDS);
             for words in lettering(anchored(anchor)).placed(&view, 96.0) {
                 let mut rgba = vec![0; 64 * 48 * 4];
-                npr_vector::drawing::paint_over(&words.marks, &mut rgba, [64, 48]);
+                paint_over(&words.marks, &mut rgba, [64, 48]);
             }
         }
     }

@@ -4,6 +4,8 @@ use crate::beam_light::beam_lights;
 use crate::look;
 use crate::model::Model;
 use crate::placement::{Bounds, radius_of};
+use crate::sky;
+use crate::stage::Picture;
 use glam::{Mat4, Vec3};
 use npr_core::camera::{Camera, box_corners};
 use npr_core::light_view::{Matrix, distant_view, spot_view};
@@ -13,6 +15,7 @@ use npr_scene::{LightKind, Scene};
 use npr_style::lighting::{LIGHTS_MAX, LightSource, Lights};
 use npr_style::shadow::{SHADOW_SIDE, SHADOWS_MAX};
 use npr_style::{ExtraLight, LightShape, LightSpace, Style};
+use std::collections::BTreeMap;
 
 /// How much nearer to a light something must be to shade a place, in radii of the model.
 const BIAS_RADII: f32 = 2e-4;
@@ -96,11 +99,14 @@ pub(crate) struct ChosenLights {
     lights: Vec<Chosen>,
     /// How many were left out.
     dropped: usize,
+    /// The picture of the sky, summed up.
+    dome: Option<[[f32; 4]; 9]>,
 }
 
 impl ChosenLights {
     /// First the main light or those of the file, then the style's own and those of its beams. Of too many the strongest stay, in that order.
-    pub fn new(style: &Style, model: &Model) -> Self {
+    /// `pictures` holds that of the sky, if the style names one.
+    pub fn new(style: &Style, model: &Model, pictures: &BTreeMap<String, Picture>) -> Self {
         let light = &style.light;
         let mut lights = Vec::new();
         if light.file && !model.lights.is_empty() {
@@ -122,6 +128,8 @@ impl ChosenLights {
                 on_camera: light.space == LightSpace::Camera,
             });
         }
+        let dome = sky::dome(style, pictures);
+        let extra = |light| extra(light, dome.is_some());
         lights.extend(light.extra.iter().map(extra));
         lights.extend(
             beam_lights(style, model)
@@ -139,6 +147,7 @@ impl ChosenLights {
         Self {
             dropped: lights.len() - order.len(),
             lights: order.iter().map(|i| lights[*i]).collect(),
+            dome,
         }
     }
 
@@ -148,7 +157,7 @@ impl ChosenLights {
             let mut own = style.clone();
             (own.light.direction, own.light.shadow) = (direction, style.smoke.shadow);
             (own.light.file, own.light.extra) = (false, Vec::new());
-            return (Self::new(&own, model), false);
+            return (Self::new(&own, model, &BTreeMap::new()), false);
         }
         let mut lights = self.clone();
         // Points alone throw no shadows on surfaces, so smoke has shadows of its own beside them.
@@ -195,6 +204,7 @@ impl ChosenLights {
             count: self.lights.len() as u32,
             shadow_at: style.light.shadow_at,
             bias_world: radius_of(bounds) * BIAS_RADII,
+            dome: self.dome.unwrap_or_default(),
             ..Lights::default()
         };
         for (source, light) in lights.sources.iter_mut().zip(&self.lights) {
@@ -239,7 +249,8 @@ pub(crate) fn strongest(lights: &Lights) -> LightSource {
     })
 }
 
-fn extra(light: &ExtraLight) -> Chosen {
+/// A light of the style; `has_dome` says whether the picture of the sky is there.
+fn extra(light: &ExtraLight, has_dome: bool) -> Chosen {
     let towards = light.unit_direction();
     let (kind, direction) = match light.kind {
         LightShape::Distant => (LightSource::DISTANT, towards),
@@ -247,6 +258,10 @@ fn extra(light: &ExtraLight) -> Chosen {
         LightShape::Spot => (LightSource::SPOT, towards.map(|v| -v)),
         LightShape::Sky => (LightSource::SKY, towards),
     };
+    let bit = |bit: u32, when: bool| if when { bit } else { 0 };
+    let is_sky = light.kind == LightShape::Sky;
+    let ground = rgb(light.ground);
+    let strength = ground.iter().fold(0.0f32, |most, part| most.max(*part));
     let cone = [light.outer_deg, light.inner_deg].map(|deg| math::cos(deg.to_radians()));
     Chosen {
         source: LightSource {
@@ -257,6 +272,13 @@ fn extra(light: &ExtraLight) -> Chosen {
             color: rgb(light.color),
             range: light.range,
             cone,
+            sky: bit(LightSource::HIDDEN, is_sky && light.shadow)
+                | bit(
+                    LightSource::PICTURE,
+                    is_sky && has_dome && !light.image.is_empty(),
+                ),
+            ground: ground.map(|part| part / strength.max(1e-6)),
+            ground_strength: strength,
             ..LightSource::default()
         },
         shadow: light.shadow,
@@ -403,7 +425,7 @@ mod tests {
         let model = Model::new(&scene).unwrap();
         let bare = Model::new(&Scene::default()).unwrap();
         let kinds = |text, model| {
-            let chosen = ChosenLights::new(&style(text), model);
+            let chosen = ChosenLights::new(&style(text), model, &BTreeMap::new());
             chosen
                 .lights
                 .iter()
@@ -424,7 +446,7 @@ mod tests {
             .collect();
         let model = Model::new(&scene_of(&many)).unwrap();
         let style = style("light.file = true\nlight.shadow = true");
-        let chosen = ChosenLights::new(&style, &model);
+        let chosen = ChosenLights::new(&style, &model, &BTreeMap::new());
         assert_eq!((chosen.lights.len(), chosen.dropped), (LIGHTS_MAX, 484));
         assert!(
             chosen
@@ -435,7 +457,7 @@ mod tests {
         assert_eq!(chosen.shadow_count(), SHADOWS_MAX);
         let told = chosen.notice().unwrap();
         assert_eq!(told, "only the 16 strongest lights shine, 484 are left out");
-        let plain = ChosenLights::new(&Style::default(), &model);
+        let plain = ChosenLights::new(&Style::default(), &model, &BTreeMap::new());
         assert_eq!(plain.notice(), None);
     }
 }

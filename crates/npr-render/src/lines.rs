@@ -442,7 +442,7 @@ impl LineModel {
             smoke,
             (wanted.style, wanted.options),
             (wanted.camera, projector, bounds),
-            &lamps,
+            (&lamps, wanted.pictures),
             self.parts.len() as u32,
         )
     }

@@ -5,6 +5,7 @@ use crate::hatching::{FrameScale, Inked, add_ink};
 use crate::line_colors::add_line_colors;
 use crate::model::{Model, PartInfo};
 use crate::pictures::{Pictures, add_tone_rows};
+use crate::sky::SkyMaps;
 use crate::stage::StageOptions;
 use glam::Vec3;
 use npr_core::camera::Camera;
@@ -32,6 +33,8 @@ pub(crate) struct StyledModel {
     pub textures: TextureStore,
     /// Header of the background picture, or [`NONE`].
     pub background_texture: u32,
+    /// What hides the sky, where the style asks for it.
+    pub sky: Option<SkyMaps>,
 }
 
 impl StyledModel {
@@ -77,6 +80,11 @@ impl StyledModel {
         if parts.is_empty() {
             parts.push(Part::default());
         }
+        let sky = SkyMaps::new(model, style, &parts, &mut textures);
+        if sky.is_none() && style.light.hidden_sky().is_some() && !model.triangles.is_empty() {
+            let notice = "nothing hides the sky: the textures leave no room for its shadows";
+            inked.notices.push(notice.to_owned());
+        }
         let smoke_part = smoke.is_some().then_some(parts.len() as u32);
         parts.extend(smoke);
         Ok(Self {
@@ -86,6 +94,7 @@ impl StyledModel {
             inked,
             textures,
             background_texture,
+            sky,
         })
     }
 }
@@ -146,7 +155,7 @@ pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
         ramp: ramp(&look),
         ..highlighted(&look.highlight)
     };
-    if let Some(beam) = look.beam {
+    if let Some(beam) = &look.beam {
         beam.apply_to(&mut part);
     }
     part
@@ -406,6 +415,7 @@ pub(crate) fn compose(
         up_world,
         near_world,
         radius: model.radius(),
+        angle_softness: style.line.angle_softness,
         center_world: ((Vec3::from(min) + Vec3::from(max)) * 0.5).to_array(),
         ..Compose::default()
     }

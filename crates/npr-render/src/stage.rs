@@ -14,6 +14,7 @@ use crate::model::Model;
 use crate::placement::Bounds;
 use crate::smoke::{self, Measure, Needs, Smoke};
 use crate::streaks::Streaks;
+use crate::surfaces::surface_depths;
 use crate::tiles::{TILE_PIXELS, Tiles};
 use bytemuck::{NoUninit, cast_slice};
 use glam::Vec3;
@@ -30,7 +31,7 @@ use npr_style::compose::Compose;
 use npr_style::lighting::LightSource;
 use npr_style::shadow::SHADOW_SIDE;
 use npr_vector::artwork::ArtworkOptions;
-use npr_vector::drawing::{paint_drawing_over, paint_over};
+use npr_vector::drawing::paint_drawing_over;
 use npr_vector::lettering::Font;
 use std::collections::BTreeMap;
 
@@ -153,7 +154,7 @@ impl<'a> Stage<'a> {
         let mut styled = StyledModel::new(model, style, options)?;
         let lettering = Lettering::new(style, &options.fonts)?;
         styled.inked.notices.extend_from_slice(lettering.notices());
-        let lights = ChosenLights::new(style, model);
+        let lights = ChosenLights::new(style, model, &options.pictures);
         styled.inked.notices.extend(lights.notice());
         let base_px = look::base_px(
             style,
@@ -252,6 +253,10 @@ impl<'a> Stage<'a> {
         if !lettering.is_empty() {
             let pixels = options.size[0] as usize * options.size[1] as usize;
             budget.take("the words over the picture", pixels, 4)?;
+            if lettering.may_be_hidden() {
+                // A sheet of its own, and four samples of numbers and depths.
+                budget.take("what hides words", pixels, 4 + 4 * 12)?;
+            }
         }
         let mut planned_bytes = budget.used_bytes();
         let streaks = Streaks::new(engine, model, style, options, planned_bytes)?;
@@ -579,9 +584,12 @@ impl<'a> Stage<'a> {
         write(session, self.plan.view, &[view])?;
         write(session, self.plan.outline, &[outline])?;
         write(session, self.plan.compose, &[compose])?;
-        let lights = self
+        let mut lights = self
             .lights
             .of_frame(&self.style, bounds, None, camera, &view);
+        if let Some(sky) = &self.styled.sky {
+            sky.apply_to(&mut lights);
+        }
         write(session, self.plan.lights, &[lights])?;
         for (id, matrix) in self.plan.light_views.iter().zip(&lights.shadows) {
             write(session, *id, &[*matrix])?;
@@ -625,9 +633,10 @@ impl<'a> Stage<'a> {
         if let Some(blending) = &mut self.blending {
             blending.apply(camera, frame)?;
         }
-        for words in self.lettering.placed(view, self.options.dpi) {
-            paint_over(&words.marks, &mut frame.rgba, frame.size);
-        }
+        let (model, parts) = (self.model, &self.styled.parts);
+        self.lettering.paint(view, self.options.dpi, frame, |size| {
+            surface_depths(model, parts, view, size)
+        });
         Ok(())
     }
 

@@ -6,19 +6,20 @@ use crate::look::part;
 use crate::model::Model;
 use crate::placement::bounds_of;
 use crate::stage::{Stage, StageOptions};
+use crate::surfaces::surface_depths;
 use glam::{Mat4, Vec2, Vec3};
 use npr_core::camera::Camera;
 use npr_core::color::SrgbEncoder;
 use npr_core::geometry::Part;
-use npr_core::raster::{Fill, Sides, fill_triangles};
 use npr_core::texture::{TextureStore, linear_texel};
-use npr_core::window::{View, Window};
+use npr_core::window::View;
 use npr_gpu::engine::Engine;
 use npr_style::blend::blend;
 use npr_style::motion::{Motion, trail_of};
 use npr_style::{Color, Style};
 
-/// Longest trail in the picture, in pixels: more than the diagonal of any frame shows no more.
+/// Longest trail in the picture, in pixels: more than the diagonal of any frame shows no more. What runs past the eye
+/// is cut there.
 const LONGEST_PX: f32 = 65_536.0;
 
 /// Memory for numbers and depths, movers, and what they left behind.
@@ -122,7 +123,7 @@ impl<'a> Streaks<'a> {
             .iter()
             .map(|pixel| trail_of(*pixel))
             .collect();
-        let depths = self.depths(view);
+        let depths = surface_depths(self.model, &self.parts, view, self.size);
         let pen = Pen::new(self.motion.color);
         for (index, mover) in self.movers.iter().enumerate() {
             let Some(sweep) = self.sweep_of(mover, view) else {
@@ -149,46 +150,29 @@ impl<'a> Streaks<'a> {
         Ok(())
     }
 
-    /// Reversed depth of the surface that each pixel shows.
-    fn depths(&self, view: &View) -> Vec<f32> {
-        let clip_from_world = Mat4::from_cols_array_2d(&view.clip_from_world);
-        let points = self.model.vertices.iter().zip(&self.model.influences);
-        let clip: Vec<[f32; 4]> = points
-            .map(|(vertex, influence)| {
-                let point = self.model.posed_point(vertex, influence);
-                (clip_from_world * point.extend(1.0)).to_array()
-            })
-            .collect();
-        let fill = Fill {
-            window: &Window::over(view.frame_px, [0.0; 2], view.frame_px, self.size),
-            triangles: &self.model.triangles,
-            parts: &self.parts,
-            sides: Sides::AsParts,
-            id_bits: 0,
-            clip_of: |v| clip[v as usize],
-            keep: |_, _, _| true,
-        };
-        let count = self.size[0] as usize * self.size[1] as usize;
-        let (mut ids, mut depths) = (vec![0; count], vec![0; count]);
-        fill_triangles(&fill, &mut ids, &mut depths);
-        depths.into_iter().map(f32::from_bits).collect()
-    }
-
-    /// Where a trail lies in a view; none where it is behind the eye or too short to see.
+    /// Where a trail lies in a view; none where all of it is behind the eye or too short to see.
     fn sweep_of(&self, mover: &Mover, view: &View) -> Option<Sweep> {
-        let (start, start_depth) = place_px(mover.middle, view)?;
-        let (end, end_depth) = place_px(mover.middle + mover.trail, view)?;
+        let whole = [mover.middle, mover.middle + mover.trail];
+        let [from, to] = before_eye(whole, view)?;
+        let (start, start_depth) = place_px(from, view)?;
+        let (end, end_depth) = place_px(to, view)?;
         let length_px = (end - start).length();
-        if !(SHORTEST_PX..=LONGEST_PX).contains(&length_px) {
+        // What runs past the eye may be of any length on the picture.
+        let longest = if [from, to] == whole {
+            LONGEST_PX
+        } else {
+            f32::MAX
+        };
+        if !(SHORTEST_PX..=longest).contains(&length_px) {
             return None;
         }
         let forward = Vec3::from(view.forward_world);
-        let depth = (mover.middle - Vec3::from(view.eye_world)).dot(forward);
+        let depth = (from - Vec3::from(view.eye_world)).dot(forward);
         let world_px = 1.0 / view.pixel_at(depth);
         let spacing = self.motion.spacing;
         Some(Sweep {
             along: (end - start) / length_px,
-            length_px,
+            length_px: length_px.min(LONGEST_PX),
             deepens: (end_depth - start_depth) / length_px,
             middle_px: start,
             spacing_px: spacing
@@ -218,6 +202,31 @@ impl Mover {
             trail: Vec3::from(trail),
             middle: (Vec3::from(low) + Vec3::from(high)) * 0.5,
         }
+    }
+}
+
+/// Least depth of a trail's ends, as a part of that of the farther one: what runs past the eye is cut there, far outside any
+/// frame unless it runs into the eye itself.
+const NEAREST_SHARE: f32 = 1e-3;
+
+/// The ends of what of a segment lies before the eye; none where nothing does. A parallel view has no eye that anything could
+/// be behind.
+fn before_eye(ends: [Vec3; 2], view: &View) -> Option<[Vec3; 2]> {
+    if view.perspective < 0.5 {
+        return Some(ends);
+    }
+    let (eye, forward) = (Vec3::from(view.eye_world), Vec3::from(view.forward_world));
+    let ahead = ends.map(|end| (end - eye).dot(forward));
+    let least = NEAREST_SHARE * ahead[0].max(ahead[1]);
+    let cut = |kept: usize, lost: usize| {
+        let share = (ahead[kept] - least) / (ahead[kept] - ahead[lost]);
+        ends[kept] + (ends[lost] - ends[kept]) * share
+    };
+    match ahead.map(|ahead| ahead > 0.0 && ahead >= least) {
+        [true, true] => Some(ends),
+        [true, false] => Some([ends[0], cut(0, 1)]),
+        [false, true] => Some([cut(1, 0), ends[1]]),
+        [false, false] => None,
     }
 }
 
@@ -345,8 +354,51 @@ mod tests {
         );
     }
 
+    fn eye_at_origin(perspective: f32) -> View {
+        View {
+            perspective,
+            forward_world: [0.0, 0.0, -1.0],
+            ..View::default()
+        }
+    }
+
+    #[test]
+    fn what_runs_past_the_eye_is_cut_before_it() {
+        let view = eye_at_origin(1.0);
+        let [ahead, behind] = [glam::vec3(1.0, 0.0, -2.5), glam::vec3(3.0, 4.0, 1.5)];
+        // The eye's own plane is five eighths of the way.
+        let [start, cut] = before_eye([ahead, behind], &view).unwrap();
+        assert_eq!(start, ahead);
+        assert!(cut.distance(glam::vec3(2.25, 2.5, -0.0025)) < 2e-3, "{cut}");
+        assert_eq!(before_eye([behind, ahead], &view), Some([cut, ahead]));
+        assert_eq!(before_eye([behind; 2], &view), None);
+        assert_eq!(before_eye([ahead; 2], &view), Some([ahead; 2]));
+        assert_eq!(
+            before_eye([behind; 2], &eye_at_origin(0.0)),
+            Some([behind; 2]),
+            "parallel"
+        );
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
+        /// What is left lies on the segment, before the eye, and nothing of that is lost.
+        #[test]
+        fn the_part_before_the_eye_is_all_of_it(ends in prop::array::uniform2(prop::array::uniform3(-4f32..4.0)), share in 0f32..1.0) {
+            let (view, ends) = (eye_at_origin(1.0), ends.map(Vec3::from));
+            let kept = before_eye(ends, &view);
+            let place = ends[0].lerp(ends[1], share);
+            let least = NEAREST_SHARE * (-ends[0].z).max(-ends[1].z);
+            let is_before = -place.z > least.max(0.0) + 1e-4;
+            if let Some(kept) = kept {
+                prop_assert!(kept.iter().all(|end| -end.z >= least - 1e-5), "{kept:?}");
+                let parts = (place - kept[0]).length() + (kept[1] - place).length();
+                let is_inside = parts < (kept[1] - kept[0]).length() + 1e-3;
+                prop_assert!(is_inside || !is_before, "{place} is left out of {kept:?}");
+            }
+            prop_assert!(kept.is_some() || !is_before);
+        }
+
         /// A pixel lies behind a mover where a straight walk back meets it, give or take the pixels beside the walk.
         #[test]
         fn distances_are_those_of_a_walk_back(

@@ -5,7 +5,7 @@ use npr_scene::{Image, Scene, TextureUse};
 use std::collections::BTreeMap;
 
 /// Most words of a store: it must fit the 128 MiB that every device binds.
-const STORE_WORDS: usize = 32 << 20;
+pub(crate) const STORE_WORDS: usize = 32 << 20;
 
 /// Images packed so far, each once for every way in which it wraps.
 #[derive(Debug, Default)]

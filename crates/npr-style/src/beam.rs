@@ -42,26 +42,60 @@ pub struct BeamStop {
 }
 
 /// How a part glows instead of being a surface.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Beam {
-    /// What it does to what lies behind it; default `lines`.
+    /// What it does to what lies behind it.
     pub overlap: BeamOverlap,
-    /// Width of the step between two colours, 0..1; default 0.1. 0 cut paper, 0.5 a glow.
-    #[schemars(range(min = 0.0, max = 1.0))]
+    /// Width of the step between two colours.
     pub softness: f32,
+    /// Colours from the rim to the middle, 1 to 4.
+    pub ramp: Vec<BeamStop>,
+    /// What its light adds to the ramp of what faces it.
+    pub light: f32,
+    /// How far its light reaches, in half diagonals of the box around it.
+    pub light_reach: f32,
+}
+
+/// What a rule says about a part that glows instead of being a surface; what is absent stays as earlier rules have it.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RuleBeam {
+    /// What it does to what lies behind it; default `lines`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub overlap: Option<BeamOverlap>,
+    /// Width of the step between two colours, 0..1; default 0.1. 0 cut paper, 0.5 a glow.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub softness: Option<f32>,
     /// Colours from the rim to the middle, 1 to 4, sorted by `at`; default a warm glow with a white heart. A single one makes a
     /// beam of one colour; a strong rim and a clear middle, glass or plasma.
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 1, max = 4))]
-    pub ramp: Vec<BeamStop>,
+    pub ramp: Option<Vec<BeamStop>>,
     /// What the light of the beam adds to the ramp of what faces it, 0..10; default 0, it lights nothing. 0.4 a laser, 1 an
     /// explosion that outshines the main light. It shines in the beam's own colour and throws no shadows.
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 10.0))]
-    pub light: f32,
+    pub light: Option<f32>,
     /// How far its light reaches, 0.1..1000; default 4. Counted in half diagonals of the box around the beam, of a long one
     /// in those of its pieces: larger flashes reach farther.
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.1, max = 1000.0))]
-    pub light_reach: f32,
+    pub light_reach: Option<f32>,
+}
+
+impl RuleBeam {
+    /// `beam` with what the rule states in place of what it had; of a part that glowed not yet, the default beam.
+    pub(crate) fn over(&self, beam: Option<Beam>) -> Beam {
+        let beam = beam.unwrap_or_default();
+        Beam {
+            overlap: self.overlap.unwrap_or(beam.overlap),
+            softness: self.softness.unwrap_or(beam.softness),
+            ramp: self.ramp.clone().unwrap_or(beam.ramp),
+            light: self.light.unwrap_or(beam.light),
+            light_reach: self.light_reach.unwrap_or(beam.light_reach),
+        }
+    }
 }
 
 impl Default for Beam {
@@ -250,6 +284,31 @@ mod tests {
         assert_eq!(of(&[Color::rgba(9, 9, 9, 0)]), [1.0; 3]);
         let [r, g, b] = Beam::default().light_color();
         assert!(r == 1.0 && g > b && b > 0.2, "a warm light: {r} {g} {b}");
+    }
+
+    #[test]
+    fn a_later_rule_changes_only_what_it_states() {
+        let text = "[[rule]]\nbeam = { overlap = 'covers', softness = 0.4, ramp = [{ at = 0.0, color = '#00ff00' }] }\n\
+                    [[rule]]\nbeam.light = 0.7\n[[rule]]\nmatch.object = 'Small'\nbeam = { light_reach = 2.0, softness = 0.0 }";
+        let style = crate::Style::from_toml(text, &|_| Err(String::new())).expect("a style");
+        let green = vec![BeamStop {
+            at: 0.0,
+            color: Color::rgb(0, 255, 0),
+        }];
+        let large = Beam {
+            overlap: BeamOverlap::Covers,
+            softness: 0.4,
+            ramp: green,
+            light: 0.7,
+            ..Beam::default()
+        };
+        let small = Beam {
+            softness: 0.0,
+            light_reach: 2.0,
+            ..large.clone()
+        };
+        assert_eq!(style.resolve_for("", "Large").beam, Some(large));
+        assert_eq!(style.resolve_for("", "Small").beam, Some(small));
     }
 
     #[test]

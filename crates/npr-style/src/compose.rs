@@ -44,8 +44,8 @@ pub struct Compose {
     pub radius: f32,
     /// Unit vector from the picture towards the eye, in the world.
     pub near_world: [f32; 3],
-    /// Keeps rows of 16 bytes.
-    pub unused_c: u32,
+    /// How softly the surface-angle method's line ends, as a part of its band, 0..1.
+    pub angle_softness: f32,
     /// Middle of the model.
     pub center_world: [f32; 3],
     /// Number of the part whose ramp and ink finish the smoke, with [`Compose::SMOKE_PEN`].
@@ -71,7 +71,7 @@ gpu_layout!(Compose {
     up_world,
     radius,
     near_world,
-    unused_c,
+    angle_softness,
     center_world,
     smoke_part,
     smoke_line,

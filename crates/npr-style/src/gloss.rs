@@ -380,6 +380,24 @@ mod tests {
     }
 
     #[test]
+    fn the_ramp_of_light_from_behind_rises_softly() {
+        let at = |x: f32| {
+            // L . N of a ramp coordinate.
+            let cosine = 2.0 * x - 1.0;
+            let normal = [(1.0 - cosine * cosine).sqrt(), 0.0, cosine];
+            back_light(normal, UP, 0.6, 0.8)
+        };
+        let row: Vec<f32> = (0..=100).map(|i| at(i as f32 / 100.0)).collect();
+        assert!(row[..60].iter().all(|v| *v == 0.0) && row[81..].iter().all(|v| *v == 1.0));
+        assert!((row[70] - 0.5).abs() < 1e-3, "half way: {}", row[70]);
+        assert!(
+            row.windows(2)
+                .all(|pair| (0.0..0.1).contains(&(pair[1] - pair[0]))),
+            "{row:?}"
+        );
+    }
+
+    #[test]
     fn a_streak_has_a_thin_one_beside_it() {
         let at = [0.0, 0.09, 0.14, 0.2, 0.25].map(|x| streak(x, 0.2));
         assert_eq!(at, [1.0, 1.0, 0.0, 1.0, 0.0]);

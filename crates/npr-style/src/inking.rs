@@ -161,7 +161,7 @@ impl Layers<'_> {
         let places = [px, [px[0] + 1.0, px[1]], [px[0], px[1] + 1.0]];
         let (ndc, step) = (self.view.ndc_at(px), self.view.pixel_ndc());
         let weights = weights_around(corners.clip, ndc, step);
-        let lit = self.levels_at(part, corners, weights, dark);
+        let lit = self.levels_at(part, corners, px, weights, dark);
         let white = self.paint_at(id, part, weights);
         let l: [f32; 3] = std::array::from_fn(|i| painted_level(lit[i], white[i], part.threshold));
         // Beyond a silhouette the surface runs on to anywhere.
@@ -225,21 +225,27 @@ impl Layers<'_> {
         }
     }
 
-    /// Luminance of the shade ramp at three places of a triangle.
+    /// Luminance of the shade ramp on a triangle at a place of the frame, a pixel to the right and one below.
     fn levels_at(
         &self,
         part: &Part,
         corners: &Corners<'_>,
+        px: [f32; 2],
         weights: [[f32; 3]; 3],
         dark: u32,
     ) -> [f32; 3] {
         // Where the normal alone decides, half of the work is none.
         let x = match self.lights.only_distant() {
             Some(towards) if dark == 0 => corners.cosines(weights, towards).map(ramp_coordinate),
-            _ => weights.map(|w| {
-                let (world, normal) = (corners.world(w), corners.normal(w));
-                self.lights.coordinate_at(world, normal, dark).0
-            }),
+            _ => {
+                let open = self.openness(corners, px);
+                let steps = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+                std::array::from_fn(|i| {
+                    let (world, normal) = (corners.world(weights[i]), corners.normal(weights[i]));
+                    let seen = open.at(steps[i]);
+                    self.lights.coordinate_under(world, normal, dark, seen).0
+                })
+            }
         };
         x.map(|x| level_of(part, x))
     }
@@ -403,7 +409,7 @@ fn sharpened(layer: Hatching, gain: f32) -> Hatching {
     scaled(layer, [sharpen(layer.s, gain), gain])
 }
 
-fn length(v: [f32; 2]) -> f32 {
+pub(crate) fn length(v: [f32; 2]) -> f32 {
     (v[0] * v[0] + v[1] * v[1]).sqrt()
 }
 

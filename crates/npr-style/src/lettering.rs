@@ -47,11 +47,14 @@ pub struct Lettering {
     #[serde(default = "default_at")]
     #[schemars(inner(range(min = -1.0, max = 2.0)))]
     pub at: [f32; 2],
-    /// A place in the scene that the middle of the words lies on; default none. Nothing hides them, but behind the eye they are
-    /// left out.
+    /// A place in the scene that the middle of the words lies on; default none. Behind the eye they are left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
     pub anchor: Option<[f32; 3]>,
+    /// Whether surfaces that stand before the anchor hide the words; default false, they lie over everything. Takes an
+    /// anchor. Smoke and beams hide no words, and in line drawings nothing does.
+    #[serde(default)]
+    pub hidden: bool,
     /// Part of half a turn that lines bend by, -1..1; default 0. 0.3 an arch, -0.3 a bowl. Short words bend less.
     #[serde(default)]
     #[schemars(range(min = -1.0, max = 1.0))]
@@ -115,6 +118,7 @@ impl Lettering {
             size: default_size(),
             at: default_at(),
             anchor: None,
+            hidden: false,
             bend: 0.0,
             slant: 0.0,
             rotate_deg: 0.0,
@@ -132,7 +136,7 @@ impl Lettering {
         [&self.outline].into_iter().chain(&self.second_outline)
     }
 
-    /// Refuses an empty font name, and lengths of the scene without a place in it.
+    /// Refuses an empty font name, and lengths of the scene or being hidden by it without a place in it.
     pub(crate) fn check(&self, index: usize) -> Result<(), StyleError> {
         let unfit = |key: &str, reason: &str| {
             Err(StyleError::unfit(
@@ -154,6 +158,9 @@ impl Lettering {
         }
         if second.is_some_and(|band| needs_place(band.width)) {
             return unfit("second_outline.width", reason);
+        }
+        if self.hidden && self.anchor.is_none() {
+            return unfit("hidden", "takes an anchor, which the words lack");
         }
         Ok(())
     }
@@ -215,6 +222,10 @@ mod tests {
         assert_eq!(
             told(&format!("{words}size = \"1world\"")),
             "lettering.0.size at line 4, column 1 is in world units, but the words have no anchor"
+        );
+        assert_eq!(
+            told(&format!("{words}hidden = true")),
+            "lettering.0.hidden at line 4, column 1 takes an anchor, which the words lack"
         );
         let many = words.repeat(LETTERING_MAX + 1);
         assert!(

@@ -71,6 +71,7 @@ mod schema;
 mod set;
 mod shade;
 pub mod shadow;
+pub mod sky;
 pub mod smoke;
 mod style;
 mod tone;
@@ -79,7 +80,7 @@ pub mod width;
 
 pub use antialias::Antialias;
 pub use background::{Background, BackgroundError};
-pub use beam::{Beam, BeamOverlap, BeamStop};
+pub use beam::{Beam, BeamOverlap, BeamStop, RuleBeam};
 pub use blend::Blend;
 pub use color::{Color, ColorError};
 pub use detect::{DepthTest, Detect, IdTest, MASK_LINE_PX, NormalTest, WidthWarning, width_rule};

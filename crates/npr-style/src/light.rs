@@ -76,7 +76,8 @@ pub enum LightShape {
     Point,
     /// Rays from one place into a cone: a torch, a stage light.
     Spot,
-    /// Light from the whole sky, strongest from one side: fills what others leave dark. Throws no shadows and makes no highlights.
+    /// Light from everywhere: the sky's from above, the ground's from below, or that of a picture. Fills what others
+    /// leave dark, and makes no highlights.
     Sky,
 }
 
@@ -90,7 +91,7 @@ pub struct ExtraLight {
     #[schemars(inner(range(min = -1e9, max = 1e9)))]
     pub position: [f32; 3],
     /// Towards where its light comes from, in the scene, of any length but 0; default `[0, 1, 0]`, from above. A `spot`
-    /// shines the other way; a `point` has none.
+    /// shines the other way; a `point` has none; of a `sky` it is the middle of the upper half.
     #[schemars(inner(range(min = -1e9, max = 1e9)))]
     pub direction: [f32; 3],
     /// What it adds to the ramp where it is faced, 0..10; default 0.5. 0.2 a fill light, 1 a lamp that outshines the main light.
@@ -98,6 +99,14 @@ pub struct ExtraLight {
     pub intensity: f32,
     /// Colour of its light; default white.
     pub color: Color,
+    /// Colour of the light from below, for `sky`; default a dim earth, `#6b6259`. Its brightness is its strength:
+    /// black gives none, snow is nearly white.
+    pub ground: Color,
+    /// A picture of the whole sky and ground, for `sky`, whose light replaces both colours; default none. Twice as
+    /// wide as high, straight up in its first row, with the middle towards -z. Its details do not show: surfaces take
+    /// the mean of the half that they face. One light may have one.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub image: String,
     /// Distance at which it has faded to nothing, in units of the scene, 0..1e9; default 0, it never fades. For `point` and `spot`.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub range: f32,
@@ -108,7 +117,9 @@ pub struct ExtraLight {
     /// for a cut-out edge.
     #[schemars(range(min = 0.0, max = 85.0))]
     pub outer_deg: f32,
-    /// Whether things throw shadows in it; default false. Of all lights of a picture the first four throw shadows.
+    /// Whether things throw shadows in it; default false. Of all lights of a picture the first four throw shadows. In
+    /// a `sky` they hide what of it stands behind them: rooms darken inwards, and so does the ground beneath things.
+    /// One sky may have that.
     pub shadow: bool,
 }
 
@@ -120,6 +131,8 @@ impl Default for ExtraLight {
             direction: [0.0, 1.0, 0.0],
             intensity: 0.5,
             color: Color::WHITE,
+            ground: Color::rgb(0x6b, 0x62, 0x59),
+            image: String::new(),
             range: 0.0,
             inner_deg: 20.0,
             outer_deg: 30.0,
@@ -151,7 +164,46 @@ impl Light {
                 return Err(StyleError::unfit(key, "is wider than outer_deg"));
             }
         }
+        self.check_skies()
+    }
+}
+
+impl Light {
+    /// Checks that one sky at most is hidden by the scene, and that one at most has a picture.
+    fn check_skies(&self) -> Result<(), StyleError> {
+        let skies = || {
+            let extra = self.extra.iter().enumerate();
+            extra.filter(|(_, light)| light.kind == LightShape::Sky)
+        };
+        if let Some((i, _)) = skies().filter(|(_, sky)| sky.shadow).nth(1) {
+            let key = format!("light.extra.{i}.shadow");
+            return Err(StyleError::unfit(
+                key,
+                "is on in a second sky, but may be in one",
+            ));
+        }
+        if let Some((i, _)) = skies().filter(|(_, sky)| !sky.image.is_empty()).nth(1) {
+            let key = format!("light.extra.{i}.image");
+            return Err(StyleError::unfit(
+                key,
+                "is the second picture of a sky, but there may be one",
+            ));
+        }
         Ok(())
+    }
+
+    /// The sky that the scene hides, where there is one that shines.
+    pub fn hidden_sky(&self) -> Option<&ExtraLight> {
+        let mut extra = self.extra.iter();
+        extra.find(|light| light.kind == LightShape::Sky && light.shadow && light.intensity > 0.0)
+    }
+
+    /// The name of the picture of the sky; empty where there is none that shines.
+    pub fn sky_image(&self) -> &str {
+        let mut extra = self.extra.iter();
+        let is_sky = |light: &&ExtraLight| light.kind == LightShape::Sky && light.intensity > 0.0;
+        let found = extra.find(|light| is_sky(light) && !light.image.is_empty());
+        found.map_or("", |light| light.image.as_str())
     }
 }
 
@@ -216,6 +268,16 @@ mod tests {
                 "[[light.extra]]\nintensity = nan",
                 "light.extra.0.intensity",
                 "is NaN, but must lie in 0..10",
+            ),
+            (
+                "[[light.extra]]\nkind = 'sky'\nshadow = true\n[[light.extra]]\nkind = 'sky'\nshadow = true",
+                "light.extra.1.shadow",
+                "is on in a second sky, but may be in one",
+            ),
+            (
+                "[[light.extra]]\nkind = 'sky'\nimage = 'a.png'\n[[light.extra]]\nkind = 'sky'\nimage = 'b.png'",
+                "light.extra.1.image",
+                "is the second picture of a sky, but there may be one",
             ),
             (
                 "[[light.extra]]\nkind = 'laser'",

@@ -9,8 +9,10 @@ use npr_core::light_view::Matrix;
 use npr_core::math;
 use npr_core::surface::{dot, unit_or_z};
 
+use crate::compose::LUMA;
 use crate::ramp::ramp_coordinate;
 use crate::shadow::SHADOWS_MAX;
+use crate::sky::Openness;
 
 /// Most lights that shade a frame.
 pub const LIGHTS_MAX: usize = 16;
@@ -33,10 +35,14 @@ pub struct LightSource {
     pub range: f32,
     /// Cosines of a spot's angles to its axis: where light ends, and up to where it is full.
     pub cone: [f32; 2],
-    /// Number of its shadow image, counted from 1; 0 where nothing throws shadows in its light.
+    /// Number of its shadow image, counted from 1; 0 where nothing throws shadows in its light, and of skies.
     pub shadow: u32,
-    /// Keeps rows of 16 bytes.
-    pub unused: f32,
+    /// Bits of [`LightSource::HIDDEN`] and [`LightSource::PICTURE`], of skies alone.
+    pub sky: u32,
+    /// Linear colour of the light from below, its greatest part 1; of skies alone.
+    pub ground: [f32; 3],
+    /// How strong that is against the light from above.
+    pub ground_strength: f32,
 }
 gpu_layout!(LightSource {
     position,
@@ -47,7 +53,9 @@ gpu_layout!(LightSource {
     range,
     cone,
     shadow,
-    unused
+    sky,
+    ground,
+    ground_strength
 });
 
 impl LightSource {
@@ -57,9 +65,15 @@ impl LightSource {
     pub const POINT: u32 = 1;
     /// Light from a point into a cone.
     pub const SPOT: u32 = 2;
-    /// Light from a whole hemisphere. Evenly bright, it lights a surface by `(N.up + 1) / 2` of itself, which is what a
-    /// distant light adds to the ramp; so it differs from that by having neither shadows nor highlights.
+    /// Light from everywhere: of one colour from above, of the ground's from below. Evenly bright, each half lights a
+    /// surface by the part of it that this faces: `(1 + N.up) / 2` of the upper one and the rest of the lower one.
+    /// Makes no highlights.
     pub const SKY: u32 = 3;
+
+    /// What stands in the way hides a sky.
+    pub const HIDDEN: u32 = 1;
+    /// [`Lights::dome`] gives the light of a sky instead of its two colours.
+    pub const PICTURE: u32 = 2;
 }
 
 /// All lights of a frame.
@@ -78,6 +92,20 @@ pub struct Lights {
     pub sources: [LightSource; LIGHTS_MAX],
     /// Clip space from the world of every shadow image.
     pub shadows: [Matrix; SHADOWS_MAX],
+    /// Middle, in the world, of the ball that the pictures of what hides the sky show.
+    pub sky_center: [f32; 3],
+    /// Its radius.
+    pub sky_radius: f32,
+    /// Where these pictures start in the texture store, see [`crate::sky`].
+    pub sky_maps: u32,
+    /// How many they are; 0 where nothing hides the sky.
+    pub sky_views: u32,
+    /// Texels of each along a side, an even number.
+    pub sky_side: u32,
+    /// Keeps rows of 16 bytes.
+    pub sky_unused: u32,
+    /// The picture of the sky, summed up by [`crate::sky::dome_of`].
+    pub dome: [[f32; 4]; 9],
 }
 gpu_layout!(Lights {
     count,
@@ -85,7 +113,14 @@ gpu_layout!(Lights {
     shadow_at,
     bias_world,
     sources,
-    shadows
+    shadows,
+    sky_center,
+    sky_radius,
+    sky_maps,
+    sky_views,
+    sky_side,
+    sky_unused,
+    dome
 });
 
 impl Lights {
@@ -114,9 +149,21 @@ impl Lights {
 
     /// Place on the ramp of a surface at `world` that faces along the unit vector `normal`, and the colour of the light
     /// there: the mean of the lights' colours by what each adds. Bit `i` of `dark` says that the place lies in the shadow of
-    /// light `i`. O(lights).
+    /// light `i`. Nothing hides the sky. O(lights).
     #[inline]
     pub fn coordinate_at(&self, world: [f32; 3], normal: [f32; 3], dark: u32) -> (f32, [f32; 3]) {
+        self.coordinate_under(world, normal, dark, Openness::FULL)
+    }
+
+    /// The same where `open` of the sky is seen.
+    #[inline]
+    pub fn coordinate_under(
+        &self,
+        world: [f32; 3],
+        normal: [f32; 3],
+        dark: u32,
+        open: Openness,
+    ) -> (f32, [f32; 3]) {
         // The rule: one sun, of which the mean is itself.
         if let Some(towards) = self.only_distant()
             && dark == 0
@@ -135,6 +182,12 @@ impl Lights {
         let mut sum = 0.0;
         let mut color = [0.0; 3];
         for (i, source) in self.sources[..self.count as usize].iter().enumerate() {
+            if source.kind == LightSource::SKY {
+                let light = self.sky_light(source, normal, open);
+                sum += light.share;
+                color = std::array::from_fn(|i| color[i] + light.color[i]);
+                continue;
+            }
             let is_dark = (dark >> i) & 1 != 0;
             let most = if is_dark { self.shadow_at } else { 1.0 };
             let share = source.share_at(world, normal, most);
@@ -145,6 +198,43 @@ impl Lights {
         let tint = color.map(|c| c / whole);
         (sum.min(1.0), if sum > 1e-6 { tint } else { [1.0; 3] })
     }
+
+    /// What a sky gives to a surface that faces along a unit vector and sees `open` of it.
+    #[inline]
+    pub(crate) fn sky_light(
+        &self,
+        source: &LightSource,
+        normal: [f32; 3],
+        open: Openness,
+    ) -> SkyLight {
+        let is_hidden = source.sky & LightSource::HIDDEN != 0;
+        let open = if is_hidden { open } else { Openness::FULL };
+        let upper = ramp_coordinate(dot(normal, source.direction)).clamp(0.0, 1.0);
+        let above = upper * open.above * source.intensity;
+        let below = (1.0 - upper) * open.below * source.intensity;
+        if source.sky & LightSource::PICTURE != 0 {
+            let light = self.dome_at(normal);
+            let strength = above + below;
+            return SkyLight {
+                share: dot(light, LUMA) * strength,
+                color: std::array::from_fn(|i| light[i] * source.color[i] * strength),
+            };
+        }
+        let below = below * source.ground_strength;
+        SkyLight {
+            share: above + below,
+            color: std::array::from_fn(|i| source.color[i] * above + source.ground[i] * below),
+        }
+    }
+}
+
+/// What a sky gives to a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SkyLight {
+    /// What it adds to the ramp coordinate.
+    pub share: f32,
+    /// Colour of its light, times that.
+    pub color: [f32; 3],
 }
 
 impl LightSource {
@@ -261,6 +351,40 @@ mod tests {
             let normals = [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]];
             assert_eq!(normals.map(|normal| at(place, normal)), [0.5, 0.25, 0.0]);
         }
+    }
+
+    #[test]
+    fn a_sky_has_a_colour_above_and_another_below() {
+        let mut lights = Lights::distant([0.0, 1.0, 0.0]);
+        lights.sources[0] = LightSource {
+            kind: LightSource::SKY,
+            color: [0.5, 0.5, 1.0],
+            sky: LightSource::HIDDEN,
+            ground: [1.0, 0.5, 0.0],
+            ground_strength: 0.4,
+            ..lights.sources[0]
+        };
+        let at = |y: f32, open| {
+            let normal = [(1.0 - y * y).sqrt(), y, 0.0];
+            lights.coordinate_under([9.0; 3], normal, 0, open)
+        };
+        assert_eq!(at(1.0, Openness::FULL), (1.0, [0.5, 0.5, 1.0]));
+        assert_eq!(at(-1.0, Openness::FULL), (0.4, [1.0, 0.5, 0.0]));
+        let (x, [r, ..]) = at(0.0, Openness::FULL);
+        assert!(
+            (x - 0.7).abs() < 1e-6 && (r - (0.25 + 0.2) / 0.7).abs() < 1e-6,
+            "{x} {r}"
+        );
+        let roofed = Openness {
+            above: 0.0,
+            below: 1.0,
+        };
+        assert_eq!([at(1.0, roofed).0, at(-1.0, roofed).0], [0.0, 0.4]);
+        let half = Openness {
+            above: 0.5,
+            below: 0.0,
+        };
+        assert_eq!([at(1.0, half).0, at(-1.0, half).0], [0.5, 0.0]);
     }
 
     #[test]

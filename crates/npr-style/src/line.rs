@@ -86,10 +86,13 @@ pub struct Line {
     /// 60 draws a box in strokes along its sides, each with the brush's own ends. Of drawings as curves only.
     #[schemars(range(min = 10.0, max = 180.0))]
     pub split_angle_deg: f32,
-    /// For method `angle`: how far from its silhouette, in degrees, a surface is inked, 0..90; default 15.
-    /// Flat parts fill with ink as it grows.
+    /// For method `angle`: how far from its silhouette, in degrees, a surface is inked, 0..90; default 15. Larger is
+    /// thicker, up to six line widths; flat faces are not inked.
     #[schemars(range(min = 0.0, max = 90.0))]
     pub angle_threshold_deg: f32,
+    /// For method `angle`: how softly the ink ends, as a part of that band, 0..1; default 0.1. 0 a cut edge, 1 an airbrush.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub angle_softness: f32,
     /// The kinds of line that are drawn.
     pub kinds: Kinds,
     /// The constants of method `potrace`.
@@ -110,6 +113,7 @@ impl Default for Line {
             crease_angle_deg: 40.0,
             split_angle_deg: 180.0,
             angle_threshold_deg: 15.0,
+            angle_softness: 0.1,
             kinds: Kinds::default(),
             potrace: Potrace::default(),
             width: Width::default(),

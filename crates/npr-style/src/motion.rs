@@ -6,7 +6,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::beam::{Beam, BeamStop};
+use crate::beam::{BeamStop, RuleBeam};
 use crate::ramp::Stop;
 use crate::{
     Background, Color, Highlight, Ink, Length, LineMethod, Rule, RuleShade, ShadeMode, Style,
@@ -115,9 +115,9 @@ impl Style {
                     color: code,
                     ..RuleShade::default()
                 },
-                beam: rule.beam.as_ref().map(|_| Beam {
-                    ramp: vec![clear.clone()],
-                    ..Beam::default()
+                beam: rule.beam.as_ref().map(|_| RuleBeam {
+                    ramp: Some(vec![clear.clone()]),
+                    ..RuleBeam::default()
                 }),
                 ..Rule::default()
             }

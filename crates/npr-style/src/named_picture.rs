@@ -1,6 +1,6 @@
 //! The pictures that a style names for its tones.
 
-use crate::Style;
+use crate::{LightShape, Style};
 
 /// Keys that name pictures, within a style or a rule.
 const RAMP: &str = "shade.ramp_image";
@@ -23,6 +23,11 @@ impl Style {
             (SMOKE_RAMP.to_owned(), self.smoke.ramp_image.as_str()),
             (SMOKE_HATCH.to_owned(), self.smoke.ink.hatch.image.as_str()),
         ];
+        for (i, light) in self.light.extra.iter().enumerate() {
+            if light.kind == LightShape::Sky {
+                named.push((format!("light.extra.{i}.image"), light.image.as_str()));
+            }
+        }
         for (i, rule) in self.rule.iter().enumerate() {
             let of_rule = [
                 (RAMP, &rule.shade.ramp_image),

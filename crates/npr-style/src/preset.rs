@@ -46,8 +46,8 @@ const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "comic-modern",
-        version: 1,
-        title: "Soft gradients, thin lines, small blacks and fine hatching",
+        version: 2,
+        title: "Soft gradients, thin even lines, small blacks and fine hatching",
         text: include_str!("../presets/comic-modern.toml"),
     },
     Preset {
@@ -55,6 +55,12 @@ const PRESETS: &[Preset] = &[
         version: 1,
         title: "comic-silver, and materials named Beam* glow: lasers, flashes, explosions, trails",
         text: include_str!("../presets/comic-light.toml"),
+    },
+    Preset {
+        name: "simple-comic",
+        version: 1,
+        title: "Cel colours, solid black shade, thick even outlines",
+        text: include_str!("../presets/simple-comic.toml"),
     },
     Preset {
         name: "crosshatch",
@@ -184,7 +190,15 @@ const PRESETS: &[Preset] = &[
     },
 ];
 
-/// Every preset, those for everyday use first.
+/// Looks that presets had before: a style that names such a version keeps it.
+const OLDER: &[Preset] = &[Preset {
+    name: "comic-modern",
+    version: 1,
+    title: "Soft gradients, thin lines, small blacks and fine hatching",
+    text: include_str!("../presets/older/comic-modern-1.toml"),
+}];
+
+/// Every preset in its newest version, those for everyday use first.
 pub fn presets() -> &'static [Preset] {
     PRESETS
 }
@@ -195,7 +209,7 @@ pub(crate) fn is_name(name: &str) -> bool {
     PRESETS.iter().any(|preset| preset.name == bare)
 }
 
-/// The preset called `name`, or `name@version`.
+/// The preset called `name`, or `name@version`; without a version the newest.
 ///
 /// # Errors
 ///
@@ -204,19 +218,71 @@ pub fn find(name: &str) -> Result<&'static Preset, StyleError> {
     let (bare, version) = name
         .split_once('@')
         .map_or((name, None), |(bare, version)| (bare, Some(version)));
-    let preset = PRESETS
+    let newest = PRESETS
         .iter()
         .find(|preset| preset.name == bare)
         .ok_or_else(|| StyleError::UnknownPreset {
             name: name.to_owned(),
             nearest: nearest(bare, PRESETS.iter().map(|preset| preset.name)).map(str::to_owned),
         })?;
-    match version {
-        Some(asked) if asked.parse() != Ok(preset.version) => Err(StyleError::PresetVersion {
-            name: preset.name,
+    let Some(asked) = version else {
+        return Ok(newest);
+    };
+    let mut versions = OLDER.iter().chain([newest]);
+    let is_asked = |preset: &&Preset| preset.name == bare && asked.parse() == Ok(preset.version);
+    versions
+        .find(is_asked)
+        .ok_or_else(|| StyleError::PresetVersion {
+            name: newest.name,
             asked: asked.to_owned(),
-            newest: preset.version,
-        }),
-        _ => Ok(preset),
+            newest: newest.version,
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Style, WidthSource};
+
+    #[test]
+    fn every_version_up_to_the_newest_is_there() {
+        for preset in PRESETS {
+            for version in 1..=preset.version {
+                let name = format!("{}@{version}", preset.name);
+                let found = find(&name).unwrap_or_else(|error| panic!("{name}: {error}"));
+                assert_eq!((found.name, found.version), (preset.name, version));
+                let style = Style::preset(&name).unwrap_or_else(|error| panic!("{name}: {error}"));
+                assert_eq!(
+                    (style.version, style.title.as_str()),
+                    (version, found.title)
+                );
+            }
+            assert_eq!(
+                find(preset.name),
+                Ok(preset),
+                "without a version the newest"
+            );
+            for version in ["0", "99", "", "x", "1.0"] {
+                let fault = find(&format!("{}@{version}", preset.name));
+                assert!(
+                    matches!(fault, Err(StyleError::PresetVersion { .. })),
+                    "{version}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn an_older_version_keeps_its_look() {
+        let width = |name: &str| Style::preset(name).expect("a preset").line.width;
+        let [old, new] = ["comic-modern@1", "comic-modern"].map(width);
+        assert_eq!(
+            (old.source, old.min, old.max),
+            (WidthSource::ProjectedCurvature, 0.6, 1.3)
+        );
+        assert_eq!(
+            (new.source, new.min, new.max),
+            (WidthSource::Constant, 1.0, 1.0)
+        );
     }
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::beam::Beam;
+use crate::beam::{Beam, RuleBeam};
 use crate::hatch::{Hatch, Pattern};
 use crate::highlight::{Back, Edge, Highlight, HighlightModel, Streak};
 use crate::ink::{Follow, Ink, Mapping, StrokeSpace, Tone};
@@ -365,7 +365,7 @@ pub struct Rule {
     pub motion: RuleMotion,
     /// Makes it a beam of light instead of a surface.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub beam: Option<Beam>,
+    pub beam: Option<RuleBeam>,
 }
 
 /// What a part is called, for rules.
@@ -418,7 +418,7 @@ pub struct Look<'a> {
     /// Its highlights.
     pub highlight: Highlight,
     /// How it glows, where it is a beam.
-    pub beam: Option<&'a Beam>,
+    pub beam: Option<Beam>,
     /// From it to where it came from, in the scene, where a rule says so.
     pub trail: Option<[f32; 3]>,
 }
@@ -462,7 +462,10 @@ impl<'a> Look<'a> {
             ramp_image: shade.ramp_image_over(self.ramp_image),
             ink: rule.ink.over(self.ink),
             highlight: rule.highlight.over(self.highlight),
-            beam: rule.beam.as_ref().or(self.beam),
+            beam: match &rule.beam {
+                Some(beam) => Some(beam.over(self.beam)),
+                None => self.beam,
+            },
             trail: rule.motion.trail.or(self.trail),
         }
     }

@@ -51,7 +51,7 @@ struct Place {
 impl Corners<'_> {
     /// A place of the triangle lifted onto the tangent planes of its corners, so that the facets of a smooth surface throw no
     /// shadows on one another [Hanika 2021].
-    fn lifted(&self, weights: [f32; 3]) -> [f32; 3] {
+    pub(crate) fn lifted(&self, weights: [f32; 3]) -> [f32; 3] {
         let world = self.world(weights);
         let lifts = self.posed.map(|corner| {
             let normal = corner.normal.map(|n| n * self.side);

@@ -6,14 +6,18 @@
 use crate::backdrop::Minding;
 use crate::compose::{Compose, Layers};
 use crate::gloss::shines_gently;
-use crate::inking::ink_over;
+use crate::inking::{ink_over, length};
 use crate::known::Known;
 use crate::line_color::{LinePlace, strengthened};
 use crate::ramp::{Level, ramp_coordinate, ramp_light};
+use crate::sky::Openness;
 use crate::tone_row::{row_is_even, row_light};
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
+use npr_core::math;
 use npr_core::raster::ID_MASK;
-use npr_core::surface::{blend2, blend3, dot, faces_eye, unit_or_z, weights_at};
+use npr_core::surface::{
+    blend, blend2, blend3, dot, faces_eye, unit_or_z, weights_around, weights_at,
+};
 use npr_core::texture;
 
 /// How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
@@ -78,6 +82,26 @@ impl Corners<'_> {
             at[0].max(at[1]).max(at[2]) + room,
         ]
     }
+}
+
+/// Widest line of the surface-angle method, in line widths: a surface that turns more slowly counts as flat.
+const ANGLE_WIDTHS: f32 = 6.0;
+
+/// The one-dimensional texture of the surface-angle method over N . E: dark where a surface is seen from the side, fading
+/// round `threshold` over `softness` of it [Suzuki 2004, section 3.2.2].
+pub fn angle_ramp(facing: f32, threshold: f32, softness: f32) -> f32 {
+    let half = 0.5 * softness * threshold;
+    1.0 - math::smoothstep(threshold - half, threshold + half, facing.abs())
+}
+
+/// 1 up to `widest_px` from the contour of a surface, 0 farther away, where N . E is `facing` and changes by `change`
+/// a pixel.
+///
+/// Near a contour N . E grows as the root of the distance, so that is half of `facing` over `change`. On flat faces
+/// nothing changes, and they lie infinitely far from any contour.
+pub fn not_flat(facing: f32, change: f32, widest_px: f32) -> f32 {
+    let distance = facing.max(0.0) * 0.5 / change.max(1e-9);
+    (widest_px - distance + 0.5).clamp(0.0, 1.0)
 }
 
 /// Width of a tone step, in ramp coordinate, from which on it is so gentle that one place of a pixel stands for all.
@@ -170,7 +194,7 @@ impl<'a> Layers<'a> {
             return None;
         }
         let normal = corners.posed[0].normal.map(|n| n * corners.side);
-        Some(self.light_of(part, corners.posed[0].world, normal, 0))
+        Some(self.light_of(part, corners.posed[0].world, normal, 0, Openness::FULL))
     }
 
     /// Whether a part's tones are the same for all coordinates in `range`.
@@ -288,7 +312,8 @@ impl<'a> Layers<'a> {
         }
         let weights = weights_at(corners.clip, self.view.ndc_at(group.center));
         let (world, normal) = (corners.world(weights), corners.normal(weights));
-        Some(self.light_of(part, world, normal, 0))
+        let open = self.openness(corners, group.center);
+        Some(self.light_of(part, world, normal, 0, open.at([0.0; 2])))
     }
 
     /// What highlights add to a group that lies in no shadow.
@@ -302,22 +327,32 @@ impl<'a> Layers<'a> {
         }
         let count = group.members.count_ones() as f32;
         let mut sum = [0.0; 3];
-        for weights in self.weights_of(group, corners) {
+        for (_, weights) in self.weights_of(group, corners) {
             let gloss = gloss_at(weights);
             sum = std::array::from_fn(|k| sum[k] + gloss[k] / count);
         }
         sum
     }
 
-    /// Weights of a triangle's corners at the samples of a group.
-    fn weights_of(&self, group: &Group, corners: &Corners<'_>) -> impl Iterator<Item = [f32; 3]> {
-        let (members, [x, y], clip) = (group.members, group.frame_px, corners.clip);
+    /// The samples of a group, and the weights of a triangle's corners there.
+    fn weights_of(
+        &self,
+        group: &Group,
+        corners: &Corners<'_>,
+    ) -> impl Iterator<Item = (u32, [f32; 3])> {
+        let (group, clip) = (*group, corners.clip);
         (0..4)
-            .filter(move |i| members & (1 << i) != 0)
+            .filter(move |i| group.members & (1 << i) != 0)
             .map(move |i| {
-                let offset = self.sample_offset(i);
-                weights_at(clip, self.view.ndc_at([x + offset[0], y + offset[1]]))
+                let at = self.sample_px(&group, i);
+                (i, weights_at(clip, self.view.ndc_at(at)))
             })
+    }
+
+    /// Where sample `i` of a group lies in the frame.
+    fn sample_px(&self, group: &Group, i: u32) -> [f32; 2] {
+        let ([x, y], offset) = (group.frame_px, self.sample_offset(i));
+        [x + offset[0], y + offset[1]]
     }
 
     /// The mean of a group's samples.
@@ -332,14 +367,15 @@ impl<'a> Layers<'a> {
         let shines = part.flags & Part::HIGHLIGHTS != 0 && !known.is_matt();
         let mut sum = Sampled::default();
         let mut ink = None;
-        for weights in self.weights_of(group, corners) {
+        let open = self.openness(corners, group.center);
+        for (i, weights) in self.weights_of(group, corners) {
             let (world, normal) = (corners.world(weights), corners.normal(weights));
             let dark = self.shadowed(group.id, corners, weights);
-            let light = self.light_of(part, world, normal, dark);
+            let px = self.sample_px(group, i);
+            let open = open.at([px[0] - group.center[0], px[1] - group.center[1]]);
+            let light = self.light_of(part, world, normal, dark, open);
             sum.light = std::array::from_fn(|k| sum.light[k] + light[k] / count);
-            if self.is_grazing(part, world, normal) {
-                sum.line += 1.0 / count;
-            }
+            sum.line += self.grazing(part, corners, px) / count;
             if shines {
                 let gloss = self.highlights_at(part, world, normal, dark);
                 sum.gloss = std::array::from_fn(|k| sum.gloss[k] + gloss[k] / count);
@@ -355,11 +391,20 @@ impl<'a> Layers<'a> {
         sum
     }
 
-    /// Whether the surface-angle method draws a line on a surface at `world` that faces along `normal`.
-    fn is_grazing(&self, part: &Part, world: [f32; 3], normal: [f32; 3]) -> bool {
-        part.flags & Part::ANGLE != 0
-            && self.compose.flags & Compose::BARE == 0
-            && dot(normal, self.view.to_eye(world)).abs() < part.facing_threshold
+    /// How dark the line of the surface-angle method is on a surface at a place of the frame, 0..1.
+    fn grazing(&self, part: &Part, corners: &Corners<'_>, px: [f32; 2]) -> f32 {
+        if part.flags & Part::ANGLE == 0 || self.compose.flags & Compose::BARE != 0 {
+            return 0.0;
+        }
+        let around = weights_around(corners.clip, self.view.ndc_at(px), self.view.pixel_ndc());
+        // The eye is that of the place: so the normal alone turns, and on flat faces nothing does.
+        let eye = self.view.to_eye(corners.world(around[0]));
+        let [here, right, down] = around.map(|weights| dot(corners.normal(weights), eye));
+        let change = length([right - here, down - here]);
+        let half_width = blend(around[0], corners.posed.map(|v| v.half_width));
+        let widest_px = ANGLE_WIDTHS * 2.0 * half_width;
+        let softness = self.compose.angle_softness;
+        angle_ramp(here, part.facing_threshold, softness) * not_flat(here, change, widest_px)
     }
 
     /// [`even_ink`](Self::even_ink) where shadows make it differ from place to place; without any it is known.
@@ -403,12 +448,20 @@ impl<'a> Layers<'a> {
         }
     }
 
-    /// Light on a surface at `world` that faces along `normal` and lies in the shadow of the lights in `dark`.
-    fn light_of(&self, part: &Part, world: [f32; 3], normal: [f32; 3], dark: u32) -> [f32; 3] {
+    /// Light on a surface at `world` that faces along `normal`, lies in the shadow of the lights in `dark` and sees
+    /// `open` of the sky.
+    fn light_of(
+        &self,
+        part: &Part,
+        world: [f32; 3],
+        normal: [f32; 3],
+        dark: u32,
+        open: Openness,
+    ) -> [f32; 3] {
         if part.flags & Part::UNLIT != 0 {
             return [1.0; 3];
         }
-        let (x, color) = self.lights.coordinate_at(world, normal, dark);
+        let (x, color) = self.lights.coordinate_under(world, normal, dark, open);
         let light = self.ramp_of(part, x);
         std::array::from_fn(|i| light[i] * color[i])
     }
@@ -542,7 +595,8 @@ mod tests {
             let corners = layers.corners_of(&triangle);
             if let Some(light) = layers.even_light(&part, &corners) {
                 let sum: f32 = weights.iter().sum();
-                let inside = layers.light_of(&part, [0.0; 3], corners.normal(weights.map(|w| w / sum)), 0);
+                let normal = corners.normal(weights.map(|w| w / sum));
+                let inside = layers.light_of(&part, [0.0; 3], normal, 0, Openness::FULL);
                 prop_assert_eq!(light, inside);
             }
         }

@@ -73,6 +73,54 @@ fn every_value_of_a_preset_has_a_remark() {
     }
 }
 
+/// Presets whose shade is ink, strokes or dots, and those they are weighed against.
+const WITH_ADVICE: [&str; 10] = [
+    "ink",
+    "comic-silver",
+    "comic-modern",
+    "simple-comic",
+    "crosshatch",
+    "stipple",
+    "pencil",
+    "screentone",
+    "cel-2",
+    "cel-3",
+];
+
+#[test]
+fn presets_of_ink_say_what_they_are_for_and_what_to_take_elsewhere() {
+    for name in WITH_ADVICE {
+        let preset = npr_style::find_preset(name).expect("a preset");
+        let opening: Vec<&str> = preset
+            .text
+            .lines()
+            .take_while(|line| line.starts_with('#'))
+            .map(|line| line.trim_start_matches(['#', ' ']))
+            .collect();
+        let advice = opening[1..].join(" ");
+        assert!(advice.starts_with("For "), "{name}: {advice}");
+        assert!(advice.len() > 60, "{name} gives no reason: {advice}");
+        let words = advice.split(|c: char| !(c.is_alphanumeric() || c == '-'));
+        let others: Vec<&str> = words
+            .filter(|word| *word != name && presets().iter().any(|preset| preset.name == *word))
+            .collect();
+        assert!(
+            !others.is_empty(),
+            "{name} names nothing to take elsewhere: {advice}"
+        );
+    }
+    // Every situation that strokes, crossed strokes or ink are advised for is told apart.
+    let text = |name| npr_style::find_preset(name).expect("a preset").text;
+    for (name, situation) in [
+        ("ink", "metal"),
+        ("comic-silver", "machines"),
+        ("crosshatch", "cloth"),
+        ("stipple", "skin"),
+    ] {
+        assert!(text(name).contains(situation), "{name}: {situation}");
+    }
+}
+
 #[test]
 fn the_comparison_presets_differ_only_in_method() {
     let mut okuya = Style::preset("okuya").expect("a preset");

@@ -95,31 +95,47 @@ pub const DRAW_SHADOW: Pass = Pass {
     },
 };
 
-/// The backs of the hull, into the same picture as the triangles.
+/// The backs of the hull, into the same picture as the triangles; cut-out parts have the holes that they have
+/// themselves.
 pub const DRAW_HULL: Pass = Pass {
     name: "raster.draw_hull",
     shader: npr_shaders::RASTER_DRAW_HULL,
     slots: &[
+        uniform::<View>("view"),
         uniform::<Window>("window"),
         read::<[f32; 4]>("hull"),
+        read::<Vertex>("vertices"),
         read::<Triangle>("triangles"),
         read::<Part>("parts"),
+        read::<u32>("texels"),
     ],
     work: NUMBERS,
     agreement: Agreement::Texels(0.001),
     twin: |b| {
-        let window: Window = b.one(0);
-        let hull: &[[f32; 4]] = b.read(1);
+        let (view, window): (View, Window) = (b.one(0), b.one(1));
+        let hull: &[[f32; 4]] = b.read(2);
+        let cutout = Cutout {
+            posed: &[],
+            vertices: b.read(3),
+            triangles: b.read(4),
+            parts: b.read(5),
+            texels: b.read(6),
+        };
+        let is_hole = |triangle: u32, ndc| {
+            let corners = cutout.triangles[triangle as usize].corners;
+            let clip = corners.map(|v| hull[v as usize]);
+            cutout.is_hole_at(triangle, weights_at(clip, ndc))
+        };
         let fill = Fill {
             window: &window,
-            triangles: b.read(2),
-            parts: b.read(3),
+            triangles: cutout.triangles,
+            parts: cutout.parts,
             sides: Sides::Backs,
             id_bits: HULL_BIT,
             clip_of: |v| hull[v as usize],
-            keep: |_, _, _| true,
+            keep: |id, x, y| !is_hole(triangle_of(id), view.ndc_at(window.frame_at(x, y))),
         };
-        fill_triangles(&fill, b.image_mut(4).texels, b.image_mut(5).texels);
+        fill_triangles(&fill, b.image_mut(7).texels, b.image_mut(8).texels);
     },
 };
 

@@ -47,6 +47,8 @@ impl Scene {
     pub fn new() -> Self {
         let mut store = TextureStore::new();
         let mut random = Random::new(7);
+        let sky = store.add_words(&sky_words(&mut random)).unwrap();
+        assert_eq!(sky, SKY_START);
         let rgba: Vec<u8> = (0..16 * 8 * 4).map(|_| random.below(256) as u8).collect();
         let texture = store
             .add([16, 8], &rgba, [Wrap::Repeat, Wrap::Mirror])
@@ -416,6 +418,33 @@ fn hatched_part(scene: &Scene) -> u32 {
 /// Texels of the shadow image along a side.
 pub const SHADOW_SIDE: u32 = 128;
 
+/// Where the pictures of what hides the sky start: behind the table of the texture store.
+const SKY_START: u32 = 256;
+
+/// Texels of each of them along a side.
+const SKY_SIDE: u32 = 8;
+
+/// Four pictures of what hides the sky, of which one is of the lower half, of anything.
+fn sky_words(random: &mut Random) -> Vec<u32> {
+    let outwards = [
+        [0.0, 1.0, 0.0],
+        [0.6, 0.8, 0.0],
+        [0.0, 0.28, 0.96],
+        [0.6, -0.8, 0.0],
+    ];
+    let mut words = Vec::new();
+    for [x, y, z] in outwards {
+        let (right, up) = ([y, -x, 0.0], [-x * z, -y * z, x * x + y * y]);
+        for (row, last) in [(right, 0), (up, 0), ([x, y, z], u32::from(y < 0.0))] {
+            words.extend(row.map(f32::to_bits));
+            words.push(last);
+        }
+    }
+    let texels = 4 * SKY_SIDE * SKY_SIDE / 2;
+    words.extend((0..texels).map(|_| random.bits() as u32));
+    words
+}
+
 /// The lights of a look: one that throws shadows, or one of every kind with shadows of the spot.
 pub fn lights(look: Look) -> Lights {
     let towards = [0.48, 0.6, 0.64];
@@ -427,12 +456,23 @@ pub fn lights(look: Look) -> Lights {
         lights.shadows[0] = distant_view(towards, &corners, &corners);
         lights.sources[0].shadow = 1;
     } else {
-        lights.count = 4;
+        lights.count = 5;
         lights.sources[3] = LightSource {
             kind: LightSource::SKY,
             intensity: 0.2,
+            sky: LightSource::HIDDEN,
+            ground: [1.0, 0.7, 0.4],
+            ground_strength: 0.5,
             ..lights.sources[0]
         };
+        lights.sources[4] = LightSource {
+            sky: LightSource::HIDDEN | LightSource::PICTURE,
+            ..lights.sources[3]
+        };
+        let pixels: Vec<[f32; 3]> = (0..8).map(|i| [0.1 * i as f32, 0.5, 0.8]).collect();
+        lights.dome = npr_style::sky::dome_of([4, 2], &pixels);
+        (lights.sky_center, lights.sky_radius) = ([0.0; 3], 2.0);
+        (lights.sky_maps, lights.sky_views, lights.sky_side) = (SKY_START, 4, SKY_SIDE);
         for (i, kind) in [(1, LightSource::POINT), (2, LightSource::SPOT)] {
             lights.sources[i] = LightSource {
                 position: [-1.5, 1.0, 1.5],

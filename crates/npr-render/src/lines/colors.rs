@@ -81,7 +81,8 @@ impl<'a> StrokeColors<'a> {
         let view = camera.view(size, bounds);
         let mut lamps = Model::new(&Scene::default())?;
         lamps.lights = input.lights.to_vec();
-        let lights = ChosenLights::new(style, &lamps).of_frame(style, bounds, None, camera, &view);
+        let lights = ChosenLights::new(style, &lamps, input.pictures);
+        let lights = lights.of_frame(style, bounds, None, camera, &view);
         let mut textures = input
             .map
             .map_or_else(TextureStore::new, |map| map.textures.clone());

@@ -7,12 +7,14 @@ use crate::light::ChosenLights;
 use crate::model::Model;
 use crate::placement::Bounds;
 use crate::smoke::{Measure, Smoke, around, lens_of};
+use crate::stage::Picture;
 use npr_core::camera::Camera;
 use npr_style::smoke::SmokeLook;
 use npr_style::{SmokeLines as Outlining, Style};
 use npr_vector::project::Projector;
 use npr_vector::puff::{Puffs, RimPoint, SmokeLines};
 use npr_vector::stroke::StrokeSurface;
+use std::collections::BTreeMap;
 
 /// Opacity from which smoke hides lines: less is haze.
 const DENSE: f32 = 0.5;
@@ -35,16 +37,16 @@ pub(super) struct SmokeView<'a> {
 }
 
 impl<'a> SmokeView<'a> {
-    /// `bounds` is the box of all that is drawn; `model` lends its lights.
+    /// `bounds` is the box of all that is drawn; `model` lends its lights, and `pictures` are those of the style.
     pub fn new(
         smoke: &Smoke,
         (style, options): (&'a Style, &LineOptions),
         (camera, projector, bounds): (&Camera, &Projector, Bounds),
-        model: &Model,
+        (model, pictures): (&Model, &BTreeMap<String, Picture>),
         first_surface: u32,
     ) -> Result<Self, RenderError> {
         let view = camera.view(options.size, bounds);
-        let (lights, _) = ChosenLights::new(style, model).of_smoke(style, model);
+        let (lights, _) = ChosenLights::new(style, model, pictures).of_smoke(style, model);
         let measure = Measure {
             height_px: options.size[1] as f32,
             dpi: options.dpi,
@@ -54,7 +56,8 @@ impl<'a> SmokeView<'a> {
         let lens = lens_of(&view, &style.smoke);
         let lights = lights.of_frame(style, bounds, None, camera, &view);
         let is_toned = options.fill && style.smoke.ramp.len() > 1;
-        let tones = is_toned.then(|| ToneMap::new(smoke, model, style, options, camera));
+        let tones =
+            is_toned.then(|| ToneMap::new(smoke, (model, pictures), style, options, camera));
         Ok(Self {
             puffs: Puffs::new(projector, options.size, &smoke.styled(&style.smoke)),
             look: measure.look(style, &lens, smoke.bounds(), &lights, 0),

@@ -4,13 +4,14 @@ use super::LineOptions;
 use crate::error::RenderError;
 use crate::model::Model;
 use crate::smoke::Smoke;
-use crate::stage::{Stage, StageOptions};
+use crate::stage::{Picture, Stage, StageOptions};
 use npr_core::camera::Camera;
 use npr_core::color::linear_from_byte;
 use npr_gpu::processor::Processor;
 use npr_style::{
     Background, Color, SmokeInk, SmokeLines, SmokeMethod, SmokeStop, SmokeStyle, Style,
 };
+use std::collections::BTreeMap;
 
 /// How far tones go on beyond the smoke, in pixels, so that their edges reach its outline.
 const BEYOND_PX: usize = 3;
@@ -35,7 +36,7 @@ impl ToneMap {
     /// Draws the smoke as pictures have it, on the processor, lit by the lights of a model without surfaces.
     pub fn new(
         smoke: &Smoke,
-        model: &Model,
+        (model, pictures): (&Model, &BTreeMap<String, Picture>),
         style: &Style,
         options: &LineOptions,
         camera: &Camera,
@@ -43,6 +44,7 @@ impl ToneMap {
         let stage_options = StageOptions {
             dpi: options.dpi,
             smoke: Some(smoke.clone()),
+            pictures: pictures.clone(),
             ..StageOptions::new(options.size)
         };
         let telling = telling_tones(style);

@@ -10,6 +10,7 @@ use super::SmokeLook;
 use super::depth_map::DepthTexels;
 use crate::lighting::{LightSource, Lights};
 use crate::shadow::SHADOWS_MAX;
+use crate::sky::Openness;
 
 /// What smoke is lit by and seen through.
 #[derive(Debug, Clone, Copy)]
@@ -91,12 +92,12 @@ impl Shading<'_> {
     fn light_at(&self, id: u32, world: [f32; 3], normal: [f32; 3]) -> f32 {
         let mut sum = self.look.ambient;
         for source in &self.lights.sources[..self.lights.count as usize] {
+            if source.kind == LightSource::SKY {
+                sum += self.lights.sky_light(source, normal, Openness::FULL).share;
+                continue;
+            }
             let (towards, strength) = source.reach_at(world);
-            let wrap = if source.kind == LightSource::SKY {
-                1.0
-            } else {
-                self.look.wrap
-            };
+            let wrap = self.look.wrap;
             let facing = (dot(normal, towards) + wrap) / (1.0 + wrap);
             let mut lit = facing.clamp(0.0, 1.0);
             if lit > self.lights.shadow_at
