@@ -288,6 +288,12 @@ pub(crate) fn hidden_range(shape: &Shape, face: u32, sights: &[Sight; 2]) -> Opt
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     let before = sights.map(|s| normal.dot(corners[0] - DVec3::from(s.eye)));
     let behind = sights.map(|s| normal.dot(DVec3::from(s.point) - corners[0]));
+    // In parallel view all ways have one direction. Its length must not change along the line, or sides would not
+    // change evenly.
+    let ways = sights.map(|s| DVec3::from(s.point) - DVec3::from(s.eye));
+    let longer = ways[usize::from(ways[1].length_squared() > ways[0].length_squared())];
+    let is_parallel = sights[0].eye != sights[1].eye;
+    let ways = ways.map(|way| if is_parallel { longer } else { way });
     // Seen from the front and from the back; in parallel view a face across the near plane may be both.
     [1.0, -1.0].into_iter().find_map(|sign| {
         let mut range = [0.0, 1.0];
@@ -305,15 +311,12 @@ pub(crate) fn hidden_range(shape: &Shape, face: u32, sights: &[Sight; 2]) -> Opt
         let [i, j, k] = shape.faces[face as usize];
         let passes = [(2, 1, j, k), (0, 2, k, i), (1, 0, i, j)].into_iter();
         let inside = |(to, from, low, high): (usize, usize, u32, u32)| {
-            let side = |s: &Sight| {
-                let eye = DVec3::from(s.eye);
+            let side = |end: usize| {
+                let eye = DVec3::from(sights[end].eye);
                 let (to, from) = (corners[to] - eye, corners[from] - eye);
-                -sign * (DVec3::from(s.point) - eye).dot(to.cross(from))
+                -sign * ways[end].dot(to.cross(from))
             };
-            keep(
-                [side(&sights[0]), side(&sights[1])],
-                (low < high) == (sign < 0.0),
-            )
+            keep([side(0), side(1)], (low < high) == (sign < 0.0))
         };
         (stays && passes.map(inside).all(|kept| kept)).then_some(range)
     })

@@ -36,8 +36,9 @@ pub const CROWD: usize = 512;
 /// faces.
 const LEAST_CROWDED_PX: f64 = 1.0 / 64.0;
 
-/// Of a crowded piece behind more faces than this, they are not counted: it is hidden or not.
-const COUNTED_MOST: usize = 1024;
+/// The faces before a crowded piece are counted where there are no more than one for so many pixels of
+/// it; else it is hidden or not.
+const PX_PER_COUNTED: f64 = 2.0;
 
 /// A straight piece of line in space and in the picture, cut to the frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -312,7 +313,7 @@ pub struct Seen<'a> {
 
 impl Seen<'_> {
     /// The spans of a piece, which cover it in order; neighbours differ. Of crowded pieces
-    /// ([`OutlineGrid::is_crowded`]) behind more than 1024 faces these are not counted: what is hidden has one in
+    /// ([`OutlineGrid::is_crowded`]) behind more faces than one for two pixels these are not counted: what is hidden has one in
     /// front.
     ///
     /// `last` keeps the face that hid something last, to be tried first: it changes the time taken and nothing else.
@@ -346,8 +347,9 @@ impl Seen<'_> {
         let images = self
             .images
             .get_or_init(|| FaceImages::new(self.shape, self.tree, self.projector, self.size));
+        let most = (piece.length() / PX_PER_COUNTED) as usize;
         if self.count_limit > 1 && left_out.is_empty() && self.puffs.is_none() {
-            let parts = images.parts_by_face(self, piece, circumstances, COUNTED_MOST);
+            let parts = images.parts_by_face(self, piece, circumstances, most);
             if let Some(parts) = parts {
                 return joined(counted(&parts, self.count_limit), piece);
             }

@@ -72,7 +72,10 @@ fn crowds_are_drawn_in_bounds() {
             // A round is 256 lines, none longer than the picture's diagonal.
             assert!(length < 3.0 * paper + 256.0 * 520.0, "{name}: {length}");
             let points: usize = found.strokes.iter().map(|stroke| stroke.points.len()).sum();
-            assert!((points as f64) < length + 4.0 * found.strokes.len() as f64, "{name}: {points}");
+            assert!(
+                (points as f64) < length + 4.0 * found.strokes.len() as f64,
+                "{name}: {points}"
+            );
         }
     }
 }

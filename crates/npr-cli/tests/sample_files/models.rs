@@ -29,6 +29,10 @@ fn crowds_of_faces_are_drawn_in_bounds() {
         let lines = ["lines", "--quiet", "--memory-limit", "1G"];
         let svg = written(&lines, &file);
         assert!(svg.ends_with(b"</svg>\n"), "{}", file.display());
-        assert!((10_000..4_000_000).contains(&svg.len()), "{}", file.display());
+        assert!(
+            (10_000..4_000_000).contains(&svg.len()),
+            "{}",
+            file.display()
+        );
     }
 }
