@@ -436,7 +436,7 @@ fn a_cloud_is_wide_and_bright_above_and_has_no_lines() {
     let column = |x: u32| {
         let mut rows = (0..SIZE[1]).filter(|y| at(x, *y) != sky);
         let top = rows.next()?;
-        Some([x, top, rows.last().unwrap_or(top)])
+        Some([x, top, rows.next_back().unwrap_or(top)])
     };
     let columns: Vec<[u32; 3]> = (0..SIZE[0]).filter_map(column).collect();
     // Its middle, without the thin ends.

@@ -307,8 +307,9 @@ fn calm() -> Outcome<()> {
          that stand for the smoke, is carried to the frame before with its sphere and through that frame's camera, once as paint on \
          the sphere and once as part of its image, as outlines are; it is compared where it is seen there too, and either way may \
          explain its tone. Its tone differs where it lies more than {STEP} of the way from black to white off the tone \
-         there; it jumps where nothing within a pixel comes nearer either. All styles are held against the same points, those of our \
-         spheres, whatever spheres they draw. Billboards are lit by nothing: of them only lines can change.\n"
+         there; it jumps where nothing within a pixel comes nearer either. Styles are held against \
+         the points of the spheres that they draw or stand for: ours, but for published particles their own, whose births, deaths \
+         and leaps in size therefore count for nothing here and are counted below. Billboards are lit by nothing: of them only lines can change.\n"
     );
     let mut table = Table::new([
         "subject",
@@ -463,34 +464,28 @@ fn add_rows(
 }
 
 fn orbit(volume: &Volume, settings: &[&str]) -> Outcome<Change> {
-    let spheres_of = |settings: &[&str]| -> Outcome<Vec<Sphere>> {
-        let style = look(&[settings, &["smoke.puffs.count=600"]].concat())?;
-        let puffs = Puffs::new(volume, Following::default().settings(&style.smoke));
-        Ok(puffs.spheres())
-    };
-    let (points, spheres) = (spheres_of(&[])?, spheres_of(settings)?);
+    let style = look(&[settings, &["smoke.puffs.count=600"]].concat())?;
+    let spheres = Puffs::new(volume, Following::default().settings(&style.smoke)).spheres();
     let model = empty()?;
-    let mut picture = Picture::new(&model, &look(settings)?, PAPER_SIZE, spheres.len() as u32)?;
+    let mut picture = Picture::new(&model, &style, PAPER_SIZE, spheres.len() as u32)?;
     let shown = |step: u32| {
         let camera = picture.camera(volume, step as f32);
         let frame = picture.draw(&spheres, volume, &camera)?;
-        Ok(Shown::new(&frame, &camera, &points))
+        Ok(Shown::new(&frame, &camera, &spheres))
     };
     sum_of_changes(shown)
 }
 
 fn rising(settings: &[&str]) -> Outcome<Change> {
     let style = look(&[settings, &[PLUME_COUNT]].concat())?;
-    let mut points = Film::new(&look(&[PLUME_COUNT])?)?;
     let mut film = Film::new(&style)?;
     let model = empty()?;
     let mut picture = Picture::new(&model, &style, PAPER_SIZE, style.smoke.puffs.count)?;
     let shown = |_| {
         let volume = film.step();
-        points.step();
         let (spheres, camera) = (film.puffs.spheres(), picture.camera(&volume, 0.0));
         let frame = picture.draw(&spheres, &volume, &camera)?;
-        Ok(Shown::new(&frame, &camera, &points.puffs.spheres()))
+        Ok(Shown::new(&frame, &camera, &spheres))
     };
     sum_of_changes(shown)
 }

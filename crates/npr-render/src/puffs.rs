@@ -72,8 +72,10 @@ mod tests {
     fn a_style_without_wishes_follows_as_usual() {
         let usual = Following::default().settings(&SmokeStyle::default());
         assert_eq!(usual, PuffSettings::Cover(TrackSettings::default()));
-        let mut style = SmokeStyle::default();
-        style.particles = SmokeParticles::Published;
+        let style = SmokeStyle {
+            particles: SmokeParticles::Published,
+            ..SmokeStyle::default()
+        };
         let published = Following::default().settings(&style);
         assert_eq!(
             published,

@@ -88,7 +88,11 @@ impl Heap {
         let column = |x, y| {
             let mut dense = (0..height).filter(|z| is_dense(x, y, *z));
             let low = dense.next()?;
-            Some([x as f32, low as f32, dense.last().unwrap_or(low) as f32])
+            Some([
+                x as f32,
+                low as f32,
+                dense.next_back().unwrap_or(low) as f32,
+            ])
         };
         let places = (0..depth).flat_map(|y| (0..width).map(move |x| (x, y)));
         let columns: Vec<[f32; 3]> = places.filter_map(|(x, y)| column(x, y)).collect();

@@ -218,7 +218,7 @@ mod tests {
 
     #[test]
     fn presets_say_nothing() {
-        for preset in Style::presets() {
+        for preset in crate::presets() {
             let style = Style::preset(preset.name).expect("a preset");
             for output in [SmokeOutput::Frame, SmokeOutput::Lines] {
                 assert!(
