@@ -581,7 +581,7 @@ fn notices_of_view(prepared: &Prepared, left_out: usize) -> Vec<String> {
     }
     if left_out > 0 {
         notices.push(format!(
-            "lines lie so close that the paper is black: {left_out} pieces over it are left out"
+            "lines lie closer than ink can show: {left_out} pieces of them are left out"
         ));
     }
     notices

@@ -309,7 +309,7 @@ pub(crate) fn hidden_range(shape: &Shape, face: u32, sights: &[Sight; 2]) -> Opt
             && keep([0, 1].map(is_before), false)
             && (reach == 0.0 || keep(behind.map(|v| v - reach), false));
         let [i, j, k] = shape.faces[face as usize];
-        let passes = [(2, 1, j, k), (0, 2, k, i), (1, 0, i, j)].into_iter();
+        let mut passes = [(2, 1, j, k), (0, 2, k, i), (1, 0, i, j)].into_iter();
         let inside = |(to, from, low, high): (usize, usize, u32, u32)| {
             let side = |end: usize| {
                 let eye = DVec3::from(sights[end].eye);
@@ -318,7 +318,7 @@ pub(crate) fn hidden_range(shape: &Shape, face: u32, sights: &[Sight; 2]) -> Opt
             };
             keep([side(0), side(1)], (low < high) == (sign < 0.0))
         };
-        (stays && passes.map(inside).all(|kept| kept)).then_some(range)
+        (stays && passes.all(inside)).then_some(range)
     })
 }
 
