@@ -88,11 +88,10 @@ fn words_stand_behind_what_hides_them() {
     let letters = |frame: &Frame| {
         let places = (0..SIZE[0]).flat_map(|x| (0..SIZE[1]).map(move |y| (x, y)));
         let yellow = places.filter(|(x, y)| pixel(frame, *x, *y) == [0xff, 0xd4, 0x1f]);
-        let sides = yellow.fold([0, 0], |[left, right], (x, _)| match x < SIZE[0] / 2 {
+        yellow.fold([0, 0], |[left, right], (x, _)| match x < SIZE[0] / 2 {
             true => [left + 1, right],
             false => [left, right + 1],
-        });
-        sides
+        })
     };
     for (over, behind) in drawn(false).iter().zip(drawn(true)) {
         let ([left, right], hidden) = (letters(over), letters(&behind));

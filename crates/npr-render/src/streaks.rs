@@ -366,10 +366,11 @@ mod tests {
     fn what_runs_past_the_eye_is_cut_before_it() {
         let view = eye_at_origin(1.0);
         let [ahead, behind] = [glam::vec3(1.0, 0.0, -2.5), glam::vec3(3.0, 4.0, 1.5)];
-        // The eye's own plane is five eighths of the way.
+        // The cut lies at a thousandth of 2.5 before the eye: 2.4975 of the 4 units that depth changes along the way.
         let [start, cut] = before_eye([ahead, behind], &view).unwrap();
         assert_eq!(start, ahead);
-        assert!(cut.distance(glam::vec3(2.25, 2.5, -0.0025)) < 2e-3, "{cut}");
+        let wanted = ahead.lerp(behind, 2.4975 / 4.0);
+        assert!(cut.distance(wanted) < 1e-5, "{cut}");
         assert_eq!(before_eye([behind, ahead], &view), Some([cut, ahead]));
         assert_eq!(before_eye([behind; 2], &view), None);
         assert_eq!(before_eye([ahead; 2], &view), Some([ahead; 2]));

@@ -200,11 +200,11 @@ fn broken_animations_are_told_of_by_what_is_wrong() {
             Some("channel 0 needs values of 3 numbers"),
         ),
         (
-            format!(r#""channels":[],"samplers":[{{"input":3,"output":99}}]"#),
+            r#""channels":[],"samplers":[{"input":3,"output":99}]"#.to_string(),
             Some("sampler 0 uses accessor 99, but the file has only 5"),
         ),
         (
-            format!(r#""channels":[],"samplers":[{{"input":4,"output":4}}]"#),
+            r#""channels":[],"samplers":[{"input":4,"output":4}]"#.to_string(),
             Some("sampler 0 has times that are no single numbers"),
         ),
         (

@@ -1,6 +1,7 @@
 //! The published method at one and at four samples a pixel.
 
 use crate::fixture::{HEIGHT, around, draw, engines, picture, pixel, places, styled};
+use npr_core::math;
 use npr_mesh::testing::{icosphere, mapped, plane, torus};
 use npr_scene::Scene;
 use npr_style::backdrop::published;
@@ -15,7 +16,7 @@ const TURN: f32 = 0.35;
 
 /// A flat square, turned in the plane of the picture.
 fn square() -> Scene {
-    let (sin, cos) = TURN.sin_cos();
+    let (sin, cos) = (math::sin(TURN), math::cos(TURN));
     let turned = mapped(&plane(1, 1), |[x, y, _]| {
         let [x, y] = [x, y].map(|v| (2.0 * v - 1.0) * HALF);
         [x * cos - y * sin, x * sin + y * cos, 0.0]
@@ -32,7 +33,7 @@ fn covered(x: u32, y: u32, across: u32) -> Option<u32> {
         let [px, py] = [at(x, i % across), at(y, i / across)];
         let [u, v] =
             [px - 0.5 * SIZE[0] as f32, 0.5 * SIZE[1] as f32 - py].map(|v| v / px_per_unit);
-        let (sin, cos) = TURN.sin_cos();
+        let (sin, cos) = (math::sin(TURN), math::cos(TURN));
         let inside = HALF - (u * cos + v * sin).abs().max((v * cos - u * sin).abs());
         if inside.abs() < 1e-4 {
             return None;
