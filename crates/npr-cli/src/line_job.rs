@@ -11,6 +11,7 @@ use crate::message::quoted;
 use crate::output::Output;
 use crate::source::{Source, has_volume_name};
 use crate::volume::{self, VolumeSource};
+use npr_core::crease::CreaseFrom;
 use npr_core::geometry::Part;
 use npr_render::{
     Drawing, Kind, KindSet, Lettering, LineMethod, LineOptions, PaintedLines, StageOptions,
@@ -19,9 +20,6 @@ use npr_scene::Limits;
 use npr_style::{Background, Style};
 use npr_vector::artwork::{ArtworkOptions, Hidden, Page, Paths, arrange};
 use std::path::{Path, PathBuf};
-
-/// Names the folder for prepared surfaces where no option does.
-const CACHE_VARIABLE: &str = "NPR_CACHE_DIR";
 
 const MM_PER_INCH: f64 = 25.4;
 
@@ -47,7 +45,7 @@ pub struct LineJob<'a> {
     pub lettering: Lettering,
     /// How the picture is drawn that lines are judged before, where the style lets them mind it.
     pub backdrop: Option<StageOptions>,
-    /// Where prepared surfaces are kept between runs.
+    /// Where what is costly to prepare is kept between runs.
     pub cache: Option<PathBuf>,
 }
 
@@ -84,7 +82,7 @@ impl<'a> LineJob<'a> {
             artwork: artwork(said, &look.style),
             look,
             backdrop: backdrop.transpose()?,
-            cache: cache_folder(said.cache.as_deref())?,
+            cache: said.cache.folder()?,
             said,
         })
     }
@@ -187,6 +185,7 @@ fn options(said: &LinesArguments, style: &Style) -> LineOptions {
     let LineArguments {
         kinds,
         crease,
+        crease_from,
         split,
         method,
         hidden,
@@ -201,6 +200,7 @@ fn options(said: &LinesArguments, style: &Style) -> LineOptions {
     LineOptions {
         kinds: named.unwrap_or(of_style.kinds),
         crease: crease.map_or(of_style.crease, f32::to_radians),
+        crease_from: crease_from.map_or(of_style.crease_from, CreaseFrom::from),
         split: split.map_or(of_style.split, LineOptions::split_at),
         method: match method {
             MethodName::Edges => LineMethod::Edges,
@@ -262,22 +262,6 @@ fn artwork(said: &LinesArguments, style: &Style) -> ArtworkOptions {
     }
 }
 
-/// The folder for prepared surfaces, which has to exist; none where the user wants none.
-fn cache_folder(said: Option<&Path>) -> Result<Option<PathBuf>, Fault> {
-    let named = said.map(Path::to_owned);
-    let of_variable = || std::env::var_os(CACHE_VARIABLE).map(PathBuf::from);
-    let folder = named.or_else(of_variable);
-    let Some(folder) = folder.filter(|folder| !folder.as_os_str().is_empty() && folder != "off")
-    else {
-        return Ok(None);
-    };
-    if folder.is_dir() {
-        return Ok(Some(folder));
-    }
-    let message = format!("cache: there is no folder {}", quoted(&folder));
-    Err(Fault::new(Exit::Failed, message))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -292,12 +276,5 @@ mod tests {
         assert_eq!(of(Some(LineFormat::Png), "b.svg"), Ok(LineFormat::Png));
         let fault = of(None, "b.eps").expect_err("not written");
         assert_eq!(fault.exit, Exit::Usage);
-    }
-
-    #[test]
-    fn off_and_nothing_mean_no_cache() {
-        assert_eq!(cache_folder(Some(Path::new("off"))), Ok(None));
-        let fault = cache_folder(Some(Path::new("no/where"))).expect_err("missing");
-        assert_eq!(fault.exit, Exit::Failed);
     }
 }

@@ -57,7 +57,7 @@ pub fn lines_of_picture(said: &RenderArguments) -> Result<(), Fault> {
         },
         sheet: SheetArguments::default(),
         drawing: said.drawing.clone(),
-        cache: None,
+        cache: said.cache.clone(),
     };
     lines(&lines_said)
 }
@@ -171,7 +171,9 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
         );
     }
     let behind = match job.backdrop {
-        Some(_) => Some(progress.step("prepare", || Model::new(&loaded.scene))?),
+        Some(_) => Some(progress.step("prepare", || {
+            Model::cached(&loaded.scene, job.cache.as_deref())
+        })?),
         None => None,
     };
     progress.suspend(|| warn_of(job, &model, &told));

@@ -112,16 +112,17 @@ pub fn prepared(
     scene: &Scene,
     style: &Style,
     limits: &Limits,
+    cache: Option<&Path>,
     progress: &mut Progress,
 ) -> Result<Prepared, Fault> {
-    let model = progress.step("prepare", || Model::new(scene))?;
+    let model = progress.step("prepare", || Model::cached(scene, cache))?;
     let lines = style.has_curves().then(|| {
         let options = LineModelOptions {
             memory_limit: limits.memory_bytes,
             ..LineModelOptions::default()
         };
         progress.step("prepare", || {
-            LineModel::for_style(scene, style, &options, None)
+            LineModel::for_style(scene, style, &options, cache)
         })
     });
     Ok(Prepared {
@@ -145,7 +146,8 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<S
     job.output.refuse_any_of(&told.inputs)?;
     job.look
         .apply_id_maps(&mut loaded.scene, &limits, external)?;
-    let prepared = prepared(&loaded.scene, &job.look.style, &limits, progress)?;
+    let (style, cache) = (&job.look.style, job.cache.as_deref());
+    let prepared = prepared(&loaded.scene, style, &limits, cache, progress)?;
     progress.suspend(|| warn_of(job, &prepared.model, &told));
     Ok((prepared, smoke))
 }

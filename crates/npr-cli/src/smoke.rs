@@ -184,6 +184,7 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, 
         &npr_scene::Scene::default(),
         &job.look.style,
         &limits,
+        None,
         progress,
     )?;
     let outputs = outputs(job, &film)?;

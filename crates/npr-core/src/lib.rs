@@ -15,6 +15,7 @@
 pub mod budget;
 pub mod camera;
 pub mod color;
+pub mod crease;
 pub mod cutout;
 pub mod geometry;
 pub mod layout;

@@ -31,6 +31,7 @@ mod hatching;
 mod id_map;
 mod instance;
 mod joined;
+mod kept;
 mod lettering;
 mod light;
 mod line_colors;

@@ -91,7 +91,7 @@ pub use layers::{PARENTS_MAX, Parents, TEXT_BYTES_MAX};
 pub use length::{LONGEST, Length, LengthError, REFERENCE_HEIGHT_PX, Unit};
 pub use lettering::{LETTERING_MAX, Lettering, LetteringOutline};
 pub use light::{ExtraLight, Light, LightShape, LightSpace};
-pub use line::{Kinds, Line, LineMethod};
+pub use line::{CREASE_ANGLE_DEG, CreaseFrom, Kinds, Line, LineMethod};
 pub use line_background::{
     BackgroundMethod, Direction, Likeness, LineBackground, LineScope, LineStart, Measure,
     RuleBackground, Subjects,

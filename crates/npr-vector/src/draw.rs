@@ -22,6 +22,7 @@ use crate::stroke::{Kind, Stroke, StrokePoint};
 use crate::visibility::{Circumstances, OutlineGrid, Piece, Seen, Span};
 use crate::wire::{touch, wires};
 use crate::zero_set::{CornerNormals, PolygonOutline, SeenContour, zero_set};
+use npr_core::crease::Creases;
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 use rayon::prelude::*;
@@ -120,8 +121,8 @@ pub struct Prepared {
     rims: Vec<u32>,
     /// For every object, whether it has a border, so that backs of faces may be seen.
     is_open: Vec<bool>,
-    /// From which cosine between normals on an edge is no crease.
-    crease_cos: f32,
+    /// Which edges are creases.
+    creases: Creases,
     /// Whether `crossings` are known; else every view looks for those of its own lines.
     has_crossings: bool,
     /// Smooth normals, once they are asked for.
@@ -129,17 +130,23 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// Prepares a shape whose edges are creases where the cosine between normals is under `crease_cos`.
+    /// Prepares a shape with the creases asked for.
     ///
     /// Intersections cost more than the rest together, and are needed only as lines: without them, a view finds for itself
     /// where its lines go through faces.
-    pub fn new(shape: &Shape, crease_cos: f32, with_crossings: bool) -> Self {
-        let (tree, features) = rayon::join(|| FaceTree::new(shape), || features(shape, crease_cos));
-        let crossings = if with_crossings {
-            crate::intersect::crossings(shape, &tree)
-        } else {
-            Crossings::default()
-        };
+    pub fn new(shape: &Shape, creases: impl Into<Creases>, with_crossings: bool) -> Self {
+        let find: &dyn Fn(&FaceTree) -> Crossings = &|tree| crate::intersect::crossings(shape, tree);
+        Self::with_crossings(shape, creases.into(), with_crossings.then_some(find))
+    }
+
+    /// The same with intersections from elsewhere: from a file that kept those of this shape, perhaps.
+    pub fn with_crossings(
+        shape: &Shape,
+        creases: Creases,
+        find: Option<&dyn Fn(&FaceTree) -> Crossings>,
+    ) -> Self {
+        let (tree, features) = rayon::join(|| FaceTree::new(shape), || features(shape, creases));
+        let crossings = find.map(|find| find(&tree)).unwrap_or_default();
         let odd = Shape::BORDER | Shape::NON_MANIFOLD;
         let rims: Vec<u32> = (0..shape.edge_count() as u32)
             .filter(|edge| shape.edge_traits[*edge as usize] & odd != 0)
@@ -158,8 +165,8 @@ impl Prepared {
             touch: touch(shape),
             rims,
             is_open,
-            crease_cos,
-            has_crossings: with_crossings,
+            creases,
+            has_crossings: find.is_some(),
             normals: OnceLock::new(),
         }
     }
@@ -167,7 +174,7 @@ impl Prepared {
     /// Smooth normals at the corners of the shape's faces, made when first asked for.
     pub fn corner_normals(&self, shape: &Shape) -> &CornerNormals {
         self.normals
-            .get_or_init(|| CornerNormals::new(shape, self.crease_cos))
+            .get_or_init(|| CornerNormals::new(shape, self.creases))
     }
 
     fn may_show_backs(&self, shape: &Shape, face: u32) -> bool {

@@ -50,7 +50,7 @@ impl LineModel {
             view: &of_frame,
             is_drawn: &paint.lined_surfaces(),
             kinds: settings.kinds,
-            crease_cos: npr_core::math::cos(options.crease),
+            creases: options.creases(),
             depth_threshold: options.depth_threshold,
         };
         let picture = SurfacePicture::new(&scene);
