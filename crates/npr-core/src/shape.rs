@@ -93,7 +93,11 @@ impl Shape {
         let faces = self.dihedral_cos[edge as usize];
         match from {
             CreaseFrom::Faces => faces,
-            CreaseFrom::Normals => self.normals_cos.get(edge as usize).copied().unwrap_or(faces),
+            CreaseFrom::Normals => self
+                .normals_cos
+                .get(edge as usize)
+                .copied()
+                .unwrap_or(faces),
         }
     }
 
@@ -310,9 +314,11 @@ impl Shape {
         all("angles are cosines", self.edge_count(), |edge| {
             (-1.0..=1.0).contains(&self.dihedral_cos[edge])
         })?;
-        all("angles of normals are cosines", self.normals_cos.len(), |edge| {
-            (-1.0..=1.0).contains(&self.normals_cos[edge])
-        })?;
+        all(
+            "angles of normals are cosines",
+            self.normals_cos.len(),
+            |edge| (-1.0..=1.0).contains(&self.normals_cos[edge]),
+        )?;
         all("traits say how faces meet", self.edge_count(), |edge| {
             self.traits_match(edge as u32)
         })

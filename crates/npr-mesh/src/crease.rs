@@ -52,7 +52,10 @@ pub struct FoldInput<'a> {
 impl FoldInput<'_> {
     /// The folds of the edges of [`unique_edges`](crate::unique_edges). Edges of more than two faces fold all the way. O(edges), parallel.
     pub fn folds(&self, edges: &[Edge]) -> Folds {
-        let folds = edges.par_iter().with_min_len(4096).map(|edge| self.fold(edge));
+        let folds = edges
+            .par_iter()
+            .with_min_len(4096)
+            .map(|edge| self.fold(edge));
         let (faces, normals) = folds.unzip();
         Folds { faces, normals }
     }

@@ -171,7 +171,15 @@ mod tests {
         let edges = npr_mesh::unique_edges(&positions, ball.triangles(), &weld, &[]);
         let normals = npr_mesh::smooth_normals(&positions, ball.triangles(), &weld);
         let off = &Cache::default();
-        bends(off, &positions, ball.triangles(), &weld, &edges, &normals, 1.0)
+        bends(
+            off,
+            &positions,
+            ball.triangles(),
+            &weld,
+            &edges,
+            &normals,
+            1.0,
+        )
     }
 
     /// Mean distance of curvatures from those of the ball.

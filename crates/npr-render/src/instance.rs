@@ -266,7 +266,9 @@ fn folds(
     weld: &Weld,
     edges: &[npr_mesh::Edge],
 ) -> Folds {
-    let world = parts.iter().flat_map(|part| scene.positions_world(node, part));
+    let world = parts
+        .iter()
+        .flat_map(|part| scene.positions_world(node, part));
     let input = FoldInput {
         world: &world.collect::<Vec<_>>(),
         triangles: &joined.triangles,

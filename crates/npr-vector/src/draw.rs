@@ -135,7 +135,8 @@ impl Prepared {
     /// Intersections cost more than the rest together, and are needed only as lines: without them, a view finds for itself
     /// where its lines go through faces.
     pub fn new(shape: &Shape, creases: impl Into<Creases>, with_crossings: bool) -> Self {
-        let find: &dyn Fn(&FaceTree) -> Crossings = &|tree| crate::intersect::crossings(shape, tree);
+        let find: &dyn Fn(&FaceTree) -> Crossings =
+            &|tree| crate::intersect::crossings(shape, tree);
         Self::with_crossings(shape, creases.into(), with_crossings.then_some(find))
     }
 

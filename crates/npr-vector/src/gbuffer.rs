@@ -3,7 +3,9 @@
 use npr_core::geometry::{GPixel, Part, PosedVertex, Triangle};
 use npr_core::math;
 use npr_core::raster::ID_MASK;
-use npr_core::surface::{blend, blend3, cross, dot, face_normal, faces_eye, offset_from, weights_at};
+use npr_core::surface::{
+    blend, blend3, cross, dot, face_normal, faces_eye, offset_from, weights_at,
+};
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
 

@@ -22,8 +22,13 @@ enum Shading {
 /// A mesh without the faces that have no area: frames know no edges of those.
 fn with_area(mesh: &Mesh) -> Mesh {
     let triangles = mesh.triangles().iter().copied();
-    let has_area = |corners: &[u32; 3]| Triangle::new(mesh.positions(), *corners).normal().is_some();
-    Mesh::new(mesh.positions().to_vec(), triangles.filter(has_area).collect()).expect("as sound as it was")
+    let has_area =
+        |corners: &[u32; 3]| Triangle::new(mesh.positions(), *corners).normal().is_some();
+    Mesh::new(
+        mesh.positions().to_vec(),
+        triangles.filter(has_area).collect(),
+    )
+    .expect("as sound as it was")
 }
 
 /// A mesh that stores every corner for itself, and the file's normals there.
@@ -95,7 +100,10 @@ fn of_edges(mesh: &Mesh, normals: &[[f32; 3]], creases: Creases) -> BTreeSet<Pla
         CreaseFrom::Normals => folds.normals,
         CreaseFrom::Faces => folds.faces,
     };
-    let folded = edges.iter().zip(cosines).filter(|(_, cos)| *cos < creases.cos);
+    let folded = edges
+        .iter()
+        .zip(cosines)
+        .filter(|(_, cos)| *cos < creases.cos);
     folded
         .map(|(edge, _)| place(mesh.positions(), edge.ends))
         .collect()
@@ -150,7 +158,13 @@ fn a_coarse_cylinder_has_its_two_rims_alone() {
         .positions()
         .iter()
         .zip(flat)
-        .map(|(place, flat)| if flat[2].abs() > 0.5 { flat } else { around(*place) })
+        .map(|(place, flat)| {
+            if flat[2].abs() > 0.5 {
+                flat
+            } else {
+                around(*place)
+            }
+        })
         .collect();
     let by_normals = creases(40.0, CreaseFrom::Normals);
     assert_eq!(of_shape(&pillar, &normals, by_normals).len(), 12);

@@ -10,7 +10,9 @@ fn input(seed: u32) -> ContentHash {
 
 fn files_in(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).expect("a folder");
-    entries.map(|entry| entry.expect("an entry").path()).collect()
+    entries
+        .map(|entry| entry.expect("an entry").path())
+        .collect()
 }
 
 fn below_a_thousand(rows: &[[u32; 2]]) -> bool {
@@ -18,7 +20,9 @@ fn below_a_thousand(rows: &[[u32; 2]]) -> bool {
 }
 
 fn made(seed: u32) -> Vec<[u32; 2]> {
-    (0..50).map(|i| [0, 1].map(|k| hash(seed, k, i) % 1000)).collect()
+    (0..50)
+        .map(|i| [0, 1].map(|k| hash(seed, k, i) % 1000))
+        .collect()
 }
 
 #[test]
@@ -29,7 +33,10 @@ fn what_was_kept_is_not_made_again() {
     assert_eq!(rows, made(1));
     let again = cache.rows(|| input(1), below_a_thousand, || panic!("it is there"));
     assert_eq!(again, rows);
-    assert_eq!(cache.rows(|| input(2), below_a_thousand, || made(2)), made(2));
+    assert_eq!(
+        cache.rows(|| input(2), below_a_thousand, || made(2)),
+        made(2)
+    );
     assert_eq!(files_in(folder.path()).len(), 2);
 }
 
@@ -58,7 +65,10 @@ fn a_poisoned_file_with_a_sound_digest_is_made_anew() {
     let wide: Vec<[u32; 4]> = vec![[0; 4]; 25];
     for bytes in [encode(&wide, key), encode(&made(1), key + 1)] {
         write(folder.path(), &path, &bytes).expect("its own file");
-        assert_eq!(cache.rows(|| input(1), below_a_thousand, || made(1)), made(1));
+        assert_eq!(
+            cache.rows(|| input(1), below_a_thousand, || made(1)),
+            made(1)
+        );
     }
 }
 

@@ -1,11 +1,9 @@
 //! What is costly to prepare, kept between runs: how surfaces bend, where they cut each other, how strokes of hatching lie.
 
 use crate::scenes::{SIZE, add, camera_at, model_of, scene_of};
-use npr_mesh::testing::{cube, icosphere, mapped};
 use npr_gpu::processor::Processor;
-use npr_render::{
-    Drawing, LineModel, LineModelOptions, LineOptions, Model, Stage, StageOptions,
-};
+use npr_mesh::testing::{cube, icosphere, mapped};
+use npr_render::{Drawing, LineModel, LineModelOptions, LineOptions, Model, Stage, StageOptions};
 use npr_scene::Scene;
 use npr_style::Style;
 use std::path::{Path, PathBuf};

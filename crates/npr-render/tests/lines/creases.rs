@@ -17,7 +17,11 @@ fn pillar(has_normals: bool) -> Scene {
     let flat = npr_mesh::flat_normals(mesh.positions(), mesh.triangles()).into_flattened();
     let normal = |([x, y, _], flat): (&[f32; 3], [f32; 3])| {
         let length = x.hypot(*y);
-        if flat[2].abs() > 0.5 { flat } else { [x / length, y / length, 0.0] }
+        if flat[2].abs() > 0.5 {
+            flat
+        } else {
+            [x / length, y / length, 0.0]
+        }
     };
     let normals = mesh.positions().iter().zip(flat).map(normal).collect();
     Scene {
@@ -46,8 +50,13 @@ fn drawn(scene: &Scene, style: &Style, method: LineMethod) -> f64 {
         method,
         ..LineOptions::of_style(style, SIZE)
     };
-    let drawing = model.draw(&camera_at([6.0, 0.4, 0.0]), style, &options).expect("drawn");
-    let creases = drawing.strokes.iter().filter(|stroke| stroke.kind == Kind::Crease);
+    let drawing = model
+        .draw(&camera_at([6.0, 0.4, 0.0]), style, &options)
+        .expect("drawn");
+    let creases = drawing
+        .strokes
+        .iter()
+        .filter(|stroke| stroke.kind == Kind::Crease);
     creases.map(|stroke| stroke.length()).sum()
 }
 
@@ -61,9 +70,8 @@ fn ink_inside(scene: &Scene, style: &Style) -> usize {
     let mut stage = stage.with_lines(LineStage::new(&Processor, &lines));
     let frame = stage.draw(&camera_at([6.0, 0.4, 0.0])).expect("drawn");
     let [width, height] = SIZE.map(|side| side as usize);
-    let middle = (0..width * height).filter(|i| {
-        (i % width).abs_diff(width / 2) < 24 && (i / width).abs_diff(height / 2) < 20
-    });
+    let middle = (0..width * height)
+        .filter(|i| (i % width).abs_diff(width / 2) < 24 && (i / width).abs_diff(height / 2) < 20);
     middle.filter(|i| frame.rgba[4 * i] < 100).count()
 }
 
@@ -86,14 +94,29 @@ fn style(method: &str, from: &str) -> Style {
 #[test]
 fn smooth_shading_has_no_folds_by_any_method() {
     let pillar = pillar(true);
-    for method in [LineMethod::Edges, LineMethod::Surface, LineMethod::Potrace, LineMethod::Image] {
+    for method in [
+        LineMethod::Edges,
+        LineMethod::Surface,
+        LineMethod::Potrace,
+        LineMethod::Image,
+    ] {
         let by_normals = drawn(&pillar, &style("shape", "normals"), method);
         let by_faces = drawn(&pillar, &style("shape", "faces"), method);
-        assert!(by_faces > by_normals + 60.0, "{method:?}: {by_faces} and {by_normals} px");
+        assert!(
+            by_faces > by_normals + 60.0,
+            "{method:?}: {by_faces} and {by_normals} px"
+        );
     }
     for method in ["shape", "curves", "potrace", "filter"] {
-        assert_eq!(ink_inside(&pillar, &style(method, "normals")), 0, "{method}");
-        assert!(ink_inside(&pillar, &style(method, "faces")) > 20, "{method}");
+        assert_eq!(
+            ink_inside(&pillar, &style(method, "normals")),
+            0,
+            "{method}"
+        );
+        assert!(
+            ink_inside(&pillar, &style(method, "faces")) > 20,
+            "{method}"
+        );
     }
 }
 
@@ -101,9 +124,15 @@ fn smooth_shading_has_no_folds_by_any_method() {
 fn without_normals_every_fold_over_the_angle_is_drawn() {
     let pillar = pillar(false);
     for from in ["normals", "faces"] {
-        assert!(drawn(&pillar, &style("shape", from), LineMethod::Edges) > 60.0, "{from}");
+        assert!(
+            drawn(&pillar, &style("shape", from), LineMethod::Edges) > 60.0,
+            "{from}"
+        );
         for method in ["shape", "curves"] {
-            assert!(ink_inside(&pillar, &style(method, from)) > 20, "{method} {from}");
+            assert!(
+                ink_inside(&pillar, &style(method, from)) > 20,
+                "{method} {from}"
+            );
         }
     }
     assert_eq!(LineOptions::new(SIZE).crease_from, CreaseFrom::Normals);

@@ -402,10 +402,17 @@ fn strokes_stay_where_lines_meet() {
 fn painted_vase(is_dark: impl Fn(f32, f32) -> bool) -> Scene {
     let (around, up) = (96u32, 48u32);
     let corner = |i: u32| {
-        let (u, v) = ((i % (around + 1)) as f32 / around as f32, (i / (around + 1)) as f32 / up as f32);
+        let (u, v) = (
+            (i % (around + 1)) as f32 / around as f32,
+            (i / (around + 1)) as f32 / up as f32,
+        );
         let radius = 0.55 + 0.35 * npr_core::math::sin(3.14 * (1.1 * v + 0.1));
         let turn = std::f32::consts::TAU * (u - 0.5);
-        let place = [radius * npr_core::math::sin(turn), 2.0 * v - 1.0, radius * npr_core::math::cos(turn)];
+        let place = [
+            radius * npr_core::math::sin(turn),
+            2.0 * v - 1.0,
+            radius * npr_core::math::cos(turn),
+        ];
         (place, [u, 1.0 - v])
     };
     let corners = (around + 1) * (up + 1);
@@ -420,7 +427,12 @@ fn painted_vase(is_dark: impl Fn(f32, f32) -> bool) -> Scene {
 
 /// A board that lies before the eye, with a picture on it.
 fn painted_board(is_dark: impl Fn(f32, f32) -> bool) -> Scene {
-    let positions = vec![[-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [1.0, 0.0, 1.0], [-1.0, 0.0, 1.0]];
+    let positions = vec![
+        [-1.0, 0.0, -1.0],
+        [1.0, 0.0, -1.0],
+        [1.0, 0.0, 1.0],
+        [-1.0, 0.0, 1.0],
+    ];
     let uvs = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     painted(positions, uvs, vec![[0, 2, 1], [0, 3, 2]], is_dark)
 }
@@ -436,7 +448,11 @@ fn painted(
     let side = 512;
     let pixel = |i: u32| {
         let [u, v] = [i % side, i / side].map(|at| (at as f32 + 0.5) / side as f32);
-        if is_dark(u, v) { [30, 40, 110, 255] } else { [235, 230, 215, 255] }
+        if is_dark(u, v) {
+            [30, 40, 110, 255]
+        } else {
+            [235, 230, 215, 255]
+        }
     };
     scene.images[0] = Image {
         name: "paint".to_owned(),
@@ -457,7 +473,9 @@ fn painted_strokes(scene: &Scene, eye: [f32; 3], tone: PaintedLines) -> Vec<Stro
     };
     let drawing = drawn(&model_of(scene, true), &camera_at(eye), &options);
     let strokes = drawing.strokes.into_iter();
-    strokes.filter(|stroke| stroke.kind == Kind::Marked).collect()
+    strokes
+        .filter(|stroke| stroke.kind == Kind::Marked)
+        .collect()
 }
 
 /// How far a place of the picture is from the loop around (u, v), in half widths of that; below 1 it is painted.
@@ -469,18 +487,28 @@ fn off_loop(u: f32, v: f32, at: [f32; 2], radii: [f32; 2]) -> f32 {
 #[test]
 fn loops_painted_on_a_vase_become_closed_strokes() {
     let loops = [([0.5, 0.38], [0.07, 0.09]), ([0.5, 0.62], [0.06, 0.06])];
-    let is_painted = |u: f32, v: f32| loops.iter().any(|(at, radii)| off_loop(u, v, *at, *radii) < 1.0);
+    let is_painted = |u: f32, v: f32| {
+        loops
+            .iter()
+            .any(|(at, radii)| off_loop(u, v, *at, *radii) < 1.0)
+    };
     for eye in [[0.0, 0.0, 4.0], [0.8, 0.6, 4.0]] {
         let strokes = painted_strokes(&painted_vase(is_painted), eye, PaintedLines::Dark);
         assert_eq!(strokes.len(), 2, "from {eye:?}");
-        assert!(strokes.iter().all(|stroke| stroke.closed && stroke.length() > 100.0));
+        assert!(
+            strokes
+                .iter()
+                .all(|stroke| stroke.closed && stroke.length() > 100.0)
+        );
     }
 }
 
 #[test]
 fn bands_around_a_vase_are_strokes_and_the_chequer_between_them_none() {
     let is_band = |v: f32| (0.385..0.395).contains(&v) || (0.625..0.635).contains(&v);
-    let is_cell = |u: f32, v: f32| (0.44..0.58).contains(&v) && ((u * 32.0) as u32 + (v * 34.0) as u32) % 2 == 1;
+    let is_cell = |u: f32, v: f32| {
+        (0.44..0.58).contains(&v) && ((u * 32.0) as u32 + (v * 34.0) as u32) % 2 == 1
+    };
     let vase = painted_vase(|u, v| is_band(v) || is_cell(u, v));
     for eye in [[0.0, 1.0, 4.0], [1.5, 1.5, 3.6]] {
         for tone in [PaintedLines::Dark, PaintedLines::Both] {

@@ -136,8 +136,12 @@ fn distances(patches: &[u32], width: usize, is_source: &dyn Fn(usize) -> bool) -
     let mut away: Vec<f32> = (0..count).map(start).collect();
     let mut lower = |pixel: usize, forward: bool| {
         let (x, y) = (pixel % width, pixel / width);
-        let steps: [(isize, isize, f32); 4] =
-            [(-1, 0, 1.0), (-1, -1, 4.0 / 3.0), (0, -1, 1.0), (1, -1, 4.0 / 3.0)];
+        let steps: [(isize, isize, f32); 4] = [
+            (-1, 0, 1.0),
+            (-1, -1, 4.0 / 3.0),
+            (0, -1, 1.0),
+            (1, -1, 4.0 / 3.0),
+        ];
         for (dx, dy, length) in steps {
             let (dx, dy) = if forward { (dx, dy) } else { (-dx, -dy) };
             let Some((x, y)) = x.checked_add_signed(dx).zip(y.checked_add_signed(dy)) else {
@@ -162,7 +166,9 @@ mod tests {
 
     /// What is kept of a picture, all of it thin.
     fn kept(is_ink: impl Fn(usize, usize) -> bool) -> usize {
-        let ink: Vec<bool> = (0..SIDE * SIDE).map(|i| is_ink(i % SIDE, i / SIDE)).collect();
+        let ink: Vec<bool> = (0..SIDE * SIDE)
+            .map(|i| is_ink(i % SIDE, i / SIDE))
+            .collect();
         let kept = slender(&ink, &ink, SIDE);
         assert!(kept.iter().zip(&ink).all(|(kept, ink)| *ink || !kept));
         kept.iter().filter(|kept| **kept).count()
@@ -171,14 +177,19 @@ mod tests {
     #[test]
     fn bars_rings_and_crosses_are_lines() {
         assert_eq!(kept(|x, y| y == 30 && (10..40).contains(&x)), 30);
-        assert_eq!(kept(|x, y| (20..26).contains(&y) && (5..60).contains(&x)), 330);
+        assert_eq!(
+            kept(|x, y| (20..26).contains(&y) && (5..60).contains(&x)),
+            330
+        );
         let is_bar = |v: usize| (30..35).contains(&v);
         assert_eq!(kept(|x, y| is_bar(x) || is_bar(y)), 2 * 5 * 64 - 25);
         let ring = |x: usize, y: usize| {
             let away = (x as f32 - 32.0).hypot(y as f32 - 32.0);
             (18.0..24.0).contains(&away)
         };
-        let area = (0..SIDE * SIDE).filter(|i| ring(i % SIDE, i / SIDE)).count();
+        let area = (0..SIDE * SIDE)
+            .filter(|i| ring(i % SIDE, i / SIDE))
+            .count();
         assert_eq!(kept(ring), area);
     }
 
@@ -186,8 +197,14 @@ mod tests {
     fn specks_discs_and_stubs_are_none() {
         assert_eq!(kept(|x, y| (x, y) == (5, 5)), 0);
         assert_eq!(kept(|x, y| y == 5 && (3..12).contains(&x)), 0);
-        assert_eq!(kept(|x, y| (10..18).contains(&x) && (10..18).contains(&y)), 0);
-        assert_eq!(kept(|x, y| (x as f32 - 30.0).hypot(y as f32 - 30.0) < 6.0), 0);
+        assert_eq!(
+            kept(|x, y| (10..18).contains(&x) && (10..18).contains(&y)),
+            0
+        );
+        assert_eq!(
+            kept(|x, y| (x as f32 - 30.0).hypot(y as f32 - 30.0) < 6.0),
+            0
+        );
         assert_eq!(kept(|_, _| false), 0);
     }
 
@@ -208,12 +225,17 @@ mod tests {
     #[test]
     fn a_line_with_a_knot_is_one() {
         let knot = |x: usize, y: usize| (28..36).contains(&x) && (20..28).contains(&y);
-        assert_eq!(kept(|x, y| knot(x, y) || (23..26).contains(&y)), 3 * 64 + 64 - 24);
+        assert_eq!(
+            kept(|x, y| knot(x, y) || (23..26).contains(&y)),
+            3 * 64 + 64 - 24
+        );
     }
 
     #[test]
     fn what_is_wide_for_the_most_part_is_none() {
-        let ink: Vec<bool> = (0..SIDE * SIDE).map(|i| (20..30).contains(&(i / SIDE))).collect();
+        let ink: Vec<bool> = (0..SIDE * SIDE)
+            .map(|i| (20..30).contains(&(i / SIDE)))
+            .collect();
         let thin: Vec<bool> = (0..SIDE * SIDE).map(|i| ink[i] && i % SIDE < 20).collect();
         assert!(slender(&ink, &thin, SIDE).iter().all(|kept| !kept));
         assert_eq!(slender(&ink, &ink, SIDE), ink);

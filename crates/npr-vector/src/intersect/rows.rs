@@ -61,15 +61,25 @@ impl Crossings {
         };
         let nodes = &self.graph.nodes;
         let is_linked = |(index, node): (usize, &CurveNode)| {
-            let goes_on =
-                node.next == NONE || nodes.get(node.next as usize).is_some_and(|next| next.prev == index as u32);
-            let comes_from =
-                node.prev == NONE || nodes.get(node.prev as usize).is_some_and(|prev| prev.next == index as u32);
-            goes_on && comes_from && node.flags == CurveNode::INTERSECTION && lies(node.edge, node.t, node.face)
+            let goes_on = node.next == NONE
+                || nodes
+                    .get(node.next as usize)
+                    .is_some_and(|next| next.prev == index as u32);
+            let comes_from = node.prev == NONE
+                || nodes
+                    .get(node.prev as usize)
+                    .is_some_and(|prev| prev.next == index as u32);
+            goes_on
+                && comes_from
+                && node.flags == CurveNode::INTERSECTION
+                && lies(node.edge, node.t, node.face)
         };
         let order = |p: &Piercing| (p.edge, p.t.to_bits(), p.face);
         nodes.iter().enumerate().all(is_linked)
             && self.piercings.iter().all(|p| lies(p.edge, p.t, p.face))
-            && self.piercings.windows(2).all(|pair| order(&pair[0]) < order(&pair[1]))
+            && self
+                .piercings
+                .windows(2)
+                .all(|pair| order(&pair[0]) < order(&pair[1]))
     }
 }
