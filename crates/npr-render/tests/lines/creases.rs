@@ -84,7 +84,6 @@ fn style(method: &str, from: &str) -> Style {
         "shade.mode=paper".to_owned(),
         "shade.paper=\"#ffffff\"".to_owned(),
         "shade.ramp=[{ at = 0.0, light = 1.0 }]".to_owned(),
-        "highlight.on=false".to_owned(),
     ] {
         style.set(&assignment).expect(&assignment);
     }

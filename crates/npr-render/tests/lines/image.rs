@@ -406,7 +406,7 @@ fn painted_vase(is_dark: impl Fn(f32, f32) -> bool) -> Scene {
             (i % (around + 1)) as f32 / around as f32,
             (i / (around + 1)) as f32 / up as f32,
         );
-        let radius = 0.55 + 0.35 * npr_core::math::sin(3.14 * (1.1 * v + 0.1));
+        let radius = 0.55 + 0.35 * npr_core::math::sin(std::f32::consts::PI * (1.1 * v + 0.1));
         let turn = std::f32::consts::TAU * (u - 0.5);
         let place = [
             radius * npr_core::math::sin(turn),

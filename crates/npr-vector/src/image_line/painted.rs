@@ -2,7 +2,7 @@
 
 use super::ink::LineInk;
 use super::picture::SurfacePicture;
-use super::slender::slender;
+use super::slender::{Paint, slender};
 use crate::graph::CurveNode;
 use npr_core::geometry::NONE;
 use rayon::prelude::*;
@@ -67,7 +67,16 @@ pub fn painted_lines(
     let mut wide = with_reach(2 * rule.reach_px);
     let [all, thin]: [Vec<bool>; 2] = [is_ink(&wide), is_ink(&with_reach(rule.reach_px))];
     if !all.is_empty() {
-        let kept = slender(&all, &thin, picture.size[0] as usize);
+        let kept = slender(&Paint {
+            ink: &all,
+            thin: &thin,
+            ground: &lightness
+                .iter()
+                .map(|light| !light.is_nan())
+                .collect::<Vec<bool>>(),
+            width: picture.size[0] as usize,
+            around: 3 * rule.reach_px as usize,
+        });
         wide.retain(|pixel| kept[pixel]);
     }
     wide

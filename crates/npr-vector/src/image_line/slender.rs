@@ -11,10 +11,31 @@ const LEAST_LENGTH: f32 = 12.0;
 /// Share of a piece's greatest width at which it falls apart: cells of a chequer hang together by less at their corners.
 const NECK: f32 = 0.5;
 
-/// Which pixels of `ink` are parts of lines: what is at least [`SLENDERNESS`] times as long as wide, once cut at its necks.
+/// Share of the paint around a line that it may cover: a chequer covers half of it.
+const CROWD: f32 = 0.4;
+
+/// Dark (or light) paint of a picture.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Paint<'a> {
+    /// Pixels that may be parts of lines.
+    pub ink: &'a [bool],
+    /// Those of them that are thin.
+    pub thin: &'a [bool],
+    /// Pixels that show paint at all.
+    pub ground: &'a [bool],
+    /// Pixels of a row.
+    pub width: usize,
+    /// How far the paint around a line reaches, in pixels.
+    pub around: usize,
+}
+
+/// Which pixels of ink are parts of lines: what is at least [`SLENDERNESS`] times as long as wide, once cut at its necks.
 ///
-/// Of what hangs together most has to be as thin as `thin` says. O(pixels).
-pub(super) fn slender(ink: &[bool], thin: &[bool], width: usize) -> Vec<bool> {
+/// Of what hangs together most has to be thin, and to have more bare paint around it than ink. O(pixels).
+pub(super) fn slender(paint: &Paint<'_>) -> Vec<bool> {
+    let Paint {
+        ink, thin, width, ..
+    } = *paint;
     let inked = |pixel: usize| u32::from(ink[pixel]);
     let whole = Patches::of(ink.len(), width, &inked);
     let depth = depths(&whole.of_pixel, width);
@@ -44,18 +65,51 @@ pub(super) fn slender(ink: &[bool], thin: &[bool], width: usize) -> Vec<bool> {
         let length = pieces.areas[piece] as f32 / across;
         length >= SLENDERNESS * across && length >= LEAST_LENGTH
     };
-    let mut counts = vec![[0usize; 2]; whole.areas.len()];
+    let lies_open = open(paint);
+    let mut counts = vec![[0usize; 3]; whole.areas.len()];
     for pixel in 0..ink.len() {
-        let [slender, thin_count] = &mut counts[whole.of_pixel[pixel] as usize];
+        let [slender, thin_count, open] = &mut counts[whole.of_pixel[pixel] as usize];
         *slender += usize::from(is_line(pieces.of_pixel[pixel] as usize));
         *thin_count += usize::from(thin[pixel]);
+        *open += usize::from(lies_open[pixel]);
     }
     let is_kept = |patch: usize| {
-        let [slender, thin] = counts[patch];
-        patch != 0 && 2 * slender.min(thin) >= whole.areas[patch]
+        let least = counts[patch].into_iter().min().unwrap_or(0);
+        patch != 0 && 2 * least >= whole.areas[patch]
     };
     let of_pixel = whole.of_pixel.iter();
     of_pixel.map(|patch| is_kept(*patch as usize)).collect()
+}
+
+/// Whether ink covers no more than [`CROWD`] of the paint in the square around every pixel.
+fn open(paint: &Paint<'_>) -> Vec<bool> {
+    let [ink, ground] = [paint.ink, paint.ground].map(|of| sums(of, paint.width));
+    let (width, height) = (paint.width, paint.ink.len() / paint.width);
+    let is_open = |pixel: usize| {
+        let (x, y) = (pixel % width, pixel / width);
+        let [left, top] = [x, y].map(|v| v.saturating_sub(paint.around));
+        let (right, bottom) = (
+            (x + paint.around + 1).min(width),
+            (y + paint.around + 1).min(height),
+        );
+        let count = |sums: &[u32]| {
+            let at = |x: usize, y: usize| sums[y * (width + 1) + x];
+            at(right, bottom) + at(left, top) - at(left, bottom) - at(right, top)
+        };
+        count(&ink) as f32 <= CROWD * count(&ground) as f32
+    };
+    (0..paint.ink.len()).map(is_open).collect()
+}
+
+/// How many pixels are set above and to the left of every corner of pixels.
+fn sums(set: &[bool], width: usize) -> Vec<u32> {
+    let mut sums = vec![0; (width + 1) * (set.len() / width + 1)];
+    for (pixel, is_set) in set.iter().enumerate() {
+        let at = (pixel / width + 1) * (width + 1) + pixel % width + 1;
+        let above = at - width - 1;
+        sums[at] = u32::from(*is_set) + sums[at - 1] + sums[above] - sums[above - 1];
+    }
+    sums
 }
 
 /// Pixels of one kind that hang together by their sides, numbered from 1; 0 is no patch.
@@ -164,12 +218,22 @@ mod tests {
 
     const SIDE: usize = 64;
 
+    fn kept_of(ink: &[bool], thin: &[bool]) -> Vec<bool> {
+        slender(&Paint {
+            ink,
+            thin,
+            ground: &[true; SIDE * SIDE],
+            width: SIDE,
+            around: 12,
+        })
+    }
+
     /// What is kept of a picture, all of it thin.
     fn kept(is_ink: impl Fn(usize, usize) -> bool) -> usize {
         let ink: Vec<bool> = (0..SIDE * SIDE)
             .map(|i| is_ink(i % SIDE, i / SIDE))
             .collect();
-        let kept = slender(&ink, &ink, SIDE);
+        let kept = kept_of(&ink, &ink);
         assert!(kept.iter().zip(&ink).all(|(kept, ink)| *ink || !kept));
         kept.iter().filter(|kept| **kept).count()
     }
@@ -237,7 +301,7 @@ mod tests {
             .map(|i| (20..30).contains(&(i / SIDE)))
             .collect();
         let thin: Vec<bool> = (0..SIDE * SIDE).map(|i| ink[i] && i % SIDE < 20).collect();
-        assert!(slender(&ink, &thin, SIDE).iter().all(|kept| !kept));
-        assert_eq!(slender(&ink, &ink, SIDE), ink);
+        assert!(kept_of(&ink, &thin).iter().all(|kept| !kept));
+        assert_eq!(kept_of(&ink, &ink), ink);
     }
 }
