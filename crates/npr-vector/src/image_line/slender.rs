@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 const SLENDERNESS: f32 = 4.0;
 
 /// Length in pixels under which nothing is a line.
-const LEAST_LENGTH: f32 = 12.0;
+const LEAST_LENGTH: f32 = 18.0;
 
 /// Share of a piece's greatest width at which it falls apart: cells of a chequer hang together by less at their corners.
 const NECK: f32 = 0.5;
