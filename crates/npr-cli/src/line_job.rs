@@ -16,7 +16,7 @@ use npr_render::{
     Drawing, Kind, KindSet, Lettering, LineMethod, LineOptions, PaintedLines, StageOptions,
 };
 use npr_scene::Limits;
-use npr_style::{Background, Style};
+use npr_style::{Background, Facts, LineFinder, LineForm, LineOutput, Occasion, Style};
 use npr_vector::artwork::{ArtworkOptions, Hidden, Page, Paths, arrange};
 use std::path::{Path, PathBuf};
 
@@ -87,6 +87,27 @@ impl<'a> LineJob<'a> {
             cache: cache_folder(said.cache.as_deref())?,
             said,
         })
+    }
+}
+
+impl LineJob<'_> {
+    /// Where the style is drawn, for telling which of its keys cannot act.
+    pub fn occasion(&self, scene: Facts) -> Occasion {
+        let finder = match self.options.method {
+            LineMethod::Edges | LineMethod::Surface => LineFinder::Mesh,
+            LineMethod::Potrace => LineFinder::Potrace,
+            LineMethod::Image => LineFinder::Image,
+        };
+        let form = match (self.format, self.artwork.paths) {
+            (LineFormat::Json, _) => LineForm::Data,
+            (LineFormat::Svg, Paths::Centreline) => LineForm::Centrelines,
+            _ => LineForm::Ink,
+        };
+        let fill = self.options.fill;
+        Occasion {
+            output: npr_style::Output::Lines(LineOutput { finder, form, fill }),
+            scene,
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use crate::arguments::{
 };
 use crate::engine::{self, Drawn};
 use crate::fault::{Exit, Fault};
+use crate::idle;
 use crate::line_file;
 use crate::line_job::LineJob;
 use crate::look::Look;
@@ -18,7 +19,9 @@ use crate::volume::{self, Film};
 use npr_core::camera::Camera;
 use npr_core::geometry::Part;
 use npr_gpu::engine::{Engine, PassTime};
-use npr_render::{Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineStage, Model};
+use npr_render::{
+    Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineStage, Model, facts_of,
+};
 use npr_style::{Background, WidthSource};
 use std::io::Write;
 
@@ -146,6 +149,7 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
     inputs.extend(job.look.inputs());
     job.output.refuse_any_of(&inputs)?;
     let volumes = &job.said.drawing.volumes;
+    let of_volumes = idle::of_volumes(volumes, loaded.volume.as_ref());
     let (smoke, told) = volume::step(progress, volumes, loaded.volume, &job.limits)?;
     job.output.refuse_any_of(&told.inputs)?;
     job.look
@@ -163,6 +167,7 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
             job.cache.as_deref(),
         )
     })?;
+    let facts = facts_of(&loaded.scene, smoke.is_some());
     model.set_smoke(smoke);
     if job.look.style.line_paint_flags() & Part::LINE_TEXTURE != 0 {
         model.set_pictures(
@@ -174,7 +179,14 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
         Some(_) => Some(progress.step("prepare", || Model::new(&loaded.scene))?),
         None => None,
     };
-    progress.suspend(|| warn_of(job, &model, &told));
+    progress.suspend(|| {
+        warn_of(job, &model, &told);
+        let keys = job.look.idle_notices(&job.occasion(facts));
+        let options = idle::of_lines(job, facts);
+        for notice in keys.iter().chain(&options).chain(&of_volumes) {
+            message::warn(job.said.drawing.quiet, notice);
+        }
+    });
     Ok(Prepared {
         lines: model,
         behind,

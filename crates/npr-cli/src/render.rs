@@ -4,6 +4,7 @@ use crate::arguments::{DrawingArguments, LookArguments, RenderArguments};
 use crate::encoder;
 use crate::engine::{self, Drawn};
 use crate::fault::{Exit, Fault};
+use crate::idle;
 use crate::job::{Job, has_ending};
 use crate::lines;
 use crate::look::Look;
@@ -17,9 +18,10 @@ use npr_core::camera::Camera;
 use npr_gpu::engine::Engine;
 use npr_render::{
     Frame, LineModel, LineModelOptions, LineStage, Model, RenderError, Smoke, Stage, StageOptions,
+    facts_of,
 };
 use npr_scene::{Limits, Scene};
-use npr_style::Style;
+use npr_style::{Facts, Occasion, Style};
 use std::io::Write;
 use std::path::Path;
 
@@ -141,13 +143,29 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<S
     inputs.extend(job.look.inputs());
     job.output.refuse_any_of(&inputs)?;
     let volumes = &job.said.drawing.volumes;
+    let of_volumes = idle::of_volumes(volumes, loaded.volume.as_ref());
     let (smoke, told) = volume::step(progress, volumes, loaded.volume, &limits)?;
     job.output.refuse_any_of(&told.inputs)?;
     job.look
         .apply_id_maps(&mut loaded.scene, &limits, external)?;
     let prepared = prepared(&loaded.scene, &job.look.style, &limits, progress)?;
-    progress.suspend(|| warn_of(job, &prepared.model, &told));
+    let facts = facts_of(&loaded.scene, smoke.is_some());
+    progress.suspend(|| {
+        warn_of(job, &prepared.model, &told);
+        warn_of_idle(&job.look, facts, job.said.drawing.quiet);
+        for notice in &of_volumes {
+            message::warn(job.said.drawing.quiet, notice);
+        }
+    });
     Ok((prepared, smoke))
+}
+
+/// Says which keys of the style cannot act in pictures of a scene.
+pub fn warn_of_idle(look: &Look, scene: Facts, quiet: bool) {
+    let output = npr_style::Output::Frame;
+    for notice in look.idle_notices(&Occasion { output, scene }) {
+        message::warn(quiet, &notice);
+    }
 }
 
 fn warn_of(job: &Job<'_>, model: &Model, smoke: &Film) {

@@ -4,6 +4,7 @@ use crate::arguments::{SmokeArguments, TimingsForm};
 use crate::encoder;
 use crate::engine::{self, Drawn};
 use crate::fault::{Exit, Fault};
+use crate::idle;
 use crate::job;
 use crate::look::Look;
 use crate::message;
@@ -17,7 +18,7 @@ use crate::timings::Timings;
 use crate::volume::{self, Film, Shots, VolumeSource};
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
-use npr_render::{Frame, RenderError, Smoke, StageOptions};
+use npr_render::{Frame, RenderError, Smoke, StageOptions, facts_of};
 use std::cell::{Cell, RefCell};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -187,7 +188,7 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, 
         progress,
     )?;
     let outputs = outputs(job, &film)?;
-    tell_notices(job, &film, progress);
+    tell_notices(job, &source, &film, progress);
     let camera = camera(job, &prepared, &film)?;
     draw_film(job, &prepared, &film, &outputs, &camera, progress)
 }
@@ -214,10 +215,18 @@ fn outputs(job: &Job<'_>, film: &Film) -> Result<Vec<Output>, Fault> {
     (0..film.frames.len()).map(output).collect()
 }
 
-fn tell_notices(job: &Job<'_>, film: &Film, progress: &Progress) {
+fn tell_notices(job: &Job<'_>, source: &VolumeSource, film: &Film, progress: &Progress) {
     progress.suspend(|| {
         for notice in &film.notices {
             message::warn(job.said.drawing.quiet, notice);
+        }
+        let facts = facts_of(&npr_scene::Scene::default(), true);
+        let quiet = job.said.drawing.quiet;
+        render::warn_of_idle(&job.look, facts, quiet);
+        let of_volumes = idle::of_volumes(&job.said.drawing.volumes, Some(source));
+        let of_smoke = idle::of_smoke(job.said, source, film.frames.len());
+        for notice in of_volumes.iter().chain(&of_smoke) {
+            message::warn(quiet, notice);
         }
     });
 }

@@ -25,6 +25,7 @@ mod bend;
 mod blending;
 mod blueprint;
 mod error;
+mod facts;
 mod frame;
 mod guides;
 mod hatching;
@@ -47,6 +48,7 @@ mod tiles;
 pub mod volume;
 
 pub use error::RenderError;
+pub use facts::facts_of;
 pub use frame::Frame;
 pub use id_map::apply_id_maps;
 pub use lettering::Lettering;
