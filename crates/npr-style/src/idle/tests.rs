@@ -34,9 +34,9 @@ fn what_presets_say_is_nobodys_wish() {
     }
 }
 
-/// A style file that states one key of tones over a preset.
+/// A style file that states one key of pictures over a preset.
 fn stated_over(preset: &str) -> Stated {
-    stated(&format!("extends = '{preset}'\nantialias.samples = 1"))
+    stated(&format!("extends = '{preset}'\nmotion.seed = 1"))
 }
 
 #[test]
