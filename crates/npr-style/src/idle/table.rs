@@ -1,5 +1,4 @@
-//! The table of keys that cannot act: which, when and why. What stands here is told to users and counted on by the test that
-//! toggles every key of the schema (`npr-tests`, `every_key`).
+//! The table of keys that cannot act: which, when and why. What stands here is told to users.
 
 use super::case::{Case, LineFinder, LineForm};
 use crate::LineMethod::{
