@@ -45,56 +45,59 @@ struct Volumes<'a> {
     is_of_file: bool,
 }
 
-const VOLUMES: &[Entry<Volumes<'_>>] = &[
-    Entry {
-        option: "--spheres",
-        is_said: |c| c.said.spheres.is_some(),
-        is_idle: |c| !c.is_any,
-        why: NO_SMOKE,
-    },
-    Entry {
-        option: "--threshold",
-        is_said: |c| c.said.threshold.is_some(),
-        is_idle: |c| !c.is_any,
-        why: NO_SMOKE,
-    },
-    Entry {
-        option: "--detail",
-        is_said: |c| c.said.detail.is_some(),
-        is_idle: |c| !c.is_any,
-        why: NO_SMOKE,
-    },
-    Entry {
-        option: "--seed",
-        is_said: |c| c.said.seed != 0,
-        is_idle: |c| !c.is_any,
-        why: "it is about smoke, of which the scene has none",
-    },
-    Entry {
-        option: "--density",
-        is_said: |c| c.said.density.is_some(),
-        is_idle: |c| !c.is_of_file,
-        why: NO_FILE,
-    },
-    Entry {
-        option: "--velocity",
-        is_said: |c| !c.said.velocity.is_empty(),
-        is_idle: |c| !c.is_of_file,
-        why: NO_FILE,
-    },
-    Entry {
-        option: "--heat",
-        is_said: |c| c.said.heat.is_some(),
-        is_idle: |c| !c.is_of_file,
-        why: NO_FILE,
-    },
-    Entry {
-        option: "--volume-up",
-        is_said: |c| c.said.volume_up != VolumeUp::Y,
-        is_idle: |c| !c.is_of_file,
-        why: NO_FILE,
-    },
-];
+/// Options of volumes that cannot act.
+fn volume_entries<'a>() -> Vec<Entry<Volumes<'a>>> {
+    vec![
+        Entry {
+            option: "--spheres",
+            is_said: |c| c.said.spheres.is_some(),
+            is_idle: |c| !c.is_any,
+            why: NO_SMOKE,
+        },
+        Entry {
+            option: "--threshold",
+            is_said: |c| c.said.threshold.is_some(),
+            is_idle: |c| !c.is_any,
+            why: NO_SMOKE,
+        },
+        Entry {
+            option: "--detail",
+            is_said: |c| c.said.detail.is_some(),
+            is_idle: |c| !c.is_any,
+            why: NO_SMOKE,
+        },
+        Entry {
+            option: "--seed",
+            is_said: |c| c.said.seed != 0,
+            is_idle: |c| !c.is_any,
+            why: "it is about smoke, of which the scene has none",
+        },
+        Entry {
+            option: "--density",
+            is_said: |c| c.said.density.is_some(),
+            is_idle: |c| !c.is_of_file,
+            why: NO_FILE,
+        },
+        Entry {
+            option: "--velocity",
+            is_said: |c| !c.said.velocity.is_empty(),
+            is_idle: |c| !c.is_of_file,
+            why: NO_FILE,
+        },
+        Entry {
+            option: "--heat",
+            is_said: |c| c.said.heat.is_some(),
+            is_idle: |c| !c.is_of_file,
+            why: NO_FILE,
+        },
+        Entry {
+            option: "--volume-up",
+            is_said: |c| c.said.volume_up != VolumeUp::Y,
+            is_idle: |c| !c.is_of_file,
+            why: NO_FILE,
+        },
+    ]
+}
 
 const NO_SMOKE: &str = "the scene has no smoke";
 const NO_FILE: &str = "no smoke comes from a volume file";
@@ -115,7 +118,7 @@ pub fn of_volumes(said: &VolumeArguments, own: Option<&VolumeSource>) -> Vec<Str
         is_any: all.next().is_some(),
         is_of_file,
     };
-    told(VOLUMES, &case)
+    told(&volume_entries(), &case)
 }
 
 /// A drawing of lines.
@@ -131,44 +134,47 @@ impl Lines<'_> {
     }
 }
 
-const LINES: &[Entry<Lines<'_>>] = &[
-    Entry {
-        option: "--painted",
-        is_said: |c| c.said.lines.painted.is_some(),
-        is_idle: |c| !c.facts.textures,
-        why: "the scene has no textures",
-    },
-    Entry {
-        option: "--svg",
-        is_said: |c| c.said.sheet.svg != PathForm::Outline,
-        is_idle: |c| c.format != LineFormat::Svg,
-        why: "the file is no .svg",
-    },
-    Entry {
-        option: "--fill",
-        is_said: |c| c.said.lines.fill,
-        is_idle: |c| c.format == LineFormat::Json || c.is_plotted(),
-        why: "the file holds lines alone",
-    },
-    Entry {
-        option: "--background",
-        is_said: |c| c.said.drawing.look.background.is_some(),
-        is_idle: |c| c.format == LineFormat::Json || c.is_plotted(),
-        why: "the file holds lines alone",
-    },
-    Entry {
-        option: "--hidden",
-        is_said: |c| c.said.lines.hidden == HiddenLines::Dashed,
-        is_idle: |c| c.format == LineFormat::Json,
-        why: "the file tells how many surfaces hide a line, and has no dashes",
-    },
-    Entry {
-        option: "--smooth",
-        is_said: |c| c.said.lines.smooth == Switch::Off,
-        is_idle: |c| c.said.lines.method == MethodName::Image,
-        why: "--method image follows pixels, which are smoothed in any case",
-    },
-];
+/// Options of drawings of lines that cannot act.
+fn line_entries<'a>() -> Vec<Entry<Lines<'a>>> {
+    vec![
+        Entry {
+            option: "--painted",
+            is_said: |c| c.said.lines.painted.is_some(),
+            is_idle: |c| !c.facts.textures,
+            why: "the scene has no textures",
+        },
+        Entry {
+            option: "--svg",
+            is_said: |c| c.said.sheet.svg != PathForm::Outline,
+            is_idle: |c| c.format != LineFormat::Svg,
+            why: "the file is no .svg",
+        },
+        Entry {
+            option: "--fill",
+            is_said: |c| c.said.lines.fill,
+            is_idle: |c| c.format == LineFormat::Json || c.is_plotted(),
+            why: "the file holds lines alone",
+        },
+        Entry {
+            option: "--background",
+            is_said: |c| c.said.drawing.look.background.is_some(),
+            is_idle: |c| c.format == LineFormat::Json || c.is_plotted(),
+            why: "the file holds lines alone",
+        },
+        Entry {
+            option: "--hidden",
+            is_said: |c| c.said.lines.hidden == HiddenLines::Dashed,
+            is_idle: |c| c.format == LineFormat::Json,
+            why: "the file tells how many surfaces hide a line, and has no dashes",
+        },
+        Entry {
+            option: "--smooth",
+            is_said: |c| c.said.lines.smooth == Switch::Off,
+            is_idle: |c| c.said.lines.method == MethodName::Image,
+            why: "--method image follows pixels, which are smoothed in any case",
+        },
+    ]
+}
 
 /// What to tell of options of a drawing of lines.
 pub fn of_lines(job: &LineJob<'_>, facts: Facts) -> Vec<String> {
@@ -177,7 +183,7 @@ pub fn of_lines(job: &LineJob<'_>, facts: Facts) -> Vec<String> {
         format: job.format,
         facts,
     };
-    told(LINES, &case)
+    told(&line_entries(), &case)
 }
 
 /// Pictures of smoke, and how many there are.
@@ -187,25 +193,28 @@ struct Smoke<'a> {
     count: usize,
 }
 
-const SMOKE: &[Entry<Smoke<'_>>] = &[
-    Entry {
-        option: "--step",
-        is_said: |c| c.said.step != 1.0,
-        is_idle: |c| c.count < 2,
-        why: "one frame is drawn",
-    },
-    Entry {
-        option: "--fps",
-        is_said: |c| c.said.fps != DEFAULT_FPS,
-        is_idle: |c| matches!(c.source, VolumeSource::File(_) | VolumeSource::Read(..)),
-        why: "a single volume file stands still",
-    },
-];
+/// Options of pictures of smoke that cannot act.
+fn smoke_entries<'a>() -> Vec<Entry<Smoke<'a>>> {
+    vec![
+        Entry {
+            option: "--step",
+            is_said: |c| c.said.step != 1.0,
+            is_idle: |c| c.count < 2,
+            why: "one frame is drawn",
+        },
+        Entry {
+            option: "--fps",
+            is_said: |c| c.said.fps != DEFAULT_FPS,
+            is_idle: |c| matches!(c.source, VolumeSource::File(_) | VolumeSource::Read(..)),
+            why: "a single volume file stands still",
+        },
+    ]
+}
 
 /// What to tell of options of `count` pictures of smoke.
 pub fn of_smoke(said: &SmokeArguments, source: &VolumeSource, count: usize) -> Vec<String> {
     told(
-        SMOKE,
+        &smoke_entries(),
         &Smoke {
             said,
             source,

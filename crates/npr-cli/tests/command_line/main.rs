@@ -6,7 +6,6 @@ mod colours;
 mod determinism;
 mod files;
 mod id_maps;
-mod idle;
 mod info;
 mod lines;
 mod looks;
