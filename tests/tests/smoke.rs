@@ -151,6 +151,18 @@ fn shape(frame: &Frame) -> Mask {
     })
 }
 
+/// The last frame of a film as a black shape on white paper, seen from the front.
+fn drawn_black(film: &SmokeFilm, settings: &[&str], height: f32) -> Frame {
+    let plain = [
+        "smoke.line.method=off",
+        "smoke.ramp=[{at=0,color='black'}]",
+        "background=white",
+    ];
+    let black = style(&[settings, &plain].concat());
+    let camera = front_camera(0.5, height);
+    draw_smoke(&Processor, &film.last(&black), &black, &camera, SIZE)
+}
+
 /// The publication's own grid has twenty voxels from floor to ceiling. Its smoke is drawn round all the same: the outline has
 /// no corners and no preferred direction, where the voxels it was made from are stairs.
 #[test]
@@ -166,19 +178,7 @@ fn coarse_voxels_have_a_soft_round_outline() {
     );
     for particles in ["cover", "published"] {
         let particles = format!("smoke.particles={particles}");
-        let black = style(&[
-            &particles,
-            "smoke.line.method=off",
-            "smoke.ramp=[{at=0,color='black'}]",
-            "background=white",
-        ]);
-        let frame = draw_smoke(
-            &Processor,
-            &film.last(&black),
-            &black,
-            &front_camera(0.5, height),
-            SIZE,
-        );
+        let frame = drawn_black(&film, &[&particles], height);
         keep(&format!("outline-{particles}"), &frame);
         let drawn = shape(&frame);
         let outline = drawn.outline();
@@ -202,18 +202,7 @@ fn coarse_voxels_have_a_soft_round_outline() {
 fn round_outlines_keep_the_shape_of_the_smoke() {
     let height = 1.15;
     let film = SmokeFilm::new(Source::Plume, PAPER, 40);
-    let black = style(&[
-        "smoke.line.method=off",
-        "smoke.ramp=[{at=0,color='black'}]",
-        "background=white",
-    ]);
-    let frame = draw_smoke(
-        &Processor,
-        &film.last(&black),
-        &black,
-        &front_camera(0.5, height),
-        SIZE,
-    );
+    let frame = drawn_black(&film, &[], height);
     let overlap = shape(&frame).overlap(&voxels(&film.volumes[39], 0.1, height));
     assert!(overlap > 0.8, "{overlap}");
 }

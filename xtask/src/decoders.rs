@@ -111,13 +111,7 @@ fn profile_faults(manifest: &str) -> Result<Vec<String>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn file(path: &str, text: &str) -> SourceFile {
-        SourceFile {
-            path: path.into(),
-            text: text.into(),
-        }
-    }
+    use crate::source::file;
 
     #[test]
     fn a_call_outside_of_the_door_is_found_by_its_line() {

@@ -122,13 +122,7 @@ fn reaches(functions: &[(usize, Function)], caller: usize, helper: usize) -> boo
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn file(path: &str, text: &str) -> SourceFile {
-        SourceFile {
-            path: path.into(),
-            text: text.into(),
-        }
-    }
+    use crate::source::file;
 
     #[test]
     fn what_leans_on_shared_assets_alone_is_found_through_its_helpers() {

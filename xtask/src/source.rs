@@ -201,16 +201,18 @@ fn is_marked_as_test(lines: &[&str]) -> bool {
         .any(|line| line.starts_with("#[test]"))
 }
 
+/// A file made up by tests, here and in the other checks.
+#[cfg(test)]
+pub fn file(path: &str, text: &str) -> SourceFile {
+    SourceFile {
+        path: path.into(),
+        text: text.into(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn file(path: &str, text: &str) -> SourceFile {
-        SourceFile {
-            path: path.into(),
-            text: text.into(),
-        }
-    }
 
     #[test]
     fn only_marked_functions_are_tests() {
