@@ -50,7 +50,7 @@ for mesh; do
     done
 
     "$target/release/npr" lines "$obj" -o "$work/out/npr_$mesh.svg" --quiet --eye $eye --target 0,0,0 --fov 35 \
-        --size 1920x1080 --crease 45.57 --kinds contour,boundary,crease --method edges --smooth off
+        --size 1920x1080 --crease 45.57 --crease-from faces --kinds contour,boundary,crease --method edges --smooth off
     for program in lineart npr; do
         rsvg-convert "$work/out/${program}_$mesh.svg" -b white -o "$work/out/${program}_$mesh.png"
         judge "$mesh" "$work/out/${program}_$mesh.png"

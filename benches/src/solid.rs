@@ -121,6 +121,16 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    /// Those of [Okuya 2016, tables 1 and 2], in which frames are timed.
+    #[test]
+    fn the_published_numbers_of_triangles_are_met() {
+        for count in [960, 9566, 33200, 66400] {
+            let scene = bumpy_ball(count);
+            assert_eq!(scene.triangle_count(), count);
+            assert_eq!(scene.vertex_count(), count / 2 + 2, "closed");
+        }
+    }
+
     proptest! {
         #[test]
         fn the_number_of_triangles_is_the_one_asked_for(half in 16usize..4000) {

@@ -207,23 +207,28 @@ fn at_lightness(lightness: f32, own: vec3<f32>, edge: vec3<f32>, share: f32) -> 
 }
 
 // The same for a place on the scale of the rule's measure: of WCAG the lightness at which the fitted colour has that luminance.
-fn at_place(place: f32, own: vec3<f32>, edge: vec3<f32>, share: f32, rule: u32) -> vec3<f32> {
+fn at_place(place: f32, brighter: bool, own: vec3<f32>, edge: vec3<f32>, share: f32, rule: u32) -> vec3<f32> {
     let by_luminance = rules.rules[rule].measure == RULE_WCAG;
     let luminance = luminance_at(place);
     let rounds = select(0u, FIT_ROUNDS, by_luminance);
     var low = 0.0;
     var high = 1.0;
     var light = vec3<f32>(0.0);
+    var dark = vec3<f32>(0.0);
+    var bright = vec3<f32>(1.0);
     for (var i = 0u; i <= rounds; i++) {
         let lightness = select(place, 0.5 * (low + high), by_luminance);
         light = at_lightness(lightness, own, edge, share);
         if dot(LUMA, light) < luminance {
             low = lightness;
+            dark = light;
         } else {
             high = lightness;
+            bright = light;
         }
     }
-    return light;
+    if !by_luminance { return light; }
+    return select(dark, bright, brighter);
 }
 
 // The colour that a line starts from: its own, or a share of the rim's.
@@ -250,5 +255,5 @@ fn adapted_light(own_light: vec3<f32>, rim: vec3<f32>, ground: Ground, rule: u32
     if step == 0.0 { return line; }
     let edge = oklab_of_light(rim);
     let share = smooth_step(0.0, distance * HUE_AT, step);
-    return at_place(end, own, edge, share, rule);
+    return at_place(end, end > start, own, edge, share, rule);
 }

@@ -121,6 +121,7 @@ const PART_ANGLE: u32 = 524288u;
 const PART_PAINTED: u32 = 1048576u;
 const PART_PLAIN: u32 = 2097152u;
 const PART_TONE_ROW: u32 = 4194304u;
+const PART_FOLDS: u32 = 1073741824u;
 
 const LINE_SURFACE: u32 = 32u;
 const LINE_VERTEX: u32 = 64u;

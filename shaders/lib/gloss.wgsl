@@ -73,7 +73,8 @@ fn highlights_at(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32) -> v
         var term = 0.0;
         for (var i = 0u; i < lights.count; i++) {
             if ((dark >> i) & 1u) != 0u || lights.sources[i].kind == LIGHT_SKY { continue; }
-            let light = towards_light(lights.sources[i], world);
+            let reach = reach_at(lights.sources[i], world);
+            let light = reach.towards;
             var here = 0.0;
             if (flags & PART_PHONG) != 0u {
                 here = phong(normal, light, eye, spot.x);
@@ -81,7 +82,7 @@ fn highlights_at(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32) -> v
                 let half = shaped_half(unit_or_z(light + eye), normal, compose.right_world, part);
                 here = positive_power(dot(normal, half), spot.x);
             }
-            term = max(term, here);
+            term = max(term, here * min(reach.strength, 1.0));
         }
         let crisp = select(0.0, 1.0, term > spot.y);
         let amount = select(soft_highlight(term, spot.y, spot.z), crisp, (flags & PART_CRISP) != 0u);

@@ -64,6 +64,13 @@ fn blend3(weights: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> vec3<
     return a * weights.x + b * weights.y + c * weights.z;
 }
 
+// The unit normal of a face from its corners in the world; its sign follows their order.
+fn face_normal(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> vec3<f32> {
+    let p = unit_or_z(b - a);
+    let q = unit_or_z(c - a);
+    return unit_or_z(vec3<f32>(p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x));
+}
+
 fn unit_or_z(v: vec3<f32>) -> vec3<f32> {
     let square = v.x * v.x + v.y * v.y + v.z * v.z;
     if square < 1e-30 { return vec3<f32>(0.0, 0.0, 1.0); }

@@ -66,7 +66,9 @@ fn pixel_of_triangle(triangle: Triangle, frame_px: vec2<f32>) -> GPixel {
     pixel.plane_step = plane_step(clip, vec3<f32>(a.depth, b.depth, c.depth), ndc_at(view, frame_px));
     pixel.depth = blend(weights, a.depth, b.depth, c.depth);
     pixel.half_width = blend(weights, a.half_width, b.half_width, c.half_width);
-    let normal = blend3(weights, a.normal, b.normal, c.normal);
+    let smooth_normal = blend3(weights, a.normal, b.normal, c.normal);
+    let folds = (parts[triangle.part].flags & PART_FOLDS) != 0u;
+    let normal = select(smooth_normal, face_normal(a.world, b.world, c.world), folds);
     pixel.normal = pack_unit(select(-normal, normal, faces_eye(clip)));
     pixel.object = parts[triangle.part].object;
     pixel.material = parts[triangle.part].material;

@@ -109,12 +109,21 @@ fn lines_swell_in_the_silver_age_and_are_thin_and_even_in_the_modern() {
 
 #[test]
 fn fills_are_flat_in_the_silver_age_and_run_smoothly_in_the_modern() {
-    let fill = |name: &str| {
+    let fill = |name: &str, color: [f32; 3]| {
         let settings = [NO_LINES, &["ink.tone=none", "highlight.edge=none"]].concat();
-        drawn(&ball([0.8, 0.25, 0.1]), &preset(name, &settings))
+        drawn(&ball(color), &preset(name, &settings))
     };
-    assert_eq!(tones(&fill("comic-silver")).len(), 1);
-    let modern = fill("comic-modern");
+    // One tone, the material's.
+    let [red, blue] = [[0.8, 0.25, 0.1], [0.1, 0.25, 0.8]].map(|color| {
+        let tones = tones(&fill("comic-silver", color));
+        assert_eq!(tones.len(), 1, "{tones:?}");
+        tones[0].0.map(u32::from)
+    });
+    assert!(
+        red[0] > red[2] + 80 && blue[2] > blue[0] + 80,
+        "{red:?} {blue:?}"
+    );
+    let modern = fill("comic-modern", [0.8, 0.25, 0.1]);
     // From the upper left, where light comes from, to the lower right.
     let along = |i: i32| pixel(&modern, (480 + i) as u32, (360 + i) as u32)[0];
     let row: Vec<u8> = (-180..180).map(along).collect();
@@ -188,23 +197,52 @@ fn strokes(frame: &Frame, x: std::ops::Range<u32>, y: std::ops::Range<u32>) -> [
     [dark / f32::max(count, 1.0), count / columns]
 }
 
-#[test]
-fn strokes_run_from_the_dark_into_the_light_and_end_in_points() {
-    // Light from the right on a tube that stands up: the shade fades over it from left to right, strokes lie across.
-    let settings = [
+/// Even strokes across a tube that stands up, in light from the right: the shade fades from left to right.
+fn strokes_across_a_tube(settings: &[&str]) -> Frame {
+    const EVEN: &[&str] = &[
         "ink.tone=ink+hatch",
         "ink.mapping=screen",
-        "ink.dark_at=0.2",
-        "ink.light_at=0.9",
         "ink.hatch.angle_deg=90",
         "ink.hatch.spacing=24px",
         "ink.hatch.length=200",
         "ink.hatch.wobble=0",
         "ink.hatch.variation=0",
     ];
-    let style = npr_tests::comic::style(&settings);
+    let style = npr_tests::comic::style(&[EVEN, settings].concat());
     let tube = placed(&icosphere(6), [1.0, 6.0, 1.0], [0.0; 3]);
-    let frame = drawn(&scene_of(&[Object::new("Tube", tube)]), &style);
+    drawn(&scene_of(&[Object::new("Tube", tube)]), &style)
+}
+
+#[test]
+fn strokes_taper_faster_on_a_steeper_ramp_and_slower_by_their_gain() {
+    // The shade ramp is 0.5 at the coordinate 0.55, column 509, in both; strokes are 12 pixels thick there.
+    let (wide, narrow) = (
+        ["ink.dark_at=0.2", "ink.light_at=0.9"],
+        ["ink.dark_at=0.35", "ink.light_at=0.75"],
+    );
+    let fall = |ramp: [&str; 2], gain: &str| {
+        let gain = format!("ink.hatch.gain={gain}");
+        let frame = strokes_across_a_tube(&[ramp[0], ramp[1], &gain]);
+        let [thick, thin] = [484..494, 524..534].map(|x| strokes(&frame, x, 160..560)[0]);
+        thick - thin
+    };
+    let found = [(wide, "1"), (narrow, "1"), (wide, "2"), (narrow, "2")];
+    let [wide, narrow, wide_gained, narrow_gained] = found.map(|(ramp, gain)| fall(ramp, gain));
+    // Thickness falls as 1 / (light_at - dark_at) / gain: 1.75 times as fast on the narrow ramp, half as fast by
+    // the gain.
+    let by_ramp = narrow / wide;
+    assert!(
+        wide > 2.0 && (1.4..2.4).contains(&by_ramp),
+        "{wide} {narrow}"
+    );
+    for (plain, gained) in [(wide, wide_gained), (narrow, narrow_gained)] {
+        assert!((0.3..0.7).contains(&(gained / plain)), "{plain} {gained}");
+    }
+}
+
+#[test]
+fn strokes_run_from_the_dark_into_the_light_and_end_in_points() {
+    let frame = strokes_across_a_tube(&["ink.dark_at=0.2", "ink.light_at=0.9"]);
     let [across, _] = npr_tests::comic::direction(&frame, 440..560, 200..520);
     assert!(across < -0.5, "strokes lie across the tube: {across}");
     let places = [400..420, 450..470, 500..520, 550..570, 600..620];

@@ -79,7 +79,7 @@ impl<'a> Seen<'a> {
             view: &self.view,
             eye: &self.eye,
             kinds: CurveNode::KINDS,
-            crease_cos: 0.766,
+            creases: 0.766.into(),
             is_drawn: &[],
         }
     }

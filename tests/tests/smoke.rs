@@ -8,7 +8,7 @@ use npr_gpu::processor::Processor;
 use npr_render::{Frame, Model, Picture, Sphere, Stage, StageOptions};
 use npr_scene::Scene;
 use npr_smoke::{Source, Volume};
-use npr_style::{SmokeOutput, Style};
+use npr_style::{Facts, Occasion, Output, Stated, Style};
 use npr_tests::{SmokeFilm, draw_smoke, front_camera, orbit_camera, write_png};
 
 /// The grid of the publication.
@@ -292,6 +292,10 @@ fn keys_that_are_said_to_do_nothing_do_nothing_and_others_do() {
         ("smoke.line.color", "red"),
     ];
     let common = ["light.shadow=true", "smoke.line.weight=20"];
+    let occasion = Occasion {
+        output: Output::Frame,
+        scene: Facts::ALL,
+    };
     let styles: [&[&str]; 5] = [
         &[],
         &["smoke.method=billboards"],
@@ -302,7 +306,8 @@ fn keys_that_are_said_to_do_nothing_do_nothing_and_others_do() {
     for settings in styles {
         let settings = [&common[..], settings].concat();
         let usual = style(&settings);
-        let idle = usual.smoke.idle_keys(SmokeOutput::Frame);
+        let mut stated = Stated::default();
+        stated.set_all(&settings).expect("legal settings");
         let drawn = |style: &Style| {
             let smoke = film.last(style);
             draw_smoke(&Processor, &smoke, style, &orbit_camera(20.0), [192, 192]).rgba
@@ -311,8 +316,12 @@ fn keys_that_are_said_to_do_nothing_do_nothing_and_others_do() {
         for (key, value) in changed {
             let assignment = format!("{key}={value}");
             let other = drawn(&style(&[&settings[..], &[&assignment]].concat()));
-            let is_idle = idle.iter().any(|idle| idle.keys.contains(&key));
-            assert_eq!(picture == other, is_idle, "{assignment} with {settings:?}");
+            let reason = stated.idle_reason(key, &occasion);
+            assert_eq!(
+                picture == other,
+                reason.is_some(),
+                "{assignment} with {settings:?}: {reason:?}"
+            );
         }
     }
 }

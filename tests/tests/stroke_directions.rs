@@ -52,6 +52,23 @@ fn strokes_follow_vertex_colours() {
 }
 
 #[test]
+fn strokes_run_along_the_second_uv_coordinate() {
+    for swapped in [false, true] {
+        let mut scene = walls();
+        let part = &mut scene.meshes[0].parts[0];
+        // Along y of the picture, or along x where the axes are swapped.
+        let uv = |p: &[f32; 3]| {
+            if swapped { [p[1], p[0]] } else { [p[0], p[1]] }
+        };
+        part.uvs = Some(part.positions.iter().map(uv).collect());
+        let frame = drawn(&scene, &["ink.mapping=uv"]);
+        assert_eq!(upright(&frame) > 0.0, !swapped, "{}", upright(&frame));
+        assert!(upright(&frame).abs() > 0.6, "{}", upright(&frame));
+        assert!(frame.notices.is_empty(), "{:?}", frame.notices);
+    }
+}
+
+#[test]
 fn parts_that_say_nothing_are_told_of_once() {
     for follow in ["attribute", "vertex-color"] {
         let frame = drawn(&walls(), &[&format!("ink.follow={follow}")]);

@@ -92,7 +92,7 @@ fn the_published_path_takes_wires_as_the_processor_does() {
             view: &view,
             eye: &eye_of(shape, &Projector::new(&camera, SIZE, bounds)),
             kinds: CurveNode::KINDS,
-            crease_cos: 0.766,
+            creases: 0.766.into(),
             is_drawn: &[],
         };
         let path = PublishedPath::default();

@@ -11,7 +11,7 @@ use crate::{assets, coverage, decoders, floors, harness, names, suite};
 type Step = (&'static str, fn(&Path) -> Result<()>);
 
 /// The steps, quick ones first.
-const STEPS: [Step; 10] = [
+const STEPS: [Step; 11] = [
     ("format", |root| {
         run_cargo(root, &["fmt", "--all", "--check"], &[])
     }),
@@ -26,6 +26,7 @@ const STEPS: [Step; 10] = [
         run_cargo(root, &DOCS, &[("RUSTDOCFLAGS", "-D warnings")])
     }),
     ("tests", |root| suite::run(root, &[])),
+    ("properties", suite::again),
 ];
 
 /// Lints of everything that compiles.

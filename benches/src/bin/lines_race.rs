@@ -11,6 +11,7 @@ use npr_benches::lines::subjects::{SIZE, benchmark_camera};
 use npr_benches::memory;
 use npr_benches::timing::{Times, elapsed_ms};
 use npr_core::camera::Camera;
+use npr_core::crease::CreaseFrom;
 use npr_render::{LineMethod, LineModel, LineModelOptions, LineOptions};
 use npr_scene::{LoadOptions, Scene, load};
 use npr_style::{Style, WidthSource};
@@ -84,6 +85,7 @@ fn timed_draw(model: &LineModel, camera: &Camera) -> Outcome<(f64, Drawing)> {
     let options = LineOptions {
         kinds: wanted.kinds.iter().copied().collect(),
         crease: wanted.crease as f32,
+        crease_from: CreaseFrom::Faces,
         method: LineMethod::Edges,
         smooth: false,
         ..LineOptions::new(SIZE)

@@ -1,6 +1,7 @@
 //! What the user said. Nothing here touches a file or a device.
 
 mod byte_count;
+mod cache;
 mod camera;
 mod deferred;
 mod drawing;
@@ -15,6 +16,7 @@ mod trace;
 mod trace_form;
 mod volume;
 
+pub use cache::CacheArguments;
 pub use camera::CameraArguments;
 pub use deferred::Deferred;
 pub use drawing::{Backend, DrawingArguments, TimingsForm};

@@ -25,6 +25,8 @@ pub struct Job<'a> {
     pub look: Look,
     /// How it is drawn.
     pub options: StageOptions,
+    /// Where what is costly to prepare is kept between runs.
+    pub cache: Option<PathBuf>,
 }
 
 impl<'a> Job<'a> {
@@ -43,6 +45,7 @@ impl<'a> Job<'a> {
             output,
             look,
             options,
+            cache: said.cache.folder()?,
         })
     }
 }

@@ -23,6 +23,7 @@ mod hardware;
 #[cfg(not(feature = "gpu"))]
 #[path = "no_hardware.rs"]
 mod hardware;
+mod idle;
 mod info;
 mod input;
 mod interrupt;

@@ -11,17 +11,15 @@ use crate::message::quoted;
 use crate::output::Output;
 use crate::source::{Source, has_volume_name};
 use crate::volume::{self, VolumeSource};
+use npr_core::crease::CreaseFrom;
 use npr_core::geometry::Part;
 use npr_render::{
     Drawing, Kind, KindSet, Lettering, LineMethod, LineOptions, PaintedLines, StageOptions,
 };
 use npr_scene::Limits;
-use npr_style::{Background, Style};
+use npr_style::{Background, Facts, LineFinder, LineForm, LineOutput, Occasion, Style};
 use npr_vector::artwork::{ArtworkOptions, Hidden, Page, Paths, arrange};
 use std::path::{Path, PathBuf};
-
-/// Names the folder for prepared surfaces where no option does.
-const CACHE_VARIABLE: &str = "NPR_CACHE_DIR";
 
 const MM_PER_INCH: f64 = 25.4;
 
@@ -47,7 +45,7 @@ pub struct LineJob<'a> {
     pub lettering: Lettering,
     /// How the picture is drawn that lines are judged before, where the style lets them mind it.
     pub backdrop: Option<StageOptions>,
-    /// Where prepared surfaces are kept between runs.
+    /// Where what is costly to prepare is kept between runs.
     pub cache: Option<PathBuf>,
 }
 
@@ -84,9 +82,30 @@ impl<'a> LineJob<'a> {
             artwork: artwork(said, &look.style),
             look,
             backdrop: backdrop.transpose()?,
-            cache: cache_folder(said.cache.as_deref())?,
+            cache: said.cache.folder()?,
             said,
         })
+    }
+}
+
+impl LineJob<'_> {
+    /// Where the style is drawn, for telling which of its keys cannot act.
+    pub fn occasion(&self, scene: Facts) -> Occasion {
+        let finder = match self.options.method {
+            LineMethod::Edges | LineMethod::Surface => LineFinder::Mesh,
+            LineMethod::Potrace => LineFinder::Potrace,
+            LineMethod::Image => LineFinder::Image,
+        };
+        let form = match (self.format, self.artwork.paths) {
+            (LineFormat::Json, _) => LineForm::Data,
+            (_, Paths::Centreline) => LineForm::Centrelines,
+            _ => LineForm::Ink,
+        };
+        let fill = self.options.fill;
+        Occasion {
+            output: npr_style::Output::Lines(LineOutput { finder, form, fill }),
+            scene,
+        }
     }
 }
 
@@ -187,6 +206,7 @@ fn options(said: &LinesArguments, style: &Style) -> LineOptions {
     let LineArguments {
         kinds,
         crease,
+        crease_from,
         split,
         method,
         hidden,
@@ -201,6 +221,7 @@ fn options(said: &LinesArguments, style: &Style) -> LineOptions {
     LineOptions {
         kinds: named.unwrap_or(of_style.kinds),
         crease: crease.map_or(of_style.crease, f32::to_radians),
+        crease_from: crease_from.map_or(of_style.crease_from, CreaseFrom::from),
         split: split.map_or(of_style.split, LineOptions::split_at),
         method: match method {
             MethodName::Edges => LineMethod::Edges,
@@ -262,22 +283,6 @@ fn artwork(said: &LinesArguments, style: &Style) -> ArtworkOptions {
     }
 }
 
-/// The folder for prepared surfaces, which has to exist; none where the user wants none.
-fn cache_folder(said: Option<&Path>) -> Result<Option<PathBuf>, Fault> {
-    let named = said.map(Path::to_owned);
-    let of_variable = || std::env::var_os(CACHE_VARIABLE).map(PathBuf::from);
-    let folder = named.or_else(of_variable);
-    let Some(folder) = folder.filter(|folder| !folder.as_os_str().is_empty() && folder != "off")
-    else {
-        return Ok(None);
-    };
-    if folder.is_dir() {
-        return Ok(Some(folder));
-    }
-    let message = format!("cache: there is no folder {}", quoted(&folder));
-    Err(Fault::new(Exit::Failed, message))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -292,12 +297,5 @@ mod tests {
         assert_eq!(of(Some(LineFormat::Png), "b.svg"), Ok(LineFormat::Png));
         let fault = of(None, "b.eps").expect_err("not written");
         assert_eq!(fault.exit, Exit::Usage);
-    }
-
-    #[test]
-    fn off_and_nothing_mean_no_cache() {
-        assert_eq!(cache_folder(Some(Path::new("off"))), Ok(None));
-        let fault = cache_folder(Some(Path::new("no/where"))).expect_err("missing");
-        assert_eq!(fault.exit, Exit::Failed);
     }
 }

@@ -5,6 +5,7 @@ use crate::arguments::{
 };
 use crate::engine::{self, Drawn};
 use crate::fault::{Exit, Fault};
+use crate::idle;
 use crate::line_file;
 use crate::line_job::LineJob;
 use crate::look::Look;
@@ -18,8 +19,10 @@ use crate::volume::{self, Order};
 use npr_core::camera::Camera;
 use npr_core::geometry::Part;
 use npr_gpu::engine::{Engine, PassTime};
-use npr_render::{Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineStage, Model};
-use npr_style::{Background, SmokeOutput, WidthSource};
+use npr_render::{
+    Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineStage, Model, facts_of,
+};
+use npr_style::{Background, WidthSource};
 use std::io::Write;
 
 /// Draws the lines that the user asked for, or prints the style.
@@ -56,7 +59,7 @@ pub fn lines_of_picture(said: &RenderArguments) -> Result<(), Fault> {
         },
         sheet: SheetArguments::default(),
         drawing: said.drawing.clone(),
-        cache: None,
+        cache: said.cache.clone(),
     };
     lines(&lines_said)
 }
@@ -70,9 +73,7 @@ fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, 
     let drawn = draw_lines(job, &model, &camera, progress)?;
     let drawing = &drawn.picture.drawing;
     progress.suspend(|| {
-        for notice in &drawing.notices {
-            message::warn(job.said.drawing.quiet, notice);
-        }
+        message::warn_all(job.said.drawing.quiet, &drawing.notices);
     });
     let view = camera.view(drawing.size, lines.bounds());
     let lettering = job.lettering.placed(&view, job.options.dpi);
@@ -154,11 +155,8 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
         style: &job.look.style.smoke,
         limits: &job.limits,
     };
+    let of_volumes = idle::of_volumes(&order, loaded.volume.as_ref());
     let (smoke, told) = volume::step(progress, &order, loaded.volume)?;
-    let idle = match smoke {
-        Some(_) => order.idle_notices(SmokeOutput::Lines),
-        None => Vec::new(),
-    };
     job.output.refuse_any_of(&told.inputs)?;
     job.look
         .apply_id_maps(&mut loaded.scene, &job.limits, external)?;
@@ -175,6 +173,7 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
             job.cache.as_deref(),
         )
     })?;
+    let facts = facts_of(&loaded.scene, smoke.is_some());
     model.set_smoke(smoke);
     if job.look.style.line_paint_flags() & Part::LINE_TEXTURE != 0 {
         model.set_pictures(
@@ -183,11 +182,20 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
         );
     }
     let behind = match job.backdrop {
-        Some(_) => Some(progress.step("prepare", || Model::new(&loaded.scene))?),
+        Some(_) => Some(progress.step("prepare", || {
+            Model::cached(&loaded.scene, job.cache.as_deref())
+        })?),
         None => None,
     };
-    let of_smoke = told.notices.iter().chain(&idle);
-    progress.suspend(|| warn_of(job, &model, of_smoke));
+    progress.suspend(|| {
+        warn_of(job, &model, told.notices.iter());
+        let keys = job.look.idle_notices(&job.occasion(facts));
+        let options = idle::of_lines(job, facts);
+        message::warn_all(
+            job.said.drawing.quiet,
+            keys.iter().chain(&options).chain(&of_volumes),
+        );
+    });
     Ok(Prepared {
         lines: model,
         behind,

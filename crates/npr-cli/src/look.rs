@@ -10,8 +10,8 @@ use crate::style_source::StyleSource;
 use npr_render::{Font, Picture};
 use npr_scene::{FolderResources, Limits, Resources, Scene};
 use npr_style::{
-    Background, Color, LineMethod, Rule, ShadeMode, Stop, Style, Tone, Unit, WidthSource,
-    WidthWarning, width_rule,
+    Background, Color, LineMethod, Occasion, Rule, ShadeMode, Stated, Stop, Style, Tone, Unit,
+    WidthSource, WidthWarning, width_rule,
 };
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -21,6 +21,8 @@ use std::path::{Path, PathBuf};
 pub struct Look {
     /// The style, overrides applied.
     pub style: Style,
+    /// The style without `--background`, and which of its keys the user stated.
+    stated: Stated,
     background: Option<PictureFile>,
     width: Option<PictureFile>,
     /// Fonts of its words, each name once, with the first words that use it.
@@ -58,13 +60,12 @@ impl Look {
     /// but no pictures and fonts.
     pub fn resolve(said: &LookArguments, external: Option<&Path>) -> Result<Self, Fault> {
         let source = StyleSource::of(said.style.as_deref());
-        let written = source.load(external)?;
-        let mut style = written.clone();
-        for assignment in &said.overrides {
-            style
-                .set(assignment)
-                .map_err(|error| Fault::new(Exit::Usage, format!("--set: {error}")))?;
-        }
+        let mut stated = source.load(external)?;
+        let written = stated.style().clone();
+        stated
+            .set_all(&said.overrides)
+            .map_err(|error| Fault::new(Exit::Usage, format!("--set: {error}")))?;
+        let mut style = stated.style().clone();
         if let Some(background) = &said.background {
             style.background = background.clone();
         }
@@ -78,6 +79,7 @@ impl Look {
             pictures: picture_files(&style, &written, source.file(), Style::named_pictures),
             id_maps: picture_files(&style, &written, source.file(), Style::id_map_pictures),
             style_file: source.file().map(Path::to_owned),
+            stated,
             style,
         })
     }
@@ -139,6 +141,11 @@ impl Look {
     ) -> Result<(), Fault> {
         let pictures = load_named(&self.id_maps, |file| file.load(limits, external))?;
         Ok(npr_render::apply_id_maps(scene, &self.style, &pictures)?)
+    }
+
+    /// What to tell the user of keys that cannot act on an occasion.
+    pub fn idle_notices(&self, occasion: &Occasion) -> Vec<String> {
+        self.stated.idle_notices(occasion)
     }
 
     /// The files that this look is made from.

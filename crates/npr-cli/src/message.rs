@@ -23,6 +23,13 @@ pub fn warn(quiet: bool, text: &str) {
     }
 }
 
+/// Says everything of a list that is odd, in order, unless `quiet`.
+pub fn warn_all<T: AsRef<str>>(quiet: bool, texts: impl IntoIterator<Item = T>) {
+    for text in texts {
+        warn(quiet, text.as_ref());
+    }
+}
+
 /// Writes one line; where standard error is closed, nobody reads it.
 fn write_line(text: &str) {
     let line = cut(&plain(text), LINE_LENGTH);

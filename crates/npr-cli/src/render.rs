@@ -5,6 +5,7 @@ use crate::bands::draw_into;
 use crate::encoder;
 use crate::engine::{self, Drawn};
 use crate::fault::{Exit, Fault};
+use crate::idle;
 use crate::job::{Job, has_ending};
 use crate::lines;
 use crate::look::Look;
@@ -18,10 +19,12 @@ use npr_core::camera::Camera;
 use npr_gpu::engine::Engine;
 use npr_render::{
     Frame, LineModel, LineModelOptions, LineStage, Model, RenderError, Smoke, Stage, StageOptions,
+    facts_of,
 };
 use npr_scene::{Limits, Scene};
-use npr_style::{SmokeOutput, Style};
+use npr_style::{Facts, Occasion, Style};
 use std::io::Write;
+use std::path::Path;
 
 /// Draws what the user asked for, or prints its style.
 pub fn render(said: &RenderArguments) -> Result<(), Fault> {
@@ -71,9 +74,7 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
         Picture::InBands(written) => (written?, true),
     };
     progress.suspend(|| {
-        for notice in &frame.notices {
-            message::warn(job.said.drawing.quiet, notice);
-        }
+        message::warn_all(job.said.drawing.quiet, &frame.notices);
     });
     if !is_written {
         let keep_alpha = job.look.is_transparent();
@@ -130,16 +131,17 @@ pub fn prepared(
     scene: &Scene,
     style: &Style,
     limits: &Limits,
+    cache: Option<&Path>,
     progress: &mut Progress,
 ) -> Result<Prepared, Fault> {
-    let model = progress.step("prepare", || Model::new(scene))?;
+    let model = progress.step("prepare", || Model::cached(scene, cache))?;
     let lines = style.has_curves().then(|| {
         let options = LineModelOptions {
             memory_limit: limits.memory_bytes,
             ..LineModelOptions::default()
         };
         progress.step("prepare", || {
-            LineModel::for_style(scene, style, &options, None)
+            LineModel::for_style(scene, style, &options, cache)
         })
     });
     Ok(Prepared {
@@ -163,24 +165,31 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<S
         style: &job.look.style.smoke,
         limits: &limits,
     };
+    let of_volumes = idle::of_volumes(&order, loaded.volume.as_ref());
     let (smoke, told) = volume::step(progress, &order, loaded.volume)?;
     job.output.refuse_any_of(&told.inputs)?;
     job.look
         .apply_id_maps(&mut loaded.scene, &limits, external)?;
-    let prepared = prepared(&loaded.scene, &job.look.style, &limits, progress)?;
-    let idle = match smoke {
-        Some(_) => order.idle_notices(SmokeOutput::Frame),
-        None => Vec::new(),
-    };
-    progress.suspend(|| warn_of(job, &prepared.model, told.notices.iter().chain(&idle)));
+    let (style, cache) = (&job.look.style, job.cache.as_deref());
+    let prepared = prepared(&loaded.scene, style, &limits, cache, progress)?;
+    let facts = facts_of(&loaded.scene, smoke.is_some());
+    progress.suspend(|| {
+        warn_of(job, &prepared.model, told.notices.iter());
+        warn_of_idle(&job.look, facts, job.said.drawing.quiet);
+        message::warn_all(job.said.drawing.quiet, &of_volumes);
+    });
     Ok((prepared, smoke))
+}
+
+/// Says which keys of the style cannot act in pictures of a scene.
+pub fn warn_of_idle(look: &Look, scene: Facts, quiet: bool) {
+    let output = npr_style::Output::Frame;
+    message::warn_all(quiet, look.idle_notices(&Occasion { output, scene }));
 }
 
 fn warn_of<'a>(job: &Job<'_>, model: &'a Model, of_smoke: impl Iterator<Item = &'a String>) {
     let quiet = job.said.drawing.quiet;
-    for notice in model.notices().iter().chain(of_smoke) {
-        message::warn(quiet, notice);
-    }
+    message::warn_all(quiet, model.notices().iter().chain(of_smoke));
     if let Some(warning) = job.look.width_warning(job.said.drawing.size.height) {
         message::warn(quiet, &warning.to_string());
     }

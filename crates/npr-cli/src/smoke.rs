@@ -4,6 +4,7 @@ use crate::arguments::{SmokeArguments, TimingsForm};
 use crate::encoder;
 use crate::engine::{self, Drawn};
 use crate::fault::{Exit, Fault};
+use crate::idle;
 use crate::job;
 use crate::look::Look;
 use crate::message;
@@ -14,11 +15,11 @@ use crate::progress::{Counter, Progress};
 use crate::render::{self, Prepared};
 use crate::source::{Loaded, Source};
 use crate::timings::Timings;
+use crate::viewpoint::unknown_camera;
 use crate::volume::{self, Film, Order, Shots, VolumeSource};
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
-use npr_render::{Frame, RenderError, Smoke, StageOptions};
-use npr_style::SmokeOutput;
+use npr_render::{Frame, RenderError, Smoke, StageOptions, facts_of};
 use std::cell::{Cell, RefCell};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -158,6 +159,10 @@ fn output_path(said: &SmokeArguments, source: &Source) -> Result<PathBuf, Fault>
 
 /// From the source to the pictures.
 fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, Fault> {
+    if let Some(name) = &job.said.drawing.camera.camera {
+        // Volumes have no cameras: nobody waits for smoke to hear that.
+        return Err(unknown_camera(name, &[]));
+    }
     let limits = job.said.drawing.limits.limits();
     let source = match &job.source {
         Source::File(path) => VolumeSource::of(path),
@@ -179,7 +184,6 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, 
         volume::film(&source, &order, &job.shots, &mut tell)
     })?;
     job.target.check_count(film.frames.len())?;
-    film.notices.extend(order.idle_notices(SmokeOutput::Frame));
     let more = progress.step("load", || volume::still(&order, None))?;
     if let Some((smoke, told)) = more {
         film.join(&smoke, told);
@@ -188,10 +192,12 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, 
         &npr_scene::Scene::default(),
         &job.look.style,
         &limits,
+        None,
         progress,
     )?;
     let outputs = outputs(job, &film)?;
-    tell_notices(job, &film, progress);
+    let of_volumes = idle::of_volumes(&order, Some(&source));
+    tell_notices(job, &source, &film, &of_volumes, progress);
     let camera = camera(job, &prepared, &film)?;
     draw_film(job, &prepared, &film, &outputs, &camera, progress)
 }
@@ -218,11 +224,20 @@ fn outputs(job: &Job<'_>, film: &Film) -> Result<Vec<Output>, Fault> {
     (0..film.frames.len()).map(output).collect()
 }
 
-fn tell_notices(job: &Job<'_>, film: &Film, progress: &Progress) {
+fn tell_notices(
+    job: &Job<'_>,
+    source: &VolumeSource,
+    film: &Film,
+    of_volumes: &[String],
+    progress: &Progress,
+) {
     progress.suspend(|| {
-        for notice in &film.notices {
-            message::warn(job.said.drawing.quiet, notice);
-        }
+        message::warn_all(job.said.drawing.quiet, &film.notices);
+        let facts = facts_of(&npr_scene::Scene::default(), true);
+        let quiet = job.said.drawing.quiet;
+        render::warn_of_idle(&job.look, facts, quiet);
+        let of_smoke = idle::of_smoke(job.said, source, film.frames.len());
+        message::warn_all(quiet, of_volumes.iter().chain(&of_smoke));
     });
 }
 
@@ -273,9 +288,7 @@ fn draw_film(
         return Err(fault);
     }
     progress.suspend(|| {
-        for notice in screening.notices.into_inner() {
-            message::warn(quiet, &notice);
-        }
+        message::warn_all(quiet, screening.notices.into_inner());
     });
     Ok(Drawn {
         picture: screening.times.into_inner(),

@@ -5,7 +5,7 @@ use crate::input::read_file;
 use crate::message::quoted;
 use crate::output::folder_of;
 use npr_scene::{FolderResources, Resources};
-use npr_style::{DEFAULT_PRESET, Style, TEXT_BYTES_MAX};
+use npr_style::{DEFAULT_PRESET, Stated, TEXT_BYTES_MAX};
 use std::path::{Path, PathBuf};
 
 /// A preset or a style file.
@@ -41,17 +41,17 @@ impl StyleSource {
     }
 
     /// The style; its parents are looked for in its own folder and below, and in `external`.
-    pub fn load(&self, external: Option<&Path>) -> Result<Style, Fault> {
+    pub fn load(&self, external: Option<&Path>) -> Result<Stated, Fault> {
         match self {
             Self::Preset(name) => {
-                Style::preset(name).map_err(|error| Fault::new(Exit::Usage, error))
+                Stated::preset(name).map_err(|error| Fault::new(Exit::Usage, error))
             }
             Self::File(path) => load_file(path, external),
         }
     }
 }
 
-fn load_file(path: &Path, external: Option<&Path>) -> Result<Style, Fault> {
+fn load_file(path: &Path, external: Option<&Path>) -> Result<Stated, Fault> {
     // One byte more than a style may have, so that the reader of styles tells of its own limit.
     let bytes = read_file(path, TEXT_BYTES_MAX as u64 + 1).map_err(|fault| match fault.exit {
         Exit::Failed => fault,
@@ -68,7 +68,7 @@ fn load_file(path: &Path, external: Option<&Path>) -> Result<Style, Fault> {
             .map_err(|error| Fault::from(error).message)?;
         String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())
     };
-    Style::from_toml(&text, &parent).map_err(|error| wrong(&error))
+    Stated::from_toml(&text, &parent).map_err(|error| wrong(&error))
 }
 
 #[cfg(test)]

@@ -2,9 +2,10 @@
 
 use crate::arguments::{TraceArguments, TracedForm, TracedFormat};
 use crate::fault::{Exit, Fault};
+use crate::idle;
 use crate::input::{read_file, read_standard};
 use crate::job::{has_ending, output_path};
-use crate::message::quoted;
+use crate::message::{self, quoted};
 use crate::output::Output;
 use crate::picture;
 use crate::progress::Progress;
@@ -22,6 +23,7 @@ use std::path::{Path, PathBuf};
 pub fn trace(said: &TraceArguments) -> Result<(), Fault> {
     let jobs = resolve(said)?;
     let limits = said.limits.limits();
+    message::warn_all(said.quiet, idle::of_trace(said));
     let mut progress = Progress::new(said.quiet);
     for job in &jobs {
         draw(job, said, &limits, &mut progress)?;

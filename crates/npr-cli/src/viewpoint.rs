@@ -77,7 +77,8 @@ fn camera_of_file(asked: &str, cameras: &[(String, Camera)]) -> Result<Camera, F
         .ok_or_else(|| unknown_camera(asked, cameras))
 }
 
-fn unknown_camera(asked: &str, cameras: &[(String, Camera)]) -> Fault {
+/// That there is no camera by a name or number among some.
+pub fn unknown_camera(asked: &str, cameras: &[(String, Camera)]) -> Fault {
     let listed: Vec<String> = cameras
         .iter()
         .take(LISTED_CAMERAS)

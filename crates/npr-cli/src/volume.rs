@@ -13,7 +13,7 @@ use npr_render::{Following, Smoke, Sphere, UpAxis, VolumeFault, VolumeFile, Volu
 use npr_scene::Limits;
 use npr_smoke::solver::{self, SmokeError, SmokeSettings};
 use npr_smoke::{Birthplace, Footage, PuffSettings, Puffs, Source, Volume};
-use npr_style::{SmokeOutput, SmokeParticles, SmokeStyle};
+use npr_style::SmokeStyle;
 use std::path::{Path, PathBuf};
 
 /// Frames per second where none are said.
@@ -388,15 +388,6 @@ fn finished(frames: Vec<Smoke>, first: u32, hottest: f32, mut notices: Vec<Strin
 }
 
 impl Order<'_> {
-    /// What the user said or the style has that cannot act on smoke, by name.
-    pub fn idle_notices(&self, output: SmokeOutput) -> Vec<String> {
-        let mut notices = self.style.idle_notices(output);
-        if self.said.emitter.is_some() && self.style.particles == SmokeParticles::Cover {
-            notices.push("--emitter does nothing: smoke.particles is cover".to_owned());
-        }
-        notices
-    }
-
     fn options(&self) -> VolumeOptions {
         let said = self.said;
         VolumeOptions {

@@ -116,7 +116,7 @@ pub struct Edge {
     pub ends: [u32; 2],
     /// Triangle indices; the second is [`NONE`] on a border.
     pub faces: [u32; 2],
-    /// Cosine of the angle between the normals of the two faces; 1 where they are coplanar.
+    /// Cosine of the angle by which the edge folds, between what the style says; 1 where the surface runs on.
     pub dihedral_cos: f32,
     /// Bits of [`Edge::MATERIAL`] and [`Edge::FLIPPED`].
     pub traits: u32,
@@ -325,6 +325,8 @@ impl Part {
     pub const PLAIN: u32 = 2_097_152;
     /// Its tones are a row of the texture store, not its ramp.
     pub const TONE_ROW: u32 = 4_194_304;
+    /// Its lines are found where its faces fold, whatever its normals say.
+    pub const FOLDS: u32 = 1 << 30;
     /// Any outline.
     pub const OUTLINES: u32 = Self::LINES | Self::HULL | Self::ANGLE;
     /// Any highlight.

@@ -16,6 +16,7 @@
 pub mod budget;
 pub mod camera;
 pub mod color;
+pub mod crease;
 pub mod cutout;
 pub mod decoding;
 pub mod geometry;

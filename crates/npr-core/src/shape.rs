@@ -1,5 +1,6 @@
 //! A surface as line producers read it: welded, with half-edges and unique edges.
 
+use crate::crease::CreaseFrom;
 use crate::geometry::NONE;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -29,6 +30,9 @@ pub struct Shape {
     pub edge_sides: Vec<u32>,
     /// Cosine of the angle between the normals of the two faces of an edge; 1 where it has not two.
     pub dihedral_cos: Vec<f32>,
+    /// The same between the file's normals in the middle of the edge; that of the faces where they have none. Empty
+    /// where all are.
+    pub normals_cos: Vec<f32>,
     /// Bits of [`Shape::BORDER`] to [`Shape::MARKED`] for every edge.
     pub edge_traits: Vec<u32>,
     /// Faces without area, ascending, each with the face whose orientation it takes over: the nearest with
@@ -82,6 +86,20 @@ impl Shape {
     pub fn wire_edges(&self) -> std::ops::Range<u32> {
         let first = self.edge_count() as u32;
         first..first + self.wires.len() as u32
+    }
+
+    /// Cosine of the angle by which an edge folds: 1 where it has not two faces, or where they run on smoothly.
+    #[inline]
+    pub fn fold_cos(&self, edge: u32, from: CreaseFrom) -> f32 {
+        let faces = self.dihedral_cos[edge as usize];
+        match from {
+            CreaseFrom::Faces => faces,
+            CreaseFrom::Normals => self
+                .normals_cos
+                .get(edge as usize)
+                .copied()
+                .unwrap_or(faces),
+        }
     }
 
     /// Which wire an edge number means; none for edges of faces.
@@ -202,6 +220,15 @@ impl Shape {
             ),
             ("an angle per edge", self.dihedral_cos.len(), edges),
             (
+                "an angle of normals per edge, or none at all",
+                self.normals_cos.len(),
+                if self.normals_cos.is_empty() {
+                    0
+                } else {
+                    edges
+                },
+            ),
+            (
                 "a surface per wire",
                 self.wire_surfaces.len(),
                 self.wires.len(),
@@ -288,6 +315,11 @@ impl Shape {
         all("angles are cosines", self.edge_count(), |edge| {
             (-1.0..=1.0).contains(&self.dihedral_cos[edge])
         })?;
+        all(
+            "angles of normals are cosines",
+            self.normals_cos.len(),
+            |edge| (-1.0..=1.0).contains(&self.normals_cos[edge]),
+        )?;
         all("traits say how faces meet", self.edge_count(), |edge| {
             self.traits_match(edge as u32)
         })

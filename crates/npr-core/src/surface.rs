@@ -111,6 +111,16 @@ pub fn unit_or_z(v: [f32; 3]) -> [f32; 3] {
     [v[0] / length, v[1] / length, v[2] / length]
 }
 
+/// The unit normal of a face from its corners in the world; its sign follows their order.
+pub fn face_normal([a, b, c]: [[f32; 3]; 3]) -> [f32; 3] {
+    let [p, q] = [b, c].map(|corner| unit_or_z([0, 1, 2].map(|i| corner[i] - a[i])));
+    unit_or_z([
+        p[1] * q[2] - p[2] * q[1],
+        p[2] * q[0] - p[0] * q[2],
+        p[0] * q[1] - p[1] * q[0],
+    ])
+}
+
 /// A corner relative to a point of the picture, scaled by the corner's w; linear in the point.
 #[inline]
 pub fn offset_from(clip: [f32; 4], ndc: [f32; 2]) -> [f32; 2] {

@@ -5,7 +5,6 @@ use std::hint::black_box;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use npr_core::shape::{Shape, Surface};
 use npr_mesh::shape::{PlacedMesh, add_mesh};
-use npr_mesh::shape_cache::{decode, encode, shape_key};
 use npr_mesh::testing::{shuffled_vertices, torus, unindexed};
 use npr_mesh::{Mesh, curvature, smooth_normals, unique_edges, weld};
 
@@ -85,17 +84,6 @@ fn shapes(criterion: &mut Criterion) {
                 drop(black_box(shape(mesh, &surfaces, 1e-6)))
             });
         }
-        let prepared = shape(&mesh, &surfaces, 0.0);
-        let bytes = encode(&prepared, 1);
-        stage("key", &mut || {
-            black_box(shape_key(
-                &prepared.surfaces,
-                &[placed(&mesh, &surfaces)],
-                0.0,
-            ));
-        });
-        stage("encode", &mut || drop(black_box(encode(&prepared, 1))));
-        stage("decode", &mut || drop(black_box(decode(&bytes, 1))));
     }
 }
 

@@ -4,12 +4,20 @@
 ///
 /// For a given word every step is a bijection of the lane, and for a given lane of the word: inputs of
 /// one length that differ in a single word never meet, in either lane.
-pub(crate) struct ContentHash {
+#[derive(Debug, Clone)]
+pub struct ContentHash {
     lanes: [u64; 2],
 }
 
+impl Default for ContentHash {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl ContentHash {
-    pub(crate) fn new() -> Self {
+    /// Of nothing so far.
+    pub fn new() -> Self {
         Self {
             lanes: [0x243f_6a88_85a3_08d3, 0x1319_8a2e_0370_7344],
         }
@@ -23,7 +31,7 @@ impl ContentHash {
     }
 
     /// Numbers, after how many they are.
-    pub(crate) fn numbers(&mut self, numbers: &[u32]) {
+    pub fn numbers(&mut self, numbers: &[u32]) {
         self.word(numbers.len() as u64);
         let (pairs, last) = numbers.as_chunks();
         pairs
@@ -33,7 +41,7 @@ impl ContentHash {
     }
 
     /// Positions bit by bit, after how many they are.
-    pub(crate) fn positions(&mut self, positions: &[[f32; 3]]) {
+    pub fn positions(&mut self, positions: &[[f32; 3]]) {
         self.word(positions.len() as u64);
         for position in positions {
             let [x, y, z] = position.map(|v| u64::from(v.to_bits()));
@@ -43,7 +51,7 @@ impl ContentHash {
     }
 
     /// Bytes, after how many they are.
-    pub(crate) fn bytes(&mut self, bytes: &[u8]) {
+    pub fn bytes(&mut self, bytes: &[u8]) {
         self.word(bytes.len() as u64);
         let (words, last) = bytes.as_chunks();
         words
@@ -54,7 +62,8 @@ impl ContentHash {
         self.word(u64::from_le_bytes(word));
     }
 
-    pub(crate) fn finish(mut self) -> u128 {
+    /// The digest of all that was fed.
+    pub fn finish(mut self) -> u128 {
         // The last words have reached few bits yet.
         (0..3).for_each(|round| self.word(round));
         u128::from(self.lanes[1]) << 64 | u128::from(self.lanes[0])

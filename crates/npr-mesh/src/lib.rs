@@ -4,7 +4,7 @@
 //! ([`weld()`]), then the shared edges are listed with the two faces beside each ([`unique_edges`]),
 //! and normals ([`normals`]) and curvature ([`curvature`](mod@curvature)) are gathered over the welded vertices.
 //! Lines that are linked into curves start from a [`shape`]: half-edges, unique edges and their traits in one
-//! call, which a [`shape_cache`] keeps for the next start.
+//! call.
 //!
 //! ```
 //! use npr_mesh::{Mesh, unique_edges, weld};
@@ -37,7 +37,8 @@ pub mod classify;
 
 mod cluster;
 pub mod components;
-mod content_hash;
+pub mod content_hash;
+pub mod crease;
 pub mod curvature;
 pub mod direction_field;
 pub mod edge_flags;
@@ -51,7 +52,6 @@ pub mod pose;
 pub mod project;
 mod sectors;
 pub mod shape;
-pub mod shape_cache;
 mod sides;
 mod slivers;
 pub mod smoothing;

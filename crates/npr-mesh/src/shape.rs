@@ -9,6 +9,7 @@ use npr_core::geometry::NONE;
 use npr_core::shape::{Shape, Surface};
 use rayon::prelude::*;
 
+use crate::crease::{SideNormals, cos_between};
 use crate::sides::Sides;
 use crate::weld::{Weld, weld};
 use crate::{sectors, slivers};
@@ -21,6 +22,9 @@ pub struct PlacedMesh<'a> {
     pub rest: &'a [[f32; 3]],
     /// The same vertices posed, in the world. The first vertex of a welded group stands for all.
     pub world: &'a [[f32; 3]],
+    /// The file's normals at the same vertices, zero where it has none; empty where it has none at all. They say where
+    /// faces run on smoothly ([`Shape::normals_cos`]).
+    pub normals: &'a [[f32; 3]],
     /// Three vertices per face, counter-clockwise seen from outside before placing.
     pub triangles: &'a [[u32; 3]],
     /// Index into [`Shape::surfaces`] for every triangle.
@@ -141,9 +145,10 @@ impl AddAssign for Preparation {
 pub fn add_mesh(shape: &mut Shape, mesh: &PlacedMesh, weld_tolerance: f32) -> Preparation {
     let vertex_count = mesh.rest.len().min(mesh.world.len());
     let weld = weld(&mesh.rest[..vertex_count], weld_tolerance);
-    let (mut part, mut removed) = weld_faces(mesh, &weld, &shape.surfaces);
-    removed.double_count = connect(&mut part);
+    let (mut part, mut stored, mut removed) = weld_faces(mesh, &weld, &shape.surfaces);
+    removed.double_count = connect(&mut part, &mut stored);
     measure(&mut part, &shape.surfaces);
+    measure_normals(&mut part, &stored, mesh.normals);
     removed.lost_mark_count = mark(&mut part, mesh.marks, &weld);
     removed.lost_wire_count = add_wires(&mut part, mesh, &weld, shape.surfaces.len());
 
@@ -156,7 +161,11 @@ pub fn add_mesh(shape: &mut Shape, mesh: &PlacedMesh, weld_tolerance: f32) -> Pr
 /// What becomes of a stored face.
 #[derive(Clone, Copy)]
 enum Fate {
-    Kept { corners: [u32; 3], surface: u32 },
+    Kept {
+        corners: [u32; 3],
+        stored: [u32; 3],
+        surface: u32,
+    },
     Collapsed,
     Unsound,
 }
@@ -188,6 +197,7 @@ impl Welding<'_> {
         }
         Fate::Kept {
             corners: [a, b, c],
+            stored: corners,
             surface,
         }
     }
@@ -211,8 +221,12 @@ fn is_finite(position: &[f32; 3]) -> bool {
     position.iter().all(|v| v.is_finite())
 }
 
-/// Positions, faces and surfaces of the welded mesh, and how many faces fell out.
-fn weld_faces(mesh: &PlacedMesh, weld: &Weld, surfaces: &[Surface]) -> (Shape, Preparation) {
+/// Positions, faces and surfaces of the welded mesh, the stored corners of its faces, and how many fell out.
+fn weld_faces(
+    mesh: &PlacedMesh,
+    weld: &Weld,
+    surfaces: &[Surface],
+) -> (Shape, Vec<[u32; 3]>, Preparation) {
     let welding = Welding {
         mesh,
         weld,
@@ -237,9 +251,15 @@ fn weld_faces(mesh: &PlacedMesh, weld: &Weld, surfaces: &[Surface]) -> (Shape, P
         ..Shape::default()
     };
     let mut removed = Preparation::default();
+    let mut stored_corners = Vec::with_capacity(part.faces.capacity());
     for fate in fates {
         match fate {
-            Fate::Kept { corners, surface } => {
+            Fate::Kept {
+                corners,
+                stored,
+                surface,
+            } => {
+                stored_corners.push(stored);
                 part.faces.push(corners);
                 part.face_surfaces.push(surface);
             }
@@ -247,11 +267,11 @@ fn weld_faces(mesh: &PlacedMesh, weld: &Weld, surfaces: &[Surface]) -> (Shape, P
             Fate::Unsound => removed.unsound_count += 1,
         }
     }
-    (part, removed)
+    (part, stored_corners, removed)
 }
 
-/// Finds edges and twins, after removing faces stored twice; gives the number of those.
-fn connect(part: &mut Shape) -> usize {
+/// Finds edges and twins, after removing faces stored twice, also from their stored corners; gives the number of those.
+fn connect(part: &mut Shape, stored: &mut Vec<[u32; 3]>) -> usize {
     list_edges(part);
     let doubles = doubles(part);
     if !doubles.is_empty() {
@@ -260,6 +280,7 @@ fn connect(part: &mut Shape) -> usize {
             .filter(|&f| !is_double(f as u32))
             .collect();
         part.faces = kept.iter().map(|&face| part.faces[face]).collect();
+        *stored = kept.iter().map(|&face| stored[face]).collect();
         part.face_surfaces = kept.iter().map(|&face| part.face_surfaces[face]).collect();
         list_edges(part);
     }
@@ -354,6 +375,38 @@ fn measure(part: &mut Shape, surfaces: &[Surface]) {
     (part.edge_traits, part.dihedral_cos) = measured.unzip();
 }
 
+/// Finds the angles between the file's normals, where it has any.
+fn measure_normals(part: &mut Shape, stored: &[[u32; 3]], normals: &[[f32; 3]]) {
+    if normals.is_empty() {
+        return;
+    }
+    let normal = |corner: usize| {
+        let vertex = stored.as_flattened()[corner];
+        normals.get(vertex as usize).copied().unwrap_or_default()
+    };
+    let beside = |side: u32| -> SideNormals {
+        let [tail, head] = [side, Shape::following(side)].map(|corner| normal(corner as usize));
+        if part.runs_up(side) {
+            [tail, head]
+        } else {
+            [head, tail]
+        }
+    };
+    let cos = |edge: u32| {
+        let faces = part.dihedral_cos[edge as usize];
+        let [a, b] = *part.sides(edge) else {
+            return faces;
+        };
+        let is_flipped = part.edge_traits[edge as usize] & Shape::FLIPPED != 0;
+        cos_between([beside(a), beside(b)], is_flipped).unwrap_or(faces)
+    };
+    part.normals_cos = (0..part.edge_count() as u32)
+        .into_par_iter()
+        .with_min_len(4096)
+        .map(cos)
+        .collect();
+}
+
 fn differ_in_material(part: &Shape, sides: &[u32], surfaces: &[Surface]) -> bool {
     let surface = |side: u32| part.face_surfaces[side as usize / 3];
     let first = surface(sides[0]);
@@ -444,12 +497,29 @@ fn append(shape: &mut Shape, part: Shape) {
     shape.surfaces = surfaces;
 }
 
+/// Appends angles of normals; where one of both has none, those of its faces stand for them.
+fn extend_normals_cos(shape: &mut Shape, part: &Shape) {
+    if shape.normals_cos.is_empty() && part.normals_cos.is_empty() {
+        return;
+    }
+    if shape.normals_cos.is_empty() {
+        shape.normals_cos.clone_from(&shape.dihedral_cos);
+    }
+    let added = if part.normals_cos.is_empty() {
+        &part.dihedral_cos
+    } else {
+        &part.normals_cos
+    };
+    shape.normals_cos.extend(added);
+}
+
 fn extend(shape: &mut Shape, part: Shape) {
     let total = 3 * (shape.faces.len() + part.faces.len());
     assert!(
         total < NONE as usize,
         "a shape has fewer than 2^32 half-edges"
     );
+    extend_normals_cos(shape, &part);
     let vertex = shape.positions.len() as u32;
     let face = shape.faces.len() as u32;
     let (half_edge, edge) = (3 * face, shape.edge_count() as u32);

@@ -1,6 +1,8 @@
 //! How a surface bends at its vertices, calmed for drawing.
 
+use crate::kept::{Cache, input_of};
 use crate::placement::bounds_of;
+use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use npr_core::math;
 use npr_core::surface::unit_or_z;
@@ -17,7 +19,8 @@ const CALM_SHARE: f32 = 0.04;
 const CALM_ROUNDS_MAX: u32 = 16;
 
 /// How the surface bends at a welded vertex.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub(crate) struct Bend {
     /// Principal curvatures, in 1 / units of the world; positive is convex.
     pub curvatures: [f32; 2],
@@ -27,10 +30,19 @@ pub(crate) struct Bend {
     pub tightest: f32,
 }
 
+impl Bend {
+    fn is_finite(&self) -> bool {
+        let [max, min] = self.curvatures;
+        [max, min, self.tightest].iter().all(|v| v.is_finite())
+    }
+}
+
 /// The bend of every welded vertex; `normals` holds one smooth normal for each.
 ///
-/// `scale` is how much longer things are in the world than in the positions. O(n), parallel.
+/// `scale` is how much longer things are in the world than in the positions. O(n), parallel; the greatest part of
+/// preparing a model, so a folder may keep it.
 pub(crate) fn bends(
+    cache: &Cache,
     positions: &[[f32; 3]],
     triangles: &[[u32; 3]],
     weld: &Weld,
@@ -38,23 +50,29 @@ pub(crate) fn bends(
     normals: &[[f32; 3]],
     scale: f32,
 ) -> Vec<Bend> {
-    let surface = Surface {
-        positions,
-        triangles,
-        weld,
-        edges,
-        areas: npr_mesh::smoothing::vertex_areas(positions, triangles, weld),
-        scale,
+    let input = || {
+        let mut hash = input_of("bends");
+        hash.positions(positions);
+        hash.numbers(triangles.as_flattened());
+        hash.numbers(&weld.of_vertex);
+        edges.iter().for_each(|edge| hash.numbers(&edge.ends));
+        hash.positions(normals);
+        hash.numbers(&[scale.to_bits()]);
+        hash
     };
-    let as_it_is = surface.bends(normals);
-    let rounds = surface.calm_rounds();
-    if rounds == 0 {
-        return as_it_is;
-    }
-    let calm = surface.bends(&surface.calm_normals(normals, rounds));
-    let both = calm.into_iter().zip(as_it_is);
-    both.map(|(calm, Bend { tightest, .. })| Bend { tightest, ..calm })
-        .collect()
+    let is_sound =
+        |bends: &[Bend]| bends.len() == weld.count() && bends.iter().all(Bend::is_finite);
+    cache.rows(input, is_sound, || {
+        let surface = Surface {
+            positions,
+            triangles,
+            weld,
+            edges,
+            areas: npr_mesh::smoothing::vertex_areas(positions, triangles, weld),
+            scale,
+        };
+        surface.calm_bends(normals)
+    })
 }
 
 /// A welded mesh whose bends are measured.
@@ -70,6 +88,19 @@ struct Surface<'a> {
 }
 
 impl Surface<'_> {
+    /// Bends of the surface calmed, each with the tightest of the surface as it is.
+    fn calm_bends(&self, normals: &[[f32; 3]]) -> Vec<Bend> {
+        let as_it_is = self.bends(normals);
+        let rounds = self.calm_rounds();
+        if rounds == 0 {
+            return as_it_is;
+        }
+        let calm = self.bends(&self.calm_normals(normals, rounds));
+        let both = calm.into_iter().zip(as_it_is);
+        both.map(|(calm, Bend { tightest, .. })| Bend { tightest, ..calm })
+            .collect()
+    }
+
     /// Bends of the surface as if these were its normals.
     fn bends(&self, normals: &[[f32; 3]]) -> Vec<Bend> {
         let curvature = npr_mesh::curvature(self.positions, self.triangles, self.weld, normals);
@@ -139,7 +170,16 @@ mod tests {
         let weld = npr_mesh::weld(&positions, 0.0);
         let edges = npr_mesh::unique_edges(&positions, ball.triangles(), &weld, &[]);
         let normals = npr_mesh::smooth_normals(&positions, ball.triangles(), &weld);
-        bends(&positions, ball.triangles(), &weld, &edges, &normals, 1.0)
+        let off = &Cache::default();
+        bends(
+            off,
+            &positions,
+            ball.triangles(),
+            &weld,
+            &edges,
+            &normals,
+            1.0,
+        )
     }
 
     /// Mean distance of curvatures from those of the ball.
@@ -172,7 +212,8 @@ mod tests {
         let positions = [[0.0; 3]; 3];
         let weld = npr_mesh::weld(&positions, 0.0);
         let normals = vec![[0.0, 0.0, 1.0]; weld.count()];
-        let bends = bends(&positions, &[[0, 1, 2]], &weld, &[], &normals, 1.0);
+        let off = &Cache::default();
+        let bends = bends(off, &positions, &[[0, 1, 2]], &weld, &[], &normals, 1.0);
         assert!(
             bends
                 .iter()

@@ -2,6 +2,7 @@
 
 use crate::error::RenderError;
 use crate::guides::{Guides, turn_to_light};
+use crate::kept::{Cache, input_of};
 use crate::model::{Model, PartInfo};
 use crate::pictures::Pictures;
 use glam::{Vec2, Vec3};
@@ -375,7 +376,8 @@ impl Inked {
                 triangles: &model.triangles,
                 directions: &directions,
             };
-            chart_some(&input, &settings, member, &mut self.charts, &mut errors);
+            let out = (&mut self.charts[..], &mut errors[..]);
+            chart_some(&model.cache, &input, &settings, member, out);
         }
         errors
     }
@@ -383,11 +385,11 @@ impl Inked {
 
 /// Makes the stroke charts of the parts of a surface that are members.
 fn chart_some(
+    cache: &Cache,
     surface: &ChartInput<'_>,
     settings: &ChartSettings,
     member: impl Fn(u32) -> bool,
-    charts: &mut [ChartCorners],
-    errors: &mut [f32],
+    (charts, errors): (&mut [ChartCorners], &mut [f32]),
 ) {
     let numbered = surface.triangles.iter().enumerate();
     let (numbers, triangles): (Vec<usize>, Vec<Triangle>) = numbered
@@ -400,11 +402,36 @@ fn chart_some(
         triangles: &triangles,
         ..*surface
     };
-    let chart = stroke_chart(&input, settings);
-    for ((number, [a, b, c]), error) in numbers.into_iter().zip(chart.corners).zip(chart.errors) {
-        charts[number] = ChartCorners { a, b, c };
+    for (number, row) in numbers.into_iter().zip(chart_rows(cache, &input, settings)) {
+        let [a, b, c, d, e, f, error] = row;
+        charts[number] = ChartCorners {
+            a: [a, b],
+            b: [c, d],
+            c: [e, f],
+        };
         errors[number] = error;
     }
+}
+
+/// Of every triangle its corners' coordinates and their error, kept where there is a folder.
+fn chart_rows(cache: &Cache, input: &ChartInput<'_>, settings: &ChartSettings) -> Vec<[f32; 7]> {
+    let name = || {
+        let mut hash = input_of("charts");
+        hash.positions(input.positions);
+        hash.bytes(bytemuck::cast_slice(input.triangles));
+        hash.positions(input.directions);
+        hash.bytes(format!("{settings:?}").as_bytes());
+        hash
+    };
+    let is_sound = |rows: &[[f32; 7]]| {
+        rows.len() == input.triangles.len() && rows.as_flattened().iter().all(|v| v.is_finite())
+    };
+    cache.rows(name, is_sound, || {
+        let chart = stroke_chart(input, settings);
+        let rows = chart.corners.into_iter().zip(chart.errors);
+        rows.map(|([[a, b], [c, d], [e, f]], error)| [a, b, c, d, e, f, error])
+            .collect()
+    })
 }
 
 /// A number of tiles to one unit of UV coordinates, or of units to one tile: coordinates that wrap around at 1 show no seam.

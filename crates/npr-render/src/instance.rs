@@ -2,14 +2,17 @@
 
 use crate::bend::bends;
 use crate::joined::Joined;
+use crate::kept::Cache;
 use npr_core::geometry::{self, Influence, Triangle, Vertex};
 use npr_core::math;
+use npr_mesh::crease::{FoldInput, Folds};
 use npr_mesh::{EdgeFlags, Weld};
-use npr_scene::{Material, Part, Scene, TextureTransform};
+use npr_scene::{Material, Node, Part, Scene, TextureTransform};
 use std::collections::BTreeMap;
 
-/// The angle between faces from which a mesh without normals is shaded with a hard edge.
-const HARD_EDGE: f32 = 40.0 / 180.0 * std::f32::consts::PI;
+/// The angle between faces from which a mesh without normals is shaded with a hard edge: that of creases, unless a
+/// style says otherwise.
+const HARD_EDGE: f32 = npr_style::CREASE_ANGLE_DEG / 180.0 * std::f32::consts::PI;
 
 /// A node's mesh, numbered from zero.
 #[derive(Debug, Default)]
@@ -20,7 +23,10 @@ pub(crate) struct Instance {
     pub painted: Vec<[f32; 3]>,
     /// Triangles with the number of their piece instead of the model's part.
     pub triangles: Vec<Triangle>,
+    /// Edges with the folds of their faces in the world.
     pub edges: Vec<geometry::Edge>,
+    /// The folds of the file's normals at every edge, as [`Folds::normals`].
+    pub normals_cos: Vec<f32>,
     /// One for each connected component in each part of the mesh.
     pub pieces: Vec<Piece>,
 }
@@ -35,9 +41,15 @@ pub(crate) struct Piece {
 }
 
 impl Instance {
-    /// Prepares the parts of a mesh. `scale` is how much longer things are in the world than in the mesh, and `mirrored`
-    /// whether the node turns shapes inside out.
-    pub fn new(scene: &Scene, parts: &[&Part], scale: f32, mirrored: bool) -> Self {
+    /// Prepares the parts of a mesh at a node. `scale` is how much longer things are in the world than in the mesh,
+    /// and `mirrored` whether the node turns shapes inside out.
+    pub fn new(
+        cache: &Cache,
+        scene: &Scene,
+        (node, parts): (&Node, &[&Part]),
+        scale: f32,
+        mirrored: bool,
+    ) -> Self {
         let mut joined = Joined::new(parts);
         let weld = npr_mesh::weld(&joined.positions, 0.0);
         let edges = npr_mesh::unique_edges(
@@ -48,14 +60,16 @@ impl Instance {
         );
         let (components, _) = npr_mesh::components(&joined.triangles, &weld);
         let smooth = npr_mesh::smooth_normals(&joined.positions, &joined.triangles, &weld);
+        let folds = folds(scene, (node, parts), &joined, &weld, &edges);
         let mut instance = Self {
             vertices: stored_vertices(scene, parts, &joined),
             influences: parts.iter().copied().flat_map(influences).collect(),
             painted: painted(parts),
-            edges: edges.iter().map(shared_edge).collect(),
+            edges: edges.iter().zip(&folds.faces).map(shared_edge).collect(),
+            normals_cos: folds.normals,
             ..Self::default()
         };
-        instance.add_curvature(&joined, &weld, &edges, &smooth, scale);
+        instance.add_curvature(cache, &joined, (&weld, &edges), &smooth, scale);
         if !joined.has_normals {
             let corners = npr_mesh::crease_normals(
                 &joined.positions,
@@ -110,13 +124,14 @@ impl Instance {
     /// Stores principal curvatures, their direction and the welded normal with every vertex.
     fn add_curvature(
         &mut self,
+        cache: &Cache,
         joined: &Joined,
-        weld: &Weld,
-        edges: &[npr_mesh::Edge],
+        (weld, edges): (&Weld, &[npr_mesh::Edge]),
         smooth: &[[f32; 3]],
         scale: f32,
     ) {
         let bends = bends(
+            cache,
             &joined.positions,
             &joined.triangles,
             weld,
@@ -244,13 +259,33 @@ fn painted(parts: &[&Part]) -> Vec<[f32; 3]> {
     parts.iter().flat_map(of_part).collect()
 }
 
+/// By how much the edges of a mesh fold at its node.
+fn folds(
+    scene: &Scene,
+    (node, parts): (&Node, &[&Part]),
+    joined: &Joined,
+    weld: &Weld,
+    edges: &[npr_mesh::Edge],
+) -> Folds {
+    let world = parts
+        .iter()
+        .flat_map(|part| scene.positions_world(node, part));
+    let input = FoldInput {
+        world: &world.collect::<Vec<_>>(),
+        triangles: &joined.triangles,
+        weld,
+        normals: &joined.normals,
+    };
+    input.folds(edges)
+}
+
 /// An edge in the layout that passes read.
-fn shared_edge(edge: &npr_mesh::Edge) -> geometry::Edge {
+fn shared_edge((edge, dihedral_cos): (&npr_mesh::Edge, &f32)) -> geometry::Edge {
     let bit = |flag, bit| if edge.flags.contains(flag) { bit } else { 0 };
     geometry::Edge {
         ends: edge.ends,
         faces: edge.faces,
-        dihedral_cos: edge.dihedral_cos,
+        dihedral_cos: *dihedral_cos,
         traits: bit(EdgeFlags::MATERIAL, geometry::Edge::MATERIAL)
             | bit(EdgeFlags::FLIPPED, geometry::Edge::FLIPPED),
     }

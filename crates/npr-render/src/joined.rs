@@ -7,6 +7,7 @@ use npr_scene::Part;
 #[derive(Debug, Default)]
 pub(crate) struct Joined {
     pub positions: Vec<[f32; 3]>,
+    /// The file's normals, zero at the vertices of parts that have none; empty where no part has any.
     pub normals: Vec<[f32; 3]>,
     pub triangles: Vec<[u32; 3]>,
     /// Ends of each line segment.
@@ -17,6 +18,7 @@ pub(crate) struct Joined {
     pub parts: Vec<u32>,
     /// Material of each triangle.
     pub materials: Vec<u32>,
+    /// Whether every part has normals.
     pub has_normals: bool,
 }
 
@@ -30,6 +32,7 @@ impl Joined {
             let base = joined.positions.len() as u32;
             joined.positions.extend(&part.positions);
             if let Some(normals) = &part.normals {
+                joined.normals.resize(base as usize, [0.0; 3]);
                 joined.normals.extend(normals);
             }
             joined.triangles.extend(
@@ -47,6 +50,9 @@ impl Joined {
             joined
                 .materials
                 .resize(joined.triangles.len(), part.material.unwrap_or(NONE));
+        }
+        if !joined.normals.is_empty() {
+            joined.normals.resize(joined.positions.len(), [0.0; 3]);
         }
         joined
     }

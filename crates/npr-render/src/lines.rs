@@ -1,7 +1,6 @@
 //! A scene as lines: strokes instead of pixels.
 
 mod assembly;
-mod cache;
 mod colors;
 mod finder;
 mod image;
@@ -21,6 +20,7 @@ pub use stage::LineStage;
 
 use crate::error::RenderError;
 use crate::frame::Frame;
+use crate::kept::{Cache, input_of};
 use crate::light::{self, FileLight};
 use crate::look;
 use crate::model::{Model, PartInfo};
@@ -32,16 +32,20 @@ use colors::{ColorInput, StrokeColors};
 use finder::{Finder, OnProcessor};
 use glam::Vec3;
 use minding::Minding;
-use npr_core::budget::Budget;
+use npr_core::budget::{Budget, OverBudget};
 use npr_core::camera::Camera;
+use npr_core::crease::CreaseFrom;
 use npr_core::geometry::Part;
 use npr_core::shape::Shape;
 use npr_scene::Scene;
 use npr_style::{Look, Style};
+use npr_vector::bvh::FaceTree;
 use npr_vector::contour::EdgeContours;
 use npr_vector::draw::{
-    LineSettings, PointPaint, Prepared, StrokeLook, ViewStrokes, eye_of, strokes_with,
+    FindCrossings, LineSettings, PointPaint, Prepared, StrokeLook, ViewStrokes, eye_of,
+    strokes_with,
 };
+use npr_vector::intersect::{Crossings, crossings};
 use npr_vector::project::Projector;
 use npr_vector::puff::{RimPoint, SmokeLines};
 use npr_vector::run::RunPoint;
@@ -83,6 +87,8 @@ pub struct LineModel {
     triangle_count: usize,
     /// Most bytes that a drawing may take.
     memory_limit: u64,
+    /// Where what is costly to prepare is kept.
+    cache: Cache,
     /// What was prepared last, for views to come.
     prepared: Mutex<Option<(PreparedKey, Arc<Prepared>)>>,
     bends: OnceLock<ShapeBends>,
@@ -92,8 +98,9 @@ pub struct LineModel {
     pictures: BTreeMap<String, Picture>,
 }
 
-/// What lines are prepared for: the cosine of the crease angle, as bits, and whether intersections are wanted.
-type PreparedKey = (u32, bool);
+/// What lines are prepared for: the cosine of the crease angle, as bits, between what, and whether intersections are
+/// wanted.
+type PreparedKey = (u32, CreaseFrom, bool);
 
 /// A camera, and what it sees before visibility.
 struct LineView<'a> {
@@ -124,7 +131,7 @@ struct Wanted<'a> {
 impl LineModel {
     /// Prepares a scene: poses and joins its meshes, welds them, and finds what is beside every edge.
     ///
-    /// O(n log n) in the number of triangles, on all threads. [`LineModel::cached`] spares most of it from the second time on.
+    /// O(n log n) in the number of triangles, on all threads.
     ///
     /// # Errors
     ///
@@ -134,7 +141,7 @@ impl LineModel {
     }
 
     /// The same without what a style makes beams of: light has no lines and hides none; and with textures, where the style
-    /// colours lines by them, in which case the scene's images have to be there. With a `folder` the surface is kept
+    /// colours lines by them, in which case the scene's images have to be there. With a `folder` what is costly is kept
     /// there as by [`LineModel::cached`].
     ///
     /// # Errors
@@ -165,22 +172,16 @@ impl LineModel {
         folder: Option<&Path>,
     ) -> Result<Self, RenderError> {
         check_budget(assembly, options)?;
-        let build = |surfaces| build(assembly, surfaces, options);
-        let shape = match folder {
-            Some(folder) => cache::shape(assembly, options, folder, build),
-            None => build(assembly.plain_surfaces()),
-        };
+        let shape = build(assembly, options);
         Ok(Self {
             memory_limit: options.memory_limit,
+            cache: Cache::of(folder),
             ..Self::of_shape(scene, assembly, shape)
         })
     }
 
-    /// The same, with the surface kept in `folder` between runs.
-    ///
-    /// The file is named after the content that it was made from, `KEY.nprcache`; a changed scene gets another. What
-    /// cannot be read, is damaged or comes from another version is made anew; what cannot be written is not kept. Files
-    /// appear whole or not at all, and none is ever removed: the folder may be emptied at any time.
+    /// The same with what is costly to prepare kept in `folder` between runs, as [`Model::cached`] does: how surfaces
+    /// bend, and where they cut through each other.
     ///
     /// # Errors
     ///
@@ -194,7 +195,6 @@ impl LineModel {
     }
 
     fn of_shape(scene: &Scene, assembly: &Assembly, mut shape: Shape) -> Self {
-        shape.surfaces = assembly.surfaces();
         mark_materials(&mut shape, &assembly.marked);
         let points = assembly.used_points();
         let bounds = placement::bounds_of(points.iter().copied().map(Vec3::from));
@@ -209,6 +209,7 @@ impl LineModel {
             notices: notices_of(scene, assembly),
             triangle_count: assembly.triangle_count(),
             memory_limit: u64::MAX,
+            cache: Cache::default(),
             prepared: Mutex::new(None),
             bends: OnceLock::new(),
             map: None,
@@ -460,7 +461,7 @@ impl LineModel {
             shape: &self.shape,
             bends: widths::follow_bends(style).then(|| {
                 self.bends
-                    .get_or_init(|| ShapeBends::new(&self.shape, radius))
+                    .get_or_init(|| ShapeBends::new(&self.cache, &self.shape, radius))
             }),
             colors: &self.colors,
             style,
@@ -530,21 +531,40 @@ impl LineModel {
 
     /// What does not depend on the camera, made once for every crease angle in a row.
     fn prepared(&self, options: &LineOptions) -> Result<Arc<Prepared>, RenderError> {
-        let crease_cos = npr_core::math::cos(options.crease);
+        let creases = options.creases();
         let is_on_mesh = !options.method.is_of_pixels();
         let with_crossings = is_on_mesh && options.kinds.has(Kind::Intersection);
-        let key = (crease_cos.to_bits(), with_crossings);
+        let key = (creases.cos.to_bits(), creases.from, with_crossings);
         let mut last = self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
         match &*last {
             Some((of, prepared)) if *of == key => Ok(Arc::clone(prepared)),
             _ => {
-                let mut budget = Budget::new(self.memory_limit);
-                let made = Prepared::within(&self.shape, crease_cos, with_crossings, &mut budget);
+                let find: &FindCrossings<'_> = &|tree| self.crossings(tree);
+                let find = with_crossings.then_some(find);
+                let made = Prepared::with_crossings(&self.shape, creases, find);
                 let prepared = Arc::new(made?);
                 *last = Some((key, Arc::clone(&prepared)));
                 Ok(prepared)
             }
         }
+    }
+
+    /// Where surfaces cut through each other, kept where there is a folder.
+    fn crossings(&self, tree: &FaceTree) -> Result<Crossings, OverBudget> {
+        let shape = &self.shape;
+        let input = || {
+            let mut hash = input_of("crossings");
+            hash.positions(&shape.positions);
+            hash.numbers(shape.faces.as_flattened());
+            hash.numbers(&shape.face_surfaces);
+            hash.numbers(&shape.edge_sides);
+            let objects = shape.surfaces.iter().flat_map(|s| [s.object, s.material]);
+            hash.numbers(&objects.collect::<Vec<u32>>());
+            hash
+        };
+        let of_rows = |rows: Vec<u32>| Crossings::from_rows(&rows, shape);
+        let make = || crossings(shape, tree, &mut Budget::new(self.memory_limit));
+        self.cache.value(input, of_rows, Crossings::to_rows, make)
     }
 
     /// The welded surface in the world that lines are drawn of.

@@ -10,6 +10,7 @@ use crate::stage::StageOptions;
 use glam::Vec3;
 use npr_core::camera::Camera;
 use npr_core::color::{pack_rgba8, srgb_from_linear};
+use npr_core::crease::{CreaseFrom, Creases};
 use npr_core::geometry::{NONE, Part, Vertex};
 use npr_core::math;
 use npr_core::outline::{Outline, width_of_curvature};
@@ -144,6 +145,7 @@ pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
         flags: bit(Part::DOUBLE_SIDED, info.double_sided)
             | bit(Part::CUTOUT, info.alpha_cutoff.is_some())
             | bit(outline_flags(look.line_method), look.line_on)
+            | bit(Part::FOLDS, creases(style).from == CreaseFrom::Faces)
             | bit(Part::UNLIT, unlit)
             | bit(Part::PLAIN, paper)
             | highlight_flags(&look.highlight),
@@ -364,9 +366,9 @@ pub(crate) fn outline(
         max_factor: line.width.max,
         gain: line.width.gain,
         radius_world,
-        crease_cos: math::cos(line.crease_angle_deg.to_radians()),
+        crease_cos: creases(style).cos,
         depth_threshold: detect.depth_threshold(),
-        normal_cos: math::cos(detect.normal.threshold_deg.to_radians()),
+        normal_cos: math::cos(normal_threshold_deg(style).to_radians()),
         kinds: match line.method {
             LineMethod::Okuya => Outline::ANY,
             LineMethod::Edges => Outline::CONTOUR | Outline::BORDER,
@@ -387,6 +389,30 @@ pub(crate) fn outline(
             | bit(Outline::UNMASKED, line.method == LineMethod::Edges),
         reach_px,
     }
+}
+
+/// Which edges are creases, for frames and drawings alike.
+pub(crate) fn creases(style: &Style) -> Creases {
+    let from = match style.line.crease_from {
+        npr_style::CreaseFrom::Normals => CreaseFrom::Normals,
+        npr_style::CreaseFrom::Faces => CreaseFrom::Faces,
+    };
+    Creases::over(style.line.crease_angle_deg.to_radians(), from)
+}
+
+/// Pixels beside a crease see less of its turn than the edge itself: what part of the angle a mask looks for under
+/// which edges are drawn.
+const MASK_SHARE: f32 = 0.875;
+
+/// Angle between normals of neighbouring pixels that makes a line: the style's own, else that of creases. Where edges
+/// decide what is a crease, the mask looks for a little less, so that it loses none.
+fn normal_threshold_deg(style: &Style) -> f32 {
+    let crease = style.line.crease_angle_deg;
+    let of_creases = match style.line.method {
+        LineMethod::Shape => MASK_SHARE * crease,
+        _ => crease,
+    };
+    style.detect.normal.threshold_deg.unwrap_or(of_creases)
 }
 
 /// The settings of the last pass.

@@ -2,17 +2,21 @@
 
 use crate::error::RenderError;
 use crate::instance::Instance;
+use crate::kept::Cache;
 use crate::light::{self, FileLight};
 use crate::placement::{self, Bounds};
 use crate::smoke::{Smoke, around};
 use crate::textures::Textures;
 use glam::{Mat4, Vec3};
 use npr_core::camera::Camera;
+use npr_core::crease::CreaseFrom;
 use npr_core::geometry::{Edge, Influence, NONE, Triangle, Vertex};
 use npr_core::texture::TextureStore;
 use npr_mesh::pose::Matrix;
 use npr_scene::{AlphaMode, Material, Node, Part, Scene};
 use npr_style::{Look, PartNames, Style};
+use std::borrow::Cow;
+use std::path::Path;
 
 /// Numbers must leave room for "none" and for the bit that marks hulls.
 const COUNT_LIMIT: u64 = 1 << 30;
@@ -61,7 +65,10 @@ pub struct Model {
     pub(crate) painted: Vec<[f32; 3]>,
     pub(crate) palette: Vec<Matrix>,
     pub(crate) triangles: Vec<Triangle>,
-    pub(crate) edges: Vec<Edge>,
+    /// Edges with the folds of their faces; [`Model::edges_by`] gives those that a style measures.
+    edges: Vec<Edge>,
+    /// The folds of the file's normals at every edge.
+    normals_cos: Vec<f32>,
     pub(crate) parts: Vec<PartInfo>,
     pub(crate) textures: TextureStore,
     pub(crate) lights: Vec<FileLight>,
@@ -70,6 +77,8 @@ pub struct Model {
     bounds: Bounds,
     cameras: Vec<(String, Camera)>,
     notices: Vec<String>,
+    /// Where what is costly to prepare is kept.
+    pub(crate) cache: Cache,
 }
 
 impl Model {
@@ -82,13 +91,30 @@ impl Model {
     ///
     /// [`RenderError::TooMany`] where vertices, triangles or edges cannot be numbered.
     pub fn new(scene: &Scene) -> Result<Self, RenderError> {
+        Self::cached(scene, None)
+    }
+
+    /// The same with what is costly to prepare kept in a folder between runs, where there is one: how surfaces bend,
+    /// and how strokes of hatching lie on them.
+    ///
+    /// Files are named after the content that they were made from, `KEY.nprcache`; a changed scene gets others. What
+    /// cannot be read, is damaged or comes from another version is made anew; what cannot be written is not kept.
+    /// Files appear whole or not at all, and none is ever removed: the folder may be emptied at any time. No picture
+    /// depends on it.
+    ///
+    /// # Errors
+    ///
+    /// As [`Model::new`]; none for the sake of the folder.
+    pub fn cached(scene: &Scene, folder: Option<&Path>) -> Result<Self, RenderError> {
         let mut model = Self {
+            cache: Cache::of(folder),
             vertices: Vec::new(),
             influences: Vec::new(),
             painted: Vec::new(),
             palette: Vec::new(),
             triangles: Vec::new(),
             edges: Vec::new(),
+            normals_cos: Vec::new(),
             parts: Vec::new(),
             textures: TextureStore::new(),
             lights: Vec::new(),
@@ -134,7 +160,7 @@ impl Model {
         let scale = npr_core::math::powf(determinant.abs(), 1.0 / 3.0).max(1e-12);
         let is_surface = |part: &&Part| !part.triangles.is_empty();
         let parts: Vec<&Part> = mesh.parts.iter().filter(is_surface).collect();
-        let instance = Instance::new(scene, &parts, scale, determinant < 0.0);
+        let instance = Instance::new(&self.cache, scene, (node, &parts), scale, determinant < 0.0);
         let base = [
             self.vertices.len() as u32,
             self.triangles.len() as u32,
@@ -177,6 +203,7 @@ impl Model {
                 ..*edge
             }
         }));
+        self.normals_cos.extend(&instance.normals_cos);
         let infos: Vec<PartInfo> = parts
             .iter()
             .map(|part| {
@@ -218,6 +245,21 @@ impl Model {
     /// Number of unique edges.
     pub fn edge_count(&self) -> usize {
         self.edges.len()
+    }
+
+    /// The edges, with folds measured between the file's normals or between faces.
+    pub(crate) fn edges_by(&self, from: CreaseFrom) -> Cow<'_, [Edge]> {
+        match from {
+            CreaseFrom::Faces => Cow::Borrowed(&self.edges),
+            CreaseFrom::Normals => {
+                let edges = self.edges.iter().zip(&self.normals_cos);
+                let folded = edges.map(|(edge, cos)| Edge {
+                    dihedral_cos: *cos,
+                    ..*edge
+                });
+                Cow::Owned(folded.collect())
+            }
+        }
     }
 
     /// A view of the whole model from three quarters above, for a frame of width / height `aspect`; `fov_y` is in radians.

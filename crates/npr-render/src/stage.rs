@@ -209,7 +209,7 @@ impl<'a> Stage<'a> {
             vertices: styled.vertices.len(),
             joints: model.palette.len(),
             triangles: model.triangles.len(),
-            edges: model.edges.len(),
+            edges: model.edge_count(),
             charts: styled.inked.charts.len(),
             parts: styled.parts.len(),
             texel_words: styled.textures.words().len(),
@@ -357,7 +357,8 @@ impl<'a> Stage<'a> {
         write(session, plan.influences, &model.influences)?;
         write(session, plan.palette, &model.palette)?;
         write(session, plan.triangles, &model.triangles)?;
-        write(session, plan.edges, &model.edges)?;
+        let edges = model.edges_by(look::creases(&self.style).from);
+        write(session, plan.edges, &edges)?;
         write(session, plan.charts, &styled.inked.charts)?;
         write(session, plan.parts, &styled.parts)?;
         let shadow_px = [SHADOW_SIDE as f32; 2];

@@ -13,9 +13,14 @@ const SIZE: [u32; 2] = [240, 160];
 
 /// Every pixel left of the middle black, all others white.
 fn two_colors() -> Picture {
+    black_and(255)
+}
+
+/// Every pixel left of the middle black, all others of a grey.
+fn black_and(grey: u8) -> Picture {
     let texel = |i: u32| match i % SIZE[0] < SIZE[0] / 2 {
         true => [0, 0, 0, 255],
-        false => [255; 4],
+        false => [grey, grey, grey, 255],
     };
     Picture {
         size: SIZE,
@@ -80,26 +85,34 @@ fn with_rules(text: &str, rules: &str) -> Style {
 }
 
 fn draw(model: &Model, style: &Style, tile_pixels: u32) -> Vec<[u8; 4]> {
+    draw_before(two_colors(), model, style, tile_pixels)
+}
+
+fn draw_before(behind: Picture, model: &Model, style: &Style, tile_pixels: u32) -> Vec<[u8; 4]> {
     let options = StageOptions {
-        background_image: Some(two_colors()),
+        background_image: Some(behind),
         tile_pixels,
         ..StageOptions::new(SIZE)
     };
-    let camera = Camera {
-        eye: [0.0, 0.0, 5.0],
-        target: [0.0; 3],
-        up: [0.0, 1.0, 0.0],
-        projection: Projection::Parallel { height: 3.0 },
-    };
     let frame = Stage::new(&Processor, model, style, &options)
         .unwrap()
-        .draw(&camera)
+        .draw(&beside(0.0))
         .unwrap();
     frame
         .rgba
         .chunks_exact(4)
         .map(|texel| texel.try_into().unwrap())
         .collect()
+}
+
+/// Looks along -z from a place beside the middle.
+fn beside(x: f32) -> Camera {
+    Camera {
+        eye: [x, 0.0, 5.0],
+        target: [x, 0.0, 0.0],
+        up: [0.0, 1.0, 0.0],
+        projection: Projection::Parallel { height: 3.0 },
+    }
 }
 
 fn at(frame: &[[u8; 4]], x: u32, y: u32) -> [f32; 3] {
@@ -210,6 +223,47 @@ fn nothing_behind_and_nothing_before_leave_lines_alone() {
     }
 }
 
+/// A picture of another shape covers the frame like a poster: middle lies on middle, and two sides are cut.
+#[test]
+fn pictures_of_another_shape_are_cut_at_two_sides() {
+    // Bands in order: red to the cut, a white one just within it, green to the middle; blue, white and red after it.
+    const BANDS: [[u8; 4]; 6] = [
+        [255, 0, 0, 255],
+        [255; 4],
+        [0, 255, 0, 255],
+        [0, 0, 255, 255],
+        [255; 4],
+        [255, 0, 0, 255],
+    ];
+    let band = |at: u32, starts: [u32; 5]| BANDS[starts.iter().filter(|s| at >= **s).count()];
+    let picture = |size: [u32; 2], texel: &dyn Fn(u32, u32) -> [u8; 4]| Picture {
+        size,
+        rgba: (0..size[0] * size[1])
+            .flat_map(|i| texel(i % size[0], i / size[0]))
+            .collect(),
+    };
+    // Of 40 x 80 texels, 6 pixels each, rows 26.7 to 53.3 show; of 120 x 40, 4 pixels each, columns 30 to 90.
+    let tall = picture([40, 80], &|_, y| band(y, [26, 30, 40, 50, 54]));
+    let long = picture([120, 40], &|x, _| band(x, [30, 34, 60, 86, 90]));
+    for (picture, axis, edges) in [
+        (tall, 1, [0, 20, 80, 140, 160]),
+        (long, 0, [0, 16, 120, 224, 240]),
+    ] {
+        for tile_pixels in [ALL, 9000] {
+            let frame = draw_before(picture.clone(), &squares(&[]), &style(""), tile_pixels);
+            for (i, pixel) in frame.iter().enumerate() {
+                let at = [i as u32 % SIZE[0], i as u32 / SIZE[0]][axis];
+                // A texel's colour goes over into the next within one texel.
+                if edges.iter().any(|edge| at.abs_diff(*edge) < 4) {
+                    continue;
+                }
+                let number = edges.iter().filter(|edge| at >= **edge).count();
+                assert_eq!(*pixel, BANDS[number], "axis {axis}, at {at}");
+            }
+        }
+    }
+}
+
 #[test]
 fn tiles_do_not_show() {
     let model = squares(&["body", "hair"]);
@@ -233,18 +287,55 @@ fn still_frames_are_alike_and_cuts_start_anew() {
         background_image: Some(two_colors()),
         ..StageOptions::new(SIZE)
     };
-    let camera = |x: f32| Camera {
-        eye: [x, 0.0, 5.0],
-        target: [x, 0.0, 0.0],
-        up: [0.0, 1.0, 0.0],
-        projection: Projection::Parallel { height: 3.0 },
-    };
     let fresh = |x: f32| {
         let mut stage = Stage::new(&Processor, &model, &style, &options).unwrap();
-        stage.draw(&camera(x)).unwrap().rgba
+        stage.draw(&beside(x)).unwrap().rgba
     };
     let mut stage = Stage::new(&Processor, &model, &style, &options).unwrap();
     for x in [0.0, 0.0, 0.0, 1.0, 1.0, -0.5] {
-        assert_eq!(stage.draw(&camera(x)).unwrap().rgba, fresh(x), "at {x}");
+        assert_eq!(stage.draw(&beside(x)).unwrap().rgba, fresh(x), "at {x}");
+    }
+}
+
+/// In small steps a square moves from the black half of a background to the other, and its lifted line turns black.
+///
+/// Before the dark grey, 0.37 of lightness, the line that was right before black would not read; and both walls are
+/// so alike that what was decided before one is held before the other.
+#[test]
+fn a_line_changes_where_it_moves_before_another_wall() {
+    let model = squares(&["hero"]);
+    let style = style("line.background.hold=0\nline.background.fade=5");
+    for grey in [0x40, 0xff] {
+        let options = StageOptions {
+            background_image: Some(black_and(grey)),
+            ..StageOptions::new(SIZE)
+        };
+        let new_stage = || Stage::new(&Processor, &model, &style, &options).unwrap();
+        let drawn = |stage: &mut Stage<'_>, x: f32| -> Vec<[u8; 4]> {
+            let frame = stage.draw(&beside(x)).unwrap();
+            frame.rgba.as_chunks::<4>().0.to_vec()
+        };
+        // The square's middle goes from column 60 to column 180, and rests there until fades have ended.
+        let mut stage = new_stage();
+        let before = drawn(&mut stage, 1.125);
+        let steps = (1..=45).map(|step| 1.125 - 0.05 * step as f32);
+        let rest = std::iter::repeat_n(-1.125, 12);
+        let moved = steps.chain(rest).map(|x| drawn(&mut stage, x));
+        let after = moved.last().unwrap();
+        // Above the upper side, row 26.7, there is only the line.
+        let line = |frame: &[[u8; 4]], x: u32| at(frame, x, 25);
+        let (lifted, black) = (line(&before, 60), line(&after, 180));
+        let reads = |line: [f32; 3], behind: u8| {
+            let behind = [f32::from(behind) / 255.0; 3];
+            contrast(line, behind, &Rule::CONTRAST) > Rule::CONTRAST.goal - 0.01
+        };
+        assert!(reads(lifted, 0), "{lifted:?} before black");
+        assert!(reads(black, grey), "{black:?} before {grey}");
+        assert!(
+            lifted[0] > 0.15 && black == [0.0; 3],
+            "{lifted:?} turned {black:?}"
+        );
+        let first = drawn(&mut new_stage(), -1.125);
+        assert!(after == first, "before {grey} as a first frame");
     }
 }

@@ -336,7 +336,10 @@ mod tests {
 
     /// Volumes of up to 7 voxels a side, mostly dense, so that boxes grow.
     fn volumes() -> impl Strategy<Value = Volume> {
-        let voxel = prop_oneof![6 => 0.2f32..2.0, 1 => 0.0f32..0.2, 1 => Just(0.1f32)];
+        // Whole numbers of ten-thousandths: proptest 1.12 panics on some draws from ranges of floats.
+        let between = |range: std::ops::Range<u16>| range.prop_map(|i| f32::from(i) * 1e-4);
+        let voxel =
+            prop_oneof![6 => between(2000..20_000), 1 => between(0..2000), 1 => Just(0.1f32)];
         (1u32..8, 1u32..8, 1u32..8).prop_flat_map(move |(x, y, z)| {
             prop::collection::vec(voxel.clone(), (x * y * z) as usize)
                 .prop_map(move |density| volume([x, y, z], density))

@@ -214,7 +214,8 @@ mod tests {
     fn lump(middle: Vec3, transform: DAffine3) -> Volume {
         let lattice = Lattice::new(20, 18, 22);
         let density = lattice.map(|at| {
-            let away = (Vec3::from_array(at.map(|v| v as f32)) - middle).length() / 6.0;
+            // Its radius keeps it within the lattice wherever it moves: one that is cut off seems to go farther.
+            let away = (Vec3::from_array(at.map(|v| v as f32)) - middle).length() / 5.5;
             (1.0 - away * away).max(0.0)
         });
         Volume::new([20, 18, 22], density, transform).unwrap()
@@ -234,7 +235,9 @@ mod tests {
             let (count, sum) = dense.fold((0.0, Vec3::ZERO), |(n, sum), (_, v)| (n + 1.0, sum + *v));
             // Half a unit per voxel, a tenth of a second.
             let expected = shift * 5.0;
-            prop_assert!((sum / count).distance(expected) < 0.2 * 5.0, "{} for {}", sum / count, expected);
+            // Six hundredths of the way, and no less than a tenth of a voxel.
+            let most = (0.06 * shift.length()).max(0.1) * 5.0;
+            prop_assert!((sum / count).distance(expected) < most, "{} for {}", sum / count, expected);
         }
     }
 

@@ -332,6 +332,25 @@ mod tests {
         assert_eq!(empty_frame(&plain([0.0; 4]), &[0; 16]), [0; 16]);
     }
 
+    /// Middle lies on middle, two sides of the picture on two of the frame, and the other two beyond it.
+    #[test]
+    fn pictures_cover_frames_middle_on_middle() {
+        // A frame of 200 x 100 and a picture of 50 x 50: four pixels a texel, and half of the rows show.
+        let wide = |x: f32, y: f32| cover([x, y], [200.0, 100.0], [50.0; 2]);
+        assert_eq!(wide(100.0, 50.0), ([0.5; 2], 0.005));
+        assert_eq!(
+            [wide(0.0, 0.0).0, wide(200.0, 100.0).0],
+            [[0.0, 0.25], [1.0, 0.75]]
+        );
+        // A frame of 100 x 100 and a picture of 80 x 20: five pixels a texel, and a quarter of the columns shows.
+        let long = |x: f32, y: f32| cover([x, y], [100.0; 2], [80.0, 20.0]);
+        assert_eq!(long(50.0, 50.0), ([0.5; 2], 0.0025));
+        assert_eq!(
+            [long(0.0, 0.0).0, long(100.0, 100.0).0],
+            [[0.375, 0.0], [0.625, 1.0]]
+        );
+    }
+
     #[test]
     fn a_line_over_nothing_keeps_its_own_coverage() {
         let settings = Compose {

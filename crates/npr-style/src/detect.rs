@@ -36,16 +36,17 @@ pub struct NormalTest {
     /// Whether the test runs; default true.
     pub on: bool,
     /// Angle in degrees between the normals of neighbouring mask pixels that makes a line, 0..180;
-    /// default 35. 20 finds soft folds and facets, 60 only sharp corners.
+    /// default that of creases, `line.crease_angle_deg`. 20 finds soft folds and facets, 60 only sharp corners.
     #[schemars(range(min = 0.0, max = 180.0))]
-    pub threshold_deg: f32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub threshold_deg: Option<f32>,
 }
 
 impl Default for NormalTest {
     fn default() -> Self {
         Self {
             on: true,
-            threshold_deg: 35.0,
+            threshold_deg: None,
         }
     }
 }

@@ -163,6 +163,19 @@ pub enum StyleError {
         /// The override as given.
         text: String,
     },
+    /// An override names an entry that a list does not have.
+    #[error(
+        "'{}' has {}, so there is no '{}': write {}", brief(list), entries(*count), brief(&format!("{list}.{entry}")),
+        form_of_entry(list, *count)
+    )]
+    NoEntry {
+        /// The list.
+        list: String,
+        /// What stands in place of the entry's number.
+        entry: String,
+        /// Entries that it has.
+        count: usize,
+    },
 }
 
 impl StyleError {
@@ -196,6 +209,32 @@ impl StyleError {
 
 fn at(place: Option<Place>) -> String {
     place.map_or_else(String::new, |place| format!(" at {place}"))
+}
+
+/// A number of entries, in words.
+fn entries(count: usize) -> String {
+    match count {
+        0 => "no entries".to_owned(),
+        1 => "one entry".to_owned(),
+        _ => format!("{count} entries"),
+    }
+}
+
+/// How an override names what a list has, or fills a list that has nothing.
+fn form_of_entry(list: &str, count: usize) -> String {
+    let example = match list {
+        "rule" => "{ match = { material = 'Skin*' }, line = { on = false } }",
+        _ => "...",
+    };
+    match count {
+        0 => format!("{}=[{example}]", brief(list)),
+        1 => format!("{}.0.key=value", brief(list)),
+        _ => format!(
+            "{list}.N.key=value with N from 0 to {}",
+            count - 1,
+            list = brief(list)
+        ),
+    }
 }
 
 /// A number in few characters, whatever its size.

@@ -285,7 +285,8 @@ impl Layers<'_> {
         rim || spot || part.flags & Part::STREAK != 0
     }
 
-    /// Whether (N . H)^n may exceed the part's threshold somewhere on a triangle.
+    /// Whether (N . H)^n may exceed the part's threshold somewhere on a triangle. The strength of a light, 1 at most,
+    /// only lowers that, so a no stays certain.
     fn spot_may_show(&self, part: &Part, corners: &Corners<'_>) -> bool {
         if part.flags & Part::PHONG != 0 || !HighlightShape::of(part).is_none() {
             return true;
@@ -304,7 +305,10 @@ impl Layers<'_> {
         })
     }
 
-    /// The greatest highlight term of the lights that reach a place; skies make none.
+    /// The greatest highlight term of the lights at a place, each as strong as it shines there; skies make none.
+    ///
+    /// The strength I_s of a light scales its term, as it scales the tones: a highlight ends with the cone of a spot
+    /// and with the range of a lamp. Differs: a light stronger than 1 counts as 1, so terms stay within 0..1.
     fn term_at(
         &self,
         part: &Part,
@@ -320,16 +324,17 @@ impl Layers<'_> {
             if (dark >> i) & 1 != 0 || source.kind == LightSource::SKY {
                 return 0.0;
             }
-            let light = source.towards(world);
+            let (light, strength) = source.reach_at(world);
+            let strength = strength.min(1.0);
             if part.flags & Part::PHONG != 0 {
-                return phong(normal, light, eye, exponent);
+                return phong(normal, light, eye, exponent) * strength;
             }
             if dot(normal, light) <= 0.0 {
                 return 0.0;
             }
             let right = self.compose.right_world;
             let half = shaped_half(half_vector(light, eye), normal, right, &shape);
-            blinn_phong(normal, half, exponent)
+            blinn_phong(normal, half, exponent) * strength
         });
         terms.fold(0.0, f32::max)
     }

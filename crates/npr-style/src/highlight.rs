@@ -43,7 +43,8 @@ pub struct Highlight {
     /// Sharpness of the spot, 1..1000; default 50. 200 a pinprick on chrome, 20 a broad sheen.
     #[schemars(range(min = 1.0, max = 1000.0))]
     pub exponent: f32,
-    /// Brightness from which the spot shows, 0..1; default 0.5. Higher makes it smaller.
+    /// Brightness from which the spot shows, 0..1; default 0.5. Higher makes it smaller. A light whose intensity is not
+    /// above it makes no spot.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub threshold: f32,
     /// How fast a soft spot rises, 0..8; default 1. 0.5 a haze, 3 a hot middle.

@@ -51,18 +51,24 @@ impl From<Parents> for Written {
     }
 }
 
+/// Lists that add up where a style is laid over another one.
+const ADDED_UP: [&str; 2] = ["rule", "id_map"];
+
 /// Finds the text of a parent by its name.
 type Load<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 
-/// The style of `text` over its parents; see [`Style::from_toml`].
-pub(crate) fn read(text: &str, load: Load<'_>) -> Result<Style, StyleError> {
+/// The style of `text` over its parents, and what of it stands in `text` or its parents but for presets; see
+/// [`Style::from_toml`].
+pub(crate) fn read(text: &str, load: Load<'_>) -> Result<(Style, Table), StyleError> {
     let mut stack = Stack {
         load,
         open: Vec::new(),
         loaded: 0,
     };
-    let table = stack.flatten(text)?;
-    from_table(table).map_err(|error| error.placed(|key| place::of_key(text, key)))
+    let flat = stack.flatten(text)?;
+    let style =
+        from_table(flat.all).map_err(|error| error.placed(|key| place::of_key(text, key)))?;
+    Ok((style, flat.stated))
 }
 
 /// The style that a checked table describes.
@@ -84,21 +90,53 @@ struct Stack<'a> {
     loaded: usize,
 }
 
+/// A style with its parents, as tables.
+#[derive(Default)]
+struct Flat {
+    /// All keys.
+    all: Table,
+    /// Those that stand in no preset; entries of presets are empty, so that others keep their numbers.
+    stated: Table,
+}
+
+impl Flat {
+    /// Lays `upper` over it.
+    fn merge(&mut self, upper: Self) {
+        merge(&mut self.all, upper.all);
+        merge(&mut self.stated, upper.stated);
+    }
+
+    /// The same as something that nobody stated.
+    fn of_preset(mut self) -> Self {
+        let stated = std::mem::take(&mut self.stated).into_iter();
+        let added_up = stated.filter_map(|(key, value)| match value {
+            Value::Array(entries) if ADDED_UP.contains(&key.as_str()) => {
+                let nothing = vec![Value::Table(Table::new()); entries.len()];
+                Some((key, Value::Array(nothing)))
+            }
+            _ => None,
+        });
+        self.stated = added_up.collect();
+        self
+    }
+}
+
 impl Stack<'_> {
     /// The table of `text` merged over its parents, `extends` removed.
-    fn flatten(&mut self, text: &str) -> Result<Table, StyleError> {
-        let mut table = parse(text)?;
-        check::check(&table).map_err(|error| error.placed(|key| place::of_key(text, key)))?;
-        let mut merged = Table::new();
-        for parent in names(table.remove("extends")) {
-            merge(&mut merged, self.parent(&parent)?);
+    fn flatten(&mut self, text: &str) -> Result<Flat, StyleError> {
+        let mut all = parse(text)?;
+        check::check(&all).map_err(|error| error.placed(|key| place::of_key(text, key)))?;
+        let mut merged = Flat::default();
+        for parent in names(all.remove("extends")) {
+            merged.merge(self.parent(&parent)?);
         }
-        merge(&mut merged, table);
+        let stated = all.clone();
+        merged.merge(Flat { all, stated });
         Ok(merged)
     }
 
     /// The table of a parent by name. Title and version describe the parent alone and stay behind.
-    fn parent(&mut self, name: &str) -> Result<Table, StyleError> {
+    fn parent(&mut self, name: &str) -> Result<Flat, StyleError> {
         if self.open.iter().any(|open| open == name) {
             return Err(StyleError::Cycle {
                 parent: name.to_owned(),
@@ -114,10 +152,15 @@ impl Stack<'_> {
             .flatten(&text)
             .map_err(|source| in_parent(name, source));
         self.open.pop();
-        let mut table = flat?;
-        table.remove("title");
-        table.remove("version");
-        Ok(table)
+        let mut flat = flat?;
+        if preset::is_name(name) {
+            flat = flat.of_preset();
+        }
+        for key in ["title", "version"] {
+            flat.all.remove(key);
+            flat.stated.remove(key);
+        }
+        Ok(flat)
     }
 
     fn text(&self, name: &str) -> Result<String, StyleError> {
@@ -192,7 +235,7 @@ pub(crate) fn merge(lower: &mut Table, upper: Table) {
         match (lower.get_mut(&key), value) {
             (Some(Value::Table(below)), Value::Table(above)) => merge(below, above),
             (Some(Value::Array(below)), Value::Array(above))
-                if matches!(key.as_str(), "rule" | "id_map") =>
+                if ADDED_UP.contains(&key.as_str()) =>
             {
                 below.extend(above)
             }

@@ -46,6 +46,7 @@ pub mod gloss;
 pub mod hatch;
 mod highlight;
 mod id_map;
+mod idle;
 mod ink;
 pub mod inking;
 mod known;
@@ -73,6 +74,7 @@ mod shade;
 pub mod shadow;
 pub mod sky;
 pub mod smoke;
+mod stated;
 mod style;
 mod tone;
 pub mod tone_row;
@@ -87,12 +89,13 @@ pub use detect::{DepthTest, Detect, IdTest, MASK_LINE_PX, NormalTest, WidthWarni
 pub use error::{Place, Problem, StyleError};
 pub use highlight::{Back, Edge, Highlight, HighlightModel, Streak};
 pub use id_map::{ID_MAPS_MAX, IDS_MAX, IdMap, IdRegion, NamedId};
+pub use idle::{Facts, LineFinder, LineForm, LineOutput, Occasion, Output};
 pub use ink::{Follow, Ink, Mapping, StrokeSpace, Tone};
 pub use layers::{PARENTS_MAX, Parents, TEXT_BYTES_MAX};
 pub use length::{LONGEST, Length, LengthError, REFERENCE_HEIGHT_PX, Unit};
 pub use lettering::{LETTERING_MAX, Lettering, LetteringOutline};
 pub use light::{ExtraLight, Light, LightShape, LightSpace};
-pub use line::{Kinds, Line, LineMethod};
+pub use line::{CREASE_ANGLE_DEG, CreaseFrom, Kinds, Line, LineMethod};
 pub use line_background::{
     BackgroundMethod, Direction, Likeness, LineBackground, LineScope, LineStart, Measure,
     RuleBackground, Subjects,
@@ -112,8 +115,9 @@ pub use rule::{
 pub use schema::schema;
 pub use shade::{Shade, ShadeMode, levels};
 pub use smoke::{
-    SmokeInk, SmokeLine, SmokeLines, SmokeMethod, SmokeOutput, SmokeParticles, SmokePlacement,
-    SmokePuffs, SmokeStop, SmokeStyle,
+    SmokeInk, SmokeLine, SmokeLines, SmokeMethod, SmokeParticles, SmokePlacement, SmokePuffs,
+    SmokeStop, SmokeStyle,
 };
+pub use stated::Stated;
 pub use style::Style;
 pub use width::{Channel, ControlPoint, Width, WidthSource};

@@ -307,12 +307,13 @@ mod tests {
 
     #[test]
     fn one_distant_light_is_the_published_formula() {
-        let lights = Lights::distant([0.0, 1.0, 0.0]);
-        let at = |normal| lights.coordinate_at([3.0, -2.0, 9.0], normal, 0).0;
-        assert_eq!(
-            [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]].map(at),
-            [1.0, 0.5, 0.0]
-        );
+        let mut lights = Lights::distant([0.0, 1.0, 0.0]);
+        let normals = [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]];
+        let at = |lights: &Lights, normal| lights.coordinate_at([3.0, -2.0, 9.0], normal, 0).0;
+        assert_eq!(normals.map(|normal| at(&lights, normal)), [1.0, 0.5, 0.0]);
+        // Another intensity scales the place on the ramp.
+        lights.sources[0].intensity = 0.5;
+        assert_eq!(normals.map(|normal| at(&lights, normal)), [0.5, 0.25, 0.0]);
     }
 
     #[test]

@@ -37,6 +37,21 @@ pub enum LineMethod {
     Potrace,
 }
 
+/// Angle in degrees from which an edge is a crease, where a style names no other.
+pub const CREASE_ANGLE_DEG: f32 = 40.0;
+
+/// What the angle of a crease lies between.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CreaseFrom {
+    /// The file's normals: where shading runs on smoothly across an edge there is no crease, however far its faces
+    /// turn. Where the file has no normals, its faces.
+    #[default]
+    Normals,
+    /// The faces, whatever the file's normals: every fold of a coarse mesh.
+    Faces,
+}
+
 /// The kinds of line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -45,7 +60,7 @@ pub struct Kinds {
     pub contour: bool,
     /// Where a surface ends: edges with one face; default true.
     pub border: bool,
-    /// Where two faces meet at more than `crease_angle_deg`; default true.
+    /// Where a surface folds by more than `crease_angle_deg`; default true.
     pub crease: bool,
     /// Where one material meets another; default true.
     pub material: bool,
@@ -78,10 +93,12 @@ pub struct Line {
     pub opacity: f32,
     /// What else decides their colour: kind, surface, light, depth.
     pub paint: LinePaint,
-    /// Angle between face normals, in degrees, from which an edge is a crease, 0..180; default 40.
-    /// 20 draws every bevel, 80 only corners.
+    /// Angle in degrees from which an edge is a crease, 0..180; default 40. 20 draws every bevel, 80 only corners.
+    /// `crease_from` says between what.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub crease_angle_deg: f32,
+    /// What that angle lies between; default `normals`, so that smooth shading hides the folds of a coarse mesh.
+    pub crease_from: CreaseFrom,
     /// Angle, in degrees, from which a stroke is cut where it turns sharply in the picture, 10..180; default 180, never.
     /// 60 draws a box in strokes along its sides, each with the brush's own ends. Of drawings as curves only.
     #[schemars(range(min = 10.0, max = 180.0))]
@@ -110,7 +127,8 @@ impl Default for Line {
             color: Color::rgb(0x2b, 0x1a, 0x12),
             opacity: 1.0,
             paint: LinePaint::default(),
-            crease_angle_deg: 40.0,
+            crease_angle_deg: CREASE_ANGLE_DEG,
+            crease_from: CreaseFrom::default(),
             split_angle_deg: 180.0,
             angle_threshold_deg: 15.0,
             angle_softness: 0.1,

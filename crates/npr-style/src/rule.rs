@@ -425,7 +425,7 @@ pub struct Look<'a> {
 
 impl<'a> Look<'a> {
     /// The look of a part that no rule applies to.
-    fn plain(style: &'a Style) -> Self {
+    pub(crate) fn plain(style: &'a Style) -> Self {
         Self {
             line_on: true,
             line_method: style.line.method,
@@ -446,7 +446,7 @@ impl<'a> Look<'a> {
     }
 
     /// The look with what `rule` states in place of what it had.
-    fn with(self, rule: &'a Rule) -> Self {
+    pub(crate) fn with(self, rule: &'a Rule) -> Self {
         let (line, shade) = (&rule.line, &rule.shade);
         Self {
             line_on: line.on.unwrap_or(self.line_on),

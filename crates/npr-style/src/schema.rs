@@ -51,6 +51,12 @@ impl Node {
         Self::of(self.0.get("properties")?.get(key)?)
     }
 
+    /// The node of a key of this table, or of an entry of this list.
+    pub(crate) fn inside(self, name: &str) -> Option<Self> {
+        let mut forms = self.forms().into_iter();
+        forms.find_map(|form| form.property(name).or_else(|| form.items()))
+    }
+
     /// The keys of this table.
     pub(crate) fn keys(self) -> impl Iterator<Item = &'static str> {
         self.0

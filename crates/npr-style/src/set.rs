@@ -4,29 +4,93 @@ use npr_core::decoding::guard;
 use toml::{Table, Value};
 
 use crate::error::StyleError;
+use crate::schema::Node;
 use crate::{Style, check, layers};
 
 /// Longest override, in bytes, and deepest key.
 const TEXT_BYTES_MAX: usize = 1 << 16;
 const DEPTH_MAX: usize = 16;
 
-/// `style` with one value replaced; see [`Style::set`].
-pub(crate) fn assign(style: &Style, assignment: &str) -> Result<Style, StyleError> {
-    let malformed = || StyleError::Assignment {
-        text: assignment.to_owned(),
-    };
-    let (key, value) = assignment.split_once('=').ok_or_else(malformed)?;
-    let path: Vec<&str> = key.trim().split('.').collect();
-    if assignment.len() > TEXT_BYTES_MAX
-        || path.len() > DEPTH_MAX
-        || path.iter().any(|name| name.is_empty())
-    {
-        return Err(malformed());
+/// An override, taken apart.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Assignment<'a> {
+    /// As the user wrote it.
+    text: &'a str,
+    /// The key, name by name.
+    pub(crate) path: Vec<&'a str>,
+    /// What it gets.
+    pub(crate) value: Value,
+}
+
+impl<'a> Assignment<'a> {
+    /// What a text of the form `key.path=value` says.
+    pub(crate) fn of(text: &'a str) -> Result<Self, StyleError> {
+        let malformed = || StyleError::Assignment {
+            text: text.to_owned(),
+        };
+        let (key, value) = text.split_once('=').ok_or_else(malformed)?;
+        let path: Vec<&str> = key.trim().split('.').collect();
+        if text.len() > TEXT_BYTES_MAX
+            || path.len() > DEPTH_MAX
+            || path.iter().any(|name| name.is_empty())
+        {
+            return Err(malformed());
+        }
+        let value = parse(value.trim());
+        Ok(Self { text, path, value })
     }
-    let mut table = Table::try_from(style).map_err(|_| malformed())?;
-    yield_rules(&mut table, &path);
-    insert(&mut table, &path, parse(value.trim())).ok_or_else(malformed)?;
-    check::check(&table)?;
+
+    /// Replaces the value in the table of a style.
+    fn apply(&self, table: &mut Table) -> Result<(), StyleError> {
+        self.check_lists(table)?;
+        yield_rules(table, &self.path);
+        insert(table, &self.path, self.value.clone()).ok_or_else(|| StyleError::Assignment {
+            text: self.text.to_owned(),
+        })?;
+        check::check(table)
+    }
+
+    /// Refuses entries of lists that are not there, and names in place of their numbers.
+    fn check_lists(&self, table: &Table) -> Result<(), StyleError> {
+        let mut node = Node::root();
+        let mut value = Some(Value::Table(table.clone()));
+        for (depth, name) in self.path.iter().enumerate() {
+            let is_list = node.is_some_and(|node| node.forms().iter().any(|form| form.is("array")));
+            if is_list {
+                let entries = value.as_ref().and_then(Value::as_array);
+                let count = entries.map_or(0, Vec::len);
+                let entry = name.parse::<usize>().ok();
+                if entry.is_none_or(|entry| entry >= count) {
+                    return Err(StyleError::NoEntry {
+                        list: self.path[..depth].join("."),
+                        entry: (*name).to_owned(),
+                        count,
+                    });
+                }
+            }
+            node = node.and_then(|node| node.inside(name));
+            value = value.and_then(|value| match value {
+                Value::Table(mut table) => table.remove(*name),
+                Value::Array(entries) => name
+                    .parse()
+                    .ok()
+                    .and_then(|i: usize| entries.into_iter().nth(i)),
+                _ => None,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// `style` with values replaced, checked together once all stand; see [`Style::set`].
+pub(crate) fn assign(style: &Style, assignments: &[Assignment<'_>]) -> Result<Style, StyleError> {
+    let mut table = Table::try_from(style).map_err(|error| StyleError::Syntax {
+        place: None,
+        message: error.to_string(),
+    })?;
+    for assignment in assignments {
+        assignment.apply(&mut table)?;
+    }
     layers::from_table(table)
 }
 
@@ -39,7 +103,7 @@ fn parse(text: &str) -> Value {
 }
 
 /// Puts `value` at `path`, making tables on the way; none where the path leads through a plain value.
-fn insert(table: &mut Table, path: &[&str], value: Value) -> Option<()> {
+pub(crate) fn insert(table: &mut Table, path: &[&str], value: Value) -> Option<()> {
     let (name, rest) = path.split_first()?;
     if rest.is_empty() {
         table.insert((*name).to_owned(), value);
@@ -69,7 +133,7 @@ fn insert_into(holder: &mut Value, path: &[&str], value: Value) -> Option<()> {
 }
 
 /// Removes the value at `path` from every rule: rules name keys as the style does, and overrides win.
-fn yield_rules(table: &mut Table, path: &[&str]) {
+pub(crate) fn yield_rules(table: &mut Table, path: &[&str]) {
     let Some(Value::Array(rules)) = table.get_mut("rule") else {
         return;
     };

@@ -6,7 +6,6 @@
 pub mod blur;
 mod depth_map;
 pub mod draw;
-mod idle;
 mod line;
 mod look;
 pub mod pen;
@@ -15,7 +14,6 @@ pub mod shade;
 mod style;
 mod veil;
 
-pub use idle::{IdleKeys, SmokeOutput};
 pub use look::{CELLS_MAX, LAYERS_MAX, SmokeLook, TAPS_MAX};
 pub use style::{
     SmokeInk, SmokeLine, SmokeLines, SmokeMethod, SmokeParticles, SmokePlacement, SmokePuffs,

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::{Problem, StyleError};
 use crate::layers::{self, Parents};
 use crate::ramp::{Stop, first_unsorted};
+use crate::set::Assignment;
 use crate::width::WidthSource;
 use crate::{
     Antialias, Background, BackgroundMethod, Blend, Detect, Highlight, IdMap, Ink, Lettering,
@@ -102,7 +103,7 @@ impl Style {
         text: &str,
         load: &dyn Fn(&str) -> Result<String, String>,
     ) -> Result<Self, StyleError> {
-        layers::read(text, load)
+        Ok(layers::read(text, load)?.0)
     }
 
     /// The preset called `name`, or `name@version`.
@@ -129,7 +130,7 @@ impl Style {
     ///
     /// [`StyleError`] for an unknown key or a value that does not fit; the style is unchanged then.
     pub fn set(&mut self, assignment: &str) -> Result<(), StyleError> {
-        *self = set::assign(self, assignment)?;
+        *self = set::assign(self, &[Assignment::of(assignment)?])?;
         Ok(())
     }
 

@@ -279,51 +279,94 @@ fn hides(shape: &Shape, face: u32, (eye, direction): (DVec3, DVec3), touch: f64)
     })
 }
 
-/// The part of a line that a face hides, in shares of the line in the world; `sights` lead to its ends.
-///
-/// What [`FaceTree::occluders`] asks of one point holds where five or six numbers are positive, each of which
-/// changes evenly along the line: they are taken at its ends, so that the range costs as much as two points.
-pub(crate) fn hidden_range(shape: &Shape, face: u32, sights: &[Sight; 2]) -> Option<[f64; 2]> {
-    let corners = shape.faces[face as usize].map(|v| shape.point(v));
-    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    let before = sights.map(|s| normal.dot(corners[0] - DVec3::from(s.eye)));
-    let behind = sights.map(|s| normal.dot(DVec3::from(s.point) - corners[0]));
-    // In parallel view all ways have one direction. Its length must not change along the line, or sides would not
-    // change evenly.
-    let ways = sights.map(|s| DVec3::from(s.point) - DVec3::from(s.eye));
-    let longer = ways[usize::from(ways[1].length_squared() > ways[0].length_squared())];
-    let is_parallel = sights[0].eye != sights[1].eye;
-    let ways = ways.map(|way| if is_parallel { longer } else { way });
-    // Seen from the front and from the back; in parallel view a face across the near plane may be both.
-    [1.0, -1.0].into_iter().find_map(|sign| {
-        let mut range = [0.0, 1.0];
-        let mut keep = |at: [f64; 2], holds_at_zero: bool| {
-            let is_zero = at == [0.0; 2];
-            is_zero && holds_at_zero || !is_zero && cut_range(&mut range, at)
-        };
-        let [before, behind] = [before, behind].map(|pair| pair.map(|v| v * sign));
-        let reach = sights[0].touch * normal.length();
-        let is_behind = |i: usize| (1.0 - NEARER) * behind[i] - NEARER * before[i];
-        let is_before = |i: usize| (1.0 - NEARER) * before[i] - NEARER * behind[i];
-        let stays = keep([0, 1].map(is_behind), false)
-            && keep([0, 1].map(is_before), false)
-            && (reach == 0.0 || keep(behind.map(|v| v - reach), false));
+/// What a face hides from an eye: a plane and the three sides of the cone behind the face.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Barrier {
+    corner: DVec3,
+    normal: DVec3,
+    /// Normals of the planes through the eye and a side.
+    sides: [DVec3; 3],
+    /// Whether each side leads from the vertex with the lesser number to that with the greater.
+    rises: [bool; 3],
+}
+
+impl Barrier {
+    /// That of a face.
+    pub(crate) fn of(shape: &Shape, face: u32, eye: DVec3) -> Self {
         let [i, j, k] = shape.faces[face as usize];
-        let mut passes = [(2, 1, j, k), (0, 2, k, i), (1, 0, i, j)].into_iter();
-        let inside = |(to, from, low, high): (usize, usize, u32, u32)| {
-            let side = |end: usize| {
-                let eye = DVec3::from(sights[end].eye);
-                let (to, from) = (corners[to] - eye, corners[from] - eye);
-                -sign * ways[end].dot(to.cross(from))
+        let corners = [shape.point(i), shape.point(j), shape.point(k)];
+        let from_eye = corners.map(|corner| corner - eye);
+        let side = |to: usize, from: usize| from_eye[to].cross(from_eye[from]);
+        Self {
+            corner: corners[0],
+            normal: (corners[1] - corners[0]).cross(corners[2] - corners[0]),
+            sides: [side(2, 1), side(0, 2), side(1, 0)],
+            rises: [j < k, k < i, i < j],
+        }
+    }
+
+    /// The part of a line that the face hides, in shares of the line in the world; `sights` lead to its ends, and
+    /// `other` is the barrier for the eye of the second.
+    ///
+    /// What [`FaceTree::occluders`] asks of one point holds where five or six numbers are positive, each of which
+    /// changes evenly along the line: they are taken at its ends, so that the range costs as much as two points.
+    pub(crate) fn hidden_range(&self, other: &Self, sights: &[Sight; 2]) -> Option<[f64; 2]> {
+        let Self { corner, normal, .. } = *self;
+        let eyes = [DVec3::from(sights[0].eye), DVec3::from(sights[1].eye)];
+        let points = [DVec3::from(sights[0].point), DVec3::from(sights[1].point)];
+        let before = [normal.dot(corner - eyes[0]), normal.dot(corner - eyes[1])];
+        let behind = [
+            normal.dot(points[0] - corner),
+            normal.dot(points[1] - corner),
+        ];
+        // In parallel view all ways have one direction. Its length must not change along the line, or sides would not
+        // change evenly.
+        let mut ways = [points[0] - eyes[0], points[1] - eyes[1]];
+        if sights[0].eye != sights[1].eye {
+            ways = [ways[usize::from(ways[1].length_squared() > ways[0].length_squared())]; 2];
+        }
+        let reach = sights[0].touch * normal.length();
+        // Seen from the front and from the back; in parallel view a face across the near plane may be both.
+        for sign in [1.0, -1.0] {
+            let mut range = [0.0, 1.0];
+            let mut keep = |at: [f64; 2], holds_at_zero: bool| {
+                let is_zero = at == [0.0; 2];
+                is_zero && holds_at_zero || !is_zero && cut_range(&mut range, at)
             };
-            keep([side(0), side(1)], (low < high) == (sign < 0.0))
-        };
-        (stays && passes.all(inside)).then_some(range)
-    })
+            let [before, behind] = [
+                [before[0] * sign, before[1] * sign],
+                [behind[0] * sign, behind[1] * sign],
+            ];
+            let is_behind = |i: usize| (1.0 - NEARER) * behind[i] - NEARER * before[i];
+            let is_before = |i: usize| (1.0 - NEARER) * before[i] - NEARER * behind[i];
+            if !keep([is_behind(0), is_behind(1)], false)
+                || !keep([is_before(0), is_before(1)], false)
+                || reach != 0.0 && !keep([behind[0] - reach, behind[1] - reach], false)
+            {
+                continue;
+            }
+            let mut passes = |side: usize| {
+                let [first, second] = [self.sides[side], other.sides[side]];
+                let at = [-sign * ways[0].dot(first), -sign * ways[1].dot(second)];
+                keep(at, self.rises[side] == (sign < 0.0))
+            };
+            if passes(0) && passes(1) && passes(2) {
+                return Some(range);
+            }
+        }
+        None
+    }
+}
+
+/// The part of a line that a face hides, in shares of the line in the world; `sights` lead to its ends.
+pub(crate) fn hidden_range(shape: &Shape, face: u32, sights: &[Sight; 2]) -> Option<[f64; 2]> {
+    let barriers = sights.map(|sight| Barrier::of(shape, face, DVec3::from(sight.eye)));
+    barriers[0].hidden_range(&barriers[1], sights)
 }
 
 /// Shortens a range to where a number is not negative that changes evenly, given at 0 and 1; false where nothing is
 /// left.
+#[inline]
 pub(crate) fn cut_range(range: &mut [f64; 2], [at_start, at_end]: [f64; 2]) -> bool {
     match (at_start >= 0.0, at_end >= 0.0) {
         (true, true) => {}

@@ -8,7 +8,7 @@ use npr_core::window::{View, Window};
 use rayon::prelude::*;
 
 /// Depth change per pixel, in pixels, from which a surface is grazing: 63 degrees.
-const GRAZING_SLOPE: f32 = 2.0;
+pub(crate) const GRAZING_SLOPE: f32 = 2.0;
 
 /// What lines are detected on.
 #[derive(Debug, Clone, Copy)]

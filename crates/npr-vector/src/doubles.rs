@@ -3,8 +3,9 @@
 //! Where a mesh is noisy its contour doubles back, and a cusp grows a fringe of hairs beside the line it ends. Runs are taken
 //! from the longest to the shortest; what lies beside a run already taken, and along it, is cut away.
 
-use crate::near::{cell_of, cells_around};
+use crate::near::{cell_of, cells_within};
 use crate::run::{Run, RunPoint, distance};
+use foldhash::fast::FixedState;
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
@@ -106,7 +107,7 @@ type Tip = (usize, bool);
 /// The samples of all runs taken so far, in cells.
 #[derive(Default)]
 struct Taken {
-    cells: HashMap<[i64; 2], Vec<Sample>>,
+    cells: HashMap<[i64; 2], Vec<Sample>, FixedState>,
 }
 
 impl Taken {
@@ -192,9 +193,16 @@ impl Taken {
         reach: f64,
         is: impl Fn(&Sample) -> bool,
     ) -> Option<&Sample> {
-        let around = cells_around(cell_of(place, PEN_PX)).filter_map(|cell| self.cells.get(&cell));
+        let around = cells_within(place, reach, PEN_PX).filter_map(|cell| self.cells.get(&cell));
+        // Most samples of the cells are too far, which needs no root.
+        let most = reach * reach * (1.0 + 1e-9);
+        let is_near = |other: &&Sample| {
+            let [dx, dy] = [0, 1].map(|i| other.place[i] - place[i]);
+            dx * dx + dy * dy <= most
+        };
         around
             .flatten()
+            .filter(is_near)
             .map(|other| (distance(other.place, place), other))
             .filter(|(apart, other)| *apart < reach && is(other))
             .min_by(|a, b| a.0.total_cmp(&b.0))

@@ -20,10 +20,11 @@ use crate::run::{Line, Run, RunPoint, distance, runs};
 use crate::smooth::{between, smooth};
 use crate::spurs::cut_spurs;
 use crate::stroke::{Kind, Stroke, StrokePoint};
-use crate::visibility::{Circumstances, FaceImages, Ink, OutlineGrid, Piece, Seen, Span};
+use crate::visibility::{Circumstances, FaceImages, Ink, Memory, OutlineGrid, Piece, Seen, Span};
 use crate::wire::{touch, wires};
 use crate::zero_set::{CornerNormals, PolygonOutline, SeenContour, zero_set};
 use npr_core::budget::{Budget, OverBudget};
+use npr_core::crease::Creases;
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 use rayon::prelude::*;
@@ -136,44 +137,50 @@ pub struct Prepared {
     rims: Vec<u32>,
     /// For every object, whether it has a border, so that backs of faces may be seen.
     is_open: Vec<bool>,
-    /// From which cosine between normals on an edge is no crease.
-    crease_cos: f32,
+    /// Which edges are creases.
+    creases: Creases,
     /// Whether `crossings` are known; else every view looks for those of its own lines.
     has_crossings: bool,
     /// Smooth normals, once they are asked for.
     normals: OnceLock<CornerNormals>,
 }
 
+/// Finds where faces of a shape cut through each other, with its faces in a tree.
+pub type FindCrossings<'a> = dyn Fn(&FaceTree) -> Result<Crossings, OverBudget> + 'a;
+
 impl Prepared {
-    /// Prepares a shape whose edges are creases where the cosine between normals is under `crease_cos`.
+    /// Prepares a shape with the creases asked for.
     ///
     /// Intersections cost more than the rest together, and are needed only as lines: without them, a view finds for itself
     /// where its lines go through faces.
     ///
     /// # Panics
     ///
-    /// Never: memory is not limited. [`Prepared::within`] does that.
-    pub fn new(shape: &Shape, crease_cos: f32, with_crossings: bool) -> Self {
-        let mut budget = Budget::new(u64::MAX);
-        Self::within(shape, crease_cos, with_crossings, &mut budget).expect("no limit is set")
+    /// Never: memory is not limited. [`Prepared::with_crossings`] leaves limits to whoever finds intersections.
+    pub fn new(shape: &Shape, creases: impl Into<Creases>, with_crossings: bool) -> Self {
+        let find: &FindCrossings<'_> = &|tree| {
+            let mut budget = Budget::new(u64::MAX);
+            crate::intersect::crossings(shape, tree, &mut budget)
+        };
+        let find = with_crossings.then_some(find);
+        Self::with_crossings(shape, creases.into(), find).expect("no limit is set")
     }
 
-    /// The same within a limit of memory.
+    /// The same with intersections from elsewhere: within a limit of memory, or from a file that kept those of this
+    /// shape.
     ///
     /// # Errors
     ///
-    /// [`OverBudget`] where so many faces cut each other that there is no memory for the pairs.
-    pub fn within(
+    /// Those of `find`.
+    pub fn with_crossings(
         shape: &Shape,
-        crease_cos: f32,
-        with_crossings: bool,
-        budget: &mut Budget,
+        creases: Creases,
+        find: Option<&FindCrossings<'_>>,
     ) -> Result<Self, OverBudget> {
-        let (tree, features) = rayon::join(|| FaceTree::new(shape), || features(shape, crease_cos));
-        let crossings = if with_crossings {
-            crate::intersect::crossings(shape, &tree, budget)?
-        } else {
-            Crossings::default()
+        let (tree, features) = rayon::join(|| FaceTree::new(shape), || features(shape, creases));
+        let crossings = match find {
+            Some(find) => find(&tree)?,
+            None => Crossings::default(),
         };
         let odd = Shape::BORDER | Shape::NON_MANIFOLD;
         let rims: Vec<u32> = (0..shape.edge_count() as u32)
@@ -193,8 +200,8 @@ impl Prepared {
             touch: touch(shape),
             rims,
             is_open,
-            crease_cos,
-            has_crossings: with_crossings,
+            creases,
+            has_crossings: find.is_some(),
             normals: OnceLock::new(),
         })
     }
@@ -202,7 +209,7 @@ impl Prepared {
     /// Smooth normals at the corners of the shape's faces, made when first asked for.
     pub fn corner_normals(&self, shape: &Shape) -> &CornerNormals {
         self.normals
-            .get_or_init(|| CornerNormals::new(shape, self.crease_cos))
+            .get_or_init(|| CornerNormals::new(shape, self.creases))
     }
 
     fn may_show_backs(&self, shape: &Shape, face: u32) -> bool {
@@ -278,7 +285,7 @@ pub fn strokes_with(
     };
     let mut toll = Toll::new(settings);
     let outlines = view.outlines(edge_contours, &mut toll.budget)?;
-    let images = OnceLock::new();
+    let images = FaceImages::default();
     let seen = Seen {
         shape,
         tree: &prepared.tree,
@@ -359,6 +366,8 @@ struct Toll {
     budget: Budget,
     ink: Ink,
     left_out: usize,
+    /// Whether boxes of faces have been paid for.
+    has_images: bool,
 }
 
 impl Toll {
@@ -367,6 +376,7 @@ impl Toll {
             budget: Budget::new(settings.memory_limit),
             ink: Ink::new(settings.size),
             left_out: 0,
+            has_images: false,
         }
     }
 }
@@ -538,10 +548,9 @@ impl View<'_> {
             .nodes
             .par_iter()
             .with_min_len(64)
-            .map_init(
-                || None,
-                |last, node| self.line(graph, node, seen, wanted, last),
-            )
+            .map_init(Memory::default, |memory, node| {
+                self.line(graph, node, seen, wanted, memory)
+            })
             .collect();
         let spans = lines.iter().flatten().map(|line| line.spans.len()).sum();
         toll.budget
@@ -566,23 +575,25 @@ impl View<'_> {
         if crowded.is_empty() {
             return Ok(());
         }
-        if seen.images.get().is_none() {
+        if !toll.has_images {
             let (count, bytes) = (self.shape.faces.len(), FaceImages::BYTES_PER_FACE);
             toll.budget.take("boxes of faces", count, bytes)?;
+            toll.has_images = true;
+            seen.prepare();
         }
         crowded.sort_unstable_by_key(|index| (hash_key(graph.nodes[*index].edge), *index));
         for round in crowded.chunks(ROUND) {
             // What is left out hangs on the rounds before alone, so on no thread.
             let found: Vec<Option<Vec<Span>>> = round
                 .par_iter()
-                .map(|index| {
+                .map_init(Memory::default, |memory, index| {
                     let piece = lines[*index].as_ref().map(|line| &line.piece)?;
                     let node = &graph.nodes[*index];
                     let other = graph.nodes.get(node.next as usize)?;
                     let black = toll.ink.black_parts(piece);
                     let is_free = black != [[0.0, 1.0]];
                     let of_piece = || self.circumstances(node, other, true);
-                    is_free.then(|| seen.crowded_spans(piece, &of_piece(), &black))
+                    is_free.then(|| seen.crowded_spans(piece, &of_piece(), &black, memory))
                 })
                 .collect();
             for (index, spans) in round.iter().zip(found) {
@@ -607,7 +618,7 @@ impl View<'_> {
         node: &CurveNode,
         seen: &Seen<'_>,
         wanted: u32,
-        last: &mut Option<u32>,
+        memory: &mut Memory,
     ) -> Option<Line> {
         let kinds = self.kinds_of(node) & wanted;
         let kind = first_kind(kinds)?;
@@ -618,7 +629,7 @@ impl View<'_> {
         let (piece, other) = self.piece_after(graph, node)?;
         let spans: Vec<Span> = match seen.outlines.is_crowded(&piece) {
             true => Vec::new(),
-            false => seen.spans(&piece, &self.circumstances(node, other, false), last),
+            false => seen.spans(&piece, &self.circumstances(node, other, false), memory),
         };
         let surface = match self.shape.wire_of(node.edge) {
             Some(wire) => self.shape.wire_surfaces[wire],

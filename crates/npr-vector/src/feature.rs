@@ -4,6 +4,7 @@
 
 use crate::graph::{CurveGraph, CurveNode};
 use glam::DVec3;
+use npr_core::crease::Creases;
 use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 use rayon::prelude::*;
@@ -16,21 +17,22 @@ const STRAIGHT_COS: f64 = 0.5;
 /// At a point where two edges of a kind meet the line goes on; where more meet, through the straightest pairs.
 /// Edges between faces that are wound against each other are in the graph without a kind: in some views they are
 /// contours. O(edges + features log features).
-pub fn features(shape: &Shape, crease_cos: f32) -> CurveGraph {
+pub fn features(shape: &Shape, creases: impl Into<Creases>) -> CurveGraph {
+    let creases = creases.into();
     let candidates: Vec<(u32, u32)> = (0..shape.edge_count() as u32)
         .into_par_iter()
         .with_min_len(8192)
-        .filter_map(|edge| static_flags(shape, edge, crease_cos).map(|flags| (edge, flags)))
+        .filter_map(|edge| static_flags(shape, edge, creases).map(|flags| (edge, flags)))
         .collect();
     let mates = mates(shape, &candidates);
     chain(shape, &candidates, &mates)
 }
 
 /// What an edge is whatever the view; none where it is nothing.
-pub(crate) fn static_flags(shape: &Shape, edge: u32, crease_cos: f32) -> Option<u32> {
+pub(crate) fn static_flags(shape: &Shape, edge: u32, creases: Creases) -> Option<u32> {
     let traits = shape.edge_traits[edge as usize];
     let bit = |has: bool, bit: u32| if has { bit } else { 0 };
-    let bends = shape.dihedral_cos[edge as usize] < crease_cos;
+    let bends = shape.fold_cos(edge, creases.from) < creases.cos;
     let flags = bit(traits & Shape::BORDER != 0, CurveNode::BOUNDARY)
         | bit(
             bends || traits & Shape::NON_MANIFOLD != 0,

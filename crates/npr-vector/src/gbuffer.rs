@@ -3,7 +3,9 @@
 use npr_core::geometry::{GPixel, Part, PosedVertex, Triangle};
 use npr_core::math;
 use npr_core::raster::ID_MASK;
-use npr_core::surface::{blend, blend3, cross, dot, faces_eye, offset_from, weights_at};
+use npr_core::surface::{
+    blend, blend3, cross, dot, face_normal, faces_eye, offset_from, weights_at,
+};
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
 
@@ -97,8 +99,12 @@ impl Surfaces<'_> {
         let depths = corners.map(|v| v.depth);
         let ndc = view.ndc_at(frame_px);
         let weights = weights_at(clip, ndc);
-        let normal = blend3(weights, corners.map(|v| v.normal));
         let part = &self.parts[triangle.part as usize];
+        let normal = if part.flags & Part::FOLDS != 0 {
+            face_normal(corners.map(|v| v.world))
+        } else {
+            blend3(weights, corners.map(|v| v.normal))
+        };
         GPixel {
             plane_step: self.plane_step(clip, depths, ndc),
             depth: blend(weights, depths),

@@ -11,6 +11,7 @@
 mod cut;
 mod link;
 mod pairs;
+mod rows;
 mod side;
 #[cfg(test)]
 mod tests;

@@ -276,6 +276,8 @@ fn follow(runs: &[Run], mates: &[usize], start: usize, used: &mut [bool]) -> (us
         }
         if used[mate / 2] {
             rest_end(&mut whole);
+            let (last, first) = (whole.points.len() - 1, whole.points[0]);
+            whole.points[last].leaps = !meets(&whole.points[last], &first);
             whole.closed = true;
             break;
         }
@@ -301,22 +303,27 @@ fn oriented(run: &Run, end: usize) -> Run {
     run
 }
 
-/// Lets a line go on beyond its end on what it has come along.
+/// Whether two points are one, in the picture and in the world.
+fn meets(a: &RunPoint, b: &RunPoint) -> bool {
+    let near = 1e-6 * a.world.abs().max_element().max(a.depth.abs());
+    distance(a.place, b.place) < 1e-6 && a.world.distance(b.world) <= near
+}
+
+/// Lets the end of a line lie on what it has come along.
 fn rest_end(run: &mut Run) {
     let last = run.points.len() - 1;
     run.points[last].seat = run.seat_at(last);
+    run.points[last].leaps = false;
 }
 
+/// Lets a line go on along another, across the gap between them where there is one.
 fn extend(run: &mut Run, more: &Run) {
-    let touches = |a: &RunPoint, b: &RunPoint| distance(a.place, b.place) < 1e-6;
-    let skip = usize::from(
-        run.points
-            .last()
-            .is_some_and(|last| touches(last, &more.points[0])),
-    );
     rest_end(run);
-    if let Some(last) = run.points.last_mut().filter(|_| skip > 0) {
-        last.seat = more.points[0].seat;
+    let last = run.points.len() - 1;
+    let skip = usize::from(meets(&run.points[last], &more.points[0]));
+    match more.points.first().filter(|_| skip > 0) {
+        Some(first) => (run.points[last].seat, run.points[last].leaps) = (first.seat, first.leaps),
+        None => run.points[last].leaps = true,
     }
     run.points.extend_from_slice(&more.points[skip..]);
     run.id = run.id.min(more.id);

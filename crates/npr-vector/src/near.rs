@@ -11,6 +11,16 @@ pub(crate) fn cells_around([x, y]: [i64; 2]) -> impl Iterator<Item = [i64; 2]> {
     steps.map(move |[dx, dy]| [x.saturating_add(dx), y.saturating_add(dy)])
 }
 
+/// The cells, column by column, that hold all places within `reach` of a place.
+pub(crate) fn cells_within(
+    place: [f64; 2],
+    reach: f64,
+    side: f64,
+) -> impl Iterator<Item = [i64; 2]> {
+    let [low, high] = [-reach, reach].map(|by| cell_of(place.map(|v| v + by), side));
+    (low[0]..=high[0]).flat_map(move |x| (low[1]..=high[1]).map(move |y| [x, y]))
+}
+
 /// Places by cells of a grid, for finding near ones.
 pub(crate) struct Grid {
     low: [f64; 2],

@@ -35,6 +35,7 @@ use crate::rank::scan::{compact, exclusive_scan};
 use crate::rank::{RankError, Ranked, walk, wyllie};
 use edge::{Facing, drawn_edges, mark_edges};
 use fragment::{Fragment, draw_nearest, emit_fragments, test_fragments};
+use npr_core::crease::Creases;
 pub use npr_core::published_path::PublishedPath;
 use npr_core::shape::Shape;
 use npr_core::window::View;
@@ -59,8 +60,8 @@ pub struct PixelScene<'a> {
     pub eye: &'a Eye,
     /// Bits of [`crate::graph::CurveNode::KINDS`] that are drawn; intersections are no mesh edges and have no lines here.
     pub kinds: u32,
-    /// From which cosine between normals on an edge is no crease.
-    pub crease_cos: f32,
+    /// Which edges are creases.
+    pub creases: Creases,
     /// For every surface of the shape whether it has lines; empty where all have.
     pub is_drawn: &'a [bool],
 }
@@ -153,7 +154,7 @@ pub fn trace(
 
 /// The edges drawn as segments, each with its number of fragments.
 fn segments_of(on: &PixelScene<'_>, view: &PixelView) -> (Vec<Segment>, Vec<u32>) {
-    let edges = drawn_edges(on.shape, on.crease_cos, on.is_drawn);
+    let edges = drawn_edges(on.shape, on.creases, on.is_drawn);
     let front: Vec<u32> = facing(on.shape, on.eye)
         .iter()
         .map(|f| u32::from(*f))

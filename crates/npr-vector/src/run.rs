@@ -42,6 +42,10 @@ pub struct RunPoint {
     pub t: f32,
     /// What the line lies on from here to the next point.
     pub seat: Seat,
+    /// Whether the line changes what it lies on between here and the next point, where two lines were joined across a
+    /// gap or where places on two edges follow each other. What is between both in the world lies on neither, so all
+    /// places of the first half are those of this point there, and those of the second half those of the next.
+    pub leaps: bool,
 }
 
 /// A connected part of a line with one kind, surface and visibility.
@@ -88,20 +92,24 @@ impl Run {
 
     /// The same line, travelled the other way.
     pub(crate) fn reverse(&mut self) {
-        // What lay after a point now lies before it.
-        let seats: Vec<Seat> = self.points.iter().map(|point| point.seat).collect();
+        // What lay after a point now lies before it; what comes after a leap stays on what it lay on.
+        let after: Vec<(Seat, bool)> = self.points.iter().map(|p| (p.seat, p.leaps)).collect();
         self.points.reverse();
         self.cut.reverse();
         let count = self.points.len();
         for (i, point) in self.points.iter_mut().enumerate() {
-            point.seat = seats[(2 * count - 2 - i) % count];
+            let (seat, leaps) = after[(2 * count - 2 - i) % count];
+            let is_end = !self.closed && i + 1 == count;
+            point.leaps = leaps && !is_end;
+            if !leaps && !is_end {
+                point.seat = seat;
+            }
         }
     }
 
     /// What the line lies on at a point of a number: at an open end on what it has come along.
     pub(crate) fn seat_at(&self, index: usize) -> Seat {
-        let is_end = !self.closed && index + 1 == self.points.len();
-        self.points[index - usize::from(is_end && index > 0)].seat
+        seat_at(&self.points, self.closed, index)
     }
 
     /// Length in the picture, in pixels.
@@ -369,7 +377,19 @@ impl Maker<'_> {
             edge,
             t: t.clamp(0.0, 1.0),
             seat: self.seat(item),
+            leaps: false,
         }
+    }
+}
+
+/// What a line lies on at one of its points: at an open end, and after no leap, on what it has come along.
+pub(crate) fn seat_at(points: &[RunPoint], closed: bool, index: usize) -> Seat {
+    let is_end = !closed && index + 1 == points.len();
+    let before = &points[index - usize::from(is_end && index > 0)];
+    if before.leaps {
+        points[index].seat
+    } else {
+        before.seat
     }
 }
 
@@ -409,6 +429,7 @@ pub(crate) mod testing {
             edge: 0,
             t: 0.0,
             seat: Seat::along(0),
+            leaps: false,
         };
         Run {
             id,

@@ -59,7 +59,7 @@ fn shares_in_face(corners: [DVec3; 3], world: DVec3) -> [f64; 3] {
     let parts = [part(b, c), part(c, a), part(a, b)].map(|part| part.max(0.0));
     let whole: f64 = parts.iter().sum();
     let shares = parts.map(|part| part / whole);
-    if shares.iter().all(|share| share.is_finite()) {
+    if whole.is_finite() && shares.iter().all(|share| share.is_finite()) {
         return shares;
     }
     let length = |i: usize| (corners[(i + 1) % 3] - corners[i]).length_squared();

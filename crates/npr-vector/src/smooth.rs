@@ -4,7 +4,7 @@
 //! smoothed with its ends pinned by alternating steps in and out [Taubin 1995].
 
 use crate::corner::{PINNED_COS, corners};
-use crate::run::{Run, RunPoint, distance};
+use crate::run::{Run, RunPoint, distance, seat_at};
 use npr_core::math;
 use rayon::prelude::*;
 
@@ -111,9 +111,13 @@ fn resampled(points: &[RunPoint], closed: bool, corners: &[usize]) -> (Vec<RunPo
         from = *corner;
     }
     push_even(&path[from..], &mut samples);
-    // The last sample of a closed run is its first.
+    // The last sample of a closed run is its first; that of an open one lies on what the line has come along.
     if closed && samples.len() > 1 {
         samples.pop();
+    }
+    if let (false, Some(last)) = (closed, samples.last_mut()) {
+        last.leaps = false;
+        last.seat = seat_at(points, closed, points.len() - 1);
     }
     (samples, pins)
 }
@@ -129,6 +133,7 @@ fn push_even(path: &[RunPoint], samples: &mut Vec<RunPoint>) {
     }
     let count = (length / STEP_PX).ceil().clamp(1.0, 1e7) as usize;
     let (mut passed, mut segment) = (0.0, 0);
+    let mut leaps = Leaps::new(path);
     for k in 1..count {
         let target = length * k as f64 / count as f64;
         let mut span = distance(path[segment].place, path[segment + 1].place);
@@ -142,15 +147,58 @@ fn push_even(path: &[RunPoint], samples: &mut Vec<RunPoint>) {
         } else {
             0.0
         };
+        mark_leap(samples, leaps.is_any_before(segment as f64 + share));
         samples.push(between(&path[segment], &path[segment + 1], share));
     }
+    mark_leap(samples, leaps.is_any_before((path.len() - 1) as f64));
     samples.extend(path.last());
+}
+
+/// Says of the last sample whether the world leaps before the next one.
+fn mark_leap(samples: &mut [RunPoint], leaps: bool) {
+    if let Some(last) = samples.last_mut() {
+        last.leaps = leaps;
+    }
+}
+
+/// Where along a polyline it changes what it lies on, in order: at points, and in the middles of pieces where it leaps.
+struct Leaps<'a> {
+    path: &'a [RunPoint],
+    /// The station asked for last, in pieces from the start.
+    station: f64,
+}
+
+impl<'a> Leaps<'a> {
+    fn new(path: &'a [RunPoint]) -> Self {
+        Self { path, station: 0.0 }
+    }
+
+    /// Whether there is a change between the station asked for last and the next one: what lies on one side of it is
+    /// not on the way to the other in the world.
+    fn is_any_before(&mut self, station: f64) -> bool {
+        let (from, to) = (self.station, station);
+        self.station = station;
+        let pieces = from as usize..(to.ceil() as usize).min(self.path.len() - 1);
+        pieces.into_iter().any(|i| {
+            let (at, middle) = (i as f64, i as f64 + 0.5);
+            let changes = i > 0 && self.path[i].seat != self.path[i - 1].seat;
+            changes && from < at && at < to || self.path[i].leaps && from < middle && middle <= to
+        })
+    }
 }
 
 /// A point a share of the way from a point of a run to the next.
 pub(crate) fn between(a: &RunPoint, b: &RunPoint, share: f64) -> RunPoint {
     let mix = |p: f64, q: f64| p + (q - p) * share;
     let nearer = if share < 0.5 { a } else { b };
+    if a.leaps {
+        return RunPoint {
+            place: [0, 1].map(|i| mix(a.place[i], b.place[i])),
+            depth: mix(a.depth, b.depth),
+            leaps: share < 0.5,
+            ..*nearer
+        };
+    }
     RunPoint {
         place: [0, 1].map(|i| mix(a.place[i], b.place[i])),
         depth: mix(a.depth, b.depth),
@@ -162,6 +210,7 @@ pub(crate) fn between(a: &RunPoint, b: &RunPoint, share: f64) -> RunPoint {
             nearer.t
         },
         seat: a.seat,
+        leaps: false,
     }
 }
 

@@ -10,6 +10,7 @@ mod ink;
 mod tests;
 
 pub use covering::FaceImages;
+pub(crate) use covering::Tried;
 pub(crate) use ink::Ink;
 
 use crate::bvh::{FaceTree, Sight, cut_range};
@@ -18,7 +19,6 @@ use crate::puff::Puffs;
 use glam::DVec3;
 use npr_core::budget::{Budget, OverBudget};
 use npr_core::shape::Shape;
-use std::sync::OnceLock;
 
 /// How far outside the frame lines are still followed, as a share of its larger side.
 pub(crate) const MARGIN: f64 = 0.02;
@@ -290,6 +290,14 @@ fn crossing(piece: &Piece, other: &Piece) -> Option<(f64, f64)> {
     (inside && (-1e-9..=1.0 + 1e-9).contains(&theirs)).then_some((own, theirs))
 }
 
+/// What is kept from piece to piece: it changes the time taken and nothing else.
+#[derive(Debug, Default)]
+pub struct Memory {
+    /// The face that hid something last, to be tried first.
+    last: Option<u32>,
+    tried: Tried,
+}
+
 /// What visibility is decided with.
 #[derive(Debug, Clone, Copy)]
 pub struct Seen<'a> {
@@ -302,7 +310,7 @@ pub struct Seen<'a> {
     /// The outlines of the view.
     pub outlines: &'a OutlineGrid,
     /// The faces as the view has them; made when a crowded piece first asks.
-    pub images: &'a OnceLock<FaceImages>,
+    pub images: &'a FaceImages,
     /// Smoke that hides lines, where there is any.
     pub puffs: Option<&'a Puffs>,
     /// Width and height of the picture in pixels.
@@ -313,27 +321,32 @@ pub struct Seen<'a> {
 
 impl Seen<'_> {
     /// The spans of a piece, which cover it in order; neighbours differ. Of crowded pieces
-    /// ([`OutlineGrid::is_crowded`]) behind more faces than one for two pixels these are not counted: what is hidden has one in
-    /// front.
+    /// ([`OutlineGrid::is_crowded`]) behind more faces than one for two pixels these are not counted: what is hidden
+    /// has one in front.
     ///
-    /// `last` keeps the face that hid something last, to be tried first: it changes the time taken and nothing else.
+    /// A thread lends its `memory` to one piece after the other.
     pub fn spans(
         &self,
         piece: &Piece,
         circumstances: &Circumstances,
-        last: &mut Option<u32>,
+        memory: &mut Memory,
     ) -> Vec<Span> {
         if self.outlines.is_crowded(piece) {
-            return self.crowded_spans(piece, circumstances, &[]);
+            return self.crowded_spans(piece, circumstances, &[], memory);
         }
         let cuts = self.cuts(piece, &circumstances.piercings);
         let mut spans: Vec<Span> = Vec::with_capacity(1);
         for pair in cuts.windows(2) {
             let middle = (pair[0] + pair[1]) * 0.5;
-            let occluders = self.occluders(piece, middle, circumstances, last);
+            let occluders = self.occluders(piece, middle, circumstances, &mut memory.last);
             push(&mut spans, [pair[0], pair[1]], occluders);
         }
         spans
+    }
+
+    /// Makes with all threads what [`Seen::crowded_spans`] will ask for; not to be called where others may be asking.
+    pub(crate) fn prepare(&self) {
+        self.images.prepare(self);
     }
 
     /// The spans of a piece by the parts of it that each face hides, without those parts, ascending, that are
@@ -343,10 +356,9 @@ impl Seen<'_> {
         piece: &Piece,
         circumstances: &Circumstances,
         left_out: &[[f64; 2]],
+        memory: &mut Memory,
     ) -> Vec<Span> {
-        let images = self
-            .images
-            .get_or_init(|| FaceImages::new(self.shape, self.tree, self.projector, self.size));
+        let images = self.images;
         let most = (piece.length() / PX_PER_COUNTED) as usize;
         if self.count_limit > 1 && left_out.is_empty() && self.puffs.is_none() {
             let parts = images.parts_by_face(self, piece, circumstances, most);
@@ -355,7 +367,7 @@ impl Seen<'_> {
             }
         }
         let mut ends = vec![0.0];
-        let hidden = images.hidden_parts(self, piece, circumstances, left_out);
+        let hidden = images.hidden_parts(self, piece, circumstances, left_out, &mut memory.tried);
         ends.extend(hidden.as_flattened());
         ends.push(1.0);
         let mut spans: Vec<Span> = Vec::with_capacity(ends.len());

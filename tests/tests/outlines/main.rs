@@ -8,6 +8,7 @@
     reason = "tests fail by panicking"
 )]
 
+mod colors;
 mod detection;
 mod fixture;
 mod hidden;

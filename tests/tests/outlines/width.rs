@@ -1,9 +1,12 @@
 //! Where width comes from.
 
 use crate::fixture::{front, front_camera, parts_scene, with};
+use npr_gpu::processor::Processor;
 use npr_mesh::testing::{plane, uv_sphere};
+use npr_render::{Model, Picture, StageOptions};
+use npr_scene::Scene;
 use npr_style::Style;
-use npr_tests::{Ink, Object, draw, draw_from, lines, placed, scene_of};
+use npr_tests::{Ink, Object, draw, draw_from, draw_with, lines, placed, scene_of};
 
 /// Lines whose width follows `source`, from 2 to 16 pixels.
 fn swelling(source: &str) -> Style {
@@ -127,6 +130,90 @@ fn control_points_swell_the_lines_around_them() {
         near > 13.0 && far < 10.0,
         "{near} px near the point, {far} px away from it"
     );
+}
+
+/// A ball whose texture coordinates run from 0 at its left to 1 at its right, and from its top to its bottom.
+fn ball_with_a_chart() -> Scene {
+    let ball = placed(&uv_sphere(96, 64), [0.7; 3], [0.0; 3]);
+    let mut scene = scene_of(&[Object::new("Ball", ball)]);
+    let part = &mut scene.meshes[0].parts[0];
+    let chart = |[x, y, _]: &[f32; 3]| [0.5 + 0.5 * x, 0.5 - 0.5 * y];
+    part.uvs = Some(part.positions.iter().map(chart).collect());
+    scene
+}
+
+#[test]
+fn a_picture_thins_lines_where_it_is_black_and_swells_them_where_it_is_white() {
+    let scene = ball_with_a_chart();
+    let model = Model::new(&scene).unwrap();
+    // One half of each picture is white.
+    let picture = |is_white: fn(u32, u32) -> bool| {
+        let texel = |i: u32| match is_white(i % 16, i / 16) {
+            true => [255; 4],
+            false => [0, 0, 0, 255],
+        };
+        Picture {
+            size: [16; 2],
+            rgba: (0..256).flat_map(texel).collect(),
+        }
+    };
+    let pictures = [
+        ("right", picture(|x, _| x >= 8)),
+        ("left", picture(|x, _| x < 8)),
+        ("top", picture(|_, y| y < 8)),
+        ("bottom", picture(|_, y| y >= 8)),
+    ];
+    for method in ["shape", "okuya", "edges", "hull", "filter+hull"] {
+        for (white, picture) in &pictures {
+            let style = with(swelling("constant"), &["line.width.texture=white.png"]);
+            let style = with(
+                style,
+                &[
+                    "line.width.source=texture",
+                    &format!("line.method={method}"),
+                ],
+            );
+            let options = StageOptions {
+                width_image: Some(picture.clone()),
+                ..StageOptions::new([200; 2])
+            };
+            let ink = Ink::of(&draw_with(
+                &Processor,
+                &model,
+                &style,
+                &front_camera(),
+                &options,
+            ));
+            let sides = [
+                ("left", [30.5, 100.5], [1.0, 0.0]),
+                ("right", [169.5, 100.5], [1.0, 0.0]),
+                ("top", [100.5, 30.5], [0.0, 1.0]),
+                ("bottom", [100.5, 169.5], [0.0, 1.0]),
+            ];
+            let across = |side: &str| side == "left" || side == "right";
+            for (side, at, along) in sides {
+                // The middle of the other sides is where black meets white.
+                if across(side) != across(white) {
+                    continue;
+                }
+                // Hulls lie outside of the outline.
+                let near = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|off| {
+                    let [x, y] = [0, 1].map(|axis| at[axis] + off * along[axis]);
+                    ink.run([x, y], along)
+                });
+                let width = near.into_iter().fold(0.0, f32::max);
+                let wanted = if side == *white {
+                    12.0..=17.0
+                } else {
+                    1.0..=4.0
+                };
+                assert!(
+                    wanted.contains(&width),
+                    "{method}, white {white}: {side} {width} px"
+                );
+            }
+        }
+    }
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod chain;
 mod picture;
 
 use chain::{Chain, chains};
+use npr_core::crease::CreaseFrom;
 use npr_core::window::Window;
 use npr_render::{LineModel, LineModelOptions, LineOptions};
 use npr_scene::{LoadOptions, load};
@@ -85,7 +86,9 @@ fn score(path: &Path) -> Score {
         [(_, camera), ..] => *camera,
         [] => model.framing(SIZE[0] as f32 / SIZE[1] as f32, 0.7),
     };
+    // All folds: the more lines there are, the more there is to judge.
     let options = LineOptions {
+        crease_from: CreaseFrom::Faces,
         hidden: true,
         smooth: false,
         ..LineOptions::new(SIZE)

@@ -5,6 +5,7 @@ use std::path::Path;
 use npr_benches::lines::candidates::Wanted;
 use npr_benches::lines::subjects::{LineSubject, benchmark_camera};
 use npr_benches::table::Table;
+use npr_core::crease::{CreaseFrom, Creases};
 use npr_core::shape::Shape;
 use npr_render::{LineModel, LineModelOptions};
 use npr_vector::contour::{Eye, contours, facing};
@@ -77,7 +78,10 @@ fn counts(path: &Path) -> Outcome<[usize; 3]> {
     // The eye is further off than any point of the unit ball.
     let eye = Eye::new([x, y, z, 1.0], x.max(y).max(z) as f32);
     let loops = contours(shape, &facing(shape, &eye), &eye);
-    let lines = features(shape, libm::cos(Wanted::default().crease) as f32);
+    let lines = features(
+        shape,
+        Creases::over(Wanted::default().crease as f32, CreaseFrom::Faces),
+    );
     Ok([
         count(&loops, CurveNode::CONTOUR),
         count(&lines, CurveNode::BOUNDARY),

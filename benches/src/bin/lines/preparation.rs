@@ -1,7 +1,5 @@
 //! Preparing meshes: how fast, and whether what comes out is sound.
 
-use std::path::Path;
-
 use npr_benches::lines::analytic::Solid;
 use npr_benches::lines::subjects::{knot, scene_of};
 use npr_benches::machine;
@@ -19,17 +17,14 @@ use crate::way::{RUNS, times};
 /// Triangles of the meshes.
 const SIZES: [u32; 3] = [10_000, 100_000, 400_000];
 
-/// Times preparing, from raw triangles and from the cache, and checks what comes out.
+/// Times preparing from raw triangles, and checks what comes out.
 pub fn preparation(arguments: &Arguments) -> Outcome<()> {
     let sizes = &SIZES[..if arguments.quick { 1 } else { SIZES.len() }];
-    let folder = std::env::temp_dir().join(format!("npr-lines-{}", std::process::id()));
-    std::fs::create_dir_all(&folder)?;
     let mut table = Table::new([
         "mesh",
         "triangles",
-        "cold, ms",
+        "ms",
         "million triangles / s",
-        "cached, ms",
         "twins that do not return",
         "V - E + F",
         "expected",
@@ -43,10 +38,9 @@ pub fn preparation(arguments: &Arguments) -> Outcome<()> {
             ("knot", scene_of(knot(*size)), 0),
         ];
         for (name, scene, expected) in meshes {
-            table.add(name, cells(&scene, expected, &folder)?);
+            table.add(name, cells(&scene, expected)?);
         }
     }
-    std::fs::remove_dir_all(&folder)?;
     println!(
         "## Preparing meshes\n\nMedian of {RUNS} and, in brackets, the least. Load average {}.\n\n{table}",
         machine::load()
@@ -54,18 +48,16 @@ pub fn preparation(arguments: &Arguments) -> Outcome<()> {
     Ok(())
 }
 
-/// `expected` is Euler's characteristic; the cache lies in `folder`.
-fn cells(scene: &Scene, expected: i64, folder: &Path) -> Outcome<Vec<String>> {
+/// `expected` is Euler's characteristic.
+fn cells(scene: &Scene, expected: i64) -> Outcome<Vec<String>> {
     let options = LineModelOptions::default();
-    let cold = times(|| LineModel::new(scene, &options).map(drop))?;
-    let model = LineModel::cached(scene, &options, folder)?;
-    let cached = times(|| LineModel::cached(scene, &options, folder).map(drop))?;
+    let times = times(|| LineModel::new(scene, &options).map(drop))?;
+    let model = LineModel::new(scene, &options)?;
     let count = scene.triangle_count();
     Ok(vec![
         count.to_string(),
-        cold.to_string(),
-        format!("{:.2}", count as f64 / cold.median / 1e3),
-        cached.to_string(),
+        times.to_string(),
+        format!("{:.2}", count as f64 / times.median / 1e3),
         broken_twins(model.shape()).to_string(),
         euler(model.shape()).to_string(),
         expected.to_string(),

@@ -8,6 +8,7 @@ use npr_benches::lines::report::Bar;
 use npr_benches::lines::subjects::SIZE;
 use npr_benches::timing::{Times, elapsed_ms};
 use npr_core::camera::Camera;
+use npr_core::crease::CreaseFrom;
 use npr_render::{LineMethod, LineModel, LineOptions};
 use npr_style::Style;
 use npr_vector::pixel_contour::PublishedPath;
@@ -72,6 +73,7 @@ impl Way {
         LineOptions {
             kinds: wanted.kinds.iter().copied().collect(),
             crease: wanted.crease as f32,
+            crease_from: CreaseFrom::Faces,
             method: self.method,
             smooth: self.smooth,
             potrace: self.potrace,

@@ -1,8 +1,9 @@
 //! What the user said to `npr lines`.
 
-use super::DrawingArguments;
+use super::{CacheArguments, DrawingArguments};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
+use npr_core::crease::CreaseFrom;
 use npr_render::Kind;
 use npr_vector::artwork::Page;
 use std::path::PathBuf;
@@ -30,10 +31,9 @@ pub struct LinesArguments {
     /// The drawing.
     #[command(flatten)]
     pub drawing: DrawingArguments,
-    /// Keep prepared surfaces in this folder between runs, which saves time and changes no drawing; `off` keeps
-    /// none [default: the folder that NPR_CACHE_DIR names, else off].
-    #[arg(long, value_name = "DIR|off", help_heading = "Work")]
-    pub cache: Option<PathBuf>,
+    /// What is kept.
+    #[command(flatten)]
+    pub cache: CacheArguments,
 }
 
 /// What the user said about which lines are drawn.
@@ -43,10 +43,12 @@ pub struct LineArguments {
     /// Kinds of line, with commas between; marked lines are drawn in any case [default: those of the style].
     #[arg(long, value_name = "KIND,..", value_delimiter = ',', value_parser = kind())]
     pub kinds: Option<Vec<Kind>>,
-    /// Angle between face normals, in degrees, from which an edge is a crease [default: the style's, 40 unless
-    /// it says otherwise].
+    /// Angle in degrees from which an edge is a crease [default: the style's, 40 unless it says otherwise].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = crease_angle)]
     pub crease: Option<f32>,
+    /// What that angle lies between [default: the style's, normals unless it says otherwise].
+    #[arg(long, value_enum, value_name = "WHAT")]
+    pub crease_from: Option<CreaseFromName>,
     /// Angle, in degrees, from which a stroke is cut where it turns sharply; 180 never [default: the style's, 180
     /// unless it says otherwise].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = split_angle)]
@@ -111,6 +113,24 @@ pub enum MethodName {
     Image,
 }
 
+/// What the angle of a crease lies between.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum CreaseFromName {
+    /// The file's normals: none where shading runs on smoothly; the faces where the file has no normals.
+    Normals,
+    /// The faces, whatever the file's normals.
+    Faces,
+}
+
+impl From<CreaseFromName> for CreaseFrom {
+    fn from(name: CreaseFromName) -> Self {
+        match name {
+            CreaseFromName::Normals => Self::Normals,
+            CreaseFromName::Faces => Self::Faces,
+        }
+    }
+}
+
 /// Which painted lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum PaintedName {
@@ -170,7 +190,7 @@ fn page(text: &str) -> Result<Page, String> {
     })
 }
 
-/// An angle in degrees between the normals of two faces.
+/// The angle of a crease in degrees.
 fn crease_angle(text: &str) -> Result<f32, String> {
     degrees(text, 0.0)
 }

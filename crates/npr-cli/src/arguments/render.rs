@@ -1,6 +1,6 @@
 //! What the user said to `npr render`.
 
-use super::DrawingArguments;
+use super::{CacheArguments, DrawingArguments};
 use clap::Args;
 use npr_style::Background;
 use std::path::PathBuf;
@@ -18,6 +18,9 @@ pub struct RenderArguments {
     /// The drawing.
     #[command(flatten)]
     pub drawing: DrawingArguments,
+    /// What is kept.
+    #[command(flatten)]
+    pub cache: CacheArguments,
 }
 
 /// What the user said about the style.

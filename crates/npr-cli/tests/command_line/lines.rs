@@ -411,7 +411,7 @@ fn a_kept_surface_changes_no_byte() {
         let count = std::fs::read_dir(place.path("kept"))
             .expect("a folder")
             .count();
-        assert_eq!(count, 1);
+        assert_eq!(count, 2, "bends and intersections");
     }
     lines(&place, "sheet.glb", &["--cache", "nowhere"]).assert_fault(1, "no folder 'nowhere'");
     let mut command = place.command(&["lines", "sheet.glb"]);

@@ -87,6 +87,12 @@ fn a_wrong_override_exits_with_2() {
         .render("scene.obj", &["--style", "inkk"])
         .assert_fault(2, "did you mean 'ink'?");
     place
+        .render("scene.obj", &["--style", "comc"])
+        .assert_fault(2, "did you mean 'comic-silver'?");
+    place
+        .render("scene.obj", &["--set", "rule.0.x="])
+        .assert_fault(2, "write rule=[{ match = ");
+    place
         .render("scene.obj", &["--style", "missing.toml"])
         .assert_fault(1, "missing.toml");
     assert_eq!(place.names(), ["scene.obj"]);

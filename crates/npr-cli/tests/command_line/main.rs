@@ -6,6 +6,7 @@ mod colours;
 mod determinism;
 mod files;
 mod id_maps;
+mod idle;
 mod info;
 mod lines;
 mod looks;

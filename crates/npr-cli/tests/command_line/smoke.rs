@@ -136,7 +136,7 @@ fn the_number_of_spheres_is_the_users_for_both_kinds() {
     let strokes = |particles: &str, count: &str| {
         let command = [
             "lines",
-            "plume",
+            "puff",
             "--particles",
             particles,
             "--spheres",
@@ -186,7 +186,7 @@ fn particles_are_born_where_the_user_says() {
     let idle = smoke(&place, &["ball.vdb", "--emitter", "0,3,0*1.5"]);
     assert_eq!(
         idle.stderr,
-        "npr: warning: --emitter does nothing: smoke.particles is cover\n"
+        "npr: warning: --emitter is ignored: smoke.particles is cover\n"
     );
 }
 
@@ -208,14 +208,20 @@ fn keys_that_cannot_act_are_named() {
         assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
         outcome.stderr
     };
-    let wanted = "npr: warning: smoke.sigma does nothing: smoke.method is billboards\n\
-                  npr: warning: smoke.line.width does nothing: smoke.method is billboards\n";
+    let wanted = "npr: warning: 'smoke.line.width' is ignored: billboards have the published line\n\
+                  npr: warning: 'smoke.sigma' is ignored: \
+                  smoke.method is billboards, which have one tone without smoke.heat\n";
     assert_eq!(told(&["smoke", "ball.vdb"]), wanted);
     assert_eq!(
         told(&["render", "scene.obj", "--volume", "ball.vdb"]),
         wanted
     );
-    assert_eq!(told(&["render", "scene.obj"]), "");
+    assert_eq!(
+        told(&["render", "scene.obj"]),
+        "npr: warning: 'smoke.line.width', 'smoke.method' and 'smoke.sigma' are ignored: \
+         the scene has no smoke\n\
+         npr: warning: --spheres is ignored: the scene has no smoke\n"
+    );
 }
 
 #[test]

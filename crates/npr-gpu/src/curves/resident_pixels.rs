@@ -8,6 +8,7 @@ use super::ranking::{Scheme, read_rows};
 use crate::engine::{Engine, PassTime, Session};
 use crate::graph::{Graph, ResourceId};
 use bytemuck::Pod;
+use npr_core::crease::Creases;
 use npr_core::shape::Shape;
 use npr_vector::pixel_contour::edge::drawn_edges;
 use npr_vector::pixel_contour::segment::PixelView;
@@ -81,7 +82,7 @@ struct Plan {
     hiding: Hiding,
     path: PublishedPath,
     room: PixelRoom,
-    crease_cos: f32,
+    creases: Creases,
     is_drawn: Vec<bool>,
 }
 
@@ -164,7 +165,7 @@ impl<'a> ResidentPixels<'a> {
             hiding,
             path: *path,
             room: self.room,
-            crease_cos: on.crease_cos,
+            creases: on.creases,
             is_drawn: on.is_drawn.to_vec(),
         };
         let last = self.made.take().filter(|made| made.plan == plan);
@@ -186,7 +187,7 @@ impl Made {
         let contours = add_pixel_contours(&mut graph, shape, picture, plan.room, scheme);
         let strips = add_strips(&mut graph, &contours, &plan.path);
         let mut session = engine.prepare(graph)?;
-        let edges = drawn_edges(shape, plan.crease_cos, &plan.is_drawn);
+        let edges = drawn_edges(shape, plan.creases, &plan.is_drawn);
         contours.write_shape(session.as_mut(), shape, &edges)?;
         Ok(Self {
             plan,

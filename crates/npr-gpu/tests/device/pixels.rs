@@ -81,7 +81,7 @@ fn with_scene(
         view: &view,
         eye: &eye_of(shape, &projector),
         kinds: CurveNode::KINDS,
-        crease_cos: 0.766,
+        creases: 0.766.into(),
         is_drawn: &[],
     };
     test(&scene, &scene_depths(shape, &view));
@@ -155,7 +155,7 @@ fn every_pass_agrees_with_its_twin() {
                 add_pixel_contours(&mut graph, scene.shape, picture, room, Scheme::WYLLIE);
             let strips = add_strips(&mut graph, &contours, &path);
             let mut session = Processor.prepare(graph.clone()).unwrap();
-            let edges = drawn_edges(scene.shape, scene.crease_cos, scene.is_drawn);
+            let edges = drawn_edges(scene.shape, scene.creases, scene.is_drawn);
             contours
                 .write_shape(session.as_mut(), scene.shape, &edges)
                 .unwrap();

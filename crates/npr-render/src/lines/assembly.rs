@@ -14,6 +14,8 @@ use std::collections::BTreeMap;
 #[derive(Debug)]
 pub(crate) struct Placed {
     rest: Vec<[f32; 3]>,
+    /// The file's normals; zero where a part has none, empty where all have none.
+    normals: Vec<[f32; 3]>,
     world: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
     /// Triangles of beams: no surface, but in the picture.
@@ -99,6 +101,7 @@ impl Assembly {
         self.meshes.push(Placed {
             world: world.collect(),
             rest: joined.positions,
+            normals: joined.normals,
             surfaces: drawn.iter().map(|(_, surface)| *surface).collect(),
             marks: marked_edges(&triangles, &marked),
             wires,
@@ -169,16 +172,6 @@ impl Assembly {
         surfaces.collect()
     }
 
-    /// The same without names and colours, which change no geometry.
-    pub fn plain_surfaces(&self) -> Vec<Surface> {
-        let surfaces = self.parts.iter().map(|info| Surface {
-            object: info.object,
-            material: info.material,
-            ..Surface::default()
-        });
-        surfaces.collect()
-    }
-
     /// Positions in the world of all vertices that triangles and wires use.
     pub fn used_points(&self) -> Vec<[f32; 3]> {
         self.meshes.iter().flat_map(Placed::used_points).collect()
@@ -203,6 +196,7 @@ impl Placed {
         PlacedMesh {
             rest: &self.rest,
             world: &self.world,
+            normals: &self.normals,
             triangles: &self.triangles,
             surfaces: &self.surfaces,
             marks: &self.marks,

@@ -16,7 +16,9 @@ use npr_core::window::View;
 use npr_style::compose::LUMA;
 use npr_vector::draw::{LineSettings, Prepared, StrokeLook};
 use npr_vector::graph::CurveNode;
-use npr_vector::image_line::{BYTES_PER_PIXEL, ImageScene, SurfacePicture, painted, strokes_from};
+use npr_vector::image_line::{
+    BYTES_PER_PIXEL, ImageScene, SurfacePicture, painted_lines, strokes_from,
+};
 use npr_vector::project::Projector;
 use npr_vector::seat::Seat;
 use npr_vector::stroke::Stroke;
@@ -50,7 +52,7 @@ impl LineModel {
             view: &of_frame,
             is_drawn: &paint.lined_surfaces(),
             kinds: settings.kinds,
-            crease_cos: npr_core::math::cos(options.crease),
+            creases: options.creases(),
             depth_threshold: options.depth_threshold,
         };
         let picture = SurfacePicture::new(&scene);
@@ -69,7 +71,7 @@ impl LineModel {
             let lines = picture.borders(&all, None).ink();
             let lightness = lightness(&self.shape, map, (&of_frame, view.projector), &picture);
             for rule in wanted.rules() {
-                let mut ink = painted(&picture, &lightness, &lines, &rule);
+                let mut ink = painted_lines(&scene, &picture, &lightness, &lines, &rule);
                 ink.retain(|pixel| picture.is_clear(veil.as_deref(), pixel));
                 strokes.extend(strokes_from(ink.runs(on)?, &self.shape, settings, look));
             }

@@ -1,5 +1,7 @@
 //! What is asked of a line model and of a drawing.
 
+use crate::look;
+use npr_core::crease::{CreaseFrom, Creases};
 use npr_style::Style;
 use npr_vector::draw::Method;
 use npr_vector::graph::CurveNode;
@@ -97,8 +99,10 @@ pub struct LineOptions {
     pub size: [u32; 2],
     /// The kinds that are drawn; default all.
     pub kinds: KindSet,
-    /// Angle between face normals, in radians, from which an edge is a crease; default 40 degrees.
+    /// Angle in radians from which an edge is a crease; default that of styles, 40 degrees.
     pub crease: f32,
+    /// What that angle lies between; default the file's normals.
+    pub crease_from: CreaseFrom,
     /// How contours are found; default along mesh edges.
     pub method: LineMethod,
     /// Whether strokes are smoothed, their ends joined, and what is too short to read left out; default true.
@@ -186,7 +190,8 @@ impl LineOptions {
         Self {
             size,
             kinds: KindSet::ALL,
-            crease: 40.0_f32.to_radians(),
+            crease: npr_style::CREASE_ANGLE_DEG.to_radians(),
+            crease_from: CreaseFrom::default(),
             method: LineMethod::default(),
             smooth: true,
             hidden: false,
@@ -206,11 +211,17 @@ impl LineOptions {
         Self {
             kinds: KindSet::of_style(style),
             crease: style.line.crease_angle_deg.to_radians(),
+            crease_from: look::creases(style).from,
             split: Self::split_at(style.line.split_angle_deg),
             potrace: style.line.potrace.path(),
             depth_threshold: style.detect.depth_threshold(),
             ..Self::new(size)
         }
+    }
+
+    /// Which edges are creases.
+    pub(crate) fn creases(&self) -> Creases {
+        Creases::over(self.crease, self.crease_from)
     }
 
     /// What [`LineOptions::split`] is for an angle in degrees: no line turns by more than 180, which stands for never.

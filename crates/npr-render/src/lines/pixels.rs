@@ -59,7 +59,7 @@ impl LineModel {
             view: &of_frame,
             eye: &eye_of(&self.shape, view.projector),
             kinds: options.kinds.bits(),
-            crease_cos: npr_core::math::cos(options.crease),
+            creases: options.creases(),
             is_drawn: &paint.lined_surfaces(),
         };
         find.pixels(&scene, &path_of(options), veil.as_deref())

@@ -5,7 +5,7 @@ use super::assembly::{Assembly, place_key};
 use crate::error::RenderError;
 use crate::model::PartInfo;
 use npr_core::budget::Budget;
-use npr_core::shape::{Shape, Surface};
+use npr_core::shape::Shape;
 use npr_scene::Scene;
 
 /// Bytes of a shape and its hierarchy for every triangle, its three half-edges and its share of the vertices.
@@ -35,14 +35,10 @@ pub(super) fn check_budget(
     Ok(())
 }
 
-/// The welded shape of an assembly, with these surfaces.
-pub(super) fn build(
-    assembly: &Assembly,
-    surfaces: Vec<Surface>,
-    options: &LineModelOptions,
-) -> Shape {
+/// The welded shape of an assembly.
+pub(super) fn build(assembly: &Assembly, options: &LineModelOptions) -> Shape {
     let mut shape = Shape {
-        surfaces,
+        surfaces: assembly.surfaces(),
         ..Shape::default()
     };
     for mesh in &assembly.meshes {

@@ -1,6 +1,7 @@
 //! How wide lines are at the vertices of a shape.
 
 use crate::bend::{Bend, bends};
+use crate::kept::Cache;
 use crate::look;
 use npr_core::geometry::{Influence, NONE, Part, Vertex};
 use npr_core::outline::{Outline, width_of_curvature};
@@ -32,7 +33,7 @@ pub(crate) struct ShapeBends {
 
 impl ShapeBends {
     /// Measures a shape of a bounding radius; curvatures are kept in 1 / radius. O(n), parallel.
-    pub fn new(shape: &Shape, radius: f32) -> Self {
+    pub fn new(cache: &Cache, shape: &Shape, radius: f32) -> Self {
         let vertices: Vec<u32> = (0..shape.positions.len() as u32).collect();
         let weld = Weld {
             of_vertex: vertices.clone(),
@@ -42,7 +43,8 @@ impl ShapeBends {
             .map(|edge| edge_between(shape.ends(edge)))
             .collect();
         let normals = npr_mesh::smooth_normals(&shape.positions, &shape.faces, &weld);
-        let mut bends = bends(&shape.positions, &shape.faces, &weld, &edges, &normals, 1.0);
+        let (positions, faces) = (&shape.positions, &shape.faces);
+        let mut bends = bends(cache, positions, faces, &weld, &edges, &normals, 1.0);
         for bend in &mut bends {
             bend.curvatures = bend.curvatures.map(|curvature| curvature * radius);
             bend.tightest *= radius;

@@ -1,8 +1,10 @@
-//! Surfaces kept between runs.
+//! What is costly to prepare, kept between runs: how surfaces bend, where they cut each other, how strokes of hatching
+//! lie.
 
 use crate::scenes::{SIZE, add, camera_at, model_of, scene_of};
+use npr_gpu::processor::Processor;
 use npr_mesh::testing::{cube, icosphere, mapped};
-use npr_render::{Drawing, LineModel, LineModelOptions, LineOptions};
+use npr_render::{Drawing, LineModel, LineModelOptions, LineOptions, Model, Stage, StageOptions};
 use npr_scene::Scene;
 use npr_style::Style;
 use std::path::{Path, PathBuf};
@@ -40,8 +42,10 @@ fn a_kept_surface_draws_the_same() {
     let fresh = draw(&model_of(&scene));
     assert_eq!(cached(&scene, folder.path()), fresh);
     let files = files_in(folder.path());
-    assert_eq!(files.len(), 1);
-    assert_eq!(files[0].extension().expect("an ending"), "nprcache");
+    assert_eq!(files.len(), 2, "bends and intersections");
+    for file in &files {
+        assert_eq!(file.extension().expect("an ending"), "nprcache");
+    }
     assert_eq!(cached(&scene, folder.path()), fresh);
     assert_eq!(files_in(folder.path()), files);
 
@@ -54,7 +58,7 @@ fn a_kept_surface_draws_the_same() {
 
     scene.meshes[0].parts[0].positions[0][0] += 0.5;
     cached(&scene, folder.path());
-    assert_eq!(files_in(folder.path()).len(), 2);
+    assert_eq!(files_in(folder.path()).len(), 4);
 }
 
 #[test]
@@ -63,16 +67,41 @@ fn a_damaged_file_is_made_anew() {
     let folder = tempfile::tempdir().expect("a folder");
     let scene = scene_of(&icosphere(2));
     let fresh = cached(&scene, folder.path());
-    let file = files_in(folder.path()).remove(0);
-    let sound = std::fs::read(&file).expect("the file");
-    let half = sound.len() / 2;
-    let mut flipped = sound.clone();
-    flipped[half] ^= 0x10;
-    for damaged in [&[][..], b"nprcache", &sound[..half], &flipped] {
-        std::fs::write(&file, damaged).expect("the test's own file");
-        assert_eq!(cached(&scene, folder.path()), fresh);
-        assert_eq!(std::fs::read(&file).expect("the file"), sound);
+    let files = files_in(folder.path());
+    assert_eq!(files.len(), 2);
+    for file in files {
+        let sound = std::fs::read(&file).expect("the file");
+        let flips = (0..sound.len()).step_by(1 + sound.len() / 50).map(|at| {
+            let mut flipped = sound.clone();
+            flipped[at] ^= 0x10;
+            flipped
+        });
+        let cuts = [0, 8, 64, sound.len() / 2].map(|length| sound[..length].to_vec());
+        for damaged in flips.chain(cuts) {
+            std::fs::write(&file, damaged).expect("the test's own file");
+            assert_eq!(cached(&scene, folder.path()), fresh);
+            assert_eq!(std::fs::read(&file).expect("the file"), sound);
+        }
     }
+}
+
+#[test]
+fn frames_keep_bends_and_the_charts_of_their_hatching() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = scene_of(&icosphere(3));
+    let style = Style::preset("crosshatch").expect("a preset");
+    let frame = |folder: Option<&Path>| {
+        let model = Model::cached(&scene, folder).expect("small");
+        let options = StageOptions::new(SIZE);
+        let mut stage = Stage::new(&Processor, &model, &style, &options).expect("prepared");
+        stage.draw(&camera_at([3.0, 2.0, 5.0])).expect("drawn").rgba
+    };
+    let fresh = frame(None);
+    assert!(frame(Some(folder.path())) == fresh);
+    let files = files_in(folder.path());
+    assert_eq!(files.len(), 2, "bends and charts");
+    assert!(frame(Some(folder.path())) == fresh);
+    assert_eq!(files_in(folder.path()), files);
 }
 
 #[test]

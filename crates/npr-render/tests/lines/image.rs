@@ -397,3 +397,141 @@ fn strokes_stay_where_lines_meet() {
         );
     }
 }
+
+/// A vase with a picture around it.
+fn painted_vase(is_dark: impl Fn(f32, f32) -> bool) -> Scene {
+    let (around, up) = (96u32, 48u32);
+    let corner = |i: u32| {
+        let (u, v) = (
+            (i % (around + 1)) as f32 / around as f32,
+            (i / (around + 1)) as f32 / up as f32,
+        );
+        let radius = 0.55 + 0.35 * npr_core::math::sin(std::f32::consts::PI * (1.1 * v + 0.1));
+        let turn = std::f32::consts::TAU * (u - 0.5);
+        let place = [
+            radius * npr_core::math::sin(turn),
+            2.0 * v - 1.0,
+            radius * npr_core::math::cos(turn),
+        ];
+        (place, [u, 1.0 - v])
+    };
+    let corners = (around + 1) * (up + 1);
+    let (positions, uvs) = (0..corners).map(corner).unzip();
+    let quads = (0..up).flat_map(|row| (0..around).map(move |column| row * (around + 1) + column));
+    let triangles = quads.flat_map(|a| {
+        let (b, c, d) = (a + 1, a + around + 1, a + around + 2);
+        [[a, b, d], [a, d, c]]
+    });
+    painted(positions, uvs, triangles.collect(), is_dark)
+}
+
+/// A board that lies before the eye, with a picture on it.
+fn painted_board(is_dark: impl Fn(f32, f32) -> bool) -> Scene {
+    let positions = vec![
+        [-1.0, 0.0, -1.0],
+        [1.0, 0.0, -1.0],
+        [1.0, 0.0, 1.0],
+        [-1.0, 0.0, 1.0],
+    ];
+    let uvs = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    painted(positions, uvs, vec![[0, 2, 1], [0, 3, 2]], is_dark)
+}
+
+/// A mesh whose picture is dark blue where `is_dark` says so of texture coordinates, else cream.
+fn painted(
+    positions: Vec<[f32; 3]>,
+    uvs: Vec<[f32; 2]>,
+    triangles: Vec<[u32; 3]>,
+    is_dark: impl Fn(f32, f32) -> bool,
+) -> Scene {
+    let mut scene = painted_wall();
+    let side = 512;
+    let pixel = |i: u32| {
+        let [u, v] = [i % side, i / side].map(|at| (at as f32 + 0.5) / side as f32);
+        if is_dark(u, v) {
+            [30, 40, 110, 255]
+        } else {
+            [235, 230, 215, 255]
+        }
+    };
+    scene.images[0] = Image {
+        name: "paint".to_owned(),
+        width: side,
+        height: side,
+        rgba: (0..side * side).flat_map(pixel).collect(),
+    };
+    let part = &mut scene.meshes[0].parts[0];
+    (part.positions, part.uvs, part.triangles) = (positions, Some(uvs), triangles);
+    scene
+}
+
+/// Painted strokes in a picture of 640 x 400 pixels.
+fn painted_strokes(scene: &Scene, eye: [f32; 3], tone: PaintedLines) -> Vec<Stroke> {
+    let options = LineOptions {
+        painted: Some(tone),
+        ..LineOptions::new([640, 400])
+    };
+    let drawing = drawn(&model_of(scene, true), &camera_at(eye), &options);
+    let strokes = drawing.strokes.into_iter();
+    strokes
+        .filter(|stroke| stroke.kind == Kind::Marked)
+        .collect()
+}
+
+/// How far a place of the picture is from the loop around (u, v), in half widths of that; below 1 it is painted.
+fn off_loop(u: f32, v: f32, at: [f32; 2], radii: [f32; 2]) -> f32 {
+    let away = ((u - at[0]) / radii[0]).hypot((v - at[1]) / radii[1]);
+    (away - 1.0).abs() / 0.07
+}
+
+#[test]
+fn loops_painted_on_a_vase_become_closed_strokes() {
+    let loops = [([0.5, 0.38], [0.07, 0.09]), ([0.5, 0.62], [0.06, 0.06])];
+    let is_painted = |u: f32, v: f32| {
+        loops
+            .iter()
+            .any(|(at, radii)| off_loop(u, v, *at, *radii) < 1.0)
+    };
+    for eye in [[0.0, 0.0, 4.0], [0.8, 0.6, 4.0]] {
+        let strokes = painted_strokes(&painted_vase(is_painted), eye, PaintedLines::Dark);
+        assert_eq!(strokes.len(), 2, "from {eye:?}");
+        assert!(
+            strokes
+                .iter()
+                .all(|stroke| stroke.closed && stroke.length() > 100.0)
+        );
+    }
+}
+
+#[test]
+fn bands_around_a_vase_are_strokes_and_the_chequer_between_them_none() {
+    let is_band = |v: f32| (0.385..0.395).contains(&v) || (0.625..0.635).contains(&v);
+    let is_cell = |u: f32, v: f32| {
+        // Three rows of cells that are as wide as high where the vase is widest.
+        (10.0..13.0).contains(&(22.0 * v)) && ((u * 64.0) as u32 + (v * 22.0) as u32) % 2 == 1
+    };
+    let vase = painted_vase(|u, v| is_band(v) || is_cell(u, v));
+    for eye in [[0.0, 1.0, 4.0], [1.5, 1.5, 3.6]] {
+        let dark = painted_strokes(&vase, eye, PaintedLines::Dark);
+        assert_eq!(dark.len(), 2, "from {eye:?}");
+        assert!(dark.iter().all(|stroke| stroke.length() > 200.0));
+        let both = painted_strokes(&vase, eye, PaintedLines::Both);
+        let (bands, others): (Vec<_>, Vec<_>) = both.iter().partition(|s| s.length() > 200.0);
+        assert_eq!(bands.len(), 2, "from {eye:?}");
+        // Of some fifty light cells two that touch beside the rim may look like a line.
+        assert!(others.len() <= 1, "from {eye:?}: {}", others.len());
+    }
+}
+
+#[test]
+fn a_chequer_board_has_no_painted_lines() {
+    for cells in [6.0, 12.0, 24.0] {
+        let board = painted_board(|u, v| ((u * cells) as u32 + (v * cells) as u32) % 2 == 1);
+        for eye in [[0.5, 3.5, 1.0], [1.5, 2.5, 2.0], [0.0, 2.0, 3.0]] {
+            for tone in [PaintedLines::Dark, PaintedLines::Light, PaintedLines::Both] {
+                let strokes = painted_strokes(&board, eye, tone);
+                assert_eq!(strokes.len(), 0, "{cells} cells, {tone:?}, from {eye:?}");
+            }
+        }
+    }
+}

@@ -2,6 +2,7 @@
 
 mod cache;
 mod colors;
+mod creases;
 mod image;
 mod meaning;
 mod minding;

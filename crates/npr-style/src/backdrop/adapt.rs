@@ -147,7 +147,7 @@ pub fn adapted_light(line: [f32; 3], rim: [f32; 3], ground: &Ground, rule: &Rule
         false => oklab_of_light(rim),
     };
     let share = smoothstep(0.0, target * HUE_AT, step);
-    at_place(to, own, edge, share, rule)
+    at_place(to, to > from, [own, edge], share, rule)
 }
 
 /// The published method in linear light of 0..1, as passes do it.
@@ -292,26 +292,32 @@ fn at_lightness(lightness: f32, own: [f32; 3], edge: [f32; 3], share: f32) -> [f
 }
 
 /// The same for a place on the scale of the rule's measure: of WCAG the lightness at which the fitted colour has that luminance.
-fn at_place(place: f32, own: [f32; 3], edge: [f32; 3], share: f32, rule: &Rule) -> [f32; 3] {
-    let by_luminance = rule.measure == Rule::WCAG;
+///
+/// Luminance may jump where chroma gives way; of the colours on both sides of it that one is taken which the line goes
+/// towards (`brighter` or not), so that it does not fall short.
+fn at_place(
+    place: f32,
+    brighter: bool,
+    [own, edge]: [[f32; 3]; 2],
+    share: f32,
+    rule: &Rule,
+) -> [f32; 3] {
+    if rule.measure != Rule::WCAG {
+        return at_lightness(place, own, edge, share);
+    }
     let luminance = luminance_at(place);
-    let rounds = if by_luminance { FIT_ROUNDS } else { 0 };
     let (mut low, mut high) = (0.0, 1.0);
-    let mut light = [0.0; 3];
-    for _ in 0..=rounds {
-        let lightness = if by_luminance {
-            0.5 * (low + high)
-        } else {
-            place
-        };
-        light = at_lightness(lightness, own, edge, share);
+    let (mut dark, mut bright) = ([0.0; 3], [1.0; 3]);
+    for _ in 0..=FIT_ROUNDS {
+        let lightness = 0.5 * (low + high);
+        let light = at_lightness(lightness, own, edge, share);
         if dot(LUMA, light) < luminance {
-            low = lightness;
+            (low, dark) = (lightness, light);
         } else {
-            high = lightness;
+            (high, bright) = (lightness, light);
         }
     }
-    light
+    if brighter { bright } else { dark }
 }
 
 fn is_in_gamut(light: [f32; 3], room: f32) -> bool {

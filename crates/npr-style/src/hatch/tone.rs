@@ -209,6 +209,7 @@ mod tests {
             assert_eq!([ink(s, 0.25), ink(s, 0.75)], [1.0, 0.0], "at {s}");
         }
         assert_eq!([ink(0.4, 0.5), ink(0.6, 0.5)], [1.0, 0.0]);
+        assert!((tone_value(0.3, 0.4) - 0.1).abs() < 1e-6, "S + 2 (L - 0.5)");
     }
 
     #[test]

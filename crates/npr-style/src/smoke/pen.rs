@@ -103,8 +103,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
-        /// What the passes of smoke draw is read again, but for what bytes round off: half a step of each colour's byte, and of
-        /// the line's as much again as there is tone, all as large as the part beside the line is small.
+        /// What the passes of smoke draw is read again, but for what bytes round off: half a step of each colour's
+        /// byte, and of the line's as much again as there is tone, all as large as the part beside the line is small.
         #[test]
         fn tones_come_back_from_bytes(tone in 0f32..=1.0, line in 0f32..=0.9) {
             check_tone_of_bytes(tone, line)?;

@@ -78,7 +78,8 @@ impl Network {
                 for node in &cluster.nodes {
                     is_changed[*node as usize] = true;
                 }
-                self.join(&cluster.nodes);
+                let bridges = self.bridges(&cluster.nodes);
+                self.join(&cluster.nodes, &bridges);
             }
             if found.is_empty() {
                 return;
@@ -97,7 +98,9 @@ impl Network {
             if self.overlap(branch).is_some() {
                 let mut ends = self.branches[branch as usize].ends;
                 ends.sort_unstable();
-                self.join(&ends);
+                let bridges =
+                    self.between(&ends, |network, between| network.is_within(between, &ends));
+                self.join(&ends, &bridges);
             }
         }
     }
@@ -192,26 +195,72 @@ impl Network {
 
     /// The arms of a cluster; none unless they are four or six and each is as long as the cluster.
     fn arms_of(&self, cluster: &Cluster) -> Option<Vec<Arm>> {
+        let bridges = self.bridges(&cluster.nodes);
         let mut arms = Vec::new();
         for node in &cluster.nodes {
-            for branch in &self.nodes[*node as usize].branches {
-                let ends = self.branches[*branch as usize].ends;
-                let is_inside = ends.iter().all(|end| cluster.nodes.contains(end));
-                if is_inside {
+            let branches = &self.nodes[*node as usize].branches;
+            for (k, branch) in branches.iter().enumerate() {
+                if bridges.contains(branch) {
                     continue;
                 }
                 if arms.len() == 6 {
                     return None;
                 }
-                arms.push(self.arm_from(*branch, *node, cluster.extent)?);
+                // A loop at the node is listed there once for each of its ends.
+                let end = match self.branches[*branch as usize].ends {
+                    [a, b] if a == b => usize::from(branches[..k].contains(branch)),
+                    [a, _] => usize::from(a != *node),
+                };
+                arms.push(self.arm_from(*branch, end, cluster.extent)?);
             }
         }
         matches!(arms.len(), 4 | 6).then_some(arms)
     }
 
-    /// Where a branch leads from a junction, beyond the junction's ink; none where it is shorter than `extent`.
-    fn arm_from(&self, branch: u32, node: u32, extent: f64) -> Option<Arm> {
+    /// The branches between some junctions that are short enough to be torn out of a crossing: a longer one is a loop of the line.
+    fn bridges(&self, nodes: &[u32]) -> Vec<u32> {
+        let radii = nodes.iter().map(|node| self.radius(*node));
+        let longest = 1.5 * (2.0 * TORN * radii.fold(0.0, f64::max) + SHARED_PX);
+        self.between(nodes, |network, branch| {
+            network.branches[branch as usize].pixels.len() as f64 <= longest
+        })
+    }
+
+    /// The branches with both ends in some junctions of which `which` holds, each once.
+    fn between(&self, nodes: &[u32], which: impl Fn(&Self, u32) -> bool) -> Vec<u32> {
+        let mut between: Vec<u32> = nodes
+            .iter()
+            .flat_map(|node| &self.nodes[*node as usize].branches)
+            .copied()
+            .filter(|branch| {
+                let ends = self.branches[*branch as usize].ends;
+                ends.iter().all(|end| nodes.contains(end)) && which(self, *branch)
+            })
+            .collect();
+        between.sort_unstable();
+        between.dedup();
+        between
+    }
+
+    /// Whether a branch stays within the discs of ink around some junctions: there is no white beside it to go around.
+    fn is_within(&self, branch: u32, nodes: &[u32]) -> bool {
+        let discs: Vec<(DVec2, f64)> = nodes
+            .iter()
+            .map(|node| (self.middle(*node), self.radius(*node)))
+            .collect();
+        let is_in = |place: DVec2| {
+            discs
+                .iter()
+                .any(|(middle, radius)| middle.distance(place) <= *radius)
+        };
+        let pixels = &self.branches[branch as usize].pixels;
+        pixels.iter().all(|pixel| is_in(self.place(*pixel)))
+    }
+
+    /// Where a branch leads from one of its ends, beyond the junction's ink; none where it is shorter than `extent`.
+    fn arm_from(&self, branch: u32, end: usize, extent: f64) -> Option<Arm> {
         let there = &self.branches[branch as usize];
+        let node = there.ends[end];
         let radius = self.radius(node);
         let count = there.pixels.len();
         let skip = (radius.ceil() as usize).min(count - 1);
@@ -220,7 +269,7 @@ impl Network {
         }
         let [least, most] = ARM_PIXELS;
         let last = (skip + (6.0 * radius).clamp(least, most) as usize).min(count - 1);
-        let is_first = there.ends[0] == node;
+        let is_first = end == 0;
         let places: Vec<DVec2> = (skip..=last)
             .map(|k| self.place(there.pixels[if is_first { k } else { count - 1 - k }]))
             .collect();
@@ -230,19 +279,11 @@ impl Network {
         })
     }
 
-    /// Makes one of several junctions, in the place of the first, and drops the branches between them.
-    fn join(&mut self, nodes: &[u32]) {
-        let is_inside = |ends: [u32; 2]| ends.iter().all(|end| nodes.contains(end));
-        let mut inner: Vec<u32> = nodes
-            .iter()
-            .flat_map(|node| &self.nodes[*node as usize].branches)
-            .copied()
-            .filter(|branch| is_inside(self.branches[*branch as usize].ends))
-            .collect();
-        inner.sort_unstable();
-        inner.dedup();
-        for branch in inner {
-            self.remove(branch);
+    /// Makes one of several junctions, in the place of the first, without `bridges` between them; what else runs from one to another is
+    /// a loop from then on.
+    fn join(&mut self, nodes: &[u32], bridges: &[u32]) {
+        for branch in bridges {
+            self.remove(*branch);
         }
         let first = nodes[0];
         for node in &nodes[1..] {

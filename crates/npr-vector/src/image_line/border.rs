@@ -54,8 +54,8 @@ impl Borders {
         veil: Option<&[f32]>,
     ) -> Self {
         let outline = Outline {
-            crease_cos: scene.crease_cos,
-            normal_cos: scene.crease_cos,
+            crease_cos: scene.creases.cos,
+            normal_cos: scene.creases.cos,
             depth_threshold: scene.depth_threshold,
             kinds: Outline::CONTOUR | Outline::BORDER | Outline::CREASE | Outline::MATERIAL,
             detects: DETECTS,
@@ -299,7 +299,8 @@ impl Finder<'_> {
         }
         let edges = (3 * a..3 * a + 3).map(|half_edge| shape.edge_of[half_edge as usize]);
         edges.into_iter().any(|edge| {
-            let is_sharp = shape.dihedral_cos[edge as usize] < self.scene.crease_cos;
+            let creases = self.scene.creases;
+            let is_sharp = shape.fold_cos(edge, creases.from) < creases.cos;
             is_sharp && shape.sides(edge).iter().any(|side| side / 3 == b)
         })
     }

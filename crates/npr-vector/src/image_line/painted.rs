@@ -1,9 +1,11 @@
 //! Lines painted in textures.
 
 use super::ink::LineInk;
-use super::picture::SurfacePicture;
+use super::picture::{ImageScene, SurfacePicture};
+use super::slender::{Paint, slender};
+use crate::detect::GRAZING_SLOPE;
 use crate::graph::CurveNode;
-use npr_core::geometry::NONE;
+use npr_core::geometry::{GPixel, NONE};
 use rayon::prelude::*;
 
 /// Whether painted lines are darker or lighter than what is beside them.
@@ -19,7 +21,8 @@ pub enum PaintedTone {
 /// What of a texture is a painted line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PaintedRule {
-    /// Half the greatest width, in pixels: what is dark (or light) over more is a surface, not a line.
+    /// Half the usual greatest width, in pixels: what is dark (or light) over more is a surface, not a line. Here and
+    /// there a line may be up to twice as wide, where most of it is not.
     pub reach_px: u32,
     /// How much darker (or lighter) than beside it a line is, in shares of white as seen (sRGB).
     pub contrast: f32,
@@ -46,8 +49,51 @@ impl Default for PaintedRule {
     }
 }
 
-/// Marks lines that are darker, or lighter, than the paint beside them: what `lightness` (0..1, one a pixel) shows of textures. Where it is no
-/// number there is no paint, neither of a line nor beside one.
+/// Marks lines that are darker, or lighter, than the paint beside them, as [`painted`] finds them: of what hangs
+/// together only what is much longer than wide.
+///
+/// Corners of dark areas, spots and the cells of a chequer are no lines, even where cells hang together at their
+/// corners. A line may swell to twice the width of the rule as long as most of it keeps to that, and run where its
+/// surface turns away as long as most of it does not: there everything looks slender.
+pub fn painted_lines(
+    scene: &ImageScene<'_>,
+    picture: &SurfacePicture,
+    lightness: &[f32],
+    lines: &LineInk,
+    rule: &PaintedRule,
+) -> LineInk {
+    let with_reach = |reach_px: u32| {
+        let rule = PaintedRule { reach_px, ..*rule };
+        painted(picture, lightness, lines, &rule)
+    };
+    let is_ink = |ink: &LineInk| ink.owners.iter().map(|owner| *owner != NONE).collect();
+    let mut wide = with_reach(2 * rule.reach_px);
+    let [all, thin]: [Vec<bool>; 2] = [is_ink(&wide), is_ink(&with_reach(rule.reach_px))];
+    if !all.is_empty() {
+        let window = scene.window();
+        let faces_eye = |pixel: &GPixel| {
+            let slope = scene.view.slope_of(&window, pixel.depth, pixel.plane_step);
+            slope < GRAZING_SLOPE
+        };
+        let kept = slender(&Paint {
+            ink: &all,
+            thin: &thin,
+            ground: &lightness
+                .iter()
+                .map(|light| !light.is_nan())
+                .collect::<Vec<bool>>(),
+            width: picture.size[0] as usize,
+            facing: &picture.pixels.iter().map(faces_eye).collect::<Vec<bool>>(),
+            usual_width: 2 * rule.reach_px as usize,
+            around: 5 * rule.reach_px as usize,
+        });
+        wide.retain(|pixel| kept[pixel]);
+    }
+    wide
+}
+
+/// Marks what is darker, or lighter, than the paint beside it: what `lightness` (0..1, one a pixel) shows of textures.
+/// Where it is no number there is no paint, neither of a line nor beside one.
 ///
 /// The black top-hat of a square [Serra 1982]: where the picture closed by the square is lighter than itself by the contrast, something
 /// dark lies that no square fits into. Light lines are the dark ones of the negative. Only pixels that show the same object count as beside

@@ -5,6 +5,7 @@ use crate::gbuffer::{Surfaces, resolve};
 use crate::pixel_contour::segment::PixelView;
 use crate::pixel_contour::surface::fill;
 use crate::zero_set::CornerNormals;
+use npr_core::crease::Creases;
 use npr_core::geometry::{GPixel, NONE, Part, PosedVertex, Triangle};
 use npr_core::raster::triangle_of;
 use npr_core::shape::Shape;
@@ -25,8 +26,8 @@ pub struct ImageScene<'a> {
     pub is_drawn: &'a [bool],
     /// Kinds of line that are looked for, bits of [`CurveNode::KINDS`](crate::graph::CurveNode::KINDS).
     pub kinds: u32,
-    /// Cosine of the angle between normals from which a bend is a crease.
-    pub crease_cos: f32,
+    /// Which bends are creases.
+    pub creases: Creases,
     /// Depth jump, as a share of the picture's height at that depth, from which surfaces are separated by a line.
     pub depth_threshold: f32,
 }

@@ -228,6 +228,7 @@ impl Maker<'_> {
                 edge,
                 t: 0.5,
                 seat: Seat { edge, face },
+                leaps: false,
             },
             label: [kind, surface],
         })

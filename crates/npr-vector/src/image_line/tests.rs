@@ -51,7 +51,7 @@ impl Subject {
             view: &self.view,
             is_drawn: &[],
             kinds: self.kinds,
-            crease_cos: CREASE_COS,
+            creases: CREASE_COS.into(),
             depth_threshold: 0.01,
         }
     }

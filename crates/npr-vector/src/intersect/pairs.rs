@@ -140,6 +140,11 @@ fn overlap(a: &Node, b: &Node) -> bool {
     (0..3).all(|i| a.min[i] <= b.max[i] && b.min[i] <= a.max[i])
 }
 
+/// Whether all faces of two nodes lie in one plane across an axis: they have no line in common.
+fn lie_in_one_plane(a: &Node, b: &Node) -> bool {
+    (0..3).any(|i| [a.max[i], b.min[i], b.max[i]] == [a.min[i]; 3])
+}
+
 /// Leaves of a group, and those behind them in the walk whose boxes meet the group's.
 #[derive(Default)]
 struct Candidates {
@@ -160,7 +165,7 @@ impl Candidates {
         self.own = self.leaves.len();
         let mut index = around.skip;
         while let Some(node) = nodes.get(index as usize) {
-            if !overlap(node, around) {
+            if !overlap(node, around) || lie_in_one_plane(node, around) {
                 index = node.skip;
                 continue;
             }

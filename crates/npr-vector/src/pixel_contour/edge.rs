@@ -7,6 +7,7 @@ use crate::contour::steps::{Viewer, is_raised};
 use crate::feature::static_flags;
 use crate::graph::CurveNode;
 use bytemuck::{Pod, Zeroable};
+use npr_core::crease::Creases;
 use npr_core::geometry::NONE;
 use npr_core::gpu_layout;
 use npr_core::shape::Shape;
@@ -90,10 +91,15 @@ impl DrawnEdge {
     }
 }
 
-/// All edges of a shape in their order, and its wires behind them; edges that bend under `crease_cos` are creases.
+/// All edges of a shape in their order, and its wires behind them; those that fold as `creases` says are creases.
 ///
 /// `is_drawn` says of every surface whether it has lines; where it is empty, all have. O(edges), in parallel.
-pub fn drawn_edges(shape: &Shape, crease_cos: f32, is_drawn: &[bool]) -> Vec<DrawnEdge> {
+pub fn drawn_edges(
+    shape: &Shape,
+    creases: impl Into<Creases>,
+    is_drawn: &[bool],
+) -> Vec<DrawnEdge> {
+    let creases = creases.into();
     let is_open = open_objects(shape);
     let is_lined =
         |surface: u32| is_drawn.is_empty() || is_drawn.get(surface as usize) == Some(&true);
@@ -110,7 +116,7 @@ pub fn drawn_edges(shape: &Shape, crease_cos: f32, is_drawn: &[bool]) -> Vec<Dra
             let traits = shape.edge_traits[edge as usize];
             let bit = |has: bool, bit: u32| if has { bit } else { 0 };
             let object = object_of(shape, shape.sides(edge)[0] / 3);
-            let flags = static_flags(shape, edge, crease_cos).unwrap_or(0);
+            let flags = static_flags(shape, edge, creases).unwrap_or(0);
             let bits = flags
                 | bit(traits & Shape::FLIPPED != 0, DrawnEdge::FLIPPED)
                 | bit(traits & Shape::NON_MANIFOLD != 0, DrawnEdge::CROWDED)

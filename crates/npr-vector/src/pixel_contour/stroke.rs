@@ -249,6 +249,7 @@ impl Maker<'_> {
                 edge: segment.edge,
                 t: share_along(ends, world) as f32,
                 seat: Seat::along(segment.edge),
+                leaps: false,
             };
             (segment, point)
         })

@@ -7,7 +7,7 @@ use crate::draw::{LineSettings, PointPaint, calmed, strokes_of};
 use crate::graph::{CurveGraph, CurveNode};
 use crate::run::{Line, Run, RunPoint, distance, runs};
 use crate::stroke::{Kind, Stroke, StrokePoint};
-use crate::visibility::{Circumstances, Piece, Seen};
+use crate::visibility::{Circumstances, Memory, Piece, Seen};
 use glam::DVec3;
 use npr_core::geometry::NONE;
 use npr_core::math;
@@ -81,7 +81,9 @@ impl SmokeLines<'_> {
         let lines: Vec<Option<Line>> = pieces
             .into_par_iter()
             .with_min_len(64)
-            .map_init(|| None, |last, piece| Some(line(seen, piece?, last)))
+            .map_init(Memory::default, |memory, piece| {
+                Some(line(seen, piece?, memory))
+            })
             .collect();
         // Runs look up the object of their surface, and nothing else, on the shape.
         let smoke = Shape {
@@ -150,7 +152,7 @@ fn trim_hairs(stroke: &mut Stroke, hair: f64) {
 }
 
 /// What surfaces leave of a chord.
-fn line(seen: &Seen<'_>, piece: Piece, last: &mut Option<u32>) -> Line {
+fn line(seen: &Seen<'_>, piece: Piece, memory: &mut Memory) -> Line {
     // Piercings count along the uncut chord, from which the piece was taken.
     let [from, to] = piece.range;
     let through = seen
@@ -164,7 +166,7 @@ fn line(seen: &Seen<'_>, piece: Piece, last: &mut Option<u32>) -> Line {
     Line {
         kind: Kind::Contour,
         surface: 0,
-        spans: seen.spans(&piece, &circumstances, last),
+        spans: seen.spans(&piece, &circumstances, memory),
         piece,
     }
 }

@@ -1,6 +1,7 @@
 //! Normals at the corners of faces, smooth up to creases.
 
 use glam::DVec3;
+use npr_core::crease::Creases;
 use npr_core::geometry::NONE;
 use npr_core::math;
 use npr_core::shape::Shape;
@@ -10,7 +11,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 /// A normal for every corner of every face, shared by the corners that meet smoothly at a vertex.
 ///
 /// Corner `3 f + i` carries the number of the half-edge that leaves it. Corners around a vertex that are joined by
-/// edges flatter than the crease angle form a *fan* and share one normal; an edge is split where its two
+/// edges that are no creases form a *fan* and share one normal; an edge is split where its two
 /// faces belong to different fans at either end.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CornerNormals {
@@ -27,17 +28,17 @@ pub struct CornerNormals {
 impl CornerNormals {
     /// Angle-weighted means of face normals [Thürmer & Wüthrich 1998] within each fan.
     ///
-    /// Fans end at borders, at edges without a twin, and where the cosine of the dihedral angle is below `crease_cos`;
-    /// a `crease_cos` that is no number splits every edge. Faces without area weigh nothing.
+    /// Fans end at borders, at edges without a twin, and at creases; a cosine that is no number splits every edge.
+    /// Faces without area weigh nothing.
     ///
     /// O(faces), parallel: once per shape and crease angle.
-    pub fn new(shape: &Shape, crease_cos: f32) -> Self {
+    pub fn new(shape: &Shape, creases: impl Into<Creases>) -> Self {
         let faces: Vec<Face> = shape
             .faces
             .par_iter()
             .map(|corners| Face::new(corners.map(|v| shape.point(v))))
             .collect();
-        let fans = Fans::new(shape, &faces, crease_cos);
+        let fans = Fans::new(shape, &faces, creases.into());
         let heads = fans.heads();
         let fan_of: Vec<AtomicU32> = fans.across.iter().map(|_| AtomicU32::new(NONE)).collect();
         let normals = heads
@@ -173,16 +174,16 @@ struct Fans {
 }
 
 impl Fans {
-    fn new(shape: &Shape, faces: &[Face], crease_cos: f32) -> Self {
+    fn new(shape: &Shape, faces: &[Face], creases: Creases) -> Self {
         let smooth = |half_edge: u32, twin: u32| {
-            let edge = shape.edge_of[half_edge as usize] as usize;
-            let cos = if shape.edge_traits[edge] & Shape::NON_MANIFOLD == 0 {
-                shape.dihedral_cos[edge]
+            let edge = shape.edge_of[half_edge as usize];
+            let cos = if shape.edge_traits[edge as usize] & Shape::NON_MANIFOLD == 0 {
+                shape.fold_cos(edge, creases.from)
             } else {
                 let [a, b] = [half_edge, twin].map(|h| faces[h as usize / 3].normal);
                 a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
             };
-            cos >= crease_cos
+            cos >= creases.cos
         };
         let across = |(half_edge, twin): (usize, &u32)| match *twin {
             NONE => NONE,

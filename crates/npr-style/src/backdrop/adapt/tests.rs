@@ -76,6 +76,21 @@ fn turns(line: [f32; 3], behind: [f32; 3], rule: &Rule) -> bool {
         || (line - ground).abs() < 0.05)
 }
 
+/// Where chroma gave way the luminance of a blue line jumped past the target, and it fell short by a hundredth.
+#[test]
+fn a_blue_line_before_red_reaches_the_target() {
+    let rule = Rule {
+        measure: Rule::WCAG,
+        goal: 3.6662312,
+        direction: Rule::AUTO,
+        ..Rule::CONTRAST
+    };
+    let behind = [1.0, 0.06502449, 0.0];
+    let adapted = adapt([0.013381943, 0.0, 1.0], [0.0, 0.0, 1.0], behind, &rule);
+    let after = contrast_on_scale(adapted, behind, &rule).abs();
+    assert!(after >= f64::from(target_of(&rule)) - 1e-4, "{after}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { max_global_rejects: 40_000, ..ProptestConfig::with_cases(4000) })]
 

@@ -194,6 +194,35 @@ proptest! {
         }
     }
 
+    /// Another scene is forgotten: once fades have ended, lines are as if it were the first frame.
+    ///
+    /// What was held may lie 1 off in a bound or a rim, and 2 in a lean. Steps are 0.04 and 0.2, so 25 are enough, and
+    /// one more where neighbours held it. The last step adds what is missing, which rounds: the tolerance is the last
+    /// place of 1.
+    #[test]
+    fn lines_arrive_at_what_a_first_frame_decides(
+        tiles in tiles(),
+        others in prop::collection::vec(tile(), 225),
+    ) {
+        let rules = Rules { hold: 0.0, ..rules() };
+        let gathered = others[..tiles.gathered.len()].to_vec();
+        let another = Tiles { gathered, ..tiles.clone() };
+        let mut leans = another.leans(&rules.of_first_frame(), &tiles.none_before());
+        for _ in 0..30 {
+            leans = tiles.leans(&rules, &leans);
+        }
+        let first = tiles.leans(&rules.of_first_frame(), &tiles.none_before());
+        for (lean, want) in leans.iter().zip(&first) {
+            prop_assert_eq!(lean.whose, want.whose);
+            let [got, want] = [lean, want].map(|lean| {
+                let [r, g, b] = lean.rim;
+                [lean.low, lean.high, lean.lean, r, g, b]
+            });
+            let off = (0..6).map(|i| (got[i] - want[i]).abs()).fold(0.0, f32::max);
+            prop_assert!(off <= f32::EPSILON, "{got:?}, not {want:?}");
+        }
+    }
+
     /// Blending invents nothing: it stays within what the tiles of the subject around say, and leaves bounds alone.
     #[test]
     fn blends_lie_between_what_was_decided(tiles in tiles()) {

@@ -36,7 +36,7 @@ fn strokes(shape: &Shape, camera: &Camera, size: [u32; 2], path: &PublishedPath)
         view: &view,
         eye: &eye_of(shape, &projector),
         kinds: CurveNode::KINDS,
-        crease_cos: 0.766,
+        creases: 0.766.into(),
         is_drawn: &[],
     };
     let traced = trace(&scene, path, &scene_depths(shape, &view)).expect("rounds suffice");

@@ -1,0 +1,306 @@
+//! Options that cannot act beside the others, each with the reason.
+
+use crate::arguments::{
+    HiddenLines, LineFormat, LinesArguments, MethodName, PathForm, SmokeArguments, Switch,
+    TraceArguments, VolumeArguments, VolumeUp,
+};
+use crate::line_job::LineJob;
+use crate::volume::{DEFAULT_FPS, Order, VolumeSource};
+use npr_style::{Facts, SmokeParticles};
+
+/// An option that cannot act where something is so.
+struct Entry<T> {
+    /// As it is written.
+    option: &'static str,
+    /// Whether the user asked for something by it.
+    is_said: fn(&T) -> bool,
+    /// Whether that changes nothing.
+    is_idle: fn(&T) -> bool,
+    /// What is said.
+    why: &'static str,
+}
+
+const fn entry<T>(
+    option: &'static str,
+    is_said: fn(&T) -> bool,
+    is_idle: fn(&T) -> bool,
+    why: &'static str,
+) -> Entry<T> {
+    Entry {
+        option,
+        is_said,
+        is_idle,
+        why,
+    }
+}
+
+/// What to tell the user of options that cannot act.
+fn told<T>(entries: &[Entry<T>], case: &T) -> Vec<String> {
+    let idle = entries
+        .iter()
+        .filter(|entry| (entry.is_said)(case) && (entry.is_idle)(case));
+    let mut told: Vec<&str> = Vec::new();
+    let first = idle.filter(|entry| {
+        let is_new = !told.contains(&entry.option);
+        told.push(entry.option);
+        is_new
+    });
+    first
+        .map(|entry| format!("{} is ignored: {}", entry.option, entry.why))
+        .collect()
+}
+
+/// What volumes are drawn, with what was said about them.
+struct Volumes<'a> {
+    said: &'a VolumeArguments,
+    /// Which spheres stand for them.
+    particles: SmokeParticles,
+    /// Whether there are any.
+    is_any: bool,
+    /// Whether any comes from a file.
+    is_of_file: bool,
+}
+
+/// Options of volumes that cannot act.
+fn volume_entries<'a>() -> Vec<Entry<Volumes<'a>>> {
+    vec![
+        entry(
+            "--spheres",
+            |c| c.said.spheres.is_some(),
+            |c| !c.is_any,
+            NO_SMOKE,
+        ),
+        entry(
+            "--threshold",
+            |c| c.said.threshold.is_some(),
+            |c| !c.is_any,
+            NO_SMOKE,
+        ),
+        entry(
+            "--detail",
+            |c| c.said.detail.is_some(),
+            |c| !c.is_any,
+            NO_SMOKE,
+        ),
+        entry(
+            "--seed",
+            |c| c.said.seed != 0,
+            |c| !c.is_any,
+            "it is about smoke, of which the scene has none",
+        ),
+        entry(
+            "--particles",
+            |c| c.said.particles.is_some(),
+            |c| !c.is_any,
+            NO_SMOKE,
+        ),
+        entry(
+            "--emitter",
+            |c| c.said.emitter.is_some(),
+            |c| !c.is_any,
+            NO_SMOKE,
+        ),
+        entry(
+            "--emitter",
+            |c| c.said.emitter.is_some(),
+            |c| c.particles == SmokeParticles::Cover,
+            "smoke.particles is cover",
+        ),
+        entry(
+            "--detail",
+            |c| c.said.detail.is_some(),
+            |c| c.particles == SmokeParticles::Published,
+            "smoke.particles is published",
+        ),
+        entry(
+            "--density",
+            |c| c.said.density.is_some(),
+            |c| !c.is_of_file,
+            NO_FILE,
+        ),
+        entry(
+            "--velocity",
+            |c| !c.said.velocity.is_empty(),
+            |c| !c.is_of_file,
+            NO_FILE,
+        ),
+        entry(
+            "--heat",
+            |c| c.said.heat.is_some(),
+            |c| !c.is_of_file,
+            NO_FILE,
+        ),
+        entry(
+            "--volume-up",
+            |c| c.said.volume_up != VolumeUp::Y,
+            |c| !c.is_of_file,
+            NO_FILE,
+        ),
+    ]
+}
+
+const NO_SMOKE: &str = "the scene has no smoke";
+const NO_FILE: &str = "no smoke comes from a volume file";
+
+/// What to tell of options about volumes, where the scene itself is `own`, if it is a volume.
+pub fn of_volumes(order: &Order<'_>, own: Option<&VolumeSource>) -> Vec<String> {
+    let said = order.said;
+    let named: Vec<VolumeSource> = said
+        .volumes
+        .iter()
+        .map(|volume| VolumeSource::of(&volume.name))
+        .collect();
+    let mut all = named.iter().chain(own);
+    let is_of_file = all
+        .clone()
+        .any(|source| !matches!(source, VolumeSource::BuiltIn(_)));
+    let case = Volumes {
+        said,
+        particles: order.style.particles,
+        is_any: all.next().is_some(),
+        is_of_file,
+    };
+    told(&volume_entries(), &case)
+}
+
+/// A drawing of lines.
+struct Lines<'a> {
+    said: &'a LinesArguments,
+    format: LineFormat,
+    facts: Facts,
+}
+
+impl Lines<'_> {
+    fn is_plotted(&self) -> bool {
+        self.said.sheet.svg == PathForm::Centreline
+    }
+}
+
+/// Options of drawings of lines that cannot act.
+fn line_entries<'a>() -> Vec<Entry<Lines<'a>>> {
+    vec![
+        entry(
+            "--painted",
+            |c| c.said.lines.painted.is_some(),
+            |c| !c.facts.textures,
+            "the scene has no textures",
+        ),
+        entry(
+            "--svg",
+            |c| c.said.sheet.svg != PathForm::Outline,
+            |c| c.format == LineFormat::Json,
+            "the file holds points, and no paths",
+        ),
+        entry(
+            "--fill",
+            |c| c.said.lines.fill,
+            |c| c.format == LineFormat::Json,
+            "the file holds lines alone",
+        ),
+        entry(
+            "--background",
+            |c| c.said.drawing.look.background.is_some(),
+            |c| c.format == LineFormat::Json || c.is_plotted(),
+            "the file holds lines alone",
+        ),
+        entry(
+            "--hidden",
+            |c| c.said.lines.hidden == HiddenLines::Dashed,
+            |c| c.format == LineFormat::Json,
+            "the file tells how many surfaces hide a line, and has no dashes",
+        ),
+        entry(
+            "--smooth",
+            |c| c.said.lines.smooth == Switch::Off,
+            |c| c.said.lines.method == MethodName::Image,
+            "--method image follows pixels, which are smoothed in any case",
+        ),
+    ]
+}
+
+/// What to tell of options of a drawing of lines.
+pub fn of_lines(job: &LineJob<'_>, facts: Facts) -> Vec<String> {
+    let case = Lines {
+        said: job.said,
+        format: job.format,
+        facts,
+    };
+    told(&line_entries(), &case)
+}
+
+/// Pictures of smoke, and how many there are.
+struct Smoke<'a> {
+    said: &'a SmokeArguments,
+    source: &'a VolumeSource,
+    count: usize,
+}
+
+/// Options of pictures of smoke that cannot act.
+fn smoke_entries<'a>() -> Vec<Entry<Smoke<'a>>> {
+    vec![
+        entry(
+            "--step",
+            |c| c.said.step != 1.0,
+            |c| c.count < 2,
+            "one frame is drawn",
+        ),
+        entry(
+            "--fps",
+            |c| c.said.fps != DEFAULT_FPS,
+            |c| matches!(c.source, VolumeSource::File(_) | VolumeSource::Read(..)),
+            "a single volume file stands still",
+        ),
+    ]
+}
+
+/// What to tell of options of `count` pictures of smoke.
+pub fn of_smoke(said: &SmokeArguments, source: &VolumeSource, count: usize) -> Vec<String> {
+    told(
+        &smoke_entries(),
+        &Smoke {
+            said,
+            source,
+            count,
+        },
+    )
+}
+
+const TRACE: &[Entry<TraceArguments>] = &[
+    entry(
+        "--turnpolicy",
+        |c| c.method.turnpolicy != npr_vector::trace::TurnPolicy::default(),
+        |c| c.form.centreline,
+        NO_OUTLINES,
+    ),
+    entry(
+        "--alphamax",
+        |c| c.method.alphamax != 1.0,
+        |c| c.form.centreline,
+        NO_OUTLINES,
+    ),
+    entry(
+        "--opttolerance",
+        |c| c.method.opttolerance != 0.2,
+        |c| c.form.centreline,
+        NO_OUTLINES,
+    ),
+    entry(
+        "--longcurve",
+        |c| c.method.longcurve,
+        |c| c.form.centreline,
+        NO_OUTLINES,
+    ),
+    entry(
+        "--opttolerance",
+        |c| c.method.opttolerance != 0.2,
+        |c| c.method.longcurve,
+        "--longcurve joins no curves",
+    ),
+];
+
+const NO_OUTLINES: &str = "it is about outlines, and --centreline traces the middle of lines";
+
+/// What to tell of options of a tracing.
+pub fn of_trace(said: &TraceArguments) -> Vec<String> {
+    told(TRACE, said)
+}

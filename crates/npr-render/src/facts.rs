@@ -1,0 +1,18 @@
+//! What a scene has, for telling which keys of a style cannot act.
+
+use npr_scene::{Part, Scene};
+use npr_style::Facts;
+
+/// What of the things that keys of styles are about a scene has, with smoke in it or without.
+pub fn facts_of(scene: &Scene, smoke: bool) -> Facts {
+    let parts = || scene.meshes.iter().flat_map(|mesh| &mesh.parts);
+    let is_drawn = |part: &Part| !part.triangles.is_empty() || !part.segments.is_empty();
+    let mut materials = scene.materials.iter();
+    Facts {
+        surfaces: parts().any(is_drawn),
+        smoke,
+        textures: materials.any(|material| material.base_color_texture.is_some()),
+        vertex_colors: parts().any(|part| part.colors.is_some()),
+        lights: !scene.lights.is_empty(),
+    }
+}

@@ -1,0 +1,98 @@
+//! Keys that cannot act where a style is drawn, each with the reason.
+
+mod case;
+mod table;
+
+pub use case::{Facts, LineFinder, LineForm, LineOutput, Occasion, Output};
+
+use crate::Stated;
+use case::Case;
+use table::{ENTRIES, Why};
+
+/// Longest notice, in characters: what a line on a terminal's error output may hold beside the command's own words.
+const NOTICE_LENGTH: usize = 270;
+
+impl Stated {
+    /// What to tell the user of stated keys that cannot act on an occasion: each key once, those of one reason
+    /// together.
+    ///
+    /// ```
+    /// use npr_style::{Facts, Occasion, Output, Stated};
+    ///
+    /// let mut stated = Stated::default();
+    /// stated.set_all(&["line.method=hull", "detect.scale=2"])?;
+    /// let occasion = Occasion { output: Output::Frame, scene: Facts::ALL };
+    /// let told = stated.idle_notices(&occasion);
+    /// assert_eq!(told, ["'detect.scale' is ignored: lines of method hull do not use it"]);
+    /// # Ok::<(), npr_style::StyleError>(())
+    /// ```
+    pub fn idle_notices(&self, occasion: &Occasion) -> Vec<String> {
+        let mut groups: Vec<(String, Vec<&str>)> = Vec::new();
+        for key in self.keys() {
+            let Some(why) = self.idle_reason(key, occasion) else {
+                continue;
+            };
+            match groups.iter_mut().find(|(reason, _)| *reason == why) {
+                Some((_, keys)) => keys.push(key),
+                None => groups.push((why, vec![key])),
+            }
+        }
+        let by = match occasion.output {
+            Output::Frame => "",
+            Output::Lines(_) => " by npr lines",
+        };
+        let told = groups.iter();
+        told.flat_map(|(why, keys)| sentences(keys, by, why))
+            .collect()
+    }
+
+    /// Why a key of the style cannot act on an occasion, if it cannot.
+    pub fn idle_reason(&self, key: &str, occasion: &Occasion) -> Option<String> {
+        let case = Case::new(self.style(), key, occasion);
+        let entry = ENTRIES.iter().find(|entry| {
+            let is_meant = entry.keys.iter().any(|pattern| covers(pattern, case.key));
+            is_meant && (entry.is_idle)(&case)
+        })?;
+        Some(match entry.why {
+            Why::Told(why) => why.to_owned(),
+            Why::Methods => case.methods_reason(),
+        })
+    }
+}
+
+/// Whether a key is the one of a pattern, lies within it, or follows it where that ends in `*`.
+fn covers(pattern: &str, key: &str) -> bool {
+    match pattern.strip_suffix('*') {
+        Some(beginning) => key.starts_with(beginning),
+        None => key
+            .strip_prefix(pattern)
+            .is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),
+    }
+}
+
+/// Notices that name all keys of one reason; as few as lines have room for.
+fn sentences(keys: &[&str], by: &str, why: &str) -> Vec<String> {
+    let mut told = Vec::new();
+    let mut rest = keys;
+    while !rest.is_empty() {
+        let fits =
+            |count: &usize| sentence(&rest[..*count], by, why).chars().count() <= NOTICE_LENGTH;
+        let count = (1..=rest.len()).take_while(fits).last().unwrap_or(1);
+        told.push(sentence(&rest[..count], by, why));
+        rest = &rest[count..];
+    }
+    told
+}
+
+fn sentence(keys: &[&str], by: &str, why: &str) -> String {
+    let quoted: Vec<String> = keys.iter().map(|key| format!("'{key}'")).collect();
+    match quoted.as_slice() {
+        [all @ .., last] if !all.is_empty() => {
+            format!("{} and {last} are ignored{by}: {why}", all.join(", "))
+        }
+        _ => format!("{} is ignored{by}: {why}", quoted.concat()),
+    }
+}
+
+#[cfg(test)]
+mod tests;

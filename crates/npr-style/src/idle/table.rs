@@ -1,0 +1,774 @@
+//! The table of keys that cannot act: which, when and why. What stands here is told to users.
+
+use super::case::{Case, LineFinder, LineForm};
+use crate::LineMethod::{
+    Angle, Curves, Edges, Filter, FilterHull, Hull, Okuya, Potrace, Rim, Shape,
+};
+use crate::hatch::Pattern;
+use crate::{
+    BackgroundMethod, Edge, Follow, HighlightModel, LineSource, LineStart, Mapping, Measure,
+    ShadeMode, SmokeLines, SmokeMethod, SmokeParticles, Tone, WidthSource,
+};
+use npr_core::geometry::Part;
+
+/// Keys that cannot act where something is so.
+pub(super) struct Entry {
+    /// Keys as the style itself has them, whether it says them or a rule; with all within, and with `*` at the end all
+    /// that begin so.
+    pub keys: &'static [&'static str],
+    /// Where they cannot act.
+    pub is_idle: fn(&Case<'_>) -> bool,
+    /// What is said.
+    pub why: Why,
+}
+
+/// What is said of a key that cannot act.
+pub(super) enum Why {
+    /// This.
+    Told(&'static str),
+    /// That the methods which draw lines do not use it.
+    Methods,
+}
+
+const fn entry(
+    keys: &'static [&'static str],
+    is_idle: fn(&Case<'_>) -> bool,
+    why: &'static str,
+) -> Entry {
+    Entry {
+        keys,
+        is_idle,
+        why: Why::Told(why),
+    }
+}
+
+/// Keys that lines of frames use by some methods alone.
+const fn of_methods(keys: &'static [&'static str], is_idle: fn(&Case<'_>) -> bool) -> Entry {
+    Entry {
+        keys,
+        is_idle,
+        why: Why::Methods,
+    }
+}
+
+const OFF: BackgroundMethod = BackgroundMethod::Off;
+const PUBLISHED: BackgroundMethod = BackgroundMethod::Published;
+const CONTRAST: BackgroundMethod = BackgroundMethod::Contrast;
+
+/// What in `line.paint` looks at light.
+const LIT: u32 = Part::LINE_LIGHT | Part::LINE_OPACITY | Part::LINE_WIDTH;
+
+/// The first entry that covers a key and holds is told.
+pub(super) const ENTRIES: &[Entry] = &[
+    // The scene lacks what the key is about.
+    entry(&["smoke"], |c| !c.on.scene.smoke, "the scene has no smoke"),
+    entry(
+        &[
+            "line",
+            "detect",
+            "shade",
+            "ink",
+            "highlight",
+            "motion",
+            "id_map",
+            "match",
+            "subject",
+            "beam",
+            "blend",
+            "smoke.casts",
+        ],
+        |c| !c.on.scene.surfaces,
+        "the scene is smoke alone",
+    ),
+    entry(
+        &["light.file"],
+        |c| !c.on.scene.lights,
+        "the scene has no lights of its own",
+    ),
+    entry(
+        &["shade.use_textures"],
+        |c| !c.on.scene.textures,
+        "the scene has no textures",
+    ),
+    entry(
+        &["shade.use_vertex_colors", "line.width.channel"],
+        |c| !c.on.scene.vertex_colors,
+        "the scene has no vertex colours",
+    ),
+    // Drawings of curves hold lines alone.
+    entry(
+        &["line.method"],
+        |c| !c.is_frame(),
+        "--method says how its lines are found",
+    ),
+    entry(
+        &["motion", "blend"],
+        |c| !c.is_frame(),
+        "speed lines and blends are of pictures",
+    ),
+    entry(
+        &["shade.mode", "shade.paper", "shade.color"],
+        |c| {
+            c.lines().is_some_and(|lines| !lines.fill)
+                && !c.has_tones()
+                && c.paint_flags() & Part::LINE_SURFACE == 0
+        },
+        "it draws lines, and fills no surfaces",
+    ),
+    entry(
+        &[
+            "shade.use_textures",
+            "shade.use_vertex_colors",
+            "shade.saturation",
+        ],
+        |c| {
+            let seen = Part::LINE_SURFACE | Part::LINE_VERTEX | Part::LINE_TEXTURE;
+            !c.has_tones() && c.paint_flags() & seen == 0
+        },
+        "it draws lines, and fills no surfaces",
+    ),
+    entry(
+        &[
+            "shade.ramp",
+            "shade.ramp_image",
+            "shade.softness",
+            "ink",
+            "antialias",
+        ],
+        |c| !c.has_tones(),
+        "it draws no tones and no hatching",
+    ),
+    entry(
+        &["highlight.back.direction", "highlight.back.color"],
+        |c| !c.has_tones() && c.paint_flags() & Part::LINE_RIM == 0,
+        "it draws no highlights",
+    ),
+    entry(
+        &["highlight"],
+        |c| !c.has_tones() && !matches!(c.key, "highlight.back.direction" | "highlight.back.color"),
+        "it draws no highlights",
+    ),
+    entry(
+        &["beam"],
+        |c| !c.has_tones(),
+        "beams are light, which has no lines",
+    ),
+    entry(
+        &["light.shadow"],
+        |c| !c.has_tones() || !c.on.scene.surfaces,
+        "nothing is drawn that shadows fall on",
+    ),
+    entry(
+        &["light.shadow_at"],
+        |c| !c.has_tones() && !c.fills_smoke(),
+        "it draws no shadows",
+    ),
+    entry(
+        &["smoke.light"],
+        |c| !c.draws_smoke(),
+        "--method image draws no lines of smoke",
+    ),
+    entry(
+        &["light.color", "light.extra"],
+        |c| c.is_color_of_light() && (!c.has_tones() || !c.on.scene.surfaces),
+        "lines and smoke look at how much light there is, and not at its colour",
+    ),
+    entry(
+        &["light.extra"],
+        |c| !c.has_tones() && !c.fills_smoke() && c.paint_flags() & LIT == 0,
+        "its lines do not look at light",
+    ),
+    entry(
+        &["light"],
+        |c| !c.has_tones() && !c.draws_smoke() && c.paint_flags() & LIT == 0,
+        "its lines do not look at light",
+    ),
+    entry(
+        &["background"],
+        |c| !c.is_frame() && !c.is_written_as(LineForm::Ink) && !c.has_tones(),
+        "the file holds lines alone",
+    ),
+    entry(
+        &["lettering"],
+        |c| c.is_written_as(LineForm::Data),
+        "the file holds lines alone",
+    ),
+    entry(
+        &["lettering"],
+        |c| c.is_written_as(LineForm::Centrelines) && c.is_paint_of_words(),
+        "a pen goes round words in one colour",
+    ),
+    entry(
+        &["lettering"],
+        |c| c.key.ends_with(".hidden") && (!c.is_frame() || !c.on.scene.surfaces),
+        "nothing stands before its words",
+    ),
+    entry(
+        &["shade.mode"],
+        |c| {
+            let is_flat = matches!(c.style.shade.mode, ShadeMode::Flat | ShadeMode::Ramp);
+            !c.has_tones() && is_flat && c.paint_flags() & Part::LINE_SURFACE == 0
+        },
+        "it fills surfaces evenly",
+    ),
+    entry(
+        &["line.color", "line.opacity", "smoke.line.color"],
+        |c| c.is_written_as(LineForm::Data) && c.paint_flags() == 0 && c.minds_by(&[OFF]),
+        "the file holds colours only of lines that change theirs",
+    ),
+    entry(
+        &[
+            "detect.depth.threshold",
+            "detect.scale",
+            "detect.rescale_thresholds",
+        ],
+        |c| !c.is_frame() && !c.is_found_by(LineFinder::Image),
+        "--method image alone looks for lines in pictures of surfaces",
+    ),
+    entry(
+        &[
+            "detect.depth.on",
+            "detect.normal",
+            "detect.object",
+            "detect.material",
+            "detect.plane_depth",
+        ],
+        |c| !c.is_frame(),
+        "they are about the mask of pictures",
+    ),
+    entry(
+        &["line.potrace"],
+        |c| !c.is_frame() && !c.is_found_by(LineFinder::Potrace),
+        "--method potrace alone uses it",
+    ),
+    entry(
+        &["line.angle_threshold_deg", "line.angle_softness"],
+        |c| !c.is_frame(),
+        "it is about method angle of pictures",
+    ),
+    entry(
+        &["smoke.line"],
+        |c| c.is_found_by(LineFinder::Image),
+        "--method image draws no lines of smoke",
+    ),
+    entry(
+        &["line.kinds.border", "line.paint.kinds.border"],
+        |c| c.is_found_by(LineFinder::Image),
+        "in pictures of surfaces borders are contours",
+    ),
+    entry(
+        &[
+            "line.kinds.intersection",
+            "line.paint.kinds.intersection",
+            "line.paint.kinds.material",
+        ],
+        |c| c.is_found_by(LineFinder::Potrace),
+        "--method potrace draws edges of meshes",
+    ),
+    entry(
+        &["line.width.texture"],
+        |c| !c.is_frame() || !c.is_drawn_by(&[Shape, Okuya, Hull, FilterHull, Edges]),
+        "lines as curves do not follow a texture, and have the full width",
+    ),
+    // Lines of frames use keys by their method.
+    of_methods(
+        &[
+            "line.color",
+            "line.opacity",
+            "line.paint",
+            "line.background",
+            "line.on",
+            "subject",
+        ],
+        |c| {
+            !c.is_drawn_by(&[
+                Shape, Okuya, Filter, Hull, FilterHull, Edges, Rim, Angle, Curves, Potrace,
+            ])
+        },
+    ),
+    of_methods(&["line.opacity"], |c| {
+        !c.is_drawn_by(&[
+            Shape, Okuya, Filter, FilterHull, Edges, Rim, Curves, Potrace,
+        ])
+    }),
+    of_methods(
+        &[
+            "line.paint.depth",
+            "line.paint.image",
+            "line.paint.kinds",
+            "line.paint.light",
+            "line.paint.tint",
+        ],
+        |c| {
+            !c.is_drawn_by(&[
+                Shape, Okuya, Filter, Hull, FilterHull, Edges, Angle, Curves, Potrace,
+            ])
+        },
+    ),
+    of_methods(&["line.paint.kinds.border"], |c| {
+        !c.is_drawn_by(&[Shape, Edges, Curves, Potrace])
+    }),
+    of_methods(&["line.paint.kinds.crease"], |c| {
+        !c.is_drawn_by(&[Shape, Filter, FilterHull, Curves, Potrace])
+    }),
+    of_methods(&["line.paint.kinds.material"], |c| {
+        !c.is_drawn_by(&[Shape, Filter, FilterHull, Curves])
+    }),
+    of_methods(&["line.background.scope"], |c| {
+        !c.is_drawn_by(&[Shape, Okuya, Filter, Hull, FilterHull, Edges, Angle])
+    }),
+    of_methods(&["line.paint.kinds.intersection"], |c| {
+        !c.is_drawn_by(&[Shape, Filter, FilterHull, Curves])
+    }),
+    of_methods(&["line.crease_angle_deg", "line.crease_from"], |c| {
+        !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull, Curves, Potrace])
+    }),
+    of_methods(&["line.split_angle_deg"], |c| {
+        !c.is_drawn_by(&[Curves, Potrace])
+    }),
+    of_methods(&["line.angle_threshold_deg", "line.angle_softness"], |c| {
+        !c.is_drawn_by(&[Angle])
+    }),
+    of_methods(&["line.kinds.intersection"], |c| {
+        !c.is_drawn_by(&[Shape, Filter, FilterHull, Curves])
+    }),
+    of_methods(&["line.kinds"], |c| {
+        !c.is_drawn_by(&[Shape, Curves, Potrace])
+    }),
+    of_methods(&["line.potrace"], |c| !c.is_drawn_by(&[Potrace])),
+    of_methods(&["line.width.base", "line.width_factor"], |c| {
+        !c.is_drawn_by(&[
+            Shape, Okuya, Hull, FilterHull, Edges, Angle, Curves, Potrace,
+        ])
+    }),
+    of_methods(
+        &[
+            "line.width.source",
+            "line.width.min",
+            "line.width.max",
+            "line.width.gain",
+            "line.width.channel",
+            "line.width.texture",
+            "line.width.control_points",
+        ],
+        |c| !c.is_drawn_by(&[Shape, Okuya, Hull, FilterHull, Edges, Curves, Potrace]),
+    ),
+    of_methods(&["detect.scale"], |c| {
+        !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull, Edges])
+    }),
+    of_methods(
+        &[
+            "detect.depth",
+            "detect.normal",
+            "detect.object",
+            "detect.material",
+            "detect.plane_depth",
+            "detect.rescale_thresholds",
+        ],
+        |c| !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull]),
+    ),
+    entry(
+        &["detect.rescale_thresholds"],
+        |c| c.style.detect.scale == 1.0,
+        "detect.scale is 1",
+    ),
+    // Lines wait for another key.
+    entry(
+        &["line.width.gain"],
+        |c| !c.width_is_of(&[WidthSource::Curvature, WidthSource::ProjectedCurvature]),
+        "line.width.source is not a curvature",
+    ),
+    entry(
+        &["line.width.channel"],
+        |c| !c.width_is_of(&[WidthSource::VertexColor]),
+        "line.width.source is not vertex-color",
+    ),
+    entry(
+        &["line.width.texture"],
+        |c| !c.width_is_of(&[WidthSource::Texture]),
+        "line.width.source is not texture",
+    ),
+    entry(
+        &["line.width.control_points"],
+        |c| !c.width_is_of(&[WidthSource::ControlPoints]),
+        "line.width.source is not control-points",
+    ),
+    entry(
+        &["line.width.min"],
+        |c| c.width_is_of(&[WidthSource::Constant]),
+        "line.width.source is constant, so max alone counts",
+    ),
+    entry(
+        &["line.paint.factor"],
+        |c| !c.any(|look| look.line_paint.source != LineSource::Constant),
+        "line.paint.source is constant",
+    ),
+    entry(
+        &["line.paint.image"],
+        |c| !c.any(|look| look.line_paint.source == LineSource::Texture),
+        "line.paint.source is not texture",
+    ),
+    entry(
+        &[
+            "line.paint.depth.space",
+            "line.paint.depth.near",
+            "line.paint.depth.far",
+        ],
+        |c| !c.any(|look| !look.line_paint.depth.ramp.is_empty()),
+        "line.paint.depth.ramp is empty",
+    ),
+    entry(
+        &["line.background.hold", "line.background.fade"],
+        |_| true,
+        "they are about what changes from frame to frame",
+    ),
+    entry(
+        &["line.background.intensity", "line.background.likeness"],
+        |c| !c.minds_by(&[PUBLISHED]),
+        "line.background.method is not published",
+    ),
+    entry(
+        &[
+            "line.background.measure",
+            "line.background.lightness",
+            "line.background.ratio",
+            "line.background.start",
+            "line.background.factor",
+            "line.background.smooth",
+        ],
+        |c| !c.minds_by(&[CONTRAST]),
+        "line.background.method is not contrast",
+    ),
+    entry(
+        &[
+            "line.background.direction",
+            "line.background.scope",
+            "line.background.subjects",
+            "subject",
+        ],
+        |c| !c.minds_by(&[PUBLISHED, CONTRAST]),
+        "line.background.method is off",
+    ),
+    entry(
+        &["line.background.lightness"],
+        |c| !c.any(|look| look.line_background.measure == Measure::Lightness),
+        "line.background.measure is wcag",
+    ),
+    entry(
+        &["line.background.ratio"],
+        |c| !c.any(|look| look.line_background.measure == Measure::Wcag),
+        "line.background.measure is lightness",
+    ),
+    entry(
+        &["line.background.factor"],
+        |c| !c.any(|look| look.line_background.start == LineStart::Rim),
+        "line.background.start is line",
+    ),
+    // Tones wait for another key.
+    entry(
+        &["shade.paper"],
+        |c| c.style.shade.mode != ShadeMode::Paper,
+        "shade.mode is not paper",
+    ),
+    entry(
+        &["shade.ramp", "shade.ramp_image", "shade.softness"],
+        |c| c.style.shade.mode == ShadeMode::Flat,
+        "shade.mode is flat",
+    ),
+    entry(
+        &["shade.ramp"],
+        |c| !c.any(|look| look.ramp_image.is_empty()),
+        "shade.ramp_image is in its place",
+    ),
+    entry(
+        &[
+            "ink.color",
+            "ink.dark_at",
+            "ink.light_at",
+            "ink.threshold",
+            "ink.paint",
+            "ink.mapping",
+            "ink.follow",
+            "ink.direction",
+            "ink.direction_space",
+            "ink.hatch",
+        ],
+        |c| !c.any(|look| look.ink.tone != Tone::Off),
+        "ink.tone is none",
+    ),
+    entry(
+        &[
+            "ink.mapping",
+            "ink.follow",
+            "ink.direction",
+            "ink.direction_space",
+            "ink.hatch",
+        ],
+        |c| !c.hatches(),
+        "ink.tone is ink, which has no strokes",
+    ),
+    entry(
+        &["ink.direction", "ink.direction_space"],
+        |c| !c.any(|look| look.ink.mapping == Mapping::Surface),
+        "ink.mapping is not surface",
+    ),
+    entry(
+        &["ink.direction_space"],
+        |c| !c.any(|look| look.ink.direction.is_some()),
+        "there is no ink.direction",
+    ),
+    entry(
+        &["ink.follow"],
+        |c| {
+            !c.any(|look| {
+                look.ink.mapping == Mapping::Surface && look.ink.direction.is_none()
+                    || look.ink.mapping == Mapping::Screen && look.ink.follow == Follow::Light
+            })
+        },
+        "ink.mapping or ink.direction leaves it nothing to say",
+    ),
+    entry(
+        &["ink.hatch.cross_at"],
+        |c| !c.any(|look| look.ink.hatch.pattern == Pattern::Cross),
+        "ink.hatch.pattern is not cross",
+    ),
+    entry(
+        &["smoke.ink.hatch.cross_at"],
+        |c| c.style.smoke.ink.hatch.pattern != Pattern::Cross,
+        "smoke.ink.hatch.pattern is not cross",
+    ),
+    entry(
+        &[
+            "ink.hatch.length",
+            "ink.hatch.wobble",
+            "ink.hatch.taper",
+            "ink.hatch.variation",
+            "ink.hatch.gain",
+            "ink.hatch.seed",
+        ],
+        |c| !c.any(|look| look.ink.hatch.image.is_empty()),
+        "ink.hatch.image is in its place",
+    ),
+    entry(
+        &[
+            "highlight.back.from",
+            "highlight.back.to",
+            "highlight.back.color",
+            "highlight.back.direction",
+        ],
+        |c| !c.any(|look| look.highlight.back.on) && c.paint_flags() & Part::LINE_RIM == 0,
+        "highlight.back.on is false",
+    ),
+    entry(
+        &["highlight.back.from", "highlight.back.to"],
+        |c| !c.any(|look| look.highlight.back.on),
+        "highlight.back.on is false",
+    ),
+    entry(
+        &[
+            "highlight.streak.angle_deg",
+            "highlight.streak.offset",
+            "highlight.streak.width",
+            "highlight.streak.facing",
+        ],
+        |c| !c.any(|look| look.highlight.streak.on),
+        "highlight.streak.on is false",
+    ),
+    entry(
+        &["highlight.color"],
+        |c| !c.any(|look| look.highlight.edge != Edge::Off || look.highlight.streak.on),
+        "highlight.edge is none",
+    ),
+    entry(
+        &[
+            "highlight.model",
+            "highlight.exponent",
+            "highlight.threshold",
+            "highlight.gradient",
+            "highlight.shift",
+            "highlight.turn_deg",
+            "highlight.stretch",
+            "highlight.split",
+            "highlight.square",
+        ],
+        |c| !c.any(|look| look.highlight.edge != Edge::Off),
+        "highlight.edge is none",
+    ),
+    entry(
+        &["highlight.gradient"],
+        |c| !c.any(|look| look.highlight.edge == Edge::Soft),
+        "highlight.edge is not soft",
+    ),
+    entry(
+        &[
+            "highlight.shift",
+            "highlight.turn_deg",
+            "highlight.stretch",
+            "highlight.split",
+            "highlight.square",
+        ],
+        |c| c.style.highlight.model == HighlightModel::Phong,
+        "highlight.model is phong",
+    ),
+    entry(
+        &["highlight.turn_deg"],
+        |c| {
+            let highlight = &c.style.highlight;
+            highlight.stretch == 0.0 && highlight.square == 0.0 && highlight.split == [0.0; 2]
+        },
+        "no highlight is stretched, split or square",
+    ),
+    entry(
+        &["light.shadow_at"],
+        |c| !c.style.light.shadow && !c.style.light.extra.iter().any(|light| light.shadow),
+        "no light throws shadows",
+    ),
+    entry(
+        &["motion"],
+        |c| !c.is_of_rule && c.style.trails().is_empty(),
+        "no rule gives a part a motion.trail",
+    ),
+    entry(
+        &["blend.with"],
+        |c| !c.style.blend.shows(),
+        "blend.amount is 1",
+    ),
+    // Smoke waits for another key, or is drawn for comparison.
+    entry(
+        &[
+            "smoke.sigma",
+            "smoke.layers",
+            "smoke.layer_depth",
+            "smoke.layer_blend",
+            "smoke.shadow",
+            "smoke.shadow_px",
+            "smoke.casts",
+            "smoke.softness",
+            "smoke.wrap",
+            "smoke.ambient",
+            "smoke.heat",
+            "smoke.ink",
+            "smoke.ramp",
+            "smoke.ramp_image",
+        ],
+        |c| c.lines().is_some_and(|lines| !lines.fill),
+        "it draws the outlines of smoke, and fills none",
+    ),
+    entry(
+        &[
+            "smoke.casts",
+            "smoke.ink",
+            "smoke.ramp_image",
+            "smoke.shadow_px",
+            "smoke.softness",
+        ],
+        |c| !c.is_frame(),
+        "it fills smoke in even tones",
+    ),
+    entry(
+        &["smoke.wrap", "smoke.ambient", "smoke.shadow", "smoke.light"],
+        |c| c.is_frame() && c.style.smoke.method == SmokeMethod::Billboards,
+        "smoke.method is billboards, which light does not reach",
+    ),
+    entry(
+        &[
+            "smoke.sigma",
+            "smoke.layers",
+            "smoke.layer_depth",
+            "smoke.layer_blend",
+        ],
+        |c| {
+            c.is_frame()
+                && c.style.smoke.method == SmokeMethod::Billboards
+                && c.style.smoke.heat == 0.0
+        },
+        "smoke.method is billboards, which have one tone without smoke.heat",
+    ),
+    entry(
+        &[
+            "smoke.puffs.detail",
+            "smoke.puffs.scale",
+            "smoke.puffs.ease",
+            "smoke.puffs.placement",
+        ],
+        |c| c.style.smoke.particles == SmokeParticles::Published,
+        "smoke.particles is published",
+    ),
+    entry(
+        &["smoke.puffs.still"],
+        |c| c.style.smoke.particles == SmokeParticles::Cover,
+        "smoke.particles is cover",
+    ),
+    entry(
+        &[
+            "smoke.line.width",
+            "smoke.line.inner",
+            "smoke.line.jump",
+            "smoke.line.swell",
+        ],
+        |c| c.is_frame() && c.style.smoke.method == SmokeMethod::Billboards,
+        "billboards have the published line",
+    ),
+    entry(
+        &[
+            "smoke.line.color",
+            "smoke.line.width",
+            "smoke.line.inner",
+            "smoke.line.jump",
+            "smoke.line.swell",
+            "smoke.line.weight",
+        ],
+        |c| c.style.smoke.line.method == SmokeLines::Off,
+        "smoke.line.method is off",
+    ),
+    entry(
+        &[
+            "smoke.line.width",
+            "smoke.line.inner",
+            "smoke.line.jump",
+            "smoke.line.swell",
+        ],
+        |c| c.is_frame() && c.style.smoke.line.method == SmokeLines::Published,
+        "smoke.line.method is published",
+    ),
+    entry(
+        &["smoke.line.method"],
+        |c| !c.is_frame() && c.style.smoke.line.method != SmokeLines::Off,
+        "lines of smoke are always drawn by npr lines, and never the published ones",
+    ),
+    entry(
+        &["smoke.line.weight"],
+        |c| {
+            !c.is_frame()
+                || c.style.smoke.line.method == SmokeLines::Drawn
+                    && c.style.smoke.method != SmokeMethod::Billboards
+        },
+        "smoke.line.method is drawn",
+    ),
+    entry(
+        &["smoke.shadow_px"],
+        |c| !c.style.smoke.shadow && !c.style.smoke.casts,
+        "smoke throws no shadows",
+    ),
+    entry(
+        &["smoke.ramp"],
+        |c| !c.style.smoke.ramp_image.is_empty(),
+        "smoke.ramp_image is in its place",
+    ),
+    entry(
+        &[
+            "smoke.ink.color",
+            "smoke.ink.dark_at",
+            "smoke.ink.light_at",
+            "smoke.ink.threshold",
+            "smoke.ink.hatch",
+        ],
+        |c| c.style.smoke.ink.tone == Tone::Off,
+        "smoke.ink.tone is none",
+    ),
+    entry(
+        &["smoke.ink.hatch"],
+        |c| c.style.smoke.ink.tone == Tone::Ink,
+        "smoke.ink.tone is ink, which has no strokes",
+    ),
+];

@@ -1,0 +1,146 @@
+//! A style together with which of its keys its user stated.
+
+use std::collections::BTreeSet;
+
+use toml::Value;
+
+use crate::error::StyleError;
+use crate::set::{self, Assignment};
+use crate::{Style, layers};
+
+/// Lists whose entries are tables with keys of their own; other lists are one value.
+const LISTS_OF_TABLES: [&str; 4] = ["rule", "id_map", "lettering", "extra"];
+
+/// A style, and the keys that its user stated: in style files, their parents but for presets, and overrides.
+///
+/// What a preset says is nobody's wish for a single key, so nobody has to be told where it cannot act. Nor is what a
+/// style file says of a key that would have the same value without: dumped styles say everything.
+///
+/// ```
+/// use npr_style::Stated;
+///
+/// let mut stated = Stated::preset("ink")?;
+/// stated.set_all(&["line.width.min=5", "line.width.max=9"])?;
+/// assert_eq!(stated.style().line.width.max, 9.0);
+/// assert_eq!(stated.keys().collect::<Vec<_>>(), ["line.width.max", "line.width.min"]);
+/// # Ok::<(), npr_style::StyleError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Stated {
+    style: Style,
+    keys: BTreeSet<String>,
+}
+
+impl Stated {
+    /// Reads a style file, as [`Style::from_toml`] does.
+    ///
+    /// # Errors
+    ///
+    /// As [`Style::from_toml`].
+    pub fn from_toml(
+        text: &str,
+        load: &dyn Fn(&str) -> Result<String, String>,
+    ) -> Result<Self, StyleError> {
+        let (style, stated) = layers::read(text, load)?;
+        let mut keys = BTreeSet::new();
+        gather(&Value::Table(stated), "", &mut keys);
+        if let Ok(usual) = Value::try_from(Style::default()) {
+            let own = Value::try_from(&style).ok();
+            keys.retain(|key| own.as_ref().and_then(|own| at(own, key)) != at(&usual, key));
+        }
+        Ok(Self { style, keys })
+    }
+
+    /// A preset, of which nothing was stated.
+    ///
+    /// # Errors
+    ///
+    /// As [`Style::preset`].
+    pub fn preset(name: &str) -> Result<Self, StyleError> {
+        let style = Style::preset(name)?;
+        let keys = BTreeSet::new();
+        Ok(Self { style, keys })
+    }
+
+    /// Overrides values one after the other, as [`Style::set`] does, but checks them against one another once all
+    /// stand: their order does not matter where they need each other.
+    ///
+    /// # Errors
+    ///
+    /// [`StyleError`] for the first override that is wrong by itself, else for what contradicts itself; nothing
+    /// changes then.
+    pub fn set_all<T: AsRef<str>>(&mut self, overrides: &[T]) -> Result<(), StyleError> {
+        let overrides = overrides.iter().map(|text| Assignment::of(text.as_ref()));
+        let overrides: Vec<Assignment<'_>> = overrides.collect::<Result<_, _>>()?;
+        self.style = set::assign(&self.style, &overrides)?;
+        for Assignment { path, value, .. } in &overrides {
+            let key = path.join(".");
+            self.forget(&key);
+            gather(value, &key, &mut self.keys);
+        }
+        Ok(())
+    }
+
+    /// The style.
+    pub fn style(&self) -> &Style {
+        &self.style
+    }
+
+    /// The style alone.
+    pub fn into_style(self) -> Style {
+        self.style
+    }
+
+    /// The stated keys from the top, with dots, entries of lists by their numbers; sorted.
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.keys.iter().map(String::as_str)
+    }
+
+    /// Forgets what was stated of a key that is stated anew: by itself, by what is in it, and by rules, which give way.
+    fn forget(&mut self, key: &str) {
+        let is_of = |stated: &str| {
+            let rest = stated.strip_prefix(key);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        };
+        self.keys
+            .retain(|stated| !is_of(stated) && !without_rule(stated).is_some_and(is_of));
+    }
+}
+
+/// A key of a rule as the style itself has it.
+pub(crate) fn without_rule(key: &str) -> Option<&str> {
+    let (_, key) = key.strip_prefix("rule.")?.split_once('.')?;
+    Some(key)
+}
+
+/// What stands at a key with dots, if anything does.
+fn at<'a>(value: &'a Value, key: &str) -> Option<&'a Value> {
+    key.split('.').try_fold(value, |value, name| match value {
+        Value::Array(entries) => entries.get(name.parse::<usize>().ok()?),
+        _ => value.get(name),
+    })
+}
+
+/// Adds the keys of all plain values at `key` and below.
+fn gather(value: &Value, key: &str, keys: &mut BTreeSet<String>) {
+    let below = |name: &str| match key {
+        "" => name.to_owned(),
+        _ => format!("{key}.{name}"),
+    };
+    let name = key.rsplit('.').next().unwrap_or(key);
+    match value {
+        Value::Table(table) => {
+            for (name, value) in table {
+                gather(value, &below(name), keys);
+            }
+        }
+        Value::Array(entries) if LISTS_OF_TABLES.contains(&name) => {
+            for (i, value) in entries.iter().enumerate() {
+                gather(value, &below(&i.to_string()), keys);
+            }
+        }
+        _ => {
+            keys.insert(key.to_owned());
+        }
+    }
+}

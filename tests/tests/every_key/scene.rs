@@ -1,0 +1,278 @@
+//! A small scene that has something for every key, and what draws it.
+
+use crate::outputs::Output;
+use npr_core::camera::{Camera, Projection};
+use npr_gpu::processor::Processor;
+use npr_mesh::testing::{icosphere, plane};
+use npr_render::{
+    Font, Lettering, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage, Model,
+    Picture, Smoke, Sphere, Stage, StageOptions, apply_id_maps,
+};
+use npr_scene::{
+    Image, Light, LightKind, Material, Node, Scene, TextureTransform, TextureUse, Wrap,
+};
+use npr_style::{Background, LineForm, Stated, Style};
+use npr_tests::{Object, boxed, placed, scene_of};
+use npr_vector::artwork::{ArtworkOptions, Paths};
+use npr_vector::json::write_json;
+use npr_vector::lettering::testing::block_font;
+use npr_vector::svg::write_svg;
+use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+/// Width and height of the pictures.
+const SIZE: [u32; 2] = [96, 72];
+
+/// A scene, and all that styles name.
+pub struct Studio {
+    scene: Scene,
+    model: Model,
+    empty: Model,
+    pictures: BTreeMap<String, Picture>,
+    fonts: BTreeMap<String, Font>,
+}
+
+impl Studio {
+    pub fn new() -> Self {
+        let scene = scene();
+        let names = ["a.png", "b.png", "ids.png"];
+        let font = || Font::new(block_font()).unwrap();
+        Self {
+            model: Model::new(&scene).unwrap(),
+            empty: Model::new(&Scene::default()).unwrap(),
+            scene,
+            pictures: names.map(|name| (name.to_owned(), picture(name))).into(),
+            fonts: ["a.ttf", "b.ttf"]
+                .map(|name| (name.to_owned(), font()))
+                .into(),
+        }
+    }
+
+    /// The drawing in a style as a number, and what is said of it; a value that cannot be drawn with is told as an
+    /// error.
+    pub fn drawn(&self, output: Output, stated: &Stated) -> (u64, Vec<String>) {
+        let style = stated.style();
+        let (bytes, notices) = match output {
+            Output::Frame(_) | Output::Smoke => self.frame(style, output == Output::Smoke),
+            Output::Lines { method, form, fill } => self.lines(style, method, form, fill),
+        };
+        let mut hasher = DefaultHasher::new();
+        bytes.hash(&mut hasher);
+        (hasher.finish(), notices)
+    }
+
+    fn frame(&self, style: &Style, is_smoke_alone: bool) -> (Vec<u8>, Vec<String>) {
+        let cut = (!style.id_map.is_empty()).then(|| self.cut(style));
+        let cut_model = cut.as_ref().map(|scene| Model::new(scene).unwrap());
+        let model = match is_smoke_alone {
+            true => &self.empty,
+            false => cut_model.as_ref().unwrap_or(&self.model),
+        };
+        let options = self.options(style);
+        let lines = style
+            .has_curves()
+            .then(|| self.line_model(cut.as_ref().unwrap_or(&self.scene), style));
+        let mut stage = Stage::new(&Processor, model, style, &options).unwrap();
+        if let Some(lines) = lines.as_ref().filter(|_| !is_smoke_alone) {
+            stage = stage.with_lines(LineStage::new(&Processor, lines));
+        }
+        match stage.draw(&camera()) {
+            Ok(frame) => (frame.rgba, frame.notices),
+            Err(error) => (error.to_string().into_bytes(), Vec::new()),
+        }
+    }
+
+    fn lines(
+        &self,
+        style: &Style,
+        method: LineMethod,
+        form: LineForm,
+        fill: bool,
+    ) -> (Vec<u8>, Vec<String>) {
+        let cut = (!style.id_map.is_empty()).then(|| self.cut(style));
+        let scene = cut.as_ref().unwrap_or(&self.scene);
+        let mut model = self.line_model(scene, style);
+        model.set_smoke(Some(smoke()));
+        model.set_pictures(self.pictures.clone());
+        let options = LineOptions {
+            method,
+            fill,
+            ..LineOptions::of_style(style, SIZE)
+        };
+        let stage_options = self.options(style);
+        let behind = style.minds_background().then(|| Model::new(scene).unwrap());
+        let mut stage = LineStage::new(&Processor, &model);
+        if let Some(behind) = &behind {
+            stage = stage.with_backdrop(behind, &stage_options);
+        }
+        let drawing = match stage.draw(&camera(), style, &options) {
+            Ok(drawing) => drawing,
+            Err(error) => return (error.to_string().into_bytes(), Vec::new()),
+        };
+        if form == LineForm::Data {
+            return (write_json(&drawing), Vec::new());
+        }
+        let view = camera().view(SIZE, model.bounds());
+        let words = Lettering::new(style, &self.fonts).unwrap();
+        let paths = if form == LineForm::Centrelines {
+            Paths::Centreline
+        } else {
+            Paths::Outline
+        };
+        let artwork = ArtworkOptions {
+            paths,
+            background: match style.background {
+                Background::Color(color) if paths == Paths::Outline => {
+                    Some([color.r, color.g, color.b, color.a])
+                }
+                _ => None,
+            },
+            lettering: words.placed(&view, options.dpi),
+            ..ArtworkOptions::default()
+        };
+        (write_svg(&drawing, &artwork), style.line_paint_notices())
+    }
+
+    fn options(&self, style: &Style) -> StageOptions {
+        let named = |name: &str| self.pictures.get(name).cloned();
+        let background = match &style.background {
+            Background::Image(name) => named(name),
+            _ => None,
+        };
+        StageOptions {
+            background_image: background,
+            width_image: style.line.width.texture.as_deref().and_then(named),
+            pictures: self.pictures.clone(),
+            fonts: self.fonts.clone(),
+            smoke: Some(smoke()),
+            ..StageOptions::new(SIZE)
+        }
+    }
+
+    fn line_model(&self, scene: &Scene, style: &Style) -> LineModel {
+        LineModel::for_style(scene, style, &LineModelOptions::default(), None).unwrap()
+    }
+
+    /// The scene cut up by a style's id maps.
+    fn cut(&self, style: &Style) -> Scene {
+        let mut scene = self.scene.clone();
+        apply_id_maps(&mut scene, style, &self.pictures).unwrap();
+        scene
+    }
+}
+
+fn camera() -> Camera {
+    Camera {
+        eye: [3.2, 2.4, 5.6],
+        target: [0.1, 0.1, 0.0],
+        up: [0.0, 1.0, 0.0],
+        projection: Projection::Perspective { fov_y: 0.6 },
+    }
+}
+
+/// A ball and a box that cut through each other on a floor of two materials, and a beam.
+fn scene() -> Scene {
+    let mut scene = scene_of(&[
+        Object::new("Ball", placed(&icosphere(2), [0.8; 3], [-0.7, 0.2, 0.0]))
+            .colored([0.8, 0.5, 0.3]),
+        Object::new("Box", boxed([-0.4, -0.6, -0.5], [0.9, 0.5, 0.6])),
+        Object::new("Floor", floor(-1.5))
+            .colored([0.5, 0.7, 0.4])
+            .double_sided(),
+        Object::new("Trim", floor(0.5))
+            .colored([0.3, 0.3, 0.7])
+            .double_sided(),
+        Object::new("Glow", boxed([0.9, -0.4, 0.6], [1.1, 1.2, 0.8])),
+    ]);
+    // One object of two materials, whose border is a line.
+    let trim = scene.meshes[3].parts.remove(0);
+    scene.meshes[2].parts.push(trim);
+    // The ball is shaded smoothly.
+    let ball = &mut scene.meshes[0].parts[0];
+    let away = |p: &[f32; 3]| glam::Vec3::from(*p) - glam::Vec3::new(-0.7, 0.2, 0.0);
+    let normals = ball
+        .positions
+        .iter()
+        .map(|p| away(p).normalize().to_array());
+    ball.normals = Some(normals.collect());
+    for part in scene.meshes.iter_mut().flat_map(|mesh| &mut mesh.parts) {
+        let places = || part.positions.iter();
+        part.uvs = Some(
+            places()
+                .map(|p| [p[0] * 0.5 + p[2] * 0.3 + 0.5, p[1] * 0.5 + 0.4])
+                .collect(),
+        );
+        part.colors = Some(
+            places()
+                .map(|p| {
+                    [0.5 + p[0] * 0.3, 0.5 + p[1] * 0.3, 0.6, 1.0].map(|c: f32| c.clamp(0.0, 1.0))
+                })
+                .collect(),
+        );
+    }
+    let drawing = picture("a.png");
+    scene.images = vec![Image {
+        name: "paint".to_owned(),
+        width: drawing.size[0],
+        height: drawing.size[1],
+        rgba: drawing.rgba,
+    }];
+    scene.materials[1].base_color_texture = Some(TextureUse {
+        image: 0,
+        uv_set: 0,
+        wrap: [Wrap::Repeat; 2],
+        transform: TextureTransform::default(),
+    });
+    scene.lights = vec![Light {
+        name: "Sun".to_owned(),
+        kind: LightKind::Directional,
+        color: [1.0, 0.8, 0.6],
+        intensity: 3.0,
+        range: None,
+    }];
+    scene.nodes.push(Node {
+        name: "Sun".to_owned(),
+        light: Some(0),
+        ..Node::default()
+    });
+    scene.materials.push(Material::default());
+    scene
+}
+
+/// A strip of floor from an x on.
+fn floor(left: f32) -> npr_mesh::Mesh {
+    let strip = npr_mesh::testing::mapped(&plane(2, 2), |[x, y, _]| [x, 0.0, y]);
+    placed(&strip, [2.0, 1.0, 3.0], [left, -0.8, -1.5])
+}
+
+fn smoke() -> Smoke {
+    let puffs = [
+        ([0.9, 0.9, -0.4], 0.35, 0.9),
+        ([1.2, 0.7, -0.2], 0.3, 0.5),
+        ([0.7, 1.2, -0.6], 0.25, 0.2),
+        ([1.1, 1.1, -0.7], 0.3, 0.0),
+        ([0.5, 0.9, -0.1], 0.2, 0.7),
+    ];
+    let sphere = |(center, radius, heat)| Sphere {
+        heat,
+        ..Sphere::new(center, radius)
+    };
+    Smoke::new(puffs.into_iter().map(sphere).collect())
+}
+
+/// A picture of 16x16 pixels that tells all others apart.
+fn picture(name: &str) -> Picture {
+    let of = |x: u32, y: u32| -> [u8; 3] {
+        match name {
+            "ids.png" if x < 8 => [255, 0, 0],
+            "ids.png" => [0, 255, 0],
+            "a.png" => [(x * 16) as u8, (y * 15) as u8, 90],
+            _ => [200 - (y * 9) as u8, 240 - (x * 13) as u8, (x * y) as u8],
+        }
+    };
+    let pixels = (0..16 * 16).map(|i| of(i % 16, i / 16));
+    Picture {
+        size: [16, 16],
+        rgba: pixels.flat_map(|[r, g, b]| [r, g, b, 255]).collect(),
+    }
+}
