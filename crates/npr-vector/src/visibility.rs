@@ -478,18 +478,25 @@ fn counted(parts: &[[f64; 2]], limit: u32) -> Vec<Span> {
     spans
 }
 
-/// Spans of a crowded piece without those too short to see, which go to the one before.
+/// The share of a crowded piece's image below which a span of it is too short to see.
+fn least_crowded(piece: &Piece) -> f64 {
+    LEAST_CROWDED_PX / piece.length().max(2.0 * LEAST_CROWDED_PX)
+}
+
+/// Spans of a crowded piece without those too short to see, which go to the one before; at the start to the one after.
 fn joined(spans: Vec<Span>, piece: &Piece) -> Vec<Span> {
-    let least = LEAST_CROWDED_PX / piece.length().max(2.0 * LEAST_CROWDED_PX);
+    let least = least_crowded(piece);
+    let is_seen = |span: &Span| span.to - span.from >= least;
+    let first = spans.iter().find(|span| is_seen(span)).or(spans.first());
+    let Some(mut occluders) = first.map(|span| span.occluders) else {
+        return spans;
+    };
     let mut kept: Vec<Span> = Vec::with_capacity(spans.len());
-    for span in spans {
-        let is_short = span.to - span.from < least;
-        let before = kept.last().filter(|_| is_short).map(|last| last.occluders);
-        push(
-            &mut kept,
-            [span.from, span.to],
-            before.unwrap_or(span.occluders),
-        );
+    for span in &spans {
+        if is_seen(span) {
+            occluders = span.occluders;
+        }
+        push(&mut kept, [span.from, span.to], occluders);
     }
     kept
 }

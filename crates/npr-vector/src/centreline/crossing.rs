@@ -26,7 +26,11 @@ const WIDE_PX: f64 = 1.2;
 const STRAIGHT: f64 = 0.766;
 
 /// How far beside each other, in pixels and as a share of their half width, the two arms of a line may lie.
-const ASIDE: [f64; 2] = [1.0, 0.5];
+///
+/// Pixels of an arm lie half a pixel beside the middle of ink that is an even number of pixels wide, and that lies up to
+/// half a pixel beside the drawn line: both arms together are up to 2 pixels off, each to its own side. Half widths of half
+/// a pixel, which is what thin ink counts as, add the last half of them.
+const ASIDE: [f64; 2] = [1.5, 0.5];
 
 /// Most junctions that a crossing may have been torn into, with the loops beside it.
 const MOST_FORKS: usize = 12;
@@ -270,12 +274,14 @@ impl Network {
         let [least, most] = ARM_PIXELS;
         let last = (skip + (6.0 * radius).clamp(least, most) as usize).min(count - 1);
         let is_first = end == 0;
-        let places: Vec<DVec2> = (skip..=last)
-            .map(|k| self.place(there.pixels[if is_first { k } else { count - 1 - k }]))
-            .collect();
+        let pixel = |k: usize| there.pixels[if is_first { k } else { count - 1 - k }];
+        let places: Vec<DVec2> = (skip..=last).map(|k| self.place(pixel(k))).collect();
+        // Near the junction its ink is wider; of thin lines some pixels lie at the side and say less.
+        let far = skip + (last - skip) / 2;
+        let radii = (far..=last).map(|k| self.radii[pixel(k) as usize]);
         Some(Arm {
             line: line(&places, self.middle(node)),
-            radius: self.radii[there.pixels[count / 2] as usize],
+            radius: radii.fold(0.0, f64::max),
         })
     }
 

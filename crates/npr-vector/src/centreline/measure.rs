@@ -8,6 +8,9 @@ use glam::DVec2;
 /// Shares of a step from place to place at which the ink is measured: between pixels it is as wide as on them.
 const SAMPLES: [f64; 4] = [-0.375, -0.125, 0.125, 0.375];
 
+/// Places on either side of one whose ink says how wide a line is there.
+const BESIDE: usize = 2;
+
 /// Lines are never thinner than a pixel: slanted lines of single pixels would come out at 0.71.
 const LEAST_WIDTH_PX: f64 = 1.0;
 
@@ -72,10 +75,22 @@ pub fn measure(way: &Way, bitmap: &Bitmap) -> Vec<Across> {
             hold_direction(way, end, &mut along);
         }
     }
-    let points = way.points.iter().zip(along);
+    let points = way.points.iter().zip(along).enumerate();
     points
-        .map(|(point, along)| across(point, along, bitmap))
+        .map(|(i, (point, along))| across(point, along, limit_at(way, i), bitmap))
         .collect()
+}
+
+/// How far from a place the ink of its line may go on to a side; none where it was not measured.
+///
+/// The pixel of a thin line may lie at the side of its ink, on a step of a stair: the ink beside it says how wide the
+/// line is.
+fn limit_at(way: &Way, at: usize) -> Option<f64> {
+    way.points[at].radius?;
+    let last = way.points.len() - 1;
+    let around = &way.points[at.saturating_sub(BESIDE)..=(at + BESIDE).min(last)];
+    let radii = around.iter().filter_map(|point| point.radius);
+    Some(1.5 * radii.fold(0.0, f64::max) + 1.5)
 }
 
 /// Gives the last places of a line the direction half a width before them: thinned ends turn to a corner of the ink.
@@ -90,15 +105,14 @@ fn hold_direction(way: &Way, end: usize, along: &mut [DVec2]) {
     (0..held).for_each(|k| along[at(k)] = direction);
 }
 
-fn across(point: &WayPoint, along: DVec2, bitmap: &Bitmap) -> Across {
+fn across(point: &WayPoint, along: DVec2, limit: Option<f64>, bitmap: &Bitmap) -> Across {
     let nothing = Across {
         place: point.place,
         width: None,
     };
-    let Some(radius) = point.radius else {
+    let Some(limit) = limit else {
         return nothing;
     };
-    let limit = 1.5 * radius + 1.5;
     let (mut left, mut right, mut count) = (0.0, 0.0, 0.0);
     for share in SAMPLES {
         let from = point.place + along * share;

@@ -43,6 +43,8 @@ impl FaceImages {
         let mut cover = Cover {
             joined: known.to_vec(),
             found: Vec::new(),
+            // Gaps at the end of one cell and at the start of the next are one.
+            unseen: 0.5 * super::least_crowded(piece),
         };
         if circumstances.touch > 0.0 {
             // What fills a cell before such a piece may be too near to hide it.
@@ -134,6 +136,8 @@ struct Cover {
     joined: Vec<[f64; 2]>,
     /// Found since they were joined last.
     found: Vec<[f64; 2]>,
+    /// Gaps shorter than this need no looking at: nobody would see them.
+    unseen: f64,
 }
 
 impl Cover {
@@ -158,10 +162,17 @@ impl Cover {
         }
     }
 
-    /// Whether a part lies in what was joined.
+    /// Whether a part lies in what was joined, but for gaps too short to see.
     fn holds(&self, [from, to]: [f64; 2]) -> bool {
-        let after = self.joined.partition_point(|part| part[0] <= from);
-        after > 0 && to <= self.joined[after - 1][1]
+        let first = self.joined.partition_point(|part| part[1] <= from);
+        let mut reached = from;
+        for [start, end] in &self.joined[first..] {
+            if *start - reached > self.unseen || to - reached <= self.unseen {
+                break;
+            }
+            reached = *end;
+        }
+        to - reached <= self.unseen
     }
 }
 
