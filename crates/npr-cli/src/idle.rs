@@ -5,8 +5,9 @@ use crate::arguments::{
     TraceArguments, VolumeArguments, VolumeUp,
 };
 use crate::line_job::LineJob;
-use crate::volume::{DEFAULT_FPS, Order, VolumeSource};
+use crate::volume::{DEFAULT_FPS, DEFAULT_STEP, Order, VolumeSource};
 use npr_style::{Facts, SmokeParticles};
+use npr_vector::trace::TraceOptions;
 
 /// An option that cannot act where something is so.
 struct Entry<T> {
@@ -61,45 +62,37 @@ struct Volumes<'a> {
     is_of_file: bool,
 }
 
+/// An option that is about smoke.
+const fn of_smoke_alone<'a>(
+    option: &'static str,
+    is_said: fn(&Volumes<'a>) -> bool,
+) -> Entry<Volumes<'a>> {
+    entry(option, is_said, |c| !c.is_any, "the scene has no smoke")
+}
+
+/// An option that is about smoke from files.
+const fn of_files_alone<'a>(
+    option: &'static str,
+    is_said: fn(&Volumes<'a>) -> bool,
+) -> Entry<Volumes<'a>> {
+    let why = "no smoke comes from a volume file";
+    entry(option, is_said, |c| !c.is_of_file, why)
+}
+
 /// Options of volumes that cannot act.
 fn volume_entries<'a>() -> Vec<Entry<Volumes<'a>>> {
     vec![
-        entry(
-            "--spheres",
-            |c| c.said.spheres.is_some(),
-            |c| !c.is_any,
-            NO_SMOKE,
-        ),
-        entry(
-            "--threshold",
-            |c| c.said.threshold.is_some(),
-            |c| !c.is_any,
-            NO_SMOKE,
-        ),
-        entry(
-            "--detail",
-            |c| c.said.detail.is_some(),
-            |c| !c.is_any,
-            NO_SMOKE,
-        ),
+        of_smoke_alone("--spheres", |c| c.said.spheres.is_some()),
+        of_smoke_alone("--threshold", |c| c.said.threshold.is_some()),
+        of_smoke_alone("--detail", |c| c.said.detail.is_some()),
         entry(
             "--seed",
             |c| c.said.seed != 0,
             |c| !c.is_any,
             "it is about smoke, of which the scene has none",
         ),
-        entry(
-            "--particles",
-            |c| c.said.particles.is_some(),
-            |c| !c.is_any,
-            NO_SMOKE,
-        ),
-        entry(
-            "--emitter",
-            |c| c.said.emitter.is_some(),
-            |c| !c.is_any,
-            NO_SMOKE,
-        ),
+        of_smoke_alone("--particles", |c| c.said.particles.is_some()),
+        of_smoke_alone("--emitter", |c| c.said.emitter.is_some()),
         entry(
             "--emitter",
             |c| c.said.emitter.is_some(),
@@ -112,35 +105,12 @@ fn volume_entries<'a>() -> Vec<Entry<Volumes<'a>>> {
             |c| c.particles == SmokeParticles::Published,
             "smoke.particles is published",
         ),
-        entry(
-            "--density",
-            |c| c.said.density.is_some(),
-            |c| !c.is_of_file,
-            NO_FILE,
-        ),
-        entry(
-            "--velocity",
-            |c| !c.said.velocity.is_empty(),
-            |c| !c.is_of_file,
-            NO_FILE,
-        ),
-        entry(
-            "--heat",
-            |c| c.said.heat.is_some(),
-            |c| !c.is_of_file,
-            NO_FILE,
-        ),
-        entry(
-            "--volume-up",
-            |c| c.said.volume_up != VolumeUp::Y,
-            |c| !c.is_of_file,
-            NO_FILE,
-        ),
+        of_files_alone("--density", |c| c.said.density.is_some()),
+        of_files_alone("--velocity", |c| !c.said.velocity.is_empty()),
+        of_files_alone("--heat", |c| c.said.heat.is_some()),
+        of_files_alone("--volume-up", |c| c.said.volume_up != VolumeUp::default()),
     ]
 }
-
-const NO_SMOKE: &str = "the scene has no smoke";
-const NO_FILE: &str = "no smoke comes from a volume file";
 
 /// What to tell of options about volumes, where the scene itself is `own`, if it is a volume.
 pub fn of_volumes(order: &Order<'_>, own: Option<&VolumeSource>) -> Vec<String> {
@@ -240,7 +210,7 @@ fn smoke_entries<'a>() -> Vec<Entry<Smoke<'a>>> {
     vec![
         entry(
             "--step",
-            |c| c.said.step != 1.0,
+            |c| c.said.step != DEFAULT_STEP,
             |c| c.count < 2,
             "one frame is drawn",
         ),
@@ -265,40 +235,36 @@ pub fn of_smoke(said: &SmokeArguments, source: &VolumeSource, count: usize) -> V
     )
 }
 
+/// An option that is about the outlines of ink.
+const fn of_outlines_alone(
+    option: &'static str,
+    is_said: fn(&TraceArguments) -> bool,
+) -> Entry<TraceArguments> {
+    let why = "it is about outlines, and --centreline traces the middle of lines";
+    entry(option, is_said, |c| c.form.centreline, why)
+}
+
+/// Whether the user asked for joined curves to stray otherwise than usual.
+fn is_tolerance_said(said: &TraceArguments) -> bool {
+    Some(said.method.opttolerance) != TraceOptions::default().join_tolerance
+}
+
 const TRACE: &[Entry<TraceArguments>] = &[
-    entry(
-        "--turnpolicy",
-        |c| c.method.turnpolicy != npr_vector::trace::TurnPolicy::default(),
-        |c| c.form.centreline,
-        NO_OUTLINES,
-    ),
-    entry(
-        "--alphamax",
-        |c| c.method.alphamax != 1.0,
-        |c| c.form.centreline,
-        NO_OUTLINES,
-    ),
+    of_outlines_alone("--turnpolicy", |c| {
+        c.method.turnpolicy != TraceOptions::default().turn_policy
+    }),
+    of_outlines_alone("--alphamax", |c| {
+        c.method.alphamax != TraceOptions::default().alpha_max
+    }),
+    of_outlines_alone("--opttolerance", is_tolerance_said),
+    of_outlines_alone("--longcurve", |c| c.method.longcurve),
     entry(
         "--opttolerance",
-        |c| c.method.opttolerance != 0.2,
-        |c| c.form.centreline,
-        NO_OUTLINES,
-    ),
-    entry(
-        "--longcurve",
-        |c| c.method.longcurve,
-        |c| c.form.centreline,
-        NO_OUTLINES,
-    ),
-    entry(
-        "--opttolerance",
-        |c| c.method.opttolerance != 0.2,
+        is_tolerance_said,
         |c| c.method.longcurve,
         "--longcurve joins no curves",
     ),
 ];
-
-const NO_OUTLINES: &str = "it is about outlines, and --centreline traces the middle of lines";
 
 /// What to tell of options of a tracing.
 pub fn of_trace(said: &TraceArguments) -> Vec<String> {

@@ -232,9 +232,9 @@ fn tell_notices(
     progress: &Progress,
 ) {
     progress.suspend(|| {
-        message::warn_all(job.said.drawing.quiet, &film.notices);
-        let facts = facts_of(&npr_scene::Scene::default(), true);
         let quiet = job.said.drawing.quiet;
+        message::warn_all(quiet, &film.notices);
+        let facts = facts_of(&npr_scene::Scene::default(), true);
         render::warn_of_idle(&job.look, facts, quiet);
         let of_smoke = idle::of_smoke(job.said, source, film.frames.len());
         message::warn_all(quiet, of_volumes.iter().chain(&of_smoke));

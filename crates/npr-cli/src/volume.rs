@@ -16,6 +16,9 @@ use npr_smoke::{Birthplace, Footage, PuffSettings, Puffs, Source, Volume};
 use npr_style::SmokeStyle;
 use std::path::{Path, PathBuf};
 
+/// Frames from one picture to the next where nothing is said.
+pub const DEFAULT_STEP: f64 = 1.0;
+
 /// Frames per second where none are said.
 pub const DEFAULT_FPS: f32 = 24.0;
 
@@ -73,7 +76,7 @@ impl Default for Shots {
     fn default() -> Self {
         Self {
             frames: None,
-            step: 1.0,
+            step: DEFAULT_STEP,
             fps: DEFAULT_FPS,
             grid: None,
         }

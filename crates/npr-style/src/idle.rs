@@ -6,6 +6,7 @@ mod table;
 pub use case::{Facts, LineFinder, LineForm, LineOutput, Occasion, Output};
 
 use crate::Stated;
+use crate::stated::lies_in;
 use case::Case;
 use table::{ENTRIES, Why};
 
@@ -64,9 +65,7 @@ impl Stated {
 fn covers(pattern: &str, key: &str) -> bool {
     match pattern.strip_suffix('*') {
         Some(beginning) => key.starts_with(beginning),
-        None => key
-            .strip_prefix(pattern)
-            .is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),
+        None => lies_in(key, pattern),
     }
 }
 

@@ -5,6 +5,7 @@ use toml::{Table, Value};
 
 use crate::error::StyleError;
 use crate::schema::Node;
+use crate::stated::entry;
 use crate::{Style, check, layers};
 
 /// Longest override, in bytes, and deepest key.
@@ -53,14 +54,14 @@ impl<'a> Assignment<'a> {
     /// Refuses entries of lists that are not there, and names in place of their numbers.
     fn check_lists(&self, table: &Table) -> Result<(), StyleError> {
         let mut node = Node::root();
-        let mut value = Some(Value::Table(table.clone()));
+        let mut value = None;
         for (depth, name) in self.path.iter().enumerate() {
             let is_list = node.is_some_and(|node| node.forms().iter().any(|form| form.is("array")));
             if is_list {
-                let entries = value.as_ref().and_then(Value::as_array);
+                let entries = value.and_then(Value::as_array);
                 let count = entries.map_or(0, Vec::len);
-                let entry = name.parse::<usize>().ok();
-                if entry.is_none_or(|entry| entry >= count) {
+                let number = name.parse::<usize>().ok();
+                if number.is_none_or(|number| number >= count) {
                     return Err(StyleError::NoEntry {
                         list: self.path[..depth].join("."),
                         entry: (*name).to_owned(),
@@ -69,14 +70,10 @@ impl<'a> Assignment<'a> {
                 }
             }
             node = node.and_then(|node| node.inside(name));
-            value = value.and_then(|value| match value {
-                Value::Table(mut table) => table.remove(*name),
-                Value::Array(entries) => name
-                    .parse()
-                    .ok()
-                    .and_then(|i: usize| entries.into_iter().nth(i)),
-                _ => None,
-            });
+            value = match depth {
+                0 => table.get(*name),
+                _ => value.and_then(|value| entry(value, name)),
+            };
         }
         Ok(())
     }
@@ -103,7 +100,7 @@ fn parse(text: &str) -> Value {
 }
 
 /// Puts `value` at `path`, making tables on the way; none where the path leads through a plain value.
-pub(crate) fn insert(table: &mut Table, path: &[&str], value: Value) -> Option<()> {
+fn insert(table: &mut Table, path: &[&str], value: Value) -> Option<()> {
     let (name, rest) = path.split_first()?;
     if rest.is_empty() {
         table.insert((*name).to_owned(), value);
@@ -133,7 +130,7 @@ fn insert_into(holder: &mut Value, path: &[&str], value: Value) -> Option<()> {
 }
 
 /// Removes the value at `path` from every rule: rules name keys as the style does, and overrides win.
-pub(crate) fn yield_rules(table: &mut Table, path: &[&str]) {
+fn yield_rules(table: &mut Table, path: &[&str]) {
     let Some(Value::Array(rules)) = table.get_mut("rule") else {
         return;
     };

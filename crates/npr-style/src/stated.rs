@@ -98,10 +98,7 @@ impl Stated {
 
     /// Forgets what was stated of a key that is stated anew: by itself, by what is in it, and by rules, which give way.
     fn forget(&mut self, key: &str) {
-        let is_of = |stated: &str| {
-            let rest = stated.strip_prefix(key);
-            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-        };
+        let is_of = |stated: &str| lies_in(stated, key);
         self.keys
             .retain(|stated| !is_of(stated) && !without_rule(stated).is_some_and(is_of));
     }
@@ -113,12 +110,23 @@ pub(crate) fn without_rule(key: &str) -> Option<&str> {
     Some(key)
 }
 
+/// Whether a key with dots is another one, or a key of the table or list at that one.
+pub(crate) fn lies_in(key: &str, outer: &str) -> bool {
+    let rest = key.strip_prefix(outer);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
 /// What stands at a key with dots, if anything does.
 fn at<'a>(value: &'a Value, key: &str) -> Option<&'a Value> {
-    key.split('.').try_fold(value, |value, name| match value {
+    key.split('.').try_fold(value, entry)
+}
+
+/// What a table has under a name, or a list under a number.
+pub(crate) fn entry<'a>(value: &'a Value, name: &str) -> Option<&'a Value> {
+    match value {
         Value::Array(entries) => entries.get(name.parse::<usize>().ok()?),
         _ => value.get(name),
-    })
+    }
 }
 
 /// Adds the keys of all plain values at `key` and below.

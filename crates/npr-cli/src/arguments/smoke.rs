@@ -21,7 +21,7 @@ pub struct SmokeArguments {
     pub frames: Option<Frames>,
     /// Frames from one picture to the next; 0.5 draws one between every two, as the motion goes. Pictures are numbered on
     /// from the first frame.
-    #[arg(long, value_name = "FRAMES", default_value_t = 1.0, value_parser = step)]
+    #[arg(long, value_name = "FRAMES", default_value_t = crate::volume::DEFAULT_STEP, value_parser = step)]
     pub step: f64,
     /// Frames per second, of a simulation or of a series of files.
     #[arg(long, value_name = "N", default_value_t = crate::volume::DEFAULT_FPS, value_parser = frame_rate)]

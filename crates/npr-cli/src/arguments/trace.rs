@@ -40,16 +40,18 @@ pub struct TraceArguments {
 #[command(next_help_heading = "Tracing")]
 pub struct TraceMethodArguments {
     /// Leave out shapes and holes of up to this many pixels.
-    #[arg(short, long, value_name = "PIXELS", default_value_t = 2)]
+    #[arg(short, long, value_name = "PIXELS", default_value_t = TraceOptions::default().turd_size)]
     pub turdsize: u64,
     /// Which colour hangs together where pixels meet at a corner only.
     #[arg(short = 'z', long, value_name = "POLICY", default_value = TurnPolicy::default().name(), value_parser = turn_policies())]
     pub turnpolicy: TurnPolicy,
     /// Sharpness from which a bend is a corner: 0 makes polygons, 1.34 rounds everything.
-    #[arg(short, long, value_name = "N", default_value_t = 1.0, allow_hyphen_values = true, value_parser = not_negative)]
+    #[arg(short, long, value_name = "N", default_value_t = TraceOptions::default().alpha_max)]
+    #[arg(allow_hyphen_values = true, value_parser = not_negative)]
     pub alphamax: f64,
     /// How far curves may stray where they are joined, in pixels.
-    #[arg(short = 'O', long, value_name = "N", default_value_t = 0.2, allow_hyphen_values = true, value_parser = not_negative)]
+    #[arg(short = 'O', long, value_name = "N", default_value_t = usual_tolerance())]
+    #[arg(allow_hyphen_values = true, value_parser = not_negative)]
     pub opttolerance: f64,
     /// Do not join curves.
     #[arg(short = 'n', long)]
@@ -72,6 +74,12 @@ impl TraceMethodArguments {
             join_tolerance: (!self.longcurve).then_some(self.opttolerance),
         }
     }
+}
+
+/// How far curves may stray where nothing is said.
+fn usual_tolerance() -> f64 {
+    let usual = TraceOptions::default().join_tolerance;
+    usual.unwrap_or_default()
 }
 
 /// A file format of traced bitmaps.

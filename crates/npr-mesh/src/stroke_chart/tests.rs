@@ -376,8 +376,9 @@ proptest! {
         prop_assert_eq!(torn_edges(&mesh, &settings), 0);
         let chart = chart_of(&mesh, &settings);
         prop_assert_eq!(chart.singular_triangles, 0);
-        // A whole number of strokes goes round, the next to what was asked for; along the tube all is as asked for. What
-        // the ring stretches for that is spread over it: nowhere twice as much as in the mean, and nowhere the other way.
+        // A whole number of strokes goes round, the next to what was asked for; along the tube all is as asked for.
+        // What the ring stretches for that is spread over it: nowhere twice as much as in the mean, and nowhere the
+        // other way.
         let whole = [tiles.floor(), tiles.ceil()].map(|count| count / tiles);
         let near = whole.into_iter().filter(|share| (share - 1.0).abs() <= 0.55 / tiles);
         let exact: Vec<f32> = near.chain([1.0]).collect();

@@ -1,6 +1,6 @@
 //! A key of a style, and all that decides whether it can act.
 
-use crate::stated::without_rule;
+use crate::stated::{lies_in, without_rule};
 use crate::{BackgroundMethod, LineMethod, Look, Style, Tone, WidthSource};
 
 /// Where a style is drawn.
@@ -156,10 +156,7 @@ impl<'a> Case<'a> {
     pub fn is_paint_of_words(&self) -> bool {
         let of_entry = self.key.splitn(3, '.').nth(2).unwrap_or_default();
         let paints = ["color", "outline.width", "second_outline"];
-        paints.iter().any(|name| {
-            let rest = of_entry.strip_prefix(name);
-            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-        })
+        paints.iter().any(|name| lies_in(of_entry, name))
     }
 
     /// Whether lines of a frame may be drawn by one of these methods; always in drawings of curves.

@@ -16,6 +16,9 @@ const TORN: f64 = 3.5;
 /// What is added to [`TORN`], in pixels: lines of single pixels that cross by 20 degrees touch that long.
 const SHARED_PX: f64 = 10.0;
 
+/// How many times as long as its forks may be apart a bridge is at most: it may wind.
+const WINDING: f64 = 1.5;
+
 /// How far apart, as a share of the lesser half width, junctions are one in any case: the disc of ink around one holds the other.
 const OVERLAP: f64 = 1.0;
 
@@ -27,9 +30,9 @@ const STRAIGHT: f64 = 0.766;
 
 /// How far beside each other, in pixels and as a share of their half width, the two arms of a line may lie.
 ///
-/// Pixels of an arm lie half a pixel beside the middle of ink that is an even number of pixels wide, and that lies up to
-/// half a pixel beside the drawn line: both arms together are up to 2 pixels off, each to its own side. Half widths of half
-/// a pixel, which is what thin ink counts as, add the last half of them.
+/// Pixels of an arm lie half a pixel beside the middle of ink that is an even number of pixels wide, and that lies up
+/// to half a pixel beside the drawn line: both arms together are up to 2 pixels off, each to its own side. Half widths
+/// of half a pixel, which is what thin ink counts as, add the last half of them.
 const ASIDE: [f64; 2] = [1.5, 0.5];
 
 /// Most junctions that a crossing may have been torn into, with the loops beside it.
@@ -102,8 +105,7 @@ impl Network {
             if self.overlap(branch).is_some() {
                 let mut ends = self.branches[branch as usize].ends;
                 ends.sort_unstable();
-                let bridges =
-                    self.between(&ends, |network, between| network.is_within(between, &ends));
+                let bridges = self.between(&ends, |branch| self.is_within(branch, &ends));
                 self.join(&ends, &bridges);
             }
         }
@@ -179,7 +181,7 @@ impl Network {
             .map(|other| self.middle(*other).distance(middle));
         let extent = away.fold(cluster.extent, f64::max);
         let length = self.branches[branch as usize].pixels.len() as f64;
-        (extent <= limit && length <= 1.5 * limit).then_some(extent)
+        (extent <= limit && length <= WINDING * limit).then_some(extent)
     }
 
     /// Whether the arms of a cluster are those of straight lines that cross.
@@ -221,24 +223,25 @@ impl Network {
         matches!(arms.len(), 4 | 6).then_some(arms)
     }
 
-    /// The branches between some junctions that are short enough to be torn out of a crossing: a longer one is a loop of the line.
+    /// The branches between some junctions that are short enough to be torn out of a crossing: a longer one is a loop
+    /// of the line.
     fn bridges(&self, nodes: &[u32]) -> Vec<u32> {
         let radii = nodes.iter().map(|node| self.radius(*node));
-        let longest = 1.5 * (2.0 * TORN * radii.fold(0.0, f64::max) + SHARED_PX);
-        self.between(nodes, |network, branch| {
-            network.branches[branch as usize].pixels.len() as f64 <= longest
+        let longest = WINDING * (2.0 * TORN * radii.fold(0.0, f64::max) + SHARED_PX);
+        self.between(nodes, |branch| {
+            self.branches[branch as usize].pixels.len() as f64 <= longest
         })
     }
 
     /// The branches with both ends in some junctions of which `which` holds, each once.
-    fn between(&self, nodes: &[u32], which: impl Fn(&Self, u32) -> bool) -> Vec<u32> {
+    fn between(&self, nodes: &[u32], which: impl Fn(u32) -> bool) -> Vec<u32> {
         let mut between: Vec<u32> = nodes
             .iter()
             .flat_map(|node| &self.nodes[*node as usize].branches)
             .copied()
             .filter(|branch| {
                 let ends = self.branches[*branch as usize].ends;
-                ends.iter().all(|end| nodes.contains(end)) && which(self, *branch)
+                ends.iter().all(|end| nodes.contains(end)) && which(*branch)
             })
             .collect();
         between.sort_unstable();
@@ -285,8 +288,8 @@ impl Network {
         })
     }
 
-    /// Makes one of several junctions, in the place of the first, without `bridges` between them; what else runs from one to another is
-    /// a loop from then on.
+    /// Makes one of several junctions, in the place of the first, without `bridges` between them; what else runs from
+    /// one to another is a loop from then on.
     fn join(&mut self, nodes: &[u32], bridges: &[u32]) {
         for branch in bridges {
             self.remove(*branch);

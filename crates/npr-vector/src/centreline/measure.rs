@@ -81,7 +81,12 @@ pub fn measure(way: &Way, bitmap: &Bitmap) -> Vec<Across> {
         .collect()
 }
 
-/// How far from a place the ink of its line may go on to a side; none where it was not measured.
+/// How far the ink of a line of half a width may go on to a side: what goes on farther is another line.
+pub fn farthest_aside(radius: f64) -> f64 {
+    1.5 * radius + 1.5
+}
+
+/// The same at a place of a way; none where it was not measured.
 ///
 /// The pixel of a thin line may lie at the side of its ink, on a step of a stair: the ink beside it says how wide the
 /// line is.
@@ -90,7 +95,7 @@ fn limit_at(way: &Way, at: usize) -> Option<f64> {
     let last = way.points.len() - 1;
     let around = &way.points[at.saturating_sub(BESIDE)..=(at + BESIDE).min(last)];
     let radii = around.iter().filter_map(|point| point.radius);
-    Some(1.5 * radii.fold(0.0, f64::max) + 1.5)
+    Some(farthest_aside(radii.fold(0.0, f64::max)))
 }
 
 /// Gives the last places of a line the direction half a width before them: thinned ends turn to a corner of the ink.

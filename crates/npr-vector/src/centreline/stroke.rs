@@ -3,7 +3,7 @@
 use super::calm::{Calm, calm};
 use super::corner::{Corner, corners};
 use super::link::Way;
-use super::measure::{ink_along, measure, smooth_widths};
+use super::measure::{farthest_aside, ink_along, measure, smooth_widths};
 use super::{CentrePoint, CentreStroke};
 use crate::trace::Bitmap;
 use glam::DVec2;
@@ -221,7 +221,7 @@ fn short(way: &Way, ink: &Bitmap) -> CentreStroke {
         .fold(0.5, f64::max);
     let along = (last - first).try_normalize().unwrap_or(DVec2::X);
     let reach = |from: DVec2, along: DVec2| {
-        ink_along(ink, from, along, 1.5 * radius + 1.5).unwrap_or(radius)
+        ink_along(ink, from, along, farthest_aside(radius)).unwrap_or(radius)
     };
     let middle = first.midpoint(last);
     let [left, right] = [along.perp(), -along.perp()].map(|side| reach(middle, side));

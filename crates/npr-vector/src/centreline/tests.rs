@@ -199,9 +199,9 @@ proptest! {
         let further = reach.normalize() * beyond;
         let lengthened = [line[0] - further, line[1] + further];
         for point in &stroke.points {
-            // The middle of a column of pixels lies up to half a pixel aside. Where it steps to the next column once, the
-            // parabola of least squares overshoots the step by 0.374 of it at its end, and its slope by 1.97 over half
-            // its window of 64 places, on which the tip is led on by half a width.
+            // The middle of a column of pixels lies up to half a pixel aside. Where it steps to the next column once,
+            // the parabola of least squares overshoots the step by 0.374 of it at its end, and its slope by 1.97 over
+            // half its window of 64 places, on which the tip is led on by half a width.
             let place = DVec2::from(point.place);
             let is_tip = line.iter().any(|end| place.distance(*end) <= 0.5 * width + 1.0);
             let slope = 1.97 / 32.0 + 1.0 / 45.0;
@@ -372,7 +372,8 @@ fn a_drawn_line_enters_the_curve_graph_once() {
 
 #[test]
 fn loops_between_junctions_that_are_joined_stay() {
-    // Two rings of wide ink that touch: both junctions lie in one disc of ink, and both rings run from one to the other.
+    // Two rings of wide ink that touch: both junctions lie in one disc of ink, and both rings run from one to the
+    // other.
     let rows = [
         "###...############################",
         "###...############################",

@@ -63,14 +63,9 @@ pub(super) fn slender(paint: &Paint<'_>) -> Vec<bool> {
         patch != 0 && depth[pixel] > neck(patch)
     };
     let away = distances(&whole.of_pixel, width, &is_core);
-    let half = |pixel: usize| {
-        let patch = whole.of_pixel[pixel];
-        let is_opened = patch != 0 && away[pixel] <= neck(patch);
-        2 * patch + u32::from(is_opened)
-    };
     let kind = |pixel: usize| match whole.of_pixel[pixel] {
         0 => 0,
-        _ => half(pixel),
+        patch => 2 * patch + u32::from(away[pixel] <= neck(patch)),
     };
     let pieces = Patches::of(ink.len(), width, &kind);
 

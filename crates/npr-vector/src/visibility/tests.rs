@@ -40,7 +40,8 @@ proptest! {
     #[test]
     fn crowded_pieces_are_hidden_where_sights_say_so(
         faces in 0_usize..100, seed: u64, height in prop::sample::select(&[1.0_f32, 0.01, 0.0]), is_parallel: bool,
-        is_counted: bool, eye in prop::array::uniform3(-1.5_f32..4.0), ends in prop::array::uniform2(prop::array::uniform3(-1.0_f64..1.0)),
+        is_counted: bool, eye in prop::array::uniform3(-1.5_f32..4.0),
+        ends in prop::array::uniform2(prop::array::uniform3(-1.0_f64..1.0)),
         left_out in prop::option::of(0.0_f64..0.5),
     ) {
         // Through each other, nearly in one plane, and in one; the eye among them or outside.

@@ -147,8 +147,8 @@ proptest! {
         prop_assert!(adapted.a.hypot(adapted.b) < 2e-3);
     }
 
-    /// A thousandth more of any channel, and on the rule's scale, moves the line by what the width of the turn allows: no
-    /// jump. Near black a thousandth of a channel may be several hundredths of lightness.
+    /// A thousandth more of any channel, and on the rule's scale, moves the line by what the width of the turn allows:
+    /// no jump. Near black a thousandth of a channel may be several hundredths of lightness.
     #[test]
     fn small_changes_have_small_effects(
         line in color(), rim in color(), behind in color(), rule in rule(),

@@ -72,9 +72,9 @@ proptest! {
         let lines = cross(middle, angle, between);
         let found = centrelines(&inked(160, &lines, width), &CentrelineOptions::default());
         prop_assert_eq!(counts(&found), (2, 4, 1));
-        // The pixels of a line lie up to a pixel beside it: half of one beside the middle of even ink, and that half of one
-        // beside the line. Led on to the junction, its arms are a quarter further off. The place where two lines cross
-        // moves along the line between them the more, the flatter they cross.
+        // The pixels of a line lie up to a pixel beside it: half of one beside the middle of even ink, and that half
+        // of one beside the line. Led on to the junction, its arms are a quarter further off. The place where two
+        // lines cross moves along the line between them the more, the flatter they cross.
         let aside = 1.0 + 0.25;
         let off = DVec2::from(found.junctions[0]).distance(middle);
         prop_assert!(off < aside / (0.5 * between).sin(), "{} px", off);

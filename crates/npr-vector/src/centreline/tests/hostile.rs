@@ -73,8 +73,9 @@ proptest! {
         let ink = despeckle(&bitmap, turd_size);
         let count: usize = found.strokes.iter().map(|stroke| stroke.points.len()).sum();
         let inked = pixels(&ink).filter(|(x, y)| ink.is_ink(*x, *y)).count();
-        // A thin pixel has four neighbours at most, as in a chequerboard, so there are two links for each. A link is its
-        // two pixels, and at both ends a point a pixel up to its junction: where several forks are one, 14 pixels off.
+        // A thin pixel has four neighbours at most, as in a chequerboard, so there are two links for each. A link is
+        // its two pixels, and at both ends a point a pixel up to its junction: where several forks are one, 14 pixels
+        // off.
         prop_assert!(count <= 2 * (2 + 2 * 14) * inked, "{} points, {} pixels", count, inked);
         for stroke in &found.strokes {
             for point in &stroke.points {

@@ -167,9 +167,9 @@ proptest! {
             prop_assert!(off(middle, a, b) < 1.2, "{middle:?}");
             prop_assert!((z[0].min(z[1]) - 1e-6..=z[0].max(z[1]) + 1e-6).contains(&fragment.z));
         }
-        // The line's end belongs to the edge that goes on there; all before it has a pixel near. The last fragment lies up to
-        // a step and a half before the end along the longer axis, so as far at most along the other, where the middle of a
-        // pixel is half a pixel more away.
+        // The line's end belongs to the edge that goes on there; all before it has a pixel near. The last fragment
+        // lies up to a step and a half before the end along the longer axis, so as far at most along the other, where
+        // the middle of a pixel is half a pixel more away.
         let [along, across] = if (a[0] - b[0]).abs() >= (a[1] - b[1]).abs() { [0, 1] } else { [1, 0] };
         for i in 0..=50 {
             let at = [0, 1].map(|k| a[k] + (b[k] - a[k]) * f64::from(i) / 50.0);

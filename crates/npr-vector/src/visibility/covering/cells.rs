@@ -38,9 +38,9 @@ const PLANE_ROUNDING: f64 = 1e-9;
 
 /// The faces of a view by the cells of the picture that they touch, foremost first.
 ///
-/// Depths are told by their order ([`order_of`]), which changes evenly over the image of a plane. A face that fills a cell
-/// hides whatever lies behind it there, so none is kept in a cell whose plane lies behind that of the one that ends
-/// first: what is left is about as many faces as meet in what is seen of the cell.
+/// Depths are told by their order ([`order_of`]), which changes evenly over the image of a plane. A face that fills a
+/// cell hides whatever lies behind it there, so none is kept in a cell whose plane lies behind that of the one that
+/// ends first: what is left is about as many faces as meet in what is seen of the cell.
 #[derive(Debug)]
 pub(super) struct FaceCells {
     grid: Grid,
@@ -287,11 +287,21 @@ fn image_of(shape: &Shape, face: u32, projector: &Projector, grid: &Grid) -> Opt
 }
 
 /// What of a face lies in a cell.
-struct Part {
+struct Part<'a> {
     cell: usize,
+    /// The cell's upper left corner, in cells.
+    corner: DVec2,
     /// Orders between which it lies there.
     orders: [f64; 2],
-    fills: bool,
+    /// The image of the face, where it is known.
+    image: Option<&'a Polygon>,
+}
+
+impl Part<'_> {
+    /// Whether the face fills the cell.
+    fn fills(&self) -> bool {
+        self.image.is_some_and(|image| image.fills(self.corner))
+    }
 }
 
 /// Visits the cells that a face touches.
@@ -300,7 +310,7 @@ fn for_parts(
     face: u32,
     projector: &Projector,
     grid: &Grid,
-    mut visit: impl FnMut(Part),
+    mut visit: impl FnMut(Part<'_>),
 ) {
     let Some(image) = image_of(shape, face, projector, grid) else {
         return;
@@ -309,18 +319,19 @@ fn for_parts(
     let is_sound = image.corners().iter().all(|corner| corner.is_finite());
     let rounding = ROUNDING * orders[0].abs().max(orders[1].abs());
     let room = |order: f64| ROOM * order.abs().max(least_scale(projector)) + rounding;
-    let mut part = |column: usize, row: usize, orders: [f64; 2], fills: bool| {
+    let mut part = |column: usize, row: usize, orders: [f64; 2], image| {
         visit(Part {
             cell: row * grid.columns + column,
+            corner: DVec2::new(column as f64, row as f64),
             orders: [orders[0] - room(orders[0]), orders[1] + room(orders[1])],
-            fills,
+            image,
         });
     };
     if !is_sound {
         // Where it lies is not known: anywhere, and before all.
         for row in 0..grid.rows {
             for column in 0..grid.columns {
-                part(column, row, [f64::MIN, f64::MAX], false);
+                part(column, row, [f64::MIN, f64::MAX], None);
             }
         }
         return;
@@ -333,8 +344,7 @@ fn for_parts(
             rest = rest.cut(0, 1.0, left);
             let inside = rest.cut(0, -1.0, right);
             if inside.count > 0 {
-                let fills = image.fills(DVec2::new(column as f64, row as f64));
-                part(column, row, inside.range(2), fills);
+                part(column, row, inside.range(2), Some(&image));
             }
         }
     }
@@ -542,7 +552,7 @@ impl Sorter<'_> {
             .with_min_len(self.least.max(share))
             .fold(none, |mut walls, face| {
                 for_parts(self.shape, face, projector, grid, |part| {
-                    if part.fills && part.orders[0] > nearest {
+                    if part.orders[0] > nearest && part.fills() {
                         let end = part.orders[1];
                         walls[part.cell] = walls[part.cell].nearer(Wall { end, face });
                     }
@@ -565,13 +575,11 @@ impl Sorter<'_> {
         walls: &[Wall],
         most: usize,
     ) -> Option<Vec<(u32, f64, u32)>> {
-        let is_kept = |face: u32, part: &Part| {
+        let is_kept = |face: u32, part: &Part<'_>| {
             let wall = walls[part.cell];
             let is_behind = || {
-                let columns = self.grid.columns;
-                let cell = [part.cell % columns, part.cell / columns].map(|v| v as f64);
                 let wall = &bounds[wall.face as usize];
-                bounds[face as usize].is_behind(wall, DVec2::from(cell), self.projector)
+                bounds[face as usize].is_behind(wall, part.corner, self.projector)
             };
             let may_be_before = part.orders[0] <= wall.end && wall.face != face;
             may_be_before && (wall.face == NONE || !is_behind())
