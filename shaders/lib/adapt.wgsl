@@ -11,6 +11,10 @@ const HUE_AT: f32 = 0.5;
 const FIT_ROUNDS: u32 = 14u;
 // How far a channel may lie outside 0..1 and still count as in gamut, as a share of a grey of that lightness.
 const GAMUT_ROOM: f32 = 1e-3;
+// Red that colours have at least where their chroma is first fitted, as a share of blue: the tip of blue overhangs.
+const BLUE_TIP: f32 = 0.015625;
+// Largest factor by which chroma then grows up to the gamut's own border.
+const TIP_REACH: f32 = 1.6;
 const WCAG_LARGEST: f32 = 21.0;
 
 fn cube_root(x: f32) -> f32 {
@@ -185,6 +189,18 @@ fn is_in_gamut(light: vec3<f32>, room: f32) -> bool {
     return all(light >= vec3<f32>(-room)) && all(light <= vec3<f32>(1.0 + room));
 }
 
+// How much of the straight way from a colour in gamut to another lies in it.
+fn share_in_gamut(from_light: vec3<f32>, to_light: vec3<f32>, room: f32) -> f32 {
+    let border = clamp(to_light, vec3<f32>(-room), vec3<f32>(1.0 + room));
+    var share = 1.0;
+    for (var i = 0u; i < 3u; i++) {
+        if border[i] != to_light[i] {
+            share = min(share, (border[i] - from_light[i]) / (to_light[i] - from_light[i]));
+        }
+    }
+    return max(share, 0.0);
+}
+
 // The colour of a lightness: chroma between those of the line and its rim, as far as sRGB has it.
 fn at_lightness(lightness: f32, own: vec3<f32>, edge: vec3<f32>, share: f32) -> vec3<f32> {
     let paler = clamp((lightness + 0.1) / (edge.x + 0.1), 0.5, 2.0);
@@ -197,13 +213,18 @@ fn at_lightness(lightness: f32, own: vec3<f32>, edge: vec3<f32>, share: f32) -> 
     var spills = 1.0;
     for (var i = 0u; i < FIT_ROUNDS; i++) {
         let middle = 0.5 * (fits + spills);
-        if is_in_gamut(light_of_oklab(vec3<f32>(lightness, a * middle, b * middle)), room) {
+        let light = light_of_oklab(vec3<f32>(lightness, a * middle, b * middle));
+        if is_in_gamut(light, room) && light.r >= BLUE_TIP * light.b {
             fits = middle;
         } else {
             spills = middle;
         }
     }
-    return clamp(light_of_oklab(vec3<f32>(lightness, a * fits, b * fits)), vec3<f32>(0.0), vec3<f32>(1.0));
+    let far = min(fits * TIP_REACH, 1.0);
+    let inner = light_of_oklab(vec3<f32>(lightness, a * fits, b * fits));
+    let outer = light_of_oklab(vec3<f32>(lightness, a * far, b * far));
+    let inside = share_in_gamut(inner, outer, room);
+    return clamp(inner * (1.0 - inside) + outer * inside, vec3<f32>(0.0), vec3<f32>(1.0));
 }
 
 // The same for a place on the scale of the rule's measure: of WCAG the lightness at which the fitted colour has that luminance.

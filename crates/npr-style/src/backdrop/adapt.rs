@@ -34,6 +34,16 @@ const FIT_ROUNDS: u32 = 14;
 /// How far a channel may lie outside 0..1 and still count as in gamut, as a share of a grey of that lightness.
 const GAMUT_ROOM: f32 = 1e-3;
 
+/// Red that colours have at least where their chroma is first fitted into the gamut, as a share of their blue.
+///
+/// At the tip of sRGB's blue the gamut overhangs by 0.16 degrees of hue: on the way from grey to the tip chroma leaves
+/// it and comes back. Chroma that is fitted to this border jumps by 15 %. The border where red is 1/66 of blue or more
+/// does not overhang.
+const BLUE_TIP: f32 = 1.0 / 64.0;
+
+/// Largest factor by which chroma then grows up to the gamut's own border; the tip of blue needs 1.55.
+const TIP_REACH: f32 = 1.6;
+
 /// Largest ratio of luminances, of white and black [WCAG 2].
 const WCAG_LARGEST: f32 = 21.0;
 
@@ -41,8 +51,13 @@ const WCAG_LARGEST: f32 = 21.0;
 ///
 /// `rim` is the colour of the surface beside the line. By contrast: a line that reads by the rule's target stays as it is.
 /// Any other moves in lightness until it does, and takes its hue from the rim as it moves; chroma gives way where sRGB has
-/// no such colour. Where neither direction reaches the target, it goes as far as it can. Continuous in all three colours.
-/// Its contrast never falls, but for backgrounds from which it turns from darker to brighter: a band of about 1 % of lightness.
+/// no such colour. Where neither direction reaches the target, it goes as far as it can.
+///
+/// Continuous in all three colours, and steep in two places. A line turns from darker to brighter within a band of
+/// 1.2 % of the measure's scale. OKLab is steep beside black: the first of 255 steps of a grey is 6.7 % of lightness.
+///
+/// Contrast never falls, but for backgrounds from which a line turns from darker to brighter: a band of about 1 % of
+/// lightness.
 ///
 /// By likeness: the published method, see [`published::color`]. Channels outside 0..1 are clamped, and those that are no
 /// number count as 0. About 10 cube roots and 200 products.
@@ -269,32 +284,39 @@ impl Candidates {
 }
 
 /// The colour of a lightness: chroma between those of the line and its rim, as far as sRGB has it.
+///
+/// Continuous. Chroma is first fitted into a gamut without an overhang. From there the colour runs straight in linear
+/// light, where sRGB is convex, as far as sRGB reaches. On that way hue turns by up to 1.2 degrees, beside blue alone.
 fn at_lightness(lightness: f32, own: [f32; 3], edge: [f32; 3], share: f32) -> [f32; 3] {
     // A shade of the rim's paint: chroma grows and falls with lightness.
     let paler = ((lightness + 0.1) / (edge[0] + 0.1)).clamp(0.5, 2.0);
     let a = mix(own[1], edge[1] * paler, share);
     let b = mix(own[2], edge[2] * paler, share);
     let room = GAMUT_ROOM * lightness * lightness * lightness;
-    let whole = light_of_oklab([lightness, a, b]);
+    let at = |scale: f32| light_of_oklab([lightness, a * scale, b * scale]);
+    let whole = at(1.0);
     if is_in_gamut(whole, room) {
         return whole.map(|light| light.clamp(0.0, 1.0));
     }
     let (mut fits, mut spills) = (0.0, 1.0);
     for _ in 0..FIT_ROUNDS {
         let middle = 0.5 * (fits + spills);
-        if is_in_gamut(light_of_oklab([lightness, a * middle, b * middle]), room) {
+        let light = at(middle);
+        if is_in_gamut(light, room) && light[0] >= BLUE_TIP * light[2] {
             fits = middle;
         } else {
             spills = middle;
         }
     }
-    light_of_oklab([lightness, a * fits, b * fits]).map(|light| light.clamp(0.0, 1.0))
+    let (inner, outer) = (at(fits), at((fits * TIP_REACH).min(1.0)));
+    let share = share_in_gamut(inner, outer, room);
+    [0, 1, 2].map(|i| mix(inner[i], outer[i], share).clamp(0.0, 1.0))
 }
 
 /// The same for a place on the scale of the rule's measure: of WCAG the lightness at which the fitted colour has that luminance.
 ///
-/// Luminance may jump where chroma gives way; of the colours on both sides of it that one is taken which the line goes
-/// towards (`brighter` or not), so that it does not fall short.
+/// Of the two colours between which the search ends that one is taken which the line goes towards (`brighter` or not),
+/// so that it does not fall short.
 fn at_place(
     place: f32,
     brighter: bool,
@@ -323,6 +345,18 @@ fn at_place(
 fn is_in_gamut(light: [f32; 3], room: f32) -> bool {
     let inside = |channel: f32| channel >= -room && channel <= 1.0 + room;
     inside(light[0]) && inside(light[1]) && inside(light[2])
+}
+
+/// How much of the straight way from a colour in gamut to another lies in it.
+fn share_in_gamut(from: [f32; 3], to: [f32; 3], room: f32) -> f32 {
+    let mut share = 1.0f32;
+    for (from, to) in from.into_iter().zip(to) {
+        let border = to.max(-room).min(1.0 + room);
+        if border != to {
+            share = share.min((border - from) / (to - from));
+        }
+    }
+    share.max(0.0)
 }
 
 #[cfg(test)]
