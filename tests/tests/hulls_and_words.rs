@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
+use npr_drawing::lettering::testing::block_font;
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_render::{Font, Frame, Model, StageOptions};
@@ -9,7 +10,6 @@ use npr_scene::{AlphaMode, Scene};
 use npr_style::{Lettering, Style};
 use npr_tests::comic::{SIZE, front, pixel, wall};
 use npr_tests::{Object, boxed, device, draw_with, placed, scene_of};
-use npr_vector::lettering::testing::block_font;
 
 /// Draws a scene on the processor and on a device, where there is one.
 fn on_engines(scene: &Scene, style: &Style, options: &StageOptions) -> Vec<Frame> {

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use npr_core::camera::Camera;
+use npr_drawing::svg::{SvgOptions, write_svg};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_render::{
@@ -11,7 +12,6 @@ use npr_render::{
 use npr_scene::{LoadOptions, load};
 use npr_style::Style;
 use npr_tests::{device, models, samples};
-use npr_vector::svg::{SvgOptions, write_svg};
 use std::path::Path;
 
 const SIZE: [u32; 2] = [480, 270];

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use npr_core::camera::Camera;
+use npr_drawing::svg::{SvgOptions, write_svg};
 use npr_gpu::curves::{Hiders, ResidentPixels};
 use npr_gpu::processor::Processor;
 use npr_render::{
@@ -18,7 +19,6 @@ use npr_vector::graph::CurveNode;
 use npr_vector::pixel_contour::stroke::Loops;
 use npr_vector::pixel_contour::{PixelScene, PublishedPath, scene_depths, trace};
 use npr_vector::project::Projector;
-use npr_vector::svg::{SvgOptions, write_svg};
 
 const SIZE: [u32; 2] = [320, 200];
 

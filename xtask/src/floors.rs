@@ -1,49 +1,134 @@
-//! `cargo xtask floors`: imports go down, never sideways, and the lower floors stay light.
+//! `cargo xtask floors`: crates import what is listed, downwards, and the lower ones stay light.
 
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 
-use crate::packages::{Dependency, Package, linked, members};
+use crate::packages::{Dependency, Features, Package, linked, members};
 use crate::source::{SourceFile, rust_files};
 
-/// Which floor a crate of the workspace stands on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Floor {
-    /// 0: what everything stands on.
-    Ground,
-    /// 1a: one domain each, without a device.
-    Domain,
-    /// 1b: passes and their engines.
-    Passes,
-    /// 2: the facade.
-    Facade,
-    /// 3: the command.
-    Command,
-    /// Suites, which may import whatever they test.
-    Suites,
+/// A crate of the workspace, and what it may stand on.
+struct Room {
+    name: &'static str,
+    /// Crates of the workspace that it may import: an edge that is not listed here is a fault.
+    imports: &'static [&'static str],
+    /// Whether it may link devices, windows and loggers.
+    heavy: bool,
 }
 
-/// The floor of each crate. A crate without a line is an error.
-const FLOORS: [(&str, Floor); 14] = [
-    ("npr-core", Floor::Ground),
-    ("npr-shaders", Floor::Ground),
-    ("npr-mesh", Floor::Domain),
-    ("npr-scene", Floor::Domain),
-    ("npr-smoke", Floor::Domain),
-    ("npr-style", Floor::Domain),
-    ("npr-vdb", Floor::Domain),
-    ("npr-vector", Floor::Domain),
-    // These commands link nothing above the ground, so that they build fast.
-    ("xtask", Floor::Domain),
-    ("npr-gpu", Floor::Passes),
-    ("npr-render", Floor::Facade),
-    ("npr-cli", Floor::Command),
-    ("npr-tests", Floor::Suites),
-    ("npr-benches", Floor::Suites),
+impl Room {
+    const fn light(name: &'static str, imports: &'static [&'static str]) -> Self {
+        Self {
+            name,
+            imports,
+            heavy: false,
+        }
+    }
+
+    const fn heavy(name: &'static str, imports: &'static [&'static str]) -> Self {
+        Self {
+            name,
+            imports,
+            heavy: true,
+        }
+    }
+}
+
+/// Every crate, each below those that import it. Tests and benches may import any crate that is listed before theirs.
+const ROOMS: [Room; 16] = [
+    // Floor 0: what everything stands on.
+    Room::light("npr-core", &[]),
+    Room::light("npr-shaders", &[]),
+    // This command links nothing else, so that it builds fast.
+    Room::light("xtask", &["npr-core"]),
+    // Floor 1a: one domain each, without a device.
+    Room::light("npr-vdb", &["npr-core"]),
+    Room::light("npr-mesh", &["npr-core"]),
+    Room::light("npr-trace", &["npr-core"]),
+    // Lines painted in textures are followed along their middle.
+    Room::light("npr-vector", &["npr-core", "npr-trace"]),
+    // Draws strokes of the one and tracings of the other.
+    Room::light("npr-drawing", &["npr-core", "npr-trace", "npr-vector"]),
+    Room::light("npr-scene", &["npr-core"]),
+    Room::light("npr-smoke", &["npr-core"]),
+    Room::light("npr-style", &["npr-core"]),
+    // Floor 1b: passes and their engines.
+    Room::heavy(
+        "npr-gpu",
+        &[
+            "npr-core",
+            "npr-mesh",
+            "npr-shaders",
+            "npr-style",
+            "npr-vector",
+        ],
+    ),
+    // Floor 2: the facade.
+    Room::heavy(
+        "npr-render",
+        &[
+            "npr-core",
+            "npr-drawing",
+            "npr-gpu",
+            "npr-mesh",
+            "npr-scene",
+            "npr-smoke",
+            "npr-style",
+            "npr-trace",
+            "npr-vdb",
+            "npr-vector",
+        ],
+    ),
+    // Floor 3: the command.
+    Room::heavy(
+        "npr-cli",
+        &[
+            "npr-core",
+            "npr-drawing",
+            "npr-gpu",
+            "npr-render",
+            "npr-scene",
+            "npr-smoke",
+            "npr-style",
+            "npr-trace",
+            "npr-vdb",
+        ],
+    ),
+    // Suites import whatever they test.
+    Room::heavy(
+        "npr-benches",
+        &[
+            "npr-core",
+            "npr-gpu",
+            "npr-mesh",
+            "npr-render",
+            "npr-scene",
+            "npr-smoke",
+            "npr-style",
+            "npr-vdb",
+            "npr-vector",
+        ],
+    ),
+    Room::heavy(
+        "npr-tests",
+        &[
+            "npr-core",
+            "npr-drawing",
+            "npr-gpu",
+            "npr-mesh",
+            "npr-render",
+            "npr-scene",
+            "npr-smoke",
+            "npr-style",
+            "npr-vector",
+        ],
+    ),
 ];
 
-/// Crates that neither floor 0 nor 1a may link: devices, windows, loggers.
+/// Crates that someone adds alone, and with how many packages each may come at most, without optional features.
+const MOST_PACKAGES: [(&str, usize); 2] = [("npr-trace", 25), ("npr-gpu", 110)];
+
+/// Packages that light crates may not link: devices, windows, loggers.
 const HEAVY: [&str; 8] = [
     "wgpu",
     "wgpu-core",
@@ -57,9 +142,9 @@ const HEAVY: [&str; 8] = [
 
 /// What a lower crate links all the same, and why that is harmless.
 ///
-/// npr-vector: obvhs (hierarchies) and tiny-skia (pictures of strokes) call the facade `log`, which does nothing until a
-/// program installs a logger.
-const EXCUSED: [(&str, &str); 1] = [("npr-vector", "log")];
+/// obvhs (hierarchies) and tiny-skia (pictures of strokes) call the facade `log`, which does nothing until a program
+/// installs a logger.
+const EXCUSED: [(&str, &str); 2] = [("npr-vector", "log"), ("npr-drawing", "log")];
 
 /// The condition that may stand only on the device module and its re-exports.
 const DEVICE_CONDITION: &str = concat!("feature = ", "\"wgpu\"");
@@ -74,9 +159,17 @@ pub fn check(root: &Path) -> Result<()> {
         for file in rust_files(&package.folder().join("src"))? {
             faults.extend(condition_faults(&package.name, &file));
         }
-        if floor_of(&package.name).is_some_and(|floor| floor <= Floor::Domain) {
-            faults.extend(weight_faults(&package.name, &linked(root, &package.name)?));
+        if ROOMS
+            .iter()
+            .any(|room| room.name == package.name && !room.heavy)
+        {
+            let linked = linked(root, &package.name, Features::All)?;
+            faults.extend(weight_faults(&package.name, &linked));
         }
+    }
+    for (name, most) in MOST_PACKAGES {
+        let linked = linked(root, name, Features::None)?;
+        faults.extend(count_fault(name, linked.len(), most));
     }
     if !faults.is_empty() {
         bail!("floors are breached:\n  {}", faults.join("\n  "));
@@ -85,36 +178,41 @@ pub fn check(root: &Path) -> Result<()> {
     Ok(())
 }
 
-/// The floor of a crate of the project; nothing for a crate from elsewhere.
-fn floor_of(name: &str) -> Option<Floor> {
-    FLOORS
-        .iter()
-        .find(|(known, _)| *known == name)
-        .map(|&(_, floor)| floor)
-}
-
-/// Dependencies that do not point down; tests and benches may look sideways, at generators that crates share.
+/// Dependencies that no room allows; tests and benches may import every crate that is listed before their own.
 fn import_faults(package: &Package) -> Vec<String> {
     let name = &package.name;
-    let Some(floor) = floor_of(name) else {
+    let Some(number) = ROOMS.iter().position(|room| room.name == *name) else {
         return vec![format!(
-            "{name} stands on no floor; give it one in xtask/src/floors.rs"
+            "{name} is no room; give it one in xtask/src/floors.rs"
         )];
     };
-    let is_test = |dependency: &Dependency| dependency.kind.as_deref() == Some("dev");
-    let points_down = |to: Floor, for_tests: bool| {
-        to < floor || floor == Floor::Suites || (for_tests && to == floor)
+    let (below, room) = (&ROOMS[..number], &ROOMS[number]);
+    let is_ours =
+        |dependency: &&Dependency| ROOMS.iter().any(|other| other.name == dependency.name);
+    let is_allowed = |dependency: &Dependency| {
+        let listed = room.imports.contains(&dependency.name.as_str());
+        let for_tests = dependency.kind.as_deref() == Some("dev");
+        let lies_below = below.iter().any(|other| other.name == dependency.name);
+        lies_below && (listed || for_tests)
     };
     package
         .dependencies
         .iter()
         .filter(|dependency| dependency.name != *name)
-        .filter(|dependency| {
-            let for_tests = is_test(dependency);
-            floor_of(&dependency.name).is_some_and(|to| !points_down(to, for_tests))
+        .filter(is_ours)
+        .filter(|dependency| !is_allowed(dependency))
+        .map(|dependency| {
+            format!(
+                "{name} imports {}, which its room does not list",
+                dependency.name
+            )
         })
-        .map(|dependency| format!("{name} imports {}, which is not below it", dependency.name))
         .collect()
+}
+
+/// A crate that brings too many packages along.
+fn count_fault(name: &str, count: usize, most: usize) -> Option<String> {
+    (count > most).then(|| format!("{name} comes with {count} packages, of {most} at most"))
 }
 
 /// Heavy crates among those that a crate links.
@@ -208,28 +306,47 @@ mod tests {
     }
 
     #[test]
-    fn imports_may_only_go_down() {
-        assert!(import_faults(&package("npr-mesh", &["npr-core", "glam"])).is_empty());
+    fn only_listed_edges_are_imports() {
+        let count = |name: &str, imports: &[&str]| import_faults(&package(name, imports)).len();
+        assert_eq!(count("npr-mesh", &["npr-core", "glam"]), 0);
+        assert_eq!(count("npr-vector", &["npr-trace"]), 0, "listed");
         assert_eq!(
-            import_faults(&package("npr-mesh", &["npr-vector"])).len(),
+            count("npr-vector", &["npr-mesh"]),
             1,
-            "sideways"
+            "below, but not listed"
         );
-        assert_eq!(
-            import_faults(&package("npr-core", &["npr-render"])).len(),
-            1,
-            "upwards"
-        );
-        assert_eq!(
-            import_faults(&package("npr-attic", &[])).len(),
-            1,
-            "on no floor"
-        );
+        assert_eq!(count("npr-mesh", &["npr-vector"]), 1, "sideways");
+        assert_eq!(count("npr-core", &["npr-render"]), 1, "upwards");
+        assert_eq!(count("npr-attic", &[]), 1, "no room");
     }
 
     #[test]
-    fn suites_may_import_each_other() {
-        assert!(import_faults(&package("npr-tests", &["npr-cli", "npr-benches"])).is_empty());
+    fn tests_import_what_lies_below() {
+        let faults = |name: &str, import: &str| {
+            let mut package = package(name, &[import]);
+            package.dependencies[0].kind = Some("dev".to_owned());
+            import_faults(&package).len()
+        };
+        assert_eq!(faults("npr-vector", "npr-mesh"), 0);
+        assert_eq!(faults("npr-mesh", "npr-vector"), 1);
+    }
+
+    #[test]
+    fn rooms_list_what_lies_below_them() {
+        for (number, room) in ROOMS.iter().enumerate() {
+            let lies_below = |name: &&str| ROOMS[..number].iter().any(|other| other.name == *name);
+            assert!(room.imports.iter().all(lies_below), "{}", room.name);
+        }
+    }
+
+    #[test]
+    fn a_crate_with_too_many_packages_is_named() {
+        assert_eq!(count_fault("npr-trace", 25, 25), None);
+        let fault = count_fault("npr-trace", 26, 25);
+        assert_eq!(
+            fault.as_deref(),
+            Some("npr-trace comes with 26 packages, of 25 at most")
+        );
     }
 
     #[test]

@@ -56,16 +56,22 @@ pub fn members(root: &Path) -> Result<Vec<Package>> {
     Ok(packages)
 }
 
-/// The names of all packages that `name` links with every feature on, itself among them.
-pub fn linked(root: &Path, name: &str) -> Result<Vec<String>> {
-    let tree = [
-        "tree",
-        "--edges",
-        "normal",
-        "--prefix",
-        "none",
-        "--all-features",
-    ];
+/// With which features a package is built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Features {
+    /// Neither optional nor default ones.
+    None,
+    /// Every one.
+    All,
+}
+
+/// The names of all packages that `name` links, itself among them.
+pub fn linked(root: &Path, name: &str, features: Features) -> Result<Vec<String>> {
+    let features = match features {
+        Features::None => "--no-default-features",
+        Features::All => "--all-features",
+    };
+    let tree = ["tree", "--edges", "normal", "--prefix", "none", features];
     let text = output(cargo(root).args(tree).args(["--package", name]))?;
     Ok(names_in_tree(&text))
 }

@@ -1,7 +1,7 @@
 //! Pictures in few colours, for tracing.
 
 use crate::fault::{Exit, Fault};
-use npr_vector::trace::IndexPicture;
+use npr_trace::IndexPicture;
 use palette::Srgb;
 use quantette::{ImageRef, PaletteSize, Pipeline};
 use std::collections::BTreeMap;

@@ -5,13 +5,13 @@ use crate::encoder;
 use crate::fault::{Exit, Fault};
 use crate::line_job::LineJob;
 use npr_core::budget::Budget;
+use npr_drawing::artwork::ArtworkOptions;
+use npr_drawing::drawing::rasterise;
+use npr_drawing::json::write_json;
+use npr_drawing::lettering::Lettered;
+use npr_drawing::pdf::write_pdf;
+use npr_drawing::svg::write_svg;
 use npr_render::{Drawing, RenderError};
-use npr_vector::artwork::ArtworkOptions;
-use npr_vector::drawing::rasterise;
-use npr_vector::json::write_json;
-use npr_vector::lettering::Lettered;
-use npr_vector::pdf::write_pdf;
-use npr_vector::svg::write_svg;
 
 /// Bytes a pixel: the canvas, the picture and the file.
 const BYTES_PER_PIXEL: usize = 12;

@@ -13,12 +13,12 @@ use crate::source::{Source, has_volume_name};
 use crate::volume::{self, VolumeSource};
 use npr_core::crease::CreaseFrom;
 use npr_core::geometry::Part;
+use npr_drawing::artwork::{ArtworkOptions, Hidden, Page, Paths, arrange};
 use npr_render::{
     Drawing, Kind, KindSet, Lettering, LineMethod, LineOptions, PaintedLines, StageOptions,
 };
 use npr_scene::Limits;
 use npr_style::{Background, Facts, LineFinder, LineForm, LineOutput, Occasion, Style};
-use npr_vector::artwork::{ArtworkOptions, Hidden, Page, Paths, arrange};
 use std::path::{Path, PathBuf};
 
 const MM_PER_INCH: f64 = 25.4;

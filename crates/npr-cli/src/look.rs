@@ -323,7 +323,7 @@ impl PictureFile {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use npr_vector::lettering::testing::block_font;
+    use npr_drawing::lettering::testing::block_font;
 
     fn look(overrides: &[&str]) -> Look {
         let overrides = overrides.iter().map(ToString::to_string).collect();

@@ -9,7 +9,7 @@ use npr_core::budget::Budget;
 use npr_core::decoding::guard;
 use npr_render::Picture;
 use npr_scene::{LimitError, Limits};
-use npr_vector::trace::{Bitmap, IndexPicture};
+use npr_trace::{Bitmap, IndexPicture};
 use std::io::{Cursor, Read, Seek, SeekFrom};
 use std::path::Path;
 

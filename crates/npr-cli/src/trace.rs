@@ -10,10 +10,11 @@ use crate::output::Output;
 use crate::picture;
 use crate::progress::Progress;
 use crate::source::Source;
+use npr_drawing::centreline::write_centrelines;
+use npr_drawing::fill::mesh::FlatMesh;
 use npr_scene::Limits;
-use npr_vector::centreline::{centrelines, write_centrelines};
-use npr_vector::fill::mesh::FlatMesh;
-use npr_vector::trace::{
+use npr_trace::centreline::centrelines;
+use npr_trace::{
     Bitmap, IndexPicture, trace as trace_bitmap, trace_colours_to_file, trace_to_file,
 };
 use std::collections::BTreeSet;

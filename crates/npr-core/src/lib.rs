@@ -24,6 +24,7 @@ pub mod layout;
 pub mod light_view;
 pub mod line_color;
 pub mod math;
+pub mod number;
 pub mod outline;
 pub mod published_path;
 pub mod random;

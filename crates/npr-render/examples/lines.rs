@@ -1,9 +1,9 @@
 //! Draws the lines of a file: `cargo run --release --example lines -- model.glb out.svg [preset]`.
 
+use npr_drawing::svg::{SvgOptions, write_svg};
 use npr_render::{Kind, LineModel, LineModelOptions, LineOptions};
 use npr_scene::{Limits, LoadOptions};
 use npr_style::Style;
-use npr_vector::svg::{SvgOptions, write_svg};
 use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -39,20 +39,20 @@ pub enum RenderError {
     Memory(#[from] OverBudget),
     /// Lines could not be closed to regions.
     #[error(transparent)]
-    Fill(#[from] npr_vector::fill::FillError),
+    Fill(#[from] npr_drawing::fill::FillError),
     /// Sides of pixels could not be put in rows.
     #[error("line.potrace: {0}")]
     Rank(#[from] npr_vector::rank::RankError),
     /// Lines could not be looked for in a picture.
     #[error(transparent)]
-    Bitmap(#[from] npr_vector::trace::BitmapError),
+    Bitmap(#[from] npr_trace::BitmapError),
     /// Words of the style cannot be set.
     #[error("lettering.{index}: {source}")]
     Lettering {
         /// Which of the style's words, counted from 0.
         index: usize,
         /// Why not.
-        source: npr_vector::lettering::LetteringError,
+        source: npr_drawing::lettering::LetteringError,
     },
     /// A picture that the style names was not given.
     #[error("{key}: the picture '{name}' was not given")]

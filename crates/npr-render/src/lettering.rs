@@ -4,9 +4,9 @@ use crate::error::RenderError;
 use crate::frame::Frame;
 use glam::{Mat4, Vec3};
 use npr_core::window::View;
+use npr_drawing::drawing::paint_over;
+use npr_drawing::lettering::{Band, Font, Lettered, Setting, Words, set_words};
 use npr_style::{Color, LetteringOutline, Style};
-use npr_vector::drawing::paint_over;
-use npr_vector::lettering::{Band, Font, Lettered, Setting, Words, set_words};
 use std::collections::BTreeMap;
 
 /// Words of a style, set in their fonts: ready to be placed in any view.
@@ -208,9 +208,9 @@ mod tests {
     use super::*;
     use crate::{Model, Stage, StageOptions};
     use npr_core::camera::{Camera, Projection};
+    use npr_drawing::lettering::testing::block_font;
     use npr_gpu::processor::Processor;
     use npr_style::{Length, Unit};
-    use npr_vector::lettering::testing::block_font;
     use proptest::prelude::*;
 
     const BOUNDS: ([f32; 3], [f32; 3]) = ([-1.0; 3], [1.0; 3]);

@@ -61,7 +61,7 @@ pub use lines::{
 };
 pub use model::{Model, PartInfo};
 pub use npr_core::smoke::Sphere;
-pub use npr_vector::lettering::Font;
+pub use npr_drawing::lettering::Font;
 pub use npr_vector::stroke::{Drawing, Kind};
 pub use puffs::Following;
 pub use smoke::Smoke;

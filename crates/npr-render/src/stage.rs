@@ -22,6 +22,9 @@ use npr_core::budget::Budget;
 use npr_core::camera::Camera;
 use npr_core::smoke::{Lens, Sphere};
 use npr_core::window::{View, Window};
+use npr_drawing::artwork::ArtworkOptions;
+use npr_drawing::drawing::paint_drawing_over;
+use npr_drawing::lettering::Font;
 use npr_gpu::engine::{Engine, EngineError, Session};
 use npr_gpu::graph::ResourceId;
 use npr_scene::Image;
@@ -30,9 +33,6 @@ use npr_style::backdrop::{Rules, TILE};
 use npr_style::compose::Compose;
 use npr_style::lighting::LightSource;
 use npr_style::shadow::SHADOW_SIDE;
-use npr_vector::artwork::ArtworkOptions;
-use npr_vector::drawing::paint_drawing_over;
-use npr_vector::lettering::Font;
 use std::collections::BTreeMap;
 
 /// Most pixels of a frame along a side.

@@ -6,13 +6,13 @@
 
 use npr_core::camera::{Camera, Projection};
 use npr_core::math::{cos, mix_bits, sin};
+use npr_drawing::artwork::ArtworkOptions;
 use npr_gpu::processor::Processor;
 use npr_render::{
     Drawing, LineModel, LineModelOptions, LineOptions, Model, Smoke, Sphere, Stage, StageOptions,
 };
 use npr_scene::{Mesh, Node, Part, Scene};
 use npr_style::Style;
-use npr_vector::artwork::ArtworkOptions;
 
 const SIZE: [u32; 2] = [320, 320];
 
@@ -95,7 +95,7 @@ fn keep(name: &str, drawing: &Drawing) {
             background: Some([255; 4]),
             ..ArtworkOptions::default()
         };
-        let rgba = npr_vector::drawing::rasterise(drawing, &artwork);
+        let rgba = npr_drawing::drawing::rasterise(drawing, &artwork);
         let [width, height] = drawing.size;
         let image = image::RgbaImage::from_raw(width, height, rgba).unwrap();
         image.save(format!("{folder}/lines_{name}.png")).unwrap();

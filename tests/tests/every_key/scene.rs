@@ -2,6 +2,10 @@
 
 use crate::outputs::Output;
 use npr_core::camera::{Camera, Projection};
+use npr_drawing::artwork::{ArtworkOptions, Paths};
+use npr_drawing::json::write_json;
+use npr_drawing::lettering::testing::block_font;
+use npr_drawing::svg::write_svg;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{icosphere, plane};
 use npr_render::{
@@ -13,10 +17,6 @@ use npr_scene::{
 };
 use npr_style::{Background, LineForm, Stated, Style};
 use npr_tests::{Object, boxed, placed, scene_of};
-use npr_vector::artwork::{ArtworkOptions, Paths};
-use npr_vector::json::write_json;
-use npr_vector::lettering::testing::block_font;
-use npr_vector::svg::write_svg;
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 

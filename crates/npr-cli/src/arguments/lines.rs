@@ -4,8 +4,8 @@ use super::{CacheArguments, DrawingArguments};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use npr_core::crease::CreaseFrom;
+use npr_drawing::artwork::Page;
 use npr_render::Kind;
-use npr_vector::artwork::Page;
 use std::path::PathBuf;
 
 /// What the user said to `npr lines`.

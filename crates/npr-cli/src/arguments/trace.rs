@@ -4,8 +4,8 @@ use super::LimitArguments;
 use super::trace_form::TraceFormArguments;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
-use npr_vector::fill::mesh::MeshFormat;
-use npr_vector::trace::{TraceFormat, TraceOptions, TurnPolicy};
+use npr_drawing::fill::mesh::MeshFormat;
+use npr_trace::{TraceFormat, TraceOptions, TurnPolicy};
 use std::path::PathBuf;
 
 /// What the user said to `npr trace`.

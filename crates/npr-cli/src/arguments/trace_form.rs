@@ -1,8 +1,8 @@
 //! What the user said to `npr trace` about what becomes of the ink.
 
 use clap::Args;
-use npr_vector::centreline::CentrelineOptions;
-use npr_vector::trace::TraceOptions;
+use npr_trace::TraceOptions;
+use npr_trace::centreline::CentrelineOptions;
 
 /// What becomes of the ink: outlines, layers in colour, or single strokes along drawn lines.
 #[derive(Debug, Clone, PartialEq, Args)]

@@ -1,13 +1,13 @@
 //! Strokes that take their colour from where they lie.
 
 use crate::scenes::{SIZE, camera_at, scene_of};
+use npr_drawing::artwork::ArtworkOptions;
+use npr_drawing::drawing::rasterise;
+use npr_drawing::json::{read_json, write_json};
 use npr_mesh::testing::{cube, icosphere};
 use npr_render::{Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineOptions};
 use npr_scene::Scene;
 use npr_style::{HUES, Style, hue_row};
-use npr_vector::artwork::ArtworkOptions;
-use npr_vector::drawing::rasterise;
-use npr_vector::json::{read_json, write_json};
 
 const EYE: [f32; 3] = [3.0, 2.5, 6.0];
 

@@ -1,6 +1,7 @@
 //! Strokes that mind what lies behind them.
 
 use crate::scenes::{SIZE, add, camera_at, scene_of};
+use npr_drawing::json::{read_json, write_json};
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{icosphere, mapped};
 use npr_render::{
@@ -10,7 +11,6 @@ use npr_render::{
 use npr_scene::Scene;
 use npr_style::Style;
 use npr_style::backdrop::{Rule, contrast};
-use npr_vector::json::{read_json, write_json};
 use proptest::prelude::*;
 
 const EYE: [f32; 3] = [0.0, 0.0, 5.0];

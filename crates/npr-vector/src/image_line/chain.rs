@@ -4,9 +4,9 @@
 mod tests;
 
 use super::border::{Border, Borders};
-use crate::centreline::line_of;
 use glam::DVec2;
 use npr_core::geometry::NONE;
+use npr_trace::centreline::line_of;
 
 /// Parts of a line with fewer borders than this take on what is beside them: pixels at corners show either side.
 pub(super) const LEAST_PART: usize = 6;

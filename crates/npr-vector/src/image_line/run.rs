@@ -4,16 +4,16 @@ use super::border::Borders;
 use super::chain::{Chain, Label, chains, cuts, middle_of, place_of};
 use super::ink::LineInk;
 use super::picture::{ImageScene, SurfacePicture};
-use crate::centreline::{CentrelineOptions, centrelines, smooth_border};
 use crate::draw::{LineSettings, StrokeLook, calmed, strokes_of};
 use crate::project::Projector;
 use crate::rank::hash_key;
 use crate::run::{Run, RunPoint, base_id, number};
 use crate::seat::{Seat, share_along};
 use crate::stroke::{Kind, Stroke};
-use crate::trace::{Bitmap, BitmapError};
 use glam::{DVec2, DVec3};
 use npr_core::shape::Shape;
+use npr_trace::centreline::{CentrelineOptions, centrelines, smooth_border};
+use npr_trace::{Bitmap, BitmapError};
 use rayon::prelude::*;
 
 /// Angle, in radians, from which a bend between straight sides is a corner.

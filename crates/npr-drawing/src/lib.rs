@@ -1,0 +1,42 @@
+//! Strokes as files and pixels: SVG, PDF, JSON, the order that a plotter draws in, filled regions, words.
+//!
+//! What comes in is a [`Drawing`](npr_vector::stroke::Drawing): points with widths and colours, in pixels, y down.
+//! [`artwork`] decides what a file shows of it, in which layers, and on which page; [`svg`], [`pdf`] and
+//! [`drawing`] write that, [`json`] the strokes themselves. On the way [`fit`] makes cubic curves of points,
+//! [`outline`] the outline of a stroke whose width varies, and [`plot`] an order with short ways in the air. [`fill`]
+//! makes closed regions of what lines enclose, [`lettering`] outlines of words, and [`centreline`] files of centre lines.
+//!
+//! ```
+//! use npr_drawing::svg::{SvgOptions, write_svg};
+//! use npr_vector::stroke::{Drawing, Kind, Stroke, StrokePoint, StrokeSurface};
+//!
+//! let at = |x: f64, width: f64| StrokePoint { position: [x, 20.0], width, ..StrokePoint::default() };
+//! let stroke = Stroke {
+//!     id: 1,
+//!     kind: Kind::Marked,
+//!     occluders: 0,
+//!     surface: 0,
+//!     closed: false,
+//!     points: vec![at(10.0, 1.0), at(50.0, 6.0), at(90.0, 1.0)],
+//! };
+//! let black = StrokeSurface { line_color: [0, 0, 0, 255], ..StrokeSurface::default() };
+//! let drawing = Drawing { size: [100, 40], surfaces: vec![black], strokes: vec![stroke], ..Drawing::default() };
+//! let svg = write_svg(&drawing, &SvgOptions::default());
+//! assert!(svg.starts_with(b"<svg"));
+//! ```
+
+pub mod artwork;
+pub mod centreline;
+mod clip;
+pub mod drawing;
+pub mod fill;
+pub mod fit;
+mod hue;
+pub mod json;
+pub mod lettering;
+mod near;
+pub mod outline;
+mod page;
+pub mod pdf;
+pub mod plot;
+pub mod svg;
