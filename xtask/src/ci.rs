@@ -5,13 +5,13 @@ use std::path::Path;
 use anyhow::{Result, bail, ensure};
 
 use crate::packages::cargo;
-use crate::{assets, coverage, decoders, floors, harness, names, suite};
+use crate::{assets, constants, coverage, decoders, floors, harness, names, suite};
 
 /// A step: its name, and what it runs at the root of the workspace.
 type Step = (&'static str, fn(&Path) -> Result<()>);
 
 /// The steps, quick ones first.
-const STEPS: [Step; 11] = [
+const STEPS: [Step; 12] = [
     ("format", |root| {
         run_cargo(root, &["fmt", "--all", "--check"], &[])
     }),
@@ -19,6 +19,7 @@ const STEPS: [Step; 11] = [
     ("floors", floors::check),
     ("decoders", decoders::check),
     ("devices", harness::check_devices),
+    ("constants", constants::check),
     ("coverage", coverage::check),
     ("assets", |root| assets::check(&root.join("assets"))),
     ("clippy", |root| run_cargo(root, &CLIPPY, &[])),

@@ -4,6 +4,7 @@
 
 mod assets;
 mod ci;
+mod constants;
 mod coverage;
 mod decoders;
 mod file;
@@ -31,6 +32,7 @@ usage: cargo xtask COMMAND
   ci                run what must pass before a change is handed in
   assets [--check]  write the sample models, or only compare them
   floors            check that imports go down and stay light
+  constants         check that constants of shaders are those of Rust
   coverage          check docs/coverage.toml and print counts
   devices           check that tests come by devices in one way
   decoders          check that decoders of others are called behind one door
@@ -72,6 +74,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["assets"] => assets::write(&root.join("assets")),
         ["assets", "--check"] => assets::check(&root.join("assets")),
         ["floors"] => floors::check(root),
+        ["constants"] => constants::check(root),
         ["coverage"] => coverage::check(root),
         ["devices"] => harness::check_devices(root),
         ["decoders"] => decoders::check(root),
