@@ -55,11 +55,6 @@ impl Budget {
         Ok(())
     }
 
-    /// Gives back `bytes` that were taken and are free again.
-    pub fn give_back(&mut self, bytes: u64) {
-        self.used_bytes = self.used_bytes.saturating_sub(bytes);
-    }
-
     /// Bytes planned so far.
     pub fn used_bytes(&self) -> u64 {
         self.used_bytes

@@ -5,7 +5,6 @@ use std::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::bounds::bounding_box;
 use crate::lonely::not_alone;
 use crate::union_find::UnionFind;
 
@@ -213,6 +212,19 @@ fn leaders(
         .iter()
         .map(|&set| smallest[set as usize])
         .collect()
+}
+
+/// Lowest and highest corner of the axis-aligned box around `positions`; zeros for none.
+fn bounding_box(positions: &[[f32; 3]]) -> (DVec3, DVec3) {
+    let mut points = positions
+        .iter()
+        .map(|position| DVec3::from_array(position.map(f64::from)));
+    let Some(first) = points.next() else {
+        return (DVec3::ZERO, DVec3::ZERO);
+    };
+    points.fold((first, first), |(low, high), point| {
+        (low.min(point), high.max(point))
+    })
 }
 
 #[cfg(test)]

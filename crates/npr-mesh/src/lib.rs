@@ -31,7 +31,6 @@
 //!
 //! Sources are cited by key, such as [Rusinkiewicz 2004]; `REFERENCES.md` of the project lists them.
 
-pub mod bounds;
 mod buckets;
 pub mod classify;
 
@@ -62,12 +61,11 @@ mod triangle;
 mod union_find;
 pub mod weld;
 
-pub use bounds::bounding_radius;
 pub use components::components;
 pub use curvature::{Curvature, curvature};
 pub use edge_flags::EdgeFlags;
 pub use edges::{Edge, NO_FACE, unique_edges};
 pub use mesh::{Mesh, MeshError};
-pub use normals::{crease_normals, face_normals, flat_normals, smooth_normals};
+pub use normals::{crease_normals, face_normals, smooth_normals};
 pub use smoothing::smooth_curvature;
 pub use weld::{Weld, weld};

@@ -28,14 +28,6 @@ pub fn face_normals(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[f32;
         .collect()
 }
 
-/// Normals of flat shading: each face's own at its three corners.
-pub fn flat_normals(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[[f32; 3]; 3]> {
-    face_normals(positions, triangles)
-        .into_iter()
-        .map(|normal| [normal; 3])
-        .collect()
-}
-
 /// One smooth unit normal per welded vertex.
 ///
 /// Face normals are weighted by the angle they take up at the vertex, so that the result does not
@@ -144,7 +136,9 @@ mod tests {
     use super::*;
     use crate::edges::unique_edges;
     use crate::mesh::Mesh;
-    use crate::testing::{cube, cylinder, icosphere, random_soup, unindexed, with_doubles};
+    use crate::testing::{
+        cube, cylinder, flat_normals, icosphere, random_soup, unindexed, with_doubles,
+    };
     use crate::weld::weld;
     use glam::Vec3;
     use proptest::prelude::*;

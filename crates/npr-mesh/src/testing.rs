@@ -424,3 +424,11 @@ fn quarter(positions: &mut Vec<[f32; 3]>, triangles: &[[u32; 3]]) -> Vec<[u32; 3
 fn normalized(v: [f32; 3]) -> [f32; 3] {
     glam::Vec3::from_array(v).normalize().to_array()
 }
+
+/// Normals of flat shading: each face's own at its three corners.
+pub fn flat_normals(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[[f32; 3]; 3]> {
+    crate::face_normals(positions, triangles)
+        .into_iter()
+        .map(|normal| [normal; 3])
+        .collect()
+}

@@ -297,11 +297,6 @@ impl VolumeFile {
         &self.notices
     }
 
-    /// Whether the file brings velocities.
-    pub fn has_velocity(&self) -> bool {
-        !matches!(self.velocity, Velocity::Unknown)
-    }
-
     /// The box of voxels that are active in the grid of densities.
     pub fn extent(&self) -> Extent {
         match &self.density {

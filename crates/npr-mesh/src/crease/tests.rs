@@ -1,8 +1,10 @@
 use super::*;
 use crate::mesh::Mesh;
 use crate::shape::{PlacedMesh, add_mesh};
-use crate::testing::{Random, cube, cylinder, icosphere, mapped, random_soup, unindexed};
-use crate::{flat_normals, smooth_normals, unique_edges, weld};
+use crate::testing::{
+    Random, cube, cylinder, flat_normals, icosphere, mapped, random_soup, unindexed,
+};
+use crate::{smooth_normals, unique_edges, weld};
 use npr_core::crease::{CreaseFrom, Creases};
 use npr_core::shape::{Shape, Surface};
 use proptest::prelude::*;

@@ -14,7 +14,7 @@ use npr_style::Style;
 /// A pillar of eight sides that a file shades as round: smooth around, broken at its rims.
 fn pillar(has_normals: bool) -> Scene {
     let mesh = unindexed(&cylinder(8, 1));
-    let flat = npr_mesh::flat_normals(mesh.positions(), mesh.triangles()).into_flattened();
+    let flat = npr_mesh::testing::flat_normals(mesh.positions(), mesh.triangles()).into_flattened();
     let normal = |([x, y, _], flat): (&[f32; 3], [f32; 3])| {
         let length = x.hypot(*y);
         if flat[2].abs() > 0.5 {
