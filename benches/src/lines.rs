@@ -1,9 +1,10 @@
 //! How right drawings are: measures against a reference that shares no code with what is measured.
 //!
-//! [`mod@reference`] finds the lines that a view must show: [`soup`] welds triangles, [`candidates`] tells which edges may bear
-//! a line, [`occluders`] casts a ray for every half pixel of them, [`chains`] joins what is seen. [`analytic`] knows the
-//! outlines of two shapes without any mesh. [`measures`] compares a drawing with either; drawings come from the renderer
-//! or, through [`stroke_file`], from any program. [`drawn`] counts the strokes that a pen needs, [`picture`] shows all side by side.
+//! [`mod@reference`] finds the lines that a view must show: [`soup`] welds triangles, [`candidates`] tells which
+//! edges may bear a line, [`occluders`] casts a ray for every half pixel of them, [`chains`] joins what is seen.
+//! [`analytic`] knows the outlines of two shapes without any mesh. [`measures`] compares a drawing with either;
+//! drawings come from the renderer or, through [`stroke_file`], from any program. [`drawn`] counts the strokes that a
+//! pen needs, [`picture`] shows all side by side.
 
 pub mod analytic;
 pub mod candidates;

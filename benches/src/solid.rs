@@ -32,8 +32,8 @@ pub fn bumpy_ball(triangle_count: usize) -> Scene {
     scene_of(part)
 }
 
-/// `count` bumpy balls in a row, each an object of its own, that seen from z cover as much together whatever their number; the row is
-/// as wide as a single ball of radius sqrt(`count`) would need, about the origin.
+/// `count` bumpy balls in a row, each an object of its own, that seen from z cover as much together whatever their
+/// number; the row is as wide as a single ball of radius sqrt(`count`) would need, about the origin.
 ///
 /// # Panics
 ///
@@ -57,7 +57,8 @@ pub fn row_of_balls(count: usize, triangle_count: usize) -> Scene {
     scene
 }
 
-/// The same row as a single object: what it shows is the same, and what it costs besides its pixels and triangles is that of one.
+/// The same row as a single object: what it shows is the same, and what it costs besides its pixels and triangles is
+/// that of one.
 ///
 /// # Panics
 ///

@@ -35,8 +35,8 @@ pub fn elapsed_ms(work: impl FnOnce()) -> f64 {
     start.elapsed().as_secs_f64() * 1e3
 }
 
-/// Milliseconds that the threads of this process have worked so far, all together, without waiting for a processor; `None`
-/// where the system does not tell.
+/// Milliseconds that the threads of this process have worked so far, all together, without waiting for a processor;
+/// `None` where the system does not tell.
 ///
 /// On a machine that others use too, this says more than the clock.
 pub fn worked_ms() -> Option<f64> {

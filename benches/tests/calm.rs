@@ -1,5 +1,5 @@
-//! How calm whole pictures of smoke are beside those of billboards [Selle 2004], with true motion taken out, on smoke of the built-in
-//! simulation: a short run of what `cargo xtask measure smoke` prints.
+//! How calm whole pictures of smoke are beside those of billboards [Selle 2004], with true motion taken out, on smoke
+//! of the built-in simulation: a short run of what `cargo xtask measure smoke` prints.
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
@@ -37,7 +37,8 @@ fn followed(frames: u32, style: &Style) -> (Smoke, Puffs) {
     (smoke, puffs)
 }
 
-/// What changes without cause over so many steps; each step gives the smoke, its spheres, and how far the camera has turned.
+/// What changes without cause over so many steps; each step gives the smoke, its spheres, and how far the camera has
+/// turned.
 fn changes(
     style: &Style,
     steps: u32,

@@ -1,4 +1,5 @@
-//! Links the command so that it starts fast: as long as a start takes, small bitmaps are traced (benches/results/trace.md).
+//! Links the command so that it starts fast: as long as a start takes, small bitmaps are traced
+//! (benches/results/trace.md).
 
 use std::env::var;
 use std::path::PathBuf;
@@ -12,15 +13,16 @@ fn main() {
     }
     // At a fixed address nothing needs to be relocated at every start.
     println!("cargo::rustc-link-arg-bins=-no-pie");
-    // The library that unwinds asks the processor what it is as it is loaded, which takes long in virtual machines. A part of the
-    // command, it does not.
+    // The library that unwinds asks the processor what it is as it is loaded, which takes long in virtual machines. A
+    // part of the command, it does not.
     if let Some(folder) = unwinder_folder() {
         println!("cargo::rustc-link-search=native={}", folder.display());
         println!("cargo::rustc-link-lib=static:-bundle=gcc_eh");
     }
 }
 
-/// Where the C compiler of this machine has the unwinder as a static library; none where it has none, or builds for another machine.
+/// Where the C compiler of this machine has the unwinder as a static library; none where it has none, or builds for
+/// another machine.
 fn unwinder_folder() -> Option<PathBuf> {
     if var("HOST").ok()? != var("TARGET").ok()? {
         return None;

@@ -1,4 +1,5 @@
-// backdrop.blend_leans: keeps what was decided for the frame that comes next, and blends it along the outline for this one.
+// backdrop.blend_leans: keeps what was decided for the frame that comes next, and blends it along the outline for
+// this one.
 //
 // Where a stretch that turns brighter meets one that turns darker, the line passes slowly from
 // one to the other. Bounds stay; tiles of other subjects do not count, those before other walls or of other paint less.

@@ -34,8 +34,8 @@ fn is_same(lean: Lean, here: Lean) -> bool {
     return lean.whose == here.whose && abs(off) < 2.0 * UNLIKE_WALLS;
 }
 
-// What was decided before for the same lines before the same wall: in the tile itself, or else the mean of those that touch it. Of nobody
-// where there was none.
+// What was decided before for the same lines before the same wall: in the tile itself, or else the mean of those that
+// touch it. Of nobody where there was none.
 fn held(here: Lean, x: u32, y: u32, across: u32) -> Lean {
     let own = before[y * across + x];
     if is_same(own, here) { return own; }

@@ -22,7 +22,8 @@ struct Sides {
     @location(1) back: vec4<f32>,
 }
 
-// What is decided for a rim, between the four tiles around: those of the same subject alone. Of nobody where there is none.
+// What is decided for a rim, between the four tiles around: those of the same subject alone. Of nobody where there is
+// none.
 fn lean_between(whose: u32, pixel: vec2<u32>) -> Lean {
     let across = tiles_across(window.size);
     let down = arrayLength(&leans) / across;

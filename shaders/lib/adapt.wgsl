@@ -140,7 +140,8 @@ fn target_of(rule: u32) -> f32 {
     return clamp(goal, 0.0, 1.0);
 }
 
-// What lies behind a line: the darkest and the brightest that it must read before, and how much of the brighter way is taken.
+// What lies behind a line: the darkest and the brightest that it must read before, and how much of the brighter way
+// is taken.
 struct Ground {
     low: f32,
     high: f32,
@@ -227,7 +228,8 @@ fn at_lightness(lightness: f32, own: vec3<f32>, edge: vec3<f32>, share: f32) -> 
     return clamp(inner * (1.0 - inside) + outer * inside, vec3<f32>(0.0), vec3<f32>(1.0));
 }
 
-// The same for a place on the scale of the rule's measure: of WCAG the lightness at which the fitted colour has that luminance.
+// The same for a place on the scale of the rule's measure: of WCAG the lightness at which the fitted colour has that
+// luminance.
 fn at_place(place: f32, brighter: bool, own: vec3<f32>, edge: vec3<f32>, share: f32, rule: u32) -> vec3<f32> {
     let by_luminance = rules.rules[rule].measure == RULE_WCAG;
     let luminance = luminance_at(place);

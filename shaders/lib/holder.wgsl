@@ -1,4 +1,5 @@
-// Which element of a scan a place belongs to. Twin: npr_vector::pixel_contour::fragment::holder_of. The shader declares `starts`.
+// Which element of a scan a place belongs to. Twin: npr_vector::pixel_contour::fragment::holder_of. The shader
+// declares `starts`.
 
 // The last of the first `count` starts, which ascend, that is not above a value.
 fn holder_of(value: u32, count: u32) -> u32 {

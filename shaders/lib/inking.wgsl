@@ -280,7 +280,8 @@ fn hatch_layer(part: u32, place: Place) -> Hatching {
     return hatching;
 }
 
-// Hatch luminance of a texel's four drawings at `f` between its level and the next: harmonic means of strokes and of white.
+// Hatch luminance of a texel's four drawings at `f` between its level and the next: harmonic means of strokes and of
+// white.
 fn hatch_luminance(texel: vec4<f32>, f: f32) -> f32 {
     let place = f * STEPS;
     let step = min(u32(place), 2u);
@@ -319,8 +320,8 @@ fn sample_hatch(first: u32, side: u32, uv: vec2<f32>, f: f32) -> vec3<f32> {
     );
 }
 
-// Ink at a tone that changes by `change` to the right and down, on a flat sheet: `at` is the place on it in pixels, of which
-// `scale` tiles go to one.
+// Ink at a tone that changes by `change` to the right and down, on a flat sheet: `at` is the place on it in pixels,
+// of which `scale` tiles go to one.
 fn ink_on_sheet(part: u32, at: vec2<f32>, scale: f32, tone: f32, change: vec2<f32>) -> f32 {
     if (parts[part].flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
     let l = level_of(part, tone);

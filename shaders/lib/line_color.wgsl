@@ -1,5 +1,5 @@
-// Where the colour of a line comes from. Twin: npr_style::line_color. The shader declares `view`, `compose`, `lights`, `parts`
-// and `texels`.
+// Where the colour of a line comes from. Twin: npr_style::line_color. The shader declares `view`, `compose`,
+// `lights`, `parts` and `texels`.
 
 //# use lib/texture
 //# use lib/compose

@@ -1,5 +1,5 @@
-// The colour of a line, put together from what was decided at its place. Twin: npr_core::line_color. The shader declares
-// `parts: array<Part>`.
+// The colour of a line, put together from what was decided at its place. Twin: npr_core::line_color. The shader
+// declares `parts: array<Part>`.
 
 //# use lib/color
 //# use lib/outline

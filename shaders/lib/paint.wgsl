@@ -1,4 +1,5 @@
-// Paint under the pen. Twin: npr_style::paint. The shader declares what its twin's layers hold, and has `tint` and `uv_at`.
+// Paint under the pen. Twin: npr_style::paint. The shader declares what its twin's layers hold, and has `tint` and
+// `uv_at`.
 
 //# use lib/color
 //# use lib/compose
@@ -22,7 +23,8 @@ fn painted_level(l: f32, white: f32, threshold: f32) -> f32 {
     return 0.5 * (min(lit, OPEN) * white + threshold);
 }
 
-// White that the paint of triangle `id` leaves at a pixel and its neighbours to the right and below; all where it does not count.
+// White that the paint of triangle `id` leaves at a pixel and its neighbours to the right and below; all where it
+// does not count.
 fn paint_at(id: u32, part: u32, weights: array<vec3<f32>, 3>) -> array<f32, 3> {
     if (parts[part].flags & PART_PAINTED) == 0u { return array<f32, 3>(1.0, 1.0, 1.0); }
     let triangle = triangles[(id & ID_MASK) - 1u];

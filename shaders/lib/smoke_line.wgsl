@@ -89,7 +89,8 @@ fn whole_line_width(outward: vec2<f32>, radius_px: f32) -> f32 {
     return min(look.line_px, THICKEST * radius_px) * (1.0 - look.swell * facing);
 }
 
-// The part of its width that a sphere's outline has at a place of its rim, by what is seen beyond; 0 where the rim is hidden.
+// The part of its width that a sphere's outline has at a place of its rim, by what is seen beyond; 0 where the rim is
+// hidden.
 fn part_beyond(ball: Ball, rim: Rim) -> f32 {
     let beyond = rim.px + rim.outward * BEYOND_PX * window.frame_step;
     let pixel = pixel_at(window, beyond);

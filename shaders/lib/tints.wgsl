@@ -1,5 +1,5 @@
-// What is decided about lines over a mask. Twin: npr_core::line_color::LineTints. The shader declares `mask_window`, `parts`
-// and `tints: array<LineTint>`.
+// What is decided about lines over a mask. Twin: npr_core::line_color::LineTints. The shader declares `mask_window`,
+// `parts` and `tints: array<LineTint>`.
 
 //# use lib/geometry
 //# use lib/window

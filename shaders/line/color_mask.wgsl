@@ -1,6 +1,7 @@
 // line.color_mask: decides the colour of lines at every pixel of the mask that a line runs through, or beside.
 //
-// Whoever draws a line looks this up under its reference coordinate, so a line changes colour along itself and not across.
+// Whoever draws a line looks this up under its reference coordinate, so a line changes colour along itself and not
+// across.
 //
 // Twin    npr_style::line_color::decide
 //

@@ -1,8 +1,8 @@
 // line.draw_ribbons: edges as ribbons of varying width, where the mask shows them.
 //
-// Every fragment looks up the mask at its reference coordinate, the nearest point of
-// the edge itself (A17, A18). Coverage is analytic, and of several ribbons the one that covers a pixel most is kept, so the
-// order of edges does not matter.
+// Every fragment looks up the mask at its reference coordinate, the nearest point of the edge itself (A17, A18).
+// Coverage is analytic, and of several ribbons the one that covers a pixel most is kept, so the order of edges does
+// not matter.
 //
 // Source  Okuya et al. 2016, sections 3.3 and 4.4
 // Twin    npr_vector::ribbon::draw

@@ -58,7 +58,8 @@ fn runs_on(at: vec2<u32>, pixel: GPixel) -> bool {
     return count >= RUN_COUNT;
 }
 
-// Ink found in a box of the output: texels looked at, texels with any ink, and the sum of their coverage in steps of 1 / 255.
+// Ink found in a box of the output: texels looked at, texels with any ink, and the sum of their coverage in steps of
+// 1 / 255.
 struct Ink {
     texels: u32,
     inked: u32,

@@ -140,7 +140,8 @@ fn is_gentle(part: u32) -> bool {
         && (parts[part].softness >= GENTLE || parts[part].ramp[1].a > 1.5);
 }
 
-// Ink of a triangle that has the same all over, inside the shadow of the lights in `dark` or outside it; -1 where it has not.
+// Ink of a triangle that has the same all over, inside the shadow of the lights in `dark` or outside it; -1 where it
+// has not.
 fn even_ink(part: u32, corners: Corners, dark: u32) -> f32 {
     if (parts[part].flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
     if !only_distant() { return -1.0; }

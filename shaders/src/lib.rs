@@ -1,7 +1,7 @@
 //! The WGSL text of every pass, and the linker that joins it with its libraries.
 //!
-//! Usable without wgpu: link a shader, give the text to any WebGPU host. A line `//# use lib/NAME` in a shader stands for
-//! the text of `lib/NAME.wgsl`, put in once however often it is asked for.
+//! Usable without wgpu: link a shader, give the text to any WebGPU host. A line `//# use lib/NAME` in a shader stands
+//! for the text of `lib/NAME.wgsl`, put in once however often it is asked for.
 //!
 //! ```
 //! let source = npr_shaders::link(&npr_shaders::MESH_POSE_VERTICES);

@@ -26,6 +26,7 @@ fn main(
     let strip = strips[element];
     if strip.start == NONE { return; }
     let next = after(spots[element], element);
-    // Around a loop that is one strip, the first comes after the last. A strip has one last side, so nobody else writes this.
+    // Around a loop that is one strip, the first comes after the last. A strip has one last side, so nobody else
+    // writes this.
     if kept[next] == 0u || next == strip.start { lengths[strip.start] = strip.rank + 1u; }
 }

@@ -1,4 +1,5 @@
-// vector.weigh_samples: whether the mean share around each sample makes its line visible there, and whether that is clear.
+// vector.weigh_samples: whether the mean share around each sample makes its line visible there, and whether that is
+// clear.
 //
 // Source  Cole & Finkelstein 2010, filtering along the line
 // Twin    npr_vector::sample::weigh_samples

@@ -20,7 +20,8 @@ pub fn samples() -> Vec<PathBuf> {
     models_below(&root().join("assets"))
 }
 
-/// The models beside the checkout, in order of their paths; none, said on standard error, where there is no such folder.
+/// The models beside the checkout, in order of their paths; none, said on standard error, where there is no such
+/// folder.
 pub fn models() -> Vec<PathBuf> {
     let folder = root().join("../shared/assets/models");
     if !folder.is_dir() {

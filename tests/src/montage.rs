@@ -40,7 +40,8 @@ pub fn enlarged(frame: &Frame, factor: u32) -> Frame {
     sampled(frame, size, |at| at.map(|v| v / factor))
 }
 
-/// A picture whose pixels are means of squares of `factor` pixels, alpha left out; what is over at the edges is dropped.
+/// A picture whose pixels are means of squares of `factor` pixels, alpha left out; what is over at the edges is
+/// dropped.
 pub fn reduced(frame: &Frame, factor: u32) -> Frame {
     let size = frame.size.map(|side| side / factor);
     let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));

@@ -77,8 +77,8 @@ pub fn draw_smoke(
     stage.draw(camera).expect("a picture")
 }
 
-/// A camera that looks at the box of the built-in smoke from the front, without perspective, level with `middle`; `height` is
-/// what it sees, in units.
+/// A camera that looks at the box of the built-in smoke from the front, without perspective, level with `middle`;
+/// `height` is what it sees, in units.
 pub fn front_camera(middle: f32, height: f32) -> Camera {
     Camera {
         eye: [0.0, middle, 4.0],

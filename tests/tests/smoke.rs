@@ -80,8 +80,8 @@ impl Mask {
         both as f32 / pairs().filter(|(a, b)| **a || **b).count() as f32
     }
 
-    /// Looks at the shape in a disc round every pixel of the outline: a straight edge fills half of it and a right angle a
-    /// quarter; its middle lies across the outline.
+    /// Looks at the shape in a disc round every pixel of the outline: a straight edge fills half of it and a right
+    /// angle a quarter; its middle lies across the outline.
     fn outline(&self) -> Outline {
         let [width, height] = self.size.map(|side| side as i32);
         let (mut count, mut corners, mut along_axes) = (0, 0, 0);
@@ -163,8 +163,8 @@ fn drawn_black(film: &SmokeFilm, settings: &[&str], height: f32) -> Frame {
     draw_smoke(&Processor, &film.last(&black), &black, &camera, SIZE)
 }
 
-/// The publication's own grid has twenty voxels from floor to ceiling. Its smoke is drawn round all the same: the outline has
-/// no corners and no preferred direction, where the voxels it was made from are stairs.
+/// The publication's own grid has twenty voxels from floor to ceiling. Its smoke is drawn round all the same: the
+/// outline has no corners and no preferred direction, where the voxels it was made from are stairs.
 #[test]
 fn coarse_voxels_have_a_soft_round_outline() {
     let height = 1.15;
@@ -263,8 +263,8 @@ fn a_camera_moves_round_smoke_and_nothing_pops() {
     );
 }
 
-/// The look that a billboard has is that of the publication it comes from; keys that shape spheres alone cannot act on it, as
-/// the command says. The same for each other choice that makes keys idle.
+/// The look that a billboard has is that of the publication it comes from; keys that shape spheres alone cannot act
+/// on it, as the command says. The same for each other choice that makes keys idle.
 #[test]
 fn keys_that_are_said_to_do_nothing_do_nothing_and_others_do() {
     let film = SmokeFilm::new(Source::Plume, PAPER, 24);
@@ -326,8 +326,8 @@ fn keys_that_are_said_to_do_nothing_do_nothing_and_others_do() {
     }
 }
 
-/// Settings of spheres are settings of pictures: each particle of the publication is drawn with its own box's radius, and ours
-/// at their own pace.
+/// Settings of spheres are settings of pictures: each particle of the publication is drawn with its own box's radius,
+/// and ours at their own pace.
 #[test]
 fn published_particles_are_drawn_as_many_as_asked_for() {
     let film = SmokeFilm::new(Source::Puff, PAPER, 16);
@@ -411,7 +411,8 @@ fn a_picture_stands_behind_the_smoke() {
     );
 }
 
-/// Clouds are the same method on other data, in paler paint: a bank wider than tall, sunlit heads over a shaded belly, no line.
+/// Clouds are the same method on other data, in paler paint: a bank wider than tall, sunlit heads over a shaded
+/// belly, no line.
 #[test]
 fn a_cloud_is_wide_and_bright_above_and_has_no_lines() {
     let height = 1.15;

@@ -30,7 +30,8 @@ const METHODS: [&[&str]; 3] = [
     &["smoke.method=billboards"],
 ];
 
-/// Smoke before and behind a box, under two lights that throw shadows: at most 1 pixel in 500 differs by more than 2 of 255.
+/// Smoke before and behind a box, under two lights that throw shadows: at most 1 pixel in 500 differs by more than 2
+/// of 255.
 #[test]
 fn smoke_looks_alike_on_both_engines() {
     let Some(device) = device() else {

@@ -23,7 +23,8 @@ const OUTLINE_COLOR: &str = "benches/results/outline_color.md";
 /// Where the tables of tracings are kept.
 const TRACE: &str = "benches/results/trace.md";
 
-/// What the tables of tracings need: a program, arguments with which it only says that it is there, and whence it comes.
+/// What the tables of tracings need: a program, arguments with which it only says that it is there, and whence it
+/// comes.
 const TRACE_NEEDS: [(&str, &[&str], &str); 4] = [
     ("/usr/bin/time", &["--version"], "apt: time"),
     ("potrace", &["--version"], "apt: potrace"),
@@ -91,7 +92,8 @@ pub fn trace(root: &Path) -> Result<()> {
     ensure!(maker.success(), "make_bitmaps.py failed: {maker}");
     let target = std::env::var_os("CARGO_TARGET_DIR");
     let target = target.map_or_else(|| root.join("target"), PathBuf::from);
-    // As it lies where it is installed: what a linker wrote piece by piece lies in small pages of the system's cache and starts slower.
+    // As it lies where it is installed: what a linker wrote piece by piece lies in small pages of the system's cache
+    // and starts slower.
     let installed = made.path().join("npr");
     std::fs::copy(target.join("release/npr"), &installed)?;
     let mut program = Command::new("python3");

@@ -1,4 +1,5 @@
-//! `cargo xtask snapshots bless FILTER`: makes what is drawn now the reference, for snapshots whose name holds the filter.
+//! `cargo xtask snapshots bless FILTER`: makes what is drawn now the reference, for snapshots whose name holds the
+//! filter.
 
 use std::path::Path;
 

@@ -55,8 +55,9 @@ fn run_with(root: &Path, arguments: &[&str], environment: &[(&str, String)]) -> 
 
 /// Runs half of the property tests again, drawn by a seed, as are their cases.
 ///
-/// The seed is that of the commit, so that the same commit gets the same answer. An even seed draws one half of the tests
-/// and an odd one the other, which keeps the time of a run in bounds: all of them have run with the first seed before.
+/// The seed is that of the commit, so that the same commit gets the same answer. An even seed draws one half of the
+/// tests and an odd one the other, which keeps the time of a run in bounds: all of them have run with the first seed
+/// before.
 pub fn again(root: &Path) -> Result<()> {
     let seed = seed_of_commit(root)?;
     let first = std::env::var(SEED).unwrap_or_else(|_| "chance".to_owned());

@@ -1,8 +1,8 @@
-//! Measures comic pictures and prints the tables kept in `benches/results/comic.md`; with `prices [ENGINE [SIZE] [PRESET..]]`
-//! only the times, with `gallery FOLDER [PRESET..]` sheets of the presets instead.
+//! Measures comic pictures and prints the tables kept in `benches/results/comic.md`; with `prices [ENGINE [SIZE]
+//! [PRESET..]]` only the times, with `gallery FOLDER [PRESET..]` sheets of the presets instead.
 //!
-//! Run by `cargo xtask measure comic` and `cargo xtask gallery`. A measuring program, not a test: it fails only where loading or
-//! drawing fails.
+//! Run by `cargo xtask measure comic` and `cargo xtask gallery`. A measuring program, not a test: it fails only where
+//! loading or drawing fails.
 
 use std::error::Error;
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! Times lines of a mesh for the comparison with other programs and prints one line of JSON.
 //!
-//! `whole` is what programs do that keep nothing: mesh in, visible strokes out. `prepare` and `view` are its parts where the
-//! model is kept and the camera moves. Reading the file is outside the clock.
+//! `whole` is what programs do that keep nothing: mesh in, visible strokes out. `prepare` and `view` are its parts
+//! where the model is kept and the camera moves. Reading the file is outside the clock.
 
 use std::error::Error;
 use std::path::Path;

@@ -132,7 +132,8 @@ fn times_of(what: &str, cells: &[Cell<'_>]) -> Outcome<Vec<Times>> {
     Ok(times.into_iter().map(Times::of).collect())
 }
 
-/// Times every number of triangles at every size, prints them, and gives the least: other work on the machine only adds to them.
+/// Times every number of triangles at every size, prints them, and gives the least: other work on the machine only
+/// adds to them.
 fn measure_grid(look: &Look) -> Outcome<Vec<Sample>> {
     let subjects = TRIANGLE_COUNTS
         .iter()

@@ -1,7 +1,8 @@
-//! Measures how well outlines mind the background and prints the tables kept in `benches/results/outline_color.md`; with
-//! `contrast`, `orbits` or `objects` only that part; with `--sheets DIR` writes contact sheets instead.
+//! Measures how well outlines mind the background and prints the tables kept in `benches/results/outline_color.md`;
+//! with `contrast`, `orbits` or `objects` only that part; with `--sheets DIR` writes contact sheets instead.
 //!
-//! Run by `cargo xtask measure outline-colour`. A measuring program, not a test: it fails only where loading or drawing fails.
+//! Run by `cargo xtask measure outline-colour`. A measuring program, not a test: it fails only where loading or
+//! drawing fails.
 
 use std::error::Error;
 use std::path::Path;

@@ -1,4 +1,5 @@
-//! Measures cartoon smoke and prints the tables kept in `benches/results/smoke.md`; with `times`, `growth` or `calm` only that part.
+//! Measures cartoon smoke and prints the tables kept in `benches/results/smoke.md`; with `times`, `growth` or `calm`
+//! only that part.
 //!
 //! Run by `cargo xtask measure smoke`. A measuring program, not a test: it fails only where loading or drawing fails.
 

@@ -1,8 +1,8 @@
 //! How still strokes lie on a surface while the camera goes round it.
 //!
-//! A frame's ink is carried over to the next frame by the surface itself: every pixel's point in the world is looked up where
-//! the frame before showed it. Geometry comes from [`Soup`] and [`Viewpoint`], which share no code with the renderer.
-//! What the carried ink and the next frame's differ by is the work of the hatching alone.
+//! A frame's ink is carried over to the next frame by the surface itself: every pixel's point in the world is looked
+//! up where the frame before showed it. Geometry comes from [`Soup`] and [`Viewpoint`], which share no code with the
+//! renderer. What the carried ink and the next frame's differ by is the work of the hatching alone.
 
 use glam::DVec3;
 use npr_core::camera::Camera;

@@ -120,8 +120,8 @@ impl Solid {
 
     /// Whether anything of the shape lies before a point of its outline.
     ///
-    /// The ring is a polynomial of fourth degree along a line of sight, which has a double root where it touches: what is
-    /// left when that is divided out has degree two.
+    /// The ring is a polynomial of fourth degree along a line of sight, which has a double root where it touches:
+    /// what is left when that is divided out has degree two.
     fn sight(self, eye: DVec3, point: DVec3) -> Sight {
         let Self::Ring { tube } = self else {
             return Sight::Visible;

@@ -60,7 +60,8 @@ pub(crate) fn chain(
 
 /// Of every contour of a loop, the one after it.
 ///
-/// From the head of a contour the walk turns through the fan of front faces until the next edge with a back face behind it.
+/// From the head of a contour the walk turns through the fan of front faces until the next edge with a back face
+/// behind it.
 fn contour_successors(
     soup: &Soup,
     edges: &[SoupEdge],
@@ -109,7 +110,8 @@ fn following(half_edge: u32) -> u32 {
     half_edge - half_edge % 3 + (half_edge + 1) % 3
 }
 
-/// Joins candidates outside of contour loops: at every vertex those of one kind, two as they are, of more the straightest pairs.
+/// Joins candidates outside of contour loops: at every vertex those of one kind, two as they are, of more the
+/// straightest pairs.
 fn join_at_vertices(soup: &Soup, lines: &[Candidate], joints: &mut Joints) {
     let mut meetings: BTreeMap<(Kind, u32), Vec<(u32, bool)>> = BTreeMap::new();
     for (number, line) in lines

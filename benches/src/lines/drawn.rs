@@ -1,11 +1,12 @@
 //! How many strokes of a pen a picture takes: the picture is drawn, and strokes are read off the paper.
 //!
-//! Edges of a fine mesh zigzag about the line that one sees, in and out of sight, and lie side by side nearer than any pen
-//! can tell apart; counted along the mesh, that is hundreds of runs where a draughtsman draws two. So lines are
-//! drawn with a pen of 3 pixels ([`super::pen`]), thinned to their middle, and followed from end to end. Lines nearer than the pen
-//! count once. A pen goes round any corner, so a square is one stroke; where lines meet, it goes on in the straightest one,
-//! if that turns by less than 45 degrees. Strokes are cut where the line becomes one of another kind or object
-//! ([`super::layers`]), and lines of one kind find each other first. No constant here comes from what drawings scored.
+//! Edges of a fine mesh zigzag about the line that one sees, in and out of sight, and lie side by side nearer than
+//! any pen can tell apart; counted along the mesh, that is hundreds of runs where a draughtsman draws two. So lines
+//! are drawn with a pen of 3 pixels ([`super::pen`]), thinned to their middle, and followed from end to end. Lines
+//! nearer than the pen count once. A pen goes round any corner, so a square is one stroke; where lines meet, it goes
+//! on in the straightest one, if that turns by less than 45 degrees. Strokes are cut where the line becomes one of
+//! another kind or object ([`super::layers`]), and lines of one kind find each other first. No constant here comes
+//! from what drawings scored.
 
 use super::chains::Run;
 use super::ink::Curve;

@@ -152,7 +152,8 @@ pub struct Bins {
 const MOST_CELLS: f64 = 4096.0;
 
 impl Bins {
-    /// Cells of at least `radius` pixels, which is how far [`Bins::near`] looks. Points that are not finite are never found.
+    /// Cells of at least `radius` pixels, which is how far [`Bins::near`] looks. Points that are not finite are never
+    /// found.
     pub fn new(points: Vec<[f64; 2]>, radius: f64) -> Self {
         let finite = points.iter().filter(|p| p.iter().all(|v| v.is_finite()));
         let start = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);

@@ -1,9 +1,10 @@
 //! Drawn strokes cut where the line becomes another one: strokes of a drawing have one kind and lie on one object.
 //!
-//! The pen of [`super::drawn`] follows ink, and ink has no kind. A drawing's strokes are sorted into groups per kind and object, so
-//! that a contour that goes on as a crease is two strokes there, however well it is drawn. Here a stroke of the pen is cut where it
-//! must be for that, and no more often: what is within the pen's width on paper is its ink, a layer that leaves for less than the
-//! shortest stroke has not left, and of all ways to go from layer to layer the one with the fewest pieces is taken.
+//! The pen of [`super::drawn`] follows ink, and ink has no kind. A drawing's strokes are sorted into groups per kind
+//! and object, so that a contour that goes on as a crease is two strokes there, however well it is drawn. Here a
+//! stroke of the pen is cut where it must be for that, and no more often: what is within the pen's width on paper is
+//! its ink, a layer that leaves for less than the shortest stroke has not left, and of all ways to go from layer to
+//! layer the one with the fewest pieces is taken.
 
 use std::ops::Range;
 
@@ -54,7 +55,8 @@ impl LayeredInk {
         found
     }
 
-    /// The layers in which a line leaves its first point: of those with ink there, the ones that stay longest, to 8 pixels.
+    /// The layers in which a line leaves its first point: of those with ink there, the ones that stay longest, to 8
+    /// pixels.
     pub(crate) fn layers_from(&self, points: &[[f64; 2]]) -> Vec<Layer> {
         let layers: Vec<Vec<Layer>> = points.iter().map(|at| self.layers_at(*at)).collect();
         longest_from_start(&stations(points), stretches(&stations(points), &layers))
@@ -444,7 +446,8 @@ mod tests {
             prop_assert!((0..count).all(covered));
         }
 
-        /// Pieces are the stroke, cut; they follow one another by a shared point, and layers change from one to the next.
+        /// Pieces are the stroke, cut; they follow one another by a shared point, and layers change from one to the
+        /// next.
         #[test]
         fn pieces_put_together_are_the_stroke(layers in prop::collection::vec((1..20usize, prop::collection::vec(0..3u8, 0..3)), 1..12), closed: bool) {
             let layers: Vec<Vec<Layer>> = layers

@@ -1,6 +1,7 @@
 //! The measures: recall, precision, double lines, fragmentation, offset.
 //!
-//! Ink is what a drawing shows, sampled a pixel apart; the reference is what it must show. Every share is weighted by length.
+//! Ink is what a drawing shows, sampled a pixel apart; the reference is what it must show. Every share is weighted by
+//! length.
 
 use npr_vector::stroke::{Drawing, Kind};
 
@@ -62,7 +63,8 @@ pub struct Measures {
     pub joined: Pieces,
     /// The strokes of a pen that a picture of them takes.
     pub drawn: Pieces,
-    /// Mean distance of contour ink from its line, outward positive, in pixels: smoothing that shrinks shows as less than 0.
+    /// Mean distance of contour ink from its line, outward positive, in pixels: smoothing that shrinks shows as less
+    /// than 0.
     pub bias_px: f64,
 }
 

@@ -11,7 +11,8 @@ use super::ink::Curve;
 use super::layers::Layer;
 use super::pen::{PEN_PX, Paper};
 
-/// Shorter strokes are specks, shorter spurs and bridges artefacts of thinning, in pixels: under three widths of the pen.
+/// Shorter strokes are specks, shorter spurs and bridges artefacts of thinning, in pixels: under three widths of the
+/// pen.
 pub(crate) const SHORTEST_PX: f64 = 8.0;
 
 /// Distance along a line over which its direction at a meeting is taken, in pixels. It starts a pen's width away, for
@@ -176,8 +177,8 @@ impl Net {
 
     /// Joins lines through meetings; specks are left out.
     ///
-    /// First the straightest of one layer, then around corners the only two of a layer, then the straightest of those left.
-    /// `layers_of` tells the layers in which a line leaves a meeting, by its points from there on.
+    /// First the straightest of one layer, then around corners the only two of a layer, then the straightest of those
+    /// left. `layers_of` tells the layers in which a line leaves a meeting, by its points from there on.
     pub(crate) fn strokes(
         &self,
         layers_of: &dyn Fn(&[[f64; 2]]) -> Vec<Layer>,

@@ -35,7 +35,8 @@ impl Paper {
         }
     }
 
-    /// Draws straight from one place in the picture to another: all pixels whose middle is half the pen's width from the line.
+    /// Draws straight from one place in the picture to another: all pixels whose middle is half the pen's width from
+    /// the line.
     ///
     /// O(pixels drawn) plus a step for each row of the paper that the line passes.
     pub fn draw(&mut self, line: [[f64; 2]; 2]) {
@@ -68,7 +69,8 @@ impl Paper {
 
     /// Blackens white specks smaller than the blot of the pen, and slits half a pixel wide: no pen can leave them out.
     ///
-    /// Where two lines part slowly, slits open and close with every step of the paper's pixels; they would be islands of two lines.
+    /// Where two lines part slowly, slits open and close with every step of the paper's pixels; they would be islands
+    /// of two lines.
     pub fn fill_specks(&mut self) {
         let blot = (std::f64::consts::PI * (PEN_PX * FINENESS / 2.0).powi(2)) as usize;
         for pixel in self.black_pixels() {
@@ -79,7 +81,8 @@ impl Paper {
         }
     }
 
-    /// The white pixels that hang together with one by their sides; none where they are `most` or more and not all in slits.
+    /// The white pixels that hang together with one by their sides; none where they are `most` or more and not all in
+    /// slits.
     fn white_around(&self, start: usize, most: usize) -> Vec<usize> {
         let mut found = Vec::new();
         let mut open = vec![start];
@@ -146,7 +149,8 @@ impl Paper {
     fn can_go(&self, pixel: usize) -> bool {
         let around = self.around(pixel).map(|near| self.black[near]);
         let count = around.iter().filter(|black| **black).count();
-        // Of the four sides, those that are white and not followed by black corners and black sides: one for every way out.
+        // Of the four sides, those that are white and not followed by black corners and black sides: one for every
+        // way out.
         let ways = (0..8)
             .step_by(2)
             .filter(|side| !around[*side] && (around[(side + 1) % 8] || around[(side + 2) % 8]));

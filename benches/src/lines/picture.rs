@@ -13,8 +13,8 @@ const COLOURS: [&str; 8] = [
     "#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e", "#17becf", "#8c564b", "#e377c2",
 ];
 
-/// Three panels side by side: runs of the reference, drawn runs, and the strokes of a drawing, each line in a colour of its own,
-/// its ends as dots. Ink that lies double is marked in the third.
+/// Three panels side by side: runs of the reference, drawn runs, and the strokes of a drawing, each line in a colour
+/// of its own, its ends as dots. Ink that lies double is marked in the third.
 pub fn picture(reference: &Reference, drawing: &Drawing) -> String {
     let [width, height] = drawing.size;
     let strokes = Curve::of_drawing(drawing);

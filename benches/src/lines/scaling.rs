@@ -2,7 +2,8 @@
 
 /// The power of `n log n` that times grow with, by least squares over logarithms; `None` of fewer than two sizes.
 ///
-/// Each sample is a number of triangles and a time. 1 means that doubling a large mesh takes a little over twice as long.
+/// Each sample is a number of triangles and a time. 1 means that doubling a large mesh takes a little over twice as
+/// long.
 pub fn exponent(samples: &[(f64, f64)]) -> Option<f64> {
     let logs: Vec<[f64; 2]> = samples
         .iter()

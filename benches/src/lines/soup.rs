@@ -18,7 +18,8 @@ const HOPS: usize = 8;
 pub struct Soup {
     /// Welded positions.
     pub positions: Vec<DVec3>,
-    /// Corners, counter-clockwise seen from outside where the file keeps to that; no two equal, no face twice in an object.
+    /// Corners, counter-clockwise seen from outside where the file keeps to that; no two equal, no face twice in an
+    /// object.
     pub faces: Vec<[u32; 3]>,
     /// A number for the material of each face.
     pub materials: Vec<u32>,
@@ -166,7 +167,8 @@ impl Soup {
         self.ends_of(a) != self.ends_of(b)
     }
 
-    /// The unit normal of every face; a face without area takes that of the next face with area across its longest edge.
+    /// The unit normal of every face; a face without area takes that of the next face with area across its longest
+    /// edge.
     pub fn normals(&self, edges: &[SoupEdge]) -> Vec<DVec3> {
         let mut edge_of = vec![0; 3 * self.faces.len()];
         for (number, edge) in edges.iter().enumerate() {

@@ -1,4 +1,5 @@
-//! What is drawn for the measures: models of the shared folder, meshes that other programs drew, shapes made on the spot.
+//! What is drawn for the measures: models of the shared folder, meshes that other programs drew, shapes made on the
+//! spot.
 
 use std::path::{Path, PathBuf};
 

@@ -37,7 +37,8 @@ pub struct Method {
     pub settings: &'static [&'static str],
 }
 
-/// The methods that are held against each other: the two of one colour [Tsuji 2014, section 3.1], the published one, ours.
+/// The methods that are held against each other: the two of one colour [Tsuji 2014, section 3.1], the published one,
+/// ours.
 pub const METHODS: [Method; 4] = [
     Method {
         name: "black",

@@ -1,8 +1,8 @@
 //! What every place of an outline looks like beside its rim and before what lies behind it.
 //!
-//! A *place* is a pixel outside a character with a pixel of the character among its eight neighbours. Its line is looked for among the
-//! pixels around it that show nothing of the character; what the line covers only partly is divided out. All of it comes
-//! from finished pictures, so that methods of any kind can be held against each other.
+//! A *place* is a pixel outside a character with a pixel of the character among its eight neighbours. Its line is
+//! looked for among the pixels around it that show nothing of the character; what the line covers only partly is
+//! divided out. All of it comes from finished pictures, so that methods of any kind can be held against each other.
 
 use npr_core::color::linear_from_srgb;
 use npr_render::Frame;
@@ -51,8 +51,8 @@ pub struct Place {
     pub rim: Oklab,
     /// Mean colour of what lies behind.
     pub behind: Oklab,
-    /// By how much the line's lightness differs from what lies behind: the median over the pixels around, for the mean of a dark and
-    /// a light wall is a wall that is not there. 0 without a line.
+    /// By how much the line's lightness differs from what lies behind: the median over the pixels around, for the
+    /// mean of a dark and a light wall is a wall that is not there. 0 without a line.
     pub contrast: f32,
     /// Colour of the line, where there is any.
     pub line: Option<Oklab>,
@@ -156,8 +156,8 @@ fn place(pictures: &Pictures<'_>, px: [i32; 2]) -> Option<Place> {
     })
 }
 
-/// How many lined places flip between two frames: the outline goes on beside them, along the same rim and before the same background, but
-/// nowhere there in its colour. Also how many were compared. O(places).
+/// How many lined places flip between two frames: the outline goes on beside them, along the same rim and before the
+/// same background, but nowhere there in its colour. Also how many were compared. O(places).
 pub fn flips(before: &[Place], after: &[Place], size: [u32; 2]) -> [usize; 2] {
     let width = size[0] as i32;
     let mut at = vec![None; size[0] as usize * size[1] as usize];

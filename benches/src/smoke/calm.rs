@@ -1,20 +1,20 @@
 //! How many tones of a picture of smoke change without cause from a frame to the next.
 //!
-//! What moves with good reason is taken out first. Both frames know the spheres that stand for the smoke, whatever a style
-//! draws in their place: the first surface of them along a pixel's ray is what that pixel *truly* shows. Its point is
-//! carried to the frame before with its own sphere, which may have moved and swelled, and through that frame's camera:
-//! once as paint on the sphere, once as part of the sphere's image, for outlines stay on rims while surfaces turn below
-//! them. A pixel beside another sphere also shows something of that one's outline: it is carried with the image of every
-//! sphere seen within a pixel in either frame. Any of these may explain a tone.
+//! What moves with good reason is taken out first. Both frames know the spheres that stand for the smoke, whatever a
+//! style draws in their place: the first surface of them along a pixel's ray is what that pixel *truly* shows. Its
+//! point is carried to the frame before with its own sphere, which may have moved and swelled, and through that
+//! frame's camera: once as paint on the sphere, once as part of the sphere's image, for outlines stay on rims while
+//! surfaces turn below them. A pixel beside another sphere also shows something of that one's outline: it is carried
+//! with the image of every sphere seen within a pixel in either frame. Any of these may explain a tone.
 //!
 //! Where the frame before truly shows the same sphere within a pixel of there, the two pictures are held against each
-//! other. A tone *differs* where it lies farther than [`STEP`] from the tone at its place before, read between pixels. It
-//! *jumps* where besides no tone within a pixel of its place before, and none within a pixel of it now, comes that near: so
-//! edges that crawl from pixel to pixel differ, and what comes or goes at once jumps. What comes into view or is born
-//! counts for nothing.
+//! other. A tone *differs* where it lies farther than [`STEP`] from the tone at its place before, read between
+//! pixels. It *jumps* where besides no tone within a pixel of its place before, and none within a pixel of it now,
+//! comes that near: so edges that crawl from pixel to pixel differ, and what comes or goes at once jumps. What comes
+//! into view or is born counts for nothing.
 //!
-//! Both pictures are read softened by a pixel, so that reading between pixels changes nothing: a sharp edge drawn well half a
-//! pixel on differs by a quarter of its height from what is read there, softened by a sixteenth.
+//! Both pictures are read softened by a pixel, so that reading between pixels changes nothing: a sharp edge drawn
+//! well half a pixel on differs by a quarter of its height from what is read there, softened by a sixteenth.
 //!
 //! Light is no cause: where a shadow of smoke passes over smoke, tones count as changed. That is so for every style.
 
@@ -27,7 +27,8 @@ use npr_render::Frame;
 use npr_smoke::Sphere as Puff;
 use npr_style::smoke::draw::{draw_spheres, project_spheres};
 
-/// Differences of tone up to this are none: half of what parts the two tones of paint, a sixth of what parts line and paint.
+/// Differences of tone up to this are none: half of what parts the two tones of paint, a sixth of what parts line and
+/// paint.
 pub const STEP: f32 = 0.16;
 
 /// A picture of smoke and what it truly shows.
@@ -129,8 +130,9 @@ impl Shown {
         change
     }
 
-    /// Where the frame before shows what a pixel of this one truly shows: as paint on its sphere, as part of that sphere's
-    /// image, and as part of the images of spheres within a pixel now or then; none where it does not show the pixel's own sphere.
+    /// Where the frame before shows what a pixel of this one truly shows: as paint on its sphere, as part of that
+    /// sphere's image, and as part of the images of spheres within a pixel now or then; none where it does not show
+    /// the pixel's own sphere.
     fn places_before(&self, before: &Self, [x, y]: [u32; 2]) -> Option<Vec<[f32; 2]>> {
         let frame_px = self.window.frame_at(x, y);
         let own = self.ids[(y * self.size[0] + x) as usize];
@@ -346,7 +348,8 @@ mod tests {
         drawn(|[x, _]| f32::from(u8::from((x - by).rem_euclid(20.0) >= 10.0)))
     }
 
-    /// A front sphere over one behind it, each with a line as wide as asked for inside its rim: as a perfect style has them.
+    /// A front sphere over one behind it, each with a line as wide as asked for inside its rim: as a perfect style
+    /// has them.
     fn outlined(front: f32, behind: f32, [line, line_behind]: [f32; 2]) -> Shown {
         let spheres = [(front, 0.5, line, 1.0), (behind, 1.0, line_behind, -1.0)];
         let tone_at = |[x, y]: [f32; 2]| {
@@ -399,7 +402,8 @@ mod tests {
 
     #[test]
     fn what_slides_over_the_smoke_changes() {
-        // Of each 10 pixels 5 are new. None of them is taken for slipped: beside an edge of one frame there is none of the other.
+        // Of each 10 pixels 5 are new. None of them is taken for slipped: beside an edge of one frame there is none
+        // of the other.
         for (by, moved, aside) in [(5.0, 0.0, 0.0), (0.0, 0.2, 0.0), (0.0, 0.0, -0.2)] {
             // Both ways to carry a tone agree: the sphere does not turn.
             let [differing, jumping] = change(by, moved, aside).shares();

@@ -6,9 +6,11 @@ use palette::Srgb;
 use quantette::{ImageRef, PaletteSize, Pipeline};
 use std::collections::BTreeMap;
 
-/// The picture in at most so many colours: its own where it has no more, else those found by the method of [Wu 1991] in OKLab, without dither.
+/// The picture in at most so many colours: its own where it has no more, else those found by the method of [Wu 1991]
+/// in OKLab, without dither.
 ///
-/// `rgba` is straight. A pixel less than half opaque is transparent; the others count as opaque. 16 bytes a pixel, O(pixels).
+/// `rgba` is straight. A pixel less than half opaque is transparent; the others count as opaque. 16 bytes a pixel,
+/// O(pixels).
 pub fn reduce(size: [u32; 2], rgba: &[u8], most: u16) -> Result<IndexPicture, Fault> {
     let [width, height] = size;
     let (pixels, _) = rgba.as_chunks::<4>();

@@ -78,7 +78,8 @@ pub fn decode_colours(bytes: &[u8], limits: &Limits, most: u16) -> Result<IndexP
     reduce([pixels.width(), pixels.height()], pixels.as_raw(), most)
 }
 
-/// The pixels of a file of packed rows, read without holding its bytes; none of any other file, nor of one that is too large or broken.
+/// The pixels of a file of packed rows, read without holding its bytes; none of any other file, nor of one that is
+/// too large or broken.
 pub fn read_packed(path: &Path, limits: &Limits) -> Result<Option<Bitmap>, Fault> {
     let (mut file, length) = regular_file(path)?;
     if length > limits.file_bytes {
@@ -143,7 +144,8 @@ fn packed_head(bytes: &[u8]) -> Option<PackedHead> {
     })
 }
 
-/// An image file of one of some formats. Its size, and the bytes planned for its pixels, are checked before any is decoded.
+/// An image file of one of some formats. Its size, and the bytes planned for its pixels, are checked before any is
+/// decoded.
 fn image(
     bytes: &[u8],
     limits: &Limits,

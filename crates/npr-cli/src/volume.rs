@@ -133,7 +133,8 @@ pub fn step(
     Ok(smoke.map_or_else(Default::default, |(smoke, told)| (Some(smoke), told)))
 }
 
-/// The smoke of a still picture: that of the scene's own file, where it is a volume, and of every `--volume`; none without any.
+/// The smoke of a still picture: that of the scene's own file, where it is a volume, and of every `--volume`; none
+/// without any.
 pub fn still(order: &Order<'_>, own: Option<VolumeSource>) -> Result<Option<(Smoke, Film)>, Fault> {
     let own = own.map(|source| (source, None));
     let placed = order.said.volumes.iter();
@@ -167,7 +168,8 @@ fn placed_at(volume: &PlacedVolume, smoke: Smoke) -> Smoke {
 
 /// The smoke of a source at every moment asked for, followed from moment to moment; `tell` learns how far the work is.
 ///
-/// A simulation is followed from its first frame on, whatever frames are asked for: a frame looks the same alone and in a film.
+/// A simulation is followed from its first frame on, whatever frames are asked for: a frame looks the same alone and
+/// in a film.
 pub fn film(
     source: &VolumeSource,
     order: &Order<'_>,
@@ -405,7 +407,8 @@ impl Order<'_> {
         }
     }
 
-    /// How spheres follow smoke that goes on by `step` frames at a time; `known` is where it comes from, if the user does not say.
+    /// How spheres follow smoke that goes on by `step` frames at a time; `known` is where it comes from, if the user
+    /// does not say.
     fn puffs(&self, step: f64, fps: f32, known: Birthplace) -> PuffSettings {
         let following = Following {
             step: step as f32,

@@ -29,8 +29,9 @@ pub struct Vertex {
     pub curvatures: [f32; 2],
     /// Unit normal averaged over all vertices at this position, packed: hulls grow along it without cracks.
     pub weld_normal: u32,
-    /// The line width that the style's width source gives here, 0..1, where it depends on the vertex alone; where width follows
-    /// the projected curvature, the size of the tightest curvature, in 1 / bounding radius of the scene.
+    /// The line width that the style's width source gives here, 0..1, where it depends on the vertex alone; where
+    /// width follows the projected curvature, the size of the tightest curvature, in 1 / bounding radius of the
+    /// scene.
     pub width: f32,
     /// Index into the parts.
     pub part: u32,
@@ -179,8 +180,8 @@ pub struct Part {
     pub tile_scale: f32,
     /// Cosine and sine of the angle by which hatch coordinates are turned.
     pub turn: [f32; 2],
-    /// The colour it is painted in without its texture, sRGB bytes, the first in the lowest byte; the highest is how much it
-    /// darkens its shade, 255 all the way. Read with [`Part::PAINTED`].
+    /// The colour it is painted in without its texture, sRGB bytes, the first in the lowest byte; the highest is how
+    /// much it darkens its shade, 255 all the way. Read with [`Part::PAINTED`].
     pub paint_color: u32,
     /// Where its row of tones starts in the texture store, with [`Part::TONE_ROW`].
     pub tone_row: u32,
@@ -194,17 +195,18 @@ pub struct Part {
     pub highlight_shape: [f32; 4],
     /// Cosine and sine of the turn of its axes; gaps along both.
     pub highlight_turn: [f32; 4],
-    /// Where on its ramp the light from behind begins and is full; width of the streak in radii; |n.v| above which it shows.
+    /// Where on its ramp the light from behind begins and is full; width of the streak in radii; |n.v| above which it
+    /// shows.
     pub back: [f32; 4],
     /// Opacity of a beam from each of the first four steps of its ramp on.
     pub beam_alpha: [f32; 4],
     /// Tone steps: linear light rgb from coordinate `a` upwards; unused ones start at 2.
     pub ramp: [[f32; 4]; 8],
-    /// Colours of single kinds of its lines, sRGB bytes: contour, border, crease, material, intersection. Those count that
-    /// have their bit in `line_flags`.
+    /// Colours of single kinds of its lines, sRGB bytes: contour, border, crease, material, intersection. Those count
+    /// that have their bit in `line_flags`.
     pub line_kinds: [u32; 5],
-    /// What decides the colour of its lines beside `line_color`: bits 1 to 16 for kinds with a colour of their own, then
-    /// [`Part::LINE_SURFACE`] to [`Part::LINE_WIDTH`].
+    /// What decides the colour of its lines beside `line_color`: bits 1 to 16 for kinds with a colour of their own,
+    /// then [`Part::LINE_SURFACE`] to [`Part::LINE_WIDTH`].
     pub line_flags: u32,
     /// What a colour of the surface is multiplied by for lines, in linear light.
     pub line_factor: f32,
@@ -228,7 +230,8 @@ pub struct Part {
     pub streak_across: [f32; 2],
     /// Unit vector towards the light behind it, in the camera's axes: to the right, up, and towards the eye.
     pub back_direction: [f32; 3],
-    /// Number of its connected surface within the object: parts of one number are one skin, however many materials and ids it has.
+    /// Number of its connected surface within the object: parts of one number are one skin, however many materials
+    /// and ids it has.
     pub component: u32,
 }
 gpu_layout!(Part {

@@ -31,7 +31,8 @@ pub fn distant_view(towards: [f32; 3], casters: &[[f32; 3]], seen: &[[f32; 3]]) 
         .flatten()
         .fold(0.0f32, |most, x| most.max(x.abs()));
     let row = |axis: Vec3, (low, high): (f32, f32), from: f32| {
-        // A little room on both sides, so that rounding puts nothing outside: sums cancel to the last bits of what is added.
+        // A little room on both sides, so that rounding puts nothing outside: sums cancel to the last bits of what is
+        // added.
         let room = ((high - low) * 0.01).max(farthest * 1e-5).max(1e-12);
         let scale = (1.0 - from) / (high - low + 2.0 * room);
         (axis * scale).extend(from - (low - room) * scale)
@@ -52,7 +53,8 @@ pub fn distant_view(towards: [f32; 3], casters: &[[f32; 3]], seen: &[[f32; 3]]) 
 
 /// Clip space of a spot at `position` that shines along the unit vector `axis` up to an angle of cosine `outer_cos`.
 ///
-/// Depth is reversed, 1 at the distance `near`: what is nearer throws no shadow. Cones wider than 87 degrees are cut there.
+/// Depth is reversed, 1 at the distance `near`: what is nearer throws no shadow. Cones wider than 87 degrees are cut
+/// there.
 pub fn spot_view(position: [f32; 3], axis: [f32; 3], outer_cos: f32, near: f32) -> Matrix {
     let (eye, forward) = (Vec3::from(position), Vec3::from(axis));
     let (right, up) = (-forward).any_orthonormal_pair();

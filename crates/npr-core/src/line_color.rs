@@ -1,7 +1,7 @@
 //! The colour of a line at a place, put together from what was decided there: the twin of `lib/line_tint`.
 //!
-//! `npr_style::line_color` decides, once for every pixel of the mask; whoever draws a line looks up what was decided under
-//! the line's reference coordinate with [`LineTints::at`] and gets its colour from [`line_color`].
+//! `npr_style::line_color` decides, once for every pixel of the mask; whoever draws a line looks up what was decided
+//! under the line's reference coordinate with [`LineTints::at`] and gets its colour from [`line_color`].
 
 use crate::color::{linear_from_srgb, pack_rgba8, srgb_from_linear, unpack_rgba8};
 use crate::geometry::{NONE, Part};
@@ -176,8 +176,8 @@ impl LineTints<'_> {
 
 /// Colour of a part's lines of a kind, sRGB with straight alpha, where `tint` is decided.
 ///
-/// A kind's own colour goes before that of the surface, and this before the part's. Without a tint only the first and the
-/// last count. The glaze is mixed in linear light; where there is none the colour stays as it is, to the bit.
+/// A kind's own colour goes before that of the surface, and this before the part's. Without a tint only the first and
+/// the last count. The glaze is mixed in linear light; where there is none the colour stays as it is, to the bit.
 #[inline]
 pub fn line_color(part: &Part, kind: u32, tint: Option<Tint>) -> [f32; 4] {
     let mut color = part.line_color;

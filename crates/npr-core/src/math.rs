@@ -43,9 +43,9 @@ pub fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
 
 /// A direction packed into two signed 16-bit numbers by octahedral mapping.
 ///
-/// Its length does not matter. The error is under 4e-5 radians [Cigolle et al. 2014]. A zero or non-finite vector packs as +z.
-/// Packed normals are also what both engines compare, so that rounding in the last bit of a float
-/// rarely reaches a threshold.
+/// Its length does not matter. The error is under 4e-5 radians [Cigolle et al. 2014]. A zero or non-finite vector
+/// packs as +z. Packed normals are also what both engines compare, so that rounding in the last bit of a float rarely
+/// reaches a threshold.
 pub fn pack_unit(v: [f32; 3]) -> u32 {
     let sum = v[0].abs() + v[1].abs() + v[2].abs();
     if !(sum > 0.0 && sum.is_finite()) {

@@ -33,7 +33,8 @@ pub fn push_steps(text: &mut String, steps: i64, decimals: u32) {
     push_digits(text, part, digits);
 }
 
-/// Writes a whole number with at least so many digits: several times faster than formatting, which files of curves spend their time in.
+/// Writes a whole number with at least so many digits: several times faster than formatting, which files of curves
+/// spend their time in.
 fn push_digits(text: &mut String, mut number: u64, least: usize) {
     let mut digits = [b'0'; 20];
     let mut start = digits.len();

@@ -9,12 +9,13 @@ pub struct PublishedPath {
     pub oversampling: u32,
     /// How far behind a surface a line still shows, as a share of the scene's radius; default 0.02.
     ///
-    /// Larger lets hidden lines through thin parts, smaller breaks lines on steep slopes. The publication's is absolute.
+    /// Larger lets hidden lines through thin parts, smaller breaks lines on steep slopes. The publication's is
+    /// absolute.
     pub depth_tolerance: f32,
     /// Of a pixel and the eight around it, how many have to show a line; default 2.
     pub least_visible: u32,
-    /// Rounds of pointer jumping for each of loop breaking and ranking, of which the published 16 rank loops up to 65,536 sides; default
-    /// as many as it takes.
+    /// Rounds of pointer jumping for each of loop breaking and ranking, of which the published 16 rank loops up to
+    /// 65,536 sides; default as many as it takes.
     pub rounds: Option<u32>,
     /// A loop of less area is a speck and dropped, in pixels; default 32.
     pub speck_area: f32,

@@ -38,8 +38,8 @@ pub struct Shape {
     /// Faces without area, ascending, each with the face whose orientation it takes over: the nearest with
     /// area across its longest edges, or [`NONE`].
     pub slivers: Vec<[u32; 2]>,
-    /// Lines that are geometry themselves, without faces: the two vertices of each segment, which differ, in the direction of
-    /// the file. Segment `k` has the edge number `edge_count() + k`.
+    /// Lines that are geometry themselves, without faces: the two vertices of each segment, which differ, in the
+    /// direction of the file. Segment `k` has the edge number `edge_count() + k`.
     pub wires: Vec<[u32; 2]>,
     /// Index of each wire's [`Surface`].
     pub wire_surfaces: Vec<u32>,

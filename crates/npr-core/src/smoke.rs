@@ -262,8 +262,8 @@ impl Lens {
 
     /// [`Lens::depth_of`] for spheres.
     ///
-    /// The ray's nearest point to the middle is found first, so small balls far away lose no precision. No branches, so that
-    /// rows of pixels are computed side by side.
+    /// The ray's nearest point to the middle is found first, so small balls far away lose no precision. No branches,
+    /// so that rows of pixels are computed side by side.
     #[inline]
     pub fn depth_of_sphere(&self, ball: &Ball, ray: [f32; 2]) -> f32 {
         let meeting = self.perspective;

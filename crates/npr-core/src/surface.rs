@@ -17,8 +17,8 @@ pub fn weights_at(clip: [[f32; 4]; 3], ndc: [f32; 2]) -> [f32; 3] {
     summing_to_1([cross(b, c), cross(c, a), cross(a, b)])
 }
 
-/// Weights as of [`weights_at`] at a point of the picture, `step[0]` to its right and `step[1]` below, in normalised device
-/// coordinates; a step down is negative.
+/// Weights as of [`weights_at`] at a point of the picture, `step[0]` to its right and `step[1]` below, in normalised
+/// device coordinates; a step down is negative.
 ///
 /// Weights before they are made to sum to 1 are linear in the picture, so that three places cost little more than one.
 #[inline]

@@ -46,7 +46,8 @@ impl TextureStore {
         &self.words
     }
 
-    /// Adds a texture of `size` pixels, sRGB bytes with straight alpha, row by row from the top, and all its MIP levels.
+    /// Adds a texture of `size` pixels, sRGB bytes with straight alpha, row by row from the top, and all its MIP
+    /// levels.
     ///
     /// Gives where its header starts; an empty image, or one whose pixels do not match its size, gives `None`.
     pub fn add(&mut self, size: [u32; 2], rgba: &[u8], wrap: [Wrap; 2]) -> Option<u32> {
@@ -72,8 +73,9 @@ impl TextureStore {
         Some(start)
     }
 
-    /// Adds a square tile that repeats, with levels made by the caller: each half as wide as the one before, from `side`, a
-    /// power of two. Texels are taken as they are; `spacing_texels` lies in the header where textures have their wrap.
+    /// Adds a square tile that repeats, with levels made by the caller: each half as wide as the one before, from
+    /// `side`, a power of two. Texels are taken as they are; `spacing_texels` lies in the header where textures have
+    /// their wrap.
     ///
     /// Gives where its header starts; `None` where a level has the wrong size.
     pub fn add_tile(&mut self, side: u32, spacing_texels: f32, levels: &[Vec<u32>]) -> Option<u32> {

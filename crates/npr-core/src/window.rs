@@ -53,7 +53,8 @@ impl View {
         self.height_at(depth) / self.frame_px[1]
     }
 
-    /// A coordinate that changes linearly over the image of any plane: 1 / depth in perspective, depth in parallel view.
+    /// A coordinate that changes linearly over the image of any plane: 1 / depth in perspective, depth in parallel
+    /// view.
     #[inline]
     pub fn plane_coordinate(&self, depth: f32) -> f32 {
         if self.perspective > 0.5 {
@@ -75,7 +76,8 @@ impl View {
         }
     }
 
-    /// Depth change over one pixel of a grid, in sizes of that pixel: the tangent of the surface's angle to the picture.
+    /// Depth change over one pixel of a grid, in sizes of that pixel: the tangent of the surface's angle to the
+    /// picture.
     pub fn slope_of(&self, window: &Window, depth: f32, plane_step: [f32; 2]) -> f32 {
         let step = (plane_step[0] * plane_step[0] + plane_step[1] * plane_step[1]).sqrt();
         let pixel = self.view_height * window.frame_step[1] / self.frame_px[1];

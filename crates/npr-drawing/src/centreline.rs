@@ -18,8 +18,8 @@ const TOLERANCE_PX: f64 = 0.1;
 
 /// Centre lines as the bytes of a file. Same lines, same bytes.
 ///
-/// SVG and PDF hold stroked curves with the measured width, and the outline of the ink where it varies; JSON the points of
-/// [`write_json`]; GeoJSON is that of [`write_centreline_geojson`].
+/// SVG and PDF hold stroked curves with the measured width, and the outline of the ink where it varies; JSON the
+/// points of [`write_json`]; GeoJSON is that of [`write_centreline_geojson`].
 pub fn write_centrelines(lines: &Centrelines, format: TraceFormat) -> Vec<u8> {
     let options = ArtworkOptions {
         tolerance_px: TOLERANCE_PX,
@@ -75,7 +75,8 @@ pub fn centreline_drawing(lines: &Centrelines) -> Drawing {
     }
 }
 
-/// A `LineString` for every stroke, with its mean width in pixels; y up from the lower edge. A closed one ends where it starts.
+/// A `LineString` for every stroke, with its mean width in pixels; y up from the lower edge. A closed one ends where
+/// it starts.
 pub fn write_centreline_geojson(lines: &Centrelines) -> Vec<u8> {
     let height = f64::from(lines.size[1]);
     let features: Vec<String> = lines

@@ -10,8 +10,8 @@ use tiny_skia::{
 
 /// The drawing as pixels: rows from the top, sRGB bytes with straight alpha.
 ///
-/// The picture has the drawing's size: a page in the options is left aside. Pixels are empty, without a background, where
-/// nothing is drawn; there are none if a side is 0 or the picture is too large for memory to be counted.
+/// The picture has the drawing's size: a page in the options is left aside. Pixels are empty, without a background,
+/// where nothing is drawn; there are none if a side is 0 or the picture is too large for memory to be counted.
 pub fn rasterise(drawing: &Drawing, options: &ArtworkOptions) -> Vec<u8> {
     let options = ArtworkOptions {
         page: None,

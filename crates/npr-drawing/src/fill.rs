@@ -1,7 +1,8 @@
 //! Flat colour between the lines: the areas that visible lines enclose become closed regions.
 //!
-//! Lines are snapped to a fine grid and made into a planar graph, which is triangulated; triangles with no line between them form an area,
-//! and most of an area's surface decides its colour. Neighbouring regions share their points exactly, so no background shows between them.
+//! Lines are snapped to a fine grid and made into a planar graph, which is triangulated; triangles with no line
+//! between them form an area, and most of an area's surface decides its colour. Neighbouring regions share their
+//! points exactly, so no background shows between them.
 
 mod map;
 pub mod mesh;
@@ -46,8 +47,9 @@ pub enum FillError {
 /// being background, which becomes no region. Places are not on lines and at least one lies in every
 /// triangle between them.
 ///
-/// A line that ends in nothing encloses nothing. Where two areas meet through a gap in a line, their colours meet there too, near the line
-/// that is missing. Areas side by side with the same surface become one region; a line that runs inside it leaves no trace.
+/// A line that ends in nothing encloses nothing. Where two areas meet through a gap in a line, their colours meet
+/// there too, near the line that is missing. Areas side by side with the same surface become one region; a line that
+/// runs inside it leaves no trace.
 ///
 /// Rings run clockwise as seen in the picture around what they enclose, holes the other way, and may touch themselves
 /// in single points. Regions come in the order of their topmost points. The same for any number of threads.
@@ -113,13 +115,14 @@ fn clipped(size: [u32; 2], [a, b]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     (from <= to && ends.as_flattened().iter().all(|v| v.is_finite())).then_some(ends)
 }
 
-/// Share of an area that must show one surface for all of it to count as that; under it, lines have let two areas run together.
+/// Share of an area that must show one surface for all of it to count as that; under it, lines have let two areas run
+/// together.
 const WHOLE_SHARE: f64 = 0.97;
 
 /// For every triangle the surface that its area shows; where an area shows several, what the triangle itself shows.
 ///
-/// Specks in an area are noise along its lines. But where an outline has a gap, two areas are one, and the majority would paint the
-/// smaller away: there colours meet between triangles, close to where the line should be.
+/// Specks in an area are noise along its lines. But where an outline has a gap, two areas are one, and the majority
+/// would paint the smaller away: there colours meet between triangles, close to where the line should be.
 fn labels(map: &Map, surface_at: &(dyn Fn([f64; 2]) -> Option<u32> + Sync)) -> Vec<Option<u32>> {
     let seen: Vec<Option<u32>> = map
         .triangles

@@ -1,7 +1,7 @@
 //! Strokes that change colour along themselves, cut into pieces of one colour each: files know no other.
 //!
-//! Pieces share their joints. Opaque ones overlap there by their round ends, so no gap shows at any size; of translucent ones
-//! overlaps would show as beads, so they are strips that end square in each other's edge.
+//! Pieces share their joints. Opaque ones overlap there by their round ends, so no gap shows at any size; of
+//! translucent ones overlaps would show as beads, so they are strips that end square in each other's edge.
 
 use crate::outline::outline;
 use color::{Oklab, OpaqueColor, Srgb};
@@ -73,8 +73,8 @@ pub(crate) struct Piece {
     beyond: [Option<[f64; 2]>; 2],
 }
 
-/// The pieces of a stroke, in order; each begins at the last point of the one before. `other` is the colour of points without
-/// one. O(points + pieces).
+/// The pieces of a stroke, in order; each begins at the last point of the one before. `other` is the colour of points
+/// without one. O(points + pieces).
 pub(crate) fn pieces(points: &[StrokePoint], closed: bool, other: [u8; 4]) -> Vec<Piece> {
     let color_of = |point: &StrokePoint| point.color.unwrap_or(other);
     let whole = |color| Piece {
@@ -167,7 +167,8 @@ pub(crate) fn point_between(a: &StrokePoint, b: &StrokePoint, t: f64) -> StrokeP
 }
 
 impl Piece {
-    /// The shape of its ink, for the nonzero rule, within `tolerance` pixels; `translucent` says how it meets its neighbours.
+    /// The shape of its ink, for the nonzero rule, within `tolerance` pixels; `translucent` says how it meets its
+    /// neighbours.
     pub fn outline(&self, tolerance: f64, translucent: bool) -> BezPath {
         if translucent && self.goes_on != [false; 2] {
             self.strip()

@@ -1,8 +1,8 @@
 //! Line data as JSON: every stroke with its points, depth, width and place in the world.
 //!
-//! One stroke per line of text. Pixels are written to a thousandth, depth, texture coordinate and world with seven digits.
-//! Flat colour is not part of it, and colours of lines only of strokes that change theirs: `colors`, four bytes a point, sRGB
-//! and alpha.
+//! One stroke per line of text. Pixels are written to a thousandth, depth, texture coordinate and world with seven
+//! digits. Flat colour is not part of it, and colours of lines only of strokes that change theirs: `colors`, four
+//! bytes a point, sRGB and alpha.
 
 use npr_core::decoding::guard;
 use npr_core::number::{push_fixed, push_significant};

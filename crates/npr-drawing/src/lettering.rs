@@ -1,8 +1,8 @@
 //! Words as outlines: sound effects and captions, bent, leaning, growing, with bands around the letters.
 //!
-//! A [`Font`] is read from the bytes of a font file. [`set_words`] shapes a text with it, kerning and ligatures included, and gives
-//! outlines in *cap heights*: a capital letter is 1 high, y runs down, and the middle of all lines is the origin. [`Words::marks`] turns
-//! them into the shapes of a drawing, in pixels.
+//! A [`Font`] is read from the bytes of a font file. [`set_words`] shapes a text with it, kerning and ligatures
+//! included, and gives outlines in *cap heights*: a capital letter is 1 high, y runs down, and the middle of all
+//! lines is the origin. [`Words::marks`] turns them into the shapes of a drawing, in pixels.
 //!
 //! ```no_run
 //! use npr_drawing::drawing::paint_over;
@@ -18,8 +18,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Shaping is HarfBuzz's, by the crate harfrust; scripts of all directions work, but lines are horizontal. Of variable fonts the
-//! default weight is used, of colour fonts the plain outlines.
+//! Shaping is HarfBuzz's, by the crate harfrust; scripts of all directions work, but lines are horizontal. Of
+//! variable fonts the default weight is used, of colour fonts the plain outlines.
 
 mod font;
 #[cfg(any(test, feature = "testing"))]
@@ -84,7 +84,8 @@ pub enum LetteringError {
 /// How words are set; every value is brought into its range, and 0 where it is no number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting {
-    /// How far the lines bend, -1..1: the part of half a turn that they span, up in the middle where positive, sagging where negative.
+    /// How far the lines bend, -1..1: the part of half a turn that they span, up in the middle where positive,
+    /// sagging where negative.
     ///
     /// Short words bend less than asked: the circle's centre stays a cap height away from the letters.
     pub bend: f64,
@@ -94,8 +95,8 @@ pub struct Setting {
     pub spread: f64,
     /// Free space added between letters, in cap heights, -0.5..2.
     pub spacing: f64,
-    /// From baseline to baseline in cap heights, 0.5..5; from 1 on it grows where letters of two lines would meet, as a p over a T
-    /// does, below they overlap.
+    /// From baseline to baseline in cap heights, 0.5..5; from 1 on it grows where letters of two lines would meet, as
+    /// a p over a T does, below they overlap.
     pub line_step: f64,
     /// Turn of the whole, in radians, counter-clockwise in the picture.
     pub turn: f64,
@@ -155,8 +156,8 @@ struct Line {
 
 /// Sets a text of one or more lines, each centred, as outlines.
 ///
-/// Lines are parted by line breaks; other control characters are left out. Letters take the order and the forms of their script.
-/// Curves are bent within 0.001 cap heights. O(n) in curves.
+/// Lines are parted by line breaks; other control characters are left out. Letters take the order and the forms of
+/// their script. Curves are bent within 0.001 cap heights. O(n) in curves.
 ///
 /// # Errors
 ///
@@ -291,9 +292,10 @@ pub struct Lettered {
 impl Words {
     /// The shapes that draw the words: the outermost band first, the letters last. Joins are round.
     ///
-    /// The middle of the words comes to `middle_px`, and a capital is `cap_height_px` high. `bands` run from the letters outwards;
-    /// those without width or colour are left out, but what lies outside of them keeps its place. Bands lie under the letters
-    /// whole, so letters that are seen through show them. There are none where a number is not finite.
+    /// The middle of the words comes to `middle_px`, and a capital is `cap_height_px` high. `bands` run from the
+    /// letters outwards; those without width or colour are left out, but what lies outside of them keeps its place.
+    /// Bands lie under the letters whole, so letters that are seen through show them. There are none where a number
+    /// is not finite.
     pub fn marks(
         &self,
         middle_px: [f64; 2],

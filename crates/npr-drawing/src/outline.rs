@@ -396,8 +396,8 @@ fn arc_steps(radius: f64, turn: f64, tolerance: f64) -> usize {
 
 /// Where the segment `a b` meets `c d`, if the way from one to the other turns left there.
 ///
-/// With the shape on the right of the walk, a left turn means that the first segment enters what lies beside the second.
-/// Crossings the other way lead out of the shape, and what lies between must stay.
+/// With the shape on the right of the walk, a left turn means that the first segment enters what lies beside the
+/// second. Crossings the other way lead out of the shape, and what lies between must stay.
 fn cross(a: Point, b: Point, c: Point, d: Point) -> Option<Point> {
     let (ab, cd, ac) = (b - a, d - c, c - a);
     let area = ab.cross(cd);

@@ -1,8 +1,8 @@
 //! Drawings as SVG files that vector editors and pen plotters read.
 //!
-//! Layers are groups that Inkscape shows as layers, by kind; inside are groups by object; every path carries the id of its
-//! stroke in `data-id`. Coordinates are whole hundredths of a pixel (thousandths of a millimetre on a page). Names are
-//! data: they are escaped, and what could break or disguise text is left out.
+//! Layers are groups that Inkscape shows as layers, by kind; inside are groups by object; every path carries the id
+//! of its stroke in `data-id`. Coordinates are whole hundredths of a pixel (thousandths of a millimetre on a page).
+//! Names are data: they are escaped, and what could break or disguise text is left out.
 
 use crate::artwork::{
     Artwork, DASH, Group, Layer, Mark, Paint, REGION_SEAM_PX, arrange, plain_name,

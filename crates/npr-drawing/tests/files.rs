@@ -454,7 +454,8 @@ fn pdf_lists_its_layers() {
     assert!(!pdf.contains("NaN") && !pdf.contains("inf") && !pdf.contains("CreationDate"));
 }
 
-/// Writes pictures for looking at into a folder: `NPR_PICTURES=folder cargo test -p npr-vector --test files -- --ignored`.
+/// Writes pictures for looking at into a folder: `NPR_PICTURES=folder cargo test -p npr-vector --test files --
+/// --ignored`.
 #[test]
 #[ignore = "writes files for the eye"]
 fn pictures_for_the_eye() {

@@ -1,7 +1,7 @@
 //! How long a view's contours take in rows where passes follow their number, and where they cover the room.
 //!
-//! `cargo run --release -p npr-gpu --example list_work`: a ball in the room that models have at first and in one four times as large. Both
-//! ways take turns on the best device, software ones included; the least time of seven counts.
+//! `cargo run --release -p npr-gpu --example list_work`: a ball in the room that models have at first and in one four
+//! times as large. Both ways take turns on the best device, software ones included; the least time of seven counts.
 
 use npr_gpu::curves::Scheme;
 use npr_gpu::curves::contours::add_contours;

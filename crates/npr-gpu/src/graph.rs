@@ -156,11 +156,13 @@ impl Graph {
         self.compute_sized(pass, bound, None);
     }
 
-    /// Appends a compute pass that works on as many workgroups as `size` says when it runs, and on no more than there is room for.
+    /// Appends a compute pass that works on as many workgroups as `size` says when it runs, and on no more than there
+    /// is room for.
     ///
     /// # Panics
     ///
-    /// When `bound` does not fit the pass's slots, or `size` is no element of a buffer of [`Arguments`] or is in one that the pass writes.
+    /// When `bound` does not fit the pass's slots, or `size` is no element of a buffer of [`Arguments`] or is in one
+    /// that the pass writes.
     pub fn compute_sized(
         &mut self,
         pass: &'static Pass,

@@ -1,8 +1,8 @@
 //! Passes with a shader and a twin each, and the two engines that run them.
 //!
-//! A [`pass::Pass`] declares what it binds; a [`graph::Graph`] lines passes up into a frame; an [`engine::Engine`] runs the
-//! graph: [`processor::Processor`] by the twins, on any machine, or a graphics device by the shaders. All passes are listed
-//! in [`passes`].
+//! A [`pass::Pass`] declares what it binds; a [`graph::Graph`] lines passes up into a frame; an [`engine::Engine`]
+//! runs the graph: [`processor::Processor`] by the twins, on any machine, or a graphics device by the shaders. All
+//! passes are listed in [`passes`].
 //!
 //! ```
 //! use npr_gpu::engine::Engine;

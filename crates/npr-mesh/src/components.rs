@@ -5,8 +5,8 @@ use crate::weld::Weld;
 
 /// The component of every triangle, numbered from 0 in the order of their first triangles, and how many there are.
 ///
-/// Triangles that share a welded vertex belong together. Pieces that merely cut through each other do not, which is how lines
-/// of intersection are told from smooth skin. Nearly O(n).
+/// Triangles that share a welded vertex belong together. Pieces that merely cut through each other do not, which is
+/// how lines of intersection are told from smooth skin. Nearly O(n).
 pub fn components(triangles: &[[u32; 3]], weld: &Weld) -> (Vec<u32>, u32) {
     let mut sets = UnionFind::new(weld.count());
     for triangle in triangles {

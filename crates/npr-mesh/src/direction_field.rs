@@ -31,7 +31,8 @@ pub enum Guide {
     },
     /// A direction in the space of the positions, laid on the surface; its length and sign mean nothing.
     Along([f32; 3]),
-    /// The directions at the vertices, laid on the surface; lengths and signs mean nothing, and one of no length says nothing.
+    /// The directions at the vertices, laid on the surface; lengths and signs mean nothing, and one of no length says
+    /// nothing.
     Painted,
 }
 
@@ -59,7 +60,8 @@ impl Default for PartGuide {
 /// So small that it decides only what would be left to chance.
 const IDLE: f32 = 1e-4;
 
-/// Weight of painted directions, against 1 for a guide: they are meant as they are, and even out over a third of the distance.
+/// Weight of painted directions, against 1 for a guide: they are meant as they are, and even out over a third of the
+/// distance.
 const PAINTED: f32 = 8.0;
 
 /// How strongly each axis of space attracts idle directions: upright ones first, where there is a choice.

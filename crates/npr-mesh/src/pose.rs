@@ -18,11 +18,12 @@ const CURVATURE_SCALE: f32 = 0.1;
 
 /// Width of a line as a share of the radius that it turns with, at most: wider, it would fill what it goes round.
 ///
-/// Fingers, rivets and far things draw tight bends, which are not to be drawn with the widest pen; nor is the noise of a scan.
+/// Fingers, rivets and far things draw tight bends, which are not to be drawn with the widest pen; nor is the noise
+/// of a scan.
 const BEND_SHARE: f32 = 0.2;
 
-/// Width of a line as a share of the tightest radius of the surface, at most: ribs and folds as close as lines are wide would
-/// close to black.
+/// Width of a line as a share of the tightest radius of the surface, at most: ribs and folds as close as lines are
+/// wide would close to black.
 const GIRTH_SHARE: f32 = 0.5;
 
 /// What vertices are posed with.
@@ -82,8 +83,8 @@ pub fn pose_vertex(with: &Pose<'_>, vertex: &Vertex, influence: &Influence) -> P
     }
 }
 
-/// Widest line, in pixels, round a bend of the curvature `bend_px` on a surface whose tightest is `tightest_px`, both in
-/// 1 / pixel.
+/// Widest line, in pixels, round a bend of the curvature `bend_px` on a surface whose tightest is `tightest_px`, both
+/// in 1 / pixel.
 pub fn widest_round(bend_px: f32, tightest_px: f32) -> f32 {
     let round_bend = BEND_SHARE / bend_px.abs().max(1e-6);
     round_bend.min(GIRTH_SHARE / tightest_px.abs().max(1e-6))

@@ -5,7 +5,8 @@ use npr_core::geometry::PosedVertex;
 use npr_core::surface::apply_point;
 use rayon::prelude::*;
 
-/// Clip positions of posed vertices by `light_from_world`, the view of a light that throws shadows. O(vertices), parallel.
+/// Clip positions of posed vertices by `light_from_world`, the view of a light that throws shadows. O(vertices),
+/// parallel.
 pub fn project(light_from_world: &Matrix, posed: &[PosedVertex], projected: &mut [[f32; 4]]) {
     let inputs = projected.par_iter_mut().zip(posed);
     inputs

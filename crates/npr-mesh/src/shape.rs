@@ -58,8 +58,8 @@ pub struct Preparation {
     pub marked_count: usize,
     /// Segments of lines that are geometry themselves.
     pub wire_count: usize,
-    /// Such segments removed because their ends weld, an earlier one has the same ends, or an end or surface does not exist
-    /// or is not finite.
+    /// Such segments removed because their ends weld, an earlier one has the same ends, or an end or surface does not
+    /// exist or is not finite.
     pub lost_wire_count: usize,
     /// Faces without area that are left, because they hold the surface together.
     pub sliver_count: usize,

@@ -44,8 +44,8 @@ pub struct ChartInput<'a> {
     pub positions: &'a [[f32; 3]],
     /// Triangles over them, counter-clockwise seen from the front. Strokes do not run on from part to part.
     pub triangles: &'a [Triangle],
-    /// For parts guided by [`Guide::Painted`](crate::direction_field::Guide::Painted), a direction at every vertex; may be
-    /// empty where there are none.
+    /// For parts guided by [`Guide::Painted`](crate::direction_field::Guide::Painted), a direction at every vertex;
+    /// may be empty where there are none.
     pub directions: &'a [[f32; 3]],
 }
 
@@ -87,8 +87,8 @@ pub struct StrokeChart {
     /// `u` grows to the right of `v` seen from the front. The middle of each triangle lies within half a tile of
     /// the origin. Triangles without area have zeros.
     pub corners: Vec<[[f32; 2]; 3]>,
-    /// For every triangle the length by which the coordinates' gradients, in 1 / tile, miss unit vectors across and along the
-    /// strokes; 1 where it is singular, 0 without an area.
+    /// For every triangle the length by which the coordinates' gradients, in 1 / tile, miss unit vectors across and
+    /// along the strokes; 1 where it is singular, 0 without an area.
     pub errors: Vec<f32>,
     /// Triangles in which a stroke ends or directions turn round: there neighbours do not agree.
     pub singular_triangles: u32,

@@ -15,7 +15,8 @@ const REACH_MOST: f32 = 64.0;
 /// Frame pixels over which the rule ends beyond a line's own half width.
 const FADE_PX: f32 = 3.0;
 
-/// How much longer the stretches are that decide together which way their lines move than those over which colours are blended.
+/// How much longer the stretches are that decide together which way their lines move than those over which colours
+/// are blended.
 const LEAN_OF_SMOOTH: f32 = 12.0;
 
 /// The subject whose parts are the background of all others.

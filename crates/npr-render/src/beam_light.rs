@@ -14,8 +14,9 @@ const PIECES_MAX: usize = 4;
 
 /// Point lights in the beams that give light, objects in order: in the middle of a flash, along a laser.
 ///
-/// A beam is all of one object in one material. It is cut across its longest side into pieces about as long as wide, at most
-/// [`PIECES_MAX`]; each shines from the mean of its triangles' middles, weighted by area, as far as its size lets it. O(triangles).
+/// A beam is all of one object in one material. It is cut across its longest side into pieces about as long as wide,
+/// at most [`PIECES_MAX`]; each shines from the mean of its triangles' middles, weighted by area, as far as its size
+/// lets it. O(triangles).
 pub(crate) fn beam_lights(style: &Style, model: &Model) -> Vec<LightSource> {
     let mut lights = Vec::new();
     for (part, triangles) in triangles_of_beams(style, model) {

@@ -11,8 +11,8 @@ use npr_mesh::{Curvature, Edge, Weld};
 /// Rounds of averaging that calm curvature on scanned meshes.
 const CURVATURE_ROUNDS: u32 = 2;
 
-/// How far normals are averaged before bends are measured, as a share of the mesh's radius: the grain of a scan is finer,
-/// what a line swells with is not. Meshes of longer edges stay as they are.
+/// How far normals are averaged before bends are measured, as a share of the mesh's radius: the grain of a scan is
+/// finer, what a line swells with is not. Meshes of longer edges stay as they are.
 const CALM_SHARE: f32 = 0.04;
 
 /// Most rounds of averaging normals: on the finest meshes they reach less far, but cost no more.
@@ -121,8 +121,8 @@ impl Surface<'_> {
 
     /// Normals averaged with those around them.
     ///
-    /// Bends of calm normals are what is left of curvature without its grain: averaged itself, curvature keeps it, as the
-    /// larger of two is never below what the grain adds.
+    /// Bends of calm normals are what is left of curvature without its grain: averaged itself, curvature keeps it, as
+    /// the larger of two is never below what the grain adds.
     fn calm_normals(&self, normals: &[[f32; 3]], rounds: u32) -> Vec<[f32; 3]> {
         let axes = [0, 1, 2].map(|axis| {
             let along: Vec<f32> = normals.iter().map(|normal| normal[axis]).collect();

@@ -20,13 +20,13 @@ use npr_style::{Ink, Mapping, Style};
 /// Texels along the side of a hatch tile: 128 strokes, and six octaves down to two.
 const TILE_SIDE: u32 = 1024;
 
-/// Size of a hatch tile on an object that is all of its scene, as a part of its radius. Framed as a whole it shows strokes 8
-/// pixels apart three octaves above the finest level: the camera may come eight times nearer, and go eight times farther,
-/// before strokes change their size. Larger tiles do not fit around thin limbs.
+/// Size of a hatch tile on an object that is all of its scene, as a part of its radius. Framed as a whole it shows
+/// strokes 8 pixels apart three octaves above the finest level: the camera may come eight times nearer, and go eight
+/// times farther, before strokes change their size. Larger tiles do not fit around thin limbs.
 pub(crate) const TILE_RADII: f32 = 0.3;
 
-/// How fast tiles shrink with the objects of a scene, as an exponent of their radius: less than 1, as small objects are mostly
-/// seen from as far as large ones.
+/// How fast tiles shrink with the objects of a scene, as an exponent of their radius: less than 1, as small objects
+/// are mostly seen from as far as large ones.
 const SHRINKING: f32 = 0.75;
 
 /// Most halvings of the tile from the size that suits the model to that of its smallest objects.
@@ -139,7 +139,8 @@ struct Tiles<'a> {
 }
 
 impl Tiles<'_> {
-    /// Where the header of the tile starts that a hatch is drawn with, on surfaces whose charts are glued turned or elsewhere.
+    /// Where the header of the tile starts that a hatch is drawn with, on surfaces whose charts are glued turned or
+    /// elsewhere.
     fn start_of(&mut self, hatch: &Hatch, on_surface: bool) -> Result<u32, RenderError> {
         let key = (hatch.of_tile(), on_surface && !hatch.image.is_empty());
         if let Some((_, start)) = self.made.iter().find(|(made, _)| *made == key) {
@@ -261,7 +262,8 @@ fn set_paint(part: &mut Part, strength: f32, tinted: bool) {
 /// Error of a chart from which strokes begin to look knotted, and from which they are.
 const KNOT_ERRORS: [f32; 2] = [0.35, 0.75];
 
-/// How badly strokes lie around each vertex, 0..1: by the mean error of the triangles there, which may be empty for none.
+/// How badly strokes lie around each vertex, 0..1: by the mean error of the triangles there, which may be empty for
+/// none.
 fn knots_of(model: &Model, errors: &[f32]) -> Vec<f32> {
     let mut sums = vec![
         [0.0f32; 2];
@@ -346,7 +348,8 @@ impl Inked {
         [turned, true]
     }
 
-    /// Makes the charts of the parts that follow a light, or without one of all others; gives how much each triangle's errs.
+    /// Makes the charts of the parts that follow a light, or without one of all others; gives how much each
+    /// triangle's errs.
     fn add_charts(
         &mut self,
         model: &Model,
@@ -434,7 +437,8 @@ fn chart_rows(cache: &Cache, input: &ChartInput<'_>, settings: &ChartSettings) -
     })
 }
 
-/// A number of tiles to one unit of UV coordinates, or of units to one tile: coordinates that wrap around at 1 show no seam.
+/// A number of tiles to one unit of UV coordinates, or of units to one tile: coordinates that wrap around at 1 show
+/// no seam.
 fn whole_scale(scale: f32) -> f32 {
     let whole = |x: f32| x.clamp(1.0, 4096.0).round();
     if scale.is_nan() {

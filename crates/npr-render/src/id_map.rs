@@ -29,21 +29,22 @@ type Cover = Vec<Option<usize>>;
 
 /// Cuts the parts of a scene up by the id maps of a style, so that its rules find their regions as parts of their own.
 ///
-/// Every triangle goes as a whole to the id that most of it shows: it is cut into equal small ones, as fine as the picture's texels but
-/// no more than 64, and each counts as the texel its middle lies in. Of ids that show alike the one that the map names first wins; no id
-/// comes last. Maps lie as the base colour texture does, with its transform and wrapping, and repeat where there is none. Parts without
-/// texture coordinates have no ids. Nothing moves: where pieces meet, their vertices are equal and welded again, so that
-/// creases, contours and normals stay what they were.
+/// Every triangle goes as a whole to the id that most of it shows: it is cut into equal small ones, as fine as the
+/// picture's texels but no more than 64, and each counts as the texel its middle lies in. Of ids that show alike the
+/// one that the map names first wins; no id comes last. Maps lie as the base colour texture does, with its transform
+/// and wrapping, and repeat where there is none. Parts without texture coordinates have no ids. Nothing moves: where
+/// pieces meet, their vertices are equal and welded again, so that creases, contours and normals stay what they were.
 ///
-/// Regions keep their material's number, and no line runs between them; a map with `border` gives each a copy of the material.
-/// What looks like a slip is added to the scene's notices. A scene may be cut anew for another style.
+/// Regions keep their material's number, and no line runs between them; a map with `border` gives each a copy of the
+/// material. What looks like a slip is added to the scene's notices. A scene may be cut anew for another style.
 ///
-/// O(64 triangles) at most, on all threads; meshes that several objects share are copied only where other maps lie on them.
+/// O(64 triangles) at most, on all threads; meshes that several objects share are copied only where other maps lie on
+/// them.
 ///
 /// # Errors
 ///
-/// [`RenderError::MissingPicture`] where `pictures` lacks one of [`Style::id_map_pictures`], [`RenderError::EmptyPicture`] for one
-/// without pixels.
+/// [`RenderError::MissingPicture`] where `pictures` lacks one of [`Style::id_map_pictures`],
+/// [`RenderError::EmptyPicture`] for one without pixels.
 pub fn apply_id_maps(
     scene: &mut Scene,
     style: &Style,
@@ -110,8 +111,8 @@ fn maps_of<'a>(
     style.id_map.iter().enumerate().map(map).collect()
 }
 
-/// Lists every mesh that is drawn with the maps on its parts and the first object that has it so; an object on which others lie
-/// than on that gets a mesh of its own.
+/// Lists every mesh that is drawn with the maps on its parts and the first object that has it so; an object on which
+/// others lie than on that gets a mesh of its own.
 fn cover_meshes(scene: &mut Scene, maps: &[Map<'_>]) -> Vec<(usize, Cover, String)> {
     let mut made: BTreeMap<(u32, Cover), u32> = BTreeMap::new();
     let mut used = BTreeSet::new();

@@ -1,9 +1,9 @@
 //! Scene and style in, drawing out.
 //!
-//! [`Model::new`] prepares a scene once: welds it, finds its edges and curvature. A [`Stage`] joins a model with a style and a
-//! frame size on an engine, and [`Stage::draw`] makes a picture for a camera, as often as wanted.
-//! [`Smoke`] among its options is drawn with it, or alone with a model of an empty scene.
-//! [`LineModel`] draws the same scene as curves instead; a [`LineStage`] lets a device do its part.
+//! [`Model::new`] prepares a scene once: welds it, finds its edges and curvature. A [`Stage`] joins a model with a
+//! style and a frame size on an engine, and [`Stage::draw`] makes a picture for a camera, as often as wanted.
+//! [`Smoke`] among its options is drawn with it, or alone with a model of an empty scene. [`LineModel`] draws the
+//! same scene as curves instead; a [`LineStage`] lets a device do its part.
 //!
 //! ```
 //! use npr_core::camera::Camera;

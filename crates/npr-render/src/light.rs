@@ -23,8 +23,8 @@ const BIAS_RADII: f32 = 2e-4;
 /// What is nearer to a spot throws no shadow, in radii of the model.
 const SPOT_NEAR_RADII: f32 = 1e-3;
 
-/// Least distance of a light from the middle of a scene that its strength is reckoned with, in radii: one among the things
-/// it lights is no stronger for standing right in the middle.
+/// Least distance of a light from the middle of a scene that its strength is reckoned with, in radii: one among the
+/// things it lights is no stronger for standing right in the middle.
 const NEAREST_RADII: f32 = 0.25;
 
 /// A light of the file as the ramp takes it.
@@ -104,8 +104,8 @@ pub(crate) struct ChosenLights {
 }
 
 impl ChosenLights {
-    /// First the main light or those of the file, then the style's own and those of its beams. Of too many the strongest stay, in that order.
-    /// `pictures` holds that of the sky, if the style names one.
+    /// First the main light or those of the file, then the style's own and those of its beams. Of too many the
+    /// strongest stay, in that order. `pictures` holds that of the sky, if the style names one.
     pub fn new(style: &Style, model: &Model, pictures: &BTreeMap<String, Picture>) -> Self {
         let light = &style.light;
         let mut lights = Vec::new();
@@ -190,8 +190,9 @@ impl ChosenLights {
 
     /// The lights of a frame as a camera sees it.
     ///
-    /// `bounds` is the box of all that throws shadows. With the box of a frame's smoke they are the lights of that: points
-    /// throw shadows there too, in pictures that come after those of the others, so that these keep their numbers.
+    /// `bounds` is the box of all that throws shadows. With the box of a frame's smoke they are the lights of that:
+    /// points throw shadows there too, in pictures that come after those of the others, so that these keep their
+    /// numbers.
     pub fn of_frame(
         &self,
         style: &Style,

@@ -18,7 +18,8 @@ struct Kept<'a> {
 
 /// Gives parts the colours of their lines by the style, with rows and pictures in the texture store.
 ///
-/// `infos` are those of the first parts, `radius` is that of all of them together; `pictures` holds those of the style by name.
+/// `infos` are those of the first parts, `radius` is that of all of them together; `pictures` holds those of the
+/// style by name.
 pub(crate) fn add_line_colors(
     infos: &[PartInfo],
     style: &Style,

@@ -64,13 +64,14 @@ const POINT_LIMIT: u64 = 20_000_000;
 
 /// A scene prepared for line drawings: one welded surface, whatever the camera and the style.
 ///
-/// Lines come from the geometry alone: textures may colour them but hide nothing, so a cut-out leaf is drawn as the card it lies on.
-/// Surfaces whose base colour is too transparent for pictures are left out.
+/// Lines come from the geometry alone: textures may colour them but hide nothing, so a cut-out leaf is drawn as the
+/// card it lies on. Surfaces whose base colour is too transparent for pictures are left out.
 ///
-/// A glTF file asks for lines of its own by the vertex attribute `_NPR_LINE` (an edge between two vertices above one half),
-/// and by `"extras": {"npr": {"lines": true}}` in a material (wherever it meets another material). They are of kind
-/// [`Kind::Marked`], and drawn whatever kinds are asked for. So are lines that a file has as geometry: linked where two segments
-/// meet, hidden by the surfaces before them and shown where they lie on one (within [`npr_vector::wire::TOUCH_SHARE`]).
+/// A glTF file asks for lines of its own by the vertex attribute `_NPR_LINE` (an edge between two vertices above one
+/// half), and by `"extras": {"npr": {"lines": true}}` in a material (wherever it meets another material). They are of
+/// kind [`Kind::Marked`], and drawn whatever kinds are asked for. So are lines that a file has as geometry: linked
+/// where two segments meet, hidden by the surfaces before them and shown where they lie on one (within
+/// [`npr_vector::wire::TOUCH_SHARE`]).
 #[derive(Debug)]
 pub struct LineModel {
     shape: Shape,
@@ -140,9 +141,9 @@ impl LineModel {
         Self::of_assembly(scene, &Assembly::new(scene, None), options, None)
     }
 
-    /// The same without what a style makes beams of: light has no lines and hides none; and with textures, where the style
-    /// colours lines by them, in which case the scene's images have to be there. With a `folder` what is costly is kept
-    /// there as by [`LineModel::cached`].
+    /// The same without what a style makes beams of: light has no lines and hides none; and with textures, where the
+    /// style colours lines by them, in which case the scene's images have to be there. With a `folder` what is costly
+    /// is kept there as by [`LineModel::cached`].
     ///
     /// # Errors
     ///
@@ -220,9 +221,11 @@ impl LineModel {
 
     /// The lines that a camera sees.
     ///
-    /// Line colours (`line.paint` with them, for every point of a stroke), width factors and whether a part has lines at all follow the style's rules; kinds and the crease angle
-    /// are those of the options ([`LineOptions::of_style`] takes them from the style). Width source `texture` counts as
-    /// full. What lies behind lines takes a picture of it: [`LineStage::with_backdrop`] lets them mind it. Strokes of the same lines keep their ids from camera to camera. Of a scene out of sight the drawing is empty.
+    /// Line colours (`line.paint` with them, for every point of a stroke), width factors and whether a part has lines
+    /// at all follow the style's rules; kinds and the crease angle are those of the options
+    /// ([`LineOptions::of_style`] takes them from the style). Width source `texture` counts as full. What lies behind
+    /// lines takes a picture of it: [`LineStage::with_backdrop`] lets them mind it. Strokes of the same lines keep
+    /// their ids from camera to camera. Of a scene out of sight the drawing is empty.
     ///
     /// The first drawing with a crease angle also prepares creases and, where they are wanted, intersections; every
     /// further one is O(faces + lines log lines), on all threads, with the same result for any number of them.
@@ -258,10 +261,11 @@ impl LineModel {
 
     /// Draws smoke with the scene from now on, or none.
     ///
-    /// Smoke is outlined by [`SmokeStyle::line`](npr_style::SmokeStyle), as strokes of kind [`Kind::Contour`] on a surface
-    /// `smoke`: exact arcs of its spheres, where nothing lies behind them or smoke far enough behind, as thick as in pictures.
-    /// Billboards and the published line have these outlines too. Scene and smoke hide each other's lines; smoke of opacity
-    /// below 0.5 hides none. Fills are the tones of pictures, traced, in the colours of the style's `smoke.ramp`. [`LineModel::bounds`] and [`LineModel::framing`] take it in.
+    /// Smoke is outlined by [`SmokeStyle::line`](npr_style::SmokeStyle), as strokes of kind [`Kind::Contour`] on a
+    /// surface `smoke`: exact arcs of its spheres, where nothing lies behind them or smoke far enough behind, as
+    /// thick as in pictures. Billboards and the published line have these outlines too. Scene and smoke hide each
+    /// other's lines; smoke of opacity below 0.5 hides none. Fills are the tones of pictures, traced, in the colours
+    /// of the style's `smoke.ramp`. [`LineModel::bounds`] and [`LineModel::framing`] take it in.
     pub fn set_smoke(&mut self, smoke: Option<Smoke>) {
         self.smoke = smoke;
         let points = self.points.iter().copied().map(Vec3::from);
@@ -579,7 +583,8 @@ impl LineModel {
         self.triangle_count
     }
 
-    /// A view of the whole model from three quarters above, for a frame of width / height `aspect`; `fov_y` is in radians.
+    /// A view of the whole model from three quarters above, for a frame of width / height `aspect`; `fov_y` is in
+    /// radians.
     ///
     /// The same as [`Model::framing_with`](crate::Model::framing_with) gives for the scene with its smoke.
     pub fn framing(&self, aspect: f32, fov_y: f32) -> Camera {

@@ -234,7 +234,8 @@ fn ramp(look: &Look<'_>) -> [[f32; 4]; 8] {
     rows
 }
 
-/// Vertices with the width that the style's source gives them, their colour where the style shows it, and the knots of strokes.
+/// Vertices with the width that the style's source gives them, their colour where the style shows it, and the knots
+/// of strokes.
 fn styled_vertices(
     model: &Model,
     style: &Style,

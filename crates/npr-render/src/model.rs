@@ -36,7 +36,8 @@ pub struct PartInfo {
     pub material: u32,
     /// What styles may call its region of an id map; empty where it belongs to none.
     pub ids: Vec<String>,
-    /// Number of its connected surface within the object, whatever materials and ids that has; 0 in line models, which need none.
+    /// Number of its connected surface within the object, whatever materials and ids that has; 0 in line models,
+    /// which need none.
     pub component: u32,
     /// Base colour factor, linear light, straight alpha.
     pub base_color: [f32; 4],
@@ -84,8 +85,8 @@ pub struct Model {
 impl Model {
     /// Prepares a scene: joins its nodes, welds each by position, and finds edges, normals and curvature.
     ///
-    /// Alpha that blends is drawn as a cut-out at one half. A mesh without normals is shaded smoothly, with hard edges over
-    /// 40 degrees. O(n log n) in the number of triangles; instances are prepared once each.
+    /// Alpha that blends is drawn as a cut-out at one half. A mesh without normals is shaded smoothly, with hard
+    /// edges over 40 degrees. O(n log n) in the number of triangles; instances are prepared once each.
     ///
     /// # Errors
     ///
@@ -262,7 +263,8 @@ impl Model {
         }
     }
 
-    /// A view of the whole model from three quarters above, for a frame of width / height `aspect`; `fov_y` is in radians.
+    /// A view of the whole model from three quarters above, for a frame of width / height `aspect`; `fov_y` is in
+    /// radians.
     pub fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
         Camera::framing_points(
             self.posed_points().map(|point| point.to_array()),

@@ -21,8 +21,8 @@ use npr_style::{SmokeLines, SmokeMethod, SmokeStyle, Style, Unit};
 pub struct Smoke {
     /// The puffs; their order is their identity. Radius 0 for one that is not there.
     pub spheres: Vec<Sphere>,
-    /// Lowest and highest corner of the space that smoke moves in, the same for all frames of a sequence, so that layers
-    /// of depth stay where they are. `None` for the box around the spheres themselves.
+    /// Lowest and highest corner of the space that smoke moves in, the same for all frames of a sequence, so that
+    /// layers of depth stay where they are. `None` for the box around the spheres themselves.
     pub space: Option<([f32; 3], [f32; 3])>,
 }
 
@@ -51,7 +51,8 @@ impl Smoke {
 
     /// The spheres of a moment. Heat is still the temperature of the volume: see [`with_hottest`](Self::with_hottest).
     ///
-    /// Spheres that grow from nothing or shrink away are left out while they are tiny; published ones are drawn at any size.
+    /// Spheres that grow from nothing or shrink away are left out while they are tiny; published ones are drawn at
+    /// any size.
     pub fn of_puffs(puffs: &Puffs) -> Self {
         let spheres = puffs.spheres();
         let largest = match puffs {
@@ -75,7 +76,8 @@ impl Smoke {
         Self::new(drawn.collect())
     }
 
-    /// The same with heat 1 for what is as hot as `hottest` and more, and in proportion below; no heat where nothing is hot.
+    /// The same with heat 1 for what is as hot as `hottest` and more, and in proportion below; no heat where nothing
+    /// is hot.
     pub fn with_hottest(mut self, hottest: f32) -> Self {
         for sphere in &mut self.spheres {
             let share = sphere.heat / hottest;
@@ -300,10 +302,11 @@ impl Measure {
     }
 }
 
-/// Tells the last pass that part `part` finishes the smoke, and hangs the sheet that strokes lie on in the middle of its space.
+/// Tells the last pass that part `part` finishes the smoke, and hangs the sheet that strokes lie on in the middle of
+/// its space.
 ///
-/// Strokes move and grow with that place as the camera moves, so they neither swim through smoke that stands still nor crawl
-/// over puffs that do not.
+/// Strokes move and grow with that place as the camera moves, so they neither swim through smoke that stands still
+/// nor crawl over puffs that do not.
 pub(crate) fn hang_sheet(
     compose: &mut npr_style::compose::Compose,
     part: u32,

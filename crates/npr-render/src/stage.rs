@@ -290,8 +290,8 @@ impl<'a> Stage<'a> {
         Ok(stage)
     }
 
-    /// The same, with the lines of parts whose `line.method` is `curves` or `potrace` from a line model of the scene, on
-    /// an engine that may be another one.
+    /// The same, with the lines of parts whose `line.method` is `curves` or `potrace` from a line model of the scene,
+    /// on an engine that may be another one.
     ///
     /// Without one they have no lines, and [`Frame::notices`] tells.
     pub fn with_lines(mut self, lines: LineStage<'a>) -> Self {
@@ -452,7 +452,8 @@ impl<'a> Stage<'a> {
         &self.styled.inked.notices
     }
 
-    /// Whether a frame goes on from the one before: not the first, nor after a cut. Tiles of a frame share their buffers, so they never do.
+    /// Whether a frame goes on from the one before: not the first, nor after a cut. Tiles of a frame share their
+    /// buffers, so they never do.
     fn follows(&self, view: &View) -> bool {
         let Some(before) = &self.before else {
             return false;

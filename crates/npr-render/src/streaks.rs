@@ -28,8 +28,8 @@ const BYTES_PER_PIXEL: u64 = 32;
 /// Shortest trail that is drawn, in pixels.
 const SHORTEST_PX: f32 = 1.0;
 
-/// How much nearer to the eye than a trail a surface has to be to cover it, as a share of the reversed depth: what a thing
-/// slides along does not.
+/// How much nearer to the eye than a trail a surface has to be to cover it, as a share of the reversed depth: what a
+/// thing slides along does not.
 const COVER_ROOM: f32 = 0.01;
 
 /// Narrowest spacing of lines, in pixels: nearer ones are grey.
@@ -205,12 +205,12 @@ impl Mover {
     }
 }
 
-/// Least depth of a trail's ends, as a part of that of the farther one: what runs past the eye is cut there, far outside any
-/// frame unless it runs into the eye itself.
+/// Least depth of a trail's ends, as a part of that of the farther one: what runs past the eye is cut there, far
+/// outside any frame unless it runs into the eye itself.
 const NEAREST_SHARE: f32 = 1e-3;
 
-/// The ends of what of a segment lies before the eye; none where nothing does. A parallel view has no eye that anything could
-/// be behind.
+/// The ends of what of a segment lies before the eye; none where nothing does. A parallel view has no eye that
+/// anything could be behind.
 fn before_eye(ends: [Vec3; 2], view: &View) -> Option<[Vec3; 2]> {
     if view.perspective < 0.5 {
         return Some(ends);

@@ -1,8 +1,9 @@
 //! Large frames in pieces.
 //!
 //! A frame that no device could hold at once is drawn tile by tile. Lines reach over tile borders, so each tile is
-//! drawn with a margin that is cut off again; with a mask of full resolution, a picture in tiles is the same as one drawn
-//! whole, up to a pixel in ten thousand where a corner rounds differently. Coarser masks start anew in every tile.
+//! drawn with a margin that is cut off again; with a mask of full resolution, a picture in tiles is the same as one
+//! drawn whole, up to a pixel in ten thousand where a corner rounds differently. Coarser masks start anew in every
+//! tile.
 
 use npr_style::backdrop::TILE;
 

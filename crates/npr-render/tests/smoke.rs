@@ -523,7 +523,8 @@ fn strip(tones: &[[u8; 3]]) -> Picture {
     }
 }
 
-/// The ramp alone, without lines: as many tones as the picture has pixels, and those of the same stops where they are few.
+/// The ramp alone, without lines: as many tones as the picture has pixels, and those of the same stops where they are
+/// few.
 #[test]
 fn a_picture_gives_the_tones() {
     let smoke = Smoke::new(vec![Sphere::new([0.1, 1.65, 0.0], 1.2)]);

@@ -23,8 +23,8 @@ pub struct Limits {
     pub image_bytes: u64,
     /// All decoded images together in bytes (`--max-images`).
     pub images_bytes: u64,
-    /// Whether images are decoded at all; default true. Without, their files are not opened and materials have no textures,
-    /// which is all that drawings of lines alone need.
+    /// Whether images are decoded at all; default true. Without, their files are not opened and materials have no
+    /// textures, which is all that drawings of lines alone need.
     pub decode_images: bool,
     /// All vertex data, decoded images and external files together in bytes (`--memory-limit`).
     pub memory_bytes: u64,

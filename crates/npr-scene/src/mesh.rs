@@ -38,7 +38,8 @@ pub struct Part {
     ///
     /// From the attribute `_NPR_LINE` of a glTF primitive, one number per vertex, marked above one half.
     pub marks: Option<Vec<bool>>,
-    /// Directions of pen strokes at the vertices, in mesh space; their lengths and signs mean nothing, and zero says nothing.
+    /// Directions of pen strokes at the vertices, in mesh space; their lengths and signs mean nothing, and zero says
+    /// nothing.
     ///
     /// From the attribute `_DIRECTION` of a glTF primitive, three numbers per vertex.
     pub directions: Option<Vec<[f32; 3]>>,

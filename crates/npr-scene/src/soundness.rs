@@ -14,7 +14,8 @@ const ANY_NORMAL: [f32; 3] = [0.0, 0.0, 1.0];
 ///
 /// # Errors
 ///
-/// [`SceneError::NothingFinite`] or [`SceneError::NoFiniteLine`] where nothing is left of the triangles and lines that the file has.
+/// [`SceneError::NothingFinite`] or [`SceneError::NoFiniteLine`] where nothing is left of the triangles and lines
+/// that the file has.
 pub(crate) fn mend(scene: &mut Scene, notices: &mut Notices) -> Result<(), SceneError> {
     let (triangle_count, segment_count) = (scene.triangle_count(), scene.segment_count());
     for mesh in &mut scene.meshes {
@@ -67,7 +68,8 @@ fn mend_mesh(Mesh { name, parts }: &mut Mesh, notices: &mut Notices) {
     }
 }
 
-/// Removes triangles and line segments that use an unsound position, and zeroes such positions. Returns how many of each.
+/// Removes triangles and line segments that use an unsound position, and zeroes such positions. Returns how many of
+/// each.
 fn drop_unsound_geometry(part: &mut Part) -> (usize, usize) {
     let is_sound = |position: &[f32; 3]| position.iter().all(|v| v.abs() <= POSITION_LIMIT);
     if part.positions.iter().all(is_sound) {

@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 impl Part {
     /// The part cut into one for every number that its triangles have, in ascending order of numbers.
     ///
-    /// Each piece keeps its triangles and the vertices that they use in the order that they had; vertices where pieces meet are
-    /// stored in each of them, equal in all they hold, so that welding joins the pieces again. Line segments stay with the first
-    /// piece. A part whose triangles have one number, or that has none, stays as it is.
+    /// Each piece keeps its triangles and the vertices that they use in the order that they had; vertices where
+    /// pieces meet are stored in each of them, equal in all they hold, so that welding joins the pieces again. Line
+    /// segments stay with the first piece. A part whose triangles have one number, or that has none, stays as it is.
     ///
     /// O(n log k) for `n` vertices and triangles and `k` numbers.
     ///

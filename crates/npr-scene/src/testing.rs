@@ -174,8 +174,8 @@ fn bytes_of<T: Copy, const N: usize>(rows: &[[T; N]], bytes: impl Fn(T) -> [u8; 
         .collect()
 }
 
-/// A binary glTF file of one mesh at the node `drawing`: triangles, if there are any, and behind them a primitive for each list
-/// of vertices in `lines`, with its mode (1 lines, 2 loop, 3 strip).
+/// A binary glTF file of one mesh at the node `drawing`: triangles, if there are any, and behind them a primitive for
+/// each list of vertices in `lines`, with its mode (1 lines, 2 loop, 3 strip).
 pub fn lines_glb(
     positions: &[[f32; 3]],
     triangles: &[[u32; 3]],

@@ -53,7 +53,8 @@ fn seat_in(distances: &Distances, voxel: [u32; 3], away: Vec3) -> Seat {
 
 /// Radius, in voxels, of a sphere at a place of index space in the smoke.
 ///
-/// Off voxel centres the blended distance vanishes in thin sheets; a sphere never has less than three quarters of a voxel.
+/// Off voxel centres the blended distance vanishes in thin sheets; a sphere never has less than three quarters of a
+/// voxel.
 pub(crate) fn reach(distances: &Distances, place: Vec3) -> f32 {
     distances.near(place).max(0.75)
 }

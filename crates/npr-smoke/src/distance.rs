@@ -9,8 +9,8 @@ use crate::lattice::{Lattice, rows};
 /// Distance from every voxel to the nearest *thin* voxel, in voxels along the longest axis (L-infinity).
 ///
 /// A voxel is thin when its density is `threshold` or less, and *dense* otherwise. All that lies outside the grid is
-/// thin. The distance of a thin voxel is 0, that of a dense voxel with a thin neighbour, across a corner too, is 1. It is
-/// exactly the half side at which a box round the voxel's centre first takes in a thin voxel's centre.
+/// thin. The distance of a thin voxel is 0, that of a dense voxel with a thin neighbour, across a corner too, is 1.
+/// It is exactly the half side at which a box round the voxel's centre first takes in a thin voxel's centre.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Distances {
     /// Voxels along z, x, y: the order in which the last sweep leaves them.
@@ -82,8 +82,8 @@ impl Distances {
     /// Half the side of the box round a place of index space that grows until it takes in the centre of a thin voxel
     /// [Hoshino 2004, 3.1], in voxels. 0 outside the voxels' cubes.
     ///
-    /// Exact. The nearest voxel's distance tells in which shell of voxels round that voxel the first thin one lies, so no other
-    /// is looked at: O(d^2) for a half side d.
+    /// Exact. The nearest voxel's distance tells in which shell of voxels round that voxel the first thin one lies,
+    /// so no other is looked at: O(d^2) for a half side d.
     pub fn half_side(&self, index: Vec3) -> f32 {
         let turned = Vec3::new(index.z, index.x, index.y);
         let Some(home) = self.swept.nearest(turned) else {
@@ -144,7 +144,8 @@ impl Distances {
         numbered.filter(|(_, steps)| **steps > 0).map(voxel)
     }
 
-    /// Finds a fault in the distances: neighbours that differ by more than 1, or a border that is not next to the outside.
+    /// Finds a fault in the distances: neighbours that differ by more than 1, or a border that is not next to the
+    /// outside.
     #[cfg(test)]
     pub(crate) fn sanity_check(&self) -> Result<(), String> {
         let [width, height, depth] = self.size();
@@ -203,7 +204,8 @@ fn sweep_row(density: &[f32], threshold: f32, row: &mut [u16]) {
     }
 }
 
-/// The lower envelope of `max(|u - i|, near(i))` over all `i` of a line, in linear time [Meijster et al. 2000, chessboard].
+/// The lower envelope of `max(|u - i|, near(i))` over all `i` of a line, in linear time [Meijster et al. 2000,
+/// chessboard].
 struct Sweep {
     near: Vec<u16>,
     /// Whose curve is lowest from a place on, and from which place.
@@ -309,7 +311,8 @@ mod tests {
         unreachable!("a box leaves every grid")
     }
 
-    /// Half the side of the box round any place: how far the nearest of all thin voxels lies, along the axis on which it is farthest.
+    /// Half the side of the box round any place: how far the nearest of all thin voxels lies, along the axis on which
+    /// it is farthest.
     fn half_side(volume: &Volume, threshold: f32, place: Vec3) -> f32 {
         let size = volume.size();
         let range = |axis: usize| -1..=size[axis] as i32;

@@ -5,8 +5,9 @@ use crate::{Volume, VolumeError};
 
 /// Volumes numbered in the order of time, read one by one as they are needed.
 ///
-/// Where a volume brings no velocity, the motion to the next one is [estimated](estimate_velocity), so that spheres follow the
-/// smoke and moments between frames show it once. Holds three volumes at a time. All of a series must lie on one grid.
+/// Where a volume brings no velocity, the motion to the next one is [estimated](estimate_velocity), so that spheres
+/// follow the smoke and moments between frames show it once. Holds three volumes at a time. All of a series must lie
+/// on one grid.
 #[derive(Debug, Clone)]
 pub struct Footage<R> {
     read: R,
@@ -22,7 +23,8 @@ where
     R: FnMut(u32) -> Result<Volume, E>,
     E: From<VolumeError>,
 {
-    /// A film whose frames `read` gives by number, each asked for once, in rising order if moments are; no frame follows `last`.
+    /// A film whose frames `read` gives by number, each asked for once, in rising order if moments are; no frame
+    /// follows `last`.
     ///
     /// `frame_seconds` lie between two frames.
     pub fn new(read: R, last: u32, frame_seconds: f32) -> Self {
@@ -35,7 +37,8 @@ where
         }
     }
 
-    /// The smoke at a moment, in frames: 2.5 lies half way from frame 2 to frame 3. Moments after the last frame show that one.
+    /// The smoke at a moment, in frames: 2.5 lies half way from frame 2 to frame 3. Moments after the last frame show
+    /// that one.
     ///
     /// Costs what reading does, and an estimate of motion where velocities are missing.
     ///

@@ -1,9 +1,9 @@
 //! Smoke as volumes, and the spheres that drawn smoke is made of [Hoshino 2004].
 //!
-//! A [`Volume`] is one moment of smoke: from a file, or from the built-in solver [`Smoke`]. [`Distances`] says how large a
-//! sphere may be at every place in it. [`Particles`] with [`sphere::around_particles`] are the spheres of the paper;
-//! [`Track`] covers the smoke with fewer, which live on from frame to frame without popping. [`Puffs`] are either, as a user
-//! may choose.
+//! A [`Volume`] is one moment of smoke: from a file, or from the built-in solver [`Smoke`]. [`Distances`] says how
+//! large a sphere may be at every place in it. [`Particles`] with [`sphere::around_particles`] are the spheres of the
+//! paper; [`Track`] covers the smoke with fewer, which live on from frame to frame without popping. [`Puffs`] are
+//! either, as a user may choose.
 //!
 //! ```
 //! use npr_smoke::{Smoke, SmokeSettings, Source, Track, TrackSettings};

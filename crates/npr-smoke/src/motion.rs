@@ -19,12 +19,13 @@ const SWEEPS: usize = 24;
 /// Sides from which on a level is halved no more.
 const COARSEST: usize = 6;
 
-/// Velocity of the smoke of `before`, in world units per second, estimated from where its densities are `seconds` later.
+/// Velocity of the smoke of `before`, in world units per second, estimated from where its densities are `seconds`
+/// later.
 ///
-/// For volumes that bring none. Optical flow in three dimensions: the smoothest motion that carries one density into the
-/// other [Horn & Schunck 1981], from coarse grids to fine, each level warped by the motion found so far. Where there is
-/// no smoke nearby the motion is that of the nearest smoke, faded by smoothing. One density cannot tell motion along
-/// its level sets: flow inside even smoke is a guess.
+/// For volumes that bring none. Optical flow in three dimensions: the smoothest motion that carries one density into
+/// the other [Horn & Schunck 1981], from coarse grids to fine, each level warped by the motion found so far. Where
+/// there is no smoke nearby the motion is that of the nearest smoke, faded by smoothing. One density cannot tell
+/// motion along its level sets: flow inside even smoke is a guess.
 ///
 /// O(voxels), about 110 sweeps over the grid, 60 bytes a voxel; the same bits for any number of threads.
 ///

@@ -70,8 +70,8 @@ pub struct Particle {
 
 /// A constant number of particles that move, die and are born anew, frame by frame.
 ///
-/// The life of each is its own: it depends on the seed, on its slot and on the volumes, never on other particles or on the
-/// number of threads. Randomness comes from a counter-based hash.
+/// The life of each is its own: it depends on the seed, on its slot and on the volumes, never on other particles or
+/// on the number of threads. Randomness comes from a counter-based hash.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Particles {
     settings: ParticleSettings,

@@ -8,7 +8,8 @@ use crate::{Distances, ParticleSettings, Particles, Sphere, Track, TrackSettings
 pub enum PuffSettings {
     /// Few spheres that never pop.
     Cover(TrackSettings),
-    /// A constant number of particles that are born and die, each with the radius of its growing box [Hoshino 2004, 3.1].
+    /// A constant number of particles that are born and die, each with the radius of its growing box [Hoshino 2004,
+    /// 3.1].
     Published(ParticleSettings),
 }
 
@@ -120,8 +121,8 @@ mod tests {
         })
     }
 
-    /// What the paper says of a film, word by word: as many particles in every frame, each new one at the emitter, each older
-    /// one where its velocity led it, and every radius that of its own box.
+    /// What the paper says of a film, word by word: as many particles in every frame, each new one at the emitter,
+    /// each older one where its velocity led it, and every radius that of its own box.
     #[test]
     fn published_particles_live_and_die_in_a_film_of_the_plume() {
         let (frames, settings) = frames(Source::Plume, 60);

@@ -1,8 +1,9 @@
 //! A small solver for smoke, so that nobody needs a file to draw some.
 //!
-//! Incompressible flow on a staggered grid [Fedkiw et al. 2001]: sources and buoyancy push, vorticity confinement gives back
-//! the curls that a coarse grid swallows, pressure makes the flow free of divergence, and everything is carried along it with
-//! MacCormack steps [Selle et al. 2008]. The floor is solid; smoke leaves through the sides and the top.
+//! Incompressible flow on a staggered grid [Fedkiw et al. 2001]: sources and buoyancy push, vorticity confinement
+//! gives back the curls that a coarse grid swallows, pressure makes the flow free of divergence, and everything is
+//! carried along it with MacCormack steps [Selle et al. 2008]. The floor is solid; smoke leaves through the sides and
+//! the top.
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use npr_core::budget::{Budget, OverBudget};
@@ -50,8 +51,8 @@ pub enum SmokeError {
 
 /// What smokes, and how.
 ///
-/// Lengths are in *box lengths*, the longest side of the grid, so that a finer grid shows the same motion in more detail.
-/// Numbers that are not finite fall back on the source's own; all are kept within the ranges stated.
+/// Lengths are in *box lengths*, the longest side of the grid, so that a finer grid shows the same motion in more
+/// detail. Numbers that are not finite fall back on the source's own; all are kept within the ranges stated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SmokeSettings {
     /// What smokes.
@@ -84,7 +85,8 @@ impl SmokeSettings {
         source.settings()
     }
 
-    /// Where the source gives off its smoke in the world of the volumes; anywhere for a cloud, which is there from the start.
+    /// Where the source gives off its smoke in the world of the volumes; anywhere for a cloud, which is there from
+    /// the start.
     pub fn birthplace(&self) -> Birthplace {
         source::emitter(self).map_or(Birthplace::Anywhere, |(place, radius)| {
             let index = place * box_cells(self.size) - 0.5;
@@ -127,8 +129,8 @@ impl SmokeSettings {
 
 /// Smoke that goes on frame by frame.
 ///
-/// A frame costs O(cells), some 100 sweeps over the grid. The same settings give the same bits on every platform and for
-/// any number of threads.
+/// A frame costs O(cells), some 100 sweeps over the grid. The same settings give the same bits on every platform and
+/// for any number of threads.
 ///
 /// ```
 /// use npr_smoke::{Smoke, SmokeSettings, Source};

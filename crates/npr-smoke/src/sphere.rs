@@ -25,8 +25,8 @@ pub struct Sphere {
 
 /// A sphere round every living particle, as large as the smoke allows [Hoshino 2004, 3.1].
 ///
-/// The radius is [half the side](Distances::half_side) of the growing box round the particle. Order is that of the particles.
-/// O(particles x squares of their boxes' half sides in voxels), in parallel.
+/// The radius is [half the side](Distances::half_side) of the growing box round the particle. Order is that of the
+/// particles. O(particles x squares of their boxes' half sides in voxels), in parallel.
 pub fn around_particles(
     particles: &[Particle],
     volume: &Volume,

@@ -27,15 +27,15 @@ pub struct TrackSettings {
     pub count: u32,
     /// Density up to which a voxel is thin.
     pub threshold: f32,
-    /// Voxels along the longest side in which the shape of the smoke is seen; finer grids are [coarsened](Volume::coarsened).
-    /// 20 a few bold puffs, 40 a drawing, 200 every wisp.
+    /// Voxels along the longest side in which the shape of the smoke is seen; finer grids are
+    /// [coarsened](Volume::coarsened). 20 a few bold puffs, 40 a drawing, 200 every wisp.
     pub detail: u32,
     /// Seconds from one frame to the next.
     pub frame_seconds: f32,
     /// Radius as a multiple of the smoke's distance. 1 keeps within the smoke, 1.4 makes fat, overlapping puffs.
     pub scale: f32,
-    /// Greatest change of a radius per frame, as a share of the radius it goes to or comes from. 0.05 swells slowly, 0.15
-    /// is lively, 1 follows at once, as in the paper.
+    /// Greatest change of a radius per frame, as a share of the radius it goes to or comes from. 0.05 swells slowly,
+    /// 0.15 is lively, 1 follows at once, as in the paper.
     pub ease: f32,
     /// Where new spheres are placed.
     pub placement: Placement,
@@ -76,13 +76,14 @@ struct Puff {
 
 /// Spheres over a series of volumes.
 ///
-/// Each moves with the smoke, swells or shrinks towards the radius that the smoke allows at its place, and keeps its id. Where
-/// it leaves the smoke, or drifts into the middle of a larger one, it shrinks until it is gone; smoke that none covers gets
-/// new ones, which grow from nothing. When there are as many as may be, the smallest give way to larger ones.
+/// Each moves with the smoke, swells or shrinks towards the radius that the smoke allows at its place, and keeps its
+/// id. Where it leaves the smoke, or drifts into the middle of a larger one, it shrinks until it is gone; smoke that
+/// none covers gets new ones, which grow from nothing. When there are as many as may be, the smallest give way to
+/// larger ones.
 ///
-/// Differs: the paper sets every radius anew in each frame, and moves dying particles elsewhere at once. There both show as
-/// pops; here no radius jumps, and nor does a place.
-/// Differs: smoke that stands still keeps its spheres; the paper's particles die without motion.
+/// Differs: the paper sets every radius anew in each frame, and moves dying particles elsewhere at once. There both
+/// show as pops; here no radius jumps, and nor does a place. Differs: smoke that stands still keeps its spheres; the
+/// paper's particles die without motion.
 #[derive(Debug, Clone)]
 pub struct Track {
     settings: TrackSettings,
@@ -196,7 +197,8 @@ impl Track {
         shape.voxel_width()
     }
 
-    /// Claims what the spheres will cover, the largest first; one whose centre lies in another's core fades while it does.
+    /// Claims what the spheres will cover, the largest first; one whose centre lies in another's core fades while it
+    /// does.
     fn claim_places(&mut self, shape: &Volume, distances: &Distances) -> Claims {
         let mut claims = Claims::new(distances);
         for at in self.by_size(|target| Reverse(target.to_bits())) {

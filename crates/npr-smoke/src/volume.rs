@@ -216,8 +216,8 @@ impl Volume {
 
     /// The densities on a grid of `block * block * block` voxels each, in the same place of the world.
     ///
-    /// A density is the mean over the voxels that there are in its block: holes and wisps thinner than a block vanish, and what
-    /// is made from it is simpler. O(voxels), in parallel. Blocks of 0 count as 1.
+    /// A density is the mean over the voxels that there are in its block: holes and wisps thinner than a block
+    /// vanish, and what is made from it is simpler. O(voxels), in parallel. Blocks of 0 count as 1.
     pub fn coarsened(&self, block: u32) -> Self {
         let block = block.clamp(1, MAX_SIDE);
         let fine = self.lattice();

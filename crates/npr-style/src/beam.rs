@@ -1,7 +1,8 @@
 //! Beams of light: laser, flash, explosion, trail.
 //!
-//! A beam is a mesh that is no surface. Its colour hangs on how squarely it faces the eye, T = E . N: low at the rim of a
-//! tube, 1 in its middle [Suzuki 2004, section 3.5]. A ramp over T makes it of one colour, light inside or strong inside.
+//! A beam is a mesh that is no surface. Its colour hangs on how squarely it faces the eye, T = E . N: low at the rim
+//! of a tube, 1 in its middle [Suzuki 2004, section 3.5]. A ramp over T makes it of one colour, light inside or
+//! strong inside.
 
 use npr_core::geometry::{Part, Triangle};
 use npr_core::raster::ID_MASK;
@@ -67,18 +68,18 @@ pub struct RuleBeam {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub softness: Option<f32>,
-    /// Colours from the rim to the middle, 1 to 4, sorted by `at`; default a warm glow with a white heart. A single one makes a
-    /// beam of one colour; a strong rim and a clear middle, glass or plasma.
+    /// Colours from the rim to the middle, 1 to 4, sorted by `at`; default a warm glow with a white heart. A single
+    /// one makes a beam of one colour; a strong rim and a clear middle, glass or plasma.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 1, max = 4))]
     pub ramp: Option<Vec<BeamStop>>,
-    /// What the light of the beam adds to the ramp of what faces it, 0..10; default 0, it lights nothing. 0.4 a laser, 1 an
-    /// explosion that outshines the main light. It shines in the beam's own colour and throws no shadows.
+    /// What the light of the beam adds to the ramp of what faces it, 0..10; default 0, it lights nothing. 0.4 a
+    /// laser, 1 an explosion that outshines the main light. It shines in the beam's own colour and throws no shadows.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub light: Option<f32>,
-    /// How far its light reaches, 0.1..1000; default 4. Counted in half diagonals of the box around the beam, of a long one
-    /// in those of its pieces: larger flashes reach farther.
+    /// How far its light reaches, 0.1..1000; default 4. Counted in half diagonals of the box around the beam, of a
+    /// long one in those of its pieces: larger flashes reach farther.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.1, max = 1000.0))]
     pub light_reach: Option<f32>,

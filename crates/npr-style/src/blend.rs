@@ -11,15 +11,15 @@ use crate::{Rule, RuleShade, Style, StyleError, preset};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Blend {
-    /// How much of this look is drawn, 0..1; default 1, all of it. 0 leaves the other one alone; raise it over some frames
-    /// to let a blow strike home.
+    /// How much of this look is drawn, 0..1; default 1, all of it. 0 leaves the other one alone; raise it over some
+    /// frames to let a blow strike home.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub amount: f32,
-    /// The preset that shows through; default `plain`, ordinary soft shading without lines. Background, lights, beams and
-    /// words stay those of this look.
+    /// The preset that shows through; default `plain`, ordinary soft shading without lines. Background, lights, beams
+    /// and words stay those of this look.
     pub with: String,
-    /// A picture over the whole frame that says where: white this look, black the other; default empty, none. A burst of
-    /// rays round the blow, a gradient across the page. `amount` counts on top.
+    /// A picture over the whole frame that says where: white this look, black the other; default empty, none. A burst
+    /// of rays round the blow, a gradient across the page. `amount` counts on top.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub mask: String,
 }

@@ -135,7 +135,8 @@ pub struct Layers<'a> {
     pub charts: &'a [ChartCorners],
     /// Stamps or mask, sRGB bytes with coverage in alpha.
     pub overlay: &'a [u32],
-    /// Triangle numbers as the lights with shadows see them, [`Lights::shadow_side`] texels square; not read where that is 0.
+    /// Triangle numbers as the lights with shadows see them, [`Lights::shadow_side`] texels square; not read where
+    /// that is 0.
     pub shadows: [&'a [u32]; SHADOWS_MAX],
     /// Smoke, sRGB bytes with straight alpha; not read without smoke.
     pub smoke_colors: &'a [u32],
@@ -145,8 +146,8 @@ pub struct Layers<'a> {
     pub smoke_shadows: [&'a [u32]; SHADOWS_MAX],
     /// The rules by which lines mind what lies behind them.
     pub rules: &'a Rules,
-    /// With [`Compose::BACKDROP`] the subject's colour beside every line, see [`backdrop::spread_rims`]; with [`Compose::BARE`]
-    /// a texel for every tile, see [`backdrop::flag_tiles`].
+    /// With [`Compose::BACKDROP`] the subject's colour beside every line, see [`backdrop::spread_rims`]; with
+    /// [`Compose::BARE`] a texel for every tile, see [`backdrop::flag_tiles`].
     pub fronts: &'a [u32],
     /// With [`Compose::BACKDROP`] the colour behind every line.
     pub backs: &'a [u32],

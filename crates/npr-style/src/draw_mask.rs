@@ -23,7 +23,8 @@ pub struct MaskInk<'a> {
     pub tints: LineTints<'a>,
 }
 
-/// Draws the mask, a texel of one colour for every pixel that is set; texels are sRGB bytes with straight alpha. O(pixels).
+/// Draws the mask, a texel of one colour for every pixel that is set; texels are sRGB bytes with straight alpha.
+/// O(pixels).
 pub fn draw_mask(with: &MaskInk<'_>, overlay: &mut [u32]) {
     let (window, mask_window) = (with.window, with.tints.mask_window);
     let plain = pack_rgba8(with.compose.line_color);

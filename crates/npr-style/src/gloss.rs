@@ -1,7 +1,7 @@
 //! Highlights as comics draw them: crisp spots, soft spots, light from behind and straight streaks.
 //!
-//! Pure functions, one per equation; `lib/gloss` repeats them for passes. All vectors are unit vectors in the world: the
-//! normal N, L towards the light, E towards the eye.
+//! Pure functions, one per equation; `lib/gloss` repeats them for passes. All vectors are unit vectors in the world:
+//! the normal N, L towards the light, E towards the eye.
 
 use crate::compose::Layers;
 use crate::lighting::LightSource;
@@ -37,7 +37,8 @@ pub fn crisp(term: f32, threshold: f32) -> f32 {
     if term > threshold { 1.0 } else { 0.0 }
 }
 
-/// A soft highlight ((I - b) (5b/2 + I)^m) / 2 for a term I over the threshold b, clamped to 0..1 [Suzuki 2004, section 3.6].
+/// A soft highlight ((I - b) (5b/2 + I)^m) / 2 for a term I over the threshold b, clamped to 0..1 [Suzuki 2004,
+/// section 3.6].
 ///
 /// Differs: the paper's expression exceeds 1 for m >= 2 and is cut off there. m 0.5 a haze, 2 a spot with a soft rim.
 pub fn gradient(term: f32, threshold: f32, m: f32) -> f32 {
@@ -63,8 +64,9 @@ pub fn back_light(normal: [f32; 3], light: [f32; 3], from: f32, to: f32) -> f32 
 
 /// 1 on a straight streak and on the thin one beside it, 0 elsewhere.
 ///
-/// `across` is a position measured across the streaks, in radii of the model, from the middle of the first; the second has
-/// a third of its `width` and lies as far away as the first is wide. Light does not move them: they are drawn as on glass.
+/// `across` is a position measured across the streaks, in radii of the model, from the middle of the first; the
+/// second has a third of its `width` and lies as far away as the first is wide. Light does not move them: they are
+/// drawn as on glass.
 pub fn streak(across: f32, width: f32) -> f32 {
     let first = across.abs() < 0.5 * width;
     let second = (across - width * 1.0).abs() < width / 6.0;
@@ -103,8 +105,8 @@ const SQUARE_PULL: f32 = 0.292_893_2;
 
 /// The half vector moved so that the highlight takes a shape; itself where there is none to take.
 ///
-/// The axes are the picture's: `right` laid onto the surface, turned, and the direction across it. The operations follow
-/// one another as in the paper: move, stretch, split, square.
+/// The axes are the picture's: `right` laid onto the surface, turned, and the direction across it. The operations
+/// follow one another as in the paper: move, stretch, split, square.
 pub fn shaped_half(
     half: [f32; 3],
     normal: [f32; 3],
@@ -168,7 +170,8 @@ fn power(base: f32, exponent: f32) -> f32 {
 /// How far a cosine between blends of unit vectors may lie beside what its bound says: rounding.
 const SPOT_ROOM: f32 = 1e-4;
 
-/// Greatest N . H that blends of three normals and of three directions to the eye, made unit again, can have towards a light.
+/// Greatest N . H that blends of three normals and of three directions to the eye, made unit again, can have towards
+/// a light.
 ///
 /// `swells` are what the blends' lengths are divided by at most.
 fn highest_cosine(
@@ -274,8 +277,8 @@ impl Layers<'_> {
         sum
     }
 
-    /// Whether a highlight of a part may show somewhere on a triangle. Only a no is certain: shapes, streaks, Phong's term
-    /// and near lights are always taken for a yes.
+    /// Whether a highlight of a part may show somewhere on a triangle. Only a no is certain: shapes, streaks, Phong's
+    /// term and near lights are always taken for a yes.
     pub(crate) fn may_shine(&self, part: &Part, corners: &Corners<'_>) -> bool {
         let behind = || in_world(&self.compose.axes(), part.back_direction);
         let rim = part.flags & Part::BACK_LIGHT != 0

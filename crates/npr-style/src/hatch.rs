@@ -87,9 +87,10 @@ impl Pattern {
 pub struct Hatch {
     /// What shadows are drawn with; default `parallel`.
     pub pattern: Pattern,
-    /// A picture that is drawn with instead: a scanned pen, a screen tone, cloth; default empty, none. It repeats; its dark
-    /// parts become strokes, and only the order of its greys counts. At `spacing` 8 one of its pixels covers about a pixel of
-    /// the frame. Pattern `cross` lays it over itself, turned. At most 4096 pixels a side; powers of two stay sharp.
+    /// A picture that is drawn with instead: a scanned pen, a screen tone, cloth; default empty, none. It repeats;
+    /// its dark parts become strokes, and only the order of its greys counts. At `spacing` 8 one of its pixels covers
+    /// about a pixel of the frame. Pattern `cross` lays it over itself, turned. At most 4096 pixels a side; powers of
+    /// two stay sharp.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub image: String,
     /// Distance between strokes or dots on screen; default 8 pixels at frame height 1080. 4 a fine

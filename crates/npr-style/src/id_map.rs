@@ -26,8 +26,9 @@ pub struct NamedId {
 
 /// A picture that is laid on a surface as its base colour texture is, each region in a flat colour of its own.
 ///
-/// Every triangle belongs to the region that covers most of it. Colours with a name here, and those that rules name by
-/// `#rrggbb`, are ids; all others, and what is less than half opaque, are none. Where several maps lie on one part, the last counts.
+/// Every triangle belongs to the region that covers most of it. Colours with a name here, and those that rules name
+/// by `#rrggbb`, are ids; all others, and what is less than half opaque, are none. Where several maps lie on one
+/// part, the last counts.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct IdMap {
@@ -43,7 +44,8 @@ pub struct IdMap {
     #[serde(default)]
     #[schemars(length(max = 256))]
     pub ids: Vec<NamedId>,
-    /// Whether lines of kind material run between its regions, as between materials; default no: regions are told apart by rules alone.
+    /// Whether lines of kind material run between its regions, as between materials; default no: regions are told
+    /// apart by rules alone.
     #[serde(default)]
     pub border: bool,
 }
@@ -108,7 +110,8 @@ impl Style {
         regions
     }
 
-    /// The pictures of the id maps: key and name as the style has them, each name where it stands first. Callers load them.
+    /// The pictures of the id maps: key and name as the style has them, each name where it stands first. Callers load
+    /// them.
     pub fn id_map_pictures(&self) -> Vec<(String, &str)> {
         let mut named: Vec<(String, &str)> = Vec::new();
         for (i, map) in self.id_map.iter().enumerate() {

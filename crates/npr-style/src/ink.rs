@@ -51,8 +51,8 @@ pub enum Follow {
     Light,
     /// The vertex attribute `_DIRECTION` of glTF files: painted by hand, part by part. Without one, `around`.
     Attribute,
-    /// The vertex colours as directions: red along x, green y, blue z, from -1 at 0 to 1 at full linear light, as normal maps
-    /// have them. White says nothing, as does middle grey; without any, `around`.
+    /// The vertex colours as directions: red along x, green y, blue z, from -1 at 0 to 1 at full linear light, as
+    /// normal maps have them. White says nothing, as does middle grey; without any, `around`.
     VertexColor,
 }
 
@@ -72,9 +72,9 @@ const POLISHED: f32 = 0.3;
 
 /// The pen's part of the shade.
 ///
-/// The light on a surface gives a shade ramp, black up to `dark_at` and white from `light_at`; hatching is added to it and
-/// the sum cut at `threshold` [Suzuki 2004, section 3.3]. Solid ink ends a quarter of the way between the two places, the
-/// last stroke three quarters.
+/// The light on a surface gives a shade ramp, black up to `dark_at` and white from `light_at`; hatching is added to
+/// it and the sum cut at `threshold` [Suzuki 2004, section 3.3]. Solid ink ends a quarter of the way between the two
+/// places, the last stroke three quarters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ink {
@@ -82,28 +82,30 @@ pub struct Ink {
     pub tone: Tone,
     /// Colour of ink and strokes; default black. Alpha is how much it covers.
     pub color: Color,
-    /// Place on the ramp, 0..1, up to which the shade ramp is black; default 0.2. Raise it for more solid black: 0 leaves
-    /// strokes alone, 0.5 blackens everything that faces away.
+    /// Place on the ramp, 0..1, up to which the shade ramp is black; default 0.2. Raise it for more solid black: 0
+    /// leaves strokes alone, 0.5 blackens everything that faces away.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub dark_at: f32,
-    /// Place on the ramp, 0..1, from which it is white; default 0.75. Close to `dark_at` strokes are short and stubby, far
-    /// from it long and tapered.
+    /// Place on the ramp, 0..1, from which it is white; default 0.75. Close to `dark_at` strokes are short and
+    /// stubby, far from it long and tapered.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub light_at: f32,
     /// Where the sum is cut, 0..1; default 0.5. Higher is blacker all over.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub threshold: f32,
-    /// How much the colour of a surface darkens its shade, 0..1; default 0, not at all. On paper it keeps painted eyes,
-    /// stripes and dark leather: black paint is solid ink at any value, middle tones take strokes, 0.5 few, 1 as many as
-    /// they are dark.
+    /// How much the colour of a surface darkens its shade, 0..1; default 0, not at all. On paper it keeps painted
+    /// eyes, stripes and dark leather: black paint is solid ink at any value, middle tones take strokes, 0.5 few, 1
+    /// as many as they are dark.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub paint: f32,
     /// What strokes are fixed to; default `surface`.
     pub mapping: Mapping,
-    /// For mapping `surface`: what strokes run along; default `around`. On mapping `screen` too, `light` turns them. With a
-    /// light that is fixed to the camera, `light` lays strokes anew in every view: for films take `light.space = "world"`.
+    /// For mapping `surface`: what strokes run along; default `around`. On mapping `screen` too, `light` turns them.
+    /// With a light that is fixed to the camera, `light` lays strokes anew in every view: for films take `light.space
+    /// = "world"`.
     pub follow: Follow,
-    /// For mapping `surface`: a direction that strokes follow instead; default none. `[0, 1, 0]` lets them fall like cloth.
+    /// For mapping `surface`: a direction that strokes follow instead; default none. `[0, 1, 0]` lets them fall like
+    /// cloth.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
     pub direction: Option<[f32; 3]>,

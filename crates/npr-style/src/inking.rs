@@ -23,8 +23,8 @@ const NO_HATCH: f32 = 0.5;
 /// ink: the paper between strokes stays open.
 const OPEN_PAPER: f32 = 0.08;
 
-/// Change of luminance over the distance between strokes from which the strokes give way to the tone's own edge; at twice as
-/// much they are gone.
+/// Change of luminance over the distance between strokes from which the strokes give way to the tone's own edge; at
+/// twice as much they are gone.
 const ABRUPT: f32 = 0.25;
 
 /// How badly a chart lies, 0..1, from which dots are set on the screen instead: stretched, they would be streaks.
@@ -72,8 +72,8 @@ pub(crate) fn ink_over(part: &Part, range: [f32; 2]) -> Option<f32> {
     }
 }
 
-/// Ink of hatched surface at luminance `l` of the shade ramp where no stroke is thin enough or wide enough to matter: 1, 0,
-/// or none where the hatch decides.
+/// Ink of hatched surface at luminance `l` of the shade ramp where no stroke is thin enough or wide enough to matter:
+/// 1, 0, or none where the hatch decides.
 ///
 /// The room is half of what F changes by over a pixel at the edge of a stroke.
 fn ink_of_level(part: &Part, l: f32) -> Option<f32> {
@@ -145,8 +145,8 @@ struct Calm {
 }
 
 impl Layers<'_> {
-    /// How much of the surface of triangle `id` is inked at a place of the frame, 0..1; bits of `dark` are the lights whose
-    /// shadow falls there.
+    /// How much of the surface of triangle `id` is inked at a place of the frame, 0..1; bits of `dark` are the lights
+    /// whose shadow falls there.
     pub(crate) fn ink_at(
         &self,
         id: u32,
@@ -326,8 +326,8 @@ impl Layers<'_> {
 }
 
 impl Layers<'_> {
-    /// Ink at a tone that changes by `change` to the right and down, on a flat sheet: `at` is the place on it in pixels, of
-    /// which `scale` tiles go to one.
+    /// Ink at a tone that changes by `change` to the right and down, on a flat sheet: `at` is the place on it in
+    /// pixels, of which `scale` tiles go to one.
     pub(crate) fn ink_on_sheet(
         &self,
         part: &Part,
@@ -381,8 +381,8 @@ fn untied(hatching: Hatching, knot: f32) -> Hatching {
 
 /// How far a tone changes from dark to light too fast for strokes to show, 0..1.
 ///
-/// `per_px` is the change of luminance over a pixel, `spacing_px` the distance between strokes. In a groove narrower than that,
-/// strokes would be a row of dots.
+/// `per_px` is the change of luminance over a pixel, `spacing_px` the distance between strokes. In a groove narrower
+/// than that, strokes would be a row of dots.
 pub fn abruptness(per_px: f32, spacing_px: f32) -> f32 {
     ((per_px * spacing_px - ABRUPT) / ABRUPT).clamp(0.0, 1.0)
 }

@@ -1,7 +1,7 @@
 //! What is the same all over a triangle, found once a frame so that its pixels need not.
 //!
-//! The processor's short cut through `shade.compose_frame`. It changes no picture: whatever is known of a triangle is what
-//! shading would find at each of its places.
+//! The processor's short cut through `shade.compose_frame`. It changes no picture: whatever is known of a triangle is
+//! what shading would find at each of its places.
 
 use crate::compose::Layers;
 use crate::tone::{Corners, inked};
@@ -11,8 +11,8 @@ use rayon::prelude::*;
 /// What is known of a triangle.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Known {
-    /// Linear light: the colour of the surface, or the light on it, or where both are known their product, under its ink
-    /// if that is [`Known::WHOLE`].
+    /// Linear light: the colour of the surface, or the light on it, or where both are known their product, under its
+    /// ink if that is [`Known::WHOLE`].
     pub color: [f32; 3],
     /// Bits of [`Known::PLAIN`] to [`Known::WHOLE`].
     bits: u32,

@@ -36,8 +36,8 @@ impl Default for LetteringOutline {
 pub struct Lettering {
     /// The words, up to 400 characters; line breaks part lines, which are centred.
     pub text: String,
-    /// A font file (`.ttf`, `.otf`, `.ttc`), found as pictures are: beside the style file, or from the current folder where the
-    /// command line names it.
+    /// A font file (`.ttf`, `.otf`, `.ttc`), found as pictures are: beside the style file, or from the current folder
+    /// where the command line names it.
     pub font: String,
     /// Height of a capital letter; default 15 % of the frame. In `world` units it shrinks with the anchor's distance.
     #[serde(default = "default_size")]
@@ -75,7 +75,8 @@ pub struct Lettering {
     #[serde(default)]
     #[schemars(range(min = -0.5, max = 2.0))]
     pub spacing: f32,
-    /// From line to line, in heights of a capital, 0.5..5; default 1.3. More where letters of two lines would meet, unless below 1.
+    /// From line to line, in heights of a capital, 0.5..5; default 1.3. More where letters of two lines would meet,
+    /// unless below 1.
     #[serde(default = "default_line_step")]
     #[schemars(range(min = 0.5, max = 5.0))]
     pub line_step: f32,

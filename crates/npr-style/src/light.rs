@@ -41,7 +41,8 @@ pub struct Light {
     /// 0.4 only a hint.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub shadow_at: f32,
-    /// Whether the lights of the file shine in place of the main light; default false. A file without lights keeps the main one.
+    /// Whether the lights of the file shine in place of the main light; default false. A file without lights keeps
+    /// the main one.
     pub file: bool,
     /// More lights, at most 15; default none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -70,8 +71,8 @@ impl Default for Light {
 pub enum LightShape {
     /// Parallel rays from one direction: a sun, a second main light.
     Distant,
-    /// Rays to all sides from one place: a lamp, a flash. Throws shadows of smoke on smoke, and no others; where it stands amid
-    /// the smoke, on the side of the smoke's middle.
+    /// Rays to all sides from one place: a lamp, a flash. Throws shadows of smoke on smoke, and no others; where it
+    /// stands amid the smoke, on the side of the smoke's middle.
     #[default]
     Point,
     /// Rays from one place into a cone: a torch, a stage light.
@@ -94,7 +95,8 @@ pub struct ExtraLight {
     /// shines the other way; a `point` has none; of a `sky` it is the middle of the upper half.
     #[schemars(inner(range(min = -1e9, max = 1e9)))]
     pub direction: [f32; 3],
-    /// What it adds to the ramp where it is faced, 0..10; default 0.5. 0.2 a fill light, 1 a lamp that outshines the main light.
+    /// What it adds to the ramp where it is faced, 0..10; default 0.5. 0.2 a fill light, 1 a lamp that outshines the
+    /// main light.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub intensity: f32,
     /// Colour of its light; default white.
@@ -107,14 +109,15 @@ pub struct ExtraLight {
     /// the mean of the half that they face. One light may have one.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub image: String,
-    /// Distance at which it has faded to nothing, in units of the scene, 0..1e9; default 0, it never fades. For `point` and `spot`.
+    /// Distance at which it has faded to nothing, in units of the scene, 0..1e9; default 0, it never fades. For
+    /// `point` and `spot`.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub range: f32,
     /// Angle from the axis of a `spot` up to which it is full, in degrees, 0..85; default 20.
     #[schemars(range(min = 0.0, max = 85.0))]
     pub inner_deg: f32,
-    /// Angle from the axis of a `spot` at which it ends, in degrees, 0..85, not below `inner_deg`; default 30. Equal to it
-    /// for a cut-out edge.
+    /// Angle from the axis of a `spot` at which it ends, in degrees, 0..85, not below `inner_deg`; default 30. Equal
+    /// to it for a cut-out edge.
     #[schemars(range(min = 0.0, max = 85.0))]
     pub outer_deg: f32,
     /// Whether things throw shadows in it; default false. Of all lights of a picture the first four throw shadows. In

@@ -139,7 +139,8 @@ impl Lights {
         lights
     }
 
-    /// The only light, if it is distant and of plain intensity: but for shadows a tone then depends on the normal alone.
+    /// The only light, if it is distant and of plain intensity: but for shadows a tone then depends on the normal
+    /// alone.
     #[inline]
     pub(crate) fn only_distant(&self) -> Option<[f32; 3]> {
         let first = &self.sources[0];
@@ -147,9 +148,9 @@ impl Lights {
             .then_some(first.direction)
     }
 
-    /// Place on the ramp of a surface at `world` that faces along the unit vector `normal`, and the colour of the light
-    /// there: the mean of the lights' colours by what each adds. Bit `i` of `dark` says that the place lies in the shadow of
-    /// light `i`. Nothing hides the sky. O(lights).
+    /// Place on the ramp of a surface at `world` that faces along the unit vector `normal`, and the colour of the
+    /// light there: the mean of the lights' colours by what each adds. Bit `i` of `dark` says that the place lies in
+    /// the shadow of light `i`. Nothing hides the sky. O(lights).
     #[inline]
     pub fn coordinate_at(&self, world: [f32; 3], normal: [f32; 3], dark: u32) -> (f32, [f32; 3]) {
         self.coordinate_under(world, normal, dark, Openness::FULL)
@@ -279,7 +280,8 @@ impl LightSource {
 
 /// What is left of a light at a distance, 1 beside it and 0 from `range` on; 1 everywhere where `range` is 0.
 ///
-/// The window of KHR_lights_punctual without the inverse square: on a ramp of few tones the square is either burnt out or gone.
+/// The window of KHR_lights_punctual without the inverse square: on a ramp of few tones the square is either burnt
+/// out or gone.
 pub fn fading(distance: f32, range: f32) -> f32 {
     if range <= 0.0 {
         return 1.0;

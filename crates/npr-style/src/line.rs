@@ -30,10 +30,11 @@ pub enum LineMethod {
     Rim,
     /// Pixels whose surface lies near its silhouette, by an angle [Gooch et al. 1999].
     Angle,
-    /// Strokes of `npr lines`: exact, with hidden lines removed, joined and smoothed, drawn over the finished surfaces, their
-    /// beams and everything. They cost what a line drawing costs.
+    /// Strokes of `npr lines`: exact, with hidden lines removed, joined and smoothed, drawn over the finished
+    /// surfaces, their beams and everything. They cost what a line drawing costs.
     Curves,
-    /// Strokes made of the pixels of a picture of all lines, as published [Jiang et al. 2022]; drawn as those of `curves`.
+    /// Strokes made of the pixels of a picture of all lines, as published [Jiang et al. 2022]; drawn as those of
+    /// `curves`.
     Potrace,
 }
 
@@ -99,15 +100,16 @@ pub struct Line {
     pub crease_angle_deg: f32,
     /// What that angle lies between; default `normals`, so that smooth shading hides the folds of a coarse mesh.
     pub crease_from: CreaseFrom,
-    /// Angle, in degrees, from which a stroke is cut where it turns sharply in the picture, 10..180; default 180, never.
-    /// 60 draws a box in strokes along its sides, each with the brush's own ends. Of drawings as curves only.
+    /// Angle, in degrees, from which a stroke is cut where it turns sharply in the picture, 10..180; default 180,
+    /// never. 60 draws a box in strokes along its sides, each with the brush's own ends. Of drawings as curves only.
     #[schemars(range(min = 10.0, max = 180.0))]
     pub split_angle_deg: f32,
     /// For method `angle`: how far from its silhouette, in degrees, a surface is inked, 0..90; default 15. Larger is
     /// thicker, up to six line widths; flat faces are not inked.
     #[schemars(range(min = 0.0, max = 90.0))]
     pub angle_threshold_deg: f32,
-    /// For method `angle`: how softly the ink ends, as a part of that band, 0..1; default 0.1. 0 a cut edge, 1 an airbrush.
+    /// For method `angle`: how softly the ink ends, as a part of that band, 0..1; default 0.1. 0 a cut edge, 1 an
+    /// airbrush.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub angle_softness: f32,
     /// The kinds of line that are drawn.

@@ -151,7 +151,8 @@ pub struct LineBackground {
     pub direction: Direction,
     /// What `contrast` is measured in; default `lightness`.
     pub measure: Measure,
-    /// For `contrast` by lightness: the difference that every line must have, 0..0.9; default 0.3. 0.15 a hint, 0.5 loud.
+    /// For `contrast` by lightness: the difference that every line must have, 0..0.9; default 0.3. 0.15 a hint, 0.5
+    /// loud.
     #[schemars(range(min = 0.0, max = 0.9))]
     pub lightness: f32,
     /// For `contrast` by `wcag`: the ratio that every line must have, 1..21; default 3, as for large text.
@@ -159,7 +160,8 @@ pub struct LineBackground {
     pub ratio: f32,
     /// For `contrast`: what colour lines start from; default `line`.
     pub start: LineStart,
-    /// For `contrast` that starts from the `rim`: share of the surface's light, 0..1; default 0.7. 0.3 a deep shade, 0.9 nearly the surface.
+    /// For `contrast` that starts from the `rim`: share of the surface's light, 0..1; default 0.7. 0.3 a deep shade,
+    /// 0.9 nearly the surface.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub factor: f32,
     /// For `published`: what the surface's colour is multiplied or divided by, 1..20; default 2.
@@ -167,20 +169,21 @@ pub struct LineBackground {
     pub intensity: f32,
     /// For `published`: how alike surface and background must be in everything.
     pub likeness: Likeness,
-    /// What is one subject; default `scene`. Where several characters stand together, `root` or `object` judge each before the
-    /// others; rules name single ones by `subject`.
+    /// What is one subject; default `scene`. Where several characters stand together, `root` or `object` judge each
+    /// before the others; rules name single ones by `subject`.
     pub subjects: Subjects,
     /// Which lines follow the rule; default `outline`.
     pub scope: LineScope,
-    /// Length of outline over which colours are blended; default 8 of 1080 px, at most 24 px of the frame; which way lines turn is
-    /// decided over 12 times that length. 0 for every pixel by itself; `published` always is.
+    /// Length of outline over which colours are blended; default 8 of 1080 px, at most 24 px of the frame; which way
+    /// lines turn is decided over 12 times that length. 0 for every pixel by itself; `published` always is.
     pub smooth: Length,
-    /// For `contrast`: how much a stretch of outline that was brighter or darker in the frame before stays so, 0..2; default 1. 0 decides
-    /// every frame anew, 1 turns a line only where it would not read any more. Frames too large for one piece are always drawn by themselves.
+    /// For `contrast`: how much a stretch of outline that was brighter or darker in the frame before stays so, 0..2;
+    /// default 1. 0 decides every frame anew, 1 turns a line only where it would not read any more. Frames too large
+    /// for one piece are always drawn by themselves.
     #[schemars(range(min = 0.0, max = 2.0))]
     pub hold: f32,
-    /// For `contrast`: frames in which a line that must turn fades from darker to brighter, 1..60; default 20. 1 turns at once. After a cut, and in
-    /// frames too large for one piece, lines do not fade.
+    /// For `contrast`: frames in which a line that must turn fades from darker to brighter, 1..60; default 20. 1
+    /// turns at once. After a cut, and in frames too large for one piece, lines do not fade.
     #[schemars(range(min = 1.0, max = 60.0))]
     pub fade: f32,
 }

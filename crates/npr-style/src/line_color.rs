@@ -1,13 +1,13 @@
 //! Where the colour of a line comes from: the twins of `lib/line_color`, `line.color_mask` and `line.light_widths`.
 //!
-//! A line's colour has two halves. *Its own*: of its kind, of the surface under it, or the constant `line.color`. And the
-//! *glaze*, what lies over that: light, the light behind, depth, tint, in this order. Own colours hang on the kind, glazes on
-//! the place alone, so both are decided once at a place and put together by whoever draws there
+//! A line's colour has two halves. *Its own*: of its kind, of the surface under it, or the constant `line.color`. And
+//! the *glaze*, what lies over that: light, the light behind, depth, tint, in this order. Own colours hang on the
+//! kind, glazes on the place alone, so both are decided once at a place and put together by whoever draws there
 //! ([`npr_core::line_color::line_color`]). Colours mix in linear light; rows of stops were mixed in OKLab before
 //! ([`crate::hue_row`]).
 //!
-//! Frames decide at the pixels of the mask that lines run through; hulls and grazing surfaces at their own pixel; drawings
-//! as curves at every point of a stroke. All of them ask [`LineScene`].
+//! Frames decide at the pixels of the mask that lines run through; hulls and grazing surfaces at their own pixel;
+//! drawings as curves at every point of a stroke. All of them ask [`LineScene`].
 
 use npr_core::color::{linear_rgba, srgb_from_linear, unpack_rgba8};
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
@@ -89,7 +89,8 @@ fn laid(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
 }
 
 impl LineScene<'_> {
-    /// What a place in the world decides for lines of a part whose surface faces along the unit vector `normal`. O(lights).
+    /// What a place in the world decides for lines of a part whose surface faces along the unit vector `normal`.
+    /// O(lights).
     pub fn decide(&self, part: &Part, world: [f32; 3], normal: [f32; 3]) -> Decided {
         let flags = part.line_flags;
         let mut glaze = [0.0; 4];
@@ -155,8 +156,8 @@ impl LineScene<'_> {
 
     /// Colour of a line at a place, sRGB with straight alpha: all of the model in one call, for drawings as curves.
     ///
-    /// `own` is the colour of the surface there times the part's factor, in linear light; it is only looked at where the part
-    /// asks for it.
+    /// `own` is the colour of the surface there times the part's factor, in linear light; it is only looked at where
+    /// the part asks for it.
     pub fn color_at(
         &self,
         part: &Part,

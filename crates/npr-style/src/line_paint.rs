@@ -138,10 +138,12 @@ pub struct LineLight {
     /// What is laid over lines from dark to light, up to 16 stops sorted by `at`; default none.
     #[schemars(length(max = 16))]
     pub ramp: Vec<HueStop>,
-    /// Factor on the width in the dark and in full light, 0..4 each; default `[1, 1]`. `[1.2, 0.5]` thins lines in the sun.
+    /// Factor on the width in the dark and in full light, 0..4 each; default `[1, 1]`. `[1.2, 0.5]` thins lines in
+    /// the sun.
     #[schemars(inner(range(min = 0.0, max = 4.0)))]
     pub width: [f32; 2],
-    /// Factor on the opacity in the dark and in full light, 0..1 each; default `[1, 1]`. `[1, 0]` lets light wash lines away.
+    /// Factor on the opacity in the dark and in full light, 0..1 each; default `[1, 1]`. `[1, 0]` lets light wash
+    /// lines away.
     #[schemars(inner(range(min = 0.0, max = 1.0)))]
     pub opacity: [f32; 2],
     /// How much lines take the colour of the light behind where it lights them, 0..1; default 0. That light is
@@ -163,8 +165,8 @@ impl Default for LineLight {
 
 /// Where the colour of lines comes from, for every method.
 ///
-/// First the colour itself: of the kind, else of `source`. Then what lies over it, in this order: light, the light behind,
-/// depth, tint.
+/// First the colour itself: of the kind, else of `source`. Then what lies over it, in this order: light, the light
+/// behind, depth, tint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LinePaint {
@@ -284,8 +286,8 @@ impl LinePaint {
 
 /// A row of stops as [`HUES`] sRGB colours with straight alpha, for the texture store.
 ///
-/// Between stops colours mix in OKLab with premultiplied alpha; before the first and after the last they stay. Empty stops
-/// give a clear row. O([`HUES`] * stops).
+/// Between stops colours mix in OKLab with premultiplied alpha; before the first and after the last they stay. Empty
+/// stops give a clear row. O([`HUES`] * stops).
 pub fn hue_row(stops: &[HueStop]) -> Vec<u8> {
     let place = |i: usize| i as f32 / (HUES - 1) as f32;
     (0..HUES)

@@ -1,7 +1,8 @@
 //! Speed lines: motion blur as comics draw it.
 //!
-//! A part that moves leaves strokes behind, from its trailing edge towards where it came from. Each is widest at the part and
-//! ends in a point; no two are of one length. The requirement is [Suzuki 2004, chapter 6]'s; how they are drawn is ours.
+//! A part that moves leaves strokes behind, from its trailing edge towards where it came from. Each is widest at the
+//! part and ends in a point; no two are of one length. The requirement is [Suzuki 2004, chapter 6]'s; how they are
+//! drawn is ours.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -28,7 +29,8 @@ pub struct Motion {
     pub color: Color,
     /// Distance between lines on screen; default 7 pixels at frame height 1080. 4 a fine hiss, 14 a roar.
     pub spacing: Length,
-    /// Width of a line where it leaves the part, as a share of the spacing, 0..1; default 0.6. 1 solid up to the points.
+    /// Width of a line where it leaves the part, as a share of the spacing, 0..1; default 0.6. 1 solid up to the
+    /// points.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub weight: f32,
     /// How much lines differ in length, 0..1; default 0.7. 0 a comb, 1 torn.
@@ -63,8 +65,8 @@ pub struct RuleMotion {
 impl Motion {
     /// How much of a pixel speed lines cover, 0..1.
     ///
-    /// `across` counts spacings across the lines, from anywhere; `along` is the distance from the part as a share of the
-    /// trail, 0..1; a spacing is `spacing_px` wide. Edges are smooth over a pixel.
+    /// `across` counts spacings across the lines, from anywhere; `along` is the distance from the part as a share of
+    /// the trail, 0..1; a spacing is `spacing_px` wide. Edges are smooth over a pixel.
     pub fn coverage(&self, across: f32, along: f32, spacing_px: f32) -> f32 {
         let line = across.floor();
         let reach = 1.0 - self.variation * unit(hash(self.seed, 0x6d6f, line as i32 as u32));

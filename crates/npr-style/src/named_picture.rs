@@ -11,7 +11,8 @@ const SMOKE_RAMP: &str = "smoke.ramp_image";
 const SMOKE_HATCH: &str = "smoke.ink.hatch.image";
 
 impl Style {
-    /// The pictures that tones and blends are made from: key and name as the style has them, each name where it stands first.
+    /// The pictures that tones and blends are made from: key and name as the style has them, each name where it
+    /// stands first.
     ///
     /// Callers load them: no files are opened here. Background and line widths name theirs elsewhere.
     pub fn named_pictures(&self) -> Vec<(String, &str)> {

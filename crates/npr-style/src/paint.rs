@@ -21,8 +21,8 @@ const OPEN: f32 = 1.25;
 
 /// Share of the paper, 0..1, that paint of a colour in linear light leaves white in full light.
 ///
-/// `strength` is how much paint counts, 0..1: at 1 the share is linear in lightness, towards 0 only what is nearly black
-/// takes any. Rises with every channel.
+/// `strength` is how much paint counts, 0..1: at 1 the share is linear in lightness, towards 0 only what is nearly
+/// black takes any. Rises with every channel.
 pub fn paint_white(color: [f32; 3], strength: f32) -> f32 {
     let lightness = dot(color, LUMA).max(0.0).sqrt();
     let x = ((lightness - INKY) / (PAPERY - INKY)).clamp(0.0, 1.0);
@@ -42,8 +42,8 @@ pub fn painted_level(l: f32, white: f32, threshold: f32) -> f32 {
 }
 
 impl Layers<'_> {
-    /// White that the paint of triangle `id` leaves at a pixel and its neighbours to the right and below; all where it does
-    /// not count.
+    /// White that the paint of triangle `id` leaves at a pixel and its neighbours to the right and below; all where
+    /// it does not count.
     pub(crate) fn paint_at(&self, id: u32, part: &Part, weights: [[f32; 3]; 3]) -> [f32; 3] {
         if part.flags & Part::PAINTED == 0 {
             return [1.0; 3];

@@ -4,8 +4,8 @@ use npr_core::published_path::PublishedPath;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The constants of method `potrace` and of `npr lines --method potrace` [Jiang et al. 2022]. Sides are those of pixels;
-/// defaults are those of [`PublishedPath`].
+/// The constants of method `potrace` and of `npr lines --method potrace` [Jiang et al. 2022]. Sides are those of
+/// pixels; defaults are those of [`PublishedPath`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Potrace {
@@ -36,7 +36,8 @@ pub struct Potrace {
     /// Reach of smoothing places, in sides, 0..64; default 16.
     #[schemars(range(min = 0, max = 64))]
     pub smooth_radius: u32,
-    /// Standard deviation of smoothing, in sides, 0..64; default 5. 1 keeps the steps of pixels, 12 rounds every corner.
+    /// Standard deviation of smoothing, in sides, 0..64; default 5. 1 keeps the steps of pixels, 12 rounds every
+    /// corner.
     #[schemars(range(min = 0.0, max = 64.0))]
     pub smooth_sigma: f32,
     /// How often places are smoothed, 0..16; default 2.

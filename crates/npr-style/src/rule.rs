@@ -23,8 +23,8 @@ pub struct Match {
     pub material: String,
     /// Pattern for the object's name; default `*`, any.
     pub object: String,
-    /// Pattern for the name of a region of an `id_map`, or its colour as `#rrggbb`; default `*`, any and none. `?*` takes all
-    /// regions, and an empty text what belongs to none.
+    /// Pattern for the name of a region of an `id_map`, or its colour as `#rrggbb`; default `*`, any and none. `?*`
+    /// takes all regions, and an empty text what belongs to none.
     pub id: String,
 }
 
@@ -349,8 +349,9 @@ pub struct Rule {
     /// What the rule applies to.
     #[serde(rename = "match")]
     pub matching: Match,
-    /// The subject that the part belongs to, whose outline minds the background; default what `line.background.subjects` says. Parts
-    /// of one name are one subject; `background` is part of none, as suits ground and walls.
+    /// The subject that the part belongs to, whose outline minds the background; default what
+    /// `line.background.subjects` says. Parts of one name are one subject; `background` is part of none, as suits
+    /// ground and walls.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub subject: Option<String>,
     /// What changes about its lines.

@@ -43,9 +43,9 @@ pub struct Shade {
     /// Two look like cel animation, one like a plain fill.
     #[schemars(length(min = 1, max = 8))]
     pub ramp: Vec<Stop>,
-    /// A picture whose middle row gives the tones in place of `ramp`, from what faces away on the left to what faces the light
-    /// on the right; default empty, none. Its sRGB colours count as light, so white leaves the surface as it is. Steps are as
-    /// hard as its pixels, or as soft as `softness`; gradients may have any shape.
+    /// A picture whose middle row gives the tones in place of `ramp`, from what faces away on the left to what faces
+    /// the light on the right; default empty, none. Its sRGB colours count as light, so white leaves the surface as
+    /// it is. Steps are as hard as its pixels, or as soft as `softness`; gradients may have any shape.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub ramp_image: String,
 }

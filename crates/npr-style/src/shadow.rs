@@ -1,11 +1,12 @@
 //! Cast shadows with exact edges: the twin of `lib/shadow`.
 //!
-//! A shadow image holds triangle numbers, not depths. A place looks at the nine texels around it and tests each triangle
-//! found there itself, so the edge of a shadow is the outline of what throws it, whatever the size of a texel. The nearest
-//! relatives are irregular shadow maps [Johnson et al. 2005], which keep all triangles of a texel instead of one.
+//! A shadow image holds triangle numbers, not depths. A place looks at the nine texels around it and tests each
+//! triangle found there itself, so the edge of a shadow is the outline of what throws it, whatever the size of a
+//! texel. The nearest relatives are irregular shadow maps [Johnson et al. 2005], which keep all triangles of a texel
+//! instead of one.
 //!
-//! Limits: a light throws shadows up to [`SHADOW_SIDE`] texels fine, so what is thinner than a texel may leave none, and where
-//! many triangles lie in a texel the edge is that of texels, rounded.
+//! Limits: a light throws shadows up to [`SHADOW_SIDE`] texels fine, so what is thinner than a texel may leave none,
+//! and where many triangles lie in a texel the edge is that of texels, rounded.
 
 use npr_core::cutout::Cutout;
 use npr_core::surface::{apply_point, blend3, cross, dot, weights_at};
@@ -49,8 +50,8 @@ struct Place {
 }
 
 impl Corners<'_> {
-    /// A place of the triangle lifted onto the tangent planes of its corners, so that the facets of a smooth surface throw no
-    /// shadows on one another [Hanika 2021].
+    /// A place of the triangle lifted onto the tangent planes of its corners, so that the facets of a smooth surface
+    /// throw no shadows on one another [Hanika 2021].
     pub(crate) fn lifted(&self, weights: [f32; 3]) -> [f32; 3] {
         let world = self.world(weights);
         let lifts = self.posed.map(|corner| {
@@ -145,8 +146,8 @@ impl Layers<'_> {
 
     /// Whether a triangle seen around a place covers it.
     ///
-    /// A triangle that fills all nine texels decides; of several, each is tested. Where they are finer than texels, what
-    /// covers the place may be none of the nine, and the texels vote.
+    /// A triangle that fills all nine texels decides; of several, each is tested. Where they are finer than texels,
+    /// what covers the place may be none of the nine, and the texels vote.
     fn is_covered(&self, place: &Place, seen: [u32; 9]) -> bool {
         let mut distinct = 0;
         for k in 0..9 {
@@ -184,7 +185,8 @@ impl Layers<'_> {
         (world, world.map(|p| apply_point(m, p)))
     }
 
-    /// Whether a point of a triangle is nearer to the light than a place by more than `gap_world`, and not behind the light.
+    /// Whether a point of a triangle is nearer to the light than a place by more than `gap_world`, and not behind the
+    /// light.
     fn is_between(
         &self,
         place: &Place,
@@ -198,8 +200,9 @@ impl Layers<'_> {
         gap > gap_world && gap < place.distance
     }
 
-    /// Whether the texels around a place speak for a shadow: all nine, or more than half of the four next to it by how near
-    /// they are, counting fine triangles alone. Only what is clearly nearer to the light speaks, the more so on slopes.
+    /// Whether the texels around a place speak for a shadow: all nine, or more than half of the four next to it by
+    /// how near they are, counting fine triangles alone. Only what is clearly nearer to the light speaks, the more so
+    /// on slopes.
     fn vote(&self, place: &Place, seen: [u32; 9]) -> bool {
         let side = self.lights.shadow_side as f32;
         let facing = place.facing.max(GRAZING);

@@ -52,7 +52,8 @@ pub struct Style {
     pub motion: Motion,
     /// How much of the look is drawn, over another one.
     pub blend: Blend,
-    /// Pictures that tell regions of surfaces apart, for rules, up to 64; where several lie on one part, the last counts.
+    /// Pictures that tell regions of surfaces apart, for rules, up to 64; where several lie on one part, the last
+    /// counts.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 64))]
     pub id_map: Vec<IdMap>,

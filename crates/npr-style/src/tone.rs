@@ -1,7 +1,7 @@
 //! Colour of one triangle under a pixel: the shading half of `shade.compose_frame`.
 //!
-//! What is the same all over a triangle is found once a frame (`known.rs`), what changes gently once a pixel, at the middle
-//! of the samples that show the triangle; what has edges at every sample.
+//! What is the same all over a triangle is found once a frame (`known.rs`), what changes gently once a pixel, at the
+//! middle of the samples that show the triangle; what has edges at every sample.
 
 use crate::backdrop::Minding;
 use crate::compose::{Compose, Layers};
@@ -42,7 +42,8 @@ impl Corners<'_> {
         blend3(weights, self.posed.map(|v| v.world))
     }
 
-    /// Cosines of the smooth normal with the direction `towards` at three places: those of [`Corners::normal`], at less cost.
+    /// Cosines of the smooth normal with the direction `towards` at three places: those of [`Corners::normal`], at
+    /// less cost.
     #[inline]
     pub fn cosines(&self, weights: [[f32; 3]; 3], towards: [f32; 3]) -> [f32; 3] {
         // Places in a row, and one more to make four, so that all steps become vector instructions.
@@ -87,8 +88,8 @@ impl Corners<'_> {
 /// Widest line of the surface-angle method, in line widths: a surface that turns more slowly counts as flat.
 const ANGLE_WIDTHS: f32 = 6.0;
 
-/// The one-dimensional texture of the surface-angle method over N . E: dark where a surface is seen from the side, fading
-/// round `threshold` over `softness` of it [Suzuki 2004, section 3.2.2].
+/// The one-dimensional texture of the surface-angle method over N . E: dark where a surface is seen from the side,
+/// fading round `threshold` over `softness` of it [Suzuki 2004, section 3.2.2].
 pub fn angle_ramp(facing: f32, threshold: f32, softness: f32) -> f32 {
     let half = 0.5 * softness * threshold;
     1.0 - math::smoothstep(threshold - half, threshold + half, facing.abs())
@@ -215,8 +216,8 @@ impl<'a> Layers<'a> {
             && (part.softness >= GENTLE || part.ramp[1][3] >= Level::UNUSED)
     }
 
-    /// Light of triangle `id`, which the samples in `members` show; `known` is what is known of it, and `minding` keeps what lines
-    /// were told before.
+    /// Light of triangle `id`, which the samples in `members` show; `known` is what is known of it, and `minding`
+    /// keeps what lines were told before.
     pub(crate) fn shade(
         &self,
         id: u32,
@@ -271,7 +272,8 @@ impl<'a> Layers<'a> {
         }
     }
 
-    /// Light, ink and highlights of a group: light and ink at its middle where no edge goes through it, all else at its samples.
+    /// Light, ink and highlights of a group: light and ink at its middle where no edge goes through it, all else at
+    /// its samples.
     fn sampled(&self, group: &Group, part: &Part, corners: &Corners<'_>, known: &Known) -> Sampled {
         let Some(light) = self.light_at_middle(group, part, corners, known) else {
             return self.at_samples(group, part, corners, known);
@@ -415,8 +417,8 @@ impl<'a> Layers<'a> {
         self.even_ink(part, corners, dark)
     }
 
-    /// Ink of a triangle that has the same all over, inside the shadow of the lights in `dark` or outside it: so a shadow
-    /// changes nothing beside it.
+    /// Ink of a triangle that has the same all over, inside the shadow of the lights in `dark` or outside it: so a
+    /// shadow changes nothing beside it.
     pub(crate) fn even_ink(&self, part: &Part, corners: &Corners<'_>, dark: u32) -> Option<f32> {
         if part.flags & (Part::INK | Part::HATCH) == 0 {
             return Some(0.0);

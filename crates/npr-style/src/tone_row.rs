@@ -1,7 +1,8 @@
-//! Tones from a picture: any row of pixels, hard or soft, as a ramp [Suzuki 2004, section 3.2]. The twin of `lib/tone_row`.
+//! Tones from a picture: any row of pixels, hard or soft, as a ramp [Suzuki 2004, section 3.2]. The twin of
+//! `lib/tone_row`.
 //!
-//! The picture is looked at once. What passes read is a row of [`ROW_LENGTH`] tones in the texture store, so a tone costs one
-//! look-up whatever the picture holds.
+//! The picture is looked at once. What passes read is a row of [`ROW_LENGTH`] tones in the texture store, so a tone
+//! costs one look-up whatever the picture holds.
 
 use bytemuck::{Pod, Zeroable};
 use npr_core::color::linear_from_byte;
@@ -54,15 +55,16 @@ pub enum RowError {
 
 /// The tones of a picture's middle row, from what faces away on the left to what faces the light on the right.
 ///
-/// Pixels are sRGB bytes with alpha, row by row; each is decoded to linear light and is what the surface's linear light is
-/// multiplied by, so white leaves colours as they are. Alpha is not looked at. With `softness` 0 a place has the tone of the
-/// pixel under it, so steps stay hard. Else steps are as soft as those of [`ramp_light`](crate::ramp::ramp_light):
-/// they blend over that part of the ramp, 0..0.5. The row goes on beyond its ends. O(places * pixels) at worst.
+/// Pixels are sRGB bytes with alpha, row by row; each is decoded to linear light and is what the surface's linear
+/// light is multiplied by, so white leaves colours as they are. Alpha is not looked at. With `softness` 0 a place has
+/// the tone of the pixel under it, so steps stay hard. Else steps are as soft as those of
+/// [`ramp_light`](crate::ramp::ramp_light): they blend over that part of the ramp, 0..0.5. The row goes on beyond its
+/// ends. O(places * pixels) at worst.
 ///
 /// # Errors
 ///
-/// [`RowError`] for a picture without pixels, of more than [`ROW_PICTURE_MAX`] a side, higher than wide, or with other than
-/// four bytes to a pixel.
+/// [`RowError`] for a picture without pixels, of more than [`ROW_PICTURE_MAX`] a side, higher than wide, or with
+/// other than four bytes to a pixel.
 pub fn tone_row(size: [u32; 2], rgba: &[u8], softness: f32) -> Result<Vec<RowTone>, RowError> {
     check(size, rgba)?;
     let [width, height] = size.map(|side| side as usize);
@@ -147,8 +149,8 @@ fn tone_at(texels: &[u32], row: u32, x: f32) -> RowTone {
     }
 }
 
-/// What a surface's linear light is multiplied by at coordinate `x`, 0..1, of the row that starts at `row` of the texture
-/// store.
+/// What a surface's linear light is multiplied by at coordinate `x`, 0..1, of the row that starts at `row` of the
+/// texture store.
 pub fn row_light(texels: &[u32], row: u32, x: f32) -> [f32; 3] {
     tone_at(texels, row, x).light
 }

@@ -19,7 +19,8 @@ pub enum WidthSource {
     /// Curvature of the surface: tight bends swell wherever the camera stands.
     #[default]
     Curvature,
-    /// Curvature of the line as seen: tips and turns swell, long flat runs thin out, and between ribs and folds there is room.
+    /// Curvature of the line as seen: tips and turns swell, long flat runs thin out, and between ribs and folds there
+    /// is room.
     ProjectedCurvature,
     /// A channel of the vertex colours, as painted in the modelling tool.
     VertexColor,

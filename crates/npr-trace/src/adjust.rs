@@ -9,10 +9,10 @@ use glam::DVec2;
 /// The line of a side is the one that fits the path's corners along it best, by least squares. `polygon` is as
 /// [`optimal_polygon`](super::optimal_polygon) gives it; O(n).
 ///
-/// Not in the paper: where both lines are parallel, or one side has no best line, a line across them through the polygon's corner takes part as a third.
-/// Whether they are parallel, and which of two equally good places on the square's border is taken, hangs on rounding; so that
-/// curves become those of the program Potrace, the order of operations is the one of 360 that gave its results on all of 166 such corners of
-/// a noise picture.
+/// Not in the paper: where both lines are parallel, or one side has no best line, a line across them through the
+/// polygon's corner takes part as a third. Whether they are parallel, and which of two equally good places on the
+/// square's border is taken, hangs on rounding; so that curves become those of the program Potrace, the order of
+/// operations is the one of 360 that gave its results on all of 166 such corners of a noise picture.
 pub fn adjust_corners(pixels: &PixelLoop<'_>, polygon: &[u32]) -> Vec<DVec2> {
     let mut adjusted = Vec::new();
     adjust_into(pixels, polygon, &mut adjusted);

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 /// Batches of loops, which are numbered through.
 ///
-/// Threads that work on a batch hold it too. It is freed where it was made, with all others: threads that free each other's memory wait
-/// for each other.
+/// Threads that work on a batch hold it too. It is freed where it was made, with all others: threads that free each
+/// other's memory wait for each other.
 #[derive(Debug, Default)]
 pub(super) struct Batches {
     parts: Vec<Arc<Loops>>,

@@ -1,10 +1,10 @@
 //! Drawn lines as single strokes along their middle, with the width of their ink.
 //!
-//! Outlines ([`crate::trace()`]) go around a line on both sides; this goes along it once. Each stage is a function usable alone:
-//! [`despeckle`] takes out specks and pinholes, [`thin`] leaves lines one pixel thin, [`Network::of`] makes a network of
-//! them, [`Network::cut_spurs`] and [`Network::join_junctions`] take out what thinning adds, [`link`] makes strokes that
-//! run straight through junctions, and each is measured across its ink and made smooth. [`centrelines`] does it all. The
-//! crate `npr-drawing` writes them as files.
+//! Outlines ([`crate::trace()`]) go around a line on both sides; this goes along it once. Each stage is a function
+//! usable alone: [`despeckle`] takes out specks and pinholes, [`thin`] leaves lines one pixel thin, [`Network::of`]
+//! makes a network of them, [`Network::cut_spurs`] and [`Network::join_junctions`] take out what thinning adds,
+//! [`link`] makes strokes that run straight through junctions, and each is measured across its ink and made smooth.
+//! [`centrelines`] does it all. The crate `npr-drawing` writes them as files.
 //!
 //! ```
 //! use npr_trace::centreline::{CentrelineOptions, centrelines};
@@ -53,8 +53,8 @@ use rayon::prelude::*;
 pub struct CentrelineOptions {
     /// Shapes and holes of up to so many pixels are left out.
     pub turd_size: u64,
-    /// Branches that stick out of their line by less than this share of its width are cut: 0 keeps all, 0.5 cuts what rough
-    /// edges and square ends make, 1 and more cuts short hairs too.
+    /// Branches that stick out of their line by less than this share of its width are cut: 0 keeps all, 0.5 cuts what
+    /// rough edges and square ends make, 1 and more cuts short hairs too.
     pub spur: f64,
     /// Angle, in radians, up to which a stroke may turn where it goes on through a junction.
     pub link_turn: f64,
@@ -106,8 +106,8 @@ pub struct Centrelines {
 
 /// Finds the lines of a bitmap.
 ///
-/// The same for any number of threads. Time grows with the pixels, a 64th of a step each, and with the length of lines times their width.
-/// None where there is no ink.
+/// The same for any number of threads. Time grows with the pixels, a 64th of a step each, and with the length of
+/// lines times their width. None where there is no ink.
 pub fn centrelines(bitmap: &Bitmap, options: &CentrelineOptions) -> Centrelines {
     let ink = despeckle(bitmap, options.turd_size);
     let mut network = Network::of(&thin(&ink), &ink);

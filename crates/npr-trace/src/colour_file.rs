@@ -9,11 +9,13 @@ use std::io::{self, BufWriter, Write};
 
 /// Traces every layer of a picture and writes them, the lowest first, each filled with its colour.
 ///
-/// In SVG a layer is a group; in JSON an object of the list `layers` with its `fill` and its `paths`, whose parents count within the layer;
-/// in GeoJSON every shape has the property `fill`. What is left out as a speck shows what lies under it.
+/// In SVG a layer is a group; in JSON an object of the list `layers` with its `fill` and its `paths`, whose parents
+/// count within the layer; in GeoJSON every shape has the property `fill`. What is left out as a speck shows what
+/// lies under it.
 ///
-/// O(pixels) for [`layers`], then for each the time of [`trace`](super::trace()): the picture's whole ink for a colour that is
-/// everywhere. The same bytes for any number of threads. A byte a step of every layer's paths is held until all are found.
+/// O(pixels) for [`layers`], then for each the time of [`trace`](super::trace()): the picture's whole ink for a
+/// colour that is everywhere. The same bytes for any number of threads. A byte a step of every layer's paths is held
+/// until all are found.
 ///
 /// # Errors
 ///

@@ -53,7 +53,8 @@ impl IndexPicture {
     ///
     /// # Errors
     ///
-    /// [`IndexPictureError`] where the size is beyond [`SIDE_LIMIT`] or does not go with the pixels, or a colour is missing.
+    /// [`IndexPictureError`] where the size is beyond [`SIDE_LIMIT`] or does not go with the pixels, or a colour is
+    /// missing.
     pub fn new(
         width: u32,
         height: u32,
@@ -114,8 +115,9 @@ impl IndexPicture {
 
 /// The colours that a picture has, in the order in which their layers are painted.
 ///
-/// From the lightest to the darkest where the colour of most pixels is light, else the other way: paper first, ink last. The blends along
-/// an edge lie between the colours that they are mixed from, so their layers stay whole and nested instead of thin rings.
+/// From the lightest to the darkest where the colour of most pixels is light, else the other way: paper first, ink
+/// last. The blends along an edge lie between the colours that they are mixed from, so their layers stay whole and
+/// nested instead of thin rings.
 pub fn stacking_order(picture: &IndexPicture) -> Vec<u16> {
     let counts = picture.counts();
     let light = |index: &u16| {
@@ -149,9 +151,10 @@ pub struct ColorLayer {
 
 /// The layers of a picture, the topmost first: a layer a colour, in [`stacking_order`] from the end.
 ///
-/// The ink of a layer is that of its colour and, of what lies above, all that hangs together with it, by sides or corners. So layers
-/// painted from the last to the first give the picture again, the layer below goes on under every edge between two colours, and shapes that a
-/// colour does not touch are not outlined in it. Transparent pixels are in no layer.
+/// The ink of a layer is that of its colour and, of what lies above, all that hangs together with it, by sides or
+/// corners. So layers painted from the last to the first give the picture again, the layer below goes on under every
+/// edge between two colours, and shapes that a colour does not touch are not outlined in it. Transparent pixels are
+/// in no layer.
 ///
 /// Nearly O(pixels) for all, and O(ink) for each; 12 bytes a pixel.
 pub fn layers(picture: &IndexPicture) -> Layers<'_> {

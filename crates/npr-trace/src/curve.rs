@@ -47,8 +47,9 @@ const ALPHA_LEAST: f64 = 0.55;
 /// Tells corners from arcs: a corner is where `alpha` would be `alpha_max` or more.
 ///
 /// At a corner `a`, with the middles `b` and `c` of the polygon's sides around it, an arc from `b` to `c` shall touch
-/// the square of one pixel around `a`; its control points lie the share `alpha` of the way from `b` and `c` to `a`. The sharper the corner
-/// and the longer its sides, the greater alpha, up to 4/3. So 0 makes polygons, and more than 4/3 leaves no corner.
+/// the square of one pixel around `a`; its control points lie the share `alpha` of the way from `b` and `c` to `a`.
+/// The sharper the corner and the longer its sides, the greater alpha, up to 4/3. So 0 makes polygons, and more than
+/// 4/3 leaves no corner.
 pub fn bends(corners: &[DVec2], alpha_max: f64) -> Vec<Bend> {
     (0..corners.len())
         .map(|index| bend_at(corners, index, alpha_max))
@@ -83,7 +84,8 @@ fn alpha_at(before: DVec2, corner: DVec2, after: DVec2) -> f64 {
     gamma.max(0.0) * (4.0 / 3.0)
 }
 
-/// The curve through the middles of a polygon's sides, one segment for every corner, the first from the last side's middle.
+/// The curve through the middles of a polygon's sides, one segment for every corner, the first from the last side's
+/// middle.
 pub fn curve(bends: &[Bend]) -> Vec<Segment> {
     let mut segments = Vec::with_capacity(bends.len());
     draw_curve(

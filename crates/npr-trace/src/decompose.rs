@@ -21,7 +21,8 @@ pub struct Loops {
 
 /// What is known of a loop besides its steps: 12 bytes, for there may be millions.
 ///
-/// Sides are up to [`SIDE_LIMIT`](super::SIDE_LIMIT), so places of pixels have 15 bits, and areas and all steps together less than 32.
+/// Sides are up to [`SIDE_LIMIT`](super::SIDE_LIMIT), so places of pixels have 15 bits, and areas and all steps
+/// together less than 32.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct LoopHead {
     /// The start: 15 bits of x, as many of y, and on top whether its inside is ink.
@@ -129,9 +130,10 @@ impl Loops {
 
 /// The closed paths of a bitmap whose area is more than `turd_size` pixels.
 ///
-/// The method of the paper: the first ink pixel, rows from the top, starts a path around what hangs together with it; the inside
-/// is inverted; and so on until all is white. Here no pixel is inverted: edges that a path took are taken away,
-/// and of what is left the same paths follow, since a pixel is inverted where an odd number of paths lies around it.
+/// The method of the paper: the first ink pixel, rows from the top, starts a path around what hangs together with it;
+/// the inside is inverted; and so on until all is white. Here no pixel is inverted: edges that a path took are taken
+/// away, and of what is left the same paths follow, since a pixel is inverted where an odd number of paths lies
+/// around it.
 ///
 /// One thread, O(pixels / 64 + steps): which way a path turns hangs on the paths before it. The curves of
 /// finished loops can be worked on meanwhile, see [`Decomposition`].

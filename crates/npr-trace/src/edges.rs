@@ -12,8 +12,8 @@ const LEAST_ROWS: usize = 64;
 
 /// Which sides of pixels lie between different colours; walked paths take theirs away.
 ///
-/// Corners are numbered from the top left one, `x` to the right and `y` down. An *upright* edge runs from the corner `(x, y)`
-/// down to `(x, y + 1)`, a *level* edge from `(x, y)` right to `(x + 1, y)`.
+/// Corners are numbered from the top left one, `x` to the right and `y` down. An *upright* edge runs from the corner
+/// `(x, y)` down to `(x, y + 1)`, a *level* edge from `(x, y)` right to `(x + 1, y)`.
 #[derive(Debug, Clone)]
 pub(super) struct EdgeMap {
     /// Words of a row.

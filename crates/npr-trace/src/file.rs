@@ -14,8 +14,8 @@ pub enum TraceFormat {
     Svg,
     /// One page with the same shapes.
     Pdf,
-    /// Every outline with area, parent and segments, y down. A segment of four numbers is a corner and the end of the straight piece
-    /// after it, one of six is an arc: two control points and the end. The last end is the start.
+    /// Every outline with area, parent and segments, y down. A segment of four numbers is a corner and the end of the
+    /// straight piece after it, one of six is an arc: two control points and the end. The last end is the start.
     Json,
     /// A polygon for every shape, with its holes, within 0.05 pixels of the curves; y up from the lower edge.
     GeoJson,
@@ -45,8 +45,9 @@ pub fn write_tracing(
     )
 }
 
-/// [`write_tracing`] of [`trace`](super::trace()), without keeping the curves: the same bytes, with some ten bytes a step of the
-/// longest path and 30 a path, and 40 MB of text at most, but for that of one path. A bitmap that is given away goes as soon as its paths are found.
+/// [`write_tracing`] of [`trace`](super::trace()), without keeping the curves: the same bytes, with some ten bytes a
+/// step of the longest path and 30 a path, and 40 MB of text at most, but for that of one path. A bitmap that is
+/// given away goes as soon as its paths are found.
 ///
 /// # Errors
 ///
@@ -136,7 +137,8 @@ impl<P: Paths> Sheet<'_, P> {
         self.write_shapes(sink, ["", "", "f\n"], |_| String::new())
     }
 
-    /// Writes a feature a shape, with `properties` after its area; `comma` comes before the first and is that between them afterwards.
+    /// Writes a feature a shape, with `properties` after its area; `comma` comes before the first and is that between
+    /// them afterwards.
     pub fn write_features(
         &self,
         properties: &str,

@@ -8,11 +8,11 @@ const TURN_LIMIT: f64 = -0.999_847_695_156_391_3;
 
 /// The curve of [`curve()`](super::curve()), with consecutive arcs joined where one arc does.
 ///
-/// It has the fewest segments, and of those the least sum of squared distances; the first segment starts where the first
-/// bend's arc ends. Arcs may be joined that bend to the same side, by less than 179 degrees together, where
-/// an arc with the same ends, the same tangents there and the same area stays near: where it is parallel to a side of the
-/// polygon, it lies within `tolerance` pixels of it, and where it is parallel to an arc's chord, no more than that further
-/// inside than the arc did.
+/// It has the fewest segments, and of those the least sum of squared distances; the first segment starts where the
+/// first bend's arc ends. Arcs may be joined that bend to the same side, by less than 179 degrees together, where an
+/// arc with the same ends, the same tangents there and the same area stays near: where it is parallel to a side of
+/// the polygon, it lies within `tolerance` pixels of it, and where it is parallel to an arc's chord, no more than
+/// that further inside than the arc did.
 ///
 /// O(n t) arcs are tried for n bends, of which t turn by half a circle.
 pub fn join_arcs(bends: &[Bend], tolerance: f64) -> Vec<Segment> {
@@ -24,8 +24,8 @@ pub fn join_arcs(bends: &[Bend], tolerance: f64) -> Vec<Segment> {
 
 /// The search for joined curves, with its memory kept from loop to loop.
 ///
-/// No arc goes past a bend that turns to the other side, or not at all, so bends are taken stretch by stretch, as far as they turn to one side.
-/// They are numbered from the one before the stretch, which is 0.
+/// No arc goes past a bend that turns to the other side, or not at all, so bends are taken stretch by stretch, as far
+/// as they turn to one side. They are numbered from the one before the stretch, which is 0.
 #[derive(Debug, Default)]
 pub(super) struct Joiner {
     /// Those of the stretch, one before and one after.
@@ -158,7 +158,8 @@ impl Joiner {
             if end - start >= count || !self.may_join(start, end) {
                 break;
             }
-            // Not in the paper, and measured on the program Potrace: beyond arcs that cannot be joined none longer are tried.
+            // Not in the paper, and measured on the program Potrace: beyond arcs that cannot be joined none longer
+            // are tried.
             let Some(arc) = self.arc(start, end, tolerance) else {
                 break;
             };
@@ -176,7 +177,8 @@ impl Joiner {
         best
     }
 
-    /// Whether the bends after one and up to another turn to one side, by less than the limit; those after the next are known to.
+    /// Whether the bends after one and up to another turn to one side, by less than the limit; those after the next
+    /// are known to.
     fn may_join(&self, start: usize, end: usize) -> bool {
         let [first, last] = [self.turns[start + 1], self.turns[end]];
         if first * last <= 0.0 {
@@ -276,8 +278,8 @@ impl Joiner {
 
 /// The place at which an arc is parallel to a direction.
 ///
-/// Not in the paper, and measured on the program Potrace: for an arc in the place of a pair there is none where the equation for it
-/// is linear, as for pairs that are each other's mirror image. They stay apart.
+/// Not in the paper, and measured on the program Potrace: for an arc in the place of a pair there is none where the
+/// equation for it is linear, as for pairs that are each other's mirror image. They stay apart.
 fn touch(cubic: &[DVec2; 4], direction: DVec2, is_pair: bool) -> Option<DVec2> {
     let [a, b, c] = [0, 1, 2].map(|i| (cubic[i + 1] - cubic[i]).perp_dot(direction));
     // a (1 - t)^2 + 2 b t (1 - t) + c t^2 = 0

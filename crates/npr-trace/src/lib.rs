@@ -2,12 +2,13 @@
 //!
 //! Each stage is a function usable alone: [`decompose()`] finds the closed paths along pixel edges, [`nest()`] which
 //! lies in which, [`optimal_polygon`] the polygon with the fewest sides near a path (by way of [`straight_lengths`]),
-//! [`adjust_corners`] moves its corners to where the sides meet best, [`bends`] tells corners from arcs, [`curve()`] makes segments
-//! of them, and [`join_arcs`] joins arcs to fewer. [`trace`] does it all, on all threads, and [`write_tracing`] makes files of it.
-//! Pictures of few colours become a stack of bitmaps by [`layers`], and files by [`trace_colours_to_file`]. Drawn lines become single strokes along their middle by [`centreline`].
+//! [`adjust_corners`] moves its corners to where the sides meet best, [`bends`] tells corners from arcs, [`curve()`]
+//! makes segments of them, and [`join_arcs`] joins arcs to fewer. [`trace`] does it all, on all threads, and
+//! [`write_tracing`] makes files of it. Pictures of few colours become a stack of bitmaps by [`layers`], and files by
+//! [`trace_colours_to_file`]. Drawn lines become single strokes along their middle by [`centreline`].
 //!
-//! Written from the paper. What it leaves open is decided by mathematics, or so that results equal those of the program Potrace, run and
-//! measured as a whole; each such place says so.
+//! Written from the paper. What it leaves open is decided by mathematics, or so that results equal those of the
+//! program Potrace, run and measured as a whole; each such place says so.
 //!
 //! ```
 //! use npr_trace::{Bitmap, TraceOptions, trace};
@@ -101,7 +102,8 @@ impl Default for TraceOptions {
 pub struct Tracing {
     /// Width and height of the bitmap, in pixels.
     pub size: [u32; 2],
-    /// Outlines of shapes and holes by the places of their uppermost, then leftmost corners: each after those around it.
+    /// Outlines of shapes and holes by the places of their uppermost, then leftmost corners: each after those around
+    /// it.
     pub paths: Vec<TracedPath>,
 }
 
@@ -120,8 +122,8 @@ pub struct TracedPath {
 
 /// Traces a bitmap.
 ///
-/// Paths are found one after the other in one thread, while the others already turn found ones to curves; the same for any number of
-/// threads. Time grows with the paths' length. No path where there is no ink.
+/// Paths are found one after the other in one thread, while the others already turn found ones to curves; the same
+/// for any number of threads. Time grows with the paths' length. No path where there is no ink.
 pub fn trace(bitmap: &Bitmap, options: &TraceOptions) -> Tracing {
     let size = [bitmap.width(), bitmap.height()];
     let (Found { loops, parents }, curves) =
@@ -156,8 +158,8 @@ struct Found {
     parents: Vec<u32>,
 }
 
-/// The loops of a bitmap, and what `each` makes of the first of them while others are still looked for: of as many batches as have no more
-/// than `early_steps` steps, with the number of each one's first loop.
+/// The loops of a bitmap, and what `each` makes of the first of them while others are still looked for: of as many
+/// batches as have no more than `early_steps` steps, with the number of each one's first loop.
 fn found<T: Send>(
     bitmap: impl Borrow<Bitmap> + Send,
     options: &TraceOptions,

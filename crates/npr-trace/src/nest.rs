@@ -8,11 +8,11 @@ pub(super) const NONE: u32 = u32::MAX;
 
 /// For every loop the number of the innermost one around it; none where there is none.
 ///
-/// `loops` are in the order of [`decompose`](super::decompose()), which puts every loop after those around it; loops left out, as specks are, count as
-/// not there. `size` is the bitmap's, in pixels.
+/// `loops` are in the order of [`decompose`](super::decompose()), which puts every loop after those around it; loops
+/// left out, as specks are, count as not there. `size` is the bitmap's, in pixels.
 ///
-/// The upright edge next to a loop's start on the left belongs to the loop around it or to one beside it, which has the same
-/// around it. O(pixels / 64 + steps).
+/// The upright edge next to a loop's start on the left belongs to the loop around it or to one beside it, which has
+/// the same around it. O(pixels / 64 + steps).
 pub fn nest<'a>(
     size: [u32; 2],
     loops: impl Iterator<Item = PixelLoop<'a>> + Clone,
@@ -24,7 +24,8 @@ pub fn nest<'a>(
         .collect()
 }
 
-/// [`nest`], with [`NONE`] for none: eight bytes a loop at once, and two bits a pixel, in zeros that are there: twice [`Uprights::words_of`] at least.
+/// [`nest`], with [`NONE`] for none: eight bytes a loop at once, and two bits a pixel, in zeros that are there: twice
+/// [`Uprights::words_of`] at least.
 pub(super) fn parents<'a>(
     size: [u32; 2],
     loops: impl Iterator<Item = PixelLoop<'a>> + Clone,

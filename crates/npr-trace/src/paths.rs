@@ -173,7 +173,8 @@ impl Texts {
     }
 }
 
-/// Gives the text of every path of an order, one after the other; what is not drawn yet is drawn on all threads, window by window.
+/// Gives the text of every path of an order, one after the other; what is not drawn yet is drawn on all threads,
+/// window by window.
 pub(super) fn for_each_text(
     paths: &impl Paths,
     pen: impl Fn() -> TextPen + Sync,

@@ -11,10 +11,10 @@ use super::straight;
 ///
 /// O(n w) for n steps and at most w places that one corner can take.
 ///
-/// Differs: sides of a loop of `n` steps span at most `2^30 / n` steps, or 64 if that is less, so that chequers, one loop of
-/// millions of steps and long diagonals, take seconds; loops in pictures of up to 4096 pixels a side are not concerned up to
-/// 100 000 steps. And the polygon begins at the loop's start, as that of the program Potrace does. Another corner could save one
-/// side.
+/// Differs: sides of a loop of `n` steps span at most `2^30 / n` steps, or 64 if that is less, so that chequers, one
+/// loop of millions of steps and long diagonals, take seconds; loops in pictures of up to 4096 pixels a side are not
+/// concerned up to 100 000 steps. And the polygon begins at the loop's start, as that of the program Potrace does.
+/// Another corner could save one side.
 pub fn optimal_polygon(pixels: &PixelLoop<'_>) -> Vec<u32> {
     let mut search = Search::default();
     search.run(pixels.steps);
@@ -142,7 +142,8 @@ impl Search {
 /// Sums of coordinates over the corners of a stretch, so that penalties take constant time.
 #[derive(Debug, Default)]
 struct Moments {
-    /// For every corner of the stretch: its place from the loop's start, and sums of x, y, xx, xy, yy of those before it.
+    /// For every corner of the stretch: its place from the loop's start, and sums of x, y, xx, xy, yy of those before
+    /// it.
     sums: Vec<[i64; 7]>,
 }
 

@@ -7,29 +7,31 @@ use std::ops::Range;
 /// Paths longer than this many steps are measured on several threads.
 const PIECE_STEPS: usize = 1 << 11;
 
-/// Stretches of more runs than this are followed from corner to corner by their hulls, instead of being walked anew from each.
+/// Stretches of more runs than this are followed from corner to corner by their hulls, instead of being walked anew
+/// from each.
 ///
 /// About where both take the same time.
 const LONG_RUNS: usize = 128;
 
 /// For every corner of a closed path, how many steps from there on are straight.
 ///
-/// `steps` are directions as in [`PixelLoop::steps`](super::PixelLoop::steps). A stretch is straight where one line segment comes within half a pixel,
-/// along each axis, of all its corners in order, and where it does not go in all four directions. By the paper's
-/// theorem that is so where every three corners of it pass the test: the middle one lies within one pixel, along each axis,
-/// of the line through the outer two.
+/// `steps` are directions as in [`PixelLoop::steps`](super::PixelLoop::steps). A stretch is straight where one line
+/// segment comes within half a pixel, along each axis, of all its corners in order, and where it does not go in all
+/// four directions. By the paper's theorem that is so where every three corners of it pass the test: the middle one
+/// lies within one pixel, along each axis, of the line through the outer two.
 ///
 /// O(n t) for n steps and t turns in a stretch, of which at most 128 count; beyond that, O(n log^2 t).
 ///
-/// Differs: the paper tests every corner; here only those at which the path turns, since a line that comes within a pixel of
-/// both ends of a run comes as near to all between.
+/// Differs: the paper tests every corner; here only those at which the path turns, since a line that comes within a
+/// pixel of both ends of a run comes as near to all between.
 pub fn straight_lengths(steps: &[u8]) -> Vec<u32> {
     let mut lengths = Vec::new();
     measure(steps, steps.len() as u32, &mut lengths);
     lengths
 }
 
-/// [`straight_lengths`], of which none is more than `limit`, into a vector that is used again. Gives how many runs and corners were looked at.
+/// [`straight_lengths`], of which none is more than `limit`, into a vector that is used again. Gives how many runs
+/// and corners were looked at.
 pub(super) fn measure(steps: &[u8], limit: u32, lengths: &mut Vec<u32>) -> u64 {
     measure_from(steps, limit, LONG_RUNS, lengths)
 }
@@ -82,8 +84,8 @@ struct Path<'a> {
 }
 
 impl Path<'_> {
-    /// Measures from every corner of some runs on; `lengths` are those of these runs' steps, the first of which is number `from`.
-    /// Long paths are halved for other threads. Gives how much was looked at.
+    /// Measures from every corner of some runs on; `lengths` are those of these runs' steps, the first of which is
+    /// number `from`. Long paths are halved for other threads. Gives how much was looked at.
     fn measure(&self, runs: Range<usize>, from: usize, lengths: &mut [u32]) -> u64 {
         let middle = runs.start + runs.len() / 2;
         if lengths.len() > PIECE_STEPS && runs.len() > 1 {
@@ -134,9 +136,11 @@ impl Path<'_> {
         looks + strip.map_or(0, |strip| strip.looks)
     }
 
-    /// How many steps from a corner on are straight by the triples that begin there, at most `most`; and how many runs that took.
+    /// How many steps from a corner on are straight by the triples that begin there, at most `most`; and how many
+    /// runs that took.
     ///
-    /// The corner has `left` steps before it in the direction of the run `index`, which may take in the first `skipped` runs.
+    /// The corner has `left` steps before it in the direction of the run `index`, which may take in the first
+    /// `skipped` runs.
     #[inline]
     fn length_from(&self, index: usize, left: u32, skipped: usize, most: u32) -> (u32, usize) {
         let mut cone = Cone::default();
@@ -201,8 +205,8 @@ impl Run {
 
 /// The directions from a corner that pass within a pixel, along each axis, of all corners seen.
 ///
-/// Bounded by two vectors: allowed is what lies to the left of `right` and to the right of `left`, with y up; as long as both are
-/// zero, everything.
+/// Bounded by two vectors: allowed is what lies to the left of `right` and to the right of `left`, with y up; as long
+/// as both are zero, everything.
 #[derive(Debug, Clone, Copy, Default)]
 struct Cone {
     left: [i32; 2],
@@ -239,7 +243,8 @@ impl Cone {
         if x.abs() <= 1 && y.abs() <= 1 {
             return;
         }
-        // The corners of the square around the place that stand furthest to the left and right; of two in line, the nearer.
+        // The corners of the square around the place that stand furthest to the left and right; of two in line, the
+        // nearer.
         let left = [
             x + if y < 0 || (y == 0 && x < 0) { 1 } else { -1 },
             y + if x > 0 || (x == 0 && y < 0) { 1 } else { -1 },

@@ -4,14 +4,14 @@ use super::decompose::STEPS;
 
 /// A straight stretch whose start goes back corner by corner and whose end is cut off as needed.
 ///
-/// A stretch in at most three directions runs one way along an axis, here called u, and back and forth along v. It is straight where some
-/// line `v = s u + c` comes within half a pixel, along each axis, of all corners: where for every two of them
-/// `(v - v') - s (u - u') <= 1 + |s|`. Only corners of the convex hull matter, which are few, since a stretch with
-/// one corner too many still lies in a narrow strip of the grid.
+/// A stretch in at most three directions runs one way along an axis, here called u, and back and forth along v. It is
+/// straight where some line `v = s u + c` comes within half a pixel, along each axis, of all corners: where for every
+/// two of them `(v - v') - s (u - u') <= 1 + |s|`. Only corners of the convex hull matter, which are few, since a
+/// stretch with one corner too many still lies in a narrow strip of the grid.
 ///
-/// The stretch is held in two parts, each with its hull: a front that grows towards the start, and a back that loses what was added last. When the
-/// back is used up, the front becomes the back, so a corner enters hulls twice at most as long as the axis stays; O(log^2 n) for
-/// a step of a stretch of n corners.
+/// The stretch is held in two parts, each with its hull: a front that grows towards the start, and a back that loses
+/// what was added last. When the back is used up, the front becomes the back, so a corner enters hulls twice at most
+/// as long as the axis stays; O(log^2 n) for a step of a stretch of n corners.
 #[derive(Debug)]
 pub(super) struct Strip<'a> {
     steps: &'a [u8],
@@ -54,7 +54,8 @@ impl<'a> Strip<'a> {
         strip
     }
 
-    /// Puts the start a step back, and takes from the end what is more than `most` steps or not straight any more. Gives the steps left.
+    /// Puts the start a step back, and takes from the end what is more than `most` steps or not straight any more.
+    /// Gives the steps left.
     pub fn step_back(&mut self, most: u32) -> u32 {
         self.first -= 1;
         let direction = self.direction(self.first);
@@ -218,7 +219,8 @@ struct Side {
     /// The corners, then what was once there and may come back.
     corners: Vec<[i32; 2]>,
     count: usize,
-    /// For every place added, how many corners there were, and the one that it took the place of; none if it is no corner.
+    /// For every place added, how many corners there were, and the one that it took the place of; none if it is no
+    /// corner.
     taken: Vec<Option<(usize, [i32; 2])>>,
 }
 

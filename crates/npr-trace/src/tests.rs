@@ -74,7 +74,8 @@ fn places(start: DVec2, segment: &Segment) -> Vec<DVec2> {
     }
 }
 
-/// A closed path of four digital lines, 300 steps or so each, every third corner of which may stick out by a step; turned by quarters.
+/// A closed path of four digital lines, 300 steps or so each, every third corner of which may stick out by a step;
+/// turned by quarters.
 fn slanted(rise: i32, run: i32, jag: u32, turns: usize) -> Vec<u8> {
     let side: Vec<u8> = (1..=300)
         .flat_map(|i| {

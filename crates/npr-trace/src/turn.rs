@@ -63,11 +63,13 @@ impl TurnPolicy {
 
     /// Whether the inside of a path hangs together at an ambiguous corner, so that the path turns right.
     ///
-    /// `is_ink` tells whether the inside of the path is ink in the bitmap. `around` gives the pixels around the corner as they
-    /// are when the path is traced: with the insides of all paths before it inverted, and so ink inside.
+    /// `is_ink` tells whether the inside of the path is ink in the bitmap. `around` gives the pixels around the
+    /// corner as they are when the path is traced: with the insides of all paths before it inverted, and so ink
+    /// inside.
     ///
-    /// Not in the paper, and measured on the program Potrace with random bitmaps: the neighbourhood is the squares of 4, 6 and 8
-    /// pixels around the corner, of which the smallest without a tie decides; where all tie, the inside counts as rarer.
+    /// Not in the paper, and measured on the program Potrace with random bitmaps: the neighbourhood is the squares of
+    /// 4, 6 and 8 pixels around the corner, of which the smallest without a tie decides; where all tie, the inside
+    /// counts as rarer.
     #[inline]
     pub(super) fn joins_inside(
         self,
@@ -106,8 +108,8 @@ fn inside_prevails(around: u64) -> bool {
 
 /// The 8x8 pixels around a corner, by the edges not yet traced: two pixels differ where an edge between them is left.
 ///
-/// `inside_is_upper_left` tells of the pixel to the upper left of the corner whether it is 1; so is the one to the lower right,
-/// and the other two are the opposite.
+/// `inside_is_upper_left` tells of the pixel to the upper left of the corner whether it is 1; so is the one to the
+/// lower right, and the other two are the opposite.
 pub(super) fn pixels_around(map: &EdgeMap, [x, y]: [u32; 2], inside_is_upper_left: bool) -> u64 {
     // One column to the left of the corner, from the row above it up and down.
     let start = u64::from(inside_is_upper_left);

@@ -1,8 +1,8 @@
 //! Chunks packed by blosc.
 //!
 //! A container of format 2 [Blosc 1.x, README_CHUNK_FORMAT] holds blocks of equal size, each packed on its own, each
-//! either whole or split into one stream for every byte of an element; before packing, bytes or bits may be shuffled so that those
-//! of equal rank lie together.
+//! either whole or split into one stream for every byte of an element; before packing, bytes or bits may be shuffled
+//! so that those of equal rank lie together.
 
 mod blosclz;
 mod shuffle;
@@ -145,7 +145,8 @@ impl Container {
     }
 }
 
-/// Whether blocks are smaller than blosc makes them: 128 bytes, or the whole where that is less, rounded down to elements.
+/// Whether blocks are smaller than blosc makes them: 128 bytes, or the whole where that is less, rounded down to
+/// elements.
 ///
 /// Many tiny blocks would take far longer to unpack than the size of their container tells.
 fn is_tiny(block_bytes: usize, bytes: usize) -> bool {

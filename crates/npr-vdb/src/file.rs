@@ -48,13 +48,13 @@ struct Body<'a> {
 
 /// Reads the list of grids of an OpenVDB file.
 ///
-/// O(grids) where the file tells where grids end, as files on disk do; of a stream all trees are read once to find out. Takes
-/// memory in proportion to the metadata, about ten times its bytes.
+/// O(grids) where the file tells where grids end, as files on disk do; of a stream all trees are read once to find
+/// out. Takes memory in proportion to the metadata, about ten times its bytes.
 ///
 /// # Errors
 ///
-/// A [`Fault`] unless the file is an OpenVDB file of version 220 to 224 with a sound list of grids. Grids of types that are not
-/// read are no fault here, except in a stream, where nothing tells where they end.
+/// A [`Fault`] unless the file is an OpenVDB file of version 220 to 224 with a sound list of grids. Grids of types
+/// that are not read are no fault here, except in a stream, where nothing tells where they end.
 pub fn read<'a>(bytes: &'a [u8], limits: &Limits) -> Result<File<'a>, Fault> {
     let mut cursor = Cursor::new(bytes);
     let header = Header::read(&mut cursor)?;
@@ -129,7 +129,8 @@ impl<'a> File<'a> {
     ///
     /// # Errors
     ///
-    /// A [`Fault`] where there is no such grid, it holds vectors or what is not read, it is broken, or it exceeds the limits.
+    /// A [`Fault`] where there is no such grid, it holds vectors or what is not read, it is broken, or it exceeds the
+    /// limits.
     pub fn scalar(&self, name: &str) -> Result<Grid<f32>, Fault> {
         self.scalar_at(self.find(name)?)
     }

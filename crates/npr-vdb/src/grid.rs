@@ -149,11 +149,13 @@ impl<V: Voxel> Grid<V> {
 
     /// All values of the box of `size` voxels with its lowest corner at `low`, tiles expanded.
     ///
-    /// z runs fastest, then y: voxel `low + [x, y, z]` is at `(x * size[1] + y) * size[2] + z`, as in an array `[x][y][z]`. O(voxels).
+    /// z runs fastest, then y: voxel `low + [x, y, z]` is at `(x * size[1] + y) * size[2] + z`, as in an array
+    /// `[x][y][z]`. O(voxels).
     ///
     /// # Errors
     ///
-    /// [`Fault::Memory`] where the box does not fit the limits under which the file was read, less what the grid itself takes.
+    /// [`Fault::Memory`] where the box does not fit the limits under which the file was read, less what the grid
+    /// itself takes.
     pub fn dense(&self, low: [i32; 3], size: [usize; 3]) -> Result<Vec<V>, Fault> {
         let count = size.into_iter().try_fold(1, usize::checked_mul);
         let count = if size.contains(&0) { Some(0) } else { count };
@@ -174,7 +176,8 @@ impl<V: Voxel> Grid<V> {
 
 #[cfg(any(test, feature = "testing"))]
 impl<V: Voxel> Grid<V> {
-    /// Panics unless tiles and leaves are sorted, lie on multiples of their sides, share no voxel, and have their values.
+    /// Panics unless tiles and leaves are sorted, lie on multiples of their sides, share no voxel, and have their
+    /// values.
     ///
     /// # Panics
     ///

@@ -28,8 +28,8 @@
 //! - File format versions 220 to 224, files and streams; version 224 is what OpenVDB has written since version 3.
 //! - Grids of `float`, `double`, `int32`, `int64` and `bool` values as `f32`, of `vec3s`, `vec3d` and `vec3i` values as
 //!   `[f32; 3]`, stored in full or as half floats, in trees of the usual layout 5_4_3.
-//! - Chunks stored plainly, by zip or by blosc (LZ4, BloscLZ, zlib, zstd; bytes or bits shuffled), with or without masks of
-//!   active values.
+//! - Chunks stored plainly, by zip or by blosc (LZ4, BloscLZ, zlib, zstd; bytes or bits shuffled), with or without
+//!   masks of active values.
 //! - Every linear transform. A frustum is a fault that names it.
 //!
 //! Grids of points, strings, masks and other types are listed, and are a fault only when asked for.

@@ -92,14 +92,15 @@ pub enum Values {
     Vectors(Vec<[f32; 3]>),
 }
 
-/// Reads a `.npy` file of half, single or double floats, rounded to single precision, in either byte order and either order
-/// of axes. NaN and infinities are handed on.
+/// Reads a `.npy` file of half, single or double floats, rounded to single precision, in either byte order and either
+/// order of axes. NaN and infinities are handed on.
 ///
 /// O(elements).
 ///
 /// # Errors
 ///
-/// [`Fault::Npy`] where the file is no such array, or has a byte too many or too few; [`Fault::Memory`] where it exceeds the limits.
+/// [`Fault::Npy`] where the file is no such array, or has a byte too many or too few; [`Fault::Memory`] where it
+/// exceeds the limits.
 pub fn read(bytes: &[u8], limits: &Limits) -> Result<Array, Fault> {
     let (header, data) = Header::read(bytes)?;
     let (size, is_vector) = header.sides()?;

@@ -1,7 +1,7 @@
 //! The tree of a grid: first its shape, then the values of its leaves.
 //!
-//! Under the root stand nodes of 32 x 32 x 32 places, under those nodes of 16 x 16 x 16, under those leaves of 8 x 8 x 8
-//! voxels. A place without a child is a tile: one value for all its voxels [Museth 2013].
+//! Under the root stand nodes of 32 x 32 x 32 places, under those nodes of 16 x 16 x 16, under those leaves of 8 x 8
+//! x 8 voxels. A place without a child is a tile: one value for all its voxels [Museth 2013].
 
 use std::ops::Range;
 

@@ -1,7 +1,7 @@
 //! Ways of ranking lists and of linking the sides of pixels, in nodes and sides per second.
 //!
-//! Up to a million of each; `NPR_BENCH_MOST=10000000` goes on to ten million, and less is quicker. Each way stands beside a serial walk.
-//! `benches/ranking.sh` at the root makes `benches/results/ranking.md` of what this prints.
+//! Up to a million of each; `NPR_BENCH_MOST=10000000` goes on to ten million, and less is quicker. Each way stands
+//! beside a serial walk. `benches/ranking.sh` at the root makes `benches/results/ranking.md` of what this prints.
 
 use criterion::measurement::WallTime;
 use criterion::{
@@ -97,7 +97,8 @@ struct Picture {
 }
 
 impl Picture {
-    /// A picture whose ink `is_ink` names, of the first side with about `side_count` sides, of which there are `per_pixel` a pixel.
+    /// A picture whose ink `is_ink` names, of the first side with about `side_count` sides, of which there are
+    /// `per_pixel` a pixel.
     fn new(side_count: usize, per_pixel: f64, is_ink: fn(u32, u32) -> bool) -> Self {
         let side = (side_count as f64 / per_pixel).sqrt().max(4.0) as u32;
         let place = |pixel: u32| (pixel % side, pixel / side);
@@ -145,8 +146,8 @@ fn linked(ink: &Ink<'_>) -> Vec<Link> {
     links
 }
 
-/// The loops of a picture side by side, one after the other, as a program without threads follows them: four times pixel plus
-/// direction of every side.
+/// The loops of a picture side by side, one after the other, as a program without threads follows them: four times
+/// pixel plus direction of every side.
 fn followed(ink: &Ink<'_>) -> Vec<u32> {
     let mut is_seen = vec![0_u8; ink.pixels.len()];
     let mut sides = Vec::new();

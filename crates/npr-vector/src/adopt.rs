@@ -1,7 +1,8 @@
 //! Makes one line of what changes between an intersection and another kind every few pixels.
 //!
-//! Where a shape is pressed into another with about the same outline, a peg into a hole, the line between the two is now a contour
-//! of the one and now where they intersect, a facet each. To the eye it is one line, and only runs of one kind are joined.
+//! Where a shape is pressed into another with about the same outline, a peg into a hole, the line between the two is
+//! now a contour of the one and now where they intersect, a facet each. To the eye it is one line, and only runs of
+//! one kind are joined.
 
 use crate::merge::{DOT_PX, TOUCHING_PX, near_ends};
 use crate::run::Run;
@@ -9,9 +10,9 @@ use crate::stroke::Kind;
 
 /// Short intersections between the ends of two runs of other kinds take the kind of one of these; order is kept.
 ///
-/// Less than 8 pixels is short. The others must touch one end each and be of the object and visibility; of two kinds the one that
-/// comes first in [`Kind::ALL`] is taken, and its surface too, so that they can be joined. Edges of the mesh keep their kinds:
-/// each stands for itself. O(n log n) for ends that are spread over the picture.
+/// Less than 8 pixels is short. The others must touch one end each and be of the object and visibility; of two kinds
+/// the one that comes first in [`Kind::ALL`] is taken, and its surface too, so that they can be joined. Edges of the
+/// mesh keep their kinds: each stands for itself. O(n log n) for ends that are spread over the picture.
 pub fn adopt_intersections(mut runs: Vec<Run>) -> Vec<Run> {
     if runs.iter().all(|run| run.kind != Kind::Intersection) {
         return runs;

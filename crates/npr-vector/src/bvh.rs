@@ -75,8 +75,8 @@ impl FaceTree {
 
     /// Number of faces between the eye and a point, without those in `skip`; counting stops at `limit`.
     ///
-    /// A face counts where the way passes through it before [`NEARER`] of the point; of two faces that share an edge that it passes, one does. About
-    /// O(log n) for a point on an open surface.
+    /// A face counts where the way passes through it before [`NEARER`] of the point; of two faces that share an edge
+    /// that it passes, one does. About O(log n) for a point on an open surface.
     pub fn occluders(&self, shape: &Shape, sight: &Sight, skip: &[u32], limit: u32) -> u32 {
         let (eye, point) = (DVec3::from(sight.eye), DVec3::from(sight.point));
         let direction = point - eye;
@@ -227,8 +227,8 @@ pub(crate) fn bounds(b: &Aabb) -> [Vec4; 2] {
 
 /// A box test that never misses for rounding.
 struct Slab {
-    /// Subtracted from the lowest and the highest corner of boxes: the origin, moved by as far as single precision may have
-    /// moved a box against it.
+    /// Subtracted from the lowest and the highest corner of boxes: the origin, moved by as far as single precision
+    /// may have moved a box against it.
     origins: [Vec4; 2],
     inverse: Vec4,
 }
@@ -270,7 +270,8 @@ impl Slab {
     }
 }
 
-/// Whether a face is crossed on the way from the eye, and the point at its end lies farther than `touch` behind its plane.
+/// Whether a face is crossed on the way from the eye, and the point at its end lies farther than `touch` behind its
+/// plane.
 fn hides(shape: &Shape, face: u32, (eye, direction): (DVec3, DVec3), touch: f64) -> bool {
     let at = crossing(shape, face, eye, direction);
     at.is_some_and(|at| {

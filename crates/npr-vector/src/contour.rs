@@ -32,7 +32,8 @@ impl Eye {
         }
     }
 
-    /// Twice the area of the face times the scaled distance of the eye from its plane: positive where the face is turned to the eye.
+    /// Twice the area of the face times the scaled distance of the eye from its plane: positive where the face is
+    /// turned to the eye.
     ///
     /// Sums, differences and products only, so that both engines decide alike.
     pub fn height_over(&self, [a, b, c]: [[f32; 3]; 3]) -> f32 {
@@ -57,9 +58,10 @@ impl Eye {
 
 /// Room for the nodes of a view's contours by the number of faces: a power of two that hardly a view exceeds.
 ///
-/// Contours grow with a power of the number of faces: its root on smooth surfaces, whose contours are curves however finely they are
-/// cut up, and about 0.8 over models of all sorts, for finer ones have finer detail [McGuire 2004]. Twice that law, rounded up, holds every view of
-/// the sample models (`tests/tests/contour_growth.rs`); small meshes have room for every half-edge.
+/// Contours grow with a power of the number of faces: its root on smooth surfaces, whose contours are curves however
+/// finely they are cut up, and about 0.8 over models of all sorts, for finer ones have finer detail [McGuire 2004].
+/// Twice that law, rounded up, holds every view of the sample models (`tests/tests/contour_growth.rs`); small meshes
+/// have room for every half-edge.
 pub fn usual_room(face_count: usize) -> usize {
     const LEAST: usize = 1024;
     let law = 2.0 * npr_core::math::powf(face_count as f32, 0.8);

@@ -1,8 +1,8 @@
 //! Corners of runs: where a line turns sharply in the picture.
 //!
-//! A turn is measured over a fixed length of the line on either side of a point, before anything is smoothed: neither the
-//! number of points nor their noise decides. Smoothing keeps corners where they are, closed runs start at one, and
-//! [`split`] cuts strokes there.
+//! A turn is measured over a fixed length of the line on either side of a point, before anything is smoothed: neither
+//! the number of points nor their noise decides. Smoothing keeps corners where they are, closed runs start at one,
+//! and [`split`] cuts strokes there.
 
 use crate::rank::hash_key;
 use crate::run::{Run, RunPoint, base_id, distance};
@@ -16,14 +16,16 @@ const REACH_PX: f64 = 8.0;
 /// Most of a closed line that is measured on either side: a circle of any size turns by 36 degrees there.
 const REACH_SHARE: f64 = 0.1;
 
-/// A corner has most of its turn at the point itself: this part of it, within that part of the reach. Bends have it spread out.
+/// A corner has most of its turn at the point itself: this part of it, within that part of the reach. Bends have it
+/// spread out.
 const SHARP_TURN: f64 = 0.75;
 const SHARP_REACH: f64 = 0.25;
 
 /// From which turn smoothing leaves a corner alone, and closed runs start there: about 45 degrees.
 pub(crate) const PINNED_COS: f64 = 0.7;
 
-/// Corners whose turn differs by less than this are equally sharp, in radians: noise must not decide between the corners of a box.
+/// Corners whose turn differs by less than this are equally sharp, in radians: noise must not decide between the
+/// corners of a box.
 const EQUAL_TURN: f64 = 0.25;
 
 /// A point of a line where it turns.
@@ -156,10 +158,12 @@ impl Way {
     }
 }
 
-/// Turns a closed run so that it starts at its sharpest corner, or else at the point on the mesh edge with the least hash.
+/// Turns a closed run so that it starts at its sharpest corner, or else at the point on the mesh edge with the least
+/// hash.
 ///
-/// A brush stroke must not begin in the middle of a smooth line; where all of it is smooth, the mesh edge keeps the start from
-/// jumping as the camera moves. Hashes decide between corners about as sharp, too. Open runs stay as they are.
+/// A brush stroke must not begin in the middle of a smooth line; where all of it is smooth, the mesh edge keeps the
+/// start from jumping as the camera moves. Hashes decide between corners about as sharp, too. Open runs stay as they
+/// are.
 pub fn start_at_head(run: &mut Run) {
     if !run.closed {
         return;
@@ -190,9 +194,9 @@ impl Anchor {
 
 /// Cuts runs at sharp corners that turn by at least an angle in radians; both parts keep the corner as an end.
 ///
-/// The ends are marked as cut: nothing joins them again. Every part has the identity of the mesh edge with the least hash
-/// among its own, so that a cut elsewhere does not change it. The order is kept, and that of parts is along their run.
-/// A closed run with one corner becomes an open one from the corner to itself.
+/// The ends are marked as cut: nothing joins them again. Every part has the identity of the mesh edge with the least
+/// hash among its own, so that a cut elsewhere does not change it. The order is kept, and that of parts is along
+/// their run. A closed run with one corner becomes an open one from the corner to itself.
 pub fn split(runs: Vec<Run>, least_turn: f32) -> Vec<Run> {
     let turn_cos = f64::from(math::cos(least_turn));
     let cuts: Vec<Vec<usize>> = runs
@@ -307,7 +311,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
-        /// Corners are turns as a walk finds them, apart from each other; what turns as much and is none lies beside one.
+        /// Corners are turns as a walk finds them, apart from each other; what turns as much and is none lies beside
+        /// one.
         #[test]
         fn corners_are_the_sharpest_turns(
             places in prop::collection::vec(prop::array::uniform2(0.0_f64..60.0), 3..30), closed: bool,

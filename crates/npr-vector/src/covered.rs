@@ -23,7 +23,8 @@ pub(crate) fn covered_edges(graph: &CurveGraph, lines: &[Option<Line>]) -> Vec<u
         let next = graph.nodes.get(node.next as usize).filter(|_| shown)?;
         let end = match next.edge == node.edge {
             true => next.t,
-            // The piece runs to the end of its edge where it does not stop on it: the farther one, for what is left is short.
+            // The piece runs to the end of its edge where it does not stop on it: the farther one, for what is left
+            // is short.
             false if node.t < 0.5 => 1.0,
             false => 0.0,
         };
@@ -122,7 +123,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
-        /// An edge beside a longer seen contour at its depth is covered; not a hidden, a crossing, a farther or a deeper one.
+        /// An edge beside a longer seen contour at its depth is covered; not a hidden, a crossing, a farther or a
+        /// deeper one.
         #[test]
         fn what_runs_beside_a_seen_contour_is_covered(angle in 0.0_f64..6.3, length in 3.0_f64..40.0, off in -1.9_f64..1.9) {
             let start = [100.0 - 5.0 * angle.cos(), 100.0 - 5.0 * angle.sin()];

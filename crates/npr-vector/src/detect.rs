@@ -25,8 +25,8 @@ pub struct Detection<'a> {
 
 /// Distance of packed normals up to which they surely turn less than the outline's normal threshold.
 ///
-/// On the octahedron a step is at most sqrt(2) times as long as the sum of its packed coordinates, and seen from the middle,
-/// at least 1 / sqrt(3) away, it spans at most 2.45 radians per unit. Most pixels are settled by this alone.
+/// On the octahedron a step is at most sqrt(2) times as long as the sum of its packed coordinates, and seen from the
+/// middle, at least 1 / sqrt(3) away, it spans at most 2.45 radians per unit. Most pixels are settled by this alone.
 fn quiet_distance(outline: &Outline) -> u32 {
     (math::acos(outline.normal_cos.clamp(-1.0, 1.0)) / 2.5 * 32767.0) as u32
 }
@@ -82,7 +82,8 @@ impl<'a> Detector<'a> {
         }
     }
 
-    /// Which buffers separate a pixel from another, which lies to the right (`side` 1) or below (3); 0 where neither has lines.
+    /// Which buffers separate a pixel from another, which lies to the right (`side` 1) or below (3); 0 where neither
+    /// has lines.
     pub fn kinds(&self, first: &GPixel, second: &GPixel, side: u32) -> u32 {
         let step = if side == 1 { [1.0, 0.0] } else { [0.0, 1.0] };
         let kinds = self.separations(first, second, step);

@@ -1,7 +1,7 @@
 //! Leaves out what would be inked twice.
 //!
-//! Where a mesh is noisy its contour doubles back, and a cusp grows a fringe of hairs beside the line it ends. Runs are taken
-//! from the longest to the shortest; what lies beside a run already taken, and along it, is cut away.
+//! Where a mesh is noisy its contour doubles back, and a cusp grows a fringe of hairs beside the line it ends. Runs
+//! are taken from the longest to the shortest; what lies beside a run already taken, and along it, is cut away.
 
 use crate::near::{cell_of, cells_within};
 use crate::run::{Run, RunPoint, distance};
@@ -35,8 +35,9 @@ const HAIR_PX: f64 = 12.0;
 
 /// Runs without doubles; order is kept. Runs must be sampled about evenly.
 ///
-/// What is left of a run is cut by majority, so that noise leaves no shreds, but not where it holds two ends together: a short bare
-/// part between the ends of two lines stays, however little it is. O(samples) for lines that do not crowd in one place.
+/// What is left of a run is cut by majority, so that noise leaves no shreds, but not where it holds two ends
+/// together: a short bare part between the ends of two lines stays, however little it is. O(samples) for lines that
+/// do not crowd in one place.
 pub fn suppress(runs: Vec<Run>) -> Vec<Run> {
     let mut taken = Taken::default();
     let mut kept: Vec<Vec<Run>> = vec![Vec::new(); runs.len()];
@@ -53,10 +54,9 @@ pub fn suppress(runs: Vec<Run>) -> Vec<Run> {
 
 /// Runs without the crumbs that add less ink than half the pen's width to longer runs; order is kept.
 ///
-/// A run is left out if less than 1.5 pixels of it lie farther than 3 from longer runs that stay. Runs away from others, those
-/// that hold two ends together, parts cut at corners, and the longest run of every object always stay. Runs must be sampled
-/// about evenly. O(samples) for
-/// lines that do not crowd in one place.
+/// A run is left out if less than 1.5 pixels of it lie farther than 3 from longer runs that stay. Runs away from
+/// others, those that hold two ends together, parts cut at corners, and the longest run of every object always stay.
+/// Runs must be sampled about evenly. O(samples) for lines that do not crowd in one place.
 pub fn leave_out_crumbs(mut runs: Vec<Run>) -> Vec<Run> {
     let mut taken = Taken::default();
     let mut objects = BTreeSet::new();
@@ -154,7 +154,8 @@ impl Taken {
             .is_some()
     }
 
-    /// Whether a run that adds no ink leads from an end of something taken to another end, with nothing else to run along.
+    /// Whether a run that adds no ink leads from an end of something taken to another end, with nothing else to run
+    /// along.
     fn joins_ends(&self, run: &Run) -> bool {
         let tip = |point: &RunPoint| {
             let is_tip =
@@ -186,7 +187,8 @@ impl Taken {
         5 * count >= 4 * run.points.len()
     }
 
-    /// The nearest sample within a reach of at most the pen's width; of equally near ones the one taken first in its cell.
+    /// The nearest sample within a reach of at most the pen's width; of equally near ones the one taken first in its
+    /// cell.
     fn nearest(
         &self,
         place: [f64; 2],
@@ -268,7 +270,8 @@ fn majority<T>(beside: &[Option<T>]) -> Vec<bool> {
         .collect()
 }
 
-/// The parts beside nothing that hold two ends together: before and after each, the run is beside an end, and not the same one.
+/// The parts beside nothing that hold two ends together: before and after each, the run is beside an end, and not the
+/// same one.
 fn bridges(beside: &[Option<Option<Tip>>]) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut from = 0;
@@ -432,7 +435,8 @@ mod tests {
             }
         }
 
-        /// Where one line ends and the next begins, a third over both ends holds them together, however short its own part is.
+        /// Where one line ends and the next begins, a third over both ends holds them together, however short its own
+        /// part is.
         #[test]
         fn what_holds_two_ends_together_stays(angle in 0.0_f64..6.3, gap in 4.0_f64..20.0, over in prop::array::uniform2(3.0_f64..30.0), off in -1.0_f64..1.0) {
             let [sin, cos] = [angle.sin(), angle.cos()];

@@ -151,8 +151,8 @@ pub type FindCrossings<'a> = dyn Fn(&FaceTree) -> Result<Crossings, OverBudget> 
 impl Prepared {
     /// Prepares a shape with the creases asked for.
     ///
-    /// Intersections cost more than the rest together, and are needed only as lines: without them, a view finds for itself
-    /// where its lines go through faces.
+    /// Intersections cost more than the rest together, and are needed only as lines: without them, a view finds for
+    /// itself where its lines go through faces.
     ///
     /// # Panics
     ///

@@ -1,8 +1,8 @@
 //! The curve graph: every line of a view as linked points on mesh edges.
 //!
-//! A node lies on a mesh edge, at a parameter along it, and names its successor; the piece of line from a
-//! node to its successor lies in one face or along one edge. Producers differ only in where they put nodes:
-//! on corners for lines that follow mesh edges ([`crate::contour`], [`crate::feature`]), between them for the zero set of n.v
+//! A node lies on a mesh edge, at a parameter along it, and names its successor; the piece of line from a node to its
+//! successor lies in one face or along one edge. Producers differ only in where they put nodes: on corners for lines
+//! that follow mesh edges ([`crate::contour`], [`crate::feature`]), between them for the zero set of n.v
 //! ([`crate::zero_set`]) and for intersections ([`crate::intersect`]). Everything after is shared.
 
 use bytemuck::{Pod, Zeroable};

@@ -5,8 +5,8 @@
 //! nothing or one segment in common, and segments of neighbouring faces share their ends: lines never
 //! break at mesh edges, and on closed surfaces they close.
 //!
-//! What the infinitesimals invent is taken away again: where surfaces only touch, along an edge or over an area, there is no line.
-//! Faces in one plane have none in common, so a line that runs into such an area ends at its rim.
+//! What the infinitesimals invent is taken away again: where surfaces only touch, along an edge or over an area,
+//! there is no line. Faces in one plane have none in common, so a line that runs into such an area ends at its rim.
 
 mod cut;
 mod link;
@@ -31,7 +31,8 @@ pub const PAIRS: usize = 1 << 18;
 /// Pairs of faces looked at exactly, for every face of the shape.
 pub const PAIRS_PER_FACE: usize = 16;
 
-/// Pieces of intersection that become lines, beside [`PAIRS_PER_FACE`] for every face: each is looked at with all outlines before it.
+/// Pieces of intersection that become lines, beside [`PAIRS_PER_FACE`] for every face: each is looked at with all
+/// outlines before it.
 ///
 /// Where a thousand faces all cut each other nobody could read them.
 pub const PIECES: usize = 1 << 15;
@@ -52,17 +53,17 @@ pub struct Piercing {
 pub struct Crossings {
     /// Lines of intersection; two nodes that follow each other are the ends of the piece that two faces share.
     ///
-    /// Nodes carry [`CurveNode::INTERSECTION`](crate::graph::CurveNode::INTERSECTION) and the lower of the two
-    /// faces. Where other than two pieces meet, on a border, at an edge of three faces or at a vertex shared by surfaces that cut
-    /// each other, lines end; closed ones run on to their first node.
+    /// Nodes carry [`CurveNode::INTERSECTION`](crate::graph::CurveNode::INTERSECTION) and the lower of the two faces.
+    /// Where other than two pieces meet, on a border, at an edge of three faces or at a vertex shared by surfaces
+    /// that cut each other, lines end; closed ones run on to their first node.
     pub graph: CurveGraph,
     /// All piercings by edge, place and face.
     ///
     /// An edge that starts or ends on a face counts for one of its sides, so that a path along edges through a
     /// face is counted once. Edges that lie in the plane of a face pierce nothing.
     pub piercings: Vec<Piercing>,
-    /// Too many faces overlap, [`PAIRS`] and [`PAIRS_PER_FACE`], so that lines and piercings are missing; or too many cut each other, [`PIECES`],
-    /// so that there are no lines.
+    /// Too many faces overlap, [`PAIRS`] and [`PAIRS_PER_FACE`], so that lines and piercings are missing; or too many
+    /// cut each other, [`PIECES`], so that there are no lines.
     pub overflow: bool,
 }
 

@@ -1,17 +1,20 @@
 //! Joins runs whose ends meet: those that go the same way, and those that meet at a corner by themselves.
 //!
-//! Noise in the orientation of faces breaks one outline into loops that touch; to the eye it is one line. A pen goes on where
-//! ends face each other, where they run past each other side by side, and around a corner that nothing else leaves.
+//! Noise in the orientation of faces breaks one outline into loops that touch; to the eye it is one line. A pen goes
+//! on where ends face each other, where they run past each other side by side, and around a corner that nothing else
+//! leaves.
 
 use crate::corner::start_at_head;
 use crate::near::cell_of;
 use crate::run::{Run, RunPoint, distance};
 use std::collections::BTreeMap;
 
-/// How near two ends must be that only noise keeps apart, in pixels: the width of a pen, within which nobody tells lines apart.
+/// How near two ends must be that only noise keeps apart, in pixels: the width of a pen, within which nobody tells
+/// lines apart.
 pub const TOUCHING_PX: f64 = 3.0;
 
-/// How near two ends must be that meet at a corner, in pixels: half a pen's width of paper between the caps is not seen.
+/// How near two ends must be that meet at a corner, in pixels: half a pen's width of paper between the caps is not
+/// seen.
 const CORNER_PX: f64 = 4.5;
 
 /// How near two ends must be that face each other across a gap, in pixels.
@@ -20,10 +23,12 @@ pub const FACING_PX: f64 = 8.0;
 /// A run shorter than this is a dot: what direction its ends have is noise, in pixels.
 pub(crate) const DOT_PX: f64 = 8.0;
 
-/// Cosine of the largest bend where two runs are joined, and of the largest angle between an end and the gap it is joined across.
+/// Cosine of the largest bend where two runs are joined, and of the largest angle between an end and the gap it is
+/// joined across.
 const STRAIGHT_COS: f64 = 0.85;
 
-/// The same where one of the runs is a dot and both touch; dots that do not are meant as such, like the holes of a belt.
+/// The same where one of the runs is a dot and both touch; dots that do not are meant as such, like the holes of a
+/// belt.
 const DOT_COS: f64 = 0.0;
 
 /// Cosine of the largest turn at a corner; lines that come back more sharply are two.
@@ -32,8 +37,8 @@ const CORNER_COS: f64 = -0.5;
 /// What a corner costs: more than any two ends that go the same way.
 const CORNER_COST: f64 = 10.0;
 
-/// Largest difference in depth where two runs are joined, as a share of the depth: where surfaces turn away, depth changes by
-/// that within few pixels.
+/// Largest difference in depth where two runs are joined, as a share of the depth: where surfaces turn away, depth
+/// changes by that within few pixels.
 const DEPTH_SHARE: f64 = 0.03;
 
 /// Ends in one cell as wide as the reach, above which they stay as they are: nobody could tell which goes on in
@@ -45,11 +50,11 @@ const DIRECTION_PX: f64 = 6.0;
 
 /// Runs with ends up to `reach_px` apart joined in pairs, the best pairs first.
 ///
-/// Both must be of one kind, object, surface and visibility; each end is used once. A run whose two ends fit closes. Of ends that run
-/// past each other both lose half of the overlap. Around a corner of up to 120 degrees only those ends are joined whose
-/// tips are within 4.5 pixels and that no third one of the kind and object comes as near. The result keeps the order of the runs' first members, and runs the
-/// way of the one with the least id, whichever comes first. Ends that were cut at corners stay apart, and so do
-/// those of more than 128 in one place. O(n log n).
+/// Both must be of one kind, object, surface and visibility; each end is used once. A run whose two ends fit closes.
+/// Of ends that run past each other both lose half of the overlap. Around a corner of up to 120 degrees only those
+/// ends are joined whose tips are within 4.5 pixels and that no third one of the kind and object comes as near. The
+/// result keeps the order of the runs' first members, and runs the way of the one with the least id, whichever comes
+/// first. Ends that were cut at corners stay apart, and so do those of more than 128 in one place. O(n log n).
 pub fn merge_ends(mut runs: Vec<Run>, reach_px: f64) -> Vec<Run> {
     let ends = ends_of(&runs);
     let mates = mates(&Meetings::new(&runs, &ends, reach_px));

@@ -1,11 +1,12 @@
 //! Strokes from pixels: the image-space path of [Jiang et al. 2022], as published.
 //!
-//! Contour edges are drawn into a picture one pixel wide, the sides of its pixels are linked to closed loops as Potrace does
-//! [Selinger 2003], loops are put in rows, and what of them runs along a contour becomes strokes. Read the files in this order:
+//! Contour edges are drawn into a picture one pixel wide, the sides of its pixels are linked to closed loops as
+//! Potrace does [Selinger 2003], loops are put in rows, and what of them runs along a contour becomes strokes. Read
+//! the files in this order:
 //!
 //! 1. [`edge`]: which edges are drawn, and which way round;
-//! 2. [`segment`]: cut to the view and projected; [`fragment`]: drawn by two parallel passes, tested softly against the depths of
-//!    surfaces ([`surface`]), then the nearest wins;
+//! 2. [`segment`]: cut to the view and projected; [`fragment`]: drawn by two parallel passes, tested softly against
+//!    the depths of surfaces ([`surface`]), then the nearest wins;
 //! 3. [`side`]: sides of pixels and what follows each; ranking is [`crate::rank`]'s, with Morton codes for keys;
 //! 4. [`looped`]: specks dropped, loops smoothed, tangents fitted;
 //! 5. [`strip`]: what runs against its contour is culled, the rest cut to strips;
@@ -13,9 +14,10 @@
 //!
 //! Each step is a plain function over slices and the twin of a pass. [`trace`] and [`Traced::runs`] put them together.
 //!
-//! The method is kept as it is, weaknesses too, so that results can be held against the literature: lines are lost where they
-//! pass within a pixel of each other, ends waver by some pixels where two curves meet, small loops vanish, and corners get
-//! round. Faults of the publication's prototype are not kept; what says "Differs" names them. Lines of [`crate::draw`] have none of these.
+//! The method is kept as it is, weaknesses too, so that results can be held against the literature: lines are lost
+//! where they pass within a pixel of each other, ends waver by some pixels where two curves meet, small loops vanish,
+//! and corners get round. Faults of the publication's prototype are not kept; what says "Differs" names them. Lines
+//! of [`crate::draw`] have none of these.
 
 pub mod edge;
 pub mod fragment;
@@ -58,7 +60,8 @@ pub struct PixelScene<'a> {
     pub view: &'a View,
     /// The eye, as decisions about facing read it.
     pub eye: &'a Eye,
-    /// Bits of [`crate::graph::CurveNode::KINDS`] that are drawn; intersections are no mesh edges and have no lines here.
+    /// Bits of [`crate::graph::CurveNode::KINDS`] that are drawn; intersections are no mesh edges and have no lines
+    /// here.
     pub kinds: u32,
     /// Which edges are creases.
     pub creases: Creases,
@@ -225,8 +228,8 @@ fn draw(
 
 /// The sides of an image of ink, as four times pixel plus direction, and their loops in rows.
 ///
-/// Each loop starts at its side with the greatest Morton code, loops come by that side. `rounds` bounds pointer jumping; without
-/// it the links are walked, which gives the same.
+/// Each loop starts at its side with the greatest Morton code, loops come by that side. `rounds` bounds pointer
+/// jumping; without it the links are walked, which gives the same.
 ///
 /// # Errors
 ///

@@ -1,8 +1,8 @@
 //! Smoke as lines see it: spheres, what they hide, and the outline that they are drawn with.
 //!
-//! The outline of a sphere is a circle in space, and another sphere covers one arc of it, known in closed form. What no
-//! sphere covers is what a pen draws: there lies nothing behind the rim, or smoke far enough behind it [Hoshino 2004, 3.5].
-//! Nothing is sampled, so arcs end exactly where images of spheres cross.
+//! The outline of a sphere is a circle in space, and another sphere covers one arc of it, known in closed form. What
+//! no sphere covers is what a pen draws: there lies nothing behind the rim, or smoke far enough behind it [Hoshino
+//! 2004, 3.5]. Nothing is sampled, so arcs end exactly where images of spheres cross.
 
 mod cover;
 mod grid;
@@ -21,7 +21,8 @@ use npr_core::smoke::{REACH, Sphere};
 use rim::Rim;
 use std::collections::BTreeSet;
 
-/// How much nearer than a point a puff must be to hide it, as a part of its radius: lines on a sphere must not break into dashes.
+/// How much nearer than a point a puff must be to hide it, as a part of its radius: lines on a sphere must not break
+/// into dashes.
 const NEARER: f64 = 1e-6;
 
 /// A sphere as an eye has it.
@@ -81,7 +82,8 @@ impl Puff {
         self.center.z - self.radius
     }
 
-    /// How far behind a point the sight through it enters the sphere, below 0 in front of it; `None` where it passes by.
+    /// How far behind a point the sight through it enters the sphere, below 0 in front of it; `None` where it passes
+    /// by.
     pub fn entry(&self, is_perspective: bool, point: DVec3) -> Option<f64> {
         let (direction, way) = match is_perspective {
             true => (point / point.length(), point.length()),
@@ -99,8 +101,8 @@ impl Puff {
 
 /// The spheres of smoke in a view, sorted into a grid over the picture.
 ///
-/// Left out are spheres that pictures do not show either: without size, with numbers that are none, behind the eye; and those
-/// that the near plane cuts, as around the eye. Of equal spheres the first counts.
+/// Left out are spheres that pictures do not show either: without size, with numbers that are none, behind the eye;
+/// and those that the near plane cuts, as around the eye. Of equal spheres the first counts.
 #[derive(Debug, Clone)]
 pub struct Puffs {
     projector: Projector,
@@ -171,7 +173,8 @@ impl Puffs {
 
     /// Shares of a piece's image at which a puff may begin or end hiding it, in no order.
     ///
-    /// Where the image of the piece crosses the rim of a puff, and where the piece goes through the sphere. O(puffs around it).
+    /// Where the image of the piece crosses the rim of a puff, and where the piece goes through the sphere. O(puffs
+    /// around it).
     pub fn cuts(&self, piece: &Piece) -> Vec<f64> {
         let ends = piece.world.map(|world| self.projector.from_eye(world));
         let [a, b] = piece.place;
@@ -206,7 +209,8 @@ impl Puffs {
 }
 
 impl Puff {
-    /// Where a straight line goes through the sphere, and where its image crosses the rim; 0 at its start, 1 at its end.
+    /// Where a straight line goes through the sphere, and where its image crosses the rim; 0 at its start, 1 at its
+    /// end.
     fn meetings(&self, is_perspective: bool, [from, to]: [DVec3; 2]) -> impl Iterator<Item = f64> {
         let (square, step) = (self.radius * self.radius, to - from);
         let offset = from - self.center;

@@ -94,8 +94,8 @@ impl Search<'_> {
 
     /// Whether a surface is parted from itself along a line through a mask pixel, not at a few pixels alone.
     ///
-    /// Four faces that meet in a blunt corner differ across it though none of its edges is a crease, and so do the dents of a
-    /// scan: lines so short would be dots.
+    /// Four faces that meet in a blunt corner differ across it though none of its edges is a crease, and so do the
+    /// dents of a scan: lines so short would be dots.
     fn runs_on(&self, at: [u32; 2], pixel: &GPixel) -> bool {
         let size = self.mask_window.size;
         let low = at.map(|v| v.saturating_sub(RUN_BOX_PX));
@@ -305,7 +305,8 @@ pub struct Inking<'a> {
 
 /// Inks the output around every stamp, as sRGB bytes with coverage in alpha; 0 where there is none.
 ///
-/// The stamp that covers a pixel most wins, and of equal ones the first. O(pixels near stamps * reach squared), parallel.
+/// The stamp that covers a pixel most wins, and of equal ones the first. O(pixels near stamps * reach squared),
+/// parallel.
 pub fn stamp(with: &Inking<'_>, stamped: &mut [u32]) {
     let width = with.window.size[0] as usize;
     stamped

@@ -47,8 +47,8 @@ pub fn line_coverage(distance: f32, half_width: f32) -> f32 {
 impl Ribbon {
     /// Coverage of the pixel centred at `p`, and the nearest point of the spine, 0 at `a` and 1 at `b`.
     ///
-    /// Round ends overlap the next ribbon's, so that thick bends have no notches; `square` ones stop at the end points, as
-    /// published.
+    /// Round ends overlap the next ribbon's, so that thick bends have no notches; `square` ones stop at the end
+    /// points, as published.
     pub fn at(&self, p: [f32; 2], square: bool) -> (f32, f32) {
         let ab = [self.b[0] - self.a[0], self.b[1] - self.a[1]];
         let ap = [p[0] - self.a[0], p[1] - self.a[1]];
@@ -105,7 +105,8 @@ pub struct Drawing<'a> {
 /// `keys` (reversed depth bits) keep the best [`line_key`] of each pixel; of equal ones the first edge wins.
 /// O(edges + covered pixels), parallel over bands of rows, each in edge order.
 ///
-/// Differs: unique edges instead of three a triangle; round joins and depth tests, unless published behaviour is asked for.
+/// Differs: unique edges instead of three a triangle; round joins and depth tests, unless published behaviour is
+/// asked for.
 pub fn draw(
     with: &Drawing<'_>,
     edges: &[Edge],

@@ -200,8 +200,8 @@ pub fn runs(
     found
 }
 
-/// Turns a loop so that it starts at the node on the mesh edge with the least hash, as [`crate::rank`] does; never at the
-/// first in the list, whose place means nothing.
+/// Turns a loop so that it starts at the node on the mesh edge with the least hash, as [`crate::rank`] does; never at
+/// the first in the list, whose place means nothing.
 fn start_at_anchor(graph: &CurveGraph, chain: &mut [u32]) {
     let anchor = |index: usize| {
         let node = &graph.nodes[chain[index] as usize];
@@ -393,7 +393,8 @@ pub(crate) fn seat_at(points: &[RunPoint], closed: bool, index: usize) -> Seat {
     }
 }
 
-/// Identity of the first run of a kind that hangs on an edge; the runs on one edge are told apart by eight bits below it.
+/// Identity of the first run of a kind that hangs on an edge; the runs on one edge are told apart by eight bits below
+/// it.
 pub(crate) fn base_id(edge: u32, kind: Kind) -> u64 {
     u64::from(edge) << 3 | kind as u64
 }

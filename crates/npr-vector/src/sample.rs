@@ -1,9 +1,9 @@
 //! Visibility of lines sampled on depth and object images, where exact sights would cost too much.
 //!
-//! Visibility is a property of a line's spine, not of the pixels that its stroke covers [Cole & Finkelstein 2010]: every sample looks at
-//! the pixel under it and at some on the outer side, away from its own surface, and gets the share that does not hide it; a filter
-//! along the line turns shares into runs. [`place_samples`] is plain; [`sample_visibility`], [`weigh_samples`] and
-//! [`filter_visibility`] are the twins of passes.
+//! Visibility is a property of a line's spine, not of the pixels that its stroke covers [Cole & Finkelstein 2010]:
+//! every sample looks at the pixel under it and at some on the outer side, away from its own surface, and gets the
+//! share that does not hide it; a filter along the line turns shares into runs. [`place_samples`] is plain;
+//! [`sample_visibility`], [`weigh_samples`] and [`filter_visibility`] are the twins of passes.
 
 mod filter;
 mod place;
@@ -27,9 +27,10 @@ pub const TAP_STEP_PX: f32 = 0.75;
 
 /// How many pixels off a depth on a slope of the sample's own part may be.
 ///
-/// A spine runs where its own surface turns away, so the depth under it may come from the next pixel of a steep slope. The pixel's
-/// plane is continued up to half a pixel; as much again is what it may be wrong by. More shows lines just behind a limb of
-/// their own part: of a helmet's samples 97.0 % agree with exact visibility at one half, 96.3 % at one, 93.4 % at two.
+/// A spine runs where its own surface turns away, so the depth under it may come from the next pixel of a steep
+/// slope. The pixel's plane is continued up to half a pixel; as much again is what it may be wrong by. More shows
+/// lines just behind a limb of their own part: of a helmet's samples 97.0 % agree with exact visibility at one half,
+/// 96.3 % at one, 93.4 % at two.
 pub const SLOPE_PIXELS: f32 = 0.5;
 
 /// Steeper slopes than this, in depth per pixel of a pixel's size, count as this: the limb of a ball has no bound.

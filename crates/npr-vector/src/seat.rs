@@ -50,8 +50,8 @@ pub fn share_along([from, to]: [DVec3; 2], world: DVec3) -> f64 {
     }
 }
 
-/// How much each corner of a triangle counts at a point in its plane; of points outside, at a place on its border. Faces
-/// without an area are their longest side.
+/// How much each corner of a triangle counts at a point in its plane; of points outside, at a place on its border.
+/// Faces without an area are their longest side.
 fn shares_in_face(corners: [DVec3; 3], world: DVec3) -> [f64; 3] {
     let [a, b, c] = corners;
     let across = (b - a).cross(c - a);

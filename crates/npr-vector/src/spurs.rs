@@ -1,7 +1,8 @@
 //! Cuts spurs: the last few pixels of a line beyond the place where another ends on it.
 //!
-//! Where one outline comes out from behind another, both are found a little past the place where they meet: the front one runs on
-//! to its cusp. On paper that is a whisker on the corner of one line, so a pen goes round the corner and leaves it out.
+//! Where one outline comes out from behind another, both are found a little past the place where they meet: the front
+//! one runs on to its cusp. On paper that is a whisker on the corner of one line, so a pen goes round the corner and
+//! leaves it out.
 
 use crate::merge::{DOT_PX, TOUCHING_PX};
 use crate::near::{cell_of, cells_around};
@@ -13,9 +14,9 @@ const LEAST_LEFT_PX: f64 = 4.0 * DOT_PX;
 
 /// Runs without spurs; order is kept. Runs must be sampled at most a pen's width apart.
 ///
-/// The end of an open run is taken off up to the place where an end of another run of the kind, object, surface and visibility
-/// touches it, if that is less than 8 pixels from its tip, if its tip touches no other run, and if at least 32 pixels stay.
-/// Ends that were cut at corners stay. O(samples) for lines that do not crowd in one place.
+/// The end of an open run is taken off up to the place where an end of another run of the kind, object, surface and
+/// visibility touches it, if that is less than 8 pixels from its tip, if its tip touches no other run, and if at
+/// least 32 pixels stay. Ends that were cut at corners stay. O(samples) for lines that do not crowd in one place.
 pub fn cut_spurs(mut runs: Vec<Run>) -> Vec<Run> {
     let near = Near::new(&runs);
     let spurs: Vec<[usize; 2]> = (0..runs.len())
@@ -103,7 +104,8 @@ mod tests {
     use proptest::prelude::*;
     use std::f64::consts::FRAC_PI_2;
 
-    /// A level line from the origin to x = 60, and one that goes down from `beyond` pixels before its end, starting `gap` pixels under it.
+    /// A level line from the origin to x = 60, and one that goes down from `beyond` pixels before its end, starting
+    /// `gap` pixels under it.
     fn corner(beyond: f64, gap: f64) -> Vec<Run> {
         vec![
             straight(0, [0.0, 0.0], 0.0, 60.0),

@@ -54,7 +54,8 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// The part of a line from `a` to `b` in front of the near plane and within the frame and a margin; none where nothing is left.
+    /// The part of a line from `a` to `b` in front of the near plane and within the frame and a margin; none where
+    /// nothing is left.
     pub fn new(projector: &Projector, size: [u32; 2], a: DVec3, b: DVec3) -> Option<Self> {
         let near = projector.near();
         let uncut = [projector.depth(a), projector.depth(b)];

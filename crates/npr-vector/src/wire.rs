@@ -1,7 +1,7 @@
 //! Lines that are geometry themselves, without faces: the wires of a shape, linked.
 //!
-//! They are marked lines, for somebody placed them by hand. A wire lies on no face that the shape knows of, so what it touches
-//! is found by distance ([`touch`]) and never hides it.
+//! They are marked lines, for somebody placed them by hand. A wire lies on no face that the shape knows of, so what
+//! it touches is found by distance ([`touch`]) and never hides it.
 
 use crate::feature::{chain, pair};
 use crate::graph::{CurveGraph, CurveNode};
@@ -10,11 +10,11 @@ use npr_core::geometry::NONE;
 use npr_core::shape::Shape;
 use rayon::prelude::*;
 
-/// How near to a face a wire counts as lying on it, as a share of the diagonal of everything: a tenth of a pixel where that
-/// fills a picture of a thousand.
+/// How near to a face a wire counts as lying on it, as a share of the diagonal of everything: a tenth of a pixel
+/// where that fills a picture of a thousand.
 ///
-/// Files round positions, and lines drawn on curved surfaces dip under their facets. Larger lets lines on the back of thin walls
-/// through.
+/// Files round positions, and lines drawn on curved surfaces dip under their facets. Larger lets lines on the back of
+/// thin walls through.
 pub const TOUCH_SHARE: f64 = 1e-4;
 
 /// All wires of a shape, linked where exactly two of them meet; where more do, lines end.

@@ -1,16 +1,17 @@
 //! Smooth contours: the zero set of interpolated n.v, linked [Hertzmann & Zorin 2000].
 //!
-//! At every corner of a face stands a normal; `g = n . (eye - p)` there, interpolated along edges, is zero on lines that cross
-//! faces. They are smoother than contours along mesh edges, and degree and direction come for free: a
-//! face has at most one piece, with the front (`g >= 0`) on its left.
+//! At every corner of a face stands a normal; `g = n . (eye - p)` there, interpolated along edges, is zero on lines
+//! that cross faces. They are smoother than contours along mesh edges, and degree and direction come for free: a face
+//! has at most one piece, with the front (`g >= 0`) on its left.
 //!
-//! Where normals break, at creases, the front may end at the edge itself. Lines then go on along the edge up to where both
-//! sides agree again, so that nothing slides off sharp edges: without borders of the surface all lines are closed.
+//! Where normals break, at creases, the front may end at the edge itself. Lines then go on along the edge up to where
+//! both sides agree again, so that nothing slides off sharp edges: without borders of the surface all lines are
+//! closed.
 //!
 //! On coarse meshes interpolated contours leave the polygon's outline. So any set of faces may be declared flat
-//! ([`FlatFaces`]): a flat face is front or back as a whole, by its own plane, and lines run along the edges around it. With all faces
-//! flat the lines are those of [`crate::contour`], without the borders. [`PolygonOutline::flat_faces`] chooses the flat faces
-//! that a picture needs.
+//! ([`FlatFaces`]): a flat face is front or back as a whole, by its own plane, and lines run along the edges around
+//! it. With all faces flat the lines are those of [`crate::contour`], without the borders.
+//! [`PolygonOutline::flat_faces`] chooses the flat faces that a picture needs.
 
 mod agree;
 mod cusp;
@@ -32,10 +33,11 @@ use signs::Signs;
 
 /// The border between front and back: closed lines, and open ones that end at borders of the surface.
 ///
-/// Nodes are ordered by edge and half-edge. A piece either crosses its node's face, or runs along its node's
-/// edge with the node's face as front; the latter may cover a part of the edge. All have [`CONTOUR`](crate::graph::CurveNode::CONTOUR), except
-/// the last node of an open line, which has no piece. Pieces that their own surface hides are marked
-/// [`CONCAVE`](crate::graph::CurveNode::CONCAVE), changes of that [`CUSP`](crate::graph::CurveNode::CUSP).
+/// Nodes are ordered by edge and half-edge. A piece either crosses its node's face, or runs along its node's edge
+/// with the node's face as front; the latter may cover a part of the edge. All have
+/// [`CONTOUR`](crate::graph::CurveNode::CONTOUR), except the last node of an open line, which has no piece. Pieces
+/// that their own surface hides are marked [`CONCAVE`](crate::graph::CurveNode::CONCAVE), changes of that
+/// [`CUSP`](crate::graph::CurveNode::CUSP).
 ///
 /// `eye` is homogeneous, in the world: a point with `w = 1`, or the direction towards a parallel camera with `w = 0`.
 ///
@@ -54,8 +56,8 @@ pub fn zero_set(
 
 /// Whether the piece after a node of [`zero_set`]'s graph runs along the node's edge; others cross the node's face.
 ///
-/// The part of the edge that it covers runs from the node's place to that of the next node, if that lies on the same edge, else to
-/// the end of the edge. False at the end of a line.
+/// The part of the edge that it covers runs from the node's place to that of the next node, if that lies on the same
+/// edge, else to the end of the edge. False at the end of a line.
 pub fn runs_along_edge(graph: &CurveGraph, node: u32) -> bool {
     let node = &graph.nodes[node as usize];
     if node.next == NONE {

@@ -224,7 +224,8 @@ proptest! {
         prop_assert_eq!(starts(&mesh), starts(&shuffled));
     }
 
-    /// A square gives four strokes that end exactly at its corners, with ids of their own that the camera does not change.
+    /// A square gives four strokes that end exactly at its corners, with ids of their own that the camera does not
+    /// change.
     #[test]
     fn a_square_is_split_at_its_corners(steps in 1_u32..6, x in -1.0_f32..1.0, y in -1.0_f32..1.0, smooth: bool) {
         let mesh = testing::mapped(&testing::plane(steps, steps), |[x, y, _]| {

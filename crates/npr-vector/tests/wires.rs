@@ -193,7 +193,8 @@ proptest! {
         }
     }
 
-    /// Lines drawn on a ball are shown whole where they face the eye and hidden where they do not, whatever the rounding.
+    /// Lines drawn on a ball are shown whole where they face the eye and hidden where they do not, whatever the
+    /// rounding.
     #[test]
     fn lines_on_faces_are_shown_from_every_eye(
         level in 0_u32..4, eye in any_eye(), places in prop::collection::vec((any::<prop::sample::Index>(), prop::array::uniform6(0.01_f32..1.0)), 1..6),

@@ -43,8 +43,8 @@ fn every_method_of_outline_follows_ids() {
         let scene = cut(scene("Ball", icosphere(4)), &style, &halves());
         for frame in frames(&scene, &style, &StageOptions::new(SIZE), &front()) {
             let [red, black] = inked(&frame);
-            // Half an outline each: 190 pixels long, 3 wide on the left and thinner on the right. Triangles across the middle, and their
-            // lines, belong to one side.
+            // Half an outline each: 190 pixels long, 3 wide on the left and thinner on the right. Triangles across
+            // the middle, and their lines, belong to one side.
             let is_even = ["angle", "filter"].contains(&method);
             let holds = red[0] > 200 && red[1] < 40 && black[1] > 100 && black[0] < 40;
             if !holds || (!is_even && red[0] * 2 < black[1] * 3) {
@@ -95,7 +95,8 @@ fn backgrounds_are_minded_by_id() {
         style.set("shade.paper=#404040").unwrap();
         let scene = cut(scene("Ball", icosphere(4)), &style, &halves());
         for frame in frames(&scene, &style, &StageOptions::new(SIZE), &front()) {
-            // The outline crosses the middle row at 60 and 180: lighter there on the left, black before black on the right.
+            // The outline crosses the middle row at 60 and 180: lighter there on the left, black before black on the
+            // right.
             let at = |x: u32| frame.rgba[((90 * SIZE[0] + x) * 4) as usize];
             let line = |columns: std::ops::Range<u32>| columns.map(at).collect::<Vec<_>>();
             let (left, right) = (line(54..66), line(174..186));
@@ -127,7 +128,8 @@ fn ids_count_beside_smoke() {
     }
 }
 
-/// Cut up where no rule cares, a ball and a box have the lines they had, a crease through the middle of the box's face included.
+/// Cut up where no rule cares, a ball and a box have the lines they had, a crease through the middle of the box's
+/// face included.
 #[test]
 fn regions_alone_move_no_line() {
     // A roof: its ridge, blunter than a crease, is where ids meet.

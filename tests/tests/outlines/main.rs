@@ -1,6 +1,7 @@
 //! Outlines detected on images and drawn on shapes, line by line of Okuya et al. 2016.
 //!
-//! Every test stands for lines of `docs/coverage.toml`; drawings are compared with lines that are known from the shapes.
+//! Every test stands for lines of `docs/coverage.toml`; drawings are compared with lines that are known from the
+//! shapes.
 
 #![allow(
     clippy::expect_used,

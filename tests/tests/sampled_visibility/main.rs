@@ -21,8 +21,8 @@ const SIZE: [u32; 2] = [960, 540];
 /// Samples to both sides that are averaged.
 const RADIUS: u32 = 2;
 
-/// Models that are measured, with the least share of samples that must be judged as exactly; those that are not beside the
-/// checkout are left out.
+/// Models that are measured, with the least share of samples that must be judged as exactly; those that are not
+/// beside the checkout are left out.
 const LEAST: [(&str, f64); 9] = [
     ("cube_plane.glb", 0.99),
     ("still_life.glb", 0.97),
@@ -120,8 +120,8 @@ fn judge(on: &Surroundings<'_>, chains: &[Chain<'_>]) -> Score {
     score
 }
 
-/// Measured at 960 x 540: 0.904 of the bunny's samples, whose short lines lie close behind others, and 0.966 and more of every
-/// other model's; of the still life's 0.979, in 316 visible runs, as many as there are.
+/// Measured at 960 x 540: 0.904 of the bunny's samples, whose short lines lie close behind others, and 0.966 and more
+/// of every other model's; of the still life's 0.979, in 316 visible runs, as many as there are.
 #[test]
 fn samples_agree_with_exact_visibility() {
     let found: Vec<PathBuf> = samples().into_iter().chain(models()).collect();

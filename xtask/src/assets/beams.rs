@@ -1,4 +1,5 @@
-//! Every use of light that comics have a shape for [Suzuki 2004, section 3.5]: laser, muzzle flash, explosion, hit flash, trail.
+//! Every use of light that comics have a shape for [Suzuki 2004, section 3.5]: laser, muzzle flash, explosion, hit
+//! flash, trail.
 
 use glam::{Mat3, Vec3};
 use npr_core::math;

@@ -1,7 +1,7 @@
 //! Measures line drawings against the reference and prints tables in Markdown.
 //!
-//! Run by `cargo xtask measure lines`, which keeps what is printed. A measuring program, not a test: it fails only where
-//! loading or drawing fails.
+//! Run by `cargo xtask measure lines`, which keeps what is printed. A measuring program, not a test: it fails only
+//! where loading or drawing fails.
 
 mod agreement;
 mod arguments;

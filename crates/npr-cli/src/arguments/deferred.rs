@@ -27,7 +27,8 @@ impl<T: Args> Args for Deferred<T> {
     }
 }
 
-/// A command with its arguments; what it is about stays, which the description of its arguments would take the place of.
+/// A command with its arguments; what it is about stays, which the description of its arguments would take the place
+/// of.
 fn described(command: Command, augment: fn(Command) -> Command) -> Command {
     let [about, long_about] =
         [command.get_about(), command.get_long_about()].map(|text| Resettable::from(text.cloned()));

@@ -11,8 +11,8 @@ use std::path::PathBuf;
 /// What the user said to `npr lines`.
 #[derive(Debug, Args)]
 pub struct LinesArguments {
-    /// Scene: .glb, .gltf, .vrm, .obj, .stl or .ply; or smoke: .vdb, .npy, plume, puff, explosion or cloud; - reads standard
-    /// input.
+    /// Scene: .glb, .gltf, .vrm, .obj, .stl or .ply; or smoke: .vdb, .npy, plume, puff, explosion or cloud; - reads
+    /// standard input.
     #[arg(required_unless_present = "dump_style")]
     pub scene: Option<PathBuf>,
     /// File to write: .svg, .json, .pdf or .png; - writes to standard output [default: the scene's name

@@ -27,7 +27,8 @@ pub struct RenderArguments {
 #[derive(Debug, Clone, Default, PartialEq, Args)]
 #[command(next_help_heading = "Style")]
 pub struct LookArguments {
-    /// A preset, alone or with its version, or a style file [default: toon; for smoke alone smoke-cel-2, explosion or cloud].
+    /// A preset, alone or with its version, or a style file [default: toon; for smoke alone smoke-cel-2, explosion or
+    /// cloud].
     #[arg(long, value_name = "NAME|FILE.toml")]
     pub style: Option<String>,
     /// Override one value of the style; repeatable, later ones win.

@@ -8,26 +8,26 @@ use std::str::FromStr;
 /// What the user said to `npr smoke`.
 #[derive(Debug, Args)]
 pub struct SmokeArguments {
-    /// What smokes: plume, puff, explosion or cloud from the built-in simulation; a .vdb or .npy file; or a series of files such as
-    /// smoke_####.vdb, where #### is the frame number.
+    /// What smokes: plume, puff, explosion or cloud from the built-in simulation; a .vdb or .npy file; or a series of
+    /// files such as smoke_####.vdb, where #### is the frame number.
     #[arg(required_unless_present = "dump_style")]
     pub source: Option<PathBuf>,
-    /// Picture to write, .png; #### is the frame number where there are several; - writes to standard output [default: the
-    /// source's name with .png, in the current folder].
+    /// Picture to write, .png; #### is the frame number where there are several; - writes to standard output
+    /// [default: the source's name with .png, in the current folder].
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     /// Frames to draw, the first and the last, or one [default: all of a series, else one that shows the smoke well].
     #[arg(long, value_name = "A..B")]
     pub frames: Option<Frames>,
-    /// Frames from one picture to the next; 0.5 draws one between every two, as the motion goes. Pictures are numbered on
-    /// from the first frame.
+    /// Frames from one picture to the next; 0.5 draws one between every two, as the motion goes. Pictures are
+    /// numbered on from the first frame.
     #[arg(long, value_name = "FRAMES", default_value_t = crate::volume::DEFAULT_STEP, value_parser = step)]
     pub step: f64,
     /// Frames per second, of a simulation or of a series of files.
     #[arg(long, value_name = "N", default_value_t = crate::volume::DEFAULT_FPS, value_parser = frame_rate)]
     pub fps: f32,
-    /// Cells of the simulation: width, depth and height, 4 or more each; 15x15x20 is that of the publication [default: by
-    /// the source, 30x30x60 for plume].
+    /// Cells of the simulation: width, depth and height, 4 or more each; 15x15x20 is that of the publication
+    /// [default: by the source, 30x30x60 for plume].
     #[arg(long, value_name = "XxYxZ")]
     pub grid: Option<Grid>,
     /// The drawing.

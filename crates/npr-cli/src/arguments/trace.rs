@@ -14,8 +14,9 @@ pub struct TraceArguments {
     /// Bitmaps: .png, .jpg, .webp, .pbm, .pgm, .ppm, .tif or .bmp, told by their content; - reads standard input.
     #[arg(required = true, value_name = "BITMAP")]
     pub bitmaps: Vec<PathBuf>,
-    /// File to write: .svg, .pdf, .json, .geojson, or filled shapes as triangles in .obj or .glb; of several bitmaps the folder for their files; - writes to
-    /// standard output [default: the bitmap's name with .svg, in the current folder].
+    /// File to write: .svg, .pdf, .json, .geojson, or filled shapes as triangles in .obj or .glb; of several bitmaps
+    /// the folder for their files; - writes to standard output [default: the bitmap's name with .svg, in the current
+    /// folder].
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     /// Format of the output, whatever its name [default: by the name; svg for folders and standard output].

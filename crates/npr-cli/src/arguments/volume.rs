@@ -11,26 +11,27 @@ use std::str::FromStr;
 #[derive(Debug, Clone, Default, PartialEq, Args)]
 #[command(next_help_heading = "Smoke")]
 pub struct VolumeArguments {
-    /// Smoke inside the scene, from a .vdb or .npy file or a built-in source (plume, puff, explosion, cloud); repeatable. It lies
-    /// where the file puts it; with @x,y,z the middle of its lowest plane stands there, and *scale makes it larger.
+    /// Smoke inside the scene, from a .vdb or .npy file or a built-in source (plume, puff, explosion, cloud);
+    /// repeatable. It lies where the file puts it; with @x,y,z the middle of its lowest plane stands there, and
+    /// *scale makes it larger.
     #[arg(long = "volume", value_name = "FILE[@X,Y,Z[*SCALE]]")]
     pub volumes: Vec<PlacedVolume>,
     /// Which spheres stand for smoke [default: the style's, cover unless it says otherwise].
     #[arg(long, value_enum)]
     pub particles: Option<ParticlesName>,
-    /// Where smoke of a file comes from, for published particles: a point of the file's own world, and a radius round it; they are
-    /// born there [default: where the built-in simulation smokes, anywhere in a file's smoke].
+    /// Where smoke of a file comes from, for published particles: a point of the file's own world, and a radius round
+    /// it; they are born there [default: where the built-in simulation smokes, anywhere in a file's smoke].
     #[arg(long, value_name = "X,Y,Z*RADIUS", allow_hyphen_values = true)]
     pub emitter: Option<Emitter>,
-    /// Most spheres that a volume is drawn with: 30 bold and simple, 2000 a busy eruption; published particles are always as many
-    /// [default: the style's, 200 unless it says otherwise].
+    /// Most spheres that a volume is drawn with: 30 bold and simple, 2000 a busy eruption; published particles are
+    /// always as many [default: the style's, 200 unless it says otherwise].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub spheres: Option<u32>,
     /// Density up to which there is no smoke [default: the style's, 0.1 unless it says otherwise].
     #[arg(long, value_name = "DENSITY", value_parser = threshold)]
     pub threshold: Option<f32>,
-    /// Voxels along the longest side in which the shape of smoke is seen: 20 a few bold puffs, 200 every wisp [default: the
-    /// style's, 40 unless it says otherwise].
+    /// Voxels along the longest side in which the shape of smoke is seen: 20 a few bold puffs, 200 every wisp
+    /// [default: the style's, 40 unless it says otherwise].
     #[arg(long, value_name = "VOXELS", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub detail: Option<u32>,
     /// The grid of densities in .vdb files [default: density, or the only one].
@@ -72,7 +73,8 @@ impl VolumeArguments {
 pub enum ParticlesName {
     /// As few as cover it, which follow it without popping.
     Cover,
-    /// For comparison, as published in 2004: a constant number, born and dying at random, each as large as the smoke allows.
+    /// For comparison, as published in 2004: a constant number, born and dying at random, each as large as the smoke
+    /// allows.
     Published,
 }
 

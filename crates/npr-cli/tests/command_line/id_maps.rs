@@ -4,7 +4,8 @@ use crate::files::tiny_png;
 use crate::workplace::Workplace;
 use png::{BitDepth, ColorType, Encoder};
 
-/// Two squares beside each other on one mesh: the left one lies on the left half of the map, the right one on the right.
+/// Two squares beside each other on one mesh: the left one lies on the left half of the map, the right one on the
+/// right.
 const SCENE: &[u8] = b"mtllib none.mtl\no Card\nusemtl Cloth\n\
     v -1 0 0\nv 0 0 0\nv 1 0 0\nv -1 1 0\nv 0 1 0\nv 1 1 0\n\
     vt 0 0\nvt 0.5 0\nvt 1 0\nvt 0 1\nvt 0.5 1\nvt 1 1\n\

@@ -84,8 +84,8 @@ fn a_film_shows_the_birth_of_smoke_and_a_frame_alone_is_one_of_it() {
     }
 }
 
-/// Every command that draws volumes draws the published particles where they are asked for, by option or by style, the same for any
-/// number of threads; and ours without.
+/// Every command that draws volumes draws the published particles where they are asked for, by option or by style,
+/// the same for any number of threads; and ours without.
 #[test]
 fn published_particles_are_drawn_by_every_command() {
     let place = Workplace::with_scene();

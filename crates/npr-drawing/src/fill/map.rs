@@ -18,7 +18,8 @@ pub(super) struct Map {
 impl Map {
     /// Triangulates segments that meet only at their ends, with triangles that keep clear of them.
     ///
-    /// A segment that crosses another after all is left out, so this neither fails nor panics for what snapping may miss.
+    /// A segment that crosses another after all is left out, so this neither fails nor panics for what snapping may
+    /// miss.
     pub(super) fn new(segments: &[[Point; 2]]) -> Result<Self, FillError> {
         let mut points = segments.as_flattened().to_vec();
         points.sort_unstable();

@@ -289,7 +289,8 @@ mod tests {
             .sum()
     }
 
-    /// Asserts that triangles have area, share no side in the same sense, and so do not overlap where their area is the rings'.
+    /// Asserts that triangles have area, share no side in the same sense, and so do not overlap where their area is
+    /// the rings'.
     fn assert_sound(mesh: &FlatMesh) {
         let mut sides = std::collections::BTreeSet::new();
         for corners in &mesh.triangles {

@@ -1,7 +1,7 @@
 //! Line segments made into a planar graph on whole numbers.
 //!
-//! Every end and every crossing, rounded, becomes a point; every segment is led through the points whose unit square it passes
-//! [Hobby 1999, hot pixels]. Segments so moved do not cross, so whatever reads the graph needs no
+//! Every end and every crossing, rounded, becomes a point; every segment is led through the points whose unit square
+//! it passes [Hobby 1999, hot pixels]. Segments so moved do not cross, so whatever reads the graph needs no
 //! arithmetic that could fail.
 //!
 //! Differs: the step is repeated until nothing moves, so that no point is left on the inside of a segment.

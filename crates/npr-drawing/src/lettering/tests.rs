@@ -233,7 +233,8 @@ fn settings() -> impl Strategy<Value = Setting> {
 
 /// The feet of a row of bars, each side of which was cut into pieces of a quarter: 17 points a piece.
 fn feet(bars: usize, path: &BezPath) -> Vec<Vec<kurbo::Point>> {
-    // The font draws a bar from its lower left corner: up, across, down, and back along the foot; the sides are 1 and 2 / 7 long.
+    // The font draws a bar from its lower left corner: up, across, down, and back along the foot; the sides are 1 and
+    // 2 / 7 long.
     let pieces: Vec<PathSeg> = path.segments().collect();
     let [per_bar, per_foot] = [12, 2];
     assert_eq!(pieces.len(), per_bar * bars);

@@ -32,12 +32,13 @@ pub struct Contours {
     pub lists: Option<RankedLists>,
 }
 
-/// Appends passes that find the contours of a shape, link them, and put them in rows where a scheme says how, with room for `capacity` nodes.
+/// Appends passes that find the contours of a shape, link them, and put them in rows where a scheme says how, with
+/// room for `capacity` nodes.
 ///
 /// Passes over faces and half-edges work on all of them, those over nodes on as many as there are.
 ///
-/// Where there are more the nodes are of no use; the host runs a graph with more room. Takes 12 bytes for each half-edge besides
-/// the shape itself, and 28 for each node.
+/// Where there are more the nodes are of no use; the host runs a graph with more room. Takes 12 bytes for each
+/// half-edge besides the shape itself, and 28 for each node.
 pub fn add_contours(
     graph: &mut Graph,
     vertex_count: usize,

@@ -84,7 +84,8 @@ pub struct PixelContours {
     pub judges: ResourceId,
     /// [`DrawnEdge`]s; written once.
     pub edges: ResourceId,
-    /// Reversed depth, as bits, of every pixel of what the host hands over; written for every view, unless surfaces alone hide lines.
+    /// Reversed depth, as bits, of every pixel of what the host hands over; written for every view, unless surfaces
+    /// alone hide lines.
     pub veil: ResourceId,
     /// [`Segment`]s.
     pub segments: ResourceId,
@@ -108,8 +109,9 @@ pub struct PixelContours {
 
 /// Appends passes from a shape to the sides of its contours' pixels in rows, for a picture of `size` pixels.
 ///
-/// Takes 36 bytes a pixel, 4 more with a veil, 12 a fragment, and about 180 a side. Where counts exceed the room what is there is of
-/// no use; the host runs a graph with more. Passes over edges drawn, fragments and sides work on as many as there are.
+/// Takes 36 bytes a pixel, 4 more with a veil, 12 a fragment, and about 180 a side. Where counts exceed the room what
+/// is there is of no use; the host runs a graph with more. Passes over edges drawn, fragments and sides work on as
+/// many as there are.
 pub fn add_pixel_contours(
     graph: &mut Graph,
     shape: &Shape,
@@ -413,7 +415,8 @@ impl PixelContours {
         Ok(())
     }
 
-    /// Hands a view over, and the depths of what hides lines besides what the engine draws; of these none where `veil` is empty.
+    /// Hands a view over, and the depths of what hides lines besides what the engine draws; of these none where
+    /// `veil` is empty.
     ///
     /// # Errors
     ///

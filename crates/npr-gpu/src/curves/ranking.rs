@@ -58,7 +58,8 @@ impl Scheme {
 
 /// Nodes up to which all rounds among splitters run in one pass.
 ///
-/// There are then some 500 splitters: one workgroup ranks them while the device would be busy starting a pass per round.
+/// There are then some 500 splitters: one workgroup ranks them while the device would be busy starting a pass per
+/// round.
 const ONE_PASS_NODES: usize = 8192;
 
 /// What [`add_ranking`] leaves in a graph.
@@ -94,11 +95,13 @@ struct Elements {
     walks: ResourceId,
 }
 
-/// Appends passes that rank a buffer of [`Link`], which must be lists as far as the work reaches. Of [`ListWork`] made for a list's
-/// length, the rounds must be those of the [scheme](Scheme) for the buffer's room, where all nodes jump.
+/// Appends passes that rank a buffer of [`Link`], which must be lists as far as the work reaches. Of [`ListWork`]
+/// made for a list's length, the rounds must be those of the [scheme](Scheme) for the buffer's room, where all nodes
+/// jump.
 ///
-/// Up to 4096 nodes take 21 passes by splitters and up to 39 by Wyllie's ranking; a million take 70 and 65. About 170 bytes
-/// for each node. Splitters are counted by a pass, and passes over them are sized by their number; rounds that change nothing are empty.
+/// Up to 4096 nodes take 21 passes by splitters and up to 39 by Wyllie's ranking; a million take 70 and 65. About 170
+/// bytes for each node. Splitters are counted by a pass, and passes over them are sized by their number; rounds that
+/// change nothing are empty.
 pub fn add_ranking(
     graph: &mut Graph,
     links: ResourceId,

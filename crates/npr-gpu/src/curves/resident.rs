@@ -13,10 +13,10 @@ use npr_vector::rank::Ranked;
 
 /// A shape in an engine's memory, for contours of any number of views.
 ///
-/// Positions, half-edges and judges are handed over once; a view hands over its eye and takes the contours back. There is
-/// [usual room](usual_room) for contours at first; a view with more makes room for the next power of two, and only then is the shape handed over
-/// again.
-/// Takes 12 bytes for each vertex and about 95 for each face on the engine, and 32 for each node that there is room for.
+/// Positions, half-edges and judges are handed over once; a view hands over its eye and takes the contours back.
+/// There is [usual room](usual_room) for contours at first; a view with more makes room for the next power of two,
+/// and only then is the shape handed over again. Takes 12 bytes for each vertex and about 95 for each face on the
+/// engine, and 32 for each node that there is room for.
 pub struct ResidentShape<'a> {
     engine: &'a dyn Engine,
     shape: &'a Shape,
@@ -38,7 +38,8 @@ impl<'a> ResidentShape<'a> {
     ///
     /// # Errors
     ///
-    /// [`EngineError::OutOfMemory`] for shapes beyond what a device can bind, 2.7 million faces; others where the engine fails.
+    /// [`EngineError::OutOfMemory`] for shapes beyond what a device can bind, 2.7 million faces; others where the
+    /// engine fails.
     pub fn new(engine: &'a dyn Engine, shape: &'a Shape) -> Result<Self, EngineError> {
         Self::of_scheme(engine, shape, None)
     }
@@ -99,12 +100,13 @@ impl<'a> ResidentShape<'a> {
         })
     }
 
-    /// The nodes of the last contours in rows, the same as [`npr_vector::rank::rank_curves`] gives; nothing for a shape that was
-    /// not made [with ranking](ResidentShape::with_ranking).
+    /// The nodes of the last contours in rows, the same as [`npr_vector::rank::rank_curves`] gives; nothing for a
+    /// shape that was not made [with ranking](ResidentShape::with_ranking).
     ///
     /// # Errors
     ///
-    /// [`CurvesError::Engine`] where the engine fails, [`CurvesError::Rank`] where the rounds of the scheme are too few.
+    /// [`CurvesError::Engine`] where the engine fails, [`CurvesError::Rank`] where the rounds of the scheme are too
+    /// few.
     pub fn rows(&mut self) -> Result<Ranked, CurvesError> {
         match &self.room.contours.lists {
             Some(lists) => read_rows(self.room.session.as_mut(), lists, self.node_count),

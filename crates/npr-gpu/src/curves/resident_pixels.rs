@@ -62,11 +62,12 @@ impl<'a> Hiders<'a> {
     }
 }
 
-/// A shape in an engine's memory, for the published path of any number of views: from surfaces to strips without a stop.
+/// A shape in an engine's memory, for the published path of any number of views: from surfaces to strips without a
+/// stop.
 ///
-/// What does not change is handed over once, a view in each drawing. A view with more edges, fragments or sides than any before makes
-/// room for the next power of two, and only then, or with another size of the picture or other numbers of filters, is the shape
-/// handed over again.
+/// What does not change is handed over once, a view in each drawing. A view with more edges, fragments or sides than
+/// any before makes room for the next power of two, and only then, or with another size of the picture or other
+/// numbers of filters, is the shape handed over again.
 pub struct ResidentPixels<'a> {
     engine: &'a dyn Engine,
     shape: &'a Shape,
@@ -108,12 +109,13 @@ impl<'a> ResidentPixels<'a> {
 
     /// The picture of a view's lines with the sides of its pixels in rows, and their loops cut to strips.
     ///
-    /// The shape is this one's, whatever the scene says. Given the same depths, [`Traced`] is that of [`trace`], bit for bit; [`Loops`]
-    /// are those of [`Loops::new`] within rounding.
+    /// The shape is this one's, whatever the scene says. Given the same depths, [`Traced`] is that of [`trace`], bit
+    /// for bit; [`Loops`] are those of [`Loops::new`] within rounding.
     ///
     /// # Errors
     ///
-    /// [`CurvesError::Rank`] where the rounds of the path are too few, [`CurvesError::Engine`] where the engine fails or has no room.
+    /// [`CurvesError::Rank`] where the rounds of the path are too few, [`CurvesError::Engine`] where the engine fails
+    /// or has no room.
     pub fn draw(
         &mut self,
         on: &PixelScene<'_>,
@@ -240,7 +242,8 @@ fn first<T: Pod>(
 
 /// Draws the lines of a view into a picture on an engine: what [`trace`] gives, bit for bit.
 ///
-/// The shape is handed over in every call, and again with more room where counts exceed it; [`ResidentPixels`] keeps it.
+/// The shape is handed over in every call, and again with more room where counts exceed it; [`ResidentPixels`] keeps
+/// it.
 ///
 /// # Errors
 ///

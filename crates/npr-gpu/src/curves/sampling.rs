@@ -25,7 +25,8 @@ pub struct SampledFrame {
 /// Appends passes that find what is seen of every sample, which they give: 1 or 0, a buffer of `u32`.
 ///
 /// The same as [`visible_samples`](npr_vector::sample::visible_samples) of
-/// [`sample_visibility`](npr_vector::sample::sample_visibility). Seven passes up to 4096 samples, and 28 bytes for each besides itself.
+/// [`sample_visibility`](npr_vector::sample::sample_visibility). Seven passes up to 4096 samples, and 28 bytes for
+/// each besides itself.
 pub fn add_sampling(graph: &mut Graph, on: &SampledFrame) -> ResourceId {
     let count = graph.element_count(on.samples);
     let shares = graph.buffer::<f32>("visible shares", count);

@@ -52,7 +52,8 @@ fn add_blocks(
     [prefixes, sums]
 }
 
-/// Appends passes that sum up a buffer of `u32`, or as much of it as the work reaches, into one element, which it gives. The sum wraps.
+/// Appends passes that sum up a buffer of `u32`, or as much of it as the work reaches, into one element, which it
+/// gives. The sum wraps.
 pub fn add_sum(graph: &mut Graph, values: ResourceId, work: &ListWork) -> ResourceId {
     let mut sums = values;
     for level in 0.. {
@@ -76,7 +77,8 @@ pub struct Compacted {
     pub slots: ResourceId,
 }
 
-/// Appends passes that put the indices of marked elements in a row; `flags` are 0 or 1, and count as far as the work reaches.
+/// Appends passes that put the indices of marked elements in a row; `flags` are 0 or 1, and count as far as the work
+/// reaches.
 ///
 /// `capacity` is the room in the list. Where more elements are marked the count says so, and the rest is left out.
 pub fn add_compact(

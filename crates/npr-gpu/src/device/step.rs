@@ -101,7 +101,8 @@ fn extent_of(graph: &Graph, node: &Node) -> Result<Extent, EngineError> {
     })
 }
 
-/// Workgroups in x and y for a number of elements, none for none; nothing where there are more than a dispatch can have.
+/// Workgroups in x and y for a number of elements, none for none; nothing where there are more than a dispatch can
+/// have.
 fn groups_for(element_count: usize) -> Option<[u32; 2]> {
     let count = u32::try_from(element_count).ok()?;
     if count == 0 {

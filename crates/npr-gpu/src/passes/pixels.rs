@@ -1,7 +1,7 @@
 //! Passes that draw lines into a picture pixel by pixel and make strokes of them.
 //!
-//! [`crate::curves::pixels`] lines them up. Up to the links of sides they are exact; what smooths is within rounding, so
-//! a side whose direction lies on a threshold may be kept by one engine alone.
+//! [`crate::curves::pixels`] lines them up. Up to the links of sides they are exact; what smooths is within rounding,
+//! so a side whose direction lies on a threshold may be kept by one engine alone.
 
 use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
 use npr_vector::contour::steps::{HalfEdge, Viewer};

@@ -1,8 +1,8 @@
 //! Passes that link points to lines, put lines in a row, and find what is seen of them.
 //!
-//! [`crate::curves`] lines them up. Passes with an `extent` work on its first element's number of elements, since
-//! how many there are is found on the device; what lies behind stays as it is. [`SIZE_WORK`] makes the sizes of passes that work on no more
-//! workgroups than hold a list.
+//! [`crate::curves`] lines them up. Passes with an `extent` work on its first element's number of elements, since how
+//! many there are is found on the device; what lies behind stays as it is. [`SIZE_WORK`] makes the sizes of passes
+//! that work on no more workgroups than hold a list.
 
 use crate::pass::{Agreement, Pass, Work, read, uniform, write};
 use npr_core::geometry::GPixel;

@@ -1,4 +1,5 @@
-//! What every slot of the passes over shapes and lists holds: contours, and chains of all lengths, as the twins find them.
+//! What every slot of the passes over shapes and lists holds: contours, and chains of all lengths, as the twins find
+//! them.
 
 use crate::pixels::is_over_pixels;
 use crate::sampled::Sampled;

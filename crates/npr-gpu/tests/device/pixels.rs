@@ -102,7 +102,8 @@ fn pictures_and_rows_are_those_of_the_processor() {
     }
 }
 
-/// A shape that stays on an engine gives every view what it gives the first, and the processor's strips within rounding.
+/// A shape that stays on an engine gives every view what it gives the first, and the processor's strips within
+/// rounding.
 #[test]
 fn views_leave_nothing_behind() {
     let path = PublishedPath::default();

@@ -196,7 +196,8 @@ fn whole_frames_agree() {
     for look in [Look::Ours, Look::Published] {
         let twin = Frame::new(look, FRAME_PX, MASK_SIZE);
         let device = Frame::run_on(device, look, FRAME_PX, MASK_SIZE);
-        // One pixel of the mask that ties decides over a line of up to eight of its pixels: about 60 texels of this frame.
+        // One pixel of the mask that ties decides over a line of up to eight of its pixels: about 60 texels of this
+        // frame.
         let pass = Pass {
             agreement: Agreement::Texels(0.005),
             ..COMPOSE_FRAME

@@ -113,7 +113,8 @@ fn draws_end_with_a_list() {
     }
 }
 
-/// Sums, marks and totals of lists that grow and shrink in one room: nothing of a longer list stays in those of a shorter one.
+/// Sums, marks and totals of lists that grow and shrink in one room: nothing of a longer list stays in those of a
+/// shorter one.
 #[test]
 fn sums_follow_a_list_that_grows_and_shrinks() {
     let room = 300_000;
@@ -212,8 +213,8 @@ struct ContourIds {
     outputs: [ResourceId; 3],
 }
 
-/// Contours in a room that is much too large, that just fits and that is too small: the same as by passes over the whole room, and
-/// nothing is written behind the last workgroup.
+/// Contours in a room that is much too large, that just fits and that is too small: the same as by passes over the
+/// whole room, and nothing is written behind the last workgroup.
 #[test]
 fn contours_follow_their_number_in_any_room() {
     let shape = shape_from(&torus(48, 24, 0.7, 0.3));

@@ -53,8 +53,8 @@ enum Role {
 }
 
 impl Assembly {
-    /// Gathers what a scene draws. Parts so transparent that pictures do not show them are left out, and so is what a style
-    /// makes beams of.
+    /// Gathers what a scene draws. Parts so transparent that pictures do not show them are left out, and so is what a
+    /// style makes beams of.
     pub fn new(scene: &Scene, style: Option<&Style>) -> Self {
         let mut assembly = Self::default();
         for (object, node) in scene.nodes.iter().enumerate() {

@@ -122,7 +122,8 @@ impl<'a> StrokeColors<'a> {
         })
     }
 
-    /// The final colour of a line at a point of a run, and the factor on its width: the one place where strokes are coloured.
+    /// The final colour of a line at a point of a run, and the factor on its width: the one place where strokes are
+    /// coloured.
     pub fn paint_at(&self, kind: Kind, surface: u32, point: &RunPoint) -> PointPaint {
         let Some(part) = self.parts.get(surface as usize) else {
             return PointPaint {
@@ -147,7 +148,8 @@ impl<'a> StrokeColors<'a> {
         }
     }
 
-    /// Where a point lies in the faces that it is coloured by: the face that its line crosses, or those beside its edge.
+    /// Where a point lies in the faces that it is coloured by: the face that its line crosses, or those beside its
+    /// edge.
     fn spots(&self, surface: u32, point: &RunPoint) -> impl Iterator<Item = Spot> {
         let shape = self.input.shape;
         let (vertices, shares) = point.seat.place(shape, point.world);
@@ -189,7 +191,8 @@ impl<'a> StrokeColors<'a> {
             .filter(move |side| (!any_own || is_own(side)) && (!any_front || is_front(side)))
     }
 
-    /// Unit normal of the surface at a point, of both faces where both are seen; towards the eye where only its back is.
+    /// Unit normal of the surface at a point, of both faces where both are seen; towards the eye where only its back
+    /// is.
     fn normal_at(&self, kind: Kind, surface: u32, point: &RunPoint) -> [f32; 3] {
         let mut sum = [0.0; 3];
         for spot in self.spots(surface, point) {

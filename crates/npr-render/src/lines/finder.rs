@@ -13,8 +13,8 @@ pub(crate) trait Finder {
     /// Contours along mesh edges.
     fn contours(&mut self, eye: &Eye) -> Result<EdgeContours, RenderError>;
 
-    /// All lines by a picture of them. What stands before the shape's own surfaces has the reversed depths of `veil`, where there is
-    /// any.
+    /// All lines by a picture of them. What stands before the shape's own surfaces has the reversed depths of `veil`,
+    /// where there is any.
     fn pixels(
         &mut self,
         on: &PixelScene<'_>,

@@ -34,7 +34,8 @@ pub(super) fn beside_image(settings: &LineSettings) -> LineSettings {
 }
 
 impl LineModel {
-    /// The strokes of a view by [`LineMethod::Image`], and painted ones, as far as each is asked for. Dense smoke hides them.
+    /// The strokes of a view by [`LineMethod::Image`], and painted ones, as far as each is asked for. Dense smoke
+    /// hides them.
     pub(super) fn image_strokes(
         &self,
         prepared: &Prepared,

@@ -1,7 +1,8 @@
 //! Curves that mind the background: every point of a stroke looks at both of its sides.
 //!
-//! Frames find the rims of subjects among pixels. A stroke knows where it runs, so its points ask the surface and a picture
-//! without lines a little beside them: what is of the line's own subject is its rim, what is not lies behind it.
+//! Frames find the rims of subjects among pixels. A stroke knows where it runs, so its points ask the surface and a
+//! picture without lines a little beside them: what is of the line's own subject is its rim, what is not lies behind
+//! it.
 
 use super::paint::face_at;
 use crate::backdrop::Backdrop;
@@ -18,7 +19,8 @@ use npr_vector::project::Projector;
 use npr_vector::stroke::{Stroke, StrokePoint};
 use rayon::prelude::*;
 
-/// Distances at which a point looks beside itself, in pixels: beyond edges that are blended, and beyond what smoothing moves.
+/// Distances at which a point looks beside itself, in pixels: beyond edges that are blended, and beyond what
+/// smoothing moves.
 const LOOKS_PX: [f64; 5] = [1.5, 2.5, 3.5, 4.5, 5.5];
 
 /// How many of these find where a subject ends; the others are for means alone.
@@ -81,8 +83,8 @@ impl<'a> Minding<'a> {
 
     /// Gives visible strokes the colours that mind what lies behind them.
     ///
-    /// `own_color` is the colour of a surface's lines. Strokes that keep it all along stay without colours of their own.
-    /// O(points), each a few sights through the shape; parallel.
+    /// `own_color` is the colour of a surface's lines. Strokes that keep it all along stay without colours of their
+    /// own. O(points), each a few sights through the shape; parallel.
     pub fn apply(&self, strokes: &mut [Stroke], own_color: &(dyn Fn(u32) -> [u8; 4] + Sync)) {
         strokes.par_iter_mut().for_each(|stroke| {
             let wearer = self.wearers.get(stroke.surface as usize).copied();
@@ -231,7 +233,8 @@ fn tangent(stroke: &Stroke, index: usize) -> Option<[f64; 2]> {
     (length > 0.0).then(|| along.map(|v| v / length))
 }
 
-/// What points see, blended along the stroke by a Gaussian that ends at `reach_px`; points that see nothing count as such.
+/// What points see, blended along the stroke by a Gaussian that ends at `reach_px`; points that see nothing count as
+/// such.
 ///
 /// As in frames: what is unlike is not blended, for the mean of a dark and a light wall is a wall that is not there
 /// [Tomasi and Manduchi 1998]. O(points * points within reach).
@@ -346,8 +349,8 @@ impl Blend {
     }
 }
 
-/// 1 for the same colours on both sides, down to 0 where any channel differs by [`UNLIKE_COLORS`]. Frames ask the side behind alone,
-/// since stretches of outline settle the other.
+/// 1 for the same colours on both sides, down to 0 where any channel differs by [`UNLIKE_COLORS`]. Frames ask the
+/// side behind alone, since stretches of outline settle the other.
 fn likeness(a: &Sides, b: &Sides) -> f32 {
     let most = largest_difference(a.rim, b.rim).max(largest_difference(a.behind, b.behind));
     let left = (1.0 - most / UNLIKE_COLORS).max(0.0);

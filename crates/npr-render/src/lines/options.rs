@@ -20,7 +20,8 @@ pub struct LineModelOptions {
     pub memory_limit: u64,
     /// Whether textures are kept to find painted lines in ([`LineOptions::painted`]); default false.
     ///
-    /// The scene's images have to be there, and [`LineModel::for_style`](super::LineModel::for_style) to make the model.
+    /// The scene's images have to be there, and [`LineModel::for_style`](super::LineModel::for_style) to make the
+    /// model.
     pub painted: bool,
 }
 
@@ -119,7 +120,8 @@ pub struct LineOptions {
     pub dpi: f32,
     /// The constants of [`LineMethod::Potrace`].
     pub potrace: PublishedPath,
-    /// Depth jump, as a share of the picture's height at that depth, from which [`LineMethod::Image`] separates surfaces by a line.
+    /// Depth jump, as a share of the picture's height at that depth, from which [`LineMethod::Image`] separates
+    /// surfaces by a line.
     pub depth_threshold: f32,
     /// Which lines painted in textures are strokes of kind [`Kind::Marked`], whatever the method; default none.
     pub painted: Option<PaintedLines>,
@@ -161,11 +163,11 @@ pub enum LineMethod {
     Edges,
     /// Contours where interpolated normals turn away, smooth.
     Surface,
-    /// All lines from a picture of them, as published [Jiang et al. 2022]: visible ones alone, none of intersections, and
-    /// [`LineOptions::smooth`] is about places only. See [`npr_vector::pixel_contour`].
+    /// All lines from a picture of them, as published [Jiang et al. 2022]: visible ones alone, none of intersections,
+    /// and [`LineOptions::smooth`] is about places only. See [`npr_vector::pixel_contour`].
     Potrace,
-    /// All lines from a picture of the surfaces, where neighbouring pixels differ, each followed once along its middle: visible ones
-    /// alone, borders as contours. See [`npr_vector::image_line`].
+    /// All lines from a picture of the surfaces, where neighbouring pixels differ, each followed once along its
+    /// middle: visible ones alone, borders as contours. See [`npr_vector::image_line`].
     Image,
 }
 

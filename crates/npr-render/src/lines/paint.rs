@@ -50,8 +50,8 @@ impl Paint {
         self.surfaces.iter().map(|paint| paint.has_lines).collect()
     }
 
-    /// Scales widths by the factors of surfaces, and removes the strokes of those that have no lines. Strokes of no part, which
-    /// are those of smoke, stay as they are.
+    /// Scales widths by the factors of surfaces, and removes the strokes of those that have no lines. Strokes of no
+    /// part, which are those of smoke, stay as they are.
     pub fn apply(&self, strokes: &mut Vec<Stroke>) {
         let of = |stroke: &Stroke| self.surfaces.get(stroke.surface as usize);
         strokes.retain(|stroke| of(stroke).is_none_or(|paint| paint.has_lines));

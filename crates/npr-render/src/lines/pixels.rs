@@ -14,7 +14,8 @@ use npr_vector::puff::{Puffs, SmokeLines};
 use npr_vector::stroke::Stroke;
 
 impl LineModel {
-    /// The strokes of a view by [`LineMethod::Potrace`](super::LineMethod); dense smoke hides them, and its own outline comes after.
+    /// The strokes of a view by [`LineMethod::Potrace`](super::LineMethod); dense smoke hides them, and its own
+    /// outline comes after.
     pub(super) fn pixel_strokes(
         &self,
         prepared: &Prepared,

@@ -105,7 +105,8 @@ impl<'a> SmokeView<'a> {
 
     /// The lines along which it lies in surfaces, which are not drawn either: there one passes behind the other.
     ///
-    /// `depth_at` tells how deep the surface at a place of the picture lies. Both are looked at in up to a million places.
+    /// `depth_at` tells how deep the surface at a place of the picture lies. Both are looked at in up to a million
+    /// places.
     pub fn seams(
         &self,
         size: [u32; 2],
@@ -122,7 +123,8 @@ impl<'a> SmokeView<'a> {
         level_lines(cells, cell_px, &gap, &[0.0])
     }
 
-    /// Its surfaces in a drawing, one for every tone: what is drawn with one object's number and the colours of the style.
+    /// Its surfaces in a drawing, one for every tone: what is drawn with one object's number and the colours of the
+    /// style.
     pub fn surfaces(&self, object_number: u32) -> impl Iterator<Item = StrokeSurface> {
         let smoke = &self.style.smoke;
         let alpha = (smoke.opacity.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;

@@ -15,12 +15,14 @@ use std::collections::BTreeMap;
 
 /// A line model on an engine: what a device finds of its lines is found there, the rest on the processor.
 ///
-/// A device decides which faces are turned to the eye, marks contours along edges and links them; or draws surfaces and lines into a
-/// picture, links the sides of its pixels, ranks and filters their loops and cuts them to strips. The shape stays in its memory
-/// from view to view. Exact visibility, smooth contours, features and strokes are the processor's.
+/// A device decides which faces are turned to the eye, marks contours along edges and links them; or draws surfaces
+/// and lines into a picture, links the sides of its pixels, ranks and filters their loops and cuts them to strips.
+/// The shape stays in its memory from view to view. Exact visibility, smooth contours, features and strokes are the
+/// processor's.
 ///
-/// Every engine gives the drawing of [`LineModel::draw`] bit for bit, but for [`LineMethod::Potrace`](super::LineMethod): there a
-/// device draws the depths that hide lines, and smooths, within rounding; and colours that mind a backdrop may differ as far as pictures do.
+/// Every engine gives the drawing of [`LineModel::draw`] bit for bit, but for
+/// [`LineMethod::Potrace`](super::LineMethod): there a device draws the depths that hide lines, and smooths, within
+/// rounding; and colours that mind a backdrop may differ as far as pictures do.
 pub struct LineStage<'a> {
     engine: &'a dyn Engine,
     model: &'a LineModel,
@@ -53,9 +55,9 @@ impl<'a> LineStage<'a> {
     /// The same, with the scene and the pictures that lines are judged before, where the style lets them mind it
     /// ([`npr_style::LineBackground`]).
     ///
-    /// Each point of a stroke then looks at the colours on both of its sides in a picture of the scene without lines, before its
-    /// background, of the drawing's size. What lies where is asked of the surface, so textures cut nothing out of it.
-    /// Without a backdrop lines mind nothing.
+    /// Each point of a stroke then looks at the colours on both of its sides in a picture of the scene without lines,
+    /// before its background, of the drawing's size. What lies where is asked of the surface, so textures cut nothing
+    /// out of it. Without a backdrop lines mind nothing.
     pub fn with_backdrop(mut self, model: &'a Model, options: &'a StageOptions) -> Self {
         self.backdrop = Some(Backdrop { model, options });
         self
@@ -65,8 +67,8 @@ impl<'a> LineStage<'a> {
     ///
     /// # Errors
     ///
-    /// Those of [`LineModel::draw`], and [`RenderError::Engine`] where the device fails or has no room for the shape: beyond
-    /// 2.7 million triangles none has; those of [`Stage::new`] for a picture behind.
+    /// Those of [`LineModel::draw`], and [`RenderError::Engine`] where the device fails or has no room for the shape:
+    /// beyond 2.7 million triangles none has; those of [`Stage::new`] for a picture behind.
     pub fn draw(
         &mut self,
         camera: &Camera,

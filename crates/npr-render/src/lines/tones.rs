@@ -98,7 +98,8 @@ impl ToneMap {
         self.tones = grown.collect();
     }
 
-    /// Gives pixels the mean of those around with about their tone: bytes make steps of gentle slopes, which edges would follow.
+    /// Gives pixels the mean of those around with about their tone: bytes make steps of gentle slopes, which edges
+    /// would follow.
     fn even_out(&mut self) {
         let evened = (0..self.tones.len()).map(|i| {
             let (x, y, own) = (i % self.size[0], i / self.size[0], self.tones[i]);
@@ -129,8 +130,8 @@ impl ToneMap {
     }
 }
 
-/// Where values, known in the middles of cells of a picture, pass through any of the steps, in pieces within a cell of four of them;
-/// none where a value is no number.
+/// Where values, known in the middles of cells of a picture, pass through any of the steps, in pieces within a cell
+/// of four of them; none where a value is no number.
 pub(super) fn level_lines(
     cells: [usize; 2],
     cell_px: f64,
@@ -220,7 +221,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
-        /// Between two neighbours of different tones runs an odd number of edges for each step between them, else an even one.
+        /// Between two neighbours of different tones runs an odd number of edges for each step between them, else an
+        /// even one.
         #[test]
         fn edges_part_what_differs(tones in prop::collection::vec(0f32..1.0, 36), step in 0.1f32..0.9) {
             let map = map_of([6, 6], tones, vec![step]);

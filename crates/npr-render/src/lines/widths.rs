@@ -18,8 +18,8 @@ const IDENTITY: Matrix = [
     [0.0, 0.0, 0.0, 1.0],
 ];
 
-/// Width factor of lines without a surface, where widths follow how it bends: the middle of the range, as where curvature times
-/// gain is 1.
+/// Width factor of lines without a surface, where widths follow how it bends: the middle of the range, as where
+/// curvature times gain is 1.
 const BARE_SHARE: f32 = 0.5;
 
 /// How a shape bends, for widths that follow it.
@@ -153,8 +153,8 @@ impl<'a> Widths<'a> {
         if width.is_finite() { width } else { 0.0 }
     }
 
-    /// The width factor 0..1 that the style's source gives a vertex, 1 where the source is missing; for projected curvature
-    /// the tightest there is.
+    /// The width factor 0..1 that the style's source gives a vertex, 1 where the source is missing; for projected
+    /// curvature the tightest there is.
     fn share(&self, i: usize) -> f32 {
         let width = &self.input.style.line.width;
         match width.source {

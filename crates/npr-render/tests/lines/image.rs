@@ -254,7 +254,8 @@ fn lines_painted_in_a_texture_become_marked_strokes_of_the_style() {
     }
 }
 
-/// A wall that is white on the left, with a dark line and two dark ones near each other, and on the right black with the same in white.
+/// A wall that is white on the left, with a dark line and two dark ones near each other, and on the right black with
+/// the same in white.
 fn two_tones() -> Scene {
     let mut scene = painted_wall();
     let side = scene.images[0].width;
@@ -343,8 +344,8 @@ fn strokes_stay_while_the_camera_turns() {
     }
 }
 
-/// Share of the strokes of views that the view after has none for: of the same kind, surface and length, with ends as near as a small turn
-/// of the camera moves them.
+/// Share of the strokes of views that the view after has none for: of the same kind, surface and length, with ends as
+/// near as a small turn of the camera moves them.
 fn changed(views: &[Drawing]) -> f64 {
     let near = |a: &StrokePoint, b: &StrokePoint| {
         let [dx, dy] = [0, 1].map(|i| a.position[i] - b.position[i]);

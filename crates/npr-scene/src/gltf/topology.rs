@@ -1,4 +1,5 @@
-//! Triangles from triangle lists, strips and fans, and segments from line lists, strips and loops [glTF 2.0, section 3.7.2.1].
+//! Triangles from triangle lists, strips and fans, and segments from line lists, strips and loops [glTF 2.0, section
+//! 3.7.2.1].
 #![deny(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -43,7 +44,8 @@ pub(crate) fn has_odd_end(primitive: &Primitive, end_count: usize) -> bool {
     }
 }
 
-/// The line segments of `primitive`; an end that completes none is dropped, and a loop through two vertices is one segment.
+/// The line segments of `primitive`; an end that completes none is dropped, and a loop through two vertices is one
+/// segment.
 pub(crate) fn segments(primitive: &Primitive, ends: &[[u32; 1]]) -> Vec<[u32; 2]> {
     let ends = ends.as_flattened();
     match primitive.mode {

@@ -28,7 +28,8 @@ pub(super) struct Paths {
 }
 
 impl Paths {
-    /// The ways of a field's points through `seconds` of flow, by the midpoint rule. Fields on the same points share them.
+    /// The ways of a field's points through `seconds` of flow, by the midpoint rule. Fields on the same points share
+    /// them.
     pub fn new(field: &Field, flow: &Flow, seconds: f32) -> Self {
         let ways = field.lattice.map_costly(|point| {
             let place = field.place(point);
@@ -44,8 +45,8 @@ impl Paths {
 
     /// The field after its points have gone their ways [Selle et al. 2008].
     ///
-    /// A semi-Lagrangian step forth, one back to see its error, and half of that error taken off. Results stay within the
-    /// range of the values that they came from, so nothing overshoots: the extremes of a field never grow.
+    /// A semi-Lagrangian step forth, one back to see its error, and half of that error taken off. Results stay within
+    /// the range of the values that they came from, so nothing overshoots: the extremes of a field never grow.
     pub fn carry(&self, field: &Field, outside: Outside) -> Field {
         let lattice = field.lattice;
         let there =

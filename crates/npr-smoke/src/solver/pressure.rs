@@ -45,8 +45,8 @@ impl Pressure {
         }
     }
 
-    /// Changes the flow by the gradient of a pressure so that its divergence becomes what is `wanted`, per second, within
-    /// [`TOLERANCE`] of the greatest difference before.
+    /// Changes the flow by the gradient of a pressure so that its divergence becomes what is `wanted`, per second,
+    /// within [`TOLERANCE`] of the greatest difference before.
     pub fn project(&mut self, flow: &mut Flow, wanted: impl Fn([usize; 3]) -> f32 + Sync) {
         let cells = flow.cells;
         let shared = &*flow;
@@ -289,8 +289,8 @@ impl Level {
     }
 }
 
-/// One over the distance between the centres on both sides of each face. The outside begins half a cell of the finest level
-/// beyond the border: there the pressure is 0.
+/// One over the distance between the centres on both sides of each face. The outside begins half a cell of the finest
+/// level beyond the border: there the pressure is 0.
 fn links(widths: &[f32]) -> Vec<f32> {
     let half = |at: Option<&f32>| at.map_or(0.5, |width| 0.5 * width);
     let link = |face: usize| {

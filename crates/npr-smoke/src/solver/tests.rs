@@ -35,8 +35,8 @@ fn every_source_smokes_and_reaches_upward() {
     assert_eq!(Source::of_name("bonfire"), None);
 }
 
-/// What makes a fair-weather cloud of the same solver: it is there before the first frame, keeps its flat base at its height and its
-/// heaps above it, drifts with the wind, and is wider than tall. A plume does none of that.
+/// What makes a fair-weather cloud of the same solver: it is there before the first frame, keeps its flat base at its
+/// height and its heaps above it, drifts with the wind, and is wider than tall. A plume does none of that.
 #[test]
 fn a_cloud_keeps_its_flat_base_and_drifts() {
     let settings = SmokeSettings::of(Source::Cloud);

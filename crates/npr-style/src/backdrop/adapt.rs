@@ -49,9 +49,9 @@ const WCAG_LARGEST: f32 = 21.0;
 
 /// A line's colour where its surface ends before `behind`; all colours sRGB-encoded, 0..1.
 ///
-/// `rim` is the colour of the surface beside the line. By contrast: a line that reads by the rule's target stays as it is.
-/// Any other moves in lightness until it does, and takes its hue from the rim as it moves; chroma gives way where sRGB has
-/// no such colour. Where neither direction reaches the target, it goes as far as it can.
+/// `rim` is the colour of the surface beside the line. By contrast: a line that reads by the rule's target stays as
+/// it is. Any other moves in lightness until it does, and takes its hue from the rim as it moves; chroma gives way
+/// where sRGB has no such colour. Where neither direction reaches the target, it goes as far as it can.
 ///
 /// Continuous in all three colours, and steep in two places. A line turns from darker to brighter within a band of
 /// 1.2 % of the measure's scale. OKLab is steep beside black: the first of 255 steps of a grey is 6.7 % of lightness.
@@ -59,8 +59,8 @@ const WCAG_LARGEST: f32 = 21.0;
 /// Contrast never falls, but for backgrounds from which a line turns from darker to brighter: a band of about 1 % of
 /// lightness.
 ///
-/// By likeness: the published method, see [`published::color`]. Channels outside 0..1 are clamped, and those that are no
-/// number count as 0. About 10 cube roots and 200 products.
+/// By likeness: the published method, see [`published::color`]. Channels outside 0..1 are clamped, and those that are
+/// no number count as 0. About 10 cube roots and 200 products.
 pub fn adapt(line: [f32; 3], rim: [f32; 3], behind: [f32; 3], rule: &Rule) -> [f32; 3] {
     let [line, rim, behind] = [line, rim, behind].map(|color| color.map(sane));
     let rule = &rule.sane();
@@ -215,8 +215,9 @@ fn target_of(rule: &Rule) -> f32 {
 
 /// Where a line at `line` moves before a ground, on a scale of 0 to 1.
 ///
-/// Two candidates, darker and brighter, each no farther from the line than the target asks. Where the ground does not say which one is
-/// taken, the one that falls shorter of the target loses; about equal, the longer step loses; between, they are blended.
+/// Two candidates, darker and brighter, each no farther from the line than the target asks. Where the ground does not
+/// say which one is taken, the one that falls shorter of the target loses; about equal, the longer step loses;
+/// between, they are blended.
 fn moved(line: f32, ground: &Ground, target: f32, direction: u32) -> f32 {
     let both = Candidates::of(line, [ground.low, ground.high], target, direction);
     let share = ground.brighter.unwrap_or_else(|| {
@@ -232,9 +233,11 @@ fn moved(line: f32, ground: &Ground, target: f32, direction: u32) -> f32 {
     mix(both.darker, both.brighter, share)
 }
 
-/// Which way a line at `line` had better move before grounds from the first to the second: from -1, darker, to 1, brighter.
+/// Which way a line at `line` had better move before grounds from the first to the second: from -1, darker, to 1,
+/// brighter.
 ///
-/// The difference in what both candidates cost: how far the line moves and, much more, by how much it falls short of the target.
+/// The difference in what both candidates cost: how far the line moves and, much more, by how much it falls short of
+/// the target.
 pub(super) fn preference(line: f32, grounds: [f32; 2], rule: &Rule) -> f32 {
     let both = Candidates::of(line, grounds, target_of(rule), rule.direction);
     let [lack_darker, lack_brighter] = both.lacks;
@@ -313,7 +316,8 @@ fn at_lightness(lightness: f32, own: [f32; 3], edge: [f32; 3], share: f32) -> [f
     [0, 1, 2].map(|i| mix(inner[i], outer[i], share).clamp(0.0, 1.0))
 }
 
-/// The same for a place on the scale of the rule's measure: of WCAG the lightness at which the fitted colour has that luminance.
+/// The same for a place on the scale of the rule's measure: of WCAG the lightness at which the fitted colour has that
+/// luminance.
 ///
 /// Of the two colours between which the search ends that one is taken which the line goes towards (`brighter` or not),
 /// so that it does not fall short.

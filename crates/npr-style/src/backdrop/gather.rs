@@ -13,7 +13,8 @@ use rayon::prelude::*;
 /// Difference of backgrounds from which they are two walls, and not one with a pattern.
 pub(super) const UNLIKE: f32 = 0.42;
 
-/// Whose rims lie in a tile, and what their lines start from and stand before; places from 0 black to 1 white in the rule's measure.
+/// Whose rims lie in a tile, and what their lines start from and stand before; places from 0 black to 1 white in the
+/// rule's measure.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct TileRims {

@@ -4,7 +4,8 @@ use super::adapt::{Ground, adapted_light, published_light};
 use super::rule::{Rule, Rules};
 use npr_core::math::mix_bits;
 
-/// Adapts lines to what lies behind them, pixel by pixel, and keeps some answers: pixels beside each other mostly ask the same.
+/// Adapts lines to what lies behind them, pixel by pixel, and keeps some answers: pixels beside each other mostly ask
+/// the same.
 #[derive(Debug, Clone)]
 pub struct Minding {
     answers: [Option<Answer>; ANSWERS],

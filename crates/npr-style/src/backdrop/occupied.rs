@@ -1,5 +1,5 @@
-//! Which elements of a picture hold anything, so that the processor looks at nothing else. Devices look at all of them: what holds
-//! nothing adds nothing there.
+//! Which elements of a picture hold anything, so that the processor looks at nothing else. Devices look at all of
+//! them: what holds nothing adds nothing there.
 
 use npr_core::math;
 use rayon::prelude::*;
@@ -55,7 +55,8 @@ impl Occupied {
             .collect()
     }
 
-    /// Gives every element that holds anything what is made of it, by column and row, and leaves all others. Parallel over rows.
+    /// Gives every element that holds anything what is made of it, by column and row, and leaves all others. Parallel
+    /// over rows.
     pub fn make<T: Send>(&self, made: &mut [T], width: usize, of: impl Fn([u32; 2]) -> T + Sync) {
         made.par_chunks_mut(width)
             .enumerate()

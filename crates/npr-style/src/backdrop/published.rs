@@ -50,10 +50,11 @@ impl Criteria {
 
 /// The outline of what `alone` shows, one pixel wide and outside of it: a colour for every pixel on it.
 ///
-/// `alone` is the character, alpha 0 everywhere else; `composed` is the character before its background; both sRGB-encoded,
-/// 0..1, row by row. A pixel whose alpha is the same in both shows the character (section 2.2). One that does not, and has
-/// such a pixel among its eight neighbours, lies on the outline; [`color()`] says how it is drawn, from the mean of those
-/// neighbours and its own colour. `default` is the colour of lines that need no change, black as published.
+/// `alone` is the character, alpha 0 everywhere else; `composed` is the character before its background; both
+/// sRGB-encoded, 0..1, row by row. A pixel whose alpha is the same in both shows the character (section 2.2). One
+/// that does not, and has such a pixel among its eight neighbours, lies on the outline; [`color()`] says how it is
+/// drawn, from the mean of those neighbours and its own colour. `default` is the colour of lines that need no change,
+/// black as published.
 ///
 /// `None` where the pictures are not of `size`. O(pixels), parallel over rows.
 ///
@@ -147,8 +148,8 @@ fn laid(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
 
 /// The line's colour between a rim and what lies behind, all sRGB-encoded: equations of section 2.4.
 ///
-/// Where the two are alike, the rim's colour times I, or divided by it, clamped to 1; elsewhere `line`. Alike are colours
-/// that differ by no more than the threshold in every criterion in use; without any, no colours are.
+/// Where the two are alike, the rim's colour times I, or divided by it, clamped to 1; elsewhere `line`. Alike are
+/// colours that differ by no more than the threshold in every criterion in use; without any, no colours are.
 ///
 /// Differs: with [`Rule::AUTO`], brighter before backgrounds of V up to one half, and darker before brighter ones.
 pub fn color(line: [f32; 3], rim: [f32; 3], behind: [f32; 3], rule: &Rule) -> [f32; 3] {

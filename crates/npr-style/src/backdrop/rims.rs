@@ -1,4 +1,5 @@
-//! Where subjects end in a picture, and what lies on both sides: the twins of `backdrop.flag_tiles` and `backdrop.find_rims`.
+//! Where subjects end in a picture, and what lies on both sides: the twins of `backdrop.flag_tiles` and
+//! `backdrop.find_rims`.
 
 use super::rule::{Rule, Rules};
 use bytemuck::{Pod, Zeroable};
@@ -236,10 +237,10 @@ impl Sum {
 
 /// A rim for every pixel among whose 3 x 3 a subject meets anything else; empty ones elsewhere.
 ///
-/// The subject nearest to the eye owns the border. Only pixels whose samples all show the same count as a side, so colours
-/// are never blends of both: a mixed pixel stands before the mean of those beside it that show what lies behind
-/// alone, and has no rim where there are none. The published method compares every other pixel outside of the subject
-/// by its own colour. O(pixels of busy tiles), parallel over rows of tiles.
+/// The subject nearest to the eye owns the border. Only pixels whose samples all show the same count as a side, so
+/// colours are never blends of both: a mixed pixel stands before the mean of those beside it that show what lies
+/// behind alone, and has no rim where there are none. The published method compares every other pixel outside of the
+/// subject by its own colour. O(pixels of busy tiles), parallel over rows of tiles.
 pub fn find_rims(search: &Search<'_>, rims: &mut [Rim]) {
     let width = search.scenery.window.size[0] as usize;
     let across = tiles_across(search.scenery.window.size) as usize;
@@ -415,7 +416,8 @@ fn packed(rim: &Sum, behind: &Sum, share: f32, rule: u32, [subject, part]: [u32;
     }
 }
 
-/// Lines of method `rim`: every pixel that lies outside of a subject and touches it, in the colour of the part that ends there.
+/// Lines of method `rim`: every pixel that lies outside of a subject and touches it, in the colour of the part that
+/// ends there.
 ///
 /// Texels are sRGB bytes with coverage in alpha: the twin of `backdrop.draw_rims`. O(pixels).
 pub fn draw_rims(parts: &[Part], rims: &[Rim], overlay: &mut [u32]) {

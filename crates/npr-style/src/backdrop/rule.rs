@@ -13,8 +13,8 @@ pub const RULES_MAX: usize = 16;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct Rule {
-    /// Largest difference at which colours count as alike, of the published method: of any channel of RGB, 0..1; of V; of S;
-    /// of hue in turns, 0..0.5. Criteria below 0 are not used.
+    /// Largest difference at which colours count as alike, of the published method: of any channel of RGB, 0..1; of
+    /// V; of S; of hue in turns, 0..0.5. Criteria below 0 are not used.
     pub thresholds: [f32; 4],
     /// [`Rule::OFF`], [`Rule::BY_LIKENESS`] or [`Rule::BY_CONTRAST`].
     pub method: u32,

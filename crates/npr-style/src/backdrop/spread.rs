@@ -22,10 +22,10 @@ const RULE: u32 = 0xff00_0000;
 
 /// Blends every rim with those of the same subject around it, by a Gaussian that ends at [`Rules::smooth_px`].
 ///
-/// Colours then change over a few pixels of outline, and do not flicker from frame to frame. Rims weigh less the more their colours
-/// differ: the mean of a dark and a light wall is a wall that is not there [Tomasi and Manduchi 1998]. The rule is the pixel's own; where
-/// rims of another count for less, so does this one. Rims of the published method stay as they are. O(rims * length squared),
-/// parallel over rows.
+/// Colours then change over a few pixels of outline, and do not flicker from frame to frame. Rims weigh less the more
+/// their colours differ: the mean of a dark and a light wall is a wall that is not there [Tomasi and Manduchi 1998].
+/// The rule is the pixel's own; where rims of another count for less, so does this one. Rims of the published method
+/// stay as they are. O(rims * length squared), parallel over rows.
 pub fn smooth_rims(window: &Window, rules: &Rules, rims: &[Rim], smoothed: &mut [Rim]) {
     smoothed.copy_from_slice(rims);
     if rules.smooth_px <= 0.0 {
@@ -126,7 +126,8 @@ impl Smoothing<'_> {
     }
 }
 
-/// For every pixel the column of the nearest rim in its row, counted from 1, within [`Rules::reach_px`]; 0 where there is none.
+/// For every pixel the column of the nearest rim in its row, counted from 1, within [`Rules::reach_px`]; 0 where
+/// there is none.
 ///
 /// Of two as near, the left one. O(pixels), parallel over rows.
 pub fn spread_rows(window: &Window, rules: &Rules, rims: &[Rim], columns: &mut [u32]) {
@@ -158,12 +159,13 @@ fn spread_row(rims: &[Rim], reach: usize, columns: &mut [u32]) {
     }
 }
 
-/// Carries the nearest rim to every pixel: its colours, and how much it counts there, as two pictures of the output's size.
+/// Carries the nearest rim to every pixel: its colours, and how much it counts there, as two pictures of the output's
+/// size.
 ///
-/// `fronts` holds the rim's colour with its weight in alpha, `backs` what lies behind: for the published method its colour, for ours a
-/// [`Ground`]; with the number of the rule. Weights fall
-/// from [`Rules::whole_px`] to [`Rules::reach_px`], where lines that merely end at an outline begin. Of rims as near, the upper
-/// one. O(pixels * reach), parallel over rows.
+/// `fronts` holds the rim's colour with its weight in alpha, `backs` what lies behind: for the published method its
+/// colour, for ours a [`Ground`]; with the number of the rule. Weights fall from [`Rules::whole_px`] to
+/// [`Rules::reach_px`], where lines that merely end at an outline begin. Of rims as near, the upper one. O(pixels *
+/// reach), parallel over rows.
 pub fn spread_rims(
     window: &Window,
     rules: &Rules,

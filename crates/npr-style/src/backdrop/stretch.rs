@@ -1,8 +1,9 @@
-//! Stretches of outline, whose lines move together: the twins of `backdrop.bound_tiles`, `backdrop.lean_tiles` and `backdrop.blend_leans`.
+//! Stretches of outline, whose lines move together: the twins of `backdrop.bound_tiles`, `backdrop.lean_tiles` and
+//! `backdrop.blend_leans`.
 //!
-//! Where line and background are nearly alike, grain alone would decide at every pixel whether a line turns brighter or darker, and the
-//! line would repeat every brick behind it. Here it reads before all that lies behind a stretch, by an envelope that changes slowly along
-//! the outline, and the stretch votes which way to move.
+//! Where line and background are nearly alike, grain alone would decide at every pixel whether a line turns brighter
+//! or darker, and the line would repeat every brick behind it. Here it reads before all that lies behind a stretch,
+//! by an envelope that changes slowly along the outline, and the stretch votes which way to move.
 
 use super::adapt::preference;
 use super::gather::{TileRims, UNLIKE};
@@ -137,8 +138,8 @@ impl<'a, T: Sync> Tiles<'a, T> {
         &self.tiles[self.number(tile)]
     }
 
-    /// Those up to `reach` tiles around one, itself included, row by row: their numbers, what they hold, and the squares of how many tiles
-    /// they are away.
+    /// Those up to `reach` tiles around one, itself included, row by row: their numbers, what they hold, and the
+    /// squares of how many tiles they are away.
     fn around(&self, tile: [u32; 2], reach: u32) -> impl Iterator<Item = (usize, &'a T, u32)> {
         let near = self.occupied.around(tile, reach);
         near.map(|near| (self.number(near.place), self.at(near.place), near.square))
@@ -181,9 +182,10 @@ fn bound_at(rules: &Rules, gathered: &Tiles<'_, TileRims>, tile: [u32; 2]) -> Le
 
 /// Decides for every tile, by the votes around it and what was decided there in the frame before.
 ///
-/// A Gaussian that ends at [`Rules::lean_px`]; tiles of other subjects do not count, those before other walls less. What was
-/// decided before counts as [`Rules::hold`] votes of each, so that a stretch that could go either way stays as it was; and where a line must
-/// change, it fades, by [`Rules::fade`] of the way a frame. O(tiles with rims * reach squared), parallel over rows of tiles.
+/// A Gaussian that ends at [`Rules::lean_px`]; tiles of other subjects do not count, those before other walls less.
+/// What was decided before counts as [`Rules::hold`] votes of each, so that a stretch that could go either way stays
+/// as it was; and where a line must change, it fades, by [`Rules::fade`] of the way a frame. O(tiles with rims *
+/// reach squared), parallel over rows of tiles.
 pub fn lean_tiles(
     window: &Window,
     rules: &Rules,
@@ -245,8 +247,8 @@ impl Voting<'_> {
         }
     }
 
-    /// What was decided before for the same lines before the same wall: in the tile itself, or else the mean of those that touch it, for an
-    /// outline moves between frames.
+    /// What was decided before for the same lines before the same wall: in the tile itself, or else the mean of those
+    /// that touch it, for an outline moves between frames.
     fn held(&self, here: &Lean, tile: [u32; 2]) -> Option<Lean> {
         let is_same = |lean: &Lean| {
             let off = (lean.low + lean.high) - (here.low + here.high);
@@ -273,9 +275,9 @@ fn nearer(from: f32, to: f32, step: f32) -> f32 {
 
 /// Keeps leans for the next frame, and blends them along the outline for this one.
 ///
-/// Where a stretch that turns brighter meets one that turns darker, the line passes from one to the other over a length that the eye takes
-/// for shading. A Gaussian that ends at 6 tiles; bounds stay as they are, and tiles before another wall or of other paint count less.
-/// O(tiles with rims * 169), parallel over rows of tiles.
+/// Where a stretch that turns brighter meets one that turns darker, the line passes from one to the other over a
+/// length that the eye takes for shading. A Gaussian that ends at 6 tiles; bounds stay as they are, and tiles before
+/// another wall or of other paint count less. O(tiles with rims * 169), parallel over rows of tiles.
 pub fn blend_leans(
     window: &Window,
     rules: &Rules,
@@ -318,7 +320,8 @@ fn blended_at(leans: &Tiles<'_, Lean>, nearness: &Gaussian, tile: [u32; 2]) -> L
     }
 }
 
-/// The lean of a pixel's rim, between the four tiles around: those of the same subject alone; `None` where there is none of it.
+/// The lean of a pixel's rim, between the four tiles around: those of the same subject alone; `None` where there is
+/// none of it.
 pub(super) fn lean_between(
     leans: &[Lean],
     size: [u32; 2],

@@ -13,8 +13,9 @@ use std::ops::Range;
 
 /// Composes the output as sRGB bytes with straight alpha.
 ///
-/// Every pixel has one or four samples that say which triangles it shows; each triangle is shaded once, at the middle of
-/// its samples. Layers go over each other as in [Porter & Duff 1984], in linear light. O(pixels), parallel over rows.
+/// Every pixel has one or four samples that say which triangles it shows; each triangle is shaded once, at the middle
+/// of its samples. Layers go over each other as in [Porter & Duff 1984], in linear light. O(pixels), parallel over
+/// rows.
 pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
     let encoder = SrgbEncoder::new();
     let known = layers.known_triangles();

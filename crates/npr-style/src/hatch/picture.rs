@@ -28,10 +28,10 @@ const TIE_BREAK: f32 = 1.0 / 512.0;
 
 /// A tile of `side` texels per side that repeats `picture`, with strokes of its own width at any distance.
 ///
-/// Finer levels repeat the picture twice as often, so its strokes keep their size on screen; between
-/// two levels both pictures are blended. Where the picture fills the tile once no coarser one exists and strokes shrink:
-/// the tile should be some times larger than the picture, which is resampled to the nearest power of two.
-/// Only the order of its greys counts: tone is linear whatever their values.
+/// Finer levels repeat the picture twice as often, so its strokes keep their size on screen; between two levels both
+/// pictures are blended. Where the picture fills the tile once no coarser one exists and strokes shrink: the tile
+/// should be some times larger than the picture, which is resampled to the nearest power of two. Only the order of
+/// its greys counts: tone is linear whatever their values.
 ///
 /// # Errors
 ///

@@ -80,7 +80,8 @@ fn between_drawings(before: f32, after: f32, t: f32) -> f32 {
 
 /// Hatch luminance at `(u, v)` of a level of `side * side` texels at `f`, blended over four texels.
 ///
-/// The tile repeats; `side` is a power of two, texel centres lie at `(i + 0.5) / side`. The gradient comes with the same four loads.
+/// The tile repeats; `side` is a power of two, texel centres lie at `(i + 0.5) / side`. The gradient comes with the
+/// same four loads.
 ///
 /// # Panics
 ///

@@ -50,7 +50,8 @@ fn scene<'a>(view: &'a View, lights: &'a Lights, store: &'a TextureStore) -> Lin
     }
 }
 
-/// The colour by the definition, a step after the other, each mixed into the last; `place` is one in the world and its normal.
+/// The colour by the definition, a step after the other, each mixed into the last; `place` is one in the world and
+/// its normal.
 fn one_after_the_other(
     scene: &LineScene<'_>,
     (part, kind): (&Part, u32),

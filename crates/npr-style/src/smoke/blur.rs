@@ -123,8 +123,8 @@ fn is_empty(cells: &[Cell]) -> bool {
 
 /// The smoothed tone of every pixel, 0 where there is no smoke.
 ///
-/// From the grids where there are any, else from all pixels in reach. Where a pixel belongs to two layers, it takes from
-/// both as much as it gives. O(pixels), or O(pixels x taps^2) without grids, where taps are at most 11.
+/// From the grids where there are any, else from all pixels in reach. Where a pixel belongs to two layers, it takes
+/// from both as much as it gives. O(pixels), or O(pixels x taps^2) without grids, where taps are at most 11.
 pub fn smooth_tones(
     size: [u32; 2],
     look: &SmokeLook,
@@ -344,7 +344,8 @@ mod tests {
             prop_assert!(error < 0.004, "{error}");
         }
 
-        /// Within 0.06 of a tone at every pixel of a noisy picture: less than a third of a tone's step in a ramp of three.
+        /// Within 0.06 of a tone at every pixel of a noisy picture: less than a third of a tone's step in a ramp of
+        /// three.
         #[test]
         fn grids_are_near_the_published_sum(seed: u32, sigma in 3f32..14.0, layers in 1u32..5, blends: bool) {
             let error = largest_error(sigma, layers, &picture(seed, layers, blends), 37);

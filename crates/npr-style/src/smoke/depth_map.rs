@@ -35,8 +35,8 @@ impl DepthTexels {
         })
     }
 
-    /// Whether something in the picture lies before the place: the four texels vote by how near they are, so the edge of a
-    /// shadow runs smoothly between texels.
+    /// Whether something in the picture lies before the place: the four texels vote by how near they are, so the edge
+    /// of a shadow runs smoothly between texels.
     pub fn are_nearer(&self, depths: &[u32], side: u32) -> bool {
         let low = self.low.map(|v| v as usize);
         let dark = |x: usize, y: usize| {
@@ -57,7 +57,8 @@ mod tests {
 
     const SIDE: u32 = 64;
 
-    /// Light from above over the square of -1..1, in which something hides all with x below `edge` from a height of 0.5 on.
+    /// Light from above over the square of -1..1, in which something hides all with x below `edge` from a height of
+    /// 0.5 on.
     fn picture(edge: f32) -> (Matrix, Vec<u32>) {
         let reach = [[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]];
         let m = distant_view([0.0, 1.0, 0.0], &reach, &reach);

@@ -12,7 +12,8 @@ const TILE_ROWS: usize = 16;
 /// Columns of a tile.
 const TILE_COLUMNS: usize = 64;
 
-/// Columns that a ball may reach from the axis for its spans to be computed: farther off, a column is too little beside what is rounded.
+/// Columns that a ball may reach from the axis for its spans to be computed: farther off, a column is too little
+/// beside what is rounded.
 const SPAN_REACH: f32 = 1e5;
 
 /// Every sphere as a lens sees it. O(spheres).
@@ -22,12 +23,12 @@ pub fn project_spheres(lens: &Lens, spheres: &[Sphere], balls: &mut [Ball]) {
     }
 }
 
-/// Fills `ids` with the number of the nearest ball plus one at every pixel, 0 where there is none, and `depths` with its
-/// reversed depth.
+/// Fills `ids` with the number of the nearest ball plus one at every pixel, 0 where there is none, and `depths` with
+/// its reversed depth.
 ///
-/// Both are row-major, of the window's size; every texel is written, whatever it held before. Of equal depths the earlier
-/// ball wins. Tiles take the balls from front to back, and their rows leave out those behind all that is drawn,
-/// so of a dense plume little more than its skin is computed. O(balls log balls + what is not hidden).
+/// Both are row-major, of the window's size; every texel is written, whatever it held before. Of equal depths the
+/// earlier ball wins. Tiles take the balls from front to back, and their rows leave out those behind all that is
+/// drawn, so of a dense plume little more than its skin is computed. O(balls log balls + what is not hidden).
 pub fn draw_spheres(
     lens: &Lens,
     window: &Window,
@@ -227,8 +228,8 @@ impl<'a> Tile<'a> {
         }
     }
 
-    /// Nearest depth of a ball in a row and the columns that meet it there, one more to each side for rounding; `None` where it
-    /// passes the row by. Only where rays are parallel: else all of `columns`.
+    /// Nearest depth of a ball in a row and the columns that meet it there, one more to each side for rounding;
+    /// `None` where it passes the row by. Only where rays are parallel: else all of `columns`.
     fn span(
         &self,
         ball: &Ball,

@@ -1,10 +1,10 @@
 //! Outlines of spheres, found where their rims are.
 //!
-//! A pixel of a sphere knows where the rim nearest to it lies, and the picture just beyond the rim says whether that part of
-//! it is an outline: nothing, or smoke far behind. So lines are as smooth as circles and as wide as wanted.
+//! A pixel of a sphere knows where the rim nearest to it lies, and the picture just beyond the rim says whether that
+//! part of it is an outline: nothing, or smoke far behind. So lines are as smooth as circles and as wide as wanted.
 //!
-//! Nothing about them comes or goes at once. Their width grows from nothing with the jump in depth; where what lies beyond
-//! the rim changes, they run out along it like the stroke of a brush.
+//! Nothing about them comes or goes at once. Their width grows from nothing with the jump in depth; where what lies
+//! beyond the rim changes, they run out along it like the stroke of a brush.
 
 use npr_core::geometry::FAR_DEPTH;
 use npr_core::math;
@@ -153,8 +153,8 @@ impl Resolving<'_> {
         dot(beside, beside) < inner * inner
     }
 
-    /// The part of its width that a sphere's outline has at a place of its rim, by what is seen beyond; 0 where the rim is
-    /// hidden.
+    /// The part of its width that a sphere's outline has at a place of its rim, by what is seen beyond; 0 where the
+    /// rim is hidden.
     fn part_beyond(&self, ball: &Ball, rim: &Rim) -> f32 {
         let beyond = std::array::from_fn(|i| {
             rim.px[i] + rim.outward[i] * BEYOND_PX * self.window.frame_step[i]
@@ -183,10 +183,11 @@ impl Resolving<'_> {
 }
 
 impl SmokeLook {
-    /// Width of a puff's outline in frame pixels where the next smoke lies `jump` radii behind it; 0 where that is too little.
+    /// Width of a puff's outline in frame pixels where the next smoke lies `jump` radii behind it; 0 where that is
+    /// too little.
     ///
-    /// Full where nothing lies behind; inside the smoke it grows from nothing with the jump in depth. `outward` is the unit
-    /// vector away from the puff in the picture, y down: lines swell away from the light.
+    /// Full where nothing lies behind; inside the smoke it grows from nothing with the jump in depth. `outward` is
+    /// the unit vector away from the puff in the picture, y down: lines swell away from the light.
     pub fn line_width(&self, jump: f32, outward: [f32; 2], radius_px: f32) -> f32 {
         self.whole_width(outward, radius_px) * self.part_at(jump)
     }

@@ -74,8 +74,8 @@ pub struct SmokeLook {
     pub samples: u32,
     /// Texels along a side of the pictures that lights have of the smoke; 0 where it throws no shadow on itself.
     pub shadow_side: u32,
-    /// How many of the lights' pictures, from the first, also hold surfaces, and texels of those along a side; 0 where surfaces
-    /// throw no shadow on smoke.
+    /// How many of the lights' pictures, from the first, also hold surfaces, and texels of those along a side; 0
+    /// where surfaces throw no shadow on smoke.
     pub surface_maps: u32,
     /// See `surface_maps`.
     pub surface_side: u32,

@@ -1,8 +1,8 @@
 //! The last hand on smoke: its tones, and its ink and hatching. The twin of `lib/smoke_pen`.
 //!
-//! Where a pen or the tones of a picture finish smoke, the passes of smoke draw [`TONES`] in place of colours: red and green
-//! hold the tone, blue how much the outline covers. So they need to know nothing of ramps, tiles and pens, which
-//! the last pass has at hand for surfaces.
+//! Where a pen or the tones of a picture finish smoke, the passes of smoke draw [`TONES`] in place of colours: red
+//! and green hold the tone, blue how much the outline covers. So they need to know nothing of ramps, tiles and pens,
+//! which the last pass has at hand for surfaces.
 
 use npr_core::geometry::Part;
 
@@ -16,8 +16,8 @@ const TONE_TAPS: u32 = 4;
 /// Part of a pixel that its line may cover so that the tone beside it is still known.
 const LINED: f32 = 0.95;
 
-/// Colours for [`SmokeLook::ramp`](super::SmokeLook) that tell tones: red counts up to the half, green on from there, so
-/// that bytes tell more of them apart than one colour could. They need a softness of 0.5.
+/// Colours for [`SmokeLook::ramp`](super::SmokeLook) that tell tones: red counts up to the half, green on from there,
+/// so that bytes tell more of them apart than one colour could. They need a softness of 0.5.
 pub const TONES: [[f32; 4]; 8] = [
     [0.0, 0.0, 0.0, 0.0],
     [1.0, 0.0, 0.0, 0.25],

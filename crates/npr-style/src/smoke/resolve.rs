@@ -140,8 +140,8 @@ impl Resolving<'_> {
         self.blended(&seen, &ids, [x, y], frame_px)
     }
 
-    /// The number that a pixel and its eight neighbours share, where they do; not asked at the picture's border or where
-    /// lines lie on pixels without smoke.
+    /// The number that a pixel and its eight neighbours share, where they do; not asked at the picture's border or
+    /// where lines lie on pixels without smoke.
     fn only_around(&self, x: u32, y: u32) -> Option<u32> {
         let [width, height] = self.window.size;
         let is_inside = x > 0 && y > 0 && x + 1 < width && y + 1 < height;
@@ -302,7 +302,8 @@ impl Resolving<'_> {
 impl SmokeLook {
     /// The colour of a tone that changes by `slope` a pixel, linear light: steps are as wide as a pixel, or softer.
     ///
-    /// Each step is a ramp over the width that the tone changes in over one pixel, so edges are smooth at one sample a pixel.
+    /// Each step is a ramp over the width that the tone changes in over one pixel, so edges are smooth at one sample
+    /// a pixel.
     pub(super) fn color_of(&self, tone: f32, slope: f32) -> [f32; 3] {
         let width = self.softness.max(slope).max(1e-6);
         let levels: &[Level] = bytemuck::cast_slice(&self.ramp);

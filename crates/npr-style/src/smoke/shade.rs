@@ -38,8 +38,9 @@ pub struct Shading<'a> {
 
 /// Light, depth and layer of every pixel [Hoshino 2004, section 3.2].
 ///
-/// Light is Lambert's, reaching round the sphere as far as [`SmokeLook::wrap`] says, summed over lights and cut at 1; what
-/// another sphere or a surface hides from a light is no brighter in it than [`Lights::shadow_at`]. O(pixels x lights).
+/// Light is Lambert's, reaching round the sphere as far as [`SmokeLook::wrap`] says, summed over lights and cut at 1;
+/// what another sphere or a surface hides from a light is no brighter in it than [`Lights::shadow_at`]. O(pixels x
+/// lights).
 pub fn shade_spheres(with: &Shading<'_>, pixels: &mut [SmokePixel]) {
     let width = with.window.size[0] as usize;
     if width == 0 {

@@ -40,8 +40,8 @@ pub enum SmokeParticles {
     /// As few as cover it, which follow it from frame to frame without popping.
     #[default]
     Cover,
-    /// Comparison: a constant number of particles, born at random in the smoke or where it comes from, dead where they rest or leave
-    /// it, each as large as the smoke allows in every frame [Hoshino 2004, 3.1].
+    /// Comparison: a constant number of particles, born at random in the smoke or where it comes from, dead where
+    /// they rest or leave it, each as large as the smoke allows in every frame [Hoshino 2004, 3.1].
     Published,
 }
 
@@ -60,29 +60,29 @@ pub enum SmokePlacement {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SmokePuffs {
-    /// Most spheres of a volume, 1..1000000; default 200. 30 bold and simple, 2000 a busy eruption. Published particles are always as
-    /// many.
+    /// Most spheres of a volume, 1..1000000; default 200. 30 bold and simple, 2000 a busy eruption. Published
+    /// particles are always as many.
     #[schemars(range(min = 1, max = 1_000_000))]
     pub count: u32,
     /// Density up to which there is no smoke, 0..1e9; default 0.1. Lower shows thinner smoke.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub threshold: f32,
-    /// Voxels along the longest side in which the shape of the smoke is seen, 1..1024; default 40. 20 a few bold puffs, 200 every
-    /// wisp. Published particles see all voxels there are.
+    /// Voxels along the longest side in which the shape of the smoke is seen, 1..1024; default 40. 20 a few bold
+    /// puffs, 200 every wisp. Published particles see all voxels there are.
     #[schemars(range(min = 1, max = 1024))]
     pub detail: u32,
-    /// Radius as a multiple of the way to where the smoke ends, 0.1..4; default 1.2. 1 keeps within the smoke, 1.4 makes fat,
-    /// overlapping puffs. Published particles have 1.
+    /// Radius as a multiple of the way to where the smoke ends, 0.1..4; default 1.2. 1 keeps within the smoke, 1.4
+    /// makes fat, overlapping puffs. Published particles have 1.
     #[schemars(range(min = 0.1, max = 4.0))]
     pub scale: f32,
-    /// Greatest change of a radius in a 24th of a second, as a share of the larger one, 0.001..1; default 0.12. 0.05 swells slowly,
-    /// 0.3 is nervous, 1 follows at once, as published particles do.
+    /// Greatest change of a radius in a 24th of a second, as a share of the larger one, 0.001..1; default 0.12. 0.05
+    /// swells slowly, 0.3 is nervous, 1 follows at once, as published particles do.
     #[schemars(range(min = 0.001, max = 1.0))]
     pub ease: f32,
     /// Where new spheres are placed; default `cover`. Published particles are born as in the publication.
     pub placement: SmokePlacement,
-    /// Speed up to which published particles rest and die, in units of the volume a second, 0..1e9; default 0, as published. Other
-    /// spheres live on where smoke stands still.
+    /// Speed up to which published particles rest and die, in units of the volume a second, 0..1e9; default 0, as
+    /// published. Other spheres live on where smoke stands still.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub still: f32,
 }
@@ -105,7 +105,8 @@ impl Default for SmokePuffs {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SmokeStop {
-    /// Where the colour begins, 0..1: 0 the darkest shade, 1 full light. The first stop also covers everything before it.
+    /// Where the colour begins, 0..1: 0 the darkest shade, 1 full light. The first stop also covers everything before
+    /// it.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub at: f32,
     /// The colour itself.
@@ -124,14 +125,15 @@ pub struct SmokeStyle {
     pub particles: SmokeParticles,
     /// How many spheres there are, and how they follow the smoke.
     pub puffs: SmokePuffs,
-    /// The tones, 1 to 8, sorted by `at`; default two, blue-grey shade and white. Three make rounder puffs, six a painting.
+    /// The tones, 1 to 8, sorted by `at`; default two, blue-grey shade and white. Three make rounder puffs, six a
+    /// painting.
     #[schemars(length(min = 1, max = 8))]
     pub ramp: Vec<SmokeStop>,
     /// Width of the step between two tones, 0..0.5; default 0, cut paper. 0.1 a soft brush.
     #[schemars(range(min = 0.0, max = 0.5))]
     pub softness: f32,
-    /// How far tones are smoothed, as the deviation of a Gaussian; default 14. 0 shows every sphere, 8 is lively, 30 one large
-    /// shade. As published, use `"3px"`.
+    /// How far tones are smoothed, as the deviation of a Gaussian; default 14. 0 shows every sphere, 8 is lively, 30
+    /// one large shade. As published, use `"3px"`.
     pub sigma: Length,
     /// How many layers of depth are smoothed apart, 1..16; default 4. More let near puffs stand out from far ones.
     #[schemars(range(min = 1, max = 16))]
@@ -157,8 +159,8 @@ pub struct SmokeStyle {
     pub opacity: f32,
     /// Whether puffs throw shadows on one another; default true.
     pub shadow: bool,
-    /// Texels of a light's picture of the smoke along a side, 64..4096; default 1024. Shadows end in circles at any size;
-    /// smaller ones lose small puffs. Published: 2048.
+    /// Texels of a light's picture of the smoke along a side, 64..4096; default 1024. Shadows end in circles at any
+    /// size; smaller ones lose small puffs. Published: 2048.
     #[schemars(range(min = 64, max = 4096))]
     pub shadow_px: u32,
     /// Whether smoke throws shadows on surfaces, in lights that throw shadows; default true.
@@ -167,8 +169,9 @@ pub struct SmokeStyle {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
     pub light: Option<[f32; 3]>,
-    /// A picture whose middle row gives the tones in place of `ramp`, from shade on the left to full light on the right; default
-    /// empty, none. As many tones as it has pixels, as hard as they are, or as soft as `softness`; gradients may have any shape.
+    /// A picture whose middle row gives the tones in place of `ramp`, from shade on the left to full light on the
+    /// right; default empty, none. As many tones as it has pixels, as hard as they are, or as soft as `softness`;
+    /// gradients may have any shape.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub ramp_image: String,
     /// The pen's part of the shade; default none.
@@ -179,8 +182,9 @@ pub struct SmokeStyle {
 
 /// The pen's part of the shade of smoke, as `ink` is of surfaces, over the tones of the ramp.
 ///
-/// Strokes lie on a sheet that hangs in the middle of the space that smoke moves in and faces the eye: they keep their distance
-/// on the picture and their place in the smoke, neither crawl over puffs that swell nor break where two of them meet.
+/// Strokes lie on a sheet that hangs in the middle of the space that smoke moves in and faces the eye: they keep
+/// their distance on the picture and their place in the smoke, neither crawl over puffs that swell nor break where
+/// two of them meet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SmokeInk {
@@ -243,8 +247,9 @@ pub struct SmokeLine {
     /// Part of that which lines inside the smoke have, 0..1; default 0.6. 0 only the outer line.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub inner: f32,
-    /// From which jump in depth a puff is outlined before another, in radii of the puff, 0.01..10; default 0.2. Lines begin as
-    /// nothing there, reach `inner` at four times the jump and the full width at sixteen times. Lower draws more lines.
+    /// From which jump in depth a puff is outlined before another, in radii of the puff, 0.01..10; default 0.2. Lines
+    /// begin as nothing there, reach `inner` at four times the jump and the full width at sixteen times. Lower draws
+    /// more lines.
     #[schemars(range(min = 0.01, max = 10.0))]
     pub jump: f32,
     /// How much lines swell away from the light, 0..1; default 0.35. 0 even.

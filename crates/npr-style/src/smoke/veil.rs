@@ -48,7 +48,8 @@ impl Veil {
 
     /// How much of the lines of a pixel the smoke hides.
     ///
-    /// Nothing where a surface near by lies before the smoke: the line belongs to the foremost, and half of it lies beside.
+    /// Nothing where a surface near by lies before the smoke: the line belongs to the foremost, and half of it lies
+    /// beside.
     pub(crate) fn line_fade(
         &self,
         layers: &Layers<'_>,

@@ -24,11 +24,11 @@ pub struct Calm {
 /// A smooth place and the direction there, for every place of a line.
 ///
 /// Each is that of the parabola through the places around it, by weighted least squares; around it means: as far as
-/// all lie beside the parabola by no more than the tolerance. So a straight or gently bent line, whose pixels are stairs of one
-/// pixel many pixels long, becomes straight or gently bent, and a tight turn stays.
+/// all lie beside the parabola by no more than the tolerance. So a straight or gently bent line, whose pixels are
+/// stairs of one pixel many pixels long, becomes straight or gently bent, and a tight turn stays.
 ///
-/// Local regression with windows by fit, as [Cleveland 1979] with windows chosen as in [Goldenshluger and Nemirovski 1997].
-/// O(places) times `most`.
+/// Local regression with windows by fit, as [Cleveland 1979] with windows chosen as in [Goldenshluger and Nemirovski
+/// 1997]. O(places) times `most`.
 pub fn calm(places: &[DVec2], how: &Calm) -> Vec<[DVec2; 2]> {
     let line = Line::of(places, how);
     let mut reaches: Vec<usize> = (0..places.len()).map(|i| line.reach(i)).collect();
@@ -141,7 +141,8 @@ impl Line {
         })
     }
 
-    /// The parabola of the places around one, which count less the further away they are: at the window's end by the share `fade`.
+    /// The parabola of the places around one, which count less the further away they are: at the window's end by the
+    /// share `fade`.
     fn parabola(&self, at: usize, reach: usize, fade: f64) -> Parabola {
         let [first, last] = self.window(at, reach);
         let middle = self.lengths[at + self.pad];
@@ -192,7 +193,8 @@ pub fn beside([a, b, c]: &[DVec2; 3], t: f64, place: DVec2) -> f64 {
     }
 }
 
-/// The least squares' solution; of a line where places do not determine a parabola, and of a point where they do not a line.
+/// The least squares' solution; of a line where places do not determine a parabola, and of a point where they do not
+/// a line.
 fn solve(m: &[f64; 5], sums: &[DVec2; 3]) -> [DVec2; 3] {
     let [m0, m1, m2, m3, m4] = *m;
     let [s0, s1, s2] = *sums;

@@ -6,8 +6,8 @@ use glam::DVec2;
 /// Lengths of the sides beside a corner that are tried, in pixels.
 const SIDES: [usize; 3] = [6, 9, 14];
 
-/// Share of a gentle bend's squared distances that a corner's may have. Pixels are off by 0.29 in the mean: a right angle with sides
-/// of 9 pixels has a third, one of 45 degrees with sides of 14 too, and an arc more than 1.
+/// Share of a gentle bend's squared distances that a corner's may have. Pixels are off by 0.29 in the mean: a right
+/// angle with sides of 9 pixels has a third, one of 45 degrees with sides of 14 too, and an arc more than 1.
 const SHARPER: f64 = 0.5;
 
 /// A corner of a line.

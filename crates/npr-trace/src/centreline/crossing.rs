@@ -1,16 +1,16 @@
 //! Junctions that thinning tore apart made one again.
 //!
-//! Where lines cross at an angle their ink is one for a while: the network has two forks there and a bridge between them, and
-//! where pixels close the sharp corners of a crossing, small loops beside it. Forks that happen to be near each other look alike, so
-//! the arms decide: they must be those of straight lines that cross.
+//! Where lines cross at an angle their ink is one for a while: the network has two forks there and a bridge between
+//! them, and where pixels close the sharp corners of a crossing, small loops beside it. Forks that happen to be near
+//! each other look alike, so the arms decide: they must be those of straight lines that cross.
 
 use super::link::line;
 use super::network::Network;
 use glam::DVec2;
 use npr_core::geometry::NONE;
 
-/// How far apart, in sums of their half widths, the forks of a crossing may lie: lines that cross by 30 degrees are torn apart by 1.4, by
-/// 15 degrees by 3.3.
+/// How far apart, in sums of their half widths, the forks of a crossing may lie: lines that cross by 30 degrees are
+/// torn apart by 1.4, by 15 degrees by 3.3.
 const TORN: f64 = 3.5;
 
 /// What is added to [`TORN`], in pixels: lines of single pixels that cross by 20 degrees touch that long.
@@ -19,7 +19,8 @@ const SHARED_PX: f64 = 10.0;
 /// How many times as long as its forks may be apart a bridge is at most: it may wind.
 const WINDING: f64 = 1.5;
 
-/// How far apart, as a share of the lesser half width, junctions are one in any case: the disc of ink around one holds the other.
+/// How far apart, as a share of the lesser half width, junctions are one in any case: the disc of ink around one
+/// holds the other.
 const OVERLAP: f64 = 1.0;
 
 /// Half the width, in pixels, from which that holds: of thinner lines pixels show nothing between forks.
@@ -64,9 +65,10 @@ struct Arm {
 impl Network {
     /// Makes one of junctions that thinning tore apart: those within the same disc of ink, and those of a crossing.
     ///
-    /// Forks make a crossing where four arms or six lead away from them that are, in pairs, the two ends of straight lines, each of which has
-    /// ends of every other line on both of its sides. Arms must be seen for as long as they are not between the forks:
-    /// lines that run together for a while and part again are two forks. O(junctions), the nearest first.
+    /// Forks make a crossing where four arms or six lead away from them that are, in pairs, the two ends of straight
+    /// lines, each of which has ends of every other line on both of its sides. Arms must be seen for as long as they
+    /// are not between the forks: lines that run together for a while and part again are two forks. O(junctions), the
+    /// nearest first.
     pub fn join_junctions(&mut self) {
         self.join_overlapping();
         for _ in 0..ROUNDS {

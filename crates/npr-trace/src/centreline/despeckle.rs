@@ -2,10 +2,11 @@
 
 use crate::{Bitmap, PixelLoop, TurnPolicy, decompose};
 
-/// The bitmap without specks: shapes of up to `turd_size` pixels, what is in them included, turn white, and holes of up to as many ink.
+/// The bitmap without specks: shapes of up to `turd_size` pixels, what is in them included, turn white, and holes of
+/// up to as many ink.
 ///
-/// A pinhole in a line would become a loop of two lines. Ink hangs together by sides and corners, white by sides, as [`thin`](super::thin()) has it.
-/// O(pixels / 64 + length of outlines).
+/// A pinhole in a line would become a loop of two lines. Ink hangs together by sides and corners, white by sides, as
+/// [`thin`](super::thin()) has it. O(pixels / 64 + length of outlines).
 pub fn despeckle(bitmap: &Bitmap, turd_size: u64) -> Bitmap {
     let mut clean = bitmap.clone();
     if turd_size == 0 {

@@ -2,11 +2,12 @@
 
 use crate::Bitmap;
 
-/// The square of the distance from a pixel's middle to the nearest white one's; 0 of a white pixel. Outside of the picture all is white.
+/// The square of the distance from a pixel's middle to the nearest white one's; 0 of a white pixel. Outside of the
+/// picture all is white.
 ///
-/// The Euclidean distance transform at one place, exact. Rows are looked at from the pixel's outwards, 64 pixels at a time, until they are
-/// further away than what was found: O(d + d^2 / 64) for distance d, and no memory. Lines need the distance along their
-/// middle only.
+/// The Euclidean distance transform at one place, exact. Rows are looked at from the pixel's outwards, 64 pixels at a
+/// time, until they are further away than what was found: O(d + d^2 / 64) for distance d, and no memory. Lines need
+/// the distance along their middle only.
 pub fn distance2(bitmap: &Bitmap, x: u32, y: u32) -> u64 {
     let mut best = u64::MAX;
     for down in 0..=u64::from(bitmap.height()) {

@@ -54,8 +54,9 @@ fn arm_of(branch: u32, end: usize) -> u32 {
 
 /// Links the branches of a network to strokes.
 ///
-/// At every junction, the two arms that turn least are linked, then of the others those, as long as they turn by less than `turn`
-/// radians. Arms without a partner end where the lines of all arms meet. At a node with two arms both are one stroke.
+/// At every junction, the two arms that turn least are linked, then of the others those, as long as they turn by less
+/// than `turn` radians. Arms without a partner end where the lines of all arms meet. At a node with two arms both are
+/// one stroke.
 pub fn link(network: &Network, turn: f64) -> Ways {
     let mut linker = Linker {
         network,

@@ -136,8 +136,8 @@ fn across(point: &WayPoint, along: DVec2, limit: Option<f64>, bitmap: &Bitmap) -
 
 /// Smooth widths along a line, from those measured; `fallback` where there are none.
 ///
-/// Where nothing was measured, the nearest measured ones go on; then the median of 5, then the mean over about two widths. A line that
-/// is even but for what pixels cannot show gets one width.
+/// Where nothing was measured, the nearest measured ones go on; then the median of 5, then the mean over about two
+/// widths. A line that is even but for what pixels cannot show gets one width.
 pub fn smooth_widths(measured: &[Option<f64>], closed: bool, fallback: f64) -> Vec<f64> {
     let mut known: Vec<(usize, f64)> = measured
         .iter()

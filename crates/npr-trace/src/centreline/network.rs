@@ -122,7 +122,8 @@ impl Neighbours {
 impl Network {
     /// The network of thin lines, as [`thin`](super::thin()) leaves them; `ink` is what they were thinned from.
     ///
-    /// Pixels with three neighbours or more make a junction, together with those they touch; pixels with one are ends. Nodes come in the order of their first pixels. O(pixels), radii on all threads.
+    /// Pixels with three neighbours or more make a junction, together with those they touch; pixels with one are
+    /// ends. Nodes come in the order of their first pixels. O(pixels), radii on all threads.
     pub fn of(thinned: &Bitmap, ink: &Bitmap) -> Self {
         let numbers = Numbers::of(thinned);
         let pixels = numbers.pixels();

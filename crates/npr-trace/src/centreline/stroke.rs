@@ -8,7 +8,8 @@ use super::{CentrePoint, CentreStroke};
 use crate::Bitmap;
 use glam::DVec2;
 
-/// How far, in pixels, a place of a line a pixel wide may be moved to the side: pixels' middles lie within half a pixel of what was drawn.
+/// How far, in pixels, a place of a line a pixel wide may be moved to the side: pixels' middles lie within half a
+/// pixel of what was drawn.
 const TOLERANCE_PX: f64 = 0.7;
 
 /// What is added to that for every pixel of width: wide lines have rough edges.
@@ -20,7 +21,8 @@ const WINDOW: usize = 64;
 /// Half the length of a dot, in pixels, so that it has a direction.
 pub const DOT_PX: f64 = 0.05;
 
-/// Places between pixels, about a pixel apart, made smooth but for corners of `corner` radians and more; as many as there are.
+/// Places between pixels, about a pixel apart, made smooth but for corners of `corner` radians and more; as many as
+/// there are.
 ///
 /// Ends that are pinned stay where they are, as far as a parabola can.
 pub fn smooth_border(places: &[DVec2], closed: bool, pinned: [bool; 2], corner: f64) -> Vec<DVec2> {

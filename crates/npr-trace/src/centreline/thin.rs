@@ -19,14 +19,14 @@ enum Side {
 
 /// The ink of a bitmap, thinned to lines one pixel thin.
 ///
-/// What is left is part of the ink, hangs together as the ink does (ink by sides and corners, white by sides), and has as many holes. No
-/// pixel can be taken away any more but ends of lines and those that hold it together. Ends of lines two pixels wide and less are
-/// not shortened; those of wider ones by up to half their width.
+/// What is left is part of the ink, hangs together as the ink does (ink by sides and corners, white by sides), and
+/// has as many holes. No pixel can be taken away any more but ends of lines and those that hold it together. Ends of
+/// lines two pixels wide and less are not shortened; those of wider ones by up to half their width.
 ///
-/// Layers of pixels are taken from one side after the other [Rosenfeld 1975]: those white on that side that
-/// are simple (their ring changes from white to ink once [Hilditch 1969]) and have two neighbours or more. Within a layer all are taken at
-/// once, 64 by logic on words, on all threads; the result is the same for any number of them. Time grows with the words that hold an
-/// edge of the ink, times half the width of lines.
+/// Layers of pixels are taken from one side after the other [Rosenfeld 1975]: those white on that side that are
+/// simple (their ring changes from white to ink once [Hilditch 1969]) and have two neighbours or more. Within a layer
+/// all are taken at once, 64 by logic on words, on all threads; the result is the same for any number of them. Time
+/// grows with the words that hold an edge of the ink, times half the width of lines.
 pub fn thin(bitmap: &Bitmap) -> Bitmap {
     let mut ink = Words::of(bitmap);
     let mut active: Vec<usize> = (0..ink.words.len())
@@ -117,7 +117,8 @@ impl Words {
         if candidates == 0 {
             return 0;
         }
-        // Count places where the ring around a pixel turns from white to ink; a white corner between ink does not count.
+        // Count places where the ring around a pixel turns from white to ink; a white corner between ink does not
+        // count.
         let a = !e & (ne | n);
         let b = !n & (nw | w);
         let c = !w & (sw | s);

@@ -6,7 +6,8 @@ use npr_core::geometry::NONE;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// How fast, per pixel, a line may swell from its end on: along the bisector of a square end's corner it swells by 0.71.
+/// How fast, per pixel, a line may swell from its end on: along the bisector of a square end's corner it swells by
+/// 0.71.
 const SWELL: f64 = 0.5;
 
 impl Network {
@@ -29,8 +30,8 @@ impl Network {
         self.nodes[node as usize].branches.len()
     }
 
-    /// Takes away branches that stick out of the disc around their junction by less than `spur` of its width, the shortest first, and
-    /// what hooks into the corners of square ends.
+    /// Takes away branches that stick out of the disc around their junction by less than `spur` of its width, the
+    /// shortest first, and what hooks into the corners of square ends.
     ///
     /// A junction of which two branches are left becomes part of one branch. O(n log n) in branches.
     pub fn cut_spurs(&mut self, spur: f64) {

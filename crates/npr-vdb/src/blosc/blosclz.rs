@@ -1,7 +1,8 @@
 //! BloscLZ, blosc's own codec: runs of new bytes, and repeats of bytes some distance back.
 //!
-//! The first control byte opens a run of new bytes whatever its upper three bits say. From then on, below 32 it is one less than the
-//! length of such a run; else its upper three bits are the length of a repeat and its lower five the upper bits of its distance.
+//! The first control byte opens a run of new bytes whatever its upper three bits say. From then on, below 32 it is
+//! one less than the length of such a run; else its upper three bits are the length of a repeat and its lower five
+//! the upper bits of its distance.
 
 /// Distances above this are stored in 16 bits of their own.
 const NEAR: usize = 8191;

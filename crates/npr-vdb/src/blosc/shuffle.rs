@@ -2,7 +2,8 @@
 
 /// Puts the bytes of elements together again; both slices have one length.
 ///
-/// `shuffled` holds the first bytes of all whole elements, then the second ones, and so on; what is no whole element comes last, as it is.
+/// `shuffled` holds the first bytes of all whole elements, then the second ones, and so on; what is no whole element
+/// comes last, as it is.
 pub(super) fn unshuffle_bytes(shuffled: &[u8], element_bytes: usize, bytes: &mut [u8]) {
     let count = bytes.len().checked_div(element_bytes).unwrap_or_default();
     let whole = count.saturating_mul(element_bytes);
@@ -20,8 +21,8 @@ pub(super) fn unshuffle_bytes(shuffled: &[u8], element_bytes: usize, bytes: &mut
 
 /// Puts the bits of elements together again; both slices have one length.
 ///
-/// `shuffled` holds the lowest bit of the first byte of all whole elements, eight elements a byte, then the next bits, and so on. Blosc
-/// leaves blocks as they are whose number of elements is no multiple of eight.
+/// `shuffled` holds the lowest bit of the first byte of all whole elements, eight elements a byte, then the next
+/// bits, and so on. Blosc leaves blocks as they are whose number of elements is no multiple of eight.
 pub(super) fn unshuffle_bits(shuffled: &[u8], element_bytes: usize, bytes: &mut [u8]) {
     let count = bytes.len().checked_div(element_bytes).unwrap_or_default();
     if !count.is_multiple_of(8) || count == 0 {

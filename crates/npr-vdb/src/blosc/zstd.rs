@@ -9,7 +9,8 @@ use crate::cursor::Cursor;
 
 /// Largest window in bytes, for which the decoder keeps memory.
 ///
-/// The largest chunk is a node of 32768 vectors of doubles, 768 KiB, and no encoder asks for more than the next power of two.
+/// The largest chunk is a node of 32768 vectors of doubles, 768 KiB, and no encoder asks for more than the next power
+/// of two.
 const MOST_WINDOW_BYTES: u64 = 1 << 20;
 
 /// Unpacks a frame that must fill `bytes` exactly.

@@ -35,7 +35,8 @@ fn damage() -> impl Strategy<Value = Damage> {
     ]
 }
 
-/// Places where damage tells: where bytes differ from those before, so not within the long runs of zeros that masks are.
+/// Places where damage tells: where bytes differ from those before, so not within the long runs of zeros that masks
+/// are.
 fn telling_places(file: &[u8]) -> Vec<usize> {
     let telling = |&at: &usize| at == 0 || file[at] != 0 || file[at - 1] != 0 || at % 61 == 0;
     (0..file.len()).filter(telling).collect()

@@ -171,8 +171,8 @@ pub fn link_contours(on: &Marked<'_>, nodes: &mut [CurveNode]) {
 
 /// The links of nodes, as ranking reads them; edges are the keys.
 ///
-/// Behind the first `extent[0]` nodes every element is a loop of its own. Heads are in order, so these come last. Where there
-/// was no room for all nodes, links would lead nowhere, and all elements are loops.
+/// Behind the first `extent[0]` nodes every element is a loop of its own. Heads are in order, so these come last.
+/// Where there was no room for all nodes, links would lead nowhere, and all elements are loops.
 pub fn list_nodes(extent: &[u32], nodes: &[CurveNode], links: &mut [Link]) {
     let count = extent[0] as usize;
     let count = if count <= nodes.len() { count } else { 0 };

@@ -33,8 +33,8 @@ pub struct Border {
 
 /// The borders of a picture that are lines, in the order of their sides.
 ///
-/// They are the edges of a graph on the corners of pixels: a line goes through corners with two of them, and lines meet at those
-/// with three or four.
+/// They are the edges of a graph on the corners of pixels: a line goes through corners with two of them, and lines
+/// meet at those with three or four.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Borders {
     /// Width and height in pixels.
@@ -44,8 +44,8 @@ pub struct Borders {
 }
 
 impl Borders {
-    /// The borders of the wanted kinds, where nothing of `veil` (reversed depths, where given) lies before them. O(pixels), in parallel
-    /// over rows.
+    /// The borders of the wanted kinds, where nothing of `veil` (reversed depths, where given) lies before them.
+    /// O(pixels), in parallel over rows.
     ///
     /// What is found within one or two pixels is noise: they join the neighbours that they share most sides with.
     pub(super) fn of(
@@ -119,7 +119,8 @@ impl Borders {
         [pixel - step, pixel].into_iter()
     }
 
-    /// The four sides of a pixel, each with the pixel beyond: left, right, above, below. Sides beyond the picture have no number.
+    /// The four sides of a pixel, each with the pixel beyond: left, right, above, below. Sides beyond the picture
+    /// have no number.
     fn sides_of(&self, pixel: u32) -> [Option<(u32, u32)>; 4] {
         let [width, height] = self.size;
         let [x, y] = [pixel % width, pixel / width];
@@ -131,7 +132,8 @@ impl Borders {
         ]
     }
 
-    /// Takes specks out: one pixel or two within borders lose those to the surface that they share most with, first of all their own.
+    /// Takes specks out: one pixel or two within borders lose those to the surface that they share most with, first
+    /// of all their own.
     fn despeckle(&mut self, picture: &SurfacePicture) {
         let mut dropped = vec![false; self.all.len()];
         for index in 0..self.all.len() {
@@ -239,8 +241,9 @@ impl Finder<'_> {
         self.scene.is_drawn.get(surface as usize) != Some(&false)
     }
 
-    /// Of two pixels between which surfaces meet, the one to whose surface the line belongs: neither is in front, so not depth, which rounding
-    /// decides, but the order of surfaces does, among those with lines; on both sides of a crease what is turned to the eye more.
+    /// Of two pixels between which surfaces meet, the one to whose surface the line belongs: neither is in front, so
+    /// not depth, which rounding decides, but the order of surfaces does, among those with lines; on both sides of a
+    /// crease what is turned to the eye more.
     fn owner_between(&self, pixels: [u32; 2]) -> u32 {
         let order = |pixel: u32| {
             let surface = &self.picture.pixels[pixel as usize];

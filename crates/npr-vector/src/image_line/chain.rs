@@ -14,7 +14,8 @@ pub(super) const LEAST_PART: usize = 6;
 /// Borders of a line that say where it leads from a junction.
 const ARM_BORDERS: usize = 10;
 
-/// Cosine of the most that a line may turn where three or more of its kind meet, or where it is too short to tell what it is: 46 degrees.
+/// Cosine of the most that a line may turn where three or more of its kind meet, or where it is too short to tell
+/// what it is: 46 degrees.
 const STRAIGHT: f64 = 0.697;
 
 /// What a line is: a bit of kinds, and the surface that it lies on.
@@ -45,8 +46,8 @@ struct Part {
 
 /// Links all borders; each is part of one chain. `surface_of` gives the surface of a pixel.
 ///
-/// Where lines meet, an outline goes on around the same pixels: of one that covers others, both arms belong to what is in front. Others of
-/// one label go on where they turn little. O(borders log borders).
+/// Where lines meet, an outline goes on around the same pixels: of one that covers others, both arms belong to what
+/// is in front. Others of one label go on where they turn little. O(borders log borders).
 pub(super) fn chains(borders: &Borders, surface_of: impl Fn(u32) -> u32) -> Vec<Chain> {
     let grid = Grid { borders };
     let labels: Vec<Label> = borders
@@ -325,8 +326,8 @@ struct Pair {
     arms: [u32; 2],
 }
 
-/// How surely two arms of a junction are one line, the least first: the only two around one region, two that go straight on, and after those what may be
-/// anything, for what is sure makes others sure; none where they are not.
+/// How surely two arms of a junction are one line, the least first: the only two around one region, two that go
+/// straight on, and after those what may be anything, for what is sure makes others sure; none where they are not.
 fn rank([a, b]: [&Arm; 2], all: &[Arm]) -> Option<u32> {
     let may_be_one = |a: &Arm, b: &Arm| a.label == b.label || a.is_vague || b.is_vague;
     let may_go_around = |other: &Arm| other.region == a.region && may_be_one(a, other);

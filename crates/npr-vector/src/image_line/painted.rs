@@ -30,8 +30,9 @@ pub struct PaintedRule {
     pub tone: PaintedTone,
     /// Whether lines must also differ from what is around them on the whole; default false.
     ///
-    /// For finding lines of both tones: a gap between two dark lines is light, but so is the paint around them, and it is no line. The
-    /// mean over a square of [`GROUND`] times the reach has to be nearer to what is beside the line than to the line.
+    /// For finding lines of both tones: a gap between two dark lines is light, but so is the paint around them, and
+    /// it is no line. The mean over a square of [`GROUND`] times the reach has to be nearer to what is beside the
+    /// line than to the line.
     pub on_ground: bool,
 }
 
@@ -95,9 +96,10 @@ pub fn painted_lines(
 /// Marks what is darker, or lighter, than the paint beside it: what `lightness` (0..1, one a pixel) shows of textures.
 /// Where it is no number there is no paint, neither of a line nor beside one.
 ///
-/// The black top-hat of a square [Serra 1982]: where the picture closed by the square is lighter than itself by the contrast, something
-/// dark lies that no square fits into. Light lines are the dark ones of the negative. Only pixels that show the same object count as beside
-/// each other, and what `lines` ink is left to them. O(pixels * reach), in parallel over rows.
+/// The black top-hat of a square [Serra 1982]: where the picture closed by the square is lighter than itself by the
+/// contrast, something dark lies that no square fits into. Light lines are the dark ones of the negative. Only pixels
+/// that show the same object count as beside each other, and what `lines` ink is left to them. O(pixels * reach), in
+/// parallel over rows.
 pub fn painted(
     picture: &SurfacePicture,
     lightness: &[f32],
@@ -163,7 +165,8 @@ fn means(values: &[f32], object: &[u32], width: usize, reach: usize) -> Vec<f32>
     sums.iter().map(|[sum, count]| sum / count).collect()
 }
 
-/// What `pick` makes of all pixels of a row up to `reach` away that show the same object, and then of all such of a column.
+/// What `pick` makes of all pixels of a row up to `reach` away that show the same object, and then of all such of a
+/// column.
 fn along_both<T: Copy + Send + Sync>(
     values: &[T],
     object: &[u32],

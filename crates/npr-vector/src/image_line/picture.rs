@@ -87,7 +87,8 @@ impl SurfacePicture {
         }
     }
 
-    /// The borders between pixels that are lines of the wanted kinds, where nothing of `veil` (reversed depths, where given) lies before them.
+    /// The borders between pixels that are lines of the wanted kinds, where nothing of `veil` (reversed depths, where
+    /// given) lies before them.
     pub fn borders(&self, scene: &ImageScene<'_>, veil: Option<&[f32]>) -> Borders {
         Borders::of(self, scene, veil)
     }

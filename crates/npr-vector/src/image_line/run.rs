@@ -33,8 +33,8 @@ struct Found {
 /// What runs are made on.
 pub type On<'a> = (&'a ImageScene<'a>, &'a Projector, &'a SurfacePicture);
 
-/// The strokes of runs found in a picture, as `look` has them along themselves: joined, cut at corners and smoothed as those of meshes are,
-/// as far as the settings ask for it.
+/// The strokes of runs found in a picture, as `look` has them along themselves: joined, cut at corners and smoothed
+/// as those of meshes are, as far as the settings ask for it.
 pub fn strokes_from(
     runs: Vec<Run>,
     shape: &Shape,
@@ -47,10 +47,11 @@ pub fn strokes_from(
 }
 
 impl LineInk {
-    /// The lines of the ink as runs of the shape: each line once, along its middle, cut where its kind or surface changes.
+    /// The lines of the ink as runs of the shape: each line once, along its middle, cut where its kind or surface
+    /// changes.
     ///
-    /// Places, depths and identities are those of the pixels that own the ink: the identity hangs on the mesh edge with the least hash of
-    /// those nearest to the line. O(pixels + length of lines), in parallel.
+    /// Places, depths and identities are those of the pixels that own the ink: the identity hangs on the mesh edge
+    /// with the least hash of those nearest to the line. O(pixels + length of lines), in parallel.
     ///
     /// # Errors
     ///
@@ -85,8 +86,9 @@ impl LineInk {
 impl Borders {
     /// The lines of the borders as runs of the shape: each line once, cut where its kind or surface changes.
     ///
-    /// Where lines meet, those go on as one that lie on one surface: an outline runs past what it hides. Places, depths and identities
-    /// are those of the pixels that own the borders, as for [`LineInk::runs`]. O(borders log borders), in parallel.
+    /// Where lines meet, those go on as one that lie on one surface: an outline runs past what it hides. Places,
+    /// depths and identities are those of the pixels that own the borders, as for [`LineInk::runs`]. O(borders log
+    /// borders), in parallel.
     pub fn runs(&self, (scene, projector, picture): On<'_>) -> Vec<Run> {
         let maker = Maker {
             paint: 0,

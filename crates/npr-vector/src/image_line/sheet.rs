@@ -9,8 +9,9 @@ use npr_core::window::View;
 /// Most faces between two pixels that are looked at.
 const MOST_FACES: usize = 256;
 
-/// Whether two pixels, given by their middles and the faces that they show, show parts of one sheet: from one face to the other, faces lie side by
-/// side along the way between the middles, and none is turned away. None where that cannot be told.
+/// Whether two pixels, given by their middles and the faces that they show, show parts of one sheet: from one face to
+/// the other, faces lie side by side along the way between the middles, and none is turned away. None where that
+/// cannot be told.
 ///
 /// Depth tells so only where a surface is not seen at a grazing angle. O(faces between them), up to a limit.
 pub fn are_one_sheet(
@@ -34,7 +35,8 @@ pub fn are_one_sheet(
             Some((crossing(middles, [a, b])?, 3 * face + k))
         });
         let (at, half_edge) = leaving.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        // Where the way ends within a face, it is the last or one beside it, by rounding; or the last one lies before it.
+        // Where the way ends within a face, it is the last or one beside it, by rounding; or the last one lies before
+        // it.
         if at < along || at > 1.0 + 1e-6 {
             let mut twins = (0..3).map(|k| shape.twins[(3 * face + k) as usize]);
             return Some(twins.any(|twin| twin != NONE && twin / 3 == last));
@@ -67,7 +69,8 @@ fn projected(shape: &Shape, view: &View, face: u32) -> Option<[DVec2; 3]> {
     Some(places)
 }
 
-/// Where a way from one place to another crosses a line between two corners, as a share of the way; none where it passes beside it.
+/// Where a way from one place to another crosses a line between two corners, as a share of the way; none where it
+/// passes beside it.
 fn crossing([from, to]: [DVec2; 2], [a, b]: [DVec2; 2]) -> Option<f64> {
     let [before, after] = [a, b].map(|corner| turn(from, to, corner));
     if (before > 0.0) == (after > 0.0) {
@@ -101,7 +104,8 @@ mod tests {
         camera.view(SIZE, ([-2.0; 3], [2.0; 3]))
     }
 
-    /// The nearest face under a place, its depth, and the cosine between its normal and the way to the eye, by trying all of them.
+    /// The nearest face under a place, its depth, and the cosine between its normal and the way to the eye, by trying
+    /// all of them.
     fn seen(shape: &Shape, view: &View, place: DVec2) -> Option<(f64, u32, f64)> {
         let hits = (0..shape.faces.len() as u32).filter_map(|face| {
             let [a, b, c] = projected(shape, view, face)?;

@@ -276,7 +276,8 @@ proptest! {
         }
     }
 
-    /// Light lines are the dark ones of the negative, and lines on their ground those where the mean of a plain walk lies beyond half way.
+    /// Light lines are the dark ones of the negative, and lines on their ground those where the mean of a plain walk
+    /// lies beyond half way.
     #[test]
     fn light_lines_are_those_of_the_negative(seed: u32, bare in 0u32..4) {
         let view = Projection::Parallel { height: 1.0 };

@@ -226,7 +226,8 @@ proptest! {
             if face == NONE {
                 continue;
             }
-            // Faces of the edge that share another corner with the pierced one have an edge or a corner in common with it.
+            // Faces of the edge that share another corner with the pierced one have an edge or a corner in common
+            // with it.
             let corners = shape.faces[face as usize];
             let beside = shape.sides(edge).iter().filter(|side| {
                 let apex = shape.opposite(**side);

@@ -166,11 +166,11 @@ pub struct Facing<'a> {
 
 /// Which edges are drawn: their flag is 1, and their mark holds the kind and [`DrawnEdge::REVERSED`].
 ///
-/// Edges run as the face turned to the eye is wound, so that its surface lies on the left hand as the eye sees it [Jiang et al.
-/// 2022]. O(edges).
+/// Edges run as the face turned to the eye is wound, so that its surface lies on the left hand as the eye sees it
+/// [Jiang et al. 2022]. O(edges).
 ///
-/// Differs: the publication marks both sides of a face seen exactly edge-on, drops edges of more than two faces, and freezes
-/// convexity when the mesh is read.
+/// Differs: the publication marks both sides of a face seen exactly edge-on, drops edges of more than two faces, and
+/// freezes convexity when the mesh is read.
 pub fn mark_edges(on: &Facing<'_>, edges: &[DrawnEdge], flags: &mut [u32], marks: &mut [u32]) {
     let outputs = flags.par_iter_mut().zip(marks);
     edges

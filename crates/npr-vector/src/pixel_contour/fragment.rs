@@ -37,8 +37,9 @@ pub fn holder_of(starts: &[u32], value: u32) -> u32 {
 
 /// Places every fragment: the second pass of parallel line drawing [Jiang et al. 2022, Bresenham in two passes].
 ///
-/// `starts` is the scan of the counts of fragments of the first `segment_count[0]` segments, and `extent[0]` their sum. Positions lie on centres of the fine grid along the
-/// longer axis; reversed depth is linear. A fragment beyond the sum has [`NONE`] for its pixel.
+/// `starts` is the scan of the counts of fragments of the first `segment_count[0]` segments, and `extent[0]` their
+/// sum. Positions lie on centres of the fine grid along the longer axis; reversed depth is linear. A fragment beyond
+/// the sum has [`NONE`] for its pixel.
 pub fn emit_fragments(
     view: &PixelView,
     extent: &[u32],
@@ -95,9 +96,9 @@ fn fragment_of(view: &PixelView, segment: &Segment, step: u32) -> Fragment {
 
 /// Whether each fragment shows: the soft test against the depths of the pixels around it.
 ///
-/// `scene` holds the reversed depth of every pixel, 0 where there is nothing, of surfaces and of a veil before them; of a veil that
-/// has not as many pixels there is none. A pixel shows a fragment that lies at most the view's tolerance behind it;
-/// `least_visible` of those within the picture have to.
+/// `scene` holds the reversed depth of every pixel, 0 where there is nothing, of surfaces and of a veil before them;
+/// of a veil that has not as many pixels there is none. A pixel shows a fragment that lies at most the view's
+/// tolerance behind it; `least_visible` of those within the picture have to.
 pub fn test_fragments(
     view: &PixelView,
     scene: [&[f32]; 2],
@@ -138,8 +139,9 @@ fn showing_pixels(view: &PixelView, [surfaces, veil]: [&[f32]; 2], fragment: &Fr
 
 /// The hard test: the nearest fragment of every pixel, as the number of its segment plus one.
 ///
-/// `owners` and `nearest`, its reversed depth as bits, hold zeros where there is none, or what was drawn before. Of fragments at
-/// one depth the first wins, which is the edge that comes first in the mesh: nothing depends on who is fastest. O(fragments).
+/// `owners` and `nearest`, its reversed depth as bits, hold zeros where there is none, or what was drawn before. Of
+/// fragments at one depth the first wins, which is the edge that comes first in the mesh: nothing depends on who is
+/// fastest. O(fragments).
 ///
 /// Differs: the publication's fragments race for a lock, so the order of its pixels changes from run to run.
 pub fn draw_nearest(

@@ -1,8 +1,8 @@
-//! Sides in the order of their loops, freed of specks, smoothed, each with a tangent: the twins of `vector.gather_sides`,
-//! `vector.drop_specks`, `vector.smooth_loops` and `vector.fit_tangents`.
+//! Sides in the order of their loops, freed of specks, smoothed, each with a tangent: the twins of
+//! `vector.gather_sides`, `vector.drop_specks`, `vector.smooth_loops` and `vector.fit_tangents`.
 //!
-//! Loops lie one after the other in one list. Every side knows where its loop starts and how long it is, so windows along a
-//! loop wrap around it by themselves, as often as it takes where a loop is shorter than the window.
+//! Loops lie one after the other in one list. Every side knows where its loop starts and how long it is, so windows
+//! along a loop wrap around it by themselves, as often as it takes where a loop is shorter than the window.
 
 use super::segment::Segment;
 use crate::rank::place::Standing;
@@ -347,13 +347,13 @@ impl Normal {
     }
 }
 
-/// Unit tangents of loops: at every side a parabola through it, over arc length, is fitted to `radius` sides both ways by
-/// weighted least squares. Zero where all places are one.
+/// Unit tangents of loops: at every side a parabola through it, over arc length, is fitted to `radius` sides both
+/// ways by weighted least squares. Zero where all places are one.
 ///
 /// `weights` run from the side itself to `radius`, the filter's, and must not grow. O(sides * radius).
 ///
-/// Differs: the publication's prototype adds distances from the side itself instead of those between neighbours, so its parameter
-/// grows as a square, and weighs the farthest places most; its tangents are saved by symmetry alone.
+/// Differs: the publication's prototype adds distances from the side itself instead of those between neighbours, so
+/// its parameter grows as a square, and weighs the farthest places most; its tangents are saved by symmetry alone.
 pub fn fit_tangents(
     filter: &Filter,
     weights: &[f32],

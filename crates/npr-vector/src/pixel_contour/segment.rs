@@ -1,7 +1,7 @@
 //! Edges cut to the view and laid on the fine grid: the twin of `vector.project_edges`.
 //!
-//! Every operation here gives the same bits on every engine: sums and products are rounded one by one, and what a division
-//! would leave to the device is taken from [`reciprocal`]. So lines cover the same pixels everywhere.
+//! Every operation here gives the same bits on every engine: sums and products are rounded one by one, and what a
+//! division would leave to the device is taken from [`reciprocal`]. So lines cover the same pixels everywhere.
 
 use super::edge::DrawnEdge;
 use bytemuck::{Pod, Zeroable};
@@ -106,11 +106,11 @@ fn depth_of_z(view: &View) -> [f32; 2] {
     [1.0 / per_unit, -at_eye / per_unit]
 }
 
-/// The greatest of the floats about `1 / b` whose product with `b` rounds to at most 1; the same bits wherever division is
-/// good to four units in the last place, as WebGPU promises.
+/// The greatest of the floats about `1 / b` whose product with `b` rounds to at most 1; the same bits wherever
+/// division is good to four units in the last place, as WebGPU promises.
 ///
-/// Within a unit in the last place of `1 / b` for sizes between 1e-30 and 1e30; beyond, as for the nearer of these. 0 counts as
-/// positive.
+/// Within a unit in the last place of `1 / b` for sizes between 1e-30 and 1e30; beyond, as for the nearer of these. 0
+/// counts as positive.
 pub fn reciprocal(b: f32) -> f32 {
     let size = b.abs().clamp(1e-30, 1e30);
     let mut bits = (1.0 / size).to_bits() - 4;
@@ -185,8 +185,8 @@ pub struct Drawn<'a> {
 
 /// Cuts each edge drawn to the view's six planes, projects it, and counts its fragments.
 ///
-/// What lies outside has no fragments. Both new ends come from the edge's own ends, so one cut at both keeps its line. Behind
-/// the first `extent[0]` counts are 0.
+/// What lies outside has no fragments. Both new ends come from the edge's own ends, so one cut at both keeps its
+/// line. Behind the first `extent[0]` counts are 0.
 ///
 /// Differs: the publication keeps 16-bit ends, a thirtieth of a pixel apart; here they are floats.
 pub fn project_edges(on: &Drawn<'_>, segments: &mut [Segment], counts: &mut [u32]) {

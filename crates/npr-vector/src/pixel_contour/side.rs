@@ -46,9 +46,10 @@ impl Ink<'_> {
 
     /// The side that goes on where one ends, as pixel and direction.
     ///
-    /// The two pixels ahead decide: with ink outside, the line turns left onto that pixel, so that ink joined by a corner is
-    /// joined, whatever lies inside; else it goes straight on ink, or turns right around its own pixel. All 16 patterns
-    /// of two by two pixels are covered, and of both that are ambiguous the ink is one ("black" in Potrace's words).
+    /// The two pixels ahead decide: with ink outside, the line turns left onto that pixel, so that ink joined by a
+    /// corner is joined, whatever lies inside; else it goes straight on ink, or turns right around its own pixel. All
+    /// 16 patterns of two by two pixels are covered, and of both that are ambiguous the ink is one ("black" in
+    /// Potrace's words).
     pub fn after(&self, pixel: u32, direction: u32) -> (u32, u32) {
         let ([x, y], [vx, vy], [ox, oy]) = self.frame_of(pixel, direction, 1);
         if self.at(x + vx + ox, y + vy + oy) {
@@ -99,11 +100,12 @@ pub fn mark_sides(ink: &Ink<'_>, masks: &mut [u32], counts: &mut [u32]) {
 
 /// Links every side to those before and after it.
 ///
-/// `starts` is the scan of the pixels' numbers of sides and `extent[0]` their sum. A side is written as four times its pixel plus
-/// its direction; sides come by pixel, then by direction. Behind the sum every element is a loop of its own. O(sides).
+/// `starts` is the scan of the pixels' numbers of sides and `extent[0]` their sum. A side is written as four times
+/// its pixel plus its direction; sides come by pixel, then by direction. Behind the sum every element is a loop of
+/// its own. O(sides).
 ///
-/// Differs: the publication leaves sides on the picture's border out and draws the border as a line to make up for it; here there
-/// is no ink beyond the picture, and loops close along its border.
+/// Differs: the publication leaves sides on the picture's border out and draws the border as a line to make up for
+/// it; here there is no ink beyond the picture, and loops close along its border.
 pub fn link_sides(
     extent: &[u32],
     ink: &Ink<'_>,

@@ -1,8 +1,8 @@
-//! Loops cut to strokes: the twins of `vector.cull_sides`, `vector.vote_sides`, `vector.start_strips`, `vector.rank_strips`,
-//! `vector.measure_strips` and `vector.drop_short`.
+//! Loops cut to strokes: the twins of `vector.cull_sides`, `vector.vote_sides`, `vector.start_strips`,
+//! `vector.rank_strips`, `vector.measure_strips` and `vector.drop_short`.
 //!
-//! A strip is a run of kept sides along a loop, which may pass the place where the loop's list starts. A loop that is kept
-//! whole is one closed strip.
+//! A strip is a run of kept sides along a loop, which may pass the place where the loop's list starts. A loop that is
+//! kept whole is one closed strip.
 
 use super::looped::{Planar, Spot};
 use crate::rank::scan::{compact, exclusive_scan};
@@ -100,9 +100,9 @@ gpu_layout!(StripSpot { start, rank });
 
 /// Ranks the sides of all strips: a segmented scan on circular lists.
 ///
-/// `slots` is the scan of the `flags` of first sides, and `firsts` lists these. A side belongs to the last strip that starts before
-/// it in its loop; where none does, to the last of the whole loop, which passes the place where its list starts; and where there
-/// is none at all, the loop is one strip.
+/// `slots` is the scan of the `flags` of first sides, and `firsts` lists these. A side belongs to the last strip that
+/// starts before it in its loop; where none does, to the last of the whole loop, which passes the place where its
+/// list starts; and where there is none at all, the loop is one strip.
 pub fn rank_strips(
     spots: &[Spot],
     kept: &[u32],

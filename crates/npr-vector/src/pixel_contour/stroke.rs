@@ -157,8 +157,8 @@ impl Traced {
 
     /// The strokes that the loops make, as runs of a shape.
     ///
-    /// Kind and surface are those of most of its sides, for the path draws all into one picture; the identity hangs on the mesh edge
-    /// with the least hash. O(sides).
+    /// Kind and surface are those of most of its sides, for the path draws all into one picture; the identity hangs
+    /// on the mesh edge with the least hash. O(sides).
     pub fn runs(&self, shape: &Shape, projector: &Projector, loops: &Loops) -> Vec<Run> {
         let maker = Maker {
             traced: self,

@@ -68,11 +68,13 @@ impl std::fmt::Debug for SmokeLines<'_> {
 }
 
 impl SmokeLines<'_> {
-    /// The outline as strokes of kind contour; hidden by surfaces as `seen` says, which must know nothing of the smoke itself.
+    /// The outline as strokes of kind contour; hidden by surfaces as `seen` says, which must know nothing of the
+    /// smoke itself.
     ///
-    /// An arc ends where another puff covers it or where what lies behind comes nearer than [`SmokeLines::jump`]: there its width is
-    /// as thin as the jump says. Strokes that puffs hide are never given, not even as hidden ones: they are inside of the smoke.
-    /// O(pairs of puffs whose images touch), in parallel, with the same result for any number of threads.
+    /// An arc ends where another puff covers it or where what lies behind comes nearer than [`SmokeLines::jump`]:
+    /// there its width is as thin as the jump says. Strokes that puffs hide are never given, not even as hidden ones:
+    /// they are inside of the smoke. O(pairs of puffs whose images touch), in parallel, with the same result for any
+    /// number of threads.
     pub(crate) fn strokes(&self, seen: &Seen<'_>, settings: &LineSettings) -> Vec<Stroke> {
         if !self.is_outlined || settings.kinds & CurveNode::CONTOUR == 0 {
             return Vec::new();

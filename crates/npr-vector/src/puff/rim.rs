@@ -67,7 +67,8 @@ impl Rim {
         self.middle.z - lean
     }
 
-    /// The arc along which a puff hides the circle, or lies less than `room` behind it: the middle and half of the arc as angles.
+    /// The arc along which a puff hides the circle, or lies less than `room` behind it: the middle and half of the
+    /// arc as angles.
     ///
     /// Whatever the room, that is where the cosine of the angle to one direction exceeds a number, because all
     /// points of the circle are equally far from the eye. `room` is measured along sights.
@@ -87,7 +88,8 @@ impl Rim {
         Some([middle.rem_euclid(TAU), math::acos_f64(least / amplitude)])
     }
 
-    /// In perspective: the sight's unit direction d must have d . c beyond a number for the sphere to begin before its end.
+    /// In perspective: the sight's unit direction d must have d . c beyond a number for the sphere to begin before
+    /// its end.
     fn towards(&self, puff: &Puff, room: f64) -> ([f64; 2], f64) {
         let power = puff.center.length_squared() - puff.radius * puff.radius;
         let (end, touching) = (self.way + room, power.max(0.0).sqrt());

@@ -50,9 +50,9 @@ pub fn rounds_for(node_count: usize) -> u32 {
 
 /// Ranks lists by breaking loops and then ranking, both by pointer jumping [Wyllie 1979; Jiang et al. 2022].
 ///
-/// Input and result are those of [`walk`](super::walk()). `rounds` bounds the rounds of each of the two; by default as
-/// many as chains of all nodes would take. Fewer are enough where no chain is longer than `2^rounds`; more than 32 change
-/// nothing.
+/// Input and result are those of [`walk`](super::walk()). `rounds` bounds the rounds of each of the two; by default
+/// as many as chains of all nodes would take. Fewer are enough where no chain is longer than `2^rounds`; more than 32
+/// change nothing.
 ///
 /// O(n log n) work in O(log n) steps; two buffers alternate.
 ///

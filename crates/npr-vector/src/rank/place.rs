@@ -102,9 +102,9 @@ pub(super) fn finish(
 
 /// Passes on to nodes what the elements know that they hang on: the twin of `vector.scatter_ranks`.
 ///
-/// A node is unsettled, 1 instead of 0, where its element disagrees with the one before about the head of their chain, where
-/// that element's hop does not lead to the first of the chain, or where it hangs on none. If no node of a chain is, all
-/// that is known of the chain is right.
+/// A node is unsettled, 1 instead of 0, where its element disagrees with the one before about the head of their
+/// chain, where that element's hop does not lead to the first of the chain, or where it hangs on none. If no node of
+/// a chain is, all that is known of the chain is right.
 pub fn scatter_ranks(
     walks: &[Walk],
     first: &[Reach],

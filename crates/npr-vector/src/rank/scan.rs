@@ -9,10 +9,11 @@ pub const BLOCK: usize = 64;
 
 /// Within each block, the sum of all values before; and the sum of every block: the twin of `vector.scan_blocks`.
 ///
-/// Sums are those of 32-bit numbers and wrap. Behind the last block's sum zeros are written up to a whole block, as far as there
-/// is room, so that sums of sums may be taken in whole blocks wherever the values end.
+/// Sums are those of 32-bit numbers and wrap. Behind the last block's sum zeros are written up to a whole block, as
+/// far as there is room, so that sums of sums may be taken in whole blocks wherever the values end.
 ///
-/// Differs: a workgroup adds in steps of doubling width [Hillis & Steele 1986]; sums of integers are the same in any order.
+/// Differs: a workgroup adds in steps of doubling width [Hillis & Steele 1986]; sums of integers are the same in any
+/// order.
 pub fn scan_blocks(values: &[u32], prefixes: &mut [u32], sums: &mut [u32]) {
     let (sums, behind) = sums.split_at_mut(values.len().div_ceil(BLOCK).min(sums.len()));
     let whole = sums.len().next_multiple_of(BLOCK) - sums.len();
@@ -43,8 +44,8 @@ pub fn scan_add(prefixes_in: &[u32], offsets: &[u32], prefixes_out: &mut [u32]) 
 
 /// Writes the indices of marked elements in a row: the twin of `vector.compact`.
 ///
-/// `slots` is the scan of `flags`, which are 0 and 1. What lies behind the last index stays as it is; what the list has no
-/// room for is left out, and the sum of all flags tells.
+/// `slots` is the scan of `flags`, which are 0 and 1. What lies behind the last index stays as it is; what the list
+/// has no room for is left out, and the sum of all flags tells.
 pub fn compact(flags: &[u32], slots: &[u32], list: &mut [u32]) {
     for (element, (flag, slot)) in (0..).zip(flags.iter().zip(slots)) {
         if *flag != 0 && (*slot as usize) < list.len() {

@@ -1,6 +1,7 @@
 //! Ranking by a ruling set: a few nodes are ranked by pointer jumping, the rest counts from them.
 //!
-//! Pointer jumping touches every node in every round. Here about every seventeenth node becomes a splitter; only those jump.
+//! Pointer jumping touches every node in every round. Here about every seventeenth node becomes a splitter; only
+//! those jump.
 
 use super::jump::{Hop, Reach, break_loops, cut_loops, jump_all, rank_jump, rounds_for};
 use super::place::{self, Walk};
@@ -17,8 +18,8 @@ pub const WINDOW: u32 = 8;
 
 /// Most links that a node walks back to a splitter.
 ///
-/// Among a million nodes in random order the longest walk is near 80. Only an order made for the purpose is worse, and is
-/// reported: walks without a limit could stop a graphics device.
+/// Among a million nodes in random order the longest walk is near 80. Only an order made for the purpose is worse,
+/// and is reported: walks without a limit could stop a graphics device.
 pub const WALK_LIMIT: u32 = 512;
 
 /// Rounds after which chains of up to `node_count` nodes have ranked their splitters.
@@ -29,8 +30,8 @@ pub fn splitter_rounds_for(node_count: usize) -> u32 {
 
 /// Ranks lists by ranking splitters [Helman & JáJá 1999; Rehman et al. 2009].
 ///
-/// Input and result are those of [`walk`](super::walk()). `rounds` bounds the rounds of pointer jumping among splitters; by
-/// default as many as chains of all nodes would take.
+/// Input and result are those of [`walk`](super::walk()). `rounds` bounds the rounds of pointer jumping among
+/// splitters; by default as many as chains of all nodes would take.
 ///
 /// O(n) work but for the splitters' O(n/17 log n), in O(log n) steps.
 ///
@@ -40,8 +41,8 @@ pub fn splitter_rounds_for(node_count: usize) -> u32 {
 ///
 /// # Errors
 ///
-/// [`RankError`] where `next` does not describe lists, the rounds were too few, or more than [`WALK_LIMIT`] nodes in a row
-/// hold no splitter.
+/// [`RankError`] where `next` does not describe lists, the rounds were too few, or more than [`WALK_LIMIT`] nodes in
+/// a row hold no splitter.
 pub fn ruling_set(next: &[u32], keys: &[u32], rounds: Option<u32>) -> Result<Ranked, RankError> {
     let links = link(next, keys)?;
     let rounds = rounds.unwrap_or_else(|| splitter_rounds_for(links.len()));
@@ -169,10 +170,11 @@ pub struct Workspace<'a> {
     pub hops_scratch: &'a mut [Hop],
 }
 
-/// All rounds of pointer jumping at once, for lists so short that one workgroup does better than many passes: the twin of
-/// `vector.rank_splitters`.
+/// All rounds of pointer jumping at once, for lists so short that one workgroup does better than many passes: the
+/// twin of `vector.rank_splitters`.
 ///
-/// `first` and `hops_in` are those of [`start_splitters`]. The result is that of [`break_loops`], [`cut_loops`] and [`rank_jump`].
+/// `first` and `hops_in` are those of [`start_splitters`]. The result is that of [`break_loops`], [`cut_loops`] and
+/// [`rank_jump`].
 pub fn rank_splitters(
     rounds: u32,
     extent: &[u32],

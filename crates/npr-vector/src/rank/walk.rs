@@ -5,8 +5,8 @@ use npr_core::geometry::NONE;
 
 /// Ranks lists by walking along them: what every other way must equal, and the fastest on a processor.
 ///
-/// `next[i]` is the node after `i`, [`NONE`] after the last; lists may be interleaved in any order. `keys[i]` stays with
-/// node `i` from frame to frame and may repeat.
+/// `next[i]` is the node after `i`, [`NONE`] after the last; lists may be interleaved in any order. `keys[i]` stays
+/// with node `i` from frame to frame and may repeat.
 ///
 /// O(n), in one thread.
 ///

@@ -1,8 +1,8 @@
 //! How much work passes have over a list whose length only the device knows.
 //!
-//! Room for a list is made before it is known how long it gets. A device that reads the length itself can start as many
-//! workgroups as the list needs instead of as many as fit its room: an indirect dispatch takes its size from a buffer, and
-//! [`size_work`] fills that buffer once for all passes that follow the same length.
+//! Room for a list is made before it is known how long it gets. A device that reads the length itself can start as
+//! many workgroups as the list needs instead of as many as fit its room: an indirect dispatch takes its size from a
+//! buffer, and [`size_work`] fills that buffer once for all passes that follow the same length.
 //!
 //! Passes work on whole workgroups, and on one at least. So what they do to a list of n elements is what they do where
 //! the room ends with the last of these workgroups, to the bit; what lies behind stays as it is.
@@ -104,8 +104,8 @@ pub fn groups_for(element_count: u32) -> [u32; 2] {
 
 /// Rounds of pointer jumping that are run of those that are planned, where `count` elements jump.
 ///
-/// More than [`rounds_for`] of them change nothing. Two buffers alternate, so an odd number of rounds must not stop after an even
-/// one, nor the other way round: the result would be in the other buffer.
+/// More than [`rounds_for`] of them change nothing. Two buffers alternate, so an odd number of rounds must not stop
+/// after an even one, nor the other way round: the result would be in the other buffer.
 pub fn rounds_run(round_count: u32, count: u32) -> u32 {
     let needed = rounds_for(count as usize).max(1);
     let run = needed + (needed ^ round_count) % 2;

@@ -1,8 +1,9 @@
-//! From shares of samples to runs of lines, all samples at once: the twins of `vector.weigh_samples` and `vector.filter_visibility`.
+//! From shares of samples to runs of lines, all samples at once: the twins of `vector.weigh_samples` and
+//! `vector.filter_visibility`.
 //!
-//! A line that is visible becomes hidden only where the mean share is clearly low, and the reverse, so that noise about one half makes
-//! no dashes. What a sample shows is therefore what the last sample before it showed at which this was clear: a sum over
-//! clear samples and a list of them tell which that is, however far back.
+//! A line that is visible becomes hidden only where the mean share is clearly low, and the reverse, so that noise
+//! about one half makes no dashes. What a sample shows is therefore what the last sample before it showed at which
+//! this was clear: a sum over clear samples and a list of them tell which that is, however far back.
 
 use super::SpineSample;
 use crate::rank::scan::{compact, exclusive_scan};
@@ -16,8 +17,8 @@ pub const EVEN_SHARE: f32 = 0.5;
 
 /// Decides by the mean share of every sample and its neighbours whether it is visible, and whether that is clear.
 ///
-/// Line `k` holds the samples from `line_starts[k]` to `line_starts[k + 1]`; the mean goes over `radius` samples to both sides on the
-/// sample's own line. The first sample of a line counts as clear. O(samples · radius), parallel.
+/// Line `k` holds the samples from `line_starts[k]` to `line_starts[k + 1]`; the mean goes over `radius` samples to
+/// both sides on the sample's own line. The first sample of a line counts as clear. O(samples · radius), parallel.
 ///
 /// # Panics
 ///
@@ -52,7 +53,8 @@ pub fn weigh_samples(
 
 /// Whether every sample is visible, 1 or 0: the verdict of the last clear sample up to it.
 ///
-/// `clear_list` holds the clear samples in order, and `slots` the number of them before every sample. O(samples), parallel.
+/// `clear_list` holds the clear samples in order, and `slots` the number of them before every sample. O(samples),
+/// parallel.
 pub fn filter_visibility(
     verdicts: &[u32],
     clear: &[u32],
@@ -69,8 +71,8 @@ pub fn filter_visibility(
         });
 }
 
-/// What is seen of lines, 1 or 0 for every sample, by the shares of their samples: [`weigh_samples`] and [`filter_visibility`]
-/// with what lies between them.
+/// What is seen of lines, 1 or 0 for every sample, by the shares of their samples: [`weigh_samples`] and
+/// [`filter_visibility`] with what lies between them.
 ///
 /// ```
 /// use npr_vector::sample::{SpineSample, visible_samples};

@@ -3,11 +3,12 @@
 //! Fills, shadows and hidden-line removal all see polygons, whose outline interpolated contours leave by up to an
 //! edge's length. Two things bring them together, both judged in the picture:
 //!
-//! - Where front by interpolated normals and front by planes differ, faces form patches, bounded by a smooth and a polygonal
-//!   line. A patch whose visible polygonal line is not within tolerance of a smooth one is made flat
+//! - Where front by interpolated normals and front by planes differ, faces form patches, bounded by a smooth and a
+//!   polygonal line. A patch whose visible polygonal line is not within tolerance of a smooth one is made flat
 //!   ([`PolygonOutline::flat_faces`]): there the line changes to mesh edges, at the very points where both cross.
-//! - A smooth line lies as often on a face turned away as on one turned to the eye, so sights to it tell nothing. What is seen of it is
-//!   taken from the polygon's contour beside it ([`PolygonOutline::spans`]), which sights decide exactly.
+//! - A smooth line lies as often on a face turned away as on one turned to the eye, so sights to it tell nothing.
+//!   What is seen of it is taken from the polygon's contour beside it ([`PolygonOutline::spans`]), which sights
+//!   decide exactly.
 
 use super::normals::CornerNormals;
 use super::patches::Patches;
@@ -29,11 +30,12 @@ const STEP_PX: f64 = 1.5;
 /// Gaps in what is seen of a line up to this length are closed, and lone specks up to it dropped, in pixels.
 const SETTLE_PX: f64 = 4.0;
 
-/// Of several contours beside a line, those count that are at most this much farther from it in the world than the nearest.
+/// Of several contours beside a line, those count that are at most this much farther from it in the world than the
+/// nearest.
 const NEARLY_NEAREST: f64 = 2.0;
 
-/// Lines farther apart in the world than this many sides of the faces they lie on, or pixels, are different lines of the
-/// surface that only happen to meet in the picture.
+/// Lines farther apart in the world than this many sides of the faces they lie on, or pixels, are different lines of
+/// the surface that only happen to meet in the picture.
 const REACH_SIDES: f64 = 4.0;
 
 /// See [`REACH_SIDES`]; depth changes fast where the surface turns away, so there are many pixels to a step.
@@ -100,8 +102,9 @@ pub struct PolygonOutline<'a> {
 impl<'a> PolygonOutline<'a> {
     /// Sorts the contours into a grid over the picture of `size` pixels.
     ///
-    /// `front` is from [`crate::contour::facing`]; `contours` lists the parts of convex contours, in any order. `tolerance_px` is how far a
-    /// smooth line may lie from the polygon's: 1 follows the polygons closely, 2.5 is as smooth as the outline's judges allow.
+    /// `front` is from [`crate::contour::facing`]; `contours` lists the parts of convex contours, in any order.
+    /// `tolerance_px` is how far a smooth line may lie from the polygon's: 1 follows the polygons closely, 2.5 is as
+    /// smooth as the outline's judges allow.
     pub fn new(
         (shape, normals): (&'a Shape, &'a CornerNormals),
         (projector, size): (&'a Projector, [u32; 2]),
@@ -129,9 +132,9 @@ impl<'a> PolygonOutline<'a> {
 
     /// The faces that must be flat for [`zero_set`] to pass within tolerance of all visible contours.
     ///
-    /// Starts from the smooth contours and makes patches flat until nothing is missed, except for less than two pixels a patch. As
-    /// patches are never made smooth again, this ends, at the latest with the contours of the polygons. O(faces + contours) a round; two or
-    /// three rounds are usual.
+    /// Starts from the smooth contours and makes patches flat until nothing is missed, except for less than two
+    /// pixels a patch. As patches are never made smooth again, this ends, at the latest with the contours of the
+    /// polygons. O(faces + contours) a round; two or three rounds are usual.
     pub fn flat_faces(&self) -> FlatFaces {
         let eye = self.projector.eye();
         let none = FlatFaces::NONE;
@@ -148,12 +151,14 @@ impl<'a> PolygonOutline<'a> {
         }
     }
 
-    /// What is seen of every piece of a graph from [`zero_set`], in shares of the piece's image; empty for pieces outside the picture.
+    /// What is seen of every piece of a graph from [`zero_set`], in shares of the piece's image; empty for pieces
+    /// outside the picture.
     ///
-    /// Pieces along an edge that is a contour of the polygons take over what is seen of that. Samples of others take the least number of
-    /// occluders of the contours beside them within tolerance that are nearest in the world; where there is none, the smooth
-    /// contour is none of the polygons and counts as hidden once. Gaps and specks of up to four pixels are settled along the line, except on edges,
-    /// where sights have decided: hidden parts of a fringe would lie double beside the line that hides them.
+    /// Pieces along an edge that is a contour of the polygons take over what is seen of that. Samples of others take
+    /// the least number of occluders of the contours beside them within tolerance that are nearest in the world;
+    /// where there is none, the smooth contour is none of the polygons and counts as hidden once. Gaps and specks of
+    /// up to four pixels are settled along the line, except on edges, where sights have decided: hidden parts of a
+    /// fringe would lie double beside the line that hides them.
     pub fn spans(&self, graph: &CurveGraph, pieces: &[Option<Piece>]) -> Vec<Vec<Span>> {
         let mut sampled: Vec<Sampled> = (0..graph.nodes.len())
             .into_par_iter()

@@ -25,12 +25,12 @@ struct Turn {
 
 /// Sets [`CurveNode::CONCAVE`] on pieces that their own surface hides, and [`CurveNode::CUSP`] where that changes.
 ///
-/// In a face, the surface curves away from the eye where n.v grows along the view vector towards the eye
-/// [Hertzmann & Zorin 2000, section 4.2; DeCarlo et al. 2003]: the gradient of n.v is constant there. A step between two faces is hidden
-/// where its dihedral angle is concave.
+/// In a face, the surface curves away from the eye where n.v grows along the view vector towards the eye [Hertzmann &
+/// Zorin 2000, section 4.2; DeCarlo et al. 2003]: the gradient of n.v is constant there. A step between two faces is
+/// hidden where its dihedral angle is concave.
 ///
-/// A run of one or two pieces of the other sign is taken for noise, and turned, if it is shorter than both neighbouring runs
-/// and than the mean of the longest sides of the faces it crosses.
+/// A run of one or two pieces of the other sign is taken for noise, and turned, if it is shorter than both
+/// neighbouring runs and than the mean of the longest sides of the faces it crosses.
 pub(super) fn mark_cusps(signs: &Signs<'_>, traced: &mut Traced) {
     let mut hidden = vec![false; traced.along.len()];
     let turns: Vec<Turn> = (0..hidden.len())

@@ -177,8 +177,9 @@ impl SegmentGrid {
 /// Pulls points of a line towards an outline that runs nearby, and says which of them lie by it.
 ///
 /// A point keeps half of `radius_px` of freedom: nearer to the outline it stays where it is, so that a smooth line is
-/// not bent onto the outline's corners; up to `radius_px` further away it moves to half of `radius_px` from it; beyond, it
-/// stays and counts as off. A line sampled finely stays connected, since the shift grows with the distance and nothing else.
+/// not bent onto the outline's corners; up to `radius_px` further away it moves to half of `radius_px` from it;
+/// beyond, it stays and counts as off. A line sampled finely stays connected, since the shift grows with the distance
+/// and nothing else.
 ///
 /// O(points) for outlines that do not crowd in one place.
 pub fn snap_to_outline(

@@ -11,8 +11,8 @@ pub const END_GAP: f32 = 1.0 / 4096.0;
 
 /// Faces that are front or back as a whole, by their own plane, instead of by interpolated normals.
 ///
-/// With no face in the set, lines are the smooth contours of interpolated normals; with all of them, the polygon's contours.
-/// Any set in between gives closed lines too, that run along mesh edges on faces of the set.
+/// With no face in the set, lines are the smooth contours of interpolated normals; with all of them, the polygon's
+/// contours. Any set in between gives closed lines too, that run along mesh edges on faces of the set.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FlatFaces {
     /// Whether each face is front, if it is in the set; empty if none is.

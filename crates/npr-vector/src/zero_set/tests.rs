@@ -308,7 +308,8 @@ fn on_a_sphere_the_line_nears_the_circle_with_the_square_of_the_edge_length() {
 
 #[test]
 fn on_a_torus_lines_near_the_closed_form() {
-    // With n the unit normal at (ring angle, tube angle), n . (eye - p) = n . eye - ring radius * cos(tube) - tube radius.
+    // With n the unit normal at (ring angle, tube angle), n . (eye - p) = n . eye - ring radius * cos(tube) - tube
+    // radius.
     let (ring, tube, eye) = (1.0, 0.4, [2.0, 0.6, 1.5, 1.0]);
     let value = |p: glam::DVec3| {
         let out = glam::DVec3::new(p.x, p.y, 0.0).normalize();

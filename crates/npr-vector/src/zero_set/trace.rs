@@ -36,13 +36,15 @@ struct Piece {
 /// A graph, and which of its pieces run along edges.
 pub(super) struct Traced {
     pub graph: CurveGraph,
-    /// For every node, whether its piece runs along the node's edge, between two faces; of the others, pieces cross a face.
+    /// For every node, whether its piece runs along the node's edge, between two faces; of the others, pieces cross a
+    /// face.
     pub along: Vec<bool>,
 }
 
 /// Links all borders between front and back into one graph, nodes ordered by (edge, half-edge).
 ///
-/// The front is on the left of travel, seen from outside. O(faces) to find the pieces, in parallel; O(n log n) for the rest.
+/// The front is on the left of travel, seen from outside. O(faces) to find the pieces, in parallel; O(n log n) for
+/// the rest.
 pub(super) fn trace(signs: &Signs<'_>) -> Traced {
     let mut pieces: Vec<Piece> = signs.crossed_faces();
     pieces.extend(signs.steps());
@@ -112,7 +114,8 @@ impl Signs<'_> {
         let [from, to] = self.step(half_edge, twin)?;
         let next = match to.half_edge {
             NONE => self.around_head(half_edge),
-            // One side changes here: its own front ends, or the other's begins. Either way the border goes into its face.
+            // One side changes here: its own front ends, or the other's begins. Either way the border goes into its
+            // face.
             side => Some(self.key(side, Role::Through)),
         };
         Some(Piece {

@@ -2,7 +2,8 @@
 
 use super::*;
 
-/// Ink of lines: discs of half the width along them; of lines a pixel wide the pixels nearest to them, one a column or row.
+/// Ink of lines: discs of half the width along them; of lines a pixel wide the pixels nearest to them, one a column
+/// or row.
 fn inked(size: u32, lines: &[[DVec2; 2]], width: f64) -> Bitmap {
     if width > 1.0 {
         return drawn(size, lines, width);

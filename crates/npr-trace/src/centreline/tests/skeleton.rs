@@ -1,8 +1,8 @@
 //! Junctions and ends of drawings beside those of their skeletons.
 //!
 //! The rule of counting, for both: pixels of a thin line are neighbours by their sides, and by their corners where no
-//! side leads there. A pixel with one neighbour is an end. Pixels with three or more make a junction, all that touch one. Specks and pinholes
-//! of up to two pixels are taken out first.
+//! side leads there. A pixel with one neighbour is an end. Pixels with three or more make a junction, all that touch
+//! one. Specks and pinholes of up to two pixels are taken out first.
 //!
 //! Which pixels a skeleton keeps is not settled: counted by the same rule, the ends and junctions of the bunny are 75 and 63 by Zhang and
 //! Suen's thinning (scikit-image), 72 and 58 by Lee's; those of the helicopter 58 and 162, 59 and 161.
@@ -45,8 +45,8 @@ struct Skeleton {
 }
 
 impl Skeleton {
-    /// Takes away all pixels that are white on a side, one side after the other, but for those that hold ink together, keep holes closed or
-    /// are ends.
+    /// Takes away all pixels that are white on a side, one side after the other, but for those that hold ink
+    /// together, keep holes closed or are ends.
     fn of(bitmap: &Bitmap) -> Self {
         let mut thin = Self {
             ink: bitmap.clone(),

@@ -77,7 +77,8 @@ proptest! {
         }
     }
 
-    /// Where all is one surface before another, lines end nowhere but at the picture's edge and where four borders meet.
+    /// Where all is one surface before another, lines end nowhere but at the picture's edge and where four borders
+    /// meet.
     #[test]
     fn lines_of_one_label_end_at_meetings_only(width in 2u32..14, height in 2u32..14, seed: u32) {
         let surface = |pixel: u32| mix_bits(seed ^ mix_bits(pixel)) % 2;
