@@ -139,8 +139,8 @@ impl Beam {
 }
 
 impl Beam {
-    /// Colour of the light that the beam gives off: the mean of its colours by how much they cover, its greatest part 1.
-    /// White where none of them shows.
+    /// Colour of the light that the beam gives off: the mean of its colours by how much they cover, its greatest part
+    /// made 1. White where none of them shows.
     pub fn light_color(&self) -> [f32; 3] {
         let sum = self.ramp.iter().fold([0.0f32; 3], |sum, stop| {
             let [r, g, b, a] = stop.color.linear();

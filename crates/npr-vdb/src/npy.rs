@@ -3,7 +3,8 @@
 //! ```
 //! use npr_vdb::{Limits, npy};
 //!
-//! # let file = npr_vdb::testing::npy_file("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1, 2), }", &[0, 0, 128, 63, 0, 0, 0, 64]);
+//! # let header = "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1, 2), }";
+//! # let file = npr_vdb::testing::npy_file(header, &[0, 0, 128, 63, 0, 0, 0, 64]);
 //! // let file = std::fs::read("density.npy")?;
 //! let array = npy::read(&file, &Limits::default())?;
 //! assert_eq!(array.size, [1, 1, 2]);

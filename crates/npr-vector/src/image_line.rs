@@ -5,8 +5,8 @@
 //! is the border between two pixels that show different surfaces ([`detect`](crate::detect)), which is there once.
 //! The steps: [`SurfacePicture::new`] draws which face every pixel shows, [`SurfacePicture::borders`] finds what
 //! differs, [`Borders::runs`] links it; [`painted_lines`] inks dark and light lines of textures, along whose
-//! [`centreline`](crate::trace::centreline) go [`LineInk::runs`]. Both give what all lines of a view have: runs with kind,
-//! surface, depth and place in the world, of which [`strokes_from`] makes strokes.
+//! [`centreline`](crate::trace::centreline) go [`LineInk::runs`]. Both give what all lines of a view have: runs with
+//! kind, surface, depth and place in the world, of which [`strokes_from`] makes strokes.
 //!
 //! Differs from meshes' lines: visible ones alone; borders of meshes count as contours, for in a picture both are
 //! where a surface ends.

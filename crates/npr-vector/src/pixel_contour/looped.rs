@@ -275,7 +275,8 @@ pub fn gaussian(radius: u32, sigma: f32) -> Vec<f32> {
 
 /// Replaces every vector by the weighted mean of those around it, along its loop.
 ///
-/// `weights` run from the side itself to `radius`. A Gaussian shrinks loops and rounds corners, as published. O(sides * radius).
+/// `weights` run from the side itself to `radius`. A Gaussian shrinks loops and rounds corners, as published.
+/// O(sides * radius).
 pub fn smooth_loops(
     filter: &Filter,
     weights: &[f32],

@@ -4,8 +4,9 @@
 //! side leads there. A pixel with one neighbour is an end. Pixels with three or more make a junction, all that touch
 //! one. Specks and pinholes of up to two pixels are taken out first.
 //!
-//! Which pixels a skeleton keeps is not settled: counted by the same rule, the ends and junctions of the bunny are 75 and 63 by Zhang and
-//! Suen's thinning (scikit-image), 72 and 58 by Lee's; those of the helicopter 58 and 162, 59 and 161.
+//! Which pixels a skeleton keeps is not settled: counted by the same rule, the ends and junctions of the bunny are 75
+//! and 63 by Zhang and Suen's thinning (scikit-image), 72 and 58 by Lee's; those of the helicopter are 58 and 162, and
+//! 59 and 161.
 
 use super::*;
 use std::path::Path;
