@@ -181,7 +181,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_law_of_this_form_is_found_again(base in 0f64..10.0, t in 0.1f64..50.0, p in 0.1f64..50.0, both in 0f64..20.0) {
+        fn a_law_of_this_form_is_found_again(
+            base in 0f64..10.0, t in 0.1f64..50.0, p in 0.1f64..50.0, both in 0f64..20.0,
+        ) {
             let law = |triangles: f64, pixels: f64| base + t * triangles / 1e5 + p * pixels / 1e6 + both * triangles * pixels / 1e11;
             let cost = Cost::fit(&samples(law)).expect("the grid settles all terms");
             prop_assert!((cost.triangles_ms - t).abs() < 1e-6 && (cost.product_ms - both).abs() < 1e-6);

@@ -1,4 +1,4 @@
-//! `cargo xtask names`: nothing tells where it was written, and every crate introduces itself.
+//! `cargo xtask names`: nothing tells where it was written, crates introduce themselves, comments are not too wide.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -23,7 +23,10 @@ const REGISTRY_HOSTS: [(&str, &str); 9] = [
     ("nexus", ".sonatype"),
 ];
 
-/// Fails with every file that names a machine, and every published crate without a README.
+/// Widest comment, in characters.
+const MOST_COLUMNS: usize = 120;
+
+/// Fails with every file that names a machine, every published crate without a README, and every comment too wide.
 pub fn check(root: &Path) -> Result<()> {
     let files = files(root)?;
     let mut faults = Vec::new();
@@ -54,10 +57,13 @@ fn files(root: &Path) -> Result<Vec<PathBuf>> {
         .collect())
 }
 
-/// The lines of a text that name a machine.
+/// The lines of a text that name a machine, and comments that are too wide.
 fn text_faults(file: &Path, text: &str) -> Vec<String> {
+    let is_code = file
+        .extension()
+        .is_some_and(|extension| extension == "rs" || extension == "wgsl");
     let fault = |(number, line): (usize, &str)| {
-        let named = named_machine(line)?;
+        let named = named_machine(line).or_else(|| too_wide(line).filter(|_| is_code))?;
         Some(format!("{}:{}: {named}", file.display(), number + 1))
     };
     text.lines().enumerate().filter_map(fault).collect()
@@ -71,6 +77,13 @@ fn named_machine(line: &str) -> Option<String> {
         .map(|(first, second)| format!("{first}{second}"));
     let path = folders.into_iter().find(|path| starts_a_path(line, path));
     path.or_else(|| hosts.into_iter().find(|host| line.contains(host.as_str())))
+}
+
+/// What is wrong with a comment beyond column 120; code is the formatter's.
+fn too_wide(line: &str) -> Option<String> {
+    let width = line.chars().count();
+    let is_comment = line.trim_start().starts_with("//");
+    (is_comment && width > MOST_COLUMNS).then(|| format!("a comment of {width} columns"))
 }
 
 /// Whether `path` stands in a line on its own or as the start of a longer path.
@@ -114,6 +127,17 @@ mod tests {
         ] {
             assert_eq!(named_machine(line), None, "{line}");
         }
+    }
+
+    #[test]
+    fn comments_may_not_be_too_wide() {
+        let faults = |path: &str, line: &str| text_faults(Path::new(path), line).len();
+        let comment = |width: usize| format!("    /// {}", "x".repeat(width - 8));
+        assert_eq!(faults("src/lib.rs", &comment(120)), 0);
+        assert_eq!(faults("src/lib.rs", &comment(121)), 1);
+        assert_eq!(faults("lib/adapt.wgsl", &comment(121)), 1);
+        assert_eq!(faults("notes.md", &comment(121)), 0);
+        assert_eq!(faults("src/lib.rs", &"x".repeat(121)), 0);
     }
 
     #[test]

@@ -214,14 +214,18 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
         #[test]
-        fn pictures_take_as_many_strokes_however_they_are_turned(angle in 0.0..7.0f64, x in -1.0..1.0f64, y in -1.0..1.0f64, which in 0..18usize) {
+        fn pictures_take_as_many_strokes_however_they_are_turned(
+            angle in 0.0..7.0f64, x in -1.0..1.0f64, y in -1.0..1.0f64, which in 0..18usize,
+        ) {
             let (name, picture, expected) = &pictures()[which];
             let found = drawn_strokes(&placed(picture, angle, [x, y]), SIZE);
             prop_assert_eq!(found.len(), *expected, "{}", name);
         }
 
         #[test]
-        fn strokes_lie_on_the_lines_and_show_all_that_is_long(points in prop::collection::vec((5.0..235.0f64, 5.0..235.0f64), 0..12), closed: bool) {
+        fn strokes_lie_on_the_lines_and_show_all_that_is_long(
+            points in prop::collection::vec((5.0..235.0f64, 5.0..235.0f64), 0..12), closed: bool,
+        ) {
             let points = points.into_iter().map(|(x, y)| [x, y]).collect();
             let runs = [run(Kind::Crease, closed, points)];
             let ink: Vec<[f64; 2]> = sample(&[Curve::of_run(&runs[0])]).iter().map(|point| point.at).collect();
@@ -235,7 +239,10 @@ mod tests {
         }
 
         #[test]
-        fn any_numbers_may_be_drawn(points in prop::collection::vec(any::<[f64; 2]>(), 0..9), closed: bool, size in prop::array::uniform2(0..40u32)) {
+        fn any_numbers_may_be_drawn(
+            points in prop::collection::vec(any::<[f64; 2]>(), 0..9), closed: bool,
+            size in prop::array::uniform2(0..40u32),
+        ) {
             let points = points.into_iter().map(|p| p.map(|v| v % 1e5)).collect();
             prop_assert!(drawn_strokes(&[run(Kind::Crease, closed, points)], size).len() < 40);
         }

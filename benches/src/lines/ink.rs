@@ -261,7 +261,9 @@ mod tests {
         }
 
         #[test]
-        fn points_lie_on_the_line_and_make_up_its_length(points in vec((-30.0..30.0, -30.0..30.0f64), 2..20), closed: bool) {
+        fn points_lie_on_the_line_and_make_up_its_length(
+            points in vec((-30.0..30.0, -30.0..30.0f64), 2..20), closed: bool,
+        ) {
             let points: Vec<[f64; 2]> = points.into_iter().map(|(x, y)| [x, y]).collect();
             let curve = Curve { kind: Kind::Contour, closed, points };
             let ink = sample(std::slice::from_ref(&curve));

@@ -411,7 +411,9 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
         #[test]
-        fn pictures_take_as_many_strokes_however_they_are_turned(angle in 0.0..7.0f64, x in -1.0..1.0f64, y in -1.0..1.0f64, which in 0..pictures().len()) {
+        fn pictures_take_as_many_strokes_however_they_are_turned(
+            angle in 0.0..7.0f64, x in -1.0..1.0f64, y in -1.0..1.0f64, which in 0..pictures().len(),
+        ) {
             let (name, picture, expected) = &pictures()[which];
             let found = drawn_strokes(&placed(picture, angle, [x, y]), SIZE);
             prop_assert_eq!(found.len(), *expected, "{}", name);
@@ -419,7 +421,9 @@ mod tests {
 
         /// Of all choices of stretches that leave no 8 pixels over, none is smaller.
         #[test]
-        fn no_choice_of_stretches_is_smaller(tiles in prop::collection::vec((8..30usize, 0..25usize, 0..25usize, 0..3u8), 1..9)) {
+        fn no_choice_of_stretches_is_smaller(
+            tiles in prop::collection::vec((8..30usize, 0..25usize, 0..25usize, 0..3u8), 1..9),
+        ) {
             let count: usize = tiles.iter().map(|tile| tile.0).sum();
             let stations: Vec<f64> = (0..count).map(|i| i as f64).collect();
             let mut from = 0;
@@ -449,7 +453,9 @@ mod tests {
         /// Pieces are the stroke, cut; they follow one another by a shared point, and layers change from one to the
         /// next.
         #[test]
-        fn pieces_put_together_are_the_stroke(layers in prop::collection::vec((1..20usize, prop::collection::vec(0..3u8, 0..3)), 1..12), closed: bool) {
+        fn pieces_put_together_are_the_stroke(
+            layers in prop::collection::vec((1..20usize, prop::collection::vec(0..3u8, 0..3)), 1..12), closed: bool,
+        ) {
             let layers: Vec<Vec<Layer>> = layers
                 .iter()
                 .flat_map(|(count, numbers)| vec![numbers.iter().map(|n| layer_of(*n)).collect::<Vec<_>>(); *count])
@@ -476,7 +482,10 @@ mod tests {
         }
 
         #[test]
-        fn any_numbers_may_be_drawn(lines in prop::collection::vec((0..3u8, any::<bool>(), prop::collection::vec(any::<[f64; 2]>(), 0..5)), 0..5), size in prop::array::uniform2(0..40u32)) {
+        fn any_numbers_may_be_drawn(
+            lines in prop::collection::vec((0..3u8, any::<bool>(), prop::collection::vec(any::<[f64; 2]>(), 0..5)), 0..5),
+            size in prop::array::uniform2(0..40u32),
+        ) {
             let run = |(number, closed, points): &(u8, bool, Vec<[f64; 2]>)| Run {
                 layer: layer_of(*number),
                 closed: *closed,

@@ -168,7 +168,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_tree_loses_nothing(positions in vec(points(), 3..60), picks in vec(any::<[u16; 3]>(), 0..120), a in points(), b in points()) {
+        fn the_tree_loses_nothing(
+            positions in vec(points(), 3..60), picks in vec(any::<[u16; 3]>(), 0..120), a in points(), b in points(),
+        ) {
             let count = positions.len() as u32;
             let faces: Vec<[u32; 3]> = picks.iter().map(|p| p.map(|v| u32::from(v) % count)).collect();
             let edge = faces.first().map_or([0, 1], |f| [f[0], f[1]]);

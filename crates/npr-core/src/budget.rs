@@ -68,7 +68,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn never_grants_more_than_its_limit(limit in 0u64..10_000, asks in prop::collection::vec((0usize..5_000, 0usize..50), 0..20)) {
+        fn never_grants_more_than_its_limit(
+            limit in 0u64..10_000, asks in prop::collection::vec((0usize..5_000, 0usize..50), 0..20),
+        ) {
             let mut budget = Budget::new(limit);
             let mut granted = 0u64;
             for (count, size) in asks {

@@ -97,7 +97,8 @@ mod tests {
 
         #[test]
         fn a_cone_fills_the_view_of_its_spot(
-            axis in prop::array::uniform3(-1f32..1.0), position in prop::array::uniform3(-9f32..9.0), cos in 0.1f32..0.99,
+            axis in prop::array::uniform3(-1f32..1.0), position in prop::array::uniform3(-9f32..9.0),
+            cos in 0.1f32..0.99,
         ) {
             let axis = unit_or_z(axis);
             let m = spot_view(position, axis, cos, 0.01);

@@ -269,7 +269,9 @@ mod tests {
 
         /// A step of a hundredth of a pixel along a line moves what is found there by at most a few hundredths.
         #[test]
-        fn what_is_found_changes_smoothly(values in prop::collection::vec(0u32..=255, 64), x in 0f32..7.9, y in 0f32..8.0) {
+        fn what_is_found_changes_smoothly(
+            values in prop::collection::vec(0u32..=255, 64), x in 0f32..7.9, y in 0f32..8.0,
+        ) {
             let tint = |v: &u32| LineTint { own: 0xff00_0000 | v, glaze: 0, part: 0 };
             let tints: Vec<LineTint> = values.iter().map(tint).collect();
             let window = window();
@@ -279,7 +281,9 @@ mod tests {
         }
 
         #[test]
-        fn the_parts_own_pixels_go_before_others(owner in prop::collection::vec(0u32..3, 64), x in -2f32..10.0, y in -2f32..10.0) {
+        fn the_parts_own_pixels_go_before_others(
+            owner in prop::collection::vec(0u32..3, 64), x in -2f32..10.0, y in -2f32..10.0,
+        ) {
             let tint = |part: &u32| match part {
                 2 => LineTint::NONE,
                 part => LineTint { own: 0xff00_0000 | (part * 255), glaze: 0, part: *part },

@@ -103,7 +103,9 @@ mod tests {
         }
 
         #[test]
-        fn smoothstep_stays_in_range_and_never_falls(from in -2.0f32..2.0, to in -2.0f32..2.0, x in -3.0f32..3.0, dx in 0.0f32..1.0) {
+        fn smoothstep_stays_in_range_and_never_falls(
+            from in -2.0f32..2.0, to in -2.0f32..2.0, x in -3.0f32..3.0, dx in 0.0f32..1.0,
+        ) {
             let (a, b) = (smoothstep(from, to, x), smoothstep(from, to, x + dx));
             prop_assert!((0.0..=1.0).contains(&a));
             prop_assert!(b >= a - 1e-6);

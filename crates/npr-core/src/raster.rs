@@ -468,7 +468,9 @@ mod tests {
         }
 
         #[test]
-        fn two_triangles_of_a_quad_share_no_pixel_and_leave_none(a in point(), b in point(), c in point(), d in point()) {
+        fn two_triangles_of_a_quad_share_no_pixel_and_leave_none(
+            a in point(), b in point(), c in point(), d in point(),
+        ) {
             let (p, q, r, s) = (at(a[0], a[1], 0.5), at(b[0], b[1], 0.5), at(c[0], c[1], 0.5), at(d[0], d[1], 0.5));
             let side = |u: [f32; 2], v: [f32; 2], w: [f32; 2]| (v[0] - u[0]) * (w[1] - u[1]) - (v[1] - u[1]) * (w[0] - u[0]);
             prop_assume!(side(a, b, c) * side(a, b, d) < 0.0);
@@ -480,7 +482,9 @@ mod tests {
         }
 
         #[test]
-        fn the_nearer_triangle_wins_whatever_the_order(z in prop::array::uniform2(0.05f32..0.95), a in point(), b in point(), c in point()) {
+        fn the_nearer_triangle_wins_whatever_the_order(
+            z in prop::array::uniform2(0.05f32..0.95), a in point(), b in point(), c in point(),
+        ) {
             prop_assume!((z[0] - z[1]).abs() > 1e-3);
             let first: Vec<_> = [a, b, c].iter().map(|p| at(p[0], p[1], z[0])).collect();
             let second: Vec<_> = [a, b, c].iter().map(|p| at(p[0], p[1], z[1])).collect();

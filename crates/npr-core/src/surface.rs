@@ -144,7 +144,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_point_of_the_triangle_is_found_again(a in corner(), b in corner(), c in corner(), u in 0.02f32..0.96, v in 0.02f32..0.96) {
+        fn a_point_of_the_triangle_is_found_again(
+            a in corner(), b in corner(), c in corner(), u in 0.02f32..0.96, v in 0.02f32..0.96,
+        ) {
             let (u, v) = if u + v > 0.98 { (1.0 - u, 1.0 - v) } else { (u, v) };
             let want = [1.0 - u - v, u, v];
             let point: Vec<f32> = (0..4).map(|i| blend(want, [a[i], b[i], c[i]])).collect();
@@ -158,7 +160,10 @@ mod tests {
         }
 
         #[test]
-        fn weights_around_a_point_are_those_at_each_place(a in corner(), b in corner(), c in corner(), x in -1f32..1.0, y in -1f32..1.0, right in 1e-4f32..0.01, down in -0.01f32..-1e-4) {
+        fn weights_around_a_point_are_those_at_each_place(
+            a in corner(), b in corner(), c in corner(), x in -1f32..1.0, y in -1f32..1.0, right in 1e-4f32..0.01,
+            down in -0.01f32..-1e-4,
+        ) {
             let clip = [a, b, c];
             let places = [[x, y], [x + right, y], [x, y + down]];
             let area = |p: [f32; 4], q: [f32; 4]| cross([p[0] / p[3], p[1] / p[3]], [q[0] / q[3], q[1] / q[3]]);

@@ -284,7 +284,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn samples_stay_within_the_texture(u: f32, v: f32, footprint in 0f32..4.0, mode in 0u32..3, w in 1u32..9, h in 1u32..9) {
+        fn samples_stay_within_the_texture(
+            u: f32, v: f32, footprint in 0f32..4.0, mode in 0u32..3, w in 1u32..9, h in 1u32..9,
+        ) {
             let wrap = [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror][mode as usize];
             let mut store = TextureStore::new();
             let rgba: Vec<u8> = (0..w * h * 4).map(|i| (100 + (i * 37) % 80) as u8).collect();

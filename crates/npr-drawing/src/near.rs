@@ -132,7 +132,9 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
         #[test]
-        fn grids_find_the_nearest(points in prop::collection::vec([0.0..9.0f64, 0.0..3.0f64], 1..60), x in 0.0..9.0f64, y in 0.0..3.0f64) {
+        fn grids_find_the_nearest(
+            points in prop::collection::vec([0.0..9.0f64, 0.0..3.0f64], 1..60), x in 0.0..9.0f64, y in 0.0..3.0f64,
+        ) {
             let grid = Grid::new(&points);
             let mut all: Vec<u32> = (0..points.len() as u32).filter(|i| i % 3 != 1).collect();
             all.sort_by(|a, b| {

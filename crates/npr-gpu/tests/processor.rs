@@ -96,7 +96,9 @@ proptest! {
     }
 
     #[test]
-    fn what_is_written_is_read_and_the_rest_stays_zero(words in prop::collection::vec(any::<u32>(), 0..50), more in 0usize..20) {
+    fn what_is_written_is_read_and_the_rest_stays_zero(
+        words in prop::collection::vec(any::<u32>(), 0..50), more in 0usize..20,
+    ) {
         let mut graph = Graph::new();
         let buffer = graph.buffer::<u32>("words", words.len() + more);
         let mut session = Processor.prepare(graph).expect(NEVER_FAILS);

@@ -83,7 +83,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_changed_bit_changes_both_lanes(mut bytes in prop::collection::vec(any::<u8>(), 1..100), at: prop::sample::Index, bit in 0u32..8) {
+        fn a_changed_bit_changes_both_lanes(
+            mut bytes in prop::collection::vec(any::<u8>(), 1..100), at: prop::sample::Index, bit in 0u32..8,
+        ) {
             let before = digest(&bytes);
             let at = at.index(bytes.len());
             bytes[at] ^= 1 << bit;

@@ -194,7 +194,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_sphere_shows_its_own_curvature_from_everywhere(k in 0.1f32..10.0, x in -1f32..1.0, y in -1f32..1.0, z in -1f32..1.0) {
+        fn a_sphere_shows_its_own_curvature_from_everywhere(
+            k in 0.1f32..10.0, x in -1f32..1.0, y in -1f32..1.0, z in -1f32..1.0,
+        ) {
             let eye = unit([x, y, z + 1e-3]);
             let got = projected_curvature([k, k], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], eye);
             prop_assert!((got - k).abs() < 1e-3 * k, "{got} for {k}");
@@ -209,7 +211,10 @@ mod tests {
         }
 
         #[test]
-        fn normals_stay_perpendicular_under_any_matrix(m in prop::array::uniform9(-2f32..2.0), n in prop::array::uniform3(-1f32..1.0), t in prop::array::uniform3(-1f32..1.0)) {
+        fn normals_stay_perpendicular_under_any_matrix(
+            m in prop::array::uniform9(-2f32..2.0), n in prop::array::uniform3(-1f32..1.0),
+            t in prop::array::uniform3(-1f32..1.0),
+        ) {
             let matrix = [[m[0], m[1], m[2], 0.0], [m[3], m[4], m[5], 0.0], [m[6], m[7], m[8], 0.0], [0.0, 0.0, 0.0, 1.0]];
             let determinant = dot([m[0], m[1], m[2]], cross([m[3], m[4], m[5]], [m[6], m[7], m[8]]));
             prop_assume!(determinant.abs() > 0.1 && dot(n, n) > 0.1);

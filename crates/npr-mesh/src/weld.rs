@@ -199,7 +199,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn agrees_with_comparing_all_pairs(positions in prop::collection::vec(prop::array::uniform3((-2i8..3).prop_map(f32::from)), 0..80)) {
+        fn agrees_with_comparing_all_pairs(
+            positions in prop::collection::vec(prop::array::uniform3((-2i8..3).prop_map(f32::from)), 0..80),
+        ) {
             prop_assert_eq!(weld(&positions, 0.0), weld_by_comparison(&positions));
         }
 

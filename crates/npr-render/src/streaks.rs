@@ -385,7 +385,9 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(1000))]
         /// What is left lies on the segment, before the eye, and nothing of that is lost.
         #[test]
-        fn the_part_before_the_eye_is_all_of_it(ends in prop::array::uniform2(prop::array::uniform3(-4f32..4.0)), share in 0f32..1.0) {
+        fn the_part_before_the_eye_is_all_of_it(
+            ends in prop::array::uniform2(prop::array::uniform3(-4f32..4.0)), share in 0f32..1.0,
+        ) {
             let (view, ends) = (eye_at_origin(1.0), ends.map(Vec3::from));
             let kept = before_eye(ends, &view);
             let place = ends[0].lerp(ends[1], share);
@@ -403,7 +405,8 @@ mod tests {
         /// A pixel lies behind a mover where a straight walk back meets it, give or take the pixels beside the walk.
         #[test]
         fn distances_are_those_of_a_walk_back(
-            size in prop::array::uniform2(1u32..20), cells in prop::collection::vec(any::<u8>(), 400), angle in 0f32..6.3,
+            size in prop::array::uniform2(1u32..20), cells in prop::collection::vec(any::<u8>(), 400),
+            angle in 0f32..6.3,
         ) {
             let along = glam::vec2(npr_core::math::cos(angle), npr_core::math::sin(angle));
             let count = (size[0] * size[1]) as usize;

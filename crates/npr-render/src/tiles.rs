@@ -93,7 +93,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn tiles_cover_the_frame_once(w in 1u32..20_000, h in 1u32..20_000, margin in 0u32..700, most in 0u32..5_000_000) {
+        fn tiles_cover_the_frame_once(
+            w in 1u32..20_000, h in 1u32..20_000, margin in 0u32..700, most in 0u32..5_000_000,
+        ) {
             let tiles = Tiles::new([w, h], margin, most);
             let size = tiles.size();
             let pixels = u64::from(size[0]) * u64::from(size[1]);

@@ -376,7 +376,8 @@ mod tests {
         /// Anywhere in the voxels' cubes, dense or thin.
         #[test]
         fn the_box_round_any_place_is_that_of_the_paper(
-            volume in volumes(), place in prop::array::uniform3(0.0f32..1.0), threshold in prop_oneof![Just(0.1f32), 0.0f32..2.0],
+            volume in volumes(), place in prop::array::uniform3(0.0f32..1.0),
+            threshold in prop_oneof![Just(0.1f32), 0.0f32..2.0],
         ) {
             let size = volume.size();
             let place = Vec3::from_array(std::array::from_fn(|i| place[i] * size[i] as f32 - 0.5));

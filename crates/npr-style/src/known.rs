@@ -181,7 +181,8 @@ mod tests {
         /// The oracle is the same shading without anything known.
         #[test]
         fn what_is_known_changes_no_colour(
-            normal in prop::array::uniform3(-1f32..1.0), bends in prop::array::uniform3(prop::array::uniform3(-0.2f32..0.2)),
+            normal in prop::array::uniform3(-1f32..1.0),
+            bends in prop::array::uniform3(prop::array::uniform3(-0.2f32..0.2)),
             light in prop::array::uniform3(-1f32..1.0), back in prop::array::uniform3(-1f32..1.0),
             flags in prop::sample::select(vec![0, Part::UNLIT, Part::SOFT, Part::CRISP, Part::SOFT | Part::BACK_LIGHT, Part::UNLIT | Part::CRISP]),
             softness in prop::sample::select(vec![0.0f32, 0.05, 0.5]), steps in prop::array::uniform2(0.05f32..0.95),

@@ -222,7 +222,8 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(1000))]
         #[test]
         fn lines_thin_out_along_the_trail(
-            across in -1e6f32..1e6, along in 0f32..1.0, further in 0f32..1.0, spacing_px in 0.1f32..99.0, weight in 0f32..1.0, variation in 0f32..1.0, seed: u32,
+            across in -1e6f32..1e6, along in 0f32..1.0, further in 0f32..1.0, spacing_px in 0.1f32..99.0,
+            weight in 0f32..1.0, variation in 0f32..1.0, seed: u32,
         ) {
             let motion = Motion { weight, variation, seed, ..Motion::default() };
             let [near, far] = [along, along + further].map(|along| motion.coverage(across, along, spacing_px));

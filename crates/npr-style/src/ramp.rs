@@ -156,7 +156,9 @@ mod tests {
         }
 
         #[test]
-        fn rising_levels_give_rising_light(mut levels in sorted_levels(), softness in 0.0f32..0.5, x in 0.0f32..1.0, dx in 0.0f32..1.0) {
+        fn rising_levels_give_rising_light(
+            mut levels in sorted_levels(), softness in 0.0f32..0.5, x in 0.0f32..1.0, dx in 0.0f32..1.0,
+        ) {
             let mut lights: Vec<f32> = levels.iter().map(|l| l.light[0]).collect();
             lights.sort_by(f32::total_cmp);
             for (level, light) in levels.iter_mut().zip(lights) {

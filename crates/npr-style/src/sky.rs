@@ -304,7 +304,8 @@ mod tests {
         /// Two orders of harmonics make of the cosine something at most 3/32 beside it.
         #[test]
         fn a_picture_lights_as_its_texels_do(
-            lights in prop::collection::vec((0usize..16 * 8, 0f32..4.0), 1..6), normal in prop::array::uniform3(-1f32..1.0),
+            lights in prop::collection::vec((0usize..16 * 8, 0f32..4.0), 1..6),
+            normal in prop::array::uniform3(-1f32..1.0),
         ) {
             let normal = npr_core::surface::unit_or_z(normal);
             let mut texels = vec![[0.0; 3]; 16 * 8];

@@ -225,7 +225,8 @@ mod tests {
         /// A picture means what a ramp with a stop for every pixel means, where that has as many.
         #[test]
         fn a_picture_is_the_ramp_of_its_pixels(
-            bytes in prop::collection::vec(any::<u8>(), 1..=8), softness in prop_oneof![Just(0.0f32), 0.01f32..0.5], place in 0..ROW_LENGTH,
+            bytes in prop::collection::vec(any::<u8>(), 1..=8), softness in prop_oneof![Just(0.0f32), 0.01f32..0.5],
+            place in 0..ROW_LENGTH,
         ) {
             let tones = row(&bytes, softness);
             let levels: Vec<Level> = bytes.iter().enumerate().map(|(i, byte)| Level {
@@ -240,7 +241,10 @@ mod tests {
         }
 
         #[test]
-        fn an_even_range_holds_one_tone(bytes in prop::collection::vec(0u8..3, 1..20), low in -0.1f32..1.1, width in 0f32..0.5, at in 0f32..1.0, softness in 0f32..0.1) {
+        fn an_even_range_holds_one_tone(
+            bytes in prop::collection::vec(0u8..3, 1..20), low in -0.1f32..1.1, width in 0f32..0.5, at in 0f32..1.0,
+            softness in 0f32..0.1,
+        ) {
             let tones = row(&bytes, softness);
             let words = row_words(&tones);
             if row_is_even(words, 0, [low, low + width]) {

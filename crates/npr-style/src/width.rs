@@ -258,7 +258,9 @@ mod tests {
         }
 
         #[test]
-        fn the_order_of_control_points_hardly_matters(points in points(), position in prop::array::uniform3(-3.0f32..3.0)) {
+        fn the_order_of_control_points_hardly_matters(
+            points in points(), position in prop::array::uniform3(-3.0f32..3.0),
+        ) {
             let reversed: Vec<_> = points.iter().rev().cloned().collect();
             let difference = control_factor(&points, position) - control_factor(&reversed, position);
             prop_assert!(difference.abs() < 1e-4);

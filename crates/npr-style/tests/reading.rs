@@ -408,7 +408,9 @@ proptest! {
     }
 
     #[test]
-    fn the_later_layer_wins(parent in 0.0f32..1.0, child in prop::option::of(0.0f32..1.0), over in prop::option::of(0.0f32..1.0)) {
+    fn the_later_layer_wins(
+        parent in 0.0f32..1.0, child in prop::option::of(0.0f32..1.0), over in prop::option::of(0.0f32..1.0),
+    ) {
         let line = |value: f32| format!("line.opacity = {value}");
         let load = |_: &str| Ok(line(parent));
         let text = format!("extends = 'p'\n{}", child.map(line).unwrap_or_default());

@@ -313,7 +313,10 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
         #[test]
-        fn what_is_set_is_read(width in 1u32..150, height in 1u32..9, spots in prop::collection::vec((0u32..160, 0u32..10, any::<bool>()), 0..40)) {
+        fn what_is_set_is_read(
+            width in 1u32..150, height in 1u32..9,
+            spots in prop::collection::vec((0u32..160, 0u32..10, any::<bool>()), 0..40),
+        ) {
             let mut bitmap = Bitmap::new(width, height).expect("small");
             let mut plain = vec![false; (width * height) as usize];
             for (x, y, ink) in spots {
@@ -339,7 +342,9 @@ mod tests {
         }
 
         #[test]
-        fn packed_rows_are_read(width in 1u32..150, height in 1u32..5, bytes in prop::collection::vec(any::<u8>(), 100)) {
+        fn packed_rows_are_read(
+            width in 1u32..150, height in 1u32..5, bytes in prop::collection::vec(any::<u8>(), 100),
+        ) {
             let row = width.div_ceil(8) as usize;
             let data = &bytes[..row * height as usize];
             let bitmap = Bitmap::from_packed(width, height, data).expect("fits");

@@ -182,7 +182,9 @@ proptest! {
     }
 
     #[test]
-    fn long_stretches_are_followed_around_every_corner(rise in -40i32..40, run in 1i32..40, jag in 0u32..4, turns in 0usize..4) {
+    fn long_stretches_are_followed_around_every_corner(
+        rise in -40i32..40, run in 1i32..40, jag in 0u32..4, turns in 0usize..4,
+    ) {
         let steps = slanted(rise, run, jag, turns);
         let (mut followed, mut walked) = (Vec::new(), Vec::new());
         straight::measure_from(&steps, u32::MAX, 4, &mut followed);

@@ -353,7 +353,8 @@ mod tests {
 
         #[test]
         fn damaged_files_never_panic(
-            changes in prop::collection::vec((any::<usize>(), any::<u8>()), 1..5), cut in prop::option::of(any::<usize>()),
+            changes in prop::collection::vec((any::<usize>(), any::<u8>()), 1..5),
+            cut in prop::option::of(any::<usize>()),
         ) {
             let mut file = npy_file(&header("<f4", true, "(2, 3, 2, 3)"), &[0; 144]);
             for (at, byte) in changes {

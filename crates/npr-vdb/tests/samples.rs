@@ -175,7 +175,10 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, max_shrink_iters: 200, ..ProptestConfig::default() })]
 
     #[test]
-    fn what_was_written_is_read((version, packing, leaves_out_inactive) in packing(), is_stream: bool, grids in prop::collection::vec(grid(), 1..3)) {
+    fn what_was_written_is_read(
+        (version, packing, leaves_out_inactive) in packing(), is_stream: bool,
+        grids in prop::collection::vec(grid(), 1..3),
+    ) {
         let sample = Sample { version, packing, leaves_out_inactive, is_stream, grids };
         let bytes = sample.bytes();
         let file = read(&bytes, &Limits::default()).unwrap();

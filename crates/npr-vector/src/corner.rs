@@ -344,7 +344,9 @@ mod tests {
 
         /// A square falls into its four sides; each ends exactly at its corners.
         #[test]
-        fn squares_are_split_into_sides(side in 8.0_f64..250.0, angle in 0.0_f64..7.0, steps in 1_u32..20, turned in 0_usize..80) {
+        fn squares_are_split_into_sides(
+            side in 8.0_f64..250.0, angle in 0.0_f64..7.0, steps in 1_u32..20, turned in 0_usize..80,
+        ) {
             let places = square(side, angle, steps);
             let mut run = Run { closed: true, points: points_of(&places), ..run_along(1, &places) };
             let turned = turned % run.points.len();
@@ -367,7 +369,9 @@ mod tests {
 
         /// Where a closed run starts does not depend on where its list does.
         #[test]
-        fn closed_runs_start_at_one_point(side in 8.0_f64..250.0, angle in 0.0_f64..7.0, steps in 1_u32..20, by in 0_usize..99, round: bool) {
+        fn closed_runs_start_at_one_point(
+            side in 8.0_f64..250.0, angle in 0.0_f64..7.0, steps in 1_u32..20, by in 0_usize..99, round: bool,
+        ) {
             let places = square(side, angle, steps);
             let mut run = if round { ring(1, side, 60) } else { run_along(1, &places) };
             (0..).zip(&mut run.points).for_each(|(edge, point)| point.edge = edge);

@@ -126,7 +126,9 @@ mod tests {
         /// An edge beside a longer seen contour at its depth is covered; not a hidden, a crossing, a farther or a
         /// deeper one.
         #[test]
-        fn what_runs_beside_a_seen_contour_is_covered(angle in 0.0_f64..6.3, length in 3.0_f64..40.0, off in -1.9_f64..1.9) {
+        fn what_runs_beside_a_seen_contour_is_covered(
+            angle in 0.0_f64..6.3, length in 3.0_f64..40.0, off in -1.9_f64..1.9,
+        ) {
             let start = [100.0 - 5.0 * angle.cos(), 100.0 - 5.0 * angle.sin()];
             let contour = line(piece(start, angle, length + 10.0, 1.0), 0);
             let edge = |off: f64, turn: f64, depth: f64| {

@@ -438,7 +438,10 @@ mod tests {
         /// Where one line ends and the next begins, a third over both ends holds them together, however short its own
         /// part is.
         #[test]
-        fn what_holds_two_ends_together_stays(angle in 0.0_f64..6.3, gap in 4.0_f64..20.0, over in prop::array::uniform2(3.0_f64..30.0), off in -1.0_f64..1.0) {
+        fn what_holds_two_ends_together_stays(
+            angle in 0.0_f64..6.3, gap in 4.0_f64..20.0, over in prop::array::uniform2(3.0_f64..30.0),
+            off in -1.0_f64..1.0,
+        ) {
             let [sin, cos] = [angle.sin(), angle.cos()];
             let along = |id: u64, from: f64, to: f64, off: f64| {
                 straight(id, [from * cos - off * sin, from * sin + off * cos], angle, to - from)
@@ -456,7 +459,8 @@ mod tests {
         /// Which lines stay does not depend on their order.
         #[test]
         fn order_does_not_matter(
-            lines in prop::collection::vec((prop::array::uniform2(0.0_f64..50.0), 0.0_f64..6.3, 2.0_f64..60.0), 0..20), seed: u64,
+            lines in prop::collection::vec((prop::array::uniform2(0.0_f64..50.0), 0.0_f64..6.3, 2.0_f64..60.0), 0..20),
+            seed: u64,
         ) {
             let runs = runs_of(&lines);
             let mut shuffled = runs.clone();

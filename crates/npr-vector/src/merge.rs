@@ -487,7 +487,10 @@ mod tests {
 
         /// A straight line broken in two is one again; not so where the halves lie at different depths.
         #[test]
-        fn a_broken_line_is_mended(angle in 0.0_f64..6.3, parts in prop::array::uniform2(4.0_f64..90.0), gap in 0.0_f64..2.4, turned: bool, apart in 1.04_f64..9.0) {
+        fn a_broken_line_is_mended(
+            angle in 0.0_f64..6.3, parts in prop::array::uniform2(4.0_f64..90.0), gap in 0.0_f64..2.4, turned: bool,
+            apart in 1.04_f64..9.0,
+        ) {
             let one = straight(1, [100.0; 2], angle, parts[0]);
             let from = [angle.cos(), angle.sin()].map(|v| 100.0 + v * (parts[0] + gap));
             let mut other = straight(2, from, angle, parts[1]);
@@ -504,7 +507,9 @@ mod tests {
 
         /// Ends that have run past each other by up to the reach become one line without a way back.
         #[test]
-        fn ends_beside_each_other_are_one_line(angle in 0.0_f64..6.3, off in -2.4_f64..2.4, over in 0.0_f64..7.0, turned: bool) {
+        fn ends_beside_each_other_are_one_line(
+            angle in 0.0_f64..6.3, off in -2.4_f64..2.4, over in 0.0_f64..7.0, turned: bool,
+        ) {
             let [sin, cos] = [angle.sin(), angle.cos()];
             let one = straight(1, [100.0; 2], angle, 40.0);
             let along = 40.0 - over;
@@ -540,7 +545,9 @@ mod tests {
 
         /// Any numbers may come, and whatever is left has points.
         #[test]
-        fn any_places_may_be_joined(places in prop::collection::vec(prop::collection::vec(any::<[f64; 2]>(), 2..5), 0..9), far: bool) {
+        fn any_places_may_be_joined(
+            places in prop::collection::vec(prop::collection::vec(any::<[f64; 2]>(), 2..5), 0..9), far: bool,
+        ) {
             let runs: Vec<Run> = (0..).zip(&places).map(|(id, places)| run_along(id, places)).collect();
             let joined = merge_ends(runs, if far { FACING_PX } else { TOUCHING_PX });
             prop_assert!(joined.iter().all(|run| run.points.len() >= 2));

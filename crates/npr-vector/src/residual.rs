@@ -510,7 +510,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn every_stamp_inks_its_disc_and_nothing_else(at in prop::collection::vec((0u32..40, 0u32..24), 0..6), half in 0.6f32..3.0) {
+        fn every_stamp_inks_its_disc_and_nothing_else(
+            at in prop::collection::vec((0u32..40, 0u32..24), 0..6), half in 0.6f32..3.0,
+        ) {
             let mut stamps = vec![Stamp::default(); 40 * 24];
             for (x, y) in &at {
                 let center = [*x as f32 + 0.5, *y as f32 + 0.5];

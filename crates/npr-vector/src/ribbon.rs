@@ -437,7 +437,9 @@ mod tests {
         }
 
         #[test]
-        fn turning_a_ribbon_round_changes_nothing(a in point(), b in point(), half_a in 0.1f32..4.0, half_b in 0.1f32..4.0, p in point()) {
+        fn turning_a_ribbon_round_changes_nothing(
+            a in point(), b in point(), half_a in 0.1f32..4.0, half_b in 0.1f32..4.0, p in point(),
+        ) {
             let there = Ribbon { a, b, half_a, half_b }.at(p, false);
             let back = Ribbon { a: b, b: a, half_a: half_b, half_b: half_a }.at(p, false);
             prop_assert!((there.0 - back.0).abs() < 1e-3);
@@ -453,7 +455,9 @@ mod tests {
         }
 
         #[test]
-        fn the_key_orders_by_coverage_then_nearness(a in 0f32..1.0, b in 0f32..1.0, near in 0f32..1.0, far in 0f32..1.0) {
+        fn the_key_orders_by_coverage_then_nearness(
+            a in 0f32..1.0, b in 0f32..1.0, near in 0f32..1.0, far in 0f32..1.0,
+        ) {
             prop_assume!((a - b).abs() > 1.0 / 250.0);
             prop_assert_eq!(line_key(a, near) > line_key(b, far), a > b);
             prop_assert!(line_key(a, near.max(far)) >= line_key(a, near.min(far)));

@@ -146,7 +146,8 @@ proptest! {
     /// Points are painted by the place where they are, whatever was smoothed, joined, turned round and broken up.
     #[test]
     fn points_are_painted_by_where_they_are(
-        mesh in any_mesh(), eye in any_eye(), smooth: bool, hidden: bool, on_surface: bool, split in prop::option::of(0.2_f32..3.0),
+        mesh in any_mesh(), eye in any_eye(), smooth: bool, hidden: bool, on_surface: bool,
+        split in prop::option::of(0.2_f32..3.0),
     ) {
         let method = if on_surface { Method::Surface } else { Method::Edges };
         let settings = LineSettings { size: SIZE, kinds: CurveNode::KINDS, method, smooth, hidden, split, memory_limit: u64::MAX };
@@ -157,7 +158,8 @@ proptest! {
     /// A place is the nearest of its seat, on any triangle.
     #[test]
     fn places_are_the_nearest(
-        corners in prop::array::uniform3(prop::array::uniform3(-1.0_f32..1.0)), shares in prop::array::uniform3(0.01_f64..1.0), lift in -0.2_f64..0.2,
+        corners in prop::array::uniform3(prop::array::uniform3(-1.0_f32..1.0)),
+        shares in prop::array::uniform3(0.01_f64..1.0), lift in -0.2_f64..0.2,
     ) {
         let mesh = Mesh::new(corners.to_vec(), vec![[0, 1, 2]]).expect("a triangle");
         let shape = shape_of(&mesh);
@@ -182,7 +184,10 @@ proptest! {
 
     /// Any numbers give shares of the sum 1.
     #[test]
-    fn any_place_has_shares(corners in prop::array::uniform3(prop::array::uniform3(-1.0_f32..1.0)), flat: bool, world in prop::array::uniform3(any::<f64>())) {
+    fn any_place_has_shares(
+        corners in prop::array::uniform3(prop::array::uniform3(-1.0_f32..1.0)), flat: bool,
+        world in prop::array::uniform3(any::<f64>()),
+    ) {
         let corners = corners.map(|[x, y, z]| if flat { [x, 2.0 * x, -x] } else { [x, y, z] });
         let shape = shape_of(&Mesh::new(corners.to_vec(), vec![[0, 1, 2]]).expect("a triangle"));
         prop_assume!(!shape.faces.is_empty());

@@ -197,7 +197,8 @@ proptest! {
     /// rounding.
     #[test]
     fn lines_on_faces_are_shown_from_every_eye(
-        level in 0_u32..4, eye in any_eye(), places in prop::collection::vec((any::<prop::sample::Index>(), prop::array::uniform6(0.01_f32..1.0)), 1..6),
+        level in 0_u32..4, eye in any_eye(),
+        places in prop::collection::vec((any::<prop::sample::Index>(), prop::array::uniform6(0.01_f32..1.0)), 1..6),
         scale in 0.01_f32..100.0, shift in prop::array::uniform3(-0.3_f32..0.3),
     ) {
         let ball = testing::mapped(&testing::icosphere(level), |p| {

@@ -33,9 +33,9 @@ pub enum MeshFormat {
 
 /// The regions that rings go around, as triangles.
 ///
-/// A place belongs to a region where more rings of positive area (by the shoelace formula) go around it than of negative
-/// area, so that holes are rings the other way round. Rings may touch, cross and lie on each other; they are closed
-/// without repeating their first point. Triangles do not overlap, meet only along whole sides and in corners, and cover
+/// A place belongs to a region where more rings of positive area (by the shoelace formula) go around it than of
+/// negative area, so that holes are rings the other way round. Rings may touch, cross and lie on each other; they are
+/// closed without repeating their first point. Triangles do not overlap, meet only along whole sides and in corners, and cover
 /// the regions but for slivers: points are moved to a grid of 1/256, and crossings become points of it.
 ///
 /// About 20 us a segment. The same for any number of threads.
@@ -382,7 +382,9 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(150))]
 
         #[test]
-        fn tracings_keep_their_area(width in 3u32..30, height in 3u32..30, percent in 5u32..95, block in 1u32..5, seed: u32) {
+        fn tracings_keep_their_area(
+            width in 3u32..30, height in 3u32..30, percent in 5u32..95, block in 1u32..5, seed: u32,
+        ) {
             let mut bitmap = Bitmap::new(width, height).expect("small");
             for (x, y) in (0..width * height).map(|i| (i % width, i / width)) {
                 let place = (x / block) << 16 | (y / block);

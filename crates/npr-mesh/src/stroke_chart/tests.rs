@@ -374,7 +374,8 @@ proptest! {
     /// Painting one direction everywhere is to follow that direction, whatever its sign and length at each vertex.
     #[test]
     fn one_painted_direction_is_a_fixed_one(
-        seed in 0u64..1000, x in -1f32..1.0, y in -1f32..1.0, lengths in prop::collection::vec(0.1f32..9.0, 81), signs: u64,
+        seed in 0u64..1000, x in -1f32..1.0, y in -1f32..1.0, lengths in prop::collection::vec(0.1f32..9.0, 81),
+        signs: u64,
     ) {
         prop_assume!(x * x + y * y > 0.01);
         let mesh = uneven_sheet(4, 4, seed);
@@ -392,7 +393,9 @@ proptest! {
     }
 
     #[test]
-    fn any_directions_give_finite_charts(values in prop::collection::vec(prop::array::uniform3(prop::num::f32::ANY), 42)) {
+    fn any_directions_give_finite_charts(
+        values in prop::collection::vec(prop::array::uniform3(prop::num::f32::ANY), 42),
+    ) {
         let chart = painted_chart(&icosphere(1), &values);
         prop_assert!(chart.corners.as_flattened().as_flattened().iter().all(|v| v.is_finite()));
     }

@@ -397,7 +397,8 @@ proptest! {
     /// From everywhere, before any two halves, smoothed or not: lines read where they did not, and stay where they did.
     #[test]
     fn lines_read_wherever_the_background_changes(
-        split in 40u32..280, level in 1u32..4, smooth: bool, on_surface: bool, eye in prop::array::uniform2(-1.0f32..1.0),
+        split in 40u32..280, level in 1u32..4, smooth: bool, on_surface: bool,
+        eye in prop::array::uniform2(-1.0f32..1.0),
     ) {
         let options = LineOptions {
             smooth,

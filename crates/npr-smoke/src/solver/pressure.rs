@@ -365,7 +365,8 @@ mod tests {
 
         #[test]
         fn projected_flow_has_no_divergence(
-            size in prop::array::uniform3(4usize..14), seed: u32, speed in prop_oneof![Just(1e-3f32), Just(1.0), Just(1e4)],
+            size in prop::array::uniform3(4usize..14), seed: u32,
+            speed in prop_oneof![Just(1e-3f32), Just(1.0), Just(1e4)],
         ) {
             let cells = Lattice { size };
             let mut flow = stirred(cells, seed, speed);

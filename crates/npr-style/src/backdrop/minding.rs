@@ -105,7 +105,9 @@ mod tests {
     proptest! {
         /// Pixels that ask the same again and again, or nearly the same, get what each would get alone.
         #[test]
-        fn what_was_asked_before_changes_nothing(picks in prop::collection::vec((0usize..2, 0usize..4, 0usize..5), 1..40)) {
+        fn what_was_asked_before_changes_nothing(
+            picks in prop::collection::vec((0usize..2, 0usize..4, 0usize..5), 1..40),
+        ) {
             let mut rules = Rules::default();
             rules.rules[1] = Rule::CONTRAST;
             rules.rules[3] = Rule { rim_factor: 0.7, ..Rule::CONTRAST };

@@ -336,7 +336,9 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(1500))]
 
         #[test]
-        fn it_follows_the_publication_word_by_word((size, alone, composed) in pictures(), threshold in 0f32..1.0, intensity in 1f32..4.0) {
+        fn it_follows_the_publication_word_by_word(
+            (size, alone, composed) in pictures(), threshold in 0f32..1.0, intensity in 1f32..4.0,
+        ) {
             let rule = Criteria { rgb: Some(threshold), ..Criteria::default() }.rule(intensity, Rule::BRIGHTER);
             let lines = outline(size, &alone, &composed, [0.0; 3], &rule).unwrap();
             for y in 0..size[1] {
@@ -382,7 +384,9 @@ mod tests {
         }
 
         #[test]
-        fn one_factor_for_all_channels_keeps_their_ratios(rim in prop::array::uniform3(0.01f32..0.24), intensity in 1f32..4.0, up: bool) {
+        fn one_factor_for_all_channels_keeps_their_ratios(
+            rim in prop::array::uniform3(0.01f32..0.24), intensity in 1f32..4.0, up: bool,
+        ) {
             let direction = if up { Rule::BRIGHTER } else { Rule::DARKER };
             let rule = Criteria { rgb: Some(1.0), ..Criteria::default() }.rule(intensity, direction);
             let drawn = color([0.0; 3], rim, rim, &rule);

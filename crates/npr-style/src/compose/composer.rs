@@ -305,7 +305,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_layer_over_another_never_lightens_coverage(top in prop::array::uniform4(0f32..1.0), below in prop::array::uniform4(0f32..1.0)) {
+        fn a_layer_over_another_never_lightens_coverage(
+            top in prop::array::uniform4(0f32..1.0), below in prop::array::uniform4(0f32..1.0),
+        ) {
             let premultiplied = [below[0] * below[3], below[1] * below[3], below[2] * below[3], below[3]];
             let both = over(top, premultiplied);
             prop_assert!(both[3] >= top[3].max(below[3]) - 1e-6 && both[3] <= 1.0 + 1e-6);

@@ -157,7 +157,9 @@ proptest! {
 
     /// Numbers that are none, and far too large, still give a colour.
     #[test]
-    fn any_place_has_a_colour(world in prop::array::uniform3(any::<f32>()), normal in prop::array::uniform3(any::<f32>())) {
+    fn any_place_has_a_colour(
+        world in prop::array::uniform3(any::<f32>()), normal in prop::array::uniform3(any::<f32>()),
+    ) {
         let (part, store) = painted(EVERYTHING);
         let (view, lights) = (view(), Lights::distant([0.0, 1.0, 0.0]));
         let scene = scene(&view, &lights, &store);

@@ -93,8 +93,8 @@ mod tests {
 
         #[test]
         fn no_place_makes_it_look_outside(
-            world in prop::array::uniform3(prop::num::f32::ANY), m in prop::array::uniform4(prop::array::uniform4(prop::num::f32::ANY)),
-            side in 0u32..4,
+            world in prop::array::uniform3(prop::num::f32::ANY),
+            m in prop::array::uniform4(prop::array::uniform4(prop::num::f32::ANY)), side in 0u32..4,
         ) {
             let depths = vec![0; (side * side) as usize];
             if let Some(texels) = DepthTexels::around(&m, side, world) {

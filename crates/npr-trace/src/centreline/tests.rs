@@ -187,7 +187,9 @@ proptest! {
     }
 
     #[test]
-    fn a_line_is_found_where_it_was_drawn(angle in 0.0..3.2f64, width in 1.5..9.0f64, dx in 0.0..1.0f64, dy in 0.0..1.0f64) {
+    fn a_line_is_found_where_it_was_drawn(
+        angle in 0.0..3.2f64, width in 1.5..9.0f64, dx in 0.0..1.0f64, dy in 0.0..1.0f64,
+    ) {
         let middle = DVec2::new(60.0 + dx, 60.0 + dy);
         let reach = DVec2::from_angle(angle) * 45.0;
         let line = [middle - reach, middle + reach];

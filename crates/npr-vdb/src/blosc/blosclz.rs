@@ -94,7 +94,9 @@ mod tests {
         #![proptest_config(ProptestConfig { cases: 1000, ..ProptestConfig::default() })]
 
         #[test]
-        fn a_forward_copy_is_one_byte_after_another(mut bytes in prop::collection::vec(any::<u8>(), 1..200), distance in 1usize..60) {
+        fn a_forward_copy_is_one_byte_after_another(
+            mut bytes in prop::collection::vec(any::<u8>(), 1..200), distance in 1usize..60,
+        ) {
             let distance = distance.min(bytes.len());
             let mut wanted = bytes.clone();
             for at in distance..wanted.len() {
@@ -105,7 +107,9 @@ mod tests {
         }
 
         #[test]
-        fn any_bytes_end_in_a_length_or_nothing(packed in prop::collection::vec(any::<u8>(), 0..100), length in 0usize..400) {
+        fn any_bytes_end_in_a_length_or_nothing(
+            packed in prop::collection::vec(any::<u8>(), 0..100), length in 0usize..400,
+        ) {
             let filled = unpack(&packed, &mut vec![0; length]);
             prop_assert!(filled.is_none_or(|filled| filled <= length));
         }

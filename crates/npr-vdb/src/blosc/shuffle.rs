@@ -90,7 +90,9 @@ mod tests {
         #![proptest_config(ProptestConfig { cases: 1000, ..ProptestConfig::default() })]
 
         #[test]
-        fn shuffled_bytes_and_bits_come_back(bytes in prop::collection::vec(any::<u8>(), 0..300), element_bytes in 1usize..20) {
+        fn shuffled_bytes_and_bits_come_back(
+            bytes in prop::collection::vec(any::<u8>(), 0..300), element_bytes in 1usize..20,
+        ) {
             let mut back = vec![0xaa; bytes.len()];
             unshuffle_bytes(&shuffle_bytes(&bytes, element_bytes), element_bytes, &mut back);
             prop_assert_eq!(&back, &bytes);

@@ -104,8 +104,8 @@ mod tests {
         /// An angle is free where no arc holds it.
         #[test]
         fn free_is_what_no_arc_covers(
-            arcs in prop::collection::vec((0.0..TAU, 0.0..3.5f64), 0..90), angles in prop::collection::vec(0.0..TAU, 40),
-            narrow in 0.01..1.0f64,
+            arcs in prop::collection::vec((0.0..TAU, 0.0..3.5f64), 0..90),
+            angles in prop::collection::vec(0.0..TAU, 40), narrow in 0.01..1.0f64,
         ) {
             let mut cover = Cover::default();
             let arcs: Vec<[f64; 2]> = arcs.into_iter().map(|(middle, half)| [middle, half * narrow]).collect();

@@ -160,7 +160,9 @@ proptest! {
     }
 
     #[test]
-    fn broken_links_are_refused_by_all(next in prop::collection::vec(prop_oneof![9 => 0u32..40, 1 => Just(NONE), 1 => any::<u32>()], 0..40)) {
+    fn broken_links_are_refused_by_all(
+        next in prop::collection::vec(prop_oneof![9 => 0u32..40, 1 => Just(NONE), 1 => any::<u32>()], 0..40),
+    ) {
         let keys = vec![0; next.len()];
         let mut seen = std::collections::BTreeSet::new();
         let is_sound = next.iter().all(|n| *n == NONE || ((*n as usize) < next.len() && seen.insert(*n)));

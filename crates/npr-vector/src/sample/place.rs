@@ -152,7 +152,9 @@ mod tests {
         }
 
         #[test]
-        fn any_numbers_give_few_finite_samples(points in proptest::collection::vec(prop::array::uniform3(any::<f32>()), 0..6)) {
+        fn any_numbers_give_few_finite_samples(
+            points in proptest::collection::vec(prop::array::uniform3(any::<f32>()), 0..6),
+        ) {
             let placed = place_samples(&view(1.0), &[Spine { points, ..Spine::default() }]);
             prop_assert!(placed.samples.len() <= LINE_SAMPLES as usize);
         }

@@ -239,7 +239,9 @@ proptest! {
 
     /// Up to half the scale one of both directions has room enough.
     #[test]
-    fn the_target_is_reached_but_where_a_line_turns(line in color(), rim in color(), behind in color(), rule in rule()) {
+    fn the_target_is_reached_but_where_a_line_turns(
+        line in color(), rim in color(), behind in color(), rule in rule(),
+    ) {
         let rule = Rule { direction: Rule::AUTO, ..rule };
         let target = f64::from(target_of(&rule));
         prop_assume!(target < 0.45 && !turns(line, behind, &rule));

@@ -52,7 +52,9 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(500))]
 
     #[test]
-    fn chains_are_ways_that_take_every_border_once(width in 1u32..14, height in 1u32..14, surfaces in 1u32..6, seed: u32) {
+    fn chains_are_ways_that_take_every_border_once(
+        width in 1u32..14, height in 1u32..14, surfaces in 1u32..6, seed: u32,
+    ) {
         let surface = |pixel: u32| mix_bits(seed ^ mix_bits(pixel)) % surfaces;
         let borders = borders_of([width, height], &surface);
         let grid = Grid { borders: &borders };

@@ -101,7 +101,10 @@ proptest! {
     }
 
     #[test]
-    fn filters_are_circular_means(lengths in lengths(), radius in 0u32..30, sigma in 0.3..9.0f32, values in prop::collection::vec(-9.0..9.0f32, 400)) {
+    fn filters_are_circular_means(
+        lengths in lengths(), radius in 0u32..30, sigma in 0.3..9.0f32,
+        values in prop::collection::vec(-9.0..9.0f32, 400),
+    ) {
         let spots = spots_of(&lengths);
         let from: Vec<Planar> = (0..spots.len()).map(|i| Planar { x: values[i], y: values[i + 199] }).collect();
         let weights = gaussian(radius, sigma);
@@ -122,7 +125,9 @@ proptest! {
     }
 
     #[test]
-    fn tangents_of_circles_and_lines_are_exact(count in 40u32..200, radius in 2.0..90.0f64, turn in 0.0..6.3f64, clockwise: bool) {
+    fn tangents_of_circles_and_lines_are_exact(
+        count in 40u32..200, radius in 2.0..90.0f64, turn in 0.0..6.3f64, clockwise: bool,
+    ) {
         let spots = spots_of(&[count]);
         let sign = if clockwise { -1.0 } else { 1.0 };
         let angle = |i: u32| turn + sign * std::f64::consts::TAU * f64::from(i) / f64::from(count);
@@ -137,7 +142,9 @@ proptest! {
 
     /// Against the least squares of a parabola over arc length, in double precision and by elimination.
     #[test]
-    fn tangents_are_those_of_least_squares(steps in prop::collection::vec((-1.0..1.0f32, -1.0..1.0f32), 30..60), radius in 3u32..14) {
+    fn tangents_are_those_of_least_squares(
+        steps in prop::collection::vec((-1.0..1.0f32, -1.0..1.0f32), 30..60), radius in 3u32..14,
+    ) {
         let spots = spots_of(&[steps.len() as u32]);
         let mut at = Planar::default();
         let places: Vec<Planar> = steps.iter().map(|(x, y)| { at = Planar { x: at.x + 1.5 + x, y: at.y + y }; at }).collect();
@@ -153,7 +160,9 @@ proptest! {
     }
 
     #[test]
-    fn votes_are_counted(lengths in lengths(), kept in prop::collection::vec(0u32..2, 240), radius in 0u32..12, margin in 0u32..5) {
+    fn votes_are_counted(
+        lengths in lengths(), kept in prop::collection::vec(0u32..2, 240), radius in 0u32..12, margin in 0u32..5,
+    ) {
         let spots = spots_of(&lengths);
         let kept = &kept[..spots.len()];
         let rule = CullRule { vote_radius: radius, vote_margin: margin, ..CullRule::default() };
@@ -167,7 +176,10 @@ proptest! {
     }
 
     #[test]
-    fn strips_are_what_a_walk_finds(lengths in lengths(), kept in prop::collection::vec(prop_oneof![3 => Just(1u32), 1 => Just(0u32)], 240), short in 0u32..6) {
+    fn strips_are_what_a_walk_finds(
+        lengths in lengths(),
+        kept in prop::collection::vec(prop_oneof![3 => Just(1u32), 1 => Just(0u32)], 240), short in 0u32..6,
+    ) {
         let spots = spots_of(&lengths);
         let kept = &kept[..spots.len()];
         let found = strips(&spots, kept);

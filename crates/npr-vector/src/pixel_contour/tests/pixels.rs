@@ -147,7 +147,8 @@ proptest! {
 
     #[test]
     fn fragments_cover_a_line_without_gaps(
-        from in prop::array::uniform2(0.0..80.0f32), to in prop::array::uniform2(0.0..80.0f32), z in prop::array::uniform2(0.1..1.0f32), fine in 1u32..4,
+        from in prop::array::uniform2(0.0..80.0f32), to in prop::array::uniform2(0.0..80.0f32),
+        z in prop::array::uniform2(0.1..1.0f32), fine in 1u32..4,
     ) {
         let view = view([80, 80], fine as f32);
         let place = |at: [f32; 2]| at.map(|v| v * fine as f32);
@@ -183,8 +184,9 @@ proptest! {
 
     #[test]
     fn fragments_show_where_enough_pixels_do(
-        surfaces in prop::collection::vec(prop_oneof![Just(0.0f32), 0.05..1.0f32], 30), veil in prop::collection::vec(0.0..1.0f32, 30),
-        is_veiled: bool, pixel in 0u32..30, z in 0.05..1.0f32, least in 0u32..10,
+        surfaces in prop::collection::vec(prop_oneof![Just(0.0f32), 0.05..1.0f32], 30),
+        veil in prop::collection::vec(0.0..1.0f32, 30), is_veiled: bool, pixel in 0u32..30, z in 0.05..1.0f32,
+        least in 0u32..10,
     ) {
         let view = PixelView { size: [6, 5], least_visible: least, ..view([6, 5], 2.0) };
         let mut shown = [7];
@@ -227,7 +229,9 @@ proptest! {
     }
 
     #[test]
-    fn sides_follow_the_ink_and_close(width in 1u32..9, height in 1u32..9, cells in prop::collection::vec(any::<bool>(), 64)) {
+    fn sides_follow_the_ink_and_close(
+        width in 1u32..9, height in 1u32..9, cells in prop::collection::vec(any::<bool>(), 64),
+    ) {
         let pixels: Vec<u32> = cells[..(width * height) as usize].iter().map(|c| u32::from(*c)).collect();
         let ink = Ink { size: [width, height], pixels: &pixels };
         let expected = walked_loops(&ink);

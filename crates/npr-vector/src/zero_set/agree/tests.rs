@@ -168,7 +168,9 @@ proptest! {
 
     /// What sights decided stays; the rest is settled as if they had decided nothing.
     #[test]
-    fn settling_leaves_what_is_known(pieces in prop::collection::vec((any::<bool>(), 0.2_f64..1.5, prop::collection::vec(0_u32..3, 0..6)), 0..20)) {
+    fn settling_leaves_what_is_known(
+        pieces in prop::collection::vec((any::<bool>(), 0.2_f64..1.5, prop::collection::vec(0_u32..3, 0..6)), 0..20),
+    ) {
         let piece = |(is_known, step_px, occluders): &(bool, f64, Vec<u32>)| Sampled {
             step_px: *step_px,
             is_known: *is_known,
