@@ -35,8 +35,8 @@ pub enum MeshFormat {
 ///
 /// A place belongs to a region where more rings of positive area (by the shoelace formula) go around it than of
 /// negative area, so that holes are rings the other way round. Rings may touch, cross and lie on each other; they are
-/// closed without repeating their first point. Triangles do not overlap, meet only along whole sides and in corners, and cover
-/// the regions but for slivers: points are moved to a grid of 1/256, and crossings become points of it.
+/// closed without repeating their first point. Triangles do not overlap, meet only along whole sides and in corners,
+/// and cover the regions but for slivers: points are moved to a grid of 1/256, and crossings become points of it.
 ///
 /// About 20 us a segment. The same for any number of threads.
 ///
