@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
+
+use crate::source::files_of;
 
 /// Constants of a shader whose names start alike, and where their twins stand.
 struct Twins {
@@ -129,57 +131,66 @@ type Constants = BTreeMap<String, String>;
 
 /// Fails with every constant of a shader in the project at `root` that differs from its twin, or has none.
 pub fn check(root: &Path) -> Result<()> {
-    let shaders = root.join("shaders");
-    let names = shader_names(&shaders)?;
-    let mut libraries = Constants::new();
-    for library in names.iter().filter(|name| name.starts_with("lib/")) {
-        libraries.extend(constants_of(&read(&shaders.join(library))?, &["const "]));
-    }
-    let types = constants_of_types(root)?;
+    // Read every shader, and all that shaders take from libraries.
+    let shaders: Vec<(String, Constants)> = files_of(&root.join("shaders"), "wgsl")?
+        .iter()
+        .map(|file| (slashed(&file.path), constants_of(&file.text, &["const "])))
+        .collect();
+    let libraries = shaders
+        .iter()
+        .filter(|(shader, _)| shader.starts_with("lib/"));
+    let shared: Constants = libraries
+        .flat_map(|(_, constants)| constants.clone())
+        .collect();
+    let sources = sources_of_twins(root)?;
+
+    // Compare each constant with its twin.
     let mut faults = Vec::new();
-    let mut count = 0;
-    for shader in &names {
-        let own = constants_of(&read(&shaders.join(shader))?, &["const "]);
-        count += own.len();
-        // Shaders take constants of libraries, and their own first.
-        let mut known = libraries.clone();
+    for (shader, own) in &shaders {
+        // Its own constants go before those of libraries.
+        let mut known = shared.clone();
         known.extend(own.clone());
-        for name in own.keys().filter(|name| !is_alone(shader, name)) {
-            faults.extend(fault(root, shader, name, [&known, &types])?);
-        }
+        let compared = own.keys().filter(|name| !is_alone(shader, name));
+        faults.extend(compared.filter_map(|name| fault(shader, name, &known, &sources)));
     }
     if !faults.is_empty() {
         bail!("constants of shaders differ:\n  {}", faults.join("\n  "));
     }
+    let count: usize = shaders.iter().map(|(_, own)| own.len()).sum();
     println!("constants: {count} of shaders are those of Rust");
     Ok(())
 }
 
-/// Every shader, by its path below `shaders`.
-fn shader_names(shaders: &Path) -> Result<Vec<String>> {
-    let mut names = Vec::new();
-    for folder in std::fs::read_dir(shaders)? {
-        let folder = folder?.path();
-        if !folder.is_dir() {
-            continue;
-        }
-        for file in std::fs::read_dir(&folder)? {
-            let path = file?.path();
-            if path
-                .extension()
-                .is_some_and(|extension| extension == "wgsl")
-            {
-                let name = path.strip_prefix(shaders)?;
-                names.push(name.to_string_lossy().replace('\\', "/"));
-            }
-        }
-    }
-    names.sort();
-    Ok(names)
+/// A path as it stands in the table, on every system.
+fn slashed(path: &Path) -> String {
+    path.to_string_lossy().replace('\\', "/")
 }
 
-fn read(path: &Path) -> Result<String> {
-    std::fs::read_to_string(path).with_context(|| format!("cannot read '{}'", path.display()))
+/// What every Rust source that holds twins knows: its own constants, and those that belong to types of any other.
+///
+/// Sources that are not there are left out; whoever asks for a twin in one is told that it cannot be read.
+fn sources_of_twins(root: &Path) -> Result<BTreeMap<&'static str, Constants>> {
+    let mut sources = BTreeMap::new();
+    for twins in TWINS {
+        let path = root.join("crates").join(twins.source);
+        if path.exists() && !sources.contains_key(twins.source) {
+            let text = std::fs::read_to_string(&path)?;
+            sources.insert(twins.source, rust_constants(&text));
+        }
+    }
+    let own = sources.values().flatten();
+    let of_types = own.filter(|(name, _)| name.contains("::"));
+    let of_types: Constants = of_types
+        .map(|(name, text)| (name.clone(), text.clone()))
+        .collect();
+    for constants in sources.values_mut() {
+        for (name, text) in &of_types {
+            constants
+                .entry(name.clone())
+                .or_insert_with(|| text.clone());
+        }
+    }
+    Ok(sources)
 }
 
 fn is_alone(shader: &str, name: &str) -> bool {
@@ -188,54 +199,40 @@ fn is_alone(shader: &str, name: &str) -> bool {
         .any(|(file, constant, _)| (*file, *constant) == (shader, name))
 }
 
-/// What is wrong with a constant of a shader: of those that it knows, and with those of types that Rust knows.
+/// What is wrong with a constant of a shader that knows the constants `known`.
 fn fault(
-    root: &Path,
     shader: &str,
     name: &str,
-    [known, types]: [&Constants; 2],
-) -> Result<Option<String>> {
+    known: &Constants,
+    sources: &BTreeMap<&str, Constants>,
+) -> Option<String> {
     let fits = |twins: &&Twins| twins.shader == shader && name.starts_with(twins.prefix);
     let Some(twins) = TWINS
         .iter()
         .filter(fits)
         .max_by_key(|twins| twins.prefix.len())
     else {
-        return Ok(Some(format!(
+        return Some(format!(
             "{shader}: {name} has no twin; name it in xtask/src/constants.rs"
-        )));
+        ));
     };
-    let twin = format!("{}{}", twins.scope, &name[twins.prefix.len()..]);
-    let mut rust = types.clone();
-    rust.extend(rust_constants(&read(
-        &root.join("crates").join(twins.source),
-    )?));
-    let values = [value_of(name, known, ""), value_of(&twin, &rust, "")];
-    Ok(match values {
+    let (source, twin) = (
+        twins.source,
+        format!("{}{}", twins.scope, &name[twins.prefix.len()..]),
+    );
+    let theirs = sources
+        .get(source)
+        .and_then(|rust| value_of(&twin, rust, ""));
+    match [value_of(name, known, ""), theirs] {
         [Some(ours), Some(theirs)] if are_equal(&ours, &theirs) => None,
         [Some(ours), Some(theirs)] => Some(format!(
-            "{shader}: {name} is {ours:?}, but {twin} of {} is {theirs:?}",
-            twins.source
+            "{shader}: {name} is {ours:?}, but {twin} of {source} is {theirs:?}"
         )),
         [None, _] => Some(format!("{shader}: the value of {name} cannot be read")),
         [_, None] => Some(format!(
-            "{shader}: {name} should be {twin} of {}, which cannot be read",
-            twins.source
+            "{shader}: {name} should be {twin} of {source}, which cannot be read"
         )),
-    })
-}
-
-/// Constants that belong to types, of every source that holds twins and is there.
-fn constants_of_types(root: &Path) -> Result<Constants> {
-    let mut all = Constants::new();
-    for twins in TWINS {
-        let path = root.join("crates").join(twins.source);
-        if path.exists() {
-            let found = rust_constants(&read(&path)?);
-            all.extend(found.into_iter().filter(|(name, _)| name.contains("::")));
-        }
     }
-    Ok(all)
 }
 
 fn are_equal(a: &[f64], b: &[f64]) -> bool {
@@ -485,7 +482,8 @@ mod tests {
 
     #[test]
     fn declarations_are_read_whole() {
-        let text = "/// Doc.\npub(crate) const LONG: u32 =\n    1 // one\n    | 2;\nconst PAIR: [f32; 2] = [0.6, 0.4];\n\
+        let text = "/// Doc.\npub(crate) const LONG: u32 =\n    1 // one\n    | 2;\n\
+                    const PAIR: [f32; 2] = [0.6, 0.4];\n\
                     #[cfg(test)]\nmod tests {\n    const LATE: u32 = 1;\n}\n";
         let all = constants(text);
         assert_eq!(value_of("LONG", &all, ""), Some(vec![3.0]));

@@ -8,7 +8,7 @@ use crate::packages::{Dependency, Features, Package, linked, members};
 use crate::source::{SourceFile, rust_files};
 
 /// A crate of the workspace, and what it may stand on.
-struct Room {
+struct Member {
     name: &'static str,
     /// Crates of the workspace that it may import: an edge that is not listed here is a fault.
     imports: &'static [&'static str],
@@ -16,7 +16,7 @@ struct Room {
     heavy: bool,
 }
 
-impl Room {
+impl Member {
     const fn light(name: &'static str, imports: &'static [&'static str]) -> Self {
         Self {
             name,
@@ -35,25 +35,25 @@ impl Room {
 }
 
 /// Every crate, each below those that import it. Tests and benches may import any crate that is listed before theirs.
-const ROOMS: [Room; 16] = [
+const MEMBERS: [Member; 16] = [
     // Floor 0: what everything stands on.
-    Room::light("npr-core", &[]),
-    Room::light("npr-shaders", &[]),
+    Member::light("npr-core", &[]),
+    Member::light("npr-shaders", &[]),
     // This command links nothing else, so that it builds fast.
-    Room::light("xtask", &["npr-core"]),
+    Member::light("xtask", &["npr-core"]),
     // Floor 1a: one domain each, without a device.
-    Room::light("npr-vdb", &["npr-core"]),
-    Room::light("npr-mesh", &["npr-core"]),
-    Room::light("npr-trace", &["npr-core"]),
+    Member::light("npr-vdb", &["npr-core"]),
+    Member::light("npr-mesh", &["npr-core"]),
+    Member::light("npr-trace", &["npr-core"]),
     // Lines painted in textures are followed along their middle.
-    Room::light("npr-vector", &["npr-core", "npr-trace"]),
+    Member::light("npr-vector", &["npr-core", "npr-trace"]),
     // Draws strokes of the one and tracings of the other.
-    Room::light("npr-drawing", &["npr-core", "npr-trace", "npr-vector"]),
-    Room::light("npr-scene", &["npr-core"]),
-    Room::light("npr-smoke", &["npr-core"]),
-    Room::light("npr-style", &["npr-core"]),
+    Member::light("npr-drawing", &["npr-core", "npr-trace", "npr-vector"]),
+    Member::light("npr-scene", &["npr-core"]),
+    Member::light("npr-smoke", &["npr-core"]),
+    Member::light("npr-style", &["npr-core"]),
     // Floor 1b: passes and their engines.
-    Room::heavy(
+    Member::heavy(
         "npr-gpu",
         &[
             "npr-core",
@@ -64,7 +64,7 @@ const ROOMS: [Room; 16] = [
         ],
     ),
     // Floor 2: the facade.
-    Room::heavy(
+    Member::heavy(
         "npr-render",
         &[
             "npr-core",
@@ -80,7 +80,7 @@ const ROOMS: [Room; 16] = [
         ],
     ),
     // Floor 3: the command.
-    Room::heavy(
+    Member::heavy(
         "npr-cli",
         &[
             "npr-core",
@@ -95,7 +95,7 @@ const ROOMS: [Room; 16] = [
         ],
     ),
     // Suites import whatever they test.
-    Room::heavy(
+    Member::heavy(
         "npr-benches",
         &[
             "npr-core",
@@ -109,7 +109,7 @@ const ROOMS: [Room; 16] = [
             "npr-vector",
         ],
     ),
-    Room::heavy(
+    Member::heavy(
         "npr-tests",
         &[
             "npr-core",
@@ -159,9 +159,9 @@ pub fn check(root: &Path) -> Result<()> {
         for file in rust_files(&package.folder().join("src"))? {
             faults.extend(condition_faults(&package.name, &file));
         }
-        if ROOMS
+        if MEMBERS
             .iter()
-            .any(|room| room.name == package.name && !room.heavy)
+            .any(|member| member.name == package.name && !member.heavy)
         {
             let linked = linked(root, &package.name, Features::All)?;
             faults.extend(weight_faults(&package.name, &linked));
@@ -178,19 +178,17 @@ pub fn check(root: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Dependencies that no room allows; tests and benches may import every crate that is listed before their own.
+/// Dependencies that are not listed; tests and benches may import every crate that is listed before their own.
 fn import_faults(package: &Package) -> Vec<String> {
     let name = &package.name;
-    let Some(number) = ROOMS.iter().position(|room| room.name == *name) else {
-        return vec![format!(
-            "{name} is no room; give it one in xtask/src/floors.rs"
-        )];
+    let Some(number) = MEMBERS.iter().position(|member| member.name == *name) else {
+        return vec![format!("{name} is not listed in xtask/src/floors.rs")];
     };
-    let (below, room) = (&ROOMS[..number], &ROOMS[number]);
+    let (below, member) = (&MEMBERS[..number], &MEMBERS[number]);
     let is_ours =
-        |dependency: &&Dependency| ROOMS.iter().any(|other| other.name == dependency.name);
+        |dependency: &&Dependency| MEMBERS.iter().any(|other| other.name == dependency.name);
     let is_allowed = |dependency: &Dependency| {
-        let listed = room.imports.contains(&dependency.name.as_str());
+        let listed = member.imports.contains(&dependency.name.as_str());
         let for_tests = dependency.kind.as_deref() == Some("dev");
         let lies_below = below.iter().any(|other| other.name == dependency.name);
         lies_below && (listed || for_tests)
@@ -203,7 +201,7 @@ fn import_faults(package: &Package) -> Vec<String> {
         .filter(|dependency| !is_allowed(dependency))
         .map(|dependency| {
             format!(
-                "{name} imports {}, which its room does not list",
+                "{name} imports {}, which is not listed for it",
                 dependency.name
             )
         })
@@ -317,7 +315,7 @@ mod tests {
         );
         assert_eq!(count("npr-mesh", &["npr-vector"]), 1, "sideways");
         assert_eq!(count("npr-core", &["npr-render"]), 1, "upwards");
-        assert_eq!(count("npr-attic", &[]), 1, "no room");
+        assert_eq!(count("npr-attic", &[]), 1, "not listed");
     }
 
     #[test]
@@ -332,10 +330,11 @@ mod tests {
     }
 
     #[test]
-    fn rooms_list_what_lies_below_them() {
-        for (number, room) in ROOMS.iter().enumerate() {
-            let lies_below = |name: &&str| ROOMS[..number].iter().any(|other| other.name == *name);
-            assert!(room.imports.iter().all(lies_below), "{}", room.name);
+    fn members_list_what_lies_below_them() {
+        for (number, member) in MEMBERS.iter().enumerate() {
+            let lies_below =
+                |name: &&str| MEMBERS[..number].iter().any(|other| other.name == *name);
+            assert!(member.imports.iter().all(lies_below), "{}", member.name);
         }
     }
 

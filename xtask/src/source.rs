@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 
-/// A source file of a crate.
+/// A source file, of a crate or a shader.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SourceFile {
-    /// Its path below the crate's folder.
+    /// Its path below the folder that was read.
     pub path: PathBuf,
     /// Its text.
     pub text: String,
@@ -16,6 +16,11 @@ pub struct SourceFile {
 
 /// Every `.rs` file below `folder`, in order of path; build output is passed over.
 pub fn rust_files(folder: &Path) -> Result<Vec<SourceFile>> {
+    files_of(folder, "rs")
+}
+
+/// Every file below `folder` whose name ends in `extension`, in order of path; build output is passed over.
+pub fn files_of(folder: &Path, extension: &str) -> Result<Vec<SourceFile>> {
     let mut waiting = vec![folder.to_path_buf()];
     let mut files = Vec::new();
     while let Some(place) = waiting.pop() {
@@ -23,7 +28,7 @@ pub fn rust_files(folder: &Path) -> Result<Vec<SourceFile>> {
             let path = entry?.path();
             if path.is_dir() {
                 waiting.extend((!path.ends_with("target")).then_some(path));
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
+            } else if path.extension().is_some_and(|own| own == extension) {
                 let text = std::fs::read_to_string(&path)?;
                 files.push(SourceFile {
                     path: path.strip_prefix(folder)?.to_path_buf(),

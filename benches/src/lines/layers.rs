@@ -483,7 +483,9 @@ mod tests {
 
         #[test]
         fn any_numbers_may_be_drawn(
-            lines in prop::collection::vec((0..3u8, any::<bool>(), prop::collection::vec(any::<[f64; 2]>(), 0..5)), 0..5),
+            lines in prop::collection::vec(
+                (0..3u8, any::<bool>(), prop::collection::vec(any::<[f64; 2]>(), 0..5)), 0..5,
+            ),
             size in prop::array::uniform2(0..40u32),
         ) {
             let run = |(number, closed, points): &(u8, bool, Vec<[f64; 2]>)| Run {
