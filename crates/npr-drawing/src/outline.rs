@@ -44,6 +44,7 @@ pub fn outline(points: &[StrokePoint], closed: bool, tolerance: f64) -> BezPath 
         return BezPath::new();
     }
     let closed = closed && discs.len() > 2;
+    let swallowing = swallowing_discs(&discs, closed);
     let backwards: Vec<Disc> = discs.iter().rev().copied().collect();
     let walks = if closed {
         vec![discs, backwards]
@@ -64,7 +65,24 @@ pub fn outline(points: &[StrokePoint], closed: bool, tolerance: f64) -> BezPath 
             path.extend(circle(disc, tolerance));
         }
     }
+    // A side cannot go around a disc that swallows its neighbour.
+    for disc in swallowing {
+        path.extend(circle(disc, tolerance));
+    }
     path
+}
+
+/// Discs that hold a neighbour whole.
+fn swallowing_discs(discs: &[Disc], closed: bool) -> Vec<Disc> {
+    let count = discs.len();
+    let holds = |a: &Disc, b: &Disc| (b.center - a.center).hypot() < a.radius - b.radius;
+    let has_swallowed = |i: &usize| {
+        let before = (closed || *i > 0).then(|| &discs[(i + count - 1) % count]);
+        let after = (closed || i + 1 < count).then(|| &discs[(i + 1) % count]);
+        let mut neighbours = before.into_iter().chain(after);
+        neighbours.any(|neighbour| holds(&discs[*i], neighbour))
+    };
+    (0..count).filter(has_swallowed).map(|i| discs[i]).collect()
 }
 
 /// Discs along the line of which neighbours differ.
@@ -610,6 +628,35 @@ mod tests {
         );
         assert!(path.elements().len() <= 24, "{}", path.elements().len());
         assert_fills_discs(&stroke(&points), true, 0.15);
+    }
+
+    #[test]
+    fn a_disc_that_swallows_its_neighbour_is_filled() {
+        let lines: [&[[f64; 3]]; 3] = [
+            &[
+                [40.0, 40.0, 8.781529433942906],
+                [39.69915392232791, 42.29202542276073, 1.0],
+                [44.522447180610754, 41.03710940851424, 7.238254998635625],
+            ],
+            &[
+                [40.0, 40.0, 1.0],
+                [44.937751387942804, 44.7232131459743, 1.4614137398213711],
+                [40.24110082659484, 39.47253999199228, 8.164538233695156],
+            ],
+            &[
+                [40.0, 40.0, 8.997858241899795],
+                [44.826326932191456, 38.042166360850985, 1.0],
+                [46.59578893933479, 32.79428515778122, 1.0],
+                [46.12875042913454, 32.14784749326782, 8.33699959765384],
+                [55.111267929347115, 28.470504786656733, 3.234715245494532],
+                [55.111267929347115, 19.343110122085953, 2.6918535964483614],
+            ],
+        ];
+        for line in lines {
+            for closed in [false, true] {
+                assert_fills_discs(&stroke(line), closed, 0.3);
+            }
+        }
     }
 
     #[test]

@@ -107,8 +107,14 @@ impl Piece {
         self.area += area;
     }
 
-    fn middle(&self) -> Vec3 {
+    /// Mean of the triangles' middles, weighted by area.
+    fn mean(&self) -> Vec3 {
         self.sum / self.area
+    }
+
+    /// Where it shines from: the mean, which far from the origin is rounded by more than the box is wide.
+    fn middle(&self) -> Vec3 {
+        self.mean().clamp(self.low, self.high)
     }
 
     /// Half the diagonal of its box.
@@ -118,7 +124,7 @@ impl Piece {
 
     /// Whether it has an area, and a place that numbers can tell.
     fn is_lit(&self) -> bool {
-        self.middle().is_finite() && self.radius().is_finite() && self.radius() > 0.0
+        self.mean().is_finite() && self.radius().is_finite() && self.radius() > 0.0
     }
 }
 
@@ -211,6 +217,20 @@ mod tests {
         for (place, wanted) in places.iter().zip([1.0, 3.0, 5.0, 7.0]) {
             assert!((place - wanted).abs() < 0.05, "{places:?}");
         }
+    }
+
+    #[test]
+    fn far_from_the_origin_a_light_stays_in_its_beam() {
+        let corners = [
+            [-6.3321285, 1e18, 0.0],
+            [-7.155366, 1e18, 0.0],
+            [0.0, 1e18, -0.09734713],
+        ];
+        let pieces = pieces_of(&[corners.map(Vec3::from)]);
+        let lit: Vec<&Piece> = pieces.iter().filter(|piece| piece.is_lit()).collect();
+        let [piece] = lit[..] else { panic!("{lit:?}") };
+        let middle = piece.middle();
+        assert!(middle.cmpge(piece.low).all() && middle.cmple(piece.high).all());
     }
 
     #[test]
