@@ -34,63 +34,97 @@ struct Disc {
 ///
 /// The shape is the union of all discs with the line's width along it, within `tolerance` pixels (a tenth of a pixel
 /// looks exact). An open line gives one closed curve, a closed one a ring of two; discs are added where the line turns
-/// tighter than its half width. Points that are not finite are left out, and nothing is left of a line without two
-/// different points, or without width.
+/// tighter than its half width, and where the width changes by more than twice the way the line is parted. Points that
+/// are not finite are left out, and nothing is left of a line without two different points, or without width.
 ///
 /// O(n) for lines that turn in a few places.
 pub fn outline(points: &[StrokePoint], closed: bool, tolerance: f64) -> BezPath {
     let discs = discs_of(points, closed);
-    if discs.len() < 2 || discs.iter().all(|d| d.radius <= 0.0) {
-        return BezPath::new();
-    }
-    let closed = closed && discs.len() > 2;
-    let swallowing = swallowing_discs(&discs, closed);
-    let backwards: Vec<Disc> = discs.iter().rev().copied().collect();
-    let walks = if closed {
-        vec![discs, backwards]
-    } else {
-        let last = discs.len() - 1;
-        vec![[&discs[..], &backwards[1..last]].concat()]
-    };
     let mut path = BezPath::new();
-    for walk in walks {
-        let side = Side::of(&walk, closed, tolerance);
-        path.extend(fit_with_corners(
-            &side.points,
-            &side.corners,
-            true,
-            tolerance * 0.7,
-        ));
-        for disc in side.discs {
-            path.extend(circle(disc, tolerance));
-        }
+    if discs.len() < 2 {
+        return path;
     }
-    // A side cannot go around a disc that swallows its neighbour.
-    for disc in swallowing {
-        path.extend(circle(disc, tolerance));
+    for part in parts_of(discs, closed) {
+        let walks = match &part {
+            Part::Disc(disc) => {
+                path.extend(circle(*disc, tolerance));
+                continue;
+            }
+            Part::Ring(discs) => vec![discs.clone(), discs.iter().rev().copied().collect()],
+            Part::Line(discs) => {
+                let inner = &discs[1..discs.len() - 1];
+                vec![discs.iter().chain(inner.iter().rev()).copied().collect()]
+            }
+        };
+        let is_ring = matches!(part, Part::Ring(_));
+        for walk in walks {
+            let side = Side::of(&walk, is_ring, tolerance);
+            path.extend(fit_with_corners(
+                &side.points,
+                &side.corners,
+                true,
+                tolerance * 0.7,
+            ));
+            for disc in side.discs {
+                path.extend(circle(disc, tolerance));
+            }
+        }
     }
     path
 }
 
-/// Discs that hold a neighbour whole.
-fn swallowing_discs(discs: &[Disc], closed: bool) -> Vec<Disc> {
+/// A part of a line along which no disc holds its neighbour whole.
+enum Part {
+    Disc(Disc),
+    Line(Vec<Disc>),
+    Ring(Vec<Disc>),
+}
+
+/// Parts whose union is the line.
+///
+/// No side runs from a disc to one inside it, and the way between them adds nothing to the larger one. So the line is
+/// cut there; a part that is but a disc inside its neighbour is left out.
+fn parts_of(mut discs: Vec<Disc>, closed: bool) -> Vec<Part> {
     let count = discs.len();
-    let holds = |a: &Disc, b: &Disc| (b.center - a.center).hypot() < a.radius - b.radius;
-    let has_swallowed = |i: &usize| {
-        let before = (closed || *i > 0).then(|| &discs[(i + count - 1) % count]);
-        let after = (closed || i + 1 < count).then(|| &discs[(i + 1) % count]);
-        let mut neighbours = before.into_iter().chain(after);
-        neighbours.any(|neighbour| holds(&discs[*i], neighbour))
-    };
-    (0..count).filter(has_swallowed).map(|i| discs[i]).collect()
+    let closed = closed && count > 2;
+    let holds = |a: &Disc, b: &Disc| (b.center - a.center).hypot() <= a.radius - b.radius;
+    let is_cut = |a: &Disc, b: &Disc| holds(a, b) || holds(b, a);
+    let seam = (0..count).find(|i| is_cut(&discs[*i], &discs[(i + 1) % count]));
+    match seam {
+        None if closed => return vec![Part::Ring(discs)],
+        Some(seam) if closed => discs.rotate_left((seam + 1) % count),
+        _ => {}
+    }
+    let mut parts = Vec::new();
+    let mut start = 0;
+    for end in 1..=count {
+        if end < count && !is_cut(&discs[end - 1], &discs[end]) {
+            continue;
+        }
+        let part = &discs[start..end];
+        if let [disc] = part {
+            let before = (closed || start > 0).then(|| &discs[(start + count - 1) % count]);
+            let after = (closed || end < count).then(|| &discs[end % count]);
+            if !before
+                .into_iter()
+                .chain(after)
+                .any(|other| holds(other, disc))
+            {
+                parts.push(Part::Disc(*disc));
+            }
+        } else if part.iter().any(|disc| disc.radius > 0.0) {
+            parts.push(Part::Line(part.to_vec()));
+        }
+        start = end;
+    }
+    parts
 }
 
 /// Discs along the line of which neighbours differ.
 fn discs_of(points: &[StrokePoint], closed: bool) -> Vec<Disc> {
     let mut discs: Vec<Disc> = Vec::with_capacity(points.len());
     let differ = |a: &Disc, b: &Disc| {
-        (a.center - b.center).hypot2() > STEP * STEP
-            || ((a.radius - b.radius).abs() > STEP && a.center != b.center)
+        (a.center - b.center).hypot2() > STEP * STEP || (a.radius - b.radius).abs() > STEP
     };
     let inside = points
         .iter()
@@ -632,7 +666,7 @@ mod tests {
 
     #[test]
     fn a_disc_that_swallows_its_neighbour_is_filled() {
-        let lines: [&[[f64; 3]]; 3] = [
+        let lines: [&[[f64; 3]]; 5] = [
             &[
                 [40.0, 40.0, 8.781529433942906],
                 [39.69915392232791, 42.29202542276073, 1.0],
@@ -650,6 +684,18 @@ mod tests {
                 [46.12875042913454, 32.14784749326782, 8.33699959765384],
                 [55.111267929347115, 28.470504786656733, 3.234715245494532],
                 [55.111267929347115, 19.343110122085953, 2.6918535964483614],
+            ],
+            &[
+                [40.0, 40.0, 7.557999258004244],
+                [29.669839291948577, 31.444268408040294, 8.21620265039535],
+                [29.207580742051036, 31.945044479850694, 1.0],
+            ],
+            &[
+                [40.0, 40.0, 1.0],
+                [40.26402000230203, 40.04235327431522, 7.543824037561096],
+                [40.26402000230203, 40.04235327431522, 1.0],
+                [40.26402000230203, 40.04235327431522, 1.0],
+                [40.26402000230203, 46.999124068850655, 1.0],
             ],
         ];
         for line in lines {
