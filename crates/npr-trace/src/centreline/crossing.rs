@@ -6,6 +6,7 @@
 
 use super::link::line;
 use super::network::Network;
+use super::stroke::ROUGHNESS;
 use glam::DVec2;
 use npr_core::geometry::NONE;
 
@@ -29,12 +30,13 @@ const WIDE_PX: f64 = 1.2;
 /// Cosine of the most that a line may turn across a crossing: 40 degrees.
 const STRAIGHT: f64 = 0.766;
 
-/// How far beside each other, in pixels and as a share of their half width, the two arms of a line may lie.
-///
-/// Pixels of an arm lie half a pixel beside the middle of ink that is an even number of pixels wide, and that lies up
-/// to half a pixel beside the drawn line: both arms together are up to 2 pixels off, each to its own side. Half widths
-/// of half a pixel, which is what thin ink counts as, add the last half of them.
-const ASIDE: [f64; 2] = [1.5, 0.5];
+/// How far beside the drawn line the pixels of an arm lie at most, in pixels: ink lies up to half a pixel beside it,
+/// and pixels half a pixel beside the middle of ink that is an even number of pixels wide.
+const ASIDE_PX: f64 = 1.0;
+
+/// The same where the pixels are all the ink there is. Two arms of one line are a pixel aside together, then; those of
+/// two lines with two pixels of white between them, which are three pixels apart, at least two.
+const BARE_ASIDE_PX: f64 = 0.5;
 
 /// Most junctions that a crossing may have been torn into, with the loops beside it.
 const MOST_FORKS: usize = 12;
@@ -60,6 +62,10 @@ struct Arm {
     /// A place on its middle line, and the way it leads.
     line: [DVec2; 2],
     radius: f64,
+    /// The middles of its pixels, from the junction on.
+    places: Vec<DVec2>,
+    /// How far beside the drawn line they lie at most.
+    aside: f64,
 }
 
 impl Network {
@@ -109,6 +115,8 @@ impl Network {
                 ends.sort_unstable();
                 let bridges = self.between(&ends, |branch| self.is_within(branch, &ends));
                 self.join(&ends, &bridges);
+                // In one disc of ink they are one place.
+                self.nodes[ends[0] as usize].joints.clear();
             }
         }
     }
@@ -281,12 +289,15 @@ impl Network {
         let is_first = end == 0;
         let pixel = |k: usize| there.pixels[if is_first { k } else { count - 1 - k }];
         let places: Vec<DVec2> = (skip..=last).map(|k| self.place(pixel(k))).collect();
+        let is_bare = (skip..=last).all(|k| self.bare[pixel(k) as usize]);
         // Near the junction its ink is wider; of thin lines some pixels lie at the side and say less.
         let far = skip + (last - skip) / 2;
         let radii = (far..=last).map(|k| self.radii[pixel(k) as usize]);
         Some(Arm {
             line: line(&places, self.middle(node)),
             radius: radii.fold(0.0, f64::max),
+            aside: if is_bare { BARE_ASIDE_PX } else { ASIDE_PX },
+            places,
         })
     }
 
@@ -308,6 +319,9 @@ impl Network {
             }
             let into = &mut self.nodes[first as usize];
             into.branches.extend(other.branches);
+            let before = into.pixels.len();
+            let begins = [0].into_iter().chain(other.joints);
+            into.joints.extend(begins.map(|at| before + at));
             into.pixels.extend(other.pixels);
         }
     }
@@ -340,9 +354,27 @@ fn turn_between(a: &Arm, b: &Arm) -> Option<f64> {
     }
     // A bent line leaves and comes back at the same angle to its chord.
     let along = (b.line[1] - a.line[1]).try_normalize()?;
-    let aside = (b.line[0] - a.line[0]).perp_dot(along).abs();
-    let [px, share] = ASIDE;
-    (aside <= px + share * (a.radius + b.radius)).then_some(cosine)
+    let wider = 2.0 * (a.radius + b.radius - 1.0);
+    let limit = a.aside + b.aside + ROUGHNESS * wider;
+    are_parallel(&a.places, &b.places, along, limit).then_some(cosine)
+}
+
+/// Whether the ways from every place of an arm to that of another one as far on are parallel, but for `limit` to the
+/// side.
+///
+/// Those between the arms of one line are, straight or bent alike on both sides. Where one arm is beside the other's
+/// line, the nearer two places are the more aslant is the way between them. O(places), exact.
+fn are_parallel(one: &[DVec2], other: &[DVec2], along: DVec2, limit: f64) -> bool {
+    let (mut least, mut most) = (f64::NEG_INFINITY, f64::INFINITY);
+    for (a, b) in one.iter().zip(other) {
+        let [ahead, aside] = [(*b - *a).dot(along), along.perp_dot(*b - *a)];
+        if ahead <= 0.0 {
+            return false;
+        }
+        least = f64::max(least, (aside - limit) / ahead);
+        most = f64::min(most, (aside + limit) / ahead);
+    }
+    least <= most + 1e-9
 }
 
 /// Whether two lines, each given by places on its two arms, cross.

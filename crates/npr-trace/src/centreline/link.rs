@@ -7,6 +7,9 @@ use npr_core::geometry::NONE;
 /// Pixels from which the direction of a branch is taken, at least and at most; in between three widths.
 const DIRECTION_PIXELS: [f64; 2] = [6.0, 24.0];
 
+/// Cosine of the most by which the few pixels of a bridge lead astray: 45 degrees, of one that steps a pixel aside.
+const ASTRAY: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
 /// A point on the way of a stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WayPoint {
@@ -43,6 +46,8 @@ struct Arm {
     skip: usize,
     /// A place on its middle line, and where that leads, away from the junction.
     line: [DVec2; 2],
+    /// Whether fewer pixels than [`DIRECTION_PIXELS`] say so.
+    is_short: bool,
     /// The arm that it runs on to.
     partner: u32,
 }
@@ -68,6 +73,7 @@ pub fn link(network: &Network, turn: f64) -> Ways {
             linker.arms.push(linker.arm(branch, end));
         }
     }
+    linker.direct_bridges();
     let mut junctions = Vec::new();
     for (node, place) in (0..).zip(0..network.nodes.len()) {
         if network.degree(node) >= 2 {
@@ -97,6 +103,7 @@ impl Linker<'_> {
         let mut arm = Arm {
             skip: 0,
             line: [DVec2::ZERO, DVec2::X],
+            is_short: false,
             partner: NONE,
         };
         if node == NONE || network.degree(node) < 2 || there.pixels.is_empty() {
@@ -107,7 +114,12 @@ impl Linker<'_> {
             let index = if end == 0 { k } else { count - 1 - k };
             network.place(there.pixels[index])
         };
-        let (middle, reach) = (network.middle(node), network.reach(node));
+        let (middle, discs) = (network.middle(node), network.discs(node));
+        let is_beyond = |place: DVec2| {
+            discs
+                .iter()
+                .all(|(middle, reach)| place.distance(*middle) > *reach)
+        };
         // A branch between two junctions leaves the other half to its other end.
         let is_between = network.degree(there.ends[1 - end]) > 1;
         let most = if is_between {
@@ -115,15 +127,64 @@ impl Linker<'_> {
         } else {
             count - 1
         };
-        arm.skip = (0..most)
-            .find(|k| at(*k).distance(middle) > reach)
-            .unwrap_or(most);
+        arm.skip = (0..most).find(|k| is_beyond(at(*k))).unwrap_or(most);
         let [least, longest] = DIRECTION_PIXELS;
         let wanted = (6.0 * network.radius(node)).clamp(least, longest) as usize;
         let last = (arm.skip + wanted).min(count - 1);
         let places: Vec<DVec2> = (arm.skip..=last).map(at).collect();
         arm.line = line(&places, middle);
+        arm.is_short = places.len() <= least as usize;
         arm
+    }
+
+    /// Gives bridges that are too short to say where they lead the direction of the straightest line over them.
+    fn direct_bridges(&mut self) {
+        let over: Vec<Option<DVec2>> = (0..self.network.branches.len() as u32)
+            .map(|branch| self.straight_over(branch))
+            .collect();
+        for (branch, along) in over.into_iter().enumerate() {
+            let ends = along
+                .into_iter()
+                .flat_map(|along| [along, -along].into_iter().enumerate());
+            for (end, along) in ends {
+                let arm = &mut self.arms[2 * branch + end];
+                if arm.is_short {
+                    arm.line[1] = along;
+                }
+            }
+        }
+    }
+
+    /// Where the straightest line over a bridge leads, from an arm at its start to one at its end; none where its
+    /// pixels say enough.
+    fn straight_over(&self, bridge: u32) -> Option<DVec2> {
+        let arms = [0, 1].map(|end| arm_of(bridge, end));
+        let there = &self.network.branches[bridge as usize];
+        let [from, to] = there.ends;
+        let is_fork = |node: u32| node != NONE && self.network.degree(node) > 2;
+        let is_short = arms.iter().any(|arm| self.arms[*arm as usize].is_short);
+        if !is_short || from == to || !is_fork(from) || !is_fork(to) {
+            return None;
+        }
+        let ends = [there.pixels.first()?, there.pixels.last()?];
+        let [first, last] = ends.map(|pixel| self.network.place(*pixel));
+        let own = (last - first).try_normalize()?;
+        let mut best: Option<(f64, DVec2)> = None;
+        let (before, after) = (self.arms_at(from), self.arms_at(to));
+        for a in before.into_iter().filter(|arm| *arm != arms[0]) {
+            for b in after.iter().filter(|arm| **arm != arms[1]) {
+                let [a, b] = [a, *b].map(|arm| self.arms[arm as usize].line);
+                let Some(along) = (b[0] - a[0]).try_normalize() else {
+                    continue;
+                };
+                let cosine = (-along.dot(a[1])).min(along.dot(b[1]));
+                let is_over = along.dot(own) >= ASTRAY;
+                if is_over && cosine > best.map_or(0.0, |(most, _)| most) {
+                    best = Some((cosine, along));
+                }
+            }
+        }
+        best.map(|(_, along)| along)
     }
 
     /// Where the lines of a junction's arms meet, in the least squares' sense; not far from its middle.

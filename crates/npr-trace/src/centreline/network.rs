@@ -18,8 +18,10 @@ pub struct Branch {
 /// A place where branches end or meet.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Node {
-    /// Its pixels: one, or several that touch.
+    /// Its pixels: one, or several that touch; of junctions made one those of each in turn.
     pub pixels: Vec<u32>,
+    /// Of junctions made one, where in `pixels` those of each but the first begin.
+    pub joints: Vec<usize>,
     /// Branches that end here; a branch that starts and ends here stands twice.
     pub branches: Vec<u32>,
 }
@@ -31,6 +33,8 @@ pub struct Network {
     pub pixels: Vec<[u32; 2]>,
     /// Half the width of the ink around each pixel, in pixels: how far the edge of the ink is.
     pub radii: Vec<f64>,
+    /// Whether thinning took no ink from the sides of each pixel: lines of such pixels are their ink, one pixel wide.
+    pub bare: Vec<bool>,
     /// Ends and junctions.
     pub nodes: Vec<Node>,
     /// Pixels that touch no other.
@@ -133,12 +137,22 @@ impl Network {
             .par_iter()
             .map(|[x, y]| (distance2(ink, *x, *y) as f64).sqrt() - 0.5)
             .collect();
+        let is_taken = |x: i64, y: i64| ink.is_ink(x, y) && !thinned.is_ink(x, y);
+        let bare = pixels
+            .par_iter()
+            .map(|pixel| {
+                let [x, y] = pixel.map(i64::from);
+                let beside = [[x + 1, y], [x, y - 1], [x - 1, y], [x, y + 1]];
+                !beside.into_iter().any(|[x, y]| is_taken(x, y))
+            })
+            .collect();
         let (nodes, node_of) = nodes(&neighbours);
         let is_alone = |pixel: &u32| neighbours[*pixel as usize].count == 0;
         let dots = (0..pixels.len() as u32).filter(is_alone).collect();
         let mut network = Self {
             pixels,
             radii,
+            bare,
             nodes,
             dots,
             branches: Vec::new(),
@@ -201,6 +215,7 @@ fn nodes(neighbours: &[Neighbours]) -> (Vec<Node>, Vec<u32>) {
         node_of[seed] = number;
         let mut node = Node {
             pixels: vec![seed as u32],
+            joints: Vec::new(),
             branches: Vec::new(),
         };
         let mut at = 0;

@@ -13,7 +13,7 @@ use glam::DVec2;
 const TOLERANCE_PX: f64 = 0.7;
 
 /// What is added to that for every pixel of width: wide lines have rough edges.
-const ROUGHNESS: f64 = 0.05;
+pub const ROUGHNESS: f64 = 0.05;
 
 /// Most places on either side that a place is the mean of.
 const WINDOW: usize = 64;

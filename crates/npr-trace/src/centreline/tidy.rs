@@ -1,6 +1,6 @@
 //! A network without what thinning adds to lines: spurs, and hooks at ends.
 
-use super::network::{Branch, Network};
+use super::network::{Branch, Network, Node};
 use glam::DVec2;
 use npr_core::geometry::NONE;
 use std::cmp::Reverse;
@@ -158,16 +158,37 @@ impl Network {
             } else {
                 pixels.truncate(pixels.len() - best.1);
             }
-            self.nodes[node as usize].pixels = vec![tip];
+            let node = &mut self.nodes[node as usize];
+            (node.pixels, node.joints) = (vec![tip], Vec::new());
         }
     }
 
     /// How far from a junction's middle lines still run into each other.
     pub fn reach(&self, node: u32) -> f64 {
-        let middle = self.middle(node);
-        let pixels = self.nodes[node as usize].pixels.iter();
-        let spread = pixels.map(|pixel| self.place(*pixel).distance(middle));
-        spread.fold(0.0, f64::max) + self.radius(node)
+        self.disc(&self.nodes[node as usize].pixels).1
+    }
+
+    /// Where lines still run into each other: middles and radii of a disc for each of the junctions that one was made
+    /// of.
+    pub(super) fn discs(&self, node: u32) -> Vec<(DVec2, f64)> {
+        let Node { pixels, joints, .. } = &self.nodes[node as usize];
+        let begins = [0].into_iter().chain(joints.iter().copied());
+        let ends = joints.iter().copied().chain([pixels.len()]);
+        let discs = begins
+            .zip(ends)
+            .map(|(from, to)| self.disc(&pixels[from..to]));
+        discs.collect()
+    }
+
+    /// The middle of pixels, and how far from it the ink around them reaches.
+    fn disc(&self, pixels: &[u32]) -> (DVec2, f64) {
+        let places = || pixels.iter().map(|pixel| self.place(*pixel));
+        let middle = places().sum::<DVec2>() / pixels.len().max(1) as f64;
+        let spread = places()
+            .map(|place| place.distance(middle))
+            .fold(0.0, f64::max);
+        let radii = pixels.iter().map(|pixel| self.radii[*pixel as usize]);
+        (middle, spread + radii.fold(0.0, f64::max))
     }
 }
 

@@ -96,6 +96,27 @@ proptest! {
 }
 
 #[test]
+fn thin_lines_that_end_on_both_sides_of_another_do_not_cross_it() {
+    // Two pixels of white are between them: over the little that is seen of them they seem to lead to each other.
+    for (angle, dx) in [
+        (0.05397851121258157, 0.9889415579776226),
+        (3.087471331500078, 0.44153980762648964),
+    ] {
+        let lines = stems(DVec2::new(80.0 + dx, 80.3), angle, 3.0, false);
+        let found = centrelines(&inked(160, &lines, 1.0), &CentrelineOptions::default());
+        assert_eq!(counts(&found), (3, 4, 2), "{angle}");
+    }
+}
+
+#[test]
+fn a_line_goes_on_over_a_bridge_of_three_pixels() {
+    // The pixel in the middle of the bridge lies aside, so that both its ends lead 45 degrees astray.
+    let lines = stems(DVec2::new(80.0, 80.3), 1.3508682306311295, 3.0, true);
+    let found = centrelines(&inked(160, &lines, 1.0), &CentrelineOptions::default());
+    assert_eq!(counts(&found), (3, 4, 2));
+}
+
+#[test]
 fn a_crossing_whose_arms_lie_at_the_sides_of_their_ink_is_one() {
     // The two arms of one of the lines have their pixels on opposite sides of its ink.
     let middle = DVec2::new(80.08920766553777, 80.3);
