@@ -24,11 +24,22 @@ override WG: u32 = 64u;
 // Depth change per pixel, in pixels, from which a surface is grazing: 63 degrees.
 const GRAZING_SLOPE: f32 = 2.0;
 
+// Depth of the tangent plane of a pixel, one pixel along `step`.
+fn plane_depth(pixel: GPixel, step: vec2<f32>) -> f32 {
+    let change = pixel.plane_step.x * step.x + pixel.plane_step.y * step.y;
+    return depth_of_coordinate(view, plane_coordinate(view, pixel.depth) + change);
+}
+
 // How far `there` lies from the tangent plane of `here`, one pixel along `step`, in depth.
 fn plane_gap(here: GPixel, there: GPixel, step: vec2<f32>) -> f32 {
-    let change = here.plane_step.x * step.x + here.plane_step.y * step.y;
-    let expected = depth_of_coordinate(view, plane_coordinate(view, here.depth) + change);
-    return abs(expected - there.depth);
+    return abs(plane_depth(here, step) - there.depth);
+}
+
+// Whether the surface may bend between a pixel and its neighbour along `step`, convex as a body is: each lies behind
+// the tangent plane of the other, so both planes cross between them. Never where depths are compared directly.
+fn may_bend(here: GPixel, there: GPixel, step: vec2<f32>) -> bool {
+    if (outline.detects & DETECT_PLANE_DEPTH) == 0u { return false; }
+    return there.depth > plane_depth(here, step) && here.depth > plane_depth(there, -step);
 }
 
 // Whether depth jumps between two neighbours, by the threshold's share of the frame's height.
@@ -95,7 +106,10 @@ fn main(
         let kinds = separations(here, there, vec2<f32>(step));
         if kinds == 0u || !(has_lines(here) || has_lines(there)) { continue; }
         found |= kinds;
-        if kinds == DETECT_NORMAL && is_no_crease(here, there) { continue; }
+        // A jump in depth where the surface may bend owns no line.
+        var owning = kinds;
+        if (kinds & DETECT_DEPTH) != 0u && may_bend(here, there, vec2<f32>(step)) { owning &= ~DETECT_DEPTH; }
+        if owning == 0u || (owning == DETECT_NORMAL && is_no_crease(here, there)) { continue; }
         // Of two equally near surfaces, the right or lower pixel owns the line.
         let owns = here.depth < there.depth || (here.depth == there.depth && along < 0);
         if owns { found |= MASK_OWNER | (MASK_SIDE << side); }

@@ -49,7 +49,8 @@ fn runs_on(at: vec2<u32>, pixel: GPixel) -> bool {
     for (var y = low.y; y <= high.y; y++) {
         for (var x = low.x; x <= high.x; x++) {
             let element = y * size.x + x;
-            if (mask[element] & MASK_OWNER) == 0u { continue; }
+            // Where the surface ends at another it is not parted from itself.
+            if (mask[element] & (MASK_OWNER | BETWEEN)) != MASK_OWNER { continue; }
             let other = gbuffer[element];
             if other.part == NONE || other.object != pixel.object || other.material != pixel.material { continue; }
             if parts[other.part].component == component { count += 1u; }

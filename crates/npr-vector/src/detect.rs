@@ -10,6 +10,9 @@ use rayon::prelude::*;
 /// Depth change per pixel, in pixels, from which a surface is grazing: 63 degrees.
 pub(crate) const GRAZING_SLOPE: f32 = 2.0;
 
+/// The ways to the neighbours of a pixel: left, right, above, below.
+const STEPS: [[f32; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
+
 /// What lines are detected on.
 #[derive(Debug, Clone, Copy)]
 pub struct Detection<'a> {
@@ -48,7 +51,8 @@ fn packed_distance(a: u32, b: u32) -> u32 {
 /// [`Outline::PLANE_DEPTH`] a depth is compared with the neighbour's tangent plane.
 ///
 /// Normals also differ between the pixels of a surface that turns away steeply; such pixels are marked but own no line,
-/// and where creases are not drawn, neither does any other turn of the surface.
+/// and where creases are not drawn, neither does any other turn of the surface. Depths differ there as well: of two
+/// pixels on both sides of a convex bend each lies behind the tangent plane of the other, and that owns no line either.
 ///
 /// O(pixels), parallel over rows.
 pub fn detect(with: &Detection<'_>, gbuffer: &[GPixel], mask: &mut [u32]) {
@@ -85,8 +89,7 @@ impl<'a> Detector<'a> {
     /// Which buffers separate a pixel from another, which lies to the right (`side` 1) or below (3); 0 where neither
     /// has lines.
     pub fn kinds(&self, first: &GPixel, second: &GPixel, side: u32) -> u32 {
-        let step = if side == 1 { [1.0, 0.0] } else { [0.0, 1.0] };
-        let kinds = self.separations(first, second, step);
+        let kinds = self.separations(first, second, STEPS[side as usize]);
         if self.has_lines(first) || self.has_lines(second) {
             kinds
         } else {
@@ -94,7 +97,8 @@ impl<'a> Detector<'a> {
         }
     }
 
-    /// The mask bits that two pixels have for what separates them, as [`Self::kinds`] says.
+    /// The mask bits that two pixels have for what separates them, as [`Self::kinds`] says; jumps in depth are taken
+    /// for such, whether the surface may bend between both or not.
     pub fn marks(&self, first: &GPixel, second: &GPixel, kinds: u32, side: u32) -> [u32; 2] {
         [
             self.mark(first, second, kinds, side),
@@ -107,9 +111,8 @@ impl<'a> Detector<'a> {
         for x in 1..line.len() {
             let kinds = self.kinds(&line[x - 1], &line[x], 1);
             if kinds != 0 {
-                let [left, right] = self.marks(&line[x - 1], &line[x], kinds, 1);
-                row[x - 1] |= left;
-                row[x] |= right;
+                row[x - 1] |= self.mark_unless_bent(&line[x - 1], &line[x], kinds, 1);
+                row[x] |= self.mark_unless_bent(&line[x], &line[x - 1], kinds, 0);
             }
         }
     }
@@ -120,8 +123,20 @@ impl<'a> Detector<'a> {
         for ((here, there), out) in line.iter().zip(next).zip(row) {
             let kinds = self.separations(here, there, [0.0, along]);
             if kinds != 0 && (self.has_lines(here) || self.has_lines(there)) {
-                *out |= self.mark(here, there, kinds, side);
+                *out |= self.mark_unless_bent(here, there, kinds, side);
             }
+        }
+    }
+
+    /// The mask bits of `here`, which owns no line for a jump in depth where the surface may bend between both.
+    fn mark_unless_bent(&self, here: &GPixel, there: &GPixel, kinds: u32, side: u32) -> u32 {
+        let mut owning = kinds;
+        if kinds & Outline::DEPTH != 0 && self.may_bend(here, there, side) {
+            owning &= !Outline::DEPTH;
+        }
+        match owning {
+            0 => kinds,
+            _ => kinds | self.mark(here, there, owning, side),
         }
     }
 
@@ -198,11 +213,28 @@ impl<'a> Detector<'a> {
                 && self.plane_gap(there, here, back) > least)
     }
 
+    /// Whether the surface may bend between a pixel and its neighbour on a side, convex as a body is: each lies behind
+    /// the tangent plane of the other, so both planes cross between them. Never where depths are compared directly.
+    ///
+    /// Where one surface hides another, the nearer pixel lies before the plane of the farther one, unless that rises
+    /// towards the eye by more than the jump within a pixel: then nothing tells the two cases apart.
+    fn may_bend(&self, here: &GPixel, there: &GPixel, side: u32) -> bool {
+        let [step, back] = [side, side ^ 1].map(|side| STEPS[side as usize]);
+        self.with.outline.detects & Outline::PLANE_DEPTH != 0
+            && there.depth > self.plane_depth(here, step)
+            && here.depth > self.plane_depth(there, back)
+    }
+
     /// How far `there` lies from the tangent plane of `here`, one pixel along `step`, in depth.
     fn plane_gap(&self, here: &GPixel, there: &GPixel, step: [f32; 2]) -> f32 {
-        let change = here.plane_step[0] * step[0] + here.plane_step[1] * step[1];
-        let coordinate = self.with.view.plane_coordinate(here.depth) + change;
-        (self.with.view.depth_of_coordinate(coordinate) - there.depth).abs()
+        (self.plane_depth(here, step) - there.depth).abs()
+    }
+
+    /// Depth of the tangent plane of a pixel, one pixel along `step`.
+    fn plane_depth(&self, pixel: &GPixel, step: [f32; 2]) -> f32 {
+        let change = pixel.plane_step[0] * step[0] + pixel.plane_step[1] * step[1];
+        let coordinate = self.with.view.plane_coordinate(pixel.depth) + change;
+        self.with.view.depth_of_coordinate(coordinate)
     }
 
     /// Whether a surface turns away so far that its normals change from pixel to pixel without any crease.
@@ -223,8 +255,70 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    /// The marks of two pixels, one unit apart along an axis, whose planes have these slopes and cross at a share of
+    /// the way from the first to the second; normals tell nothing.
+    fn marks_of(slopes: [f32; 2], share: f32, axis: usize) -> [u32; 2] {
+        let pixel = |slope: f32, at: f32| {
+            let mut plane_step = [0.0; 2];
+            plane_step[axis] = slope;
+            GPixel {
+                plane_step,
+                depth: 1000.0 + slope * (at - share),
+                object: 0,
+                material: 0,
+                part: 0,
+                ..GPixel::EMPTY
+            }
+        };
+        let mut size = [1; 2];
+        size[axis] = 2;
+        let size_px = size.map(|side| side as f32);
+        let outline = Outline {
+            depth_threshold: 1.0,
+            normal_cos: -2.0,
+            detects: Outline::DEPTH | Outline::PLANE_DEPTH,
+            ..Outline::default()
+        };
+        let detection = Detection {
+            view: &View {
+                view_height: 1.0,
+                frame_px: size_px,
+                ..View::default()
+            },
+            window: &Window::over(size_px, [0.0; 2], size_px, size),
+            outline: &outline,
+            parts: &[Part {
+                flags: Part::LINES,
+                ..Part::default()
+            }],
+        };
+        let mut marks = [0; 2];
+        let pixels = [pixel(slopes[0], 0.0), pixel(slopes[1], 1.0)];
+        detect(&detection, &pixels, &mut marks);
+        marks
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        /// Of a body depth is the largest of its planes' depths, so the steeper one comes second. Its bend is marked
+        /// where depths jump, but no line is drawn for it; in a valley, where nothing tells a jump from a bend, one is.
+        #[test]
+        fn a_bend_at_the_rim_of_a_body_owns_no_line(
+            first in -60_f32..60.0, turn in 0.01_f32..60.0, share in 0.05_f32..0.95, axis in 0_usize..2,
+        ) {
+            let bend = marks_of([first, first + turn], share, axis);
+            let valley = marks_of([first + turn, first], share, axis);
+            prop_assert!(bend.iter().all(|mark| mark & MASK_OWNER == 0), "{:?}", bend);
+            let owners = valley.iter().filter(|mark| **mark & MASK_OWNER != 0).count();
+            prop_assert_eq!(owners, usize::from(valley != [0; 2]));
+            // Both planes lie this far from the other's pixel.
+            let gap = turn * share.min(1.0 - share);
+            let is_deep = |slopes: [f32; 2]| (slopes[0] * share + slopes[1] * (1.0 - share)).abs() > 1.01;
+            prop_assert!(gap < 1.01 || !is_deep([first, first + turn]) || bend == [Outline::DEPTH; 2]);
+            prop_assert!(gap < 1.01 || !is_deep([first + turn, first]) || owners == 1);
+        }
+
         #[test]
         fn quiet_normals_never_turn_past_the_threshold(
             n in prop::array::uniform3(-1f32..1.0), d in prop::array::uniform3(-0.4f32..0.4), degrees in 1f32..90.0,

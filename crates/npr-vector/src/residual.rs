@@ -95,7 +95,8 @@ impl Search<'_> {
     /// Whether a surface is parted from itself along a line through a mask pixel, not at a few pixels alone.
     ///
     /// Four faces that meet in a blunt corner differ across it though none of its edges is a crease, and so do the
-    /// dents of a scan: lines so short would be dots.
+    /// dents of a scan: lines so short would be dots. Where the surface ends at another it is not parted from itself:
+    /// a dot beside an outline is no part of that.
     fn runs_on(&self, at: [u32; 2], pixel: &GPixel) -> bool {
         let size = self.mask_window.size;
         let low = at.map(|v| v.saturating_sub(RUN_BOX_PX));
@@ -104,8 +105,8 @@ impl Search<'_> {
         for y in low[1]..=high[1] {
             for x in low[0]..=high[0] {
                 let element = (y * size[0] + x) as usize;
-                let is_owned = self.mask[element] & MASK_OWNER != 0;
-                count += u32::from(is_owned && self.is_one_skin(&self.gbuffer[element], pixel));
+                let is_within = self.mask[element] & (MASK_OWNER | BETWEEN) == MASK_OWNER;
+                count += u32::from(is_within && self.is_one_skin(&self.gbuffer[element], pixel));
             }
         }
         count >= RUN_COUNT
@@ -444,6 +445,20 @@ mod tests {
 
     /// How many stamps are found where a mask owns a line of `kinds` at some pixels, and nothing is inked.
     fn found(kinds: u32, at: &[[u32; 2]]) -> usize {
+        found_in(&mask_of(kinds, at)).len()
+    }
+
+    /// A mask that owns a line of `kinds` at some pixels.
+    fn mask_of(kinds: u32, at: &[[u32; 2]]) -> Vec<u32> {
+        let mut mask = vec![0; 40 * 24];
+        for [x, y] in at {
+            mask[(y * 40 + x) as usize] = kinds | MASK_OWNER | MASK_SIDE;
+        }
+        mask
+    }
+
+    /// The pixels of a mask that get stamps where nothing is inked.
+    fn found_in(mask: &[u32]) -> Vec<usize> {
         let parts = [Part {
             flags: Part::LINES,
             ..Part::default()
@@ -453,22 +468,31 @@ mod tests {
             half_width: 2.0,
             ..GPixel::EMPTY
         };
-        let mut mask = vec![0; 40 * 24];
-        for [x, y] in at {
-            mask[(y * 40 + x) as usize] = kinds | MASK_OWNER | MASK_SIDE;
-        }
         let window = window();
         let search = Search {
             window: &window,
             mask_window: &window,
             parts: &parts,
             gbuffer: &[surface; 40 * 24],
-            mask: &mask,
+            mask,
             ribbons: &[0; 40 * 24],
         };
         let mut stamps = vec![Stamp::default(); 40 * 24];
         find(&search, &mut stamps);
-        stamps.iter().filter(|stamp| stamp.half_width > 0.0).count()
+        let is_found = |i: &usize| stamps[*i].half_width > 0.0;
+        (0..stamps.len()).filter(is_found).collect()
+    }
+
+    #[test]
+    fn a_dot_beside_an_outline_is_no_part_of_it() {
+        let outline: Vec<[u32; 2]> = (5..30).map(|x| [x, 10]).collect();
+        let dots = [[10, 11], [11, 11], [20, 11]];
+        let mut mask = mask_of(Outline::OBJECT_ID | Outline::DEPTH, &outline);
+        for (pixel, dot) in mask.iter_mut().zip(mask_of(Outline::DEPTH, &dots)) {
+            *pixel |= dot;
+        }
+        let of_outline: Vec<usize> = (405..430).collect();
+        assert_eq!(found_in(&mask), of_outline);
     }
 
     #[test]

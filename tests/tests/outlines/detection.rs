@@ -9,7 +9,7 @@ use npr_core::math::{cos, sin};
 use npr_mesh::Mesh;
 use npr_mesh::testing::{mapped, plane};
 use npr_scene::{Node, Scene};
-use npr_tests::{Ink, draw_from, lines};
+use npr_tests::{Ink, Wanted, draw_from, lines};
 
 /// Half the mask's thickness and the steps of its pixels.
 const MASK_REACH: f32 = 2.0;
@@ -188,4 +188,55 @@ fn creases_can_be_switched_off() {
     assert!(ink.count() > 300);
     let left = ink.share_of(&cube_creases(view), 1.5);
     assert!(left < 0.1, "{left} of the creases are drawn");
+}
+
+/// A face that ends in a strip seen almost from the side, 0.9 pixels wide and 50 deep in a frame of 200, turned in the
+/// picture by `angle`; with the four sides of both together.
+fn bent_away(angle: f32) -> (Mesh, Wanted) {
+    let turned = |x: f32, y: f32| {
+        [
+            x * cos(angle) - y * sin(angle),
+            x * sin(angle) + y * cos(angle),
+        ]
+    };
+    let mesh = mapped(&plane(2, 1), |[u, v, _]| {
+        let [x, z] = match u {
+            u if u < 0.25 => [-0.6, 0.0],
+            u if u < 0.75 => [0.3, -0.1],
+            _ => [0.309, -0.6],
+        };
+        let [x, y] = turned(x, 1.2 * v - 0.6);
+        [x, y, z]
+    });
+    let corners = [[-0.6, -0.6], [0.309, -0.6], [0.309, 0.6], [-0.6, 0.6]];
+    let corners = corners.map(|[x, y]| {
+        let [x, y] = turned(x, y);
+        [(x + 1.0) * 100.0, (1.0 - y) * 100.0]
+    });
+    let sides = (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]);
+    (mesh, Wanted::new(sides.collect()))
+}
+
+#[test]
+fn a_rim_that_bends_away_has_no_specks() {
+    // As wide as a mask pixel or two: what is drawn beside the outline does not lie under it.
+    let settings = ["line.width.base=1.5px", "line.kinds.crease=false"];
+    let style = with(lines("shape"), &settings);
+    for step in 0..24 {
+        let (mesh, wanted) = bent_away(0.065 * step as f32);
+        let frame = draw_from(
+            &parts_scene(&[(mesh, 0)]),
+            &style,
+            &front_camera(),
+            [200, 200],
+        )
+        .frame;
+        let ink = Ink::of(&frame);
+        assert!(ink.share_of(&wanted, 1.5) > 0.99, "step {step}");
+        let apart = ink.farthest_from(&wanted);
+        assert!(
+            apart < 1.25,
+            "step {step}: ink {apart} px beside the outline"
+        );
+    }
 }

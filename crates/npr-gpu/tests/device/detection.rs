@@ -1,12 +1,13 @@
 //! Lines are detected by one thread for each pixel of the mask.
 
 use crate::shared;
-use npr_core::geometry::{GPixel, Part};
-use npr_core::outline::{MASK_KINDS, Outline};
+use npr_core::geometry::{GPixel, Part, Stamp};
+use npr_core::outline::{MASK_KINDS, MASK_OWNER, MASK_SIDE, Outline};
 use npr_core::window::{View, Window};
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::Graph;
-use npr_gpu::passes::line::DETECT;
+use npr_gpu::pass::Format;
+use npr_gpu::passes::line::{DETECT, FIND_RESIDUAL};
 use npr_gpu::processor::Processor;
 
 /// A grid whose pixels fill no whole number of workgroups.
@@ -24,13 +25,24 @@ fn mask_of_chessboard(engine: &dyn Engine, count: usize) -> Vec<u32> {
             ..GPixel::EMPTY
         })
         .collect();
-    let part = Part {
-        flags: Part::LINES,
-        ..Part::default()
-    };
     let outline = Outline {
         detects: Outline::OBJECT_ID,
         ..Outline::default()
+    };
+    mask_of(engine, View::default(), outline, &squares, count)
+}
+
+/// The first `count` pixels of the mask of a grid of pixels of one part.
+fn mask_of(
+    engine: &dyn Engine,
+    view: View,
+    outline: Outline,
+    pixels: &[GPixel],
+    count: usize,
+) -> Vec<u32> {
+    let part = Part {
+        flags: Part::LINES,
+        ..Part::default()
     };
     let size_px = SIZE.map(|side| side as f32);
     let window = Window::over(size_px, [0.0; 2], size_px, SIZE);
@@ -41,13 +53,13 @@ fn mask_of_chessboard(engine: &dyn Engine, count: usize) -> Vec<u32> {
         graph.uniform::<Window>("window"),
         graph.uniform::<Outline>("outline"),
         graph.buffer::<Part>("parts", 1),
-        graph.buffer::<GPixel>("gbuffer", squares.len()),
+        graph.buffer::<GPixel>("gbuffer", pixels.len()),
         graph.buffer::<u32>("mask", count),
     ];
     graph.compute(&DETECT, &ids);
     let mut session = engine.prepare(graph).unwrap();
     session
-        .write(ids[0], bytemuck::cast_slice(&[View::default()]))
+        .write(ids[0], bytemuck::cast_slice(&[view]))
         .unwrap();
     session
         .write(ids[1], bytemuck::cast_slice(&[window]))
@@ -58,9 +70,7 @@ fn mask_of_chessboard(engine: &dyn Engine, count: usize) -> Vec<u32> {
     session
         .write(ids[3], bytemuck::cast_slice(&[part]))
         .unwrap();
-    session
-        .write(ids[4], bytemuck::cast_slice(&squares))
-        .unwrap();
+    session.write(ids[4], bytemuck::cast_slice(pixels)).unwrap();
     session.run().unwrap();
     session.read(ids[5]).unwrap()
 }
@@ -84,4 +94,110 @@ fn each_pixel_of_the_mask_is_marked_by_a_thread_of_its_own() {
         assert_eq!(marks.len(), count);
         assert_eq!(marks, whole[..count], "{count} pixels");
     }
+}
+
+#[test]
+fn bends_and_valleys_own_the_same_lines() {
+    let Some(device) = shared::device() else {
+        return;
+    };
+    let all = (SIZE[0] * SIZE[1]) as usize;
+    // Rows of ridges and valleys, whose planes cross between every third pixel and the next.
+    let pixels: Vec<GPixel> = (0..SIZE[0] * SIZE[1])
+        .map(|i| {
+            let [x, y] = [i % SIZE[0], i / SIZE[0]];
+            let side = if x / 3 % 2 == 0 { 1.0 } else { -1.0 };
+            let slope = side * (20.0 + y as f32);
+            GPixel {
+                plane_step: [slope, 0.0],
+                depth: 1000.0 + slope * ((x % 3) as f32 - 0.8),
+                object: 0,
+                material: 0,
+                part: 0,
+                ..GPixel::EMPTY
+            }
+        })
+        .collect();
+    let outline = Outline {
+        depth_threshold: 1.0,
+        detects: Outline::DEPTH | Outline::PLANE_DEPTH,
+        normal_cos: -2.0,
+        ..Outline::default()
+    };
+    let view = View {
+        view_height: 1.0,
+        ..View::default()
+    };
+    let marks = mask_of(&Processor, view, outline, &pixels, all);
+    for is_owner in [false, true] {
+        let is_so = |mark: &&u32| **mark != 0 && (**mark & MASK_OWNER != 0) == is_owner;
+        assert!(marks.iter().filter(is_so).count() > 100);
+    }
+    assert_eq!(mask_of(device, view, outline, &pixels, all), marks);
+}
+
+/// The stamps that an engine finds for a mask over one surface where nothing is inked.
+fn stamps_of(engine: &dyn Engine, mask: &[u32]) -> Vec<Stamp> {
+    let part = Part {
+        flags: Part::LINES,
+        ..Part::default()
+    };
+    let surface = GPixel {
+        depth: 1.0,
+        half_width: 1.0,
+        object: 0,
+        material: 0,
+        part: 0,
+        ..GPixel::EMPTY
+    };
+    let size_px = SIZE.map(|side| side as f32);
+    let window = Window::over(size_px, [0.0; 2], size_px, SIZE);
+
+    let mut graph = Graph::new();
+    let ids = [
+        graph.uniform::<Window>("window"),
+        graph.uniform::<Window>("mask_window"),
+        graph.buffer::<Part>("parts", 1),
+        graph.buffer::<GPixel>("gbuffer", mask.len()),
+        graph.buffer::<u32>("mask", mask.len()),
+        graph.image("ribbons", Format::Rgba8, SIZE),
+        graph.buffer::<Stamp>("stamps", mask.len()),
+    ];
+    graph.compute(&FIND_RESIDUAL, &ids);
+    let mut session = engine.prepare(graph).unwrap();
+    let (windows, parts, pixels) = ([window], [part], vec![surface; mask.len()]);
+    let written: [&[u32]; 5] = [
+        bytemuck::cast_slice(&windows),
+        bytemuck::cast_slice(&windows),
+        bytemuck::cast_slice(&parts),
+        bytemuck::cast_slice(&pixels),
+        mask,
+    ];
+    for (id, words) in ids.into_iter().zip(written) {
+        session.write(id, words).unwrap();
+    }
+    session.run().unwrap();
+    bytemuck::pod_collect_to_vec(&session.read(ids[6]).unwrap())
+}
+
+#[test]
+fn dots_beside_an_outline_get_no_stamps() {
+    let Some(device) = shared::device() else {
+        return;
+    };
+    // An outline, three dots beside it, and a line within the surface.
+    let owned = |kinds: u32| kinds | MASK_OWNER | MASK_SIDE;
+    let mut mask = vec![0; (SIZE[0] * SIZE[1]) as usize];
+    for x in 5..30 {
+        mask[10 * SIZE[0] as usize + x] = owned(Outline::OBJECT_ID | Outline::DEPTH);
+        mask[20 * SIZE[0] as usize + x] = owned(Outline::DEPTH);
+    }
+    for x in [10, 11, 20] {
+        mask[11 * SIZE[0] as usize + x] = owned(Outline::DEPTH);
+    }
+    let stamps = stamps_of(&Processor, &mask);
+    let count = stamps.iter().filter(|stamp| stamp.half_width > 0.0);
+    // The line fades out over two pixels at either end.
+    assert_eq!(count.count(), 25 + 21);
+    assert_eq!(stamps_of(device, &mask), stamps);
 }
