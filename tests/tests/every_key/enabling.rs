@@ -145,6 +145,15 @@ const ENABLING: &[(&str, &[&str], &str)] = &[
         "it is about the second layer",
     ),
     (
+        "detect.depth",
+        &[
+            "detect.normal.on=false",
+            "detect.object.on=false",
+            "detect.material.on=false",
+        ],
+        "other tests find the same lines",
+    ),
+    (
         "detect.object",
         &[
             "detect.depth.on=false",
