@@ -3,7 +3,7 @@
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use npr_benches::subject::{Subject, bunny_path};
 use npr_gpu::processor::Processor;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use std::time::Duration;
 
 const SIZE: [u32; 2] = [1920, 1080];

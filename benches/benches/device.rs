@@ -3,7 +3,7 @@
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use npr_benches::subject::{Subject, bunny_path};
 use npr_gpu::device::{AdapterChoice, Device};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use std::time::Duration;
 
 /// The device to measure on, where one is asked for and there.

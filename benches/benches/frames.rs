@@ -3,7 +3,7 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use npr_benches::subject::{Subject, bunny_path};
 use npr_gpu::processor::Processor;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use std::time::Duration;
 
 /// Triangles and sizes of Okuya 2016, table 1.

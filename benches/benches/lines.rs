@@ -5,7 +5,7 @@ use npr_benches::lines::subjects::{SIZE, benchmark_camera, knot, scene_of};
 use npr_benches::solid::bumpy_ball;
 use npr_render::{LineMethod, LineModel, LineModelOptions, LineOptions};
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use std::time::Duration;
 
 const SIZES: [u32; 5] = [10_000, 31_622, 100_000, 316_226, 1_000_000];

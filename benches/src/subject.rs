@@ -7,7 +7,7 @@ use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
 use npr_gpu::engine::Engine;
 use npr_render::{Model, RenderError, Stage, StageOptions};
 use npr_scene::{LoadOptions, load};
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 use crate::solid::bumpy_ball;
 

@@ -9,7 +9,7 @@ use npr_gpu::processor::Processor;
 use npr_render::{Following, Model, Stage, StageOptions};
 use npr_scene::Scene;
 use npr_smoke::{Puffs, Smoke, Volume};
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 const SIZE: [u32; 2] = [384, 384];
 

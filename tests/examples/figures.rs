@@ -1,7 +1,7 @@
 //! Figures of Okuya et al. 2016 rebuilt from our scenes: `cargo run -p npr-tests --example figures -- docs/figures`.
 
 use npr_render::Frame;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{asset, beside, cropped, draw, reduced, write_png};
 use std::path::Path;
 

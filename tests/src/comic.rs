@@ -6,7 +6,7 @@ use npr_mesh::Mesh;
 use npr_mesh::testing::plane;
 use npr_render::Frame;
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 /// Width and height of the pictures.
 pub const SIZE: [u32; 2] = [320, 240];

@@ -6,7 +6,7 @@ use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_render::{Frame, Model, Stage, StageOptions};
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 /// Vertical field of view of cameras that frame a model, in radians.
 const FOV_Y: f32 = 0.7;

@@ -4,7 +4,7 @@ use npr_gpu::engine::Engine;
 use npr_render::{Following, Frame, Model, Smoke, Stage, StageOptions};
 use npr_scene::Scene;
 use npr_smoke::{Puffs, SmokeSettings, Source, Volume};
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 use npr_core::camera::{Camera, Projection};
 use npr_core::math::{cos, sin};

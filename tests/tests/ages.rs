@@ -6,7 +6,7 @@ use npr_core::camera::{Camera, Projection};
 use npr_mesh::testing::icosphere;
 use npr_render::Frame;
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::comic::{front, pixel};
 use npr_tests::{Ink, Object, asset, draw_from, placed, scene_of};
 use std::collections::BTreeMap;

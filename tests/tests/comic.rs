@@ -7,7 +7,7 @@ use npr_core::math::{cos, sin};
 use npr_gpu::processor::Processor;
 use npr_render::{Frame, Model};
 use npr_scene::{Node, Part, Scene};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::draw_on;
 use std::f32::consts::{PI, TAU};
 

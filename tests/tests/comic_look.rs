@@ -6,7 +6,7 @@ use npr_gpu::processor::Processor;
 use npr_mesh::testing::{icosphere, plane};
 use npr_render::{Frame, Model};
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::comic::{self, direction, draw, front, pixel, style, wall};
 use npr_tests::{Object, draw_from, draw_on, placed, scene_of};
 

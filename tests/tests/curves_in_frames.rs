@@ -6,7 +6,7 @@ use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
 use npr_render::{Frame, LineModel, LineModelOptions, LineStage, Model, Stage, StageOptions};
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::comic::{SIZE, front};
 use npr_tests::{Ink, Object, lines, placed, scene_of};
 
@@ -66,7 +66,7 @@ fn a_rule_chooses_curves_for_a_part() {
         "hidden lines are not drawn"
     );
     style.rule[0].line.method = None;
-    style.line.method = npr_style::LineMethod::Curves;
+    style.line.method = npr_stylesheet::LineMethod::Curves;
     let [left, right] = sides(&drawn(&style, true));
     assert!(left > 200 && right > 200, "{left} {right}");
 }

@@ -4,7 +4,7 @@
 
 use npr_gpu::processor::Processor;
 use npr_render::{Frame, Model, Stage, StageOptions};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{Agreement, asset, models_camera};
 
 const SIZE: [u32; 2] = [480, 270];

@@ -4,7 +4,7 @@
 
 use npr_gpu::processor::Processor;
 use npr_render::{Model, Picture, StageOptions};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{Agreement, asset, device, draw_with, models, models_camera, samples};
 use std::path::PathBuf;
 

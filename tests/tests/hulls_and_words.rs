@@ -7,7 +7,7 @@ use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_render::{Font, Frame, Model, StageOptions};
 use npr_scene::{AlphaMode, Scene};
-use npr_style::{Lettering, Style};
+use npr_stylesheet::{Lettering, Style};
 use npr_tests::comic::{SIZE, front, pixel, wall};
 use npr_tests::{Object, boxed, device, draw_with, placed, scene_of};
 

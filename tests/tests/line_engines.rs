@@ -10,7 +10,7 @@ use npr_render::{
     LineMethod, LineModel, LineModelOptions, LineOptions, LineStage, Model, Picture, StageOptions,
 };
 use npr_scene::{LoadOptions, load};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{device, models, samples};
 use std::path::Path;
 

@@ -11,7 +11,7 @@ use npr_render::{
     LineMethod, LineModel, LineModelOptions, LineOptions, LineStage, Model, Stage, StageOptions,
 };
 use npr_scene::{LoadOptions, load};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{device, models, samples};
 use npr_vector::contour::Eye;
 use npr_vector::draw::eye_of;

@@ -7,7 +7,7 @@ use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
 use npr_render::{Frame, Model, Picture, StageOptions};
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::comic::{front, pixel};
 use npr_tests::{Agreement, Object, boxed, device, draw_with, scene_of};
 

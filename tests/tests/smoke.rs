@@ -8,7 +8,7 @@ use npr_gpu::processor::Processor;
 use npr_render::{Frame, Model, Picture, Sphere, Stage, StageOptions};
 use npr_scene::Scene;
 use npr_smoke::{Source, Volume};
-use npr_style::{Facts, Occasion, Output, Stated, Style};
+use npr_stylesheet::{Facts, Occasion, Output, Stated, Style};
 use npr_tests::{SmokeFilm, draw_smoke, front_camera, orbit_camera, write_png};
 
 /// The grid of the publication.

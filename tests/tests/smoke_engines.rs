@@ -5,7 +5,7 @@
 use npr_gpu::processor::Processor;
 use npr_render::{Model, Smoke, StageOptions};
 use npr_smoke::Source;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{Object, SmokeFilm, boxed, device, draw_with, orbit_camera, scene_of};
 
 const LOOKS: [&str; 6] = [

@@ -7,7 +7,7 @@
 use npr_mesh::testing::{icosphere, torus};
 use npr_render::Frame;
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{
     Agreement, Object, asset, crossing_boxes, draw, lines, read_png, scene_of, write_png,
 };

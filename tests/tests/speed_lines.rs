@@ -7,7 +7,7 @@ use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
 use npr_render::{Frame, Model, StageOptions};
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::comic::{SIZE, direction, front, pixel, style, wall};
 use npr_tests::{Object, draw_with, placed, scene_of};
 

@@ -7,7 +7,7 @@ use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
 use npr_render::{Frame, Model, Picture, RenderError, Stage, StageOptions};
 use npr_scene::Scene;
-use npr_style::{Stop, Style};
+use npr_stylesheet::{Stop, Style};
 use npr_tests::comic::{SIZE, direction, draw, front, pixel, style, wall};
 use npr_tests::{Agreement, Object, draw_from, draw_with, scene_of};
 

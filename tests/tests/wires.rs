@@ -12,7 +12,7 @@ use npr_render::{
 };
 use npr_scene::testing::lines_glb;
 use npr_scene::{Limits, MemoryResources, Scene, load_bytes};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{device, lines};
 use npr_vector::draw::eye_of;
 use npr_vector::graph::CurveNode;

@@ -64,7 +64,7 @@ const TWINS: &[Twins] = &[
     twins("lib/inking.wgsl", "RIDGE", "npr-style/src/hatch/tone.rs", "RIDGE"),
     twins("lib/lighting.wgsl", "LIGHT_", "npr-style/src/lighting.rs", "LightSource::"),
     twins("lib/lighting.wgsl", "SKY_", "npr-style/src/lighting.rs", "LightSource::"),
-    twins("lib/line_color.wgsl", "", "npr-style/src/line_paint.rs", ""),
+    twins("lib/line_color.wgsl", "", "npr-style/src/line_color.rs", ""),
     twins("lib/line_tint.wgsl", "KIND_OF_", "npr-core/src/line_color.rs", "KIND_"),
     twins("lib/list.wgsl", "", "npr-vector/src/rank/splitter.rs", ""),
     twins("lib/looped.wgsl", "", "npr-vector/src/pixel_contour/looped.rs", ""),

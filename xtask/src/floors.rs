@@ -35,7 +35,7 @@ impl Member {
 }
 
 /// Every crate, each below those that import it. Tests and benches may import any crate that is listed before theirs.
-const MEMBERS: [Member; 16] = [
+const MEMBERS: [Member; 17] = [
     // Floor 0: what everything stands on.
     Member::light("npr-core", &[]),
     Member::light("npr-shaders", &[]),
@@ -52,6 +52,7 @@ const MEMBERS: [Member; 16] = [
     Member::light("npr-scene", &["npr-core"]),
     Member::light("npr-smoke", &["npr-core"]),
     Member::light("npr-style", &["npr-core"]),
+    Member::light("npr-stylesheet", &["npr-core", "npr-style"]),
     // Floor 1b: passes and their engines.
     Member::heavy(
         "npr-gpu",
@@ -74,6 +75,7 @@ const MEMBERS: [Member; 16] = [
             "npr-scene",
             "npr-smoke",
             "npr-style",
+            "npr-stylesheet",
             "npr-trace",
             "npr-vdb",
             "npr-vector",
@@ -90,6 +92,7 @@ const MEMBERS: [Member; 16] = [
             "npr-scene",
             "npr-smoke",
             "npr-style",
+            "npr-stylesheet",
             "npr-trace",
             "npr-vdb",
         ],
@@ -105,6 +108,7 @@ const MEMBERS: [Member; 16] = [
             "npr-scene",
             "npr-smoke",
             "npr-style",
+            "npr-stylesheet",
             "npr-vdb",
             "npr-vector",
         ],
@@ -120,6 +124,7 @@ const MEMBERS: [Member; 16] = [
             "npr-scene",
             "npr-smoke",
             "npr-style",
+            "npr-stylesheet",
             "npr-vector",
         ],
     ),

@@ -23,7 +23,7 @@ use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
 use npr_render::{Model, Stage, StageOptions};
 use npr_scene::{LoadOptions, Scene, load};
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 /// Frames of an orbit, a degree apart.
 const FRAMES: u32 = 90;

@@ -14,7 +14,7 @@ use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
 use npr_render::{LineMethod, LineModel, LineModelOptions, LineOptions};
 use npr_scene::{LoadOptions, Scene, load};
-use npr_style::{Style, WidthSource};
+use npr_stylesheet::{Style, WidthSource};
 use npr_vector::stroke::Drawing;
 use serde_json::{Value, json};
 

@@ -14,7 +14,7 @@ use npr_benches::timing::{Times, elapsed_ms};
 use npr_benches::{machine, memory};
 use npr_gpu::processor::Processor;
 use npr_render::{Stage, StageOptions};
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 /// Triangles of the published table, and one number between.
 const TRIANGLE_COUNTS: [usize; 4] = [960, 9_566, 33_200, 66_400];

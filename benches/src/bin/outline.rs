@@ -23,7 +23,7 @@ use npr_core::camera::{Camera, Projection};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_render::Model;
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 

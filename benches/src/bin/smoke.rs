@@ -16,7 +16,7 @@ use npr_gpu::processor::Processor;
 use npr_render::{Following, Frame, Model, Stage, StageOptions};
 use npr_scene::Scene;
 use npr_smoke::{Distances, Puffs, Smoke, Sphere, Track, TrackSettings, Volume, covered_share};
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 

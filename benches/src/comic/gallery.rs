@@ -7,7 +7,7 @@ use npr_core::camera::DEFAULT_FOV_DEG;
 use npr_gpu::processor::Processor;
 use npr_render::{Model, Stage, StageOptions};
 use npr_scene::{LoadOptions, load};
-use npr_style::{Style, presets};
+use npr_stylesheet::{Style, presets};
 
 use crate::lines::subjects::shared_models;
 use crate::sheet::Sheet;

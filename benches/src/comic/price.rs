@@ -2,7 +2,7 @@
 
 use npr_gpu::engine::Engine;
 use npr_render::RenderError;
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 use crate::subject::Subject;
 use crate::timing::{Times, elapsed_ms, worked_ms};

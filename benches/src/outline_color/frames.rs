@@ -6,7 +6,7 @@ use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
 use npr_gpu::engine::Engine;
 use npr_render::{Frame, Model, Stage, StageOptions};
 use npr_scene::{LoadOptions, load};
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 use super::judge::{self, Pictures, Place};
 use super::scenery::Scenery;

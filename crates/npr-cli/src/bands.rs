@@ -108,7 +108,7 @@ mod tests {
     use npr_render::{Model, StageOptions};
     use npr_scene::testing::Sheet;
     use npr_scene::{Limits, MemoryResources, load_bytes};
-    use npr_style::Style;
+    use npr_stylesheet::Style;
     use std::cell::RefCell;
 
     const SIZE: [u32; 2] = [300, 260];

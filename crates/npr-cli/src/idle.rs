@@ -6,7 +6,7 @@ use crate::arguments::{
 };
 use crate::line_job::LineJob;
 use crate::volume::{DEFAULT_FPS, DEFAULT_STEP, Order, VolumeSource};
-use npr_style::{Facts, SmokeParticles};
+use npr_stylesheet::{Facts, SmokeParticles};
 use npr_trace::TraceOptions;
 
 /// An option that cannot act where something is so.

@@ -18,7 +18,7 @@ use npr_render::{
     Drawing, Kind, KindSet, Lettering, LineMethod, LineOptions, PaintedLines, StageOptions,
 };
 use npr_scene::Limits;
-use npr_style::{Background, Facts, LineFinder, LineForm, LineOutput, Occasion, Style};
+use npr_stylesheet::{Background, Facts, LineFinder, LineForm, LineOutput, Occasion, Style};
 use std::path::{Path, PathBuf};
 
 const MM_PER_INCH: f64 = 25.4;
@@ -103,7 +103,7 @@ impl LineJob<'_> {
         };
         let fill = self.options.fill;
         Occasion {
-            output: npr_style::Output::Lines(LineOutput { finder, form, fill }),
+            output: npr_stylesheet::Output::Lines(LineOutput { finder, form, fill }),
             scene,
         }
     }

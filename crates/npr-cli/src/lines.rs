@@ -22,7 +22,7 @@ use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{
     Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineStage, Model, facts_of,
 };
-use npr_style::{Background, WidthSource};
+use npr_stylesheet::{Background, WidthSource};
 use std::io::Write;
 
 /// Draws the lines that the user asked for, or prints the style.

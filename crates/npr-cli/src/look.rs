@@ -9,7 +9,7 @@ use crate::picture;
 use crate::style_source::StyleSource;
 use npr_render::{Font, Picture};
 use npr_scene::{FolderResources, Limits, Resources, Scene};
-use npr_style::{
+use npr_stylesheet::{
     Background, Color, LineMethod, Occasion, Rule, ShadeMode, Stated, Stop, Style, Tone, Unit,
     WidthSource, WidthWarning, width_rule,
 };

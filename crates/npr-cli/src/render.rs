@@ -22,7 +22,7 @@ use npr_render::{
     facts_of,
 };
 use npr_scene::{Limits, Scene};
-use npr_style::{Facts, Occasion, Style};
+use npr_stylesheet::{Facts, Occasion, Style};
 use std::io::Write;
 use std::path::Path;
 
@@ -183,7 +183,7 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<S
 
 /// Says which keys of the style cannot act in pictures of a scene.
 pub fn warn_of_idle(look: &Look, scene: Facts, quiet: bool) {
-    let output = npr_style::Output::Frame;
+    let output = npr_stylesheet::Output::Frame;
     message::warn_all(quiet, look.idle_notices(&Occasion { output, scene }));
 }
 

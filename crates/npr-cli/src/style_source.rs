@@ -5,7 +5,7 @@ use crate::input::read_file;
 use crate::message::quoted;
 use crate::output::folder_of;
 use npr_scene::{FolderResources, Resources};
-use npr_style::{DEFAULT_PRESET, Stated, TEXT_BYTES_MAX};
+use npr_stylesheet::{DEFAULT_PRESET, Stated, TEXT_BYTES_MAX};
 use std::path::{Path, PathBuf};
 
 /// A preset or a style file.

@@ -4,7 +4,7 @@ use crate::arguments::StylesCommand;
 use crate::fault::{Exit, Fault};
 use crate::output;
 use crate::style_source::StyleSource;
-use npr_style::{find_preset, presets, schema};
+use npr_stylesheet::{find_preset, presets, schema};
 
 /// Does what `npr styles` asks.
 pub fn styles(command: &StylesCommand) -> Result<(), Fault> {
@@ -26,7 +26,7 @@ fn list() -> String {
         .map(|preset| preset.name.len())
         .max()
         .unwrap_or(0);
-    let line = |preset: &npr_style::Preset| {
+    let line = |preset: &npr_stylesheet::Preset| {
         format!(
             "{:width$}  @{}  {}\n",
             preset.name, preset.version, preset.title

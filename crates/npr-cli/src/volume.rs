@@ -13,7 +13,7 @@ use npr_render::{Following, Smoke, Sphere, UpAxis, VolumeFault, VolumeFile, Volu
 use npr_scene::Limits;
 use npr_smoke::solver::{self, SmokeError, SmokeSettings};
 use npr_smoke::{Birthplace, Footage, PuffSettings, Puffs, Source, Volume};
-use npr_style::SmokeStyle;
+use npr_stylesheet::SmokeStyle;
 use std::path::{Path, PathBuf};
 
 /// Frames from one picture to the next where nothing is said.

@@ -2,7 +2,7 @@
 
 use npr_gpu::processor::Processor;
 use npr_render::{Model, Stage, StageOptions};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

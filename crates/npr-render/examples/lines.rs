@@ -3,7 +3,7 @@
 use npr_drawing::svg::{SvgOptions, write_svg};
 use npr_render::{Kind, LineModel, LineModelOptions, LineOptions};
 use npr_scene::{Limits, LoadOptions};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -6,7 +6,7 @@ use crate::model::PartInfo;
 use npr_core::color::{linear_from_srgb, linear_rgba, srgb_from_linear, unpack_rgba8};
 use npr_style::backdrop::{LEAN_MOST, Minding, RULES_MAX, Rule, Rules, SMOOTH_MOST, TILE, Wearer};
 use npr_style::compose::Compose;
-use npr_style::{BackgroundMethod, Style, Subjects};
+use npr_stylesheet::{BackgroundMethod, Style, Subjects};
 use std::collections::BTreeMap;
 
 /// Most frame pixels from an outline at which its line may still mind the background.

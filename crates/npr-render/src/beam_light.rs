@@ -2,8 +2,8 @@
 
 use crate::model::Model;
 use glam::Vec3;
-use npr_style::Style;
 use npr_style::lighting::LightSource;
+use npr_stylesheet::Style;
 use std::collections::BTreeMap;
 
 /// Part of a beam's light that each of several pieces gives: between two of them both shine.

@@ -9,9 +9,9 @@ use npr_core::camera::Camera;
 use npr_core::color::SrgbEncoder;
 use npr_core::texture::{TextureStore, Wrap, linear_texel, sample};
 use npr_gpu::engine::Engine;
-use npr_style::Style;
-use npr_style::blend::blend;
 use npr_style::compose::cover;
+use npr_stylesheet::Style;
+use npr_stylesheet::blend::blend;
 
 /// The look that shows through another one.
 pub(crate) struct Blending<'a> {

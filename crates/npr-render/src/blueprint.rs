@@ -15,7 +15,7 @@ use npr_style::backdrop::{Lean, Rim, Rules, TILE, TileRims, Wearer};
 use npr_style::compose::Compose;
 use npr_style::lighting::Lights;
 use npr_style::shadow::{SHADOW_SIDE, SHADOWS_MAX};
-use npr_style::{LineMethod, Style};
+use npr_stylesheet::{LineMethod, Style};
 use npr_vector::residual::tile_count;
 
 /// Numbers of elements that decide buffer sizes.

@@ -70,7 +70,7 @@ pub enum RenderError {
     },
     /// The style names a look that there is not.
     #[error(transparent)]
-    Style(#[from] npr_style::StyleError),
+    Style(#[from] npr_stylesheet::StyleError),
     /// A picture cannot be a ramp.
     #[error("{key}: {source}")]
     Ramp {

@@ -1,7 +1,7 @@
 //! What a scene has, for telling which keys of a style cannot act.
 
 use npr_scene::{Part, Scene};
-use npr_style::Facts;
+use npr_stylesheet::Facts;
 
 /// What of the things that keys of styles are about a scene has, with smoke in it or without.
 pub fn facts_of(scene: &Scene, smoke: bool) -> Facts {

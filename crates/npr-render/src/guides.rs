@@ -8,7 +8,7 @@ use npr_core::geometry::Vertex;
 use npr_core::math;
 use npr_mesh::direction_field::{Guide, PartGuide};
 use npr_style::lighting::LightSource;
-use npr_style::{Follow, Ink, Mapping, StrokeSpace};
+use npr_stylesheet::{Follow, Ink, Mapping, StrokeSpace};
 
 /// Length of a vertex colour's direction up to which it says nothing: middle grey after rounding to bytes.
 const SAYS_NOTHING: f32 = 0.05;

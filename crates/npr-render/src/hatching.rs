@@ -12,10 +12,11 @@ use npr_core::geometry::{ChartCorners, NONE, Part, Triangle};
 use npr_core::math;
 use npr_core::texture::TextureStore;
 use npr_mesh::stroke_chart::{ChartInput, ChartSettings, stroke_chart};
-use npr_style::hatch::{self, Hatch, Pattern};
+use npr_style::hatch;
 use npr_style::lighting::LightSource;
 use npr_style::paint::paint_white;
-use npr_style::{Ink, Mapping, Style};
+use npr_stylesheet::{Hatch, Pattern};
+use npr_stylesheet::{Ink, Mapping, Style};
 
 /// Texels along the side of a hatch tile: 128 strokes, and six octaves down to two.
 const TILE_SIDE: u32 = 1024;

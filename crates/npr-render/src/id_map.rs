@@ -8,7 +8,7 @@ use glam::Vec3;
 use npr_core::geometry::NONE;
 use npr_core::texture::{Wrap, texel_at};
 use npr_scene::{Material, Notice, Part, Scene};
-use npr_style::{IdMap, IdRegion, Style};
+use npr_stylesheet::{IdMap, IdRegion, Style};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 
 /// The angle between faces from which a mesh without normals is shaded with a hard edge: that of creases, unless a
 /// style says otherwise.
-const HARD_EDGE: f32 = npr_style::CREASE_ANGLE_DEG / 180.0 * std::f32::consts::PI;
+const HARD_EDGE: f32 = npr_stylesheet::CREASE_ANGLE_DEG / 180.0 * std::f32::consts::PI;
 
 /// A node's mesh, numbered from zero.
 #[derive(Debug, Default)]

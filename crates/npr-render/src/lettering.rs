@@ -6,13 +6,13 @@ use glam::{Mat4, Vec3};
 use npr_core::window::View;
 use npr_drawing::drawing::paint_over;
 use npr_drawing::lettering::{Band, Font, Lettered, Setting, Words, set_words};
-use npr_style::{Color, LetteringOutline, Style};
+use npr_stylesheet::{Color, LetteringOutline, Style};
 use std::collections::BTreeMap;
 
 /// Words of a style, set in their fonts: ready to be placed in any view.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Lettering {
-    words: Vec<(npr_style::Lettering, Words)>,
+    words: Vec<(npr_stylesheet::Lettering, Words)>,
     notices: Vec<String>,
 }
 
@@ -68,7 +68,7 @@ impl Lettering {
     ) -> impl Iterator<Item = (Lettered, Option<f32>)> + 'a {
         let placed = self.words.iter().filter_map(move |(said, words)| {
             let (middle, world_px) = place_of(said, view)?;
-            let px = |length: npr_style::Length| {
+            let px = |length: npr_stylesheet::Length| {
                 f64::from(length.to_px(view.frame_px[1], dpi, world_px))
             };
             let band = |band: &LetteringOutline| Band {
@@ -161,7 +161,7 @@ fn bytes_of(color: Color) -> [u8; 4] {
     [color.r, color.g, color.b, color.a]
 }
 
-fn setting_of(said: &npr_style::Lettering) -> Setting {
+fn setting_of(said: &npr_stylesheet::Lettering) -> Setting {
     Setting {
         bend: f64::from(said.bend),
         slant: f64::from(said.slant),
@@ -183,7 +183,7 @@ fn notice_of(index: usize, missing: &[char]) -> Option<String> {
 }
 
 /// Where the middle of words lies in the frame, and how many pixels a unit of the scene covers there.
-fn place_of(said: &npr_style::Lettering, view: &View) -> Option<([f32; 2], f32)> {
+fn place_of(said: &npr_stylesheet::Lettering, view: &View) -> Option<([f32; 2], f32)> {
     let Some(anchor) = said.anchor else {
         let middle = std::array::from_fn(|i| said.at[i] * view.frame_px[i]);
         return Some((middle, 0.0));
@@ -210,7 +210,7 @@ mod tests {
     use npr_core::camera::{Camera, Projection};
     use npr_drawing::lettering::testing::block_font;
     use npr_gpu::processor::Processor;
-    use npr_style::{Length, Unit};
+    use npr_stylesheet::{Length, Unit};
     use proptest::prelude::*;
 
     const BOUNDS: ([f32; 3], [f32; 3]) = ([-1.0; 3], [1.0; 3]);
@@ -224,7 +224,7 @@ mod tests {
         }
     }
 
-    fn lettering(words: npr_style::Lettering) -> Lettering {
+    fn lettering(words: npr_stylesheet::Lettering) -> Lettering {
         let style = Style {
             lettering: vec![words],
             ..Style::default()
@@ -233,19 +233,19 @@ mod tests {
         Lettering::new(&style, &[("a.ttf".to_owned(), font)].into()).expect("sound words")
     }
 
-    fn anchored(anchor: [f32; 3]) -> npr_style::Lettering {
-        npr_style::Lettering {
+    fn anchored(anchor: [f32; 3]) -> npr_stylesheet::Lettering {
+        npr_stylesheet::Lettering {
             anchor: Some(anchor),
-            ..npr_style::Lettering::new("HI", "a.ttf")
+            ..npr_stylesheet::Lettering::new("HI", "a.ttf")
         }
     }
 
     #[test]
     fn words_lie_where_the_frame_says() {
         let view = camera().view([200, 100], BOUNDS);
-        let said = npr_style::Lettering {
+        let said = npr_stylesheet::Lettering {
             at: [0.25, 0.5],
-            ..npr_style::Lettering::new("HI", "a.ttf")
+            ..npr_stylesheet::Lettering::new("HI", "a.ttf")
         };
         assert_eq!(place_of(&said, &view), Some(([50.0, 50.0], 0.0)));
         let placed = lettering(said).placed(&view, 96.0);
@@ -283,7 +283,7 @@ mod tests {
         assert!((world_px(0.0) / world_px(-5.0) - 2.0).abs() < 1e-4);
         // A unit at depth 5 of a view 2 tan(0.5) high per depth.
         assert!((world_px(0.0) - 100.0 / (2.0 * 0.546_302_5 * 5.0)).abs() < 1e-3);
-        let said = npr_style::Lettering {
+        let said = npr_stylesheet::Lettering {
             size: Length {
                 value: 1.0,
                 unit: Unit::World,
@@ -297,7 +297,7 @@ mod tests {
     #[test]
     fn words_lie_over_the_picture_whatever_its_tiles() {
         let style = Style {
-            lettering: vec![npr_style::Lettering {
+            lettering: vec![npr_stylesheet::Lettering {
                 at: [0.5, 0.5],
                 size: Length {
                     value: 90.0,
@@ -310,7 +310,7 @@ mod tests {
                     },
                     ..LetteringOutline::default()
                 },
-                ..npr_style::Lettering::new("I", "a.ttf")
+                ..npr_stylesheet::Lettering::new("I", "a.ttf")
             }],
             ..Style::default()
         };
@@ -339,7 +339,7 @@ mod tests {
     #[test]
     fn what_is_left_out_is_told() {
         let style = |font: &str| Style {
-            lettering: vec![npr_style::Lettering::new("xHx", font)],
+            lettering: vec![npr_stylesheet::Lettering::new("xHx", font)],
             ..Style::default()
         };
         let fonts = [("a.ttf".to_owned(), Font::new(block_font()).expect("a font"))].into();
@@ -382,7 +382,7 @@ mod tests {
     /// Pixels of a bar in the middle of the frame, left and right of it, that show the words.
     fn shown(engine: &dyn npr_gpu::engine::Engine, hidden: bool, board_z: f32) -> [usize; 2] {
         let style = Style {
-            lettering: vec![npr_style::Lettering {
+            lettering: vec![npr_stylesheet::Lettering {
                 size: Length {
                     value: 60.0,
                     unit: Unit::Px,

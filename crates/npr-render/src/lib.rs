@@ -10,7 +10,7 @@
 //! use npr_gpu::processor::Processor;
 //! use npr_render::{Model, Stage, StageOptions};
 //! use npr_scene::Scene;
-//! use npr_style::Style;
+//! use npr_stylesheet::Style;
 //!
 //! let model = Model::new(&Scene::default())?;
 //! let mut stage = Stage::new(&Processor, &model, &Style::default(), &StageOptions::new([64, 36]))?;

@@ -14,7 +14,7 @@ use npr_core::window::View;
 use npr_scene::{LightKind, Scene};
 use npr_style::lighting::{LIGHTS_MAX, LightSource, Lights};
 use npr_style::shadow::{SHADOW_SIDE, SHADOWS_MAX};
-use npr_style::{ExtraLight, LightShape, LightSpace, Style};
+use npr_stylesheet::{ExtraLight, LightShape, LightSpace, Style};
 use std::collections::BTreeMap;
 
 /// How much nearer to a light something must be to shade a place, in radii of the model.
@@ -287,7 +287,7 @@ fn extra(light: &ExtraLight, has_dome: bool) -> Chosen {
     }
 }
 
-fn rgb(color: npr_style::Color) -> [f32; 3] {
+fn rgb(color: npr_stylesheet::Color) -> [f32; 3] {
     let [r, g, b, _] = color.linear();
     [r, g, b]
 }

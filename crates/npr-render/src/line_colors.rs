@@ -6,7 +6,8 @@ use crate::stage::Picture;
 use npr_core::color::pack_rgba8;
 use npr_core::geometry::{NONE, Part};
 use npr_core::texture::{TextureStore, Wrap};
-use npr_style::{HUES, HueStop, LineMethod, LineSource, Look, Style, hue_row};
+use npr_style::line_color::HUES;
+use npr_stylesheet::{HueStop, LineMethod, LineSource, Look, Style, hue_row};
 use std::collections::BTreeMap;
 
 /// Rows and pictures that are in a texture store already, each once.

@@ -38,7 +38,7 @@ use npr_core::crease::CreaseFrom;
 use npr_core::geometry::Part;
 use npr_core::shape::Shape;
 use npr_scene::Scene;
-use npr_style::{Look, Style};
+use npr_stylesheet::{Look, Style};
 use npr_vector::bvh::FaceTree;
 use npr_vector::contour::EdgeContours;
 use npr_vector::draw::{
@@ -261,7 +261,7 @@ impl LineModel {
 
     /// Draws smoke with the scene from now on, or none.
     ///
-    /// Smoke is outlined by [`SmokeStyle::line`](npr_style::SmokeStyle), as strokes of kind [`Kind::Contour`] on a
+    /// Smoke is outlined by [`SmokeStyle::line`](npr_stylesheet::SmokeStyle), as strokes of kind [`Kind::Contour`] on a
     /// surface `smoke`: exact arcs of its spheres, where nothing lies behind them or smoke far enough behind, as
     /// thick as in pictures. Billboards and the published line have these outlines too. Scene and smoke hide each
     /// other's lines; smoke of opacity below 0.5 hides none. Fills are the tones of pictures, traced, in the colours
@@ -297,7 +297,7 @@ impl LineModel {
     pub(crate) fn draw_curves(
         &self,
         camera: &Camera,
-        (style, of_parts): (&Style, npr_style::LineMethod),
+        (style, of_parts): (&Style, npr_stylesheet::LineMethod),
         options: &LineOptions,
         (smoke, pictures): (Option<&Smoke>, &BTreeMap<String, Picture>),
         find: &mut dyn Finder,

@@ -17,9 +17,10 @@ use npr_core::outline::{Outline, width_of_curvature};
 use npr_core::texture::{self, TextureStore, Wrap};
 use npr_core::window::View;
 use npr_style::compose::Compose;
-use npr_style::{
-    Background, Edge, Highlight, HighlightModel, Level, LineMethod, Look, ShadeMode, Style, Unit,
-    Width, WidthSource,
+use npr_style::ramp::Level;
+use npr_stylesheet::{
+    Background, Edge, Highlight, HighlightModel, LineMethod, Look, ShadeMode, Style, Unit, Width,
+    WidthSource,
 };
 
 /// Everything a style decides before the camera is known.
@@ -395,8 +396,8 @@ pub(crate) fn outline(
 /// Which edges are creases, for frames and drawings alike.
 pub(crate) fn creases(style: &Style) -> Creases {
     let from = match style.line.crease_from {
-        npr_style::CreaseFrom::Normals => CreaseFrom::Normals,
-        npr_style::CreaseFrom::Faces => CreaseFrom::Faces,
+        npr_stylesheet::CreaseFrom::Normals => CreaseFrom::Normals,
+        npr_stylesheet::CreaseFrom::Faces => CreaseFrom::Faces,
     };
     Creases::over(style.line.crease_angle_deg.to_radians(), from)
 }

@@ -14,7 +14,7 @@ use npr_core::geometry::{Edge, Influence, NONE, Triangle, Vertex};
 use npr_core::texture::TextureStore;
 use npr_mesh::pose::Matrix;
 use npr_scene::{AlphaMode, Material, Node, Part, Scene};
-use npr_style::{Look, PartNames, Style};
+use npr_stylesheet::{Look, PartNames, Style};
 use std::borrow::Cow;
 use std::path::Path;
 

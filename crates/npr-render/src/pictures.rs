@@ -9,7 +9,7 @@ use npr_core::texture::{TextureStore, linear_texel};
 use npr_style::compose::LUMA;
 use npr_style::hatch::{self, HatchTile};
 use npr_style::tone_row::{row_words, tone_row};
-use npr_style::{SmokeStyle, Style};
+use npr_stylesheet::{SmokeStyle, Style};
 use std::collections::BTreeMap;
 
 /// The pictures given for a style, all that it names.

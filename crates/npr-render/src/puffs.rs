@@ -1,7 +1,7 @@
 //! How spheres follow smoke, by the style that it is drawn in.
 
 use npr_smoke::{Birthplace, ParticleSettings, Placement, PuffSettings, TrackSettings};
-use npr_style::{SmokeParticles, SmokePlacement, SmokeStyle};
+use npr_stylesheet::{SmokeParticles, SmokePlacement, SmokeStyle};
 
 /// Frames per second that the pace of a style is stated for.
 const STYLE_FPS: f32 = 24.0;

@@ -12,9 +12,9 @@ use npr_core::raster::{Fill, Sides, fill_triangles, triangle_of};
 use npr_core::surface::{dot, weights_at};
 use npr_core::texture::{TextureStore, linear_texel};
 use npr_core::window::Window;
-use npr_style::Style;
 use npr_style::lighting::Lights;
 use npr_style::sky::{SKY_HEADER_WORDS, dome_of, sky_height};
+use npr_stylesheet::Style;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 

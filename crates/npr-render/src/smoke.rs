@@ -14,7 +14,7 @@ use npr_smoke::Puffs;
 use npr_style::lighting::Lights;
 use npr_style::shadow::{SHADOW_SIDE, SHADOWS_MAX};
 use npr_style::smoke::{SmokeLook, pen};
-use npr_style::{SmokeLines, SmokeMethod, SmokeStyle, Style, Unit};
+use npr_stylesheet::{SmokeLines, SmokeMethod, SmokeStyle, Style, Unit};
 
 /// Smoke as spheres, beside or without a model.
 #[derive(Debug, Clone, Default, PartialEq)]

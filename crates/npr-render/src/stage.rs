@@ -28,11 +28,11 @@ use npr_drawing::lettering::Font;
 use npr_gpu::engine::{Engine, EngineError, Session};
 use npr_gpu::graph::ResourceId;
 use npr_scene::Image;
-use npr_style::Style;
 use npr_style::backdrop::{Rules, TILE};
 use npr_style::compose::Compose;
 use npr_style::lighting::LightSource;
 use npr_style::shadow::SHADOW_SIDE;
+use npr_stylesheet::Style;
 use std::collections::BTreeMap;
 
 /// Most pixels of a frame along a side.
@@ -326,8 +326,8 @@ impl<'a> Stage<'a> {
         };
         let beside = (self.options.smoke.as_ref(), &self.options.pictures);
         for (of_parts, method) in [
-            (npr_style::LineMethod::Curves, LineMethod::Edges),
-            (npr_style::LineMethod::Potrace, LineMethod::Potrace),
+            (npr_stylesheet::LineMethod::Curves, LineMethod::Edges),
+            (npr_stylesheet::LineMethod::Potrace, LineMethod::Potrace),
         ] {
             if !self.style.has_method(of_parts) {
                 continue;

@@ -14,9 +14,9 @@ use npr_core::geometry::Part;
 use npr_core::texture::{TextureStore, linear_texel};
 use npr_core::window::View;
 use npr_gpu::engine::Engine;
-use npr_style::blend::blend;
-use npr_style::motion::{Motion, trail_of};
-use npr_style::{Color, Style};
+use npr_stylesheet::blend::blend;
+use npr_stylesheet::motion::{Motion, trail_of};
+use npr_stylesheet::{Color, Style};
 
 /// Longest trail in the picture, in pixels: more than the diagonal of any frame shows no more. What runs past the eye
 /// is cut there.

@@ -6,8 +6,8 @@ use npr_core::camera::{Camera, Projection};
 use npr_gpu::processor::Processor;
 use npr_render::{Model, Picture, Stage, StageOptions};
 use npr_scene::{Mesh, Node, Part, Scene};
-use npr_style::Style;
 use npr_style::backdrop::{Rule, contrast};
+use npr_stylesheet::Style;
 
 const SIZE: [u32; 2] = [240, 160];
 

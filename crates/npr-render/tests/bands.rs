@@ -5,7 +5,7 @@ use npr_gpu::processor::Processor;
 use npr_render::{Model, RenderError, Stage, StageOptions};
 use npr_scene::testing::Sheet;
 use npr_scene::{Limits, MemoryResources, load_bytes};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use proptest::prelude::*;
 
 fn model() -> Model {

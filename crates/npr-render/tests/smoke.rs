@@ -10,7 +10,7 @@ use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_render::{Frame, Model, Picture, RenderError, Smoke, Sphere, Stage, StageOptions};
 use npr_scene::{Mesh, Node, Part, Scene};
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 const SIZE: [u32; 2] = [256, 256];
 

@@ -12,7 +12,7 @@ use npr_render::{
     Drawing, LineModel, LineModelOptions, LineOptions, Model, Smoke, Sphere, Stage, StageOptions,
 };
 use npr_scene::{Mesh, Node, Part, Scene};
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 const SIZE: [u32; 2] = [320, 320];
 

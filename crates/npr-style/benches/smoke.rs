@@ -8,9 +8,10 @@ use npr_core::math::mix_bits;
 use npr_core::smoke::{Ball, Lens, SmokePixel, Sphere};
 use npr_core::window::Window;
 use npr_style::lighting::Lights;
+use npr_style::ramp::Level;
 use npr_style::smoke::resolve::{Resolving, resolve};
 use npr_style::smoke::shade::{Shading, shade_spheres};
-use npr_style::smoke::{SmokeLook, SmokeStyle, blur, draw};
+use npr_style::smoke::{SmokeLook, blur, draw};
 use std::hint::black_box;
 
 /// A scene of spheres and everything that a frame makes of it.
@@ -49,7 +50,7 @@ impl Frame {
             line_from: 0.4,
             alpha: 1.0,
             samples: 2,
-            ramp: SmokeStyle::default().levels(),
+            ramp: tones(),
             ..SmokeLook::default()
         };
         look.smooth(size, sigma);
@@ -128,6 +129,15 @@ fn puff(i: u32) -> Sphere {
 
 const PAPER: [u32; 2] = [512, 512];
 const FULL: [u32; 2] = [1920, 1080];
+
+/// Two tones, those of the usual style: a bluish shade and nearly white.
+fn tones() -> [[f32; 4]; 8] {
+    let mut tones = [[1.0, 1.0, 1.0, Level::UNUSED]; 8];
+    for (tone, [light, at]) in tones.iter_mut().zip([[0.39, 0.0], [0.95, 0.45]]) {
+        *tone = [light, light, light, at];
+    }
+    tones
+}
 
 fn by_spheres(c: &mut Criterion) {
     let mut group = c.benchmark_group("smoke/draw_spheres");

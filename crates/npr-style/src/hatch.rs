@@ -39,9 +39,6 @@ mod tests;
 mod tile;
 mod tone;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use crate::Length;
 
 pub use picture::{PICTURE_SIDE_MAX, Picture, from_image};
@@ -53,8 +50,12 @@ pub use tone::{
 };
 
 /// What shadows are drawn with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
+)]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Pattern {
     /// Pen strokes side by side.
     #[default]
@@ -82,8 +83,12 @@ impl Pattern {
 }
 
 /// How surfaces are hatched.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
+)]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Hatch {
     /// What shadows are drawn with; default `parallel`.
     pub pattern: Pattern,
@@ -91,35 +96,35 @@ pub struct Hatch {
     /// its dark parts become strokes, and only the order of its greys counts. At `spacing` 8 one of its pixels covers
     /// about a pixel of the frame. Pattern `cross` lays it over itself, turned. At most 4096 pixels a side; powers of
     /// two stay sharp.
-    #[serde(skip_serializing_if = "String::is_empty")]
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "String::is_empty"))]
     pub image: String,
     /// Distance between strokes or dots on screen; default 8 pixels at frame height 1080. 4 a fine
     /// engraving, 8 a comic page, 16 a poster.
     pub spacing: Length,
     /// Length of a stroke in spacings, 1..200; default 16. 3 dashes, 16 pen strokes, 200 ruled lines.
-    #[schemars(range(min = 1.0, max = 200.0))]
+    #[cfg_attr(feature = "serde", schemars(range(min = 1.0, max = 200.0)))]
     pub length: f32,
     /// How far strokes stray from straight and even, 0..1; default 0.35. 0 a ruler, 0.35 a steady hand,
     /// 1 a moving train.
-    #[schemars(range(min = 0.0, max = 1.0))]
+    #[cfg_attr(feature = "serde", schemars(range(min = 0.0, max = 1.0)))]
     pub wobble: f32,
     /// Part of a stroke that its tips take up, 0..1; default 0.7. 0 a felt pen's blunt ends, 1 a dip
     /// pen flicked off the paper.
-    #[schemars(range(min = 0.0, max = 1.0))]
+    #[cfg_attr(feature = "serde", schemars(range(min = 0.0, max = 1.0)))]
     pub taper: f32,
     /// How much strokes and dots differ in weight, 0..1; default 0.4. 0 a machine, 1 a nervous brush.
-    #[schemars(range(min = 0.0, max = 1.0))]
+    #[cfg_attr(feature = "serde", schemars(range(min = 0.0, max = 1.0)))]
     pub variation: f32,
     /// Steepness of a stroke's edge, 0.1..10; default 1. Above 1 strokes are of one width and stop at
     /// a tone; below 1 they reach further into light and shade.
-    #[schemars(range(min = 0.1, max = 10.0))]
+    #[cfg_attr(feature = "serde", schemars(range(min = 0.1, max = 10.0)))]
     pub gain: f32,
     /// Direction of strokes against that of the surface, in degrees, -180..180; default 0. 45 for
     /// strokes around a limb, as on a screw.
-    #[schemars(range(min = -180.0, max = 180.0))]
+    #[cfg_attr(feature = "serde", schemars(range(min = -180.0, max = 180.0)))]
     pub angle_deg: f32,
     /// For pattern `cross`: the light, 0..1, below which the second layer begins; default 0.5, half ink.
-    #[schemars(range(min = 0.0, max = 1.0))]
+    #[cfg_attr(feature = "serde", schemars(range(min = 0.0, max = 1.0)))]
     pub cross_at: f32,
     /// Which of many drawings in the same hand, any whole number; default 0.
     pub seed: u32,

@@ -3,9 +3,6 @@
 use std::fmt;
 use std::str::FromStr;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 /// The frame height, in pixels, at which a reference pixel is one pixel.
 pub const REFERENCE_HEIGHT_PX: f32 = 1080.0;
 
@@ -42,8 +39,12 @@ const ENDINGS: [(&str, Unit); 5] = [
 ///
 /// A plain number is in reference pixels; other units are strings: `"3px"`, `"0.5mm"`, `"0.01world"`,
 /// `"0.3%h"`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(try_from = "Written", into = "Written")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
+)]
+#[cfg_attr(feature = "serde", serde(try_from = "Written", into = "Written"))]
 pub struct Length {
     /// How many units; finite and never negative.
     pub value: f32,
@@ -52,11 +53,14 @@ pub struct Length {
 }
 
 /// A length as a style file holds it: a plain number is in reference pixels.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
+)]
+#[cfg_attr(feature = "serde", serde(untagged))]
 enum Written {
-    Number(#[schemars(range(min = 0.0, max = 100_000.0))] f32),
-    Text(#[schemars(extend("format" = "length"))] String),
+    Number(#[cfg_attr(feature = "serde", schemars(range(min = 0.0, max = 100_000.0)))] f32),
+    Text(#[cfg_attr(feature = "serde", schemars(extend("format" = "length")))] String),
 }
 
 /// Why a text is no length.

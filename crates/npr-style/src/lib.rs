@@ -1,123 +1,38 @@
-//! What a picture should look like, as data.
+//! The arithmetic of a drawing's looks: tones, hatching, highlights, shadows, beams, the colours of lines, smoke.
 //!
-//! [`Style`] is the only description of a look: a tree of plain structs that style files, overrides,
-//! presets and the JSON Schema ([`schema()`]) all come from. Beside it stands the arithmetic of its
-//! tones ([`ramp`]) and widths ([`width`]), as pure functions that both engines share.
+//! Pure functions of numbers, one module for each part of a frame. They are the twins of the shaders of the same
+//! names: what a device draws is tested against them, and the engine of the CPU runs them. Style files and their keys
+//! are in `npr-stylesheet`.
 //!
 //! ```
-//! use npr_style::{Length, Style, Unit};
+//! use npr_style::ramp::{Level, ramp_coordinate, ramp_light};
 //!
-//! let file = r##"
-//!     extends = "ink"
-//!     line.color = "#402010"
-//!
-//!     [[rule]]
-//!     match.material = "Glass*"
-//!     line.on = false
-//! "##;
-//! let no_files = |parent: &str| Err(format!("there is no '{parent}' here"));
-//! let mut style = Style::from_toml(file, &no_files)?;
-//! style.set("line.width.base=2px")?;
-//!
-//! assert_eq!(style.line.width.base, Length { value: 2.0, unit: Unit::Px });
-//! assert!(!style.resolve_for("Glass_front", "Lamp").line_on);
-//!
-//! let slip = Style::from_toml("line.widht.gain = 2", &no_files);
-//! assert_eq!(
-//!     slip.unwrap_err().to_string(),
-//!     "unknown key 'line.widht' at line 1, column 6; did you mean 'line.width'?"
-//! );
-//! # Ok::<(), npr_style::StyleError>(())
+//! let tone = |at, light| Level { at, light: [light; 3] };
+//! let cel = [tone(0.0, 0.4), tone(0.5, 1.0)];
+//! assert_eq!(ramp_light(&cel, 0.0, ramp_coordinate(-0.2)), [0.4; 3]);
+//! assert_eq!(ramp_light(&cel, 0.0, ramp_coordinate(0.2)), [1.0; 3]);
 //! ```
+//!
+//! With the feature `serde`, lengths and hatches are read from style files and described by their JSON Schema.
 
-mod antialias;
 pub mod backdrop;
-mod background;
 pub mod beam;
-pub mod blend;
-mod check;
-mod color;
 pub mod compose;
-mod detect;
 pub mod draw_mask;
-mod error;
-mod glob;
 pub mod gloss;
 pub mod hatch;
-mod highlight;
-mod id_map;
-mod idle;
-mod ink;
 pub mod inking;
 mod known;
-mod layers;
 mod length;
-mod lettering;
-mod light;
 pub mod lighting;
-mod line;
-mod line_background;
 pub mod line_color;
-mod line_paint;
-pub mod motion;
-mod named_picture;
-mod nearest;
 pub mod paint;
-mod place;
-mod potrace;
-mod preset;
 pub mod ramp;
-mod rule;
-mod schema;
-mod set;
-mod shade;
 pub mod shadow;
 pub mod sky;
 pub mod smoke;
-mod stated;
-mod style;
 mod tone;
 pub mod tone_row;
 pub mod width;
 
-pub use antialias::Antialias;
-pub use background::{Background, BackgroundError};
-pub use beam::{Beam, BeamOverlap, BeamStop, RuleBeam};
-pub use blend::Blend;
-pub use color::{Color, ColorError};
-pub use detect::{DepthTest, Detect, IdTest, MASK_LINE_PX, NormalTest, WidthWarning, width_rule};
-pub use error::{Place, Problem, StyleError};
-pub use highlight::{Back, Edge, Highlight, HighlightModel, Streak};
-pub use id_map::{ID_MAPS_MAX, IDS_MAX, IdMap, IdRegion, NamedId};
-pub use idle::{Facts, LineFinder, LineForm, LineOutput, Occasion, Output};
-pub use ink::{Follow, Ink, Mapping, StrokeSpace, Tone};
-pub use layers::{PARENTS_MAX, Parents, TEXT_BYTES_MAX};
 pub use length::{LONGEST, Length, LengthError, REFERENCE_HEIGHT_PX, Unit};
-pub use lettering::{LETTERING_MAX, Lettering, LetteringOutline};
-pub use light::{ExtraLight, Light, LightShape, LightSpace};
-pub use line::{CREASE_ANGLE_DEG, CreaseFrom, Kinds, Line, LineMethod};
-pub use line_background::{
-    BackgroundMethod, Direction, Likeness, LineBackground, LineScope, LineStart, Measure,
-    RuleBackground, Subjects,
-};
-pub use line_paint::{
-    DepthSpace, HUE_STOPS_MAX, HUES, HueStop, KindColors, LineDepth, LineLight, LinePaint,
-    LineSource, RuleLineDepth, RuleLineLight, RulePaint, hue_row,
-};
-pub use motion::{Motion, RuleMotion};
-pub use potrace::Potrace;
-pub use preset::{DEFAULT_PRESET, Preset, find as find_preset, presets};
-pub use ramp::{Level, Stop};
-pub use rule::{
-    Look, Match, PartNames, Rule, RuleBack, RuleHatch, RuleHighlight, RuleInk, RuleLine, RuleShade,
-    RuleStreak,
-};
-pub use schema::schema;
-pub use shade::{Shade, ShadeMode, levels};
-pub use smoke::{
-    SmokeInk, SmokeLine, SmokeLines, SmokeMethod, SmokeParticles, SmokePlacement, SmokePuffs,
-    SmokeStop, SmokeStyle,
-};
-pub use stated::Stated;
-pub use style::Style;
-pub use width::{Channel, ControlPoint, Width, WidthSource};

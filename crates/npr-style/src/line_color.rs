@@ -23,9 +23,11 @@ use crate::backdrop::Rules;
 use crate::compose::{Compose, LUMA, Layers};
 use crate::gloss::{back_light, in_world};
 use crate::lighting::Lights;
-use crate::line_paint::HUES;
 use crate::shadow::SHADOWS_MAX;
 use crate::tone::{Corners, footprint};
+
+/// Colours of a row, from its begin to its end.
+pub const HUES: usize = 256;
 
 /// How far the surface's texture is averaged under a line, in pixels of the mask: less makes lines speckled.
 pub const LINE_BLUR_PX: f32 = 2.0;
@@ -135,7 +137,7 @@ impl LineScene<'_> {
     }
 
     /// The colour of a row at a share of its length, linear light, straight alpha.
-    fn hue(&self, row: u32, share: f32) -> [f32; 4] {
+    pub fn hue(&self, row: u32, share: f32) -> [f32; 4] {
         let place = share.clamp(0.0, 1.0) * (HUES - 1) as f32;
         let below = (place as u32).min(HUES as u32 - 2);
         let first = (row + HEADER_WORDS + below) as usize;
@@ -432,6 +434,3 @@ pub fn light_widths(
         };
     });
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,31 +1,9 @@
 //! Tone ramps: how the light on a surface becomes a few flat tones.
 
 use npr_core::math;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use crate::Color;
 
 /// Most stops that a ramp may have.
 pub const STOPS_MAX: usize = 8;
-
-/// One tone of a ramp: from its place on, surfaces are lit this much.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Stop {
-    /// Where the tone begins, 0..1: 0 faces away from the light, 0.5 lies across it, 1 faces it.
-    /// The first stop also covers everything before it. Raise a stop to spread the darker tone.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub at: f32,
-    /// How much of the surface's colour remains, 0..1.5: 0 solid ink, 0.6 a soft shade, 1 the colour
-    /// as it is, above 1 a bleached highlight.
-    #[schemars(range(min = 0.0, max = 1.5))]
-    pub light: f32,
-    /// Colour that the tone is multiplied by; default none. A cool tint in the shade and a warm one in the
-    /// light look like day.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tint: Option<Color>,
-}
 
 /// A stop ready for arithmetic: one row of four floats, as passes read it.
 #[repr(C)]
@@ -40,26 +18,6 @@ pub struct Level {
 impl Level {
     /// A place that no ramp reaches: fills up rows of fixed length.
     pub const UNUSED: f32 = 2.0;
-}
-
-impl Stop {
-    /// A tone without tint.
-    pub const fn plain(at: f32, light: f32) -> Self {
-        Self {
-            at,
-            light,
-            tint: None,
-        }
-    }
-
-    /// The stop with its tint turned into linear light.
-    pub fn level(&self) -> Level {
-        let [r, g, b, _] = self.tint.unwrap_or(Color::WHITE).linear();
-        Level {
-            at: self.at,
-            light: [r, g, b].map(|v| v * self.light),
-        }
-    }
 }
 
 /// Place on the ramp, 0..1, of a surface whose unit normal meets the unit light direction at cosine
@@ -89,21 +47,16 @@ pub fn ramp_light(levels: &[Level], softness: f32, x: f32) -> [f32; 3] {
     })
 }
 
-/// Index of the first stop that begins before the one ahead of it.
-pub(crate) fn first_unsorted(stops: &[Stop]) -> Option<usize> {
-    stops
-        .windows(2)
-        .position(|pair| pair[1].at < pair[0].at)
-        .map(|i| i + 1)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
 
     fn gray(at: f32, light: f32) -> Level {
-        Stop::plain(at, light).level()
+        Level {
+            at,
+            light: [light; 3],
+        }
     }
 
     #[test]
@@ -119,16 +72,6 @@ mod tests {
         assert!((ramp_light(&levels, 0.2, 0.5)[0] - 0.5).abs() < 1e-6);
         assert_eq!(ramp_light(&levels, 0.2, 0.39), [0.0; 3]);
         assert_eq!(ramp_light(&levels, 0.2, 0.61), [1.0; 3]);
-    }
-
-    #[test]
-    fn a_tint_is_multiplied_in_linear_light() {
-        let stop = Stop {
-            at: 0.0,
-            light: 0.5,
-            tint: Some(Color::rgb(255, 0, 0)),
-        };
-        assert_eq!(stop.level().light, [0.5, 0.0, 0.0]);
     }
 
     #[test]

@@ -11,12 +11,7 @@ mod look;
 pub mod pen;
 pub mod resolve;
 pub mod shade;
-mod style;
 mod veil;
 
 pub use look::{CELLS_MAX, LAYERS_MAX, SmokeLook, TAPS_MAX};
-pub use style::{
-    SmokeInk, SmokeLine, SmokeLines, SmokeMethod, SmokeParticles, SmokePlacement, SmokePuffs,
-    SmokeStop, SmokeStyle,
-};
 pub(crate) use veil::Veil;

@@ -6,7 +6,7 @@ use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
 use npr_render::{Frame, Model, Picture, StageOptions};
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{Object, device, draw_with, placed, scene_of};
 
 /// Height of what cameras see, in world units.

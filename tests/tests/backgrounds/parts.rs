@@ -6,7 +6,7 @@ use npr_mesh::Mesh;
 use npr_mesh::testing::{cube, mapped};
 use npr_render::Frame;
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{Agreement, Object, scene_of};
 
 const SIZE: [u32; 2] = [200, 100];

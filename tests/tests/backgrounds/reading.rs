@@ -10,7 +10,7 @@ use npr_mesh::testing::{cube, icosphere, torus};
 use npr_render::{Frame, Picture};
 use npr_scene::Scene;
 use npr_style::backdrop::oklab_of_light;
-use npr_style::{Background, Style};
+use npr_stylesheet::{Background, Style};
 use npr_tests::{Object, placed, scene_of};
 
 const SIZE: [u32; 2] = [200, 150];

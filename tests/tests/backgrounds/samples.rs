@@ -5,7 +5,7 @@ use npr_core::math;
 use npr_mesh::testing::{icosphere, mapped, plane, torus};
 use npr_scene::Scene;
 use npr_style::backdrop::published;
-use npr_style::{Background, Style};
+use npr_stylesheet::{Background, Style};
 use npr_tests::{Object, lines, placed, scene_of};
 
 const SIZE: [u32; 2] = [120, 90];

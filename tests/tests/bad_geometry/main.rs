@@ -14,7 +14,7 @@ use npr_mesh::testing::{
 };
 use npr_render::{Frame, Model, RenderError, Stage, StageOptions};
 use npr_scene::{Node, Part, Scene};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{Ink, Object, boxed, draw, draw_on, lines, placed, scene_of};
 
 const SIZE: [u32; 2] = [64, 48];

@@ -5,7 +5,7 @@
 //! laid over the base style, in order. Patterns are of keys as the style has them; a rule's keys are meant too.
 
 use crate::outputs::Output;
-use npr_style::Stated;
+use npr_stylesheet::Stated;
 
 /// Keys that change no drawing, with the reason.
 pub const EXCEPTIONS: &[(&str, &str)] = &[

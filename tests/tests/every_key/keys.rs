@@ -1,6 +1,6 @@
 //! The keys of the schema, and other legal values for each.
 
-use npr_style::{Style, schema};
+use npr_stylesheet::{Style, schema};
 use serde_json::Value as Json;
 use toml::Value;
 

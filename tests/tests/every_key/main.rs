@@ -18,7 +18,7 @@ mod scene;
 
 use enabling::{EXCEPTIONS, PLACES, WORDS, base_of, is_meant};
 use keys::{Key, keys};
-use npr_style::Stated;
+use npr_stylesheet::Stated;
 use outputs::Output;
 use rayon::prelude::*;
 use scene::Studio;

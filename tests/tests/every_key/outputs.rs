@@ -1,7 +1,7 @@
 //! The ways in which drawings are made.
 
 use npr_render::LineMethod as CurveMethod;
-use npr_style::{Facts, LineFinder, LineForm, LineOutput, Occasion, Output as Made};
+use npr_stylesheet::{Facts, LineFinder, LineForm, LineOutput, Occasion, Output as Made};
 
 /// A way in which a drawing is made.
 #[derive(Debug, Clone, Copy, PartialEq)]

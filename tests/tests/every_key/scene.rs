@@ -15,7 +15,7 @@ use npr_render::{
 use npr_scene::{
     Image, Light, LightKind, Material, Node, Scene, TextureTransform, TextureUse, Wrap,
 };
-use npr_style::{Background, LineForm, Stated, Style};
+use npr_stylesheet::{Background, LineForm, Stated, Style};
 use npr_tests::{Object, boxed, placed, scene_of};
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};

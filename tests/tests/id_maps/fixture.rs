@@ -9,7 +9,7 @@ use npr_render::{
     apply_id_maps,
 };
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{Agreement, Object, device, lines, scene_of};
 use std::collections::BTreeMap;
 

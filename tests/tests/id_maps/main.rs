@@ -77,7 +77,7 @@ fn tones_and_hatching_follow_ids() {
     let rules = "[[rule]]\nmatch.id = 'left'\nshade.color = '#ff0000'\n\
         [[rule]]\nmatch.id = 'right'\nink.tone = 'hatch'\nink.dark_at = 0\nink.light_at = 1";
     let mut style = with_map("none", "", rules);
-    style.shade.mode = npr_style::ShadeMode::Ramp;
+    style.shade.mode = npr_stylesheet::ShadeMode::Ramp;
     let scene = cut(scene("Ball", icosphere(4)), &style, &halves());
     for frame in frames(&scene, &style, &StageOptions::new(SIZE), &front()) {
         let [red, black] = inked(&frame);

@@ -4,7 +4,7 @@ use crate::fixture::{BLUE, RED, cut, halves, painted, scene, with_map};
 use npr_mesh::testing::{icosphere, plane};
 use npr_render::Picture;
 use npr_scene::{Node, Part, Scene, TextureTransform, TextureUse, Wrap};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 

@@ -4,7 +4,7 @@ use crate::fixture::{BLUE, RED, cut, halves, painted, scene, with_map};
 use npr_mesh::testing::icosphere;
 use npr_render::{Picture, apply_id_maps};
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use std::collections::BTreeMap;
 
 fn told(scene: Scene, style: &Style, pictures: &BTreeMap<String, Picture>) -> Vec<String> {

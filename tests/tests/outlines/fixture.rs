@@ -4,7 +4,7 @@ use npr_core::camera::{Camera, Projection};
 use npr_core::window::View;
 use npr_mesh::testing::plane;
 use npr_scene::{Material, Node, Part, Scene};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{Drawing, Object, Wanted, boxed, draw_from, lines, placed, scene_of};
 
 /// A frame of 16:9.

@@ -2,7 +2,7 @@
 
 use crate::fixture::{SIZE, cube_drawing, cube_wanted, detecting, with};
 use npr_render::Frame;
-use npr_style::width_rule;
+use npr_stylesheet::width_rule;
 use npr_tests::{Ink, asset, draw, lines};
 
 const FRAME: [u32; 2] = [960, 540];

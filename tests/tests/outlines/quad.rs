@@ -7,7 +7,7 @@ use npr_core::outline::Outline;
 use npr_core::window::Window;
 use npr_mesh::Mesh;
 use npr_mesh::testing::{mapped, plane};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{Ink, Object, Wanted, lines};
 
 const CORNERS: [[f32; 3]; 3] = [[-0.6, -0.5, 0.0], [0.6, -0.5, 0.0], [0.0, 0.6, 0.0]];

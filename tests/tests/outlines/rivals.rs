@@ -5,7 +5,7 @@ use crate::fixture::{
     with,
 };
 use npr_mesh::testing::uv_sphere;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{Ink, Object, asset, draw, lines, placed};
 
 fn ball(name: &str, x: f32) -> Object {

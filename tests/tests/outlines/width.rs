@@ -5,7 +5,7 @@ use npr_gpu::processor::Processor;
 use npr_mesh::testing::{plane, uv_sphere};
 use npr_render::{Model, Picture, StageOptions};
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{Ink, Object, draw, draw_from, draw_with, lines, placed, scene_of};
 
 /// Lines whose width follows `source`, from 2 to 16 pixels.

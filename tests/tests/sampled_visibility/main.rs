@@ -10,7 +10,7 @@ use npr_core::crease::CreaseFrom;
 use npr_core::window::Window;
 use npr_render::{LineModel, LineModelOptions, LineOptions};
 use npr_scene::{LoadOptions, load};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_tests::{models, samples};
 use npr_vector::sample::{Spine, Surroundings, place_samples, sample_visibility, visible_samples};
 use picture::gbuffer;

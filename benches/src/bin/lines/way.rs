@@ -10,7 +10,7 @@ use npr_benches::timing::{Times, elapsed_ms};
 use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
 use npr_render::{LineMethod, LineModel, LineOptions};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_vector::pixel_contour::PublishedPath;
 use npr_vector::stroke::Drawing;
 

@@ -3,7 +3,7 @@
 use super::LimitArguments;
 use clap::{Args, ValueEnum};
 use npr_style::backdrop::Rule;
-use npr_style::{Color, Direction, Likeness, LineBackground};
+use npr_stylesheet::{Color, Direction, Likeness, LineBackground};
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn what_is_not_said_is_as_in_styles() {
         let style = LineBackground {
-            method: npr_style::BackgroundMethod::Published,
+            method: npr_stylesheet::BackgroundMethod::Published,
             ..LineBackground::default()
         };
         assert_eq!(said("").rule(), style.rule());

@@ -2,7 +2,7 @@
 
 use super::{CacheArguments, DrawingArguments};
 use clap::Args;
-use npr_style::Background;
+use npr_stylesheet::Background;
 use std::path::PathBuf;
 
 /// What the user said to `npr render`.
@@ -53,5 +53,5 @@ impl LookArguments {
 
 fn background(text: &str) -> Result<Background, String> {
     text.parse()
-        .map_err(|error: npr_style::BackgroundError| format!("it {error}"))
+        .map_err(|error: npr_stylesheet::BackgroundError| format!("it {error}"))
 }

@@ -3,7 +3,7 @@
 use super::Point;
 use clap::{Args, ValueEnum};
 use npr_smoke::Birthplace;
-use npr_style::{SmokeParticles, SmokeStyle};
+use npr_stylesheet::{SmokeParticles, SmokeStyle};
 use std::path::PathBuf;
 use std::str::FromStr;
 

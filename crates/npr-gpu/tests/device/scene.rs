@@ -13,9 +13,10 @@ use npr_mesh::{EdgeFlags, NO_FACE, smooth_normals, unique_edges, weld};
 use npr_style::backdrop::{Criteria, Rule, Rules, Wearer};
 use npr_style::compose::Compose;
 use npr_style::lighting::{LightSource, Lights};
+use npr_style::line_color::HUES;
 use npr_style::smoke::{SmokeLook, pen};
 use npr_style::tone_row::{row_words, tone_row};
-use npr_style::{HUES, HueStop, hue_row};
+use npr_stylesheet::{HueStop, hue_row};
 
 /// Width and height of the frame that windows are laid over.
 pub const FRAME_PX: [u32; 2] = [160, 90];

@@ -7,7 +7,7 @@ use crate::placement;
 use npr_core::shape::Surface;
 use npr_mesh::shape::PlacedMesh;
 use npr_scene::{Mesh, Node, Part, Scene};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use std::collections::BTreeMap;
 
 /// One node's mesh in the world.

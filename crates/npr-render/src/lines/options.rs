@@ -2,7 +2,7 @@
 
 use crate::look;
 use npr_core::crease::{CreaseFrom, Creases};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_vector::draw::Method;
 use npr_vector::graph::CurveNode;
 use npr_vector::image_line::{PaintedRule, PaintedTone};
@@ -192,7 +192,7 @@ impl LineOptions {
         Self {
             size,
             kinds: KindSet::ALL,
-            crease: npr_style::CREASE_ANGLE_DEG.to_radians(),
+            crease: npr_stylesheet::CREASE_ANGLE_DEG.to_radians(),
             crease_from: CreaseFrom::default(),
             method: LineMethod::default(),
             smooth: true,

@@ -7,7 +7,7 @@ use crate::model::PartInfo;
 use npr_core::color::srgb_from_linear;
 use npr_core::shape::Shape;
 use npr_drawing::fill;
-use npr_style::{Look, Style};
+use npr_stylesheet::{Look, Style};
 use npr_vector::bvh::{FaceTree, Sight};
 use npr_vector::project::Projector;
 use npr_vector::stroke::{Region, Stroke, StrokeSurface};

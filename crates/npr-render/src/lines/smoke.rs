@@ -10,7 +10,7 @@ use crate::smoke::{Measure, Smoke, around, lens_of};
 use crate::stage::Picture;
 use npr_core::camera::Camera;
 use npr_style::smoke::SmokeLook;
-use npr_style::{SmokeLines as Outlining, Style};
+use npr_stylesheet::{SmokeLines as Outlining, Style};
 use npr_vector::project::Projector;
 use npr_vector::puff::{Puffs, RimPoint, SmokeLines};
 use npr_vector::stroke::StrokeSurface;

@@ -9,7 +9,7 @@ use crate::smoke::Smoke;
 use crate::stage::{Picture, Stage, StageOptions};
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_vector::stroke::Drawing;
 use std::collections::BTreeMap;
 
@@ -53,7 +53,7 @@ impl<'a> LineStage<'a> {
     }
 
     /// The same, with the scene and the pictures that lines are judged before, where the style lets them mind it
-    /// ([`npr_style::LineBackground`]).
+    /// ([`npr_stylesheet::LineBackground`]).
     ///
     /// Each point of a stroke then looks at the colours on both of its sides in a picture of the scene without lines,
     /// before its background, of the drawing's size. What lies where is asked of the surface, so textures cut nothing
@@ -86,7 +86,7 @@ impl<'a> LineStage<'a> {
     pub(crate) fn draw_curves(
         &mut self,
         camera: &Camera,
-        of_style: (&Style, npr_style::LineMethod),
+        of_style: (&Style, npr_stylesheet::LineMethod),
         options: &LineOptions,
         beside: (Option<&Smoke>, &BTreeMap<String, Picture>),
     ) -> Result<Drawing, RenderError> {

@@ -8,7 +8,7 @@ use crate::stage::{Picture, Stage, StageOptions};
 use npr_core::camera::Camera;
 use npr_core::color::linear_from_byte;
 use npr_gpu::processor::Processor;
-use npr_style::{
+use npr_stylesheet::{
     Background, Color, SmokeInk, SmokeLines, SmokeMethod, SmokeStop, SmokeStyle, Style,
 };
 use std::collections::BTreeMap;

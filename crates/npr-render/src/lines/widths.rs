@@ -9,7 +9,7 @@ use npr_core::shape::Shape;
 use npr_core::window::View;
 use npr_mesh::pose::{Matrix, Pose, pose_vertex};
 use npr_mesh::{Edge, EdgeFlags, Weld};
-use npr_style::{Style, WidthSource};
+use npr_stylesheet::{Style, WidthSource};
 
 const IDENTITY: Matrix = [
     [1.0, 0.0, 0.0, 0.0],

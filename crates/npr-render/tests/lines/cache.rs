@@ -6,7 +6,7 @@ use npr_gpu::processor::Processor;
 use npr_mesh::testing::{cube, icosphere, mapped};
 use npr_render::{Drawing, LineModel, LineModelOptions, LineOptions, Model, Stage, StageOptions};
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use std::path::{Path, PathBuf};
 
 fn cached(scene: &Scene, folder: &Path) -> Drawing {

@@ -7,7 +7,8 @@ use npr_drawing::json::{read_json, write_json};
 use npr_mesh::testing::{cube, icosphere};
 use npr_render::{Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineOptions};
 use npr_scene::Scene;
-use npr_style::{HUES, Style, hue_row};
+use npr_style::line_color::HUES;
+use npr_stylesheet::{Style, hue_row};
 
 const EYE: [f32; 3] = [3.0, 2.5, 6.0];
 

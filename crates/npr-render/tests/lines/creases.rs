@@ -9,7 +9,7 @@ use npr_render::{
     StageOptions,
 };
 use npr_scene::{Mesh, Node, Part, Scene};
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 /// A pillar of eight sides that a file shades as round: smooth around, broken at its rims.
 fn pillar(has_normals: bool) -> Scene {

@@ -9,7 +9,7 @@ use npr_render::{
     PaintedLines,
 };
 use npr_scene::{Image, Material, Mesh, Node, Part, Scene, TextureTransform, TextureUse, Wrap};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_vector::stroke::{Stroke, StrokePoint};
 
 fn model_of(scene: &Scene, painted: bool) -> LineModel {

@@ -4,7 +4,7 @@ use crate::scenes::{SIZE, add, camera_at, drawing_from, even_style, model_of, sc
 use npr_mesh::testing::{cube, icosphere, mapped, mirrored, plane};
 use npr_render::{Drawing, Kind, KindSet, LineModel, LineModelOptions, LineOptions, Model};
 use npr_scene::{AlphaMode, Scene};
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 const EYE: [f32; 3] = [3.0, 2.5, 6.0];
 

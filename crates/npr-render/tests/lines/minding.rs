@@ -9,8 +9,8 @@ use npr_render::{
     StageOptions,
 };
 use npr_scene::Scene;
-use npr_style::Style;
 use npr_style::backdrop::{Rule, contrast};
+use npr_stylesheet::Style;
 use proptest::prelude::*;
 
 const EYE: [f32; 3] = [0.0, 0.0, 5.0];

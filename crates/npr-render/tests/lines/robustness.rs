@@ -5,7 +5,7 @@ use npr_core::camera::{Camera, Projection};
 use npr_mesh::testing::{cube, icosphere, mapped, random_soup, torus};
 use npr_render::{Drawing, LineMethod, LineModel, LineModelOptions, LineOptions, RenderError};
 use npr_scene::Scene;
-use npr_style::Style;
+use npr_stylesheet::Style;
 use proptest::prelude::*;
 
 /// Asserts what every drawing promises.

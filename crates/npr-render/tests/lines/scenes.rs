@@ -3,7 +3,7 @@
 use npr_core::camera::{Camera, Projection};
 use npr_render::{Drawing, LineModel, LineModelOptions, LineOptions};
 use npr_scene::{Material, Mesh, Node, Part, Scene};
-use npr_style::Style;
+use npr_stylesheet::Style;
 
 /// Size of all drawings here.
 pub const SIZE: [u32; 2] = [320, 200];

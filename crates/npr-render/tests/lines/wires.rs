@@ -8,7 +8,7 @@ use npr_render::{
 };
 use npr_scene::testing::lines_glb;
 use npr_scene::{Limits, MemoryResources, Scene, load_bytes};
-use npr_style::Style;
+use npr_stylesheet::Style;
 use npr_vector::stroke::Stroke;
 
 const EYE: [f32; 3] = [0.4, 1.0, 6.0];

@@ -193,16 +193,6 @@ fn threads_do_not_matter_and_seeds_do() {
     }
 }
 
-#[test]
-fn settings_read_and_refuse_like_the_rest_of_a_style() {
-    let hatch: Hatch = toml::from_str("pattern = \"stipple\"\nspacing = \"2mm\"").unwrap();
-    assert_eq!(hatch.pattern, Pattern::Stipple);
-    assert_eq!(hatch.length, Hatch::default().length);
-    assert!(toml::from_str::<Hatch>("patern = \"dots\"").is_err());
-    let text = toml::to_string(&Hatch::default()).unwrap();
-    assert_eq!(toml::from_str::<Hatch>(&text).unwrap(), Hatch::default());
-}
-
 fn any_hatch() -> impl Strategy<Value = Hatch> {
     let number = prop_oneof![
         8 => -1.0f32..2.0,

@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use npr_style::ramp::ramp_light;
-use npr_style::{Style, levels, presets};
+use npr_stylesheet::{Style, levels, presets};
 use std::hint::black_box;
 
 fn shade_pixels(c: &mut Criterion) {

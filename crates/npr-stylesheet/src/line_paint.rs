@@ -1,4 +1,4 @@
-//! Where the colour of lines comes from, as styles say it; [`crate::line_color`] does the arithmetic.
+//! Where the colour of lines comes from, as styles say it; [`npr_style::line_color`] does the arithmetic.
 
 use color::{AlphaColor, HueDirection, Oklab, Srgb};
 use npr_core::color::{pack_rgba8, srgb_from_linear};
@@ -6,15 +6,14 @@ use npr_core::geometry::Part;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use npr_style::line_color::HUES;
+
 use crate::error::StyleError;
 use crate::{Color, LineMethod, Style};
 
 mod rule;
 
 pub use rule::{RuleLineDepth, RuleLineLight, RulePaint};
-
-/// Colours of a row, from its begin to its end.
-pub const HUES: usize = 256;
 
 /// Most stops of a row.
 pub const HUE_STOPS_MAX: usize = 16;

@@ -3,11 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::LAYERS_MAX;
-use crate::hatch::Hatch;
+use crate::Hatch;
 use crate::ink::{Ink, Mapping, Tone};
-use crate::ramp::Level;
 use crate::{Color, Length, StyleError};
+use npr_style::ramp::Level;
+use npr_style::smoke::LAYERS_MAX;
 
 /// What stands for a puff of smoke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

@@ -2,8 +2,9 @@
 
 use std::cell::Cell;
 
-use npr_style::{
-    Background, Color, LineMethod, PARENTS_MAX, Style, StyleError, TEXT_BYTES_MAX, presets,
+use npr_stylesheet::{
+    Background, Color, Hatch, LineMethod, PARENTS_MAX, Pattern, Style, StyleError, TEXT_BYTES_MAX,
+    presets,
 };
 use proptest::prelude::*;
 
@@ -90,7 +91,7 @@ const WITH_ADVICE: [&str; 10] = [
 #[test]
 fn presets_of_ink_say_what_they_are_for_and_what_to_take_elsewhere() {
     for name in WITH_ADVICE {
-        let preset = npr_style::find_preset(name).expect("a preset");
+        let preset = npr_stylesheet::find_preset(name).expect("a preset");
         let opening: Vec<&str> = preset
             .text
             .lines()
@@ -110,7 +111,7 @@ fn presets_of_ink_say_what_they_are_for_and_what_to_take_elsewhere() {
         );
     }
     // Every situation that strokes, crossed strokes or ink are advised for is told apart.
-    let text = |name| npr_style::find_preset(name).expect("a preset").text;
+    let text = |name| npr_stylesheet::find_preset(name).expect("a preset").text;
     for (name, situation) in [
         ("ink", "metal"),
         ("comic-silver", "machines"),
@@ -376,13 +377,23 @@ fn the_schema_describes_every_key() {
             }
         }
     }
-    let schema = npr_style::schema();
+    let schema = npr_stylesheet::schema();
     let mut found = Vec::new();
     missing(schema, "", &mut found);
     for (name, node) in schema["$defs"].as_object().expect("definitions") {
         missing(node, name, &mut found);
     }
     assert!(found.is_empty(), "{found:?}");
+}
+
+#[test]
+fn hatches_read_and_refuse_like_the_rest_of_a_style() {
+    let hatch: Hatch = toml::from_str("pattern = \"stipple\"\nspacing = \"2mm\"").unwrap();
+    assert_eq!(hatch.pattern, Pattern::Stipple);
+    assert_eq!(hatch.length, Hatch::default().length);
+    assert!(toml::from_str::<Hatch>("patern = \"dots\"").is_err());
+    let text = toml::to_string(&Hatch::default()).unwrap();
+    assert_eq!(toml::from_str::<Hatch>(&text).unwrap(), Hatch::default());
 }
 
 fn toml_like() -> impl Strategy<Value = String> {

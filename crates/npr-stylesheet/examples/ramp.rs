@@ -1,7 +1,7 @@
 //! Draws the tone ramp of every preset in the terminal, dark side on the left.
 
 use npr_style::ramp::ramp_light;
-use npr_style::{Style, StyleError, levels, presets};
+use npr_stylesheet::{Style, StyleError, levels, presets};
 
 const COLUMNS: usize = 64;
 

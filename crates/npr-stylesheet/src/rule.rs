@@ -4,7 +4,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::beam::{Beam, RuleBeam};
-use crate::hatch::{Hatch, Pattern};
 use crate::highlight::{Back, Edge, Highlight, HighlightModel, Streak};
 use crate::ink::{Follow, Ink, Mapping, StrokeSpace, Tone};
 use crate::ramp::Stop;
@@ -12,6 +11,7 @@ use crate::{
     Color, Length, LineBackground, LineMethod, LinePaint, RuleBackground, RuleMotion, RulePaint,
     Style, glob, id_map,
 };
+use crate::{Hatch, Pattern};
 
 /// What a rule applies to: all patterns have to match.
 ///

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::Color;
-use crate::hatch::Hatch;
+use crate::Hatch;
 
 /// What the shade of a surface is drawn with [Suzuki 2004, figure 2.3].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

@@ -4,7 +4,7 @@ use super::case::{Case, LineFinder, LineForm};
 use crate::LineMethod::{
     Angle, Curves, Edges, Filter, FilterHull, Hull, Okuya, Potrace, Rim, Shape,
 };
-use crate::hatch::Pattern;
+use crate::Pattern;
 use crate::{
     BackgroundMethod, Edge, Follow, HighlightModel, LineSource, LineStart, Mapping, Measure,
     ShadeMode, SmokeLines, SmokeMethod, SmokeParticles, Tone, WidthSource,

@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::Color;
-use crate::ramp::{Level, Stop};
+use crate::ramp::Stop;
+use npr_style::ramp::Level;
 
 /// Where the colour of a surface comes from and whether light changes it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -73,7 +74,7 @@ impl Default for Shade {
     }
 }
 
-/// The stops ready for [`ramp_light`](crate::ramp::ramp_light).
+/// The stops ready for [`ramp_light`](npr_style::ramp::ramp_light).
 pub fn levels(stops: &[Stop]) -> Vec<Level> {
     stops.iter().map(Stop::level).collect()
 }

@@ -1,10 +1,15 @@
 //! What colours lines have, by the definition.
 
-use super::*;
-use crate::{HueStop, LinePaint, Style, hue_row};
+use npr_core::color::{linear_rgba, srgb_from_linear, unpack_rgba8};
+use npr_core::geometry::{NONE, Part};
 use npr_core::math;
 use npr_core::surface::unit_or_z;
 use npr_core::texture::{TextureStore, Wrap};
+use npr_core::window::View;
+use npr_style::gloss::back_light;
+use npr_style::lighting::Lights;
+use npr_style::line_color::{HUES, LineScene};
+use npr_stylesheet::{HueStop, LinePaint, Style, hue_row};
 use proptest::prelude::*;
 
 fn view() -> View {
@@ -18,12 +23,15 @@ fn view() -> View {
 
 /// A part of a model of radius 1 in a paint, with its rows.
 fn painted(text: &str) -> (Part, TextureStore) {
-    let style = Style::from_toml(&format!("line.paint = {text}"), &|_| Err(String::new())).unwrap();
+    let style = Style::from_toml(&format!("line.paint = {text}"), &|_| Err(String::new()))
+        .expect("a paint");
     let paint: &LinePaint = &style.line.paint;
     let mut store = TextureStore::new();
     let mut row = |stops: &[HueStop]| {
         let size = [HUES as u32, 1];
-        store.add(size, &hue_row(stops), [Wrap::Clamp; 2]).unwrap()
+        store
+            .add(size, &hue_row(stops), [Wrap::Clamp; 2])
+            .expect("room")
     };
     let mut part = Part {
         base_color: [0.8, 0.4, 0.2, 1.0],

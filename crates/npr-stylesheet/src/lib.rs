@@ -1,0 +1,109 @@
+//! What a picture should look like, as data.
+//!
+//! [`Style`] is the only description of a look: a tree of plain structs that style files, overrides,
+//! presets and the JSON Schema ([`schema()`]) all come from. What is drawn by it is the arithmetic of `npr-style`.
+//!
+//! ```
+//! use npr_stylesheet::{Length, Style, Unit};
+//!
+//! let file = r##"
+//!     extends = "ink"
+//!     line.color = "#402010"
+//!
+//!     [[rule]]
+//!     match.material = "Glass*"
+//!     line.on = false
+//! "##;
+//! let no_files = |parent: &str| Err(format!("there is no '{parent}' here"));
+//! let mut style = Style::from_toml(file, &no_files)?;
+//! style.set("line.width.base=2px")?;
+//!
+//! assert_eq!(style.line.width.base, Length { value: 2.0, unit: Unit::Px });
+//! assert!(!style.resolve_for("Glass_front", "Lamp").line_on);
+//!
+//! let slip = Style::from_toml("line.widht.gain = 2", &no_files);
+//! assert_eq!(
+//!     slip.unwrap_err().to_string(),
+//!     "unknown key 'line.widht' at line 1, column 6; did you mean 'line.width'?"
+//! );
+//! # Ok::<(), npr_stylesheet::StyleError>(())
+//! ```
+
+mod antialias;
+mod background;
+mod beam;
+pub mod blend;
+mod check;
+mod color;
+mod detect;
+mod error;
+mod glob;
+mod highlight;
+mod id_map;
+mod idle;
+mod ink;
+mod layers;
+mod lettering;
+mod light;
+mod line;
+mod line_background;
+mod line_paint;
+pub mod motion;
+mod named_picture;
+mod nearest;
+mod place;
+mod potrace;
+mod preset;
+mod ramp;
+mod rule;
+mod schema;
+mod set;
+mod shade;
+mod smoke;
+mod stated;
+mod style;
+mod width;
+
+pub use antialias::Antialias;
+pub use background::{Background, BackgroundError};
+pub use beam::{Beam, BeamOverlap, BeamStop, RuleBeam};
+pub use blend::Blend;
+pub use color::{Color, ColorError};
+pub use detect::{DepthTest, Detect, IdTest, MASK_LINE_PX, NormalTest, WidthWarning, width_rule};
+pub use error::{Place, Problem, StyleError};
+pub use highlight::{Back, Edge, Highlight, HighlightModel, Streak};
+pub use id_map::{ID_MAPS_MAX, IDS_MAX, IdMap, IdRegion, NamedId};
+pub use idle::{Facts, LineFinder, LineForm, LineOutput, Occasion, Output};
+pub use ink::{Follow, Ink, Mapping, StrokeSpace, Tone};
+pub use layers::{PARENTS_MAX, Parents, TEXT_BYTES_MAX};
+pub use lettering::{LETTERING_MAX, Lettering, LetteringOutline};
+pub use light::{ExtraLight, Light, LightShape, LightSpace};
+pub use line::{CREASE_ANGLE_DEG, CreaseFrom, Kinds, Line, LineMethod};
+pub use line_background::{
+    BackgroundMethod, Direction, Likeness, LineBackground, LineScope, LineStart, Measure,
+    RuleBackground, Subjects,
+};
+pub use line_paint::{
+    DepthSpace, HUE_STOPS_MAX, HueStop, KindColors, LineDepth, LineLight, LinePaint, LineSource,
+    RuleLineDepth, RuleLineLight, RulePaint, hue_row,
+};
+pub use motion::{Motion, RuleMotion};
+pub use potrace::Potrace;
+pub use preset::{DEFAULT_PRESET, Preset, find as find_preset, presets};
+pub use ramp::Stop;
+pub use rule::{
+    Look, Match, PartNames, Rule, RuleBack, RuleHatch, RuleHighlight, RuleInk, RuleLine, RuleShade,
+    RuleStreak,
+};
+pub use schema::schema;
+pub use shade::{Shade, ShadeMode, levels};
+pub use smoke::{
+    SmokeInk, SmokeLine, SmokeLines, SmokeMethod, SmokeParticles, SmokePlacement, SmokePuffs,
+    SmokeStop, SmokeStyle,
+};
+pub use stated::Stated;
+pub use style::Style;
+pub use width::{Channel, ControlPoint, Width, WidthSource};
+
+pub use npr_style::hatch::{Hatch, Pattern};
+pub use npr_style::{LONGEST, Length, LengthError, REFERENCE_HEIGHT_PX, Unit};
