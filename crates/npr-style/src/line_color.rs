@@ -4,7 +4,7 @@
 //! the *glaze*, what lies over that: light, the light behind, depth, tint, in this order. Own colours hang on the
 //! kind, glazes on the place alone, so both are decided once at a place and put together by whoever draws there
 //! ([`npr_core::line_color::line_color`]). Colours mix in linear light; rows of stops were mixed in OKLab before
-//! ([`crate::hue_row`]).
+//! (`npr_stylesheet::hue_row`).
 //!
 //! Frames decide at the pixels of the mask that lines run through; hulls and grazing surfaces at their own pixel;
 //! drawings as curves at every point of a stroke. All of them ask [`LineScene`].
