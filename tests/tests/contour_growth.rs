@@ -5,8 +5,8 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use npr_core::math::{log2, powf};
-use npr_core::shape::Shape;
 use npr_mesh::Mesh;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{icosphere, mapped, shape_of, torus};
 use npr_render::{LineModel, LineModelOptions};
 use npr_scene::{LoadOptions, load};
@@ -26,7 +26,7 @@ const DIRECTIONS: [[f64; 3]; 8] = [
 ];
 
 /// Nodes of a shape's contours in every view.
-fn counts(shape: &Shape) -> Vec<usize> {
+fn counts(shape: &HalfEdgeMesh) -> Vec<usize> {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for position in &shape.positions {
         for axis in 0..3 {

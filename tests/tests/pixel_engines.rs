@@ -3,10 +3,10 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use npr_core::camera::{Camera, Projection};
-use npr_core::shape::Shape;
 use npr_core::window::View;
 use npr_gpu::curves::{Hiders, ResidentPixels};
 use npr_gpu::engine::Engine;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_render::{
     LineMethod, LineModel, LineModelOptions, LineOptions, LineStage, Model, Stage, StageOptions,
 };
@@ -58,7 +58,7 @@ fn cameras(model: &LineModel) -> [Camera; 2] {
 
 /// A view of a model.
 struct Seen<'a> {
-    shape: &'a Shape,
+    shape: &'a HalfEdgeMesh,
     view: View,
     eye: Eye,
 }

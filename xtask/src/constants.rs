@@ -49,7 +49,7 @@ const TWINS: &[Twins] = &[
     twins("lib/backdrop.wgsl", "BORDER_", "npr-style/src/backdrop/rims.rs", ""),
     twins("lib/color.wgsl", "", "npr-style/src/compose.rs", ""),
     twins("lib/compose.wgsl", "COMPOSE_", "npr-style/src/compose.rs", "Compose::"),
-    twins("lib/curve.wgsl", "EDGE_IS_", "npr-core/src/shape.rs", "Shape::"),
+    twins("lib/curve.wgsl", "EDGE_IS_", "npr-mesh/src/half_edge.rs", "HalfEdgeMesh::"),
     twins("lib/curve.wgsl", "NODE_", "npr-vector/src/graph.rs", "CurveNode::"),
     twins("lib/geometry.wgsl", "", "npr-core/src/geometry.rs", ""),
     twins("lib/geometry.wgsl", "EDGE_", "npr-core/src/geometry.rs", "Edge::"),

@@ -46,7 +46,7 @@ const MEMBERS: [Member; 17] = [
     Member::light("npr-mesh", &["npr-core"]),
     Member::light("npr-trace", &["npr-core"]),
     // Lines painted in textures are followed along their middle.
-    Member::light("npr-vector", &["npr-core", "npr-trace"]),
+    Member::light("npr-vector", &["npr-core", "npr-mesh", "npr-trace"]),
     // Draws strokes of the one and tracings of the other.
     Member::light("npr-drawing", &["npr-core", "npr-trace", "npr-vector"]),
     Member::light("npr-scene", &["npr-core"]),

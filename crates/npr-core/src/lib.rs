@@ -29,7 +29,6 @@ pub mod outline;
 pub mod published_path;
 pub mod random;
 pub mod raster;
-pub mod shape;
 pub mod smoke;
 pub mod surface;
 pub mod texture;

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use npr_core::shape::{Shape, Surface};
+use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::shape::{PlacedMesh, add_mesh};
 use npr_mesh::testing::{shuffled_vertices, torus, unindexed};
 use npr_mesh::{Mesh, curvature, smooth_normals, unique_edges, weld};
@@ -87,10 +87,10 @@ fn shapes(criterion: &mut Criterion) {
     }
 }
 
-fn shape(mesh: &Mesh, surfaces: &[u32], weld_tolerance: f32) -> Shape {
-    let mut shape = Shape {
+fn shape(mesh: &Mesh, surfaces: &[u32], weld_tolerance: f32) -> HalfEdgeMesh {
+    let mut shape = HalfEdgeMesh {
         surfaces: vec![Surface::default()],
-        ..Shape::default()
+        ..HalfEdgeMesh::default()
     };
     add_mesh(&mut shape, &placed(mesh, surfaces), weld_tolerance);
     shape

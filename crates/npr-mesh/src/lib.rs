@@ -43,6 +43,7 @@ pub mod direction_field;
 pub mod edge_flags;
 pub mod edges;
 pub mod fans;
+pub mod half_edge;
 pub mod hull;
 mod lonely;
 pub mod mesh;

@@ -1,7 +1,7 @@
 //! Which of many faces around one edge belong together.
 
+use crate::half_edge::HalfEdgeMesh;
 use glam::DVec3;
-use npr_core::shape::Shape;
 
 use crate::triangle::point;
 
@@ -16,7 +16,7 @@ const STEPS: f64 = (1 << 20) as f64;
 /// from the edge's head, show each other their backs: they bound one wedge of solid matter. Those are
 /// paired like brackets, so two boxes that touch along an edge stay two boxes. Of faces in one direction a
 /// closing bracket comes first, then the lower number. O(k log k).
-pub(crate) fn pair(shape: &Shape, edge: u32) -> Vec<[u32; 2]> {
+pub(crate) fn pair(shape: &HalfEdgeMesh, edge: u32) -> Vec<[u32; 2]> {
     let around = Frame::new(shape, edge);
     let mut ring: Vec<(i64, bool, u32)> = shape
         .sides(edge)
@@ -57,7 +57,7 @@ struct Frame {
 }
 
 impl Frame {
-    fn new(shape: &Shape, edge: u32) -> Self {
+    fn new(shape: &HalfEdgeMesh, edge: u32) -> Self {
         let [origin, head] = shape.ends(edge).map(|v| point(&shape.positions, v));
         let along = (head - origin).normalize_or_zero();
         let steepest = along.abs().min_position();

@@ -1,12 +1,12 @@
-//! From triangles as stored to a [`Shape`]: welded, with half-edges, unique edges and their traits.
+//! From triangles as stored to a [`HalfEdgeMesh`]: welded, with half-edges, unique edges and their traits.
 
 use std::collections::HashSet;
 use std::ops::AddAssign;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use crate::half_edge::{HalfEdgeMesh, Surface};
 use glam::DVec3;
 use npr_core::geometry::NONE;
-use npr_core::shape::{Shape, Surface};
 use rayon::prelude::*;
 
 use crate::crease::{SideNormals, cos_between};
@@ -23,17 +23,17 @@ pub struct PlacedMesh<'a> {
     /// The same vertices posed, in the world. The first vertex of a welded group stands for all.
     pub world: &'a [[f32; 3]],
     /// The file's normals at the same vertices, zero where it has none; empty where it has none at all. They say where
-    /// faces run on smoothly ([`Shape::normals_cos`]).
+    /// faces run on smoothly ([`HalfEdgeMesh::normals_cos`]).
     pub normals: &'a [[f32; 3]],
     /// Three vertices per face, counter-clockwise seen from outside before placing.
     pub triangles: &'a [[u32; 3]],
-    /// Index into [`Shape::surfaces`] for every triangle.
+    /// Index into [`HalfEdgeMesh::surfaces`] for every triangle.
     pub surfaces: &'a [u32],
     /// Ends of edges that the user wants drawn, as stored vertices.
     pub marks: &'a [[u32; 2]],
     /// Lines that are geometry themselves: the two stored vertices of every segment.
     pub wires: &'a [[u32; 2]],
-    /// Index into [`Shape::surfaces`] for every segment.
+    /// Index into [`HalfEdgeMesh::surfaces`] for every segment.
     pub wire_surfaces: &'a [u32],
     /// Placing turned the mesh inside out; two corners of every face are swapped to undo that.
     pub mirrored: bool,
@@ -77,7 +77,7 @@ pub struct Preparation {
 
 impl Preparation {
     /// Counts what a shape holds; it does not remember what was removed.
-    pub fn of(shape: &Shape) -> Self {
+    pub fn of(shape: &HalfEdgeMesh) -> Self {
         let with = |bit: u32| {
             shape
                 .edge_traits
@@ -89,10 +89,10 @@ impl Preparation {
             vertex_count: shape.positions.len(),
             face_count: shape.faces.len(),
             edge_count: shape.edge_count(),
-            border_count: with(Shape::BORDER),
-            non_manifold_count: with(Shape::NON_MANIFOLD),
-            flipped_count: with(Shape::FLIPPED),
-            marked_count: with(Shape::MARKED),
+            border_count: with(HalfEdgeMesh::BORDER),
+            non_manifold_count: with(HalfEdgeMesh::NON_MANIFOLD),
+            flipped_count: with(HalfEdgeMesh::FLIPPED),
+            marked_count: with(HalfEdgeMesh::MARKED),
             wire_count: shape.wires.len(),
             sliver_count: shape.slivers.len(),
             lost_sliver_count: shape.slivers.iter().filter(|s| s[1] == NONE).count(),
@@ -142,7 +142,7 @@ impl AddAssign for Preparation {
 /// # Panics
 ///
 /// If the mesh has 2^31 half-edges or more, or the shape would have 2^32.
-pub fn add_mesh(shape: &mut Shape, mesh: &PlacedMesh, weld_tolerance: f32) -> Preparation {
+pub fn add_mesh(shape: &mut HalfEdgeMesh, mesh: &PlacedMesh, weld_tolerance: f32) -> Preparation {
     let vertex_count = mesh.rest.len().min(mesh.world.len());
     let weld = weld(&mesh.rest[..vertex_count], weld_tolerance);
     let (mut part, mut stored, mut removed) = weld_faces(mesh, &weld, &shape.surfaces);
@@ -226,7 +226,7 @@ fn weld_faces(
     mesh: &PlacedMesh,
     weld: &Weld,
     surfaces: &[Surface],
-) -> (Shape, Vec<[u32; 3]>, Preparation) {
+) -> (HalfEdgeMesh, Vec<[u32; 3]>, Preparation) {
     let welding = Welding {
         mesh,
         weld,
@@ -240,7 +240,7 @@ fn weld_faces(
         .collect();
 
     let position = |&vertex: &u32| Some(mesh.world[vertex as usize]).filter(is_finite);
-    let mut part = Shape {
+    let mut part = HalfEdgeMesh {
         positions: weld
             .first
             .par_iter()
@@ -248,7 +248,7 @@ fn weld_faces(
             .collect(),
         faces: Vec::with_capacity(fates.len()),
         face_surfaces: Vec::with_capacity(fates.len()),
-        ..Shape::default()
+        ..HalfEdgeMesh::default()
     };
     let mut removed = Preparation::default();
     let mut stored_corners = Vec::with_capacity(part.faces.capacity());
@@ -271,7 +271,7 @@ fn weld_faces(
 }
 
 /// Finds edges and twins, after removing faces stored twice, also from their stored corners; gives the number of those.
-fn connect(part: &mut Shape, stored: &mut Vec<[u32; 3]>) -> usize {
+fn connect(part: &mut HalfEdgeMesh, stored: &mut Vec<[u32; 3]>) -> usize {
     list_edges(part);
     let doubles = doubles(part);
     if !doubles.is_empty() {
@@ -288,7 +288,7 @@ fn connect(part: &mut Shape, stored: &mut Vec<[u32; 3]>) -> usize {
     doubles.len()
 }
 
-fn list_edges(part: &mut Shape) {
+fn list_edges(part: &mut HalfEdgeMesh) {
     let sides = Sides::of_faces(&part.faces, part.positions.len());
     part.edge_traits = sides.traits;
     part.edge_starts = sides.starts;
@@ -296,7 +296,7 @@ fn list_edges(part: &mut Shape) {
 }
 
 /// Faces with the corners of an earlier one, ascending: they share an edge and the corner opposite it.
-fn doubles(part: &Shape) -> Vec<u32> {
+fn doubles(part: &HalfEdgeMesh) -> Vec<u32> {
     let mut doubles: Vec<u32> = (0..part.edge_count() as u32)
         .into_par_iter()
         .with_min_len(4096)
@@ -307,7 +307,7 @@ fn doubles(part: &Shape) -> Vec<u32> {
     doubles
 }
 
-fn doubles_beside(part: &Shape, sides: &[u32]) -> Vec<u32> {
+fn doubles_beside(part: &HalfEdgeMesh, sides: &[u32]) -> Vec<u32> {
     if let [a, b] = *sides
         && part.opposite(a) != part.opposite(b)
     {
@@ -325,7 +325,7 @@ fn doubles_beside(part: &Shape, sides: &[u32]) -> Vec<u32> {
 /// Fills `twins` and `edge_of`.
 ///
 /// Threads write where half-edges point to; every entry has one writer, so order does not matter.
-fn pair_half_edges(part: &mut Shape) {
+fn pair_half_edges(part: &mut HalfEdgeMesh) {
     let unset = || -> Vec<AtomicU32> {
         let count = part.edge_sides.len();
         (0..count).map(|_| AtomicU32::new(NONE)).collect()
@@ -342,7 +342,7 @@ fn pair_half_edges(part: &mut Shape) {
         let sides = part.sides(edge);
         sides.iter().for_each(|&side| set(&edge_of, side, edge));
         match *sides {
-            [a, b] if part.edge_traits[edge as usize] & Shape::FLIPPED == 0 => pair([a, b]),
+            [a, b] if part.edge_traits[edge as usize] & HalfEdgeMesh::FLIPPED == 0 => pair([a, b]),
             [_] | [_, _] => {}
             _ => sectors::pair(part, edge).into_iter().for_each(pair),
         }
@@ -356,7 +356,7 @@ fn pair_half_edges(part: &mut Shape) {
 }
 
 /// Finds slivers, angles and changes of material.
-fn measure(part: &mut Shape, surfaces: &[Surface]) {
+fn measure(part: &mut HalfEdgeMesh, surfaces: &[Surface]) {
     let mut normals = slivers::normals(part);
     part.slivers = slivers::find(part, &normals);
     for &[sliver, stand_in] in part.slivers.iter().filter(|s| s[1] != NONE) {
@@ -365,7 +365,7 @@ fn measure(part: &mut Shape, surfaces: &[Surface]) {
     let measured = (0..part.edge_count() as u32).into_par_iter().map(|edge| {
         let sides = part.sides(edge);
         let material = if differ_in_material(part, sides, surfaces) {
-            Shape::MATERIAL
+            HalfEdgeMesh::MATERIAL
         } else {
             0
         };
@@ -376,7 +376,7 @@ fn measure(part: &mut Shape, surfaces: &[Surface]) {
 }
 
 /// Finds the angles between the file's normals, where it has any.
-fn measure_normals(part: &mut Shape, stored: &[[u32; 3]], normals: &[[f32; 3]]) {
+fn measure_normals(part: &mut HalfEdgeMesh, stored: &[[u32; 3]], normals: &[[f32; 3]]) {
     if normals.is_empty() {
         return;
     }
@@ -385,7 +385,8 @@ fn measure_normals(part: &mut Shape, stored: &[[u32; 3]], normals: &[[f32; 3]]) 
         normals.get(vertex as usize).copied().unwrap_or_default()
     };
     let beside = |side: u32| -> SideNormals {
-        let [tail, head] = [side, Shape::following(side)].map(|corner| normal(corner as usize));
+        let [tail, head] =
+            [side, HalfEdgeMesh::following(side)].map(|corner| normal(corner as usize));
         if part.runs_up(side) {
             [tail, head]
         } else {
@@ -397,7 +398,7 @@ fn measure_normals(part: &mut Shape, stored: &[[u32; 3]], normals: &[[f32; 3]]) 
         let [a, b] = *part.sides(edge) else {
             return faces;
         };
-        let is_flipped = part.edge_traits[edge as usize] & Shape::FLIPPED != 0;
+        let is_flipped = part.edge_traits[edge as usize] & HalfEdgeMesh::FLIPPED != 0;
         cos_between([beside(a), beside(b)], is_flipped).unwrap_or(faces)
     };
     part.normals_cos = (0..part.edge_count() as u32)
@@ -407,7 +408,7 @@ fn measure_normals(part: &mut Shape, stored: &[[u32; 3]], normals: &[[f32; 3]]) 
         .collect();
 }
 
-fn differ_in_material(part: &Shape, sides: &[u32], surfaces: &[Surface]) -> bool {
+fn differ_in_material(part: &HalfEdgeMesh, sides: &[u32], surfaces: &[Surface]) -> bool {
     let surface = |side: u32| part.face_surfaces[side as usize / 3];
     let first = surface(sides[0]);
     let differs = |&side: &u32| {
@@ -427,21 +428,21 @@ fn dihedral_cos(normals: &[DVec3], sides: &[u32], traits: u32) -> f32 {
         return 1.0;
     }
     let cos = a.dot(b).clamp(-1.0, 1.0) as f32;
-    if traits & Shape::FLIPPED != 0 {
+    if traits & HalfEdgeMesh::FLIPPED != 0 {
         -cos
     } else {
         cos
     }
 }
 
-/// Sets [`Shape::MARKED`]; gives the number of marks that lie on no edge.
-fn mark(part: &mut Shape, marks: &[[u32; 2]], weld: &Weld) -> usize {
+/// Sets [`HalfEdgeMesh::MARKED`]; gives the number of marks that lie on no edge.
+fn mark(part: &mut HalfEdgeMesh, marks: &[[u32; 2]], weld: &Weld) -> usize {
     let mut lost = 0;
     for &[a, b] in marks {
         let ends = [a, b].map(|v| weld.of_vertex.get(v as usize));
         match ends {
             [Some(&a), Some(&b)] => match find_edge(part, [a.min(b), a.max(b)]) {
-                Some(edge) => part.edge_traits[edge] |= Shape::MARKED,
+                Some(edge) => part.edge_traits[edge] |= HalfEdgeMesh::MARKED,
                 None => lost += 1,
             },
             _ => lost += 1,
@@ -451,7 +452,12 @@ fn mark(part: &mut Shape, marks: &[[u32; 2]], weld: &Weld) -> usize {
 }
 
 /// Takes over the wires of a mesh, each pair of vertices once; gives the number of those that are left out.
-fn add_wires(part: &mut Shape, mesh: &PlacedMesh<'_>, weld: &Weld, surface_count: usize) -> usize {
+fn add_wires(
+    part: &mut HalfEdgeMesh,
+    mesh: &PlacedMesh<'_>,
+    weld: &Weld,
+    surface_count: usize,
+) -> usize {
     let mut known = HashSet::with_capacity(mesh.wires.len());
     for (index, ends) in mesh.wires.iter().enumerate() {
         let surface = mesh.wire_surfaces.get(index).copied().unwrap_or(NONE);
@@ -469,7 +475,7 @@ fn add_wires(part: &mut Shape, mesh: &PlacedMesh<'_>, weld: &Weld, surface_count
 }
 
 /// The edge between two vertices, by bisection.
-fn find_edge(part: &Shape, ends: [u32; 2]) -> Option<usize> {
+fn find_edge(part: &HalfEdgeMesh, ends: [u32; 2]) -> Option<usize> {
     let (mut from, mut to) = (0, part.edge_count());
     while from < to {
         let middle = from + (to - from) / 2;
@@ -487,7 +493,7 @@ fn find_edge(part: &Shape, ends: [u32; 2]) -> Option<usize> {
 }
 
 /// Moves a part behind what the shape holds.
-fn append(shape: &mut Shape, part: Shape) {
+fn append(shape: &mut HalfEdgeMesh, part: HalfEdgeMesh) {
     let surfaces = std::mem::take(&mut shape.surfaces);
     if shape.positions.is_empty() && shape.faces.is_empty() {
         *shape = part;
@@ -498,7 +504,7 @@ fn append(shape: &mut Shape, part: Shape) {
 }
 
 /// Appends angles of normals; where one of both has none, those of its faces stand for them.
-fn extend_normals_cos(shape: &mut Shape, part: &Shape) {
+fn extend_normals_cos(shape: &mut HalfEdgeMesh, part: &HalfEdgeMesh) {
     if shape.normals_cos.is_empty() && part.normals_cos.is_empty() {
         return;
     }
@@ -513,7 +519,7 @@ fn extend_normals_cos(shape: &mut Shape, part: &Shape) {
     shape.normals_cos.extend(added);
 }
 
-fn extend(shape: &mut Shape, part: Shape) {
+fn extend(shape: &mut HalfEdgeMesh, part: HalfEdgeMesh) {
     let total = 3 * (shape.faces.len() + part.faces.len());
     assert!(
         total < NONE as usize,

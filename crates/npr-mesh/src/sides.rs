@@ -1,6 +1,6 @@
 //! Half-edges gathered by the unique edge that they run along.
 
-use npr_core::shape::Shape;
+use crate::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
 use crate::buckets::Buckets;
@@ -12,7 +12,8 @@ pub(crate) struct Sides {
     /// Where the half-edges of each edge start; one more than there are edges.
     pub(crate) starts: Vec<u32>,
     pub(crate) half_edges: Vec<u32>,
-    /// [`Shape::BORDER`], [`Shape::NON_MANIFOLD`], [`Shape::FLIPPED`] or none of them for every edge.
+    /// [`HalfEdgeMesh::BORDER`], [`HalfEdgeMesh::NON_MANIFOLD`], [`HalfEdgeMesh::FLIPPED`] or none of them for every
+    /// edge.
     pub(crate) traits: Vec<u32>,
 }
 
@@ -94,9 +95,9 @@ impl SortedRun {
 /// How the faces of an edge meet, told from its keys.
 fn meeting(keys: &[u64]) -> u32 {
     match keys {
-        [_] => Shape::BORDER,
-        [a, b] if (a ^ b) & DOWN == 0 => Shape::FLIPPED,
+        [_] => HalfEdgeMesh::BORDER,
+        [a, b] if (a ^ b) & DOWN == 0 => HalfEdgeMesh::FLIPPED,
         [_, _] => 0,
-        _ => Shape::NON_MANIFOLD,
+        _ => HalfEdgeMesh::NON_MANIFOLD,
     }
 }

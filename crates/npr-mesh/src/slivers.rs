@@ -1,8 +1,8 @@
 //! Faces without area, and the faces that lend them an orientation.
 
+use crate::half_edge::HalfEdgeMesh;
 use glam::DVec3;
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
 use rayon::prelude::*;
 
 use crate::triangle::{Triangle, point};
@@ -14,7 +14,7 @@ use crate::triangle::{Triangle, point};
 const MAX_HOPS: usize = 8;
 
 /// Unit normals of all faces; zero for those without area.
-pub(crate) fn normals(shape: &Shape) -> Vec<DVec3> {
+pub(crate) fn normals(shape: &HalfEdgeMesh) -> Vec<DVec3> {
     shape
         .faces
         .par_iter()
@@ -27,7 +27,7 @@ pub(crate) fn normals(shape: &Shape) -> Vec<DVec3> {
 }
 
 /// Faces without area, each with its stand-in or [`NONE`].
-pub(crate) fn find(shape: &Shape, normals: &[DVec3]) -> Vec<[u32; 2]> {
+pub(crate) fn find(shape: &HalfEdgeMesh, normals: &[DVec3]) -> Vec<[u32; 2]> {
     let has_area = |face: u32| normals[face as usize] != DVec3::ZERO;
     (0..shape.faces.len() as u32)
         .into_par_iter()
@@ -37,7 +37,7 @@ pub(crate) fn find(shape: &Shape, normals: &[DVec3]) -> Vec<[u32; 2]> {
 }
 
 /// The nearest face with area across longest edges.
-fn stand_in(shape: &Shape, sliver: u32, has_area: impl Fn(u32) -> bool) -> u32 {
+fn stand_in(shape: &HalfEdgeMesh, sliver: u32, has_area: impl Fn(u32) -> bool) -> u32 {
     let (mut here, mut entered) = (sliver, NONE);
     for _ in 0..MAX_HOPS {
         let Some(exit) = longest(shape, here, entered) else {
@@ -53,7 +53,7 @@ fn stand_in(shape: &Shape, sliver: u32, has_area: impl Fn(u32) -> bool) -> u32 {
 }
 
 /// The longest edge of a face that leads to another face, but not through `entered`; the first of equals.
-fn longest(shape: &Shape, face: u32, entered: u32) -> Option<u32> {
+fn longest(shape: &HalfEdgeMesh, face: u32, entered: u32) -> Option<u32> {
     let length = |half_edge: u32| {
         let [a, b] = shape
             .ends_of_half_edge(half_edge)

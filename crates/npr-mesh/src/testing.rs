@@ -5,8 +5,8 @@
 use std::collections::BTreeMap;
 use std::f32::consts::{PI, TAU};
 
+use crate::half_edge::{HalfEdgeMesh, Surface};
 use npr_core::math::{cos, sin};
-use npr_core::shape::{Shape, Surface};
 
 use crate::mesh::Mesh;
 use crate::shape::{PlacedMesh, add_mesh};
@@ -301,10 +301,10 @@ pub fn mapped(mesh: &Mesh, place: impl Fn([f32; 3]) -> [f32; 3]) -> Mesh {
 }
 
 /// The shape of a mesh alone, all of it on one surface.
-pub fn shape_of(mesh: &Mesh) -> Shape {
-    let mut shape = Shape {
+pub fn shape_of(mesh: &Mesh) -> HalfEdgeMesh {
+    let mut shape = HalfEdgeMesh {
         surfaces: vec![Surface::default()],
-        ..Shape::default()
+        ..HalfEdgeMesh::default()
     };
     add_to(&mut shape, mesh, |_| 0);
     shape
@@ -315,7 +315,7 @@ pub fn shape_of(mesh: &Mesh) -> Shape {
 /// # Panics
 ///
 /// If the shape breaks a promise then.
-pub fn add_to(shape: &mut Shape, mesh: &Mesh, surface_of: impl Fn(usize) -> u32) {
+pub fn add_to(shape: &mut HalfEdgeMesh, mesh: &Mesh, surface_of: impl Fn(usize) -> u32) {
     let surfaces: Vec<u32> = (0..mesh.triangles().len()).map(surface_of).collect();
     let placed = PlacedMesh {
         rest: mesh.positions(),

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 use npr_core::geometry::NONE;
-use npr_core::shape::{Shape, Surface};
+use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::shape::{PlacedMesh, Preparation, add_mesh};
 use npr_mesh::testing::{
     Random, cube, cylinder, fan, icosphere, moebius_strip, plane, random_soup, random_winding,
@@ -14,14 +14,14 @@ use npr_mesh::{Mesh, weld};
 use proptest::prelude::*;
 
 /// A shape without faces, with surfaces of materials `0..count`.
-fn surfaces(count: u32) -> Shape {
+fn surfaces(count: u32) -> HalfEdgeMesh {
     let surface = |material| Surface {
         material,
         ..Surface::default()
     };
-    Shape {
+    HalfEdgeMesh {
         surfaces: (0..count).map(surface).collect(),
-        ..Shape::default()
+        ..HalfEdgeMesh::default()
     }
 }
 
@@ -35,7 +35,7 @@ fn placed<'a>(mesh: &'a Mesh, surfaces: &'a [u32]) -> PlacedMesh<'a> {
     }
 }
 
-fn prepare(mesh: &Mesh) -> (Shape, Preparation) {
+fn prepare(mesh: &Mesh) -> (HalfEdgeMesh, Preparation) {
     let mut shape = surfaces(1);
     let of_face = vec![0; mesh.triangles().len()];
     let preparation = add_mesh(&mut shape, &placed(mesh, &of_face), 0.0);
@@ -43,7 +43,7 @@ fn prepare(mesh: &Mesh) -> (Shape, Preparation) {
     (shape, preparation)
 }
 
-fn count(shape: &Shape, bit: u32) -> usize {
+fn count(shape: &HalfEdgeMesh, bit: u32) -> usize {
     shape.edge_traits.iter().filter(|&t| t & bit != 0).count()
 }
 
@@ -53,7 +53,7 @@ fn euler_characteristic(mesh: &Mesh) -> i64 {
 }
 
 /// Sets of faces that hang together across twins.
-fn bodies(shape: &Shape) -> Vec<BTreeSet<u32>> {
+fn bodies(shape: &HalfEdgeMesh) -> Vec<BTreeSet<u32>> {
     let mut bodies = Vec::new();
     let mut seen = BTreeSet::new();
     for start in 0..shape.faces.len() as u32 {
@@ -93,7 +93,7 @@ fn with_cube(mesh: &Mesh, offset: [f32; 3]) -> Mesh {
     .expect("two sound meshes together are sound")
 }
 
-fn cross(shape: &Shape, face: usize) -> DVec3 {
+fn cross(shape: &HalfEdgeMesh, face: usize) -> DVec3 {
     let at = |v: u32| DVec3::from_array(shape.positions[v as usize].map(f64::from));
     let [a, b, c] = shape.faces[face].map(at);
     (b - a).cross(c - a)
@@ -102,7 +102,7 @@ fn cross(shape: &Shape, face: usize) -> DVec3 {
 #[test]
 fn nothing_gives_nothing() {
     assert_eq!(prepare(&Mesh::default()).1, Preparation::default());
-    Shape::default().sanity_check();
+    HalfEdgeMesh::default().sanity_check();
 }
 
 #[test]
@@ -159,7 +159,7 @@ fn sheets_stored_once_per_side_count_once() {
 fn the_blades_of_a_fan_meet_in_one_edge() {
     let (shape, preparation) = prepare(&fan(5));
     assert_eq!(preparation.non_manifold_count, 1);
-    assert_eq!(count(&shape, Shape::FLIPPED), 0);
+    assert_eq!(count(&shape, HalfEdgeMesh::FLIPPED), 0);
     assert!(
         shape.twins.iter().all(|&twin| twin == NONE),
         "all blades run up"
@@ -214,12 +214,12 @@ fn materials_mark_the_edges_between_them() {
     let sheet = plane(2, 1);
     let mut shape = surfaces(2);
     add_mesh(&mut shape, &placed(&sheet, &[0, 0, 1, 1]), 0.0);
-    assert_eq!(count(&shape, Shape::MATERIAL), 1);
+    assert_eq!(count(&shape, HalfEdgeMesh::MATERIAL), 1);
     let [a, b] = shape.sides(
         shape
             .edge_traits
             .iter()
-            .position(|t| t & Shape::MATERIAL != 0)
+            .position(|t| t & HalfEdgeMesh::MATERIAL != 0)
             .unwrap() as u32,
     ) else {
         panic!("two faces");
@@ -250,7 +250,7 @@ fn marks_find_their_edges_through_seams() {
     let edge = shape
         .edge_traits
         .iter()
-        .position(|t| t & Shape::MARKED != 0)
+        .position(|t| t & HalfEdgeMesh::MARKED != 0)
         .unwrap();
     let mut ends = shape.ends(edge as u32).map(|v| shape.positions[v as usize]);
     let mut expected = [a, b].map(|v| soup.positions()[v as usize]);
@@ -487,7 +487,7 @@ fn edges_by_comparison(faces: &[([u32; 3], usize)]) -> BTreeMap<[u32; 2], [Vec<u
     edges
 }
 
-fn prepare_jumble(mesh: &Mesh, materials: &[u32]) -> Shape {
+fn prepare_jumble(mesh: &Mesh, materials: &[u32]) -> HalfEdgeMesh {
     let mut shape = surfaces(3);
     add_mesh(&mut shape, &placed(mesh, materials), 0.0);
     shape.sanity_check();
@@ -498,7 +498,7 @@ fn prepare_jumble(mesh: &Mesh, materials: &[u32]) -> Shape {
 type EdgeStory = (BTreeSet<u32>, u32, i64, usize);
 
 fn stories(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     vertex: impl Fn(u32) -> u32,
     face: impl Fn(u32) -> u32,
 ) -> BTreeMap<BTreeSet<u32>, EdgeStory> {
@@ -539,10 +539,10 @@ proptest! {
             let paired = sides.iter().filter(|&&s| shape.twins[s as usize] != NONE).count();
             prop_assert_eq!(paired, 2 * up.len().min(down.len()), "as many twins as can be");
             let mixed = sides.iter().any(|s| of_face[*s as usize / 3] != of_face[sides[0] as usize / 3]);
-            prop_assert_eq!(traits & Shape::MATERIAL != 0, mixed);
-            prop_assert_eq!(traits & Shape::BORDER != 0, sides.len() == 1);
-            prop_assert_eq!(traits & Shape::NON_MANIFOLD != 0, sides.len() > 2);
-            prop_assert_eq!(traits & Shape::FLIPPED != 0, sides.len() == 2 && up.len() != 1);
+            prop_assert_eq!(traits & HalfEdgeMesh::MATERIAL != 0, mixed);
+            prop_assert_eq!(traits & HalfEdgeMesh::BORDER != 0, sides.len() == 1);
+            prop_assert_eq!(traits & HalfEdgeMesh::NON_MANIFOLD != 0, sides.len() > 2);
+            prop_assert_eq!(traits & HalfEdgeMesh::FLIPPED != 0, sides.len() == 2 && up.len() != 1);
         }
     }
 

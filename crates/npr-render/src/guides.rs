@@ -20,7 +20,7 @@ const STRAIGHT_ON: f32 = 1e-3;
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Source {
     /// Its own bends.
-    Shape { across: bool },
+    HalfEdgeMesh { across: bool },
     /// The style, in the world.
     World([f32; 3]),
     /// The style, in the space of the object.
@@ -55,13 +55,13 @@ impl StrokeGuide {
             (None, Follow::Light) => Source::Light,
             (None, Follow::Attribute) if has[0] => Source::Attribute,
             (None, Follow::VertexColor) if has[1] => Source::VertexColor,
-            (None, _) => Source::Shape { across },
+            (None, _) => Source::HalfEdgeMesh { across },
         };
         let asks = matches!(ink.follow, Follow::Attribute | Follow::VertexColor);
         Self {
             source,
             angle: ink.hatch.angle_deg.to_radians(),
-            is_unsaid: asks && matches!(source, Source::Shape { .. }),
+            is_unsaid: asks && matches!(source, Source::HalfEdgeMesh { .. }),
         }
     }
 
@@ -74,7 +74,7 @@ impl StrokeGuide {
     fn of_chart(&self) -> PartGuide {
         PartGuide {
             guide: match self.source {
-                Source::Shape { across } => Guide::Curvature { across },
+                Source::HalfEdgeMesh { across } => Guide::Curvature { across },
                 Source::World(direction) => Guide::Along(direction),
                 _ => Guide::Painted,
             },
@@ -133,7 +133,7 @@ impl Guides {
         let direction = |(i, (vertex, influence)): (usize, (&Vertex, _))| {
             let guide = self.of_parts.get(vertex.part as usize);
             let own = match guide.map(|guide| guide.source) {
-                None | Some(Source::Shape { .. } | Source::World(_)) => Vec3::ZERO,
+                None | Some(Source::HalfEdgeMesh { .. } | Source::World(_)) => Vec3::ZERO,
                 Some(Source::Light) => return light.towards(positions[i]),
                 Some(Source::Object(direction)) => Vec3::from(direction),
                 Some(Source::Attribute) => painted(model, i),

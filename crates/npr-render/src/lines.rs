@@ -36,7 +36,7 @@ use npr_core::budget::{Budget, OverBudget};
 use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
 use npr_core::geometry::Part;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_scene::Scene;
 use npr_stylesheet::{Look, Style};
 use npr_vector::bvh::FaceTree;
@@ -74,7 +74,7 @@ const POINT_LIMIT: u64 = 20_000_000;
 /// [`npr_vector::wire::TOUCH_SHARE`]).
 #[derive(Debug)]
 pub struct LineModel {
-    shape: Shape,
+    shape: HalfEdgeMesh,
     parts: Vec<PartInfo>,
     /// Colour of every vertex of the shape; empty where the scene has no colours.
     colors: Vec<u32>,
@@ -195,7 +195,7 @@ impl LineModel {
         Self::of_assembly(scene, &Assembly::new(scene, None), options, Some(folder))
     }
 
-    fn of_shape(scene: &Scene, assembly: &Assembly, mut shape: Shape) -> Self {
+    fn of_shape(scene: &Scene, assembly: &Assembly, mut shape: HalfEdgeMesh) -> Self {
         mark_materials(&mut shape, &assembly.marked);
         let points = assembly.used_points();
         let bounds = placement::bounds_of(points.iter().copied().map(Vec3::from));
@@ -572,7 +572,7 @@ impl LineModel {
     }
 
     /// The welded surface in the world that lines are drawn of.
-    pub fn shape(&self) -> &Shape {
+    pub fn shape(&self) -> &HalfEdgeMesh {
         &self.shape
     }
 

@@ -3,7 +3,7 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use npr_core::budget::Budget;
 use npr_core::geometry::NONE;
-use npr_core::shape::{Shape, Surface};
+use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::mesh::Mesh;
 use npr_mesh::testing::{Random, uv_sphere};
 use npr_vector::bvh::FaceTree;
@@ -15,7 +15,7 @@ use std::time::Duration;
 const SPHERES: [[u32; 2]; 4] = [[32, 17], [90, 46], [256, 124], [640, 314]];
 
 /// Edges by sorting; twins are not needed here.
-fn shape_of(positions: Vec<[f32; 3]>, faces: Vec<[u32; 3]>) -> Shape {
+fn shape_of(positions: Vec<[f32; 3]>, faces: Vec<[u32; 3]>) -> HalfEdgeMesh {
     let mut sides: Vec<([u32; 2], u32)> = (0..3 * faces.len() as u32)
         .map(|side| {
             let (corners, i) = (faces[side as usize / 3], side as usize % 3);
@@ -24,7 +24,7 @@ fn shape_of(positions: Vec<[f32; 3]>, faces: Vec<[u32; 3]>) -> Shape {
         })
         .collect();
     sides.sort_unstable();
-    let mut shape = Shape {
+    let mut shape = HalfEdgeMesh {
         positions,
         face_surfaces: vec![0; faces.len()],
         twins: vec![NONE; 3 * faces.len()],
@@ -32,7 +32,7 @@ fn shape_of(positions: Vec<[f32; 3]>, faces: Vec<[u32; 3]>) -> Shape {
         edge_starts: vec![0],
         surfaces: vec![Surface::default()],
         faces,
-        ..Shape::default()
+        ..HalfEdgeMesh::default()
     };
     for group in sides.chunk_by(|a, b| a.0 == b.0) {
         for (_, side) in group {
@@ -56,7 +56,7 @@ fn bumpy(mesh: &Mesh) -> impl Iterator<Item = [f32; 3]> {
 }
 
 /// One bumpy sphere, or two halves of the faces each that cut each other.
-fn spheres([meridians, parallels]: [u32; 2], two: bool) -> Shape {
+fn spheres([meridians, parallels]: [u32; 2], two: bool) -> HalfEdgeMesh {
     let mesh = uv_sphere(meridians, parallels);
     let mut positions: Vec<[f32; 3]> = bumpy(&mesh).collect();
     let mut faces = mesh.triangles().to_vec();
@@ -69,14 +69,14 @@ fn spheres([meridians, parallels]: [u32; 2], two: bool) -> Shape {
 }
 
 /// A flat grid: the neighbours of every face lie in its plane.
-fn grid(side: u32) -> Shape {
+fn grid(side: u32) -> HalfEdgeMesh {
     let mesh = npr_mesh::testing::plane(side, side);
     let tilted = mesh.positions().iter().map(|[x, y, _]| [*x, *y, x + y]);
     shape_of(tilted.collect(), mesh.triangles().to_vec())
 }
 
 /// Faces of random corners in a cube: nearly all pairs overlap.
-fn soup(count: u32) -> Shape {
+fn soup(count: u32) -> HalfEdgeMesh {
     let mut random = Random::new(7);
     let corner = |_| [random.unit(), random.unit(), random.unit()];
     let positions = (0..3 * count).map(corner).collect();
@@ -88,7 +88,7 @@ fn soup(count: u32) -> Shape {
 
 fn measure(c: &mut Criterion) {
     let mut group = c.benchmark_group("crossings");
-    let mut run = |name: &str, shape: &Shape| {
+    let mut run = |name: &str, shape: &HalfEdgeMesh| {
         let count = shape.faces.len();
         group.throughput(Throughput::Elements(count as u64));
         let tree = FaceTree::new(shape);
@@ -103,7 +103,7 @@ fn measure(c: &mut Criterion) {
     run("flat grid", &grid(180));
     run("soup", &soup(1_000));
     run("soup beyond the limit", &soup(10_000));
-    let mut trees = |shape: &Shape| {
+    let mut trees = |shape: &HalfEdgeMesh| {
         group.throughput(Throughput::Elements(shape.faces.len() as u64));
         group.bench_function(BenchmarkId::new("tree", shape.faces.len()), |b| {
             b.iter(|| black_box(FaceTree::new(shape)))

@@ -1,7 +1,7 @@
 //! The faces of a shape in a bounding volume hierarchy, and how many of them hide a point.
 
 use glam::{DVec3, Vec4};
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use obvhs::Boundable;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
@@ -52,7 +52,7 @@ pub struct Sight {
 
 impl FaceTree {
     /// Builds the hierarchy; O(n log n), on all threads.
-    pub fn new(shape: &Shape) -> Self {
+    pub fn new(shape: &HalfEdgeMesh) -> Self {
         let boxes: Vec<FaceBox> = shape
             .faces
             .par_iter()
@@ -77,7 +77,7 @@ impl FaceTree {
     ///
     /// A face counts where the way passes through it before [`NEARER`] of the point; of two faces that share an edge
     /// that it passes, one does. About O(log n) for a point on an open surface.
-    pub fn occluders(&self, shape: &Shape, sight: &Sight, skip: &[u32], limit: u32) -> u32 {
+    pub fn occluders(&self, shape: &HalfEdgeMesh, sight: &Sight, skip: &[u32], limit: u32) -> u32 {
         let (eye, point) = (DVec3::from(sight.eye), DVec3::from(sight.point));
         let direction = point - eye;
         if limit == 0 || !direction.is_finite() {
@@ -98,7 +98,7 @@ impl FaceTree {
     /// `last` is tried first, for what hides a point mostly hides the next one too.
     pub fn hider(
         &self,
-        shape: &Shape,
+        shape: &HalfEdgeMesh,
         sight: &Sight,
         skip: &[u32],
         last: Option<u32>,
@@ -121,7 +121,12 @@ impl FaceTree {
     }
 
     /// The first face on the way from the eye through a point and beyond, with the place on the way: 1 at the point.
-    pub fn first_face(&self, shape: &Shape, sight: &Sight, reach: f64) -> Option<(u32, f64)> {
+    pub fn first_face(
+        &self,
+        shape: &HalfEdgeMesh,
+        sight: &Sight,
+        reach: f64,
+    ) -> Option<(u32, f64)> {
         let eye = DVec3::from(sight.eye);
         let direction = (DVec3::from(sight.point) - eye) * reach;
         let mut first: Option<(u32, f64)> = None;
@@ -138,7 +143,7 @@ impl FaceTree {
     }
 
     /// Where the line between two vertices goes through faces that it does not touch, 0..1 from the first, ascending.
-    pub fn piercings(&self, shape: &Shape, [from, to]: [u32; 2]) -> Vec<f64> {
+    pub fn piercings(&self, shape: &HalfEdgeMesh, [from, to]: [u32; 2]) -> Vec<f64> {
         let touches = |face: u32| {
             let corners = shape.faces[face as usize];
             corners.contains(&from) || corners.contains(&to)
@@ -149,7 +154,7 @@ impl FaceTree {
     /// Where the way between two points goes through faces that `skip` does not name, 0..1 from the first, ascending.
     pub fn piercings_between(
         &self,
-        shape: &Shape,
+        shape: &HalfEdgeMesh,
         [from, to]: [DVec3; 2],
         skip: impl Fn(u32) -> bool,
     ) -> Vec<f64> {
@@ -272,7 +277,7 @@ impl Slab {
 
 /// Whether a face is crossed on the way from the eye, and the point at its end lies farther than `touch` behind its
 /// plane.
-fn hides(shape: &Shape, face: u32, (eye, direction): (DVec3, DVec3), touch: f64) -> bool {
+fn hides(shape: &HalfEdgeMesh, face: u32, (eye, direction): (DVec3, DVec3), touch: f64) -> bool {
     let at = crossing(shape, face, eye, direction);
     at.is_some_and(|at| {
         let is_before = at > NEARER && at < 1.0 - NEARER;
@@ -293,7 +298,7 @@ pub(crate) struct Barrier {
 
 impl Barrier {
     /// That of a face.
-    pub(crate) fn of(shape: &Shape, face: u32, eye: DVec3) -> Self {
+    pub(crate) fn of(shape: &HalfEdgeMesh, face: u32, eye: DVec3) -> Self {
         let [i, j, k] = shape.faces[face as usize];
         let corners = [shape.point(i), shape.point(j), shape.point(k)];
         let from_eye = corners.map(|corner| corner - eye);
@@ -360,7 +365,11 @@ impl Barrier {
 }
 
 /// The part of a line that a face hides, in shares of the line in the world; `sights` lead to its ends.
-pub(crate) fn hidden_range(shape: &Shape, face: u32, sights: &[Sight; 2]) -> Option<[f64; 2]> {
+pub(crate) fn hidden_range(
+    shape: &HalfEdgeMesh,
+    face: u32,
+    sights: &[Sight; 2],
+) -> Option<[f64; 2]> {
     let barriers = sights.map(|sight| Barrier::of(shape, face, DVec3::from(sight.eye)));
     barriers[0].hidden_range(&barriers[1], sights)
 }
@@ -379,7 +388,7 @@ pub(crate) fn cut_range(range: &mut [f64; 2], [at_start, at_end]: [f64; 2]) -> b
 }
 
 /// How far a way leads away from the plane of a face; 0 for faces without area.
-fn slope(shape: &Shape, face: u32, direction: DVec3) -> f64 {
+fn slope(shape: &HalfEdgeMesh, face: u32, direction: DVec3) -> f64 {
     let [a, b, c] = shape.faces[face as usize].map(|v| shape.point(v));
     (b - a)
         .cross(c - a)
@@ -392,7 +401,7 @@ fn slope(shape: &Shape, face: u32, direction: DVec3) -> f64 {
 ///
 /// The side of each edge is the same number, but for its sign, seen from either of its faces: no way slips
 /// through between two of them.
-fn crossing(shape: &Shape, face: u32, eye: DVec3, direction: DVec3) -> Option<f64> {
+fn crossing(shape: &HalfEdgeMesh, face: u32, eye: DVec3, direction: DVec3) -> Option<f64> {
     let [a, b, c] = shape.faces[face as usize].map(|v| shape.point(v) - eye);
     let u = direction.dot(c.cross(b));
     let v = direction.dot(a.cross(c));

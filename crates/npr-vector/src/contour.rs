@@ -9,7 +9,7 @@ pub mod steps;
 
 use crate::graph::{CurveGraph, CurveNode};
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
 /// The eye of a view, as decisions about facing read it.
@@ -80,7 +80,7 @@ pub struct EdgeContours {
 
 impl EdgeContours {
     /// [`facing`] and [`contours`] together.
-    pub fn new(shape: &Shape, eye: &Eye) -> Self {
+    pub fn new(shape: &HalfEdgeMesh, eye: &Eye) -> Self {
         let front = facing(shape, eye);
         let graph = contours(shape, &front, eye);
         Self { front, graph }
@@ -90,7 +90,7 @@ impl EdgeContours {
 /// Whether each face is turned to the eye: 1 or 0.
 ///
 /// Faces without area take over the orientation of their stand-in. O(faces), on all threads.
-pub fn facing(shape: &Shape, eye: &Eye) -> Vec<u8> {
+pub fn facing(shape: &HalfEdgeMesh, eye: &Eye) -> Vec<u8> {
     let mut front: Vec<u8> = shape
         .faces
         .par_iter()
@@ -112,7 +112,7 @@ pub fn facing(shape: &Shape, eye: &Eye) -> Vec<u8> {
 ///
 /// Source: Hertzmann and Zorin's mesh contours; linking as in section 5.1-A of the method's description.
 /// O(faces + contour · valence).
-pub fn contours(shape: &Shape, front: &[u8], eye: &Eye) -> CurveGraph {
+pub fn contours(shape: &HalfEdgeMesh, front: &[u8], eye: &Eye) -> CurveGraph {
     let half_edges: Vec<u32> = (0..shape.faces.len() as u32)
         .into_par_iter()
         .with_min_len(4096)
@@ -136,16 +136,16 @@ pub fn contours(shape: &Shape, front: &[u8], eye: &Eye) -> CurveGraph {
 }
 
 /// Whether a half-edge of a front face has no front face across.
-fn leaves_front(shape: &Shape, front: &[u8], half_edge: u32) -> bool {
+fn leaves_front(shape: &HalfEdgeMesh, front: &[u8], half_edge: u32) -> bool {
     let twin = shape.twins[half_edge as usize];
     twin == NONE || front[twin as usize / 3] == 0
 }
 
 /// The half-edge of the set that starts where this one ends, around the same sector of front faces.
-fn successor(shape: &Shape, front: &[u8], half_edge: u32) -> u32 {
-    let mut next = Shape::following(half_edge);
+fn successor(shape: &HalfEdgeMesh, front: &[u8], half_edge: u32) -> u32 {
+    let mut next = HalfEdgeMesh::following(half_edge);
     while !leaves_front(shape, front, next) {
-        next = Shape::following(shape.twins[next as usize]);
+        next = HalfEdgeMesh::following(shape.twins[next as usize]);
     }
     next
 }
@@ -155,7 +155,7 @@ fn index_of(half_edges: &[u32], half_edge: u32) -> u32 {
     half_edges.partition_point(|other| *other < half_edge) as u32
 }
 
-fn node_of(shape: &Shape, eye: &Eye, half_edge: u32, next: u32) -> CurveNode {
+fn node_of(shape: &HalfEdgeMesh, eye: &Eye, half_edge: u32, next: u32) -> CurveNode {
     let edge = shape.edge_of[half_edge as usize];
     CurveNode {
         edge,
@@ -168,9 +168,9 @@ fn node_of(shape: &Shape, eye: &Eye, half_edge: u32, next: u32) -> CurveNode {
 }
 
 /// A piece on a proper contour edge is a contour; borders and odd edges are drawn as features and only link here.
-fn flags_of(shape: &Shape, eye: &Eye, half_edge: u32, edge: u32) -> u32 {
+fn flags_of(shape: &HalfEdgeMesh, eye: &Eye, half_edge: u32, edge: u32) -> u32 {
     let twin = shape.twins[half_edge as usize];
-    let odd = Shape::BORDER | Shape::NON_MANIFOLD | Shape::FLIPPED;
+    let odd = HalfEdgeMesh::BORDER | HalfEdgeMesh::NON_MANIFOLD | HalfEdgeMesh::FLIPPED;
     if twin == NONE || shape.edge_traits[edge as usize] & odd != 0 {
         return CurveNode::SEAM;
     }
@@ -182,7 +182,7 @@ fn flags_of(shape: &Shape, eye: &Eye, half_edge: u32, edge: u32) -> u32 {
 }
 
 /// Whether the face across rises over the plane of the half-edge's face.
-fn is_concave(shape: &Shape, eye: &Eye, half_edge: u32, twin: u32) -> bool {
+fn is_concave(shape: &HalfEdgeMesh, eye: &Eye, half_edge: u32, twin: u32) -> bool {
     let point = |v: u32| shape.positions[v as usize];
     let [tail, head] = shape.ends_of_half_edge(half_edge).map(point);
     let (own, across) = (

@@ -27,7 +27,7 @@ use crate::spurs::cut_spurs;
 use crate::stroke::Stroke;
 use crate::visibility::{FaceImages, Seen};
 use npr_core::budget::OverBudget;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use paint::broken_up;
 use rayon::prelude::*;
 use view::{Toll, View};
@@ -82,7 +82,7 @@ const HIDDEN_COUNT_LIMIT: u32 = 255;
 ///
 /// Never: memory is not limited.
 pub fn strokes(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     prepared: &Prepared,
     projector: &Projector,
     settings: &LineSettings,
@@ -114,7 +114,7 @@ pub fn strokes(
 ///
 /// [`OverBudget`] where what is found would take more than the settings' limit.
 pub fn strokes_with(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     prepared: &Prepared,
     projector: &Projector,
     settings: &LineSettings,
@@ -198,7 +198,7 @@ pub fn strokes_with(
 /// The runs of a view as strokes, calmed and painted.
 fn strokes_of_runs(
     mut found: Vec<Run>,
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     settings: &LineSettings,
     look: &StrokeLook<'_>,
 ) -> Vec<Stroke> {
@@ -230,12 +230,12 @@ pub(crate) fn calmed(mut found: Vec<Run>, settings: &LineSettings) -> Vec<Run> {
 }
 
 /// The eye of a view, as decisions about facing read it. O(vertices), in parallel.
-pub fn eye_of(shape: &Shape, projector: &Projector) -> Eye {
+pub fn eye_of(shape: &HalfEdgeMesh, projector: &Projector) -> Eye {
     Eye::new(projector.eye(), extent_of(shape, projector))
 }
 
 /// Largest coordinate of the shape and the eye.
-fn extent_of(shape: &Shape, projector: &Projector) -> f32 {
+fn extent_of(shape: &HalfEdgeMesh, projector: &Projector) -> f32 {
     let [x, y, z, w] = projector.eye();
     let eye = if w == 0.0 {
         0.0

@@ -6,7 +6,7 @@ use crate::graph::{CurveGraph, CurveNode};
 use glam::DVec3;
 use npr_core::crease::Creases;
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
 /// How straight two edges must run on for a line to pass a point where more than two meet: cosine of the bend.
@@ -17,7 +17,7 @@ const STRAIGHT_COS: f64 = 0.5;
 /// At a point where two edges of a kind meet the line goes on; where more meet, through the straightest pairs.
 /// Edges between faces that are wound against each other are in the graph without a kind: in some views they are
 /// contours. O(edges + features log features).
-pub fn features(shape: &Shape, creases: impl Into<Creases>) -> CurveGraph {
+pub fn features(shape: &HalfEdgeMesh, creases: impl Into<Creases>) -> CurveGraph {
     let creases = creases.into();
     let candidates: Vec<(u32, u32)> = (0..shape.edge_count() as u32)
         .into_par_iter()
@@ -29,35 +29,35 @@ pub fn features(shape: &Shape, creases: impl Into<Creases>) -> CurveGraph {
 }
 
 /// What an edge is whatever the view; none where it is nothing.
-pub(crate) fn static_flags(shape: &Shape, edge: u32, creases: Creases) -> Option<u32> {
+pub(crate) fn static_flags(shape: &HalfEdgeMesh, edge: u32, creases: Creases) -> Option<u32> {
     let traits = shape.edge_traits[edge as usize];
     let bit = |has: bool, bit: u32| if has { bit } else { 0 };
     let bends = shape.fold_cos(edge, creases.from) < creases.cos;
-    let flags = bit(traits & Shape::BORDER != 0, CurveNode::BOUNDARY)
+    let flags = bit(traits & HalfEdgeMesh::BORDER != 0, CurveNode::BOUNDARY)
         | bit(
-            bends || traits & Shape::NON_MANIFOLD != 0,
+            bends || traits & HalfEdgeMesh::NON_MANIFOLD != 0,
             CurveNode::CREASE,
         )
-        | bit(traits & Shape::MATERIAL != 0, CurveNode::MATERIAL)
-        | bit(traits & Shape::MARKED != 0, CurveNode::MARKED);
-    (flags != 0 || traits & Shape::FLIPPED != 0).then_some(flags)
+        | bit(traits & HalfEdgeMesh::MATERIAL != 0, CurveNode::MATERIAL)
+        | bit(traits & HalfEdgeMesh::MARKED != 0, CurveNode::MARKED);
+    (flags != 0 || traits & HalfEdgeMesh::FLIPPED != 0).then_some(flags)
 }
 
 /// The kinds that a feature edge has in a view: none where it is a contour that is drawn already.
 pub fn kind_in_view(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     front: &[u8],
     edge: u32,
     flags: u32,
     contours_are_drawn: bool,
 ) -> u32 {
     let traits = shape.edge_traits[edge as usize];
-    if traits & (Shape::BORDER | Shape::NON_MANIFOLD) != 0 {
+    if traits & (HalfEdgeMesh::BORDER | HalfEdgeMesh::NON_MANIFOLD) != 0 {
         return flags;
     }
     let [a, b] = [0, 1].map(|i| front[shape.sides(edge)[i] as usize / 3] != 0);
-    let is_contour = (a != b) != (traits & Shape::FLIPPED != 0);
-    match (is_contour, traits & Shape::FLIPPED != 0) {
+    let is_contour = (a != b) != (traits & HalfEdgeMesh::FLIPPED != 0);
+    match (is_contour, traits & HalfEdgeMesh::FLIPPED != 0) {
         (true, true) => flags | CurveNode::CONTOUR,
         (true, false) if contours_are_drawn => 0,
         (true, false) => flags,
@@ -66,7 +66,7 @@ pub fn kind_in_view(
 }
 
 /// Which end of which candidate continues each end; `2 k` is the lower end of candidate `k`.
-fn mates(shape: &Shape, candidates: &[(u32, u32)]) -> Vec<u32> {
+fn mates(shape: &HalfEdgeMesh, candidates: &[(u32, u32)]) -> Vec<u32> {
     let mut meetings: Vec<(u32, u32, u32)> = candidates
         .iter()
         .enumerate()
@@ -89,7 +89,7 @@ fn mates(shape: &Shape, candidates: &[(u32, u32)]) -> Vec<u32> {
 }
 
 /// Lines do not pass from one kind or object to another.
-fn group_of(shape: &Shape, edge: u32, flags: u32) -> u32 {
+fn group_of(shape: &HalfEdgeMesh, edge: u32, flags: u32) -> u32 {
     let face = shape.sides(edge)[0] / 3;
     let object = shape.surfaces[shape.face_surfaces[face as usize] as usize].object;
     let first_kind = flags.trailing_zeros().min(7);
@@ -102,7 +102,7 @@ pub(crate) fn pair(mates: &mut [u32], a: u32, b: u32) {
 }
 
 fn pair_straightest(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     candidates: &[(u32, u32)],
     meeting: &[(u32, u32, u32)],
     mates: &mut [u32],
@@ -134,14 +134,14 @@ fn pair_straightest(
 }
 
 /// Unit direction from an end of a candidate along its edge.
-fn direction(shape: &Shape, candidates: &[(u32, u32)], end: u32) -> DVec3 {
+fn direction(shape: &HalfEdgeMesh, candidates: &[(u32, u32)], end: u32) -> DVec3 {
     let [low, high] = shape.ends(candidates[end as usize / 2].0);
     let along = (shape.point(high) - shape.point(low)).normalize_or_zero();
     if end.is_multiple_of(2) { along } else { -along }
 }
 
 /// Walks along the mates: open lines first, then closed ones, each from its first candidate.
-pub(crate) fn chain(shape: &Shape, candidates: &[(u32, u32)], mates: &[u32]) -> CurveGraph {
+pub(crate) fn chain(shape: &HalfEdgeMesh, candidates: &[(u32, u32)], mates: &[u32]) -> CurveGraph {
     let mut graph = CurveGraph::default();
     let mut used = vec![false; candidates.len()];
     let open_ends = (0..mates.len() as u32).filter(|end| mates[*end as usize] == NONE);
@@ -154,7 +154,7 @@ pub(crate) fn chain(shape: &Shape, candidates: &[(u32, u32)], mates: &[u32]) -> 
 }
 
 fn walk(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     candidates: &[(u32, u32)],
     mates: &[u32],
     start: u32,
@@ -188,7 +188,7 @@ fn walk(
 }
 
 /// The node at an end of a candidate, linked to its neighbours in the list.
-fn node_at(shape: &Shape, candidates: &[(u32, u32)], end: u32, index: u32) -> CurveNode {
+fn node_at(shape: &HalfEdgeMesh, candidates: &[(u32, u32)], end: u32, index: u32) -> CurveNode {
     let (edge, flags) = candidates[end as usize / 2];
     CurveNode {
         edge,

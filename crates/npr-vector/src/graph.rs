@@ -8,7 +8,7 @@
 use bytemuck::{Pod, Zeroable};
 use npr_core::geometry::NONE;
 use npr_core::gpu_layout;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// A point of a line, and what is known of the piece that runs from it to its successor.
 #[repr(C)]
@@ -73,7 +73,7 @@ pub struct CurveGraph {
 
 impl CurveGraph {
     /// Position of a node in the world.
-    pub fn position(&self, shape: &Shape, node: u32) -> [f64; 3] {
+    pub fn position(&self, shape: &HalfEdgeMesh, node: u32) -> [f64; 3] {
         let node = &self.nodes[node as usize];
         shape.point_on(node.edge, node.t).to_array()
     }

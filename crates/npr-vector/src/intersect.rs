@@ -20,7 +20,7 @@ use crate::bvh::FaceTree;
 use crate::graph::CurveGraph;
 use cut::Segment;
 use npr_core::budget::{Budget, OverBudget};
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
 /// Pairs of faces looked at exactly, beside [`PAIRS_PER_FACE`] for every face: a second of work.
@@ -92,7 +92,7 @@ impl Crossings {
 ///
 /// [`OverBudget`] where there is no memory for the pairs.
 pub fn crossings(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     tree: &FaceTree,
     budget: &mut Budget,
 ) -> Result<Crossings, OverBudget> {

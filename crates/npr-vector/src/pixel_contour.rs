@@ -39,8 +39,8 @@ use edge::{Facing, drawn_edges, mark_edges};
 use fragment::{Fragment, draw_nearest, emit_fragments, test_fragments};
 use npr_core::crease::Creases;
 pub use npr_core::published_path::PublishedPath;
-use npr_core::shape::Shape;
 use npr_core::window::View;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use segment::{Drawn, PixelView, Segment, project_edges};
 use side::{Ink, link_sides, mark_sides};
 pub use surface::scene_depths;
@@ -55,7 +55,7 @@ const BATCH: u32 = 1 << 20;
 #[derive(Debug, Clone, Copy)]
 pub struct PixelScene<'a> {
     /// The surface.
-    pub shape: &'a Shape,
+    pub shape: &'a HalfEdgeMesh,
     /// The camera and the picture.
     pub view: &'a View,
     /// The eye, as decisions about facing read it.
@@ -85,7 +85,7 @@ impl PixelScene<'_> {
 }
 
 /// Half the diagonal of the box around a shape.
-fn radius_of(shape: &Shape) -> f32 {
+fn radius_of(shape: &HalfEdgeMesh) -> f32 {
     let (mut low, mut high) = ([f32::MAX; 3], [f32::MIN; 3]);
     for position in &shape.positions {
         for axis in 0..3 {

@@ -9,7 +9,7 @@ use crate::stroke::Kind;
 use crate::visibility::{Piece, Span};
 use glam::DVec3;
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// Gaps in a line up to this length are closed, in pixels: nobody sees them, and each would cost a stroke.
 const GAP_PX: f64 = 0.75;
@@ -162,7 +162,7 @@ impl Item<'_> {
 
 /// The runs of all chains of a graph; `lines` holds what is drawn after each node.
 pub fn runs(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     projector: &Projector,
     graph: &CurveGraph,
     lines: &[Option<Line>],
@@ -286,7 +286,7 @@ fn breaks(items: &[Item<'_>], is_loop: bool) -> Vec<usize> {
 
 /// Makes runs from items.
 struct Maker<'a> {
-    shape: &'a Shape,
+    shape: &'a HalfEdgeMesh,
     projector: &'a Projector,
     graph: &'a CurveGraph,
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// The mesh edge that a piece of line runs along, or the face that it crosses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,7 +27,7 @@ impl Seat {
     /// The place on the seat that is nearest to a point of its line: vertices, and how much each of them counts there.
     ///
     /// Shares lie in 0..1 and have the sum 1. Along an edge the third counts nothing.
-    pub fn place(&self, shape: &Shape, world: DVec3) -> ([u32; 3], [f64; 3]) {
+    pub fn place(&self, shape: &HalfEdgeMesh, world: DVec3) -> ([u32; 3], [f64; 3]) {
         if let Some(face) = self.crossed_face() {
             let vertices = shape.faces[face as usize];
             let corners = vertices.map(|vertex| shape.point(vertex));

@@ -18,7 +18,7 @@ use crate::project::Projector;
 use crate::puff::Puffs;
 use glam::DVec3;
 use npr_core::budget::{Budget, OverBudget};
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// How far outside the frame lines are still followed, as a share of its larger side.
 pub(crate) const MARGIN: f64 = 0.02;
@@ -303,7 +303,7 @@ pub struct Memory {
 #[derive(Debug, Clone, Copy)]
 pub struct Seen<'a> {
     /// The surface.
-    pub shape: &'a Shape,
+    pub shape: &'a HalfEdgeMesh,
     /// Its faces.
     pub tree: &'a FaceTree,
     /// The camera.

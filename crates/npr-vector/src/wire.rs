@@ -7,7 +7,7 @@ use crate::feature::{chain, pair};
 use crate::graph::{CurveGraph, CurveNode};
 use glam::DVec3;
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
 /// How near to a face a wire counts as lying on it, as a share of the diagonal of everything: a tenth of a pixel
@@ -20,7 +20,7 @@ pub const TOUCH_SHARE: f64 = 1e-4;
 /// All wires of a shape, linked where exactly two of them meet; where more do, lines end.
 ///
 /// Open lines come first, then closed ones, each from its first wire. O(n log n).
-pub fn wires(shape: &Shape) -> CurveGraph {
+pub fn wires(shape: &HalfEdgeMesh) -> CurveGraph {
     let candidates: Vec<(u32, u32)> = shape
         .wire_edges()
         .map(|edge| (edge, CurveNode::MARKED))
@@ -45,7 +45,7 @@ pub fn wires(shape: &Shape) -> CurveGraph {
 }
 
 /// How near to a face of the shape a wire may lie without being hidden by it; 0 where there are no wires.
-pub fn touch(shape: &Shape) -> f64 {
+pub fn touch(shape: &HalfEdgeMesh) -> f64 {
     if shape.wires.is_empty() {
         return 0.0;
     }

@@ -28,7 +28,7 @@ pub use signs::{END_GAP, FlatFaces};
 
 use crate::graph::CurveGraph;
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use signs::Signs;
 
 /// The border between front and back: closed lines, and open ones that end at borders of the surface.
@@ -43,7 +43,7 @@ use signs::Signs;
 ///
 /// O(faces + n log n) for n nodes, on all threads; the same for any number of them.
 pub fn zero_set(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     normals: &CornerNormals,
     eye: [f64; 4],
     flat: &FlatFaces,

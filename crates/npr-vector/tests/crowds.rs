@@ -1,8 +1,8 @@
 //! Faces by the thousand that cut, cover or touch each other: what is found of their lines is bounded, and in memory.
 
 use npr_core::camera::{Camera, Projection};
-use npr_core::shape::Shape;
 use npr_mesh::Mesh;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{coplanar_soup, crossing_soup, fan, needles, shape_of};
 use npr_vector::contour::EdgeContours;
 use npr_vector::draw::{
@@ -18,7 +18,7 @@ const SIZE: [u32; 2] = [400, 300];
 const ENOUGH: u64 = 64 << 20;
 
 fn drawn(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     hidden: bool,
     memory_limit: u64,
 ) -> Result<ViewStrokes, npr_core::budget::OverBudget> {

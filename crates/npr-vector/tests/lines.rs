@@ -2,8 +2,8 @@
 
 use npr_core::camera::{Camera, Projection};
 use npr_core::geometry::NONE;
-use npr_core::shape::{Shape, Surface};
 use npr_mesh::Mesh;
+use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::testing::{self, add_to, shape_of};
 use npr_vector::bvh::{FaceTree, Sight};
 use npr_vector::contour::{Eye, contours, facing};
@@ -38,7 +38,7 @@ fn settings(smooth: bool) -> LineSettings {
     }
 }
 
-fn bounds(shape: &Shape) -> ([f32; 3], [f32; 3]) {
+fn bounds(shape: &HalfEdgeMesh) -> ([f32; 3], [f32; 3]) {
     let none = ([f32::MAX; 3], [f32::MIN; 3]);
     shape.positions.iter().fold(none, |(low, high), p| {
         (
@@ -48,7 +48,7 @@ fn bounds(shape: &Shape) -> ([f32; 3], [f32; 3]) {
     })
 }
 
-fn draw(shape: &Shape, eye: [f32; 3], settings: &LineSettings) -> Vec<Stroke> {
+fn draw(shape: &HalfEdgeMesh, eye: [f32; 3], settings: &LineSettings) -> Vec<Stroke> {
     let with_crossings = settings.kinds & CurveNode::INTERSECTION != 0;
     let prepared = Prepared::new(shape, 0.77, with_crossings);
     let projector = Projector::new(&camera(eye), settings.size, bounds(shape));
@@ -92,7 +92,7 @@ fn eye_of(eye: [f32; 3]) -> Eye {
 }
 
 /// Tail and head of the piece after a node that runs along its edge.
-fn ends_of_piece(shape: &Shape, node: &CurveNode) -> [u32; 2] {
+fn ends_of_piece(shape: &HalfEdgeMesh, node: &CurveNode) -> [u32; 2] {
     let [low, high] = shape.ends(node.edge);
     if node.t == 0.0 {
         [low, high]
@@ -135,7 +135,7 @@ proptest! {
         found.sort_unstable();
         let expected: Vec<u32> = (0..shape.edge_count() as u32)
             .filter(|edge| match shape.sides(*edge) {
-                [a, b] if shape.edge_traits[*edge as usize] & Shape::FLIPPED == 0 => {
+                [a, b] if shape.edge_traits[*edge as usize] & HalfEdgeMesh::FLIPPED == 0 => {
                     front[*a as usize / 3] != front[*b as usize / 3]
                 }
                 _ => false,
@@ -272,7 +272,7 @@ proptest! {
 }
 
 /// Faces between eye and point, by solving for the place in each.
-fn plainly_between(shape: &Shape, sight: &Sight) -> u32 {
+fn plainly_between(shape: &HalfEdgeMesh, sight: &Sight) -> u32 {
     let minus = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] { std::array::from_fn(|i| a[i] - b[i]) };
     let cross = |a: [f64; 3], b: [f64; 3]| {
         [
@@ -401,14 +401,14 @@ fn a_plate_hides_what_is_behind_it() {
 #[test]
 fn materials_meet_in_a_line() {
     let mesh = testing::plane(2, 2);
-    let mut shape = Shape {
+    let mut shape = HalfEdgeMesh {
         surfaces: (0..2)
             .map(|material| Surface {
                 material,
                 ..Surface::default()
             })
             .collect(),
-        ..Shape::default()
+        ..HalfEdgeMesh::default()
     };
     let surfaces: Vec<u32> = mesh
         .triangles()

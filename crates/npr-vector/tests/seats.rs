@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use npr_core::camera::{Camera, Projection};
-use npr_core::shape::Shape;
 use npr_mesh::Mesh;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{self, shape_of};
 use npr_vector::contour::EdgeContours;
 use npr_vector::draw::{
@@ -79,7 +79,7 @@ fn off_px(mesh: &Mesh, eye: [f32; 3], settings: &LineSettings) -> f64 {
     all.into_iter().fold(0.0, f64::max)
 }
 
-fn mean(shape: &Shape, vertices: [u32; 3], shares: [f64; 3]) -> DVec3 {
+fn mean(shape: &HalfEdgeMesh, vertices: [u32; 3], shares: [f64; 3]) -> DVec3 {
     (0..3).fold(DVec3::ZERO, |sum, i| {
         sum + shape.point(vertices[i]) * shares[i]
     })

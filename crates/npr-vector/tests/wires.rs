@@ -3,8 +3,8 @@
 use glam::DVec3;
 use npr_core::camera::{Camera, Projection};
 use npr_core::geometry::NONE;
-use npr_core::shape::{Shape, Surface};
 use npr_mesh::Mesh;
+use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::shape::{PlacedMesh, add_mesh};
 use npr_mesh::testing::{self, shape_of};
 use npr_vector::draw::{LineSettings, Method, Prepared, strokes};
@@ -52,12 +52,12 @@ fn any_mesh() -> impl Strategy<Value = Mesh> {
 }
 
 /// A shape of a mesh, and of lines in a mesh of their own.
-fn shape_with(mesh: Option<&Mesh>, points: &[[f32; 3]], segments: &[[u32; 2]]) -> Shape {
+fn shape_with(mesh: Option<&Mesh>, points: &[[f32; 3]], segments: &[[u32; 2]]) -> HalfEdgeMesh {
     let mut shape = match mesh {
         Some(mesh) => shape_of(mesh),
-        None => Shape {
+        None => HalfEdgeMesh {
             surfaces: vec![Surface::default()],
-            ..Shape::default()
+            ..HalfEdgeMesh::default()
         },
     };
     let placed = PlacedMesh {
@@ -72,7 +72,7 @@ fn shape_with(mesh: Option<&Mesh>, points: &[[f32; 3]], segments: &[[u32; 2]]) -
     shape
 }
 
-fn draw(shape: &Shape, eye: [f32; 3], hidden: bool) -> Vec<Stroke> {
+fn draw(shape: &HalfEdgeMesh, eye: [f32; 3], hidden: bool) -> Vec<Stroke> {
     let settings = LineSettings {
         size: SIZE,
         kinds: 0,
@@ -248,7 +248,7 @@ proptest! {
     }
 }
 
-fn diagonal(shape: &Shape) -> f64 {
+fn diagonal(shape: &HalfEdgeMesh) -> f64 {
     let point = |p: &[f32; 3]| DVec3::from(p.map(f64::from));
     let low = shape.positions.iter().map(point).reduce(DVec3::min);
     let high = shape.positions.iter().map(point).reduce(DVec3::max);
@@ -261,7 +261,7 @@ fn distance_from(p: DVec3, a: DVec3, b: DVec3) -> f64 {
 }
 
 /// How many faces lie between the eye and a point: surely, by twice the tolerance, and perhaps, by half of it.
-fn hiders(shape: &Shape, eye: DVec3, point: DVec3, touch: f64) -> (usize, usize) {
+fn hiders(shape: &HalfEdgeMesh, eye: DVec3, point: DVec3, touch: f64) -> (usize, usize) {
     let way = point - eye;
     let mut counts = (0, 0);
     for corners in &shape.faces {

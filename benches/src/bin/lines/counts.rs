@@ -6,7 +6,7 @@ use npr_benches::lines::candidates::Wanted;
 use npr_benches::lines::subjects::{LineSubject, benchmark_camera};
 use npr_benches::table::Table;
 use npr_core::crease::{CreaseFrom, Creases};
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_render::{LineModel, LineModelOptions};
 use npr_vector::contour::{Eye, contours, facing};
 use npr_vector::feature::features;
@@ -73,7 +73,7 @@ pub fn edge_counts(arguments: &Arguments) -> Outcome<()> {
 fn counts(path: &Path) -> Outcome<[usize; 3]> {
     let subject = LineSubject::load(path, true)?;
     let model = LineModel::new(&subject.scene, &LineModelOptions::default())?;
-    let shape: &Shape = model.shape();
+    let shape: &HalfEdgeMesh = model.shape();
     let [x, y, z] = benchmark_camera().eye.map(f64::from);
     // The eye is further off than any point of the unit ball.
     let eye = Eye::new([x, y, z, 1.0], x.max(y).max(z) as f32);

@@ -6,7 +6,7 @@ use npr_benches::machine;
 use npr_benches::solid::bumpy_ball;
 use npr_benches::table::Table;
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_render::{LineModel, LineModelOptions};
 use npr_scene::Scene;
 
@@ -65,7 +65,7 @@ fn cells(scene: &Scene, expected: i64) -> Outcome<Vec<String>> {
     ])
 }
 
-fn broken_twins(shape: &Shape) -> usize {
+fn broken_twins(shape: &HalfEdgeMesh) -> usize {
     let twin = |half_edge: usize| shape.twins[half_edge];
     let returns = |half_edge: &usize| {
         twin(*half_edge) == NONE || twin(twin(*half_edge) as usize) as usize == *half_edge
@@ -75,7 +75,7 @@ fn broken_twins(shape: &Shape) -> usize {
         .count()
 }
 
-fn euler(shape: &Shape) -> i64 {
+fn euler(shape: &HalfEdgeMesh) -> i64 {
     let mut used = vec![false; shape.positions.len()];
     shape
         .faces
@@ -86,7 +86,7 @@ fn euler(shape: &Shape) -> i64 {
     vertices as i64 - shape.edge_count() as i64 + shape.faces.len() as i64
 }
 
-fn odd_edges(shape: &Shape) -> String {
+fn odd_edges(shape: &HalfEdgeMesh) -> String {
     let count = |bit: u32| {
         shape
             .edge_traits
@@ -96,8 +96,8 @@ fn odd_edges(shape: &Shape) -> String {
     };
     format!(
         "{}, {}, {}",
-        count(Shape::BORDER),
-        count(Shape::NON_MANIFOLD),
-        count(Shape::FLIPPED)
+        count(HalfEdgeMesh::BORDER),
+        count(HalfEdgeMesh::NON_MANIFOLD),
+        count(HalfEdgeMesh::FLIPPED)
     )
 }

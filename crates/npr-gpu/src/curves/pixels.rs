@@ -8,7 +8,7 @@ use crate::engine::Session;
 use crate::graph::{Graph, ResourceId};
 use crate::pass::Format;
 use crate::passes::{pixels, vector};
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_vector::contour::steps::{HalfEdge, Viewer, half_edges, judges};
 use npr_vector::pixel_contour::edge::DrawnEdge;
 use npr_vector::pixel_contour::fragment::Fragment;
@@ -114,7 +114,7 @@ pub struct PixelContours {
 /// many as there are.
 pub fn add_pixel_contours(
     graph: &mut Graph,
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     (size, hiding): ([u32; 2], Hiding),
     room: PixelRoom,
     scheme: Scheme,
@@ -405,7 +405,7 @@ impl PixelContours {
     pub fn write_shape(
         &self,
         session: &mut dyn Session,
-        shape: &Shape,
+        shape: &HalfEdgeMesh,
         edges: &[DrawnEdge],
     ) -> Result<(), CurvesError> {
         session.write(self.positions, bytemuck::cast_slice(&shape.positions))?;

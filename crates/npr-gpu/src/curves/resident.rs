@@ -5,7 +5,7 @@ use super::contours::{Contours, add_contours};
 use super::ranking::{Scheme, read_rows};
 use crate::engine::{Engine, EngineError, PassTime, Session};
 use crate::graph::Graph;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_vector::contour::steps::{Viewer, half_edges, judges};
 use npr_vector::contour::{EdgeContours, Eye, usual_room};
 use npr_vector::graph::{CurveGraph, CurveNode};
@@ -19,7 +19,7 @@ use npr_vector::rank::Ranked;
 /// engine, and 32 for each node that there is room for.
 pub struct ResidentShape<'a> {
     engine: &'a dyn Engine,
-    shape: &'a Shape,
+    shape: &'a HalfEdgeMesh,
     scheme: Option<Scheme>,
     room: Room,
     node_count: usize,
@@ -40,7 +40,7 @@ impl<'a> ResidentShape<'a> {
     ///
     /// [`EngineError::OutOfMemory`] for shapes beyond what a device can bind, 2.7 million faces; others where the
     /// engine fails.
-    pub fn new(engine: &'a dyn Engine, shape: &'a Shape) -> Result<Self, EngineError> {
+    pub fn new(engine: &'a dyn Engine, shape: &'a HalfEdgeMesh) -> Result<Self, EngineError> {
         Self::of_scheme(engine, shape, None)
     }
 
@@ -51,7 +51,7 @@ impl<'a> ResidentShape<'a> {
     /// As [`ResidentShape::new`].
     pub fn with_ranking(
         engine: &'a dyn Engine,
-        shape: &'a Shape,
+        shape: &'a HalfEdgeMesh,
         scheme: Scheme,
     ) -> Result<Self, EngineError> {
         Self::of_scheme(engine, shape, Some(scheme))
@@ -59,7 +59,7 @@ impl<'a> ResidentShape<'a> {
 
     fn of_scheme(
         engine: &'a dyn Engine,
-        shape: &'a Shape,
+        shape: &'a HalfEdgeMesh,
         scheme: Option<Scheme>,
     ) -> Result<Self, EngineError> {
         let capacity = usual_room(shape.faces.len());
@@ -133,7 +133,7 @@ impl<'a> ResidentShape<'a> {
 impl Room {
     fn new(
         engine: &dyn Engine,
-        shape: &Shape,
+        shape: &HalfEdgeMesh,
         scheme: Option<Scheme>,
         capacity: usize,
     ) -> Result<Self, EngineError> {
@@ -149,7 +149,7 @@ impl Room {
         Ok(room)
     }
 
-    fn hand_over(&mut self, shape: &Shape) -> Result<(), EngineError> {
+    fn hand_over(&mut self, shape: &HalfEdgeMesh) -> Result<(), EngineError> {
         let (session, into) = (self.session.as_mut(), &self.contours);
         session.write(into.positions, bytemuck::cast_slice(&shape.positions))?;
         session.write(into.half_edges, bytemuck::cast_slice(&half_edges(shape)))?;

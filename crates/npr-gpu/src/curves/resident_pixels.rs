@@ -9,7 +9,7 @@ use crate::engine::{Engine, PassTime, Session};
 use crate::graph::{Graph, ResourceId};
 use bytemuck::Pod;
 use npr_core::crease::Creases;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_vector::pixel_contour::edge::drawn_edges;
 use npr_vector::pixel_contour::segment::PixelView;
 use npr_vector::pixel_contour::strip::Strips;
@@ -70,7 +70,7 @@ impl<'a> Hiders<'a> {
 /// numbers of filters, is the shape handed over again.
 pub struct ResidentPixels<'a> {
     engine: &'a dyn Engine,
-    shape: &'a Shape,
+    shape: &'a HalfEdgeMesh,
     room: PixelRoom,
     made: Option<Made>,
     times: Vec<PassTime>,
@@ -97,7 +97,7 @@ struct Made {
 
 impl<'a> ResidentPixels<'a> {
     /// Takes a shape; nothing is handed over before the first view.
-    pub fn new(engine: &'a dyn Engine, shape: &'a Shape) -> Self {
+    pub fn new(engine: &'a dyn Engine, shape: &'a HalfEdgeMesh) -> Self {
         Self {
             engine,
             shape,
@@ -180,7 +180,7 @@ impl<'a> ResidentPixels<'a> {
 }
 
 impl Made {
-    fn new(engine: &dyn Engine, shape: &Shape, plan: Plan) -> Result<Self, CurvesError> {
+    fn new(engine: &dyn Engine, shape: &HalfEdgeMesh, plan: Plan) -> Result<Self, CurvesError> {
         let mut graph = Graph::new();
         let scheme = Scheme::Wyllie {
             rounds: plan.path.rounds,

@@ -2,11 +2,11 @@
 
 use crate::shapes::{eyes, shape_from};
 use crate::shared;
-use npr_core::shape::Shape;
 use npr_gpu::curves::{ResidentShape, Scheme};
 use npr_gpu::engine::{Engine, EngineError, PassTime, Session};
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::processor::Processor;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{
     Random, cube, cylinder, fan, icosphere, mapped, moebius_strip, plane, random_soup,
     random_winding, torus, uv_sphere,
@@ -25,14 +25,14 @@ pub fn engines() -> impl Iterator<Item = &'static dyn Engine> {
         .flatten()
 }
 
-fn plain(shape: &Shape, eye: &Eye) -> EdgeContours {
+fn plain(shape: &HalfEdgeMesh, eye: &Eye) -> EdgeContours {
     let plain = EdgeContours::new(shape, eye);
     plain.graph.sanity_check();
     plain
 }
 
 /// Compares views of a shape that is handed over once.
-fn check(name: &str, shape: &Shape, eyes: &[Eye]) {
+fn check(name: &str, shape: &HalfEdgeMesh, eyes: &[Eye]) {
     for engine in engines() {
         let mut resident = ResidentShape::new(engine, shape).unwrap();
         for eye in eyes {
@@ -42,7 +42,7 @@ fn check(name: &str, shape: &Shape, eyes: &[Eye]) {
     }
 }
 
-fn check_ranked(name: &str, shape: &Shape, eye: &Eye) {
+fn check_ranked(name: &str, shape: &HalfEdgeMesh, eye: &Eye) {
     let plain = plain(shape, eye);
     let ranked = rank_curves(&plain.graph).unwrap();
     for engine in engines() {
@@ -93,7 +93,7 @@ fn contours_of_all_shapes_agree() {
 #[test]
 fn contours_are_ranked_where_they_are_found() {
     let eye = &eyes(1.0)[0];
-    check_ranked("nothing", &Shape::default(), eye);
+    check_ranked("nothing", &HalfEdgeMesh::default(), eye);
     check_ranked("cube", &shape_from(&cube()), eye);
     let torus = bumpy(&torus(48, 24, 0.7, 0.3), 2);
     check_ranked("bumpy torus", &shape_from(&torus), eye);
@@ -147,7 +147,7 @@ fn stand_ins_decide_for_faces_without_area() {
 
 #[test]
 fn no_faces_have_no_contours() {
-    check("nothing", &Shape::default(), &eyes(1.0));
+    check("nothing", &HalfEdgeMesh::default(), &eyes(1.0));
 }
 
 #[test]

@@ -3,7 +3,6 @@
 use crate::agreement::{Meaning, disagreement};
 use crate::shared;
 use npr_core::camera::{Camera, Projection};
-use npr_core::shape::Shape;
 use npr_gpu::curves::pixels::{Hiding, PixelRoom, add_pixel_contours, add_strips};
 use npr_gpu::curves::{Hiders, ResidentPixels, Scheme, trace_on};
 use npr_gpu::engine::{Engine, Session};
@@ -11,6 +10,7 @@ use npr_gpu::graph::{Graph, Kind, ResourceId, WorkSize};
 use npr_gpu::pass::{Access, Pass};
 use npr_gpu::passes::ALL;
 use npr_gpu::processor::Processor;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{cube, shape_of, torus, uv_sphere};
 use npr_vector::draw::eye_of;
 use npr_vector::graph::CurveNode;
@@ -48,7 +48,7 @@ pub fn is_over_pixels(pass: &Pass) -> bool {
     OWN.contains(&pass.name)
 }
 
-fn scenes() -> Vec<(Shape, Projection)> {
+fn scenes() -> Vec<(HalfEdgeMesh, Projection)> {
     let perspective = Projection::Perspective { fov_y: 0.7 };
     vec![
         (shape_of(&uv_sphere(24, 12)), perspective),
@@ -63,7 +63,7 @@ fn scenes() -> Vec<(Shape, Projection)> {
 
 /// Calls `test` with a scene and its depths.
 fn with_scene(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     projection: Projection,
     mut test: impl FnMut(&PixelScene<'_>, &[f32]),
 ) {

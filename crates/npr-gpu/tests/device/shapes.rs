@@ -1,23 +1,23 @@
 //! Shapes made from generated meshes, and eyes that look at them.
 
 use npr_core::geometry::NONE;
-use npr_core::shape::{Shape, Surface};
+use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::{Mesh, weld};
 use npr_vector::contour::Eye;
 use std::collections::BTreeMap;
 
 /// A mesh as a shape, its corners welded.
-pub fn shape_from(mesh: &Mesh) -> Shape {
+pub fn shape_from(mesh: &Mesh) -> HalfEdgeMesh {
     shape_of(mesh.positions(), mesh.triangles())
 }
 
 /// Triangles as a shape; of edges with two faces that run opposite ways the half-edges are paired.
-pub fn shape_of(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Shape {
+pub fn shape_of(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> HalfEdgeMesh {
     let welded = weld(positions, 0.0);
     let corners = |triangle: &[u32; 3]| welded.corners(*triangle);
     let is_sound = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
     let faces: Vec<_> = triangles.iter().map(corners).filter(is_sound).collect();
-    let mut shape = Shape {
+    let mut shape = HalfEdgeMesh {
         positions: welded
             .first
             .iter()
@@ -29,14 +29,14 @@ pub fn shape_of(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Shape {
         edge_starts: vec![0],
         surfaces: vec![Surface::default()],
         faces,
-        ..Shape::default()
+        ..HalfEdgeMesh::default()
     };
     give_edges(&mut shape);
     shape.sanity_check();
     shape
 }
 
-fn give_edges(shape: &mut Shape) {
+fn give_edges(shape: &mut HalfEdgeMesh) {
     let mut sides: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
     for half_edge in 0..shape.twins.len() as u32 {
         let [a, b] = shape.ends_of_half_edge(half_edge);
@@ -49,10 +49,10 @@ fn give_edges(shape: &mut Shape) {
     for (edge, sides) in sides.values().enumerate() {
         let up = sides.iter().filter(|side| shape.runs_up(**side)).count();
         let traits = match (sides.len(), up) {
-            (1, _) => Shape::BORDER,
+            (1, _) => HalfEdgeMesh::BORDER,
             (2, 1) => 0,
-            (2, _) => Shape::FLIPPED,
-            _ => Shape::NON_MANIFOLD,
+            (2, _) => HalfEdgeMesh::FLIPPED,
+            _ => HalfEdgeMesh::NON_MANIFOLD,
         };
         if traits == 0 {
             shape.twins[sides[0] as usize] = sides[1];

@@ -193,7 +193,7 @@ fn lists_in_a_large_room_are_ranked_as_in_one_that_fits() {
 }
 
 /// A graph of contours in rows, with all that a view needs written.
-fn contours_of(shape: &npr_core::shape::Shape, capacity: usize) -> (Graph, ContourIds) {
+fn contours_of(shape: &npr_mesh::half_edge::HalfEdgeMesh, capacity: usize) -> (Graph, ContourIds) {
     let mut graph = Graph::new();
     let sizes = [shape.positions.len(), shape.faces.len()];
     let scheme = Some(Scheme::WYLLIE);

@@ -1,4 +1,5 @@
 use super::*;
+use crate::half_edge::{HalfEdgeMesh, Surface};
 use crate::mesh::Mesh;
 use crate::shape::{PlacedMesh, add_mesh};
 use crate::testing::{
@@ -6,7 +7,6 @@ use crate::testing::{
 };
 use crate::{smooth_normals, unique_edges, weld};
 use npr_core::crease::{CreaseFrom, Creases};
-use npr_core::shape::{Shape, Surface};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
@@ -63,9 +63,9 @@ fn place(positions: &[[f32; 3]], ends: [u32; 2]) -> Place {
 
 /// The creases that drawings as curves have.
 fn of_shape(mesh: &Mesh, normals: &[[f32; 3]], creases: Creases) -> BTreeSet<Place> {
-    let mut shape = Shape {
+    let mut shape = HalfEdgeMesh {
         surfaces: vec![Surface::default()],
-        ..Shape::default()
+        ..HalfEdgeMesh::default()
     };
     let placed = PlacedMesh {
         rest: mesh.positions(),
@@ -78,7 +78,7 @@ fn of_shape(mesh: &Mesh, normals: &[[f32; 3]], creases: Creases) -> BTreeSet<Pla
     add_mesh(&mut shape, &placed, 0.0);
     shape.sanity_check();
     let is_crease = |edge: &u32| {
-        let is_crowded = shape.edge_traits[*edge as usize] & Shape::NON_MANIFOLD != 0;
+        let is_crowded = shape.edge_traits[*edge as usize] & HalfEdgeMesh::NON_MANIFOLD != 0;
         is_crowded || shape.fold_cos(*edge, creases.from) < creases.cos
     };
     let edges = (0..shape.edge_count() as u32).filter(is_crease);

@@ -4,7 +4,7 @@ use crate::instance::packed_color;
 use crate::joined::Joined;
 use crate::model::PartInfo;
 use crate::placement;
-use npr_core::shape::Surface;
+use npr_mesh::half_edge::Surface;
 use npr_mesh::shape::PlacedMesh;
 use npr_scene::{Mesh, Node, Part, Scene};
 use npr_stylesheet::Style;

@@ -15,10 +15,10 @@ use npr_core::geometry::{NONE, Part};
 use npr_core::line_color::{
     KIND_BORDER, KIND_CONTOUR, KIND_CREASE, KIND_INTERSECTION, KIND_MATERIAL, KIND_NONE,
 };
-use npr_core::shape::Shape;
 use npr_core::surface::unit_or_z;
 use npr_core::texture::{self, TextureStore};
 use npr_core::window::View;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_scene::Scene;
 use npr_style::lighting::Lights;
 use npr_style::line_color::{LINE_BLUR_PX, LineScene, strengthened};
@@ -32,7 +32,7 @@ use std::collections::BTreeMap;
 /// What the colours of strokes are found on.
 #[derive(Clone, Copy)]
 pub(super) struct ColorInput<'a> {
-    pub shape: &'a Shape,
+    pub shape: &'a HalfEdgeMesh,
     pub infos: &'a [PartInfo],
     /// Colour of every vertex of the shape; empty where the scene has none.
     pub vertex_colors: &'a [u32],
@@ -167,7 +167,7 @@ impl<'a> StrokeColors<'a> {
             let [low, high] = [shares[0], shares[1]];
             let runs_up = tail == vertices[0];
             Spot {
-                corners: [side, Shape::following(side), NONE],
+                corners: [side, HalfEdgeMesh::following(side), NONE],
                 shares: if runs_up {
                     [low, high, 0.0]
                 } else {

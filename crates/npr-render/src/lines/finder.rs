@@ -1,9 +1,9 @@
 //! What finds the lines of a view, before they become strokes.
 
 use crate::error::RenderError;
-use npr_core::shape::Shape;
 use npr_gpu::curves::{Hiders, ResidentPixels, ResidentShape};
 use npr_gpu::engine::{Engine, PassTime};
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_vector::contour::{EdgeContours, Eye};
 use npr_vector::pixel_contour::stroke::Loops;
 use npr_vector::pixel_contour::{PixelScene, PublishedPath, Traced, scene_depths, trace};
@@ -32,7 +32,7 @@ pub(crate) trait Finder {
 }
 
 /// The plain functions.
-pub(crate) struct OnProcessor<'a>(pub(crate) &'a Shape);
+pub(crate) struct OnProcessor<'a>(pub(crate) &'a HalfEdgeMesh);
 
 impl Finder for OnProcessor<'_> {
     fn contours(&mut self, eye: &Eye) -> Result<EdgeContours, RenderError> {
@@ -58,7 +58,7 @@ impl Finder for OnProcessor<'_> {
 /// Passes on a device, which keeps the shape from view to view.
 pub(crate) struct OnDevice<'a> {
     engine: &'a dyn Engine,
-    shape: &'a Shape,
+    shape: &'a HalfEdgeMesh,
     contours: Option<ResidentShape<'a>>,
     pixels: Option<ResidentPixels<'a>>,
     times: Vec<PassTime>,
@@ -66,7 +66,7 @@ pub(crate) struct OnDevice<'a> {
 
 impl<'a> OnDevice<'a> {
     /// Hands nothing over before something is drawn.
-    pub(crate) fn new(engine: &'a dyn Engine, shape: &'a Shape) -> Self {
+    pub(crate) fn new(engine: &'a dyn Engine, shape: &'a HalfEdgeMesh) -> Self {
         Self {
             engine,
             shape,

@@ -9,10 +9,10 @@ use glam::{DVec3, Vec2};
 use npr_core::budget::Budget;
 use npr_core::color::srgb_from_linear;
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
 use npr_core::surface::dot;
 use npr_core::texture;
 use npr_core::window::View;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_style::compose::LUMA;
 use npr_vector::draw::{LineSettings, Prepared, StrokeLook};
 use npr_vector::graph::CurveNode;
@@ -83,7 +83,7 @@ impl LineModel {
 
 /// How light the textures of a view are at every pixel, 0 to 1 as seen; no number where there is none.
 fn lightness(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     map: &TextureMap,
     (view, projector): (&View, &Projector),
     picture: &SurfacePicture,
@@ -111,7 +111,7 @@ fn lightness(
 
 /// Texture coordinates at a place of a face, and how much they change over a unit of the world.
 fn coordinates(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     map: &TextureMap,
     face: u32,
     world: DVec3,

@@ -11,7 +11,7 @@ use crate::frame::Frame;
 use crate::model::PartInfo;
 use npr_core::color::{largest_difference, linear_from_srgb, srgb_from_linear};
 use npr_core::math;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_style::backdrop::{Rule, Rules, UNLIKE_COLORS, Wearer, adapt};
 use npr_stylesheet::Style;
 use npr_vector::bvh::FaceTree;
@@ -31,7 +31,7 @@ const MEAN_OF: usize = 3;
 
 /// What strokes are judged before.
 pub(super) struct Minding<'a> {
-    shape: &'a Shape,
+    shape: &'a HalfEdgeMesh,
     tree: &'a FaceTree,
     projector: &'a Projector,
     /// The scene without lines, before its background.
@@ -61,7 +61,7 @@ struct Ground {
 impl<'a> Minding<'a> {
     /// For strokes of parts in a style; none where no part follows a rule.
     pub fn new(
-        (shape, tree): (&'a Shape, &'a FaceTree),
+        (shape, tree): (&'a HalfEdgeMesh, &'a FaceTree),
         projector: &'a Projector,
         picture: &'a Frame,
         infos: &[PartInfo],

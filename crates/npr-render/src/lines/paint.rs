@@ -5,8 +5,8 @@ use crate::error::RenderError;
 use crate::look;
 use crate::model::PartInfo;
 use npr_core::color::srgb_from_linear;
-use npr_core::shape::Shape;
 use npr_drawing::fill;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_stylesheet::{Look, Style};
 use npr_vector::bvh::{FaceTree, Sight};
 use npr_vector::project::Projector;
@@ -91,7 +91,7 @@ fn bytes_of(color: [f32; 4]) -> [u8; 4] {
 
 /// The visible surfaces between lines, each in one piece as far as no line parts it; smoke among them.
 pub(super) fn regions(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     tree: &FaceTree,
     projector: &Projector,
     size: [u32; 2],
@@ -119,7 +119,7 @@ pub(super) fn regions(
 
 /// The face that shows at a place of the picture, and its depth.
 pub(super) fn face_at(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     tree: &FaceTree,
     projector: &Projector,
     place: [f64; 2],

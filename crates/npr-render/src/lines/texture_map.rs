@@ -5,8 +5,8 @@ use crate::instance::placed_uv;
 use crate::model::base_color_texture;
 use crate::textures::Textures;
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
 use npr_core::texture::TextureStore;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_scene::{Mesh, Scene};
 
 /// The textures of a scene, and texture coordinates at the corners of a shape's faces.
@@ -36,7 +36,7 @@ struct StoredFace {
 
 impl TextureMap {
     /// Finds the faces of `shape` again among the triangles that it was made from. O(n log n).
-    pub fn new(scene: &Scene, assembly: &Assembly, shape: &Shape) -> Self {
+    pub fn new(scene: &Scene, assembly: &Assembly, shape: &HalfEdgeMesh) -> Self {
         let mut textures = Textures::new(scene);
         let mut starts = vec![NONE; assembly.parts.len()];
         let mut known: Vec<StoredFace> = Vec::new();

@@ -5,7 +5,7 @@ use super::assembly::{Assembly, place_key};
 use crate::error::RenderError;
 use crate::model::PartInfo;
 use npr_core::budget::Budget;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_scene::Scene;
 
 /// Bytes of a shape and its hierarchy for every triangle, its three half-edges and its share of the vertices.
@@ -36,10 +36,10 @@ pub(super) fn check_budget(
 }
 
 /// The welded shape of an assembly.
-pub(super) fn build(assembly: &Assembly, options: &LineModelOptions) -> Shape {
-    let mut shape = Shape {
+pub(super) fn build(assembly: &Assembly, options: &LineModelOptions) -> HalfEdgeMesh {
+    let mut shape = HalfEdgeMesh {
         surfaces: assembly.surfaces(),
-        ..Shape::default()
+        ..HalfEdgeMesh::default()
     };
     for mesh in &assembly.meshes {
         npr_mesh::shape::add_mesh(&mut shape, &mesh.view(), options.weld);
@@ -48,21 +48,21 @@ pub(super) fn build(assembly: &Assembly, options: &LineModelOptions) -> Shape {
 }
 
 /// Marks the edges where a material that asks for lines meets another.
-pub(super) fn mark_materials(shape: &mut Shape, marked: &[bool]) {
+pub(super) fn mark_materials(shape: &mut HalfEdgeMesh, marked: &[bool]) {
     if !marked.contains(&true) {
         return;
     }
     for edge in 0..shape.edge_count() as u32 {
         let asks = |side: &u32| marked[shape.face_surfaces[*side as usize / 3] as usize];
-        let meets = shape.edge_traits[edge as usize] & Shape::MATERIAL != 0;
+        let meets = shape.edge_traits[edge as usize] & HalfEdgeMesh::MATERIAL != 0;
         if meets && shape.sides(edge).iter().any(asks) {
-            shape.edge_traits[edge as usize] |= Shape::MARKED;
+            shape.edge_traits[edge as usize] |= HalfEdgeMesh::MARKED;
         }
     }
 }
 
 /// The colour of every vertex of a shape; empty where the scene has no colours.
-pub(super) fn colors_of(shape: &Shape, assembly: &Assembly) -> Vec<u32> {
+pub(super) fn colors_of(shape: &HalfEdgeMesh, assembly: &Assembly) -> Vec<u32> {
     let colors = assembly.colors();
     if colors.is_empty() {
         return Vec::new();

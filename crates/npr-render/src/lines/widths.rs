@@ -5,8 +5,8 @@ use crate::kept::Cache;
 use crate::look;
 use npr_core::geometry::{Influence, NONE, Part, Vertex};
 use npr_core::outline::{Outline, width_of_curvature};
-use npr_core::shape::Shape;
 use npr_core::window::View;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::pose::{Matrix, Pose, pose_vertex};
 use npr_mesh::{Edge, EdgeFlags, Weld};
 use npr_stylesheet::{Style, WidthSource};
@@ -33,7 +33,7 @@ pub(crate) struct ShapeBends {
 
 impl ShapeBends {
     /// Measures a shape of a bounding radius; curvatures are kept in 1 / radius. O(n), parallel.
-    pub fn new(cache: &Cache, shape: &Shape, radius: f32) -> Self {
+    pub fn new(cache: &Cache, shape: &HalfEdgeMesh, radius: f32) -> Self {
         let vertices: Vec<u32> = (0..shape.positions.len() as u32).collect();
         let weld = Weld {
             of_vertex: vertices.clone(),
@@ -74,7 +74,7 @@ fn edge_between(ends: [u32; 2]) -> Edge {
 /// What widths are measured on.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct WidthInput<'a> {
-    pub shape: &'a Shape,
+    pub shape: &'a HalfEdgeMesh,
     /// How the shape bends, where the style's source asks for it.
     pub bends: Option<&'a ShapeBends>,
     /// Colour of every vertex, where the model has any.

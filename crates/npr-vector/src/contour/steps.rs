@@ -10,10 +10,10 @@ use crate::rank::Link;
 use bytemuck::{Pod, Zeroable};
 use npr_core::geometry::NONE;
 use npr_core::gpu_layout;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
-/// A half-edge of a [`Shape`] with what linking needs of it.
+/// A half-edge of a [`HalfEdgeMesh`] with what linking needs of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct HalfEdge {
@@ -23,7 +23,7 @@ pub struct HalfEdge {
     pub twin: u32,
     /// Its unique edge.
     pub edge: u32,
-    /// [`Shape::edge_traits`] of that edge.
+    /// [`HalfEdgeMesh::edge_traits`] of that edge.
     pub traits: u32,
 }
 gpu_layout!(HalfEdge {
@@ -73,7 +73,7 @@ impl From<&Viewer> for Eye {
 }
 
 /// All half-edges of a shape.
-pub fn half_edges(shape: &Shape) -> Vec<HalfEdge> {
+pub fn half_edges(shape: &HalfEdgeMesh) -> Vec<HalfEdge> {
     let corners = shape.faces.as_flattened();
     let sides = shape.twins.iter().zip(&shape.edge_of).zip(corners);
     sides
@@ -87,7 +87,7 @@ pub fn half_edges(shape: &Shape) -> Vec<HalfEdge> {
 }
 
 /// The face that decides which way each face is turned: itself, or the stand-in of a face without area.
-pub fn judges(shape: &Shape) -> Vec<u32> {
+pub fn judges(shape: &HalfEdgeMesh) -> Vec<u32> {
     let mut judges: Vec<u32> = (0..shape.faces.len() as u32).collect();
     for [face, stand_in] in &shape.slivers {
         judges[*face as usize] = *stand_in;
@@ -154,7 +154,7 @@ pub fn link_contours(on: &Marked<'_>, nodes: &mut [CurveNode]) {
         .zip(on.contours)
         .for_each(|(node, half_edge)| {
             let side = on.half_edges[*half_edge as usize];
-            let head = on.half_edges[Shape::following(*half_edge) as usize].tail;
+            let head = on.half_edges[HalfEdgeMesh::following(*half_edge) as usize].tail;
             node.edge = side.edge;
             node.t = if side.tail < head { 0.0 } else { 1.0 };
             node.next = on.slots[on.successor(*half_edge) as usize];
@@ -189,20 +189,20 @@ pub fn list_nodes(extent: &[u32], nodes: &[CurveNode], links: &mut [Link]) {
 impl Marked<'_> {
     /// The marked half-edge that starts where this one ends, around the same sector of front faces.
     fn successor(&self, half_edge: u32) -> u32 {
-        let mut next = Shape::following(half_edge);
+        let mut next = HalfEdgeMesh::following(half_edge);
         // A shape's twins lead to a marked half-edge; the bound is for what is no shape.
         for _ in 0..self.half_edges.len() {
             if self.flags[next as usize] != 0 {
                 break;
             }
-            next = Shape::following(self.half_edges[next as usize].twin);
+            next = HalfEdgeMesh::following(self.half_edges[next as usize].twin);
         }
         next
     }
 
     fn flags_of(&self, half_edge: u32) -> u32 {
         let HalfEdge { twin, traits, .. } = self.half_edges[half_edge as usize];
-        let odd = Shape::BORDER | Shape::NON_MANIFOLD | Shape::FLIPPED;
+        let odd = HalfEdgeMesh::BORDER | HalfEdgeMesh::NON_MANIFOLD | HalfEdgeMesh::FLIPPED;
         if twin == NONE || traits & odd != 0 {
             return CurveNode::SEAM;
         }
@@ -215,10 +215,10 @@ impl Marked<'_> {
 
     fn is_concave(&self, half_edge: u32, twin: u32) -> bool {
         let tail_of = |side: u32| point(self.positions, self.half_edges[side as usize].tail);
-        let following = Shape::following(half_edge);
+        let following = HalfEdgeMesh::following(half_edge);
         let (tail, head) = (tail_of(half_edge), tail_of(following));
-        let own = tail_of(Shape::following(following));
-        let across = tail_of(Shape::following(Shape::following(twin)));
+        let own = tail_of(HalfEdgeMesh::following(following));
+        let across = tail_of(HalfEdgeMesh::following(HalfEdgeMesh::following(twin)));
         is_raised(&Eye::from(self.viewer), tail, head, own, across)
     }
 }

@@ -3,7 +3,7 @@
 use crate::run::{Run, RunPoint, distance};
 use crate::smooth::between;
 use crate::stroke::{Kind, Stroke, StrokePoint};
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
 /// What a point of a stroke is drawn with.
@@ -29,7 +29,7 @@ pub struct StrokeLook<'a> {
 
 impl StrokeLook<'_> {
     /// Colour and whole width in pixels at a point of a run.
-    pub(crate) fn paint(&self, shape: &Shape, run: &Run, point: &RunPoint) -> PointPaint {
+    pub(crate) fn paint(&self, shape: &HalfEdgeMesh, run: &Run, point: &RunPoint) -> PointPaint {
         let (vertices, shares) = point.seat.place(shape, point.world);
         let width: f64 = (0..3)
             .filter(|i| shares[*i] > 0.0)

@@ -8,7 +8,7 @@ use crate::wire::{touch, wires};
 use crate::zero_set::CornerNormals;
 use npr_core::budget::{Budget, OverBudget};
 use npr_core::crease::Creases;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use std::sync::OnceLock;
 
 /// What can be known of a shape's lines before there is a camera.
@@ -48,7 +48,7 @@ impl Prepared {
     /// # Panics
     ///
     /// Never: memory is not limited. [`Prepared::with_crossings`] leaves limits to whoever finds intersections.
-    pub fn new(shape: &Shape, creases: impl Into<Creases>, with_crossings: bool) -> Self {
+    pub fn new(shape: &HalfEdgeMesh, creases: impl Into<Creases>, with_crossings: bool) -> Self {
         let find: &FindCrossings<'_> = &|tree| {
             let mut budget = Budget::new(u64::MAX);
             crate::intersect::crossings(shape, tree, &mut budget)
@@ -64,7 +64,7 @@ impl Prepared {
     ///
     /// Those of `find`.
     pub fn with_crossings(
-        shape: &Shape,
+        shape: &HalfEdgeMesh,
         creases: Creases,
         find: Option<&FindCrossings<'_>>,
     ) -> Result<Self, OverBudget> {
@@ -73,7 +73,7 @@ impl Prepared {
             Some(find) => find(&tree)?,
             None => Crossings::default(),
         };
-        let odd = Shape::BORDER | Shape::NON_MANIFOLD;
+        let odd = HalfEdgeMesh::BORDER | HalfEdgeMesh::NON_MANIFOLD;
         let rims: Vec<u32> = (0..shape.edge_count() as u32)
             .filter(|edge| shape.edge_traits[*edge as usize] & odd != 0)
             .collect();
@@ -98,17 +98,17 @@ impl Prepared {
     }
 
     /// Smooth normals at the corners of the shape's faces, made when first asked for.
-    pub fn corner_normals(&self, shape: &Shape) -> &CornerNormals {
+    pub fn corner_normals(&self, shape: &HalfEdgeMesh) -> &CornerNormals {
         self.normals
             .get_or_init(|| CornerNormals::new(shape, self.creases))
     }
 
-    pub(super) fn may_show_backs(&self, shape: &Shape, face: u32) -> bool {
+    pub(super) fn may_show_backs(&self, shape: &HalfEdgeMesh, face: u32) -> bool {
         let object = object_of(shape, face) as usize;
         self.is_open.get(object).copied().unwrap_or(false)
     }
 }
 
-fn object_of(shape: &Shape, face: u32) -> u32 {
+fn object_of(shape: &HalfEdgeMesh, face: u32) -> u32 {
     shape.surfaces[shape.face_surfaces[face as usize] as usize].object
 }

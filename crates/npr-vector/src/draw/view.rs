@@ -11,7 +11,7 @@ use crate::visibility::{Circumstances, FaceImages, Ink, Memory, OutlineGrid, Pie
 use crate::zero_set::{PolygonOutline, SeenContour, zero_set};
 use npr_core::budget::{Budget, OverBudget};
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
 /// How far smooth contours may leave the polygons' outline, in pixels.
@@ -42,7 +42,7 @@ impl Toll {
 
 /// One view of a shape.
 pub(super) struct View<'a> {
-    pub(super) shape: &'a Shape,
+    pub(super) shape: &'a HalfEdgeMesh,
     pub(super) prepared: &'a Prepared,
     pub(super) projector: &'a Projector,
     pub(super) settings: &'a LineSettings,

@@ -8,16 +8,16 @@ use crate::zero_set::CornerNormals;
 use npr_core::crease::Creases;
 use npr_core::geometry::{GPixel, NONE, Part, PosedVertex, Triangle};
 use npr_core::raster::triangle_of;
-use npr_core::shape::Shape;
 use npr_core::surface::{apply_point, dot};
 use npr_core::window::{View, Window};
+use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
 /// A view of a shape whose lines are looked for in a picture.
 #[derive(Clone, Copy)]
 pub struct ImageScene<'a> {
     /// The surfaces; both sides of all faces hide what is behind them.
-    pub shape: &'a Shape,
+    pub shape: &'a HalfEdgeMesh,
     /// Normals at the corners of its faces: no crease lies where they are smooth.
     pub normals: &'a CornerNormals,
     /// Camera and picture.

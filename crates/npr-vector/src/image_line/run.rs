@@ -11,7 +11,7 @@ use crate::run::{Run, RunPoint, base_id, number};
 use crate::seat::{Seat, share_along};
 use crate::stroke::{Kind, Stroke};
 use glam::{DVec2, DVec3};
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_trace::centreline::{CentrelineOptions, centrelines, smooth_border};
 use npr_trace::{Bitmap, BitmapError};
 use rayon::prelude::*;
@@ -37,7 +37,7 @@ pub type On<'a> = (&'a ImageScene<'a>, &'a Projector, &'a SurfacePicture);
 /// as those of meshes are, as far as the settings ask for it.
 pub fn strokes_from(
     runs: Vec<Run>,
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     settings: &LineSettings,
     look: &StrokeLook<'_>,
 ) -> Vec<Stroke> {

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
 use npr_core::surface::apply_point;
 use npr_core::window::View;
+use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// Most faces between two pixels that are looked at.
 const MOST_FACES: usize = 256;
@@ -15,7 +15,7 @@ const MOST_FACES: usize = 256;
 ///
 /// Depth tells so only where a surface is not seen at a grazing angle. O(faces between them), up to a limit.
 pub fn are_one_sheet(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     view: &View,
     middles: [DVec2; 2],
     faces: [u32; 2],
@@ -55,7 +55,7 @@ pub fn are_one_sheet(
 }
 
 /// Where the corners of a face lie in the picture, in pixels; none where one is not before the eye.
-fn projected(shape: &Shape, view: &View, face: u32) -> Option<[DVec2; 3]> {
+fn projected(shape: &HalfEdgeMesh, view: &View, face: u32) -> Option<[DVec2; 3]> {
     let mut places = [DVec2::ZERO; 3];
     for (place, vertex) in places.iter_mut().zip(shape.faces[face as usize]) {
         let [x, y, _, w] =
@@ -106,7 +106,7 @@ mod tests {
 
     /// The nearest face under a place, its depth, and the cosine between its normal and the way to the eye, by trying
     /// all of them.
-    fn seen(shape: &Shape, view: &View, place: DVec2) -> Option<(f64, u32, f64)> {
+    fn seen(shape: &HalfEdgeMesh, view: &View, place: DVec2) -> Option<(f64, u32, f64)> {
         let hits = (0..shape.faces.len() as u32).filter_map(|face| {
             let [a, b, c] = projected(shape, view, face)?;
             let shares = [turn(b, c, place), turn(c, a, place), turn(a, b, place)];
@@ -127,7 +127,7 @@ mod tests {
     type Neighbours = ([DVec2; 2], [(f64, u32, f64); 2]);
 
     /// All neighbouring pixels of a row or column that both show the shape.
-    fn pairs(shape: &Shape, view: &View) -> Vec<Neighbours> {
+    fn pairs(shape: &HalfEdgeMesh, view: &View) -> Vec<Neighbours> {
         let middle = |x: u32, y: u32| DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
         let [width, height] = SIZE;
         let pixels = (0..height - 1).flat_map(|y| (0..width - 1).map(move |x| (x, y)));

@@ -9,8 +9,8 @@ use crate::stroke::{Kind, Stroke};
 use crate::zero_set::CornerNormals;
 use npr_core::camera::{Camera, Projection};
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
 use npr_core::window::View;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{cube, plane, random_soup, shape_of, uv_sphere};
 use proptest::prelude::*;
 
@@ -20,7 +20,7 @@ const BOUNDS: ([f32; 3], [f32; 3]) = ([-2.0; 3], [2.0; 3]);
 const CREASE_COS: f32 = 0.766;
 
 struct Subject {
-    shape: Shape,
+    shape: HalfEdgeMesh,
     normals: CornerNormals,
     view: View,
     projector: Projector,
@@ -28,7 +28,7 @@ struct Subject {
 }
 
 impl Subject {
-    fn new(shape: Shape, eye: [f32; 3], projection: Projection, size: [u32; 2]) -> Self {
+    fn new(shape: HalfEdgeMesh, eye: [f32; 3], projection: Projection, size: [u32; 2]) -> Self {
         let camera = Camera {
             eye,
             target: [0.0; 3],

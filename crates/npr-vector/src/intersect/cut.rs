@@ -2,7 +2,7 @@
 
 use super::side::{Side, side};
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// How many faces without area are crossed to learn where a surface goes on behind an edge.
 const SLIVER_STEPS: u32 = 4;
@@ -29,7 +29,7 @@ pub(super) struct Segment {
 }
 
 /// The piece that two faces, the lower first, have in common; `None` where they share an edge or miss each other.
-pub(super) fn cut(shape: &Shape, faces: [u32; 2]) -> Option<Segment> {
+pub(super) fn cut(shape: &HalfEdgeMesh, faces: [u32; 2]) -> Option<Segment> {
     let pair = faces.map(|face| Triangle::new(shape, face));
     let mut shared = (0..3).filter(|i| pair[1].corners.contains(&pair[0].corners[*i]));
     let (corner, second) = (shared.next(), shared.next());
@@ -81,7 +81,7 @@ fn common_ends(
 }
 
 struct Triangle<'a> {
-    shape: &'a Shape,
+    shape: &'a HalfEdgeMesh,
     face: u32,
     corners: [u32; 3],
 }
@@ -115,7 +115,7 @@ impl Sides {
 }
 
 impl<'a> Triangle<'a> {
-    fn new(shape: &'a Shape, face: u32) -> Self {
+    fn new(shape: &'a HalfEdgeMesh, face: u32) -> Self {
         Self {
             shape,
             face,
@@ -202,8 +202,8 @@ impl<'a> Triangle<'a> {
             match side.filter(|side| !side.is_flat()) {
                 Some(side) => side.is_positive() != front,
                 None if steps > 0 && is_sliver(shape, *other / 3) => {
-                    let next = Shape::following(*other);
-                    [next, Shape::following(next)]
+                    let next = HalfEdgeMesh::following(*other);
+                    [next, HalfEdgeMesh::following(next)]
                         .into_iter()
                         .any(|edge| self.goes_behind(edge, front, plane, steps - 1))
                 }
@@ -214,7 +214,7 @@ impl<'a> Triangle<'a> {
 }
 
 /// All corners lie on one line.
-fn is_sliver(shape: &Shape, face: u32) -> bool {
+fn is_sliver(shape: &HalfEdgeMesh, face: u32) -> bool {
     let points = shape.faces[face as usize].map(|v| shape.positions[v as usize]);
     [[0, 1], [1, 2], [2, 0]].into_iter().all(|[i, j]| {
         let [a, b, c] = points.map(|p| robust::Coord { x: p[i], y: p[j] });

@@ -3,7 +3,7 @@
 use super::cut::{End, Segment};
 use crate::graph::{CurveGraph, CurveNode};
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// Length, as a fraction of the longer of the two mesh edges, up to which a piece at the end of a line is dropped.
 ///
@@ -20,7 +20,7 @@ struct Stop {
 /// Joins segments where exactly two meet; lines end where one or more than two do.
 ///
 /// Segments must be sorted. Open lines come first, each from its end in the earliest segment, then closed ones.
-pub(super) fn link(shape: &Shape, segments: &[Segment]) -> CurveGraph {
+pub(super) fn link(shape: &HalfEdgeMesh, segments: &[Segment]) -> CurveGraph {
     let mates = mates(segments);
     let mut seen = vec![false; segments.len()];
     let mut graph = CurveGraph::default();
@@ -80,7 +80,7 @@ fn walk(segments: &[Segment], mates: &[u32], seen: &mut [bool], from: u32) -> (V
 }
 
 /// Whether the piece between two stops has no length worth the name.
-fn is_point(shape: &Shape, a: &Stop, b: &Stop) -> bool {
+fn is_point(shape: &HalfEdgeMesh, a: &Stop, b: &Stop) -> bool {
     let ends = [a, b].map(|stop| {
         let [low, high] = shape.ends(stop.end.edge);
         [low, high].map(|v| shape.positions[v as usize].map(f64::from))
@@ -96,7 +96,7 @@ fn is_point(shape: &Shape, a: &Stop, b: &Stop) -> bool {
     length(places) <= NOTHING * length(ends[0]).max(length(ends[1]))
 }
 
-fn push_open(shape: &Shape, graph: &mut CurveGraph, stops: &[Stop]) {
+fn push_open(shape: &HalfEdgeMesh, graph: &mut CurveGraph, stops: &[Stop]) {
     let long = |pair: &[Stop]| !is_point(shape, &pair[0], &pair[1]);
     let (Some(first), Some(last)) = (
         stops.windows(2).position(long),
@@ -107,7 +107,7 @@ fn push_open(shape: &Shape, graph: &mut CurveGraph, stops: &[Stop]) {
     push(graph, &stops[first..last + 2], false);
 }
 
-fn push_closed(shape: &Shape, graph: &mut CurveGraph, stops: &[Stop]) {
+fn push_closed(shape: &HalfEdgeMesh, graph: &mut CurveGraph, stops: &[Stop]) {
     if stops
         .windows(2)
         .any(|pair| !is_point(shape, &pair[0], &pair[1]))

@@ -3,7 +3,7 @@
 use crate::bvh::FaceTree;
 use npr_core::budget::OverBudget;
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
 /// Most faces searched for together.
@@ -45,7 +45,7 @@ pub(super) struct Pairs {
 
 /// Finds pairs until there are `limit` of them; `take` plans memory for so many more.
 pub(super) fn find(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     tree: &FaceTree,
     limit: usize,
     take: &mut dyn FnMut(usize) -> Result<(), OverBudget>,
@@ -176,7 +176,7 @@ impl Candidates {
         }
     }
 
-    fn pairs(&mut self, shape: &Shape) -> Pairs {
+    fn pairs(&mut self, shape: &HalfEdgeMesh) -> Pairs {
         let mut found = Pairs {
             pairs: Vec::new(),
             looks: 0,
@@ -241,7 +241,7 @@ struct Corners {
 
 impl Corners {
     #[inline]
-    fn of(shape: &Shape, face: u32) -> Self {
+    fn of(shape: &HalfEdgeMesh, face: u32) -> Self {
         let vertices = shape.faces[face as usize];
         let points = vertices.map(|v| shape.positions[v as usize].map(f64::from));
         Self { vertices, points }
@@ -327,7 +327,7 @@ struct Subject {
 }
 
 impl Subject {
-    fn of(shape: &Shape, face: u32) -> Self {
+    fn of(shape: &HalfEdgeMesh, face: u32) -> Self {
         let corners = Corners::of(shape, face);
         let plane = Plane::of(&corners);
         let [a, b, c] = corners.vertices.map(|v| shape.positions[v as usize]);
@@ -340,7 +340,7 @@ impl Subject {
     }
 
     /// Faces that share an edge meet there alone, and those beside each other nowhere but at a shared corner.
-    fn may_cut(&self, shape: &Shape, face: u32) -> bool {
+    fn may_cut(&self, shape: &HalfEdgeMesh, face: u32) -> bool {
         let vertices = shape.faces[face as usize];
         // Faces in one plane across an axis: the commonest flat surfaces, and the dearest to decide exactly.
         if let Some((axis, level)) = self.level {

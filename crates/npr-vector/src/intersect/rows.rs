@@ -3,7 +3,7 @@
 use super::{Crossings, Piercing};
 use crate::graph::{CurveGraph, CurveNode};
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// Numbers of a node and of a piercing.
 const NODE: usize = 6;
@@ -22,7 +22,7 @@ impl Crossings {
 
     /// What [`Self::to_rows`] made numbers of, where it may belong to a shape; none of numbers that never can: every
     /// edge and face exists, links go both ways, places lie on edges, and piercings are in order.
-    pub fn from_rows(rows: &[u32], shape: &Shape) -> Option<Self> {
+    pub fn from_rows(rows: &[u32], shape: &HalfEdgeMesh) -> Option<Self> {
         let ([overflow, count], rest) = rows.split_first_chunk()?;
         let (nodes, piercings) = rest.split_at_checked((*count as usize).checked_mul(NODE)?)?;
         let (nodes, _) = nodes.as_chunks::<NODE>();
@@ -53,7 +53,7 @@ impl Crossings {
         is_sound.then_some(found)
     }
 
-    fn may_belong_to(&self, shape: &Shape) -> bool {
+    fn may_belong_to(&self, shape: &HalfEdgeMesh) -> bool {
         let lies = |edge: u32, t: f32, face: u32| {
             (edge as usize) < shape.edge_count()
                 && (0.0..=1.0).contains(&t)

@@ -1,14 +1,14 @@
 use super::*;
 use crate::graph::CurveNode;
 use npr_core::geometry::NONE;
-use npr_core::shape::Surface;
+use npr_mesh::half_edge::Surface;
 use npr_mesh::mesh::Mesh;
 use npr_mesh::testing::{Random, cube, icosphere, plane, uv_sphere};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 
 /// A shape of faces as they are: no welding, nothing removed.
-fn shape_of(positions: &[[f32; 3]], faces: &[[u32; 3]]) -> Shape {
+fn shape_of(positions: &[[f32; 3]], faces: &[[u32; 3]]) -> HalfEdgeMesh {
     let mut sides: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
     for (face, corners) in faces.iter().enumerate() {
         for i in 0..3 {
@@ -17,7 +17,7 @@ fn shape_of(positions: &[[f32; 3]], faces: &[[u32; 3]]) -> Shape {
             of_edge.push(3 * face as u32 + i as u32);
         }
     }
-    let mut shape = Shape {
+    let mut shape = HalfEdgeMesh {
         positions: positions.to_vec(),
         faces: faces.to_vec(),
         face_surfaces: vec![0; faces.len()],
@@ -27,7 +27,7 @@ fn shape_of(positions: &[[f32; 3]], faces: &[[u32; 3]]) -> Shape {
         dihedral_cos: vec![1.0; sides.len()],
         edge_traits: vec![0; sides.len()],
         surfaces: vec![Surface::default()],
-        ..Shape::default()
+        ..HalfEdgeMesh::default()
     };
     for (edge, of_edge) in sides.into_values().enumerate() {
         for side in &of_edge {
@@ -55,17 +55,17 @@ impl Scene {
         self
     }
 
-    fn shape(&self) -> Shape {
+    fn shape(&self) -> HalfEdgeMesh {
         shape_of(&self.0, &self.1)
     }
 }
 
-fn unlimited(shape: &Shape) -> Crossings {
+fn unlimited(shape: &HalfEdgeMesh) -> Crossings {
     let mut budget = Budget::new(u64::MAX);
     crossings(shape, &FaceTree::new(shape), &mut budget).expect("no limit is set")
 }
 
-fn found(shape: &Shape) -> Crossings {
+fn found(shape: &HalfEdgeMesh) -> Crossings {
     let found = unlimited(shape);
     found.graph.sanity_check();
     check_pieces(shape, &found.graph);
@@ -73,7 +73,7 @@ fn found(shape: &Shape) -> Crossings {
 }
 
 /// Both ends of every piece lie on the face named, within rounding.
-fn check_pieces(shape: &Shape, graph: &CurveGraph) {
+fn check_pieces(shape: &HalfEdgeMesh, graph: &CurveGraph) {
     for (index, node) in graph.nodes.iter().enumerate() {
         assert_eq!(node.flags, CurveNode::INTERSECTION);
         if node.next == NONE {
@@ -103,7 +103,7 @@ fn check_pieces(shape: &Shape, graph: &CurveGraph) {
 }
 
 /// Lines as positions, and whether they close.
-fn lines(shape: &Shape, graph: &CurveGraph) -> Vec<(Vec<[f64; 3]>, bool)> {
+fn lines(shape: &HalfEdgeMesh, graph: &CurveGraph) -> Vec<(Vec<[f64; 3]>, bool)> {
     let mut seen = vec![false; graph.nodes.len()];
     let mut lines = Vec::new();
     for start in 0..graph.nodes.len() {
@@ -144,7 +144,7 @@ fn volume(a: Point, b: Point, c: Point, d: Point) -> i128 {
 }
 
 /// Every edge against every face in whole numbers; `None` if any four points share a plane.
-fn oracle(shape: &Shape) -> Option<Vec<(u32, u32, f64)>> {
+fn oracle(shape: &HalfEdgeMesh) -> Option<Vec<(u32, u32, f64)>> {
     let point = |v: u32| shape.positions[v as usize].map(|x| x as i128);
     let mut found = Vec::new();
     for edge in 0..shape.edge_count() as u32 {
@@ -170,7 +170,7 @@ fn oracle(shape: &Shape) -> Option<Vec<(u32, u32, f64)>> {
 }
 
 /// Faces between few vertices, so that many share one or two.
-fn soup(vertex_count: u32, face_count: usize, reach: i32) -> impl Strategy<Value = Shape> {
+fn soup(vertex_count: u32, face_count: usize, reach: i32) -> impl Strategy<Value = HalfEdgeMesh> {
     let positions =
         prop::collection::vec(prop::array::uniform3(-reach..=reach), vertex_count as usize);
     let face = prop::array::uniform3(0..vertex_count)
@@ -189,7 +189,7 @@ fn soup(vertex_count: u32, face_count: usize, reach: i32) -> impl Strategy<Value
 }
 
 /// All segments, those of mere contact too, of all pairs of faces.
-fn all_segments(shape: &Shape) -> Vec<Segment> {
+fn all_segments(shape: &HalfEdgeMesh) -> Vec<Segment> {
     let count = shape.faces.len() as u32;
     let pairs = (0..count).flat_map(|g| (0..g).map(move |f| [f, g]));
     pairs.filter_map(|pair| cut::cut(shape, pair)).collect()
@@ -268,7 +268,7 @@ proptest! {
         let mut faces: Vec<[u32; 3]> = shape.faces.iter().map(|f| f.map(|v| to[v as usize])).collect();
         random.shuffle(&mut faces);
         let other = shape_of(&positions, &faces);
-        let places = |shape: &Shape, sign: f64| -> Vec<[f64; 3]> {
+        let places = |shape: &HalfEdgeMesh, sign: f64| -> Vec<[f64; 3]> {
             let piercings = found(shape).piercings;
             let place = |p: &Piercing| {
                 let [a, b] = shape.ends(p.edge).map(|v| shape.positions[v as usize].map(f64::from));
@@ -434,7 +434,7 @@ fn slivers_do_not_break_lines() {
 
 #[test]
 fn hostile_shapes_do_no_harm() {
-    assert_eq!(found(&Shape::default()), Crossings::default());
+    assert_eq!(found(&HalfEdgeMesh::default()), Crossings::default());
     let one = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     assert_eq!(found(&shape_of(&one, &[[0, 1, 2]])), Crossings::default());
 
@@ -462,7 +462,7 @@ fn a_copy_in_the_same_place_has_no_line() {
 }
 
 /// Faces with corners anywhere in a cube.
-fn shape_of_soup(count: u32) -> Shape {
+fn shape_of_soup(count: u32) -> HalfEdgeMesh {
     let mut random = Random::new(7);
     let positions: Vec<[f32; 3]> = (0..3 * count)
         .map(|_| [random.unit(), random.unit(), random.unit()])

@@ -10,7 +10,7 @@ use bytemuck::{Pod, Zeroable};
 use npr_core::crease::Creases;
 use npr_core::geometry::NONE;
 use npr_core::gpu_layout;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
 /// A unique edge with the faces beside it.
@@ -55,7 +55,7 @@ impl DrawnEdge {
     pub const WIRE: u32 = 1024;
 
     /// An edge of a shape; `bits` are those that the shape does not know.
-    fn new(shape: &Shape, edge: u32, bits: u32) -> Self {
+    fn new(shape: &HalfEdgeMesh, edge: u32, bits: u32) -> Self {
         let sides = shape.sides(edge);
         let first = sides[0];
         let [tail, head] = shape.ends_of_half_edge(first);
@@ -95,7 +95,7 @@ impl DrawnEdge {
 ///
 /// `is_drawn` says of every surface whether it has lines; where it is empty, all have. O(edges), in parallel.
 pub fn drawn_edges(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     creases: impl Into<Creases>,
     is_drawn: &[bool],
 ) -> Vec<DrawnEdge> {
@@ -118,8 +118,8 @@ pub fn drawn_edges(
             let object = object_of(shape, shape.sides(edge)[0] / 3);
             let flags = static_flags(shape, edge, creases).unwrap_or(0);
             let bits = flags
-                | bit(traits & Shape::FLIPPED != 0, DrawnEdge::FLIPPED)
-                | bit(traits & Shape::NON_MANIFOLD != 0, DrawnEdge::CROWDED)
+                | bit(traits & HalfEdgeMesh::FLIPPED != 0, DrawnEdge::FLIPPED)
+                | bit(traits & HalfEdgeMesh::NON_MANIFOLD != 0, DrawnEdge::CROWDED)
                 | bit(is_open.get(object) == Some(&true), DrawnEdge::OPEN);
             if shape.sides(edge).iter().any(has_lines) {
                 DrawnEdge::new(shape, edge, bits)
@@ -133,10 +133,10 @@ pub fn drawn_edges(
 }
 
 /// For every object, whether it has a border.
-fn open_objects(shape: &Shape) -> Vec<bool> {
+fn open_objects(shape: &HalfEdgeMesh) -> Vec<bool> {
     let mut is_open = Vec::new();
     for edge in 0..shape.edge_count() as u32 {
-        if shape.edge_traits[edge as usize] & Shape::BORDER != 0 {
+        if shape.edge_traits[edge as usize] & HalfEdgeMesh::BORDER != 0 {
             let object = object_of(shape, shape.sides(edge)[0] / 3);
             is_open.resize(is_open.len().max(object + 1), false);
             is_open[object] = true;
@@ -145,7 +145,7 @@ fn open_objects(shape: &Shape) -> Vec<bool> {
     is_open
 }
 
-fn object_of(shape: &Shape, face: u32) -> usize {
+fn object_of(shape: &HalfEdgeMesh, face: u32) -> usize {
     shape.surfaces[shape.face_surfaces[face as usize] as usize].object as usize
 }
 

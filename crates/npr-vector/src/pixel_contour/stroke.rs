@@ -17,7 +17,7 @@ use crate::rank::scan::exclusive_scan;
 use crate::run::{Run, RunPoint, base_id, number};
 use crate::seat::{Seat, share_along};
 use crate::stroke::{Kind, Stroke};
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use std::collections::BTreeMap;
 
 /// Loops as they are culled and cut.
@@ -142,7 +142,7 @@ impl Traced {
     /// corners that turn by at least `split` radians. O(sides * radius).
     pub fn strokes(
         &self,
-        shape: &Shape,
+        shape: &HalfEdgeMesh,
         projector: &Projector,
         loops: &Loops,
         split_at: Option<f32>,
@@ -159,7 +159,7 @@ impl Traced {
     ///
     /// Kind and surface are those of most of its sides, for the path draws all into one picture; the identity hangs
     /// on the mesh edge with the least hash. O(sides).
-    pub fn runs(&self, shape: &Shape, projector: &Projector, loops: &Loops) -> Vec<Run> {
+    pub fn runs(&self, shape: &HalfEdgeMesh, projector: &Projector, loops: &Loops) -> Vec<Run> {
         let maker = Maker {
             traced: self,
             shape,
@@ -178,7 +178,7 @@ impl Traced {
 /// Makes runs of strips.
 struct Maker<'a> {
     traced: &'a Traced,
-    shape: &'a Shape,
+    shape: &'a HalfEdgeMesh,
     projector: &'a Projector,
     loops: &'a Loops,
 }

@@ -4,14 +4,14 @@ use super::segment::PixelView;
 use crate::contour::steps::HalfEdge;
 use npr_core::geometry::{Part, Triangle};
 use npr_core::raster::{Fill, Sides, fill_triangles};
-use npr_core::shape::Shape;
 use npr_core::surface::apply_point;
 use npr_core::window::{View, Window};
+use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// Reversed depth of the surface at every pixel, 0 where there is none: what lines are tested against.
 ///
 /// Both sides of all faces hide. O(faces + pixels), in parallel.
-pub fn scene_depths(shape: &Shape, view: &View) -> Vec<f32> {
+pub fn scene_depths(shape: &HalfEdgeMesh, view: &View) -> Vec<f32> {
     let (_, depths) = fill(&PixelView::new(view), &shape.faces, |vertex| {
         shape.positions[vertex as usize]
     });

@@ -11,7 +11,7 @@ use crate::visibility::{Circumstances, Memory, Piece, Seen};
 use glam::DVec3;
 use npr_core::geometry::NONE;
 use npr_core::math;
-use npr_core::shape::{Shape, Surface};
+use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
@@ -88,9 +88,9 @@ impl SmokeLines<'_> {
             })
             .collect();
         // Runs look up the object of their surface, and nothing else, on the shape.
-        let smoke = Shape {
+        let smoke = HalfEdgeMesh {
             surfaces: vec![Surface::default()],
-            ..Shape::default()
+            ..HalfEdgeMesh::default()
         };
         let mut found = runs(&smoke, seen.projector, &graph, &lines);
         found.retain(|run| settings.hidden || run.occluders == 0);

@@ -21,7 +21,7 @@ use crate::sample::settle_runs;
 use crate::visibility::{Piece, Span};
 use glam::DVec3;
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
 /// Distance of samples along lines, in pixels.
@@ -87,7 +87,7 @@ impl SeenContour {
 /// The contours of the polygons in one view, and what is needed to compare smooth contours with them.
 #[derive(Debug)]
 pub struct PolygonOutline<'a> {
-    shape: &'a Shape,
+    shape: &'a HalfEdgeMesh,
     normals: &'a CornerNormals,
     projector: &'a Projector,
     size: [u32; 2],
@@ -106,7 +106,7 @@ impl<'a> PolygonOutline<'a> {
     /// `tolerance_px` is how far a smooth line may lie from the polygon's: 1 follows the polygons closely, 2.5 is as
     /// smooth as the outline's judges allow.
     pub fn new(
-        (shape, normals): (&'a Shape, &'a CornerNormals),
+        (shape, normals): (&'a HalfEdgeMesh, &'a CornerNormals),
         (projector, size): (&'a Projector, [u32; 2]),
         front: &'a [u8],
         contours: &'a [SeenContour],

@@ -4,7 +4,7 @@ use glam::DVec3;
 use npr_core::crease::Creases;
 use npr_core::geometry::NONE;
 use npr_core::math;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -32,7 +32,7 @@ impl CornerNormals {
     /// Faces without area weigh nothing.
     ///
     /// O(faces), parallel: once per shape and crease angle.
-    pub fn new(shape: &Shape, creases: impl Into<Creases>) -> Self {
+    pub fn new(shape: &HalfEdgeMesh, creases: impl Into<Creases>) -> Self {
         let faces: Vec<Face> = shape
             .faces
             .par_iter()
@@ -80,7 +80,7 @@ impl CornerNormals {
     /// Value of n.v, not divided by any length, for every fan; above 0 the surface faces the eye.
     ///
     /// `eye` is homogeneous: a point with `w = 1`, or the direction towards a parallel camera with `w = 0`.
-    pub fn facing_values(&self, shape: &Shape, eye: [f64; 4]) -> Vec<f64> {
+    pub fn facing_values(&self, shape: &HalfEdgeMesh, eye: [f64; 4]) -> Vec<f64> {
         self.normals
             .par_iter()
             .zip(&self.vertices)
@@ -112,17 +112,18 @@ pub(super) fn preceding(half_edge: u32) -> u32 {
     }
 }
 
-fn vertex_of(shape: &Shape, corner: u32) -> u32 {
+fn vertex_of(shape: &HalfEdgeMesh, corner: u32) -> u32 {
     shape.faces.as_flattened()[corner as usize]
 }
 
 fn joins(fan_of: &[u32], half_edge: u32, twin: u32) -> bool {
     let fan = |corner: u32| fan_of[corner as usize];
-    fan(half_edge) == fan(Shape::following(twin)) && fan(Shape::following(half_edge)) == fan(twin)
+    fan(half_edge) == fan(HalfEdgeMesh::following(twin))
+        && fan(HalfEdgeMesh::following(half_edge)) == fan(twin)
 }
 
 /// Twins whose sides do not share their fans; where normals pass smoothly across, they always do.
-fn split_edges(shape: &Shape, across: &[u32], fan_of: &[u32]) -> Vec<u32> {
+fn split_edges(shape: &HalfEdgeMesh, across: &[u32], fan_of: &[u32]) -> Vec<u32> {
     (0..across.len() as u32)
         .into_par_iter()
         .filter(|half_edge| {
@@ -174,10 +175,10 @@ struct Fans {
 }
 
 impl Fans {
-    fn new(shape: &Shape, faces: &[Face], creases: Creases) -> Self {
+    fn new(shape: &HalfEdgeMesh, faces: &[Face], creases: Creases) -> Self {
         let smooth = |half_edge: u32, twin: u32| {
             let edge = shape.edge_of[half_edge as usize];
-            let cos = if shape.edge_traits[edge as usize] & Shape::NON_MANIFOLD == 0 {
+            let cos = if shape.edge_traits[edge as usize] & HalfEdgeMesh::NON_MANIFOLD == 0 {
                 shape.fold_cos(edge, creases.from)
             } else {
                 let [a, b] = [half_edge, twin].map(|h| faces[h as usize / 3].normal);

@@ -2,7 +2,7 @@
 
 use super::signs::Signs;
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// A patch is chosen when this much of its visible outline lies off every smooth line, in pixels.
 pub(super) const LEAST_PX: f64 = 2.0;
@@ -74,7 +74,7 @@ impl<'a> Patches<'a> {
     /// Whether normals and plane disagree on a part of a face's side.
     fn disagree_on(&self, side: u32) -> bool {
         let front = self.front[side as usize / 3] != 0;
-        [side, Shape::following(side)]
+        [side, HalfEdgeMesh::following(side)]
             .into_iter()
             .any(|corner| self.signs.front(corner) != front)
     }

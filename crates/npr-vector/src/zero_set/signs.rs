@@ -2,7 +2,7 @@
 
 use super::normals::CornerNormals;
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// Crossings keep this distance from the ends of their edge, as a fraction of it.
 ///
@@ -77,7 +77,7 @@ impl Place {
 
 /// Signs of n.v at all corners, for one view.
 pub(super) struct Signs<'a> {
-    pub shape: &'a Shape,
+    pub shape: &'a HalfEdgeMesh,
     pub normals: &'a CornerNormals,
     pub flat: &'a FlatFaces,
     pub eye: [f64; 4],
@@ -87,7 +87,7 @@ pub(super) struct Signs<'a> {
 
 impl<'a> Signs<'a> {
     pub fn new(
-        shape: &'a Shape,
+        shape: &'a HalfEdgeMesh,
         normals: &'a CornerNormals,
         flat: &'a FlatFaces,
         eye: [f64; 4],
@@ -115,7 +115,7 @@ impl<'a> Signs<'a> {
 
     /// Where the side of a half-edge changes between front and back.
     pub fn crossing(&self, half_edge: u32) -> Option<Place> {
-        let ends = [half_edge, Shape::following(half_edge)];
+        let ends = [half_edge, HalfEdgeMesh::following(half_edge)];
         if self.front(ends[0]) == self.front(ends[1]) {
             return None;
         }
@@ -139,7 +139,7 @@ impl<'a> Signs<'a> {
 
     /// The part of an edge, from low to high, where the side of a half-edge is front, or else back; it may be empty.
     fn part(&self, half_edge: u32, front: bool) -> [Place; 2] {
-        let ends = [half_edge, Shape::following(half_edge)];
+        let ends = [half_edge, HalfEdgeMesh::following(half_edge)];
         let [mut low, mut high] = ends.map(|corner| self.front(corner) == front);
         if !self.shape.runs_up(half_edge) {
             (low, high) = (high, low);

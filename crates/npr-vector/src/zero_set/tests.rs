@@ -13,12 +13,12 @@ use std::collections::BTreeSet;
 /// Cosine of the crease angle of most tests, 40 degrees.
 const CREASE: f32 = 0.766;
 
-fn normal_of(shape: &Shape, face: u32) -> glam::DVec3 {
+fn normal_of(shape: &HalfEdgeMesh, face: u32) -> glam::DVec3 {
     let [a, b, c] = shape.faces[face as usize].map(|v| shape.point(v));
     (b - a).cross(c - a).normalize_or_zero()
 }
 
-fn front_of(shape: &Shape, eye: [f64; 4]) -> Vec<u8> {
+fn front_of(shape: &HalfEdgeMesh, eye: [f64; 4]) -> Vec<u8> {
     contour::facing(shape, &Eye::new(eye, 8.0))
 }
 
@@ -58,7 +58,7 @@ struct Case {
 }
 
 impl Case {
-    fn shape(&self) -> Shape {
+    fn shape(&self) -> HalfEdgeMesh {
         shape_of(&any_mesh(self.kind, self.size, self.noise, self.seed))
     }
 }
@@ -100,7 +100,7 @@ fn any_flat(front: &[u8], seed: u64) -> FlatFaces {
 }
 
 /// Checks that lines are closed, or open between borders, and turn the front to their left.
-fn check(shape: &Shape, signs: &Signs<'_>) {
+fn check(shape: &HalfEdgeMesh, signs: &Signs<'_>) {
     let trace::Traced { graph, along } = trace::trace(signs);
     graph.sanity_check();
     let border_at = |vertex: u32| {
@@ -140,7 +140,12 @@ fn check(shape: &Shape, signs: &Signs<'_>) {
 }
 
 /// Checks by plane geometry that the front of the piece's face lies on its left.
-fn check_piece(shape: &Shape, [node, next]: [&CurveNode; 2], along: bool, signs: &Signs<'_>) {
+fn check_piece(
+    shape: &HalfEdgeMesh,
+    [node, next]: [&CurveNode; 2],
+    along: bool,
+    signs: &Signs<'_>,
+) {
     let point = |node: &CurveNode| {
         let [a, b] = shape.ends(node.edge).map(|v| shape.point(v));
         a + (b - a) * f64::from(node.t)
@@ -220,7 +225,7 @@ proptest! {
             for h in 0..set.len() as u32 {
                 let twin = shape.twins[h as usize];
                 if twin == NONE || cos_across(&shape, h, twin) < crease { continue; }
-                let other = Shape::following(twin) as usize;
+                let other = HalfEdgeMesh::following(twin) as usize;
                 let low = set[h as usize].min(set[other]);
                 changed |= set[h as usize] != low || set[other] != low;
                 (set[h as usize], set[other]) = (low, low);
@@ -246,9 +251,9 @@ proptest! {
     }
 }
 
-fn cos_across(shape: &Shape, half_edge: u32, twin: u32) -> f32 {
+fn cos_across(shape: &HalfEdgeMesh, half_edge: u32, twin: u32) -> f32 {
     let edge = shape.edge_of[half_edge as usize] as usize;
-    if shape.edge_traits[edge] & Shape::NON_MANIFOLD != 0 {
+    if shape.edge_traits[edge] & HalfEdgeMesh::NON_MANIFOLD != 0 {
         let [a, b] = [half_edge, twin].map(|h| normal_of(shape, h / 3).as_vec3());
         return a.x * b.x + a.y * b.y + a.z * b.z;
     }
@@ -256,13 +261,13 @@ fn cos_across(shape: &Shape, half_edge: u32, twin: u32) -> f32 {
 }
 
 /// Lines of a smooth shape from an eye: world positions of all nodes.
-fn points(shape: &Shape, graph: &CurveGraph) -> Vec<glam::DVec3> {
+fn points(shape: &HalfEdgeMesh, graph: &CurveGraph) -> Vec<glam::DVec3> {
     (0..graph.nodes.len() as u32)
         .map(|node| graph.position(shape, node).into())
         .collect()
 }
 
-fn smooth(shape: &Shape, eye: [f64; 4]) -> CurveGraph {
+fn smooth(shape: &HalfEdgeMesh, eye: [f64; 4]) -> CurveGraph {
     zero_set(
         shape,
         &CornerNormals::new(shape, -1.0),
@@ -402,9 +407,9 @@ fn a_noisy_sign_of_one_piece_makes_no_cusps() {
 
 #[test]
 fn odd_input_gives_no_panic() {
-    let empty = Shape {
+    let empty = HalfEdgeMesh {
         edge_starts: vec![0],
-        ..Shape::default()
+        ..HalfEdgeMesh::default()
     };
     assert!(smooth(&empty, [0.0, 0.0, 1.0, 1.0]).nodes.is_empty());
     for scale in [1e-38f32, 1e-20, 1e20, 3e38] {

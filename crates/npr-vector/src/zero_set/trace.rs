@@ -3,7 +3,7 @@
 use super::signs::Signs;
 use crate::graph::{CurveGraph, CurveNode};
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
 /// What a node stands for; ascending numbers order the nodes of an edge.
@@ -142,14 +142,14 @@ impl Signs<'_> {
 
     /// What follows a piece that arrives at a vertex: the next step met when turning through the front.
     fn around_head(&self, half_edge: u32) -> Option<Key> {
-        let mut side = Shape::following(half_edge);
+        let mut side = HalfEdgeMesh::following(half_edge);
         // The turn leads back to this half-edge's twin at the latest, whose side is back here.
         loop {
             let twin = self.shape.twins[side as usize];
             if twin == NONE {
                 return None;
             }
-            let beyond = Shape::following(twin);
+            let beyond = HalfEdgeMesh::following(twin);
             if !self.front(beyond) {
                 return Some(self.key(side, Role::Along));
             }

@@ -5,14 +5,14 @@ use crate::contour::{Eye, contours, facing};
 use crate::graph::CurveNode;
 use crate::pixel_contour::edge::{DrawnEdge, Facing, drawn_edges, mark_edges};
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{icosphere, plane, random_soup, random_winding, shape_of, torus};
 use proptest::prelude::*;
 
 /// Cosine of the crease angle, 40 degrees.
 const CREASE: f32 = 0.766;
 
-fn marks(shape: &Shape, eye: &Eye, wanted: u32, is_convex_only: bool) -> Vec<u32> {
+fn marks(shape: &HalfEdgeMesh, eye: &Eye, wanted: u32, is_convex_only: bool) -> Vec<u32> {
     let edges = drawn_edges(shape, CREASE, &[]);
     let front: Vec<u32> = facing(shape, eye).iter().map(|f| u32::from(*f)).collect();
     let on = Facing {

@@ -8,7 +8,7 @@ use crate::pixel_contour::{PixelScene, PublishedPath, scene_depths, trace};
 use crate::project::Projector;
 use crate::stroke::{Kind, Stroke};
 use npr_core::camera::{Camera, Projection};
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{cube, icosphere, random_soup, shape_of, uv_sphere};
 use proptest::prelude::*;
 
@@ -25,7 +25,12 @@ fn perspective(eye: [f32; 3]) -> Camera {
     camera(eye, Projection::Perspective { fov_y: 0.8 })
 }
 
-fn strokes(shape: &Shape, camera: &Camera, size: [u32; 2], path: &PublishedPath) -> Vec<Stroke> {
+fn strokes(
+    shape: &HalfEdgeMesh,
+    camera: &Camera,
+    size: [u32; 2],
+    path: &PublishedPath,
+) -> Vec<Stroke> {
     let bounds = ([-2.0; 3], [2.0; 3]);
     let (view, projector) = (
         camera.view(size, bounds),
@@ -215,7 +220,7 @@ fn nothing_and_pictures_without_pixels_have_no_strokes() {
     let path = PublishedPath::default();
     assert!(
         strokes(
-            &Shape::default(),
+            &HalfEdgeMesh::default(),
             &perspective([0.0, 0.0, 4.0]),
             [30, 20],
             &path

@@ -4,7 +4,7 @@ use super::Sights;
 use crate::bvh::{FaceTree, bounds};
 use crate::project::Projector;
 use glam::DVec3;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// How far boxes are grown for rounding, in pixels and as a share of a depth.
 const ROOM: f64 = 1e-6;
@@ -39,7 +39,7 @@ impl ImageBox {
     };
 
     /// The box of a face; all of the picture where the face reaches before the near plane.
-    fn of(shape: &Shape, face: u32, projector: &Projector) -> Self {
+    fn of(shape: &HalfEdgeMesh, face: u32, projector: &Projector) -> Self {
         let corners = shape.faces[face as usize].map(|v| shape.point(v));
         let depths = corners.map(|corner| projector.depth(corner));
         let near = depths.into_iter().fold(f64::INFINITY, f64::min);
@@ -102,7 +102,7 @@ impl FaceBoxes {
     pub(super) const BYTES_PER_FACE: usize = 2 * size_of::<ImageBox>();
 
     /// Finds them. O(faces).
-    pub(super) fn new(shape: &Shape, tree: &FaceTree, projector: &Projector) -> Self {
+    pub(super) fn new(shape: &HalfEdgeMesh, tree: &FaceTree, projector: &Projector) -> Self {
         let nodes = &tree.bvh.nodes;
         let mut boxes = vec![ImageBox::EMPTY; nodes.len()];
         // Parents before children, then back.

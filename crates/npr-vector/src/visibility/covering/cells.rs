@@ -7,7 +7,7 @@ use crate::visibility::{MARGIN, Piece};
 use foldhash::fast::FixedState;
 use glam::{DVec2, DVec3};
 use npr_core::geometry::NONE;
-use npr_core::shape::Shape;
+use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -264,7 +264,12 @@ impl Polygon {
 }
 
 /// The image of a face, as far as it lies before the eye; none where it does not.
-fn image_of(shape: &Shape, face: u32, projector: &Projector, grid: &Grid) -> Option<Polygon> {
+fn image_of(
+    shape: &HalfEdgeMesh,
+    face: u32,
+    projector: &Projector,
+    grid: &Grid,
+) -> Option<Polygon> {
     let corners = shape.faces[face as usize].map(|v| projector.from_eye(shape.point(v)));
     let cut = CUT * projector.near();
     let is_before = |corner: &DVec3| !projector.is_perspective() || corner.z > cut;
@@ -306,7 +311,7 @@ impl Part<'_> {
 
 /// Visits the cells that a face touches.
 fn for_parts(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     face: u32,
     projector: &Projector,
     grid: &Grid,
@@ -377,7 +382,12 @@ impl FaceCells {
     /// Sorts the faces of a shape into cells. About O(faces + cells they touch before what hides them there).
     ///
     /// A thread takes `least` faces at once: where there are no more, all is done by the one that calls.
-    pub(super) fn new(shape: &Shape, projector: &Projector, size: [u32; 2], least: usize) -> Self {
+    pub(super) fn new(
+        shape: &HalfEdgeMesh,
+        projector: &Projector,
+        size: [u32; 2],
+        least: usize,
+    ) -> Self {
         let mut cell_px = CELL_PX;
         loop {
             let grid = Grid::new(size, cell_px);
@@ -470,7 +480,7 @@ pub(crate) type Tried = HashSet<u32, FixedState>;
 
 /// What faces are sorted into cells with.
 struct Sorter<'a> {
-    shape: &'a Shape,
+    shape: &'a HalfEdgeMesh,
     projector: &'a Projector,
     grid: Grid,
     /// How many faces a thread takes at once at least.

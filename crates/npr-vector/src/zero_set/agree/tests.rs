@@ -23,7 +23,12 @@ fn camera(eye: [f32; 3], parallel: bool) -> Projector {
 }
 
 /// All convex contours, as if nothing were in front of any.
-fn all_seen(shape: &Shape, front: &[u8], eye: &Eye, projector: &Projector) -> Vec<SeenContour> {
+fn all_seen(
+    shape: &HalfEdgeMesh,
+    front: &[u8],
+    eye: &Eye,
+    projector: &Projector,
+) -> Vec<SeenContour> {
     let graph = contours(shape, front, eye);
     let whole = [Span {
         from: 0.0,
@@ -40,7 +45,7 @@ fn all_seen(shape: &Shape, front: &[u8], eye: &Eye, projector: &Projector) -> Ve
 }
 
 fn piece_of(
-    shape: &Shape,
+    shape: &HalfEdgeMesh,
     graph: &CurveGraph,
     index: usize,
     projector: &Projector,

@@ -1,8 +1,8 @@
-//! A surface as line producers read it: welded, with half-edges and unique edges.
+//! A half-edge mesh: welded triangles of all objects, with the unique edges that lines run along.
 
-use crate::crease::CreaseFrom;
-use crate::geometry::NONE;
 use glam::DVec3;
+use npr_core::crease::CreaseFrom;
+use npr_core::geometry::NONE;
 use rayon::prelude::*;
 
 /// Triangles in the world, with everything that does not depend on the camera.
@@ -11,7 +11,7 @@ use rayon::prelude::*;
 /// Faces with two equal corners, and faces with the corners of an earlier one, have been removed; faces
 /// without area are kept, because they hold the surface together, and listed in `slivers`.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Shape {
+pub struct HalfEdgeMesh {
     /// Positions of the welded vertices, in the world.
     pub positions: Vec<[f32; 3]>,
     /// Welded corners of every face.
@@ -33,7 +33,7 @@ pub struct Shape {
     /// The same between the file's normals in the middle of the edge; that of the faces where they have none. Empty
     /// where all are.
     pub normals_cos: Vec<f32>,
-    /// Bits of [`Shape::BORDER`] to [`Shape::MARKED`] for every edge.
+    /// Bits of [`HalfEdgeMesh::BORDER`] to [`HalfEdgeMesh::MARKED`] for every edge.
     pub edge_traits: Vec<u32>,
     /// Faces without area, ascending, each with the face whose orientation it takes over: the nearest with
     /// area across its longest edges, or [`NONE`].
@@ -64,7 +64,7 @@ pub struct Surface {
     pub double_sided: bool,
 }
 
-impl Shape {
+impl HalfEdgeMesh {
     /// The edge has a single face.
     pub const BORDER: u32 = 1;
     /// The two faces differ in material.
@@ -172,7 +172,7 @@ impl Shape {
         tail < head
     }
 
-    /// Asserts what the type promises; see [`Shape::check`].
+    /// Asserts what the type promises; see [`HalfEdgeMesh::check`].
     ///
     /// # Panics
     ///
@@ -183,14 +183,14 @@ impl Shape {
         }
     }
 
-    /// Tests what the type promises, whatever the lists hold: shapes read from a file may be damaged.
+    /// Tests what the type promises, whatever the lists hold: a mesh read from a file may be damaged.
     ///
     /// O(n) over half-edges, in parallel.
     ///
     /// # Errors
     ///
     /// The first promise that is broken, and the first number for which it is.
-    pub fn check(&self) -> Result<(), BrokenShape> {
+    pub fn check(&self) -> Result<(), BrokenHalfEdges> {
         self.check_lengths()?;
         all("positions are finite", self.positions.len(), |vertex| {
             self.positions[vertex].iter().all(|v| v.is_finite())
@@ -202,7 +202,7 @@ impl Shape {
         self.check_wires()
     }
 
-    fn check_lengths(&self) -> Result<(), BrokenShape> {
+    fn check_lengths(&self) -> Result<(), BrokenHalfEdges> {
         let (half_edges, edges) = (3 * self.faces.len(), self.edge_count());
         let never_filled = edges == 0 && self.edge_starts.is_empty();
         for (promise, found, expected) in [
@@ -240,7 +240,7 @@ impl Shape {
             ),
         ] {
             if found != expected {
-                return Err(BrokenShape {
+                return Err(BrokenHalfEdges {
                     promise,
                     index: found,
                 });
@@ -249,7 +249,7 @@ impl Shape {
         Ok(())
     }
 
-    fn check_faces(&self) -> Result<(), BrokenShape> {
+    fn check_faces(&self) -> Result<(), BrokenHalfEdges> {
         all("corners of a face exist", self.faces.len(), |face| {
             self.faces[face]
                 .iter()
@@ -264,7 +264,7 @@ impl Shape {
         })
     }
 
-    fn check_wires(&self) -> Result<(), BrokenShape> {
+    fn check_wires(&self) -> Result<(), BrokenHalfEdges> {
         all(
             "ends of a wire exist and differ",
             self.wires.len(),
@@ -278,10 +278,10 @@ impl Shape {
         })
     }
 
-    fn check_edges(&self) -> Result<(), BrokenShape> {
+    fn check_edges(&self) -> Result<(), BrokenHalfEdges> {
         let bounds = [self.edge_starts.first(), self.edge_starts.last()].map(|v| *v.unwrap_or(&0));
         if bounds != [0, self.edge_sides.len() as u32] {
-            return Err(BrokenShape {
+            return Err(BrokenHalfEdges {
                 promise: "edges cover all sides",
                 index: 0,
             });
@@ -327,17 +327,17 @@ impl Shape {
 
     fn traits_match(&self, edge: u32) -> bool {
         let expected = match *self.sides(edge) {
-            [_] => Shape::BORDER,
-            [a, b] if self.runs_up(a) == self.runs_up(b) => Shape::FLIPPED,
+            [_] => HalfEdgeMesh::BORDER,
+            [a, b] if self.runs_up(a) == self.runs_up(b) => HalfEdgeMesh::FLIPPED,
             [a, _] if !self.runs_up(a) => return false,
             [_, _] => 0,
-            _ => Shape::NON_MANIFOLD,
+            _ => HalfEdgeMesh::NON_MANIFOLD,
         };
-        let meeting = Shape::BORDER | Shape::FLIPPED | Shape::NON_MANIFOLD;
+        let meeting = HalfEdgeMesh::BORDER | HalfEdgeMesh::FLIPPED | HalfEdgeMesh::NON_MANIFOLD;
         self.edge_traits[edge as usize] & meeting == expected
     }
 
-    fn check_twins(&self) -> Result<(), BrokenShape> {
+    fn check_twins(&self) -> Result<(), BrokenHalfEdges> {
         all(
             "twins come in pairs that run opposite ways",
             self.twins.len(),
@@ -353,7 +353,7 @@ impl Shape {
         )
     }
 
-    fn check_slivers(&self) -> Result<(), BrokenShape> {
+    fn check_slivers(&self) -> Result<(), BrokenHalfEdges> {
         let faces = self.faces.len() as u32;
         let listed = |face: u32| {
             self.slivers
@@ -365,7 +365,7 @@ impl Shape {
             .windows(2)
             .position(|pair| pair[0][0] >= pair[1][0]);
         if let Some(index) = ascending {
-            return Err(BrokenShape {
+            return Err(BrokenHalfEdges {
                 promise: "slivers are ascending",
                 index,
             });
@@ -381,10 +381,10 @@ impl Shape {
     }
 }
 
-/// A promise of [`Shape`] that does not hold.
+/// A promise of [`HalfEdgeMesh`] that does not hold.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("the shape breaks a promise: {promise} (number {index})")]
-pub struct BrokenShape {
+pub struct BrokenHalfEdges {
     /// What should hold.
     pub promise: &'static str,
     /// The first face, half-edge, edge or list for which it does not; of a list, its length.
@@ -396,7 +396,7 @@ fn all(
     promise: &'static str,
     count: usize,
     holds: impl Fn(usize) -> bool + Sync,
-) -> Result<(), BrokenShape> {
+) -> Result<(), BrokenHalfEdges> {
     // Whole runs at a time: asking after every number whether an earlier one failed would cost more than the test.
     const RUN: usize = 4096;
     let first_of_run = |run: usize| {
@@ -407,7 +407,7 @@ fn all(
         .into_par_iter()
         .find_map_first(first_of_run);
     match broken {
-        Some(index) => Err(BrokenShape { promise, index }),
+        Some(index) => Err(BrokenHalfEdges { promise, index }),
         None => Ok(()),
     }
 }
