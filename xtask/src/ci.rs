@@ -5,13 +5,13 @@ use std::path::Path;
 use anyhow::{Result, bail, ensure};
 
 use crate::packages::cargo;
-use crate::{assets, constants, coverage, decoders, floors, harness, names, suite};
+use crate::{assets, constants, coverage, decoders, floors, harness, names, passes, suite};
 
 /// A step: its name, and what it runs at the root of the workspace.
 type Step = (&'static str, fn(&Path) -> Result<()>);
 
 /// The steps, quick ones first.
-const STEPS: [Step; 12] = [
+const STEPS: [Step; 13] = [
     ("format", |root| {
         run_cargo(root, &["fmt", "--all", "--check"], &[])
     }),
@@ -21,6 +21,7 @@ const STEPS: [Step; 12] = [
     ("devices", harness::check_devices),
     ("constants", constants::check),
     ("coverage", coverage::check),
+    ("passes", passes::check),
     ("assets", |root| assets::check(&root.join("assets"))),
     ("clippy", |root| run_cargo(root, &CLIPPY, &[])),
     ("docs", |root| {

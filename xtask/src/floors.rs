@@ -314,7 +314,7 @@ mod tests {
         assert_eq!(count("npr-mesh", &["npr-core", "glam"]), 0);
         assert_eq!(count("npr-vector", &["npr-trace"]), 0, "listed");
         assert_eq!(
-            count("npr-vector", &["npr-mesh"]),
+            count("npr-vector", &["npr-vdb"]),
             1,
             "below, but not listed"
         );

@@ -14,6 +14,7 @@ mod harness;
 mod measure;
 mod names;
 mod packages;
+mod passes;
 mod snapshots;
 mod source;
 mod suite;
@@ -45,7 +46,8 @@ usage: cargo xtask COMMAND
                     measure outlines before backgrounds, in release, and keep the tables
   measure trace     measure tracings beside potrace, vtracer and OpenCV, in release, and keep the tables
   gallery [PRESETS] draw every preset, or those named, on the shared models into target/gallery
-  names             check that no file names a machine, no comment is too wide, and every crate has a README
+  names             check that no file names a machine, no comment or document is too wide, and every crate has a README
+  passes            write docs/passes.md, the list of passes, from their declarations
   snapshots bless FILTER
                     make what is drawn now the reference, for names that hold FILTER";
 
@@ -84,6 +86,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["measure", "outline-colour"] => measure::outline_color(root),
         ["measure", "trace"] => measure::trace(root),
         ["gallery", presets @ ..] => gallery::draw(root, presets),
+        ["passes"] => passes::write(root),
         ["names"] => names::check(root),
         ["snapshots", "bless", filter] => snapshots::bless(root, filter),
         _ => return None,

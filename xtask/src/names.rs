@@ -1,4 +1,4 @@
-//! `cargo xtask names`: nothing tells where it was written, crates introduce themselves, comments are not too wide.
+//! `cargo xtask names`: nothing tells where it was written, crates introduce themselves, nothing is too wide to read.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -23,10 +23,11 @@ const REGISTRY_HOSTS: [(&str, &str); 9] = [
     ("nexus", ".sonatype"),
 ];
 
-/// Widest comment, in characters.
+/// Widest comment, and widest line of a document, in characters.
 const MOST_COLUMNS: usize = 120;
 
-/// Fails with every file that names a machine, every published crate without a README, and every comment too wide.
+/// Fails with every file that names a machine, every published crate without a README, and every line of a comment or
+/// a document that is too wide.
 pub fn check(root: &Path) -> Result<()> {
     let files = files(root)?;
     let mut faults = Vec::new();
@@ -63,7 +64,11 @@ fn text_faults(file: &Path, text: &str) -> Vec<String> {
         .extension()
         .is_some_and(|extension| extension == "rs" || extension == "wgsl");
     let fault = |(number, line): (usize, &str)| {
-        let named = named_machine(line).or_else(|| too_wide(line).filter(|_| is_code))?;
+        let wide = || match is_document(file) {
+            true => too_wide(line),
+            false => wide_comment(line).filter(|_| is_code),
+        };
+        let named = named_machine(line).or_else(wide)?;
         Some(format!("{}:{}: {named}", file.display(), number + 1))
     };
     text.lines().enumerate().filter_map(fault).collect()
@@ -79,10 +84,22 @@ fn named_machine(line: &str) -> Option<String> {
     path.or_else(|| hosts.into_iter().find(|host| line.contains(host.as_str())))
 }
 
-/// What is wrong with a comment beyond column 120; code is the formatter's.
+/// Whether a file is a document that somebody wrote; tables of measurements are written by programs.
+fn is_document(file: &Path) -> bool {
+    let is_markdown = file.extension().is_some_and(|extension| extension == "md");
+    is_markdown && !file.starts_with("benches/results")
+}
+
+/// What is wrong with a line beyond column 120; addresses cannot be broken.
 fn too_wide(line: &str) -> Option<String> {
     let width = line.chars().count();
+    (width > MOST_COLUMNS && !line.contains("://")).then(|| format!("a line of {width} columns"))
+}
+
+/// What is wrong with a comment beyond column 120; code is the formatter's.
+fn wide_comment(line: &str) -> Option<String> {
     let is_comment = line.trim_start().starts_with("//");
+    let width = line.chars().count();
     (is_comment && width > MOST_COLUMNS).then(|| format!("a comment of {width} columns"))
 }
 
@@ -136,8 +153,18 @@ mod tests {
         assert_eq!(faults("src/lib.rs", &comment(120)), 0);
         assert_eq!(faults("src/lib.rs", &comment(121)), 1);
         assert_eq!(faults("lib/adapt.wgsl", &comment(121)), 1);
-        assert_eq!(faults("notes.md", &comment(121)), 0);
+        assert_eq!(faults("docs/notes.txt", &comment(121)), 0);
         assert_eq!(faults("src/lib.rs", &"x".repeat(121)), 0);
+    }
+
+    #[test]
+    fn documents_may_not_be_too_wide() {
+        let faults = |path: &str, line: &str| text_faults(Path::new(path), line).len();
+        assert_eq!(faults("README.md", &"x".repeat(120)), 0);
+        assert_eq!(faults("README.md", &"x".repeat(121)), 1);
+        assert_eq!(faults("benches/results/lines.md", &"x".repeat(121)), 0);
+        let address = format!("see https://example.org/{}", "x".repeat(120));
+        assert_eq!(faults("README.md", &address), 0);
     }
 
     #[test]
