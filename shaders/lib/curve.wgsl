@@ -2,7 +2,7 @@
 
 //# use lib/geometry
 
-const EDGE_IS_BORDER: u32 = 1u;
+const EDGE_IS_BOUNDARY: u32 = 1u;
 const EDGE_IS_NON_MANIFOLD: u32 = 4u;
 const EDGE_IS_FLIPPED: u32 = 8u;
 

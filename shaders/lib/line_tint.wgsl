@@ -24,7 +24,7 @@ struct Tint {
 }
 
 fn kind_of_edge(kinds: u32) -> u32 {
-    let known = kinds & (KIND_CONTOUR | KIND_BORDER | KIND_CREASE | KIND_MATERIAL);
+    let known = kinds & (KIND_CONTOUR | KIND_BOUNDARY | KIND_CREASE | KIND_MATERIAL);
     return select(firstTrailingBit(known), KIND_OF_CONTOUR, known == 0u);
 }
 

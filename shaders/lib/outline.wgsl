@@ -16,7 +16,7 @@ struct Outline {
 }
 
 const KIND_CONTOUR: u32 = 1u;
-const KIND_BORDER: u32 = 2u;
+const KIND_BOUNDARY: u32 = 2u;
 const KIND_CREASE: u32 = 4u;
 const KIND_MATERIAL: u32 = 8u;
 const KIND_ANY: u32 = 16u;

@@ -157,7 +157,7 @@ fn shows_at(px: vec2<f32>, depth: f32, along: vec2<f32>, kind: u32) -> bool {
     if !mask_near(px) { return false; }
     // The mask must run along the edge, not merely meet another line there.
     let ahead = along * mask_window.frame_step * LINE_REACH_PX;
-    if (kind & (KIND_CONTOUR | KIND_BORDER)) != 0u { return mask_near(px + ahead) || mask_near(px - ahead); }
+    if (kind & (KIND_CONTOUR | KIND_BOUNDARY)) != 0u { return mask_near(px + ahead) || mask_near(px - ahead); }
     return mask_at(px + ahead) || mask_at(px - ahead);
 }
 

@@ -33,7 +33,7 @@ fn kinds_of(edge: Edge) -> u32 {
     let flags = parts[triangles[edge.faces.x].part].flags;
     if edge.faces.y == NONE {
         let seen = front || (flags & PART_DOUBLE_SIDED) != 0u;
-        return select(0u, KIND_BORDER | select(0u, KIND_ANY, front), seen);
+        return select(0u, KIND_BOUNDARY | select(0u, KIND_ANY, front), seen);
     }
     var second = face_is_front(edge.faces.y);
     let published = select(0u, KIND_ANY, front || second);

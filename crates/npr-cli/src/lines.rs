@@ -189,7 +189,7 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
     };
     progress.suspend(|| {
         warn_of(job, &model, told.notices.iter());
-        let keys = job.look.idle_notices(&job.occasion(facts));
+        let keys = job.look.notices(&job.occasion(facts));
         let options = idle::of_lines(job, facts);
         message::warn_all(
             job.said.drawing.quiet,

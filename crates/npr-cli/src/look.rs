@@ -144,8 +144,8 @@ impl Look {
     }
 
     /// What to tell the user of keys that cannot act on an occasion.
-    pub fn idle_notices(&self, occasion: &Occasion) -> Vec<String> {
-        self.stated.idle_notices(occasion)
+    pub fn notices(&self, occasion: &Occasion) -> Vec<String> {
+        self.stated.notices(occasion)
     }
 
     /// The files that this look is made from.

@@ -184,7 +184,7 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<S
 /// Says which keys of the style cannot act in pictures of a scene.
 pub fn warn_of_idle(look: &Look, scene: Facts, quiet: bool) {
     let output = npr_stylesheet::Output::Frame;
-    message::warn_all(quiet, look.idle_notices(&Occasion { output, scene }));
+    message::warn_all(quiet, look.notices(&Occasion { output, scene }));
 }
 
 fn warn_of<'a>(job: &Job<'_>, model: &'a Model, of_smoke: impl Iterator<Item = &'a String>) {

@@ -15,8 +15,8 @@ pub const LINE_KINDS: usize = 5;
 
 /// The kind of a contour, and of anything that is of no kind.
 pub const KIND_CONTOUR: u32 = 0;
-/// The kind of a border.
-pub const KIND_BORDER: u32 = 1;
+/// The kind of a boundary.
+pub const KIND_BOUNDARY: u32 = 1;
 /// The kind of a crease.
 pub const KIND_CREASE: u32 = 2;
 /// The kind of a line between materials.
@@ -26,10 +26,10 @@ pub const KIND_INTERSECTION: u32 = 4;
 /// A kind that never has a colour of its own.
 pub const KIND_NONE: u32 = 31;
 
-/// The kind that an edge of several kinds is coloured as: the first of contour, border, crease, material.
+/// The kind that an edge of several kinds is coloured as: the first of contour, boundary, crease, material.
 #[inline]
 pub fn kind_of_edge(kinds: u32) -> u32 {
-    let known = Outline::CONTOUR | Outline::BORDER | Outline::CREASE | Outline::MATERIAL;
+    let known = Outline::CONTOUR | Outline::BOUNDARY | Outline::CREASE | Outline::MATERIAL;
     match kinds & known {
         0 => KIND_CONTOUR,
         kinds => kinds.trailing_zeros(),

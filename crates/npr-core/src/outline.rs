@@ -51,7 +51,7 @@ impl Outline {
     /// Edges between a face turned to the eye and one turned away.
     pub const CONTOUR: u32 = 1;
     /// Edges of a single face.
-    pub const BORDER: u32 = 2;
+    pub const BOUNDARY: u32 = 2;
     /// Edges sharper than the crease angle.
     pub const CREASE: u32 = 4;
     /// Edges between materials.

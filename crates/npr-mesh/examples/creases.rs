@@ -16,7 +16,7 @@ fn main() {
         .count();
     let borders = edges
         .iter()
-        .filter(|edge| edge.flags.contains(EdgeFlags::BORDER))
+        .filter(|edge| edge.flags.contains(EdgeFlags::BOUNDARY))
         .count();
     println!(
         "{} edges: {creases} creases, {borders} borders",

@@ -56,7 +56,7 @@ fn kinds_of(outline: &Outline, mesh: &PosedMesh<'_>, edge: &Edge) -> u32 {
     let both_sides = mesh.part_of(edge.faces[0]).flags & Part::DOUBLE_SIDED != 0;
     if edge.faces[1] == NONE {
         return bit(
-            Outline::BORDER | bit(Outline::ANY, front),
+            Outline::BOUNDARY | bit(Outline::ANY, front),
             front || both_sides,
         );
     }

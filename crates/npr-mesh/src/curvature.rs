@@ -2,7 +2,7 @@
 //!
 //! Each face fits a second fundamental form to the turn of the normals along its edges; every vertex
 //! averages those of its faces [Rusinkiewicz 2004, 3]. Normals are the only input besides the shape, so
-//! the cost is one pass over the faces, and borders and irregular vertices need no special case.
+//! the cost is one pass over the faces, and boundaries and irregular vertices need no special case.
 
 use glam::DVec3;
 use rayon::prelude::*;

@@ -11,7 +11,7 @@ impl EdgeFlags {
     /// Nothing special: two faces of one material, wound alike.
     pub const NONE: Self = Self(0);
     /// Only one face meets the edge.
-    pub const BORDER: Self = Self(1);
+    pub const BOUNDARY: Self = Self(1);
     /// Three or more faces meet the edge, which is then listed once per neighbouring pair.
     pub const NON_MANIFOLD: Self = Self(2);
     /// The two faces have different materials.

@@ -7,7 +7,7 @@ use crate::edge_flags::EdgeFlags;
 use crate::triangle::{Triangle, point};
 use crate::weld::Weld;
 
-/// Stands for the missing second face of a border edge.
+/// Stands for the missing second face of a boundary edge.
 pub const NO_FACE: u32 = u32::MAX;
 
 /// An edge with a pair of faces that meet there.
@@ -16,12 +16,12 @@ pub const NO_FACE: u32 = u32::MAX;
 pub struct Edge {
     /// Stored vertices at both ends, ascending; each is the first of its welded vertex.
     pub ends: [u32; 2],
-    /// The faces beside the edge; the second is [`NO_FACE`] at a border.
+    /// The faces beside the edge; the second is [`NO_FACE`] at a boundary.
     ///
     /// The first runs from `ends[0]` to `ends[1]` where either does; else the edge is
     /// [`BACKWARD`](EdgeFlags::BACKWARD). Faces that run the same way are in ascending order.
     pub faces: [u32; 2],
-    /// Cosine of the angle between the face normals, 1 where the surface is flat and at borders.
+    /// Cosine of the angle between the face normals, 1 where the surface is flat and at boundaries.
     ///
     /// Faces wound in opposite senses are compared as if they were wound alike.
     pub dihedral_cos: f32,
@@ -33,7 +33,7 @@ impl Edge {
     /// Whether the surface passes smoothly across: two faces, wound alike, whose normals differ by no
     /// more than the angle with the cosine `crease_cos`.
     pub fn is_smooth(&self, crease_cos: f32) -> bool {
-        let split = EdgeFlags::BORDER | EdgeFlags::NON_MANIFOLD | EdgeFlags::FLIPPED;
+        let split = EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD | EdgeFlags::FLIPPED;
         !self.flags.intersects(split) && self.dihedral_cos >= crease_cos
     }
 }
@@ -145,18 +145,18 @@ impl Surface<'_> {
     fn edges_of<'a>(&'a self, ring: &'a [Side]) -> impl Iterator<Item = Edge> + 'a {
         let edge_count = if ring.len() < 3 { 1 } else { ring.len() };
         (0..edge_count).map(move |i| match *ring {
-            [only] => self.border(only),
+            [only] => self.boundary(only),
             [first, second] => self.shared(first, second, EdgeFlags::NONE),
             _ => self.shared(ring[i], ring[(i + 1) % ring.len()], EdgeFlags::NON_MANIFOLD),
         })
     }
 
-    fn border(&self, side: Side) -> Edge {
+    fn boundary(&self, side: Side) -> Edge {
         Edge {
             ends: self.stored_ends(side),
             faces: [side.face(), NO_FACE],
             dihedral_cos: 1.0,
-            flags: EdgeFlags::BORDER | EdgeFlags::BACKWARD.when(!self.runs_forward(side)),
+            flags: EdgeFlags::BOUNDARY | EdgeFlags::BACKWARD.when(!self.runs_forward(side)),
         }
     }
 
@@ -247,13 +247,13 @@ fn check_edge(edge: &Edge, triangles: &[[u32; 3]], weld: &Weld) {
             "an end stands for no welded vertex: {edge:?}"
         );
     }
-    let border = edge.flags.contains(EdgeFlags::BORDER);
+    let is_boundary = edge.flags.contains(EdgeFlags::BOUNDARY);
     assert_eq!(
-        border,
+        is_boundary,
         edge.faces[1] == NO_FACE,
-        "only borders lack a face: {edge:?}"
+        "only boundaries lack a face: {edge:?}"
     );
-    for &face in edge.faces.iter().take(if border { 1 } else { 2 }) {
+    for &face in edge.faces.iter().take(if is_boundary { 1 } else { 2 }) {
         let corners = weld.corners(triangles[face as usize]);
         assert!(
             ends.iter().all(|end| corners.contains(end)),
@@ -348,13 +348,13 @@ mod tests {
     #[test]
     fn a_plane_has_a_border_all_round() {
         let (edges, _) = edges_of(&plane(5, 3));
-        assert_eq!(count(&edges, EdgeFlags::BORDER), 2 * (5 + 3));
+        assert_eq!(count(&edges, EdgeFlags::BOUNDARY), 2 * (5 + 3));
     }
 
     #[test]
     fn a_moebius_strip_flips_once_and_has_one_border() {
         let (edges, _) = edges_of(&moebius_strip(40));
-        assert_eq!(count(&edges, EdgeFlags::BORDER), 80);
+        assert_eq!(count(&edges, EdgeFlags::BOUNDARY), 80);
         assert_eq!(count(&edges, EdgeFlags::FLIPPED), 1);
         let sharpest = edges
             .iter()

@@ -33,7 +33,7 @@ pub struct HalfEdgeMesh {
     /// The same between the file's normals in the middle of the edge; that of the faces where they have none. Empty
     /// where all are.
     pub normals_cos: Vec<f32>,
-    /// Bits of [`HalfEdgeMesh::BORDER`] to [`HalfEdgeMesh::MARKED`] for every edge.
+    /// Bits of [`HalfEdgeMesh::BOUNDARY`] to [`HalfEdgeMesh::MARKED`] for every edge.
     pub edge_traits: Vec<u32>,
     /// Faces without area, ascending, each with the face whose orientation it takes over: the nearest with
     /// area across its longest edges, or [`NONE`].
@@ -66,7 +66,7 @@ pub struct Surface {
 
 impl HalfEdgeMesh {
     /// The edge has a single face.
-    pub const BORDER: u32 = 1;
+    pub const BOUNDARY: u32 = 1;
     /// The two faces differ in material.
     pub const MATERIAL: u32 = 2;
     /// Three or more faces meet.
@@ -327,13 +327,13 @@ impl HalfEdgeMesh {
 
     fn traits_match(&self, edge: u32) -> bool {
         let expected = match *self.sides(edge) {
-            [_] => HalfEdgeMesh::BORDER,
+            [_] => HalfEdgeMesh::BOUNDARY,
             [a, b] if self.runs_up(a) == self.runs_up(b) => HalfEdgeMesh::FLIPPED,
             [a, _] if !self.runs_up(a) => return false,
             [_, _] => 0,
             _ => HalfEdgeMesh::NON_MANIFOLD,
         };
-        let meeting = HalfEdgeMesh::BORDER | HalfEdgeMesh::FLIPPED | HalfEdgeMesh::NON_MANIFOLD;
+        let meeting = HalfEdgeMesh::BOUNDARY | HalfEdgeMesh::FLIPPED | HalfEdgeMesh::NON_MANIFOLD;
         self.edge_traits[edge as usize] & meeting == expected
     }
 

@@ -49,7 +49,7 @@ pub struct Preparation {
     /// Unique edges.
     pub edge_count: usize,
     /// Edges with a single face.
-    pub border_count: usize,
+    pub boundary_count: usize,
     /// Edges where three or more faces meet.
     pub non_manifold_count: usize,
     /// Edges whose two faces run the same way.
@@ -89,7 +89,7 @@ impl Preparation {
             vertex_count: shape.positions.len(),
             face_count: shape.faces.len(),
             edge_count: shape.edge_count(),
-            border_count: with(HalfEdgeMesh::BORDER),
+            boundary_count: with(HalfEdgeMesh::BOUNDARY),
             non_manifold_count: with(HalfEdgeMesh::NON_MANIFOLD),
             flipped_count: with(HalfEdgeMesh::FLIPPED),
             marked_count: with(HalfEdgeMesh::MARKED),
@@ -111,7 +111,7 @@ impl AddAssign for Preparation {
         self.vertex_count += other.vertex_count;
         self.face_count += other.face_count;
         self.edge_count += other.edge_count;
-        self.border_count += other.border_count;
+        self.boundary_count += other.boundary_count;
         self.non_manifold_count += other.non_manifold_count;
         self.flipped_count += other.flipped_count;
         self.marked_count += other.marked_count;

@@ -12,7 +12,7 @@ pub(crate) struct Sides {
     /// Where the half-edges of each edge start; one more than there are edges.
     pub(crate) starts: Vec<u32>,
     pub(crate) half_edges: Vec<u32>,
-    /// [`HalfEdgeMesh::BORDER`], [`HalfEdgeMesh::NON_MANIFOLD`], [`HalfEdgeMesh::FLIPPED`] or none of them for every
+    /// [`HalfEdgeMesh::BOUNDARY`], [`HalfEdgeMesh::NON_MANIFOLD`], [`HalfEdgeMesh::FLIPPED`] or none of them for every
     /// edge.
     pub(crate) traits: Vec<u32>,
 }
@@ -95,7 +95,7 @@ impl SortedRun {
 /// How the faces of an edge meet, told from its keys.
 fn meeting(keys: &[u64]) -> u32 {
     match keys {
-        [_] => HalfEdgeMesh::BORDER,
+        [_] => HalfEdgeMesh::BOUNDARY,
         [a, b] if (a ^ b) & DOWN == 0 => HalfEdgeMesh::FLIPPED,
         [_, _] => 0,
         _ => HalfEdgeMesh::NON_MANIFOLD,

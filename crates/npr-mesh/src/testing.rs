@@ -143,7 +143,7 @@ pub fn icosphere(level: u32) -> Mesh {
     Mesh::of_sound_parts(positions, triangles)
 }
 
-/// A band with a half twist: `2 * steps` triangles, one border, and one edge where the winding flips.
+/// A band with a half twist: `2 * steps` triangles, one boundary, and one edge where the winding flips.
 pub fn moebius_strip(steps: u32) -> Mesh {
     let positions = (0..steps)
         .flat_map(|step| {

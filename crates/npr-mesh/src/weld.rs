@@ -1,7 +1,7 @@
 //! Which stored vertices are one point of the surface.
 //!
 //! Files split a vertex wherever its texture coordinate or normal jumps, and some formats store three
-//! vertices per triangle. Taken literally, every such seam would be a border and be drawn as a line.
+//! vertices per triangle. Taken literally, every such seam would be a boundary and be drawn as a line.
 
 use rayon::prelude::*;
 

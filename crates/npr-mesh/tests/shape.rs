@@ -120,21 +120,24 @@ fn closed_surfaces_have_the_right_euler_characteristic() {
         assert!(shape.twins.iter().all(|&twin| twin != NONE));
         assert_eq!(bodies(&shape).len(), 1);
         assert_eq!(preparation.removed_count(), 0);
-        assert_eq!(preparation.border_count + preparation.non_manifold_count, 0);
+        assert_eq!(
+            preparation.boundary_count + preparation.non_manifold_count,
+            0
+        );
     }
 }
 
 #[test]
 fn a_plane_has_a_border_all_round_and_no_bend() {
     let (shape, preparation) = prepare(&plane(5, 3));
-    assert_eq!(preparation.border_count, 2 * (5 + 3));
+    assert_eq!(preparation.boundary_count, 2 * (5 + 3));
     assert!(shape.dihedral_cos.iter().all(|&cos| cos == 1.0));
 }
 
 #[test]
 fn a_moebius_strip_flips_once_and_has_one_border() {
     let (shape, preparation) = prepare(&moebius_strip(40));
-    assert_eq!(preparation.border_count, 80);
+    assert_eq!(preparation.boundary_count, 80);
     assert_eq!(preparation.flipped_count, 1);
     assert_eq!(preparation.removed_count(), 0);
     let sharpest = shape.dihedral_cos.iter().copied().fold(1.0, f32::min);
@@ -274,7 +277,7 @@ fn a_cap_takes_the_orientation_across_its_longest_edge() {
     assert_eq!(shape.slivers, [[2, 3]]);
     assert_eq!(preparation.sliver_count, 1);
     assert_eq!(
-        preparation.border_count, 4,
+        preparation.boundary_count, 4,
         "the sliver holds the quad together"
     );
     assert!(shape.dihedral_cos.iter().all(|&cos| cos == 1.0));
@@ -415,7 +418,7 @@ fn positions_of_any_size_are_taken() {
 #[test]
 fn a_hub_with_a_hundred_thousand_spokes_is_no_trouble() {
     let (shape, preparation) = prepare(&cylinder(50_000, 1));
-    assert_eq!(preparation.border_count, 0);
+    assert_eq!(preparation.boundary_count, 0);
     assert_eq!(shape.edge_count(), 300_000);
     let book = fan(100_000);
     assert_eq!(prepare(&book).1.non_manifold_count, 1);
@@ -540,7 +543,7 @@ proptest! {
             prop_assert_eq!(paired, 2 * up.len().min(down.len()), "as many twins as can be");
             let mixed = sides.iter().any(|s| of_face[*s as usize / 3] != of_face[sides[0] as usize / 3]);
             prop_assert_eq!(traits & HalfEdgeMesh::MATERIAL != 0, mixed);
-            prop_assert_eq!(traits & HalfEdgeMesh::BORDER != 0, sides.len() == 1);
+            prop_assert_eq!(traits & HalfEdgeMesh::BOUNDARY != 0, sides.len() == 1);
             prop_assert_eq!(traits & HalfEdgeMesh::NON_MANIFOLD != 0, sides.len() > 2);
             prop_assert_eq!(traits & HalfEdgeMesh::FLIPPED != 0, sides.len() == 2 && up.len() != 1);
         }

@@ -67,7 +67,7 @@ fn only_true_borders_are_left() {
             .count()
     };
     // Counted by a separate script: the rims of the eye sockets.
-    assert_eq!(with(EdgeFlags::BORDER), 84);
+    assert_eq!(with(EdgeFlags::BOUNDARY), 84);
     assert_eq!(with(EdgeFlags::NON_MANIFOLD), 0);
     assert_eq!(with(EdgeFlags::FLIPPED), 0);
     assert_eq!(edges.len(), 5_946);

@@ -355,7 +355,7 @@ pub(crate) fn outline(
     let in_world = line.width.base.unit == Unit::World;
     let published = line.method == LineMethod::Okuya;
     let kinds = bit(Outline::CONTOUR, line.kinds.contour)
-        | bit(Outline::BORDER, line.kinds.border)
+        | bit(Outline::BOUNDARY, line.kinds.boundary)
         | bit(Outline::CREASE, line.kinds.crease)
         | bit(Outline::MATERIAL, line.kinds.material);
     Outline {
@@ -373,7 +373,7 @@ pub(crate) fn outline(
         normal_cos: math::cos(normal_threshold_deg(style).to_radians()),
         kinds: match line.method {
             LineMethod::Okuya => Outline::ANY,
-            LineMethod::Edges => Outline::CONTOUR | Outline::BORDER,
+            LineMethod::Edges => Outline::CONTOUR | Outline::BOUNDARY,
             _ => kinds,
         },
         detects: bit(Outline::DEPTH, detect.depth.on)

@@ -6,6 +6,7 @@ mod table;
 pub use case::{Facts, LineFinder, LineForm, LineOutput, Occasion, Output};
 
 use crate::Stated;
+use crate::former::notice;
 use crate::stated::lies_in;
 use case::Case;
 use table::{ENTRIES, Why};
@@ -14,20 +15,20 @@ use table::{ENTRIES, Why};
 const NOTICE_LENGTH: usize = 270;
 
 impl Stated {
-    /// What to tell the user of stated keys that cannot act on an occasion: each key once, those of one reason
-    /// together.
+    /// What to tell the user of stated keys: which have former names, and which cannot act on an occasion, each key
+    /// once, those of one reason together.
     ///
     /// ```
-    /// use npr_style::{Facts, Occasion, Output, Stated};
+    /// use npr_stylesheet::{Facts, Occasion, Output, Stated};
     ///
     /// let mut stated = Stated::default();
     /// stated.set_all(&["line.method=hull", "detect.scale=2"])?;
     /// let occasion = Occasion { output: Output::Frame, scene: Facts::ALL };
-    /// let told = stated.idle_notices(&occasion);
+    /// let told = stated.notices(&occasion);
     /// assert_eq!(told, ["'detect.scale' is ignored: lines of method hull do not use it"]);
-    /// # Ok::<(), npr_style::StyleError>(())
+    /// # Ok::<(), npr_stylesheet::StyleError>(())
     /// ```
-    pub fn idle_notices(&self, occasion: &Occasion) -> Vec<String> {
+    pub fn notices(&self, occasion: &Occasion) -> Vec<String> {
         let mut groups: Vec<(String, Vec<&str>)> = Vec::new();
         for key in self.keys() {
             let Some(why) = self.idle_reason(key, occasion) else {
@@ -42,8 +43,10 @@ impl Stated {
             Output::Frame => "",
             Output::Lines(_) => " by npr lines",
         };
-        let told = groups.iter();
-        told.flat_map(|(why, keys)| sentences(keys, by, why))
+        let former = self.former().iter().map(|former| notice(former));
+        let idle = groups.iter();
+        former
+            .chain(idle.flat_map(|(why, keys)| sentences(keys, by, why)))
             .collect()
     }
 

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use crate::error::{StyleError, brief};
+use crate::former;
 use crate::{Style, check, place, preset};
 
 /// Longest style text that is read, in bytes.
@@ -57,18 +58,32 @@ const ADDED_UP: [&str; 2] = ["rule", "id_map"];
 /// Finds the text of a parent by its name.
 type Load<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 
-/// The style of `text` over its parents, and what of it stands in `text` or its parents but for presets; see
-/// [`Style::from_toml`].
-pub(crate) fn read(text: &str, load: Load<'_>) -> Result<(Style, Table), StyleError> {
+/// A style file that was read.
+pub(crate) struct Read {
+    /// The style, over its parents.
+    pub style: Style,
+    /// What of it stands in the file or its parents but for presets.
+    pub stated: Table,
+    /// Its keys under former names.
+    pub former: Vec<String>,
+}
+
+/// The style of `text` over its parents; see [`Style::from_toml`].
+pub(crate) fn read(text: &str, load: Load<'_>) -> Result<Read, StyleError> {
     let mut stack = Stack {
         load,
         open: Vec::new(),
         loaded: 0,
+        former: Vec::new(),
     };
     let flat = stack.flatten(text)?;
     let style =
         from_table(flat.all).map_err(|error| error.placed(|key| place::of_key(text, key)))?;
-    Ok((style, flat.stated))
+    Ok(Read {
+        style,
+        stated: flat.stated,
+        former: stack.former,
+    })
 }
 
 /// The style that a checked table describes.
@@ -88,6 +103,8 @@ struct Stack<'a> {
     load: Load<'a>,
     open: Vec<String>,
     loaded: usize,
+    /// Keys under former names, of all files.
+    former: Vec<String>,
 }
 
 /// A style with its parents, as tables.
@@ -125,6 +142,7 @@ impl Stack<'_> {
     /// The table of `text` merged over its parents, `extends` removed.
     fn flatten(&mut self, text: &str) -> Result<Flat, StyleError> {
         let mut all = parse(text)?;
+        self.former.extend(former::rename(&mut all));
         check::check(&all).map_err(|error| error.placed(|key| place::of_key(text, key)))?;
         let mut merged = Flat::default();
         for parent in names(all.remove("extends")) {

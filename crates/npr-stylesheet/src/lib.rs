@@ -37,6 +37,7 @@ mod check;
 mod color;
 mod detect;
 mod error;
+mod former;
 mod glob;
 mod highlight;
 mod id_map;

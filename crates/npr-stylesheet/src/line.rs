@@ -60,7 +60,7 @@ pub struct Kinds {
     /// Where a surface turns away from the eye; default true.
     pub contour: bool,
     /// Where a surface ends: edges with one face; default true.
-    pub border: bool,
+    pub boundary: bool,
     /// Where a surface folds by more than `crease_angle_deg`; default true.
     pub crease: bool,
     /// Where one material meets another; default true.
@@ -73,7 +73,7 @@ impl Default for Kinds {
     fn default() -> Self {
         Self {
             contour: true,
-            border: true,
+            boundary: true,
             crease: true,
             material: true,
             intersection: true,

@@ -62,9 +62,9 @@ pub struct KindColors {
     /// Of contours.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contour: Option<Color>,
-    /// Of borders.
+    /// Of boundaries.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub border: Option<Color>,
+    pub boundary: Option<Color>,
     /// Of creases.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crease: Option<Color>,
@@ -81,19 +81,19 @@ impl KindColors {
     fn in_order(&self) -> [Option<Color>; 5] {
         let Self {
             contour,
-            border,
+            boundary,
             crease,
             material,
             intersection,
         } = *self;
-        [contour, border, crease, material, intersection]
+        [contour, boundary, crease, material, intersection]
     }
 
     /// These, and those of `below` where there are none.
     fn over(self, below: Self) -> Self {
         Self {
             contour: self.contour.or(below.contour),
-            border: self.border.or(below.border),
+            boundary: self.boundary.or(below.boundary),
             crease: self.crease.or(below.crease),
             material: self.material.or(below.material),
             intersection: self.intersection.or(below.intersection),
@@ -380,7 +380,7 @@ mod tests {
     fn rules_change_what_they_state_in_order() {
         let style = read(
             "line.paint = { source = 'surface', factor = 0.3, kinds = { crease = '#fff' } }\n\
-             [[rule]]\nline.paint.factor = 0.5\nline.paint.kinds.border = '#f00'\n\
+             [[rule]]\nline.paint.factor = 0.5\nline.paint.kinds.boundary = '#f00'\n\
              [[rule]]\nmatch.object = 'B'\nline.paint.source = 'constant'\nline.paint.depth.ramp = [{ at = 0, color = '#123' }]",
         )
         .unwrap();
@@ -389,7 +389,7 @@ mod tests {
         assert_eq!(
             a.flags(),
             Part::LINE_SURFACE | 0b110,
-            "a border and a crease have colours"
+            "a boundary and a crease have colours"
         );
         let b = style.resolve_for("", "B").line_paint;
         assert_eq!(b.flags(), 0b110 | Part::LINE_DEPTH | Part::LINE_FROM_MIDDLE);

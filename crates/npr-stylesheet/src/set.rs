@@ -4,6 +4,7 @@ use npr_core::decoding::guard;
 use toml::{Table, Value};
 
 use crate::error::StyleError;
+use crate::former::name_of_today;
 use crate::schema::Node;
 use crate::stated::entry;
 use crate::{Style, check, layers};
@@ -21,6 +22,8 @@ pub(crate) struct Assignment<'a> {
     pub(crate) path: Vec<&'a str>,
     /// What it gets.
     pub(crate) value: Value,
+    /// The key, where the user called it by a former name.
+    pub(crate) former: Option<String>,
 }
 
 impl<'a> Assignment<'a> {
@@ -30,7 +33,7 @@ impl<'a> Assignment<'a> {
             text: text.to_owned(),
         };
         let (key, value) = text.split_once('=').ok_or_else(malformed)?;
-        let path: Vec<&str> = key.trim().split('.').collect();
+        let mut path: Vec<&str> = key.trim().split('.').collect();
         if text.len() > TEXT_BYTES_MAX
             || path.len() > DEPTH_MAX
             || path.iter().any(|name| name.is_empty())
@@ -38,7 +41,17 @@ impl<'a> Assignment<'a> {
             return Err(malformed());
         }
         let value = parse(value.trim());
-        Ok(Self { text, path, value })
+        let today = name_of_today(&path);
+        let former = today.map(|_| path.join("."));
+        if let (Some(today), Some(last)) = (today, path.last_mut()) {
+            *last = today;
+        }
+        Ok(Self {
+            text,
+            path,
+            value,
+            former,
+        })
     }
 
     /// Replaces the value in the table of a style.

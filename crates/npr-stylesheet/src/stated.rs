@@ -17,18 +17,20 @@ const LISTS_OF_TABLES: [&str; 4] = ["rule", "id_map", "lettering", "extra"];
 /// style file says of a key that would have the same value without: dumped styles say everything.
 ///
 /// ```
-/// use npr_style::Stated;
+/// use npr_stylesheet::Stated;
 ///
 /// let mut stated = Stated::preset("ink")?;
 /// stated.set_all(&["line.width.min=5", "line.width.max=9"])?;
 /// assert_eq!(stated.style().line.width.max, 9.0);
 /// assert_eq!(stated.keys().collect::<Vec<_>>(), ["line.width.max", "line.width.min"]);
-/// # Ok::<(), npr_style::StyleError>(())
+/// # Ok::<(), npr_stylesheet::StyleError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Stated {
     style: Style,
     keys: BTreeSet<String>,
+    /// Keys that were stated under former names.
+    former: Vec<String>,
 }
 
 impl Stated {
@@ -41,14 +43,22 @@ impl Stated {
         text: &str,
         load: &dyn Fn(&str) -> Result<String, String>,
     ) -> Result<Self, StyleError> {
-        let (style, stated) = layers::read(text, load)?;
+        let layers::Read {
+            style,
+            stated,
+            former,
+        } = layers::read(text, load)?;
         let mut keys = BTreeSet::new();
         gather(&Value::Table(stated), "", &mut keys);
         if let Ok(usual) = Value::try_from(Style::default()) {
             let own = Value::try_from(&style).ok();
             keys.retain(|key| own.as_ref().and_then(|own| at(own, key)) != at(&usual, key));
         }
-        Ok(Self { style, keys })
+        Ok(Self {
+            style,
+            keys,
+            former,
+        })
     }
 
     /// A preset, of which nothing was stated.
@@ -58,8 +68,10 @@ impl Stated {
     /// As [`Style::preset`].
     pub fn preset(name: &str) -> Result<Self, StyleError> {
         let style = Style::preset(name)?;
-        let keys = BTreeSet::new();
-        Ok(Self { style, keys })
+        Ok(Self {
+            style,
+            ..Self::default()
+        })
     }
 
     /// Overrides values one after the other, as [`Style::set`] does, but checks them against one another once all
@@ -73,7 +85,14 @@ impl Stated {
         let overrides = overrides.iter().map(|text| Assignment::of(text.as_ref()));
         let overrides: Vec<Assignment<'_>> = overrides.collect::<Result<_, _>>()?;
         self.style = set::assign(&self.style, &overrides)?;
-        for Assignment { path, value, .. } in &overrides {
+        for Assignment {
+            path,
+            value,
+            former,
+            ..
+        } in &overrides
+        {
+            self.former.extend(former.clone());
             let key = path.join(".");
             self.forget(&key);
             gather(value, &key, &mut self.keys);
@@ -89,6 +108,11 @@ impl Stated {
     /// The style alone.
     pub fn into_style(self) -> Style {
         self.style
+    }
+
+    /// The keys that were stated under former names.
+    pub(crate) fn former(&self) -> &[String] {
+        &self.former
     }
 
     /// The stated keys from the top, with dots, entries of lists by their numbers; sorted.

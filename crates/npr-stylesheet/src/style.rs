@@ -104,7 +104,7 @@ impl Style {
         text: &str,
         load: &dyn Fn(&str) -> Result<String, String>,
     ) -> Result<Self, StyleError> {
-        Ok(layers::read(text, load)?.0)
+        Ok(layers::read(text, load)?.style)
     }
 
     /// The preset called `name`, or `name@version`.

@@ -167,10 +167,10 @@ fn node_of(shape: &HalfEdgeMesh, eye: &Eye, half_edge: u32, next: u32) -> CurveN
     }
 }
 
-/// A piece on a proper contour edge is a contour; borders and odd edges are drawn as features and only link here.
+/// A piece on a proper contour edge is a contour; boundaries and odd edges are drawn as features and only link here.
 fn flags_of(shape: &HalfEdgeMesh, eye: &Eye, half_edge: u32, edge: u32) -> u32 {
     let twin = shape.twins[half_edge as usize];
-    let odd = HalfEdgeMesh::BORDER | HalfEdgeMesh::NON_MANIFOLD | HalfEdgeMesh::FLIPPED;
+    let odd = HalfEdgeMesh::BOUNDARY | HalfEdgeMesh::NON_MANIFOLD | HalfEdgeMesh::FLIPPED;
     if twin == NONE || shape.edge_traits[edge as usize] & odd != 0 {
         return CurveNode::SEAM;
     }

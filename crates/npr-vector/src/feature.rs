@@ -33,7 +33,7 @@ pub(crate) fn static_flags(shape: &HalfEdgeMesh, edge: u32, creases: Creases) ->
     let traits = shape.edge_traits[edge as usize];
     let bit = |has: bool, bit: u32| if has { bit } else { 0 };
     let bends = shape.fold_cos(edge, creases.from) < creases.cos;
-    let flags = bit(traits & HalfEdgeMesh::BORDER != 0, CurveNode::BOUNDARY)
+    let flags = bit(traits & HalfEdgeMesh::BOUNDARY != 0, CurveNode::BOUNDARY)
         | bit(
             bends || traits & HalfEdgeMesh::NON_MANIFOLD != 0,
             CurveNode::CREASE,
@@ -52,7 +52,7 @@ pub fn kind_in_view(
     contours_are_drawn: bool,
 ) -> u32 {
     let traits = shape.edge_traits[edge as usize];
-    if traits & (HalfEdgeMesh::BORDER | HalfEdgeMesh::NON_MANIFOLD) != 0 {
+    if traits & (HalfEdgeMesh::BOUNDARY | HalfEdgeMesh::NON_MANIFOLD) != 0 {
         return flags;
     }
     let [a, b] = [0, 1].map(|i| front[shape.sides(edge)[i] as usize / 3] != 0);

@@ -329,7 +329,7 @@ impl Drawing<'_> {
             [px[0] + ahead[0], px[1] + ahead[1]],
             [px[0] - ahead[0], px[1] - ahead[1]],
         );
-        if kind & (Outline::CONTOUR | Outline::BORDER) != 0 {
+        if kind & (Outline::CONTOUR | Outline::BOUNDARY) != 0 {
             return self.mask_near(ahead) || self.mask_near(behind);
         }
         self.mask_at(ahead) || self.mask_at(behind)

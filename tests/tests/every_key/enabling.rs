@@ -358,7 +358,7 @@ const ENABLING: &[(&str, &[&str], &str)] = &[
         "rules have no stops by default",
     ),
     (
-        "line.paint.kinds.border",
+        "line.paint.kinds.boundary",
         &["rule.0.match.object='*'"],
         "the floor alone has borders",
     ),

@@ -2,7 +2,7 @@
 //!
 //! Keys are those of the JSON Schema, so new ones are covered once they exist. Each gets other legal values, over a
 //! base style that switches on what it works with (`enabling.rs`: one line there for a key that needs another). Then,
-//! for every output: the bytes change, or `Stated::idle_notices` names the key, or it stands in `EXCEPTIONS` with the
+//! for every output: the bytes change, or `Stated::notices` names the key, or it stands in `EXCEPTIONS` with the
 //! reason. And what is said to be idle changes no byte.
 
 #![allow(

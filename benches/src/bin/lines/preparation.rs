@@ -96,7 +96,7 @@ fn odd_edges(shape: &HalfEdgeMesh) -> String {
     };
     format!(
         "{}, {}, {}",
-        count(HalfEdgeMesh::BORDER),
+        count(HalfEdgeMesh::BOUNDARY),
         count(HalfEdgeMesh::NON_MANIFOLD),
         count(HalfEdgeMesh::FLIPPED)
     )

@@ -290,7 +290,7 @@ pub fn view(look: Look) -> View {
 /// Settings of lines of a look.
 pub fn outline(look: Look) -> Outline {
     let all_buffers = Outline::DEPTH | Outline::NORMAL | Outline::OBJECT_ID | Outline::MATERIAL_ID;
-    let edges = Outline::CONTOUR | Outline::BORDER | Outline::CREASE | Outline::MATERIAL;
+    let edges = Outline::CONTOUR | Outline::BOUNDARY | Outline::CREASE | Outline::MATERIAL;
     let (base_width, kinds, detects, flags) = match look {
         Look::Ours => (
             3.0,

@@ -49,7 +49,7 @@ fn give_edges(shape: &mut HalfEdgeMesh) {
     for (edge, sides) in sides.values().enumerate() {
         let up = sides.iter().filter(|side| shape.runs_up(**side)).count();
         let traits = match (sides.len(), up) {
-            (1, _) => HalfEdgeMesh::BORDER,
+            (1, _) => HalfEdgeMesh::BOUNDARY,
             (2, 1) => 0,
             (2, _) => HalfEdgeMesh::FLIPPED,
             _ => HalfEdgeMesh::NON_MANIFOLD,

@@ -13,7 +13,7 @@ use npr_core::camera::Camera;
 use npr_core::color::{linear_rgba, unpack_rgba8};
 use npr_core::geometry::{NONE, Part};
 use npr_core::line_color::{
-    KIND_BORDER, KIND_CONTOUR, KIND_CREASE, KIND_INTERSECTION, KIND_MATERIAL, KIND_NONE,
+    KIND_BOUNDARY, KIND_CONTOUR, KIND_CREASE, KIND_INTERSECTION, KIND_MATERIAL, KIND_NONE,
 };
 use npr_core::surface::unit_or_z;
 use npr_core::texture::{self, TextureStore};
@@ -323,7 +323,7 @@ impl Spot {
 fn number_of(kind: Kind) -> u32 {
     match kind {
         Kind::Contour => KIND_CONTOUR,
-        Kind::Boundary => KIND_BORDER,
+        Kind::Boundary => KIND_BOUNDARY,
         Kind::Crease => KIND_CREASE,
         Kind::Material => KIND_MATERIAL,
         Kind::Intersection => KIND_INTERSECTION,

@@ -14,7 +14,7 @@ use npr_vector::stroke::Kind;
 pub struct LineModelOptions {
     /// Distance up to which vertices are one, as a fraction of each mesh's diagonal; default 0, equal positions only.
     ///
-    /// 1e-6 closes the cracks of most exports, which would show as borders. See [`npr_mesh::weld()`].
+    /// 1e-6 closes the cracks of most exports, which would show as boundaries. See [`npr_mesh::weld()`].
     pub weld: f32,
     /// Most bytes that may be planned; default 4 GiB.
     pub memory_limit: u64,
@@ -56,7 +56,7 @@ impl KindSet {
         let wanted = &style.line.kinds;
         let kinds = [
             (Kind::Contour, wanted.contour),
-            (Kind::Boundary, wanted.border),
+            (Kind::Boundary, wanted.boundary),
             (Kind::Crease, wanted.crease),
             (Kind::Material, wanted.material),
             (Kind::Intersection, wanted.intersection),
@@ -167,7 +167,7 @@ pub enum LineMethod {
     /// and [`LineOptions::smooth`] is about places only. See [`npr_vector::pixel_contour`].
     Potrace,
     /// All lines from a picture of the surfaces, where neighbouring pixels differ, each followed once along its
-    /// middle: visible ones alone, borders as contours. See [`npr_vector::image_line`].
+    /// middle: visible ones alone, boundaries as contours. See [`npr_vector::image_line`].
     Image,
 }
 

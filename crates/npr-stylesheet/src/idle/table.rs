@@ -252,9 +252,9 @@ pub(super) const ENTRIES: &[Entry] = &[
         "--method image draws no lines of smoke",
     ),
     entry(
-        &["line.kinds.border", "line.paint.kinds.border"],
+        &["line.kinds.boundary", "line.paint.kinds.boundary"],
         |c| c.is_found_by(LineFinder::Image),
-        "in pictures of surfaces borders are contours",
+        "in pictures of surfaces boundaries are contours",
     ),
     entry(
         &[
@@ -305,7 +305,7 @@ pub(super) const ENTRIES: &[Entry] = &[
             ])
         },
     ),
-    of_methods(&["line.paint.kinds.border"], |c| {
+    of_methods(&["line.paint.kinds.boundary"], |c| {
         !c.is_drawn_by(&[Shape, Edges, Curves, Potrace])
     }),
     of_methods(&["line.paint.kinds.crease"], |c| {

@@ -27,9 +27,9 @@ fn stated(text: &str) -> Stated {
 fn what_presets_say_is_nobodys_wish() {
     for preset in crate::presets() {
         let stated = Stated::preset(preset.name).unwrap();
-        assert!(stated.idle_notices(&lines(LineFinder::Mesh)).is_empty());
+        assert!(stated.notices(&lines(LineFinder::Mesh)).is_empty());
         let extended = stated_over(preset.name);
-        let told = extended.idle_notices(&lines(LineFinder::Mesh));
+        let told = extended.notices(&lines(LineFinder::Mesh));
         assert_eq!(told.len(), 1, "{}: {told:?}", preset.name);
     }
 }
@@ -42,8 +42,8 @@ fn stated_over(preset: &str) -> Stated {
 #[test]
 fn a_file_that_says_what_is_so_anyway_wishes_nothing() {
     let dumped = stated(&Style::default().to_toml().unwrap());
-    assert!(dumped.idle_notices(&FRAME).is_empty());
-    assert!(dumped.idle_notices(&lines(LineFinder::Mesh)).is_empty());
+    assert!(dumped.notices(&FRAME).is_empty());
+    assert!(dumped.notices(&lines(LineFinder::Mesh)).is_empty());
     let changed = stated("[motion]\nseed = 0\n[ink]\npaint = 0.25");
     assert_eq!(changed.keys().collect::<Vec<_>>(), ["ink.paint"]);
 }
@@ -68,10 +68,10 @@ fn rules_of_files_keep_their_numbers_behind_those_of_presets() {
 #[test]
 fn keys_of_one_reason_are_named_together_and_once() {
     let stated = stated("[ink]\ntone = 'hatch'\npaint = 0.5\n[ink.hatch]\nspacing = '9px'");
-    let told = stated.idle_notices(&lines(LineFinder::Mesh));
+    let told = stated.notices(&lines(LineFinder::Mesh));
     let wanted = "'ink.hatch.spacing', 'ink.paint' and 'ink.tone' are ignored by npr lines: it draws no tones and no hatching";
     assert_eq!(told, [wanted]);
-    assert!(stated.idle_notices(&FRAME).is_empty());
+    assert!(stated.notices(&FRAME).is_empty());
 }
 
 #[test]
@@ -91,12 +91,12 @@ fn an_override_is_stated_and_what_it_replaces_is_not() {
 #[test]
 fn methods_of_parts_count() {
     let of_all = stated("line.method = 'curves'\ndetect.scale = 2");
-    assert_eq!(of_all.idle_notices(&FRAME).len(), 1);
+    assert_eq!(of_all.notices(&FRAME).len(), 1);
     let of_one =
         stated("line.method = 'curves'\ndetect.scale = 2\n[[rule]]\nline.method = 'shape'");
-    assert!(of_one.idle_notices(&FRAME).is_empty());
+    assert!(of_one.notices(&FRAME).is_empty());
     let of_rule = stated("[[rule]]\nline.method = 'curves'\nline.angle_threshold_deg = 20");
-    let told = of_rule.idle_notices(&FRAME);
+    let told = of_rule.notices(&FRAME);
     let wanted =
         "'rule.0.line.angle_threshold_deg' is ignored: lines of method curves do not use it";
     assert_eq!(told, [wanted]);

@@ -202,7 +202,7 @@ impl Marked<'_> {
 
     fn flags_of(&self, half_edge: u32) -> u32 {
         let HalfEdge { twin, traits, .. } = self.half_edges[half_edge as usize];
-        let odd = HalfEdgeMesh::BORDER | HalfEdgeMesh::NON_MANIFOLD | HalfEdgeMesh::FLIPPED;
+        let odd = HalfEdgeMesh::BOUNDARY | HalfEdgeMesh::NON_MANIFOLD | HalfEdgeMesh::FLIPPED;
         if twin == NONE || traits & odd != 0 {
             return CurveNode::SEAM;
         }

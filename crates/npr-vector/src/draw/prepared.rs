@@ -24,9 +24,9 @@ pub struct Prepared {
     pub wires: CurveGraph,
     /// How near to a face they may lie without being hidden by it.
     pub(super) touch: f64,
-    /// Edges that can hide something in every view: borders, and edges of more than two faces.
+    /// Edges that can hide something in every view: boundaries, and edges of more than two faces.
     pub(super) rims: Vec<u32>,
-    /// For every object, whether it has a border, so that backs of faces may be seen.
+    /// For every object, whether it has a boundary, so that backs of faces may be seen.
     is_open: Vec<bool>,
     /// Which edges are creases.
     creases: Creases,
@@ -73,7 +73,7 @@ impl Prepared {
             Some(find) => find(&tree)?,
             None => Crossings::default(),
         };
-        let odd = HalfEdgeMesh::BORDER | HalfEdgeMesh::NON_MANIFOLD;
+        let odd = HalfEdgeMesh::BOUNDARY | HalfEdgeMesh::NON_MANIFOLD;
         let rims: Vec<u32> = (0..shape.edge_count() as u32)
             .filter(|edge| shape.edge_traits[*edge as usize] & odd != 0)
             .collect();

@@ -52,7 +52,7 @@ pub(super) struct View<'a> {
 }
 
 impl View<'_> {
-    /// Everything that can begin or end hiding something: contours, borders, and edges of more than two faces.
+    /// Everything that can begin or end hiding something: contours, boundaries, and edges of more than two faces.
     pub(super) fn outlines(
         &self,
         contours: &CurveGraph,

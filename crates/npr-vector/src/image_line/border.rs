@@ -57,7 +57,7 @@ impl Borders {
             crease_cos: scene.creases.cos,
             normal_cos: scene.creases.cos,
             depth_threshold: scene.depth_threshold,
-            kinds: Outline::CONTOUR | Outline::BORDER | Outline::CREASE | Outline::MATERIAL,
+            kinds: Outline::CONTOUR | Outline::BOUNDARY | Outline::CREASE | Outline::MATERIAL,
             detects: DETECTS,
             ..Outline::default()
         };

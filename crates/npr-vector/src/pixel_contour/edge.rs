@@ -136,7 +136,7 @@ pub fn drawn_edges(
 fn open_objects(shape: &HalfEdgeMesh) -> Vec<bool> {
     let mut is_open = Vec::new();
     for edge in 0..shape.edge_count() as u32 {
-        if shape.edge_traits[edge as usize] & HalfEdgeMesh::BORDER != 0 {
+        if shape.edge_traits[edge as usize] & HalfEdgeMesh::BOUNDARY != 0 {
             let object = object_of(shape, shape.sides(edge)[0] / 3);
             is_open.resize(is_open.len().max(object + 1), false);
             is_open[object] = true;

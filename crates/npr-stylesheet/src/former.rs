@@ -1,0 +1,122 @@
+//! Keys that were called otherwise: former names are still read.
+
+use toml::{Table, Value};
+
+use crate::stated::without_rule;
+
+/// Former names of keys, each with the name of today in the same table.
+const FORMER: [(&str, &str); 2] = [
+    ("line.kinds.border", "boundary"),
+    ("line.paint.kinds.border", "boundary"),
+];
+
+/// The name of today of the key at `path`, where that is a former name, in the style or a rule.
+pub(crate) fn name_of_today(path: &[&str]) -> Option<&'static str> {
+    let key = path.join(".");
+    let key = without_rule(&key).unwrap_or(&key);
+    FORMER
+        .iter()
+        .find(|(former, _)| *former == key)
+        .map(|(_, name)| *name)
+}
+
+/// Gives the keys of a style file their names of today, and says which had former names.
+///
+/// Where both names are there, the one of today counts. O(keys).
+pub(crate) fn rename(table: &mut Table) -> Vec<String> {
+    let mut renamed = Vec::new();
+    for (former, name) in FORMER {
+        let path: Vec<&str> = former.split('.').collect();
+        if rename_in(table, &path, name) {
+            renamed.push(former.to_owned());
+        }
+        let rules = table.get_mut("rule").and_then(Value::as_array_mut);
+        for (i, rule) in rules.into_iter().flatten().enumerate() {
+            if rule
+                .as_table_mut()
+                .is_some_and(|rule| rename_in(rule, &path, name))
+            {
+                renamed.push(format!("rule.{i}.{former}"));
+            }
+        }
+    }
+    renamed
+}
+
+/// Renames the last key of a path, where it is there.
+fn rename_in(table: &mut Table, path: &[&str], name: &str) -> bool {
+    match path {
+        [former] => match table.remove(*former) {
+            Some(value) => {
+                table.entry(name).or_insert(value);
+                true
+            }
+            None => false,
+        },
+        [first, rest @ ..] => {
+            let inner = table.get_mut(*first).and_then(Value::as_table_mut);
+            inner.is_some_and(|inner| rename_in(inner, rest, name))
+        }
+        [] => false,
+    }
+}
+
+/// What to tell the user of a key with a former name.
+pub(crate) fn notice(former: &str) -> String {
+    let path: Vec<&str> = former.split('.').collect();
+    let name = name_of_today(&path).unwrap_or_default();
+    let table = former.rsplit_once('.').map_or("", |(table, _)| table);
+    format!("'{former}' is called '{table}.{name}' today")
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Color, Occasion, Output, Stated, Style};
+
+    /// A style file, read, with what is told of its keys.
+    fn read(text: &str) -> (Style, Vec<String>) {
+        let stated = Stated::from_toml(text, &|_| Err(String::new())).expect("a style");
+        (stated.style().clone(), told(&stated))
+    }
+
+    fn told(stated: &Stated) -> Vec<String> {
+        let occasion = Occasion {
+            output: Output::Frame,
+            scene: crate::Facts::ALL,
+        };
+        stated.notices(&occasion)
+    }
+
+    #[test]
+    fn former_names_are_read_with_a_word_about_them() {
+        let (style, told) = read("line.kinds.border = false");
+        assert!(!style.line.kinds.boundary);
+        assert_eq!(
+            told,
+            ["'line.kinds.border' is called 'line.kinds.boundary' today"]
+        );
+        let (style, told) = read("line.kinds.boundary = false");
+        assert!(!style.line.kinds.boundary && told.is_empty(), "{told:?}");
+    }
+
+    #[test]
+    fn rules_and_overrides_know_former_names() {
+        let (style, told) = read("[[rule]]\nline.paint.kinds.border = 'red'");
+        let colors = style.rule[0].line.paint.kinds;
+        assert_eq!(colors.boundary, Some(Color::rgb(255, 0, 0)));
+        assert_eq!(
+            told,
+            ["'rule.0.line.paint.kinds.border' is called 'rule.0.line.paint.kinds.boundary' today"]
+        );
+        let mut stated = Stated::default();
+        stated.set_all(&["line.kinds.border=false"]).expect("a key");
+        assert!(!stated.style().line.kinds.boundary);
+        assert_eq!(self::told(&stated).len(), 1);
+    }
+
+    #[test]
+    fn of_both_names_the_one_of_today_counts() {
+        let (style, _) = read("line.kinds = { border = false, boundary = true }");
+        assert!(style.line.kinds.boundary);
+    }
+}
