@@ -29,8 +29,8 @@ type Cover = Vec<Option<usize>>;
 
 /// Cuts the parts of a scene up by the id maps of a style, so that its rules find their regions as parts of their own.
 ///
-/// Every triangle goes as a whole to the id that most of it shows: it is cut into equal small ones, as fine as the
-/// picture's texels but no more than 64, and each counts as the texel its middle lies in. Of ids that show alike the
+/// Every triangle goes as a whole to the id that most of it shows: it is cut into 64 equal small ones, or fewer where
+/// it lies within a texel, and each counts as the texel its middle lies in. Of ids that show alike the
 /// one that the map names first wins; no id comes last. Maps lie as the base colour texture does, with its transform
 /// and wrapping, and repeat where there is none. Parts without texture coordinates have no ids. Nothing moves: where
 /// pieces meet, their vertices are equal and welded again, so that creases, contours and normals stay what they were.
@@ -368,14 +368,15 @@ fn area_of(part: &Part, corners: [u32; 3]) -> f64 {
     if area.is_finite() { area } else { 0.0 }
 }
 
-/// Rows of small triangles that are about as large as texels.
+/// Rows of small triangles that are about an eighth of a texel wide: fewer would miss what lies within a texel's width
+/// of an edge, which is much of a triangle that is two or three texels large.
 fn rows_of([a, b, c]: [[f32; 2]; 3], size: [u32; 2]) -> u32 {
     let texels = |from: [f32; 2], to: [f32; 2]| {
         let [u, v] = [0, 1].map(|i| (to[i] - from[i]) * size[i] as f32);
         u.abs().max(v.abs())
     };
     let longest = texels(a, b).max(texels(b, c)).max(texels(c, a));
-    (longest.ceil() as u32).clamp(1, ROWS_MAX)
+    ((longest * ROWS_MAX as f32).ceil() as u32).clamp(1, ROWS_MAX)
 }
 
 /// The middles of the `rows * rows` equal triangles that one is cut into by lines along its sides.

@@ -84,6 +84,25 @@ fn shares(uvs: [[f32; 2]; 3], picture: &Picture) -> [f64; 3] {
     counts.map(|count| count / all)
 }
 
+#[test]
+fn a_triangle_of_three_texels_takes_what_most_of_it_shows() {
+    // Nine places would show more red than the 61 % of another colour.
+    let uvs = [
+        [1.3685776, -0.16949683],
+        [1.3024986, -0.56920314],
+        [2.0033307, -0.5492653],
+    ];
+    let others = [(2, 1), (3, 1), (2, 2), (3, 2), (1, 3)];
+    let pictures = painted(4, |x, y| match (x, y) {
+        (1, 1) => BLUE,
+        place if others.contains(&place) => [255, 1, 0, 255],
+        _ => RED,
+    });
+    let shares = shares(uvs, &pictures["ids.png"]);
+    assert!(shares[2] > 0.6, "{shares:?}");
+    assert_eq!(taken(uvs, None, &pictures), [0, 0, 1]);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
     #[test]

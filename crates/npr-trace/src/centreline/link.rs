@@ -48,6 +48,9 @@ struct Arm {
     line: [DVec2; 2],
     /// Whether fewer pixels than [`DIRECTION_PIXELS`] say so.
     is_short: bool,
+    /// Of junctions made one, which it starts at, and the middle of that.
+    fork: usize,
+    middle: DVec2,
     /// The arm that it runs on to.
     partner: u32,
 }
@@ -104,6 +107,8 @@ impl Linker<'_> {
             skip: 0,
             line: [DVec2::ZERO, DVec2::X],
             is_short: false,
+            fork: 0,
+            middle: DVec2::ZERO,
             partner: NONE,
         };
         if node == NONE || network.degree(node) < 2 || there.pixels.is_empty() {
@@ -114,7 +119,9 @@ impl Linker<'_> {
             let index = if end == 0 { k } else { count - 1 - k };
             network.place(there.pixels[index])
         };
-        let (middle, discs) = (network.middle(node), network.discs(node));
+        let discs = network.discs(node);
+        arm.fork = network.fork_at(node, at(0));
+        arm.middle = discs[arm.fork].0;
         let is_beyond = |place: DVec2| {
             discs
                 .iter()
@@ -132,7 +139,7 @@ impl Linker<'_> {
         let wanted = (6.0 * network.radius(node)).clamp(least, longest) as usize;
         let last = (arm.skip + wanted).min(count - 1);
         let places: Vec<DVec2> = (arm.skip..=last).map(at).collect();
-        arm.line = line(&places, middle);
+        arm.line = line(&places, arm.middle);
         arm.is_short = places.len() <= least as usize;
         arm
     }
@@ -230,7 +237,7 @@ impl Linker<'_> {
                 let [from, to] = [a, b].map(|arm| self.arms[*arm as usize].line[1]);
                 // -1 where one goes straight on as the other.
                 let cosine = from.dot(to);
-                if cosine < limit {
+                if cosine < limit && self.lead_to_each_other(*a, *b, limit) {
                     pairs.push((cosine, *a, *b));
                 }
             }
@@ -243,6 +250,16 @@ impl Linker<'_> {
                 self.arms[b].partner = a as u32;
             }
         }
+    }
+
+    /// Whether an arm leads to where another one starts, by `limit` as arms turn; always where they start at one fork.
+    fn lead_to_each_other(&self, a: u32, b: u32, limit: f64) -> bool {
+        let [a, b] = [a, b].map(|arm| &self.arms[arm as usize]);
+        if a.fork == b.fork {
+            return true;
+        }
+        let along = (b.line[0] - a.line[0]).normalize_or_zero();
+        a.line[1].dot(along) < limit && -b.line[1].dot(along) < limit
     }
 
     fn ways(&self) -> Vec<Way> {
@@ -314,9 +331,17 @@ impl Linker<'_> {
     fn stop(&self, arm: u32) -> Option<WayPoint> {
         let node = self.network.branches[arm as usize / 2].ends[arm as usize % 2];
         let is_junction = node != NONE && self.network.degree(node) > 1;
-        is_junction.then(|| WayPoint {
-            place: self.places[node as usize],
-            radius: None,
+        is_junction.then(|| {
+            let is_one = self.network.nodes[node as usize].joints.is_empty();
+            WayPoint {
+                // Between junctions made one there may be no ink.
+                place: if is_one {
+                    self.places[node as usize]
+                } else {
+                    self.arms[arm as usize].middle
+                },
+                radius: None,
+            }
         })
     }
 

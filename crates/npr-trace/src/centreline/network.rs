@@ -15,12 +15,16 @@ pub struct Branch {
     pub pixels: Vec<u32>,
 }
 
+/// How far beyond the ink's half width the pixels of a junction lie from its middle at most: those of a square of four,
+/// and one more.
+const PLACE_PX: f64 = 1.5;
+
 /// A place where branches end or meet.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Node {
     /// Its pixels: one, or several that touch; of junctions made one those of each in turn.
     pub pixels: Vec<u32>,
-    /// Of junctions made one, where in `pixels` those of each but the first begin.
+    /// Of junctions made one, and of those whose pixels are a way, where in `pixels` those of each but the first begin.
     pub joints: Vec<usize>,
     /// Branches that end here; a branch that starts and ends here stands twice.
     pub branches: Vec<u32>,
@@ -124,6 +128,18 @@ impl Neighbours {
 }
 
 impl Network {
+    /// Takes pixels of a junction for junctions made one, where they are no place but a way: in noise whole chains of
+    /// pixels have three neighbours and more.
+    fn part_long_junctions(&mut self) {
+        for node in 0..self.nodes.len() as u32 {
+            let spread = self.reach(node) - self.radius(node);
+            if spread > self.radius(node) + PLACE_PX {
+                let count = self.nodes[node as usize].pixels.len();
+                self.nodes[node as usize].joints = (1..count).collect();
+            }
+        }
+    }
+
     /// The network of thin lines, as [`thin`](super::thin()) leaves them; `ink` is what they were thinned from.
     ///
     /// Pixels with three neighbours or more make a junction, together with those they touch; pixels with one are
@@ -157,6 +173,7 @@ impl Network {
             dots,
             branches: Vec::new(),
         };
+        network.part_long_junctions();
         network.walk_branches(&neighbours, &node_of);
         network
     }

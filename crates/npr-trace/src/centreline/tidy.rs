@@ -171,13 +171,24 @@ impl Network {
     /// Where lines still run into each other: middles and radii of a disc for each of the junctions that one was made
     /// of.
     pub(super) fn discs(&self, node: u32) -> Vec<(DVec2, f64)> {
+        self.forks(node).map(|pixels| self.disc(pixels)).collect()
+    }
+
+    /// Which of the junctions that one was made of has the pixel nearest to a place.
+    pub(super) fn fork_at(&self, node: u32, place: DVec2) -> usize {
+        let away = |pixel: &u32| self.place(*pixel).distance_squared(place);
+        let nearest = |pixels: &[u32]| pixels.iter().map(away).fold(f64::INFINITY, f64::min);
+        let forks = self.forks(node).map(nearest).enumerate();
+        let first = forks.min_by(|a, b| a.1.total_cmp(&b.1));
+        first.map_or(0, |(fork, _)| fork)
+    }
+
+    /// The pixels of each of the junctions that one was made of.
+    fn forks(&self, node: u32) -> impl Iterator<Item = &[u32]> {
         let Node { pixels, joints, .. } = &self.nodes[node as usize];
         let begins = [0].into_iter().chain(joints.iter().copied());
         let ends = joints.iter().copied().chain([pixels.len()]);
-        let discs = begins
-            .zip(ends)
-            .map(|(from, to)| self.disc(&pixels[from..to]));
-        discs.collect()
+        begins.zip(ends).map(|(from, to)| &pixels[from..to])
     }
 
     /// The middle of pixels, and how far from it the ink around them reaches.

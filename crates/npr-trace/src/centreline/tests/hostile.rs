@@ -114,3 +114,19 @@ fn a_hair_beside_a_torn_crossing_stays_in_its_ink() {
     };
     assert_in_ink(&centrelines(&bitmap, &options), &bitmap);
 }
+
+#[test]
+fn a_hair_on_a_long_chain_of_forks_stays_in_its_ink() {
+    // Left of the middle; it seemed to go on as an arm ten pixels further along the chain.
+    let rows = [
+        335, 479, 489, 166, 164, 187, 447, 189, 151, 186, 126, 240, 511, 430, 237, 295, 166, 253,
+        446, 231, 326, 253, 308, 280, 428, 415, 348, 509, 463, 311, 106, 367, 442, 171, 255, 90,
+        345, 422, 363,
+    ];
+    let bitmap = paint(9, 39, |x, y| rows[y as usize] >> x & 1 == 1);
+    let options = CentrelineOptions {
+        turd_size: 0,
+        ..CentrelineOptions::default()
+    };
+    assert_in_ink(&centrelines(&bitmap, &options), &bitmap);
+}
