@@ -15,9 +15,9 @@ pub struct Branch {
     pub pixels: Vec<u32>,
 }
 
-/// How far beyond the ink's half width the pixels of a junction lie from its middle at most: those of a square of four,
-/// and one more.
-const PLACE_PX: f64 = 1.5;
+/// How far beyond the ink's half width the pixels of a junction lie from its middle at most: five in a row, as where
+/// lines run into a blot, and half a pixel.
+const PLACE_PX: f64 = 2.5;
 
 /// A place where branches end or meet.
 #[derive(Debug, Clone, Default, PartialEq)]
