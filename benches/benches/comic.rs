@@ -14,11 +14,11 @@ fn comic(c: &mut Criterion) {
     let mut group = c.benchmark_group("comic");
     for name in ["toon", "comic-silver", "crosshatch", "screentone"] {
         let style = Style::preset(name).expect("a preset");
-        let mut stage = subject
-            .warm_stage(&Processor, &style, SIZE)
+        let mut renderer = subject
+            .warm_renderer(&Processor, &style, SIZE)
             .expect("the processor draws");
         group.bench_function(BenchmarkId::from_parameter(name), |b| {
-            b.iter(|| stage.draw(&subject.camera))
+            b.iter(|| renderer.draw(&subject.camera))
         });
     }
 }

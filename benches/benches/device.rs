@@ -27,19 +27,19 @@ fn frames(c: &mut Criterion) {
                 format!("{count} triangles"),
                 format!("{}x{}", size[0], size[1]),
             );
-            let mut stage = subject
-                .warm_stage(&device, &Style::default(), size)
+            let mut renderer = subject
+                .warm_renderer(&device, &Style::default(), size)
                 .expect("the device draws");
-            group.bench_function(id, |b| b.iter(|| stage.draw(&subject.camera)));
+            group.bench_function(id, |b| b.iter(|| renderer.draw(&subject.camera)));
         }
     }
     if let Some(path) = bunny_path() {
         let subject = Subject::from_file(&path).expect("the bunny is sound");
-        let mut stage = subject
-            .warm_stage(&device, &Style::default(), [1920, 1080])
+        let mut renderer = subject
+            .warm_renderer(&device, &Style::default(), [1920, 1080])
             .expect("the device draws");
         group.bench_function("bunny at 1920x1080", |b| {
-            b.iter(|| stage.draw(&subject.camera))
+            b.iter(|| renderer.draw(&subject.camera))
         });
     }
 }

@@ -23,10 +23,10 @@ fn triangles_and_pixels(c: &mut Criterion) {
                 format!("{count} triangles"),
                 format!("{}x{}", size[0], size[1]),
             );
-            let mut stage = subject
-                .warm_stage(&Processor, &Style::default(), size)
+            let mut renderer = subject
+                .warm_renderer(&Processor, &Style::default(), size)
                 .expect("the processor draws");
-            group.bench_function(id, |b| b.iter(|| stage.draw(&subject.camera)));
+            group.bench_function(id, |b| b.iter(|| renderer.draw(&subject.camera)));
         }
     }
 }
@@ -37,11 +37,11 @@ fn mask_scales(c: &mut Criterion) {
     for scale in MASK_SCALES {
         let mut style = Style::default();
         style.detect.scale = scale;
-        let mut stage = subject
-            .warm_stage(&Processor, &style, SIZES[2])
+        let mut renderer = subject
+            .warm_renderer(&Processor, &style, SIZES[2])
             .expect("the processor draws");
         group.bench_function(BenchmarkId::from_parameter(scale), |b| {
-            b.iter(|| stage.draw(&subject.camera))
+            b.iter(|| renderer.draw(&subject.camera))
         });
     }
 }
@@ -49,11 +49,11 @@ fn mask_scales(c: &mut Criterion) {
 fn bunny(c: &mut Criterion) {
     let Some(path) = bunny_path() else { return };
     let subject = Subject::from_file(&path).expect("the bunny is sound");
-    let mut stage = subject
-        .warm_stage(&Processor, &Style::default(), SIZES[2])
+    let mut renderer = subject
+        .warm_renderer(&Processor, &Style::default(), SIZES[2])
         .expect("the processor draws");
     c.bench_function("bunny at 1920x1080", |b| {
-        b.iter(|| stage.draw(&subject.camera))
+        b.iter(|| renderer.draw(&subject.camera))
     });
 }
 

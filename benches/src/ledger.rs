@@ -23,10 +23,10 @@ struct Row {
 
 impl Ledger {
     /// What `stage` gives, its time entered under a name.
-    pub fn time<T>(&mut self, name: &str, stage: impl FnOnce() -> T) -> T {
+    pub fn time<T>(&mut self, name: &str, renderer: impl FnOnce() -> T) -> T {
         let before = worked_ms();
         let mut given = None;
-        let clock = elapsed_ms(|| given = Some(stage()));
+        let clock = elapsed_ms(|| given = Some(renderer()));
         let worked = before.zip(worked_ms()).map(|(from, to)| to - from);
         self.enter(name, clock, worked);
         given.unwrap_or_else(|| unreachable!("a stage that ran has given something"))

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
 use npr_gpu::engine::Engine;
-use npr_render::{Model, RenderError, Stage, StageOptions};
+use npr_render::{Model, RenderError, Renderer, RendererOptions};
 use npr_scene::{LoadOptions, load};
 use npr_stylesheet::Style;
 
@@ -50,15 +50,15 @@ impl Subject {
     /// # Errors
     ///
     /// [`RenderError`] where the engine fails.
-    pub fn warm_stage(
+    pub fn warm_renderer(
         &self,
         engine: &dyn Engine,
         style: &Style,
         size: [u32; 2],
-    ) -> Result<Stage<'_>, RenderError> {
-        let mut stage = Stage::new(engine, &self.model, style, &StageOptions::new(size))?;
-        stage.draw(&self.camera)?;
-        Ok(stage)
+    ) -> Result<Renderer<'_>, RenderError> {
+        let mut renderer = Renderer::new(engine, &self.model, style, &RendererOptions::new(size))?;
+        renderer.draw(&self.camera)?;
+        Ok(renderer)
     }
 }
 

@@ -42,8 +42,8 @@ pub fn elapsed_ms(work: impl FnOnce()) -> f64 {
 pub fn worked_ms() -> Option<f64> {
     let mut sum = 0.0;
     for thread in std::fs::read_dir("/proc/self/task").ok()? {
-        let told = std::fs::read_to_string(thread.ok()?.path().join("schedstat")).ok()?;
-        sum += told.split(' ').next()?.parse::<f64>().ok()?;
+        let reported = std::fs::read_to_string(thread.ok()?.path().join("schedstat")).ok()?;
+        sum += reported.split(' ').next()?.parse::<f64>().ok()?;
     }
     Some(sum / 1e6)
 }

@@ -6,7 +6,7 @@
 use npr_benches::smoke::calm::{Change, Shown};
 use npr_benches::smoke::subject::{camera, drawn, plume, space_of};
 use npr_gpu::processor::Processor;
-use npr_render::{Following, Model, Stage, StageOptions};
+use npr_render::{Following, Model, Renderer, RendererOptions};
 use npr_scene::Scene;
 use npr_smoke::{Puffs, Smoke, Volume};
 use npr_stylesheet::Style;
@@ -45,19 +45,21 @@ fn changes(
     mut step: impl FnMut(u32) -> (Volume, Puffs, f32),
 ) -> [f64; 2] {
     let model = Model::new(&Scene::default()).unwrap();
-    let options = StageOptions {
+    let options = RendererOptions {
         smoke: Some(npr_render::Smoke::new(vec![
             npr_render::Sphere::default();
             300
         ])),
-        ..StageOptions::new(SIZE)
+        ..RendererOptions::new(SIZE)
     };
-    let mut stage = Stage::new(&Processor, &model, style, &options).unwrap();
+    let mut renderer = Renderer::new(&Processor, &model, style, &options).unwrap();
     let mut shown = |number: u32| {
         let (volume, puffs, degrees) = step(number);
         let camera = camera(space_of(&volume), SIZE, degrees);
-        stage.set_smoke(&drawn(&puffs.spheres(), &volume)).unwrap();
-        Shown::new(&stage.draw(&camera).unwrap(), &camera, &puffs.spheres())
+        renderer
+            .set_smoke(&drawn(&puffs.spheres(), &volume))
+            .unwrap();
+        Shown::new(&renderer.draw(&camera).unwrap(), &camera, &puffs.spheres())
     };
     let frames: Vec<Shown> = (0..=steps).map(&mut shown).collect();
     let pairs = frames.windows(2).map(|pair| pair[1].change_since(&pair[0]));

@@ -13,7 +13,7 @@ override WG: u32 = 64u;
 @group(0) @binding(0) var<uniform> window: Window;
 @group(0) @binding(1) var<uniform> rules: Rules;
 @group(0) @binding(2) var<storage, read> tile_rims: array<TileRims>;
-@group(0) @binding(3) var<storage, read_write> bounds: array<Lean>;
+@group(0) @binding(3) var<storage, read_write> bounds: array<ContrastBias>;
 
 //# use lib/adapt
 //# use lib/stretch
@@ -27,16 +27,16 @@ const SLOPE: f32 = 0.08;
 // How fast another wall stops to count, as a multiple of how much more it differs.
 const UNLIKE_SLOPE: f32 = 4.0;
 
-fn bound_at(x: u32, y: u32, across: u32) -> Lean {
+fn bound_at(x: u32, y: u32, across: u32) -> ContrastBias {
     let here = tile_rims[y * across + x];
-    var bound: Lean;
+    var bound: ContrastBias;
     if here.whose == 0u { return bound; }
     bound.low = here.low;
     bound.high = here.high;
     bound.whose = here.whose;
     let rim = unpack4x8unorm(here.rim);
     bound.rim = array<f32, 3>(rim.r, rim.g, rim.b);
-    let reach = select(0u, ENVELOPE_TILES, rules.lean_px > 0.0);
+    let reach = select(0u, ENVELOPE_TILES, rules.bias_px > 0.0);
     let low = first_around(x, y, reach);
     let high = last_around(x, y, reach, across, arrayLength(&tile_rims));
     for (var row = low.y; row <= high.y; row++) {
@@ -50,7 +50,7 @@ fn bound_at(x: u32, y: u32, across: u32) -> Lean {
             bound.high = max(bound.high, there.high - loss - unlike);
         }
     }
-    bound.lean = preference(here.line, vec2<f32>(bound.low, bound.high), here.rule);
+    bound.bias = preference(here.line, vec2<f32>(bound.low, bound.high), here.rule);
     return bound;
 }
 

@@ -23,7 +23,7 @@ override WG: u32 = 64u;
 @group(0) @binding(6) var ribbons: texture_2d<f32>;
 @group(0) @binding(7) var<storage, read> triangles: array<Triangle>;
 @group(0) @binding(8) var<storage, read> parts: array<Part>;
-@group(0) @binding(9) var<storage, read> wearers: array<Wearer>;
+@group(0) @binding(9) var<storage, read> part_subjects: array<PartSubject>;
 @group(0) @binding(10) var<storage, read> bare: array<u32>;
 @group(0) @binding(11) var<storage, read> overlay: array<u32>;
 @group(0) @binding(12) var<storage, read_write> rims: array<Rim>;
@@ -97,7 +97,7 @@ fn packed(rim: Sum, behind: Sum, share: f32, rule: u32, subject: u32, part: u32)
 // Lines of parts without a rule have a rim that counts for nothing, and so keep their colour beside others.
 fn inner_rim(x: u32, y: u32, sum: Sum, owner: u32, part: u32) -> Rim {
     var none: Rim;
-    let rule = wearers[part].rule;
+    let rule = part_subjects[part].rule;
     let is_left_out = rule != 0u && rules.rules[rule].within == 0u;
     if rules.within == 0u || is_left_out || !is_inked(x, y, part) { return none; }
     let share = select(1.0, 0.0, rule == 0u);
@@ -115,7 +115,7 @@ fn rim_at(x: u32, y: u32) -> Rim {
     var behind: Sum;
     var part = 0u;
     var rule = 0u;
-    var minding = 0.0;
+    var contrasting = 0.0;
     for (var row = low.y; row <= high.y; row++) {
         for (var column = low.x; column <= high.x; column++) {
             let shown = shown_at(column, row);
@@ -123,9 +123,9 @@ fn rim_at(x: u32, y: u32) -> Rim {
             if shown.subject == owner {
                 if rim.count == 0.0 { part = shown.part; }
                 rim = added(rim, texel);
-                let own = wearers[shown.part].rule;
+                let own = part_subjects[shown.part].rule;
                 if own != 0u {
-                    minding += 1.0;
+                    contrasting += 1.0;
                     rule = own;
                 }
             } else if shown.subject != MIXED {
@@ -141,7 +141,7 @@ fn rim_at(x: u32, y: u32) -> Rim {
         behind = added(nothing, bare[y * window.size.x + x]);
     }
     if behind.count == 0.0 { return inner_rim(x, y, rim, owner, part); }
-    let share = minding / rim.count;
+    let share = contrasting / rim.count;
     return packed(rim, behind, share, rule, owner | outside, part);
 }
 

@@ -13,7 +13,7 @@
 @group(0) @binding(2) var<uniform> rules: Rules;
 @group(0) @binding(3) var ids: texture_2d<u32>;
 @group(0) @binding(4) var<storage, read> triangles: array<Triangle>;
-@group(0) @binding(5) var<storage, read> wearers: array<Wearer>;
+@group(0) @binding(5) var<storage, read> part_subjects: array<PartSubject>;
 
 //# use lib/scenery
 

@@ -12,7 +12,7 @@
 @group(0) @binding(1) var<uniform> rules: Rules;
 @group(0) @binding(2) var<storage, read> rims: array<Rim>;
 @group(0) @binding(3) var<storage, read> columns: array<u32>;
-@group(0) @binding(4) var<storage, read> leans: array<Lean>;
+@group(0) @binding(4) var<storage, read> biases: array<ContrastBias>;
 
 //# use lib/backdrop
 //# use lib/stretch
@@ -24,23 +24,23 @@ struct Sides {
 
 // What is decided for a rim, between the four tiles around: those of the same subject alone. Of nobody where there is
 // none.
-fn lean_between(whose: u32, pixel: vec2<u32>) -> Lean {
+fn bias_between(whose: u32, pixel: vec2<u32>) -> ContrastBias {
     let across = tiles_across(window.size);
-    let down = arrayLength(&leans) / across;
+    let down = arrayLength(&biases) / across;
     let place = (vec2<f32>(pixel) + 0.5) / f32(BORDER_TILE) - 0.5;
-    var sum: Lean;
+    var sum: ContrastBias;
     var total = 0.0;
     for (var i = 0u; i < 4u; i++) {
         let tile = floor(place) + vec2<f32>(f32(i & 1u), f32(i >> 1u));
         if any(tile < vec2<f32>(0.0)) || tile.x >= f32(across) || tile.y >= f32(down) { continue; }
-        let lean = leans[u32(tile.y) * across + u32(tile.x)];
-        if lean.whose != whose { continue; }
+        let bias = biases[u32(tile.y) * across + u32(tile.x)];
+        if bias.whose != whose { continue; }
         let near = 1.0 - abs(place - tile);
         let weight = near.x * near.y + 1e-4;
-        sum = add_lean(sum, lean, weight);
+        sum = add_bias(sum, bias, weight);
         total += weight;
     }
-    return mean_lean(sum, total, whose);
+    return mean_bias(sum, total, whose);
 }
 
 fn spread_at(x: u32, y: u32) -> Sides {
@@ -70,13 +70,13 @@ fn spread_at(x: u32, y: u32) -> Sides {
     sides.back = unpack4x8unorm(rim.behind);
     let rule = rim.behind >> 24u;
     if rules.rules[rule].method != RULE_BY_CONTRAST { return sides; }
-    let lean = lean_between(rim.subject & RIM_WHOSE, at);
-    if lean.whose == 0u {
+    let bias = bias_between(rim.subject & RIM_WHOSE, at);
+    if bias.whose == 0u {
         sides.back = vec4<f32>(0.0);
         return sides;
     }
-    if rules.rules[rule].rim_factor > 0.0 { sides.front = vec4<f32>(rim_of(lean), sides.front.a); }
-    sides.back = vec4<f32>(lean.low, lean.high, 0.5 + 0.5 * lean.lean, sides.back.a);
+    if rules.rules[rule].rim_factor > 0.0 { sides.front = vec4<f32>(rim_of(bias), sides.front.a); }
+    sides.back = vec4<f32>(bias.low, bias.high, 0.5 + 0.5 * bias.bias, sides.back.a);
     return sides;
 }
 

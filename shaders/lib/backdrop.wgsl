@@ -37,12 +37,12 @@ struct Rules {
     reach_px: u32,
     samples: u32,
     within: u32,
-    lean_px: f32,
+    bias_px: f32,
     hold: f32,
     fade: f32,
 }
 
-struct Wearer {
+struct PartSubject {
     subject: u32,
     rule: u32,
 }

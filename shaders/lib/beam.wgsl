@@ -45,7 +45,7 @@ struct Beams {
 }
 
 // Lays the beams over a pixel's surfaces.
-fn add_beams(pixel: vec2<u32>, veil: Veil, frame_px: vec2<f32>, below: vec4<f32>) -> Beams {
+fn add_beams(pixel: vec2<u32>, smoke_layer: SmokeLayer, frame_px: vec2<f32>, below: vec4<f32>) -> Beams {
     var result: Beams;
     var sum = vec4<f32>(0.0);
     var ids_here: array<u32, 4>;
@@ -63,7 +63,7 @@ fn add_beams(pixel: vec2<u32>, veil: Veil, frame_px: vec2<f32>, below: vec4<f32>
         for (var j = i; j < count; j++) {
             let at = pixel * compose.samples + vec2<u32>(j & 1u, j >> 1u);
             if ids_here[j] == id && beam_shows(id, textureLoad(ids, at, 0).x, j, frame_px) {
-                shown += (1.0 - veil_over(veil, id, j, frame_px)) / f32(count);
+                shown += (1.0 - smoke_layer_over(smoke_layer, id, j, frame_px)) / f32(count);
             }
         }
         let part = triangles[(id & ID_MASK) - 1u].part;

@@ -1,4 +1,5 @@
-// Half-edges, curve nodes and which way faces are turned. Twins: npr_vector::graph, npr_vector::contour.
+// Half-edges, curve nodes and which way faces are turned. Twins: npr_vector::mesh_lines::graph,
+// npr_vector::mesh_lines::contour.
 
 //# use lib/geometry
 

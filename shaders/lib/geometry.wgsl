@@ -13,7 +13,7 @@ struct Vertex {
     weld_normal: u32,
     width: f32,
     part: u32,
-    knot: f32,
+    chart_distortion: f32,
 }
 
 struct Influence {

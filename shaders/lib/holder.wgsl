@@ -1,4 +1,4 @@
-// Which element of a scan a place belongs to. Twin: npr_vector::pixel_contour::fragment::holder_of. The shader
+// Which element of a scan a place belongs to. Twin: npr_vector::pixel_strokes::fragment::holder_of. The shader
 // declares `starts`.
 
 // The last of the first `count` starts, which ascend, that is not above a value.

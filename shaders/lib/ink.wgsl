@@ -1,4 +1,4 @@
-// Ink in a picture and the sides of its pixels. Twin: npr_vector::pixel_contour::side.
+// Ink in a picture and the sides of its pixels. Twin: npr_vector::pixel_strokes::side.
 
 //# use lib/grid
 

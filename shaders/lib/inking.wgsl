@@ -17,8 +17,8 @@ const ABRUPT: f32 = 0.25;
 // How badly a chart lies, 0..1, from which dots are set on the screen instead.
 const LOOSE: f32 = 0.3;
 
-// Part of the hatch, of what inks last, that a knot fills at once.
-const KNOT_FILL: f32 = 0.22;
+// Part of the hatch, of what inks last, that a chart distortion fills at once.
+const DISTORTION_FILL: f32 = 0.22;
 
 fn shade_level(x: f32, dark_at: f32, light_at: f32) -> f32 {
     if light_at <= dark_at { return select(1.0, 0.0, x < light_at); }
@@ -62,7 +62,7 @@ struct Hatching {
 }
 
 // Where a pixel lies in a hatch, in tiles, and how far it is from there to its neighbours.
-struct Place {
+struct HatchCoord {
     uv: vec2<f32>,
     right: vec2<f32>,
     down: vec2<f32>,
@@ -70,12 +70,12 @@ struct Place {
 
 // Where strokes give way: how badly they lie, and how far the tone changes too fast for them, 0..1.
 struct Calm {
-    knot: f32,
+    chart_distortion: f32,
     abrupt: f32,
 }
 
 // Tiles that a pixel covers across the strokes, or in the mean of both directions.
-fn step_of(place: Place, isotropic: bool) -> f32 {
+fn step_of(place: HatchCoord, isotropic: bool) -> f32 {
     if isotropic { return sqrt(abs(cross2(place.right, place.down))); }
     return length(vec2<f32>(place.right.x, place.down.x));
 }
@@ -105,22 +105,22 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
     }
     let ink = ink_of_level(part, l[0]);
     if ink >= 0.0 { return ink; }
-    let knot = knot_at(id, weights[0]);
+    let chart_distortion = chart_distortion_at(id, weights[0]);
     var calm: Calm;
-    calm.knot = knot * white[0];
+    calm.chart_distortion = chart_distortion * white[0];
     calm.abrupt = abruptness(per_px, parts[part].spacing_px);
-    if (flags & PART_ISOTROPIC) != 0u && knot >= LOOSE {
-        calm.knot = 0.0;
+    if (flags & PART_ISOTROPIC) != 0u && chart_distortion >= LOOSE {
+        calm.chart_distortion = 0.0;
         return ink_of_hatch(part, place_on_screen(part, px), l[0], darkens, calm);
     }
     return ink_of_hatch(part, place_in_hatch(id, part, weights, places), l[0], darkens, calm);
 }
 
 // Where a pixel and its neighbours lie in the hatch of a part if that is laid on the picture.
-fn place_on_screen(part: u32, px: vec2<f32>) -> Place {
+fn place_on_screen(part: u32, px: vec2<f32>) -> HatchCoord {
     let header = parts[part].hatch;
     let scale = bitcast<f32>(texels[header + 3u]) / (f32(texels[header]) * parts[part].spacing_px);
-    var place: Place;
+    var place: HatchCoord;
     place.uv = px * scale;
     place.right = vec2<f32>(scale, 0.0);
     place.down = vec2<f32>(0.0, scale);
@@ -143,14 +143,14 @@ fn second_may_ink(part: u32, l: f32) -> bool {
 }
 
 // Ink of hatched surface at the luminance `l` of its shade ramp, which changes F by `darkens` over a pixel.
-fn ink_of_hatch(part: u32, place: Place, l: f32, darkens: vec2<f32>, calm: Calm) -> f32 {
+fn ink_of_hatch(part: u32, place: HatchCoord, l: f32, darkens: vec2<f32>, calm: Calm) -> f32 {
     var layer = hatch_layer(part, place);
     if (parts[part].flags & PART_TWO_LAYERS) == 0u { return hatch_coverage(part, sharpened(part, layer), l, darkens, calm); }
     let first = sharpened(part, scaled(layer, first_of_two(layer.s, parts[part].second_from)));
     let ink = hatch_coverage(part, first, l, darkens, calm);
     // Most places are settled by the first layer, or too light for the second.
     if ink == 1.0 || !second_may_ink(part, l) { return ink; }
-    var crossed: Place;
+    var crossed: HatchCoord;
     crossed.uv = place.uv.yx + 0.5;
     crossed.right = place.right.yx;
     crossed.down = place.down.yx;
@@ -161,13 +161,13 @@ fn ink_of_hatch(part: u32, place: Place, l: f32, darkens: vec2<f32>, calm: Calm)
 }
 
 fn hatch_coverage(part: u32, layer: Hatching, l: f32, darkens: vec2<f32>, calm: Calm) -> f32 {
-    let hatching = toned_hatch(untied(layer, calm.knot), calm.abrupt);
+    let hatching = toned_hatch(untied(layer, calm.chart_distortion), calm.abrupt);
     let slope = max(length(hatching.slope + darkens), hatching.hairline);
     return ink_coverage(tone_value(hatching.s, l), slope, parts[part].threshold);
 }
 
 // Where a pixel and its neighbours to the right and below lie in the hatch of a part.
-fn place_in_hatch(id: u32, part: u32, weights: array<vec3<f32>, 3>, places: array<vec2<f32>, 3>) -> Place {
+fn place_in_hatch(id: u32, part: u32, weights: array<vec3<f32>, 3>, places: array<vec2<f32>, 3>) -> HatchCoord {
     let index = (id & ID_MASK) - 1u;
     var uvs: array<vec2<f32>, 3>;
     for (var i = 0u; i < 3u; i++) {
@@ -184,7 +184,7 @@ fn place_in_hatch(id: u32, part: u32, weights: array<vec3<f32>, 3>, places: arra
         let turn = parts[part].turn;
         uvs[i] = vec2<f32>(raw.x * turn.x + raw.y * turn.y, raw.y * turn.x - raw.x * turn.y) * parts[part].tile_scale;
     }
-    var place: Place;
+    var place: HatchCoord;
     place.uv = uvs[0];
     place.right = uvs[1] - uvs[0];
     place.down = uvs[2] - uvs[0];
@@ -206,15 +206,16 @@ fn toned_hatch(full: Hatching, abrupt: f32) -> Hatching {
 }
 
 // How badly the strokes of triangle `id` lie where its corners have these weights, 0..1.
-fn knot_at(id: u32, weights: vec3<f32>) -> f32 {
+fn chart_distortion_at(id: u32, weights: vec3<f32>) -> f32 {
     let at = triangles[(id & ID_MASK) - 1u].corners;
-    return blend(weights, vertices[at.x].knot, vertices[at.y].knot, vertices[at.z].knot);
+    return blend(weights, vertices[at.x].chart_distortion, vertices[at.y].chart_distortion, vertices[at.z].chart_distortion);
 }
 
-// A hatch without the white of its knots: the last strokes merge together, a fifth of the way before they would.
-fn untied(tied: Hatching, knot: f32) -> Hatching {
+// A hatch without the white of its chart_distortions: the last strokes merge together, a fifth of the way before they
+// would.
+fn untied(tied: Hatching, chart_distortion: f32) -> Hatching {
     var hatching = tied;
-    let most = 1.0 - KNOT_FILL * clamp(knot, 0.0, 1.0);
+    let most = 1.0 - DISTORTION_FILL * clamp(chart_distortion, 0.0, 1.0);
     if hatching.s <= most { return hatching; }
     // What is left is the edge of the tone, which is crisp.
     hatching.s = most;
@@ -258,7 +259,7 @@ fn sharpened(part: u32, layer: Hatching) -> Hatching {
 }
 
 // One layer of a hatch tile, from the level whose strokes lie as far apart on screen as the part asks.
-fn hatch_layer(part: u32, place: Place) -> Hatching {
+fn hatch_layer(part: u32, place: HatchCoord) -> Hatching {
     let header = parts[part].hatch;
     let side = texels[header];
     let step = max(step_of(place, (parts[part].flags & PART_ISOTROPIC) != 0u), 1e-9);
@@ -333,7 +334,7 @@ fn ink_on_sheet(part: u32, at: vec2<f32>, scale: f32, tone: f32, change: vec2<f3
     let ink = ink_of_level(part, l);
     if ink >= 0.0 { return ink; }
     let turn = parts[part].turn;
-    var place: Place;
+    var place: HatchCoord;
     place.uv = vec2<f32>(at.x * turn.x + at.y * turn.y, at.y * turn.x - at.x * turn.y) * scale;
     place.right = vec2<f32>(turn.x, -turn.y) * scale;
     place.down = vec2<f32>(turn.y, turn.x) * scale;

@@ -38,11 +38,11 @@ fn depth_share(part: u32, world: vec3<f32>) -> f32 {
 // What a place in the world decides for lines of a part, over a surface's colour in linear light.
 fn decide(part: u32, own: vec3<f32>, world: vec3<f32>, normal: vec3<f32>) -> Tint {
     let flags = parts[part].line_flags;
-    var glaze = vec4<f32>(0.0);
+    var tint_layer = vec4<f32>(0.0);
     var opacity = 1.0;
     if (flags & (LINE_LIGHT | LINE_OPACITY)) != 0u {
         let x = coordinate_at(world, normal, 0u).x;
-        if (flags & LINE_LIGHT) != 0u { glaze = laid(hue_at(parts[part].line_light_row, x), glaze); }
+        if (flags & LINE_LIGHT) != 0u { tint_layer = laid(hue_at(parts[part].line_light_row, x), tint_layer); }
         let ends = parts[part].line_opacity;
         opacity = ends.x + (ends.y - ends.x) * x;
     }
@@ -50,18 +50,18 @@ fn decide(part: u32, own: vec3<f32>, world: vec3<f32>, normal: vec3<f32>) -> Tin
         let back = parts[part].back_color;
         let facing = ramp_coordinate(dot(normal, in_world(compose, parts[part].back_direction)));
         let rim = smooth_step(parts[part].back.x, parts[part].back.y, facing) * back.a * parts[part].line_rim;
-        glaze = laid(vec4<f32>(back.rgb, clamp(rim, 0.0, 1.0)), glaze);
+        tint_layer = laid(vec4<f32>(back.rgb, clamp(rim, 0.0, 1.0)), tint_layer);
     }
     if (flags & LINE_DEPTH) != 0u {
-        glaze = laid(hue_at(parts[part].line_depth_row, depth_share(part, world)), glaze);
+        tint_layer = laid(hue_at(parts[part].line_depth_row, depth_share(part, world)), tint_layer);
     }
     if (flags & LINE_TINT) != 0u {
         let tint = unpack_rgba8(parts[part].line_tint);
-        glaze = laid(vec4<f32>(linear_rgb(tint.rgb), tint.a), glaze);
+        tint_layer = laid(vec4<f32>(linear_rgb(tint.rgb), tint.a), tint_layer);
     }
     var tint: Tint;
     tint.is_known = true;
     tint.own = vec4<f32>(srgb_of(own), opacity);
-    tint.glaze = vec4<f32>(srgb_of(glaze.rgb), glaze.a);
+    tint.tint_layer = vec4<f32>(srgb_of(tint_layer.rgb), tint_layer.a);
     return tint;
 }

@@ -12,7 +12,7 @@ const KIND_OF_INTERSECTION: u32 = 4u;
 // What is decided about lines at a pixel of the mask.
 struct LineTint {
     own: u32,
-    glaze: u32,
+    tint_layer: u32,
     part: u32,
 }
 
@@ -20,7 +20,7 @@ struct LineTint {
 struct Tint {
     is_known: bool,
     own: vec4<f32>,
-    glaze: vec4<f32>,
+    tint_layer: vec4<f32>,
 }
 
 fn kind_of_edge(kinds: u32) -> u32 {
@@ -44,12 +44,12 @@ fn line_color(part: u32, kind: u32, tint: Tint) -> vec4<f32> {
     if has_own { color = unpack_rgba8(parts[part].line_kinds[kind]); }
     if !tint.is_known { return color; }
     if !has_own && (flags & LINE_SOURCES) != 0u { color = vec4<f32>(tint.own.rgb, color.a); }
-    return vec4<f32>(glazed(color.rgb, tint.glaze), color.a * tint.own.a);
+    return vec4<f32>(layered(color.rgb, tint.tint_layer), color.a * tint.own.a);
 }
 
-// A colour under a glaze, both sRGB encoded; mixed in linear light.
-fn glazed(color: vec3<f32>, glaze: vec4<f32>) -> vec3<f32> {
-    if glaze.a <= 0.0 { return color; }
+// A colour under a tint layer, both sRGB encoded; mixed in linear light.
+fn layered(color: vec3<f32>, tint_layer: vec4<f32>) -> vec3<f32> {
+    if tint_layer.a <= 0.0 { return color; }
     let under = linear_rgb(color);
-    return srgb_of(under + (linear_rgb(glaze.rgb) - under) * glaze.a);
+    return srgb_of(under + (linear_rgb(tint_layer.rgb) - under) * tint_layer.a);
 }

@@ -27,7 +27,7 @@ struct Walk {
     steps: u32,
 }
 
-struct Place {
+struct ListPosition {
     head: u32,
     offset: u32,
 }

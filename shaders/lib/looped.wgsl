@@ -1,4 +1,4 @@
-// Sides in the order of their loops. Twins: npr_vector::pixel_contour::looped, strip.
+// Sides in the order of their loops. Twins: npr_vector::pixel_strokes::looped, strip.
 
 //# use lib/geometry
 

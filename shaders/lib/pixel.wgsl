@@ -1,4 +1,4 @@
-// Lines drawn into a picture pixel by pixel. Twins: npr_vector::pixel_contour::edge, segment, fragment.
+// Lines drawn into a picture pixel by pixel. Twins: npr_vector::pixel_strokes::edge, segment, fragment.
 
 //# use lib/geometry
 

@@ -1,4 +1,4 @@
-// Lines with width. Twin: npr_vector::ribbon.
+// Lines with width. Twin: npr_vector::screen::ribbon.
 
 // Share of a pixel covered by a straight line of half width `half_width` at `distance` from its centre.
 fn line_coverage(distance: f32, half_width: f32) -> f32 {

@@ -1,5 +1,5 @@
 // What pixels show: which subject. Twin: npr_style::backdrop::Scenery.
-// The shader declares `window`, `rules`, `ids`, `triangles` and `wearers`.
+// The shader declares `window`, `rules`, `ids`, `triangles` and `part_subjects`.
 
 //# use lib/backdrop
 
@@ -17,7 +17,7 @@ fn part_of(id: u32) -> u32 {
 
 fn subject_of(id: u32) -> u32 {
     if id == 0u { return 0u; }
-    return wearers[part_of(id)].subject;
+    return part_subjects[part_of(id)].subject;
 }
 
 // What a pixel shows; of subject MIXED where its samples disagree.

@@ -8,7 +8,7 @@ const GRAZING: f32 = 0.1;
 const ENDLESS: f32 = 1e30;
 
 // A place that a light may reach.
-struct LitPlace {
+struct LitPoint {
     // The triangle it lies on, plus one.
     own: u32,
     world: vec3<f32>,
@@ -68,7 +68,7 @@ fn is_dark(own: u32, light: u32, world: vec3<f32>, towards: vec3<f32>, facing: f
     let offset = lights.sources[light].position - world;
     let is_spot = lights.sources[light].kind == LIGHT_SPOT;
     let row = vec3<f32>(m[0].x, m[1].x, m[2].x);
-    var place: LitPlace;
+    var place: LitPoint;
     place.own = own;
     place.world = world;
     place.towards = towards;
@@ -91,14 +91,14 @@ fn shadow_texel(map: u32, at: vec2<u32>) -> u32 {
 }
 
 // The triangle plus one that the light sees in one of the nine texels around a place, 0 where none.
-fn seen_near(place: LitPlace, k: u32) -> u32 {
+fn seen_near(place: LitPoint, k: u32) -> u32 {
     let at = vec2<u32>(place.texel) + vec2<u32>(k % 3u, k / 3u);
     let last = vec2<u32>(lights.shadow_side - 1u);
     return shadow_texel(place.map, min(max(at, vec2<u32>(1u)) - 1u, last));
 }
 
 // Whether a triangle seen around a place covers it: each is tested; where they are finer than texels, the texels vote.
-fn is_covered(place: LitPlace) -> bool {
+fn is_covered(place: LitPoint) -> bool {
     var seen: array<u32, 9>;
     var distinct = 0u;
     for (var k = 0u; k < 9u; k++) {
@@ -115,7 +115,7 @@ fn is_covered(place: LitPlace) -> bool {
 }
 
 // Whether triangle `id` lies between a place and the light.
-fn covers(place: LitPlace, id: u32) -> bool {
+fn covers(place: LitPoint, id: u32) -> bool {
     if id == 0u || id == place.own { return false; }
     let caster = as_lit(place, id);
     let weights = weights_at(caster.clip, place.ndc);
@@ -123,7 +123,7 @@ fn covers(place: LitPlace, id: u32) -> bool {
     return is_between(place, caster.world, weights, lights.bias_world) && !is_hole_at(id - 1u, weights);
 }
 
-fn as_lit(place: LitPlace, id: u32) -> Caster {
+fn as_lit(place: LitPoint, id: u32) -> Caster {
     let corners = triangles[id - 1u].corners;
     let m = lights.shadows[place.map];
     var caster: Caster;
@@ -137,14 +137,14 @@ fn as_lit(place: LitPlace, id: u32) -> Caster {
 }
 
 // Whether a point of a triangle is nearer to the light than a place by more than `gap_world`, and not behind the light.
-fn is_between(place: LitPlace, world: array<vec3<f32>, 3>, weights: vec3<f32>, gap_world: f32) -> bool {
+fn is_between(place: LitPoint, world: array<vec3<f32>, 3>, weights: vec3<f32>, gap_world: f32) -> bool {
     let point = blend3(weights, world[0], world[1], world[2]);
     let gap = dot(point - place.world, place.towards);
     return gap > gap_world && gap < place.distance;
 }
 
 // Whether the texels around a place speak for a shadow.
-fn vote(place: LitPlace, seen: array<u32, 9>) -> bool {
+fn vote(place: LitPoint, seen: array<u32, 9>) -> bool {
     let side = f32(lights.shadow_side);
     let facing = max(place.facing, GRAZING);
     let slope = sqrt(max(1.0 - facing * facing, 0.0)) / facing;

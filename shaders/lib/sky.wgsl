@@ -16,21 +16,21 @@ fn floats(at: u32) -> vec3<f32> {
 }
 
 // How much of the sky a place of the frame sees, above and below, and how that changes over a pixel.
-struct OpenPlace {
+struct SkyPoint {
     here: vec2<f32>,
     right: vec2<f32>,
     down: vec2<f32>,
 }
 
 // What is seen so many pixels to the right and down.
-fn open_at(open: OpenPlace, offset: vec2<f32>) -> Openness {
+fn open_at(open: SkyPoint, offset: vec2<f32>) -> Openness {
     let moved = clamp(open.here + (open.right * offset.x + open.down * offset.y), vec2<f32>(0.0), vec2<f32>(1.0));
     return Openness(moved.x, moved.y);
 }
 
 // How much of the sky a triangle sees at a place of the frame.
-fn openness(corners: Corners, px: vec2<f32>) -> OpenPlace {
-    var open: OpenPlace;
+fn openness(corners: Corners, px: vec2<f32>) -> SkyPoint {
+    var open: SkyPoint;
     open.here = vec2<f32>(1.0);
     if lights.sky_views == 0u { return open; }
     let around = weights_around(corners.clip, ndc_at(view, px), pixel_ndc(view));

@@ -1,25 +1,25 @@
 // Outlines of spheres, found where their rims are. Twin: npr_style::smoke::line.
 // The shader declares `window`, `lens`, `look`, `smoke_ids`, `balls` and `pixels`.
 
-// How far beyond a rim the picture is looked at, in pixels.
+// How far beyond a silhouette the picture is looked at, in pixels.
 const BEYOND_PX: f32 = 1.25;
 // Parts of the jump that a line starts with, from which it is as wide as lines inside get, and as the outer line.
 const INNER_JUMP: f32 = 4.0;
 const OUTER_JUMP: f32 = 16.0;
 // Width of the line of a small puff, in its radii.
 const THICKEST: f32 = 0.2;
-// How far lines run out along the rim, in widths of the line, and looks beyond it to each side over that length.
+// How far lines run out along the silhouette, in widths of the line, and looks beyond it to each side over that length.
 const TAPER: f32 = 3.0;
 const LOOKS: u32 = 8u;
 
-// A place on a sphere's rim.
-struct Rim {
+// A place on a sphere's silhouette.
+struct Silhouette {
     px: vec2<f32>,
     outward: vec2<f32>,
     depth: f32,
 }
 
-// The rim of a ball in a direction.
+// The silhouette of a ball in a direction.
 struct Disc {
     first: vec3<f32>,
     second: vec3<f32>,
@@ -28,7 +28,7 @@ struct Disc {
     middle_px: vec2<f32>,
 }
 
-fn disc_of(ball: Ball, ray: vec2<f32>) -> Disc {
+fn disc_of(ball: ViewSphere, ray: vec2<f32>) -> Disc {
     var disc: Disc;
     var axis = vec3<f32>(0.0, 0.0, 1.0);
     var towards: vec3<f32>;
@@ -53,15 +53,15 @@ fn disc_of(ball: Ball, ray: vec2<f32>) -> Disc {
     return disc;
 }
 
-// The rim at an angle, given by its sine and cosine, from the ray.
-fn rim_of(disc: Disc, sine: f32, cosine: f32) -> Rim {
+// The silhouette at an angle, given by its sine and cosine, from the ray.
+fn silhouette_of(disc: Disc, sine: f32, cosine: f32) -> Silhouette {
     let place = disc.middle + (disc.first * cosine + disc.second * sine) * disc.across;
-    var rim: Rim;
-    rim.px = frame_of(lens, place);
-    let out = rim.px - disc.middle_px;
-    rim.outward = out / max(sqrt(out.x * out.x + out.y * out.y), 1e-12);
-    rim.depth = place.z;
-    return rim;
+    var silhouette: Silhouette;
+    silhouette.px = frame_of(lens, place);
+    let out = silhouette.px - disc.middle_px;
+    silhouette.outward = out / max(sqrt(out.x * out.x + out.y * out.y), 1e-12);
+    silhouette.depth = place.z;
+    return silhouette;
 }
 
 fn distance_px(a: vec2<f32>, b: vec2<f32>) -> f32 {
@@ -89,17 +89,17 @@ fn whole_line_width(outward: vec2<f32>, radius_px: f32) -> f32 {
     return min(look.line_px, THICKEST * radius_px) * (1.0 - look.swell * facing);
 }
 
-// The part of its width that a sphere's outline has at a place of its rim, by what is seen beyond; 0 where the rim is
-// hidden.
-fn part_beyond(ball: Ball, rim: Rim) -> f32 {
-    let beyond = rim.px + rim.outward * BEYOND_PX * window.frame_step;
+// The part of its width that a sphere's outline has at a place of its silhouette, by what is seen beyond; 0 where the
+// silhouette is hidden.
+fn part_beyond(ball: ViewSphere, silhouette: Silhouette) -> f32 {
+    let beyond = silhouette.px + silhouette.outward * BEYOND_PX * window.frame_step;
     let pixel = pixel_at(window, beyond);
     let depth = pixels[pixel.y * window.size.x + pixel.x].depth;
-    return line_part_at((depth - rim.depth) / ball.radius);
+    return line_part_at((depth - silhouette.depth) / ball.radius);
 }
 
-// Whether a ray passes so close to the middle of a ball that the rim is farther than `reach_px` for certain.
-fn is_far_inside(ball: Ball, ray: vec2<f32>, reach_px: f32) -> bool {
+// Whether a ray passes so close to the middle of a ball that the silhouette is farther than `reach_px` for certain.
+fn is_far_inside(ball: ViewSphere, ray: vec2<f32>, reach_px: f32) -> bool {
     let room = lens_pixel_at(lens, ball.center.z + ball.radius) * reach_px;
     let start = place_on(lens, ray, 0.0);
     let towards = place_on(lens, ray, 1.0) - start;
@@ -117,11 +117,11 @@ fn line_at(id: u32, frame_px: vec2<f32>) -> f32 {
     let ray = ray_at(lens, frame_px);
     if is_far_inside(ball, ray, widest + 0.5) { return 0.0; }
     let disc = disc_of(ball, ray);
-    let rim = rim_of(disc, 0.0, 1.0);
-    let away = max(dot(rim.px - frame_px, rim.outward), 0.0);
-    let radius_px = distance_px(rim.px, disc.middle_px);
-    let whole = whole_line_width(rim.outward, radius_px);
-    var part = part_beyond(ball, rim);
+    let silhouette = silhouette_of(disc, 0.0, 1.0);
+    let away = max(dot(silhouette.px - frame_px, silhouette.outward), 0.0);
+    let radius_px = distance_px(silhouette.px, disc.middle_px);
+    let whole = whole_line_width(silhouette.outward, radius_px);
+    var part = part_beyond(ball, silhouette);
     // Let lines near by run out to here.
     let step = TAPER * look.line_px / (f32(LOOKS + 1u) * max(radius_px, 1.0));
     for (var k = 1u; k <= LOOKS; k++) {
@@ -130,8 +130,8 @@ fn line_at(id: u32, frame_px: vec2<f32>) -> f32 {
         if left <= part || whole * left + 0.5 <= away { break; }
         let sine = min(f32(k) * step, 0.7);
         let cosine = sqrt(1.0 - sine * sine);
-        part = max(part, left * part_beyond(ball, rim_of(disc, -sine, cosine)));
-        part = max(part, left * part_beyond(ball, rim_of(disc, sine, cosine)));
+        part = max(part, left * part_beyond(ball, silhouette_of(disc, -sine, cosine)));
+        part = max(part, left * part_beyond(ball, silhouette_of(disc, sine, cosine)));
     }
     return line_coverage(whole * part, away);
 }

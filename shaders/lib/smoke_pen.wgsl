@@ -17,7 +17,7 @@ fn tone_of(color: vec4<f32>) -> f32 {
 fn tone_beside(pixel: vec2<u32>, step: vec2<i32>, tone: f32) -> f32 {
     let at = vec2<i32>(pixel) + step;
     if any(at < vec2<i32>(0)) || any(at >= vec2<i32>(window.size)) { return tone; }
-    if (textureLoad(smoke_depths, at, 0).x & VEIL_MASK) == 0u { return tone; }
+    if (textureLoad(smoke_depths, at, 0).x & SMOKE_LAYER_MASK) == 0u { return tone; }
     let beside = tone_of(linear_of(textureLoad(smoke_colors, at, 0)));
     if beside < 0.0 { return tone; }
     return beside;

@@ -8,7 +8,7 @@ struct Sphere {
     unused_b: vec2<f32>,
 }
 
-struct Ball {
+struct ViewSphere {
     center: vec3<f32>,
     radius: f32,
     bounds: vec4<f32>,
@@ -21,7 +21,7 @@ struct SmokePixel {
     unused: f32,
 }
 
-struct Lens {
+struct SphereView {
     eye_world: vec3<f32>,
     perspective: f32,
     right_world: vec3<f32>,
@@ -38,14 +38,14 @@ struct Lens {
 }
 
 // Where the ray through a frame position goes: right and up, per depth in perspective, as they are else.
-fn ray_at(lens: Lens, frame_px: vec2<f32>) -> vec2<f32> {
+fn ray_at(lens: SphereView, frame_px: vec2<f32>) -> vec2<f32> {
     let x = 2.0 * frame_px.x / lens.frame_px.x - 1.0;
     let y = 1.0 - 2.0 * frame_px.y / lens.frame_px.y;
     return vec2<f32>(x * lens.half.x, y * lens.half.y);
 }
 
 // The frame position of a place seen from the eye.
-fn frame_of(lens: Lens, place: vec3<f32>) -> vec2<f32> {
+fn frame_of(lens: SphereView, place: vec3<f32>) -> vec2<f32> {
     let depth = select(1.0, place.z, lens.perspective > 0.5);
     return vec2<f32>(
         (place.x / (depth * lens.half.x) + 1.0) * 0.5 * lens.frame_px.x,
@@ -54,17 +54,17 @@ fn frame_of(lens: Lens, place: vec3<f32>) -> vec2<f32> {
 }
 
 // The place at a depth of a ray, from the eye.
-fn place_on(lens: Lens, ray: vec2<f32>, depth: f32) -> vec3<f32> {
+fn place_on(lens: SphereView, ray: vec2<f32>, depth: f32) -> vec3<f32> {
     let spread = select(1.0, depth, lens.perspective > 0.5);
     return vec3<f32>(ray * spread, depth);
 }
 
-fn direction_in_world(lens: Lens, v: vec3<f32>) -> vec3<f32> {
+fn direction_in_world(lens: SphereView, v: vec3<f32>) -> vec3<f32> {
     return lens.right_world * v.x + lens.up_world * v.y + lens.forward_world * v.z;
 }
 
 // View depth at which a ray first meets a ball; FAR_DEPTH where it passes by, or where it starts inside.
-fn depth_of_ball(lens: Lens, ball: Ball, ray: vec2<f32>) -> f32 {
+fn depth_of_ball(lens: SphereView, ball: ViewSphere, ray: vec2<f32>) -> f32 {
     if lens.discs > 0.5 { return depth_of_disc(lens, ball, ray); }
     let meeting = lens.perspective;
     let x = ray.x * meeting;
@@ -79,18 +79,18 @@ fn depth_of_ball(lens: Lens, ball: Ball, ray: vec2<f32>) -> f32 {
     return select(FAR_DEPTH, depth, left > 0.0 && depth >= lens.near);
 }
 
-fn depth_of_disc(lens: Lens, ball: Ball, ray: vec2<f32>) -> f32 {
+fn depth_of_disc(lens: SphereView, ball: ViewSphere, ray: vec2<f32>) -> f32 {
     let at = place_on(lens, ray, ball.center.z).xy - ball.center.xy;
     let is_inside = at.x * at.x + at.y * at.y < ball.radius * ball.radius;
     return select(FAR_DEPTH, ball.center.z, is_inside && ball.center.z >= lens.near);
 }
 
 // Size of a frame pixel in world units at a view depth.
-fn lens_pixel_at(lens: Lens, depth: f32) -> f32 {
+fn lens_pixel_at(lens: SphereView, depth: f32) -> f32 {
     return 2.0 * lens.half.y * select(1.0, depth, lens.perspective > 0.5) / lens.frame_px.y;
 }
 
 // Reversed depth at a view depth.
-fn reversed_depth(lens: Lens, depth: f32) -> f32 {
+fn reversed_depth(lens: SphereView, depth: f32) -> f32 {
     return (lens.depth_start + lens.depth_step * depth) / select(1.0, depth, lens.perspective > 0.5);
 }

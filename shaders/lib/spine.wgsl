@@ -1,4 +1,4 @@
-// Samples of lines. Twin: npr_vector::sample.
+// Samples of lines. Twin: npr_vector::mesh_lines::sample.
 
 struct SpineSample {
     place_px: vec2<f32>,

@@ -1,10 +1,10 @@
 // What is decided for stretches of outline. Twin: npr_style::backdrop::stretch.
 
 // What lines of a tile read before, and which way they move: -1 darker, 1 brighter.
-struct Lean {
+struct ContrastBias {
     low: f32,
     high: f32,
-    lean: f32,
+    bias: f32,
     whose: u32,
     // Colour of the rims, sRGB-encoded.
     rim: array<f32, 3>,
@@ -23,30 +23,30 @@ struct TileRims {
     rim: u32,
 }
 
-fn rim_of(lean: Lean) -> vec3<f32> {
-    return vec3<f32>(lean.rim[0], lean.rim[1], lean.rim[2]);
+fn rim_of(bias: ContrastBias) -> vec3<f32> {
+    return vec3<f32>(bias.rim[0], bias.rim[1], bias.rim[2]);
 }
 
 // Difference of backgrounds from which they are two walls, and not one with a pattern.
 const UNLIKE_WALLS: f32 = 0.42;
 
-// Adds a lean with a weight to a sum of them.
-fn add_lean(sum: Lean, lean: Lean, weight: f32) -> Lean {
+// Adds a bias with a weight to a sum of them.
+fn add_bias(sum: ContrastBias, bias: ContrastBias, weight: f32) -> ContrastBias {
     var more = sum;
-    more.low += lean.low * weight;
-    more.high += lean.high * weight;
-    more.lean += lean.lean * weight;
-    for (var i = 0u; i < 3u; i++) { more.rim[i] += lean.rim[i] * weight; }
+    more.low += bias.low * weight;
+    more.high += bias.high * weight;
+    more.bias += bias.bias * weight;
+    for (var i = 0u; i < 3u; i++) { more.rim[i] += bias.rim[i] * weight; }
     return more;
 }
 
 // The mean of such a sum for some lines; of nobody where nothing was added.
-fn mean_lean(sum: Lean, weight: f32, whose: u32) -> Lean {
-    var mean: Lean;
+fn mean_bias(sum: ContrastBias, weight: f32, whose: u32) -> ContrastBias {
+    var mean: ContrastBias;
     if weight <= 0.0 { return mean; }
     mean.low = sum.low / weight;
     mean.high = sum.high / weight;
-    mean.lean = sum.lean / weight;
+    mean.bias = sum.bias / weight;
     for (var i = 0u; i < 3u; i++) { mean.rim[i] = sum.rim[i] / weight; }
     mean.whose = whose;
     return mean;

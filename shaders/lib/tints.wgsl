@@ -20,7 +20,7 @@ fn tint_at(px: vec2<f32>, part: u32) -> Tint {
     // First the pixels of the part, then all.
     var weight = vec2<f32>(0.0);
     var own = array<vec4<f32>, 2>();
-    var glaze = array<vec4<f32>, 2>();
+    var tint_layer = array<vec4<f32>, 2>();
     for (var y = low.y; y <= high.y; y++) {
         for (var x = low.x; x <= high.x; x++) {
             let found = tints[y * mask_window.size.x + x];
@@ -28,25 +28,25 @@ fn tint_at(px: vec2<f32>, part: u32) -> Tint {
             let off = abs((px - frame_at(mask_window, vec2<u32>(x, y))) / mask_window.frame_step);
             let share = max(1.5 - off.x, 0.0) * max(1.5 - off.y, 0.0);
             let found_own = unpack_rgba8(found.own) * share;
-            let found_glaze = unpack_rgba8(found.glaze);
-            let weighed = vec4<f32>(found_glaze.rgb, 1.0) * (found_glaze.a * share);
+            let found_layer = unpack_rgba8(found.tint_layer);
+            let weighed = vec4<f32>(found_layer.rgb, 1.0) * (found_layer.a * share);
             weight.y += share;
             own[1] += found_own;
-            glaze[1] += weighed;
+            tint_layer[1] += weighed;
             if found.part == part {
                 weight.x += share;
                 own[0] += found_own;
-                glaze[0] += weighed;
+                tint_layer[0] += weighed;
             }
         }
     }
     if weight.y <= 0.0 { return tint; }
     let is_own = weight.x > 0.0;
     let sum = select(weight.y, weight.x, is_own);
-    let glaze_sum = select(glaze[1], glaze[0], is_own);
+    let tint_layer_sum = select(tint_layer[1], tint_layer[0], is_own);
     tint.is_known = true;
     tint.own = select(own[1], own[0], is_own) / sum;
-    tint.glaze = vec4<f32>(glaze_sum.rgb / max(glaze_sum.a, 1e-6), glaze_sum.a / sum);
+    tint.tint_layer = vec4<f32>(tint_layer_sum.rgb / max(tint_layer_sum.a, 1e-6), tint_layer_sum.a / sum);
     return tint;
 }
 

@@ -65,7 +65,7 @@ fn main(
             let step_px = window.frame_step * LINE_BLUR_PX;
             let tint = line_tint(triangle, corners_of(triangle), frame_at(window, pixel), step_px, false);
             decided.own = pack_rgba8(tint.own);
-            decided.glaze = pack_rgba8(tint.glaze);
+            decided.tint_layer = pack_rgba8(tint.tint_layer);
             decided.part = triangle.part;
         }
     }

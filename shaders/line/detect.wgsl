@@ -4,7 +4,7 @@
 // which buffers found it, whether its surface is the one in front, and on which sides the line runs.
 //
 // Source  Okuya et al. 2016, sections 3.2 and 4.3
-// Twin    npr_vector::detect::detect
+// Twin    npr_vector::screen::detect::detect
 //
 //# use lib/grid
 //# use lib/geometry

@@ -5,7 +5,7 @@
 // not matter.
 //
 // Source  Okuya et al. 2016, sections 3.3 and 4.4
-// Twin    npr_vector::ribbon::draw
+// Twin    npr_vector::screen::ribbon::draw
 // Differs: unique edges instead of the three of each triangle (A22); quads are made by
 // vertex pulling, there being no geometry shader; round joins (A37) and depth tests (A26) unless OUTLINE_PUBLISHED.
 //

@@ -4,7 +4,7 @@
 // as discs on the border between the pixels that differ, as wide as the surface says there.
 //
 // Source  A11 and A40: contact lines without the stubs of tessellation edges
-// Twin    npr_vector::residual::find
+// Twin    npr_vector::screen::residual::find
 //
 //# use lib/grid
 //# use lib/geometry

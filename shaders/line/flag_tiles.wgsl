@@ -2,7 +2,7 @@
 //
 // Most hold none, and the pass that inks stamps skips them whole.
 //
-// Twin    npr_vector::residual::flag_tiles
+// Twin    npr_vector::screen::residual::flag_tiles
 //
 //# use lib/grid
 //# use lib/window

@@ -1,7 +1,7 @@
 // line.resolve_gbuffer: depth, normal, object and material of the surface at every pixel.
 //
 // Source  Saito & Takahashi 1990; Okuya et al. 2016, sections 3.2 and 4.2
-// Twin    npr_vector::gbuffer::resolve
+// Twin    npr_vector::screen::gbuffer::resolve
 //
 //# use lib/grid
 //# use lib/geometry

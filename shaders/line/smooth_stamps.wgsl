@@ -3,7 +3,7 @@
 // Stamps lie on the borders of pixels; averaged along the line, the steps of the grid
 // no longer show. Moved along the line, its ends would draw back.
 //
-// Twin    npr_vector::residual::smooth
+// Twin    npr_vector::screen::residual::smooth
 //
 //# use lib/grid
 //# use lib/window

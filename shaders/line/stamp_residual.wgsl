@@ -3,7 +3,7 @@
 // Gathered per output pixel, so that no order of writing matters: the stamp that
 // covers a pixel most wins, and of equal ones the first.
 //
-// Twin    npr_vector::residual::stamp
+// Twin    npr_vector::screen::residual::stamp
 //
 //# use lib/grid
 //# use lib/geometry

@@ -9,8 +9,8 @@
 //# use lib/sphere
 
 @group(0) @binding(0) var<uniform> window: Window;
-@group(0) @binding(1) var<uniform> lens: Lens;
-@group(0) @binding(2) var<storage, read> balls: array<Ball>;
+@group(0) @binding(1) var<uniform> lens: SphereView;
+@group(0) @binding(2) var<storage, read> balls: array<ViewSphere>;
 
 struct Passed {
     @builtin(position) position: vec4<f32>,

@@ -59,7 +59,7 @@ override WG: u32 = 64u;
 //# use lib/sky
 //# use lib/depth_map
 //# use lib/smoke_pen
-//# use lib/veil
+//# use lib/smoke_layer
 //# use lib/adapt
 
 // How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
@@ -214,7 +214,7 @@ struct InkSum {
 }
 
 // A line's colour as it minds what lies behind it there.
-fn minding(line: vec3<f32>, frame_px: vec2<f32>) -> vec3<f32> {
+fn contrasted(line: vec3<f32>, frame_px: vec2<f32>) -> vec3<f32> {
     if (compose.flags & COMPOSE_BACKDROP) == 0u { return line; }
     let pixel = pixel_at(window, frame_px);
     let front = textureLoad(fronts, pixel, 0);
@@ -253,7 +253,7 @@ fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
         drawn = shade_surface(id, members, frame_px, center, corners);
     }
     if drawn.lined == 0.0 { return drawn.light; }
-    let line = minding(line_light(triangle, corners, center, vec2<f32>(1.0), is_hull), frame_px);
+    let line = contrasted(line_light(triangle, corners, center, vec2<f32>(1.0), is_hull), frame_px);
     return drawn.light + (line - drawn.light) * drawn.lined;
 }
 
@@ -264,7 +264,7 @@ fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, 
     let count = f32(countOneBits(members));
     let color = strengthened(base_color(triangle, corners, center));
     var even = even_light(part, corners);
-    var open: OpenPlace;
+    var open: SkyPoint;
     if !even.is_so { open = openness(corners, center); }
     if !even.is_so && is_gentle(part) {
         let weights = weights_at(corners.clip, ndc_at(view, center));
@@ -314,8 +314,8 @@ fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, 
 }
 
 // The surfaces of a pixel but for what smoke hides of them, premultiplied.
-fn surfaces(pixel: vec2<u32>, veil: Veil, frame_px: vec2<f32>) -> vec4<f32> {
-    var hidden = veil.hidden;
+fn surfaces(pixel: vec2<u32>, smoke_layer: SmokeLayer, frame_px: vec2<f32>) -> vec4<f32> {
+    var hidden = smoke_layer.hidden;
     var seen: array<u32, 4>;
     let count = compose.samples * compose.samples;
     for (var i = 0u; i < count; i++) {
@@ -378,15 +378,15 @@ fn main(
         return;
     }
     let frame_px = frame_at(window, pixel);
-    let veil = veil_of(pixel, frame_px);
-    var surface = surfaces(pixel, veil, frame_px);
-    surface += vec4<f32>(veil.color.rgb, 1.0) * veil_shown(veil);
+    let smoke_layer = smoke_layer_of(pixel, frame_px);
+    var surface = surfaces(pixel, smoke_layer, frame_px);
+    surface += vec4<f32>(smoke_layer.color.rgb, 1.0) * smoke_layer_shown(smoke_layer);
     var color = surface;
     if surface.a < 1.0 { color += background(frame_px) * (1.0 - surface.a); }
     var faded = -1.0;
     var covered = 0.0;
     if (compose.flags & COMPOSE_BEAMS) != 0u {
-        let beams = add_beams(pixel, veil, frame_px, color);
+        let beams = add_beams(pixel, smoke_layer, frame_px, color);
         color = beams.color;
         covered = beams.covered;
     }
@@ -395,8 +395,8 @@ fn main(
         if layer == 0u && (compose.flags & COMPOSE_RIBBONS) != 0u { line = linear_of(textureLoad(ribbons, pixel, 0)); }
         if layer == 1u && (compose.flags & COMPOSE_OVERLAY) != 0u { line = linear_texel(overlay[element]); }
         if line.a == 0.0 { continue; }
-        if faded < 0.0 { faded = line_fade(veil, pixel, frame_px); }
-        line = vec4<f32>(minding(line.rgb, frame_px), line.a * (1.0 - covered) * (1.0 - faded));
+        if faded < 0.0 { faded = line_fade(smoke_layer, pixel, frame_px); }
+        line = vec4<f32>(contrasted(line.rgb, frame_px), line.a * (1.0 - covered) * (1.0 - faded));
         color = over(line, color);
     }
     let straight = color.rgb / max(color.a, 1e-6);

@@ -10,9 +10,9 @@
 
 override WG: u32 = 64u;
 
-@group(0) @binding(0) var<uniform> lens: Lens;
+@group(0) @binding(0) var<uniform> lens: SphereView;
 @group(0) @binding(1) var<storage, read> spheres: array<Sphere>;
-@group(0) @binding(2) var<storage, read_write> balls: array<Ball>;
+@group(0) @binding(2) var<storage, read_write> balls: array<ViewSphere>;
 
 // Farthest that a sphere may lie from the eye and still be drawn.
 const REACH: f32 = 1e15;
@@ -32,8 +32,8 @@ fn px(v: f32, length: f32) -> f32 {
     return clamp(v * 0.5 * length, -1.0, length + 1.0);
 }
 
-fn project(sphere: Sphere) -> Ball {
-    var ball: Ball;
+fn project(sphere: Sphere) -> ViewSphere {
+    var ball: ViewSphere;
     ball.bounds = vec4<f32>(1.0, 1.0, 0.0, 0.0);
     let offset = sphere.center - lens.eye_world;
     let center = vec3<f32>(

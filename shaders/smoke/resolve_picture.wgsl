@@ -15,10 +15,10 @@
 //# use lib/smoke
 
 @group(0) @binding(0) var<uniform> window: Window;
-@group(0) @binding(1) var<uniform> lens: Lens;
+@group(0) @binding(1) var<uniform> lens: SphereView;
 @group(0) @binding(2) var<uniform> look: SmokeLook;
 @group(0) @binding(3) var smoke_ids: texture_2d<u32>;
-@group(0) @binding(4) var<storage, read> balls: array<Ball>;
+@group(0) @binding(4) var<storage, read> balls: array<ViewSphere>;
 @group(0) @binding(5) var<storage, read> pixels: array<SmokePixel>;
 @group(0) @binding(6) var<storage, read> tones: array<f32>;
 

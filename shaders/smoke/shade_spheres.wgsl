@@ -14,12 +14,12 @@
 override WG: u32 = 64u;
 
 @group(0) @binding(0) var<uniform> window: Window;
-@group(0) @binding(1) var<uniform> lens: Lens;
+@group(0) @binding(1) var<uniform> lens: SphereView;
 @group(0) @binding(2) var<uniform> look: SmokeLook;
 @group(0) @binding(3) var<uniform> lights: Lights;
 @group(0) @binding(4) var smoke_ids: texture_2d<u32>;
 @group(0) @binding(5) var<storage, read> spheres: array<Sphere>;
-@group(0) @binding(6) var<storage, read> balls: array<Ball>;
+@group(0) @binding(6) var<storage, read> balls: array<ViewSphere>;
 @group(0) @binding(7) var<storage, read_write> pixels: array<SmokePixel>;
 @group(0) @binding(8) var smoke_light_0: texture_2d<u32>;
 @group(0) @binding(9) var smoke_light_1: texture_2d<u32>;

@@ -41,9 +41,9 @@ shaders! {
     /// The bounds of what the lines of every tile stand before, and its own vote.
     BACKDROP_BOUND_TILES = "backdrop/bound_tiles";
     /// Decides which way the lines of every tile move.
-    BACKDROP_LEAN_TILES = "backdrop/lean_tiles";
+    BACKDROP_VOTE_BIAS = "backdrop/vote_bias";
     /// Keeps what was decided for the frame that comes next.
-    BACKDROP_BLEND_LEANS = "backdrop/blend_leans";
+    BACKDROP_BLEND_BIASES = "backdrop/blend_biases";
     /// Finds the nearest one in every row.
     BACKDROP_SPREAD_ROWS = "backdrop/spread_rows";
     /// Carries the nearest one to every pixel.
@@ -232,7 +232,7 @@ const LIBRARIES: &[(&str, &str)] = &[
     ("lib/smoke_line", include_str!("../lib/smoke_line.wgsl")),
     ("lib/depth_map", include_str!("../lib/depth_map.wgsl")),
     ("lib/smoke_pen", include_str!("../lib/smoke_pen.wgsl")),
-    ("lib/veil", include_str!("../lib/veil.wgsl")),
+    ("lib/smoke_layer", include_str!("../lib/smoke_layer.wgsl")),
     ("lib/shadow", include_str!("../lib/shadow.wgsl")),
     ("lib/sky", include_str!("../lib/sky.wgsl")),
     ("lib/ribbon", include_str!("../lib/ribbon.wgsl")),

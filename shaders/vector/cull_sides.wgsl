@@ -1,7 +1,7 @@
 // vector.cull_sides: keeps the sides along which a loop runs as the contour does.
 //
 // Source  Jiang et al. 2022, orientation culling
-// Twin    npr_vector::pixel_contour::strip::cull_sides
+// Twin    npr_vector::pixel_strokes::strip::cull_sides
 //
 //# use lib/grid
 //# use lib/looped

@@ -3,7 +3,7 @@
 // A triangle around the middle of one pixel each. Of fragments at one depth the first wins.
 //
 // Source  Jiang et al. 2022, hard visibility test
-// Twin    npr_vector::pixel_contour::fragment::draw_nearest
+// Twin    npr_vector::pixel_strokes::fragment::draw_nearest
 //
 //# use lib/grid
 //# use lib/pixel

@@ -3,7 +3,7 @@
 // Both sides of every face hide lines.
 //
 // Source  Jiang et al. 2022, soft visibility test
-// Twin    npr_vector::pixel_contour::surface::draw_surfaces
+// Twin    npr_vector::pixel_strokes::surface::draw_surfaces
 //
 //# use lib/curve
 //# use lib/pixel

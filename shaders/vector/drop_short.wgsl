@@ -1,7 +1,7 @@
 // vector.drop_short: drops the sides of strips that are too short to be strokes.
 //
 // Source  Jiang et al. 2022, segmentation
-// Twin    npr_vector::pixel_contour::strip::drop_short
+// Twin    npr_vector::pixel_strokes::strip::drop_short
 //
 //# use lib/grid
 //# use lib/looped

@@ -3,7 +3,7 @@
 // The area of a loop is a difference of the scan of what its sides add to it.
 //
 // Source  Jiang et al. 2022, despeckling
-// Twin    npr_vector::pixel_contour::looped::drop_specks
+// Twin    npr_vector::pixel_strokes::looped::drop_specks
 //
 //# use lib/grid
 //# use lib/looped

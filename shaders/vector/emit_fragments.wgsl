@@ -3,7 +3,7 @@
 // A fragment finds its segment by searching the scan of their counts.
 //
 // Source  Jiang et al. 2022, line rasterisation, second pass
-// Twin    npr_vector::pixel_contour::fragment::emit_fragments
+// Twin    npr_vector::pixel_strokes::fragment::emit_fragments
 //
 //# use lib/grid
 //# use lib/pixel

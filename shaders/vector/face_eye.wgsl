@@ -4,7 +4,7 @@
 // sums, differences and products that are rounded one by one, so both engines decide alike.
 //
 // Source  Jiang et al. 2022, contour extraction
-// Twin    npr_vector::contour::steps::face_eye
+// Twin    npr_vector::mesh_lines::contour::steps::face_eye
 //
 //# use lib/grid
 //# use lib/curve

@@ -3,7 +3,7 @@
 // The first sample of a line is clear, so no line looks beyond its start.
 //
 // Source  Cole & Finkelstein 2010, filtering along the line
-// Twin    npr_vector::sample::filter_visibility
+// Twin    npr_vector::mesh_lines::sample::filter_visibility
 //
 //# use lib/grid
 

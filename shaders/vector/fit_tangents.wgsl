@@ -1,7 +1,7 @@
 // vector.fit_tangents: unit tangents of loops, by weighted least squares of a parabola over arc length.
 //
 // Source  Jiang et al. 2022, tangent fit
-// Twin    npr_vector::pixel_contour::looped::fit_tangents
+// Twin    npr_vector::pixel_strokes::looped::fit_tangents
 //
 //# use lib/grid
 //# use lib/looped

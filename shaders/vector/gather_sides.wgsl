@@ -1,6 +1,6 @@
 // vector.gather_sides: puts what is known of sides in the order of loops.
 //
-// Twin    npr_vector::pixel_contour::looped::gather_sides
+// Twin    npr_vector::pixel_strokes::looped::gather_sides
 //
 //# use lib/grid
 //# use lib/list

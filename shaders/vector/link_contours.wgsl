@@ -4,7 +4,7 @@
 // where one way leads in, so all lines are closed and no node is shared.
 //
 // Source  Hertzmann & Zorin 2000, mesh contours
-// Twin    npr_vector::contour::steps::link_contours
+// Twin    npr_vector::mesh_lines::contour::steps::link_contours
 // Differs: the publication of 2022 links pixels along drawn contours; here half-edges
 // on the mesh are linked, which gives one line instead of two and needs no picture.
 //

@@ -3,7 +3,7 @@
 // Two pixels ahead decide: ink joined by a corner is joined.
 //
 // Source  Selinger 2003, path decomposition; Jiang et al. 2022
-// Twin    npr_vector::pixel_contour::side::link_sides
+// Twin    npr_vector::pixel_strokes::side::link_sides
 //
 //# use lib/grid
 //# use lib/list

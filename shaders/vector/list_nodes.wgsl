@@ -4,7 +4,7 @@
 // Where there was no room for all nodes, links would lead nowhere, and all are loops.
 //
 // Source  Jiang et al. 2022, serialisation
-// Twin    npr_vector::contour::steps::list_nodes
+// Twin    npr_vector::mesh_lines::contour::steps::list_nodes
 //
 //# use lib/grid
 //# use lib/curve

@@ -1,7 +1,7 @@
 // vector.mark_contours: marks the half-edges of front faces that have no front face across.
 //
 // Source  Jiang et al. 2022, contour extraction
-// Twin    npr_vector::contour::steps::mark_contours
+// Twin    npr_vector::mesh_lines::contour::steps::mark_contours
 //
 //# use lib/grid
 //# use lib/curve

@@ -3,7 +3,7 @@
 // Edges run as the face turned to the eye is wound.
 //
 // Source  Jiang et al. 2022, contour extraction
-// Twin    npr_vector::pixel_contour::edge::mark_edges
+// Twin    npr_vector::pixel_strokes::edge::mark_edges
 //
 //# use lib/grid
 //# use lib/curve

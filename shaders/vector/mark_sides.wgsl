@@ -1,7 +1,7 @@
 // vector.mark_sides: the sides of every pixel, a bit for each direction, and how many there are.
 //
 // Source  Selinger 2003, path decomposition; Jiang et al. 2022
-// Twin    npr_vector::pixel_contour::side::mark_sides
+// Twin    npr_vector::pixel_strokes::side::mark_sides
 //
 //# use lib/grid
 //# use lib/ink

@@ -1,7 +1,7 @@
 // vector.measure_strips: the last side of every strip tells its first how many there are.
 //
 // Source  Jiang et al. 2022, segmentation by segmented scan
-// Twin    npr_vector::pixel_contour::strip::measure_strips
+// Twin    npr_vector::pixel_strokes::strip::measure_strips
 //
 //# use lib/grid
 //# use lib/looped

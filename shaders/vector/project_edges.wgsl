@@ -3,7 +3,7 @@
 // Every sum and product is rounded by itself, so segments are those of the twin bit for bit.
 //
 // Source  Liang & Barsky 1984; Jiang et al. 2022, line rasterisation, first pass
-// Twin    npr_vector::pixel_contour::segment::project_edges
+// Twin    npr_vector::pixel_strokes::segment::project_edges
 //
 //# use lib/grid
 //# use lib/pixel

@@ -1,7 +1,7 @@
 // vector.rank_strips: ranks the sides of all strips, which may pass the place where their loop's list starts.
 //
 // Source  Jiang et al. 2022, segmentation by segmented scan
-// Twin    npr_vector::pixel_contour::strip::rank_strips
+// Twin    npr_vector::pixel_strokes::strip::rank_strips
 //
 //# use lib/grid
 //# use lib/looped

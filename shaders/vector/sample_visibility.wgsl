@@ -1,7 +1,7 @@
 // vector.sample_visibility: the share of places beside each sample of a line at which no surface lies in front of it.
 //
 // Source  Cole & Finkelstein 2010
-// Twin    npr_vector::sample::sample_visibility
+// Twin    npr_vector::mesh_lines::sample::sample_visibility
 //
 //# use lib/grid
 //# use lib/geometry

@@ -16,7 +16,7 @@ override WG: u32 = 64u;
 @group(0) @binding(1) var<storage, read> first: array<Reach>;
 @group(0) @binding(2) var<storage, read> settled: array<Reach>;
 @group(0) @binding(3) var<storage, read> hops: array<Hop>;
-@group(0) @binding(4) var<storage, read_write> places: array<Place>;
+@group(0) @binding(4) var<storage, read_write> places: array<ListPosition>;
 @group(0) @binding(5) var<storage, read_write> unsettled: array<u32>;
 
 // One invocation per node.
@@ -30,7 +30,7 @@ fn main(
     if element >= arrayLength(&walks) { return; }
 
     let walk = walks[element];
-    var place: Place;
+    var place: ListPosition;
     place.head = NONE;
     place.offset = 0u;
     var is_open = 1u;

@@ -1,7 +1,7 @@
 // vector.smooth_loops: replaces every vector by the weighted mean of those around it, along its loop.
 //
 // Source  Jiang et al. 2022, curve filtering
-// Twin    npr_vector::pixel_contour::looped::smooth_loops
+// Twin    npr_vector::pixel_strokes::looped::smooth_loops
 //
 //# use lib/grid
 //# use lib/looped

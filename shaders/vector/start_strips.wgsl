@@ -1,7 +1,7 @@
 // vector.start_strips: marks the first side of every strip of kept sides.
 //
 // Source  Jiang et al. 2022, segmentation
-// Twin    npr_vector::pixel_contour::strip::start_strips
+// Twin    npr_vector::pixel_strokes::strip::start_strips
 //
 //# use lib/grid
 //# use lib/looped

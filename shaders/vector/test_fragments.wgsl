@@ -1,7 +1,7 @@
 // vector.test_fragments: whether each fragment shows, by the depths of the pixels around it.
 //
 // Source  Jiang et al. 2022, soft visibility test
-// Twin    npr_vector::pixel_contour::fragment::test_fragments
+// Twin    npr_vector::pixel_strokes::fragment::test_fragments
 //
 //# use lib/grid
 //# use lib/pixel
@@ -10,15 +10,15 @@ override WG: u32 = 64u;
 
 @group(0) @binding(0) var<uniform> view: PixelView;
 @group(0) @binding(1) var surfaces: texture_2d<u32>;
-@group(0) @binding(2) var veil: texture_2d<u32>;
+@group(0) @binding(2) var occluder_depths: texture_2d<u32>;
 @group(0) @binding(3) var<storage, read> fragments: array<Fragment>;
 @group(0) @binding(4) var<storage, read_write> shown: array<u32>;
 
-// Reversed depth of what hides lines at a pixel. A veil of another size than the picture is none.
+// Reversed depth of what hides lines at a pixel. A occluder depths of another size than the picture is none.
 fn hidden_behind(at: vec2<u32>) -> f32 {
     let z = bitcast<f32>(textureLoad(surfaces, at, 0).x);
-    if any(textureDimensions(veil) != textureDimensions(surfaces)) { return z; }
-    return max(z, bitcast<f32>(textureLoad(veil, at, 0).x));
+    if any(textureDimensions(occluder_depths) != textureDimensions(surfaces)) { return z; }
+    return max(z, bitcast<f32>(textureLoad(occluder_depths, at, 0).x));
 }
 
 // One invocation per fragment.

@@ -8,7 +8,7 @@
 
 override WG: u32 = 64u;
 
-@group(0) @binding(0) var<storage, read> places: array<Place>;
+@group(0) @binding(0) var<storage, read> places: array<ListPosition>;
 @group(0) @binding(1) var<storage, read> lengths: array<u32>;
 @group(0) @binding(2) var<storage, read_write> standings: array<Standing>;
 @group(0) @binding(3) var<storage, read_write> sizes: array<u32>;

@@ -1,7 +1,7 @@
 // vector.vote_sides: lets the sides around each decide whether it is kept.
 //
 // Source  Jiang et al. 2022, orientation culling
-// Twin    npr_vector::pixel_contour::strip::vote_sides
+// Twin    npr_vector::pixel_strokes::strip::vote_sides
 //
 //# use lib/grid
 //# use lib/looped

@@ -2,7 +2,7 @@
 // clear.
 //
 // Source  Cole & Finkelstein 2010, filtering along the line
-// Twin    npr_vector::sample::weigh_samples
+// Twin    npr_vector::mesh_lines::sample::weigh_samples
 //
 //# use lib/grid
 //# use lib/spine

@@ -4,7 +4,7 @@ use npr_core::camera::Camera;
 use npr_core::window::View;
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
-use npr_render::{Frame, Model, Stage, StageOptions};
+use npr_render::{Frame, Model, Renderer, RendererOptions};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
 
@@ -80,7 +80,7 @@ pub fn draw_on(
     camera: &Camera,
     size: [u32; 2],
 ) -> Frame {
-    draw_with(engine, model, style, camera, &StageOptions::new(size))
+    draw_with(engine, model, style, camera, &RendererOptions::new(size))
 }
 
 /// Draws a model on an engine with options.
@@ -93,8 +93,8 @@ pub fn draw_with(
     model: &Model,
     style: &Style,
     camera: &Camera,
-    options: &StageOptions,
+    options: &RendererOptions,
 ) -> Frame {
-    let mut stage = Stage::new(engine, model, style, options).expect("a small frame");
-    stage.draw(camera).expect("a picture")
+    let mut renderer = Renderer::new(engine, model, style, options).expect("a small frame");
+    renderer.draw(camera).expect("a picture")
 }

@@ -1,7 +1,7 @@
 //! Smoke of the built-in simulation, as the command draws it.
 
 use npr_gpu::engine::Engine;
-use npr_render::{Following, Frame, Model, Smoke, Stage, StageOptions};
+use npr_render::{Following, Frame, Model, Renderer, RendererOptions, Smoke};
 use npr_scene::Scene;
 use npr_smoke::{Puffs, SmokeSettings, Source, Volume};
 use npr_stylesheet::Style;
@@ -68,13 +68,13 @@ pub fn draw_smoke(
     camera: &Camera,
     size: [u32; 2],
 ) -> Frame {
-    let options = StageOptions {
+    let options = RendererOptions {
         smoke: Some(smoke.clone()),
-        ..StageOptions::new(size)
+        ..RendererOptions::new(size)
     };
     let model = Model::new(&Scene::default()).expect("nothing");
-    let mut stage = Stage::new(engine, &model, style, &options).expect("a stage");
-    stage.draw(camera).expect("a picture")
+    let mut renderer = Renderer::new(engine, &model, style, &options).expect("a stage");
+    renderer.draw(camera).expect("a picture")
 }
 
 /// A camera that looks at the box of the built-in smoke from the front, without perspective, level with `middle`;

@@ -4,7 +4,7 @@
 
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
-use npr_render::{Frame, Model, Picture, Stage, StageOptions};
+use npr_render::{Frame, Model, Picture, Renderer, RendererOptions};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
 use npr_tests::comic::{SIZE, front, pixel};
@@ -14,7 +14,7 @@ fn ball() -> Scene {
     scene_of(&[Object::new("Ball", icosphere(4)).colored([0.8, 0.3, 0.1])])
 }
 
-fn drawn(settings: &[&str], options: &StageOptions) -> Frame {
+fn drawn(settings: &[&str], options: &RendererOptions) -> Frame {
     let mut style = Style::preset("comic-silver").unwrap();
     for setting in settings {
         style.set(setting).unwrap();
@@ -23,17 +23,17 @@ fn drawn(settings: &[&str], options: &StageOptions) -> Frame {
     draw_with(&Processor, &model, &style, &front(), options)
 }
 
-fn mask(size: [u32; 2], bytes: &[u8]) -> StageOptions {
+fn mask(size: [u32; 2], bytes: &[u8]) -> RendererOptions {
     let rgba = bytes.iter().flat_map(|byte| [*byte; 4]).collect();
-    StageOptions {
+    RendererOptions {
         pictures: [("m.png".to_owned(), Picture { size, rgba })].into(),
-        ..StageOptions::new(SIZE)
+        ..RendererOptions::new(SIZE)
     }
 }
 
 #[test]
 fn a_blend_runs_from_one_look_to_the_other() {
-    let plain_options = StageOptions::new(SIZE);
+    let plain_options = RendererOptions::new(SIZE);
     let comic = drawn(&[], &plain_options);
     let plain = drawn(&["blend.amount=0"], &plain_options);
     let half = drawn(&["blend.amount=0.5"], &plain_options);
@@ -68,7 +68,7 @@ fn nothing_left_of_a_look_is_the_other_look_alone() {
     let mut style = Style::preset("comic-silver").unwrap();
     style.set("blend.amount=0").unwrap();
     let model = Model::new(&ball()).unwrap();
-    let options = StageOptions::new(SIZE);
+    let options = RendererOptions::new(SIZE);
     let blended = draw_with(&Processor, &model, &style, &front(), &options);
     let other = style.blended_with().unwrap();
     let alone = draw_with(&Processor, &model, &other, &front(), &options);
@@ -93,15 +93,15 @@ fn masks_that_are_missing_or_empty_are_named() {
     let mut style = Style::preset("toon").unwrap();
     style.set("blend.mask=m.png").unwrap();
     let model = Model::new(&ball()).unwrap();
-    let told = |options: &StageOptions| {
-        let refused = Stage::new(&Processor, &model, &style, options);
+    let reported = |options: &RendererOptions| {
+        let refused = Renderer::new(&Processor, &model, &style, options);
         refused.err().unwrap().to_string()
     };
     let missing = "blend.mask: the picture 'm.png' was not given";
-    assert_eq!(told(&StageOptions::new(SIZE)), missing);
+    assert_eq!(reported(&RendererOptions::new(SIZE)), missing);
     let empty = "blend.mask: the picture has no pixels, or not as many as its size says";
-    assert_eq!(told(&mask([0, 0], &[])), empty);
-    assert_eq!(told(&mask([2, 2], &[0])), empty);
+    assert_eq!(reported(&mask([0, 0], &[])), empty);
+    assert_eq!(reported(&mask([2, 2], &[0])), empty);
 }
 
 #[test]
@@ -109,11 +109,11 @@ fn both_looks_share_one_limit_of_memory() {
     let mut style = Style::preset("toon").unwrap();
     let model = Model::new(&ball()).unwrap();
     let fits = |style: &Style, memory_limit: u64| {
-        let options = StageOptions {
+        let options = RendererOptions {
             memory_limit,
-            ..StageOptions::new(SIZE)
+            ..RendererOptions::new(SIZE)
         };
-        Stage::new(&Processor, &model, style, &options).is_ok()
+        Renderer::new(&Processor, &model, style, &options).is_ok()
     };
     let least = (0..40)
         .map(|bits| 1u64 << bits)

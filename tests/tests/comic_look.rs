@@ -264,7 +264,7 @@ fn dark_paint_is_drawn_on_paper_where_the_style_says() {
 }
 
 #[test]
-fn vertex_colours_are_paint_too() {
+fn vertex_colors_are_paint_too() {
     let mesh = placed(&plane(8, 8), [2.0, 1.0, 1.0], [-1.0, -0.5, 0.0]);
     let count = mesh.positions().len();
     let black = Object::new("Wall", mesh).painted(&vec![0.0; count]);
@@ -559,7 +559,7 @@ fn a_beam_lies_over_objects_and_under_their_lines() {
 }
 
 #[test]
-fn a_beam_lights_the_wall_behind_it_in_its_own_colour() {
+fn a_beam_lights_the_wall_behind_it_in_its_own_color() {
     let wall = Object::new("Wall", wall(2.0, 0.0));
     let tube = Object::new(
         "Beam",

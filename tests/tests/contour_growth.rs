@@ -11,7 +11,7 @@ use npr_mesh::testing::{icosphere, mapped, shape_of, torus};
 use npr_render::{LineModel, LineModelOptions};
 use npr_scene::{LoadOptions, load};
 use npr_tests::models;
-use npr_vector::contour::{EdgeContours, Eye, usual_room};
+use npr_vector::mesh_lines::contour::{EdgeContours, Eye, usual_room};
 
 /// Directions of eyes, three radii away.
 const DIRECTIONS: [[f64; 3]; 8] = [

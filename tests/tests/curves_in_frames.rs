@@ -4,7 +4,9 @@
 
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
-use npr_render::{Frame, LineModel, LineModelOptions, LineStage, Model, Stage, StageOptions};
+use npr_render::{
+    Frame, LineModel, LineModelOptions, LineRenderer, Model, Renderer, RendererOptions,
+};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
 use npr_tests::comic::{SIZE, front};
@@ -21,11 +23,12 @@ fn drawn(style: &Style, with_lines: bool) -> Frame {
     let scene = scene();
     let model = Model::new(&scene).unwrap();
     let lines = LineModel::for_style(&scene, style, &LineModelOptions::default(), None).unwrap();
-    let mut stage = Stage::new(&Processor, &model, style, &StageOptions::new(SIZE)).unwrap();
+    let mut renderer =
+        Renderer::new(&Processor, &model, style, &RendererOptions::new(SIZE)).unwrap();
     if with_lines {
-        stage = stage.with_lines(LineStage::new(&Processor, &lines));
+        renderer = renderer.with_lines(LineRenderer::new(&Processor, &lines));
     }
-    stage.draw(&front()).unwrap()
+    renderer.draw(&front()).unwrap()
 }
 
 /// Number of inked pixels where only the left ball is, and elsewhere.
@@ -98,6 +101,6 @@ fn strokes_from_pixels_are_drawn_as_curves_are() {
         0,
         "its constants are those of the style"
     );
-    let told = ["lines as curves are left out: no line model was given"];
-    assert_eq!(drawn(&lines("potrace"), false).notices, told);
+    let reported = ["lines as curves are left out: no line model was given"];
+    assert_eq!(drawn(&lines("potrace"), false).notices, reported);
 }

@@ -3,17 +3,17 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use npr_gpu::processor::Processor;
-use npr_render::{Frame, Model, Stage, StageOptions};
+use npr_render::{Frame, Model, Renderer, RendererOptions};
 use npr_stylesheet::Style;
 use npr_tests::{Agreement, asset, models_camera};
 
 const SIZE: [u32; 2] = [480, 270];
 
-fn draw(options: &StageOptions, style: &Style) -> Frame {
+fn draw(options: &RendererOptions, style: &Style) -> Frame {
     let model = Model::new(&asset("still_life.glb")).unwrap();
     let camera = models_camera(&model, options.size);
-    let mut stage = Stage::new(&Processor, &model, style, options).unwrap();
-    stage.draw(&camera).unwrap()
+    let mut renderer = Renderer::new(&Processor, &model, style, options).unwrap();
+    renderer.draw(&camera).unwrap()
 }
 
 fn styles() -> impl Iterator<Item = Style> {
@@ -29,7 +29,8 @@ fn frames_are_equal_for_any_number_of_threads() {
                 .num_threads(count)
                 .build()
                 .unwrap();
-            pool.install(|| draw(&StageOptions::new(SIZE), &style)).rgba
+            pool.install(|| draw(&RendererOptions::new(SIZE), &style))
+                .rgba
         };
         let one = with_threads(1);
         for count in [2, 8] {
@@ -43,17 +44,18 @@ fn frames_are_equal_for_any_number_of_threads() {
 }
 
 #[test]
-fn a_stage_draws_the_same_frame_again() {
+fn a_renderer_draws_the_same_frame_again() {
     let model = Model::new(&asset("teapot_box_plane.glb")).unwrap();
     let camera = models_camera(&model, SIZE);
     let aside = model.framing(1.0, 1.2);
     let style = Style::preset("ink").unwrap();
-    let mut stage = Stage::new(&Processor, &model, &style, &StageOptions::new(SIZE)).unwrap();
-    let first = stage.draw(&camera).unwrap().rgba;
+    let mut renderer =
+        Renderer::new(&Processor, &model, &style, &RendererOptions::new(SIZE)).unwrap();
+    let first = renderer.draw(&camera).unwrap().rgba;
     for _ in 0..20 {
         // What another view leaves in memory must not show.
-        stage.draw(&aside).unwrap();
-        assert!(stage.draw(&camera).unwrap().rgba == first);
+        renderer.draw(&aside).unwrap();
+        assert!(renderer.draw(&camera).unwrap().rgba == first);
     }
 }
 
@@ -61,11 +63,11 @@ fn a_stage_draws_the_same_frame_again() {
 fn a_frame_in_tiles_equals_the_frame_drawn_whole() {
     // Corners round in the tile's own coordinates, so that a corner between two steps may fall on either.
     for style in styles() {
-        let whole = draw(&StageOptions::new(SIZE), &style);
+        let whole = draw(&RendererOptions::new(SIZE), &style);
         for tile_pixels in [0, 20_000, 60_000] {
-            let options = StageOptions {
+            let options = RendererOptions {
                 tile_pixels,
-                ..StageOptions::new(SIZE)
+                ..RendererOptions::new(SIZE)
             };
             let tiled = draw(&options, &style);
             let agreement = Agreement::between(&whole, &tiled, 0);

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use npr_gpu::processor::Processor;
-use npr_render::{Model, Picture, StageOptions};
+use npr_render::{Model, Picture, RendererOptions};
 use npr_stylesheet::Style;
 use npr_tests::{Agreement, asset, device, draw_with, models, models_camera, samples};
 use std::path::PathBuf;
@@ -17,14 +17,14 @@ const TIES: [(&str, &str); 1] = [(
 
 /// Draws a model in a style on both engines and prints how far they agree; nothing without a device.
 fn agreement(what: &str, model: &Model, style: &Style, size: [u32; 2]) -> Option<Agreement> {
-    agreement_with(what, model, style, &StageOptions::new(size))
+    agreement_with(what, model, style, &RendererOptions::new(size))
 }
 
 fn agreement_with(
     what: &str,
     model: &Model,
     style: &Style,
-    options: &StageOptions,
+    options: &RendererOptions,
 ) -> Option<Agreement> {
     let device = device()?;
     let camera = models_camera(model, options.size);
@@ -148,7 +148,7 @@ fn samples_look_alike_at_other_sizes_and_mask_scales() {
 }
 
 /// A ramp of hard and soft tones and a sheet of crosses, as pictures.
-fn tone_pictures() -> StageOptions {
+fn tone_pictures() -> RendererOptions {
     let ramp = (0..256u32).flat_map(|x| {
         let tone = if x < 80 { 30 } else { x as u8 };
         [tone, tone, tone.max(60), 255]
@@ -158,13 +158,13 @@ fn tone_pictures() -> StageOptions {
         [if dark { 10 } else { 240 }; 4]
     });
     let picture = |size, rgba| Picture { size, rgba };
-    StageOptions {
+    RendererOptions {
         pictures: [
             ("ramp.png".to_owned(), picture([256, 1], ramp.collect())),
             ("sheet.png".to_owned(), picture([32, 32], sheet.collect())),
         ]
         .into(),
-        ..StageOptions::new([480, 270])
+        ..RendererOptions::new([480, 270])
     }
 }
 
@@ -252,20 +252,22 @@ fn films_agree() {
         let level = (i % size[0] / 2) as u8 ^ (i / size[0] / 24 % 2 * 40) as u8;
         [level, level, level, 255]
     };
-    let options = StageOptions {
+    let options = RendererOptions {
         background_image: Some(Picture {
             size,
             rgba: (0..size[0] * size[1]).flat_map(grey).collect(),
         }),
-        ..StageOptions::new(size)
+        ..RendererOptions::new(size)
     };
     let mut camera = models_camera(&model, size);
     let engines: [&dyn npr_gpu::engine::Engine; 2] = [&Processor, device];
-    let mut stages =
-        engines.map(|engine| npr_render::Stage::new(engine, &model, &style, &options).unwrap());
+    let mut renderers =
+        engines.map(|engine| npr_render::Renderer::new(engine, &model, &style, &options).unwrap());
     let mut first = None;
     for frame in 0..8 {
-        let [one, two] = stages.each_mut().map(|stage| stage.draw(&camera).unwrap());
+        let [one, two] = renderers
+            .each_mut()
+            .map(|renderer| renderer.draw(&camera).unwrap());
         let agreement = Agreement::between(&one, &two, 2);
         assert!(agreement.holds(), "frame {frame}: {agreement}");
         camera.eye[0] += 0.02;

@@ -5,14 +5,14 @@
 use npr_drawing::lettering::testing::block_font;
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
-use npr_render::{Font, Frame, Model, StageOptions};
+use npr_render::{Font, Frame, Model, RendererOptions};
 use npr_scene::{AlphaMode, Scene};
 use npr_stylesheet::{Lettering, Style};
 use npr_tests::comic::{SIZE, front, pixel, wall};
 use npr_tests::{Object, boxed, device, draw_with, placed, scene_of};
 
 /// Draws a scene on the processor and on a device, where there is one.
-fn on_engines(scene: &Scene, style: &Style, options: &StageOptions) -> Vec<Frame> {
+fn on_engines(scene: &Scene, style: &Style, options: &RendererOptions) -> Vec<Frame> {
     let model = Model::new(scene).unwrap();
     let engines = [
         Some(&Processor as &dyn Engine),
@@ -41,7 +41,7 @@ fn a_hull_is_cut_out_as_its_part_is() {
     let mut style = npr_tests::lines("hull");
     style.set("background=#0000ff").unwrap();
     style.set("line.width.base=6px").unwrap();
-    let options = StageOptions::new(SIZE);
+    let options = RendererOptions::new(SIZE);
     for frame in on_engines(&half_clear(), &style, &options) {
         let of = |x: std::ops::Range<u32>, color: [u8; 3]| {
             let places = x.flat_map(|x| (60..180).map(move |y| (x, y)));
@@ -75,9 +75,9 @@ fn words_stand_behind_what_hides_them() {
         hidden,
         ..Lettering::new("HHH", "a.ttf")
     };
-    let options = StageOptions {
+    let options = RendererOptions {
         fonts: [("a.ttf".to_owned(), Font::new(block_font()).unwrap())].into(),
-        ..StageOptions::new(SIZE)
+        ..RendererOptions::new(SIZE)
     };
     let drawn = |hidden| {
         let mut style = npr_tests::comic::style(&[]);

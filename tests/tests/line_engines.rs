@@ -7,7 +7,8 @@ use npr_drawing::svg::{SvgOptions, write_svg};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_render::{
-    LineMethod, LineModel, LineModelOptions, LineOptions, LineStage, Model, Picture, StageOptions,
+    LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer, Model, Picture,
+    RendererOptions,
 };
 use npr_scene::{LoadOptions, load};
 use npr_stylesheet::Style;
@@ -42,7 +43,7 @@ fn check(path: &Path) {
     let Some(device) = device() else { return };
     let model = model_of(path);
     // One stage for all views: the shape stays on the device.
-    let mut stage = LineStage::new(device, &model);
+    let mut renderer = LineRenderer::new(device, &model);
     for camera in cameras(&model) {
         for method in [LineMethod::Edges, LineMethod::Surface] {
             let options = LineOptions {
@@ -51,7 +52,7 @@ fn check(path: &Path) {
             };
             let style = Style::default();
             let plain = model.draw(&camera, &style, &options).unwrap();
-            let found = stage.draw(&camera, &style, &options).unwrap();
+            let found = renderer.draw(&camera, &style, &options).unwrap();
             let [plain, found] = [plain, found].map(|d| write_svg(&d, &SvgOptions::default()));
             assert!(plain == found, "{}, {method:?}, {camera:?}", path.display());
         }
@@ -86,9 +87,9 @@ fn colors_that_mind_the_background_agree() {
     let Some(device) = device() else { return };
     let text = "background = 'two.png'\nline.color = '#000'\nline.background = { method = 'contrast', scope = 'all' }";
     let style = Style::from_toml(text, &|_| Err(String::new())).unwrap();
-    let behind = StageOptions {
+    let behind = RendererOptions {
         background_image: Some(two_colors()),
-        ..StageOptions::new(SIZE)
+        ..RendererOptions::new(SIZE)
     };
     let mut counted = [0, 0, 0];
     for path in samples() {
@@ -98,10 +99,10 @@ fn colors_that_mind_the_background_agree() {
         let camera = lines.framing(SIZE[0] as f32 / SIZE[1] as f32, 0.7);
         let engines: [&dyn Engine; 2] = [&Processor, device];
         let [plain, found] = engines.map(|engine| {
-            let stage = LineStage::new(engine, &lines);
-            let mut stage = stage.with_backdrop(&model, &behind);
+            let renderer = LineRenderer::new(engine, &lines);
+            let mut renderer = renderer.with_backdrop(&model, &behind);
             let options = LineOptions::new(SIZE);
-            stage.draw(&camera, &style, &options).unwrap()
+            renderer.draw(&camera, &style, &options).unwrap()
         });
         assert_eq!(plain.strokes.len(), found.strokes.len());
         for (a, b) in plain.strokes.iter().zip(&found.strokes) {

@@ -8,17 +8,18 @@ use npr_gpu::curves::{Hiders, ResidentPixels};
 use npr_gpu::engine::Engine;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_render::{
-    LineMethod, LineModel, LineModelOptions, LineOptions, LineStage, Model, Stage, StageOptions,
+    LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer, Model, Renderer,
+    RendererOptions,
 };
 use npr_scene::{LoadOptions, load};
 use npr_stylesheet::Style;
 use npr_tests::{device, models, samples};
-use npr_vector::contour::Eye;
-use npr_vector::draw::eye_of;
-use npr_vector::graph::CurveNode;
-use npr_vector::pixel_contour::side::Ink;
-use npr_vector::pixel_contour::stroke::Loops;
-use npr_vector::pixel_contour::{
+use npr_vector::mesh_lines::contour::Eye;
+use npr_vector::mesh_lines::draw::eye_of;
+use npr_vector::mesh_lines::graph::CurveNode;
+use npr_vector::pixel_strokes::side::Ink;
+use npr_vector::pixel_strokes::stroke::Loops;
+use npr_vector::pixel_strokes::{
     PixelScene, PublishedPath, Traced, ranked_sides, scene_depths, standings_of, trace,
 };
 use npr_vector::project::Projector;
@@ -184,7 +185,7 @@ fn drawings_of_both_engines_have_the_same_lines() {
     let Some(device) = device() else { return };
     for path in paths() {
         let model = model_of(&path);
-        let mut stage = LineStage::new(device, &model);
+        let mut renderer = LineRenderer::new(device, &model);
         for camera in cameras(&model) {
             let options = LineOptions {
                 method: LineMethod::Potrace,
@@ -192,8 +193,8 @@ fn drawings_of_both_engines_have_the_same_lines() {
             };
             let style = Style::default();
             let plain = model.draw(&camera, &style, &options).unwrap();
-            let found = stage.draw(&camera, &style, &options).unwrap();
-            let names: Vec<_> = stage.times().iter().map(|time| time.name).collect();
+            let found = renderer.draw(&camera, &style, &options).unwrap();
+            let names: Vec<_> = renderer.times().iter().map(|time| time.name).collect();
             let has_clock = names.len() > 1;
             assert!(!has_clock || names.contains(&"vector.draw_surfaces"));
             let [expected, length] = [&plain, &found].map(length_of);
@@ -215,9 +216,9 @@ fn frames_draw_these_lines_on_the_device_too() {
     let lines = LineModel::for_style(&scene, &style, &LineModelOptions::default(), None).unwrap();
     let camera = cameras(&lines)[0];
     let drawn = |engine: &dyn Engine| {
-        let stage = Stage::new(engine, &model, &style, &StageOptions::new(SIZE)).unwrap();
-        let mut stage = stage.with_lines(LineStage::new(engine, &lines));
-        stage.draw(&camera).unwrap()
+        let renderer = Renderer::new(engine, &model, &style, &RendererOptions::new(SIZE)).unwrap();
+        let mut renderer = renderer.with_lines(LineRenderer::new(engine, &lines));
+        renderer.draw(&camera).unwrap()
     };
     let [plain, found] = [drawn(&npr_gpu::processor::Processor), drawn(device)];
     let pixels = plain.rgba.chunks(4).zip(found.rgba.chunks(4));

@@ -5,7 +5,7 @@
 use npr_core::camera::{Camera, Projection};
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
-use npr_render::{Frame, Model, Picture, StageOptions};
+use npr_render::{Frame, Model, Picture, RendererOptions};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
 use npr_tests::comic::{front, pixel};
@@ -52,9 +52,9 @@ fn drawn(scene: &Scene, style: &Style, camera: &Camera, pictures: &[(&str, Pictu
     let given = pictures
         .iter()
         .map(|(name, picture)| ((*name).to_owned(), picture.clone()));
-    let options = StageOptions {
+    let options = RendererOptions {
         pictures: given.collect(),
-        ..StageOptions::new(SIZE)
+        ..RendererOptions::new(SIZE)
     };
     let frame = draw_with(&Processor, &model, style, camera, &options);
     if let Some(device) = device() {
@@ -71,7 +71,7 @@ fn ball() -> Scene {
 }
 
 #[test]
-fn a_sky_shines_in_one_colour_from_above_and_another_from_below() {
+fn a_sky_shines_in_one_color_from_above_and_another_from_below() {
     let frame = drawn(
         &ball(),
         &sky("color = '#c0d8ff'\nground = '#804000'"),

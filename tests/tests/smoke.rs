@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use npr_gpu::processor::Processor;
-use npr_render::{Frame, Model, Picture, Sphere, Stage, StageOptions};
+use npr_render::{Frame, Model, Picture, Renderer, RendererOptions, Sphere};
 use npr_scene::Scene;
 use npr_smoke::{Source, Volume};
 use npr_stylesheet::{Facts, Occasion, Output, Stated, Style};
@@ -229,14 +229,14 @@ fn pops(before: &Frame, after: &Frame) -> usize {
 fn pops_on_the_way(film: &SmokeFilm, settings: &[&str], steps: u32) -> usize {
     let style = style(settings);
     let smoke = film.last(&style);
-    let options = StageOptions {
+    let options = RendererOptions {
         smoke: Some(smoke),
-        ..StageOptions::new([384, 384])
+        ..RendererOptions::new([384, 384])
     };
     let model = Model::new(&Scene::default()).unwrap();
-    let mut stage = Stage::new(&Processor, &model, &style, &options).unwrap();
+    let mut renderer = Renderer::new(&Processor, &model, &style, &options).unwrap();
     let frames: Vec<Frame> = (0..=steps)
-        .map(|i| stage.draw(&orbit_camera(i as f32 * 0.25)).unwrap())
+        .map(|i| renderer.draw(&orbit_camera(i as f32 * 0.25)).unwrap())
         .collect();
     frames.windows(2).map(|pair| pops(&pair[0], &pair[1])).sum()
 }
@@ -365,14 +365,14 @@ fn a_picture_stands_behind_the_smoke() {
         if picture.is_some() {
             style.set("background=painting.png").unwrap();
         }
-        let options = StageOptions {
+        let options = RendererOptions {
             smoke: Some(film.last(&style)),
             background_image: picture,
-            ..StageOptions::new(size)
+            ..RendererOptions::new(size)
         };
         let model = Model::new(&Scene::default()).unwrap();
-        let mut stage = Stage::new(&Processor, &model, &style, &options).unwrap();
-        stage.draw(&orbit_camera(0.0)).unwrap()
+        let mut renderer = Renderer::new(&Processor, &model, &style, &options).unwrap();
+        renderer.draw(&orbit_camera(0.0)).unwrap()
     };
     let alone = drawn(&["background=transparent"], None);
     let before = drawn(&[], Some(picture.clone()));

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use npr_gpu::processor::Processor;
-use npr_render::{Model, Smoke, StageOptions};
+use npr_render::{Model, RendererOptions, Smoke};
 use npr_smoke::Source;
 use npr_stylesheet::Style;
 use npr_tests::{Object, SmokeFilm, boxed, device, draw_with, orbit_camera, scene_of};
@@ -51,9 +51,9 @@ fn smoke_looks_alike_on_both_engines() {
                 style.set(setting).unwrap();
             }
             let smoke: Smoke = film.last(&style);
-            let options = StageOptions {
+            let options = RendererOptions {
                 smoke: Some(smoke),
-                ..StageOptions::new([256, 256])
+                ..RendererOptions::new([256, 256])
             };
             let camera = orbit_camera(20.0);
             let here = draw_with(&Processor, &model, &style, &camera, &options);

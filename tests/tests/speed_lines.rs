@@ -5,7 +5,7 @@
 use npr_core::camera::{Camera, Projection};
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
-use npr_render::{Frame, Model, StageOptions};
+use npr_render::{Frame, Model, RendererOptions};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
 use npr_tests::comic::{SIZE, direction, front, pixel, style, wall};
@@ -31,7 +31,7 @@ fn moving(settings: &[&str], rule: &str) -> Style {
 
 fn drawn(settings: &[&str], rule: &str) -> Frame {
     let model = Model::new(&scene()).unwrap();
-    let options = StageOptions::new(SIZE);
+    let options = RendererOptions::new(SIZE);
     draw_with(
         &Processor,
         &model,
@@ -85,7 +85,7 @@ fn what_stands_before_the_part_hides_its_lines() {
                 &model,
                 &style,
                 &front(),
-                &StageOptions::new(SIZE),
+                &RendererOptions::new(SIZE),
             )
         };
         let (trailed, still) = (of("motion.trail = [1.5, 0, 0]"), of("line.on = false"));
@@ -117,7 +117,7 @@ fn lines_run_past_the_eye() {
     let model = Model::new(&scene()).unwrap();
     let of = |trail: &str| {
         let style = moving(&["motion.spacing=6px"], &format!("motion.trail = {trail}"));
-        let options = StageOptions::new(SIZE);
+        let options = RendererOptions::new(SIZE);
         draw_with(&Processor, &model, &style, &camera, &options)
     };
     // From the ball past the right and the upper side of the eye: on the picture its lines run to the border.
@@ -133,7 +133,7 @@ fn lines_run_past_the_eye() {
 }
 
 #[test]
-fn the_colour_covers_as_its_alpha_says() {
+fn the_color_covers_as_its_alpha_says() {
     let settings = [
         "motion.color=#ff000080",
         "motion.weight=1",
@@ -152,9 +152,9 @@ fn tiles_and_blends_keep_the_lines() {
     let model = Model::new(&scene()).unwrap();
     let mut style = moving(&["motion.spacing=6px"], "motion.trail = [1, -0.4, 0]");
     let of = |style: &Style, tile_pixels: u32| {
-        let options = StageOptions {
+        let options = RendererOptions {
             tile_pixels,
-            ..StageOptions::new(SIZE)
+            ..RendererOptions::new(SIZE)
         };
         draw_with(&Processor, &model, style, &front(), &options)
     };

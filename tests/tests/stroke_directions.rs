@@ -5,7 +5,7 @@
 use npr_core::camera::Camera;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
-use npr_render::{Frame, Model, Stage, StageOptions};
+use npr_render::{Frame, Model, Renderer, RendererOptions};
 use npr_scene::Scene;
 use npr_tests::comic::{SIZE, direction, draw, front, style, wall};
 use npr_tests::{Object, scene_of};
@@ -40,7 +40,7 @@ fn strokes_follow_the_attribute_of_the_file() {
 }
 
 #[test]
-fn strokes_follow_vertex_colours() {
+fn strokes_follow_vertex_colors() {
     for (color, is_upright) in [([0.5, 1.0, 0.5, 1.0], true), ([0.0, 0.5, 0.5, 1.0], false)] {
         let mut scene = walls();
         let part = &mut scene.meshes[0].parts[0];
@@ -122,11 +122,11 @@ fn strokes_turn_with_a_light_on_the_camera_and_stay_with_one_in_the_scene() {
         let model = Model::new(&walls()).unwrap();
         let space = format!("light.space={space}");
         let settings = [&HALF_DARK[..], &["ink.follow=light", &space]].concat();
-        let options = StageOptions::new(SIZE);
-        let mut stage = Stage::new(&Processor, &model, &style(&settings), &options).unwrap();
-        let straight = stage.draw(&front()).unwrap();
-        let rolled = stage.draw(&tilted).unwrap();
-        let again = stage.draw(&front()).unwrap();
+        let options = RendererOptions::new(SIZE);
+        let mut renderer = Renderer::new(&Processor, &model, &style(&settings), &options).unwrap();
+        let straight = renderer.draw(&front()).unwrap();
+        let rolled = renderer.draw(&tilted).unwrap();
+        let again = renderer.draw(&front()).unwrap();
         assert_eq!(straight.rgba, again.rgba, "{space}");
         assert!(upright(&straight) > 0.6, "{space}");
         // By an eighth of a turn, strokes of the scene lie askew.

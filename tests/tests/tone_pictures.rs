@@ -5,7 +5,7 @@
 use npr_core::color::linear_from_srgb;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
-use npr_render::{Frame, Model, Picture, RenderError, Stage, StageOptions};
+use npr_render::{Frame, Model, Picture, RenderError, Renderer, RendererOptions};
 use npr_scene::Scene;
 use npr_stylesheet::{Stop, Style};
 use npr_tests::comic::{SIZE, direction, draw, front, pixel, style, wall};
@@ -15,10 +15,10 @@ fn ball() -> Scene {
     scene_of(&[Object::new("Ball", icosphere(5))])
 }
 
-fn options(name: &str, size: [u32; 2], rgba: Vec<u8>) -> StageOptions {
-    StageOptions {
+fn options(name: &str, size: [u32; 2], rgba: Vec<u8>) -> RendererOptions {
+    RendererOptions {
         pictures: [(name.to_owned(), Picture { size, rgba })].into(),
-        ..StageOptions::new(SIZE)
+        ..RendererOptions::new(SIZE)
     }
 }
 
@@ -29,15 +29,15 @@ fn greys(bytes: &[u8]) -> Vec<u8> {
         .collect()
 }
 
-fn draw_pictured(scene: &Scene, style: &Style, options: &StageOptions) -> Frame {
+fn draw_pictured(scene: &Scene, style: &Style, options: &RendererOptions) -> Frame {
     let model = Model::new(scene).unwrap();
     draw_with(&Processor, &model, style, &front(), options)
 }
 
 /// What [`Stage::new`] says of a style with pictures.
-fn refusal(settings: &[&str], options: &StageOptions) -> RenderError {
+fn refusal(settings: &[&str], options: &RendererOptions) -> RenderError {
     let model = Model::new(&ball()).unwrap();
-    let refused = Stage::new(&Processor, &model, &style(settings), options);
+    let refused = Renderer::new(&Processor, &model, &style(settings), options);
     refused.err().unwrap()
 }
 
@@ -84,7 +84,7 @@ fn a_part_may_have_its_own_picture_or_none() {
 #[test]
 fn pictures_that_are_missing_or_unfit_are_named_by_their_key() {
     let ramp = ["shade.ramp_image=r.png"];
-    let none = StageOptions::new(SIZE);
+    let none = RendererOptions::new(SIZE);
     assert_eq!(
         refusal(&ramp, &none).to_string(),
         "shade.ramp_image: the picture 'r.png' was not given"
@@ -103,7 +103,7 @@ fn pictures_that_are_missing_or_unfit_are_named_by_their_key() {
 }
 
 /// Upright bars, 8 of 16 pixels a period.
-fn bars() -> StageOptions {
+fn bars() -> RendererOptions {
     let row: Vec<u8> = (0..64).map(|x| if x % 16 < 8 { 0 } else { 255 }).collect();
     options("h.png", [64, 64], greys(&row.repeat(64)))
 }

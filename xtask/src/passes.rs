@@ -242,7 +242,7 @@ pub const DETECT: Pass = Pass {
             writes: declared.writes.clone(),
             agreement: declared.agreement.clone(),
         };
-        let text = entry(&long, "npr_vector::detect::detect");
+        let text = entry(&long, "npr_vector::screen::detect::detect");
         assert!(text.lines().count() > 2);
         assert!(
             text.lines()

@@ -21,7 +21,7 @@ use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
-use npr_render::{Model, Stage, StageOptions};
+use npr_render::{Model, Renderer, RendererOptions};
 use npr_scene::{LoadOptions, Scene, load};
 use npr_stylesheet::Style;
 
@@ -131,12 +131,12 @@ fn orbited() -> Outcome<Vec<(String, Scene)>> {
 /// What changes in an orbit, all frames together.
 fn orbit(model: &Model, soup: &Soup, mapping: &str) -> Outcome<Change> {
     let style = strokes_alone(mapping)?;
-    let mut stage = Stage::new(&Processor, model, &style, &StageOptions::new(ORBIT_SIZE))?;
+    let mut renderer = Renderer::new(&Processor, model, &style, &RendererOptions::new(ORBIT_SIZE))?;
     let mut sum = Change::default();
     let mut before: Option<Inked> = None;
     for frame in 0..=FRAMES {
         let camera = orbiting(model, soup, frame as f32);
-        let inked = Inked::new(&stage.draw(&camera)?, soup, &camera);
+        let inked = Inked::new(&renderer.draw(&camera)?, soup, &camera);
         if let Some(before) = before {
             let change = before.change_to(&inked, frame % SHIFTS_EVERY == 1);
             sum.pixels += change.pixels;

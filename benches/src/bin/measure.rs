@@ -13,7 +13,7 @@ use npr_benches::table::Table;
 use npr_benches::timing::{Times, elapsed_ms};
 use npr_benches::{machine, memory};
 use npr_gpu::processor::Processor;
-use npr_render::{Stage, StageOptions};
+use npr_render::{Renderer, RendererOptions};
 use npr_stylesheet::Style;
 
 /// Triangles of the published table, and one number between.
@@ -110,9 +110,11 @@ struct Cell<'a> {
 impl Cell<'_> {
     /// Time of the second frame of a new stage.
     fn frame_ms(&self) -> Outcome<f64> {
-        let mut stage = self.subject.warm_stage(&Processor, self.style, self.size)?;
+        let mut renderer = self
+            .subject
+            .warm_renderer(&Processor, self.style, self.size)?;
         let mut drawn = Ok(());
-        let ms = elapsed_ms(|| drawn = stage.draw(&self.subject.camera).map(drop));
+        let ms = elapsed_ms(|| drawn = renderer.draw(&self.subject.camera).map(drop));
         drawn?;
         Ok(ms)
     }
@@ -253,7 +255,7 @@ fn print_bunny() -> Outcome<()> {
         child_peak(&path)?
     );
     let frame = subject
-        .warm_stage(&Processor, &style, FULL_HD)?
+        .warm_renderer(&Processor, &style, FULL_HD)?
         .draw(&subject.camera)?;
     let mut table = Table::new(["pass", "ms in one frame"]);
     for pass in &frame.times {
@@ -278,8 +280,9 @@ fn child_peak(file: &Path) -> Outcome<String> {
 /// Draws a file at full HD and prints the most memory that took, in megabytes.
 fn print_peak(file: &Path) -> Outcome<()> {
     let subject = Subject::from_file(file)?;
-    let options = StageOptions::new(FULL_HD);
-    Stage::new(&Processor, &subject.model, &Style::default(), &options)?.draw(&subject.camera)?;
+    let options = RendererOptions::new(FULL_HD);
+    Renderer::new(&Processor, &subject.model, &Style::default(), &options)?
+        .draw(&subject.camera)?;
     match memory::peak_bytes() {
         Some(bytes) => println!("{:.0}", bytes as f64 / 1e6),
         None => println!("unknown"),

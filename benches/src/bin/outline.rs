@@ -206,14 +206,14 @@ fn objects_on(engine: &dyn Engine) -> Outcome<()> {
         for setting in method.settings {
             style.set(setting)?;
         }
-        let mut stages = Vec::new();
+        let mut renderers = Vec::new();
         for (name, subject) in &subjects {
-            stages.push((*name, subject.warm_stage(engine, &style, FULL_HD)?));
+            renderers.push((*name, subject.warm_renderer(engine, &style, FULL_HD)?));
         }
         let mut ledger = Ledger::default();
         for _ in 0..RUNS {
-            for (name, stage) in &mut stages {
-                ledger.time(name, || stage.draw(&camera))?;
+            for (name, renderer) in &mut renderers {
+                ledger.time(name, || renderer.draw(&camera))?;
             }
         }
         let mut times = Vec::new();

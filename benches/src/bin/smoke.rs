@@ -13,7 +13,7 @@ use npr_benches::subject::shared_volumes;
 use npr_benches::table::Table;
 use npr_core::camera::Camera;
 use npr_gpu::processor::Processor;
-use npr_render::{Following, Frame, Model, Stage, StageOptions};
+use npr_render::{Following, Frame, Model, Renderer, RendererOptions};
 use npr_scene::Scene;
 use npr_smoke::{Distances, Puffs, Smoke, Sphere, Track, TrackSettings, Volume, covered_share};
 use npr_stylesheet::Style;
@@ -103,7 +103,7 @@ fn look(settings: &[&str]) -> Outcome<Style> {
 
 /// A picture of smoke alone.
 struct Picture<'a> {
-    stage: Stage<'a>,
+    renderer: Renderer<'a>,
     size: [u32; 2],
 }
 
@@ -111,17 +111,17 @@ impl<'a> Picture<'a> {
     /// For at most `count` spheres.
     fn new(model: &'a Model, style: &Style, size: [u32; 2], count: u32) -> Outcome<Self> {
         let spheres = vec![npr_render::Sphere::default(); count as usize];
-        let options = StageOptions {
+        let options = RendererOptions {
             smoke: Some(npr_render::Smoke::new(spheres)),
-            ..StageOptions::new(size)
+            ..RendererOptions::new(size)
         };
-        let stage = Stage::new(&Processor, model, style, &options)?;
-        Ok(Self { stage, size })
+        let renderer = Renderer::new(&Processor, model, style, &options)?;
+        Ok(Self { renderer, size })
     }
 
     fn draw(&mut self, spheres: &[Sphere], volume: &Volume, camera: &Camera) -> Outcome<Frame> {
-        self.stage.set_smoke(&drawn(spheres, volume))?;
-        Ok(self.stage.draw(camera)?)
+        self.renderer.set_smoke(&drawn(spheres, volume))?;
+        Ok(self.renderer.draw(camera)?)
     }
 
     fn camera(&self, volume: &Volume, degrees: f32) -> Camera {
@@ -165,15 +165,15 @@ fn paper_case() -> Outcome<Ledger> {
     let camera = picture.camera(&smoke.volume(), 0.0);
     picture.draw(&track.spheres(), &smoke.volume(), &camera)?;
     for _ in 0..RUNS {
-        let mut stages = Ledger::default();
+        let mut renderers = Ledger::default();
         let frame = ledger.time("whole frame", || -> Outcome<Frame> {
-            stages.time("solver", || smoke.step());
-            let volume = stages.time("volume", || smoke.volume());
-            stages.time("distances and spheres", || track.step(&volume));
+            renderers.time("solver", || smoke.step());
+            let volume = renderers.time("volume", || smoke.volume());
+            renderers.time("distances and spheres", || track.step(&volume));
             let spheres = track.spheres();
-            stages.time("drawing", || picture.draw(&spheres, &volume, &camera))
+            renderers.time("drawing", || picture.draw(&spheres, &volume, &camera))
         })?;
-        ledger.take(&stages);
+        ledger.take(&renderers);
         ledger.enter_passes(&frame);
     }
     Ok(ledger)
@@ -193,13 +193,13 @@ fn busy_case(volume: &Volume) -> Outcome<Ledger> {
     picture.draw(&track.spheres(), volume, &picture.camera(volume, 0.0))?;
     for run in 0..RUNS {
         let camera = picture.camera(volume, run as f32);
-        let mut stages = Ledger::default();
+        let mut renderers = Ledger::default();
         let frame = ledger.time("whole frame", || -> Outcome<Frame> {
-            stages.time("distances and spheres", || track.step(volume));
+            renderers.time("distances and spheres", || track.step(volume));
             let spheres = track.spheres();
-            stages.time("drawing", || picture.draw(&spheres, volume, &camera))
+            renderers.time("drawing", || picture.draw(&spheres, volume, &camera))
         })?;
-        ledger.take(&stages);
+        ledger.take(&renderers);
         ledger.enter_passes(&frame);
     }
     Ok(ledger)

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use npr_core::camera::DEFAULT_FOV_DEG;
 use npr_gpu::processor::Processor;
-use npr_render::{Model, Stage, StageOptions};
+use npr_render::{Model, Renderer, RendererOptions};
 use npr_scene::{LoadOptions, load};
 use npr_stylesheet::{Style, presets};
 
@@ -62,9 +62,9 @@ pub fn write(folder: &Path, names: &[String]) -> Result<(), Box<dyn Error>> {
 fn write_sheet(path: &Path, models: &[Model], style: &Style) -> Result<(), Box<dyn Error>> {
     let mut sheet = Sheet::new(models.len().min(COLUMNS), [SIDE; 2]);
     for model in models {
-        let options = StageOptions::new([SIDE; 2]);
+        let options = RendererOptions::new([SIDE; 2]);
         let camera = model.framing(1.0, DEFAULT_FOV_DEG.to_radians());
-        sheet.add(&Stage::new(&Processor, model, style, &options)?.draw(&camera)?);
+        sheet.add(&Renderer::new(&Processor, model, style, &options)?.draw(&camera)?);
     }
     sheet.write(path)
 }

@@ -32,22 +32,22 @@ pub fn prices(
     size: [u32; 2],
     runs: usize,
 ) -> Result<Vec<Price>, RenderError> {
-    let mut stages = Vec::with_capacity(styles.len());
+    let mut renderers = Vec::with_capacity(styles.len());
     let mut prepare_ms = Vec::with_capacity(styles.len());
     for style in styles {
-        let mut stage = None;
+        let mut renderer = None;
         prepare_ms.push(elapsed_ms(|| {
-            stage = Some(subject.warm_stage(engine, style, size));
+            renderer = Some(subject.warm_renderer(engine, style, size));
         }));
-        stages.extend(stage.transpose()?);
+        renderers.extend(renderer.transpose()?);
     }
-    let mut frames = vec![Vec::with_capacity(runs); stages.len()];
+    let mut frames = vec![Vec::with_capacity(runs); renderers.len()];
     let (mut composes, mut works) = (frames.clone(), frames.clone());
     for _ in 0..runs {
-        for (i, stage) in stages.iter_mut().enumerate() {
+        for (i, renderer) in renderers.iter_mut().enumerate() {
             let mut drawn = None;
             let before = worked_ms();
-            frames[i].push(elapsed_ms(|| drawn = Some(stage.draw(&subject.camera))));
+            frames[i].push(elapsed_ms(|| drawn = Some(renderer.draw(&subject.camera))));
             let worked = before.zip(worked_ms()).map(|(from, to)| to - from);
             works[i].push(worked.unwrap_or_default());
             let last = drawn

@@ -42,7 +42,7 @@ pub fn picture(reference: &Reference, drawing: &Drawing) -> String {
 fn panel<'a>(lines: impl Iterator<Item = (&'a Vec<[f64; 2]>, bool)>) -> String {
     let mut text = String::new();
     for (number, (points, closed)) in lines.enumerate() {
-        let colour = COLOURS[number % COLOURS.len()];
+        let color = COLOURS[number % COLOURS.len()];
         let path: Vec<String> = points
             .iter()
             .map(|[x, y]| format!("{x:.2} {y:.2}"))
@@ -50,7 +50,7 @@ fn panel<'a>(lines: impl Iterator<Item = (&'a Vec<[f64; 2]>, bool)>) -> String {
         let close = if closed { " Z" } else { "" };
         let _ = writeln!(
             text,
-            "<path d=\"M{}{close}\" fill=\"none\" stroke=\"{colour}\"/>",
+            "<path d=\"M{}{close}\" fill=\"none\" stroke=\"{color}\"/>",
             path.join(" L")
         );
         for [x, y] in points
@@ -61,7 +61,7 @@ fn panel<'a>(lines: impl Iterator<Item = (&'a Vec<[f64; 2]>, bool)>) -> String {
         {
             let _ = writeln!(
                 text,
-                "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"1.5\" fill=\"{colour}\"/>"
+                "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"1.5\" fill=\"{color}\"/>"
             );
         }
     }

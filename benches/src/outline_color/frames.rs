@@ -4,7 +4,7 @@ use std::error::Error;
 
 use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
 use npr_gpu::engine::Engine;
-use npr_render::{Frame, Model, Stage, StageOptions};
+use npr_render::{Frame, Model, Renderer, RendererOptions};
 use npr_scene::{LoadOptions, load};
 use npr_stylesheet::Style;
 
@@ -70,10 +70,10 @@ pub const METHODS: [Method; 4] = [
 
 /// A model before a scenery, drawn by one method at any moment.
 pub struct Show<'a> {
-    bare: Stage<'a>,
-    drawn: Stage<'a>,
-    alone: Stage<'a>,
-    lined: Stage<'a>,
+    bare: Renderer<'a>,
+    drawn: Renderer<'a>,
+    alone: Renderer<'a>,
+    lined: Renderer<'a>,
 }
 
 impl<'a> Show<'a> {
@@ -89,26 +89,26 @@ impl<'a> Show<'a> {
         method: &Method,
         size: [u32; 2],
     ) -> Result<Self, Box<dyn Error>> {
-        let stage = |background: &str, line: &str| -> Result<Stage<'a>, Box<dyn Error>> {
+        let renderer = |background: &str, line: &str| -> Result<Renderer<'a>, Box<dyn Error>> {
             let mut style = Style::preset("toon")?;
             for setting in method.settings.iter().chain([&background, &line]) {
                 if !setting.is_empty() {
                     style.set(setting)?;
                 }
             }
-            let options = StageOptions {
+            let options = RendererOptions {
                 background_image: Some(scenery.picture(size)),
-                ..StageOptions::new(size)
+                ..RendererOptions::new(size)
             };
-            Ok(Stage::new(engine, model, &style, &options)?)
+            Ok(Renderer::new(engine, model, &style, &options)?)
         };
         let (behind, none) = ("background=scenery.png", "background=transparent");
         let (lines, no_lines) = ("", "line.method=none");
         Ok(Self {
-            bare: stage(behind, no_lines)?,
-            drawn: stage(behind, lines)?,
-            alone: stage(none, no_lines)?,
-            lined: stage(none, lines)?,
+            bare: renderer(behind, no_lines)?,
+            drawn: renderer(behind, lines)?,
+            alone: renderer(none, no_lines)?,
+            lined: renderer(none, lines)?,
         })
     }
 

@@ -21,7 +21,7 @@
 use std::collections::BTreeMap;
 
 use npr_core::camera::Camera;
-use npr_core::smoke::{Ball, Lens, Sphere};
+use npr_core::smoke::{Sphere, SphereView, ViewSphere};
 use npr_core::window::Window;
 use npr_render::Frame;
 use npr_smoke::Sphere as Puff;
@@ -38,9 +38,9 @@ pub struct Shown {
     window: Window,
     /// Brightness of every pixel as the eye takes it, softened, 0..1.
     tones: Vec<f32>,
-    lens: Lens,
+    lens: SphereView,
     spheres: Vec<Sphere>,
-    balls: Vec<Ball>,
+    balls: Vec<ViewSphere>,
     /// Which sphere a pixel truly shows: its place in the list plus one.
     ids: Vec<u32>,
     /// Place in the list by the name that a sphere keeps from frame to frame.
@@ -80,12 +80,12 @@ impl Shown {
     /// A frame that shows `puffs` through a camera, in any style. O(pixels + spheres).
     pub fn new(frame: &Frame, camera: &Camera, puffs: &[Puff]) -> Self {
         let size = frame.size;
-        let lens = Lens::of_view(&camera.view(size, around(puffs)));
+        let lens = SphereView::of_view(&camera.view(size, around(puffs)));
         let extent = size.map(|side| side as f32);
         let window = Window::over(extent, [0.0; 2], extent, size);
         let sphere = |puff: &Puff| Sphere::new(puff.center.to_array(), puff.radius);
         let spheres: Vec<Sphere> = puffs.iter().map(sphere).collect();
-        let mut balls = vec![Ball::default(); spheres.len()];
+        let mut balls = vec![ViewSphere::default(); spheres.len()];
         project_spheres(&lens, &spheres, &mut balls);
         let mut ids = vec![0; frame.rgba.len() / 4];
         let mut depths = ids.clone();
@@ -209,7 +209,8 @@ impl Shown {
         let (ball, then) = (&self.balls[at], &before.balls[earlier]);
         let [middle, middle_then] = [(&self.lens, ball), (&before.lens, then)]
             .map(|(lens, ball)| lens.frame_of(ball.center));
-        let size = |lens: &Lens, ball: &Ball| ball.radius / lens.pixel_at(ball.center[2]);
+        let size =
+            |lens: &SphereView, ball: &ViewSphere| ball.radius / lens.pixel_at(ball.center[2]);
         let grown = size(&before.lens, then) / size(&self.lens, ball);
         std::array::from_fn(|i| middle_then[i] + (frame_px[i] - middle[i]) * grown)
     }

@@ -4,7 +4,7 @@ use crate::encoder;
 use crate::fault::Fault;
 use crate::output::Output;
 use npr_core::camera::Camera;
-use npr_render::{Frame, RenderError, Stage};
+use npr_render::{Frame, RenderError, Renderer};
 use png::ColorType;
 use std::io::{self, BufWriter, Write};
 
@@ -28,7 +28,7 @@ enum Try {
 /// [`RenderError`] where drawing fails: there is no file then, and another engine may try.
 pub fn draw_into(
     output: &Output,
-    stage: &mut Stage<'_>,
+    renderer: &mut Renderer<'_>,
     camera: &Camera,
     size: [u32; 2],
     keep_alpha: bool,
@@ -38,8 +38,8 @@ pub fn draw_into(
         false => ColorType::Rgb,
     };
     loop {
-        match try_with(output, stage, camera, size, color)? {
-            Try::Written(told) => return Ok(Ok(told)),
+        match try_with(output, renderer, camera, size, color)? {
+            Try::Written(reported) => return Ok(Ok(reported)),
             Try::Failed(fault) => return Ok(Err(fault)),
             Try::SeesThrough => color = ColorType::Rgba,
         }
@@ -48,7 +48,7 @@ pub fn draw_into(
 
 fn try_with(
     output: &Output,
-    stage: &mut Stage<'_>,
+    renderer: &mut Renderer<'_>,
     camera: &Camera,
     size: [u32; 2],
     color: ColorType,
@@ -58,7 +58,7 @@ fn try_with(
     let written = whole(output, |sink| {
         encoder::encode(size, color, sink, |write| {
             let mut kept = Ok(());
-            let bands = stage.draw_bands(camera, &mut |band| {
+            let bands = renderer.draw_bands(camera, &mut |band| {
                 let is_opaque = || band.rgba.chunks_exact(4).all(|pixel| pixel[3] == 255);
                 sees_through = color == ColorType::Rgb && !is_opaque();
                 if !sees_through {
@@ -76,7 +76,7 @@ fn try_with(
         })
     });
     Ok(match (drawn.transpose()?, written) {
-        (Some(told), Ok(())) => Try::Written(told),
+        (Some(reported), Ok(())) => Try::Written(reported),
         (Some(_), Err(_)) if sees_through => Try::SeesThrough,
         (_, Err(fault)) => Try::Failed(fault),
         // A closed pipe ends the writing in good order.
@@ -105,7 +105,7 @@ fn whole(
 mod tests {
     use super::*;
     use npr_gpu::processor::Processor;
-    use npr_render::{Model, StageOptions};
+    use npr_render::{Model, RendererOptions};
     use npr_scene::testing::Sheet;
     use npr_scene::{Limits, MemoryResources, load_bytes};
     use npr_stylesheet::Style;
@@ -135,10 +135,10 @@ mod tests {
         let path = folder.path().join("out.png");
         let output = Output::of(&path).expect("a place");
         let camera = Camera::framing([0.0; 3], [4.0, 0.1, 4.0]);
-        let options = StageOptions {
+        let options = RendererOptions {
             tile_pixels: 20_000,
             in_bands: true,
-            ..StageOptions::new(SIZE)
+            ..RendererOptions::new(SIZE)
         };
         // Paper, glass, and glass that was taken for paper.
         for (background, keep_alpha) in [
@@ -146,20 +146,20 @@ mod tests {
             ("transparent", true),
             ("transparent", false),
         ] {
-            let told = RefCell::new(Vec::new());
-            let tell = |done, of| told.borrow_mut().push([done, of]);
-            let stage = Stage::new(&Processor, &model, &style(background), &options);
-            let mut stage = stage.expect("a stage").with_progress(&tell);
-            assert!(stage.draws_bands());
-            let written = draw_into(&output, &mut stage, &camera, SIZE, keep_alpha);
+            let reported = RefCell::new(Vec::new());
+            let tell = |done, of| reported.borrow_mut().push([done, of]);
+            let renderer = Renderer::new(&Processor, &model, &style(background), &options);
+            let mut renderer = renderer.expect("a stage").with_progress(&tell);
+            assert!(renderer.draws_bands());
+            let written = draw_into(&output, &mut renderer, &camera, SIZE, keep_alpha);
             let frame = written.expect("drawn").expect("written");
             assert!(frame.rgba.is_empty() && !frame.times.is_empty());
-            let tiles = told.borrow().clone();
+            let tiles = reported.borrow().clone();
             let count = tiles[0][1];
             let once: Vec<[usize; 2]> = (1..=count).map(|done| [done, count]).collect();
             assert!(count > 4 && tiles.ends_with(&once), "{tiles:?}");
 
-            let whole = stage.draw(&camera).expect("drawn");
+            let whole = renderer.draw(&camera).expect("drawn");
             let wanted = encoder::png(SIZE, &whole.rgba, keep_alpha).expect("encoded");
             let bytes = std::fs::read(&path).expect("a file");
             assert!(bytes == wanted, "{background}, {keep_alpha}");
@@ -171,9 +171,9 @@ mod tests {
     #[test]
     fn what_goes_over_the_whole_frame_needs_it_whole() {
         let model = model();
-        let options = StageOptions {
+        let options = RendererOptions {
             tile_pixels: 20_000,
-            ..StageOptions::new(SIZE)
+            ..RendererOptions::new(SIZE)
         };
         let cases: [(&[&str], bool); 3] = [
             (&["line.method=shape"], true),
@@ -183,8 +183,8 @@ mod tests {
         for (keys, in_bands) in cases {
             let mut style = style("white");
             keys.iter().for_each(|key| style.set(key).expect("a key"));
-            let stage = Stage::new(&Processor, &model, &style, &options).expect("a stage");
-            assert_eq!(stage.draws_bands(), in_bands, "{keys:?}");
+            let renderer = Renderer::new(&Processor, &model, &style, &options).expect("a stage");
+            assert_eq!(renderer.draws_bands(), in_bands, "{keys:?}");
         }
     }
 }

@@ -128,23 +128,23 @@ mod tests {
 
     #[test]
     fn what_decoders_say_is_said_in_plain_words() {
-        let told = |text: &str| plain(text).unwrap_or_default();
+        let reported = |text: &str| plain(text).unwrap_or_default();
         assert_eq!(
-            told(
+            reported(
                 "CRC error: expected 0x28 have 0xc4 while decoding ChunkType { type: IHDR, critical: true, private: false } chunk"
             ),
             "CRC error: expected 0x28 have 0xc4 while decoding IHDR chunk"
         );
         assert_eq!(
-            told("Corrupt deflate stream. BadCodeLengthHuffmanTree"),
+            reported("Corrupt deflate stream. BadCodeLengthHuffmanTree"),
             "corrupt deflate stream"
         );
         assert_eq!(
-            told("Unknown filter method 95."),
+            reported("Unknown filter method 95."),
             "unknown filter method 95"
         );
         assert_eq!(
-            told("\"Premature End\nof image\""),
+            reported("\"Premature End\nof image\""),
             "premature End of image"
         );
         for text in [

@@ -166,8 +166,8 @@ mod tests {
         let warn = |text: &str| words.borrow_mut().push(text.to_owned());
         draw_somewhere(&device, &failing(2, &tries, &lost), &warn).expect("the processor draws");
         assert_eq!(tries.get(), 3);
-        let said = ["the graphics device was lost: unplugged; the processor draws instead"];
-        assert_eq!(words.into_inner(), said);
+        let args = ["the graphics device was lost: unplugged; the processor draws instead"];
+        assert_eq!(words.into_inner(), args);
     }
 
     #[test]

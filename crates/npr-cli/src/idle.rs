@@ -36,14 +36,14 @@ const fn entry<T>(
 }
 
 /// What to tell the user of options that cannot act.
-fn told<T>(entries: &[Entry<T>], case: &T) -> Vec<String> {
+fn reported<T>(entries: &[Entry<T>], case: &T) -> Vec<String> {
     let idle = entries
         .iter()
         .filter(|entry| (entry.is_said)(case) && (entry.is_idle)(case));
-    let mut told: Vec<&str> = Vec::new();
+    let mut reported: Vec<&str> = Vec::new();
     let first = idle.filter(|entry| {
-        let is_new = !told.contains(&entry.option);
-        told.push(entry.option);
+        let is_new = !reported.contains(&entry.option);
+        reported.push(entry.option);
         is_new
     });
     first
@@ -53,7 +53,7 @@ fn told<T>(entries: &[Entry<T>], case: &T) -> Vec<String> {
 
 /// What volumes are drawn, with what was said about them.
 struct Volumes<'a> {
-    said: &'a VolumeArguments,
+    args: &'a VolumeArguments,
     /// Which spheres stand for them.
     particles: SmokeParticles,
     /// Whether there are any.
@@ -82,40 +82,40 @@ const fn of_files_alone<'a>(
 /// Options of volumes that cannot act.
 fn volume_entries<'a>() -> Vec<Entry<Volumes<'a>>> {
     vec![
-        of_smoke_alone("--spheres", |c| c.said.spheres.is_some()),
-        of_smoke_alone("--threshold", |c| c.said.threshold.is_some()),
-        of_smoke_alone("--detail", |c| c.said.detail.is_some()),
+        of_smoke_alone("--spheres", |c| c.args.spheres.is_some()),
+        of_smoke_alone("--threshold", |c| c.args.threshold.is_some()),
+        of_smoke_alone("--detail", |c| c.args.detail.is_some()),
         entry(
             "--seed",
-            |c| c.said.seed != 0,
+            |c| c.args.seed != 0,
             |c| !c.is_any,
             "it is about smoke, of which the scene has none",
         ),
-        of_smoke_alone("--particles", |c| c.said.particles.is_some()),
-        of_smoke_alone("--emitter", |c| c.said.emitter.is_some()),
+        of_smoke_alone("--particles", |c| c.args.particles.is_some()),
+        of_smoke_alone("--emitter", |c| c.args.emitter.is_some()),
         entry(
             "--emitter",
-            |c| c.said.emitter.is_some(),
+            |c| c.args.emitter.is_some(),
             |c| c.particles == SmokeParticles::Cover,
             "smoke.particles is cover",
         ),
         entry(
             "--detail",
-            |c| c.said.detail.is_some(),
+            |c| c.args.detail.is_some(),
             |c| c.particles == SmokeParticles::Published,
             "smoke.particles is published",
         ),
-        of_files_alone("--density", |c| c.said.density.is_some()),
-        of_files_alone("--velocity", |c| !c.said.velocity.is_empty()),
-        of_files_alone("--heat", |c| c.said.heat.is_some()),
-        of_files_alone("--volume-up", |c| c.said.volume_up != VolumeUp::default()),
+        of_files_alone("--density", |c| c.args.density.is_some()),
+        of_files_alone("--velocity", |c| !c.args.velocity.is_empty()),
+        of_files_alone("--heat", |c| c.args.heat.is_some()),
+        of_files_alone("--volume-up", |c| c.args.volume_up != VolumeUp::default()),
     ]
 }
 
 /// What to tell of options about volumes, where the scene itself is `own`, if it is a volume.
 pub fn of_volumes(order: &Order<'_>, own: Option<&VolumeSource>) -> Vec<String> {
-    let said = order.said;
-    let named: Vec<VolumeSource> = said
+    let args = order.args;
+    let named: Vec<VolumeSource> = args
         .volumes
         .iter()
         .map(|volume| VolumeSource::of(&volume.name))
@@ -125,24 +125,24 @@ pub fn of_volumes(order: &Order<'_>, own: Option<&VolumeSource>) -> Vec<String> 
         .clone()
         .any(|source| !matches!(source, VolumeSource::BuiltIn(_)));
     let case = Volumes {
-        said,
+        args,
         particles: order.style.particles,
         is_any: all.next().is_some(),
         is_of_file,
     };
-    told(&volume_entries(), &case)
+    reported(&volume_entries(), &case)
 }
 
 /// A drawing of lines.
 struct Lines<'a> {
-    said: &'a LinesArguments,
+    args: &'a LinesArguments,
     format: LineFormat,
     facts: Facts,
 }
 
 impl Lines<'_> {
     fn is_plotted(&self) -> bool {
-        self.said.sheet.svg == PathForm::Centreline
+        self.args.sheet.svg == PathForm::Centreline
     }
 }
 
@@ -151,38 +151,38 @@ fn line_entries<'a>() -> Vec<Entry<Lines<'a>>> {
     vec![
         entry(
             "--painted",
-            |c| c.said.lines.painted.is_some(),
+            |c| c.args.lines.painted.is_some(),
             |c| !c.facts.textures,
             "the scene has no textures",
         ),
         entry(
             "--svg",
-            |c| c.said.sheet.svg != PathForm::Outline,
+            |c| c.args.sheet.svg != PathForm::Outline,
             |c| c.format == LineFormat::Json,
             "the file holds points, and no paths",
         ),
         entry(
             "--fill",
-            |c| c.said.lines.fill,
+            |c| c.args.lines.fill,
             |c| c.format == LineFormat::Json,
             "the file holds lines alone",
         ),
         entry(
             "--background",
-            |c| c.said.drawing.look.background.is_some(),
+            |c| c.args.drawing.look.background.is_some(),
             |c| c.format == LineFormat::Json || c.is_plotted(),
             "the file holds lines alone",
         ),
         entry(
             "--hidden",
-            |c| c.said.lines.hidden == HiddenLines::Dashed,
+            |c| c.args.lines.hidden == HiddenLines::Dashed,
             |c| c.format == LineFormat::Json,
             "the file tells how many surfaces hide a line, and has no dashes",
         ),
         entry(
             "--smooth",
-            |c| c.said.lines.smooth == Switch::Off,
-            |c| c.said.lines.method == MethodName::Image,
+            |c| c.args.lines.smooth == Switch::Off,
+            |c| c.args.lines.method == MethodName::Image,
             "--method image follows pixels, which are smoothed in any case",
         ),
     ]
@@ -191,16 +191,16 @@ fn line_entries<'a>() -> Vec<Entry<Lines<'a>>> {
 /// What to tell of options of a drawing of lines.
 pub fn of_lines(job: &LineJob<'_>, facts: Facts) -> Vec<String> {
     let case = Lines {
-        said: job.said,
+        args: job.args,
         format: job.format,
         facts,
     };
-    told(&line_entries(), &case)
+    reported(&line_entries(), &case)
 }
 
 /// Pictures of smoke, and how many there are.
 struct Smoke<'a> {
-    said: &'a SmokeArguments,
+    args: &'a SmokeArguments,
     source: &'a VolumeSource,
     count: usize,
 }
@@ -210,13 +210,13 @@ fn smoke_entries<'a>() -> Vec<Entry<Smoke<'a>>> {
     vec![
         entry(
             "--step",
-            |c| c.said.step != DEFAULT_STEP,
+            |c| c.args.step != DEFAULT_STEP,
             |c| c.count < 2,
             "one frame is drawn",
         ),
         entry(
             "--fps",
-            |c| c.said.fps != DEFAULT_FPS,
+            |c| c.args.fps != DEFAULT_FPS,
             |c| matches!(c.source, VolumeSource::File(_) | VolumeSource::Read(..)),
             "a single volume file stands still",
         ),
@@ -224,11 +224,11 @@ fn smoke_entries<'a>() -> Vec<Entry<Smoke<'a>>> {
 }
 
 /// What to tell of options of `count` pictures of smoke.
-pub fn of_smoke(said: &SmokeArguments, source: &VolumeSource, count: usize) -> Vec<String> {
-    told(
+pub fn of_smoke(args: &SmokeArguments, source: &VolumeSource, count: usize) -> Vec<String> {
+    reported(
         &smoke_entries(),
         &Smoke {
-            said,
+            args,
             source,
             count,
         },
@@ -245,8 +245,8 @@ const fn of_outlines_alone(
 }
 
 /// Whether the user asked for joined curves to stray otherwise than usual.
-fn is_tolerance_said(said: &TraceArguments) -> bool {
-    Some(said.method.opttolerance) != TraceOptions::default().join_tolerance
+fn is_tolerance_said(args: &TraceArguments) -> bool {
+    Some(args.method.opttolerance) != TraceOptions::default().join_tolerance
 }
 
 const TRACE: &[Entry<TraceArguments>] = &[
@@ -267,6 +267,6 @@ const TRACE: &[Entry<TraceArguments>] = &[
 ];
 
 /// What to tell of options of a tracing.
-pub fn of_trace(said: &TraceArguments) -> Vec<String> {
-    told(TRACE, said)
+pub fn of_trace(args: &TraceArguments) -> Vec<String> {
+    reported(TRACE, args)
 }

@@ -10,10 +10,10 @@ use npr_render::VolumeOptions;
 use serde::Serialize;
 
 /// Prints what is in a file, what of it is drawn, and what is ignored and why.
-pub fn info(said: &InfoArguments) -> Result<(), Fault> {
-    let limits = said.limits.limits();
-    let loaded = Source::of(&said.file).load(&limits, said.allow_external.as_deref())?;
-    let file = said.file.to_string_lossy();
+pub fn info(args: &InfoArguments) -> Result<(), Fault> {
+    let limits = args.limits.limits();
+    let loaded = Source::of(&args.file).load(&limits, args.allow_external.as_deref())?;
+    let file = args.file.to_string_lossy();
     let text = match &loaded.volume {
         Some(VolumeSource::Read(_, bytes)) => {
             let options = VolumeOptions {
@@ -21,15 +21,15 @@ pub fn info(said: &InfoArguments) -> Result<(), Fault> {
                 ..VolumeOptions::default()
             };
             let inventory = VolumeInventory::new(&file, bytes, &options)?;
-            told(said.json, &inventory, VolumeInventory::text)?
+            reported(args.json, &inventory, VolumeInventory::text)?
         }
-        _ => told(said.json, &Inventory::new(&file, loaded), Inventory::text)?,
+        _ => reported(args.json, &Inventory::new(&file, loaded), Inventory::text)?,
     };
     output::print(text.as_bytes())
 }
 
 /// An inventory as JSON or in words.
-fn told<T: Serialize>(
+fn reported<T: Serialize>(
     as_json: bool,
     inventory: &T,
     in_words: fn(&T) -> String,

@@ -7,7 +7,7 @@ use crate::message::quoted;
 use crate::output::Output;
 use crate::source::{Source, has_volume_name};
 use crate::volume::USUAL_STYLE;
-use npr_render::StageOptions;
+use npr_render::RendererOptions;
 use std::path::{Path, PathBuf};
 
 /// Most pixels of a picture along a side.
@@ -16,7 +16,7 @@ const SIDE_LIMIT: u32 = 32_768;
 /// One picture to draw. Everything that can be checked without reading the scene has been.
 pub struct Job<'a> {
     /// What the user said, for all that needs no resolving.
-    pub said: &'a RenderArguments,
+    pub args: &'a RenderArguments,
     /// Where the scene comes from.
     pub source: Source,
     /// Where the picture goes.
@@ -24,28 +24,28 @@ pub struct Job<'a> {
     /// How it looks.
     pub look: Look,
     /// How it is drawn.
-    pub options: StageOptions,
+    pub options: RendererOptions,
     /// Where what is costly to prepare is kept between runs.
     pub cache: Option<PathBuf>,
 }
 
 impl<'a> Job<'a> {
     /// Resolves what the user said; reads the style and its pictures and fonts, but not the scene.
-    pub fn resolve(said: &'a RenderArguments) -> Result<Self, Fault> {
-        let source = Source::of(said.scene.as_deref().unwrap_or(Path::new("-")));
-        let path = output_path(said.output.as_deref(), &source, "png")?;
+    pub fn resolve(args: &'a RenderArguments) -> Result<Self, Fault> {
+        let source = Source::of(args.scene.as_deref().unwrap_or(Path::new("-")));
+        let path = output_path(args.output.as_deref(), &source, "png")?;
         check_ending(&path)?;
         let output = Output::of(&path)?;
-        let external = said.drawing.allow_external.as_deref();
-        let look = Look::resolve(&said.look(), external)?.with_smoke(&said.drawing.volumes);
-        let options = stage_options(&said.drawing, &look)?;
+        let external = args.drawing.allow_external.as_deref();
+        let look = Look::resolve(&args.look(), external)?.with_smoke(&args.drawing.volumes);
+        let options = renderer_options(&args.drawing, &look)?;
         Ok(Self {
-            said,
+            args,
             source,
             output,
             look,
             options,
-            cache: said.cache.folder()?,
+            cache: args.cache.folder()?,
         })
     }
 }
@@ -61,16 +61,16 @@ impl RenderArguments {
 }
 
 /// How pictures are drawn: reads the pictures and fonts of the look. Refuses sizes beyond the limit.
-pub fn stage_options(said: &DrawingArguments, look: &Look) -> Result<StageOptions, Fault> {
-    check_size(said.size)?;
-    let (limits, external) = (said.limits.limits(), said.allow_external.as_deref());
-    Ok(StageOptions {
+pub fn renderer_options(args: &DrawingArguments, look: &Look) -> Result<RendererOptions, Fault> {
+    check_size(args.size)?;
+    let (limits, external) = (args.limits.limits(), args.allow_external.as_deref());
+    Ok(RendererOptions {
         background_image: look.background_picture(&limits, external)?,
         width_image: look.width_picture(&limits, external)?,
         pictures: look.pictures(&limits, external)?,
         fonts: look.fonts(&limits, external)?,
         memory_limit: limits.memory_bytes,
-        ..StageOptions::new([said.size.width, said.size.height])
+        ..RendererOptions::new([args.size.width, args.size.height])
     })
 }
 

@@ -12,7 +12,7 @@
 mod arguments;
 mod bands;
 mod broken_image;
-mod colours;
+mod colors;
 mod completions;
 mod doctor;
 mod encoder;

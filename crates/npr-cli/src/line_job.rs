@@ -5,7 +5,7 @@ use crate::arguments::{
     PathForm, Switch,
 };
 use crate::fault::{Exit, Fault};
-use crate::job::{check_size, has_ending, output_path, stage_options};
+use crate::job::{check_size, has_ending, output_path, renderer_options};
 use crate::look::Look;
 use crate::message::quoted;
 use crate::output::Output;
@@ -15,7 +15,7 @@ use npr_core::crease::CreaseFrom;
 use npr_core::geometry::Part;
 use npr_drawing::artwork::{ArtworkOptions, Hidden, Page, Paths, arrange};
 use npr_render::{
-    Drawing, Kind, KindSet, Lettering, LineMethod, LineOptions, PaintedLines, StageOptions,
+    Drawing, Kind, KindSet, Lettering, LineMethod, LineOptions, PaintedLines, RendererOptions,
 };
 use npr_scene::Limits;
 use npr_stylesheet::{Background, Facts, LineFinder, LineForm, LineOutput, Occasion, Style};
@@ -26,7 +26,7 @@ const MM_PER_INCH: f64 = 25.4;
 /// One line drawing. Everything that can be checked without reading the scene has been.
 pub struct LineJob<'a> {
     /// What the user said, for all that needs no resolving.
-    pub said: &'a LinesArguments,
+    pub args: &'a LinesArguments,
     /// Where the scene comes from.
     pub source: Source,
     /// What loading may cost.
@@ -44,46 +44,46 @@ pub struct LineJob<'a> {
     /// Words over the lines, set in their fonts.
     pub lettering: Lettering,
     /// How the picture is drawn that lines are judged before, where the style lets them mind it.
-    pub backdrop: Option<StageOptions>,
+    pub backdrop: Option<RendererOptions>,
     /// Where what is costly to prepare is kept between runs.
     pub cache: Option<PathBuf>,
 }
 
 impl<'a> LineJob<'a> {
     /// Resolves what the user said; reads the style and its fonts, but not the scene.
-    pub fn resolve(said: &'a LinesArguments) -> Result<Self, Fault> {
-        check_size(said.drawing.size)?;
-        let source = Source::of(said.scene.as_deref().unwrap_or(Path::new("-")));
-        let ending = said.format.map_or("svg", LineFormat::ending);
-        let path = output_path(said.output.as_deref(), &source, ending)?;
-        let format = format_of(said.format, &path)?;
-        check_page(said, format)?;
-        check_hidden(&said.lines)?;
+    pub fn resolve(args: &'a LinesArguments) -> Result<Self, Fault> {
+        check_size(args.drawing.size)?;
+        let source = Source::of(args.scene.as_deref().unwrap_or(Path::new("-")));
+        let ending = args.format.map_or("svg", LineFormat::ending);
+        let path = output_path(args.output.as_deref(), &source, ending)?;
+        let format = format_of(args.format, &path)?;
+        check_page(args, format)?;
+        check_hidden(&args.lines)?;
         let output = Output::of(&path)?;
-        let external = said.drawing.allow_external.as_deref();
-        let look = Look::resolve(&said.look(), external)?.with_smoke(&said.drawing.volumes);
-        let fonts = look.fonts(&said.drawing.limits.limits(), external)?;
-        let minds = look.style.minds_background();
-        let backdrop = minds.then(|| stage_options(&said.drawing, &look));
+        let external = args.drawing.allow_external.as_deref();
+        let look = Look::resolve(&args.look(), external)?.with_smoke(&args.drawing.volumes);
+        let fonts = look.fonts(&args.drawing.limits.limits(), external)?;
+        let contrast = look.style.contrasts_with_background();
+        let backdrop = contrast.then(|| renderer_options(&args.drawing, &look));
         Ok(Self {
             lettering: Lettering::new(&look.style, &fonts)?,
             source,
             limits: Limits {
                 // Id maps lie as textures do, which are known where images are.
-                decode_images: minds
-                    || said.lines.painted.is_some()
+                decode_images: contrast
+                    || args.lines.painted.is_some()
                     || !look.style.id_map.is_empty()
                     || look.style.line_paint_flags() & Part::LINE_SURFACE != 0,
-                ..said.drawing.limits.limits()
+                ..args.drawing.limits.limits()
             },
             output,
             format,
-            options: options(said, &look.style),
-            artwork: artwork(said, &look.style),
+            options: options(args, &look.style),
+            artwork: artwork(args, &look.style),
             look,
             backdrop: backdrop.transpose()?,
-            cache: said.cache.folder()?,
-            said,
+            cache: args.cache.folder()?,
+            args,
         })
     }
 }
@@ -170,9 +170,9 @@ fn format_of(asked: Option<LineFormat>, path: &Path) -> Result<LineFormat, Fault
 }
 
 /// Refuses a page for what has none.
-fn check_page(said: &LinesArguments, format: LineFormat) -> Result<(), Fault> {
+fn check_page(args: &LinesArguments, format: LineFormat) -> Result<(), Fault> {
     let has_page = matches!(format, LineFormat::Svg | LineFormat::Pdf);
-    if said.sheet.page.is_none() || has_page {
+    if args.sheet.page.is_none() || has_page {
         return Ok(());
     }
     let message = format!(
@@ -183,13 +183,13 @@ fn check_page(said: &LinesArguments, format: LineFormat) -> Result<(), Fault> {
 }
 
 /// Refuses hidden lines of a method that knows none.
-fn check_hidden(said: &LineArguments) -> Result<(), Fault> {
-    let name = match said.method {
+fn check_hidden(args: &LineArguments) -> Result<(), Fault> {
+    let name = match args.method {
         MethodName::Potrace => "potrace",
         MethodName::Image => "image",
         MethodName::Edges | MethodName::Surface => return Ok(()),
     };
-    if said.hidden == HiddenLines::None {
+    if args.hidden == HiddenLines::None {
         return Ok(());
     }
     let message = format!(
@@ -200,9 +200,9 @@ fn check_hidden(said: &LineArguments) -> Result<(), Fault> {
 }
 
 /// The lines that the style asks for, with what the user said in place of its own values.
-fn options(said: &LinesArguments, style: &Style) -> LineOptions {
+fn options(args: &LinesArguments, style: &Style) -> LineOptions {
     let of_style =
-        LineOptions::of_style(style, [said.drawing.size.width, said.drawing.size.height]);
+        LineOptions::of_style(style, [args.drawing.size.width, args.drawing.size.height]);
     let LineArguments {
         kinds,
         crease,
@@ -213,7 +213,7 @@ fn options(said: &LinesArguments, style: &Style) -> LineOptions {
         smooth,
         fill,
         ..
-    } = &said.lines;
+    } = &args.lines;
     let named = kinds.as_ref().map(|names| {
         let named = names.iter().copied();
         named.chain([Kind::Marked]).collect::<KindSet>()
@@ -229,7 +229,7 @@ fn options(said: &LinesArguments, style: &Style) -> LineOptions {
             MethodName::Potrace => LineMethod::Potrace,
             MethodName::Image => LineMethod::Image,
         },
-        painted: said.lines.painted.map(|painted| match painted {
+        painted: args.lines.painted.map(|painted| match painted {
             PaintedName::Dark => PaintedLines::Dark,
             PaintedName::Light => PaintedLines::Light,
             PaintedName::Both => PaintedLines::Both,
@@ -237,8 +237,8 @@ fn options(said: &LinesArguments, style: &Style) -> LineOptions {
         smooth: *smooth == Switch::On,
         hidden: *hidden != HiddenLines::None,
         // Smoke is more than its outline, but for a pen.
-        fill: *fill || said.is_smoke() && said.sheet.svg == PathForm::Outline,
-        dpi: said
+        fill: *fill || args.is_smoke() && args.sheet.svg == PathForm::Outline,
+        dpi: args
             .sheet
             .page
             .map_or(of_style.dpi, |page| dpi_on(page, of_style.size)),
@@ -260,14 +260,14 @@ fn dpi_on(page: Page, size: [u32; 2]) -> f32 {
 }
 
 /// How the drawing is put into its file.
-fn artwork(said: &LinesArguments, style: &Style) -> ArtworkOptions {
-    let paths = match said.sheet.svg {
+fn artwork(args: &LinesArguments, style: &Style) -> ArtworkOptions {
+    let paths = match args.sheet.svg {
         PathForm::Outline => Paths::Outline,
         PathForm::Centreline => Paths::Centreline,
     };
     ArtworkOptions {
         paths,
-        hidden: match said.lines.hidden {
+        hidden: match args.lines.hidden {
             HiddenLines::None => Hidden::None,
             HiddenLines::Layer => Hidden::Layer,
             HiddenLines::Dashed => Hidden::Dashed,
@@ -278,7 +278,7 @@ fn artwork(said: &LinesArguments, style: &Style) -> ArtworkOptions {
             Background::Color(color) => Some([color.r, color.g, color.b, color.a]),
             Background::Transparent | Background::Image(_) => None,
         },
-        page: said.sheet.page,
+        page: args.sheet.page,
         ..ArtworkOptions::default()
     }
 }

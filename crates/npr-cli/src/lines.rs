@@ -20,37 +20,37 @@ use npr_core::camera::Camera;
 use npr_core::geometry::Part;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{
-    Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineStage, Model, facts_of,
+    Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineRenderer, Model, facts_of,
 };
 use npr_stylesheet::{Background, WidthSource};
 use std::io::Write;
 
 /// Draws the lines that the user asked for, or prints the style.
-pub fn lines(said: &LinesArguments) -> Result<(), Fault> {
-    if said.drawing.look.dump_style {
-        return render::dump_style(&said.look(), &said.drawing);
+pub fn lines(args: &LinesArguments) -> Result<(), Fault> {
+    if args.drawing.look.dump_style {
+        return render::dump_style(&args.look(), &args.drawing);
     }
-    let mut progress = Progress::new(said.drawing.quiet);
-    let drawn = draw(&LineJob::resolve(said)?, &mut progress)?;
+    let mut progress = Progress::new(args.drawing.quiet);
+    let drawn = draw(&LineJob::resolve(args)?, &mut progress)?;
     let steps = progress.finish();
-    if let Some(form) = said.drawing.timings {
+    if let Some(form) = args.drawing.timings {
         let timings = Timings::new(drawn.engine, &steps, &drawn.picture.times);
-        let _ = std::io::stderr().write_all(timings.told(form).as_bytes());
+        let _ = std::io::stderr().write_all(timings.reported(form).as_bytes());
     }
     Ok(())
 }
 
 /// Draws a picture whose style is lines only as curves.
-pub fn lines_of_picture(said: &RenderArguments) -> Result<(), Fault> {
-    let look = Look::resolve(&said.drawing.look, said.drawing.allow_external.as_deref())?;
+pub fn lines_of_picture(args: &RenderArguments) -> Result<(), Fault> {
+    let look = Look::resolve(&args.drawing.look, args.drawing.allow_external.as_deref())?;
     let Some(paper) = look.paper_of_lines() else {
         let message = "this style fills surfaces with tones, which .svg pictures have none of: \
                        write .png, or draw the lines alone with npr lines";
         return Err(Fault::new(Exit::Usage, message));
     };
     let lines_said = LinesArguments {
-        scene: said.scene.clone(),
-        output: said.output.clone(),
+        scene: args.scene.clone(),
+        output: args.output.clone(),
         format: Some(LineFormat::Svg),
         lines: LineArguments {
             // Paper of the background's own colour shows nowhere.
@@ -58,8 +58,8 @@ pub fn lines_of_picture(said: &RenderArguments) -> Result<(), Fault> {
             ..LineArguments::default()
         },
         sheet: SheetArguments::default(),
-        drawing: said.drawing.clone(),
-        cache: said.cache.clone(),
+        drawing: args.drawing.clone(),
+        cache: args.cache.clone(),
     };
     lines(&lines_said)
 }
@@ -69,11 +69,11 @@ fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, 
     line_file::check_memory(job)?;
     let model = prepare(job, progress)?;
     let lines = &model.lines;
-    let camera = viewpoint::camera(&job.said.drawing.camera, lines, job.said.drawing.size)?;
+    let camera = viewpoint::camera(&job.args.drawing.camera, lines, job.args.drawing.size)?;
     let drawn = draw_lines(job, &model, &camera, progress)?;
     let drawing = &drawn.picture.drawing;
     progress.suspend(|| {
-        message::warn_all(job.said.drawing.quiet, &drawing.notices);
+        message::warn_all(job.args.drawing.quiet, &drawing.notices);
     });
     let view = camera.view(drawing.size, lines.bounds());
     let lettering = job.lettering.placed(&view, job.options.dpi);
@@ -90,11 +90,11 @@ struct Prepared {
 }
 
 impl Prepared {
-    fn stage<'a>(&'a self, engine: &'a dyn Engine, job: &'a LineJob<'_>) -> LineStage<'a> {
-        let stage = LineStage::new(engine, &self.lines);
+    fn renderer<'a>(&'a self, engine: &'a dyn Engine, job: &'a LineJob<'_>) -> LineRenderer<'a> {
+        let renderer = LineRenderer::new(engine, &self.lines);
         match (&self.behind, &job.backdrop) {
-            (Some(model), Some(options)) => stage.with_backdrop(model, options),
-            _ => stage,
+            (Some(model), Some(options)) => renderer.with_backdrop(model, options),
+            _ => renderer,
         }
     }
 }
@@ -112,19 +112,19 @@ fn draw_lines(
     progress: &mut Progress,
 ) -> Result<Drawn<LineFrame>, Fault> {
     let picture = |engine: &dyn Engine| {
-        let mut stage = model.stage(engine, job);
+        let mut renderer = model.renderer(engine, job);
         Ok(LineFrame {
-            drawing: stage.draw(camera, &job.look.style, &job.options)?,
-            times: stage.times().to_vec(),
+            drawing: renderer.draw(camera, &job.look.style, &job.options)?,
+            times: renderer.times().to_vec(),
         })
     };
     let drawn = engine::draw_as_step(
-        job.said.drawing.backend,
+        job.args.drawing.backend,
         &picture,
-        job.said.drawing.quiet,
+        job.args.drawing.quiet,
         progress,
     )?;
-    let told = match job.options.method {
+    let reported = match job.options.method {
         LineMethod::Edges | LineMethod::Potrace => None,
         LineMethod::Surface => {
             Some("finds contours along edges; smooth ones are made from them on the processor")
@@ -133,17 +133,17 @@ fn draw_lines(
             Some("finds marked lines; those of pictures are found on the processor")
         }
     };
-    if let Some(told) = told.filter(|_| job.said.drawing.backend == Backend::Gpu) {
-        let text = format!("{} {told}", drawn.engine);
-        progress.suspend(|| message::warn(job.said.drawing.quiet, &text));
+    if let Some(reported) = reported.filter(|_| job.args.drawing.backend == Backend::Gpu) {
+        let text = format!("{} {reported}", drawn.engine);
+        progress.suspend(|| message::warn(job.args.drawing.quiet, &text));
     }
     Ok(drawn)
 }
 
 /// Loads the scene and makes it ready; says what is ignored.
 fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault> {
-    let external = job.said.drawing.allow_external.as_deref();
-    let mut loaded = progress.step("load", || match job.said.built_in() {
+    let external = job.args.drawing.allow_external.as_deref();
+    let mut loaded = progress.step("load", || match job.args.built_in() {
         Some(source) => Ok(Loaded::of_smoke(source)),
         None => job.source.load(&job.limits, external),
     })?;
@@ -151,17 +151,17 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
     inputs.extend(job.look.inputs());
     job.output.refuse_any_of(&inputs)?;
     let order = Order {
-        said: &job.said.drawing.volumes,
+        args: &job.args.drawing.volumes,
         style: &job.look.style.smoke,
         limits: &job.limits,
     };
     let of_volumes = idle::of_volumes(&order, loaded.volume.as_ref());
-    let (smoke, told) = volume::step(progress, &order, loaded.volume)?;
-    job.output.refuse_any_of(&told.inputs)?;
+    let (smoke, reported) = volume::step(progress, &order, loaded.volume)?;
+    job.output.refuse_any_of(&reported.inputs)?;
     job.look
         .apply_id_maps(&mut loaded.scene, &job.limits, external)?;
     let options = LineModelOptions {
-        weld: job.said.lines.weld,
+        weld: job.args.lines.weld,
         memory_limit: job.limits.memory_bytes,
         painted: job.options.painted.is_some(),
     };
@@ -178,7 +178,7 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
     if job.look.style.line_paint_flags() & Part::LINE_TEXTURE != 0 {
         model.set_pictures(
             job.look
-                .pictures(&job.said.drawing.limits.limits(), external)?,
+                .pictures(&job.args.drawing.limits.limits(), external)?,
         );
     }
     let behind = match job.backdrop {
@@ -188,11 +188,11 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
         None => None,
     };
     progress.suspend(|| {
-        warn_of(job, &model, told.notices.iter());
+        warn_of(job, &model, reported.notices.iter());
         let keys = job.look.notices(&job.occasion(facts));
         let options = idle::of_lines(job, facts);
         message::warn_all(
-            job.said.drawing.quiet,
+            job.args.drawing.quiet,
             keys.iter().chain(&options).chain(&of_volumes),
         );
     });
@@ -211,7 +211,7 @@ fn warn_of<'a>(
     model: &'a LineModel,
     of_smoke: impl Iterator<Item = &'a String>,
 ) {
-    let warn = |text: &str| message::warn(job.said.drawing.quiet, text);
+    let warn = |text: &str| message::warn(job.args.drawing.quiet, text);
     for notice in model.notices().iter().chain(of_smoke) {
         warn(notice);
     }
@@ -235,7 +235,7 @@ fn warn_of<'a>(
     if let Some(notice) = job.look.style.line_source_notice() {
         warn(notice);
     }
-    let mut named = job.said.lines.kinds.iter().flatten();
+    let mut named = job.args.lines.kinds.iter().flatten();
     if job.options.method == LineMethod::Potrace && named.any(is_intersection) {
         warn("lines of kind intersection are left out: --method potrace draws edges of meshes");
     }

@@ -58,15 +58,15 @@ impl Look {
     ///
     /// Later wins: preset or file, `--set` in order, `--background`. Reads the style file with its parents,
     /// but no pictures and fonts.
-    pub fn resolve(said: &LookArguments, external: Option<&Path>) -> Result<Self, Fault> {
-        let source = StyleSource::of(said.style.as_deref());
+    pub fn resolve(args: &LookArguments, external: Option<&Path>) -> Result<Self, Fault> {
+        let source = StyleSource::of(args.style.as_deref());
         let mut stated = source.load(external)?;
         let written = stated.style().clone();
         stated
-            .set_all(&said.overrides)
+            .set_all(&args.overrides)
             .map_err(|error| Fault::new(Exit::Usage, format!("--set: {error}")))?;
         let mut style = stated.style().clone();
-        if let Some(background) = &said.background {
+        if let Some(background) = &args.background {
             style.background = background.clone();
         }
         let file = |now: Option<&str>, before: Option<&str>| {
@@ -85,8 +85,8 @@ impl Look {
     }
 
     /// The same with what the user said about smoke.
-    pub fn with_smoke(mut self, said: &VolumeArguments) -> Self {
-        self.style.smoke = said.over(&self.style.smoke);
+    pub fn with_smoke(mut self, args: &VolumeArguments) -> Self {
+        self.style.smoke = args.over(&self.style.smoke);
         self
     }
 
@@ -210,7 +210,7 @@ impl Look {
     }
 }
 
-/// Pixels per inch of a picture on a screen, as [`npr_render::StageOptions`] has them.
+/// Pixels per inch of a picture on a screen, as [`npr_render::RendererOptions`] has them.
 const DPI: f32 = 96.0;
 
 fn background_name(style: &Style) -> Option<&str> {
@@ -327,11 +327,11 @@ mod tests {
 
     fn look(overrides: &[&str]) -> Look {
         let overrides = overrides.iter().map(ToString::to_string).collect();
-        let said = LookArguments {
+        let args = LookArguments {
             overrides,
             ..LookArguments::default()
         };
-        Look::resolve(&said, None).expect("a valid style")
+        Look::resolve(&args, None).expect("a valid style")
     }
 
     #[test]
@@ -368,11 +368,11 @@ mod tests {
         let of = |style: &str| {
             let path = folder.path().join("my.toml");
             write_whole(&path, style.as_bytes());
-            let said = LookArguments {
+            let args = LookArguments {
                 style: Some(path.to_string_lossy().into_owned()),
                 ..LookArguments::default()
             };
-            Look::resolve(&said, None)
+            Look::resolve(&args, None)
                 .expect("a style")
                 .fonts(&Limits::default(), None)
         };

@@ -22,16 +22,16 @@ use std::path::PathBuf;
 const PIXEL_BYTES: usize = 3 * 16 + 16 + 12;
 
 /// Outlines the figure that the user named before its background.
-pub fn outline(said: &OutlineArguments) -> Result<(), Fault> {
+pub fn outline(args: &OutlineArguments) -> Result<(), Fault> {
     // Check all that can be known before anything is read.
-    check_ending(&said.output)?;
-    let output = Output::of(&said.output)?;
-    let sources = Sources::of(said)?;
+    check_ending(&args.output)?;
+    let output = Output::of(&args.output)?;
+    let sources = Sources::of(args)?;
     output.refuse_any_of(&sources.inputs())?;
 
     // Read both pictures, of one size.
-    let limits = said.limits.limits();
-    let mut progress = Progress::new(said.quiet);
+    let limits = args.limits.limits();
+    let mut progress = Progress::new(args.quiet);
     let figure = progress.step("load", || load(&sources.figure, &limits))?;
     let size = figure.size;
     let background = match &sources.behind {
@@ -48,13 +48,13 @@ pub fn outline(said: &OutlineArguments) -> Result<(), Fault> {
 
     // Draw and write.
     let drawn = progress.step("outline", || {
-        let (line, rule) = (said.color.srgb(), said.rule.rule());
+        let (line, rule) = (args.color.srgb(), args.rule.rule());
         published::draw(size, &colors(&figure), &background, line, &rule)
     });
     let (drawn, count) = drawn.ok_or_else(|| Fault::new(Exit::Failed, "the pictures differ"))?;
     if count == 0 {
         let text = "there is no outline: nothing in the picture is both opaque and beside something transparent";
-        progress.suspend(|| message::warn(said.quiet, text));
+        progress.suspend(|| message::warn(args.quiet, text));
     }
     let bytes = png(size, &bytes(&drawn), false)?;
     progress.step("write", || output.write(&bytes))?;
@@ -76,9 +76,9 @@ enum Ground {
 }
 
 impl Sources {
-    fn of(said: &OutlineArguments) -> Result<Self, Fault> {
-        let figure = Source::of(&said.picture);
-        let behind = match &said.background {
+    fn of(args: &OutlineArguments) -> Result<Self, Fault> {
+        let figure = Source::of(&args.picture);
+        let behind = match &args.background {
             Behind::Color(color) => Ground::Color(color.srgb()),
             Behind::Picture(path) => Ground::Picture(Source::of(path)),
         };

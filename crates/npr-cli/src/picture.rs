@@ -1,7 +1,7 @@
 //! Pictures that a style names, backgrounds and width textures, and bitmaps to trace.
 
 use crate::broken_image::{broken, stopped};
-use crate::colours::reduce;
+use crate::colors::reduce;
 use crate::fault::{Exit, Fault};
 use crate::input::regular_file;
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
@@ -73,7 +73,7 @@ pub fn decode_bitmap(bytes: &[u8], limits: &Limits, black_level: f64) -> Result<
 /// The pixels of an image file of any format that is read, in at most so many colours.
 ///
 /// What is planned for its pixels, and for the layers made of them, has to stay within the memory limit.
-pub fn decode_colours(bytes: &[u8], limits: &Limits, most: u16) -> Result<IndexPicture, Fault> {
+pub fn decode_colors(bytes: &[u8], limits: &Limits, most: u16) -> Result<IndexPicture, Fault> {
     let pixels = image(bytes, limits, &BITMAPS, PIXEL_BYTES + COLOUR_BYTES)?.into_rgba8();
     reduce([pixels.width(), pixels.height()], pixels.as_raw(), most)
 }

@@ -18,8 +18,8 @@ use crate::volume::{self, Order};
 use npr_core::camera::Camera;
 use npr_gpu::engine::Engine;
 use npr_render::{
-    Frame, LineModel, LineModelOptions, LineStage, Model, RenderError, Smoke, Stage, StageOptions,
-    facts_of,
+    Frame, LineModel, LineModelOptions, LineRenderer, Model, RenderError, Renderer,
+    RendererOptions, Smoke, facts_of,
 };
 use npr_scene::{Limits, Scene};
 use npr_stylesheet::{Facts, Occasion, Style};
@@ -27,30 +27,30 @@ use std::io::Write;
 use std::path::Path;
 
 /// Draws what the user asked for, or prints its style.
-pub fn render(said: &RenderArguments) -> Result<(), Fault> {
-    if said.drawing.look.dump_style {
-        return dump_style(&said.look(), &said.drawing);
+pub fn render(args: &RenderArguments) -> Result<(), Fault> {
+    if args.drawing.look.dump_style {
+        return dump_style(&args.look(), &args.drawing);
     }
-    if said
+    if args
         .output
         .as_deref()
         .is_some_and(|path| has_ending(path, "svg"))
     {
-        return lines::lines_of_picture(said);
+        return lines::lines_of_picture(args);
     }
-    let mut progress = Progress::new(said.drawing.quiet);
-    let drawn = draw(&Job::resolve(said)?, &mut progress)?;
+    let mut progress = Progress::new(args.drawing.quiet);
+    let drawn = draw(&Job::resolve(args)?, &mut progress)?;
     let steps = progress.finish();
-    if let Some(form) = said.drawing.timings {
+    if let Some(form) = args.drawing.timings {
         let timings = Timings::new(drawn.engine, &steps, &drawn.picture.times);
-        let _ = std::io::stderr().write_all(timings.told(form).as_bytes());
+        let _ = std::io::stderr().write_all(timings.reported(form).as_bytes());
     }
     Ok(())
 }
 
 /// Prints a style as it comes out.
-pub fn dump_style(said: &LookArguments, drawing: &DrawingArguments) -> Result<(), Fault> {
-    let look = Look::resolve(said, drawing.allow_external.as_deref())?.with_smoke(&drawing.volumes);
+pub fn dump_style(args: &LookArguments, drawing: &DrawingArguments) -> Result<(), Fault> {
+    let look = Look::resolve(args, drawing.allow_external.as_deref())?.with_smoke(&drawing.volumes);
     let text = look
         .style
         .to_toml()
@@ -62,8 +62,8 @@ pub fn dump_style(said: &LookArguments, drawing: &DrawingArguments) -> Result<()
 fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     let (prepared, smoke) = prepare(job, progress)?;
     let empty = Smoke::default();
-    let camera = prepared.camera(&job.said.drawing, smoke.as_ref().unwrap_or(&empty))?;
-    let options = StageOptions {
+    let camera = prepared.camera(&job.args.drawing, smoke.as_ref().unwrap_or(&empty))?;
+    let options = RendererOptions {
         smoke,
         in_bands: true,
         ..job.options.clone()
@@ -74,7 +74,7 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
         Picture::InBands(written) => (written?, true),
     };
     progress.suspend(|| {
-        message::warn_all(job.said.drawing.quiet, &frame.notices);
+        message::warn_all(job.args.drawing.quiet, &frame.notices);
     });
     if !is_written {
         let keep_alpha = job.look.is_transparent();
@@ -106,22 +106,22 @@ pub struct Prepared {
 
 impl Prepared {
     /// The camera that the user asked for, or one that frames the scene and the smoke in it.
-    pub fn camera(&self, said: &DrawingArguments, smoke: &Smoke) -> Result<Camera, Fault> {
+    pub fn camera(&self, args: &DrawingArguments, smoke: &Smoke) -> Result<Camera, Fault> {
         let model = &self.model;
-        viewpoint::camera(&said.camera, &Seen { model, smoke }, said.size)
+        viewpoint::camera(&args.camera, &Seen { model, smoke }, args.size)
     }
 
     /// The scene in a style on an engine.
-    pub fn stage<'a>(
+    pub fn renderer<'a>(
         &'a self,
         engine: &'a dyn Engine,
         style: &Style,
-        options: &StageOptions,
-    ) -> Result<Stage<'a>, RenderError> {
-        let stage = Stage::new(engine, &self.model, style, options)?;
+        options: &RendererOptions,
+    ) -> Result<Renderer<'a>, RenderError> {
+        let renderer = Renderer::new(engine, &self.model, style, options)?;
         Ok(match &self.lines {
-            Some(lines) => stage.with_lines(LineStage::new(engine, lines)),
-            None => stage,
+            Some(lines) => renderer.with_lines(LineRenderer::new(engine, lines)),
+            None => renderer,
         })
     }
 }
@@ -153,30 +153,30 @@ pub fn prepared(
 /// Loads the scene and the smoke in it, and makes them ready; says what is ignored.
 fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<Smoke>), Fault> {
     let (limits, external) = (
-        job.said.drawing.limits.limits(),
-        job.said.drawing.allow_external.as_deref(),
+        job.args.drawing.limits.limits(),
+        job.args.drawing.allow_external.as_deref(),
     );
     let mut loaded = progress.step("load", || job.source.load(&limits, external))?;
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
     job.output.refuse_any_of(&inputs)?;
     let order = Order {
-        said: &job.said.drawing.volumes,
+        args: &job.args.drawing.volumes,
         style: &job.look.style.smoke,
         limits: &limits,
     };
     let of_volumes = idle::of_volumes(&order, loaded.volume.as_ref());
-    let (smoke, told) = volume::step(progress, &order, loaded.volume)?;
-    job.output.refuse_any_of(&told.inputs)?;
+    let (smoke, reported) = volume::step(progress, &order, loaded.volume)?;
+    job.output.refuse_any_of(&reported.inputs)?;
     job.look
         .apply_id_maps(&mut loaded.scene, &limits, external)?;
     let (style, cache) = (&job.look.style, job.cache.as_deref());
     let prepared = prepared(&loaded.scene, style, &limits, cache, progress)?;
     let facts = facts_of(&loaded.scene, smoke.is_some());
     progress.suspend(|| {
-        warn_of(job, &prepared.model, told.notices.iter());
-        warn_of_idle(&job.look, facts, job.said.drawing.quiet);
-        message::warn_all(job.said.drawing.quiet, &of_volumes);
+        warn_of(job, &prepared.model, reported.notices.iter());
+        warn_of_idle(&job.look, facts, job.args.drawing.quiet);
+        message::warn_all(job.args.drawing.quiet, &of_volumes);
     });
     Ok((prepared, smoke))
 }
@@ -188,9 +188,9 @@ pub fn warn_of_idle(look: &Look, scene: Facts, quiet: bool) {
 }
 
 fn warn_of<'a>(job: &Job<'_>, model: &'a Model, of_smoke: impl Iterator<Item = &'a String>) {
-    let quiet = job.said.drawing.quiet;
+    let quiet = job.args.drawing.quiet;
     message::warn_all(quiet, model.notices().iter().chain(of_smoke));
-    if let Some(warning) = job.look.width_warning(job.said.drawing.size.height) {
+    if let Some(warning) = job.look.width_warning(job.args.drawing.size.height) {
         message::warn(quiet, &warning.to_string());
     }
 }
@@ -198,26 +198,26 @@ fn warn_of<'a>(job: &Job<'_>, model: &'a Model, of_smoke: impl Iterator<Item = &
 fn draw_frame(
     job: &Job<'_>,
     prepared: &Prepared,
-    options: &StageOptions,
+    options: &RendererOptions,
     camera: &Camera,
     progress: &mut Progress,
 ) -> Result<Drawn<Picture>, Fault> {
     let counter = progress.counter();
     let tell = |done, of| counter.tell(DRAW, done, of);
     let picture = |engine: &dyn Engine| {
-        let stage = prepared.stage(engine, &job.look.style, options)?;
-        let mut stage = stage.with_progress(&tell);
-        if !stage.draws_bands() {
-            return stage.draw(camera).map(Picture::Whole);
+        let renderer = prepared.renderer(engine, &job.look.style, options)?;
+        let mut renderer = renderer.with_progress(&tell);
+        if !renderer.draws_bands() {
+            return renderer.draw(camera).map(Picture::Whole);
         }
         let keep_alpha = job.look.is_transparent();
-        let written = draw_into(&job.output, &mut stage, camera, options.size, keep_alpha)?;
+        let written = draw_into(&job.output, &mut renderer, camera, options.size, keep_alpha)?;
         Ok(Picture::InBands(written))
     };
     engine::draw_as_step(
-        job.said.drawing.backend,
+        job.args.drawing.backend,
         &picture,
-        job.said.drawing.quiet,
+        job.args.drawing.quiet,
         progress,
     )
 }

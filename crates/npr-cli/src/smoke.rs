@@ -19,25 +19,25 @@ use crate::viewpoint::unknown_camera;
 use crate::volume::{self, Film, Order, Shots, VolumeSource};
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
-use npr_render::{Frame, RenderError, Smoke, StageOptions, facts_of};
+use npr_render::{Frame, RenderError, RendererOptions, Smoke, facts_of};
 use std::cell::{Cell, RefCell};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Draws the smoke that the user asked for, or prints the style.
-pub fn smoke(said: &SmokeArguments) -> Result<(), Fault> {
-    let source = said.source.as_deref().map(VolumeSource::of);
+pub fn smoke(args: &SmokeArguments) -> Result<(), Fault> {
+    let source = args.source.as_deref().map(VolumeSource::of);
     let style = source
         .as_ref()
         .map_or(volume::USUAL_STYLE, volume::usual_style);
-    let look = said.drawing.look.or_style(style);
+    let look = args.drawing.look.or_style(style);
     if look.dump_style {
-        return render::dump_style(&look, &said.drawing);
+        return render::dump_style(&look, &args.drawing);
     }
-    let mut progress = Progress::new(said.drawing.quiet);
-    let drawn = draw(&Job::resolve(said, &look)?, &mut progress)?;
+    let mut progress = Progress::new(args.drawing.quiet);
+    let drawn = draw(&Job::resolve(args, &look)?, &mut progress)?;
     let steps = progress.finish();
-    if let Some(form) = said.drawing.timings {
+    if let Some(form) = args.drawing.timings {
         tell_times(&drawn, &steps, form);
     }
     Ok(())
@@ -49,16 +49,16 @@ fn tell_times(
     form: TimingsForm,
 ) {
     let timings = Timings::new(drawn.engine.clone(), steps, &drawn.picture);
-    let _ = std::io::stderr().write_all(timings.told(form).as_bytes());
+    let _ = std::io::stderr().write_all(timings.reported(form).as_bytes());
 }
 
 /// Pictures of smoke: what the user said, resolved.
 struct Job<'a> {
-    said: &'a SmokeArguments,
+    args: &'a SmokeArguments,
     source: Source,
     shots: Shots,
     look: Look,
-    options: StageOptions,
+    options: RendererOptions,
     target: Target,
 }
 
@@ -71,23 +71,23 @@ enum Target {
 
 impl<'a> Job<'a> {
     fn resolve(
-        said: &'a SmokeArguments,
+        args: &'a SmokeArguments,
         look: &crate::arguments::LookArguments,
     ) -> Result<Self, Fault> {
-        let source = Source::of(said.source.as_deref().unwrap_or(Path::new("-")));
+        let source = Source::of(args.source.as_deref().unwrap_or(Path::new("-")));
         let shots = Shots {
-            frames: said.frames.map(|frames| (frames.first, frames.last)),
-            step: said.step,
-            fps: said.fps,
-            grid: said.grid.map(|grid| grid.0),
+            frames: args.frames.map(|frames| (frames.first, frames.last)),
+            step: args.step,
+            fps: args.fps,
+            grid: args.grid.map(|grid| grid.0),
         };
         check_grid(&source, &shots)?;
-        let target = Target::of(&output_path(said, &source)?)?;
-        let external = said.drawing.allow_external.as_deref();
-        let look = Look::resolve(look, external)?.with_smoke(&said.drawing.volumes);
-        let options = job::stage_options(&said.drawing, &look)?;
+        let target = Target::of(&output_path(args, &source)?)?;
+        let external = args.drawing.allow_external.as_deref();
+        let look = Look::resolve(look, external)?.with_smoke(&args.drawing.volumes);
+        let options = job::renderer_options(&args.drawing, &look)?;
         Ok(Self {
-            said,
+            args,
             source,
             shots,
             look,
@@ -146,24 +146,24 @@ fn check_grid(source: &Source, shots: &Shots) -> Result<(), Fault> {
 }
 
 /// The path asked for, or else the source's name: of a series, or a range of frames, with the number in it.
-fn output_path(said: &SmokeArguments, source: &Source) -> Result<PathBuf, Fault> {
-    if let (None, Source::File(path)) = (&said.output, source) {
-        let is_range = said.frames.is_some_and(|frames| frames.first < frames.last);
+fn output_path(args: &SmokeArguments, source: &Source) -> Result<PathBuf, Fault> {
+    if let (None, Source::File(path)) = (&args.output, source) {
+        let is_range = args.frames.is_some_and(|frames| frames.first < frames.last);
         if is_range && Numbered::of(path).is_none() {
             let name = path.file_stem().unwrap_or_default().to_string_lossy();
             return Ok(PathBuf::from(format!("{name}_####.png")));
         }
     }
-    job::output_path(said.output.as_deref(), source, "png")
+    job::output_path(args.output.as_deref(), source, "png")
 }
 
 /// From the source to the pictures.
 fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, Fault> {
-    if let Some(name) = &job.said.drawing.camera.camera {
+    if let Some(name) = &job.args.drawing.camera.camera {
         // Volumes have no cameras: nobody waits for smoke to hear that.
         return Err(unknown_camera(name, &[]));
     }
-    let limits = job.said.drawing.limits.limits();
+    let limits = job.args.drawing.limits.limits();
     let source = match &job.source {
         Source::File(path) => VolumeSource::of(path),
         Source::Standard => volume_of(job.source.load(&limits, None)?)?,
@@ -174,7 +174,7 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, 
             .check_count(Moments::new(first, last, job.shots.step, first).seen)?;
     }
     let order = Order {
-        said: &job.said.drawing.volumes,
+        args: &job.args.drawing.volumes,
         style: &job.look.style.smoke,
         limits: &limits,
     };
@@ -185,8 +185,8 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, 
     })?;
     job.target.check_count(film.frames.len())?;
     let more = progress.step("load", || volume::still(&order, None))?;
-    if let Some((smoke, told)) = more {
-        film.join(&smoke, told);
+    if let Some((smoke, reported)) = more {
+        film.join(&smoke, reported);
     }
     let prepared = render::prepared(
         &npr_scene::Scene::default(),
@@ -232,11 +232,11 @@ fn tell_notices(
     progress: &Progress,
 ) {
     progress.suspend(|| {
-        let quiet = job.said.drawing.quiet;
+        let quiet = job.args.drawing.quiet;
         message::warn_all(quiet, &film.notices);
         let facts = facts_of(&npr_scene::Scene::default(), true);
         render::warn_of_idle(&job.look, facts, quiet);
-        let of_smoke = idle::of_smoke(job.said, source, film.frames.len());
+        let of_smoke = idle::of_smoke(job.args, source, film.frames.len());
         message::warn_all(quiet, of_volumes.iter().chain(&of_smoke));
     });
 }
@@ -245,7 +245,7 @@ fn tell_notices(
 fn camera(job: &Job<'_>, prepared: &Prepared, film: &Film) -> Result<Camera, Fault> {
     let spheres = film.frames.iter().flat_map(|smoke| &smoke.spheres);
     let all = Smoke::new(spheres.copied().collect());
-    prepared.camera(&job.said.drawing, &all)
+    prepared.camera(&job.args.drawing, &all)
 }
 
 /// Draws and writes every picture; the times of their passes, added up.
@@ -258,7 +258,7 @@ fn draw_film(
     progress: &mut Progress,
 ) -> Result<Drawn<Vec<PassTime>>, Fault> {
     let largest = film.frames.iter().max_by_key(|smoke| smoke.spheres.len());
-    let options = StageOptions {
+    let options = RendererOptions {
         smoke: largest.cloned(),
         ..job.options.clone()
     };
@@ -273,17 +273,17 @@ fn draw_film(
     };
     // An engine that takes over goes on where the other failed.
     let pictures = |engine: &dyn Engine| {
-        let mut stage = prepared.stage(engine, &job.look.style, &options)?;
+        let mut renderer = prepared.renderer(engine, &job.look.style, &options)?;
         while let Some(smoke) = film.frames.get(screening.done.get()) {
-            stage.set_smoke(smoke)?;
-            if !screening.show(&stage.draw(camera)?) {
+            renderer.set_smoke(smoke)?;
+            if !screening.show(&renderer.draw(camera)?) {
                 break;
             }
         }
         Ok::<(), RenderError>(())
     };
-    let quiet = job.said.drawing.quiet;
-    let drawn = engine::draw_as_step(job.said.drawing.backend, &pictures, quiet, progress)?;
+    let quiet = job.args.drawing.quiet;
+    let drawn = engine::draw_as_step(job.args.drawing.backend, &pictures, quiet, progress)?;
     if let Some(fault) = screening.failed.into_inner() {
         return Err(fault);
     }

@@ -51,7 +51,7 @@ impl Timings {
     }
 
     /// The times as text that ends its last line.
-    pub fn told(&self, form: TimingsForm) -> String {
+    pub fn reported(&self, form: TimingsForm) -> String {
         match form {
             TimingsForm::Table => self.table(),
             TimingsForm::Json => {
@@ -99,7 +99,7 @@ mod tests {
 
     #[test]
     fn passes_stand_under_the_step_that_ran_them() {
-        let table = timings().told(TimingsForm::Table);
+        let table = timings().reported(TimingsForm::Table);
         let names: Vec<_> = table
             .lines()
             .map(|line| line.split("  ").next().unwrap_or_default())
@@ -110,7 +110,7 @@ mod tests {
 
     #[test]
     fn json_is_one_line() {
-        let json = timings().told(TimingsForm::Json);
+        let json = timings().reported(TimingsForm::Json);
         let value: serde_json::Value = serde_json::from_str(&json).expect("JSON");
         assert_eq!(value["passes"][0]["name"], "raster.draw_ids");
         assert_eq!(value["passes"][0]["ms"], 1.5);

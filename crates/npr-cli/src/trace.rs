@@ -14,20 +14,18 @@ use npr_drawing::centreline::write_centrelines;
 use npr_drawing::fill::mesh::FlatMesh;
 use npr_scene::Limits;
 use npr_trace::centreline::centrelines;
-use npr_trace::{
-    Bitmap, IndexPicture, trace as trace_bitmap, trace_colours_to_file, trace_to_file,
-};
+use npr_trace::{Bitmap, IndexPicture, trace as trace_bitmap, trace_colors_to_file, trace_to_file};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Traces the bitmaps that the user named, one after the other.
-pub fn trace(said: &TraceArguments) -> Result<(), Fault> {
-    let jobs = resolve(said)?;
-    let limits = said.limits.limits();
-    message::warn_all(said.quiet, idle::of_trace(said));
-    let mut progress = Progress::new(said.quiet);
+pub fn trace(args: &TraceArguments) -> Result<(), Fault> {
+    let jobs = resolve(args)?;
+    let limits = args.limits.limits();
+    message::warn_all(args.quiet, idle::of_trace(args));
+    let mut progress = Progress::new(args.quiet);
     for job in &jobs {
-        draw(job, said, &limits, &mut progress)?;
+        draw(job, args, &limits, &mut progress)?;
     }
     progress.finish();
     Ok(())
@@ -42,28 +40,28 @@ struct TraceJob {
 
 fn draw(
     job: &TraceJob,
-    said: &TraceArguments,
+    args: &TraceArguments,
     limits: &Limits,
     progress: &mut Progress,
 ) -> Result<(), Fault> {
-    let picture = load(job, said, limits, progress)?;
-    let options = said.method.options();
+    let picture = load(job, args, limits, progress)?;
+    let options = args.method.options();
     // Curves are written as they come, so that few of them are in memory.
     let bytes = match (picture, job.format.form()) {
-        (Traced::Ink(bitmap), TracedForm::Curves(format)) if !said.form.centreline => {
+        (Traced::Ink(bitmap), TracedForm::Curves(format)) if !args.form.centreline => {
             return progress.step("trace", || {
                 let output = &job.output;
                 output.write_with(|sink| trace_to_file(bitmap, &options, format, sink))
             });
         }
-        (Traced::Colours(picture), TracedForm::Curves(format)) => {
+        (Traced::Colors(picture), TracedForm::Curves(format)) => {
             return progress.step("trace", || {
                 let output = &job.output;
-                output.write_with(|sink| trace_colours_to_file(&picture, &options, format, sink))
+                output.write_with(|sink| trace_colors_to_file(&picture, &options, format, sink))
             });
         }
-        (Traced::Colours(_), TracedForm::Mesh(_)) => return Err(colours_are_no_mesh()),
-        (Traced::Ink(bitmap), form) => progress.step("trace", || found(&bitmap, said, form))?,
+        (Traced::Colors(_), TracedForm::Mesh(_)) => return Err(colors_are_no_mesh()),
+        (Traced::Ink(bitmap), form) => progress.step("trace", || found(&bitmap, args, form))?,
     };
     progress.step("write", || job.output.write(&bytes))
 }
@@ -71,12 +69,12 @@ fn draw(
 /// What is traced.
 enum Traced {
     Ink(Bitmap),
-    Colours(IndexPicture),
+    Colors(IndexPicture),
 }
 
 impl Traced {
-    fn ink(mut bitmap: Bitmap, said: &TraceArguments) -> Self {
-        if said.method.invert {
+    fn ink(mut bitmap: Bitmap, args: &TraceArguments) -> Self {
+        if args.method.invert {
             bitmap.invert();
         }
         Self::Ink(bitmap)
@@ -86,7 +84,7 @@ impl Traced {
 /// Reads what is traced; packed rows without holding their bytes.
 fn load(
     job: &TraceJob,
-    said: &TraceArguments,
+    args: &TraceArguments,
     limits: &Limits,
     progress: &mut Progress,
 ) -> Result<Traced, Fault> {
@@ -96,41 +94,39 @@ fn load(
     };
     let broken = |fault: Fault| fault.while_doing(format_args!("cannot read {name}"));
     let rows = progress.step("load", || match &job.source {
-        Source::File(path) if said.form.colours.is_none() => {
+        Source::File(path) if args.form.colors.is_none() => {
             picture::read_packed(path, limits).map_err(&broken)
         }
         _ => Ok(None),
     })?;
     if let Some(bitmap) = rows {
-        return Ok(Traced::ink(bitmap, said));
+        return Ok(Traced::ink(bitmap, args));
     }
     let bytes = progress.step("load", || match &job.source {
         Source::Standard => read_standard(limits.file_bytes),
         Source::File(path) => read_file(path, limits.file_bytes),
     })?;
     progress.step("decode", || {
-        let picture = decoded(&bytes, said, limits).map_err(broken);
+        let picture = decoded(&bytes, args, limits).map_err(broken);
         drop(bytes);
         picture
     })
 }
 
-fn decoded(bytes: &[u8], said: &TraceArguments, limits: &Limits) -> Result<Traced, Fault> {
-    if let Some(most) = said.form.colours {
-        return Ok(Traced::Colours(picture::decode_colours(
-            bytes, limits, most,
-        )?));
+fn decoded(bytes: &[u8], args: &TraceArguments, limits: &Limits) -> Result<Traced, Fault> {
+    if let Some(most) = args.form.colors {
+        return Ok(Traced::Colors(picture::decode_colors(bytes, limits, most)?));
     }
-    let bitmap = picture::decode_bitmap(bytes, limits, said.method.blacklevel)?;
-    Ok(Traced::ink(bitmap, said))
+    let bitmap = picture::decode_bitmap(bytes, limits, args.method.blacklevel)?;
+    Ok(Traced::ink(bitmap, args))
 }
 
 /// Centre lines or triangles found in a bitmap, as the bytes of a file.
-fn found(bitmap: &Bitmap, said: &TraceArguments, form: TracedForm) -> Result<Vec<u8>, Fault> {
-    let options = said.method.options();
+fn found(bitmap: &Bitmap, args: &TraceArguments, form: TracedForm) -> Result<Vec<u8>, Fault> {
+    let options = args.method.options();
     match form {
         TracedForm::Curves(format) => {
-            let options = said.form.centreline_options(&options);
+            let options = args.form.centreline_options(&options);
             Ok(write_centrelines(&centrelines(bitmap, &options), format))
         }
         TracedForm::Mesh(format) => {
@@ -142,8 +138,8 @@ fn found(bitmap: &Bitmap, said: &TraceArguments, form: TracedForm) -> Result<Vec
 }
 
 /// What is to be done, one job a bitmap.
-fn resolve(said: &TraceArguments) -> Result<Vec<TraceJob>, Fault> {
-    let sources: Vec<Source> = said.bitmaps.iter().map(|path| Source::of(path)).collect();
+fn resolve(args: &TraceArguments) -> Result<Vec<TraceJob>, Fault> {
+    let sources: Vec<Source> = args.bitmaps.iter().map(|path| Source::of(path)).collect();
     if sources
         .iter()
         .filter(|source| **source == Source::Standard)
@@ -153,18 +149,18 @@ fn resolve(said: &TraceArguments) -> Result<Vec<TraceJob>, Fault> {
         let message = "standard input can be read only once";
         return Err(Fault::new(Exit::Usage, message));
     }
-    let inputs: Vec<PathBuf> = said.bitmaps.clone();
+    let inputs: Vec<PathBuf> = args.bitmaps.clone();
     let mut taken = BTreeSet::new();
     let mut jobs = Vec::new();
     for source in sources {
-        let path = path_for(said, &source)?;
-        let format = format_of(said.format, &path)?;
-        if said.form.centreline && matches!(format.form(), TracedForm::Mesh(_)) {
+        let path = path_for(args, &source)?;
+        let format = format_of(args.format, &path)?;
+        if args.form.centreline && matches!(format.form(), TracedForm::Mesh(_)) {
             let message = "centre lines have no inside to fill: .obj and .glb hold filled shapes";
             return Err(Fault::new(Exit::Usage, message));
         }
-        if said.form.colours.is_some() && matches!(format.form(), TracedForm::Mesh(_)) {
-            return Err(colours_are_no_mesh());
+        if args.form.colors.is_some() && matches!(format.form(), TracedForm::Mesh(_)) {
+            return Err(colors_are_no_mesh());
         }
         let output = Output::of(&path)?;
         output.refuse_any_of(&inputs)?;
@@ -181,17 +177,17 @@ fn resolve(said: &TraceArguments) -> Result<Vec<TraceJob>, Fault> {
     Ok(jobs)
 }
 
-fn colours_are_no_mesh() -> Fault {
+fn colors_are_no_mesh() -> Fault {
     let message = "layers in colour are written to .svg, .pdf, .json or .geojson: triangles in .obj and .glb have no colours";
     Fault::new(Exit::Usage, message)
 }
 
 /// Where the tracing of one bitmap goes.
-fn path_for(said: &TraceArguments, source: &Source) -> Result<PathBuf, Fault> {
-    let asked = said.output.as_deref();
+fn path_for(args: &TraceArguments, source: &Source) -> Result<PathBuf, Fault> {
+    let asked = args.output.as_deref();
     let folder = match asked {
         Some(path) if path.is_dir() => Some(path),
-        Some(path) if said.bitmaps.len() > 1 => {
+        Some(path) if args.bitmaps.len() > 1 => {
             let message = format!(
                 "there is no folder {}: several bitmaps are written into one",
                 quoted(path)
@@ -202,7 +198,7 @@ fn path_for(said: &TraceArguments, source: &Source) -> Result<PathBuf, Fault> {
     };
     let ending = TracedFormat::ENDINGS
         .into_iter()
-        .find(|(format, _)| Some(*format) == said.format)
+        .find(|(format, _)| Some(*format) == args.format)
         .map_or("svg", |(_, ending)| ending);
     match folder {
         Some(folder) => Ok(folder.join(output_path(None, source, ending)?)),

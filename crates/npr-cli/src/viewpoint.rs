@@ -56,13 +56,13 @@ impl Viewed for Seen<'_> {
 }
 
 /// The camera that the user asked for, or one that frames the whole model from three quarters above.
-pub fn camera(said: &CameraArguments, model: &dyn Viewed, size: Size) -> Result<Camera, Fault> {
-    match &said.camera {
+pub fn camera(args: &CameraArguments, model: &dyn Viewed, size: Size) -> Result<Camera, Fault> {
+    match &args.camera {
         Some(name) => camera_of_file(name, model.cameras()),
         None => {
-            let fov_y = said.fov.unwrap_or(DEFAULT_FOV_DEG).to_radians();
+            let fov_y = args.fov.unwrap_or(DEFAULT_FOV_DEG).to_radians();
             let framing = model.framing(size.width as f32 / size.height as f32, fov_y);
-            placed_camera(said, framing, middle(model.bounds()))
+            placed_camera(args, framing, middle(model.bounds()))
         }
     }
 }
@@ -98,19 +98,19 @@ pub fn unknown_camera(asked: &str, cameras: &[(String, Camera)]) -> Fault {
 
 /// The framing view, with what the user said in place of its own values; an eye alone looks at `middle`.
 fn placed_camera(
-    said: &CameraArguments,
+    args: &CameraArguments,
     framing: Camera,
     middle: [f32; 3],
 ) -> Result<Camera, Fault> {
-    let target = if said.eye.is_some() {
+    let target = if args.eye.is_some() {
         middle
     } else {
         framing.target
     };
     let camera = Camera {
-        eye: said.eye.map_or(framing.eye, |eye| eye.0),
-        target: said.target.map_or(target, |target| target.0),
-        up: said.up.map_or(framing.up, |up| up.0),
+        eye: args.eye.map_or(framing.eye, |eye| eye.0),
+        target: args.target.map_or(target, |target| target.0),
+        up: args.up.map_or(framing.up, |up| up.0),
         projection: framing.projection,
     };
     if camera.eye == camera.target {
@@ -133,12 +133,12 @@ mod tests {
 
     /// A view with an eye of its own, of a box whose middle is (1, 1, 1).
     fn seen_from(eye: [f32; 3]) -> Result<Camera, Fault> {
-        let said = CameraArguments {
+        let args = CameraArguments {
             eye: Some(Point(eye)),
             ..CameraArguments::default()
         };
         placed_camera(
-            &said,
+            &args,
             Camera::framing([0.0; 3], [2.0; 3]),
             middle(([0.0; 3], [2.0; 3])),
         )

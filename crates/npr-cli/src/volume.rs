@@ -87,7 +87,7 @@ impl Default for Shots {
 #[derive(Debug, Clone, Copy)]
 pub struct Order<'a> {
     /// What the user said about volumes.
-    pub said: &'a VolumeArguments,
+    pub args: &'a VolumeArguments,
     /// The style of the smoke, with what the user said in place of its own values.
     pub style: &'a SmokeStyle,
     /// What it may cost.
@@ -109,14 +109,14 @@ pub struct Film {
 
 impl Film {
     /// Adds smoke that stands still to every picture.
-    pub fn join(&mut self, still: &Smoke, told: Self) {
+    pub fn join(&mut self, still: &Smoke, reported: Self) {
         let frames = self.frames.drain(..).map(|smoke| Smoke {
             space: Some(still.clone().with(smoke.clone()).bounds()),
             ..smoke.with(still.clone())
         });
         self.frames = frames.collect();
-        self.inputs.extend(told.inputs);
-        self.notices.extend(told.notices);
+        self.inputs.extend(reported.inputs);
+        self.notices.extend(reported.notices);
     }
 }
 
@@ -126,18 +126,20 @@ pub fn step(
     order: &Order<'_>,
     own: Option<VolumeSource>,
 ) -> Result<(Option<Smoke>, Film), Fault> {
-    if order.said.volumes.is_empty() && own.is_none() {
+    if order.args.volumes.is_empty() && own.is_none() {
         return Ok((None, Film::default()));
     }
     let smoke = progress.step("smoke", || still(order, own))?;
-    Ok(smoke.map_or_else(Default::default, |(smoke, told)| (Some(smoke), told)))
+    Ok(smoke.map_or_else(Default::default, |(smoke, reported)| {
+        (Some(smoke), reported)
+    }))
 }
 
 /// The smoke of a still picture: that of the scene's own file, where it is a volume, and of every `--volume`; none
 /// without any.
 pub fn still(order: &Order<'_>, own: Option<VolumeSource>) -> Result<Option<(Smoke, Film)>, Fault> {
     let own = own.map(|source| (source, None));
-    let placed = order.said.volumes.iter();
+    let placed = order.args.volumes.iter();
     let placed = placed.map(|volume| (VolumeSource::of(&volume.name), Some(volume)));
     let mut all: Option<(Smoke, Film)> = None;
     for (source, volume) in own.into_iter().chain(placed) {
@@ -148,9 +150,9 @@ pub fn still(order: &Order<'_>, own: Option<VolumeSource>) -> Result<Option<(Smo
         let mut film = film(&source, order, &Shots::default(), &mut |_, _| {})?;
         let smoke = film.frames.pop().unwrap_or_default();
         let smoke = volume.map_or(smoke.clone(), |volume| placed_at(volume, smoke));
-        let (joined, told) = all.take().unwrap_or_default();
-        film.inputs.extend(told.inputs);
-        film.notices.extend(told.notices);
+        let (joined, reported) = all.take().unwrap_or_default();
+        film.inputs.extend(reported.inputs);
+        film.notices.extend(reported.notices);
         all = Some((joined.with(smoke), film));
     }
     Ok(all)
@@ -218,7 +220,7 @@ fn simulated(
     let settings = SmokeSettings {
         size: shots.grid.unwrap_or(usual_grid(source)),
         frame_seconds: 1.0 / shots.fps,
-        seed: order.said.seed,
+        seed: order.args.seed,
         ..SmokeSettings::of(source)
     };
     let mut budget = Budget::new(order.limits.memory_bytes);
@@ -374,8 +376,8 @@ where
 /// Frames in one space, with heats from 0 to 1.
 fn finished(frames: Vec<Smoke>, first: u32, hottest: f32, mut notices: Vec<String>) -> Film {
     // What holds for every frame is said once.
-    let mut said = std::collections::BTreeSet::new();
-    notices.retain(|notice| said.insert(notice.clone()));
+    let mut args = std::collections::BTreeSet::new();
+    notices.retain(|notice| args.insert(notice.clone()));
     let all = frames.iter().fold(Smoke::default(), |all, smoke| {
         all.with(Smoke::new(smoke.spheres.clone()))
     });
@@ -394,12 +396,12 @@ fn finished(frames: Vec<Smoke>, first: u32, hottest: f32, mut notices: Vec<Strin
 
 impl Order<'_> {
     fn options(&self) -> VolumeOptions {
-        let said = self.said;
+        let args = self.args;
         VolumeOptions {
-            density: said.density.clone(),
-            velocity: said.velocity.clone(),
-            heat: said.heat.clone(),
-            up: match said.volume_up {
+            density: args.density.clone(),
+            velocity: args.velocity.clone(),
+            heat: args.heat.clone(),
+            up: match args.volume_up {
                 VolumeUp::Y => UpAxis::Y,
                 VolumeUp::Z => UpAxis::Z,
             },
@@ -413,8 +415,8 @@ impl Order<'_> {
         let following = Following {
             step: step as f32,
             fps,
-            birthplace: self.said.emitter.map_or(known, Into::into),
-            seed: self.said.seed,
+            birthplace: self.args.emitter.map_or(known, Into::into),
+            seed: self.args.seed,
         };
         following.settings(self.style)
     }

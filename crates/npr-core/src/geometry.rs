@@ -36,7 +36,7 @@ pub struct Vertex {
     /// Index into the parts.
     pub part: u32,
     /// How badly hatch strokes lie around it, 0..1: there the dark is solid ink.
-    pub knot: f32,
+    pub chart_distortion: f32,
 }
 gpu_layout!(Vertex {
     position,
@@ -48,7 +48,7 @@ gpu_layout!(Vertex {
     weld_normal,
     width,
     part,
-    knot
+    chart_distortion
 });
 
 /// Which matrices move a vertex, and how much: linear blend skinning; rigid parts use one joint.

@@ -57,17 +57,21 @@ pub struct LineTint {
     /// The colour that the surface gives its lines, sRGB bytes; alpha is what light leaves of their opacity.
     pub own: u32,
     /// What light, depth and the picture's tint lay over that, sRGB bytes with straight alpha.
-    pub glaze: u32,
+    pub tint_layer: u32,
     /// Index of the part it is decided for, or [`NONE`] where nothing is.
     pub part: u32,
 }
-gpu_layout!(LineTint { own, glaze, part });
+gpu_layout!(LineTint {
+    own,
+    tint_layer,
+    part
+});
 
 impl LineTint {
     /// Nothing is decided.
     pub const NONE: Self = Self {
         own: 0,
-        glaze: 0,
+        tint_layer: 0,
         part: NONE,
     };
 }
@@ -78,7 +82,7 @@ pub struct Tint {
     /// The surface's colour for its lines, and what is left of their opacity.
     pub own: [f32; 4],
     /// What lies over it, straight alpha.
-    pub glaze: [f32; 4],
+    pub tint_layer: [f32; 4],
 }
 
 /// What is decided over a mask.
@@ -95,8 +99,8 @@ pub struct LineTints<'a> {
 struct Sum {
     weight: f32,
     own: [f32; 4],
-    glaze: [f32; 3],
-    glaze_weight: f32,
+    tint_layer: [f32; 3],
+    tint_layer_weight: f32,
 }
 
 impl Sum {
@@ -104,23 +108,26 @@ impl Sum {
         let own = unpack_rgba8(tint.own);
         self.weight += weight;
         self.own = std::array::from_fn(|i| self.own[i] + own[i] * weight);
-        // Most lines have no glaze.
-        if tint.glaze >> 24 == 0 {
+        // Most lines have no tint layer.
+        if tint.tint_layer >> 24 == 0 {
             return;
         }
-        let glaze = unpack_rgba8(tint.glaze);
-        self.glaze = std::array::from_fn(|i| self.glaze[i] + glaze[i] * (glaze[3] * weight));
-        self.glaze_weight += glaze[3] * weight;
+        let tint_layer = unpack_rgba8(tint.tint_layer);
+        self.tint_layer =
+            std::array::from_fn(|i| self.tint_layer[i] + tint_layer[i] * (tint_layer[3] * weight));
+        self.tint_layer_weight += tint_layer[3] * weight;
     }
 
     fn mean(&self) -> Option<Tint> {
         if self.weight <= 0.0 {
             return None;
         }
-        let [r, g, b] = self.glaze.map(|sum| sum / self.glaze_weight.max(1e-6));
+        let [r, g, b] = self
+            .tint_layer
+            .map(|sum| sum / self.tint_layer_weight.max(1e-6));
         Some(Tint {
             own: self.own.map(|sum| sum / self.weight),
-            glaze: [r, g, b, self.glaze_weight / self.weight],
+            tint_layer: [r, g, b, self.tint_layer_weight / self.weight],
         })
     }
 }
@@ -177,7 +184,7 @@ impl LineTints<'_> {
 /// Colour of a part's lines of a kind, sRGB with straight alpha, where `tint` is decided.
 ///
 /// A kind's own colour goes before that of the surface, and this before the part's. Without a tint only the first and
-/// the last count. The glaze is mixed in linear light; where there is none the colour stays as it is, to the bit.
+/// the last count. The tint layer is mixed in linear light; where there is none the colour stays as it is, to the bit.
 #[inline]
 pub fn line_color(part: &Part, kind: u32, tint: Option<Tint>) -> [f32; 4] {
     let mut color = part.line_color;
@@ -188,25 +195,25 @@ pub fn line_color(part: &Part, kind: u32, tint: Option<Tint>) -> [f32; 4] {
     if has_own {
         color = unpack_rgba8(part.line_kinds[kind as usize]);
     }
-    let Some(Tint { own, glaze }) = tint else {
+    let Some(Tint { own, tint_layer }) = tint else {
         return color;
     };
     if !has_own && part.line_flags & Part::LINE_SOURCES != 0 {
         color = [own[0], own[1], own[2], color[3]];
     }
-    let [r, g, b] = glazed([color[0], color[1], color[2]], glaze);
+    let [r, g, b] = layered([color[0], color[1], color[2]], tint_layer);
     [r, g, b, color[3] * own[3]]
 }
 
-/// A colour under a glaze, both sRGB encoded; mixed in linear light.
+/// A colour under a tint layer, both sRGB encoded; mixed in linear light.
 #[inline]
-pub fn glazed(color: [f32; 3], glaze: [f32; 4]) -> [f32; 3] {
-    if glaze[3] <= 0.0 {
+pub fn layered(color: [f32; 3], tint_layer: [f32; 4]) -> [f32; 3] {
+    if tint_layer[3] <= 0.0 {
         return color;
     }
     std::array::from_fn(|i| {
-        let (under, over) = (linear_from_srgb(color[i]), linear_from_srgb(glaze[i]));
-        srgb_from_linear(under + (over - under) * glaze[3])
+        let (under, over) = (linear_from_srgb(color[i]), linear_from_srgb(tint_layer[i]));
+        srgb_from_linear(under + (over - under) * tint_layer[3])
     })
 }
 
@@ -215,7 +222,7 @@ impl Tint {
     pub fn packed(&self, part: u32) -> LineTint {
         LineTint {
             own: pack_rgba8(self.own),
-            glaze: pack_rgba8(self.glaze),
+            tint_layer: pack_rgba8(self.tint_layer),
             part,
         }
     }
@@ -238,31 +245,31 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
         #[test]
-        fn a_part_that_asks_for_nothing_keeps_its_colour(own in color(), tint in (color(), color()), kind in 0u32..5) {
+        fn a_part_that_asks_for_nothing_keeps_its_color(own in color(), tint in (color(), color()), kind in 0u32..5) {
             let part = Part { line_color: own, ..Part::default() };
-            let tint = Tint { own: tint.0, glaze: tint.1 };
+            let tint = Tint { own: tint.0, tint_layer: tint.1 };
             prop_assert_eq!(line_color(&part, kind, Some(tint)), own);
         }
 
         #[test]
-        fn a_clear_glaze_changes_no_bit(own in color(), kind_color in color(), flags in 0u32..32, kind in 0u32..5) {
+        fn a_clear_tint_layer_changes_no_bit(own in color(), kind_color in color(), flags in 0u32..32, kind in 0u32..5) {
             let part = Part {
                 line_color: own,
                 line_kinds: [pack_rgba8(kind_color); LINE_KINDS],
                 line_flags: flags | Part::LINE_DEPTH,
                 ..Part::default()
             };
-            let tint = Tint { own: [0.3, 0.2, 0.1, 1.0], glaze: [0.9, 0.9, 0.9, 0.0] };
+            let tint = Tint { own: [0.3, 0.2, 0.1, 1.0], tint_layer: [0.9, 0.9, 0.9, 0.0] };
             let expected = if flags & (1 << kind) != 0 { kind_color } else { own };
             prop_assert_eq!(line_color(&part, kind, Some(tint)), expected);
         }
 
         /// A mixed colour lies between both, channel by channel.
         #[test]
-        fn a_glaze_never_overshoots(under in color(), glaze in color()) {
-            let mixed = glazed([under[0], under[1], under[2]], glaze);
+        fn a_tint_layer_never_overshoots(under in color(), tint_layer in color()) {
+            let mixed = layered([under[0], under[1], under[2]], tint_layer);
             for i in 0..3 {
-                let (low, high) = (under[i].min(glaze[i]), under[i].max(glaze[i]));
+                let (low, high) = (under[i].min(tint_layer[i]), under[i].max(tint_layer[i]));
                 prop_assert!((low - 1e-4..=high + 1e-4).contains(&mixed[i]));
             }
         }
@@ -272,7 +279,7 @@ mod tests {
         fn what_is_found_changes_smoothly(
             values in prop::collection::vec(0u32..=255, 64), x in 0f32..7.9, y in 0f32..8.0,
         ) {
-            let tint = |v: &u32| LineTint { own: 0xff00_0000 | v, glaze: 0, part: 0 };
+            let tint = |v: &u32| LineTint { own: 0xff00_0000 | v, tint_layer: 0, part: 0 };
             let tints: Vec<LineTint> = values.iter().map(tint).collect();
             let window = window();
             let on = LineTints { mask_window: &window, tints: &tints };
@@ -286,7 +293,7 @@ mod tests {
         ) {
             let tint = |part: &u32| match part {
                 2 => LineTint::NONE,
-                part => LineTint { own: 0xff00_0000 | (part * 255), glaze: 0, part: *part },
+                part => LineTint { own: 0xff00_0000 | (part * 255), tint_layer: 0, part: *part },
             };
             let tints: Vec<LineTint> = owner.iter().map(tint).collect();
             let window = window();

@@ -1,7 +1,7 @@
 //! Smoke as spheres: what passes read and write, and where a ray of the picture meets a sphere.
 //!
 //! Rasterisers store which sphere a pixel shows; depth, place and normal are found again from the number with
-//! [`Lens::depth_of`], the same few operations on both engines. WGSL text: `shaders/lib/sphere.wgsl`.
+//! [`SphereView::depth_of`], the same few operations on both engines. WGSL text: `shaders/lib/sphere.wgsl`.
 
 use crate::geometry::FAR_DEPTH;
 use crate::gpu_layout;
@@ -47,10 +47,10 @@ impl Sphere {
     }
 }
 
-/// A sphere as a [`Lens`] sees it.
+/// A sphere as a [`SphereView`] sees it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
-pub struct Ball {
+pub struct ViewSphere {
     /// Middle, from the eye: to the right, up, and along the view axis.
     pub center: [f32; 3],
     /// Radius in world units; 0 where the sphere is not drawn.
@@ -59,7 +59,7 @@ pub struct Ball {
     /// Left lies right of right where nothing is seen.
     pub bounds: [f32; 4],
 }
-gpu_layout!(Ball {
+gpu_layout!(ViewSphere {
     center,
     radius,
     bounds
@@ -88,7 +88,7 @@ gpu_layout!(SmokePixel {
 /// An eye that looks at spheres: a camera or a light.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
-pub struct Lens {
+pub struct SphereView {
     /// Where depths and places count from, in the world.
     pub eye_world: [f32; 3],
     /// 1 where rays meet at the eye, 0 where they are parallel.
@@ -116,7 +116,7 @@ pub struct Lens {
     /// See `unused`.
     pub unused_b: [f32; 2],
 }
-gpu_layout!(Lens {
+gpu_layout!(SphereView {
     eye_world,
     perspective,
     right_world,
@@ -144,7 +144,7 @@ fn unit_of(row: [f32; 4]) -> ([f32; 3], f32) {
     (v.map(|x| x / length), length)
 }
 
-impl Lens {
+impl SphereView {
     /// The lens of a camera.
     pub fn of_view(view: &View) -> Self {
         let m = &view.clip_from_world;
@@ -252,7 +252,7 @@ impl Lens {
     }
 
     /// View depth at which a ray first meets a ball; [`FAR_DEPTH`] where it passes by, or where it starts inside.
-    pub fn depth_of(&self, ball: &Ball, ray: [f32; 2]) -> f32 {
+    pub fn depth_of(&self, ball: &ViewSphere, ray: [f32; 2]) -> f32 {
         if self.discs > 0.5 {
             self.depth_of_disc(ball, ray)
         } else {
@@ -260,12 +260,12 @@ impl Lens {
         }
     }
 
-    /// [`Lens::depth_of`] for spheres.
+    /// [`SphereView::depth_of`] for spheres.
     ///
     /// The ray's nearest point to the middle is found first, so small balls far away lose no precision. No branches,
     /// so that rows of pixels are computed side by side.
     #[inline]
-    pub fn depth_of_sphere(&self, ball: &Ball, ray: [f32; 2]) -> f32 {
+    pub fn depth_of_sphere(&self, ball: &ViewSphere, ray: [f32; 2]) -> f32 {
         let meeting = self.perspective;
         let [x, y] = [ray[0] * meeting, ray[1] * meeting];
         let parallel = 1.0 - meeting;
@@ -291,7 +291,7 @@ impl Lens {
         }
     }
 
-    fn depth_of_disc(&self, ball: &Ball, ray: [f32; 2]) -> f32 {
+    fn depth_of_disc(&self, ball: &ViewSphere, ray: [f32; 2]) -> f32 {
         let place = self.place_at(ray, ball.center[2]);
         let [x, y] = [place[0] - ball.center[0], place[1] - ball.center[1]];
         if x * x + y * y < ball.radius * ball.radius && ball.center[2] >= self.near {
@@ -316,10 +316,10 @@ impl Lens {
     /// A sphere as this lens sees it: the twin of `smoke.project_spheres`, for one sphere.
     ///
     /// Not drawn: what has no size, what is no number, what lies behind the eye, and what the eye is inside of.
-    pub fn project(&self, sphere: &Sphere) -> Ball {
-        let nothing = Ball {
+    pub fn project(&self, sphere: &Sphere) -> ViewSphere {
+        let nothing = ViewSphere {
             bounds: [1.0, 1.0, 0.0, 0.0],
-            ..Ball::default()
+            ..ViewSphere::default()
         };
         let offset: [f32; 3] = std::array::from_fn(|i| sphere.center[i] - self.eye_world[i]);
         let center = [
@@ -337,7 +337,7 @@ impl Lens {
         let y = self.reach(center[1], center[2], radius, 1);
         let [width, height] = self.frame_px;
         let px = |v: f32, length: f32| (v * 0.5 * length).clamp(-1.0, length + 1.0);
-        Ball {
+        ViewSphere {
             center,
             radius,
             bounds: [
@@ -382,7 +382,7 @@ mod tests {
 
     const FRAME: [u32; 2] = [320, 200];
 
-    fn lens(parallel: bool, eye: [f32; 3]) -> (Lens, View) {
+    fn lens(parallel: bool, eye: [f32; 3]) -> (SphereView, View) {
         let projection = match parallel {
             true => Projection::Parallel { height: 6.0 },
             false => Projection::Perspective { fov_y: 0.9 },
@@ -394,10 +394,10 @@ mod tests {
             projection,
         };
         let view = camera.view(FRAME, ([-3.0; 3], [3.0; 3]));
-        (Lens::of_view(&view), view)
+        (SphereView::of_view(&view), view)
     }
 
-    fn world_of(lens: &Lens, place: [f32; 3]) -> [f32; 3] {
+    fn world_of(lens: &SphereView, place: [f32; 3]) -> [f32; 3] {
         let offset = lens.direction_in_world(place);
         std::array::from_fn(|i| lens.eye_world[i] + offset[i])
     }
@@ -470,7 +470,7 @@ mod tests {
                 true => spot_view(towards.map(|v| v * 6.0), towards.map(|v| -v), 0.7, 0.01),
                 false => distant_view(towards, &corners, &corners),
             };
-            let lens = Lens::of_light(&m, 512);
+            let lens = SphereView::of_light(&m, 512);
             let ball = lens.project(&Sphere::new(point, 0.1));
             prop_assume!(ball.radius > 0.0);
             let clip = apply_point(&m, point);

@@ -9,7 +9,7 @@ use std::thread;
 /// Panics that reached the hook of the process.
 static TOLD: AtomicUsize = AtomicUsize::new(0);
 
-fn told() -> usize {
+fn reported() -> usize {
     TOLD.load(Ordering::SeqCst)
 }
 
@@ -32,11 +32,11 @@ fn only_panics_inside_a_guard_are_silent() {
         assert!(caught(|| panic!("inner")));
         panic!("outer, still inside of its guard")
     }));
-    assert_eq!(told(), 0);
+    assert_eq!(reported(), 0);
 
     // Tell of a panic outside, afterwards as before.
     assert!(panic::catch_unwind(|| panic!("a bug")).is_err());
-    assert_eq!(told(), 1);
+    assert_eq!(reported(), 1);
 
     // Tell of one in a thread outside while another thread stands inside, and not of the one inside.
     let both = Arc::new(Barrier::new(2));
@@ -54,5 +54,5 @@ fn only_panics_inside_a_guard_are_silent() {
     assert!(thread::spawn(|| panic!("outside")).join().is_err());
     both.wait();
     assert!(inside.join().expect("the guard caught it"));
-    assert_eq!(told(), 2);
+    assert_eq!(reported(), 2);
 }

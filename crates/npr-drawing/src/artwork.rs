@@ -4,8 +4,8 @@
 //! a layer grouped by object. Everything is cut to the picture, so that no file holds anything far outside.
 
 use crate::clip::{clip_ring, clip_stroke};
+use crate::color_runs;
 use crate::fit::{FitOptions, fit};
-use crate::hue;
 use crate::lettering::Lettered;
 use crate::outline::outline;
 use crate::page::Placing;
@@ -292,7 +292,7 @@ impl Maker<'_> {
                 if dashed || points.iter().all(|point| point.color.is_none()) {
                     return Vec::from_iter(self.ink(stroke, (points, *closed), hidden));
                 }
-                let pieces = hue::pieces(points, *closed, own);
+                let pieces = color_runs::pieces(points, *closed, own);
                 let marks = pieces.iter();
                 marks
                     .filter_map(|piece| self.piece(stroke, piece, hidden))
@@ -312,11 +312,11 @@ impl Maker<'_> {
         }
         let tolerance = self.options.tolerance_px / 3.0;
         let path = outline(points, closed, tolerance);
-        self.mark(stroke, path, Paint::Ink, hidden, hue::mean(points))
+        self.mark(stroke, path, Paint::Ink, hidden, color_runs::mean(points))
     }
 
     /// A piece of a stroke that changes colour.
-    fn piece(&self, stroke: &Stroke, piece: &hue::Piece, hidden: bool) -> Option<Mark> {
+    fn piece(&self, stroke: &Stroke, piece: &color_runs::Piece, hidden: bool) -> Option<Mark> {
         let translucent = hidden || piece.color[3] < 255;
         if translucent && piece.goes_on != [false; 2] {
             let path = piece.outline(self.options.tolerance_px / 3.0, true);
@@ -375,7 +375,7 @@ impl Maker<'_> {
         } else {
             Paint::Line(width)
         };
-        self.mark(stroke, path, paint, hidden, hue::mean(points))
+        self.mark(stroke, path, paint, hidden, color_runs::mean(points))
     }
 
     /// A colour as a line shows it that may be hidden.

@@ -9,7 +9,7 @@ use kurbo::PathEl;
 use npr_core::number::push_fixed;
 use npr_trace::centreline::Centrelines;
 use npr_trace::{FLATNESS_PX, TraceFormat};
-use npr_vector::run::distance;
+use npr_vector::mesh_lines::run::distance;
 use npr_vector::stroke::{Drawing, Kind, Stroke, StrokePoint, StrokeSurface};
 use rayon::prelude::*;
 

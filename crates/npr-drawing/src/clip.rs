@@ -1,6 +1,6 @@
 //! Strokes and rings cut to the picture, so that no file holds anything far outside of it.
 
-use crate::hue::point_between;
+use crate::color_runs::point_between;
 use npr_vector::stroke::{Stroke, StrokePoint};
 
 /// The parts of a stroke within `pad` of the picture, each with whether it is closed.

@@ -28,10 +28,10 @@
 pub mod artwork;
 pub mod centreline;
 mod clip;
+mod color_runs;
 pub mod drawing;
 pub mod fill;
 pub mod fit;
-mod hue;
 pub mod json;
 pub mod lettering;
 mod near;

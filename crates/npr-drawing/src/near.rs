@@ -1,6 +1,6 @@
 //! The nearest of many places in the plane, by a grid of cells.
 
-use npr_vector::run::distance;
+use npr_vector::mesh_lines::run::distance;
 
 /// Places by cells of a grid, for finding near ones.
 pub(crate) struct Grid {

@@ -162,7 +162,7 @@ struct Side {
 
 /// A place on the left side of a walk.
 #[derive(Clone, Copy)]
-struct Place {
+struct OutlinePoint {
     point: Point,
     corner: bool,
     /// The disc that it belongs to.
@@ -229,7 +229,7 @@ impl Side {
     }
 
     /// Replaces every passage through the middle by the place where the side crosses itself, if there is one.
-    fn untangle(mut places: Vec<Place>, walk: &[Disc], tolerance: f64) -> Self {
+    fn untangle(mut places: Vec<OutlinePoint>, walk: &[Disc], tolerance: f64) -> Self {
         // Start away from passages, so that what they search lies on both sides of them.
         let start = (0..places.len())
             .find(|i| (0..3).all(|k| !places[(i + k) % places.len()].pivot))
@@ -254,7 +254,7 @@ impl Side {
             let bend = [place.disc, places[end - 1].disc];
             if let Some((keep, skip, crossing)) = side.crossing(fence, bend, &places[end..], walk) {
                 side.cut(keep);
-                side.push(&Place {
+                side.push(&OutlinePoint {
                     point: crossing,
                     corner: true,
                     ..place
@@ -272,7 +272,7 @@ impl Side {
     }
 
     /// Adds a point, unless it is where the last one is.
-    fn push(&mut self, place: &Place) {
+    fn push(&mut self, place: &OutlinePoint) {
         match (self.points.last(), self.corners.last_mut()) {
             (Some(last), Some(flag)) if (*last - place.point).hypot2() < 1e-6 => {
                 *flag |= place.corner;
@@ -298,7 +298,7 @@ impl Side {
         &self,
         fence: usize,
         bend: [usize; 2],
-        ahead: &[Place],
+        ahead: &[OutlinePoint],
         walk: &[Disc],
     ) -> Option<(usize, usize, Point)> {
         let reach = ahead
@@ -330,7 +330,7 @@ impl Side {
     }
 
     /// Goes through the middle of the line, and adds a disc in place of the side.
-    fn pass(&mut self, place: &Place, disc: Disc, tolerance: f64) {
+    fn pass(&mut self, place: &OutlinePoint, disc: Disc, tolerance: f64) {
         if let Some(flag) = self.corners.last_mut() {
             *flag = true;
         }
@@ -391,7 +391,7 @@ fn join(
     leaving: &Piece,
     is_end: bool,
     tolerance: f64,
-    places: &mut Vec<Place>,
+    places: &mut Vec<OutlinePoint>,
 ) {
     // At an end the walk turns back, with the tip on its left.
     let bend = if is_end {
@@ -402,7 +402,7 @@ fn join(
     let turn = bend + arriving.lean - leaving.lean;
     let normal = arriving.normal();
     let mut put = |offset: Vec2, corner: bool, pivot: bool| {
-        places.push(Place {
+        places.push(OutlinePoint {
             point: disc.center + offset,
             corner,
             disc: i,

@@ -6,7 +6,7 @@
 
 use crate::near::Grid;
 use npr_core::geometry::NONE;
-use npr_vector::run::distance;
+use npr_vector::mesh_lines::run::distance;
 use std::collections::BTreeMap;
 
 /// A line that the pen draws in one go.

@@ -9,8 +9,8 @@ use npr_gpu::device::{AdapterChoice, Device};
 use npr_gpu::engine::{Engine, EngineError};
 use npr_gpu::graph::Graph;
 use npr_mesh::testing::{shape_of, uv_sphere};
-use npr_vector::contour::steps::{Viewer, half_edges, judges};
-use npr_vector::contour::{Eye, usual_room};
+use npr_vector::mesh_lines::contour::steps::{Viewer, half_edges, judges};
+use npr_vector::mesh_lines::contour::{Eye, usual_room};
 use std::time::{Duration, Instant};
 
 fn main() -> Result<(), EngineError> {

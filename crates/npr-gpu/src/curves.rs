@@ -1,8 +1,8 @@
 //! Lines as linked points, found, put in rows and tested for visibility on an engine.
 //!
-//! The steps are those of [`npr_vector::contour::steps`] and [`npr_vector::rank`], each a pass. On a processor the
-//! plain functions there are faster than these passes and give the same; passes are for graphs that stay on a device
-//! from the mesh to the picture.
+//! The steps are those of [`npr_vector::mesh_lines::contour::steps`] and [`npr_vector::rank`], each a pass. On a
+//! processor the plain functions there are faster than these passes and give the same; passes are for graphs that stay
+//! on a device from the mesh to the picture.
 //!
 //! ```
 //! use npr_gpu::curves::{Scheme, rank_on};

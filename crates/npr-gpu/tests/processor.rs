@@ -7,7 +7,7 @@ use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::Format;
 use npr_gpu::passes::line::{FLAG_TILES, SMOOTH_STAMPS};
 use npr_gpu::processor::Processor;
-use npr_vector::residual::{TILE, flag_tiles, smooth, tile_count};
+use npr_vector::screen::residual::{TILE, flag_tiles, smooth, tile_count};
 use proptest::prelude::*;
 
 /// The processor takes every graph and never loses it.

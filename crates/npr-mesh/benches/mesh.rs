@@ -14,7 +14,7 @@ fn mesh(faces: u32) -> Mesh {
     torus(2 * tube, tube, 1.0, 0.4)
 }
 
-fn stages(criterion: &mut Criterion) {
+fn renderers(criterion: &mut Criterion) {
     for faces in [1_000, 10_000, 100_000, 400_000, 1_000_000] {
         let mesh = mesh(faces);
         let soup = unindexed(&mesh);
@@ -26,31 +26,31 @@ fn stages(criterion: &mut Criterion) {
         group
             .sample_size(10)
             .throughput(Throughput::Elements(triangles.len() as u64));
-        let mut stage = |name: &str, run: &mut dyn FnMut()| {
+        let mut renderer = |name: &str, run: &mut dyn FnMut()| {
             group.bench_function(BenchmarkId::new(name, faces), |bencher| {
                 bencher.iter(&mut *run)
             });
         };
-        stage("weld", &mut || drop(black_box(weld(positions, 0.0))));
-        stage("weld soup", &mut || {
+        renderer("weld", &mut || drop(black_box(weld(positions, 0.0))));
+        renderer("weld soup", &mut || {
             drop(black_box(weld(soup.positions(), 0.0)))
         });
-        stage("weld soup within 1e-6", &mut || {
+        renderer("weld soup within 1e-6", &mut || {
             drop(black_box(weld(soup.positions(), 1e-6)))
         });
-        stage("edges", &mut || {
+        renderer("edges", &mut || {
             drop(black_box(unique_edges(positions, triangles, &welded, &[])))
         });
-        stage("normals", &mut || {
+        renderer("normals", &mut || {
             drop(black_box(smooth_normals(positions, triangles, &welded)))
         });
-        stage("curvature", &mut || {
+        renderer("curvature", &mut || {
             drop(black_box(curvature(
                 positions, triangles, &welded, &normals,
             )))
         });
-        stage("all", &mut || prepare(&mesh));
-        stage("all of soup", &mut || prepare(&soup));
+        renderer("all", &mut || prepare(&mesh));
+        renderer("all of soup", &mut || prepare(&soup));
     }
 }
 
@@ -73,14 +73,14 @@ fn shapes(criterion: &mut Criterion) {
         group
             .sample_size(10)
             .throughput(Throughput::Elements(mesh.triangles().len() as u64));
-        let mut stage = |name: &str, run: &mut dyn FnMut()| {
+        let mut renderer = |name: &str, run: &mut dyn FnMut()| {
             group.bench_function(BenchmarkId::new(name, faces), |bencher| {
                 bencher.iter(&mut *run)
             });
         };
         for (name, mesh) in [("indexed", &mesh), ("shuffled", &shuffled), ("soup", &soup)] {
-            stage(name, &mut || drop(black_box(shape(mesh, &surfaces, 0.0))));
-            stage(&format!("{name} within 1e-6"), &mut || {
+            renderer(name, &mut || drop(black_box(shape(mesh, &surfaces, 0.0))));
+            renderer(&format!("{name} within 1e-6"), &mut || {
                 drop(black_box(shape(mesh, &surfaces, 1e-6)))
             });
         }
@@ -106,5 +106,5 @@ fn placed<'a>(mesh: &'a Mesh, surfaces: &'a [u32]) -> PlacedMesh<'a> {
     }
 }
 
-criterion_group!(benches, stages, shapes);
+criterion_group!(benches, renderers, shapes);
 criterion_main!(benches);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::lonely::not_alone;
+use crate::isolated::not_alone;
 use crate::union_find::UnionFind;
 
 /// A cube of the grid, and the points in it as a range of the sorted points.

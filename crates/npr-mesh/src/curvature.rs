@@ -7,8 +7,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::fans::Fans;
 use crate::triangle::Triangle;
+use crate::vertex_fans::VertexFans;
 use crate::weld::Weld;
 
 /// Principal curvatures at a point, in one over the unit of the positions.
@@ -57,7 +57,7 @@ pub fn curvature(
     weld: &Weld,
     normals: &[[f32; 3]],
 ) -> Vec<Curvature> {
-    let fans = Fans::new(triangles, weld);
+    let fans = VertexFans::new(triangles, weld);
     let normal = |welded: u32| DVec3::from_array(normals[welded as usize].map(f64::from));
     let faces: Vec<Option<FaceBend>> = triangles
         .par_iter()
@@ -128,7 +128,7 @@ impl Form {
     /// The form for which `turn = form * step` fits best, where steps are a triangle's edges.
     ///
     /// Solves the normal equations of the six equations in three unknowns by cofactors. `twice_area`
-    /// replaces differences of large products, so that slivers do not cancel out.
+    /// replaces differences of large products, so that degenerate faces do not cancel out.
     fn fit(steps: [[f64; 2]; 3], turns: [[f64; 2]; 3], twice_area: f64) -> Self {
         let sum = |term: fn([f64; 2], [f64; 2]) -> f64| -> f64 {
             steps

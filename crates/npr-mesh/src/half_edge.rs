@@ -9,7 +9,7 @@ use rayon::prelude::*;
 ///
 /// Half-edge `3 f + i` runs from corner `i` of face `f` to corner `i + 1`, around the face counter-clockwise.
 /// Faces with two equal corners, and faces with the corners of an earlier one, have been removed; faces
-/// without area are kept, because they hold the surface together, and listed in `slivers`.
+/// without area are kept, because they hold the surface together, and listed in `degenerate_faces`.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct HalfEdgeMesh {
     /// Positions of the welded vertices, in the world.
@@ -37,13 +37,13 @@ pub struct HalfEdgeMesh {
     pub edge_traits: Vec<u32>,
     /// Faces without area, ascending, each with the face whose orientation it takes over: the nearest with
     /// area across its longest edges, or [`NONE`].
-    pub slivers: Vec<[u32; 2]>,
+    pub degenerate_faces: Vec<[u32; 2]>,
     /// Lines that are geometry themselves, without faces: the two vertices of each segment, which differ, in the
     /// direction of the file. Segment `k` has the edge number `edge_count() + k`.
-    pub wires: Vec<[u32; 2]>,
-    /// Index of each wire's [`Surface`].
-    pub wire_surfaces: Vec<u32>,
-    /// What faces and wires belong to.
+    pub polylines: Vec<[u32; 2]>,
+    /// Index of each polyline's [`Surface`].
+    pub polyline_surfaces: Vec<u32>,
+    /// What faces and polylines belong to.
     pub surfaces: Vec<Surface>,
 }
 
@@ -76,16 +76,16 @@ impl HalfEdgeMesh {
     /// The user asks for a line here.
     pub const MARKED: u32 = 16;
 
-    /// Number of unique edges; wires are numbered behind them.
+    /// Number of unique edges; polylines are numbered behind them.
     #[inline]
     pub fn edge_count(&self) -> usize {
         self.edge_traits.len()
     }
 
-    /// Edge numbers of all wires.
-    pub fn wire_edges(&self) -> std::ops::Range<u32> {
+    /// Edge numbers of all polylines.
+    pub fn polyline_edges(&self) -> std::ops::Range<u32> {
         let first = self.edge_count() as u32;
-        first..first + self.wires.len() as u32
+        first..first + self.polylines.len() as u32
     }
 
     /// Cosine of the angle by which an edge folds: 1 where it has not two faces, or where they run on smoothly.
@@ -102,27 +102,27 @@ impl HalfEdgeMesh {
         }
     }
 
-    /// Which wire an edge number means; none for edges of faces.
+    /// Which polyline an edge number means; none for edges of faces.
     #[inline]
-    pub fn wire_of(&self, edge: u32) -> Option<usize> {
+    pub fn polyline_of(&self, edge: u32) -> Option<usize> {
         (edge as usize).checked_sub(self.edge_count())
     }
 
-    /// Half-edges of an edge; a wire has none.
+    /// Half-edges of an edge; a polyline has none.
     #[inline]
     pub fn sides(&self, edge: u32) -> &[u32] {
-        if self.wire_of(edge).is_some() {
+        if self.polyline_of(edge).is_some() {
             return &[];
         }
         let [from, to] = [edge, edge + 1].map(|e| self.edge_starts[e as usize] as usize);
         &self.edge_sides[from..to]
     }
 
-    /// The two vertices of an edge or a wire, the lower first.
+    /// The two vertices of an edge or a polyline, the lower first.
     #[inline]
     pub fn ends(&self, edge: u32) -> [u32; 2] {
-        let [a, b] = match self.wire_of(edge) {
-            Some(wire) => self.wires[wire],
+        let [a, b] = match self.polyline_of(edge) {
+            Some(polyline) => self.polylines[polyline],
             None => self.ends_of_half_edge(self.sides(edge)[0]),
         };
         [a.min(b), a.max(b)]
@@ -198,7 +198,7 @@ impl HalfEdgeMesh {
         self.check_faces()?;
         self.check_edges()?;
         self.check_twins()?;
-        self.check_slivers()?;
+        self.check_degenerate_faces()?;
         self.check_wires()
     }
 
@@ -229,9 +229,9 @@ impl HalfEdgeMesh {
                 },
             ),
             (
-                "a surface per wire",
-                self.wire_surfaces.len(),
-                self.wires.len(),
+                "a surface per polyline",
+                self.polyline_surfaces.len(),
+                self.polylines.len(),
             ),
             (
                 "starts of edges",
@@ -266,16 +266,18 @@ impl HalfEdgeMesh {
 
     fn check_wires(&self) -> Result<(), BrokenHalfEdges> {
         all(
-            "ends of a wire exist and differ",
-            self.wires.len(),
-            |wire| {
-                let [a, b] = self.wires[wire];
+            "ends of a polyline exist and differ",
+            self.polylines.len(),
+            |polyline| {
+                let [a, b] = self.polylines[polyline];
                 a != b && (a.max(b) as usize) < self.positions.len()
             },
         )?;
-        all("surfaces of wires exist", self.wires.len(), |wire| {
-            (self.wire_surfaces[wire] as usize) < self.surfaces.len()
-        })
+        all(
+            "surfaces of polylines exist",
+            self.polylines.len(),
+            |polyline| (self.polyline_surfaces[polyline] as usize) < self.surfaces.len(),
+        )
     }
 
     fn check_edges(&self) -> Result<(), BrokenHalfEdges> {
@@ -353,28 +355,28 @@ impl HalfEdgeMesh {
         )
     }
 
-    fn check_slivers(&self) -> Result<(), BrokenHalfEdges> {
+    fn check_degenerate_faces(&self) -> Result<(), BrokenHalfEdges> {
         let faces = self.faces.len() as u32;
         let listed = |face: u32| {
-            self.slivers
+            self.degenerate_faces
                 .binary_search_by_key(&face, |&[s, _]| s)
                 .is_ok()
         };
         let ascending = self
-            .slivers
+            .degenerate_faces
             .windows(2)
             .position(|pair| pair[0][0] >= pair[1][0]);
         if let Some(index) = ascending {
             return Err(BrokenHalfEdges {
-                promise: "slivers are ascending",
+                promise: "degenerate_faces are ascending",
                 index,
             });
         }
         all(
-            "slivers and their stand-ins are faces",
-            self.slivers.len(),
-            |sliver| {
-                let [face, stand_in] = self.slivers[sliver];
+            "degenerate_faces and their stand-ins are faces",
+            self.degenerate_faces.len(),
+            |degenerate_face| {
+                let [face, stand_in] = self.degenerate_faces[degenerate_face];
                 face < faces && (stand_in == NONE || stand_in < faces && !listed(stand_in))
             },
         )

@@ -4,9 +4,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::edges::Edge;
-use crate::fans::Fans;
 use crate::triangle::Triangle;
 use crate::union_find::UnionFind;
+use crate::vertex_fans::VertexFans;
 use crate::weld::Weld;
 
 /// Stands in where a shape has no direction of its own; any unit vector would do.
@@ -38,7 +38,7 @@ pub fn smooth_normals(
     triangles: &[[u32; 3]],
     weld: &Weld,
 ) -> Vec<[f32; 3]> {
-    let fans = Fans::new(triangles, weld);
+    let fans = VertexFans::new(triangles, weld);
     let weighted = weighted_normals(positions, triangles);
     (0..fans.count() as u32)
         .into_par_iter()

@@ -10,9 +10,9 @@ use npr_core::geometry::NONE;
 use rayon::prelude::*;
 
 use crate::crease::{SideNormals, cos_between};
-use crate::sides::Sides;
+use crate::half_edge_groups::Sides;
 use crate::weld::{Weld, weld};
-use crate::{sectors, slivers};
+use crate::{degenerate_faces, wedges};
 
 /// A mesh as stored, in the place where it is drawn.
 #[derive(Debug, Clone, Copy, Default)]
@@ -32,9 +32,9 @@ pub struct PlacedMesh<'a> {
     /// Ends of edges that the user wants drawn, as stored vertices.
     pub marks: &'a [[u32; 2]],
     /// Lines that are geometry themselves: the two stored vertices of every segment.
-    pub wires: &'a [[u32; 2]],
+    pub polylines: &'a [[u32; 2]],
     /// Index into [`HalfEdgeMesh::surfaces`] for every segment.
-    pub wire_surfaces: &'a [u32],
+    pub polyline_surfaces: &'a [u32],
     /// Placing turned the mesh inside out; two corners of every face are swapped to undo that.
     pub mirrored: bool,
 }
@@ -57,14 +57,14 @@ pub struct Preparation {
     /// Edges that the user marked.
     pub marked_count: usize,
     /// Segments of lines that are geometry themselves.
-    pub wire_count: usize,
+    pub polyline_count: usize,
     /// Such segments removed because their ends weld, an earlier one has the same ends, or an end or surface does not
     /// exist or is not finite.
     pub lost_wire_count: usize,
     /// Faces without area that are left, because they hold the surface together.
-    pub sliver_count: usize,
+    pub degenerate_face_count: usize,
     /// Those of them that found no face to take an orientation from.
-    pub lost_sliver_count: usize,
+    pub lost_degenerate_face_count: usize,
     /// Faces removed because two of their corners weld.
     pub collapsed_count: usize,
     /// Faces removed because an earlier one has the same corners.
@@ -93,9 +93,13 @@ impl Preparation {
             non_manifold_count: with(HalfEdgeMesh::NON_MANIFOLD),
             flipped_count: with(HalfEdgeMesh::FLIPPED),
             marked_count: with(HalfEdgeMesh::MARKED),
-            wire_count: shape.wires.len(),
-            sliver_count: shape.slivers.len(),
-            lost_sliver_count: shape.slivers.iter().filter(|s| s[1] == NONE).count(),
+            polyline_count: shape.polylines.len(),
+            degenerate_face_count: shape.degenerate_faces.len(),
+            lost_degenerate_face_count: shape
+                .degenerate_faces
+                .iter()
+                .filter(|s| s[1] == NONE)
+                .count(),
             ..Self::default()
         }
     }
@@ -115,10 +119,10 @@ impl AddAssign for Preparation {
         self.non_manifold_count += other.non_manifold_count;
         self.flipped_count += other.flipped_count;
         self.marked_count += other.marked_count;
-        self.wire_count += other.wire_count;
+        self.polyline_count += other.polyline_count;
         self.lost_wire_count += other.lost_wire_count;
-        self.sliver_count += other.sliver_count;
-        self.lost_sliver_count += other.lost_sliver_count;
+        self.degenerate_face_count += other.degenerate_face_count;
+        self.lost_degenerate_face_count += other.lost_degenerate_face_count;
         self.collapsed_count += other.collapsed_count;
         self.double_count += other.double_count;
         self.unsound_count += other.unsound_count;
@@ -344,7 +348,7 @@ fn pair_half_edges(part: &mut HalfEdgeMesh) {
         match *sides {
             [a, b] if part.edge_traits[edge as usize] & HalfEdgeMesh::FLIPPED == 0 => pair([a, b]),
             [_] | [_, _] => {}
-            _ => sectors::pair(part, edge).into_iter().for_each(pair),
+            _ => wedges::pair(part, edge).into_iter().for_each(pair),
         }
     };
     (0..part.edge_count() as u32)
@@ -355,12 +359,12 @@ fn pair_half_edges(part: &mut HalfEdgeMesh) {
     (part.twins, part.edge_of) = (numbers(twins), numbers(edge_of));
 }
 
-/// Finds slivers, angles and changes of material.
+/// Finds degenerate faces, angles and changes of material.
 fn measure(part: &mut HalfEdgeMesh, surfaces: &[Surface]) {
-    let mut normals = slivers::normals(part);
-    part.slivers = slivers::find(part, &normals);
-    for &[sliver, stand_in] in part.slivers.iter().filter(|s| s[1] != NONE) {
-        normals[sliver as usize] = normals[stand_in as usize];
+    let mut normals = degenerate_faces::normals(part);
+    part.degenerate_faces = degenerate_faces::find(part, &normals);
+    for &[degenerate_face, stand_in] in part.degenerate_faces.iter().filter(|s| s[1] != NONE) {
+        normals[degenerate_face as usize] = normals[stand_in as usize];
     }
     let measured = (0..part.edge_count() as u32).into_par_iter().map(|edge| {
         let sides = part.sides(edge);
@@ -451,27 +455,27 @@ fn mark(part: &mut HalfEdgeMesh, marks: &[[u32; 2]], weld: &Weld) -> usize {
     lost
 }
 
-/// Takes over the wires of a mesh, each pair of vertices once; gives the number of those that are left out.
+/// Takes over the polylines of a mesh, each pair of vertices once; gives the number of those that are left out.
 fn add_wires(
     part: &mut HalfEdgeMesh,
     mesh: &PlacedMesh<'_>,
     weld: &Weld,
     surface_count: usize,
 ) -> usize {
-    let mut known = HashSet::with_capacity(mesh.wires.len());
-    for (index, ends) in mesh.wires.iter().enumerate() {
-        let surface = mesh.wire_surfaces.get(index).copied().unwrap_or(NONE);
+    let mut known = HashSet::with_capacity(mesh.polylines.len());
+    for (index, ends) in mesh.polylines.iter().enumerate() {
+        let surface = mesh.polyline_surfaces.get(index).copied().unwrap_or(NONE);
         let exists = ends.iter().all(|end| is_sound(mesh, weld, *end, false));
         if !exists || surface as usize >= surface_count {
             continue;
         }
         let [a, b] = ends.map(|end| weld.of_vertex[end as usize]);
         if a != b && known.insert([a.min(b), a.max(b)]) {
-            part.wires.push([a, b]);
-            part.wire_surfaces.push(surface);
+            part.polylines.push([a, b]);
+            part.polyline_surfaces.push(surface);
         }
     }
-    mesh.wires.len() - part.wires.len()
+    mesh.polylines.len() - part.polylines.len()
 }
 
 /// The edge between two vertices, by bisection.
@@ -549,12 +553,12 @@ fn extend(shape: &mut HalfEdgeMesh, part: HalfEdgeMesh) {
         .extend(part.edge_sides.iter().map(|&h| h + half_edge));
     shape.dihedral_cos.extend(part.dihedral_cos);
     shape.edge_traits.extend(part.edge_traits);
-    let slivers = part
-        .slivers
+    let degenerate_faces = part
+        .degenerate_faces
         .iter()
         .map(|&[s, stand_in]| [s + face, moved(stand_in, face)]);
-    shape.slivers.extend(slivers);
-    let wires = part.wires.iter().map(|ends| ends.map(|v| v + vertex));
-    shape.wires.extend(wires);
-    shape.wire_surfaces.extend(part.wire_surfaces);
+    shape.degenerate_faces.extend(degenerate_faces);
+    let polylines = part.polylines.iter().map(|ends| ends.map(|v| v + vertex));
+    shape.polylines.extend(polylines);
+    shape.polyline_surfaces.extend(part.polyline_surfaces);
 }

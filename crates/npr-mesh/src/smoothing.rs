@@ -1,8 +1,8 @@
 //! Averaging a value over neighbouring vertices.
 
 use crate::edges::Edge;
-use crate::fans::Fans;
 use crate::triangle::Triangle;
+use crate::vertex_fans::VertexFans;
 use crate::weld::Weld;
 use rayon::prelude::*;
 
@@ -11,7 +11,7 @@ use rayon::prelude::*;
 /// Voronoi areas, or half and quarters in obtuse triangles [Meyer et al. 2003, 3.3]; they add up to
 /// the area of the mesh. They are the weights of [`smooth_curvature`].
 pub fn vertex_areas(positions: &[[f32; 3]], triangles: &[[u32; 3]], weld: &Weld) -> Vec<f32> {
-    let fans = Fans::new(triangles, weld);
+    let fans = VertexFans::new(triangles, weld);
     let corner_areas: Vec<[f64; 3]> = triangles
         .par_iter()
         .map(|&indices| Triangle::new(positions, indices).corner_areas())

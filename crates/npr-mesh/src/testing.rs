@@ -175,7 +175,7 @@ pub fn fan(blades: u32) -> Mesh {
     )
 }
 
-/// Random triangles over few vertices on a coarse grid: doubles, slivers, pinches and everything else.
+/// Random triangles over few vertices on a coarse grid: doubles, degenerate faces, pinches and everything else.
 pub fn random_soup(faces: usize, seed: u64) -> Mesh {
     let mut random = Random::new(seed);
     let vertices = faces / 3 + 4;

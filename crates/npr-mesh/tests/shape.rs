@@ -274,11 +274,11 @@ fn a_cap_takes_the_orientation_across_its_longest_edge() {
     ];
     let triangles = vec![[0, 1, 4], [1, 2, 4], [0, 4, 2], [0, 2, 3]];
     let (shape, preparation) = prepare(&Mesh::new(positions, triangles).unwrap());
-    assert_eq!(shape.slivers, [[2, 3]]);
-    assert_eq!(preparation.sliver_count, 1);
+    assert_eq!(shape.degenerate_faces, [[2, 3]]);
+    assert_eq!(preparation.degenerate_face_count, 1);
     assert_eq!(
         preparation.boundary_count, 4,
-        "the sliver holds the quad together"
+        "the degenerate_face holds the quad together"
     );
     assert!(shape.dihedral_cos.iter().all(|&cos| cos == 1.0));
 }
@@ -292,16 +292,16 @@ fn a_row_of_caps_is_crossed_to_the_end() {
         let mut triangles: Vec<[u32; 3]> = (1..n).map(|i| [0, i, i + 1]).collect();
         triangles.push([0, n, n + 1]);
         let (shape, preparation) = prepare(&Mesh::new(positions, triangles).unwrap());
-        assert_eq!(preparation.sliver_count as u32, n - 1);
-        for &[sliver, stand_in] in &shape.slivers {
-            let hops = n - 1 - sliver;
+        assert_eq!(preparation.degenerate_face_count as u32, n - 1);
+        for &[degenerate_face, stand_in] in &shape.degenerate_faces {
+            let hops = n - 1 - degenerate_face;
             assert_eq!(stand_in, if hops <= 8 { n - 1 } else { NONE });
         }
     }
 }
 
 #[test]
-fn a_sheet_of_nothing_but_slivers_is_lost() {
+fn a_sheet_of_nothing_but_degenerate_faces_is_lost() {
     let flat = npr_mesh::testing::mapped(&plane(6, 6), |[x, y, _]| [x + 2.0 * y, 0.0, 0.0]);
     let mut shape = surfaces(1);
     let of_face = vec![0; 72];
@@ -312,7 +312,7 @@ fn a_sheet_of_nothing_but_slivers_is_lost() {
     };
     let preparation = add_mesh(&mut shape, &mesh, 0.0);
     shape.sanity_check();
-    assert_eq!(preparation.lost_sliver_count, 72);
+    assert_eq!(preparation.lost_degenerate_face_count, 72);
     assert!(shape.dihedral_cos.iter().all(|&cos| cos == 1.0));
 }
 
@@ -553,12 +553,12 @@ proptest! {
     fn angles_are_those_between_normals(seed: u64, faces in 0usize..40) {
         let (mesh, materials) = jumble(seed, faces);
         let shape = prepare_jumble(&mesh, &materials);
-        let slivers: BTreeMap<u32, u32> = shape.slivers.iter().map(|s| (s[0], s[1])).collect();
+        let degenerate_faces: BTreeMap<u32, u32> = shape.degenerate_faces.iter().map(|s| (s[0], s[1])).collect();
         for face in 0..shape.faces.len() {
             let has_area = cross(&shape, face) != DVec3::ZERO;
-            prop_assert_eq!(has_area, !slivers.contains_key(&(face as u32)));
+            prop_assert_eq!(has_area, !degenerate_faces.contains_key(&(face as u32)));
         }
-        let normal = |side: u32| match slivers.get(&(side / 3)) {
+        let normal = |side: u32| match degenerate_faces.get(&(side / 3)) {
             Some(&NONE) => None,
             Some(&stand_in) => Some(cross(&shape, stand_in as usize).normalize()),
             None => Some(cross(&shape, side as usize / 3).normalize()),

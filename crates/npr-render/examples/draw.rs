@@ -1,7 +1,7 @@
 //! Draws a file in a preset: `cargo run --example draw -- model.glb out.png [preset] [key=value ..]`.
 
 use npr_gpu::processor::Processor;
-use npr_render::{Model, Stage, StageOptions};
+use npr_render::{Model, Renderer, RendererOptions};
 use npr_stylesheet::Style;
 use std::time::Instant;
 
@@ -34,9 +34,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         [(_, camera), ..] => *camera,
         [] => model.framing(16.0 / 9.0, 0.7),
     };
-    let mut stage = Stage::new(&Processor, &model, &style, &StageOptions::new(size))?;
-    stage.draw(&camera)?;
-    let frame = stage.draw(&camera)?;
+    let mut renderer = Renderer::new(&Processor, &model, &style, &RendererOptions::new(size))?;
+    renderer.draw(&camera)?;
+    let frame = renderer.draw(&camera)?;
     for pass in &frame.times {
         eprintln!("{:24} {:?}", pass.name, pass.time);
     }

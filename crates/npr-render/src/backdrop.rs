@@ -4,7 +4,9 @@ use crate::blueprint::Method;
 use crate::frame::Frame;
 use crate::model::PartInfo;
 use npr_core::color::{linear_from_srgb, linear_rgba, srgb_from_linear, unpack_rgba8};
-use npr_style::backdrop::{LEAN_MOST, Minding, RULES_MAX, Rule, Rules, SMOOTH_MOST, TILE, Wearer};
+use npr_style::backdrop::{
+    BIAS_REACH_MOST, ContrastCache, PartSubject, RULES_MAX, Rule, Rules, SMOOTH_MOST, TILE,
+};
 use npr_style::compose::Compose;
 use npr_stylesheet::{BackgroundMethod, Style, Subjects};
 use std::collections::BTreeMap;
@@ -17,7 +19,7 @@ const FADE_PX: f32 = 3.0;
 
 /// How much longer the stretches are that decide together which way their lines move than those over which colours
 /// are blended.
-const LEAN_OF_SMOOTH: f32 = 12.0;
+const BIAS_OF_SMOOTH: f32 = 12.0;
 
 /// The subject whose parts are the background of all others.
 const BACKGROUND: &str = "background";
@@ -37,7 +39,7 @@ enum SubjectKey<'a> {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Backdrop {
     /// One for every part.
-    pub wearers: Vec<Wearer>,
+    pub part_subjects: Vec<PartSubject>,
     rules: [Rule; RULES_MAX],
     /// Whether any part follows a rule.
     pub is_on: bool,
@@ -66,15 +68,16 @@ impl Backdrop {
                 true => 0,
                 false => *subjects.entry(key).or_insert(next),
             };
-            let minds = look.line_background.method != BackgroundMethod::Off && look.line_on;
-            let rule = match minds && subject != 0 {
+            let contrast = look.line_background.method != BackgroundMethod::Off && look.line_on;
+            let rule = match contrast && subject != 0 {
                 true => made.number_of(look.line_background.rule(), &mut rule_count),
                 false => 0,
             };
             made.is_on |= rule != 0;
-            made.wearers.push(Wearer { subject, rule });
+            made.part_subjects.push(PartSubject { subject, rule });
         }
-        made.wearers.resize(part_count, Wearer::default());
+        made.part_subjects
+            .resize(part_count, PartSubject::default());
         made
     }
 
@@ -120,7 +123,7 @@ impl Backdrop {
         Rules {
             rules: self.rules,
             smooth_px: smooth.min(SMOOTH_MOST as f32),
-            lean_px: (LEAN_OF_SMOOTH * smooth).min((LEAN_MOST * TILE) as f32),
+            bias_px: (BIAS_OF_SMOOTH * smooth).min((BIAS_REACH_MOST * TILE) as f32),
             whole_px,
             reach_px: (whole_px + FADE_PX).ceil() as u32,
             hold: background.hold,
@@ -178,7 +181,7 @@ impl Sides {
             texels(lines),
         );
         let sides = fronts.iter().zip(&backs);
-        let mut minding = Minding::default();
+        let mut contrast_cache = ContrastCache::default();
         for ((under, line), (front, back)) in rgba.chunks_exact_mut(4).zip(&lines).zip(sides) {
             if line[3] == 0 {
                 continue;
@@ -188,7 +191,8 @@ impl Sides {
             if front[3] != 0 {
                 let sides = [front, back].map(|texel| u32::from_le_bytes(*texel));
                 let light_of = |texel| linear_rgba(unpack_rgba8(texel));
-                let light = minding.light(color.map(linear_from_srgb), sides, rules, light_of);
+                let light =
+                    contrast_cache.light(color.map(linear_from_srgb), sides, rules, light_of);
                 color = light.map(srgb_from_linear);
             }
             blend(under, color, alpha);

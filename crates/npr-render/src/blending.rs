@@ -4,7 +4,7 @@ use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::model::Model;
 use crate::pictures::Pictures;
-use crate::stage::{Stage, StageOptions};
+use crate::renderer::{Renderer, RendererOptions};
 use npr_core::camera::Camera;
 use npr_core::color::SrgbEncoder;
 use npr_core::texture::{TextureStore, Wrap, linear_texel, sample};
@@ -15,7 +15,7 @@ use npr_stylesheet::blend::blend;
 
 /// The look that shows through another one.
 pub(crate) struct Blending<'a> {
-    other: Box<Stage<'a>>,
+    other: Box<Renderer<'a>>,
     share: Share,
 }
 
@@ -34,17 +34,17 @@ impl<'a> Blending<'a> {
         engine: &dyn Engine,
         model: &'a Model,
         style: &Style,
-        options: &StageOptions,
+        options: &RendererOptions,
         planned_bytes: u64,
     ) -> Result<Option<Self>, RenderError> {
         if !style.blend.shows() {
             return Ok(None);
         }
-        let left = StageOptions {
+        let left = RendererOptions {
             memory_limit: options.memory_limit - planned_bytes,
             ..options.clone()
         };
-        let other = Stage::new(engine, model, &style.blended_with()?, &left)?;
+        let other = Renderer::new(engine, model, &style.blended_with()?, &left)?;
         let mut store = TextureStore::new();
         let mask = if style.blend.mask.is_empty() {
             None

@@ -11,12 +11,12 @@ use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::Format;
 use npr_gpu::passes::{backdrop, line, mesh, raster, shade};
 use npr_mesh::pose::Matrix;
-use npr_style::backdrop::{Lean, Rim, Rules, TILE, TileRims, Wearer};
+use npr_style::backdrop::{ContrastBias, PartSubject, Rim, Rules, TILE, TileRims};
 use npr_style::compose::Compose;
 use npr_style::lighting::Lights;
 use npr_style::shadow::{SHADOW_SIDE, SHADOWS_MAX};
 use npr_stylesheet::{LineMethod, Style};
-use npr_vector::residual::tile_count;
+use npr_vector::screen::residual::tile_count;
 
 /// Numbers of elements that decide buffer sizes.
 #[derive(Debug, Clone, Copy, Default)]
@@ -66,7 +66,7 @@ pub(crate) struct Method {
     /// Pixels around subjects are drawn.
     pub rim: bool,
     /// Borders between subjects are found: some lines mind what lies behind them.
-    pub minds: bool,
+    pub contrast: bool,
     /// Layers that the last pass lays over the surfaces.
     pub layers: u32,
 }
@@ -82,7 +82,7 @@ impl Method {
         paints: false,
         light_widths: false,
         rim: false,
-        minds: false,
+        contrast: false,
         layers: 0,
     };
 
@@ -103,7 +103,7 @@ impl Method {
             paints: self.paints || other.paints,
             light_widths: self.light_widths || other.light_widths,
             rim: self.rim || other.rim,
-            minds: self.minds || other.minds,
+            contrast: self.contrast || other.contrast,
             layers: self.layers | other.layers,
         }
     }
@@ -198,9 +198,9 @@ pub(crate) struct BackdropPlan {
     pub tile_window: ResourceId,
     /// Settings of the picture without lines.
     pub bare_compose: ResourceId,
-    pub wearers: ResourceId,
+    pub part_subjects: ResourceId,
     /// Which way lines moved in the frame before.
-    pub kept_leans: ResourceId,
+    pub kept_biases: ResourceId,
 }
 
 impl Blueprint {
@@ -225,7 +225,7 @@ impl Blueprint {
             let (window, surfaces) = (plan.output_window, plan.shadow_depths);
             plan.smoke = Some(SmokePlan::new(&mut plan.graph, needs, window, surfaces));
         }
-        if method.rim || method.minds {
+        if method.rim || method.contrast {
             plan.find_rims(counts, grids, method);
         }
         plan.compose_frame(
@@ -254,7 +254,7 @@ impl Blueprint {
         }
         let overlay = method.residual || method.filter || method.rim;
         let overlay = pixel_count(only(overlay, grids.output));
-        let sides = only(method.rim || method.minds, grids.output);
+        let sides = only(method.rim || method.contrast, grids.output);
         Self {
             view: graph.uniform::<View>("view"),
             output_window: graph.uniform::<Window>("output window"),
@@ -538,8 +538,10 @@ impl Blueprint {
         let plan = BackdropPlan {
             tile_window: self.graph.uniform::<Window>("tile window"),
             bare_compose: self.graph.uniform::<Compose>("bare compose"),
-            wearers: self.graph.buffer::<Wearer>("wearers", counts.parts),
-            kept_leans: self.graph.buffer::<Lean>("kept leans", tile_count),
+            part_subjects: self
+                .graph
+                .buffer::<PartSubject>("part_subjects", counts.parts),
+            kept_biases: self.graph.buffer::<ContrastBias>("kept biases", tile_count),
         };
         let [ids, depths] = self.bare_ids(grids, method);
         let busy = self.graph.image("busy", Format::Rgba8, tiles);
@@ -548,9 +550,11 @@ impl Blueprint {
         let smoothed = self.graph.buffer::<Rim>("smoothed rims", pixels);
         let columns = self.graph.buffer::<u32>("columns", pixels);
         let gathered = self.graph.buffer::<TileRims>("gathered", tile_count);
-        let bounds = self.graph.buffer::<Lean>("bounds", tile_count);
-        let leans = self.graph.buffer::<Lean>("leans", tile_count);
-        let blended = self.graph.buffer::<Lean>("blended leans", tile_count);
+        let bounds = self.graph.buffer::<ContrastBias>("bounds", tile_count);
+        let biases = self.graph.buffer::<ContrastBias>("biases", tile_count);
+        let blended = self
+            .graph
+            .buffer::<ContrastBias>("blended biases", tile_count);
         let (window, rules) = (self.output_window, self.rules);
         let flag = [
             plan.tile_window,
@@ -558,7 +562,7 @@ impl Blueprint {
             rules,
             ids,
             self.triangles,
-            plan.wearers,
+            plan.part_subjects,
         ];
         self.graph.draw(&backdrop::FLAG_TILES, &flag, &[busy], true);
         self.compose_frame(plan.bare_compose, ids, [busy; 2], bare);
@@ -572,7 +576,7 @@ impl Blueprint {
             self.ribbons,
             self.triangles,
             self.parts,
-            plan.wearers,
+            plan.part_subjects,
             bare,
             self.overlay,
             rims,
@@ -588,10 +592,10 @@ impl Blueprint {
         self.graph.compute(&backdrop::GATHER_TILES, &gather);
         self.graph
             .compute(&backdrop::BOUND_TILES, &[window, rules, gathered, bounds]);
-        let lean = [window, rules, gathered, bounds, plan.kept_leans, leans];
-        self.graph.compute(&backdrop::LEAN_TILES, &lean);
-        let blend = [window, rules, leans, plan.kept_leans, blended];
-        self.graph.compute(&backdrop::BLEND_LEANS, &blend);
+        let bias = [window, rules, gathered, bounds, plan.kept_biases, biases];
+        self.graph.compute(&backdrop::VOTE_BIAS, &bias);
+        let blend = [window, rules, biases, plan.kept_biases, blended];
+        self.graph.compute(&backdrop::BLEND_BIASES, &blend);
         self.graph
             .compute(&backdrop::SPREAD_ROWS, &[window, rules, smoothed, columns]);
         let (spread, sides) = (

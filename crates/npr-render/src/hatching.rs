@@ -45,7 +45,7 @@ pub(crate) struct Inked {
     /// Stroke charts, a triangle each; empty where no part is hatched along its surface.
     pub charts: Vec<ChartCorners>,
     /// How badly strokes lie around each vertex, 0..1; empty where charts are. Charts that follow the light have none.
-    pub knots: Vec<f32>,
+    pub chart_distortions: Vec<f32>,
     /// What was done in another way than the style asks, for the user.
     pub notices: Vec<String>,
     /// What strokes run along.
@@ -100,11 +100,11 @@ pub(crate) fn add_ink(
 fn notices_of(model: &Model, inks: &[Ink], guides: &Guides, parts: &[Part]) -> Vec<String> {
     let on_surface = |i: &usize| parts[*i].flags & Part::ON_SURFACE != 0;
     let surfaces: Vec<usize> = (0..inks.len()).filter(on_surface).collect();
-    let first = |is_odd: &dyn Fn(usize) -> bool, told: &str| {
+    let first = |is_odd: &dyn Fn(usize) -> bool, reported: &str| {
         let found = surfaces.iter().find(|i| is_odd(**i))?;
         let name = &model.parts[*found].object_name;
         Some(format!(
-            "hatching follows the surface of '{name}' and others: {told}"
+            "hatching follows the surface of '{name}' and others: {reported}"
         ))
     };
     [
@@ -260,12 +260,12 @@ fn set_paint(part: &mut Part, strength: f32, tinted: bool) {
     }
 }
 
-/// Error of a chart from which strokes begin to look knotted, and from which they are.
-const KNOT_ERRORS: [f32; 2] = [0.35, 0.75];
+/// Error of a chart from which strokes begin to look distorted, and from which they are.
+const DISTORTION_ERRORS: [f32; 2] = [0.35, 0.75];
 
 /// How badly strokes lie around each vertex, 0..1: by the mean error of the triangles there, which may be empty for
 /// none.
-fn knots_of(model: &Model, errors: &[f32]) -> Vec<f32> {
+fn chart_distortions_of(model: &Model, errors: &[f32]) -> Vec<f32> {
     let mut sums = vec![
         [0.0f32; 2];
         if errors.is_empty() {
@@ -280,10 +280,10 @@ fn knots_of(model: &Model, errors: &[f32]) -> Vec<f32> {
             (*sum, *count) = (*sum + error, *count + 1.0);
         }
     }
-    let [from, to] = KNOT_ERRORS;
-    let knot =
+    let [from, to] = DISTORTION_ERRORS;
+    let chart_distortion =
         |[sum, count]: [f32; 2]| ((sum / count.max(1.0) - from) / (to - from)).clamp(0.0, 1.0);
-    sums.into_iter().map(knot).collect()
+    sums.into_iter().map(chart_distortion).collect()
 }
 
 fn on_surface(part: &Part) -> bool {
@@ -310,7 +310,7 @@ impl Inked {
         if parts.iter().any(on_surface) {
             self.charts = vec![ChartCorners::default(); model.triangles.len()];
             let errors = self.add_charts(model, style, &surfaces, parts, None);
-            self.knots = knots_of(model, &errors);
+            self.chart_distortions = chart_distortions_of(model, &errors);
         }
     }
 

@@ -206,7 +206,7 @@ fn place_of(said: &npr_stylesheet::Lettering, view: &View) -> Option<([f32; 2], 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Model, Stage, StageOptions};
+    use crate::{Model, Renderer, RendererOptions};
     use npr_core::camera::{Camera, Projection};
     use npr_drawing::lettering::testing::block_font;
     use npr_gpu::processor::Processor;
@@ -318,13 +318,14 @@ mod tests {
         let fonts =
             BTreeMap::from([("a.ttf".to_owned(), Font::new(block_font()).expect("a font"))]);
         let picture = |tile_pixels| {
-            let options = StageOptions {
+            let options = RendererOptions {
                 fonts: fonts.clone(),
                 tile_pixels,
-                ..StageOptions::new([160, 120])
+                ..RendererOptions::new([160, 120])
             };
-            let mut stage = Stage::new(&Processor, &model, &style, &options).expect("a stage");
-            stage.draw(&camera()).expect("a picture")
+            let mut renderer =
+                Renderer::new(&Processor, &model, &style, &options).expect("a stage");
+            renderer.draw(&camera()).expect("a picture")
         };
         let whole = picture(1 << 22);
         assert_eq!(whole.rgba, picture(4096).rgba);
@@ -343,18 +344,18 @@ mod tests {
             ..Style::default()
         };
         let fonts = [("a.ttf".to_owned(), Font::new(block_font()).expect("a font"))].into();
-        let told = |font| {
+        let reported = |font| {
             Lettering::new(&style(font), &fonts)
                 .expect("words")
                 .notices()
                 .to_vec()
         };
         assert_eq!(
-            told("a.ttf"),
+            reported("a.ttf"),
             ["lettering.0: the font lacks 'x', which is left out"]
         );
         assert_eq!(
-            told("b.ttf"),
+            reported("b.ttf"),
             ["lettering.0 is left out: its font was not given"]
         );
     }
@@ -393,12 +394,12 @@ mod tests {
             ..Style::default()
         };
         let model = Model::new(&board(0.0, board_z)).expect("a board");
-        let options = StageOptions {
+        let options = RendererOptions {
             fonts: [("a.ttf".to_owned(), Font::new(block_font()).expect("a font"))].into(),
-            ..StageOptions::new([160, 120])
+            ..RendererOptions::new([160, 120])
         };
-        let mut stage = Stage::new(engine, &model, &style, &options).expect("a stage");
-        let frame = stage.draw(&camera()).expect("a picture");
+        let mut renderer = Renderer::new(engine, &model, &style, &options).expect("a stage");
+        let frame = renderer.draw(&camera()).expect("a picture");
         let yellow = bytes_of(style.lettering[0].color);
         let pixels = frame.rgba.as_chunks::<4>().0.iter().enumerate();
         let words = pixels.filter(|(_, pixel)| **pixel == yellow);

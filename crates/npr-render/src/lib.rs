@@ -1,19 +1,19 @@
 //! Scene and style in, drawing out.
 //!
-//! [`Model::new`] prepares a scene once: welds it, finds its edges and curvature. A [`Stage`] joins a model with a
-//! style and a frame size on an engine, and [`Stage::draw`] makes a picture for a camera, as often as wanted.
+//! [`Model::new`] prepares a scene once: welds it, finds its edges and curvature. A [`Renderer`] joins a model with a
+//! style and a frame size on an engine, and [`Renderer::draw`] makes a picture for a camera, as often as wanted.
 //! [`Smoke`] among its options is drawn with it, or alone with a model of an empty scene. [`LineModel`] draws the
-//! same scene as curves instead; a [`LineStage`] lets a device do its part.
+//! same scene as curves instead; a [`LineRenderer`] lets a device do its part.
 //!
 //! ```
 //! use npr_core::camera::Camera;
 //! use npr_gpu::processor::Processor;
-//! use npr_render::{Model, Stage, StageOptions};
+//! use npr_render::{Model, Renderer, RendererOptions};
 //! use npr_scene::Scene;
 //! use npr_stylesheet::Style;
 //!
 //! let model = Model::new(&Scene::default())?;
-//! let mut stage = Stage::new(&Processor, &model, &Style::default(), &StageOptions::new([64, 36]))?;
+//! let mut stage = Renderer::new(&Processor, &model, &Style::default(), &RendererOptions::new([64, 36]))?;
 //! let frame = stage.draw(&Camera::framing([-1.0; 3], [1.0; 3]))?;
 //! assert_eq!(frame.rgba.len(), 64 * 36 * 4);
 //! # Ok::<(), npr_render::RenderError>(())
@@ -42,10 +42,10 @@ mod model;
 mod pictures;
 mod placement;
 mod puffs;
+mod renderer;
 mod sky;
 mod smoke;
-mod stage;
-mod streaks;
+mod speed_lines;
 mod surfaces;
 mod textures;
 mod tiles;
@@ -57,13 +57,13 @@ pub use frame::Frame;
 pub use id_map::apply_id_maps;
 pub use lettering::Lettering;
 pub use lines::{
-    KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage, PaintedLines,
+    KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer, PaintedLines,
 };
 pub use model::{Model, PartInfo};
 pub use npr_core::smoke::Sphere;
 pub use npr_drawing::lettering::Font;
 pub use npr_vector::stroke::{Drawing, Kind};
 pub use puffs::Following;
+pub use renderer::{Picture, Renderer, RendererOptions};
 pub use smoke::Smoke;
-pub use stage::{Picture, Stage, StageOptions};
 pub use volume::{UpAxis, VolumeFault, VolumeFile, VolumeOptions};

@@ -4,8 +4,8 @@ use crate::beam_light::beam_lights;
 use crate::look;
 use crate::model::Model;
 use crate::placement::{Bounds, radius_of};
+use crate::renderer::Picture;
 use crate::sky;
-use crate::stage::Picture;
 use glam::{Mat4, Vec3};
 use npr_core::camera::{Camera, box_corners};
 use npr_core::light_view::{Matrix, distant_view, spot_view};
@@ -456,8 +456,11 @@ mod tests {
                 .all(|light| light.source.intensity >= 0.97)
         );
         assert_eq!(chosen.shadow_count(), SHADOWS_MAX);
-        let told = chosen.notice().unwrap();
-        assert_eq!(told, "only the 16 strongest lights shine, 484 are left out");
+        let reported = chosen.notice().unwrap();
+        assert_eq!(
+            reported,
+            "only the 16 strongest lights shine, 484 are left out"
+        );
         let plain = ChosenLights::new(&Style::default(), &model, &BTreeMap::new());
         assert_eq!(plain.notice(), None);
     }

@@ -2,7 +2,7 @@
 
 use crate::error::RenderError;
 use crate::model::PartInfo;
-use crate::stage::Picture;
+use crate::renderer::Picture;
 use npr_core::color::pack_rgba8;
 use npr_core::geometry::{NONE, Part};
 use npr_core::texture::{TextureStore, Wrap};

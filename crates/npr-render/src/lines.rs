@@ -4,19 +4,19 @@ mod assembly;
 mod colors;
 mod finder;
 mod image;
-mod minding;
 mod options;
 mod paint;
 mod pixels;
+mod renderer;
 mod smoke;
-mod stage;
+mod stroke_contrast;
 mod texture_map;
 mod tones;
 mod welded;
 mod widths;
 
 pub use options::{KindSet, LineMethod, LineModelOptions, LineOptions, PaintedLines};
-pub use stage::LineStage;
+pub use renderer::LineRenderer;
 
 use crate::error::RenderError;
 use crate::frame::Frame;
@@ -25,13 +25,12 @@ use crate::light::{self, FileLight};
 use crate::look;
 use crate::model::{Model, PartInfo};
 use crate::placement::{self, Bounds};
+use crate::renderer::{Picture, check_size};
 use crate::smoke::Smoke;
-use crate::stage::{Picture, check_size};
 use assembly::Assembly;
 use colors::{ColorInput, StrokeColors};
 use finder::{Finder, OnProcessor};
 use glam::Vec3;
-use minding::Minding;
 use npr_core::budget::{Budget, OverBudget};
 use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
@@ -39,22 +38,23 @@ use npr_core::geometry::Part;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_scene::Scene;
 use npr_stylesheet::{Look, Style};
-use npr_vector::bvh::FaceTree;
-use npr_vector::contour::EdgeContours;
-use npr_vector::draw::{
+use npr_vector::mesh_lines::bvh::FaceTree;
+use npr_vector::mesh_lines::contour::EdgeContours;
+use npr_vector::mesh_lines::draw::{
     FindCrossings, LineSettings, PointPaint, Prepared, StrokeLook, ViewStrokes, eye_of,
     strokes_with,
 };
-use npr_vector::intersect::{Crossings, crossings};
+use npr_vector::mesh_lines::intersect::{Crossings, crossings};
+use npr_vector::mesh_lines::puff::{SilhouettePoint, SmokeLines};
+use npr_vector::mesh_lines::run::RunPoint;
 use npr_vector::project::Projector;
-use npr_vector::puff::{RimPoint, SmokeLines};
-use npr_vector::run::RunPoint;
 use npr_vector::stroke::{Drawing, Kind, Stroke};
 use paint::Paint;
 use smoke::SmokeView;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use stroke_contrast::StrokeContrast;
 use texture_map::TextureMap;
 use welded::{build, check_budget, colors_of, mark_materials, notices_of};
 use widths::{ShapeBends, WidthInput, Widths};
@@ -71,7 +71,7 @@ const POINT_LIMIT: u64 = 20_000_000;
 /// half), and by `"extras": {"npr": {"lines": true}}` in a material (wherever it meets another material). They are of
 /// kind [`Kind::Marked`], and drawn whatever kinds are asked for. So are lines that a file has as geometry: linked
 /// where two segments meet, hidden by the surfaces before them and shown where they lie on one (within
-/// [`npr_vector::wire::TOUCH_SHARE`]).
+/// [`npr_vector::mesh_lines::polyline::TOUCH_SHARE`]).
 #[derive(Debug)]
 pub struct LineModel {
     shape: HalfEdgeMesh,
@@ -224,7 +224,7 @@ impl LineModel {
     /// Line colours (`line.paint` with them, for every point of a stroke), width factors and whether a part has lines
     /// at all follow the style's rules; kinds and the crease angle are those of the options
     /// ([`LineOptions::of_style`] takes them from the style). Width source `texture` counts as full. What lies behind
-    /// lines takes a picture of it: [`LineStage::with_backdrop`] lets them mind it. Strokes of the same lines keep
+    /// lines takes a picture of it: [`LineRenderer::with_backdrop`] lets them mind it. Strokes of the same lines keep
     /// their ids from camera to camera. Of a scene out of sight the drawing is empty.
     ///
     /// The first drawing with a crease angle also prepares creases and, where they are wanted, intersections; every
@@ -340,22 +340,28 @@ impl LineModel {
             find.contours(&eye_of(&self.shape, &projector))?
         };
         let prepared = self.prepared(options)?;
-        let mist = match smoke {
+        let smoke_layer = match smoke {
             Some((smoke, _)) => Some(self.smoke_view(wanted, smoke, &projector, bounds)?),
             None => None,
         };
-        let width_at = |point: &RimPoint| mist.as_ref().map_or(0.0, |mist| mist.width_at(point));
+        let width_at = |point: &SilhouettePoint| {
+            smoke_layer
+                .as_ref()
+                .map_or(0.0, |smoke_layer| smoke_layer.width_at(point))
+        };
         let is_drawn = smoke.is_some_and(|(_, is_drawn)| is_drawn);
-        let smoke_lines = mist.as_ref().map(|mist| mist.lines(is_drawn, &width_at));
+        let smoke_lines = smoke_layer
+            .as_ref()
+            .map(|smoke_layer| smoke_layer.lines(is_drawn, &width_at));
         let colors = match colors::is_painted(style) {
             true => Some(self.colors(wanted, &prepared, &contours, pictures)?),
             false => None,
         };
-        let minding = match behind {
+        let stroke_contrast = match behind {
             Some(picture) => {
                 let seen = (&self.shape, &prepared.tree);
                 let px = self.px(options);
-                Minding::new(seen, &projector, picture, &self.parts, style, px)
+                StrokeContrast::new(seen, &projector, picture, &self.parts, style, px)
             }
             None => None,
         };
@@ -366,7 +372,7 @@ impl LineModel {
             bounds,
             smoke: smoke_lines.as_ref(),
             colors: colors.as_ref(),
-            changes: minding.is_some(),
+            changes: stroke_contrast.is_some(),
         };
         let paint = Paint::new(&self.parts, style, has_lines);
         let ViewStrokes {
@@ -374,8 +380,8 @@ impl LineModel {
             left_out,
         } = self.strokes(&prepared, &view, (style, options), &paint, find)?;
         paint.apply(&mut strokes);
-        if let Some(minding) = minding {
-            minding.apply(&mut strokes, &|surface| paint.line_color(surface));
+        if let Some(stroke_contrast) = stroke_contrast {
+            stroke_contrast.apply(&mut strokes, &|surface| paint.line_color(surface));
         }
         check_points(&strokes)?;
         let regions = if options.fill {
@@ -385,15 +391,15 @@ impl LineModel {
                 &projector,
                 options.size,
                 &strokes,
-                mist.as_ref().filter(|_| is_drawn),
+                smoke_layer.as_ref().filter(|_| is_drawn),
             )?
         } else {
             Vec::new()
         };
         let mut surfaces = paint.into_surfaces(&self.parts);
         let object_number = surfaces.iter().map(|s| s.object_number + 1).max();
-        if let Some(mist) = mist.filter(|_| is_drawn) {
-            surfaces.extend(mist.surfaces(object_number.unwrap_or(0)));
+        if let Some(smoke_layer) = smoke_layer.filter(|_| is_drawn) {
+            surfaces.extend(smoke_layer.surfaces(object_number.unwrap_or(0)));
         }
         Ok(Drawing {
             size: options.size,

@@ -5,8 +5,8 @@ use crate::hatching::{FrameScale, Inked, add_ink};
 use crate::line_colors::add_line_colors;
 use crate::model::{Model, PartInfo};
 use crate::pictures::{Pictures, add_tone_rows};
+use crate::renderer::RendererOptions;
 use crate::sky::SkyMaps;
-use crate::stage::StageOptions;
 use glam::Vec3;
 use npr_core::camera::Camera;
 use npr_core::color::{pack_rgba8, srgb_from_linear};
@@ -40,7 +40,11 @@ pub(crate) struct StyledModel {
 }
 
 impl StyledModel {
-    pub fn new(model: &Model, style: &Style, options: &StageOptions) -> Result<Self, RenderError> {
+    pub fn new(
+        model: &Model,
+        style: &Style,
+        options: &RendererOptions,
+    ) -> Result<Self, RenderError> {
         let pictures = Pictures::new(style, &options.pictures)?;
         let mut textures = model.textures.clone();
         let background = options
@@ -90,7 +94,7 @@ impl StyledModel {
         let smoke_part = smoke.is_some().then_some(parts.len() as u32);
         parts.extend(smoke);
         Ok(Self {
-            vertices: styled_vertices(model, style, options, &inked.knots),
+            vertices: styled_vertices(model, style, options, &inked.chart_distortions),
             parts,
             smoke_part,
             inked,
@@ -235,13 +239,13 @@ fn ramp(look: &Look<'_>) -> [[f32; 4]; 8] {
     rows
 }
 
-/// Vertices with the width that the style's source gives them, their colour where the style shows it, and the knots
-/// of strokes.
+/// Vertices with the width that the style's source gives them, their colour where the style shows it, and the chart
+/// distortions of strokes.
 fn styled_vertices(
     model: &Model,
     style: &Style,
-    options: &StageOptions,
-    knots: &[f32],
+    options: &RendererOptions,
+    chart_distortions: &[f32],
 ) -> Vec<Vertex> {
     let width = VertexWidth::new(model, style, options);
     let shows_colors = style.shade.use_vertex_colors;
@@ -256,7 +260,7 @@ fn styled_vertices(
             Vertex {
                 width: width.at(i),
                 color,
-                knot: knots.get(i).copied().unwrap_or_default(),
+                chart_distortion: chart_distortions.get(i).copied().unwrap_or_default(),
                 ..*vertex
             }
         })
@@ -272,7 +276,7 @@ struct VertexWidth<'a> {
 }
 
 impl<'a> VertexWidth<'a> {
-    fn new(model: &'a Model, style: &'a Style, options: &StageOptions) -> Self {
+    fn new(model: &'a Model, style: &'a Style, options: &RendererOptions) -> Self {
         let image = options.width_image.as_ref().and_then(|image| {
             let mut store = TextureStore::new();
             let start = store.add(image.size, &image.rgba, [Wrap::Repeat; 2])?;

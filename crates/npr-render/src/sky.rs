@@ -2,7 +2,7 @@
 
 use crate::model::Model;
 use crate::placement::radius_of;
-use crate::stage::Picture;
+use crate::renderer::Picture;
 use crate::textures::STORE_WORDS;
 use glam::Vec3;
 use npr_core::cutout::Cutout;

@@ -5,7 +5,7 @@ use crate::hatching::TILE_RADII;
 use crate::placement::{Bounds, bounds_of, radius_of};
 use glam::Vec3;
 use npr_core::camera::Camera;
-use npr_core::smoke::{Ball, Lens, REACH, SmokePixel, Sphere};
+use npr_core::smoke::{REACH, SmokePixel, Sphere, SphereView, ViewSphere};
 use npr_core::window::{View, Window};
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::Format;
@@ -234,7 +234,7 @@ impl Measure {
     pub fn look(
         &self,
         style: &Style,
-        lens: &Lens,
+        lens: &SphereView,
         bounds: Bounds,
         lights: &Lights,
         surface_maps: u32,
@@ -314,7 +314,7 @@ pub(crate) fn hang_sheet(
     style: &SmokeStyle,
     view: &View,
 ) {
-    let (lens, bounds) = (Lens::of_view(view), smoke.bounds());
+    let (lens, bounds) = (SphereView::of_view(view), smoke.bounds());
     let offset = (Vec3::from(bounds.0) + Vec3::from(bounds.1)) * 0.5 - Vec3::from(lens.eye_world);
     let [x, y, z] = [lens.right_world, lens.up_world, lens.forward_world]
         .map(|axis| offset.dot(Vec3::from(axis)));
@@ -330,7 +330,7 @@ fn flag(on: bool, bit: u32) -> u32 {
 }
 
 /// Towards the first light from the middle of the smoke, in axes of the picture; towards the eye without lights.
-fn towards_light(lights: &Lights, lens: &Lens, center: Vec3) -> [f32; 3] {
+fn towards_light(lights: &Lights, lens: &SphereView, center: Vec3) -> [f32; 3] {
     if lights.count == 0 {
         return [0.0, 0.0, -1.0];
     }
@@ -339,10 +339,10 @@ fn towards_light(lights: &Lights, lens: &Lens, center: Vec3) -> [f32; 3] {
 }
 
 /// The eye of a frame as it looks at smoke.
-pub(crate) fn lens_of(view: &View, style: &SmokeStyle) -> Lens {
-    Lens {
+pub(crate) fn lens_of(view: &View, style: &SmokeStyle) -> SphereView {
+    SphereView {
         discs: f32::from(style.method == SmokeMethod::Billboards),
-        ..Lens::of_view(view)
+        ..SphereView::of_view(view)
     }
 }
 
@@ -384,15 +384,15 @@ impl SmokePlan {
             false => [1, 1],
         };
         Self {
-            lens: graph.uniform::<Lens>("lens"),
+            lens: graph.uniform::<SphereView>("lens"),
             look: graph.uniform::<SmokeLook>("smoke look"),
             lights: graph.uniform::<Lights>("smoke lights"),
             light_lenses: (0..needs.lights)
-                .map(|_| graph.uniform::<Lens>("light lens"))
+                .map(|_| graph.uniform::<SphereView>("light lens"))
                 .collect(),
             light_window: graph.uniform::<Window>("light window"),
             spheres: graph.buffer::<Sphere>("spheres", needs.spheres),
-            balls: graph.buffer::<Ball>("balls", needs.spheres),
+            balls: graph.buffer::<ViewSphere>("balls", needs.spheres),
             colors: graph.image("smoke colors", Format::Rgba8, needs.size),
             depths: graph.image("smoke depths", Format::U32, needs.size),
             light_ids: std::array::from_fn(|i| graph.image("smoke light", Format::U32, side(i))),

@@ -390,11 +390,11 @@ pub fn mended_notice(mended: Mended) -> Option<String> {
         (mended.velocity, "velocities that are no numbers"),
         (mended.temperature, "temperatures that are no numbers"),
     ];
-    let told = parts.iter().filter(|(count, _)| *count > 0);
-    let told: Vec<String> = told
+    let reported = parts.iter().filter(|(count, _)| *count > 0);
+    let reported: Vec<String> = reported
         .map(|(count, what)| format!("{count} {what}"))
         .collect();
-    (!told.is_empty()).then(|| format!("{} count as 0", told.join(", ")))
+    (!reported.is_empty()).then(|| format!("{} count as 0", reported.join(", ")))
 }
 
 impl UpAxis {

@@ -4,7 +4,7 @@
 
 use npr_core::camera::{Camera, Projection};
 use npr_gpu::processor::Processor;
-use npr_render::{Model, Picture, Stage, StageOptions};
+use npr_render::{Model, Picture, Renderer, RendererOptions};
 use npr_scene::{Mesh, Node, Part, Scene};
 use npr_style::backdrop::{Rule, contrast};
 use npr_stylesheet::Style;
@@ -89,12 +89,12 @@ fn draw(model: &Model, style: &Style, tile_pixels: u32) -> Vec<[u8; 4]> {
 }
 
 fn draw_before(behind: Picture, model: &Model, style: &Style, tile_pixels: u32) -> Vec<[u8; 4]> {
-    let options = StageOptions {
+    let options = RendererOptions {
         background_image: Some(behind),
         tile_pixels,
-        ..StageOptions::new(SIZE)
+        ..RendererOptions::new(SIZE)
     };
-    let frame = Stage::new(&Processor, model, style, &options)
+    let frame = Renderer::new(&Processor, model, style, &options)
         .unwrap()
         .draw(&beside(0.0))
         .unwrap();
@@ -283,17 +283,17 @@ fn tiles_do_not_show() {
 fn still_frames_are_alike_and_cuts_start_anew() {
     let model = squares(&["body", "hair"]);
     let style = style("line.background.start=rim\nline.background.hold=2");
-    let options = StageOptions {
+    let options = RendererOptions {
         background_image: Some(two_colors()),
-        ..StageOptions::new(SIZE)
+        ..RendererOptions::new(SIZE)
     };
     let fresh = |x: f32| {
-        let mut stage = Stage::new(&Processor, &model, &style, &options).unwrap();
-        stage.draw(&beside(x)).unwrap().rgba
+        let mut renderer = Renderer::new(&Processor, &model, &style, &options).unwrap();
+        renderer.draw(&beside(x)).unwrap().rgba
     };
-    let mut stage = Stage::new(&Processor, &model, &style, &options).unwrap();
+    let mut renderer = Renderer::new(&Processor, &model, &style, &options).unwrap();
     for x in [0.0, 0.0, 0.0, 1.0, 1.0, -0.5] {
-        assert_eq!(stage.draw(&beside(x)).unwrap().rgba, fresh(x), "at {x}");
+        assert_eq!(renderer.draw(&beside(x)).unwrap().rgba, fresh(x), "at {x}");
     }
 }
 
@@ -306,21 +306,21 @@ fn a_line_changes_where_it_moves_before_another_wall() {
     let model = squares(&["hero"]);
     let style = style("line.background.hold=0\nline.background.fade=5");
     for grey in [0x40, 0xff] {
-        let options = StageOptions {
+        let options = RendererOptions {
             background_image: Some(black_and(grey)),
-            ..StageOptions::new(SIZE)
+            ..RendererOptions::new(SIZE)
         };
-        let new_stage = || Stage::new(&Processor, &model, &style, &options).unwrap();
-        let drawn = |stage: &mut Stage<'_>, x: f32| -> Vec<[u8; 4]> {
-            let frame = stage.draw(&beside(x)).unwrap();
+        let new_renderer = || Renderer::new(&Processor, &model, &style, &options).unwrap();
+        let drawn = |renderer: &mut Renderer<'_>, x: f32| -> Vec<[u8; 4]> {
+            let frame = renderer.draw(&beside(x)).unwrap();
             frame.rgba.as_chunks::<4>().0.to_vec()
         };
         // The square's middle goes from column 60 to column 180, and rests there until fades have ended.
-        let mut stage = new_stage();
-        let before = drawn(&mut stage, 1.125);
+        let mut renderer = new_renderer();
+        let before = drawn(&mut renderer, 1.125);
         let steps = (1..=45).map(|step| 1.125 - 0.05 * step as f32);
         let rest = std::iter::repeat_n(-1.125, 12);
-        let moved = steps.chain(rest).map(|x| drawn(&mut stage, x));
+        let moved = steps.chain(rest).map(|x| drawn(&mut renderer, x));
         let after = moved.last().unwrap();
         // Above the upper side, row 26.7, there is only the line.
         let line = |frame: &[[u8; 4]], x: u32| at(frame, x, 25);
@@ -335,7 +335,7 @@ fn a_line_changes_where_it_moves_before_another_wall() {
             lifted[0] > 0.15 && black == [0.0; 3],
             "{lifted:?} turned {black:?}"
         );
-        let first = drawn(&mut new_stage(), -1.125);
+        let first = drawn(&mut new_renderer(), -1.125);
         assert!(after == first, "before {grey} as a first frame");
     }
 }

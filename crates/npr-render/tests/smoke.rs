@@ -8,7 +8,7 @@ use npr_core::camera::{Camera, Projection};
 use npr_core::math::{cos, mix_bits, sin};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
-use npr_render::{Frame, Model, Picture, RenderError, Smoke, Sphere, Stage, StageOptions};
+use npr_render::{Frame, Model, Picture, RenderError, Renderer, RendererOptions, Smoke, Sphere};
 use npr_scene::{Mesh, Node, Part, Scene};
 use npr_stylesheet::Style;
 
@@ -94,12 +94,12 @@ fn draw_on(
     camera: &Camera,
     size: [u32; 2],
 ) -> Frame {
-    let options = StageOptions {
+    let options = RendererOptions {
         smoke: Some(smoke.clone()),
-        ..StageOptions::new(size)
+        ..RendererOptions::new(size)
     };
-    let mut stage = Stage::new(engine, model, style, &options).unwrap();
-    stage.draw(camera).unwrap()
+    let mut renderer = Renderer::new(engine, model, style, &options).unwrap();
+    renderer.draw(camera).unwrap()
 }
 
 fn draw(smoke: &Smoke, style: &Style, camera: &Camera) -> Frame {
@@ -418,15 +418,15 @@ fn nothing_and_hostile_smoke_are_drawn_as_nothing() {
 }
 
 #[test]
-fn a_stage_takes_as_many_spheres_as_it_was_made_for() {
+fn a_renderer_takes_as_many_spheres_as_it_was_made_for() {
     let (model, style) = (empty(), style(""));
-    let options = StageOptions {
+    let options = RendererOptions {
         smoke: Some(plume(3)),
-        ..StageOptions::new([32, 32])
+        ..RendererOptions::new([32, 32])
     };
-    let mut stage = Stage::new(&Processor, &model, &style, &options).unwrap();
-    assert!(stage.set_smoke(&plume(2)).is_ok());
-    let refused = stage.set_smoke(&plume(4)).unwrap_err();
+    let mut renderer = Renderer::new(&Processor, &model, &style, &options).unwrap();
+    assert!(renderer.set_smoke(&plume(2)).is_ok());
+    let refused = renderer.set_smoke(&plume(4)).unwrap_err();
     assert_eq!(
         refused,
         RenderError::TooMany {
@@ -434,7 +434,8 @@ fn a_stage_takes_as_many_spheres_as_it_was_made_for() {
             limit: 3
         }
     );
-    let mut bare = Stage::new(&Processor, &model, &style, &StageOptions::new([32, 32])).unwrap();
+    let mut bare =
+        Renderer::new(&Processor, &model, &style, &RendererOptions::new([32, 32])).unwrap();
     assert!(bare.set_smoke(&plume(1)).is_err());
 }
 
@@ -451,12 +452,12 @@ fn pictures_are_the_same_for_any_number_of_threads_and_nearly_in_tiles() {
     };
     let one = drawn(1);
     assert_eq!(one.rgba, drawn(3).rgba);
-    let options = StageOptions {
+    let options = RendererOptions {
         smoke: Some(smoke.clone()),
         tile_pixels: 20_000,
-        ..StageOptions::new(size)
+        ..RendererOptions::new(size)
     };
-    let tiled = Stage::new(&Processor, &model, &style, &options)
+    let tiled = Renderer::new(&Processor, &model, &style, &options)
         .unwrap()
         .draw(&camera(3.0))
         .unwrap();
@@ -482,14 +483,14 @@ fn plumes_to_look_at() {
     for look in LOOKS {
         let style = Style::preset(look).unwrap();
         for (count, size) in [(200, [512, 512]), (2000, [1920, 1080])] {
-            let options = StageOptions {
+            let options = RendererOptions {
                 smoke: Some(plume(count)),
-                ..StageOptions::new(size)
+                ..RendererOptions::new(size)
             };
             let model = empty();
-            let mut stage = Stage::new(&Processor, &model, &style, &options).unwrap();
-            stage.draw(&camera(0.0)).unwrap();
-            let frame = stage.draw(&camera(0.0)).unwrap();
+            let mut renderer = Renderer::new(&Processor, &model, &style, &options).unwrap();
+            renderer.draw(&camera(0.0)).unwrap();
+            let frame = renderer.draw(&camera(0.0)).unwrap();
             let times: Vec<String> = frame
                 .times
                 .iter()
@@ -532,14 +533,14 @@ fn a_picture_gives_the_tones() {
                   smoke.light = [1, 0, 0]\nsmoke.ambient = 0.0\nsmoke.wrap = 1.0\n";
     let with = |tones: &[[u8; 3]]| {
         let style = style(&format!("{common}smoke.ramp_image = 'tones.png'"));
-        let options = StageOptions {
+        let options = RendererOptions {
             smoke: Some(smoke.clone()),
             pictures: [("tones.png".to_owned(), strip(tones))].into(),
-            ..StageOptions::new(SIZE)
+            ..RendererOptions::new(SIZE)
         };
         let model = empty();
-        let mut stage = Stage::new(&Processor, &model, &style, &options).unwrap();
-        stage.draw(&camera(0.0)).unwrap()
+        let mut renderer = Renderer::new(&Processor, &model, &style, &options).unwrap();
+        renderer.draw(&camera(0.0)).unwrap()
     };
     let greys: Vec<[u8; 3]> = (0..12).map(|i| [20 * i; 3]).collect();
     let frame = with(&greys);
@@ -560,12 +561,12 @@ fn a_picture_gives_the_tones() {
 #[test]
 fn a_picture_that_is_missing_is_told() {
     let style = style("smoke.ramp_image = 'tones.png'");
-    let options = StageOptions {
+    let options = RendererOptions {
         smoke: Some(plume(3)),
-        ..StageOptions::new(SIZE)
+        ..RendererOptions::new(SIZE)
     };
     let model = empty();
-    let refused = Stage::new(&Processor, &model, &style, &options)
+    let refused = Renderer::new(&Processor, &model, &style, &options)
         .err()
         .unwrap();
     assert!(

@@ -9,7 +9,8 @@ use npr_core::math::{cos, mix_bits, sin};
 use npr_drawing::artwork::ArtworkOptions;
 use npr_gpu::processor::Processor;
 use npr_render::{
-    Drawing, LineModel, LineModelOptions, LineOptions, Model, Smoke, Sphere, Stage, StageOptions,
+    Drawing, LineModel, LineModelOptions, LineOptions, Model, Renderer, RendererOptions, Smoke,
+    Sphere,
 };
 use npr_scene::{Mesh, Node, Part, Scene};
 use npr_stylesheet::Style;
@@ -171,11 +172,12 @@ fn scene_and_smoke_hide_each_other() {
         hidden: true,
         ..options()
     };
-    let told = draw(&wall(-1.0), &ball(), &plain, &hidden);
+    let reported = draw(&wall(-1.0), &ball(), &plain, &hidden);
     assert!(
-        told.strokes
+        reported
+            .strokes
             .iter()
-            .any(|stroke| stroke.occluders == 1 && !is_smoke(&told, stroke.surface))
+            .any(|stroke| stroke.occluders == 1 && !is_smoke(&reported, stroke.surface))
     );
     let haze = draw(
         &wall(-1.0),
@@ -198,13 +200,13 @@ fn curves_lie_where_pictures_have_their_ink() {
     let (style, smoke) = (style(text), plume(160));
     let drawing = draw(&Scene::default(), &smoke, &style, &options());
     keep("plume", &drawing);
-    let stage_options = StageOptions {
+    let renderer_options = RendererOptions {
         smoke: Some(smoke),
-        ..StageOptions::new(SIZE)
+        ..RendererOptions::new(SIZE)
     };
     let empty = Model::new(&Scene::default()).unwrap();
-    let mut stage = Stage::new(&Processor, &empty, &style, &stage_options).unwrap();
-    let frame = stage.draw(&camera()).unwrap();
+    let mut renderer = Renderer::new(&Processor, &empty, &style, &renderer_options).unwrap();
+    let frame = renderer.draw(&camera()).unwrap();
     let [width, height] = SIZE.map(|side| side as usize);
     let ink: Vec<bool> = frame
         .rgba

@@ -221,7 +221,7 @@ fn cameras_and_lights_stand_at_their_nodes() {
 }
 
 #[test]
-fn materials_keep_colour_alpha_and_texture() {
+fn materials_keep_color_alpha_and_texture() {
     let pixel = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8BQDwAEhQGAhKmMIQAAAABJRU5ErkJggg==";
     let rest = format!(
         r#","images":[{{"uri":"data:image/png;base64,{pixel}"}},{{"uri":"normal.png"}}],

@@ -64,8 +64,8 @@ proptest! {
             1 => list.len() % 2 == 1,
             _ => list.len() == 1,
         });
-        let told = scene.notices.iter().any(|notice| notice.text.contains("one end"));
-        prop_assert_eq!(told, is_odd);
+        let reported = scene.notices.iter().any(|notice| notice.text.contains("one end"));
+        prop_assert_eq!(reported, is_odd);
     }
 
     #[test]

@@ -102,7 +102,7 @@ fn both_versions_of_an_avatar_face_the_same_way() {
 }
 
 #[test]
-fn only_base_colour_images_are_decoded() {
+fn only_base_color_images_are_decoded() {
     let Some(folder) = models() else { return };
     let helmet = loaded(&folder, "flight_helmet.glb");
     assert_eq!(helmet.images.len(), 5, "of fifteen in the file");

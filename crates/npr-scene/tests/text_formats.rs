@@ -130,7 +130,7 @@ fn a_missing_library_is_a_notice() {
 }
 
 #[test]
-fn ply_colours_become_linear_and_polygons_fans() {
+fn ply_colors_become_linear_and_polygons_fans() {
     let text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
         property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n\
         property list uchar int vertex_indices\nend_header\n\

@@ -110,9 +110,9 @@ fn a_view_past_its_buffer_that_nothing_uses_is_told_of() {
         views: r#",{"buffer":0,"byteOffset":90,"byteLength":7},{"buffer":0,"byteLength":96}"#,
         ..Figure::default()
     };
-    let told =
+    let reported =
         "buffer view 3 ends at byte 97, but buffer 0 has only 96; nothing that is drawn uses it";
-    past.assert_drawn(true, &[told]);
+    past.assert_drawn(true, &[reported]);
 }
 
 #[test]
@@ -121,11 +121,11 @@ fn bounds_that_are_no_numbers_are_told_of_and_not_used() {
         positions,
         ..Figure::default()
     };
-    let told = |name| {
+    let reported = |name| {
         format!("accessor 0 has a {name} that is no number for each component; it is not used")
     };
-    of(r#","min":"0 0 0","max":[1,1,0]"#).assert_drawn(true, &[&told("min")]);
-    of(r#","min":[0,0],"max":["1",1,0]"#).assert_drawn(true, &[&told("min"), &told("max")]);
+    of(r#","min":"0 0 0","max":[1,1,0]"#).assert_drawn(true, &[&reported("min")]);
+    of(r#","min":[0,0],"max":["1",1,0]"#).assert_drawn(true, &[&reported("min"), &reported("max")]);
     of(r#","min":[0,0,0],"max":[1,1,0]"#).assert_drawn(true, &[]);
 }
 
@@ -171,8 +171,8 @@ fn a_part_of_an_unknown_mode_is_left_out_by_name() {
         primitive: r#"},{"mode":99,"attributes":{"POSITION":0}"#,
         ..Figure::default()
     };
-    let told = "mesh 0 has a part of a mode that glTF does not know, which is not drawn";
-    unknown.assert_drawn(false, &[told]);
+    let reported = "mesh 0 has a part of a mode that glTF does not know, which is not drawn";
+    unknown.assert_drawn(false, &[reported]);
 }
 
 #[test]
@@ -243,14 +243,17 @@ fn broken_animations_are_told_of_by_what_is_wrong() {
 #[test]
 fn text_in_utf_16_is_read_and_told_of() {
     let text = "# Größe\no Würfel\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    let told = "the text is in UTF-16, where OBJ files are in ASCII or UTF-8";
+    let reported = "the text is in UTF-16, where OBJ files are in ASCII or UTF-8";
     let units: Vec<u16> = text.encode_utf16().collect();
     let marked: Vec<u16> = [0xfeff].into_iter().chain(units.iter().copied()).collect();
     for units in [units, marked] {
         for order in [u16::to_le_bytes, u16::to_be_bytes] {
             let bytes: Vec<u8> = units.iter().copied().flat_map(order).collect();
             let scene = load(&bytes, Format::Obj).expect("a sound file");
-            assert_eq!((notices(&scene), scene.triangle_count()), (vec![told], 1));
+            assert_eq!(
+                (notices(&scene), scene.triangle_count()),
+                (vec![reported], 1)
+            );
             assert_eq!(scene.meshes[0].name, "Würfel");
         }
     }
@@ -272,12 +275,12 @@ fn files_of_gltf_1_name_their_version_and_a_converter() {
         );
         load(json.as_bytes(), Format::Gltf).expect_err("an old file")
     };
-    let told = |version| {
+    let reported = |version| {
         format!("glTF version '{version}' is not supported, only 2.0 is; gltf-pipeline converts it")
     };
-    assert_eq!(first(r#""asset":{"version":"1.0"},"#), told("1.0"));
-    assert_eq!(first(r#""asset":{"version":1.1},"#), told("1.1"));
-    assert_eq!(first(""), told("1.0"));
+    assert_eq!(first(r#""asset":{"version":"1.0"},"#), reported("1.0"));
+    assert_eq!(first(r#""asset":{"version":1.1},"#), reported("1.1"));
+    assert_eq!(first(""), reported("1.0"));
     // Broken files of version 2 are told of as before, and later versions have no converter.
     let broken = first(r#""asset":{"version":"2.0"},"#);
     assert!(

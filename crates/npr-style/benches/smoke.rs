@@ -5,7 +5,7 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use npr_core::camera::{Camera, Projection};
 use npr_core::math::mix_bits;
-use npr_core::smoke::{Ball, Lens, SmokePixel, Sphere};
+use npr_core::smoke::{SmokePixel, Sphere, SphereView, ViewSphere};
 use npr_core::window::Window;
 use npr_style::lighting::Lights;
 use npr_style::ramp::Level;
@@ -17,12 +17,12 @@ use std::hint::black_box;
 /// A scene of spheres and everything that a frame makes of it.
 struct Frame {
     size: [u32; 2],
-    lens: Lens,
+    lens: SphereView,
     window: Window,
     look: SmokeLook,
     lights: Lights,
     spheres: Vec<Sphere>,
-    balls: Vec<Ball>,
+    balls: Vec<ViewSphere>,
     ids: Vec<u32>,
     depths: Vec<u32>,
     pixels: Vec<SmokePixel>,
@@ -57,12 +57,12 @@ impl Frame {
         let cells = vec![[0.0; 2]; look.cell_count()];
         let mut frame = Self {
             size,
-            lens: Lens::of_view(&camera.view(size, ([-1.0; 3], [1.0; 3]))),
+            lens: SphereView::of_view(&camera.view(size, ([-1.0; 3], [1.0; 3]))),
             window: Window::over(frame_px, [0.0; 2], frame_px, size),
             look,
             lights: Lights::distant([0.6, 0.64, 0.48]),
             spheres: (0..count).map(puff).collect(),
-            balls: vec![Ball::default(); count as usize],
+            balls: vec![ViewSphere::default(); count as usize],
             ids: vec![0; pixel_count],
             depths: vec![0; pixel_count],
             pixels: vec![SmokePixel::default(); pixel_count],

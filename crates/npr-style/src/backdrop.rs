@@ -16,8 +16,8 @@
 //! ```
 
 mod adapt;
+mod contrast_cache;
 mod gather;
-mod minding;
 mod occupied;
 mod oklab;
 pub mod published;
@@ -27,16 +27,16 @@ mod spread;
 mod stretch;
 
 pub use adapt::{Ground, adapt, adapted_light, contrast};
+pub use contrast_cache::ContrastCache;
 pub use gather::{TileRims, gather_tiles};
-pub use minding::Minding;
 pub use oklab::{light_of_oklab, oklab_of_light};
 pub use published::Criteria;
 pub use rims::{
-    Rim, Scenery, Search, TILE, Wearer, draw_rims, find_rims, flag_tiles, tiles_across,
+    PartSubject, Rim, Scenery, Search, TILE, draw_rims, find_rims, flag_tiles, tiles_across,
 };
 pub use rule::{RULES_MAX, Rule, Rules};
 pub use spread::{SMOOTH_MOST, UNLIKE_COLORS, smooth_rims, spread_rims, spread_rows};
-pub use stretch::{LEAN_MOST, Lean, blend_leans, bound_tiles, lean_tiles};
+pub use stretch::{BIAS_REACH_MOST, ContrastBias, blend_biases, bound_tiles, vote_bias};
 
 #[cfg(test)]
 mod tests;

@@ -10,7 +10,7 @@ use npr_core::surface::{blend, dot, weights_at};
 
 use crate::compose::{Layers, Samples};
 use crate::ramp::{Level, ramp_light};
-use crate::smoke::Veil;
+use crate::smoke::SmokeLayer;
 
 /// Most steps of a beam's ramp.
 pub const BEAM_STOPS_MAX: usize = 4;
@@ -38,7 +38,7 @@ impl Layers<'_> {
         &self,
         seen: &Samples,
         beams: &Samples,
-        veil: Option<&Veil>,
+        smoke_layer: Option<&SmokeLayer>,
         frame_px: [f32; 2],
         color: &mut [f32; 4],
     ) -> f32 {
@@ -51,7 +51,11 @@ impl Layers<'_> {
             }
             let shown = (i..beams.len())
                 .filter(|&j| beams[j] == id && self.beam_shows(id, seen[j], j as u32, frame_px))
-                .map(|j| veil.map_or(1.0, |veil| 1.0 - veil.over(self, id, j as u32, frame_px)))
+                .map(|j| {
+                    smoke_layer.map_or(1.0, |smoke_layer| {
+                        1.0 - smoke_layer.over(self, id, j as u32, frame_px)
+                    })
+                })
                 .sum::<f32>()
                 * share;
             let part = self.part_of(id);

@@ -7,7 +7,7 @@ use npr_core::gpu_layout;
 use npr_core::texture;
 use npr_core::window::{View, Window};
 
-use crate::backdrop::{self, Minding, Rules};
+use crate::backdrop::{self, ContrastCache, Rules};
 use crate::lighting::Lights;
 use crate::shadow::SHADOWS_MAX;
 
@@ -225,9 +225,9 @@ impl<'a> Layers<'a> {
     }
 
     /// A line's colour as it minds what lies behind it there; linear light.
-    pub(crate) fn minded(
+    pub(crate) fn contrasted(
         &self,
-        minding: &mut Minding,
+        contrast_cache: &mut ContrastCache,
         line: [f32; 3],
         frame_px: [f32; 2],
     ) -> [f32; 3] {
@@ -237,7 +237,7 @@ impl<'a> Layers<'a> {
         let [x, y] = self.window.pixel_at(frame_px);
         let element = (y * self.window.size[0] + x) as usize;
         let sides = [self.fronts[element], self.backs[element]];
-        minding.light(line, sides, self.rules, |texel| self.linear_texel(texel))
+        contrast_cache.light(line, sides, self.rules, |texel| self.linear_texel(texel))
     }
 
     /// What lies behind everything, premultiplied.

@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_have_the_colour_of_their_owner_and_kind() {
+    fn lines_have_the_color_of_their_owner_and_kind() {
         let part = |crease: u32| Part {
             line_flags: 0b100,
             line_kinds: [0, 0, crease, 0, 0],

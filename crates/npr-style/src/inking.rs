@@ -30,8 +30,8 @@ const ABRUPT: f32 = 0.25;
 /// How badly a chart lies, 0..1, from which dots are set on the screen instead: stretched, they would be streaks.
 const LOOSE: f32 = 0.3;
 
-/// Part of the hatch, of what inks last, that a knot fills at once.
-const KNOT_FILL: f32 = 0.22;
+/// Part of the hatch, of what inks last, that a chart distortion fills at once.
+const DISTORTION_FILL: f32 = 0.22;
 
 /// Luminance L of the shade ramp at coordinate `x`: black up to `dark_at`, white from `light_at`, grey between.
 pub fn shade_level(x: f32, dark_at: f32, light_at: f32) -> f32 {
@@ -107,13 +107,13 @@ struct Hatching {
 
 /// Where a pixel lies in a hatch, in tiles, and how far it is from there to its neighbours.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct HatchCoord {
     uv: [f32; 2],
     right: [f32; 2],
     down: [f32; 2],
 }
 
-impl Place {
+impl HatchCoord {
     /// The same with strokes across: u and v exchanged, from another place of the tile.
     fn crossed(self) -> Self {
         let swap = |[u, v]: [f32; 2]| [v, u];
@@ -139,7 +139,7 @@ impl Place {
 #[derive(Debug, Clone, Copy)]
 struct Calm {
     /// How badly they lie, 0..1.
-    knot: f32,
+    chart_distortion: f32,
     /// How far the tone changes too fast for them, 0..1.
     abrupt: f32,
 }
@@ -176,16 +176,20 @@ impl Layers<'_> {
         if let Some(ink) = ink_of_level(part, l[0]) {
             return ink;
         }
-        let knot = self.knot_at(id, weights[0]);
+        let chart_distortion = self.chart_distortion_at(id, weights[0]);
         let per_px = length([lit[1] - lit[0], lit[2] - lit[0]]) * white[0];
         let abrupt = abruptness(per_px, part.spacing_px);
-        let (place, knot) = if part.flags & Part::ISOTROPIC != 0 && knot >= LOOSE {
-            (self.place_on_screen(part, px), 0.0)
-        } else {
-            let place = self.place_in_hatch(id, part, weights, places);
-            (place, knot * white[0])
+        let (place, chart_distortion) =
+            if part.flags & Part::ISOTROPIC != 0 && chart_distortion >= LOOSE {
+                (self.place_on_screen(part, px), 0.0)
+            } else {
+                let place = self.place_in_hatch(id, part, weights, places);
+                (place, chart_distortion * white[0])
+            };
+        let calm = Calm {
+            chart_distortion,
+            abrupt,
         };
-        let calm = Calm { knot, abrupt };
         self.ink_of_hatch(part, &place, l[0], darkens, calm)
     }
 
@@ -193,13 +197,13 @@ impl Layers<'_> {
     fn ink_of_hatch(
         &self,
         part: &Part,
-        place: &Place,
+        place: &HatchCoord,
         l: f32,
         darkens: [f32; 2],
         calm: Calm,
     ) -> f32 {
         let coverage = |layer: Hatching| {
-            let hatching = toned_hatch(untied(layer, calm.knot), calm.abrupt);
+            let hatching = toned_hatch(untied(layer, calm.chart_distortion), calm.abrupt);
             let [right, down] = hatching.slope;
             let slope = length([right + darkens[0], down + darkens[1]]).max(hatching.hairline);
             ink_coverage(tone_value(hatching.s, l), slope, part.threshold)
@@ -257,7 +261,7 @@ impl Layers<'_> {
         part: &Part,
         weights: [[f32; 3]; 3],
         places: [[f32; 2]; 3],
-    ) -> Place {
+    ) -> HatchCoord {
         let triangle = ((id & ID_MASK) - 1) as usize;
         let uvs: [[f32; 2]; 3] = std::array::from_fn(|i| {
             let raw = if part.flags & Part::ON_SCREEN != 0 {
@@ -275,7 +279,7 @@ impl Layers<'_> {
                 (raw[1] * cos - raw[0] * sin) * part.tile_scale,
             ]
         });
-        Place {
+        HatchCoord {
             uv: uvs[0],
             right: [uvs[1][0] - uvs[0][0], uvs[1][1] - uvs[0][1]],
             down: [uvs[2][0] - uvs[0][0], uvs[2][1] - uvs[0][1]],
@@ -283,11 +287,11 @@ impl Layers<'_> {
     }
 
     /// Where a pixel and its neighbours lie in the hatch of a part if that is laid on the picture.
-    fn place_on_screen(&self, part: &Part, px: [f32; 2]) -> Place {
+    fn place_on_screen(&self, part: &Part, px: [f32; 2]) -> HatchCoord {
         let header = part.hatch as usize;
         let spacing_texels = f32::from_bits(self.texels[header + 3]);
         let scale = spacing_texels / (self.texels[header] as f32 * part.spacing_px);
-        Place {
+        HatchCoord {
             uv: px.map(|at| at * scale),
             right: [scale, 0.0],
             down: [0.0, scale],
@@ -295,13 +299,16 @@ impl Layers<'_> {
     }
 
     /// How badly the strokes of triangle `id` lie where its corners have these weights, 0..1.
-    fn knot_at(&self, id: u32, weights: [f32; 3]) -> f32 {
+    fn chart_distortion_at(&self, id: u32, weights: [f32; 3]) -> f32 {
         let Triangle { corners, .. } = self.triangles[((id & ID_MASK) - 1) as usize];
-        blend(weights, corners.map(|v| self.vertices[v as usize].knot))
+        blend(
+            weights,
+            corners.map(|v| self.vertices[v as usize].chart_distortion),
+        )
     }
 
     /// One layer of a hatch tile, from the level whose strokes lie as far apart on screen as the part asks.
-    fn layer(&self, part: &Part, place: &Place) -> Hatching {
+    fn layer(&self, part: &Part, place: &HatchCoord) -> Hatching {
         let header = part.hatch as usize;
         let side = self.texels[header];
         let step = place.step(part.flags & Part::ISOTROPIC != 0).max(1e-9);
@@ -351,24 +358,25 @@ impl Layers<'_> {
         let [cos, sin] = part.turn;
         let on_sheet =
             |[x, y]: [f32; 2]| [(x * cos + y * sin) * scale, (y * cos - x * sin) * scale];
-        let place = Place {
+        let place = HatchCoord {
             uv: on_sheet(at),
             right: on_sheet([1.0, 0.0]),
             down: on_sheet([0.0, 1.0]),
         };
         let calm = Calm {
-            knot: 0.0,
+            chart_distortion: 0.0,
             abrupt: abruptness(length(darker), part.spacing_px),
         };
         self.ink_of_hatch(part, &place, l, darkens, calm)
     }
 }
 
-/// A hatch without the white of its knots: the last strokes merge together, a fifth of the way before they would.
+/// A hatch without the white of its chart_distortions: the last strokes merge together, a fifth of the way before they
+/// would.
 ///
 /// Where directions turn round, strokes cannot all end well; what is seen of it is mostly white in the dark.
-fn untied(hatching: Hatching, knot: f32) -> Hatching {
-    let most = 1.0 - KNOT_FILL * knot.clamp(0.0, 1.0);
+fn untied(hatching: Hatching, chart_distortion: f32) -> Hatching {
+    let most = 1.0 - DISTORTION_FILL * chart_distortion.clamp(0.0, 1.0);
     if hatching.s <= most {
         return hatching;
     }
@@ -488,14 +496,14 @@ mod tests {
         }
 
         #[test]
-        fn a_knot_only_fills_the_dark(s in 0f32..=1.0, l in 0f32..=1.0, knot in 0f32..=1.0) {
+        fn chart_distortion_only_fills_the_dark(s in 0f32..=1.0, l in 0f32..=1.0, chart_distortion in 0f32..=1.0) {
             let before = Hatching { s, slope: [0.3, 0.1], hairline: 0.2 };
-            let after = untied(before, knot);
+            let after = untied(before, chart_distortion);
             prop_assert!(after.s <= s);
             // Where enough is white, nothing changes sides.
-            prop_assert!(l < 0.251 + 0.5 * KNOT_FILL || (tone_value(after.s, l) < 0.5) == (tone_value(s, l) < 0.5));
+            prop_assert!(l < 0.251 + 0.5 * DISTORTION_FILL || (tone_value(after.s, l) < 0.5) == (tone_value(s, l) < 0.5));
             let tied = untied(before, 1.0);
-            prop_assert!(l > 0.249 + 0.5 * KNOT_FILL || tone_value(tied.s, l) < 0.5);
+            prop_assert!(l > 0.249 + 0.5 * DISTORTION_FILL || tone_value(tied.s, l) < 0.5);
         }
 
         #[test]

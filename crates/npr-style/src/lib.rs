@@ -22,7 +22,6 @@ pub mod draw_mask;
 pub mod gloss;
 pub mod hatch;
 pub mod inking;
-mod known;
 mod length;
 pub mod lighting;
 pub mod line_color;
@@ -33,6 +32,7 @@ pub mod sky;
 pub mod smoke;
 mod tone;
 pub mod tone_row;
+mod triangle_constants;
 pub mod width;
 
 pub use length::{LONGEST, Length, LengthError, REFERENCE_HEIGHT_PX, Unit};

@@ -357,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sky_has_a_colour_above_and_another_below() {
+    fn a_sky_has_a_color_above_and_another_below() {
         let mut lights = Lights::distant([0.0, 1.0, 0.0]);
         lights.sources[0] = LightSource {
             kind: LightSource::SKY,

@@ -1,8 +1,8 @@
 //! Where the colour of a line comes from: the twins of `lib/line_color`, `line.color_mask` and `line.light_widths`.
 //!
 //! A line's colour has two halves. *Its own*: of its kind, of the surface under it, or the constant `line.color`. And
-//! the *glaze*, what lies over that: light, the light behind, depth, tint, in this order. Own colours hang on the
-//! kind, glazes on the place alone, so both are decided once at a place and put together by whoever draws there
+//! the *tint layer*, what lies over that: light, the light behind, depth, tint, in this order. Own colours hang on the
+//! kind, tint layers on the place alone, so both are decided once at a place and put together by whoever draws there
 //! ([`npr_core::line_color::line_color`]). Colours mix in linear light; rows of stops were mixed in OKLab before
 //! (`npr_stylesheet::hue_row`).
 //!
@@ -51,7 +51,7 @@ pub struct LineScene<'a> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Decided {
     /// What lies over the line's own colour, linear light, straight alpha.
-    pub glaze: [f32; 4],
+    pub tint_layer: [f32; 4],
     /// What is left of its opacity, 0..1.
     pub opacity: f32,
 }
@@ -60,11 +60,11 @@ impl Decided {
     /// As lines look it up, under a surface's colour in linear light.
     pub fn tint(&self, own: [f32; 3]) -> Tint {
         let [r, g, b] = own.map(srgb_from_linear);
-        let [glaze_r, glaze_g, glaze_b, glaze_a] = self.glaze;
-        let glaze = [glaze_r, glaze_g, glaze_b].map(srgb_from_linear);
+        let [tint_layer_r, tint_layer_g, tint_layer_b, tint_layer_a] = self.tint_layer;
+        let tint_layer = [tint_layer_r, tint_layer_g, tint_layer_b].map(srgb_from_linear);
         Tint {
             own: [r, g, b, self.opacity],
-            glaze: [glaze[0], glaze[1], glaze[2], glaze_a],
+            tint_layer: [tint_layer[0], tint_layer[1], tint_layer[2], tint_layer_a],
         }
     }
 }
@@ -95,12 +95,12 @@ impl LineScene<'_> {
     /// O(lights).
     pub fn decide(&self, part: &Part, world: [f32; 3], normal: [f32; 3]) -> Decided {
         let flags = part.line_flags;
-        let mut glaze = [0.0; 4];
+        let mut tint_layer = [0.0; 4];
         let mut opacity = 1.0;
         if flags & (Part::LINE_LIGHT | Part::LINE_OPACITY) != 0 {
             let x = self.lights.coordinate_at(world, normal, 0).0;
             if flags & Part::LINE_LIGHT != 0 {
-                glaze = laid(self.hue(part.line_light_row, x), glaze);
+                tint_layer = laid(self.hue(part.line_light_row, x), tint_layer);
             }
             let [dark, lit] = part.line_opacity;
             opacity = dark + (lit - dark) * x;
@@ -110,18 +110,21 @@ impl LineScene<'_> {
             let [from, to, _, _] = part.back;
             let behind = in_world(&self.axes_world, part.back_direction);
             let rim = back_light(normal, behind, from, to) * strength * part.line_rim;
-            glaze = laid([r, g, b, rim.clamp(0.0, 1.0)], glaze);
+            tint_layer = laid([r, g, b, rim.clamp(0.0, 1.0)], tint_layer);
         }
         if flags & Part::LINE_DEPTH != 0 {
-            glaze = laid(
+            tint_layer = laid(
                 self.hue(part.line_depth_row, self.depth_share(part, world)),
-                glaze,
+                tint_layer,
             );
         }
         if flags & Part::LINE_TINT != 0 {
-            glaze = laid(linear_rgba(unpack_rgba8(part.line_tint)), glaze);
+            tint_layer = laid(linear_rgba(unpack_rgba8(part.line_tint)), tint_layer);
         }
-        Decided { glaze, opacity }
+        Decided {
+            tint_layer,
+            opacity,
+        }
     }
 
     /// How far along a part's row over depth a place lies, 0..1.
@@ -264,7 +267,7 @@ impl<'a> Deciding<'a> {
             return None;
         }
         let corners = layers.corners_of(triangle);
-        let place = LinePlace {
+        let place = LinePoint {
             px: self.window.frame_at(x, y),
             step_px: self.window.frame_step.map(|step| step * LINE_BLUR_PX),
             is_hull: false,
@@ -291,7 +294,7 @@ impl<'a> Deciding<'a> {
 
 /// Where a line lies in the frame.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct LinePlace {
+pub(crate) struct LinePoint {
     /// Frame pixels.
     pub px: [f32; 2],
     /// How far it reaches, in frame pixels.
@@ -300,7 +303,7 @@ pub(crate) struct LinePlace {
     pub is_hull: bool,
 }
 
-impl LinePlace {
+impl LinePoint {
     /// Weights of a triangle's corners there, moved by so many reaches.
     fn weights(&self, view: &View, corners: &Corners<'_>, dx: f32, dy: f32) -> [f32; 3] {
         let px = [
@@ -339,7 +342,7 @@ impl Layers<'_> {
         triangle: &Triangle,
         part: &Part,
         corners: &Corners<'_>,
-        place: &LinePlace,
+        place: &LinePoint,
     ) -> Tint {
         let weights = place.weights(self.view, corners, 0.0, 0.0);
         // Hulls show the backs of faces, but their outline is where the front turns away.
@@ -357,7 +360,7 @@ impl Layers<'_> {
         triangle: &Triangle,
         part: &Part,
         corners: &Corners<'_>,
-        place: &LinePlace,
+        place: &LinePoint,
     ) -> [f32; 3] {
         if part.line_flags & Part::LINE_SOURCES == 0 {
             return [0.0; 3];
@@ -402,7 +405,7 @@ impl Layers<'_> {
         triangle: &Triangle,
         part: &Part,
         corners: &Corners<'_>,
-        place: &LinePlace,
+        place: &LinePoint,
     ) -> [f32; 3] {
         let color = if part.line_flags & Part::LINE_PLACED == 0 {
             line_color(part, 0, None)

@@ -31,7 +31,7 @@ const GRAZING: f32 = 0.1;
 const ENDLESS: f32 = 1e30;
 
 /// A place that a light may reach.
-struct Place {
+struct ShadowPoint {
     /// The triangle it lies on, plus one.
     own: u32,
     world: [f32; 3],
@@ -117,7 +117,7 @@ impl Layers<'_> {
         let offset: [f32; 3] = std::array::from_fn(|i| source.position[i] - world[i]);
         let is_spot = source.kind == LightSource::SPOT;
         let row = [m[0][0], m[1][0], m[2][0]];
-        let place = Place {
+        let place = ShadowPoint {
             own,
             world,
             towards,
@@ -137,7 +137,7 @@ impl Layers<'_> {
     }
 
     /// The triangle plus one that the light sees in one of the nine texels around a place, 0 where none.
-    fn seen_near(&self, place: &Place, k: u32) -> u32 {
+    fn seen_near(&self, place: &ShadowPoint, k: u32) -> u32 {
         let side = self.lights.shadow_side;
         let near = |at: f32, step: u32| (at as u32 + step).saturating_sub(1).min(side - 1);
         let (x, y) = (near(place.texel[0], k % 3), near(place.texel[1], k / 3));
@@ -148,7 +148,7 @@ impl Layers<'_> {
     ///
     /// A triangle that fills all nine texels decides; of several, each is tested. Where they are finer than texels,
     /// what covers the place may be none of the nine, and the texels vote.
-    fn is_covered(&self, place: &Place, seen: [u32; 9]) -> bool {
+    fn is_covered(&self, place: &ShadowPoint, seen: [u32; 9]) -> bool {
         let mut distinct = 0;
         for k in 0..9 {
             if seen[..k].contains(&seen[k]) {
@@ -163,7 +163,7 @@ impl Layers<'_> {
     }
 
     /// Whether triangle `id` lies between a place and the light.
-    fn covers(&self, place: &Place, id: u32) -> bool {
+    fn covers(&self, place: &ShadowPoint, id: u32) -> bool {
         if id == 0 || id == place.own {
             return false;
         }
@@ -178,7 +178,7 @@ impl Layers<'_> {
     }
 
     /// The corners of triangle `id` in the world and as the light of a place sees them.
-    fn as_lit(&self, place: &Place, id: u32) -> ([[f32; 3]; 3], [[f32; 4]; 3]) {
+    fn as_lit(&self, place: &ShadowPoint, id: u32) -> ([[f32; 3]; 3], [[f32; 4]; 3]) {
         let corners = self.triangles[(id - 1) as usize].corners;
         let world = corners.map(|v| self.posed[v as usize].world);
         let m = &self.lights.shadows[place.map];
@@ -189,7 +189,7 @@ impl Layers<'_> {
     /// light.
     fn is_between(
         &self,
-        place: &Place,
+        place: &ShadowPoint,
         world: [[f32; 3]; 3],
         weights: [f32; 3],
         gap_world: f32,
@@ -203,7 +203,7 @@ impl Layers<'_> {
     /// Whether the texels around a place speak for a shadow: all nine, or more than half of the four next to it by
     /// how near they are, counting fine triangles alone. Only what is clearly nearer to the light speaks, the more so
     /// on slopes.
-    fn vote(&self, place: &Place, seen: [u32; 9]) -> bool {
+    fn vote(&self, place: &ShadowPoint, seen: [u32; 9]) -> bool {
         let side = self.lights.shadow_side as f32;
         let facing = place.facing.max(GRAZING);
         let slope = (1.0 - facing * facing).max(0.0).sqrt() / facing;

@@ -41,13 +41,13 @@ impl Openness {
 
 /// How much of the sky a place of the frame sees, and how that changes over a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct OpenPlace {
+pub(crate) struct SkyPoint {
     here: [f32; 2],
     right: [f32; 2],
     down: [f32; 2],
 }
 
-impl OpenPlace {
+impl SkyPoint {
     /// Nothing is hidden.
     const FULL: Self = Self {
         here: [1.0; 2],
@@ -75,10 +75,10 @@ type Seen = [f32; 3];
 
 impl Layers<'_> {
     /// How much of the sky a triangle sees at a place of the frame. O(pictures).
-    pub(crate) fn openness(&self, corners: &Corners<'_>, px: [f32; 2]) -> OpenPlace {
+    pub(crate) fn openness(&self, corners: &Corners<'_>, px: [f32; 2]) -> SkyPoint {
         let lights = self.lights;
         if lights.sky_views == 0 {
-            return OpenPlace::FULL;
+            return SkyPoint::FULL;
         }
         // Find the place, lifted off its surface, and its steps over a pixel, in radii of the pictures.
         let around = weights_around(corners.clip, self.view.ndc_at(px), self.view.pixel_ndc());
@@ -95,9 +95,9 @@ impl Layers<'_> {
         // Look up every picture from which light falls on the front of the surface.
         let half_side = 0.5 * lights.sky_side as f32;
         let mut whole = [0.0; 2];
-        let mut open = OpenPlace {
+        let mut open = SkyPoint {
             here: [0.0; 2],
-            ..OpenPlace::FULL
+            ..SkyPoint::FULL
         };
         for view in 0..lights.sky_views {
             let header = (lights.sky_maps + view * SKY_HEADER_WORDS) as usize;
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn a_white_upper_half_is_the_two_coloured_sky() {
+    fn a_white_upper_half_is_the_two_colored_sky() {
         let texel = |i: usize| [if i < 64 * 16 { 1.0 } else { 0.0 }; 3];
         let half: Vec<[f32; 3]> = (0..64 * 32).map(texel).collect();
         for y in [-1.0, -0.6, 0.0, 0.28, 0.8, 1.0f32] {

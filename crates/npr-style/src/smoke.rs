@@ -11,7 +11,7 @@ mod look;
 pub mod pen;
 pub mod resolve;
 pub mod shade;
-mod veil;
+mod smoke_layer;
 
 pub use look::{CELLS_MAX, LAYERS_MAX, SmokeLook, TAPS_MAX};
-pub(crate) use veil::Veil;
+pub(crate) use smoke_layer::SmokeLayer;

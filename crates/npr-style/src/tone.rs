@@ -3,15 +3,15 @@
 //! What is the same all over a triangle is found once a frame (`known.rs`), what changes gently once a pixel, at the
 //! middle of the samples that show the triangle; what has edges at every sample.
 
-use crate::backdrop::Minding;
+use crate::backdrop::ContrastCache;
 use crate::compose::{Compose, Layers};
 use crate::gloss::shines_gently;
 use crate::inking::{ink_over, length};
-use crate::known::Known;
-use crate::line_color::{LinePlace, strengthened};
+use crate::line_color::{LinePoint, strengthened};
 use crate::ramp::{Level, ramp_coordinate, ramp_light};
 use crate::sky::Openness;
 use crate::tone_row::{row_is_even, row_light};
+use crate::triangle_constants::TriangleConstants;
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
 use npr_core::math;
 use npr_core::raster::ID_MASK;
@@ -223,9 +223,9 @@ impl<'a> Layers<'a> {
         id: u32,
         members: u32,
         frame_px: [f32; 2],
-        known: &Known,
+        known: &TriangleConstants,
         corners: &Corners<'_>,
-        minding: &mut Minding,
+        contrast_cache: &mut ContrastCache,
     ) -> [f32; 3] {
         let triangle = &self.triangles[((id & ID_MASK) - 1) as usize];
         let part = &self.parts[triangle.part as usize];
@@ -247,13 +247,13 @@ impl<'a> Layers<'a> {
         if sampled.line == 0.0 {
             return drawn;
         }
-        let place = LinePlace {
+        let place = LinePoint {
             px: group.center,
             step_px: [1.0; 2],
             is_hull: false,
         };
         let line = self.line_light(triangle, part, corners, &place);
-        let line = self.minded(minding, line, frame_px);
+        let line = self.contrasted(contrast_cache, line, frame_px);
         std::array::from_fn(|i| drawn[i] + (line[i] - drawn[i]) * sampled.line)
     }
 
@@ -274,7 +274,13 @@ impl<'a> Layers<'a> {
 
     /// Light, ink and highlights of a group: light and ink at its middle where no edge goes through it, all else at
     /// its samples.
-    fn sampled(&self, group: &Group, part: &Part, corners: &Corners<'_>, known: &Known) -> Sampled {
+    fn sampled(
+        &self,
+        group: &Group,
+        part: &Part,
+        corners: &Corners<'_>,
+        known: &TriangleConstants,
+    ) -> Sampled {
         let Some(light) = self.light_at_middle(group, part, corners, known) else {
             return self.at_samples(group, part, corners, known);
         };
@@ -300,7 +306,7 @@ impl<'a> Layers<'a> {
         group: &Group,
         part: &Part,
         corners: &Corners<'_>,
-        known: &Known,
+        known: &TriangleConstants,
     ) -> Option<[f32; 3]> {
         if known.is_even() {
             return Some(if known.is_plain() {
@@ -363,7 +369,7 @@ impl<'a> Layers<'a> {
         group: &Group,
         part: &Part,
         corners: &Corners<'_>,
-        known: &Known,
+        known: &TriangleConstants,
     ) -> Sampled {
         let count = group.members.count_ones() as f32;
         let shines = part.flags & Part::HIGHLIGHTS != 0 && !known.is_matt();

@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn a_beam_gives_light_of_its_own_colour() {
+    fn a_beam_gives_light_of_its_own_color() {
         let of = |colors: &[Color]| {
             let stop = |color: &Color| BeamStop {
                 at: 0.0,
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn one_colour_is_one_colour() {
+    fn one_color_is_one_color() {
         let mut part = Part::default();
         let beam = Beam {
             ramp: vec![BeamStop {

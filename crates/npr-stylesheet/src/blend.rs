@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn the_other_look_keeps_background_lights_beams_and_colours() {
+    fn the_other_look_keeps_background_lights_beams_and_colors() {
         let text = "extends = 'comic-light'\nbackground = 'navy'\nblend.amount = 0.5\n\
                     light.direction = [1, 0, 0]\n[[rule]]\nmatch.object = 'A'\nline.on = false\nshade.color = 'red'";
         let style = read(text).unwrap();
@@ -120,10 +120,10 @@ mod tests {
 
     #[test]
     fn what_is_no_preset_is_no_other_look() {
-        let told = read("blend.with = 'plainn'").unwrap_err().to_string();
+        let reported = read("blend.with = 'plainn'").unwrap_err().to_string();
         assert!(
-            told.starts_with("blend.with") && told.ends_with("did you mean 'plain'?"),
-            "{told}"
+            reported.starts_with("blend.with") && reported.ends_with("did you mean 'plain'?"),
+            "{reported}"
         );
         assert!(
             read("blend.amount = 2")

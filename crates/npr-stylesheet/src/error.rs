@@ -4,14 +4,14 @@ use std::fmt;
 
 /// A place in a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Place {
+pub struct SourceLocation {
     /// Line, counted from 1.
     pub line: usize,
     /// Column in characters, counted from 1.
     pub column: usize,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for SourceLocation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "line {}, column {}", self.line, self.column)
     }
@@ -87,7 +87,7 @@ pub enum StyleError {
     #[error("not TOML{}: {message}", at(*place))]
     Syntax {
         /// Where reading stopped.
-        place: Option<Place>,
+        place: Option<SourceLocation>,
         /// What the reader expected there.
         message: String,
     },
@@ -97,7 +97,7 @@ pub enum StyleError {
         /// The key from the top, with dots.
         key: String,
         /// Where it stands, if it came from the text at hand.
-        place: Option<Place>,
+        place: Option<SourceLocation>,
         /// The valid key most like it.
         nearest: Option<String>,
     },
@@ -107,7 +107,7 @@ pub enum StyleError {
         /// The key from the top, with dots.
         key: String,
         /// Where it stands, if it came from the text at hand.
-        place: Option<Place>,
+        place: Option<SourceLocation>,
         /// What is wrong with it.
         problem: Problem,
     },
@@ -199,7 +199,7 @@ impl StyleError {
     }
 
     /// The error with the place that `find` gives for its key, where it is about one.
-    pub(crate) fn placed(mut self, find: impl FnOnce(&str) -> Option<Place>) -> Self {
+    pub(crate) fn placed(mut self, find: impl FnOnce(&str) -> Option<SourceLocation>) -> Self {
         if let Self::UnknownKey { key, place, .. } | Self::Value { key, place, .. } = &mut self {
             *place = find(key);
         }
@@ -207,7 +207,7 @@ impl StyleError {
     }
 }
 
-fn at(place: Option<Place>) -> String {
+fn at(place: Option<SourceLocation>) -> String {
     place.map_or_else(String::new, |place| format!(" at {place}"))
 }
 

@@ -76,10 +76,10 @@ mod tests {
     /// A style file, read, with what is told of its keys.
     fn read(text: &str) -> (Style, Vec<String>) {
         let stated = Stated::from_toml(text, &|_| Err(String::new())).expect("a style");
-        (stated.style().clone(), told(&stated))
+        (stated.style().clone(), reported(&stated))
     }
 
-    fn told(stated: &Stated) -> Vec<String> {
+    fn reported(stated: &Stated) -> Vec<String> {
         let occasion = Occasion {
             output: Output::Frame,
             scene: crate::Facts::ALL,
@@ -89,29 +89,32 @@ mod tests {
 
     #[test]
     fn former_names_are_read_with_a_word_about_them() {
-        let (style, told) = read("line.kinds.border = false");
+        let (style, reported) = read("line.kinds.border = false");
         assert!(!style.line.kinds.boundary);
         assert_eq!(
-            told,
+            reported,
             ["'line.kinds.border' is called 'line.kinds.boundary' today"]
         );
-        let (style, told) = read("line.kinds.boundary = false");
-        assert!(!style.line.kinds.boundary && told.is_empty(), "{told:?}");
+        let (style, reported) = read("line.kinds.boundary = false");
+        assert!(
+            !style.line.kinds.boundary && reported.is_empty(),
+            "{reported:?}"
+        );
     }
 
     #[test]
     fn rules_and_overrides_know_former_names() {
-        let (style, told) = read("[[rule]]\nline.paint.kinds.border = 'red'");
+        let (style, reported) = read("[[rule]]\nline.paint.kinds.border = 'red'");
         let colors = style.rule[0].line.paint.kinds;
         assert_eq!(colors.boundary, Some(Color::rgb(255, 0, 0)));
         assert_eq!(
-            told,
+            reported,
             ["'rule.0.line.paint.kinds.border' is called 'rule.0.line.paint.kinds.boundary' today"]
         );
         let mut stated = Stated::default();
         stated.set_all(&["line.kinds.border=false"]).expect("a key");
         assert!(!stated.style().line.kinds.boundary);
-        assert_eq!(self::told(&stated).len(), 1);
+        assert_eq!(self::reported(&stated).len(), 1);
     }
 
     #[test]

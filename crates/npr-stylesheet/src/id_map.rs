@@ -204,12 +204,12 @@ mod tests {
         Style::from_toml(text, &|_| Err(String::new()))
     }
 
-    fn told(text: &str) -> String {
+    fn reported(text: &str) -> String {
         read(text).unwrap_err().to_string()
     }
 
     #[test]
-    fn rules_match_names_and_colours_of_regions() {
+    fn rules_match_names_and_colors_of_regions() {
         let rules = "[[rule]]\nmatch.id = 'hair'\nline.width_factor = 2\n\
             [[rule]]\nmatch.id = '#0F0'\nline.width_factor = 3\n\
             [[rule]]\nmatch.id = '#0000ff'\nline.width_factor = 4\n\
@@ -270,11 +270,11 @@ mod tests {
     #[test]
     fn slips_are_told() {
         assert_eq!(
-            told(&format!("{MAP}[[rule]]\nmatch.id = 'hiar'")),
+            reported(&format!("{MAP}[[rule]]\nmatch.id = 'hiar'")),
             "rule.0.match.id at line 5, column 7 is no id of an id_map; did you mean 'hair'?"
         );
         assert_eq!(
-            told("[[rule]]\nmatch.id = '#ff0000'"),
+            reported("[[rule]]\nmatch.id = '#ff0000'"),
             "rule.0.match.id at line 2, column 7 names an id, but the style has no id_map"
         );
         for (slip, wanted) in [
@@ -289,8 +289,8 @@ mod tests {
             ("[[id_map]]\nimage = ''", "names no file"),
             ("[[id_map]]\nids = []", "lacks 'image'"),
         ] {
-            let told = told(&format!("{MAP}{slip}"));
-            assert!(told.ends_with(wanted), "{told}");
+            let reported = reported(&format!("{MAP}{slip}"));
+            assert!(reported.ends_with(wanted), "{reported}");
         }
         for (id, wanted) in [
             (
@@ -307,8 +307,8 @@ mod tests {
                 "is not a CSS colour such as #1e1a18 or saddlebrown",
             ),
         ] {
-            let told = told(&format!("[[id_map]]\nimage = 'a.png'\nids = [{id}]"));
-            assert!(told.ends_with(wanted), "{told}");
+            let reported = reported(&format!("[[id_map]]\nimage = 'a.png'\nids = [{id}]"));
+            assert!(reported.ends_with(wanted), "{reported}");
         }
     }
 }

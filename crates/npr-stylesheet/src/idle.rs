@@ -74,16 +74,16 @@ fn covers(pattern: &str, key: &str) -> bool {
 
 /// Notices that name all keys of one reason; as few as lines have room for.
 fn sentences(keys: &[&str], by: &str, why: &str) -> Vec<String> {
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     let mut rest = keys;
     while !rest.is_empty() {
         let fits =
             |count: &usize| sentence(&rest[..*count], by, why).chars().count() <= NOTICE_LENGTH;
         let count = (1..=rest.len()).take_while(fits).last().unwrap_or(1);
-        told.push(sentence(&rest[..count], by, why));
+        reported.push(sentence(&rest[..count], by, why));
         rest = &rest[count..];
     }
-    told
+    reported
 }
 
 fn sentence(keys: &[&str], by: &str, why: &str) -> String {

@@ -217,7 +217,7 @@ fn parse(text: &str) -> Result<Table, StyleError> {
         .lines()
         .position(|line| line.matches('.').count() > DOTS_MAX)
     {
-        let place = Some(crate::Place {
+        let place = Some(crate::SourceLocation {
             line: line + 1,
             column: 1,
         });

@@ -194,45 +194,45 @@ mod tests {
 
     #[test]
     fn slips_are_told_with_their_place() {
-        let told = |text: &str| read(text).expect_err("a slip").to_string();
+        let reported = |text: &str| read(text).expect_err("a slip").to_string();
         let words = "[[lettering]]\ntext = \"A\"\nfont = \"a.ttf\"\n";
         assert_eq!(
-            told("[[lettering]]\ntext = \"A\""),
+            reported("[[lettering]]\ntext = \"A\""),
             "lettering.0 at line 1, column 1 lacks 'font'"
         );
         assert_eq!(
-            told(&format!("{words}bent = 0.3")),
+            reported(&format!("{words}bent = 0.3")),
             "unknown key 'lettering.0.bent' at line 4, column 1; did you mean 'lettering.0.bend'?"
         );
         assert_eq!(
-            told(&format!("{words}bend = 2")),
+            reported(&format!("{words}bend = 2")),
             "lettering.0.bend at line 4, column 1 is 2, but must lie in -1..1"
         );
         assert_eq!(
-            told(&format!("{words}anchor = [0, nan, 0]")),
+            reported(&format!("{words}anchor = [0, nan, 0]")),
             "lettering.0.anchor.1 at line 4, column 14 is NaN, but must be finite"
         );
         assert_eq!(
-            told("[line.width]\nmin = 10\nmax = 1.3"),
+            reported("[line.width]\nmin = 10\nmax = 1.3"),
             "line.width.min at line 2, column 1 is 10, but must lie in 0..1.3"
         );
         assert_eq!(
-            told("[ink.hatch]\nseed = -1"),
+            reported("[ink.hatch]\nseed = -1"),
             "ink.hatch.seed at line 2, column 1 is -1, but must be 0 or more"
         );
         assert_eq!(
-            told(&format!("{words}size = \"1world\"")),
+            reported(&format!("{words}size = \"1world\"")),
             "lettering.0.size at line 4, column 1 is in world units, but the words have no anchor"
         );
         assert_eq!(
-            told(&format!("{words}hidden = true")),
+            reported(&format!("{words}hidden = true")),
             "lettering.0.hidden at line 4, column 1 takes an anchor, which the words lack"
         );
         let many = words.repeat(LETTERING_MAX + 1);
         assert!(
-            told(&many).contains("has 65 entries, but must have 0 to 64"),
+            reported(&many).contains("has 65 entries, but must have 0 to 64"),
             "{}",
-            told(&many)
+            reported(&many)
         );
     }
 }

@@ -71,7 +71,7 @@ pub use beam::{Beam, BeamOverlap, BeamStop, RuleBeam};
 pub use blend::Blend;
 pub use color::{Color, ColorError};
 pub use detect::{DepthTest, Detect, IdTest, MASK_LINE_PX, NormalTest, WidthWarning, width_rule};
-pub use error::{Place, Problem, StyleError};
+pub use error::{Problem, SourceLocation, StyleError};
 pub use highlight::{Back, Edge, Highlight, HighlightModel, Streak};
 pub use id_map::{ID_MAPS_MAX, IDS_MAX, IdMap, IdRegion, NamedId};
 pub use idle::{Facts, LineFinder, LineForm, LineOutput, Occasion, Output};

@@ -288,8 +288,11 @@ mod tests {
                 "is 'laser', but must be one of distant, point, spot, sky",
             ),
         ] {
-            let told = fault_of(text);
-            assert!(told.starts_with(key) && told.ends_with(fault), "{told}");
+            let reported = fault_of(text);
+            assert!(
+                reported.starts_with(key) && reported.ends_with(fault),
+                "{reported}"
+            );
         }
     }
 

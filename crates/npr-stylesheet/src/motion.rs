@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn what_moves_is_told_by_its_colour() {
+    fn what_moves_is_told_by_its_color() {
         let rule = |object: &str, trail: &str| {
             format!("[[rule]]\nmatch.object = '{object}'\nmotion.trail = {trail}\n")
         };
@@ -211,10 +211,10 @@ mod tests {
         let text: String = (1..20)
             .map(|i| format!("[[rule]]\nmotion.trail = [{i}, 0, 0]\n"))
             .collect();
-        let told = read(&text).unwrap_err().to_string();
+        let reported = read(&text).unwrap_err().to_string();
         assert!(
-            told.ends_with("is one of more than 16 different trails"),
-            "{told}"
+            reported.ends_with("is one of more than 16 different trails"),
+            "{reported}"
         );
     }
 

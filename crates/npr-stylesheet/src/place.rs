@@ -4,20 +4,20 @@ use npr_core::decoding::guard;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::Place;
+use crate::SourceLocation;
 
 /// Line and column of a byte of `text`.
-pub(crate) fn of_byte(text: &str, byte: usize) -> Place {
+pub(crate) fn of_byte(text: &str, byte: usize) -> SourceLocation {
     let before = text.get(..byte).unwrap_or(text);
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    Place {
+    SourceLocation {
         line: before.matches('\n').count() + 1,
         column: before[line_start..].chars().count() + 1,
     }
 }
 
 /// Where `key`, a path with dots, stands in a TOML text; for an absent key, where its table stands.
-pub(crate) fn of_key(text: &str, key: &str) -> Option<Place> {
+pub(crate) fn of_key(text: &str, key: &str) -> Option<SourceLocation> {
     let document = guard(|| DeTable::parse(text)).ok()?.ok()?;
     let mut found = None;
     let mut table = document.get_ref();
@@ -91,6 +91,6 @@ mod tests {
 
     #[test]
     fn columns_count_characters() {
-        assert_eq!(of_byte("é = 1", 3), Place { line: 1, column: 3 });
+        assert_eq!(of_byte("é = 1", 3), SourceLocation { line: 1, column: 3 });
     }
 }

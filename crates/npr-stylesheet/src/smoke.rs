@@ -361,7 +361,7 @@ mod tests {
 
     #[test]
     fn slips_are_told_by_name() {
-        let told = |text: &str| read(text).expect_err("a slip").to_string();
+        let reported = |text: &str| read(text).expect_err("a slip").to_string();
         for (text, key, fault) in [
             (
                 "smoke.layers = 17",
@@ -390,8 +390,11 @@ mod tests {
                 "did you mean 'smoke.opacity'?",
             ),
         ] {
-            let told = told(text);
-            assert!(told.starts_with(key) && told.ends_with(fault), "{told}");
+            let reported = reported(text);
+            assert!(
+                reported.starts_with(key) && reported.ends_with(fault),
+                "{reported}"
+            );
         }
     }
 }

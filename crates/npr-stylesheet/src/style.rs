@@ -159,7 +159,7 @@ impl Style {
     }
 
     /// Whether the lines of any part may mind what lies behind them.
-    pub fn minds_background(&self) -> bool {
+    pub fn contrasts_with_background(&self) -> bool {
         let rules = self.rule.iter().map(|rule| rule.line.background.method);
         let mut methods = rules.chain([Some(self.line.background.method)]).flatten();
         methods.any(|method| method != BackgroundMethod::Off)

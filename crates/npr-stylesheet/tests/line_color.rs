@@ -119,7 +119,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
-    fn the_glaze_is_its_layers_in_order(
+    fn the_tint_layer_is_its_layers_in_order(
         own in prop::array::uniform3(0f32..1.0),
         world in prop::array::uniform3(-1f32..1.0),
         normal in prop::array::uniform3(-1f32..1.0),
@@ -138,7 +138,7 @@ proptest! {
     }
 
     #[test]
-    fn a_constant_is_the_lines_own_colour_to_the_bit(
+    fn a_constant_is_the_lines_own_color_to_the_bit(
         world in prop::array::uniform3(-1e6f32..1e6), normal in prop::array::uniform3(-1f32..1.0), kind in 0u32..5,
     ) {
         let (part, store) = painted("{}");
@@ -149,7 +149,7 @@ proptest! {
 
     /// A thousandth of the model's size further back, or of a turn, no channel jumps.
     #[test]
-    fn colour_is_continuous_over_depth_and_light(z in -1f32..1.0, angle in 0f32..6.2) {
+    fn color_is_continuous_over_depth_and_light(z in -1f32..1.0, angle in 0f32..6.2) {
         let (part, store) = painted(EVERYTHING);
         let (view, lights) = (view(), Lights::distant([0.6, 0.0, 0.8]));
         let scene = scene(&view, &lights, &store);
@@ -165,7 +165,7 @@ proptest! {
 
     /// Numbers that are none, and far too large, still give a colour.
     #[test]
-    fn any_place_has_a_colour(
+    fn any_place_has_a_color(
         world in prop::array::uniform3(any::<f32>()), normal in prop::array::uniform3(any::<f32>()),
     ) {
         let (part, store) = painted(EVERYTHING);

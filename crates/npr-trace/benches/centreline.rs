@@ -36,7 +36,7 @@ fn noise(side: u32) -> Bitmap {
     painted(side, |x, y| npr_core::math::mix_bits(x << 16 | y) & 1 == 0)
 }
 
-fn stages(c: &mut Criterion) {
+fn renderers(c: &mut Criterion) {
     let subjects = [
         ("hatching", hatching as fn(u32) -> Bitmap),
         ("chequers", chequers),
@@ -58,8 +58,8 @@ fn stages(c: &mut Criterion) {
             joined.cut_spurs(options.spur);
             joined.join_junctions();
             group.throughput(Throughput::Elements(u64::from(side * side)));
-            let mut bench = |stage: &str, run: &dyn Fn()| {
-                group.bench_function(BenchmarkId::new(stage, side), |b| b.iter(run));
+            let mut bench = |renderer: &str, run: &dyn Fn()| {
+                group.bench_function(BenchmarkId::new(renderer, side), |b| b.iter(run));
             };
             bench("despeckle", &|| {
                 black_box(despeckle(&bitmap, options.turd_size));
@@ -92,5 +92,5 @@ fn stages(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, stages);
+criterion_group!(benches, renderers);
 criterion_main!(benches);

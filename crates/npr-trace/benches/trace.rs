@@ -110,7 +110,7 @@ fn steps(loops: &Loops) -> u64 {
     loops.step_count() as u64
 }
 
-fn stages(c: &mut Criterion) {
+fn renderers(c: &mut Criterion) {
     for (name, draw) in [("discs", discs as fn(u32) -> Bitmap), ("spiral", spiral)] {
         let mut group = short_group(c, &format!("trace {name}"));
         for side in SIDES {
@@ -118,8 +118,8 @@ fn stages(c: &mut Criterion) {
             let options = TraceOptions::default();
             let loops = decompose(&bitmap, TurnPolicy::Minority, 2);
             group.throughput(Throughput::Elements(steps(&loops)));
-            let mut bench = |stage: &str, run: &dyn Fn()| {
-                group.bench_function(BenchmarkId::new(stage, side), |b| b.iter(run));
+            let mut bench = |renderer: &str, run: &dyn Fn()| {
+                group.bench_function(BenchmarkId::new(renderer, side), |b| b.iter(run));
             };
             bench("decompose", &|| {
                 black_box(decompose(&bitmap, TurnPolicy::Minority, 2));
@@ -165,5 +165,5 @@ fn stages(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, stages, chequers, threads);
+criterion_group!(benches, renderers, chequers, threads);
 criterion_main!(benches);

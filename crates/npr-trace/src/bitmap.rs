@@ -1,6 +1,6 @@
 //! Black and white pictures, a bit a pixel.
 
-use super::words::Words;
+use super::huge_buffer::HugeBuffer;
 use rayon::prelude::*;
 use std::io::{self, Read};
 use std::sync::{Mutex, PoisonError};
@@ -17,7 +17,7 @@ pub struct Bitmap {
     width: u32,
     height: u32,
     /// Words of 64 pixels, the lowest bit leftmost; rows from the top. Bits beyond the width are 0.
-    words: Words,
+    words: HugeBuffer,
 }
 
 /// Why a bitmap was not made.
@@ -56,7 +56,7 @@ impl Bitmap {
         if width.max(height) > SIDE_LIMIT {
             return Err(BitmapError::TooLarge { width, height });
         }
-        let words = Words::zeros(width.div_ceil(64) as usize * height as usize);
+        let words = HugeBuffer::zeros(width.div_ceil(64) as usize * height as usize);
         Ok(Self {
             width,
             height,

@@ -2,8 +2,8 @@
 
 use super::bitmap::Bitmap;
 use super::edges::EdgeMap;
+use super::huge_buffer::HugeBuffer;
 use super::turn::{TurnPolicy, pixels_around};
-use super::words::Words;
 
 /// Steps after which a batch of loops is handed on: the last ones shall end at about the same time on all threads.
 const BATCH_STEPS: usize = 1 << 11;
@@ -169,7 +169,7 @@ impl<'a> Decomposition<'a> {
     }
 
     /// The memory of its edges, which were all taken once there are no more loops: zero.
-    pub(super) fn into_words(self) -> Words {
+    pub(super) fn into_words(self) -> HugeBuffer {
         self.map.into_words()
     }
 

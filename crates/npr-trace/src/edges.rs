@@ -1,7 +1,7 @@
 //! The pixel edges of a bitmap: sides between ink and white.
 
 use super::bitmap::Bitmap;
-use super::words::Words;
+use super::huge_buffer::HugeBuffer;
 use rayon::prelude::*;
 
 /// Columns and rows of nothing around the picture, so that the 8x8 pixels around any corner can be asked for.
@@ -20,7 +20,7 @@ pub(super) struct EdgeMap {
     stride: usize,
     /// Words of the upright edges; those of the level ones follow.
     half: usize,
-    words: Words,
+    words: HugeBuffer,
 }
 
 impl EdgeMap {
@@ -30,7 +30,7 @@ impl EdgeMap {
         let stride = (width as usize + 2 * PAD).div_ceil(64) + 1;
         let rows = height as usize + 2 * PAD;
         let half = stride * rows;
-        let mut words = Words::zeros(2 * half);
+        let mut words = HugeBuffer::zeros(2 * half);
         let white = vec![0; width.div_ceil(64) as usize];
         // A stretch for every thread, since new pages that lie close together are not given to two threads at once.
         let least = (rows / rayon::current_num_threads()).max(LEAST_ROWS);
@@ -57,7 +57,7 @@ impl EdgeMap {
     }
 
     /// Its memory, more than two bits a pixel; all zero where every edge was taken.
-    pub fn into_words(self) -> Words {
+    pub fn into_words(self) -> HugeBuffer {
         self.words
     }
 

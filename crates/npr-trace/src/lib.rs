@@ -5,7 +5,7 @@
 //! [`adjust_corners`] moves its corners to where the sides meet best, [`bends`] tells corners from arcs, [`curve()`]
 //! makes segments of them, and [`join_arcs`] joins arcs to fewer. [`trace`] does it all, on all threads, and
 //! [`write_tracing`] makes files of it. Pictures of few colours become a stack of bitmaps by [`layers`], and files by
-//! [`trace_colours_to_file`]. Drawn lines become single strokes along their middle by [`centreline`].
+//! [`trace_colors_to_file`]. Drawn lines become single strokes along their middle by [`centreline`].
 //!
 //! Written from the paper. What it leaves open is decided by mathematics, or so that results equal those of the
 //! program Potrace, run and measured as a whole; each such place says so.
@@ -30,14 +30,14 @@ mod adjust;
 mod batches;
 mod bitmap;
 pub mod centreline;
-mod colour_file;
-mod colours;
-mod conveyor;
+mod color_file;
+mod colors;
 mod curve;
 mod decompose;
 mod edges;
 mod file;
 mod flat;
+mod huge_buffer;
 mod join;
 mod nest;
 mod paths;
@@ -50,12 +50,12 @@ pub mod svg_path;
 #[cfg(test)]
 mod tests;
 mod turn;
-mod words;
+mod work_queue;
 
 pub use adjust::adjust_corners;
 pub use bitmap::{Bitmap, BitmapError, SIDE_LIMIT};
-pub use colour_file::trace_colours_to_file;
-pub use colours::{ColorLayer, IndexPicture, IndexPictureError, Layers, layers, stacking_order};
+pub use color_file::trace_colors_to_file;
+pub use colors::{ColorLayer, IndexPicture, IndexPictureError, Layers, layers, stacking_order};
 pub use curve::{Bend, Segment, bends, curve};
 pub use decompose::{Decomposition, Loops, PixelLoop, STEPS, decompose};
 pub use file::{TraceFormat, trace_to_file, write_tracing};
@@ -67,11 +67,11 @@ pub use straight::straight_lengths;
 pub use turn::TurnPolicy;
 
 use batches::Batches;
-use conveyor::Conveyor;
 use glam::DVec2;
 use pen::Pen;
 use std::borrow::Borrow;
 use std::sync::{Arc, mpsc};
+use work_queue::WorkQueue;
 
 /// How a bitmap is traced; names and defaults are those of the program Potrace.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -167,7 +167,7 @@ fn found<T: Send>(
     each: impl Fn(&mut Outliner, &Loops) -> T + Sync,
 ) -> (Found, Vec<(usize, T)>) {
     let (sender, receiver) = mpsc::channel();
-    let conveyor = Conveyor::new(rayon::current_num_threads() - 1);
+    let work_queue = WorkQueue::new(rayon::current_num_threads() - 1);
     let outliner = || {
         // Its memory goes from batch to batch.
         let mut outliner = Outliner::new(options);
@@ -179,8 +179,8 @@ fn found<T: Send>(
     };
     let found = rayon::scope(|scope| {
         let call_worker = || {
-            if conveyor.enter() {
-                scope.spawn(|_| conveyor.work(outliner()));
+            if work_queue.enter() {
+                scope.spawn(|_| work_queue.work(outliner()));
             }
         };
         call_worker();
@@ -192,16 +192,16 @@ fn found<T: Send>(
             let first = loops.len();
             let batch = loops.push(batch);
             if loops.step_count() <= early_steps {
-                conveyor.put((first, batch));
+                work_queue.put((first, batch));
                 call_worker();
             }
         }
-        conveyor.close();
+        work_queue.close();
         // The other threads are at work still, while its memory is given back.
         let words = decomposition.into_words();
         drop(bitmap);
         let parents = nest::parents(size, loops.iter(), words);
-        conveyor.finish(outliner());
+        work_queue.finish(outliner());
         Found { loops, parents }
     });
     drop(sender);

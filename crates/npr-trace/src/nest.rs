@@ -1,7 +1,7 @@
 //! Which path lies in which.
 
 use super::decompose::PixelLoop;
-use super::words::Words;
+use super::huge_buffer::HugeBuffer;
 
 /// No loop.
 pub(super) const NONE: u32 = u32::MAX;
@@ -17,7 +17,7 @@ pub fn nest<'a>(
     size: [u32; 2],
     loops: impl Iterator<Item = PixelLoop<'a>> + Clone,
 ) -> Vec<Option<u32>> {
-    let words = Words::zeros(2 * Uprights::words_of(size));
+    let words = HugeBuffer::zeros(2 * Uprights::words_of(size));
     let parents = parents(size, loops, words).into_iter();
     parents
         .map(|parent| (parent != NONE).then_some(parent))
@@ -29,7 +29,7 @@ pub fn nest<'a>(
 pub(super) fn parents<'a>(
     size: [u32; 2],
     loops: impl Iterator<Item = PixelLoop<'a>> + Clone,
-    mut words: Words,
+    mut words: HugeBuffer,
 ) -> Vec<u32> {
     debug_assert!(words.iter().all(|word| *word == 0), "no bit is set");
     let count = Uprights::words_of(size);

@@ -1,4 +1,4 @@
-mod colours;
+mod colors;
 mod oracle;
 
 use super::*;

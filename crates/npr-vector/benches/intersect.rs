@@ -6,8 +6,8 @@ use npr_core::geometry::NONE;
 use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::mesh::Mesh;
 use npr_mesh::testing::{Random, uv_sphere};
-use npr_vector::bvh::FaceTree;
-use npr_vector::intersect::crossings;
+use npr_vector::mesh_lines::bvh::FaceTree;
+use npr_vector::mesh_lines::intersect::crossings;
 use std::hint::black_box;
 use std::time::Duration;
 

@@ -5,10 +5,10 @@ use npr_core::camera::{Camera, Projection};
 use npr_core::geometry::{Edge, GPixel, NONE, Part, PosedVertex, Stamp, Triangle};
 use npr_core::outline::{MASK_OWNER, Outline};
 use npr_core::window::{View, Window};
-use npr_vector::detect::{Detection, detect};
-use npr_vector::gbuffer::{Surfaces, resolve};
-use npr_vector::residual::{self, Inking, Search, tile_count};
-use npr_vector::ribbon::{self, Drawing};
+use npr_vector::screen::detect::{Detection, detect};
+use npr_vector::screen::gbuffer::{Surfaces, resolve};
+use npr_vector::screen::residual::{self, Inking, Search, tile_count};
+use npr_vector::screen::ribbon::{self, Drawing};
 use std::time::Duration;
 
 /// Numbers of pixels or edges.

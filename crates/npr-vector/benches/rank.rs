@@ -8,8 +8,8 @@ use criterion::{
     BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main,
 };
 use npr_core::math::mix_bits;
-use npr_vector::pixel_contour::ranked_sides;
-use npr_vector::pixel_contour::side::{Ink, link_sides, mark_sides};
+use npr_vector::pixel_strokes::ranked_sides;
+use npr_vector::pixel_strokes::side::{Ink, link_sides, mark_sides};
 use npr_vector::rank::scan::exclusive_scan;
 use npr_vector::rank::{self, Link, RankError, Ranked};
 use std::time::Duration;

@@ -2,7 +2,7 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use npr_mesh::testing::{shape_of, torus};
-use npr_vector::zero_set::{CornerNormals, FlatFaces, zero_set};
+use npr_vector::mesh_lines::zero_set::{CornerNormals, FlatFaces, zero_set};
 use std::time::Duration;
 
 /// Steps around the tube; a torus has `8 n * n` faces.

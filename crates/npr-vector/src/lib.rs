@@ -1,55 +1,32 @@
 //! Lines found on images and drawn on shapes [Okuya et al. 2016].
 //!
-//! Four ways to lines, each a row of functions that are usable alone; those of a frame are twins of shaders:
+//! A map of the crate, a folder for each way to lines:
 //!
-//! - **The published outline of a frame** [Okuya et al. 2016]: [`gbuffer`] finds the surface under every pixel,
-//!   [`detect`] marks the pixels that differ from a neighbour, [`ribbon`] draws mesh edges with width where the mask
-//!   shows them, and [`residual`] inks what the mask shows and no edge explains.
-//! - **Exact lines of a mesh**: [`contour`], [`zero_set`], [`feature`], [`intersect`] and [`wire`] find linked curves
-//!   ([`graph`]), [`project`] puts them into the picture, [`visibility`] with [`bvh`] finds what hides them, and
-//!   [`run`], [`corner`], [`adopt`], [`doubles`], [`merge`], [`smooth`] and [`spurs`] make strokes of what is seen.
-//!   [`draw`] does it all; [`puff`] adds smoke.
-//! - **Strokes of pixels** [Jiang et al. 2022]: [`pixel_contour`], ranked by [`rank`].
-//! - **Lines of pictures**: [`image_line`] follows borders between surfaces and lines painted in textures; bitmaps
-//!   alone are the crate [`npr_trace`], here [`trace`].
+//! | folder | lines | source |
+//! |---|---|---|
+//! | [`screen`] | outlines of a frame: a mask of pixels, and mesh edges drawn where it shows them | [Okuya et al. 2016] |
+//! | [`mesh_lines`] | exact curves of a mesh: contours, creases, intersections, and what hides them | |
+//! | [`pixel_strokes`] | strokes of the pixels that lines cover | [Jiang et al. 2022] |
+//! | [`image_lines`] | borders between surfaces in a picture, and lines painted in textures | |
+//! | [`rank`] | list ranking, which orders the nodes of lines in parallel | [Wyllie 1979] |
 //!
-//! All end in a [`stroke::Drawing`].
+//! Functions of [`screen`], [`rank`] and [`pixel_strokes`] are twins of shaders. All ways but the first end in a
+//! [`stroke::Drawing`]; [`project`] and [`surface_location`] say where its points lie. Bitmaps alone are the crate
+//! [`npr_trace`], here [`trace`].
 //!
 //! ```
 //! // A line one pixel wide whose spine runs through a pixel's centre covers it whole.
-//! assert_eq!(npr_vector::ribbon::line_coverage(0.0, 0.5), 1.0);
+//! assert_eq!(npr_vector::screen::ribbon::line_coverage(0.0, 0.5), 1.0);
 //! ```
 
-pub mod adopt;
-pub mod bvh;
-pub mod contour;
-pub mod corner;
-mod covered;
-pub mod detect;
-pub mod doubles;
-pub mod draw;
-pub mod feature;
-pub mod gbuffer;
-pub mod graph;
-pub mod image_line;
-pub mod intersect;
-pub mod merge;
-mod near;
-pub mod pixel_contour;
+pub mod image_lines;
+pub mod mesh_lines;
+pub mod pixel_strokes;
 pub mod project;
-pub mod puff;
 pub mod rank;
-pub mod residual;
-pub mod ribbon;
-pub mod run;
-pub mod sample;
-pub mod seat;
-pub mod smooth;
-pub mod spurs;
+pub mod screen;
 pub mod stroke;
-pub mod visibility;
-pub mod wire;
-pub mod zero_set;
+pub mod surface_location;
 
 /// Bitmaps to curves: the crate `npr-trace`, which lines painted in textures are followed with.
 pub use npr_trace as trace;

@@ -31,7 +31,7 @@ pub use jump::{rounds_for, wyllie};
 pub use splitter::{ruling_set, splitter_rounds_for};
 pub use walk::walk;
 
-use crate::graph::CurveGraph;
+use crate::mesh_lines::graph::CurveGraph;
 use bytemuck::{Pod, Zeroable};
 use npr_core::geometry::NONE;
 use npr_core::gpu_layout;

@@ -1,6 +1,6 @@
 //! Strokes: visible or hidden runs of lines, ready to be drawn or written.
 
-use crate::graph::CurveNode;
+use crate::mesh_lines::graph::CurveNode;
 use serde::Deserialize;
 
 /// The one list of kinds of line: what a kind is, and its name in files and on the command line.

@@ -4,11 +4,11 @@ use npr_core::camera::{Camera, Projection};
 use npr_mesh::Mesh;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{coplanar_soup, crossing_soup, fan, needles, shape_of};
-use npr_vector::contour::EdgeContours;
-use npr_vector::draw::{
+use npr_vector::mesh_lines::contour::EdgeContours;
+use npr_vector::mesh_lines::draw::{
     LineSettings, Method, Prepared, StrokeLook, ViewStrokes, eye_of, strokes_with,
 };
-use npr_vector::graph::CurveNode;
+use npr_vector::mesh_lines::graph::CurveNode;
 use npr_vector::project::Projector;
 
 const SIZE: [u32; 2] = [400, 300];

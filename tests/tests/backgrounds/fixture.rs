@@ -4,7 +4,7 @@ use npr_core::camera::{Camera, Projection};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
-use npr_render::{Frame, Model, Picture, StageOptions};
+use npr_render::{Frame, Model, Picture, RendererOptions};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
 use npr_tests::{Object, device, draw_with, placed, scene_of};
@@ -51,9 +51,9 @@ pub fn draw(
     behind: Option<&Picture>,
 ) -> Frame {
     let model = Model::new(scene).unwrap();
-    let options = StageOptions {
+    let options = RendererOptions {
         background_image: behind.cloned(),
-        ..StageOptions::new(size)
+        ..RendererOptions::new(size)
     };
     let frame = draw_with(engine, &model, style, &front(), &options);
     keep(&frame);

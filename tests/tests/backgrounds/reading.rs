@@ -126,7 +126,7 @@ const OURS: &[&str] = &[
 ];
 
 #[test]
-fn contrast_rises_over_its_level_and_colours_stay_nearer_than_red() {
+fn contrast_rises_over_its_level_and_colors_stay_nearer_than_red() {
     for (name, engine) in engines() {
         let mut risen = 0;
         for (wall, behind) in backgrounds() {

@@ -67,7 +67,7 @@ fn color(line: &[[u8; 4]]) -> [u8; 4] {
 }
 
 #[test]
-fn widths_stay_where_colours_change_and_colours_where_widths_do() {
+fn widths_stay_where_colors_change_and_colors_where_widths_do() {
     for (name, engine) in engines() {
         let swelling = lines_at(&drawn(engine, "curvature", "contrast"));
         let plain = lines_at(&drawn(engine, "curvature", "off"));

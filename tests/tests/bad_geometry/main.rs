@@ -12,7 +12,7 @@ use npr_mesh::Mesh;
 use npr_mesh::testing::{
     cube, fan, icosphere, moebius_strip, plane, random_soup, random_winding, torus, with_doubles,
 };
-use npr_render::{Frame, Model, RenderError, Stage, StageOptions};
+use npr_render::{Frame, Model, RenderError, Renderer, RendererOptions};
 use npr_scene::{Node, Part, Scene};
 use npr_stylesheet::Style;
 use npr_tests::{Ink, Object, boxed, draw, draw_on, lines, placed, scene_of};
@@ -60,21 +60,21 @@ fn camera_at(eye: [f32; 3], target: [f32; 3]) -> Camera {
     }
 }
 
-/// Meshes with folds, slivers, fans, doubles, pinches and nothing at all.
+/// Meshes with folds, degenerate faces, fans, doubles, pinches and nothing at all.
 fn torture() -> Vec<(&'static str, Mesh)> {
     let points = |positions: &[[f32; 3]], triangles: &[[u32; 3]]| {
         Mesh::new(positions.to_vec(), triangles.to_vec()).unwrap()
     };
-    let sliver = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1e-7, 0.0], [0.5, 0.0, 0.0]];
+    let degenerate_face = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1e-7, 0.0], [0.5, 0.0, 0.0]];
     vec![
         ("nothing", Mesh::default()),
-        ("vertices alone", points(&sliver, &[])),
+        ("vertices alone", points(&degenerate_face, &[])),
         ("a point thrice", points(&[[0.3; 3]], &[[0, 0, 0]])),
         (
             "no area",
-            points(&sliver, &[[0, 1, 3], [0, 1, 1], [0, 1, 2]]),
+            points(&degenerate_face, &[[0, 1, 3], [0, 1, 1], [0, 1, 2]]),
         ),
-        ("a sliver", points(&sliver, &[[0, 1, 2]])),
+        ("a degenerate_face", points(&degenerate_face, &[[0, 1, 2]])),
         (
             "one triangle twice, one turned",
             points(
@@ -277,28 +277,31 @@ fn a_mesh_smaller_than_a_pixel_leaves_at_most_a_dot() {
 fn frames_have_a_least_and_a_largest_size() {
     let model = Model::new(&scene_of(&[Object::new("Box", cube())])).unwrap();
     let camera = model.framing(1.0, 0.7);
-    let stage = |size| {
-        Stage::new(
+    let renderer = |size| {
+        Renderer::new(
             &Processor,
             &model,
             &lines("shape"),
-            &StageOptions::new(size),
+            &RendererOptions::new(size),
         )
     };
     for size in [[0, 0], [0, 5], [5, 0]] {
         assert!(
-            matches!(stage(size).err(), Some(RenderError::EmptyFrame { .. })),
+            matches!(renderer(size).err(), Some(RenderError::EmptyFrame { .. })),
             "{size:?}"
         );
     }
     for size in [[40_000, 10], [10, 40_000], [u32::MAX, u32::MAX]] {
         assert!(
-            matches!(stage(size).err(), Some(RenderError::FrameTooLarge { .. })),
+            matches!(
+                renderer(size).err(),
+                Some(RenderError::FrameTooLarge { .. })
+            ),
             "{size:?}"
         );
     }
     for size in [[1, 1], [1, 90], [90, 1], [2, 3], [20_000, 2]] {
-        let frame = stage(size).unwrap().draw(&camera).unwrap();
+        let frame = renderer(size).unwrap().draw(&camera).unwrap();
         assert_eq!(frame.rgba.len(), (size[0] * size[1] * 4) as usize);
     }
 }
@@ -306,10 +309,10 @@ fn frames_have_a_least_and_a_largest_size() {
 #[test]
 fn a_plan_beyond_the_memory_limit_is_refused() {
     let model = Model::new(&scene_of(&[Object::new("Box", cube())])).unwrap();
-    let options = StageOptions {
+    let options = RendererOptions {
         memory_limit: 1 << 20,
-        ..StageOptions::new([640, 360])
+        ..RendererOptions::new([640, 360])
     };
-    let refused = Stage::new(&Processor, &model, &lines("shape"), &options);
+    let refused = Renderer::new(&Processor, &model, &lines("shape"), &options);
     assert!(matches!(refused.err(), Some(RenderError::Memory(_))));
 }

@@ -92,13 +92,13 @@ fn numbers(own: Option<&Value>, whole: bool, (min, max): (f64, f64)) -> Vec<Stri
     let round = |value: f64| if whole { value.round() } else { value };
     let mut values: Vec<f64> = wanted.map(|value| round(value.clamp(min, max))).collect();
     values.retain(|value| Some(*value) != own);
-    let told = values.into_iter().map(|value| match whole {
+    let reported = values.into_iter().map(|value| match whole {
         true => format!("{value:.0}"),
         false => format!("{value:?}"),
     });
-    let mut told: Vec<String> = told.collect();
-    told.dedup();
-    told
+    let mut reported: Vec<String> = reported.collect();
+    reported.dedup();
+    reported
 }
 
 fn lists(own: Option<&Value>, count: usize, (min, max): (f64, f64)) -> Vec<String> {

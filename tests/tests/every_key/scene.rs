@@ -9,8 +9,8 @@ use npr_drawing::svg::write_svg;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{icosphere, plane};
 use npr_render::{
-    Font, Lettering, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage, Model,
-    Picture, Smoke, Sphere, Stage, StageOptions, apply_id_maps,
+    Font, Lettering, LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer, Model,
+    Picture, Renderer, RendererOptions, Smoke, Sphere, apply_id_maps,
 };
 use npr_scene::{
     Image, Light, LightKind, Material, Node, Scene, TextureTransform, TextureUse, Wrap,
@@ -72,11 +72,11 @@ impl Studio {
         let lines = style
             .has_curves()
             .then(|| self.line_model(cut.as_ref().unwrap_or(&self.scene), style));
-        let mut stage = Stage::new(&Processor, model, style, &options).unwrap();
+        let mut renderer = Renderer::new(&Processor, model, style, &options).unwrap();
         if let Some(lines) = lines.as_ref().filter(|_| !is_smoke_alone) {
-            stage = stage.with_lines(LineStage::new(&Processor, lines));
+            renderer = renderer.with_lines(LineRenderer::new(&Processor, lines));
         }
-        match stage.draw(&camera()) {
+        match renderer.draw(&camera()) {
             Ok(frame) => (frame.rgba, frame.notices),
             Err(error) => (error.to_string().into_bytes(), Vec::new()),
         }
@@ -99,13 +99,15 @@ impl Studio {
             fill,
             ..LineOptions::of_style(style, SIZE)
         };
-        let stage_options = self.options(style);
-        let behind = style.minds_background().then(|| Model::new(scene).unwrap());
-        let mut stage = LineStage::new(&Processor, &model);
+        let renderer_options = self.options(style);
+        let behind = style
+            .contrasts_with_background()
+            .then(|| Model::new(scene).unwrap());
+        let mut renderer = LineRenderer::new(&Processor, &model);
         if let Some(behind) = &behind {
-            stage = stage.with_backdrop(behind, &stage_options);
+            renderer = renderer.with_backdrop(behind, &renderer_options);
         }
-        let drawing = match stage.draw(&camera(), style, &options) {
+        let drawing = match renderer.draw(&camera(), style, &options) {
             Ok(drawing) => drawing,
             Err(error) => return (error.to_string().into_bytes(), Vec::new()),
         };
@@ -133,19 +135,19 @@ impl Studio {
         (write_svg(&drawing, &artwork), style.line_paint_notices())
     }
 
-    fn options(&self, style: &Style) -> StageOptions {
+    fn options(&self, style: &Style) -> RendererOptions {
         let named = |name: &str| self.pictures.get(name).cloned();
         let background = match &style.background {
             Background::Image(name) => named(name),
             _ => None,
         };
-        StageOptions {
+        RendererOptions {
             background_image: background,
             width_image: style.line.width.texture.as_deref().and_then(named),
             pictures: self.pictures.clone(),
             fonts: self.fonts.clone(),
             smoke: Some(smoke()),
-            ..StageOptions::new(SIZE)
+            ..RendererOptions::new(SIZE)
         }
     }
 

@@ -4,7 +4,7 @@
 
 use crate::fixture::{cut, frames, style};
 use npr_core::camera::{Camera, Projection};
-use npr_render::{Frame, Model, Picture, StageOptions};
+use npr_render::{Frame, Model, Picture, RendererOptions};
 use npr_scene::Scene;
 use npr_tests::models;
 use std::collections::BTreeMap;
@@ -71,7 +71,7 @@ fn hair_keeps_its_line_while_clothes_adapt() {
         up: [0.0, 1.0, 0.0],
         projection: Projection::Perspective { fov_y: 0.42 },
     };
-    let options = StageOptions::new(SIZE);
+    let options = RendererOptions::new(SIZE);
     let drawn = |rules: &str, what: &str| {
         let style = style(&format!("{LOOK}{rules}"));
         let frames = frames(&scene, &style, &options, &camera);
@@ -80,7 +80,7 @@ fn hair_keeps_its_line_while_clothes_adapt() {
     };
     let plain = drawn("", "plain");
     let adapted = drawn(ADAPT, "adapted");
-    let regions = drawn(&regions_in_colours(), "regions").remove(0);
+    let regions = drawn(&regions_in_colors(), "regions").remove(0);
     let near_clothes = grown(&regions, |[r, _, b, _]| r < 90 && b > 180);
     let near_hair = grown(&regions, |[r, g, b, _]| r < 90 && g > 140 && b < 90);
     for (before, after) in plain.iter().zip(&adapted) {
@@ -129,7 +129,7 @@ fn grown(frame: &Frame, is_it: impl Fn([u8; 4]) -> bool) -> Vec<bool> {
 }
 
 /// Each region in a colour of its own, to look at.
-fn regions_in_colours() -> String {
+fn regions_in_colors() -> String {
     ["hair:#30c030", "skin:#ffc8a0", "clothes:#3060ff"]
         .map(|pair| {
             let (id, color) = pair.split_once(':').unwrap();

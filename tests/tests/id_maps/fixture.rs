@@ -5,7 +5,7 @@ use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_mesh::Mesh;
 use npr_render::{
-    Frame, LineModel, LineModelOptions, LineStage, Model, Picture, Stage, StageOptions,
+    Frame, LineModel, LineModelOptions, LineRenderer, Model, Picture, Renderer, RendererOptions,
     apply_id_maps,
 };
 use npr_scene::Scene;
@@ -66,10 +66,10 @@ pub fn style(text: &str) -> Style {
 /// Black lines on white paper by a method, with a map, more of its keys, and rules.
 pub fn with_map(method: &str, keys: &str, rules: &str) -> Style {
     let map = format!("[[id_map]]\nimage = 'ids.png'\n{IDS}{keys}\n{rules}");
-    let told = style(&map);
+    let reported = style(&map);
     Style {
-        id_map: told.id_map,
-        rule: told.rule,
+        id_map: reported.id_map,
+        rule: reported.rule,
         ..lines(method)
     }
 }
@@ -81,17 +81,22 @@ pub fn cut(mut scene: Scene, style: &Style, pictures: &BTreeMap<String, Picture>
 }
 
 /// The frames of all engines there are, the processor's first, which have to agree.
-pub fn frames(scene: &Scene, style: &Style, options: &StageOptions, camera: &Camera) -> Vec<Frame> {
+pub fn frames(
+    scene: &Scene,
+    style: &Style,
+    options: &RendererOptions,
+    camera: &Camera,
+) -> Vec<Frame> {
     let model = Model::new(scene).unwrap();
     let lines = style
         .has_curves()
         .then(|| LineModel::for_style(scene, style, &LineModelOptions::default(), None).unwrap());
     let draw = |engine: &dyn Engine| {
-        let mut stage = Stage::new(engine, &model, style, options).unwrap();
+        let mut renderer = Renderer::new(engine, &model, style, options).unwrap();
         if let Some(lines) = &lines {
-            stage = stage.with_lines(LineStage::new(engine, lines));
+            renderer = renderer.with_lines(LineRenderer::new(engine, lines));
         }
-        stage.draw(camera).unwrap()
+        renderer.draw(camera).unwrap()
     };
     let mut frames = vec![draw(&Processor)];
     frames.extend(device().map(|device| draw(device)));

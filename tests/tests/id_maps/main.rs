@@ -12,8 +12,8 @@ use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{cube, icosphere, mapped};
 use npr_render::{
-    Kind, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage, Model, Smoke, Sphere,
-    StageOptions,
+    Kind, LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer, Model,
+    RendererOptions, Smoke, Sphere,
 };
 use npr_tests::{Ink, device, placed};
 
@@ -41,7 +41,7 @@ fn every_method_of_outline_follows_ids() {
     for method in METHODS.into_iter().filter(|method| *method != "potrace") {
         let style = with_map(method, "", &rules);
         let scene = cut(scene("Ball", icosphere(4)), &style, &halves());
-        for frame in frames(&scene, &style, &StageOptions::new(SIZE), &front()) {
+        for frame in frames(&scene, &style, &RendererOptions::new(SIZE), &front()) {
             let [red, black] = inked(&frame);
             // Half an outline each: 190 pixels long, 3 wide on the left and thinner on the right. Triangles across
             // the middle, and their lines, belong to one side.
@@ -65,7 +65,7 @@ fn methods_and_lines_themselves_are_chosen_by_id() {
     ] {
         let style = with_map("shape", "", &format!("[[rule]]\nmatch.id = '#00f'\n{rule}"));
         let scene = cut(scene("Ball", icosphere(4)), &style, &halves());
-        for frame in frames(&scene, &style, &StageOptions::new(SIZE), &front()) {
+        for frame in frames(&scene, &style, &RendererOptions::new(SIZE), &front()) {
             let [_, black] = inked(&frame);
             assert_eq!(black.map(|count| count > 150), wanted, "{rule}: {black:?}");
         }
@@ -79,7 +79,7 @@ fn tones_and_hatching_follow_ids() {
     let mut style = with_map("none", "", rules);
     style.shade.mode = npr_stylesheet::ShadeMode::Ramp;
     let scene = cut(scene("Ball", icosphere(4)), &style, &halves());
-    for frame in frames(&scene, &style, &StageOptions::new(SIZE), &front()) {
+    for frame in frames(&scene, &style, &RendererOptions::new(SIZE), &front()) {
         let [red, black] = inked(&frame);
         assert!(red[0] > 3000 && red[1] < 300, "red {red:?}");
         assert!(black[1] > 300 && black[0] < 100, "black {black:?}");
@@ -94,7 +94,7 @@ fn backgrounds_are_minded_by_id() {
         style.set("background=#000000").unwrap();
         style.set("shade.paper=#404040").unwrap();
         let scene = cut(scene("Ball", icosphere(4)), &style, &halves());
-        for frame in frames(&scene, &style, &StageOptions::new(SIZE), &front()) {
+        for frame in frames(&scene, &style, &RendererOptions::new(SIZE), &front()) {
             // The outline crosses the middle row at 60 and 180: lighter there on the left, black before black on the
             // right.
             let at = |x: u32| frame.rgba[((90 * SIZE[0] + x) * 4) as usize];
@@ -114,12 +114,12 @@ fn ids_count_beside_smoke() {
     let style = with_map("shape", "", RED_LEFT);
     let scene = cut(scene("Ball", icosphere(4)), &style, &halves());
     // Before the upper left of the ball.
-    let options = StageOptions {
+    let options = RendererOptions {
         smoke: Some(Smoke {
             spheres: vec![Sphere::new([-0.7, 0.7, 1.5], 0.4)],
             space: None,
         }),
-        ..StageOptions::new(SIZE)
+        ..RendererOptions::new(SIZE)
     };
     for frame in frames(&scene, &style, &options, &front()) {
         let [red, black] = inked(&frame);
@@ -149,7 +149,7 @@ fn regions_alone_move_no_line() {
             let whole = scene(name, mesh.clone());
             let pieces = cut(whole.clone(), &style, &halves());
             assert!(pieces.meshes[0].parts.len() > 1, "{name}");
-            let options = StageOptions::new(SIZE);
+            let options = RendererOptions::new(SIZE);
             let [whole, pieces] =
                 [whole, pieces].map(|scene| frames(&scene, &style, &options, &front()).remove(0));
             let pixels = |frame: &npr_render::Frame| frame.rgba.as_chunks::<4>().0.to_vec();
@@ -222,7 +222,7 @@ fn lines_run_between_regions_where_a_map_wants_them() {
                 .filter(|(i, _)| (60..120).contains(&(*i as u32 / SIZE[0])))
                 .count()
         };
-        for frame in frames(&scene, &style, &StageOptions::new(SIZE), &front()) {
+        for frame in frames(&scene, &style, &RendererOptions::new(SIZE), &front()) {
             assert_eq!(near_middle(&frame) > 100, wanted, "{}", near_middle(&frame));
             assert!(wanted || near_middle(&frame) == 0);
         }
@@ -250,7 +250,7 @@ fn strokes_follow_ids() {
             ..LineOptions::new(SIZE)
         };
         for engine in &engines {
-            let drawing = LineStage::new(*engine, &model)
+            let drawing = LineRenderer::new(*engine, &model)
                 .draw(&front(), &style, &options)
                 .unwrap();
             let mut seen = [0, 0];
@@ -277,7 +277,7 @@ fn blends_know_ids() {
     );
     style.set("blend.amount=0").unwrap();
     let scene = cut(scene("Ball", icosphere(4)), &style, &halves());
-    for frame in frames(&scene, &style, &StageOptions::new(SIZE), &front()) {
+    for frame in frames(&scene, &style, &RendererOptions::new(SIZE), &front()) {
         let at = |x: u32| &frame.rgba[((90 * SIZE[0] + x) * 4) as usize..][..3];
         let (left, right) = (at(90), at(150));
         assert!(left[0] > 100 && left[1] < 60, "{left:?}");

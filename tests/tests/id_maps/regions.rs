@@ -201,10 +201,11 @@ fn triangles_too_large_for_a_map_go_whole_and_are_told() {
     let counts = count(&scene);
     assert_eq!((counts[0] + counts[1], counts[2]), (2, 0));
     assert_eq!(counts[0], 1, "one triangle has its bulk on the left");
-    let told: Vec<String> = scene.notices.iter().map(ToString::to_string).collect();
+    let reported: Vec<String> = scene.notices.iter().map(ToString::to_string).collect();
     assert!(
-        told.len() == 1 && told[0].starts_with("id map 'ids.png' is finer than the triangles"),
-        "{told:?}"
+        reported.len() == 1
+            && reported[0].starts_with("id map 'ids.png' is finer than the triangles"),
+        "{reported:?}"
     );
 }
 

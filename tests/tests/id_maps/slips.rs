@@ -7,7 +7,7 @@ use npr_scene::Scene;
 use npr_stylesheet::Style;
 use std::collections::BTreeMap;
 
-fn told(scene: Scene, style: &Style, pictures: &BTreeMap<String, Picture>) -> Vec<String> {
+fn reported(scene: Scene, style: &Style, pictures: &BTreeMap<String, Picture>) -> Vec<String> {
     let scene = cut(scene, style, pictures);
     scene.notices.iter().map(ToString::to_string).collect()
 }
@@ -20,7 +20,7 @@ fn ball() -> Scene {
 fn what_fits_is_not_told_of() {
     let rules = "[[rule]]\nmatch.id = 'left'\n[[rule]]\nmatch.id = '?*'";
     assert_eq!(
-        told(ball(), &with_map("shape", "", rules), &halves()),
+        reported(ball(), &with_map("shape", "", rules), &halves()),
         [""; 0]
     );
 }
@@ -29,7 +29,7 @@ fn what_fits_is_not_told_of() {
 fn a_map_on_nothing_is_told_of() {
     let style = with_map("shape", "object = 'Cube'\nmaterial = 'Skin*'", "");
     assert_eq!(
-        told(ball(), &style, &halves()),
+        reported(ball(), &style, &halves()),
         ["id map 'ids.png' lies on nothing: no part is of object 'Cube' and material 'Skin*'"]
     );
 }
@@ -41,7 +41,7 @@ fn surfaces_without_coordinates_are_told_of_once() {
     scene.nodes.push(scene.nodes[0].clone());
     let style = with_map("shape", "", "");
     assert_eq!(
-        told(scene.clone(), &style, &halves()),
+        reported(scene.clone(), &style, &halves()),
         ["id map 'ids.png' cannot lie on 'Ball', which has no texture coordinates"]
     );
     let parts = &cut(scene, &style, &halves()).meshes[0].parts;
@@ -52,12 +52,12 @@ fn surfaces_without_coordinates_are_told_of_once() {
 fn ids_that_nothing_shows_are_told_of() {
     let all_red = painted(8, |_, _| RED);
     assert_eq!(
-        told(ball(), &with_map("shape", "", ""), &all_red),
+        reported(ball(), &with_map("shape", "", ""), &all_red),
         ["id map 'ids.png' names 'right', but no triangle shows that colour most"]
     );
     let rules = "[[rule]]\nmatch.id = '#00ff00'\n[[rule]]\nmatch.id = '#123456'";
     assert_eq!(
-        told(ball(), &with_map("shape", "", rules), &halves()),
+        reported(ball(), &with_map("shape", "", rules), &halves()),
         ["rules name '#00ff00', '#123456', which no triangle shows on an id map"]
     );
     let many: Vec<String> = (0..9)
@@ -66,7 +66,7 @@ fn ids_that_nothing_shows_are_told_of() {
     let map = format!("[[id_map]]\nimage = 'ids.png'\nids = [{}]", many.join(", "));
     let style = Style::from_toml(&map, &|_| Err(String::new())).unwrap();
     assert_eq!(
-        told(ball(), &style, &halves()),
+        reported(ball(), &style, &halves()),
         [
             "id map 'ids.png' names 'n0', 'n1', 'n2', 'n3' and 5 more, but no triangle shows that colour most"
         ]
@@ -74,7 +74,7 @@ fn ids_that_nothing_shows_are_told_of() {
 }
 
 #[test]
-fn a_colour_that_only_one_of_two_maps_has_is_no_slip() {
+fn a_color_that_only_one_of_two_maps_has_is_no_slip() {
     let more = "[[id_map]]\nimage = 'other.png'\nobject = 'Other'\n[[rule]]\nmatch.id = '#00ff00'";
     let mut scene = ball();
     let mut other = scene.nodes[0].clone();
@@ -86,7 +86,7 @@ fn a_colour_that_only_one_of_two_maps_has_is_no_slip() {
         .unwrap();
     pictures.insert("other.png".to_owned(), green);
     assert_eq!(
-        told(scene, &with_map("shape", "", more), &pictures),
+        reported(scene, &with_map("shape", "", more), &pictures),
         [""; 0]
     );
 }

@@ -4,7 +4,7 @@ use crate::fixture::{front_camera, with};
 use npr_gpu::pass::Work;
 use npr_gpu::passes::{line, mesh, raster};
 use npr_gpu::processor::Processor;
-use npr_render::{Model, Stage, StageOptions};
+use npr_render::{Model, Renderer, RendererOptions};
 use npr_scene::{Format, Limits, MemoryResources};
 use npr_tests::{Ink, Wanted, asset, draw_from, lines, models_camera};
 
@@ -13,8 +13,9 @@ fn one_pose_pass_feeds_both_draws() {
     let model = Model::new(&asset("cube_plane.glb")).unwrap();
     let size = [64, 36];
     let style = with(lines("okuya"), &["detect.scale=2"]);
-    let mut stage = Stage::new(&Processor, &model, &style, &StageOptions::new(size)).unwrap();
-    let frame = stage.draw(&models_camera(&model, size)).unwrap();
+    let mut renderer =
+        Renderer::new(&Processor, &model, &style, &RendererOptions::new(size)).unwrap();
+    let frame = renderer.draw(&models_camera(&model, size)).unwrap();
     let runs = |name| frame.times.iter().filter(|pass| pass.name == name).count();
     assert_eq!(runs(mesh::POSE_VERTICES.name), 1);
     assert_eq!(runs(raster::DRAW_IDS.name), 2, "colour and mask");

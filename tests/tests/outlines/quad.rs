@@ -129,7 +129,7 @@ fn only_references_on_the_mask_are_inked() {
 }
 
 #[test]
-fn ink_has_the_colour_that_the_style_gives() {
+fn ink_has_the_color_that_the_style_gives() {
     let style = with(thick(), &["line.color=#1040c0", "shade.mode=flat"]);
     let red = triangle().colored([1.0, 0.0, 0.0]);
     let frame = front(&[red], &style).frame;
@@ -172,7 +172,7 @@ fn ribbons(edges: &[Edge]) -> Vec<u32> {
         projection: Projection::Parallel { height: 2.0 },
     };
     let window = Window::over([120.0; 2], [0.0; 2], [120.0; 2], size);
-    let drawing = npr_vector::ribbon::Drawing {
+    let drawing = npr_vector::screen::ribbon::Drawing {
         view: &camera.view(size, ([-1.0; 3], [1.0; 3])),
         window: &window,
         mask_window: &window,
@@ -191,7 +191,7 @@ fn ribbons(edges: &[Edge]) -> Vec<u32> {
         tints: &[],
     };
     let (mut layer, mut keys) = (vec![0; 120 * 120], vec![0; 120 * 120]);
-    npr_vector::ribbon::draw(
+    npr_vector::screen::ribbon::draw(
         &drawing,
         edges,
         &vec![Outline::ANY; edges.len()],

@@ -3,7 +3,7 @@
 use crate::fixture::{front, front_camera, parts_scene, with};
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{plane, uv_sphere};
-use npr_render::{Model, Picture, StageOptions};
+use npr_render::{Model, Picture, RendererOptions};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
 use npr_tests::{Ink, Object, draw, draw_from, draw_with, lines, placed, scene_of};
@@ -173,9 +173,9 @@ fn a_picture_thins_lines_where_it_is_black_and_swells_them_where_it_is_white() {
                     &format!("line.method={method}"),
                 ],
             );
-            let options = StageOptions {
+            let options = RendererOptions {
                 width_image: Some(picture.clone()),
-                ..StageOptions::new([200; 2])
+                ..RendererOptions::new([200; 2])
             };
             let ink = Ink::of(&draw_with(
                 &Processor,

@@ -1,7 +1,7 @@
 //! Strokes put together again that were cut where visibility changes, so that sampling knows nothing of the cuts.
 
 use npr_render::{Drawing, Kind};
-use npr_vector::sample::Spine;
+use npr_vector::mesh_lines::sample::Spine;
 use npr_vector::stroke::Stroke;
 use std::collections::BTreeMap;
 

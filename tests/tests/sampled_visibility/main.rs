@@ -12,7 +12,9 @@ use npr_render::{LineModel, LineModelOptions, LineOptions};
 use npr_scene::{LoadOptions, load};
 use npr_stylesheet::Style;
 use npr_tests::{models, samples};
-use npr_vector::sample::{Spine, Surroundings, place_samples, sample_visibility, visible_samples};
+use npr_vector::mesh_lines::sample::{
+    Spine, Surroundings, place_samples, sample_visibility, visible_samples,
+};
 use picture::gbuffer;
 use std::path::{Path, PathBuf};
 
@@ -68,7 +70,7 @@ impl Score {
         count as f64 / self.samples.max(1) as f64
     }
 
-    fn told(&self) -> String {
+    fn reported(&self) -> String {
         let [alone, filtered, shown] =
             [self.alone, self.filtered, self.shown].map(|n| self.share(n));
         let [exact, sampled] = self.runs;
@@ -131,10 +133,10 @@ fn samples_agree_with_exact_visibility() {
             continue;
         };
         let score = score(path);
-        let told = format!("{name:22} {}", score.told());
-        println!("{told}");
+        let reported = format!("{name:22} {}", score.reported());
+        println!("{reported}");
         if score.samples == 0 || score.share(score.filtered) < least {
-            failed.push(told);
+            failed.push(reported);
         }
     }
     assert!(failed.is_empty(), "{failed:#?}");

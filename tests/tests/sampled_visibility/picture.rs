@@ -5,7 +5,7 @@ use npr_core::geometry::{GPixel, Part, PosedVertex, Triangle};
 use npr_core::raster::{Fill, Sides, fill_triangles};
 use npr_core::window::{View, Window};
 use npr_mesh::half_edge::HalfEdgeMesh;
-use npr_vector::gbuffer::{Surfaces, resolve};
+use npr_vector::screen::gbuffer::{Surfaces, resolve};
 
 /// The surface seen at every pixel; parts are the shape's surfaces, seen from both sides.
 pub fn gbuffer(shape: &HalfEdgeMesh, camera: &Camera, view: &View, window: &Window) -> Vec<GPixel> {

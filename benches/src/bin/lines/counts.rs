@@ -8,9 +8,9 @@ use npr_benches::table::Table;
 use npr_core::crease::{CreaseFrom, Creases};
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_render::{LineModel, LineModelOptions};
-use npr_vector::contour::{Eye, contours, facing};
-use npr_vector::feature::features;
-use npr_vector::graph::{CurveGraph, CurveNode};
+use npr_vector::mesh_lines::contour::{Eye, contours, facing};
+use npr_vector::mesh_lines::feature::features;
+use npr_vector::mesh_lines::graph::{CurveGraph, CurveNode};
 
 use crate::Outcome;
 use crate::arguments::Arguments;

@@ -37,18 +37,18 @@ pub fn scaling(arguments: &Arguments) -> Outcome<()> {
         for size in sizes {
             let scene = scene_of_size(*size);
             let count = scene.triangle_count() as f64;
-            for (row, times) in rows.iter_mut().zip(stages(&scene, way)?) {
+            for (row, times) in rows.iter_mut().zip(renderers(&scene, way)?) {
                 row.push((count, times));
             }
         }
-        for (stage, row) in ["prepare", "first view", "next view"].iter().zip(&rows) {
+        for (renderer, row) in ["prepare", "first view", "next view"].iter().zip(&rows) {
             let medians: Vec<(f64, f64)> = row
                 .iter()
                 .map(|(count, times)| (*count, times.least))
                 .collect();
             let fit = exponent(&medians).map_or_else(String::new, |power| format!("{power:.2}"));
             table.add(
-                format!("{name}, {stage}"),
+                format!("{name}, {renderer}"),
                 row.iter().map(|(_, times)| times.to_string()).chain([fit]),
             );
         }
@@ -63,7 +63,7 @@ pub fn scaling(arguments: &Arguments) -> Outcome<()> {
 }
 
 /// Times of preparing a model, of its first drawing, and of one more.
-fn stages(scene: &Scene, way: &Way) -> Outcome<[Times; 3]> {
+fn renderers(scene: &Scene, way: &Way) -> Outcome<[Times; 3]> {
     let mut runs = [const { Vec::new() }; 3];
     for _ in 0..RUNS {
         let mut model = None;

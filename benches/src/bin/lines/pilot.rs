@@ -8,7 +8,7 @@ use npr_benches::lines::subjects::{LineSubject, SIZE, pilot_cameras, shared_mode
 use npr_benches::lines::viewpoint::Viewpoint;
 use npr_benches::table::Table;
 use npr_render::{LineMethod, LineModel, LineModelOptions};
-use npr_vector::pixel_contour::PublishedPath;
+use npr_vector::pixel_strokes::PublishedPath;
 use npr_vector::stroke::Kind;
 
 use crate::Outcome;

@@ -11,7 +11,7 @@ use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
 use npr_render::{LineMethod, LineModel, LineOptions};
 use npr_stylesheet::Style;
-use npr_vector::pixel_contour::PublishedPath;
+use npr_vector::pixel_strokes::PublishedPath;
 use npr_vector::stroke::Drawing;
 
 use crate::Outcome;

@@ -138,7 +138,7 @@ mod tests {
         rule: OutlineRuleArguments,
     }
 
-    fn said(line: &str) -> OutlineRuleArguments {
+    fn args(line: &str) -> OutlineRuleArguments {
         let words = ["npr"].into_iter().chain(line.split_whitespace());
         Line::try_parse_from(words).expect("a right line").rule
     }
@@ -149,16 +149,16 @@ mod tests {
             method: npr_stylesheet::BackgroundMethod::Published,
             ..LineBackground::default()
         };
-        assert_eq!(said("").rule(), style.rule());
+        assert_eq!(args("").rule(), style.rule());
         let all =
             "--rgb 0.1 --value 0.2 --saturation 0.3 --hue-deg 36 --intensity 5 --direction darker";
-        let rule = said(all).rule();
+        let rule = args(all).rule();
         assert_eq!(rule.thresholds, [0.1, 0.2, 0.3, 0.1]);
         assert_eq!((rule.intensity, rule.direction), (5.0, Rule::DARKER));
     }
 
     #[test]
-    fn a_background_is_a_colour_or_else_a_picture() {
+    fn a_background_is_a_color_or_else_a_picture() {
         assert_eq!("teal".parse(), Ok(Behind::Color(Color::rgb(0, 128, 128))));
         assert_eq!("teal.png".parse(), Ok(Behind::Picture("teal.png".into())));
         assert_eq!("./teal".parse(), Ok(Behind::Picture("./teal".into())));

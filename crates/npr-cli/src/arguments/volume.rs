@@ -229,12 +229,12 @@ mod tests {
         let mut style = SmokeStyle::default();
         style.puffs.count = 7;
         assert_eq!(VolumeArguments::default().over(&style), style);
-        let said = VolumeArguments {
+        let args = VolumeArguments {
             particles: Some(ParticlesName::Published),
             threshold: Some(0.3),
             ..VolumeArguments::default()
         };
-        let styled = said.over(&style);
+        let styled = args.over(&style);
         assert_eq!(styled.particles, SmokeParticles::Published);
         assert_eq!((styled.puffs.count, styled.puffs.threshold), (7, 0.3));
     }

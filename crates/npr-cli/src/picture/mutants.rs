@@ -1,6 +1,6 @@
 //! Damaged pictures of every format are read or refused, whatever their decoders do.
 
-use super::{decode, decode_bitmap, decode_colours};
+use super::{decode, decode_bitmap, decode_colors};
 use crate::fault::{Exit, Fault};
 use image::{DynamicImage, ImageFormat};
 use npr_scene::Limits;
@@ -54,7 +54,7 @@ impl Damage {
 fn files(format: ImageFormat) -> Vec<Vec<u8>> {
     let grey = image::GrayImage::from_fn(13, 9, |x, y| image::Luma([(x * 19 + y * 7) as u8]));
     let grey = DynamicImage::ImageLuma8(grey);
-    let colour = image::RgbaImage::from_fn(13, 9, |x, y| {
+    let color = image::RgbaImage::from_fn(13, 9, |x, y| {
         image::Rgba([
             (x * 19) as u8,
             (y * 28) as u8,
@@ -62,12 +62,12 @@ fn files(format: ImageFormat) -> Vec<Vec<u8>> {
             (255 - x * 9) as u8,
         ])
     });
-    let colour = DynamicImage::ImageRgba8(colour);
+    let color = DynamicImage::ImageRgba8(color);
     let pictures = [
         grey.clone(),
-        DynamicImage::ImageRgb8(colour.to_rgb8()),
+        DynamicImage::ImageRgb8(color.to_rgb8()),
         DynamicImage::ImageLuma16(grey.to_luma16()),
-        colour,
+        color,
     ];
     let mut files: Vec<Vec<u8>> = pictures
         .iter()
@@ -129,7 +129,7 @@ fn survives(file: &[u8], limits: &Limits) -> Result<(), TestCaseError> {
     let refused = [
         decode(file, limits).err(),
         decode_bitmap(file, limits, 0.5).err(),
-        decode_colours(file, limits, 4).err(),
+        decode_colors(file, limits, 4).err(),
     ];
     for Fault { exit, message } in refused.into_iter().flatten() {
         prop_assert!(

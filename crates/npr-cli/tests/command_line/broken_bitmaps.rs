@@ -83,7 +83,7 @@ const SHORT_PALETTE: &[u8] = include_bytes!("../data/palette_of_5_bytes.png");
 fn a_decoder_that_panics_makes_a_broken_picture() {
     let place = Workplace::with_scene();
     place.put("p.png", SHORT_PALETTE);
-    let told = "npr: cannot read 'p.png': the PNG data are broken\n";
+    let reported = "npr: cannot read 'p.png': the PNG data are broken\n";
     let refused: [&[&str]; 4] = [
         &["trace", "p.png", "-o", "out.svg"],
         &["trace", "p.png", "-o", "out.svg", "--colours", "3"],
@@ -108,7 +108,7 @@ fn a_decoder_that_panics_makes_a_broken_picture() {
         let outcome = place.npr(arguments);
         outcome.assert_fault(3, "cannot read 'p.png'");
         assert!(
-            outcome.stderr.ends_with(&told["npr: ".len()..]),
+            outcome.stderr.ends_with(&reported["npr: ".len()..]),
             "{}",
             outcome.stderr
         );
@@ -134,8 +134,8 @@ fn a_texture_that_stops_its_decoder_is_left_out_by_name() {
     );
     place.put("scene.glb", &npr_scene::testing::glb(&json, &bin));
     let outcome = place.render("scene.glb", &["-o", "out.png"]);
-    let told = "npr: warning: image 0 is left out: 'skin' is no sound PNG or JPEG\n";
-    assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), told));
+    let reported = "npr: warning: image 0 is left out: 'skin' is no sound PNG or JPEG\n";
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), reported));
 }
 
 /// Traces a broken file: a drawing and no word, or no drawing and one line with the right exit code.
@@ -177,7 +177,7 @@ fn sound_files() -> Vec<(&'static str, Vec<u8>)> {
         let is_ink = (1..7).contains(&x) && (1..7).contains(&y);
         image::Luma([if is_ink { 0 } else { 255 }])
     }));
-    let colour = DynamicImage::ImageRgb8(square.to_rgb8());
+    let color = DynamicImage::ImageRgb8(square.to_rgb8());
     let text = |head: &str, values: [&str; 2]| {
         let rows = square.to_luma8();
         let pixels = rows
@@ -187,19 +187,19 @@ fn sound_files() -> Vec<(&'static str, Vec<u8>)> {
     };
     vec![
         ("grey.png", encoded(&square, ImageFormat::Png)),
-        ("colour.png", encoded(&colour, ImageFormat::Png)),
+        ("colour.png", encoded(&color, ImageFormat::Png)),
         ("grey.jpg", encoded(&square, ImageFormat::Jpeg)),
-        ("colour.jpg", encoded(&colour, ImageFormat::Jpeg)),
-        ("colour.webp", encoded(&colour, ImageFormat::WebP)),
+        ("colour.jpg", encoded(&color, ImageFormat::Jpeg)),
+        ("colour.webp", encoded(&color, ImageFormat::WebP)),
         ("grey.tif", encoded(&square, ImageFormat::Tiff)),
-        ("colour.tif", encoded(&colour, ImageFormat::Tiff)),
-        ("colour.bmp", encoded(&colour, ImageFormat::Bmp)),
+        ("colour.tif", encoded(&color, ImageFormat::Tiff)),
+        ("colour.bmp", encoded(&color, ImageFormat::Bmp)),
         (
             "packed.pbm",
             [b"P4\n8 8\n", &[0, 126, 126, 126, 126, 126, 126, 0][..]].concat(),
         ),
         ("grey.pgm", encoded(&square, ImageFormat::Pnm)),
-        ("colour.ppm", encoded(&colour, ImageFormat::Pnm)),
+        ("colour.ppm", encoded(&color, ImageFormat::Pnm)),
         ("text.pbm", text("P1\n8 8\n", ["0", "1"])),
         ("text.pgm", text("P2\n8 8\n9\n", ["9", "0"])),
         ("text.ppm", text("P3\n8 8\n9\n", ["9 9 9", "0 0 0"])),

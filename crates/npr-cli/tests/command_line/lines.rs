@@ -321,8 +321,8 @@ fn strokes_from_pixels_are_visible_ones_alone() {
             let more = ["--method", method, "--hidden", hidden];
             let outcome = lines(&place, "scene.obj", &more);
             assert_eq!(outcome.code, Some(2), "{}", outcome.stderr);
-            let told = format!("--method {method}");
-            assert!(outcome.stderr.contains(&told), "{}", outcome.stderr);
+            let reported = format!("--method {method}");
+            assert!(outcome.stderr.contains(&reported), "{}", outcome.stderr);
         }
     }
     let more = ["--method", "potrace", "--set", "line.potrace.rounds=1"];
@@ -490,29 +490,29 @@ fn times_of_all_steps_are_told() {
 #[test]
 fn lines_lift_before_what_is_dark() {
     let place = Workplace::with_scene();
-    let minding = [
+    let contrast_cache = [
         "--set",
         "line.color=\"#000\"",
         "--set",
         "line.background.method=\"contrast\"",
     ];
-    let colored = |background: &str, minding: &[&str]| {
+    let colored = |background: &str, contrast_cache: &[&str]| {
         let drawn = data(
             &place,
             "scene.obj",
-            &[&["--background", background], minding].concat(),
+            &[&["--background", background], contrast_cache].concat(),
         );
         strokes(&drawn)
             .iter()
             .any(|stroke| stroke.get("colors").is_some())
     };
-    assert!(colored("#000000", &minding) && !colored("#ffffff", &minding));
-    assert!(!colored("transparent", &minding) && !colored("#000000", &[]));
+    assert!(colored("#000000", &contrast_cache) && !colored("#ffffff", &contrast_cache));
+    assert!(!colored("transparent", &contrast_cache) && !colored("#000000", &[]));
     // A picture behind is minded too, as far as the frame covers it, but not drawn.
     place.put("night.png", &tiny_png());
     let arguments = [
         &["--background", "night.png", "-o", "out.svg"],
-        &minding[..],
+        &contrast_cache[..],
     ]
     .concat();
     let outcome = lines(&place, "scene.obj", &arguments);

@@ -121,7 +121,7 @@ fn the_dumped_style_draws_the_same_picture() {
 }
 
 #[test]
-fn the_background_is_a_colour_or_nothing_or_an_image() {
+fn the_background_is_a_color_or_nothing_or_an_image() {
     let place = Workplace::with_scene();
     place.put("sky.png", &tiny_png());
     let corner = |background: &str| {

@@ -2,7 +2,7 @@
 
 mod broken_bitmaps;
 mod closing;
-mod colours;
+mod colors;
 mod determinism;
 mod files;
 mod id_maps;

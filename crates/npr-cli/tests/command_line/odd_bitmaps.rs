@@ -5,7 +5,7 @@ use crate::workplace::Workplace;
 /// The kinds of pixel of a PNG, and the bytes of its picture: four pixels in a row, the second and third of them ink.
 struct Kind {
     name: &'static str,
-    colour: png::ColorType,
+    color: png::ColorType,
     depth: png::BitDepth,
     palette: &'static [u8],
     transparency: &'static [u8],
@@ -14,7 +14,7 @@ struct Kind {
 
 const PLAIN: Kind = Kind {
     name: "",
-    colour: png::ColorType::Grayscale,
+    color: png::ColorType::Grayscale,
     depth: png::BitDepth::Eight,
     palette: &[],
     transparency: &[],
@@ -60,25 +60,25 @@ const KINDS: [Kind; 12] = [
     },
     Kind {
         name: "grey with alpha",
-        colour: png::ColorType::GrayscaleAlpha,
+        color: png::ColorType::GrayscaleAlpha,
         row: &[0, 127, 0, 128, 127, 255, 255, 255],
         ..PLAIN
     },
     Kind {
         name: "colour",
-        colour: png::ColorType::Rgb,
+        color: png::ColorType::Rgb,
         row: &[255, 128, 0, 255, 127, 0, 0, 0, 255, 128, 128, 128],
         ..PLAIN
     },
     Kind {
         name: "colour with alpha over white",
-        colour: png::ColorType::Rgba,
+        color: png::ColorType::Rgba,
         row: &[0, 0, 0, 0, 0, 0, 0, 255, 0, 0, 0, 128, 0, 0, 0, 127],
         ..PLAIN
     },
     Kind {
         name: "deep colour with alpha over white",
-        colour: png::ColorType::Rgba,
+        color: png::ColorType::Rgba,
         depth: png::BitDepth::Sixteen,
         row: &[
             0, 0, 0, 0, 0, 0, 0, 0, // clear
@@ -90,14 +90,14 @@ const KINDS: [Kind; 12] = [
     },
     Kind {
         name: "palette",
-        colour: png::ColorType::Indexed,
+        color: png::ColorType::Indexed,
         palette: &[0, 0, 0, 255, 255, 255, 255, 0, 0],
         row: &[1, 0, 2, 1],
         ..PLAIN
     },
     Kind {
         name: "palette of two bits with transparency",
-        colour: png::ColorType::Indexed,
+        color: png::ColorType::Indexed,
         depth: png::BitDepth::Two,
         palette: &[0, 0, 0, 10, 10, 10, 20, 20, 20],
         transparency: &[0, 255, 255],
@@ -109,7 +109,7 @@ impl Kind {
     fn file(&self) -> Vec<u8> {
         let mut file = Vec::new();
         let mut encoder = png::Encoder::new(&mut file, 4, 1);
-        encoder.set_color(self.colour);
+        encoder.set_color(self.color);
         encoder.set_depth(self.depth);
         if !self.palette.is_empty() {
             encoder.set_palette(self.palette);

@@ -203,7 +203,7 @@ fn keys_that_cannot_act_are_named() {
         "--set",
         "smoke.line.width=9",
     ];
-    let told = |command: &[&str]| {
+    let reported = |command: &[&str]| {
         let outcome = place.npr(&[command, &SMALL[..], &boards, &["-o", "-"]].concat());
         assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
         outcome.stderr
@@ -211,13 +211,13 @@ fn keys_that_cannot_act_are_named() {
     let wanted = "npr: warning: 'smoke.line.width' is ignored: billboards have the published line\n\
                   npr: warning: 'smoke.sigma' is ignored: \
                   smoke.method is billboards, which have one tone without smoke.heat\n";
-    assert_eq!(told(&["smoke", "ball.vdb"]), wanted);
+    assert_eq!(reported(&["smoke", "ball.vdb"]), wanted);
     assert_eq!(
-        told(&["render", "scene.obj", "--volume", "ball.vdb"]),
+        reported(&["render", "scene.obj", "--volume", "ball.vdb"]),
         wanted
     );
     assert_eq!(
-        told(&["render", "scene.obj"]),
+        reported(&["render", "scene.obj"]),
         "npr: warning: 'smoke.line.width', 'smoke.method' and 'smoke.sigma' are ignored: \
          the scene has no smoke\n\
          npr: warning: --spheres is ignored: the scene has no smoke\n"

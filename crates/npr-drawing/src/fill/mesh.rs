@@ -400,7 +400,7 @@ mod tests {
             for path in &tracing.paths {
                 let ring = corners(&path.segments);
                 let next = ring.iter().cycle().skip(1);
-                length += ring.iter().zip(next).map(|(a, b)| npr_vector::run::distance(*a, *b)).sum::<f64>();
+                length += ring.iter().zip(next).map(|(a, b)| npr_vector::mesh_lines::run::distance(*a, *b)).sum::<f64>();
                 rings += if path.is_ink { area(&ring).abs() } else { -area(&ring).abs() };
             }
             // Rounding moves each side by at most half a step of the grid; polygons may cross by slivers.

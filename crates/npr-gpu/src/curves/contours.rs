@@ -2,11 +2,11 @@
 
 use super::ranking::{RankedLists, Scheme, add_ranking};
 use super::sums::{Compacted, add_compact};
-use super::work::{Followers, ListWork, add_work};
+use super::work::{IndirectArguments, ListWork, add_work};
 use crate::graph::{Graph, ResourceId};
 use crate::passes::vector;
-use npr_vector::contour::steps::{HalfEdge, Viewer};
-use npr_vector::graph::CurveNode;
+use npr_vector::mesh_lines::contour::steps::{HalfEdge, Viewer};
+use npr_vector::mesh_lines::graph::CurveNode;
 use npr_vector::rank::Link;
 
 /// What [`add_contours`] puts into a graph.
@@ -58,8 +58,10 @@ pub fn add_contours(
     let flags = graph.buffer::<u32>("contour flags", 3 * face_count);
     graph.compute(&vector::MARK_CONTOURS, &[front, half_edges, flags]);
     let Compacted { list, count, slots } = add_compact(graph, flags, capacity, &ListWork::WHOLE);
-    let followers = scheme.map_or(Followers::default(), |scheme| scheme.followers(capacity));
-    let work = add_work(graph, count, capacity, followers);
+    let indirect = scheme.map_or(IndirectArguments::default(), |scheme| {
+        scheme.indirect(capacity)
+    });
+    let work = add_work(graph, count, capacity, indirect);
     let nodes = graph.buffer::<CurveNode>("contour nodes", capacity);
     graph.compute_sized(
         &vector::LINK_CONTOURS,

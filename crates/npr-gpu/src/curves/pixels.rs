@@ -3,19 +3,19 @@
 use super::CurvesError;
 use super::ranking::{RankedLists, Scheme, add_ranking};
 use super::sums::{Compacted, Scan, add_compact, add_scan};
-use super::work::{Followers, ListWork, add_work};
+use super::work::{IndirectArguments, ListWork, add_work};
 use crate::engine::Session;
 use crate::graph::{Graph, ResourceId};
 use crate::pass::Format;
 use crate::passes::{pixels, vector};
 use npr_mesh::half_edge::HalfEdgeMesh;
-use npr_vector::contour::steps::{HalfEdge, Viewer, half_edges, judges};
-use npr_vector::pixel_contour::edge::DrawnEdge;
-use npr_vector::pixel_contour::fragment::Fragment;
-use npr_vector::pixel_contour::looped::{Filter, Planar, SpeckRule, Spot};
-use npr_vector::pixel_contour::segment::{PixelView, Segment};
-use npr_vector::pixel_contour::strip::{CullRule, StripSpot};
-use npr_vector::pixel_contour::{PixelScene, PublishedPath};
+use npr_vector::mesh_lines::contour::steps::{HalfEdge, Viewer, half_edges, judges};
+use npr_vector::pixel_strokes::edge::DrawnEdge;
+use npr_vector::pixel_strokes::fragment::Fragment;
+use npr_vector::pixel_strokes::looped::{Filter, Planar, SpeckRule, Spot};
+use npr_vector::pixel_strokes::segment::{PixelView, Segment};
+use npr_vector::pixel_strokes::strip::{CullRule, StripSpot};
+use npr_vector::pixel_strokes::{PixelScene, PublishedPath};
 use npr_vector::rank::Link;
 
 /// For how many of each there is room.
@@ -63,7 +63,7 @@ impl PixelRoom {
 pub enum Hiding {
     /// The shape's surfaces, drawn by the engine.
     Surfaces,
-    /// These, and a veil that the host hands over.
+    /// These, and a occluder depths that the host hands over.
     Veiled,
     /// What the host hands over, and nothing else.
     Given,
@@ -86,7 +86,7 @@ pub struct PixelContours {
     pub edges: ResourceId,
     /// Reversed depth, as bits, of every pixel of what the host hands over; written for every view, unless surfaces
     /// alone hide lines.
-    pub veil: ResourceId,
+    pub occluder_depths: ResourceId,
     /// [`Segment`]s.
     pub segments: ResourceId,
     /// Number of edges drawn, also where they have no room: one element.
@@ -109,9 +109,9 @@ pub struct PixelContours {
 
 /// Appends passes from a shape to the sides of its contours' pixels in rows, for a picture of `size` pixels.
 ///
-/// Takes 36 bytes a pixel, 4 more with a veil, 12 a fragment, and about 180 a side. Where counts exceed the room what
-/// is there is of no use; the host runs a graph with more. Passes over edges drawn, fragments and sides work on as
-/// many as there are.
+/// Takes 36 bytes a pixel, 4 more with a occluder depths, 12 a fragment, and about 180 a side. Where counts exceed the
+/// room what is there is of no use; the host runs a graph with more. Passes over edges drawn, fragments and sides work
+/// on as many as there are.
 pub fn add_pixel_contours(
     graph: &mut Graph,
     shape: &HalfEdgeMesh,
@@ -129,7 +129,7 @@ pub fn add_pixel_contours(
         &vector::FACE_EYE,
         &[viewer, positions, half_edges, judges, front],
     );
-    let edge_count = shape.edge_count() + shape.wires.len();
+    let edge_count = shape.edge_count() + shape.polylines.len();
     let edges = graph.buffer::<DrawnEdge>("edges", edge_count);
     let flags = graph.buffer::<u32>("edge flags", edge_count);
     let marks = graph.buffer::<u32>("edge marks", edge_count);
@@ -138,7 +138,7 @@ pub fn add_pixel_contours(
         &[viewer, view, positions, front, edges, flags, marks],
     );
     let Compacted { list, count, .. } = add_compact(graph, flags, room.segments, &ListWork::WHOLE);
-    let drawn = add_work(graph, count, room.segments, Followers::default());
+    let drawn = add_work(graph, count, room.segments, IndirectArguments::default());
     let segments = graph.buffer::<Segment>("segments", room.segments);
     let counts = graph.buffer::<u32>("fragments of segments", room.segments);
     graph.compute_sized(
@@ -154,11 +154,15 @@ pub fn add_pixel_contours(
         let (bound, targets) = ([view, positions, half_edges], [surfaces, depths]);
         graph.draw(&pixels::DRAW_SURFACES, &bound, &targets, true);
     }
-    let is_veiled = hiding != Hiding::Surfaces;
-    let veil = graph.image("veil", Format::U32, if is_veiled { size } else { [1; 2] });
+    let is_occluded = hiding != Hiding::Surfaces;
+    let occluder_depths = graph.image(
+        "occluder_depths",
+        Format::U32,
+        if is_occluded { size } else { [1; 2] },
+    );
     let [owners, nearest] = add_picture(
         graph,
-        (view, [surfaces, veil]),
+        (view, [surfaces, occluder_depths]),
         (count, starts, segments),
         (size, room.fragments),
     );
@@ -171,7 +175,7 @@ pub fn add_pixel_contours(
         half_edges,
         judges,
         edges,
-        veil,
+        occluder_depths,
         segments,
         segment_count: count,
         fragment_count: starts.total,
@@ -187,21 +191,21 @@ pub fn add_pixel_contours(
 /// Fragments, tested and drawn: the owners of pixels, and their depths.
 fn add_picture(
     graph: &mut Graph,
-    (view, [surfaces, veil]): (ResourceId, [ResourceId; 2]),
+    (view, [surfaces, occluder_depths]): (ResourceId, [ResourceId; 2]),
     (segment_count, starts, segments): (ResourceId, Scan, ResourceId),
     (size, room): ([u32; 2], usize),
 ) -> [ResourceId; 2] {
     let Scan { prefixes, total } = starts;
-    let followers = Followers {
+    let indirect = IndirectArguments {
         vertices: pixels::DRAW_NEAREST.vertices(),
-        ..Followers::default()
+        ..IndirectArguments::default()
     };
-    let work = add_work(graph, total, room, followers);
+    let work = add_work(graph, total, room, indirect);
     let fragments = graph.buffer::<Fragment>("fragments", room);
     let bound = [view, total, segment_count, prefixes, segments, fragments];
     graph.compute_sized(&pixels::EMIT_FRAGMENTS, &bound, work.elements());
     let shown = graph.buffer::<u32>("fragments shown", room);
-    let bound = [view, surfaces, veil, fragments, shown];
+    let bound = [view, surfaces, occluder_depths, fragments, shown];
     graph.compute_sized(&pixels::TEST_FRAGMENTS, &bound, work.elements());
     let owners = graph.image("owners", Format::U32, size);
     let nearest = graph.image("nearest", Format::U32, size);
@@ -226,7 +230,7 @@ fn add_sides(
     let counts = graph.buffer::<u32>("sides of pixels", pixel_count);
     graph.compute(&pixels::MARK_SIDES, &[owners, masks, counts]);
     let starts = add_scan(graph, counts, &ListWork::WHOLE);
-    let work = add_work(graph, starts.total, room, scheme.followers(room));
+    let work = add_work(graph, starts.total, room, scheme.indirect(room));
     let sides = graph.buffer::<u32>("sides", room);
     let links = graph.buffer::<Link>("links", room);
     graph.compute_sized(
@@ -416,7 +420,7 @@ impl PixelContours {
     }
 
     /// Hands a view over, and the depths of what hides lines besides what the engine draws; of these none where
-    /// `veil` is empty.
+    /// `occluder_depths` is empty.
     ///
     /// # Errors
     ///
@@ -426,12 +430,12 @@ impl PixelContours {
         session: &mut dyn Session,
         on: &PixelScene<'_>,
         path: &PublishedPath,
-        veil: &[f32],
+        occluder_depths: &[f32],
     ) -> Result<(), CurvesError> {
         let view = on.pixel_view(path);
         session.write(self.viewer, bytemuck::cast_slice(&[Viewer::from(on.eye)]))?;
         session.write(self.view, bytemuck::cast_slice(&[view]))?;
-        session.write(self.veil, bytemuck::cast_slice(veil))?;
+        session.write(self.occluder_depths, bytemuck::cast_slice(occluder_depths))?;
         Ok(())
     }
 

@@ -2,12 +2,12 @@
 
 use super::CurvesError;
 use super::sums::{Compacted, add_compact, add_scan, add_sum};
-use super::work::{Followers, ListWork, add_work};
+use super::work::{IndirectArguments, ListWork, add_work};
 use crate::engine::{Engine, Session};
 use crate::graph::{Graph, ResourceId};
 use crate::passes::vector;
 use npr_vector::rank::jump::{Hop, Reach};
-use npr_vector::rank::place::{Place, Standing, Walk};
+use npr_vector::rank::place::{ListPosition, Standing, Walk};
 use npr_vector::rank::{Link, RankError, Ranked, link, rounds_for, splitter_rounds_for};
 
 /// How lists are ranked; the result is the same.
@@ -44,14 +44,14 @@ impl Scheme {
     }
 
     /// What follows the length of a list with room for a number of nodes: only where all of them jump, rounds.
-    pub(super) fn followers(self, room: usize) -> Followers {
+    pub(super) fn indirect(self, room: usize) -> IndirectArguments {
         let rounds = match self {
             Self::Wyllie { .. } => self.rounds(room),
             Self::RulingSet { .. } => 0,
         };
-        Followers {
+        IndirectArguments {
             rounds,
-            ..Followers::default()
+            ..IndirectArguments::default()
         }
     }
 }
@@ -122,7 +122,7 @@ pub fn add_ranking(
         let hops = add_jumping(graph, &elements, settled, round_count);
         (settled, hops)
     };
-    let places = graph.buffer::<Place>("places", count);
+    let places = graph.buffer::<ListPosition>("places", count);
     let unsettled = graph.buffer::<u32>("unsettled nodes", count);
     let Elements { first, walks, .. } = elements;
     graph.compute_sized(
@@ -206,11 +206,11 @@ fn add_splitters(
     let among = if is_short {
         *work
     } else {
-        let followers = Followers {
+        let indirect = IndirectArguments {
             rounds,
-            ..Followers::default()
+            ..IndirectArguments::default()
         };
-        add_work(graph, splitters.count, count, followers)
+        add_work(graph, splitters.count, count, indirect)
     };
     let hops = graph.buffer::<Hop>("first hops", count);
     let first = graph.buffer::<Reach>("first reach", count);

@@ -6,9 +6,9 @@ use super::ranking::{Scheme, read_rows};
 use crate::engine::{Engine, EngineError, PassTime, Session};
 use crate::graph::Graph;
 use npr_mesh::half_edge::HalfEdgeMesh;
-use npr_vector::contour::steps::{Viewer, half_edges, judges};
-use npr_vector::contour::{EdgeContours, Eye, usual_room};
-use npr_vector::graph::{CurveGraph, CurveNode};
+use npr_vector::mesh_lines::contour::steps::{Viewer, half_edges, judges};
+use npr_vector::mesh_lines::contour::{EdgeContours, Eye, usual_room};
+use npr_vector::mesh_lines::graph::{CurveGraph, CurveNode};
 use npr_vector::rank::Ranked;
 
 /// A shape in an engine's memory, for contours of any number of views.

@@ -10,11 +10,11 @@ use crate::graph::{Graph, ResourceId};
 use bytemuck::Pod;
 use npr_core::crease::Creases;
 use npr_mesh::half_edge::HalfEdgeMesh;
-use npr_vector::pixel_contour::edge::drawn_edges;
-use npr_vector::pixel_contour::segment::PixelView;
-use npr_vector::pixel_contour::strip::Strips;
-use npr_vector::pixel_contour::stroke::Loops;
-use npr_vector::pixel_contour::{
+use npr_vector::pixel_strokes::edge::drawn_edges;
+use npr_vector::pixel_strokes::segment::PixelView;
+use npr_vector::pixel_strokes::strip::Strips;
+use npr_vector::pixel_strokes::stroke::Loops;
+use npr_vector::pixel_strokes::{
     PixelScene, PublishedPath, Traced, scene_depths, standings_of, trace,
 };
 
@@ -51,10 +51,10 @@ impl<'a> Hiders<'a> {
         match self {
             Self::Given(depths) => depths.to_vec(),
             Self::Surfaces => scene_depths(on.shape, on.view),
-            Self::Veiled(veil) => {
+            Self::Veiled(occluder_depths) => {
                 let mut depths = scene_depths(on.shape, on.view);
-                for (depth, veil) in depths.iter_mut().zip(veil) {
-                    *depth = depth.max(*veil);
+                for (depth, occluder_depths) in depths.iter_mut().zip(occluder_depths) {
+                    *depth = depth.max(*occluder_depths);
                 }
                 depths
             }

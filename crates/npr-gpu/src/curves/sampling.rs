@@ -14,7 +14,7 @@ pub struct SampledFrame {
     pub window: ResourceId,
     /// [`GPixel`](npr_core::geometry::GPixel)s.
     pub gbuffer: ResourceId,
-    /// [`SpineSample`](npr_vector::sample::SpineSample)s.
+    /// [`SpineSample`](npr_vector::mesh_lines::sample::SpineSample)s.
     pub samples: ResourceId,
     /// Where each line starts among the samples; one more than there are lines.
     pub line_starts: ResourceId,
@@ -24,9 +24,9 @@ pub struct SampledFrame {
 
 /// Appends passes that find what is seen of every sample, which they give: 1 or 0, a buffer of `u32`.
 ///
-/// The same as [`visible_samples`](npr_vector::sample::visible_samples) of
-/// [`sample_visibility`](npr_vector::sample::sample_visibility). Seven passes up to 4096 samples, and 28 bytes for
-/// each besides itself.
+/// The same as [`visible_samples`](npr_vector::mesh_lines::sample::visible_samples) of
+/// [`sample_visibility`](npr_vector::mesh_lines::sample::sample_visibility). Seven passes up to 4096 samples, and 28
+/// bytes for each besides itself.
 pub fn add_sampling(graph: &mut Graph, on: &SampledFrame) -> ResourceId {
     let count = graph.element_count(on.samples);
     let shares = graph.buffer::<f32>("visible shares", count);

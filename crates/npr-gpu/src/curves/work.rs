@@ -16,7 +16,7 @@ pub struct ListWork {
 
 /// What follows a list's length besides passes over its elements and sums over them.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Followers {
+pub struct IndirectArguments {
     /// Rounds of pointer jumping.
     pub rounds: u32,
     /// Vertices drawn for each element.
@@ -96,11 +96,11 @@ pub fn add_work(
     graph: &mut Graph,
     count: ResourceId,
     room: usize,
-    followers: Followers,
+    indirect: IndirectArguments,
 ) -> ListWork {
     let rule = WorkRule {
-        round_count: followers.rounds,
-        vertices: followers.vertices,
+        round_count: indirect.rounds,
+        vertices: indirect.vertices,
         ..WorkRule::of_room(room)
     };
     let held = graph.constant("work rule", rule);

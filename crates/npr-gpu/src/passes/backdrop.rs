@@ -4,8 +4,9 @@ use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
 use npr_core::geometry::{Part, Triangle};
 use npr_core::window::Window;
 use npr_style::backdrop::{
-    Lean, Rim, Rules, Scenery, Search, TileRims, Wearer, blend_leans, bound_tiles, draw_rims,
-    find_rims, flag_tiles, gather_tiles, lean_tiles, smooth_rims, spread_rims, spread_rows,
+    ContrastBias, PartSubject, Rim, Rules, Scenery, Search, TileRims, blend_biases, bound_tiles,
+    draw_rims, find_rims, flag_tiles, gather_tiles, smooth_rims, spread_rims, spread_rows,
+    vote_bias,
 };
 
 /// Which tiles of the output lie near a border between two subjects; its window is the grid of tiles.
@@ -18,7 +19,7 @@ pub const FLAG_TILES: Pass = Pass {
         uniform::<Rules>("rules"),
         texture("ids", Format::U32),
         read::<Triangle>("triangles"),
-        read::<Wearer>("wearers"),
+        read::<PartSubject>("part_subjects"),
     ],
     work: Work::Draw {
         of: "rules",
@@ -34,7 +35,7 @@ pub const FLAG_TILES: Pass = Pass {
             rules: &rules,
             ids: b.image(3).texels,
             triangles: b.read(4),
-            wearers: b.read(5),
+            part_subjects: b.read(5),
         };
         flag_tiles(&scenery, b.image_mut(6).texels);
     },
@@ -54,7 +55,7 @@ pub const FIND_RIMS: Pass = Pass {
         texture("ribbons", Format::Rgba8),
         read::<Triangle>("triangles"),
         read::<Part>("parts"),
-        read::<Wearer>("wearers"),
+        read::<PartSubject>("part_subjects"),
         read::<u32>("bare"),
         read::<u32>("overlay"),
         write::<Rim>("rims"),
@@ -69,7 +70,7 @@ pub const FIND_RIMS: Pass = Pass {
                 rules: &rules,
                 ids: b.image(2).texels,
                 triangles: b.read(7),
-                wearers: b.read(9),
+                part_subjects: b.read(9),
             },
             depths: b.image(3).texels,
             drawn_ids: b.image(4).texels,
@@ -142,7 +143,7 @@ pub const BOUND_TILES: Pass = Pass {
         uniform::<Window>("window"),
         uniform::<Rules>("rules"),
         read::<TileRims>("tile_rims"),
-        write::<Lean>("bounds"),
+        write::<ContrastBias>("bounds"),
     ],
     work: Work::PerElement { of: "bounds" },
     agreement: Agreement::Relative(1e-4),
@@ -153,43 +154,43 @@ pub const BOUND_TILES: Pass = Pass {
 };
 
 /// Which way the lines of every tile move.
-pub const LEAN_TILES: Pass = Pass {
-    name: "backdrop.lean_tiles",
-    shader: npr_shaders::BACKDROP_LEAN_TILES,
+pub const VOTE_BIAS: Pass = Pass {
+    name: "backdrop.vote_bias",
+    shader: npr_shaders::BACKDROP_VOTE_BIAS,
     slots: &[
         uniform::<Window>("window"),
         uniform::<Rules>("rules"),
         read::<TileRims>("tile_rims"),
-        read::<Lean>("bounds"),
-        read::<Lean>("before"),
-        write::<Lean>("leans"),
+        read::<ContrastBias>("bounds"),
+        read::<ContrastBias>("before"),
+        write::<ContrastBias>("biases"),
     ],
-    work: Work::PerElement { of: "leans" },
+    work: Work::PerElement { of: "biases" },
     agreement: Agreement::Relative(1e-4),
     twin: |b| {
         let (window, rules) = (b.one(0), b.one(1));
         let (gathered, bounds, before) = (b.read(2), b.read(3), b.read(4));
-        lean_tiles(&window, &rules, gathered, bounds, before, b.write(5));
+        vote_bias(&window, &rules, gathered, bounds, before, b.write(5));
     },
 };
 
 /// What was decided, kept for the next frame and blended along the outline for this one.
-pub const BLEND_LEANS: Pass = Pass {
-    name: "backdrop.blend_leans",
-    shader: npr_shaders::BACKDROP_BLEND_LEANS,
+pub const BLEND_BIASES: Pass = Pass {
+    name: "backdrop.blend_biases",
+    shader: npr_shaders::BACKDROP_BLEND_BIASES,
     slots: &[
         uniform::<Window>("window"),
         uniform::<Rules>("rules"),
-        read::<Lean>("leans"),
-        write::<Lean>("kept"),
-        write::<Lean>("blended"),
+        read::<ContrastBias>("biases"),
+        write::<ContrastBias>("kept"),
+        write::<ContrastBias>("blended"),
     ],
     work: Work::PerElement { of: "blended" },
     agreement: Agreement::Relative(1e-4),
     twin: |b| {
         let (window, rules) = (b.one(0), b.one(1));
-        let leans = b.read(2);
-        blend_leans(&window, &rules, leans, b.write(3), b.write(4));
+        let biases = b.read(2);
+        blend_biases(&window, &rules, biases, b.write(3), b.write(4));
     },
 };
 
@@ -220,7 +221,7 @@ pub const SPREAD_RIMS: Pass = Pass {
         uniform::<Rules>("rules"),
         read::<Rim>("rims"),
         read::<u32>("columns"),
-        read::<Lean>("leans"),
+        read::<ContrastBias>("biases"),
     ],
     work: Work::Draw {
         of: "rules",
@@ -231,8 +232,8 @@ pub const SPREAD_RIMS: Pass = Pass {
     agreement: Agreement::Texels(0.001),
     twin: |b| {
         let (window, rules) = (b.one(0), b.one(1));
-        let (rims, columns, leans) = (b.read(2), b.read(3), b.read(4));
+        let (rims, columns, biases) = (b.read(2), b.read(3), b.read(4));
         let (fronts, backs) = (b.image_mut(5).texels, b.image_mut(6).texels);
-        spread_rims(&window, &rules, rims, columns, leans, fronts, backs);
+        spread_rims(&window, &rules, rims, columns, biases, fronts, backs);
     },
 };

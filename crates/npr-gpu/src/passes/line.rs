@@ -9,10 +9,10 @@ use npr_style::compose::Compose;
 use npr_style::draw_mask::{MaskInk, draw_mask};
 use npr_style::lighting::Lights;
 use npr_style::line_color::{Deciding, LineScene, decide, light_widths};
-use npr_vector::detect::{Detection, detect};
-use npr_vector::gbuffer::{Surfaces, resolve};
-use npr_vector::residual::{self, Inking, Search};
-use npr_vector::ribbon::{self, Drawing};
+use npr_vector::screen::detect::{Detection, detect};
+use npr_vector::screen::gbuffer::{Surfaces, resolve};
+use npr_vector::screen::residual::{self, Inking, Search};
+use npr_vector::screen::ribbon::{self, Drawing};
 
 /// Depth, normal, object and material of the surface at every pixel.
 pub const RESOLVE_GBUFFER: Pass = Pass {

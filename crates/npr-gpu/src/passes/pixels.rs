@@ -4,14 +4,14 @@
 //! so a side whose direction lies on a threshold may be kept by one engine alone.
 
 use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
-use npr_vector::contour::steps::{HalfEdge, Viewer};
-use npr_vector::pixel_contour::edge::{DrawnEdge, Facing, mark_edges};
-use npr_vector::pixel_contour::fragment::{self, Fragment};
-use npr_vector::pixel_contour::looped::{self, Filter, Gathered, Ordered, Planar, SpeckRule, Spot};
-use npr_vector::pixel_contour::segment::{Drawn, PixelView, Segment, project_edges};
-use npr_vector::pixel_contour::side::{self, Ink};
-use npr_vector::pixel_contour::strip::{self, CullRule, StripSpot};
-use npr_vector::pixel_contour::surface;
+use npr_vector::mesh_lines::contour::steps::{HalfEdge, Viewer};
+use npr_vector::pixel_strokes::edge::{DrawnEdge, Facing, mark_edges};
+use npr_vector::pixel_strokes::fragment::{self, Fragment};
+use npr_vector::pixel_strokes::looped::{self, Filter, Gathered, Ordered, Planar, SpeckRule, Spot};
+use npr_vector::pixel_strokes::segment::{Drawn, PixelView, Segment, project_edges};
+use npr_vector::pixel_strokes::side::{self, Ink};
+use npr_vector::pixel_strokes::strip::{self, CullRule, StripSpot};
+use npr_vector::pixel_strokes::surface;
 use npr_vector::rank::Link;
 use npr_vector::rank::place::Standing;
 
@@ -136,7 +136,7 @@ pub const TEST_FRAGMENTS: Pass = Pass {
     slots: &[
         uniform::<PixelView>("view"),
         texture("surfaces", Format::U32),
-        texture("veil", Format::U32),
+        texture("occluder_depths", Format::U32),
         read::<Fragment>("fragments"),
         write::<u32>("shown"),
     ],

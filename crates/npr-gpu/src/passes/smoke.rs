@@ -1,7 +1,7 @@
 //! Passes that draw spheres as cartoon smoke.
 
 use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
-use npr_core::smoke::{Ball, Lens, SmokePixel, Sphere};
+use npr_core::smoke::{SmokePixel, Sphere, SphereView, ViewSphere};
 use npr_core::window::Window;
 use npr_style::lighting::Lights;
 use npr_style::smoke::resolve::{Resolving, resolve};
@@ -13,9 +13,9 @@ pub const PROJECT_SPHERES: Pass = Pass {
     name: "smoke.project_spheres",
     shader: npr_shaders::SMOKE_PROJECT_SPHERES,
     slots: &[
-        uniform::<Lens>("lens"),
+        uniform::<SphereView>("lens"),
         read::<Sphere>("spheres"),
-        write::<Ball>("balls"),
+        write::<ViewSphere>("balls"),
     ],
     work: Work::PerElement { of: "spheres" },
     agreement: Agreement::Relative(1e-4),
@@ -28,8 +28,8 @@ pub const DRAW_SPHERES: Pass = Pass {
     shader: npr_shaders::RASTER_DRAW_SPHERES,
     slots: &[
         uniform::<Window>("window"),
-        uniform::<Lens>("lens"),
-        read::<Ball>("balls"),
+        uniform::<SphereView>("lens"),
+        read::<ViewSphere>("balls"),
     ],
     work: Work::Draw {
         of: "balls",
@@ -39,7 +39,7 @@ pub const DRAW_SPHERES: Pass = Pass {
     },
     agreement: Agreement::Texels(0.001),
     twin: |b| {
-        let (window, lens): (Window, Lens) = (b.one(0), b.one(1));
+        let (window, lens): (Window, SphereView) = (b.one(0), b.one(1));
         let (ids, depths) = (b.image_mut(3).texels, b.image_mut(4).texels);
         draw::draw_spheres(&lens, &window, b.read(2), ids, depths);
     },
@@ -51,12 +51,12 @@ pub const SHADE_SPHERES: Pass = Pass {
     shader: npr_shaders::SMOKE_SHADE_SPHERES,
     slots: &[
         uniform::<Window>("window"),
-        uniform::<Lens>("lens"),
+        uniform::<SphereView>("lens"),
         uniform::<SmokeLook>("look"),
         uniform::<Lights>("lights"),
         texture("smoke_ids", Format::U32),
         read::<Sphere>("spheres"),
-        read::<Ball>("balls"),
+        read::<ViewSphere>("balls"),
         write::<SmokePixel>("pixels"),
         texture("smoke_light_0", Format::U32),
         texture("smoke_light_1", Format::U32),
@@ -160,10 +160,10 @@ pub const RESOLVE_PICTURE: Pass = Pass {
     shader: npr_shaders::SMOKE_RESOLVE_PICTURE,
     slots: &[
         uniform::<Window>("window"),
-        uniform::<Lens>("lens"),
+        uniform::<SphereView>("lens"),
         uniform::<SmokeLook>("look"),
         texture("smoke_ids", Format::U32),
-        read::<Ball>("balls"),
+        read::<ViewSphere>("balls"),
         read::<SmokePixel>("pixels"),
         read::<f32>("tones"),
     ],

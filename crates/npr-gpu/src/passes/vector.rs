@@ -7,13 +7,13 @@
 use crate::pass::{Agreement, Pass, Work, read, uniform, write};
 use npr_core::geometry::GPixel;
 use npr_core::window::{View, Window};
-use npr_vector::contour::steps::{self, HalfEdge, Marked, Viewer};
-use npr_vector::graph::CurveNode;
+use npr_vector::mesh_lines::contour::steps::{self, HalfEdge, Marked, Viewer};
+use npr_vector::mesh_lines::graph::CurveNode;
+use npr_vector::mesh_lines::sample::{self, SpineSample, Surroundings};
 use npr_vector::rank::jump::{self, Hop, Reach};
-use npr_vector::rank::place::{self, Place, Standing, Walk};
+use npr_vector::rank::place::{self, ListPosition, Standing, Walk};
 use npr_vector::rank::work::{Arguments, WorkRule, size_work};
 use npr_vector::rank::{Link, scan, splitter};
-use npr_vector::sample::{self, SpineSample, Surroundings};
 
 /// Which faces are turned to the eye.
 pub const FACE_EYE: Pass = Pass {
@@ -286,7 +286,7 @@ pub const SCATTER_RANKS: Pass = Pass {
         read::<Reach>("first"),
         read::<Reach>("settled"),
         read::<Hop>("hops"),
-        write::<Place>("places"),
+        write::<ListPosition>("places"),
         write::<u32>("unsettled"),
     ],
     work: Work::PerElement { of: "walks" },
@@ -310,7 +310,7 @@ pub const MEASURE_CHAINS: Pass = Pass {
     shader: npr_shaders::VECTOR_MEASURE_CHAINS,
     slots: &[
         read::<Link>("links"),
-        read::<Place>("places"),
+        read::<ListPosition>("places"),
         write::<u32>("lengths"),
     ],
     work: Work::PerElement { of: "places" },
@@ -323,7 +323,7 @@ pub const TURN_RANKS: Pass = Pass {
     name: "vector.turn_ranks",
     shader: npr_shaders::VECTOR_TURN_RANKS,
     slots: &[
-        read::<Place>("places"),
+        read::<ListPosition>("places"),
         read::<u32>("lengths"),
         write::<Standing>("standings"),
         write::<u32>("sizes"),

@@ -11,8 +11,8 @@ use npr_mesh::testing::{
     Random, cube, cylinder, fan, icosphere, mapped, moebius_strip, plane, random_soup,
     random_winding, torus, uv_sphere,
 };
-use npr_vector::contour::steps::Viewer;
-use npr_vector::contour::{EdgeContours, Eye, usual_room};
+use npr_vector::mesh_lines::contour::steps::Viewer;
+use npr_vector::mesh_lines::contour::{EdgeContours, Eye, usual_room};
 use npr_vector::rank::rank_curves;
 use std::cell::Cell;
 use std::rc::Rc;
@@ -141,7 +141,7 @@ fn faces_seen_edge_on_are_judged_alike() {
 fn stand_ins_decide_for_faces_without_area() {
     let mesh = uv_sphere(12, 8);
     let mut shape = shape_from(&mesh);
-    shape.slivers = vec![[0, 5], [3, npr_core::geometry::NONE], [40, 2]];
+    shape.degenerate_faces = vec![[0, 5], [3, npr_core::geometry::NONE], [40, 2]];
     check("slivers", &shape, &eyes(1.0));
 }
 

@@ -1,17 +1,17 @@
 //! What every slot of every pass holds in a frame: the scene, and what the twins make of it.
 
 use crate::scene::{
-    FRAME_PX, Look, SHADOW_SIDE, Scene, bare_compose, compose, lights, outline, rules, smoke_look,
-    spheres, view, wearers,
+    FRAME_PX, Look, SHADOW_SIDE, Scene, bare_compose, compose, lights, outline, part_subjects,
+    rules, smoke_look, spheres, view,
 };
-use npr_core::smoke::Lens;
+use npr_core::smoke::SphereView;
 use npr_core::window::Window;
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::{Graph, Kind, ResourceId};
 use npr_gpu::pass::{Access, Format, Pass};
 use npr_gpu::passes::{backdrop, line, mesh, raster, shade, smoke};
 use npr_gpu::processor::Processor;
-use npr_style::backdrop::{Lean, TILE, TileRims};
+use npr_style::backdrop::{ContrastBias, TILE, TileRims};
 use std::collections::BTreeMap;
 
 /// Slots that bind a resource of another name: two passes work on the grid of the mask only and call it the window.
@@ -24,12 +24,12 @@ const RENAMED: [(&str, &str, &str); 24] = [
     ("backdrop.find_rims", "drawn_ids", "ids"),
     ("backdrop.draw_rims", "overlay", "rim_lines"),
     ("backdrop.gather_tiles", "rims", "smoothed_rims"),
-    ("backdrop.lean_tiles", "before", "kept_leans"),
-    ("backdrop.blend_leans", "kept", "kept_leans"),
-    ("backdrop.blend_leans", "blended", "blended_leans"),
+    ("backdrop.vote_bias", "before", "kept_biases"),
+    ("backdrop.blend_biases", "kept", "kept_biases"),
+    ("backdrop.blend_biases", "blended", "blended_biases"),
     ("backdrop.spread_rows", "rims", "smoothed_rims"),
     ("backdrop.spread_rims", "rims", "smoothed_rims"),
-    ("backdrop.spread_rims", "leans", "blended_leans"),
+    ("backdrop.spread_rims", "biases", "blended_biases"),
     ("raster.draw_shadow", "window", "shadow_window"),
     ("line.resolve_gbuffer", "window", "mask_window"),
     ("line.resolve_gbuffer", "ids", "mask_ids"),
@@ -100,9 +100,9 @@ impl Frame {
         "smoothed_rims",
         "tile_rims",
         "bounds",
-        "kept_leans",
-        "leans",
-        "blended_leans",
+        "kept_biases",
+        "biases",
+        "blended_biases",
         "rim_lines",
         "columns",
         "fronts",
@@ -165,7 +165,7 @@ impl Builder {
         self.give_uniform("compose", &[compose(look, &scene)]);
         self.give_uniform("bare_compose", &[bare_compose(look, &scene)]);
         self.give_uniform("rules", &[rules(look)]);
-        self.give_buffer("wearers", &wearers());
+        self.give_buffer("part_subjects", &part_subjects());
         self.give_uniform("lights", &[lights(look)]);
         self.give_uniform("light_from_world", &[lights(look).shadows[0]]);
         let shadow_px = [SHADOW_SIDE as f32; 2];
@@ -209,8 +209,8 @@ impl Builder {
     fn give_smoke(&mut self, look: Look, size: [u32; 2]) {
         let smoke = smoke_look(look, size);
         let spheres = spheres();
-        self.give_uniform("lens", &[Lens::of_view(&view(look))]);
-        let light = Lens::of_light(&lights(look).shadows[0], SHADOW_SIDE);
+        self.give_uniform("lens", &[SphereView::of_view(&view(look))]);
+        let light = SphereView::of_light(&lights(look).shadows[0], SHADOW_SIDE);
         self.give_uniform("light_lens", &[light]);
         self.give_uniform("look", &[smoke]);
         self.give_buffer("spheres", &spheres);
@@ -330,8 +330,8 @@ impl Builder {
         self.make_buffer("columns", 4, area(size));
         self.make_buffer("rim_lines", 4, area(size));
         self.make_buffer("tile_rims", size_of::<TileRims>(), area(tiles));
-        for leans in ["bounds", "kept_leans", "leans", "blended_leans"] {
-            self.make_buffer(leans, size_of::<Lean>(), area(tiles));
+        for biases in ["bounds", "kept_biases", "biases", "blended_biases"] {
+            self.make_buffer(biases, size_of::<ContrastBias>(), area(tiles));
         }
     }
 
@@ -356,8 +356,8 @@ impl Builder {
         self.compute(&backdrop::SMOOTH_RIMS);
         self.compute(&backdrop::GATHER_TILES);
         self.compute(&backdrop::BOUND_TILES);
-        self.compute(&backdrop::LEAN_TILES);
-        self.compute(&backdrop::BLEND_LEANS);
+        self.compute(&backdrop::VOTE_BIAS);
+        self.compute(&backdrop::BLEND_BIASES);
         self.compute(&backdrop::SPREAD_ROWS);
         let targets = ["fronts", "backs"];
         self.draw(&backdrop::SPREAD_RIMS, "window", targets, true);
@@ -456,7 +456,7 @@ pub fn grids_for(pass: &Pass, count: u32) -> [[u32; 2]; 2] {
     let count = count.max(1);
     match pass.slots[pass.counted_slot()].name {
         "tiles" => [[count, 1], [16 * count, 5]],
-        "tile_rims" | "bounds" | "leans" | "blended" => [[TILE * count, 3], [count, 1]],
+        "tile_rims" | "bounds" | "biases" | "blended" => [[TILE * count, 3], [count, 1]],
         _ => [[count, 1], [count, 1]],
     }
 }

@@ -6,18 +6,20 @@ use crate::sampled::Sampled;
 use crate::shapes::{eyes, shape_of};
 use npr_core::math::mix_bits;
 use npr_gpu::pass::Pass;
-use npr_vector::contour::steps::{
+use npr_vector::mesh_lines::contour::steps::{
     HalfEdge, Marked, Viewer, face_eye, half_edges, judges, link_contours, mark_contours,
 };
-use npr_vector::graph::CurveNode;
+use npr_vector::mesh_lines::graph::CurveNode;
+use npr_vector::mesh_lines::sample::{
+    SampledLines, Surroundings, sample_visibility, weigh_samples,
+};
 use npr_vector::rank::jump::{Hop, Reach, break_loops, cut_loops, rank_jump, start_nodes};
-use npr_vector::rank::place::{Place, Standing, Walk};
+use npr_vector::rank::place::{ListPosition, Standing, Walk};
 use npr_vector::rank::place::{measure_chains, scatter_ranks, turn_ranks};
 use npr_vector::rank::scan::{BLOCK, compact, exclusive_scan, scan_blocks};
 use npr_vector::rank::splitter::{find_splitters, start_splitters, walk_to_splitter};
 use npr_vector::rank::work::WorkRule;
 use npr_vector::rank::{Link, link, rounds_for};
-use npr_vector::sample::{SampledLines, Surroundings, sample_visibility, weigh_samples};
 use std::collections::BTreeMap;
 
 /// What lists are made of.
@@ -178,7 +180,7 @@ impl Lists {
         }
         self.give("settled_hops", &jumped);
 
-        let (mut places, mut unsettled) = (self.made::<Place>(), self.made::<u32>());
+        let (mut places, mut unsettled) = (self.made::<ListPosition>(), self.made::<u32>());
         scatter_ranks(walks, first, &reach, &jumped, &mut places, &mut unsettled);
         assert!(unsettled.iter().all(|flag| *flag == 0), "lists are ranked");
         self.give("places", &places);

@@ -12,11 +12,11 @@ use npr_gpu::passes::ALL;
 use npr_gpu::processor::Processor;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{cube, shape_of, torus, uv_sphere};
-use npr_vector::draw::eye_of;
-use npr_vector::graph::CurveNode;
-use npr_vector::pixel_contour::edge::drawn_edges;
-use npr_vector::pixel_contour::stroke::Loops;
-use npr_vector::pixel_contour::{PixelScene, PublishedPath, scene_depths, trace};
+use npr_vector::mesh_lines::draw::eye_of;
+use npr_vector::mesh_lines::graph::CurveNode;
+use npr_vector::pixel_strokes::edge::drawn_edges;
+use npr_vector::pixel_strokes::stroke::Loops;
+use npr_vector::pixel_strokes::{PixelScene, PublishedPath, scene_depths, trace};
 use npr_vector::project::Projector;
 
 const SIZE: [u32; 2] = [160, 120];
@@ -160,13 +160,13 @@ fn every_pass_agrees_with_its_twin() {
             contours
                 .write_shape(session.as_mut(), scene.shape, &edges)
                 .unwrap();
-            // A veil that hides a strip of the picture.
-            let veil: Vec<f32> = (0..)
+            // A smoke layer that hides a strip of the picture.
+            let occluder_depths: Vec<f32> = (0..)
                 .zip(depths)
                 .map(|(i, z)| if i % SIZE[0] < 40 { 2.0 * z } else { 0.0 })
                 .collect();
             contours
-                .write_view(session.as_mut(), scene, &path, &veil)
+                .write_view(session.as_mut(), scene, &path, &occluder_depths)
                 .unwrap();
             strips.write(session.as_mut(), &path).unwrap();
             session.run().unwrap();

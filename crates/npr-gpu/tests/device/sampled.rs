@@ -8,7 +8,7 @@ use npr_core::window::{View, Window};
 use npr_gpu::curves::sampling::{SampledFrame, add_sampling};
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::Graph;
-use npr_vector::sample::{
+use npr_vector::mesh_lines::sample::{
     SampledLines, SpineSample, Surroundings, sample_visibility, visible_samples,
 };
 

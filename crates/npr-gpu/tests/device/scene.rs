@@ -10,7 +10,7 @@ use npr_core::texture::{TextureStore, Wrap};
 use npr_core::window::View;
 use npr_mesh::testing::{Random, torus, uv_sphere};
 use npr_mesh::{EdgeFlags, NO_FACE, smooth_normals, unique_edges, weld};
-use npr_style::backdrop::{Criteria, Rule, Rules, Wearer};
+use npr_style::backdrop::{Criteria, PartSubject, Rule, Rules};
 use npr_style::compose::Compose;
 use npr_style::lighting::{LightSource, Lights};
 use npr_style::line_color::HUES;
@@ -181,7 +181,7 @@ fn vertex(position: [f32; 3], normal: [f32; 3], part: u32, random: &mut Random) 
         weld_normal: math::pack_unit(normal),
         width: random.unit(),
         part,
-        knot: random.unit(),
+        chart_distortion: random.unit(),
     }
 }
 
@@ -374,7 +374,7 @@ pub fn rules(look: Look) -> Rules {
         smooth_px: 5.0,
         whole_px: 2.0,
         reach_px: 4,
-        lean_px: 20.0,
+        bias_px: 20.0,
         hold: 1.0,
         fade: 0.1,
         within: match look {
@@ -406,8 +406,8 @@ pub fn rules(look: Look) -> Rules {
 }
 
 /// A subject for either surface; the beam is of none.
-pub fn wearers() -> [Wearer; 3] {
-    [(1, 1), (2, 2), (0, 0)].map(|(subject, rule)| Wearer { subject, rule })
+pub fn part_subjects() -> [PartSubject; 3] {
+    [(1, 1), (2, 2), (0, 0)].map(|(subject, rule)| PartSubject { subject, rule })
 }
 
 /// The first part that strokes are drawn on.

@@ -3,7 +3,7 @@
 use npr_core::geometry::NONE;
 use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::{Mesh, weld};
-use npr_vector::contour::Eye;
+use npr_vector::mesh_lines::contour::Eye;
 use std::collections::BTreeMap;
 
 /// A mesh as a shape, its corners welded.

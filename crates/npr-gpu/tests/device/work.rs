@@ -7,14 +7,14 @@ use crate::shapes::{eyes, shape_from};
 use npr_gpu::curves::contours::add_contours;
 use npr_gpu::curves::ranking::add_ranking;
 use npr_gpu::curves::sums::{add_compact, add_scan, add_sum};
-use npr_gpu::curves::work::{Followers, ListWork, add_work};
+use npr_gpu::curves::work::{IndirectArguments, ListWork, add_work};
 use npr_gpu::curves::{ResidentShape, Scheme};
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::Format;
 use npr_mesh::testing::{cube, plane, random_soup, torus, uv_sphere};
-use npr_vector::contour::steps::{Viewer, half_edges, judges};
-use npr_vector::contour::{EdgeContours, Eye};
+use npr_vector::mesh_lines::contour::steps::{Viewer, half_edges, judges};
+use npr_vector::mesh_lines::contour::{EdgeContours, Eye};
 use npr_vector::rank::scan::exclusive_scan;
 use npr_vector::rank::{Link, link, rank_curves};
 
@@ -36,14 +36,14 @@ fn arguments_are_the_expected_numbers_of_groups() {
         (10_000_000, [[52084, 3], [2442, 1], [39, 1], [1, 1]]),
         (u32::MAX, [[52084, 3], [2442, 1], [39, 1], [1, 1]]),
     ];
-    let followers = Followers {
+    let indirect = IndirectArguments {
         vertices: 3,
-        ..Followers::default()
+        ..IndirectArguments::default()
     };
     for engine in engines() {
         let mut graph = Graph::new();
         let count = graph.buffer::<u32>("count", 1);
-        let work = add_work(&mut graph, count, 10_000_000, followers);
+        let work = add_work(&mut graph, count, 10_000_000, indirect);
         let mut session = engine.prepare(graph).unwrap();
         for (length, levels) in expected {
             session.write(count, &[length]).unwrap();
@@ -60,7 +60,12 @@ fn arguments_are_the_expected_numbers_of_groups() {
 fn check_reach(engine: &dyn Engine, room: u32, lengths: &[u32]) {
     let mut graph = Graph::new();
     let count = graph.buffer::<u32>("count", 1);
-    let work = add_work(&mut graph, count, room as usize, Followers::default());
+    let work = add_work(
+        &mut graph,
+        count,
+        room as usize,
+        IndirectArguments::default(),
+    );
     let [from, to] = [0; 2].map(|_| graph.buffer::<u32>("numbers", room as usize));
     graph.compute_sized(&DOUBLE, &[from, to], work.elements());
     let mut session = engine.prepare(graph).unwrap();
@@ -93,11 +98,11 @@ fn draws_end_with_a_list() {
     for engine in engines() {
         let mut graph = Graph::new();
         let count = graph.buffer::<u32>("count", 1);
-        let followers = Followers {
+        let indirect = IndirectArguments {
             vertices: DRAW_LARGEST.vertices(),
-            ..Followers::default()
+            ..IndirectArguments::default()
         };
-        let work = add_work(&mut graph, count, 5, followers);
+        let work = add_work(&mut graph, count, 5, indirect);
         let numbers = graph.buffer::<u32>("numbers", 5);
         let picture = graph.image("picture", Format::U32, [3, 2]);
         let depths = graph.image("depths", Format::Depth, [3, 2]);
@@ -121,7 +126,7 @@ fn sums_follow_a_list_that_grows_and_shrinks() {
     for engine in engines() {
         let mut graph = Graph::new();
         let count = graph.buffer::<u32>("count", 1);
-        let work = add_work(&mut graph, count, room, Followers::default());
+        let work = add_work(&mut graph, count, room, IndirectArguments::default());
         let values = graph.buffer::<u32>("values", room);
         let scan = add_scan(&mut graph, values, &work);
         let sum = add_sum(&mut graph, values, &work);
@@ -160,11 +165,11 @@ fn lists_in_a_large_room_are_ranked_as_in_one_that_fits() {
                 Scheme::Wyllie { .. } => 15,
                 Scheme::RulingSet { .. } => 0,
             };
-            let followers = Followers {
+            let indirect = IndirectArguments {
                 rounds,
-                ..Followers::default()
+                ..IndirectArguments::default()
             };
-            let work = add_work(&mut graph, count, room, followers);
+            let work = add_work(&mut graph, count, room, indirect);
             let links = graph.buffer::<Link>("links", room);
             let ranked = add_ranking(&mut graph, links, &work, scheme);
             let plain = graph.clone().without_sizes();

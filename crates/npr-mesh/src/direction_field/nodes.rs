@@ -1,11 +1,11 @@
-//! The points that carry a direction: one per smooth sector of faces around each welded position.
+//! The points that carry a direction: one per smooth wedge of faces around each welded position.
 
 use glam::{DVec3, Vec3};
 use npr_core::geometry::Triangle;
 use rayon::prelude::*;
 
+use crate::half_edge_groups::Sides;
 use crate::normals::smooth_normals;
-use crate::sides::Sides;
 use crate::union_find::UnionFind;
 use crate::weld::{Weld, weld};
 
@@ -39,8 +39,8 @@ impl Nodes {
     /// Triangles without area, or with a position that is not finite, have no nodes.
     pub(crate) fn new(positions: &[[f32; 3]], triangles: &[Triangle], crease_cos: f32) -> Self {
         let sheet = Sheet::new(positions, triangles);
-        let mut sectors = sheet.join_sectors(crease_cos);
-        let (first_corner, node_of_corner) = sheet.number(&mut sectors);
+        let mut wedges = sheet.join_wedges(crease_cos);
+        let (first_corner, node_of_corner) = sheet.number(&mut wedges);
         let corners = node_of_corner.as_chunks().0.to_vec();
         let position_of = |&corner: &u32| positions[sheet.vertex(corner) as usize];
         let mut nodes = Self {
@@ -157,9 +157,9 @@ impl Sheet {
     }
 
     /// Unites the corners on both sides of every edge across which the surface goes on smoothly.
-    fn join_sectors(&self, crease_cos: f32) -> UnionFind {
+    fn join_wedges(&self, crease_cos: f32) -> UnionFind {
         let sides = Sides::of_faces(&self.welded, self.weld.count());
-        let mut sectors = UnionFind::new(3 * self.faces.len());
+        let mut wedges = UnionFind::new(3 * self.faces.len());
         let next = |h: u32| if h % 3 == 2 { h - 2 } else { h + 1 };
         for bounds in sides.starts.windows(2) {
             let around = &sides.half_edges[bounds[0] as usize..bounds[1] as usize];
@@ -168,12 +168,12 @@ impl Sheet {
             }
             for &side in around {
                 if let Some(mate) = self.mate(side, around, crease_cos) {
-                    sectors.unite(side, next(mate));
-                    sectors.unite(next(side), mate);
+                    wedges.unite(side, next(mate));
+                    wedges.unite(next(side), mate);
                 }
             }
         }
-        sectors
+        wedges
     }
 
     /// Of the half-edges that run against `side`, the one whose face continues its plane best.
@@ -199,10 +199,10 @@ impl Sheet {
         })
     }
 
-    /// Numbers sectors along the curve: a corner of each node, and the node of every corner.
-    fn number(&self, sectors: &mut UnionFind) -> (Vec<u32>, Vec<u32>) {
+    /// Numbers wedges along the curve: a corner of each node, and the node of every corner.
+    fn number(&self, wedges: &mut UnionFind) -> (Vec<u32>, Vec<u32>) {
         let corner_count = 3 * self.faces.len() as u32;
-        let root_of_corner: Vec<u32> = (0..corner_count).map(|c| sectors.find(c)).collect();
+        let root_of_corner: Vec<u32> = (0..corner_count).map(|c| wedges.find(c)).collect();
         // Sectors at one position are told apart by the least code of their faces.
         let mut least = vec![u64::MAX; corner_count as usize];
         for (&root, corner) in root_of_corner.iter().zip(0..) {

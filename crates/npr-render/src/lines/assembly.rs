@@ -23,8 +23,8 @@ pub(crate) struct Placed {
     surfaces: Vec<u32>,
     marks: Vec<[u32; 2]>,
     /// Lines that are geometry themselves, and what they belong to.
-    wires: Vec<[u32; 2]>,
-    wire_surfaces: Vec<u32>,
+    polylines: Vec<[u32; 2]>,
+    polyline_surfaces: Vec<u32>,
     mirrored: bool,
     /// Vertex colours, sRGB bytes; empty where the mesh has none.
     colors: Vec<u32>,
@@ -85,7 +85,7 @@ impl Assembly {
         let glowing = placed().filter(|(_, part)| roles[**part as usize] == Role::Beam);
         let glowing = glowing.map(|(corners, _)| *corners).collect();
         let segments = joined.segments.iter().zip(&joined.segment_parts);
-        let (wires, wire_surfaces) = segments
+        let (polylines, polyline_surfaces) = segments
             .filter_map(|(ends, part)| match roles[*part as usize] {
                 Role::Surface(surface) => Some((*ends, surface)),
                 Role::Beam | Role::Unseen => None,
@@ -104,8 +104,8 @@ impl Assembly {
             normals: joined.normals,
             surfaces: drawn.iter().map(|(_, surface)| *surface).collect(),
             marks: marked_edges(&triangles, &marked),
-            wires,
-            wire_surfaces,
+            polylines,
+            polyline_surfaces,
             mirrored: placement::determinant_of(first_matrix) < 0.0,
             colors: vertex_colors(&mesh.parts),
             triangles,
@@ -150,8 +150,8 @@ impl Assembly {
     }
 
     /// Number of segments of lines that are geometry themselves.
-    pub fn wire_count(&self) -> usize {
-        self.meshes.iter().map(|mesh| mesh.wires.len()).sum()
+    pub fn polyline_count(&self) -> usize {
+        self.meshes.iter().map(|mesh| mesh.polylines.len()).sum()
     }
 
     /// Number of stored vertices.
@@ -172,15 +172,15 @@ impl Assembly {
         surfaces.collect()
     }
 
-    /// Positions in the world of all vertices that triangles and wires use.
+    /// Positions in the world of all vertices that triangles and polylines use.
     pub fn used_points(&self) -> Vec<[f32; 3]> {
         self.meshes.iter().flat_map(Placed::used_points).collect()
     }
 
     /// Colour at each position that has one, sorted by position; of several, the first stored.
     pub fn colors(&self) -> Vec<([u32; 3], u32)> {
-        let coloured = self.meshes.iter().filter(|mesh| !mesh.colors.is_empty());
-        let mut colors: Vec<([u32; 3], u32)> = coloured
+        let colored = self.meshes.iter().filter(|mesh| !mesh.colors.is_empty());
+        let mut colors: Vec<([u32; 3], u32)> = colored
             .flat_map(|mesh| mesh.world.iter().zip(&mesh.colors))
             .map(|(position, color)| (place_key(*position), *color))
             .collect();
@@ -200,8 +200,8 @@ impl Placed {
             triangles: &self.triangles,
             surfaces: &self.surfaces,
             marks: &self.marks,
-            wires: &self.wires,
-            wire_surfaces: &self.wire_surfaces,
+            polylines: &self.polylines,
+            polyline_surfaces: &self.polyline_surfaces,
             mirrored: self.mirrored,
         }
     }
@@ -218,7 +218,7 @@ impl Placed {
     fn used_points(&self) -> impl Iterator<Item = [f32; 3]> + '_ {
         let mut used = vec![false; self.world.len()];
         let corners = self.triangles.iter().chain(&self.glowing).flatten();
-        for corner in corners.chain(self.wires.iter().flatten()) {
+        for corner in corners.chain(self.polylines.iter().flatten()) {
             used[*corner as usize] = true;
         }
         let points = self.world.iter().zip(used);

@@ -7,7 +7,7 @@ use crate::line_colors::add_line_colors;
 use crate::look;
 use crate::model::{Model, PartInfo};
 use crate::placement::Bounds;
-use crate::stage::Picture;
+use crate::renderer::Picture;
 use glam::{Vec2, Vec3};
 use npr_core::camera::Camera;
 use npr_core::color::{linear_rgba, unpack_rgba8};
@@ -23,10 +23,10 @@ use npr_scene::Scene;
 use npr_style::lighting::Lights;
 use npr_style::line_color::{LINE_BLUR_PX, LineScene, strengthened};
 use npr_stylesheet::Style;
-use npr_vector::draw::PointPaint;
-use npr_vector::run::RunPoint;
+use npr_vector::mesh_lines::draw::PointPaint;
+use npr_vector::mesh_lines::run::RunPoint;
+use npr_vector::mesh_lines::zero_set::CornerNormals;
 use npr_vector::stroke::Kind;
-use npr_vector::zero_set::CornerNormals;
 use std::collections::BTreeMap;
 
 /// What the colours of strokes are found on.
@@ -152,15 +152,15 @@ impl<'a> StrokeColors<'a> {
     /// edge.
     fn spots(&self, surface: u32, point: &RunPoint) -> impl Iterator<Item = Spot> {
         let shape = self.input.shape;
-        let (vertices, shares) = point.seat.place(shape, point.world);
+        let (vertices, shares) = point.location.place(shape, point.world);
         let shares = shares.map(|share| share as f32);
-        let crossed = point.seat.crossed_face().map(|face| Spot {
+        let crossed = point.location.crossed_face().map(|face| Spot {
             corners: [0, 1, 2].map(|corner| 3 * face + corner),
             shares,
         });
         let sides = match crossed {
             Some(_) => &[],
-            None => shape.sides(point.seat.edge),
+            None => shape.sides(point.location.edge),
         };
         let beside = self.sides(surface, sides).map(move |side| {
             let [tail, _] = shape.ends_of_half_edge(side);
@@ -207,7 +207,7 @@ impl<'a> StrokeColors<'a> {
             sum = std::array::from_fn(|i| sum[i] + way * normal[i]);
         }
         // A line without a surface is lit as one that faces the eye.
-        if self.input.shape.wire_of(point.seat.edge).is_some() {
+        if self.input.shape.polyline_of(point.location.edge).is_some() {
             sum = self.view.to_eye(point.world.as_vec3().to_array());
         }
         unit_or_z(sum)
@@ -250,8 +250,8 @@ impl<'a> StrokeColors<'a> {
             let [r, g, b, _] = linear_rgba(unpack_rgba8(packed));
             [r, g, b]
         };
-        if shape.wire_of(point.seat.edge).is_some() {
-            let ([low, high, _], [_, share, _]) = point.seat.place(shape, point.world);
+        if shape.polyline_of(point.location.edge).is_some() {
+            let ([low, high, _], [_, share, _]) = point.location.place(shape, point.world);
             let [low, high] = [low, high].map(|vertex| Vec3::from(of_vertex(vertex)));
             return low.lerp(high, share as f32).to_array();
         }

@@ -4,9 +4,9 @@ use crate::error::RenderError;
 use npr_gpu::curves::{Hiders, ResidentPixels, ResidentShape};
 use npr_gpu::engine::{Engine, PassTime};
 use npr_mesh::half_edge::HalfEdgeMesh;
-use npr_vector::contour::{EdgeContours, Eye};
-use npr_vector::pixel_contour::stroke::Loops;
-use npr_vector::pixel_contour::{PixelScene, PublishedPath, Traced, scene_depths, trace};
+use npr_vector::mesh_lines::contour::{EdgeContours, Eye};
+use npr_vector::pixel_strokes::stroke::Loops;
+use npr_vector::pixel_strokes::{PixelScene, PublishedPath, Traced, scene_depths, trace};
 
 /// Finds the lines of a shape.
 pub(crate) trait Finder {
@@ -19,7 +19,7 @@ pub(crate) trait Finder {
         &mut self,
         on: &PixelScene<'_>,
         path: &PublishedPath,
-        veil: Option<&[f32]>,
+        occluder_depths: Option<&[f32]>,
     ) -> Result<(Traced, Loops), RenderError>;
 
     /// Forgets the times of the last view.
@@ -43,11 +43,11 @@ impl Finder for OnProcessor<'_> {
         &mut self,
         on: &PixelScene<'_>,
         path: &PublishedPath,
-        veil: Option<&[f32]>,
+        occluder_depths: Option<&[f32]>,
     ) -> Result<(Traced, Loops), RenderError> {
         let mut depths = scene_depths(on.shape, on.view);
-        for (depth, veil) in depths.iter_mut().zip(veil.unwrap_or_default()) {
-            *depth = depth.max(*veil);
+        for (depth, occluder_depths) in depths.iter_mut().zip(occluder_depths.unwrap_or_default()) {
+            *depth = depth.max(*occluder_depths);
         }
         let traced = trace(on, path, &depths)?;
         let loops = Loops::new(&traced, path);
@@ -93,11 +93,15 @@ impl Finder for OnDevice<'_> {
         &mut self,
         on: &PixelScene<'_>,
         path: &PublishedPath,
-        veil: Option<&[f32]>,
+        occluder_depths: Option<&[f32]>,
     ) -> Result<(Traced, Loops), RenderError> {
         let make = || ResidentPixels::new(self.engine, self.shape);
         let resident = self.pixels.get_or_insert_with(make);
-        let found = resident.draw(on, path, veil.map_or(Hiders::Surfaces, Hiders::Veiled))?;
+        let found = resident.draw(
+            on,
+            path,
+            occluder_depths.map_or(Hiders::Surfaces, Hiders::Veiled),
+        )?;
         self.times.extend_from_slice(resident.times());
         Ok(found)
     }

@@ -1,7 +1,7 @@
 //! Lines from a picture of the surfaces, and lines painted in textures.
 
 use super::paint::Paint;
-use super::pixels::veil_of;
+use super::pixels::occluder_depths_of;
 use super::texture_map::TextureMap;
 use super::{LineMethod, LineModel, LineOptions, LineView};
 use crate::error::RenderError;
@@ -14,14 +14,14 @@ use npr_core::texture;
 use npr_core::window::View;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_style::compose::LUMA;
-use npr_vector::draw::{LineSettings, Prepared, StrokeLook};
-use npr_vector::graph::CurveNode;
-use npr_vector::image_line::{
+use npr_vector::image_lines::{
     BYTES_PER_PIXEL, ImageScene, SurfacePicture, painted_lines, strokes_from,
 };
+use npr_vector::mesh_lines::draw::{LineSettings, Prepared, StrokeLook};
+use npr_vector::mesh_lines::graph::CurveNode;
 use npr_vector::project::Projector;
-use npr_vector::seat::Seat;
 use npr_vector::stroke::Stroke;
+use npr_vector::surface_location::SurfaceLocation;
 use rayon::prelude::*;
 
 /// What is drawn on the mesh beside lines of a picture: marked lines, which no picture of surfaces shows.
@@ -57,11 +57,13 @@ impl LineModel {
             depth_threshold: options.depth_threshold,
         };
         let picture = SurfacePicture::new(&scene);
-        let veil = view.smoke.and_then(|smoke| veil_of(&of_frame, smoke));
+        let occluder_depths = view
+            .smoke
+            .and_then(|smoke| occluder_depths_of(&of_frame, smoke));
         let on = (&scene, view.projector, &picture);
         let mut strokes = Vec::new();
         if options.method == LineMethod::Image {
-            let runs = picture.borders(&scene, veil.as_deref()).runs(on);
+            let runs = picture.borders(&scene, occluder_depths.as_deref()).runs(on);
             strokes = strokes_from(runs, &self.shape, settings, look);
         }
         if let (Some(map), Some(wanted)) = (&self.map, options.painted) {
@@ -73,7 +75,7 @@ impl LineModel {
             let lightness = lightness(&self.shape, map, (&of_frame, view.projector), &picture);
             for rule in wanted.rules() {
                 let mut ink = painted_lines(&scene, &picture, &lightness, &lines, &rule);
-                ink.retain(|pixel| picture.is_clear(veil.as_deref(), pixel));
+                ink.retain(|pixel| picture.is_clear(occluder_depths.as_deref(), pixel));
                 strokes.extend(strokes_from(ink.runs(on)?, &self.shape, settings, look));
             }
         }
@@ -118,7 +120,7 @@ fn coordinates(
 ) -> Option<([f32; 2], f32)> {
     let uvs = map.corners(face)?.map(Vec2::from);
     let edge = shape.edge_of[3 * face as usize];
-    let (_, shares) = Seat { edge, face }.place(shape, world);
+    let (_, shares) = SurfaceLocation { edge, face }.place(shape, world);
     let uv = (0..3).fold(Vec2::ZERO, |sum, i| sum + uvs[i] * shares[i] as f32);
     let corners = shape.faces[face as usize].map(|vertex| shape.point(vertex).as_vec3());
     let around = |length: &dyn Fn(usize, usize) -> f32| length(0, 1) + length(1, 2) + length(2, 0);

@@ -3,10 +3,10 @@
 use crate::look;
 use npr_core::crease::{CreaseFrom, Creases};
 use npr_stylesheet::Style;
-use npr_vector::draw::Method;
-use npr_vector::graph::CurveNode;
-use npr_vector::image_line::{PaintedRule, PaintedTone};
-use npr_vector::pixel_contour::PublishedPath;
+use npr_vector::image_lines::{PaintedRule, PaintedTone};
+use npr_vector::mesh_lines::draw::Method;
+use npr_vector::mesh_lines::graph::CurveNode;
+use npr_vector::pixel_strokes::PublishedPath;
 use npr_vector::stroke::Kind;
 
 /// How a scene is prepared for line drawings.
@@ -164,10 +164,10 @@ pub enum LineMethod {
     /// Contours where interpolated normals turn away, smooth.
     Surface,
     /// All lines from a picture of them, as published [Jiang et al. 2022]: visible ones alone, none of intersections,
-    /// and [`LineOptions::smooth`] is about places only. See [`npr_vector::pixel_contour`].
+    /// and [`LineOptions::smooth`] is about places only. See [`npr_vector::pixel_strokes`].
     Potrace,
     /// All lines from a picture of the surfaces, where neighbouring pixels differ, each followed once along its
-    /// middle: visible ones alone, boundaries as contours. See [`npr_vector::image_line`].
+    /// middle: visible ones alone, boundaries as contours. See [`npr_vector::image_lines`].
     Image,
 }
 

@@ -8,7 +8,7 @@ use npr_core::color::srgb_from_linear;
 use npr_drawing::fill;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_stylesheet::{Look, Style};
-use npr_vector::bvh::{FaceTree, Sight};
+use npr_vector::mesh_lines::bvh::{FaceTree, Sight};
 use npr_vector::project::Projector;
 use npr_vector::stroke::{Region, Stroke, StrokeSurface};
 
@@ -105,8 +105,8 @@ pub(super) fn regions(
     let surface_at = |place: [f64; 2]| {
         let face = face_at(place);
         let depth = face.map_or(f64::INFINITY, |(_, depth)| depth);
-        let veil = smoke.and_then(|smoke| smoke.surface_before(place, depth));
-        veil.or(face.map(|(surface, _)| surface))
+        let occluder_depths = smoke.and_then(|smoke| smoke.surface_before(place, depth));
+        occluder_depths.or(face.map(|(surface, _)| surface))
     };
     let mut segments = segments_of(strokes);
     if let Some(smoke) = smoke {

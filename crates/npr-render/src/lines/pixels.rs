@@ -6,11 +6,11 @@ use super::{LineModel, LineOptions, LineView};
 use crate::error::RenderError;
 use npr_core::budget::Budget;
 use npr_core::window::View;
-use npr_vector::draw::{LineSettings, Prepared, StrokeLook, eye_of};
-use npr_vector::pixel_contour::segment::PixelView;
-use npr_vector::pixel_contour::stroke::Loops;
-use npr_vector::pixel_contour::{BYTES_PER_PIXEL, PixelScene, PublishedPath, Traced};
-use npr_vector::puff::{Puffs, SmokeLines};
+use npr_vector::mesh_lines::draw::{LineSettings, Prepared, StrokeLook, eye_of};
+use npr_vector::mesh_lines::puff::{Puffs, SmokeLines};
+use npr_vector::pixel_strokes::segment::PixelView;
+use npr_vector::pixel_strokes::stroke::Loops;
+use npr_vector::pixel_strokes::{BYTES_PER_PIXEL, PixelScene, PublishedPath, Traced};
 use npr_vector::stroke::Stroke;
 
 impl LineModel {
@@ -54,7 +54,9 @@ impl LineModel {
             BYTES_PER_PIXEL as usize,
         )?;
         let of_frame = view.camera.view(options.size, view.bounds);
-        let veil = view.smoke.and_then(|smoke| veil_of(&of_frame, smoke));
+        let occluder_depths = view
+            .smoke
+            .and_then(|smoke| occluder_depths_of(&of_frame, smoke));
         let scene = PixelScene {
             shape: &self.shape,
             view: &of_frame,
@@ -63,7 +65,7 @@ impl LineModel {
             creases: options.creases(),
             is_drawn: &paint.lined_surfaces(),
         };
-        find.pixels(&scene, &path_of(options), veil.as_deref())
+        find.pixels(&scene, &path_of(options), occluder_depths.as_deref())
     }
 }
 
@@ -76,7 +78,7 @@ fn path_of(options: &LineOptions) -> PublishedPath {
 }
 
 /// Reversed depths of dense smoke, 0 where there is none; nothing where no smoke hides lines.
-pub(super) fn veil_of(view: &View, smoke: &SmokeLines<'_>) -> Option<Vec<f32>> {
+pub(super) fn occluder_depths_of(view: &View, smoke: &SmokeLines<'_>) -> Option<Vec<f32>> {
     let puffs: &Puffs = smoke.puffs;
     if !smoke.is_dense || puffs.is_empty() {
         return None;

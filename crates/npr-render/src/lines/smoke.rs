@@ -6,13 +6,13 @@ use crate::error::RenderError;
 use crate::light::ChosenLights;
 use crate::model::Model;
 use crate::placement::Bounds;
+use crate::renderer::Picture;
 use crate::smoke::{Measure, Smoke, around, lens_of};
-use crate::stage::Picture;
 use npr_core::camera::Camera;
 use npr_style::smoke::SmokeLook;
 use npr_stylesheet::{SmokeLines as Outlining, Style};
+use npr_vector::mesh_lines::puff::{Puffs, SilhouettePoint, SmokeLines};
 use npr_vector::project::Projector;
-use npr_vector::puff::{Puffs, RimPoint, SmokeLines};
 use npr_vector::stroke::StrokeSurface;
 use std::collections::BTreeMap;
 
@@ -68,7 +68,7 @@ impl<'a> SmokeView<'a> {
     }
 
     /// Whole width of the outline at a place, in pixels.
-    pub fn width_at(&self, point: &RimPoint) -> f64 {
+    pub fn width_at(&self, point: &SilhouettePoint) -> f64 {
         let outward = point.outward.map(|v| v as f32);
         let (jump, radius_px) = (point.jump as f32, point.radius_px as f32);
         f64::from(self.look.line_width(jump, outward, radius_px))
@@ -78,7 +78,7 @@ impl<'a> SmokeView<'a> {
     pub fn lines<'b>(
         &'b self,
         is_outlined: bool,
-        width_at: &'b (dyn Fn(&RimPoint) -> f64 + Sync),
+        width_at: &'b (dyn Fn(&SilhouettePoint) -> f64 + Sync),
     ) -> SmokeLines<'b> {
         let smoke = &self.style.smoke;
         SmokeLines {

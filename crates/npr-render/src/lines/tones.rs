@@ -3,8 +3,8 @@
 use super::LineOptions;
 use crate::error::RenderError;
 use crate::model::Model;
+use crate::renderer::{Picture, Renderer, RendererOptions};
 use crate::smoke::Smoke;
-use crate::stage::{Picture, Stage, StageOptions};
 use npr_core::camera::Camera;
 use npr_core::color::linear_from_byte;
 use npr_gpu::processor::Processor;
@@ -41,15 +41,15 @@ impl ToneMap {
         options: &LineOptions,
         camera: &Camera,
     ) -> Result<Self, RenderError> {
-        let stage_options = StageOptions {
+        let renderer_options = RendererOptions {
             dpi: options.dpi,
             smoke: Some(smoke.clone()),
             pictures: pictures.clone(),
-            ..StageOptions::new(options.size)
+            ..RendererOptions::new(options.size)
         };
         let telling = telling_tones(style);
-        let mut stage = Stage::new(&Processor, model, &telling, &stage_options)?;
-        let frame = stage.draw(camera)?;
+        let mut renderer = Renderer::new(&Processor, model, &telling, &renderer_options)?;
+        let frame = renderer.draw(camera)?;
         let pixels = frame.rgba.as_chunks::<4>().0;
         let tone = |[r, g, _, a]: &[u8; 4]| match a {
             0 => f32::NAN,

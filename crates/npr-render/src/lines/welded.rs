@@ -23,7 +23,7 @@ pub(super) fn check_budget(
     options: &LineModelOptions,
 ) -> Result<(), RenderError> {
     let half_edges = 3 * assembly.triangle_count();
-    crate::model::check_count("half-edges", half_edges, assembly.wire_count())?;
+    crate::model::check_count("half-edges", half_edges, assembly.polyline_count())?;
     let mut budget = Budget::new(options.memory_limit);
     budget.take("vertices", assembly.vertex_count(), BYTES_PER_VERTEX)?;
     budget.take(
@@ -31,7 +31,7 @@ pub(super) fn check_budget(
         assembly.triangle_count(),
         BYTES_PER_TRIANGLE,
     )?;
-    budget.take("line segments", assembly.wire_count(), BYTES_PER_WIRE)?;
+    budget.take("line segments", assembly.polyline_count(), BYTES_PER_WIRE)?;
     Ok(())
 }
 

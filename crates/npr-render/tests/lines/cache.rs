@@ -4,7 +4,9 @@
 use crate::scenes::{SIZE, add, camera_at, model_of, scene_of};
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{cube, icosphere, mapped};
-use npr_render::{Drawing, LineModel, LineModelOptions, LineOptions, Model, Stage, StageOptions};
+use npr_render::{
+    Drawing, LineModel, LineModelOptions, LineOptions, Model, Renderer, RendererOptions,
+};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
 use std::path::{Path, PathBuf};
@@ -92,9 +94,12 @@ fn frames_keep_bends_and_the_charts_of_their_hatching() {
     let style = Style::preset("crosshatch").expect("a preset");
     let frame = |folder: Option<&Path>| {
         let model = Model::cached(&scene, folder).expect("small");
-        let options = StageOptions::new(SIZE);
-        let mut stage = Stage::new(&Processor, &model, &style, &options).expect("prepared");
-        stage.draw(&camera_at([3.0, 2.0, 5.0])).expect("drawn").rgba
+        let options = RendererOptions::new(SIZE);
+        let mut renderer = Renderer::new(&Processor, &model, &style, &options).expect("prepared");
+        renderer
+            .draw(&camera_at([3.0, 2.0, 5.0]))
+            .expect("drawn")
+            .rgba
     };
     let fresh = frame(None);
     assert!(frame(Some(folder.path())) == fresh);

@@ -36,7 +36,7 @@ fn colors(drawing: &Drawing) -> Vec<[u8; 4]> {
 }
 
 #[test]
-fn a_constant_colours_no_point() {
+fn a_constant_colors_no_point() {
     let plain = drawn(&scene_of(&cube()), "");
     assert!(colors(&plain).is_empty());
     let named = drawn(&scene_of(&cube()), "line.paint.source = 'constant'");
@@ -44,7 +44,7 @@ fn a_constant_colours_no_point() {
 }
 
 #[test]
-fn kinds_have_their_colours() {
+fn kinds_have_their_colors() {
     let drawing = drawn(
         &scene_of(&cube()),
         "line.color = '#102030'\nline.paint.kinds.crease = '#ff8000'",
@@ -113,21 +113,21 @@ fn light_thins_lines() {
 }
 
 #[test]
-fn coloured_strokes_leave_no_gap_in_pictures() {
+fn colored_strokes_leave_no_gap_in_pictures() {
     let text = "line.color = '#000'\nline.paint.depth.ramp = [{ at = 0, color = '#f00' }, { at = 1, color = '#00f' }]";
-    let [plain, coloured] = ["line.color = '#000'", text].map(|text| {
+    let [plain, colored] = ["line.color = '#000'", text].map(|text| {
         let drawing = drawn(&scene_of(&icosphere(2)), text);
         rasterise(&drawing, &ArtworkOptions::default())
     });
     let holes = plain
         .chunks(4)
-        .zip(coloured.chunks(4))
+        .zip(colored.chunks(4))
         .filter(|(a, b)| a[3] == 255 && b[3] < 200);
     assert_eq!(holes.count(), 0);
 }
 
 #[test]
-fn line_data_keeps_the_colours() {
+fn line_data_keeps_the_colors() {
     let drawing = drawn(
         &scene_of(&cube()),
         "line.paint.depth.ramp = [{ at = 0, color = '#f00' }, { at = 1, color = '#00f' }]",

@@ -5,8 +5,8 @@ use npr_core::crease::CreaseFrom;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{cylinder, unindexed};
 use npr_render::{
-    Kind, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage, Model, Stage,
-    StageOptions,
+    Kind, LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer, Model, Renderer,
+    RendererOptions,
 };
 use npr_scene::{Mesh, Node, Part, Scene};
 use npr_stylesheet::Style;
@@ -65,10 +65,10 @@ fn ink_inside(scene: &Scene, style: &Style) -> usize {
     let model = Model::new(scene).expect("small");
     let lines = LineModel::for_style(scene, style, &LineModelOptions::default(), None);
     let lines = lines.expect("small");
-    let options = StageOptions::new(SIZE);
-    let stage = Stage::new(&Processor, &model, style, &options).expect("prepared");
-    let mut stage = stage.with_lines(LineStage::new(&Processor, &lines));
-    let frame = stage.draw(&camera_at([6.0, 0.4, 0.0])).expect("drawn");
+    let options = RendererOptions::new(SIZE);
+    let renderer = Renderer::new(&Processor, &model, style, &options).expect("prepared");
+    let mut renderer = renderer.with_lines(LineRenderer::new(&Processor, &lines));
+    let frame = renderer.draw(&camera_at([6.0, 0.4, 0.0])).expect("drawn");
     let [width, height] = SIZE.map(|side| side as usize);
     let middle = (0..width * height)
         .filter(|i| (i % width).abs_diff(width / 2) < 24 && (i / width).abs_diff(height / 2) < 20);

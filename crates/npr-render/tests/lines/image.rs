@@ -5,7 +5,7 @@ use npr_core::camera::Camera;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{cube, icosphere, mapped, torus};
 use npr_render::{
-    Drawing, Kind, KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineStage,
+    Drawing, Kind, KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer,
     PaintedLines,
 };
 use npr_scene::{Image, Material, Mesh, Node, Part, Scene, TextureTransform, TextureUse, Wrap};
@@ -196,7 +196,7 @@ fn engines_and_threads_give_the_same() {
         ..with(LineMethod::Image)
     };
     let alone = drawn(&model, &camera, &options);
-    let staged = LineStage::new(&Processor, &model).draw(&camera, &even_style("2px"), &options);
+    let staged = LineRenderer::new(&Processor, &model).draw(&camera, &even_style("2px"), &options);
     assert_eq!(staged.expect("drawn"), alone);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(1)

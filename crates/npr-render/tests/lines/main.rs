@@ -1,11 +1,11 @@
 //! Line drawings through the facade.
 
+mod background_contrast;
 mod cache;
 mod colors;
 mod creases;
 mod image;
 mod meaning;
-mod minding;
+mod polylines;
 mod robustness;
 mod scenes;
-mod wires;

@@ -176,7 +176,7 @@ fn widths_follow_world_units_with_distance() {
 }
 
 #[test]
-fn vertex_colours_swell_lines() {
+fn vertex_colors_swell_lines() {
     let mut scene = scene_of(&cube());
     let part = &mut scene.meshes[0].parts[0];
     part.colors = Some(

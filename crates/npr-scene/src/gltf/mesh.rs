@@ -11,7 +11,7 @@ use ::gltf::json::{Index, scene};
 
 use super::accessor::Accessors;
 use super::error::{GltfError, Item};
-use super::primitive::{self, Place};
+use super::primitive::{self, PrimitiveLocation};
 use super::tree::Tree;
 use crate::error::SceneError;
 use crate::load::Loading;
@@ -88,7 +88,7 @@ fn read_mesh(
         parts: Vec::new(),
     };
     for (part, primitive) in source.primitives.iter().enumerate() {
-        let place = Place { mesh: index, part };
+        let place = PrimitiveLocation { mesh: index, part };
         mesh.parts.extend(primitive::read(
             accessors, primitive, place, weights, loading,
         )?);

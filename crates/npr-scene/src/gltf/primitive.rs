@@ -27,7 +27,7 @@ const DIRECTIONS: &str = "DIRECTION";
 
 /// Where a primitive stands in its file.
 #[derive(Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct PrimitiveLocation {
     pub(crate) mesh: usize,
     pub(crate) part: usize,
 }
@@ -50,7 +50,7 @@ struct Reader<'a, 'l, 'r> {
 pub(crate) fn read(
     accessors: &Accessors,
     primitive: &Primitive,
-    place: Place,
+    place: PrimitiveLocation,
     weights: &[f32],
     loading: &mut Loading,
 ) -> Result<Option<Part>, SceneError> {
@@ -83,7 +83,7 @@ pub(crate) fn read(
 }
 
 impl Reader<'_, '_, '_> {
-    fn part(mut self, place: Place, weights: &[f32]) -> Result<Part, SceneError> {
+    fn part(mut self, place: PrimitiveLocation, weights: &[f32]) -> Result<Part, SceneError> {
         let uv_set = material::uv_set(self.accessors.root, self.primitive);
         let (joints, weights_of_joints) = self.joints()?;
         let mut part = Part {
@@ -174,7 +174,7 @@ impl Reader<'_, '_, '_> {
         Ok((Some(narrow_joints(&wide)), Some(weights)))
     }
 
-    fn triangles(&mut self, place: Place) -> Result<Vec<[u32; 3]>, SceneError> {
+    fn triangles(&mut self, place: PrimitiveLocation) -> Result<Vec<[u32; 3]>, SceneError> {
         if !topology::is_surface(self.primitive) {
             return Ok(Vec::new());
         }
@@ -183,7 +183,7 @@ impl Reader<'_, '_, '_> {
         self.loading.allowance.take_triangles(triangle_count)?;
         let corners = self.indices(corner_count)?;
         let triangles = topology::triangles(self.primitive, &corners);
-        let Place { mesh, part } = place;
+        let PrimitiveLocation { mesh, part } = place;
         match self.missing_vertex(&triangles) {
             Some((triangle, vertex)) => Err(GltfError::MissingVertex {
                 mesh,
@@ -197,7 +197,7 @@ impl Reader<'_, '_, '_> {
         }
     }
 
-    fn segments(&mut self, place: Place) -> Result<Vec<[u32; 2]>, SceneError> {
+    fn segments(&mut self, place: PrimitiveLocation) -> Result<Vec<[u32; 2]>, SceneError> {
         if !topology::is_of_lines(self.primitive) {
             return Ok(Vec::new());
         }
@@ -212,7 +212,7 @@ impl Reader<'_, '_, '_> {
                 "{user} has a line with one end, which is not drawn"
             ));
         }
-        let Place { mesh, part } = place;
+        let PrimitiveLocation { mesh, part } = place;
         match self.missing_vertex(&segments) {
             Some((segment, vertex)) => Err(GltfError::MissingEnd {
                 mesh,

@@ -118,12 +118,12 @@ impl Source {
     }
 
     /// What it gives to a place at a time.
-    fn gift(self, stage: &Stage, place: Vec3) -> Gift {
+    fn gift(self, renderer: &Renderer, place: Vec3) -> Gift {
         match self {
-            Self::Plume => stage.chimney(place),
-            Self::Puff if stage.seconds < PUFF_SECONDS => stage.puff(place),
-            Self::Explosion if stage.seconds < BLAST_SECONDS => stage.blast(place),
-            Self::Cloud => stage.updraught(place),
+            Self::Plume => renderer.chimney(place),
+            Self::Puff if renderer.seconds < PUFF_SECONDS => renderer.puff(place),
+            Self::Explosion if renderer.seconds < BLAST_SECONDS => renderer.blast(place),
+            Self::Cloud => renderer.updraught(place),
             Self::Puff | Self::Explosion => Gift::default(),
         }
     }
@@ -134,18 +134,20 @@ pub(super) fn start(settings: &SmokeSettings, density: &mut Field) {
     if settings.source != Source::Cloud {
         return;
     }
-    let stage = Stage::new(settings, 0.0);
+    let renderer = Renderer::new(settings, 0.0);
     let cells = density.lattice;
-    cells.fill(&mut density.values, |cell| stage.cloud(stage.place(cell)));
+    cells.fill(&mut density.values, |cell| {
+        renderer.cloud(renderer.place(cell))
+    });
 }
 
 /// A ball, in box lengths, that holds nearly all that a source gives off; none of a source that fills a wide space.
 pub(super) fn emitter(settings: &SmokeSettings) -> Option<(Vec3, f32)> {
-    let stage = Stage::new(settings, 0.0);
+    let renderer = Renderer::new(settings, 0.0);
     match settings.source {
-        Source::Plume => Some((stage.above(0.5 * stage.radius), 1.3 * stage.radius)),
-        Source::Puff => Some((stage.above(0.7 * stage.radius), 1.3 * stage.radius)),
-        Source::Explosion => Some((stage.blast_center(), 1.1 * stage.radius)),
+        Source::Plume => Some((renderer.above(0.5 * renderer.radius), 1.3 * renderer.radius)),
+        Source::Puff => Some((renderer.above(0.7 * renderer.radius), 1.3 * renderer.radius)),
+        Source::Explosion => Some((renderer.blast_center(), 1.1 * renderer.radius)),
         Source::Cloud => None,
     }
 }
@@ -158,9 +160,9 @@ pub(super) fn emit(
     temperature: &mut Field,
     flow: &mut Flow,
 ) {
-    let stage = Stage::new(settings, seconds);
+    let renderer = Renderer::new(settings, seconds);
     let cells = flow.cells;
-    let gifts = cells.map(|cell| settings.source.gift(&stage, stage.place(cell)));
+    let gifts = cells.map(|cell| settings.source.gift(&renderer, renderer.place(cell)));
     for (at, gift) in gifts.iter().enumerate() {
         density.values[at] = density.values[at].max(gift.density);
         temperature.values[at] = temperature.values[at].max(gift.temperature * settings.heat);
@@ -169,21 +171,21 @@ pub(super) fn emit(
     for (at, gift) in gifts.iter().enumerate().filter(|(_, gift)| gift.lift > 0.0) {
         // The face above the cell: the floor itself stays closed.
         let speed = &mut flow.faces[2].values[at + plane];
-        *speed = speed.max(gift.lift * stage.scale);
+        *speed = speed.max(gift.lift * renderer.scale);
     }
 }
 
 /// Speed, in cells per second, that a source blows with at a time, before the flow shows it.
 pub(super) fn speed(settings: &SmokeSettings, seconds: f64) -> f32 {
-    let stage = Stage::new(settings, seconds);
+    let renderer = Renderer::new(settings, seconds);
     let box_speed = match settings.source {
         Source::Plume => 0.5,
         Source::Puff => 0.6,
         Source::Cloud => 0.0,
         // At the surface of a ball that expands evenly.
-        Source::Explosion => 0.45 + blast_strength(settings, seconds) * stage.radius / 3.0,
+        Source::Explosion => 0.45 + blast_strength(settings, seconds) * renderer.radius / 3.0,
     };
-    box_speed * stage.scale
+    box_speed * renderer.scale
 }
 
 /// Expansion inside the blast, per second.
@@ -201,21 +203,21 @@ pub(super) fn expansion(
     settings: &SmokeSettings,
     seconds: f64,
 ) -> impl Fn([usize; 3]) -> f32 + Sync + use<> {
-    let stage = Stage::new(settings, seconds);
+    let renderer = Renderer::new(settings, seconds);
     let strength = blast_strength(settings, seconds);
     move |cell| {
         if strength == 0.0 {
             return 0.0;
         }
-        let place = stage.place(cell);
-        let away = (place - stage.blast_center()).length();
-        strength * smoothstep(stage.radius, 0.6 * stage.radius, away).min(1.0)
+        let place = renderer.place(cell);
+        let away = (place - renderer.blast_center()).length();
+        strength * smoothstep(renderer.radius, 0.6 * renderer.radius, away).min(1.0)
     }
 }
 
 /// Where and when a source is asked. Places are in box lengths, the corner of the grid at 0.
 #[derive(Debug, Clone, Copy)]
-struct Stage {
+struct Renderer {
     seconds: f64,
     seed: u32,
     /// Cells in one box length.
@@ -227,7 +229,7 @@ struct Stage {
     radius: f32,
 }
 
-impl Stage {
+impl Renderer {
     fn new(settings: &SmokeSettings, seconds: f64) -> Self {
         let scale = box_cells(settings.size);
         let far = Vec3::from_array(settings.size.map(|side| side as f32)) / scale;

@@ -3,7 +3,7 @@
 use super::oklab::{light_of_oklab, oklab_of_light};
 use super::published;
 use super::rule::Rule;
-use super::stretch::Lean;
+use super::stretch::ContrastBias;
 use crate::compose::LUMA;
 use npr_core::color::{linear_from_srgb, pack_rgba8, srgb_from_linear, unpack_rgba8};
 use npr_core::math::{self, mix, smoothstep};
@@ -121,11 +121,11 @@ impl Ground {
         }
     }
 
-    pub(super) fn of_lean(lean: &Lean) -> Self {
+    pub(super) fn of_bias(bias: &ContrastBias) -> Self {
         Self {
-            low: lean.low,
-            high: lean.high,
-            brighter: Some(0.5 + 0.5 * lean.lean),
+            low: bias.low,
+            high: bias.high,
+            brighter: Some(0.5 + 0.5 * bias.bias),
         }
     }
 

@@ -407,7 +407,7 @@ mod tests {
 
     /// Two neighbours, (0.2, 0.4, 0.1) and (0.4, 0.2, 0.3): their mean is (0.3, 0.3, 0.2).
     #[test]
-    fn the_colours_of_a_line_by_hand() {
+    fn the_colors_of_a_line_by_hand() {
         let alone = [[0.2, 0.4, 0.1, 1.0], [0.0; 4], [0.4, 0.2, 0.3, 1.0]];
         let composed = [alone[0], [0.25, 0.3, 0.2, 1.0], alone[2]];
         let middle = |rgb: f32, intensity: f32, direction: u32| {
@@ -456,7 +456,7 @@ mod tests {
     }
 
     #[test]
-    fn before_nothing_a_line_keeps_its_colour() {
+    fn before_nothing_a_line_keeps_its_color() {
         let figure = [[0.1, 0.1, 0.1, 1.0], [0.0; 4], [0.0; 4]];
         let rule = Criteria {
             rgb: Some(1.0),

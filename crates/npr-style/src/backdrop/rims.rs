@@ -19,13 +19,13 @@ const TILE_RIM: u32 = 2;
 /// Whose line a part's outline is, and by which rule it minds the background.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
-pub struct Wearer {
+pub struct PartSubject {
     /// Number of its subject, from 1; 0 where it belongs to the background.
     pub subject: u32,
     /// Number of its rule in [`Rules`]; 0 where its lines keep their colour.
     pub rule: u32,
 }
-gpu_layout!(Wearer { subject, rule });
+gpu_layout!(PartSubject { subject, rule });
 
 /// What an output pixel at the border of a subject knows: the colours of both sides.
 #[repr(C)]
@@ -67,8 +67,8 @@ pub struct Scenery<'a> {
     pub ids: &'a [u32],
     /// Triangles.
     pub triangles: &'a [Triangle],
-    /// A wearer for every part.
-    pub wearers: &'a [Wearer],
+    /// A part subject for every part.
+    pub part_subjects: &'a [PartSubject],
 }
 
 /// What one pixel shows, where all of its samples show the same.
@@ -110,7 +110,7 @@ impl Scenery<'_> {
         });
         let width = self.window.size[0] * samples;
         let first = self.ids[(low[1] * width + low[0]) as usize];
-        let subject = self.wearer_of(first).subject;
+        let subject = self.part_subject_of(first).subject;
         let mut last = first;
         for y in low[1]..high[1] {
             let row = &self.ids[(y * width + low[0]) as usize..(y * width + high[0]) as usize];
@@ -119,7 +119,7 @@ impl Scenery<'_> {
             }
             for id in row.iter().copied() {
                 if id != last {
-                    if self.wearer_of(id).subject != subject {
+                    if self.part_subject_of(id).subject != subject {
                         return true;
                     }
                     last = id;
@@ -134,11 +134,11 @@ impl Scenery<'_> {
         self.triangles[((id & ID_MASK) - 1) as usize].part
     }
 
-    fn wearer_of(&self, id: u32) -> Wearer {
+    fn part_subject_of(&self, id: u32) -> PartSubject {
         if id == 0 {
-            return Wearer::default();
+            return PartSubject::default();
         }
-        self.wearers[self.part_of(id) as usize]
+        self.part_subjects[self.part_of(id) as usize]
     }
 
     /// Whether all samples of some pixels, the last ones included, show the same number.
@@ -168,13 +168,13 @@ impl Scenery<'_> {
         let width = self.window.size[0] * samples;
         let first = self.first_id(x, y);
         let mut shown = Shown {
-            subject: self.wearer_of(first).subject,
+            subject: self.part_subject_of(first).subject,
             part: if first == 0 { 0 } else { self.part_of(first) },
         };
         for i in 1..samples * samples {
             let at = (y * samples + i / samples) * width + x * samples + i % samples;
             let id = self.ids[at as usize];
-            if id != first && self.wearer_of(id).subject != shown.subject {
+            if id != first && self.part_subject_of(id).subject != shown.subject {
                 shown.subject = MIXED;
             }
         }
@@ -312,7 +312,7 @@ impl Search<'_> {
             return Rim::default();
         }
         let (mut rim, mut behind) = (Sum::default(), Sum::default());
-        let (mut part, mut rule, mut minding) = (0, 0, 0.0);
+        let (mut part, mut rule, mut contrast_cache) = (0, 0, 0.0);
         for (x, y) in pixels() {
             let shown = near.at(x, y);
             let texel = self.bare[(y * size[0] + x) as usize];
@@ -321,9 +321,9 @@ impl Search<'_> {
                     part = shown.part;
                 }
                 rim.add(texel);
-                let own = scenery.wearers[shown.part as usize].rule;
+                let own = scenery.part_subjects[shown.part as usize].rule;
                 if own != 0 {
-                    minding += 1.0;
+                    contrast_cache += 1.0;
                     rule = own;
                 }
             } else if shown.subject != MIXED {
@@ -339,7 +339,7 @@ impl Search<'_> {
         if behind.count == 0.0 {
             return self.inner_rim(x, y, &rim, [owner, part]);
         }
-        let share = minding / rim.count;
+        let share = contrast_cache / rim.count;
         packed(&rim, &behind, share, rule, [owner | outside, part])
     }
 
@@ -365,7 +365,7 @@ impl Search<'_> {
     ///
     /// Lines of parts without a rule have a rim that counts for nothing, and so keep their colour beside others.
     fn inner_rim(&self, x: u32, y: u32, sum: &Sum, [owner, part]: [u32; 2]) -> Rim {
-        let rule = self.scenery.wearers[part as usize].rule;
+        let rule = self.scenery.part_subjects[part as usize].rule;
         let rules = self.scenery.rules;
         let is_left_out = rule != 0 && rules.rules[rule as usize].within == 0;
         if rules.within == 0 || is_left_out || !self.is_inked(x, y, part) {

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use npr_core::gpu_layout;
 
 use super::rims::TILE;
-use super::stretch::{LEAN_MOST, STRETCH_TILES};
+use super::stretch::{BIAS_REACH_MOST, STRETCH_TILES};
 
 /// Most different rules of a frame, the first of which never applies.
 pub const RULES_MAX: usize = 16;
@@ -130,7 +130,7 @@ pub struct Rules {
     /// lines; else 0.
     pub within: u32,
     /// Distance up to which rims decide together which way their lines move, in frame pixels; 0 for each alone.
-    pub lean_px: f32,
+    pub bias_px: f32,
     /// Votes of each rim that what was decided in the frame before counts as; 0 for frames by themselves.
     pub hold: f32,
     /// How much of the way from darker to brighter a line may change a frame; 1 for all at once.
@@ -143,7 +143,7 @@ gpu_layout!(Rules {
     reach_px,
     samples,
     within,
-    lean_px,
+    bias_px,
     hold,
     fade,
 });
@@ -157,7 +157,7 @@ impl Rules {
         reach_px: 0,
         samples: 0,
         within: 0,
-        lean_px: 0.0,
+        bias_px: 0.0,
         hold: 0.0,
         fade: 1.0,
     };
@@ -189,10 +189,10 @@ impl Rules {
     /// Pixels around a place that may decide about its line.
     pub fn room_px(&self) -> u32 {
         let smoothed = (self.smooth_px.max(0.0) as u32).min(super::SMOOTH_MOST);
-        let tiles = (self.lean_px.max(0.0) / TILE as f32).ceil() as u32;
+        let tiles = (self.bias_px.max(0.0) / TILE as f32).ceil() as u32;
         let stretch = match tiles {
             0 => 1,
-            tiles => tiles.min(LEAN_MOST) + STRETCH_TILES + 1,
+            tiles => tiles.min(BIAS_REACH_MOST) + STRETCH_TILES + 1,
         };
         self.reach_px + smoothed + 3 + stretch * TILE
     }

@@ -5,7 +5,7 @@ use super::adapt::Ground;
 use super::occupied::{Gaussian, Occupied};
 use super::rims::Rim;
 use super::rule::{Rule, Rules};
-use super::stretch::{Lean, lean_between};
+use super::stretch::{ContrastBias, bias_between};
 use npr_core::color::{largest_difference, pack_rgba8, unpack_rgba8};
 use npr_core::math;
 use npr_core::window::Window;
@@ -171,7 +171,7 @@ pub fn spread_rims(
     rules: &Rules,
     rims: &[Rim],
     columns: &[u32],
-    leans: &[Lean],
+    biases: &[ContrastBias],
     fronts: &mut [u32],
     backs: &mut [u32],
 ) {
@@ -181,7 +181,7 @@ pub fn spread_rims(
         rules,
         rims,
         columns,
-        leans,
+        biases,
     };
     let runs = Runs::of(columns, width);
     fronts
@@ -246,7 +246,7 @@ struct Carrying<'a> {
     rules: &'a Rules,
     rims: &'a [Rim],
     columns: &'a [u32],
-    leans: &'a [Lean],
+    biases: &'a [ContrastBias],
 }
 
 impl Carrying<'_> {
@@ -280,14 +280,14 @@ impl Carrying<'_> {
             return (color, rim.behind);
         }
         let pixel = [(number - 1) % self.size[0], (number - 1) / self.size[0]];
-        let Some(lean) = lean_between(self.leans, self.size, rim.subject & Rim::WHOSE, pixel)
+        let Some(bias) = bias_between(self.biases, self.size, rim.subject & Rim::WHOSE, pixel)
         else {
             return (color, 0);
         };
         let [r, g, b] = match ruling.rim_factor > 0.0 {
-            true => lean.rim,
+            true => bias.rim,
             false => [color[0], color[1], color[2]],
         };
-        ([r, g, b, color[3]], Ground::of_lean(&lean).packed(rule))
+        ([r, g, b, color[3]], Ground::of_bias(&bias).packed(rule))
     }
 }

@@ -1,5 +1,5 @@
-//! Stretches of outline, whose lines move together: the twins of `backdrop.bound_tiles`, `backdrop.lean_tiles` and
-//! `backdrop.blend_leans`.
+//! Stretches of outline, whose lines move together: the twins of `backdrop.bound_tiles`, `backdrop.vote_bias` and
+//! `backdrop.blend_biases`.
 //!
 //! Where line and background are nearly alike, grain alone would decide at every pixel whether a line turns brighter
 //! or darker, and the line would repeat every brick behind it. Here it reads before all that lies behind a stretch,
@@ -16,7 +16,7 @@ use npr_core::gpu_layout;
 use npr_core::window::Window;
 
 /// Most tiles in each direction whose votes a tile counts.
-pub const LEAN_MOST: u32 = 24;
+pub const BIAS_REACH_MOST: u32 = 24;
 
 /// Tiles in each direction over which an envelope reaches.
 const ENVELOPE_TILES: u32 = 4;
@@ -48,13 +48,13 @@ const DECIDED: f32 = 0.01;
 /// What lines of a tile read before, and which way they move.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
-pub struct Lean {
+pub struct ContrastBias {
     /// The darkest that lies behind the stretch.
     pub low: f32,
     /// The brightest.
     pub high: f32,
     /// From -1, darker, to 1, brighter.
-    pub lean: f32,
+    pub bias: f32,
     /// Whose lines they are, as in [`TileRims::whose`].
     pub whose: u32,
     /// Colour of the rims, sRGB-encoded.
@@ -62,53 +62,58 @@ pub struct Lean {
     /// Keeps rows of 16 bytes.
     pub unused: u32,
 }
-gpu_layout!(Lean {
+gpu_layout!(ContrastBias {
     low,
     high,
-    lean,
+    bias,
     whose,
     rim,
     unused
 });
 
-impl Lean {
+impl ContrastBias {
     /// A value of each of both, made one.
     fn with(&self, other: &Self, made: impl Fn(f32, f32) -> f32) -> Self {
         Self {
             low: made(self.low, other.low),
             high: made(self.high, other.high),
-            lean: made(self.lean, other.lean),
+            bias: made(self.bias, other.bias),
             rim: std::array::from_fn(|i| made(self.rim[i], other.rim[i])),
             ..*self
         }
     }
 }
 
-/// Leans with weights, on their way to a mean.
+/// Biases with weights, on their way to a mean.
 #[derive(Debug, Clone, Copy, Default)]
 struct Mean {
-    sum: Lean,
+    sum: ContrastBias,
     weight: f32,
 }
 
 impl Mean {
-    fn add(&mut self, lean: &Lean, weight: f32) {
-        self.sum = self.sum.with(lean, |sum, value| sum + value * weight);
+    fn add(&mut self, bias: &ContrastBias, weight: f32) {
+        self.sum = self.sum.with(bias, |sum, value| sum + value * weight);
         self.weight += weight;
     }
 
     /// The mean, of some lines; `None` of none.
-    fn of(&self, whose: u32) -> Option<Lean> {
+    fn of(&self, whose: u32) -> Option<ContrastBias> {
         let mean = self.sum.with(&self.sum, |sum, _| sum / self.weight);
-        (self.weight > 0.0).then_some(Lean { whose, ..mean })
+        (self.weight > 0.0).then_some(ContrastBias { whose, ..mean })
     }
 }
 
-/// Gives every tile the bounds of what its lines stand before, and its own vote as the lean.
+/// Gives every tile the bounds of what its lines stand before, and its own vote as the bias.
 ///
 /// Bounds are envelopes over 4 tiles each way, which fall with the distance: a line that follows them changes slowly.
 /// Another wall, by 0.42 darker or brighter, does not count. O(tiles with rims * 81), parallel over rows of tiles.
-pub fn bound_tiles(window: &Window, rules: &Rules, gathered: &[TileRims], bounds: &mut [Lean]) {
+pub fn bound_tiles(
+    window: &Window,
+    rules: &Rules,
+    gathered: &[TileRims],
+    bounds: &mut [ContrastBias],
+) {
     let tiles = Tiles::of(window, gathered, |tile| tile.whose);
     tiles.make(bounds, |tile| bound_at(rules, &tiles, tile));
 }
@@ -152,10 +157,10 @@ impl<'a, T: Sync> Tiles<'a, T> {
     }
 }
 
-fn bound_at(rules: &Rules, gathered: &Tiles<'_, TileRims>, tile: [u32; 2]) -> Lean {
+fn bound_at(rules: &Rules, gathered: &Tiles<'_, TileRims>, tile: [u32; 2]) -> ContrastBias {
     let here = gathered.at(tile);
     let (mut low, mut high) = (here.low, here.high);
-    let reach = if rules.lean_px > 0.0 {
+    let reach = if rules.bias_px > 0.0 {
         ENVELOPE_TILES
     } else {
         0
@@ -170,10 +175,10 @@ fn bound_at(rules: &Rules, gathered: &Tiles<'_, TileRims>, tile: [u32; 2]) -> Le
     }
     let rule = &rules.rules[here.rule as usize];
     let [r, g, b, _] = unpack_rgba8(here.rim);
-    Lean {
+    ContrastBias {
         low,
         high,
-        lean: preference(here.line, [low, high], rule),
+        bias: preference(here.line, [low, high], rule),
         whose: here.whose,
         rim: [r, g, b],
         unused: 0,
@@ -182,50 +187,50 @@ fn bound_at(rules: &Rules, gathered: &Tiles<'_, TileRims>, tile: [u32; 2]) -> Le
 
 /// Decides for every tile, by the votes around it and what was decided there in the frame before.
 ///
-/// A Gaussian that ends at [`Rules::lean_px`]; tiles of other subjects do not count, those before other walls less.
+/// A Gaussian that ends at [`Rules::bias_px`]; tiles of other subjects do not count, those before other walls less.
 /// What was decided before counts as [`Rules::hold`] votes of each, so that a stretch that could go either way stays
 /// as it was; and where a line must change, it fades, by [`Rules::fade`] of the way a frame. O(tiles with rims *
 /// reach squared), parallel over rows of tiles.
-pub fn lean_tiles(
+pub fn vote_bias(
     window: &Window,
     rules: &Rules,
     gathered: &[TileRims],
-    bounds: &[Lean],
-    before: &[Lean],
-    leans: &mut [Lean],
+    bounds: &[ContrastBias],
+    before: &[ContrastBias],
+    biases: &mut [ContrastBias],
 ) {
-    let tiles = rules.lean_px / TILE as f32;
-    let reach = (tiles.max(0.0).ceil() as u32).min(LEAN_MOST);
+    let tiles = rules.bias_px / TILE as f32;
+    let reach = (tiles.max(0.0).ceil() as u32).min(BIAS_REACH_MOST);
     let voting = Voting {
         rules,
         bounds,
         reach,
         nearness: Gaussian::new(-2.0 / (tiles * tiles).max(1.0), reach),
         gathered: Tiles::of(window, gathered, |tile| tile.whose),
-        before: Tiles::of(window, before, |lean| lean.whose),
+        before: Tiles::of(window, before, |bias| bias.whose),
     };
-    voting.gathered.make(leans, |tile| voting.lean_at(tile));
+    voting.gathered.make(biases, |tile| voting.bias_at(tile));
 }
 
-/// What the leans of a frame are decided from.
+/// What the biases of a frame are decided from.
 struct Voting<'a> {
     rules: &'a Rules,
-    bounds: &'a [Lean],
+    bounds: &'a [ContrastBias],
     reach: u32,
     nearness: Gaussian,
     gathered: Tiles<'a, TileRims>,
-    before: Tiles<'a, Lean>,
+    before: Tiles<'a, ContrastBias>,
 }
 
 impl Voting<'_> {
-    fn lean_at(&self, tile: [u32; 2]) -> Lean {
+    fn bias_at(&self, tile: [u32; 2]) -> ContrastBias {
         let here = self.gathered.at(tile);
         let (mut sum, mut count) = (0.0, 0.0);
         for (number, there, square) in self.gathered.around(tile, self.reach) {
             if there.whose == here.whose {
                 let alike = 1.0 - (there.behind - here.behind).abs() / (2.0 * UNLIKE);
                 let weight = self.nearness.at(square) * alike.max(0.0) * there.count;
-                sum += self.bounds[number].lean * weight;
+                sum += self.bounds[number].bias * weight;
                 count += weight;
             }
         }
@@ -234,13 +239,13 @@ impl Voting<'_> {
         let decided = |held: f32| ((vote + hold * held) / DECIDED).clamp(-1.0, 1.0);
         let bound = self.bounds[self.gathered.number(tile)];
         let was = self.held(&bound, tile);
-        let decided = Lean {
-            lean: decided(was.map_or(0.0, |was| was.lean)),
+        let decided = ContrastBias {
+            bias: decided(was.map_or(0.0, |was| was.bias)),
             ..bound
         };
         match was {
-            Some(was) if fade < 1.0 => Lean {
-                lean: nearer(was.lean, decided.lean, 2.0 * fade),
+            Some(was) if fade < 1.0 => ContrastBias {
+                bias: nearer(was.bias, decided.bias, 2.0 * fade),
                 ..decided.with(&was, |to, from| nearer(from, to, FADE_BOUNDS * fade))
             },
             _ => decided,
@@ -249,19 +254,19 @@ impl Voting<'_> {
 
     /// What was decided before for the same lines before the same wall: in the tile itself, or else the mean of those
     /// that touch it, for an outline moves between frames.
-    fn held(&self, here: &Lean, tile: [u32; 2]) -> Option<Lean> {
-        let is_same = |lean: &Lean| {
-            let off = (lean.low + lean.high) - (here.low + here.high);
-            lean.whose == here.whose && off.abs() < 2.0 * UNLIKE
+    fn held(&self, here: &ContrastBias, tile: [u32; 2]) -> Option<ContrastBias> {
+        let is_same = |bias: &ContrastBias| {
+            let off = (bias.low + bias.high) - (here.low + here.high);
+            bias.whose == here.whose && off.abs() < 2.0 * UNLIKE
         };
         let own = self.before.at(tile);
         if is_same(own) {
             return Some(*own);
         }
         let mut mean = Mean::default();
-        for (_, lean, _) in self.before.around(tile, 1) {
-            if is_same(lean) {
-                mean.add(lean, 1.0);
+        for (_, bias, _) in self.before.around(tile, 1) {
+            if is_same(bias) {
+                mean.add(bias, 1.0);
             }
         }
         mean.of(here.whose)
@@ -273,63 +278,67 @@ fn nearer(from: f32, to: f32, step: f32) -> f32 {
     from + (to - from).clamp(-step, step)
 }
 
-/// Keeps leans for the next frame, and blends them along the outline for this one.
+/// Keeps biases for the next frame, and blends them along the outline for this one.
 ///
 /// Where a stretch that turns brighter meets one that turns darker, the line passes from one to the other over a
 /// length that the eye takes for shading. A Gaussian that ends at 6 tiles; bounds stay as they are, and tiles before
 /// another wall or of other paint count less. O(tiles with rims * 169), parallel over rows of tiles.
-pub fn blend_leans(
+pub fn blend_biases(
     window: &Window,
     rules: &Rules,
-    leans: &[Lean],
-    kept: &mut [Lean],
-    blended: &mut [Lean],
+    biases: &[ContrastBias],
+    kept: &mut [ContrastBias],
+    blended: &mut [ContrastBias],
 ) {
-    kept.copy_from_slice(leans);
-    if rules.lean_px <= 0.0 {
-        blended.copy_from_slice(leans);
+    kept.copy_from_slice(biases);
+    if rules.bias_px <= 0.0 {
+        blended.copy_from_slice(biases);
         return;
     }
-    let tiles = Tiles::of(window, leans, |lean| lean.whose);
+    let tiles = Tiles::of(window, biases, |bias| bias.whose);
     let falloff = -2.0 / (BLEND_TILES * BLEND_TILES) as f32;
     let nearness = Gaussian::new(falloff, BLEND_TILES);
     tiles.make(blended, |tile| blended_at(&tiles, &nearness, tile));
 }
 
-fn blended_at(leans: &Tiles<'_, Lean>, nearness: &Gaussian, tile: [u32; 2]) -> Lean {
-    let here = leans.at(tile);
-    let (mut lean, mut leaning) = (0.0, 0.0);
+fn blended_at(
+    biases: &Tiles<'_, ContrastBias>,
+    nearness: &Gaussian,
+    tile: [u32; 2],
+) -> ContrastBias {
+    let here = biases.at(tile);
+    let (mut bias, mut total) = (0.0, 0.0);
     let (mut rim, mut coloring) = ([0.0; 3], 0.0);
-    for (_, there, square) in leans.around(tile, BLEND_TILES) {
+    for (_, there, square) in biases.around(tile, BLEND_TILES) {
         if there.whose == here.whose {
             let near = nearness.at(square);
             let wall = 0.5 * ((there.low + there.high) - (here.low + here.high));
             let paint =
                 near * (1.0 - largest_difference(here.rim, there.rim) / UNLIKE_RIMS).max(0.0);
             let weight = paint * (1.0 - wall.abs() / UNLIKE).max(0.0);
-            lean += there.lean * weight;
-            leaning += weight;
+            bias += there.bias * weight;
+            total += weight;
             rim = std::array::from_fn(|i| rim[i] + there.rim[i] * paint);
             coloring += paint;
         }
     }
-    Lean {
-        lean: lean / leaning,
+    ContrastBias {
+        bias: bias / total,
         rim: rim.map(|channel| channel / coloring),
         ..*here
     }
 }
 
-/// The lean of a pixel's rim, between the four tiles around: those of the same subject alone; `None` where there is
+/// The bias of a pixel's rim, between the four tiles around: those of the same subject alone; `None` where there is
 /// none of it.
-pub(super) fn lean_between(
-    leans: &[Lean],
+pub(super) fn bias_between(
+    biases: &[ContrastBias],
     size: [u32; 2],
     whose: u32,
     pixel: [u32; 2],
-) -> Option<Lean> {
+) -> Option<ContrastBias> {
     let across = tiles_across(size);
-    let down = leans.len() as u32 / across;
+    let down = biases.len() as u32 / across;
     let place = pixel.map(|at| (at as f32 + 0.5) / TILE as f32 - 0.5);
     let mut mean = Mean::default();
     for i in 0..4 {
@@ -338,10 +347,10 @@ pub(super) fn lean_between(
         if column < 0.0 || row < 0.0 || column >= across as f32 || row >= down as f32 {
             continue;
         }
-        let lean = leans[row as usize * across as usize + column as usize];
-        if lean.whose == whose {
+        let bias = biases[row as usize * across as usize + column as usize];
+        if bias.whose == whose {
             let near = (1.0 - (place[0] - column).abs()) * (1.0 - (place[1] - row).abs());
-            mean.add(&lean, near + 1e-4);
+            mean.add(&bias, near + 1e-4);
         }
     }
     mean.of(whose)

@@ -18,16 +18,16 @@ struct Picture {
     depths: [f32; 4],
 }
 
-const WEARERS: [Wearer; 3] = [
-    Wearer {
+const PART_SUBJECTS: [PartSubject; 3] = [
+    PartSubject {
         subject: 1,
         rule: 1,
     },
-    Wearer {
+    PartSubject {
         subject: 1,
         rule: 0,
     },
-    Wearer {
+    PartSubject {
         subject: 2,
         rule: 1,
     },
@@ -68,7 +68,7 @@ impl Picture {
     fn subject(&self, i: usize) -> u32 {
         match self.shown[i] {
             0 => 0,
-            part => WEARERS[part as usize - 1].subject,
+            part => PART_SUBJECTS[part as usize - 1].subject,
         }
     }
 
@@ -88,7 +88,7 @@ impl Picture {
             rules,
             ids: &self.shown,
             triangles: &triangles,
-            wearers: &WEARERS,
+            part_subjects: &PART_SUBJECTS,
         };
         let rows = self.size[1].div_ceil(TILE);
         let mut busy = vec![0; (tiles_across(self.size) * rows) as usize];
@@ -143,8 +143,8 @@ proptest! {
                 prop_assert!((rim_color[channel] - mean(&own, channel)).abs() < 0.003);
                 prop_assert!((behind[channel] - mean(&other, channel)).abs() < 0.003);
             }
-            let minding = own.iter().filter(|i| picture.shown[**i] != 2).count() as f32 / own.len() as f32;
-            prop_assert!((rim_color[3] - minding).abs() < 0.003);
+            let contrast_cache = own.iter().filter(|i| picture.shown[**i] != 2).count() as f32 / own.len() as f32;
+            prop_assert!((rim_color[3] - contrast_cache).abs() < 0.003);
         }
     }
 
@@ -158,8 +158,8 @@ proptest! {
         let (mut columns, mut fronts, mut backs) = (vec![0; count], vec![0; count], vec![0; count]);
         spread_rows(&window, &rules, &rims, &mut columns);
         let rows = picture.size[1].div_ceil(TILE);
-        let leans = vec![Lean::default(); (tiles_across(picture.size) * rows) as usize];
-        spread_rims(&window, &rules, &rims, &columns, &leans, &mut fronts, &mut backs);
+        let biases = vec![ContrastBias::default(); (tiles_across(picture.size) * rows) as usize];
+        spread_rims(&window, &rules, &rims, &columns, &biases, &mut fronts, &mut backs);
         let width = picture.size[0];
         let place = |i: usize| [i as u32 % width, i as u32 / width];
         for i in 0..count {

@@ -1,10 +1,10 @@
 //! A frame put together pixel by pixel.
 
 use super::{Compose, Layers};
-use crate::backdrop::Minding;
-use crate::known::Known;
-use crate::line_color::LinePlace;
+use crate::backdrop::ContrastCache;
+use crate::line_color::LinePoint;
 use crate::tone::Corners;
+use crate::triangle_constants::TriangleConstants;
 use npr_core::color::SrgbEncoder;
 use npr_core::geometry::NONE;
 use npr_core::raster::{HULL_BIT, ID_MASK};
@@ -28,7 +28,7 @@ pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
         empty,
         last: (0, 0),
         near: None,
-        minding: Minding::default(),
+        contrast_cache: ContrastCache::default(),
     };
     frame
         .par_chunks_mut(width)
@@ -62,14 +62,14 @@ struct Composer<'a> {
     layers: &'a Layers<'a>,
     encoder: &'a SrgbEncoder,
     /// What is known of every triangle.
-    known: &'a [Known],
+    known: &'a [TriangleConstants],
     /// A pixel that shows nothing but a plain background.
     empty: Option<u32>,
     /// The last number whose single colour filled a pixel, and that pixel.
     last: (u32, u32),
     /// The triangle that was shaded last, and its corners: mostly that of the next pixel too.
     near: Option<(u32, Corners<'a>)>,
-    minding: Minding,
+    contrast_cache: ContrastCache,
 }
 
 impl<'a> Composer<'a> {
@@ -85,42 +85,46 @@ impl<'a> Composer<'a> {
         {
             return texel;
         }
-        let veil = self.layers.veil_of(x, y, &seen, frame_px);
+        let smoke_layer = self.layers.smoke_layer_of(x, y, &seen, frame_px);
         let is_one = seen.iter().all(|id| *id == seen[0]);
-        let is_bare = lines == [0; 2] && veil.is_none() && beams.iter().all(|id| *id == 0);
+        let is_bare = lines == [0; 2] && smoke_layer.is_none() && beams.iter().all(|id| *id == 0);
         if is_one
             && is_bare
             && let Some(texel) = self.even_texel(seen[0])
         {
             return texel;
         }
-        let hidden = veil.map_or([0.0; 4], |veil| veil.hidden);
-        let mut color = if is_one && seen[0] != 0 && veil.is_none() {
+        let hidden = smoke_layer.map_or([0.0; 4], |smoke_layer| smoke_layer.hidden);
+        let mut color = if is_one && seen[0] != 0 && smoke_layer.is_none() {
             let [r, g, b] = self.surface(seen[0], (1 << seen.len()) - 1, frame_px);
             [r, g, b, 1.0]
         } else {
             self.even_surfaces(&seen, &hidden)
                 .unwrap_or_else(|| self.surfaces(&seen, &hidden, frame_px))
         };
-        if let Some(veil) = &veil {
-            veil.add_to(&mut color, seen.len());
+        if let Some(smoke_layer) = &smoke_layer {
+            smoke_layer.add_to(&mut color, seen.len());
         }
         if color[3] < 1.0 {
             let behind = self.layers.background(frame_px);
             let left = 1.0 - color[3];
             color = std::array::from_fn(|i| color[i] + behind[i] * left);
         }
-        let covered = self
-            .layers
-            .add_beams(&seen, &beams, veil.as_ref(), frame_px, &mut color);
-        let faded = match &veil {
-            Some(veil) if lines != [0; 2] => veil.line_fade(self.layers, [x, y], frame_px),
+        let covered =
+            self.layers
+                .add_beams(&seen, &beams, smoke_layer.as_ref(), frame_px, &mut color);
+        let faded = match &smoke_layer {
+            Some(smoke_layer) if lines != [0; 2] => {
+                smoke_layer.line_fade(self.layers, [x, y], frame_px)
+            }
             _ => 0.0,
         };
         for line in lines {
             if line >> 24 != 0 {
                 let [r, g, b, a] = self.layers.linear_texel(line);
-                let [r, g, b] = self.layers.minded(&mut self.minding, [r, g, b], frame_px);
+                let [r, g, b] =
+                    self.layers
+                        .contrasted(&mut self.contrast_cache, [r, g, b], frame_px);
                 let a = a * (1.0 - covered) * (1.0 - faded);
                 color = over([r, g, b, a], color);
             }
@@ -201,22 +205,24 @@ impl<'a> Composer<'a> {
             let triangle = &self.layers.triangles[index];
             let part = &self.layers.parts[triangle.part as usize];
             let corners = self.layers.corners_of(triangle);
-            let place = LinePlace {
+            let place = LinePoint {
                 px: frame_px,
                 step_px: [1.0; 2],
                 is_hull: true,
             };
             let line = self.layers.line_light(triangle, part, &corners, &place);
-            return self.layers.minded(&mut self.minding, line, frame_px);
+            return self
+                .layers
+                .contrasted(&mut self.contrast_cache, line, frame_px);
         }
         let known = &self.known[index];
         if let Some(color) = known.whole() {
             return color;
         }
         let corners = self.corners(id);
-        let minding = &mut self.minding;
+        let contrast_cache = &mut self.contrast_cache;
         self.layers
-            .shade(id, members, frame_px, known, &corners, minding)
+            .shade(id, members, frame_px, known, &corners, contrast_cache)
     }
 
     /// The corners of a triangle.

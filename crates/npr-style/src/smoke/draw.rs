@@ -1,7 +1,7 @@
 //! Spheres to pixels: the twins of `smoke.project_spheres` and `raster.draw_spheres`.
 
 use npr_core::geometry::FAR_DEPTH;
-use npr_core::smoke::{Ball, Lens, Sphere};
+use npr_core::smoke::{Sphere, SphereView, ViewSphere};
 use npr_core::window::Window;
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
@@ -17,7 +17,7 @@ const TILE_COLUMNS: usize = 64;
 const SPAN_REACH: f32 = 1e5;
 
 /// Every sphere as a lens sees it. O(spheres).
-pub fn project_spheres(lens: &Lens, spheres: &[Sphere], balls: &mut [Ball]) {
+pub fn project_spheres(lens: &SphereView, spheres: &[Sphere], balls: &mut [ViewSphere]) {
     for (sphere, ball) in spheres.iter().zip(balls) {
         *ball = lens.project(sphere);
     }
@@ -30,9 +30,9 @@ pub fn project_spheres(lens: &Lens, spheres: &[Sphere], balls: &mut [Ball]) {
 /// earlier ball wins. Tiles take the balls from front to back, and their rows leave out those behind all that is
 /// drawn, so of a dense plume little more than its skin is computed. O(balls log balls + what is not hidden).
 pub fn draw_spheres(
-    lens: &Lens,
+    lens: &SphereView,
     window: &Window,
-    balls: &[Ball],
+    balls: &[ViewSphere],
     ids: &mut [u32],
     depths: &mut [u32],
 ) {
@@ -72,7 +72,7 @@ struct Member {
 
 impl Member {
     /// `None` where the ball lies beside the window.
-    fn new(lens: &Lens, window: &Window, ball: &Ball, number: u32) -> Option<Self> {
+    fn new(lens: &SphereView, window: &Window, ball: &ViewSphere, number: u32) -> Option<Self> {
         let [left, top, right, bottom] = ball.bounds;
         if left > right || top > bottom {
             return None;
@@ -104,7 +104,7 @@ impl Member {
 }
 
 /// The balls that touch each band of rows, from front to back.
-fn sorted_into_bands(lens: &Lens, window: &Window, balls: &[Ball]) -> Vec<Vec<Member>> {
+fn sorted_into_bands(lens: &SphereView, window: &Window, balls: &[ViewSphere]) -> Vec<Vec<Member>> {
     let numbered = (0u32..).zip(balls);
     let mut members: Vec<Member> = numbered
         .filter_map(|(number, ball)| Member::new(lens, window, ball, number))
@@ -126,7 +126,7 @@ fn sorted_into_bands(lens: &Lens, window: &Window, balls: &[Ball]) -> Vec<Vec<Me
 
 /// Part of a band being drawn.
 struct Tile<'a> {
-    lens: &'a Lens,
+    lens: &'a SphereView,
     window: &'a Window,
     top: usize,
     rows: usize,
@@ -147,7 +147,7 @@ struct Tile<'a> {
 }
 
 impl<'a> Tile<'a> {
-    fn new(lens: &'a Lens, window: &'a Window, top: usize, rows: usize) -> Self {
+    fn new(lens: &'a SphereView, window: &'a Window, top: usize, rows: usize) -> Self {
         Self {
             lens,
             window,
@@ -166,7 +166,7 @@ impl<'a> Tile<'a> {
     }
 
     /// Draws the balls over the columns from `left` on; says whether there were any.
-    fn fill(&mut self, left: usize, balls: &[Ball], members: &[Member]) -> bool {
+    fn fill(&mut self, left: usize, balls: &[ViewSphere], members: &[Member]) -> bool {
         self.left = left;
         self.columns = TILE_COLUMNS.min(self.window.size[0] as usize - left);
         let last = (left + self.columns - 1) as u32;
@@ -210,7 +210,7 @@ impl<'a> Tile<'a> {
         }
     }
 
-    fn draw(&mut self, member: &Member, ball: &Ball) {
+    fn draw(&mut self, member: &Member, ball: &ViewSphere) {
         let first = (member.left as usize).max(self.left) - self.left;
         let last = (member.right as usize).min(self.left + self.columns - 1) - self.left;
         let top = (member.top as usize).max(self.top) - self.top;
@@ -232,7 +232,7 @@ impl<'a> Tile<'a> {
     /// `None` where it passes the row by. Only where rays are parallel: else all of `columns`.
     fn span(
         &self,
-        ball: &Ball,
+        ball: &ViewSphere,
         row: usize,
         columns: RangeInclusive<usize>,
     ) -> Option<(f32, RangeInclusive<usize>)> {
@@ -259,7 +259,7 @@ impl<'a> Tile<'a> {
     }
 
     /// Draws a ball over some columns of a row.
-    fn draw_row(&mut self, row: usize, columns: RangeInclusive<usize>, id: u32, ball: &Ball) {
+    fn draw_row(&mut self, row: usize, columns: RangeInclusive<usize>, id: u32, ball: &ViewSphere) {
         let (lens, up) = (*self.lens, self.up[row]);
         let here = |list: &RangeInclusive<usize>| {
             row * TILE_COLUMNS + list.start()..=row * TILE_COLUMNS + list.end()
@@ -313,9 +313,10 @@ impl<'a> Tile<'a> {
     }
 }
 
-/// [`Lens::depth_of_sphere`] where rays meet at the eye, bit for bit, with one over the ray's squared length given.
+/// [`SphereView::depth_of_sphere`] where rays meet at the eye, bit for bit, with one over the ray's squared length
+/// given.
 #[inline]
-fn depth_meeting(lens: &Lens, ball: &Ball, [x, y]: [f32; 2], scale: f32) -> f32 {
+fn depth_meeting(lens: &SphereView, ball: &ViewSphere, [x, y]: [f32; 2], scale: f32) -> f32 {
     let offset = ball.center;
     let middle = (offset[0] * x + offset[1] * y + offset[2]) * scale;
     let beside = [
@@ -333,9 +334,9 @@ fn depth_meeting(lens: &Lens, ball: &Ball, [x, y]: [f32; 2], scale: f32) -> f32 
     }
 }
 
-/// [`Lens::depth_of_sphere`] where rays are parallel, bit for bit: all that is multiplied by 0 there left out.
+/// [`SphereView::depth_of_sphere`] where rays are parallel, bit for bit: all that is multiplied by 0 there left out.
 #[inline]
-fn depth_parallel(lens: &Lens, ball: &Ball, ray: [f32; 2]) -> f32 {
+fn depth_parallel(lens: &SphereView, ball: &ViewSphere, ray: [f32; 2]) -> f32 {
     let beside = [ball.center[0] - ray[0], ball.center[1] - ray[1]];
     let left = ball.radius * ball.radius - (beside[0] * beside[0] + beside[1] * beside[1]);
     let depth = ball.center[2] - left.max(0.0).sqrt();
@@ -373,7 +374,7 @@ mod tests {
 
     const SIZE: [u32; 2] = [150, 37];
 
-    fn lens(parallel: bool) -> Lens {
+    fn lens(parallel: bool) -> SphereView {
         let projection = match parallel {
             true => Projection::Parallel { height: 3.0 },
             false => Projection::Perspective { fov_y: 0.8 },
@@ -384,15 +385,15 @@ mod tests {
             up: [0.0, 1.0, 0.0],
             projection,
         };
-        Lens::of_view(&camera.view([300, 200], ([-2.5; 3], [2.5; 3])))
+        SphereView::of_view(&camera.view([300, 200], ([-2.5; 3], [2.5; 3])))
     }
 
-    fn balls_of(lens: &Lens, spheres: &[([f32; 3], f32)]) -> Vec<Ball> {
+    fn balls_of(lens: &SphereView, spheres: &[([f32; 3], f32)]) -> Vec<ViewSphere> {
         let of = |(center, radius): &([f32; 3], f32)| lens.project(&Sphere::new(*center, *radius));
         spheres.iter().map(of).collect()
     }
 
-    fn draw(lens: &Lens, window: &Window, balls: &[Ball]) -> (Vec<u32>, Vec<u32>) {
+    fn draw(lens: &SphereView, window: &Window, balls: &[ViewSphere]) -> (Vec<u32>, Vec<u32>) {
         let count = (window.size[0] * window.size[1]) as usize;
         let (mut ids, mut depths) = (vec![7; count], vec![7; count]);
         draw_spheres(lens, window, balls, &mut ids, &mut depths);

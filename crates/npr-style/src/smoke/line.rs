@@ -1,26 +1,28 @@
 //! Outlines of spheres, found where their rims are.
 //!
-//! A pixel of a sphere knows where the rim nearest to it lies, and the picture just beyond the rim says whether that
-//! part of it is an outline: nothing, or smoke far behind. So lines are as smooth as circles and as wide as wanted.
+//! A pixel of a sphere knows where the silhouette nearest to it lies, and the picture just beyond the silhouette says
+//! whether that part of it is an outline: nothing, or smoke far behind. So lines are as smooth as circles and as wide
+//! as wanted.
 //!
 //! Nothing about them comes or goes at once. Their width grows from nothing with the jump in depth; where what lies
-//! beyond the rim changes, they run out along it like the stroke of a brush.
+//! beyond the silhouette changes, they run out along it like the stroke of a brush.
 
 use npr_core::geometry::FAR_DEPTH;
 use npr_core::math;
-use npr_core::smoke::{Ball, Lens};
+use npr_core::smoke::{SphereView, ViewSphere};
 use npr_core::surface::{dot, unit_or_z};
 
 use super::SmokeLook;
 use super::resolve::Resolving;
 
-/// How far beyond a rim the picture is looked at, in pixels: far enough that the pixel's middle lies beyond it too.
+/// How far beyond a silhouette the picture is looked at, in pixels: far enough that the pixel's middle lies beyond it
+/// too.
 const BEYOND_PX: f32 = 1.25;
 
-/// How far lines run out along the rim, in widths of the line.
+/// How far lines run out along the silhouette, in widths of the line.
 const TAPER: f32 = 3.0;
 
-/// Looks beyond the rim to each side of a place, over the length that lines run out in.
+/// Looks beyond the silhouette to each side of a place, over the length that lines run out in.
 const LOOKS: u32 = 8;
 
 /// Width of the line of a small puff, in its radii: a speck that swells is no blot at first.
@@ -32,9 +34,9 @@ const INNER_JUMP: f32 = 4.0;
 /// Multiple of that jump at which it is as wide as the outer line.
 const OUTER_JUMP: f32 = 16.0;
 
-/// A place on a sphere's rim.
+/// A place on a sphere's silhouette.
 #[derive(Debug, Clone, Copy)]
-struct Rim {
+struct Silhouette {
     /// Frame position.
     px: [f32; 2],
     /// Unit vector away from the sphere, in the frame.
@@ -43,18 +45,18 @@ struct Rim {
     depth: f32,
 }
 
-/// The rim of a ball in a direction.
+/// The silhouette of a ball in a direction.
 struct Disc {
     /// Unit vector to the middle, and two across; the first leads towards the ray that was asked for.
     axes: [[f32; 3]; 3],
-    /// How far along the axis the rim lies, and how far across.
+    /// How far along the axis the silhouette lies, and how far across.
     along: f32,
     across: f32,
     middle_px: [f32; 2],
 }
 
 impl Disc {
-    fn new(lens: &Lens, ball: &Ball, ray: [f32; 2]) -> Self {
+    fn new(lens: &SphereView, ball: &ViewSphere, ray: [f32; 2]) -> Self {
         let (axis, towards, along, across);
         if lens.perspective > 0.5 && lens.discs < 0.5 {
             let square = dot(ball.center, ball.center);
@@ -87,8 +89,8 @@ impl Disc {
         }
     }
 
-    /// The rim at an angle, given by its sine and cosine, from the ray.
-    fn rim(&self, lens: &Lens, ball: &Ball, [sin, cos]: [f32; 2]) -> Rim {
+    /// The silhouette at an angle, given by its sine and cosine, from the ray.
+    fn silhouette(&self, lens: &SphereView, ball: &ViewSphere, [sin, cos]: [f32; 2]) -> Silhouette {
         let [axis, first, second] = self.axes;
         let middle = if lens.perspective > 0.5 && lens.discs < 0.5 {
             axis.map(|v| v * self.along)
@@ -100,7 +102,7 @@ impl Disc {
         let px = lens.frame_of(place);
         let out = [px[0] - self.middle_px[0], px[1] - self.middle_px[1]];
         let length = (out[0] * out[0] + out[1] * out[1]).sqrt().max(1e-12);
-        Rim {
+        Silhouette {
             px,
             outward: [out[0] / length, out[1] / length],
             depth: place[2],
@@ -118,11 +120,11 @@ impl Resolving<'_> {
             return 0.0;
         }
         let disc = Disc::new(self.lens, ball, ray);
-        let rim = disc.rim(self.lens, ball, [0.0, 1.0]);
-        let away = inside_by(&rim, frame_px).max(0.0);
-        let radius_px = distance(rim.px, disc.middle_px);
-        let whole = self.look.whole_width(rim.outward, radius_px);
-        let mut part = self.part_beyond(ball, &rim);
+        let silhouette = disc.silhouette(self.lens, ball, [0.0, 1.0]);
+        let away = inside_by(&silhouette, frame_px).max(0.0);
+        let radius_px = distance(silhouette.px, disc.middle_px);
+        let whole = self.look.whole_width(silhouette.outward, radius_px);
+        let mut part = self.part_beyond(ball, &silhouette);
         // Let lines near by run out to here.
         let step = TAPER * self.look.line_px / ((LOOKS + 1) as f32 * radius_px.max(1.0));
         for k in 1..=LOOKS {
@@ -133,15 +135,16 @@ impl Resolving<'_> {
             }
             let sin = (k as f32 * step).min(0.7);
             for sin in [-sin, sin] {
-                let rim = disc.rim(self.lens, ball, [sin, (1.0 - sin * sin).sqrt()]);
-                part = part.max(left * self.part_beyond(ball, &rim));
+                let silhouette = disc.silhouette(self.lens, ball, [sin, (1.0 - sin * sin).sqrt()]);
+                part = part.max(left * self.part_beyond(ball, &silhouette));
             }
         }
         coverage(whole * part, away)
     }
 
-    /// Whether a ray passes so close to the middle of a ball that the rim is farther than `reach_px` for certain.
-    fn is_far_inside(&self, ball: &Ball, ray: [f32; 2], reach_px: f32) -> bool {
+    /// Whether a ray passes so close to the middle of a ball that the silhouette is farther than `reach_px` for
+    /// certain.
+    fn is_far_inside(&self, ball: &ViewSphere, ray: [f32; 2], reach_px: f32) -> bool {
         let room = self.lens.pixel_at(ball.center[2] + ball.radius) * reach_px;
         let start = self.lens.place_at(ray, 0.0);
         let towards = self.lens.place_at(ray, 1.0);
@@ -153,15 +156,15 @@ impl Resolving<'_> {
         dot(beside, beside) < inner * inner
     }
 
-    /// The part of its width that a sphere's outline has at a place of its rim, by what is seen beyond; 0 where the
-    /// rim is hidden.
-    fn part_beyond(&self, ball: &Ball, rim: &Rim) -> f32 {
+    /// The part of its width that a sphere's outline has at a place of its silhouette, by what is seen beyond; 0 where
+    /// the silhouette is hidden.
+    fn part_beyond(&self, ball: &ViewSphere, silhouette: &Silhouette) -> f32 {
         let beyond = std::array::from_fn(|i| {
-            rim.px[i] + rim.outward[i] * BEYOND_PX * self.window.frame_step[i]
+            silhouette.px[i] + silhouette.outward[i] * BEYOND_PX * self.window.frame_step[i]
         });
         let [x, y] = self.window.pixel_at(beyond);
         let depth = self.pixels[(y * self.window.size[0] + x) as usize].depth;
-        self.look.part_at((depth - rim.depth) / ball.radius)
+        self.look.part_at((depth - silhouette.depth) / ball.radius)
     }
 
     /// The published line: 1 where depths of diagonal neighbours differ [Hoshino 2004, section 3.5].
@@ -211,9 +214,10 @@ impl SmokeLook {
     }
 }
 
-/// How far inside its rim a place lies, in pixels; below 0 outside.
-fn inside_by(rim: &Rim, frame_px: [f32; 2]) -> f32 {
-    (rim.px[0] - frame_px[0]) * rim.outward[0] + (rim.px[1] - frame_px[1]) * rim.outward[1]
+/// How far inside its silhouette a place lies, in pixels; below 0 outside.
+fn inside_by(silhouette: &Silhouette, frame_px: [f32; 2]) -> f32 {
+    (silhouette.px[0] - frame_px[0]) * silhouette.outward[0]
+        + (silhouette.px[1] - frame_px[1]) * silhouette.outward[1]
 }
 
 fn distance(a: [f32; 2], b: [f32; 2]) -> f32 {
@@ -272,11 +276,11 @@ mod tests {
         let ids: Vec<u32> = ids.map(|part| u32::from(part.is_some())).collect();
         let extent = [SIDE as f32; 2];
         ask(&Resolving {
-            lens: &Lens::default(),
+            lens: &SphereView::default(),
             window: &Window::over(extent, [0.0; 2], extent, [SIDE; 2]),
             look: &look(weight),
             ids: &ids,
-            balls: &[Ball::default()],
+            balls: &[ViewSphere::default()],
             tones: &vec![1.0; pixels.len()],
             pixels: &pixels,
         })

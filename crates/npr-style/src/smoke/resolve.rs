@@ -2,7 +2,7 @@
 
 use npr_core::color::SrgbEncoder;
 use npr_core::geometry::FAR_DEPTH;
-use npr_core::smoke::{Ball, Lens, SmokePixel};
+use npr_core::smoke::{SmokePixel, SphereView, ViewSphere};
 use npr_core::window::Window;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -33,7 +33,7 @@ const RUN: usize = 32;
 #[derive(Debug, Clone, Copy)]
 pub struct Resolving<'a> {
     /// The eye.
-    pub lens: &'a Lens,
+    pub lens: &'a SphereView,
     /// The pixel grid.
     pub window: &'a Window,
     /// Settings.
@@ -41,7 +41,7 @@ pub struct Resolving<'a> {
     /// Numbers of the nearest spheres, plus one.
     pub ids: &'a [u32],
     /// The spheres as the eye sees them.
-    pub balls: &'a [Ball],
+    pub balls: &'a [ViewSphere],
     /// Depth and layer of every pixel.
     pub pixels: &'a [SmokePixel],
     /// Smoothed tones.

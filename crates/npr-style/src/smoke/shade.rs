@@ -1,7 +1,7 @@
 //! Light on spheres, and the layer that each is smoothed in: the twin of `smoke.shade_spheres`.
 
 use npr_core::geometry::FAR_DEPTH;
-use npr_core::smoke::{Ball, Lens, SmokePixel, Sphere};
+use npr_core::smoke::{SmokePixel, Sphere, SphereView, ViewSphere};
 use npr_core::surface::{apply_point, dot};
 use npr_core::window::Window;
 use rayon::prelude::*;
@@ -16,7 +16,7 @@ use crate::sky::Openness;
 #[derive(Debug, Clone, Copy)]
 pub struct Shading<'a> {
     /// The eye.
-    pub lens: &'a Lens,
+    pub lens: &'a SphereView,
     /// The pixel grid.
     pub window: &'a Window,
     /// Settings.
@@ -33,7 +33,7 @@ pub struct Shading<'a> {
     /// The spheres.
     pub spheres: &'a [Sphere],
     /// The spheres as the eye sees them.
-    pub balls: &'a [Ball],
+    pub balls: &'a [ViewSphere],
 }
 
 /// Light, depth and layer of every pixel [Hoshino 2004, section 3.2].

@@ -133,7 +133,7 @@ impl<'a> Case<'a> {
 
     /// Whether a picture with tones is made, be it to judge lines before it.
     pub fn has_tones(&self) -> bool {
-        self.is_frame() || self.style.minds_background()
+        self.is_frame() || self.style.contrasts_with_background()
     }
 
     /// Whether a drawing of curves fills smoke with tones.
@@ -186,7 +186,7 @@ impl<'a> Case<'a> {
     }
 
     /// Whether any part minds what lies behind its lines, by one of these rules.
-    pub fn minds_by(&self, methods: &[BackgroundMethod]) -> bool {
+    pub fn contrasts_by(&self, methods: &[BackgroundMethod]) -> bool {
         self.any(|look| methods.contains(&look.line_background.method))
     }
 

@@ -213,7 +213,7 @@ pub(super) const ENTRIES: &[Entry] = &[
     ),
     entry(
         &["line.color", "line.opacity", "smoke.line.color"],
-        |c| c.is_written_as(LineForm::Data) && c.paint_flags() == 0 && c.minds_by(&[OFF]),
+        |c| c.is_written_as(LineForm::Data) && c.paint_flags() == 0 && c.contrasts_by(&[OFF]),
         "the file holds colours only of lines that change theirs",
     ),
     entry(
@@ -424,7 +424,7 @@ pub(super) const ENTRIES: &[Entry] = &[
     ),
     entry(
         &["line.background.intensity", "line.background.likeness"],
-        |c| !c.minds_by(&[PUBLISHED]),
+        |c| !c.contrasts_by(&[PUBLISHED]),
         "line.background.method is not published",
     ),
     entry(
@@ -436,7 +436,7 @@ pub(super) const ENTRIES: &[Entry] = &[
             "line.background.factor",
             "line.background.smooth",
         ],
-        |c| !c.minds_by(&[CONTRAST]),
+        |c| !c.contrasts_by(&[CONTRAST]),
         "line.background.method is not contrast",
     ),
     entry(
@@ -446,7 +446,7 @@ pub(super) const ENTRIES: &[Entry] = &[
             "line.background.subjects",
             "subject",
         ],
-        |c| !c.minds_by(&[PUBLISHED, CONTRAST]),
+        |c| !c.contrasts_by(&[PUBLISHED, CONTRAST]),
         "line.background.method is off",
     ),
     entry(

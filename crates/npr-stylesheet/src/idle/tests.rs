@@ -29,8 +29,8 @@ fn what_presets_say_is_nobodys_wish() {
         let stated = Stated::preset(preset.name).unwrap();
         assert!(stated.notices(&lines(LineFinder::Mesh)).is_empty());
         let extended = stated_over(preset.name);
-        let told = extended.notices(&lines(LineFinder::Mesh));
-        assert_eq!(told.len(), 1, "{}: {told:?}", preset.name);
+        let reported = extended.notices(&lines(LineFinder::Mesh));
+        assert_eq!(reported.len(), 1, "{}: {reported:?}", preset.name);
     }
 }
 
@@ -68,9 +68,9 @@ fn rules_of_files_keep_their_numbers_behind_those_of_presets() {
 #[test]
 fn keys_of_one_reason_are_named_together_and_once() {
     let stated = stated("[ink]\ntone = 'hatch'\npaint = 0.5\n[ink.hatch]\nspacing = '9px'");
-    let told = stated.notices(&lines(LineFinder::Mesh));
+    let reported = stated.notices(&lines(LineFinder::Mesh));
     let wanted = "'ink.hatch.spacing', 'ink.paint' and 'ink.tone' are ignored by npr lines: it draws no tones and no hatching";
-    assert_eq!(told, [wanted]);
+    assert_eq!(reported, [wanted]);
     assert!(stated.notices(&FRAME).is_empty());
 }
 
@@ -96,10 +96,10 @@ fn methods_of_parts_count() {
         stated("line.method = 'curves'\ndetect.scale = 2\n[[rule]]\nline.method = 'shape'");
     assert!(of_one.notices(&FRAME).is_empty());
     let of_rule = stated("[[rule]]\nline.method = 'curves'\nline.angle_threshold_deg = 20");
-    let told = of_rule.notices(&FRAME);
+    let reported = of_rule.notices(&FRAME);
     let wanted =
         "'rule.0.line.angle_threshold_deg' is ignored: lines of method curves do not use it";
-    assert_eq!(told, [wanted]);
+    assert_eq!(reported, [wanted]);
 }
 
 #[test]
@@ -120,25 +120,25 @@ fn overrides_that_need_each_other_come_in_any_order() {
 
 #[test]
 fn entries_that_are_not_there_are_told_with_the_valid_form() {
-    let told =
+    let reported =
         |text: &str, assignment: &str| stated(text).set_all(&[assignment]).unwrap_err().to_string();
     let wanted = "'rule' has no entries, so there is no 'rule.0': write \
         rule=[{ match = { material = 'Skin*' }, line = { on = false } }]";
-    assert_eq!(told("", "rule.0.x="), wanted);
-    assert_eq!(told("", "rule.0.line.on=false"), wanted);
+    assert_eq!(reported("", "rule.0.x="), wanted);
+    assert_eq!(reported("", "rule.0.line.on=false"), wanted);
     let one = "[[rule]]\nline.on = false";
     let wanted = "'rule' has one entry, so there is no 'rule.1': write rule.0.key=value";
-    assert_eq!(told(one, "rule.1.line.on=true"), wanted);
+    assert_eq!(reported(one, "rule.1.line.on=true"), wanted);
     assert_eq!(
-        told(one, "rule.line.on=true"),
+        reported(one, "rule.line.on=true"),
         wanted.replace("rule.1", "rule.line")
     );
-    let unknown = told(one, "rule.0.lime.on=true");
+    let unknown = reported(one, "rule.0.lime.on=true");
     assert_eq!(
         unknown,
         "unknown key 'rule.0.lime'; did you mean 'rule.0.line'?"
     );
-    let three = told("", "shade.ramp.3.light=1");
+    let three = reported("", "shade.ramp.3.light=1");
     assert_eq!(
         three,
         "'shade.ramp' has 3 entries, so there is no 'shade.ramp.3': write shade.ramp.N.key=value with N from 0 to 2"
@@ -158,12 +158,12 @@ proptest! {
     fn every_key_is_named_once(lengths in prop::collection::vec(1usize..60, 1..40)) {
         let keys: Vec<String> = lengths.iter().enumerate().map(|(i, length)| format!("{i}.{}", "k".repeat(*length))).collect();
         let keys: Vec<&str> = keys.iter().map(String::as_str).collect();
-        let told = sentences(&keys, "", "there is a reason");
+        let reported = sentences(&keys, "", "there is a reason");
         for key in &keys {
             let quoted = format!("'{key}'");
-            prop_assert_eq!(told.iter().filter(|text| text.contains(&quoted)).count(), 1);
+            prop_assert_eq!(reported.iter().filter(|text| text.contains(&quoted)).count(), 1);
         }
-        prop_assert!(told.iter().all(|text| text.chars().count() <= NOTICE_LENGTH));
-        prop_assert!(told.iter().all(|text| text.ends_with("ignored: there is a reason")));
+        prop_assert!(reported.iter().all(|text| text.chars().count() <= NOTICE_LENGTH));
+        prop_assert!(reported.iter().all(|text| text.ends_with("ignored: there is a reason")));
     }
 }

@@ -22,13 +22,13 @@ gpu_layout!(Walk { slot, steps });
 /// Where a node is, counted from where its loop was cut.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
-pub struct Place {
+pub struct ListPosition {
     /// Head of its chain; [`NONE`] where that is unknown.
     pub head: u32,
     /// Links from the cut, which may lie before the head.
     pub offset: u32,
 }
-gpu_layout!(Place { head, offset });
+gpu_layout!(ListPosition { head, offset });
 
 /// Where a node is, counted from its head.
 #[repr(C)]
@@ -73,7 +73,7 @@ pub(super) fn finish(
     rounds: u32,
 ) -> Result<Ranked, RankError> {
     let node_count = links.len();
-    let mut places = vec![Place::default(); node_count];
+    let mut places = vec![ListPosition::default(); node_count];
     let mut unsettled = vec![0; node_count];
     let Jumped {
         first,
@@ -110,7 +110,7 @@ pub fn scatter_ranks(
     first: &[Reach],
     settled: &[Reach],
     hops: &[Hop],
-    places: &mut [Place],
+    places: &mut [ListPosition],
     unsettled: &mut [u32],
 ) {
     let outputs = places.par_iter_mut().zip(unsettled);
@@ -137,7 +137,7 @@ pub fn scatter_ranks(
 /// The last node before a cut tells the head how long the chain is: the twin of `vector.measure_chains`.
 ///
 /// Only heads get a length; the others keep what was there.
-pub fn measure_chains(links: &[Link], places: &[Place], lengths: &mut [u32]) {
+pub fn measure_chains(links: &[Link], places: &[ListPosition], lengths: &mut [u32]) {
     for (link, place) in links.iter().zip(places) {
         let is_last = link.next == NONE || places[link.next as usize].offset == 0;
         if is_last && (place.head as usize) < lengths.len() {
@@ -150,7 +150,7 @@ pub fn measure_chains(links: &[Link], places: &[Place], lengths: &mut [u32]) {
 ///
 /// `sizes` are the lengths of chains at their heads and 0 elsewhere; `heads` are 1 there.
 pub fn turn_ranks(
-    places: &[Place],
+    places: &[ListPosition],
     lengths: &[u32],
     standings: &mut [Standing],
     sizes: &mut [u32],

@@ -3,7 +3,7 @@
 use super::scan::{BLOCK, compact, exclusive_scan};
 use super::splitter::{WALK_LIMIT, WINDOW, find_splitters};
 use super::*;
-use crate::graph::CurveGraph;
+use crate::mesh_lines::graph::CurveGraph;
 use proptest::prelude::*;
 
 /// Lists that were chains before their nodes were numbered at random.
@@ -349,7 +349,7 @@ fn rounds_beyond_all_reason_end() {
 
 #[test]
 fn curves_are_ranked_by_their_links() {
-    let node = |edge, next, prev| crate::graph::CurveNode {
+    let node = |edge, next, prev| crate::mesh_lines::graph::CurveNode {
         edge,
         next,
         prev,

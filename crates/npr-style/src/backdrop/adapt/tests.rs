@@ -287,7 +287,7 @@ proptest! {
 
     /// Steps are larger than above, so that more of them hold a jump where there is one.
     #[test]
-    fn no_change_makes_a_colour_jump(
+    fn no_change_makes_a_color_jump(
         line in color(), rim in color(), behind in color(), rule in rule(),
         which in 0usize..3, channel in 0usize..3, step in -1f32..1.0,
     ) {

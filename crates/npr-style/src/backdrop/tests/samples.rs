@@ -91,7 +91,7 @@ impl Disc {
             rules: &rules,
             ids: &ids,
             triangles: &[Triangle::default()],
-            wearers: &[Wearer {
+            part_subjects: &[PartSubject {
                 subject: 1,
                 rule: 1,
             }],

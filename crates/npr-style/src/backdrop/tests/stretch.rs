@@ -2,7 +2,7 @@
 
 use super::rules as rim_rules;
 use crate::backdrop::adapt::{place_of_light, preference};
-use crate::backdrop::stretch::lean_between;
+use crate::backdrop::stretch::bias_between;
 use crate::backdrop::*;
 use npr_core::color::{linear_from_srgb, pack_rgba8, unpack_rgba8};
 use npr_core::geometry::Part;
@@ -18,7 +18,7 @@ struct Tiles {
 
 fn rules() -> Rules {
     Rules {
-        lean_px: 16.0,
+        bias_px: 16.0,
         hold: 1.0,
         fade: 0.1,
         ..rim_rules()
@@ -62,36 +62,36 @@ fn tiles() -> impl Strategy<Value = Tiles> {
 }
 
 impl Tiles {
-    fn bounds(&self, rules: &Rules) -> Vec<Lean> {
-        let mut bounds = vec![Lean::default(); self.gathered.len()];
+    fn bounds(&self, rules: &Rules) -> Vec<ContrastBias> {
+        let mut bounds = vec![ContrastBias::default(); self.gathered.len()];
         bound_tiles(&window(self.size), rules, &self.gathered, &mut bounds);
         bounds
     }
 
-    fn leans(&self, rules: &Rules, before: &[Lean]) -> Vec<Lean> {
-        let mut leans = vec![Lean::default(); self.gathered.len()];
+    fn biases(&self, rules: &Rules, before: &[ContrastBias]) -> Vec<ContrastBias> {
+        let mut biases = vec![ContrastBias::default(); self.gathered.len()];
         let bounds = self.bounds(rules);
-        lean_tiles(
+        vote_bias(
             &window(self.size),
             rules,
             &self.gathered,
             &bounds,
             before,
-            &mut leans,
+            &mut biases,
         );
-        leans
+        biases
     }
 
-    fn blended(&self, rules: &Rules, leans: &[Lean]) -> Vec<Lean> {
-        let mut kept = vec![Lean::default(); leans.len()];
+    fn blended(&self, rules: &Rules, biases: &[ContrastBias]) -> Vec<ContrastBias> {
+        let mut kept = vec![ContrastBias::default(); biases.len()];
         let mut blended = kept.clone();
-        blend_leans(&window(self.size), rules, leans, &mut kept, &mut blended);
-        assert_eq!(kept, leans);
+        blend_biases(&window(self.size), rules, biases, &mut kept, &mut blended);
+        assert_eq!(kept, biases);
         blended
     }
 
-    fn none_before(&self) -> Vec<Lean> {
-        vec![Lean::default(); self.gathered.len()]
+    fn none_before(&self) -> Vec<ContrastBias> {
+        vec![ContrastBias::default(); self.gathered.len()]
     }
 
     /// Tiles around one, with how far they lie in each direction.
@@ -140,9 +140,9 @@ proptest! {
             *there = TileRims { whose: 2, rule: 1, ..other };
         }
         let of_first = |tiles: &Tiles| {
-            let leans = tiles.leans(&rules, &tiles.none_before());
-            let blended = tiles.blended(&rules, &leans);
-            blended.into_iter().filter(|lean| lean.whose == 1).collect::<Vec<_>>()
+            let biases = tiles.biases(&rules, &tiles.none_before());
+            let blended = tiles.blended(&rules, &biases);
+            blended.into_iter().filter(|bias| bias.whose == 1).collect::<Vec<_>>()
         };
         prop_assert_eq!(of_first(&tiles), of_first(&changed));
     }
@@ -157,10 +157,10 @@ proptest! {
         let tiles = Tiles { size, gathered: vec![here; count] };
         let vote = preference(line, [behind; 2], &rules.rules[1]);
         prop_assume!(vote.abs() > 0.02);
-        let leans = tiles.leans(&rules, &tiles.none_before());
-        for lean in tiles.blended(&rules, &leans) {
-            prop_assert!((lean.lean - vote.signum()).abs() < 1e-5, "{} for {vote}", lean.lean);
-            prop_assert!((lean.low - behind).abs() < 1e-6 && (lean.high - behind).abs() < 1e-6);
+        let biases = tiles.biases(&rules, &tiles.none_before());
+        for bias in tiles.blended(&rules, &biases) {
+            prop_assert!((bias.bias - vote.signum()).abs() < 1e-5, "{} for {vote}", bias.bias);
+            prop_assert!((bias.low - behind).abs() < 1e-6 && (bias.high - behind).abs() < 1e-6);
         }
     }
 
@@ -168,15 +168,15 @@ proptest! {
     #[test]
     fn lines_fade_and_do_not_jump(tiles in tiles(), again in tile()) {
         let rules = rules();
-        let before = tiles.leans(&rules.of_first_frame(), &tiles.none_before());
+        let before = tiles.biases(&rules.of_first_frame(), &tiles.none_before());
         let mut moved = tiles.clone();
         for there in moved.gathered.iter_mut().filter(|there| there.whose != 0 && again.whose != 0) {
             *there = TileRims { whose: there.whose, behind: there.behind, low: there.low, high: there.high, ..again };
         }
-        for (was, lean) in before.iter().zip(moved.leans(&rules, &before)) {
-            prop_assert_eq!(was.whose, lean.whose);
-            prop_assert!((was.lean - lean.lean).abs() <= 0.2 + 1e-5);
-            prop_assert!((was.low - lean.low).abs() <= 0.04 + 1e-5 && (was.high - lean.high).abs() <= 0.04 + 1e-5);
+        for (was, bias) in before.iter().zip(moved.biases(&rules, &before)) {
+            prop_assert_eq!(was.whose, bias.whose);
+            prop_assert!((was.bias - bias.bias).abs() <= 0.2 + 1e-5);
+            prop_assert!((was.low - bias.low).abs() <= 0.04 + 1e-5 && (was.high - bias.high).abs() <= 0.04 + 1e-5);
         }
     }
 
@@ -184,19 +184,19 @@ proptest! {
     #[test]
     fn still_scenes_stay_still(tiles in tiles()) {
         let rules = rules();
-        let mut leans = tiles.leans(&rules.of_first_frame(), &tiles.none_before());
+        let mut biases = tiles.biases(&rules.of_first_frame(), &tiles.none_before());
         for _ in 0..25 {
-            leans = tiles.leans(&rules, &leans);
+            biases = tiles.biases(&rules, &biases);
         }
-        let after = tiles.leans(&rules, &leans);
-        for (a, b) in leans.iter().zip(&after) {
-            prop_assert!((a.lean - b.lean).abs() < 1e-5 && a.low == b.low && a.high == b.high);
+        let after = tiles.biases(&rules, &biases);
+        for (a, b) in biases.iter().zip(&after) {
+            prop_assert!((a.bias - b.bias).abs() < 1e-5 && a.low == b.low && a.high == b.high);
         }
     }
 
     /// Another scene is forgotten: once fades have ended, lines are as if it were the first frame.
     ///
-    /// What was held may lie 1 off in a bound or a rim, and 2 in a lean. Steps are 0.04 and 0.2, so 25 are enough, and
+    /// What was held may lie 1 off in a bound or a rim, and 2 in a bias. Steps are 0.04 and 0.2, so 25 are enough, and
     /// one more where neighbours held it. The last step adds what is missing, which rounds: the tolerance is the last
     /// place of 1.
     #[test]
@@ -207,16 +207,16 @@ proptest! {
         let rules = Rules { hold: 0.0, ..rules() };
         let gathered = others[..tiles.gathered.len()].to_vec();
         let another = Tiles { gathered, ..tiles.clone() };
-        let mut leans = another.leans(&rules.of_first_frame(), &tiles.none_before());
+        let mut biases = another.biases(&rules.of_first_frame(), &tiles.none_before());
         for _ in 0..30 {
-            leans = tiles.leans(&rules, &leans);
+            biases = tiles.biases(&rules, &biases);
         }
-        let first = tiles.leans(&rules.of_first_frame(), &tiles.none_before());
-        for (lean, want) in leans.iter().zip(&first) {
-            prop_assert_eq!(lean.whose, want.whose);
-            let [got, want] = [lean, want].map(|lean| {
-                let [r, g, b] = lean.rim;
-                [lean.low, lean.high, lean.lean, r, g, b]
+        let first = tiles.biases(&rules.of_first_frame(), &tiles.none_before());
+        for (bias, want) in biases.iter().zip(&first) {
+            prop_assert_eq!(bias.whose, want.whose);
+            let [got, want] = [bias, want].map(|bias| {
+                let [r, g, b] = bias.rim;
+                [bias.low, bias.high, bias.bias, r, g, b]
             });
             let off = (0..6).map(|i| (got[i] - want[i]).abs()).fold(0.0, f32::max);
             prop_assert!(off <= f32::EPSILON, "{got:?}, not {want:?}");
@@ -227,16 +227,16 @@ proptest! {
     #[test]
     fn blends_lie_between_what_was_decided(tiles in tiles()) {
         let rules = rules();
-        let leans = tiles.leans(&rules.of_first_frame(), &tiles.none_before());
-        for (i, (blend, lean)) in tiles.blended(&rules, &leans).iter().zip(&leans).enumerate() {
-            prop_assert_eq!((blend.low, blend.high, blend.whose), (lean.low, lean.high, lean.whose));
-            if lean.whose == 0 {
+        let biases = tiles.biases(&rules.of_first_frame(), &tiles.none_before());
+        for (i, (blend, bias)) in tiles.blended(&rules, &biases).iter().zip(&biases).enumerate() {
+            prop_assert_eq!((blend.low, blend.high, blend.whose), (bias.low, bias.high, bias.whose));
+            if bias.whose == 0 {
                 continue;
             }
-            let own = || tiles.around(i, 6).filter(|(j, _)| leans[*j].whose == lean.whose);
-            let least = own().map(|(j, _)| leans[j].lean).fold(f32::MAX, f32::min);
-            let most = own().map(|(j, _)| leans[j].lean).fold(f32::MIN, f32::max);
-            prop_assert!(blend.lean >= least - 1e-5 && blend.lean <= most + 1e-5);
+            let own = || tiles.around(i, 6).filter(|(j, _)| biases[*j].whose == bias.whose);
+            let least = own().map(|(j, _)| biases[j].bias).fold(f32::MAX, f32::min);
+            let most = own().map(|(j, _)| biases[j].bias).fold(f32::MIN, f32::max);
+            prop_assert!(blend.bias >= least - 1e-5 && blend.bias <= most + 1e-5);
         }
     }
 
@@ -288,7 +288,7 @@ proptest! {
 #[test]
 fn two_walls_are_two_stretches() {
     let rules = Rules {
-        lean_px: 40.0,
+        bias_px: 40.0,
         ..rules().of_first_frame()
     };
     let size = [160, 4];
@@ -306,11 +306,11 @@ fn two_walls_are_two_stretches() {
         .map(|i| at(if i < 20 { 0.1 } else { 0.9 }))
         .collect();
     let tiles = Tiles { size, gathered };
-    let leans = tiles.leans(&rules, &tiles.none_before());
-    for (i, lean) in tiles.blended(&rules, &leans).iter().enumerate() {
+    let biases = tiles.biases(&rules, &tiles.none_before());
+    for (i, bias) in tiles.blended(&rules, &biases).iter().enumerate() {
         let want = if i < 20 { 0.1 } else { 0.9 };
-        assert_eq!((lean.low, lean.high), (want, want));
-        assert_eq!(lean.lean, if i < 20 { 1.0 } else { -1.0 });
+        assert_eq!((bias.low, bias.high), (want, want));
+        assert_eq!(bias.bias, if i < 20 { 1.0 } else { -1.0 });
     }
 }
 
@@ -318,7 +318,7 @@ fn two_walls_are_two_stretches() {
 #[test]
 fn a_pattern_is_one_wall() {
     let rules = Rules {
-        lean_px: 40.0,
+        bias_px: 40.0,
         ..rules().of_first_frame()
     };
     let gathered: Vec<TileRims> = (0..40)
@@ -340,12 +340,12 @@ fn a_pattern_is_one_wall() {
         size: [160, 4],
         gathered,
     };
-    let leans = tiles.leans(&rules, &tiles.none_before());
-    let blended = tiles.blended(&rules, &leans);
-    let grounds = blended.iter().map(|lean| Ground {
-        low: lean.low,
-        high: lean.high,
-        brighter: Some(0.5 + 0.5 * lean.lean),
+    let biases = tiles.biases(&rules, &tiles.none_before());
+    let blended = tiles.blended(&rules, &biases);
+    let grounds = blended.iter().map(|bias| Ground {
+        low: bias.low,
+        high: bias.high,
+        brighter: Some(0.5 + 0.5 * bias.bias),
     });
     let lines: Vec<f32> = grounds
         .map(|ground| {
@@ -365,22 +365,22 @@ fn a_pattern_is_one_wall() {
 
 #[test]
 fn pixels_take_the_lean_of_their_own_subject() {
-    let lean = |whose: u32, lean: f32| Lean {
-        lean,
+    let bias = |whose: u32, bias: f32| ContrastBias {
+        bias,
         whose,
-        ..Lean::default()
+        ..ContrastBias::default()
     };
-    let leans = [lean(1, 1.0), lean(2, -1.0)];
+    let biases = [bias(1, 1.0), bias(2, -1.0)];
     let size = [8, 4];
     for x in 0..8 {
         assert_eq!(
-            lean_between(&leans, size, 1, [x, 2]).map(|l| l.lean),
+            bias_between(&biases, size, 1, [x, 2]).map(|l| l.bias),
             (x < 6).then_some(1.0)
         );
         assert_eq!(
-            lean_between(&leans, size, 2, [x, 2]).map(|l| l.lean),
+            bias_between(&biases, size, 2, [x, 2]).map(|l| l.bias),
             (x > 1).then_some(-1.0)
         );
-        assert_eq!(lean_between(&leans, size, 3, [x, 2]), None);
+        assert_eq!(bias_between(&biases, size, 3, [x, 2]), None);
     }
 }

@@ -1,0 +1,29 @@
+//! Exact lines of a mesh as strokes; [`draw`] runs all of it.
+//!
+//! 1. Find curves on the mesh: [`contour`] between faces, [`zero_set`] across them, [`feature`], [`intersect`] and
+//!    [`polyline`]; [`graph`] holds them, linked.
+//! 2. Find what hides them: [`visibility`] with [`bvh`]; [`sample`] does it by samples, as devices do; [`puff`] adds
+//!    smoke.
+//! 3. Make strokes of what is seen: [`run`] cuts and samples it, [`relabel_intersections`], [`duplicates`], [`merge`],
+//!    [`overshoot`], [`corner`] and [`smooth`] tidy it.
+
+pub mod bvh;
+pub mod contour;
+pub mod corner;
+pub mod draw;
+pub mod duplicates;
+pub mod feature;
+pub mod graph;
+pub mod intersect;
+pub mod merge;
+mod near;
+pub mod overshoot;
+pub mod polyline;
+pub mod puff;
+pub mod relabel_intersections;
+pub mod run;
+pub mod sample;
+pub mod smooth;
+mod suppressed_edges;
+pub mod visibility;
+pub mod zero_set;

@@ -1,0 +1,253 @@
+//! From a shape and a camera to strokes.
+//!
+//! [`Prepared`] holds what does not depend on the camera; [`strokes`] does the rest for one view: it gathers the
+//! pieces of all lines, finds what is seen of them, joins what goes on, and smooths.
+
+mod paint;
+mod prepared;
+mod view;
+
+pub(crate) use paint::strokes_of;
+pub use paint::{PaintAt, PointPaint, StrokeLook};
+pub use prepared::{FindCrossings, Prepared};
+pub(crate) use view::OUTLINE_TOLERANCE_PX;
+
+use crate::mesh_lines::contour::{EdgeContours, Eye};
+use crate::mesh_lines::corner::split;
+use crate::mesh_lines::duplicates::{leave_out_short_fragments, suppress};
+use crate::mesh_lines::graph::CurveNode;
+use crate::mesh_lines::merge::{FACING_PX, TOUCHING_PX, merge_ends};
+use crate::mesh_lines::overshoot::cut_overshoot;
+use crate::mesh_lines::puff::SmokeLines;
+use crate::mesh_lines::relabel_intersections::relabel_intersections;
+use crate::mesh_lines::run::{Run, RunPoint, runs};
+use crate::mesh_lines::smooth::smooth;
+use crate::mesh_lines::suppressed_edges::{edges_beside, suppressed_edges};
+use crate::mesh_lines::visibility::{FaceImages, Seen};
+use crate::project::Projector;
+use crate::stroke::Stroke;
+use npr_core::budget::OverBudget;
+use npr_mesh::half_edge::HalfEdgeMesh;
+use paint::broken_up;
+use rayon::prelude::*;
+use view::{Toll, View};
+
+/// How contours are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Along mesh edges, exact for the polygons.
+    #[default]
+    Edges,
+    /// Where interpolated normals turn away, smooth.
+    Surface,
+}
+
+/// Which lines are wanted, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineSettings {
+    /// Width and height of the picture in pixels.
+    pub size: [u32; 2],
+    /// Bits of [`CurveNode::KINDS`].
+    pub kinds: u32,
+    /// How contours are found.
+    pub method: Method,
+    /// Smooths strokes, joins their ends, and leaves out what is too short to read.
+    pub smooth: bool,
+    /// Gives hidden lines too, with the number of surfaces in front.
+    pub hidden: bool,
+    /// Turn, in radians, from which strokes are cut at a corner; none never.
+    pub split: Option<f32>,
+    /// Most bytes that what is found of a view may take.
+    pub memory_limit: u64,
+}
+
+/// The lines of a view.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ViewStrokes {
+    /// The strokes; visible ones first where hidden ones are asked for, then by chain.
+    pub strokes: Vec<Stroke>,
+    /// Pieces of line that were left out because the paper under them was black already.
+    pub left_out: usize,
+}
+
+/// Up to how many surfaces in front of a hidden line are counted.
+const HIDDEN_COUNT_LIMIT: u32 = 255;
+
+/// The lines of a view as strokes; visible ones first where hidden ones are asked for, then by chain.
+///
+/// `width_at` gives the whole line width in pixels at a vertex of the shape. O(faces + lines log lines); most of
+/// the time goes into one sight for every span of every line. The memory limit of the settings does not count.
+///
+/// # Panics
+///
+/// Never: memory is not limited.
+pub fn strokes(
+    shape: &HalfEdgeMesh,
+    prepared: &Prepared,
+    projector: &Projector,
+    settings: &LineSettings,
+    width_at: &(dyn Fn(u32) -> f32 + Sync),
+) -> Vec<Stroke> {
+    let contours = EdgeContours::new(shape, &eye_of(shape, projector));
+    let smoke = None;
+    let look = StrokeLook {
+        width_at,
+        paint_at: None,
+    };
+    let settings = LineSettings {
+        memory_limit: u64::MAX,
+        ..settings.clone()
+    };
+    let found = strokes_with(
+        shape, prepared, projector, &settings, &contours, &look, smoke,
+    );
+    found.expect("no limit is set").strokes
+}
+
+/// The same, with the contours along edges found by the caller for [`eye_of`] the view, and among smoke.
+///
+/// Dense smoke hides lines of the shape and counts as one surface; its own outline comes after them. Where lines lie
+/// so close that the paper is black, further ones are left out: those over it whose edges have the greater hashes
+/// ([`hash_key`](crate::rank::hash_key)), whatever the number of threads.
+///
+/// # Errors
+///
+/// [`OverBudget`] where what is found would take more than the settings' limit.
+pub fn strokes_with(
+    shape: &HalfEdgeMesh,
+    prepared: &Prepared,
+    projector: &Projector,
+    settings: &LineSettings,
+    contours: &EdgeContours,
+    look: &StrokeLook<'_>,
+    smoke: Option<&SmokeLines<'_>>,
+) -> Result<ViewStrokes, OverBudget> {
+    let EdgeContours {
+        front,
+        graph: edge_contours,
+    } = contours;
+    let view = View {
+        shape,
+        prepared,
+        projector,
+        settings,
+        front,
+        covered: Vec::new(),
+    };
+    let mut toll = Toll::new(settings);
+    let outlines = view.outlines(edge_contours, &mut toll.budget)?;
+    let images = FaceImages::default();
+    let seen = Seen {
+        shape,
+        tree: &prepared.tree,
+        projector,
+        outlines: &outlines,
+        images: &images,
+        size: settings.size,
+        puffs: smoke
+            .filter(|smoke| smoke.is_dense)
+            .map(|smoke| smoke.puffs),
+        count_limit: if settings.hidden {
+            HIDDEN_COUNT_LIMIT
+        } else {
+            1
+        },
+    };
+    let wanted = settings.kinds | CurveNode::MARKED;
+    let contour_lines = view.lines(edge_contours, &seen, wanted, &mut toll)?;
+    let smooth_contours = view.smooth_contours(edge_contours, &contour_lines);
+    let contour_runs = match &smooth_contours {
+        Some((graph, lines)) => runs(shape, projector, graph, lines),
+        None => runs(shape, projector, edge_contours, &contour_lines),
+    };
+    let covered = smooth_contours.as_ref().map(|(graph, lines)| {
+        let mut covered = suppressed_edges(graph, lines);
+        covered.extend(edges_beside(lines, view.contour_features()));
+        covered.sort_unstable();
+        covered
+    });
+    let view = View {
+        covered: covered.unwrap_or_default(),
+        ..view
+    };
+    let others = [
+        &prepared.features,
+        &prepared.polylines,
+        &prepared.crossings.graph,
+    ];
+    let mut found = contour_runs;
+    for graph in others {
+        let lines = view.lines(graph, &seen, wanted, &mut toll)?;
+        found.extend(runs(shape, projector, graph, &lines));
+    }
+    let mut strokes = strokes_of_runs(found, shape, settings, look);
+    if let Some(smoke) = smoke {
+        let seen = Seen {
+            puffs: None,
+            ..seen
+        };
+        strokes.extend(smoke.strokes(&seen, settings));
+    }
+    strokes.sort_by_key(|stroke| stroke.occluders > 0);
+    Ok(ViewStrokes {
+        strokes,
+        left_out: toll.left_out,
+    })
+}
+
+/// The runs of a view as strokes, calmed and painted.
+fn strokes_of_runs(
+    mut found: Vec<Run>,
+    shape: &HalfEdgeMesh,
+    settings: &LineSettings,
+    look: &StrokeLook<'_>,
+) -> Vec<Stroke> {
+    found.retain(|run| settings.hidden || run.occluders == 0);
+    let mut found = calmed(found, settings);
+    if look.paint_at.is_some() {
+        found = broken_up(found);
+    }
+    strokes_of(found, &|run: &Run, point: &RunPoint| {
+        look.paint(shape, run, point)
+    })
+}
+
+/// Runs joined, cut at corners and smoothed, as far as the settings ask for it.
+pub(crate) fn calmed(mut found: Vec<Run>, settings: &LineSettings) -> Vec<Run> {
+    if settings.smooth {
+        found = merge_ends(relabel_intersections(found), TOUCHING_PX);
+    }
+    if let Some(least_turn) = settings.split {
+        found = split(found, least_turn);
+    }
+    if settings.smooth {
+        smooth(&mut found);
+        found = merge_ends(cut_overshoot(suppress(found)), FACING_PX);
+        smooth(&mut found);
+        found = leave_out_short_fragments(found);
+    }
+    found
+}
+
+/// The eye of a view, as decisions about facing read it. O(vertices), in parallel.
+pub fn eye_of(shape: &HalfEdgeMesh, projector: &Projector) -> Eye {
+    Eye::new(projector.eye(), extent_of(shape, projector))
+}
+
+/// Largest coordinate of the shape and the eye.
+fn extent_of(shape: &HalfEdgeMesh, projector: &Projector) -> f32 {
+    let [x, y, z, w] = projector.eye();
+    let eye = if w == 0.0 {
+        0.0
+    } else {
+        x.abs().max(y.abs()).max(z.abs()) as f32
+    };
+    let largest =
+        |extent: f32, p: &[f32; 3]| extent.max(p[0].abs()).max(p[1].abs()).max(p[2].abs());
+    let shape = shape
+        .positions
+        .par_chunks(1 << 16)
+        .map(|chunk| chunk.iter().fold(0.0, largest))
+        .reduce(|| 0.0, f32::max);
+    shape.max(eye)
+}

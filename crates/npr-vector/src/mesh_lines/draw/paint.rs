@@ -1,0 +1,111 @@
+//! How strokes look along themselves: runs as strokes, with colours and widths.
+
+use crate::mesh_lines::run::{Run, RunPoint, distance};
+use crate::mesh_lines::smooth::between;
+use crate::stroke::{Kind, Stroke, StrokePoint};
+use npr_mesh::half_edge::HalfEdgeMesh;
+use rayon::prelude::*;
+
+/// What a point of a stroke is drawn with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointPaint {
+    /// Colour, sRGB bytes and alpha; none for that of its surface.
+    pub color: Option<[u8; 4]>,
+    /// Factor on its width.
+    pub width: f64,
+}
+
+/// What is drawn at a point of a stroke of a kind on a surface.
+pub type PaintAt<'a> = &'a (dyn Fn(Kind, u32, &RunPoint) -> PointPaint + Sync);
+
+/// How strokes look along themselves.
+#[derive(Clone, Copy)]
+pub struct StrokeLook<'a> {
+    /// Whole line width in pixels at a vertex of the shape.
+    pub width_at: &'a (dyn Fn(u32) -> f32 + Sync),
+    /// Colours and factors on widths, where they change from place to place. Long pieces get more points then.
+    pub paint_at: Option<PaintAt<'a>>,
+}
+
+impl StrokeLook<'_> {
+    /// Colour and whole width in pixels at a point of a run.
+    pub(crate) fn paint(&self, shape: &HalfEdgeMesh, run: &Run, point: &RunPoint) -> PointPaint {
+        let (vertices, shares) = point.location.place(shape, point.world);
+        let width: f64 = (0..3)
+            .filter(|i| shares[*i] > 0.0)
+            .map(|i| f64::from((self.width_at)(vertices[i])) * shares[i])
+            .sum();
+        let width = width * run.weight;
+        let paint = self
+            .paint_at
+            .map_or(PLAIN, |paint_at| paint_at(run.kind, run.surface, point));
+        PointPaint {
+            width: width * paint.width,
+            ..paint
+        }
+    }
+}
+
+/// Pieces longer than this, in pixels, are broken up where colours change from place to place.
+const PAINT_STEP_PX: f64 = 6.0;
+/// Nothing changes.
+const PLAIN: PointPaint = PointPaint {
+    color: None,
+    width: 1.0,
+};
+
+/// Runs with no piece longer than [`PAINT_STEP_PX`].
+pub(super) fn broken_up(runs: Vec<Run>) -> Vec<Run> {
+    let broken = |run: Run| {
+        let back = run.points.first().copied().filter(|_| run.closed);
+        let next = run.points.iter().skip(1).copied().chain(back);
+        let mut points = Vec::with_capacity(run.points.len());
+        for (from, to) in run.points.iter().zip(next) {
+            points.push(*from);
+            let count = (distance(from.place, to.place) / PAINT_STEP_PX).ceil();
+            let steps = 1..count.clamp(1.0, 1e4) as u32;
+            points.extend(steps.map(|i| between(from, &to, f64::from(i) / count)));
+        }
+        if !run.closed {
+            points.extend(run.points.last());
+        }
+        Run { points, ..run }
+    };
+    runs.into_par_iter().with_min_len(16).map(broken).collect()
+}
+
+/// Runs as strokes, in their order; `paint_at` gives colour and whole width in pixels at a point of a run.
+pub(crate) fn strokes_of(
+    runs: Vec<Run>,
+    paint_at: &(dyn Fn(&Run, &RunPoint) -> PointPaint + Sync),
+) -> Vec<Stroke> {
+    let runs = runs.into_par_iter().with_min_len(16);
+    runs.map(|run| stroke_of(&run, paint_at)).collect()
+}
+
+fn stroke_of(run: &Run, paint_at: &(dyn Fn(&Run, &RunPoint) -> PointPaint + Sync)) -> Stroke {
+    let mut u = 0.0;
+    let mut last = run.points.first().map(|point| point.place);
+    let points = run.points.iter().enumerate().map(|(index, point)| {
+        u += last.map_or(0.0, |last| distance(last, point.place));
+        last = Some(point.place);
+        let location = run.location_at(index);
+        let paint = paint_at(run, &RunPoint { location, ..*point });
+        StrokePoint {
+            position: point.place,
+            depth: point.depth,
+            width: paint.width,
+            u,
+            world: point.world.as_vec3().to_array(),
+            color: paint.color,
+        }
+    });
+    Stroke {
+        id: run.id,
+        kind: run.kind,
+        occluders: run.occluders,
+        surface: run.surface,
+        closed: run.closed,
+        points: points.collect(),
+    }
+}

@@ -1,0 +1,114 @@
+//! What is known of a shape's lines before there is a camera.
+
+use crate::mesh_lines::bvh::FaceTree;
+use crate::mesh_lines::feature::features;
+use crate::mesh_lines::graph::CurveGraph;
+use crate::mesh_lines::intersect::Crossings;
+use crate::mesh_lines::polyline::{polylines, touch};
+use crate::mesh_lines::zero_set::CornerNormals;
+use npr_core::budget::{Budget, OverBudget};
+use npr_core::crease::Creases;
+use npr_mesh::half_edge::HalfEdgeMesh;
+use std::sync::OnceLock;
+
+/// What can be known of a shape's lines before there is a camera.
+#[derive(Debug)]
+pub struct Prepared {
+    /// The faces, for sights.
+    pub tree: FaceTree,
+    /// Boundaries, creases, material borders and marked edges, linked.
+    pub features: CurveGraph,
+    /// Where surfaces cut through each other.
+    pub crossings: Crossings,
+    /// Lines that are geometry themselves, linked.
+    pub polylines: CurveGraph,
+    /// How near to a face they may lie without being hidden by it.
+    pub(super) touch: f64,
+    /// Edges that can hide something in every view: boundaries, and edges of more than two faces.
+    pub(super) rims: Vec<u32>,
+    /// For every object, whether it has a boundary, so that backs of faces may be seen.
+    is_open: Vec<bool>,
+    /// Which edges are creases.
+    creases: Creases,
+    /// Whether `crossings` are known; else every view looks for those of its own lines.
+    pub(super) has_crossings: bool,
+    /// Smooth normals, once they are asked for.
+    normals: OnceLock<CornerNormals>,
+}
+
+/// Finds where faces of a shape cut through each other, with its faces in a tree.
+pub type FindCrossings<'a> = dyn Fn(&FaceTree) -> Result<Crossings, OverBudget> + 'a;
+
+impl Prepared {
+    /// Prepares a shape with the creases asked for.
+    ///
+    /// Intersections cost more than the rest together, and are needed only as lines: without them, a view finds for
+    /// itself where its lines go through faces.
+    ///
+    /// # Panics
+    ///
+    /// Never: memory is not limited. [`Prepared::with_crossings`] leaves limits to whoever finds intersections.
+    pub fn new(shape: &HalfEdgeMesh, creases: impl Into<Creases>, with_crossings: bool) -> Self {
+        let find: &FindCrossings<'_> = &|tree| {
+            let mut budget = Budget::new(u64::MAX);
+            crate::mesh_lines::intersect::crossings(shape, tree, &mut budget)
+        };
+        let find = with_crossings.then_some(find);
+        Self::with_crossings(shape, creases.into(), find).expect("no limit is set")
+    }
+
+    /// The same with intersections from elsewhere: within a limit of memory, or from a file that kept those of this
+    /// shape.
+    ///
+    /// # Errors
+    ///
+    /// Those of `find`.
+    pub fn with_crossings(
+        shape: &HalfEdgeMesh,
+        creases: Creases,
+        find: Option<&FindCrossings<'_>>,
+    ) -> Result<Self, OverBudget> {
+        let (tree, features) = rayon::join(|| FaceTree::new(shape), || features(shape, creases));
+        let crossings = match find {
+            Some(find) => find(&tree)?,
+            None => Crossings::default(),
+        };
+        let odd = HalfEdgeMesh::BOUNDARY | HalfEdgeMesh::NON_MANIFOLD;
+        let rims: Vec<u32> = (0..shape.edge_count() as u32)
+            .filter(|edge| shape.edge_traits[*edge as usize] & odd != 0)
+            .collect();
+        let mut is_open = Vec::new();
+        for edge in &rims {
+            let object = object_of(shape, shape.sides(*edge)[0] / 3) as usize;
+            is_open.resize(is_open.len().max(object + 1), false);
+            is_open[object] = true;
+        }
+        Ok(Self {
+            tree,
+            features,
+            crossings,
+            polylines: polylines(shape),
+            touch: touch(shape),
+            rims,
+            is_open,
+            creases,
+            has_crossings: find.is_some(),
+            normals: OnceLock::new(),
+        })
+    }
+
+    /// Smooth normals at the corners of the shape's faces, made when first asked for.
+    pub fn corner_normals(&self, shape: &HalfEdgeMesh) -> &CornerNormals {
+        self.normals
+            .get_or_init(|| CornerNormals::new(shape, self.creases))
+    }
+
+    pub(super) fn may_show_backs(&self, shape: &HalfEdgeMesh, face: u32) -> bool {
+        let object = object_of(shape, face) as usize;
+        self.is_open.get(object).copied().unwrap_or(false)
+    }
+}
+
+fn object_of(shape: &HalfEdgeMesh, face: u32) -> u32 {
+    shape.surfaces[shape.face_surfaces[face as usize] as usize].object
+}

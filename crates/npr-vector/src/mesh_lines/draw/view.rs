@@ -1,0 +1,372 @@
+//! The pieces of all lines in one view of a shape, and what is seen of them.
+
+use super::{LineSettings, Method, Prepared};
+use crate::mesh_lines::feature::kind_in_view;
+use crate::mesh_lines::graph::{CurveGraph, CurveNode};
+use crate::mesh_lines::run::Line;
+use crate::mesh_lines::visibility::{
+    Circumstances, FaceImages, Ink, Memory, OutlineGrid, Piece, Seen, Span,
+};
+use crate::mesh_lines::zero_set::{PolygonOutline, SeenContour, zero_set};
+use crate::project::Projector;
+use crate::rank::hash_key;
+use crate::stroke::Kind;
+use npr_core::budget::{Budget, OverBudget};
+use npr_core::geometry::NONE;
+use npr_mesh::half_edge::HalfEdgeMesh;
+use rayon::prelude::*;
+
+/// How far smooth contours may leave the polygons' outline, in pixels.
+pub(crate) const OUTLINE_TOLERANCE_PX: f64 = 2.0;
+
+/// Crowded pieces looked at between two looks at the ink on the paper.
+const ROUND: usize = 256;
+
+/// What a view has used up.
+pub(super) struct Toll {
+    pub(super) budget: Budget,
+    ink: Ink,
+    pub(super) left_out: usize,
+    /// Whether boxes of faces have been paid for.
+    has_images: bool,
+}
+
+impl Toll {
+    pub(super) fn new(settings: &LineSettings) -> Self {
+        Self {
+            budget: Budget::new(settings.memory_limit),
+            ink: Ink::new(settings.size),
+            left_out: 0,
+            has_images: false,
+        }
+    }
+}
+
+/// One view of a shape.
+pub(super) struct View<'a> {
+    pub(super) shape: &'a HalfEdgeMesh,
+    pub(super) prepared: &'a Prepared,
+    pub(super) projector: &'a Projector,
+    pub(super) settings: &'a LineSettings,
+    pub(super) front: &'a [u8],
+    /// Edges that smooth contours run along or beside, ascending; they need no other line.
+    pub(super) covered: Vec<u32>,
+}
+
+impl View<'_> {
+    /// Everything that can begin or end hiding something: contours, boundaries, and edges of more than two faces.
+    pub(super) fn outlines(
+        &self,
+        contours: &CurveGraph,
+        budget: &mut Budget,
+    ) -> Result<OutlineGrid, OverBudget> {
+        let lists = [&contours.nodes, &self.prepared.features.nodes].map(Vec::len);
+        let most = lists[0] + lists[1] + self.prepared.rims.len();
+        budget.take("outlines", most, size_of::<Piece>())?;
+        let loops = contours
+            .nodes
+            .par_iter()
+            .with_min_len(1024)
+            .filter(|node| node.flags & CurveNode::CONTOUR != 0)
+            .filter_map(|node| self.edge_piece(node.edge));
+        let odd = self
+            .prepared
+            .features
+            .nodes
+            .par_iter()
+            .with_min_len(1024)
+            .filter(|node| node.next != NONE && self.kinds_of(node) & CurveNode::CONTOUR != 0)
+            .filter_map(|node| self.edge_piece(node.edge));
+        let rims = self
+            .prepared
+            .rims
+            .par_iter()
+            .with_min_len(1024)
+            .filter_map(|edge| self.edge_piece(*edge));
+        let pieces = loops.chain(odd).chain(rims).collect();
+        OutlineGrid::new(self.settings.size, pieces, budget)
+    }
+
+    /// Feature edges that are contours of the polygons in this view.
+    pub(super) fn contour_features(&self) -> impl Iterator<Item = (u32, Piece)> {
+        let edges = self.prepared.features.nodes.iter().map(|node| node.edge);
+        edges.filter_map(|edge| {
+            let sides = self.shape.sides(edge);
+            let fronts = sides
+                .iter()
+                .filter(|side| self.front[**side as usize / 3] != 0);
+            let is_contour = sides.len() == 2 && fronts.count() == 1;
+            Some((edge, is_contour.then(|| self.edge_piece(edge)).flatten()?))
+        })
+    }
+
+    fn edge_piece(&self, edge: u32) -> Option<Piece> {
+        let [a, b] = self.shape.ends(edge).map(|v| self.shape.point(v));
+        Piece::new(self.projector, self.settings.size, a, b)
+    }
+
+    /// The kinds of the piece after a node in this view.
+    fn kinds_of(&self, node: &CurveNode) -> u32 {
+        let feature = CurveNode::KINDS & !(CurveNode::CONTOUR | CurveNode::INTERSECTION);
+        let in_loop = node.flags & (CurveNode::CONTOUR | CurveNode::SEAM | CurveNode::INTERSECTION);
+        if in_loop != 0 || self.shape.polyline_of(node.edge).is_some() {
+            return node.flags & CurveNode::KINDS;
+        }
+        let flags = node.flags & feature;
+        // Smooth contours follow only some of the edges that turn away.
+        let has_line = match self.settings.method {
+            Method::Edges => self.settings.kinds & CurveNode::CONTOUR != 0,
+            Method::Surface => self.covered.binary_search(&node.edge).is_ok(),
+        };
+        let flags = kind_in_view(self.shape, self.front, node.edge, flags, has_line);
+        let sides = self.shape.sides(node.edge);
+        let backs = sides.iter().all(|side| self.front[*side as usize / 3] == 0);
+        let unseen = !self.settings.hidden && !self.prepared.may_show_backs(self.shape, node.face);
+        if backs && sides.len() == 2 && unseen {
+            return flags & CurveNode::CONTOUR;
+        }
+        flags
+    }
+
+    /// What is drawn of every node of a graph, and what is seen of it.
+    pub(super) fn lines(
+        &self,
+        graph: &CurveGraph,
+        seen: &Seen<'_>,
+        wanted: u32,
+        toll: &mut Toll,
+    ) -> Result<Vec<Option<Line>>, OverBudget> {
+        let count = graph.nodes.len();
+        toll.budget
+            .take("lines of a view", count, size_of::<Option<Line>>())?;
+        let mut lines: Vec<Option<Line>> = graph
+            .nodes
+            .par_iter()
+            .with_min_len(64)
+            .map_init(Memory::default, |memory, node| {
+                self.line(graph, node, seen, wanted, memory)
+            })
+            .collect();
+        let spans = lines.iter().flatten().map(|line| line.spans.len()).sum();
+        toll.budget
+            .take("parts of lines", spans, size_of::<Span>())?;
+        self.add_crowded(graph, seen, &mut lines, toll)?;
+        Ok(lines)
+    }
+
+    /// Finds what is seen of crowded lines, those with the least hashes of their edges first, until the paper under
+    /// the others is black.
+    fn add_crowded(
+        &self,
+        graph: &CurveGraph,
+        seen: &Seen<'_>,
+        lines: &mut [Option<Line>],
+        toll: &mut Toll,
+    ) -> Result<(), OverBudget> {
+        let is_crowded = |line: &Option<Line>| line.as_ref().is_some_and(|l| l.spans.is_empty());
+        let mut crowded: Vec<usize> = (0..lines.len())
+            .filter(|index| is_crowded(&lines[*index]))
+            .collect();
+        if crowded.is_empty() {
+            return Ok(());
+        }
+        if !toll.has_images {
+            let (count, bytes) = (self.shape.faces.len(), FaceImages::BYTES_PER_FACE);
+            toll.budget.take("boxes of faces", count, bytes)?;
+            toll.has_images = true;
+            seen.prepare();
+        }
+        crowded.sort_unstable_by_key(|index| (hash_key(graph.nodes[*index].edge), *index));
+        for round in crowded.chunks(ROUND) {
+            // What is left out hangs on the rounds before alone, so on no thread.
+            let found: Vec<Option<Vec<Span>>> = round
+                .par_iter()
+                .map_init(Memory::default, |memory, index| {
+                    let piece = lines[*index].as_ref().map(|line| &line.piece)?;
+                    let node = &graph.nodes[*index];
+                    let other = graph.nodes.get(node.next as usize)?;
+                    let black = toll.ink.black_parts(piece);
+                    let is_free = black != [[0.0, 1.0]];
+                    let of_piece = || self.circumstances(node, other, true);
+                    is_free.then(|| seen.crowded_spans(piece, &of_piece(), &black, memory))
+                })
+                .collect();
+            for (index, spans) in round.iter().zip(found) {
+                let (Some(line), Some(spans)) = (&mut lines[*index], spans) else {
+                    lines[*index] = None;
+                    toll.left_out += 1;
+                    continue;
+                };
+                toll.budget
+                    .take("parts of lines", spans.len(), size_of::<Span>())?;
+                toll.ink.draw(&line.piece, &spans, self.settings.hidden);
+                line.spans = spans;
+            }
+        }
+        Ok(())
+    }
+
+    /// What is drawn of a node; of a crowded one without what is seen of it.
+    fn line(
+        &self,
+        graph: &CurveGraph,
+        node: &CurveNode,
+        seen: &Seen<'_>,
+        wanted: u32,
+        memory: &mut Memory,
+    ) -> Option<Line> {
+        let kinds = self.kinds_of(node) & wanted;
+        let kind = first_kind(kinds)?;
+        let concave = node.flags & CurveNode::CONCAVE != 0;
+        if concave && !self.prepared.may_show_backs(self.shape, node.face) {
+            return None;
+        }
+        let (piece, other) = self.piece_after(graph, node)?;
+        let spans: Vec<Span> = match seen.outlines.is_crowded(&piece) {
+            true => Vec::new(),
+            false => seen.spans(&piece, &self.circumstances(node, other, false), memory),
+        };
+        let surface = match self.shape.polyline_of(node.edge) {
+            Some(polyline) => self.shape.polyline_surfaces[polyline],
+            None => self.shape.face_surfaces[node.face as usize],
+        };
+        Some(Line {
+            kind,
+            surface,
+            piece,
+            spans,
+        })
+    }
+
+    /// The piece after a node, with the node it runs to; none where the line ends or nothing is in the frame.
+    fn piece_after<'g>(
+        &self,
+        graph: &'g CurveGraph,
+        node: &CurveNode,
+    ) -> Option<(Piece, &'g CurveNode)> {
+        // The end of an open line names no node.
+        let other = graph.nodes.get(node.next as usize)?;
+        let [a, b] = [node, other].map(|node| self.shape.point_on(node.edge, node.t));
+        let piece = Piece::new(self.projector, self.settings.size, a, b)?;
+        Some((piece, other))
+    }
+
+    /// Where the piece along the edge of a node goes through faces, from its start.
+    fn piercings(&self, node: &CurveNode) -> Vec<f64> {
+        let up = node.t < 0.5;
+        if self.prepared.has_crossings && self.shape.polyline_of(node.edge).is_none() {
+            let known = self.prepared.crossings.of_edge(node.edge).iter();
+            return known
+                .map(|p| f64::from(if up { p.t } else { 1.0 - p.t }))
+                .collect();
+        }
+        let [low, high] = self.shape.ends(node.edge);
+        let ends = if up { [low, high] } else { [high, low] };
+        self.prepared.tree.piercings(self.shape, ends)
+    }
+
+    /// The smooth contours of the view with what is seen of them, where they are asked for.
+    pub(super) fn smooth_contours(
+        &self,
+        contours: &CurveGraph,
+        lines: &[Option<Line>],
+    ) -> Option<(CurveGraph, Vec<Option<Line>>)> {
+        if self.settings.method == Method::Edges {
+            return None;
+        }
+        let prepared = self.prepared;
+        let normals = prepared.corner_normals(self.shape);
+        let convex = contours.nodes.iter().zip(lines).filter_map(|(node, line)| {
+            let line = line.as_ref()?;
+            (node.flags & CurveNode::CONCAVE == 0).then_some((node, line))
+        });
+        let seen: Vec<SeenContour> = convex
+            .flat_map(|(node, line)| {
+                SeenContour::of_piece(self.projector, node, &line.piece, &line.spans)
+            })
+            .collect();
+        let outline = PolygonOutline::new(
+            (self.shape, normals),
+            (self.projector, self.settings.size),
+            self.front,
+            &seen,
+            OUTLINE_TOLERANCE_PX,
+        );
+        let graph = zero_set(
+            self.shape,
+            normals,
+            self.projector.eye(),
+            &outline.flat_faces(),
+        );
+        let pieces: Vec<Option<Piece>> = graph
+            .nodes
+            .iter()
+            .map(|node| {
+                // Its own surface hides a concave piece.
+                let shows = node.flags & CurveNode::CONCAVE == 0;
+                let piece = shows.then(|| self.piece_after(&graph, node)).flatten()?;
+                Some(piece.0)
+            })
+            .collect();
+        let spans = outline.spans(&graph, &pieces);
+        let line = |(node, (piece, spans)): (&CurveNode, (&Option<Piece>, Vec<Span>))| {
+            let piece = (*piece)?;
+            let surface = self.shape.face_surfaces[node.face as usize];
+            (!spans.is_empty()).then_some(Line {
+                kind: Kind::Contour,
+                surface,
+                piece,
+                spans,
+            })
+        };
+        let lines = graph
+            .nodes
+            .iter()
+            .zip(pieces.iter().zip(spans))
+            .map(line)
+            .collect();
+        Some((graph, lines))
+    }
+
+    /// Faces that a piece lies in, and where it goes through others, which a crowded piece need not know.
+    fn circumstances(
+        &self,
+        node: &CurveNode,
+        other: &CurveNode,
+        is_crowded: bool,
+    ) -> Circumstances {
+        let mut own_faces: Vec<u32> = self
+            .shape
+            .sides(node.edge)
+            .iter()
+            .map(|side| side / 3)
+            .collect();
+        if node.is_along_edge() {
+            let is_wire = self.shape.polyline_of(node.edge).is_some();
+            return Circumstances {
+                piercings: if is_crowded {
+                    Vec::new()
+                } else {
+                    self.piercings(node)
+                },
+                own_faces,
+                touch: if is_wire { self.prepared.touch } else { 0.0 },
+            };
+        }
+        own_faces.extend(self.shape.sides(other.edge).iter().map(|side| side / 3));
+        own_faces.push(node.face);
+        for end in [node, other] {
+            let pierced = self.prepared.crossings.at(end.edge, end.t).iter();
+            own_faces.extend(pierced.map(|p| p.face));
+        }
+        Circumstances {
+            own_faces,
+            ..Circumstances::default()
+        }
+    }
+}
+
+/// The kind that a piece of several kinds is drawn as.
+fn first_kind(kinds: u32) -> Option<Kind> {
+    Kind::ALL.into_iter().find(|kind| kinds & kind.bit() != 0)
+}

@@ -1,0 +1,558 @@
+//! Leaves out what would be inked twice.
+//!
+//! Where a mesh is noisy its contour doubles back, and a cusp grows a fringe of hairs beside the line it ends. Runs
+//! are taken from the longest to the shortest; what lies beside a run already taken, and along it, is cut away.
+
+use crate::mesh_lines::near::{cell_of, cells_within};
+use crate::mesh_lines::run::{Run, RunPoint, distance};
+use foldhash::fast::FixedState;
+use std::collections::{BTreeSet, HashMap};
+
+/// Within this distance of a longer run a sample is a double, in pixels.
+const BESIDE_PX: f64 = 2.25;
+
+/// Width of the pen that draws the lines, in pixels: within it of a line there is ink already.
+const PEN_PX: f64 = 3.0;
+
+/// Cosine of the largest angle at which lines count as running along each other.
+const ALONG_COS: f64 = 0.8;
+
+/// A run may come this near to itself, measured along it, in pixels.
+const OWN_PX: f64 = 12.0;
+
+/// On how many samples on either side the majority decides.
+const MAJORITY: usize = 3;
+
+/// What is left of a run after cutting must have this many samples.
+const LEAST_SAMPLES: usize = 2;
+
+/// How many samples after one decide whether it is drawn: the majorities of as many as must be left in a row.
+const SETTLING: usize = MAJORITY + LEAST_SAMPLES - 1;
+
+/// How many samples beyond a cut are kept, so that what is left reaches the line it ran into.
+const OVERLAP: usize = 2;
+
+/// A run shorter than this, all of it beside a longer one in any direction, is a hair, in pixels.
+const HAIR_PX: f64 = 12.0;
+
+/// Runs without doubles; order is kept. Runs must be sampled about evenly.
+///
+/// What is left of a run is cut by majority, so that noise leaves no shreds, but not where it holds two ends
+/// together: a short bare part between the ends of two lines stays, however little it is. O(samples) for lines that
+/// do not crowd in one place.
+pub fn suppress(runs: Vec<Run>) -> Vec<Run> {
+    let mut taken = Taken::default();
+    let mut kept: Vec<Vec<Run>> = vec![Vec::new(); runs.len()];
+    for (index, length) in longest_first(&runs) {
+        let run = &runs[index];
+        if length < HAIR_PX && !run.closed && taken.surrounds(run) {
+            continue;
+        }
+        let doubled = taken.doubled(run, index);
+        kept[index] = parts(run, &doubled);
+    }
+    kept.into_iter().flatten().collect()
+}
+
+/// Runs without the fragments that add less ink than half the pen's width to longer runs; order is kept.
+///
+/// A run is left out if less than 1.5 pixels of it lie farther than 3 from longer runs that stay. Runs away from
+/// others, those that hold two ends together, parts cut at corners, and the longest run of every object always stay.
+/// Runs must be sampled about evenly. O(samples) for lines that do not crowd in one place.
+pub fn leave_out_short_fragments(mut runs: Vec<Run>) -> Vec<Run> {
+    let mut taken = Taken::default();
+    let mut objects = BTreeSet::new();
+    let mut stays = vec![true; runs.len()];
+    for (index, length) in longest_first(&runs) {
+        let run = &runs[index];
+        let is_first = objects.insert((run.object, run.occluders > 0));
+        if !is_first && run.cut == [false; 2] && !taken.joins_ends(run) {
+            let bare = run.points.iter().filter(|p| !taken.inks(run, p.place));
+            stays[index] = bare.count() as f64 * length >= 0.5 * PEN_PX * run.points.len() as f64;
+        }
+        if stays[index] {
+            taken.take(run, index);
+        }
+    }
+    let mut stays = stays.into_iter();
+    runs.retain(|_| stays.next().unwrap_or(true));
+    runs
+}
+
+/// Indices and lengths of runs, from the longest to the shortest.
+fn longest_first(runs: &[Run]) -> Vec<(usize, f64)> {
+    let mut order: Vec<(usize, f64)> = runs.iter().map(Run::length).enumerate().collect();
+    order.sort_by(|(a, length_a), (b, length_b)| {
+        length_b
+            .total_cmp(length_a)
+            .then(runs[*a].id.cmp(&runs[*b].id))
+            .then(a.cmp(b))
+    });
+    order
+}
+
+/// A sample of a run that is drawn.
+#[derive(Clone, Copy)]
+struct Sample {
+    place: [f64; 2],
+    along: [f64; 2],
+    run: usize,
+    /// Distance from the start of its run, in pixels.
+    at: f64,
+    occluded: bool,
+    /// The end of its run that it lies within a pen's width of.
+    tip: Option<Tip>,
+}
+
+/// An end of a run: the number of the run, and whether it is the last.
+type Tip = (usize, bool);
+
+/// The samples of all runs taken so far, in cells.
+#[derive(Default)]
+struct Taken {
+    cells: HashMap<[i64; 2], Vec<Sample>, FixedState>,
+}
+
+impl Taken {
+    /// Which samples of a run lie along something taken, by majority; takes those beside nothing that are drawn.
+    ///
+    /// A sample beside nothing may be cut away with most around it. It is not taken: what is cut away for lying beside
+    /// it would lie beside nothing that is drawn.
+    fn doubled(&mut self, run: &Run, index: usize) -> Vec<bool> {
+        let samples = samples(run, index);
+        let mut beside: Vec<Option<Option<Tip>>> = Vec::with_capacity(samples.len());
+        for i in 0..samples.len() + SETTLING {
+            if let Some(sample) = samples.get(i) {
+                let is_beside = |other: &Sample| {
+                    let apart = other.run != index || sample.at - other.at > OWN_PX;
+                    let [a, b] = [sample.along, other.along];
+                    let cos = a[0] * b[0] + a[1] * b[1];
+                    other.occluded == sample.occluded && apart && cos.abs() > ALONG_COS
+                };
+                let nearest = self.nearest(sample.place, BESIDE_PX, is_beside);
+                beside.push(nearest.map(|other| other.tip));
+            }
+            // Later samples of this run are compared with this one.
+            let settled = i.checked_sub(SETTLING);
+            let is_taken = |i: &usize| beside[*i].is_none() && is_drawn(&beside, *i);
+            if let Some(settled) = settled.filter(is_taken) {
+                self.add(samples[settled]);
+            }
+        }
+        (0..beside.len()).map(|i| is_cut(&beside, i)).collect()
+    }
+
+    fn add(&mut self, sample: Sample) {
+        let cell = self.cells.entry(cell_of(sample.place, PEN_PX)).or_default();
+        cell.push(sample);
+    }
+
+    /// Takes all samples of a run.
+    fn take(&mut self, run: &Run, index: usize) {
+        samples(run, index)
+            .into_iter()
+            .for_each(|sample| self.add(sample));
+    }
+
+    /// Whether the pen that drew what is taken has touched a place of a run.
+    fn inks(&self, run: &Run, place: [f64; 2]) -> bool {
+        self.nearest(place, PEN_PX, |other| other.occluded == (run.occluders > 0))
+            .is_some()
+    }
+
+    /// Whether a run that adds no ink leads from an end of something taken to another end, with nothing else to run
+    /// along.
+    fn joins_ends(&self, run: &Run) -> bool {
+        let tip = |point: &RunPoint| {
+            let is_tip =
+                |other: &Sample| other.tip.is_some() && other.occluded == (run.occluders > 0);
+            self.nearest(point.place, PEN_PX, is_tip)?.tip
+        };
+        let [Some(first), Some(last)] =
+            [&run.points[0], &run.points[run.points.len() - 1]].map(tip)
+        else {
+            return false;
+        };
+        // A pen's width at each end is inked by what ends there; any longer, more lines lie beside it.
+        !run.closed && first != last && run.length() < 2.5 * PEN_PX
+    }
+
+    /// Whether something taken lies beside every sample but one in five.
+    fn surrounds(&self, run: &Run) -> bool {
+        let beside = |place| {
+            self.nearest(place, BESIDE_PX, |other| {
+                other.occluded == (run.occluders > 0)
+            })
+            .is_some()
+        };
+        let count = run
+            .points
+            .iter()
+            .filter(|point| beside(point.place))
+            .count();
+        5 * count >= 4 * run.points.len()
+    }
+
+    /// The nearest sample within a reach of at most the pen's width; of equally near ones the one taken first in its
+    /// cell.
+    fn nearest(
+        &self,
+        place: [f64; 2],
+        reach: f64,
+        is: impl Fn(&Sample) -> bool,
+    ) -> Option<&Sample> {
+        let around = cells_within(place, reach, PEN_PX).filter_map(|cell| self.cells.get(&cell));
+        // Most samples of the cells are too far, which needs no root.
+        let most = reach * reach * (1.0 + 1e-9);
+        let is_near = |other: &&Sample| {
+            let [dx, dy] = [0, 1].map(|i| other.place[i] - place[i]);
+            dx * dx + dy * dy <= most
+        };
+        around
+            .flatten()
+            .filter(is_near)
+            .map(|other| (distance(other.place, place), other))
+            .filter(|(apart, other)| *apart < reach && is(other))
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, other)| other)
+    }
+}
+
+/// Unit direction of a run at every point.
+fn directions(run: &Run) -> Vec<[f64; 2]> {
+    let count = run.points.len();
+    (0..count)
+        .map(|i| {
+            let (a, b) = if run.closed {
+                ((i + count - 1) % count, (i + 1) % count)
+            } else {
+                (i.saturating_sub(1), (i + 1).min(count - 1))
+            };
+            let (a, b) = (run.points[a].place, run.points[b].place);
+            let length = distance(a, b).max(1e-12);
+            [(b[0] - a[0]) / length, (b[1] - a[1]) / length]
+        })
+        .collect()
+}
+
+/// Distance of every point from the start.
+fn stations(run: &Run) -> Vec<f64> {
+    let mut at = 0.0;
+    let steps = run.points.windows(2).map(|pair| {
+        at += distance(pair[0].place, pair[1].place);
+        at
+    });
+    std::iter::once(0.0).chain(steps).collect()
+}
+
+/// The points of a run, of a number, as samples.
+fn samples(run: &Run, index: usize) -> Vec<Sample> {
+    let (stations, length) = (stations(run), run.length());
+    let tip = |at: f64| match run.closed {
+        false if at < PEN_PX => Some((index, false)),
+        false if length - at < PEN_PX => Some((index, true)),
+        _ => None,
+    };
+    let points = run.points.iter().zip(directions(run)).zip(stations);
+    points
+        .map(|((point, along), at)| Sample {
+            place: point.place,
+            along,
+            run: index,
+            at,
+            occluded: run.occluders > 0,
+            tip: tip(at),
+        })
+        .collect()
+}
+
+/// Whether most samples around one are beside something, and it holds no two ends together.
+fn is_cut(beside: &[Option<Option<Tip>>], index: usize) -> bool {
+    let window = &beside[index.saturating_sub(MAJORITY)..(index + MAJORITY + 1).min(beside.len())];
+    let count = window.iter().filter(|beside| beside.is_some()).count();
+    2 * count > window.len() && !holds_ends(beside, index)
+}
+
+/// Whether a sample lies in a part beside nothing that holds two ends together: before and after the part, the run is
+/// beside an end, and not the same one.
+fn holds_ends(beside: &[Option<Option<Tip>>], index: usize) -> bool {
+    let before = beside[..=index].iter().rev().find_map(|tip| *tip);
+    let after = beside[index..].iter().find_map(|tip| *tip);
+    match (beside[index], before.flatten(), after.flatten()) {
+        (None, Some(before), Some(after)) => before != after,
+        _ => false,
+    }
+}
+
+/// Whether a sample is one of enough in a row that are not cut away. Those within [`SETTLING`] of it decide.
+fn is_drawn(beside: &[Option<Option<Tip>>], index: usize) -> bool {
+    let rows = (index + 1).saturating_sub(LEAST_SAMPLES)..=index;
+    rows.map(|from| from..from + LEAST_SAMPLES)
+        .filter(|row| row.end <= beside.len())
+        .any(|mut row| row.all(|i| !is_cut(beside, i)))
+}
+
+/// What is left of a run.
+fn parts(run: &Run, doubled: &[bool]) -> Vec<Run> {
+    if !doubled.contains(&true) {
+        return vec![run.clone()];
+    }
+    let count = run.points.len();
+    // Start a closed run at a double, so that no part runs over its seam.
+    let start = if run.closed {
+        doubled.iter().position(|d| *d).unwrap_or(0)
+    } else {
+        0
+    };
+    let at = |k: usize| (start + k) % count;
+    let mut parts: Vec<Run> = Vec::new();
+    let mut from = 0;
+    while from < count {
+        if doubled[at(from)] {
+            from += 1;
+            continue;
+        }
+        let to = (from..count).find(|k| doubled[at(*k)]).unwrap_or(count);
+        if to - from >= LEAST_SAMPLES {
+            let (first, last) = (from.saturating_sub(OVERLAP), (to + OVERLAP).min(count));
+            let points = (first..last).map(|k| run.points[at(k)]).collect();
+            parts.push(Run {
+                points,
+                closed: false,
+                cut: [
+                    run.cut[0] && first == 0 && !run.closed,
+                    run.cut[1] && last == count && !run.closed,
+                ],
+                ..run.clone_empty()
+            });
+        }
+        from = to;
+    }
+    parts.retain(|part| part.points.len() > 1);
+    for (ordinal, part) in parts.iter_mut().enumerate().skip(1) {
+        // Parts of one run must not share its identity.
+        part.id = run.id ^ (ordinal as u64) << 44;
+    }
+    parts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh_lines::merge::{FACING_PX, merge_ends};
+    use crate::mesh_lines::run::testing::{run_along, straight};
+    use proptest::prelude::*;
+
+    /// A line of samples 1.5 px apart.
+    fn line(id: u64, from: [f64; 2], to: [f64; 2]) -> Run {
+        let count = (distance(from, to) / 1.5).ceil() as usize;
+        let at = |i: usize| {
+            let share = i as f64 / count as f64;
+            [0, 1].map(|k| from[k] + (to[k] - from[k]) * share)
+        };
+        run_along(id, &(0..=count).map(at).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn of_two_lines_side_by_side_the_longer_stays() {
+        let runs = vec![
+            line(1, [20.0, 1.5], [80.0, 1.5]),
+            line(2, [0.0, 0.0], [100.0, 0.0]),
+        ];
+        let kept = suppress(runs);
+        assert_eq!(kept.iter().map(|run| run.id).collect::<Vec<_>>(), [2]);
+    }
+
+    #[test]
+    fn lines_that_cross_or_keep_apart_stay_whole() {
+        let runs = vec![
+            line(1, [0.0, 0.0], [100.0, 0.0]),
+            line(2, [50.0, -40.0], [50.0, 40.0]),
+            line(3, [0.0, 5.0], [90.0, 5.0]),
+        ];
+        assert_eq!(suppress(runs.clone()), runs);
+    }
+
+    #[test]
+    fn only_the_part_beside_another_line_is_cut() {
+        // The second runs along the first for 40 px and then leaves it.
+        let mut bent = line(2, [0.0, 1.0], [40.0, 1.0]);
+        bent.points
+            .extend(line(2, [41.0, 2.0], [70.0, 40.0]).points);
+        let kept = suppress(vec![line(1, [-50.0, 0.0], [60.0, 0.0]), bent.clone()]);
+        assert_eq!(kept.len(), 2);
+        assert!(kept[1].length() < 0.75 * bent.length() && kept[1].length() > 40.0);
+        let last = kept[1].points[kept[1].points.len() - 1];
+        assert_eq!(last.place, bent.points[bent.points.len() - 1].place);
+    }
+
+    #[test]
+    fn a_line_that_turns_back_on_itself_is_inked_once() {
+        let mut hairpin = line(1, [0.0, 0.0], [60.0, 0.0]);
+        hairpin
+            .points
+            .extend(line(1, [60.0, 1.5], [0.0, 1.5]).points);
+        let kept = suppress(vec![hairpin]);
+        let length: f64 = kept.iter().map(Run::length).sum();
+        assert!(length < 90.0, "{length}");
+    }
+
+    fn runs_of(lines: &[([f64; 2], f64, f64)]) -> Vec<Run> {
+        let made = |(id, (from, angle, length)): (u64, &([f64; 2], f64, f64))| {
+            straight(id, *from, *angle, *length)
+        };
+        (0..).zip(lines).map(made).collect()
+    }
+
+    /// What is left are points of the runs in their order; what is gone lies beside what is left.
+    ///
+    /// A sample is cut away by its own majority or, of too few in a row, with a neighbour that is. So a sample at most
+    /// [`SETTLING`] further on, of steps of 1.5 px, lies within [`BESIDE_PX`] of a sample that is left.
+    fn check_nothing_is_added_or_lost(lines: &[([f64; 2], f64, f64)]) {
+        let runs = runs_of(lines);
+        let kept = suppress(runs.clone());
+        for run in &runs {
+            let own = |part: &&Run| part.id & 0xffff == run.id;
+            for part in kept.iter().filter(own) {
+                let start = run.points.iter().position(|p| *p == part.points[0]);
+                let range = start.expect("a point of the run")..;
+                assert!(run.points[range].starts_with(&part.points));
+            }
+            for point in &run.points {
+                let all = kept.iter().flat_map(|part| &part.points);
+                let away = all.map(|p| distance(p.place, point.place));
+                let nearest = away.fold(f64::MAX, f64::min);
+                let most = BESIDE_PX + 1.5 * SETTLING as f64;
+                assert!(nearest < most + 1e-9, "{nearest} px");
+            }
+        }
+    }
+
+    #[test]
+    fn what_lies_beside_samples_that_are_cut_away_stays() {
+        // The end of the first line passes that of the third by two samples, which are too few to stay. The second line
+        // goes on beside these two.
+        check_nothing_is_added_or_lost(&[
+            (
+                [29.735959869937215, 23.280680181928368],
+                5.248184619947375,
+                41.53565443580974,
+            ),
+            (
+                [36.93352022150058, 15.183032509231056],
+                5.171881852840715,
+                34.30108280904483,
+            ),
+            (
+                [39.247379366346614, 33.682010772693914],
+                4.936090851292034,
+                42.511884490797264,
+            ),
+        ]);
+    }
+
+    #[test]
+    fn a_short_fragment_that_holds_two_ends_together_stays() {
+        let ends = [
+            line(0, [0.0, 0.0], [40.0, 0.0]),
+            line(1, [45.0, 0.0], [80.0, 0.0]),
+        ];
+        let with =
+            |fragment: Run| leave_out_short_fragments([&ends[..], &[fragment]].concat()).len();
+        assert_eq!(with(line(2, [40.0, 0.0], [45.0, 0.0])), 3);
+        assert_eq!(with(line(2, [20.0, 1.0], [25.0, 1.0])), 2);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        #[test]
+        fn nothing_is_added_and_nothing_lost(
+            lines in prop::collection::vec((prop::array::uniform2(0.0_f64..50.0), 0.0_f64..6.3, 13.0_f64..60.0), 1..20),
+        ) {
+            check_nothing_is_added_or_lost(&lines);
+        }
+
+        /// Where one line ends and the next begins, a third over both ends holds them together, however short its own
+        /// part is.
+        #[test]
+        fn what_holds_two_ends_together_stays(
+            angle in 0.0_f64..6.3, gap in 4.0_f64..20.0, over in prop::array::uniform2(3.0_f64..30.0),
+            off in -1.0_f64..1.0,
+        ) {
+            let [sin, cos] = [angle.sin(), angle.cos()];
+            let along = |id: u64, from: f64, to: f64, off: f64| {
+                straight(id, [from * cos - off * sin, from * sin + off * cos], angle, to - from)
+            };
+            let runs = vec![
+                along(1, -90.0, 0.0, 0.0),
+                along(2, gap, gap + 90.0, 0.0),
+                along(3, -over[0], gap + over[1], off),
+            ];
+            let joined = merge_ends(suppress(runs), FACING_PX);
+            prop_assert_eq!(joined.len(), 1);
+            prop_assert!((joined[0].length() - gap - 180.0).abs() < 6.0, "{}", joined[0].length());
+        }
+
+        /// Which lines stay does not depend on their order.
+        #[test]
+        fn order_does_not_matter(
+            lines in prop::collection::vec((prop::array::uniform2(0.0_f64..50.0), 0.0_f64..6.3, 2.0_f64..60.0), 0..20),
+            seed: u64,
+        ) {
+            let runs = runs_of(&lines);
+            let mut shuffled = runs.clone();
+            npr_mesh::testing::Random::new(seed).shuffle(&mut shuffled);
+            let left = |runs| {
+                let mut left = suppress(runs);
+                left.sort_by_key(|run: &Run| run.id);
+                left
+            };
+            prop_assert_eq!(left(runs), left(shuffled));
+        }
+
+        /// A shorter copy beside a line goes, whichever way it runs; not a hidden one, nor one that keeps its distance.
+        #[test]
+        fn copies_go(angle in 0.0_f64..6.3, length in 20.0_f64..90.0, off in -1.4_f64..1.4, turned: bool) {
+            let line = straight(1, [100.0; 2], angle, length);
+            let beside = |off: f64| {
+                let from = [100.0 - off * angle.sin() + 2.0 * angle.cos(), 100.0 + off * angle.cos() + 2.0 * angle.sin()];
+                let mut copy = straight(2, from, angle, length - 4.0);
+                if turned {
+                    copy.points.reverse();
+                }
+                copy
+            };
+            let left = |copy: Run| suppress(vec![copy, line.clone()]).len();
+            prop_assert_eq!(left(beside(off)), 1);
+            prop_assert_eq!(left(beside(off.signum() * 3.0)), 2);
+            prop_assert_eq!(left(Run { occluders: 1, ..beside(off) }), 2);
+        }
+
+        /// Only fragments go, each near what stays; one of every object stays, and so do parts cut at corners.
+        #[test]
+        fn only_short_fragments_near_others_go(
+            lines in prop::collection::vec((prop::array::uniform2(0.0_f64..50.0), 0.0_f64..6.3, 2.0_f64..20.0, 0_u32..3, prop::bool::weighted(0.1)), 0..30),
+        ) {
+            let made = |(id, (from, angle, length, object, cut)): (u64, &([f64; 2], f64, f64, u32, bool))| {
+                Run { object: *object, cut: [*cut, false], ..straight(id, *from, *angle, *length) }
+            };
+            let runs: Vec<Run> = (0..).zip(&lines).map(made).collect();
+            let kept = leave_out_short_fragments(runs.clone());
+            let bare = |run: &Run| {
+                let ink = |place| kept.iter().flat_map(|other| &other.points).any(|p| distance(p.place, place) < PEN_PX);
+                run.points.iter().filter(|p| !ink(p.place)).count() as f64 / run.points.len() as f64 * run.length()
+            };
+            let mut left = kept.iter().peekable();
+            for run in &runs {
+                if left.next_if_eq(&run).is_none() {
+                    prop_assert!(run.cut == [false; 2]);
+                    prop_assert!(bare(run) < PEN_PX, "{} px", bare(run));
+                    prop_assert!(kept.iter().any(|other| other.object == run.object && other.length() >= run.length()));
+                }
+            }
+            prop_assert!(left.next().is_none());
+            prop_assert_eq!(leave_out_short_fragments(kept.clone()), kept.clone());
+        }
+    }
+}

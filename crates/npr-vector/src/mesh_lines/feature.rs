@@ -1,0 +1,201 @@
+//! Lines that hang on the shape alone: boundaries, creases, material borders and marked edges.
+//!
+//! They are found and linked once a shape; a view only leaves some of them out ([`kind_in_view`]).
+
+use crate::mesh_lines::graph::{CurveGraph, CurveNode};
+use glam::DVec3;
+use npr_core::crease::Creases;
+use npr_core::geometry::NONE;
+use npr_mesh::half_edge::HalfEdgeMesh;
+use rayon::prelude::*;
+
+/// How straight two edges must run on for a line to pass a point where more than two meet: cosine of the bend.
+const STRAIGHT_COS: f64 = 0.5;
+
+/// All feature lines of a shape, linked along equal kinds of one object.
+///
+/// At a point where two edges of a kind meet the line goes on; where more meet, through the straightest pairs.
+/// Edges between faces that are wound against each other are in the graph without a kind: in some views they are
+/// contours. O(edges + features log features).
+pub fn features(shape: &HalfEdgeMesh, creases: impl Into<Creases>) -> CurveGraph {
+    let creases = creases.into();
+    let candidates: Vec<(u32, u32)> = (0..shape.edge_count() as u32)
+        .into_par_iter()
+        .with_min_len(8192)
+        .filter_map(|edge| static_flags(shape, edge, creases).map(|flags| (edge, flags)))
+        .collect();
+    let mates = mates(shape, &candidates);
+    chain(shape, &candidates, &mates)
+}
+
+/// What an edge is whatever the view; none where it is nothing.
+pub(crate) fn static_flags(shape: &HalfEdgeMesh, edge: u32, creases: Creases) -> Option<u32> {
+    let traits = shape.edge_traits[edge as usize];
+    let bit = |has: bool, bit: u32| if has { bit } else { 0 };
+    let bends = shape.fold_cos(edge, creases.from) < creases.cos;
+    let flags = bit(traits & HalfEdgeMesh::BOUNDARY != 0, CurveNode::BOUNDARY)
+        | bit(
+            bends || traits & HalfEdgeMesh::NON_MANIFOLD != 0,
+            CurveNode::CREASE,
+        )
+        | bit(traits & HalfEdgeMesh::MATERIAL != 0, CurveNode::MATERIAL)
+        | bit(traits & HalfEdgeMesh::MARKED != 0, CurveNode::MARKED);
+    (flags != 0 || traits & HalfEdgeMesh::FLIPPED != 0).then_some(flags)
+}
+
+/// The kinds that a feature edge has in a view: none where it is a contour that is drawn already.
+pub fn kind_in_view(
+    shape: &HalfEdgeMesh,
+    front: &[u8],
+    edge: u32,
+    flags: u32,
+    contours_are_drawn: bool,
+) -> u32 {
+    let traits = shape.edge_traits[edge as usize];
+    if traits & (HalfEdgeMesh::BOUNDARY | HalfEdgeMesh::NON_MANIFOLD) != 0 {
+        return flags;
+    }
+    let [a, b] = [0, 1].map(|i| front[shape.sides(edge)[i] as usize / 3] != 0);
+    let is_contour = (a != b) != (traits & HalfEdgeMesh::FLIPPED != 0);
+    match (is_contour, traits & HalfEdgeMesh::FLIPPED != 0) {
+        (true, true) => flags | CurveNode::CONTOUR,
+        (true, false) if contours_are_drawn => 0,
+        (true, false) => flags,
+        (false, _) => flags,
+    }
+}
+
+/// Which end of which candidate continues each end; `2 k` is the lower end of candidate `k`.
+fn mates(shape: &HalfEdgeMesh, candidates: &[(u32, u32)]) -> Vec<u32> {
+    let mut meetings: Vec<(u32, u32, u32)> = candidates
+        .iter()
+        .enumerate()
+        .flat_map(|(k, (edge, flags))| {
+            let group = group_of(shape, *edge, *flags);
+            let [low, high] = shape.ends(*edge);
+            [(low, group, 2 * k as u32), (high, group, 2 * k as u32 + 1)]
+        })
+        .collect();
+    meetings.par_sort_unstable();
+    let mut mates = vec![NONE; 2 * candidates.len()];
+    for meeting in meetings.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        match meeting {
+            [_] => {}
+            [(.., a), (.., b)] => pair(&mut mates, *a, *b),
+            _ => pair_straightest(shape, candidates, meeting, &mut mates),
+        }
+    }
+    mates
+}
+
+/// Lines do not pass from one kind or object to another.
+fn group_of(shape: &HalfEdgeMesh, edge: u32, flags: u32) -> u32 {
+    let face = shape.sides(edge)[0] / 3;
+    let object = shape.surfaces[shape.face_surfaces[face as usize] as usize].object;
+    let first_kind = flags.trailing_zeros().min(7);
+    object << 3 | first_kind
+}
+
+pub(crate) fn pair(mates: &mut [u32], a: u32, b: u32) {
+    mates[a as usize] = b;
+    mates[b as usize] = a;
+}
+
+fn pair_straightest(
+    shape: &HalfEdgeMesh,
+    candidates: &[(u32, u32)],
+    meeting: &[(u32, u32, u32)],
+    mates: &mut [u32],
+) {
+    // A fan of thousands would cost its square; no drawing needs its lines to pass through.
+    if meeting.len() > 64 {
+        return;
+    }
+    let away: Vec<DVec3> = meeting
+        .iter()
+        .map(|(.., end)| direction(shape, candidates, *end))
+        .collect();
+    let mut pairs = Vec::new();
+    for i in 0..meeting.len() {
+        for j in i + 1..meeting.len() {
+            let bend = -away[i].dot(away[j]);
+            if bend > STRAIGHT_COS {
+                pairs.push((bend, i, j));
+            }
+        }
+    }
+    pairs.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    for (_, i, j) in pairs {
+        let (a, b) = (meeting[i].2, meeting[j].2);
+        if mates[a as usize] == NONE && mates[b as usize] == NONE {
+            pair(mates, a, b);
+        }
+    }
+}
+
+/// Unit direction from an end of a candidate along its edge.
+fn direction(shape: &HalfEdgeMesh, candidates: &[(u32, u32)], end: u32) -> DVec3 {
+    let [low, high] = shape.ends(candidates[end as usize / 2].0);
+    let along = (shape.point(high) - shape.point(low)).normalize_or_zero();
+    if end.is_multiple_of(2) { along } else { -along }
+}
+
+/// Walks along the mates: open lines first, then closed ones, each from its first candidate.
+pub(crate) fn chain(shape: &HalfEdgeMesh, candidates: &[(u32, u32)], mates: &[u32]) -> CurveGraph {
+    let mut graph = CurveGraph::default();
+    let mut used = vec![false; candidates.len()];
+    let open_ends = (0..mates.len() as u32).filter(|end| mates[*end as usize] == NONE);
+    for start in open_ends.chain((0..mates.len() as u32).step_by(2)) {
+        if !used[start as usize / 2] {
+            walk(shape, candidates, mates, start, &mut used, &mut graph.nodes);
+        }
+    }
+    graph
+}
+
+fn walk(
+    shape: &HalfEdgeMesh,
+    candidates: &[(u32, u32)],
+    mates: &[u32],
+    start: u32,
+    used: &mut [bool],
+    nodes: &mut Vec<CurveNode>,
+) {
+    let first = nodes.len() as u32;
+    let mut end = start;
+    loop {
+        used[end as usize / 2] = true;
+        nodes.push(node_at(shape, candidates, end, nodes.len() as u32));
+        let far = end ^ 1;
+        let mate = mates[far as usize];
+        if mate == NONE {
+            let tail = CurveNode {
+                flags: 0,
+                ..node_at(shape, candidates, far, nodes.len() as u32)
+            };
+            nodes.push(CurveNode { next: NONE, ..tail });
+            break;
+        }
+        if used[mate as usize / 2] {
+            let last = nodes.len() as u32 - 1;
+            nodes[last as usize].next = first;
+            nodes[first as usize].prev = last;
+            return;
+        }
+        end = mate;
+    }
+    nodes[first as usize].prev = NONE;
+}
+
+/// The node at an end of a candidate, linked to its neighbours in the list.
+fn node_at(shape: &HalfEdgeMesh, candidates: &[(u32, u32)], end: u32, index: u32) -> CurveNode {
+    let (edge, flags) = candidates[end as usize / 2];
+    CurveNode {
+        edge,
+        t: (end % 2) as f32,
+        next: index + 1,
+        prev: index.wrapping_sub(1),
+        flags,
+        face: shape.sides(edge).first().map_or(NONE, |side| side / 3),
+    }
+}
