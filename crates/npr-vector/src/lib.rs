@@ -4,7 +4,7 @@
 //!
 //! | folder | lines | source |
 //! |---|---|---|
-//! | [`screen`] | outlines of a frame: a mask of pixels, and mesh edges drawn where it shows them | [Okuya et al. 2016] |
+//! | [`screen`] | outlines of a frame: a mask of pixels, and mesh edges drawn where it shows | [Okuya et al. 2016] |
 //! | [`mesh_lines`] | exact curves of a mesh: contours, creases, intersections, and what hides them | |
 //! | [`pixel_strokes`] | strokes of the pixels that lines cover | [Jiang et al. 2022] |
 //! | [`image_lines`] | borders between surfaces in a picture, and lines painted in textures | |
