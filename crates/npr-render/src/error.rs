@@ -100,3 +100,17 @@ impl From<CurvesError> for RenderError {
         }
     }
 }
+
+/// Numbers must leave room for "none" and for the bit that marks hulls.
+const COUNT_LIMIT: u64 = 1 << 30;
+
+/// Refuses `more` of something beside those that are there, where they could not all be numbered.
+pub(crate) fn check_count(what: &'static str, have: usize, more: usize) -> Result<(), RenderError> {
+    if have as u64 + more as u64 > COUNT_LIMIT {
+        return Err(RenderError::TooMany {
+            what,
+            limit: COUNT_LIMIT,
+        });
+    }
+    Ok(())
+}

@@ -3,7 +3,8 @@
 use crate::error::RenderError;
 use crate::guides::{Guides, turn_to_light};
 use crate::kept::{Cache, input_of};
-use crate::model::{Model, PartInfo};
+use crate::model::Model;
+use crate::part_info::PartInfo;
 use crate::pictures::Pictures;
 use glam::{Vec2, Vec3};
 use npr_core::camera::Camera;

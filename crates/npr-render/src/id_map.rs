@@ -2,7 +2,7 @@
 
 use crate::error::RenderError;
 use crate::instance::placed_uv;
-use crate::renderer::Picture;
+use crate::options::Picture;
 use crate::textures::packed_wrap;
 use glam::Vec3;
 use npr_core::geometry::NONE;

@@ -13,39 +13,41 @@
 //! use npr_stylesheet::Style;
 //!
 //! let model = Model::new(&Scene::default())?;
-//! let mut stage = Renderer::new(&Processor, &model, &Style::default(), &RendererOptions::new([64, 36]))?;
-//! let frame = stage.draw(&Camera::framing([-1.0; 3], [1.0; 3]))?;
+//! let mut renderer = Renderer::new(&Processor, &model, &Style::default(), &RendererOptions::new([64, 36]))?;
+//! let frame = renderer.draw(&Camera::framing([-1.0; 3], [1.0; 3]))?;
 //! assert_eq!(frame.rgba.len(), 64 * 36 * 4);
 //! # Ok::<(), npr_render::RenderError>(())
 //! ```
 
-mod backdrop;
 mod beam_light;
 mod bend;
-mod blending;
-mod blueprint;
 mod error;
 mod facts;
+mod features;
+mod file_light;
 mod frame;
+mod frame_graph;
+mod frame_renderer;
 mod guides;
 mod hatching;
 mod id_map;
 mod instance;
 mod joined;
 mod kept;
-mod lettering;
 mod light;
+mod line_backdrop;
 mod line_colors;
 mod lines;
 mod look;
 mod model;
+mod options;
+mod part_info;
 mod pictures;
 mod placement;
 mod puffs;
 mod renderer;
 mod sky;
 mod smoke;
-mod speed_lines;
 mod surfaces;
 mod textures;
 mod tiles;
@@ -53,17 +55,19 @@ pub mod volume;
 
 pub use error::RenderError;
 pub use facts::facts_of;
+pub use features::lettering::Lettering;
 pub use frame::Frame;
 pub use id_map::apply_id_maps;
-pub use lettering::Lettering;
 pub use lines::{
     KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer, PaintedLines,
 };
-pub use model::{Model, PartInfo};
+pub use model::Model;
 pub use npr_core::smoke::Sphere;
 pub use npr_drawing::lettering::Font;
 pub use npr_vector::stroke::{Drawing, Kind};
+pub use options::{Picture, RendererOptions};
+pub use part_info::PartInfo;
 pub use puffs::Following;
-pub use renderer::{Picture, Renderer, RendererOptions};
+pub use renderer::Renderer;
 pub use smoke::Smoke;
 pub use volume::{UpAxis, VolumeFault, VolumeFile, VolumeOptions};

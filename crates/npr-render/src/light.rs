@@ -1,17 +1,15 @@
 //! The lights of a frame: those of the style, those of the file, and what they see of what throws shadows.
 
-use crate::beam_light::beam_lights;
-use crate::look;
-use crate::model::Model;
+use crate::file_light::FileLight;
+use crate::options::Picture;
+use crate::placement::in_world;
 use crate::placement::{Bounds, radius_of};
-use crate::renderer::Picture;
 use crate::sky;
-use glam::{Mat4, Vec3};
+use glam::Vec3;
 use npr_core::camera::{Camera, box_corners};
 use npr_core::light_view::{Matrix, distant_view, spot_view};
 use npr_core::math;
 use npr_core::window::View;
-use npr_scene::{LightKind, Scene};
 use npr_style::lighting::{LIGHTS_MAX, LightSource, Lights};
 use npr_style::shadow::{SHADOW_SIDE, SHADOWS_MAX};
 use npr_stylesheet::{ExtraLight, LightShape, LightSpace, Style};
@@ -22,67 +20,6 @@ const BIAS_RADII: f32 = 2e-4;
 
 /// What is nearer to a spot throws no shadow, in radii of the model.
 const SPOT_NEAR_RADII: f32 = 1e-3;
-
-/// Least distance of a light from the middle of a scene that its strength is reckoned with, in radii: one among the
-/// things it lights is no stronger for standing right in the middle.
-const NEAREST_RADII: f32 = 0.25;
-
-/// A light of the file as the ramp takes it.
-pub(crate) type FileLight = LightSource;
-
-/// The lights that nodes of a scene carry, the strongest with intensity 1.
-///
-/// Files state lux for directional lights and candela for the others. They become comparable as the light that
-/// arrives at the middle of the scene: lux as they are, candela over the square of the distance from there, of at
-/// least a quarter of the scene's radius. All are then divided by the strongest. What a colour exceeds white by, or
-/// lacks, counts to the strength. Black lights are left out. O(nodes).
-pub(crate) fn of_scene(scene: &Scene, bounds: Bounds) -> Vec<FileLight> {
-    let (min, max) = bounds;
-    let middle = (Vec3::from(min) + Vec3::from(max)) * 0.5;
-    let nearest = radius_of(bounds) * NEAREST_RADII;
-    let mut found: Vec<(f64, LightSource)> = Vec::new();
-    for node in &scene.nodes {
-        let Some(light) = node.light.and_then(|i| scene.lights.get(i as usize)) else {
-            continue;
-        };
-        let m = Mat4::from_cols_array_2d(&node.world_from_node);
-        let position = m.w_axis.truncate();
-        let back = m.z_axis.truncate().normalize_or(Vec3::Z);
-        let distance = f64::from(position.distance(middle).max(nearest));
-        let (kind, direction, cone, square) = match light.kind {
-            LightKind::Directional => (LightSource::DISTANT, back, [0.0; 2], 1.0),
-            LightKind::Point => (LightSource::POINT, back, [0.0; 2], distance * distance),
-            LightKind::Spot { inner, outer } => {
-                let cone = [math::cos(outer), math::cos(inner)];
-                (LightSource::SPOT, -back, cone, distance * distance)
-            }
-        };
-        let [r, g, b] = light.color;
-        let brightest = r.max(g).max(b);
-        let strength = f64::from(light.intensity) * f64::from(brightest) / square;
-        if strength > 0.0 && position.is_finite() {
-            let source = LightSource {
-                position: position.to_array(),
-                kind,
-                direction: direction.to_array(),
-                color: light.color.map(|c| c / brightest),
-                range: light.range.unwrap_or(0.0),
-                cone,
-                ..LightSource::default()
-            };
-            found.push((strength, source));
-        }
-    }
-    let strongest = found
-        .iter()
-        .map(|(strength, _)| *strength)
-        .fold(0.0, f64::max);
-    let relative = |(strength, source)| LightSource {
-        intensity: (strength / strongest) as f32,
-        ..source
-    };
-    found.into_iter().map(relative).collect()
-}
 
 /// A light of a style, before the camera is known.
 #[derive(Debug, Clone, Copy)]
@@ -101,16 +38,23 @@ pub(crate) struct ChosenLights {
     dropped: usize,
     /// The picture of the sky, summed up.
     dome: Option<[[f32; 4]; 9]>,
+    /// Those of the style's beams, for smoke with a light of its own.
+    of_beams: Vec<LightSource>,
 }
 
 impl ChosenLights {
     /// First the main light or those of the file, then the style's own and those of its beams. Of too many the
     /// strongest stay, in that order. `pictures` holds that of the sky, if the style names one.
-    pub fn new(style: &Style, model: &Model, pictures: &BTreeMap<String, Picture>) -> Self {
+    pub fn new(
+        style: &Style,
+        of_file: &[FileLight],
+        of_beams: Vec<LightSource>,
+        pictures: &BTreeMap<String, Picture>,
+    ) -> Self {
         let light = &style.light;
         let mut lights = Vec::new();
-        if light.file && !model.lights.is_empty() {
-            lights.extend(model.lights.iter().map(|source| Chosen {
+        if light.file && !of_file.is_empty() {
+            lights.extend(of_file.iter().map(|source| Chosen {
                 source: *source,
                 shadow: light.shadow,
                 on_camera: false,
@@ -131,11 +75,7 @@ impl ChosenLights {
         let dome = sky::dome(style, pictures);
         let extra = |light| extra(light, dome.is_some());
         lights.extend(light.extra.iter().map(extra));
-        lights.extend(
-            beam_lights(style, model)
-                .into_iter()
-                .map(Chosen::unshadowed),
-        );
+        lights.extend(of_beams.iter().copied().map(Chosen::unshadowed));
         lights.retain(|light| light.source.intensity > 0.0);
         let mut order: Vec<usize> = (0..lights.len()).collect();
         order.sort_by(|a, b| {
@@ -148,16 +88,18 @@ impl ChosenLights {
             dropped: lights.len() - order.len(),
             lights: order.iter().map(|i| lights[*i]).collect(),
             dome,
+            of_beams,
         }
     }
 
     /// The lights of a style's smoke, and whether they are these: its own, or these with shadows where none throws any.
-    pub fn of_smoke(&self, style: &Style, model: &Model) -> (Self, bool) {
+    pub fn of_smoke(&self, style: &Style) -> (Self, bool) {
         if let Some(direction) = style.smoke.light {
             let mut own = style.clone();
             (own.light.direction, own.light.shadow) = (direction, style.smoke.shadow);
             (own.light.file, own.light.extra) = (false, Vec::new());
-            return (Self::new(&own, model, &BTreeMap::new()), false);
+            let of_beams = self.of_beams.clone();
+            return (Self::new(&own, &[], of_beams, &BTreeMap::new()), false);
         }
         let mut lights = self.clone();
         // Points alone throw no shadows on surfaces, so smoke has shadows of its own beside them.
@@ -211,7 +153,7 @@ impl ChosenLights {
         for (source, light) in lights.sources.iter_mut().zip(&self.lights) {
             *source = light.source;
             if light.on_camera {
-                source.direction = look::in_world(camera, source.direction);
+                source.direction = in_world(camera, source.direction);
             }
         }
         let sources = lights.sources.iter_mut().zip(&self.lights);
@@ -360,60 +302,14 @@ fn seen(corners: &[[f32; 3]], camera: &Camera, view: &View) -> Vec<[f32; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use npr_scene::{Light, Node};
 
-    fn scene_of(lights: &[(LightKind, f32, [f32; 3])]) -> Scene {
-        let mut scene = Scene::default();
-        for (i, (kind, intensity, place)) in lights.iter().enumerate() {
-            scene.lights.push(Light {
-                name: String::new(),
-                kind: *kind,
-                color: [1.0, 0.5, 0.0],
-                intensity: *intensity,
-                range: None,
-            });
-            let mut node = Node {
-                light: Some(i as u32),
-                ..Node::default()
-            };
-            node.world_from_node[3] = [place[0], place[1], place[2], 1.0];
-            scene.nodes.push(node);
+    /// A light of a file, of intensity 0..1.
+    fn light(kind: u32, intensity: f32) -> FileLight {
+        LightSource {
+            kind,
+            intensity,
+            ..LightSource::default()
         }
-        scene
-    }
-
-    fn intensities(scene: &Scene) -> Vec<f32> {
-        let lights = of_scene(scene, ([-1.0; 3], [1.0; 3]));
-        lights.iter().map(|light| light.intensity).collect()
-    }
-
-    #[test]
-    fn lux_and_candela_meet_in_the_middle_of_the_scene() {
-        let spot = LightKind::Spot {
-            inner: 0.2,
-            outer: 0.4,
-        };
-        let scene = scene_of(&[
-            (LightKind::Directional, 4.0, [0.0; 3]),
-            (LightKind::Point, 8.0, [0.0, 2.0, 0.0]),
-            (spot, 9.0, [3.0, 0.0, 0.0]),
-            (LightKind::Point, 0.0, [0.0; 3]),
-        ]);
-        assert_eq!(intensities(&scene), [1.0, 0.5, 0.25]);
-        let lights = of_scene(&scene, ([-1.0; 3], [1.0; 3]));
-        assert_eq!(lights[0].direction, [0.0, 0.0, 1.0], "towards the light");
-        assert_eq!(lights[2].direction, [0.0, 0.0, -1.0], "along the axis");
-        assert_eq!(lights[0].color, [1.0, 0.5, 0.0]);
-    }
-
-    #[test]
-    fn hostile_strengths_stay_finite() {
-        let scene = scene_of(&[
-            (LightKind::Point, f32::MAX, [0.0; 3]),
-            (LightKind::Directional, 1e-38, [0.0; 3]),
-        ]);
-        let all = intensities(&scene);
-        assert!(all.iter().all(|i| (0.0..=1.0).contains(i)), "{all:?}");
     }
 
     fn style(text: &str) -> Style {
@@ -422,32 +318,29 @@ mod tests {
 
     #[test]
     fn lights_of_the_file_shine_where_the_style_says_so() {
-        let scene = scene_of(&[(LightKind::Point, 8.0, [0.0, 2.0, 0.0])]);
-        let model = Model::new(&scene).unwrap();
-        let bare = Model::new(&Scene::default()).unwrap();
-        let kinds = |text, model| {
-            let chosen = ChosenLights::new(&style(text), model, &BTreeMap::new());
+        let lamp = [light(LightSource::POINT, 1.0)];
+        let kinds = |text, of_file: &[FileLight]| {
+            let chosen = ChosenLights::new(&style(text), of_file, Vec::new(), &BTreeMap::new());
             chosen
                 .lights
                 .iter()
                 .map(|light| light.source.kind)
                 .collect::<Vec<_>>()
         };
-        assert_eq!(kinds("", &model), [LightSource::DISTANT]);
-        assert_eq!(kinds("light.file = true", &model), [LightSource::POINT]);
-        assert_eq!(kinds("light.file = true", &bare), [LightSource::DISTANT]);
+        assert_eq!(kinds("", &lamp), [LightSource::DISTANT]);
+        assert_eq!(kinds("light.file = true", &lamp), [LightSource::POINT]);
+        assert_eq!(kinds("light.file = true", &[]), [LightSource::DISTANT]);
         let sky = "light.intensity = 0\n[[light.extra]]\nkind = 'sky'";
-        assert_eq!(kinds(sky, &model), [LightSource::SKY]);
+        assert_eq!(kinds(sky, &lamp), [LightSource::SKY]);
     }
 
     #[test]
     fn of_too_many_lights_the_strongest_shine() {
-        let many: Vec<_> = (0..500)
-            .map(|i| (LightKind::Directional, 1.0 + (i % 100) as f32, [0.0; 3]))
+        let many: Vec<FileLight> = (0..500)
+            .map(|i| light(LightSource::DISTANT, (1.0 + (i % 100) as f32) / 100.0))
             .collect();
-        let model = Model::new(&scene_of(&many)).unwrap();
         let style = style("light.file = true\nlight.shadow = true");
-        let chosen = ChosenLights::new(&style, &model, &BTreeMap::new());
+        let chosen = ChosenLights::new(&style, &many, Vec::new(), &BTreeMap::new());
         assert_eq!((chosen.lights.len(), chosen.dropped), (LIGHTS_MAX, 484));
         assert!(
             chosen
@@ -461,7 +354,7 @@ mod tests {
             reported,
             "only the 16 strongest lights shine, 484 are left out"
         );
-        let plain = ChosenLights::new(&Style::default(), &model, &BTreeMap::new());
+        let plain = ChosenLights::new(&Style::default(), &many, Vec::new(), &BTreeMap::new());
         assert_eq!(plain.notice(), None);
     }
 }

@@ -1,8 +1,8 @@
 //! What styles say about the colour of lines, in parts and in the texture store.
 
 use crate::error::RenderError;
-use crate::model::PartInfo;
-use crate::renderer::Picture;
+use crate::options::Picture;
+use crate::part_info::PartInfo;
 use npr_core::color::pack_rgba8;
 use npr_core::geometry::{NONE, Part};
 use npr_core::texture::{TextureStore, Wrap};

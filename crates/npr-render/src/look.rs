@@ -3,9 +3,10 @@
 use crate::error::RenderError;
 use crate::hatching::{FrameScale, Inked, add_ink};
 use crate::line_colors::add_line_colors;
-use crate::model::{Model, PartInfo};
+use crate::model::Model;
+use crate::options::RendererOptions;
+use crate::part_info::PartInfo;
 use crate::pictures::{Pictures, add_tone_rows};
-use crate::renderer::RendererOptions;
 use crate::sky::SkyMaps;
 use glam::Vec3;
 use npr_core::camera::Camera;
@@ -102,17 +103,6 @@ impl StyledModel {
             background_texture,
             sky,
         })
-    }
-}
-
-impl StyledModel {
-    /// Number of parts that are beams of light.
-    pub fn beam_count(&self) -> usize {
-        let beams = self
-            .parts
-            .iter()
-            .filter(|part| part.flags & Part::BEAM != 0);
-        beams.count()
     }
 }
 
@@ -451,12 +441,6 @@ pub(crate) fn compose(
         center_world: ((Vec3::from(min) + Vec3::from(max)) * 0.5).to_array(),
         ..Compose::default()
     }
-}
-
-/// What a vector in the camera's axes is in the world.
-pub(crate) fn in_world(camera: &Camera, direction: [f32; 3]) -> [f32; 3] {
-    let [right, up, back] = camera.axes().map(Vec3::from);
-    (right * direction[0] + up * direction[1] + back * direction[2]).to_array()
 }
 
 /// Frame pixels per world unit at the depth of the part of the model nearest to the eye.

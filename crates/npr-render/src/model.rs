@@ -1,61 +1,22 @@
 //! A scene prepared for drawing.
 
-use crate::error::RenderError;
+use crate::error::{RenderError, check_count};
+use crate::file_light::{self, FileLight};
 use crate::instance::Instance;
 use crate::kept::Cache;
-use crate::light::{self, FileLight};
-use crate::placement::{self, Bounds};
-use crate::smoke::{Smoke, around};
-use crate::textures::Textures;
+use crate::part_info::PartInfo;
+use crate::placement::{self, Bounds, around};
+use crate::smoke::Smoke;
+use crate::textures::{Textures, base_color_texture};
 use glam::{Mat4, Vec3};
 use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
 use npr_core::geometry::{Edge, Influence, NONE, Triangle, Vertex};
 use npr_core::texture::TextureStore;
 use npr_mesh::pose::Matrix;
-use npr_scene::{AlphaMode, Material, Node, Part, Scene};
-use npr_stylesheet::{Look, PartNames, Style};
+use npr_scene::{Node, Part, Scene};
 use std::borrow::Cow;
 use std::path::Path;
-
-/// Numbers must leave room for "none" and for the bit that marks hulls.
-const COUNT_LIMIT: u64 = 1 << 30;
-
-/// One connected surface of one object in one material and of one id, before a style is applied.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PartInfo {
-    /// Name of the node it hangs on.
-    pub object_name: String,
-    /// Name of its material; empty where it has none.
-    pub material_name: String,
-    /// Number of the object, the same for all its parts.
-    pub object: u32,
-    /// Number of the node at the top of the file's tree that the object hangs on; its own where it hangs on none.
-    pub root: u32,
-    /// Number of the material.
-    pub material: u32,
-    /// What styles may call its region of an id map; empty where it belongs to none.
-    pub ids: Vec<String>,
-    /// Number of its connected surface within the object, whatever materials and ids that has; 0 in line models,
-    /// which need none.
-    pub component: u32,
-    /// Base colour factor, linear light, straight alpha.
-    pub base_color: [f32; 4],
-    /// Where its texture's header starts in the store, or [`NONE`].
-    pub texture: u32,
-    /// Alpha under which a pixel is a hole; `None` where alpha is ignored.
-    pub alpha_cutoff: Option<f32>,
-    /// Both sides are drawn.
-    pub double_sided: bool,
-    /// The file asks for its colour without light.
-    pub unlit: bool,
-    /// Its vertices have UV coordinates.
-    pub has_uvs: bool,
-    /// 0 a dielectric, 1 a metal.
-    pub metallic: f32,
-    /// 0 polished, 1 dull.
-    pub roughness: f32,
-}
 
 /// A scene prepared for drawing: one list of vertices, triangles and edges, whatever the camera and the style.
 #[derive(Debug, Clone)]
@@ -133,7 +94,7 @@ impl Model {
         model.notices.extend(textures.notice.take());
         model.textures = textures.store;
         model.bounds = placement::bounds_of(model.posed_points());
-        model.lights = light::of_scene(scene, model.bounds);
+        model.lights = file_light::of_scene(scene, model.bounds);
         model.relate_curvatures();
         Ok(model)
     }
@@ -343,80 +304,4 @@ fn line_points(scene: &Scene) -> Vec<Vec3> {
             .map(|(point, _)| Vec3::from(point))
     });
     points.collect()
-}
-
-pub(crate) fn check_count(what: &'static str, have: usize, more: usize) -> Result<(), RenderError> {
-    if have as u64 + more as u64 > COUNT_LIMIT {
-        return Err(RenderError::TooMany {
-            what,
-            limit: COUNT_LIMIT,
-        });
-    }
-    Ok(())
-}
-
-/// Where the texture of a part starts in the store, or [`NONE`].
-pub(crate) fn base_color_texture(scene: &Scene, part: &Part, textures: &mut Textures) -> u32 {
-    let material = part.material.and_then(|m| scene.materials.get(m as usize));
-    let texture = material.and_then(|material| material.base_color_texture.as_ref());
-    texture
-        .filter(|_| part.uvs.is_some())
-        .and_then(|texture| textures.start_of(scene, texture))
-        .unwrap_or(NONE)
-}
-
-impl PartInfo {
-    /// An object in one of the scene's materials, without a texture.
-    pub(crate) fn new(
-        scene: &Scene,
-        object: u32,
-        object_name: &str,
-        material: Option<u32>,
-    ) -> Self {
-        let plain = Material::default();
-        let found = material
-            .and_then(|index| scene.materials.get(index as usize))
-            .unwrap_or(&plain);
-        Self {
-            object_name: object_name.to_owned(),
-            material_name: found.name.clone(),
-            object,
-            root: Self::root_of(scene, object),
-            material: material.unwrap_or(NONE - 1),
-            ids: Vec::new(),
-            component: 0,
-            base_color: found.base_color,
-            texture: NONE,
-            alpha_cutoff: match found.alpha {
-                AlphaMode::Opaque => None,
-                AlphaMode::Mask(cutoff) => Some(cutoff),
-                AlphaMode::Blend => Some(0.5),
-            },
-            double_sided: found.double_sided,
-            unlit: found.unlit,
-            has_uvs: false,
-            metallic: found.metallic,
-            roughness: found.roughness,
-        }
-    }
-
-    /// How a style draws it.
-    pub(crate) fn look<'a>(&self, style: &'a Style) -> Look<'a> {
-        style.resolve(PartNames {
-            material: &self.material_name,
-            object: &self.object_name,
-            ids: &self.ids,
-        })
-    }
-
-    /// Whether a style makes it a beam of light.
-    pub(crate) fn is_beam(&self, style: &Style) -> bool {
-        self.look(style).beam.is_some()
-    }
-
-    /// Whether the base colour alone is so transparent that nothing of the part is drawn.
-    pub(crate) fn is_invisible(&self) -> bool {
-        self.alpha_cutoff
-            .is_some_and(|cutoff| self.base_color[3] < cutoff)
-    }
 }

@@ -2,7 +2,7 @@
 
 use crate::error::RenderError;
 use crate::model::Model;
-use crate::renderer::Picture;
+use crate::options::Picture;
 use npr_core::geometry::{NONE, Part};
 use npr_core::surface::dot;
 use npr_core::texture::{TextureStore, linear_texel};

@@ -27,7 +27,7 @@ macro_rules! accessors {
         }
 
         /// Surfaces, in the order in which triangles and strokes name them.
-        pub fn parts(&self) -> &[$crate::model::PartInfo] {
+        pub fn parts(&self) -> &[$crate::part_info::PartInfo] {
             &self.parts
         }
 
@@ -48,6 +48,14 @@ pub(crate) fn bounds_of(points: impl Iterator<Item = Vec3>) -> Bounds {
     } else {
         ([-0.5; 3], [0.5; 3])
     }
+}
+
+/// The box around two boxes.
+pub(crate) fn around(a: Bounds, b: Bounds) -> Bounds {
+    (
+        std::array::from_fn(|i| a.0[i].min(b.0[i])),
+        std::array::from_fn(|i| a.1[i].max(b.1[i])),
+    )
 }
 
 /// Radius of the sphere around a box; at least a tiny number.
@@ -109,4 +117,10 @@ fn camera_of(scene: &Scene, node: &Node) -> Option<(String, Camera)> {
         projection,
     };
     Some((name.clone(), camera))
+}
+
+/// What a vector in the camera's axes is in the world.
+pub(crate) fn in_world(camera: &Camera, direction: [f32; 3]) -> [f32; 3] {
+    let [right, up, back] = camera.axes().map(Vec3::from);
+    (right * direction[0] + up * direction[1] + back * direction[2]).to_array()
 }

@@ -1,8 +1,8 @@
 //! The sky over a scene: what hides it, and its picture.
 
 use crate::model::Model;
+use crate::options::Picture;
 use crate::placement::radius_of;
-use crate::renderer::Picture;
 use crate::textures::STORE_WORDS;
 use glam::Vec3;
 use npr_core::cutout::Cutout;

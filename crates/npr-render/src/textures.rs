@@ -1,7 +1,8 @@
 //! Images of a scene in one texture store.
 
+use npr_core::geometry::NONE;
 use npr_core::texture::{TextureStore, Wrap};
-use npr_scene::{Image, Scene, TextureUse};
+use npr_scene::{Image, Part, Scene, TextureUse};
 use std::collections::BTreeMap;
 
 /// Most words of a store: it must fit the 128 MiB that every device binds.
@@ -96,4 +97,14 @@ fn average_of_four(rgba: &[u8], size: [u32; 2], at: [u32; 2]) -> [u8; 4] {
         let sum: u32 = corners.iter().map(|start| u32::from(rgba[start + i])).sum();
         ((sum + 2) / 4) as u8
     })
+}
+
+/// Where the texture of a part starts in the store, or [`NONE`].
+pub(crate) fn base_color_texture(scene: &Scene, part: &Part, textures: &mut Textures) -> u32 {
+    let material = part.material.and_then(|m| scene.materials.get(m as usize));
+    let texture = material.and_then(|material| material.base_color_texture.as_ref());
+    texture
+        .filter(|_| part.uvs.is_some())
+        .and_then(|texture| textures.start_of(scene, texture))
+        .unwrap_or(NONE)
 }

@@ -2,7 +2,7 @@
 
 use crate::instance::packed_color;
 use crate::joined::Joined;
-use crate::model::PartInfo;
+use crate::part_info::PartInfo;
 use crate::placement;
 use npr_mesh::half_edge::Surface;
 use npr_mesh::shape::PlacedMesh;

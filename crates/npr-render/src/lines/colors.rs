@@ -2,12 +2,13 @@
 
 use super::texture_map::TextureMap;
 use crate::error::RenderError;
-use crate::light::{ChosenLights, FileLight};
+use crate::file_light::FileLight;
+use crate::light::ChosenLights;
 use crate::line_colors::add_line_colors;
 use crate::look;
-use crate::model::{Model, PartInfo};
+use crate::options::Picture;
+use crate::part_info::PartInfo;
 use crate::placement::Bounds;
-use crate::renderer::Picture;
 use glam::{Vec2, Vec3};
 use npr_core::camera::Camera;
 use npr_core::color::{linear_rgba, unpack_rgba8};
@@ -19,7 +20,6 @@ use npr_core::surface::unit_or_z;
 use npr_core::texture::{self, TextureStore};
 use npr_core::window::View;
 use npr_mesh::half_edge::HalfEdgeMesh;
-use npr_scene::Scene;
 use npr_style::lighting::Lights;
 use npr_style::line_color::{LINE_BLUR_PX, LineScene, strengthened};
 use npr_stylesheet::Style;
@@ -79,9 +79,7 @@ impl<'a> StrokeColors<'a> {
             ..
         } = input;
         let view = camera.view(size, bounds);
-        let mut lamps = Model::new(&Scene::default())?;
-        lamps.lights = input.lights.to_vec();
-        let lights = ChosenLights::new(style, &lamps, input.pictures);
+        let lights = ChosenLights::new(style, input.lights, Vec::new(), input.pictures);
         let lights = lights.of_frame(style, bounds, None, camera, &view);
         let mut textures = input
             .map

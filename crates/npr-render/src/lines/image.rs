@@ -1,9 +1,10 @@
 //! Lines from a picture of the surfaces, and lines painted in textures.
 
+use super::options::{LineMethod, LineOptions};
 use super::paint::Paint;
 use super::pixels::occluder_depths_of;
 use super::texture_map::TextureMap;
-use super::{LineMethod, LineModel, LineOptions, LineView};
+use super::view::LineView;
 use crate::error::RenderError;
 use glam::{DVec3, Vec2};
 use npr_core::budget::Budget;
@@ -33,54 +34,51 @@ pub(super) fn beside_image(settings: &LineSettings) -> LineSettings {
     }
 }
 
-impl LineModel {
-    /// The strokes of a view by [`LineMethod::Image`], and painted ones, as far as each is asked for. Dense smoke
-    /// hides them.
-    pub(super) fn image_strokes(
-        &self,
-        prepared: &Prepared,
-        view: &LineView<'_>,
-        options: &LineOptions,
-        (settings, paint, look): (&LineSettings, &Paint, &StrokeLook<'_>),
-    ) -> Result<Vec<Stroke>, RenderError> {
-        let [width, height] = options.size.map(|side| side as usize);
-        let mut budget = Budget::new(self.memory_limit);
-        budget.take("a picture of surfaces", width * height, BYTES_PER_PIXEL)?;
-        let of_frame = view.camera.view(options.size, view.bounds);
-        let scene = ImageScene {
-            shape: &self.shape,
-            normals: prepared.corner_normals(&self.shape),
-            view: &of_frame,
-            is_drawn: &paint.lined_surfaces(),
-            kinds: settings.kinds,
-            creases: options.creases(),
-            depth_threshold: options.depth_threshold,
-        };
-        let picture = SurfacePicture::new(&scene);
-        let occluder_depths = view
-            .smoke
-            .and_then(|smoke| occluder_depths_of(&of_frame, smoke));
-        let on = (&scene, view.projector, &picture);
-        let mut strokes = Vec::new();
-        if options.method == LineMethod::Image {
-            let runs = picture.borders(&scene, occluder_depths.as_deref()).runs(on);
-            strokes = strokes_from(runs, &self.shape, settings, look);
-        }
-        if let (Some(map), Some(wanted)) = (&self.map, options.painted) {
-            let all = ImageScene {
-                kinds: CurveNode::KINDS,
-                ..scene
-            };
-            let lines = picture.borders(&all, None).ink();
-            let lightness = lightness(&self.shape, map, (&of_frame, view.projector), &picture);
-            for rule in wanted.rules() {
-                let mut ink = painted_lines(&scene, &picture, &lightness, &lines, &rule);
-                ink.retain(|pixel| picture.is_clear(occluder_depths.as_deref(), pixel));
-                strokes.extend(strokes_from(ink.runs(on)?, &self.shape, settings, look));
-            }
-        }
-        Ok(strokes)
+/// The strokes of a view by [`LineMethod::Image`], and painted ones, as far as each is asked for. Dense smoke
+/// hides them.
+pub(super) fn strokes(
+    view: &LineView<'_>,
+    prepared: &Prepared,
+    options: &LineOptions,
+    (settings, paint, look): (&LineSettings, &Paint, &StrokeLook<'_>),
+) -> Result<Vec<Stroke>, RenderError> {
+    let [width, height] = options.size.map(|side| side as usize);
+    let mut budget = Budget::new(view.memory_limit);
+    budget.take("a picture of surfaces", width * height, BYTES_PER_PIXEL)?;
+    let of_frame = view.camera.view(options.size, view.bounds);
+    let scene = ImageScene {
+        shape: view.shape,
+        normals: prepared.corner_normals(view.shape),
+        view: &of_frame,
+        is_drawn: &paint.lined_surfaces(),
+        kinds: settings.kinds,
+        creases: options.creases(),
+        depth_threshold: options.depth_threshold,
+    };
+    let picture = SurfacePicture::new(&scene);
+    let occluder_depths = view
+        .smoke
+        .and_then(|smoke| occluder_depths_of(&of_frame, smoke));
+    let on = (&scene, view.projector, &picture);
+    let mut strokes = Vec::new();
+    if options.method == LineMethod::Image {
+        let runs = picture.borders(&scene, occluder_depths.as_deref()).runs(on);
+        strokes = strokes_from(runs, view.shape, settings, look);
     }
+    if let (Some(map), Some(wanted)) = (view.map, options.painted) {
+        let all = ImageScene {
+            kinds: CurveNode::KINDS,
+            ..scene
+        };
+        let lines = picture.borders(&all, None).ink();
+        let lightness = lightness(view.shape, map, (&of_frame, view.projector), &picture);
+        for rule in wanted.rules() {
+            let mut ink = painted_lines(&scene, &picture, &lightness, &lines, &rule);
+            ink.retain(|pixel| picture.is_clear(occluder_depths.as_deref(), pixel));
+            strokes.extend(strokes_from(ink.runs(on)?, view.shape, settings, look));
+        }
+    }
+    Ok(strokes)
 }
 
 /// How light the textures of a view are at every pixel, 0 to 1 as seen; no number where there is none.

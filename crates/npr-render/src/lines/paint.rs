@@ -3,7 +3,7 @@
 use super::smoke::SmokeView;
 use crate::error::RenderError;
 use crate::look;
-use crate::model::PartInfo;
+use crate::part_info::PartInfo;
 use npr_core::color::srgb_from_linear;
 use npr_drawing::fill;
 use npr_mesh::half_edge::HalfEdgeMesh;

@@ -1,8 +1,9 @@
 //! Lines from a picture of them, as published.
 
 use super::finder::Finder;
+use super::options::LineOptions;
 use super::paint::Paint;
-use super::{LineModel, LineOptions, LineView};
+use super::view::LineView;
 use crate::error::RenderError;
 use npr_core::budget::Budget;
 use npr_core::window::View;
@@ -13,60 +14,56 @@ use npr_vector::pixel_strokes::stroke::Loops;
 use npr_vector::pixel_strokes::{BYTES_PER_PIXEL, PixelScene, PublishedPath, Traced};
 use npr_vector::stroke::Stroke;
 
-impl LineModel {
-    /// The strokes of a view by [`LineMethod::Potrace`](super::LineMethod); dense smoke hides them, and its own
-    /// outline comes after.
-    pub(super) fn pixel_strokes(
-        &self,
-        prepared: &Prepared,
-        view: &LineView<'_>,
-        options: &LineOptions,
-        (settings, paint, look): (&LineSettings, &Paint, &StrokeLook<'_>),
-        find: &mut dyn Finder,
-    ) -> Result<Vec<Stroke>, RenderError> {
-        let (traced, loops) = self.traced(view, options, paint, find)?;
-        let (shape, projector) = (&self.shape, view.projector);
-        let mut strokes = traced.strokes(shape, projector, &loops, options.split, look);
-        if let Some(smoke) = view.smoke {
-            let all = self.of_mesh(prepared, view, settings, look)?;
-            let of_smoke = all
-                .strokes
-                .into_iter()
-                .filter(|stroke| stroke.surface == smoke.surface);
-            strokes.extend(of_smoke);
-        }
-        Ok(strokes)
+/// The strokes of a view by [`LineMethod::Potrace`](super::LineMethod); dense smoke hides them, and its own
+/// outline comes after.
+pub(super) fn strokes(
+    view: &LineView<'_>,
+    prepared: &Prepared,
+    options: &LineOptions,
+    (settings, paint, look): (&LineSettings, &Paint, &StrokeLook<'_>),
+    find: &mut dyn Finder,
+) -> Result<Vec<Stroke>, RenderError> {
+    let (traced, loops) = traced(view, options, paint, find)?;
+    let (shape, projector) = (view.shape, view.projector);
+    let mut strokes = traced.strokes(shape, projector, &loops, options.split, look);
+    if let Some(smoke) = view.smoke {
+        let all = view.of_mesh(prepared, settings, look)?;
+        let of_smoke = all
+            .strokes
+            .into_iter()
+            .filter(|stroke| stroke.surface == smoke.surface);
+        strokes.extend(of_smoke);
     }
+    Ok(strokes)
+}
 
-    /// Draws the lines of a view into a picture, ranks the sides of its pixels and cuts their loops.
-    fn traced(
-        &self,
-        view: &LineView<'_>,
-        options: &LineOptions,
-        paint: &Paint,
-        find: &mut dyn Finder,
-    ) -> Result<(Traced, Loops), RenderError> {
-        let [width, height] = options.size.map(|side| side as usize);
-        let mut budget = Budget::new(self.memory_limit);
-        budget.take(
-            "a picture of lines",
-            width * height,
-            BYTES_PER_PIXEL as usize,
-        )?;
-        let of_frame = view.camera.view(options.size, view.bounds);
-        let occluder_depths = view
-            .smoke
-            .and_then(|smoke| occluder_depths_of(&of_frame, smoke));
-        let scene = PixelScene {
-            shape: &self.shape,
-            view: &of_frame,
-            eye: &eye_of(&self.shape, view.projector),
-            kinds: options.kinds.bits(),
-            creases: options.creases(),
-            is_drawn: &paint.lined_surfaces(),
-        };
-        find.pixels(&scene, &path_of(options), occluder_depths.as_deref())
-    }
+/// Draws the lines of a view into a picture, ranks the sides of its pixels and cuts their loops.
+fn traced(
+    view: &LineView<'_>,
+    options: &LineOptions,
+    paint: &Paint,
+    find: &mut dyn Finder,
+) -> Result<(Traced, Loops), RenderError> {
+    let [width, height] = options.size.map(|side| side as usize);
+    let mut budget = Budget::new(view.memory_limit);
+    budget.take(
+        "a picture of lines",
+        width * height,
+        BYTES_PER_PIXEL as usize,
+    )?;
+    let of_frame = view.camera.view(options.size, view.bounds);
+    let occluder_depths = view
+        .smoke
+        .and_then(|smoke| occluder_depths_of(&of_frame, smoke));
+    let scene = PixelScene {
+        shape: view.shape,
+        view: &of_frame,
+        eye: &eye_of(view.shape, view.projector),
+        kinds: options.kinds.bits(),
+        creases: options.creases(),
+        is_drawn: &paint.lined_surfaces(),
+    };
+    find.pixels(&scene, &path_of(options), occluder_depths.as_deref())
 }
 
 /// The constants that a drawing asks for; places are as the pixels have them where strokes are not smoothed.

@@ -1,17 +1,21 @@
 //! A line model on an engine.
 
 use super::finder::{Finder, OnDevice, OnProcessor};
-use super::{LineModel, LineOptions};
+use super::model::LineModel;
+use super::options::LineOptions;
 use crate::error::RenderError;
 use crate::frame::Frame;
-use crate::model::Model;
-use crate::renderer::{Picture, Renderer, RendererOptions};
+use crate::options::Picture;
 use crate::smoke::Smoke;
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_stylesheet::Style;
 use npr_vector::stroke::Drawing;
 use std::collections::BTreeMap;
+
+/// Draws the scene without lines, as a camera sees it, in a style and the size of a line drawing.
+pub(crate) type DrawBehind<'a> =
+    dyn Fn(&Camera, &Style, &LineOptions) -> Result<Frame, RenderError> + 'a;
 
 /// A line model on an engine: what a device finds of its lines is found there, the rest on the processor.
 ///
@@ -24,17 +28,12 @@ use std::collections::BTreeMap;
 /// [`LineMethod::Potrace`](super::LineMethod): there a device draws the depths that hide lines, and smooths, within
 /// rounding; and colours that mind a backdrop may differ as far as pictures do.
 pub struct LineRenderer<'a> {
-    engine: &'a dyn Engine,
-    model: &'a LineModel,
-    backdrop: Option<Backdrop<'a>>,
+    pub(crate) engine: &'a dyn Engine,
+    pub(crate) model: &'a LineModel,
+    /// Draws what lies behind lines, where their colours follow it.
+    pub(crate) behind: Option<Box<DrawBehind<'a>>>,
     /// The plain functions on the processor, where they are faster than their passes.
     finder: Box<dyn Finder + 'a>,
-}
-
-/// What the picture behind lines is made from.
-struct Backdrop<'a> {
-    model: &'a Model,
-    options: &'a RendererOptions,
 }
 
 impl<'a> LineRenderer<'a> {
@@ -44,7 +43,7 @@ impl<'a> LineRenderer<'a> {
         Self {
             engine,
             model,
-            backdrop: None,
+            behind: None,
             finder: match engine.runs_twins() {
                 true => Box::new(OnProcessor(shape)),
                 false => Box::new(OnDevice::new(engine, shape)),
@@ -52,30 +51,22 @@ impl<'a> LineRenderer<'a> {
         }
     }
 
-    /// The same, with the scene and the pictures that lines are judged before, where the style lets them mind it
-    /// ([`npr_stylesheet::LineBackground`]).
-    ///
-    /// Each point of a stroke then looks at the colours on both of its sides in a picture of the scene without lines,
-    /// before its background, of the drawing's size. What lies where is asked of the surface, so textures cut nothing
-    /// out of it. Without a backdrop lines mind nothing.
-    pub fn with_backdrop(mut self, model: &'a Model, options: &'a RendererOptions) -> Self {
-        self.backdrop = Some(Backdrop { model, options });
-        self
-    }
-
     /// The lines that a camera sees; see [`LineModel::draw`].
     ///
     /// # Errors
     ///
     /// Those of [`LineModel::draw`], and [`RenderError::Engine`] where the device fails or has no room for the shape:
-    /// beyond 2.7 million triangles none has; those of [`Renderer::new`] for a picture behind.
+    /// beyond 2.7 million triangles none has; those of [`Renderer::new`](crate::Renderer::new) for a picture behind.
     pub fn draw(
         &mut self,
         camera: &Camera,
         style: &Style,
         options: &LineOptions,
     ) -> Result<Drawing, RenderError> {
-        let behind = self.picture(camera, style, options)?;
+        let behind = match &self.behind {
+            Some(draw) if style.contrasts_with_background() => Some(draw(camera, style, options)?),
+            _ => None,
+        };
         self.finder.start_view();
         let find = self.finder.as_mut();
         self.model
@@ -94,35 +85,6 @@ impl<'a> LineRenderer<'a> {
         let find = self.finder.as_mut();
         self.model
             .draw_curves(camera, of_style, options, beside, find)
-    }
-
-    /// What lies behind the lines, where any mind it.
-    fn picture(
-        &self,
-        camera: &Camera,
-        style: &Style,
-        options: &LineOptions,
-    ) -> Result<Option<Frame>, RenderError> {
-        let Some(backdrop) = self
-            .backdrop
-            .as_ref()
-            .filter(|_| style.contrasts_with_background())
-        else {
-            return Ok(None);
-        };
-        let of_frame = RendererOptions {
-            size: options.size,
-            dpi: options.dpi,
-            smoke: self.model.smoke.clone(),
-            ..backdrop.options.clone()
-        };
-        let mut renderer = Renderer::new(
-            self.engine,
-            backdrop.model,
-            &style.without_lines(),
-            &of_frame,
-        )?;
-        renderer.draw(camera).map(Some)
     }
 
     /// How long each pass of the last view took; none on the processor.

@@ -3,11 +3,13 @@
 use super::LineOptions;
 use super::tones::{ToneMap, level_lines};
 use crate::error::RenderError;
+use crate::features::smoke::{Measure, SmokeMoment, lens_of};
+use crate::file_light::FileLight;
 use crate::light::ChosenLights;
-use crate::model::Model;
+use crate::options::Picture;
 use crate::placement::Bounds;
-use crate::renderer::Picture;
-use crate::smoke::{Measure, Smoke, around, lens_of};
+use crate::placement::around;
+use crate::smoke::Smoke;
 use npr_core::camera::Camera;
 use npr_style::smoke::SmokeLook;
 use npr_stylesheet::{SmokeLines as Outlining, Style};
@@ -37,16 +39,17 @@ pub(super) struct SmokeView<'a> {
 }
 
 impl<'a> SmokeView<'a> {
-    /// `bounds` is the box of all that is drawn; `model` lends its lights, and `pictures` are those of the style.
+    /// `bounds` is the box of all that is drawn; `of_file` are the lights of the file, `pictures` those of the style.
     pub fn new(
         smoke: &Smoke,
         (style, options): (&'a Style, &LineOptions),
         (camera, projector, bounds): (&Camera, &Projector, Bounds),
-        (model, pictures): (&Model, &BTreeMap<String, Picture>),
+        (of_file, pictures): (&[FileLight], &BTreeMap<String, Picture>),
         first_surface: u32,
     ) -> Result<Self, RenderError> {
         let view = camera.view(options.size, bounds);
-        let (lights, _) = ChosenLights::new(style, model, pictures).of_smoke(style, model);
+        let of_surfaces = ChosenLights::new(style, of_file, Vec::new(), pictures);
+        let (chosen, _) = of_surfaces.of_smoke(style);
         let measure = Measure {
             height_px: options.size[1] as f32,
             dpi: options.dpi,
@@ -54,10 +57,16 @@ impl<'a> SmokeView<'a> {
             samples: 1,
         };
         let lens = lens_of(&view, &style.smoke);
-        let lights = lights.of_frame(style, bounds, None, camera, &view);
+        let lights = chosen.of_frame(style, bounds, None, camera, &view);
+        let moment = SmokeMoment {
+            smoke,
+            style,
+            camera,
+            view: &view,
+            bounds: smoke.extent(),
+        };
         let is_toned = options.fill && style.smoke.ramp.len() > 1;
-        let tones =
-            is_toned.then(|| ToneMap::new(smoke, (model, pictures), style, options, camera));
+        let tones = is_toned.then(|| ToneMap::new(&moment, chosen, options));
         Ok(Self {
             puffs: Puffs::new(projector, options.size, &smoke.styled(&style.smoke)),
             look: measure.look(style, &lens, smoke.bounds(), &lights, 0),

@@ -5,10 +5,10 @@
 //! it.
 
 use super::paint::face_at;
-use crate::backdrop::Backdrop;
-use crate::blueprint::Method;
+use crate::features::background_contrast::BackgroundContrast;
+use crate::features::line_features::LineFeatures;
 use crate::frame::Frame;
-use crate::model::PartInfo;
+use crate::part_info::PartInfo;
 use npr_core::color::{largest_difference, linear_from_srgb, srgb_from_linear};
 use npr_core::math;
 use npr_mesh::half_edge::HalfEdgeMesh;
@@ -68,8 +68,8 @@ impl<'a> StrokeContrast<'a> {
         style: &Style,
         px: [f32; 3],
     ) -> Option<Self> {
-        let backdrop = Backdrop::new(infos, style, infos.len());
-        let rules = backdrop.rules(style, Method::NONE, 0.0, px, 1);
+        let backdrop = BackgroundContrast::needs(infos, style, infos.len());
+        let rules = backdrop.rules(style, LineFeatures::NONE, 0.0, px, 1);
         let stroke_contrast = Self {
             shape,
             tree,

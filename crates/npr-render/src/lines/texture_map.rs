@@ -2,8 +2,8 @@
 
 use super::assembly::{Assembly, place_key};
 use crate::instance::placed_uv;
-use crate::model::base_color_texture;
 use crate::textures::Textures;
+use crate::textures::base_color_texture;
 use npr_core::geometry::NONE;
 use npr_core::texture::TextureStore;
 use npr_mesh::half_edge::HalfEdgeMesh;

@@ -1,26 +1,21 @@
-//! The tones of smoke as areas: those of its picture, traced.
+//! The tones of smoke as areas: the numbers behind its picture, traced.
 
 use super::LineOptions;
 use crate::error::RenderError;
-use crate::model::Model;
-use crate::renderer::{Picture, Renderer, RendererOptions};
-use crate::smoke::Smoke;
-use npr_core::camera::Camera;
-use npr_core::color::linear_from_byte;
+use crate::features::smoke::{Measure, SmokeMoment, SmokePasses};
+use crate::frame_graph::{pixel_count, write};
+use crate::light::ChosenLights;
+use crate::tiles::{TILE_PIXELS, Tiles};
+use npr_core::window::Window;
+use npr_gpu::engine::Engine;
+use npr_gpu::graph::Graph;
+use npr_gpu::pass::Format;
 use npr_gpu::processor::Processor;
-use npr_stylesheet::{
-    Background, Color, SmokeInk, SmokeLines, SmokeMethod, SmokeStop, SmokeStyle, Style,
-};
-use std::collections::BTreeMap;
+use npr_style::shadow::SHADOWS_MAX;
+use npr_stylesheet::{SmokeMethod, SmokeStyle, Style};
 
 /// How far tones go on beyond the smoke, in pixels, so that their edges reach its outline.
 const BEYOND_PX: usize = 3;
-
-/// Rounds in which tones are evened out, over a pixel more each.
-const ROUNDS: usize = 4;
-
-/// Tones that differ by less are of one slope.
-const ALIKE: f32 = 0.06;
 
 /// Smoothed tones of a picture of smoke.
 #[derive(Debug)]
@@ -33,40 +28,87 @@ pub(super) struct ToneMap {
 }
 
 impl ToneMap {
-    /// Draws the smoke as pictures have it, on the processor, lit by the lights of a model without surfaces.
+    /// Draws the smoke as pictures have it, as spheres and on the processor, lit by `chosen`.
     pub fn new(
-        smoke: &Smoke,
-        (model, pictures): (&Model, &BTreeMap<String, Picture>),
-        style: &Style,
+        moment: &SmokeMoment<'_>,
+        chosen: ChosenLights,
         options: &LineOptions,
-        camera: &Camera,
     ) -> Result<Self, RenderError> {
-        let renderer_options = RendererOptions {
+        let style = Style {
+            smoke: SmokeStyle {
+                method: SmokeMethod::Spheres,
+                ..moment.style.smoke.clone()
+            },
+            ..moment.style.clone()
+        };
+        let moment = SmokeMoment {
+            style: &style,
+            ..*moment
+        };
+
+        // Plan the passes of smoke alone, for one tile of the picture.
+        let mut measure = Measure {
+            height_px: options.size[1] as f32,
             dpi: options.dpi,
-            smoke: Some(smoke.clone()),
-            pictures: pictures.clone(),
-            ..RendererOptions::new(options.size)
+            size: options.size,
+            samples: 1,
         };
-        let telling = telling_tones(style);
-        let mut renderer = Renderer::new(&Processor, model, &telling, &renderer_options)?;
-        let frame = renderer.draw(camera)?;
-        let pixels = frame.rgba.as_chunks::<4>().0;
-        let tone = |[r, g, _, a]: &[u8; 4]| match a {
-            0 => f32::NAN,
-            _ => 0.5 * (linear_from_byte(*r) + linear_from_byte(*g)),
-        };
+        let margin = measure.reach_px(&style.smoke).min(1e4) as u32;
+        let tiles = Tiles::new(options.size, margin, TILE_PIXELS);
+        measure.size = tiles.size();
+        let mut graph = Graph::new();
+        let window = graph.uniform::<Window>("output window");
+        let none = graph.image("no surfaces", Format::Depth, [1, 1]);
+        let sized = (&style.smoke, moment.smoke.spheres.len());
+        let unshaded = ([none; SHADOWS_MAX], 0);
+        let passes = SmokePasses::plan(&mut graph, (measure, chosen), sized, window, unshaded);
+        let mut session = Processor.prepare(graph)?;
+        passes.upload(session.as_mut(), moment.smoke, &style.smoke)?;
+        passes.upload_view(session.as_mut(), &moment)?;
+
+        // Read the tones of every tile where it shows smoke.
         let mut map = Self {
-            size: frame.size.map(|side| side as usize),
-            tones: pixels.iter().map(tone).collect(),
+            size: options.size.map(|side| side as usize),
+            tones: vec![f32::NAN; pixel_count(options.size)],
             steps: style.smoke.ramp.iter().skip(1).map(|s| s.at).collect(),
         };
+        for origin in tiles.origins() {
+            let [width, height] = measure.size;
+            let extent = [width as f32, height as f32];
+            let corner = tiles.corner_px(origin);
+            let over = Window::over(moment.view.frame_px, corner, extent, measure.size);
+            write(session.as_mut(), window, &[over])?;
+            session.run()?;
+            let (ids, tones) = (session.read(passes.ids)?, session.read(passes.tones)?);
+            let tone_of = |(id, tone): (&u32, &u32)| match id {
+                0 => f32::NAN,
+                _ => f32::from_bits(*tone),
+            };
+            let tones: Vec<f32> = ids.iter().zip(&tones).map(tone_of).collect();
+            map.paste(&tones, width as usize, &tiles, origin);
+        }
+
+        // Let them go on a little beyond the smoke.
         for _ in 0..BEYOND_PX {
             map.grow();
         }
-        for _ in 0..ROUNDS {
-            map.even_out();
-        }
         Ok(map)
+    }
+
+    /// Copies the part of a tile that is kept.
+    fn paste(&mut self, tile: &[f32], tile_width: usize, tiles: &Tiles, origin: [u32; 2]) {
+        let [left, top] = origin.map(|at| at as usize);
+        let [columns, rows] = tiles.kept.map(|side| side as usize);
+        let (columns, rows) = (
+            columns.min(self.size[0] - left),
+            rows.min(self.size[1] - top),
+        );
+        let margin = tiles.margin as usize;
+        for row in 0..rows {
+            let from = (margin + row) * tile_width + margin;
+            let to = (top + row) * self.size[0] + left;
+            self.tones[to..to + columns].copy_from_slice(&tile[from..from + columns]);
+        }
     }
 
     fn at(&self, x: usize, y: usize) -> f32 {
@@ -96,26 +138,6 @@ impl ToneMap {
             sum / count
         });
         self.tones = grown.collect();
-    }
-
-    /// Gives pixels the mean of those around with about their tone: bytes make steps of gentle slopes, which edges
-    /// would follow.
-    fn even_out(&mut self) {
-        let evened = (0..self.tones.len()).map(|i| {
-            let (x, y, own) = (i % self.size[0], i / self.size[0], self.tones[i]);
-            let (mut sum, mut count) = (0.0, 0.0);
-            for step in 0..9 {
-                let beside = self.at(
-                    (x + step % 3).wrapping_sub(1),
-                    (y + step / 3).wrapping_sub(1),
-                );
-                if (beside - own).abs() < ALIKE {
-                    (sum, count) = (sum + beside, count + 1.0);
-                }
-            }
-            sum / count
-        });
-        self.tones = evened.collect();
     }
 
     /// Which tone of the style a place in the picture has, from 0.
@@ -157,31 +179,6 @@ pub(super) fn level_lines(
         *place = place.map(|v| v * cell_px);
     }
     edges
-}
-
-/// A style whose smoke tells its tone: red counts up to the half, green on from there.
-fn telling_tones(style: &Style) -> Style {
-    let stop = |at, r, g| SmokeStop {
-        at,
-        color: Color::rgb(r, g, 0),
-    };
-    let mut telling = Style {
-        background: Background::Transparent,
-        smoke: SmokeStyle {
-            method: SmokeMethod::Spheres,
-            ramp: vec![stop(0.0, 0, 0), stop(0.25, 255, 0), stop(0.75, 255, 255)],
-            softness: 0.5,
-            opacity: 1.0,
-            ramp_image: String::new(),
-            ink: SmokeInk::default(),
-            ..style.smoke.clone()
-        },
-        light: style.light.clone(),
-        ..Style::default()
-    };
-    telling.smoke.line.method = SmokeLines::Off;
-    telling.antialias.samples = 1;
-    telling
 }
 
 /// Where a square of four places, clockwise from the upper left, passes from below a tone to above it.
@@ -250,8 +247,7 @@ mod tests {
         assert_eq!(map.edges(), Vec::<[[f64; 2]; 2]>::new());
         map.grow();
         assert!((map.at(2, 2) - 0.7).abs() < 1e-6 && map.at(1, 1).is_nan());
-        map.even_out();
-        assert!((map.at(3, 3) - 0.7).abs() < 1e-6 && map.at(1, 1).is_nan());
+        assert!((map.at(3, 3) - 0.7).abs() < 1e-6);
         assert_eq!(map.level_at([3.5, 3.5]), 1);
         assert_eq!(map.level_at([-9.0, 1e9]), 0);
     }

@@ -3,7 +3,7 @@
 use super::LineModelOptions;
 use super::assembly::{Assembly, place_key};
 use crate::error::RenderError;
-use crate::model::PartInfo;
+use crate::part_info::PartInfo;
 use npr_core::budget::Budget;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_scene::Scene;
@@ -23,7 +23,7 @@ pub(super) fn check_budget(
     options: &LineModelOptions,
 ) -> Result<(), RenderError> {
     let half_edges = 3 * assembly.triangle_count();
-    crate::model::check_count("half-edges", half_edges, assembly.polyline_count())?;
+    crate::error::check_count("half-edges", half_edges, assembly.polyline_count())?;
     let mut budget = Budget::new(options.memory_limit);
     budget.take("vertices", assembly.vertex_count(), BYTES_PER_VERTEX)?;
     budget.take(

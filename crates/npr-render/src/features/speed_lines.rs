@@ -2,20 +2,22 @@
 
 use crate::error::RenderError;
 use crate::frame::Frame;
+use crate::frame_graph::pixel_count;
 use crate::look::part;
 use crate::model::Model;
+use crate::options::RendererOptions;
+use crate::part_info::PartInfo;
 use crate::placement::bounds_of;
-use crate::renderer::{Renderer, RendererOptions};
-use crate::surfaces::surface_depths;
+use crate::surfaces::Surfaces;
 use glam::{Mat4, Vec2, Vec3};
-use npr_core::camera::Camera;
+use npr_core::budget::Budget;
 use npr_core::color::SrgbEncoder;
 use npr_core::geometry::Part;
+use npr_core::raster::triangle_of;
 use npr_core::texture::{TextureStore, linear_texel};
 use npr_core::window::View;
-use npr_gpu::engine::Engine;
 use npr_stylesheet::blend::blend;
-use npr_stylesheet::motion::{Motion, trail_of};
+use npr_stylesheet::motion::Motion;
 use npr_stylesheet::{Color, Style};
 
 /// Longest trail in the picture, in pixels: more than the diagonal of any frame shows no more. What runs past the eye
@@ -23,7 +25,7 @@ use npr_stylesheet::{Color, Style};
 const LONGEST_PX: f32 = 65_536.0;
 
 /// Memory for numbers and depths, movers, and what they left behind.
-const BYTES_PER_PIXEL: u64 = 32;
+const BYTES_PER_PIXEL: usize = 44;
 
 /// Shortest trail that is drawn, in pixels.
 const SHORTEST_PX: f32 = 1.0;
@@ -40,8 +42,8 @@ pub(crate) struct SpeedLines<'a> {
     model: &'a Model,
     /// What of a part decides which of its sides are seen.
     parts: Vec<Part>,
-    /// Shows what moves and nothing else.
-    seen: Box<Renderer<'a>>,
+    /// Which mover each part belongs to.
+    mover_of_part: Vec<Option<usize>>,
     motion: Motion,
     movers: Vec<Mover>,
     size: [u32; 2],
@@ -70,60 +72,48 @@ struct Sweep {
 }
 
 impl<'a> SpeedLines<'a> {
-    /// The speed lines that a style asks for; none where nothing moves. `planned_bytes` of the memory are spoken for.
-    pub fn new(
-        engine: &dyn Engine,
+    /// The speed lines that a style asks for; none where nothing moves.
+    pub fn needs(
         model: &'a Model,
         style: &Style,
         options: &RendererOptions,
-        planned_bytes: u64,
+        budget: &mut Budget,
     ) -> Result<Option<Self>, RenderError> {
         let trails = style.trails();
         if trails.is_empty() {
             return Ok(None);
         }
-        let left = RendererOptions {
-            memory_limit: options.memory_limit - planned_bytes,
-            ..RendererOptions::new(options.size)
+        let pixels = pixel_count(options.size);
+        budget.take("speed lines", pixels, BYTES_PER_PIXEL)?;
+        let trail_of = |info: &PartInfo| {
+            let trail = info.look(style).trail;
+            trails.iter().position(|other| trail == Some(*other))
         };
-        let left = RendererOptions {
-            tile_pixels: options.tile_pixels,
-            ..left
-        };
-        let movers = trails.iter().map(|trail| Mover::new(model, style, *trail));
+        let mover_of_part: Vec<Option<usize>> = model.parts.iter().map(trail_of).collect();
+        let movers = (0..).zip(&trails);
+        let movers = movers.map(|(index, trail)| Mover::new(model, &mover_of_part, index, *trail));
         Ok(Some(Self {
-            model,
-            parts: model.parts.iter().map(|info| part(info, style)).collect(),
-            seen: Box::new(Renderer::new(engine, model, &style.of_motion(), &left)?),
-            motion: style.motion.clone(),
             movers: movers.collect(),
+            parts: model.parts.iter().map(|info| part(info, style)).collect(),
+            mover_of_part,
+            model,
+            motion: style.motion.clone(),
             size: options.size,
             dpi: options.dpi,
         }))
     }
 
-    /// Memory that they need.
-    pub fn planned_bytes(&self) -> u64 {
-        let pixels = u64::from(self.size[0]) * u64::from(self.size[1]);
-        self.seen.planned_bytes() + pixels * BYTES_PER_PIXEL
-    }
-
     /// Draws them over a frame, behind what stands before the part they belong to. O(triangles + pixels * trails).
-    pub fn apply(
-        &mut self,
-        camera: &Camera,
-        view: &View,
-        frame: &mut Frame,
-    ) -> Result<(), RenderError> {
-        let seen = self.seen.draw(camera)?;
-        let movers: Vec<Option<usize>> = seen
-            .rgba
-            .as_chunks()
-            .0
-            .iter()
-            .map(|pixel| trail_of(*pixel))
-            .collect();
-        let depths = surface_depths(self.model, &self.parts, view, self.size);
+    pub fn finish(&self, view: &View, frame: &mut Frame) {
+        // See which mover every pixel shows, and how deep.
+        let Surfaces { ids, depths } = Surfaces::new(self.model, &self.parts, view, self.size);
+        let mover_of = |id: &u32| {
+            let triangle = self.model.triangles.get(triangle_of(*id) as usize)?;
+            self.mover_of_part[triangle.part as usize]
+        };
+        let movers: Vec<Option<usize>> = ids.iter().map(mover_of).collect();
+
+        // Draw the trail of each over what lies behind it.
         let pen = Pen::new(self.motion.color);
         for (index, mover) in self.movers.iter().enumerate() {
             let Some(sweep) = self.sweep_of(mover, view) else {
@@ -146,8 +136,6 @@ impl<'a> SpeedLines<'a> {
                 }
             }
         }
-        frame.times.extend(seen.times);
-        Ok(())
     }
 
     /// Where a trail lies in a view; none where all of it is behind the eye or too short to see.
@@ -183,12 +171,8 @@ impl<'a> SpeedLines<'a> {
 }
 
 impl Mover {
-    fn new(model: &Model, style: &Style, trail: [f32; 3]) -> Self {
-        let moves = |part: u32| {
-            let info = &model.parts[part as usize];
-            let look = info.look(style);
-            look.trail == Some(trail)
-        };
+    fn new(model: &Model, mover_of_part: &[Option<usize>], index: usize, trail: [f32; 3]) -> Self {
+        let moves = |part: u32| mover_of_part[part as usize] == Some(index);
         let corners = model
             .triangles
             .iter()

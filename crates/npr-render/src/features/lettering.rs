@@ -88,7 +88,7 @@ impl Lettering {
     }
 
     /// Paints the words over a finished frame; `depths_on` gives the reversed depths of surfaces on a grid over it.
-    pub(crate) fn paint(
+    pub(crate) fn finish(
         &self,
         view: &View,
         dpi: f32,

@@ -2,25 +2,16 @@
 
 use crate::error::RenderError;
 use crate::frame::Frame;
-use crate::model::Model;
+use crate::options::RendererOptions;
 use crate::pictures::Pictures;
-use crate::renderer::{Renderer, RendererOptions};
-use npr_core::camera::Camera;
 use npr_core::color::SrgbEncoder;
 use npr_core::texture::{TextureStore, Wrap, linear_texel, sample};
-use npr_gpu::engine::Engine;
 use npr_style::compose::cover;
 use npr_stylesheet::Style;
 use npr_stylesheet::blend::blend;
 
-/// The look that shows through another one.
-pub(crate) struct Blending<'a> {
-    other: Box<Renderer<'a>>,
-    share: Share,
-}
-
-/// How much of the first look a pixel shows.
-struct Share {
+/// How much of the first look each pixel of a blend shows.
+pub(crate) struct Blending {
     amount: f32,
     /// Where the mask's header starts in the store.
     mask: Option<u32>,
@@ -28,23 +19,12 @@ struct Share {
     store: TextureStore,
 }
 
-impl<'a> Blending<'a> {
-    /// What a style is blended with; none where it is drawn alone. `planned_bytes` of the memory are spoken for.
-    pub fn new(
-        engine: &dyn Engine,
-        model: &'a Model,
-        style: &Style,
-        options: &RendererOptions,
-        planned_bytes: u64,
-    ) -> Result<Option<Self>, RenderError> {
+impl Blending {
+    /// How a style is blended with its other look; none where it is drawn alone.
+    pub fn needs(style: &Style, options: &RendererOptions) -> Result<Option<Self>, RenderError> {
         if !style.blend.shows() {
             return Ok(None);
         }
-        let left = RendererOptions {
-            memory_limit: options.memory_limit - planned_bytes,
-            ..options.clone()
-        };
-        let other = Renderer::new(engine, model, &style.blended_with()?, &left)?;
         let mut store = TextureStore::new();
         let mask = if style.blend.mask.is_empty() {
             None
@@ -57,40 +37,29 @@ impl<'a> Blending<'a> {
             })?)
         };
         Ok(Some(Self {
-            other: Box::new(other),
-            share: Share {
-                amount: style.blend.amount,
-                mask,
-                store,
-            },
+            amount: style.blend.amount,
+            mask,
+            store,
         }))
     }
 
-    /// Memory that the other look needs.
-    pub fn planned_bytes(&self) -> u64 {
-        self.other.planned_bytes()
-    }
-
-    /// Lets the other look show through a finished frame.
-    pub fn apply(&mut self, camera: &Camera, frame: &mut Frame) -> Result<(), RenderError> {
-        let other = self.other.draw(camera)?;
+    /// Lets the other look, a frame of the same size, show through a finished frame.
+    pub fn finish(&self, other: &Frame, frame: &mut Frame) {
         let encoder = SrgbEncoder::new();
         let size = frame.size;
         let pixels = frame.rgba.as_chunks_mut().0.iter_mut();
         for (i, (pixel, other)) in pixels.zip(other.rgba.as_chunks().0).enumerate() {
             let place = [i as u32 % size[0], i as u32 / size[0]];
-            let share = self.share.at(place, size);
+            let share = self.share_at(place, size);
             if share < 1.0 && pixel != other {
-                *pixel = self.share.mixed(*pixel, *other, share, &encoder);
+                *pixel = self.mixed(*pixel, *other, share, &encoder);
             }
         }
-        frame.times.extend(other.times);
-        Ok(())
+        frame.times.extend_from_slice(&other.times);
     }
-}
 
-impl Share {
-    fn at(&self, place: [u32; 2], size: [u32; 2]) -> f32 {
+    /// How much of the first look a pixel shows.
+    fn share_at(&self, place: [u32; 2], size: [u32; 2]) -> f32 {
         let Some(start) = self.mask else {
             return self.amount;
         };

@@ -1,0 +1,106 @@
+//! Which passes find and draw the lines of a frame.
+
+use npr_style::compose::Compose;
+use npr_stylesheet::{LineMethod, Style};
+
+/// What the line methods of a style are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct LineFeatures {
+    /// Lines are detected on the G-buffer.
+    pub mask: bool,
+    /// Edges are drawn as ribbons.
+    pub ribbons: bool,
+    /// What no ribbon explains is stamped.
+    pub residual: bool,
+    /// The mask itself is drawn.
+    pub filter: bool,
+    /// A hull is drawn behind.
+    pub hull: bool,
+    /// The colour of lines is decided at their place.
+    pub paints: bool,
+    /// Light changes the width of lines.
+    pub light_widths: bool,
+    /// Pixels around subjects are drawn.
+    pub rim: bool,
+    /// Borders between subjects are found, for lines whose colour follows what lies behind them.
+    pub contrast: bool,
+    /// Layers that the last pass lays over the surfaces.
+    pub layers: u32,
+}
+
+impl LineFeatures {
+    /// No lines at all.
+    pub const NONE: Self = Self {
+        mask: false,
+        ribbons: false,
+        residual: false,
+        filter: false,
+        hull: false,
+        paints: false,
+        light_widths: false,
+        rim: false,
+        contrast: false,
+        layers: 0,
+    };
+
+    /// What a style's own method and those of its rules need together.
+    pub fn needs(style: &Style) -> Self {
+        let rules = style.rule.iter().filter_map(|rule| rule.line.method);
+        let own = Self::of_one(style.line.method, style);
+        rules.fold(own, |all, method| all.and(Self::of_one(method, style)))
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self {
+            mask: self.mask || other.mask,
+            ribbons: self.ribbons || other.ribbons,
+            residual: self.residual || other.residual && !self.filter && !self.rim,
+            filter: self.filter || other.filter,
+            hull: self.hull || other.hull,
+            paints: self.paints || other.paints,
+            light_widths: self.light_widths || other.light_widths,
+            rim: self.rim || other.rim,
+            contrast: self.contrast || other.contrast,
+            layers: self.layers | other.layers,
+        }
+    }
+
+    fn of_one(method: LineMethod, style: &Style) -> Self {
+        let none = Self::NONE;
+        let masked = Self { mask: true, ..none };
+        let filter = Self {
+            filter: true,
+            layers: Compose::OVERLAY,
+            ..masked
+        };
+        match method {
+            LineMethod::Off | LineMethod::Angle | LineMethod::Curves | LineMethod::Potrace => none,
+            LineMethod::Shape => {
+                let residual = style.line.kinds.intersection;
+                let stamps = if residual { Compose::OVERLAY } else { 0 };
+                Self {
+                    ribbons: true,
+                    residual,
+                    layers: Compose::RIBBONS | stamps,
+                    ..masked
+                }
+            }
+            LineMethod::Okuya | LineMethod::Edges => Self {
+                ribbons: true,
+                layers: Compose::RIBBONS,
+                ..masked
+            },
+            LineMethod::Filter => filter,
+            LineMethod::Hull => Self { hull: true, ..none },
+            LineMethod::Rim => Self {
+                rim: true,
+                layers: Compose::OVERLAY,
+                ..none
+            },
+            LineMethod::FilterHull => Self {
+                hull: true,
+                ..filter
+            },
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! Lines found on images and drawn on shapes: detection on the mask's grid, then drawing on the output's
+//! [Okuya et al. 2016, figure 9].
+
+use super::line_features::LineFeatures;
+use crate::frame_graph::{FrameGraph, Grids, pixel_count, size_if, write};
+use npr_core::geometry::{Edge, GPixel, Stamp};
+use npr_core::line_color::LineTint;
+use npr_core::window::Window;
+use npr_gpu::engine::{EngineError, Session};
+use npr_gpu::graph::ResourceId;
+use npr_gpu::pass::Format;
+use npr_gpu::passes::{line, mesh};
+use npr_vector::screen::residual::tile_count;
+
+/// The lines of a frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ScreenLines {
+    mask_window: ResourceId,
+    edges: ResourceId,
+    mask: ResourceId,
+    /// What lines have their colours from, where they run.
+    tints: ResourceId,
+    /// Mesh edges drawn with width.
+    pub ribbons: ResourceId,
+    /// What covers lines that no mesh edge explains.
+    pub overlay: ResourceId,
+}
+
+impl ScreenLines {
+    /// Adds what a method takes to find and draw lines.
+    pub fn plan(
+        frame: &mut FrameGraph,
+        grids: &Grids,
+        edge_count: usize,
+        features: LineFeatures,
+    ) -> Self {
+        let graph = &mut frame.graph;
+        let mask = size_if(features.mask, grids.mask);
+        let tints = size_if(features.mask && features.paints, grids.mask);
+        let overlay = features.residual || features.filter || features.rim;
+        let overlay = size_if(overlay, grids.output);
+        let ribbons = size_if(features.ribbons, grids.output);
+        let lines = Self {
+            mask_window: graph.uniform::<Window>("mask window"),
+            edges: graph.buffer::<Edge>("edges", edge_count),
+            mask: graph.buffer::<u32>("mask", pixel_count(mask)),
+            tints: graph.buffer::<LineTint>("line tints", pixel_count(tints)),
+            ribbons: graph.image("ribbons", Format::Rgba8, ribbons),
+            overlay: graph.buffer::<u32>("overlay", pixel_count(overlay)),
+        };
+        if features.mask {
+            lines.find(frame, grids, features);
+        }
+        lines
+    }
+
+    fn find(&self, frame: &mut FrameGraph, grids: &Grids, features: LineFeatures) {
+        // Resolve the surface under every pixel of the mask.
+        let ids = self.mask_ids(frame, grids);
+        let gbuffer = frame.graph.buffer::<GPixel>("gbuffer", grids.mask_pixels());
+        let resolve = [
+            frame.view,
+            self.mask_window,
+            ids,
+            frame.posed,
+            frame.triangles,
+            frame.parts,
+            gbuffer,
+        ];
+        frame.graph.compute(&line::RESOLVE_GBUFFER, &resolve);
+
+        // Mark the pixels that differ from a neighbour.
+        let detect = [
+            frame.view,
+            self.mask_window,
+            frame.outline,
+            frame.parts,
+            gbuffer,
+            self.mask,
+        ];
+        frame.graph.compute(&line::DETECT, &detect);
+        if features.paints {
+            self.color_mask(frame, ids);
+        }
+
+        // Draw what was found, in the ways of the method.
+        if features.ribbons {
+            self.draw_ribbons(frame, grids, gbuffer);
+        }
+        if features.residual {
+            self.stamp_residual(frame, grids, gbuffer);
+        }
+        if features.filter {
+            self.draw_mask(frame);
+        }
+    }
+
+    /// What lines have their colours from, where they run.
+    fn color_mask(&self, frame: &mut FrameGraph, ids: ResourceId) {
+        let bound = [
+            frame.view,
+            self.mask_window,
+            frame.compose,
+            frame.lights,
+            ids,
+            frame.posed,
+            frame.vertices,
+            frame.triangles,
+            frame.parts,
+            frame.texels,
+            self.mask,
+            self.tints,
+        ];
+        frame.graph.compute(&line::COLOR_MASK, &bound);
+    }
+
+    /// Triangle numbers on the mask's grid; the colour samples serve where both grids are the same.
+    fn mask_ids(&self, frame: &mut FrameGraph, grids: &Grids) -> ResourceId {
+        if grids.samples == 1 && grids.mask == grids.output {
+            return frame.ids;
+        }
+        let ids = frame.graph.image("mask ids", Format::U32, grids.mask);
+        let depths = frame.graph.image("mask depths", Format::Depth, grids.mask);
+        frame.draw_ids(self.mask_window, ids, depths);
+        ids
+    }
+
+    fn draw_ribbons(&self, frame: &mut FrameGraph, grids: &Grids, gbuffer: ResourceId) {
+        // Find the kind of every edge in the view.
+        let edge_count = frame.graph.element_count(self.edges);
+        let kinds = frame.graph.buffer::<u32>("kinds", edge_count);
+        let classify = [
+            frame.outline,
+            frame.posed,
+            frame.triangles,
+            frame.parts,
+            self.edges,
+            kinds,
+        ];
+        frame.graph.compute(&mesh::CLASSIFY_EDGES, &classify);
+
+        // Draw edges with width where the mask shows them.
+        let keys = frame
+            .graph
+            .image("ribbon keys", Format::Depth, grids.output);
+        let ribbons = [
+            frame.view,
+            frame.output_window,
+            self.mask_window,
+            frame.outline,
+            frame.posed,
+            frame.triangles,
+            frame.parts,
+            self.edges,
+            kinds,
+            gbuffer,
+            self.mask,
+            self.tints,
+        ];
+        let targets = [self.ribbons, keys];
+        frame
+            .graph
+            .draw(&line::DRAW_RIBBONS, &ribbons, &targets, true);
+    }
+
+    fn stamp_residual(&self, frame: &mut FrameGraph, grids: &Grids, gbuffer: ResourceId) {
+        let graph = &mut frame.graph;
+        let stamps = graph.buffer::<Stamp>("stamps", grids.mask_pixels());
+        let smoothed = graph.buffer::<Stamp>("smoothed stamps", grids.mask_pixels());
+        let tiles = graph.buffer::<u32>("tiles", tile_count(grids.mask));
+        let (output, mask) = (frame.output_window, self.mask_window);
+
+        // Find the line pixels that no edge explains, and smooth their places along the line.
+        let find = [
+            output,
+            mask,
+            frame.parts,
+            gbuffer,
+            self.mask,
+            self.ribbons,
+            stamps,
+        ];
+        graph.compute(&line::FIND_RESIDUAL, &find);
+        graph.compute(&line::SMOOTH_STAMPS, &[mask, stamps, smoothed]);
+        graph.compute(&line::FLAG_TILES, &[mask, stamps, tiles]);
+
+        // Ink a round stamp at each of them.
+        let stamp = [
+            output,
+            mask,
+            frame.outline,
+            frame.parts,
+            smoothed,
+            tiles,
+            self.tints,
+            self.overlay,
+        ];
+        graph.compute(&line::STAMP_RESIDUAL, &stamp);
+    }
+
+    /// Draws the mask itself.
+    fn draw_mask(&self, frame: &mut FrameGraph) {
+        let bound = [
+            frame.output_window,
+            self.mask_window,
+            frame.compose,
+            frame.parts,
+            self.mask,
+            self.tints,
+            self.overlay,
+        ];
+        frame.graph.compute(&line::DRAW_MASK, &bound);
+    }
+
+    /// Hands over the edges of the model.
+    pub fn upload(&self, session: &mut dyn Session, edges: &[Edge]) -> Result<(), EngineError> {
+        write(session, self.edges, edges)
+    }
+
+    /// Hands over the mask's grid over a tile.
+    pub fn upload_tile(
+        &self,
+        session: &mut dyn Session,
+        window: Window,
+    ) -> Result<(), EngineError> {
+        write(session, self.mask_window, &[window])
+    }
+}

@@ -1,0 +1,207 @@
+//! The graph of a frame: what its features share, and the passes that every frame has.
+
+use npr_core::geometry::{ChartCorners, Influence, Part, PosedVertex, Triangle, Vertex};
+use npr_core::outline::Outline;
+use npr_core::window::{View, Window};
+use npr_gpu::engine::{EngineError, Session};
+use npr_gpu::graph::{Graph, ResourceId};
+use npr_gpu::pass::Format;
+use npr_gpu::passes::{line, mesh, raster, shade};
+use npr_mesh::pose::Matrix;
+use npr_style::compose::Compose;
+use npr_style::lighting::Lights;
+use npr_style::shadow::SHADOWS_MAX;
+
+/// Numbers of elements that decide the sizes of buffers.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Counts {
+    pub vertices: usize,
+    pub joints: usize,
+    pub triangles: usize,
+    pub edges: usize,
+    /// Triangles with a stroke chart.
+    pub charts: usize,
+    pub parts: usize,
+    pub texel_words: usize,
+}
+
+/// Pixel grids of a tile.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Grids {
+    pub output: [u32; 2],
+    pub mask: [u32; 2],
+    /// Colour samples per pixel along each axis.
+    pub samples: u32,
+}
+
+impl Grids {
+    /// The grid of colour samples.
+    pub fn color(&self) -> [u32; 2] {
+        self.output.map(|side| side * self.samples)
+    }
+
+    /// Pixels of the output.
+    pub fn output_pixels(&self) -> usize {
+        pixel_count(self.output)
+    }
+
+    /// Pixels of the mask.
+    pub fn mask_pixels(&self) -> usize {
+        pixel_count(self.mask)
+    }
+}
+
+/// Pixels of a picture.
+pub(crate) fn pixel_count([width, height]: [u32; 2]) -> usize {
+    width as usize * height as usize
+}
+
+/// The size of a picture that a frame may lack: then it is of a single texel.
+pub(crate) fn size_if(is_needed: bool, size: [u32; 2]) -> [u32; 2] {
+    if is_needed { size } else { [1, 1] }
+}
+
+/// Fills a resource.
+pub(crate) fn write<T: bytemuck::NoUninit>(
+    session: &mut dyn Session,
+    id: ResourceId,
+    elements: &[T],
+) -> Result<(), EngineError> {
+    session.write(id, bytemuck::cast_slice(elements))
+}
+
+/// A frame's graph and the resources that its features share.
+#[derive(Debug, Clone)]
+pub(crate) struct FrameGraph {
+    pub graph: Graph,
+    pub view: ResourceId,
+    pub output_window: ResourceId,
+    pub color_window: ResourceId,
+    pub outline: ResourceId,
+    pub compose: ResourceId,
+    pub lights: ResourceId,
+    pub vertices: ResourceId,
+    pub influences: ResourceId,
+    pub palette: ResourceId,
+    pub triangles: ResourceId,
+    pub charts: ResourceId,
+    pub parts: ResourceId,
+    pub texels: ResourceId,
+    /// The finished picture.
+    pub frame: ResourceId,
+    /// Vertices in the view.
+    pub posed: ResourceId,
+    /// Triangle numbers and depths of colour samples.
+    pub ids: ResourceId,
+    pub depths: ResourceId,
+}
+
+/// What the last pass lays over surfaces; of a single texel where a style asks for none.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Layers {
+    pub beam_ids: ResourceId,
+    pub ribbons: ResourceId,
+    pub overlay: ResourceId,
+    pub shadows: [ResourceId; SHADOWS_MAX],
+    pub smoke: [ResourceId; 2 + SHADOWS_MAX],
+    /// The rules of background contrast.
+    pub rules: ResourceId,
+}
+
+impl FrameGraph {
+    /// The resources that stay for the whole frame, and the pass that poses vertices.
+    pub fn new(counts: &Counts, grids: &Grids) -> Self {
+        let mut graph = Graph::new();
+        let mut frame = Self {
+            view: graph.uniform::<View>("view"),
+            output_window: graph.uniform::<Window>("output window"),
+            color_window: graph.uniform::<Window>("color window"),
+            outline: graph.uniform::<Outline>("outline"),
+            compose: graph.uniform::<Compose>("compose"),
+            lights: graph.uniform::<Lights>("lights"),
+            vertices: graph.buffer::<Vertex>("vertices", counts.vertices),
+            influences: graph.buffer::<Influence>("influences", counts.vertices),
+            palette: graph.buffer::<Matrix>("palette", counts.joints),
+            triangles: graph.buffer::<Triangle>("triangles", counts.triangles),
+            charts: graph.buffer::<ChartCorners>("charts", counts.charts),
+            parts: graph.buffer::<Part>("parts", counts.parts),
+            texels: graph.buffer::<u32>("texels", counts.texel_words),
+            frame: graph.buffer::<u32>("frame", grids.output_pixels()),
+            posed: graph.buffer::<PosedVertex>("posed", counts.vertices),
+            ids: graph.image("ids", Format::U32, grids.color()),
+            depths: graph.image("depths", Format::Depth, grids.color()),
+            graph,
+        };
+        let bound = [
+            frame.view,
+            frame.outline,
+            frame.vertices,
+            frame.influences,
+            frame.palette,
+            frame.parts,
+            frame.posed,
+        ];
+        frame.graph.compute(&mesh::POSE_VERTICES, &bound);
+        frame
+    }
+
+    /// Lets light change the widths of lines, for all that follows.
+    pub fn light_widths(&mut self, vertex_count: usize) {
+        let lit = self.graph.buffer::<PosedVertex>("lit", vertex_count);
+        let bound = [self.lights, self.parts, self.vertices, self.posed, lit];
+        self.graph.compute(&line::LIGHT_WIDTHS, &bound);
+        self.posed = lit;
+    }
+
+    /// Draws which triangle each pixel of a grid shows, and how deep.
+    pub fn draw_ids(&mut self, window: ResourceId, ids: ResourceId, depths: ResourceId) {
+        let bound = [
+            self.view,
+            window,
+            self.posed,
+            self.vertices,
+            self.triangles,
+            self.parts,
+            self.texels,
+        ];
+        self.graph
+            .draw(&raster::DRAW_IDS, &bound, &[ids, depths], true);
+    }
+
+    /// The last pass, by some settings over some triangle numbers: colours with their layers. `sides` are the
+    /// pictures of both sides of lines, for those whose colour follows what lies behind.
+    pub fn compose_frame(
+        &mut self,
+        compose: ResourceId,
+        ids: ResourceId,
+        layers: &Layers,
+        sides: [ResourceId; 2],
+        frame: ResourceId,
+    ) {
+        let bound = [
+            self.view,
+            self.output_window,
+            compose,
+            self.lights,
+            ids,
+            layers.beam_ids,
+            layers.ribbons,
+            self.posed,
+            self.vertices,
+            self.triangles,
+            self.parts,
+            self.texels,
+            self.charts,
+            layers.overlay,
+            frame,
+        ];
+        let bound = [
+            &bound[..],
+            &layers.shadows,
+            &layers.smoke,
+            &[layers.rules],
+            &sides,
+        ];
+        self.graph.compute(&shade::COMPOSE_FRAME, &bound.concat());
+    }
+}

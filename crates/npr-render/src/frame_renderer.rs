@@ -1,0 +1,455 @@
+//! One look of a model, drawn by the passes of an engine: a picture for any camera, tile by tile.
+
+use crate::beam_light::beam_lights;
+use crate::error::RenderError;
+use crate::features::background_contrast::{BackgroundContrast, ContrastPasses, Sides};
+use crate::features::beams;
+use crate::features::hull;
+use crate::features::line_features::LineFeatures;
+use crate::features::screen_lines::ScreenLines;
+use crate::features::shadows::Shadows;
+use crate::features::smoke::{Measure, SmokeMoment, SmokePasses, hang_sheet};
+use crate::frame::Frame;
+use crate::frame_graph::{Counts, FrameGraph, Grids, Layers, write};
+use crate::light::{self, ChosenLights};
+use crate::line_colors::{is_any_painted, is_any_width_lit};
+use crate::look::{self, StyledModel};
+use crate::model::Model;
+use crate::options::RendererOptions;
+use crate::placement::{self, Bounds};
+use crate::smoke::Smoke;
+use crate::tiles::Tiles;
+use glam::Vec3;
+use npr_core::budget::Budget;
+use npr_core::camera::Camera;
+use npr_core::window::{View, Window};
+use npr_gpu::engine::{Engine, EngineError, Session};
+use npr_style::backdrop::Rules;
+use npr_style::compose::Compose;
+use npr_style::lighting::LightSource;
+use npr_stylesheet::Style;
+
+/// Frame pixels around a tile beyond the reach of its lines: detection looks at neighbours.
+const TILE_ROOM: u32 = 8;
+
+/// Cosine of the turn, 10 degrees, from which two views are not of one movement but a cut.
+const CUT_COS: f32 = 0.985;
+
+/// The same for the eye's way, as a multiple of the model's radius.
+const CUT_RADII: f32 = 0.5;
+
+/// What a look takes of a frame, before its graph is planned.
+struct Needs {
+    styled: StyledModel,
+    contrast: BackgroundContrast,
+    lights: ChosenLights,
+    /// The lights of the smoke, and whether they are those of the scene.
+    smoke_lights: (ChosenLights, bool),
+    features: LineFeatures,
+    measure: Measure,
+    tiles: Tiles,
+    grids: Grids,
+    beams: bool,
+}
+
+/// The graph of a look: what its features share, and what each takes of it.
+struct Plan {
+    frame: FrameGraph,
+    lines: ScreenLines,
+    shadows: Shadows,
+    smoke: Option<SmokePasses>,
+    contrast: ContrastPasses,
+}
+
+/// A model, a look and a frame size on an engine: draws what the passes of a frame draw.
+pub(crate) struct FrameRenderer<'a> {
+    pub model: &'a Model,
+    pub style: Style,
+    pub options: RendererOptions,
+    pub tiles: Tiles,
+    pub styled: StyledModel,
+    grids: Grids,
+    features: LineFeatures,
+    contrast: BackgroundContrast,
+    lights: ChosenLights,
+    plan: Plan,
+    session: Box<dyn Session>,
+    /// How the frame before was seen.
+    before: Option<View>,
+    /// Hears how many tiles of a frame are done, of how many.
+    pub tell: Option<&'a dyn Fn(usize, usize)>,
+}
+
+impl Needs {
+    /// Asks every feature what it takes of a frame.
+    fn new(model: &Model, style: &Style, options: &RendererOptions) -> Result<Self, RenderError> {
+        // Resolve the style, its lights, and which outlines follow the background.
+        let mut styled = StyledModel::new(model, style, options)?;
+        let of_beams = beam_lights(style, model);
+        let lights = ChosenLights::new(style, &model.lights, of_beams, &options.pictures);
+        styled.inked.notices.extend(lights.notice());
+        let contrast = BackgroundContrast::needs(&model.parts, style, styled.parts.len());
+        styled.inked.notices.extend(contrast.notice.clone());
+        if model.has_lines() && !style.has_curves() {
+            let notice =
+                "lines of the file are left out: only line.method curves and potrace draw them";
+            styled.inked.notices.push(notice.to_owned());
+        }
+        let mut features = match model.triangles.is_empty() {
+            true => LineFeatures::NONE,
+            false => LineFeatures::needs(style),
+        };
+        features.contrast = contrast.is_on;
+
+        // Cut the frame into tiles, with as much room around each as lines and smoke reach.
+        let height_px = options.size[1] as f32;
+        let world_px = height_px / model.radius();
+        let mut measure = Measure {
+            height_px,
+            dpi: options.dpi,
+            size: options.size,
+            samples: if style.antialias.samples > 1 { 2 } else { 1 },
+        };
+        let base_px = look::base_px(style, options.size[1], options.dpi, world_px);
+        let mut reach = look::largest_half_width(style, &styled.parts, base_px);
+        if features.rim || features.contrast {
+            let px = [height_px, options.dpi, world_px];
+            let rules = contrast.rules(style, features, reach, px, measure.samples);
+            reach = reach.max(rules.room_px() as f32);
+        }
+        if options.smoke.is_some() {
+            reach = reach.max(measure.reach_px(&style.smoke));
+        }
+        let margin = reach.min(1e4) as u32 + TILE_ROOM;
+        let tiles = Tiles::new(options.size, margin, options.tile_pixels);
+        let coarse = |side: u32| ((side as f32 / style.detect.scale).round() as u32).max(1);
+        let grids = Grids {
+            output: tiles.size(),
+            mask: tiles.size().map(coarse),
+            samples: measure.samples,
+        };
+        measure.size = grids.output;
+
+        // Decide which layers the last pass lays over surfaces.
+        let beams = beams::needs(&styled.parts);
+        features.paints = is_any_painted(&styled.parts);
+        features.light_widths = is_any_width_lit(&styled.parts);
+        let layer = |bit: u32, when: bool| if when { bit } else { 0 };
+        features.layers |= layer(Compose::BACKDROP, features.contrast)
+            | layer(Compose::BEAMS, beams)
+            | layer(Compose::SMOKE, options.smoke.is_some())
+            | layer(Compose::SMOKE_PEN, styled.smoke_part.is_some());
+        Ok(Self {
+            smoke_lights: lights.of_smoke(style),
+            styled,
+            contrast,
+            lights,
+            features,
+            measure,
+            tiles,
+            grids,
+            beams,
+        })
+    }
+}
+
+impl Plan {
+    /// Adds the passes of every feature that a look needs, in the order in which they build on each other.
+    fn new(model: &Model, style: &Style, smoke: Option<&Smoke>, needs: &Needs) -> Self {
+        let (styled, grids, features) = (&needs.styled, &needs.grids, needs.features);
+        let counts = Counts {
+            vertices: styled.vertices.len(),
+            joints: model.palette.len(),
+            triangles: model.triangles.len(),
+            edges: model.edge_count(),
+            charts: styled.inked.charts.len(),
+            parts: styled.parts.len(),
+            texel_words: styled.textures.words().len(),
+        };
+        let mut frame = FrameGraph::new(&counts, grids);
+        if features.light_widths {
+            frame.light_widths(counts.vertices);
+        }
+
+        // Draw surfaces as the lights and the eye see them, then lines and beams.
+        let (chosen, are_same) = &needs.smoke_lights;
+        let shadow_count = needs.lights.shadow_count();
+        let fall_on_smoke = smoke.is_some() && *are_same;
+        let shadows = Shadows::plan(&mut frame, shadow_count, counts.vertices, fall_on_smoke);
+        frame.draw_ids(frame.color_window, frame.ids, frame.depths);
+        let lines = ScreenLines::plan(&mut frame, grids, counts.edges, features);
+        if features.hull {
+            hull::plan(&mut frame, counts.vertices);
+        }
+        let beam_ids = beams::plan(&mut frame, grids, needs.beams);
+
+        // Draw the smoke.
+        let smoke = smoke.map(|smoke| {
+            let lit = (needs.measure, chosen.clone());
+            let sized = (&style.smoke, smoke.spheres.len());
+            let surface_maps = if *are_same { shadow_count as u32 } else { 0 };
+            let surfaces = (shadows.depths, surface_maps);
+            let window = frame.output_window;
+            SmokePasses::plan(&mut frame.graph, lit, sized, window, surfaces)
+        });
+
+        // Find what lies on both sides of outlines, and compose the picture.
+        let contrast = ContrastPasses::inputs(&mut frame, grids, counts.parts, features);
+        let layers = Layers {
+            beam_ids,
+            ribbons: lines.ribbons,
+            overlay: lines.overlay,
+            shadows: shadows.pictures,
+            smoke: SmokePasses::composed(smoke.as_ref(), &mut frame.graph),
+            rules: contrast.rules,
+        };
+        let sides = contrast.plan(&mut frame, grids, features, &layers);
+        frame.compose_frame(frame.compose, frame.ids, &layers, sides, frame.frame);
+        Self {
+            frame,
+            lines,
+            shadows,
+            smoke,
+            contrast,
+        }
+    }
+}
+
+impl<'a> FrameRenderer<'a> {
+    /// Plans the frame, checks that `budget` has room for it, and uploads what does not change with the camera.
+    ///
+    /// `rows` of the whole frame are held at once.
+    pub fn new(
+        engine: &dyn Engine,
+        model: &'a Model,
+        style: &Style,
+        options: &RendererOptions,
+        (budget, draws_bands): (&mut Budget, impl Fn(&Tiles) -> bool),
+    ) -> Result<Self, RenderError> {
+        let needs = Needs::new(model, style, options)?;
+        let plan = Plan::new(model, style, options.smoke.as_ref(), &needs);
+
+        // Check that the picture and the plan fit into memory.
+        let rows = match options.in_bands && draws_bands(&needs.tiles) {
+            true => needs.tiles.kept[1].min(options.size[1]),
+            false => options.size[1],
+        };
+        budget.take("the picture", options.size[0] as usize * rows as usize, 4)?;
+        let planned = plan.frame.graph.planned_bytes() as usize;
+        budget.take("the plan of the frame", planned, 1)?;
+
+        // Prepare the passes, and hand over what stays.
+        let session = engine.prepare(plan.frame.graph.clone())?;
+        let mut renderer = Self {
+            model,
+            style: style.clone(),
+            options: options.clone(),
+            tiles: needs.tiles,
+            styled: needs.styled,
+            grids: needs.grids,
+            features: needs.features,
+            contrast: needs.contrast,
+            lights: needs.lights,
+            plan,
+            session,
+            before: None,
+            tell: None,
+        };
+        renderer.upload()?;
+        Ok(renderer)
+    }
+
+    /// Hands over what does not change with the camera.
+    fn upload(&mut self) -> Result<(), EngineError> {
+        let (frame, model, styled) = (&self.plan.frame, self.model, &self.styled);
+        let session = self.session.as_mut();
+        write(session, frame.vertices, &styled.vertices)?;
+        write(session, frame.influences, &model.influences)?;
+        write(session, frame.palette, &model.palette)?;
+        write(session, frame.triangles, &model.triangles)?;
+        write(session, frame.charts, &styled.inked.charts)?;
+        write(session, frame.parts, &styled.parts)?;
+        write(session, frame.texels, styled.textures.words())?;
+        let edges = model.edges_by(look::creases(&self.style).from);
+        self.plan.lines.upload(session, &edges)?;
+        self.plan.shadows.upload(session)?;
+        self.plan.contrast.upload(session, &self.contrast)?;
+        self.upload_smoke()
+    }
+
+    fn upload_smoke(&mut self) -> Result<(), EngineError> {
+        match (&self.plan.smoke, &self.options.smoke) {
+            (Some(passes), Some(smoke)) => {
+                passes.upload(self.session.as_mut(), smoke, &self.style.smoke)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Draws other smoke from now on.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError::TooMany`] for more spheres than at first; or a failing engine.
+    pub fn set_smoke(&mut self, smoke: &Smoke) -> Result<(), RenderError> {
+        SmokePasses::check(self.plan.smoke.as_ref(), smoke)?;
+        self.options.smoke = Some(smoke.clone());
+        Ok(self.upload_smoke()?)
+    }
+
+    /// The box of all that is drawn.
+    fn bounds(&self) -> Bounds {
+        let model = self.model.bounds();
+        let Some(smoke) = self.options.smoke.as_ref().map(Smoke::extent) else {
+            return model;
+        };
+        if self.model.is_empty() {
+            return smoke;
+        }
+        placement::around(model, smoke)
+    }
+
+    /// What lies on both sides of lines is needed beside the picture, for lines that come after it.
+    pub fn finds_sides(&self) -> bool {
+        self.features.contrast
+    }
+
+    /// Whether a frame goes on from the one before: not the first, nor after a cut. Tiles of a frame share their
+    /// buffers, so they never do.
+    fn follows(&self, view: &View) -> bool {
+        let Some(before) = &self.before else {
+            return false;
+        };
+        let turned = Vec3::from(view.forward_world).dot(Vec3::from(before.forward_world));
+        let moved = Vec3::from(view.eye_world).distance(Vec3::from(before.eye_world));
+        self.tiles.kept == self.tiles.frame
+            && turned > CUT_COS
+            && moved < CUT_RADII * self.model.radius()
+    }
+
+    /// Hands over how a camera sees the scene.
+    pub fn aim(&mut self, camera: &Camera) -> Result<(View, Rules), RenderError> {
+        let bounds = self.bounds();
+        let view = camera.view(self.options.size, bounds);
+        let (style, size, dpi) = (&self.style, self.options.size, self.options.dpi);
+
+        // Settle the widths of lines and the rules of their colours in this view.
+        let world_px = look::nearest_world_px(&view, camera, self.model);
+        let base_px = look::base_px(style, size[1], dpi, world_px);
+        let half = look::largest_half_width(style, &self.styled.parts, base_px);
+        let reach_px = half.ceil().min(64.0) as u32 + 1;
+        let outline = look::outline(style, self.model.radius(), size[1], dpi, reach_px);
+        let px = [size[1] as f32, dpi, world_px];
+        let rules = self
+            .contrast
+            .rules(style, self.features, half, px, self.grids.samples);
+        let rules = match self.follows(&view) {
+            true => rules,
+            false => rules.of_first_frame(),
+        };
+
+        // Settle how the last pass composes the picture.
+        let background = self.styled.background_texture;
+        let mut compose = look::compose(style, camera, self.model, background);
+        compose.flags = self.features.layers;
+        if let (Some(part), Some(smoke)) = (self.styled.smoke_part, &self.options.smoke) {
+            hang_sheet(&mut compose, part, smoke, &style.smoke, &view);
+        }
+        let passes = self.plan.smoke.as_ref();
+        if passes.is_some_and(|passes| passes.shades_surfaces(&style.smoke)) {
+            compose.smoke_shadow_side = style.smoke.shadow_px;
+        }
+
+        // Settle the lights.
+        let mut lights = self.lights.of_frame(style, bounds, None, camera, &view);
+        if let Some(sky) = &self.styled.sky {
+            sky.apply_to(&mut lights);
+        }
+
+        // Hand all of it over.
+        let (session, frame) = (self.session.as_mut(), &self.plan.frame);
+        write(session, frame.view, &[view])?;
+        write(session, frame.outline, &[outline])?;
+        write(session, frame.compose, &[compose])?;
+        write(session, frame.lights, &[lights])?;
+        self.plan.contrast.upload_view(session, rules, &compose)?;
+        self.plan.shadows.upload_view(session, &lights)?;
+        if let (Some(passes), Some(smoke)) = (&self.plan.smoke, &self.options.smoke) {
+            let moment = SmokeMoment {
+                smoke,
+                style,
+                camera,
+                view: &view,
+                bounds,
+            };
+            passes.upload_view(session, &moment)?;
+        }
+        self.turn_strokes(&light::strongest(&lights), camera)?;
+        self.before = Some(view);
+        Ok((view, rules))
+    }
+
+    /// Turns the strokes that follow the light to the strongest one.
+    fn turn_strokes(&mut self, light: &LightSource, camera: &Camera) -> Result<(), EngineError> {
+        let [parts_turned, charts_turned] = self.styled.inked.follow_light(
+            self.model,
+            &self.style,
+            light,
+            camera,
+            &mut self.styled.parts,
+        );
+        let (session, frame) = (self.session.as_mut(), &self.plan.frame);
+        if parts_turned {
+            write(session, frame.parts, &self.styled.parts)?;
+        }
+        if charts_turned {
+            write(session, frame.charts, &self.styled.inked.charts)?;
+        }
+        Ok(())
+    }
+
+    /// Draws the tile whose kept part starts at `origin` into a frame that begins `top` rows below the whole one, and
+    /// what lies on both sides of its lines where that is wanted.
+    pub fn draw_tile(
+        &mut self,
+        view: &View,
+        origin: [u32; 2],
+        top: u32,
+        frame: &mut Frame,
+        sides: Option<&mut Sides>,
+    ) -> Result<(), EngineError> {
+        // Hand over the grids over the tile.
+        let size = self.tiles.size();
+        let corner = self.tiles.corner_px(origin);
+        let extent = size.map(|side| side as f32);
+        let over = |grid: [u32; 2]| Window::over(view.frame_px, corner, extent, grid);
+        let (session, plan) = (self.session.as_mut(), &self.plan);
+        write(session, plan.frame.output_window, &[over(size)])?;
+        write(
+            session,
+            plan.frame.color_window,
+            &[over(self.grids.color())],
+        )?;
+        plan.lines.upload_tile(session, over(self.grids.mask))?;
+        plan.contrast.upload_tile(session, view, corner, size)?;
+
+        // Run the passes, and take the part of the picture that is kept.
+        let times = session.run()?;
+        let tile = session.read(plan.frame.frame)?;
+        let (margin, kept) = ([self.tiles.margin; 2], self.tiles.kept);
+        let at = [origin[0], origin[1] - top];
+        frame.paste(&tile, size[0], margin, at, kept);
+        frame.add_times(&times);
+        let [done, of] = self.tiles.progress(origin);
+        if let Some(tell) = self.tell.filter(|_| of > 1) {
+            tell(done, of);
+        }
+        if let Some(sides) = sides {
+            let paste = |picture: &mut Frame, texels: &[u32]| {
+                picture.paste(texels, size[0], margin, origin, kept);
+            };
+            plan.contrast.read_sides(session, sides, paste)?;
+        }
+        Ok(())
+    }
+}

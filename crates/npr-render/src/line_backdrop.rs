@@ -1,0 +1,31 @@
+//! What lies behind line drawings: a picture of the scene without lines, for colours that follow it.
+
+use crate::lines::{LineOptions, LineRenderer};
+use crate::model::Model;
+use crate::options::RendererOptions;
+use crate::renderer::Renderer;
+use npr_core::camera::Camera;
+use npr_stylesheet::Style;
+
+impl<'a> LineRenderer<'a> {
+    /// The same, with the scene and the pictures that lines are judged before, where the style lets their colours
+    /// follow it ([`npr_stylesheet::LineBackground`]).
+    ///
+    /// Each point of a stroke then looks at the colours on both of its sides in a picture of the scene without lines,
+    /// before its background, of the drawing's size. What lies where is asked of the surface, so textures cut nothing
+    /// out of it. Without a backdrop the colours of lines follow nothing.
+    pub fn with_backdrop(mut self, model: &'a Model, options: &'a RendererOptions) -> Self {
+        let (engine, lines) = (self.engine, self.model);
+        let draw = move |camera: &Camera, style: &Style, drawing: &LineOptions| {
+            let of_frame = RendererOptions {
+                size: drawing.size,
+                dpi: drawing.dpi,
+                smoke: lines.smoke().cloned(),
+                ..options.clone()
+            };
+            Renderer::new(engine, model, &style.without_lines(), &of_frame)?.draw(camera)
+        };
+        self.behind = Some(Box::new(draw));
+        self
+    }
+}

@@ -1,0 +1,586 @@
+//! A scene prepared for line drawings.
+
+use super::assembly::Assembly;
+use super::colors::{ColorInput, StrokeColors};
+use super::finder::{Finder, OnProcessor};
+use super::options::{LineMethod, LineModelOptions, LineOptions};
+use super::paint::Paint;
+use super::smoke::SmokeView;
+use super::stroke_contrast::StrokeContrast;
+use super::texture_map::TextureMap;
+use super::view::LineView;
+use super::welded::{build, check_budget, colors_of, mark_materials, notices_of};
+use super::widths::{ShapeBends, WidthInput, Widths};
+use super::{colors, image, paint, pixels, smoke, widths};
+use crate::error::RenderError;
+use crate::file_light::{self, FileLight};
+use crate::frame::Frame;
+use crate::kept::{Cache, input_of};
+use crate::look;
+use crate::options::{Picture, check_size};
+use crate::part_info::PartInfo;
+use crate::placement::{self, Bounds};
+use crate::smoke::Smoke;
+use glam::Vec3;
+use npr_core::budget::{Budget, OverBudget};
+use npr_core::camera::Camera;
+use npr_core::crease::CreaseFrom;
+use npr_core::geometry::Part;
+use npr_mesh::half_edge::HalfEdgeMesh;
+use npr_scene::Scene;
+use npr_stylesheet::{Look, Style};
+use npr_vector::mesh_lines::bvh::FaceTree;
+use npr_vector::mesh_lines::contour::EdgeContours;
+use npr_vector::mesh_lines::draw::{
+    FindCrossings, LineSettings, PointPaint, Prepared, StrokeLook, ViewStrokes, eye_of,
+};
+use npr_vector::mesh_lines::intersect::{Crossings, crossings};
+use npr_vector::mesh_lines::puff::SilhouettePoint;
+use npr_vector::mesh_lines::run::RunPoint;
+use npr_vector::project::Projector;
+use npr_vector::stroke::{Drawing, Kind, Stroke};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// Most points of all strokes of a drawing together.
+const POINT_LIMIT: u64 = 20_000_000;
+
+/// A scene prepared for line drawings: one welded surface, whatever the camera and the style.
+///
+/// Lines come from the geometry alone: textures may colour them but hide nothing, so a cut-out leaf is drawn as the
+/// card it lies on. Surfaces whose base colour is too transparent for pictures are left out.
+///
+/// A glTF file asks for lines of its own by the vertex attribute `_NPR_LINE` (an edge between two vertices above one
+/// half), and by `"extras": {"npr": {"lines": true}}` in a material (wherever it meets another material). They are of
+/// kind [`Kind::Marked`], and drawn whatever kinds are asked for. So are lines that a file has as geometry: linked
+/// where two segments meet, hidden by the surfaces before them and shown where they lie on one (within
+/// [`npr_vector::mesh_lines::polyline::TOUCH_SHARE`]).
+#[derive(Debug)]
+pub struct LineModel {
+    shape: HalfEdgeMesh,
+    parts: Vec<PartInfo>,
+    /// Colour of every vertex of the shape; empty where the scene has no colours.
+    colors: Vec<u32>,
+    points: Vec<[f32; 3]>,
+    bounds: Bounds,
+    cameras: Vec<(String, Camera)>,
+    /// The lights of the file, for smoke.
+    lights: Vec<FileLight>,
+    smoke: Option<Smoke>,
+    notices: Vec<String>,
+    triangle_count: usize,
+    /// Most bytes that a drawing may take.
+    memory_limit: u64,
+    /// Where what is costly to prepare is kept.
+    cache: Cache,
+    /// What was prepared last, for views to come.
+    prepared: Mutex<Option<(PreparedKey, Arc<Prepared>)>>,
+    bends: OnceLock<ShapeBends>,
+    /// Where textures lie, for lines that take their colour from there.
+    map: Option<TextureMap>,
+    /// Pictures of styles, by name.
+    pictures: BTreeMap<String, Picture>,
+}
+
+/// What lines are prepared for: the cosine of the crease angle, as bits, between what, and whether intersections are
+/// wanted.
+type PreparedKey = (u32, CreaseFrom, bool);
+
+/// What a drawing is made of besides contours.
+struct Wanted<'a> {
+    camera: &'a Camera,
+    style: &'a Style,
+    options: &'a LineOptions,
+    /// Smoke that hides lines, and whether it is drawn itself.
+    smoke: Option<(&'a Smoke, bool)>,
+    /// The style's pictures by name.
+    pictures: &'a BTreeMap<String, Picture>,
+    /// The scene without lines before its background, for lines that mind it.
+    behind: Option<&'a Frame>,
+}
+
+impl LineModel {
+    /// Prepares a scene: poses and joins its meshes, welds them, and finds what is beside every edge.
+    ///
+    /// O(n log n) in the number of triangles, on all threads.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError::TooMany`] where half-edges cannot be numbered, [`RenderError::Memory`] beyond the limit.
+    pub fn new(scene: &Scene, options: &LineModelOptions) -> Result<Self, RenderError> {
+        Self::of_assembly(scene, &Assembly::new(scene, None), options, None)
+    }
+
+    /// The same without what a style makes beams of: light has no lines and hides none; and with textures, where the
+    /// style colours lines by them, in which case the scene's images have to be there. With a `folder` what is costly
+    /// is kept there as by [`LineModel::cached`].
+    ///
+    /// # Errors
+    ///
+    /// As [`LineModel::new`].
+    pub fn for_style(
+        scene: &Scene,
+        style: &Style,
+        options: &LineModelOptions,
+        folder: Option<&Path>,
+    ) -> Result<Self, RenderError> {
+        let assembly = Assembly::new(scene, Some(style));
+        let mut model = Self::of_assembly(scene, &assembly, options, folder)?;
+        if options.painted
+            || style.line_paint_flags() & (Part::LINE_SURFACE | Part::LINE_TEXTURE) != 0
+        {
+            let mut map = TextureMap::new(scene, &assembly, &model.shape);
+            model.notices.extend(map.notice.take());
+            model.map = Some(map);
+        }
+        Ok(model)
+    }
+
+    fn of_assembly(
+        scene: &Scene,
+        assembly: &Assembly,
+        options: &LineModelOptions,
+        folder: Option<&Path>,
+    ) -> Result<Self, RenderError> {
+        check_budget(assembly, options)?;
+        let shape = build(assembly, options);
+        Ok(Self {
+            memory_limit: options.memory_limit,
+            cache: Cache::of(folder),
+            ..Self::of_shape(scene, assembly, shape)
+        })
+    }
+
+    /// The same with what is costly to prepare kept in `folder` between runs, as [`Model::cached`] does: how surfaces
+    /// bend, and where they cut through each other.
+    ///
+    /// # Errors
+    ///
+    /// As [`LineModel::new`]; none for the sake of the folder.
+    pub fn cached(
+        scene: &Scene,
+        options: &LineModelOptions,
+        folder: &Path,
+    ) -> Result<Self, RenderError> {
+        Self::of_assembly(scene, &Assembly::new(scene, None), options, Some(folder))
+    }
+
+    fn of_shape(scene: &Scene, assembly: &Assembly, mut shape: HalfEdgeMesh) -> Self {
+        mark_materials(&mut shape, &assembly.marked);
+        let points = assembly.used_points();
+        let bounds = placement::bounds_of(points.iter().copied().map(Vec3::from));
+        Self {
+            parts: assembly.parts.clone(),
+            colors: colors_of(&shape, assembly),
+            bounds,
+            lights: file_light::of_scene(scene, bounds),
+            smoke: None,
+            points,
+            cameras: placement::cameras_of(scene),
+            notices: notices_of(scene, assembly),
+            triangle_count: assembly.triangle_count(),
+            memory_limit: u64::MAX,
+            cache: Cache::default(),
+            prepared: Mutex::new(None),
+            bends: OnceLock::new(),
+            map: None,
+            pictures: BTreeMap::new(),
+            shape,
+        }
+    }
+
+    /// The lines that a camera sees.
+    ///
+    /// Line colours (`line.paint` with them, for every point of a stroke), width factors and whether a part has lines
+    /// at all follow the style's rules; kinds and the crease angle are those of the options
+    /// ([`LineOptions::of_style`] takes them from the style). Width source `texture` counts as full. What lies behind
+    /// lines takes a picture of it: [`LineRenderer::with_backdrop`](super::LineRenderer::with_backdrop) lets them mind it. Strokes of the same lines keep
+    /// their ids from camera to camera. Of a scene out of sight the drawing is empty.
+    ///
+    /// The first drawing with a crease angle also prepares creases and, where they are wanted, intersections; every
+    /// further one is O(faces + lines log lines), on all threads, with the same result for any number of them.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError`] for a frame without pixels or beyond 32768 a side, or more than 20 million points.
+    pub fn draw(
+        &self,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+    ) -> Result<Drawing, RenderError> {
+        self.draw_before(camera, style, options, None)
+    }
+
+    /// The same before a picture of what lies behind.
+    fn draw_before(
+        &self,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+        behind: Option<&Frame>,
+    ) -> Result<Drawing, RenderError> {
+        let find = &mut OnProcessor(&self.shape);
+        self.draw_with(camera, style, options, behind, find)
+    }
+
+    /// Gives the pictures that styles name in `line.paint.image`, by these names.
+    pub fn set_pictures(&mut self, pictures: BTreeMap<String, Picture>) {
+        self.pictures = pictures;
+    }
+
+    /// Draws smoke with the scene from now on, or none.
+    ///
+    /// Smoke is outlined by [`SmokeStyle::line`](npr_stylesheet::SmokeStyle), as strokes of kind [`Kind::Contour`] on a
+    /// surface `smoke`: exact arcs of its spheres, where nothing lies behind them or smoke far enough behind, as
+    /// thick as in pictures. Billboards and the published line have these outlines too. Scene and smoke hide each
+    /// other's lines; smoke of opacity below 0.5 hides none. Fills are the tones of pictures, traced, in the colours
+    /// of the style's `smoke.ramp`. [`LineModel::bounds`] and [`LineModel::framing`] take it in.
+    pub fn set_smoke(&mut self, smoke: Option<Smoke>) {
+        self.smoke = smoke;
+        let points = self.points.iter().copied().map(Vec3::from);
+        let bounds = placement::bounds_of(points);
+        self.bounds = smoke::joined(self.smoke.as_ref(), bounds, self.points.is_empty());
+    }
+
+    /// The same before a picture, with lines as `find` finds them.
+    pub(super) fn draw_with(
+        &self,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+        behind: Option<&Frame>,
+        find: &mut dyn Finder,
+    ) -> Result<Drawing, RenderError> {
+        let wanted = Wanted {
+            camera,
+            style,
+            options,
+            smoke: self.smoke.as_ref().map(|smoke| (smoke, true)),
+            pictures: &self.pictures,
+            behind,
+        };
+        self.draw_some(&wanted, find, |_| true)
+    }
+
+    /// The lines of the parts whose method of the style is `of_parts`, as far as `smoke` does not hide them.
+    pub(crate) fn draw_curves(
+        &self,
+        camera: &Camera,
+        (style, of_parts): (&Style, npr_stylesheet::LineMethod),
+        options: &LineOptions,
+        (smoke, pictures): (Option<&Smoke>, &BTreeMap<String, Picture>),
+        find: &mut dyn Finder,
+    ) -> Result<Drawing, RenderError> {
+        let is_curve = |look: &Look<'_>| look.line_method == of_parts;
+        let wanted = Wanted {
+            camera,
+            style,
+            options,
+            smoke: smoke.map(|smoke| (smoke, false)),
+            pictures,
+            behind: None,
+        };
+        self.draw_some(&wanted, find, is_curve)
+    }
+
+    /// The lines of the parts whose look `has_lines` says so of.
+    fn draw_some(
+        &self,
+        wanted: &Wanted<'_>,
+        find: &mut dyn Finder,
+        has_lines: impl Fn(&Look<'_>) -> bool,
+    ) -> Result<Drawing, RenderError> {
+        let Wanted {
+            camera,
+            style,
+            options,
+            smoke,
+            pictures,
+            behind,
+        } = *wanted;
+        check_size(options.size)?;
+        let is_empty = self.points.is_empty();
+        let bounds = smoke::joined(smoke.map(|(smoke, _)| smoke), self.bounds, is_empty);
+        let projector = Projector::new(camera, options.size, bounds);
+        // A picture of lines finds its own contours.
+        let contours = if options.method == LineMethod::Potrace && smoke.is_none() {
+            EdgeContours::default()
+        } else {
+            find.contours(&eye_of(&self.shape, &projector))?
+        };
+        let prepared = self.prepared(options)?;
+        let smoke_layer = match smoke {
+            Some((smoke, _)) => Some(self.smoke_view(wanted, smoke, &projector, bounds)?),
+            None => None,
+        };
+        let width_at = |point: &SilhouettePoint| {
+            smoke_layer
+                .as_ref()
+                .map_or(0.0, |smoke_layer| smoke_layer.width_at(point))
+        };
+        let is_drawn = smoke.is_some_and(|(_, is_drawn)| is_drawn);
+        let smoke_lines = smoke_layer
+            .as_ref()
+            .map(|smoke_layer| smoke_layer.lines(is_drawn, &width_at));
+        let colors = match colors::is_painted(style) {
+            true => Some(self.colors(wanted, &prepared, &contours, pictures)?),
+            false => None,
+        };
+        let stroke_contrast = match behind {
+            Some(picture) => {
+                let seen = (&self.shape, &prepared.tree);
+                let px = self.px(options);
+                StrokeContrast::new(seen, &projector, picture, &self.parts, style, px)
+            }
+            None => None,
+        };
+        let view = LineView {
+            shape: &self.shape,
+            map: self.map.as_ref(),
+            memory_limit: self.memory_limit,
+            camera,
+            projector: &projector,
+            contours: &contours,
+            bounds,
+            smoke: smoke_lines.as_ref(),
+            colors: colors.as_ref(),
+            changes: stroke_contrast.is_some(),
+        };
+        let paint = Paint::new(&self.parts, style, has_lines);
+        let ViewStrokes {
+            mut strokes,
+            left_out,
+        } = self.strokes(&prepared, &view, (style, options), &paint, find)?;
+        paint.apply(&mut strokes);
+        if let Some(stroke_contrast) = stroke_contrast {
+            stroke_contrast.apply(&mut strokes, &|surface| paint.line_color(surface));
+        }
+        check_points(&strokes)?;
+        let regions = if options.fill {
+            paint::regions(
+                &self.shape,
+                &prepared.tree,
+                &projector,
+                options.size,
+                &strokes,
+                smoke_layer.as_ref().filter(|_| is_drawn),
+            )?
+        } else {
+            Vec::new()
+        };
+        let mut surfaces = paint.into_surfaces(&self.parts);
+        let object_number = surfaces.iter().map(|s| s.object_number + 1).max();
+        if let Some(smoke_layer) = smoke_layer.filter(|_| is_drawn) {
+            surfaces.extend(smoke_layer.surfaces(object_number.unwrap_or(0)));
+        }
+        Ok(Drawing {
+            size: options.size,
+            surfaces,
+            strokes,
+            regions,
+            notices: notices_of_view(&prepared, left_out),
+        })
+    }
+
+    /// What lengths count in: the height of the picture, pixels per inch, and pixels of the model's radius.
+    fn px(&self, options: &LineOptions) -> [f32; 3] {
+        let height = options.size[1] as f32;
+        [height, options.dpi, height / self.radius()]
+    }
+
+    /// Colours of strokes along themselves, lit as in pictures but for beams and shadows.
+    fn colors<'a>(
+        &'a self,
+        wanted: &Wanted<'a>,
+        prepared: &'a Prepared,
+        contours: &'a EdgeContours,
+        pictures: &'a BTreeMap<String, Picture>,
+    ) -> Result<StrokeColors<'a>, RenderError> {
+        let input = ColorInput {
+            shape: &self.shape,
+            infos: &self.parts,
+            vertex_colors: &self.colors,
+            map: self.map.as_ref(),
+            lights: &self.lights,
+            pictures,
+            bounds: self.bounds,
+            style: wanted.style,
+        };
+        let normals = prepared.corner_normals(&self.shape);
+        let size = wanted.options.size;
+        StrokeColors::new(input, normals, &contours.front, wanted.camera, size)
+    }
+
+    /// Smoke as a view sees it, lit as in pictures but for beams.
+    fn smoke_view<'a>(
+        &self,
+        wanted: &Wanted<'a>,
+        smoke: &Smoke,
+        projector: &Projector,
+        bounds: Bounds,
+    ) -> Result<SmokeView<'a>, RenderError> {
+        SmokeView::new(
+            smoke,
+            (wanted.style, wanted.options),
+            (wanted.camera, projector, bounds),
+            (&self.lights, wanted.pictures),
+            self.parts.len() as u32,
+        )
+    }
+
+    fn strokes(
+        &self,
+        prepared: &Prepared,
+        view: &LineView<'_>,
+        (style, options): (&Style, &LineOptions),
+        paint: &Paint,
+        find: &mut dyn Finder,
+    ) -> Result<ViewStrokes, RenderError> {
+        let radius = self.radius();
+        let input = WidthInput {
+            shape: &self.shape,
+            bends: widths::follow_bends(style).then(|| {
+                self.bends
+                    .get_or_init(|| ShapeBends::new(&self.cache, &self.shape, radius))
+            }),
+            colors: &self.colors,
+            style,
+        };
+        let of_frame = view.camera.view(options.size, self.bounds);
+        let outline = look::outline(style, radius, options.size[1], options.dpi, 0);
+        let widths = Widths::new(input, &of_frame, outline);
+        let settings = LineSettings {
+            size: options.size,
+            kinds: options.kinds.bits(),
+            method: options.method.on_mesh(),
+            smooth: options.smooth,
+            hidden: options.hidden,
+            split: options.split,
+            memory_limit: self.memory_limit,
+        };
+        let paint_at = |kind: Kind, surface: u32, point: &RunPoint| match view.colors {
+            Some(colors) => colors.paint_at(kind, surface, point),
+            None => PointPaint {
+                color: None,
+                width: 1.0,
+            },
+        };
+        let look = StrokeLook {
+            width_at: &|vertex| widths.at(vertex),
+            paint_at: (view.changes || view.colors.is_some()).then_some(&paint_at),
+        };
+        let line = (&settings, paint, &look);
+        let mut found = match options.method {
+            LineMethod::Potrace => ViewStrokes {
+                strokes: pixels::strokes(view, prepared, options, line, find)?,
+                left_out: 0,
+            },
+            LineMethod::Image => view.of_mesh(prepared, &image::beside_image(&settings), &look)?,
+            LineMethod::Edges | LineMethod::Surface => view.of_mesh(prepared, &settings, &look)?,
+        };
+        if options.method == LineMethod::Image || options.painted.is_some() {
+            let of_image = image::strokes(view, prepared, options, line)?;
+            found.strokes.extend(of_image);
+        }
+        Ok(found)
+    }
+
+    /// What does not depend on the camera, made once for every crease angle in a row.
+    fn prepared(&self, options: &LineOptions) -> Result<Arc<Prepared>, RenderError> {
+        let creases = options.creases();
+        let is_on_mesh = !options.method.is_of_pixels();
+        let with_crossings = is_on_mesh && options.kinds.has(Kind::Intersection);
+        let key = (creases.cos.to_bits(), creases.from, with_crossings);
+        let mut last = self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*last {
+            Some((of, prepared)) if *of == key => Ok(Arc::clone(prepared)),
+            _ => {
+                let find: &FindCrossings<'_> = &|tree| self.crossings(tree);
+                let find = with_crossings.then_some(find);
+                let made = Prepared::with_crossings(&self.shape, creases, find);
+                let prepared = Arc::new(made?);
+                *last = Some((key, Arc::clone(&prepared)));
+                Ok(prepared)
+            }
+        }
+    }
+
+    /// Where surfaces cut through each other, kept where there is a folder.
+    fn crossings(&self, tree: &FaceTree) -> Result<Crossings, OverBudget> {
+        let shape = &self.shape;
+        let input = || {
+            let mut hash = input_of("crossings");
+            hash.positions(&shape.positions);
+            hash.numbers(shape.faces.as_flattened());
+            hash.numbers(&shape.face_surfaces);
+            hash.numbers(&shape.edge_sides);
+            let objects = shape.surfaces.iter().flat_map(|s| [s.object, s.material]);
+            hash.numbers(&objects.collect::<Vec<u32>>());
+            hash
+        };
+        let of_rows = |rows: Vec<u32>| Crossings::from_rows(&rows, shape);
+        let make = || crossings(shape, tree, &mut Budget::new(self.memory_limit));
+        self.cache.value(input, of_rows, Crossings::to_rows, make)
+    }
+
+    /// The smoke that is drawn with the scene.
+    pub(crate) fn smoke(&self) -> Option<&Smoke> {
+        self.smoke.as_ref()
+    }
+
+    /// The welded surface in the world that lines are drawn of.
+    pub fn shape(&self) -> &HalfEdgeMesh {
+        &self.shape
+    }
+
+    placement::accessors!();
+
+    /// Number of triangles, counted for every instance, as the file has them.
+    pub fn triangle_count(&self) -> usize {
+        self.triangle_count
+    }
+
+    /// A view of the whole model from three quarters above, for a frame of width / height `aspect`; `fov_y` is in
+    /// radians.
+    ///
+    /// The same as [`Model::framing_with`](crate::Model::framing_with) gives for the scene with its smoke.
+    pub fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
+        let smoke = self
+            .smoke
+            .iter()
+            .flat_map(Smoke::reach)
+            .map(|point| point.to_array());
+        Camera::framing_points(self.points.iter().copied().chain(smoke), aspect, fov_y)
+    }
+}
+
+/// What a drawing lacks that nobody could read, a sentence each.
+fn notices_of_view(prepared: &Prepared, left_out: usize) -> Vec<String> {
+    let mut notices = Vec::new();
+    if prepared.crossings.overflow {
+        let text = "so many faces cut each other that lines of intersection are left out";
+        notices.push(text.to_owned());
+    }
+    if left_out > 0 {
+        notices.push(format!(
+            "lines lie closer than ink can show: {left_out} pieces of them are left out"
+        ));
+    }
+    notices
+}
+
+fn check_points(strokes: &[Stroke]) -> Result<(), RenderError> {
+    let count: u64 = strokes
+        .iter()
+        .map(|stroke| stroke.points.len() as u64)
+        .sum();
+    if count > POINT_LIMIT {
+        return Err(RenderError::TooMany {
+            what: "points of strokes",
+            limit: POINT_LIMIT,
+        });
+    }
+    Ok(())
+}

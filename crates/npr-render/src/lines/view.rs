@@ -1,0 +1,51 @@
+//! What a camera sees of a line model, before visibility.
+
+use super::colors::StrokeColors;
+use super::texture_map::TextureMap;
+use crate::error::RenderError;
+use crate::placement::Bounds;
+use npr_core::camera::Camera;
+use npr_mesh::half_edge::HalfEdgeMesh;
+use npr_vector::mesh_lines::contour::EdgeContours;
+use npr_vector::mesh_lines::draw::{LineSettings, Prepared, StrokeLook, ViewStrokes, strokes_with};
+use npr_vector::mesh_lines::puff::SmokeLines;
+use npr_vector::project::Projector;
+
+/// A camera, and what it sees before visibility.
+pub(super) struct LineView<'a> {
+    pub shape: &'a HalfEdgeMesh,
+    /// Where textures lie, for lines that take their colour from there.
+    pub map: Option<&'a TextureMap>,
+    /// Most bytes that a drawing may take.
+    pub memory_limit: u64,
+    pub camera: &'a Camera,
+    pub projector: &'a Projector,
+    pub contours: &'a EdgeContours,
+    pub bounds: Bounds,
+    pub smoke: Option<&'a SmokeLines<'a>>,
+    /// Colours of strokes along themselves, where the style has any.
+    pub colors: Option<&'a StrokeColors<'a>>,
+    /// Whether colours change from place to place for another reason.
+    pub changes: bool,
+}
+
+impl LineView<'_> {
+    /// The strokes of lines on the mesh, and of smoke.
+    pub fn of_mesh(
+        &self,
+        prepared: &Prepared,
+        settings: &LineSettings,
+        look: &StrokeLook<'_>,
+    ) -> Result<ViewStrokes, RenderError> {
+        let found = strokes_with(
+            self.shape,
+            prepared,
+            self.projector,
+            settings,
+            self.contours,
+            look,
+            self.smoke,
+        );
+        Ok(found?)
+    }
+}

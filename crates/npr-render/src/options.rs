@@ -1,0 +1,88 @@
+//! What a renderer needs beside a model and a style.
+
+use crate::error::RenderError;
+use crate::smoke::Smoke;
+use crate::tiles::TILE_PIXELS;
+use npr_drawing::lettering::Font;
+use npr_scene::Image;
+use std::collections::BTreeMap;
+
+/// Most pixels of a frame along a side.
+const FRAME_SIDE: u32 = 32_768;
+
+/// A picture that a style names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Picture {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// sRGB bytes with straight alpha, row by row from the top.
+    pub rgba: Vec<u8>,
+}
+
+impl From<Image> for Picture {
+    fn from(image: Image) -> Self {
+        Self {
+            size: [image.width, image.height],
+            rgba: image.rgba,
+        }
+    }
+}
+
+/// What a renderer needs beside model and style.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RendererOptions {
+    /// Width and height of the frame in pixels.
+    pub size: [u32; 2],
+    /// Pixels per inch, for lengths in millimetres.
+    pub dpi: f32,
+    /// The picture behind the scene, where the style names one.
+    pub background_image: Option<Picture>,
+    /// The picture that line widths are read from, where the style names one.
+    pub width_image: Option<Picture>,
+    /// The pictures that [`Style::named_pictures`](npr_stylesheet::Style::named_pictures) lists, by the names that the style gives them.
+    pub pictures: BTreeMap<String, Picture>,
+    /// Fonts of the style's words, by the names that the style gives them.
+    pub fonts: BTreeMap<String, Font>,
+    /// Smoke beside the model; [`Renderer::set_smoke`](crate::Renderer::set_smoke) changes it from frame to frame.
+    pub smoke: Option<Smoke>,
+    /// Most bytes that may be planned.
+    pub memory_limit: u64,
+    /// Most pixels drawn at once, 4 million by default and at most; a larger frame is drawn in tiles. Fewer need less
+    /// memory and more time. Tiles keep at least 64 pixels a side.
+    pub tile_pixels: u32,
+    /// Whether the frame is taken by [`Renderer::draw_bands`](crate::Renderer::draw_bands) where that can be: only a band of it is planned then.
+    pub in_bands: bool,
+}
+
+impl RendererOptions {
+    /// Options for a frame of `size` pixels: 96 pixels per inch, no pictures, fonts or smoke, 4 GiB.
+    pub fn new(size: [u32; 2]) -> Self {
+        Self {
+            size,
+            dpi: 96.0,
+            background_image: None,
+            width_image: None,
+            pictures: BTreeMap::new(),
+            fonts: BTreeMap::new(),
+            smoke: None,
+            memory_limit: 4 << 30,
+            tile_pixels: TILE_PIXELS,
+            in_bands: false,
+        }
+    }
+}
+
+/// Refuses frames without pixels and those that are too large.
+pub(crate) fn check_size([width, height]: [u32; 2]) -> Result<(), RenderError> {
+    if width == 0 || height == 0 {
+        return Err(RenderError::EmptyFrame { width, height });
+    }
+    if width.max(height) > FRAME_SIDE {
+        return Err(RenderError::FrameTooLarge {
+            width,
+            height,
+            limit: FRAME_SIDE,
+        });
+    }
+    Ok(())
+}
