@@ -35,8 +35,6 @@ mod lines;
 mod look;
 mod manual;
 mod message;
-mod moments;
-mod numbered;
 mod outline;
 mod output;
 mod picture;

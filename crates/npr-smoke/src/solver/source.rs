@@ -68,6 +68,29 @@ impl Source {
         }
     }
 
+    /// Cells along x, y and z of a grid on which the source looks good within seconds.
+    pub fn usual_size(self) -> [u32; 3] {
+        match self {
+            Self::Plume => [30, 30, 60],
+            Self::Puff => [32, 32, 40],
+            Self::Explosion => [40, 40, 40],
+            Self::Cloud => [48, 30, 24],
+        }
+    }
+
+    /// Number of a frame that shows what the source is, of `fps` frames a second.
+    pub fn telling_frame(self, fps: f32) -> u32 {
+        // Of 24 a second.
+        let frame: u32 = match self {
+            Self::Plume => 72,
+            Self::Puff => 30,
+            Self::Explosion => 16,
+            Self::Cloud => 24,
+        };
+        let telling = f64::from(frame) / 24.0 * f64::from(fps);
+        (telling.round() as u32).max(1)
+    }
+
     /// Settings under which it looks like itself.
     pub(super) fn settings(self) -> SmokeSettings {
         let plume = SmokeSettings {
