@@ -1,6 +1,7 @@
 //! `npr smoke`: pictures of smoke, one or a whole film.
 
 use crate::arguments::{SmokeArguments, TimingsForm};
+use crate::dump::dump_style;
 use crate::encoder;
 use crate::engine::{self, Drawn};
 use crate::fault::{Exit, Fault};
@@ -31,7 +32,7 @@ pub fn smoke(args: &SmokeArguments) -> Result<(), Fault> {
         .map_or(volume::USUAL_STYLE, volume::usual_style);
     let look = args.drawing.look.or_style(style);
     if look.dump_style {
-        return render::dump_style(&look, &args.drawing);
+        return dump_style(&look, &args.drawing);
     }
     let mut progress = Progress::new(args.drawing.quiet);
     let drawn = draw(&Job::resolve(args, &look)?, &mut progress)?;

@@ -1,8 +1,8 @@
 //! Where a scene comes from.
 
+use crate::ending::has_ending;
 use crate::fault::Fault;
 use crate::input::{read_file, read_standard};
-use crate::job::has_ending;
 use crate::message::quoted;
 use crate::output::folder_of;
 use crate::volume::VolumeSource;
