@@ -7,6 +7,7 @@ mod deferred;
 mod drawing;
 mod limits;
 mod lines;
+mod look;
 mod outline;
 mod point;
 mod render;
@@ -25,9 +26,10 @@ pub use lines::{
     HiddenLines, LineArguments, LineFormat, LinesArguments, MethodName, PaintedName, PathForm,
     SheetArguments, Switch,
 };
+pub use look::LookArguments;
 pub use outline::{Behind, OutlineArguments};
 pub use point::Point;
-pub use render::{LookArguments, RenderArguments};
+pub use render::RenderArguments;
 pub use size::Size;
 pub use smoke::SmokeArguments;
 pub use trace::{TraceArguments, TracedForm, TracedFormat};

@@ -1,30 +1,12 @@
 //! `npr doctor`: what this machine can do.
 
+use crate::adapter_report::AdapterReport;
 use crate::fault::{Exit, Fault};
 use crate::hardware;
 use crate::message::plain;
 use crate::output;
 use serde::Serialize;
 use std::fmt::Write;
-
-/// A graphics adapter, for people who report a problem.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct AdapterReport {
-    /// Name of the device.
-    pub name: String,
-    /// Discrete, integrated, virtual, unknown or software.
-    pub kind: &'static str,
-    /// The interface through which it is reached.
-    pub backend: &'static str,
-    /// Name and version of the driver.
-    pub driver: String,
-    /// Largest width and height of an image, in texels.
-    pub max_image_side: u32,
-    /// Largest buffer that a pass can bind, in bytes.
-    pub max_binding_bytes: u64,
-    /// Whether it can time passes.
-    pub has_clock: bool,
-}
 
 /// What this machine can do.
 #[derive(Debug, Clone, Serialize)]
@@ -86,21 +68,6 @@ impl Diagnosis {
             self.because
         );
         text
-    }
-}
-
-impl AdapterReport {
-    fn text(&self) -> String {
-        let clock = if self.has_clock { "clock" } else { "no clock" };
-        format!(
-            "{}: {}, {}, {}, images to {} px, bindings to {} MiB, {clock}",
-            plain(&self.name),
-            self.kind,
-            self.backend,
-            plain(&self.driver),
-            self.max_image_side,
-            self.max_binding_bytes >> 20,
-        )
     }
 }
 

@@ -1,6 +1,7 @@
 //! Which engine draws, and what happens when it fails.
 
 use crate::arguments::Backend;
+use crate::device_choice::DeviceChoice;
 use crate::fault::{Exit, Fault};
 use crate::hardware;
 use crate::message;
@@ -10,15 +11,6 @@ use npr_gpu::engine::{Engine, EngineError};
 use npr_gpu::processor::Processor;
 use npr_render::RenderError;
 use std::cell::RefCell;
-
-/// Which graphics devices may draw.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Choice {
-    /// Hardware only: software devices are slower than the processor engine.
-    Hardware,
-    /// Any, hardware first.
-    Any,
-}
 
 /// A frame or its lines, and the engine that drew it.
 #[derive(Debug)]
@@ -46,8 +38,8 @@ fn draw<T>(
 ) -> Result<Drawn<T>, Fault> {
     let drawn = match backend {
         Backend::Cpu => draw_on(&Processor, picture),
-        Backend::Gpu => draw_on_device(&|| hardware::open(Choice::Any), picture),
-        Backend::Auto => draw_somewhere(&|| hardware::open(Choice::Hardware), picture, warn),
+        Backend::Gpu => draw_on_device(&|| hardware::open(DeviceChoice::Any), picture),
+        Backend::Auto => draw_somewhere(&|| hardware::open(DeviceChoice::Hardware), picture, warn),
     };
     drawn.map_err(Fault::from)
 }

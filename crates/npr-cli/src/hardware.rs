@@ -1,15 +1,15 @@
 //! Graphics devices.
 
-use crate::doctor::AdapterReport;
-use crate::engine::Choice;
+use crate::adapter_report::AdapterReport;
+use crate::device_choice::DeviceChoice;
 use npr_gpu::device::{self, AdapterChoice, AdapterKind, AdapterSummary, Device};
 use npr_gpu::engine::{Engine, EngineError};
 
 /// The best device that `choice` admits.
-pub fn open(choice: Choice) -> Result<Box<dyn Engine>, EngineError> {
+pub fn open(choice: DeviceChoice) -> Result<Box<dyn Engine>, EngineError> {
     let choice = match choice {
-        Choice::Hardware => AdapterChoice::Hardware,
-        Choice::Any => AdapterChoice::Any,
+        DeviceChoice::Hardware => AdapterChoice::Hardware,
+        DeviceChoice::Any => AdapterChoice::Any,
     };
     Ok(Box::new(Device::open(choice)?))
 }

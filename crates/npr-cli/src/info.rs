@@ -6,7 +6,7 @@ use crate::inventory::{Inventory, VolumeInventory};
 use crate::output;
 use crate::source::Source;
 use crate::volume::VolumeSource;
-use npr_render::VolumeOptions;
+use npr_smoke::file::VolumeOptions;
 use serde::Serialize;
 
 /// Prints what is in a file, what of it is drawn, and what is ignored and why.

@@ -1,6 +1,7 @@
 //! One picture to draw: what the user said, resolved.
 
 use crate::arguments::{DrawingArguments, LookArguments, RenderArguments, Size};
+use crate::ending::has_ending;
 use crate::fault::{Exit, Fault};
 use crate::look::Look;
 use crate::message::quoted;
@@ -96,12 +97,6 @@ pub fn check_ending(path: &Path) -> Result<(), Fault> {
         quoted(path)
     );
     Err(Fault::new(Exit::Usage, message))
-}
-
-/// Whether the name of a file ends in a dot and `ending`, in any case.
-pub fn has_ending(path: &Path, ending: &str) -> bool {
-    path.extension()
-        .is_some_and(|there| there.eq_ignore_ascii_case(ending))
 }
 
 /// The path asked for, or else the scene's name with an ending, in the current folder.

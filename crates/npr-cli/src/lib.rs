@@ -9,13 +9,17 @@
 //! assert!(command.find_subcommand("render").is_some());
 //! ```
 
+mod adapter_report;
 mod arguments;
 mod bands;
 mod broken_image;
 mod colors;
 mod completions;
+mod device_choice;
 mod doctor;
+mod dump;
 mod encoder;
+mod ending;
 mod engine;
 mod fault;
 #[cfg(feature = "gpu")]
@@ -35,8 +39,6 @@ mod lines;
 mod look;
 mod manual;
 mod message;
-mod moments;
-mod numbered;
 mod outline;
 mod output;
 mod picture;

@@ -4,8 +4,9 @@ use crate::arguments::{
     HiddenLines, LineArguments, LineFormat, LinesArguments, LookArguments, MethodName, PaintedName,
     PathForm, Switch,
 };
+use crate::ending::has_ending;
 use crate::fault::{Exit, Fault};
-use crate::job::{check_size, has_ending, output_path, renderer_options};
+use crate::job::{check_size, output_path, renderer_options};
 use crate::look::Look;
 use crate::message::quoted;
 use crate::output::Output;

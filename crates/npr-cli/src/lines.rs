@@ -3,6 +3,7 @@
 use crate::arguments::{
     Backend, LineArguments, LineFormat, LinesArguments, RenderArguments, SheetArguments,
 };
+use crate::dump::dump_style;
 use crate::engine::{self, Drawn};
 use crate::fault::{Exit, Fault};
 use crate::idle;
@@ -11,7 +12,6 @@ use crate::line_job::LineJob;
 use crate::look::Look;
 use crate::message;
 use crate::progress::Progress;
-use crate::render;
 use crate::source::Loaded;
 use crate::timings::Timings;
 use crate::viewpoint;
@@ -28,7 +28,7 @@ use std::io::Write;
 /// Draws the lines that the user asked for, or prints the style.
 pub fn lines(args: &LinesArguments) -> Result<(), Fault> {
     if args.drawing.look.dump_style {
-        return render::dump_style(&args.look(), &args.drawing);
+        return dump_style(&args.look(), &args.drawing);
     }
     let mut progress = Progress::new(args.drawing.quiet);
     let drawn = draw(&LineJob::resolve(args)?, &mut progress)?;

@@ -1,11 +1,11 @@
 //! Graphics devices, in a build without any.
 
-use crate::doctor::AdapterReport;
-use crate::engine::Choice;
+use crate::adapter_report::AdapterReport;
+use crate::device_choice::DeviceChoice;
 use npr_gpu::engine::{Engine, EngineError};
 
 /// Always fails.
-pub fn open(_: Choice) -> Result<Box<dyn Engine>, EngineError> {
+pub fn open(_: DeviceChoice) -> Result<Box<dyn Engine>, EngineError> {
     Err(EngineError::NoDevice {
         reason: "this build draws on the processor only".to_owned(),
     })

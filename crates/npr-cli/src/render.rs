@@ -1,16 +1,17 @@
 //! `npr render`: one picture of a scene.
 
-use crate::arguments::{DrawingArguments, LookArguments, RenderArguments};
+use crate::arguments::{DrawingArguments, RenderArguments};
 use crate::bands::draw_into;
+use crate::dump::dump_style;
 use crate::encoder;
+use crate::ending::has_ending;
 use crate::engine::{self, Drawn};
-use crate::fault::{Exit, Fault};
+use crate::fault::Fault;
 use crate::idle;
-use crate::job::{Job, has_ending};
+use crate::job::Job;
 use crate::lines;
 use crate::look::Look;
 use crate::message;
-use crate::output;
 use crate::progress::Progress;
 use crate::timings::{DRAW, Timings};
 use crate::viewpoint::{self, Seen};
@@ -46,16 +47,6 @@ pub fn render(args: &RenderArguments) -> Result<(), Fault> {
         let _ = std::io::stderr().write_all(timings.reported(form).as_bytes());
     }
     Ok(())
-}
-
-/// Prints a style as it comes out.
-pub fn dump_style(args: &LookArguments, drawing: &DrawingArguments) -> Result<(), Fault> {
-    let look = Look::resolve(args, drawing.allow_external.as_deref())?.with_smoke(&drawing.volumes);
-    let text = look
-        .style
-        .to_toml()
-        .map_err(|error| Fault::new(Exit::Failed, error))?;
-    output::print(text.as_bytes())
 }
 
 /// From the scene's file to the picture's.

@@ -1,6 +1,7 @@
 //! `npr smoke`: pictures of smoke, one or a whole film.
 
 use crate::arguments::{SmokeArguments, TimingsForm};
+use crate::dump::dump_style;
 use crate::encoder;
 use crate::engine::{self, Drawn};
 use crate::fault::{Exit, Fault};
@@ -8,8 +9,6 @@ use crate::idle;
 use crate::job;
 use crate::look::Look;
 use crate::message;
-use crate::moments::Moments;
-use crate::numbered::Numbered;
 use crate::output::Output;
 use crate::progress::{Counter, Progress};
 use crate::render::{self, Prepared};
@@ -20,6 +19,7 @@ use crate::volume::{self, Film, Order, Shots, VolumeSource};
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{Frame, RenderError, RendererOptions, Smoke, facts_of};
+use npr_smoke::film::{Moments, Numbered};
 use std::cell::{Cell, RefCell};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -32,7 +32,7 @@ pub fn smoke(args: &SmokeArguments) -> Result<(), Fault> {
         .map_or(volume::USUAL_STYLE, volume::usual_style);
     let look = args.drawing.look.or_style(style);
     if look.dump_style {
-        return render::dump_style(&look, &args.drawing);
+        return dump_style(&look, &args.drawing);
     }
     let mut progress = Progress::new(args.drawing.quiet);
     let drawn = draw(&Job::resolve(args, &look)?, &mut progress)?;

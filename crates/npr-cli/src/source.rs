@@ -1,15 +1,15 @@
 //! Where a scene comes from.
 
+use crate::ending::has_ending;
 use crate::fault::Fault;
 use crate::input::{read_file, read_standard};
-use crate::job::has_ending;
 use crate::message::quoted;
 use crate::output::folder_of;
 use crate::volume::VolumeSource;
-use npr_render::volume::is_volume;
 use npr_scene::{
     FolderResources, Format, Limits, MemoryResources, ResourceError, Resources, Scene, load_bytes,
 };
+use npr_smoke::file::is_volume;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 

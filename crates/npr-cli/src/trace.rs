@@ -1,10 +1,11 @@
 //! `npr trace`: bitmaps as curves.
 
 use crate::arguments::{TraceArguments, TracedForm, TracedFormat};
+use crate::ending::has_ending;
 use crate::fault::{Exit, Fault};
 use crate::idle;
 use crate::input::{read_file, read_standard};
-use crate::job::{has_ending, output_path};
+use crate::job::output_path;
 use crate::message::{self, quoted};
 use crate::output::Output;
 use crate::picture;

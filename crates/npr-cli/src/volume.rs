@@ -1,87 +1,28 @@
 //! Volumes that a command line names, turned into spheres that can be drawn.
 
+mod fault;
+mod shots;
+mod source;
+
+pub use fault::of_volume;
+pub use shots::{DEFAULT_FPS, DEFAULT_STEP, Shots};
+pub use source::{USUAL_STYLE, VolumeSource, usual_style};
+
 use crate::arguments::{PlacedVolume, VolumeArguments, VolumeUp};
 use crate::fault::{Exit, Fault};
 use crate::input::read_file;
 use crate::message::quoted;
-use crate::moments::Moments;
-use crate::numbered::Numbered;
 use crate::progress::Progress;
+use fault::{limit_of, of_series};
 use npr_core::budget::Budget;
-use npr_render::volume::{Extent, mended_notice};
-use npr_render::{Following, Smoke, Sphere, UpAxis, VolumeFault, VolumeFile, VolumeOptions};
+use npr_render::{Following, Smoke, Sphere};
 use npr_scene::Limits;
-use npr_smoke::solver::{self, SmokeError, SmokeSettings};
-use npr_smoke::{Birthplace, Footage, PuffSettings, Puffs, Source, Volume};
+use npr_smoke::file::{UpAxis, VolumeFile, VolumeOptions};
+use npr_smoke::film::{self, Moments, Numbered, Series, Simulation};
+use npr_smoke::solver::{self, SmokeSettings};
+use npr_smoke::{Birthplace, PuffSettings, Puffs, Source, Volume, VolumeError};
 use npr_stylesheet::SmokeStyle;
-use std::path::{Path, PathBuf};
-
-/// Frames from one picture to the next where nothing is said.
-pub const DEFAULT_STEP: f64 = 1.0;
-
-/// Frames per second where none are said.
-pub const DEFAULT_FPS: f32 = 24.0;
-
-/// The preset of smoke that has none of its own.
-pub const USUAL_STYLE: &str = "smoke-cel-2";
-
-/// The preset that suits a source.
-pub fn usual_style(source: &VolumeSource) -> &'static str {
-    match source {
-        VolumeSource::BuiltIn(Source::Explosion) => "explosion",
-        VolumeSource::BuiltIn(Source::Cloud) => "cloud",
-        _ => USUAL_STYLE,
-    }
-}
-
-/// Where a volume comes from.
-#[derive(Debug, Clone, PartialEq)]
-pub enum VolumeSource {
-    /// The solver.
-    BuiltIn(Source),
-    /// One file.
-    File(PathBuf),
-    /// Files with numbers.
-    Series(Numbered),
-    /// A file that was read already, and what it is called in messages.
-    Read(String, Vec<u8>),
-}
-
-impl VolumeSource {
-    /// The source that a name stands for: a built-in one, a series if there is a `#` in it, or a file.
-    pub fn of(name: &Path) -> Self {
-        let built_in = name.to_str().and_then(Source::of_name);
-        let series = || Numbered::of(name).map(Self::Series);
-        built_in
-            .map(Self::BuiltIn)
-            .or_else(series)
-            .unwrap_or_else(|| Self::File(name.to_owned()))
-    }
-}
-
-/// Which moments of a volume are drawn.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Shots {
-    /// First and last frame; a single telling one without.
-    pub frames: Option<(u32, u32)>,
-    /// Frames from one picture to the next.
-    pub step: f64,
-    /// Frames of the volume per second.
-    pub fps: f32,
-    /// Cells of the built-in simulation along x, y and z, which is up.
-    pub grid: Option<[u32; 3]>,
-}
-
-impl Default for Shots {
-    fn default() -> Self {
-        Self {
-            frames: None,
-            step: DEFAULT_STEP,
-            fps: DEFAULT_FPS,
-            grid: None,
-        }
-    }
-}
+use std::path::PathBuf;
 
 /// What smoke is made of, and how.
 #[derive(Debug, Clone, Copy)]
@@ -191,26 +132,7 @@ pub fn film(
     }
 }
 
-/// A grid on which a source looks good within seconds.
-fn usual_grid(source: Source) -> [u32; 3] {
-    match source {
-        Source::Plume => [30, 30, 60],
-        Source::Puff => [32, 32, 40],
-        Source::Explosion => [40, 40, 40],
-        Source::Cloud => [48, 30, 24],
-    }
-}
-
-/// A frame, of 24 a second, that shows what the source is.
-fn telling_frame(source: Source) -> u32 {
-    match source {
-        Source::Plume => 72,
-        Source::Puff => 30,
-        Source::Explosion => 16,
-        Source::Cloud => 24,
-    }
-}
-
+/// The smoke of a simulation at every moment asked for, or at one that shows what it is.
 fn simulated(
     source: Source,
     order: &Order<'_>,
@@ -218,36 +140,32 @@ fn simulated(
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Film, Fault> {
     let settings = SmokeSettings {
-        size: shots.grid.unwrap_or(usual_grid(source)),
+        size: shots.grid.unwrap_or(source.usual_size()),
         frame_seconds: 1.0 / shots.fps,
         seed: order.args.seed,
         ..SmokeSettings::of(source)
     };
     let mut budget = Budget::new(order.limits.memory_bytes);
-    let mut smoke = solver::Smoke::within(&mut budget, settings)?;
-    let telling = f64::from(telling_frame(source)) / f64::from(DEFAULT_FPS) * f64::from(shots.fps);
-    let telling = (telling.round() as u32).max(1);
+    let mut simulation = Simulation::new(solver::Smoke::within(&mut budget, settings)?);
+    let telling = source.telling_frame(shots.fps);
     let (first, last) = shots.frames.unwrap_or((telling, telling));
-    let mut done = 0;
-    let read = |frame: u32| {
-        while done < frame {
-            smoke.step();
-            done += 1;
-        }
-        Ok(smoke.volume())
-    };
-    let footage = Footage::new(read, u32::MAX, 1.0 / shots.fps);
+
+    // Follow the smoke from the simulation's first frame on, whatever frames are drawn.
     let moments = Moments::new(first, last, shots.step, 1);
     let puffs = order.puffs(moments.step, shots.fps, settings.birthplace());
-    let film = followed(footage, &moments, puffs, &mut budget, tell)?;
+    take_frames(&mut budget, &puffs, &moments)?;
+    let read = |frame: u32| Ok::<_, VolumeError>(simulation.read(frame));
+    let mut film = film::Film::new(read, u32::MAX, shots.fps, moments);
+    let frames = played(&mut film, puffs, tell)?;
     Ok(finished(
-        film,
+        frames,
         first,
         source.hottest(settings.heat),
         Vec::new(),
     ))
 }
 
+/// The smoke of one file, which stands still.
 fn read_still(name: &str, bytes: &[u8], order: &Order<'_>, shots: &Shots) -> Result<Film, Fault> {
     if shots.frames.is_some_and(|frames| frames != (1, 1)) {
         let message =
@@ -259,135 +177,106 @@ fn read_still(name: &str, bytes: &[u8], order: &Order<'_>, shots: &Shots) -> Res
         let file = VolumeFile::read(bytes, &options)?;
         Ok((file.volume(&file.extent())?, file.notices().to_vec()))
     };
-    let (volume, notices) = read().map_err(|fault| of_volume(name, fault))?;
-    let (peak, hottest) = (peak(&volume), hottest(&volume));
-    let mut notes: Vec<String> = notices;
-    notes.extend(mended_notice(volume.mended()));
-    notes.extend(thin_notice(peak, order.style));
-    let notes = notes.into_iter().map(|notice| format!("{name}: {notice}"));
-    let notes = notes.collect();
+    let (volume, mut notices) = read().map_err(|fault| of_volume(name, fault))?;
+
+    // Say what was guessed or mended, and why nothing may be seen.
+    notices.extend(volume.mended().notice());
+    notices.extend(thin_notice(volume.peak(), order.style));
+    let notices = notices
+        .into_iter()
+        .map(|notice| format!("{name}: {notice}"));
+    let notices = notices.collect();
+
+    // Cover the smoke of this one moment with spheres.
     let settings = order.puffs(1.0, shots.fps, Birthplace::Anywhere);
-    let puffs = Puffs::new(&volume, settings);
-    Ok(finished(vec![Smoke::of_puffs(&puffs)], 1, hottest, notes))
+    let smoke = Smoke::of_puffs(&Puffs::new(&volume, settings));
+    Ok(finished(vec![smoke], 1, volume.hottest(), notices))
 }
 
+/// The smoke of a series of files at every moment asked for, all frames where none are.
 fn read_series(
-    series: &Numbered,
+    files: &Numbered,
     order: &Order<'_>,
     shots: &Shots,
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Film, Fault> {
     let found = || {
-        series.found().ok_or_else(|| {
-            let first = quoted(&series.path(1));
+        files.found().ok_or_else(|| {
+            let first = quoted(&files.path(1));
             Fault::new(Exit::Failed, format!("there is no file such as {first}"))
         })
     };
     let (first, last) = shots.frames.map_or_else(found, Ok)?;
-    let (options, mut notices) = (order.options(), Vec::new());
+    let options = order.options();
     let open = |frame: u32| {
-        let path = series.path(frame);
+        let path = files.path(frame);
         let bytes = read_file(&path, order.limits.file_bytes)?;
         VolumeFile::read(&bytes, &options).map_err(|fault| of_volume(&quoted(&path), fault))
     };
-    let extent = shared_extent(series, first, last, &open)?;
-    let (mut most, mut hot) = (0.0f32, 0.0f32);
-    let read = |frame: u32| {
-        let file = open(frame)?;
-        let volume = file.volume(&extent);
-        let volume = volume.map_err(|fault| of_volume(&quoted(&series.path(frame)), fault))?;
-        (most, hot) = (most.max(peak(&volume)), hot.max(hottest(&volume)));
-        let own = file
-            .notices()
-            .iter()
-            .cloned()
-            .chain(mended_notice(volume.mended()));
-        notices.extend(own.map(|notice| format!("{}: {notice}", quoted(&series.path(frame)))));
-        Ok(volume)
-    };
-    let mut footage = Footage::new(read, last, 1.0 / shots.fps);
+    let mut series = Series::open(first, last, open).map_err(|error| of_series(files, error))?;
+
+    // Follow the smoke from the first frame that is drawn.
     let moments = Moments::new(first, last, shots.step, first);
-    let mut budget = Budget::new(order.limits.memory_bytes);
     let puffs = order.puffs(moments.step, shots.fps, Birthplace::Anywhere);
-    let frames = followed(&mut footage, &moments, puffs, &mut budget, tell)?;
-    let estimates = footage.has_estimates();
-    drop(footage);
+    take_frames(
+        &mut Budget::new(order.limits.memory_bytes),
+        &puffs,
+        &moments,
+    )?;
+    let read = |frame: u32| series.read(frame);
+    let mut film = film::Film::new(read, last, shots.fps, moments);
+    let frames = played(&mut film, puffs, tell).map_err(|error| of_series(files, error))?;
+    let estimates = film.has_estimates();
+    drop(film);
+
+    // Say what was guessed or mended, frame by frame, then what holds for the whole film.
+    let own = series.notices().iter();
+    let own = own.map(|(frame, notice)| format!("{}: {notice}", quoted(&files.path(*frame))));
+    let mut notices: Vec<String> = own.collect();
     if estimates {
         notices.push("velocities are estimated from densities: the files bring none".to_owned());
     }
-    notices.extend(thin_notice(most, order.style));
-    let mut film = finished(frames, first, hot, notices);
-    film.inputs = (first..=last).map(|frame| series.path(frame)).collect();
+    notices.extend(thin_notice(series.peak(), order.style));
+    let mut film = finished(frames, first, series.hottest(), notices);
+    film.inputs = (first..=last).map(|frame| files.path(frame)).collect();
     Ok(film)
 }
 
-/// The box of voxels that holds all frames of a series.
-fn shared_extent(
-    series: &Numbered,
-    first: u32,
-    last: u32,
-    open: &dyn Fn(u32) -> Result<VolumeFile, Fault>,
-) -> Result<Extent, Fault> {
-    let mut all = open(first)?.extent();
-    for frame in first.saturating_add(1)..=last {
-        all = all.union(&open(frame)?.extent()).ok_or_else(|| {
-            let (here, start) = (quoted(&series.path(frame)), quoted(&series.path(first)));
-            let message =
-                format!("cannot read {here}: its voxels do not lie on the grid of {start}");
-            Fault::new(Exit::Input, message)
-        })?;
-    }
-    Ok(all)
-}
-
-/// The smoke of every moment that is drawn, its heat in the units of the volume.
-fn followed<R>(
-    mut footage: impl std::borrow::BorrowMut<Footage<R>>,
-    moments: &Moments,
-    settings: PuffSettings,
+/// Takes memory for the smoke of all pictures.
+fn take_frames(
     budget: &mut Budget,
-    tell: &mut dyn FnMut(usize, usize),
-) -> Result<Vec<Smoke>, Fault>
-where
-    R: FnMut(u32) -> Result<Volume, Fault>,
-{
+    settings: &PuffSettings,
+    moments: &Moments,
+) -> Result<(), Fault> {
     let spheres = (settings.count() as usize).saturating_mul(moments.seen);
     budget
         .take("the smoke of all frames", spheres, size_of::<Sphere>())
-        .map_err(|error| limit_of(&error))?;
-    let (mut puffs, mut frames) = (None::<Puffs>, Vec::new());
-    for number in 0..moments.count() {
-        tell(number, moments.count());
-        let volume = footage.borrow_mut().at(moments.at(number))?;
-        let puffs = match &mut puffs {
-            Some(puffs) => {
-                puffs.step(&volume);
-                puffs
-            }
-            none => none.insert(Puffs::new(&volume, settings)),
-        };
-        if moments.is_seen(number) {
-            frames.push(Smoke::of_puffs(puffs));
-        }
-    }
+        .map_err(|error| limit_of(&error))
+}
+
+/// The smoke of every moment that is drawn, its heat in the units of the volume.
+fn played<R, E>(
+    film: &mut film::Film<R>,
+    settings: PuffSettings,
+    tell: &mut dyn FnMut(usize, usize),
+) -> Result<Vec<Smoke>, E>
+where
+    R: FnMut(u32) -> Result<Volume, E>,
+    E: From<VolumeError>,
+{
+    let mut frames = Vec::new();
+    film.play(settings, tell, &mut |puffs| {
+        frames.push(Smoke::of_puffs(puffs));
+    })?;
     Ok(frames)
 }
 
-/// Frames in one space, with heats from 0 to 1.
+/// A film of these frames: all in one space, with heats from 0 to 1, and every notice once.
 fn finished(frames: Vec<Smoke>, first: u32, hottest: f32, mut notices: Vec<String>) -> Film {
-    // What holds for every frame is said once.
-    let mut args = std::collections::BTreeSet::new();
-    notices.retain(|notice| args.insert(notice.clone()));
-    let all = frames.iter().fold(Smoke::default(), |all, smoke| {
-        all.with(Smoke::new(smoke.spheres.clone()))
-    });
-    let space = (!all.spheres.is_empty()).then(|| all.bounds());
-    let finish = |smoke: Smoke| Smoke {
-        space,
-        ..smoke.with_hottest(hottest)
-    };
+    let mut told = std::collections::BTreeSet::new();
+    notices.retain(|notice| told.insert(notice.clone()));
     Film {
-        frames: frames.into_iter().map(finish).collect(),
+        frames: Smoke::of_film(frames, hottest),
         first,
         inputs: Vec::new(),
         notices,
@@ -422,18 +311,6 @@ impl Order<'_> {
     }
 }
 
-fn peak(volume: &Volume) -> f32 {
-    volume
-        .density()
-        .iter()
-        .fold(0.0, |most, density| most.max(*density))
-}
-
-fn hottest(volume: &Volume) -> f32 {
-    let heats = volume.temperature().unwrap_or_default();
-    heats.iter().fold(0.0, |most, heat| most.max(*heat))
-}
-
 /// What to say where nothing is dense enough to be drawn.
 fn thin_notice(peak: f32, style: &SmokeStyle) -> Option<String> {
     let threshold = style.puffs.threshold;
@@ -444,54 +321,4 @@ fn thin_notice(peak: f32, style: &SmokeStyle) -> Option<String> {
         ),
     };
     (peak <= threshold).then_some(text)
-}
-
-/// A fault of a volume called `name`, which is quoted.
-pub fn of_volume(name: &str, fault: VolumeFault) -> Fault {
-    let exit = match &fault {
-        fault if fault.is_limit() => Exit::Limit,
-        VolumeFault::Components { .. } | VolumeFault::Read(npr_vdb::Fault::NoGrid { .. }) => {
-            Exit::Usage
-        }
-        _ => Exit::Input,
-    };
-    let remedy = match (fault.is_memory(), exit) {
-        (true, _) => "; --memory-limit lifts that",
-        (false, Exit::Limit) => ", and no option lifts that",
-        (false, _) => "",
-    };
-    Fault::new(exit, format!("cannot read {name}: {fault}{remedy}"))
-}
-
-fn limit_of(error: &npr_core::budget::OverBudget) -> Fault {
-    Fault::new(Exit::Limit, format!("{error}; --memory-limit lifts that"))
-}
-
-impl From<SmokeError> for Fault {
-    fn from(error: SmokeError) -> Self {
-        match &error {
-            SmokeError::OverBudget(error) => limit_of(error),
-            _ => Self::new(Exit::Usage, format!("--grid: {error}")),
-        }
-    }
-}
-
-impl From<npr_smoke::VolumeError> for Fault {
-    fn from(error: npr_smoke::VolumeError) -> Self {
-        Self::new(Exit::Input, error)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_tell_where_smoke_comes_from() {
-        let of = |name: &str| VolumeSource::of(Path::new(name));
-        assert_eq!(of("cloud"), VolumeSource::BuiltIn(Source::Cloud));
-        assert_eq!(of("./cloud"), VolumeSource::File("./cloud".into()));
-        assert_eq!(of("a.vdb"), VolumeSource::File("a.vdb".into()));
-        assert!(matches!(of("a_##.vdb"), VolumeSource::Series(_)));
-    }
 }

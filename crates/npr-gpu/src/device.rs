@@ -6,7 +6,7 @@
 
 mod adapter;
 mod clock;
-mod fault;
+mod gpu;
 mod image;
 mod memory;
 mod pipeline;
@@ -15,16 +15,18 @@ mod staging;
 mod step;
 #[cfg(any(test, feature = "testing"))]
 pub mod testing;
+mod watch;
 
 pub use adapter::{AdapterChoice, AdapterKind, AdapterSummary, adapters};
-pub use fault::TIME_LIMIT;
+pub use watch::TIME_LIMIT;
 
 use crate::engine::{Engine, EngineError, Session};
 use crate::graph::Graph;
-use fault::Watch;
+use gpu::Gpu;
 use pipeline::PipelineCache;
 use session::DeviceSession;
 use std::sync::Arc;
+use watch::Watch;
 
 /// A graphics device, ready to run graphs.
 ///
@@ -32,15 +34,6 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Device {
     gpu: Arc<Gpu>,
-}
-
-/// What sessions share: the device, its queue, and what is known of them.
-#[derive(Debug)]
-struct Gpu {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
-    adapter: AdapterSummary,
-    watch: Arc<Watch>,
     pipelines: PipelineCache,
 }
 
@@ -60,9 +53,11 @@ impl Device {
             queue,
             adapter,
             watch,
-            pipelines: PipelineCache::default(),
         };
-        Ok(Self { gpu: Arc::new(gpu) })
+        Ok(Self {
+            gpu: Arc::new(gpu),
+            pipelines: PipelineCache::default(),
+        })
     }
 
     /// The adapter that this device belongs to.
@@ -90,6 +85,7 @@ impl Engine for Device {
     }
 
     fn prepare(&self, graph: Graph) -> Result<Box<dyn Session>, EngineError> {
-        Ok(Box::new(DeviceSession::new(self.gpu.clone(), graph)?))
+        let session = DeviceSession::new(self.gpu.clone(), &self.pipelines, graph)?;
+        Ok(Box::new(session))
     }
 }

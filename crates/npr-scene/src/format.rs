@@ -43,7 +43,7 @@ impl Format {
             Some(Self::Glb)
         } else if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
             Some(Self::Ply)
-        } else if crate::stl::is_binary(bytes) || text.starts_with(b"solid") {
+        } else if crate::stl::binary::is_binary(bytes) || text.starts_with(b"solid") {
             Some(Self::Stl)
         } else if text.starts_with(b"{") {
             Some(Self::Gltf)

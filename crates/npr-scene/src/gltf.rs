@@ -26,7 +26,7 @@ use ::gltf::json::scene::Node;
 use ::gltf::json::{Index, Root};
 
 use crate::error::SceneError;
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::scene::Scene;
 use crate::shown::shown;
 use accessor::Accessors;

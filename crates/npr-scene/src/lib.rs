@@ -28,6 +28,7 @@ mod image;
 mod light;
 mod limits;
 mod load;
+mod loading;
 mod material;
 mod matrix;
 mod mesh;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::error::SceneError;
 use crate::format::Format;
 use crate::limits::{self, Allowance, Limits};
+use crate::loading::Loading;
 use crate::notice::Notices;
 use crate::resources::{FolderResources, Resources, read_regular};
 use crate::scene::Scene;
@@ -17,13 +18,6 @@ pub struct LoadOptions {
     pub limits: Limits,
     /// A second folder from which files may be read, besides the scene's own.
     pub allow_external: Option<PathBuf>,
-}
-
-/// What a reader needs besides the bytes.
-pub(crate) struct Loading<'a> {
-    pub(crate) resources: &'a dyn Resources,
-    pub(crate) allowance: Allowance,
-    pub(crate) notices: Notices,
 }
 
 /// The scene in the file at `path`.

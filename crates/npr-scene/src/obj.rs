@@ -8,105 +8,27 @@
 )]
 
 pub(crate) mod corner;
+pub(crate) mod element;
 pub(crate) mod encoding;
+pub(crate) mod error;
 pub(crate) mod group;
 pub(crate) mod library;
+
+pub use element::Element;
+pub use error::ObjError;
 
 use std::borrow::Cow;
 
 use npr_core::color::linear_from_srgb;
 
 use crate::error::SceneError;
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::mesh::Mesh;
 use crate::scene::Scene;
 use crate::words::{number, numbered_lines, triple, words};
 use corner::Tables;
 use group::Groups;
 use library::Library;
-
-/// What is wrong with an OBJ file.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ObjError {
-    /// A vertex, normal or texture coordinate lacks numbers.
-    #[error("line {line}: {what} needs {wanted} numbers")]
-    Numbers {
-        /// Line, counted from 1.
-        line: usize,
-        /// What the line defines.
-        what: &'static str,
-        /// How many numbers it needs.
-        wanted: usize,
-    },
-    /// A corner of a face or a polyline is no index.
-    #[error(
-        "line {line}: {element} has the corner '{}', which is no index",
-        crate::shown::shown(corner)
-    )]
-    Corner {
-        /// Line, counted from 1.
-        line: usize,
-        /// What it belongs to.
-        element: Element,
-        /// The corner as read.
-        corner: String,
-    },
-    /// A face or a polyline has too few corners.
-    #[error("line {line}: {element} has only {corner_count} corners")]
-    FewCorners {
-        /// Line, counted from 1.
-        line: usize,
-        /// What has them.
-        element: Element,
-        /// How many corners it has.
-        corner_count: usize,
-    },
-    /// A face or a polyline names something that was not defined before it.
-    #[error(
-        "line {line}: {element} uses {what} {index}, but only {count} are defined so far, counted from 1"
-    )]
-    Missing {
-        /// Line, counted from 1.
-        line: usize,
-        /// What names it.
-        element: Element,
-        /// What it names: a vertex, a normal or a texture coordinate.
-        what: &'static str,
-        /// The index as read.
-        index: i64,
-        /// How many are defined before the line.
-        count: usize,
-    },
-}
-
-/// What corners belong to, counted from 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Element {
-    /// A face, from a line `f`.
-    Face(usize),
-    /// A line through points, from a line `l`.
-    Polyline(usize),
-}
-
-impl Element {
-    /// How many corners it has at least.
-    fn least(self) -> usize {
-        match self {
-            Self::Face(_) => 3,
-            Self::Polyline(_) => 2,
-        }
-    }
-}
-
-impl std::fmt::Display for Element {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Face(number) => write!(f, "face {number}"),
-            Self::Polyline(number) => write!(f, "polyline {number}"),
-        }
-    }
-}
 
 /// Reads an OBJ file.
 pub(crate) fn read(bytes: &[u8], loading: &mut Loading) -> Result<Scene, SceneError> {

@@ -8,53 +8,19 @@
     clippy::arithmetic_side_effects
 )]
 
+pub(crate) mod binary;
+pub(crate) mod error;
+
+pub use error::StlError;
+
 use crate::error::SceneError;
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::material::Material;
 use crate::mesh::{Mesh, Part};
 use crate::polygon;
 use crate::scene::Scene;
 use crate::words::{numbered_lines, triple, words};
-
-/// Bytes before the first triangle of a binary file: a comment and a count.
-const HEADER_BYTES: usize = 84;
-
-/// Bytes of a triangle: normal, three corners, two bytes of attributes.
-const TRIANGLE_BYTES: usize = 50;
-
-/// What is wrong with an STL file.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StlError {
-    /// The file is too short for a header.
-    #[error("the file has {bytes} bytes, but the header alone takes {HEADER_BYTES}")]
-    NoHeader {
-        /// Size of the file.
-        bytes: usize,
-    },
-    /// The file ends before its last triangle.
-    #[error("the header announces {stated} triangles, but the file holds only {held}")]
-    Truncated {
-        /// How many triangles the header announces.
-        stated: u32,
-        /// How many whole triangles follow.
-        held: usize,
-    },
-    /// A line of a text file makes no sense.
-    #[error("line {line}: {fault}")]
-    Line {
-        /// Line, counted from 1.
-        line: usize,
-        /// What is wrong there.
-        fault: &'static str,
-    },
-}
-
-/// Whether `bytes` are as long as a binary header says.
-pub(crate) fn is_binary(bytes: &[u8]) -> bool {
-    let length = stated_count(bytes).and_then(|count| (count as usize).checked_mul(TRIANGLE_BYTES));
-    length.and_then(|length| length.checked_add(HEADER_BYTES)) == Some(bytes.len())
-}
+use binary::{HEADER_BYTES, TRIANGLE_BYTES, is_binary, stated_count};
 
 /// Reads an STL file. Binary files may open with "solid" as well, so their length decides first.
 pub(crate) fn read(bytes: &[u8], loading: &mut Loading) -> Result<Scene, SceneError> {
@@ -85,14 +51,6 @@ fn read_binary(bytes: &[u8], loading: &mut Loading) -> Result<Vec<[f32; 3]>, Sce
         .allowance
         .take::<[[f32; 3]; 3]>("vertex data", triangles.len())?;
     Ok(triangles.iter().flat_map(binary_corners).collect())
-}
-
-fn stated_count(bytes: &[u8]) -> Option<u32> {
-    bytes
-        .get(80..)?
-        .first_chunk()
-        .copied()
-        .map(u32::from_le_bytes)
 }
 
 fn binary_corners(triangle: &[u8; TRIANGLE_BYTES]) -> [[f32; 3]; 3] {

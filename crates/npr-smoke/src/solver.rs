@@ -5,21 +5,26 @@
 //! carried along it with MacCormack steps [Selle et al. 2008]. The floor is solid; smoke leaves through the sides and
 //! the top.
 
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::Vec3;
 use npr_core::budget::{Budget, OverBudget};
 
 use crate::lattice::{Lattice, greatest, sum};
-use crate::{Birthplace, MAX_SIDE, Volume, VolumeError};
+use crate::{MAX_SIDE, Volume, VolumeError};
 use advect::{Outside, Paths, advect};
 use flow::{Field, Flow};
 use pressure::Pressure;
+use space::{box_cells, index_to_world};
 
 mod advect;
+mod emission;
 mod flow;
 mod forces;
 mod pressure;
+mod settings;
 mod source;
+mod space;
 
+pub use settings::SmokeSettings;
 pub use source::Source;
 
 /// Fewest cells that one side of the grid may have.
@@ -47,84 +52,6 @@ pub enum SmokeError {
     /// The grid does not fit.
     #[error(transparent)]
     OverBudget(#[from] OverBudget),
-}
-
-/// What smokes, and how.
-///
-/// Lengths are in *box lengths*, the longest side of the grid, so that a finer grid shows the same motion in more
-/// detail. Numbers that are not finite fall back on the source's own; all are kept within the ranges stated.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SmokeSettings {
-    /// What smokes.
-    pub source: Source,
-    /// Cells along x, y and z; z is up. [`MIN_SIDE`] to [`MAX_SIDE`] each. The paper's 15 x 15 x 20 by default.
-    pub size: [u32; 3],
-    /// Seconds per frame, 0.001 to 1.
-    pub frame_seconds: f32,
-    /// How hot the source is, 0 to 10. 0.3 a cigarette, 1 a chimney, 3 a volcano.
-    pub heat: f32,
-    /// Upward acceleration of smoke of temperature 1, in box lengths per second squared, 0 to 50.
-    pub buoyancy: f32,
-    /// Downward acceleration of smoke of density 1, 0 to 50.
-    pub weight: f32,
-    /// How much vorticity confinement curls the smoke, 0 to 2. 0 calm, 0.3 rolling, 1 wild.
-    pub curl: f32,
-    /// Share of the density that vanishes per second, 0 to 10.
-    pub fading: f32,
-    /// Share of the temperature that vanishes per second, 0 to 10.
-    pub cooling: f32,
-    /// Wind that the air starts with and that goes on outside, in box lengths per second, at most 4.
-    pub wind: Vec3,
-    /// Other seeds give other smoke of the same kind.
-    pub seed: u32,
-}
-
-impl SmokeSettings {
-    /// Settings under which a source looks like itself.
-    pub fn of(source: Source) -> Self {
-        source.settings()
-    }
-
-    /// Where the source gives off its smoke in the world of the volumes; anywhere for a cloud, which is there from
-    /// the start.
-    pub fn birthplace(&self) -> Birthplace {
-        source::emitter(self).map_or(Birthplace::Anywhere, |(place, radius)| {
-            let index = place * box_cells(self.size) - 0.5;
-            let world = index_to_world(self.size).transform_point3(index.as_dvec3());
-            Birthplace::Emitter {
-                center: world.as_vec3(),
-                radius,
-            }
-        })
-    }
-
-    /// The same with every number finite and in its range.
-    fn sane(self) -> Self {
-        let own = self.source.settings();
-        let within = |value: f32, own: f32, least: f32, most: f32| {
-            if value.is_finite() {
-                value.clamp(least, most)
-            } else {
-                own
-            }
-        };
-        let wind = if self.wind.is_finite() {
-            self.wind
-        } else {
-            own.wind
-        };
-        Self {
-            frame_seconds: within(self.frame_seconds, own.frame_seconds, 1e-3, 1.0),
-            heat: within(self.heat, own.heat, 0.0, 10.0),
-            buoyancy: within(self.buoyancy, own.buoyancy, 0.0, 50.0),
-            weight: within(self.weight, own.weight, 0.0, 50.0),
-            curl: within(self.curl, own.curl, 0.0, 2.0),
-            fading: within(self.fading, own.fading, 0.0, 10.0),
-            cooling: within(self.cooling, own.cooling, 0.0, 10.0),
-            wind: wind.clamp(Vec3::splat(-4.0), Vec3::splat(4.0)),
-            ..self
-        }
-    }
 }
 
 /// Smoke that goes on frame by frame.
@@ -192,7 +119,7 @@ impl Smoke {
             seconds: 0.0,
             projected: 0.0,
         };
-        source::start(&settings, &mut smoke.density);
+        emission::start(&settings, &mut smoke.density);
         Ok(smoke)
     }
 
@@ -207,7 +134,7 @@ impl Smoke {
         let fastest = self
             .flow
             .fastest()
-            .max(source::speed(&self.settings, self.seconds));
+            .max(emission::speed(&self.settings, self.seconds));
         let wanted = (fastest * seconds / CELLS_PER_STEP).ceil();
         // A float beyond the range becomes the nearest integer.
         let steps = (wanted as u32).clamp(1, MAX_STEPS);
@@ -231,7 +158,7 @@ impl Smoke {
 
     /// Greatest divergence of the flow that no source asks for, per second.
     pub fn greatest_divergence(&self) -> f32 {
-        let wanted = source::expansion(&self.settings, self.projected);
+        let wanted = emission::expansion(&self.settings, self.projected);
         greatest(self.cells.len(), |at| {
             let cell = self.cells.point(at);
             (self.flow.divergence(cell) - wanted(cell)).abs()
@@ -241,7 +168,7 @@ impl Smoke {
     /// One step: sources, forces, pressure, then everything moves along the flow.
     fn advance(&mut self, seconds: f32) {
         let settings = self.settings;
-        source::emit(
+        emission::emit(
             &settings,
             self.seconds,
             &mut self.density,
@@ -261,7 +188,7 @@ impl Smoke {
         forces::brake(&mut self.flow, settings.source.drag(), seconds);
         self.flow
             .limit(CELLS_PER_STEP * MAX_STEPS as f32 / settings.frame_seconds);
-        let wanted = source::expansion(&settings, self.seconds);
+        let wanted = emission::expansion(&settings, self.seconds);
         self.projected = self.seconds;
         self.pressure.project(&mut self.flow, wanted);
         self.carry(seconds);
@@ -300,20 +227,6 @@ fn advect_flow(flow: &Flow, seconds: f32) -> Flow {
 /// Sum over all cells.
 fn total(field: &Field) -> f64 {
     sum(field.values.len(), |at| f64::from(field.values[at]))
-}
-
-/// Cells in one box length.
-fn box_cells(size: [u32; 3]) -> f32 {
-    size[0].max(size[1]).max(size[2]) as f32
-}
-
-/// The world from cells: z becomes y, so that smoke rises as figures stand.
-fn index_to_world(size: [u32; 3]) -> DAffine3 {
-    let cell = 1.0 / f64::from(box_cells(size));
-    let [width, depth, _] = size.map(f64::from);
-    let axes = DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y) * cell;
-    let origin = DVec3::new(0.5 - width / 2.0, 0.5, depth / 2.0 - 0.5) * cell;
-    DAffine3::from_mat3_translation(axes, origin)
 }
 
 #[cfg(test)]

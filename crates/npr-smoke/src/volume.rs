@@ -54,6 +54,22 @@ pub struct Mended {
     pub temperature: usize,
 }
 
+impl Mended {
+    /// What became 0, for the user; none where every value was usable.
+    pub fn notice(&self) -> Option<String> {
+        let parts = [
+            (self.density, "densities that are negative or no numbers"),
+            (self.velocity, "velocities that are no numbers"),
+            (self.temperature, "temperatures that are no numbers"),
+        ];
+        let reported = parts.iter().filter(|(count, _)| *count > 0);
+        let reported: Vec<String> = reported
+            .map(|(count, what)| format!("{count} {what}"))
+            .collect();
+        (!reported.is_empty()).then(|| format!("{} count as 0", reported.join(", ")))
+    }
+}
+
 /// Smoke at one moment: a grid of voxels with a density each [Hoshino 2004, 3.1].
 ///
 /// Lists hold x fastest, then y, then z. In *index space* the centre of voxel `(x, y, z)` lies at exactly `(x, y, z)`,
@@ -162,6 +178,19 @@ impl Volume {
     /// Whether there is no voxel at all.
     pub fn is_empty(&self) -> bool {
         self.density.is_empty()
+    }
+
+    /// The greatest density; 0 without any smoke.
+    pub fn peak(&self) -> f32 {
+        self.density
+            .iter()
+            .fold(0.0, |most, density| most.max(*density))
+    }
+
+    /// The greatest temperature; 0 where none is known or above 0.
+    pub fn hottest(&self) -> f32 {
+        let heats = self.temperature().unwrap_or_default();
+        heats.iter().fold(0.0, |most, heat| most.max(*heat))
     }
 
     /// Number of voxels whose density is greater than `threshold`.

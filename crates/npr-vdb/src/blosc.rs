@@ -8,8 +8,8 @@ mod blosclz;
 mod shuffle;
 mod zstd;
 
-use crate::chunk::{WRONG_SIZE, inflate};
 use crate::cursor::Cursor;
+use crate::zlib::{WRONG_SIZE, inflate};
 use npr_core::decoding::guard;
 use shuffle::{unshuffle_bits, unshuffle_bytes};
 

@@ -1,11 +1,9 @@
 //! Runs of bytes, stored plainly or packed.
 
-use miniz_oxide::inflate::decompress_slice_iter_to_slice;
-use npr_core::decoding::guard;
-
 use crate::blosc;
 use crate::cursor::Cursor;
 use crate::fault::Fault;
+use crate::zlib::{WRONG_SIZE, inflate};
 
 /// How chunks of a grid are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -94,23 +92,9 @@ impl Compression {
     }
 }
 
-/// Why a chunk is refused that does not give as many bytes as its values take.
-pub(crate) const WRONG_SIZE: &str = "its size is not that of its values";
-
 /// Where chunks are unpacked: at most the values of one node, some hundred kilobytes.
 #[derive(Debug, Default)]
 pub(crate) struct Room {
     unpacked: Vec<u8>,
     shuffled: Vec<u8>,
-}
-
-/// Unpacks a zlib stream [RFC 1950] that must fill `bytes` exactly.
-pub(crate) fn inflate(packed: &[u8], bytes: &mut [u8]) -> Result<(), &'static str> {
-    let length = bytes.len();
-    let packed = std::iter::once(packed);
-    match guard(|| decompress_slice_iter_to_slice(bytes, packed, true, false)) {
-        Ok(Ok(written)) if written == length => Ok(()),
-        Ok(Ok(_)) => Err(WRONG_SIZE),
-        Ok(Err(_)) | Err(_) => Err("its zlib stream is broken"),
-    }
 }

@@ -1,5 +1,6 @@
 //! Why a file or a grid was not read.
 
+use crate::shown::shown;
 use crate::voxel::ValueType;
 
 /// Why a file or a grid was not read.
@@ -110,20 +111,6 @@ pub enum Fault {
     /// A `.npy` file makes no sense, or holds what is not read.
     #[error("{0}")]
     Npy(#[from] crate::npy::NpyFault),
-}
-
-/// Names come from files: they are cut short, and control characters shown as escapes.
-pub(crate) fn shown(name: &str) -> String {
-    const CHARS: usize = 40;
-    let mut text: String = name
-        .chars()
-        .take(CHARS)
-        .flat_map(char::escape_debug)
-        .collect();
-    if name.chars().nth(CHARS).is_some() {
-        text.push_str("...");
-    }
-    text
 }
 
 /// The first few of `names` for a message.

@@ -1,6 +1,6 @@
 //! What a file says of its grids before any is read.
 
-use crate::grid::Bounds;
+use crate::bounds::Bounds;
 use crate::metadata::{MetaValue, Metadata};
 use crate::transform::Transform;
 use crate::voxel::ValueType;
@@ -71,7 +71,7 @@ impl std::fmt::Display for Values {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         match self {
             Self::Known(known) => known.fmt(f),
-            Self::Other(name) => f.write_str(&crate::fault::shown(name)),
+            Self::Other(name) => f.write_str(&crate::shown::shown(name)),
         }
     }
 }

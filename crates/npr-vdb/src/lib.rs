@@ -53,6 +53,12 @@
 )]
 
 mod blosc;
+#[allow(
+    clippy::arithmetic_side_effects,
+    clippy::indexing_slicing,
+    reason = "holds what was read and checked"
+)]
+mod bounds;
 mod chunk;
 mod cursor;
 #[allow(
@@ -75,6 +81,7 @@ mod mask;
 mod metadata;
 pub mod npy;
 mod packed;
+mod shown;
 #[cfg(any(test, feature = "testing"))]
 #[allow(
     clippy::unwrap_used,
@@ -88,10 +95,12 @@ pub mod testing;
 mod transform;
 mod tree;
 mod voxel;
+mod zlib;
 
+pub use bounds::Bounds;
 pub use fault::Fault;
 pub use file::{File, read};
-pub use grid::{Bounds, Grid, Leaf, Tile};
+pub use grid::{Grid, Leaf, Tile};
 pub use info::{GridClass, GridInfo, Values};
 pub use limits::Limits;
 pub use metadata::{MetaValue, Metadata};

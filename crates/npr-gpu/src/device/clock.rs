@@ -1,6 +1,6 @@
 //! The device's own clock: two time stamps per pass.
 
-use super::Gpu;
+use super::gpu::Gpu;
 use super::staging::Staging;
 use crate::engine::EngineError;
 use std::time::Duration;

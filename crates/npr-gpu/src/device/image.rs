@@ -1,6 +1,6 @@
 //! A picture on the device.
 
-use super::Gpu;
+use super::gpu::Gpu;
 use super::staging::Staging;
 use crate::pass::Format;
 

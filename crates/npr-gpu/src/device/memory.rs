@@ -1,6 +1,6 @@
 //! The buffers and images behind the resources of a graph.
 
-use super::Gpu;
+use super::gpu::Gpu;
 use super::image::Image;
 use super::staging::Staging;
 use crate::engine::EngineError;

@@ -1,6 +1,6 @@
 //! Compiled passes.
 
-use super::Gpu;
+use super::gpu::Gpu;
 use super::image::texture_format;
 use crate::engine::EngineError;
 use crate::pass::{Access, Format, Pass, Slot, WORKGROUP_SIZE, Work};

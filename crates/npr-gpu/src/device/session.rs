@@ -1,9 +1,9 @@
 //! A graph with its memory on a device.
 
-use super::Gpu;
 use super::clock::Clock;
+use super::gpu::Gpu;
 use super::memory::Memory;
-use super::pipeline::Stage;
+use super::pipeline::{PipelineCache, Stage};
 use super::step::{Extent, Step};
 use crate::engine::{EngineError, PassTime, Session};
 use crate::graph::{Graph, Node, ResourceId, WorkSize};
@@ -26,7 +26,12 @@ pub(super) struct DeviceSession {
 }
 
 impl DeviceSession {
-    pub(super) fn new(gpu: Arc<Gpu>, graph: Graph) -> Result<Self, EngineError> {
+    /// A graph with its memory, its passes compiled unless `pipelines` has them.
+    pub(super) fn new(
+        gpu: Arc<Gpu>,
+        pipelines: &PipelineCache,
+        graph: Graph,
+    ) -> Result<Self, EngineError> {
         gpu.check()?;
         let sizes = graph.nodes().iter().filter_map(|node| node.size);
         let mut more = vec![wgpu::BufferUsages::empty(); graph.resources().len()];
@@ -43,7 +48,7 @@ impl DeviceSession {
             let name = graph.resource(id).name;
             gpu.guarded(name, || memory[id.index()].write(&gpu.queue, words))?;
         }
-        let steps = Step::all_of(&gpu, &graph, &memory)?;
+        let steps = Step::all_of(&gpu, pipelines, &graph, &memory)?;
         let clock = gpu.guarded("the clock", || Clock::new(&gpu, steps.len()))?;
         gpu.check()?;
         Ok(Self {

@@ -1,7 +1,7 @@
 //! Memory that the device writes and the processor reads.
 
-use super::Gpu;
-use super::fault::TIME_LIMIT;
+use super::gpu::Gpu;
+use super::watch::TIME_LIMIT;
 use crate::engine::EngineError;
 use std::sync::mpsc;
 

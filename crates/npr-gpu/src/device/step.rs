@@ -1,8 +1,8 @@
 //! A node with what running it takes.
 
-use super::Gpu;
+use super::gpu::Gpu;
 use super::memory::Memory;
-use super::pipeline::Pipeline;
+use super::pipeline::{Pipeline, PipelineCache};
 use crate::engine::EngineError;
 use crate::graph::{Graph, Node};
 use crate::pass::Work;
@@ -35,6 +35,7 @@ impl Step {
     /// The steps of all nodes that change anything, in running order.
     pub(super) fn all_of(
         gpu: &Gpu,
+        pipelines: &PipelineCache,
         graph: &Graph,
         memory: &[Memory],
     ) -> Result<Vec<Self>, EngineError> {
@@ -42,7 +43,7 @@ impl Step {
         for (index, node) in graph.nodes().iter().enumerate() {
             let extent = extent_of(graph, node)?;
             if has_effect(node, extent) {
-                let pipeline = gpu.pipelines.get(gpu, node.pass)?;
+                let pipeline = pipelines.get(gpu, node.pass)?;
                 let bindings = bind(gpu, node, &pipeline, memory)?;
                 steps.push(Self {
                     node: index,

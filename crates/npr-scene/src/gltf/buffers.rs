@@ -15,7 +15,7 @@ use ::gltf::json::buffer::Buffer;
 
 use super::error::{GltfError, Item};
 use crate::error::SceneError;
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::uri;
 
 /// The data of all buffers of a file.

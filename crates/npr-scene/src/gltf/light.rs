@@ -17,7 +17,7 @@ use ::gltf::json::validation::Checked;
 
 use super::tree::Tree;
 use crate::light::{Light, LightKind};
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::pool::Pool;
 use crate::scene::Scene;
 

@@ -18,9 +18,9 @@ use npr_core::decoding::guard;
 use serde_json::Value;
 
 use super::accessor::Accessors;
-use super::texture::Textures;
+use super::texture::{Textures, info_uv_set};
 use crate::error::SceneError;
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::material::{AlphaMode, Material};
 use crate::scene::Scene;
 
@@ -55,17 +55,6 @@ pub(crate) fn uv_set(root: &Root, primitive: &Primitive) -> u32 {
     let index = primitive.material.as_ref().map(Index::value);
     let material = index.and_then(|index| root.materials.get(index));
     material.and_then(base_color_info).map_or(0, info_uv_set)
-}
-
-/// Which set of texture coordinates `info` uses; its transform may name another one.
-pub(crate) fn info_uv_set(info: &Info) -> u32 {
-    let transform = info
-        .extensions
-        .as_ref()
-        .and_then(|extensions| extensions.texture_transform.as_ref());
-    transform
-        .and_then(|transform| transform.tex_coord)
-        .unwrap_or(info.tex_coord)
 }
 
 fn base_color_info(material: &JsonMaterial) -> Option<&Info> {

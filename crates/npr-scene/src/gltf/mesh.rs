@@ -14,7 +14,7 @@ use super::error::{GltfError, Item};
 use super::primitive::{self, PrimitiveLocation};
 use super::tree::Tree;
 use crate::error::SceneError;
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::mesh::Mesh;
 use crate::pool::Pool;
 use crate::scene::Scene;

@@ -16,7 +16,7 @@ use super::error::{GltfError, Item};
 use super::material;
 use super::topology;
 use crate::error::SceneError;
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::mesh::{Morph, Part};
 
 /// The attribute that marks vertices for lines, without the underscore before the names of such attributes.

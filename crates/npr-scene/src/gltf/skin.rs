@@ -14,7 +14,7 @@ use super::accessor::Accessors;
 use super::error::{GltfError, Item};
 use super::tree::Tree;
 use crate::error::SceneError;
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::matrix::{self, Matrix};
 use crate::mesh::Mesh;
 use crate::node::Node;

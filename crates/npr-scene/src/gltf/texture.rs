@@ -15,11 +15,10 @@ use ::gltf::json::validation::Checked;
 
 use super::accessor::Accessors;
 use super::error::{GltfError, Item};
-use super::material::info_uv_set;
 use crate::decode::{self, DecodeFault};
 use crate::error::SceneError;
 use crate::image::Image;
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::material::{TextureTransform, TextureUse, Wrap};
 use crate::pool::Pool;
 use crate::shown::shown;
@@ -117,6 +116,17 @@ impl<'a> Textures<'a> {
     pub(crate) fn into_images(self) -> Vec<Image> {
         self.images.items
     }
+}
+
+/// Which set of texture coordinates `info` uses; its transform may name another one.
+pub(crate) fn info_uv_set(info: &Info) -> u32 {
+    let transform = info
+        .extensions
+        .as_ref()
+        .and_then(|extensions| extensions.texture_transform.as_ref());
+    transform
+        .and_then(|transform| transform.tex_coord)
+        .unwrap_or(info.tex_coord)
 }
 
 fn decode(

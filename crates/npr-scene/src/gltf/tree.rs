@@ -12,7 +12,7 @@ use ::gltf::json::{Index, Root, scene};
 use super::error::{GltfError, Item};
 use crate::error::SceneError;
 use crate::limits;
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::matrix::{self, Matrix};
 use crate::node::Node;
 use crate::scene::Scene;

@@ -15,7 +15,7 @@ use serde_json::Value;
 
 use super::accessor::{Accessors, type_width};
 use super::error::Item;
-use crate::load::Loading;
+use crate::loading::Loading;
 
 /// Notes every part of a file that is broken and was not needed. What was needed has been read and is sound, or was
 /// told of.

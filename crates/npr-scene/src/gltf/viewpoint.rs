@@ -15,7 +15,7 @@ use ::gltf::json::{Index, Root};
 
 use super::tree::Tree;
 use crate::camera::{Camera, Projection};
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::pool::Pool;
 use crate::scene::Scene;
 

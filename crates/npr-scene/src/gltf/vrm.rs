@@ -13,7 +13,7 @@
 use ::gltf::json::{Index, Root};
 use serde_json::Value;
 
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::matrix::{self, HALF_TURN_Y};
 use crate::scene::Scene;
 

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 
 use super::{Element, ObjError};
 use crate::limits::LimitError;
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::mesh::Part;
 use crate::words::words;
 

@@ -10,7 +10,7 @@
 use std::borrow::Cow;
 
 use crate::limits::LimitError;
-use crate::load::Loading;
+use crate::loading::Loading;
 
 /// Most bytes of UTF-8 that a unit of UTF-16 becomes.
 const UTF8_BYTES_PER_UNIT: usize = 3;

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 use super::corner::Corner;
 use crate::limits::{self, LimitError};
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::polygon;
 
 /// Triangles by material.

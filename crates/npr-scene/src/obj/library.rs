@@ -14,7 +14,7 @@ use npr_core::color::linear_from_srgb;
 use crate::decode::{self, DecodeFault};
 use crate::error::SceneError;
 use crate::image::Image;
-use crate::load::Loading;
+use crate::loading::Loading;
 use crate::material::{AlphaMode, Material, TextureTransform, TextureUse, Wrap};
 use crate::pool::Pool;
 use crate::shown::shown;

@@ -1,66 +1,21 @@
-//! Noticing what goes wrong on a device.
+//! A device, and noticing what goes wrong on it.
 //!
 //! After a loss, wgpu's creations, writes and submits report nothing: only the callback and failing maps do. So a
 //! [`Watch`] is installed before anything else, and every call asks it.
 
-use super::Gpu;
+use super::adapter::AdapterSummary;
+use super::watch::{TIME_LIMIT, Watch, one_line};
 use crate::engine::EngineError;
 use npr_core::decoding::guard;
-use std::sync::{Arc, OnceLock};
-use std::time::Duration;
+use std::sync::Arc;
 
-/// How long any call waits for the device before it counts as lost.
-pub const TIME_LIMIT: Duration = Duration::from_secs(30);
-
-/// What the device reported outside of any call; the first of each kind counts.
-#[derive(Debug, Default)]
-pub(super) struct Watch {
-    lost: OnceLock<String>,
-    uncaptured: OnceLock<String>,
-}
-
-impl Watch {
-    /// A watch with both handlers installed.
-    pub(super) fn over(device: &wgpu::Device) -> Arc<Self> {
-        let watch = Arc::new(Self::default());
-        let on_loss = watch.clone();
-        device.set_device_lost_callback(move |reason, message| {
-            let given_up = reason == wgpu::DeviceLostReason::Destroyed;
-            on_loss.lose(if given_up {
-                "it was given up"
-            } else {
-                &message
-            });
-        });
-        let on_error = watch.clone();
-        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            on_error
-                .uncaptured
-                .get_or_init(|| one_line(&error.to_string()));
-        }));
-        watch
-    }
-
-    /// Marks the device as lost.
-    fn lose(&self, reason: &str) {
-        self.lost.get_or_init(|| one_line(reason));
-    }
-
-    /// Fails if anything was reported so far.
-    fn verdict(&self) -> Result<(), EngineError> {
-        if let Some(reason) = self.lost.get() {
-            return Err(EngineError::Lost {
-                reason: reason.clone(),
-            });
-        }
-        match self.uncaptured.get() {
-            Some(reason) => Err(EngineError::Failed {
-                place: "an unchecked call".to_owned(),
-                reason: reason.clone(),
-            }),
-            None => Ok(()),
-        }
-    }
+/// What sessions share: the device, its queue, and what is known of them.
+#[derive(Debug)]
+pub(super) struct Gpu {
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
+    pub(super) adapter: AdapterSummary,
+    pub(super) watch: Arc<Watch>,
 }
 
 impl Gpu {
@@ -138,10 +93,4 @@ impl Gpu {
         };
         self.check().err().unwrap_or(failure)
     }
-}
-
-/// A driver's message without its line breaks, cut to a length that fits a report.
-fn one_line(message: &str) -> String {
-    let words: Vec<&str> = message.split_whitespace().collect();
-    words.join(" ").chars().take(400).collect()
 }

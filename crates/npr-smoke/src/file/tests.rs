@@ -1,8 +1,10 @@
 //! Volumes from files against the files' own values, voxel by voxel.
 
 use super::*;
-use npr_vdb::ValueType;
+use crate::Mended;
+use glam::{DAffine3, Vec3};
 use npr_vdb::testing::{Sample, SampleGrid, npy_file};
+use npr_vdb::{Fault, Transform, ValueType};
 use proptest::prelude::*;
 
 fn grid(name: &str, kind: ValueType, voxels: &[([i32; 3], [f32; 3])]) -> SampleGrid {
@@ -204,12 +206,12 @@ fn what_is_no_number_becomes_nothing_and_is_told() {
         .collect();
     let volume = usual(vec![grid("density", ValueType::Float, &voxels)]).unwrap();
     assert_eq!(volume.density(), [0.0, 0.0, 0.0, 2.0]);
-    let notice = mended_notice(volume.mended()).unwrap();
+    let notice = volume.mended().notice().unwrap();
     assert_eq!(
         notice,
         "3 densities that are negative or no numbers count as 0"
     );
-    assert_eq!(mended_notice(Mended::default()), None);
+    assert_eq!(Mended::default().notice(), None);
 }
 
 fn array(shape: &str, values: &[f32]) -> Vec<u8> {

@@ -1,7 +1,7 @@
 //! Which grids of a file are densities, velocities and temperatures.
 
-use super::{Velocity, VolumeFault, VolumeOptions};
-use npr_vdb::{Fault, File, Grid, GridClass, GridInfo, Values};
+use super::{VolumeFault, VolumeOptions};
+use npr_vdb::{Fault, GridClass, GridInfo, Values};
 
 /// Names under which grids are found where none is asked for, the first that is there; case does not matter.
 const DENSITY_NAMES: [&str; 3] = ["density", "smoke", "fog"];
@@ -75,22 +75,6 @@ impl Choice {
         } else {
             (self.heat == Some(place)).then_some("temperature")
         }
-    }
-
-    pub(super) fn read_velocity(&self, file: &File<'_>) -> Result<Velocity, VolumeFault> {
-        Ok(match self.velocity[..] {
-            [vectors] => Velocity::Vectors(Box::new(file.vector_at(vectors)?)),
-            [x, y, z] => Velocity::Components(Box::new([
-                file.scalar_at(x)?,
-                file.scalar_at(y)?,
-                file.scalar_at(z)?,
-            ])),
-            _ => Velocity::Unknown,
-        })
-    }
-
-    pub(super) fn read_heat(&self, file: &File<'_>) -> Result<Option<Grid<f32>>, VolumeFault> {
-        Ok(self.heat.map(|heat| file.scalar_at(heat)).transpose()?)
     }
 }
 

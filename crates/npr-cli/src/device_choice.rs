@@ -1,0 +1,10 @@
+//! Which graphics devices may draw.
+
+/// Which graphics devices may draw.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DeviceChoice {
+    /// Hardware only: software devices are slower than the processor engine.
+    Hardware,
+    /// Any, hardware first.
+    Any,
+}
