@@ -52,6 +52,7 @@ mod line_paint;
 pub mod motion;
 mod named_picture;
 mod nearest;
+mod overlay;
 mod place;
 mod potrace;
 mod preset;
@@ -72,10 +73,12 @@ pub use blend::Blend;
 pub use color::{Color, ColorError};
 pub use detect::{DepthTest, Detect, IdTest, MASK_LINE_PX, NormalTest, WidthWarning, width_rule};
 pub use error::{Problem, SourceLocation, StyleError};
-pub use highlight::{Back, Edge, Highlight, HighlightModel, Streak};
+pub use highlight::{
+    Back, Edge, Highlight, HighlightModel, RuleBack, RuleHighlight, RuleStreak, Streak,
+};
 pub use id_map::{ID_MAPS_MAX, IDS_MAX, IdMap, IdRegion, NamedId};
 pub use idle::{Facts, LineFinder, LineForm, LineOutput, Occasion, Output};
-pub use ink::{Follow, Ink, Mapping, StrokeSpace, Tone};
+pub use ink::{Follow, Ink, Mapping, RuleHatch, RuleInk, StrokeSpace, Tone};
 pub use layers::{PARENTS_MAX, Parents, TEXT_BYTES_MAX};
 pub use lettering::{LETTERING_MAX, Lettering, LetteringOutline};
 pub use light::{ExtraLight, Light, LightShape, LightSpace};
@@ -92,10 +95,7 @@ pub use motion::{Motion, RuleMotion};
 pub use potrace::Potrace;
 pub use preset::{DEFAULT_PRESET, Preset, find as find_preset, presets};
 pub use ramp::Stop;
-pub use rule::{
-    Look, Match, PartNames, Rule, RuleBack, RuleHatch, RuleHighlight, RuleInk, RuleLine, RuleShade,
-    RuleStreak,
-};
+pub use rule::{Look, Match, PartNames, Rule, RuleLine, RuleShade};
 pub use schema::schema;
 pub use shade::{Shade, ShadeMode, levels};
 pub use smoke::{

@@ -4,14 +4,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::beam::{Beam, RuleBeam};
-use crate::highlight::{Back, Edge, Highlight, HighlightModel, Streak};
-use crate::ink::{Follow, Ink, Mapping, StrokeSpace, Tone};
+use crate::highlight::{Highlight, RuleHighlight};
+use crate::ink::{Ink, RuleInk};
+use crate::overlay::Over;
 use crate::ramp::Stop;
 use crate::{
-    Color, Length, LineBackground, LineMethod, LinePaint, RuleBackground, RuleMotion, RulePaint,
-    Style, glob, id_map,
+    Color, LineBackground, LineMethod, LinePaint, RuleBackground, RuleMotion, RulePaint, Style,
+    glob, id_map,
 };
-use crate::{Hatch, Pattern};
 
 /// What a rule applies to: all patterns have to match.
 ///
@@ -86,259 +86,6 @@ impl RuleShade {
     fn ramp_image_over<'a>(&'a self, image: &'a str) -> &'a str {
         let of_stops = self.ramp.as_ref().map(|_| "");
         self.ramp_image.as_deref().or(of_stops).unwrap_or(image)
-    }
-}
-
-/// What a rule changes about ink and hatching; what is absent stays.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct RuleInk {
-    /// What the shade is drawn with.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tone: Option<Tone>,
-    /// Colour of ink and strokes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub color: Option<Color>,
-    /// Place on the ramp, 0..1, up to which the shade ramp is black.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub dark_at: Option<f32>,
-    /// Place on the ramp, 0..1, from which it is white.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub light_at: Option<f32>,
-    /// How much its colour darkens its shade, 0..1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub paint: Option<f32>,
-    /// What strokes are fixed to.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mapping: Option<Mapping>,
-    /// What strokes on the surface run along; without a `direction` beside it the style's own gives way.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub follow: Option<Follow>,
-    /// A direction that strokes on the surface follow.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
-    pub direction: Option<[f32; 3]>,
-    /// What the direction is fixed to.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub direction_space: Option<StrokeSpace>,
-    /// Its strokes.
-    pub hatch: RuleHatch,
-}
-
-/// What a rule changes about strokes; what is absent stays.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct RuleHatch {
-    /// What shadows are drawn with.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pattern: Option<Pattern>,
-    /// A picture that shadows are drawn with; empty for `pattern` after all. A pattern beside it gives way.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub image: Option<String>,
-    /// Distance between strokes or dots on screen.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub spacing: Option<Length>,
-    /// Length of a stroke in spacings, 1..200.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 1.0, max = 200.0))]
-    pub length: Option<f32>,
-    /// Direction of strokes against that of the surface, in degrees, -180..180.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = -180.0, max = 180.0))]
-    pub angle_deg: Option<f32>,
-}
-
-impl RuleHatch {
-    /// `hatch` with what the rule states in place of what it had.
-    fn over(&self, hatch: Hatch) -> Hatch {
-        Hatch {
-            pattern: self.pattern.unwrap_or(hatch.pattern),
-            image: self.image.clone().unwrap_or(match self.pattern {
-                Some(_) => String::new(),
-                None => hatch.image,
-            }),
-            spacing: self.spacing.unwrap_or(hatch.spacing),
-            length: self.length.unwrap_or(hatch.length),
-            angle_deg: self.angle_deg.unwrap_or(hatch.angle_deg),
-            ..hatch
-        }
-    }
-}
-
-impl RuleInk {
-    /// `ink` with what the rule states in place of what it had.
-    fn over(&self, ink: Ink) -> Ink {
-        Ink {
-            tone: self.tone.unwrap_or(ink.tone),
-            color: self.color.unwrap_or(ink.color),
-            dark_at: self.dark_at.unwrap_or(ink.dark_at),
-            light_at: self.light_at.unwrap_or(ink.light_at),
-            paint: self.paint.unwrap_or(ink.paint),
-            mapping: self.mapping.unwrap_or(ink.mapping),
-            follow: self.follow.unwrap_or(ink.follow),
-            direction: self
-                .direction
-                .or(ink.direction.filter(|_| self.follow.is_none())),
-            direction_space: self.direction_space.unwrap_or(ink.direction_space),
-            hatch: self.hatch.over(ink.hatch),
-            ..ink
-        }
-    }
-}
-
-/// What a rule changes about highlights; what is absent stays.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct RuleHighlight {
-    /// How the spot ends: `none`, `crisp` or `soft`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub edge: Option<Edge>,
-    /// What the spot is computed by.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub model: Option<HighlightModel>,
-    /// Colour of spot and streak; alpha is the strength.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub color: Option<Color>,
-    /// Sharpness of the spot, 1..1000.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 1.0, max = 1000.0))]
-    pub exponent: Option<f32>,
-    /// Brightness from which the spot shows, 0..1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub threshold: Option<f32>,
-    /// How fast a soft spot rises, 0..8.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 8.0))]
-    pub gradient: Option<f32>,
-    /// Moves the spot to the right and up, -1..1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(inner(inner(range(min = -1.0, max = 1.0))))]
-    pub shift: Option<[f32; 2]>,
-    /// Turns the axes of its shape, in degrees, -180..180.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = -180.0, max = 180.0))]
-    pub turn_deg: Option<f32>,
-    /// Stretches the spot along its first axis, 0..1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub stretch: Option<f32>,
-    /// Gaps along both axes that split the spot, 0..1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(inner(inner(range(min = 0.0, max = 1.0))))]
-    pub split: Option<[f32; 2]>,
-    /// Makes the spot square, 0..1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub square: Option<f32>,
-    /// Light from behind on its rims.
-    pub back: RuleBack,
-    /// Its straight streak.
-    pub streak: RuleStreak,
-}
-
-/// What a rule changes about light from behind; what is absent stays.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct RuleBack {
-    /// Whether there is one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub on: Option<bool>,
-    /// Colour of the rim; alpha is the strength.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub color: Option<Color>,
-    /// Towards the light, in the camera's axes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
-    pub direction: Option<[f32; 3]>,
-    /// Place on its ramp, 0..1, where the rim begins.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub from: Option<f32>,
-    /// Place on its ramp, 0..1, where it is full.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub to: Option<f32>,
-}
-
-impl RuleBack {
-    /// `back` with what the rule states in place of what it had.
-    fn over(&self, back: Back) -> Back {
-        Back {
-            on: self.on.unwrap_or(back.on),
-            color: self.color.unwrap_or(back.color),
-            direction: self.direction.unwrap_or(back.direction),
-            from: self.from.unwrap_or(back.from),
-            to: self.to.unwrap_or(back.to),
-        }
-    }
-}
-
-/// What a rule changes about a straight streak; what is absent stays.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct RuleStreak {
-    /// Whether there is one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub on: Option<bool>,
-    /// Angle of the streak in the picture, in degrees, -180..180.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = -180.0, max = 180.0))]
-    pub angle_deg: Option<f32>,
-    /// How far from the middle of the model it lies, in radii, -2..2.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = -2.0, max = 2.0))]
-    pub offset: Option<f32>,
-    /// Width in radii of the model, 0..2.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 2.0))]
-    pub width: Option<f32>,
-    /// How squarely, 0..1, a surface must face the eye to show it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub facing: Option<f32>,
-}
-
-impl RuleStreak {
-    /// `streak` with what the rule states in place of what it had.
-    fn over(&self, streak: Streak) -> Streak {
-        Streak {
-            on: self.on.unwrap_or(streak.on),
-            angle_deg: self.angle_deg.unwrap_or(streak.angle_deg),
-            offset: self.offset.unwrap_or(streak.offset),
-            width: self.width.unwrap_or(streak.width),
-            facing: self.facing.unwrap_or(streak.facing),
-        }
-    }
-}
-
-impl RuleHighlight {
-    /// Whether it gives parts a highlight that they may lack without it.
-    pub fn may_show(&self) -> bool {
-        let on = [self.back.on, self.streak.on].contains(&Some(true));
-        on || self.edge.is_some_and(|edge| edge != Edge::Off)
-    }
-
-    /// `highlight` with what the rule states in place of what it had.
-    fn over(&self, highlight: Highlight) -> Highlight {
-        Highlight {
-            edge: self.edge.unwrap_or(highlight.edge),
-            model: self.model.unwrap_or(highlight.model),
-            color: self.color.unwrap_or(highlight.color),
-            exponent: self.exponent.unwrap_or(highlight.exponent),
-            threshold: self.threshold.unwrap_or(highlight.threshold),
-            gradient: self.gradient.unwrap_or(highlight.gradient),
-            shift: self.shift.unwrap_or(highlight.shift),
-            turn_deg: self.turn_deg.unwrap_or(highlight.turn_deg),
-            stretch: self.stretch.unwrap_or(highlight.stretch),
-            split: self.split.unwrap_or(highlight.split),
-            square: self.square.unwrap_or(highlight.square),
-            back: self.back.over(highlight.back),
-            streak: self.streak.over(highlight.streak),
-        }
     }
 }
 
@@ -464,7 +211,7 @@ impl<'a> Look<'a> {
             ink: rule.ink.over(self.ink),
             highlight: rule.highlight.over(self.highlight),
             beam: match &rule.beam {
-                Some(beam) => Some(beam.over(self.beam)),
+                Some(beam) => Some(beam.over(self.beam.unwrap_or_default())),
                 None => self.beam,
             },
             trail: rule.motion.trail.or(self.trail),
