@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use npr_style::line_color::HUES;
 
+use crate::Color;
 use crate::error::StyleError;
 use crate::overlay::{Over, style_table};
-use crate::{Color, LineMethod, Style};
 
 /// Most stops of a row.
 pub const HUE_STOPS_MAX: usize = 16;
@@ -300,58 +300,10 @@ fn hue_at(stops: &[HueStop], x: f32) -> [f32; 4] {
     mixed.convert::<Srgb>().components
 }
 
-impl Style {
-    /// Checks the colours of lines, with each rule laid over the style's own.
-    pub(crate) fn check_line_paint(&self) -> Result<(), StyleError> {
-        self.line.paint.check("line.paint")?;
-        self.rule.iter().enumerate().try_for_each(|(i, rule)| {
-            let paint = rule.line.paint.over(self.line.paint.clone());
-            paint.check(&format!("rule.{i}.line.paint"))
-        })
-    }
-
-    /// The bits of [`Part::line_flags`] that any part of a scene may have.
-    pub fn line_paint_flags(&self) -> u32 {
-        let rules = self.rule.iter();
-        rules.fold(self.line.paint.flags(), |flags, rule| {
-            flags | rule.line.paint.over(self.line.paint.clone()).flags()
-        })
-    }
-
-    /// What its line methods cannot honour of how it colours lines, a sentence each, for the user.
-    pub fn line_paint_notices(&self) -> Vec<String> {
-        let has = |bits: u32| self.line_paint_flags() & bits != 0;
-        let rules = self.rule.iter().filter_map(|rule| rule.line.method);
-        let methods: Vec<LineMethod> = std::iter::once(self.line.method).chain(rules).collect();
-        let draws = |wanted: &[LineMethod]| methods.iter().any(|method| wanted.contains(method));
-        let filters = [LineMethod::Filter, LineMethod::FilterHull];
-        let hulls = [LineMethod::Hull, LineMethod::FilterHull];
-        let even = [filters[0], filters[1], LineMethod::Angle];
-        let mut notices = Vec::new();
-        if has(Part::LINE_WIDTH) && draws(&even) {
-            notices.push("line.paint.light.width changes no lines of method filter or angle");
-        }
-        if has(Part::LINE_OPACITY) && draws(&[hulls[0], hulls[1], LineMethod::Angle]) {
-            notices.push("line.paint.light.opacity changes no lines of method hull or angle");
-        }
-        if has(0b11110) && draws(&[hulls[0], hulls[1], LineMethod::Angle]) {
-            notices.push("lines of method hull or angle are all contours to line.paint.kinds");
-        }
-        notices.extend(self.line_source_notice());
-        notices.into_iter().map(str::to_owned).collect()
-    }
-
-    /// What is missing for the source of its lines' colours, for the user.
-    pub fn line_source_notice(&self) -> Option<&'static str> {
-        let asks = self.line_paint_flags() & Part::LINE_VERTEX != 0;
-        (asks && !self.shade.use_vertex_colors)
-            .then_some("line.paint.source is vertex-color, but shade.use_vertex_colors is off")
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Style;
     use proptest::prelude::*;
 
     fn read(text: &str) -> Result<Style, StyleError> {
