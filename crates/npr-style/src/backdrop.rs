@@ -22,6 +22,7 @@ mod occupied;
 mod oklab;
 pub mod published;
 mod rims;
+mod room;
 mod rule;
 mod spread;
 mod stretch;

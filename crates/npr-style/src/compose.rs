@@ -1,22 +1,16 @@
 //! Surfaces shaded by their ramps, lines over them, background behind: the twin of `shade.compose_frame`.
 
 use bytemuck::{Pod, Zeroable};
-use npr_core::color::pack_rgba8;
-use npr_core::geometry::{ChartCorners, NONE, Part, PosedVertex, Triangle, Vertex};
 use npr_core::gpu_layout;
-use npr_core::texture;
-use npr_core::window::{View, Window};
-
-use crate::backdrop::{self, ContrastCache, Rules};
-use crate::lighting::Lights;
-use crate::shadow::SHADOWS_MAX;
 
 mod composer;
+mod known;
+mod layers;
 
+pub use crate::luminance::LUMA;
 pub use composer::compose;
-
-/// Share of each channel in luminance [ITU-R BT.709].
-pub const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
+pub use layers::Layers;
+pub(crate) use layers::Samples;
 
 /// Settings of the last pass.
 #[repr(C)]
@@ -26,7 +20,7 @@ pub struct Compose {
     pub background: [f32; 4],
     /// Colour of lines drawn straight from the mask, sRGB, straight alpha.
     pub line_color: [f32; 4],
-    /// Header of the background texture, or [`NONE`].
+    /// Header of the background texture, or [`NONE`](npr_core::geometry::NONE).
     pub background_texture: u32,
     /// Bits of [`Compose::RIBBONS`] to [`Compose::SMOKE_PEN`].
     pub flags: u32,
@@ -104,167 +98,6 @@ impl Compose {
     pub const BARE: u32 = 128;
 }
 
-/// What a frame is composed from.
-#[derive(Debug, Clone, Copy)]
-pub struct Layers<'a> {
-    /// Camera and frame.
-    pub view: &'a View,
-    /// The pixel grid of the output.
-    pub window: &'a Window,
-    /// Settings.
-    pub compose: &'a Compose,
-    /// What surfaces are lit by.
-    pub lights: &'a Lights,
-    /// Triangle numbers, `samples` times the output's size each way.
-    pub ids: &'a [u32],
-    /// Triangle numbers of beams, on the same grid; not read without beams.
-    pub beam_ids: &'a [u32],
-    /// Ribbons, sRGB bytes with coverage in alpha.
-    pub ribbons: &'a [u32],
-    /// Posed vertices.
-    pub posed: &'a [PosedVertex],
-    /// Stored vertices.
-    pub vertices: &'a [Vertex],
-    /// Triangles.
-    pub triangles: &'a [Triangle],
-    /// Parts.
-    pub parts: &'a [Part],
-    /// The texture store.
-    pub texels: &'a [u32],
-    /// Stroke charts, a triangle each; may be shorter where no part uses them.
-    pub charts: &'a [ChartCorners],
-    /// Stamps or mask, sRGB bytes with coverage in alpha.
-    pub overlay: &'a [u32],
-    /// Triangle numbers as the lights with shadows see them, [`Lights::shadow_side`] texels square; not read where
-    /// that is 0.
-    pub shadows: [&'a [u32]; SHADOWS_MAX],
-    /// Smoke, sRGB bytes with straight alpha; not read without smoke.
-    pub smoke_colors: &'a [u32],
-    /// Depth of the smoke and which samples it covers, see [`crate::smoke::resolve`].
-    pub smoke_depths: &'a [u32],
-    /// Reversed depths of the smoke as the lights with shadows see it, [`Compose::smoke_shadow_side`] texels square.
-    pub smoke_shadows: [&'a [u32]; SHADOWS_MAX],
-    /// The rules by which lines mind what lies behind them.
-    pub rules: &'a Rules,
-    /// With [`Compose::BACKDROP`] the subject's colour beside every line, see [`backdrop::spread_rims`]; with
-    /// [`Compose::BARE`] a texel for every tile, see [`backdrop::flag_tiles`].
-    pub fronts: &'a [u32],
-    /// With [`Compose::BACKDROP`] the colour behind every line.
-    pub backs: &'a [u32],
-}
-
-/// Triangle numbers of a pixel's samples.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Samples {
-    ids: [u32; 4],
-    count: usize,
-}
-
-impl std::ops::Deref for Samples {
-    type Target = [u32];
-
-    fn deref(&self) -> &[u32] {
-        &self.ids[..self.count]
-    }
-}
-
-impl<'a> Layers<'a> {
-    /// The triangle numbers of the beams over a pixel's samples; zeros where there are none.
-    fn beams_of(&self, x: u32, y: u32) -> Samples {
-        if self.compose.flags & Compose::BEAMS == 0 {
-            return Samples {
-                ids: [0; 4],
-                count: (self.compose.samples * self.compose.samples) as usize,
-            };
-        }
-        self.samples_in(self.beam_ids, x, y)
-    }
-
-    /// The triangle numbers of a pixel's samples.
-    fn samples_of(&self, x: u32, y: u32) -> Samples {
-        self.samples_in(self.ids, x, y)
-    }
-
-    fn samples_in(&self, ids: &[u32], x: u32, y: u32) -> Samples {
-        let samples = self.compose.samples;
-        let stride = self.window.size[0] * samples;
-        let mut seen = Samples {
-            ids: [0; 4],
-            count: (samples * samples) as usize,
-        };
-        for i in 0..samples * samples {
-            seen.ids[i as usize] =
-                ids[((y * samples + (i >> 1)) * stride + x * samples + (i & 1)) as usize];
-        }
-        seen
-    }
-
-    /// The lines over a pixel, from the bottom: ribbons, overlay; sRGB bytes with coverage in alpha.
-    fn lines_at(&self, x: u32, y: u32) -> [u32; 2] {
-        let element = (y * self.window.size[0] + x) as usize;
-        let layer = |bit: u32, texels: &[u32]| {
-            if self.compose.flags & bit != 0 {
-                texels[element]
-            } else {
-                0
-            }
-        };
-        [
-            layer(Compose::RIBBONS, self.ribbons),
-            layer(Compose::OVERLAY, self.overlay),
-        ]
-    }
-
-    /// Whether a pixel of the picture without lines is not needed.
-    fn is_left_out(&self, x: u32, y: u32) -> bool {
-        if self.compose.flags & Compose::BARE == 0 {
-            return false;
-        }
-        let across = backdrop::tiles_across(self.window.size);
-        self.fronts[(y / backdrop::TILE * across + x / backdrop::TILE) as usize] == 0
-    }
-
-    /// A line's colour as it minds what lies behind it there; linear light.
-    pub(crate) fn contrasted(
-        &self,
-        contrast_cache: &mut ContrastCache,
-        line: [f32; 3],
-        frame_px: [f32; 2],
-    ) -> [f32; 3] {
-        if self.compose.flags & Compose::BACKDROP == 0 {
-            return line;
-        }
-        let [x, y] = self.window.pixel_at(frame_px);
-        let element = (y * self.window.size[0] + x) as usize;
-        let sides = [self.fronts[element], self.backs[element]];
-        contrast_cache.light(line, sides, self.rules, |texel| self.linear_texel(texel))
-    }
-
-    /// What lies behind everything, premultiplied.
-    fn background(&self, frame_px: [f32; 2]) -> [f32; 4] {
-        let mut color = self.compose.background;
-        let at = self.compose.background_texture;
-        if at != NONE {
-            let size = [
-                self.texels[at as usize] as f32,
-                self.texels[at as usize + 1] as f32,
-            ];
-            let (uv, footprint) = cover(frame_px, self.view.frame_px, size);
-            color = texture::sample(self.texels, at, uv, footprint);
-        }
-        let [r, g, b, a] = color;
-        [r * a, g * a, b * a, a]
-    }
-
-    pub(crate) fn linear_of(&self, srgb: [f32; 4]) -> [f32; 4] {
-        self.linear_texel(pack_rgba8(srgb))
-    }
-
-    pub(crate) fn linear_texel(&self, texel: u32) -> [f32; 4] {
-        texture::linear_texel(self.texels, texel)
-    }
-}
-
 /// Where a place of a frame lies in a picture that covers it, centred, like a poster that is cut at two sides: its
 /// texture coordinates, and the length of them that a pixel of the frame covers.
 pub fn cover(frame_px: [f32; 2], frame: [f32; 2], size: [f32; 2]) -> ([f32; 2], f32) {
@@ -276,7 +109,11 @@ pub fn cover(frame_px: [f32; 2], frame: [f32; 2], size: [f32; 2]) -> ([f32; 2], 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::backdrop::Rules;
+    use crate::lighting::{Lights, SHADOWS_MAX};
+    use npr_core::geometry::NONE;
     use npr_core::texture::TextureStore;
+    use npr_core::window::{View, Window};
 
     /// A frame of 4x4 pixels without triangles.
     fn empty_frame(compose_settings: &Compose, ribbons: &[u32]) -> Vec<u32> {

@@ -4,8 +4,8 @@
 //! the normal N, L towards the light, E towards the eye.
 
 use crate::compose::Layers;
+use crate::corners::Corners;
 use crate::lighting::LightSource;
-use crate::tone::Corners;
 use npr_core::geometry::Part;
 use npr_core::math;
 use npr_core::surface::{dot, unit_or_z};

@@ -4,13 +4,13 @@
 //! white by a threshold [Suzuki 2004, section 3.3, eq. 3.3]. So strokes swell as it gets darker, and merge into ink.
 
 use crate::compose::Layers;
+use crate::corners::Corners;
 use crate::hatch::{
     detail, edge_gradient, first_of_two, ink_coverage, level_at, sample, second_of_two, sharpen,
     tone_value,
 };
 use crate::paint::painted_level;
 use crate::ramp::ramp_coordinate;
-use crate::tone::Corners;
 use npr_core::geometry::{ChartCorners, Part, Triangle};
 use npr_core::raster::ID_MASK;
 use npr_core::surface::{blend, blend2, weights_around};

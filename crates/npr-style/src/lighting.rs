@@ -9,13 +9,15 @@ use npr_core::light_view::Matrix;
 use npr_core::math;
 use npr_core::surface::{dot, unit_or_z};
 
-use crate::compose::LUMA;
+use crate::dome::harmonics;
+use crate::luminance::LUMA;
 use crate::ramp::ramp_coordinate;
-use crate::shadow::SHADOWS_MAX;
-use crate::sky::Openness;
 
 /// Most lights that shade a frame.
 pub const LIGHTS_MAX: usize = 16;
+
+/// Most lights of a frame that throw shadows.
+pub const SHADOWS_MAX: usize = 4;
 
 /// One light.
 #[repr(C)]
@@ -200,6 +202,16 @@ impl Lights {
         (sum.min(1.0), if sum > 1e-6 { tint } else { [1.0; 3] })
     }
 
+    /// Light of the picture of the sky on a surface that faces along a unit vector.
+    pub(crate) fn dome_at(&self, normal: [f32; 3]) -> [f32; 3] {
+        let values = harmonics(normal);
+        let mut sum = [0.0; 3];
+        for (color, value) in self.dome.iter().zip(values) {
+            sum = std::array::from_fn(|i| sum[i] + color[i] * value);
+        }
+        sum.map(|v| v.max(0.0))
+    }
+
     /// What a sky gives to a surface that faces along a unit vector and sees `open` of it.
     #[inline]
     pub(crate) fn sky_light(
@@ -227,6 +239,24 @@ impl Lights {
             color: std::array::from_fn(|i| source.color[i] * above + source.ground[i] * below),
         }
     }
+}
+
+/// Share of the sky and of the ground below that shines on a surface, 0..1, by how squarely it faces each part of
+/// them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Openness {
+    /// Of what lies above.
+    pub above: f32,
+    /// Of what lies below.
+    pub below: f32,
+}
+
+impl Openness {
+    /// Nothing is hidden.
+    pub const FULL: Self = Self {
+        above: 1.0,
+        below: 1.0,
+    };
 }
 
 /// What a sky gives to a surface.

@@ -20,11 +20,13 @@ use npr_core::window::{View, Window};
 use rayon::prelude::*;
 
 use crate::backdrop::Rules;
-use crate::compose::{Compose, LUMA, Layers};
+use crate::compose::{Compose, Layers};
+use crate::corners::Corners;
 use crate::gloss::{back_light, in_world};
-use crate::lighting::Lights;
-use crate::shadow::SHADOWS_MAX;
-use crate::tone::{Corners, footprint};
+use crate::lighting::{Lights, SHADOWS_MAX};
+use crate::surface_color::footprint;
+
+pub use crate::surface_color::strengthened;
 
 /// Colours of a row, from its begin to its end.
 pub const HUES: usize = 256;
@@ -67,16 +69,6 @@ impl Decided {
             tint_layer: [tint_layer[0], tint_layer[1], tint_layer[2], tint_layer_a],
         }
     }
-}
-
-/// A colour of linear light as strong as a style wants it: grey at `saturation` 0, as it is at 1.
-#[inline]
-pub fn strengthened(color: [f32; 3], saturation: f32) -> [f32; 3] {
-    if saturation == 1.0 {
-        return color;
-    }
-    let luma = dot(color, LUMA);
-    color.map(|v| (luma + (v - luma) * saturation).max(0.0))
 }
 
 /// A straight-alpha colour laid over another one, both in linear light.

@@ -3,8 +3,9 @@
 //! Pictures on paper show no colours, but eyes, stripes and dark leather must not be lost with them. A printer of
 //! black and white keeps them as tone: the white that light leaves is multiplied by the white that paint leaves.
 
-use crate::compose::{LUMA, Layers};
-use crate::tone::footprint;
+use crate::compose::Layers;
+use crate::luminance::LUMA;
+use crate::surface_color::footprint;
 use npr_core::geometry::{NONE, Part, Triangle};
 use npr_core::raster::ID_MASK;
 use npr_core::surface::{blend2, dot};

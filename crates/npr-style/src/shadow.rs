@@ -12,11 +12,10 @@ use npr_core::cutout::Cutout;
 use npr_core::surface::{apply_point, blend3, cross, dot, weights_at};
 
 use crate::compose::Layers;
+use crate::corners::Corners;
 use crate::lighting::LightSource;
-use crate::tone::Corners;
 
-/// Most lights of a frame that throw shadows.
-pub const SHADOWS_MAX: usize = 4;
+pub use crate::lighting::SHADOWS_MAX;
 
 /// Texels of a shadow image along a side.
 pub const SHADOW_SIDE: u32 = 2048;
@@ -47,22 +46,6 @@ struct ShadowPoint {
     texel_world: f32,
     /// Which shadow image.
     map: usize,
-}
-
-impl Corners<'_> {
-    /// A place of the triangle lifted onto the tangent planes of its corners, so that the facets of a smooth surface
-    /// throw no shadows on one another [Hanika 2021].
-    pub(crate) fn lifted(&self, weights: [f32; 3]) -> [f32; 3] {
-        let world = self.world(weights);
-        let lifts = self.posed.map(|corner| {
-            let normal = corner.normal.map(|n| n * self.side);
-            let offset = std::array::from_fn(|i| world[i] - corner.world[i]);
-            let below = dot(offset, normal).min(0.0);
-            normal.map(|n| -below * n)
-        });
-        let lift = blend3(weights, lifts);
-        std::array::from_fn(|i| world[i] + lift[i])
-    }
 }
 
 impl Layers<'_> {

@@ -1,89 +1,22 @@
 //! Colour of one triangle under a pixel: the shading half of `shade.compose_frame`.
 //!
-//! What is the same all over a triangle is found once a frame (`known.rs`), what changes gently once a pixel, at the
+//! What is the same all over a triangle is found once a frame (`compose/known.rs`), what changes gently once a pixel, at the
 //! middle of the samples that show the triangle; what has edges at every sample.
 
 use crate::backdrop::ContrastCache;
 use crate::compose::{Compose, Layers};
+use crate::corners::Corners;
 use crate::gloss::shines_gently;
 use crate::inking::{ink_over, length};
-use crate::line_color::{LinePoint, strengthened};
-use crate::ramp::{Level, ramp_coordinate, ramp_light};
-use crate::sky::Openness;
+use crate::lighting::Openness;
+use crate::line_color::LinePoint;
+use crate::ramp::{Level, ramp_light};
 use crate::tone_row::{row_is_even, row_light};
 use crate::triangle_constants::TriangleConstants;
-use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
+use npr_core::geometry::Part;
 use npr_core::math;
 use npr_core::raster::ID_MASK;
-use npr_core::surface::{
-    blend, blend2, blend3, dot, faces_eye, unit_or_z, weights_around, weights_at,
-};
-use npr_core::texture;
-
-/// How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
-const TONE_ROOM: f32 = 0.002;
-
-/// A triangle's corners, and 1 where its front is seen or -1 where its back is.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Corners<'a> {
-    pub posed: [&'a PosedVertex; 3],
-    pub clip: [[f32; 4]; 3],
-    pub side: f32,
-}
-
-impl Corners<'_> {
-    #[inline]
-    pub fn normal(&self, weights: [f32; 3]) -> [f32; 3] {
-        unit_or_z(blend3(weights, self.posed.map(|v| v.normal))).map(|v| v * self.side)
-    }
-
-    #[inline]
-    pub fn world(&self, weights: [f32; 3]) -> [f32; 3] {
-        blend3(weights, self.posed.map(|v| v.world))
-    }
-
-    /// Cosines of the smooth normal with the direction `towards` at three places: those of [`Corners::normal`], at
-    /// less cost.
-    #[inline]
-    pub fn cosines(&self, weights: [[f32; 3]; 3], towards: [f32; 3]) -> [f32; 3] {
-        // Places in a row, and one more to make four, so that all steps become vector instructions.
-        let [a, b, c] = weights;
-        let lanes: [[f32; 4]; 3] = std::array::from_fn(|i| [a[i], b[i], c[i], c[i]]);
-        let blended = |corners: [f32; 3]| -> [f32; 4] {
-            std::array::from_fn(|i| {
-                corners[0] * lanes[0][i] + corners[1] * lanes[1][i] + corners[2] * lanes[2][i]
-            })
-        };
-        let [x, y, z] = std::array::from_fn(|axis| blended(self.posed.map(|v| v.normal[axis])));
-        let along = blended(self.posed.map(|v| dot(v.normal, towards)));
-        let squares: [f32; 4] = std::array::from_fn(|i| x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
-        let cosines: [f32; 4] = std::array::from_fn(|i| along[i] / squares[i].sqrt());
-        std::array::from_fn(|i| {
-            let has_direction = squares[i] >= 1e-30;
-            self.side
-                * if has_direction {
-                    cosines[i]
-                } else {
-                    towards[2]
-                }
-        })
-    }
-
-    /// Lowest and highest ramp coordinate of the direction `towards` that the smooth normal can have anywhere.
-    pub fn range_towards(&self, towards: [f32; 3]) -> [f32; 2] {
-        let at = self
-            .posed
-            .map(|v| ramp_coordinate(dot(v.normal, towards) * self.side));
-        // A blend of normals that is made unit again bulges beyond them by at most what they differ.
-        let [a, b, c] = self.posed.map(|v| v.normal);
-        let bulge = 0.5 * (1.0 - dot(a, b).min(dot(b, c)).min(dot(c, a)));
-        let room = TONE_ROOM + bulge;
-        [
-            at[0].min(at[1]).min(at[2]) - room,
-            at[0].max(at[1]).max(at[2]) + room,
-        ]
-    }
-}
+use npr_core::surface::{blend, dot, weights_around, weights_at};
 
 /// Widest line of the surface-angle method, in line widths: a surface that turns more slowly counts as flat.
 const ANGLE_WIDTHS: f32 = 6.0;
@@ -176,7 +109,7 @@ impl Inked {
     }
 }
 
-impl<'a> Layers<'a> {
+impl Layers<'_> {
     /// The light of a triangle that is lit in one tone, whatever its ink and its highlights.
     pub(crate) fn even_light(&self, part: &Part, corners: &Corners<'_>) -> Option<[f32; 3]> {
         if part.flags & Part::ANGLE != 0 {
@@ -438,24 +371,6 @@ impl<'a> Layers<'a> {
         ink_over(part, range.map(|x| x.min(most)))
     }
 
-    /// Position of sample `i` within a pixel, from its centre.
-    pub(crate) fn sample_offset(&self, i: u32) -> [f32; 2] {
-        if self.compose.samples == 1 {
-            return [0.0; 2];
-        }
-        [(i & 1) as f32 * 0.5 - 0.25, (i >> 1) as f32 * 0.5 - 0.25]
-    }
-
-    pub(crate) fn corners_of(&self, triangle: &Triangle) -> Corners<'a> {
-        let posed = triangle.corners.map(|v| &self.posed[v as usize]);
-        let clip = posed.map(|v| v.clip);
-        Corners {
-            posed,
-            clip,
-            side: if faces_eye(clip) { 1.0 } else { -1.0 },
-        }
-    }
-
     /// Light on a surface at `world` that faces along `normal`, lies in the shadow of the lights in `dark` and sees
     /// `open` of the sky.
     fn light_of(
@@ -487,61 +402,6 @@ impl<'a> Layers<'a> {
     fn coordinate_range(&self, corners: &Corners<'_>) -> Option<[f32; 2]> {
         Some(corners.range_towards(self.lights.only_distant()?))
     }
-
-    /// A colour as strong as the style wants it.
-    pub(crate) fn strengthened(&self, color: [f32; 3]) -> [f32; 3] {
-        strengthened(color, self.compose.saturation)
-    }
-
-    /// Surface colour without light.
-    fn plain_color(
-        &self,
-        triangle: &Triangle,
-        part: &Part,
-        corners: &Corners<'_>,
-        frame_px: [f32; 2],
-    ) -> [f32; 3] {
-        let vertices = triangle.corners.map(|v| &self.vertices[v as usize]);
-        let [r, g, b, _] = part.base_color;
-        if part.flags & Part::PLAIN != 0 {
-            return [r, g, b];
-        }
-        let weights = weights_at(corners.clip, self.view.ndc_at(frame_px));
-        let tint = self.tint(weights, vertices);
-        let color = [r * tint[0], g * tint[1], b * tint[2]];
-        if part.texture == NONE {
-            return color;
-        }
-        let uvs = vertices.map(|v| v.uv);
-        let uv_near = |dx: f32, dy: f32| {
-            blend2(
-                weights_at(
-                    corners.clip,
-                    self.view.ndc_at([frame_px[0] + dx, frame_px[1] + dy]),
-                ),
-                uvs,
-            )
-        };
-        let (uv, right, down) = (blend2(weights, uvs), uv_near(1.0, 0.0), uv_near(0.0, 1.0));
-        let covered = footprint([uv, right, down]);
-        let texel = texture::sample(self.texels, part.texture, uv, covered);
-        std::array::from_fn(|i| color[i] * texel[i])
-    }
-
-    /// Vertex colours of a triangle where its corners have these weights, linear light.
-    pub(crate) fn tint(&self, weights: [f32; 3], vertices: [&Vertex; 3]) -> [f32; 3] {
-        let color_of = |vertex: &Vertex| {
-            let [r, g, b, _] = self.linear_texel(vertex.color);
-            [r, g, b]
-        };
-        blend3(weights, vertices.map(color_of))
-    }
-}
-
-/// How far a pixel reaches in coordinates of a texture that are `uv` there, and what they are to the right and below.
-pub(crate) fn footprint([uv, right, down]: [[f32; 2]; 3]) -> f32 {
-    let square = |there: [f32; 2]| (there[0] - uv[0]).powi(2) + (there[1] - uv[1]).powi(2);
-    square(right).max(square(down)).sqrt()
 }
 
 #[cfg(test)]
@@ -549,31 +409,10 @@ mod tests {
     use super::*;
     use crate::compose::Compose;
     use crate::lighting::Lights;
+    use npr_core::geometry::{NONE, PosedVertex, Triangle, Vertex};
+    use npr_core::surface::unit_or_z;
     use npr_core::window::{View, Window};
     use proptest::prelude::*;
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(1000))]
-        #[test]
-        fn cosines_are_those_of_the_smooth_normal(
-            normals in prop::array::uniform3(prop::array::uniform3(-1f32..1.0)),
-            towards in prop::array::uniform3(-1f32..1.0),
-            places in prop::array::uniform3(prop::array::uniform3(0f32..1.0)),
-            front in any::<bool>(),
-        ) {
-            let posed = normals.map(|normal| PosedVertex { normal: unit_or_z(normal), ..PosedVertex::default() });
-            let side = if front { 1.0 } else { -1.0 };
-            let corners = Corners { posed: std::array::from_fn(|i| &posed[i]), clip: [[0.0; 4]; 3], side };
-            let towards = unit_or_z(towards);
-            let got = corners.cosines(places, towards);
-            for (got, weights) in got.iter().zip(places) {
-                let blended = blend3(weights, posed.map(|v| v.normal));
-                prop_assume!(dot(blended, blended) > 1e-4);
-                prop_assert!((got - dot(corners.normal(weights), towards)).abs() < 1e-3);
-            }
-            prop_assert_eq!(corners.cosines([[0.0; 3]; 3], towards), [towards[2] * side; 3], "no direction");
-        }
-    }
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::Color;
+use crate::overlay::rule_table;
 
 /// What a beam does to what lies behind it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -47,46 +48,27 @@ pub struct Beam {
     pub light_reach: f32,
 }
 
+rule_table! {
 /// What a rule says about a part that glows instead of being a surface; what is absent stays as earlier rules have it.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct RuleBeam {
+pub struct RuleBeam over Beam {
     /// What it does to what lies behind it; default `lines`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub overlap: Option<BeamOverlap>,
+    pub overlap: BeamOverlap,
     /// Width of the step between two colours, 0..1; default 0.1. 0 cut paper, 0.5 a glow.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub softness: Option<f32>,
+    pub softness: f32,
     /// Colours from the rim to the middle, 1 to 4, sorted by `at`; default a warm glow with a white heart. A single
     /// one makes a beam of one colour; a strong rim and a clear middle, glass or plasma.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 1, max = 4))]
-    pub ramp: Option<Vec<BeamStop>>,
+    pub ramp: Vec<BeamStop>,
     /// What the light of the beam adds to the ramp of what faces it, 0..10; default 0, it lights nothing. 0.4 a
     /// laser, 1 an explosion that outshines the main light. It shines in the beam's own colour and throws no shadows.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 10.0))]
-    pub light: Option<f32>,
+    pub light: f32,
     /// How far its light reaches, 0.1..1000; default 4. Counted in half diagonals of the box around the beam, of a
     /// long one in those of its pieces: larger flashes reach farther.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.1, max = 1000.0))]
-    pub light_reach: Option<f32>,
+    pub light_reach: f32,
 }
-
-impl RuleBeam {
-    /// `beam` with what the rule states in place of what it had; of a part that glowed not yet, the default beam.
-    pub(crate) fn over(&self, beam: Option<Beam>) -> Beam {
-        let beam = beam.unwrap_or_default();
-        Beam {
-            overlap: self.overlap.unwrap_or(beam.overlap),
-            softness: self.softness.unwrap_or(beam.softness),
-            ramp: self.ramp.clone().unwrap_or(beam.ramp),
-            light: self.light.unwrap_or(beam.light),
-            light_reach: self.light_reach.unwrap_or(beam.light_reach),
-        }
-    }
 }
 
 impl Default for Beam {

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Rule, RuleShade, Style, StyleError, preset};
+use crate::{StyleError, preset};
 
 /// How a look is blended with another one: an effect for speed and impact [Suzuki 2004, chapter 5].
 ///
@@ -52,42 +52,6 @@ impl Blend {
     }
 }
 
-impl Style {
-    /// The look that this one is blended with: its preset, on the background, under the lights and with the beams and
-    /// painted-over colours of this one.
-    ///
-    /// # Errors
-    ///
-    /// [`StyleError::UnknownPreset`] where `blend.with` was changed by hand to what is none.
-    pub fn blended_with(&self) -> Result<Self, StyleError> {
-        let other = Self::preset(&self.blend.with)?;
-        let own = |rule: &Rule| Rule {
-            matching: rule.matching.clone(),
-            shade: RuleShade {
-                color: rule.shade.color,
-                ..RuleShade::default()
-            },
-            beam: rule.beam.clone(),
-            ..Rule::default()
-        };
-        Ok(Self {
-            background: self.background.clone(),
-            light: self.light.clone(),
-            antialias: self.antialias.clone(),
-            id_map: self.id_map.clone(),
-            rule: other
-                .rule
-                .iter()
-                .cloned()
-                .chain(self.rule.iter().map(own))
-                .collect(),
-            blend: Blend::default(),
-            lettering: Vec::new(),
-            ..other
-        })
-    }
-}
-
 /// A pixel of two pictures in linear light, colours times alpha: `share` 0..1 of the first.
 pub fn blend(first: [f32; 4], second: [f32; 4], share: f32) -> [f32; 4] {
     std::array::from_fn(|i| second[i] + (first[i] - second[i]) * share)
@@ -96,6 +60,7 @@ pub fn blend(first: [f32; 4], second: [f32; 4], share: f32) -> [f32; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Style;
     use proptest::prelude::*;
 
     fn read(text: &str) -> Result<Style, StyleError> {

@@ -2,7 +2,7 @@
 
 use toml::{Table, Value};
 
-use crate::stated::without_rule;
+use crate::key::without_rule;
 
 /// Former names of keys, each with the name of today in the same table.
 const FORMER: [(&str, &str); 2] = [

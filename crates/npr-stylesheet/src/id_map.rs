@@ -2,11 +2,10 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use crate::error::StyleError;
-use crate::nearest::nearest;
-use crate::{Color, Style, glob};
+use crate::{Color, glob};
 
 /// Most id maps of a style.
 pub const ID_MAPS_MAX: usize = 64;
@@ -54,27 +53,8 @@ fn any() -> String {
     "*".to_owned()
 }
 
-/// A region of an id map.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct IdRegion {
-    /// Its colour, sRGB bytes.
-    pub color: [u8; 3],
-    /// What rules may call it: its name, if it has one, and its colour as `#rrggbb`.
-    pub names: Vec<String>,
-}
-
-impl IdRegion {
-    fn new(color: Color, name: Option<&str>) -> Self {
-        let names = name.map(str::to_owned).into_iter();
-        Self {
-            color: [color.r, color.g, color.b],
-            names: names.chain([color.to_string()]).collect(),
-        }
-    }
-}
-
 /// The colour that a rule names instead of an id.
-fn color_of(pattern: &str) -> Option<Color> {
+pub(crate) fn color_of(pattern: &str) -> Option<Color> {
     pattern.starts_with('#').then(|| pattern.parse().ok())?
 }
 
@@ -90,73 +70,6 @@ pub(crate) fn matches(pattern: &str, names: &[String]) -> bool {
     names.iter().any(|name| glob::matches(pattern, name))
 }
 
-impl Style {
-    /// The regions that may be told apart on an id map: its named colours, then those that rules name by colour alone.
-    pub fn id_regions(&self, map: &IdMap) -> Vec<IdRegion> {
-        let named = map.ids.iter();
-        let mut regions: Vec<IdRegion> = named
-            .map(|id| IdRegion::new(id.color, Some(&id.name)))
-            .collect();
-        let mut known: BTreeSet<[u8; 3]> = regions.iter().map(|region| region.color).collect();
-        let colors = self
-            .rule
-            .iter()
-            .filter_map(|rule| color_of(&rule.matching.id));
-        for region in colors.map(|color| IdRegion::new(color, None)) {
-            if known.insert(region.color) {
-                regions.push(region);
-            }
-        }
-        regions
-    }
-
-    /// The pictures of the id maps: key and name as the style has them, each name where it stands first. Callers load
-    /// them.
-    pub fn id_map_pictures(&self) -> Vec<(String, &str)> {
-        let mut named: Vec<(String, &str)> = Vec::new();
-        for (i, map) in self.id_map.iter().enumerate() {
-            if named.iter().all(|(_, name)| *name != map.image) {
-                named.push((format!("id_map.{i}.image"), &map.image));
-            }
-        }
-        named
-    }
-
-    /// Checks the maps, and that rules name ids that there are.
-    pub(crate) fn check_ids(&self) -> Result<(), StyleError> {
-        let mut maps = self.id_map.iter().enumerate();
-        maps.try_for_each(|(i, map)| map.check(&format!("id_map.{i}")))?;
-        let names = || {
-            let ids = self.id_map.iter().flat_map(|map| &map.ids);
-            ids.map(|id| id.name.as_str())
-        };
-        for (i, rule) in self.rule.iter().enumerate() {
-            let pattern = rule.matching.id.as_str();
-            let unfit =
-                |reason: String| Err(StyleError::unfit(format!("rule.{i}.match.id"), reason));
-            if pattern.contains(['*', '?']) || pattern.is_empty() {
-                continue;
-            }
-            if self.id_map.is_empty() {
-                return unfit("names an id, but the style has no id_map".to_owned());
-            }
-            if pattern.starts_with('#') {
-                match color_of(pattern) {
-                    Some(color) if color.a == 255 => continue,
-                    _ => return unfit("is no colour such as #ff8000".to_owned()),
-                }
-            }
-            if !names().any(|name| name == pattern) {
-                let hint = nearest(pattern, names());
-                let hint =
-                    hint.map_or_else(String::new, |name| format!("; did you mean '{name}'?"));
-                return unfit(format!("is no id of an id_map{hint}"));
-            }
-        }
-        Ok(())
-    }
-}
-
 impl IdMap {
     /// Whether it lies on a part, unless a later map does.
     pub fn lies_on(&self, material: &str, object: &str) -> bool {
@@ -164,7 +77,7 @@ impl IdMap {
     }
 
     /// Refuses maps without a picture, names that rules cannot say, and colours with two names.
-    fn check(&self, key: &str) -> Result<(), StyleError> {
+    pub(crate) fn check(&self, key: &str) -> Result<(), StyleError> {
         if self.image.is_empty() {
             return Err(StyleError::unfit(format!("{key}.image"), "names no file"));
         }
@@ -196,6 +109,7 @@ impl IdMap {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Style;
 
     const MAP: &str = "[[id_map]]\nimage = 'ids.png'\n\
         ids = [{ name = 'hair', color = '#f00' }, { name = 'coat', color = '#00ff00' }]\n";

@@ -7,7 +7,7 @@ pub use case::{Facts, LineFinder, LineForm, LineOutput, Occasion, Output};
 
 use crate::Stated;
 use crate::former::notice;
-use crate::stated::lies_in;
+use crate::key::lies_in;
 use case::Case;
 use table::{ENTRIES, Why};
 

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::Color;
-use crate::Hatch;
+use crate::overlay::{rule_table, style_table};
+use crate::{Color, Hatch, Length, Pattern};
 
 /// What the shade of a surface is drawn with [Suzuki 2004, figure 2.3].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -70,67 +70,101 @@ pub enum StrokeSpace {
 /// Roughness under which a material counts as polished for [`Tone::Auto`].
 const POLISHED: f32 = 0.3;
 
+style_table! {
 /// The pen's part of the shade.
 ///
 /// The light on a surface gives a shade ramp, black up to `dark_at` and white from `light_at`; hatching is added to
 /// it and the sum cut at `threshold` [Suzuki 2004, section 3.3]. Solid ink ends a quarter of the way between the two
 /// places, the last stroke three quarters.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
 pub struct Ink {
     /// What the shade is drawn with; default `none`.
-    pub tone: Tone,
+    pub tone: Tone = Tone::Off,
     /// Colour of ink and strokes; default black. Alpha is how much it covers.
-    pub color: Color,
+    pub color: Color = Color::rgb(0, 0, 0),
     /// Place on the ramp, 0..1, up to which the shade ramp is black; default 0.2. Raise it for more solid black: 0
     /// leaves strokes alone, 0.5 blackens everything that faces away.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub dark_at: f32,
+    pub dark_at: f32 = 0.2,
     /// Place on the ramp, 0..1, from which it is white; default 0.75. Close to `dark_at` strokes are short and
     /// stubby, far from it long and tapered.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub light_at: f32,
+    pub light_at: f32 = 0.75,
     /// Where the sum is cut, 0..1; default 0.5. Higher is blacker all over.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub threshold: f32,
+    pub threshold: f32 = 0.5,
     /// How much the colour of a surface darkens its shade, 0..1; default 0, not at all. On paper it keeps painted
     /// eyes, stripes and dark leather: black paint is solid ink at any value, middle tones take strokes, 0.5 few, 1
     /// as many as they are dark.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub paint: f32,
+    pub paint: f32 = 0.0,
     /// What strokes are fixed to; default `surface`.
-    pub mapping: Mapping,
+    pub mapping: Mapping = Mapping::Surface,
     /// For mapping `surface`: what strokes run along; default `around`. On mapping `screen` too, `light` turns them.
     /// With a light that is fixed to the camera, `light` lays strokes anew in every view: for films take `light.space
     /// = "world"`.
-    pub follow: Follow,
+    pub follow: Follow = Follow::Around,
     /// For mapping `surface`: a direction that strokes follow instead; default none. `[0, 1, 0]` lets them fall like
     /// cloth.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
-    pub direction: Option<[f32; 3]>,
+    pub direction: Option<[f32; 3]> = None,
     /// What `direction` is fixed to; default `world`. `object` for limbs that move.
-    pub direction_space: StrokeSpace,
+    pub direction_space: StrokeSpace = StrokeSpace::World,
     /// The strokes.
-    pub hatch: Hatch,
+    pub hatch: Hatch = Hatch::default(),
+}
 }
 
-impl Default for Ink {
-    fn default() -> Self {
-        Self {
-            tone: Tone::Off,
-            color: Color::rgb(0, 0, 0),
-            dark_at: 0.2,
-            light_at: 0.75,
-            threshold: 0.5,
-            paint: 0.0,
-            mapping: Mapping::Surface,
-            follow: Follow::Around,
-            direction: None,
-            direction_space: StrokeSpace::World,
-            hatch: Hatch::default(),
-        }
-    }
+rule_table! {
+/// What a rule changes about ink and hatching; what is absent stays.
+pub struct RuleInk over Ink {
+    /// What the shade is drawn with.
+    pub tone: Tone,
+    /// Colour of ink and strokes.
+    pub color: Color,
+    /// Place on the ramp, 0..1, up to which the shade ramp is black.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub dark_at: f32,
+    /// Place on the ramp, 0..1, from which it is white.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub light_at: f32,
+    /// How much its colour darkens its shade, 0..1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub paint: f32,
+    /// What strokes are fixed to.
+    pub mapping: Mapping,
+    /// What strokes on the surface run along; without a `direction` beside it the style's own gives way.
+    pub follow: Follow,
+    /// A direction that strokes on the surface follow.
+    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    #[yields_to(follow)]
+    pub direction: [f32; 3],
+    /// What the direction is fixed to.
+    pub direction_space: StrokeSpace,
+}
+with {
+    /// Its strokes.
+    pub hatch: RuleHatch,
+}
+}
+
+rule_table! {
+/// What a rule changes about strokes; what is absent stays.
+pub struct RuleHatch over Hatch {
+    /// What shadows are drawn with.
+    pub pattern: Pattern,
+    /// A picture that shadows are drawn with; empty for `pattern` after all. A pattern beside it gives way.
+    #[yields_to(pattern)]
+    pub image: String,
+    /// Distance between strokes or dots on screen.
+    pub spacing: Length,
+    /// Length of a stroke in spacings, 1..200.
+    #[schemars(range(min = 1.0, max = 200.0))]
+    pub length: f32,
+    /// Direction of strokes against that of the surface, in degrees, -180..180.
+    #[schemars(range(min = -180.0, max = 180.0))]
+    pub angle_deg: f32,
+}
 }
 
 impl Tone {

@@ -1,8 +1,6 @@
 //! Reads a style and lays it over its parents.
 
 use npr_core::decoding::guard;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use crate::error::{StyleError, brief};
@@ -17,40 +15,6 @@ pub const PARENTS_MAX: usize = 64;
 
 /// Most dots that one line may hold: keys nest a level a dot, and the TOML reader recurses over levels.
 const DOTS_MAX: usize = 1000;
-
-/// What a style starts from: one name or a list of names.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(from = "Written", into = "Written")]
-pub struct Parents(pub Vec<String>);
-
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-enum Written {
-    One(String),
-    Many(Vec<String>),
-}
-
-impl Parents {
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-}
-
-impl From<Written> for Parents {
-    fn from(written: Written) -> Self {
-        match written {
-            Written::One(name) => Self(vec![name]),
-            Written::Many(names) => Self(names),
-        }
-    }
-}
-
-impl From<Parents> for Written {
-    fn from(parents: Parents) -> Self {
-        Self::Many(parents.0)
-    }
-}
 
 /// Lists that add up where a style is laid over another one.
 const ADDED_UP: [&str; 2] = ["rule", "id_map"];

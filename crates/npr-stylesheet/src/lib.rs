@@ -35,23 +35,31 @@ mod beam;
 pub mod blend;
 mod check;
 mod color;
+mod contradiction;
+mod derived_style;
 mod detect;
 mod error;
 mod former;
 mod glob;
 mod highlight;
 mod id_map;
+mod id_region;
 mod idle;
 mod ink;
+mod key;
 mod layers;
 mod lettering;
 mod light;
 mod line;
 mod line_background;
+mod line_notice;
 mod line_paint;
+mod look;
 pub mod motion;
 mod named_picture;
 mod nearest;
+mod overlay;
+mod parents;
 mod place;
 mod potrace;
 mod preset;
@@ -63,6 +71,7 @@ mod shade;
 mod smoke;
 mod stated;
 mod style;
+mod style_file;
 mod width;
 
 pub use antialias::Antialias;
@@ -72,11 +81,14 @@ pub use blend::Blend;
 pub use color::{Color, ColorError};
 pub use detect::{DepthTest, Detect, IdTest, MASK_LINE_PX, NormalTest, WidthWarning, width_rule};
 pub use error::{Problem, SourceLocation, StyleError};
-pub use highlight::{Back, Edge, Highlight, HighlightModel, Streak};
-pub use id_map::{ID_MAPS_MAX, IDS_MAX, IdMap, IdRegion, NamedId};
+pub use highlight::{
+    Back, Edge, Highlight, HighlightModel, RuleBack, RuleHighlight, RuleStreak, Streak,
+};
+pub use id_map::{ID_MAPS_MAX, IDS_MAX, IdMap, NamedId};
+pub use id_region::IdRegion;
 pub use idle::{Facts, LineFinder, LineForm, LineOutput, Occasion, Output};
-pub use ink::{Follow, Ink, Mapping, StrokeSpace, Tone};
-pub use layers::{PARENTS_MAX, Parents, TEXT_BYTES_MAX};
+pub use ink::{Follow, Ink, Mapping, RuleHatch, RuleInk, StrokeSpace, Tone};
+pub use layers::{PARENTS_MAX, TEXT_BYTES_MAX};
 pub use lettering::{LETTERING_MAX, Lettering, LetteringOutline};
 pub use light::{ExtraLight, Light, LightShape, LightSpace};
 pub use line::{CREASE_ANGLE_DEG, CreaseFrom, Kinds, Line, LineMethod};
@@ -88,14 +100,13 @@ pub use line_paint::{
     DepthSpace, HUE_STOPS_MAX, HueStop, KindColors, LineDepth, LineLight, LinePaint, LineSource,
     RuleLineDepth, RuleLineLight, RulePaint, hue_row,
 };
+pub use look::Look;
 pub use motion::{Motion, RuleMotion};
+pub use parents::Parents;
 pub use potrace::Potrace;
 pub use preset::{DEFAULT_PRESET, Preset, find as find_preset, presets};
 pub use ramp::Stop;
-pub use rule::{
-    Look, Match, PartNames, Rule, RuleBack, RuleHatch, RuleHighlight, RuleInk, RuleLine, RuleShade,
-    RuleStreak,
-};
+pub use rule::{Match, PartNames, Rule, RuleLine, RuleShade};
 pub use schema::schema;
 pub use shade::{Shade, ShadeMode, levels};
 pub use smoke::{

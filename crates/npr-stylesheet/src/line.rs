@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::overlay::style_table;
 use crate::{Color, LineBackground, LinePaint, Potrace, Width};
 
 /// How lines are found and drawn.
@@ -81,63 +82,43 @@ impl Default for Kinds {
     }
 }
 
+style_table! {
 /// Which lines are drawn, and with what.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
 pub struct Line {
     /// How lines are found and drawn; default `shape`. The others are there for comparison.
-    pub method: LineMethod,
+    pub method: LineMethod = LineMethod::Shape,
     /// Colour of the ink; default dark brown. A dark tone of the picture's main hue looks softer.
-    pub color: Color,
+    pub color: Color = Color::rgb(0x2b, 0x1a, 0x12),
     /// How much the ink covers, 0..1; default 1. 0.3 a hard pencil, 1 ink.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub opacity: f32,
+    pub opacity: f32 = 1.0,
     /// What else decides their colour: kind, surface, light, depth.
-    pub paint: LinePaint,
+    pub paint: LinePaint = LinePaint::default(),
     /// Angle in degrees from which an edge is a crease, 0..180; default 40. 20 draws every bevel, 80 only corners.
     /// `crease_from` says between what.
     #[schemars(range(min = 0.0, max = 180.0))]
-    pub crease_angle_deg: f32,
+    pub crease_angle_deg: f32 = CREASE_ANGLE_DEG,
     /// What that angle lies between; default `normals`, so that smooth shading hides the folds of a coarse mesh.
-    pub crease_from: CreaseFrom,
+    pub crease_from: CreaseFrom = CreaseFrom::default(),
     /// Angle, in degrees, from which a stroke is cut where it turns sharply in the picture, 10..180; default 180,
     /// never. 60 draws a box in strokes along its sides, each with the brush's own ends. Of drawings as curves only.
     #[schemars(range(min = 10.0, max = 180.0))]
-    pub split_angle_deg: f32,
+    pub split_angle_deg: f32 = 180.0,
     /// For method `angle`: how far from its silhouette, in degrees, a surface is inked, 0..90; default 15. Larger is
     /// thicker, up to six line widths; flat faces are not inked.
     #[schemars(range(min = 0.0, max = 90.0))]
-    pub angle_threshold_deg: f32,
+    pub angle_threshold_deg: f32 = 15.0,
     /// For method `angle`: how softly the ink ends, as a part of that band, 0..1; default 0.1. 0 a cut edge, 1 an
     /// airbrush.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub angle_softness: f32,
+    pub angle_softness: f32 = 0.1,
     /// The kinds of line that are drawn.
-    pub kinds: Kinds,
+    pub kinds: Kinds = Kinds::default(),
     /// The constants of method `potrace`.
-    pub potrace: Potrace,
+    pub potrace: Potrace = Potrace::default(),
     /// How wide lines are.
-    pub width: Width,
+    pub width: Width = Width::default(),
     /// How their colour minds what lies behind them.
-    pub background: LineBackground,
+    pub background: LineBackground = LineBackground::default(),
 }
-
-impl Default for Line {
-    fn default() -> Self {
-        Self {
-            method: LineMethod::Shape,
-            color: Color::rgb(0x2b, 0x1a, 0x12),
-            opacity: 1.0,
-            paint: LinePaint::default(),
-            crease_angle_deg: CREASE_ANGLE_DEG,
-            crease_from: CreaseFrom::default(),
-            split_angle_deg: 180.0,
-            angle_threshold_deg: 15.0,
-            angle_softness: 0.1,
-            kinds: Kinds::default(),
-            potrace: Potrace::default(),
-            width: Width::default(),
-            background: LineBackground::default(),
-        }
-    }
 }

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::Length;
+use crate::overlay::{rule_table, style_table};
 use npr_style::backdrop;
 
 /// By which rule a line's colour minds the background.
@@ -89,22 +90,29 @@ pub enum LineStart {
     Rim,
 }
 
+style_table! {
 /// How alike two colours must be.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Likeness {
+pub struct Likeness;
+
+/// What a rule changes about how alike two colours must be; what is absent stays.
+pub struct RuleLikeness {
     /// Largest difference of any channel of RGB, 0..1; default 0.25. 1 takes the criterion out.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub rgb: f32,
+    #[rule = "Largest difference of any channel of RGB, 0..1."]
+    pub rgb: f32 = 0.25,
     /// Largest difference of V, the greatest channel, 0..1; default 1.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub value: f32,
+    #[rule = "Largest difference of V, 0..1."]
+    pub value: f32 = 1.0,
     /// Largest difference of saturation, 0..1; default 1.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub saturation: f32,
+    #[rule = "Largest difference of saturation, 0..1."]
+    pub saturation: f32 = 1.0,
     /// Largest difference of hue in degrees, 0..180; default 180.
     #[schemars(range(min = 0.0, max = 180.0))]
-    pub hue_deg: f32,
+    #[rule = "Largest difference of hue in degrees, 0..180."]
+    pub hue_deg: f32 = 180.0,
+}
 }
 
 impl Likeness {
@@ -127,86 +135,54 @@ impl Likeness {
     }
 }
 
-impl Default for Likeness {
-    fn default() -> Self {
-        Self {
-            rgb: 0.25,
-            value: 1.0,
-            saturation: 1.0,
-            hue_deg: 180.0,
-        }
-    }
-}
-
+style_table! {
 /// How lines mind what lies behind them.
 ///
 /// A line is judged before what is really there, other subjects included; where nothing is, before a transparent
 /// background, it keeps its colour. What counts as one subject, rules say by `subject`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
 pub struct LineBackground {
     /// By which rule; default `off`.
-    pub method: BackgroundMethod,
+    pub method: BackgroundMethod = BackgroundMethod::Off,
     /// Which way lines move; default `auto`.
-    pub direction: Direction,
+    pub direction: Direction = Direction::Auto,
     /// What `contrast` is measured in; default `lightness`.
-    pub measure: Measure,
+    pub measure: Measure = Measure::Lightness,
     /// For `contrast` by lightness: the difference that every line must have, 0..0.9; default 0.3. 0.15 a hint, 0.5
     /// loud.
     #[schemars(range(min = 0.0, max = 0.9))]
-    pub lightness: f32,
+    pub lightness: f32 = 0.3,
     /// For `contrast` by `wcag`: the ratio that every line must have, 1..21; default 3, as for large text.
     #[schemars(range(min = 1.0, max = 21.0))]
-    pub ratio: f32,
+    pub ratio: f32 = 3.0,
     /// For `contrast`: what colour lines start from; default `line`.
-    pub start: LineStart,
+    pub start: LineStart = LineStart::Line,
     /// For `contrast` that starts from the `rim`: share of the surface's light, 0..1; default 0.7. 0.3 a deep shade,
     /// 0.9 nearly the surface.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub factor: f32,
+    pub factor: f32 = 0.7,
     /// For `published`: what the surface's colour is multiplied or divided by, 1..20; default 2.
     #[schemars(range(min = 1.0, max = 20.0))]
-    pub intensity: f32,
+    pub intensity: f32 = 2.0,
     /// For `published`: how alike surface and background must be in everything.
-    pub likeness: Likeness,
+    pub likeness: Likeness = Likeness::default(),
     /// What is one subject; default `scene`. Where several characters stand together, `root` or `object` judge each
     /// before the others; rules name single ones by `subject`.
-    pub subjects: Subjects,
+    pub subjects: Subjects = Subjects::Scene,
     /// Which lines follow the rule; default `outline`.
-    pub scope: LineScope,
+    pub scope: LineScope = LineScope::Outline,
     /// Length of outline over which colours are blended; default 8 of 1080 px, at most 24 px of the frame; which way
     /// lines turn is decided over 12 times that length. 0 for every pixel by itself; `published` always is.
-    pub smooth: Length,
+    pub smooth: Length = Length::ref_px(8.0),
     /// For `contrast`: how much a stretch of outline that was brighter or darker in the frame before stays so, 0..2;
     /// default 1. 0 decides every frame anew, 1 turns a line only where it would not read any more. Frames too large
     /// for one piece are always drawn by themselves.
     #[schemars(range(min = 0.0, max = 2.0))]
-    pub hold: f32,
+    pub hold: f32 = 1.0,
     /// For `contrast`: frames in which a line that must turn fades from darker to brighter, 1..60; default 20. 1
     /// turns at once. After a cut, and in frames too large for one piece, lines do not fade.
     #[schemars(range(min = 1.0, max = 60.0))]
-    pub fade: f32,
+    pub fade: f32 = 20.0,
 }
-
-impl Default for LineBackground {
-    fn default() -> Self {
-        Self {
-            method: BackgroundMethod::Off,
-            direction: Direction::Auto,
-            measure: Measure::Lightness,
-            lightness: 0.3,
-            ratio: 3.0,
-            start: LineStart::Line,
-            factor: 0.7,
-            intensity: 2.0,
-            likeness: Likeness::default(),
-            subjects: Subjects::Scene,
-            scope: LineScope::Outline,
-            smooth: Length::ref_px(8.0),
-            hold: 1.0,
-            fade: 20.0,
-        }
-    }
 }
 
 impl LineBackground {
@@ -243,94 +219,34 @@ impl LineBackground {
     }
 }
 
+rule_table! {
 /// What a rule changes about how lines mind the background; what is absent stays.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct RuleBackground {
+pub struct RuleBackground over LineBackground {
     /// By which rule: hair may keep its line while clothes adapt.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub method: Option<BackgroundMethod>,
+    pub method: BackgroundMethod,
     /// Which way its lines move.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub direction: Option<Direction>,
+    pub direction: Direction,
     /// The difference of lightness that its lines must have, 0..0.9.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 0.9))]
-    pub lightness: Option<f32>,
+    pub lightness: f32,
     /// The ratio that its lines must have, 1..21.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1.0, max = 21.0))]
-    pub ratio: Option<f32>,
+    pub ratio: f32,
     /// What its contrast is measured in.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub measure: Option<Measure>,
+    pub measure: Measure,
     /// What colour its lines start from.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub start: Option<LineStart>,
+    pub start: LineStart,
     /// Share of its surface's light that lines start from, 0..1.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub factor: Option<f32>,
+    pub factor: f32,
     /// What its colour is multiplied or divided by, 1..20.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1.0, max = 20.0))]
-    pub intensity: Option<f32>,
+    pub intensity: f32,
+    /// Which of its lines follow the rule.
+    pub scope: LineScope,
+}
+with {
     /// How alike it and what lies behind must be.
     pub likeness: RuleLikeness,
-    /// Which of its lines follow the rule.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub scope: Option<LineScope>,
 }
-
-/// What a rule changes about how alike two colours must be; what is absent stays.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct RuleLikeness {
-    /// Largest difference of any channel of RGB, 0..1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub rgb: Option<f32>,
-    /// Largest difference of V, 0..1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub value: Option<f32>,
-    /// Largest difference of saturation, 0..1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub saturation: Option<f32>,
-    /// Largest difference of hue in degrees, 0..180.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 180.0))]
-    pub hue_deg: Option<f32>,
-}
-
-impl RuleLikeness {
-    /// `likeness` with what the rule states in place of what it had.
-    fn over(&self, likeness: Likeness) -> Likeness {
-        Likeness {
-            rgb: self.rgb.unwrap_or(likeness.rgb),
-            value: self.value.unwrap_or(likeness.value),
-            saturation: self.saturation.unwrap_or(likeness.saturation),
-            hue_deg: self.hue_deg.unwrap_or(likeness.hue_deg),
-        }
-    }
-}
-
-impl RuleBackground {
-    /// `background` with what the rule states in place of what it had.
-    pub(crate) fn over(&self, background: LineBackground) -> LineBackground {
-        LineBackground {
-            method: self.method.unwrap_or(background.method),
-            direction: self.direction.unwrap_or(background.direction),
-            lightness: self.lightness.unwrap_or(background.lightness),
-            ratio: self.ratio.unwrap_or(background.ratio),
-            measure: self.measure.unwrap_or(background.measure),
-            start: self.start.unwrap_or(background.start),
-            factor: self.factor.unwrap_or(background.factor),
-            intensity: self.intensity.unwrap_or(background.intensity),
-            likeness: self.likeness.over(background.likeness),
-            scope: self.scope.unwrap_or(background.scope),
-            ..background
-        }
-    }
 }

@@ -8,12 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use npr_style::line_color::HUES;
 
+use crate::Color;
 use crate::error::StyleError;
-use crate::{Color, LineMethod, Style};
-
-mod rule;
-
-pub use rule::{RuleLineDepth, RuleLineLight, RulePaint};
+use crate::overlay::{Over, style_table};
 
 /// Most stops of a row.
 pub const HUE_STOPS_MAX: usize = 16;
@@ -88,9 +85,10 @@ impl KindColors {
         } = *self;
         [contour, boundary, crease, material, intersection]
     }
+}
 
-    /// These, and those of `below` where there are none.
-    fn over(self, below: Self) -> Self {
+impl Over<Self> for KindColors {
+    fn over(&self, below: Self) -> Self {
         Self {
             contour: self.contour.or(below.contour),
             boundary: self.boundary.or(below.boundary),
@@ -101,104 +99,94 @@ impl KindColors {
     }
 }
 
+style_table! {
 /// How the colour of lines changes with depth: far lines pale, or blend into snow and mist.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct LineDepth {
+pub struct LineDepth;
+
+/// What a rule changes about the colour of lines over depth; what is absent stays.
+pub struct RuleLineDepth {
     /// What `near` and `far` count in; default `model`.
-    pub space: DepthSpace,
+    #[rule = "What `near` and `far` count in."]
+    pub space: DepthSpace = DepthSpace::Model,
     /// Where the ramp begins, -1e6..1e6; default 0.
     #[schemars(range(min = -1e6, max = 1e6))]
-    pub near: f32,
+    #[rule = "Where the ramp begins, -1e6..1e6."]
+    pub near: f32 = 0.0,
     /// Where it ends, -1e6..1e6, beyond `near`; default 1.
     #[schemars(range(min = -1e6, max = 1e6))]
-    pub far: f32,
+    #[rule = "Where it ends, -1e6..1e6, beyond `near`."]
+    pub far: f32 = 1.0,
     /// What is laid over lines on the way, up to 16 stops sorted by `at`; default none.
     #[schemars(length(max = 16))]
-    pub ramp: Vec<HueStop>,
+    #[rule = "What is laid over lines on the way; `[]` for nothing."]
+    pub ramp: Vec<HueStop> = Vec::new(),
+}
 }
 
-impl Default for LineDepth {
-    fn default() -> Self {
-        Self {
-            space: DepthSpace::Model,
-            near: 0.0,
-            far: 1.0,
-            ramp: Vec::new(),
-        }
-    }
-}
-
+style_table! {
 /// How lines change with the light on their surface. Its scale is that of tones: 0 faces away, 0.5 lies across, 1 faces
 /// the light. Shadows that things throw play no part.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct LineLight {
+pub struct LineLight;
+
+/// What a rule changes about lines in the light; what is absent stays.
+pub struct RuleLineLight {
     /// What is laid over lines from dark to light, up to 16 stops sorted by `at`; default none.
     #[schemars(length(max = 16))]
-    pub ramp: Vec<HueStop>,
+    #[rule = "What is laid over lines from dark to light; `[]` for nothing."]
+    pub ramp: Vec<HueStop> = Vec::new(),
     /// Factor on the width in the dark and in full light, 0..4 each; default `[1, 1]`. `[1.2, 0.5]` thins lines in
     /// the sun.
     #[schemars(inner(range(min = 0.0, max = 4.0)))]
-    pub width: [f32; 2],
+    #[rule = "Factor on the width in the dark and in full light, 0..4 each."]
+    pub width: [f32; 2] = [1.0; 2],
     /// Factor on the opacity in the dark and in full light, 0..1 each; default `[1, 1]`. `[1, 0]` lets light wash
     /// lines away.
     #[schemars(inner(range(min = 0.0, max = 1.0)))]
-    pub opacity: [f32; 2],
+    #[rule = "Factor on the opacity in the dark and in full light, 0..1 each."]
+    pub opacity: [f32; 2] = [1.0; 2],
     /// How much lines take the colour of the light behind where it lights them, 0..1; default 0. That light is
     /// `highlight.back`, whether or not it brightens surfaces too.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub rim: f32,
+    #[rule = "How much lines take the colour of the light behind, 0..1."]
+    pub rim: f32 = 0.0,
+}
 }
 
-impl Default for LineLight {
-    fn default() -> Self {
-        Self {
-            ramp: Vec::new(),
-            width: [1.0; 2],
-            opacity: [1.0; 2],
-            rim: 0.0,
-        }
-    }
-}
-
+style_table! {
 /// Where the colour of lines comes from, for every method.
 ///
 /// First the colour itself: of the kind, else of `source`. Then what lies over it, in this order: light, the light
 /// behind, depth, tint.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct LinePaint {
-    /// Colours for single kinds; they go before `source`. Default none.
-    pub kinds: KindColors,
+pub struct LinePaint;
+
+/// What a rule changes about the colour of lines; what is absent stays.
+pub struct RulePaint {
     /// Where the colour of all others comes from; default `constant`.
-    pub source: LineSource,
+    #[rule = "Where the colour of its other lines comes from."]
+    pub source: LineSource = LineSource::Constant,
     /// What a surface's, vertex's or picture's colour is multiplied by, in linear light, 0..4; default 0.2.
     /// 0.05 nearly black, 0.2 a deep shade of the fill, 1 the fill itself.
     #[schemars(range(min = 0.0, max = 4.0))]
-    pub factor: f32,
+    #[rule = "What its colour is multiplied by, in linear light, 0..4."]
+    pub factor: f32 = 0.2,
     /// Picture for source `texture`; default none.
-    pub image: String,
-    /// How colour changes with depth.
-    pub depth: LineDepth,
-    /// How colour, opacity and width change with light.
-    pub light: LineLight,
+    #[rule = "Its picture for source `texture`."]
+    pub image: String = String::new(),
     /// Laid over all lines at last; alpha is how much. Default `#0000`, nothing.
-    pub tint: Color,
+    #[rule = "Laid over all of its lines; `#0000` for nothing."]
+    pub tint: Color = Color::rgba(0, 0, 0, 0),
 }
-
-impl Default for LinePaint {
-    fn default() -> Self {
-        Self {
-            kinds: KindColors::default(),
-            source: LineSource::Constant,
-            factor: 0.2,
-            image: String::new(),
-            depth: LineDepth::default(),
-            light: LineLight::default(),
-            tint: Color::rgba(0, 0, 0, 0),
-        }
-    }
+with {
+    /// Colours for single kinds; they go before `source`. Default none.
+    #[rule = "Colours for single kinds of its lines."]
+    pub kinds: KindColors or KindColors,
+    /// How colour changes with depth.
+    #[rule = "How the colour of its lines changes with depth."]
+    pub depth: LineDepth or RuleLineDepth,
+    /// How colour, opacity and width change with light.
+    #[rule = "How its lines change with light."]
+    pub light: LineLight or RuleLineLight,
+}
 }
 
 impl LinePaint {
@@ -312,58 +300,10 @@ fn hue_at(stops: &[HueStop], x: f32) -> [f32; 4] {
     mixed.convert::<Srgb>().components
 }
 
-impl Style {
-    /// Checks the colours of lines, with each rule laid over the style's own.
-    pub(crate) fn check_line_paint(&self) -> Result<(), StyleError> {
-        self.line.paint.check("line.paint")?;
-        self.rule.iter().enumerate().try_for_each(|(i, rule)| {
-            let paint = rule.line.paint.over(self.line.paint.clone());
-            paint.check(&format!("rule.{i}.line.paint"))
-        })
-    }
-
-    /// The bits of [`Part::line_flags`] that any part of a scene may have.
-    pub fn line_paint_flags(&self) -> u32 {
-        let rules = self.rule.iter();
-        rules.fold(self.line.paint.flags(), |flags, rule| {
-            flags | rule.line.paint.over(self.line.paint.clone()).flags()
-        })
-    }
-
-    /// What its line methods cannot honour of how it colours lines, a sentence each, for the user.
-    pub fn line_paint_notices(&self) -> Vec<String> {
-        let has = |bits: u32| self.line_paint_flags() & bits != 0;
-        let rules = self.rule.iter().filter_map(|rule| rule.line.method);
-        let methods: Vec<LineMethod> = std::iter::once(self.line.method).chain(rules).collect();
-        let draws = |wanted: &[LineMethod]| methods.iter().any(|method| wanted.contains(method));
-        let filters = [LineMethod::Filter, LineMethod::FilterHull];
-        let hulls = [LineMethod::Hull, LineMethod::FilterHull];
-        let even = [filters[0], filters[1], LineMethod::Angle];
-        let mut notices = Vec::new();
-        if has(Part::LINE_WIDTH) && draws(&even) {
-            notices.push("line.paint.light.width changes no lines of method filter or angle");
-        }
-        if has(Part::LINE_OPACITY) && draws(&[hulls[0], hulls[1], LineMethod::Angle]) {
-            notices.push("line.paint.light.opacity changes no lines of method hull or angle");
-        }
-        if has(0b11110) && draws(&[hulls[0], hulls[1], LineMethod::Angle]) {
-            notices.push("lines of method hull or angle are all contours to line.paint.kinds");
-        }
-        notices.extend(self.line_source_notice());
-        notices.into_iter().map(str::to_owned).collect()
-    }
-
-    /// What is missing for the source of its lines' colours, for the user.
-    pub fn line_source_notice(&self) -> Option<&'static str> {
-        let asks = self.line_paint_flags() & Part::LINE_VERTEX != 0;
-        (asks && !self.shade.use_vertex_colors)
-            .then_some("line.paint.source is vertex-color, but shade.use_vertex_colors is off")
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Style;
     use proptest::prelude::*;
 
     fn read(text: &str) -> Result<Style, StyleError> {

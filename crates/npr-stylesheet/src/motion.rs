@@ -7,12 +7,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::beam::{BeamStop, RuleBeam};
-use crate::ramp::Stop;
-use crate::{
-    Background, Color, Highlight, Ink, Length, LineMethod, Rule, RuleShade, ShadeMode, Style,
-    StyleError,
-};
+use crate::{Color, Length};
 use npr_core::random::{hash, unit};
 
 /// Most different trails in a style.
@@ -79,85 +74,13 @@ impl Motion {
     }
 }
 
-impl Style {
-    /// The different trails of parts that move, in the order of rules.
-    pub fn trails(&self) -> Vec<[f32; 3]> {
-        let mut trails: Vec<[f32; 3]> = Vec::new();
-        for trail in self.rule.iter().filter_map(|rule| rule.motion.trail) {
-            if trail != [0.0; 3] && !trails.contains(&trail) {
-                trails.push(trail);
-            }
-        }
-        trails
-    }
-
-    /// A look in which nothing but what moves is seen: [`trail_of`] reads it.
-    pub fn of_motion(&self) -> Self {
-        let trails = self.trails();
-        let clear = BeamStop {
-            at: 0.0,
-            color: Color::rgba(0, 0, 0, 0),
-        };
-        let still = Rule {
-            shade: RuleShade {
-                color: Some(Color::rgb(0, 0, 0)),
-                ..RuleShade::default()
-            },
-            ..Rule::default()
-        };
-        let own = |rule: &Rule| {
-            let code = rule.motion.trail.map(|trail| {
-                let index = trails.iter().position(|other| *other == trail);
-                let code = index.map_or(0, |i| (i as u8 + 1) * CODE_STEP);
-                Color::rgb(code, 0, 0)
-            });
-            Rule {
-                matching: rule.matching.clone(),
-                shade: RuleShade {
-                    color: code,
-                    ..RuleShade::default()
-                },
-                beam: rule.beam.as_ref().map(|_| RuleBeam {
-                    ramp: Some(vec![clear.clone()]),
-                    ..RuleBeam::default()
-                }),
-                ..Rule::default()
-            }
-        };
-        let mut style = Self {
-            background: Background::Color(Color::rgb(0, 0, 0)),
-            ink: Ink::default(),
-            highlight: Highlight::default(),
-            rule: std::iter::once(still)
-                .chain(self.rule.iter().map(own))
-                .collect(),
-            ..Self::default()
-        };
-        style.shade.mode = ShadeMode::Flat;
-        style.shade.use_textures = false;
-        style.shade.use_vertex_colors = false;
-        style.shade.ramp = vec![Stop::plain(0.0, 1.0)];
-        style.line.method = LineMethod::Off;
-        style.antialias.samples = 1;
-        style
-    }
-
-    /// Refuses more trails than can be told apart.
-    pub(crate) fn check_trails(&self) -> Result<(), StyleError> {
-        if self.trails().len() <= TRAILS_MAX {
-            return Ok(());
-        }
-        let moves = |rule: &Rule| rule.motion.trail.is_some();
-        let last = self.rule.iter().rposition(moves).unwrap_or_default();
-        let reason = format!("is one of more than {TRAILS_MAX} different trails");
-        Err(StyleError::unfit(
-            format!("rule.{last}.motion.trail"),
-            reason,
-        ))
-    }
+/// The colour that stands for a trail in a picture of what moves; black for none.
+pub(crate) fn color_of_trail(index: Option<usize>) -> Color {
+    let red = index.map_or(0, |i| (i as u8 + 1) * CODE_STEP);
+    Color::rgb(red, 0, 0)
 }
 
-/// Which of the trails the part has that a pixel of [`Style::of_motion`] shows; none where it stands still.
+/// Which of the trails the part has that a pixel of [`Style::of_motion`](crate::Style::of_motion) shows; none where it stands still.
 pub fn trail_of([red, ..]: [u8; 4]) -> Option<usize> {
     usize::from((red + CODE_STEP / 2) / CODE_STEP).checked_sub(1)
 }
@@ -165,6 +88,7 @@ pub fn trail_of([red, ..]: [u8; 4]) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Style, StyleError};
     use proptest::prelude::*;
 
     fn read(text: &str) -> Result<Style, StyleError> {

@@ -5,8 +5,8 @@ use toml::{Table, Value};
 
 use crate::error::StyleError;
 use crate::former::name_of_today;
+use crate::key::entry;
 use crate::schema::Node;
-use crate::stated::entry;
 use crate::{Style, check, layers};
 
 /// Longest override, in bytes, and deepest key.

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::Color;
+use crate::overlay::style_table;
 use crate::ramp::Stop;
 use npr_style::ramp::Level;
 
@@ -21,57 +22,42 @@ pub enum ShadeMode {
     Paper,
 }
 
+style_table! {
 /// How surfaces are filled.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
 pub struct Shade {
     /// Where colour comes from; default `ramp`. `flat` for coloured outlines, `paper` for pure line art.
-    pub mode: ShadeMode,
+    pub mode: ShadeMode = ShadeMode::Ramp,
     /// Width of the step between two tones as a part of the ramp, 0..0.5; default 0. 0 a cut-out edge as
     /// in cel animation, 0.05 a felt pen, 0.4 an airbrush.
     #[schemars(range(min = 0.0, max = 0.5))]
-    pub softness: f32,
+    pub softness: f32 = 0.0,
     /// Colour of the paper that mode `paper` fills surfaces with; default white.
-    pub paper: Color,
+    pub paper: Color = Color::WHITE,
     /// Whether textures colour the material; default true. Off gives calm, even parts.
-    pub use_textures: bool,
+    pub use_textures: bool = true,
     /// Whether vertex colours tint the material; default true. Turn off where they hold widths.
-    pub use_vertex_colors: bool,
+    pub use_vertex_colors: bool = true,
     /// Strength of the material's colour, 0..2; default 1. 0 grey, 0.5 a faded print, 1.4 poster paint.
     #[schemars(range(min = 0.0, max = 2.0))]
-    pub saturation: f32,
+    pub saturation: f32 = 1.0,
     /// The tones, 1 to 8, sorted by `at`; default three: shade, colour, highlight.
     /// Two look like cel animation, one like a plain fill.
     #[schemars(length(min = 1, max = 8))]
-    pub ramp: Vec<Stop>,
+    pub ramp: Vec<Stop> = vec![
+            Stop {
+                at: 0.0,
+                light: 0.55,
+                tint: Some(Color::rgb(0xd6, 0xd0, 0xff)),
+            },
+            Stop::plain(0.52, 1.0),
+            Stop::plain(0.95, 1.15),
+        ],
     /// A picture whose middle row gives the tones in place of `ramp`, from what faces away on the left to what faces
     /// the light on the right; default empty, none. Its sRGB colours count as light, so white leaves the surface as
     /// it is. Steps are as hard as its pixels, or as soft as `softness`; gradients may have any shape.
     #[serde(skip_serializing_if = "String::is_empty")]
-    pub ramp_image: String,
+    pub ramp_image: String = String::new(),
 }
-
-impl Default for Shade {
-    fn default() -> Self {
-        Self {
-            mode: ShadeMode::Ramp,
-            softness: 0.0,
-            paper: Color::WHITE,
-            use_textures: true,
-            use_vertex_colors: true,
-            saturation: 1.0,
-            ramp: vec![
-                Stop {
-                    at: 0.0,
-                    light: 0.55,
-                    tint: Some(Color::rgb(0xd6, 0xd0, 0xff)),
-                },
-                Stop::plain(0.52, 1.0),
-                Stop::plain(0.95, 1.15),
-            ],
-            ramp_image: String::new(),
-        }
-    }
 }
 
 /// The stops ready for [`ramp_light`](npr_style::ramp::ramp_light).

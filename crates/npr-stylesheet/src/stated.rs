@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use toml::Value;
 
 use crate::error::StyleError;
+use crate::key::{at, lies_in, without_rule};
 use crate::set::{self, Assignment};
 use crate::{Style, layers};
 
@@ -125,31 +126,6 @@ impl Stated {
         let is_of = |stated: &str| lies_in(stated, key);
         self.keys
             .retain(|stated| !is_of(stated) && !without_rule(stated).is_some_and(is_of));
-    }
-}
-
-/// A key of a rule as the style itself has it.
-pub(crate) fn without_rule(key: &str) -> Option<&str> {
-    let (_, key) = key.strip_prefix("rule.")?.split_once('.')?;
-    Some(key)
-}
-
-/// Whether a key with dots is another one, or a key of the table or list at that one.
-pub(crate) fn lies_in(key: &str, outer: &str) -> bool {
-    let rest = key.strip_prefix(outer);
-    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-}
-
-/// What stands at a key with dots, if anything does.
-fn at<'a>(value: &'a Value, key: &str) -> Option<&'a Value> {
-    key.split('.').try_fold(value, entry)
-}
-
-/// What a table has under a name, or a list under a number.
-pub(crate) fn entry<'a>(value: &'a Value, name: &str) -> Option<&'a Value> {
-    match value {
-        Value::Array(entries) => entries.get(name.parse::<usize>().ok()?),
-        _ => value.get(name),
     }
 }
 

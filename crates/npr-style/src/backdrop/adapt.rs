@@ -1,10 +1,9 @@
 //! A line's colour before a background: the twin of `lib/backdrop`.
 
 use super::oklab::{light_of_oklab, oklab_of_light};
-use super::published;
+use super::published::{self, sane};
 use super::rule::Rule;
-use super::stretch::ContrastBias;
-use crate::compose::LUMA;
+use crate::luminance::LUMA;
 use npr_core::color::{linear_from_srgb, pack_rgba8, srgb_from_linear, unpack_rgba8};
 use npr_core::math::{self, mix, smoothstep};
 use npr_core::surface::dot;
@@ -80,14 +79,6 @@ pub fn adapt(line: [f32; 3], rim: [f32; 3], behind: [f32; 3], rule: &Rule) -> [f
     }
 }
 
-/// Finite and within 0..1.
-pub(super) fn sane(channel: f32) -> f32 {
-    if channel.is_nan() {
-        return 0.0;
-    }
-    channel.clamp(0.0, 1.0)
-}
-
 /// How well a colour reads before another, both sRGB-encoded: in the measure of the rule's target.
 pub fn contrast(line: [f32; 3], behind: [f32; 3], rule: &Rule) -> f32 {
     let light = [line, behind].map(|color| color.map(|channel| linear_from_srgb(sane(channel))));
@@ -118,14 +109,6 @@ impl Ground {
             low: place,
             high: place,
             brighter: None,
-        }
-    }
-
-    pub(super) fn of_bias(bias: &ContrastBias) -> Self {
-        Self {
-            low: bias.low,
-            high: bias.high,
-            brighter: Some(0.5 + 0.5 * bias.bias),
         }
     }
 

@@ -16,7 +16,6 @@
 //! assert_eq!(lines[1 * 8 + 3], Some([0.6, 0.1, 0.1]));
 //! ```
 
-use super::adapt::sane;
 use super::rule::Rule;
 use rayon::prelude::*;
 
@@ -241,6 +240,14 @@ fn neighbours(size: [u32; 2], x: usize, y: usize) -> impl Iterator<Item = usize>
     rows.flat_map(move |row| columns.clone().map(move |column| (column, row)))
         .filter(move |at| *at != (x, y))
         .map(move |(column, row)| row * width + column)
+}
+
+/// Finite and within 0..1.
+pub(super) fn sane(channel: f32) -> f32 {
+    if channel.is_nan() {
+        return 0.0;
+    }
+    channel.clamp(0.0, 1.0)
 }
 
 fn rgb([r, g, b, _]: [f32; 4]) -> [f32; 3] {

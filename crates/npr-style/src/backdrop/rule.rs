@@ -3,9 +3,6 @@
 use bytemuck::{Pod, Zeroable};
 use npr_core::gpu_layout;
 
-use super::rims::TILE;
-use super::stretch::{BIAS_REACH_MOST, STRETCH_TILES};
-
 /// Most different rules of a frame, the first of which never applies.
 pub const RULES_MAX: usize = 16;
 
@@ -184,16 +181,5 @@ impl Rules {
             fade: 1.0,
             ..self
         }
-    }
-
-    /// Pixels around a place that may decide about its line.
-    pub fn room_px(&self) -> u32 {
-        let smoothed = (self.smooth_px.max(0.0) as u32).min(super::SMOOTH_MOST);
-        let tiles = (self.bias_px.max(0.0) / TILE as f32).ceil() as u32;
-        let stretch = match tiles {
-            0 => 1,
-            tiles => tiles.min(BIAS_REACH_MOST) + STRETCH_TILES + 1,
-        };
-        self.reach_px + smoothed + 3 + stretch * TILE
     }
 }

@@ -1,7 +1,6 @@
 //! What rims say, blended along the outline and carried to the pixels of its line: the twins of `backdrop.smooth_rims`,
 //! `backdrop.spread_rows` and `backdrop.spread_rims`.
 
-use super::adapt::Ground;
 use super::occupied::{Gaussian, Occupied};
 use super::rims::Rim;
 use super::rule::{Rule, Rules};
@@ -163,7 +162,7 @@ fn spread_row(rims: &[Rim], reach: usize, columns: &mut [u32]) {
 /// size.
 ///
 /// `fronts` holds the rim's colour with its weight in alpha, `backs` what lies behind: for the published method its
-/// colour, for ours a [`Ground`]; with the number of the rule. Weights fall from [`Rules::whole_px`] to
+/// colour, for ours a [`Ground`](super::Ground); with the number of the rule. Weights fall from [`Rules::whole_px`] to
 /// [`Rules::reach_px`], where lines that merely end at an outline begin. Of rims as near, the upper one. O(pixels *
 /// reach), parallel over rows.
 pub fn spread_rims(
@@ -288,6 +287,6 @@ impl Carrying<'_> {
             true => bias.rim,
             false => [color[0], color[1], color[2]],
         };
-        ([r, g, b, color[3]], Ground::of_bias(&bias).packed(rule))
+        ([r, g, b, color[3]], bias.ground().packed(rule))
     }
 }

@@ -5,7 +5,7 @@
 //! or darker, and the line would repeat every brick behind it. Here it reads before all that lies behind a stretch,
 //! by an envelope that changes slowly along the outline, and the stretch votes which way to move.
 
-use super::adapt::preference;
+use super::adapt::{Ground, preference};
 use super::gather::{TileRims, UNLIKE};
 use super::occupied::{Gaussian, Occupied};
 use super::rims::{TILE, tiles_across};
@@ -72,6 +72,15 @@ gpu_layout!(ContrastBias {
 });
 
 impl ContrastBias {
+    /// What lines of the stretch stand before, and how much of the brighter way they take.
+    pub(super) fn ground(&self) -> Ground {
+        Ground {
+            low: self.low,
+            high: self.high,
+            brighter: Some(0.5 + 0.5 * self.bias),
+        }
+    }
+
     /// A value of each of both, made one.
     fn with(&self, other: &Self, made: impl Fn(f32, f32) -> f32) -> Self {
         Self {

@@ -2,8 +2,8 @@
 
 use super::{Compose, Layers};
 use crate::backdrop::ContrastCache;
+use crate::corners::Corners;
 use crate::line_color::LinePoint;
-use crate::tone::Corners;
 use crate::triangle_constants::TriangleConstants;
 use npr_core::color::SrgbEncoder;
 use npr_core::geometry::NONE;

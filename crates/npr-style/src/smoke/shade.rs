@@ -8,9 +8,7 @@ use rayon::prelude::*;
 
 use super::SmokeLook;
 use super::depth_map::DepthTexels;
-use crate::lighting::{LightSource, Lights};
-use crate::shadow::SHADOWS_MAX;
-use crate::sky::Openness;
+use crate::lighting::{LightSource, Lights, Openness, SHADOWS_MAX};
 
 /// What smoke is lit by and seen through.
 #[derive(Debug, Clone, Copy)]

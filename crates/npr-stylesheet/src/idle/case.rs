@@ -1,6 +1,6 @@
 //! A key of a style, and all that decides whether it can act.
 
-use crate::stated::{lies_in, without_rule};
+use crate::key::{lies_in, without_rule};
 use crate::{BackgroundMethod, LineMethod, Look, Style, Tone, WidthSource};
 
 /// Where a style is drawn.

@@ -1,0 +1,37 @@
+//! What the line methods of a style cannot honour of how it colours lines.
+
+use npr_core::geometry::Part;
+
+use crate::{LineMethod, Style};
+
+impl Style {
+    /// What its line methods cannot honour of how it colours lines, a sentence each, for the user.
+    pub fn line_paint_notices(&self) -> Vec<String> {
+        let has = |bits: u32| self.line_paint_flags() & bits != 0;
+        let rules = self.rule.iter().filter_map(|rule| rule.line.method);
+        let methods: Vec<LineMethod> = std::iter::once(self.line.method).chain(rules).collect();
+        let draws = |wanted: &[LineMethod]| methods.iter().any(|method| wanted.contains(method));
+        let filters = [LineMethod::Filter, LineMethod::FilterHull];
+        let hulls = [LineMethod::Hull, LineMethod::FilterHull];
+        let even = [filters[0], filters[1], LineMethod::Angle];
+        let mut notices = Vec::new();
+        if has(Part::LINE_WIDTH) && draws(&even) {
+            notices.push("line.paint.light.width changes no lines of method filter or angle");
+        }
+        if has(Part::LINE_OPACITY) && draws(&[hulls[0], hulls[1], LineMethod::Angle]) {
+            notices.push("line.paint.light.opacity changes no lines of method hull or angle");
+        }
+        if has(0b11110) && draws(&[hulls[0], hulls[1], LineMethod::Angle]) {
+            notices.push("lines of method hull or angle are all contours to line.paint.kinds");
+        }
+        notices.extend(self.line_source_notice());
+        notices.into_iter().map(str::to_owned).collect()
+    }
+
+    /// What is missing for the source of its lines' colours, for the user.
+    pub fn line_source_notice(&self) -> Option<&'static str> {
+        let asks = self.line_paint_flags() & Part::LINE_VERTEX != 0;
+        (asks && !self.shade.use_vertex_colors)
+            .then_some("line.paint.source is vertex-color, but shade.use_vertex_colors is off")
+    }
+}

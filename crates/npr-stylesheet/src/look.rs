@@ -1,0 +1,154 @@
+//! How single parts look: the style, and every rule that applies, laid over it.
+
+use crate::overlay::Over;
+use crate::{
+    Beam, Color, Highlight, Ink, LineBackground, LineMethod, LinePaint, PartNames, Rule, Stop,
+    Style,
+};
+
+/// How one part of the scene looks once every rule has spoken.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Look<'a> {
+    /// Whether it has lines.
+    pub line_on: bool,
+    /// How its outline is drawn.
+    pub line_method: LineMethod,
+    /// Colour of its lines.
+    pub line_color: Color,
+    /// What else decides their colour.
+    pub line_paint: LinePaint,
+    /// What its line width is multiplied by.
+    pub width_factor: f32,
+    /// Its angle for method `angle`, in degrees off the silhouette.
+    pub angle_threshold_deg: f32,
+    /// How its lines mind what lies behind them.
+    pub line_background: LineBackground,
+    /// The subject that it belongs to, where a rule names one.
+    pub subject: Option<&'a str>,
+    /// Colour instead of its material's.
+    pub shade_color: Option<Color>,
+    /// Its tones, sorted.
+    pub ramp: &'a [Stop],
+    /// The picture that gives its tones instead; empty where none does.
+    pub ramp_image: &'a str,
+    /// Its ink and hatching.
+    pub ink: Ink,
+    /// Its highlights.
+    pub highlight: Highlight,
+    /// How it glows, where it is a beam.
+    pub beam: Option<Beam>,
+    /// From it to where it came from, in the scene, where a rule says so.
+    pub trail: Option<[f32; 3]>,
+}
+
+impl<'a> Look<'a> {
+    /// The look of a part that no rule applies to.
+    pub(crate) fn plain(style: &'a Style) -> Self {
+        Self {
+            line_on: true,
+            line_method: style.line.method,
+            line_color: style.line.color,
+            line_paint: style.line.paint.clone(),
+            width_factor: 1.0,
+            angle_threshold_deg: style.line.angle_threshold_deg,
+            line_background: style.line.background.clone(),
+            subject: None,
+            shade_color: None,
+            ramp: &style.shade.ramp,
+            ramp_image: &style.shade.ramp_image,
+            ink: style.ink.clone(),
+            highlight: style.highlight.clone(),
+            beam: None,
+            trail: None,
+        }
+    }
+
+    /// The look with what `rule` states in place of what it had.
+    pub(crate) fn with(self, rule: &'a Rule) -> Self {
+        let (line, shade) = (&rule.line, &rule.shade);
+        Self {
+            line_on: line.on.unwrap_or(self.line_on),
+            line_method: line.method.unwrap_or(self.line_method),
+            line_color: line.color.unwrap_or(self.line_color),
+            line_paint: line.paint.over(self.line_paint),
+            width_factor: line.width_factor.unwrap_or(self.width_factor),
+            angle_threshold_deg: line.angle_threshold_deg.unwrap_or(self.angle_threshold_deg),
+            line_background: line.background.over(self.line_background),
+            subject: rule.subject.as_deref().or(self.subject),
+            shade_color: shade.color.or(self.shade_color),
+            ramp: shade.ramp.as_deref().unwrap_or(self.ramp),
+            ramp_image: shade.ramp_image_over(self.ramp_image),
+            ink: rule.ink.over(self.ink),
+            highlight: rule.highlight.over(self.highlight),
+            beam: match &rule.beam {
+                Some(beam) => Some(beam.over(self.beam.unwrap_or_default())),
+                None => self.beam,
+            },
+            trail: rule.motion.trail.or(self.trail),
+        }
+    }
+}
+
+impl Style {
+    /// How a part looks: the style's own values, then every rule that applies, in order.
+    pub fn resolve(&self, part: PartNames<'_>) -> Look<'_> {
+        self.rule
+            .iter()
+            .filter(|rule| rule.applies_to(part))
+            .fold(Look::plain(self), Look::with)
+    }
+
+    /// The same for a part that belongs to no region of an id map.
+    pub fn resolve_for(&self, material: &str, object: &str) -> Look<'_> {
+        let ids = &[];
+        self.resolve(PartNames {
+            material,
+            object,
+            ids,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Match, RuleLine};
+
+    fn rule(material: &str, object: &str, line: RuleLine) -> Rule {
+        let matching = Match {
+            material: material.to_owned(),
+            object: object.to_owned(),
+            ..Match::default()
+        };
+        Rule {
+            matching,
+            line,
+            ..Rule::default()
+        }
+    }
+
+    #[test]
+    fn later_rules_win_and_leave_the_rest() {
+        let red = RuleLine {
+            color: Some(Color::rgb(255, 0, 0)),
+            width_factor: Some(2.0),
+            ..RuleLine::default()
+        };
+        let thin = RuleLine {
+            width_factor: Some(0.5),
+            ..RuleLine::default()
+        };
+        let style = Style {
+            rule: vec![rule("Skin*", "*", red), rule("*", "Head", thin)],
+            ..Style::default()
+        };
+
+        let face = style.resolve_for("Skin_face", "Head");
+        assert_eq!(
+            (face.line_color, face.width_factor),
+            (Color::rgb(255, 0, 0), 0.5)
+        );
+        assert_eq!(style.resolve_for("Skin_arm", "Arm").width_factor, 2.0);
+        assert_eq!(style.resolve_for("Cloth", "Arm"), Look::plain(&style));
+    }
+}
