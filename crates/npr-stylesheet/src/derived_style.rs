@@ -1,9 +1,7 @@
-//! Looks made of a look: without its lines, with nothing but what moves, and the one that it is blended with.
+//! Looks made of a look: without its lines, and the one that it is blended with.
 
-use crate::motion::color_of_trail;
 use crate::{
-    Background, BeamStop, Blend, Color, Highlight, Ink, LineBackground, LineMethod, Rule,
-    RuleBackground, RuleBeam, RuleShade, ShadeMode, Stop, Style, StyleError,
+    Blend, LineBackground, LineMethod, Rule, RuleBackground, RuleShade, Style, StyleError,
 };
 
 impl Style {
@@ -21,56 +19,6 @@ impl Style {
             rule.line.background = RuleBackground::default();
             rule.motion.trail = None;
         }
-        style
-    }
-
-    /// A look in which nothing but what moves is seen: [`trail_of`](crate::motion::trail_of) reads it.
-    pub fn of_motion(&self) -> Self {
-        let trails = self.trails();
-        let clear = BeamStop {
-            at: 0.0,
-            color: Color::rgba(0, 0, 0, 0),
-        };
-        let still = Rule {
-            shade: RuleShade {
-                color: Some(Color::rgb(0, 0, 0)),
-                ..RuleShade::default()
-            },
-            ..Rule::default()
-        };
-        let own = |rule: &Rule| {
-            let code = rule
-                .motion
-                .trail
-                .map(|trail| color_of_trail(trails.iter().position(|other| *other == trail)));
-            Rule {
-                matching: rule.matching.clone(),
-                shade: RuleShade {
-                    color: code,
-                    ..RuleShade::default()
-                },
-                beam: rule.beam.as_ref().map(|_| RuleBeam {
-                    ramp: Some(vec![clear.clone()]),
-                    ..RuleBeam::default()
-                }),
-                ..Rule::default()
-            }
-        };
-        let mut style = Self {
-            background: Background::Color(Color::rgb(0, 0, 0)),
-            ink: Ink::default(),
-            highlight: Highlight::default(),
-            rule: std::iter::once(still)
-                .chain(self.rule.iter().map(own))
-                .collect(),
-            ..Self::default()
-        };
-        style.shade.mode = ShadeMode::Flat;
-        style.shade.use_textures = false;
-        style.shade.use_vertex_colors = false;
-        style.shade.ramp = vec![Stop::plain(0.0, 1.0)];
-        style.line.method = LineMethod::Off;
-        style.antialias.samples = 1;
         style
     }
 

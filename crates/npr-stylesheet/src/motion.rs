@@ -10,11 +10,8 @@ use serde::{Deserialize, Serialize};
 use crate::{Color, Length};
 use npr_core::random::{hash, unit};
 
-/// Most different trails in a style.
+/// Most different trails in a style: each is a walk over the whole picture.
 pub const TRAILS_MAX: usize = 16;
-
-/// Step between the reds that stand for trails in a picture of what moves.
-const CODE_STEP: u8 = 15;
 
 /// How speed lines are drawn.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -74,17 +71,6 @@ impl Motion {
     }
 }
 
-/// The colour that stands for a trail in a picture of what moves; black for none.
-pub(crate) fn color_of_trail(index: Option<usize>) -> Color {
-    let red = index.map_or(0, |i| (i as u8 + 1) * CODE_STEP);
-    Color::rgb(red, 0, 0)
-}
-
-/// Which of the trails the part has that a pixel of [`Style::of_motion`](crate::Style::of_motion) shows; none where it stands still.
-pub fn trail_of([red, ..]: [u8; 4]) -> Option<usize> {
-    usize::from((red + CODE_STEP / 2) / CODE_STEP).checked_sub(1)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -112,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn what_moves_is_told_by_its_color() {
+    fn a_part_has_the_trail_of_its_last_rule() {
         let rule = |object: &str, trail: &str| {
             format!("[[rule]]\nmatch.object = '{object}'\nmotion.trail = {trail}\n")
         };
@@ -122,12 +108,10 @@ mod tests {
             + &rule("A", "[0, 0, 0]");
         let style = read(&text).unwrap();
         assert_eq!(style.trails(), [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0]]);
-        let seen = style.of_motion();
-        let of = |object| {
-            let color = seen.resolve_for("", object).shade_color.unwrap();
-            trail_of([color.r, color.g, color.b, 255])
-        };
-        assert_eq!(["A", "B", "C", "D"].map(of), [None, Some(1), Some(0), None]);
+        let of = |object| style.resolve_for("", object).trail;
+        let still = Some([0.0; 3]);
+        let wanted = [still, Some([0.0, 2.0, 0.0]), Some([1.0, 0.0, 0.0]), None];
+        assert_eq!(["A", "B", "C", "D"].map(of), wanted);
     }
 
     #[test]
