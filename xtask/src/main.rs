@@ -4,6 +4,7 @@
 
 mod assets;
 mod ci;
+mod circles;
 mod constants;
 mod coverage;
 mod decoders;
@@ -33,6 +34,7 @@ usage: cargo xtask COMMAND
   ci                run what must pass before a change is handed in
   assets [--check]  write the sample models, or only compare them
   floors            check that imports go down and stay light
+  circles           check that modules import each other in one direction
   constants         check that constants of shaders are those of Rust
   coverage          check docs/coverage.toml and print counts
   devices           check that tests come by devices in one way
@@ -76,6 +78,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["assets"] => assets::write(&root.join("assets")),
         ["assets", "--check"] => assets::check(&root.join("assets")),
         ["floors"] => floors::check(root),
+        ["circles"] => circles::check(root),
         ["constants"] => constants::check(root),
         ["coverage"] => coverage::check(root),
         ["devices"] => harness::check_devices(root),
