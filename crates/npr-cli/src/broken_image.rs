@@ -131,7 +131,8 @@ mod tests {
         let reported = |text: &str| plain(text).unwrap_or_default();
         assert_eq!(
             reported(
-                "CRC error: expected 0x28 have 0xc4 while decoding ChunkType { type: IHDR, critical: true, private: false } chunk"
+                "CRC error: expected 0x28 have 0xc4 while decoding \
+                 ChunkType { type: IHDR, critical: true, private: false } chunk"
             ),
             "CRC error: expected 0x28 have 0xc4 while decoding IHDR chunk"
         );

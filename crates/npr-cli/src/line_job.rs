@@ -148,12 +148,15 @@ impl LineFormat {
 
 /// The format asked for, or else that of the name; svg on standard output.
 fn format_of(asked: Option<LineFormat>, path: &Path) -> Result<LineFormat, Fault> {
+    // Take the format asked for; standard output has no name to tell one.
     if let Some(format) = asked {
         return Ok(format);
     }
     if path.as_os_str() == "-" {
         return Ok(LineFormat::Svg);
     }
+
+    // Take the format of the name's ending.
     let formats = [
         LineFormat::Svg,
         LineFormat::Json,

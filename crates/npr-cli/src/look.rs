@@ -59,6 +59,7 @@ impl Look {
     /// Later wins: preset or file, `--set` in order, `--background`. Reads the style file with its parents,
     /// but no pictures and fonts.
     pub fn resolve(args: &LookArguments, external: Option<&Path>) -> Result<Self, Fault> {
+        // Read the style, and lay what the user set over it.
         let source = StyleSource::of(args.style.as_deref());
         let mut stated = source.load(external)?;
         let written = stated.style().clone();
@@ -69,6 +70,8 @@ impl Look {
         if let Some(background) = &args.background {
             style.background = background.clone();
         }
+
+        // Find the files that it names: beside the style file, or where the user stands.
         let file = |now: Option<&str>, before: Option<&str>| {
             now.map(|name| PictureFile::of(name, source.file().filter(|_| now == before)))
         };

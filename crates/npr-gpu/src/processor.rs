@@ -62,6 +62,7 @@ impl Session for ProcessorSession {
 
 /// Runs one twin on memory that is lent out for the time.
 fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
+    // Lend out the memory that the pass writes.
     let start = Instant::now();
     let written: Vec<ResourceId> = writes(node).collect();
     let work_count = work_count(graph, node, memory);
@@ -69,10 +70,14 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
         .iter()
         .map(|id| std::mem::take(&mut memory[id.index()]))
         .collect();
+
+    // Clear the targets, unless every pixel is written anyway.
     let fills = matches!(node.pass.work, Work::Draw { fills: true, .. });
     if node.clears && !(fills && work_count > 0) {
         clear_targets(node, &written, &mut lent);
     }
+
+    // Bind the slots and run the twin.
     if work_count > 0 {
         let mut free = lent.iter_mut();
         let bound = node.bound.iter().enumerate().map(|(i, id)| {
@@ -100,6 +105,8 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
             bound: bound.collect(),
         });
     }
+
+    // Take the memory back.
     for (id, words) in written.iter().zip(lent) {
         memory[id.index()] = words;
     }

@@ -41,6 +41,7 @@ impl Part {
         mut segments: Vec<[u32; 2]>,
         places: &mut [u32],
     ) -> Self {
+        // Find the vertices that are used, and number them anew.
         let used = triangles.iter().flatten().chain(segments.iter().flatten());
         let mut kept: Vec<u32> = used.copied().collect();
         kept.sort_unstable();
@@ -52,6 +53,8 @@ impl Part {
         for corner in triangles.iter_mut().flatten().chain(ends) {
             *corner = places[*corner as usize];
         }
+
+        // Take over what is known of these vertices.
         let morph = |morph: &Morph| Morph {
             applied_weight: morph.applied_weight,
             positions: gathered(&morph.positions, &kept),

@@ -22,10 +22,13 @@ pub(crate) fn utf8<'a>(
     bytes: &'a [u8],
     loading: &mut Loading,
 ) -> Result<Cow<'a, [u8]>, LimitError> {
+    // Hand on text that is in ASCII or UTF-8.
     let Some(unit) = unit_of(bytes) else {
         let mark = b"\xef\xbb\xbf";
         return Ok(Cow::Borrowed(bytes.strip_prefix(mark).unwrap_or(bytes)));
     };
+
+    // Rewrite text in UTF-16, and say so.
     let (pairs, _) = bytes.as_chunks::<2>();
     loading
         .allowance
