@@ -44,7 +44,7 @@ fn draw<T>(
     drawn.map_err(Fault::from)
 }
 
-/// The same as a step of the run, with what there is to say once the step is over.
+/// Draws as [`draw`] does, as a step of the run; warnings follow when the step is over.
 pub fn draw_as_step<T>(
     backend: Backend,
     picture: Picture<'_, T>,

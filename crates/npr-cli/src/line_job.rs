@@ -44,7 +44,7 @@ pub struct LineJob<'a> {
     pub artwork: ArtworkOptions,
     /// Words over the lines, set in their fonts.
     pub lettering: Lettering,
-    /// How the picture is drawn that lines are judged before, where the style lets them mind it.
+    /// How the background is drawn, where the style adapts lines to what lies behind them.
     pub backdrop: Option<RendererOptions>,
     /// Where what is costly to prepare is kept between runs.
     pub cache: Option<PathBuf>,

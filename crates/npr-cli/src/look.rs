@@ -194,8 +194,8 @@ impl Look {
 
     /// What is wrong with the width of lines against their mask, in a frame `height` pixels high.
     ///
-    /// Nothing is said of a mask as fine as the frame, since there is no finer one, nor of widths in world
-    /// units, which depend on the camera.
+    /// There is no warning for a mask as fine as the frame, since there is no finer one, nor for widths in world units,
+    /// which depend on the camera.
     pub fn width_warning(&self, height: u32) -> Option<WidthWarning> {
         let (line, scale) = (&self.style.line, self.style.detect.scale);
         let masked = matches!(line.method, LineMethod::Shape | LineMethod::Okuya);
@@ -249,7 +249,7 @@ fn font_files(style: &Style, written: &Style, style_file: Option<&Path>) -> Vec<
     fonts
 }
 
-/// The pictures of a style that `listed` lists; names that stand in the style file too are looked for beside it.
+/// The picture files that `listed` finds in a style. Names that the style file has itself are looked for beside it.
 fn picture_files(
     style: &Style,
     written: &Style,

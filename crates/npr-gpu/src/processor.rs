@@ -131,9 +131,9 @@ fn work_count(graph: &Graph, node: &Node, memory: &[Vec<u32>]) -> usize {
     usize::try_from(count).map_or(room, |count| room.min(count))
 }
 
-/// The words of a binding that a node's work reaches: twins go as far as the slices that they are given.
+/// How many words of a binding the node's work reaches: a twin works through the whole slices that it is given.
 ///
-/// The slot that is counted ends where the work does, and so does what is written in step with it.
+/// The slot that counts the work ends where the work does, and so do the slots written in step with it.
 fn words_for(graph: &Graph, node: &Node, binding: usize, work_count: usize) -> usize {
     let resource = graph.resource(node.bound[binding]);
     let counted = node.pass.counted_slot();

@@ -89,7 +89,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// A part every vertex of which tells its number in all that it holds.
+    /// A part in which every list of a vertex holds the vertex's number.
     fn part(count: u32, triangles: Vec<[u32; 3]>) -> Part {
         let numbers = || (0..count).map(|v| v as f32);
         let morph = Morph {
@@ -114,7 +114,7 @@ mod tests {
         }
     }
 
-    /// All that a vertex of such a part holds, if it is the same number throughout.
+    /// The number that a vertex of such a part holds, if all its lists agree.
     fn number_of(part: &Part, vertex: u32) -> Option<f32> {
         let v = vertex as usize;
         let number = part.positions[v][0];

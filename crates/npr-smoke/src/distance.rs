@@ -211,7 +211,7 @@ fn sweep_row(density: &[f32], threshold: f32, row: &mut [u16]) {
 /// chessboard].
 struct Sweep {
     near: Vec<u16>,
-    /// Whose curve is lowest from a place on, and from which place.
+    /// Voxels whose curve is lowest somewhere, each with the place from which on it is.
     lowest: Vec<(i32, i32)>,
 }
 

@@ -279,7 +279,7 @@ impl Layout {
         }
     }
 
-    /// Those of the values that `sparse` puts in the place of others.
+    /// The layout of the values that `sparse` puts in place of others.
     fn of_sparse_values(&self, sparse: &Sparse) -> Self {
         Self {
             offset: sparse.values.byte_offset.0,

@@ -66,7 +66,7 @@ struct Highest {
 }
 
 impl Highest {
-    /// Those of `mesh`; none where a part follows no joints.
+    /// The highest joints of `mesh`; none where a part follows no joints.
     fn of(mesh: &Mesh) -> Option<Self> {
         let mut highest = Self::default();
         for part in &mesh.parts {

@@ -17,8 +17,8 @@ use super::accessor::{Accessors, type_width};
 use super::error::Item;
 use crate::loading::Loading;
 
-/// Notes every part of a file that is broken and was not needed. What was needed has been read and is sound, or was
-/// told of.
+/// Notes every broken part of a file that was not needed. What was needed has been read by now: it is sound or has a
+/// notice of its own.
 pub(crate) fn note(accessors: &Accessors, loading: &mut Loading) {
     // Note lists that could not be read.
     let root = accessors.root;
@@ -60,7 +60,7 @@ fn note_fault(fault: Option<impl ToString>, loading: &mut Loading) {
     }
 }
 
-/// Notes a lowest or highest value that is none. Bounds are taken from the elements themselves.
+/// Notes a lowest or highest value that is no number. Bounds are taken from the elements themselves.
 fn note_bounds(item: Item, accessor: &Accessor, loading: &mut Loading) {
     let width = type_width(accessor);
     for (name, bound) in [("min", &accessor.min), ("max", &accessor.max)] {

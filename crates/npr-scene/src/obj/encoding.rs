@@ -15,7 +15,7 @@ use crate::loading::Loading;
 /// Most bytes of UTF-8 that a unit of UTF-16 becomes.
 const UTF8_BYTES_PER_UNIT: usize = 3;
 
-/// The text without a byte order mark; one in UTF-16 is rewritten, and told of.
+/// The text without a byte order mark. Text in UTF-16 is rewritten in UTF-8, with a notice.
 ///
 /// Other encodings stay as they are: statements are ASCII in all of them, and only names may suffer.
 pub(crate) fn utf8<'a>(
