@@ -44,7 +44,7 @@ fn draw<T>(
     drawn.map_err(Fault::from)
 }
 
-/// Draws as [`draw`] does, as a step of the run; warnings follow when the step is over.
+/// Draws a picture as a step of the run, on the engine that `backend` asks for; warnings follow when the step is over.
 pub fn draw_as_step<T>(
     backend: Backend,
     picture: Picture<'_, T>,
