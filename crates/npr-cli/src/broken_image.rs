@@ -12,7 +12,7 @@ const CHUNK: &str = "ChunkType { type: ";
 /// Length of the longest word in mixed case that may be a name in a file, such as WebP or tRNS.
 const NAME_LENGTH: usize = 6;
 
-/// Why a file of a format was not decoded, where decoding may take so many bytes.
+/// The fault of an image file that a decoder refused; decoding may take `most_bytes`.
 pub fn broken(error: &ImageError, format: Option<ImageFormat>, most_bytes: u64) -> Fault {
     let name = format.map_or("image", name_of);
     let damage = |text: String| match plain(&text) {
@@ -131,7 +131,8 @@ mod tests {
         let reported = |text: &str| plain(text).unwrap_or_default();
         assert_eq!(
             reported(
-                "CRC error: expected 0x28 have 0xc4 while decoding ChunkType { type: IHDR, critical: true, private: false } chunk"
+                "CRC error: expected 0x28 have 0xc4 while decoding \
+                 ChunkType { type: IHDR, critical: true, private: false } chunk"
             ),
             "CRC error: expected 0x28 have 0xc4 while decoding IHDR chunk"
         );

@@ -30,11 +30,14 @@ pub fn encode(
     sink: &mut dyn Write,
     fill: impl FnOnce(&mut dyn FnMut(&[u8]) -> io::Result<()>) -> io::Result<()>,
 ) -> io::Result<()> {
+    // Write the header: eight bits a channel, in sRGB.
     let mut encoder = Encoder::new(sink, size[0], size[1]);
     encoder.set_color(color);
     encoder.set_depth(BitDepth::Eight);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
     let mut writer = encoder.write_header()?;
+
+    // Write rows as they are handed over.
     let mut rows = writer.stream_writer()?;
     fill(&mut |rgba| {
         for row in rgba.chunks_exact(size[0] as usize * 4) {

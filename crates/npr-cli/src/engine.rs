@@ -44,7 +44,7 @@ fn draw<T>(
     drawn.map_err(Fault::from)
 }
 
-/// The same as a step of the run, with what there is to say once the step is over.
+/// Draws a picture as a step of the run, on the engine that `backend` asks for; warnings follow when the step is over.
 pub fn draw_as_step<T>(
     backend: Backend,
     picture: Picture<'_, T>,

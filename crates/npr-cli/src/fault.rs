@@ -71,7 +71,7 @@ impl From<SceneError> for Fault {
     }
 }
 
-/// Of a file that a style names.
+/// A file that a style names was not read.
 impl From<ResourceError> for Fault {
     fn from(error: ResourceError) -> Self {
         let exit = match error {

@@ -70,6 +70,7 @@ pub fn run(
     arguments: impl IntoIterator<Item = OsString>,
     before_devices: impl FnOnce(),
 ) -> ExitCode {
+    // Obey the command line, or say what is wrong with it.
     let done = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => {
             if arguments.command.may_open_device() {
@@ -84,6 +85,8 @@ pub fn run(
         Err(error) if !error.use_stderr() => output::print(error.render().to_string().as_bytes()),
         Err(error) => Err(Fault::new(Exit::Usage, message::of_usage(&error))),
     };
+
+    // Turn the outcome into an exit code.
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(fault) => {

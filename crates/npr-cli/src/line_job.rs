@@ -44,7 +44,7 @@ pub struct LineJob<'a> {
     pub artwork: ArtworkOptions,
     /// Words over the lines, set in their fonts.
     pub lettering: Lettering,
-    /// How the picture is drawn that lines are judged before, where the style lets them mind it.
+    /// How the background is drawn, where the style adapts lines to what lies behind them.
     pub backdrop: Option<RendererOptions>,
     /// Where what is costly to prepare is kept between runs.
     pub cache: Option<PathBuf>,
@@ -148,12 +148,15 @@ impl LineFormat {
 
 /// The format asked for, or else that of the name; svg on standard output.
 fn format_of(asked: Option<LineFormat>, path: &Path) -> Result<LineFormat, Fault> {
+    // Take the format asked for; standard output has no name to tell one.
     if let Some(format) = asked {
         return Ok(format);
     }
     if path.as_os_str() == "-" {
         return Ok(LineFormat::Svg);
     }
+
+    // Take the format of the name's ending.
     let formats = [
         LineFormat::Svg,
         LineFormat::Json,

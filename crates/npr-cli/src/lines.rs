@@ -85,7 +85,7 @@ fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, 
 /// A scene made ready.
 struct Prepared {
     lines: LineModel,
-    /// The scene as pictures show it, where lines mind what lies behind them.
+    /// The scene as pictures show it, where lines adapt to what lies behind them.
     behind: Option<Model>,
 }
 

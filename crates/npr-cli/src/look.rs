@@ -59,6 +59,7 @@ impl Look {
     /// Later wins: preset or file, `--set` in order, `--background`. Reads the style file with its parents,
     /// but no pictures and fonts.
     pub fn resolve(args: &LookArguments, external: Option<&Path>) -> Result<Self, Fault> {
+        // Read the style, and lay what the user set over it.
         let source = StyleSource::of(args.style.as_deref());
         let mut stated = source.load(external)?;
         let written = stated.style().clone();
@@ -69,6 +70,8 @@ impl Look {
         if let Some(background) = &args.background {
             style.background = background.clone();
         }
+
+        // Find the files that it names: beside the style file, or where the user stands.
         let file = |now: Option<&str>, before: Option<&str>| {
             now.map(|name| PictureFile::of(name, source.file().filter(|_| now == before)))
         };
@@ -191,8 +194,8 @@ impl Look {
 
     /// What is wrong with the width of lines against their mask, in a frame `height` pixels high.
     ///
-    /// Nothing is said of a mask as fine as the frame, since there is no finer one, nor of widths in world
-    /// units, which depend on the camera.
+    /// There is no warning for a mask as fine as the frame, since there is no finer one, nor for widths in world units,
+    /// which depend on the camera.
     pub fn width_warning(&self, height: u32) -> Option<WidthWarning> {
         let (line, scale) = (&self.style.line, self.style.detect.scale);
         let masked = matches!(line.method, LineMethod::Shape | LineMethod::Okuya);
@@ -246,7 +249,7 @@ fn font_files(style: &Style, written: &Style, style_file: Option<&Path>) -> Vec<
     fonts
 }
 
-/// The pictures of a style that `listed` lists; names that stand in the style file too are looked for beside it.
+/// The picture files that `listed` finds in a style. Names that the style file has itself are looked for beside it.
 fn picture_files(
     style: &Style,
     written: &Style,

@@ -87,11 +87,15 @@ pub fn of_usage(error: &clap::Error) -> String {
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
         return "no command is given; npr --help lists them".to_owned();
     }
+
+    // Keep the lines that say what is wrong.
     let text = error.render().to_string();
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     let of_interest = lines.take_while(|line| {
         !line.starts_with("Usage:") && !line.starts_with("For more information")
     });
+
+    // Join them into one.
     let mut joined = String::new();
     for line in of_interest {
         let between = match joined.chars().last() {

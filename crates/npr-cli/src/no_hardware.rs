@@ -11,7 +11,7 @@ pub fn open(_: DeviceChoice) -> Result<Box<dyn Engine>, EngineError> {
     })
 }
 
-/// None.
+/// This build knows no adapters.
 pub fn adapters() -> Vec<AdapterReport> {
     Vec::new()
 }

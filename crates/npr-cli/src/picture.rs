@@ -152,6 +152,7 @@ fn image(
     formats: &[ImageFormat],
     pixel_bytes: usize,
 ) -> Result<DynamicImage, Fault> {
+    // Tell the format, and refuse those that are not read here.
     let mut format = None;
     let decoded = guard(|| {
         let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
@@ -162,6 +163,8 @@ fn image(
                 "this is none of the image formats that are read",
             ));
         }
+
+        // Check the size before any pixel is decoded.
         let bounds = decoder_limits(limits);
         let most_bytes = bounds.max_alloc.unwrap_or(u64::MAX);
         let broken = |error: ImageError| broken(&error, format, most_bytes);
@@ -186,6 +189,7 @@ fn check_plan(size: (u32, u32), limits: &Limits, pixel_bytes: usize) -> Result<(
 }
 
 fn check_size((width, height): (u32, u32), limits: &Limits) -> Result<(), Fault> {
+    // Measure the picture by its side and by its bytes.
     let side = u64::from(width.max(height));
     let bytes = u64::from(width) * u64::from(height) * 4;
     let checks = [
@@ -202,6 +206,8 @@ fn check_size((width, height): (u32, u32), limits: &Limits) -> Result<(), Fault>
             "--max-image",
         ),
     ];
+
+    // Refuse it where a limit is exceeded, and name the option that lifts it.
     for (what, value, limit, option) in checks {
         if value > limit {
             let what = what.to_owned();

@@ -67,7 +67,7 @@ impl Progress {
 /// How far one step is, with an estimate of what is left.
 pub struct Counter {
     bar: Option<ProgressBar>,
-    /// When the first part was told of, and how many were done then.
+    /// When the first part was reported, and how many were done then.
     start: Cell<Option<(Instant, usize)>>,
 }
 

@@ -51,6 +51,7 @@ pub fn render(args: &RenderArguments) -> Result<(), Fault> {
 
 /// From the scene's file to the picture's.
 fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
+    // Load the scene and look at it.
     let (prepared, smoke) = prepare(job, progress)?;
     let empty = Smoke::default();
     let camera = prepared.camera(&job.args.drawing, smoke.as_ref().unwrap_or(&empty))?;
@@ -59,6 +60,8 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
         in_bands: true,
         ..job.options.clone()
     };
+
+    // Draw it, whole or band by band into its file.
     let drawn = draw_frame(job, &prepared, &options, &camera, progress)?;
     let (frame, is_written) = match drawn.picture {
         Picture::Whole(frame) => (frame, false),
@@ -67,6 +70,8 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     progress.suspend(|| {
         message::warn_all(job.args.drawing.quiet, &frame.notices);
     });
+
+    // Write a whole picture.
     if !is_written {
         let keep_alpha = job.look.is_transparent();
         let bytes = progress.step("encode", || {
@@ -125,7 +130,10 @@ pub fn prepared(
     cache: Option<&Path>,
     progress: &mut Progress,
 ) -> Result<Prepared, Fault> {
+    // Make surfaces ready.
     let model = progress.step("prepare", || Model::cached(scene, cache))?;
+
+    // Make lines as curves ready, where the style has any.
     let lines = style.has_curves().then(|| {
         let options = LineModelOptions {
             memory_limit: limits.memory_bytes,
@@ -143,6 +151,7 @@ pub fn prepared(
 
 /// Loads the scene and the smoke in it, and makes them ready; says what is ignored.
 fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<Smoke>), Fault> {
+    // Load the scene, and refuse to draw over its files.
     let (limits, external) = (
         job.args.drawing.limits.limits(),
         job.args.drawing.allow_external.as_deref(),
@@ -151,6 +160,8 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<S
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
     job.output.refuse_any_of(&inputs)?;
+
+    // Add the smoke in it.
     let order = Order {
         args: &job.args.drawing.volumes,
         style: &job.look.style.smoke,
@@ -159,10 +170,14 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<S
     let of_volumes = idle::of_volumes(&order, loaded.volume.as_ref());
     let (smoke, reported) = volume::step(progress, &order, loaded.volume)?;
     job.output.refuse_any_of(&reported.inputs)?;
+
+    // Make all of it ready in the style.
     job.look
         .apply_id_maps(&mut loaded.scene, &limits, external)?;
     let (style, cache) = (&job.look.style, job.cache.as_deref());
     let prepared = prepared(&loaded.scene, style, &limits, cache, progress)?;
+
+    // Say what was mended, and what of the style and the options cannot act.
     let facts = facts_of(&loaded.scene, smoke.is_some());
     progress.suspend(|| {
         warn_of(job, &prepared.model, reported.notices.iter());
@@ -193,6 +208,7 @@ fn draw_frame(
     camera: &Camera,
     progress: &mut Progress,
 ) -> Result<Drawn<Picture>, Fault> {
+    // Draw band by band into the file where nothing goes over the whole frame.
     let counter = progress.counter();
     let tell = |done, of| counter.tell(DRAW, done, of);
     let picture = |engine: &dyn Engine| {
@@ -205,6 +221,8 @@ fn draw_frame(
         let written = draw_into(&job.output, &mut renderer, camera, options.size, keep_alpha)?;
         Ok(Picture::InBands(written))
     };
+
+    // Draw on the engine asked for.
     engine::draw_as_step(
         job.args.drawing.backend,
         &picture,

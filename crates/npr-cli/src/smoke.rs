@@ -74,6 +74,7 @@ impl<'a> Job<'a> {
         args: &'a SmokeArguments,
         look: &crate::arguments::LookArguments,
     ) -> Result<Self, Fault> {
+        // Find what smokes, and which moments of it are drawn.
         let source = Source::of(args.source.as_deref().unwrap_or(Path::new("-")));
         let shots = Shots {
             frames: args.frames.map(|frames| (frames.first, frames.last)),
@@ -82,6 +83,8 @@ impl<'a> Job<'a> {
             grid: args.grid.map(|grid| grid.0),
         };
         check_grid(&source, &shots)?;
+
+        // Find where pictures go, and how they look.
         let target = Target::of(&output_path(args, &source)?)?;
         let external = args.drawing.allow_external.as_deref();
         let look = Look::resolve(look, external)?.with_smoke(&args.drawing.volumes);

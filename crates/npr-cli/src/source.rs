@@ -74,6 +74,7 @@ fn load_standard(limits: &Limits, external: Option<&Path>) -> Result<Loaded, Fau
 }
 
 fn load_file(path: &Path, limits: &Limits, external: Option<&Path>) -> Result<Loaded, Fault> {
+    // Hand a volume on as it is, beside an empty scene.
     let bytes = read_file(path, limits.file_bytes)?;
     if has_volume_name(path) || is_volume(&bytes) {
         return Ok(Loaded {
@@ -81,6 +82,8 @@ fn load_file(path: &Path, limits: &Limits, external: Option<&Path>) -> Result<Lo
             ..Loaded::of_volume(quoted(path), bytes)
         });
     }
+
+    // Load the scene, noting every file that it refers to.
     let resources = Recorder::new(folder_of(path), external)?;
     let format = Format::of_path(path).or_else(|| Format::of_content(&bytes));
     let name = path.file_name().unwrap_or_default().to_string_lossy();

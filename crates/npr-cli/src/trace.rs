@@ -89,6 +89,7 @@ fn load(
     limits: &Limits,
     progress: &mut Progress,
 ) -> Result<Traced, Fault> {
+    // Read packed rows as they are, where the format has them.
     let name = match &job.source {
         Source::Standard => "standard input".to_owned(),
         Source::File(path) => quoted(path),
@@ -103,6 +104,8 @@ fn load(
     if let Some(bitmap) = rows {
         return Ok(Traced::ink(bitmap, args));
     }
+
+    // Read and decode anything else.
     let bytes = progress.step("load", || match &job.source {
         Source::Standard => read_standard(limits.file_bytes),
         Source::File(path) => read_file(path, limits.file_bytes),
@@ -140,6 +143,7 @@ fn found(bitmap: &Bitmap, args: &TraceArguments, form: TracedForm) -> Result<Vec
 
 /// What is to be done, one job a bitmap.
 fn resolve(args: &TraceArguments) -> Result<Vec<TraceJob>, Fault> {
+    // Refuse to read standard input twice.
     let sources: Vec<Source> = args.bitmaps.iter().map(|path| Source::of(path)).collect();
     if sources
         .iter()
@@ -154,6 +158,7 @@ fn resolve(args: &TraceArguments) -> Result<Vec<TraceJob>, Fault> {
     let mut taken = BTreeSet::new();
     let mut jobs = Vec::new();
     for source in sources {
+        // Refuse meshes of what has no inside or several colours.
         let path = path_for(args, &source)?;
         let format = format_of(args.format, &path)?;
         if args.form.centreline && matches!(format.form(), TracedForm::Mesh(_)) {
@@ -163,6 +168,8 @@ fn resolve(args: &TraceArguments) -> Result<Vec<TraceJob>, Fault> {
         if args.form.colors.is_some() && matches!(format.form(), TracedForm::Mesh(_)) {
             return Err(colors_are_no_mesh());
         }
+
+        // Refuse to write over an input, or twice to one file.
         let output = Output::of(&path)?;
         output.refuse_any_of(&inputs)?;
         if !taken.insert(path.clone()) {
@@ -179,12 +186,14 @@ fn resolve(args: &TraceArguments) -> Result<Vec<TraceJob>, Fault> {
 }
 
 fn colors_are_no_mesh() -> Fault {
-    let message = "layers in colour are written to .svg, .pdf, .json or .geojson: triangles in .obj and .glb have no colours";
+    let message = "layers in colour are written to .svg, .pdf, .json or .geojson: \
+                   triangles in .obj and .glb have no colours";
     Fault::new(Exit::Usage, message)
 }
 
 /// Where the tracing of one bitmap goes.
 fn path_for(args: &TraceArguments, source: &Source) -> Result<PathBuf, Fault> {
+    // Write several bitmaps into a folder.
     let asked = args.output.as_deref();
     let folder = match asked {
         Some(path) if path.is_dir() => Some(path),
@@ -197,6 +206,8 @@ fn path_for(args: &TraceArguments, source: &Source) -> Result<PathBuf, Fault> {
         }
         _ => None,
     };
+
+    // Name the file after its bitmap, unless the user names it.
     let ending = TracedFormat::ENDINGS
         .into_iter()
         .find(|(format, _)| Some(*format) == args.format)

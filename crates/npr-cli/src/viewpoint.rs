@@ -102,6 +102,7 @@ fn placed_camera(
     framing: Camera,
     middle: [f32; 3],
 ) -> Result<Camera, Fault> {
+    // Put what the user said in place of the framing view.
     let target = if args.eye.is_some() {
         middle
     } else {
@@ -113,6 +114,8 @@ fn placed_camera(
         up: args.up.map_or(framing.up, |up| up.0),
         projection: framing.projection,
     };
+
+    // Refuse to look from a point at itself.
     if camera.eye == camera.target {
         let [x, y, z] = camera.eye;
         let message = format!("eye and target are the same point {x},{y},{z}");

@@ -61,7 +61,7 @@ impl Film {
     }
 }
 
-/// The smoke of a still picture as a step of the work, which is not told of where there is none; see [`still`].
+/// The smoke of a still picture, made as a step of the work; without smoke no step is shown. See [`still`].
 pub fn step(
     progress: &mut Progress,
     order: &Order<'_>,

@@ -213,6 +213,7 @@ impl Graph {
     }
 
     fn push(&mut self, node: Node) {
+        // Check that every slot is bound.
         let (pass, slots) = (node.pass, node.pass.slots);
         let targets = pass.targets();
         assert_eq!(
@@ -221,6 +222,8 @@ impl Graph {
             "pass {} binds another number",
             pass.name
         );
+
+        // Check that every slot binds a resource of its own kind.
         for (slot, id) in slots.iter().zip(&node.bound) {
             let fits = match (self.resource(*id).kind, slot.access) {
                 (Kind::Uniform { size }, Access::Uniform) => size == slot.element.size,
@@ -238,6 +241,8 @@ impl Graph {
                 self.resource(*id).name
             );
         }
+
+        // Check that the pass can draw into its targets.
         for (format, id) in targets.iter().zip(&node.bound[slots.len()..]) {
             let fits = matches!(self.resource(*id).kind, Kind::Image { format: have, .. } if have == *format);
             assert!(
@@ -247,6 +252,8 @@ impl Graph {
                 self.resource(*id).name
             );
         }
+
+        // Check that its size is there, and that it does not write it.
         if let Some(WorkSize { arguments, index }) = node.size {
             let fits = matches!(self.resource(arguments).kind, Kind::Buffer { stride, count }
                 if stride == size_of::<Arguments>() && index < count);
@@ -257,6 +264,8 @@ impl Graph {
                 self.resource(arguments).name
             );
         }
+
+        // Check that nothing is both written and used otherwise.
         for id in writes(&node) {
             let uses = node.bound.iter().filter(|other| **other == id).count();
             assert_eq!(

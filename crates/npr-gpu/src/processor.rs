@@ -62,6 +62,7 @@ impl Session for ProcessorSession {
 
 /// Runs one twin on memory that is lent out for the time.
 fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
+    // Lend out the memory that the pass writes.
     let start = Instant::now();
     let written: Vec<ResourceId> = writes(node).collect();
     let work_count = work_count(graph, node, memory);
@@ -69,10 +70,14 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
         .iter()
         .map(|id| std::mem::take(&mut memory[id.index()]))
         .collect();
+
+    // Clear the targets, unless every pixel is written anyway.
     let fills = matches!(node.pass.work, Work::Draw { fills: true, .. });
     if node.clears && !(fills && work_count > 0) {
         clear_targets(node, &written, &mut lent);
     }
+
+    // Bind the slots and run the twin.
     if work_count > 0 {
         let mut free = lent.iter_mut();
         let bound = node.bound.iter().enumerate().map(|(i, id)| {
@@ -100,6 +105,8 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
             bound: bound.collect(),
         });
     }
+
+    // Take the memory back.
     for (id, words) in written.iter().zip(lent) {
         memory[id.index()] = words;
     }
@@ -124,9 +131,9 @@ fn work_count(graph: &Graph, node: &Node, memory: &[Vec<u32>]) -> usize {
     usize::try_from(count).map_or(room, |count| room.min(count))
 }
 
-/// The words of a binding that a node's work reaches: twins go as far as the slices that they are given.
+/// How many words of a binding the node's work reaches: a twin works through the whole slices that it is given.
 ///
-/// The slot that is counted ends where the work does, and so does what is written in step with it.
+/// The slot that counts the work ends where the work does, and so do the slots written in step with it.
 fn words_for(graph: &Graph, node: &Node, binding: usize, work_count: usize) -> usize {
     let resource = graph.resource(node.bound[binding]);
     let counted = node.pass.counted_slot();

@@ -134,6 +134,7 @@ impl Allowance {
 
     /// Plans the decoded bytes of an image of `width` x `height` pixels.
     pub(crate) fn take_image(&mut self, width: u32, height: u32) -> Result<(), LimitError> {
+        // Refuse an image that is too large by itself.
         let side = u64::from(width.max(height));
         check(
             "image side in pixels",
@@ -150,6 +151,8 @@ impl Allowance {
             self.limits.image_bytes,
             "--max-image",
         )?;
+
+        // Refuse one that makes all images together too large.
         self.image_bytes = self.image_bytes.saturating_add(bytes);
         check(
             "size of all images in bytes",

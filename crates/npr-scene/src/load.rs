@@ -62,6 +62,7 @@ pub fn load_bytes(
     resources: &dyn Resources,
     limits: &Limits,
 ) -> Result<Scene, SceneError> {
+    // Refuse a file that is too large, or of no known format.
     limits::check(
         "size of a file in bytes",
         bytes.len() as u64,
@@ -71,6 +72,8 @@ pub fn load_bytes(
     let format = format
         .or_else(|| Format::of_content(bytes))
         .ok_or(SceneError::UnknownFormat)?;
+
+    // Read the scene in its own format.
     let mut loading = Loading {
         resources,
         allowance: Allowance::new(*limits),
@@ -83,6 +86,8 @@ pub fn load_bytes(
         Format::Stl => stl::read(bytes, &mut loading)?,
         Format::Ply => ply::read(bytes, &mut loading)?,
     };
+
+    // Mend what numbers may break, and say what the file is.
     soundness::mend(&mut scene, &mut loading.notices)?;
     if scene.name.is_empty() {
         name.clone_into(&mut scene.name);

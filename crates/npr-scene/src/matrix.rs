@@ -42,6 +42,7 @@ pub(crate) fn transform_point(m: &Matrix, [x, y, z]: [f32; 3]) -> [f32; 3] {
 ///
 /// The quaternion is made unit length first; one of no or infinite length turns nothing.
 pub(crate) fn from_parts(translation: [f32; 3], rotation: [f32; 4], scale: [f32; 3]) -> Matrix {
+    // Turn the quaternion into three axes, each scaled.
     let [x, y, z, w] = unit_quaternion(rotation);
     let [sx, sy, sz] = scale;
     let [tx, ty, tz] = translation;

@@ -74,6 +74,7 @@ impl Part {
     /// When a list has another length than `positions`, an index is out of range, or a number that
     /// reaches a picture is not finite.
     pub fn sanity_check(&self) {
+        // Check triangles and lines.
         let count = self.positions.len();
         let corners = self.triangles.iter().flatten();
         let ends = self.segments.iter().flatten();
@@ -88,6 +89,8 @@ impl Part {
                 .all(|v| v.abs() <= POSITION_LIMIT),
             "sound position"
         );
+
+        // Check that lists have a sound entry for each vertex.
         check_list(&self.normals, count);
         check_list(&self.uvs, count);
         check_list(&self.colors, count);

@@ -73,6 +73,7 @@ impl Reader {
         text: &[u8],
         loading: &mut Loading,
     ) -> Result<(), SceneError> {
+        // Cut off a comment and split the keyword from the rest.
         let text = text
             .split(|&byte| byte == b'#')
             .next()
@@ -81,6 +82,8 @@ impl Reader {
         let (word, rest) = text
             .split_at_checked(keyword_length(text))
             .unwrap_or_default();
+
+        // Obey the statement, and say what of it is not drawn.
         match word {
             b"v" => self.vertex(line, rest)?,
             b"vn" => self.tables.normals.push(numbers(line, "a normal", rest)?),

@@ -26,6 +26,7 @@ use header::{Element, Header, Kind};
 
 /// Reads a PLY file.
 pub(crate) fn read(bytes: &[u8], loading: &mut Loading) -> Result<Scene, SceneError> {
+    // Read vertices, faces and edges in the order of the header.
     let (header, rest) = Header::parse(bytes)?;
     let mut body = Body::new(header.encoding, rest);
     let mut part = Part {
@@ -42,6 +43,8 @@ pub(crate) fn read(bytes: &[u8], loading: &mut Loading) -> Result<Scene, SceneEr
             _ => body.rows(element, |_| {})?,
         }
     }
+
+    // Say what is not drawn.
     if header
         .elements
         .iter()
@@ -51,6 +54,8 @@ pub(crate) fn read(bytes: &[u8], loading: &mut Loading) -> Result<Scene, SceneEr
             .notices
             .add("triangle strips of PLY files are not drawn");
     }
+
+    // Cut faces into triangles and join edges, within the limits.
     loading.allowance.take_triangles(faces.triangle_count())?;
     part.triangles = faces.triangles(part.positions.len())?;
     loading.allowance.take_segments(edges.len())?;
@@ -59,6 +64,7 @@ pub(crate) fn read(bytes: &[u8], loading: &mut Loading) -> Result<Scene, SceneEr
 }
 
 fn scene(part: Part, loading: &mut Loading) -> Scene {
+    // Draw nothing where there are only points.
     if part.triangles.is_empty() && part.segments.is_empty() {
         if !part.positions.is_empty() {
             loading
@@ -67,6 +73,8 @@ fn scene(part: Part, loading: &mut Loading) -> Scene {
         }
         return Scene::default();
     }
+
+    // Show both sides of every face.
     let material = Material {
         double_sided: true,
         ..Material::default()
@@ -123,6 +131,7 @@ const UV_NAMES: [[&str; 2]; 4] = [
 ];
 
 fn read_vertices(element: &Element, body: &mut Body, part: &mut Part) -> Result<(), PlyError> {
+    // Find which columns hold what is drawn.
     let positions = Columns::find(element, ["x", "y", "z"]).ok_or(PlyError::NoPositions)?;
     let normals = Columns::find(element, ["nx", "ny", "nz"]);
     let uvs = UV_NAMES
@@ -130,9 +139,13 @@ fn read_vertices(element: &Element, body: &mut Body, part: &mut Part) -> Result<
         .find_map(|&names| Columns::find(element, names));
     let colors = Columns::find(element, ["red", "green", "blue"]);
     let alphas = Columns::find(element, ["alpha"]);
+
+    // Open a list for each that is there.
     part.normals = normals.is_some().then(Vec::new);
     part.uvs = uvs.is_some().then(Vec::new);
     part.colors = colors.is_some().then(Vec::new);
+
+    // Fill the lists vertex by vertex.
     body.rows(element, |row| {
         part.positions.push(positions.values(row.singles));
         push(&mut part.normals, &normals, |columns| {

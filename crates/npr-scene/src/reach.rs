@@ -11,12 +11,15 @@ use crate::skin::Skin;
 ///
 /// Judged by bounds on meshes and matrices rather than by vertices: O(nodes + vertices as stored).
 pub(crate) fn bound(scene: &mut Scene, notices: &mut Notices) {
+    // Measure how far meshes reach, and how far skins may carry them.
     let meshes: Vec<f32> = scene.meshes.iter().map(mesh_reach).collect();
     let skins: Vec<f32> = scene
         .skins
         .iter()
         .map(|skin| skin_gain(scene, skin))
         .collect();
+
+    // Draw nothing at a node that may carry its mesh out of range.
     for node in &mut scene.nodes {
         let Some(reach) = node.mesh.map(|mesh| meshes[mesh as usize]) else {
             continue;

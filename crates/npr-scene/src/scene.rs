@@ -108,6 +108,7 @@ impl Scene {
     ///
     /// When a promise is broken, naming it. Tests and fuzz targets call it on every scene they load.
     pub fn sanity_check(&self) {
+        // Check nodes, and where their meshes stand.
         for (index, node) in self.nodes.iter().enumerate() {
             self.check_node(index, node);
         }
@@ -118,6 +119,8 @@ impl Scene {
                 "sound world position"
             );
         }
+
+        // Check parts and materials.
         for part in self.parts() {
             part.sanity_check();
             assert_in(part.material, self.materials.len(), "material");
@@ -129,6 +132,8 @@ impl Scene {
                 .map(|texture| texture.image);
             assert_in(image, self.images.len(), "image");
         }
+
+        // Check skins.
         for skin in &self.skins {
             assert_eq!(
                 skin.joints.len(),
@@ -142,11 +147,14 @@ impl Scene {
     }
 
     fn check_node(&self, index: usize, node: &Node) {
+        // Check what the node refers to.
         assert_in(node.parent, index, "parent before child");
         assert_in(node.mesh, self.meshes.len(), "mesh");
         assert_in(node.skin, self.skins.len(), "skin");
         assert_in(node.camera, self.cameras.len(), "camera");
         assert_in(node.light, self.lights.len(), "light");
+
+        // Check that children agree with their parent.
         for &child in &node.children {
             let child = &self.nodes[child as usize];
             assert_eq!(
@@ -155,6 +163,8 @@ impl Scene {
                 "children name their parent"
             );
         }
+
+        // Check that the node stands in range, and that its mesh follows joints of its skin.
         assert!(
             node.world_from_node.iter().flatten().all(|v| v.is_finite()),
             "finite transform"

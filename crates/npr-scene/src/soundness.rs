@@ -34,6 +34,7 @@ pub(crate) fn mend(scene: &mut Scene, notices: &mut Notices) -> Result<(), Scene
 
 fn mend_mesh(Mesh { name, parts }: &mut Mesh, notices: &mut Notices) {
     for part in parts {
+        // Drop triangles and lines that would be drawn out of range.
         let (triangle_count, segment_count) = drop_unsound_geometry(part);
         for (dropped_count, what) in [
             (triangle_count, "triangles"),
@@ -46,6 +47,8 @@ fn mend_mesh(Mesh { name, parts }: &mut Mesh, notices: &mut Notices) {
                 ));
             }
         }
+
+        // Drop whole lists that hold a number out of range.
         part.morphs.iter_mut().for_each(|morph| {
             drop_unsound(&mut morph.positions, "morph offsets", name, notices);
             drop_unsound(&mut morph.normals, "morph offsets", name, notices);
@@ -55,6 +58,8 @@ fn mend_mesh(Mesh { name, parts }: &mut Mesh, notices: &mut Notices) {
         drop_unsound(&mut part.colors, "vertex colours", name, notices);
         drop_unsound(&mut part.weights, "joint weights", name, notices);
         drop_unsound(&mut part.directions, "stroke directions", name, notices);
+
+        // Bring what is left into its range.
         straighten_normals(part);
         part.colors
             .iter_mut()
@@ -71,10 +76,13 @@ fn mend_mesh(Mesh { name, parts }: &mut Mesh, notices: &mut Notices) {
 /// Removes triangles and line segments that use an unsound position, and zeroes such positions. Returns how many of
 /// each.
 fn drop_unsound_geometry(part: &mut Part) -> (usize, usize) {
+    // Keep a part whose positions are all sound.
     let is_sound = |position: &[f32; 3]| position.iter().all(|v| v.abs() <= POSITION_LIMIT);
     if part.positions.iter().all(is_sound) {
         return (0, 0);
     }
+
+    // Drop what uses an unsound position, then zero it.
     let sound: Vec<bool> = part.positions.iter().map(is_sound).collect();
     let before = (part.triangles.len(), part.segments.len());
     part.triangles

@@ -41,6 +41,7 @@ impl Part {
         mut segments: Vec<[u32; 2]>,
         places: &mut [u32],
     ) -> Self {
+        // Find the vertices that are used, and number them anew.
         let used = triangles.iter().flatten().chain(segments.iter().flatten());
         let mut kept: Vec<u32> = used.copied().collect();
         kept.sort_unstable();
@@ -52,6 +53,8 @@ impl Part {
         for corner in triangles.iter_mut().flatten().chain(ends) {
             *corner = places[*corner as usize];
         }
+
+        // Take over what is known of these vertices.
         let morph = |morph: &Morph| Morph {
             applied_weight: morph.applied_weight,
             positions: gathered(&morph.positions, &kept),
@@ -86,7 +89,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// A part every vertex of which tells its number in all that it holds.
+    /// A part in which every list of a vertex holds the vertex's number.
     fn part(count: u32, triangles: Vec<[u32; 3]>) -> Part {
         let numbers = || (0..count).map(|v| v as f32);
         let morph = Morph {
@@ -111,7 +114,7 @@ mod tests {
         }
     }
 
-    /// All that a vertex of such a part holds, if it is the same number throughout.
+    /// The number that a vertex of such a part holds, if all its lists agree.
     fn number_of(part: &Part, vertex: u32) -> Option<f32> {
         let v = vertex as usize;
         let number = part.positions[v][0];

@@ -69,6 +69,7 @@ fn binary_corners(triangle: &[u8; TRIANGLE_BYTES]) -> [[f32; 3]; 3] {
 }
 
 fn read_text(bytes: &[u8], loading: &mut Loading) -> Result<Vec<[f32; 3]>, SceneError> {
+    // Cut every facet into triangles as it ends.
     let mut corners = Vec::new();
     let mut facet = Vec::new();
     let mut last_line = 0;
@@ -93,6 +94,8 @@ fn read_text(bytes: &[u8], loading: &mut Loading) -> Result<Vec<[f32; 3]>, Scene
             _ => {}
         }
     }
+
+    // Refuse a file that ends within a facet.
     if !facet.is_empty() {
         return Err(StlError::Line {
             line: last_line,
@@ -104,6 +107,7 @@ fn read_text(bytes: &[u8], loading: &mut Loading) -> Result<Vec<[f32; 3]>, Scene
 }
 
 fn soup(positions: Vec<[f32; 3]>) -> Scene {
+    // Give every triangle its own corners.
     if positions.is_empty() {
         return Scene::default();
     }
@@ -115,6 +119,8 @@ fn soup(positions: Vec<[f32; 3]>) -> Scene {
         material: Some(0),
         ..Part::default()
     };
+
+    // Show both sides of every triangle.
     let material = Material {
         double_sided: true,
         ..Material::default()

@@ -154,7 +154,8 @@ impl Sheet {
     fn ply_header(&self, format: &str) -> Vec<u8> {
         let (vertices, faces) = (self.positions.len(), self.triangles.len());
         format!(
-            "ply\nformat {format} 1.0\nelement vertex {vertices}\nproperty float x\nproperty float y\nproperty float z\n\
+            "ply\nformat {format} 1.0\nelement vertex {vertices}\n\
+             property float x\nproperty float y\nproperty float z\n\
              element face {faces}\nproperty list uchar int vertex_indices\nend_header\n"
         )
         .into_bytes()

@@ -135,7 +135,12 @@ fn bounds_of_accessors_views_and_buffers_are_kept() {
             "mesh 0 needs numbers from accessor 0, which holds something else",
         ),
     ];
-    let sound = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36}]}"#;
+    let sound = concat!(
+        r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"#,
+        r#""meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"#,
+        r#""accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"#,
+        r#""bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36}]}"#,
+    );
     for (from, to, message) in cases {
         let fault = load(&glb(&sound.replace(from, to), &[0; 36])).expect_err(message);
         assert_eq!(fault.to_string(), message);
@@ -164,7 +169,10 @@ fn cycles_and_shared_children_are_refused() {
 
 #[test]
 fn only_the_default_scene_is_loaded() {
-    let scenes = r#""scene":1,"scenes":[{"nodes":[0]},{"name":"second","nodes":[1]}],"nodes":[{"name":"a"},{"name":"b"}]"#;
+    let scenes = concat!(
+        r#""scene":1,"scenes":[{"nodes":[0]},{"name":"second","nodes":[1]}],"#,
+        r#""nodes":[{"name":"a"},{"name":"b"}]"#,
+    );
     let scene = load_json(scenes).expect("a sound file");
     assert_eq!(
         (
@@ -247,9 +255,9 @@ fn materials_keep_color_alpha_and_texture() {
 #[test]
 fn a_texture_that_says_what_is_metal_leaves_factors_open() {
     let material = |metal: &str| {
-        let rest = format!(
-            r#","textures":[{{}}],"materials":[{{"pbrMetallicRoughness":{{"metallicFactor":1,"roughnessFactor":0.8{metal}}}}}]"#
-        );
+        let factors = format!(r#""metallicFactor":1,"roughnessFactor":0.8{metal}"#);
+        let rest =
+            format!(r#","textures":[{{}}],"materials":[{{"pbrMetallicRoughness":{{{factors}}}}}]"#);
         let scene = load_triangle(r#","material":0"#, &rest).expect("a sound file");
         (scene.materials[0].metallic, scene.materials[0].roughness)
     };

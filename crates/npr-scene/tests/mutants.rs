@@ -66,7 +66,10 @@ fn survives(mut file: Vec<u8>, format: Format, damages: &[Damage]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: ProptestConfig::default().cases.max(1000), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: ProptestConfig::default().cases.max(1000),
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn binary_gltf(damages in prop::collection::vec(damage(), 1..5)) {

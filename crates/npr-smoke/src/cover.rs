@@ -68,13 +68,19 @@ pub(crate) fn fill_gaps(
     seed: u32,
 ) -> Vec<Seat> {
     let mut seats = Vec::new();
+
+    // Take the deepest places first: the largest spheres cover most.
     for mut level in free_by_distance(distances, claims).into_iter().rev() {
         if seats.len() >= count {
             break;
         }
+
+        // Shuffle places of equal depth, so that no direction is preferred.
         let lattice = claims.lattice;
         let number = |voxel: &[u32; 3]| lattice.index(voxel.map(|side| side as usize)) as u32;
         level.par_sort_unstable_by_key(|voxel| (mix_bits(seed ^ mix_bits(number(voxel))), *voxel));
+
+        // Seat a sphere in every place that no earlier one claims.
         for voxel in level {
             if seats.len() >= count {
                 break;
@@ -164,15 +170,18 @@ impl Claims {
     }
 
     fn mark(&mut self, place: Vec3, radius: f32, bit: u8) {
+        // Walk the planes that the ball cuts.
         let Some(planes) = span(place.z, radius, self.lattice.size[2]) else {
             return;
         };
         for z in planes {
+            // Walk the lines that it cuts in the plane.
             let left = radius * radius - (z as f32 - place.z) * (z as f32 - place.z);
             let Some(lines) = span(place.y, left.max(0.0).sqrt(), self.lattice.size[1]) else {
                 continue;
             };
             for y in lines {
+                // Mark the voxels that it holds on the line.
                 let left = left - (y as f32 - place.y) * (y as f32 - place.y);
                 let Some(row) = span(place.x, left.max(0.0).sqrt(), self.lattice.size[0]) else {
                     continue;

@@ -171,10 +171,13 @@ fn sweep_planes(density: &[f32], threshold: f32, lattice: Lattice) -> Vec<u16> {
     let [width, height, _] = lattice.size;
     let mut flat = vec![0u16; density.len()];
     rows(&mut flat, width * height, |(z, plane)| {
+        // Measure along x within each row.
         let density = &density[z * width * height..][..width * height];
         for (row, density) in plane.chunks_mut(width).zip(density.chunks(width)) {
             sweep_row(density, threshold, row);
         }
+
+        // Grow the boxes along y, column by column.
         let mut sweep = Sweep::new(height);
         let mut column = vec![0u16; height];
         for x in 0..width {
@@ -208,7 +211,7 @@ fn sweep_row(density: &[f32], threshold: f32, row: &mut [u16]) {
 /// chessboard].
 struct Sweep {
     near: Vec<u16>,
-    /// Whose curve is lowest from a place on, and from which place.
+    /// Voxels whose curve is lowest somewhere, each with the place from which on it is.
     lowest: Vec<(i32, i32)>,
 }
 

@@ -3,8 +3,8 @@
 //! A [`Volume`] is one moment of smoke: from a file, or from the built-in solver [`Smoke`]. [`Distances`] says how
 //! large a sphere may be at every place in it. [`Particles`] with [`sphere::around_particles`] are the spheres of the
 //! paper; [`Track`] covers the smoke with fewer, which live on from frame to frame without popping. [`Puffs`] are
-//! either, as a user may choose. [`file`] reads volumes from OpenVDB files and NumPy arrays; [`film`] follows a whole
-//! series of them, or a simulation.
+//! either, as a user may choose. [`mod@file`] reads volumes from OpenVDB files and NumPy arrays; [`film`] follows a
+//! whole series of them, or a simulation.
 //!
 //! ```
 //! use npr_smoke::{Smoke, SmokeSettings, Source, Track, TrackSettings};

@@ -38,6 +38,8 @@ pub fn estimate_velocity(
     seconds: f32,
 ) -> Result<Vec<Vec3>, VolumeError> {
     before.check_same_grid(after)?;
+
+    // Scale densities to 1 at their peak; without smoke nothing moves.
     let count = before.density().len();
     let peak = |volume: &Volume| greatest(count, |at| volume.density()[at]);
     let unit = 1.0 / peak(before).max(peak(after));
@@ -48,6 +50,8 @@ pub fn estimate_velocity(
         lattice: volume.lattice(),
         values: volume.density().iter().map(|d| d * unit).collect(),
     };
+
+    // Find the motion in voxels, and turn it into velocities in the world.
     let voxels_moved = flow(&scaled(before), &scaled(after));
     let to_world = before.index_to_world().matrix3.as_mat3() * (1.0 / seconds);
     let velocity = |v: &Vec3| {
@@ -171,12 +175,15 @@ fn flow(before: &Level, after: &Level) -> Vec<Vec3> {
 
 /// A better motion: linearises the change round `start`, then spreads it by sweeps of Jacobi.
 fn correct(before: &Level, after: &Level, start: Vec<Vec3>) -> Vec<Vec3> {
+    // Carry the later densities back along the motion found so far.
     let lattice = before.lattice;
     let place = |at: [usize; 3]| Vec3::from_array(at.map(|v| v as f32));
     let warped = Level {
         lattice,
         values: lattice.map(|at| after.at(place(at) + start[lattice.index(at)])),
     };
+
+    // Spread the motion that explains what still differs.
     let slopes = lattice.map(|at| 0.5 * (before.gradient(at) + warped.gradient(at)));
     let mut motion = start.clone();
     let mut next = start.clone();

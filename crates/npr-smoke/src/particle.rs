@@ -113,9 +113,12 @@ impl Particles {
             .par_iter_mut()
             .enumerate()
             .for_each(|(slot, particle)| {
+                // Move the particle and take the velocity of its new place.
                 particle.place += particle.velocity * settings.frame_seconds;
                 let index = next.index_from_world(particle.place);
                 particle.velocity = next.velocity_at(index);
+
+                // Let it grow older, or die and be born again elsewhere.
                 let moves = particle.velocity.length() > settings.still;
                 let dense =
                     next.density_at(index) >= settings.threshold && next.lattice().holds(index);
@@ -162,6 +165,7 @@ impl Homes {
         slot: u32,
         life: u32,
     ) -> Particle {
+        // Pick a place within one of the voxels where particles may be born.
         let id = life.wrapping_mul(settings.count).wrapping_add(slot);
         let pick = below(self.voxels.len(), settings.seed, slot, life.wrapping_mul(2));
         let voxel = self.voxels.get(pick);
@@ -170,6 +174,8 @@ impl Homes {
             let away = 0.499 * signed3(settings.seed, slot, life.wrapping_mul(2).wrapping_add(1));
             Vec3::new(x, y, z) + away
         });
+
+        // Start there with the velocity of the smoke.
         Particle {
             place: volume.world_from_index(index),
             velocity: volume.velocity_at(index),

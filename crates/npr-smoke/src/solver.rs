@@ -44,7 +44,10 @@ const MAX_STEPS: u32 = 8;
 #[non_exhaustive]
 pub enum SmokeError {
     /// A side of the grid is too short or too long.
-    #[error("a grid of {} cells has a side outside {MIN_SIDE}..{MAX_SIDE}", size.map(|side| side.to_string()).join("x"))]
+    #[error(
+        "a grid of {} cells has a side outside {MIN_SIDE}..{MAX_SIDE}",
+        size.map(|side| side.to_string()).join("x")
+    )]
     BadSize {
         /// Cells along x, y and z as asked for.
         size: [u32; 3],
@@ -96,6 +99,7 @@ impl Smoke {
     ///
     /// [`SmokeError::BadSize`] for sides out of range, [`SmokeError::OverBudget`] for grids that do not fit.
     pub fn within(budget: &mut Budget, settings: SmokeSettings) -> Result<Self, SmokeError> {
+        // Refuse a grid that is too small, too large, or beyond the budget.
         let size = settings.size;
         if size
             .iter()
@@ -108,6 +112,8 @@ impl Smoke {
             size: size.map(|side| side as usize),
         };
         budget.take("the smoke's grid", cells.len(), BYTES_PER_CELL)?;
+
+        // Start with the wind, and with the first cloud where there is one.
         let scale = box_cells(size);
         let mut smoke = Self {
             settings,
@@ -167,6 +173,7 @@ impl Smoke {
 
     /// One step: sources, forces, pressure, then everything moves along the flow.
     fn advance(&mut self, seconds: f32) {
+        // Give off new smoke.
         let settings = self.settings;
         emission::emit(
             &settings,
@@ -175,6 +182,8 @@ impl Smoke {
             &mut self.temperature,
             &mut self.flow,
         );
+
+        // Carry the air along itself, then push it by heat, curls and drag.
         self.flow = advect_flow(&self.flow, seconds);
         let scale = box_cells(settings.size);
         forces::lift(
@@ -188,9 +197,13 @@ impl Smoke {
         forces::brake(&mut self.flow, settings.source.drag(), seconds);
         self.flow
             .limit(CELLS_PER_STEP * MAX_STEPS as f32 / settings.frame_seconds);
+
+        // Make the flow free of divergence.
         let wanted = emission::expansion(&settings, self.seconds);
         self.projected = self.seconds;
         self.pressure.project(&mut self.flow, wanted);
+
+        // Carry the smoke along.
         self.carry(seconds);
         self.seconds += f64::from(seconds);
     }

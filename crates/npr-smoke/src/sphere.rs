@@ -56,9 +56,13 @@ pub fn covered_share(spheres: &[Sphere], volume: &Volume, distances: &Distances)
     if dense == 0 {
         return 1.0;
     }
+
+    // Sort the spheres by the planes that they may touch.
     let lattice = volume.lattice();
     let [_, height, depth] = lattice.size;
     let planes = touches_by_plane(spheres, volume, depth);
+
+    // Count the dense voxels inside spheres, plane by plane.
     let covered_in = |(z, touches): (usize, &Vec<Touch>)| {
         let mut inside = vec![false; lattice.size[0] * height];
         for touch in touches {

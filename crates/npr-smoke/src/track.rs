@@ -101,6 +101,8 @@ impl Track {
             puffs: Vec::new(),
             next_id: 0,
         };
+
+        // Add spheres until no more find room.
         for _ in 0..SETTLING {
             let (known, count) = (track.next_id, track.puffs.len());
             track.follow(volume);
@@ -111,6 +113,8 @@ impl Track {
                 break;
             }
         }
+
+        // Show them at full size at once: there is no frame to grow from.
         for puff in &mut track.puffs {
             puff.radius = puff.target;
         }
@@ -154,6 +158,7 @@ impl Track {
     /// Takes velocity, temperature and target from a volume; decides who fades and who is born. Gives the width of a
     /// voxel of the shape.
     fn follow(&mut self, volume: &Volume) -> f32 {
+        // Let every sphere follow the smoke, and shrink where it is gone.
         let shape = &*shape(volume, self.settings.detail);
         let distances = Distances::new(shape, self.settings.threshold);
         let width = shape.voxel_width() * self.settings.scale;
@@ -169,6 +174,8 @@ impl Track {
                 0.0
             };
         });
+
+        // Find places for new spheres where nothing covers the smoke.
         let room = (self.settings.count as usize).saturating_sub(self.puffs.len());
         let mut seats = match self.settings.placement {
             Placement::Random => scatter(&distances, room, self.settings.seed ^ self.next_id),
@@ -184,8 +191,12 @@ impl Track {
                 )
             }
         };
+
+        // Evict the smallest spheres where much larger ones find no room.
         let waiting = seats.split_off(room.min(seats.len()));
         self.evict(waiting.iter().map(|seat| radius(seat.radius, width)));
+
+        // Let spheres be born in the places found.
         for seat in seats {
             let puff = self.born(
                 volume,

@@ -99,9 +99,12 @@ impl Volume {
         mut density: Vec<f32>,
         index_to_world: DAffine3,
     ) -> Result<Self, VolumeError> {
+        // Refuse lists that do not fit, and transforms that squeeze the volume flat.
         check_size(size)?;
         check_count("density", size, density.len())?;
         let world_to_index = inverse(index_to_world).ok_or(VolumeError::BadTransform)?;
+
+        // Put no smoke where a density is no number.
         let mended = Mended {
             density: mend(&mut density, |d| d.is_finite() && *d >= 0.0),
             ..Mended::default()
@@ -248,12 +251,15 @@ impl Volume {
     /// A density is the mean over the voxels that there are in its block: holes and wisps thinner than a block
     /// vanish, and what is made from it is simpler. O(voxels), in parallel. Blocks of 0 count as 1.
     pub fn coarsened(&self, block: u32) -> Self {
+        // Lay a coarse grid over the fine one.
         let block = block.clamp(1, MAX_SIDE);
         let fine = self.lattice();
         let size = self.size.map(|side| side.div_ceil(block));
         let coarse = Lattice {
             size: size.map(|side| side as usize),
         };
+
+        // Take the mean density of each block.
         let density = coarse.map(|at| {
             let along = |axis: usize| {
                 let start = at[axis] * block as usize;
@@ -269,6 +275,8 @@ impl Volume {
             }
             sum / count as f32
         });
+
+        // Keep the smoke where it is in the world.
         let scale = DAffine3::from_scale(DVec3::splat(f64::from(block)));
         let shift = DAffine3::from_translation(DVec3::splat((f64::from(block) - 1.0) / 2.0));
         let index_to_world = self.index_to_world * shift * scale;

@@ -72,6 +72,7 @@ pub(crate) fn unpack(packed: &[u8], bytes: &mut [u8], shuffled: &mut Vec<u8>) ->
 
 impl Container {
     fn read(cursor: &mut Cursor, packed_bytes: usize, bytes: usize) -> Result<Self, Fault> {
+        // Read the header, and check the sizes that it states.
         let [format, _, flags, element_bytes] = cursor.array("").map_err(|_| CUT)?;
         let mut size = || cursor.u32("").map(|size| size as usize).map_err(|_| CUT);
         let (stated_bytes, block_bytes, stated_packed_bytes) = (size()?, size()?, size()?);
@@ -81,6 +82,8 @@ impl Container {
         if stated_bytes != bytes || stated_packed_bytes != packed_bytes {
             return Err(WRONG_SIZE);
         }
+
+        // Refuse blocks or elements that would take no bytes.
         let is_stored = flags & 2 != 0;
         if !is_stored && is_tiny(block_bytes, bytes) || element_bytes == 0 {
             return Err("its blosc container has blocks or elements of no size");

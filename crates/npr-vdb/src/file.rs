@@ -175,6 +175,7 @@ impl<'a> File<'a> {
     }
 
     fn grid_at<V: Voxel>(&self, place: usize) -> Result<Grid<V>, Fault> {
+        // Find a grid that holds what is asked for, in a transform that is read.
         let info = self.infos.get(place);
         let info = info.ok_or_else(|| self.no_grid(&place.to_string()))?;
         let kind = known_kind(info)?;
@@ -186,6 +187,8 @@ impl<'a> File<'a> {
             });
         }
         let transform = linear_transform(info)?;
+
+        // Unpack its tree.
         let (body, is_half) = self.body(place, kind)?;
         let mut budget = Budget::new(&self.limits);
         let mut cursor = body.tree;
@@ -196,6 +199,8 @@ impl<'a> File<'a> {
             is_half,
         };
         let tree = tree::read(&mut cursor, &codec, &mut budget)?;
+
+        // Refuse bytes that nothing accounts for.
         if cursor.left() > 0 {
             return Err(Fault::Broken {
                 what: "a grid",
@@ -299,6 +304,7 @@ fn read_info(
     header: &Header,
     cursor: &mut Cursor,
 ) -> Result<(GridInfo, Compression), Fault> {
+    // Learn how its values are compressed: old files say so once for all grids.
     let at = cursor.at();
     let compression = match header.compression {
         Some(compression) => compression,
@@ -311,6 +317,8 @@ fn read_info(
             })?
         }
     };
+
+    // Read what is known of it, and where it lies.
     let metadata = Metadata::read(cursor)?;
     let transform = Transform::read(cursor)?;
     Ok((

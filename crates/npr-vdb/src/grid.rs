@@ -157,6 +157,7 @@ impl<V: Voxel> Grid<V> {
     ///
     /// On a bug of the reader.
     pub fn sanity_check(&self) {
+        // Check that cubes lie on multiples of their sides and share no voxel.
         let tiles = self.tiles().iter().map(|tile| (tile.origin, tile.side));
         let leaves = self.leaves().map(|leaf| (leaf.origin, LEAF_SIDE));
         let mut cubes: Vec<_> = tiles.chain(leaves).collect();
@@ -178,6 +179,8 @@ impl<V: Voxel> Grid<V> {
                 "a cube lies in another"
             );
         }
+
+        // Check that all are sorted and have their values.
         assert!(self.tiles().is_sorted_by_key(|tile| tile.origin));
         assert!(self.tree.leaves.is_sorted_by_key(|leaf| leaf.origin));
         assert_eq!(self.tree.values.len(), self.tree.leaves.len() * LEAF_VOXELS);
@@ -196,6 +199,7 @@ impl<V: Voxel> Tree<V> {
 
     /// Value at `index` and whether it is active.
     fn find(&self, index: [i32; 3]) -> (V, bool) {
+        // Look for the leaf that the voxel lies in.
         let corner = |side: u16| index.map(|part| part & -i32::from(side));
         let leaf = self
             .leaves
@@ -208,6 +212,8 @@ impl<V: Voxel> Tree<V> {
             let is_active = head.active[place >> 3] >> (place & 7) & 1 == 1;
             return (self.values[head.first_value + place], is_active);
         }
+
+        // Look for a tile around it, the smallest first.
         for side in [LEAF_SIDE, 128, 4096] {
             let tile = self
                 .tiles

@@ -94,6 +94,7 @@ impl GridInfo {
         transform: Result<Transform, String>,
         metadata: Metadata,
     ) -> Self {
+        // Trust the metadata before the type's name.
         let (values, type_says_half) = Values::of_tree(type_name);
         let is_half = match metadata.get("is_saved_as_half_float") {
             Some(&MetaValue::Flag(is_half)) => is_half,

@@ -50,6 +50,7 @@ pub enum Values {
 /// [`Fault::Npy`] where the file is no such array, or has a byte too many or too few; [`Fault::Memory`] where it
 /// exceeds the limits.
 pub fn read(bytes: &[u8], limits: &Limits) -> Result<Array, Fault> {
+    // Check the length of the data before memory is taken.
     let (header, data) = Header::read(bytes)?;
     let (size, is_vector) = header.sides()?;
     let components = if is_vector { 3 } else { 1 };
@@ -62,6 +63,8 @@ pub fn read(bytes: &[u8], limits: &Limits) -> Result<Array, Fault> {
         }
         .into());
     }
+
+    // Read the numbers, the last axis fastest.
     let count = count.unwrap_or_default();
     let mut budget = Budget::new(limits);
     let mut numbers = budget.list("an array", count)?;
@@ -69,6 +72,8 @@ pub fn read(bytes: &[u8], limits: &Limits) -> Result<Array, Fault> {
     if header.is_fortran {
         numbers = last_axis_fastest(&numbers, size, components, budget.list("an array", count)?);
     }
+
+    // Group them by three where they are vectors.
     if !is_vector {
         return Ok(Array {
             size,

@@ -107,6 +107,7 @@ impl Codec {
         cursor: &mut Cursor,
         unpacked: &mut Unpacked<V>,
     ) -> Result<Others, Fault> {
+        // Read all values where none are left out.
         let inactive = match self.version < MASKS_VERSION {
             true => None,
             false => self.inactive(active.len(), background, cursor)?,
@@ -116,6 +117,8 @@ impl Codec {
             std::mem::swap(&mut unpacked.values, &mut unpacked.stored);
             return Ok(Others::Anywhere);
         };
+
+        // Read the active values, and put one of two values everywhere else.
         self.all(active.count_on(), cursor, unpacked)?;
         let Unpacked { stored, values, .. } = unpacked;
         values.clear();
@@ -127,6 +130,8 @@ impl Codec {
                 *slot = value;
             }
         }
+
+        // Tell whether anything but active values differs from the background.
         let is_plain = inactive.first.is_same(&background) && inactive.mask.is_none();
         Ok(if is_plain {
             Others::Active
@@ -143,6 +148,8 @@ impl Codec {
         cursor: &mut Cursor<'a>,
     ) -> Result<Option<Inactive<'a, V>>, Fault> {
         const WHAT: &str = "a node's values";
+
+        // Read which two values stand for the inactive ones.
         let at = cursor.at();
         let kind = cursor.byte(WHAT)?;
         let opposite = self.opposite(background);
@@ -163,6 +170,8 @@ impl Codec {
             5 => self.single(cursor)?,
             _ => background,
         };
+
+        // Read which of them take the second value.
         let mask = match kind {
             3..=5 => Some(Mask(cursor.take(len >> 3, WHAT)?)),
             _ => None,

@@ -196,6 +196,8 @@ impl<'a, V: Voxel> Reader<'_, 'a, V> {
     /// Reads masks and tiles of a node; the places of its children.
     fn node(&mut self, origin: [i32; 3], level: Level) -> Result<Mask<'a>, Fault> {
         const WHAT: &str = "a node's masks";
+
+        // Read which places hold children, and which are active.
         let children = Mask(self.cursor.take(level.mask_bytes(), WHAT)?);
         let active = Mask(self.cursor.take(level.mask_bytes(), WHAT)?);
         let background = self.background;
@@ -205,6 +207,8 @@ impl<'a, V: Voxel> Reader<'_, 'a, V> {
             value,
             is_active: active.is_on(place),
         };
+
+        // Keep tiles that are active, or differ from the background.
         let others = self.node_values(children, active)?;
         let values = &self.unpacked.values;
         match others {
@@ -270,6 +274,8 @@ impl<'a, V: Voxel> Reader<'_, 'a, V> {
     /// Unpacks the values of the next leaf.
     fn leaf(&mut self, active: &[u8; LEAF_MASK_BYTES]) -> Result<(), Fault> {
         const WHAT: &str = "a leaf's values";
+
+        // Check the mask against that of the leaf's topology.
         let at = self.cursor.at();
         if self.cursor.array::<LEAF_MASK_BYTES>(WHAT)? != *active {
             return Err(Fault::Broken {
@@ -281,6 +287,8 @@ impl<'a, V: Voxel> Reader<'_, 'a, V> {
         if self.codec.kind == ValueType::Bool {
             return self.bool_leaf();
         }
+
+        // Unpack its values, and skip the buffers that old files add.
         let extra_buffers = match self.codec.version < MASKS_VERSION {
             true => self.extra_buffers()?,
             false => 0,

@@ -20,7 +20,10 @@ pub struct CameraArguments {
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = field_of_view)]
     pub fov: Option<f32>,
     /// A camera of the file instead, by its name or its number from 0.
-    #[arg(long, value_name = "NAME|INDEX", allow_negative_numbers = true, conflicts_with_all = ["eye", "target", "up", "fov"])]
+    #[arg(
+        long, value_name = "NAME|INDEX", allow_negative_numbers = true,
+        conflicts_with_all = ["eye", "target", "up", "fov"]
+    )]
     pub camera: Option<String>,
 }
 

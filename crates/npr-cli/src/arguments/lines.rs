@@ -66,11 +66,15 @@ pub struct LineArguments {
     #[arg(long)]
     pub fill: bool,
     /// Make strokes of lines painted in textures too, up to 8 pixels wide, as marked lines; alone it means dark ones.
-    #[arg(long, value_enum, value_name = "TONE", num_args = 0..=1, require_equals = true, default_missing_value = "dark")]
+    #[arg(
+        long, value_enum, value_name = "TONE", num_args = 0..=1, require_equals = true, default_missing_value = "dark"
+    )]
     pub painted: Option<PaintedName>,
     /// Distance up to which vertices are one, as a fraction of each mesh's diagonal: 1e-6 closes the cracks of
     /// most exports.
-    #[arg(long, value_name = "FRACTION", default_value_t = 0.0, allow_hyphen_values = true, value_parser = weld_tolerance)]
+    #[arg(
+        long, value_name = "FRACTION", default_value_t = 0.0, allow_hyphen_values = true, value_parser = weld_tolerance
+    )]
     pub weld: f32,
 }
 

@@ -44,7 +44,10 @@ pub struct TraceMethodArguments {
     #[arg(short, long, value_name = "PIXELS", default_value_t = TraceOptions::default().turd_size)]
     pub turdsize: u64,
     /// Which colour hangs together where pixels meet at a corner only.
-    #[arg(short = 'z', long, value_name = "POLICY", default_value = TurnPolicy::default().name(), value_parser = turn_policies())]
+    #[arg(
+        short = 'z', long, value_name = "POLICY", default_value = TurnPolicy::default().name(),
+        value_parser = turn_policies()
+    )]
     pub turnpolicy: TurnPolicy,
     /// Sharpness from which a bend is a corner: 0 makes polygons, 1.34 rounds everything.
     #[arg(short, long, value_name = "N", default_value_t = TraceOptions::default().alpha_max)]

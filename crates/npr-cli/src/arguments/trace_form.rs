@@ -10,13 +10,20 @@ use npr_trace::centreline::CentrelineOptions;
 pub struct TraceFormArguments {
     /// Trace a picture in colour, in up to this many, 2 to 256: a layer of filled shapes for each, stacked without
     /// gaps. Transparent pixels stay empty.
-    #[arg(long = "colours", alias = "colors", value_name = "N", value_parser = clap::value_parser!(u16).range(2..=256), conflicts_with_all = ["centreline", "blacklevel", "invert"])]
+    #[arg(
+        long = "colours", alias = "colors", value_name = "N",
+        value_parser = clap::value_parser!(u16).range(2..=256),
+        conflicts_with_all = ["centreline", "blacklevel", "invert"]
+    )]
     pub colors: Option<u16>,
     /// Trace the middle of drawn lines: a stroke for every line, as wide as its ink.
     #[arg(long, alias = "centerline")]
     pub centreline: bool,
     /// Cut branches that stick out of their line by less than this share of its width: 0 keeps all.
-    #[arg(long, value_name = "N", default_value_t = 0.5, allow_hyphen_values = true, value_parser = share, requires = "centreline")]
+    #[arg(
+        long, value_name = "N", default_value_t = 0.5, allow_hyphen_values = true, value_parser = share,
+        requires = "centreline"
+    )]
     pub spur: f64,
 }
 

@@ -51,6 +51,7 @@ struct GridEntry {
 impl VolumeInventory {
     /// The inventory of a volume from the file that the user named `file`.
     pub fn new(file: &str, bytes: &[u8], options: &VolumeOptions) -> Result<Self, Fault> {
+        // List what is in the file, whether it is drawn or not.
         let faulty = |fault| of_volume(&quoted(Path::new(file)), fault);
         let mut inventory = Self {
             file: file.to_owned(),
@@ -69,6 +70,8 @@ impl VolumeInventory {
             false => inventory.list_grids(bytes, &limits, options),
         };
         listed.map_err(faulty)?;
+
+        // Measure what becomes smoke, or say why nothing does.
         match VolumeFile::read(bytes, options) {
             Ok(volume) => inventory.measure(&volume),
             Err(fault) => inventory.ignored.push(format!("nothing is drawn: {fault}")),
@@ -77,6 +80,7 @@ impl VolumeInventory {
     }
 
     fn list_array(&mut self, bytes: &[u8], limits: &Limits) -> Result<(), VolumeFault> {
+        // Measure the values: only numbers can be densities.
         self.format = "NumPy array".to_owned();
         let array = npy::read(bytes, limits)?;
         let mut values = Range::default();
@@ -92,6 +96,8 @@ impl VolumeInventory {
                 ("vectors", None)
             }
         };
+
+        // List the array as the one grid of the file.
         self.grids.push(GridEntry {
             name: String::new(),
             kind: kind.to_owned(),
@@ -110,6 +116,7 @@ impl VolumeInventory {
         limits: &Limits,
         options: &VolumeOptions,
     ) -> Result<(), VolumeFault> {
+        // List every grid with what it is used as.
         let file = npr_vdb::read(bytes, limits).map_err(|fault| match fault {
             npr_vdb::Fault::NotVdb => VolumeFault::Unknown,
             fault => fault.into(),
@@ -123,6 +130,8 @@ impl VolumeInventory {
                 ..GridEntry::of(&file, place, info)?
             });
         }
+
+        // Say which grids are not drawn.
         let unused = self.grids.iter().filter(|grid| grid.used_as.is_none());
         let unused = unused.map(|grid| format!("grid '{}' is not drawn", name(&grid.name)));
         self.ignored.extend(unused);
@@ -138,6 +147,7 @@ impl VolumeInventory {
 
     /// The inventory as lines for people.
     pub fn text(&self) -> String {
+        // Tell what is in the file.
         let mut text = format!(
             "{}: {}, {} bytes\n",
             plain(&self.file),
@@ -145,6 +155,8 @@ impl VolumeInventory {
             self.bytes
         );
         list(&mut text, "grid", self.grids.iter().map(GridEntry::text));
+
+        // Tell what becomes smoke, then what is ignored.
         if let Some(super::Bounds { min, max }) = &self.bounds {
             let decimals = decimals_for(*min, *max);
             let (min, max) = (point(*min, decimals), point(*max, decimals));
@@ -182,6 +194,7 @@ impl GridEntry {
 
     /// Reads a grid where its type is one that is read.
     fn of(file: &File<'_>, place: usize, info: &GridInfo) -> Result<Self, VolumeFault> {
+        // Tell what the file states.
         let transform = info.transform.as_ref().ok();
         let entry = Self {
             name: info.name.clone(),
@@ -191,6 +204,8 @@ impl GridEntry {
             transform: transform.map(npr_vdb::Transform::columns),
             ..Self::unread(&info.values.to_string())
         };
+
+        // Measure the values where they can be read.
         let is_read = info.transform.is_ok();
         match &info.values {
             npr_vdb::Values::Known(kind) if is_read && kind.is_vector() => {
@@ -224,6 +239,7 @@ impl GridEntry {
     }
 
     fn text(&self) -> String {
+        // Tell what the grid is called and what it holds.
         let mut text = format!("'{}' {}", name(&self.name), name(&self.kind));
         if self.half_floats {
             text.push_str(" stored in half");
@@ -231,6 +247,8 @@ impl GridEntry {
         if !self.class.is_empty() {
             let _ = write!(text, ", {}", self.class);
         }
+
+        // Tell how large it is.
         if let Some([x, y, z]) = self.size {
             let _ = write!(text, ", {x}x{y}x{z} voxels");
         }
@@ -243,6 +261,8 @@ impl GridEntry {
             };
             let _ = write!(text, " of {sides}");
         }
+
+        // Tell what its values are, and what becomes of them.
         if let Some(count) = self.active_voxel_count {
             let _ = write!(text, ", {count} active");
         }

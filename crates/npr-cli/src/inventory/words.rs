@@ -10,6 +10,7 @@ const LISTED: usize = 20;
 impl Inventory {
     /// The inventory as lines for people.
     pub fn text(&self) -> String {
+        // Tell what is drawn, and in which materials.
         let mut text = self.summary();
         list(&mut text, "surface", self.drawn.iter().map(Drawn::text));
         list(
@@ -18,6 +19,8 @@ impl Inventory {
             self.materials.iter().map(Material::text),
         );
         list(&mut text, "image", self.images.iter().map(Image::text));
+
+        // Tell what else the file has, then what is ignored.
         list(&mut text, "camera", self.cameras.iter().map(Named::text));
         list(&mut text, "light", self.lights.iter().map(Named::text));
         list(&mut text, "skin", self.skins.iter().map(Skin::text));
@@ -36,6 +39,7 @@ impl Inventory {
 
     /// Format, counts and bounds.
     fn summary(&self) -> String {
+        // Tell what wrote the file.
         let mut text = format!(
             "{}: {}, {} bytes\n",
             plain(&self.file),
@@ -47,6 +51,8 @@ impl Inventory {
             "generator",
             self.generator.iter().map(|generator| name(generator)),
         );
+
+        // Tell what it holds and how large that is.
         let (nodes, meshes) = (self.node_count, self.mesh_count);
         let geometry = counted(self.triangle_count, self.line_segment_count);
         let vertices = self.vertex_count;
@@ -63,6 +69,8 @@ impl Inventory {
                 point(*max, decimals)
             );
         }
+
+        // Tell how much of it is drawn.
         let drawn = counted(self.drawn_triangle_count, self.drawn_line_segment_count);
         let _ = writeln!(text, "draws {drawn}");
         text

@@ -52,6 +52,7 @@ impl Damage {
 
 /// A small picture with soft edges, in every format that is read and every sort of pixel that it has.
 fn files(format: ImageFormat) -> Vec<Vec<u8>> {
+    // Draw soft edges in grey and in colour.
     let grey = image::GrayImage::from_fn(13, 9, |x, y| image::Luma([(x * 19 + y * 7) as u8]));
     let grey = DynamicImage::ImageLuma8(grey);
     let color = image::RgbaImage::from_fn(13, 9, |x, y| {
@@ -63,6 +64,8 @@ fn files(format: ImageFormat) -> Vec<Vec<u8>> {
         ])
     });
     let color = DynamicImage::ImageRgba8(color);
+
+    // Encode them in every sort of pixel that the format has.
     let pictures = [
         grey.clone(),
         DynamicImage::ImageRgb8(color.to_rgb8()),
@@ -77,6 +80,8 @@ fn files(format: ImageFormat) -> Vec<Vec<u8>> {
             Some(file.into_inner())
         })
         .collect();
+
+    // Add the sorts that are not encoded here.
     match format {
         ImageFormat::Png => files.push(PALETTE_PNG.to_vec()),
         ImageFormat::Pnm => files.extend([
@@ -93,8 +98,10 @@ fn files(format: ImageFormat) -> Vec<Vec<u8>> {
 }
 
 /// One pixel of a palette of one colour.
-const PALETTE_PNG: &[u8] = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x01\0\0\0\x01\x08\x03\0\0\0\x28\xcb\x34\xbb\
-    \0\0\0\x03PLTE\0\0\0\xa7\x7a\x3d\xda\0\0\0\x0aIDATx\x9cc\x60\0\0\0\x02\0\x01\x48\xaf\xa4\x71\0\0\0\0IEND\xae\x42\x60\x82";
+const PALETTE_PNG: &[u8] =
+    b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x01\0\0\0\x01\x08\x03\0\0\0\x28\xcb\x34\xbb\
+    \0\0\0\x03PLTE\0\0\0\xa7\x7a\x3d\xda\
+    \0\0\0\x0aIDATx\x9cc\x60\0\0\0\x02\0\x01\x48\xaf\xa4\x71\0\0\0\0IEND\xae\x42\x60\x82";
 
 /// The same with five bytes where colours have three each: its decoder panics.
 const SHORT_PALETTE_PNG: &[u8] = include_bytes!("../../tests/data/palette_of_5_bytes.png");

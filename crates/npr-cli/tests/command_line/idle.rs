@@ -463,7 +463,8 @@ fn keys_that_cannot_act_are_told_once_and_by_name() {
     let set = ["--set", "ink.tone=hatch", "--set", "shade.softness=0.2"];
     let outcome = place.npr(&[&["lines", "scene.obj", "--size", "48x32"][..], &set].concat());
     assert_eq!(outcome.code, Some(0));
-    let wanted = "npr: warning: 'ink.tone' and 'shade.softness' are ignored by npr lines: it draws no tones and no hatching\n";
+    let wanted = "npr: warning: 'ink.tone' and 'shade.softness' are ignored by npr lines: \
+                  it draws no tones and no hatching\n";
     assert_eq!(outcome.stderr, wanted);
     let quiet = place.npr(
         &[

@@ -554,7 +554,8 @@ fn lines_of_files_become_marked_strokes() {
         .collect();
     let ply = format!(
         "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\nproperty float y\nproperty float z\n\
-         element face 2\nproperty list uchar int vertex_indices\nelement edge 3\nproperty int vertex1\nproperty int vertex2\n\
+         element face 2\nproperty list uchar int vertex_indices\n\
+         element edge 3\nproperty int vertex1\nproperty int vertex2\n\
          end_header\n{vertices}3 0 2 1\n3 1 2 3\n4 5\n5 6\n7 8\n"
     );
     place.put("roof.ply", ply.as_bytes());

@@ -46,6 +46,7 @@ pub fn add_contours(
     capacity: usize,
     scheme: Option<Scheme>,
 ) -> Contours {
+    // Tell which faces look at the eye.
     let viewer = graph.uniform::<Viewer>("viewer");
     let positions = graph.buffer::<f32>("positions", 3 * vertex_count);
     let half_edges = graph.buffer::<HalfEdge>("half-edges", 3 * face_count);
@@ -55,9 +56,13 @@ pub fn add_contours(
         &vector::FACE_EYE,
         &[viewer, positions, half_edges, judges, front],
     );
+
+    // Mark half-edges between a face that does and one that does not.
     let flags = graph.buffer::<u32>("contour flags", 3 * face_count);
     graph.compute(&vector::MARK_CONTOURS, &[front, half_edges, flags]);
     let Compacted { list, count, slots } = add_compact(graph, flags, capacity, &ListWork::WHOLE);
+
+    // Link the contour's nodes along the surface, as many as there are.
     let indirect = scheme.map_or(IndirectArguments::default(), |scheme| {
         scheme.indirect(capacity)
     });
@@ -70,6 +75,8 @@ pub fn add_contours(
         ],
         work.elements(),
     );
+
+    // Put them in rows.
     let lists = scheme.map(|scheme| {
         let links = graph.buffer::<Link>("links", capacity);
         let bound = [count, nodes, links];

@@ -119,6 +119,7 @@ pub fn add_pixel_contours(
     room: PixelRoom,
     scheme: Scheme,
 ) -> PixelContours {
+    // Tell which faces look at the eye.
     let viewer = graph.uniform::<Viewer>("viewer");
     let view = graph.uniform::<PixelView>("pixel view");
     let positions = graph.buffer::<f32>("positions", 3 * shape.positions.len());
@@ -129,6 +130,8 @@ pub fn add_pixel_contours(
         &vector::FACE_EYE,
         &[viewer, positions, half_edges, judges, front],
     );
+
+    // Choose the edges that are drawn.
     let edge_count = shape.edge_count() + shape.polylines.len();
     let edges = graph.buffer::<DrawnEdge>("edges", edge_count);
     let flags = graph.buffer::<u32>("edge flags", edge_count);
@@ -137,6 +140,8 @@ pub fn add_pixel_contours(
         &pixels::MARK_EDGES,
         &[viewer, view, positions, front, edges, flags, marks],
     );
+
+    // Project them, and count the pixels that each crosses.
     let Compacted { list, count, .. } = add_compact(graph, flags, room.segments, &ListWork::WHOLE);
     let drawn = add_work(graph, count, room.segments, IndirectArguments::default());
     let segments = graph.buffer::<Segment>("segments", room.segments);
@@ -147,6 +152,8 @@ pub fn add_pixel_contours(
         drawn.elements(),
     );
     let starts = add_scan(graph, counts, &drawn);
+
+    // Draw the surfaces that may hide them.
     let pixel_count = size[0] as usize * size[1] as usize;
     let surfaces = graph.image("surfaces", Format::U32, size);
     if hiding != Hiding::Given {
@@ -160,6 +167,8 @@ pub fn add_pixel_contours(
         Format::U32,
         if is_occluded { size } else { [1; 2] },
     );
+
+    // Draw what is seen of them, and trace the sides of their pixels.
     let [owners, nearest] = add_picture(
         graph,
         (view, [surfaces, occluder_depths]),
@@ -195,6 +204,7 @@ fn add_picture(
     (segment_count, starts, segments): (ResourceId, Scan, ResourceId),
     (size, room): ([u32; 2], usize),
 ) -> [ResourceId; 2] {
+    // Cut the projected edges into fragments, one for each pixel crossed.
     let Scan { prefixes, total } = starts;
     let indirect = IndirectArguments {
         vertices: pixels::DRAW_NEAREST.vertices(),
@@ -204,9 +214,13 @@ fn add_picture(
     let fragments = graph.buffer::<Fragment>("fragments", room);
     let bound = [view, total, segment_count, prefixes, segments, fragments];
     graph.compute_sized(&pixels::EMIT_FRAGMENTS, &bound, work.elements());
+
+    // Test which of them are seen.
     let shown = graph.buffer::<u32>("fragments shown", room);
     let bound = [view, surfaces, occluder_depths, fragments, shown];
     graph.compute_sized(&pixels::TEST_FRAGMENTS, &bound, work.elements());
+
+    // Draw the nearest one into every pixel.
     let owners = graph.image("owners", Format::U32, size);
     let nearest = graph.image("nearest", Format::U32, size);
     let depths = graph.image("depths of lines", Format::Depth, size);
@@ -268,6 +282,7 @@ pub struct PixelStrips {
 
 /// Appends passes that filter loops in rows and cut them to strips.
 pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -> PixelStrips {
+    // Gather the sides of pixels in the order of their loops.
     let path = path.within_limits();
     let all = on.side_work.elements();
     let count = graph.element_count(on.sides);
@@ -288,11 +303,15 @@ pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -
         areas,
     ];
     graph.compute_sized(&pixels::GATHER_SIDES, &bound, all);
+
+    // Drop loops that are specks.
     let sums = add_scan(graph, areas, &on.side_work).prefixes;
     let speck_rule = graph.uniform::<SpeckRule>("speck rule");
     let whole = graph.buffer::<u32>("loops kept", count);
     let bound = [speck_rule, spots, areas, sums, whole];
     graph.compute_sized(&pixels::DROP_SPECKS, &bound, all);
+
+    // Weigh the neighbours that means are taken over.
     let radii = [
         path.smooth_radius,
         path.tangent_radius,
@@ -311,6 +330,8 @@ pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -
         graph.compute_sized(&pixels::SMOOTH_LOOPS, &bound, all);
         to
     };
+
+    // Smooth the stairs of pixels away, then find tangents.
     let raw = places;
     for _ in 0..path.smooth_passes {
         places = smoothed(graph, of_places, places);
@@ -323,6 +344,8 @@ pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -
         tangents = smoothed(graph, of_tangents, tangents);
     }
     directions = smoothed(graph, of_directions, directions);
+
+    // Keep the sides along which a loop runs as the contour does, by a vote of those around.
     let cull_rule = graph.uniform::<CullRule>("cull rule");
     let [culled, voted, kept] =
         ["culled", "voted", "kept"].map(|name| graph.buffer::<u32>(name, count));
@@ -330,6 +353,8 @@ pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -
     graph.compute_sized(&pixels::CULL_SIDES, &bound, all);
     let bound = [cull_rule, spots, culled, voted];
     graph.compute_sized(&pixels::VOTE_SIDES, &bound, all);
+
+    // Cut loops where sides are culled, and drop strips that are too short.
     let [strips, lengths] = add_segments(graph, spots, voted, &on.side_work);
     let bound = [cull_rule, strips, lengths, kept];
     graph.compute_sized(&pixels::DROP_SHORT, &bound, all);
@@ -380,12 +405,15 @@ impl PixelStrips {
         session: &mut dyn Session,
         path: &PublishedPath,
     ) -> Result<(), CurvesError> {
+        // Hand over what is dropped and what is culled.
         let path = &path.within_limits();
         session.write(
             self.speck_rule,
             bytemuck::cast_slice(&[SpeckRule::of(path)]),
         )?;
         session.write(self.cull_rule, bytemuck::cast_slice(&[CullRule::of(path)]))?;
+
+        // Hand over the weights of each mean.
         let means = [
             Filter::of_places(path),
             Filter::of_tangents(path),

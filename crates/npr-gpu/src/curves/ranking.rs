@@ -108,6 +108,7 @@ pub fn add_ranking(
     work: &ListWork,
     scheme: Scheme,
 ) -> RankedLists {
+    // Choose the nodes that jump: all of them, or splitters alone.
     let count = graph.element_count(links);
     let round_count = scheme.rounds(count);
     let is_short = matches!(scheme, Scheme::RulingSet { .. }) && count <= ONE_PASS_NODES;
@@ -115,6 +116,8 @@ pub fn add_ranking(
         Scheme::Wyllie { .. } => add_nodes(graph, links, work),
         Scheme::RulingSet { .. } => add_splitters(graph, links, work, is_short, round_count),
     };
+
+    // Rank those, in one pass where they are few.
     let (settled, hops) = if is_short {
         add_short_ranking(graph, &elements, round_count)
     } else {
@@ -122,6 +125,8 @@ pub fn add_ranking(
         let hops = add_jumping(graph, &elements, settled, round_count);
         (settled, hops)
     };
+
+    // Give every other node its place behind them.
     let places = graph.buffer::<ListPosition>("places", count);
     let unsettled = graph.buffer::<u32>("unsettled nodes", count);
     let Elements { first, walks, .. } = elements;
@@ -130,6 +135,8 @@ pub fn add_ranking(
         &[walks, first, settled, hops, places, unsettled],
         work.elements(),
     );
+
+    // Count what the rounds did not settle, and put the rest in rows.
     let unsettled = add_sum(graph, unsettled, work);
     let rows = add_rows(graph, links, places, work);
     RankedLists {
@@ -141,6 +148,7 @@ pub fn add_ranking(
 
 /// Puts nodes whose places are known in rows.
 fn add_rows(graph: &mut Graph, links: ResourceId, places: ResourceId, work: &ListWork) -> Rows {
+    // Measure the lists, and turn ranks to count from their heads.
     let all = work.elements();
     let count = graph.element_count(links);
     let lengths = graph.buffer::<u32>("lengths", count);
@@ -153,6 +161,8 @@ fn add_rows(graph: &mut Graph, links: ResourceId, places: ResourceId, work: &Lis
         &[places, lengths, standings, sizes, heads],
         all,
     );
+
+    // Put nodes behind each other, list by list.
     let starts = add_scan(graph, sizes, work).prefixes;
     let order = graph.buffer::<u32>("nodes in order", count);
     graph.compute_sized(&vector::ORDER_NODES, &[standings, starts, order], all);
@@ -234,11 +244,14 @@ fn add_short_ranking(
     elements: &Elements,
     rounds: u32,
 ) -> (ResourceId, ResourceId) {
+    // Take two buffers of each kind, which rounds swap.
     let rounds = graph.constant("rounds", rounds);
     let count = graph.element_count(elements.first);
     let [settled, reach_scratch] = [0; 2].map(|_| graph.buffer::<Reach>("reach", count));
     let [hops, hops_scratch] = [0; 2].map(|_| graph.buffer::<Hop>("hops", count));
     let &Elements { extent, first, .. } = elements;
+
+    // Run every round within one workgroup.
     graph.compute(
         &vector::RANK_SPLITTERS,
         &[
@@ -276,6 +289,7 @@ fn add_jumping(
     settled: ResourceId,
     rounds: u32,
 ) -> ResourceId {
+    // Cut loops, so that every list has an end.
     let count = graph.element_count(elements.hops);
     let &Elements {
         work,
@@ -287,6 +301,8 @@ fn add_jumping(
     let pair = [0; 2].map(|_| graph.buffer::<Hop>("hops", count));
     let bound = [extent, first, settled, hops, pair[0]];
     graph.compute_sized(&vector::CUT_LOOPS, &bound, work.elements());
+
+    // Double how far each element sees, round by round.
     for round in 0..rounds {
         let at = round as usize;
         let (from, to) = (pair[at % 2], pair[(at + 1) % 2]);
@@ -324,16 +340,21 @@ pub(super) fn read_rows(
     lists: &RankedLists,
     node_count: usize,
 ) -> Result<Ranked, CurvesError> {
+    // Refuse lists that the rounds did not settle.
     let count = session.read(lists.unsettled)?[0] as usize;
     if count != 0 {
         let rounds = lists.round_count;
         return Err(RankError::Unsettled { count, rounds }.into());
     }
+
+    // Read the rows of the nodes that there are.
     let rows = &lists.rows;
     let mut standings = session.read(rows.standings)?;
     standings.truncate(node_count * size_of::<Standing>() / 4);
     let mut order = session.read(rows.order)?;
     order.truncate(node_count);
+
+    // Read where chains start, without those of nodes that are room alone.
     let starts = session.read(rows.starts)?;
     let chain_count = session.read(rows.chains.count)?[0] as usize;
     let mut chains = session.read(rows.chains.list)?;

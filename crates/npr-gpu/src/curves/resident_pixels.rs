@@ -122,6 +122,7 @@ impl<'a> ResidentPixels<'a> {
         path: &PublishedPath,
         hiders: Hiders<'_>,
     ) -> Result<(Traced, Loops), CurvesError> {
+        // Trace an empty picture without the engine.
         self.times.clear();
         let on = &PixelScene {
             shape: self.shape,
@@ -134,6 +135,8 @@ impl<'a> ResidentPixels<'a> {
             let loops = Loops::new(&traced, path);
             return Ok((traced, loops));
         }
+
+        // Run the graph, with more room each time that it did not suffice.
         loop {
             let made = self.prepared(on, path, hiders.kind())?;
             let (session, contours) = (made.session.as_mut(), &made.contours);
@@ -162,6 +165,7 @@ impl<'a> ResidentPixels<'a> {
         path: &PublishedPath,
         hiding: Hiding,
     ) -> Result<&mut Made, CurvesError> {
+        // Say what this view needs.
         let plan = Plan {
             size: on.pixel_view(path).size,
             hiding,
@@ -170,6 +174,8 @@ impl<'a> ResidentPixels<'a> {
             creases: on.creases,
             is_drawn: on.is_drawn.to_vec(),
         };
+
+        // Keep the last graph where it needs the same.
         let last = self.made.take().filter(|made| made.plan == plan);
         let made = match last {
             Some(made) => made,
@@ -201,6 +207,7 @@ impl Made {
 
     /// What a run found.
     fn found(&mut self, view: PixelView, count: PixelRoom) -> Result<(Traced, Loops), CurvesError> {
+        // Read the picture and the sides of its pixels in rows.
         let session = self.session.as_mut();
         let (from, strips) = (&self.contours, &self.strips);
         let ranked = read_rows(session, &from.lists, count.sides)?;
@@ -214,6 +221,8 @@ impl Made {
             standings: standings_of(&ranked),
             order: ranked.order,
         };
+
+        // Read the loops and their strips.
         let loops = Loops {
             spots: first(session, strips.spots, count.sides)?,
             places: first(session, strips.places, count.sides)?,

@@ -28,10 +28,13 @@ pub struct SampledFrame {
 /// [`sample_visibility`](npr_vector::mesh_lines::sample::sample_visibility). Seven passes up to 4096 samples, and 28
 /// bytes for each besides itself.
 pub fn add_sampling(graph: &mut Graph, on: &SampledFrame) -> ResourceId {
+    // Look at every sample from the eye.
     let count = graph.element_count(on.samples);
     let shares = graph.buffer::<f32>("visible shares", count);
     let looked_at = [on.view, on.window, on.gbuffer, on.samples, shares];
     graph.compute(&vector::SAMPLE_VISIBILITY, &looked_at);
+
+    // Weigh what is seen, and find the samples whose verdict is clear.
     let verdicts = graph.buffer::<u32>("verdicts", count);
     let clear = graph.buffer::<u32>("clear samples", count);
     let weighed = [
@@ -43,6 +46,8 @@ pub fn add_sampling(graph: &mut Graph, on: &SampledFrame) -> ResourceId {
         clear,
     ];
     graph.compute(&vector::WEIGH_SAMPLES, &weighed);
+
+    // Let every other sample show what the last clear one before it shows.
     let Compacted { list, slots, .. } = add_compact(graph, clear, count, &ListWork::WHOLE);
     let visible = graph.buffer::<u32>("visible samples", count);
     let filtered = [verdicts, clear, slots, list, visible];

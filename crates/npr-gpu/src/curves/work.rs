@@ -9,12 +9,12 @@ use npr_vector::rank::work::{Arguments, WorkRule};
 /// Every pass over a list is appended with the same one, so that all of them work on the same elements.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ListWork {
-    /// [`Arguments`] in the order of the rule; nothing where the room is full.
+    /// Buffer of [`Arguments`] in the order of the rule; none where passes work on the whole room.
     arguments: Option<ResourceId>,
     rule: WorkRule,
 }
 
-/// What follows a list's length besides passes over its elements and sums over them.
+/// What else a list's length decides, besides passes over its elements and sums over them.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct IndirectArguments {
     /// Rounds of pointer jumping.
@@ -35,7 +35,7 @@ impl ListWork {
         },
     };
 
-    /// The arguments, for those who look at them; nothing where the room is full.
+    /// The buffer of arguments, for inspection; none where passes work on the whole room.
     pub fn arguments(&self) -> Option<ResourceId> {
         self.arguments
     }

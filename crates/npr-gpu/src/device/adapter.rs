@@ -88,6 +88,7 @@ pub fn adapters() -> Vec<AdapterSummary> {
 pub(super) fn open(
     choice: AdapterChoice,
 ) -> Result<(AdapterSummary, wgpu::Device, wgpu::Queue), EngineError> {
+    // Try adapters from the best on, and remember why each was refused.
     let mut refusals = Vec::new();
     for (summary, adapter) in ranked() {
         if choice == AdapterChoice::Hardware && summary.is_software() {
@@ -99,6 +100,8 @@ pub(super) fn open(
             Err(error) => refusals.push(format!("{}: {error}", summary.name)),
         }
     }
+
+    // Say why none is left.
     let reason = if refusals.is_empty() {
         "no driver offers one".to_owned()
     } else {

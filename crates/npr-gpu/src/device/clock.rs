@@ -17,6 +17,7 @@ pub(super) struct Clock {
 impl Clock {
     /// A clock for passes numbered below `pass_count`; `None` where the device has none, or not for so many.
     pub(super) fn new(gpu: &Gpu, pass_count: usize) -> Option<Self> {
+        // Go without where the device cannot time so many passes.
         let has_clock = gpu
             .device
             .features()
@@ -24,6 +25,8 @@ impl Clock {
         if !has_clock || pass_count == 0 || pass_count > wgpu::QUERY_SET_MAX_QUERIES as usize / 2 {
             return None;
         }
+
+        // Make room for two time stamps a pass.
         let pass_count = pass_count as u32;
         let queries = gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
             label: Some("clock"),

@@ -24,6 +24,7 @@ impl Memory {
         resource: &Resource,
         more: wgpu::BufferUsages,
     ) -> Result<Self, EngineError> {
+        // Refuse what the limits rule out, then take the memory.
         check_size(&gpu.device.limits(), resource)?;
         let made = gpu.scoped(|| match resource.kind {
             Kind::Uniform { size } => Self::Buffer(new_buffer(
@@ -42,6 +43,8 @@ impl Memory {
                 Self::Image(Image::new(gpu, resource.name, format, size))
             }
         });
+
+        // Tell a device that is full from one that failed.
         made.map_err(|error| match error {
             wgpu::Error::OutOfMemory { .. } => out_of_memory(resource),
             other => gpu.failed(resource.name, &other),

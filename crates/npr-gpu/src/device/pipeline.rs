@@ -45,10 +45,13 @@ impl PipelineCache {
 }
 
 fn compile(device: &wgpu::Device, pass: &Pass) -> Pipeline {
+    // Compile the shader.
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(pass.name),
         source: wgpu::ShaderSource::Wgsl(npr_shaders::link(&pass.shader).into()),
     });
+
+    // Lay out what it binds, slot by slot.
     let entries: Vec<_> = (0..)
         .zip(pass.slots)
         .map(|(binding, slot)| layout_entry(pass, binding, slot))
@@ -62,6 +65,8 @@ fn compile(device: &wgpu::Device, pass: &Pass) -> Pipeline {
         bind_group_layouts: &[Some(&layout)],
         immediate_size: 0,
     });
+
+    // Make it a pass over elements or over pixels.
     let stage = match pass.work {
         Work::PerElement { .. } => {
             Stage::Compute(compile_compute(device, pass, &module, &bindings))

@@ -32,6 +32,7 @@ impl DeviceSession {
         pipelines: &PipelineCache,
         graph: Graph,
     ) -> Result<Self, EngineError> {
+        // Take memory, marked where it holds the size of later passes.
         gpu.check()?;
         let sizes = graph.nodes().iter().filter_map(|node| node.size);
         let mut more = vec![wgpu::BufferUsages::empty(); graph.resources().len()];
@@ -44,10 +45,14 @@ impl DeviceSession {
             .zip(more)
             .map(|(resource, more)| Memory::new(&gpu, resource, more))
             .collect::<Result<_, _>>()?;
+
+        // Fill what the graph holds from the start.
         for (id, words) in graph.held() {
             let name = graph.resource(id).name;
             gpu.guarded(name, || memory[id.index()].write(&gpu.queue, words))?;
         }
+
+        // Compile the passes, and time them where the device has a clock.
         let steps = Step::all_of(&gpu, pipelines, &graph, &memory)?;
         let clock = gpu.guarded("the clock", || Clock::new(&gpu, steps.len()))?;
         gpu.check()?;
@@ -114,6 +119,7 @@ impl DeviceSession {
         number: u32,
         node: &Node,
     ) -> wgpu::RenderPass<'a> {
+        // Sort the targets into colours and depths.
         let targets = node.bound[node.pass.slots.len()..]
             .iter()
             .filter_map(|id| self.memory[id.index()].image());
@@ -123,6 +129,8 @@ impl DeviceSession {
             .iter()
             .map(|image| Some(color_attachment(&image.view, node.clears)))
             .collect();
+
+        // Clear them or keep them, as the node says.
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(node.pass.name),
             color_attachments: &colors,

@@ -41,6 +41,7 @@ impl Step {
     ) -> Result<Vec<Self>, EngineError> {
         let mut steps = Vec::new();
         for (index, node) in graph.nodes().iter().enumerate() {
+            // Leave out a node that would draw nothing.
             let extent = extent_of(graph, node)?;
             if has_effect(node, extent) {
                 let pipeline = pipelines.get(gpu, node.pass)?;
@@ -64,6 +65,7 @@ fn bind(
     pipeline: &Pipeline,
     memory: &[Memory],
 ) -> Result<wgpu::BindGroup, EngineError> {
+    // Match the resources of the node with the slots of its pass.
     let bound = node.bound.iter().take(node.pass.slots.len());
     let entries: Vec<_> = (0..)
         .zip(bound)
@@ -72,6 +74,8 @@ fn bind(
             resource: memory[id.index()].binding(),
         })
         .collect();
+
+    // Bind them all at once.
     gpu.guarded(node.pass.name, || {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(node.pass.name),

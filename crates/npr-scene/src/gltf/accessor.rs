@@ -82,6 +82,7 @@ impl<'a> Accessors<'a> {
 
     /// Checks that accessor `index` could be read, without reading it.
     pub(crate) fn check(&self, index: usize) -> Result<(), GltfError> {
+        // Check the list itself against the view that it lies in.
         let item = Item::new("accessor", index);
         let accessor = self.get(index, item)?;
         let width = type_width(accessor);
@@ -92,6 +93,8 @@ impl<'a> Accessors<'a> {
             self.rows(view.value(), &layout)?;
         }
         self.check_count(index, accessor)?;
+
+        // Check the values that replace single elements of it.
         let Some(sparse) = &accessor.sparse else {
             return Ok(());
         };
@@ -213,11 +216,14 @@ impl<'a> Accessors<'a> {
 
     /// The bytes of a list in `view`, checked against its end.
     fn rows(&self, view: usize, layout: &Layout) -> Result<Rows<'a>, GltfError> {
+        // Find the view and how far apart elements lie in it.
         let accessor = layout.accessor;
         let bytes = self
             .buffers
             .view(self.root, view, Item::new("accessor", accessor))?;
         let stride = self.stride(view, layout)?;
+
+        // Refuse a list that goes on beyond its view.
         let end = layout.end(stride);
         let view_bytes = bytes.len() as u64;
         let past_end = GltfError::AccessorPastEnd {
@@ -273,7 +279,7 @@ impl Layout {
         }
     }
 
-    /// Those of the values that `sparse` puts in the place of others.
+    /// The layout of the values that `sparse` puts in place of others.
     fn of_sparse_values(&self, sparse: &Sparse) -> Self {
         Self {
             offset: sparse.values.byte_offset.0,
@@ -321,6 +327,7 @@ fn no_sparse_indices(accessor: usize) -> GltfError {
 }
 
 fn float_rows<const N: usize>(rows: &Rows) -> Option<Vec<[f32; N]>> {
+    // Map normalised integers to -1..1 or 0..1; keep all others.
     let unit = rows.normalized;
     let signed = |value: f32, most: f32| {
         if unit {

@@ -54,6 +54,7 @@ impl<'a> Buffers<'a> {
         bin: Option<&'a [u8]>,
         loading: &mut Loading,
     ) -> Result<usize, SceneError> {
+        // Take the bytes from where the buffer says: another file, a data URI, or the binary chunk.
         let data = match &buffer.uri {
             Some(uri) => Cow::Owned(uri::read(
                 uri,
@@ -62,6 +63,8 @@ impl<'a> Buffers<'a> {
             )?),
             None => Cow::Borrowed(bin.ok_or(GltfError::NoData { buffer: index })?),
         };
+
+        // Count what was copied towards the memory limit.
         if let Cow::Owned(bytes) = &data {
             loading.allowance.take::<u8>("buffers", bytes.len())?;
         }

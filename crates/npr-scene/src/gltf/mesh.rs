@@ -33,6 +33,7 @@ pub(crate) fn read(
     scene: &mut Scene,
     loading: &mut Loading,
 ) -> Result<(), SceneError> {
+    // Read each mesh once for every set of morph weights that nodes give it.
     let mut meshes: Pool<Key, Mesh> = Pool::default();
     for (node_index, source, node) in tree.nodes_with_source(accessors.root, scene) {
         let Some(index) = source.mesh.as_ref().map(Index::value) else {
@@ -77,6 +78,7 @@ fn read_mesh(
     weights: &[f32],
     loading: &mut Loading,
 ) -> Result<Mesh, SceneError> {
+    // Plan the memory of its name before it is copied.
     let Some(source) = accessors.root.meshes.get(index) else {
         return Ok(Mesh::default());
     };
@@ -87,6 +89,8 @@ fn read_mesh(
         name: source.name.clone().unwrap_or_default(),
         parts: Vec::new(),
     };
+
+    // Read its parts, leaving out those with nothing to draw.
     for (part, primitive) in source.primitives.iter().enumerate() {
         let place = PrimitiveLocation { mesh: index, part };
         mesh.parts.extend(primitive::read(

@@ -54,6 +54,7 @@ pub(crate) fn read(
     weights: &[f32],
     loading: &mut Loading,
 ) -> Result<Option<Part>, SceneError> {
+    // Leave out a part without positions.
     let user = Item::new("mesh", place.mesh);
     let Some(index) = attribute(primitive, Semantic::Positions) else {
         loading.notices.add(format!(
@@ -61,6 +62,8 @@ pub(crate) fn read(
         ));
         return Ok(None);
     };
+
+    // Leave out points, and modes that nobody knows.
     if !topology::is_surface(primitive) && !topology::is_of_lines(primitive) {
         loading.notices.add(match primitive.mode {
             Checked::Valid(_) => "points are not drawn, only triangles and lines are".to_owned(),
@@ -70,6 +73,8 @@ pub(crate) fn read(
         });
         return Ok(None);
     }
+
+    // Read triangles, lines and what is known of their vertices.
     let vertex_count = accessors.count(index, user)?;
     Reader {
         accessors,
@@ -84,6 +89,7 @@ pub(crate) fn read(
 
 impl Reader<'_, '_, '_> {
     fn part(mut self, place: PrimitiveLocation, weights: &[f32]) -> Result<Part, SceneError> {
+        // Read every list that drawings use.
         let uv_set = material::uv_set(self.accessors.root, self.primitive);
         let (joints, weights_of_joints) = self.joints()?;
         let mut part = Part {
@@ -101,6 +107,8 @@ impl Reader<'_, '_, '_> {
             morphs: self.morphs(weights)?,
             ids: Vec::new(),
         };
+
+        // Bend the vertices by the morphs that the file applies.
         apply_morphs(&mut part);
         Ok(part)
     }
@@ -178,9 +186,13 @@ impl Reader<'_, '_, '_> {
         if !topology::is_surface(self.primitive) {
             return Ok(Vec::new());
         }
+
+        // Plan the triangles before any is made.
         let corner_count = self.index_count()?;
         let triangle_count = topology::triangle_count(self.primitive, corner_count);
         self.loading.allowance.take_triangles(triangle_count)?;
+
+        // Make triangles of the corners, and refuse a vertex that is missing.
         let corners = self.indices(corner_count)?;
         let triangles = topology::triangles(self.primitive, &corners);
         let PrimitiveLocation { mesh, part } = place;
@@ -201,9 +213,13 @@ impl Reader<'_, '_, '_> {
         if !topology::is_of_lines(self.primitive) {
             return Ok(Vec::new());
         }
+
+        // Plan the lines before any is made.
         let end_count = self.index_count()?;
         let segment_count = topology::segment_count(self.primitive, end_count);
         self.loading.allowance.take_segments(segment_count)?;
+
+        // Make lines of the ends, and say where one end is left over.
         let ends = self.indices(end_count)?;
         let segments = topology::segments(self.primitive, &ends);
         if topology::has_odd_end(self.primitive, end_count) {
@@ -212,6 +228,8 @@ impl Reader<'_, '_, '_> {
                 "{user} has a line with one end, which is not drawn"
             ));
         }
+
+        // Refuse a vertex that is missing.
         let PrimitiveLocation { mesh, part } = place;
         match self.missing_vertex(&segments) {
             Some((segment, vertex)) => Err(GltfError::MissingEnd {

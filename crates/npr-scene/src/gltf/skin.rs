@@ -34,8 +34,11 @@ pub(crate) fn read(
     scene: &mut Scene,
     loading: &mut Loading,
 ) -> Result<(), SceneError> {
+    // Note which joints meshes name before those without weight are dropped.
     let highest: Vec<Option<Highest>> = scene.meshes.iter().map(Highest::of).collect();
     scene.meshes.iter_mut().for_each(drop_idle_joints);
+
+    // Give every node its skin, unless its mesh names joints that the skin lacks.
     let mut skins: Pool<usize, Skin> = Pool::default();
     for (node_index, source, node) in tree.nodes_with_source(accessors.root, scene) {
         let Some(index) = source.skin.as_ref().map(Index::value) else {
@@ -63,7 +66,7 @@ struct Highest {
 }
 
 impl Highest {
-    /// Those of `mesh`; none where a part follows no joints.
+    /// The highest joints of `mesh`; none where a part follows no joints.
     fn of(mesh: &Mesh) -> Option<Self> {
         let mut highest = Self::default();
         for part in &mesh.parts {
@@ -97,6 +100,7 @@ fn drop_idle_joints(mesh: &mut Mesh) {
 
 /// Whether every joint that the mesh of `node` follows is in `skin`; says which is not.
 fn fits(node: &Node, skin: &Skin, highest: &[Option<Highest>], loading: &mut Loading) -> bool {
+    // Find the highest joints that the mesh names.
     let Some(mesh) = node.mesh else {
         return false;
     };
@@ -108,6 +112,8 @@ fn fits(node: &Node, skin: &Skin, highest: &[Option<Highest>], loading: &mut Loa
         ));
         return false;
     };
+
+    // Say which joint is missing: one that is followed matters, one without weight does not.
     let Highest { followed, named } = highest;
     if !has(followed) {
         loading.notices.add(format!(
@@ -128,6 +134,7 @@ fn read_skin(
     user: Item,
     loading: &mut Loading,
 ) -> Result<Option<Skin>, SceneError> {
+    // Leave out a skin that has no joints, or some that are not drawn.
     let item = Item::new("skin", index);
     let skins = &accessors.root.skins;
     let source = skins.get(index).ok_or(GltfError::Missing {
@@ -147,6 +154,8 @@ fn read_skin(
         ));
         return Ok(None);
     };
+
+    // Leave out a skin that would carry its mesh out of range.
     let inverse_bind = inverse_bind(accessors, source, item, loading)?;
     if !inverse_bind.iter().all(matrix::is_sound) {
         loading.notices.add(format!(
@@ -168,6 +177,7 @@ fn joints(
     source: &JsonSkin,
     user: Item,
 ) -> Result<Option<Vec<u32>>, GltfError> {
+    // Refuse a joint that does not exist.
     let count = accessors.root.nodes.len();
     let missing = source
         .joints
@@ -181,6 +191,8 @@ fn joints(
             count,
         });
     }
+
+    // Find the joints among the nodes that are kept.
     Ok(source
         .joints
         .iter()
@@ -194,11 +206,14 @@ fn inverse_bind(
     user: Item,
     loading: &mut Loading,
 ) -> Result<Vec<Matrix>, SceneError> {
+    // Bind every joint where it stands, unless the file says otherwise.
     let wanted = source.joints.len();
     loading.allowance.take::<Matrix>("bind matrices", wanted)?;
     let Some(index) = source.inverse_bind_matrices.as_ref().map(Index::value) else {
         return Ok(vec![matrix::IDENTITY; wanted]);
     };
+
+    // Refuse fewer matrices than joints.
     let count = accessors.count(index, user)?;
     if count < wanted {
         return Err(GltfError::Count {
@@ -209,6 +224,8 @@ fn inverse_bind(
         }
         .into());
     }
+
+    // Make columns of the numbers, one matrix for each joint.
     let numbers = accessors.floats::<16>(index, user, &mut loading.allowance)?;
     let columns = |flat: [f32; 16]| {
         let (columns, _) = flat.as_chunks::<4>();

@@ -56,6 +56,7 @@ impl<'a> Textures<'a> {
         material: u32,
         loading: &mut Loading,
     ) -> Result<Option<TextureUse>, SceneError> {
+        // Find the texture and how it repeats.
         let index = info.index.value();
         let user = Item::new("material", material as usize);
         let item = Item::new("texture", index);
@@ -69,6 +70,8 @@ impl<'a> Textures<'a> {
         let sampler = texture
             .sampler
             .and_then(|sampler| root.samplers.get(sampler.value()));
+
+        // Join its image with how the material lays it on the surface.
         let image = self.image(texture, item, loading)?;
         Ok(image.map(|image| TextureUse {
             image,
@@ -136,12 +139,15 @@ fn decode(
     item: Item,
     loading: &mut Loading,
 ) -> Result<Option<Image>, SceneError> {
+    // Mention the file where images are not wanted.
     if !loading.allowance.limits.decode_images {
         if let Source::Uri(uri) = source {
             uri::mention(uri, loading.resources);
         }
         return Ok(None);
     }
+
+    // Decode the image; one that is broken is left out, one beyond a limit ends the load.
     let bytes = bytes(accessors, source, item, loading);
     let fault = match bytes.map(|bytes| decode::decode(name, &bytes, &mut loading.allowance)) {
         Ok(Ok(image)) => return Ok(Some(image)),
@@ -190,6 +196,7 @@ fn wrap(sampler: Option<&Sampler>) -> [Wrap; 2] {
 }
 
 fn transform(info: &Info, loading: &mut Loading) -> TextureTransform {
+    // Read how the texture is moved, turned and scaled.
     let extension = info
         .extensions
         .as_ref()
@@ -202,6 +209,8 @@ fn transform(info: &Info, loading: &mut Loading) -> TextureTransform {
         rotation: extension.rotation.0,
         scale: extension.scale.0,
     };
+
+    // Leave out a transform that is not finite.
     let numbers = transform
         .offset
         .into_iter()

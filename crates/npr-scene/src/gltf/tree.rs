@@ -34,6 +34,7 @@ impl Tree {
     ///
     /// A node that does not exist, that is reached twice, or more nodes than the limit.
     pub(crate) fn walk(root: &Root, loading: &mut Loading) -> Result<Self, SceneError> {
+        // Refuse more nodes than the limit.
         let count = root.nodes.len() as u64;
         limits::check(
             "node count",
@@ -41,11 +42,15 @@ impl Tree {
             loading.allowance.limits.nodes,
             "--max-nodes",
         )?;
+
+        // Find where the tree begins.
         let scene = default_scene(root)?;
         let roots = match scene.and_then(|index| root.scenes.get(index)) {
             Some(scene) => scene.nodes.iter().map(Index::value).collect(),
             None => parentless_nodes(root, loading),
         };
+
+        // Keep what is reached from there.
         let mut tree = Self {
             kept: Vec::new(),
             places: vec![None; root.nodes.len()],
@@ -182,11 +187,14 @@ fn local(node: &scene::Node, loading: &mut Loading) -> Matrix {
 
 /// Works out where every node stands in the world, and takes what stands nowhere out of the picture.
 pub(crate) fn place(scene: &mut Scene, loading: &mut Loading) {
+    // Multiply transforms from parents to children.
     let mut worlds: Vec<Matrix> = Vec::with_capacity(scene.nodes.len());
     for node in &scene.nodes {
         let parent = node.parent.and_then(|parent| worlds.get(parent as usize));
         worlds.push(parent.map_or(node.local, |parent| matrix::multiply(parent, &node.local)));
     }
+
+    // Draw nothing at a node that stands out of range.
     for (node, world) in scene.nodes.iter_mut().zip(worlds) {
         if matrix::is_sound(&world) {
             node.world_from_node = world;

@@ -17,24 +17,31 @@ use super::accessor::{Accessors, type_width};
 use super::error::Item;
 use crate::loading::Loading;
 
-/// Notes every part of a file that is broken and was not needed. What was needed has been read and is sound, or was
-/// told of.
+/// Notes every broken part of a file that was not needed. What was needed has been read by now: it is sound or has a
+/// notice of its own.
 pub(crate) fn note(accessors: &Accessors, loading: &mut Loading) {
+    // Note lists that could not be read.
     let root = accessors.root;
     for (index, accessor) in root.accessors.iter().enumerate() {
         note_bounds(Item::new("accessor", index), accessor, loading);
         note_fault(accessors.check(index).err(), loading);
     }
+
+    // Note views beyond their buffers.
     for view in 0..root.buffer_views.len() {
         let item = Item::new("buffer view", view);
         note_fault(accessors.buffers.view(root, view, item).err(), loading);
     }
+
+    // Note skins that bend nothing.
     for (index, skin) in root.skins.iter().enumerate() {
         if skin.joints.is_empty() {
             let item = Item::new("skin", index);
             note_fault(Some(format!("{item} has no joints")), loading);
         }
     }
+
+    // Note animations that could not be played.
     for (index, animation) in root.animations.iter().enumerate() {
         if let Some(fault) = animation_fault(accessors, animation) {
             let item = Item::new("animation", index);
@@ -53,7 +60,7 @@ fn note_fault(fault: Option<impl ToString>, loading: &mut Loading) {
     }
 }
 
-/// Notes a lowest or highest value that is none. Bounds are taken from the elements themselves.
+/// Notes a lowest or highest value that is no number. Bounds are taken from the elements themselves.
 fn note_bounds(item: Item, accessor: &Accessor, loading: &mut Loading) {
     let width = type_width(accessor);
     for (name, bound) in [("min", &accessor.min), ("max", &accessor.max)] {
@@ -107,12 +114,15 @@ fn channel_fault(
     item: Item,
     channel: &Channel,
 ) -> Option<String> {
+    // Find the values of the movement.
     let count = animation.samplers.len();
     let sampler = channel.sampler.value();
     let Some(values) = animation.samplers.get(sampler) else {
         let sampler = Item::new("sampler", sampler);
         return Some(format!("{item} uses {sampler}, but there are only {count}"));
     };
+
+    // Find what they move.
     let (node, count) = (channel.target.node.value(), accessors.root.nodes.len());
     if node >= count {
         let node = Item::new("node", node);
@@ -121,6 +131,8 @@ fn channel_fault(
     let Checked::Valid(moved) = channel.target.path else {
         return Some(format!("{item} moves something that glTF does not know"));
     };
+
+    // Judge whether the values suit it.
     value_fault(
         accessors,
         item,

@@ -29,6 +29,7 @@ pub(crate) fn turn_to_front(root: &Root, scene: &mut Scene) {
 
 /// Says which data of an avatar is ignored, and what is wrong with it.
 pub(crate) fn note_what_is_ignored(root: &Root, loading: &mut Loading) {
+    // Say what of an avatar's behaviour is not drawn.
     if extension(root, "VRM").is_some() {
         loading
             .notices
@@ -40,6 +41,8 @@ pub(crate) fn note_what_is_ignored(root: &Root, loading: &mut Loading) {
     loading
         .notices
         .add("humanoid, expressions and toon materials of VRM 1.0 are ignored");
+
+    // Note bones that name no node.
     match vrm
         .pointer("/humanoid/humanBones")
         .and_then(Value::as_object)
@@ -51,6 +54,8 @@ pub(crate) fn note_what_is_ignored(root: &Root, loading: &mut Loading) {
             .iter()
             .for_each(|(name, bone)| note_bone(root, name, bone, loading)),
     }
+
+    // Note expressions that bind a missing morph.
     let expressions = ["/expressions/preset", "/expressions/custom"];
     let groups = expressions
         .iter()

@@ -68,6 +68,7 @@ impl Tables {
     }
 
     fn corner(&self, line: usize, element: Element, word: &[u8]) -> Result<Corner, ObjError> {
+        // Resolve each field of the corner against what is defined so far.
         let mut fields = word.split(|&byte| byte == b'/');
         let mut index = |what, count| {
             let field = fields.next().unwrap_or_default();
@@ -91,6 +92,8 @@ impl Tables {
                 count,
             })
         };
+
+        // Demand a position; the other fields may be left out.
         let position = index("vertex", self.positions.len())?;
         let uv = index("texture coordinate", self.uvs.len())?;
         let normal = index("normal", self.normals.len())?;
@@ -117,6 +120,7 @@ impl Tables {
         segments: &[[Corner; 2]],
         loading: &mut Loading,
     ) -> Result<Part, LimitError> {
+        // Number the distinct corners.
         let mut numbers = Numbers::default();
         let triangles = numbers.of_all(triangles);
         let segments = numbers.of_all(segments);
@@ -124,6 +128,8 @@ impl Tables {
         loading
             .allowance
             .take::<[f32; 12]>("vertex data", vertices.len())?;
+
+        // Keep lists that say something of the vertices.
         let has_uvs = vertices.iter().any(|corner| corner.uv != NONE);
         let has_normals = vertices.iter().all(|corner| corner.normal != NONE);
         let colors = !self.colors.is_empty();

@@ -15,17 +15,20 @@ use crate::loading::Loading;
 /// Most bytes of UTF-8 that a unit of UTF-16 becomes.
 const UTF8_BYTES_PER_UNIT: usize = 3;
 
-/// The text without a byte order mark; one in UTF-16 is rewritten, and told of.
+/// The text without a byte order mark. Text in UTF-16 is rewritten in UTF-8, with a notice.
 ///
 /// Other encodings stay as they are: statements are ASCII in all of them, and only names may suffer.
 pub(crate) fn utf8<'a>(
     bytes: &'a [u8],
     loading: &mut Loading,
 ) -> Result<Cow<'a, [u8]>, LimitError> {
+    // Hand on text that is in ASCII or UTF-8.
     let Some(unit) = unit_of(bytes) else {
         let mark = b"\xef\xbb\xbf";
         return Ok(Cow::Borrowed(bytes.strip_prefix(mark).unwrap_or(bytes)));
     };
+
+    // Rewrite text in UTF-16, and say so.
     let (pairs, _) = bytes.as_chunks::<2>();
     loading
         .allowance

@@ -97,6 +97,8 @@ impl Header {
             elements: Vec::new(),
         };
         let mut rest = file;
+
+        // Read line by line until the header ends.
         for line in 1..=ENTRY_LIMIT {
             let fail = |fault| PlyError::Header { line, fault };
             let Some((text, after)) = split_line(rest) else {

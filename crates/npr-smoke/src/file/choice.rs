@@ -36,6 +36,7 @@ impl Choice {
     ///
     /// [`VolumeFault`] where there is no such grid, or it cannot be what it is to be.
     pub fn of(grids: &[GridInfo], options: &VolumeOptions) -> Result<Self, VolumeFault> {
+        // Find the densities, which must not be distances to a surface.
         let (density, guess) = match &options.density {
             Some(name) => (named(grids, name)?, false),
             None => density_of(grids)?,
@@ -44,6 +45,8 @@ impl Choice {
             let grid = shown(&grids[density].name);
             return Err(VolumeFault::LevelSet { grid });
         }
+
+        // Find the velocities: one grid of vectors or three of components.
         let velocity = match options.velocity.len() {
             0 => velocity_of(grids),
             1 | 3 => {
@@ -54,6 +57,8 @@ impl Choice {
             }
             count => return Err(VolumeFault::Components { count }),
         };
+
+        // Find the temperatures, unless they are the densities.
         let heat = match &options.heat {
             Some(name) => Some(named(grids, name)?),
             None => called(grids, &HEAT_NAMES, is_number),

@@ -38,6 +38,7 @@ impl Extent {
     /// Lowest and highest corner of its voxels in the world, a unit box where those are not finite; none where there
     /// are no voxels.
     pub fn bounds(&self) -> Option<([f32; 3], [f32; 3])> {
+        // Place the corners of the box, half a voxel beyond its outermost centres.
         let corner = |i: usize| {
             let index = |axis: usize| {
                 let end = if i >> axis & 1 == 0 {
@@ -50,6 +51,8 @@ impl Extent {
             let index = DVec3::from_array(std::array::from_fn(index));
             self.world_from_index.transform_point3(index).as_vec3()
         };
+
+        // Take the box around them.
         let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         let (low, high) = (0..8)
             .map(corner)

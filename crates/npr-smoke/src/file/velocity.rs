@@ -45,6 +45,7 @@ impl Velocity {
         extent: &Extent,
         up: UpAxis,
     ) -> Result<Option<Vec<Vec3>>, VolumeFault> {
+        // Look up the vectors in the middle of each voxel.
         let turn = up.turn().matrix3.as_mat3();
         let vectors: Vec<[f32; 3]> = match self {
             Self::Unknown => return Ok(None),
@@ -59,6 +60,8 @@ impl Velocity {
                 rows.map(|((x, y), z)| [x, y, z]).collect()
             }
         };
+
+        // Turn them as the file is turned.
         Ok(Some(
             vectors.into_iter().map(|v| turn * Vec3::from(v)).collect(),
         ))

@@ -81,7 +81,7 @@ mod tests {
         for name in [
             "p_03.vdb", "p_11.vdb", "p_4.vdb", "p_x.vdb", "q_99.vdb", "p_+5.vdb",
         ] {
-            std::fs::write(folder.path().join(name), b"").expect("written");
+            std::fs::File::create_new(folder.path().join(name)).expect("made");
         }
         let found = |pattern: &str| Numbered::of(&folder.path().join(pattern))?.found();
         assert_eq!(found("p_##.vdb"), Some((3, 11)));

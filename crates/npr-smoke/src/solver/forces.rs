@@ -15,10 +15,13 @@ pub(super) fn lift(
     settings: &SmokeSettings,
     gain: f32,
 ) {
+    // Weigh each cell: heat lifts it, smoke pulls it down.
     let top = flow.cells.size[2];
     let push = |cell: [usize; 3]| {
         settings.buoyancy * temperature.value(cell) - settings.weight * density.value(cell)
     };
+
+    // Push every face between two cells by their mean; the floor stays closed.
     let upward = &mut flow.faces[2];
     let before = upward.values.clone();
     let lattice = upward.lattice;
@@ -38,12 +41,16 @@ pub(super) fn confine(flow: &mut Flow, strength: f32, seconds: f32) {
     if strength <= 0.0 {
         return;
     }
+
+    // Find how the air turns in every cell.
     let cells = flow.cells;
     let centres = cells.map_costly(|cell| flow.at_centre(cell));
     let curls = cells.map_costly(|cell| {
         let [dx, dy, dz] = [0, 1, 2].map(|axis| slope(&centres, cells.size, cell, axis));
         Vec3::new(dy.z - dz.y, dz.x - dx.z, dx.y - dy.x)
     });
+
+    // Push the air round the places where it turns most.
     let lengths: Vec<Vec3> = curls
         .iter()
         .map(|curl| Vec3::splat(curl.length()))
@@ -53,6 +60,8 @@ pub(super) fn confine(flow: &mut Flow, strength: f32, seconds: f32) {
         let towards = Vec3::from_array(towards).normalize_or_zero();
         towards.cross(curls[cells.index(cell)]) * (strength * seconds)
     });
+
+    // Spread the push over the faces of the cells.
     for (axis, field) in flow.faces.iter_mut().enumerate() {
         let lattice = field.lattice;
         let before = field.values.clone();

@@ -70,16 +70,20 @@ impl Pressure {
 
     /// Conjugate gradients for `pressure`, starting from nothing, with the right side in `residual`.
     fn solve(&mut self) {
+        // Stop at once where nothing diverges.
         let count = self.pressure.len();
         self.pressure.fill(0.0);
         let enough = TOLERANCE * largest(&self.residual);
         if enough.is_nan() || enough <= 0.0 {
             return;
         }
+
+        // Begin along the steepest way down.
         self.precondition();
         self.direction.copy_from_slice(&self.levels[0].solution);
         let mut power = dot(&self.residual, &self.direction);
         for _ in 0..MAX_ROUNDS {
+            // Go as far along the direction as the error shrinks.
             self.levels[0].apply(&self.direction, &mut self.image);
             let stretch = (power / dot(&self.direction, &self.image)) as f32;
             if !stretch.is_finite() {
@@ -90,6 +94,8 @@ impl Pressure {
             if largest(&self.residual) <= enough {
                 return;
             }
+
+            // Turn to the next direction, conjugate to those before.
             self.precondition();
             let next_power = dot(&self.residual, &self.levels[0].solution);
             let keep = (next_power / power) as f32;

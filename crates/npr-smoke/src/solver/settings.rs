@@ -11,7 +11,8 @@ use glam::Vec3;
 pub struct SmokeSettings {
     /// What smokes.
     pub source: Source,
-    /// Cells along x, y and z; z is up. [`MIN_SIDE`](super::MIN_SIDE) to [`MAX_SIDE`](crate::MAX_SIDE) each. The paper's 15 x 15 x 20 by default.
+    /// Cells along x, y and z; z is up. [`MIN_SIDE`](super::MIN_SIDE) to [`MAX_SIDE`](crate::MAX_SIDE) each. The
+    /// paper's 15 x 15 x 20 by default.
     pub size: [u32; 3],
     /// Seconds per frame, 0.001 to 1.
     pub frame_seconds: f32,
@@ -36,6 +37,7 @@ pub struct SmokeSettings {
 impl SmokeSettings {
     /// Settings under which a source looks like itself.
     pub fn of(source: Source) -> Self {
+        // Start from the plume; the others say where they differ.
         let plume = SmokeSettings {
             source,
             size: [15, 15, 20],
@@ -78,6 +80,7 @@ impl SmokeSettings {
 
     /// The same with every number finite and in its range.
     pub(super) fn sane(self) -> Self {
+        // Put the source's own numbers in place of those that are not finite.
         let own = Self::of(self.source);
         let within = |value: f32, own: f32, least: f32, most: f32| {
             if value.is_finite() {
@@ -91,6 +94,8 @@ impl SmokeSettings {
         } else {
             own.wind
         };
+
+        // Keep every number in its range.
         Self {
             frame_seconds: within(self.frame_seconds, own.frame_seconds, 1e-3, 1.0),
             heat: within(self.heat, own.heat, 0.0, 10.0),

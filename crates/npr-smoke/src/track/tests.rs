@@ -212,7 +212,8 @@ proptest! {
         let volume = volume.with_velocity(vec![speed; 120]).unwrap();
         let placement = if random { Placement::Random } else { Placement::Cover };
         let settings = TrackSettings {
-            count, threshold: numbers[2], detail: seed % 9, frame_seconds: numbers[3], scale: numbers[0], ease: numbers[1], placement, seed,
+            count, threshold: numbers[2], detail: seed % 9, frame_seconds: numbers[3], scale: numbers[0],
+            ease: numbers[1], placement, seed,
         };
         let mut track = Track::new(&volume, settings);
         for _ in 0..4 {

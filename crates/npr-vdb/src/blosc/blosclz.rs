@@ -14,6 +14,8 @@ pub(super) fn unpack(packed: &[u8], bytes: &mut [u8]) -> Option<usize> {
     let mut control = packed.next().map(|byte| byte & 31);
     while let Some(byte) = control {
         let control_bits = usize::from(byte);
+
+        // Copy a run of new bytes, or repeat a run that was unpacked before.
         filled = if byte < 32 {
             let end = filled.checked_add(control_bits)?.checked_add(1)?;
             for new in bytes.get_mut(filled..end)? {

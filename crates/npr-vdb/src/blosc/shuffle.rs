@@ -24,6 +24,7 @@ pub(super) fn unshuffle_bytes(shuffled: &[u8], element_bytes: usize, bytes: &mut
 /// `shuffled` holds the lowest bit of the first byte of all whole elements, eight elements a byte, then the next
 /// bits, and so on. Blosc leaves blocks as they are whose number of elements is no multiple of eight.
 pub(super) fn unshuffle_bits(shuffled: &[u8], element_bytes: usize, bytes: &mut [u8]) {
+    // Copy what was not shuffled: odd blocks, and what lies behind whole elements.
     let count = bytes.len().checked_div(element_bytes).unwrap_or_default();
     if !count.is_multiple_of(8) || count == 0 {
         copy_from(0, shuffled, bytes);
@@ -34,6 +35,8 @@ pub(super) fn unshuffle_bits(shuffled: &[u8], element_bytes: usize, bytes: &mut 
     for byte in bytes.iter_mut().take(whole) {
         *byte = 0;
     }
+
+    // Gather each element's bits from the planes that hold one of every element.
     let planes = shuffled
         .chunks_exact(count >> 3)
         .take(element_bytes.saturating_mul(8));

@@ -32,6 +32,7 @@ pub(super) struct Header {
 impl Header {
     /// The header, and the bytes that follow it.
     pub(super) fn read(bytes: &[u8]) -> Result<(Self, &[u8]), NpyFault> {
+        // Tell the version, and with it how the text's length is written.
         let rest = bytes.strip_prefix(MAGIC).ok_or(NpyFault::NotNpy)?;
         let (&[major, minor], rest) = rest.split_first_chunk().ok_or(NpyFault::NotNpy)?;
         let cut = NpyFault::Header {
@@ -47,6 +48,8 @@ impl Header {
                 .map(|(&length, rest)| (u32::from_le_bytes(length) as usize, rest)),
             _ => return Err(NpyFault::Version { major, minor }),
         };
+
+        // Read the text, unless it is longer than any real one.
         let (length, rest) = length.ok_or(cut.clone())?;
         if length > MOST_TEXT_BYTES {
             return Err(NpyFault::Header {
@@ -88,6 +91,7 @@ struct Text<'a> {
 impl<'a> Text<'a> {
     /// The dictionary, and nothing but blanks behind it.
     fn header(&mut self) -> Result<Header, NpyFault> {
+        // Read the three entries in any order, each once.
         let (mut descr, mut is_fortran, mut shape) = (None, None, None);
         self.expect(b'{')?;
         while !self.accept(b'}') {
@@ -115,6 +119,8 @@ impl<'a> Text<'a> {
                 break;
             }
         }
+
+        // Refuse a dictionary that is followed by more, or that lacks an entry.
         self.skip_blanks();
         let missing = fault(self.at, "an entry is missing");
         if self.at < self.bytes.len() {
