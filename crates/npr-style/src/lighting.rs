@@ -435,7 +435,9 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(1000))]
         #[test]
         fn coordinates_stay_within_the_ramp(
-            sources in prop::collection::vec((prop::array::uniform3(-5f32..5.0), 0u32..4, prop::array::uniform3(-1f32..1.0), 0f32..3.0, 0f32..9.0), 0..LIGHTS_MAX),
+            sources in prop::collection::vec((
+                prop::array::uniform3(-5f32..5.0), 0u32..4, prop::array::uniform3(-1f32..1.0), 0f32..3.0, 0f32..9.0,
+            ), 0..LIGHTS_MAX),
             world in prop::array::uniform3(-5f32..5.0), normal in prop::array::uniform3(-1f32..1.0),
             dark in 0u32..65536,
         ) {

@@ -1,7 +1,7 @@
 //! Colour of one triangle under a pixel: the shading half of `shade.compose_frame`.
 //!
-//! What is the same all over a triangle is found once a frame (`compose/known.rs`), what changes gently once a pixel, at the
-//! middle of the samples that show the triangle; what has edges at every sample.
+//! What is the same all over a triangle is found once a frame (`compose/known.rs`). What changes gently is found once
+//! a pixel, at the middle of the samples that show the triangle, and what has edges at every sample.
 
 use crate::backdrop::ContrastCache;
 use crate::compose::{Compose, Layers};
@@ -434,10 +434,12 @@ mod tests {
             let triangle = Triangle { corners: [0, 1, 2], part: 0 };
             let compose = Compose { saturation: 1.0, ..Compose::default() };
             let layers = Layers {
-                view: &View::default(), window: &Window::default(), compose: &compose, lights: &Lights::distant(unit_or_z(light)),
-                 ids: &[], beam_ids: &[], ribbons: &[], posed: &posed, vertices: &[Vertex::default(); 3],
+                view: &View::default(), window: &Window::default(), compose: &compose,
+                lights: &Lights::distant(unit_or_z(light)), ids: &[], beam_ids: &[], ribbons: &[], posed: &posed,
+                vertices: &[Vertex::default(); 3],
                 triangles: &[triangle], parts: &[part], texels: &[], charts: &[], overlay: &[], shadows: [&[]; 4],
-                smoke_colors: &[], smoke_depths: &[], smoke_shadows: [&[]; 4], rules: &crate::backdrop::Rules::default(), fronts: &[], backs: &[],
+                smoke_colors: &[], smoke_depths: &[], smoke_shadows: [&[]; 4],
+                rules: &crate::backdrop::Rules::default(), fronts: &[], backs: &[],
             };
             let corners = layers.corners_of(&triangle);
             if let Some(light) = layers.even_light(&part, &corners) {

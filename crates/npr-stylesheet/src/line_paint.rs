@@ -321,7 +321,8 @@ mod tests {
         let style = read(
             "line.paint = { source = 'surface', factor = 0.3, kinds = { crease = '#fff' } }\n\
              [[rule]]\nline.paint.factor = 0.5\nline.paint.kinds.boundary = '#f00'\n\
-             [[rule]]\nmatch.object = 'B'\nline.paint.source = 'constant'\nline.paint.depth.ramp = [{ at = 0, color = '#123' }]",
+             [[rule]]\nmatch.object = 'B'\nline.paint.source = 'constant'\n\
+             line.paint.depth.ramp = [{ at = 0, color = '#123' }]",
         )
         .unwrap();
         let a = style.resolve_for("", "A").line_paint;

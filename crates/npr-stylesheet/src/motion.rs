@@ -80,7 +80,8 @@ pub(crate) fn color_of_trail(index: Option<usize>) -> Color {
     Color::rgb(red, 0, 0)
 }
 
-/// Which of the trails the part has that a pixel of [`Style::of_motion`](crate::Style::of_motion) shows; none where it stands still.
+/// Which of the trails the part has that a pixel of [`Style::of_motion`](crate::Style::of_motion) shows; none where it
+/// stands still.
 pub fn trail_of([red, ..]: [u8; 4]) -> Option<usize> {
     usize::from((red + CODE_STEP / 2) / CODE_STEP).checked_sub(1)
 }

@@ -113,7 +113,8 @@ const PRESETS: &[Preset] = &[
     Preset {
         name: "lit-lines",
         version: 1,
-        title: "Lines thin and warm where lit, heavy and cool in the shade, bright where light from behind catches them",
+        title: "Lines thin and warm where lit, heavy and cool in the shade, \
+                bright where light from behind catches them",
         text: include_str!("../presets/lit-lines.toml"),
     },
     Preset {

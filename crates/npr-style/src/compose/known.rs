@@ -123,7 +123,9 @@ mod tests {
             normal in prop::array::uniform3(-1f32..1.0),
             bends in prop::array::uniform3(prop::array::uniform3(-0.2f32..0.2)),
             light in prop::array::uniform3(-1f32..1.0), back in prop::array::uniform3(-1f32..1.0),
-            flags in prop::sample::select(vec![0, Part::UNLIT, Part::SOFT, Part::CRISP, Part::SOFT | Part::BACK_LIGHT, Part::UNLIT | Part::CRISP]),
+            flags in prop::sample::select(vec![
+                0, Part::UNLIT, Part::SOFT, Part::CRISP, Part::SOFT | Part::BACK_LIGHT, Part::UNLIT | Part::CRISP,
+            ]),
             softness in prop::sample::select(vec![0.0f32, 0.05, 0.5]), steps in prop::array::uniform2(0.05f32..0.95),
             exponent in 1f32..200.0, threshold in 0f32..1.0, members in 1u32..16, perspective in 0u32..2,
         ) {
@@ -149,8 +151,10 @@ mod tests {
             let layers = Layers {
                 view: &view, window: &Window::default(), compose: &compose, lights: &Lights::distant(unit_or_z(light)),
                 ids: &[], beam_ids: &[], ribbons: &[], posed: &posed, vertices: &vertices,
-                triangles: &triangles, parts: &parts, texels: store.words(), charts: &[], overlay: &[], shadows: [&[]; 4],
-                smoke_colors: &[], smoke_depths: &[], smoke_shadows: [&[]; 4], rules: &crate::backdrop::Rules::default(), fronts: &[], backs: &[],
+                triangles: &triangles, parts: &parts, texels: store.words(), charts: &[], overlay: &[],
+                shadows: [&[]; 4],
+                smoke_colors: &[], smoke_depths: &[], smoke_shadows: [&[]; 4],
+                rules: &crate::backdrop::Rules::default(), fronts: &[], backs: &[],
             };
             let known = layers.known(&triangles[0]);
             let corners = layers.corners_of(&triangles[0]);
