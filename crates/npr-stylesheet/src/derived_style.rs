@@ -26,6 +26,7 @@ impl Style {
 
     /// A look in which nothing but what moves is seen: [`trail_of`](crate::motion::trail_of) reads it.
     pub fn of_motion(&self) -> Self {
+        // Paint every part that stands still black.
         let trails = self.trails();
         let clear = BeamStop {
             at: 0.0,
@@ -38,6 +39,8 @@ impl Style {
             },
             ..Rule::default()
         };
+
+        // Paint every part that moves in the red of its trail, and make beams transparent.
         let own = |rule: &Rule| {
             let code = rule
                 .motion
@@ -56,6 +59,8 @@ impl Style {
                 ..Rule::default()
             }
         };
+
+        // Leave nothing else to be seen: no light, no lines, no blended edges.
         let mut style = Self {
             background: Background::Color(Color::rgb(0, 0, 0)),
             ink: Ink::default(),
@@ -81,6 +86,7 @@ impl Style {
     ///
     /// [`StyleError::UnknownPreset`] where `blend.with` was changed by hand to what is none.
     pub fn blended_with(&self) -> Result<Self, StyleError> {
+        // Keep of the rules what the other look shares: painted-over colours and beams.
         let other = Self::preset(&self.blend.with)?;
         let own = |rule: &Rule| Rule {
             matching: rule.matching.clone(),
@@ -91,6 +97,8 @@ impl Style {
             beam: rule.beam.clone(),
             ..Rule::default()
         };
+
+        // Lay them over the rules of the preset, on the same background and under the same lights.
         Ok(Self {
             background: self.background.clone(),
             light: self.light.clone(),

@@ -246,6 +246,7 @@ impl LinePaint {
 
     /// Checks what no single value shows.
     pub(crate) fn check(&self, key: &str) -> Result<(), StyleError> {
+        // Refuse stops out of order.
         for (name, ramp) in [("depth", &self.depth.ramp), ("light", &self.light.ramp)] {
             let unsorted = ramp.windows(2).position(|pair| pair[1].at < pair[0].at);
             if let Some(i) = unsorted {
@@ -255,12 +256,16 @@ impl LinePaint {
                 ));
             }
         }
+
+        // Refuse a ramp over depth that ends before it begins.
         if self.depth.far <= self.depth.near {
             return Err(StyleError::unfit(
                 format!("{key}.depth.far"),
                 "has to lie beyond near",
             ));
         }
+
+        // Refuse a texture as the source without a picture.
         if self.source == LineSource::Texture && self.image.is_empty() {
             return Err(StyleError::unfit(
                 format!("{key}.source"),
