@@ -220,11 +220,14 @@ impl Lights {
         normal: [f32; 3],
         open: Openness,
     ) -> SkyLight {
+        // Share the light out between the sky above and the ground below.
         let is_hidden = source.sky & LightSource::HIDDEN != 0;
         let open = if is_hidden { open } else { Openness::FULL };
         let upper = ramp_coordinate(dot(normal, source.direction)).clamp(0.0, 1.0);
         let above = upper * open.above * source.intensity;
         let below = (1.0 - upper) * open.below * source.intensity;
+
+        // Take the colour from the picture of the sky, where there is one.
         if source.sky & LightSource::PICTURE != 0 {
             let light = self.dome_at(normal);
             let strength = above + below;

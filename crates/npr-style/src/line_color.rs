@@ -86,6 +86,7 @@ impl LineScene<'_> {
     /// What a place in the world decides for lines of a part whose surface faces along the unit vector `normal`.
     /// O(lights).
     pub fn decide(&self, part: &Part, world: [f32; 3], normal: [f32; 3]) -> Decided {
+        // Lay the colour of the light over the line, and find its opacity.
         let flags = part.line_flags;
         let mut tint_layer = [0.0; 4];
         let mut opacity = 1.0;
@@ -97,6 +98,8 @@ impl LineScene<'_> {
             let [dark, lit] = part.line_opacity;
             opacity = dark + (lit - dark) * x;
         }
+
+        // Lay the light from behind over it.
         if flags & Part::LINE_RIM != 0 {
             let [r, g, b, strength] = part.back_color;
             let [from, to, _, _] = part.back;
@@ -104,6 +107,8 @@ impl LineScene<'_> {
             let rim = back_light(normal, behind, from, to) * strength * part.line_rim;
             tint_layer = laid([r, g, b, rim.clamp(0.0, 1.0)], tint_layer);
         }
+
+        // Lay the colour of the depth over it, then the tint.
         if flags & Part::LINE_DEPTH != 0 {
             tint_layer = laid(
                 self.hue(part.line_depth_row, self.depth_share(part, world)),
@@ -246,6 +251,7 @@ impl<'a> Deciding<'a> {
     }
 
     fn tint_at(&self, layers: &Layers<'_>, x: u32, y: u32) -> Option<LineTint> {
+        // Leave out pixels without lines, without a surface, and of parts that ask for nothing.
         if !self.is_near_line([x, y]) {
             return None;
         }
@@ -258,6 +264,8 @@ impl<'a> Deciding<'a> {
         if part.line_flags == 0 {
             return None;
         }
+
+        // Decide the colour of lines on the surface there.
         let corners = layers.corners_of(triangle);
         let place = LinePoint {
             px: self.window.frame_at(x, y),
@@ -354,6 +362,7 @@ impl Layers<'_> {
         corners: &Corners<'_>,
         place: &LinePoint,
     ) -> [f32; 3] {
+        // Choose the picture that the colour comes from, if any.
         if part.line_flags & Part::LINE_SOURCES == 0 {
             return [0.0; 3];
         }
@@ -368,6 +377,8 @@ impl Layers<'_> {
         } else {
             NONE
         };
+
+        // Look it up, as wide as the line is.
         let mut color = [1.0; 3];
         if start != NONE {
             let around = [
@@ -379,6 +390,8 @@ impl Layers<'_> {
             let [r, g, b, _] = texture::sample(self.texels, start, uvs[0], footprint(uvs));
             color = [r, g, b];
         }
+
+        // Tint it by the colours of the vertices and by the material.
         if part.line_flags & Part::LINE_TEXTURE == 0 && !(shows_surface && is_plain) {
             let tint = self.tint(weights, vertices);
             color = std::array::from_fn(|i| color[i] * tint[i]);

@@ -311,9 +311,12 @@ fn at_place(
     share: f32,
     rule: &Rule,
 ) -> [f32; 3] {
+    // Take the place for the lightness, on the scale of OKLab.
     if rule.measure != Rule::WCAG {
         return at_lightness(place, own, edge, share);
     }
+
+    // Search the lightness whose fitted colour has the luminance that the place asks for.
     let luminance = luminance_at(place);
     let (mut low, mut high) = (0.0, 1.0);
     let (mut dark, mut bright) = ([0.0; 3], [1.0; 3]);

@@ -103,12 +103,15 @@ pub fn tiles_across(size: [u32; 2]) -> u32 {
 
 impl Scenery<'_> {
     fn is_busy(&self, tile: [u32; 2]) -> bool {
+        // Find the samples of the tile and of what lies close around it.
         let samples = self.rules.samples;
         let low = tile.map(|at| (at * TILE).saturating_sub(TILE_RIM) * samples);
         let high: [u32; 2] = std::array::from_fn(|i| {
             ((tile[i] + 1) * TILE + TILE_RIM).min(self.window.size[i]) * samples
         });
         let width = self.window.size[0] * samples;
+
+        // Look for a sample of another subject; rows of one triangle need no look at each.
         let first = self.ids[(low[1] * width + low[0]) as usize];
         let subject = self.part_subject_of(first).subject;
         let mut last = first;
@@ -298,6 +301,7 @@ impl Search<'_> {
     }
 
     fn rim_at(&self, near: &Near, x: u32, y: u32) -> Rim {
+        // Leave out pixels around which nothing changes.
         let scenery = &self.scenery;
         let size = scenery.window.size;
         let (low, high) = around(size, x, y);
@@ -307,12 +311,16 @@ impl Search<'_> {
         if scenery.rules.within == 0 && pixels().all(|(x, y)| near.at(x, y).subject == here) {
             return Rim::default();
         }
+
+        // Give the border to the subject nearest to the eye.
         let owner = self.owner(near, pixels());
         if owner == 0 {
             return Rim::default();
         }
+
+        // Sum the colours on both sides; mixed pixels count for neither.
         let (mut rim, mut behind) = (Sum::default(), Sum::default());
-        let (mut part, mut rule, mut contrast_cache) = (0, 0, 0.0);
+        let (mut part, mut rule, mut ruled_count) = (0, 0, 0.0);
         for (x, y) in pixels() {
             let shown = near.at(x, y);
             let texel = self.bare[(y * size[0] + x) as usize];
@@ -323,23 +331,27 @@ impl Search<'_> {
                 rim.add(texel);
                 let own = scenery.part_subjects[shown.part as usize].rule;
                 if own != 0 {
-                    contrast_cache += 1.0;
+                    ruled_count += 1.0;
                     rule = own;
                 }
             } else if shown.subject != MIXED {
                 behind.add(texel);
             }
         }
+
+        // For the published method, take what lies behind from this pixel alone.
         let outside = if here == owner { 0 } else { Rim::OUTSIDE };
         let is_behind = outside != 0 && here != MIXED;
         if scenery.rules.rules[rule as usize].method == Rule::BY_LIKENESS && is_behind {
             behind = Sum::default();
             behind.add(self.bare[(y * size[0] + x) as usize]);
         }
+
+        // Look for a line within the subject where nothing lies behind.
         if behind.count == 0.0 {
             return self.inner_rim(x, y, &rim, [owner, part]);
         }
-        let share = contrast_cache / rim.count;
+        let share = ruled_count / rim.count;
         packed(&rim, &behind, share, rule, [owner | outside, part])
     }
 

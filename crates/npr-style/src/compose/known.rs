@@ -22,11 +22,14 @@ impl Layers<'_> {
 
     /// What is known of a triangle; nothing of one whose back alone is seen, which no pixel asks for.
     fn known(&self, triangle: &Triangle) -> TriangleConstants {
+        // Leave out backs that nobody sees.
         let part = &self.parts[triangle.part as usize];
         let corners = self.corners_of(triangle);
         if corners.side < 0.0 && part.flags & Part::DOUBLE_SIDED == 0 {
             return TriangleConstants::default();
         }
+
+        // Find what is the same all over.
         let (light, ink) = (
             self.even_light(part, &corners),
             self.ink_all_over(part, &corners),
@@ -35,6 +38,8 @@ impl Layers<'_> {
         let is_plain = part.flags & Part::PLAIN != 0
             || part.texture == NONE && triangle.corners.iter().all(white);
         let is_matt = !self.may_shine(part, &corners);
+
+        // Note it, and multiply colour and light where both are known.
         let mut known = TriangleConstants::default();
         known.learn(TriangleConstants::PLAIN, is_plain);
         known.learn(TriangleConstants::EVEN, light.is_some());
@@ -49,6 +54,8 @@ impl Layers<'_> {
         } else {
             light
         };
+
+        // Lay the ink over them where nothing else is left to find.
         if let (Some(ink), true) = (ink, is_plain && known.is_even() && is_matt) {
             known.color = inked(part, known.color, ink);
             known.learn(TriangleConstants::WHOLE, true);
