@@ -50,7 +50,7 @@ pub fn gradient(term: f32, threshold: f32, m: f32) -> f32 {
     ((term - threshold) * lift * 0.5).clamp(0.0, 1.0)
 }
 
-/// What a vector in the camera's axes is in the world.
+/// Turns a vector from the camera's axes into the world.
 pub(crate) fn in_world(axes: &[[f32; 3]; 3], direction: [f32; 3]) -> [f32; 3] {
     let [right, up, near] = axes;
     std::array::from_fn(|i| right[i] * direction[0] + up[i] * direction[1] + near[i] * direction[2])

@@ -114,7 +114,7 @@ struct HatchCoord {
 }
 
 impl HatchCoord {
-    /// The same with strokes across: u and v exchanged, from another place of the tile.
+    /// Coordinates of the layer whose strokes run across: u and v exchanged, moved to another place of the tile.
     fn crossed(self) -> Self {
         let swap = |[u, v]: [f32; 2]| [v, u];
         Self {

@@ -158,7 +158,7 @@ impl Lights {
         self.coordinate_under(world, normal, dark, Openness::FULL)
     }
 
-    /// The same where `open` of the sky is seen.
+    /// As [`coordinate_at`](Self::coordinate_at), for a place that sees `open` of the sky.
     #[inline]
     pub fn coordinate_under(
         &self,

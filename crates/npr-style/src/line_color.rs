@@ -49,7 +49,7 @@ pub struct LineScene<'a> {
     pub texels: &'a [u32],
 }
 
-/// What the place of a line decides.
+/// The part of a line's colour that its place decides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Decided {
     /// What lies over the line's own colour, linear light, straight alpha.
@@ -59,7 +59,7 @@ pub struct Decided {
 }
 
 impl Decided {
-    /// As lines look it up, under a surface's colour in linear light.
+    /// The tint as lines look it up, over a surface's colour in linear light.
     pub fn tint(&self, own: [f32; 3]) -> Tint {
         let [r, g, b] = own.map(srgb_from_linear);
         let [tint_layer_r, tint_layer_g, tint_layer_b, tint_layer_a] = self.tint_layer;
@@ -176,7 +176,7 @@ impl LineScene<'_> {
     }
 }
 
-/// What lines are decided on, over the pixels of a mask.
+/// The inputs from which the colours of lines are decided, pixel by pixel of a mask.
 #[derive(Debug, Clone, Copy)]
 pub struct Deciding<'a> {
     /// Camera and frame.
@@ -223,7 +223,7 @@ pub fn decide(on: &Deciding<'_>, tints: &mut [LineTint]) {
 }
 
 impl<'a> Deciding<'a> {
-    /// The same as layers of a picture, which know the colours of surfaces.
+    /// The inputs as layers of a picture, which know the colours of surfaces.
     fn layers(&self) -> Layers<'a> {
         Layers {
             view: self.view,
@@ -299,7 +299,7 @@ pub(crate) struct LinePoint {
     pub px: [f32; 2],
     /// How far it reaches, in frame pixels.
     pub step_px: [f32; 2],
-    /// It lies on a hull, beside its triangle: the nearest place of that counts.
+    /// Whether the line lies on a hull, beside its triangle: the nearest place of the triangle counts then.
     pub is_hull: bool,
 }
 

@@ -149,8 +149,9 @@ impl Layers<'_> {
             && (part.softness >= GENTLE || part.ramp[1][3] >= Level::UNUSED)
     }
 
-    /// Light of triangle `id`, which the samples in `members` show; `known` is what is known of it, and `contrast_cache` keeps
-    /// the answers that lines had before.
+    /// Light of triangle `id`, which the samples in `members` show.
+    ///
+    /// `known` is what is known of the triangle; `contrast_cache` keeps the answers that lines had before.
     pub(crate) fn shade(
         &self,
         id: u32,

@@ -26,7 +26,7 @@ type Load<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 pub(crate) struct Read {
     /// The style, over its parents.
     pub style: Style,
-    /// What of it stands in the file or its parents but for presets.
+    /// The keys that stand in the file or its parents, without those of presets.
     pub stated: Table,
     /// Its keys under former names.
     pub former: Vec<String>,
@@ -87,7 +87,7 @@ impl Flat {
         merge(&mut self.stated, upper.stated);
     }
 
-    /// The same as something that nobody stated.
+    /// This style as one that nobody stated: a preset.
     fn of_preset(mut self) -> Self {
         let stated = std::mem::take(&mut self.stated).into_iter();
         let added_up = stated.filter_map(|(key, value)| match value {

@@ -132,7 +132,7 @@ impl Found {
         found
     }
 
-    /// Those that stand before a ground between two places.
+    /// Sums up the rims that stand before a ground between two places on the scale.
     fn summed(&self, within: [f32; 2]) -> TileRims {
         // Add up the rims that stand before a ground in the range.
         let mut sum = TileRims {

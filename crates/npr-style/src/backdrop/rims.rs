@@ -16,7 +16,7 @@ pub const TILE: u32 = 4;
 /// How far around its tile a border makes it busy: a rim's neighbours may lie in the next tile, and theirs one farther.
 const TILE_RIM: u32 = 2;
 
-/// Whose line a part's outline is, and by which rule it minds the background.
+/// The subject that a part belongs to, and the rule by which its lines mind the background.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct PartSubject {
@@ -27,7 +27,7 @@ pub struct PartSubject {
 }
 gpu_layout!(PartSubject { subject, rule });
 
-/// What an output pixel at the border of a subject knows: the colours of both sides.
+/// An output pixel at the border of a subject, with the colours of both sides.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Rim {
@@ -52,7 +52,7 @@ impl Rim {
     pub const OUTSIDE: u32 = 1 << 31;
     /// The line lies within the subject, not at its border.
     pub const WITHIN: u32 = 1 << 30;
-    /// What tells the borders of subjects apart, and borders from lines within.
+    /// Mask of the bits that tell the borders of subjects apart, and borders from lines within.
     pub const WHOSE: u32 = !Self::OUTSIDE;
 }
 
@@ -71,14 +71,14 @@ pub struct Scenery<'a> {
     pub part_subjects: &'a [PartSubject],
 }
 
-/// What one pixel shows, where all of its samples show the same.
+/// The subject and part that one pixel shows, where all of its samples agree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct Shown {
     subject: u32,
     part: u32,
 }
 
-/// What a mixed pixel shows: nothing for certain.
+/// Subject of a mixed pixel, whose samples show several.
 const MIXED: u32 = u32::MAX;
 
 /// White for every tile near a border between two subjects, as wide as [`tiles_across`]; 0 for all others.
@@ -165,7 +165,7 @@ impl Scenery<'_> {
         self.ids[(y * samples * self.window.size[0] * samples + x * samples) as usize]
     }
 
-    /// What a pixel shows; of subject [`MIXED`] where its samples disagree.
+    /// Subject and part that a pixel shows; the subject is [`MIXED`] where its samples disagree.
     fn shown(&self, x: u32, y: u32) -> Shown {
         let samples = self.rules.samples;
         let width = self.window.size[0] * samples;
@@ -190,7 +190,7 @@ fn are_all(ids: &[u32], one: u32) -> bool {
     ids.iter().fold(0, |bits, id| bits | (id ^ one)) == 0
 }
 
-/// What rims are found on.
+/// The pictures on which rims are found.
 #[derive(Debug, Clone, Copy)]
 pub struct Search<'a> {
     /// The frame.
@@ -258,7 +258,7 @@ pub fn find_rims(search: &Search<'_>, rims: &mut [Rim]) {
         });
 }
 
-/// What a tile and the pixels around it show.
+/// Subjects and parts that the pixels of a tile and those around it show.
 struct Near {
     /// The first of them.
     low: [u32; 2],

@@ -62,11 +62,11 @@ struct Smoothing<'a> {
     known: Vec<Known>,
 }
 
-/// What of a rim is blended.
+/// The values of a rim that are blended.
 struct Known {
     whose: u32,
     rule: u32,
-    /// Its colour with its weight, and that behind.
+    /// The colour of the rim with its weight, and the colour behind it.
     own: [f32; 4],
     beyond: [f32; 3],
 }
@@ -247,7 +247,7 @@ impl Runs {
     }
 }
 
-/// What is carried to pixels.
+/// The rims of a frame, on their way to the pixels around them.
 struct Carrying<'a> {
     size: [u32; 2],
     rules: &'a Rules,

@@ -45,7 +45,7 @@ const UNLIKE_RIMS: f32 = 0.5;
 /// Mean of votes from which a stretch is decided.
 const DECIDED: f32 = 0.01;
 
-/// What lines of a tile read before, and which way they move.
+/// The range of grounds that the lines of a tile must read before, and which way they move.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct ContrastBias {
@@ -55,7 +55,7 @@ pub struct ContrastBias {
     pub high: f32,
     /// From -1, darker, to 1, brighter.
     pub bias: f32,
-    /// Whose lines they are, as in [`TileRims::whose`].
+    /// The subject that the lines belong to, as in [`TileRims::whose`].
     pub whose: u32,
     /// Colour of the rims, sRGB-encoded.
     pub rim: [f32; 3],
@@ -224,7 +224,7 @@ pub fn vote_bias(
     voting.gathered.make(biases, |tile| voting.bias_at(tile));
 }
 
-/// What the biases of a frame are decided from.
+/// The votes of a frame, and what was decided in the frame before.
 struct Voting<'a> {
     rules: &'a Rules,
     bounds: &'a [ContrastBias],

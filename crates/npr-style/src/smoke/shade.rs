@@ -23,7 +23,7 @@ pub struct Shading<'a> {
     pub lights: &'a Lights,
     /// Numbers of the nearest spheres, plus one.
     pub ids: &'a [u32],
-    /// The same as the lights with shadows see them, [`SmokeLook::shadow_side`] texels square.
+    /// Numbers of the nearest spheres as the lights with shadows see them, [`SmokeLook::shadow_side`] texels square.
     pub shadows: [&'a [u32]; SHADOWS_MAX],
     /// Reversed depths of the surfaces that the first [`SmokeLook::surface_maps`] of those lights see,
     /// [`SmokeLook::surface_side`] texels square.
