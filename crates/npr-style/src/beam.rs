@@ -42,6 +42,7 @@ impl Layers<'_> {
         frame_px: [f32; 2],
         color: &mut [f32; 4],
     ) -> f32 {
+        // Find in how many samples each beam shows.
         let share = 1.0 / beams.len() as f32;
         let mut glow = [0.0; 4];
         let mut covered = 0.0;
@@ -58,6 +59,8 @@ impl Layers<'_> {
                 })
                 .sum::<f32>()
                 * share;
+
+            // Add its light, and what it covers of lines.
             let part = self.part_of(id);
             let [r, g, b, a] = beam_color(part, self.beam_place(id, frame_px));
             let added = [r * a, g * a, b * a, a];
@@ -66,6 +69,8 @@ impl Layers<'_> {
                 covered += a * shown;
             }
         }
+
+        // Lay the light over the surfaces.
         *color = std::array::from_fn(|k| glow[k] + color[k] * (1.0 - glow[3]));
         covered
     }

@@ -50,7 +50,7 @@ pub fn gradient(term: f32, threshold: f32, m: f32) -> f32 {
     ((term - threshold) * lift * 0.5).clamp(0.0, 1.0)
 }
 
-/// What a vector in the camera's axes is in the world.
+/// Turns a vector from the camera's axes into the world.
 pub(crate) fn in_world(axes: &[[f32; 3]; 3], direction: [f32; 3]) -> [f32; 3] {
     let [right, up, near] = axes;
     std::array::from_fn(|i| right[i] * direction[0] + up[i] * direction[1] + near[i] * direction[2])
@@ -244,12 +244,15 @@ impl Layers<'_> {
         normal: [f32; 3],
         dark: u32,
     ) -> [f32; 3] {
+        // Sum what each kind of highlight adds.
         let mut sum = [0.0; 3];
         let mut add = |color: [f32; 4], amount: f32| {
             for (sum, c) in sum.iter_mut().zip(color) {
                 *sum += c * (color[3] * amount);
             }
         };
+
+        // Add the spot.
         let eye = self.view.to_eye(world);
         if part.flags & (Part::CRISP | Part::SOFT) != 0 {
             let (term, [_, threshold, m, _]) =
@@ -261,11 +264,15 @@ impl Layers<'_> {
             };
             add(part.highlight_color, amount);
         }
+
+        // Add the light from behind.
         let [from, to, width, facing] = part.back;
         if part.flags & Part::BACK_LIGHT != 0 {
             let behind = in_world(&self.compose.axes(), part.back_direction);
             add(part.back_color, back_light(normal, behind, from, to));
         }
+
+        // Add the streak, where the surface faces the eye.
         if part.flags & Part::STREAK != 0 && dot(normal, eye).abs() > facing {
             let offset: [f32; 3] = std::array::from_fn(|i| world[i] - self.compose.center_world[i]);
             let [right, up] = part.streak_across;
@@ -320,6 +327,7 @@ impl Layers<'_> {
         eye: [f32; 3],
         dark: u32,
     ) -> f32 {
+        // Leave out lights whose shadow falls here, and skies.
         let exponent = part.highlight[0];
         let shape = HighlightShape::of(part);
         let lights = &self.lights.sources[..self.lights.count as usize];
@@ -327,6 +335,8 @@ impl Layers<'_> {
             if (dark >> i) & 1 != 0 || source.kind == LightSource::SKY {
                 return 0.0;
             }
+
+            // Reflect the rest by Phong or by the shaped half vector.
             let (light, strength) = source.reach_at(world);
             let strength = strength.min(1.0);
             if part.flags & Part::PHONG != 0 {

@@ -114,7 +114,7 @@ struct HatchCoord {
 }
 
 impl HatchCoord {
-    /// The same with strokes across: u and v exchanged, from another place of the tile.
+    /// Coordinates of the layer whose strokes run across: u and v exchanged, moved to another place of the tile.
     fn crossed(self) -> Self {
         let swap = |[u, v]: [f32; 2]| [v, u];
         Self {
@@ -262,6 +262,7 @@ impl Layers<'_> {
         weights: [[f32; 3]; 3],
         places: [[f32; 2]; 3],
     ) -> HatchCoord {
+        // Find the coordinates of the three pixels: in the picture, in the chart of the surface, or of the file.
         let triangle = ((id & ID_MASK) - 1) as usize;
         let uvs: [[f32; 2]; 3] = std::array::from_fn(|i| {
             let raw = if part.flags & Part::ON_SCREEN != 0 {
@@ -273,6 +274,8 @@ impl Layers<'_> {
                 let Triangle { corners, .. } = self.triangles[triangle];
                 blend2(weights[i], corners.map(|v| self.vertices[v as usize].uv))
             };
+
+            // Turn them by the angle of the strokes and scale them to tiles.
             let [cos, sin] = part.turn;
             [
                 (raw[0] * cos + raw[1] * sin) * part.tile_scale,
@@ -343,18 +346,23 @@ impl Layers<'_> {
         tone: f32,
         change: [f32; 2],
     ) -> f32 {
+        // Find the luminance of the shade ramp and how it changes.
         if part.flags & (Part::INK | Part::HATCH) == 0 {
             return 0.0;
         }
         let l = level_of(part, tone);
         let darker = change.map(|change| level_of(part, tone + change) - l);
         let darkens = darker.map(|d| (2.0 * d).clamp(-1.0, 1.0));
+
+        // Settle solid ink, and tones in which no stroke matters.
         if part.flags & Part::HATCH == 0 {
             return ink_coverage(tone_value(NO_HATCH, l), length(darkens), part.threshold);
         }
         if let Some(ink) = ink_of_level(part, l) {
             return ink;
         }
+
+        // Draw the strokes where the sheet has them.
         let [cos, sin] = part.turn;
         let on_sheet =
             |[x, y]: [f32; 2]| [(x * cos + y * sin) * scale, (y * cos - x * sin) * scale];
@@ -501,7 +509,8 @@ mod tests {
             let after = untied(before, chart_distortion);
             prop_assert!(after.s <= s);
             // Where enough is white, nothing changes sides.
-            prop_assert!(l < 0.251 + 0.5 * DISTORTION_FILL || (tone_value(after.s, l) < 0.5) == (tone_value(s, l) < 0.5));
+            let is_inked = |s: f32| tone_value(s, l) < 0.5;
+            prop_assert!(l < 0.251 + 0.5 * DISTORTION_FILL || is_inked(after.s) == is_inked(s));
             let tied = untied(before, 1.0);
             prop_assert!(l > 0.249 + 0.5 * DISTORTION_FILL || tone_value(tied.s, l) < 0.5);
         }

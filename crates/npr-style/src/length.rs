@@ -198,7 +198,8 @@ mod tests {
 
         #[test]
         fn a_reference_length_grows_with_the_frame(value in 0.0f32..100.0, height in 1.0f32..10_000.0) {
-            let (once, twice) = (Length::ref_px(value).to_px(height, 96.0, 1.0), Length::ref_px(value).to_px(2.0 * height, 96.0, 1.0));
+            let px = |height: f32| Length::ref_px(value).to_px(height, 96.0, 1.0);
+            let (once, twice) = (px(height), px(2.0 * height));
             prop_assert!((twice - 2.0 * once).abs() <= 1e-3 * once.max(1.0));
         }
     }

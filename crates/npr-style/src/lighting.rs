@@ -158,7 +158,7 @@ impl Lights {
         self.coordinate_under(world, normal, dark, Openness::FULL)
     }
 
-    /// The same where `open` of the sky is seen.
+    /// As [`coordinate_at`](Self::coordinate_at), for a place that sees `open` of the sky.
     #[inline]
     pub fn coordinate_under(
         &self,
@@ -220,11 +220,14 @@ impl Lights {
         normal: [f32; 3],
         open: Openness,
     ) -> SkyLight {
+        // Share the light out between the sky above and the ground below.
         let is_hidden = source.sky & LightSource::HIDDEN != 0;
         let open = if is_hidden { open } else { Openness::FULL };
         let upper = ramp_coordinate(dot(normal, source.direction)).clamp(0.0, 1.0);
         let above = upper * open.above * source.intensity;
         let below = (1.0 - upper) * open.below * source.intensity;
+
+        // Take the colour from the picture of the sky, where there is one.
         if source.sky & LightSource::PICTURE != 0 {
             let light = self.dome_at(normal);
             let strength = above + below;
@@ -435,7 +438,9 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(1000))]
         #[test]
         fn coordinates_stay_within_the_ramp(
-            sources in prop::collection::vec((prop::array::uniform3(-5f32..5.0), 0u32..4, prop::array::uniform3(-1f32..1.0), 0f32..3.0, 0f32..9.0), 0..LIGHTS_MAX),
+            sources in prop::collection::vec((
+                prop::array::uniform3(-5f32..5.0), 0u32..4, prop::array::uniform3(-1f32..1.0), 0f32..3.0, 0f32..9.0,
+            ), 0..LIGHTS_MAX),
             world in prop::array::uniform3(-5f32..5.0), normal in prop::array::uniform3(-1f32..1.0),
             dark in 0u32..65536,
         ) {

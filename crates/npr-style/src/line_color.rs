@@ -49,7 +49,7 @@ pub struct LineScene<'a> {
     pub texels: &'a [u32],
 }
 
-/// What the place of a line decides.
+/// The part of a line's colour that its place decides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Decided {
     /// What lies over the line's own colour, linear light, straight alpha.
@@ -59,7 +59,7 @@ pub struct Decided {
 }
 
 impl Decided {
-    /// As lines look it up, under a surface's colour in linear light.
+    /// The tint as lines look it up, over a surface's colour in linear light.
     pub fn tint(&self, own: [f32; 3]) -> Tint {
         let [r, g, b] = own.map(srgb_from_linear);
         let [tint_layer_r, tint_layer_g, tint_layer_b, tint_layer_a] = self.tint_layer;
@@ -86,6 +86,7 @@ impl LineScene<'_> {
     /// What a place in the world decides for lines of a part whose surface faces along the unit vector `normal`.
     /// O(lights).
     pub fn decide(&self, part: &Part, world: [f32; 3], normal: [f32; 3]) -> Decided {
+        // Lay the colour of the light over the line, and find its opacity.
         let flags = part.line_flags;
         let mut tint_layer = [0.0; 4];
         let mut opacity = 1.0;
@@ -97,6 +98,8 @@ impl LineScene<'_> {
             let [dark, lit] = part.line_opacity;
             opacity = dark + (lit - dark) * x;
         }
+
+        // Lay the light from behind over it.
         if flags & Part::LINE_RIM != 0 {
             let [r, g, b, strength] = part.back_color;
             let [from, to, _, _] = part.back;
@@ -104,6 +107,8 @@ impl LineScene<'_> {
             let rim = back_light(normal, behind, from, to) * strength * part.line_rim;
             tint_layer = laid([r, g, b, rim.clamp(0.0, 1.0)], tint_layer);
         }
+
+        // Lay the colour of the depth over it, then the tint.
         if flags & Part::LINE_DEPTH != 0 {
             tint_layer = laid(
                 self.hue(part.line_depth_row, self.depth_share(part, world)),
@@ -171,7 +176,7 @@ impl LineScene<'_> {
     }
 }
 
-/// What lines are decided on, over the pixels of a mask.
+/// The inputs from which the colours of lines are decided, pixel by pixel of a mask.
 #[derive(Debug, Clone, Copy)]
 pub struct Deciding<'a> {
     /// Camera and frame.
@@ -218,7 +223,7 @@ pub fn decide(on: &Deciding<'_>, tints: &mut [LineTint]) {
 }
 
 impl<'a> Deciding<'a> {
-    /// The same as layers of a picture, which know the colours of surfaces.
+    /// The inputs as layers of a picture, which know the colours of surfaces.
     fn layers(&self) -> Layers<'a> {
         Layers {
             view: self.view,
@@ -246,6 +251,7 @@ impl<'a> Deciding<'a> {
     }
 
     fn tint_at(&self, layers: &Layers<'_>, x: u32, y: u32) -> Option<LineTint> {
+        // Leave out pixels without lines, without a surface, and of parts that ask for nothing.
         if !self.is_near_line([x, y]) {
             return None;
         }
@@ -258,6 +264,8 @@ impl<'a> Deciding<'a> {
         if part.line_flags == 0 {
             return None;
         }
+
+        // Decide the colour of lines on the surface there.
         let corners = layers.corners_of(triangle);
         let place = LinePoint {
             px: self.window.frame_at(x, y),
@@ -291,7 +299,7 @@ pub(crate) struct LinePoint {
     pub px: [f32; 2],
     /// How far it reaches, in frame pixels.
     pub step_px: [f32; 2],
-    /// It lies on a hull, beside its triangle: the nearest place of that counts.
+    /// Whether the line lies on a hull, beside its triangle: the nearest place of the triangle counts then.
     pub is_hull: bool,
 }
 
@@ -354,6 +362,7 @@ impl Layers<'_> {
         corners: &Corners<'_>,
         place: &LinePoint,
     ) -> [f32; 3] {
+        // Choose the picture that the colour comes from, if any.
         if part.line_flags & Part::LINE_SOURCES == 0 {
             return [0.0; 3];
         }
@@ -368,6 +377,8 @@ impl Layers<'_> {
         } else {
             NONE
         };
+
+        // Look it up, as wide as the line is.
         let mut color = [1.0; 3];
         if start != NONE {
             let around = [
@@ -379,6 +390,8 @@ impl Layers<'_> {
             let [r, g, b, _] = texture::sample(self.texels, start, uvs[0], footprint(uvs));
             color = [r, g, b];
         }
+
+        // Tint it by the colours of the vertices and by the material.
         if part.line_flags & Part::LINE_TEXTURE == 0 && !(shows_surface && is_plain) {
             let tint = self.tint(weights, vertices);
             color = std::array::from_fn(|i| color[i] * tint[i]);

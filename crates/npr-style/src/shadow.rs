@@ -53,11 +53,14 @@ impl Layers<'_> {
     ///
     /// Only lights that the smooth surface faces: what faces away has its tone from that.
     pub(crate) fn shadowed(&self, id: u32, corners: &Corners<'_>, weights: [f32; 3]) -> u32 {
+        // Lift the place onto the smooth surface, so that facets do not shade each other.
         if self.lights.shadow_side == 0 {
             return 0;
         }
         let normal = corners.normal(weights);
         let world = corners.lifted(weights);
+
+        // Ask every light that the surface faces.
         let mut dark = 0;
         for (i, source) in self.lights.sources[..self.lights.count as usize]
             .iter()
@@ -87,6 +90,7 @@ impl Layers<'_> {
         towards: [f32; 3],
         facing: f32,
     ) -> bool {
+        // Find the place in the picture that the light has of the scene.
         let map = source.shadow as usize - 1;
         let m = &self.lights.shadows[map];
         let clip = apply_point(m, world);
@@ -97,6 +101,8 @@ impl Layers<'_> {
         if !(clip[3] > 0.0 && is_inside(texel[0]) && is_inside(texel[1])) {
             return false;
         }
+
+        // Describe the place as the light sees it.
         let offset: [f32; 3] = std::array::from_fn(|i| source.position[i] - world[i]);
         let is_spot = source.kind == LightSource::SPOT;
         let row = [m[0][0], m[1][0], m[2][0]];
@@ -115,6 +121,8 @@ impl Layers<'_> {
             texel_world: 2.0 * clip[3] / (dot(row, row).sqrt() * side),
             map,
         };
+
+        // Test the triangles seen around it.
         let seen = std::array::from_fn(|k| self.seen_near(&place, k as u32));
         self.is_covered(&place, seen)
     }
@@ -187,10 +195,13 @@ impl Layers<'_> {
     /// how near they are, counting fine triangles alone. Only what is clearly nearer to the light speaks, the more so
     /// on slopes.
     fn vote(&self, place: &ShadowPoint, seen: [u32; 9]) -> bool {
+        // Ask for a wider gap on slopes, where a texel spans more depth.
         let side = self.lights.shadow_side as f32;
         let facing = place.facing.max(GRAZING);
         let slope = (1.0 - facing * facing).max(0.0).sqrt() / facing;
         let gap_world = place.texel_world * (2.0 + 2.0 * slope) + self.lights.bias_world;
+
+        // Count the texels around whose triangles stand between, by how near they are.
         let corner = place.texel.map(f32::floor);
         let (mut count, mut share) = (0, 0.0);
         for (k, id) in seen.into_iter().enumerate() {

@@ -38,7 +38,7 @@ impl SkyPoint {
         down: [0.0; 2],
     };
 
-    /// What is seen so many pixels to the right and down.
+    /// How much of the sky is seen so many pixels to the right and down.
     pub fn at(&self, offset: [f32; 2]) -> Openness {
         let [above, below] = std::array::from_fn(|half| {
             let moved = self.right[half] * offset[0] + self.down[half] * offset[1];

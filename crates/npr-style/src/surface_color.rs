@@ -33,17 +33,22 @@ impl Layers<'_> {
         corners: &Corners<'_>,
         frame_px: [f32; 2],
     ) -> [f32; 3] {
+        // Take the material as it is where nothing else colours it.
         let vertices = triangle.corners.map(|v| &self.vertices[v as usize]);
         let [r, g, b, _] = part.base_color;
         if part.flags & Part::PLAIN != 0 {
             return [r, g, b];
         }
+
+        // Tint it by the colours of the vertices.
         let weights = weights_at(corners.clip, self.view.ndc_at(frame_px));
         let tint = self.tint(weights, vertices);
         let color = [r * tint[0], g * tint[1], b * tint[2]];
         if part.texture == NONE {
             return color;
         }
+
+        // Multiply it by the texture, as far as the pixel reaches.
         let uvs = vertices.map(|v| v.uv);
         let uv_near = |dx: f32, dy: f32| {
             blend2(

@@ -1,7 +1,7 @@
 //! Colour of one triangle under a pixel: the shading half of `shade.compose_frame`.
 //!
-//! What is the same all over a triangle is found once a frame (`compose/known.rs`), what changes gently once a pixel, at the
-//! middle of the samples that show the triangle; what has edges at every sample.
+//! What is the same all over a triangle is found once a frame (`compose/known.rs`). What changes gently is found once
+//! a pixel, at the middle of the samples that show the triangle, and what has edges at every sample.
 
 use crate::backdrop::ContrastCache;
 use crate::compose::{Compose, Layers};
@@ -149,8 +149,9 @@ impl Layers<'_> {
             && (part.softness >= GENTLE || part.ramp[1][3] >= Level::UNUSED)
     }
 
-    /// Light of triangle `id`, which the samples in `members` show; `known` is what is known of it, and `minding`
-    /// keeps what lines were told before.
+    /// Light of triangle `id`, which the samples in `members` show.
+    ///
+    /// `known` is what is known of the triangle; `contrast_cache` keeps the answers that lines had before.
     pub(crate) fn shade(
         &self,
         id: u32,
@@ -160,6 +161,7 @@ impl Layers<'_> {
         corners: &Corners<'_>,
         contrast_cache: &mut ContrastCache,
     ) -> [f32; 3] {
+        // Find the colour of the surface.
         let triangle = &self.triangles[((id & ID_MASK) - 1) as usize];
         let part = &self.parts[triangle.part as usize];
         let group = self.group(id, members, frame_px);
@@ -169,6 +171,8 @@ impl Layers<'_> {
             let color = self.plain_color(triangle, part, corners, group.center);
             self.strengthened(color)
         };
+
+        // Light it, and lay ink and highlights over it.
         let sampled = self.sampled(&group, part, corners, known);
         let light = sampled.light;
         let drawn = inked(
@@ -177,6 +181,8 @@ impl Layers<'_> {
             sampled.ink,
         );
         let drawn: [f32; 3] = std::array::from_fn(|i| drawn[i] + sampled.gloss[i]);
+
+        // Draw the line of the surface-angle method over all.
         if sampled.line == 0.0 {
             return drawn;
         }
@@ -214,9 +220,12 @@ impl Layers<'_> {
         corners: &Corners<'_>,
         known: &TriangleConstants,
     ) -> Sampled {
+        // Look at every sample where an edge may go through the group.
         let Some(light) = self.light_at_middle(group, part, corners, known) else {
             return self.at_samples(group, part, corners, known);
         };
+
+        // Else take what is known, or what is at the middle.
         let ink = known
             .ink()
             .unwrap_or_else(|| self.ink_at(group.id, part, corners, group.center, 0));
@@ -241,6 +250,7 @@ impl Layers<'_> {
         corners: &Corners<'_>,
         known: &TriangleConstants,
     ) -> Option<[f32; 3]> {
+        // Take the light that is the same all over.
         if known.is_even() {
             return Some(if known.is_plain() {
                 [1.0; 3]
@@ -248,6 +258,8 @@ impl Layers<'_> {
                 known.color
             });
         }
+
+        // Look at the middle where light changes gently.
         if !self.is_gentle(part) {
             return None;
         }
@@ -304,12 +316,14 @@ impl Layers<'_> {
         corners: &Corners<'_>,
         known: &TriangleConstants,
     ) -> Sampled {
+        // Prepare what the samples share.
         let count = group.members.count_ones() as f32;
         let shines = part.flags & Part::HIGHLIGHTS != 0 && !known.is_matt();
         let mut sum = Sampled::default();
         let mut ink = None;
         let open = self.openness(corners, group.center);
         for (i, weights) in self.weights_of(group, corners) {
+            // Light the sample, with the shadows that fall there.
             let (world, normal) = (corners.world(weights), corners.normal(weights));
             let dark = self.shadowed(group.id, corners, weights);
             let px = self.sample_px(group, i);
@@ -317,6 +331,8 @@ impl Layers<'_> {
             let light = self.light_of(part, world, normal, dark, open);
             sum.light = std::array::from_fn(|k| sum.light[k] + light[k] / count);
             sum.line += self.grazing(part, corners, px) / count;
+
+            // Add its highlights, and its ink where other shadows fall than on the last.
             if shines {
                 let gloss = self.highlights_at(part, world, normal, dark);
                 sum.gloss = std::array::from_fn(|k| sum.gloss[k] + gloss[k] / count);
@@ -434,10 +450,12 @@ mod tests {
             let triangle = Triangle { corners: [0, 1, 2], part: 0 };
             let compose = Compose { saturation: 1.0, ..Compose::default() };
             let layers = Layers {
-                view: &View::default(), window: &Window::default(), compose: &compose, lights: &Lights::distant(unit_or_z(light)),
-                 ids: &[], beam_ids: &[], ribbons: &[], posed: &posed, vertices: &[Vertex::default(); 3],
+                view: &View::default(), window: &Window::default(), compose: &compose,
+                lights: &Lights::distant(unit_or_z(light)), ids: &[], beam_ids: &[], ribbons: &[], posed: &posed,
+                vertices: &[Vertex::default(); 3],
                 triangles: &[triangle], parts: &[part], texels: &[], charts: &[], overlay: &[], shadows: [&[]; 4],
-                smoke_colors: &[], smoke_depths: &[], smoke_shadows: [&[]; 4], rules: &crate::backdrop::Rules::default(), fronts: &[], backs: &[],
+                smoke_colors: &[], smoke_depths: &[], smoke_shadows: [&[]; 4],
+                rules: &crate::backdrop::Rules::default(), fronts: &[], backs: &[],
             };
             let corners = layers.corners_of(&triangle);
             if let Some(light) = layers.even_light(&part, &corners) {

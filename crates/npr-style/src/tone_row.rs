@@ -33,7 +33,8 @@ pub struct RowTone {
 pub enum RowError {
     /// It has no pixels, too many, or stands upright.
     #[error(
-        "a ramp runs from left to right in a picture 1 to 4096 pixels wide and not higher than wide, not {width} x {height}"
+        "a ramp runs from left to right in a picture 1 to 4096 pixels wide and not higher than wide, \
+         not {width} x {height}"
     )]
     Size {
         /// Pixels per row.

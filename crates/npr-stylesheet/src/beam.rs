@@ -176,7 +176,8 @@ mod tests {
     #[test]
     fn a_later_rule_changes_only_what_it_states() {
         let text = "[[rule]]\nbeam = { overlap = 'covers', softness = 0.4, ramp = [{ at = 0.0, color = '#00ff00' }] }\n\
-                    [[rule]]\nbeam.light = 0.7\n[[rule]]\nmatch.object = 'Small'\nbeam = { light_reach = 2.0, softness = 0.0 }";
+                    [[rule]]\nbeam.light = 0.7\n[[rule]]\nmatch.object = 'Small'\n\
+                    beam = { light_reach = 2.0, softness = 0.0 }";
         let style = crate::Style::from_toml(text, &|_| Err(String::new())).expect("a style");
         let green = vec![BeamStop {
             at: 0.0,

@@ -54,6 +54,7 @@ fn unknown(node: Node, path: &str, name: &str) -> StyleError {
 
 /// Checks `value` against the form of `node` that is of its type.
 fn check_value(node: Node, value: &Value, path: &str) -> Result<(), StyleError> {
+    // Choose the form that a value of this type can have.
     let forms = node.forms();
     let Some(form) = forms.iter().find(|form| has_type(**form, value)) else {
         let expected = forms
@@ -69,6 +70,8 @@ fn check_value(node: Node, value: &Value, path: &str) -> Result<(), StyleError> 
             },
         ));
     };
+
+    // Check what is in it.
     check_words(*form, value, path)?;
     match value {
         Value::Table(table) => check_table(*form, table, path),
@@ -121,6 +124,7 @@ fn found_name(value: &Value) -> &'static str {
 }
 
 fn check_words(form: Node, value: &Value, path: &str) -> Result<(), StyleError> {
+    // Accept what is one of the words, and anything where there are none.
     let words = form.words();
     let is_value = |word: &&serde_json::Value| match value {
         Value::String(text) => word.as_str() == Some(text),
@@ -130,6 +134,8 @@ fn check_words(form: Node, value: &Value, path: &str) -> Result<(), StyleError> 
     if words.is_empty() || words.iter().any(is_value) {
         return Ok(());
     }
+
+    // Name the words that would do.
     let allowed = words
         .iter()
         .map(|word| plain(word))

@@ -17,6 +17,7 @@ impl Style {
     ///
     /// [`StyleError::Value`] for the first key that contradicts another.
     pub fn sanity_check(&self) -> Result<(), StyleError> {
+        // Check what the style itself says.
         self.light.sanity_check()?;
         self.blend.sanity_check()?;
         self.check_trails()?;
@@ -28,6 +29,8 @@ impl Style {
         self.smoke.sanity_check()?;
         let mut words = self.lettering.iter().enumerate();
         words.try_for_each(|(i, words)| words.check(i))?;
+
+        // Check what each rule says.
         self.rule.iter().enumerate().try_for_each(|(i, rule)| {
             check_method(rule.line.method, i)?;
             check_direction(rule.ink.direction, &format!("rule.{i}.ink.direction"))?;
@@ -63,12 +66,15 @@ impl Style {
 
     /// Checks the maps, and that rules name ids that there are.
     fn check_ids(&self) -> Result<(), StyleError> {
+        // Check every map by itself.
         let mut maps = self.id_map.iter().enumerate();
         maps.try_for_each(|(i, map)| map.check(&format!("id_map.{i}")))?;
         let names = || {
             let ids = self.id_map.iter().flat_map(|map| &map.ids);
             ids.map(|id| id.name.as_str())
         };
+
+        // Check that every id which a rule names is on a map; patterns may match nothing.
         for (i, rule) in self.rule.iter().enumerate() {
             let pattern = rule.matching.id.as_str();
             let unfit =
@@ -134,6 +140,7 @@ fn check_method(method: Option<LineMethod>, rule: usize) -> Result<(), StyleErro
 }
 
 fn check_width(width: &Width) -> Result<(), StyleError> {
+    // Refuse a least width above the greatest.
     if width.min > width.max {
         let (value, max) = (f64::from(width.min), f64::from(width.max));
         return Err(StyleError::value(
@@ -145,6 +152,8 @@ fn check_width(width: &Width) -> Result<(), StyleError> {
             },
         ));
     }
+
+    // Refuse a source of widths that is not there.
     match width.source {
         WidthSource::Texture if width.texture.is_none() => Err(StyleError::unfit(
             "line.width.source",

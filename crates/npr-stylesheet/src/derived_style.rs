@@ -29,6 +29,7 @@ impl Style {
     ///
     /// [`StyleError::UnknownPreset`] where `blend.with` was changed by hand to what is none.
     pub fn blended_with(&self) -> Result<Self, StyleError> {
+        // Keep of the rules what the other look shares: painted-over colours and beams.
         let other = Self::preset(&self.blend.with)?;
         let own = |rule: &Rule| Rule {
             matching: rule.matching.clone(),
@@ -39,6 +40,8 @@ impl Style {
             beam: rule.beam.clone(),
             ..Rule::default()
         };
+
+        // Lay them over the rules of the preset, on the same background and under the same lights.
         Ok(Self {
             background: self.background.clone(),
             light: self.light.clone(),

@@ -135,7 +135,8 @@ impl fmt::Display for WidthWarning {
         } = self;
         write!(
             f,
-            "lines {width_px:.1} px wide are thinner than the mask's {mask_line_px:.1} px and may show noise; lower detect.scale or widen line.width"
+            "lines {width_px:.1} px wide are thinner than the mask's {mask_line_px:.1} px and may show noise; \
+             lower detect.scale or widen line.width"
         )
     }
 }

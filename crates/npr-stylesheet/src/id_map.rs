@@ -78,9 +78,12 @@ impl IdMap {
 
     /// Refuses maps without a picture, names that rules cannot say, and colours with two names.
     pub(crate) fn check(&self, key: &str) -> Result<(), StyleError> {
+        // Refuse a map without a picture.
         if self.image.is_empty() {
             return Err(StyleError::unfit(format!("{key}.image"), "names no file"));
         }
+
+        // Refuse names that rules cannot say, and colours that tell no regions apart.
         let mut known: BTreeMap<[u8; 3], &str> = BTreeMap::new();
         for (i, id) in self.ids.iter().enumerate() {
             let unfit = |of: &str, reason: String| {

@@ -29,6 +29,7 @@ impl Stated {
     /// # Ok::<(), npr_stylesheet::StyleError>(())
     /// ```
     pub fn notices(&self, occasion: &Occasion) -> Vec<String> {
+        // Group the keys that cannot act by the reason.
         let mut groups: Vec<(String, Vec<&str>)> = Vec::new();
         for key in self.keys() {
             let Some(why) = self.idle_reason(key, occasion) else {
@@ -39,6 +40,8 @@ impl Stated {
                 None => groups.push((why, vec![key])),
             }
         }
+
+        // Write a sentence for each former name, then for each group.
         let by = match occasion.output {
             Output::Frame => "",
             Output::Lines(_) => " by npr lines",

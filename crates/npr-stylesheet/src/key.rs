@@ -14,12 +14,12 @@ pub(crate) fn lies_in(key: &str, outer: &str) -> bool {
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
-/// What stands at a key with dots, if anything does.
+/// The value at a key with dots, if there is one.
 pub(crate) fn at<'a>(value: &'a Value, key: &str) -> Option<&'a Value> {
     key.split('.').try_fold(value, entry)
 }
 
-/// What a table has under a name, or a list under a number.
+/// The value that a table has under a name, or a list under a number.
 pub(crate) fn entry<'a>(value: &'a Value, name: &str) -> Option<&'a Value> {
     match value {
         Value::Array(entries) => entries.get(name.parse::<usize>().ok()?),

@@ -26,7 +26,7 @@ type Load<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 pub(crate) struct Read {
     /// The style, over its parents.
     pub style: Style,
-    /// What of it stands in the file or its parents but for presets.
+    /// The keys that stand in the file or its parents, without those of presets.
     pub stated: Table,
     /// Its keys under former names.
     pub former: Vec<String>,
@@ -87,7 +87,7 @@ impl Flat {
         merge(&mut self.stated, upper.stated);
     }
 
-    /// The same as something that nobody stated.
+    /// This style as one that nobody stated: a preset.
     fn of_preset(mut self) -> Self {
         let stated = std::mem::take(&mut self.stated).into_iter();
         let added_up = stated.filter_map(|(key, value)| match value {
@@ -119,6 +119,7 @@ impl Stack<'_> {
 
     /// The table of a parent by name. Title and version describe the parent alone and stay behind.
     fn parent(&mut self, name: &str) -> Result<Flat, StyleError> {
+        // Refuse parents that extend each other, and too many of them.
         if self.open.iter().any(|open| open == name) {
             return Err(StyleError::Cycle {
                 parent: name.to_owned(),
@@ -128,12 +129,16 @@ impl Stack<'_> {
         if self.loaded > PARENTS_MAX {
             return Err(StyleError::TooManyParents { limit: PARENTS_MAX });
         }
+
+        // Read the parent over its own parents.
         let text = self.text(name)?;
         self.open.push(name.to_owned());
         let flat = self
             .flatten(&text)
             .map_err(|source| in_parent(name, source));
         self.open.pop();
+
+        // Leave behind what describes the parent alone; nobody stated what presets say.
         let mut flat = flat?;
         if preset::is_name(name) {
             flat = flat.of_preset();
@@ -171,6 +176,7 @@ fn in_parent(name: &str, source: StyleError) -> StyleError {
 
 /// The TOML table of a text that is neither too long nor too deep.
 fn parse(text: &str) -> Result<Table, StyleError> {
+    // Refuse texts that are too long or too deep to be read safely.
     if text.len() > TEXT_BYTES_MAX {
         return Err(StyleError::TooLarge {
             bytes: text.len(),
@@ -190,6 +196,8 @@ fn parse(text: &str) -> Result<Table, StyleError> {
             message: format!("more than {DOTS_MAX} dots in a line"),
         });
     }
+
+    // Read the rest, and say where it is not TOML.
     let parsed = guard(|| text.parse::<Table>()).map_err(|stopped| StyleError::Syntax {
         place: None,
         message: stopped.to_string(),

@@ -139,6 +139,7 @@ impl Lettering {
 
     /// Refuses an empty font name, and lengths of the scene or being hidden by it without a place in it.
     pub(crate) fn check(&self, index: usize) -> Result<(), StyleError> {
+        // Refuse words without a font.
         let unfit = |key: &str, reason: &str| {
             Err(StyleError::unfit(
                 format!("lettering.{index}.{key}"),
@@ -148,6 +149,8 @@ impl Lettering {
         if self.font.is_empty() {
             return unfit("font", "names no file");
         }
+
+        // Refuse lengths in the scene, and hiding by it, for words that have no place there.
         let needs_place = |length: Length| length.unit == Unit::World && self.anchor.is_none();
         let reason = "is in world units, but the words have no anchor";
         let second = self.second_outline.as_ref();

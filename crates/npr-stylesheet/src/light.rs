@@ -174,6 +174,7 @@ impl Light {
 impl Light {
     /// Checks that one sky at most is hidden by the scene, and that one at most has a picture.
     fn check_skies(&self) -> Result<(), StyleError> {
+        // Refuse a second sky that the scene hides.
         let skies = || {
             let extra = self.extra.iter().enumerate();
             extra.filter(|(_, light)| light.kind == LightShape::Sky)
@@ -185,6 +186,8 @@ impl Light {
                 "is on in a second sky, but may be in one",
             ));
         }
+
+        // Refuse a second picture of a sky.
         if let Some((i, _)) = skies().filter(|(_, sky)| !sky.image.is_empty()).nth(1) {
             let key = format!("light.extra.{i}.image");
             return Err(StyleError::unfit(

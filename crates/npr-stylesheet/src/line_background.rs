@@ -188,6 +188,7 @@ pub struct LineBackground {
 impl LineBackground {
     /// The rule as passes read it.
     pub fn rule(&self) -> backdrop::Rule {
+        // Take the published rule as it is.
         let direction = self.direction.number();
         let within = u32::from(self.scope == LineScope::All);
         if self.method == BackgroundMethod::Published {
@@ -197,6 +198,8 @@ impl LineBackground {
                 ..published
             };
         }
+
+        // Say by how much contrast lines read, and what they start from.
         let (measure, target) = match self.measure {
             Measure::Lightness => (backdrop::Rule::LIGHTNESS, self.lightness),
             Measure::Wcag => (backdrop::Rule::WCAG, self.ratio),

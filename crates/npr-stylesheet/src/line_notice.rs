@@ -7,6 +7,7 @@ use crate::{LineMethod, Style};
 impl Style {
     /// What its line methods cannot honour of how it colours lines, a sentence each, for the user.
     pub fn line_paint_notices(&self) -> Vec<String> {
+        // Gather the methods that lines of any part are drawn by.
         let has = |bits: u32| self.line_paint_flags() & bits != 0;
         let rules = self.rule.iter().filter_map(|rule| rule.line.method);
         let methods: Vec<LineMethod> = std::iter::once(self.line.method).chain(rules).collect();
@@ -14,6 +15,8 @@ impl Style {
         let filters = [LineMethod::Filter, LineMethod::FilterHull];
         let hulls = [LineMethod::Hull, LineMethod::FilterHull];
         let even = [filters[0], filters[1], LineMethod::Angle];
+
+        // Tell what these methods leave out of the light and of the kinds.
         let mut notices = Vec::new();
         if has(Part::LINE_WIDTH) && draws(&even) {
             notices.push("line.paint.light.width changes no lines of method filter or angle");

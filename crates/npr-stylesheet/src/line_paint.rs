@@ -246,6 +246,7 @@ impl LinePaint {
 
     /// Checks what no single value shows.
     pub(crate) fn check(&self, key: &str) -> Result<(), StyleError> {
+        // Refuse stops out of order.
         for (name, ramp) in [("depth", &self.depth.ramp), ("light", &self.light.ramp)] {
             let unsorted = ramp.windows(2).position(|pair| pair[1].at < pair[0].at);
             if let Some(i) = unsorted {
@@ -255,12 +256,16 @@ impl LinePaint {
                 ));
             }
         }
+
+        // Refuse a ramp over depth that ends before it begins.
         if self.depth.far <= self.depth.near {
             return Err(StyleError::unfit(
                 format!("{key}.depth.far"),
                 "has to lie beyond near",
             ));
         }
+
+        // Refuse a texture as the source without a picture.
         if self.source == LineSource::Texture && self.image.is_empty() {
             return Err(StyleError::unfit(
                 format!("{key}.source"),
@@ -321,7 +326,8 @@ mod tests {
         let style = read(
             "line.paint = { source = 'surface', factor = 0.3, kinds = { crease = '#fff' } }\n\
              [[rule]]\nline.paint.factor = 0.5\nline.paint.kinds.boundary = '#f00'\n\
-             [[rule]]\nmatch.object = 'B'\nline.paint.source = 'constant'\nline.paint.depth.ramp = [{ at = 0, color = '#123' }]",
+             [[rule]]\nmatch.object = 'B'\nline.paint.source = 'constant'\n\
+             line.paint.depth.ramp = [{ at = 0, color = '#123' }]",
         )
         .unwrap();
         let a = style.resolve_for("", "A").line_paint;

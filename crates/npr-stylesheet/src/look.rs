@@ -65,6 +65,7 @@ impl<'a> Look<'a> {
 
     /// The look with what `rule` states in place of what it had.
     pub(crate) fn with(self, rule: &'a Rule) -> Self {
+        // Lay every table of the rule over what the part had.
         let (line, shade) = (&rule.line, &rule.shade);
         Self {
             line_on: line.on.unwrap_or(self.line_on),

@@ -16,6 +16,7 @@ impl Style {
     ///
     /// Callers load them: no files are opened here. Background and line widths name theirs elsewhere.
     pub fn named_pictures(&self) -> Vec<(String, &str)> {
+        // List the pictures that the style itself names.
         let mut named = vec![
             (RAMP.to_owned(), self.shade.ramp_image.as_str()),
             (HATCH.to_owned(), self.ink.hatch.image.as_str()),
@@ -29,6 +30,8 @@ impl Style {
                 named.push((format!("light.extra.{i}.image"), light.image.as_str()));
             }
         }
+
+        // List those that rules name.
         for (i, rule) in self.rule.iter().enumerate() {
             let of_rule = [
                 (RAMP, &rule.shade.ramp_image),
@@ -42,6 +45,8 @@ impl Style {
                 );
             }
         }
+
+        // Keep each name where it stands first.
         let mut seen = vec![""];
         named.retain(|(_, name)| {
             let is_new = !seen.contains(name);

@@ -113,7 +113,8 @@ const PRESETS: &[Preset] = &[
     Preset {
         name: "lit-lines",
         version: 1,
-        title: "Lines thin and warm where lit, heavy and cool in the shade, bright where light from behind catches them",
+        title: "Lines thin and warm where lit, heavy and cool in the shade, \
+                bright where light from behind catches them",
         text: include_str!("../presets/lit-lines.toml"),
     },
     Preset {
@@ -215,6 +216,7 @@ pub(crate) fn is_name(name: &str) -> bool {
 ///
 /// [`StyleError::UnknownPreset`] or [`StyleError::PresetVersion`].
 pub fn find(name: &str) -> Result<&'static Preset, StyleError> {
+    // Find the preset in its newest version.
     let (bare, version) = name
         .split_once('@')
         .map_or((name, None), |(bare, version)| (bare, Some(version)));
@@ -225,6 +227,8 @@ pub fn find(name: &str) -> Result<&'static Preset, StyleError> {
             name: name.to_owned(),
             nearest: nearest(bare, PRESETS.iter().map(|preset| preset.name)).map(str::to_owned),
         })?;
+
+    // Look for the version that is asked for, where one is.
     let Some(asked) = version else {
         return Ok(newest);
     };

@@ -29,6 +29,7 @@ pub(crate) struct Assignment<'a> {
 impl<'a> Assignment<'a> {
     /// What a text of the form `key.path=value` says.
     pub(crate) fn of(text: &'a str) -> Result<Self, StyleError> {
+        // Take the text apart into key and value, and refuse what is no assignment.
         let malformed = || StyleError::Assignment {
             text: text.to_owned(),
         };
@@ -40,6 +41,8 @@ impl<'a> Assignment<'a> {
         {
             return Err(malformed());
         }
+
+        // Give the key its name of today.
         let value = parse(value.trim());
         let today = name_of_today(&path);
         let former = today.map(|_| path.join("."));
@@ -66,10 +69,13 @@ impl<'a> Assignment<'a> {
 
     /// Refuses entries of lists that are not there, and names in place of their numbers.
     fn check_lists(&self, table: &Table) -> Result<(), StyleError> {
+        // Walk down the key, in the schema and in the style at once.
         let mut node = Node::root();
         let mut value = None;
         for (depth, name) in self.path.iter().enumerate() {
             let is_list = node.is_some_and(|node| node.forms().iter().any(|form| form.is("array")));
+
+            // Refuse an entry that the list does not have.
             if is_list {
                 let entries = value.and_then(Value::as_array);
                 let count = entries.map_or(0, Vec::len);

@@ -351,7 +351,8 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_again() {
-        let text = "[smoke]\nparticles = 'published'\npuffs = { count = 30, placement = 'random' }\nmethod = 'billboards'\nsigma = '3px'\nlight = [0, 1, 0]\nline.method = 'published'\n\
+        let text = "[smoke]\nparticles = 'published'\npuffs = { count = 30, placement = 'random' }\n\
+                    method = 'billboards'\nsigma = '3px'\nlight = [0, 1, 0]\nline.method = 'published'\n\
                     ramp = [{ at = 0.0, color = 'black' }, { at = 0.5, color = 'white' }]";
         let style = read(text).expect("a style");
         assert_eq!(style.smoke.levels()[1], [1.0, 1.0, 1.0, 0.5]);

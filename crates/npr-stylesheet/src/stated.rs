@@ -44,11 +44,14 @@ impl Stated {
         text: &str,
         load: &dyn Fn(&str) -> Result<String, String>,
     ) -> Result<Self, StyleError> {
+        // Read the file over its parents.
         let layers::Read {
             style,
             stated,
             former,
         } = layers::read(text, load)?;
+
+        // Keep the keys whose values differ from what they would be without the file.
         let mut keys = BTreeSet::new();
         gather(&Value::Table(stated), "", &mut keys);
         if let Ok(usual) = Value::try_from(Style::default()) {
@@ -131,11 +134,14 @@ impl Stated {
 
 /// Adds the keys of all plain values at `key` and below.
 fn gather(value: &Value, key: &str, keys: &mut BTreeSet<String>) {
+    // Name the keys below this one.
     let below = |name: &str| match key {
         "" => name.to_owned(),
         _ => format!("{key}.{name}"),
     };
     let name = key.rsplit('.').next().unwrap_or(key);
+
+    // Descend into tables and lists of tables; anything else is one value.
     match value {
         Value::Table(table) => {
             for (name, value) in table {

@@ -113,7 +113,8 @@ fn one_after_the_other(
 
 const EVERYTHING: &str = "{ source = 'surface', kinds = { crease = '#aabbcc80' }, tint = '#80ff0040', \
      depth = { near = 0.2, far = 0.9, ramp = [{ at = 0.1, color = '#fff0' }, { at = 1, color = '#cceeffc0' }] }, \
-     light = { rim = 0.7, opacity = [1, 0.4], ramp = [{ at = 0, color = '#0008' }, { at = 1, color = '#ffa040c0' }] } }";
+     light = { rim = 0.7, opacity = [1, 0.4], \
+     ramp = [{ at = 0, color = '#0008' }, { at = 1, color = '#ffa040c0' }] } }";
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]

@@ -234,13 +234,14 @@ fn unknown_presets_get_a_suggestion() {
 
 #[test]
 fn parents_lie_below_and_rules_add_up() {
-    let load = |name: &str| {
-        match name {
-        "house.toml" => Ok("extends = 'ink'\ntitle = 'house'\nline.color = 'navy'\n[[rule]]\nmatch.object = 'Eye*'\nline.on = false".to_owned()),
+    let load = |name: &str| match name {
+        "house.toml" => Ok("extends = 'ink'\ntitle = 'house'\n\
+                            line.color = 'navy'\n[[rule]]\nmatch.object = 'Eye*'\nline.on = false"
+            .to_owned()),
         other => no_files(other),
-    }
     };
-    let text = "extends = ['toon', 'house.toml']\nline.opacity = 0.5\n[[rule]]\nmatch.material = 'Glass'\nline.on = false";
+    let text = "extends = ['toon', 'house.toml']\nline.opacity = 0.5\n\
+                [[rule]]\nmatch.material = 'Glass'\nline.on = false";
     let style = Style::from_toml(text, &load).expect("a style");
     assert_eq!(
         (style.line.color, style.line.opacity),

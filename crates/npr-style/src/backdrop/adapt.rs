@@ -112,13 +112,13 @@ impl Ground {
         }
     }
 
-    /// As a texel with the number of a rule.
+    /// Packs the ground into a texel with the number of a rule.
     pub(super) fn packed(&self, rule: u32) -> u32 {
         let share = self.brighter.unwrap_or(0.5);
         pack_rgba8([self.low, self.high, share, 0.0]) | rule << 24
     }
 
-    /// Of such a texel.
+    /// Unpacks the ground of such a texel.
     pub(super) fn unpacked(texel: u32) -> Self {
         let [low, high, share, _] = unpack_rgba8(texel);
         Self {
@@ -178,7 +178,7 @@ fn place_of(light: [f32; 3], lightness: f32, rule: &Rule) -> f32 {
     lightness
 }
 
-/// The same of a colour alone.
+/// Where a colour of which nothing else is known lies on that scale.
 pub(super) fn place_of_light(light: [f32; 3], rule: &Rule) -> f32 {
     place_of(light, oklab_of_light(light)[0], rule)
 }
@@ -311,9 +311,12 @@ fn at_place(
     share: f32,
     rule: &Rule,
 ) -> [f32; 3] {
+    // Take the place for the lightness, on the scale of OKLab.
     if rule.measure != Rule::WCAG {
         return at_lightness(place, own, edge, share);
     }
+
+    // Search the lightness whose fitted colour has the luminance that the place asks for.
     let luminance = luminance_at(place);
     let (mut low, mut high) = (0.0, 1.0);
     let (mut dark, mut bright) = ([0.0; 3], [1.0; 3]);

@@ -111,7 +111,12 @@ mod tests {
             let mut rules = Rules::default();
             rules.rules[1] = Rule::CONTRAST;
             rules.rules[3] = Rule { rim_factor: 0.7, ..Rule::CONTRAST };
-            rules.rules[2] = Rule { thresholds: [1.0, -1.0, -1.0, -1.0], method: Rule::BY_LIKENESS, intensity: 2.0, ..Rule::CONTRAST };
+            rules.rules[2] = Rule {
+                thresholds: [1.0, -1.0, -1.0, -1.0],
+                method: Rule::BY_LIKENESS,
+                intensity: 2.0,
+                ..Rule::CONTRAST
+            };
             let lines = [[0.0; 3], [0.5, 0.1, 0.1]];
             let fronts = [0xff10_2030, 0x8010_2030, 0xff10_2031, 0];
             let backs = [0x0130_3030, 0x0230_3030, 0x0131_3030, 0x0330_3030, 0];

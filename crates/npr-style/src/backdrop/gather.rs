@@ -105,6 +105,7 @@ impl Found {
         rims: &[Rim],
         tile: [u32; 2],
     ) -> Self {
+        // Go through the rims of the tile that follow a rule by contrast.
         let mut found = Self::default();
         for y in tile[1] * TILE..((tile[1] + 1) * TILE).min(size[1]) {
             for x in tile[0] * TILE..((tile[0] + 1) * TILE).min(size[0]) {
@@ -117,6 +118,8 @@ impl Found {
                 if rule.method != Rule::BY_CONTRAST {
                     continue;
                 }
+
+                // Keep those of the subject and the rule of the first.
                 if found.whose == 0 {
                     (found.whose, found.rule) = (whose, number);
                 }
@@ -129,8 +132,9 @@ impl Found {
         found
     }
 
-    /// Those that stand before a ground between two places.
+    /// Sums up the rims that stand before a ground between two places on the scale.
     fn summed(&self, within: [f32; 2]) -> TileRims {
+        // Add up the rims that stand before a ground in the range.
         let mut sum = TileRims {
             low: 1.0,
             whose: self.whose,
@@ -150,6 +154,8 @@ impl Found {
             color = [color[0] + r, color[1] + g, color[2] + b];
             sum.count += 1.0;
         }
+
+        // Make means of the sums; the darkest and the brightest ground stay.
         let count = sum.count.max(1.0);
         let [r, g, b] = color.map(|channel| channel / count);
         TileRims {

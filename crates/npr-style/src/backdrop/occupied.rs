@@ -24,7 +24,7 @@ pub(super) struct Near {
 }
 
 impl Occupied {
-    /// Those of `elements`, `width` a row. O(elements), parallel over rows.
+    /// Finds the elements that hold anything in a picture with rows of `width`. O(elements), parallel over rows.
     pub fn of<T: Sync>(elements: &[T], width: usize, holds: impl Fn(&T) -> bool + Sync) -> Self {
         let columns = |row: &[T]| -> Vec<u32> {
             let numbered = (0..).zip(row);
@@ -47,7 +47,7 @@ impl Occupied {
         &self.columns[self.starts[y]..self.starts[y + 1]]
     }
 
-    /// What is made of each, by column and row, in order. Parallel over rows.
+    /// Makes a value of each, by its column and row; the values come in order. Parallel over rows.
     pub fn each<T: Send>(&self, of: impl Fn([u32; 2]) -> T + Sync + Send) -> Vec<T> {
         let rows = (0..self.starts.len() - 1).into_par_iter();
         rows.flat_map_iter(|y| self.row(y).iter().map(move |x| [*x, y as u32]))
@@ -67,7 +67,7 @@ impl Occupied {
             });
     }
 
-    /// Those up to `reach` columns and rows around a place, itself included, in order.
+    /// The elements up to `reach` columns and rows around a place, the place itself included, in order.
     pub fn around(&self, [x, y]: [u32; 2], reach: u32) -> impl Iterator<Item = Near> {
         let end = (y + reach + 1).min(self.starts.len() as u32 - 1);
         (y.saturating_sub(reach)..end).flat_map(move |row| {

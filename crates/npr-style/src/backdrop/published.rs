@@ -66,15 +66,20 @@ pub fn outline(
     default: [f32; 3],
     rule: &Rule,
 ) -> Option<Vec<Option<[f32; 3]>>> {
+    // Turn down pictures of another size.
     let [width, height] = size.map(|side| side as usize);
     let count = width.checked_mul(height)?;
     if alone.len() != count || composed.len() != count {
         return None;
     }
+
+    // Tell the pixels of the character by what both pictures show there.
     let is_character = |i: usize| {
         let [a, b] = [alone[i][3], composed[i][3]].map(sane);
         a > 0.0 && (a - b).abs() <= 1.0 / 512.0
     };
+
+    // Colour every other pixel that touches the character.
     let mut outline = vec![None; count];
     outline
         .par_chunks_mut(width.max(1))

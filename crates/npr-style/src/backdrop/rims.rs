@@ -16,7 +16,7 @@ pub const TILE: u32 = 4;
 /// How far around its tile a border makes it busy: a rim's neighbours may lie in the next tile, and theirs one farther.
 const TILE_RIM: u32 = 2;
 
-/// Whose line a part's outline is, and by which rule it minds the background.
+/// The subject that a part belongs to, and the rule by which its lines mind the background.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct PartSubject {
@@ -27,7 +27,7 @@ pub struct PartSubject {
 }
 gpu_layout!(PartSubject { subject, rule });
 
-/// What an output pixel at the border of a subject knows: the colours of both sides.
+/// An output pixel at the border of a subject, with the colours of both sides.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Rim {
@@ -52,7 +52,7 @@ impl Rim {
     pub const OUTSIDE: u32 = 1 << 31;
     /// The line lies within the subject, not at its border.
     pub const WITHIN: u32 = 1 << 30;
-    /// What tells the borders of subjects apart, and borders from lines within.
+    /// Mask of the bits that tell the borders of subjects apart, and borders from lines within.
     pub const WHOSE: u32 = !Self::OUTSIDE;
 }
 
@@ -71,14 +71,14 @@ pub struct Scenery<'a> {
     pub part_subjects: &'a [PartSubject],
 }
 
-/// What one pixel shows, where all of its samples show the same.
+/// The subject and part that one pixel shows, where all of its samples agree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct Shown {
     subject: u32,
     part: u32,
 }
 
-/// What a mixed pixel shows: nothing for certain.
+/// Subject of a mixed pixel, whose samples show several.
 const MIXED: u32 = u32::MAX;
 
 /// White for every tile near a border between two subjects, as wide as [`tiles_across`]; 0 for all others.
@@ -103,12 +103,15 @@ pub fn tiles_across(size: [u32; 2]) -> u32 {
 
 impl Scenery<'_> {
     fn is_busy(&self, tile: [u32; 2]) -> bool {
+        // Find the samples of the tile and of what lies close around it.
         let samples = self.rules.samples;
         let low = tile.map(|at| (at * TILE).saturating_sub(TILE_RIM) * samples);
         let high: [u32; 2] = std::array::from_fn(|i| {
             ((tile[i] + 1) * TILE + TILE_RIM).min(self.window.size[i]) * samples
         });
         let width = self.window.size[0] * samples;
+
+        // Look for a sample of another subject; rows of one triangle need no look at each.
         let first = self.ids[(low[1] * width + low[0]) as usize];
         let subject = self.part_subject_of(first).subject;
         let mut last = first;
@@ -162,7 +165,7 @@ impl Scenery<'_> {
         self.ids[(y * samples * self.window.size[0] * samples + x * samples) as usize]
     }
 
-    /// What a pixel shows; of subject [`MIXED`] where its samples disagree.
+    /// Subject and part that a pixel shows; the subject is [`MIXED`] where its samples disagree.
     fn shown(&self, x: u32, y: u32) -> Shown {
         let samples = self.rules.samples;
         let width = self.window.size[0] * samples;
@@ -187,7 +190,7 @@ fn are_all(ids: &[u32], one: u32) -> bool {
     ids.iter().fold(0, |bits, id| bits | (id ^ one)) == 0
 }
 
-/// What rims are found on.
+/// The pictures on which rims are found.
 #[derive(Debug, Clone, Copy)]
 pub struct Search<'a> {
     /// The frame.
@@ -255,7 +258,7 @@ pub fn find_rims(search: &Search<'_>, rims: &mut [Rim]) {
         });
 }
 
-/// What a tile and the pixels around it show.
+/// Subjects and parts that the pixels of a tile and those around it show.
 struct Near {
     /// The first of them.
     low: [u32; 2],
@@ -298,6 +301,7 @@ impl Search<'_> {
     }
 
     fn rim_at(&self, near: &Near, x: u32, y: u32) -> Rim {
+        // Leave out pixels around which nothing changes.
         let scenery = &self.scenery;
         let size = scenery.window.size;
         let (low, high) = around(size, x, y);
@@ -307,12 +311,16 @@ impl Search<'_> {
         if scenery.rules.within == 0 && pixels().all(|(x, y)| near.at(x, y).subject == here) {
             return Rim::default();
         }
+
+        // Give the border to the subject nearest to the eye.
         let owner = self.owner(near, pixels());
         if owner == 0 {
             return Rim::default();
         }
+
+        // Sum the colours on both sides; mixed pixels count for neither.
         let (mut rim, mut behind) = (Sum::default(), Sum::default());
-        let (mut part, mut rule, mut contrast_cache) = (0, 0, 0.0);
+        let (mut part, mut rule, mut ruled_count) = (0, 0, 0.0);
         for (x, y) in pixels() {
             let shown = near.at(x, y);
             let texel = self.bare[(y * size[0] + x) as usize];
@@ -323,23 +331,27 @@ impl Search<'_> {
                 rim.add(texel);
                 let own = scenery.part_subjects[shown.part as usize].rule;
                 if own != 0 {
-                    contrast_cache += 1.0;
+                    ruled_count += 1.0;
                     rule = own;
                 }
             } else if shown.subject != MIXED {
                 behind.add(texel);
             }
         }
+
+        // For the published method, take what lies behind from this pixel alone.
         let outside = if here == owner { 0 } else { Rim::OUTSIDE };
         let is_behind = outside != 0 && here != MIXED;
         if scenery.rules.rules[rule as usize].method == Rule::BY_LIKENESS && is_behind {
             behind = Sum::default();
             behind.add(self.bare[(y * size[0] + x) as usize]);
         }
+
+        // Look for a line within the subject where nothing lies behind.
         if behind.count == 0.0 {
             return self.inner_rim(x, y, &rim, [owner, part]);
         }
-        let share = contrast_cache / rim.count;
+        let share = ruled_count / rim.count;
         packed(&rim, &behind, share, rule, [owner | outside, part])
     }
 

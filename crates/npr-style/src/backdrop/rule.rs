@@ -174,7 +174,7 @@ impl Rules {
     /// Lines within subjects mind the background.
     pub const ALWAYS: u32 = 4;
 
-    /// The same where there is no frame before.
+    /// These rules for a first frame: nothing is held and nothing fades.
     pub fn of_first_frame(self) -> Self {
         Self {
             hold: 0.0,

@@ -26,10 +26,13 @@ const RULE: u32 = 0xff00_0000;
 /// The rule is the pixel's own; where rims of another count for less, so does this one. Rims of the published method
 /// stay as they are. O(rims * length squared), parallel over rows.
 pub fn smooth_rims(window: &Window, rules: &Rules, rims: &[Rim], smoothed: &mut [Rim]) {
+    // Keep rims as they are where nothing is smoothed.
     smoothed.copy_from_slice(rims);
     if rules.smooth_px <= 0.0 {
         return;
     }
+
+    // Blend every rim with those within the length.
     let width = window.size[0] as usize;
     let reach = (rules.smooth_px as u32).min(SMOOTH_MOST);
     let falloff = -2.0 / (rules.smooth_px * rules.smooth_px);
@@ -59,11 +62,11 @@ struct Smoothing<'a> {
     known: Vec<Known>,
 }
 
-/// What of a rim is blended.
+/// The values of a rim that are blended.
 struct Known {
     whose: u32,
     rule: u32,
-    /// Its colour with its weight, and that behind.
+    /// The colour of the rim with its weight, and the colour behind it.
     own: [f32; 4],
     beyond: [f32; 3],
 }
@@ -88,12 +91,15 @@ impl Known {
 
 impl Smoothing<'_> {
     fn rim_at(&self, [x, y]: [u32; 2]) -> Rim {
+        // Leave rims of the published method as they are.
         let rim = &self.rims[y as usize * self.width + x as usize];
         let here = Known::of(rim);
         let mut rule = here.rule;
         if self.rules.rules[(rule >> 24) as usize].method == Rule::BY_LIKENESS {
             return *rim;
         }
+
+        // Sum both colours over the rims of the same subject, by how near and how alike they are.
         let (mut total, mut counted) = (0.0, 0.0);
         let (mut front, mut back) = ([0.0; 3], [0.0; 3]);
         for near in self.occupied.around([x, y], self.reach) {
@@ -113,6 +119,8 @@ impl Smoothing<'_> {
                 rule = there.rule;
             }
         }
+
+        // Make means of the sums, which count as much as the rules of the rims do.
         if counted <= 0.0 {
             return *rim;
         }
@@ -239,7 +247,7 @@ impl Runs {
     }
 }
 
-/// What is carried to pixels.
+/// The rims of a frame, on their way to the pixels around them.
 struct Carrying<'a> {
     size: [u32; 2],
     rules: &'a Rules,

@@ -45,7 +45,7 @@ const UNLIKE_RIMS: f32 = 0.5;
 /// Mean of votes from which a stretch is decided.
 const DECIDED: f32 = 0.01;
 
-/// What lines of a tile read before, and which way they move.
+/// The range of grounds that the lines of a tile must read before, and which way they move.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct ContrastBias {
@@ -55,7 +55,7 @@ pub struct ContrastBias {
     pub high: f32,
     /// From -1, darker, to 1, brighter.
     pub bias: f32,
-    /// Whose lines they are, as in [`TileRims::whose`].
+    /// The subject that the lines belong to, as in [`TileRims::whose`].
     pub whose: u32,
     /// Colour of the rims, sRGB-encoded.
     pub rim: [f32; 3],
@@ -81,7 +81,7 @@ impl ContrastBias {
         }
     }
 
-    /// A value of each of both, made one.
+    /// Combines every number of this bias with the same number of another one.
     fn with(&self, other: &Self, made: impl Fn(f32, f32) -> f32) -> Self {
         Self {
             low: made(self.low, other.low),
@@ -167,6 +167,7 @@ impl<'a, T: Sync> Tiles<'a, T> {
 }
 
 fn bound_at(rules: &Rules, gathered: &Tiles<'_, TileRims>, tile: [u32; 2]) -> ContrastBias {
+    // Widen the bounds to those of the same lines nearby; distance and unlike walls count against them.
     let here = gathered.at(tile);
     let (mut low, mut high) = (here.low, here.high);
     let reach = if rules.bias_px > 0.0 {
@@ -182,6 +183,8 @@ fn bound_at(rules: &Rules, gathered: &Tiles<'_, TileRims>, tile: [u32; 2]) -> Co
             high = high.max(there.high - loss - unlike);
         }
     }
+
+    // Vote for the way that the lines of this tile had better move.
     let rule = &rules.rules[here.rule as usize];
     let [r, g, b, _] = unpack_rgba8(here.rim);
     ContrastBias {
@@ -221,7 +224,7 @@ pub fn vote_bias(
     voting.gathered.make(biases, |tile| voting.bias_at(tile));
 }
 
-/// What the biases of a frame are decided from.
+/// The votes of a frame, and what was decided in the frame before.
 struct Voting<'a> {
     rules: &'a Rules,
     bounds: &'a [ContrastBias],
@@ -233,6 +236,7 @@ struct Voting<'a> {
 
 impl Voting<'_> {
     fn bias_at(&self, tile: [u32; 2]) -> ContrastBias {
+        // Count the votes of the same lines around.
         let here = self.gathered.at(tile);
         let (mut sum, mut count) = (0.0, 0.0);
         for (number, there, square) in self.gathered.around(tile, self.reach) {
@@ -244,6 +248,8 @@ impl Voting<'_> {
             }
         }
         let vote = sum / count.max(1e-6);
+
+        // Add what was decided in the frame before.
         let (hold, fade) = (self.rules.hold, self.rules.fade);
         let decided = |held: f32| ((vote + hold * held) / DECIDED).clamp(-1.0, 1.0);
         let bound = self.bounds[self.gathered.number(tile)];
@@ -252,6 +258,8 @@ impl Voting<'_> {
             bias: decided(was.map_or(0.0, |was| was.bias)),
             ..bound
         };
+
+        // Fade towards what is decided, where lines must change.
         match was {
             Some(was) if fade < 1.0 => ContrastBias {
                 bias: nearer(was.bias, decided.bias, 2.0 * fade),
@@ -315,6 +323,7 @@ fn blended_at(
     nearness: &Gaussian,
     tile: [u32; 2],
 ) -> ContrastBias {
+    // Sum the biases and the colours of the same lines around, less before other walls and of other paint.
     let here = biases.at(tile);
     let (mut bias, mut total) = (0.0, 0.0);
     let (mut rim, mut coloring) = ([0.0; 3], 0.0);
@@ -331,6 +340,8 @@ fn blended_at(
             coloring += paint;
         }
     }
+
+    // Keep the bounds, and make means of the rest.
     ContrastBias {
         bias: bias / total,
         rim: rim.map(|channel| channel / coloring),
@@ -346,9 +357,12 @@ pub(super) fn bias_between(
     whose: u32,
     pixel: [u32; 2],
 ) -> Option<ContrastBias> {
+    // Find the place of the pixel between the middles of tiles.
     let across = tiles_across(size);
     let down = biases.len() as u32 / across;
     let place = pixel.map(|at| (at as f32 + 0.5) / TILE as f32 - 0.5);
+
+    // Blend the four tiles around it, as far as they hold the same lines.
     let mut mean = Mean::default();
     for i in 0..4 {
         let column = place[0].floor() + (i & 1) as f32;

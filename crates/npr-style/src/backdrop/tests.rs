@@ -171,7 +171,8 @@ proptest! {
             match nearest.filter(|square| *square <= 16) {
                 None => prop_assert_eq!((fronts[i], backs[i]), (0, 0)),
                 Some(square_here) => {
-                    let found = (0..count).any(|j| rims[j].subject != 0 && square(j) == square_here && rims[j].behind == backs[i]);
+                    let is_it = |j: usize| rims[j].subject != 0 && rims[j].behind == backs[i];
+                    let found = (0..count).any(|j| is_it(j) && square(j) == square_here);
                     prop_assert!(found);
                 }
             }

@@ -17,6 +17,7 @@ use std::ops::Range;
 /// of its samples. Layers go over each other as in [Porter & Duff 1984], in linear light. O(pixels), parallel over
 /// rows.
 pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
+    // Find once what pixels share: the known triangles and the plain background.
     let encoder = SrgbEncoder::new();
     let known = layers.known_triangles();
     let width = layers.window.size[0] as usize;
@@ -30,6 +31,8 @@ pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
         near: None,
         contrast_cache: ContrastCache::default(),
     };
+
+    // Compose rows; runs of plain background are filled at once.
     frame
         .par_chunks_mut(width)
         .enumerate()
@@ -75,6 +78,7 @@ struct Composer<'a> {
 impl<'a> Composer<'a> {
     /// A pixel of the output as sRGB bytes with straight alpha.
     fn texel(&mut self, x: u32, y: u32) -> u32 {
+        // Take smoke that covers all as it is.
         let frame_px = self.layers.window.frame_at(x, y);
         let seen = self.layers.samples_of(x, y);
         let lines = self.layers.lines_at(x, y);
@@ -85,6 +89,8 @@ impl<'a> Composer<'a> {
         {
             return texel;
         }
+
+        // Take pixels of one known colour as they are.
         let smoke_layer = self.layers.smoke_layer_of(x, y, &seen, frame_px);
         let is_one = seen.iter().all(|id| *id == seen[0]);
         let is_bare = lines == [0; 2] && smoke_layer.is_none() && beams.iter().all(|id| *id == 0);
@@ -94,6 +100,8 @@ impl<'a> Composer<'a> {
         {
             return texel;
         }
+
+        // Shade the surfaces, smoke over them, the background behind.
         let hidden = smoke_layer.map_or([0.0; 4], |smoke_layer| smoke_layer.hidden);
         let mut color = if is_one && seen[0] != 0 && smoke_layer.is_none() {
             let [r, g, b] = self.surface(seen[0], (1 << seen.len()) - 1, frame_px);
@@ -110,9 +118,13 @@ impl<'a> Composer<'a> {
             let left = 1.0 - color[3];
             color = std::array::from_fn(|i| color[i] + behind[i] * left);
         }
+
+        // Lay beams over them.
         let covered =
             self.layers
                 .add_beams(&seen, &beams, smoke_layer.as_ref(), frame_px, &mut color);
+
+        // Lay lines over everything, as far as neither beams nor smoke cover them.
         let faded = match &smoke_layer {
             Some(smoke_layer) if lines != [0; 2] => {
                 smoke_layer.line_fade(self.layers, [x, y], frame_px)
@@ -165,6 +177,7 @@ impl<'a> Composer<'a> {
 
     /// The surfaces of a pixel, premultiplied.
     fn surfaces(&mut self, seen: &[u32], hidden: &[f32; 4], frame_px: [f32; 2]) -> [f32; 4] {
+        // Take the samples triangle by triangle.
         let count = seen.len();
         let mut sum = [0.0; 4];
         let mut left = (1u32 << count) - 1;
@@ -179,6 +192,8 @@ impl<'a> Composer<'a> {
             if seen[i] == 0 {
                 continue;
             }
+
+            // Leave out what smoke hides.
             let shown = (i..count)
                 .filter(|j| members & (1 << j) != 0)
                 .map(|j| 1.0 - hidden[j])
@@ -186,6 +201,8 @@ impl<'a> Composer<'a> {
             if shown == 0.0 {
                 continue;
             }
+
+            // Shade the triangle once for all of its samples.
             let share = shown / count as f32;
             let [r, g, b] = self.surface(seen[i], members, frame_px);
             sum = [
@@ -200,6 +217,7 @@ impl<'a> Composer<'a> {
 
     /// Light of what the samples in `members` show, a triangle or its hull.
     fn surface(&mut self, id: u32, members: u32, frame_px: [f32; 2]) -> [f32; 3] {
+        // Draw a hull in the colour of its line.
         let index = ((id & ID_MASK) - 1) as usize;
         if id & HULL_BIT != 0 {
             let triangle = &self.layers.triangles[index];
@@ -215,6 +233,8 @@ impl<'a> Composer<'a> {
                 .layers
                 .contrasted(&mut self.contrast_cache, line, frame_px);
         }
+
+        // Shade a triangle, unless its colour is known.
         let known = &self.known[index];
         if let Some(color) = known.whole() {
             return color;
@@ -276,6 +296,7 @@ impl Layers<'_> {
 
     /// Whether some pixels of a row show nothing but the background.
     fn is_bare(&self, run: Range<usize>, y: usize) -> bool {
+        // Prepare looks at whole runs of texels, without a branch for each.
         let (width, samples) = (self.window.size[0] as usize, self.compose.samples as usize);
         let holds = |bit: u32| self.compose.flags & bit != 0;
         let pixels = y * width + run.start..y * width + run.end;
@@ -292,6 +313,8 @@ impl Layers<'_> {
         let is_off = |bit: u32, texels: &[u32], mask: u32| {
             !holds(bit) || is_zero(&texels[pixels.clone()], mask)
         };
+
+        // Ask the layers that the frame has.
         is_free(self.ids)
             && (!holds(Compose::BEAMS) || is_free(self.beam_ids))
             && is_off(Compose::RIBBONS, self.ribbons, u32::MAX)

@@ -22,11 +22,14 @@ impl Layers<'_> {
 
     /// What is known of a triangle; nothing of one whose back alone is seen, which no pixel asks for.
     fn known(&self, triangle: &Triangle) -> TriangleConstants {
+        // Leave out backs that nobody sees.
         let part = &self.parts[triangle.part as usize];
         let corners = self.corners_of(triangle);
         if corners.side < 0.0 && part.flags & Part::DOUBLE_SIDED == 0 {
             return TriangleConstants::default();
         }
+
+        // Find what is the same all over.
         let (light, ink) = (
             self.even_light(part, &corners),
             self.ink_all_over(part, &corners),
@@ -35,6 +38,8 @@ impl Layers<'_> {
         let is_plain = part.flags & Part::PLAIN != 0
             || part.texture == NONE && triangle.corners.iter().all(white);
         let is_matt = !self.may_shine(part, &corners);
+
+        // Note it, and multiply colour and light where both are known.
         let mut known = TriangleConstants::default();
         known.learn(TriangleConstants::PLAIN, is_plain);
         known.learn(TriangleConstants::EVEN, light.is_some());
@@ -49,6 +54,8 @@ impl Layers<'_> {
         } else {
             light
         };
+
+        // Lay the ink over them where nothing else is left to find.
         if let (Some(ink), true) = (ink, is_plain && known.is_even() && is_matt) {
             known.color = inked(part, known.color, ink);
             known.learn(TriangleConstants::WHOLE, true);
@@ -123,7 +130,9 @@ mod tests {
             normal in prop::array::uniform3(-1f32..1.0),
             bends in prop::array::uniform3(prop::array::uniform3(-0.2f32..0.2)),
             light in prop::array::uniform3(-1f32..1.0), back in prop::array::uniform3(-1f32..1.0),
-            flags in prop::sample::select(vec![0, Part::UNLIT, Part::SOFT, Part::CRISP, Part::SOFT | Part::BACK_LIGHT, Part::UNLIT | Part::CRISP]),
+            flags in prop::sample::select(vec![
+                0, Part::UNLIT, Part::SOFT, Part::CRISP, Part::SOFT | Part::BACK_LIGHT, Part::UNLIT | Part::CRISP,
+            ]),
             softness in prop::sample::select(vec![0.0f32, 0.05, 0.5]), steps in prop::array::uniform2(0.05f32..0.95),
             exponent in 1f32..200.0, threshold in 0f32..1.0, members in 1u32..16, perspective in 0u32..2,
         ) {
@@ -149,8 +158,10 @@ mod tests {
             let layers = Layers {
                 view: &view, window: &Window::default(), compose: &compose, lights: &Lights::distant(unit_or_z(light)),
                 ids: &[], beam_ids: &[], ribbons: &[], posed: &posed, vertices: &vertices,
-                triangles: &triangles, parts: &parts, texels: store.words(), charts: &[], overlay: &[], shadows: [&[]; 4],
-                smoke_colors: &[], smoke_depths: &[], smoke_shadows: [&[]; 4], rules: &crate::backdrop::Rules::default(), fronts: &[], backs: &[],
+                triangles: &triangles, parts: &parts, texels: store.words(), charts: &[], overlay: &[],
+                shadows: [&[]; 4],
+                smoke_colors: &[], smoke_depths: &[], smoke_shadows: [&[]; 4],
+                rules: &crate::backdrop::Rules::default(), fronts: &[], backs: &[],
             };
             let known = layers.known(&triangles[0]);
             let corners = layers.corners_of(&triangles[0]);

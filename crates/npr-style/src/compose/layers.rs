@@ -10,7 +10,7 @@ use npr_core::surface::faces_eye;
 use npr_core::texture;
 use npr_core::window::{View, Window};
 
-/// What a frame is composed from.
+/// The inputs from which a frame is composed.
 #[derive(Debug, Clone, Copy)]
 pub struct Layers<'a> {
     /// Camera and frame.

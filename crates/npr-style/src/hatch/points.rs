@@ -12,6 +12,7 @@ const CANDIDATES: u32 = 4;
 ///
 /// Differs: each candidate has a handicap of its own, or the first points, chosen among many, would form a lattice.
 pub fn spread(count: u32, seed: u32) -> Vec<[f32; 2]> {
+    // Measure the room of every candidate, each with a handicap.
     let candidates = candidates(count, seed);
     let handicap = |i: u32| 1.0 - 0.3 * unit(hash(seed, 4, i));
     let handicaps: Vec<f32> = (0..candidates.len() as u32).map(handicap).collect();
@@ -21,6 +22,8 @@ pub fn spread(count: u32, seed: u32) -> Vec<[f32; 2]> {
         .zip(&handicaps)
         .map(|(&p, &handicap)| room(p, turned(p), handicap))
         .collect();
+
+    // Set the candidate with the most room and its half turn, until there are enough.
     let mut points = Vec::with_capacity(count as usize);
     while points.len() < count as usize {
         let Some(widest) = widest(&rooms) else { break };

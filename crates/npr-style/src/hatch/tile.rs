@@ -131,6 +131,7 @@ fn byte(s: f32) -> u8 {
 
 /// Heights of one drawing, made for the upper half and turned for the lower.
 fn draw(hatch: &Hatch, hand: &Hand, points: &[[f32; 2]], drawing: Drawing) -> Vec<f32> {
+    // Prepare the strokes and the dots that rows are drawn from.
     let side = drawing.side as usize;
     let strokes = Strokes {
         drawing,
@@ -138,6 +139,8 @@ fn draw(hatch: &Hatch, hand: &Hand, points: &[[f32; 2]], drawing: Drawing) -> Ve
         seed: hatch.seed,
     };
     let stipple = Stipple::new(drawing, hand, hatch.seed, points);
+
+    // Draw the rows of the upper half, with the grain of the paper over them.
     let mut heights = vec![0.0; side * side];
     let upper = &mut heights[..side * side / 2];
     upper.par_chunks_mut(side).enumerate().for_each(|(y, row)| {

@@ -42,6 +42,7 @@ fn gather_row(
     cell_y: u32,
     row: &mut [Cell],
 ) {
+    // Add the tone of every pixel to its cell, shared out between two layers.
     let part = 1.0 / ((1u32 << look.shift) * (1u32 << look.shift)) as f32;
     let (top, bottom) = (cell_y << look.shift, (cell_y + 1) << look.shift);
     for y in top..bottom.min(size[1]) {
@@ -60,6 +61,8 @@ fn gather_row(
             }
         }
     }
+
+    // Make the sums parts of a whole cell.
     for cell in row {
         *cell = cell.map(|sum| sum * part);
     }
@@ -67,10 +70,13 @@ fn gather_row(
 
 /// The Gaussian along the rows of every layer's grid. O(cells x taps).
 pub fn blur_rows(look: &SmokeLook, cells: &[Cell], blurred: &mut [Cell]) {
+    // Empty the cells where tones are smoothed without grids.
     if look.shift == 0 {
         blurred.fill([0.0; 2]);
         return;
     }
+
+    // Weigh the cells to the left and right of each.
     let width = look.cells[0].max(1) as usize;
     let rows = blurred.par_chunks_mut(width).zip(cells.par_chunks(width));
     rows.for_each(|(blurred, cells)| {
@@ -94,10 +100,13 @@ pub fn blur_rows(look: &SmokeLook, cells: &[Cell], blurred: &mut [Cell]) {
 
 /// The Gaussian along the columns of every layer's grid. O(cells x taps).
 pub fn blur_columns(look: &SmokeLook, cells: &[Cell], blurred: &mut [Cell]) {
+    // Empty the cells where tones are smoothed without grids.
     if look.shift == 0 {
         blurred.fill([0.0; 2]);
         return;
     }
+
+    // Add whole rows above and below, each with its weight.
     let width = look.cells[0].max(1) as usize;
     let rows = blurred.par_chunks_mut(width).enumerate();
     rows.for_each(|(row, blurred)| {
@@ -132,6 +141,7 @@ pub fn smooth_tones(
     cells: &[Cell],
     tones: &mut [f32],
 ) {
+    // Find once what every column of pixels reads.
     let with = Smoothing {
         size,
         look,
@@ -139,6 +149,8 @@ pub fn smooth_tones(
         cells,
         columns: (0..size[0]).map(|x| Taps::new(look, x, 0)).collect(),
     };
+
+    // Smooth the tones row by row.
     let width = size[0].max(1) as usize;
     tones
         .par_chunks_mut(width)

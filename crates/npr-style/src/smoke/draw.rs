@@ -36,11 +36,14 @@ pub fn draw_spheres(
     ids: &mut [u32],
     depths: &mut [u32],
 ) {
+    // Sort the balls into bands of rows, from front to back.
     let width = window.size[0] as usize;
     if width == 0 {
         return;
     }
     let bands = sorted_into_bands(lens, window, balls);
+
+    // Draw every tile of a band, and write what it shows.
     let rows = TILE_ROWS * width;
     ids.par_chunks_mut(rows)
         .zip(depths.par_chunks_mut(rows))
@@ -187,11 +190,14 @@ impl<'a> Tile<'a> {
 
     /// Texels beyond the picture count as nearest, so that they keep nothing from being hidden.
     fn clear(&mut self) {
+        // Empty the texels of the tile.
         self.ids.fill(0);
         self.depths.fill(f32::MIN);
         for row in self.depths.chunks_mut(TILE_COLUMNS).take(self.rows) {
             row[..self.columns].fill(FAR_DEPTH);
         }
+
+        // Find the rays of its columns and rows.
         for (column, across) in self.across[..self.columns].iter_mut().enumerate() {
             let at = self.window.frame_at((self.left + column) as u32, 0);
             *across = self.lens.ray(at)[0];
@@ -260,6 +266,7 @@ impl<'a> Tile<'a> {
 
     /// Draws a ball over some columns of a row.
     fn draw_row(&mut self, row: usize, columns: RangeInclusive<usize>, id: u32, ball: &ViewSphere) {
+        // Take the texels of the row that the ball may cover.
         let (lens, up) = (*self.lens, self.up[row]);
         let here = |list: &RangeInclusive<usize>| {
             row * TILE_COLUMNS + list.start()..=row * TILE_COLUMNS + list.end()
@@ -268,6 +275,8 @@ impl<'a> Tile<'a> {
             .iter_mut()
             .zip(&mut self.ids[here(&columns)])
             .zip(&self.across[columns.clone()]);
+
+        // Keep the ball where it is the nearest, by the depth of its kind of view.
         if lens.discs > 0.5 {
             for ((nearest, holder), across) in texels {
                 keep(lens.depth_of(ball, [*across, up]), id, nearest, holder);

@@ -127,6 +127,7 @@ impl SmokeLook {
     /// deviation does, so the cost stays that of 1.5 to 3 cells. Adding up cells and reading between them smooths too:
     /// what it adds to the variance is taken off the kernel's.
     pub fn smooth(&mut self, size: [u32; 2], sigma: f32) {
+        // Choose the size of the cells by the deviation.
         let sigma = if sigma.is_finite() {
             sigma.clamp(0.0, 1e4)
         } else {
@@ -134,6 +135,8 @@ impl SmokeLook {
         };
         (self.shift, self.cells) = (0, [1, 1]);
         let mut deviation = sigma;
+
+        // Take off the kernel what the cells smooth already.
         if sigma >= WINDOWED {
             self.shift = shift_for(size, sigma, self.layers);
             self.cells = cells_of(size, self.shift);
@@ -142,6 +145,8 @@ impl SmokeLook {
             let wanted = sigma / cell;
             deviation = (wanted * wanted - added).max(0.05).sqrt();
         }
+
+        // Fill the kernel.
         self.taps = ((deviation * DEVIATIONS).ceil() as u32).min(TAPS_MAX);
         if deviation < 0.1 {
             self.taps = 0;

@@ -59,6 +59,7 @@ impl Layers<'_> {
 
     /// The colour of a pixel of smoke whose picture holds its tone and how much its outline covers; linear light.
     pub(super) fn penned(&self, pixel: [u32; 2], frame_px: [f32; 2], color: [f32; 4]) -> [f32; 4] {
+        // Read the tone of the pixel, and how it changes towards its neighbours.
         let Compose {
             smoke_part,
             smoke_line,
@@ -74,12 +75,16 @@ impl Layers<'_> {
             0.5 * (beside(0, 1) - beside(0, -1)),
         ];
         let slope = (change[0] * change[0] + change[1] * change[1]).sqrt();
+
+        // Average the ramp over the tones within the pixel.
         let mut light = [0.0; 3];
         for i in 0..TONE_TAPS {
             let step = (i as f32 + 0.5) / TONE_TAPS as f32 - 0.5;
             let tap = self.ramp_of(pen, tone + slope * step);
             light = std::array::from_fn(|k| light[k] + tap[k] / TONE_TAPS as f32);
         }
+
+        // Draw the strokes of the sheet there, and the outline over them.
         let at = [
             frame_px[0] - smoke_anchor_px[0],
             frame_px[1] - smoke_anchor_px[1],

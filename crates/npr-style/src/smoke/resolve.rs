@@ -54,6 +54,7 @@ pub struct Resolving<'a> {
 /// Most pixels show one sphere. Where several meet, or smoke ends, the spheres of the nine pixels around are asked for
 /// every sample, so edges are as smooth as the frame's samples. O(pixels).
 pub fn resolve(with: &Resolving<'_>, colors: &mut [u32], depths: &mut [u32]) {
+    // Resolve rows; runs without smoke around are emptied at once.
     let width = with.window.size[0] as usize;
     if width == 0 {
         return;
@@ -113,6 +114,7 @@ impl Resolving<'_> {
     }
 
     fn texel(&self, x: u32, y: u32) -> ([f32; 4], u32) {
+        // Paint a pixel amid one sphere, or amid nothing, without a look at its samples.
         if let Some(id) = self.only_around(x, y) {
             let texel = self.texel_near(x, y, 0, 0);
             return match id {
@@ -123,6 +125,8 @@ impl Resolving<'_> {
                 ),
             };
         }
+
+        // Leave out pixels with no smoke around, and take the published way where it is asked for.
         let around = AROUND.map(|[dx, dy]| self.texel_near(x, y, dx, dy));
         let ids = around.map(|texel| self.ids[texel]);
         if ids.iter().all(|id| *id == 0) {
@@ -131,6 +135,8 @@ impl Resolving<'_> {
         if self.look.flags & SmokeLook::PUBLISHED != 0 {
             return self.published(x, y, &around);
         }
+
+        // Paint one sphere whole, and blend several by samples.
         let frame_px = self.window.frame_at(x, y);
         if ids.iter().all(|id| *id == ids[0]) {
             let color = self.paint(ids[0], [x, y], frame_px);
@@ -160,6 +166,7 @@ impl Resolving<'_> {
 
     /// The sphere nearest to the eye in every sample, among those around.
     fn seen(&self, ids: &[u32; 9], frame_px: [f32; 2]) -> Seen {
+        // Send a ray through every sample.
         let samples = self.look.samples;
         let mut seen = Seen {
             owners: [None; 4],
@@ -168,6 +175,8 @@ impl Resolving<'_> {
         let mut nearest = [FAR_DEPTH; 4];
         let rays: [[f32; 2]; 4] =
             std::array::from_fn(|i| self.lens.ray(self.sample_at(frame_px, i)));
+
+        // Keep the nearest of the spheres that the neighbours show.
         for k in 0..9 {
             if ids[k] == 0 || ids[..k].contains(&ids[k]) {
                 continue;
@@ -203,6 +212,7 @@ impl Resolving<'_> {
         [x, y]: [u32; 2],
         frame_px: [f32; 2],
     ) -> ([f32; 4], u32) {
+        // Paint each sphere once, and weigh it by its samples.
         let owners = &seen.owners[..seen.count];
         let (mut sum, mut covered, mut mask, mut depth) = ([0.0; 4], 0.0, 0, FAR_DEPTH);
         for (i, owner) in owners.iter().enumerate() {
@@ -224,6 +234,8 @@ impl Resolving<'_> {
             ];
             depth = depth.min(self.pixels[self.texel_near(x, y, AROUND[k][0], AROUND[k][1])].depth);
         }
+
+        // Make a colour of the sums, as opaque as its samples are covered.
         if mask == 0 {
             return ([0.0; 4], 0);
         }

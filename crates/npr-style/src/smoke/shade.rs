@@ -23,7 +23,7 @@ pub struct Shading<'a> {
     pub lights: &'a Lights,
     /// Numbers of the nearest spheres, plus one.
     pub ids: &'a [u32],
-    /// The same as the lights with shadows see them, [`SmokeLook::shadow_side`] texels square.
+    /// Numbers of the nearest spheres as the lights with shadows see them, [`SmokeLook::shadow_side`] texels square.
     pub shadows: [&'a [u32]; SHADOWS_MAX],
     /// Reversed depths of the surfaces that the first [`SmokeLook::surface_maps`] of those lights see,
     /// [`SmokeLook::surface_side`] texels square.
@@ -56,6 +56,7 @@ pub fn shade_spheres(with: &Shading<'_>, pixels: &mut [SmokePixel]) {
 
 impl Shading<'_> {
     fn pixel(&self, x: u32, y: u32) -> SmokePixel {
+        // Leave out pixels without smoke.
         let id = self.ids[(y * self.window.size[0] + x) as usize];
         if id == 0 {
             return SmokePixel {
@@ -64,12 +65,16 @@ impl Shading<'_> {
                 ..SmokePixel::default()
             };
         }
+
+        // Find the depth at which the ray meets the sphere.
         let (sphere, ball) = (
             &self.spheres[(id - 1) as usize],
             &self.balls[(id - 1) as usize],
         );
         let ray = self.lens.ray(self.window.frame_at(x, y));
         let depth = self.lens.depth_of(ball, ray);
+
+        // Light that place on the sphere in the world.
         let light = if self.look.flags & SmokeLook::UNLIT != 0 {
             1.0
         } else {
@@ -89,12 +94,15 @@ impl Shading<'_> {
 
     /// Light on a place of sphere `id` that faces along `normal`, 0..1.
     fn light_at(&self, id: u32, world: [f32; 3], normal: [f32; 3]) -> f32 {
+        // Add skies as they are: nothing throws a shadow in them.
         let mut sum = self.look.ambient;
         for source in &self.lights.sources[..self.lights.count as usize] {
             if source.kind == LightSource::SKY {
                 sum += self.lights.sky_light(source, normal, Openness::FULL).share;
                 continue;
             }
+
+            // Let the light reach round the puff, unless something stands in its way.
             let (towards, strength) = source.reach_at(world);
             let wrap = self.look.wrap;
             let facing = (dot(normal, towards) + wrap) / (1.0 + wrap);
@@ -114,6 +122,7 @@ impl Shading<'_> {
     ///
     /// The texel only names the sphere; whether the ray meets it is computed, so shadows end in circles, not texels.
     fn is_dark(&self, own: u32, source: &LightSource, world: [f32; 3], towards: [f32; 3]) -> bool {
+        // Find the texel of the place in the picture that the light has of the smoke.
         if self.look.shadow_side == 0 || source.shadow == 0 {
             return false;
         }
@@ -128,6 +137,8 @@ impl Shading<'_> {
         if !(clip[3] > 0.0 && is_inside(texel[0]) && is_inside(texel[1])) {
             return false;
         }
+
+        // Ask whether the ray to the light meets the sphere seen there.
         let seen =
             self.shadows[map][(texel[1] as u32 * self.look.shadow_side + texel[0] as u32) as usize];
         if seen == 0 || seen == own {

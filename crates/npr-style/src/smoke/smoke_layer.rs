@@ -79,6 +79,7 @@ impl SmokeLayer {
         frame_px: [f32; 2],
         step: [f32; 2],
     ) -> bool {
+        // Find the surface at the pixel that lies there.
         let (window, samples) = (layers.window, layers.compose.samples);
         let at: [u32; 2] = std::array::from_fn(|i| {
             let px = (pixel[i] as f32 + step[i] + 0.5).floor();
@@ -86,6 +87,8 @@ impl SmokeLayer {
         });
         let stride = window.size[0] * samples;
         let id = layers.ids[(at[1] * samples * stride + at[0] * samples) as usize];
+
+        // Compare its depth with that of the smoke.
         let moved: [f32; 2] = std::array::from_fn(|i| {
             frame_px[i] + (at[i] as f32 - pixel[i] as f32) * window.frame_step[i]
         });
@@ -130,6 +133,7 @@ impl Layers<'_> {
         seen: &Samples,
         frame_px: [f32; 2],
     ) -> Option<SmokeLayer> {
+        // Leave out pixels without smoke.
         if self.compose.flags & Compose::SMOKE == 0 {
             return None;
         }
@@ -139,11 +143,15 @@ impl Layers<'_> {
         if mask == 0 {
             return None;
         }
+
+        // Take its colour, finished by the pen where there is one.
         let depth = f32::from_bits(bits & !crate::smoke::resolve::MASK);
         let mut color = self.linear_texel(self.smoke_colors[texel]);
         if self.compose.flags & Compose::SMOKE_PEN != 0 {
             color = self.penned([x, y], frame_px, color);
         }
+
+        // Find how much of the surfaces it hides, sample by sample.
         let mut smoke_layer = SmokeLayer {
             color,
             depth: depth.min(FAR_DEPTH),

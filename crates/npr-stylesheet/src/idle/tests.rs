@@ -69,7 +69,8 @@ fn rules_of_files_keep_their_numbers_behind_those_of_presets() {
 fn keys_of_one_reason_are_named_together_and_once() {
     let stated = stated("[ink]\ntone = 'hatch'\npaint = 0.5\n[ink.hatch]\nspacing = '9px'");
     let reported = stated.notices(&lines(LineFinder::Mesh));
-    let wanted = "'ink.hatch.spacing', 'ink.paint' and 'ink.tone' are ignored by npr lines: it draws no tones and no hatching";
+    let wanted = "'ink.hatch.spacing', 'ink.paint' and 'ink.tone' are ignored by npr lines: \
+                  it draws no tones and no hatching";
     assert_eq!(reported, [wanted]);
     assert!(stated.notices(&FRAME).is_empty());
 }
@@ -156,7 +157,8 @@ proptest! {
     /// Whatever keys there are, each is named once, and no notice is longer than a line.
     #[test]
     fn every_key_is_named_once(lengths in prop::collection::vec(1usize..60, 1..40)) {
-        let keys: Vec<String> = lengths.iter().enumerate().map(|(i, length)| format!("{i}.{}", "k".repeat(*length))).collect();
+        let numbered = lengths.iter().enumerate();
+        let keys: Vec<String> = numbered.map(|(i, length)| format!("{i}.{}", "k".repeat(*length))).collect();
         let keys: Vec<&str> = keys.iter().map(String::as_str).collect();
         let reported = sentences(&keys, "", "there is a reason");
         for key in &keys {

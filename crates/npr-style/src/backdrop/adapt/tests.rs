@@ -232,7 +232,8 @@ proptest! {
     fn what_reads_stays_to_the_bit(line in color(), rim in color(), behind in color(), rule in rule()) {
         let target = f64::from(target_of(&rule));
         prop_assume!(contrast_on_scale(line, behind, &rule).abs() > target + 1e-4);
-        let forced = |side: u32, sign: f64| rule.direction == side && contrast_on_scale(line, behind, &rule) * sign < 0.0;
+        let contrast = contrast_on_scale(line, behind, &rule);
+        let forced = |side: u32, sign: f64| rule.direction == side && contrast * sign < 0.0;
         prop_assume!(target > 0.01 || !(forced(Rule::BRIGHTER, 1.0) || forced(Rule::DARKER, -1.0)));
         prop_assert_eq!(adapt(line, rim, behind, &rule), line);
     }
@@ -303,8 +304,10 @@ proptest! {
     #[test]
     fn any_numbers_give_a_color(
         line in prop::array::uniform3(prop::num::f32::ANY), rim in prop::array::uniform3(prop::num::f32::ANY),
-        behind in prop::array::uniform3(prop::num::f32::ANY), target in prop::num::f32::ANY, intensity in prop::num::f32::ANY,
-        method in 0u32..4, direction in 0u32..4, measure in 0u32..3, thresholds in prop::array::uniform4(prop::num::f32::ANY),
+        behind in prop::array::uniform3(prop::num::f32::ANY),
+        target in prop::num::f32::ANY, intensity in prop::num::f32::ANY,
+        method in 0u32..4, direction in 0u32..4, measure in 0u32..3,
+        thresholds in prop::array::uniform4(prop::num::f32::ANY),
     ) {
         let rule = Rule { thresholds, method, direction, measure, goal: target, intensity, ..Rule::CONTRAST };
         let adapted = adapt(line, rim, behind, &rule);

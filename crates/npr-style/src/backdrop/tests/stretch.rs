@@ -265,7 +265,8 @@ proptest! {
                 let px = [*j as u32 % size[0], *j as u32 / size[0]];
                 (0..2).all(|k| px[k] >= at[k] && px[k] < at[k] + TILE)
             };
-            let held: Vec<&Rim> = (0..rims.len()).filter(inside).map(|j| &rims[j]).filter(|rim| rim.subject != 0).collect();
+            let near = (0..rims.len()).filter(inside).map(|j| &rims[j]);
+            let held: Vec<&Rim> = near.filter(|rim| rim.subject != 0).collect();
             let Some(first) = held.first() else {
                 prop_assert_eq!(tile.whose, 0);
                 continue;
@@ -276,7 +277,8 @@ proptest! {
                 place_of_light([r, g, b].map(linear_from_srgb), &rules.rules[1])
             };
             prop_assert_eq!((tile.whose, tile.count), (first.subject, own().count() as f32));
-            let [low, high] = [own().map(|r| place(r)).fold(1.0, f32::min), own().map(|r| place(r)).fold(0.0, f32::max)];
+            let places = || own().map(|r| place(r));
+            let [low, high] = [places().fold(1.0, f32::min), places().fold(0.0, f32::max)];
             prop_assert_eq!((tile.low, tile.high), (low, high));
             let mean = own().map(|rim| place(rim)).sum::<f32>() / tile.count;
             prop_assert!((tile.behind - mean).abs() < 1e-5);
