@@ -49,10 +49,9 @@ const TWINS: &[Twins] = &[
     twins("lib/backdrop.wgsl", "BORDER_", "npr-style/src/backdrop/rims.rs", ""),
     twins("lib/color.wgsl", "", "npr-style/src/compose.rs", ""),
     twins("lib/compose.wgsl", "COMPOSE_", "npr-style/src/compose.rs", "Compose::"),
-    twins("lib/curve.wgsl", "EDGE_IS_", "npr-mesh/src/half_edge.rs", "HalfEdgeMesh::"),
     twins("lib/curve.wgsl", "NODE_", "npr-vector/src/mesh_lines/graph.rs", "CurveNode::"),
+    twins("lib/edge_flags.wgsl", "EDGE_", "npr-core/src/edge_flags.rs", "EdgeFlags::"),
     twins("lib/geometry.wgsl", "", "npr-core/src/geometry.rs", ""),
-    twins("lib/geometry.wgsl", "EDGE_", "npr-core/src/geometry.rs", "Edge::"),
     twins("lib/geometry.wgsl", "PART_", "npr-core/src/geometry.rs", "Part::"),
     twins("lib/geometry.wgsl", "LINE_", "npr-core/src/geometry.rs", "Part::LINE_"),
     twins("lib/geometry.wgsl", "HULL_BIT", "npr-core/src/raster.rs", "HULL_BIT"),
@@ -65,17 +64,18 @@ const TWINS: &[Twins] = &[
     twins("lib/lighting.wgsl", "LIGHT_", "npr-style/src/lighting.rs", "LightSource::"),
     twins("lib/lighting.wgsl", "SKY_", "npr-style/src/lighting.rs", "LightSource::"),
     twins("lib/line_color.wgsl", "", "npr-style/src/line_color.rs", ""),
-    twins("lib/line_tint.wgsl", "KIND_OF_", "npr-core/src/line_color.rs", "KIND_"),
+    twins("lib/line_kind.wgsl", "KIND_", "npr-core/src/line_kind.rs", "KindSet::"),
+    twins("lib/line_kind.wgsl", "KINDS", "npr-core/src/line_kind.rs", "KindSet::BITS"),
     twins("lib/list.wgsl", "", "npr-vector/src/rank/splitter.rs", ""),
     twins("lib/looped.wgsl", "", "npr-vector/src/pixel_strokes/looped.rs", ""),
     twins("lib/outline.wgsl", "", "npr-core/src/outline.rs", ""),
     twins("lib/outline.wgsl", "KIND_", "npr-core/src/outline.rs", "Outline::"),
+    twins("lib/outline.wgsl", "EDGE_KINDS", "npr-core/src/outline.rs", "Outline::EDGE_KINDS"),
     twins("lib/outline.wgsl", "DETECT_", "npr-core/src/outline.rs", "Outline::"),
     twins("lib/outline.wgsl", "DETECT_OBJECT", "npr-core/src/outline.rs", "Outline::OBJECT_ID"),
     twins("lib/outline.wgsl", "DETECT_MATERIAL", "npr-core/src/outline.rs", "Outline::MATERIAL_ID"),
     twins("lib/outline.wgsl", "OUTLINE_", "npr-core/src/outline.rs", "Outline::"),
     twins("lib/paint.wgsl", "", "npr-style/src/paint.rs", ""),
-    twins("lib/pixel.wgsl", "EDGE_", "npr-vector/src/pixel_strokes/edge.rs", "DrawnEdge::"),
     twins("lib/scenery.wgsl", "", "npr-style/src/backdrop/rims.rs", ""),
     twins("lib/shadow.wgsl", "", "npr-style/src/shadow.rs", ""),
     twins("lib/sky.wgsl", "", "npr-style/src/sky.rs", ""),
@@ -96,8 +96,6 @@ const TWINS: &[Twins] = &[
     twins("smoke/project_spheres.wgsl", "", "npr-core/src/smoke.rs", ""),
     twins("smoke/resolve_picture.wgsl", "SMOKE_", "npr-style/src/smoke/resolve.rs", ""),
     twins("vector/draw_nearest.wgsl", "", "npr-vector/src/pixel_strokes/fragment.rs", ""),
-    twins("vector/mark_edges.wgsl", "", "npr-vector/src/pixel_strokes/edge.rs", "DrawnEdge::"),
-    twins("vector/mark_edges.wgsl", "KINDS", "npr-vector/src/mesh_lines/graph.rs", "CurveNode::KINDS"),
     twins("vector/project_edges.wgsl", "", "npr-vector/src/pixel_strokes/segment.rs", ""),
     twins("vector/sample_visibility.wgsl", "", "npr-vector/src/mesh_lines/sample.rs", ""),
     twins("vector/scan_add.wgsl", "", "npr-vector/src/rank/scan.rs", ""),
@@ -385,6 +383,11 @@ impl<'a> Reader<'a> {
         }
         let word = self.words.get(self.at)?.clone();
         self.at += 1;
+        // A set of flags is its bits.
+        if word == "Self" && self.take("(") {
+            let value = self.operation(0)?;
+            return self.take(")").then_some(value);
+        }
         if word == "u32::MAX" {
             return Some(f64::from(u32::MAX));
         }
@@ -465,6 +468,7 @@ mod tests {
             ("!(1 << 31)", 2_147_483_647.0),
             ("Part::A | 3", 19.0),
             ("Part::B & 6", 2.0),
+            ("Self(Part::A)", 16.0),
         ] {
             let read = Reader::new(text, &all, "").values();
             assert_eq!(read, Some(vec![value]), "{text}");

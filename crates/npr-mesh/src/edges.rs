@@ -1,9 +1,9 @@
 //! The edges of the surface and the faces beside each.
 
 use glam::DVec3;
+use npr_core::edge_flags::EdgeFlags;
 use rayon::prelude::*;
 
-use crate::edge_flags::EdgeFlags;
 use crate::triangle::{Triangle, point};
 use crate::weld::Weld;
 

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use npr_core::crease::CreaseFrom;
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
 use rayon::prelude::*;
 
@@ -33,8 +34,8 @@ pub struct HalfEdgeMesh {
     /// The same between the file's normals in the middle of the edge; that of the faces where they have none. Empty
     /// where all are.
     pub normals_cos: Vec<f32>,
-    /// Bits of [`HalfEdgeMesh::BOUNDARY`] to [`HalfEdgeMesh::MARKED`] for every edge.
-    pub edge_traits: Vec<u32>,
+    /// How the faces of every edge meet, and whether it is marked.
+    pub edge_traits: Vec<EdgeFlags>,
     /// Faces without area, ascending, each with the face whose orientation it takes over: the nearest with
     /// area across its longest edges, or [`NONE`].
     pub degenerate_faces: Vec<[u32; 2]>,
@@ -65,17 +66,6 @@ pub struct Surface {
 }
 
 impl HalfEdgeMesh {
-    /// The edge has a single face.
-    pub const BOUNDARY: u32 = 1;
-    /// The two faces differ in material.
-    pub const MATERIAL: u32 = 2;
-    /// Three or more faces meet.
-    pub const NON_MANIFOLD: u32 = 4;
-    /// Two faces meet, but run the same way: one of them is inside out.
-    pub const FLIPPED: u32 = 8;
-    /// The user asks for a line here.
-    pub const MARKED: u32 = 16;
-
     /// Number of unique edges; polylines are numbered behind them.
     #[inline]
     pub fn edge_count(&self) -> usize {
@@ -329,14 +319,14 @@ impl HalfEdgeMesh {
 
     fn traits_match(&self, edge: u32) -> bool {
         let expected = match *self.sides(edge) {
-            [_] => HalfEdgeMesh::BOUNDARY,
-            [a, b] if self.runs_up(a) == self.runs_up(b) => HalfEdgeMesh::FLIPPED,
+            [_] => EdgeFlags::BOUNDARY,
+            [a, b] if self.runs_up(a) == self.runs_up(b) => EdgeFlags::FLIPPED,
             [a, _] if !self.runs_up(a) => return false,
-            [_, _] => 0,
-            _ => HalfEdgeMesh::NON_MANIFOLD,
+            [_, _] => EdgeFlags::NONE,
+            _ => EdgeFlags::NON_MANIFOLD,
         };
-        let meeting = HalfEdgeMesh::BOUNDARY | HalfEdgeMesh::FLIPPED | HalfEdgeMesh::NON_MANIFOLD;
-        self.edge_traits[edge as usize] & meeting == expected
+        let meeting = EdgeFlags::BOUNDARY | EdgeFlags::FLIPPED | EdgeFlags::NON_MANIFOLD;
+        self.edge_traits[edge as usize].among(meeting) == expected
     }
 
     fn check_twins(&self) -> Result<(), BrokenHalfEdges> {

@@ -1,5 +1,6 @@
 //! From triangles as stored to a [`HalfEdgeMesh`]: welded, with half-edges, unique edges and their traits.
 
+use npr_core::edge_flags::EdgeFlags;
 use std::collections::HashSet;
 use std::ops::AddAssign;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -78,21 +79,16 @@ pub struct Preparation {
 impl Preparation {
     /// Counts what a shape holds; it does not remember what was removed.
     pub fn of(shape: &HalfEdgeMesh) -> Self {
-        let with = |bit: u32| {
-            shape
-                .edge_traits
-                .par_iter()
-                .filter(|&t| t & bit != 0)
-                .count()
-        };
+        let traits = shape.edge_traits.par_iter();
+        let with = |flag| traits.clone().filter(|t| t.contains(flag)).count();
         Self {
             vertex_count: shape.positions.len(),
             face_count: shape.faces.len(),
             edge_count: shape.edge_count(),
-            boundary_count: with(HalfEdgeMesh::BOUNDARY),
-            non_manifold_count: with(HalfEdgeMesh::NON_MANIFOLD),
-            flipped_count: with(HalfEdgeMesh::FLIPPED),
-            marked_count: with(HalfEdgeMesh::MARKED),
+            boundary_count: with(EdgeFlags::BOUNDARY),
+            non_manifold_count: with(EdgeFlags::NON_MANIFOLD),
+            flipped_count: with(EdgeFlags::FLIPPED),
+            marked_count: with(EdgeFlags::MARKED),
             polyline_count: shape.polylines.len(),
             degenerate_face_count: shape.degenerate_faces.len(),
             lost_degenerate_face_count: shape
@@ -346,7 +342,7 @@ fn pair_half_edges(part: &mut HalfEdgeMesh) {
         let sides = part.sides(edge);
         sides.iter().for_each(|&side| set(&edge_of, side, edge));
         match *sides {
-            [a, b] if part.edge_traits[edge as usize] & HalfEdgeMesh::FLIPPED == 0 => pair([a, b]),
+            [a, b] if !part.edge_traits[edge as usize].contains(EdgeFlags::FLIPPED) => pair([a, b]),
             [_] | [_, _] => {}
             _ => wedges::pair(part, edge).into_iter().for_each(pair),
         }
@@ -368,11 +364,7 @@ fn measure(part: &mut HalfEdgeMesh, surfaces: &[Surface]) {
     }
     let measured = (0..part.edge_count() as u32).into_par_iter().map(|edge| {
         let sides = part.sides(edge);
-        let material = if differ_in_material(part, sides, surfaces) {
-            HalfEdgeMesh::MATERIAL
-        } else {
-            0
-        };
+        let material = EdgeFlags::MATERIAL.when(differ_in_material(part, sides, surfaces));
         let traits = part.edge_traits[edge as usize] | material;
         (traits, dihedral_cos(&normals, sides, traits))
     });
@@ -402,7 +394,7 @@ fn measure_normals(part: &mut HalfEdgeMesh, stored: &[[u32; 3]], normals: &[[f32
         let [a, b] = *part.sides(edge) else {
             return faces;
         };
-        let is_flipped = part.edge_traits[edge as usize] & HalfEdgeMesh::FLIPPED != 0;
+        let is_flipped = part.edge_traits[edge as usize].contains(EdgeFlags::FLIPPED);
         cos_between([beside(a), beside(b)], is_flipped).unwrap_or(faces)
     };
     part.normals_cos = (0..part.edge_count() as u32)
@@ -423,7 +415,7 @@ fn differ_in_material(part: &HalfEdgeMesh, sides: &[u32], surfaces: &[Surface]) 
 }
 
 /// Between the normals of two faces, as if they were wound alike; 1 where one has no orientation.
-fn dihedral_cos(normals: &[DVec3], sides: &[u32], traits: u32) -> f32 {
+fn dihedral_cos(normals: &[DVec3], sides: &[u32], traits: EdgeFlags) -> f32 {
     let [a, b] = *sides else {
         return 1.0;
     };
@@ -432,21 +424,21 @@ fn dihedral_cos(normals: &[DVec3], sides: &[u32], traits: u32) -> f32 {
         return 1.0;
     }
     let cos = a.dot(b).clamp(-1.0, 1.0) as f32;
-    if traits & HalfEdgeMesh::FLIPPED != 0 {
+    if traits.contains(EdgeFlags::FLIPPED) {
         -cos
     } else {
         cos
     }
 }
 
-/// Sets [`HalfEdgeMesh::MARKED`]; gives the number of marks that lie on no edge.
+/// Sets [`EdgeFlags::MARKED`]; gives the number of marks that lie on no edge.
 fn mark(part: &mut HalfEdgeMesh, marks: &[[u32; 2]], weld: &Weld) -> usize {
     let mut lost = 0;
     for &[a, b] in marks {
         let ends = [a, b].map(|v| weld.of_vertex.get(v as usize));
         match ends {
             [Some(&a), Some(&b)] => match find_edge(part, [a.min(b), a.max(b)]) {
-                Some(edge) => part.edge_traits[edge] |= HalfEdgeMesh::MARKED,
+                Some(edge) => part.edge_traits[edge] |= EdgeFlags::MARKED,
                 None => lost += 1,
             },
             _ => lost += 1,

@@ -5,8 +5,8 @@ use crate::joined::Joined;
 use crate::kept::Cache;
 use npr_core::geometry::{self, Influence, Triangle, Vertex};
 use npr_core::math;
+use npr_mesh::Weld;
 use npr_mesh::crease::{FoldInput, Folds};
-use npr_mesh::{EdgeFlags, Weld};
 use npr_scene::{Material, Node, Part, Scene, TextureTransform};
 use std::collections::BTreeMap;
 
@@ -281,12 +281,10 @@ fn folds(
 
 /// An edge in the layout that passes read.
 fn shared_edge((edge, dihedral_cos): (&npr_mesh::Edge, &f32)) -> geometry::Edge {
-    let bit = |flag, bit| if edge.flags.contains(flag) { bit } else { 0 };
     geometry::Edge {
         ends: edge.ends,
         faces: edge.faces,
         dihedral_cos: *dihedral_cos,
-        traits: bit(EdgeFlags::MATERIAL, geometry::Edge::MATERIAL)
-            | bit(EdgeFlags::FLIPPED, geometry::Edge::FLIPPED),
+        traits: edge.flags,
     }
 }

@@ -15,7 +15,8 @@ mod tones;
 mod welded;
 mod widths;
 
-pub use options::{KindSet, LineMethod, LineModelOptions, LineOptions, PaintedLines};
+pub use npr_core::line_kind::KindSet;
+pub use options::{LineMethod, LineModelOptions, LineOptions, PaintedLines};
 pub use renderer::LineRenderer;
 
 use crate::error::RenderError;

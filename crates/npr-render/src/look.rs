@@ -12,6 +12,7 @@ use npr_core::camera::Camera;
 use npr_core::color::{pack_rgba8, srgb_from_linear};
 use npr_core::crease::{CreaseFrom, Creases};
 use npr_core::geometry::{NONE, Part, Vertex};
+use npr_core::line_kind::KindSet;
 use npr_core::math;
 use npr_core::outline::{Outline, width_of_curvature};
 use npr_core::texture::{self, TextureStore, Wrap};
@@ -358,10 +359,6 @@ pub(crate) fn outline(
     let bit = |bit: u32, when: bool| if when { bit } else { 0 };
     let in_world = line.width.base.unit == Unit::World;
     let published = line.method == LineMethod::Okuya;
-    let kinds = bit(Outline::CONTOUR, line.kinds.contour)
-        | bit(Outline::BOUNDARY, line.kinds.boundary)
-        | bit(Outline::CREASE, line.kinds.crease)
-        | bit(Outline::MATERIAL, line.kinds.material);
     Outline {
         base_width: if in_world {
             line.width.base.value
@@ -377,8 +374,8 @@ pub(crate) fn outline(
         normal_cos: math::cos(normal_threshold_deg(style).to_radians()),
         kinds: match line.method {
             LineMethod::Okuya => Outline::ANY,
-            LineMethod::Edges => Outline::CONTOUR | Outline::BOUNDARY,
-            _ => kinds,
+            LineMethod::Edges => KindSet::CONTOUR | KindSet::BOUNDARY,
+            _ => line.kinds.set().bits() & Outline::EDGE_KINDS,
         },
         detects: bit(Outline::DEPTH, detect.depth.on)
             | bit(Outline::NORMAL, detect.normal.on)

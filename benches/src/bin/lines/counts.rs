@@ -1,5 +1,6 @@
 //! Contour, boundary and crease edges of meshes that other programs counted.
 
+use npr_core::line_kind::KindSet;
 use std::path::Path;
 
 use npr_benches::lines::candidates::Wanted;
@@ -10,7 +11,7 @@ use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_render::{LineModel, LineModelOptions};
 use npr_vector::mesh_lines::contour::{Eye, contours, facing};
 use npr_vector::mesh_lines::feature::features;
-use npr_vector::mesh_lines::graph::{CurveGraph, CurveNode};
+use npr_vector::mesh_lines::graph::CurveGraph;
 
 use crate::Outcome;
 use crate::arguments::Arguments;
@@ -83,9 +84,9 @@ fn counts(path: &Path) -> Outcome<[usize; 3]> {
         Creases::over(Wanted::default().crease as f32, CreaseFrom::Faces),
     );
     Ok([
-        count(&loops, CurveNode::CONTOUR),
-        count(&lines, CurveNode::BOUNDARY),
-        count(&lines, CurveNode::CREASE),
+        count(&loops, KindSet::CONTOUR),
+        count(&lines, KindSet::BOUNDARY),
+        count(&lines, KindSet::CREASE),
     ])
 }
 
