@@ -37,6 +37,10 @@ const MASK_KINDS: u32 = 47u;
 const MASK_OWNER: u32 = 16u;
 const MASK_SIDE: u32 = 256u;
 
+fn width_factor(least: f32, greatest: f32, share: f32) -> f32 {
+    return least + (greatest - least) * share;
+}
+
 fn width_of_curvature(curvature: f32, gain: f32) -> f32 {
     let x = abs(curvature) * gain;
     return x / (1.0 + x);

@@ -164,6 +164,17 @@ impl Camera {
     }
 }
 
+/// The box around points, its lowest and highest corner; a unit box where there are none.
+pub fn bounds_of(points: impl Iterator<Item = Vec3>) -> ([f32; 3], [f32; 3]) {
+    let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    let (min, max) = points.fold(none, |(min, max), point| (min.min(point), max.max(point)));
+    if min.is_finite() && max.is_finite() {
+        (min.to_array(), max.to_array())
+    } else {
+        ([-0.5; 3], [0.5; 3])
+    }
+}
+
 /// The eight corners of a box, given by its lowest and highest.
 pub fn box_corners((min, max): ([f32; 3], [f32; 3])) -> Vec<[f32; 3]> {
     let corners = corners(Vec3::from(min), Vec3::from(max));

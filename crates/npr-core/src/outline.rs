@@ -96,3 +96,53 @@ pub fn width_of_curvature(curvature: f32, gain: f32) -> f32 {
     let x = curvature.abs() * gain;
     x / (1.0 + x)
 }
+
+/// Factor on a line's width at a share 0..1 of the way from the least to the greatest.
+#[inline]
+pub fn width_factor(min: f32, max: f32, share: f32) -> f32 {
+    min + (max - min) * share
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn half_of_the_bend_is_half_of_the_way() {
+        assert_eq!(width_of_curvature(2.0, 0.5), 0.5);
+        assert_eq!(width_factor(0.5, 1.5, 0.5), 1.0);
+    }
+
+    #[test]
+    fn a_plane_is_thin_and_a_point_is_thick() {
+        assert_eq!(width_of_curvature(0.0, 1.0), 0.0);
+        assert_eq!(width_of_curvature(f32::MAX, 1.0), 1.0);
+    }
+
+    proptest! {
+        #[test]
+        fn the_sign_of_a_curvature_does_not_count(k in 0.0f32..1e6, gain in 0.0f32..10.0) {
+            prop_assert_eq!(width_of_curvature(-k, gain), width_of_curvature(k, gain));
+        }
+
+        /// Rounding may cost a few units in the last place.
+        #[test]
+        fn more_curvature_never_gives_a_thinner_line(k in 0.0f32..1e6, dk in 0.0f32..1e6, gain in 0.0f32..10.0) {
+            prop_assert!(width_of_curvature(k + dk, gain) >= width_of_curvature(k, gain) - 1e-6);
+        }
+
+        #[test]
+        fn scaling_the_mesh_keeps_the_share(k in 0.0f32..100.0, radius in 0.1f32..10.0) {
+            // Curvatures are stored in 1 / radius.
+            let [once, twice] = [k * radius, (k * 0.5) * (radius * 2.0)];
+            prop_assert_eq!(width_of_curvature(once, 1.0), width_of_curvature(twice, 1.0));
+        }
+
+        #[test]
+        fn factors_stay_within_their_bounds(min in 0.0f32..10.0, span in 0.0f32..5.0, share in 0f32..=1.0) {
+            let factor = width_factor(min, min + span, share);
+            prop_assert!(min <= factor && factor <= (min + span) * 1.000_001, "{factor}");
+        }
+    }
+}

@@ -7,7 +7,7 @@ use crate::geometry::FAR_DEPTH;
 use crate::gpu_layout;
 use crate::light_view::Matrix;
 use crate::surface::dot;
-use crate::window::View;
+use crate::window::{View, pixel_size};
 use bytemuck::{Pod, Zeroable};
 
 /// Farthest that a sphere may lie from the eye, and largest radius, to be drawn: squares stay finite.
@@ -303,8 +303,8 @@ impl SphereView {
 
     /// Size of a frame pixel in world units at a view depth.
     pub fn pixel_at(&self, depth: f32) -> f32 {
-        let spread = if self.perspective > 0.5 { depth } else { 1.0 };
-        2.0 * self.half[1] * spread / self.frame_px[1]
+        let height = 2.0 * self.half[1];
+        pixel_size(self.perspective, height, depth, self.frame_px[1])
     }
 
     /// Reversed depth at a view depth.

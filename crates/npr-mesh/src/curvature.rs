@@ -11,6 +11,8 @@ use crate::triangle::Triangle;
 use crate::vertex_fans::VertexFans;
 use crate::weld::Weld;
 
+pub mod bend;
+
 /// Principal curvatures at a point, in one over the unit of the positions.
 ///
 /// Positive where the surface falls away from its normal: a sphere of radius r with outward normals has
@@ -37,6 +39,12 @@ impl Curvature {
     pub fn gaussian(&self) -> f32 {
         self.max * self.min
     }
+}
+
+/// Size of the larger of two principal curvatures.
+#[inline]
+pub fn tightest([max, min]: [f32; 2]) -> f32 {
+    max.abs().max(min.abs())
 }
 
 /// Principal curvatures of every welded vertex.

@@ -2,7 +2,7 @@
 
 use npr_core::geometry::{Influence, Part, PosedVertex, Vertex};
 use npr_core::math;
-use npr_core::outline::{Outline, width_of_curvature};
+use npr_core::outline::{Outline, width_factor, width_of_curvature};
 use npr_core::surface::{apply_point, dot, unit_or_z};
 use npr_core::window::View;
 use rayon::prelude::*;
@@ -70,9 +70,9 @@ pub fn pose_vertex(with: &Pose<'_>, vertex: &Vertex, influence: &Influence) -> P
     let (s, widest) = width_at(with, vertex, normal, direction, world, depth);
     let mut base = outline.base_width * with.parts[vertex.part as usize].width_factor;
     if outline.flags & Outline::WORLD_WIDTH != 0 {
-        base /= view.pixel_at(depth.max(view.near)).max(1e-20);
+        base /= view.pixel_before_eye(depth);
     }
-    let width = base * (outline.min_factor + (outline.max_factor - outline.min_factor) * s);
+    let width = base * width_factor(outline.min_factor, outline.max_factor, s);
     let width = width.min(widest.max(base * outline.min_factor));
     PosedVertex {
         clip: apply_point(&view.clip_from_world, world),
@@ -108,8 +108,8 @@ fn width_at(
     let tightest = vertex.width / with.outline.radius_world;
     let height = with.view.height_at(depth);
     let s = width_of_curvature(curvature * height * CURVATURE_SCALE, with.outline.gain);
-    let world_px = height / with.view.frame_px[1];
-    (s, widest_round(curvature * world_px, tightest * world_px))
+    let pixel = with.view.pixel_at(depth);
+    (s, widest_round(curvature * pixel, tightest * pixel))
 }
 
 /// Curvature of the outline that a surface would have at a point, seen along `eye`.

@@ -7,6 +7,7 @@ use npr_core::geometry::{self, Influence, Triangle, Vertex};
 use npr_core::math;
 use npr_mesh::Weld;
 use npr_mesh::crease::{FoldInput, Folds};
+use npr_mesh::curvature::bend::WeldedMesh;
 use npr_scene::{Material, Node, Part, Scene, TextureTransform};
 use std::collections::BTreeMap;
 
@@ -130,15 +131,14 @@ impl Instance {
         smooth: &[[f32; 3]],
         scale: f32,
     ) {
-        let bends = bends(
-            cache,
-            &joined.positions,
-            &joined.triangles,
+        let mesh = WeldedMesh {
+            positions: &joined.positions,
+            triangles: &joined.triangles,
             weld,
             edges,
-            smooth,
             scale,
-        );
+        };
+        let bends = bends(cache, &mesh, smooth);
         for (vertex, welded) in self.vertices.iter_mut().zip(&weld.of_vertex) {
             let bend = bends[*welded as usize];
             vertex.curvatures = bend.curvatures;

@@ -17,6 +17,7 @@ use npr_core::math;
 use npr_core::outline::{Outline, width_of_curvature};
 use npr_core::texture::{self, TextureStore, Wrap};
 use npr_core::window::View;
+use npr_mesh::curvature::tightest;
 use npr_style::compose::Compose;
 use npr_style::ramp::Level;
 use npr_stylesheet::{
@@ -296,10 +297,7 @@ impl<'a> VertexWidth<'a> {
         match width.source {
             WidthSource::Constant => 1.0,
             WidthSource::ProjectedCurvature => vertex.width,
-            WidthSource::Curvature => {
-                let largest = vertex.curvatures[0].abs().max(vertex.curvatures[1].abs());
-                width_of_curvature(largest, width.gain)
-            }
+            WidthSource::Curvature => width_of_curvature(tightest(vertex.curvatures), width.gain),
             WidthSource::VertexColor => {
                 f32::from(vertex.color.to_le_bytes()[width.channel.index()]) / 255.0
             }
@@ -461,7 +459,5 @@ pub(crate) fn nearest_world_px(view: &View, camera: &Camera, model: &Model) -> f
     let (min, max) = model.bounds();
     let center = (Vec3::from(min) + Vec3::from(max)) * 0.5;
     let distance = (center - Vec3::from(camera.eye)).dot(Vec3::from(view.forward_world));
-    1.0 / view
-        .pixel_at((distance - model.radius()).max(view.near))
-        .max(1e-20)
+    1.0 / view.pixel_before_eye(distance - model.radius())
 }

@@ -2,9 +2,10 @@
 
 use crate::error::RenderError;
 use crate::hatching::TILE_RADII;
-use crate::placement::{Bounds, bounds_of, radius_of};
+use crate::placement::{Bounds, radius_of};
 use glam::Vec3;
 use npr_core::camera::Camera;
+use npr_core::camera::bounds_of;
 use npr_core::smoke::{REACH, SmokePixel, Sphere, SphereView, ViewSphere};
 use npr_core::window::{View, Window};
 use npr_gpu::graph::{Graph, ResourceId};

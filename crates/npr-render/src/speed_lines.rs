@@ -4,11 +4,11 @@ use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::look::part;
 use crate::model::Model;
-use crate::placement::bounds_of;
 use crate::renderer::{Renderer, RendererOptions};
 use crate::surfaces::surface_depths;
 use glam::{Mat4, Vec2, Vec3};
 use npr_core::camera::Camera;
+use npr_core::camera::bounds_of;
 use npr_core::color::SrgbEncoder;
 use npr_core::geometry::Part;
 use npr_core::texture::{TextureStore, linear_texel};
@@ -168,7 +168,7 @@ impl<'a> SpeedLines<'a> {
         }
         let forward = Vec3::from(view.forward_world);
         let depth = (from - Vec3::from(view.eye_world)).dot(forward);
-        let world_px = 1.0 / view.pixel_at(depth);
+        let world_px = view.pixels_per_unit(depth);
         let spacing = self.motion.spacing;
         Some(Sweep {
             along: (end - start) / length_px,

@@ -4,10 +4,10 @@ mod choice;
 
 pub use choice::Choice;
 
-use crate::placement::bounds_of;
 use choice::shown;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use npr_core::budget::{Budget, OverBudget};
+use npr_core::camera::bounds_of;
 use npr_smoke::{MAX_SIDE, Mended, Volume, VolumeError};
 use npr_vdb::{Bounds, Fault, Grid, GridClass, Limits, Transform, npy};
 

@@ -33,6 +33,5 @@ pub mod smoke;
 mod tone;
 pub mod tone_row;
 mod triangle_constants;
-pub mod width;
 
 pub use length::{LONGEST, Length, LengthError, REFERENCE_HEIGHT_PX, Unit};
