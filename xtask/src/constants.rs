@@ -33,6 +33,9 @@ const fn twins(
     }
 }
 
+/// Where the shares stand by which samples of a line are weighed.
+const FILTER: &str = "npr-vector/src/mesh_lines/sample/filter.rs";
+
 /// Where the twins of all constants stand.
 #[rustfmt::skip]
 const TWINS: &[Twins] = &[
@@ -102,9 +105,9 @@ const TWINS: &[Twins] = &[
     twins("vector/scan_blocks.wgsl", "", "npr-vector/src/rank/scan.rs", ""),
     twins("vector/size_work.wgsl", "", "npr-vector/src/rank/work.rs", ""),
     twins("vector/size_work.wgsl", "BLOCK", "npr-vector/src/rank/scan.rs", "BLOCK"),
-    twins("vector/weigh_samples.wgsl", "", "npr-vector/src/mesh_lines/sample/filter.rs", ""),
-    twins("vector/weigh_samples.wgsl", "CLEARLY_VISIBLE", "npr-vector/src/mesh_lines/sample/filter.rs", "CLEAR_SHARES[0]"),
-    twins("vector/weigh_samples.wgsl", "CLEARLY_HIDDEN", "npr-vector/src/mesh_lines/sample/filter.rs", "CLEAR_SHARES[1]"),
+    twins("vector/weigh_samples.wgsl", "", FILTER, ""),
+    twins("vector/weigh_samples.wgsl", "CLEARLY_VISIBLE", FILTER, "CLEAR_SHARES[0]"),
+    twins("vector/weigh_samples.wgsl", "CLEARLY_HIDDEN", FILTER, "CLEAR_SHARES[1]"),
 ];
 
 /// Constants without a constant in Rust, and what they stand for.
@@ -168,6 +171,7 @@ fn slashed(path: &Path) -> String {
 ///
 /// Sources that are not there are left out; whoever asks for a twin in one is told that it cannot be read.
 fn sources_of_twins(root: &Path) -> Result<BTreeMap<&'static str, Constants>> {
+    // Read every source that the table names.
     let mut sources = BTreeMap::new();
     for twins in TWINS {
         let path = root.join("crates").join(twins.source);
@@ -176,6 +180,8 @@ fn sources_of_twins(root: &Path) -> Result<BTreeMap<&'static str, Constants>> {
             sources.insert(twins.source, rust_constants(&text));
         }
     }
+
+    // Let all of them know the constants of types, which may stand anywhere.
     let own = sources.values().flatten();
     let of_types = own.filter(|(name, _)| name.contains("::"));
     let of_types: Constants = of_types
@@ -204,6 +210,7 @@ fn fault(
     known: &Constants,
     sources: &BTreeMap<&str, Constants>,
 ) -> Option<String> {
+    // Find where the twin should stand; the longest prefix decides.
     let fits = |twins: &&Twins| twins.shader == shader && name.starts_with(twins.prefix);
     let Some(twins) = TWINS
         .iter()
@@ -214,6 +221,8 @@ fn fault(
             "{shader}: {name} has no twin; name it in xtask/src/constants.rs"
         ));
     };
+
+    // Compare both values.
     let (source, twin) = (
         twins.source,
         format!("{}{}", twins.scope, &name[twins.prefix.len()..]),
@@ -352,6 +361,8 @@ impl<'a> Reader<'a> {
         let Some(operators) = OPERATORS.get(level) else {
             return self.single();
         };
+
+        // Read operators of one strength from left to right.
         let mut value = self.operation(level + 1)?;
         while let Some(operator) = operators.iter().find(|operator| self.take(operator)) {
             let other = self.operation(level + 1)?;

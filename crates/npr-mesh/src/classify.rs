@@ -56,17 +56,23 @@ fn kinds_of(outline: &Outline, mesh: &PosedMesh<'_>, edge: &Edge) -> u32 {
     let bit = |kind: u32, when: bool| if when { kind } else { 0 };
     let front = mesh.face_is_front(edge.faces[0]);
     let both_sides = mesh.part_of(edge.faces[0]).flags & Part::DOUBLE_SIDED != 0;
+
+    // Take an edge of one face for a boundary where it can be seen.
     if edge.faces[1] == NONE {
         return bit(
             KindSet::BOUNDARY | bit(Outline::ANY, front),
             front || both_sides,
         );
     }
+
+    // Turn an inside-out neighbour back, so that it makes no false contour.
     let mut second = mesh.face_is_front(edge.faces[1]);
     let published = bit(Outline::ANY, front || second);
     if edge.traits.contains(EdgeFlags::FLIPPED) {
         second = !second;
     }
+
+    // Give every kind that fits: a contour parts a face turned to the eye from one turned away.
     let seen = front || second || both_sides;
     bit(KindSet::CONTOUR, front != second)
         | bit(

@@ -195,6 +195,8 @@ impl HalfEdgeMesh {
     fn check_lengths(&self) -> Result<(), BrokenHalfEdges> {
         let (half_edges, edges) = (3 * self.faces.len(), self.edge_count());
         let never_filled = edges == 0 && self.edge_starts.is_empty();
+
+        // Compare every list with what it holds one each of.
         for (promise, found, expected) in [
             (
                 "a surface per face",
@@ -271,6 +273,7 @@ impl HalfEdgeMesh {
     }
 
     fn check_edges(&self) -> Result<(), BrokenHalfEdges> {
+        // Test that the groups of half-edges cover all, and none is empty.
         let bounds = [self.edge_starts.first(), self.edge_starts.last()].map(|v| *v.unwrap_or(&0));
         if bounds != [0, self.edge_sides.len() as u32] {
             return Err(BrokenHalfEdges {
@@ -281,6 +284,8 @@ impl HalfEdgeMesh {
         all("edges have sides", self.edge_count(), |edge| {
             self.edge_starts[edge] < self.edge_starts[edge + 1]
         })?;
+
+        // Test that half-edges and edges name each other.
         all("sides exist", self.edge_sides.len(), |side| {
             (self.edge_sides[side] as usize) < self.edge_of.len()
         })?;
@@ -304,6 +309,8 @@ impl HalfEdgeMesh {
             sorted.sort_unstable();
             sorted.windows(2).all(|pair| pair[0] < pair[1])
         })?;
+
+        // Test what is kept of every edge.
         all("angles are cosines", self.edge_count(), |edge| {
             (-1.0..=1.0).contains(&self.dihedral_cos[edge])
         })?;
@@ -352,6 +359,8 @@ impl HalfEdgeMesh {
                 .binary_search_by_key(&face, |&[s, _]| s)
                 .is_ok()
         };
+
+        // Test that they can be looked up by number.
         let ascending = self
             .degenerate_faces
             .windows(2)
@@ -362,6 +371,8 @@ impl HalfEdgeMesh {
                 index,
             });
         }
+
+        // Test that each names a face that has area.
         all(
             "degenerate_faces and their stand-ins are faces",
             self.degenerate_faces.len(),

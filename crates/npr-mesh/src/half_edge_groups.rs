@@ -33,16 +33,22 @@ impl Sides {
             (half_edge_count as u64) < DOWN,
             "a mesh has fewer than 2^31 half-edges"
         );
+
+        // Gather half-edges by their lower vertex.
         let lower: Vec<[u32; 3]> = faces
             .par_iter()
             .map(|&[a, b, c]| [a.min(b), b.min(c), c.min(a)])
             .collect();
         let buckets = Buckets::new(vertex_count, lower.as_flattened(), |h| key(faces, h));
+
+        // Sort every bucket by higher vertex and direction.
         let runs = buckets.gather(|run| {
             let mut sorted = SortedRun::default();
             run.for_each(|start, keys| sorted.add(start, keys));
             sorted
         });
+
+        // Join the runs in the order of vertices.
         let mut sides = Self {
             starts: Vec::with_capacity(half_edge_count / 2 + 1),
             half_edges: Vec::with_capacity(half_edge_count),

@@ -181,16 +181,21 @@ struct Welding<'a> {
 
 impl Welding<'_> {
     fn fate(&self, face: usize) -> Fate {
+        // Drop faces with corners or surfaces that are not there.
         let [a, b, c] = self.mesh.triangles[face];
         let surface = self.mesh.surfaces.get(face).copied().unwrap_or(NONE);
         if surface as usize >= self.surface_count || ![a, b, c].into_iter().all(|v| self.sound(v)) {
             return Fate::Unsound;
         }
+
+        // Turn the faces of a mirrored mesh back.
         let corners = if self.mesh.mirrored {
             [a, c, b]
         } else {
             [a, b, c]
         };
+
+        // Drop faces that welding folds to a line.
         let [a, b, c] = self.weld.corners(corners);
         if a == b || b == c || c == a {
             return Fate::Collapsed;
@@ -227,6 +232,7 @@ fn weld_faces(
     weld: &Weld,
     surfaces: &[Surface],
 ) -> (HalfEdgeMesh, Vec<[u32; 3]>, Preparation) {
+    // Decide for every face whether it stays.
     let welding = Welding {
         mesh,
         weld,
@@ -239,6 +245,7 @@ fn weld_faces(
         .map(|face| welding.fate(face))
         .collect();
 
+    // Take over the positions of welded vertices.
     let position = |&vertex: &u32| Some(mesh.world[vertex as usize]).filter(is_finite);
     let mut part = HalfEdgeMesh {
         positions: weld
@@ -250,6 +257,8 @@ fn weld_faces(
         face_surfaces: Vec::with_capacity(fates.len()),
         ..HalfEdgeMesh::default()
     };
+
+    // Keep the faces that stay, and count the others.
     let mut removed = Preparation::default();
     let mut stored_corners = Vec::with_capacity(part.faces.capacity());
     for fate in fates {
@@ -326,6 +335,7 @@ fn doubles_beside(part: &HalfEdgeMesh, sides: &[u32]) -> Vec<u32> {
 ///
 /// Threads write where half-edges point to; every entry has one writer, so order does not matter.
 fn pair_half_edges(part: &mut HalfEdgeMesh) {
+    // Prepare lists that threads can fill.
     let unset = || -> Vec<AtomicU32> {
         let count = part.edge_sides.len();
         (0..count).map(|_| AtomicU32::new(NONE)).collect()
@@ -338,6 +348,8 @@ fn pair_half_edges(part: &mut HalfEdgeMesh) {
         set(&twins, a, b);
         set(&twins, b, a);
     };
+
+    // Pair the two sides of a plain edge; where faces crowd, pair as wedges do.
     let visit = |edge: u32| {
         let sides = part.sides(edge);
         sides.iter().for_each(|&side| set(&edge_of, side, edge));
@@ -347,6 +359,8 @@ fn pair_half_edges(part: &mut HalfEdgeMesh) {
             _ => wedges::pair(part, edge).into_iter().for_each(pair),
         }
     };
+
+    // Visit all edges.
     (0..part.edge_count() as u32)
         .into_par_iter()
         .with_min_len(4096)
@@ -376,6 +390,8 @@ fn measure_normals(part: &mut HalfEdgeMesh, stored: &[[u32; 3]], normals: &[[f32
     if normals.is_empty() {
         return;
     }
+
+    // Look up the normals of a half-edge, from the lower end to the higher.
     let normal = |corner: usize| {
         let vertex = stored.as_flattened()[corner];
         normals.get(vertex as usize).copied().unwrap_or_default()
@@ -389,6 +405,8 @@ fn measure_normals(part: &mut HalfEdgeMesh, stored: &[[u32; 3]], normals: &[[f32
             [head, tail]
         }
     };
+
+    // Compare both faces' normals in the middle of every edge.
     let cos = |edge: u32| {
         let faces = part.dihedral_cos[edge as usize];
         let [a, b] = *part.sides(edge) else {
@@ -456,11 +474,14 @@ fn add_wires(
 ) -> usize {
     let mut known = HashSet::with_capacity(mesh.polylines.len());
     for (index, ends) in mesh.polylines.iter().enumerate() {
+        // Leave out lines that hang on nothing.
         let surface = mesh.polyline_surfaces.get(index).copied().unwrap_or(NONE);
         let exists = ends.iter().all(|end| is_sound(mesh, weld, *end, false));
         if !exists || surface as usize >= surface_count {
             continue;
         }
+
+        // Keep each pair of vertices once.
         let [a, b] = ends.map(|end| weld.of_vertex[end as usize]);
         if a != b && known.insert([a.min(b), a.max(b)]) {
             part.polylines.push([a, b]);
@@ -521,12 +542,15 @@ fn extend(shape: &mut HalfEdgeMesh, part: HalfEdgeMesh) {
         total < NONE as usize,
         "a shape has fewer than 2^32 half-edges"
     );
+
+    // Number the part's vertices, faces and edges behind those of the shape.
     extend_normals_cos(shape, &part);
     let vertex = shape.positions.len() as u32;
     let face = shape.faces.len() as u32;
     let (half_edge, edge) = (3 * face, shape.edge_count() as u32);
     let moved = |number: u32, by: u32| if number == NONE { NONE } else { number + by };
 
+    // Append all lists with their numbers moved.
     shape.positions.extend(part.positions);
     shape
         .faces
@@ -550,6 +574,8 @@ fn extend(shape: &mut HalfEdgeMesh, part: HalfEdgeMesh) {
         .iter()
         .map(|&[s, stand_in]| [s + face, moved(stand_in, face)]);
     shape.degenerate_faces.extend(degenerate_faces);
+
+    // Append lines without faces.
     let polylines = part.polylines.iter().map(|ends| ends.map(|v| v + vertex));
     shape.polylines.extend(polylines);
     shape.polyline_surfaces.extend(part.polyline_surfaces);

@@ -51,6 +51,8 @@ pub fn edge_counts(arguments: &Arguments) -> Outcome<()> {
         "expected",
         "furthest off",
     ]);
+
+    // Count the edges of every mesh beside what the other program counted.
     let mut within = 0;
     for (name, expected) in EXPECTED {
         let found = counts(&folder.join(format!("{name}.obj")))?;
@@ -62,9 +64,12 @@ pub fn edge_counts(arguments: &Arguments) -> Outcome<()> {
         let pairs = (0..3).flat_map(|i| [found[i], expected[i]]);
         table.add(name, pairs.chain([off]).map(|count| count.to_string()));
     }
+
+    // Tell how many meshes agree.
     println!(
-        "## Edges counted\n\nEvery edge of a kind, hidden or not, from the view that other programs were measured with; expected: counted in \
-         double precision by another program. Bar: at most {MOST_OFF} off. {within} of {} meshes reach it.\n\n{table}",
+        "## Edges counted\n\nEvery edge of a kind, hidden or not, from the view that other programs were measured \
+         with; expected: counted in double precision by another program. Bar: at most {MOST_OFF} off. {within} of {} \
+         meshes reach it.\n\n{table}",
         EXPECTED.len()
     );
     Ok(())

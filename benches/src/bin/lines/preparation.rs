@@ -31,6 +31,8 @@ pub fn preparation(arguments: &Arguments) -> Outcome<()> {
         "expected",
         "open, crowded, flipped edges",
     ]);
+
+    // Prepare meshes whose Euler characteristic is known.
     for size in sizes {
         let ring = Solid::Ring { tube: 0.4 };
         let meshes = [
@@ -42,6 +44,8 @@ pub fn preparation(arguments: &Arguments) -> Outcome<()> {
             table.add(name, cells(&scene, expected)?);
         }
     }
+
+    // Print how they were timed.
     println!(
         "## Preparing meshes\n\nMedian of {RUNS} and, in brackets, the least. Load average {}.\n\n{table}",
         machine::load()
