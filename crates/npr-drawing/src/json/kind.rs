@@ -46,3 +46,61 @@ impl Visitor<'_> for NameReader {
         Kind::named(name).ok_or_else(|| E::unknown_variant(name, &Kind::NAMES))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use serde::Deserialize;
+
+    /// The same kinds as an enum that serde reads by itself.
+    mod derived {
+        #[derive(Debug, serde::Deserialize)]
+        #[serde(rename_all = "lowercase")]
+        pub enum Kind {
+            Contour,
+            Boundary,
+            Crease,
+            Material,
+            Intersection,
+            Marked,
+        }
+    }
+
+    #[derive(Debug, Deserialize)]
+    struct Ours {
+        #[serde(deserialize_with = "super::read")]
+        kind: super::Kind,
+    }
+
+    #[derive(Debug, Deserialize)]
+    struct Derived {
+        kind: derived::Kind,
+    }
+
+    #[test]
+    fn faults_are_those_of_an_enum() {
+        for value in [
+            "\"contour\"",
+            "\"marked\"",
+            "\"Contour\"",
+            "\"\"",
+            "3",
+            "null",
+            "[]",
+            "{}",
+            "{\"crease\": null}",
+            "{\"crease\": 1}",
+            "{\"none\": null}",
+            "{\"crease\": null, \"marked\": null}",
+            "tru",
+            "\"crea",
+        ] {
+            let text = format!("{{\"kind\": {value}}}");
+            let ours = serde_json::from_str::<Ours>(&text).map(|read| read.kind.name().to_owned());
+            let derived = serde_json::from_str::<Derived>(&text)
+                .map(|read| format!("{:?}", read.kind).to_lowercase());
+            let told = |fault: serde_json::Error| fault.to_string();
+            assert_eq!(ours.map_err(told), derived.map_err(told), "{value}");
+        }
+        assert!(serde_json::from_str::<Ours>("{}").is_err());
+    }
+}
