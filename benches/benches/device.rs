@@ -20,6 +20,8 @@ fn device() -> Option<Device> {
 fn frames(c: &mut Criterion) {
     let Some(device) = device() else { return };
     let mut group = c.benchmark_group(device.adapter().to_string());
+
+    // Time balls of a few sizes in frames of a few sizes.
     for count in [960, 9_566, 66_400] {
         let subject = Subject::ball(count).expect("a ball can be numbered");
         for size in [[640, 360], [1280, 720], [1920, 1080]] {
@@ -33,6 +35,8 @@ fn frames(c: &mut Criterion) {
             group.bench_function(id, |b| b.iter(|| renderer.draw(&subject.camera)));
         }
     }
+
+    // Time a scanned mesh, where it is there.
     if let Some(path) = bunny_path() {
         let subject = Subject::from_file(&path).expect("the bunny is sound");
         let mut renderer = subject

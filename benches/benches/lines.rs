@@ -42,6 +42,7 @@ fn view(c: &mut Criterion) {
         };
         for (name, scene_of_size) in MESHES {
             for size in SIZES {
+                // Draw once before the clock starts, so that what all views share is there.
                 let scene = scene_of_size(size);
                 let model = LineModel::new(&scene, &LineModelOptions::default())
                     .expect("the mesh can be numbered");

@@ -134,6 +134,7 @@ fn variance(samples: &[Sample]) -> f64 {
 /// Gauss and Jordan's elimination of `n` equations of `n` unknowns and a right side, with the largest pivot first.
 fn solve(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     for column in 0..rows.len() {
+        // Choose the largest pivot; without one there is no answer.
         let largest = (column..rows.len())
             .max_by(|a, b| rows[*a][column].abs().total_cmp(&rows[*b][column].abs()))?;
         rows.swap(column, largest);
@@ -141,6 +142,8 @@ fn solve(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
         if pivot[column].abs() < 1e-9 {
             return None;
         }
+
+        // Take the unknown out of all other equations.
         for (i, row) in rows.iter_mut().enumerate() {
             if i != column {
                 let factor = row[column] / pivot[column];
@@ -184,7 +187,9 @@ mod tests {
         fn a_law_of_this_form_is_found_again(
             base in 0f64..10.0, t in 0.1f64..50.0, p in 0.1f64..50.0, both in 0f64..20.0,
         ) {
-            let law = |triangles: f64, pixels: f64| base + t * triangles / 1e5 + p * pixels / 1e6 + both * triangles * pixels / 1e11;
+            let law = |triangles: f64, pixels: f64| {
+                base + t * triangles / 1e5 + p * pixels / 1e6 + both * triangles * pixels / 1e11
+            };
             let cost = Cost::fit(&samples(law)).expect("the grid settles all terms");
             prop_assert!((cost.triangles_ms - t).abs() < 1e-6 && (cost.product_ms - both).abs() < 1e-6);
             prop_assert!(cost.r_squared > 1.0 - 1e-9);

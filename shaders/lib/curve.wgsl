@@ -2,12 +2,9 @@
 // npr_vector::mesh_lines::contour.
 
 //# use lib/geometry
+//# use lib/line_kind
+//# use lib/edge_flags
 
-const EDGE_IS_BOUNDARY: u32 = 1u;
-const EDGE_IS_NON_MANIFOLD: u32 = 4u;
-const EDGE_IS_FLIPPED: u32 = 8u;
-
-const NODE_CONTOUR: u32 = 1u;
 const NODE_CONCAVE: u32 = 64u;
 const NODE_SEAM: u32 = 256u;
 

@@ -47,9 +47,6 @@ struct Edge {
     traits: u32,
 }
 
-const EDGE_MATERIAL: u32 = 1u;
-const EDGE_FLIPPED: u32 = 2u;
-
 struct Part {
     base_color: vec4<f32>,
     line_color: vec4<f32>,
@@ -123,6 +120,7 @@ const PART_PLAIN: u32 = 2097152u;
 const PART_TONE_ROW: u32 = 4194304u;
 const PART_FOLDS: u32 = 1073741824u;
 
+const LINE_KINDS: u32 = 31u;
 const LINE_SURFACE: u32 = 32u;
 const LINE_VERTEX: u32 = 64u;
 const LINE_TEXTURE: u32 = 128u;

@@ -54,5 +54,5 @@ fn line_light(triangle: Triangle, corners: Corners, px: vec2<f32>, step_px: vec2
     if (parts[triangle.part].line_flags & LINE_PLACED) != 0u {
         tint = line_tint(triangle, corners, px, step_px, is_hull);
     }
-    return linear_texel(pack_rgba8(line_color(triangle.part, KIND_OF_CONTOUR, tint))).rgb;
+    return linear_texel(pack_rgba8(line_color(triangle.part, KIND_CONTOUR, tint))).rgb;
 }

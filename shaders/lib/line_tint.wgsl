@@ -4,11 +4,6 @@
 //# use lib/color
 //# use lib/outline
 
-const KIND_OF_CONTOUR: u32 = 0u;
-const KIND_OF_CREASE: u32 = 2u;
-const KIND_OF_MATERIAL: u32 = 3u;
-const KIND_OF_INTERSECTION: u32 = 4u;
-
 // What is decided about lines at a pixel of the mask.
 struct LineTint {
     own: u32,
@@ -23,25 +18,26 @@ struct Tint {
     tint_layer: vec4<f32>,
 }
 
+// The bit of the first kind of an edge.
 fn kind_of_edge(kinds: u32) -> u32 {
-    let known = kinds & (KIND_CONTOUR | KIND_BOUNDARY | KIND_CREASE | KIND_MATERIAL);
-    return select(firstTrailingBit(known), KIND_OF_CONTOUR, known == 0u);
+    let known = kinds & EDGE_KINDS;
+    return select(known & (~known + 1u), KIND_CONTOUR, known == 0u);
 }
 
 fn kind_of_mask(found: u32) -> u32 {
-    if (found & DETECT_PIECE) != 0u { return KIND_OF_INTERSECTION; }
-    if (found & (DETECT_DEPTH | DETECT_OBJECT)) != 0u { return KIND_OF_CONTOUR; }
-    if (found & DETECT_MATERIAL) != 0u { return KIND_OF_MATERIAL; }
-    return KIND_OF_CREASE;
+    if (found & DETECT_PIECE) != 0u { return KIND_INTERSECTION; }
+    if (found & (DETECT_DEPTH | DETECT_OBJECT)) != 0u { return KIND_CONTOUR; }
+    if (found & DETECT_MATERIAL) != 0u { return KIND_MATERIAL; }
+    return KIND_CREASE;
 }
 
-// Colour of a part's lines of a kind, sRGB with straight alpha, where `tint` is decided.
+// Colour of a part's lines of a kind, given by its bit, sRGB with straight alpha, where `tint` is decided.
 fn line_color(part: u32, kind: u32, tint: Tint) -> vec4<f32> {
     var color = parts[part].line_color;
     let flags = parts[part].line_flags;
     if flags == 0u { return color; }
-    let has_own = (flags & (1u << kind)) != 0u;
-    if has_own { color = unpack_rgba8(parts[part].line_kinds[kind]); }
+    let has_own = (flags & kind & LINE_KINDS) != 0u;
+    if has_own { color = unpack_rgba8(parts[part].line_kinds[firstTrailingBit(kind)]); }
     if !tint.is_known { return color; }
     if !has_own && (flags & LINE_SOURCES) != 0u { color = vec4<f32>(tint.own.rgb, color.a); }
     return vec4<f32>(layered(color.rgb, tint.tint_layer), color.a * tint.own.a);

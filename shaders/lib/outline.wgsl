@@ -1,5 +1,7 @@
 // Settings of outlines. Twin: npr_core::outline.
 
+//# use lib/line_kind
+
 struct Outline {
     base_width: f32,
     min_factor: f32,
@@ -15,11 +17,8 @@ struct Outline {
     reach_px: u32,
 }
 
-const KIND_CONTOUR: u32 = 1u;
-const KIND_BOUNDARY: u32 = 2u;
-const KIND_CREASE: u32 = 4u;
-const KIND_MATERIAL: u32 = 8u;
-const KIND_ANY: u32 = 16u;
+const KIND_ANY: u32 = 64u;
+const EDGE_KINDS: u32 = 15u;
 
 const DETECT_DEPTH: u32 = 1u;
 const DETECT_NORMAL: u32 = 2u;
@@ -37,6 +36,10 @@ const OUTLINE_UNMASKED: u32 = 8u;
 const MASK_KINDS: u32 = 47u;
 const MASK_OWNER: u32 = 16u;
 const MASK_SIDE: u32 = 256u;
+
+fn width_factor(least: f32, greatest: f32, share: f32) -> f32 {
+    return least + (greatest - least) * share;
+}
 
 fn width_of_curvature(curvature: f32, gain: f32) -> f32 {
     let x = abs(curvature) * gain;

@@ -1,8 +1,7 @@
 // Lines drawn into a picture pixel by pixel. Twins: npr_vector::pixel_strokes::edge, segment, fragment.
 
 //# use lib/geometry
-
-const EDGE_REVERSED: u32 = 512u;
+//# use lib/edge_flags
 
 struct DrawnEdge {
     tail: u32,

@@ -72,7 +72,7 @@ fn main(
     }
     var packed = 0u;
     if part != NONE {
-        let color = line_color_at(part, KIND_OF_INTERSECTION, center);
+        let color = line_color_at(part, KIND_INTERSECTION, center);
         packed = pack_rgba8(vec4<f32>(color.rgb, color.a * best));
     }
     stamped[element] = packed;

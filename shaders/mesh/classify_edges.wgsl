@@ -9,6 +9,7 @@
 //
 //# use lib/grid
 //# use lib/geometry
+//# use lib/edge_flags
 //# use lib/surface
 //# use lib/outline
 

@@ -62,8 +62,8 @@ fn width_at(vertex: Vertex, normal: vec3<f32>, direction: vec3<f32>, world: vec3
     let tightest = vertex.width / outline.radius_world;
     let height = height_at(view, depth);
     let s = width_of_curvature(curvature * height * 0.1, outline.gain);
-    let world_px = height / view.frame_px.y;
-    return vec2<f32>(s, widest_round(curvature * world_px, tightest * world_px));
+    let pixel = world_per_pixel(view, depth);
+    return vec2<f32>(s, widest_round(curvature * pixel, tightest * pixel));
 }
 
 // One invocation per vertex.
@@ -89,7 +89,7 @@ fn main(
     if (outline.flags & OUTLINE_WORLD_WIDTH) != 0u {
         base /= max(world_per_pixel(view, max(depth, view.near)), 1e-20);
     }
-    var width = base * (outline.min_factor + (outline.max_factor - outline.min_factor) * s.x);
+    var width = base * width_factor(outline.min_factor, outline.max_factor, s.x);
     width = min(width, max(s.y, base * outline.min_factor));
 
     var vertex_out: PosedVertex;

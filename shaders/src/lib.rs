@@ -189,6 +189,8 @@ shaders! {
 /// The libraries that shaders share.
 const LIBRARIES: &[(&str, &str)] = &[
     ("lib/grid", include_str!("../lib/grid.wgsl")),
+    ("lib/line_kind", include_str!("../lib/line_kind.wgsl")),
+    ("lib/edge_flags", include_str!("../lib/edge_flags.wgsl")),
     ("lib/geometry", include_str!("../lib/geometry.wgsl")),
     ("lib/unit", include_str!("../lib/unit.wgsl")),
     ("lib/surface", include_str!("../lib/surface.wgsl")),

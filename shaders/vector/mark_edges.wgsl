@@ -19,12 +19,6 @@ override WG: u32 = 64u;
 @group(0) @binding(5) var<storage, read_write> flags: array<u32>;
 @group(0) @binding(6) var<storage, read_write> marks: array<u32>;
 
-const FLIPPED: u32 = 64u;
-const CROWDED: u32 = 128u;
-const OPEN: u32 = 256u;
-const WIRE: u32 = 1024u;
-const KINDS: u32 = 63u;
-
 fn position_of(vertex: u32) -> vec3<f32> {
     let at = 3u * vertex;
     return vec3<f32>(positions[at], positions[at + 1u], positions[at + 2u]);
@@ -41,20 +35,20 @@ fn is_concave(edge: DrawnEdge) -> bool {
 
 // The kind and the direction of an edge; 0 where it is not drawn.
 fn mark_of(edge: DrawnEdge) -> u32 {
-    if (edge.bits & WIRE) != 0u { return edge.bits & view.wanted & KINDS; }
+    if (edge.bits & EDGE_WIRE) != 0u { return edge.bits & view.wanted & KINDS; }
     if edge.face == NONE { return 0u; }
     let is_front = front[edge.face] != 0u;
-    let has_pair = edge.across != NONE && (edge.bits & CROWDED) == 0u;
+    let has_pair = edge.across != NONE && (edge.bits & EDGE_NON_MANIFOLD) == 0u;
     var is_front_across = false;
     if has_pair { is_front_across = front[edge.across] != 0u; }
-    let is_flipped = (edge.bits & FLIPPED) != 0u;
+    let is_flipped = (edge.bits & EDGE_FLIPPED) != 0u;
     let is_contour = has_pair && ((is_front != is_front_across) != is_flipped);
-    let is_seen = is_front || is_front_across || (edge.bits & OPEN) != 0u;
+    let is_seen = is_front || is_front_across || (edge.bits & EDGE_OPEN) != 0u;
     let direction = select(EDGE_REVERSED, 0u, is_front);
-    if is_contour && (view.wanted & NODE_CONTOUR) != 0u {
+    if is_contour && (view.wanted & KIND_CONTOUR) != 0u {
         var is_valley = view.is_convex_only != 0u && !is_flipped;
         if is_valley { is_valley = is_concave(edge); }
-        return select(NODE_CONTOUR | direction, 0u, is_valley);
+        return select(KIND_CONTOUR | direction, 0u, is_valley);
     }
     let kinds = edge.bits & view.wanted & KINDS;
     if kinds == 0u || !is_seen { return 0u; }

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use npr_core::camera::{Camera, Projection};
+use npr_core::line_kind::KindSet;
 use npr_core::window::View;
 use npr_gpu::curves::{Hiders, ResidentPixels};
 use npr_gpu::engine::Engine;
@@ -16,7 +17,6 @@ use npr_stylesheet::Style;
 use npr_tests::{device, models, samples};
 use npr_vector::mesh_lines::contour::Eye;
 use npr_vector::mesh_lines::draw::eye_of;
-use npr_vector::mesh_lines::graph::CurveNode;
 use npr_vector::pixel_strokes::side::Ink;
 use npr_vector::pixel_strokes::stroke::Loops;
 use npr_vector::pixel_strokes::{
@@ -79,7 +79,7 @@ impl<'a> Seen<'a> {
             shape: self.shape,
             view: &self.view,
             eye: &self.eye,
-            kinds: CurveNode::KINDS,
+            kinds: KindSet::BITS,
             creases: 0.766.into(),
             is_drawn: &[],
         }

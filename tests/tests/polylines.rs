@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use npr_core::camera::Camera;
+use npr_core::line_kind::KindSet;
 use npr_drawing::svg::{SvgOptions, write_svg};
 use npr_gpu::curves::{Hiders, ResidentPixels};
 use npr_gpu::processor::Processor;
@@ -15,7 +16,6 @@ use npr_scene::{Limits, MemoryResources, Scene, load_bytes};
 use npr_stylesheet::Style;
 use npr_tests::{device, lines};
 use npr_vector::mesh_lines::draw::eye_of;
-use npr_vector::mesh_lines::graph::CurveNode;
 use npr_vector::pixel_strokes::stroke::Loops;
 use npr_vector::pixel_strokes::{PixelScene, PublishedPath, scene_depths, trace};
 use npr_vector::project::Projector;
@@ -91,7 +91,7 @@ fn the_published_path_takes_wires_as_the_processor_does() {
             shape,
             view: &view,
             eye: &eye_of(shape, &Projector::new(&camera, SIZE, bounds)),
-            kinds: CurveNode::KINDS,
+            kinds: KindSet::BITS,
             creases: 0.766.into(),
             is_drawn: &[],
         };

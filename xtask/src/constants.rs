@@ -33,6 +33,9 @@ const fn twins(
     }
 }
 
+/// Where the shares stand by which samples of a line are weighed.
+const FILTER: &str = "npr-vector/src/mesh_lines/sample/filter.rs";
+
 /// Where the twins of all constants stand.
 #[rustfmt::skip]
 const TWINS: &[Twins] = &[
@@ -49,10 +52,9 @@ const TWINS: &[Twins] = &[
     twins("lib/backdrop.wgsl", "BORDER_", "npr-style/src/backdrop/rims.rs", ""),
     twins("lib/color.wgsl", "", "npr-style/src/luminance.rs", ""),
     twins("lib/compose.wgsl", "COMPOSE_", "npr-style/src/compose.rs", "Compose::"),
-    twins("lib/curve.wgsl", "EDGE_IS_", "npr-mesh/src/half_edge.rs", "HalfEdgeMesh::"),
     twins("lib/curve.wgsl", "NODE_", "npr-vector/src/mesh_lines/graph.rs", "CurveNode::"),
+    twins("lib/edge_flags.wgsl", "EDGE_", "npr-core/src/edge_flags.rs", "EdgeFlags::"),
     twins("lib/geometry.wgsl", "", "npr-core/src/geometry.rs", ""),
-    twins("lib/geometry.wgsl", "EDGE_", "npr-core/src/geometry.rs", "Edge::"),
     twins("lib/geometry.wgsl", "PART_", "npr-core/src/geometry.rs", "Part::"),
     twins("lib/geometry.wgsl", "LINE_", "npr-core/src/geometry.rs", "Part::LINE_"),
     twins("lib/geometry.wgsl", "HULL_BIT", "npr-core/src/raster.rs", "HULL_BIT"),
@@ -65,17 +67,18 @@ const TWINS: &[Twins] = &[
     twins("lib/lighting.wgsl", "LIGHT_", "npr-style/src/lighting.rs", "LightSource::"),
     twins("lib/lighting.wgsl", "SKY_", "npr-style/src/lighting.rs", "LightSource::"),
     twins("lib/line_color.wgsl", "", "npr-style/src/line_color.rs", ""),
-    twins("lib/line_tint.wgsl", "KIND_OF_", "npr-core/src/line_color.rs", "KIND_"),
+    twins("lib/line_kind.wgsl", "KIND_", "npr-core/src/line_kind.rs", "KindSet::"),
+    twins("lib/line_kind.wgsl", "KINDS", "npr-core/src/line_kind.rs", "KindSet::BITS"),
     twins("lib/list.wgsl", "", "npr-vector/src/rank/splitter.rs", ""),
     twins("lib/looped.wgsl", "", "npr-vector/src/pixel_strokes/looped.rs", ""),
     twins("lib/outline.wgsl", "", "npr-core/src/outline.rs", ""),
     twins("lib/outline.wgsl", "KIND_", "npr-core/src/outline.rs", "Outline::"),
+    twins("lib/outline.wgsl", "EDGE_KINDS", "npr-core/src/outline.rs", "Outline::EDGE_KINDS"),
     twins("lib/outline.wgsl", "DETECT_", "npr-core/src/outline.rs", "Outline::"),
     twins("lib/outline.wgsl", "DETECT_OBJECT", "npr-core/src/outline.rs", "Outline::OBJECT_ID"),
     twins("lib/outline.wgsl", "DETECT_MATERIAL", "npr-core/src/outline.rs", "Outline::MATERIAL_ID"),
     twins("lib/outline.wgsl", "OUTLINE_", "npr-core/src/outline.rs", "Outline::"),
     twins("lib/paint.wgsl", "", "npr-style/src/paint.rs", ""),
-    twins("lib/pixel.wgsl", "EDGE_", "npr-vector/src/pixel_strokes/edge.rs", "DrawnEdge::"),
     twins("lib/scenery.wgsl", "", "npr-style/src/backdrop/rims.rs", ""),
     twins("lib/shadow.wgsl", "", "npr-style/src/shadow.rs", ""),
     twins("lib/sky.wgsl", "", "npr-style/src/sky.rs", ""),
@@ -97,17 +100,15 @@ const TWINS: &[Twins] = &[
     twins("smoke/project_spheres.wgsl", "", "npr-core/src/smoke.rs", ""),
     twins("smoke/resolve_picture.wgsl", "SMOKE_", "npr-style/src/smoke/resolve.rs", ""),
     twins("vector/draw_nearest.wgsl", "", "npr-vector/src/pixel_strokes/fragment.rs", ""),
-    twins("vector/mark_edges.wgsl", "", "npr-vector/src/pixel_strokes/edge.rs", "DrawnEdge::"),
-    twins("vector/mark_edges.wgsl", "KINDS", "npr-vector/src/mesh_lines/graph.rs", "CurveNode::KINDS"),
     twins("vector/project_edges.wgsl", "", "npr-vector/src/pixel_strokes/segment.rs", ""),
     twins("vector/sample_visibility.wgsl", "", "npr-vector/src/mesh_lines/sample.rs", ""),
     twins("vector/scan_add.wgsl", "", "npr-vector/src/rank/scan.rs", ""),
     twins("vector/scan_blocks.wgsl", "", "npr-vector/src/rank/scan.rs", ""),
     twins("vector/size_work.wgsl", "", "npr-vector/src/rank/work.rs", ""),
     twins("vector/size_work.wgsl", "BLOCK", "npr-vector/src/rank/scan.rs", "BLOCK"),
-    twins("vector/weigh_samples.wgsl", "", "npr-vector/src/mesh_lines/sample/filter.rs", ""),
-    twins("vector/weigh_samples.wgsl", "CLEARLY_VISIBLE", "npr-vector/src/mesh_lines/sample/filter.rs", "CLEAR_SHARES[0]"),
-    twins("vector/weigh_samples.wgsl", "CLEARLY_HIDDEN", "npr-vector/src/mesh_lines/sample/filter.rs", "CLEAR_SHARES[1]"),
+    twins("vector/weigh_samples.wgsl", "", FILTER, ""),
+    twins("vector/weigh_samples.wgsl", "CLEARLY_VISIBLE", FILTER, "CLEAR_SHARES[0]"),
+    twins("vector/weigh_samples.wgsl", "CLEARLY_HIDDEN", FILTER, "CLEAR_SHARES[1]"),
 ];
 
 /// Constants without a constant in Rust, and what they stand for.
@@ -171,6 +172,7 @@ fn slashed(path: &Path) -> String {
 ///
 /// Sources that are not there are left out; whoever asks for a twin in one is told that it cannot be read.
 fn sources_of_twins(root: &Path) -> Result<BTreeMap<&'static str, Constants>> {
+    // Read every source that the table names.
     let mut sources = BTreeMap::new();
     for twins in TWINS {
         let path = root.join("crates").join(twins.source);
@@ -179,6 +181,8 @@ fn sources_of_twins(root: &Path) -> Result<BTreeMap<&'static str, Constants>> {
             sources.insert(twins.source, rust_constants(&text));
         }
     }
+
+    // Let all of them know the constants of types, which may stand anywhere.
     let own = sources.values().flatten();
     let of_types = own.filter(|(name, _)| name.contains("::"));
     let of_types: Constants = of_types
@@ -207,6 +211,7 @@ fn fault(
     known: &Constants,
     sources: &BTreeMap<&str, Constants>,
 ) -> Option<String> {
+    // Find where the twin should stand; the longest prefix decides.
     let fits = |twins: &&Twins| twins.shader == shader && name.starts_with(twins.prefix);
     let Some(twins) = TWINS
         .iter()
@@ -217,6 +222,8 @@ fn fault(
             "{shader}: {name} has no twin; name it in xtask/src/constants.rs"
         ));
     };
+
+    // Compare both values.
     let (source, twin) = (
         twins.source,
         format!("{}{}", twins.scope, &name[twins.prefix.len()..]),
@@ -355,6 +362,8 @@ impl<'a> Reader<'a> {
         let Some(operators) = OPERATORS.get(level) else {
             return self.single();
         };
+
+        // Read operators of one strength from left to right.
         let mut value = self.operation(level + 1)?;
         while let Some(operator) = operators.iter().find(|operator| self.take(operator)) {
             let other = self.operation(level + 1)?;
@@ -386,6 +395,11 @@ impl<'a> Reader<'a> {
         }
         let word = self.words.get(self.at)?.clone();
         self.at += 1;
+        // A set of flags is its bits.
+        if word == "Self" && self.take("(") {
+            let value = self.operation(0)?;
+            return self.take(")").then_some(value);
+        }
         if word == "u32::MAX" {
             return Some(f64::from(u32::MAX));
         }
@@ -466,6 +480,7 @@ mod tests {
             ("!(1 << 31)", 2_147_483_647.0),
             ("Part::A | 3", 19.0),
             ("Part::B & 6", 2.0),
+            ("Self(Part::A)", 16.0),
         ] {
             let read = Reader::new(text, &all, "").values();
             assert_eq!(read, Some(vec![value]), "{text}");

@@ -115,8 +115,11 @@ fn faults(coverage: &Coverage, sources: &Sources, beside: &Beside) -> Vec<String
 
 /// Tests that do not exist, and claims without a test or a reason.
 fn entry_faults(id: &str, entry: &Entry, sources: &Sources, beside: &Beside) -> Vec<String> {
+    // Name tests that do not exist.
     let lost = entry.tests.iter().filter(|test| !exists(test, sources));
     let mut faults: Vec<String> = lost.map(|test| format!("{id}: no test {test}")).collect();
+
+    // Name claims that no test proves.
     if entry.state == State::Done && entry.tests.is_empty() {
         faults.push(format!("{id} is done, but names no test"));
     }
@@ -131,6 +134,8 @@ fn entry_faults(id: &str, entry: &Entry, sources: &Sources, beside: &Beside) -> 
             "{id} is done, but every test named needs the assets beside the checkout"
         ));
     }
+
+    // Name gaps without a reason.
     if entry.state != State::Done && entry.note.is_empty() {
         faults.push(format!("{id} is not done, and its note does not say why"));
     }

@@ -44,7 +44,10 @@ const SUITES: [&str; 3] = ["npr-benches", "npr-tests", "xtask"];
 
 /// Fails with every call of a decoder outside of the door, and with profiles that cannot unwind.
 pub fn check(root: &Path) -> Result<()> {
+    // Look at the profiles.
     let mut faults = profile_faults(&std::fs::read_to_string(root.join("Cargo.toml"))?)?;
+
+    // Look at the calls of every crate that is not a suite.
     let mut call_count = 0;
     let packages = members(root)?;
     for package in packages
@@ -58,6 +61,8 @@ pub fn check(root: &Path) -> Result<()> {
             faults.extend(outside.into_iter().map(place));
         }
     }
+
+    // Tell what was found.
     if !faults.is_empty() {
         bail!(
             "decoders are called outside of npr_core::decoding::guard:\n  {}",
@@ -70,6 +75,7 @@ pub fn check(root: &Path) -> Result<()> {
 
 /// How many calls of decoders a file has outside of its tests, and the lines of those that stand outside of the door.
 fn calls(file: &SourceFile) -> (usize, Vec<usize>) {
+    // Leave tests out.
     let for_tests = |part: &OsStr| {
         ["testing", "tests"]
             .iter()
@@ -78,6 +84,8 @@ fn calls(file: &SourceFile) -> (usize, Vec<usize>) {
     if file.path.iter().any(for_tests) {
         return (0, Vec::new());
     }
+
+    // Find the calls, and the insides of the door.
     let program = file.text.split("#[cfg(test)]\nmod tests").next();
     let code = code_of(program.unwrap_or_default());
     let doors = insides(&code, DOOR, ['(', ')']);
@@ -85,6 +93,8 @@ fn calls(file: &SourceFile) -> (usize, Vec<usize>) {
         .iter()
         .flat_map(|call| calls_of(&code, call))
         .collect();
+
+    // Count the calls that stand outside.
     let outside = starts
         .iter()
         .filter(|start| !doors.iter().any(|door| door.contains(start)));
@@ -125,7 +135,10 @@ mod tests {
 
     #[test]
     fn words_about_calls_are_no_calls() {
-        let text = "//! See image::open(x).\nfn from_str(s: &str) { say(\"DeTable::parse(x)\"); f('\"') } // image::open(x)\n";
+        let text = concat!(
+            "//! See image::open(x).\n",
+            "fn from_str(s: &str) { say(\"DeTable::parse(x)\"); f('\"') } // image::open(x)\n",
+        );
         assert_eq!(calls(&file("words.rs", text)), (0, vec![]));
         // A bracket in quotes does not close the door.
         let text = "let x = guard(|| f(\")\") + image::open(p));";

@@ -157,6 +157,8 @@ const DEVICE_CONDITION: &str = concat!("feature = ", "\"wgpu\"");
 /// Fails with every breach of the floors in the workspace at `root`.
 pub fn check(root: &Path) -> Result<()> {
     let packages = members(root)?;
+
+    // Look at the imports, lints and conditions of every crate.
     let mut faults = unsafe_faults(root)?;
     for package in &packages {
         faults.extend(import_faults(package));
@@ -164,6 +166,8 @@ pub fn check(root: &Path) -> Result<()> {
         for file in rust_files(&package.folder().join("src"))? {
             faults.extend(condition_faults(&package.name, &file));
         }
+
+        // Look at what the light ones link.
         if MEMBERS
             .iter()
             .any(|member| member.name == package.name && !member.heavy)
@@ -172,10 +176,14 @@ pub fn check(root: &Path) -> Result<()> {
             faults.extend(weight_faults(&package.name, &linked));
         }
     }
+
+    // Count the packages that come along with crates meant to be taken alone.
     for (name, most) in MOST_PACKAGES {
         let linked = linked(root, name, Features::None)?;
         faults.extend(count_fault(name, linked.len(), most));
     }
+
+    // Tell what was found.
     if !faults.is_empty() {
         bail!("floors are breached:\n  {}", faults.join("\n  "));
     }
@@ -186,10 +194,14 @@ pub fn check(root: &Path) -> Result<()> {
 /// Dependencies that are not listed; tests and benches may import every crate that is listed before their own.
 fn import_faults(package: &Package) -> Vec<String> {
     let name = &package.name;
+
+    // Find the floor of the crate.
     let Some(number) = MEMBERS.iter().position(|member| member.name == *name) else {
         return vec![format!("{name} is not listed in xtask/src/floors.rs")];
     };
     let (below, member) = (&MEMBERS[..number], &MEMBERS[number]);
+
+    // Say which imports are allowed.
     let is_ours =
         |dependency: &&Dependency| MEMBERS.iter().any(|other| other.name == dependency.name);
     let is_allowed = |dependency: &Dependency| {
@@ -198,6 +210,8 @@ fn import_faults(package: &Package) -> Vec<String> {
         let lies_below = below.iter().any(|other| other.name == dependency.name);
         lies_below && (listed || for_tests)
     };
+
+    // Name the others.
     package
         .dependencies
         .iter()

@@ -43,6 +43,7 @@ pub fn check_devices(root: &Path) -> Result<()> {
 
 /// The functions of a file's tests that open a device, or ask for themselves whether one is required.
 fn own_devices(file: &SourceFile) -> Vec<String> {
+    // Cut out the tests of the file.
     let is_of_tests = file.path.starts_with("tests") || file.path.ends_with("tests.rs");
     let tests = match is_of_tests {
         true => Some(file.text.as_str()),
@@ -55,6 +56,8 @@ fn own_devices(file: &SourceFile) -> Vec<String> {
         path: file.path.clone(),
         text: tests.unwrap_or_default().to_owned(),
     };
+
+    // Name the functions that open a device themselves.
     let opens = |f: &Function| {
         f.text.contains(REQUIREMENT)
             || DEVICE

@@ -74,11 +74,14 @@ fn list(root: &Path) -> Result<String> {
 fn declarations(source: &str) -> Vec<Declaration> {
     let mut found = Vec::new();
     for (start, _) in source.match_indices(": Pass = Pass {") {
+        // Cut out the declaration.
         let body = &source[start..];
         let body = &body[..body.find("\n};").unwrap_or(body.len())];
         let Some(name) = quoted_after(body, "name: ") else {
             continue;
         };
+
+        // Read its name, its purpose and its bound.
         let mut declared = Declaration {
             name: name.to_owned(),
             purpose: doc_before(&source[..start]),
@@ -86,6 +89,8 @@ fn declarations(source: &str) -> Vec<Declaration> {
             writes: Vec::new(),
             agreement: agreement(body),
         };
+
+        // Tell what it reads from what it writes.
         let slots = body.split_once("slots: &[").map_or("", |(_, rest)| rest);
         let slots = slots
             .split_once("\n    ],")
@@ -124,6 +129,7 @@ fn doc_before(text: &str) -> String {
 
 /// What a device may differ by, in words.
 fn agreement(body: &str) -> String {
+    // Read the bound and its numbers.
     let value = body.split_once("agreement: Agreement::");
     let value = value.map_or("", |(_, value)| value);
     let number = |name: &str| {
@@ -131,6 +137,8 @@ fn agreement(body: &str) -> String {
         let end = rest.find([',', ')', ' ', '\n', '}'])?;
         rest[..end].parse::<f64>().ok()
     };
+
+    // Say it in words.
     let percent = |share: f64| format!("{} %", (share * 1e5).round() / 1e3);
     if value.starts_with("Relative") {
         format!("{:e} relative", number("Relative(").unwrap_or_default())
@@ -163,6 +171,7 @@ fn twin<'a>(shaders: &'a [SourceFile], name: &str) -> Option<&'a str> {
 
 /// A pass as an item of the list.
 fn entry(pass: &Declaration, twin: &str) -> String {
+    // Say what the pass does in one sentence each.
     let text = format!(
         "`{}`: {} Reads {}; writes {}. Twin `{twin}`; a device may differ by {}.",
         pass.name,
@@ -174,6 +183,8 @@ fn entry(pass: &Declaration, twin: &str) -> String {
         },
         pass.agreement,
     );
+
+    // Break the text before the last column.
     let mut lines = String::from("-");
     let mut width = 1;
     for word in text.split_whitespace() {

@@ -81,9 +81,11 @@ pub struct Function {
 impl SourceFile {
     /// Every function with a body, in order.
     pub fn functions(&self) -> Vec<Function> {
+        // Blank out comments and texts.
         let code = code_of(&self.text);
         let drawn = insides(&code, "proptest! {", ['{', '}']);
         let functions = starts(&code, "fn ").filter_map(|start| {
+            // Find the name, and the body behind the arguments.
             let rest = &code[start + 3..];
             let name_length = rest.find(|c: char| !is_word(c))?;
             let arguments = start + 3 + rest.find('(')? + 1;
@@ -93,6 +95,8 @@ impl SourceFile {
                 return None;
             }
             let body = inside(&code, opening + 1, ['{', '}']);
+
+            // Tell tests by the attributes above, and properties by the macro around.
             let line = self.text[..start].rfind('\n').map_or(0, |end| end + 1);
             let above: Vec<&str> = self.text[..line].lines().map(str::trim).collect();
             let is_test = is_marked_as_test(&above);

@@ -29,6 +29,7 @@ pub fn run(root: &Path, arguments: &[&str]) -> Result<()> {
 }
 
 fn run_with(root: &Path, arguments: &[&str], environment: &[(&str, String)]) -> Result<()> {
+    // Start the tests of all crates.
     let mut command = cargo(root);
     command
         .args(["test", "--workspace", "--all-features", "--no-fail-fast"])
@@ -38,6 +39,8 @@ fn run_with(root: &Path, arguments: &[&str], environment: &[(&str, String)]) -> 
         .stdout(Stdio::piped())
         .spawn()
         .context("cannot run cargo test")?;
+
+    // Pass on what they print, and count.
     let stdout = child.stdout.take().context("standard output is piped")?;
     let mut tally = Tally::default();
     for line in BufReader::new(stdout).lines() {
@@ -45,6 +48,8 @@ fn run_with(root: &Path, arguments: &[&str], environment: &[(&str, String)]) -> 
         println!("{line}");
         tally.add(&line);
     }
+
+    // Tell the sum, and fail where they do.
     let status = child.wait()?;
     println!("\n{}", tally.summary());
     if !status.success() {
@@ -59,8 +64,11 @@ fn run_with(root: &Path, arguments: &[&str], environment: &[(&str, String)]) -> 
 /// tests and an odd one the other, which keeps the time of a run in bounds: all of them have run with the first seed
 /// before.
 pub fn again(root: &Path) -> Result<()> {
+    // Take the seed from the commit.
     let seed = seed_of_commit(root)?;
     let first = std::env::var(SEED).unwrap_or_else(|_| "chance".to_owned());
+
+    // Draw a half of the property tests.
     let mut names = BTreeSet::new();
     for package in members(root)? {
         for file in rust_files(package.folder())? {
@@ -78,6 +86,8 @@ pub fn again(root: &Path) -> Result<()> {
         chosen.len(),
         names.len()
     );
+
+    // Run them with that seed.
     let only_tests = ["--lib", "--bins", "--tests", "--"];
     let arguments: Vec<&str> = only_tests.into_iter().chain(chosen).collect();
     run_with(root, &arguments, &[(SEED, seed.to_string())])

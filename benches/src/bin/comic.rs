@@ -60,7 +60,8 @@ fn main() -> Outcome<()> {
             gallery::write(Path::new(folder), presets)
         }
         _ => Err(
-            "usage: comic > benches/results/comic.md, comic prices [processor|device [WIDTHxHEIGHT] [PRESET..]], or comic gallery FOLDER [PRESET..]".into(),
+            "usage: comic > benches/results/comic.md, comic prices [processor|device [WIDTHxHEIGHT] [PRESET..]], or \
+             comic gallery FOLDER [PRESET..]".into(),
         ),
     }
 }
@@ -78,9 +79,10 @@ fn report() -> Outcome<()> {
 fn motion() -> Outcome<()> {
     println!("## Strokes while the camera goes round\n");
     println!(
-        "{FRAMES} frames {}x{}, a degree apart, light fixed to the model, strokes 8 pixels apart. Ink is carried from frame to frame \
-         by the surface's own points. Shift: how far squares of 24 pixels then have to move to match, across strokes, \
-         the vertex of a parabola through whole pixels. Flips: pixels that go from ink to paper or back, by more than half a pixel.\n",
+        "{FRAMES} frames {}x{}, a degree apart, light fixed to the model, strokes 8 pixels apart. Ink is carried from \
+         frame to frame by the surface's own points. Shift: how far squares of 24 pixels then have to move to match, \
+         across strokes, the vertex of a parabola through whole pixels. Flips: pixels that go from ink to paper or \
+         back, by more than half a pixel.\n",
         ORBIT_SIZE[0], ORBIT_SIZE[1]
     );
     let mut table = Table::new([
@@ -206,9 +208,9 @@ fn prices(choice: &[String]) -> Outcome<()> {
     }
     println!("## What ink and hatching cost\n");
     println!(
-        "The bunny at {}x{}: medians of {RUNS} frames drawn by turns and, in brackets, the least, in ms. Preparing is done once \
-         and holds tiles and charts. Work is what all threads of the process did in a frame: unlike the time it hardly hangs on \
-         what else the machine does. Published: 8 % more than plain shading.\n",
+        "The bunny at {}x{}: medians of {RUNS} frames drawn by turns and, in brackets, the least, in ms. Preparing is \
+         done once and holds tiles and charts. Work is what all threads of the process did in a frame: unlike the \
+         time it hardly hangs on what else the machine does. Published: 8 % more than plain shading.\n",
         size[0], size[1]
     );
     if engine != Some("device") {

@@ -61,7 +61,8 @@ impl Look {
         Ok([
             Self {
                 name: "okuya, 1 sample",
-                note: "Every edge of a front face is drawn with width and looked up in the mask, so ink grows with both.",
+                note: "Every edge of a front face is drawn with width and looked up in the mask, so ink grows with \
+                       both.",
                 style: published,
             },
             Self {
@@ -71,7 +72,8 @@ impl Look {
             },
             Self {
                 name: "toon",
-                note: "Triangles that lie in one tone are shaded once; large ones cross tones more often and are shaded by pixel.",
+                note: "Triangles that lie in one tone are shaded once; large ones cross tones more often and are \
+                       shaded by pixel.",
                 style: Style::default(),
             },
         ])
@@ -79,15 +81,19 @@ impl Look {
 }
 
 fn report() -> Outcome<()> {
+    // Say what was measured, and where.
     println!("# Whole frames\n");
     println!("- machine: {}; no graphics device", machine::description());
     println!("- code: {}", machine::code());
     println!(
-        "- each figure: the median of {RUNS} frames and, in brackets, the least, in ms, on the processor engine; loading, welding and curvature happen before the clock starts"
+        "- each figure: the median of {RUNS} frames and, in brackets, the least, in ms, on the processor engine; \
+         loading, welding and curvature happen before the clock starts"
     );
     println!("- load average at the start: {}\n", machine::load());
 
     let looks = Look::all()?;
+
+    // Measure how costs grow with triangles and pixels.
     println!("## Triangles and pixels [Okuya 2016, table 1]\n");
     println!("A bumpy ball that fills the frame's height.\n");
     for look in &looks {
@@ -137,6 +143,7 @@ fn times_of(what: &str, cells: &[Cell<'_>]) -> Outcome<Vec<Times>> {
 /// Times every number of triangles at every size, prints them, and gives the least: other work on the machine only
 /// adds to them.
 fn measure_grid(look: &Look) -> Outcome<Vec<Sample>> {
+    // Make a frame for every number of triangles and every size.
     let subjects = TRIANGLE_COUNTS
         .iter()
         .map(|count| Subject::ball(*count))
@@ -151,6 +158,8 @@ fn measure_grid(look: &Look) -> Outcome<Vec<Sample>> {
     let cells: Vec<Cell> = subjects.iter().flat_map(of_subject).collect();
     let times = times_of(look.name, &cells)?;
     print_grid(look, &times);
+
+    // Keep the least times, which costs are fitted to.
     let samples = cells.iter().zip(times);
     Ok(samples
         .map(|(cell, times)| Sample {
@@ -196,6 +205,8 @@ fn print_fit(samples: &[Sample]) {
 
 fn print_mask_scales(looks: &[Look]) -> Outcome<()> {
     let subject = Subject::ball(TRIANGLE_COUNTS[3])?;
+
+    // Time every look with every size of mask pixels.
     let scaled = |scale| {
         looks
             .iter()
@@ -243,6 +254,8 @@ fn print_bunny() -> Outcome<()> {
         style: &style,
         size: FULL_HD,
     };
+
+    // Time whole frames.
     let times = times_of("bunny", &[cell])?[0];
     println!("## A scanned bunny at 1920x1080, preset `toon`\n");
     println!(
@@ -254,6 +267,8 @@ fn print_bunny() -> Outcome<()> {
         "- most memory of a process that loads, prepares and draws it: {} MB\n",
         child_peak(&path)?
     );
+
+    // Time the passes of one frame.
     let frame = subject
         .warm_renderer(&Processor, &style, FULL_HD)?
         .draw(&subject.camera)?;

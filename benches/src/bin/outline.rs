@@ -75,15 +75,18 @@ fn main() -> Outcome<()> {
 fn contrast() -> Outcome<()> {
     println!("## Twelve frames\n");
     println!(
-        "Preset toon; black lines, but ours, which starts from the rim's colour as it is, {} x {} pixels. Below: share of the outline whose line differs by less than {CONTRAST} in OKLab's \
-         lightness from what lies behind. Distance: mean distance in OKLab between line and rim. How places are judged stands in \
-         the [README](../README.md).\n",
+        "Preset toon; black lines, but ours, which starts from the rim's colour as it is, {} x {} pixels. Below: \
+         share of the outline whose line differs by less than {CONTRAST} in OKLab's lightness from what lies behind. \
+         Distance: mean distance in OKLab between line and rim. How places are judged stands in the \
+         [README](../README.md).\n",
         SIZE[0], SIZE[1]
     );
     let names = METHODS.iter();
     let head = names.flat_map(|m| [format!("{}, below", m.name), "distance".to_owned()]);
     let mut table = Table::new(["frame".to_owned()].into_iter().chain(head));
     let mut sums = [Verdict::default(); METHODS.len()];
+
+    // Judge every method on every frame.
     for (name, scenery) in FRAMES {
         let Some((model, camera)) = subject(name)? else {
             continue;
@@ -98,6 +101,8 @@ fn contrast() -> Outcome<()> {
         eprintln!("{name}, {}: {}", scenery.name(), cells.join(" "));
         table.add(format!("{name}, {}", scenery.name()), cells);
     }
+
+    // Sum up, and hold ours against what is wanted.
     table.add("all", sums.iter().flat_map(cells_of));
     println!("{table}");
     let [_, red, _, ours] = sums;
@@ -120,9 +125,10 @@ fn cells_of(verdict: &Verdict) -> [String; 2] {
 fn orbits() -> Outcome<()> {
     println!("## Colours that flip\n");
     println!(
-        "{STEPS} steps of {STEP_DEG} degrees. A place of the outline flips where the outline goes on within 4 pixels along the same rim \
-         and before the same background, but nowhere there within {FLIP} of its colour in OKLab. Given is the share of places a \
-         degree; wanted is under 0.5 %. In brackets the share below {CONTRAST} of lightness, as above, over all frames.\n"
+        "{STEPS} steps of {STEP_DEG} degrees. A place of the outline flips where the outline goes on within 4 pixels \
+         along the same rim and before the same background, but nowhere there within {FLIP} of its colour in OKLab. \
+         Given is the share of places a degree; wanted is under 0.5 %. In brackets the share below {CONTRAST} of \
+         lightness, as above, over all frames.\n"
     );
     let head = ["orbit"].into_iter().chain(METHODS.iter().map(|m| m.name));
     let mut table = Table::new(head);
@@ -143,6 +149,8 @@ fn orbit(name: &str, scenery: Scenery, method: &Method) -> Outcome<String> {
     let mut show = Show::new(&Processor, &model, scenery, method, SIZE)?;
     let middle = Vec3::from(camera.target);
     let mut before = show.places(&camera)?;
+
+    // Go round the character, and compare every frame with the one before.
     let (mut sum, mut verdict) = ([0, 0], Verdict::default());
     for step in 1..=STEPS {
         let camera = turned(camera, middle, step as f32 * STEP_DEG);
@@ -164,10 +172,11 @@ fn orbit(name: &str, scenery: Scenery, method: &Method) -> Outcome<String> {
 fn objects() -> Outcome<()> {
     println!("## Ten objects beside one\n");
     println!(
-        "Balls of {TRIANGLES} triangles, each a character of its own, that cover as much of 1920 x 1080 pixels together as one does; published \
-         were 86.9 and 81.3 frames a second [Tsuji 2014, table 3.2]. Medians of {RUNS} frames in ms and, in brackets, the least; wanted is \
-         under 10 % more. Ten have 3.16 times the outline of one, so the same ten stand beside them as a single object: the rest is what \
-         objects cost by themselves. Load average {}.\n",
+        "Balls of {TRIANGLES} triangles, each a character of its own, that cover as much of 1920 x 1080 pixels \
+         together as one does; published were 86.9 and 81.3 frames a second [Tsuji 2014, table 3.2]. Medians of \
+         {RUNS} frames in ms and, in brackets, the least; wanted is under 10 % more. Ten have 3.16 times the outline \
+         of one, so the same ten stand beside them as a single object: the rest is what objects cost by themselves. \
+         Load average {}.\n",
         machine::load()
     );
     objects_on(&Processor)?;
@@ -185,6 +194,8 @@ fn objects_on(engine: &dyn Engine) -> Outcome<()> {
         up: [0.0, 1.0, 0.0],
         projection: Projection::Parallel { height: 4.4 },
     };
+
+    // Make one ball, ten characters, and the same ten as one object.
     let subject = |scene| -> Outcome<Subject> {
         let model = Model::new(&scene)?;
         Ok(Subject { model, camera })
@@ -206,6 +217,8 @@ fn objects_on(engine: &dyn Engine) -> Outcome<()> {
         for setting in method.settings {
             style.set(setting)?;
         }
+
+        // Draw by turns, so that what else the machine does hits all alike.
         let mut renderers = Vec::new();
         for (name, subject) in &subjects {
             renderers.push((*name, subject.warm_renderer(engine, &style, FULL_HD)?));
@@ -223,6 +236,8 @@ fn objects_on(engine: &dyn Engine) -> Outcome<()> {
         let [one, ten, as_one] = times[..] else {
             continue;
         };
+
+        // Say how much more ten cost.
         let cells = |of: fn(&(Times, Times)) -> Times| {
             let [one, ten, as_one] = [&one, &ten, &as_one].map(of);
             let more =

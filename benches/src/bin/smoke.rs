@@ -137,9 +137,9 @@ fn empty() -> Outcome<Model> {
 fn times() -> Outcome<()> {
     println!("## A frame, stage by stage\n");
     println!(
-        "Medians of {RUNS} frames in one process and, in brackets, the least, in ms. Work is what all threads of the process did: \
-         unlike the time it hardly hangs on what else the machine does. Preset smoke-cel-2, lights see the smoke in 2048 x 2048 \
-         texels. Load average {}.\n",
+        "Medians of {RUNS} frames in one process and, in brackets, the least, in ms. Work is what all threads of the \
+         process did: unlike the time it hardly hangs on what else the machine does. Preset smoke-cel-2, lights see \
+         the smoke in 2048 x 2048 texels. Load average {}.\n",
         machine::load()
     );
     println!("### The paper's case: 15 x 15 x 20 cells, 200 spheres at most, 512 x 512 pixels\n");
@@ -155,6 +155,7 @@ fn times() -> Outcome<()> {
 }
 
 fn paper_case() -> Outcome<Ledger> {
+    // Let the smoke rise before the clock starts.
     let mut smoke = Smoke::new(plume(PAPER_GRID))?;
     (0..48).for_each(|_| smoke.step());
     let settings = TrackSettings::default();
@@ -222,6 +223,8 @@ fn growth() -> Outcome<()> {
     let Some(volume) = tall()? else {
         return Ok(());
     };
+
+    // Time what follows voxels, on grids from coarse to fine.
     let mut table = Table::new(["voxels", "distances", "2000 spheres that follow"]);
     for block in [4, 3, 2, 1] {
         let volume = volume.coarsened(block);
@@ -304,13 +307,14 @@ fn grown(volume: &Volume, count: u32, size: [u32; 2], sigma: f32) -> Outcome<[St
 fn calm() -> Outcome<()> {
     println!("## Tones that change without cause\n");
     println!(
-        "{FRAMES} steps of pictures 512 x 512 under a light fixed to the world. Every pixel's true point, on the spheres \
-         that stand for the smoke, is carried to the frame before with its sphere and through that frame's camera, once as paint on \
-         the sphere and once as part of its image, as outlines are; it is compared where it is seen there too, and either way may \
-         explain its tone. Its tone differs where it lies more than {STEP} of the way from black to white off the tone \
-         there; it jumps where nothing within a pixel comes nearer either. Styles are held against \
-         the points of the spheres that they draw or stand for: ours, but for published particles their own, whose births, deaths \
-         and leaps in size therefore count for nothing here and are counted below. Billboards are lit by nothing: of them only lines can change.\n"
+        "{FRAMES} steps of pictures 512 x 512 under a light fixed to the world. Every pixel's true point, on the \
+         spheres that stand for the smoke, is carried to the frame before with its sphere and through that frame's \
+         camera, once as paint on the sphere and once as part of its image, as outlines are; it is compared where it \
+         is seen there too, and either way may explain its tone. Its tone differs where it lies more than {STEP} of \
+         the way from black to white off the tone there; it jumps where nothing within a pixel comes nearer either. \
+         Styles are held against the points of the spheres that they draw or stand for: ours, but for published \
+         particles their own, whose births, deaths and leaps in size therefore count for nothing here and are counted \
+         below. Billboards are lit by nothing: of them only lines can change.\n"
     );
     let mut table = Table::new([
         "subject",
@@ -334,9 +338,9 @@ fn calm() -> Outcome<()> {
 fn lives() -> Outcome<()> {
     println!("### The spheres themselves\n");
     println!(
-        "The same plume. A sphere comes or goes at once where it is there in one frame, larger than a tenth of the largest, and not \
-         in the next. Radii: by how much a sphere changes from frame to frame, as a share of the larger radius. Billboards stand where \
-         our spheres do, all of their mean size.\n"
+        "The same plume. A sphere comes or goes at once where it is there in one frame, larger than a tenth of the \
+         largest, and not in the next. Radii: by how much a sphere changes from frame to frame, as a share of the \
+         larger radius. Billboards stand where our spheres do, all of their mean size.\n"
     );
     let mut table = Table::new([
         "spheres",

@@ -36,6 +36,7 @@ const COLUMNS: usize = 3;
 ///
 /// Where a model cannot be read or a sheet cannot be written.
 pub fn write(folder: &Path, names: &[String]) -> Result<(), Box<dyn Error>> {
+    // Read the models that are there.
     let mut models = Vec::new();
     for path in MODELS.map(|name| shared_models().join(name)) {
         if path.is_file() {
@@ -47,6 +48,8 @@ pub fn write(folder: &Path, names: &[String]) -> Result<(), Box<dyn Error>> {
     if models.is_empty() {
         return Ok(());
     }
+
+    // Write a sheet for every preset that is asked for.
     std::fs::create_dir_all(folder)?;
     for preset in presets() {
         if names.is_empty() || names.iter().any(|name| name == preset.name) {

@@ -71,6 +71,7 @@ impl Inked {
 
     /// Writes a triangle wherever it is nearest; triangles that reach behind the eye are left out.
     fn show(&mut self, corners: [DVec3; 3]) {
+        // Leave out what reaches behind the eye, and what shows no area.
         let depths = corners.map(|corner| self.viewpoint.depth(corner));
         if depths.iter().any(|depth| *depth <= 0.0) {
             return;
@@ -80,6 +81,8 @@ impl Inked {
         if area == 0.0 {
             return;
         }
+
+        // Visit the pixels whose centres lie in the triangle.
         let range = |i: usize, side: usize| {
             let low = (a[i].min(b[i]).min(c[i]) - 0.5).ceil().max(0.0);
             let high = (a[i].max(b[i]).max(c[i]) + 0.5)
@@ -94,6 +97,8 @@ impl Inked {
                 if shares.iter().any(|share| *share < 0.0) {
                     continue;
                 }
+
+                // Keep the nearest point, found by shares that are true in perspective.
                 let weights: [f64; 3] = std::array::from_fn(|i| shares[i] / depths[i]);
                 let depth = 1.0 / (weights[0] + weights[1] + weights[2]);
                 let pixel = &mut self.surface[y * self.width + x];
@@ -133,6 +138,7 @@ impl Inked {
 
     /// How ink changes from this frame to `next`; shifts only where asked, they take most of the time.
     pub fn change_to(&self, next: &Self, with_shifts: bool) -> Change {
+        // Carry the ink to the next frame by the points of the surface.
         let carried: Vec<Option<f64>> = (next.surface.iter())
             .map(|seen| self.ink_of(seen.as_ref()?.0).map(|(ink, _)| ink))
             .collect();
@@ -142,6 +148,8 @@ impl Inked {
             change.pixels += 1;
             change.flips += usize::from((ink - next.ink[i]).abs() > 0.5);
         }
+
+        // Measure how far the surface itself moves, at some of its pixels.
         let middle = next.surface.iter().enumerate().step_by(97);
         change.moves = middle
             .filter_map(|(i, seen)| {
@@ -150,6 +158,8 @@ impl Inked {
                 Some((column as f64 + 0.5 - x).hypot(row as f64 + 0.5 - y))
             })
             .collect();
+
+        // Measure how far the strokes move against it.
         if with_shifts {
             change.shifts = next.shifts_from(&carried);
         }

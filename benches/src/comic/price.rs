@@ -32,6 +32,7 @@ pub fn prices(
     size: [u32; 2],
     runs: usize,
 ) -> Result<Vec<Price>, RenderError> {
+    // Prepare a renderer for every style.
     let mut renderers = Vec::with_capacity(styles.len());
     let mut prepare_ms = Vec::with_capacity(styles.len());
     for style in styles {
@@ -41,6 +42,8 @@ pub fn prices(
         }));
         renderers.extend(renderer.transpose()?);
     }
+
+    // Draw all styles by turns.
     let mut frames = vec![Vec::with_capacity(runs); renderers.len()];
     let (mut composes, mut works) = (frames.clone(), frames.clone());
     for _ in 0..runs {
@@ -56,6 +59,8 @@ pub fn prices(
             composes[i].push(last.unwrap_or_default().as_secs_f64() * 1e3);
         }
     }
+
+    // Join the times of every style.
     let timed = prepare_ms.into_iter().zip(frames);
     let timed = timed.zip(works.into_iter().zip(composes));
     Ok(timed

@@ -110,6 +110,7 @@ impl<'a> Seen<'a> {
 
     /// The line between two faces.
     fn between(&self, edge: &SoupEdge, sides: [u32; 2]) -> Option<Candidate> {
+        // Take an edge where facing changes for a contour, on the face turned to the eye.
         let alike = self.soup.wound_alike(sides);
         let front = sides.map(|side| self.is_front(side));
         if (front[0] == front[1]) != alike {
@@ -125,6 +126,8 @@ impl<'a> Seen<'a> {
             }
             return Some(line);
         }
+
+        // Take others for creases, or for lines between materials.
         let seen_outside = front[0] || front[1];
         let [a, b] = sides.map(|side| side as usize / 3);
         if self.turns(sides) {

@@ -113,6 +113,7 @@ fn following(half_edge: u32) -> u32 {
 /// Joins candidates outside of contour loops: at every vertex those of one kind, two as they are, of more the
 /// straightest pairs.
 fn join_at_vertices(soup: &Soup, lines: &[Candidate], joints: &mut Joints) {
+    // Gather the ends of lines by kind and vertex.
     let mut meetings: BTreeMap<(Kind, u32), Vec<(u32, bool)>> = BTreeMap::new();
     for (number, line) in lines
         .iter()
@@ -126,6 +127,8 @@ fn join_at_vertices(soup: &Soup, lines: &[Candidate], joints: &mut Joints) {
                 .push((number as u32, at_tail));
         }
     }
+
+    // Join the only two, or the straightest pairs.
     for ((_, vertex), ends) in meetings {
         if let [a, b] = ends[..] {
             joints.join(a, b);
@@ -238,10 +241,13 @@ pub(crate) fn runs(
     chains
         .iter()
         .map(|chain| {
+            // Walk along the chain in its direction.
             let walk = chain
                 .links
                 .iter()
                 .flat_map(|(line, backwards)| walked(&samples[*line as usize], *backwards));
+
+            // Cut it where it is hidden.
             let first = &lines[chain.links[0].0 as usize];
             let layer = Layer {
                 kind: first.kind,
@@ -343,7 +349,8 @@ mod tests {
             let found = cut(CONTOUR, closed, walk);
             let mut xs: Vec<usize> = found
                 .iter()
-                .flat_map(|run| run.points.windows(2).filter(|pair| pair[0][0] < pair[1][0]).map(|pair| pair[0][0] as usize))
+                .flat_map(|run| run.points.windows(2).filter(|pair| pair[0][0] < pair[1][0]))
+                .map(|pair| pair[0][0] as usize)
                 .collect();
             xs.sort_unstable();
             let count = xs.len();
@@ -352,7 +359,8 @@ mod tests {
             prop_assert!(xs.iter().all(|x| sights[*x] != 2));
             prop_assert!((0..sights.len()).all(|i| sights[i] != 0 || xs.binary_search(&i).is_ok()));
             // Starts of runs: visible pieces whose forerunner is not.
-            let before = |i: usize| if i > 0 { Some(sights[i - 1]) } else if closed { sights.last().copied() } else { None };
+            let last = sights.last().copied().filter(|_| closed);
+            let before = |i: usize| if i > 0 { Some(sights[i - 1]) } else { last };
             let starts = (0..sights.len()).filter(|i| sights[*i] != 2 && before(*i).is_none_or(|s| s == 2)).count();
             prop_assert!(found.len() <= starts.max(1));
         }

@@ -7,6 +7,7 @@ const FNV: [u64; 2] = [0xcbf2_9ce4_8422_2325, 0x0000_0100_0000_01b3];
 
 /// Digest of every bit of every stroke in order [FNV-1a].
 pub fn digest(drawing: &Drawing) -> u64 {
+    // List the numbers of every stroke and of its points.
     let strokes = drawing.strokes.iter().flat_map(|stroke| {
         let head = [
             stroke.id,
@@ -33,6 +34,8 @@ pub fn digest(drawing: &Drawing) -> u64 {
         });
         head.into_iter().chain(points)
     });
+
+    // Hash their bytes in order.
     let size = drawing.size.map(u64::from);
     let words = size.into_iter().chain(strokes);
     let bytes = words.flat_map(u64::to_le_bytes);

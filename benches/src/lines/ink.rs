@@ -88,9 +88,12 @@ pub fn sample(curves: &[Curve]) -> Vec<InkPoint> {
 
 /// Points at equal distances on a line, each in the middle of what it stands for.
 fn sample_one(number: u32, curve: &Curve) -> Vec<InkPoint> {
+    // Cut the line into equal pieces of about a step.
     let whole = curve.length();
     let count = (whole / STEP_PX).ceil().max(1.0) as usize;
     let step = whole / count as f64;
+
+    // Put a point into the middle of each.
     let mut points = Vec::with_capacity(count);
     let mut passed = 0.0;
     for [a, b] in curve.segments() {
@@ -155,6 +158,7 @@ impl Bins {
     /// Cells of at least `radius` pixels, which is how far [`Bins::near`] looks. Points that are not finite are never
     /// found.
     pub fn new(points: Vec<[f64; 2]>, radius: f64) -> Self {
+        // Lay a grid over the finite points.
         let finite = points.iter().filter(|p| p.iter().all(|v| v.is_finite()));
         let start = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let (low, high) = finite.fold(start, |(low, high), p| {
@@ -175,6 +179,8 @@ impl Bins {
             counts: extent.map(|v| (v / cell) as usize + 1),
             points,
         };
+
+        // Sort the points by cell.
         let mut placed: Vec<(u32, u32)> = (0u32..)
             .zip(&bins.points)
             .filter(|(_, p)| p.iter().all(|v| v.is_finite()))
@@ -184,6 +190,8 @@ impl Bins {
             })
             .collect();
         placed.sort_unstable();
+
+        // Note where each cell starts.
         let cells = bins.counts[0] * bins.counts[1];
         bins.starts = vec![0; cells + 1];
         placed

@@ -104,6 +104,7 @@ fn pieces(stroke: DrawnStroke, layers: &[Vec<Layer>]) -> Vec<DrawnStroke> {
 }
 
 fn cut_open(stroke: DrawnStroke, layers: &[Vec<Layer>]) -> Vec<DrawnStroke> {
+    // Cover the stroke by as few stretches of one layer as can.
     let stations = stations(&stroke.points);
     let cover = fewest(&stations, &stretches(&stations, layers));
     let changes = cover
@@ -113,6 +114,8 @@ fn cut_open(stroke: DrawnStroke, layers: &[Vec<Layer>]) -> Vec<DrawnStroke> {
     if cuts.is_empty() {
         return vec![stroke];
     }
+
+    // Cut it where the layer changes.
     let starts = std::iter::once(0).chain(cuts.iter().copied());
     let ends = cuts.iter().map(|cut| cut + 1).chain([stroke.points.len()]);
     starts
@@ -154,6 +157,8 @@ fn stretches(stations: &[f64], layers: &[Vec<Layer>]) -> Vec<Stretch> {
     let mut all: Vec<Layer> = layers.iter().flatten().copied().collect();
     all.sort_unstable();
     all.dedup();
+
+    // Join points of a layer over short gaps.
     let of_layer = |layer: Layer| {
         let mut found: Vec<Stretch> = Vec::new();
         for point in (0..layers.len()).filter(|point| layers[*point].contains(&layer)) {
@@ -169,6 +174,8 @@ fn stretches(stations: &[f64], layers: &[Vec<Layer>]) -> Vec<Stretch> {
         }
         found
     };
+
+    // Drop stretches that are too short to be a line.
     let is_held = |s: &Stretch| stations[s.range.end - 1] - stations[s.range.start] >= SHORTEST_PX;
     all.into_iter().flat_map(of_layer).filter(is_held).collect()
 }
@@ -440,7 +447,10 @@ mod tests {
                     || (bare.len() < 8)
             };
             let smallest = (0..1u32 << all.len())
-                .map(|bits| all.iter().enumerate().filter(|(i, _)| bits >> i & 1 == 1).map(|(_, s)| s).collect::<Vec<_>>())
+                .map(|bits| {
+                    let chosen = all.iter().enumerate().filter(|(i, _)| bits >> i & 1 == 1);
+                    chosen.map(|(_, s)| s).collect::<Vec<_>>()
+                })
                 .filter(|chosen| !chosen.is_empty() && leaves_little(chosen))
                 .map(|chosen| chosen.len())
                 .min();

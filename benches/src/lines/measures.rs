@@ -127,12 +127,15 @@ impl Measures {
 
 /// Measures a drawing against the lines that it must show.
 pub fn measure(drawing: &Drawing, reference: &Reference) -> Measures {
+    // Sample the ink inside the frame.
     let frame = drawing.size.map(f64::from);
     let curves = Curve::of_drawing(drawing);
     let ink: Vec<InkPoint> = sample(&curves)
         .into_iter()
         .filter(|point| (0..2).all(|i| (0.0..=frame[i]).contains(&point.at[i])))
         .collect();
+
+    // Compare it with what is due.
     let runs: Vec<Curve> = reference.runs.iter().map(Curve::of_run).collect();
     let found = Found::new(&ink, &curves, reference);
     Measures {
@@ -290,6 +293,7 @@ fn clusters(faults: &[Fault]) -> Vec<Fault> {
     let mut seen = vec![false; faults.len()];
     let mut found = Vec::new();
     for first in 0..faults.len() {
+        // Grow a cluster from every fault that is in none.
         let mut open = vec![first];
         let mut members = Vec::new();
         while let Some(fault) = open.pop() {
@@ -303,18 +307,23 @@ fn clusters(faults: &[Fault]) -> Vec<Fault> {
         }
         found.extend(merged(&members));
     }
+
+    // List the longest first.
     found.sort_by(|a, b| b.length.total_cmp(&a.length));
     found
 }
 
 /// One fault for several: it lies at the member nearest to their mean.
 fn merged(members: &[Fault]) -> Option<Fault> {
+    // Find the member in the middle.
     let length: f64 = members.iter().map(|fault| fault.length).sum();
     let mean = [0, 1].map(|i| members.iter().map(|f| f.at[i]).sum::<f64>() / members.len() as f64);
     let to_mean = |fault: &&Fault| distance(fault.at, mean);
     let middle = members
         .iter()
         .min_by(|a, b| to_mean(a).total_cmp(&to_mean(b)))?;
+
+    // Give it the kind of most of the length.
     let of_kind = |kind: Kind| {
         members
             .iter()

@@ -185,6 +185,7 @@ impl Net {
     ) -> Vec<DrawnStroke> {
         let mut joints = Joints::new(self.arcs.len());
         for ends in self.meetings().into_values() {
+            // Look at the directions and layers in which lines leave the meeting.
             let arc_of = |(arc, at_tail): &(u32, bool)| (&self.arcs[*arc as usize], *at_tail);
             let direction = |end: &(u32, bool)| {
                 let (arc, at_tail) = arc_of(end);
@@ -198,6 +199,8 @@ impl Net {
             });
             let layers: Vec<Vec<Layer>> = layers.collect();
             let is_shared = |a: usize, b: usize| layers[a].iter().any(|l| layers[b].contains(l));
+
+            // Join the straightest of one layer, then the only two, then the rest.
             joints.join_straightest(&ends, |a, b| {
                 if is_shared(a, b) {
                     straight(a, b)
@@ -210,6 +213,8 @@ impl Net {
             }
             joints.join_straightest(&ends, straight);
         }
+
+        // Leave out strokes too short to be seen as lines.
         let strokes = joints.chains().into_iter().map(|chain| self.stroke(&chain));
         strokes
             .filter(|stroke| stroke.length >= SHORTEST_PX)

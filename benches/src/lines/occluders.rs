@@ -56,6 +56,7 @@ impl<'a> Occluders<'a> {
 
     /// Builds the box of `order[from..to]` and everything below it, and gives its number.
     fn split(&mut self, from: usize, to: usize) -> u32 {
+        // Bound the faces by a box.
         let corners = self.order[from..to].iter().flat_map(|f| self.corners(*f));
         let (low, high) = corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
             (low.min(p), high.max(p))
@@ -67,6 +68,8 @@ impl<'a> Occluders<'a> {
             start: from as u32,
             count: (to - from) as u32,
         });
+
+        // Halve them along its longest axis.
         if to - from > LEAF_SIZE {
             let axis = (high - low).max_position();
             let middle = (to - from) / 2;
@@ -90,6 +93,7 @@ impl<'a> Occluders<'a> {
     /// Faces on both vertices of `edge` are left out: a line does not hide behind what it bounds. The search ends at
     /// the first face before the share `enough`.
     pub fn first_hit(&self, origin: DVec3, point: DVec3, edge: [u32; 2], enough: f64) -> f64 {
+        // Start at the root of the tree.
         let direction = point - origin;
         let inverse = direction.recip();
         let mut nearest = 1.0;
@@ -99,6 +103,7 @@ impl<'a> Occluders<'a> {
             vec![0u32]
         };
         while let Some(number) = open.pop() {
+            // Open only boxes that the ray meets.
             let node = &self.nodes[number as usize];
             if !node.meets(origin, inverse) {
                 continue;
@@ -107,6 +112,8 @@ impl<'a> Occluders<'a> {
                 open.extend([number + 1, node.start]);
                 continue;
             }
+
+            // Test the faces of a leaf, but not those that the line bounds.
             for face in &self.order[node.start as usize..][..node.count as usize] {
                 let vertices = self.faces[*face as usize];
                 if edge.iter().all(|end| vertices.contains(end)) {

@@ -127,11 +127,14 @@ impl Paper {
         loop {
             let before = black.len();
             for side in 0..4 {
+                // Find the pixels with white on this side.
                 let edge: Vec<usize> = black
                     .iter()
                     .copied()
                     .filter(|pixel| !self.black[self.sides(*pixel)[side]])
                     .collect();
+
+                // Take those that hold nothing together.
                 for pixel in edge {
                     if self.can_go(pixel) {
                         self.black[pixel] = false;

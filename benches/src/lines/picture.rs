@@ -17,12 +17,17 @@ const COLOURS: [&str; 8] = [
 /// of its own, its ends as dots. Ink that lies double is marked in the third.
 pub fn picture(reference: &Reference, drawing: &Drawing) -> String {
     let [width, height] = drawing.size;
+
+    // Gather the lines of every panel.
     let strokes = Curve::of_drawing(drawing);
     let runs = reference.runs.iter().map(|run| (&run.points, run.closed));
     let drawn = reference.drawn.iter().map(|run| (&run.points, run.closed));
     let own = strokes.iter().map(|curve| (&curve.points, curve.closed));
+
+    // Draw the panels beside each other.
     let mut text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {height}\"><rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {height}\"><rect width=\"100%\" height=\"100%\" \
+         fill=\"white\"/>\n",
         3 * width
     );
     for (panel, lines) in [panel(runs), panel(drawn), panel(own) + &marks(&strokes)]
@@ -42,6 +47,7 @@ pub fn picture(reference: &Reference, drawing: &Drawing) -> String {
 fn panel<'a>(lines: impl Iterator<Item = (&'a Vec<[f64; 2]>, bool)>) -> String {
     let mut text = String::new();
     for (number, (points, closed)) in lines.enumerate() {
+        // Draw the line in a colour of its own.
         let color = COLOURS[number % COLOURS.len()];
         let path: Vec<String> = points
             .iter()
@@ -53,6 +59,8 @@ fn panel<'a>(lines: impl Iterator<Item = (&'a Vec<[f64; 2]>, bool)>) -> String {
             "<path d=\"M{}{close}\" fill=\"none\" stroke=\"{color}\"/>",
             path.join(" L")
         );
+
+        // Mark the ends of an open line.
         for [x, y] in points
             .first()
             .into_iter()

@@ -82,18 +82,23 @@ pub struct Reference {
 impl Reference {
     /// The visible lines of a soup. Costs a ray for every half pixel of every candidate, hidden ones too.
     pub fn new(soup: &Soup, view: &Viewpoint, wanted: &Wanted) -> Self {
+        // Find the edges that may be lines in this view.
         let edges = soup.edges();
         let seen = Seen::new(soup, &edges, view, wanted);
         let lines: Vec<Candidate> = edges
             .par_iter()
             .filter_map(|edge| seen.candidate(edge))
             .collect();
+
+        // Look whether each is seen, piece by piece.
         let sight = Sighting::new(soup, view);
         let samples: Vec<Vec<Sample>> = lines.par_iter().map(|line| sight.samples(line)).collect();
         let pieces = lines
             .iter()
             .zip(&samples)
             .flat_map(|(line, samples)| sight.pieces(line, samples));
+
+        // Join the seen pieces to runs, and the runs to strokes of a pen.
         let by_chain = runs(&chain(soup, &edges, &seen, &lines), &lines, &samples);
         let mut reference = Self {
             pieces: pieces.collect(),
@@ -146,16 +151,21 @@ impl<'a> Sighting<'a> {
 
     /// The pieces of a line from tail to head; where it leaves the frame, a hidden one stands for the rest.
     fn samples(&self, line: &Candidate) -> Vec<Sample> {
+        // Clip the line to the frame.
         let [tail, head] = self.ends(line);
         let Some([from, to]) = self.view.clip(tail, head) else {
             return vec![out_of_frame()];
         };
+
+        // Cut it into pieces of half a pixel.
         let ends = [tail.lerp(head, from), tail.lerp(head, to)];
         let depths = ends.map(|end| self.view.depth(end));
         let [a, b] = ends.map(|end| self.view.project(end));
         let length = (b[0] - a[0]).hypot(b[1] - a[1]);
         let count = (length / STEP_PX).ceil().clamp(1.0, MOST_PIECES);
         let place = |share: f64| [0, 1].map(|axis| a[axis] + share * (b[axis] - a[axis]));
+
+        // Look at the middle of every piece.
         let inside = (0..count as usize).map(|i| {
             let [start, middle, end] = [0.0, 0.5, 1.0].map(|part| (i as f64 + part) / count);
             let share = self.view.world_share(depths, middle);
@@ -166,6 +176,8 @@ impl<'a> Sighting<'a> {
                 sight: self.sight(line, ends[0].lerp(ends[1], share)),
             }
         });
+
+        // Let a hidden piece stand for what lies outside.
         let before = (from > 0.0).then(out_of_frame);
         let after = (to < 1.0).then(out_of_frame);
         before.into_iter().chain(inside).chain(after).collect()

@@ -163,6 +163,7 @@ fn floored(share: f64) -> String {
 }
 
 fn verdict(bar: &Bar, rows: &[Row]) -> String {
+    // Say what the bar is.
     let mut text = format!(
         "Bar: recall {} and precision {} at {} px, doubles {MOST_DOUBLES}, {} to {} strokes a {}.",
         bar.recall,
@@ -172,6 +173,8 @@ fn verdict(bar: &Bar, rows: &[Row]) -> String {
         FRAGMENTATION[1],
         bar.against.word()
     );
+
+    // Count the views that reach it.
     let short: Vec<(&Row, Vec<(bool, String)>)> = rows
         .iter()
         .map(|row| (row, row.shortcomings(bar)))
@@ -189,6 +192,8 @@ fn verdict(bar: &Bar, rows: &[Row]) -> String {
         count - missed(true),
         count - missed(false)
     );
+
+    // Name the worst views.
     let worst = |of: fn(&Measures) -> &[f64; 3]| {
         let share = |row: &&Row| of(&row.measures)[bar.tolerance];
         rows.iter()
@@ -204,6 +209,8 @@ fn verdict(bar: &Bar, rows: &[Row]) -> String {
         }
     }
     text += "\n";
+
+    // List the views that fall short.
     for (row, faults) in short {
         let _ = write!(
             text,
@@ -228,6 +235,8 @@ fn faults(row: &Row) -> String {
         if faults.is_empty() {
             continue;
         }
+
+        // List the longest faults.
         let listed: Vec<String> = faults.iter().take(LISTED_FAULTS).map(fault).collect();
         let _ = write!(
             text,
@@ -236,6 +245,8 @@ fn faults(row: &Row) -> String {
             TOLERANCES_PX[LISTED],
             listed.join("; ")
         );
+
+        // Sum up the others.
         let rest = faults.get(LISTED_FAULTS..).unwrap_or_default();
         if !rest.is_empty() {
             let px: f64 = rest.iter().map(|fault| fault.length).sum();

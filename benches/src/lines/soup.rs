@@ -184,6 +184,7 @@ impl Soup {
     fn normal_across(&self, mut face: usize, edges: &[SoupEdge], edge_of: &[usize]) -> DVec3 {
         let mut turned = 1.0;
         for _ in 0..HOPS {
+            // Take the normal of a face that has area.
             let [a, b, c] = self.corners(face);
             let normal = (b - a).cross(c - a);
             let lengths = [
@@ -198,6 +199,8 @@ impl Soup {
             if normal.length() > FLAT * lengths[longest] {
                 return turned * normal.normalize_or_zero();
             }
+
+            // Go on across the longest edge, and note where the winding changes.
             let here = (3 * face + longest) as u32;
             let across = edges[edge_of[here as usize]]
                 .sides

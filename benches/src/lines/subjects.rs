@@ -105,6 +105,8 @@ fn camera(middle: DVec3, radius: f64, direction: [f64; 3]) -> Camera {
 pub fn pilot_cameras(subject: &LineSubject) -> Vec<Camera> {
     let (middle, radius) = subject.soup.ball();
     let up = 15f64.to_radians();
+
+    // Look at the middle from the side and a little above.
     let view = |turn: f64| {
         let direction = [
             libm::cos(up) * libm::sin(turn),
@@ -120,6 +122,8 @@ pub fn pilot_cameras(subject: &LineSubject) -> Vec<Camera> {
             ..camera(middle, radius, direction)
         }
     };
+
+    // Go round in eight steps.
     (0..8)
         .map(|step| view(f64::from(step) * 45f64.to_radians()))
         .collect()

@@ -23,12 +23,15 @@ pub struct Viewpoint {
 impl Viewpoint {
     /// The view of `camera` in a frame of `size` pixels.
     pub fn new(camera: &Camera, size: [u32; 2]) -> Self {
+        // Build the axes of the picture in double precision.
         let [eye, target, up] = [camera.eye, camera.target, camera.up].map(wide);
         let forward = (target - eye).try_normalize().unwrap_or(DVec3::NEG_Z);
         let right = forward
             .cross(up)
             .try_normalize()
             .unwrap_or_else(|| forward.any_orthonormal_vector());
+
+        // Scale lengths at distance 1, or at any distance in a parallel view.
         let size = size.map(f64::from);
         let (height, parallel) = match camera.projection {
             Projection::Perspective { fov_y } => {

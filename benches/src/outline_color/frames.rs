@@ -89,6 +89,7 @@ impl<'a> Show<'a> {
         method: &Method,
         size: [u32; 2],
     ) -> Result<Self, Box<dyn Error>> {
+        // Prepare a renderer for a background, with lines or without.
         let renderer = |background: &str, line: &str| -> Result<Renderer<'a>, Box<dyn Error>> {
             let mut style = Style::preset("toon")?;
             for setting in method.settings.iter().chain([&background, &line]) {
@@ -102,6 +103,8 @@ impl<'a> Show<'a> {
             };
             Ok(Renderer::new(engine, model, &style, &options)?)
         };
+
+        // Draw the character and the background apart, each with lines and without.
         let (behind, none) = ("background=scenery.png", "background=transparent");
         let (lines, no_lines) = ("", "line.method=none");
         Ok(Self {

@@ -120,16 +120,21 @@ pub fn places(pictures: &Pictures<'_>) -> Vec<Place> {
 
 /// What a place looks like; `None` where everything around is half the character's.
 fn place(pictures: &Pictures<'_>, px: [i32; 2]) -> Option<Place> {
+    // Take the colour of the rim from the character's own pixels.
     let alone = |at| Pixel::of(pictures.alone, at);
     let of_rim = around(px, 2).filter_map(alone).filter(|p| p.alpha == 1.0);
     let is_free = |at: &[i32; 2]| alone(*at).is_some_and(|p| p.alpha == 0.0);
     let free = || around(px, LINE_REACH).filter(is_free);
     let rim = mean(of_rim.map(|p| p.light))?;
+
+    // Take what lies behind from pixels that the character leaves free.
     let behind = mean(
         free()
             .filter_map(|at| Pixel::of(pictures.bare, at))
             .map(|p| p.light),
     )?;
+
+    // Take the line's colour where it covers most, the background taken out.
     let covered = |at: [i32; 2]| Pixel::of(pictures.lined, at).map_or(0.0, |p| p.alpha);
     let most = free().max_by(|a, b| covered(*a).total_cmp(&covered(*b)));
     let line = most.filter(|at| covered(*at) >= COVERED).and_then(|at| {
@@ -159,6 +164,7 @@ fn place(pictures: &Pictures<'_>, px: [i32; 2]) -> Option<Place> {
 /// How many lined places flip between two frames: the outline goes on beside them, along the same rim and before the
 /// same background, but nowhere there in its colour. Also how many were compared. O(places).
 pub fn flips(before: &[Place], after: &[Place], size: [u32; 2]) -> [usize; 2] {
+    // Lay out the places of the later frame.
     let width = size[0] as i32;
     let mut at = vec![None; size[0] as usize * size[1] as usize];
     for place in after {
@@ -168,6 +174,8 @@ pub fn flips(before: &[Place], after: &[Place], size: [u32; 2]) -> [usize; 2] {
     let (mut flipped, mut compared) = (0, 0);
     for place in before {
         let Some(line) = place.line else { continue };
+
+        // Find places beside it along the same rim and before the same background.
         let near = around(place.px, MOVE_REACH).filter(is_in);
         let near = near.filter_map(|px| at[(px[1] * width + px[0]) as usize]);
         let alike = near.filter(|other| {
@@ -176,6 +184,8 @@ pub fn flips(before: &[Place], after: &[Place], size: [u32; 2]) -> [usize; 2] {
         let changes: Vec<f32> = alike
             .filter_map(|other| Some(distance(other.line?, line)))
             .collect();
+
+        // Count a flip where none of them has its colour.
         if changes.is_empty() {
             continue;
         }

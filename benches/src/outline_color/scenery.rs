@@ -94,9 +94,12 @@ fn bricks(u: f32, v: f32) -> [f32; 3] {
 
 /// An evening: a warm horizon under a dark sky, two rows of hills, lamps out of focus.
 fn evening(u: f32, v: f32) -> [f32; 3] {
+    // Paint the sky.
     let up = (1.0 - v / 0.62).clamp(0.0, 1.0);
     let (low, high) = ([0.8, 0.36, 0.16], [0.03, 0.06, 0.16]);
     let mut light: [f32; 3] = std::array::from_fn(|i| low[i] + (high[i] - low[i]) * up.sqrt());
+
+    // Put two rows of hills before it.
     let hills = [
         (0.5, 3.0, [0.09, 0.07, 0.09]),
         (0.62, 5.0, [0.02, 0.025, 0.02]),
@@ -106,6 +109,8 @@ fn evening(u: f32, v: f32) -> [f32; 3] {
         let within = ((v - edge) * 40.0).clamp(0.0, 1.0);
         light = std::array::from_fn(|i| light[i] + (color[i] - light[i]) * within);
     }
+
+    // Light lamps out of focus.
     for lamp in 0..14 {
         let [x, y] = [hash(lamp, 1) * 1.8, 0.55 + 0.4 * hash(lamp, 2)];
         let radius = 0.02 + 0.03 * hash(lamp, 3);

@@ -79,6 +79,7 @@ impl Change {
 impl Shown {
     /// A frame that shows `puffs` through a camera, in any style. O(pixels + spheres).
     pub fn new(frame: &Frame, camera: &Camera, puffs: &[Puff]) -> Self {
+        // Draw the spheres as the frame's camera sees them.
         let size = frame.size;
         let lens = SphereView::of_view(&camera.view(size, around(puffs)));
         let extent = size.map(|side| side as f32);
@@ -90,6 +91,8 @@ impl Shown {
         let mut ids = vec![0; frame.rgba.len() / 4];
         let mut depths = ids.clone();
         draw_spheres(&lens, &window, &balls, &mut ids, &mut depths);
+
+        // Keep the frame's tones beside them.
         let names: Vec<u32> = puffs.iter().map(|puff| puff.id).collect();
         Self {
             size,
@@ -109,16 +112,21 @@ impl Shown {
         let mut change = Change::default();
         for y in 0..self.size[1] {
             for x in 0..self.size[0] {
+                // Find where the frame before showed the same.
                 let Some(places) = self.places_before(before, [x, y]) else {
                     continue;
                 };
                 change.compared += 1;
+
+                // Count tones that no such place explains.
                 let tone = self.tones[(y * self.size[0] + x) as usize];
                 let is_same = |place: &[f32; 2]| (tone - before.tone_at(*place)).abs() <= STEP;
                 if places.iter().any(is_same) {
                     continue;
                 }
                 change.differing += 1;
+
+                // Count those that nothing near explains either.
                 let here = [x as i32, y as i32];
                 let is_near = places.iter().any(|place| {
                     let there = place.map(|px| px.floor() as i32);
@@ -134,6 +142,7 @@ impl Shown {
     /// sphere's image, and as part of the images of spheres within a pixel now or then; none where it does not show
     /// the pixel's own sphere.
     fn places_before(&self, before: &Self, [x, y]: [u32; 2]) -> Option<Vec<[f32; 2]>> {
+        // Carry the pixel as paint on its own sphere.
         let frame_px = self.window.frame_at(x, y);
         let own = self.ids[(y * self.size[0] + x) as usize];
         let at = own.checked_sub(1)? as usize;
@@ -142,6 +151,8 @@ impl Shown {
         if !before.shows(earlier, painted) {
             return None;
         }
+
+        // Carry it as part of the images of spheres around.
         let mut places = vec![painted, self.image_before(before, [at, earlier], frame_px)];
         let mut carried = vec![self.names[at]];
         let now = self.names_around(frame_px);
@@ -262,10 +273,14 @@ fn softened([width, height]: [u32; 2], tones: impl Iterator<Item = f32>) -> Vec<
             row[(x + 1).min(width - 1)],
         )
     };
+
+    // Average along rows.
     let rows = tones.chunks(width.max(1));
     let rows: Vec<f32> = rows
         .flat_map(|row| (0..row.len()).map(move |x| along(row, x)))
         .collect();
+
+    // Average along columns.
     let at = |x: usize, y: usize| rows[y * width + x];
     let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     places

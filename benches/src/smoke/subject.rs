@@ -25,11 +25,14 @@ pub fn plume(size: [u32; 3]) -> SmokeSettings {
 ///
 /// Whatever reading says; a grid in which nothing is active.
 pub fn volume_of(path: &Path) -> Result<Volume, Box<dyn Error>> {
+    // Read the densities of the box in which any are active.
     let bytes = std::fs::read(path)?;
     let grid = read(&bytes, &Limits::default())?.scalar("density")?;
     let bounds = grid.active_bounds().ok_or("nothing is active")?;
     let size = bounds.size();
     let dense = grid.dense(bounds.low, size)?;
+
+    // Put them in the order of volumes.
     let [width, height, depth] = size;
     let mut density = Vec::with_capacity(dense.len());
     for z in 0..depth {
@@ -37,6 +40,8 @@ pub fn volume_of(path: &Path) -> Result<Volume, Box<dyn Error>> {
             density.extend((0..width).map(|x| dense[(x * height + y) * depth + z]));
         }
     }
+
+    // Place the box in the world.
     let [x, y, z, origin] = grid.index_to_world().columns().map(DVec3::from);
     let low = DVec3::from(bounds.low.map(f64::from));
     let to_world = DAffine3::from_cols(x, y, z, origin);

@@ -110,6 +110,7 @@ impl Camera {
     /// near plane and 0 at infinity (in perspective) or behind the scene (in parallel view), which keeps float depth
     /// equally fine near and far.
     pub fn view(&self, size: [u32; 2], bounds: ([f32; 3], [f32; 3])) -> View {
+        // Turn the world into the axes of the camera.
         let [right, up, back] = self.axes().map(Vec3::from);
         let eye = Vec3::from(self.eye);
         let (nearest, farthest) = self.depth_range(bounds);
@@ -120,6 +121,8 @@ impl Camera {
             Vec4::new(right.z, up.z, back.z, 0.0),
             Vec4::new(-right.dot(eye), -up.dot(eye), -back.dot(eye), 1.0),
         );
+
+        // Put depth 1 on the near plane; in perspective, nothing is too far.
         let (clip_from_camera, perspective, view_height, near) = match self.projection {
             Projection::Perspective { fov_y } => {
                 let height = 2.0 * math::tan(fov_y * 0.5);
@@ -161,6 +164,17 @@ impl Camera {
         }
         let room = (range.1 - range.0).max(range.1.abs() * 1e-3).max(1e-6) * 0.01;
         (range.0 - room, range.1 + room)
+    }
+}
+
+/// The box around points, its lowest and highest corner; a unit box where there are none.
+pub fn bounds_of(points: impl Iterator<Item = Vec3>) -> ([f32; 3], [f32; 3]) {
+    let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    let (min, max) = points.fold(none, |(min, max), point| (min.min(point), max.max(point)));
+    if min.is_finite() && max.is_finite() {
+        (min.to_array(), max.to_array())
+    } else {
+        ([-0.5; 3], [0.5; 3])
     }
 }
 
@@ -231,7 +245,8 @@ mod tests {
 
         #[test]
         fn depth_is_reversed(near in 0.1f32..10.0, gap in 0.1f32..10.0) {
-            let camera = Camera { eye: [0.0; 3], target: [0.0, 0.0, -1.0], up: [0.0, 1.0, 0.0], projection: Projection::Perspective { fov_y: 1.0 } };
+            let projection = Projection::Perspective { fov_y: 1.0 };
+            let camera = Camera { eye: [0.0; 3], target: [0.0, 0.0, -1.0], up: [0.0, 1.0, 0.0], projection };
             let view = camera.view([100, 100], ([-1.0, -1.0, -near - gap], [1.0, 1.0, -near]));
             let (a, b) = (project(&view, [0.0, 0.0, -near]), project(&view, [0.0, 0.0, -near - gap]));
             prop_assert!(a[2] / a[3] > b[2] / b[3]);

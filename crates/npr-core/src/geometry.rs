@@ -2,7 +2,9 @@
 //!
 //! Their WGSL text is `shaders/lib/geometry.wgsl`; the shader test compares the two field by field.
 
+use crate::edge_flags::EdgeFlags;
 use crate::gpu_layout;
+use crate::line_kind::COLORED_KINDS;
 use bytemuck::{Pod, Zeroable};
 
 /// Marks "none" wherever an index is expected.
@@ -115,12 +117,12 @@ gpu_layout!(ChartCorners { a, b, c });
 pub struct Edge {
     /// Vertex indices.
     pub ends: [u32; 2],
-    /// Triangle indices; the second is [`NONE`] on a border.
+    /// Triangle indices; the second is [`NONE`] on a boundary.
     pub faces: [u32; 2],
     /// Cosine of the angle by which the edge folds, between what the style says; 1 where the surface runs on.
     pub dihedral_cos: f32,
-    /// Bits of [`Edge::MATERIAL`] and [`Edge::FLIPPED`].
-    pub traits: u32,
+    /// How its faces meet.
+    pub traits: EdgeFlags,
 }
 gpu_layout!(Edge {
     ends,
@@ -128,13 +130,6 @@ gpu_layout!(Edge {
     dihedral_cos,
     traits
 });
-
-impl Edge {
-    /// The two faces differ in material.
-    pub const MATERIAL: u32 = 1;
-    /// The two faces run along the edge in the same direction, so one of them is inside out.
-    pub const FLIPPED: u32 = 2;
-}
 
 /// One surface of one object in one material, with what the style makes of it.
 #[repr(C)]
@@ -202,11 +197,11 @@ pub struct Part {
     pub beam_alpha: [f32; 4],
     /// Tone steps: linear light rgb from coordinate `a` upwards; unused ones start at 2.
     pub ramp: [[f32; 4]; 8],
-    /// Colours of single kinds of its lines, sRGB bytes: contour, border, crease, material, intersection. Those count
-    /// that have their bit in `line_flags`.
-    pub line_kinds: [u32; 5],
-    /// What decides the colour of its lines beside `line_color`: bits 1 to 16 for kinds with a colour of their own,
-    /// then [`Part::LINE_SURFACE`] to [`Part::LINE_WIDTH`].
+    /// Colours of single kinds of its lines, sRGB bytes, in the order of [`Kind::ALL`](crate::line_kind::Kind::ALL).
+    /// A colour counts where `line_flags` has the bit of its kind.
+    pub line_kinds: [u32; COLORED_KINDS],
+    /// What decides the colour of its lines beside `line_color`: the bits of kinds with a colour of their own, of
+    /// [`Part::LINE_KINDS`], then [`Part::LINE_SURFACE`] to [`Part::LINE_WIDTH`].
     pub line_flags: u32,
     /// What a colour of the surface is multiplied by for lines, in linear light.
     pub line_factor: f32,
@@ -335,7 +330,9 @@ impl Part {
     /// Any highlight.
     pub const HIGHLIGHTS: u32 = Self::CRISP | Self::SOFT | Self::BACK_LIGHT | Self::STREAK;
 
-    /// In `line_flags`: lines take the colour that the surface shows without light.
+    /// In `line_flags`: the bits of kinds that may have a colour of their own.
+    pub const LINE_KINDS: u32 = 31;
+    /// Lines take the colour that the surface shows without light.
     pub const LINE_SURFACE: u32 = 32;
     /// Lines take the colour of the vertices.
     pub const LINE_VERTEX: u32 = 64;

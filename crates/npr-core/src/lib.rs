@@ -3,8 +3,9 @@
 //! Deterministic math ([`math`]), numbers that look random ([`random`]), colour encoding ([`color`]), cameras
 //! ([`camera`]), the structs that passes read and write on both engines ([`geometry`], [`window`]), the surface point
 //! under a pixel ([`surface`]), packed textures ([`texture`]), and a triangle rasteriser with a stated fill rule
-//! ([`raster`]); spheres of smoke ([`smoke`]); constants that styles and lines share ([`published_path`]); the door
-//! to decoders of others ([`decoding`]). Nothing here knows about files, styles or graphics devices.
+//! ([`raster`]); spheres of smoke ([`smoke`]); the kinds of line ([`line_kind`]) and the flags of mesh edges
+//! ([`edge_flags`]); constants that styles and lines share ([`published_path`]); the door to decoders of others
+//! ([`decoding`]). Nothing here knows about files, styles or graphics devices.
 //!
 //! ```
 //! use npr_core::camera::Camera;
@@ -19,10 +20,12 @@ pub mod color;
 pub mod crease;
 pub mod cutout;
 pub mod decoding;
+pub mod edge_flags;
 pub mod geometry;
 pub mod layout;
 pub mod light_view;
 pub mod line_color;
+pub mod line_kind;
 pub mod math;
 pub mod number;
 pub mod outline;

@@ -6,47 +6,28 @@
 use crate::color::{linear_from_srgb, pack_rgba8, srgb_from_linear, unpack_rgba8};
 use crate::geometry::{NONE, Part};
 use crate::gpu_layout;
+use crate::line_kind::Kind;
 use crate::outline::Outline;
 use crate::window::Window;
 use bytemuck::{Pod, Zeroable};
 
-/// Kinds of line that may have colours of their own, in the order of [`Part::line_kinds`].
-pub const LINE_KINDS: usize = 5;
-
-/// The kind of a contour, and of anything that is of no kind.
-pub const KIND_CONTOUR: u32 = 0;
-/// The kind of a boundary.
-pub const KIND_BOUNDARY: u32 = 1;
-/// The kind of a crease.
-pub const KIND_CREASE: u32 = 2;
-/// The kind of a line between materials.
-pub const KIND_MATERIAL: u32 = 3;
-/// The kind of a line where surfaces cut through each other.
-pub const KIND_INTERSECTION: u32 = 4;
-/// A kind that never has a colour of its own.
-pub const KIND_NONE: u32 = 31;
-
-/// The kind that an edge of several kinds is coloured as: the first of contour, boundary, crease, material.
+/// The kind that an edge of several kinds is coloured as: the first; an edge of no kind is coloured as a contour.
 #[inline]
-pub fn kind_of_edge(kinds: u32) -> u32 {
-    let known = Outline::CONTOUR | Outline::BOUNDARY | Outline::CREASE | Outline::MATERIAL;
-    match kinds & known {
-        0 => KIND_CONTOUR,
-        kinds => kinds.trailing_zeros(),
-    }
+pub fn kind_of_edge(kinds: u32) -> Kind {
+    Kind::first_of(kinds & Outline::EDGE_KINDS).unwrap_or(Kind::Contour)
 }
 
 /// The kind that a pixel of the mask is coloured as, by what found it.
 #[inline]
-pub fn kind_of_mask(found: u32) -> u32 {
+pub fn kind_of_mask(found: u32) -> Kind {
     if found & Outline::PIECE != 0 {
-        KIND_INTERSECTION
+        Kind::Intersection
     } else if found & (Outline::DEPTH | Outline::OBJECT_ID) != 0 {
-        KIND_CONTOUR
+        Kind::Contour
     } else if found & Outline::MATERIAL_ID != 0 {
-        KIND_MATERIAL
+        Kind::Material
     } else {
-        KIND_CREASE
+        Kind::Crease
     }
 }
 
@@ -173,7 +154,7 @@ impl LineTints<'_> {
 
     /// Colour of a part's lines of a kind at a point of the frame, sRGB with straight alpha.
     #[inline]
-    pub fn color_at(&self, parts: &[Part], part: u32, kind: u32, px: [f32; 2]) -> [f32; 4] {
+    pub fn color_at(&self, parts: &[Part], part: u32, kind: Kind, px: [f32; 2]) -> [f32; 4] {
         let of = &parts[part as usize];
         let placed = of.line_flags & Part::LINE_PLACED != 0;
         let tint = if placed { self.at(px, part) } else { None };
@@ -186,12 +167,12 @@ impl LineTints<'_> {
 /// A kind's own colour goes before that of the surface, and this before the part's. Without a tint only the first and
 /// the last count. The tint layer is mixed in linear light; where there is none the colour stays as it is, to the bit.
 #[inline]
-pub fn line_color(part: &Part, kind: u32, tint: Option<Tint>) -> [f32; 4] {
+pub fn line_color(part: &Part, kind: Kind, tint: Option<Tint>) -> [f32; 4] {
     let mut color = part.line_color;
     if part.line_flags == 0 {
         return color;
     }
-    let has_own = part.line_flags & (1 << kind) != 0;
+    let has_own = part.line_flags & kind.bit() & Part::LINE_KINDS != 0;
     if has_own {
         color = unpack_rgba8(part.line_kinds[kind as usize]);
     }
@@ -231,6 +212,7 @@ impl Tint {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::line_kind::{COLORED_KINDS, KindSet};
     use proptest::prelude::*;
 
     fn window() -> Window {
@@ -241,26 +223,30 @@ mod tests {
         prop::array::uniform4(0u8..=255).prop_map(|bytes| bytes.map(|b| f32::from(b) / 255.0))
     }
 
+    fn kind() -> impl Strategy<Value = Kind> {
+        prop::sample::select(&Kind::ALL[..COLORED_KINDS])
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
         #[test]
-        fn a_part_that_asks_for_nothing_keeps_its_color(own in color(), tint in (color(), color()), kind in 0u32..5) {
+        fn a_part_that_asks_for_nothing_keeps_its_color(own in color(), tint in (color(), color()), kind in kind()) {
             let part = Part { line_color: own, ..Part::default() };
             let tint = Tint { own: tint.0, tint_layer: tint.1 };
             prop_assert_eq!(line_color(&part, kind, Some(tint)), own);
         }
 
         #[test]
-        fn a_clear_tint_layer_changes_no_bit(own in color(), kind_color in color(), flags in 0u32..32, kind in 0u32..5) {
+        fn a_clear_tint_layer_changes_no_bit(own in color(), kind_color in color(), flags in 0u32..32, kind in kind()) {
             let part = Part {
                 line_color: own,
-                line_kinds: [pack_rgba8(kind_color); LINE_KINDS],
+                line_kinds: [pack_rgba8(kind_color); COLORED_KINDS],
                 line_flags: flags | Part::LINE_DEPTH,
                 ..Part::default()
             };
             let tint = Tint { own: [0.3, 0.2, 0.1, 1.0], tint_layer: [0.9, 0.9, 0.9, 0.0] };
-            let expected = if flags & (1 << kind) != 0 { kind_color } else { own };
+            let expected = if flags & kind.bit() != 0 { kind_color } else { own };
             prop_assert_eq!(line_color(&part, kind, Some(tint)), expected);
         }
 
@@ -317,21 +303,24 @@ mod tests {
     #[test]
     fn kinds_come_from_edges_and_masks() {
         assert_eq!(
-            kind_of_edge(Outline::CREASE | Outline::MATERIAL),
-            KIND_CREASE
+            kind_of_edge(KindSet::CREASE | KindSet::MATERIAL),
+            Kind::Crease
         );
-        assert_eq!(kind_of_edge(Outline::ANY), KIND_CONTOUR);
-        assert_eq!(kind_of_edge(0), KIND_CONTOUR);
+        assert_eq!(kind_of_edge(Outline::ANY), Kind::Contour);
+        assert_eq!(kind_of_edge(0), Kind::Contour);
         assert_eq!(
             kind_of_mask(Outline::PIECE | Outline::DEPTH),
-            KIND_INTERSECTION
+            Kind::Intersection
         );
-        assert_eq!(kind_of_mask(Outline::NORMAL | Outline::DEPTH), KIND_CONTOUR);
+        assert_eq!(
+            kind_of_mask(Outline::NORMAL | Outline::DEPTH),
+            Kind::Contour
+        );
         assert_eq!(
             kind_of_mask(Outline::NORMAL | Outline::MATERIAL_ID),
-            KIND_MATERIAL
+            Kind::Material
         );
-        assert_eq!(kind_of_mask(Outline::NORMAL), KIND_CREASE);
+        assert_eq!(kind_of_mask(Outline::NORMAL), Kind::Crease);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Settings of outlines, as passes read them.
 
 use crate::gpu_layout;
+use crate::line_kind::KindSet;
 use bytemuck::{Pod, Zeroable};
 
 /// How lines are detected, chosen and drawn.
@@ -23,7 +24,7 @@ pub struct Outline {
     pub depth_threshold: f32,
     /// Cosine of the angle between normals from which pixels are separated by a line.
     pub normal_cos: f32,
-    /// Which kinds of edges are drawn: bits of [`Outline::CONTOUR`] to [`Outline::ANY`].
+    /// Which kinds of edges are drawn: bits of [`KindSet`] and [`Outline::ANY`].
     pub kinds: u32,
     /// Which buffers lines are detected on: bits of [`Outline::DEPTH`] to [`Outline::MATERIAL_ID`].
     pub detects: u32,
@@ -48,16 +49,11 @@ gpu_layout!(Outline {
 });
 
 impl Outline {
-    /// Edges between a face turned to the eye and one turned away.
-    pub const CONTOUR: u32 = 1;
-    /// Edges of a single face.
-    pub const BOUNDARY: u32 = 2;
-    /// Edges sharper than the crease angle.
-    pub const CREASE: u32 = 4;
-    /// Edges between materials.
-    pub const MATERIAL: u32 = 8;
-    /// Every edge of a face turned to the eye, as published.
-    pub const ANY: u32 = 16;
+    /// Beside the bits of kinds: every edge of a face turned to the eye, as published.
+    pub const ANY: u32 = 64;
+    /// The kinds that a mesh edge may be of in a frame.
+    pub const EDGE_KINDS: u32 =
+        KindSet::CONTOUR | KindSet::BOUNDARY | KindSet::CREASE | KindSet::MATERIAL;
 
     /// Detects jumps in depth. Also the bit that such a pixel gets in the mask.
     pub const DEPTH: u32 = 1;
@@ -99,4 +95,54 @@ pub const MASK_SIDE: u32 = 256;
 pub fn width_of_curvature(curvature: f32, gain: f32) -> f32 {
     let x = curvature.abs() * gain;
     x / (1.0 + x)
+}
+
+/// Factor on a line's width at a share 0..1 of the way from the least to the greatest.
+#[inline]
+pub fn width_factor(min: f32, max: f32, share: f32) -> f32 {
+    min + (max - min) * share
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn half_of_the_bend_is_half_of_the_way() {
+        assert_eq!(width_of_curvature(2.0, 0.5), 0.5);
+        assert_eq!(width_factor(0.5, 1.5, 0.5), 1.0);
+    }
+
+    #[test]
+    fn a_plane_is_thin_and_a_point_is_thick() {
+        assert_eq!(width_of_curvature(0.0, 1.0), 0.0);
+        assert_eq!(width_of_curvature(f32::MAX, 1.0), 1.0);
+    }
+
+    proptest! {
+        #[test]
+        fn the_sign_of_a_curvature_does_not_count(k in 0.0f32..1e6, gain in 0.0f32..10.0) {
+            prop_assert_eq!(width_of_curvature(-k, gain), width_of_curvature(k, gain));
+        }
+
+        /// Rounding may cost a few units in the last place.
+        #[test]
+        fn more_curvature_never_gives_a_thinner_line(k in 0.0f32..1e6, dk in 0.0f32..1e6, gain in 0.0f32..10.0) {
+            prop_assert!(width_of_curvature(k + dk, gain) >= width_of_curvature(k, gain) - 1e-6);
+        }
+
+        #[test]
+        fn scaling_the_mesh_keeps_the_share(k in 0.0f32..100.0, radius in 0.1f32..10.0) {
+            // Curvatures are stored in 1 / radius.
+            let [once, twice] = [k * radius, (k * 0.5) * (radius * 2.0)];
+            prop_assert_eq!(width_of_curvature(once, 1.0), width_of_curvature(twice, 1.0));
+        }
+
+        #[test]
+        fn factors_stay_within_their_bounds(min in 0.0f32..10.0, span in 0.0f32..5.0, share in 0f32..=1.0) {
+            let factor = width_factor(min, min + span, share);
+            prop_assert!(min <= factor && factor <= (min + span) * 1.000_001, "{factor}");
+        }
+    }
 }

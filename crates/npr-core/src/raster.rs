@@ -65,6 +65,8 @@ where
     if width == 0 || fill.triangles.is_empty() {
         return;
     }
+
+    // Project triangles in batches, and note which bands of rows each one touches.
     let band_count = (fill.window.size[1] as usize).div_ceil(BAND_ROWS);
     let batches: Vec<Batch> = fill
         .triangles
@@ -72,6 +74,8 @@ where
         .enumerate()
         .map(|(i, _)| Batch::set_up(fill, i * SETUP_TRIANGLES, band_count))
         .collect();
+
+    // Fill the bands beside each other, every band in the order of triangles.
     let rows = BAND_ROWS * width;
     ids.par_chunks_mut(rows)
         .zip(depths.par_chunks_mut(rows))
@@ -110,6 +114,8 @@ impl Batch {
         for index in first..last {
             let triangle = fill.triangles[index];
             let flags = fill.parts[triangle.part as usize].flags;
+
+            // Take the triangles that this fill is for.
             let wanted = match fill.sides {
                 Sides::AsParts | Sides::Both => flags & Part::BEAM == 0,
                 Sides::Beams => flags & Part::BEAM != 0,
@@ -118,6 +124,8 @@ impl Batch {
             if !wanted {
                 continue;
             }
+
+            // Clip what passes the near plane, and drop the side that is turned away.
             let clip = triangle
                 .corners
                 .map(|v| fill.window.clip_here((fill.clip_of)(v)));
@@ -472,7 +480,9 @@ mod tests {
             a in point(), b in point(), c in point(), d in point(),
         ) {
             let (p, q, r, s) = (at(a[0], a[1], 0.5), at(b[0], b[1], 0.5), at(c[0], c[1], 0.5), at(d[0], d[1], 0.5));
-            let side = |u: [f32; 2], v: [f32; 2], w: [f32; 2]| (v[0] - u[0]) * (w[1] - u[1]) - (v[1] - u[1]) * (w[0] - u[0]);
+            let side = |u: [f32; 2], v: [f32; 2], w: [f32; 2]| {
+                (v[0] - u[0]) * (w[1] - u[1]) - (v[1] - u[1]) * (w[0] - u[0])
+            };
             prop_assume!(side(a, b, c) * side(a, b, d) < 0.0);
             let (one, _) = draw(&[p, q, r], Sides::AsParts, two_sided());
             let (two, _) = draw(&[p, q, s], Sides::AsParts, two_sided());

@@ -7,7 +7,7 @@ use crate::geometry::FAR_DEPTH;
 use crate::gpu_layout;
 use crate::light_view::Matrix;
 use crate::surface::dot;
-use crate::window::View;
+use crate::window::{View, pixel_size};
 use bytemuck::{Pod, Zeroable};
 
 /// Farthest that a sphere may lie from the eye, and largest radius, to be drawn: squares stay finite.
@@ -147,6 +147,7 @@ fn unit_of(row: [f32; 4]) -> ([f32; 3], f32) {
 impl SphereView {
     /// The lens of a camera.
     pub fn of_view(view: &View) -> Self {
+        // Read the axes of the picture off the camera's matrix.
         let m = &view.clip_from_world;
         let (right_world, _) = unit_of(row(m, 0));
         let (up_world, _) = unit_of(row(m, 1));
@@ -154,6 +155,8 @@ impl SphereView {
         let along = |v: [f32; 3]| dot([depth[0], depth[1], depth[2]], v);
         let half_height = view.view_height * 0.5;
         let is_perspective = view.perspective > 0.5;
+
+        // Turn depths into reversed ones as the camera does.
         Self {
             eye_world: view.eye_world,
             perspective: view.perspective,
@@ -266,6 +269,7 @@ impl SphereView {
     /// so that rows of pixels are computed side by side.
     #[inline]
     pub fn depth_of_sphere(&self, ball: &ViewSphere, ray: [f32; 2]) -> f32 {
+        // Start the ray at the eye, or at its own place in a parallel view.
         let meeting = self.perspective;
         let [x, y] = [ray[0] * meeting, ray[1] * meeting];
         let parallel = 1.0 - meeting;
@@ -274,6 +278,8 @@ impl SphereView {
             ball.center[1] - ray[1] * parallel,
             ball.center[2],
         ];
+
+        // Find the ray's nearest point to the middle.
         let scale = 1.0 / (x * x + y * y + 1.0);
         let middle = (offset[0] * x + offset[1] * y + offset[2]) * scale;
         let beside = [
@@ -281,6 +287,8 @@ impl SphereView {
             offset[1] - middle * y,
             offset[2] - middle,
         ];
+
+        // Step back from there to the surface.
         let left = ball.radius * ball.radius
             - (beside[0] * beside[0] + beside[1] * beside[1] + beside[2] * beside[2]);
         let depth = middle - (left.max(0.0) * scale).sqrt();
@@ -303,8 +311,8 @@ impl SphereView {
 
     /// Size of a frame pixel in world units at a view depth.
     pub fn pixel_at(&self, depth: f32) -> f32 {
-        let spread = if self.perspective > 0.5 { depth } else { 1.0 };
-        2.0 * self.half[1] * spread / self.frame_px[1]
+        let height = 2.0 * self.half[1];
+        pixel_size(self.perspective, height, depth, self.frame_px[1])
     }
 
     /// Reversed depth at a view depth.
@@ -321,18 +329,24 @@ impl SphereView {
             bounds: [1.0, 1.0, 0.0, 0.0],
             ..ViewSphere::default()
         };
+
+        // Place the sphere before the eye.
         let offset: [f32; 3] = std::array::from_fn(|i| sphere.center[i] - self.eye_world[i]);
         let center = [
             dot(offset, self.right_world),
             dot(offset, self.up_world),
             dot(offset, self.forward_world),
         ];
+
+        // Leave out what cannot be seen.
         let (radius, square) = (sphere.radius, dot(center, center));
         let is_sound = radius > 0.0 && radius < REACH && square < REACH * REACH;
         let around_eye = self.perspective > 0.5 && square <= radius * radius;
         if !is_sound || around_eye || center[2] + radius <= self.near {
             return nothing;
         }
+
+        // Bound its image in pixels.
         let x = self.reach(center[0], center[2], radius, 0);
         let y = self.reach(center[1], center[2], radius, 1);
         let [width, height] = self.frame_px;
@@ -441,7 +455,8 @@ mod tests {
             let at = [at[0] * 320.0, at[1] * 200.0];
             if lens.depth_of(&ball, lens.ray(at)) < FAR_DEPTH {
                 let [left, top, right, bottom] = ball.bounds;
-                let inside = left - 0.01 <= at[0] && at[0] <= right + 0.01 && top - 0.01 <= at[1] && at[1] <= bottom + 0.01;
+                let within = |low: f32, v: f32, high: f32| low - 0.01 <= v && v <= high + 0.01;
+                let inside = within(left, at[0], right) && within(top, at[1], bottom);
                 prop_assert!(inside, "{at:?} outside {:?}", ball.bounds);
             }
             let wide = ball.bounds[2] - ball.bounds[0];

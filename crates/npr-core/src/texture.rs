@@ -51,14 +51,19 @@ impl TextureStore {
     ///
     /// Gives where its header starts; an empty image, or one whose pixels do not match its size, gives `None`.
     pub fn add(&mut self, size: [u32; 2], rgba: &[u8], wrap: [Wrap; 2]) -> Option<u32> {
+        // Refuse pixels that do not fill the size.
         let count = (size[0] as usize).checked_mul(size[1] as usize)?;
         if count == 0 || rgba.len() != count.checked_mul(4)? {
             return None;
         }
+
+        // Write the header.
         let start = u32::try_from(self.words.len()).ok()?;
         let levels = 32 - size[0].max(size[1]).leading_zeros();
         self.words
             .extend([size[0], size[1], levels, wrap[0] as u32, wrap[1] as u32, 0]);
+
+        // Write the levels, each half as large as the one before.
         let mut level: Vec<u32> = rgba
             .chunks_exact(4)
             .map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]))
@@ -114,6 +119,7 @@ impl TextureStore {
         let mut out = Vec::with_capacity((next[0] * next[1]) as usize);
         for y in 0..next[1] {
             for x in 0..next[0] {
+                // Sum four pixels in linear light, weighted by alpha.
                 let mut sum = [0.0f32; 4];
                 for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
                     let (px, py) = ((2 * x + dx).min(size[0] - 1), (2 * y + dy).min(size[1] - 1));
@@ -121,6 +127,8 @@ impl TextureStore {
                         linear_texel(&self.words, texels[(py * size[0] + px) as usize]);
                     sum = [sum[0] + r * a, sum[1] + g * a, sum[2] + b * a, sum[3] + a];
                 }
+
+                // Encode their mean.
                 let weight = 1.0 / sum[3].max(1e-6);
                 let encode = |v: f32| color::srgb_from_linear(v * weight);
                 out.push(color::pack_rgba8([

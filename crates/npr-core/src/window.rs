@@ -36,21 +36,50 @@ gpu_layout!(View {
     unused,
 });
 
+/// Height of a view in world units at a depth.
+///
+/// `perspective` is 1 where rays meet at the eye and 0 where they are parallel; `height` is the view's at depth 1 in
+/// perspective, at any depth else.
+#[inline]
+pub fn height_of_view(perspective: f32, height: f32, depth: f32) -> f32 {
+    if perspective > 0.5 {
+        height * depth
+    } else {
+        height
+    }
+}
+
+/// Size of a pixel in world units at a depth of such a view, which is `height_px` pixels high.
+///
+/// Whoever turns lengths of the world into pixels divides by this.
+#[inline]
+pub fn pixel_size(perspective: f32, height: f32, depth: f32, height_px: f32) -> f32 {
+    height_of_view(perspective, height, depth) / height_px
+}
+
 impl View {
     /// Height of the view in world units at a view depth.
     #[inline]
     pub fn height_at(&self, depth: f32) -> f32 {
-        if self.perspective > 0.5 {
-            self.view_height * depth
-        } else {
-            self.view_height
-        }
+        height_of_view(self.perspective, self.view_height, depth)
     }
 
     /// Size of a frame pixel in world units at a view depth.
     #[inline]
     pub fn pixel_at(&self, depth: f32) -> f32 {
-        self.height_at(depth) / self.frame_px[1]
+        pixel_size(self.perspective, self.view_height, depth, self.frame_px[1])
+    }
+
+    /// The same for depths that may lie behind the near plane, where it is as large as on that plane; never 0.
+    #[inline]
+    pub fn pixel_before_eye(&self, depth: f32) -> f32 {
+        self.pixel_at(depth.max(self.near)).max(1e-20)
+    }
+
+    /// Frame pixels per world unit at a view depth.
+    #[inline]
+    pub fn pixels_per_unit(&self, depth: f32) -> f32 {
+        1.0 / self.pixel_at(depth)
     }
 
     /// A coordinate that changes linearly over the image of any plane: 1 / depth in perspective, depth in parallel

@@ -10,6 +10,8 @@ use npr_vector::stroke::{Drawing, Kind, Stroke, StrokePoint, StrokeSurface};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
+mod kind;
+
 /// Points that [`read_json`] takes at most.
 pub const POINT_LIMIT: usize = 20_000_000;
 
@@ -154,6 +156,7 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct FileStroke {
     id: u64,
+    #[serde(deserialize_with = "kind::read")]
     kind: Kind,
     visibility: Visibility,
     #[serde(default)]

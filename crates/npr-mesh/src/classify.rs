@@ -1,6 +1,8 @@
 //! Which edges may become lines: the twin of `mesh.classify_edges`.
 
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::{Edge, NONE, Part, PosedVertex, Triangle};
+use npr_core::line_kind::KindSet;
 use npr_core::outline::Outline;
 use npr_core::surface::faces_eye;
 use rayon::prelude::*;
@@ -16,7 +18,7 @@ pub struct PosedMesh<'a> {
     pub parts: &'a [Part],
 }
 
-/// The kinds of every edge, as bits of [`Outline::CONTOUR`] to [`Outline::ANY`], limited to those the outline draws.
+/// The kinds of every edge, as bits of [`KindSet::CONTOUR`] to [`Outline::ANY`], limited to those the outline draws.
 ///
 /// A contour has one face turned to the eye and one turned away [Marshall 2001]. Edges of parts without lines are of no
 /// kind. O(edges), parallel.
@@ -54,24 +56,33 @@ fn kinds_of(outline: &Outline, mesh: &PosedMesh<'_>, edge: &Edge) -> u32 {
     let bit = |kind: u32, when: bool| if when { kind } else { 0 };
     let front = mesh.face_is_front(edge.faces[0]);
     let both_sides = mesh.part_of(edge.faces[0]).flags & Part::DOUBLE_SIDED != 0;
+
+    // Take an edge of one face for a boundary where it can be seen.
     if edge.faces[1] == NONE {
         return bit(
-            Outline::BOUNDARY | bit(Outline::ANY, front),
+            KindSet::BOUNDARY | bit(Outline::ANY, front),
             front || both_sides,
         );
     }
+
+    // Turn an inside-out neighbour back, so that it makes no false contour.
     let mut second = mesh.face_is_front(edge.faces[1]);
     let published = bit(Outline::ANY, front || second);
-    if edge.traits & Edge::FLIPPED != 0 {
+    if edge.traits.contains(EdgeFlags::FLIPPED) {
         second = !second;
     }
+
+    // Give every kind that fits: a contour parts a face turned to the eye from one turned away.
     let seen = front || second || both_sides;
-    bit(Outline::CONTOUR, front != second)
+    bit(KindSet::CONTOUR, front != second)
         | bit(
-            Outline::CREASE,
+            KindSet::CREASE,
             seen && edge.dihedral_cos < outline.crease_cos,
         )
-        | bit(Outline::MATERIAL, seen && edge.traits & Edge::MATERIAL != 0)
+        | bit(
+            KindSet::MATERIAL,
+            seen && edge.traits.contains(EdgeFlags::MATERIAL),
+        )
         | published
 }
 
@@ -80,7 +91,7 @@ mod tests {
     use super::*;
 
     /// Two triangles sharing the edge from (0, 0) to (0, 1), seen from +z; the second folds by `fold`.
-    fn kinds(second_tip: [f32; 2], traits: u32, dihedral_cos: f32) -> u32 {
+    fn kinds(second_tip: [f32; 2], traits: EdgeFlags, dihedral_cos: f32) -> u32 {
         let at = |x: f32, y: f32| PosedVertex {
             clip: [x, y, 0.5, 1.0],
             ..PosedVertex::default()
@@ -128,25 +139,34 @@ mod tests {
 
     #[test]
     fn a_flat_pair_is_no_line() {
-        assert_eq!(kinds([1.0, 0.5], 0, 1.0), Outline::ANY);
+        assert_eq!(kinds([1.0, 0.5], EdgeFlags::NONE, 1.0), Outline::ANY);
     }
 
     #[test]
     fn a_folded_pair_is_a_contour() {
-        assert_eq!(kinds([-0.5, 0.5], 0, 1.0), Outline::CONTOUR | Outline::ANY);
+        assert_eq!(
+            kinds([-0.5, 0.5], EdgeFlags::NONE, 1.0),
+            KindSet::CONTOUR | Outline::ANY
+        );
     }
 
     #[test]
     fn creases_and_materials_are_told_apart() {
-        assert_eq!(kinds([1.0, 0.5], 0, 0.5), Outline::CREASE | Outline::ANY);
         assert_eq!(
-            kinds([1.0, 0.5], Edge::MATERIAL, 1.0),
-            Outline::MATERIAL | Outline::ANY
+            kinds([1.0, 0.5], EdgeFlags::NONE, 0.5),
+            KindSet::CREASE | Outline::ANY
+        );
+        assert_eq!(
+            kinds([1.0, 0.5], EdgeFlags::MATERIAL, 1.0),
+            KindSet::MATERIAL | Outline::ANY
         );
     }
 
     #[test]
     fn an_inside_out_neighbour_is_turned_back() {
-        assert_eq!(kinds([-0.5, 0.5], Edge::FLIPPED, 1.0) & Outline::CONTOUR, 0);
+        assert_eq!(
+            kinds([-0.5, 0.5], EdgeFlags::FLIPPED, 1.0) & KindSet::CONTOUR,
+            0
+        );
     }
 }

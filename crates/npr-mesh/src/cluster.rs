@@ -31,21 +31,28 @@ const EXACT_COMPARISONS: usize = 1024;
 /// sorted into a grid, O(k log k), whose cells are so small that all points of one lie within a step,
 /// which leaves whole cells to be joined with those at most two away.
 pub(crate) fn clusters(points: &[[f32; 3]], tolerance: f32) -> Vec<u32> {
+    // Leave points that are no numbers alone.
     let mut leaders: Vec<u32> = (0..points.len() as u32).collect();
     let finite: Vec<u32> = (0..points.len() as u32)
         .filter(|&i| points[i as usize].iter().all(|v| v.is_finite()))
         .collect();
     let boxed: Vec<[f32; 3]> = finite.iter().map(|&i| points[i as usize]).collect();
+
+    // Measure the step as a share of the diagonal.
     let (low, high) = bounding_box(&boxed);
     let step = low.distance(high) * f64::from(tolerance);
     if step == 0.0 {
         return leaders;
     }
+
+    // Put aside the many points that have no other near.
     let boxed: Vec<DVec3> = boxed
         .par_iter()
         .map(|p| DVec3::from_array(p.map(f64::from)) - low)
         .collect();
     let close = not_alone(&boxed, low.distance(high), step * (1.0 + SLACK));
+
+    // Join the rest, and let each name its leader.
     let close_points: Vec<DVec3> = close.iter().map(|&i| boxed[i as usize]).collect();
     let number = |i: u32| finite[close[i as usize] as usize];
     for (member, leader) in (0..).zip(join_close(&close_points, step)) {

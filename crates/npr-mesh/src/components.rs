@@ -8,12 +8,15 @@ use crate::weld::Weld;
 /// Triangles that share a welded vertex belong together. Pieces that merely cut through each other do not, which is
 /// how lines of intersection are told from smooth skin. Nearly O(n).
 pub fn components(triangles: &[[u32; 3]], weld: &Weld) -> (Vec<u32>, u32) {
+    // Join the corners of every triangle.
     let mut sets = UnionFind::new(weld.count());
     for triangle in triangles {
         let [a, b, c] = weld.corners(*triangle);
         sets.unite(a, b);
         sets.unite(a, c);
     }
+
+    // Number the pieces in the order of their first triangles.
     let mut number_of_root = vec![u32::MAX; weld.count()];
     let mut count = 0;
     let of_triangle = triangles

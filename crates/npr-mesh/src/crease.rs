@@ -6,9 +6,9 @@
 //! faces decide, come with [`Creases`](npr_core::crease::Creases).
 
 use glam::DVec3;
+use npr_core::edge_flags::EdgeFlags;
 use rayon::prelude::*;
 
-use crate::edge_flags::EdgeFlags;
 use crate::edges::{Edge, NO_FACE};
 use crate::triangle::Triangle;
 use crate::weld::Weld;

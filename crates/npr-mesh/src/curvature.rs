@@ -11,6 +11,8 @@ use crate::triangle::Triangle;
 use crate::vertex_fans::VertexFans;
 use crate::weld::Weld;
 
+pub mod bend;
+
 /// Principal curvatures at a point, in one over the unit of the positions.
 ///
 /// Positive where the surface falls away from its normal: a sphere of radius r with outward normals has
@@ -39,6 +41,12 @@ impl Curvature {
     }
 }
 
+/// Size of the larger of two principal curvatures.
+#[inline]
+pub fn tightest([max, min]: [f32; 2]) -> f32 {
+    max.abs().max(min.abs())
+}
+
 /// Principal curvatures of every welded vertex.
 ///
 /// `normals` holds one unit normal per welded vertex, such as
@@ -59,6 +67,8 @@ pub fn curvature(
 ) -> Vec<Curvature> {
     let fans = VertexFans::new(triangles, weld);
     let normal = |welded: u32| DVec3::from_array(normals[welded as usize].map(f64::from));
+
+    // Fit a form to every face.
     let faces: Vec<Option<FaceBend>> = triangles
         .par_iter()
         .map(|&triangle| {
@@ -68,6 +78,8 @@ pub fn curvature(
             )
         })
         .collect();
+
+    // Average the forms around every vertex, laid into its tangent plane.
     (0..fans.count() as u32)
         .into_par_iter()
         .map(|welded| {
@@ -227,6 +239,7 @@ struct FaceBend {
 impl FaceBend {
     /// Fits the change of the corners' normals; none for a face without area.
     fn fit(triangle: &Triangle, normals: [DVec3; 3]) -> Option<Self> {
+        // Let the plane of the face look where its corners' normals do.
         let wound = triangle.normal()?;
         let facing: DVec3 = normals.iter().sum();
         let normal = if wound.dot(facing) < 0.0 {
@@ -240,6 +253,8 @@ impl FaceBend {
             v: normal.cross(u),
             normal,
         };
+
+        // Fit the form that turns the normals along the edges.
         let in_plane = |vector: DVec3| [vector.dot(frame.u), vector.dot(frame.v)];
         let steps = [0, 1, 2].map(|i| in_plane(triangle.edge(i)));
         let turns = [0, 1, 2].map(|i| in_plane(normals[(i + 2) % 3] - normals[(i + 1) % 3]));

@@ -181,11 +181,14 @@ fn pulls(
     painted: &[Complex],
     reach: f32,
 ) -> Vec<[Complex; 1]> {
+    // Measure bends, and their mean over every part.
     let weld = nodes.apart();
     let normals: Vec<[f32; 3]> = nodes.normals.iter().map(Vec3::to_array).collect();
     let bends = curvature(&nodes.positions, &nodes.corners, &weld, &normals);
     let areas = vertex_areas(&nodes.positions, &nodes.corners, &weld);
     let mean_bends = mean_bends(nodes, &bends, &areas);
+
+    // Ask the part's guide for a direction at every node.
     let pull = |node: usize| {
         let (frame, part) = (&frames[node], nodes.parts[node]);
         let PartGuide { guide, angle } = guide_of_part(part);
@@ -197,6 +200,8 @@ fn pulls(
                 bent(frame, &bends[node], mean, across)
             }
         };
+
+        // Weigh it by the area around the node, and turn it by the part's angle.
         let weight = (1.732 * areas[node] / (reach * reach)).clamp(1e-6, 100.0);
         let turn = Complex::of_turns(angle / std::f32::consts::PI);
         [said.plus(idle(frame)).times(turn).scaled(weight)]

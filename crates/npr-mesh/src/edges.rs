@@ -1,9 +1,9 @@
 //! The edges of the surface and the faces beside each.
 
 use glam::DVec3;
+use npr_core::edge_flags::EdgeFlags;
 use rayon::prelude::*;
 
-use crate::edge_flags::EdgeFlags;
 use crate::triangle::{Triangle, point};
 use crate::weld::Weld;
 
@@ -232,6 +232,7 @@ pub fn sanity_check(edges: &[Edge], triangles: &[[u32; 3]], weld: &Weld) {
 }
 
 fn check_edge(edge: &Edge, triangles: &[[u32; 3]], weld: &Weld) {
+    // Test that its ends stand for welded vertices.
     let ends = edge.ends.map(|end| weld.of_vertex[end as usize]);
     assert!(
         edge.ends[0] < edge.ends[1],
@@ -247,6 +248,8 @@ fn check_edge(edge: &Edge, triangles: &[[u32; 3]], weld: &Weld) {
             "an end stands for no welded vertex: {edge:?}"
         );
     }
+
+    // Test that its faces are there and meet it.
     let is_boundary = edge.flags.contains(EdgeFlags::BOUNDARY);
     assert_eq!(
         is_boundary,
@@ -483,7 +486,8 @@ mod tests {
             let mesh = random_soup(30, seed);
             let (mixed, moved_to) = shuffled_vertices(&mesh, seed);
             let ((before, weld), (after, mixed_weld)) = (edges_of(&mesh), edges_of(&mixed));
-            let moved = |end: u32| mixed_weld.first[mixed_weld.of_vertex[moved_to[weld.first[weld.of_vertex[end as usize] as usize] as usize] as usize] as usize];
+            let first = |weld: &Weld, vertex: u32| weld.first[weld.of_vertex[vertex as usize] as usize];
+            let moved = |end: u32| first(&mixed_weld, moved_to[first(&weld, end) as usize]);
             let mut expected: Vec<[u32; 2]> = before.iter().map(|e| e.ends.map(moved)).collect();
             expected.iter_mut().for_each(|ends| ends.sort());
             expected.sort();
@@ -506,7 +510,8 @@ mod tests {
             let mesh = random_soup(30, seed);
             let mirrored = crate::testing::mirrored(&mesh);
             let (before, after) = (edges_of(&mesh).0, edges_of(&mirrored).0);
-            let outline = |edges: &[Edge]| edges.iter().map(|e| (e.ends, e.faces.iter().min().copied(), (e.dihedral_cos + 0.0).to_bits())).collect::<BTreeSet<_>>();
+            let of_edge = |e: &Edge| (e.ends, e.faces.iter().min().copied(), (e.dihedral_cos + 0.0).to_bits());
+            let outline = |edges: &[Edge]| edges.iter().map(of_edge).collect::<BTreeSet<_>>();
             prop_assert_eq!(outline(&before), outline(&after));
         }
     }

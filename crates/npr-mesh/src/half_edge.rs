@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use npr_core::crease::CreaseFrom;
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
 use rayon::prelude::*;
 
@@ -33,8 +34,8 @@ pub struct HalfEdgeMesh {
     /// The same between the file's normals in the middle of the edge; that of the faces where they have none. Empty
     /// where all are.
     pub normals_cos: Vec<f32>,
-    /// Bits of [`HalfEdgeMesh::BOUNDARY`] to [`HalfEdgeMesh::MARKED`] for every edge.
-    pub edge_traits: Vec<u32>,
+    /// How the faces of every edge meet, and whether it is marked.
+    pub edge_traits: Vec<EdgeFlags>,
     /// Faces without area, ascending, each with the face whose orientation it takes over: the nearest with
     /// area across its longest edges, or [`NONE`].
     pub degenerate_faces: Vec<[u32; 2]>,
@@ -65,17 +66,6 @@ pub struct Surface {
 }
 
 impl HalfEdgeMesh {
-    /// The edge has a single face.
-    pub const BOUNDARY: u32 = 1;
-    /// The two faces differ in material.
-    pub const MATERIAL: u32 = 2;
-    /// Three or more faces meet.
-    pub const NON_MANIFOLD: u32 = 4;
-    /// Two faces meet, but run the same way: one of them is inside out.
-    pub const FLIPPED: u32 = 8;
-    /// The user asks for a line here.
-    pub const MARKED: u32 = 16;
-
     /// Number of unique edges; polylines are numbered behind them.
     #[inline]
     pub fn edge_count(&self) -> usize {
@@ -205,6 +195,8 @@ impl HalfEdgeMesh {
     fn check_lengths(&self) -> Result<(), BrokenHalfEdges> {
         let (half_edges, edges) = (3 * self.faces.len(), self.edge_count());
         let never_filled = edges == 0 && self.edge_starts.is_empty();
+
+        // Compare every list with what it holds one each of.
         for (promise, found, expected) in [
             (
                 "a surface per face",
@@ -281,6 +273,7 @@ impl HalfEdgeMesh {
     }
 
     fn check_edges(&self) -> Result<(), BrokenHalfEdges> {
+        // Test that the groups of half-edges cover all, and none is empty.
         let bounds = [self.edge_starts.first(), self.edge_starts.last()].map(|v| *v.unwrap_or(&0));
         if bounds != [0, self.edge_sides.len() as u32] {
             return Err(BrokenHalfEdges {
@@ -291,6 +284,8 @@ impl HalfEdgeMesh {
         all("edges have sides", self.edge_count(), |edge| {
             self.edge_starts[edge] < self.edge_starts[edge + 1]
         })?;
+
+        // Test that half-edges and edges name each other.
         all("sides exist", self.edge_sides.len(), |side| {
             (self.edge_sides[side] as usize) < self.edge_of.len()
         })?;
@@ -314,6 +309,8 @@ impl HalfEdgeMesh {
             sorted.sort_unstable();
             sorted.windows(2).all(|pair| pair[0] < pair[1])
         })?;
+
+        // Test what is kept of every edge.
         all("angles are cosines", self.edge_count(), |edge| {
             (-1.0..=1.0).contains(&self.dihedral_cos[edge])
         })?;
@@ -329,14 +326,14 @@ impl HalfEdgeMesh {
 
     fn traits_match(&self, edge: u32) -> bool {
         let expected = match *self.sides(edge) {
-            [_] => HalfEdgeMesh::BOUNDARY,
-            [a, b] if self.runs_up(a) == self.runs_up(b) => HalfEdgeMesh::FLIPPED,
+            [_] => EdgeFlags::BOUNDARY,
+            [a, b] if self.runs_up(a) == self.runs_up(b) => EdgeFlags::FLIPPED,
             [a, _] if !self.runs_up(a) => return false,
-            [_, _] => 0,
-            _ => HalfEdgeMesh::NON_MANIFOLD,
+            [_, _] => EdgeFlags::NONE,
+            _ => EdgeFlags::NON_MANIFOLD,
         };
-        let meeting = HalfEdgeMesh::BOUNDARY | HalfEdgeMesh::FLIPPED | HalfEdgeMesh::NON_MANIFOLD;
-        self.edge_traits[edge as usize] & meeting == expected
+        let meeting = EdgeFlags::BOUNDARY | EdgeFlags::FLIPPED | EdgeFlags::NON_MANIFOLD;
+        self.edge_traits[edge as usize].among(meeting) == expected
     }
 
     fn check_twins(&self) -> Result<(), BrokenHalfEdges> {
@@ -362,6 +359,8 @@ impl HalfEdgeMesh {
                 .binary_search_by_key(&face, |&[s, _]| s)
                 .is_ok()
         };
+
+        // Test that they can be looked up by number.
         let ascending = self
             .degenerate_faces
             .windows(2)
@@ -372,6 +371,8 @@ impl HalfEdgeMesh {
                 index,
             });
         }
+
+        // Test that each names a face that has area.
         all(
             "degenerate_faces and their stand-ins are faces",
             self.degenerate_faces.len(),

@@ -1,6 +1,6 @@
 //! Half-edges gathered by the unique edge that they run along.
 
-use crate::half_edge::HalfEdgeMesh;
+use npr_core::edge_flags::EdgeFlags;
 use rayon::prelude::*;
 
 use crate::buckets::Buckets;
@@ -12,9 +12,9 @@ pub(crate) struct Sides {
     /// Where the half-edges of each edge start; one more than there are edges.
     pub(crate) starts: Vec<u32>,
     pub(crate) half_edges: Vec<u32>,
-    /// [`HalfEdgeMesh::BOUNDARY`], [`HalfEdgeMesh::NON_MANIFOLD`], [`HalfEdgeMesh::FLIPPED`] or none of them for every
+    /// [`EdgeFlags::BOUNDARY`], [`EdgeFlags::NON_MANIFOLD`], [`EdgeFlags::FLIPPED`] or none of them for every
     /// edge.
-    pub(crate) traits: Vec<u32>,
+    pub(crate) traits: Vec<EdgeFlags>,
 }
 
 /// Set in a key where the half-edge runs down; limits a mesh to 2^31 half-edges.
@@ -33,16 +33,22 @@ impl Sides {
             (half_edge_count as u64) < DOWN,
             "a mesh has fewer than 2^31 half-edges"
         );
+
+        // Gather half-edges by their lower vertex.
         let lower: Vec<[u32; 3]> = faces
             .par_iter()
             .map(|&[a, b, c]| [a.min(b), b.min(c), c.min(a)])
             .collect();
         let buckets = Buckets::new(vertex_count, lower.as_flattened(), |h| key(faces, h));
+
+        // Sort every bucket by higher vertex and direction.
         let runs = buckets.gather(|run| {
             let mut sorted = SortedRun::default();
             run.for_each(|start, keys| sorted.add(start, keys));
             sorted
         });
+
+        // Join the runs in the order of vertices.
         let mut sides = Self {
             starts: Vec::with_capacity(half_edge_count / 2 + 1),
             half_edges: Vec::with_capacity(half_edge_count),
@@ -71,7 +77,7 @@ fn key(faces: &[[u32; 3]], half_edge: u32) -> u64 {
 struct SortedRun {
     starts: Vec<u32>,
     half_edges: Vec<u32>,
-    traits: Vec<u32>,
+    traits: Vec<EdgeFlags>,
     scratch: Vec<u64>,
 }
 
@@ -93,11 +99,11 @@ impl SortedRun {
 }
 
 /// How the faces of an edge meet, told from its keys.
-fn meeting(keys: &[u64]) -> u32 {
+fn meeting(keys: &[u64]) -> EdgeFlags {
     match keys {
-        [_] => HalfEdgeMesh::BOUNDARY,
-        [a, b] if (a ^ b) & DOWN == 0 => HalfEdgeMesh::FLIPPED,
-        [_, _] => 0,
-        _ => HalfEdgeMesh::NON_MANIFOLD,
+        [_] => EdgeFlags::BOUNDARY,
+        [a, b] if (a ^ b) & DOWN == 0 => EdgeFlags::FLIPPED,
+        [_, _] => EdgeFlags::NONE,
+        _ => EdgeFlags::NON_MANIFOLD,
     }
 }

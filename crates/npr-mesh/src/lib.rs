@@ -41,7 +41,6 @@ pub mod crease;
 pub mod curvature;
 mod degenerate_faces;
 pub mod direction_field;
-pub mod edge_flags;
 pub mod edges;
 pub mod half_edge;
 mod half_edge_groups;
@@ -64,9 +63,9 @@ pub mod weld;
 
 pub use components::components;
 pub use curvature::{Curvature, curvature};
-pub use edge_flags::EdgeFlags;
 pub use edges::{Edge, NO_FACE, unique_edges};
 pub use mesh::{Mesh, MeshError};
 pub use normals::{crease_normals, face_normals, smooth_normals};
+pub use npr_core::edge_flags::EdgeFlags;
 pub use smoothing::smooth_curvature;
 pub use weld::{Weld, weld};

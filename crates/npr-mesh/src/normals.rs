@@ -68,12 +68,17 @@ pub fn crease_normals(
     edges: &[Edge],
     crease_angle: f32,
 ) -> Vec<[[f32; 3]; 3]> {
+    // Join the corners that no crease parts.
     let mut joined = join_smooth_corners(triangles, weld, edges, crease_angle);
+
+    // Sum the normals of every group of corners.
     let weighted = weighted_normals(positions, triangles);
     let mut sums = vec![DVec3::ZERO; weighted.len()];
     for (corner, &normal) in weighted.iter().enumerate() {
         sums[joined.find(corner as u32) as usize] += normal;
     }
+
+    // Give every corner the normal of its group.
     (0..triangles.len() as u32)
         .map(|face| {
             [0, 1, 2].map(|i| {

@@ -1,8 +1,9 @@
 //! Vertices posed and projected: the twin of `mesh.pose_vertices`.
 
+use crate::curvature::tightest;
 use npr_core::geometry::{Influence, Part, PosedVertex, Vertex};
 use npr_core::math;
-use npr_core::outline::{Outline, width_of_curvature};
+use npr_core::outline::{Outline, width_factor, width_of_curvature};
 use npr_core::surface::{apply_point, dot, unit_or_z};
 use npr_core::window::View;
 use rayon::prelude::*;
@@ -70,9 +71,9 @@ pub fn pose_vertex(with: &Pose<'_>, vertex: &Vertex, influence: &Influence) -> P
     let (s, widest) = width_at(with, vertex, normal, direction, world, depth);
     let mut base = outline.base_width * with.parts[vertex.part as usize].width_factor;
     if outline.flags & Outline::WORLD_WIDTH != 0 {
-        base /= view.pixel_at(depth.max(view.near)).max(1e-20);
+        base /= view.pixel_before_eye(depth);
     }
-    let width = base * (outline.min_factor + (outline.max_factor - outline.min_factor) * s);
+    let width = base * width_factor(outline.min_factor, outline.max_factor, s);
     let width = width.min(widest.max(base * outline.min_factor));
     PosedVertex {
         clip: apply_point(&view.clip_from_world, world),
@@ -108,8 +109,8 @@ fn width_at(
     let tightest = vertex.width / with.outline.radius_world;
     let height = with.view.height_at(depth);
     let s = width_of_curvature(curvature * height * CURVATURE_SCALE, with.outline.gain);
-    let world_px = height / with.view.frame_px[1];
-    (s, widest_round(curvature * world_px, tightest * world_px))
+    let pixel = with.view.pixel_at(depth);
+    (s, widest_round(curvature * pixel, tightest * pixel))
 }
 
 /// Curvature of the outline that a surface would have at a point, seen along `eye`.
@@ -122,19 +123,24 @@ pub fn projected_curvature(
     direction: [f32; 3],
     eye: [f32; 3],
 ) -> f32 {
+    // Look along the surface; seen straight on, there is no way along it.
     let toward = dot(eye, normal);
     let along: [f32; 3] = std::array::from_fn(|i| eye[i] - normal[i] * toward);
     let square = dot(along, along);
     let [first, second] = curvatures;
     if square < 1e-12 {
-        return first.abs().max(second.abs());
+        return tightest(curvatures);
     }
+
+    // Turn the curvatures to that way.
     let cosine = dot(along, direction) / square.sqrt();
     let c2 = (cosine * cosine).clamp(0.0, 1.0);
     let s2 = 1.0 - c2;
     let radial = first * c2 + second * s2;
     let across = first * s2 + second * c2;
     let twist2 = (first - second) * (first - second) * s2 * c2;
+
+    // Divide the Gaussian by the radial curvature.
     across - twist2 * radial / (radial * radial + RADIAL_FLOOR)
 }
 
@@ -215,7 +221,8 @@ mod tests {
             m in prop::array::uniform9(-2f32..2.0), n in prop::array::uniform3(-1f32..1.0),
             t in prop::array::uniform3(-1f32..1.0),
         ) {
-            let matrix = [[m[0], m[1], m[2], 0.0], [m[3], m[4], m[5], 0.0], [m[6], m[7], m[8], 0.0], [0.0, 0.0, 0.0, 1.0]];
+            let column = |i: usize| [m[i], m[i + 1], m[i + 2], 0.0];
+            let matrix = [column(0), column(3), column(6), [0.0, 0.0, 0.0, 1.0]];
             let determinant = dot([m[0], m[1], m[2]], cross([m[3], m[4], m[5]], [m[6], m[7], m[8]]));
             prop_assume!(determinant.abs() > 0.1 && dot(n, n) > 0.1);
             let n = unit(n);
@@ -238,7 +245,10 @@ mod tests {
             };
             let parts = [Part { width_factor: 1.0, ..Part::default() }];
             let influences = [Influence { joints: [0; 4], weights: [1.0, 0.0, 0.0, 0.0] }];
-            let with = Pose { view: &view, outline: &outline, influences: &influences, palette: &[IDENTITY], parts: &parts };
+            let palette = [IDENTITY];
+            let with = Pose {
+                view: &view, outline: &outline, influences: &influences, palette: &palette, parts: &parts,
+            };
             let ball = Vertex { curvatures: [1.0 / radius; 2], normal: [0.0, 0.0, 1.0], ..Vertex::default() };
             let width = 2.0 * pose_vertex(&with, &ball, &influences[0]).half_width;
             // A ball of this radius is 1000 radius pixels wide to either side.

@@ -1,5 +1,6 @@
 //! From triangles as stored to a [`HalfEdgeMesh`]: welded, with half-edges, unique edges and their traits.
 
+use npr_core::edge_flags::EdgeFlags;
 use std::collections::HashSet;
 use std::ops::AddAssign;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -78,21 +79,16 @@ pub struct Preparation {
 impl Preparation {
     /// Counts what a shape holds; it does not remember what was removed.
     pub fn of(shape: &HalfEdgeMesh) -> Self {
-        let with = |bit: u32| {
-            shape
-                .edge_traits
-                .par_iter()
-                .filter(|&t| t & bit != 0)
-                .count()
-        };
+        let traits = shape.edge_traits.par_iter();
+        let with = |flag| traits.clone().filter(|t| t.contains(flag)).count();
         Self {
             vertex_count: shape.positions.len(),
             face_count: shape.faces.len(),
             edge_count: shape.edge_count(),
-            boundary_count: with(HalfEdgeMesh::BOUNDARY),
-            non_manifold_count: with(HalfEdgeMesh::NON_MANIFOLD),
-            flipped_count: with(HalfEdgeMesh::FLIPPED),
-            marked_count: with(HalfEdgeMesh::MARKED),
+            boundary_count: with(EdgeFlags::BOUNDARY),
+            non_manifold_count: with(EdgeFlags::NON_MANIFOLD),
+            flipped_count: with(EdgeFlags::FLIPPED),
+            marked_count: with(EdgeFlags::MARKED),
             polyline_count: shape.polylines.len(),
             degenerate_face_count: shape.degenerate_faces.len(),
             lost_degenerate_face_count: shape
@@ -185,16 +181,21 @@ struct Welding<'a> {
 
 impl Welding<'_> {
     fn fate(&self, face: usize) -> Fate {
+        // Drop faces with corners or surfaces that are not there.
         let [a, b, c] = self.mesh.triangles[face];
         let surface = self.mesh.surfaces.get(face).copied().unwrap_or(NONE);
         if surface as usize >= self.surface_count || ![a, b, c].into_iter().all(|v| self.sound(v)) {
             return Fate::Unsound;
         }
+
+        // Turn the faces of a mirrored mesh back.
         let corners = if self.mesh.mirrored {
             [a, c, b]
         } else {
             [a, b, c]
         };
+
+        // Drop faces that welding folds to a line.
         let [a, b, c] = self.weld.corners(corners);
         if a == b || b == c || c == a {
             return Fate::Collapsed;
@@ -231,6 +232,7 @@ fn weld_faces(
     weld: &Weld,
     surfaces: &[Surface],
 ) -> (HalfEdgeMesh, Vec<[u32; 3]>, Preparation) {
+    // Decide for every face whether it stays.
     let welding = Welding {
         mesh,
         weld,
@@ -243,6 +245,7 @@ fn weld_faces(
         .map(|face| welding.fate(face))
         .collect();
 
+    // Take over the positions of welded vertices.
     let position = |&vertex: &u32| Some(mesh.world[vertex as usize]).filter(is_finite);
     let mut part = HalfEdgeMesh {
         positions: weld
@@ -254,6 +257,8 @@ fn weld_faces(
         face_surfaces: Vec::with_capacity(fates.len()),
         ..HalfEdgeMesh::default()
     };
+
+    // Keep the faces that stay, and count the others.
     let mut removed = Preparation::default();
     let mut stored_corners = Vec::with_capacity(part.faces.capacity());
     for fate in fates {
@@ -330,6 +335,7 @@ fn doubles_beside(part: &HalfEdgeMesh, sides: &[u32]) -> Vec<u32> {
 ///
 /// Threads write where half-edges point to; every entry has one writer, so order does not matter.
 fn pair_half_edges(part: &mut HalfEdgeMesh) {
+    // Prepare lists that threads can fill.
     let unset = || -> Vec<AtomicU32> {
         let count = part.edge_sides.len();
         (0..count).map(|_| AtomicU32::new(NONE)).collect()
@@ -342,15 +348,19 @@ fn pair_half_edges(part: &mut HalfEdgeMesh) {
         set(&twins, a, b);
         set(&twins, b, a);
     };
+
+    // Pair the two sides of a plain edge; where faces crowd, pair as wedges do.
     let visit = |edge: u32| {
         let sides = part.sides(edge);
         sides.iter().for_each(|&side| set(&edge_of, side, edge));
         match *sides {
-            [a, b] if part.edge_traits[edge as usize] & HalfEdgeMesh::FLIPPED == 0 => pair([a, b]),
+            [a, b] if !part.edge_traits[edge as usize].contains(EdgeFlags::FLIPPED) => pair([a, b]),
             [_] | [_, _] => {}
             _ => wedges::pair(part, edge).into_iter().for_each(pair),
         }
     };
+
+    // Visit all edges.
     (0..part.edge_count() as u32)
         .into_par_iter()
         .with_min_len(4096)
@@ -368,11 +378,7 @@ fn measure(part: &mut HalfEdgeMesh, surfaces: &[Surface]) {
     }
     let measured = (0..part.edge_count() as u32).into_par_iter().map(|edge| {
         let sides = part.sides(edge);
-        let material = if differ_in_material(part, sides, surfaces) {
-            HalfEdgeMesh::MATERIAL
-        } else {
-            0
-        };
+        let material = EdgeFlags::MATERIAL.when(differ_in_material(part, sides, surfaces));
         let traits = part.edge_traits[edge as usize] | material;
         (traits, dihedral_cos(&normals, sides, traits))
     });
@@ -384,6 +390,8 @@ fn measure_normals(part: &mut HalfEdgeMesh, stored: &[[u32; 3]], normals: &[[f32
     if normals.is_empty() {
         return;
     }
+
+    // Look up the normals of a half-edge, from the lower end to the higher.
     let normal = |corner: usize| {
         let vertex = stored.as_flattened()[corner];
         normals.get(vertex as usize).copied().unwrap_or_default()
@@ -397,12 +405,14 @@ fn measure_normals(part: &mut HalfEdgeMesh, stored: &[[u32; 3]], normals: &[[f32
             [head, tail]
         }
     };
+
+    // Compare both faces' normals in the middle of every edge.
     let cos = |edge: u32| {
         let faces = part.dihedral_cos[edge as usize];
         let [a, b] = *part.sides(edge) else {
             return faces;
         };
-        let is_flipped = part.edge_traits[edge as usize] & HalfEdgeMesh::FLIPPED != 0;
+        let is_flipped = part.edge_traits[edge as usize].contains(EdgeFlags::FLIPPED);
         cos_between([beside(a), beside(b)], is_flipped).unwrap_or(faces)
     };
     part.normals_cos = (0..part.edge_count() as u32)
@@ -423,7 +433,7 @@ fn differ_in_material(part: &HalfEdgeMesh, sides: &[u32], surfaces: &[Surface]) 
 }
 
 /// Between the normals of two faces, as if they were wound alike; 1 where one has no orientation.
-fn dihedral_cos(normals: &[DVec3], sides: &[u32], traits: u32) -> f32 {
+fn dihedral_cos(normals: &[DVec3], sides: &[u32], traits: EdgeFlags) -> f32 {
     let [a, b] = *sides else {
         return 1.0;
     };
@@ -432,21 +442,21 @@ fn dihedral_cos(normals: &[DVec3], sides: &[u32], traits: u32) -> f32 {
         return 1.0;
     }
     let cos = a.dot(b).clamp(-1.0, 1.0) as f32;
-    if traits & HalfEdgeMesh::FLIPPED != 0 {
+    if traits.contains(EdgeFlags::FLIPPED) {
         -cos
     } else {
         cos
     }
 }
 
-/// Sets [`HalfEdgeMesh::MARKED`]; gives the number of marks that lie on no edge.
+/// Sets [`EdgeFlags::MARKED`]; gives the number of marks that lie on no edge.
 fn mark(part: &mut HalfEdgeMesh, marks: &[[u32; 2]], weld: &Weld) -> usize {
     let mut lost = 0;
     for &[a, b] in marks {
         let ends = [a, b].map(|v| weld.of_vertex.get(v as usize));
         match ends {
             [Some(&a), Some(&b)] => match find_edge(part, [a.min(b), a.max(b)]) {
-                Some(edge) => part.edge_traits[edge] |= HalfEdgeMesh::MARKED,
+                Some(edge) => part.edge_traits[edge] |= EdgeFlags::MARKED,
                 None => lost += 1,
             },
             _ => lost += 1,
@@ -464,11 +474,14 @@ fn add_wires(
 ) -> usize {
     let mut known = HashSet::with_capacity(mesh.polylines.len());
     for (index, ends) in mesh.polylines.iter().enumerate() {
+        // Leave out lines that hang on nothing.
         let surface = mesh.polyline_surfaces.get(index).copied().unwrap_or(NONE);
         let exists = ends.iter().all(|end| is_sound(mesh, weld, *end, false));
         if !exists || surface as usize >= surface_count {
             continue;
         }
+
+        // Keep each pair of vertices once.
         let [a, b] = ends.map(|end| weld.of_vertex[end as usize]);
         if a != b && known.insert([a.min(b), a.max(b)]) {
             part.polylines.push([a, b]);
@@ -529,12 +542,15 @@ fn extend(shape: &mut HalfEdgeMesh, part: HalfEdgeMesh) {
         total < NONE as usize,
         "a shape has fewer than 2^32 half-edges"
     );
+
+    // Number the part's vertices, faces and edges behind those of the shape.
     extend_normals_cos(shape, &part);
     let vertex = shape.positions.len() as u32;
     let face = shape.faces.len() as u32;
     let (half_edge, edge) = (3 * face, shape.edge_count() as u32);
     let moved = |number: u32, by: u32| if number == NONE { NONE } else { number + by };
 
+    // Append all lists with their numbers moved.
     shape.positions.extend(part.positions);
     shape
         .faces
@@ -558,6 +574,8 @@ fn extend(shape: &mut HalfEdgeMesh, part: HalfEdgeMesh) {
         .iter()
         .map(|&[s, stand_in]| [s + face, moved(stand_in, face)]);
     shape.degenerate_faces.extend(degenerate_faces);
+
+    // Append lines without faces.
     let polylines = part.polylines.iter().map(|ends| ends.map(|v| v + vertex));
     shape.polylines.extend(polylines);
     shape.polyline_surfaces.extend(part.polyline_surfaces);

@@ -36,10 +36,13 @@ pub fn smooth_curvature(
     areas: &[f32],
     rounds: u32,
 ) -> Vec<f32> {
+    // Weigh every vertex by its area.
     let pairs = neighbours(edges, weld);
     let weights: Vec<f64> = areas.iter().map(|&area| f64::from(area)).collect();
     let total = gather(&pairs, &weights);
     let mut smoothed = values.to_vec();
+
+    // Replace every value by the mean of those around it, round by round.
     for _ in 0..rounds {
         let weighted: Vec<f64> = smoothed
             .iter()
@@ -130,7 +133,8 @@ mod tests {
             let mesh = random_soup(30, seed);
             let count = weld(mesh.positions(), 0.0).count();
             let values: Vec<f32> = (0..count).map(|i| scale * (i % 7) as f32).collect();
-            let (low, high) = (values.iter().copied().fold(f32::MAX, f32::min), values.iter().copied().fold(f32::MIN, f32::max));
+            let low = values.iter().copied().fold(f32::MAX, f32::min);
+            let high = values.iter().copied().fold(f32::MIN, f32::max);
             let slack = 1e-5 * scale.abs() * 7.0;
             for value in smoothed(&mesh, &values, rounds) {
                 prop_assert!((low - slack..=high + slack).contains(&value));

@@ -160,10 +160,13 @@ fn lift_faces(surface: &ChartInput, settings: &ChartSettings) -> (Nodes, Vec<Lif
 
 /// The chart of all triangles from that of those with an area.
 fn gather(faces: &[u32], lifted: &[Lifted], triangle_count: usize) -> StrokeChart {
+    // Start from charts without strokes.
     let mut corners = vec![[[0.0; 2]; 3]; triangle_count];
     let mut errors = vec![0.0; triangle_count];
     let (mut error, mut area) = (0.0, 0.0);
     let count = |of: fn(&Lifted) -> bool| lifted.iter().filter(|&one| of(one)).count() as u32;
+
+    // Lay the charts of triangles with area into place, and sum their errors.
     for (&face, lifted) in faces.iter().zip(lifted) {
         corners[face as usize] = lifted.corners.map(|corner| corner.to_array());
         if lifted.gradient_error.is_finite() && lifted.area.is_finite() {
@@ -176,6 +179,8 @@ fn gather(faces: &[u32], lifted: &[Lifted], triangle_count: usize) -> StrokeChar
             area += f64::from(lifted.area);
         }
     }
+
+    // Give the mean error over the area.
     StrokeChart {
         corners,
         errors,

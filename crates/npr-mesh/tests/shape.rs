@@ -1,5 +1,6 @@
 //! Shapes of generated, random and hostile meshes.
 
+use npr_core::edge_flags::EdgeFlags;
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
@@ -43,8 +44,9 @@ fn prepare(mesh: &Mesh) -> (HalfEdgeMesh, Preparation) {
     (shape, preparation)
 }
 
-fn count(shape: &HalfEdgeMesh, bit: u32) -> usize {
-    shape.edge_traits.iter().filter(|&t| t & bit != 0).count()
+fn count(shape: &HalfEdgeMesh, flag: EdgeFlags) -> usize {
+    let traits = shape.edge_traits.iter();
+    traits.filter(|t| t.contains(flag)).count()
 }
 
 fn euler_characteristic(mesh: &Mesh) -> i64 {
@@ -162,7 +164,7 @@ fn sheets_stored_once_per_side_count_once() {
 fn the_blades_of_a_fan_meet_in_one_edge() {
     let (shape, preparation) = prepare(&fan(5));
     assert_eq!(preparation.non_manifold_count, 1);
-    assert_eq!(count(&shape, HalfEdgeMesh::FLIPPED), 0);
+    assert_eq!(count(&shape, EdgeFlags::FLIPPED), 0);
     assert!(
         shape.twins.iter().all(|&twin| twin == NONE),
         "all blades run up"
@@ -217,12 +219,12 @@ fn materials_mark_the_edges_between_them() {
     let sheet = plane(2, 1);
     let mut shape = surfaces(2);
     add_mesh(&mut shape, &placed(&sheet, &[0, 0, 1, 1]), 0.0);
-    assert_eq!(count(&shape, HalfEdgeMesh::MATERIAL), 1);
+    assert_eq!(count(&shape, EdgeFlags::MATERIAL), 1);
     let [a, b] = shape.sides(
         shape
             .edge_traits
             .iter()
-            .position(|t| t & HalfEdgeMesh::MATERIAL != 0)
+            .position(|t| t.contains(EdgeFlags::MATERIAL))
             .unwrap() as u32,
     ) else {
         panic!("two faces");
@@ -253,7 +255,7 @@ fn marks_find_their_edges_through_seams() {
     let edge = shape
         .edge_traits
         .iter()
-        .position(|t| t & HalfEdgeMesh::MARKED != 0)
+        .position(|t| t.contains(EdgeFlags::MARKED))
         .unwrap();
     let mut ends = shape.ends(edge as u32).map(|v| shape.positions[v as usize]);
     let mut expected = [a, b].map(|v| soup.positions()[v as usize]);
@@ -498,7 +500,7 @@ fn prepare_jumble(mesh: &Mesh, materials: &[u32]) -> HalfEdgeMesh {
 }
 
 /// What a shape says of an edge, in terms of stored vertices and faces of an unshuffled mesh.
-type EdgeStory = (BTreeSet<u32>, u32, i64, usize);
+type EdgeStory = (BTreeSet<u32>, EdgeFlags, i64, usize);
 
 fn stories(
     shape: &HalfEdgeMesh,
@@ -542,10 +544,10 @@ proptest! {
             let paired = sides.iter().filter(|&&s| shape.twins[s as usize] != NONE).count();
             prop_assert_eq!(paired, 2 * up.len().min(down.len()), "as many twins as can be");
             let mixed = sides.iter().any(|s| of_face[*s as usize / 3] != of_face[sides[0] as usize / 3]);
-            prop_assert_eq!(traits & HalfEdgeMesh::MATERIAL != 0, mixed);
-            prop_assert_eq!(traits & HalfEdgeMesh::BOUNDARY != 0, sides.len() == 1);
-            prop_assert_eq!(traits & HalfEdgeMesh::NON_MANIFOLD != 0, sides.len() > 2);
-            prop_assert_eq!(traits & HalfEdgeMesh::FLIPPED != 0, sides.len() == 2 && up.len() != 1);
+            prop_assert_eq!(traits.contains(EdgeFlags::MATERIAL), mixed);
+            prop_assert_eq!(traits.contains(EdgeFlags::BOUNDARY), sides.len() == 1);
+            prop_assert_eq!(traits.contains(EdgeFlags::NON_MANIFOLD), sides.len() > 2);
+            prop_assert_eq!(traits.contains(EdgeFlags::FLIPPED), sides.len() == 2 && up.len() != 1);
         }
     }
 

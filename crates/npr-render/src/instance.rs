@@ -5,8 +5,9 @@ use crate::joined::Joined;
 use crate::kept::Cache;
 use npr_core::geometry::{self, Influence, Triangle, Vertex};
 use npr_core::math;
+use npr_mesh::Weld;
 use npr_mesh::crease::{FoldInput, Folds};
-use npr_mesh::{EdgeFlags, Weld};
+use npr_mesh::curvature::bend::WeldedMesh;
 use npr_scene::{Material, Node, Part, Scene, TextureTransform};
 use std::collections::BTreeMap;
 
@@ -130,15 +131,14 @@ impl Instance {
         smooth: &[[f32; 3]],
         scale: f32,
     ) {
-        let bends = bends(
-            cache,
-            &joined.positions,
-            &joined.triangles,
+        let mesh = WeldedMesh {
+            positions: &joined.positions,
+            triangles: &joined.triangles,
             weld,
             edges,
-            smooth,
             scale,
-        );
+        };
+        let bends = bends(cache, &mesh, smooth);
         for (vertex, welded) in self.vertices.iter_mut().zip(&weld.of_vertex) {
             let bend = bends[*welded as usize];
             vertex.curvatures = bend.curvatures;
@@ -281,12 +281,10 @@ fn folds(
 
 /// An edge in the layout that passes read.
 fn shared_edge((edge, dihedral_cos): (&npr_mesh::Edge, &f32)) -> geometry::Edge {
-    let bit = |flag, bit| if edge.flags.contains(flag) { bit } else { 0 };
     geometry::Edge {
         ends: edge.ends,
         faces: edge.faces,
         dihedral_cos: *dihedral_cos,
-        traits: bit(EdgeFlags::MATERIAL, geometry::Edge::MATERIAL)
-            | bit(EdgeFlags::FLIPPED, geometry::Edge::FLIPPED),
+        traits: edge.flags,
     }
 }

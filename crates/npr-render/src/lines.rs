@@ -18,5 +18,6 @@ mod welded;
 mod widths;
 
 pub use model::LineModel;
-pub use options::{KindSet, LineMethod, LineModelOptions, LineOptions, PaintedLines};
+pub use npr_core::line_kind::KindSet;
+pub use options::{LineMethod, LineModelOptions, LineOptions, PaintedLines};
 pub use renderer::LineRenderer;

@@ -13,10 +13,12 @@ use npr_core::camera::Camera;
 use npr_core::color::{pack_rgba8, srgb_from_linear};
 use npr_core::crease::{CreaseFrom, Creases};
 use npr_core::geometry::{NONE, Part, Vertex};
+use npr_core::line_kind::KindSet;
 use npr_core::math;
 use npr_core::outline::{Outline, width_of_curvature};
 use npr_core::texture::{self, TextureStore, Wrap};
 use npr_core::window::View;
+use npr_mesh::curvature::tightest;
 use npr_style::compose::Compose;
 use npr_style::ramp::Level;
 use npr_stylesheet::{
@@ -285,10 +287,7 @@ impl<'a> VertexWidth<'a> {
         match width.source {
             WidthSource::Constant => 1.0,
             WidthSource::ProjectedCurvature => vertex.width,
-            WidthSource::Curvature => {
-                let largest = vertex.curvatures[0].abs().max(vertex.curvatures[1].abs());
-                width_of_curvature(largest, width.gain)
-            }
+            WidthSource::Curvature => width_of_curvature(tightest(vertex.curvatures), width.gain),
             WidthSource::VertexColor => {
                 f32::from(vertex.color.to_le_bytes()[width.channel.index()]) / 255.0
             }
@@ -348,10 +347,6 @@ pub(crate) fn outline(
     let bit = |bit: u32, when: bool| if when { bit } else { 0 };
     let in_world = line.width.base.unit == Unit::World;
     let published = line.method == LineMethod::Okuya;
-    let kinds = bit(Outline::CONTOUR, line.kinds.contour)
-        | bit(Outline::BOUNDARY, line.kinds.boundary)
-        | bit(Outline::CREASE, line.kinds.crease)
-        | bit(Outline::MATERIAL, line.kinds.material);
     Outline {
         base_width: if in_world {
             line.width.base.value
@@ -367,8 +362,8 @@ pub(crate) fn outline(
         normal_cos: math::cos(normal_threshold_deg(style).to_radians()),
         kinds: match line.method {
             LineMethod::Okuya => Outline::ANY,
-            LineMethod::Edges => Outline::CONTOUR | Outline::BOUNDARY,
-            _ => kinds,
+            LineMethod::Edges => KindSet::CONTOUR | KindSet::BOUNDARY,
+            _ => line.kinds.set().bits() & Outline::EDGE_KINDS,
         },
         detects: bit(Outline::DEPTH, detect.depth.on)
             | bit(Outline::NORMAL, detect.normal.on)
@@ -448,7 +443,5 @@ pub(crate) fn nearest_world_px(view: &View, camera: &Camera, model: &Model) -> f
     let (min, max) = model.bounds();
     let center = (Vec3::from(min) + Vec3::from(max)) * 0.5;
     let distance = (center - Vec3::from(camera.eye)).dot(Vec3::from(view.forward_world));
-    1.0 / view
-        .pixel_at((distance - model.radius()).max(view.near))
-        .max(1e-20)
+    1.0 / view.pixel_before_eye(distance - model.radius())
 }

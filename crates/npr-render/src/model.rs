@@ -93,7 +93,7 @@ impl Model {
         }
         model.notices.extend(textures.notice.take());
         model.textures = textures.store;
-        model.bounds = placement::bounds_of(model.posed_points());
+        model.bounds = npr_core::camera::bounds_of(model.posed_points());
         model.lights = file_light::of_scene(scene, model.bounds);
         model.relate_curvatures();
         Ok(model)

@@ -39,17 +39,6 @@ macro_rules! accessors {
 }
 pub(crate) use accessors;
 
-/// The box around points; a unit box where there are none.
-pub(crate) fn bounds_of(points: impl Iterator<Item = Vec3>) -> Bounds {
-    let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-    let (min, max) = points.fold(none, |(min, max), point| (min.min(point), max.max(point)));
-    if min.is_finite() && max.is_finite() {
-        (min.to_array(), max.to_array())
-    } else {
-        ([-0.5; 3], [0.5; 3])
-    }
-}
-
 /// The box around two boxes.
 pub(crate) fn around(a: Bounds, b: Bounds) -> Bounds {
     (

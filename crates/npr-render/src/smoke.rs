@@ -1,8 +1,8 @@
 //! Smoke as spheres, beside or without a model.
 
-use crate::placement::{Bounds, around, bounds_of};
+use crate::placement::{Bounds, around};
 use glam::Vec3;
-use npr_core::camera::Camera;
+use npr_core::camera::{Camera, bounds_of};
 use npr_core::smoke::{REACH, Sphere};
 use npr_smoke::Puffs;
 use npr_stylesheet::{SmokeMethod, SmokeStyle};

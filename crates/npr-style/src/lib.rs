@@ -37,6 +37,5 @@ mod surface_color;
 mod tone;
 pub mod tone_row;
 mod triangle_constants;
-pub mod width;
 
 pub use length::{LONGEST, Length, LengthError, REFERENCE_HEIGHT_PX, Unit};

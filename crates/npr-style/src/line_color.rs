@@ -12,6 +12,7 @@
 use npr_core::color::{linear_rgba, srgb_from_linear, unpack_rgba8};
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
 use npr_core::line_color::{LineTint, Tint, line_color};
+use npr_core::line_kind::Kind;
 use npr_core::outline::MASK_KINDS;
 use npr_core::raster::ID_MASK;
 use npr_core::surface::{blend2, dot, weights_at};
@@ -163,7 +164,7 @@ impl LineScene<'_> {
     pub fn color_at(
         &self,
         part: &Part,
-        kind: u32,
+        kind: Kind,
         own: [f32; 3],
         world: [f32; 3],
         normal: [f32; 3],
@@ -413,10 +414,10 @@ impl Layers<'_> {
         place: &LinePoint,
     ) -> [f32; 3] {
         let color = if part.line_flags & Part::LINE_PLACED == 0 {
-            line_color(part, 0, None)
+            line_color(part, Kind::Contour, None)
         } else {
             let tint = self.line_tint(triangle, part, corners, place);
-            line_color(part, 0, Some(tint))
+            line_color(part, Kind::Contour, Some(tint))
         };
         let [r, g, b, _] = self.linear_of(color);
         [r, g, b]

@@ -1,5 +1,6 @@
 //! Which lines are drawn, and with what.
 
+use npr_core::line_kind::{Kind, KindSet};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -79,6 +80,21 @@ impl Default for Kinds {
             material: true,
             intersection: true,
         }
+    }
+}
+
+impl Kinds {
+    /// The kinds that are drawn; marked lines are no matter of a style.
+    pub fn set(&self) -> KindSet {
+        let is_drawn = |kind: &Kind| match kind {
+            Kind::Contour => self.contour,
+            Kind::Boundary => self.boundary,
+            Kind::Crease => self.crease,
+            Kind::Material => self.material,
+            Kind::Intersection => self.intersection,
+            Kind::Marked => false,
+        };
+        Kind::ALL.into_iter().filter(is_drawn).collect()
     }
 }
 

@@ -3,6 +3,7 @@
 use color::{AlphaColor, HueDirection, Oklab, Srgb};
 use npr_core::color::{pack_rgba8, srgb_from_linear};
 use npr_core::geometry::Part;
+use npr_core::line_kind::{COLORED_KINDS, Kind, KindSet};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -74,16 +75,27 @@ pub struct KindColors {
 }
 
 impl KindColors {
+    /// The colour of a kind; none of a kind that has no colour of its own.
+    pub fn of(&self, kind: Kind) -> Option<Color> {
+        match kind {
+            Kind::Contour => self.contour,
+            Kind::Boundary => self.boundary,
+            Kind::Crease => self.crease,
+            Kind::Material => self.material,
+            Kind::Intersection => self.intersection,
+            Kind::Marked => None,
+        }
+    }
+
+    /// The kinds that have a colour of their own.
+    fn set(&self) -> KindSet {
+        let is_colored = |kind: &Kind| self.of(*kind).is_some();
+        Kind::ALL.into_iter().filter(is_colored).collect()
+    }
+
     /// In the order of [`Part::line_kinds`].
-    fn in_order(&self) -> [Option<Color>; 5] {
-        let Self {
-            contour,
-            boundary,
-            crease,
-            material,
-            intersection,
-        } = *self;
-        [contour, boundary, crease, material, intersection]
+    fn in_order(&self) -> [Option<Color>; COLORED_KINDS] {
+        std::array::from_fn(|number| self.of(Kind::ALL[number]))
     }
 }
 
@@ -193,16 +205,15 @@ impl LinePaint {
     /// The bits of [`Part::line_flags`].
     pub fn flags(&self) -> u32 {
         let bit = |bit: u32, when: bool| if when { bit } else { 0 };
-        let kinds = self.kinds.in_order().into_iter().enumerate();
         let (light, depth) = (&self.light, &self.depth);
-        kinds.fold(0, |bits, (kind, color)| {
-            bits | bit(1 << kind, color.is_some())
-        }) | match self.source {
-            LineSource::Constant => 0,
-            LineSource::Surface => Part::LINE_SURFACE,
-            LineSource::VertexColor => Part::LINE_VERTEX,
-            LineSource::Texture => Part::LINE_TEXTURE,
-        } | bit(Part::LINE_DEPTH, !depth.ramp.is_empty())
+        self.kinds.set().bits()
+            | match self.source {
+                LineSource::Constant => 0,
+                LineSource::Surface => Part::LINE_SURFACE,
+                LineSource::VertexColor => Part::LINE_VERTEX,
+                LineSource::Texture => Part::LINE_TEXTURE,
+            }
+            | bit(Part::LINE_DEPTH, !depth.ramp.is_empty())
             | bit(
                 Part::LINE_FROM_MIDDLE,
                 !depth.ramp.is_empty() && depth.space == DepthSpace::Model,

@@ -4,7 +4,7 @@
 //! `base * factor / 2` to either side. What "share" means is up to the source, as the published
 //! method leaves the formula free [Okuya et al. 2016, section 3.2].
 
-use npr_style::width::width_factor;
+use npr_core::outline::width_factor;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -111,9 +111,17 @@ impl Default for Width {
 }
 
 impl Width {
-    /// The width factor at a share of 0..1 from the source.
+    /// The width factor at a share of 0..1 from the source, never outside `min..max`; a share that is no number counts
+    /// as 0.
     pub fn factor(&self, share: f32) -> f32 {
+        let share = if share.is_nan() {
+            0.0
+        } else {
+            share.clamp(0.0, 1.0)
+        };
         width_factor(self.min, self.max, share)
+            .max(self.min)
+            .min(self.max)
     }
 
     /// The width factor that the control points give at `position`, kept within `min..max`.

@@ -2,6 +2,7 @@
 
 use npr_core::color::{linear_rgba, srgb_from_linear, unpack_rgba8};
 use npr_core::geometry::{NONE, Part};
+use npr_core::line_kind::{COLORED_KINDS, Kind};
 use npr_core::math;
 use npr_core::surface::unit_or_z;
 use npr_core::texture::{TextureStore, Wrap};
@@ -62,12 +63,12 @@ fn scene<'a>(view: &'a View, lights: &'a Lights, store: &'a TextureStore) -> Lin
 /// its normal.
 fn one_after_the_other(
     scene: &LineScene<'_>,
-    (part, kind): (&Part, u32),
+    (part, kind): (&Part, Kind),
     own: [f32; 3],
     place: [[f32; 3]; 2],
 ) -> [f32; 4] {
     let [world, normal] = place;
-    let of_kind = part.line_flags & (1 << kind) != 0;
+    let of_kind = part.line_flags & kind.bit() != 0;
     let start = if of_kind {
         unpack_rgba8(part.line_kinds[kind as usize])
     } else {
@@ -116,6 +117,10 @@ const EVERYTHING: &str = "{ source = 'surface', kinds = { crease = '#aabbcc80' }
      light = { rim = 0.7, opacity = [1, 0.4], \
      ramp = [{ at = 0, color = '#0008' }, { at = 1, color = '#ffa040c0' }] } }";
 
+fn kind() -> impl Strategy<Value = Kind> {
+    prop::sample::select(&Kind::ALL[..COLORED_KINDS])
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
@@ -125,7 +130,7 @@ proptest! {
         world in prop::array::uniform3(-1f32..1.0),
         normal in prop::array::uniform3(-1f32..1.0),
         towards in prop::array::uniform3(-1f32..1.0),
-        kind in 0u32..5,
+        kind in kind(),
     ) {
         let (part, store) = painted(EVERYTHING);
         let (view, lights) = (view(), Lights::distant(unit_or_z(towards)));
@@ -140,7 +145,7 @@ proptest! {
 
     #[test]
     fn a_constant_is_the_lines_own_color_to_the_bit(
-        world in prop::array::uniform3(-1e6f32..1e6), normal in prop::array::uniform3(-1f32..1.0), kind in 0u32..5,
+        world in prop::array::uniform3(-1e6f32..1e6), normal in prop::array::uniform3(-1f32..1.0), kind in kind(),
     ) {
         let (part, store) = painted("{}");
         let (view, lights) = (view(), Lights::distant([0.0, 1.0, 0.0]));
@@ -156,7 +161,7 @@ proptest! {
         let scene = scene(&view, &lights, &store);
         let at = |z: f32, angle: f32| {
             let normal = [math::sin(angle), 0.0, math::sin(angle + 1.570_796_4)];
-            scene.color_at(&part, 0, [0.2; 3], [0.0, 0.0, z], normal)
+            scene.color_at(&part, Kind::Contour, [0.2; 3], [0.0, 0.0, z], normal)
         };
         let (here, back, turned) = (at(z, angle), at(z - 0.001, angle), at(z, angle + 0.001));
         for i in 0..4 {
@@ -172,7 +177,7 @@ proptest! {
         let (part, store) = painted(EVERYTHING);
         let (view, lights) = (view(), Lights::distant([0.0, 1.0, 0.0]));
         let scene = scene(&view, &lights, &store);
-        scene.color_at(&part, 0, [f32::NAN; 3], world, normal);
+        scene.color_at(&part, Kind::Contour, [f32::NAN; 3], world, normal);
         scene.width_at(&part, world, normal);
     }
 }
@@ -183,7 +188,15 @@ fn depth_counts_from_the_models_nearest_place() {
         painted("{ depth.ramp = [{ at = 0, color = '#fff0' }, { at = 1, color = '#fff' }] }");
     let (view, lights) = (view(), Lights::distant([0.0, 1.0, 0.0]));
     let scene = scene(&view, &lights, &store);
-    let at = |z: f32| scene.color_at(&part, 0, [0.0; 3], [0.0, 0.0, z], [0.0, 0.0, 1.0]);
+    let at = |z: f32| {
+        scene.color_at(
+            &part,
+            Kind::Contour,
+            [0.0; 3],
+            [0.0, 0.0, z],
+            [0.0, 0.0, 1.0],
+        )
+    };
     assert_eq!(
         at(1.0),
         [0.2, 0.1, 0.05, 1.0],
@@ -202,7 +215,7 @@ fn light_thins_and_rims_shine() {
     let width = |normal| scene.width_at(&part, [0.0; 3], normal);
     assert!((width([0.0, 1.0, 0.0]) - 0.4).abs() < 1e-6);
     assert!((width([0.0, -1.0, 0.0]) - 1.2).abs() < 1e-6);
-    let color = |normal| scene.color_at(&part, 0, [0.0; 3], [0.0; 3], normal);
+    let color = |normal| scene.color_at(&part, Kind::Contour, [0.0; 3], [0.0; 3], normal);
     let behind = color([0.0, 0.0, -1.0]);
     assert!((behind[2] - 1.0).abs() < 1e-5, "the light behind is blue");
     assert_eq!(color([0.0, 0.0, 1.0]), [0.2, 0.1, 0.05, 1.0]);

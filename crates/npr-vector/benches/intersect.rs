@@ -2,6 +2,7 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use npr_core::budget::Budget;
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
 use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::mesh::Mesh;
@@ -40,7 +41,7 @@ fn shape_of(positions: Vec<[f32; 3]>, faces: Vec<[u32; 3]>) -> HalfEdgeMesh {
             shape.edge_sides.push(*side);
         }
         shape.edge_starts.push(shape.edge_sides.len() as u32);
-        shape.edge_traits.push(0);
+        shape.edge_traits.push(EdgeFlags::NONE);
         shape.dihedral_cos.push(1.0);
     }
     shape

@@ -2,7 +2,9 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use npr_core::camera::{Camera, Projection};
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::{Edge, GPixel, NONE, Part, PosedVertex, Stamp, Triangle};
+use npr_core::line_kind::KindSet;
 use npr_core::outline::{MASK_OWNER, Outline};
 use npr_core::window::{View, Window};
 use npr_vector::screen::detect::{Detection, detect};
@@ -151,7 +153,7 @@ fn outline() -> Outline {
     Outline {
         depth_threshold: 0.012,
         normal_cos: 0.8,
-        kinds: Outline::CONTOUR,
+        kinds: KindSet::CONTOUR,
         detects: Outline::DEPTH | Outline::NORMAL | Outline::OBJECT_ID | Outline::PLANE_DEPTH,
         reach_px: 3,
         ..Outline::default()
@@ -184,7 +186,7 @@ fn short_edges(view: &View, count: usize) -> (Vec<PosedVertex>, Vec<Edge>) {
         ends: [2 * i, 2 * i + 1],
         faces: [0, NONE],
         dihedral_cos: 1.0,
-        traits: 0,
+        traits: EdgeFlags::NONE,
     };
     (
         ends.map(|end| posed(view, end)).collect(),
@@ -231,7 +233,7 @@ fn edges(c: &mut Criterion) {
     let mut group = c.benchmark_group("edges");
     for count in COUNTS {
         let (posed, edges) = short_edges(&picture.view, count);
-        let kinds = vec![Outline::CONTOUR; count];
+        let kinds = vec![KindSet::CONTOUR; count];
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(BenchmarkId::new("draw ribbons", count), |b| {
             b.iter(|| picture.ribbons(&posed, &edges, &kinds, &mut layer, &mut keys))

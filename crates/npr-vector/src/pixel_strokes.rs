@@ -60,7 +60,7 @@ pub struct PixelScene<'a> {
     pub view: &'a View,
     /// The eye, as decisions about facing read it.
     pub eye: &'a Eye,
-    /// Bits of [`crate::mesh_lines::graph::CurveNode::KINDS`] that are drawn; intersections are no mesh edges and have
+    /// Bits of [`npr_core::line_kind::KindSet::BITS`] that are drawn; intersections are no mesh edges and have
     /// no lines here.
     pub kinds: u32,
     /// Which edges are creases.

@@ -1,6 +1,7 @@
 //! Faces by the thousand that cut, cover or touch each other: what is found of their lines is bounded, and in memory.
 
 use npr_core::camera::{Camera, Projection};
+use npr_core::line_kind::KindSet;
 use npr_mesh::Mesh;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{coplanar_soup, crossing_soup, fan, needles, shape_of};
@@ -8,7 +9,6 @@ use npr_vector::mesh_lines::contour::EdgeContours;
 use npr_vector::mesh_lines::draw::{
     LineSettings, Method, Prepared, StrokeLook, ViewStrokes, eye_of, strokes_with,
 };
-use npr_vector::mesh_lines::graph::CurveNode;
 use npr_vector::project::Projector;
 
 const SIZE: [u32; 2] = [400, 300];
@@ -24,7 +24,7 @@ fn drawn(
 ) -> Result<ViewStrokes, npr_core::budget::OverBudget> {
     let settings = LineSettings {
         size: SIZE,
-        kinds: CurveNode::KINDS & !CurveNode::INTERSECTION,
+        kinds: KindSet::BITS & !KindSet::INTERSECTION,
         method: Method::Edges,
         smooth: false,
         hidden,

@@ -1,7 +1,9 @@
 //! Lines of whole shapes: what must hold on every mesh, from every eye.
 
 use npr_core::camera::{Camera, Projection};
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
+use npr_core::line_kind::KindSet;
 use npr_mesh::Mesh;
 use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::testing::{self, add_to, shape_of};
@@ -29,7 +31,7 @@ fn camera(eye: [f32; 3]) -> Camera {
 fn settings(smooth: bool) -> LineSettings {
     LineSettings {
         size: SIZE,
-        kinds: CurveNode::KINDS,
+        kinds: KindSet::BITS,
         method: Method::Edges,
         smooth,
         hidden: false,
@@ -49,7 +51,7 @@ fn bounds(shape: &HalfEdgeMesh) -> ([f32; 3], [f32; 3]) {
 }
 
 fn draw(shape: &HalfEdgeMesh, eye: [f32; 3], settings: &LineSettings) -> Vec<Stroke> {
-    let with_crossings = settings.kinds & CurveNode::INTERSECTION != 0;
+    let with_crossings = settings.kinds & KindSet::INTERSECTION != 0;
     let prepared = Prepared::new(shape, 0.77, with_crossings);
     let projector = Projector::new(&camera(eye), settings.size, bounds(shape));
     strokes(shape, &prepared, &projector, settings, &|_| 2.0)
@@ -129,13 +131,13 @@ proptest! {
         let mut found: Vec<u32> = contours(&shape, &front, &eye)
             .nodes
             .iter()
-            .filter(|node| node.flags & CurveNode::CONTOUR != 0)
+            .filter(|node| node.flags & KindSet::CONTOUR != 0)
             .map(|node| node.edge)
             .collect();
         found.sort_unstable();
         let expected: Vec<u32> = (0..shape.edge_count() as u32)
             .filter(|edge| match shape.sides(*edge) {
-                [a, b] if shape.edge_traits[*edge as usize] & HalfEdgeMesh::FLIPPED == 0 => {
+                [a, b] if !shape.edge_traits[*edge as usize].contains(EdgeFlags::FLIPPED) => {
                     front[*a as usize / 3] != front[*b as usize / 3]
                 }
                 _ => false,
@@ -155,7 +157,7 @@ proptest! {
         found.sort_unstable();
         let expected: Vec<u32> = (0..shape.edge_count() as u32)
             .filter(|edge| {
-                shape.edge_traits[*edge as usize] != 0
+                shape.edge_traits[*edge as usize] != EdgeFlags::NONE
                     || shape.dihedral_cos[*edge as usize] < 0.77
             })
             .collect();
@@ -232,7 +234,7 @@ proptest! {
             [x - 0.5, y - 0.5, 0.0]
         });
         let shape = shape_of(&mesh);
-        let kinds = CurveNode::BOUNDARY;
+        let kinds = KindSet::BOUNDARY;
         let never = LineSettings { kinds, ..settings(smooth) };
         prop_assert_eq!(draw(&shape, [x, y, 4.0], &never).len(), 1);
         let split = LineSettings { split: Some(1.0), ..never };
@@ -423,7 +425,7 @@ fn materials_meet_in_a_line() {
     let found = draw(&shape, [0.5, 0.5, 4.0], &settings(false));
     assert!(found.iter().any(|stroke| stroke.kind == Kind::Material));
     let without = LineSettings {
-        kinds: CurveNode::CONTOUR | CurveNode::BOUNDARY,
+        kinds: KindSet::CONTOUR | KindSet::BOUNDARY,
         ..settings(false)
     };
     let found = draw(&shape, [0.5, 0.5, 4.0], &without);

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use npr_core::camera::{Camera, Projection};
+use npr_core::line_kind::KindSet;
 use npr_mesh::Mesh;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{self, shape_of};
@@ -9,7 +10,6 @@ use npr_vector::mesh_lines::contour::EdgeContours;
 use npr_vector::mesh_lines::draw::{
     LineSettings, Method, PointPaint, Prepared, StrokeLook, eye_of, strokes_with,
 };
-use npr_vector::mesh_lines::graph::CurveNode;
 use npr_vector::mesh_lines::run::{RunPoint, distance};
 use npr_vector::project::Projector;
 use npr_vector::stroke::Kind;
@@ -89,7 +89,7 @@ fn mean(shape: &HalfEdgeMesh, vertices: [u32; 3], shares: [f64; 3]) -> DVec3 {
 fn smoothed_by(method: Method, hidden: bool) -> LineSettings {
     LineSettings {
         size: SIZE,
-        kinds: CurveNode::KINDS,
+        kinds: KindSet::BITS,
         method,
         smooth: true,
         hidden,
@@ -150,7 +150,7 @@ proptest! {
         split in prop::option::of(0.2_f32..3.0),
     ) {
         let method = if on_surface { Method::Surface } else { Method::Edges };
-        let settings = LineSettings { size: SIZE, kinds: CurveNode::KINDS, method, smooth, hidden, split, memory_limit: u64::MAX };
+        let settings = LineSettings { size: SIZE, kinds: KindSet::BITS, method, smooth, hidden, split, memory_limit: u64::MAX };
         let off = off_px(&mesh, eye, &settings);
         prop_assert!(off < OFF_PX, "{} px", off);
     }

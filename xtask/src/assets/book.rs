@@ -27,11 +27,15 @@ pub fn book(size: Vec3, paint: BookPaint) -> Shape {
         y: thickness,
         z: length,
     } = size;
+
+    // Cut the boards, and the bands of the back.
     let board = |floor: f32| {
         let middle = Vec3::new(width / 2.0 + 0.4, floor, 0.0);
         cuboid(width - 0.8, 0.3, length, paint.cover).placed(Mat3::IDENTITY, middle)
     };
     let band = |z: f32| lengthwise(&back(thickness, 0.06, 0.4), z - 0.4, z + 0.4, paint.bands);
+
+    // Bind the pages between them.
     let half = length / 2.0;
     lengthwise(&back(thickness, 0.0, 0.9), -half, half, paint.cover)
         .join(lengthwise(

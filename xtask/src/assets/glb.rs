@@ -126,12 +126,16 @@ fn mesh(body: &mut Body, object: &Object) -> Value {
         uvs,
         faces,
     } = smoothed(&object.shape);
+
+    // Store what all primitives share.
     let metres: Vec<Vec3> = positions.iter().map(|&p| p * METRES).collect();
     let attributes = json!({
         "POSITION": body.positions(&metres),
         "NORMAL": body.normals(&normals.iter().map(|n| n.normalize()).collect::<Vec<_>>()),
         "TEXCOORD_0": body.uvs(&uvs),
     });
+
+    // Store the triangles of every paint.
     let primitives: Vec<Value> = faces
         .iter()
         .map(|(paint, triangles)| {

@@ -24,6 +24,8 @@ pub fn sheet(weave: Weave, paint: Paint, surface: impl Fn(Vec2) -> Vec3) -> Shap
         columns,
         thickness,
     } = weave;
+
+    // Place the upper face, and the lower one a thickness behind it.
     let uv = |row: u32, column: u32| {
         Vec2::new(
             column as f32 / (columns - 1) as f32,
@@ -41,11 +43,15 @@ pub fn sheet(weave: Weave, paint: Paint, surface: impl Fn(Vec2) -> Vec3) -> Shap
             uv,
         }
     };
+
+    // Close the rim with a hem.
     let rim = rim_places(rows, columns);
     let hem = Shape::grid(2, rim.len() as u32, paint, |row, place| {
         let (r, c) = rim[place as usize];
         if row == 0 { lower(r, c) } else { upper(r, c) }
     });
+
+    // Join the faces; the lower one is mirrored, so that it looks out.
     Shape::grid(rows, columns, paint, upper)
         .join(Shape::grid(rows, columns, paint, |row, column| {
             lower(row, columns - 1 - column)

@@ -31,10 +31,13 @@ pub fn still_life() -> Scene {
 
 /// Wall, table and cloth.
 fn lay_table(scene: &mut Scene) {
+    // Mix the paints.
     let wall = scene.material("Wall", 0xc6d6d0);
     let wood = scene.material("Wood", 0xb9824f);
     let linen = scene.material("Linen", 0xf5efe0);
     let stripe = scene.material("Stripe", 0xc2503f);
+
+    // Stand wall and table behind each other.
     scene.stand(
         "Wall",
         cuboid(260.0, 160.0, 2.0, wall),
@@ -43,6 +46,8 @@ fn lay_table(scene: &mut Scene) {
     );
     let top = slab(104.0, 3.6, 56.0, 3.0, wood);
     scene.stand("Table", top, [0.0, -3.6, TABLE_EDGE - 28.0], 0.0);
+
+    // Lay the cloth over the table's edge.
     let drape = Drape {
         size: Vec2::new(32.0, 32.0),
         middle: Vec2::new(-7.5, 6.0),
@@ -98,6 +103,7 @@ fn fill_bowl(scene: &mut Scene, pear_paint: FruitPaint) {
 
 /// Two books, a bottle beside them.
 fn stack_books(scene: &mut Scene) {
+    // Bind two books.
     let pages = scene.material("Pages", 0xefe4c8);
     let bands = scene.material("Gilding", 0xd9b25a);
     let mut bound = |name, srgb| BookPaint {
@@ -107,6 +113,8 @@ fn stack_books(scene: &mut Scene) {
     };
     let wine = bound("WineCover", 0x8f3a3d);
     let moss = bound("MossCover", 0x5f7348);
+
+    // Lay one on the other, turned a little.
     scene.stand(
         "BookBelow",
         book(Vec3::new(16.0, 3.4, 22.0), wine),
@@ -119,6 +127,8 @@ fn stack_books(scene: &mut Scene) {
         [-28.0, 3.4, -9.5],
         80.0,
     );
+
+    // Stand the bottle beside them.
     let paint = BottlePaint {
         glass: scene.material("Glass", 0x3f6b52),
         cork: scene.material("Cork", 0xc79b68),

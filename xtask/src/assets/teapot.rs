@@ -47,6 +47,7 @@ fn lid() -> Path {
 
 /// Cross-sections of the spout: wide where it leaves the body, and hollow at the tip.
 fn spout() -> Vec<Station> {
+    // Taper the spout along its path, with a lip at the end.
     let path = Path::start(5.6, 3.5).curve([[10.6, 3.4], [8.9, 8.3], [12.6, 10.3]], 22);
     let outside = stations(&path, |along| {
         let taper = math::smoothstep(-0.1, 0.8, along);
@@ -56,6 +57,8 @@ fn spout() -> Vec<Station> {
             math::mix(1.75, 0.7, taper) + lip,
         ]
     });
+
+    // Hollow its tip.
     let tip = outside[outside.len() - 1];
     let hollow = |depth: f32, radius: f32| Station {
         centre: tip.centre - tip.tangent * depth,

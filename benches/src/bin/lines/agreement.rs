@@ -21,13 +21,13 @@ use crate::way::ways;
 
 /// What strokes are counted against, and why.
 const COUNTING: &str = "\
-Strokes as they are found on the mesh are counted against runs, the reference's lines along mesh edges from where one appears \
-to where it is lost. Smoothed strokes are counted against drawn runs, the strokes that a pen of 3 px needs for a picture of the \
-same lines: along the edges of fine meshes a line that everyone sees as one comes and goes within a pixel, hundreds of runs of \
-which smoothing leaves out all but one. Loops of `surface` run through the middle of what edges zigzag about, so that there too \
-fewer strokes than runs are lines less broken: what is below the bar says how many strokes a drawn run there are, where less \
-than one would be a line missed. As strokes are grouped by kind and object, so are drawn runs; what is shorter than 8 px is a \
-speck and counts on neither side.
+Strokes as they are found on the mesh are counted against runs, the reference's lines along mesh edges from where one \
+appears to where it is lost. Smoothed strokes are counted against drawn runs, the strokes that a pen of 3 px needs \
+for a picture of the same lines: along the edges of fine meshes a line that everyone sees as one comes and goes \
+within a pixel, hundreds of runs of which smoothing leaves out all but one. Loops of `surface` run through the middle \
+of what edges zigzag about, so that there too fewer strokes than runs are lines less broken: what is below the bar \
+says how many strokes a drawn run there are, where less than one would be a line missed. As strokes are grouped by \
+kind and object, so are drawn runs; what is shorter than 8 px is a speck and counts on neither side.
 ";
 
 /// Triangles over which a model is not quick.

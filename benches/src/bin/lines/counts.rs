@@ -1,5 +1,6 @@
 //! Contour, boundary and crease edges of meshes that other programs counted.
 
+use npr_core::line_kind::KindSet;
 use std::path::Path;
 
 use npr_benches::lines::candidates::Wanted;
@@ -10,7 +11,7 @@ use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_render::{LineModel, LineModelOptions};
 use npr_vector::mesh_lines::contour::{Eye, contours, facing};
 use npr_vector::mesh_lines::feature::features;
-use npr_vector::mesh_lines::graph::{CurveGraph, CurveNode};
+use npr_vector::mesh_lines::graph::CurveGraph;
 
 use crate::Outcome;
 use crate::arguments::Arguments;
@@ -50,6 +51,8 @@ pub fn edge_counts(arguments: &Arguments) -> Outcome<()> {
         "expected",
         "furthest off",
     ]);
+
+    // Count the edges of every mesh beside what the other program counted.
     let mut within = 0;
     for (name, expected) in EXPECTED {
         let found = counts(&folder.join(format!("{name}.obj")))?;
@@ -61,9 +64,12 @@ pub fn edge_counts(arguments: &Arguments) -> Outcome<()> {
         let pairs = (0..3).flat_map(|i| [found[i], expected[i]]);
         table.add(name, pairs.chain([off]).map(|count| count.to_string()));
     }
+
+    // Tell how many meshes agree.
     println!(
-        "## Edges counted\n\nEvery edge of a kind, hidden or not, from the view that other programs were measured with; expected: counted in \
-         double precision by another program. Bar: at most {MOST_OFF} off. {within} of {} meshes reach it.\n\n{table}",
+        "## Edges counted\n\nEvery edge of a kind, hidden or not, from the view that other programs were measured \
+         with; expected: counted in double precision by another program. Bar: at most {MOST_OFF} off. {within} of {} \
+         meshes reach it.\n\n{table}",
         EXPECTED.len()
     );
     Ok(())
@@ -83,9 +89,9 @@ fn counts(path: &Path) -> Outcome<[usize; 3]> {
         Creases::over(Wanted::default().crease as f32, CreaseFrom::Faces),
     );
     Ok([
-        count(&loops, CurveNode::CONTOUR),
-        count(&lines, CurveNode::BOUNDARY),
-        count(&lines, CurveNode::CREASE),
+        count(&loops, KindSet::CONTOUR),
+        count(&lines, KindSet::BOUNDARY),
+        count(&lines, KindSet::CREASE),
     ])
 }
 

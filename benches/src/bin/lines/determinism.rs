@@ -27,6 +27,7 @@ pub fn determinism(arguments: &Arguments) -> Outcome<()> {
     let mut table = Table::new(["drawing", "digest", "runs", "threads", "equal"]);
     for (name, scene) in scenes {
         for way in ways() {
+            // Draw again and again, with each number of threads.
             let mut digests = Vec::new();
             for threads in THREADS {
                 let pool = rayon::ThreadPoolBuilder::new()
@@ -38,6 +39,8 @@ pub fn determinism(arguments: &Arguments) -> Outcome<()> {
                     digests.push(drawn);
                 }
             }
+
+            // Compare the digests.
             let equal = if digests.iter().all(|found| *found == digests[0]) {
                 "yes"
             } else {

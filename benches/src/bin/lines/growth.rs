@@ -27,6 +27,8 @@ pub fn scaling(arguments: &Arguments) -> Outcome<()> {
         .map(|size| format!("{size} triangles"))
         .chain(["grows as (n log n) to the".to_owned()]);
     let mut table = Table::new(std::iter::once("ms".to_owned()).chain(head));
+
+    // Time meshes of a ball and of a knot, from small to large.
     let way = &ways()[0];
     let makers: [Maker; 2] = [
         ("bumpy ball", |size| bumpy_ball(size as usize / 2 * 2)),
@@ -41,6 +43,8 @@ pub fn scaling(arguments: &Arguments) -> Outcome<()> {
                 row.push((count, times));
             }
         }
+
+        // Fit the power by which each stage grows.
         for (renderer, row) in ["prepare", "first view", "next view"].iter().zip(&rows) {
             let medians: Vec<(f64, f64)> = row
                 .iter()
@@ -53,8 +57,11 @@ pub fn scaling(arguments: &Arguments) -> Outcome<()> {
             );
         }
     }
+
+    // Print how they were timed.
     println!(
-        "## How time grows\n\n{}, {} runs, median and, in brackets, the least, which the power is fitted to. Load average {}.\n\n{table}",
+        "## How time grows\n\n{}, {} runs, median and, in brackets, the least, which the power is fitted to. Load \
+         average {}.\n\n{table}",
         way.name,
         RUNS,
         machine::load()

@@ -20,12 +20,15 @@ const FURTHER: f32 = 1.7;
 /// Measures shapes whose outline is known in closed form, as meshes from coarse to fine.
 pub fn known_outlines(arguments: &Arguments) -> Outcome<()> {
     println!("## Outlines known in closed form\n");
+
+    // Look from far enough that the whole outline is seen.
     let sizes = &SIZES[..if arguments.quick { 2 } else { SIZES.len() }];
     let camera = Camera {
         eye: benchmark_camera().eye.map(|v| FURTHER * v),
         ..benchmark_camera()
     };
     for (name, solid) in [("ball", Solid::Ball), ("ring", Solid::Ring { tube: 0.4 })] {
+        // Measure every way against the outline in closed form.
         let exact = solid.reference(&camera, SIZE);
         let mut table = Table::new([
             "way and triangles",

@@ -34,6 +34,7 @@ fn main() -> Outcome<()> {
 }
 
 fn report(arguments: &Arguments) -> Outcome<()> {
+    // Say what was measured, and where.
     println!("# Line drawings\n");
     println!("- machine: {}", machine::description());
     println!("- code: {}", machine::code());
@@ -42,11 +43,16 @@ fn report(arguments: &Arguments) -> Outcome<()> {
         SIZE[0], SIZE[1]
     );
     println!(
-        "- reference: every half pixel of every candidate edge of the polygons, seen by a ray of its own in double precision\n"
+        "- reference: every half pixel of every candidate edge of the polygons, seen by a ray of its own in double \
+         precision\n"
     );
+
+    // Measure what is drawn.
     agreement::agreement(arguments)?;
     counts::edge_counts(arguments)?;
     known::known_outlines(arguments)?;
+
+    // Measure what holds for all subjects.
     if arguments.only.is_none() {
         preparation::preparation(arguments)?;
         determinism::determinism(arguments)?;

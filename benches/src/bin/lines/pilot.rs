@@ -57,6 +57,7 @@ fn without_specks(way: &Way) -> Way {
 
 /// Contours and boundaries of the method in the pilot's views: means over views.
 pub fn pilot(arguments: &Arguments) -> Outcome<()> {
+    // Choose the ways; the published one also without its specks.
     let wanted = Wanted {
         kinds: vec![Kind::Contour, Kind::Boundary],
         ..Wanted::default()
@@ -81,6 +82,7 @@ pub fn pilot(arguments: &Arguments) -> Outcome<()> {
         "contour px",
     ]);
     for path in subjects(arguments) {
+        // Draw every view in every way, and measure it against the reference.
         let subject = LineSubject::load(&path, false)?;
         let model = LineModel::new(&subject.scene, &LineModelOptions::default())?;
         let cameras = pilot_cameras(&subject);
@@ -88,6 +90,8 @@ pub fn pilot(arguments: &Arguments) -> Outcome<()> {
         for (number, camera) in cameras.iter().enumerate() {
             let view = Viewpoint::new(camera, SIZE);
             let reference = Reference::new(&subject.soup, &view, &wanted);
+
+            // Sum up every way over the views.
             for (way, found) in chosen.iter().zip(&mut found) {
                 let drawing = way.draw_kinds(&model, camera, &wanted)?;
                 if let Some(folder) = &arguments.pictures {
@@ -119,7 +123,8 @@ pub fn pilot(arguments: &Arguments) -> Outcome<()> {
         }
     }
     println!(
-        "## Views of the pilot\n\nContours and boundaries alone, from 3 radii, 15 degrees up, in steps of 45 degrees around; 45 degrees of view.\n\n{table}"
+        "## Views of the pilot\n\nContours and boundaries alone, from 3 radii, 15 degrees up, in steps of 45 degrees \
+         around; 45 degrees of view.\n\n{table}"
     );
     Ok(())
 }

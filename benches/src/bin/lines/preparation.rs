@@ -5,6 +5,7 @@ use npr_benches::lines::subjects::{knot, scene_of};
 use npr_benches::machine;
 use npr_benches::solid::bumpy_ball;
 use npr_benches::table::Table;
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_render::{LineModel, LineModelOptions};
@@ -30,6 +31,8 @@ pub fn preparation(arguments: &Arguments) -> Outcome<()> {
         "expected",
         "open, crowded, flipped edges",
     ]);
+
+    // Prepare meshes whose Euler characteristic is known.
     for size in sizes {
         let ring = Solid::Ring { tube: 0.4 };
         let meshes = [
@@ -41,6 +44,8 @@ pub fn preparation(arguments: &Arguments) -> Outcome<()> {
             table.add(name, cells(&scene, expected)?);
         }
     }
+
+    // Print how they were timed.
     println!(
         "## Preparing meshes\n\nMedian of {RUNS} and, in brackets, the least. Load average {}.\n\n{table}",
         machine::load()
@@ -87,17 +92,17 @@ fn euler(shape: &HalfEdgeMesh) -> i64 {
 }
 
 fn odd_edges(shape: &HalfEdgeMesh) -> String {
-    let count = |bit: u32| {
-        shape
-            .edge_traits
-            .iter()
-            .filter(|traits| **traits & bit != 0)
+    let traits = shape.edge_traits.iter();
+    let count = |flag| {
+        traits
+            .clone()
+            .filter(|traits| traits.contains(flag))
             .count()
     };
     format!(
         "{}, {}, {}",
-        count(HalfEdgeMesh::BOUNDARY),
-        count(HalfEdgeMesh::NON_MANIFOLD),
-        count(HalfEdgeMesh::FLIPPED)
+        count(EdgeFlags::BOUNDARY),
+        count(EdgeFlags::NON_MANIFOLD),
+        count(EdgeFlags::FLIPPED)
     )
 }

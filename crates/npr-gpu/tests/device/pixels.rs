@@ -3,6 +3,7 @@
 use crate::agreement::{Meaning, disagreement};
 use crate::shared;
 use npr_core::camera::{Camera, Projection};
+use npr_core::line_kind::KindSet;
 use npr_gpu::curves::pixels::{Hiding, PixelRoom, add_pixel_contours, add_strips};
 use npr_gpu::curves::{Hiders, ResidentPixels, Scheme, trace_on};
 use npr_gpu::engine::{Engine, Session};
@@ -13,7 +14,6 @@ use npr_gpu::processor::Processor;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{cube, shape_of, torus, uv_sphere};
 use npr_vector::mesh_lines::draw::eye_of;
-use npr_vector::mesh_lines::graph::CurveNode;
 use npr_vector::pixel_strokes::edge::drawn_edges;
 use npr_vector::pixel_strokes::stroke::Loops;
 use npr_vector::pixel_strokes::{PixelScene, PublishedPath, scene_depths, trace};
@@ -80,7 +80,7 @@ fn with_scene(
         shape,
         view: &view,
         eye: &eye_of(shape, &projector),
-        kinds: CurveNode::KINDS,
+        kinds: KindSet::BITS,
         creases: 0.766.into(),
         is_drawn: &[],
     };

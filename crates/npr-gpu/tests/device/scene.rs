@@ -3,6 +3,7 @@
 use npr_core::camera::{Camera, Projection};
 use npr_core::geometry::{ChartCorners, Edge, Influence, NONE, Part, Triangle, Vertex};
 use npr_core::light_view::{distant_view, spot_view};
+use npr_core::line_kind::KindSet;
 use npr_core::math;
 use npr_core::outline::Outline;
 use npr_core::smoke::Sphere;
@@ -159,11 +160,7 @@ impl Scene {
                     }
                 }),
                 dihedral_cos: edge.dihedral_cos,
-                traits: if edge.flags.contains(EdgeFlags::MATERIAL) {
-                    Edge::MATERIAL
-                } else {
-                    0
-                },
+                traits: edge.flags.among(EdgeFlags::MATERIAL),
             });
         }
         self.parts.push(part);
@@ -290,7 +287,7 @@ pub fn view(look: Look) -> View {
 /// Settings of lines of a look.
 pub fn outline(look: Look) -> Outline {
     let all_buffers = Outline::DEPTH | Outline::NORMAL | Outline::OBJECT_ID | Outline::MATERIAL_ID;
-    let edges = Outline::CONTOUR | Outline::BOUNDARY | Outline::CREASE | Outline::MATERIAL;
+    let edges = KindSet::CONTOUR | KindSet::BOUNDARY | KindSet::CREASE | KindSet::MATERIAL;
     let (base_width, kinds, detects, flags) = match look {
         Look::Ours => (
             3.0,

@@ -1,5 +1,6 @@
 //! Shapes made from generated meshes, and eyes that look at them.
 
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
 use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::{Mesh, weld};
@@ -49,12 +50,12 @@ fn give_edges(shape: &mut HalfEdgeMesh) {
     for (edge, sides) in sides.values().enumerate() {
         let up = sides.iter().filter(|side| shape.runs_up(**side)).count();
         let traits = match (sides.len(), up) {
-            (1, _) => HalfEdgeMesh::BOUNDARY,
-            (2, 1) => 0,
-            (2, _) => HalfEdgeMesh::FLIPPED,
-            _ => HalfEdgeMesh::NON_MANIFOLD,
+            (1, _) => EdgeFlags::BOUNDARY,
+            (2, 1) => EdgeFlags::NONE,
+            (2, _) => EdgeFlags::FLIPPED,
+            _ => EdgeFlags::NON_MANIFOLD,
         };
-        if traits == 0 {
+        if traits == EdgeFlags::NONE {
             shape.twins[sides[0] as usize] = sides[1];
             shape.twins[sides[1] as usize] = sides[0];
         }

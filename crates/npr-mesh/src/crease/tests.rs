@@ -7,6 +7,7 @@ use crate::testing::{
 };
 use crate::{smooth_normals, unique_edges, weld};
 use npr_core::crease::{CreaseFrom, Creases};
+use npr_core::edge_flags::EdgeFlags;
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
@@ -78,7 +79,7 @@ fn of_shape(mesh: &Mesh, normals: &[[f32; 3]], creases: Creases) -> BTreeSet<Pla
     add_mesh(&mut shape, &placed, 0.0);
     shape.sanity_check();
     let is_crease = |edge: &u32| {
-        let is_crowded = shape.edge_traits[*edge as usize] & HalfEdgeMesh::NON_MANIFOLD != 0;
+        let is_crowded = shape.edge_traits[*edge as usize].contains(EdgeFlags::NON_MANIFOLD);
         is_crowded || shape.fold_cos(*edge, creases.from) < creases.cos
     };
     let edges = (0..shape.edge_count() as u32).filter(is_crease);

@@ -239,6 +239,8 @@ impl<const N: usize> Level<N> {
             to: NONE,
             view: View::SAME,
         };
+
+        // Pair nodes along their strongest links.
         let mut of_node = vec![alone; self.count()];
         let mut count = 0;
         for node in 0..self.count() {
@@ -255,6 +257,8 @@ impl<const N: usize> Level<N> {
                 count += 1;
             }
         }
+
+        // Let those left alone join the pair of their most strongly linked neighbour.
         for node in 0..self.count() {
             if of_node[node].to == NONE
                 && let Some(host) = self.best(self.links_of(node).iter())

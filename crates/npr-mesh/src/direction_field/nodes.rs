@@ -38,11 +38,14 @@ impl Nodes {
     ///
     /// Triangles without area, or with a position that is not finite, have no nodes.
     pub(crate) fn new(positions: &[[f32; 3]], triangles: &[Triangle], crease_cos: f32) -> Self {
+        // Cut the surface along its folds.
         let sheet = Sheet::new(positions, triangles);
         let mut wedges = sheet.join_wedges(crease_cos);
         let (first_corner, node_of_corner) = sheet.number(&mut wedges);
         let corners = node_of_corner.as_chunks().0.to_vec();
         let position_of = |&corner: &u32| positions[sheet.vertex(corner) as usize];
+
+        // Place a node where a corner of every piece lies.
         let mut nodes = Self {
             positions: first_corner.iter().map(position_of).collect(),
             parts: first_corner
@@ -53,6 +56,8 @@ impl Nodes {
             corners,
             ..Self::default()
         };
+
+        // Link neighbours, with a normal of each piece alone.
         let normals = smooth_normals(&nodes.positions, &nodes.corners, &nodes.apart());
         nodes.normals = normals.into_iter().map(Vec3::from_array).collect();
         nodes.link();

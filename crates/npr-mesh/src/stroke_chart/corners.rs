@@ -26,9 +26,12 @@ pub(crate) struct Lifted {
 /// come to the same result. Where the three changes do not add up to nothing, or directions turn round within the
 /// triangle, the coordinates follow the prediction alone.
 pub(crate) fn lift(mut sites: [Site; 3], mut phases: [Vec2; 3], anchor: usize) -> Lifted {
+    // Start from the corner that all neighbours agree on.
     sites.rotate_left(anchor);
     phases.rotate_left(anchor);
     let turning = turn_alike(&mut sites, &mut phases);
+
+    // Find the whole tiles between corners.
     let change = |from: usize, to: usize| {
         let tiles = sites[from].tiles_to(&sites[to]);
         let rest = phases[to] - phases[from] - tiles;
@@ -38,9 +41,12 @@ pub(crate) fn lift(mut sites: [Site; 3], mut phases: [Vec2; 3], anchor: usize) -
     let gap = changes[0] + change(1, 2) - changes[1];
     let torn = gap.abs().cmpge(Vec2::splat(0.5)) | BVec2::splat(turning);
 
+    // Where the changes do not close, follow the prediction.
     let wanted = Gradient::wanted(&sites);
     let steps = [1, 2].map(|k| sites[k].position - sites[0].position);
     let changes = [0, 1].map(|k| Vec2::select(torn, wanted.of(steps[k]), changes[k]));
+
+    // Place the corners near the origin, in the triangle's own order.
     let mut corners = [Vec2::ZERO, changes[0], changes[1]].map(|change| phases[0] + change);
     let whole = ((corners[0] + corners[1] + corners[2]) / 3.0).round();
     corners.rotate_right(anchor);

@@ -198,7 +198,7 @@ fn place_of(said: &npr_stylesheet::Lettering, view: &View) -> Option<([f32; 2], 
     let clip = Mat4::from_cols_array_2d(&view.clip_from_world) * anchor.extend(1.0);
     let ndc = [clip.x / clip.w, -clip.y / clip.w];
     let middle: [f32; 2] = std::array::from_fn(|i| (ndc[i] + 1.0) * 0.5 * view.frame_px[i]);
-    let world_px = 1.0 / view.pixel_at(depth);
+    let world_px = view.pixels_per_unit(depth);
     let is_sound = middle.iter().all(|v| v.is_finite()) && world_px.is_finite();
     is_sound.then_some((middle, world_px))
 }

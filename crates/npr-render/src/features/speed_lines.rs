@@ -7,10 +7,10 @@ use crate::look::part;
 use crate::model::Model;
 use crate::options::RendererOptions;
 use crate::part_info::PartInfo;
-use crate::placement::bounds_of;
 use crate::surfaces::Surfaces;
 use glam::{Mat4, Vec2, Vec3};
 use npr_core::budget::Budget;
+use npr_core::camera::bounds_of;
 use npr_core::color::SrgbEncoder;
 use npr_core::geometry::Part;
 use npr_core::raster::triangle_of;
@@ -156,7 +156,7 @@ impl<'a> SpeedLines<'a> {
         }
         let forward = Vec3::from(view.forward_world);
         let depth = (from - Vec3::from(view.eye_world)).dot(forward);
-        let world_px = 1.0 / view.pixel_at(depth);
+        let world_px = view.pixels_per_unit(depth);
         let spacing = self.motion.spacing;
         Some(Sweep {
             along: (end - start) / length_px,

@@ -13,9 +13,6 @@ use glam::{Vec2, Vec3};
 use npr_core::camera::Camera;
 use npr_core::color::{linear_rgba, unpack_rgba8};
 use npr_core::geometry::{NONE, Part};
-use npr_core::line_color::{
-    KIND_BOUNDARY, KIND_CONTOUR, KIND_CREASE, KIND_INTERSECTION, KIND_MATERIAL, KIND_NONE,
-};
 use npr_core::surface::unit_or_z;
 use npr_core::texture::{self, TextureStore};
 use npr_core::window::View;
@@ -139,7 +136,7 @@ impl<'a> StrokeColors<'a> {
         let world = point.world.as_vec3().to_array();
         let normal = self.normal_at(kind, surface, point);
         let own = self.own_at(part, surface, point);
-        let color = scene.color_at(part, number_of(kind), own, world, normal);
+        let color = scene.color_at(part, kind, own, world, normal);
         PointPaint {
             color: Some(color.map(|v| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)),
             width: f64::from(scene.width_at(part, world, normal)),
@@ -314,17 +311,5 @@ impl Spot {
             }
         }
         sum
-    }
-}
-
-/// The number that a kind has in parts.
-fn number_of(kind: Kind) -> u32 {
-    match kind {
-        Kind::Contour => KIND_CONTOUR,
-        Kind::Boundary => KIND_BOUNDARY,
-        Kind::Crease => KIND_CREASE,
-        Kind::Material => KIND_MATERIAL,
-        Kind::Intersection => KIND_INTERSECTION,
-        Kind::Marked => KIND_NONE,
     }
 }

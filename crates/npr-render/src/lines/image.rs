@@ -10,6 +10,7 @@ use glam::{DVec3, Vec2};
 use npr_core::budget::Budget;
 use npr_core::color::srgb_from_linear;
 use npr_core::geometry::NONE;
+use npr_core::line_kind::KindSet;
 use npr_core::surface::dot;
 use npr_core::texture;
 use npr_core::window::View;
@@ -19,7 +20,6 @@ use npr_vector::image_lines::{
     BYTES_PER_PIXEL, ImageScene, SurfacePicture, painted_lines, strokes_from,
 };
 use npr_vector::mesh_lines::draw::{LineSettings, Prepared, StrokeLook};
-use npr_vector::mesh_lines::graph::CurveNode;
 use npr_vector::project::Projector;
 use npr_vector::stroke::Stroke;
 use npr_vector::surface_location::SurfaceLocation;
@@ -67,7 +67,7 @@ pub(super) fn strokes(
     }
     if let (Some(map), Some(wanted)) = (view.map, options.painted) {
         let all = ImageScene {
-            kinds: CurveNode::KINDS,
+            kinds: KindSet::BITS,
             ..scene
         };
         let lines = picture.borders(&all, None).ink();

@@ -169,7 +169,7 @@ impl LineModel {
     fn of_shape(scene: &Scene, assembly: &Assembly, mut shape: HalfEdgeMesh) -> Self {
         mark_materials(&mut shape, &assembly.marked);
         let points = assembly.used_points();
-        let bounds = placement::bounds_of(points.iter().copied().map(Vec3::from));
+        let bounds = npr_core::camera::bounds_of(points.iter().copied().map(Vec3::from));
         Self {
             parts: assembly.parts.clone(),
             colors: colors_of(&shape, assembly),
@@ -240,7 +240,7 @@ impl LineModel {
     pub fn set_smoke(&mut self, smoke: Option<Smoke>) {
         self.smoke = smoke;
         let points = self.points.iter().copied().map(Vec3::from);
-        let bounds = placement::bounds_of(points);
+        let bounds = npr_core::camera::bounds_of(points);
         self.bounds = smoke::joined(self.smoke.as_ref(), bounds, self.points.is_empty());
     }
 

@@ -2,12 +2,11 @@
 
 use crate::look;
 use npr_core::crease::{CreaseFrom, Creases};
+use npr_core::line_kind::{Kind, KindSet};
 use npr_stylesheet::Style;
 use npr_vector::image_lines::{PaintedRule, PaintedTone};
 use npr_vector::mesh_lines::draw::Method;
-use npr_vector::mesh_lines::graph::CurveNode;
 use npr_vector::pixel_strokes::PublishedPath;
-use npr_vector::stroke::Kind;
 
 /// How a scene is prepared for line drawings.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,62 +34,10 @@ impl Default for LineModelOptions {
     }
 }
 
-/// A set of kinds of line.
-///
-/// ```
-/// use npr_render::{Kind, KindSet};
-///
-/// let outlines: KindSet = [Kind::Contour, Kind::Boundary].into_iter().collect();
-/// assert!(outlines.has(Kind::Contour) && !outlines.has(Kind::Crease));
-/// assert_eq!(KindSet::ALL.kinds().count(), Kind::ALL.len());
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct KindSet(u32);
-
-impl KindSet {
-    /// Every kind.
-    pub const ALL: Self = Self(CurveNode::KINDS);
-
-    /// The kinds that a style draws, and marked lines, which somebody asked for by hand.
-    pub fn of_style(style: &Style) -> Self {
-        let wanted = &style.line.kinds;
-        let kinds = [
-            (Kind::Contour, wanted.contour),
-            (Kind::Boundary, wanted.boundary),
-            (Kind::Crease, wanted.crease),
-            (Kind::Material, wanted.material),
-            (Kind::Intersection, wanted.intersection),
-            (Kind::Marked, true),
-        ];
-        let wanted = kinds.into_iter().filter(|(_, wanted)| *wanted);
-        wanted.map(|(kind, _)| kind).collect()
-    }
-
-    /// Whether a kind is in the set.
-    pub fn has(self, kind: Kind) -> bool {
-        self.0 & kind.bit() != 0
-    }
-
-    /// Its kinds, in the order of [`Kind::ALL`].
-    pub fn kinds(self) -> impl Iterator<Item = Kind> {
-        Kind::ALL.into_iter().filter(move |kind| self.has(*kind))
-    }
-
-    /// The bits of [`CurveNode::KINDS`].
-    pub(crate) fn bits(self) -> u32 {
-        self.0
-    }
-}
-
-impl FromIterator<Kind> for KindSet {
-    fn from_iter<T: IntoIterator<Item = Kind>>(kinds: T) -> Self {
-        Self(
-            kinds
-                .into_iter()
-                .map(Kind::bit)
-                .fold(0, |set, bit| set | bit),
-        )
-    }
+/// The kinds that a style draws, and marked lines, which somebody asked for by hand.
+fn kinds_of(style: &Style) -> KindSet {
+    let wanted = style.line.kinds.set().kinds();
+    wanted.chain([Kind::Marked]).collect()
 }
 
 /// Which lines a drawing has, and how they are found.
@@ -211,7 +158,7 @@ impl LineOptions {
     /// The style's own `line.method` is a matter of pictures and plays no part.
     pub fn of_style(style: &Style, size: [u32; 2]) -> Self {
         Self {
-            kinds: KindSet::of_style(style),
+            kinds: kinds_of(style),
             crease: style.line.crease_angle_deg.to_radians(),
             crease_from: look::creases(style).from,
             split: Self::split_at(style.line.split_angle_deg),

@@ -5,6 +5,7 @@ use super::assembly::{Assembly, place_key};
 use crate::error::RenderError;
 use crate::part_info::PartInfo;
 use npr_core::budget::Budget;
+use npr_core::edge_flags::EdgeFlags;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_scene::Scene;
 
@@ -54,9 +55,9 @@ pub(super) fn mark_materials(shape: &mut HalfEdgeMesh, marked: &[bool]) {
     }
     for edge in 0..shape.edge_count() as u32 {
         let asks = |side: &u32| marked[shape.face_surfaces[*side as usize / 3] as usize];
-        let meets = shape.edge_traits[edge as usize] & HalfEdgeMesh::MATERIAL != 0;
+        let meets = shape.edge_traits[edge as usize].contains(EdgeFlags::MATERIAL);
         if meets && shape.sides(edge).iter().any(asks) {
-            shape.edge_traits[edge as usize] |= HalfEdgeMesh::MARKED;
+            shape.edge_traits[edge as usize] |= EdgeFlags::MARKED;
         }
     }
 }

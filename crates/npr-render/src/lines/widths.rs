@@ -1,11 +1,13 @@
 //! How wide lines are at the vertices of a shape.
 
-use crate::bend::{Bend, bends};
+use crate::bend::bends;
 use crate::kept::Cache;
 use crate::look;
 use npr_core::geometry::{Influence, NONE, Part, Vertex};
 use npr_core::outline::{Outline, width_of_curvature};
 use npr_core::window::View;
+use npr_mesh::curvature::bend::{Bend, WeldedMesh};
+use npr_mesh::curvature::tightest;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::pose::{Matrix, Pose, pose_vertex};
 use npr_mesh::{Edge, EdgeFlags, Weld};
@@ -43,8 +45,14 @@ impl ShapeBends {
             .map(|edge| edge_between(shape.ends(edge)))
             .collect();
         let normals = npr_mesh::smooth_normals(&shape.positions, &shape.faces, &weld);
-        let (positions, faces) = (&shape.positions, &shape.faces);
-        let mut bends = bends(cache, positions, faces, &weld, &edges, &normals, 1.0);
+        let mesh = WeldedMesh {
+            positions: &shape.positions,
+            triangles: &shape.faces,
+            weld: &weld,
+            edges: &edges,
+            scale: 1.0,
+        };
+        let mut bends = bends(cache, &mesh, &normals);
         for bend in &mut bends {
             bend.curvatures = bend.curvatures.map(|curvature| curvature * radius);
             bend.tightest *= radius;
@@ -159,8 +167,7 @@ impl<'a> Widths<'a> {
         let width = &self.input.style.line.width;
         match width.source {
             WidthSource::Curvature => self.input.bends.map_or(1.0, |measured| {
-                let [max, min] = measured.bends[i].curvatures;
-                width_of_curvature(max.abs().max(min.abs()), width.gain)
+                width_of_curvature(tightest(measured.bends[i].curvatures), width.gain)
             }),
             WidthSource::VertexColor => self.input.colors.get(i).map_or(1.0, |color| {
                 f32::from(color.to_le_bytes()[width.channel.index()]) / 255.0

@@ -3,10 +3,10 @@
 use super::ink::LineInk;
 use super::picture::{ImageScene, SurfacePicture};
 use super::sheet::are_one_sheet;
-use crate::mesh_lines::graph::CurveNode;
 use crate::screen::detect::{Detection, Detector};
 use glam::DVec2;
 use npr_core::geometry::NONE;
+use npr_core::line_kind::KindSet;
 use npr_core::math;
 use npr_core::outline::{MASK_OWNER, Outline};
 use npr_core::surface::dot;
@@ -27,7 +27,7 @@ pub struct Border {
     pub side: u32,
     /// The one of the two pixels whose surface the line lies on: of contours the one in front.
     pub owner: u32,
-    /// What the line is, a bit of [`CurveNode::KINDS`].
+    /// What the line is, a bit of [`KindSet::BITS`].
     pub kind: u32,
 }
 
@@ -57,7 +57,7 @@ impl Borders {
             crease_cos: scene.creases.cos,
             normal_cos: scene.creases.cos,
             depth_threshold: scene.depth_threshold,
-            kinds: Outline::CONTOUR | Outline::BOUNDARY | Outline::CREASE | Outline::MATERIAL,
+            kinds: KindSet::CONTOUR | KindSet::BOUNDARY | KindSet::CREASE | KindSet::MATERIAL,
             detects: DETECTS,
             ..Outline::default()
         };
@@ -227,8 +227,8 @@ impl Finder<'_> {
         };
         let is_nearer = is_first || (!is_second && first.depth < second.depth);
         let owner = match kind {
-            CurveNode::CONTOUR if is_nearer => other,
-            CurveNode::CONTOUR => pixel,
+            KindSet::CONTOUR if is_nearer => other,
+            KindSet::CONTOUR => pixel,
             _ => self.owner_between([other, pixel]),
         };
         self.is_drawn(owner)
@@ -287,10 +287,10 @@ impl Finder<'_> {
     /// What line runs between two pixels of a surface seen at a grazing angle, whose depths and normals do not tell.
     fn hidden_kind(&self, pixel: u32, other: u32) -> Option<u32> {
         if self.share_crease(pixel, other) {
-            return Some(CurveNode::CREASE);
+            return Some(KindSet::CREASE);
         }
         let is_cut = self.are_one_sheet([other, pixel]) == Some(false);
-        is_cut.then_some(CurveNode::CONTOUR)
+        is_cut.then_some(KindSet::CONTOUR)
     }
 
     /// Whether two pixels show faces on both sides of an edge that is a crease.
@@ -309,16 +309,16 @@ impl Finder<'_> {
     }
 }
 
-/// What a line is that was found for these reasons, a bit of [`CurveNode::KINDS`].
+/// What a line is that was found for these reasons, a bit of [`KindSet::BITS`].
 fn kind_of(mask: u32) -> u32 {
     let has = |bits: u32| mask & bits != 0;
     if has(Outline::DEPTH) {
-        CurveNode::CONTOUR
+        KindSet::CONTOUR
     } else if has(Outline::OBJECT_ID | Outline::PIECE) {
-        CurveNode::INTERSECTION
+        KindSet::INTERSECTION
     } else if has(Outline::MATERIAL_ID) {
-        CurveNode::MATERIAL
+        KindSet::MATERIAL
     } else {
-        CurveNode::CREASE
+        KindSet::CREASE
     }
 }

@@ -9,7 +9,7 @@ pub struct LineInk {
     pub size: [u32; 2],
     /// Of every pixel with ink the one whose surface is in front; else [`NONE`].
     pub owners: Vec<u32>,
-    /// What the line is, a bit of [`crate::mesh_lines::graph::CurveNode::KINDS`]; 0 of pixels that own none.
+    /// What the line is, a bit of [`npr_core::line_kind::KindSet::BITS`]; 0 of pixels that own none.
     pub kinds: Vec<u32>,
     /// It is that of light painted lines, whose strokes have other identities than dark ones.
     pub is_light: bool,

@@ -3,9 +3,9 @@
 use super::ink::LineInk;
 use super::picture::{ImageScene, SurfacePicture};
 use super::slender::{Paint, slender};
-use crate::mesh_lines::graph::CurveNode;
 use crate::screen::detect::GRAZING_SLOPE;
 use npr_core::geometry::{GPixel, NONE};
+use npr_core::line_kind::KindSet;
 use rayon::prelude::*;
 
 /// Whether painted lines are darker or lighter than what is beside them.
@@ -134,7 +134,7 @@ pub fn painted(
         let is_dark = beside - here >= rule.contrast && ground.get(pixel).is_none_or(stands_out);
         let [x, y] = [pixel % width, pixel / width].map(|at| at as u32);
         if is_dark && object[pixel] != NONE && !lines.is_ink(x, y) {
-            ink.add(pixel as u32, CurveNode::MARKED, 0);
+            ink.add(pixel as u32, KindSet::MARKED, 0);
         }
     }
     ink

@@ -24,7 +24,7 @@ pub struct ImageScene<'a> {
     pub view: &'a View,
     /// For every surface whether it has lines; all do where there are no more entries.
     pub is_drawn: &'a [bool],
-    /// Kinds of line that are looked for, bits of [`CurveNode::KINDS`](crate::mesh_lines::graph::CurveNode::KINDS).
+    /// Kinds of line that are looked for, bits of [`KindSet`](npr_core::line_kind::KindSet).
     pub kinds: u32,
     /// Which bends are creases.
     pub creases: Creases,

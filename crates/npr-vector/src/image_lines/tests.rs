@@ -2,13 +2,13 @@
 
 use super::*;
 use crate::mesh_lines::draw::{LineSettings, Method, StrokeLook};
-use crate::mesh_lines::graph::CurveNode;
 use crate::mesh_lines::run::Run;
 use crate::mesh_lines::zero_set::CornerNormals;
 use crate::project::Projector;
 use crate::stroke::{Kind, Stroke};
 use npr_core::camera::{Camera, Projection};
 use npr_core::geometry::NONE;
+use npr_core::line_kind::KindSet;
 use npr_core::window::View;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{cube, plane, random_soup, shape_of, uv_sphere};
@@ -40,7 +40,7 @@ impl Subject {
             shape,
             view: camera.view(size, BOUNDS),
             projector: Projector::new(&camera, size, BOUNDS),
-            kinds: CurveNode::KINDS,
+            kinds: KindSet::BITS,
         }
     }
 
@@ -173,10 +173,10 @@ fn a_cube_shows_each_of_its_nine_edges_once() {
 fn only_the_kinds_asked_for_are_found() {
     let view = Projection::Perspective { fov_y: 0.8 };
     let mut cube = Subject::new(shape_of(&cube()), [3.0, 4.0, 5.0], view, [200, 150]);
-    cube.kinds = CurveNode::CREASE;
+    cube.kinds = KindSet::CREASE;
     let found = cube.strokes();
     assert!(!found.is_empty() && found.iter().all(|stroke| stroke.kind == Kind::Crease));
-    cube.kinds = CurveNode::MATERIAL;
+    cube.kinds = KindSet::MATERIAL;
     assert_eq!(cube.strokes(), []);
 }
 

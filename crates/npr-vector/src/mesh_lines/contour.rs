@@ -8,7 +8,9 @@
 pub mod steps;
 
 use crate::mesh_lines::graph::{CurveGraph, CurveNode};
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
@@ -170,14 +172,14 @@ fn node_of(shape: &HalfEdgeMesh, eye: &Eye, half_edge: u32, next: u32) -> CurveN
 /// A piece on a proper contour edge is a contour; boundaries and odd edges are drawn as features and only link here.
 fn flags_of(shape: &HalfEdgeMesh, eye: &Eye, half_edge: u32, edge: u32) -> u32 {
     let twin = shape.twins[half_edge as usize];
-    let odd = HalfEdgeMesh::BOUNDARY | HalfEdgeMesh::NON_MANIFOLD | HalfEdgeMesh::FLIPPED;
-    if twin == NONE || shape.edge_traits[edge as usize] & odd != 0 {
+    let odd = EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD | EdgeFlags::FLIPPED;
+    if twin == NONE || shape.edge_traits[edge as usize].intersects(odd) {
         return CurveNode::SEAM;
     }
     if is_concave(shape, eye, half_edge, twin) {
-        CurveNode::CONTOUR | CurveNode::CONCAVE
+        KindSet::CONTOUR | CurveNode::CONCAVE
     } else {
-        CurveNode::CONTOUR
+        KindSet::CONTOUR
     }
 }
 

@@ -15,7 +15,6 @@ pub(crate) use view::OUTLINE_TOLERANCE_PX;
 use crate::mesh_lines::contour::{EdgeContours, Eye};
 use crate::mesh_lines::corner::split;
 use crate::mesh_lines::duplicates::{leave_out_short_fragments, suppress};
-use crate::mesh_lines::graph::CurveNode;
 use crate::mesh_lines::merge::{FACING_PX, TOUCHING_PX, merge_ends};
 use crate::mesh_lines::overshoot::cut_overshoot;
 use crate::mesh_lines::puff::SmokeLines;
@@ -27,6 +26,7 @@ use crate::mesh_lines::visibility::{FaceImages, Seen};
 use crate::project::Projector;
 use crate::stroke::Stroke;
 use npr_core::budget::OverBudget;
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use paint::broken_up;
 use rayon::prelude::*;
@@ -47,7 +47,7 @@ pub enum Method {
 pub struct LineSettings {
     /// Width and height of the picture in pixels.
     pub size: [u32; 2],
-    /// Bits of [`CurveNode::KINDS`].
+    /// Bits of [`KindSet::BITS`].
     pub kinds: u32,
     /// How contours are found.
     pub method: Method,
@@ -153,7 +153,7 @@ pub fn strokes_with(
             1
         },
     };
-    let wanted = settings.kinds | CurveNode::MARKED;
+    let wanted = settings.kinds | KindSet::MARKED;
     let contour_lines = view.lines(edge_contours, &seen, wanted, &mut toll)?;
     let smooth_contours = view.smooth_contours(edge_contours, &contour_lines);
     let contour_runs = match &smooth_contours {

@@ -5,7 +5,9 @@
 use crate::mesh_lines::graph::{CurveGraph, CurveNode};
 use glam::DVec3;
 use npr_core::crease::Creases;
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
@@ -31,16 +33,11 @@ pub fn features(shape: &HalfEdgeMesh, creases: impl Into<Creases>) -> CurveGraph
 /// What an edge is whatever the view; none where it is nothing.
 pub(crate) fn static_flags(shape: &HalfEdgeMesh, edge: u32, creases: Creases) -> Option<u32> {
     let traits = shape.edge_traits[edge as usize];
-    let bit = |has: bool, bit: u32| if has { bit } else { 0 };
     let bends = shape.fold_cos(edge, creases.from) < creases.cos;
-    let flags = bit(traits & HalfEdgeMesh::BOUNDARY != 0, CurveNode::BOUNDARY)
-        | bit(
-            bends || traits & HalfEdgeMesh::NON_MANIFOLD != 0,
-            CurveNode::CREASE,
-        )
-        | bit(traits & HalfEdgeMesh::MATERIAL != 0, CurveNode::MATERIAL)
-        | bit(traits & HalfEdgeMesh::MARKED != 0, CurveNode::MARKED);
-    (flags != 0 || traits & HalfEdgeMesh::FLIPPED != 0).then_some(flags)
+    let is_crease = bends || traits.contains(EdgeFlags::NON_MANIFOLD);
+    // Flags that make an edge a line have the bits of its kinds.
+    let flags = traits.0 & KindSet::BITS | if is_crease { KindSet::CREASE } else { 0 };
+    (flags != 0 || traits.contains(EdgeFlags::FLIPPED)).then_some(flags)
 }
 
 /// The kinds that a feature edge has in a view: none where it is a contour that is drawn already.
@@ -52,13 +49,13 @@ pub fn kind_in_view(
     contours_are_drawn: bool,
 ) -> u32 {
     let traits = shape.edge_traits[edge as usize];
-    if traits & (HalfEdgeMesh::BOUNDARY | HalfEdgeMesh::NON_MANIFOLD) != 0 {
+    if traits.intersects(EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD) {
         return flags;
     }
     let [a, b] = [0, 1].map(|i| front[shape.sides(edge)[i] as usize / 3] != 0);
-    let is_contour = (a != b) != (traits & HalfEdgeMesh::FLIPPED != 0);
-    match (is_contour, traits & HalfEdgeMesh::FLIPPED != 0) {
-        (true, true) => flags | CurveNode::CONTOUR,
+    let is_contour = (a != b) != (traits.contains(EdgeFlags::FLIPPED));
+    match (is_contour, traits.contains(EdgeFlags::FLIPPED)) {
+        (true, true) => flags | KindSet::CONTOUR,
         (true, false) if contours_are_drawn => 0,
         (true, false) => flags,
         (false, _) => flags,

@@ -9,6 +9,7 @@
 use bytemuck::{Pod, Zeroable};
 use npr_core::geometry::NONE;
 use npr_core::gpu_layout;
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// A point of a line, and what is known of the piece that runs from it to its successor.
@@ -23,7 +24,8 @@ pub struct CurveNode {
     pub next: u32,
     /// Predecessor, or [`NONE`] at the start of an open line.
     pub prev: u32,
-    /// Bits of [`CurveNode::CONTOUR`] to [`CurveNode::CUSP`]; the kind of a piece stands at its first node.
+    /// Bits of [`KindSet`], and [`CurveNode::CONCAVE`] to [`CurveNode::SEAM`]; the kind of a piece stands at its first
+    /// node. A piece of no kind is a link, never drawn.
     pub flags: u32,
     /// A face beside the piece: the front face of a contour, the face that a zero-set piece crosses.
     pub face: u32,
@@ -40,23 +42,9 @@ gpu_layout!(CurveNode {
 impl CurveNode {
     /// Whether the piece after this node runs along its mesh edge, from one end to the other.
     pub fn is_along_edge(&self) -> bool {
-        (self.t == 0.0 || self.t == 1.0) && self.flags & Self::INTERSECTION == 0
+        (self.t == 0.0 || self.t == 1.0) && self.flags & KindSet::INTERSECTION == 0
     }
 
-    /// The surface turns away from the eye.
-    pub const CONTOUR: u32 = 1;
-    /// The surface ends.
-    pub const BOUNDARY: u32 = 2;
-    /// The surface bends sharply.
-    pub const CREASE: u32 = 4;
-    /// The material changes.
-    pub const MATERIAL: u32 = 8;
-    /// Two surfaces cut through each other.
-    pub const INTERSECTION: u32 = 16;
-    /// The user asks for a line.
-    pub const MARKED: u32 = 32;
-    /// All bits that make a piece a line; a piece without any is a link, never drawn.
-    pub const KINDS: u32 = 63;
     /// The contour piece lies in a valley: its own surface hides it.
     pub const CONCAVE: u32 = 64;
     /// The line turns from its surface's visible to its hidden side at this node.

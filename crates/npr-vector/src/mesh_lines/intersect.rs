@@ -53,7 +53,7 @@ pub struct Piercing {
 pub struct Crossings {
     /// Lines of intersection; two nodes that follow each other are the ends of the piece that two faces share.
     ///
-    /// Nodes carry [`CurveNode::INTERSECTION`](crate::mesh_lines::graph::CurveNode::INTERSECTION) and the lower of the
+    /// Nodes carry [`KindSet::INTERSECTION`](npr_core::line_kind::KindSet::INTERSECTION) and the lower of the
     /// two faces. Where other than two pieces meet, on a border, at an edge of three faces or at a vertex shared by
     /// surfaces that cut each other, lines end; closed ones run on to their first node.
     pub graph: CurveGraph,

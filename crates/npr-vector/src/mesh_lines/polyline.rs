@@ -4,9 +4,10 @@
 //! it touches is found by distance ([`touch`]) and never hides it.
 
 use crate::mesh_lines::feature::{chain, pair};
-use crate::mesh_lines::graph::{CurveGraph, CurveNode};
+use crate::mesh_lines::graph::CurveGraph;
 use glam::DVec3;
 use npr_core::geometry::NONE;
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
@@ -23,7 +24,7 @@ pub const TOUCH_SHARE: f64 = 1e-4;
 pub fn polylines(shape: &HalfEdgeMesh) -> CurveGraph {
     let candidates: Vec<(u32, u32)> = shape
         .polyline_edges()
-        .map(|edge| (edge, CurveNode::MARKED))
+        .map(|edge| (edge, KindSet::MARKED))
         .collect();
     // End 2 k is the lower one of polyline k.
     let mut meetings: Vec<(u32, u32)> = candidates

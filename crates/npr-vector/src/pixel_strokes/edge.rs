@@ -5,11 +5,12 @@
 use crate::mesh_lines::contour::Eye;
 use crate::mesh_lines::contour::steps::{Viewer, is_raised};
 use crate::mesh_lines::feature::static_flags;
-use crate::mesh_lines::graph::CurveNode;
 use bytemuck::{Pod, Zeroable};
 use npr_core::crease::Creases;
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
 use npr_core::gpu_layout;
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
@@ -29,7 +30,7 @@ pub struct DrawnEdge {
     pub beyond: u32,
     /// Corner of the first face that is not on the edge.
     pub beside: u32,
-    /// Kinds whatever the view, and [`DrawnEdge::FLIPPED`] to [`DrawnEdge::OPEN`].
+    /// Bits of the kinds that it has in every view, and [`EdgeFlags`] of how its faces meet.
     pub bits: u32,
 }
 gpu_layout!(DrawnEdge {
@@ -43,17 +44,6 @@ gpu_layout!(DrawnEdge {
 });
 
 impl DrawnEdge {
-    /// Its two faces are wound against each other.
-    pub const FLIPPED: u32 = 64;
-    /// More than two faces meet.
-    pub const CROWDED: u32 = 128;
-    /// Its object has a border, so that backs of faces may be seen.
-    pub const OPEN: u32 = 256;
-    /// In a mark: it is drawn from head to tail.
-    pub const REVERSED: u32 = 512;
-    /// It is a line of its own, without faces, and drawn in every view.
-    pub const WIRE: u32 = 1024;
-
     /// An edge of a shape; `bits` are those that the shape does not know.
     fn new(shape: &HalfEdgeMesh, edge: u32, bits: u32) -> Self {
         let sides = shape.sides(edge);
@@ -76,7 +66,7 @@ impl DrawnEdge {
         Self {
             tail,
             head,
-            bits: Self::WIRE | CurveNode::MARKED,
+            bits: EdgeFlags::WIRE.0 | KindSet::MARKED,
             ..Self::nothing()
         }
     }
@@ -114,13 +104,11 @@ pub fn drawn_edges(
         .with_min_len(4096)
         .map(|edge| {
             let traits = shape.edge_traits[edge as usize];
-            let bit = |has: bool, bit: u32| if has { bit } else { 0 };
             let object = object_of(shape, shape.sides(edge)[0] / 3);
             let flags = static_flags(shape, edge, creases).unwrap_or(0);
-            let bits = flags
-                | bit(traits & HalfEdgeMesh::FLIPPED != 0, DrawnEdge::FLIPPED)
-                | bit(traits & HalfEdgeMesh::NON_MANIFOLD != 0, DrawnEdge::CROWDED)
-                | bit(is_open.get(object) == Some(&true), DrawnEdge::OPEN);
+            let meeting = traits.among(EdgeFlags::FLIPPED | EdgeFlags::NON_MANIFOLD)
+                | EdgeFlags::OPEN.when(is_open.get(object) == Some(&true));
+            let bits = flags | meeting.0;
             if shape.sides(edge).iter().any(has_lines) {
                 DrawnEdge::new(shape, edge, bits)
             } else {
@@ -132,11 +120,11 @@ pub fn drawn_edges(
     edges
 }
 
-/// For every object, whether it has a border.
+/// For every object, whether it has a boundary.
 fn open_objects(shape: &HalfEdgeMesh) -> Vec<bool> {
     let mut is_open = Vec::new();
     for edge in 0..shape.edge_count() as u32 {
-        if shape.edge_traits[edge as usize] & HalfEdgeMesh::BOUNDARY != 0 {
+        if shape.edge_traits[edge as usize].contains(EdgeFlags::BOUNDARY) {
             let object = object_of(shape, shape.sides(edge)[0] / 3);
             is_open.resize(is_open.len().max(object + 1), false);
             is_open[object] = true;
@@ -154,7 +142,7 @@ fn object_of(shape: &HalfEdgeMesh, face: u32) -> usize {
 pub struct Facing<'a> {
     /// The eye.
     pub viewer: &'a Viewer,
-    /// Bits of [`CurveNode::KINDS`] that are drawn.
+    /// Bits of [`KindSet::BITS`] that are drawn.
     pub wanted: u32,
     /// Contours in valleys are left out.
     pub is_convex_only: bool,
@@ -164,7 +152,7 @@ pub struct Facing<'a> {
     pub front: &'a [u32],
 }
 
-/// Which edges are drawn: their flag is 1, and their mark holds the kind and [`DrawnEdge::REVERSED`].
+/// Which edges are drawn: their flag is 1, and their mark holds the kind and [`EdgeFlags::REVERSED`].
 ///
 /// Edges run as the face turned to the eye is wound, so that its surface lies on the left hand as the eye sees it
 /// [Jiang et al. 2022]. O(edges).
@@ -186,28 +174,28 @@ pub fn mark_edges(on: &Facing<'_>, edges: &[DrawnEdge], flags: &mut [u32], marks
 impl Facing<'_> {
     /// The kind and the direction of an edge; 0 where it is not drawn.
     fn mark_of(&self, edge: &DrawnEdge) -> u32 {
-        if edge.bits & DrawnEdge::WIRE != 0 {
-            return edge.bits & self.wanted & CurveNode::KINDS;
+        if EdgeFlags::WIRE.is_in(edge.bits) {
+            return edge.bits & self.wanted & KindSet::BITS;
         }
         if edge.face == NONE {
             return 0;
         }
         let is_front = self.front[edge.face as usize] != 0;
-        let has_pair = edge.across != NONE && edge.bits & DrawnEdge::CROWDED == 0;
+        let has_pair = edge.across != NONE && !EdgeFlags::NON_MANIFOLD.is_in(edge.bits);
         let is_front_across = has_pair && self.front[edge.across as usize] != 0;
-        let is_flipped = edge.bits & DrawnEdge::FLIPPED != 0;
+        let is_flipped = EdgeFlags::FLIPPED.is_in(edge.bits);
         let is_contour = has_pair && (is_front != is_front_across) != is_flipped;
-        let is_seen = is_front || is_front_across || edge.bits & DrawnEdge::OPEN != 0;
-        let direction = if is_front { 0 } else { DrawnEdge::REVERSED };
-        if is_contour && self.wanted & CurveNode::CONTOUR != 0 {
+        let is_seen = is_front || is_front_across || EdgeFlags::OPEN.is_in(edge.bits);
+        let direction = if is_front { 0 } else { EdgeFlags::REVERSED.0 };
+        if is_contour && self.wanted & KindSet::CONTOUR != 0 {
             let is_valley = self.is_convex_only && !is_flipped && self.is_concave(edge);
             return if is_valley {
                 0
             } else {
-                CurveNode::CONTOUR | direction
+                KindSet::CONTOUR | direction
             };
         }
-        let kinds = edge.bits & self.wanted & CurveNode::KINDS;
+        let kinds = edge.bits & self.wanted & KindSet::BITS;
         if kinds == 0 || !is_seen {
             return 0;
         }

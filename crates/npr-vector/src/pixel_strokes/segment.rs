@@ -5,6 +5,7 @@
 
 use super::edge::DrawnEdge;
 use bytemuck::{Pod, Zeroable};
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::gpu_layout;
 use npr_core::surface::apply_point;
 use npr_core::window::View;
@@ -138,7 +139,7 @@ pub struct Segment {
     pub end_z: f32,
     /// The mesh edge.
     pub edge: u32,
-    /// Bit of its kind, and [`DrawnEdge::REVERSED`].
+    /// Bit of its kind, and [`EdgeFlags::REVERSED`].
     pub mark: u32,
 }
 gpu_layout!(Segment {
@@ -206,7 +207,7 @@ impl Drawn<'_> {
     fn segment_of(&self, number: u32) -> Option<Segment> {
         let edge = self.edges[number as usize];
         let mark = self.marks[number as usize];
-        let is_reversed = mark & DrawnEdge::REVERSED != 0;
+        let is_reversed = EdgeFlags::REVERSED.is_in(mark);
         let ends = if is_reversed {
             [edge.head, edge.tail]
         } else {

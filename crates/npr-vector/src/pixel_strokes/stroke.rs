@@ -1,6 +1,5 @@
 //! From loops in rows to runs of lines.
 
-use super::edge::DrawnEdge;
 use super::looped::{
     Filter, Gathered, Ordered, Planar, SpeckRule, Spot, drop_specks, fit_tangents, gather_sides,
     smooth_loops,
@@ -10,13 +9,14 @@ use super::strip::{CullRule, StripSpot, Strips, cull_sides, drop_short, strips, 
 use super::{PublishedPath, Traced};
 use crate::mesh_lines::corner::split;
 use crate::mesh_lines::draw::{StrokeLook, strokes_of};
-use crate::mesh_lines::graph::CurveNode;
 use crate::mesh_lines::run::{Run, RunPoint, base_id, number};
 use crate::project::Projector;
 use crate::rank::hash_key;
 use crate::rank::scan::exclusive_scan;
 use crate::stroke::{Kind, Stroke};
 use crate::surface_location::{SurfaceLocation, share_along};
+use npr_core::edge_flags::EdgeFlags;
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use std::collections::BTreeMap;
 
@@ -192,7 +192,7 @@ impl Maker<'_> {
             let Some((segment, point)) = self.point(*side) else {
                 continue;
             };
-            *kinds.entry(segment.mark & CurveNode::KINDS).or_default() += 1;
+            *kinds.entry(segment.mark & KindSet::BITS).or_default() += 1;
             *surfaces.entry(self.surface_of(segment)).or_default() += 1;
             if points.last().is_none_or(|last| last.place != point.place) {
                 points.push(point);
@@ -222,7 +222,7 @@ impl Maker<'_> {
             return self.shape.polyline_surfaces[polyline];
         }
         let sides = self.shape.sides(segment.edge);
-        let is_reversed = segment.mark & DrawnEdge::REVERSED != 0;
+        let is_reversed = EdgeFlags::REVERSED.is_in(segment.mark);
         let side = sides[usize::from(is_reversed && sides.len() > 1)];
         self.shape.face_surfaces[side as usize / 3]
     }

@@ -1,6 +1,7 @@
 //! Lines on images: the twin of `line.detect`.
 
 use npr_core::geometry::{GPixel, NONE, Part};
+use npr_core::line_kind::KindSet;
 use npr_core::math;
 use npr_core::outline::{MASK_KINDS, MASK_OWNER, MASK_SIDE, Outline, PIECE_COS};
 use npr_core::surface::dot;
@@ -155,7 +156,7 @@ impl<'a> Detector<'a> {
 
     /// Whether neighbours whose normals differ, and nothing else, have no crease of their own between them.
     fn is_no_crease(&self, here: &GPixel, there: &GPixel) -> bool {
-        self.with.outline.kinds & Outline::CREASE == 0
+        self.with.outline.kinds & KindSet::CREASE == 0
             || self.is_grazing(here)
             || self.is_grazing(there)
     }

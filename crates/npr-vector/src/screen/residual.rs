@@ -7,7 +7,8 @@
 use crate::screen::ribbon::line_coverage;
 use npr_core::color;
 use npr_core::geometry::{GPixel, NONE, Part, Stamp};
-use npr_core::line_color::{KIND_INTERSECTION, LineTint, LineTints};
+use npr_core::line_color::{LineTint, LineTints};
+use npr_core::line_kind::Kind;
 use npr_core::outline::{MASK_OWNER, MASK_SIDE, Outline};
 use npr_core::window::Window;
 use rayon::prelude::*;
@@ -376,7 +377,7 @@ impl Inking<'_> {
             mask_window: self.mask_window,
             tints: self.tints,
         };
-        let [r, g, b, a] = tints.color_at(self.parts, part, KIND_INTERSECTION, center);
+        let [r, g, b, a] = tints.color_at(self.parts, part, Kind::Intersection, center);
         color::pack_rgba8([r, g, b, a * best])
     }
 

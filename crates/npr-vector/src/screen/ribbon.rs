@@ -3,6 +3,7 @@
 use npr_core::color;
 use npr_core::geometry::{Edge, FAR_DEPTH, GPixel, NONE, Part, PosedVertex, Triangle};
 use npr_core::line_color::{LineTint, LineTints, kind_of_edge};
+use npr_core::line_kind::KindSet;
 use npr_core::outline::{MASK_KINDS, Outline};
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
@@ -329,7 +330,7 @@ impl Drawing<'_> {
             [px[0] + ahead[0], px[1] + ahead[1]],
             [px[0] - ahead[0], px[1] - ahead[1]],
         );
-        if kind & (Outline::CONTOUR | Outline::BOUNDARY) != 0 {
+        if kind & (KindSet::CONTOUR | KindSet::BOUNDARY) != 0 {
             return self.mask_near(ahead) || self.mask_near(behind);
         }
         self.mask_at(ahead) || self.mask_at(behind)

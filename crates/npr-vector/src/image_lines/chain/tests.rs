@@ -1,7 +1,7 @@
 //! Borders of made-up pictures, linked.
 
 use super::*;
-use crate::mesh_lines::graph::CurveNode;
+use npr_core::line_kind::KindSet;
 use npr_core::math::mix_bits;
 use proptest::prelude::*;
 
@@ -18,7 +18,7 @@ fn borders_of(size: [u32; 2], surface: &dyn Fn(u32) -> u32) -> Borders {
                 all.push(Border {
                     side,
                     owner: if here < there { pixel } else { other },
-                    kind: CurveNode::CONTOUR,
+                    kind: KindSet::CONTOUR,
                 });
             }
         }

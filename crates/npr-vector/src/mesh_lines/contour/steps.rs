@@ -8,8 +8,10 @@ use super::{Eye, cross, dot};
 use crate::mesh_lines::graph::CurveNode;
 use crate::rank::Link;
 use bytemuck::{Pod, Zeroable};
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
 use npr_core::gpu_layout;
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
@@ -24,7 +26,7 @@ pub struct HalfEdge {
     /// Its unique edge.
     pub edge: u32,
     /// [`HalfEdgeMesh::edge_traits`] of that edge.
-    pub traits: u32,
+    pub traits: EdgeFlags,
 }
 gpu_layout!(HalfEdge {
     tail,
@@ -202,14 +204,14 @@ impl Marked<'_> {
 
     fn flags_of(&self, half_edge: u32) -> u32 {
         let HalfEdge { twin, traits, .. } = self.half_edges[half_edge as usize];
-        let odd = HalfEdgeMesh::BOUNDARY | HalfEdgeMesh::NON_MANIFOLD | HalfEdgeMesh::FLIPPED;
-        if twin == NONE || traits & odd != 0 {
+        let odd = EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD | EdgeFlags::FLIPPED;
+        if twin == NONE || traits.intersects(odd) {
             return CurveNode::SEAM;
         }
         if self.is_concave(half_edge, twin) {
-            CurveNode::CONTOUR | CurveNode::CONCAVE
+            KindSet::CONTOUR | CurveNode::CONCAVE
         } else {
-            CurveNode::CONTOUR
+            KindSet::CONTOUR
         }
     }
 

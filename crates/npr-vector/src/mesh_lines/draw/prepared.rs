@@ -8,6 +8,7 @@ use crate::mesh_lines::polyline::{polylines, touch};
 use crate::mesh_lines::zero_set::CornerNormals;
 use npr_core::budget::{Budget, OverBudget};
 use npr_core::crease::Creases;
+use npr_core::edge_flags::EdgeFlags;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use std::sync::OnceLock;
 
@@ -73,9 +74,9 @@ impl Prepared {
             Some(find) => find(&tree)?,
             None => Crossings::default(),
         };
-        let odd = HalfEdgeMesh::BOUNDARY | HalfEdgeMesh::NON_MANIFOLD;
+        let odd = EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD;
         let rims: Vec<u32> = (0..shape.edge_count() as u32)
-            .filter(|edge| shape.edge_traits[*edge as usize] & odd != 0)
+            .filter(|edge| shape.edge_traits[*edge as usize].intersects(odd))
             .collect();
         let mut is_open = Vec::new();
         for edge in &rims {

@@ -13,6 +13,7 @@ use crate::rank::hash_key;
 use crate::stroke::Kind;
 use npr_core::budget::{Budget, OverBudget};
 use npr_core::geometry::NONE;
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
@@ -67,7 +68,7 @@ impl View<'_> {
             .nodes
             .par_iter()
             .with_min_len(1024)
-            .filter(|node| node.flags & CurveNode::CONTOUR != 0)
+            .filter(|node| node.flags & KindSet::CONTOUR != 0)
             .filter_map(|node| self.edge_piece(node.edge));
         let odd = self
             .prepared
@@ -75,7 +76,7 @@ impl View<'_> {
             .nodes
             .par_iter()
             .with_min_len(1024)
-            .filter(|node| node.next != NONE && self.kinds_of(node) & CurveNode::CONTOUR != 0)
+            .filter(|node| node.next != NONE && self.kinds_of(node) & KindSet::CONTOUR != 0)
             .filter_map(|node| self.edge_piece(node.edge));
         let rims = self
             .prepared
@@ -107,15 +108,15 @@ impl View<'_> {
 
     /// The kinds of the piece after a node in this view.
     fn kinds_of(&self, node: &CurveNode) -> u32 {
-        let feature = CurveNode::KINDS & !(CurveNode::CONTOUR | CurveNode::INTERSECTION);
-        let in_loop = node.flags & (CurveNode::CONTOUR | CurveNode::SEAM | CurveNode::INTERSECTION);
+        let feature = KindSet::BITS & !(KindSet::CONTOUR | KindSet::INTERSECTION);
+        let in_loop = node.flags & (KindSet::CONTOUR | CurveNode::SEAM | KindSet::INTERSECTION);
         if in_loop != 0 || self.shape.polyline_of(node.edge).is_some() {
-            return node.flags & CurveNode::KINDS;
+            return node.flags & KindSet::BITS;
         }
         let flags = node.flags & feature;
         // Smooth contours follow only some of the edges that turn away.
         let has_line = match self.settings.method {
-            Method::Edges => self.settings.kinds & CurveNode::CONTOUR != 0,
+            Method::Edges => self.settings.kinds & KindSet::CONTOUR != 0,
             Method::Surface => self.covered.binary_search(&node.edge).is_ok(),
         };
         let flags = kind_in_view(self.shape, self.front, node.edge, flags, has_line);
@@ -123,7 +124,7 @@ impl View<'_> {
         let backs = sides.iter().all(|side| self.front[*side as usize / 3] == 0);
         let unseen = !self.settings.hidden && !self.prepared.may_show_backs(self.shape, node.face);
         if backs && sides.len() == 2 && unseen {
-            return flags & CurveNode::CONTOUR;
+            return flags & KindSet::CONTOUR;
         }
         flags
     }

@@ -3,6 +3,7 @@
 use super::cut::{End, Segment};
 use crate::mesh_lines::graph::{CurveGraph, CurveNode};
 use npr_core::geometry::NONE;
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// Length, as a fraction of the longer of the two mesh edges, up to which a piece at the end of a line is dropped.
@@ -126,7 +127,7 @@ fn push(graph: &mut CurveGraph, stops: &[Stop], closed: bool) {
             t: stop.end.t,
             next: if index == last { after } else { index + 1 },
             prev: if index == base { before } else { index - 1 },
-            flags: CurveNode::INTERSECTION,
+            flags: KindSet::INTERSECTION,
             face: stop.face,
         });
     }

@@ -3,6 +3,7 @@
 use super::{Crossings, Piercing};
 use crate::mesh_lines::graph::{CurveGraph, CurveNode};
 use npr_core::geometry::NONE;
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// Numbers of a node and of a piercing.
@@ -71,7 +72,7 @@ impl Crossings {
                     .is_some_and(|prev| prev.next == index as u32);
             goes_on
                 && comes_from
-                && node.flags == CurveNode::INTERSECTION
+                && node.flags == KindSet::INTERSECTION
                 && lies(node.edge, node.t, node.face)
         };
         let order = |p: &Piercing| (p.edge, p.t.to_bits(), p.face);

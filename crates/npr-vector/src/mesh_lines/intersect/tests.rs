@@ -1,6 +1,7 @@
 use super::*;
-use crate::mesh_lines::graph::CurveNode;
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::Surface;
 use npr_mesh::mesh::Mesh;
 use npr_mesh::testing::{Random, cube, icosphere, plane, uv_sphere};
@@ -25,7 +26,7 @@ fn shape_of(positions: &[[f32; 3]], faces: &[[u32; 3]]) -> HalfEdgeMesh {
         edge_of: vec![0; 3 * faces.len()],
         edge_starts: vec![0],
         dihedral_cos: vec![1.0; sides.len()],
-        edge_traits: vec![0; sides.len()],
+        edge_traits: vec![EdgeFlags::NONE; sides.len()],
         surfaces: vec![Surface::default()],
         ..HalfEdgeMesh::default()
     };
@@ -75,7 +76,7 @@ fn found(shape: &HalfEdgeMesh) -> Crossings {
 /// Both ends of every piece lie on the face named, within rounding.
 fn check_pieces(shape: &HalfEdgeMesh, graph: &CurveGraph) {
     for (index, node) in graph.nodes.iter().enumerate() {
-        assert_eq!(node.flags, CurveNode::INTERSECTION);
+        assert_eq!(node.flags, KindSet::INTERSECTION);
         if node.next == NONE {
             continue;
         }

@@ -10,6 +10,7 @@ use crate::mesh_lines::visibility::{Circumstances, Memory, Piece, Seen};
 use crate::stroke::{Kind, Stroke, StrokePoint};
 use glam::DVec3;
 use npr_core::geometry::NONE;
+use npr_core::line_kind::KindSet;
 use npr_core::math;
 use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use rayon::prelude::*;
@@ -76,7 +77,7 @@ impl SmokeLines<'_> {
     /// they are inside of the smoke. O(pairs of puffs whose images touch), in parallel, with the same result for any
     /// number of threads.
     pub(crate) fn strokes(&self, seen: &Seen<'_>, settings: &LineSettings) -> Vec<Stroke> {
-        if !self.is_outlined || settings.kinds & CurveNode::CONTOUR == 0 {
+        if !self.is_outlined || settings.kinds & KindSet::CONTOUR == 0 {
             return Vec::new();
         }
         let (graph, pieces) = self.graph(settings.size);
@@ -234,7 +235,7 @@ impl Puffs {
                 t: (0.25 + 0.5 * (angle(i) / TAU).fract()) as f32,
                 next: link(i + 1),
                 prev: before,
-                flags: CurveNode::CONTOUR,
+                flags: KindSet::CONTOUR,
                 face: NONE,
             });
             let ends = [i, i + 1].map(|i| self.projector.world_of(silhouette.at(angle(i))));

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use npr_core::crease::Creases;
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
 use npr_core::math;
 use npr_mesh::half_edge::HalfEdgeMesh;
@@ -178,7 +179,7 @@ impl VertexFans {
     fn new(shape: &HalfEdgeMesh, faces: &[Face], creases: Creases) -> Self {
         let smooth = |half_edge: u32, twin: u32| {
             let edge = shape.edge_of[half_edge as usize];
-            let cos = if shape.edge_traits[edge as usize] & HalfEdgeMesh::NON_MANIFOLD == 0 {
+            let cos = if !shape.edge_traits[edge as usize].contains(EdgeFlags::NON_MANIFOLD) {
                 shape.fold_cos(edge, creases.from)
             } else {
                 let [a, b] = [half_edge, twin].map(|h| faces[h as usize / 3].normal);

@@ -1,7 +1,9 @@
 use super::*;
 use crate::mesh_lines::contour::{self, Eye};
 use crate::mesh_lines::graph::CurveNode;
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
+use npr_core::line_kind::KindSet;
 use npr_mesh::Mesh;
 use npr_mesh::testing::{
     Random, cube, cylinder, fan, icosphere, mapped, moebius_strip, plane, random_soup,
@@ -114,7 +116,7 @@ fn check(shape: &HalfEdgeMesh, signs: &Signs<'_>) {
             node.next != NONE || node.prev != NONE,
             "a piece has two nodes"
         );
-        assert_eq!(node.flags & CurveNode::CONTOUR != 0, node.next != NONE);
+        assert_eq!(node.flags & KindSet::CONTOUR != 0, node.next != NONE);
         if node.next == NONE || node.prev == NONE {
             let open = shape
                 .sides(node.edge)
@@ -253,7 +255,7 @@ proptest! {
 
 fn cos_across(shape: &HalfEdgeMesh, half_edge: u32, twin: u32) -> f32 {
     let edge = shape.edge_of[half_edge as usize] as usize;
-    if shape.edge_traits[edge] & HalfEdgeMesh::NON_MANIFOLD != 0 {
+    if shape.edge_traits[edge].contains(EdgeFlags::NON_MANIFOLD) {
         let [a, b] = [half_edge, twin].map(|h| normal_of(shape, h / 3).as_vec3());
         return a.x * b.x + a.y * b.y + a.z * b.z;
     }
@@ -348,7 +350,7 @@ fn the_far_rim_of_a_torus_hole_is_hidden_by_its_own_surface_between_cusps() {
     assert!(count(CurveNode::CONCAVE) > 10);
     // From far above there is none.
     let graph = smooth(&shape, [0.1, 0.0, 6.0, 1.0]);
-    assert!(graph.nodes.iter().all(|n| n.flags == CurveNode::CONTOUR));
+    assert!(graph.nodes.iter().all(|n| n.flags == KindSet::CONTOUR));
 }
 
 #[test]
@@ -367,7 +369,7 @@ fn a_cube_has_the_outline_of_its_sharp_edges() {
             graph
                 .nodes
                 .iter()
-                .all(|n| n.flags == CurveNode::CONTOUR && (n.t == 0.0 || n.t == 1.0))
+                .all(|n| n.flags == KindSet::CONTOUR && (n.t == 0.0 || n.t == 1.0))
         );
     }
 }

@@ -3,6 +3,7 @@
 use super::signs::Signs;
 use crate::mesh_lines::graph::{CurveGraph, CurveNode};
 use npr_core::geometry::NONE;
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
@@ -209,7 +210,7 @@ fn link(pieces: &[Piece]) -> CurveGraph {
         flags: if piece.key.role == Role::End {
             0
         } else {
-            CurveNode::CONTOUR
+            KindSet::CONTOUR
         },
         face: piece.key.half_edge / 3,
     };

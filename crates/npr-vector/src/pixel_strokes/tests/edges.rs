@@ -3,8 +3,10 @@
 use crate::mesh_lines::contour::steps::Viewer;
 use crate::mesh_lines::contour::{Eye, contours, facing};
 use crate::mesh_lines::graph::CurveNode;
-use crate::pixel_strokes::edge::{DrawnEdge, Facing, drawn_edges, mark_edges};
+use crate::pixel_strokes::edge::{Facing, drawn_edges, mark_edges};
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{icosphere, plane, random_soup, random_winding, shape_of, torus};
 use proptest::prelude::*;
@@ -44,15 +46,15 @@ proptest! {
     #[test]
     fn contours_are_those_of_loops(which in 0u32..3, eye in eye(), is_convex_only: bool) {
         let shape = shape_of(&match which { 0 => icosphere(1), 1 => torus(9, 7, 1.0, 0.4), _ => plane(3, 4) });
-        let found = marks(&shape, &eye, CurveNode::CONTOUR, is_convex_only);
+        let found = marks(&shape, &eye, KindSet::CONTOUR, is_convex_only);
         let front = facing(&shape, &eye);
         let mut expected = vec![0; shape.edge_count()];
         for node in &contours(&shape, &front, &eye).nodes {
             let is_valley = is_convex_only && node.flags & CurveNode::CONCAVE != 0;
-            if node.flags & CurveNode::CONTOUR != 0 && !is_valley {
+            if node.flags & KindSet::CONTOUR != 0 && !is_valley {
                 let first = shape.sides(node.edge)[0];
                 let runs_first = first / 3 == node.face;
-                expected[node.edge as usize] = CurveNode::CONTOUR | if runs_first { 0 } else { DrawnEdge::REVERSED };
+                expected[node.edge as usize] = KindSet::CONTOUR | if runs_first { 0 } else { EdgeFlags::REVERSED.0 };
             }
         }
         prop_assert_eq!(found, expected);
@@ -64,11 +66,11 @@ proptest! {
         let shape = shape_of(&match which { 0 => random_soup(20, seed), _ => random_winding(&icosphere(1), seed) });
         let edges = drawn_edges(&shape, CREASE, &[]);
         for (edge, mark) in edges.iter().zip(marks(&shape, &eye, wanted, false)) {
-            let kind = mark & CurveNode::KINDS;
+            let kind = mark & KindSet::BITS;
             prop_assert!(kind.count_ones() <= 1 && kind & !wanted == 0);
-            prop_assert!(kind & !(edge.bits | CurveNode::CONTOUR) == 0);
-            if edge.across == NONE && wanted & CurveNode::BOUNDARY != 0 {
-                prop_assert_eq!(kind, CurveNode::BOUNDARY);
+            prop_assert!(kind & !(edge.bits | KindSet::CONTOUR) == 0);
+            if edge.across == NONE && wanted & KindSet::BOUNDARY != 0 {
+                prop_assert_eq!(kind, KindSet::BOUNDARY);
             }
         }
     }

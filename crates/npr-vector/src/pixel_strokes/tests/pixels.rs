@@ -9,6 +9,7 @@ use crate::pixel_strokes::segment::{Drawn, PixelView, Segment, project_edges, re
 use crate::pixel_strokes::side::{Ink, key_of, link_sides, mark_sides, morton};
 use crate::rank::hash_key;
 use crate::rank::scan::exclusive_scan;
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
 use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -42,7 +43,7 @@ fn project(view: &PixelView, a: [f32; 3], b: [f32; 3], reversed: bool) -> Option
         across: NONE,
         ..DrawnEdge::default()
     }];
-    let mark = 1 | if reversed { DrawnEdge::REVERSED } else { 0 };
+    let mark = 1 | if reversed { EdgeFlags::REVERSED.0 } else { 0 };
     let drawn = Drawn {
         view,
         extent: &[1],

@@ -2,12 +2,12 @@
 
 use crate::mesh_lines::draw::StrokeLook;
 use crate::mesh_lines::draw::eye_of;
-use crate::mesh_lines::graph::CurveNode;
 use crate::pixel_strokes::stroke::Loops;
 use crate::pixel_strokes::{PixelScene, PublishedPath, scene_depths, trace};
 use crate::project::Projector;
 use crate::stroke::{Kind, Stroke};
 use npr_core::camera::{Camera, Projection};
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{cube, icosphere, random_soup, shape_of, uv_sphere};
 use proptest::prelude::*;
@@ -40,7 +40,7 @@ fn strokes(
         shape,
         view: &view,
         eye: &eye_of(shape, &projector),
-        kinds: CurveNode::KINDS,
+        kinds: KindSet::BITS,
         creases: 0.766.into(),
         is_drawn: &[],
     };

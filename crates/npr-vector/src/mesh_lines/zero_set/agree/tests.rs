@@ -3,6 +3,7 @@ use crate::mesh_lines::contour::{Eye, contours, facing};
 use crate::mesh_lines::zero_set::patches::LEAST_PX;
 use crate::mesh_lines::zero_set::tests::shaken;
 use npr_core::camera::{Camera, Projection};
+use npr_core::line_kind::KindSet;
 use npr_mesh::Mesh;
 use npr_mesh::testing::{cube, cylinder, icosphere, shape_of, torus};
 use proptest::prelude::*;
@@ -37,7 +38,7 @@ fn all_seen(
     }];
     let of_node = |index: usize| {
         let node = &graph.nodes[index];
-        let convex = node.flags & (CurveNode::CONTOUR | CurveNode::CONCAVE) == CurveNode::CONTOUR;
+        let convex = node.flags & (KindSet::CONTOUR | CurveNode::CONCAVE) == KindSet::CONTOUR;
         let piece = piece_of(shape, &graph, index, projector).filter(|_| convex)?;
         SeenContour::of_piece(projector, node, &piece, &whole).next()
     };
