@@ -168,7 +168,7 @@ fn module_of(path: &Path) -> Option<Module> {
 /// Source without comments, literals and the tests at its end.
 fn own_code(text: &str) -> String {
     let code = code_of(text);
-    let end = code.find("#[cfg(test)]\nmod tests").unwrap_or(code.len());
+    let end = code.find("#[cfg(test)]\nmod tests {").unwrap_or(code.len());
     code[..end].to_owned()
 }
 
@@ -277,7 +277,10 @@ mod tests {
             ),
             ("a/child.rs", "use super::Held;"),
             ("a/tests.rs", "use crate::b::B;"),
-            ("b.rs", "// use crate::b::B;\nuse crate::a::Held;"),
+            (
+                "b.rs",
+                "#[cfg(test)]\nmod tests;\n// use crate::b::B;\nuse crate::a::Held;",
+            ),
         ];
         assert_eq!(circles_of(&files), [["a", "a::child"]]);
     }

@@ -39,7 +39,8 @@ pub struct RendererOptions {
     pub background_image: Option<Picture>,
     /// The picture that line widths are read from, where the style names one.
     pub width_image: Option<Picture>,
-    /// The pictures that [`Style::named_pictures`](npr_stylesheet::Style::named_pictures) lists, by the names that the style gives them.
+    /// The pictures that [`Style::named_pictures`](npr_stylesheet::Style::named_pictures) lists, by the names that the
+    /// style gives them.
     pub pictures: BTreeMap<String, Picture>,
     /// Fonts of the style's words, by the names that the style gives them.
     pub fonts: BTreeMap<String, Font>,
@@ -50,7 +51,8 @@ pub struct RendererOptions {
     /// Most pixels drawn at once, 4 million by default and at most; a larger frame is drawn in tiles. Fewer need less
     /// memory and more time. Tiles keep at least 64 pixels a side.
     pub tile_pixels: u32,
-    /// Whether the frame is taken by [`Renderer::draw_bands`](crate::Renderer::draw_bands) where that can be: only a band of it is planned then.
+    /// Whether the frame is taken by [`Renderer::draw_bands`](crate::Renderer::draw_bands) where that can be: only a
+    /// band of it is planned then.
     pub in_bands: bool,
 }
 
