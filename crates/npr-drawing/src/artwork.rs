@@ -14,6 +14,7 @@ use kurbo::BezPath;
 use npr_vector::stroke::{Drawing, Kind, Region, Stroke, StrokePoint, StrokeSurface};
 use rayon::prelude::*;
 
+pub use crate::mark::{Mark, Paint};
 pub use crate::page::Page;
 
 /// What becomes of lines behind surfaces.
@@ -70,32 +71,6 @@ impl Default for ArtworkOptions {
             lettering: Vec::new(),
         }
     }
-}
-
-/// How a shape is painted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Paint {
-    /// The inside, by the nonzero rule.
-    Ink,
-    /// The inside, by the even-odd rule, and a thin line around it that covers the seam to its neighbours.
-    Region,
-    /// A line of this width with round ends and joins, along the path.
-    Line(f64),
-    /// As a line, with dashes and gaps.
-    Dashes(f64),
-}
-
-/// A shape of one colour.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Mark {
-    /// The stroke that it draws; none of flat colour.
-    pub stroke: Option<u64>,
-    /// Its curves, in the artwork's unit.
-    pub path: BezPath,
-    /// How it is painted.
-    pub paint: Paint,
-    /// sRGB and alpha.
-    pub color: [u8; 4],
 }
 
 /// The marks of one object in a layer.

@@ -4,11 +4,14 @@
 //! between them form an area, and most of an area's surface decides its colour. Neighbouring regions share their
 //! points exactly, so no background shows between them.
 
+mod error;
 mod map;
 pub mod mesh;
 mod snap;
 #[cfg(test)]
 mod tests;
+
+pub use error::{FillError, LONGEST_SIDE};
 
 use map::Map;
 use npr_vector::stroke::Region;
@@ -18,27 +21,6 @@ use std::collections::BTreeMap;
 
 /// Grid points per pixel: lines move by at most a few times 1/256 of a pixel.
 const FINENESS: f64 = 256.0;
-
-/// Longest side of a picture in pixels, so that areas on the grid fit into 64 bits.
-pub const LONGEST_SIDE: u32 = 1 << 20;
-
-/// Why a picture could not be filled.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum FillError {
-    /// The picture is too large.
-    #[error("the picture has a side of {side} pixels, but can be filled up to {LONGEST_SIDE}")]
-    TooLarge {
-        /// The longer side in pixels.
-        side: u32,
-    },
-    /// Lines cross each other too often, or too many lie in one place.
-    #[error("lines cross too often to be filled between")]
-    TooManyCrossings,
-    /// The lines could not be triangulated.
-    #[error("lines cannot be triangulated: {0}")]
-    Triangulation(#[from] spade::InsertionError),
-}
 
 /// Areas of the picture between lines, each with the surface that most of it shows.
 ///

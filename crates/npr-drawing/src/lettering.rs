@@ -21,121 +21,28 @@
 //! Shaping is HarfBuzz's, by the crate harfrust; scripts of all directions work, but lines are horizontal. Of
 //! variable fonts the default weight is used, of colour fonts the plain outlines.
 
+mod error;
 mod font;
+mod setting;
 #[cfg(any(test, feature = "testing"))]
 pub mod testing;
 #[cfg(test)]
 mod tests;
 mod warp;
 
+pub use error::{LetteringError, TEXT_MAX};
 pub use font::Font;
+pub use setting::{SPREAD_MAX, Setting};
 
-use crate::artwork::{Mark, Paint};
+use crate::mark::{Mark, Paint};
+use error::CURVES_MAX;
 use font::Letter;
 use kurbo::{Affine, BezPath, PathEl};
 use std::collections::BTreeSet;
 use warp::Warp;
 
-/// Longest text in characters: words over a picture, no pages.
-pub const TEXT_MAX: usize = 400;
-
-/// Most curves of all letters together.
-const CURVES_MAX: usize = 400_000;
-
 /// Space kept between what hangs from a line and what rises from the next, in cap heights.
 const CLEAR: f64 = 0.15;
-
-/// Greatest `spread`: beyond, the first letters would all but vanish.
-pub const SPREAD_MAX: f64 = 0.8;
-
-/// Why words could not be set.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum LetteringError {
-    /// The bytes are no font that can be read.
-    #[error("it is not a TrueType, OpenType or Type 1 font")]
-    NotAFont,
-    /// The font holds no outlines, only pictures or nothing.
-    #[error("the font has no outlines")]
-    NoOutlines,
-    /// The font's grid is not one.
-    #[error("the font has {units} units per em, but must have 16 to 16384")]
-    Units {
-        /// Units per em as the font states them.
-        units: u16,
-    },
-    /// A letter's outline cannot be drawn.
-    #[error("the font's outline of '{letter}' is broken")]
-    BrokenLetter {
-        /// The character that asked for it.
-        letter: char,
-    },
-    /// The text is too long.
-    #[error("the text has {count} characters, but may have at most {TEXT_MAX}")]
-    TooLong {
-        /// Characters of the text.
-        count: usize,
-    },
-    /// The letters have too many curves.
-    #[error("the letters have more than {CURVES_MAX} curves")]
-    TooComplex,
-}
-
-/// How words are set; every value is brought into its range, and 0 where it is no number.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Setting {
-    /// How far the lines bend, -1..1: the part of half a turn that they span, up in the middle where positive,
-    /// sagging where negative.
-    ///
-    /// Short words bend less than asked: the circle's centre stays a cap height away from the letters.
-    pub bend: f64,
-    /// How far letters lean to the right per height, -1..1; 0.2 is an italic.
-    pub slant: f64,
-    /// How much letters grow from the first to the last, -0.8..0.8: from `1 - spread` to `1 + spread`.
-    pub spread: f64,
-    /// Free space added between letters, in cap heights, -0.5..2.
-    pub spacing: f64,
-    /// From baseline to baseline in cap heights, 0.5..5; from 1 on it grows where letters of two lines would meet, as
-    /// a p over a T does, below they overlap.
-    pub line_step: f64,
-    /// Turn of the whole, in radians, counter-clockwise in the picture.
-    pub turn: f64,
-}
-
-impl Default for Setting {
-    fn default() -> Self {
-        Self {
-            bend: 0.0,
-            slant: 0.0,
-            spread: 0.0,
-            spacing: 0.0,
-            line_step: 1.3,
-            turn: 0.0,
-        }
-    }
-}
-
-impl Setting {
-    /// The same with every value in its range.
-    fn within_bounds(self) -> Self {
-        let bound = |value: f64, low: f64, high: f64| {
-            let value = if value.is_nan() { 0.0 } else { value };
-            value.clamp(low, high)
-        };
-        Self {
-            bend: bound(self.bend, -1.0, 1.0),
-            slant: bound(self.slant, -1.0, 1.0),
-            spread: bound(self.spread, -SPREAD_MAX, SPREAD_MAX),
-            spacing: bound(self.spacing, -0.5, 2.0),
-            line_step: bound(self.line_step, 0.5, 5.0),
-            turn: if self.turn.is_finite() {
-                self.turn
-            } else {
-                0.0
-            },
-        }
-    }
-}
 
 /// Words as outlines.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -34,6 +34,7 @@ pub mod fill;
 pub mod fit;
 pub mod json;
 pub mod lettering;
+mod mark;
 mod near;
 pub mod outline;
 mod page;

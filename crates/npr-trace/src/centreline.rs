@@ -24,6 +24,7 @@
 //! ```
 
 mod calm;
+mod centre_stroke;
 mod corner;
 mod crossing;
 mod despeckle;
@@ -37,6 +38,7 @@ mod tests;
 mod thin;
 mod tidy;
 
+pub use centre_stroke::{CentrePoint, CentreStroke};
 pub use despeckle::despeckle;
 pub use distance::distance2;
 pub use link::{Way, WayPoint, Ways, line as line_of, link};
@@ -71,26 +73,6 @@ impl Default for CentrelineOptions {
             corner: 0.7,
         }
     }
-}
-
-/// A point on the middle of a line.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CentrePoint {
-    /// Pixels from the top left corner, y down; pixel centres lie at .5.
-    pub place: [f64; 2],
-    /// Whole width of the ink, in pixels.
-    pub width: f64,
-}
-
-/// A drawn line.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct CentreStroke {
-    /// About a pixel apart, at least two. Ends have round caps: the ink ends half a width beyond.
-    pub points: Vec<CentrePoint>,
-    /// The last point runs on to the first, which is not repeated.
-    pub closed: bool,
-    /// Whether it ends in nothing at its start and end, rather than on another stroke.
-    pub free: [bool; 2],
 }
 
 /// The lines of a bitmap.

@@ -4,7 +4,7 @@
 //!    [`polyline`]; [`graph`] holds them, linked.
 //! 2. Find what hides them: [`visibility`] with [`bvh`]; [`sample`] does it by samples, as devices do; [`puff`] adds
 //!    smoke.
-//! 3. Make strokes of what is seen: [`run`] cuts and samples it, [`relabel_intersections`], [`duplicates`], [`merge`],
+//! 3. Make strokes of what is seen: `run_assembly` cuts it into the parts of [`run`], [`relabel_intersections`], [`duplicates`], [`merge`],
 //!    [`overshoot`], [`corner`] and [`smooth`] tidy it.
 
 pub mod bvh;
@@ -15,6 +15,8 @@ pub mod duplicates;
 pub mod feature;
 pub mod graph;
 pub mod intersect;
+mod line;
+mod line_settings;
 pub mod merge;
 mod near;
 pub mod overshoot;
@@ -22,6 +24,7 @@ pub mod polyline;
 pub mod puff;
 pub mod relabel_intersections;
 pub mod run;
+mod run_assembly;
 pub mod sample;
 pub mod smooth;
 mod suppressed_edges;

@@ -26,10 +26,12 @@ pub mod splitter;
 mod tests;
 mod walk;
 pub mod work;
+mod wyllie;
 
-pub use jump::{rounds_for, wyllie};
+pub use jump::rounds_for;
 pub use splitter::{ruling_set, splitter_rounds_for};
 pub use walk::walk;
+pub use wyllie::wyllie;
 
 use crate::mesh_lines::graph::CurveGraph;
 use bytemuck::{Pod, Zeroable};

@@ -1,6 +1,6 @@
 //! A triangulated picture: which triangles belong together, and the rings around them.
 
-use super::FillError;
+use super::error::FillError;
 use super::snap::Point;
 use npr_core::geometry::NONE;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};

@@ -6,7 +6,7 @@
 //!
 //! Differs: the step is repeated until nothing moves, so that no point is left on the inside of a segment.
 
-use super::FillError;
+use super::error::FillError;
 use rayon::prelude::*;
 
 /// A point in units of the grid.

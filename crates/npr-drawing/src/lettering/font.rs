@@ -1,6 +1,6 @@
 //! Fonts: from bytes to shaped letters and their outlines.
 
-use super::LetteringError;
+use super::error::LetteringError;
 use harfrust::font::glyph::outline::{DrawMemory, DrawOptions, PathSink};
 use harfrust::{Buffer, GlyphId, ShapeOptions, ShaperFont, shape};
 use kurbo::BezPath;

@@ -1,6 +1,6 @@
 //! Growing, leaning and bending: maps of the plane that whole lines of letters go through.
 
-use super::Setting;
+use super::setting::Setting;
 use kurbo::{Affine, BezPath, CubicBez, Line, ParamCurve, PathEl, PathSeg, Point, QuadBez, Vec2};
 use npr_core::math::tan_f64;
 use std::f64::consts::PI;

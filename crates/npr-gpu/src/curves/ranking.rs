@@ -6,8 +6,9 @@ use super::work::{IndirectArguments, ListWork, add_work};
 use crate::engine::{Engine, Session};
 use crate::graph::{Graph, ResourceId};
 use crate::passes::vector;
+use npr_vector::rank::jump::Walk;
 use npr_vector::rank::jump::{Hop, Reach};
-use npr_vector::rank::place::{ListPosition, Standing, Walk};
+use npr_vector::rank::place::{ListPosition, Standing};
 use npr_vector::rank::{Link, RankError, Ranked, link, rounds_for, splitter_rounds_for};
 
 /// How lists are ranked; the result is the same.

@@ -10,8 +10,9 @@ use npr_core::window::{View, Window};
 use npr_vector::mesh_lines::contour::steps::{self, HalfEdge, Marked, Viewer};
 use npr_vector::mesh_lines::graph::CurveNode;
 use npr_vector::mesh_lines::sample::{self, SpineSample, Surroundings};
+use npr_vector::rank::jump::Walk;
 use npr_vector::rank::jump::{self, Hop, Reach};
-use npr_vector::rank::place::{self, ListPosition, Standing, Walk};
+use npr_vector::rank::place::{self, ListPosition, Standing};
 use npr_vector::rank::work::{Arguments, WorkRule, size_work};
 use npr_vector::rank::{Link, scan, splitter};
 

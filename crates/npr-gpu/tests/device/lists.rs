@@ -13,8 +13,9 @@ use npr_vector::mesh_lines::graph::CurveNode;
 use npr_vector::mesh_lines::sample::{
     SampledLines, Surroundings, sample_visibility, weigh_samples,
 };
+use npr_vector::rank::jump::Walk;
 use npr_vector::rank::jump::{Hop, Reach, break_loops, cut_loops, rank_jump, start_nodes};
-use npr_vector::rank::place::{ListPosition, Standing, Walk};
+use npr_vector::rank::place::{ListPosition, Standing};
 use npr_vector::rank::place::{measure_chains, scatter_ranks, turn_ranks};
 use npr_vector::rank::scan::{BLOCK, compact, exclusive_scan, scan_blocks};
 use npr_vector::rank::splitter::{find_splitters, start_splitters, walk_to_splitter};

@@ -1,10 +1,10 @@
 //! A way along pixels as a smooth stroke with widths.
 
 use super::calm::{Calm, calm};
+use super::centre_stroke::{CentrePoint, CentreStroke};
 use super::corner::{Corner, corners};
 use super::link::Way;
 use super::measure::{farthest_aside, ink_along, measure, smooth_widths};
-use super::{CentrePoint, CentreStroke};
 use crate::Bitmap;
 use glam::DVec2;
 

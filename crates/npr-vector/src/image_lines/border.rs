@@ -186,6 +186,14 @@ impl Borders {
     }
 }
 
+impl SurfacePicture {
+    /// The borders between pixels that are lines of the wanted kinds, where nothing of `occluder_depths` (reversed
+    /// depths, where given) lies before them.
+    pub fn borders(&self, scene: &ImageScene<'_>, occluder_depths: Option<&[f32]>) -> Borders {
+        Borders::of(self, scene, occluder_depths)
+    }
+}
+
 /// What borders are looked for with.
 struct Finder<'a> {
     detector: Detector<'a>,

@@ -1,6 +1,5 @@
 //! Which surface every pixel of a view shows.
 
-use super::border::Borders;
 use crate::mesh_lines::zero_set::CornerNormals;
 use crate::pixel_strokes::segment::PixelView;
 use crate::pixel_strokes::surface::fill;
@@ -85,12 +84,6 @@ impl SurfacePicture {
             faces,
             depths: depths.into_iter().map(f32::from_bits).collect(),
         }
-    }
-
-    /// The borders between pixels that are lines of the wanted kinds, where nothing of `occluder_depths` (reversed
-    /// depths, where given) lies before them.
-    pub fn borders(&self, scene: &ImageScene<'_>, occluder_depths: Option<&[f32]>) -> Borders {
-        Borders::of(self, scene, occluder_depths)
     }
 
     /// Whether nothing of a occluder depths (reversed depths, where given) lies before a pixel.

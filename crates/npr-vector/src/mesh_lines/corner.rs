@@ -4,8 +4,7 @@
 //! the number of points nor their noise decides. Smoothing keeps corners where they are, closed runs start at one,
 //! and [`split`] cuts strokes there.
 
-use crate::mesh_lines::run::{Run, RunPoint, base_id, distance};
-use crate::mesh_lines::smooth::SPECK_PX;
+use crate::mesh_lines::run::{Run, RunPoint, SPECK_PX, base_id, distance};
 use crate::rank::hash_key;
 use npr_core::math;
 use std::collections::BTreeSet;

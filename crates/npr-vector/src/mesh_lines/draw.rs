@@ -3,24 +3,21 @@
 //! [`Prepared`] holds what does not depend on the camera; [`strokes`] does the rest for one view: it gathers the
 //! pieces of all lines, finds what is seen of them, joins what goes on, and smooths.
 
+mod calm;
 mod paint;
 mod prepared;
 mod view;
 
+pub use crate::mesh_lines::line_settings::{LineSettings, Method};
+pub(crate) use calm::calmed;
 pub(crate) use paint::strokes_of;
 pub use paint::{PaintAt, PointPaint, StrokeLook};
 pub use prepared::{FindCrossings, Prepared};
-pub(crate) use view::OUTLINE_TOLERANCE_PX;
 
 use crate::mesh_lines::contour::{EdgeContours, Eye};
-use crate::mesh_lines::corner::split;
-use crate::mesh_lines::duplicates::{leave_out_short_fragments, suppress};
-use crate::mesh_lines::merge::{FACING_PX, TOUCHING_PX, merge_ends};
-use crate::mesh_lines::overshoot::cut_overshoot;
 use crate::mesh_lines::puff::SmokeLines;
-use crate::mesh_lines::relabel_intersections::relabel_intersections;
-use crate::mesh_lines::run::{Run, RunPoint, runs};
-use crate::mesh_lines::smooth::smooth;
+use crate::mesh_lines::run::{Run, RunPoint};
+use crate::mesh_lines::run_assembly::runs;
 use crate::mesh_lines::suppressed_edges::{edges_beside, suppressed_edges};
 use crate::mesh_lines::visibility::{FaceImages, Seen};
 use crate::project::Projector;
@@ -31,35 +28,6 @@ use npr_mesh::half_edge::HalfEdgeMesh;
 use paint::broken_up;
 use rayon::prelude::*;
 use view::{Toll, View};
-
-/// How contours are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Method {
-    /// Along mesh edges, exact for the polygons.
-    #[default]
-    Edges,
-    /// Where interpolated normals turn away, smooth.
-    Surface,
-}
-
-/// Which lines are wanted, and how.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LineSettings {
-    /// Width and height of the picture in pixels.
-    pub size: [u32; 2],
-    /// Bits of [`KindSet::BITS`].
-    pub kinds: u32,
-    /// How contours are found.
-    pub method: Method,
-    /// Smooths strokes, joins their ends, and leaves out what is too short to read.
-    pub smooth: bool,
-    /// Gives hidden lines too, with the number of surfaces in front.
-    pub hidden: bool,
-    /// Turn, in radians, from which strokes are cut at a corner; none never.
-    pub split: Option<f32>,
-    /// Most bytes that what is found of a view may take.
-    pub memory_limit: u64,
-}
 
 /// The lines of a view.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -144,9 +112,9 @@ pub fn strokes_with(
         outlines: &outlines,
         images: &images,
         size: settings.size,
-        puffs: smoke
+        extra: smoke
             .filter(|smoke| smoke.is_dense)
-            .map(|smoke| smoke.puffs),
+            .map(|smoke| smoke.puffs as _),
         count_limit: if settings.hidden {
             HIDDEN_COUNT_LIMIT
         } else {
@@ -183,7 +151,7 @@ pub fn strokes_with(
     let mut strokes = strokes_of_runs(found, shape, settings, look);
     if let Some(smoke) = smoke {
         let seen = Seen {
-            puffs: None,
+            extra: None,
             ..seen
         };
         strokes.extend(smoke.strokes(&seen, settings));
@@ -210,23 +178,6 @@ fn strokes_of_runs(
     strokes_of(found, &|run: &Run, point: &RunPoint| {
         look.paint(shape, run, point)
     })
-}
-
-/// Runs joined, cut at corners and smoothed, as far as the settings ask for it.
-pub(crate) fn calmed(mut found: Vec<Run>, settings: &LineSettings) -> Vec<Run> {
-    if settings.smooth {
-        found = merge_ends(relabel_intersections(found), TOUCHING_PX);
-    }
-    if let Some(least_turn) = settings.split {
-        found = split(found, least_turn);
-    }
-    if settings.smooth {
-        smooth(&mut found);
-        found = merge_ends(cut_overshoot(suppress(found)), FACING_PX);
-        smooth(&mut found);
-        found = leave_out_short_fragments(found);
-    }
-    found
 }
 
 /// The eye of a view, as decisions about facing read it. O(vertices), in parallel.

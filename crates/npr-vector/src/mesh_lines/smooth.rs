@@ -4,7 +4,7 @@
 //! smoothed with its ends pinned by alternating steps in and out [Taubin 1995].
 
 use crate::mesh_lines::corner::{PINNED_COS, corners};
-use crate::mesh_lines::run::{Run, RunPoint, distance, location_at};
+use crate::mesh_lines::run::{Run, RunPoint, SPECK_PX, distance, location_at};
 use npr_core::math;
 use rayon::prelude::*;
 
@@ -17,9 +17,6 @@ const ROUNDS: u32 = 16;
 /// Step towards the mean of the neighbours, and the one back; their pass band ends at `1 / IN + 1 / OUT`, about 0.1.
 const IN: f64 = 0.5;
 const OUT: f64 = -0.526;
-
-/// Runs shorter than this are left out, in pixels. Parts cut at corners are not: the line that they are of goes on.
-pub(crate) const SPECK_PX: f64 = 3.0;
 
 /// Runs up to this length are thinned, in pixels; not so parts cut at corners.
 const SHORT_PX: f64 = 10.0;

@@ -1,8 +1,9 @@
 //! Edges that need no line of their own, for a smooth contour shows them.
 
-use crate::mesh_lines::draw::OUTLINE_TOLERANCE_PX;
 use crate::mesh_lines::graph::CurveGraph;
-use crate::mesh_lines::run::{Line, distance};
+use crate::mesh_lines::line::Line;
+use crate::mesh_lines::line_settings::OUTLINE_TOLERANCE_PX;
+use crate::mesh_lines::run::distance;
 use crate::mesh_lines::visibility::Piece;
 use crate::mesh_lines::zero_set::{SegmentGrid, runs_along_edge};
 

@@ -6,22 +6,23 @@
 
 mod covering;
 mod ink;
+mod occluders;
+mod piece;
 #[cfg(test)]
 mod tests;
 
 pub use covering::FaceImages;
 pub(crate) use covering::Tried;
 pub(crate) use ink::Ink;
+pub use occluders::Occluders;
+pub(crate) use piece::MARGIN;
+pub use piece::Piece;
 
-use crate::mesh_lines::bvh::{FaceTree, Sight, cut_range};
-use crate::mesh_lines::puff::Puffs;
+use crate::mesh_lines::bvh::{FaceTree, Sight};
 use crate::project::Projector;
 use glam::DVec3;
 use npr_core::budget::{Budget, OverBudget};
 use npr_mesh::half_edge::HalfEdgeMesh;
-
-/// How far outside the frame lines are still followed, as a share of its larger side.
-pub(crate) const MARGIN: f64 = 0.02;
 
 /// Spans shorter than this are not looked at by themselves, in pixels.
 const LEAST_SPAN_PX: f64 = 1e-4;
@@ -39,89 +40,6 @@ const LEAST_CROWDED_PX: f64 = 1.0 / 64.0;
 /// The faces before a crowded piece are counted where there are no more than one for so many pixels of
 /// it; else it is hidden or not.
 const PX_PER_COUNTED: f64 = 2.0;
-
-/// A straight piece of line in space and in the picture, cut to the frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Piece {
-    /// Ends in the world.
-    pub world: [DVec3; 2],
-    /// Ends in the picture, in pixels.
-    pub place: [[f64; 2]; 2],
-    /// Depths of the ends.
-    pub depth: [f64; 2],
-    /// The part of the uncut piece that is left, along it in the world.
-    pub range: [f64; 2],
-}
-
-impl Piece {
-    /// The part of a line from `a` to `b` in front of the near plane and within the frame and a margin; none where
-    /// nothing is left.
-    pub fn new(projector: &Projector, size: [u32; 2], a: DVec3, b: DVec3) -> Option<Self> {
-        let near = projector.near();
-        let uncut = [projector.depth(a), projector.depth(b)];
-        let mut range = [0.0, 1.0];
-        if projector.is_perspective() && !cut_range(&mut range, uncut.map(|depth| depth - near)) {
-            return None;
-        }
-        let front = range.map(|t| a.lerp(b, t));
-        let depth = front.map(|p| projector.depth(p));
-        let place = front.map(|p| projector.project(p));
-        let mut shown = [0.0, 1.0];
-        let margin = MARGIN * f64::from(size[0].max(size[1]));
-        for axis in 0..2 {
-            let (low, high) = (-margin, f64::from(size[axis]) + margin);
-            let [p, q] = place.map(|place| place[axis]);
-            if !cut_range(&mut shown, [p - low, q - low])
-                || !cut_range(&mut shown, [high - p, high - q])
-            {
-                return None;
-            }
-        }
-        let [from, to] = range;
-        let range = shown.map(|s| from + (to - from) * projector.world_share(s, depth));
-        let world = range.map(|t| a.lerp(b, t));
-        let piece = Self {
-            world,
-            place: world.map(|p| projector.project(p)),
-            depth: world.map(|p| projector.depth(p)),
-            range,
-        };
-        piece
-            .place
-            .iter()
-            .flatten()
-            .all(|v| v.is_finite())
-            .then_some(piece)
-    }
-
-    /// Length in the picture, in pixels.
-    pub fn length(&self) -> f64 {
-        let [a, b] = self.place;
-        ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt()
-    }
-
-    /// Place in the picture at a share of the image.
-    pub fn place_at(&self, share: f64) -> [f64; 2] {
-        std::array::from_fn(|i| self.place[0][i] + (self.place[1][i] - self.place[0][i]) * share)
-    }
-
-    /// Point in the world at a share of the image.
-    pub fn world_at(&self, projector: &Projector, share: f64) -> DVec3 {
-        self.world[0].lerp(self.world[1], projector.world_share(share, self.depth))
-    }
-
-    /// 1 / depth in perspective, depth in parallel view, at a share of the image: linear along it.
-    fn coordinate_at(&self, projector: &Projector, share: f64) -> f64 {
-        let [a, b] = self.depth.map(|z| {
-            if projector.is_perspective() {
-                -1.0 / z
-            } else {
-                z
-            }
-        });
-        a + (b - a) * share
-    }
-}
 
 /// What decides about one piece besides its geometry.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -312,8 +230,8 @@ pub struct Seen<'a> {
     pub outlines: &'a OutlineGrid,
     /// The faces as the view has them; made when a crowded piece first asks.
     pub images: &'a FaceImages,
-    /// Smoke that hides lines, where there is any.
-    pub puffs: Option<&'a Puffs>,
+    /// What hides lines besides the faces, where there is any: smoke.
+    pub extra: Option<&'a dyn Occluders>,
     /// Width and height of the picture in pixels.
     pub size: [u32; 2],
     /// Up to how many surfaces in front are counted; 1 only tells visible from hidden.
@@ -361,7 +279,7 @@ impl Seen<'_> {
     ) -> Vec<Span> {
         let images = self.images;
         let most = (piece.length() / PX_PER_COUNTED) as usize;
-        if self.count_limit > 1 && left_out.is_empty() && self.puffs.is_none() {
+        if self.count_limit > 1 && left_out.is_empty() && self.extra.is_none() {
             let parts = images.parts_by_face(self, piece, circumstances, most);
             if let Some(parts) = parts {
                 return joined(counted(&parts, self.count_limit), piece);
@@ -385,9 +303,9 @@ impl Seen<'_> {
     /// The spans of a part that no face hides: smoke may.
     fn push_occluded(&self, piece: &Piece, [from, to]: [f64; 2], spans: &mut Vec<Span>) {
         let mut cuts = vec![from];
-        if let Some(puffs) = self.puffs {
+        if let Some(extra) = self.extra {
             cuts.extend(
-                puffs
+                extra
                     .cuts(piece)
                     .into_iter()
                     .filter(|cut| from < *cut && *cut < to),
@@ -397,7 +315,7 @@ impl Seen<'_> {
         cuts.sort_by(f64::total_cmp);
         for pair in cuts.windows(2) {
             let middle = piece.world_at(self.projector, (pair[0] + pair[1]) * 0.5);
-            let is_occluded = self.puffs.is_some_and(|puffs| puffs.hide(middle));
+            let is_occluded = self.extra.is_some_and(|extra| extra.hide(middle));
             push(spans, [pair[0], pair[1]], u32::from(is_occluded));
         }
     }
@@ -411,7 +329,7 @@ impl Seen<'_> {
             self.projector
                 .image_share((t - from) / (to - from), piece.depth)
         }));
-        cuts.extend(self.puffs.iter().flat_map(|puffs| puffs.cuts(piece)));
+        cuts.extend(self.extra.iter().flat_map(|extra| extra.cuts(piece)));
         cuts.sort_by(f64::total_cmp);
         let least = LEAST_SPAN_PX / piece.length().max(LEAST_SPAN_PX);
         let mut kept = vec![0.0];
@@ -434,7 +352,7 @@ impl Seen<'_> {
         let point = piece.world_at(self.projector, share);
         let sight = self.sight(point, circumstances);
         let own = &circumstances.own_faces;
-        let in_smoke = u32::from(self.puffs.is_some_and(|puffs| puffs.hide(point)));
+        let in_smoke = u32::from(self.extra.is_some_and(|extra| extra.hide(point)));
         if self.count_limit == 1 {
             if in_smoke == 1 {
                 return 1;

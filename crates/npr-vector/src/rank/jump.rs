@@ -2,12 +2,11 @@
 //!
 //! In each round the reach of every node doubles, so a chain of n nodes takes log2(n) rounds, whatever its shape.
 //!
-//! Every step works on the first `extent[0]` elements: nodes for [`wyllie`], splitters for
+//! Every step works on the first `extent[0]` elements: nodes for [`wyllie`](super::wyllie()), splitters for
 //! [`ruling_set`](super::ruling_set). What lies behind stays as it is, and so does what there
 //! is no room for.
 
-use super::place::{self, Walk};
-use super::{Link, RankError, Ranked, link};
+use super::Link;
 use bytemuck::{Pod, Zeroable};
 use npr_core::geometry::NONE;
 use npr_core::gpu_layout;
@@ -43,36 +42,20 @@ pub struct Hop {
 }
 gpu_layout!(Hop { far, dist });
 
+/// How a node hangs on an element that is ranked by pointer jumping.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct Walk {
+    /// The element: itself for [`wyllie`](super::wyllie())(super::wyllie()), or the slot of a splitter; [`NONE`] where none was found.
+    pub slot: u32,
+    /// Links from there to the node.
+    pub steps: u32,
+}
+gpu_layout!(Walk { slot, steps });
+
 /// Rounds after which chains of up to `node_count` nodes are ranked: log2, rounded up.
 pub fn rounds_for(node_count: usize) -> u32 {
     node_count.max(1).next_power_of_two().trailing_zeros()
-}
-
-/// Ranks lists by breaking loops and then ranking, both by pointer jumping [Wyllie 1979; Jiang et al. 2022].
-///
-/// Input and result are those of [`walk`](super::walk()). `rounds` bounds the rounds of each of the two; by default
-/// as many as chains of all nodes would take. Fewer are enough where no chain is longer than `2^rounds`; more than 32
-/// change nothing.
-///
-/// O(n log n) work in O(log n) steps; two buffers alternate.
-///
-/// Differs: the publication breaks loops at the greatest key, which is a place in the picture, so loops start elsewhere
-/// whenever the picture moves; here the least hash of a key that belongs to the mesh. It counts links to the
-/// head along successors and subtracts; here nodes look back, so what they count is their rank.
-///
-/// # Errors
-///
-/// [`RankError`] where `next` does not describe lists, or the rounds were too few.
-pub fn wyllie(next: &[u32], keys: &[u32], rounds: Option<u32>) -> Result<Ranked, RankError> {
-    let links = link(next, keys)?;
-    let rounds = rounds.unwrap_or_else(|| rounds_for(links.len()));
-    let extent = [links.len() as u32];
-    let mut first = vec![Reach::default(); links.len()];
-    let mut hops = vec![Hop::default(); links.len()];
-    let mut walks = vec![Walk::default(); links.len()];
-    start_nodes(&links, &mut hops, &mut first, &mut walks);
-    let jumped = jump_all(&extent, first, hops, rounds);
-    place::finish(&links, &walks, &jumped, rounds)
 }
 
 /// What pointer jumping leaves behind.

@@ -1,23 +1,12 @@
 //! From ranked elements to nodes in a row.
 
-use super::jump::{Hop, Jumped, Reach};
+use super::jump::{Hop, Jumped, Reach, Walk};
 use super::scan::{compact, exclusive_scan};
 use super::{Link, RankError, Ranked};
 use bytemuck::{Pod, Zeroable};
 use npr_core::geometry::NONE;
 use npr_core::gpu_layout;
 use rayon::prelude::*;
-
-/// How a node hangs on an element that is ranked by pointer jumping.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
-pub struct Walk {
-    /// The element: itself for [`wyllie`](super::wyllie()), or the slot of a splitter; [`NONE`] where none was found.
-    pub slot: u32,
-    /// Links from there to the node.
-    pub steps: u32,
-}
-gpu_layout!(Walk { slot, steps });
 
 /// Where a node is, counted from where its loop was cut.
 #[repr(C)]

@@ -3,8 +3,8 @@
 //! Pointer jumping touches every node in every round. Here about every seventeenth node becomes a splitter; only
 //! those jump.
 
-use super::jump::{Hop, Reach, break_loops, cut_loops, jump_all, rank_jump, rounds_for};
-use super::place::{self, Walk};
+use super::jump::{Hop, Reach, Walk, break_loops, cut_loops, jump_all, rank_jump, rounds_for};
+use super::place;
 use super::scan::{compact, exclusive_scan};
 use super::{Link, RankError, Ranked, link};
 use npr_core::geometry::NONE;

@@ -289,7 +289,7 @@ fn walks_stay_far_below_their_limit() {
     let mut flags = vec![0; links.len()];
     find_splitters(&links, &mut flags);
     let (slots, _) = exclusive_scan(&flags);
-    let mut walks = vec![place::Walk::default(); links.len()];
+    let mut walks = vec![jump::Walk::default(); links.len()];
     splitter::walk_to_splitter(&links, &flags, &slots, &mut walks);
     let longest = walks.iter().map(|walk| walk.steps).max();
     assert!(longest < Some(WALK_LIMIT / 4), "{longest:?}");

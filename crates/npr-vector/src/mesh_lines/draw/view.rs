@@ -1,9 +1,10 @@
 //! The pieces of all lines in one view of a shape, and what is seen of them.
 
-use super::{LineSettings, Method, Prepared};
+use super::prepared::Prepared;
 use crate::mesh_lines::feature::kind_in_view;
 use crate::mesh_lines::graph::{CurveGraph, CurveNode};
-use crate::mesh_lines::run::Line;
+use crate::mesh_lines::line::Line;
+use crate::mesh_lines::line_settings::{LineSettings, Method, OUTLINE_TOLERANCE_PX};
 use crate::mesh_lines::visibility::{
     Circumstances, FaceImages, Ink, Memory, OutlineGrid, Piece, Seen, Span,
 };
@@ -16,9 +17,6 @@ use npr_core::geometry::NONE;
 use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
-
-/// How far smooth contours may leave the polygons' outline, in pixels.
-pub(crate) const OUTLINE_TOLERANCE_PX: f64 = 2.0;
 
 /// Crowded pieces looked at between two looks at the ink on the paper.
 const ROUND: usize = 256;

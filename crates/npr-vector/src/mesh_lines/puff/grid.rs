@@ -1,6 +1,6 @@
 //! Puffs in a grid over the picture.
 
-use super::Puff;
+use super::sphere::Puff;
 use crate::mesh_lines::visibility::MARGIN;
 
 /// Which puffs each cell of the picture may show, from front to back.

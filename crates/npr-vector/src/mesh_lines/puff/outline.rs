@@ -1,11 +1,15 @@
 //! The drawn outline of smoke: free arcs of silhouettes, what surfaces leave of them, and their strokes.
 
+use super::Puffs;
 use super::cover::{Arc, Cover};
 use super::silhouette::Silhouette;
-use super::{Puff, Puffs};
-use crate::mesh_lines::draw::{LineSettings, PointPaint, calmed, strokes_of};
+use super::sphere::Puff;
+use crate::mesh_lines::draw::{PointPaint, calmed, strokes_of};
 use crate::mesh_lines::graph::{CurveGraph, CurveNode};
-use crate::mesh_lines::run::{Line, Run, RunPoint, distance, runs};
+use crate::mesh_lines::line::Line;
+use crate::mesh_lines::line_settings::LineSettings;
+use crate::mesh_lines::run::{Run, RunPoint, distance};
+use crate::mesh_lines::run_assembly::runs;
 use crate::mesh_lines::visibility::{Circumstances, Memory, Piece, Seen};
 use crate::stroke::{Kind, Stroke, StrokePoint};
 use glam::DVec3;
@@ -189,7 +193,7 @@ impl Puffs {
     /// The arcs of a puff's silhouette with no smoke before them, and none behind up to `jump` radii.
     pub(super) fn free_arcs(&self, index: usize, jump: f64) -> Vec<Arc> {
         let own = &self.puffs[index];
-        let silhouette = own.silhouette(self.is_perspective());
+        let silhouette = Silhouette::new(own, self.is_perspective());
         let room = jump * own.radius;
         let mut cover = Cover::default();
         self.grid.visit(own.bounds, |other| {
@@ -213,7 +217,7 @@ impl Puffs {
         graph: &mut CurveGraph,
         pieces: &mut Vec<Option<Piece>>,
     ) {
-        let silhouette = puff.silhouette(self.is_perspective());
+        let silhouette = Silhouette::new(puff, self.is_perspective());
         let count = self.chord_count(&silhouette, arc.to - arc.from);
         let angle = |i: usize| arc.from + (arc.to - arc.from) * i as f64 / count as f64;
         let first = graph.nodes.len() as u32;
@@ -254,7 +258,7 @@ impl Puffs {
 
     /// The point of a puff's silhouette nearest to a point of the world.
     fn silhouette_point(&self, puff: &Puff, world: DVec3) -> SilhouettePoint {
-        let silhouette = puff.silhouette(self.is_perspective());
+        let silhouette = Silhouette::new(puff, self.is_perspective());
         let point = silhouette.nearest(self.projector.from_eye(world));
         let place = self.projector.project_from_eye(point);
         let middle = self.projector.project_from_eye(puff.center);

@@ -1,6 +1,6 @@
 //! The circle in which sights touch a sphere, and the arc of it that another sphere covers.
 
-use super::Puff;
+use super::sphere::Puff;
 use glam::DVec3;
 use npr_core::math;
 use std::f64::consts::{PI, TAU};

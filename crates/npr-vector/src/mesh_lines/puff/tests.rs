@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::mesh_lines::puff::cover::Arc;
+use crate::mesh_lines::puff::silhouette::Silhouette;
 use npr_core::camera::{Camera, Projection};
 use proptest::prelude::*;
 
@@ -65,7 +66,7 @@ proptest! {
         let (projector, spheres) = (projector(parallel), spheres_of(&list));
         let puffs = Puffs::new(&projector, SIZE, &spheres);
         for (index, own) in puffs.puffs.iter().enumerate() {
-            let (silhouette, arcs) = (own.silhouette(!parallel), puffs.free_arcs(index, jump));
+            let (silhouette, arcs) = (Silhouette::new(own, !parallel), puffs.free_arcs(index, jump));
             for angle in &angles {
                 let point = silhouette.at(*angle);
                 let (out, sight) = (point - own.center, if parallel { DVec3::Z } else { point.normalize() });

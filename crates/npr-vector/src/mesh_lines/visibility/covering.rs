@@ -2,16 +2,16 @@
 
 mod boxes;
 mod cells;
+mod cover;
+mod sights;
 
 use super::{Circumstances, Piece, Seen};
-use crate::mesh_lines::bvh::{Barrier, Sight, hidden_range};
 use boxes::FaceBoxes;
 use cells::FaceCells;
 pub(crate) use cells::Tried;
+use cover::Cover;
+use sights::Sights;
 use std::sync::OnceLock;
-
-/// Parts of a line found before they are joined.
-const BATCH: usize = 64;
 
 /// Faces or cells that a thread takes at once at least.
 const SHARE: usize = 256;
@@ -87,96 +87,4 @@ impl FaceImages {
         let boxes = || FaceBoxes::new(seen.shape, seen.tree, seen.projector);
         self.boxes.get_or_init(boxes)
     }
-}
-
-/// The ways from the eye to a piece.
-struct Sights<'a> {
-    seen: &'a Seen<'a>,
-    piece: &'a Piece,
-    /// To its ends.
-    ways: [Sight; 2],
-    /// Faces that the piece lies in, ascending.
-    own_faces: Vec<u32>,
-}
-
-impl<'a> Sights<'a> {
-    fn new(seen: &'a Seen<'a>, piece: &'a Piece, circumstances: &Circumstances) -> Self {
-        let mut own_faces = circumstances.own_faces.clone();
-        own_faces.sort_unstable();
-        Self {
-            seen,
-            piece,
-            ways: piece.world.map(|end| seen.sight(end, circumstances)),
-            own_faces,
-        }
-    }
-
-    /// The part of the piece's image that a face hides.
-    fn hidden_by(&self, face: u32) -> Option<[f64; 2]> {
-        self.hidden_behind(face, None)
-    }
-
-    /// The same, where the face's barrier for the one eye that there is may be known.
-    fn hidden_behind(&self, face: u32, barrier: Option<&Barrier>) -> Option<[f64; 2]> {
-        if self.own_faces.binary_search(&face).is_ok() {
-            return None;
-        }
-        let range = match barrier {
-            Some(barrier) => barrier.hidden_range(barrier, &self.ways),
-            None => hidden_range(self.seen.shape, face, &self.ways),
-        }?;
-        Some(range.map(|share| self.seen.projector.image_share(share, self.piece.depth)))
-    }
-}
-
-/// Parts of a line, joined where they meet.
-#[derive(Debug, Default)]
-struct Cover {
-    /// Ascending, apart from each other.
-    joined: Vec<[f64; 2]>,
-    /// Found since they were joined last.
-    found: Vec<[f64; 2]>,
-    /// Gaps shorter than this need no looking at: nobody would see them.
-    unseen: f64,
-}
-
-impl Cover {
-    /// Takes a part in. O(log n) on the whole.
-    fn add(&mut self, part: Option<[f64; 2]>) {
-        self.found.extend(part);
-        // The longer the list, the rarer it is gone through.
-        if self.found.len() >= BATCH.max(self.joined.len()) || part.is_some_and(is_long) {
-            self.join();
-        }
-    }
-
-    fn join(&mut self) {
-        let mut parts = std::mem::take(&mut self.joined);
-        parts.append(&mut self.found);
-        parts.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-        for part in parts {
-            match self.joined.last_mut() {
-                Some(last) if part[0] <= last[1] => last[1] = last[1].max(part[1]),
-                _ => self.joined.push(part),
-            }
-        }
-    }
-
-    /// Whether a part lies in what was joined, but for gaps too short to see.
-    fn holds(&self, [from, to]: [f64; 2]) -> bool {
-        let first = self.joined.partition_point(|part| part[1] <= from);
-        let mut reached = from;
-        for [start, end] in &self.joined[first..] {
-            if *start - reached > self.unseen || to - reached <= self.unseen {
-                break;
-            }
-            reached = *end;
-        }
-        to - reached <= self.unseen
-    }
-}
-
-/// Worth joining at once: what it covers need not be looked at again.
-fn is_long([from, to]: [f64; 2]) -> bool {
-    to - from > 1.0 / 16.0
 }

@@ -1,6 +1,6 @@
 //! The faces of a view in boxes of the picture: which of them may lie before a line.
 
-use super::Sights;
+use super::sights::Sights;
 use crate::mesh_lines::bvh::{FaceTree, bounds};
 use crate::project::Projector;
 use glam::DVec3;

@@ -1,6 +1,7 @@
 //! The faces of a view in cells of the picture: what hides a line is among the few that lie foremost where it runs.
 
-use super::{Cover, Sights};
+use super::cover::Cover;
+use super::sights::Sights;
 use crate::mesh_lines::bvh::{Barrier, NEARER};
 use crate::mesh_lines::visibility::{MARGIN, Piece};
 use crate::project::Projector;

@@ -1,0 +1,264 @@
+//! Runs put together from what is seen of chains, which are cut where visibility, kind or surface changes.
+
+use crate::mesh_lines::corner::start_at_head;
+use crate::mesh_lines::graph::CurveGraph;
+use crate::mesh_lines::line::Line;
+use crate::mesh_lines::run::{Run, RunPoint, base_id, number};
+use crate::mesh_lines::visibility::Span;
+use crate::project::Projector;
+use crate::rank::hash_key;
+use crate::surface_location::SurfaceLocation;
+use npr_core::geometry::NONE;
+use npr_mesh::half_edge::HalfEdgeMesh;
+
+/// Gaps in a line up to this length are closed, in pixels: nobody sees them, and each would cost a stroke.
+const GAP_PX: f64 = 0.75;
+
+/// One span of a chain.
+#[derive(Debug, Clone, Copy)]
+struct Item<'a> {
+    node: u32,
+    line: &'a Line,
+    span: Span,
+    /// It starts where the item before ends.
+    follows: bool,
+}
+
+impl Item<'_> {
+    fn is_hidden(&self) -> bool {
+        self.span.occluders > 0
+    }
+
+    fn continues(&self, before: &Self) -> bool {
+        self.follows
+            && self.is_hidden() == before.is_hidden()
+            && self.line.kind == before.line.kind
+            && self.line.surface == before.line.surface
+    }
+
+    fn length(&self) -> f64 {
+        self.line.piece.length() * (self.span.to - self.span.from)
+    }
+}
+
+/// The runs of all chains of a graph; `lines` holds what is drawn after each node.
+pub fn runs(
+    shape: &HalfEdgeMesh,
+    projector: &Projector,
+    graph: &CurveGraph,
+    lines: &[Option<Line>],
+) -> Vec<Run> {
+    let mut found = Vec::new();
+    for mut chain in graph.chains() {
+        if graph.is_loop(&chain) {
+            start_at_anchor(graph, &mut chain);
+        }
+        let (mut items, is_loop) = items(graph, lines, &chain);
+        close_gaps(&mut items);
+        let breaks: Vec<usize> = breaks(&items, is_loop);
+        let maker = Maker {
+            shape,
+            projector,
+            graph,
+        };
+        if breaks.is_empty() && !items.is_empty() {
+            let mut run = maker.run(&items, true);
+            start_at_head(&mut run);
+            found.push(run);
+            continue;
+        }
+        for (i, from) in breaks.iter().enumerate() {
+            let to = breaks
+                .get(i + 1)
+                .copied()
+                .unwrap_or(breaks[0] + items.len());
+            let part: Vec<Item<'_>> = (*from..to).map(|k| items[k % items.len()]).collect();
+            found.push(maker.run(&part, false));
+        }
+    }
+    number(&mut found);
+    found.retain(|run| run.points.len() >= if run.closed { 3 } else { 2 });
+    found
+}
+
+/// Turns a loop so that it starts at the node on the mesh edge with the least hash, as [`crate::rank`] does; never at
+/// the first in the list, whose place means nothing.
+fn start_at_anchor(graph: &CurveGraph, chain: &mut [u32]) {
+    let anchor = |index: usize| {
+        let node = &graph.nodes[chain[index] as usize];
+        (hash_key(node.edge), node.t.to_bits())
+    };
+    let head = (0..chain.len()).min_by_key(|index| anchor(*index));
+    chain.rotate_left(head.unwrap_or(0));
+}
+
+/// The spans of a chain, and whether the last may run on to the first.
+fn items<'a>(
+    graph: &CurveGraph,
+    lines: &'a [Option<Line>],
+    chain: &[u32],
+) -> (Vec<Item<'a>>, bool) {
+    let mut items: Vec<Item<'a>> = Vec::new();
+    let mut open = false;
+    for node in chain {
+        let Some(line) = &lines[*node as usize] else {
+            open = false;
+            continue;
+        };
+        let whole_start = line.piece.range[0] == 0.0;
+        for (i, span) in line.spans.iter().enumerate() {
+            // Where paper is black already there is no span.
+            let follows = match i.checked_sub(1) {
+                Some(before) => line.spans[before].to == span.from,
+                None => open && whole_start && span.from == 0.0,
+            };
+            items.push(Item {
+                node: *node,
+                line,
+                span: *span,
+                follows,
+            });
+        }
+        open = line.piece.range[1] == 1.0 && line.spans.last().is_some_and(|span| span.to == 1.0);
+    }
+    let first = chain[0];
+    let is_loop = graph.is_loop(chain) && open;
+    if let (Some(item), Some(line)) = (items.first_mut(), &lines[first as usize]) {
+        let is_whole = line.piece.range[0] == 0.0 && item.span.from == 0.0;
+        item.follows = is_loop && is_whole && item.node == first;
+    }
+    (items, is_loop)
+}
+
+/// Makes hidden stretches too short to see visible, and visible ones hidden where hidden lines go on around them.
+fn close_gaps(items: &mut [Item<'_>]) {
+    let mut from = 0;
+    while from < items.len() {
+        let mut to = from + 1;
+        while to < items.len() && items[to].continues(&items[to - 1]) {
+            to += 1;
+        }
+        let length: f64 = items[from..to].iter().map(Item::length).sum();
+        let enclosed = from > 0
+            && to < items.len()
+            && items[from].is_hidden()
+            && items[from].follows
+            && items[to].follows
+            && !items[from - 1].is_hidden()
+            && !items[to].is_hidden();
+        if enclosed && length < GAP_PX {
+            items[from..to]
+                .iter_mut()
+                .for_each(|item| item.span.occluders = 0);
+        }
+        from = to;
+    }
+}
+
+/// Where runs begin; empty for a closed one.
+fn breaks(items: &[Item<'_>], is_loop: bool) -> Vec<usize> {
+    (0..items.len())
+        .filter(|i| match i.checked_sub(1) {
+            Some(before) => !items[*i].continues(&items[before]),
+            None => !(is_loop && items[0].continues(&items[items.len() - 1])),
+        })
+        .collect()
+}
+
+/// Makes runs from items.
+struct Maker<'a> {
+    shape: &'a HalfEdgeMesh,
+    projector: &'a Projector,
+    graph: &'a CurveGraph,
+}
+
+impl Maker<'_> {
+    fn run(&self, items: &[Item<'_>], closed: bool) -> Run {
+        let first = items[0].line;
+        let mut points = vec![self.point(&items[0], items[0].span.from)];
+        for (item, next) in items
+            .iter()
+            .zip(items.iter().skip(1).chain([&items[items.len() - 1]]))
+        {
+            let mut point = self.point(item, item.span.to);
+            point.location = self.location(next);
+            let last = points.len() - 1;
+            match point.place == points[last].place {
+                true => points[last].location = point.location,
+                false => points.push(point),
+            }
+        }
+        // The last point of a closed run is its first.
+        if closed && points.len() > 1 {
+            points.pop();
+        }
+        Run {
+            id: items
+                .iter()
+                .map(|item| self.anchor(item))
+                .min()
+                .map_or(0, |(_, id)| id),
+            kind: first.kind,
+            surface: first.surface,
+            object: self.shape.surfaces[first.surface as usize].object,
+            occluders: items
+                .iter()
+                .map(|item| item.span.occluders)
+                .min()
+                .unwrap_or(0),
+            closed,
+            cut: [false; 2],
+            weight: 1.0,
+            points,
+        }
+    }
+
+    /// A mesh edge to hang an identity on: the one with the least hash, which most small changes leave in the run.
+    fn anchor(&self, item: &Item<'_>) -> (u32, u64) {
+        let edge = self.graph.nodes[item.node as usize].edge;
+        (hash_key(edge), base_id(edge, item.line.kind))
+    }
+
+    /// What the piece of an item lies on.
+    fn location(&self, item: &Item<'_>) -> SurfaceLocation {
+        let node = &self.graph.nodes[item.node as usize];
+        let other = &self.graph.nodes[node.next as usize];
+        let is_along = node.is_along_edge() || node.edge == other.edge;
+        SurfaceLocation {
+            edge: node.edge,
+            face: if is_along { NONE } else { node.face },
+        }
+    }
+
+    fn point(&self, item: &Item<'_>, share: f64) -> RunPoint {
+        let piece = &item.line.piece;
+        let node = &self.graph.nodes[item.node as usize];
+        let other = &self.graph.nodes[node.next as usize];
+        let world = piece.world_at(self.projector, share);
+        let [from, to] = piece.range;
+        let along = from + (to - from) * self.projector.world_share(share, piece.depth);
+        let (edge, t) = if node.is_along_edge() {
+            (
+                node.edge,
+                if node.t < 0.5 {
+                    along as f32
+                } else {
+                    1.0 - along as f32
+                },
+            )
+        } else if along < 0.5 {
+            (node.edge, node.t)
+        } else {
+            (other.edge, other.t)
+        };
+        RunPoint {
+            place: piece.place_at(share),
+            depth: self.projector.depth(world),
+            world,
+            edge,
+            t: t.clamp(0.0, 1.0),
+            location: self.location(item),
+            leaps: false,
+        }
+    }
+}
