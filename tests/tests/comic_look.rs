@@ -542,7 +542,8 @@ fn beam(overlap: &str) -> Frame {
     ];
     let mut style = style(&settings);
     let rule = format!(
-        "[[rule]]\nmatch = {{ object = \"Beam\" }}\nbeam = {{ overlap = \"{overlap}\", ramp = [{{ at = 0.0, color = \"#ff0000\" }}] }}\n"
+        "[[rule]]\nmatch = {{ object = \"Beam\" }}\nbeam = {{ overlap = \"{overlap}\", ramp = [{{ at = 0.0, \
+         color = \"#ff0000\" }}] }}\n"
     );
     style.rule = Style::from_toml(&rule, &|_| Err(String::new()))
         .unwrap()

@@ -92,7 +92,8 @@ fn pictures_that_are_missing_or_unfit_are_named_by_their_key() {
     let upright = options("r.png", [1, 2], vec![0; 8]);
     assert_eq!(
         refusal(&ramp, &upright).to_string(),
-        "shade.ramp_image: a ramp runs from left to right in a picture 1 to 4096 pixels wide and not higher than wide, not 1 x 2"
+        "shade.ramp_image: a ramp runs from left to right in a picture 1 to 4096 pixels wide and not higher \
+         than wide, not 1 x 2"
     );
     let hatch = ["ink.tone=hatch", "ink.hatch.image=h.png"];
     let empty = options("h.png", [0, 3], Vec::new());

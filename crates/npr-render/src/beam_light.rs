@@ -243,9 +243,12 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(1000))]
         #[test]
         fn any_triangles_have_sound_lights_inside_their_box(
-            values in prop::collection::vec(prop::array::uniform3(prop_oneof![-9f32..9.0, Just(0.0), Just(1e18), Just(f32::NAN)]), 3..30),
+            values in prop::collection::vec(
+                prop::array::uniform3(prop_oneof![-9f32..9.0, Just(0.0), Just(1e18), Just(f32::NAN)]), 3..30,
+            ),
         ) {
-            let triangles: Vec<[Vec3; 3]> = values.chunks_exact(3).map(|c| [c[0], c[1], c[2]].map(Vec3::from)).collect();
+            let corners = values.chunks_exact(3).map(|c| [c[0], c[1], c[2]].map(Vec3::from));
+            let triangles: Vec<[Vec3; 3]> = corners.collect();
             let pieces = pieces_of(&triangles);
             prop_assert!((1..=PIECES_MAX).contains(&pieces.len()));
             for piece in pieces.iter().filter(|piece| piece.is_lit()) {

@@ -341,7 +341,8 @@ impl Map<'_> {
         if tally.strayed > STRAYED_MAX * tally.area {
             let percent = (tally.strayed / tally.area * 100.0).round();
             tell(format!(
-                "is finer than the triangles: ids end at their edges, so that {percent} % of the surface has another than painted"
+                "is finer than the triangles: ids end at their edges, so that {percent} % of the surface has \
+                 another than painted"
             ));
         }
         notices

@@ -146,7 +146,8 @@ fn a_black_line_lifts_before_black_and_stays_before_white_by_every_method() {
 
 #[test]
 fn the_publication_s_outline_is_a_pixel_wide_and_multiplies_the_rim() {
-    let text = "line.method=rim\nline.background.method=published\nline.background.direction=brighter\nline.background.intensity=4";
+    let text = "line.method=rim\nline.background.method=published\nline.background.direction=brighter\n\
+        line.background.intensity=4";
     let frame = draw(&squares(&["hero"]), &style(text), ALL);
     let row: Vec<u8> = (0..SIZE[0])
         .map(|x| frame[(80 * SIZE[0] + x) as usize][0])

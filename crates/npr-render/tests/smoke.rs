@@ -253,7 +253,8 @@ fn smoke_hides_what_is_behind_and_surfaces_hide_smoke() {
 #[test]
 fn lines_of_things_in_front_stay_and_those_behind_are_hidden() {
     let smoke = Smoke::new(vec![Sphere::new([0.1, 1.65, 0.0], 0.9)]);
-    let text = "line.color = '#00f'\nline.width.base = 24\nline.width.source = 'constant'\n[smoke]\nline.method = 'off'\n[shade]\nmode = 'flat'";
+    let text = "line.color = '#00f'\nline.width.base = 24\nline.width.source = 'constant'\n[smoke]\nline.method \
+        = 'off'\n[shade]\nmode = 'flat'";
     let blue = |z: f32| {
         let model = wall(0.35, [0.1, 1.65], z);
         let frame = draw_on(&Processor, &model, &smoke, &style(text), &camera(0.0), SIZE);
@@ -332,7 +333,8 @@ fn a_lamp_throws_shadows_of_smoke_on_smoke_from_outside_and_within() {
     let large = Sphere::new([0.1, 1.65, -1.0], 0.9);
     let lamp = |z: f32| {
         format!(
-            "light.intensity = 0\nlight.shadow_at = 0.1\n[[light.extra]]\nkind = 'point'\nposition = [0.1, 1.65, {z}]\nshadow = true"
+            "light.intensity = 0\nlight.shadow_at = 0.1\n[[light.extra]]\nkind = 'point'\nposition = [0.1, \
+             1.65, {z}]\nshadow = true"
         )
     };
     let dark = |z: f32, puffs: &[Sphere]| {
@@ -529,7 +531,8 @@ fn strip(tones: &[[u8; 3]]) -> Picture {
 #[test]
 fn a_picture_gives_the_tones() {
     let smoke = Smoke::new(vec![Sphere::new([0.1, 1.65, 0.0], 1.2)]);
-    let common = "background = 'blue'\nsmoke.line.method = 'off'\nsmoke.sigma = '0px'\nsmoke.shadow = false\nantialias.samples = 1\n\
+    let common = "background = 'blue'\nsmoke.line.method = 'off'\nsmoke.sigma = '0px'\nsmoke.shadow = false\n\
+        antialias.samples = 1\n\
                   smoke.light = [1, 0, 0]\nsmoke.ambient = 0.0\nsmoke.wrap = 1.0\n";
     let with = |tones: &[[u8; 3]]| {
         let style = style(&format!("{common}smoke.ramp_image = 'tones.png'"));
@@ -578,7 +581,8 @@ fn a_picture_that_is_missing_is_told() {
 /// The comic look: paper in the light, strokes in the shade, ink in the dark; and strokes that stay where they are.
 #[test]
 fn smoke_is_inked_and_hatched() {
-    let text = "background = 'white'\nsmoke.line.method = 'off'\nsmoke.ramp = [{ at = 0, color = 'white' }]\nsmoke.ambient = 0.0\n\
+    let text = "background = 'white'\nsmoke.line.method = 'off'\nsmoke.ramp = [{ at = 0, color = 'white' }]\n\
+        smoke.ambient = 0.0\n\
                 smoke.light = [1, 0.3, 0.3]\nsmoke.ink = { tone = 'ink+hatch', dark_at = 0.1, light_at = 0.8 }";
     let smoke = Smoke::new(vec![Sphere::new([0.1, 1.65, 0.0], 1.2)]);
     let frame = draw(&smoke, &style(text), &camera(0.0));

@@ -122,14 +122,16 @@ const ENABLING: &[(&str, &[&str], &str)] = &[
     (
         "match.id",
         &[
-            "id_map=[{ image = 'ids.png', ids = [{ name = 'red', color = '#f00' }, { name = 'green', color = '#0f0' }] }]",
+            "id_map=[{ image = 'ids.png', ids = [{ name = 'red', color = '#f00' }, { name = 'green', color = \
+             '#0f0' }] }]",
         ],
         "ids come from maps",
     ),
     (
         "id_map",
         &[
-            "id_map=[{ image = 'ids.png', object = 'B*', material = 'B*', border = true, ids = [{ name = 'red', color = '#f00' }] }]",
+            "id_map=[{ image = 'ids.png', object = 'B*', material = 'B*', border = true, ids = [{ name = 'red', \
+             color = '#f00' }] }]",
             "rule.0={ match = { id = 'red' }, line = { color = '#c02010' }, shade = { color = '#20c040' } }",
         ],
         "rules name ids",

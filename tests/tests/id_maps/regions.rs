@@ -132,7 +132,9 @@ proptest! {
     /// Whatever coordinates a file has, nothing panics and every triangle is in one piece.
     #[test]
     fn wild_coordinates_are_taken(
-        uvs in prop::array::uniform3(prop::array::uniform2(prop::num::f32::NORMAL | prop::num::f32::ZERO | prop::num::f32::SUBNORMAL)),
+        uvs in prop::array::uniform3(prop::array::uniform2(
+            prop::num::f32::NORMAL | prop::num::f32::ZERO | prop::num::f32::SUBNORMAL,
+        )),
         wrap in prop::sample::select(vec![Wrap::Repeat, Wrap::Mirror, Wrap::Clamp]),
     ) {
         prop_assert_eq!(taken(uvs, Some(wrap), &halves()).iter().sum::<usize>(), 1);

@@ -88,7 +88,8 @@ fn front_and_back_faces_share_the_silhouette_edges_only() {
 fn the_surface_angle_has_a_threshold_for_each_material() {
     let rule = "[[rule]]\nmatch.material = \"Bold\"\nline.angle_threshold_deg = 40.0\n";
     let text = format!(
-        "extends = \"toon\"\nline.method = \"angle\"\nline.color = \"#000000\"\nline.angle_threshold_deg = 15.0\nshade.mode = \"paper\"\nshade.ramp = [{{ at = 0.0, light = 1.0 }}]\n{rule}"
+        "extends = \"toon\"\nline.method = \"angle\"\nline.color = \"#000000\"\nline.angle_threshold_deg = \
+         15.0\nshade.mode = \"paper\"\nshade.ramp = [{{ at = 0.0, light = 1.0 }}]\n{rule}"
     );
     let style = Style::from_toml(&text, &|parent| Err(parent.to_owned())).unwrap();
     let ink = Ink::of(&front(&[ball("Fine", -0.5), ball("Bold", 0.5)], &style).frame);

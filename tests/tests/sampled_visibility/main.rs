@@ -75,7 +75,8 @@ impl Score {
             [self.alone, self.filtered, self.shown].map(|n| self.share(n));
         let [exact, sampled] = self.runs;
         format!(
-            "{:6} samples, agree {filtered:.4} (alone {alone:.4}), wrongly shown {shown:.4}, runs {exact} exact {sampled} sampled",
+            "{:6} samples, agree {filtered:.4} (alone {alone:.4}), wrongly shown {shown:.4}, runs {exact} exact \
+             {sampled} sampled",
             self.samples
         )
     }

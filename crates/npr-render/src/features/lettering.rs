@@ -449,7 +449,10 @@ mod tests {
             anchor in prop::array::uniform3(prop_oneof![-10_f32..10.0, Just(1e9_f32), Just(-1e9_f32)]),
             eye in prop::array::uniform3(-10_f32..10.0), parallel: bool,
         ) {
-            let projection = if parallel { Projection::Parallel { height: 3.0 } } else { Projection::Perspective { fov_y: 1.0 } };
+            let projection = match parallel {
+                true => Projection::Parallel { height: 3.0 },
+                false => Projection::Perspective { fov_y: 1.0 },
+            };
             let view = Camera { eye, projection, ..camera() }.view([64, 48], BOUNDS);
             for words in lettering(anchored(anchor)).placed(&view, 96.0) {
                 let mut rgba = vec![0; 64 * 48 * 4];

@@ -193,10 +193,10 @@ impl LineModel {
     /// The lines that a camera sees.
     ///
     /// Line colours (`line.paint` with them, for every point of a stroke), width factors and whether a part has lines
-    /// at all follow the style's rules; kinds and the crease angle are those of the options
-    /// ([`LineOptions::of_style`] takes them from the style). Width source `texture` counts as full. What lies behind
-    /// lines takes a picture of it: [`LineRenderer::with_backdrop`](super::LineRenderer::with_backdrop) lets them mind it. Strokes of the same lines keep
-    /// their ids from camera to camera. Of a scene out of sight the drawing is empty.
+    /// at all follow the style's rules; kinds and the crease angle are those of the options ([`LineOptions::of_style`]
+    /// takes them from the style). Width source `texture` counts as full. What lies behind lines takes a picture of it:
+    /// [`LineRenderer::with_backdrop`](super::LineRenderer::with_backdrop) lets them mind it. Strokes of the same lines
+    /// keep their ids from camera to camera. Of a scene out of sight the drawing is empty.
     ///
     /// The first drawing with a crease angle also prepares creases and, where they are wanted, intersections; every
     /// further one is O(faces + lines log lines), on all threads, with the same result for any number of them.

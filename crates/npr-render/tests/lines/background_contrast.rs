@@ -188,7 +188,8 @@ fn parts_follow_their_own_rules_before_their_own_backgrounds() {
     add(&mut scene, "back", &ball(1.0, 0.0));
     add(&mut scene, "front", &ball(0.4, 1.5));
     let light = DARK.replace("\"#000000\"", "\"#ffffff\"");
-    let colors = "[[rule]]\nmatch.object = 'front'\nshade.color = '#101010'\n[[rule]]\nmatch.object = 'back'\nshade.color = '#f4f4f4'\n";
+    let colors = "[[rule]]\nmatch.object = 'front'\nshade.color = '#101010'\n[[rule]]\nmatch.object = 'back'\n\
+        shade.color = '#f4f4f4'\n";
     let of = |drawing: &Drawing, name: &str| {
         let mut only = drawing.clone();
         only.strokes

@@ -100,7 +100,8 @@ fn light_thins_lines() {
     let plain = drawn(&scene_of(&icosphere(3)), "line.width.source = 'constant'");
     let lit = drawn(
         &scene_of(&icosphere(3)),
-        "line.width.source = 'constant'\nlight = { direction = [0, 1, 0], space = 'world' }\nline.paint.light.width = [1, 0.2]",
+        "line.width.source = 'constant'\nlight = { direction = [0, 1, 0], space = 'world' }\n\
+         line.paint.light.width = [1, 0.2]",
     );
     let widths = |drawing: &Drawing, up: bool| {
         let points = drawing.strokes.iter().flat_map(|stroke| &stroke.points);
