@@ -5,18 +5,21 @@ use std::path::Path;
 use anyhow::{Result, bail, ensure};
 
 use crate::packages::cargo;
-use crate::{assets, constants, coverage, decoders, floors, harness, names, passes, suite};
+use crate::{
+    assets, circles, constants, coverage, decoders, floors, harness, names, passes, suite,
+};
 
 /// A step: its name, and what it runs at the root of the workspace.
 type Step = (&'static str, fn(&Path) -> Result<()>);
 
 /// The steps, quick ones first.
-const STEPS: [Step; 13] = [
+const STEPS: [Step; 14] = [
     ("format", |root| {
         run_cargo(root, &["fmt", "--all", "--check"], &[])
     }),
     ("names", names::check),
     ("floors", floors::check),
+    ("circles", circles::check),
     ("decoders", decoders::check),
     ("devices", harness::check_devices),
     ("constants", constants::check),

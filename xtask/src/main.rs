@@ -48,7 +48,7 @@ usage: cargo xtask COMMAND
                     measure outlines before backgrounds, in release, and keep the tables
   measure trace     measure tracings beside potrace, vtracer and OpenCV, in release, and keep the tables
   gallery [PRESETS] draw every preset, or those named, on the shared models into target/gallery
-  names             check that no file names a machine, no comment or document is too wide, and every crate has a README
+  names             check that no file names a machine, no line is too wide, and every crate has a README
   passes            write docs/passes.md, the list of passes, from their declarations
   snapshots bless FILTER
                     make what is drawn now the reference, for names that hold FILTER";

@@ -23,11 +23,11 @@ const REGISTRY_HOSTS: [(&str, &str); 9] = [
     ("nexus", ".sonatype"),
 ];
 
-/// Widest comment, and widest line of a document, in characters.
+/// Widest line of Rust, of a document, and of a comment of a shader, in characters.
 const MOST_COLUMNS: usize = 120;
 
-/// Fails with every file that names a machine, every published crate without a README, and every line of a comment or
-/// a document that is too wide.
+/// Fails with every file that names a machine, every published crate without a README, and every line of
+/// Rust, of a document or of a comment that is too wide.
 pub fn check(root: &Path) -> Result<()> {
     let files = files(root)?;
     let mut faults = Vec::new();
@@ -58,13 +58,15 @@ fn files(root: &Path) -> Result<Vec<PathBuf>> {
         .collect())
 }
 
-/// The lines of a text that name a machine, and comments that are too wide.
+/// The lines of a text that name a machine, and those that are too wide.
 fn text_faults(file: &Path, text: &str) -> Vec<String> {
-    let is_code = file
-        .extension()
-        .is_some_and(|extension| extension == "rs" || extension == "wgsl");
+    let is_rust = file.extension().is_some_and(|extension| extension == "rs");
+    let is_code = is_rust
+        || file
+            .extension()
+            .is_some_and(|extension| extension == "wgsl");
     let fault = |(number, line): (usize, &str)| {
-        let wide = || match is_document(file) {
+        let wide = || match is_document(file) || is_rust {
             true => too_wide(line),
             false => wide_comment(line).filter(|_| is_code),
         };
@@ -96,7 +98,7 @@ fn too_wide(line: &str) -> Option<String> {
     (width > MOST_COLUMNS && !line.contains("://")).then(|| format!("a line of {width} columns"))
 }
 
-/// What is wrong with a comment beyond column 120; code is the formatter's.
+/// What is wrong with a comment of a shader beyond column 120.
 fn wide_comment(line: &str) -> Option<String> {
     let is_comment = line.trim_start().starts_with("//");
     let width = line.chars().count();
@@ -154,7 +156,8 @@ mod tests {
         assert_eq!(faults("src/lib.rs", &comment(121)), 1);
         assert_eq!(faults("lib/adapt.wgsl", &comment(121)), 1);
         assert_eq!(faults("docs/notes.txt", &comment(121)), 0);
-        assert_eq!(faults("src/lib.rs", &"x".repeat(121)), 0);
+        assert_eq!(faults("src/lib.rs", &"x".repeat(121)), 1);
+        assert_eq!(faults("lib/adapt.wgsl", &"x".repeat(121)), 0);
     }
 
     #[test]
