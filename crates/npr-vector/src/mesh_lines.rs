@@ -2,31 +2,31 @@
 //!
 //! 1. Find curves on the mesh: [`contour`] between faces, [`zero_set`] across them, [`feature`], [`intersect`] and
 //!    [`polyline`]; [`graph`] holds them, linked.
-//! 2. Find what hides them: [`visibility`] with [`bvh`]; [`sample`] does it by samples, as devices do; [`puff`] adds
+//! 2. Find what hides them: `visibility` with [`bvh`]; [`sample`] does it by samples, as devices do; [`puff`] adds
 //!    smoke.
-//! 3. Make strokes of what is seen: `run_assembly` cuts it into the parts of [`run`], [`relabel_intersections`], [`duplicates`], [`merge`],
-//!    [`overshoot`], [`corner`] and [`smooth`] tidy it.
+//! 3. Make strokes of what is seen: `run_assembly` cuts it into the parts of [`run`]; `relabel_intersections`,
+//!    `duplicates`, `merge`, `overshoot`, `corner` and `smooth` tidy them.
 
 pub mod bvh;
 pub mod contour;
-pub mod corner;
+pub(crate) mod corner;
 pub mod draw;
-pub mod duplicates;
+mod duplicates;
 pub mod feature;
 pub mod graph;
 pub mod intersect;
 mod line;
 mod line_settings;
-pub mod merge;
+mod merge;
 mod near;
-pub mod overshoot;
+mod overshoot;
 pub mod polyline;
 pub mod puff;
-pub mod relabel_intersections;
+mod relabel_intersections;
 pub mod run;
 mod run_assembly;
 pub mod sample;
-pub mod smooth;
+mod smooth;
 mod suppressed_edges;
-pub mod visibility;
+mod visibility;
 pub mod zero_set;
