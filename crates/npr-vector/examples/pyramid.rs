@@ -1,10 +1,11 @@
 //! Prints the lines of a pyramid that are seen from one side, each as a stroke with its places in the picture.
 
 use npr_core::camera::{Camera, Projection};
+use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::shape::{PlacedMesh, add_mesh};
 use npr_vector::mesh_lines::draw::{LineSettings, Method, Prepared, strokes};
-use npr_vector::mesh_lines::graph::CurveNode;
+
 use npr_vector::project::Projector;
 
 /// A triangle on the ground and an apex.
@@ -43,7 +44,7 @@ fn main() {
     };
     let settings = LineSettings {
         size: [400, 300],
-        kinds: CurveNode::KINDS,
+        kinds: KindSet::BITS,
         method: Method::Edges,
         smooth: false,
         hidden: false,

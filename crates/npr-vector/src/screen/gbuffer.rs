@@ -177,7 +177,8 @@ mod tests {
             let gbuffer = plane_seen(projection, corners);
             for y in 0..15 {
                 for x in 0..15 {
-                    let (here, right, down) = (&gbuffer[y * 16 + x], &gbuffer[y * 16 + x + 1], &gbuffer[(y + 1) * 16 + x]);
+                    let at = y * 16 + x;
+                    let (here, right, down) = (&gbuffer[at], &gbuffer[at + 1], &gbuffer[at + 16]);
                     let at = coordinate(here.depth);
                     prop_assert!((coordinate(right.depth) - at - here.plane_step[0]).abs() < 1e-4 * at.abs());
                     prop_assert!((coordinate(down.depth) - at - here.plane_step[1]).abs() < 1e-4 * at.abs());
