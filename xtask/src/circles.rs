@@ -58,7 +58,7 @@ impl Crate {
         let mut handed_on = BTreeMap::new();
         for (module, code) in &all.code {
             for (path, is_public) in imports(code) {
-                let from = all.from_root(module, &path);
+                let from = all.rooted(module, &path);
                 if let (true, Some(from)) = (is_public, from) {
                     let name = path.last().cloned().unwrap_or_default();
                     handed_on.insert([&module[..], &[name]].concat(), from);
@@ -70,7 +70,7 @@ impl Crate {
     }
 
     /// A path of a module, from the root of the crate; none where it leads out of the crate.
-    fn from_root(&self, module: &[String], path: &[String]) -> Option<Module> {
+    fn rooted(&self, module: &[String], path: &[String]) -> Option<Module> {
         let ups = path.iter().take_while(|name| *name == "super").count();
         let (base, rest) = match path.first().map(String::as_str) {
             Some("crate") => (&module[..0], &path[1..]),
@@ -109,7 +109,7 @@ impl Crate {
             .map(|(path, _)| path)
             .collect();
         paths.extend(paths_in(code));
-        let of_crate = paths.iter().filter_map(|path| self.from_root(module, path));
+        let of_crate = paths.iter().filter_map(|path| self.rooted(module, path));
         let owners = of_crate.map(|path| self.owner(&path, 8));
         owners
             .filter(|owner| owner != module && !owner.is_empty())

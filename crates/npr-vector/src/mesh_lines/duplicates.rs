@@ -549,8 +549,8 @@ mod tests {
             let runs: Vec<Run> = (0..).zip(&lines).map(made).collect();
             let kept = leave_out_short_fragments(runs.clone());
             let bare = |run: &Run| {
-                let mut inked = kept.iter().flat_map(|other| &other.points);
-                let ink = |place| inked.any(|p| distance(p.place, place) < PEN_PX);
+                let inked: Vec<&RunPoint> = kept.iter().flat_map(|other| &other.points).collect();
+                let ink = |place| inked.iter().any(|p| distance(p.place, place) < PEN_PX);
                 run.points.iter().filter(|p| !ink(p.place)).count() as f64 / run.points.len() as f64 * run.length()
             };
             let mut left = kept.iter().peekable();
