@@ -128,7 +128,13 @@ pub(crate) const NAME_LENGTH: usize = 200;
 
 /// A name for files: without control characters, without what XML forbids or what turns the direction of text, and cut.
 pub(crate) fn plain_name(name: &str) -> String {
-    let turns = |c: char| matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let turns = |c: char| {
+        let directions = '\u{2028}'..='\u{202e}';
+        let isolates = '\u{2066}'..='\u{2069}';
+        matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}')
+            || directions.contains(&c)
+            || isolates.contains(&c)
+    };
     let is_no_character = |c: char| matches!(c as u32 & 0xffff, 0xfffe | 0xffff);
     name.chars()
         .filter(|c| !(c.is_control() || turns(*c) || is_no_character(*c)))

@@ -329,7 +329,7 @@ impl Tour<'_> {
     fn turn(&mut self, pair: [(usize, usize); 2]) -> bool {
         self.effort = self.effort.saturating_sub(1);
 
-        // Leave pairs alone that lift the pen at different ends.
+        // Give up pairs of different sorts, and where the effort is used up.
         let [(i, lifts), (j, also_lifts)] = pair.map(|end| self.place(end));
         if lifts != also_lifts || self.effort == 0 {
             return false;

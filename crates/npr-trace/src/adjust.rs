@@ -60,7 +60,7 @@ struct Line {
 impl Line {
     /// Fits a line to the corners from a place on along steps; and gives the place where they end.
     fn along(steps: &[u8], start: [i64; 2]) -> (Self, [i64; 2]) {
-        // Sum up the corners of the path's pixels on this side.
+        // Sum up the pixel corners that the steps pass.
         let [mut x, mut y] = start;
         let [mut sx, mut sy, mut sxx, mut sxy, mut syy] = [x, y, x * x, x * y, y * y];
         for direction in steps {

@@ -212,7 +212,8 @@ proptest! {
             let corners = corners.map(|v| ball.positions()[v as usize]);
             for shares in shares.as_chunks::<3>().0 {
                 let sum: f32 = shares.iter().sum();
-                points.push(std::array::from_fn(|i| (0..3).map(|k: usize| corners[k][i] * shares[k] / sum).sum::<f32>()));
+                let mixed = |i: usize| (0..3).map(|k: usize| corners[k][i] * shares[k] / sum).sum::<f32>();
+                points.push(std::array::from_fn(mixed));
             }
             let [a, b, c] = corners.map(|p| DVec3::from(p.map(f64::from)));
             let normal = (b - a).cross(c - a).normalize();

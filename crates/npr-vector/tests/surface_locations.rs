@@ -150,7 +150,10 @@ proptest! {
         split in prop::option::of(0.2_f32..3.0),
     ) {
         let method = if on_surface { Method::Surface } else { Method::Edges };
-        let settings = LineSettings { size: SIZE, kinds: CurveNode::KINDS, method, smooth, hidden, split, memory_limit: u64::MAX };
+        let settings = LineSettings {
+            size: SIZE, kinds: CurveNode::KINDS, method, smooth, hidden, split,
+            memory_limit: u64::MAX,
+        };
         let off = off_px(&mesh, eye, &settings);
         prop_assert!(off < OFF_PX, "{} px", off);
     }

@@ -224,7 +224,10 @@ impl FlatMesh {
                 "scene": 0,
                 "scenes": [{ "nodes": [0] }],
                 "nodes": [{ "mesh": 0, "name": "tracing" }],
-                "meshes": [{ "name": "tracing", "primitives": [{ "attributes": { "POSITION": 0 }, "indices": 1, "material": 0 }] }],
+                "meshes": [{
+                    "name": "tracing",
+                    "primitives": [{ "attributes": { "POSITION": 0 }, "indices": 1, "material": 0 }],
+                }],
                 "materials": [{
                     "name": "ink", "doubleSided": true,
                     "pbrMetallicRoughness": { "baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0 },
@@ -235,7 +238,10 @@ impl FlatMesh {
                     { "buffer": 0, "byteOffset": split, "byteLength": bytes.len() - split, "target": 34963 },
                 ],
                 "accessors": [
-                    { "bufferView": 0, "componentType": 5126, "count": self.points.len(), "type": "VEC3", "min": low, "max": high },
+                    {
+                        "bufferView": 0, "componentType": 5126, "count": self.points.len(), "type": "VEC3",
+                        "min": low, "max": high,
+                    },
                     { "bufferView": 1, "componentType": 5125, "count": 3 * self.triangles.len(), "type": "SCALAR" },
                 ],
             });
@@ -395,7 +401,12 @@ mod tests {
                 bitmap.set(x, y, number % 100 < percent);
             }
             // Polygons with corners on pixel edges' middles do not cross each other, so areas add up.
-            let options = TraceOptions { turd_size: 0, alpha_max: 0.0, join_tolerance: None, ..TraceOptions::default() };
+            let options = TraceOptions {
+                turd_size: 0,
+                alpha_max: 0.0,
+                join_tolerance: None,
+                ..TraceOptions::default()
+            };
             let tracing = trace(&bitmap, &options);
             let mesh = FlatMesh::of_tracing(&tracing).expect("small");
             assert_sound(&mesh);
@@ -403,7 +414,8 @@ mod tests {
             for path in &tracing.paths {
                 let ring = corners(&path.segments);
                 let next = ring.iter().cycle().skip(1);
-                length += ring.iter().zip(next).map(|(a, b)| npr_vector::mesh_lines::run::distance(*a, *b)).sum::<f64>();
+                let sides = ring.iter().zip(next);
+                length += sides.map(|(a, b)| npr_vector::mesh_lines::run::distance(*a, *b)).sum::<f64>();
                 rings += if path.is_ink { area(&ring).abs() } else { -area(&ring).abs() };
             }
             // Rounding moves each side by at most half a step of the grid; polygons may cross by slivers.

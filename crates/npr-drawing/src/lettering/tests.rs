@@ -250,7 +250,10 @@ proptest! {
     fn lines_keep_clear_unless_they_are_to_overlap(
         reaches in prop::collection::vec([0.0..1.5_f64, 0.0..1.0_f64], 1..6), line_step in 0.5..3.0_f64,
     ) {
-        let line = |[rise, hang]: &[f64; 2]| Line { outline: Rect::new(0.0, -rise, 1.0, *hang).to_path(1e-3), width: 1.0 };
+        let line = |[rise, hang]: &[f64; 2]| Line {
+            outline: Rect::new(0.0, -rise, 1.0, *hang).to_path(1e-3),
+            width: 1.0,
+        };
         let lines: Vec<Line> = reaches.iter().map(line).collect();
         let baselines = baselines_of(&lines, line_step);
         prop_assert!(is_about(baselines[0] + baselines[lines.len() - 1], 1.0));
@@ -320,7 +323,8 @@ proptest! {
 
     #[test]
     fn bending_by_almost_nothing_moves_almost_nothing(text in "[HIOQV]{1,8}", bend in -1e-4..1e-4_f64) {
-        let (straight, bent) = (set(&text, Setting::default()).bounding_box(), set(&text, Setting { bend, ..Setting::default() }).bounding_box());
+        let straight = set(&text, Setting::default()).bounding_box();
+        let bent = set(&text, Setting { bend, ..Setting::default() }).bounding_box();
         let apart = [straight.x0 - bent.x0, straight.y0 - bent.y0, straight.x1 - bent.x1, straight.y1 - bent.y1];
         prop_assert!(apart.iter().all(|d| d.abs() < 5e-3), "{apart:?}");
     }

@@ -186,7 +186,7 @@ impl Linker<'_> {
         let [first, last] = ends.map(|pixel| self.network.place(*pixel));
         let own = (last - first).try_normalize()?;
 
-        // Find the straightest way over it, which must not lead astray.
+        // Find the straightest way over it that runs about along it.
         let mut best: Option<(f64, DVec2)> = None;
         let (before, after) = (self.arms_at(from), self.arms_at(to));
         for a in before.into_iter().filter(|arm| *arm != arms[0]) {

@@ -155,7 +155,7 @@ impl Network {
             .map(|[x, y]| (distance2(ink, *x, *y) as f64).sqrt() - 0.5)
             .collect();
 
-        // Note pixels with nothing of the ink beside them but themselves.
+        // Note pixels from whose sides thinning took no ink.
         let is_taken = |x: i64, y: i64| ink.is_ink(x, y) && !thinned.is_ink(x, y);
         let bare = pixels
             .par_iter()

@@ -312,7 +312,10 @@ proptest! {
         };
         for (x, y) in (0..480).map(|i| (i % 24, i / 24)) {
             let at = |pixels: Vec<usize>| pixels.into_iter().map(|at| f64::from(lightness[at])).collect::<Vec<f64>>();
-            let greatest = |pixel: usize| at(around((pixel % 24) as i64, (pixel / 24) as i64, 1)).into_iter().fold(0.0, f64::max);
+            let greatest = |pixel: usize| {
+                let near = at(around((pixel % 24) as i64, (pixel / 24) as i64, 1));
+                near.into_iter().fold(0.0, f64::max)
+            };
             let closed = around(x, y, 1).into_iter().map(greatest).fold(1.0, f64::min);
             let ground = at(around(x, y, i64::from(GROUND)));
             let mean = ground.iter().sum::<f64>() / ground.len() as f64;

@@ -516,7 +516,10 @@ mod tests {
         fn copies_go(angle in 0.0_f64..6.3, length in 20.0_f64..90.0, off in -1.4_f64..1.4, turned: bool) {
             let line = straight(1, [100.0; 2], angle, length);
             let beside = |off: f64| {
-                let from = [100.0 - off * angle.sin() + 2.0 * angle.cos(), 100.0 + off * angle.cos() + 2.0 * angle.sin()];
+                let from = [
+                    100.0 - off * angle.sin() + 2.0 * angle.cos(),
+                    100.0 + off * angle.cos() + 2.0 * angle.sin(),
+                ];
                 let mut copy = straight(2, from, angle, length - 4.0);
                 if turned {
                     copy.points.reverse();
@@ -532,7 +535,13 @@ mod tests {
         /// Only fragments go, each near what stays; one of every object stays, and so do parts cut at corners.
         #[test]
         fn only_short_fragments_near_others_go(
-            lines in prop::collection::vec((prop::array::uniform2(0.0_f64..50.0), 0.0_f64..6.3, 2.0_f64..20.0, 0_u32..3, prop::bool::weighted(0.1)), 0..30),
+            lines in prop::collection::vec(
+                (
+                    prop::array::uniform2(0.0_f64..50.0), 0.0_f64..6.3, 2.0_f64..20.0, 0_u32..3,
+                    prop::bool::weighted(0.1),
+                ),
+                0..30,
+            ),
         ) {
             let made = |(id, (from, angle, length, object, cut)): (u64, &([f64; 2], f64, f64, u32, bool))| {
                 Run { object: *object, cut: [*cut, false], ..straight(id, *from, *angle, *length) }
@@ -540,7 +549,10 @@ mod tests {
             let runs: Vec<Run> = (0..).zip(&lines).map(made).collect();
             let kept = leave_out_short_fragments(runs.clone());
             let bare = |run: &Run| {
-                let ink = |place| kept.iter().flat_map(|other| &other.points).any(|p| distance(p.place, place) < PEN_PX);
+                let ink = |place| {
+                    let mut others = kept.iter().flat_map(|other| &other.points);
+                    others.any(|p| distance(p.place, place) < PEN_PX)
+                };
                 run.points.iter().filter(|p| !ink(p.place)).count() as f64 / run.points.len() as f64 * run.length()
             };
             let mut left = kept.iter().peekable();

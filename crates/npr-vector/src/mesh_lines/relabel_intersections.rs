@@ -113,7 +113,13 @@ mod tests {
         /// Places, order and number of runs never change, and no kind but that of short intersections.
         #[test]
         fn only_kinds_change(
-            lines in prop::collection::vec((prop::array::uniform2(0.0_f64..20.0), prop::array::uniform2(0.0_f64..20.0), 0_usize..Kind::ALL.len(), 0_u32..2), 0..30),
+            lines in prop::collection::vec(
+                (
+                    prop::array::uniform2(0.0_f64..20.0), prop::array::uniform2(0.0_f64..20.0),
+                    0_usize..Kind::ALL.len(), 0_u32..2,
+                ),
+                0..30,
+            ),
         ) {
             let runs: Vec<Run> = lines.iter().enumerate().map(|(id, (from, to, kind, occluders))| {
                 Run { kind: Kind::ALL[*kind], occluders: *occluders, ..run_along(id as u64, &[*from, *to]) }

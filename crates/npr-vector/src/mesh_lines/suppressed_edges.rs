@@ -143,7 +143,10 @@ mod tests {
             prop_assert!(edges_beside(std::slice::from_ref(&contour), edge(off, 0.7, 1.0)).is_empty());
             prop_assert!(edges_beside(std::slice::from_ref(&contour), edge(off.signum() * 2.1, 0.0, 1.0)).is_empty());
             prop_assert!(edges_beside(std::slice::from_ref(&contour), edge(off, 0.0, 1.02)).is_empty());
-            let hidden = contour.map(|contour| Line { spans: vec![Span { occluders: 1, ..contour.spans[0] }], ..contour });
+            let hidden = contour.map(|contour| Line {
+                spans: vec![Span { occluders: 1, ..contour.spans[0] }],
+                ..contour
+            });
             prop_assert!(edges_beside(&[hidden, None], edge(off, 0.0, 1.0)).is_empty());
         }
     }

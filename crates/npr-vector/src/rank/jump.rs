@@ -46,7 +46,7 @@ gpu_layout!(Hop { far, dist });
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Walk {
-    /// The element: itself for [`wyllie`](super::wyllie())(super::wyllie()), or the slot of a splitter; [`NONE`] where none was found.
+    /// The element: itself for [`wyllie`](super::wyllie()), or the slot of a splitter; [`NONE`] where none was found.
     pub slot: u32,
     /// Links from there to the node.
     pub steps: u32,

@@ -175,7 +175,12 @@ proptest! {
     #[test]
     fn sums_are_those_of_all_before(values in prop::collection::vec(any::<u32>(), 0..9000)) {
         let mut sum = 0u32;
-        let wanted: Vec<u32> = values.iter().map(|v| { let before = sum; sum = sum.wrapping_add(*v); before }).collect();
+        let before = values.iter().map(|v| {
+            let before = sum;
+            sum = sum.wrapping_add(*v);
+            before
+        });
+        let wanted: Vec<u32> = before.collect();
         prop_assert_eq!(exclusive_scan(&values), (wanted, sum));
     }
 

@@ -185,7 +185,8 @@ mod tests {
             let gbuffer = plane_seen(projection, corners);
             for y in 0..15 {
                 for x in 0..15 {
-                    let (here, right, down) = (&gbuffer[y * 16 + x], &gbuffer[y * 16 + x + 1], &gbuffer[(y + 1) * 16 + x]);
+                    let at = |x: usize, y: usize| &gbuffer[y * 16 + x];
+                    let (here, right, down) = (at(x, y), at(x + 1, y), at(x, y + 1));
                     let at = coordinate(here.depth);
                     prop_assert!((coordinate(right.depth) - at - here.plane_step[0]).abs() < 1e-4 * at.abs());
                     prop_assert!((coordinate(down.depth) - at - here.plane_step[1]).abs() < 1e-4 * at.abs());

@@ -459,7 +459,8 @@ mod tests {
         #[test]
         fn a_bend_has_no_notch(a in point(), b in point(), c in point(), half in 1f32..4.0, angle in 0f32..6.3) {
             // Around the joint, everything within the half width is inked by one of the two ribbons.
-            let (one, two) = (Ribbon { a, b, half_a: half, half_b: half }, Ribbon { a: b, b: c, half_a: half, half_b: half });
+            let one = Ribbon { a, b, half_a: half, half_b: half };
+            let two = Ribbon { a: b, b: c, half_a: half, half_b: half };
             let r = half - 0.5;
             let p = [b[0] + npr_core::math::cos(angle) * r, b[1] + npr_core::math::sin(angle) * r];
             prop_assert!(one.at(p, false).0.max(two.at(p, false).0) > 0.99);

@@ -61,7 +61,8 @@ proptest! {
     /// A place of a silhouette is drawn where no sphere stands before it, nor within the jump behind it.
     #[test]
     fn free_arcs_are_what_rays_to_all_spheres_say(
-        parallel: bool, list in any_spheres(10), jump in 0.01f64..1.5, angles in prop::collection::vec(0f64..std::f64::consts::TAU, 20),
+        parallel: bool, list in any_spheres(10), jump in 0.01f64..1.5,
+        angles in prop::collection::vec(0f64..std::f64::consts::TAU, 20),
     ) {
         let (projector, spheres) = (projector(parallel), spheres_of(&list));
         let puffs = Puffs::new(&projector, SIZE, &spheres);
@@ -70,7 +71,10 @@ proptest! {
             for angle in &angles {
                 let point = silhouette.at(*angle);
                 let (out, sight) = (point - own.center, if parallel { DVec3::Z } else { point.normalize() });
-                prop_assert!((out.length() - own.radius).abs() < 1e-9 && out.dot(sight).abs() < 1e-9, "sights touch the sphere at its silhouette");
+                prop_assert!(
+                    (out.length() - own.radius).abs() < 1e-9 && out.dot(sight).abs() < 1e-9,
+                    "sights touch the sphere at its silhouette"
+                );
                 let (mut is_free, mut is_close) = (true, false);
                 for (number, sphere) in spheres.iter().enumerate() {
                     if number as u32 == own.number || sphere.radius == 0.0 {
@@ -91,7 +95,8 @@ proptest! {
     /// What the smoke hides, and how deep it is, as every sphere says.
     #[test]
     fn sights_are_those_of_all_spheres(
-        parallel: bool, list in any_spheres(20), point in prop::array::uniform3(-2f32..2.0), place in (0f64..400.0, 0f64..300.0),
+        parallel: bool, list in any_spheres(20), point in prop::array::uniform3(-2f32..2.0),
+        place in (0f64..400.0, 0f64..300.0),
     ) {
         let (projector, spheres) = (projector(parallel), spheres_of(&list));
         let puffs = Puffs::new(&projector, SIZE, &spheres);
@@ -151,12 +156,19 @@ proptest! {
     fn hostile_spheres_do_no_harm(
         parallel: bool,
         list in prop::collection::vec(
-            (prop::array::uniform3(prop_oneof![any::<f32>(), -2f32..2.0, Just(0.0)]), prop_oneof![any::<f32>(), 0f32..2.0, Just(1.0)]), 0..9,
+            (
+                prop::array::uniform3(prop_oneof![any::<f32>(), -2f32..2.0, Just(0.0)]),
+                prop_oneof![any::<f32>(), 0f32..2.0, Just(1.0)],
+            ),
+            0..9,
         ),
     ) {
         let projector = projector(parallel);
         let mut list = list;
-        list.extend([([1.0, 2.0, 6.0], 1.0), ([1.0, 2.0, 6.0], 0.0), ([0.0; 3], 1.0), ([-0.0; 3], 1.0), ([f32::NAN; 3], 1.0)]);
+        list.extend([
+            ([1.0, 2.0, 6.0], 1.0), ([1.0, 2.0, 6.0], 0.0), ([0.0; 3], 1.0), ([-0.0; 3], 1.0),
+            ([f32::NAN; 3], 1.0),
+        ]);
         let puffs = Puffs::new(&projector, SIZE, &spheres_of(&list));
         for index in 0..puffs.puffs.len() {
             for arc in puffs.free_arcs(index, 0.4) {

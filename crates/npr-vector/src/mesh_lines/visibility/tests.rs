@@ -51,7 +51,8 @@ proptest! {
         let none = OutlineGrid::new(SIZE, Vec::new(), &mut Budget::new(u64::MAX)).expect("no limit is set");
         let images = FaceImages::default();
         let seen = Seen {
-            shape: &shape, tree: &tree, projector: &projector, outlines: &none, images: &images, extra: None, size: SIZE,
+            shape: &shape, tree: &tree, projector: &projector, outlines: &none, images: &images,
+            extra: None, size: SIZE,
             count_limit: if is_counted { 255 } else { 1 },
         };
         let piece = Piece::new(&projector, SIZE, DVec3::from(ends[0]), DVec3::from(ends[1]));

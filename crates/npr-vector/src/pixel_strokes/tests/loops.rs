@@ -131,7 +131,11 @@ proptest! {
         let spots = spots_of(&[count]);
         let sign = if clockwise { -1.0 } else { 1.0 };
         let angle = |i: u32| turn + sign * std::f64::consts::TAU * f64::from(i) / f64::from(count);
-        let places: Vec<Planar> = (0..count).map(|i| Planar { x: (radius * libm_cos(angle(i))) as f32, y: (radius * libm_sin(angle(i))) as f32 }).collect();
+        let place = |i| Planar {
+            x: (radius * libm_cos(angle(i))) as f32,
+            y: (radius * libm_sin(angle(i))) as f32,
+        };
+        let places: Vec<Planar> = (0..count).map(place).collect();
         let mut tangents = vec![Planar::default(); places.len()];
         fit_tangents(&Filter { radius: 12, ..Filter::default() }, &tent(12), &spots, &places, &mut tangents);
         for (i, tangent) in (0..).zip(&tangents) {
@@ -147,7 +151,11 @@ proptest! {
     ) {
         let spots = spots_of(&[steps.len() as u32]);
         let mut at = Planar::default();
-        let places: Vec<Planar> = steps.iter().map(|(x, y)| { at = Planar { x: at.x + 1.5 + x, y: at.y + y }; at }).collect();
+        let places = steps.iter().map(|(x, y)| {
+            at = Planar { x: at.x + 1.5 + x, y: at.y + y };
+            at
+        });
+        let places: Vec<Planar> = places.collect();
         let weights = tent(radius);
         let mut tangents = vec![Planar::default(); places.len()];
         fit_tangents(&Filter { radius, ..Filter::default() }, &weights, &spots, &places, &mut tangents);
@@ -187,9 +195,13 @@ proptest! {
         let mut sizes = vec![0; spots.len()];
         for element in (0..spots.len()).filter(|element| kept[*element] != 0) {
             let length = spots[element].length;
-            let back = (1..length).take_while(|step| kept[around(&spots, element, -i64::from(*step))] != 0).count() as u32;
+            let is_kept = |step: &u32| kept[around(&spots, element, -i64::from(*step))] != 0;
+            let back = (1..length).take_while(is_kept).count() as u32;
             let is_whole = back + 1 == length;
-            let start = if is_whole { spots[element].start as usize } else { around(&spots, element, -i64::from(back)) };
+            let start = match is_whole {
+                true => spots[element].start as usize,
+                false => around(&spots, element, -i64::from(back)),
+            };
             let rank = if is_whole { element as u32 - spots[element].start } else { back };
             expected[element] = StripSpot { start: start as u32, rank };
             sizes[start] += 1;
@@ -217,7 +229,8 @@ proptest! {
         cull_sides(&rule, &tangents, &directions, &vec![1; places.len()], &mut kept);
         // Above where the line runs to the right, below where it runs back; the surface is on its left.
         let expected = if is_back { 2.0 } else { 1.0 };
-        let heights: Vec<f32> = places.iter().zip(&kept).filter(|(_, kept)| **kept != 0).map(|(place, _)| place.y).collect();
+        let on_kept = places.iter().zip(&kept).filter(|(_, kept)| **kept != 0);
+        let heights: Vec<f32> = on_kept.map(|(place, _)| place.y).collect();
         let on_it = heights.iter().filter(|y| **y == expected).count();
         prop_assert!(on_it + 4 >= length as usize && heights.len() <= on_it + 2, "{on_it} {}", heights.len());
     }

@@ -141,7 +141,8 @@ proptest! {
     #[test]
     fn holders_are_those_of_a_walk(counts in prop::collection::vec(0u32..4, 1..40)) {
         let (starts, total) = exclusive_scan(&counts);
-        let held: Vec<u32> = (0..).zip(&counts).flat_map(|(i, count)| std::iter::repeat_n(i, *count as usize)).collect();
+        let held = (0..).zip(&counts).flat_map(|(i, count)| std::iter::repeat_n(i, *count as usize));
+        let held: Vec<u32> = held.collect();
         prop_assert_eq!((0..total).map(|value| holder_of(&starts, value)).collect::<Vec<_>>(), held);
     }
 
@@ -185,14 +186,16 @@ proptest! {
     #[test]
     fn fragments_show_where_enough_pixels_do(
         surfaces in prop::collection::vec(prop_oneof![Just(0.0f32), 0.05..1.0f32], 30),
-        occluder_depths in prop::collection::vec(0.0..1.0f32, 30), is_occluded: bool, pixel in 0u32..30, z in 0.05..1.0f32,
+        occluder_depths in prop::collection::vec(0.0..1.0f32, 30), is_occluded: bool,
+        pixel in 0u32..30, z in 0.05..1.0f32,
         least in 0u32..10,
     ) {
         let view = PixelView { size: [6, 5], least_visible: least, ..view([6, 5], 2.0) };
         let mut shown = [7];
         let occluder_depths = if is_occluded { occluder_depths } else { vec![0.0] };
         test_fragments(&view, [&surfaces, &occluder_depths], &[Fragment { pixel, z, segment: 0 }], &mut shown);
-        let scene: Vec<f32> = (0..30).map(|i| surfaces[i].max(if is_occluded { occluder_depths[i] } else { 0.0 })).collect();
+        let occluder = |i: usize| if is_occluded { occluder_depths[i] } else { 0.0 };
+        let scene: Vec<f32> = (0..30).map(|i| surfaces[i].max(occluder(i))).collect();
         let [x, y] = [pixel % 6, pixel / 6].map(i64::from);
         let mut count = 0;
         for (i, scene) in (0i64..).zip(&scene) {

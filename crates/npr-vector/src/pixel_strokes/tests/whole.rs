@@ -251,8 +251,10 @@ proptest! {
     /// Whatever the mesh, the camera and the constants: strokes lie in the picture, and threads change nothing.
     #[test]
     fn any_scene_gives_sound_strokes(
-        seed: u64, faces in 0usize..30, eye in prop::array::uniform3(-4.0..4.0f32), size in prop::array::uniform2(1u32..60),
-        numbers in prop::array::uniform6(0u32..100), reals in prop::array::uniform4(prop_oneof![-1.0..40.0f32, Just(f32::NAN)]),
+        seed: u64, faces in 0usize..30, eye in prop::array::uniform3(-4.0..4.0f32),
+        size in prop::array::uniform2(1u32..60),
+        numbers in prop::array::uniform6(0u32..100),
+        reals in prop::array::uniform4(prop_oneof![-1.0..40.0f32, Just(f32::NAN)]),
     ) {
         let shape = if seed % 3 == 0 { shape_of(&icosphere(1)) } else { shape_of(&random_soup(faces, seed)) };
         let path = PublishedPath {
@@ -272,7 +274,8 @@ proptest! {
         for stroke in &found {
             prop_assert!(stroke.points.len() >= 2);
             for point in &stroke.points {
-                prop_assert!((0..2).all(|i| (-0.1..f64::from(size[i]) + 0.1).contains(&point.position[i])), "{:?}", point.position);
+                let is_inside = |i: usize| (-0.1..f64::from(size[i]) + 0.1).contains(&point.position[i]);
+                prop_assert!((0..2).all(is_inside), "{:?}", point.position);
             }
         }
     }
