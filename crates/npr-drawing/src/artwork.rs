@@ -158,6 +158,8 @@ pub fn arrange(drawing: &Drawing, options: &ArtworkOptions) -> Artwork {
         options,
         placing: &placing,
     };
+
+    // Lay flat colour at the bottom, hidden lines over it, visible ones over those, and words on top.
     let mut layers = vec![maker.fills()];
     let hidden = match options.hidden {
         Hidden::None => &[false][..],
@@ -168,6 +170,8 @@ pub fn arrange(drawing: &Drawing, options: &ArtworkOptions) -> Artwork {
     }
     layers.push(maker.lettering());
     layers.retain(|layer| !layer.groups.is_empty());
+
+    // Measure in the unit of the page.
     Artwork {
         size: placing.size,
         is_page: options.page.is_some(),
@@ -211,6 +215,8 @@ impl Maker<'_> {
 
     fn region(&self, region: &Region) -> Option<Mark> {
         let mut path = BezPath::new();
+
+        // Cut every ring to the picture.
         for ring in &region.rings {
             let ring = clip_ring(ring, self.drawing.size.map(f64::from));
             for (i, [x, y]) in ring.iter().enumerate() {
@@ -224,6 +230,8 @@ impl Maker<'_> {
                 path.close_path();
             }
         }
+
+        // Paint what is left in the surface's colour.
         (!path.is_empty()).then(|| Mark {
             stroke: None,
             path: self.placing.affine() * path,
@@ -234,12 +242,15 @@ impl Maker<'_> {
 
     /// The layer of lines of one kind, visible or hidden, grouped by object.
     fn lines(&self, kind: Kind, hidden: bool) -> Layer {
+        // Take the strokes of one kind, seen or hidden.
         let strokes: Vec<&Stroke> = self
             .drawing
             .strokes
             .iter()
             .filter(|stroke| stroke.kind == kind && stroke.is_visible() != hidden)
             .collect();
+
+        // Draw them with ink, or lead a pen along them.
         let marks: Vec<(u32, Mark)> = match self.options.paths {
             Paths::Outline => strokes
                 .par_iter()
@@ -247,6 +258,8 @@ impl Maker<'_> {
                 .collect(),
             Paths::Centreline => self.plotted(&strokes, hidden),
         };
+
+        // Name the layer, and group it by object.
         let name = kind.name();
         Layer {
             name: if hidden {
@@ -307,6 +320,7 @@ impl Maker<'_> {
 
     /// Marks of strokes of a layer as pen lines, in a good order object by object.
     fn plotted(&self, strokes: &[&Stroke], hidden: bool) -> Vec<(u32, Mark)> {
+        // Cut strokes to the picture.
         let parts: Vec<(&Stroke, Vec<StrokePoint>, bool)> = strokes
             .iter()
             .flat_map(|stroke| {
@@ -315,6 +329,8 @@ impl Maker<'_> {
                     .map(|(points, closed)| (*stroke, points, closed))
             })
             .collect();
+
+        // Order them so that the pen travels little between them, object by object.
         let routes: Vec<plot::Route> = parts
             .iter()
             .map(|(_, points, closed)| plot::Route {
@@ -326,6 +342,8 @@ impl Maker<'_> {
             .iter()
             .map(|(stroke, ..)| self.surface(stroke.surface).object_number)
             .collect();
+
+        // Draw them in that order and direction.
         plot::order_in_groups(&routes, &objects)
             .par_iter()
             .filter_map(|visit| {
@@ -422,6 +440,8 @@ impl Maker<'_> {
         for (surface, mark) in marks {
             let surface = self.surface(surface);
             let object = surface.object_number;
+
+            // Find the group of the same object, anywhere or only right below.
             let place = if all {
                 known.get(&object).copied()
             } else {
@@ -430,6 +450,8 @@ impl Maker<'_> {
                     .checked_sub(1)
                     .filter(|i| groups[*i].object == object)
             };
+
+            // Add the mark to it, or open a new one.
             match place {
                 Some(i) => groups[i].marks.push(mark),
                 None => {

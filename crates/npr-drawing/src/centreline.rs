@@ -37,6 +37,7 @@ pub fn write_centrelines(lines: &Centrelines, format: TraceFormat) -> Vec<u8> {
 ///
 /// Places in the world are those in the picture, in pixels; depth is 0.
 pub fn centreline_drawing(lines: &Centrelines) -> Drawing {
+    // Make a marked stroke of each line, measured along itself.
     let strokes = lines.strokes.iter().zip(0..).map(|(stroke, id)| {
         let mut u = 0.0;
         let mut before = None;
@@ -62,6 +63,8 @@ pub fn centreline_drawing(lines: &Centrelines) -> Drawing {
             points: points.collect(),
         }
     });
+
+    // Draw all of them in black.
     Drawing {
         size: lines.size,
         surfaces: vec![StrokeSurface {
@@ -83,15 +86,20 @@ pub fn write_centreline_geojson(lines: &Centrelines) -> Vec<u8> {
         .strokes
         .par_iter()
         .map(|stroke| {
+            // Fit a curve to the line.
             let places: Vec<[f64; 2]> = stroke.points.iter().map(|point| point.place).collect();
             let options = FitOptions {
                 tolerance: TOLERANCE_PX,
                 ..FitOptions::default()
             };
+
+            // Write its mean width.
             let widths: f64 = stroke.points.iter().map(|point| point.width).sum();
             let mut text = "{\"type\":\"Feature\",\"properties\":{\"width\":".to_owned();
             push_fixed(&mut text, widths / stroke.points.len().max(1) as f64, 3);
             text += "},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[";
+
+            // Flatten the curve, with y up.
             let mut comma = "";
             let mut push = |[x, y]: [f64; 2]| {
                 text += std::mem::replace(&mut comma, ",");

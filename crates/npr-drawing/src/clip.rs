@@ -11,6 +11,7 @@ pub(crate) fn clip_stroke(
     size: [f64; 2],
     pad: f64,
 ) -> Vec<(Vec<StrokePoint>, bool)> {
+    // Leave a stroke alone that lies within.
     let finite = |p: &&StrokePoint| p.position.iter().all(|v| v.is_finite());
     let mut points: Vec<StrokePoint> = stroke.points.iter().filter(finite).copied().collect();
     let (low, high) = ([-pad; 2], size.map(|side| side + pad));
@@ -22,10 +23,14 @@ pub(crate) fn clip_stroke(
             vec![(points, stroke.closed)]
         };
     };
+
+    // Start a closed one outside, so that no part runs over its start.
     if stroke.closed {
         points.rotate_left(outside);
         points.push(points[0]);
     }
+
+    // Cut it segment by segment, and join those that meet within.
     let mut parts: Vec<(Vec<StrokePoint>, bool)> = Vec::new();
     let mut open = false;
     for pair in points.windows(2) {
@@ -49,6 +54,7 @@ fn clip_segment(
     low: [f64; 2],
     high: [f64; 2],
 ) -> Option<[StrokePoint; 2]> {
+    // Cut the segment between both bounds of each axis.
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
     for i in 0..2 {
         let (from, step) = (a.position[i], b.position[i] - a.position[i]);
@@ -62,6 +68,8 @@ fn clip_segment(
         enter = enter.max(s.min(t));
         leave = leave.min(s.max(t));
     }
+
+    // Keep what is left.
     (enter <= leave).then(|| {
         [
             between(a, b, enter, low, high),

@@ -84,12 +84,16 @@ pub(crate) fn pieces(points: &[StrokePoint], closed: bool, other: [u8; 4]) -> Ve
         goes_on: [false; 2],
         beyond: [None; 2],
     };
+
+    // A stroke of one colour is one piece.
     let Some(first) = points.first().map(color_of) else {
         return Vec::new();
     };
     if points.iter().all(|point| color_of(point) == first) {
         return vec![whole(first)];
     }
+
+    // Begin a piece wherever the colour has gone a step from where the last began.
     let chain = refined(points, closed, other);
     let middle = |i: usize| {
         let [a, b] = [&chain[i], &chain[i + 1]].map(color_of);
@@ -109,6 +113,8 @@ pub(crate) fn pieces(points: &[StrokePoint], closed: bool, other: [u8; 4]) -> Ve
         return vec![whole(middle(last / 2))];
     }
     starts.push(last);
+
+    // Let each piece know where the line comes from and goes on to, for its joints.
     let place = |i: usize| chain[i].position;
     let piece = |pair: &[usize]| {
         let (from, to) = (pair[0], pair[1]);
@@ -179,6 +185,7 @@ impl Piece {
 
     /// A strip along its points, square where it goes on and round where it does not.
     fn strip(&self) -> BezPath {
+        // Take the points that differ.
         let at = |p: [f64; 2]| Point::new(p[0], p[1]);
         let mut spine: Vec<(Point, f64)> = Vec::with_capacity(self.points.len());
         for point in &self.points {
@@ -190,6 +197,8 @@ impl Piece {
         if spine.len() < 2 {
             return BezPath::new();
         }
+
+        // Find the side of each point, across the line.
         let last = spine.len() - 1;
         let side = |i: usize| {
             let before = match i {
@@ -204,6 +213,8 @@ impl Piece {
             let length = along.hypot().max(1e-9);
             Vec2::new(-along.y, along.x) * (spine[i].1 / length)
         };
+
+        // Go along one side and back along the other, with round caps at ends of the line.
         let mut corners: Vec<Point> = (0..=last).map(|i| spine[i].0 + side(i)).collect();
         if !self.goes_on[1] {
             corners.extend(cap(spine[last].0, side(last)));
@@ -212,6 +223,8 @@ impl Piece {
         if !self.goes_on[0] {
             corners.extend(cap(spine[0].0, -side(0)));
         }
+
+        // Close the outline.
         let mut path = BezPath::new();
         for (i, corner) in corners.into_iter().enumerate() {
             match i {

@@ -27,6 +27,8 @@ fn paint(artwork: &Artwork, size: [u32; 2]) -> Vec<u8> {
     if let Some(color) = artwork.background {
         pixels.fill(color_of(color));
     }
+
+    // Paint marks from the lowest to the topmost.
     let marks = artwork
         .layers
         .iter()
@@ -35,6 +37,8 @@ fn paint(artwork: &Artwork, size: [u32; 2]) -> Vec<u8> {
     for mark in marks {
         paint_mark(mark, &mut pixels, Transform::identity());
     }
+
+    // Divide colours by their alpha again.
     pixels
         .pixels()
         .iter()
@@ -69,6 +73,8 @@ pub fn paint_over(marks: &[Mark], rgba: &mut [u8], size: [u32; 2]) {
     {
         return;
     }
+
+    // Paint the marks on a sheet of their own, as small as can be.
     let Some((corner, extent)) = pixels_of(marks, size) else {
         return;
     };
@@ -79,6 +85,8 @@ pub fn paint_over(marks: &[Mark], rgba: &mut [u8], size: [u32; 2]) {
     for mark in marks {
         paint_mark(mark, &mut pixels, place);
     }
+
+    // Lay the sheet over the picture.
     for (row, line) in pixels.pixels().chunks(extent[0] as usize).enumerate() {
         let start = (corner[1] as usize + row) * width + corner[0] as usize;
         let under = rgba[4 * start..].chunks_exact_mut(4);
@@ -90,6 +98,7 @@ pub fn paint_over(marks: &[Mark], rgba: &mut [u8], size: [u32; 2]) {
 
 /// The box of pixels that marks reach in a picture, as its upper left corner and its size.
 fn pixels_of(marks: &[Mark], size: [u32; 2]) -> Option<([u32; 2], [u32; 2])> {
+    // Enclose the marks with the width of their lines.
     let boxes = marks
         .iter()
         .filter(|mark| !mark.path.is_empty())
@@ -102,6 +111,8 @@ fn pixels_of(marks: &[Mark], size: [u32; 2]) -> Option<([u32; 2], [u32; 2])> {
             mark.path.control_box().inflate(half + 1.0, half + 1.0)
         });
     let reach = boxes.reduce(|a, b| a.union(b))?;
+
+    // Cut that to whole pixels of the picture.
     let bound = |low: f64, high: f64, side: u32| {
         let [low, high] = [low.floor(), high.ceil()].map(|v| v.clamp(0.0, f64::from(side)) as u32);
         (low < high).then_some((low, high - low))
@@ -139,6 +150,8 @@ fn paint_mark(mark: &Mark, pixels: &mut Pixmap, place: Transform) {
     let Some(path) = path_of(mark) else {
         return;
     };
+
+    // Fill what has an inside.
     let mut paint = tiny_skia::Paint {
         anti_alias: true,
         ..tiny_skia::Paint::default()
@@ -156,6 +169,8 @@ fn paint_mark(mark: &Mark, pixels: &mut Pixmap, place: Transform) {
         }
         Paint::Line(width) | Paint::Dashes(width) => width,
     };
+
+    // Draw lines, and the seam around regions.
     let dash = matches!(mark.paint, Paint::Dashes(_))
         .then(|| StrokeDash::new(DASH.map(|share| (share * width) as f32).to_vec(), 0.0))
         .flatten();

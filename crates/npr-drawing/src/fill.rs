@@ -106,6 +106,7 @@ const WHOLE_SHARE: f64 = 0.97;
 /// Specks in an area are noise along its lines. But where an outline has a gap, two areas are one, and the majority
 /// would paint the smaller away: there colours meet between triangles, close to where the line should be.
 fn labels(map: &Map, surface_at: &(dyn Fn([f64; 2]) -> Option<u32> + Sync)) -> Vec<Option<u32>> {
+    // Ask every triangle which surface it shows.
     let seen: Vec<Option<u32>> = map
         .triangles
         .par_iter()
@@ -115,6 +116,8 @@ fn labels(map: &Map, surface_at: &(dyn Fn([f64; 2]) -> Option<u32> + Sync)) -> V
             surface_at([0, 1].map(|i| sum(i) as f64 / (3.0 * FINENESS)))
         })
         .collect();
+
+    // Let each area vote by size.
     let areas = map.areas();
     let mut votes: BTreeMap<(u32, Option<u32>), i64> = BTreeMap::new();
     for (triangle, (area, label)) in areas.iter().zip(&seen).enumerate() {
@@ -129,6 +132,8 @@ fn labels(map: &Map, surface_at: &(dyn Fn([f64; 2]) -> Option<u32> + Sync)) -> V
             *winner = (size, label);
         }
     }
+
+    // Give whole areas to the winner; where lines have gaps, each triangle shows its own.
     let label_of = |(triangle, area): (usize, &u32)| {
         let (size, label) = winners[*area as usize];
         let is_whole = size as f64 >= WHOLE_SHARE * sizes[*area as usize] as f64;
@@ -139,6 +144,7 @@ fn labels(map: &Map, surface_at: &(dyn Fn([f64; 2]) -> Option<u32> + Sync)) -> V
 
 /// Connected triangles with the same surface, as rings.
 fn outlines(map: &Map, labels: &[Option<u32>]) -> Vec<Region> {
+    // Group connected triangles of one surface; background is no region.
     let groups = map.groups(labels);
     let mut surfaces: BTreeMap<u32, u32> = BTreeMap::new();
     for (group, label) in groups.iter().zip(labels) {
@@ -146,6 +152,8 @@ fn outlines(map: &Map, labels: &[Option<u32>]) -> Vec<Region> {
             surfaces.insert(*group, *surface);
         }
     }
+
+    // Start each ring at its top.
     let mut rings: BTreeMap<u32, Vec<Vec<Point>>> = BTreeMap::new();
     for (group, ring) in map.rings(&groups) {
         if surfaces.contains_key(&group) {
@@ -154,11 +162,15 @@ fn outlines(map: &Map, labels: &[Option<u32>]) -> Vec<Region> {
             rings.entry(group).or_default().push(ring);
         }
     }
+
+    // Put outlines before holes, and regions in reading order.
     let mut regions: Vec<(u32, Vec<Vec<Point>>)> = rings.into_iter().collect();
     for (_, rings) in &mut regions {
         rings.sort_unstable_by_key(|ring| (area(ring) <= 0, top(ring)));
     }
     regions.sort_by_key(|(_, rings)| rings.first().map(|ring| top(ring)));
+
+    // Turn grid points back into pixels.
     let on_picture = |ring: Vec<Point>| ring.into_iter().map(|p| p.map(|v| v as f64 / FINENESS));
     let regions = regions.into_iter().map(|(group, rings)| Region {
         surface: surfaces[&group],

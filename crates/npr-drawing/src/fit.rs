@@ -107,6 +107,7 @@ fn close(mut path: BezPath, start: Point) -> BezPath {
 
 /// Finite points of which each is at least `gap` from the one before.
 fn clean(points: &[[f64; 2]], closed: bool, gap: f64) -> Vec<Point> {
+    // Leave out what is not finite, and points too close to the one before.
     let mut kept: Vec<Point> = Vec::with_capacity(points.len());
     let finite = points
         .iter()
@@ -122,6 +123,8 @@ fn clean(points: &[[f64; 2]], closed: bool, gap: f64) -> Vec<Point> {
             kept.push(point);
         }
     }
+
+    // Keep the end of an open line; a closed one does not come back to its start.
     match (closed, last) {
         (false, Some(last)) if kept.last() != Some(&last) => kept.push(last),
         (true, _) => {
@@ -153,6 +156,7 @@ fn cuts_of(corners: &[bool]) -> Vec<usize> {
 
 /// Which points are corners: the sharpest turn within an arm's reach, where it is sharp enough.
 fn find_corners(points: &[Point], closed: bool, options: &FitOptions) -> Vec<bool> {
+    // Measure the turn at every point over an arm on either side.
     let walk = Walk { points, closed };
     let reach = options.tolerance * ARM;
     let arms: Vec<[usize; 2]> = (0..points.len())
@@ -168,6 +172,8 @@ fn find_corners(points: &[Point], closed: bool, options: &FitOptions) -> Vec<boo
             }
         })
         .collect();
+
+    // Corners turn most within their arms.
     let limit = libm_cos(options.corner);
     (0..points.len())
         .map(|i| {
@@ -259,11 +265,14 @@ struct Part {
 
 /// Curves along a run without corners; `seam` is the direction at both ends of a smooth closed curve.
 fn fit_run(run: &[Point], seam: Option<Vec2>, tolerance: f64, path: &mut BezPath) {
+    // Leave straight lines straight.
     let limit = tolerance * MEASURED;
     let last = run.len() - 1;
     if seam.is_none() && is_straight(run, limit * 0.5) {
         return path.line_to(run[last]);
     }
+
+    // Take the directions at both ends; a seam has the same on both sides.
     let walk = Walk {
         points: run,
         closed: false,
@@ -280,6 +289,8 @@ fn fit_run(run: &[Point], seam: Option<Vec2>, tolerance: f64, path: &mut BezPath
         leaving: seam.unwrap_or_else(|| end(0, true)),
         arriving: seam.map_or_else(|| end(last, false), |t| -t),
     }];
+
+    // Fit curves, and cut where one misses too much, with a common direction at the cut.
     let mut fitter = Fitter::new(limit);
     while let Some(part) = parts.pop() {
         let points = &run[part.first..=part.last];
@@ -435,6 +446,7 @@ impl Fitter {
     /// Between two points the curve is a Bezier curve of its own. It lies in the hull of its control points, and the
     /// distance to a segment is convex, so no place of it is further away than the furthest control point.
     fn miss(&self, curve: &CubicBez, points: &[Point]) -> Miss {
+        // Keep the worst distance; what is no number is the worst.
         let mut miss = Miss { worst: 0.0, at: 1 };
         let mut note = |distance2: f64, at: usize| {
             let distance2 = if distance2.is_nan() {
@@ -449,6 +461,8 @@ impl Fitter {
                 };
             }
         };
+
+        // Compare ends, and handles of every stretch, with the line.
         let speed = curve.deriv();
         let mut handle = speed.eval(0.0).to_vec2();
         let mut start = curve.p0;

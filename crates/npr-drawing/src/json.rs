@@ -29,6 +29,8 @@ pub fn write_json(drawing: &Drawing) -> Vec<u8> {
             .surfaces
             .get(stroke.surface as usize)
             .unwrap_or(&none);
+
+        // Write a stroke, or leave out one without a line.
         let start = text.len();
         text.push_str(if first { "\n" } else { ",\n" });
         if push_stroke(&mut text, stroke, surface) {
@@ -43,6 +45,7 @@ pub fn write_json(drawing: &Drawing) -> Vec<u8> {
 
 /// Writes a stroke; false where too little of it is finite.
 fn push_stroke(text: &mut String, stroke: &Stroke, surface: &StrokeSurface) -> bool {
+    // Leave out points that are not finite.
     let points: Vec<&StrokePoint> = stroke
         .points
         .iter()
@@ -51,6 +54,8 @@ fn push_stroke(text: &mut String, stroke: &Stroke, surface: &StrokeSurface) -> b
     if points.len() < 2 {
         return false;
     }
+
+    // Write what the stroke is.
     let visibility = if stroke.is_visible() {
         "visible"
     } else {
@@ -68,6 +73,8 @@ fn push_stroke(text: &mut String, stroke: &Stroke, surface: &StrokeSurface) -> b
         "{{\"id\":{id},\"kind\":\"{kind}\",\"visibility\":\"{visibility}\",\"occluders\":{occluders},\
          \"object\":{object},\"material\":{material},\"closed\":{closed},\"points\":["
     );
+
+    // Write its points in the picture, then in the world.
     push_list(text, &points, |text, p| {
         push_fixed(text, p.position[0], 3);
         text.push(',');
@@ -88,6 +95,8 @@ fn push_stroke(text: &mut String, stroke: &Stroke, surface: &StrokeSurface) -> b
             push_significant(text, f64::from(*v));
         }
     });
+
+    // Write colours where there are any.
     if points.iter().any(|p| p.color.is_some()) {
         text.push_str("],\"colors\":[");
         push_list(text, &points, |text, p| {
@@ -186,6 +195,7 @@ enum Visibility {
 /// Where the text is no line data of version 1, holds unknown keys or values out of range, or more than
 /// [`POINT_LIMIT`] points.
 pub fn read_json(bytes: &[u8]) -> Result<Drawing, JsonError> {
+    // Read the form.
     let broken = |reason: &dyn std::fmt::Display| JsonError::Form {
         reason: reason.to_string(),
     };
@@ -196,6 +206,8 @@ pub fn read_json(bytes: &[u8]) -> Result<Drawing, JsonError> {
             found: file.version,
         });
     }
+
+    // Read strokes one by one, and check each.
     let mut drawing = Drawing {
         size: file.size,
         ..Drawing::default()
@@ -219,6 +231,7 @@ pub fn read_json(bytes: &[u8]) -> Result<Drawing, JsonError> {
 
 /// What is wrong with a stroke, if anything.
 fn check(stroke: &FileStroke) -> Result<(), &'static str> {
+    // Compare what the stroke says of itself.
     let finite = stroke.points.iter().flatten().all(|v| v.is_finite())
         && stroke.world.iter().flatten().all(|v| v.is_finite());
     let hidden = stroke.occluders.is_none_or(|count| count > 0);
@@ -228,6 +241,8 @@ fn check(stroke: &FileStroke) -> Result<(), &'static str> {
     };
     let colors = stroke.colors.as_ref();
     let colors_fit = colors.is_none_or(|colors| colors.len() == stroke.points.len());
+
+    // Name the first that is wrong.
     if stroke.points.len() < 2 {
         Err("fewer than two points")
     } else if stroke.points.len() != stroke.world.len() {

@@ -210,6 +210,7 @@ impl Words {
         fill: [u8; 4],
         bands: &[Band],
     ) -> Vec<Mark> {
+        // Put the letters in the picture; broken numbers give none.
         let place = Affine::translate((middle_px[0], middle_px[1])) * Affine::scale(cap_height_px);
         let outline = place * self.outline.clone();
         let is_sound = |el: &PathEl| el.end_point().is_none_or(|p| p.is_finite());
@@ -222,6 +223,8 @@ impl Words {
             paint,
             color,
         };
+
+        // Lay bands around them, the innermost on top.
         let mut reach = 0.0;
         let mut marks = Vec::new();
         for band in bands {
@@ -231,6 +234,8 @@ impl Words {
             }
         }
         marks.reverse();
+
+        // Lay the letters over all bands.
         if fill[3] > 0 {
             marks.push(mark(Paint::Ink, fill));
         }

@@ -14,6 +14,7 @@ pub(crate) struct Grid {
 impl Grid {
     /// A grid with about two places per cell.
     pub(crate) fn new(places: &[[f64; 2]]) -> Self {
+        // Enclose the places.
         let mut low = [f64::INFINITY; 2];
         let mut high = [f64::NEG_INFINITY; 2];
         for place in places {
@@ -22,6 +23,8 @@ impl Grid {
                 high[i] = high[i].max(place[i]);
             }
         }
+
+        // Choose cells with some two places each.
         let extent = (high[0] - low[0]).max(high[1] - low[1]).max(1e-9);
         let cells = ((places.len() as f64 / 2.0).sqrt().ceil()).clamp(1.0, 2048.0);
         let cell = extent / cells;
@@ -71,6 +74,8 @@ impl Grid {
         let [x, y] = centre.map(|c| c as isize);
         let r = ring as isize;
         let mut any = false;
+
+        // Visit a cell, if the grid has it.
         let mut cell = |cx: isize, cy: isize| {
             let inside = (0..self.side[0] as isize).contains(&cx)
                 && (0..self.side[1] as isize).contains(&cy);
@@ -81,6 +86,8 @@ impl Grid {
                 self.items[range].iter().for_each(|item| visit(*item));
             }
         };
+
+        // Go along the rows above and below, then along the columns at the sides.
         for dx in -r..=r {
             cell(x + dx, y - r);
             if r > 0 {

@@ -45,6 +45,7 @@ pub fn outline(points: &[StrokePoint], closed: bool, tolerance: f64) -> BezPath 
         return path;
     }
     for part in parts_of(discs, closed) {
+        // Go around each part: a ring on both sides, a line there and back.
         let walks = match &part {
             Part::Disc(disc) => {
                 path.extend(circle(*disc, tolerance));
@@ -56,6 +57,8 @@ pub fn outline(points: &[StrokePoint], closed: bool, tolerance: f64) -> BezPath 
                 vec![discs.iter().chain(inner.iter().rev()).copied().collect()]
             }
         };
+
+        // Fit curves to the side of the ink.
         let is_ring = matches!(part, Part::Ring(_));
         for walk in walks {
             let side = Side::of(&walk, is_ring, tolerance);
@@ -85,6 +88,7 @@ enum Part {
 /// No side runs from a disc to one inside it, and the way between them adds nothing to the larger one. So the line is
 /// cut there; a part that is but a disc inside its neighbour is left out.
 fn parts_of(mut discs: Vec<Disc>, closed: bool) -> Vec<Part> {
+    // Start where one disc holds the next, if a closed line has such a place.
     let count = discs.len();
     let closed = closed && count > 2;
     let holds = |a: &Disc, b: &Disc| (b.center - a.center).hypot() <= a.radius - b.radius;
@@ -95,12 +99,16 @@ fn parts_of(mut discs: Vec<Disc>, closed: bool) -> Vec<Part> {
         Some(seam) if closed => discs.rotate_left((seam + 1) % count),
         _ => {}
     }
+
+    // Cut the line at such places.
     let mut parts = Vec::new();
     let mut start = 0;
     for end in 1..=count {
         if end < count && !is_cut(&discs[end - 1], &discs[end]) {
             continue;
         }
+
+        // Keep a disc that no neighbour holds.
         let part = &discs[start..end];
         if let [disc] = part {
             let before = (closed || start > 0).then(|| &discs[(start + count - 1) % count]);
@@ -122,6 +130,7 @@ fn parts_of(mut discs: Vec<Disc>, closed: bool) -> Vec<Part> {
 
 /// Discs along the line of which neighbours differ.
 fn discs_of(points: &[StrokePoint], closed: bool) -> Vec<Disc> {
+    // Make a disc of each point that is not far outside.
     let mut discs: Vec<Disc> = Vec::with_capacity(points.len());
     let differ = |a: &Disc, b: &Disc| {
         (a.center - b.center).hypot2() > STEP * STEP || (a.radius - b.radius).abs() > STEP
@@ -143,6 +152,8 @@ fn discs_of(points: &[StrokePoint], closed: bool) -> Vec<Disc> {
             discs.push(disc);
         }
     }
+
+    // A closed line does not come back to its first disc.
     while closed && discs.len() > 1 && !differ(&discs[0], &discs[discs.len() - 1]) {
         discs.pop();
     }
@@ -301,6 +312,7 @@ impl Side {
         ahead: &[OutlinePoint],
         walk: &[Disc],
     ) -> Option<(usize, usize, Point)> {
+        // Look ahead to the next stop, and back to the last corner.
         let reach = ahead
             .iter()
             .position(|place| place.pivot || place.corner)
@@ -310,6 +322,8 @@ impl Side {
         let behind = fence
             .max(corner)
             .max(self.points.len().saturating_sub(SEARCH));
+
+        // The first crossing decides: it counts where the ink doubles over itself in one bend.
         for j in 1..reach {
             for i in (behind + 1..self.points.len()).rev() {
                 let (a, b) = (self.points[i - 1], self.points[i]);

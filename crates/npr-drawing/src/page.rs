@@ -52,6 +52,7 @@ pub(crate) struct Placing {
 
 impl Placing {
     pub(crate) fn of(size: [u32; 2], page: Option<Page>) -> Self {
+        // Without a page a pixel is a unit.
         let picture = size.map(|side| f64::from(side.max(1)));
         let Some(page) = page else {
             return Self {
@@ -60,12 +61,16 @@ impl Placing {
                 offset: [0.0; 2],
             };
         };
+
+        // Turn the page as the picture is turned.
         let [a, b] = page.sides_mm;
         let size = if picture[0] > picture[1] {
             [a.max(b), a.min(b)]
         } else {
             [a.min(b), a.max(b)]
         };
+
+        // Fit the picture between the margins, in the middle.
         let margin = page.margin_mm.clamp(0.0, 0.45 * a.min(b));
         let scale = [0, 1]
             .map(|i| (size[i] - 2.0 * margin) / picture[i])

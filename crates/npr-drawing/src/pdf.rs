@@ -87,10 +87,14 @@ impl Plan {
             next += 1;
             Ref::new(next - 1)
         };
+
+        // Note every opacity that is used.
         let mut opacities = BTreeMap::new();
         if let Some(color) = artwork.background {
             opacities.insert(color[3], free());
         }
+
+        // Number layers and their groups.
         let mut folders = Vec::new();
         for layer in &artwork.layers {
             let id = free();

@@ -226,11 +226,15 @@ fn turn_closed(routes: &[Route], order: &mut [Visit]) {
         if !route.closed {
             continue;
         }
+
+        // Measure the way from the line before and to the line after.
         let before = k.checked_sub(1).map(|i| ends(routes, &order[i])[1]);
         let after = order.get(k + 1).map(|visit| ends(routes, visit)[0]);
         let cost = |p: &[f64; 2]| {
             before.map_or(0.0, |q| distance(*p, q)) + after.map_or(0.0, |q| distance(*p, q))
         };
+
+        // Start where that is shortest.
         let mut best = (cost(&route.points[order[k].start]), order[k].start);
         for (start, point) in route.points.iter().enumerate() {
             let cost = cost(point);
@@ -324,6 +328,8 @@ impl Tour<'_> {
     /// 2-opt: turns round the run between two ends that would then be joined, if that shortens the way.
     fn turn(&mut self, pair: [(usize, usize); 2]) -> bool {
         self.effort = self.effort.saturating_sub(1);
+
+        // Give up pairs of different sorts, and where the effort is used up.
         let [(i, lifts), (j, also_lifts)] = pair.map(|end| self.place(end));
         if lifts != also_lifts || self.effort == 0 {
             return false;
@@ -334,6 +340,8 @@ impl Tour<'_> {
         } else {
             (low, high - 1)
         };
+
+        // Turn the stretch where that shortens the way.
         let before = self.link(first - 1) + self.link(last);
         let after = Self::gap(self.end(first - 1, 1), self.end(last, 1))
             + Self::gap(self.end(first, 0), self.end(last + 1, 0));

@@ -42,6 +42,7 @@ struct Writer {
 
 impl Writer {
     fn artwork(&mut self, artwork: &Artwork) {
+        // Open the file with the size of the page or the picture.
         let unit = if artwork.is_page { "mm" } else { "" };
         let [width, height] = artwork.size.map(|side| {
             let mut text = String::new();
@@ -54,11 +55,15 @@ impl Writer {
              width=\"{width}{unit}\" height=\"{height}{unit}\" viewBox=\"0 0 {width} {height}\" \
              stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
         );
+
+        // Lay the ground.
         if let Some(color) = artwork.background.filter(|color| color[3] > 0) {
             let fill = paint("fill", color);
             self.text +=
                 &format!("<rect id=\"background\" width=\"{width}\" height=\"{height}\"{fill}/>\n");
         }
+
+        // Write layers from the lowest to the topmost.
         for layer in &artwork.layers {
             self.layer(layer);
         }

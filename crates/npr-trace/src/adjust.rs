@@ -60,6 +60,7 @@ struct Line {
 impl Line {
     /// Fits a line to the corners from a place on along steps; and gives the place where they end.
     fn along(steps: &[u8], start: [i64; 2]) -> (Self, [i64; 2]) {
+        // Sum up the pixel corners that the steps pass.
         let [mut x, mut y] = start;
         let [mut sx, mut sy, mut sxx, mut sxy, mut syy] = [x, y, x * x, x * y, y * y];
         for direction in steps {
@@ -72,6 +73,8 @@ impl Line {
             sxy += x * y;
             syy += y * y;
         }
+
+        // Lay a line through their mean, along their greatest spread.
         let count = (steps.len() + 1) as f64;
         let [sx, sy, sxx, sxy, syy] = [sx, sy, sxx, sxy, syy].map(|sum| sum as f64);
         let xx = (sxx - sx * sx / count) / count;

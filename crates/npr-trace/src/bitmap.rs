@@ -154,11 +154,14 @@ impl Bitmap {
     ///
     /// What `source` says, or that it ends before the rows do.
     pub fn read_packed(&mut self, source: impl Read + Send) -> io::Result<()> {
+        // Share the rows out in turns.
         let row_bytes = self.width.div_ceil(8) as usize;
         let stride = self.row_words().max(1);
         let row_count = (READ_BYTES / row_bytes.max(1)).max(1);
         let last = last_word_mask(self.width);
         let unread = Mutex::new((source, self.words.chunks_mut(row_count * stride)));
+
+        // Let one thread read at a time.
         let read_next = |bytes: &mut Vec<u8>| {
             let mut unread = unread.lock().unwrap_or_else(PoisonError::into_inner);
             let (source, parts) = &mut *unread;
@@ -168,6 +171,8 @@ impl Bitmap {
             bytes.resize(words.len() / stride * row_bytes, 0);
             source.read_exact(bytes).map(|()| Some(words))
         };
+
+        // Let all unpack what they have read.
         let threads = (0..rayon::current_num_threads()).into_par_iter();
         threads.with_max_len(1).try_for_each(|_| {
             let mut bytes = Vec::new();

@@ -26,6 +26,7 @@ pub fn trace_colors_to_file(
     format: TraceFormat,
     sink: &mut dyn Write,
 ) -> io::Result<()> {
+    // Find the outlines of every colour, the first of them drawn early.
     let mut early = EARLY_STEPS;
     let mut stack = Vec::new();
     for layer in layers(picture) {
@@ -37,6 +38,8 @@ pub fn trace_colors_to_file(
             outlines,
         });
     }
+
+    // Write the lowest colour first.
     stack.reverse();
     let mut sink = BufWriter::new(sink);
     write(picture.size(), &stack, options, format, &mut sink)?;

@@ -64,6 +64,8 @@ impl IndexPicture {
         if width.max(height) > SIDE_LIMIT {
             return Err(IndexPictureError::TooLarge { width, height });
         }
+
+        // Every pixel must have a number, and every number a colour.
         let (expected, found) = (width as usize * height as usize, indices.len());
         if expected != found {
             return Err(IndexPictureError::Length {

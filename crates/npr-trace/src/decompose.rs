@@ -180,6 +180,8 @@ impl<'a> Decomposition<'a> {
         let mut area = 0i64;
         loop {
             steps.push(direction);
+
+            // Take a step, and sum up the area under it.
             match direction {
                 0 => x += 1,
                 1 => {
@@ -192,6 +194,8 @@ impl<'a> Decomposition<'a> {
                     area -= i64::from(x);
                 }
             }
+
+            // Stop where the path closes.
             if [x, y] == start {
                 return area.unsigned_abs();
             }
@@ -245,14 +249,19 @@ impl Iterator for Decomposition<'_> {
             steps: Vec::with_capacity(2 * BATCH_STEPS),
         };
         while batch.steps.len() < BATCH_STEPS {
+            // Find the next border that no path has gone along.
             let Some(start) = self.map.next_upright(self.from) else {
                 break;
             };
             self.from = start;
+
+            // Follow it around, and turn over the pixels inside.
             let is_ink = self.bitmap.is_ink(i64::from(start[0]), i64::from(start[1]));
             let before = batch.steps.len();
             let area = self.follow(start, is_ink, &mut batch.steps);
             self.take(start, batch.steps.get(before..).unwrap_or(&[]));
+
+            // Leave out specks.
             if area <= self.turd_size {
                 batch.steps.truncate(before);
                 continue;

@@ -68,6 +68,7 @@ impl Joiner {
         tolerance: f64,
         mut draw: impl FnMut(Segment),
     ) {
+        // Two bends or fewer have nothing to join.
         if count < 3 {
             return super::curve::draw_curve(count, bend, draw);
         }
@@ -77,14 +78,19 @@ impl Joiner {
         let mut area = 0.0;
         let mut first = 1;
         while first <= count {
+            // Take bends up to the next that turns the other way.
             area = self.take_stretch(first, count, &bend, area);
             self.best.clear();
             self.best.push(before);
+
+            // Find for each bend the fewest arcs that lead to it.
             let last = self.turns.len() - 1;
             for end in 1..=last {
                 let step = self.best_to(end, count, tolerance);
                 self.best.push(step);
             }
+
+            // Draw them, and go on from there.
             before = self.best[last];
             self.collect(last, &mut draw);
             self.bends.drain(..last);
@@ -105,16 +111,21 @@ impl Joiner {
         self.areas.clear();
         self.areas.push(area);
         for index in 1..=count + 1 - first {
+            // Look one bend ahead.
             while self.bends.len() < index + 2 {
                 let next = first - 1 + self.bends.len();
                 self.bends
                     .push(bend(if next >= count { next - count } else { next }));
             }
+
+            // End the stretch where the line turns the other way.
             let turn = self.turn(index);
             if index > 1 && turn * self.turns[1] <= 0.0 {
                 break;
             }
             self.turns.push(turn);
+
+            // Sum up the area under the curve.
             let bend = &self.bends[index];
             let (start, end) = (self.end(index - 1), self.end(index));
             if let Some(alpha) = bend.alpha {
@@ -222,6 +233,7 @@ impl Joiner {
         let mut penalty = 0.0;
         let is_pair = end - start == 2;
         for index in start + 1..end {
+            // Each side must touch the arc within the tolerance.
             let [from, to] = [self.corner(index), self.corner(index + 1)];
             let side = to - from;
             let touch = touch(cubic, side, is_pair)?;
@@ -233,6 +245,7 @@ impl Joiner {
             penalty += distance * distance;
         }
         for index in start + 1..=end {
+            // So must each bend.
             let bend = &self.bends[index];
             let from = self.end(index - 1);
             let chord = self.end(index) - from;

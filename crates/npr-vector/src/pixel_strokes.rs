@@ -136,8 +136,12 @@ pub fn trace(
     if count == 0 || scene.len() != count {
         return Ok(Traced::default());
     }
+
+    // Draw the lines, pixel by pixel, before the scene.
     let (segments, counts) = segments_of(on, &view);
     let (owners, nearest) = draw(&view, scene, &segments, &counts);
+
+    // Link and rank the sides of the ink.
     let ink = Ink {
         size: view.size,
         pixels: &owners,
@@ -157,6 +161,7 @@ pub fn trace(
 
 /// The edges drawn as segments, each with its number of fragments.
 fn segments_of(on: &PixelScene<'_>, view: &PixelView) -> (Vec<Segment>, Vec<u32>) {
+    // Mark the edges that are lines in this view.
     let edges = drawn_edges(on.shape, on.creases, on.is_drawn);
     let front: Vec<u32> = facing(on.shape, on.eye)
         .iter()
@@ -172,6 +177,8 @@ fn segments_of(on: &PixelScene<'_>, view: &PixelView) -> (Vec<Segment>, Vec<u32>
     };
     let (mut flags, mut marks) = (vec![0; edges.len()], vec![0; edges.len()]);
     mark_edges(&on_edges, &edges, &mut flags, &mut marks);
+
+    // List them, and project them to segments.
     let (slots, count) = exclusive_scan(&flags);
     let mut list = vec![0; count as usize];
     compact(&flags, &slots, &mut list);
@@ -199,12 +206,15 @@ fn draw(
     let (mut owners, mut nearest) = (vec![0; scene.len()], vec![0; scene.len()]);
     let mut first = 0;
     while first < segments.len() {
+        // Take as many segments as a batch of fragments holds.
         let mut last = first;
         let mut count = 0;
         while last < segments.len() && (count == 0 || count + counts[last] <= BATCH) {
             count += counts[last];
             last += 1;
         }
+
+        // Make their fragments, and test them against the scene.
         let (starts, total) = exclusive_scan(&counts[first..last]);
         let mut fragments = vec![Fragment::default(); total as usize];
         emit_fragments(
@@ -217,6 +227,8 @@ fn draw(
         );
         let mut shown = vec![0; fragments.len()];
         test_fragments(view, [scene, &[]], &fragments, &mut shown);
+
+        // Keep the nearest fragment of every pixel.
         for fragment in &mut fragments {
             fragment.segment += first as u32;
         }

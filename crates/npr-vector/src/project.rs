@@ -21,6 +21,7 @@ pub struct Projector {
 impl Projector {
     /// A camera for a picture of `size` pixels of a scene within `bounds` (lowest and highest corner).
     pub fn new(camera: &Camera, size: [u32; 2], bounds: ([f32; 3], [f32; 3])) -> Self {
+        // Take the axes of the camera, and how much of the world is in sight.
         let [right, up, back] = exact_axes(camera);
         let [width, height] = size.map(f64::from);
         let (perspective, view_height) = match camera.projection {
@@ -29,6 +30,8 @@ impl Projector {
             }
             Projection::Parallel { height } => (false, f64::from(height)),
         };
+
+        // Take the near plane of frames, and the farthest corner as the far one.
         let view = camera.view(size, bounds);
         let eye = double(camera.eye);
         let far = corners(bounds)

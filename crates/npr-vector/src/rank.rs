@@ -197,6 +197,7 @@ pub fn hash_key(key: u32) -> u32 {
 ///
 /// [`RankError`] for a successor that does not exist, or that follows two nodes.
 pub fn link(next: &[u32], keys: &[u32]) -> Result<Vec<Link>, RankError> {
+    // Refuse what cannot be lists.
     let node_count = next.len();
     if keys.len() != node_count {
         let key_count = keys.len();
@@ -208,6 +209,8 @@ pub fn link(next: &[u32], keys: &[u32]) -> Result<Vec<Link>, RankError> {
     if u32::try_from(node_count).is_err() {
         return Err(RankError::TooManyNodes { node_count });
     }
+
+    // Point back along every link; two that lead to one node are no list.
     let mut links: Vec<_> = next
         .iter()
         .zip(keys)

@@ -85,8 +85,12 @@ impl Map {
             if numbers[seed as usize] != NONE {
                 continue;
             }
+
+            // Begin a set at a triangle that has none.
             numbers[seed as usize] = count;
             stack.push(seed);
+
+            // Let it grow across sides that join.
             while let Some(triangle) = stack.pop() {
                 for half_edge in 3 * triangle..3 * triangle + 3 {
                     let twin = self.twins[half_edge as usize];

@@ -193,6 +193,7 @@ impl FlatMesh {
     }
 
     fn glb(&self) -> Vec<u8> {
+        // Write points, then triangles, as bytes.
         let mut bytes = Vec::with_capacity(12 * (self.points.len() + self.triangles.len()));
         let [mut low, mut high] = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
         for [x, y] in &self.points {
@@ -210,6 +211,8 @@ impl FlatMesh {
                 .iter()
                 .flat_map(|v| v.to_le_bytes()),
         );
+
+        // An empty tracing is an empty scene.
         let mut scene = json!({
             "asset": { "version": "2.0", "generator": "npr" },
             "scene": 0,

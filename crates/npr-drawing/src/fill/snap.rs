@@ -27,6 +27,7 @@ const ROUNDS: usize = 16;
 pub(super) fn snapped(mut segments: Vec<[Point; 2]>) -> Result<Vec<[Point; 2]>, FillError> {
     tidy(&mut segments);
     for _ in 0..ROUNDS {
+        // Lead every segment through the points that it passes.
         let points = points(&segments)?;
         let grid = Grid::over(&segments);
         let cells = Cells::of(&grid, &points);
@@ -34,6 +35,8 @@ pub(super) fn snapped(mut segments: Vec<[Point; 2]>) -> Result<Vec<[Point; 2]>, 
             let on_the_way = on_the_way(&grid, &cells, &points, *segment);
             (1..on_the_way.len()).map(move |i| [on_the_way[i - 1], on_the_way[i]])
         });
+
+        // Stop when nothing moves any more.
         let mut pieces: Vec<[Point; 2]> = pieces.collect();
         tidy(&mut pieces);
         if pieces.len() > PIECES {
@@ -65,6 +68,7 @@ fn minus(a: Point, b: Point) -> Point {
 
 /// All ends and rounded crossings, in order.
 fn points(segments: &[[Point; 2]]) -> Result<Vec<Point>, FillError> {
+    // Sort segments into cells.
     let grid = Grid::over(segments);
     let mut entries: Vec<(u32, u32)> = Vec::new();
     for (index, segment) in (0..).zip(segments) {
@@ -72,10 +76,14 @@ fn points(segments: &[[Point; 2]]) -> Result<Vec<Point>, FillError> {
     }
     entries.par_sort_unstable();
     let groups = entries.chunk_by(|a, b| a.0 == b.0);
+
+    // Refuse more pairs than take a second.
     let pairs: usize = groups.map(|group| group.len() * group.len() / 2).sum();
     if pairs > PAIRS {
         return Err(FillError::TooManyCrossings);
     }
+
+    // Find where segments of a cell cross.
     let crossings = entries
         .par_chunk_by(|a, b| a.0 == b.0)
         .flat_map_iter(|group| {
@@ -86,6 +94,8 @@ fn points(segments: &[[Point; 2]]) -> Result<Vec<Point>, FillError> {
                 })
             })
         });
+
+    // Add their ends, each point once.
     let mut points: Vec<Point> = crossings.collect();
     points.extend(segments.as_flattened());
     points.par_sort_unstable();

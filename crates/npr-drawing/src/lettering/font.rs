@@ -104,6 +104,7 @@ impl Font {
 
     /// The letters of one line, from left to right.
     pub(super) fn shape(&self, text: &str) -> Result<Vec<Letter>, LetteringError> {
+        // Shape the line, with kerning and ligatures.
         let characters: Vec<char> = text.chars().filter(|c| !c.is_control()).collect();
         let shaped = guard(|| {
             let mut buffer = Buffer::new();
@@ -119,6 +120,8 @@ impl Font {
             letter: characters.first().copied().unwrap_or_default(),
         })?;
         let buffer = shaped.ok_or(LetteringError::TooComplex)?;
+
+        // Measure the letters in cap heights.
         let glyphs = buffer.glyph_infos().iter().zip(buffer.glyph_positions());
         glyphs
             .map(|(info, place)| {

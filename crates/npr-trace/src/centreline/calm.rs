@@ -69,6 +69,7 @@ struct Parabola {
 
 impl Line {
     fn of(places: &[DVec2], how: &Calm) -> Self {
+        // Repeat a closed line's places before its start and after its end.
         let count = places.len();
         let pad = if how.closed {
             how.most.min(count.saturating_sub(1) / 2)
@@ -77,10 +78,14 @@ impl Line {
         };
         let around = (0..count + 2 * pad).map(|k| places[(k + count - pad) % count]);
         let places: Vec<DVec2> = around.collect();
+
+        // Measure along the line.
         let mut lengths = vec![0.0];
         for pair in places.windows(2) {
             lengths.push(lengths[lengths.len() - 1] + pair[0].distance(pair[1]));
         }
+
+        // Hold the ends that are pinned.
         let mut weights = vec![1.0; places.len()];
         let last = places.len().saturating_sub(1);
         for (at, is_pinned) in [0, last].into_iter().zip(how.pinned) {
@@ -196,6 +201,7 @@ pub fn beside([a, b, c]: &[DVec2; 3], t: f64, place: DVec2) -> f64 {
 /// The least squares' solution; of a line where places do not determine a parabola, and of a point where they do not
 /// a line.
 fn solve(m: &[f64; 5], sums: &[DVec2; 3]) -> [DVec2; 3] {
+    // Fit a parabola where the places allow.
     let [m0, m1, m2, m3, m4] = *m;
     let [s0, s1, s2] = *sums;
     let minors = [m2 * m4 - m3 * m3, m1 * m4 - m2 * m3, m1 * m3 - m2 * m2];
@@ -211,6 +217,8 @@ fn solve(m: &[f64; 5], sums: &[DVec2; 3]) -> [DVec2; 3] {
             s0 * c - s1 * e + s2 * f,
         ];
     }
+
+    // Else fit a straight line.
     let det = m0 * m2 - m1 * m1;
     if det > 1e-6 * m0 * m0 {
         return [
@@ -219,5 +227,7 @@ fn solve(m: &[f64; 5], sums: &[DVec2; 3]) -> [DVec2; 3] {
             DVec2::ZERO,
         ];
     }
+
+    // Else take the mean.
     [s0 / m0.max(f64::MIN_POSITIVE), DVec2::ZERO, DVec2::ZERO]
 }

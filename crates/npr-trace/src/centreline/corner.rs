@@ -77,6 +77,7 @@ fn corner(
     side: usize,
     how: &Calm,
 ) -> Option<(f64, DVec2)> {
+    // Corners need a side before and after.
     let count = places.len();
     let reach = gap + side;
     if count < 2 * reach + 1 {
@@ -85,6 +86,8 @@ fn corner(
     if !how.closed && (at < reach || at + reach >= count) {
         return None;
     }
+
+    // Lay a line through each side, beyond the gap that thinning has moved.
     let run = |from: usize, to: usize| -> Vec<DVec2> {
         (from..=to)
             .map(|k| places[(at + count - reach + k) % count])
@@ -96,6 +99,8 @@ fn corner(
     if !is_sharper(&run(0, 2 * reach), gap, [before, after]) {
         return None;
     }
+
+    // Put the corner where both sides meet, unless that is far off.
     let middle = places[at % count];
     let area = before[1].perp_dot(after[1]);
     let meet = before[0] + before[1] * ((after[0] - before[0]).perp_dot(after[1]) / area);

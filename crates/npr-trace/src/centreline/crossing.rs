@@ -78,6 +78,7 @@ impl Network {
     pub fn join_junctions(&mut self) {
         self.join_overlapping();
         for _ in 0..ROUNDS {
+            // Find forks that are one crossing, the smallest first.
             let mut found: Vec<Cluster> = (0..self.nodes.len() as u32)
                 .filter_map(|seed| self.crossing(seed))
                 .collect();
@@ -85,6 +86,8 @@ impl Network {
                 let by_extent = a.extent.total_cmp(&b.extent);
                 by_extent.then_with(|| a.nodes.cmp(&b.nodes))
             });
+
+            // Join those of which no fork has changed in this round.
             let mut is_changed = vec![false; self.nodes.len()];
             for cluster in &found {
                 if cluster.nodes.iter().any(|node| is_changed[*node as usize]) {
@@ -163,6 +166,7 @@ impl Network {
         let mut best: Option<(f64, u32, f64)> = None;
         for node in &cluster.nodes {
             for branch in &self.nodes[*node as usize].branches {
+                // Look at forks one branch away from the cluster.
                 let [a, b] = self.branches[*branch as usize].ends;
                 let other = if a == *node { b } else { a };
                 if cluster.nodes.contains(&other) || !self.is_fork(other) {
@@ -171,6 +175,8 @@ impl Network {
                 let Some(extent) = self.extent_with(cluster, *branch, other) else {
                     continue;
                 };
+
+                // Keep the one nearest to the first.
                 let apart = self.middle(other).distance(seed);
                 if best.is_none_or(|(least, known, _)| (apart, other) < (least, known)) {
                     best = Some((apart, other, extent));
@@ -304,9 +310,12 @@ impl Network {
     /// Makes one of several junctions, in the place of the first, without `bridges` between them; what else runs from
     /// one to another is a loop from then on.
     fn join(&mut self, nodes: &[u32], bridges: &[u32]) {
+        // Take out the bridges between the forks.
         for branch in bridges {
             self.remove(*branch);
         }
+
+        // Move the branches and pixels of the others to the first.
         let first = nodes[0];
         for node in &nodes[1..] {
             let other = std::mem::take(&mut self.nodes[*node as usize]);

@@ -31,6 +31,8 @@ fn white_beside(words: &[u64], x: usize, limit2: u64) -> u64 {
     let Some(here) = words.get(at) else {
         return 0;
     };
+
+    // Look right, then left, a word at a time.
     let right = search(
         !here >> bit,
         64 - bit as u64,
@@ -56,9 +58,12 @@ fn search(
     zeros: impl Fn(u64) -> u32,
     next: impl Fn(usize) -> Option<u64>,
 ) -> u64 {
+    // The first word may hold it.
     if first != 0 {
         return u64::from(zeros(first));
     }
+
+    // Go on until the reach exceeds the limit.
     let mut reach = covered;
     for step in 1.. {
         if reach * reach > limit2 {

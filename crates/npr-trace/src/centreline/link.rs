@@ -71,12 +71,16 @@ pub fn link(network: &Network, turn: f64) -> Ways {
         arms: Vec::with_capacity(2 * network.branches.len()),
         places: vec![DVec2::ZERO; network.nodes.len()],
     };
+
+    // Take both ends of every branch as arms.
     for branch in 0..network.branches.len() as u32 {
         for end in 0..2 {
             linker.arms.push(linker.arm(branch, end));
         }
     }
     linker.direct_bridges();
+
+    // Pair the arms at every node that go on straightest.
     let mut junctions = Vec::new();
     for (node, place) in (0..).zip(0..network.nodes.len()) {
         if network.degree(node) >= 2 {
@@ -87,6 +91,8 @@ pub fn link(network: &Network, turn: f64) -> Ways {
             junctions.push(linker.places[place]);
         }
     }
+
+    // Follow pairs from arm to arm.
     let ways = linker.ways();
     Ways { ways, junctions }
 }
@@ -165,6 +171,7 @@ impl Linker<'_> {
     /// Where the straightest line over a bridge leads, from an arm at its start to one at its end; none where its
     /// pixels say enough.
     fn straight_over(&self, bridge: u32) -> Option<DVec2> {
+        // Only short bridges between forks need a direction.
         let arms = [0, 1].map(|end| arm_of(bridge, end));
         let there = &self.network.branches[bridge as usize];
         let [from, to] = there.ends;
@@ -173,9 +180,13 @@ impl Linker<'_> {
         if !is_short || from == to || !is_fork(from) || !is_fork(to) {
             return None;
         }
+
+        // Measure the bridge's own.
         let ends = [there.pixels.first()?, there.pixels.last()?];
         let [first, last] = ends.map(|pixel| self.network.place(*pixel));
         let own = (last - first).try_normalize()?;
+
+        // Find the straightest way over it that runs about along it.
         let mut best: Option<(f64, DVec2)> = None;
         let (before, after) = (self.arms_at(from), self.arms_at(to));
         for a in before.into_iter().filter(|arm| *arm != arms[0]) {
@@ -296,15 +307,19 @@ impl Linker<'_> {
 
     /// The stroke that starts at an end of a branch.
     fn way(&self, branch: u32, end: usize, used: &mut [bool]) -> Way {
+        // Begin at the node of an open end.
         let start = arm_of(branch, end);
         let mut points = Vec::from_iter(self.stop(start));
         let mut free = [points.is_empty(), true];
         let mut arm = start;
         loop {
+            // Append the branch.
             used[arm as usize / 2] = true;
             self.push_branch(arm, &mut points);
             let far = arm ^ 1;
             let partner = self.arms[far as usize].partner;
+
+            // End at a node, or close the way where it comes back.
             if partner == NONE || partner == start {
                 let next = if partner == start {
                     points.first().copied()

@@ -59,6 +59,7 @@ pub struct Across {
 /// Chords across the line are measured, in the mean over a step along it, so that the area of the ink is kept. What
 /// goes on much further than the edge is away by the distance transform is another line, and counts as not measured.
 pub fn measure(way: &Way, bitmap: &Bitmap) -> Vec<Across> {
+    // Smooth the way for its directions.
     let places: Vec<DVec2> = way.points.iter().map(|point| point.place).collect();
     let how = Calm {
         tolerance: 1.0,
@@ -70,11 +71,15 @@ pub fn measure(way: &Way, bitmap: &Bitmap) -> Vec<Across> {
         .iter()
         .map(|[_, along]| *along)
         .collect();
+
+    // Hold the direction towards free ends, where thinning bends.
     if !way.closed {
         for (end, _) in way.free.into_iter().enumerate().filter(|(_, free)| *free) {
             hold_direction(way, end, &mut along);
         }
     }
+
+    // Measure across.
     let points = way.points.iter().zip(along).enumerate();
     points
         .map(|(i, (point, along))| across(point, along, limit_at(way, i), bitmap))
@@ -118,6 +123,8 @@ fn across(point: &WayPoint, along: DVec2, limit: Option<f64>, bitmap: &Bitmap) -
     let Some(limit) = limit else {
         return nothing;
     };
+
+    // Send rays to both sides at several places.
     let (mut left, mut right, mut count) = (0.0, 0.0, 0.0);
     for share in SAMPLES {
         let from = point.place + along * share;
@@ -127,6 +134,8 @@ fn across(point: &WayPoint, along: DVec2, limit: Option<f64>, bitmap: &Bitmap) -
         };
         (left, right, count) = (left + a, right + b, count + 1.0);
     }
+
+    // Move the place to the middle of the ink.
     let shift = (0.5 * (left - right) / count).clamp(-1.5, 1.5);
     Across {
         place: point.place + along.perp() * shift,
@@ -139,6 +148,7 @@ fn across(point: &WayPoint, along: DVec2, limit: Option<f64>, bitmap: &Bitmap) -
 /// Where nothing was measured, the nearest measured ones go on; then the median of 5, then the mean over about two
 /// widths. A line that is even but for what pixels cannot show gets one width.
 pub fn smooth_widths(measured: &[Option<f64>], closed: bool, fallback: f64) -> Vec<f64> {
+    // Without a measured width all are the fallback.
     let mut known: Vec<(usize, f64)> = measured
         .iter()
         .enumerate()
@@ -147,6 +157,8 @@ pub fn smooth_widths(measured: &[Option<f64>], closed: bool, fallback: f64) -> V
     if known.is_empty() {
         return vec![fallback.max(LEAST_WIDTH_PX); measured.len()];
     }
+
+    // Take out outliers by medians of five.
     let values: Vec<f64> = known.iter().map(|(_, width)| *width).collect();
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     let at = |i: isize| {
@@ -164,11 +176,15 @@ pub fn smooth_widths(measured: &[Option<f64>], closed: bool, fallback: f64) -> V
             five[2]
         })
         .collect();
+
+    // Smooth over a length that grows with the width.
     let reach = (mean.ceil() as usize).clamp(4, 24);
     let smooth = means(&means(&medians, reach, closed), reach, closed);
     for ((_, width), smooth) in known.iter_mut().zip(smooth) {
         *width = smooth.max(LEAST_WIDTH_PX);
     }
+
+    // Make widths even where they hardly differ.
     let low = known
         .iter()
         .map(|(_, width)| *width)
@@ -177,6 +193,8 @@ pub fn smooth_widths(measured: &[Option<f64>], closed: bool, fallback: f64) -> V
     if high - low <= EVEN[0].max(EVEN[1] * mean) {
         return vec![mean.max(LEAST_WIDTH_PX); measured.len()];
     }
+
+    // Fill the gaps where nothing was measured.
     spread(&known, measured.len(), closed)
 }
 
@@ -185,12 +203,15 @@ const END_REACH: usize = 6;
 
 /// Means over places up to `reach` away; fewer at the ends of open lines.
 fn means(values: &[f64], reach: usize, closed: bool) -> Vec<f64> {
+    // Sum up, three times around a closed line.
     let count = values.len();
     let mut sums = vec![0.0];
     let around = if closed { 3 } else { 1 };
     for i in 0..around * count {
         sums.push(sums[i] + values[i % count]);
     }
+
+    // Take the mean of a window, shorter at the ends of an open line.
     (0..count)
         .map(|i| {
             let [from, to] = if closed {
@@ -215,6 +236,8 @@ fn spread(known: &[(usize, f64)], count: usize, closed: bool) -> Vec<f64> {
             while known.get(at).is_some_and(|(k, _)| *k < i) {
                 at += 1;
             }
+
+            // Find the known widths on both sides.
             let (before, after) = match (at.checked_sub(1), known.get(at)) {
                 (Some(b), Some(a)) => (known[b], *a),
                 (None, Some(a)) if closed => ((last.0.wrapping_sub(count), last.1), *a),
@@ -223,6 +246,8 @@ fn spread(known: &[(usize, f64)], count: usize, closed: bool) -> Vec<f64> {
                 (Some(b), None) => (known[b], known[b]),
                 (None, None) => (first, first),
             };
+
+            // Mix them by distance.
             let span = after.0.wrapping_sub(before.0) as isize as f64;
             let share = i.wrapping_sub(before.0) as isize as f64 / span;
             if span > 0.0 {

@@ -145,6 +145,7 @@ impl Network {
     /// Pixels with three neighbours or more make a junction, together with those they touch; pixels with one are
     /// ends. Nodes come in the order of their first pixels. O(pixels), radii on all threads.
     pub fn of(thinned: &Bitmap, ink: &Bitmap) -> Self {
+        // Number the thin pixels, with their neighbours and the width of ink around.
         let numbers = Numbers::of(thinned);
         let pixels = numbers.pixels();
         let neighbours: Vec<Neighbours> =
@@ -153,6 +154,8 @@ impl Network {
             .par_iter()
             .map(|[x, y]| (distance2(ink, *x, *y) as f64).sqrt() - 0.5)
             .collect();
+
+        // Note pixels from whose sides thinning took no ink.
         let is_taken = |x: i64, y: i64| ink.is_ink(x, y) && !thinned.is_ink(x, y);
         let bare = pixels
             .par_iter()
@@ -162,6 +165,8 @@ impl Network {
                 !beside.into_iter().any(|[x, y]| is_taken(x, y))
             })
             .collect();
+
+        // Make nodes of ends and forks, and walk the branches between them.
         let (nodes, node_of) = nodes(&neighbours);
         let is_alone = |pixel: &u32| neighbours[*pixel as usize].count == 0;
         let dots = (0..pixels.len() as u32).filter(is_alone).collect();
@@ -228,6 +233,8 @@ fn nodes(neighbours: &[Neighbours]) -> (Vec<Node>, Vec<u32>) {
         if node_of[seed] != NONE || matches!(neighbours[seed].count, 0 | 2) {
             continue;
         }
+
+        // Begin a node at an end or a fork.
         let number = nodes.len() as u32;
         node_of[seed] = number;
         let mut node = Node {
@@ -235,6 +242,8 @@ fn nodes(neighbours: &[Neighbours]) -> (Vec<Node>, Vec<u32>) {
             joints: Vec::new(),
             branches: Vec::new(),
         };
+
+        // Let it grow over forks side by side.
         let mut at = 0;
         while at < node.pixels.len() {
             let around = &neighbours[node.pixels[at] as usize];

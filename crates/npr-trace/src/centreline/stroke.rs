@@ -188,6 +188,8 @@ fn draw_back(points: &mut Vec<CentrePoint>, end: usize, by: f64) {
     if end == 0 {
         points.reverse();
     }
+
+    // Take points off until the length is used up.
     let mut left = by;
     while points.len() > 2 {
         let [before, last] =

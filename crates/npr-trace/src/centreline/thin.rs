@@ -36,6 +36,7 @@ pub fn thin(bitmap: &Bitmap) -> Bitmap {
     while !active.is_empty() {
         let mut changed = Vec::new();
         for side in SIDES {
+            // Take off what may go on one side, all at once.
             let taken: Vec<u64> = active
                 .par_iter()
                 .with_min_len(TASK_WORDS)
@@ -48,6 +49,8 @@ pub fn thin(bitmap: &Bitmap) -> Bitmap {
                 }
             }
         }
+
+        // Look next time only where something changed.
         active = ink.around(&changed, &mut mark);
     }
     ink.bitmap(bitmap)
@@ -134,6 +137,7 @@ impl Words {
 
     /// Words with ink in which something may have become removable, in order.
     fn around(&self, changed: &[usize], mark: &mut [u64]) -> Vec<usize> {
+        // Mark words around every change.
         for at in changed {
             for row in [at - self.stride, *at, at + self.stride] {
                 for word in row - 1..=row + 1 {
@@ -141,6 +145,8 @@ impl Words {
                 }
             }
         }
+
+        // List each of them once.
         let mut found = Vec::with_capacity(changed.len());
         for at in changed {
             for row in [at - self.stride, *at, at + self.stride] {

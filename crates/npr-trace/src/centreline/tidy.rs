@@ -100,6 +100,8 @@ impl Network {
             return None;
         };
         self.nodes[node as usize].branches.clear();
+
+        // A branch that returns to the node becomes a loose ring.
         if a == b {
             let branch = &mut self.branches[a as usize];
             branch.ends = [NONE; 2];
@@ -108,6 +110,8 @@ impl Network {
             }
             return None;
         }
+
+        // Else turn both so that one leads to the node and the other away.
         let mut first = std::mem::take(&mut self.branches[a as usize]);
         let mut second = std::mem::take(&mut self.branches[b as usize]);
         self.branches[b as usize].ends = [NONE; 2];
@@ -117,6 +121,8 @@ impl Network {
         if second.ends[1] == node {
             second.turn();
         }
+
+        // Append the other, and tell its far node.
         let shared = first.pixels.last() == second.pixels.first();
         first.pixels.extend(&second.pixels[usize::from(shared)..]);
         let far = second.ends[1];

@@ -53,6 +53,7 @@ impl Borders {
         scene: &ImageScene<'_>,
         occluder_depths: Option<&[f32]>,
     ) -> Self {
+        // Say what separates two pixels.
         let outline = Outline {
             crease_cos: scene.creases.cos,
             normal_cos: scene.creases.cos,
@@ -73,6 +74,8 @@ impl Borders {
             scene,
             occluder_depths,
         };
+
+        // Look at the left and the upper side of every pixel.
         let [width, height] = picture.size;
         let rows = (0..height).into_par_iter().map(|y| {
             let pixels = y * width..(y + 1) * width;
@@ -81,6 +84,8 @@ impl Borders {
             found.collect::<Vec<_>>()
         });
         let rows: Vec<Vec<Border>> = rows.collect();
+
+        // Take specks out while borders of all kinds close them in; then keep the kinds asked for.
         let mut borders = Self {
             size: picture.size,
             all: rows.concat(),

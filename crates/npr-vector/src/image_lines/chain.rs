@@ -121,6 +121,8 @@ impl Grid<'_> {
     fn walk(&self, start: u32, first: u32, taken: &mut [bool]) -> Chain {
         let mut stretch = Chain::default();
         let (mut corner, mut border) = (start, first);
+
+        // Go from border to border until corners where not exactly two meet.
         let closed = loop {
             taken[border as usize] = true;
             stretch.borders.push(border);
@@ -133,6 +135,8 @@ impl Grid<'_> {
                 _ => break around.len() == 2 && corner == start,
             }
         };
+
+        // Note which ends end in nothing.
         stretch.ends = [start, corner];
         stretch.closed = closed;
         stretch.free = stretch
@@ -269,11 +273,15 @@ impl Grid<'_> {
         let part = &parts[number as usize / 2];
         let borders = &part.chain.borders;
         let count = borders.len();
+
+        // Take the borders next to the corner.
         let first: Vec<&Border> = (0..count.min(ARM_BORDERS))
             .map(|k| if number & 1 == 0 { k } else { count - 1 - k })
             .map(|k| &self.borders.all[borders[k] as usize])
             .collect();
         let size = self.borders.size;
+
+        // Tell the direction in which they leave it.
         let places: Vec<DVec2> = first
             .iter()
             .map(|border| middle_of(size, border.side))
@@ -379,6 +387,7 @@ fn joined(parts: Vec<Part>) -> Vec<Chain> {
 
 /// The chain from an arm on.
 fn follow(parts: &[Part], start: u32, taken: &mut [bool]) -> Chain {
+    // Begin at the end of a part that has no partner, or anywhere on a ring.
     let first = &parts[start as usize / 2].chain;
     let end = start as usize % 2;
     let mut chain = Chain {
@@ -390,6 +399,7 @@ fn follow(parts: &[Part], start: u32, taken: &mut [bool]) -> Chain {
     let mut lengths: Vec<(Label, usize)> = Vec::new();
     let mut arm = start;
     loop {
+        // Append the borders of this part, in the direction of travel.
         let part = &parts[arm as usize / 2];
         let [here, there] = [arm as usize % 2, 1 - arm as usize % 2];
         taken[arm as usize / 2] = true;
@@ -399,6 +409,8 @@ fn follow(parts: &[Part], start: u32, taken: &mut [bool]) -> Chain {
         } else {
             chain.borders.extend(borders.rev());
         }
+
+        // Count borders by label; those of vague parts have no say.
         let weight = if part.is_vague {
             0
         } else {
@@ -411,6 +423,8 @@ fn follow(parts: &[Part], start: u32, taken: &mut [bool]) -> Chain {
             Some((_, length)) => *length += weight,
             None => lengths.push((part.chain.label, weight)),
         }
+
+        // Go on with the partner at the far end.
         chain.ends[1] = part.chain.ends[there];
         chain.free[1] = part.chain.free[there];
         arm = part.partners[there];
@@ -421,6 +435,8 @@ fn follow(parts: &[Part], start: u32, taken: &mut [bool]) -> Chain {
             break;
         }
     }
+
+    // Name the whole after the label of most of its length.
     let longest = lengths.iter().rev().max_by_key(|(_, length)| *length);
     chain.label = longest.map_or(first.label, |(label, _)| *label);
     chain

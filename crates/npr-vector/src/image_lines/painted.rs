@@ -63,6 +63,7 @@ pub fn painted_lines(
     lines: &LineInk,
     rule: &PaintedRule,
 ) -> LineInk {
+    // Ink what is painted with the usual reach, and with twice that.
     let with_reach = |reach_px: u32| {
         let rule = PaintedRule { reach_px, ..*rule };
         painted(picture, lightness, lines, &rule)
@@ -70,6 +71,8 @@ pub fn painted_lines(
     let is_ink = |ink: &LineInk| ink.owners.iter().map(|owner| *owner != NONE).collect();
     let mut wide = with_reach(2 * rule.reach_px);
     let [all, thin]: [Vec<bool>; 2] = [is_ink(&wide), is_ink(&with_reach(rule.reach_px))];
+
+    // Keep what is slender, and not only because it is seen at a grazing angle.
     if !all.is_empty() {
         let window = scene.window();
         let faces_eye = |pixel: &GPixel| {
@@ -115,12 +118,16 @@ pub fn painted(
     if width == 0 {
         return ink;
     }
+
+    // Make light lines dark ones.
     let negative: Vec<f32>;
     let mut lightness = lightness;
     if is_light {
         negative = lightness.par_iter().map(|light| 1.0 - light).collect();
         lightness = &negative;
     }
+
+    // Fill dark lines up to what lies beside them, and find the ground around.
     let object: Vec<u32> = picture.pixels.iter().map(|pixel| pixel.object).collect();
     let reach = rule.reach_px as usize;
     let closed = closed(lightness, &object, width, reach);
@@ -128,6 +135,8 @@ pub fn painted(
         true => means(lightness, &object, width, reach * GROUND as usize),
         false => Vec::new(),
     };
+
+    // Ink what is darker than what lies beside it and stands out from the ground.
     for pixel in 0..lightness.len() {
         let (here, beside) = (lightness[pixel], closed[pixel]);
         let stands_out = |ground: &f32| 2.0 * ground >= here + beside;
@@ -175,6 +184,8 @@ fn along_both<T: Copy + Send + Sync>(
     pick: impl Fn(T, T) -> T + Sync,
 ) -> Vec<T> {
     let height = values.len() / width;
+
+    // Combine each pixel with those of its object within reach, along one axis.
     let over = |from: &[T], across: bool| -> Vec<T> {
         let value = |pixel: usize| {
             let [at, count, step] = match across {
@@ -190,5 +201,7 @@ fn along_both<T: Copy + Send + Sync>(
         };
         (0..from.len()).into_par_iter().map(value).collect()
     };
+
+    // Rows first, then columns: together a square.
     over(&over(values, true), false)
 }

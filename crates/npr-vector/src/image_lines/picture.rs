@@ -94,9 +94,12 @@ impl SurfacePicture {
 
 /// The surface under every pixel, of the faces that are seen.
 fn resolved(scene: &ImageScene<'_>, faces: &[u32]) -> Vec<GPixel> {
+    // List the faces that are seen.
     let mut seen: Vec<u32> = faces.iter().copied().filter(|face| *face != NONE).collect();
     seen.par_sort_unstable();
     seen.dedup();
+
+    // Pose their corners as a frame does.
     let shape = scene.shape;
     let corner = |face: u32, k: usize| {
         let world = shape.positions[shape.faces[face as usize][k] as usize];
@@ -121,10 +124,14 @@ fn resolved(scene: &ImageScene<'_>, faces: &[u32]) -> Vec<GPixel> {
             part: shape.face_surfaces[*face as usize],
         })
         .collect();
+
+    // Number faces as the list has them.
     let ids: Vec<u32> = faces
         .par_iter()
         .map(|face| seen.binary_search(face).map_or(0, |slot| slot as u32 + 1))
         .collect();
+
+    // Resolve depth, normal and surface under every pixel.
     let mut pixels = vec![GPixel::EMPTY; faces.len()];
     if pixels.is_empty() {
         return pixels;

@@ -57,6 +57,7 @@ impl LineInk {
     ///
     /// [`BitmapError`] for pictures beyond its limit.
     pub fn runs(&self, (scene, projector, picture): On<'_>) -> Result<Vec<Run>, BitmapError> {
+        // Follow the ink along its middle.
         let mut bitmap = Bitmap::new(self.size[0], self.size[1])?;
         for y in 0..self.size[1] {
             for x in (0..self.size[0]).filter(|x| self.is_ink(*x, y)) {
@@ -64,6 +65,8 @@ impl LineInk {
             }
         }
         let lines = centrelines(&bitmap, &CentrelineOptions::default());
+
+        // Put the points of each stroke on the surface of the ink near them.
         let maker = Maker {
             paint: 1 + u64::from(self.is_light),
             scene,
@@ -96,10 +99,14 @@ impl Borders {
             projector,
             picture,
         };
+
+        // Link borders to chains, without rings so short that they are dots.
         let surface_of = |pixel: u32| picture.pixels[pixel as usize].part;
         let chains = chains(self, surface_of);
         let is_dot = |chain: &Chain| chain.closed && chain.borders.len() < LEAST_RING;
         let lines = chains.par_iter().filter(|chain| !is_dot(chain));
+
+        // Make a run of each chain that keeps enough points.
         let runs = lines.filter_map(|chain| {
             let found = self.along(chain, &maker);
             let is_enough = found.len() >= if chain.closed { 3 } else { 2 };
@@ -115,6 +122,7 @@ impl Borders {
 
     /// Smooth places along a chain, with what lies there: one for every border, and the ends of an open one.
     fn along(&self, chain: &Chain, maker: &Maker<'_>) -> Vec<Found> {
+        // Take the middles of the sides, and the corners at which an open chain ends.
         let borders = chain
             .borders
             .iter()
@@ -128,9 +136,13 @@ impl Borders {
             along.insert(0, start);
             along.push(end);
         }
+
+        // Smooth the stairs of the pixels.
         let places: Vec<DVec2> = along.iter().map(|(place, _)| *place).collect();
         let pinned = chain.free.map(|free| !free);
         let smooth = smooth_border(&places, chain.closed, pinned, CORNER);
+
+        // Put the points on the surface that owns the border.
         let found = smooth
             .into_iter()
             .zip(along)

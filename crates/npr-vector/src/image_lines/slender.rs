@@ -142,10 +142,14 @@ impl Patches {
             if kinds[first] == 0 || of_pixel[first] != 0 {
                 continue;
             }
+
+            // Begin a patch at a pixel that belongs to none.
             let patch = areas.len() as u32;
             areas.push(0);
             of_pixel[first] = patch;
             reached.push_back(first);
+
+            // Let it grow over neighbours of the same kind.
             while let Some(pixel) = reached.pop_front() {
                 areas[patch as usize] += 1;
                 for other in beside(pixel, width, count) {
@@ -199,8 +203,12 @@ fn depths(patches: &[u32], width: usize) -> Vec<f32> {
 /// and diagonal ones of 4/3 [Borgefors 1986].
 fn distances(patches: &[u32], width: usize, is_source: &dyn Fn(usize) -> bool) -> Vec<f32> {
     let count = patches.len();
+
+    // Start at the sources.
     let start = |pixel: usize| if is_source(pixel) { 0.0 } else { f32::INFINITY };
     let mut away: Vec<f32> = (0..count).map(start).collect();
+
+    // Lower a pixel to the shortest way by way of the neighbours that were visited already.
     let mut lower = |pixel: usize, forward: bool| {
         let (x, y) = (pixel % width, pixel / width);
         let steps: [(isize, isize, f32); 4] = [
@@ -220,6 +228,8 @@ fn distances(patches: &[u32], width: usize, is_source: &dyn Fn(usize) -> bool) -
             }
         }
     };
+
+    // Sweep forth and back, which reaches everything.
     (0..count).for_each(|pixel| lower(pixel, true));
     (0..count).rev().for_each(|pixel| lower(pixel, false));
     away

@@ -108,9 +108,13 @@ impl FaceTree {
         if !direction.is_finite() {
             return None;
         }
+
+        // Try the face that hid the place before.
         let is_hider =
             |face: &u32| !skip.contains(face) && hides(shape, *face, (eye, direction), sight.touch);
         let mut found = last.filter(is_hider);
+
+        // Look along the sight for another.
         if found.is_none() {
             self.along(eye, direction, |face| {
                 found = Some(face).filter(is_hider);

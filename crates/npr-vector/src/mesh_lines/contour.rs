@@ -115,6 +115,7 @@ pub fn facing(shape: &HalfEdgeMesh, eye: &Eye) -> Vec<u8> {
 /// Source: Hertzmann and Zorin's mesh contours; linking as in section 5.1-A of the method's description.
 /// O(faces + contour · valence).
 pub fn contours(shape: &HalfEdgeMesh, front: &[u8], eye: &Eye) -> CurveGraph {
+    // Gather the half-edges at which the front faces end.
     let half_edges: Vec<u32> = (0..shape.faces.len() as u32)
         .into_par_iter()
         .with_min_len(4096)
@@ -122,6 +123,8 @@ pub fn contours(shape: &HalfEdgeMesh, front: &[u8], eye: &Eye) -> CurveGraph {
         .flat_map_iter(|face| [3 * face, 3 * face + 1, 3 * face + 2])
         .filter(|half_edge| leaves_front(shape, front, *half_edge))
         .collect();
+
+    // Link each to the one that follows it around the front.
     let mut nodes: Vec<CurveNode> = half_edges
         .par_iter()
         .with_min_len(512)
@@ -130,6 +133,8 @@ pub fn contours(shape: &HalfEdgeMesh, front: &[u8], eye: &Eye) -> CurveGraph {
             node_of(shape, eye, *half_edge, index_of(&half_edges, next))
         })
         .collect();
+
+    // Link back.
     for index in 0..nodes.len() {
         let next = nodes[index].next as usize;
         nodes[next].prev = index as u32;

@@ -56,12 +56,15 @@ pub fn strokes(
     settings: &LineSettings,
     width_at: &(dyn Fn(u32) -> f32 + Sync),
 ) -> Vec<Stroke> {
+    // Find contours as seen from the eye.
     let contours = EdgeContours::new(shape, &eye_of(shape, projector));
     let smoke = None;
     let look = StrokeLook {
         width_at,
         paint_at: None,
     };
+
+    // Draw without a limit of memory.
     let settings = LineSettings {
         memory_limit: u64::MAX,
         ..settings.clone()
@@ -94,6 +97,8 @@ pub fn strokes_with(
         front,
         graph: edge_contours,
     } = contours;
+
+    // Gather the outlines that can hide something.
     let view = View {
         shape,
         prepared,
@@ -121,13 +126,19 @@ pub fn strokes_with(
             1
         },
     };
+
+    // Find what is seen of the contours.
     let wanted = settings.kinds | KindSet::MARKED;
     let contour_lines = view.lines(edge_contours, &seen, wanted, &mut toll)?;
+
+    // Put smooth contours in their place where the settings ask for them.
     let smooth_contours = view.smooth_contours(edge_contours, &contour_lines);
     let contour_runs = match &smooth_contours {
         Some((graph, lines)) => runs(shape, projector, graph, lines),
         None => runs(shape, projector, edge_contours, &contour_lines),
     };
+
+    // Suppress the mesh edges that smooth contours show already.
     let covered = smooth_contours.as_ref().map(|(graph, lines)| {
         let mut covered = suppressed_edges(graph, lines);
         covered.extend(edges_beside(lines, view.contour_features()));
@@ -138,6 +149,8 @@ pub fn strokes_with(
         covered: covered.unwrap_or_default(),
         ..view
     };
+
+    // Add features, polylines and intersections.
     let others = [
         &prepared.features,
         &prepared.polylines,
@@ -148,6 +161,8 @@ pub fn strokes_with(
         let lines = view.lines(graph, &seen, wanted, &mut toll)?;
         found.extend(runs(shape, projector, graph, &lines));
     }
+
+    // Make strokes, with the outline of smoke after them.
     let mut strokes = strokes_of_runs(found, shape, settings, look);
     if let Some(smoke) = smoke {
         let seen = Seen {

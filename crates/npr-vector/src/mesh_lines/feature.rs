@@ -64,6 +64,7 @@ pub fn kind_in_view(
 
 /// Which end of which candidate continues each end; `2 k` is the lower end of candidate `k`.
 fn mates(shape: &HalfEdgeMesh, candidates: &[(u32, u32)]) -> Vec<u32> {
+    // Bring the ends together that meet in a vertex.
     let mut meetings: Vec<(u32, u32, u32)> = candidates
         .iter()
         .enumerate()
@@ -74,6 +75,8 @@ fn mates(shape: &HalfEdgeMesh, candidates: &[(u32, u32)]) -> Vec<u32> {
         })
         .collect();
     meetings.par_sort_unstable();
+
+    // Pair two, and of more those that go on straightest.
     let mut mates = vec![NONE; 2 * candidates.len()];
     for meeting in meetings.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
         match meeting {
@@ -161,8 +164,11 @@ fn walk(
     let first = nodes.len() as u32;
     let mut end = start;
     loop {
+        // Add the start of this edge.
         used[end as usize / 2] = true;
         nodes.push(node_at(shape, candidates, end, nodes.len() as u32));
+
+        // End the line where no edge goes on.
         let far = end ^ 1;
         let mate = mates[far as usize];
         if mate == NONE {
@@ -173,6 +179,8 @@ fn walk(
             nodes.push(CurveNode { next: NONE, ..tail });
             break;
         }
+
+        // Close it where it comes back to its start.
         if used[mate as usize / 2] {
             let last = nodes.len() as u32 - 1;
             nodes[last as usize].next = first;

@@ -71,9 +71,12 @@ impl CurveGraph {
     pub fn chains(&self) -> Vec<Vec<u32>> {
         let nodes = &self.nodes;
         let mut seen = vec![false; nodes.len()];
+
+        // Begin with open chains; what is left then are loops.
         let starts = (0..nodes.len() as u32).filter(|node| nodes[*node as usize].prev == NONE);
         let mut chains = Vec::new();
         for start in starts.chain(0..nodes.len() as u32) {
+            // Follow the links, without the last node of an open chain, which begins no piece.
             let mut chain = Vec::new();
             let mut at = start;
             while at != NONE && !seen[at as usize] {

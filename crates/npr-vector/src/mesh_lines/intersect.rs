@@ -96,11 +96,14 @@ pub fn crossings(
     tree: &FaceTree,
     budget: &mut Budget,
 ) -> Result<Crossings, OverBudget> {
+    // Find pairs of faces that overlap.
     let limit = PAIRS + PAIRS_PER_FACE * shape.faces.len();
     let bytes = size_of::<[u32; 2]>() + size_of::<Segment>() + 2 * size_of::<Piercing>();
     let found = pairs::find(shape, tree, limit, &mut |count| {
         budget.take("pairs of faces that overlap", count, bytes)
     })?;
+
+    // Cut each pair, and note where edges go through faces.
     let mut segments: Vec<Segment> = found
         .pairs
         .par_iter()
@@ -108,10 +111,14 @@ pub fn crossings(
         .collect();
     let piercings = piercings(&segments);
     segments.retain(|segment| !segment.contact);
+
+    // Give up intersections so dense that nobody could read them.
     let is_dense = segments.len() > PIECES + PAIRS_PER_FACE * shape.faces.len();
     if is_dense {
         segments.clear();
     }
+
+    // Link what is left.
     segments.par_sort_unstable_by_key(|segment| segment.faces);
     Ok(Crossings {
         graph: link::link(shape, &segments),

@@ -96,6 +96,8 @@ impl End {
         if run.closed || run.cut[end % 2] {
             return None;
         }
+
+        // Look back along the line for its direction.
         let from_end = |i: usize| match end % 2 {
             0 => &run.points[i],
             _ => &run.points[run.points.len() - 1 - i],
@@ -105,6 +107,8 @@ impl End {
             .map(from_end)
             .find(|point| distance(point.place, tip.place) >= DIRECTION_PX)
             .unwrap_or(from_end(run.points.len() - 1));
+
+        // Leave out ends without one.
         let length = distance(inner.place, tip.place);
         (length > 1e-6).then(|| Self {
             place: tip.place,
@@ -124,6 +128,7 @@ pub(crate) fn near_ends(runs: &[Run], reach_px: f64) -> Vec<[usize; 2]> {
 
 /// Pairs of ends up to `reach_px` apart, the lower number first.
 fn near_pairs(ends: &[Option<End>], reach_px: f64) -> Vec<[usize; 2]> {
+    // Sort ends into cells as large as the reach, without those so full that nothing could be told.
     let mut cells: BTreeMap<[i64; 2], Vec<(usize, &End)>> = BTreeMap::new();
     for (index, end) in ends.iter().enumerate() {
         if let Some(end) = end {
@@ -132,6 +137,8 @@ fn near_pairs(ends: &[Option<End>], reach_px: f64) -> Vec<[usize; 2]> {
         }
     }
     cells.retain(|_, members| members.len() <= ENDS_MOST);
+
+    // Compare each cell with half of those around it, so that every pair is met once.
     let mut pairs = Vec::new();
     for (cell, members) in &cells {
         for step in [[0, 0], [1, 0], [-1, 1], [0, 1], [1, 1]] {

@@ -68,11 +68,15 @@ impl Near {
         if run.closed || run.cut[usize::from(at_tail)] || length < LEAST_LEFT_PX + 2.0 * DOT_PX {
             return 0;
         }
+
+        // Tips that touch another line are no overshoot.
         let last = run.points.len() - 1;
         let place = |i: usize| run.points[if at_tail { last - i } else { i }].place;
         if self.others(place(0), index).next().is_some() {
             return 0;
         }
+
+        // Look for the last place near the tip at which another line ends.
         let mut from_tip = 0.0;
         let mut spur = 0;
         for i in 1..=last {

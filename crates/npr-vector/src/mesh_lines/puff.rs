@@ -101,6 +101,7 @@ impl Occluders for Puffs {
     /// Where the image of the piece crosses the silhouette of a puff, and where the piece goes through the sphere.
     /// O(puffs around it).
     fn cuts(&self, piece: &Piece) -> Vec<f64> {
+        // Enclose the image of the piece.
         let ends = piece.world.map(|world| self.projector.from_eye(world));
         let [a, b] = piece.place;
         let corners = [
@@ -109,6 +110,8 @@ impl Occluders for Puffs {
             a[0].max(b[0]),
             a[1].max(b[1]),
         ];
+
+        // Cut it at every sphere whose image it may touch.
         let mut cuts = Vec::new();
         self.grid.visit(corners, |index| {
             let puff = &self.puffs[index as usize];
@@ -120,6 +123,8 @@ impl Occluders for Puffs {
             }
             true
         });
+
+        // Turn shares in space into shares of the image.
         let in_image = |t: f64| self.projector.image_share(t, piece.depth);
         cuts.retain(|t| (0.0..=1.0).contains(t));
         cuts.iter_mut().for_each(|t| *t = in_image(*t));

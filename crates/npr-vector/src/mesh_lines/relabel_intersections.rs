@@ -17,6 +17,8 @@ pub fn relabel_intersections(mut runs: Vec<Run>) -> Vec<Run> {
     if runs.iter().all(|run| run.kind != Kind::Intersection) {
         return runs;
     }
+
+    // Find at each end of an intersection the strongest line that touches it.
     let mut stronger: Vec<[Option<(Kind, u32)>; 2]> = vec![[None; 2]; runs.len()];
     for [a, b] in near_ends(&runs, TOUCHING_PX) {
         let (run_a, run_b) = (&runs[a / 2], &runs[b / 2]);
@@ -33,6 +35,8 @@ pub fn relabel_intersections(mut runs: Vec<Run>) -> Vec<Run> {
         let offered = (other.kind, other.surface);
         *found = Some(found.map_or(offered, |before| before.min(offered)));
     }
+
+    // A dot between two such lines becomes one of them.
     for (run, sides) in runs.iter_mut().zip(stronger) {
         if let [Some(a), Some(b)] = sides
             && run.length() < DOT_PX

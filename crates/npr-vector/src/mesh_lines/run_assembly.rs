@@ -50,6 +50,7 @@ pub fn runs(
 ) -> Vec<Run> {
     let mut found = Vec::new();
     for mut chain in graph.chains() {
+        // Start loops where the mesh says, not where the list does.
         if graph.is_loop(&chain) {
             start_at_anchor(graph, &mut chain);
         }
@@ -61,12 +62,16 @@ pub fn runs(
             projector,
             graph,
         };
+
+        // A loop that nothing interrupts becomes a closed run.
         if breaks.is_empty() && !items.is_empty() {
             let mut run = maker.run(&items, true);
             start_at_head(&mut run);
             found.push(run);
             continue;
         }
+
+        // Else every part between two breaks becomes an open one.
         for (i, from) in breaks.iter().enumerate() {
             let to = breaks
                 .get(i + 1)
@@ -76,6 +81,8 @@ pub fn runs(
             found.push(maker.run(&part, false));
         }
     }
+
+    // Tell apart runs on one edge, and leave out what has too few points.
     number(&mut found);
     found.retain(|run| run.points.len() >= if run.closed { 3 } else { 2 });
     found
@@ -134,10 +141,13 @@ fn items<'a>(
 fn close_gaps(items: &mut [Item<'_>]) {
     let mut from = 0;
     while from < items.len() {
+        // Take the stretch that goes on without a change.
         let mut to = from + 1;
         while to < items.len() && items[to].continues(&items[to - 1]) {
             to += 1;
         }
+
+        // Show it where it is hidden, too short to see, and enclosed by visible ones.
         let length: f64 = items[from..to].iter().map(Item::length).sum();
         let enclosed = from > 0
             && to < items.len()
@@ -231,12 +241,15 @@ impl Maker<'_> {
     }
 
     fn point(&self, item: &Item<'_>, share: f64) -> RunPoint {
+        // Find the point in the world.
         let piece = &item.line.piece;
         let node = &self.graph.nodes[item.node as usize];
         let other = &self.graph.nodes[node.next as usize];
         let world = piece.world_at(self.projector, share);
         let [from, to] = piece.range;
         let along = from + (to - from) * self.projector.world_share(share, piece.depth);
+
+        // Name it by the nearer mesh edge.
         let (edge, t) = if node.is_along_edge() {
             (
                 node.edge,

@@ -50,6 +50,8 @@ pub fn smoothed(points: &[RunPoint], closed: bool) -> Vec<RunPoint> {
     if points.is_empty() {
         return Vec::new();
     }
+
+    // Sample the line evenly between its corners.
     let corners: Vec<usize> = corners(points, closed, PINNED_COS)
         .iter()
         .map(|corner| corner.point)
@@ -58,12 +60,16 @@ pub fn smoothed(points: &[RunPoint], closed: bool) -> Vec<RunPoint> {
     if samples.len() < 4 {
         return samples;
     }
+
+    // Relax the samples; corners stay.
     let mut places: Vec<[f64; 2]> = samples.iter().map(|sample| sample.place).collect();
     if closed && pins.is_empty() {
         relax_loop(&mut places);
     } else {
         relax_between(&mut places, closed, pins);
     }
+
+    // Everything but the place stays.
     samples
         .iter()
         .zip(places)
@@ -121,6 +127,7 @@ fn resampled(points: &[RunPoint], closed: bool, corners: &[usize]) -> (Vec<RunPo
 
 /// Adds points at equal distances along a polyline, its end included; its start is there already.
 fn push_even(path: &[RunPoint], samples: &mut Vec<RunPoint>) {
+    // Choose a count of even steps.
     let steps = path
         .windows(2)
         .map(|pair| distance(pair[0].place, pair[1].place));
@@ -132,6 +139,7 @@ fn push_even(path: &[RunPoint], samples: &mut Vec<RunPoint>) {
     let (mut passed, mut segment) = (0.0, 0);
     let mut leaps = Leaps::new(path);
     for k in 1..count {
+        // Walk to the next step.
         let target = length * k as f64 / count as f64;
         let mut span = distance(path[segment].place, path[segment + 1].place);
         while passed + span < target && segment + 2 < path.len() {
@@ -139,6 +147,8 @@ fn push_even(path: &[RunPoint], samples: &mut Vec<RunPoint>) {
             segment += 1;
             span = distance(path[segment].place, path[segment + 1].place);
         }
+
+        // Sample there, and carry over the leaps that were passed.
         let share = if span > 0.0 {
             ((target - passed) / span).clamp(0.0, 1.0)
         } else {
@@ -188,6 +198,8 @@ impl<'a> Leaps<'a> {
 pub(crate) fn between(a: &RunPoint, b: &RunPoint, share: f64) -> RunPoint {
     let mix = |p: f64, q: f64| p + (q - p) * share;
     let nearer = if share < 0.5 { a } else { b };
+
+    // Across a leap nothing is mixed but what the picture shows.
     if a.leaps {
         return RunPoint {
             place: [0, 1].map(|i| mix(a.place[i], b.place[i])),

@@ -47,8 +47,11 @@ pub(crate) fn edges_beside(
     lines: &[Option<Line>],
     edges: impl Iterator<Item = (u32, Piece)>,
 ) -> Vec<u32> {
+    // Sort what is seen of contours into a grid.
     let seen: Vec<Piece> = lines.iter().flatten().flat_map(seen_parts).collect();
     let grid = SegmentGrid::new(seen.iter().map(|part| part.place).collect(), 8.0);
+
+    // Compare an edge with it at a few places, by distance, depth and direction.
     let is_beside = |piece: &Piece| {
         let near = |share: &f64| {
             let depth = piece.depth[0] + (piece.depth[1] - piece.depth[0]) * share;

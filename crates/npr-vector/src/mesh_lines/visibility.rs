@@ -108,6 +108,7 @@ impl OutlineGrid {
     }
 
     fn fill(&mut self, budget: &mut Budget) -> Result<(), OverBudget> {
+        // Count the outlines of every cell.
         let mut counts = vec![0_u32; self.columns * self.rows + 1];
         for outline in &self.outlines {
             self.cells_of(outline, |cell| counts[cell + 1] += 1);
@@ -117,6 +118,8 @@ impl OutlineGrid {
         }
         let count = counts[counts.len() - 1] as usize;
         budget.take("outlines in the picture", count, size_of::<u32>())?;
+
+        // List them, cell after cell.
         let mut entries = vec![0; count];
         let mut cursor = counts.clone();
         for (index, outline) in self.outlines.iter().enumerate() {
@@ -277,6 +280,7 @@ impl Seen<'_> {
         left_out: &[[f64; 2]],
         memory: &mut Memory,
     ) -> Vec<Span> {
+        // Count the faces in front where they are few.
         let images = self.images;
         let most = (piece.length() / PX_PER_COUNTED) as usize;
         if self.count_limit > 1 && left_out.is_empty() && self.extra.is_none() {
@@ -285,6 +289,8 @@ impl Seen<'_> {
                 return joined(counted(&parts, self.count_limit), piece);
             }
         }
+
+        // Else tell visible from hidden, and look for smoke before what no face hides.
         let mut ends = vec![0.0];
         let hidden = images.hidden_parts(self, piece, circumstances, left_out, &mut memory.tried);
         ends.extend(hidden.as_flattened());
@@ -353,6 +359,8 @@ impl Seen<'_> {
         let sight = self.sight(point, circumstances);
         let own = &circumstances.own_faces;
         let in_smoke = u32::from(self.extra.is_some_and(|extra| extra.hide(point)));
+
+        // Where visible or hidden is all that matters, one hider is enough.
         if self.count_limit == 1 {
             if in_smoke == 1 {
                 return 1;
@@ -361,6 +369,8 @@ impl Seen<'_> {
             *last = hider.or(*last);
             return u32::from(hider.is_some());
         }
+
+        // Else count what the sight goes through.
         let faces = self
             .tree
             .occluders(self.shape, &sight, own, self.count_limit);
@@ -424,8 +434,11 @@ fn joined(spans: Vec<Span>, piece: &Piece) -> Vec<Span> {
 fn without(spans: &[Span], parts: &[[f64; 2]]) -> Vec<Span> {
     let mut left = Vec::with_capacity(spans.len());
     for span in spans {
+        // Find the parts that lie in the span.
         let first = parts.partition_point(|part| part[1] <= span.from);
         let inside = parts[first..].iter().take_while(|part| part[0] < span.to);
+
+        // Keep what lies between them.
         let mut from = span.from;
         for part in inside {
             if from < part[0] {

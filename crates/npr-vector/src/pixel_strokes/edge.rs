@@ -94,11 +94,15 @@ pub fn drawn_edges(
     let is_lined =
         |surface: u32| is_drawn.is_empty() || is_drawn.get(surface as usize) == Some(&true);
     let has_lines = |side: &u32| is_lined(shape.face_surfaces[*side as usize / 3]);
+
+    // Polylines stand behind the edges of faces, which come first.
     let polylines = shape.polylines.iter().zip(&shape.polyline_surfaces);
     let polylines = polylines.map(|(ends, surface)| match is_lined(*surface) {
         true => DrawnEdge::of_wire(*ends),
         false => DrawnEdge::nothing(),
     });
+
+    // Note for each edge what no view changes.
     let mut edges: Vec<DrawnEdge> = (0..shape.edge_count() as u32)
         .into_par_iter()
         .with_min_len(4096)

@@ -287,6 +287,8 @@ pub fn smooth_loops(
     let outputs = vectors_out.par_iter_mut().with_min_len(256).enumerate();
     outputs.for_each(|(element, vector)| {
         let spot = spots[element];
+
+        // Sum up a window around the loop.
         let mut at = spot.back(element as u32, filter.radius);
         let mut mean = Planar::default();
         for step in 0..2 * filter.radius + 1 {
@@ -296,6 +298,8 @@ pub fn smooth_loops(
             mean.y += weight * there.y;
             at = spot.after(at);
         }
+
+        // Directions become as long as 1 again.
         *vector = if filter.unit != 0 { mean.unit() } else { mean };
     });
 }
@@ -367,6 +371,8 @@ pub fn fit_tangents(
         let spot = spots[element];
         let here = places[element];
         let mut normal = Normal::default();
+
+        // Walk both ways along the loop.
         for sign in [1.0_f32, -1.0] {
             let mut at = element as u32;
             let mut last = here;
@@ -377,6 +383,8 @@ pub fn fit_tangents(
                 } else {
                     spot.before(at)
                 };
+
+                // Fit a line to places by their distance along it.
                 let there = places[at as usize];
                 let (dx, dy) = (there.x - last.x, there.y - last.y);
                 s += (dx * dx + dy * dy).sqrt();

@@ -205,6 +205,7 @@ pub fn project_edges(on: &Drawn<'_>, segments: &mut [Segment], counts: &mut [u32
 
 impl Drawn<'_> {
     fn segment_of(&self, number: u32) -> Option<Segment> {
+        // Direct the edge so that its surface lies on one side.
         let edge = self.edges[number as usize];
         let mark = self.marks[number as usize];
         let is_reversed = EdgeFlags::REVERSED.is_in(mark);
@@ -213,6 +214,8 @@ impl Drawn<'_> {
         } else {
             [edge.tail, edge.head]
         };
+
+        // Cut it to the view, and find its ends in the picture.
         let [a, b] = ends.map(|vertex| self.clip(vertex));
         let [enter, leave] = kept(a, b)?;
         let from = self.place(between(a, b, enter));

@@ -111,6 +111,7 @@ pub fn rank_strips(
     firsts: &[u32],
     strips: &mut [StripSpot],
 ) {
+    // Find where the last strip up to a side starts.
     let last_start = |element: u32| {
         let started = slots[element as usize] + flags[element as usize];
         if started == 0 {
@@ -126,6 +127,7 @@ pub fn rank_strips(
         strip.start = NONE;
         strip.rank = 0;
         if kept[element as usize] != 0 {
+            // Go back around the loop where none has started in it yet.
             let is_in_loop = |start: u32| start != NONE && start >= spot.start;
             let mut start = last_start(element);
             if !is_in_loop(start) {
@@ -134,6 +136,8 @@ pub fn rank_strips(
             if !is_in_loop(start) {
                 start = spot.start;
             }
+
+            // Count from there.
             strip.start = start;
             strip.rank = if element >= start {
                 element - start

@@ -50,6 +50,8 @@ impl Loops {
             kept: vec![0; count],
             strips: Strips::default(),
         };
+
+        // Gather the sides in their order around the ink.
         let mut areas = vec![0; count];
         let on = Ordered {
             width: traced.size[0],
@@ -66,6 +68,8 @@ impl Loops {
             areas: &mut areas,
         };
         gather_sides(&on, into);
+
+        // Drop specks, then smooth and cut what is left.
         let (sums, _) = exclusive_scan(&areas);
         drop_specks(
             &SpeckRule::of(path),
@@ -87,16 +91,22 @@ impl Loops {
             smooth_loops(filter, weights, spots, from, &mut to);
             to
         };
+
+        // Smooth the stairs of the pixels.
         let of_places = Filter::of_places(path);
         let raw = self.places.clone();
         for _ in 0..path.smooth_passes {
             self.places = smoothed(&of_places, &self.places);
         }
+
+        // Fit tangents to that; strokes go through the smoothed places or the raw ones.
         let (fit, tent) = Filter::of_fit(path);
         fit_tangents(&fit, &tent, spots, &self.places, &mut self.tangents);
         if !path.smooth_places {
             self.places = raw;
         }
+
+        // Smooth tangents and directions.
         let of_tangents = Filter::of_tangents(path);
         for _ in 0..path.tangent_passes {
             self.tangents = smoothed(&of_tangents, &self.tangents);
@@ -185,6 +195,7 @@ struct Maker<'a> {
 
 impl Maker<'_> {
     fn run(&self, sides: &[u32], closed: bool) -> Option<Run> {
+        // Put the sides on the surface, and count what they show.
         let mut points: Vec<RunPoint> = Vec::with_capacity(sides.len());
         let mut kinds: BTreeMap<u32, usize> = BTreeMap::new();
         let mut surfaces: BTreeMap<u32, usize> = BTreeMap::new();
@@ -198,8 +209,12 @@ impl Maker<'_> {
                 points.push(point);
             }
         }
+
+        // Let most of them say what the stroke is.
         let kind = kind_of(most_common(&kinds)?)?;
         let surface = most_common(&surfaces)?;
+
+        // Hang its identity on the mesh edge with the least hash.
         let anchor = |point: &RunPoint| (hash_key(point.edge), point.edge);
         let (_, edge) = points.iter().map(anchor).min()?;
         let is_enough = points.len() >= if closed { 3 } else { 2 };
@@ -229,12 +244,15 @@ impl Maker<'_> {
 
     /// The point of a run at a side, and the segment that it belongs to.
     fn point(&self, element: u32) -> Option<(&Segment, RunPoint)> {
+        // Find the segment that inked the pixel.
         let traced = self.traced;
         let side = traced.sides[traced.order[element as usize] as usize];
         let pixel = (side / 4) as usize;
         let segment = traced
             .segments
             .get(traced.owners[pixel].checked_sub(1)? as usize)?;
+
+        // Put the smoothed place at its depth.
         let place = self.loops.places[element as usize];
         let place = [f64::from(place.x), f64::from(place.y)];
         let depth = f64::from(traced.view.depth_of(f32::from_bits(traced.nearest[pixel])));

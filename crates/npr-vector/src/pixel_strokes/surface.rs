@@ -44,6 +44,8 @@ pub(crate) fn fill(
 ) -> (Vec<u32>, Vec<u32>) {
     let frame_px = view.size.map(|side| side as f32);
     let count = view.size[0] as usize * view.size[1] as usize;
+
+    // Take all faces, seen from both sides.
     let triangles: Vec<Triangle> = faces
         .iter()
         .map(|corners| Triangle {
@@ -60,6 +62,8 @@ pub(crate) fn fill(
         clip_of: |vertex: u32| apply_point(&view.clip_from_world, position(vertex)),
         keep: |_, _, _| true,
     };
+
+    // Fill the pixels with the nearest.
     let (mut ids, mut depths) = (vec![0; count], vec![0; count]);
     fill_triangles(&fill, &mut ids, &mut depths);
     (ids, depths)

@@ -77,14 +77,20 @@ pub(super) fn jump_all(
     rounds: u32,
 ) -> Jumped {
     let rounds = rounds.min(u32::BITS);
+
+    // Find the head of every chain.
     let mut settled = first.clone();
     let mut other_reach = first.clone();
     for _ in 0..rounds {
         break_loops(extent, &settled, &mut other_reach);
         std::mem::swap(&mut settled, &mut other_reach);
     }
+
+    // Cut loops before their heads.
     let mut other_hops = hops.clone();
     cut_loops(extent, &first, &settled, &hops, &mut other_hops);
+
+    // Count the links back to the head.
     let (mut hops, mut other_hops) = (other_hops, hops);
     for _ in 0..rounds {
         rank_jump(extent, &hops, &mut other_hops);

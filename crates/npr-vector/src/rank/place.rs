@@ -69,20 +69,28 @@ pub(super) fn finish(
         settled,
         hops,
     } = jumped;
+
+    // Pass ranks on to all nodes, and refuse them where rounds were too few.
     scatter_ranks(walks, first, settled, hops, &mut places, &mut unsettled);
     let (_, count) = exclusive_scan(&unsettled);
     if count != 0 {
         let count = count as usize;
         return Err(RankError::Unsettled { count, rounds });
     }
+
+    // Count from the heads.
     let mut lengths = vec![0; node_count];
     measure_chains(links, &places, &mut lengths);
     let mut standings = vec![Standing::default(); node_count];
     let (mut sizes, mut heads) = (vec![0; node_count], vec![0; node_count]);
     turn_ranks(&places, &lengths, &mut standings, &mut sizes, &mut heads);
+
+    // Put chains one behind the other.
     let (starts, _) = exclusive_scan(&sizes);
     let mut order = vec![0; node_count];
     order_nodes(&standings, &starts, &mut order);
+
+    // List the heads.
     let (slots, count) = exclusive_scan(&heads);
     let mut chains = vec![0; count as usize];
     compact(&heads, &slots, &mut chains);
@@ -107,12 +115,15 @@ pub fn scatter_ranks(
         .par_iter()
         .zip(outputs)
         .for_each(|(walk, (place, unsettled))| {
+            // Nothing is known until the element says it.
             place.head = NONE;
             place.offset = 0;
             *unsettled = 1;
             if walk.slot == NONE {
                 return;
             }
+
+            // Ask the element that the node hangs on.
             let slot = walk.slot as usize;
             let (head, hop) = (settled[slot].least, hops[slot]);
             let is_common = settled[first[slot].far as usize].least == head;
@@ -149,6 +160,7 @@ pub fn turn_ranks(
     outputs
         .enumerate()
         .for_each(|(element, ((standing, size), is_head))| {
+            // Move the start from the cut to the head, around the loop.
             let place = places[element];
             let head = (place.head as usize).min(places.len() - 1);
             let (length, from) = (lengths[head], places[head].offset);
@@ -160,6 +172,8 @@ pub fn turn_ranks(
                     .wrapping_sub(from)
                     .wrapping_add(if wraps { length } else { 0 });
             standing.length = length;
+
+            // Let heads alone tell the length.
             *is_head = u32::from(place.head as usize == element);
             *size = if *is_head != 0 { length } else { 0 };
         });

@@ -14,6 +14,7 @@ use npr_core::geometry::NONE;
 ///
 /// [`RankError`] where `next` does not describe lists.
 pub fn walk(next: &[u32], keys: &[u32]) -> Result<Ranked, RankError> {
+    // Elect the heads.
     let links = link(next, keys)?;
     let heads = elect_heads(&links);
     let mut ranked = Ranked {
@@ -24,6 +25,7 @@ pub fn walk(next: &[u32], keys: &[u32]) -> Result<Ranked, RankError> {
         starts: Vec::with_capacity(heads.len() + 1),
     };
     for head in heads {
+        // Follow each chain, and count.
         let start = ranked.order.len();
         ranked.starts.push(start as u32);
         ranked.order.extend(chain_from(&links, head));

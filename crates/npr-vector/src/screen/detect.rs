@@ -167,6 +167,8 @@ impl<'a> Detector<'a> {
         if here.part == NONE && there.part == NONE {
             return 0;
         }
+
+        // Compare what the pixels show.
         let mut found = 0;
         if here.object != there.object {
             found |= Outline::OBJECT_ID;
@@ -174,12 +176,16 @@ impl<'a> Detector<'a> {
         if here.material != there.material {
             found |= Outline::MATERIAL_ID;
         }
+
+        // Against the background everything differs.
         if here.part == NONE || there.part == NONE {
             return (found | Outline::DEPTH | Outline::NORMAL) & outline.detects;
         }
         if self.jumps(here, there, step) {
             found |= Outline::DEPTH;
         }
+
+        // Compare normals, unless they are all but equal.
         let quiet = here.part == there.part
             && packed_distance(here.normal, there.normal) < self.quiet_distance;
         if !quiet {

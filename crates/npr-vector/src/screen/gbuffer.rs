@@ -52,6 +52,7 @@ impl Surfaces<'_> {
     /// Weights change linearly over the picture before they are divided by their sum; of the two sums that make the
     /// coordinate, one is constant.
     fn plane_step(&self, clip: [[f32; 4]; 3], depths: [f32; 3], ndc: [f32; 2]) -> [f32; 2] {
+        // Set up the weights of the corners, and how they change from pixel to pixel.
         let [a, b, c] = clip.map(|v| offset_from(v, ndc));
         let [wa, wb, wc] = clip.map(|v| v[3]);
         let weights = [cross(b, c), cross(c, a), cross(a, b)];
@@ -65,6 +66,8 @@ impl Surfaces<'_> {
             wc * a[0] - wa * c[0],
             wa * b[0] - wb * a[0],
         ];
+
+        // Divide out perspective.
         let parallel = self.view.perspective < 0.5;
         let (top, bottom) = if parallel {
             (
@@ -83,6 +86,8 @@ impl Surfaces<'_> {
         if bottom == 0.0 {
             return [0.0; 2];
         }
+
+        // Turn changes over the view into changes over a pixel.
         let (step, frame) = (self.window.frame_step, self.view.frame_px);
         [
             top[0] / bottom * (2.0 * step[0] / frame[0]),
@@ -92,6 +97,7 @@ impl Surfaces<'_> {
 
     /// The pixel of a triangle at a point of the frame.
     fn pixel_of_triangle(&self, triangle: u32, frame_px: [f32; 2]) -> GPixel {
+        // Weigh the corners under the pixel.
         let view = self.view;
         let triangle = &self.triangles[triangle as usize];
         let corners = triangle.corners.map(|v| &self.posed[v as usize]);
@@ -99,6 +105,8 @@ impl Surfaces<'_> {
         let depths = corners.map(|v| v.depth);
         let ndc = view.ndc_at(frame_px);
         let weights = weights_at(clip, ndc);
+
+        // Take the normal of the face where a part shows its folds, else blend normals.
         let part = &self.parts[triangle.part as usize];
         let normal = if part.flags & Part::FOLDS != 0 {
             face_normal(corners.map(|v| v.world))

@@ -72,6 +72,7 @@ pub fn find(on: &Search<'_>, stamps: &mut [Stamp]) {
 
 impl Search<'_> {
     fn stamp_at(&self, x: u32, y: u32) -> Option<Stamp> {
+        // Take pixels that own a line of a surface with lines.
         let element = (y * self.mask_window.size[0] + x) as usize;
         let (found, pixel) = (self.mask[element], &self.gbuffer[element]);
         if found & MASK_OWNER == 0 || pixel.part == NONE {
@@ -83,6 +84,8 @@ impl Search<'_> {
         if found & BETWEEN == 0 && !self.runs_on([x, y], pixel) {
             return None;
         }
+
+        // Stamp the line where no ribbon inked it.
         let (middle, toward) = (self.mask_window.frame_at(x, y), toward_line(found));
         let center: [f32; 2] =
             std::array::from_fn(|i| middle[i] + toward[i] * self.mask_window.frame_step[i]);
@@ -352,10 +355,13 @@ impl Inking<'_> {
     }
 
     fn texel(&self, px: [f32; 2]) -> u32 {
+        // Look only where stamps may reach.
         let (low, high) = self.reachable(px);
         if !self.any_stamp(low, high) {
             return 0;
         }
+
+        // Let the stamp that covers most ink the place.
         let (mut best, mut part, mut center) = (0.0, NONE, [0.0; 2]);
         for y in low[1]..=high[1] {
             let row = (y * self.mask_window.size[0]) as usize;
@@ -373,6 +379,8 @@ impl Inking<'_> {
         if part == NONE {
             return 0;
         }
+
+        // Tint it as the lines of its surface.
         let tints = LineTints {
             mask_window: self.mask_window,
             tints: self.tints,

@@ -117,12 +117,16 @@ pub fn draw(
 ) {
     let width = with.window.size[0] as usize;
     let height = with.window.size[1] as usize;
+
+    // Project the edges that have a kind.
     let spines: Vec<Spine> = edges
         .par_iter()
         .zip(kinds)
         .with_min_len(4096)
         .filter_map(|(edge, kind)| with.spine(edge, *kind))
         .collect();
+
+    // Sort them into bands of rows, in their order.
     let mut bands = vec![Vec::new(); height.div_ceil(BAND_ROWS)];
     for (i, spine) in spines.iter().enumerate() {
         if let Some((top, bottom)) = spine.rows(with.window) {
@@ -131,6 +135,8 @@ pub fn draw(
             }
         }
     }
+
+    // Draw each band on a thread of its own.
     let rows = BAND_ROWS * width;
     let targets = layer.par_chunks_mut(rows).zip(keys.par_chunks_mut(rows));
     targets
@@ -198,10 +204,13 @@ fn centers_between(low: f32, high: f32, window: &Window, axis: usize) -> Option<
 impl Drawing<'_> {
     /// An edge in frame pixels; `None` where it is of no kind or behind the eye.
     fn spine(&self, edge: &Edge, kind: u32) -> Option<Spine> {
+        // Leave out edges without a kind, and those behind the near plane.
         let [first, second] = edge.ends.map(|v| &self.posed[v as usize]);
         if kind == 0 || first.depth.max(second.depth) <= self.view.near {
             return None;
         }
+
+        // Cut it at the near plane.
         let (a, half_a, depth_a) = self.end_of(first, second);
         let (b, half_b, depth_b) = self.end_of(second, first);
         let ribbon = Ribbon {
@@ -210,6 +219,8 @@ impl Drawing<'_> {
             half_a,
             half_b,
         };
+
+        // Let it run along its own direction.
         let part = self.triangles[edge.faces[0] as usize].part;
         let along = [b[0] - a[0], b[1] - a[1]];
         let length = (along[0] * along[0] + along[1] * along[1]).sqrt().max(1e-6);

@@ -151,6 +151,8 @@ pub struct Marked<'a> {
 /// Where there are more than `nodes` has room for, what is there is of no use.
 pub fn link_contours(on: &Marked<'_>, nodes: &mut [CurveNode]) {
     let count = (on.extent[0] as usize).min(nodes.len());
+
+    // Make a node of each contour half-edge, and point it at its successor.
     nodes[..count]
         .par_iter_mut()
         .zip(on.contours)
@@ -163,6 +165,8 @@ pub fn link_contours(on: &Marked<'_>, nodes: &mut [CurveNode]) {
             node.flags = on.flags_of(*half_edge);
             node.face = *half_edge / 3;
         });
+
+    // Point back.
     for element in 0..count {
         let next = nodes[element].next as usize;
         if next < count {

@@ -84,6 +84,7 @@ pub(crate) fn strokes_of(
 }
 
 fn stroke_of(run: &Run, paint_at: &(dyn Fn(&Run, &RunPoint) -> PointPaint + Sync)) -> Stroke {
+    // Measure the length in the picture, and paint point by point.
     let mut u = 0.0;
     let mut last = run.points.first().map(|point| point.place);
     let points = run.points.iter().enumerate().map(|(index, point)| {
@@ -100,6 +101,8 @@ fn stroke_of(run: &Run, paint_at: &(dyn Fn(&Run, &RunPoint) -> PointPaint + Sync
             color: paint.color,
         }
     });
+
+    // Take over what the run is.
     Stroke {
         id: run.id,
         kind: run.kind,

@@ -69,11 +69,14 @@ impl Prepared {
         creases: Creases,
         find: Option<&FindCrossings<'_>>,
     ) -> Result<Self, OverBudget> {
+        // Sort faces for sights, link features, and find intersections where they are wanted.
         let (tree, features) = rayon::join(|| FaceTree::new(shape), || features(shape, creases));
         let crossings = match find {
             Some(find) => find(&tree)?,
             None => Crossings::default(),
         };
+
+        // Note edges that can hide something from every eye, and which objects show their backs.
         let odd = EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD;
         let rims: Vec<u32> = (0..shape.edge_count() as u32)
             .filter(|edge| shape.edge_traits[*edge as usize].intersects(odd))

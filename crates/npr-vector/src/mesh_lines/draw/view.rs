@@ -59,9 +59,12 @@ impl View<'_> {
         contours: &CurveGraph,
         budget: &mut Budget,
     ) -> Result<OutlineGrid, OverBudget> {
+        // Pay for as many pieces as there can be.
         let lists = [&contours.nodes, &self.prepared.features.nodes].map(Vec::len);
         let most = lists[0] + lists[1] + self.prepared.rims.len();
         budget.take("outlines", most, size_of::<Piece>())?;
+
+        // Take contours, features that are contours in this view, and open edges.
         let loops = contours
             .nodes
             .par_iter()
@@ -82,6 +85,8 @@ impl View<'_> {
             .par_iter()
             .with_min_len(1024)
             .filter_map(|edge| self.edge_piece(*edge));
+
+        // Sort them into a grid over the picture.
         let pieces = loops.chain(odd).chain(rims).collect();
         OutlineGrid::new(self.settings.size, pieces, budget)
     }
@@ -138,6 +143,8 @@ impl View<'_> {
         let count = graph.nodes.len();
         toll.budget
             .take("lines of a view", count, size_of::<Option<Line>>())?;
+
+        // Find what is seen of every piece that is not crowded.
         let mut lines: Vec<Option<Line>> = graph
             .nodes
             .par_iter()
@@ -146,6 +153,8 @@ impl View<'_> {
                 self.line(graph, node, seen, wanted, memory)
             })
             .collect();
+
+        // Look at crowded pieces by the ink on the paper.
         let spans = lines.iter().flatten().map(|line| line.spans.len()).sum();
         toll.budget
             .take("parts of lines", spans, size_of::<Span>())?;
@@ -214,17 +223,22 @@ impl View<'_> {
         wanted: u32,
         memory: &mut Memory,
     ) -> Option<Line> {
+        // Leave out what is not wanted, and concave edges whose backs nobody sees.
         let kinds = self.kinds_of(node) & wanted;
         let kind = first_kind(kinds)?;
         let concave = node.flags & CurveNode::CONCAVE != 0;
         if concave && !self.prepared.may_show_backs(self.shape, node.face) {
             return None;
         }
+
+        // Find what is seen of it; crowded pieces wait.
         let (piece, other) = self.piece_after(graph, node)?;
         let spans: Vec<Span> = match seen.outlines.is_crowded(&piece) {
             true => Vec::new(),
             false => seen.spans(&piece, &self.circumstances(node, other, false), memory),
         };
+
+        // Tell whose line it is.
         let surface = match self.shape.polyline_of(node.edge) {
             Some(polyline) => self.shape.polyline_surfaces[polyline],
             None => self.shape.face_surfaces[node.face as usize],
@@ -334,12 +348,15 @@ impl View<'_> {
         other: &CurveNode,
         is_crowded: bool,
     ) -> Circumstances {
+        // A line lies in the faces beside its edge, which do not hide it.
         let mut own_faces: Vec<u32> = self
             .shape
             .sides(node.edge)
             .iter()
             .map(|side| side / 3)
             .collect();
+
+        // Along an edge, note where it goes through other faces.
         if node.is_along_edge() {
             let is_wire = self.shape.polyline_of(node.edge).is_some();
             return Circumstances {
@@ -352,6 +369,8 @@ impl View<'_> {
                 touch: if is_wire { self.prepared.touch } else { 0.0 },
             };
         }
+
+        // Across a face, its own and those that pierce its ends do not hide it either.
         own_faces.extend(self.shape.sides(other.edge).iter().map(|side| side / 3));
         own_faces.push(node.face);
         for end in [node, other] {

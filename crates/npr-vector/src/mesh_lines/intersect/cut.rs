@@ -59,6 +59,8 @@ fn common_ends(
     if against[1].agree() {
         return None;
     }
+
+    // Gather where edges of one pierce the other, and the corner that both share.
     let mut ends = [None; 2];
     let mut count = 0;
     let edges = [(0, 1), (1, 0)]
@@ -74,6 +76,8 @@ fn common_ends(
         count == 2 || count == usize::from(corner.is_some()),
         "ends come in pairs"
     );
+
+    // Keep what has two ends.
     let [Some(first), Some(last)] = ends else {
         return None;
     };
@@ -142,12 +146,15 @@ impl<'a> Triangle<'a> {
     /// Where edges of this triangle, without a shared corner, go through another.
     fn ends(&self, sides: &Sides, through: &Triangle) -> impl Iterator<Item = End> {
         (0..3).filter_map(|i| {
+            // Keep sides whose ends lie on both sides of the other plane, and that go through the triangle.
             let j = (i + 1) % 3;
             let (tail, head) = (sides.0[i]?, sides.0[j]?);
             let ends = [self.corners[i], self.corners[j]];
             if tail.is_positive() == head.is_positive() || !through.is_pierced_by(ends) {
                 return None;
             }
+
+            // Name the place by its edge, measured from the lower vertex, so that neighbours agree.
             let edge = self.shape.edge_of[3 * self.face as usize + i];
             let (low, high) = if ends[0] < ends[1] {
                 (tail, head)

@@ -66,6 +66,8 @@ fn walk(segments: &[Segment], mates: &[u32], seen: &mut [bool], from: u32) -> (V
             face: segment.faces[0],
         }
     };
+
+    // Stop at the near end of every segment, then go on with its mate.
     let mut stops = Vec::new();
     let mut half = from;
     loop {

@@ -50,6 +50,7 @@ pub(super) fn find(
     limit: usize,
     take: &mut dyn FnMut(usize) -> Result<(), OverBudget>,
 ) -> Result<Pairs, OverBudget> {
+    // Split the tree into groups of nodes.
     let nodes = walk_order(tree);
     let groups = groups(&nodes);
     let mut found = Pairs {
@@ -58,11 +59,14 @@ pub(super) fn find(
         overflow: false,
     };
     for round in groups.chunks(ROUND) {
+        // Stop where pairs or looks exceed what a drawing can use.
         let looks_most = LOOKS + LOOKS_PER_FACE * shape.faces.len();
         if found.pairs.len() >= limit || found.looks >= looks_most {
             found.overflow = true;
             break;
         }
+
+        // Find the pairs of a round of groups, then pay for them.
         let per_group: Vec<Pairs> = round
             .par_iter()
             .map_init(Candidates::default, |candidates, group| {
@@ -370,10 +374,13 @@ impl Subject {
 /// Settles most faces around one vertex, in flat regions too, where their own planes say nothing.
 #[inline]
 fn are_apart(a: &Corners, b: &Corners, shared: Shared) -> bool {
+    // Lay both triangles along the line between their middles.
     let axis: [f64; 3] = std::array::from_fn(|i| {
         (a.points[0][i] + a.points[1][i] + a.points[2][i])
             - (b.points[0][i] + b.points[1][i] + b.points[2][i])
     });
+
+    // Measure from the corner that they share, or from any.
     let origin = a.points[shared.map_or(0, |s| s[0])];
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for (corner, [place, bound]) in a.projections(axis, origin).into_iter().enumerate() {
@@ -386,6 +393,8 @@ fn are_apart(a: &Corners, b: &Corners, shared: Shared) -> bool {
             high = high.max(place + bound);
         }
     }
+
+    // They are apart where one ends before the other begins.
     match shared {
         Some(_) => low > 0.0 && high < 0.0,
         None => low > high,

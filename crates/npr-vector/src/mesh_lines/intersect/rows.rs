@@ -24,6 +24,7 @@ impl Crossings {
     /// What [`Self::to_rows`] made numbers of, where it may belong to a shape; none of numbers that never can: every
     /// edge and face exists, links go both ways, places lie on edges, and piercings are in order.
     pub fn from_rows(rows: &[u32], shape: &HalfEdgeMesh) -> Option<Self> {
+        // Split the numbers into nodes and piercings.
         let ([overflow, count], rest) = rows.split_first_chunk()?;
         let (nodes, piercings) = rest.split_at_checked((*count as usize).checked_mul(NODE)?)?;
         let (nodes, _) = nodes.as_chunks::<NODE>();
@@ -43,6 +44,8 @@ impl Crossings {
             t: f32::from_bits(t),
             face,
         });
+
+        // Take them only where they may belong to the shape.
         let found = Self {
             graph: CurveGraph {
                 nodes: nodes.collect(),
@@ -55,11 +58,14 @@ impl Crossings {
     }
 
     fn may_belong_to(&self, shape: &HalfEdgeMesh) -> bool {
+        // Places must lie on the shape.
         let lies = |edge: u32, t: f32, face: u32| {
             (edge as usize) < shape.edge_count()
                 && (0.0..=1.0).contains(&t)
                 && (face as usize) < shape.faces.len()
         };
+
+        // Links must agree in both directions.
         let nodes = &self.graph.nodes;
         let is_linked = |(index, node): (usize, &CurveNode)| {
             let goes_on = node.next == NONE
@@ -75,6 +81,8 @@ impl Crossings {
                 && node.flags == KindSet::INTERSECTION
                 && lies(node.edge, node.t, node.face)
         };
+
+        // Piercings must ascend, for they are searched.
         let order = |p: &Piercing| (p.edge, p.t.to_bits(), p.face);
         nodes.iter().enumerate().all(is_linked)
             && self.piercings.iter().all(|p| lies(p.edge, p.t, p.face))

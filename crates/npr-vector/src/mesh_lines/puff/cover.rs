@@ -77,12 +77,16 @@ impl Cover {
             to,
             is_closed: false,
         };
+
+        // With nothing covered the whole circle is free.
         let (Some(first), Some(last)) = (self.spans.first(), self.spans.last()) else {
             return vec![Arc {
                 is_closed: true,
                 ..arc(0.0, TAU)
             }];
         };
+
+        // Give the gaps between covered arcs, the one over the start included.
         let between = self
             .spans
             .windows(2)

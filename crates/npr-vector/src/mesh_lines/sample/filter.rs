@@ -36,14 +36,20 @@ pub fn weigh_samples(
         .with_min_len(1024)
         .for_each(|(element, (verdict, clear))| {
             let element = element as u32;
+
+            // Keep the window within the line.
             let line = samples[element as usize].line as usize;
             let (start, end) = (line_starts[line], line_starts[line + 1]);
             let from = element - radius.min(element - start);
             let to = element + radius.min(end - 1 - element);
+
+            // Let most of the window decide.
             let mut sum = 0.0;
             for near in from..=to {
                 sum += shares[near as usize];
             }
+
+            // Note where it is clear, and where each line starts.
             let count = (to - from + 1) as f32;
             let is_clear = sum >= CLEAR_SHARES[0] * count || sum < CLEAR_SHARES[1] * count;
             *verdict = u32::from(sum >= EVEN_SHARE * count);
@@ -87,6 +93,7 @@ pub fn visible_samples(
     line_starts: &[u32],
     shares: &[f32],
 ) -> Vec<u32> {
+    // Weigh each sample with its neighbours.
     let made = || vec![0; samples.len()];
     let (mut verdicts, mut clear, mut clear_list, mut visible) = (made(), made(), made(), made());
     weigh_samples(
@@ -97,6 +104,8 @@ pub fn visible_samples(
         &mut verdicts,
         &mut clear,
     );
+
+    // Let unclear ones take the verdict of the last clear one.
     let (slots, _) = exclusive_scan(&clear);
     compact(&clear, &slots, &mut clear_list);
     filter_visibility(&verdicts, &clear, &slots, &clear_list, &mut visible);

@@ -24,12 +24,15 @@ impl Piece {
     /// The part of a line from `a` to `b` in front of the near plane and within the frame and a margin; none where
     /// nothing is left.
     pub fn new(projector: &Projector, size: [u32; 2], a: DVec3, b: DVec3) -> Option<Self> {
+        // Cut off what lies before the near plane.
         let near = projector.near();
         let uncut = [projector.depth(a), projector.depth(b)];
         let mut range = [0.0, 1.0];
         if projector.is_perspective() && !cut_range(&mut range, uncut.map(|depth| depth - near)) {
             return None;
         }
+
+        // Cut the image to the frame and its margin.
         let front = range.map(|t| a.lerp(b, t));
         let depth = front.map(|p| projector.depth(p));
         let place = front.map(|p| projector.project(p));
@@ -44,6 +47,8 @@ impl Piece {
                 return None;
             }
         }
+
+        // Turn shares of the image back into shares of the line.
         let [from, to] = range;
         let range = shown.map(|s| from + (to - from) * projector.world_share(s, depth));
         let world = range.map(|t| a.lerp(b, t));

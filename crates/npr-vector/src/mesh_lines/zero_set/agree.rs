@@ -178,6 +178,7 @@ impl<'a> PolygonOutline<'a> {
     }
 
     fn sampled(&self, graph: &CurveGraph, node: u32, piece: &Piece) -> Sampled {
+        // Find the contours of the same edge and face, where the piece runs along the edge.
         let CurveNode { edge, face, .. } = graph.nodes[node as usize];
         let first = self
             .by_edge
@@ -190,6 +191,8 @@ impl<'a> PolygonOutline<'a> {
             true => &self.by_edge[first..first + count],
             false => &[],
         };
+
+        // Ask them, or else the contours beside the piece, what hides it at each sample.
         let samples = sample_count(piece.length());
         let sample = |i: usize| {
             let share = (i as f64 + 0.5) / samples as f64;

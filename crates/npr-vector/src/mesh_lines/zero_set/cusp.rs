@@ -32,12 +32,15 @@ struct Turn {
 /// A run of one or two pieces of the other sign is taken for noise, and turned, if it is shorter than both
 /// neighbouring runs and than the mean of the longest sides of the faces it crosses.
 pub(super) fn mark_cusps(signs: &Signs<'_>, traced: &mut Traced) {
+    // Tell on which side of a cusp every piece lies.
     let mut hidden = vec![false; traced.along.len()];
     let turns: Vec<Turn> = (0..hidden.len())
         .into_par_iter()
         .with_min_len(64)
         .map(|node| signs.turn(traced, node))
         .collect();
+
+    // Silence turns that only rounding makes.
     for chain in traced.graph.chains() {
         let mut of_chain: Vec<Turn> = chain.iter().map(|node| turns[*node as usize]).collect();
         silence(&mut of_chain, traced.graph.is_loop(&chain));
@@ -45,6 +48,8 @@ pub(super) fn mark_cusps(signs: &Signs<'_>, traced: &mut Traced) {
             hidden[*node as usize] = turn.hidden;
         }
     }
+
+    // Mark concave pieces, and cusps where they meet others.
     let nodes = &mut traced.graph.nodes;
     for index in 0..nodes.len() {
         let CurveNode { next, prev, .. } = nodes[index];

@@ -34,12 +34,15 @@ impl CornerNormals {
     ///
     /// O(faces), parallel: once per shape and crease angle.
     pub fn new(shape: &HalfEdgeMesh, creases: impl Into<Creases>) -> Self {
+        // Weigh faces by their angles, and part the fans around vertices at creases.
         let faces: Vec<Face> = shape
             .faces
             .par_iter()
             .map(|corners| Face::new(corners.map(|v| shape.point(v))))
             .collect();
         let fans = VertexFans::new(shape, &faces, creases.into());
+
+        // Sum up each fan, and note which corner belongs to it.
         let heads = fans.heads();
         let fan_of: Vec<AtomicU32> = fans.across.iter().map(|_| AtomicU32::new(NONE)).collect();
         let normals = heads
@@ -146,12 +149,15 @@ struct Face {
 
 impl Face {
     fn new([a, b, c]: [DVec3; 3]) -> Self {
+        // Leave out faces without area.
         let sides = [b - a, c - b, a - c];
         let cross = sides[0].cross(sides[1]);
         let twice_area = cross.length();
         if !(twice_area > 0.0 && twice_area.is_finite()) {
             return Self::default();
         }
+
+        // Take two angles; the third completes them to half a turn.
         let angle = |i: usize| {
             let dot = -sides[i].dot(sides[(i + 2) % 3]);
             let scale = twice_area.max(dot.abs());

@@ -50,10 +50,13 @@ impl<'a> Patches<'a> {
 
     fn patch_of(&mut self, face: u32) -> u32 {
         if self.of_face[face as usize] == NONE {
+            // Begin a patch at a face that has none.
             let patch = self.chosen.len() as u32;
             self.chosen.push(false);
             self.of_face[face as usize] = patch;
             let mut open = vec![face];
+
+            // Let it grow across sides on whose signs both faces disagree.
             while let Some(face) = open.pop() {
                 for side in 3 * face..3 * face + 3 {
                     let twin = self.signs.shape.twins[side as usize];

@@ -32,6 +32,7 @@ impl SegmentGrid {
     ///
     /// O(segments + cells they touch). Searches are fastest with radii up to the size of a cell.
     pub fn new(segments: Vec<[[f64; 2]; 2]>, cell_px: f64) -> Self {
+        // Enclose the segments that are finite.
         let finite =
             |segment: &&[[f64; 2]; 2]| segment.as_flattened().iter().all(|v| v.is_finite());
         let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
@@ -42,6 +43,8 @@ impl SegmentGrid {
         if low[0] > high[0] {
             return Self::default();
         }
+
+        // Choose cells as asked, but not so many that they take too much memory.
         let extent = (high[0] - low[0]).max(high[1] - low[1]);
         let cell_px = cell_px.max(1e-6).max(extent / LARGEST_SIDE);
         let side =

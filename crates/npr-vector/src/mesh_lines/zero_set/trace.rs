@@ -198,6 +198,7 @@ impl Signs<'_> {
 
 /// Turns sorted pieces into nodes.
 fn link(pieces: &[Piece]) -> CurveGraph {
+    // Make a node of each piece, pointing at the piece that follows.
     let find = |key: Key| match pieces.binary_search_by_key(&key, |piece| piece.key) {
         Ok(index) => index as u32,
         Err(_) => NONE,
@@ -215,6 +216,8 @@ fn link(pieces: &[Piece]) -> CurveGraph {
         face: piece.key.half_edge / 3,
     };
     let mut nodes: Vec<CurveNode> = pieces.par_iter().with_min_len(256).map(node).collect();
+
+    // Point back.
     for index in 0..nodes.len() {
         let next = nodes[index].next;
         if next != NONE {

@@ -40,6 +40,7 @@ impl ImageBox {
 
     /// The box of a face; all of the picture where the face reaches before the near plane.
     fn of(shape: &HalfEdgeMesh, face: u32, projector: &Projector) -> Self {
+        // Find the depth before which nothing of the face lies.
         let corners = shape.faces[face as usize].map(|v| shape.point(v));
         let depths = corners.map(|corner| projector.depth(corner));
         let near = depths.into_iter().fold(f64::INFINITY, f64::min);
@@ -47,6 +48,8 @@ impl ImageBox {
             near: near - near.abs() * ROOM,
             ..Self::EMPTY
         };
+
+        // Enclose its image, with room for rounding.
         let in_front = !projector.is_perspective() || near >= projector.near();
         for corner in corners {
             for (axis, place) in along_axes(projector.project(corner))

@@ -78,6 +78,7 @@ impl Bounds {
 
     /// Those of an image that was not cut off before the eye.
     fn of(image: &Polygon) -> Self {
+        // Leave out images so slim or long that rounding decides.
         let &[a, b, c] = image.corners() else {
             return Self::NONE;
         };
@@ -89,10 +90,14 @@ impl Bounds {
         if !(is_plain && a.is_finite() && low.is_finite() && high.is_finite()) {
             return Self::NONE;
         }
+
+        // Measure inwards from every side.
         let side = |from: Corner, to: Corner| {
             let across = (to - from).truncate().perp().normalize_or_zero() * area.signum();
             across.extend(-across.dot(from.truncate()))
         };
+
+        // Tell how the order changes over the picture.
         let slope = DVec2::new(
             along.z * across.y - across.z * along.y,
             across.z * along.x - along.z * across.x,
@@ -272,6 +277,8 @@ fn image_of(
     grid: &Grid,
 ) -> Option<Polygon> {
     let corners = shape.faces[face as usize].map(|v| projector.from_eye(shape.point(v)));
+
+    // Leave out what lies before the cut, just before the eye.
     let cut = CUT * projector.near();
     let is_before = |corner: &DVec3| !projector.is_perspective() || corner.z > cut;
     let mut image = Polygon::EMPTY;
@@ -279,6 +286,8 @@ fn image_of(
         let place = grid.place(projector.project_from_eye(corner));
         image.push(place.extend(order_of(projector, corner.z)));
     };
+
+    // Go around the face, with new corners where a side crosses the cut.
     for i in 0..3 {
         let [from, to] = [corners[i], corners[(i + 1) % 3]];
         if is_before(&from) {
@@ -586,6 +595,7 @@ impl Sorter<'_> {
         walls: &[Wall],
         most: usize,
     ) -> Option<Vec<(u32, f64, u32)>> {
+        // Keep a face in a cell unless the wall of the cell hides it there.
         let is_kept = |face: u32, part: &Part<'_>| {
             let wall = walls[part.cell];
             let is_behind = || {
@@ -595,6 +605,8 @@ impl Sorter<'_> {
             let may_be_before = part.orders[0] <= wall.end && wall.face != face;
             may_be_before && (wall.face == NONE || !is_behind())
         };
+
+        // Gather entries with all threads, and stop where there are too many.
         let count = AtomicUsize::new(0);
         let faces = (0..self.shape.faces.len() as u32).into_par_iter();
         let found: Vec<Vec<(u32, f64, u32)>> = faces
