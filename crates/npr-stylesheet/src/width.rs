@@ -4,7 +4,6 @@
 //! `base * factor / 2` to either side. What "share" means is up to the source, as the published
 //! method leaves the formula free [Okuya et al. 2016, section 3.2].
 
-use npr_core::outline::width_factor;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -111,19 +110,6 @@ impl Default for Width {
 }
 
 impl Width {
-    /// The width factor at a share of 0..1 from the source, never outside `min..max`; a share that is no number counts
-    /// as 0.
-    pub fn factor(&self, share: f32) -> f32 {
-        let share = if share.is_nan() {
-            0.0
-        } else {
-            share.clamp(0.0, 1.0)
-        };
-        width_factor(self.min, self.max, share)
-            .max(self.min)
-            .min(self.max)
-    }
-
     /// The width factor that the control points give at `position`, kept within `min..max`.
     pub fn factor_at(&self, position: [f32; 3]) -> f32 {
         control_factor(&self.control_points, position)
@@ -197,13 +183,12 @@ mod tests {
     proptest! {
         #[test]
         fn factors_stay_within_their_bounds(
-            min in 0.0f32..10.0, span in 0.0f32..5.0, share in prop::num::f32::ANY,
-            points in points(), position in prop::array::uniform3(-3.0f32..3.0),
+            min in 0.0f32..10.0, span in 0.0f32..5.0, points in points(),
+            position in prop::array::uniform3(-3.0f32..3.0),
         ) {
             let width = Width { min, max: min + span, control_points: points, ..Width::default() };
-            for factor in [width.factor(share), width.factor_at(position)] {
-                prop_assert!(width.min <= factor && factor <= width.max, "{factor}");
-            }
+            let factor = width.factor_at(position);
+            prop_assert!(width.min <= factor && factor <= width.max, "{factor}");
         }
 
         #[test]
