@@ -152,8 +152,8 @@ impl LineModel {
         })
     }
 
-    /// The same with what is costly to prepare kept in `folder` between runs, as [`Model::cached`](crate::Model::cached)
-    /// does: how surfaces bend, and where they cut through each other.
+    /// The same with what is costly to prepare kept in `folder` between runs, as
+    /// [`Model::cached`](crate::Model::cached) does: how surfaces bend, and where they cut through each other.
     ///
     /// # Errors
     ///
