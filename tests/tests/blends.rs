@@ -2,9 +2,11 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
+use npr_gpu::engine::{Engine, EngineError, Session};
+use npr_gpu::graph::Graph;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
-use npr_render::{Frame, Model, Picture, Renderer, RendererOptions};
+use npr_render::{Frame, Model, Picture, RenderError, Renderer, RendererOptions};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
 use npr_tests::comic::{SIZE, front, pixel};
@@ -124,4 +126,51 @@ fn both_looks_share_one_limit_of_memory() {
         .map(|bits| 1u64 << bits)
         .find(|limit| fits(&style, *limit));
     assert!(least_of_both > least, "{least:?} {least_of_both:?}");
+}
+
+/// An engine that nobody may ask for anything.
+struct Untouched;
+
+impl Engine for Untouched {
+    fn describe(&self) -> String {
+        unreachable!("nobody asks")
+    }
+
+    fn prepare(&self, _: Graph) -> Result<Box<dyn Session>, EngineError> {
+        unreachable!("a frame that does not fit is refused before the engine is asked")
+    }
+}
+
+#[test]
+fn a_second_look_that_does_not_fit_is_refused_before_the_engine_is_asked() {
+    let mut style = Style::preset("toon").unwrap();
+    style.set("blend.amount=0.5").unwrap();
+    style.set("blend.with=toon").unwrap();
+    let model = Model::new(&ball()).unwrap();
+    let limited = |memory_limit| RendererOptions {
+        memory_limit,
+        ..RendererOptions::new(SIZE)
+    };
+    // Find the least memory with which both looks fit: what lacks one byte of it has room for the first.
+    let fits = |limit| Renderer::new(&Processor, &model, &style, &limited(limit)).is_ok();
+    let (mut too_little, mut enough) = (0, 1u64 << 40);
+    while enough - too_little > 1 {
+        let middle = too_little.midpoint(enough);
+        match fits(middle) {
+            true => enough = middle,
+            false => too_little = middle,
+        }
+    }
+    let refused = Renderer::new(&Untouched, &model, &style, &limited(too_little));
+    assert!(matches!(refused.err(), Some(RenderError::Memory(_))));
+}
+
+#[test]
+fn a_missing_mask_is_named_before_the_engine_is_asked() {
+    let mut style = Style::preset("toon").unwrap();
+    style.set("blend.mask=m.png").unwrap();
+    let model = Model::new(&ball()).unwrap();
+    let refused = Renderer::new(&Untouched, &model, &style, &RendererOptions::new(SIZE));
+    let missing = "blend.mask: the picture 'm.png' was not given";
+    assert_eq!(refused.err().unwrap().to_string(), missing);
 }

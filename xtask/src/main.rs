@@ -18,6 +18,8 @@ mod packages;
 mod passes;
 mod snapshots;
 mod source;
+#[cfg(test)]
+mod spelling;
 mod suite;
 
 use std::path::{Path, PathBuf};

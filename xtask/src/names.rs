@@ -46,7 +46,7 @@ pub fn check(root: &Path) -> Result<()> {
 }
 
 /// The files that git has or would take.
-fn files(root: &Path) -> Result<Vec<PathBuf>> {
+pub fn files(root: &Path) -> Result<Vec<PathBuf>> {
     let mut git = Command::new("git");
     git.current_dir(root)
         .args(["ls-files", "--cached", "--others", "--exclude-standard"]);

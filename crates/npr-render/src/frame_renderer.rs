@@ -52,6 +52,15 @@ struct Needs {
     beams: bool,
 }
 
+/// A frame that is planned and not yet prepared: nothing of it has asked the engine for anything.
+pub(crate) struct FramePlan<'a> {
+    model: &'a Model,
+    style: Style,
+    options: RendererOptions,
+    needs: Needs,
+    plan: Plan,
+}
+
 /// The graph of a look: what its features share, and what each takes of it.
 struct Plan {
     frame: FrameGraph,
@@ -82,9 +91,13 @@ pub(crate) struct FrameRenderer<'a> {
 
 impl Needs {
     /// Asks every feature what it takes of a frame.
-    fn new(model: &Model, style: &Style, options: &RendererOptions) -> Result<Self, RenderError> {
-        // Resolve the style, its lights, and which outlines follow the background.
-        let mut styled = StyledModel::new(model, style, options)?;
+    fn new(
+        model: &Model,
+        style: &Style,
+        options: &RendererOptions,
+        mut styled: StyledModel,
+    ) -> Self {
+        // Choose the lights, and which outlines follow the background.
         let of_beams = beam_lights(style, model);
         let lights = ChosenLights::new(style, &model.lights, of_beams, &options.pictures);
         styled.inked.notices.extend(lights.notice());
@@ -139,7 +152,7 @@ impl Needs {
             | layer(Compose::BEAMS, beams)
             | layer(Compose::SMOKE, options.smoke.is_some())
             | layer(Compose::SMOKE_PEN, styled.smoke_part.is_some());
-        Ok(Self {
+        Self {
             smoke_lights: lights.of_smoke(style),
             styled,
             contrast,
@@ -149,7 +162,7 @@ impl Needs {
             tiles,
             grids,
             beams,
-        })
+        }
     }
 }
 
@@ -215,35 +228,47 @@ impl Plan {
     }
 }
 
-impl<'a> FrameRenderer<'a> {
-    /// Plans the frame, checks that `budget` has room for it, and uploads what does not change with the camera.
-    ///
-    /// `rows` of the whole frame are held at once.
+impl<'a> FramePlan<'a> {
+    /// Plans a frame of a model in a style that was resolved for it.
     pub fn new(
-        engine: &dyn Engine,
         model: &'a Model,
         style: &Style,
         options: &RendererOptions,
-        (budget, draws_bands): (&mut Budget, impl Fn(&Tiles) -> bool),
-    ) -> Result<Self, RenderError> {
-        let needs = Needs::new(model, style, options)?;
+        styled: StyledModel,
+    ) -> Self {
+        let needs = Needs::new(model, style, options, styled);
         let plan = Plan::new(model, style, options.smoke.as_ref(), &needs);
-
-        // Check that the picture and the plan fit into memory.
-        let rows = match options.in_bands && draws_bands(&needs.tiles) {
-            true => needs.tiles.kept[1].min(options.size[1]),
-            false => options.size[1],
-        };
-        budget.take("the picture", options.size[0] as usize * rows as usize, 4)?;
-        let planned = plan.frame.graph.planned_bytes() as usize;
-        budget.take("the plan of the frame", planned, 1)?;
-
-        // Prepare the passes, and hand over what stays.
-        let session = engine.prepare(plan.frame.graph.clone())?;
-        let mut renderer = Self {
+        Self {
             model,
             style: style.clone(),
             options: options.clone(),
+            needs,
+            plan,
+        }
+    }
+
+    /// How the frame is cut into tiles.
+    pub fn tiles(&self) -> &Tiles {
+        &self.needs.tiles
+    }
+
+    /// Takes its memory from `budget`: that of the graph, and of as many rows of the picture as are held at once.
+    pub fn take_memory(&self, budget: &mut Budget, rows: u32) -> Result<(), RenderError> {
+        let width = self.options.size[0] as usize;
+        budget.take("the picture", width * rows as usize, 4)?;
+        let planned = self.plan.frame.graph.planned_bytes() as usize;
+        budget.take("the plan of the frame", planned, 1)?;
+        Ok(())
+    }
+
+    /// Prepares the passes on an engine, and uploads what does not change with the camera.
+    pub fn prepare(self, engine: &dyn Engine) -> Result<FrameRenderer<'a>, RenderError> {
+        let (needs, plan) = (self.needs, self.plan);
+        let session = engine.prepare(plan.frame.graph.clone())?;
+        let mut renderer = FrameRenderer {
+            model: self.model,
+            style: self.style,
+            options: self.options,
             tiles: needs.tiles,
             styled: needs.styled,
             grids: needs.grids,
@@ -258,7 +283,9 @@ impl<'a> FrameRenderer<'a> {
         renderer.upload()?;
         Ok(renderer)
     }
+}
 
+impl FrameRenderer<'_> {
     /// Hands over what does not change with the camera.
     fn upload(&mut self) -> Result<(), EngineError> {
         let (frame, model, styled) = (&self.plan.frame, self.model, &self.styled);

@@ -8,8 +8,9 @@ use crate::features::lettering::Lettering;
 use crate::features::speed_lines::SpeedLines;
 use crate::frame::Frame;
 use crate::frame_graph::pixel_count;
-use crate::frame_renderer::FrameRenderer;
+use crate::frame_renderer::{FramePlan, FrameRenderer};
 use crate::lines::LineRenderer;
+use crate::look::StyledModel;
 use crate::model::Model;
 use crate::options::{RendererOptions, check_size};
 use crate::smoke::Smoke;
@@ -32,32 +33,42 @@ pub struct Renderer<'a> {
     /// The look that shows through, and how much of it.
     blended: Option<(Box<Renderer<'a>>, Blending)>,
     lettering: Lettering,
+}
+
+/// A renderer that is planned and checked, and not yet prepared: nothing of it has asked the engine for anything.
+struct RendererPlan<'a> {
+    frames: FramePlan<'a>,
+    speed_lines: Option<SpeedLines<'a>>,
+    blended: Option<(Box<RendererPlan<'a>>, Blending)>,
+    lettering: Lettering,
     /// Memory of all that it is made of.
     planned_bytes: u64,
 }
 
-impl<'a> Renderer<'a> {
-    /// Plans the frame, checks that it fits, and uploads what does not change with the camera.
-    ///
-    /// # Errors
-    ///
-    /// [`RenderError`] for a frame without pixels or beyond 32768 a side, a plan beyond the memory limit, words that
-    /// cannot be set, pictures that are missing or unfit, or a failing engine.
-    pub fn new(
-        engine: &dyn Engine,
+impl<'a> RendererPlan<'a> {
+    /// Plans a frame and all that goes over it, and checks that the whole fits into memory.
+    fn new(
         model: &'a Model,
         style: &Style,
         options: &RendererOptions,
     ) -> Result<Self, RenderError> {
+        // Resolve the style and its words.
         check_size(options.size)?;
+        let mut styled = StyledModel::new(model, style, options)?;
         let lettering = Lettering::new(style, &options.fonts)?;
-        let mut budget = Budget::new(options.memory_limit);
-        let bands = |tiles: &Tiles| draws_bands(style, tiles);
-        let mut frames = FrameRenderer::new(engine, model, style, options, (&mut budget, bands))?;
-        let notices = &mut frames.styled.inked.notices;
+        let notices = &mut styled.inked.notices;
         notices.extend_from_slice(lettering.notices());
 
-        // Check that what goes over the picture fits too.
+        // Plan the frame.
+        let frames = FramePlan::new(model, style, options, styled);
+        let mut budget = Budget::new(options.memory_limit);
+        let rows = match options.in_bands && draws_bands(style, frames.tiles()) {
+            true => frames.tiles().kept[1].min(options.size[1]),
+            false => options.size[1],
+        };
+        frames.take_memory(&mut budget, rows)?;
+
+        // Plan what goes over the picture.
         let pixels = pixel_count(options.size);
         if !lettering.is_empty() {
             budget.take("the words over the picture", pixels, 4)?;
@@ -68,7 +79,7 @@ impl<'a> Renderer<'a> {
         }
         let speed_lines = SpeedLines::needs(model, style, options, &mut budget)?;
 
-        // Make the other look of a blend, in the memory that is left.
+        // Plan the other look of a blend, in the memory that is left.
         let mut planned_bytes = budget.used_bytes();
         let mut blended = None;
         if let Some(blending) = Blending::needs(style, options)? {
@@ -76,18 +87,50 @@ impl<'a> Renderer<'a> {
                 memory_limit: options.memory_limit - planned_bytes,
                 ..options.clone()
             };
-            let other = Self::new(engine, model, &style.blended_with()?, &left)?;
+            let other = Self::new(model, &style.blended_with()?, &left)?;
             planned_bytes += other.planned_bytes;
             blended = Some((Box::new(other), blending));
         }
         Ok(Self {
             frames,
-            lines: None,
             speed_lines,
             blended,
             lettering,
             planned_bytes,
         })
+    }
+
+    /// Prepares all of it on an engine.
+    fn prepare(self, engine: &dyn Engine) -> Result<Renderer<'a>, RenderError> {
+        let blended = match self.blended {
+            Some((other, blending)) => Some((Box::new(other.prepare(engine)?), blending)),
+            None => None,
+        };
+        Ok(Renderer {
+            frames: self.frames.prepare(engine)?,
+            lines: None,
+            speed_lines: self.speed_lines,
+            blended,
+            lettering: self.lettering,
+        })
+    }
+}
+
+impl<'a> Renderer<'a> {
+    /// Plans the frame, checks that it fits, and uploads what does not change with the camera.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError`] for a frame without pixels or beyond 32768 a side, a plan beyond the memory limit, words that
+    /// cannot be set, pictures that are missing or unfit, or a failing engine. All that can be known before is checked
+    /// before the engine is asked for memory.
+    pub fn new(
+        engine: &dyn Engine,
+        model: &'a Model,
+        style: &Style,
+        options: &RendererOptions,
+    ) -> Result<Self, RenderError> {
+        RendererPlan::new(model, style, options)?.prepare(engine)
     }
 
     /// The same, with the lines of parts whose `line.method` is `curves` or `potrace` from a line model of the scene,

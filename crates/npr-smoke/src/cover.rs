@@ -299,7 +299,7 @@ mod tests {
         }
 
         #[test]
-        fn every_seat_is_in_the_smoke_and_none_in_anothers_ball(seed: u32, count in 0usize..60) {
+        fn every_seat_is_in_the_smoke_and_none_in_the_ball_of_another(seed: u32, count in 0usize..60) {
             let distances = Distances::new(&lumps(), 0.5);
             let seats = cover(&distances, count, seed);
             prop_assert!(seats.len() <= count);
