@@ -2,4 +2,6 @@
 //! [`calm`].
 
 pub mod calm;
+#[cfg(test)]
+mod films;
 pub mod subject;

@@ -61,7 +61,7 @@ fn check_files(files: impl Iterator<Item = PathBuf>, presets: &[&str], most: usi
         let file = path.file_name().unwrap().to_string_lossy().into_owned();
         let of_style = |(name, style): &(String, Style)| {
             let what = format!("{file} {name}");
-            let agreement = agreement(&what, &model, style, [480, 270]);
+            let agreement = agreement(&what, &model, style, [320, 180]);
             (what, agreement)
         };
         let styles = styles.iter().cycle().skip(first % styles.len());

@@ -32,6 +32,7 @@ const USAGE: &str = "\
 usage: cargo xtask COMMAND
 
   test [ARGS]       run every test of the workspace; ARGS go to cargo test
+  test --quick      run the unit tests of crates that differ from the last commit, or of every crate where none does
   properties        run half of the property tests with a seed drawn from the commit
   ci                run what must pass before a change is handed in
   assets [--check]  write the sample models, or only compare them
@@ -74,6 +75,7 @@ fn main() -> ExitCode {
 /// Runs the command that `words` spell, or returns nothing where they spell none.
 fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
     Some(match words {
+        ["test", "--quick"] => suite::quick(root),
         ["test", rest @ ..] => suite::run(root, rest),
         ["properties"] => suite::again(root),
         ["ci"] => ci::run(root),

@@ -1,4 +1,5 @@
-//! `cargo xtask test`: every test of the workspace, and one line that says how it went.
+//! `cargo xtask test`: every test of the workspace, or with `--quick` those near a change, and one line that says how
+//! it went.
 
 use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader};
@@ -23,16 +24,93 @@ struct Tally {
     ignored: usize,
 }
 
-/// Runs `cargo test` over the workspace with all features and `arguments` added.
+/// Programs whose tests are run: examples have none, and lints compile them.
+const PROGRAMS: [&str; 3] = ["--lib", "--bins", "--tests"];
+
+/// Runs every test of the workspace, or what `arguments` ask `cargo test` for, with all features.
 pub fn run(root: &Path, arguments: &[&str]) -> Result<()> {
-    run_with(root, arguments, &[])
+    if !arguments.is_empty() {
+        return run_with(root, &["--workspace"], arguments, &[]);
+    }
+    let programs = run_with(root, &["--workspace"], &PROGRAMS, &[]);
+    let documents = run_with(root, &["--workspace"], &["--doc"], &[]);
+    programs.and(documents)
 }
 
-fn run_with(root: &Path, arguments: &[&str], environment: &[(&str, String)]) -> Result<()> {
-    // Start the tests of all crates.
+/// Runs the unit tests of the crates that differ from the last commit, and the test programs that do; the unit tests of
+/// every crate where nothing differs.
+pub fn quick(root: &Path) -> Result<()> {
+    let mut git = Command::new("git");
+    let changed =
+        output(
+            git.current_dir(root)
+                .args(["status", "--porcelain", "--untracked-files=all"]),
+        )?;
+    let changed: Vec<&str> = changed.lines().filter_map(|line| line.get(3..)).collect();
+    let arguments = near(&changed, &folders(root)?);
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    run_with(root, &[], &arguments, &[])
+}
+
+/// The packages of the workspace by their folders below its root.
+fn folders(root: &Path) -> Result<Vec<(String, String)>> {
+    let members = members(root)?.into_iter().map(|member| {
+        let folder = member.folder().strip_prefix(root)?;
+        Ok((folder.display().to_string(), member.name))
+    });
+    members.collect()
+}
+
+/// What `cargo test` is asked for after a change of files.
+fn near(changed: &[&str], folders: &[(String, String)]) -> Vec<String> {
+    // Find the crates of the files, and the test programs among them.
+    let mut packages = BTreeSet::new();
+    let mut programs = BTreeSet::new();
+    for (folder, name) in folders {
+        for path in changed
+            .iter()
+            .filter_map(|path| path.strip_prefix(&format!("{folder}/")))
+        {
+            packages.insert(name.as_str());
+            let program = path
+                .strip_prefix("tests/")
+                .and_then(|path| path.split(['/', '.']).next());
+            programs.extend(program);
+        }
+    }
+
+    // Ask for all crates where none changed. This one has no library, which cargo asks for in vain.
+    let mut arguments = vec!["--bins".to_owned()];
+    if packages.is_empty() {
+        arguments.push("--workspace".to_owned());
+    }
+    if packages.iter().ne(["xtask"].iter()) {
+        arguments.push("--lib".to_owned());
+    }
+    arguments.extend(
+        packages
+            .into_iter()
+            .flat_map(|name| ["--package".to_owned(), name.to_owned()]),
+    );
+    arguments.extend(
+        programs
+            .into_iter()
+            .flat_map(|name| ["--test".to_owned(), name.to_owned()]),
+    );
+    arguments
+}
+
+fn run_with(
+    root: &Path,
+    packages: &[&str],
+    arguments: &[&str],
+    environment: &[(&str, String)],
+) -> Result<()> {
+    // Start the tests of the crates.
     let mut command = cargo(root);
     command
-        .args(["test", "--workspace", "--all-features", "--no-fail-fast"])
+        .args(["test", "--all-features", "--no-fail-fast"])
+        .args(packages)
         .args(arguments)
         .envs(environment.iter().map(|(name, value)| (name, value)));
     let mut child = command
@@ -88,9 +166,13 @@ pub fn again(root: &Path) -> Result<()> {
     );
 
     // Run them with that seed.
-    let only_tests = ["--lib", "--bins", "--tests", "--"];
-    let arguments: Vec<&str> = only_tests.into_iter().chain(chosen).collect();
-    run_with(root, &arguments, &[(SEED, seed.to_string())])
+    let arguments: Vec<&str> = PROGRAMS.into_iter().chain(["--"]).chain(chosen).collect();
+    run_with(
+        root,
+        &["--workspace"],
+        &arguments,
+        &[(SEED, seed.to_string())],
+    )
 }
 
 /// Where property tests look for their seed.
@@ -158,6 +240,27 @@ mod tests {
     #[test]
     fn tests_without_a_name_are_not_drawn() {
         assert!(!is_drawn("", 20_031) && !is_drawn("", 20_032));
+    }
+
+    #[test]
+    fn a_change_asks_for_its_crates_and_its_test_programs() {
+        let folders = [
+            ("crates/npr-mesh", "npr-mesh"),
+            ("tests", "npr-tests"),
+            ("xtask", "xtask"),
+        ];
+        let folders = folders.map(|(folder, name)| (folder.to_owned(), name.to_owned()));
+        let asked = |changed: &[&str]| near(changed, &folders).join(" ");
+        assert_eq!(asked(&["README.md"]), "--bins --workspace --lib");
+        assert_eq!(
+            asked(&["crates/npr-mesh/src/bvh.rs"]),
+            "--bins --lib --package npr-mesh"
+        );
+        assert_eq!(
+            asked(&["tests/tests/ages.rs", "tests/tests/id_maps/main.rs"]),
+            "--bins --lib --package npr-tests --test ages --test id_maps"
+        );
+        assert_eq!(asked(&["xtask/src/main.rs"]), "--bins --package xtask");
     }
 
     #[test]

@@ -1,10 +1,8 @@
 //! How calm whole pictures of smoke are beside those of billboards [Selle 2004], with true motion taken out, on smoke
 //! of the built-in simulation: a short run of what `cargo xtask measure smoke` prints.
 
-#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
-
-use npr_benches::smoke::calm::{Change, Shown};
-use npr_benches::smoke::subject::{camera, drawn, plume, space_of};
+use crate::smoke::calm::{Change, Shown};
+use crate::smoke::subject::{camera, drawn, plume, space_of};
 use npr_gpu::processor::Processor;
 use npr_render::{Following, Model, Renderer, RendererOptions};
 use npr_scene::Scene;
