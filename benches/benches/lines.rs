@@ -3,7 +3,7 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use npr_benches::lines::subjects::{SIZE, benchmark_camera, knot, scene_of};
 use npr_benches::solid::bumpy_ball;
-use npr_render::{LineMethod, LineModel, LineModelOptions, LineOptions};
+use npr_render::{LineModel, LineModelOptions, LineOptions, LineSource};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
 use std::time::Duration;
@@ -33,7 +33,7 @@ fn prepare(c: &mut Criterion) {
 
 fn view(c: &mut Criterion) {
     let (camera, style) = (benchmark_camera(), Style::default());
-    for method in [LineMethod::Edges, LineMethod::Surface] {
+    for method in [LineSource::Edges, LineSource::Surface] {
         let mut group = c.benchmark_group(format!("view, {method:?}"));
         let options = LineOptions {
             method,

@@ -5,9 +5,6 @@
 //# use lib/line_kind
 //# use lib/edge_flags
 
-const NODE_CONCAVE: u32 = 64u;
-const NODE_SEAM: u32 = 256u;
-
 struct HalfEdge {
     tail: u32,
     twin: u32,

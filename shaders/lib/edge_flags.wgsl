@@ -1,9 +1,14 @@
-// What is special about a mesh edge. Twin: npr_core::edge_flags.
+// What is special about a mesh edge, or about a line along one. Twin: npr_core::edge_flags.
 
-const EDGE_BOUNDARY: u32 = 2u;
-const EDGE_MATERIAL: u32 = 8u;
-const EDGE_FLIPPED: u32 = 64u;
-const EDGE_NON_MANIFOLD: u32 = 128u;
-const EDGE_OPEN: u32 = 1024u;
-const EDGE_REVERSED: u32 = 2048u;
-const EDGE_WIRE: u32 = 4096u;
+//# use lib/line_kind
+
+const EDGE_BOUNDARY: u32 = KIND_BOUNDARY;
+const EDGE_MATERIAL: u32 = KIND_MATERIAL;
+const EDGE_FLIPPED: u32 = KINDS_END;
+const EDGE_NON_MANIFOLD: u32 = KINDS_END << 1u;
+const EDGE_CONCAVE: u32 = KINDS_END << 3u;
+const EDGE_OPEN: u32 = KINDS_END << 4u;
+const EDGE_REVERSED: u32 = KINDS_END << 5u;
+const EDGE_POLYLINE: u32 = KINDS_END << 6u;
+const EDGE_FACING: u32 = KINDS_END << 7u;
+const EDGE_SEAM: u32 = KINDS_END << 9u;

@@ -1,5 +1,7 @@
 // The structs that passes share. Twin: npr_core::geometry.
 
+//# use lib/line_kind
+
 const NONE: u32 = 0xffffffffu;
 const FAR_DEPTH: f32 = 1e30;
 
@@ -78,20 +80,20 @@ struct Part {
     back: vec4<f32>,
     beam_alpha: vec4<f32>,
     ramp: array<vec4<f32>, 8>,
-    line_kinds: array<u32, 5>,
     line_flags: u32,
     line_factor: f32,
     line_texture: u32,
     line_depth_row: u32,
     line_light_row: u32,
+    line_tint: u32,
+    line_rim: f32,
+    component: u32,
     line_depth: vec2<f32>,
     line_opacity: vec2<f32>,
     line_width: vec2<f32>,
-    line_tint: u32,
-    line_rim: f32,
     streak_across: vec2<f32>,
     back_direction: vec3<f32>,
-    component: u32,
+    line_kinds: array<u32, COLORED_KINDS>,
 }
 
 const PART_DOUBLE_SIDED: u32 = 1u;
@@ -120,19 +122,19 @@ const PART_PLAIN: u32 = 2097152u;
 const PART_TONE_ROW: u32 = 4194304u;
 const PART_FOLDS: u32 = 1073741824u;
 
-const LINE_KINDS: u32 = 31u;
-const LINE_SURFACE: u32 = 32u;
-const LINE_VERTEX: u32 = 64u;
-const LINE_TEXTURE: u32 = 128u;
-const LINE_DEPTH: u32 = 256u;
-const LINE_FROM_MIDDLE: u32 = 512u;
-const LINE_LIGHT: u32 = 1024u;
-const LINE_OPACITY: u32 = 2048u;
-const LINE_TINT: u32 = 4096u;
-const LINE_RIM: u32 = 8192u;
-const LINE_WIDTH: u32 = 16384u;
-const LINE_SOURCES: u32 = 224u;
-const LINE_PLACED: u32 = 15840u;
+const LINE_KINDS: u32 = KINDS_COLORED;
+const LINE_SURFACE: u32 = KINDS_END;
+const LINE_VERTEX: u32 = KINDS_END << 1u;
+const LINE_TEXTURE: u32 = KINDS_END << 2u;
+const LINE_DEPTH: u32 = KINDS_END << 3u;
+const LINE_FROM_MIDDLE: u32 = KINDS_END << 4u;
+const LINE_LIGHT: u32 = KINDS_END << 5u;
+const LINE_OPACITY: u32 = KINDS_END << 6u;
+const LINE_TINT: u32 = KINDS_END << 7u;
+const LINE_RIM: u32 = KINDS_END << 8u;
+const LINE_WIDTH: u32 = KINDS_END << 9u;
+const LINE_SOURCES: u32 = LINE_SURFACE | LINE_VERTEX | LINE_TEXTURE;
+const LINE_PLACED: u32 = LINE_SOURCES | LINE_DEPTH | LINE_LIGHT | LINE_TINT | LINE_RIM | LINE_OPACITY;
 
 struct GPixel {
     plane_step: vec2<f32>,

@@ -20,7 +20,7 @@ struct Tint {
 
 // The bit of the first kind of an edge.
 fn kind_of_edge(kinds: u32) -> u32 {
-    let known = kinds & EDGE_KINDS;
+    let known = kinds & KINDS_EDGES;
     return select(known & (~known + 1u), KIND_CONTOUR, known == 0u);
 }
 

@@ -17,9 +17,6 @@ struct Outline {
     reach_px: u32,
 }
 
-const KIND_ANY: u32 = 64u;
-const EDGE_KINDS: u32 = 15u;
-
 const DETECT_DEPTH: u32 = 1u;
 const DETECT_NORMAL: u32 = 2u;
 const DETECT_OBJECT: u32 = 4u;

@@ -5,7 +5,7 @@
 //
 // Source  Okuya et al. 2016, section 3.3; Marshall 2001 for contours
 // Twin    npr_mesh::classify::classify
-// Differs from the publication, which draws every edge of a front face: that is KIND_ANY.
+// Differs from the publication, which draws every edge of a front face: that is EDGE_FACING.
 //
 //# use lib/grid
 //# use lib/geometry
@@ -34,10 +34,10 @@ fn kinds_of(edge: Edge) -> u32 {
     let flags = parts[triangles[edge.faces.x].part].flags;
     if edge.faces.y == NONE {
         let seen = front || (flags & PART_DOUBLE_SIDED) != 0u;
-        return select(0u, KIND_BOUNDARY | select(0u, KIND_ANY, front), seen);
+        return select(0u, KIND_BOUNDARY | select(0u, EDGE_FACING, front), seen);
     }
     var second = face_is_front(edge.faces.y);
-    let published = select(0u, KIND_ANY, front || second);
+    let published = select(0u, EDGE_FACING, front || second);
     if (edge.traits & EDGE_FLIPPED) != 0u { second = !second; }
     let seen = front || second || (flags & PART_DOUBLE_SIDED) != 0u;
     var kind = select(0u, KIND_CONTOUR, front != second);

@@ -50,8 +50,8 @@ fn is_concave(half_edge: u32, twin: u32) -> bool {
 fn flags_of(half_edge: u32) -> u32 {
     let side = half_edges[half_edge];
     let odd = EDGE_BOUNDARY | EDGE_NON_MANIFOLD | EDGE_FLIPPED;
-    if side.twin == NONE || (side.traits & odd) != 0u { return NODE_SEAM; }
-    return KIND_CONTOUR | select(0u, NODE_CONCAVE, is_concave(half_edge, side.twin));
+    if side.twin == NONE || (side.traits & odd) != 0u { return EDGE_SEAM; }
+    return KIND_CONTOUR | select(0u, EDGE_CONCAVE, is_concave(half_edge, side.twin));
 }
 
 // One invocation per marked half-edge.

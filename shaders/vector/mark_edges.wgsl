@@ -35,7 +35,7 @@ fn is_concave(edge: DrawnEdge) -> bool {
 
 // The kind and the direction of an edge; 0 where it is not drawn.
 fn mark_of(edge: DrawnEdge) -> u32 {
-    if (edge.bits & EDGE_WIRE) != 0u { return edge.bits & view.wanted & KINDS; }
+    if (edge.bits & EDGE_POLYLINE) != 0u { return edge.bits & view.wanted & KINDS; }
     if edge.face == NONE { return 0u; }
     let is_front = front[edge.face] != 0u;
     let has_pair = edge.across != NONE && (edge.bits & EDGE_NON_MANIFOLD) == 0u;

@@ -69,7 +69,7 @@ fn a_rule_chooses_curves_for_a_part() {
         "hidden lines are not drawn"
     );
     style.rule[0].line.method = None;
-    style.line.method = npr_stylesheet::LineMethod::Curves;
+    style.line.method = npr_stylesheet::OutlineMethod::Curves;
     let [left, right] = sides(&drawn(&style, true));
     assert!(left > 200 && right > 200, "{left} {right}");
 }

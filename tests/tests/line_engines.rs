@@ -7,7 +7,7 @@ use npr_drawing::svg::{SvgOptions, write_svg};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_render::{
-    LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer, Model, Picture,
+    LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource, Model, Picture,
     RendererOptions,
 };
 use npr_scene::{LoadOptions, load};
@@ -45,7 +45,7 @@ fn check(path: &Path) {
     // One stage for all views: the shape stays on the device.
     let mut renderer = LineRenderer::new(device, &model);
     for camera in cameras(&model) {
-        for method in [LineMethod::Edges, LineMethod::Surface] {
+        for method in [LineSource::Edges, LineSource::Surface] {
             let options = LineOptions {
                 method,
                 ..LineOptions::new(SIZE)

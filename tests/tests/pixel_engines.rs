@@ -9,7 +9,7 @@ use npr_gpu::curves::{Hiders, ResidentPixels};
 use npr_gpu::engine::Engine;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_render::{
-    LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer, Model, Renderer,
+    LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource, Model, Renderer,
     RendererOptions,
 };
 use npr_scene::{LoadOptions, load};
@@ -188,7 +188,7 @@ fn drawings_of_both_engines_have_the_same_lines() {
         let mut renderer = LineRenderer::new(device, &model);
         for camera in cameras(&model) {
             let options = LineOptions {
-                method: LineMethod::Potrace,
+                method: LineSource::Potrace,
                 ..LineOptions::new(SIZE)
             };
             let style = Style::default();

@@ -8,7 +8,7 @@ use npr_drawing::svg::{SvgOptions, write_svg};
 use npr_gpu::curves::{Hiders, ResidentPixels};
 use npr_gpu::processor::Processor;
 use npr_render::{
-    Kind, LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer, Model, Renderer,
+    Kind, LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource, Model, Renderer,
     RendererOptions,
 };
 use npr_scene::testing::lines_glb;
@@ -60,7 +60,7 @@ fn drawings_of_both_engines_are_alike() {
     for scene in [spring(false), spring(true)] {
         let model = model_of(&scene);
         let mut renderer = LineRenderer::new(device, &model);
-        for method in [LineMethod::Edges, LineMethod::Surface, LineMethod::Image] {
+        for method in [LineSource::Edges, LineSource::Surface, LineSource::Image] {
             let options = LineOptions {
                 method,
                 ..LineOptions::new(SIZE)

@@ -12,7 +12,7 @@ use npr_benches::memory;
 use npr_benches::timing::{Times, elapsed_ms};
 use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
-use npr_render::{LineMethod, LineModel, LineModelOptions, LineOptions};
+use npr_render::{LineModel, LineModelOptions, LineOptions, LineSource};
 use npr_scene::{LoadOptions, Scene, load};
 use npr_stylesheet::{Style, WidthSource};
 use npr_vector::stroke::Drawing;
@@ -86,7 +86,7 @@ fn timed_draw(model: &LineModel, camera: &Camera) -> Outcome<(f64, Drawing)> {
         kinds: wanted.kinds.iter().copied().collect(),
         crease: wanted.crease as f32,
         crease_from: CreaseFrom::Faces,
-        method: LineMethod::Edges,
+        method: LineSource::Edges,
         smooth: false,
         ..LineOptions::new(SIZE)
     };

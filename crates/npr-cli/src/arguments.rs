@@ -23,8 +23,8 @@ pub use deferred::Deferred;
 pub use drawing::{Backend, DrawingArguments, TimingsForm};
 pub use limits::LimitArguments;
 pub use lines::{
-    HiddenLines, LineArguments, LineFormat, LinesArguments, MethodName, PaintedName, PathForm,
-    SheetArguments, Switch,
+    HiddenLines, LineArguments, LineFormat, LinesArguments, PaintedName, PathForm, SheetArguments,
+    Switch,
 };
 pub use look::LookArguments;
 pub use outline::{Behind, OutlineArguments};

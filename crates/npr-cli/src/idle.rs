@@ -1,11 +1,12 @@
 //! Options that cannot act beside the others, each with the reason.
 
 use crate::arguments::{
-    HiddenLines, LineFormat, LinesArguments, MethodName, PathForm, SmokeArguments, Switch,
-    TraceArguments, VolumeArguments, VolumeUp,
+    HiddenLines, LineFormat, LinesArguments, PathForm, SmokeArguments, Switch, TraceArguments,
+    VolumeArguments, VolumeUp,
 };
 use crate::line_job::LineJob;
 use crate::volume::{DEFAULT_FPS, DEFAULT_STEP, Order, VolumeSource};
+use npr_render::LineSource;
 use npr_stylesheet::{Facts, SmokeParticles};
 use npr_trace::TraceOptions;
 
@@ -182,7 +183,7 @@ fn line_entries<'a>() -> Vec<Entry<Lines<'a>>> {
         entry(
             "--smooth",
             |c| c.args.lines.smooth == Switch::Off,
-            |c| c.args.lines.method == MethodName::Image,
+            |c| c.args.lines.method == LineSource::Image,
             "--method image follows pixels, which are smoothed in any case",
         ),
     ]

@@ -1,8 +1,8 @@
 //! One line drawing: what the user said, resolved.
 
 use crate::arguments::{
-    HiddenLines, LineArguments, LineFormat, LinesArguments, LookArguments, MethodName, PaintedName,
-    PathForm, Switch,
+    HiddenLines, LineArguments, LineFormat, LinesArguments, LookArguments, PaintedName, PathForm,
+    Switch,
 };
 use crate::ending::has_ending;
 use crate::fault::{Exit, Fault};
@@ -15,11 +15,9 @@ use crate::volume::{self, VolumeSource};
 use npr_core::crease::CreaseFrom;
 use npr_core::geometry::Part;
 use npr_drawing::artwork::{ArtworkOptions, Hidden, Page, Paths, arrange};
-use npr_render::{
-    Drawing, Kind, KindSet, Lettering, LineMethod, LineOptions, PaintedLines, RendererOptions,
-};
+use npr_render::{Drawing, Kind, KindSet, Lettering, LineOptions, PaintedLines, RendererOptions};
 use npr_scene::Limits;
-use npr_stylesheet::{Background, Facts, LineFinder, LineForm, LineOutput, Occasion, Style};
+use npr_stylesheet::{Background, Facts, LineForm, LineOutput, Occasion, Style};
 use std::path::{Path, PathBuf};
 
 const MM_PER_INCH: f64 = 25.4;
@@ -92,11 +90,7 @@ impl<'a> LineJob<'a> {
 impl LineJob<'_> {
     /// Where the style is drawn, for telling which of its keys cannot act.
     pub fn occasion(&self, scene: Facts) -> Occasion {
-        let finder = match self.options.method {
-            LineMethod::Edges | LineMethod::Surface => LineFinder::Mesh,
-            LineMethod::Potrace => LineFinder::Potrace,
-            LineMethod::Image => LineFinder::Image,
-        };
+        let source = self.options.method;
         let form = match (self.format, self.artwork.paths) {
             (LineFormat::Json, _) => LineForm::Data,
             (_, Paths::Centreline) => LineForm::Centrelines,
@@ -104,7 +98,7 @@ impl LineJob<'_> {
         };
         let fill = self.options.fill;
         Occasion {
-            output: npr_stylesheet::Output::Lines(LineOutput { finder, form, fill }),
+            output: npr_stylesheet::Output::Lines(LineOutput { source, form, fill }),
             scene,
         }
     }
@@ -188,17 +182,13 @@ fn check_page(args: &LinesArguments, format: LineFormat) -> Result<(), Fault> {
 
 /// Refuses hidden lines of a method that knows none.
 fn check_hidden(args: &LineArguments) -> Result<(), Fault> {
-    let name = match args.method {
-        MethodName::Potrace => "potrace",
-        MethodName::Image => "image",
-        MethodName::Edges | MethodName::Surface => return Ok(()),
-    };
-    if args.hidden == HiddenLines::None {
+    if !args.method.is_of_pixels() || args.hidden == HiddenLines::None {
         return Ok(());
     }
     let message = format!(
-        "--hidden: --method {name} finds lines in a picture, which shows no hidden ones: \
-         use --method edges or surface"
+        "--hidden: --method {} finds lines in a picture, which shows no hidden ones: \
+         use --method edges or surface",
+        args.method.name()
     );
     Err(Fault::new(Exit::Usage, message))
 }
@@ -227,12 +217,7 @@ fn options(args: &LinesArguments, style: &Style) -> LineOptions {
         crease: crease.map_or(of_style.crease, f32::to_radians),
         crease_from: crease_from.map_or(of_style.crease_from, CreaseFrom::from),
         split: split.map_or(of_style.split, LineOptions::split_at),
-        method: match method {
-            MethodName::Edges => LineMethod::Edges,
-            MethodName::Surface => LineMethod::Surface,
-            MethodName::Potrace => LineMethod::Potrace,
-            MethodName::Image => LineMethod::Image,
-        },
+        method: *method,
         painted: args.lines.painted.map(|painted| match painted {
             PaintedName::Dark => PaintedLines::Dark,
             PaintedName::Light => PaintedLines::Light,

@@ -20,7 +20,7 @@ use npr_core::camera::Camera;
 use npr_core::geometry::Part;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{
-    Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineRenderer, Model, facts_of,
+    Drawing, Kind, LineModel, LineModelOptions, LineRenderer, LineSource, Model, facts_of,
 };
 use npr_stylesheet::{Background, WidthSource};
 use std::io::Write;
@@ -125,11 +125,11 @@ fn draw_lines(
         progress,
     )?;
     let reported = match job.options.method {
-        LineMethod::Edges | LineMethod::Potrace => None,
-        LineMethod::Surface => {
+        LineSource::Edges | LineSource::Potrace => None,
+        LineSource::Surface => {
             Some("finds contours along edges; smooth ones are made from them on the processor")
         }
-        LineMethod::Image => {
+        LineSource::Image => {
             Some("finds marked lines; those of pictures are found on the processor")
         }
     };
@@ -236,7 +236,7 @@ fn warn_of<'a>(
         warn(notice);
     }
     let mut named = job.args.lines.kinds.iter().flatten();
-    if job.options.method == LineMethod::Potrace && named.any(is_intersection) {
+    if job.options.method == LineSource::Potrace && named.any(is_intersection) {
         warn("lines of kind intersection are left out: --method potrace draws edges of meshes");
     }
     if job.look.style.line.width.source == WidthSource::Texture {

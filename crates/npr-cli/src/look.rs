@@ -10,7 +10,7 @@ use crate::style_source::StyleSource;
 use npr_render::{Font, Picture};
 use npr_scene::{FolderResources, Limits, Resources, Scene};
 use npr_stylesheet::{
-    Background, Color, LineMethod, Occasion, Rule, ShadeMode, Stated, Stop, Style, Tone, Unit,
+    Background, Color, Occasion, OutlineMethod, Rule, ShadeMode, Stated, Stop, Style, Tone, Unit,
     WidthSource, WidthWarning, width_rule,
 };
 use std::collections::BTreeMap;
@@ -198,7 +198,7 @@ impl Look {
     /// which depend on the camera.
     pub fn width_warning(&self, height: u32) -> Option<WidthWarning> {
         let (line, scale) = (&self.style.line, self.style.detect.scale);
-        let masked = matches!(line.method, LineMethod::Shape | LineMethod::Okuya);
+        let masked = matches!(line.method, OutlineMethod::Shape | OutlineMethod::Okuya);
         if !masked || scale <= 1.0 || line.width.base.unit == Unit::World {
             return None;
         }

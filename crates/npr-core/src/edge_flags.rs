@@ -4,10 +4,11 @@ use crate::line_kind::KindSet;
 use bytemuck::{Pod, Zeroable};
 use std::ops::{BitOr, BitOrAssign};
 
-/// A set of properties of a mesh edge.
+/// A set of properties of a mesh edge, or of a line along one.
 ///
-/// One bit means one thing wherever edges are stored: in lists of edges, in half-edge meshes and in the buffers of
-/// passes. Properties that make an edge a line in every view have the bit of its kind in a [`KindSet`].
+/// One bit means one thing wherever edges and lines are stored: in lists of edges, in half-edge meshes, in nodes of
+/// curves and in the buffers of passes. Properties that make an edge a line in every view have the bit of its kind in
+/// a [`KindSet`]; all others lie from [`KindSet::END`] on.
 #[repr(transparent)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
 pub struct EdgeFlags(pub u32);
@@ -22,20 +23,26 @@ impl EdgeFlags {
     /// The file or the user asks for a line here.
     pub const MARKED: Self = Self(KindSet::MARKED);
     /// The two faces are wound in opposite senses: seen from one side, one shows its front and one its back.
-    pub const FLIPPED: Self = Self(64);
+    pub const FLIPPED: Self = Self(KindSet::END);
     /// Three or more faces meet the edge.
-    pub const NON_MANIFOLD: Self = Self(128);
+    pub const NON_MANIFOLD: Self = Self(KindSet::END << 1);
     /// The first face runs along the edge from its second end to its first.
-    pub const BACKWARD: Self = Self(256);
+    pub const BACKWARD: Self = Self(KindSet::END << 2);
     /// Each face lies in front of the other, as in a valley; never set together with
     /// [`FLIPPED`](Self::FLIPPED) or [`NON_MANIFOLD`](Self::NON_MANIFOLD).
-    pub const CONCAVE: Self = Self(512);
+    pub const CONCAVE: Self = Self(KindSet::END << 3);
     /// Its object has a boundary, so that backs of faces may be seen.
-    pub const OPEN: Self = Self(1024);
+    pub const OPEN: Self = Self(KindSet::END << 4);
     /// It is drawn against the way in which it is stored.
-    pub const REVERSED: Self = Self(2048);
+    pub const REVERSED: Self = Self(KindSet::END << 5);
     /// It is a line of its own, without faces.
-    pub const WIRE: Self = Self(4096);
+    pub const POLYLINE: Self = Self(KindSet::END << 6);
+    /// A face beside it is turned to the eye: as published, each such edge is a line.
+    pub const FACING: Self = Self(KindSet::END << 7);
+    /// Its line turns from its surface's visible to its hidden side here.
+    pub const CUSP: Self = Self(KindSet::END << 8);
+    /// Its line only links faces that are wound against each other.
+    pub const SEAM: Self = Self(KindSet::END << 9);
 
     /// Whether all of `flags` are set.
     pub const fn contains(self, flags: Self) -> bool {

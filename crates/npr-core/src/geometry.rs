@@ -4,7 +4,7 @@
 
 use crate::edge_flags::EdgeFlags;
 use crate::gpu_layout;
-use crate::line_kind::COLORED_KINDS;
+use crate::line_kind::{COLORED_KINDS, KindSet};
 use bytemuck::{Pod, Zeroable};
 
 /// Marks "none" wherever an index is expected.
@@ -197,9 +197,6 @@ pub struct Part {
     pub beam_alpha: [f32; 4],
     /// Tone steps: linear light rgb from coordinate `a` upwards; unused ones start at 2.
     pub ramp: [[f32; 4]; 8],
-    /// Colours of single kinds of its lines, sRGB bytes, in the order of [`Kind::ALL`](crate::line_kind::Kind::ALL).
-    /// A colour counts where `line_flags` has the bit of its kind.
-    pub line_kinds: [u32; COLORED_KINDS],
     /// What decides the colour of its lines beside `line_color`: the bits of kinds with a colour of their own, of
     /// [`Part::LINE_KINDS`], then [`Part::LINE_SURFACE`] to [`Part::LINE_WIDTH`].
     pub line_flags: u32,
@@ -211,23 +208,28 @@ pub struct Part {
     pub line_depth_row: u32,
     /// Where the row over light starts there, with [`Part::LINE_LIGHT`].
     pub line_light_row: u32,
+    /// Laid over all of its lines, sRGB bytes; alpha is how much.
+    pub line_tint: u32,
+    /// How much lines take the colour of the light behind where that lights them, 0..1.
+    pub line_rim: f32,
+    /// Number of its connected surface within the object: parts of one number are one skin, however many materials
+    /// and ids it has.
+    pub component: u32,
     /// View depth where the row over depth begins, and 1 / its length; in the world.
     pub line_depth: [f32; 2],
     /// Opacity of lines in the dark and in full light.
     pub line_opacity: [f32; 2],
     /// Factor on their width in the dark and in full light.
     pub line_width: [f32; 2],
-    /// Laid over all of its lines, sRGB bytes; alpha is how much.
-    pub line_tint: u32,
-    /// How much lines take the colour of the light behind where that lights them, 0..1.
-    pub line_rim: f32,
     /// Across its streak, to the right and up in the picture: a unit vector.
     pub streak_across: [f32; 2],
     /// Unit vector towards the light behind it, in the camera's axes: to the right, up, and towards the eye.
     pub back_direction: [f32; 3],
-    /// Number of its connected surface within the object: parts of one number are one skin, however many materials
-    /// and ids it has.
-    pub component: u32,
+    /// Colours of single kinds of its lines, sRGB bytes, in the order of [`Kind::ALL`](crate::line_kind::Kind::ALL).
+    /// A colour counts where `line_flags` has the bit of its kind.
+    pub line_kinds: [u32; COLORED_KINDS],
+    /// Fills up what the kinds leave of a multiple of 16 bytes.
+    pub unused: [u32; UNUSED],
 }
 gpu_layout!(Part {
     base_color,
@@ -260,21 +262,24 @@ gpu_layout!(Part {
     back,
     beam_alpha,
     ramp,
-    line_kinds,
     line_flags,
     line_factor,
     line_texture,
     line_depth_row,
     line_light_row,
+    line_tint,
+    line_rim,
+    component,
     line_depth,
     line_opacity,
     line_width,
-    line_tint,
-    line_rim,
     streak_across,
     back_direction,
-    component,
+    line_kinds,
 });
+
+/// Words of [`Part`] behind the colours of kinds, which follow three words of sixteen bytes.
+const UNUSED: usize = (COLORED_KINDS + 3).next_multiple_of(4) - (COLORED_KINDS + 3);
 
 impl Part {
     /// Both sides are drawn.
@@ -331,27 +336,27 @@ impl Part {
     pub const HIGHLIGHTS: u32 = Self::CRISP | Self::SOFT | Self::BACK_LIGHT | Self::STREAK;
 
     /// In `line_flags`: the bits of kinds that may have a colour of their own.
-    pub const LINE_KINDS: u32 = 31;
+    pub const LINE_KINDS: u32 = KindSet::COLORED;
     /// Lines take the colour that the surface shows without light.
-    pub const LINE_SURFACE: u32 = 32;
+    pub const LINE_SURFACE: u32 = KindSet::END;
     /// Lines take the colour of the vertices.
-    pub const LINE_VERTEX: u32 = 64;
+    pub const LINE_VERTEX: u32 = KindSet::END << 1;
     /// Lines take the colour of a picture, at the surface's texture coordinates.
-    pub const LINE_TEXTURE: u32 = 128;
+    pub const LINE_TEXTURE: u32 = KindSet::END << 2;
     /// A row of the texture store lies over lines by their depth.
-    pub const LINE_DEPTH: u32 = 256;
+    pub const LINE_DEPTH: u32 = KindSet::END << 3;
     /// Depth counts from the depth of the model's middle, not from the eye.
-    pub const LINE_FROM_MIDDLE: u32 = 512;
+    pub const LINE_FROM_MIDDLE: u32 = KindSet::END << 4;
     /// A row lies over lines by the light on their surface.
-    pub const LINE_LIGHT: u32 = 1024;
+    pub const LINE_LIGHT: u32 = KindSet::END << 5;
     /// Light changes their opacity.
-    pub const LINE_OPACITY: u32 = 2048;
+    pub const LINE_OPACITY: u32 = KindSet::END << 6;
     /// A tint lies over all lines.
-    pub const LINE_TINT: u32 = 4096;
+    pub const LINE_TINT: u32 = KindSet::END << 7;
     /// The light behind colours lines that it lights.
-    pub const LINE_RIM: u32 = 8192;
+    pub const LINE_RIM: u32 = KindSet::END << 8;
     /// Light changes their width.
-    pub const LINE_WIDTH: u32 = 16384;
+    pub const LINE_WIDTH: u32 = KindSet::END << 9;
     /// Anything that gives lines a colour of the surface.
     pub const LINE_SOURCES: u32 = Self::LINE_SURFACE | Self::LINE_VERTEX | Self::LINE_TEXTURE;
     /// Anything that lies over the colour of lines.

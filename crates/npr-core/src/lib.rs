@@ -3,9 +3,10 @@
 //! Deterministic math ([`math`]), numbers that look random ([`random`]), colour encoding ([`color`]), cameras
 //! ([`camera`]), the structs that passes read and write on both engines ([`geometry`], [`window`]), the surface point
 //! under a pixel ([`surface`]), packed textures ([`texture`]), and a triangle rasteriser with a stated fill rule
-//! ([`raster`]); spheres of smoke ([`smoke`]); the kinds of line ([`line_kind`]) and the flags of mesh edges
-//! ([`edge_flags`]); constants that styles and lines share ([`published_path`]); the door to decoders of others
-//! ([`decoding`]). Nothing here knows about files, styles or graphics devices.
+//! ([`raster`]); spheres of smoke ([`smoke`]); the kinds of line ([`line_kind`]), how they are found
+//! ([`line_source`]) and the flags of mesh edges ([`edge_flags`]); constants that styles and lines share
+//! ([`published_path`]); the door to decoders of others ([`decoding`]). Nothing here knows about files, styles or
+//! graphics devices.
 //!
 //! ```
 //! use npr_core::camera::Camera;
@@ -26,6 +27,7 @@ pub mod layout;
 pub mod light_view;
 pub mod line_color;
 pub mod line_kind;
+pub mod line_source;
 pub mod math;
 pub mod number;
 pub mod outline;

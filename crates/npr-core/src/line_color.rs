@@ -6,7 +6,7 @@
 use crate::color::{linear_from_srgb, pack_rgba8, srgb_from_linear, unpack_rgba8};
 use crate::geometry::{NONE, Part};
 use crate::gpu_layout;
-use crate::line_kind::Kind;
+use crate::line_kind::{Kind, KindSet};
 use crate::outline::Outline;
 use crate::window::Window;
 use bytemuck::{Pod, Zeroable};
@@ -14,7 +14,7 @@ use bytemuck::{Pod, Zeroable};
 /// The kind that an edge of several kinds is coloured as: the first; an edge of no kind is coloured as a contour.
 #[inline]
 pub fn kind_of_edge(kinds: u32) -> Kind {
-    Kind::first_of(kinds & Outline::EDGE_KINDS).unwrap_or(Kind::Contour)
+    Kind::first_of(kinds & KindSet::EDGES).unwrap_or(Kind::Contour)
 }
 
 /// The kind that a pixel of the mask is coloured as, by what found it.
@@ -28,6 +28,18 @@ pub fn kind_of_mask(found: u32) -> Kind {
         Kind::Material
     } else {
         Kind::Crease
+    }
+}
+
+/// The kind of a line between two pixels of a picture of surfaces, by what found it.
+#[inline]
+pub fn kind_of_border(found: u32) -> Kind {
+    if found & Outline::DEPTH != 0 {
+        Kind::Contour
+    } else if found & (Outline::OBJECT_ID | Outline::PIECE) != 0 {
+        Kind::Intersection
+    } else {
+        kind_of_mask(found)
     }
 }
 
@@ -212,7 +224,8 @@ impl Tint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::line_kind::{COLORED_KINDS, KindSet};
+    use crate::edge_flags::EdgeFlags;
+    use crate::line_kind::COLORED_KINDS;
     use proptest::prelude::*;
 
     fn window() -> Window {
@@ -224,7 +237,7 @@ mod tests {
     }
 
     fn kind() -> impl Strategy<Value = Kind> {
-        prop::sample::select(&Kind::ALL[..COLORED_KINDS])
+        prop::sample::select(&Kind::COLORED[..])
     }
 
     proptest! {
@@ -238,7 +251,9 @@ mod tests {
         }
 
         #[test]
-        fn a_clear_tint_layer_changes_no_bit(own in color(), kind_color in color(), flags in 0u32..32, kind in kind()) {
+        fn a_clear_tint_layer_changes_no_bit(
+            own in color(), kind_color in color(), flags in 0u32..=KindSet::COLORED, kind in kind(),
+        ) {
             let part = Part {
                 line_color: own,
                 line_kinds: [pack_rgba8(kind_color); COLORED_KINDS],
@@ -306,7 +321,7 @@ mod tests {
             kind_of_edge(KindSet::CREASE | KindSet::MATERIAL),
             Kind::Crease
         );
-        assert_eq!(kind_of_edge(Outline::ANY), Kind::Contour);
+        assert_eq!(kind_of_edge(EdgeFlags::FACING.0), Kind::Contour);
         assert_eq!(kind_of_edge(0), Kind::Contour);
         assert_eq!(
             kind_of_mask(Outline::PIECE | Outline::DEPTH),

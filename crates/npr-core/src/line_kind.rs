@@ -1,7 +1,8 @@
 //! The kinds of line: what a line is on the shape.
 //!
 //! Every list of kinds follows from this one: styles, drawings, edges, nodes of curves and shaders. A kind has a name
-//! for files, a sentence for people, and a bit for sets of kinds.
+//! for files, a sentence for people, and a bit for sets of kinds. Styles choose and colour the kinds before
+//! [`Kind::Marked`], which is the last.
 
 /// Declares [`Kind`] from one line a kind: what it is, its name, and its bit.
 macro_rules! kinds {
@@ -45,10 +46,25 @@ kinds! {
     Marked = "marked", MARKED;
 }
 
-/// Number of kinds whose lines may have a colour of their own: the first of [`Kind::ALL`].
+/// Number of kinds whose lines may have a colour of their own: all before [`Kind::Marked`].
 pub const COLORED_KINDS: usize = 5;
 
+/// Bits that hold the number of a kind, or one of the two numbers after the last.
+pub const KIND_NUMBER_BITS: u32 = (Kind::ALL.len() + 1).ilog2() + 1;
+
+const _: () = assert!(
+    COLORED_KINDS == Kind::Marked as usize && COLORED_KINDS + 1 == Kind::ALL.len(),
+    "marked lines are of the last kind, and styles colour all others"
+);
+
 impl Kind {
+    /// The kinds that styles choose and colour.
+    pub const COLORED: [Kind; COLORED_KINDS] = {
+        let mut colored = [Kind::Contour; COLORED_KINDS];
+        colored.copy_from_slice(Kind::ALL.split_at(COLORED_KINDS).0);
+        colored
+    };
+
     /// Its name in files and on the command line.
     pub const fn name(self) -> &'static str {
         Self::NAMES[self as usize]
@@ -97,7 +113,13 @@ impl KindSet {
     /// The bit of [`Kind::Marked`].
     pub const MARKED: u32 = 32;
     /// The bits of all kinds.
-    pub const BITS: u32 = 63;
+    pub const BITS: u32 = 2 * Self::MARKED - 1;
+    /// The bits of the kinds that styles may colour.
+    pub const COLORED: u32 = Self::MARKED - 1;
+    /// The bits of kinds that lines of a frame are found as along edges of meshes.
+    pub const EDGES: u32 = Self::CONTOUR | Self::BOUNDARY | Self::CREASE | Self::MATERIAL;
+    /// The first bit of what shares a word with kinds: those below are kept for kinds.
+    pub const END: u32 = 1 << 16;
 
     /// Every kind.
     pub const ALL: Self = Self(Self::BITS);

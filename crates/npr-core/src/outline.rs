@@ -1,7 +1,6 @@
 //! Settings of outlines, as passes read them.
 
 use crate::gpu_layout;
-use crate::line_kind::KindSet;
 use bytemuck::{Pod, Zeroable};
 
 /// How lines are detected, chosen and drawn.
@@ -24,7 +23,8 @@ pub struct Outline {
     pub depth_threshold: f32,
     /// Cosine of the angle between normals from which pixels are separated by a line.
     pub normal_cos: f32,
-    /// Which kinds of edges are drawn: bits of [`KindSet`] and [`Outline::ANY`].
+    /// Which kinds of edges are drawn: bits of [`KindSet`](crate::line_kind::KindSet), and
+    /// [`FACING`](crate::edge_flags::EdgeFlags::FACING).
     pub kinds: u32,
     /// Which buffers lines are detected on: bits of [`Outline::DEPTH`] to [`Outline::MATERIAL_ID`].
     pub detects: u32,
@@ -49,12 +49,6 @@ gpu_layout!(Outline {
 });
 
 impl Outline {
-    /// Beside the bits of kinds: every edge of a face turned to the eye, as published.
-    pub const ANY: u32 = 64;
-    /// The kinds that a mesh edge may be of in a frame.
-    pub const EDGE_KINDS: u32 =
-        KindSet::CONTOUR | KindSet::BOUNDARY | KindSet::CREASE | KindSet::MATERIAL;
-
     /// Detects jumps in depth. Also the bit that such a pixel gets in the mask.
     pub const DEPTH: u32 = 1;
     /// Detects jumps in the normal.

@@ -18,7 +18,7 @@ pub struct PosedMesh<'a> {
     pub parts: &'a [Part],
 }
 
-/// The kinds of every edge, as bits of [`KindSet::CONTOUR`] to [`Outline::ANY`], limited to those the outline draws.
+/// The kinds of every edge, as bits of [`KindSet`] and [`EdgeFlags::FACING`], limited to those the outline draws.
 ///
 /// A contour has one face turned to the eye and one turned away [Marshall 2001]. Edges of parts without lines are of no
 /// kind. O(edges), parallel.
@@ -60,14 +60,14 @@ fn kinds_of(outline: &Outline, mesh: &PosedMesh<'_>, edge: &Edge) -> u32 {
     // Take an edge of one face for a boundary where it can be seen.
     if edge.faces[1] == NONE {
         return bit(
-            KindSet::BOUNDARY | bit(Outline::ANY, front),
+            KindSet::BOUNDARY | bit(EdgeFlags::FACING.0, front),
             front || both_sides,
         );
     }
 
     // Turn an inside-out neighbour back, so that it makes no false contour.
     let mut second = mesh.face_is_front(edge.faces[1]);
-    let published = bit(Outline::ANY, front || second);
+    let published = bit(EdgeFlags::FACING.0, front || second);
     if edge.traits.contains(EdgeFlags::FLIPPED) {
         second = !second;
     }
@@ -139,14 +139,14 @@ mod tests {
 
     #[test]
     fn a_flat_pair_is_no_line() {
-        assert_eq!(kinds([1.0, 0.5], EdgeFlags::NONE, 1.0), Outline::ANY);
+        assert_eq!(kinds([1.0, 0.5], EdgeFlags::NONE, 1.0), EdgeFlags::FACING.0);
     }
 
     #[test]
     fn a_folded_pair_is_a_contour() {
         assert_eq!(
             kinds([-0.5, 0.5], EdgeFlags::NONE, 1.0),
-            KindSet::CONTOUR | Outline::ANY
+            KindSet::CONTOUR | EdgeFlags::FACING.0
         );
     }
 
@@ -154,11 +154,11 @@ mod tests {
     fn creases_and_materials_are_told_apart() {
         assert_eq!(
             kinds([1.0, 0.5], EdgeFlags::NONE, 0.5),
-            KindSet::CREASE | Outline::ANY
+            KindSet::CREASE | EdgeFlags::FACING.0
         );
         assert_eq!(
             kinds([1.0, 0.5], EdgeFlags::MATERIAL, 1.0),
-            KindSet::MATERIAL | Outline::ANY
+            KindSet::MATERIAL | EdgeFlags::FACING.0
         );
     }
 

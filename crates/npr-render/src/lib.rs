@@ -59,7 +59,7 @@ pub use features::lettering::Lettering;
 pub use frame::Frame;
 pub use id_map::apply_id_maps;
 pub use lines::{
-    KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer, PaintedLines,
+    KindSet, LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource, PaintedLines,
 };
 pub use model::Model;
 pub use npr_core::smoke::Sphere;

@@ -7,7 +7,7 @@ use npr_core::color::pack_rgba8;
 use npr_core::geometry::{NONE, Part};
 use npr_core::texture::{TextureStore, Wrap};
 use npr_style::line_color::HUES;
-use npr_stylesheet::{HueStop, LineMethod, LineSource, Look, Style, hue_row};
+use npr_stylesheet::{HueStop, LineColorSource, Look, OutlineMethod, Style, hue_row};
 use std::collections::BTreeMap;
 
 /// Rows and pictures that are in a texture store already, each once.
@@ -33,13 +33,14 @@ pub(crate) fn add_line_colors(
     // A mask drawn as it is has the style's colour of lines, but for parts of which more is decided.
     let is_filtered = matches!(
         style.line.method,
-        LineMethod::Filter | LineMethod::FilterHull
+        OutlineMethod::Filter | OutlineMethod::FilterHull
     );
     let mut kept = Kept::default();
     for (part, look) in parts.iter_mut().zip(&looks) {
         let paint = &look.line_paint;
         paint.give_to(part, style.line.opacity, radius);
-        let has_own = paint.source == LineSource::Constant && look.line_color != style.line.color;
+        let has_own =
+            paint.source == LineColorSource::Constant && look.line_color != style.line.color;
         if is_filtered && has_own {
             give_to_kinds(part);
         }

@@ -19,5 +19,6 @@ mod widths;
 
 pub use model::LineModel;
 pub use npr_core::line_kind::KindSet;
-pub use options::{LineMethod, LineModelOptions, LineOptions, PaintedLines};
+pub use npr_core::line_source::LineSource;
+pub use options::{LineModelOptions, LineOptions, PaintedLines};
 pub use renderer::LineRenderer;

@@ -12,6 +12,7 @@ use glam::Vec3;
 use npr_core::camera::Camera;
 use npr_core::color::{pack_rgba8, srgb_from_linear};
 use npr_core::crease::{CreaseFrom, Creases};
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::{NONE, Part, Vertex};
 use npr_core::line_kind::KindSet;
 use npr_core::math;
@@ -22,8 +23,8 @@ use npr_mesh::curvature::tightest;
 use npr_style::compose::Compose;
 use npr_style::ramp::Level;
 use npr_stylesheet::{
-    Background, Edge, Highlight, HighlightModel, LineMethod, Look, ShadeMode, Style, Unit, Width,
-    WidthSource,
+    Background, Edge, Highlight, HighlightModel, Look, OutlineMethod, ShadeMode, Style, Unit,
+    Width, WidthSource,
 };
 
 /// Everything a style decides before the camera is known.
@@ -201,12 +202,12 @@ fn highlighted(highlight: &Highlight) -> Part {
 }
 
 /// The bits of a part whose outline is drawn by a method.
-fn outline_flags(method: LineMethod) -> u32 {
+fn outline_flags(method: OutlineMethod) -> u32 {
     match method {
-        LineMethod::Off | LineMethod::Curves | LineMethod::Potrace => 0,
-        LineMethod::Hull => Part::HULL,
-        LineMethod::FilterHull => Part::LINES | Part::HULL,
-        LineMethod::Angle => Part::ANGLE,
+        OutlineMethod::Off | OutlineMethod::Curves | OutlineMethod::Potrace => 0,
+        OutlineMethod::Hull => Part::HULL,
+        OutlineMethod::FilterHull => Part::LINES | Part::HULL,
+        OutlineMethod::Angle => Part::ANGLE,
         _ => Part::LINES,
     }
 }
@@ -346,7 +347,7 @@ pub(crate) fn outline(
     let (line, detect) = (&style.line, &style.detect);
     let bit = |bit: u32, when: bool| if when { bit } else { 0 };
     let in_world = line.width.base.unit == Unit::World;
-    let published = line.method == LineMethod::Okuya;
+    let published = line.method == OutlineMethod::Okuya;
     Outline {
         base_width: if in_world {
             line.width.base.value
@@ -361,9 +362,9 @@ pub(crate) fn outline(
         depth_threshold: detect.depth_threshold(),
         normal_cos: math::cos(normal_threshold_deg(style).to_radians()),
         kinds: match line.method {
-            LineMethod::Okuya => Outline::ANY,
-            LineMethod::Edges => KindSet::CONTOUR | KindSet::BOUNDARY,
-            _ => line.kinds.set().bits() & Outline::EDGE_KINDS,
+            OutlineMethod::Okuya => EdgeFlags::FACING.0,
+            OutlineMethod::Edges => KindSet::CONTOUR | KindSet::BOUNDARY,
+            _ => line.kinds.set().bits() & KindSet::EDGES,
         },
         detects: bit(Outline::DEPTH, detect.depth.on)
             | bit(Outline::NORMAL, detect.normal.on)
@@ -377,7 +378,7 @@ pub(crate) fn outline(
                 line.width.source == WidthSource::ProjectedCurvature,
             )
             | bit(Outline::PUBLISHED, published)
-            | bit(Outline::UNMASKED, line.method == LineMethod::Edges),
+            | bit(Outline::UNMASKED, line.method == OutlineMethod::Edges),
         reach_px,
     }
 }
@@ -400,7 +401,7 @@ const MASK_SHARE: f32 = 0.875;
 fn normal_threshold_deg(style: &Style) -> f32 {
     let crease = style.line.crease_angle_deg;
     let of_creases = match style.line.method {
-        LineMethod::Shape => MASK_SHARE * crease,
+        OutlineMethod::Shape => MASK_SHARE * crease,
         _ => crease,
     };
     style.detect.normal.threshold_deg.unwrap_or(of_creases)

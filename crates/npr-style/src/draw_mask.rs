@@ -79,6 +79,7 @@ impl MaskInk<'_> {
 mod tests {
     use super::*;
     use npr_core::line_color::LineTint;
+    use npr_core::line_kind::{Kind, KindSet};
     use npr_core::outline::Outline;
 
     /// A mask of two pixels, of which the left owns the line, drawn on its own grid.
@@ -107,8 +108,8 @@ mod tests {
     #[test]
     fn lines_have_the_color_of_their_owner_and_kind() {
         let part = |crease: u32| Part {
-            line_flags: 0b100,
-            line_kinds: [0, 0, crease, 0, 0],
+            line_flags: KindSet::CREASE,
+            line_kinds: Kind::COLORED.map(|kind| if kind == Kind::Crease { crease } else { 0 }),
             ..Part::default()
         };
         let parts = [part(0xff00_00ff), part(0xff00_ff00)];

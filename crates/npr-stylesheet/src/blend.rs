@@ -77,7 +77,7 @@ mod tests {
             (&other.background, &other.light),
             (&style.background, &style.light)
         );
-        assert_eq!(other.line.method, crate::LineMethod::Off);
+        assert_eq!(other.line.method, crate::OutlineMethod::Off);
         assert!(!other.blend.shows() && style.blend.shows());
         let look = other.resolve_for("Beam", "A");
         assert!(look.line_on && look.beam.is_some() && look.shade_color.is_some());

@@ -6,7 +6,7 @@ use crate::motion::TRAILS_MAX;
 use crate::nearest::nearest;
 use crate::overlay::Over;
 use crate::ramp::{Stop, first_unsorted};
-use crate::{LineMethod, Rule, Style, Width, WidthSource};
+use crate::{OutlineMethod, Rule, Style, Width, WidthSource};
 
 impl Style {
     /// Checks what no single value shows: order, contradictions, missing companions.
@@ -121,16 +121,16 @@ fn check_direction(direction: Option<[f32; 3]>, key: &str) -> Result<(), StyleEr
 }
 
 /// A part cannot have a method that works on whole pictures.
-fn check_method(method: Option<LineMethod>, rule: usize) -> Result<(), StyleError> {
+fn check_method(method: Option<OutlineMethod>, rule: usize) -> Result<(), StyleError> {
     match method {
         None
         | Some(
-            LineMethod::Off
-            | LineMethod::Shape
-            | LineMethod::Hull
-            | LineMethod::Angle
-            | LineMethod::Curves
-            | LineMethod::Potrace,
+            OutlineMethod::Off
+            | OutlineMethod::Shape
+            | OutlineMethod::Hull
+            | OutlineMethod::Angle
+            | OutlineMethod::Curves
+            | OutlineMethod::Potrace,
         ) => Ok(()),
         Some(_) => Err(StyleError::unfit(
             format!("rule.{rule}.line.method"),

@@ -1,7 +1,7 @@
 //! Looks made of a look: without its lines, and the one that it is blended with.
 
 use crate::{
-    Blend, LineBackground, LineMethod, Rule, RuleBackground, RuleShade, Style, StyleError,
+    Blend, LineBackground, OutlineMethod, Rule, RuleBackground, RuleShade, Style, StyleError,
 };
 
 impl Style {
@@ -12,7 +12,7 @@ impl Style {
             lettering: Vec::new(),
             ..self.clone()
         };
-        style.line.method = LineMethod::Off;
+        style.line.method = OutlineMethod::Off;
         style.line.background = LineBackground::default();
         for rule in &mut style.rule {
             rule.line.method = None;

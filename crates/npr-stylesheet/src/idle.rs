@@ -3,7 +3,7 @@
 mod case;
 mod table;
 
-pub use case::{Facts, LineFinder, LineForm, LineOutput, Occasion, Output};
+pub use case::{Facts, LineForm, LineOutput, Occasion, Output};
 
 use crate::Stated;
 use crate::former::notice;

@@ -52,6 +52,7 @@ mod lettering;
 mod light;
 mod line;
 mod line_background;
+mod line_kinds;
 mod line_notice;
 mod line_paint;
 mod look;
@@ -86,18 +87,19 @@ pub use highlight::{
 };
 pub use id_map::{ID_MAPS_MAX, IDS_MAX, IdMap, NamedId};
 pub use id_region::IdRegion;
-pub use idle::{Facts, LineFinder, LineForm, LineOutput, Occasion, Output};
+pub use idle::{Facts, LineForm, LineOutput, Occasion, Output};
 pub use ink::{Follow, Ink, Mapping, RuleHatch, RuleInk, StrokeSpace, Tone};
 pub use layers::{PARENTS_MAX, TEXT_BYTES_MAX};
 pub use lettering::{LETTERING_MAX, Lettering, LetteringOutline};
 pub use light::{ExtraLight, Light, LightShape, LightSpace};
-pub use line::{CREASE_ANGLE_DEG, CreaseFrom, Kinds, Line, LineMethod};
+pub use line::{CREASE_ANGLE_DEG, CreaseFrom, Line, OutlineMethod};
 pub use line_background::{
     BackgroundMethod, Direction, Likeness, LineBackground, LineScope, LineStart, Measure,
     RuleBackground, Subjects,
 };
+pub use line_kinds::{KindColors, Kinds};
 pub use line_paint::{
-    DepthSpace, HUE_STOPS_MAX, HueStop, KindColors, LineDepth, LineLight, LinePaint, LineSource,
+    DepthSpace, HUE_STOPS_MAX, HueStop, LineColorSource, LineDepth, LineLight, LinePaint,
     RuleLineDepth, RuleLineLight, RulePaint, hue_row,
 };
 pub use look::Look;
@@ -117,5 +119,6 @@ pub use stated::Stated;
 pub use style::Style;
 pub use width::{Channel, ControlPoint, Width, WidthSource};
 
+pub use npr_core::line_source::LineSource;
 pub use npr_style::hatch::{Hatch, Pattern};
 pub use npr_style::{LONGEST, Length, LengthError, REFERENCE_HEIGHT_PX, Unit};

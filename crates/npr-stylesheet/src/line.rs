@@ -1,16 +1,16 @@
 //! Which lines are drawn, and with what.
 
-use npr_core::line_kind::{Kind, KindSet};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::overlay::style_table;
-use crate::{Color, LineBackground, LinePaint, Potrace, Width};
+use crate::{Color, Kinds, LineBackground, LinePaint, LineSource, Potrace, Width};
 
-/// How lines are found and drawn.
+/// How frames find outlines and draw them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum LineMethod {
+#[schemars(rename = "LineMethod")]
+pub enum OutlineMethod {
     /// No lines.
     #[serde(rename = "none")]
     Off,
@@ -40,6 +40,17 @@ pub enum LineMethod {
     Potrace,
 }
 
+impl OutlineMethod {
+    /// How its lines are found where they are strokes of a line drawing.
+    pub const fn source(self) -> Option<LineSource> {
+        match self {
+            Self::Curves => Some(LineSource::Edges),
+            Self::Potrace => Some(LineSource::Potrace),
+            _ => None,
+        }
+    }
+}
+
 /// Angle in degrees from which an edge is a crease, where a style names no other.
 pub const CREASE_ANGLE_DEG: f32 = 40.0;
 
@@ -55,54 +66,11 @@ pub enum CreaseFrom {
     Faces,
 }
 
-/// The kinds of line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Kinds {
-    /// Where a surface turns away from the eye; default true.
-    pub contour: bool,
-    /// Where a surface ends: edges with one face; default true.
-    pub boundary: bool,
-    /// Where a surface folds by more than `crease_angle_deg`; default true.
-    pub crease: bool,
-    /// Where one material meets another; default true.
-    pub material: bool,
-    /// Where surfaces cut through each other; default true. Off hides sloppy modelling.
-    pub intersection: bool,
-}
-
-impl Default for Kinds {
-    fn default() -> Self {
-        Self {
-            contour: true,
-            boundary: true,
-            crease: true,
-            material: true,
-            intersection: true,
-        }
-    }
-}
-
-impl Kinds {
-    /// The kinds that are drawn; marked lines are no matter of a style.
-    pub fn set(&self) -> KindSet {
-        let is_drawn = |kind: &Kind| match kind {
-            Kind::Contour => self.contour,
-            Kind::Boundary => self.boundary,
-            Kind::Crease => self.crease,
-            Kind::Material => self.material,
-            Kind::Intersection => self.intersection,
-            Kind::Marked => false,
-        };
-        Kind::ALL.into_iter().filter(is_drawn).collect()
-    }
-}
-
 style_table! {
 /// Which lines are drawn, and with what.
 pub struct Line {
     /// How lines are found and drawn; default `shape`. The others are there for comparison.
-    pub method: LineMethod = LineMethod::Shape,
+    pub method: OutlineMethod = OutlineMethod::Shape,
     /// Colour of the ink; default dark brown. A dark tone of the picture's main hue looks softer.
     pub color: Color = Color::rgb(0x2b, 0x1a, 0x12),
     /// How much the ink covers, 0..1; default 1. 0.3 a hard pencil, 1 ink.

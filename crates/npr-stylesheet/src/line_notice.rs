@@ -1,8 +1,9 @@
 //! What the line methods of a style cannot honour of how it colours lines.
 
 use npr_core::geometry::Part;
+use npr_core::line_kind::KindSet;
 
-use crate::{LineMethod, Style};
+use crate::{OutlineMethod, Style};
 
 impl Style {
     /// What its line methods cannot honour of how it colours lines, a sentence each, for the user.
@@ -10,21 +11,23 @@ impl Style {
         // Gather the methods that lines of any part are drawn by.
         let has = |bits: u32| self.line_paint_flags() & bits != 0;
         let rules = self.rule.iter().filter_map(|rule| rule.line.method);
-        let methods: Vec<LineMethod> = std::iter::once(self.line.method).chain(rules).collect();
-        let draws = |wanted: &[LineMethod]| methods.iter().any(|method| wanted.contains(method));
-        let filters = [LineMethod::Filter, LineMethod::FilterHull];
-        let hulls = [LineMethod::Hull, LineMethod::FilterHull];
-        let even = [filters[0], filters[1], LineMethod::Angle];
+        let methods: Vec<OutlineMethod> = std::iter::once(self.line.method).chain(rules).collect();
+        let draws = |wanted: &[OutlineMethod]| methods.iter().any(|method| wanted.contains(method));
+        let filters = [OutlineMethod::Filter, OutlineMethod::FilterHull];
+        let hulls = [OutlineMethod::Hull, OutlineMethod::FilterHull];
+        let even = [filters[0], filters[1], OutlineMethod::Angle];
 
         // Tell what these methods leave out of the light and of the kinds.
         let mut notices = Vec::new();
         if has(Part::LINE_WIDTH) && draws(&even) {
             notices.push("line.paint.light.width changes no lines of method filter or angle");
         }
-        if has(Part::LINE_OPACITY) && draws(&[hulls[0], hulls[1], LineMethod::Angle]) {
+        if has(Part::LINE_OPACITY) && draws(&[hulls[0], hulls[1], OutlineMethod::Angle]) {
             notices.push("line.paint.light.opacity changes no lines of method hull or angle");
         }
-        if has(0b11110) && draws(&[hulls[0], hulls[1], LineMethod::Angle]) {
+        if has(Part::LINE_KINDS & !KindSet::CONTOUR)
+            && draws(&[hulls[0], hulls[1], OutlineMethod::Angle])
+        {
             notices.push("lines of method hull or angle are all contours to line.paint.kinds");
         }
         notices.extend(self.line_source_notice());

@@ -3,15 +3,14 @@
 use color::{AlphaColor, HueDirection, Oklab, Srgb};
 use npr_core::color::{pack_rgba8, srgb_from_linear};
 use npr_core::geometry::Part;
-use npr_core::line_kind::{COLORED_KINDS, Kind, KindSet};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use npr_style::line_color::HUES;
 
-use crate::Color;
 use crate::error::StyleError;
-use crate::overlay::{Over, style_table};
+use crate::overlay::style_table;
+use crate::{Color, KindColors};
 
 /// Most stops of a row.
 pub const HUE_STOPS_MAX: usize = 16;
@@ -19,7 +18,8 @@ pub const HUE_STOPS_MAX: usize = 16;
 /// Where the colour of a line comes from, before light, depth and tint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum LineSource {
+#[schemars(rename = "LineSource")]
+pub enum LineColorSource {
     /// From `line.color`.
     #[default]
     Constant,
@@ -51,64 +51,6 @@ pub struct HueStop {
     pub at: f32,
     /// What is laid over the line there; alpha is how much: `#fff0` leaves the line as it is, `#fff` makes it white.
     pub color: Color,
-}
-
-/// Colours for single kinds of line; what is absent has the colour of all.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct KindColors {
-    /// Of contours.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub contour: Option<Color>,
-    /// Of boundaries.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub boundary: Option<Color>,
-    /// Of creases.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub crease: Option<Color>,
-    /// Of lines between materials.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub material: Option<Color>,
-    /// Of lines where surfaces cut through each other.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub intersection: Option<Color>,
-}
-
-impl KindColors {
-    /// The colour of a kind; none of a kind that has no colour of its own.
-    pub fn of(&self, kind: Kind) -> Option<Color> {
-        match kind {
-            Kind::Contour => self.contour,
-            Kind::Boundary => self.boundary,
-            Kind::Crease => self.crease,
-            Kind::Material => self.material,
-            Kind::Intersection => self.intersection,
-            Kind::Marked => None,
-        }
-    }
-
-    /// The kinds that have a colour of their own.
-    fn set(&self) -> KindSet {
-        let is_colored = |kind: &Kind| self.of(*kind).is_some();
-        Kind::ALL.into_iter().filter(is_colored).collect()
-    }
-
-    /// In the order of [`Part::line_kinds`].
-    fn in_order(&self) -> [Option<Color>; COLORED_KINDS] {
-        std::array::from_fn(|number| self.of(Kind::ALL[number]))
-    }
-}
-
-impl Over<Self> for KindColors {
-    fn over(&self, below: Self) -> Self {
-        Self {
-            contour: self.contour.or(below.contour),
-            boundary: self.boundary.or(below.boundary),
-            crease: self.crease.or(below.crease),
-            material: self.material.or(below.material),
-            intersection: self.intersection.or(below.intersection),
-        }
-    }
 }
 
 style_table! {
@@ -175,7 +117,7 @@ pub struct LinePaint;
 pub struct RulePaint {
     /// Where the colour of all others comes from; default `constant`.
     #[rule = "Where the colour of its other lines comes from."]
-    pub source: LineSource = LineSource::Constant,
+    pub source: LineColorSource = LineColorSource::Constant,
     /// What a surface's, vertex's or picture's colour is multiplied by, in linear light, 0..4; default 0.2.
     /// 0.05 nearly black, 0.2 a deep shade of the fill, 1 the fill itself.
     #[schemars(range(min = 0.0, max = 4.0))]
@@ -208,10 +150,10 @@ impl LinePaint {
         let (light, depth) = (&self.light, &self.depth);
         self.kinds.set().bits()
             | match self.source {
-                LineSource::Constant => 0,
-                LineSource::Surface => Part::LINE_SURFACE,
-                LineSource::VertexColor => Part::LINE_VERTEX,
-                LineSource::Texture => Part::LINE_TEXTURE,
+                LineColorSource::Constant => 0,
+                LineColorSource::Surface => Part::LINE_SURFACE,
+                LineColorSource::VertexColor => Part::LINE_VERTEX,
+                LineColorSource::Texture => Part::LINE_TEXTURE,
             }
             | bit(Part::LINE_DEPTH, !depth.ramp.is_empty())
             | bit(
@@ -247,7 +189,7 @@ impl LinePaint {
         part.line_width = self.light.width;
         part.line_tint = pack_rgba8(self.tint.srgb());
         part.line_rim = self.light.rim;
-        if self.source != LineSource::Constant {
+        if self.source != LineColorSource::Constant {
             // For the few places where nothing is known of the surface.
             let [r, g, b, _] = part.base_color;
             let [r, g, b] = [r, g, b].map(|light| srgb_from_linear(light * self.factor));
@@ -277,7 +219,7 @@ impl LinePaint {
         }
 
         // Refuse a texture as the source without a picture.
-        if self.source == LineSource::Texture && self.image.is_empty() {
+        if self.source == LineColorSource::Texture && self.image.is_empty() {
             return Err(StyleError::unfit(
                 format!("{key}.source"),
                 format!("is texture, but {key}.image names no picture"),
@@ -320,6 +262,7 @@ fn hue_at(stops: &[HueStop], x: f32) -> [f32; 4] {
 mod tests {
     use super::*;
     use crate::Style;
+    use npr_core::line_kind::KindSet;
     use proptest::prelude::*;
 
     fn read(text: &str) -> Result<Style, StyleError> {
@@ -342,14 +285,17 @@ mod tests {
         )
         .unwrap();
         let a = style.resolve_for("", "A").line_paint;
-        assert_eq!((a.source, a.factor), (LineSource::Surface, 0.5));
+        assert_eq!((a.source, a.factor), (LineColorSource::Surface, 0.5));
         assert_eq!(
             a.flags(),
-            Part::LINE_SURFACE | 0b110,
+            Part::LINE_SURFACE | KindSet::BOUNDARY | KindSet::CREASE,
             "a boundary and a crease have colours"
         );
         let b = style.resolve_for("", "B").line_paint;
-        assert_eq!(b.flags(), 0b110 | Part::LINE_DEPTH | Part::LINE_FROM_MIDDLE);
+        assert_eq!(
+            b.flags(),
+            KindSet::BOUNDARY | KindSet::CREASE | Part::LINE_DEPTH | Part::LINE_FROM_MIDDLE
+        );
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use crate::overlay::Over;
 use crate::{
-    Beam, Color, Highlight, Ink, LineBackground, LineMethod, LinePaint, PartNames, Rule, Stop,
+    Beam, Color, Highlight, Ink, LineBackground, LinePaint, OutlineMethod, PartNames, Rule, Stop,
     Style,
 };
 
@@ -12,7 +12,7 @@ pub struct Look<'a> {
     /// Whether it has lines.
     pub line_on: bool,
     /// How its outline is drawn.
-    pub line_method: LineMethod,
+    pub line_method: OutlineMethod,
     /// Colour of its lines.
     pub line_color: Color,
     /// What else decides their colour.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ramp::Stop;
 use crate::{
-    Color, LineMethod, RuleBackground, RuleBeam, RuleHighlight, RuleInk, RuleMotion, RulePaint,
+    Color, OutlineMethod, RuleBackground, RuleBeam, RuleHighlight, RuleInk, RuleMotion, RulePaint,
     glob, id_map,
 };
 
@@ -43,7 +43,7 @@ pub struct RuleLine {
     pub on: Option<bool>,
     /// How the part's outline is drawn: `shape`, `hull`, `angle`, `curves`, `potrace` or `none`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub method: Option<LineMethod>,
+    pub method: Option<OutlineMethod>,
     /// Colour of the part's lines.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,

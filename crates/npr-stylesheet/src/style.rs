@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::overlay::Over;
 use crate::{
     Antialias, Background, BackgroundMethod, Blend, Detect, Highlight, IdMap, Ink, Lettering,
-    Light, Line, LineMethod, Motion, Parents, Rule, Shade, SmokeStyle,
+    Light, Line, LineSource, Motion, Parents, Rule, Shade, SmokeStyle,
 };
 
 /// What a picture should look like.
@@ -88,13 +88,17 @@ impl Default for Style {
 impl Style {
     /// Whether any part may have its lines drawn as curves, which takes a line model of the scene.
     pub fn has_curves(&self) -> bool {
-        self.has_method(LineMethod::Curves) || self.has_method(LineMethod::Potrace)
+        self.curve_sources().next().is_some()
     }
 
-    /// Whether any part may have its lines drawn by a method.
-    pub fn has_method(&self, method: LineMethod) -> bool {
-        let mut rules = self.rule.iter().filter_map(|rule| rule.line.method);
-        self.line.method == method || rules.any(|of_rule| of_rule == method)
+    /// How the curves of parts whose lines may be drawn as such are found.
+    pub fn curve_sources(&self) -> impl Iterator<Item = LineSource> {
+        let rules = self.rule.iter().filter_map(|rule| rule.line.method);
+        let methods = rules.chain([self.line.method]);
+        LineSource::ALL.into_iter().filter(move |source| {
+            let mut methods = methods.clone();
+            methods.any(|method| method.source() == Some(*source))
+        })
     }
 
     /// Whether the lines of any part may mind what lies behind them.

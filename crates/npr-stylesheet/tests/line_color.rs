@@ -2,7 +2,7 @@
 
 use npr_core::color::{linear_rgba, srgb_from_linear, unpack_rgba8};
 use npr_core::geometry::{NONE, Part};
-use npr_core::line_kind::{COLORED_KINDS, Kind};
+use npr_core::line_kind::Kind;
 use npr_core::math;
 use npr_core::surface::unit_or_z;
 use npr_core::texture::{TextureStore, Wrap};
@@ -118,7 +118,7 @@ const EVERYTHING: &str = "{ source = 'surface', kinds = { crease = '#aabbcc80' }
      ramp = [{ at = 0, color = '#0008' }, { at = 1, color = '#ffa040c0' }] } }";
 
 fn kind() -> impl Strategy<Value = Kind> {
-    prop::sample::select(&Kind::ALL[..COLORED_KINDS])
+    prop::sample::select(&Kind::COLORED[..])
 }
 
 proptest! {

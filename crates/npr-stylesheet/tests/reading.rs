@@ -3,8 +3,8 @@
 use std::cell::Cell;
 
 use npr_stylesheet::{
-    Background, Color, Hatch, LineMethod, PARENTS_MAX, Pattern, Style, StyleError, TEXT_BYTES_MAX,
-    presets,
+    Background, Color, Hatch, OutlineMethod, PARENTS_MAX, Pattern, Style, StyleError,
+    TEXT_BYTES_MAX, presets,
 };
 use proptest::prelude::*;
 
@@ -126,9 +126,9 @@ fn presets_of_ink_say_what_they_are_for_and_what_to_take_elsewhere() {
 fn the_comparison_presets_differ_only_in_method() {
     let mut okuya = Style::preset("okuya").expect("a preset");
     for (name, method) in [
-        ("filter", LineMethod::Filter),
-        ("hull", LineMethod::Hull),
-        ("filter-hull", LineMethod::FilterHull),
+        ("filter", OutlineMethod::Filter),
+        ("hull", OutlineMethod::Hull),
+        ("filter-hull", OutlineMethod::FilterHull),
     ] {
         let style = Style::preset(name).expect("a preset");
         okuya.line.method = method;

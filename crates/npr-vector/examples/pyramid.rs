@@ -4,7 +4,7 @@ use npr_core::camera::{Camera, Projection};
 use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::shape::{PlacedMesh, add_mesh};
-use npr_vector::mesh_lines::draw::{LineSettings, Method, Prepared, strokes};
+use npr_vector::mesh_lines::draw::{LineSettings, LineSource, Prepared, strokes};
 
 use npr_vector::project::Projector;
 
@@ -45,7 +45,7 @@ fn main() {
     let settings = LineSettings {
         size: [400, 300],
         kinds: KindSet::BITS,
-        method: Method::Edges,
+        method: LineSource::Edges,
         smooth: false,
         hidden: false,
         split: None,

@@ -7,7 +7,7 @@ use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{coplanar_soup, crossing_soup, fan, needles, shape_of};
 use npr_vector::mesh_lines::contour::EdgeContours;
 use npr_vector::mesh_lines::draw::{
-    LineSettings, Method, Prepared, StrokeLook, ViewStrokes, eye_of, strokes_with,
+    LineSettings, LineSource, Prepared, StrokeLook, ViewStrokes, eye_of, strokes_with,
 };
 use npr_vector::project::Projector;
 
@@ -25,7 +25,7 @@ fn drawn(
     let settings = LineSettings {
         size: SIZE,
         kinds: KindSet::BITS & !KindSet::INTERSECTION,
-        method: Method::Edges,
+        method: LineSource::Edges,
         smooth: false,
         hidden,
         split: None,

@@ -9,7 +9,7 @@ use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::testing::{self, add_to, shape_of};
 use npr_vector::mesh_lines::bvh::{FaceTree, Sight};
 use npr_vector::mesh_lines::contour::{Eye, contours, facing};
-use npr_vector::mesh_lines::draw::{LineSettings, Method, Prepared, strokes};
+use npr_vector::mesh_lines::draw::{LineSettings, LineSource, Prepared, strokes};
 use npr_vector::mesh_lines::feature::features;
 use npr_vector::mesh_lines::graph::CurveNode;
 use npr_vector::project::Projector;
@@ -32,7 +32,7 @@ fn settings(smooth: bool) -> LineSettings {
     LineSettings {
         size: SIZE,
         kinds: KindSet::BITS,
-        method: Method::Edges,
+        method: LineSource::Edges,
         smooth,
         hidden: false,
         split: None,
@@ -340,7 +340,7 @@ fn a_sphere_is_one_circle() {
 #[test]
 fn a_smooth_outline_is_never_split() {
     let shape = shape_of(&testing::icosphere(5));
-    for (method, split) in [(Method::Surface, 0.2), (Method::Edges, 1.0)] {
+    for (method, split) in [(LineSource::Surface, 0.2), (LineSource::Edges, 1.0)] {
         let split = LineSettings {
             method,
             split: Some(split),

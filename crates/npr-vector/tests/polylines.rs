@@ -7,7 +7,7 @@ use npr_mesh::Mesh;
 use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::shape::{PlacedMesh, add_mesh};
 use npr_mesh::testing::{self, shape_of};
-use npr_vector::mesh_lines::draw::{LineSettings, Method, Prepared, strokes};
+use npr_vector::mesh_lines::draw::{LineSettings, LineSource, Prepared, strokes};
 use npr_vector::mesh_lines::polyline::{TOUCH_SHARE, polylines};
 use npr_vector::project::Projector;
 use npr_vector::stroke::{Kind, Stroke};
@@ -76,7 +76,7 @@ fn draw(shape: &HalfEdgeMesh, eye: [f32; 3], hidden: bool) -> Vec<Stroke> {
     let settings = LineSettings {
         size: SIZE,
         kinds: 0,
-        method: Method::Edges,
+        method: LineSource::Edges,
         smooth: false,
         hidden,
         split: None,
@@ -222,7 +222,7 @@ proptest! {
         let segments: Vec<[u32; 2]> = (0..places.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();
         let shape = shape_with(Some(&ball), &points, &segments);
         let settings = LineSettings {
-            size: SIZE, kinds: 0, method: Method::Edges, smooth: false, hidden: false, split: None,
+            size: SIZE, kinds: 0, method: LineSource::Edges, smooth: false, hidden: false, split: None,
             memory_limit: u64::MAX,
         };
         let prepared = Prepared::new(&shape, 0.77, false);

@@ -8,7 +8,7 @@ use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{self, shape_of};
 use npr_vector::mesh_lines::contour::EdgeContours;
 use npr_vector::mesh_lines::draw::{
-    LineSettings, Method, PointPaint, Prepared, StrokeLook, eye_of, strokes_with,
+    LineSettings, LineSource, PointPaint, Prepared, StrokeLook, eye_of, strokes_with,
 };
 use npr_vector::mesh_lines::run::{RunPoint, distance};
 use npr_vector::project::Projector;
@@ -86,7 +86,7 @@ fn mean(shape: &HalfEdgeMesh, vertices: [u32; 3], shares: [f64; 3]) -> DVec3 {
 }
 
 /// Visible and hidden lines, all kinds, as smooth as usual.
-fn smoothed_by(method: Method, hidden: bool) -> LineSettings {
+fn smoothed_by(method: LineSource, hidden: bool) -> LineSettings {
     LineSettings {
         size: SIZE,
         kinds: KindSet::BITS,
@@ -102,7 +102,7 @@ fn smoothed_by(method: Method, hidden: bool) -> LineSettings {
 #[test]
 fn a_gap_is_painted_by_the_edges_at_its_ends() {
     let eye = [-4.129747, -0.078502364, 2.8176284];
-    let settings = smoothed_by(Method::Edges, true);
+    let settings = smoothed_by(LineSource::Edges, true);
     assert!(off_px(&testing::torus(3, 3, 1.0, 0.4), eye, &settings) < OFF_PX);
 }
 
@@ -111,7 +111,7 @@ fn a_gap_is_painted_by_the_edges_at_its_ends() {
 #[test]
 fn an_edge_seen_from_its_end_is_painted_by_itself() {
     let eye = [-2.5338717, 2.2957144, 3.6481762];
-    let settings = smoothed_by(Method::Edges, false);
+    let settings = smoothed_by(LineSource::Edges, false);
     assert!(off_px(&testing::icosphere(0), eye, &settings) < OFF_PX);
 }
 
@@ -119,7 +119,7 @@ fn an_edge_seen_from_its_end_is_painted_by_itself() {
 #[test]
 fn a_line_turned_round_keeps_the_edges_at_its_ends() {
     let eye = [4.068646, -2.713667, -1.0402565];
-    let settings = smoothed_by(Method::Surface, true);
+    let settings = smoothed_by(LineSource::Surface, true);
     assert!(off_px(&testing::torus(7, 5, 1.0, 0.4), eye, &settings) < OFF_PX);
 }
 
@@ -149,7 +149,7 @@ proptest! {
         mesh in any_mesh(), eye in any_eye(), smooth: bool, hidden: bool, on_surface: bool,
         split in prop::option::of(0.2_f32..3.0),
     ) {
-        let method = if on_surface { Method::Surface } else { Method::Edges };
+        let method = if on_surface { LineSource::Surface } else { LineSource::Edges };
         let settings = LineSettings {
             size: SIZE,
             kinds: KindSet::BITS,

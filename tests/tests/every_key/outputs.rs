@@ -1,7 +1,6 @@
 //! The ways in which drawings are made.
 
-use npr_render::LineMethod as CurveMethod;
-use npr_stylesheet::{Facts, LineFinder, LineForm, LineOutput, Occasion, Output as Made};
+use npr_stylesheet::{Facts, LineForm, LineOutput, LineSource, Occasion, Output as Made};
 
 /// A way in which a drawing is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,7 +11,7 @@ pub enum Output {
     Smoke,
     /// Lines as curves.
     Lines {
-        method: CurveMethod,
+        method: LineSource,
         form: LineForm,
         fill: bool,
     },
@@ -37,13 +36,13 @@ impl Output {
     pub fn all() -> Vec<Self> {
         let lines = |method, form, fill| Self::Lines { method, form, fill };
         let drawings = [
-            lines(CurveMethod::Edges, LineForm::Ink, false),
-            lines(CurveMethod::Edges, LineForm::Ink, true),
-            lines(CurveMethod::Edges, LineForm::Data, false),
-            lines(CurveMethod::Edges, LineForm::Centrelines, false),
-            lines(CurveMethod::Surface, LineForm::Ink, false),
-            lines(CurveMethod::Potrace, LineForm::Ink, false),
-            lines(CurveMethod::Image, LineForm::Ink, false),
+            lines(LineSource::Edges, LineForm::Ink, false),
+            lines(LineSource::Edges, LineForm::Ink, true),
+            lines(LineSource::Edges, LineForm::Data, false),
+            lines(LineSource::Edges, LineForm::Centrelines, false),
+            lines(LineSource::Surface, LineForm::Ink, false),
+            lines(LineSource::Potrace, LineForm::Ink, false),
+            lines(LineSource::Image, LineForm::Ink, false),
         ];
         let frames = METHODS.into_iter().map(Self::Frame);
         frames.chain(drawings).chain([Self::Smoke]).collect()
@@ -83,11 +82,7 @@ impl Output {
         let output = match self {
             Self::Frame(_) | Self::Smoke => Made::Frame,
             Self::Lines { method, form, fill } => Made::Lines(LineOutput {
-                finder: match method {
-                    CurveMethod::Edges | CurveMethod::Surface => LineFinder::Mesh,
-                    CurveMethod::Potrace => LineFinder::Potrace,
-                    CurveMethod::Image => LineFinder::Image,
-                },
+                source: method,
                 form,
                 fill,
             }),

@@ -9,7 +9,7 @@ use npr_drawing::svg::write_svg;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{icosphere, plane};
 use npr_render::{
-    Font, Lettering, LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer, Model,
+    Font, Lettering, LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource, Model,
     Picture, Renderer, RendererOptions, Smoke, Sphere, apply_id_maps,
 };
 use npr_scene::{
@@ -85,7 +85,7 @@ impl Studio {
     fn lines(
         &self,
         style: &Style,
-        method: LineMethod,
+        method: LineSource,
         form: LineForm,
         fill: bool,
     ) -> (Vec<u8>, Vec<String>) {

@@ -12,7 +12,7 @@ use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{cube, icosphere, mapped};
 use npr_render::{
-    Kind, LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer, Model,
+    Kind, LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource, Model,
     RendererOptions, Smoke, Sphere,
 };
 use npr_tests::{Ink, device, placed};
@@ -244,7 +244,7 @@ fn strokes_follow_ids() {
         .into_iter()
         .chain(device().map(|device| device as &dyn Engine))
         .collect();
-    for method in [LineMethod::Edges, LineMethod::Surface] {
+    for method in [LineSource::Edges, LineSource::Surface] {
         let options = LineOptions {
             method,
             ..LineOptions::new(SIZE)

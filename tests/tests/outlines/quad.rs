@@ -2,6 +2,7 @@
 
 use crate::fixture::{front, with};
 use npr_core::camera::{Camera, Projection};
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::{Edge, GPixel, Part, PosedVertex, Triangle};
 use npr_core::outline::Outline;
 use npr_core::window::Window;
@@ -194,7 +195,7 @@ fn ribbons(edges: &[Edge]) -> Vec<u32> {
     npr_vector::screen::ribbon::draw(
         &drawing,
         edges,
-        &vec![Outline::ANY; edges.len()],
+        &vec![EdgeFlags::FACING.0; edges.len()],
         &mut layer,
         &mut keys,
     );

@@ -7,7 +7,7 @@ use npr_benches::lines::reference::Reference;
 use npr_benches::lines::subjects::{LineSubject, SIZE, pilot_cameras, shared_models};
 use npr_benches::lines::viewpoint::Viewpoint;
 use npr_benches::table::Table;
-use npr_render::{LineMethod, LineModel, LineModelOptions};
+use npr_render::{LineModel, LineModelOptions, LineSource};
 use npr_vector::pixel_strokes::PublishedPath;
 use npr_vector::stroke::Kind;
 
@@ -66,7 +66,7 @@ pub fn pilot(arguments: &Arguments) -> Outcome<()> {
     let chosen = ways.iter().filter(|way| arguments.takes_way(way.name));
     let chosen: Vec<Way> = chosen
         .flat_map(|way| {
-            let is_published = way.method == LineMethod::Potrace;
+            let is_published = way.method == LineSource::Potrace;
             [Some(*way), is_published.then(|| without_specks(way))]
         })
         .flatten()

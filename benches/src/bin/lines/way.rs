@@ -9,7 +9,7 @@ use npr_benches::lines::subjects::SIZE;
 use npr_benches::timing::{Times, elapsed_ms};
 use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
-use npr_render::{LineMethod, LineModel, LineOptions};
+use npr_render::{LineModel, LineOptions, LineSource};
 use npr_stylesheet::Style;
 use npr_vector::pixel_strokes::PublishedPath;
 use npr_vector::stroke::Drawing;
@@ -25,7 +25,7 @@ pub struct Way {
     /// In words.
     pub name: &'static str,
     /// How contours are found.
-    pub method: LineMethod,
+    pub method: LineSource,
     /// Whether strokes are smoothed.
     pub smooth: bool,
     /// The constants of the published path.
@@ -52,7 +52,7 @@ pub fn ways() -> [Way; 5] {
             },
         },
     };
-    let (edges, surface) = (LineMethod::Edges, LineMethod::Surface);
+    let (edges, surface) = (LineSource::Edges, LineSource::Surface);
     [
         way("edges, not smoothed", edges, false, (1, 0.998, 0.998)),
         way("edges, smoothed", edges, true, (2, 0.99, 0.99)),
@@ -61,7 +61,7 @@ pub fn ways() -> [Way; 5] {
         // What an emulation of the publication reaches at worst, of contours alone.
         way(
             "potrace, as published",
-            LineMethod::Potrace,
+            LineSource::Potrace,
             true,
             (2, 0.925, 0.98),
         ),

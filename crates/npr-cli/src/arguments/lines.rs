@@ -5,7 +5,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use npr_core::crease::CreaseFrom;
 use npr_drawing::artwork::Page;
-use npr_render::Kind;
+use npr_render::{Kind, LineSource};
 use std::path::PathBuf;
 
 /// What the user said to `npr lines`.
@@ -41,7 +41,12 @@ pub struct LinesArguments {
 #[command(next_help_heading = "Lines")]
 pub struct LineArguments {
     /// Kinds of line, with commas between; marked lines are drawn in any case [default: those of the style].
-    #[arg(long, value_name = "KIND,..", value_delimiter = ',', value_parser = kind())]
+    #[arg(
+        long,
+        value_name = "KIND,..",
+        value_delimiter = ',',
+        value_parser = one_of(&Kind::ALL, Kind::name, Kind::meaning)
+    )]
     pub kinds: Option<Vec<Kind>>,
     /// Angle in degrees from which an edge is a crease [default: the style's, 40 unless it says otherwise].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = crease_angle)]
@@ -54,8 +59,12 @@ pub struct LineArguments {
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = split_angle)]
     pub split: Option<f32>,
     /// How contours are found.
-    #[arg(long, value_enum, default_value_t)]
-    pub method: MethodName,
+    #[arg(
+        long,
+        default_value = LineSource::default().name(),
+        value_parser = one_of(&LineSource::ALL, LineSource::name, LineSource::meaning)
+    )]
+    pub method: LineSource,
     /// What becomes of lines behind surfaces.
     #[arg(long, value_enum, default_value_t)]
     pub hidden: HiddenLines,
@@ -101,20 +110,6 @@ pub enum LineFormat {
     Pdf,
     /// Pixels.
     Png,
-}
-
-/// How contours are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub enum MethodName {
-    /// Across faces, where smooth normals turn away from the eye.
-    Surface,
-    /// Along mesh edges, exact for the polygons.
-    #[default]
-    Edges,
-    /// From a picture of all lines, pixel by pixel, as published in 2022: for comparison.
-    Potrace,
-    /// From a picture of the surfaces: all lines where neighbouring pixels differ, each followed once along its middle.
-    Image,
 }
 
 /// What the angle of a crease lies between.
@@ -178,12 +173,20 @@ pub enum PathForm {
     Centreline,
 }
 
-/// A kind of line by its name in files.
-fn kind() -> impl TypedValueParser<Value = Kind> {
-    let help = |kind: Kind| kind.meaning().trim_end_matches('.');
-    let names = Kind::ALL.map(|kind| PossibleValue::new(kind.name()).help(help(kind)));
-    PossibleValuesParser::new(names)
-        .try_map(|name| Kind::named(&name).ok_or("must be the name of a kind"))
+/// One of several things by its name; what each means becomes its help.
+fn one_of<T: Copy + Send + Sync + 'static>(
+    all: &'static [T],
+    name: fn(T) -> &'static str,
+    meaning: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    let help = move |one: T| meaning(one).trim_end_matches('.');
+    let names = all
+        .iter()
+        .map(|one| PossibleValue::new(name(*one)).help(help(*one)));
+    PossibleValuesParser::new(names).try_map(move |said| {
+        let found = all.iter().find(|one| name(**one) == said);
+        found.copied().ok_or("must be one of the names")
+    })
 }
 
 /// A sheet of paper.

@@ -237,13 +237,9 @@ fn part(object: u32, flags: u32, texture: u32) -> Part {
         back: [0.4, 0.7, 0.2, 0.3],
         back_direction: [0.28, 0.48 + 0.1 * object as f32, -0.8],
         streak_across: [0.8, 0.6],
-        line_kinds: [
-            0xff00_80ff,
-            0xc0ff_2010,
-            0x80a0_b0c0,
-            0xffff_ffff,
-            0xff10_2030,
-        ],
+        line_kinds: std::array::from_fn(|kind| {
+            [0xff00_80ff, 0xc0ff_2010, 0x80a0_b0c0, !0, 0xff10_2030][kind % 5]
+        }),
         line_factor: 0.4,
         line_opacity: [1.0, 0.3],
         line_width: [1.3, 0.4],
@@ -287,17 +283,16 @@ pub fn view(look: Look) -> View {
 /// Settings of lines of a look.
 pub fn outline(look: Look) -> Outline {
     let all_buffers = Outline::DEPTH | Outline::NORMAL | Outline::OBJECT_ID | Outline::MATERIAL_ID;
-    let edges = KindSet::CONTOUR | KindSet::BOUNDARY | KindSet::CREASE | KindSet::MATERIAL;
     let (base_width, kinds, detects, flags) = match look {
         Look::Ours => (
             3.0,
-            edges,
+            KindSet::EDGES,
             all_buffers | Outline::PLANE_DEPTH,
             Outline::PROJECTED_CURVATURE,
         ),
         Look::Published => (
             0.05,
-            Outline::ANY,
+            EdgeFlags::FACING.0,
             all_buffers,
             Outline::PUBLISHED | Outline::WORLD_WIDTH,
         ),

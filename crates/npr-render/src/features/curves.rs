@@ -3,19 +3,13 @@
 use super::background_contrast::Sides;
 use crate::error::RenderError;
 use crate::frame::Frame;
-use crate::lines::{LineMethod, LineOptions, LineRenderer};
+use crate::lines::{LineOptions, LineRenderer};
 use crate::options::RendererOptions;
 use npr_core::camera::Camera;
 use npr_drawing::artwork::ArtworkOptions;
 use npr_drawing::drawing::paint_drawing_over;
 use npr_style::backdrop::Rules;
 use npr_stylesheet::Style;
-
-/// The methods of parts whose lines are curves, and how these are found.
-const METHODS: [(npr_stylesheet::LineMethod, LineMethod); 2] = [
-    (npr_stylesheet::LineMethod::Curves, LineMethod::Edges),
-    (npr_stylesheet::LineMethod::Potrace, LineMethod::Potrace),
-];
 
 /// Draws them over a frame; without a line model the frame gets a notice instead.
 ///
@@ -40,13 +34,10 @@ pub(crate) fn finish(
         ..LineOptions::of_style(style, frame.size)
     };
     let beside = (options.smoke.as_ref(), &options.pictures);
-    for (of_parts, method) in METHODS {
-        if !style.has_method(of_parts) {
-            continue;
-        }
+    for method in style.curve_sources() {
         // Find the strokes of the parts that have this method.
         let of_method = LineOptions { method, ..of_style };
-        let drawing = lines.draw_curves(camera, (style, of_parts), &of_method, beside)?;
+        let drawing = lines.draw_curves(camera, style, &of_method, beside)?;
         frame.times.extend_from_slice(lines.times());
         frame.notices.extend_from_slice(&drawing.notices);
 

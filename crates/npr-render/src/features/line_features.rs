@@ -1,7 +1,7 @@
 //! Which passes find and draw the lines of a frame.
 
 use npr_style::compose::Compose;
-use npr_stylesheet::{LineMethod, Style};
+use npr_stylesheet::{OutlineMethod, Style};
 
 /// What the line methods of a style are made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,7 +65,7 @@ impl LineFeatures {
         }
     }
 
-    fn of_one(method: LineMethod, style: &Style) -> Self {
+    fn of_one(method: OutlineMethod, style: &Style) -> Self {
         let none = Self::NONE;
         let masked = Self { mask: true, ..none };
         let filter = Self {
@@ -74,8 +74,11 @@ impl LineFeatures {
             ..masked
         };
         match method {
-            LineMethod::Off | LineMethod::Angle | LineMethod::Curves | LineMethod::Potrace => none,
-            LineMethod::Shape => {
+            OutlineMethod::Off
+            | OutlineMethod::Angle
+            | OutlineMethod::Curves
+            | OutlineMethod::Potrace => none,
+            OutlineMethod::Shape => {
                 let residual = style.line.kinds.intersection;
                 let stamps = if residual { Compose::OVERLAY } else { 0 };
                 Self {
@@ -85,19 +88,19 @@ impl LineFeatures {
                     ..masked
                 }
             }
-            LineMethod::Okuya | LineMethod::Edges => Self {
+            OutlineMethod::Okuya | OutlineMethod::Edges => Self {
                 ribbons: true,
                 layers: Compose::RIBBONS,
                 ..masked
             },
-            LineMethod::Filter => filter,
-            LineMethod::Hull => Self { hull: true, ..none },
-            LineMethod::Rim => Self {
+            OutlineMethod::Filter => filter,
+            OutlineMethod::Hull => Self { hull: true, ..none },
+            OutlineMethod::Rim => Self {
                 rim: true,
                 layers: Compose::OVERLAY,
                 ..none
             },
-            LineMethod::FilterHull => Self {
+            OutlineMethod::FilterHull => Self {
                 hull: true,
                 ..filter
             },

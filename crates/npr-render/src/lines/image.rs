@@ -1,6 +1,6 @@
 //! Lines from a picture of the surfaces, and lines painted in textures.
 
-use super::options::{LineMethod, LineOptions};
+use super::options::LineOptions;
 use super::paint::Paint;
 use super::pixels::occluder_depths_of;
 use super::texture_map::TextureMap;
@@ -11,6 +11,7 @@ use npr_core::budget::Budget;
 use npr_core::color::srgb_from_linear;
 use npr_core::geometry::NONE;
 use npr_core::line_kind::KindSet;
+use npr_core::line_source::LineSource;
 use npr_core::surface::dot;
 use npr_core::texture;
 use npr_core::window::View;
@@ -34,7 +35,7 @@ pub(super) fn beside_image(settings: &LineSettings) -> LineSettings {
     }
 }
 
-/// The strokes of a view by [`LineMethod::Image`], and painted ones, as far as each is asked for. Dense smoke
+/// The strokes of a view by [`LineSource::Image`], and painted ones, as far as each is asked for. Dense smoke
 /// hides them.
 pub(super) fn strokes(
     view: &LineView<'_>,
@@ -61,7 +62,7 @@ pub(super) fn strokes(
         .and_then(|smoke| occluder_depths_of(&of_frame, smoke));
     let on = (&scene, view.projector, &picture);
     let mut strokes = Vec::new();
-    if options.method == LineMethod::Image {
+    if options.method == LineSource::Image {
         let runs = picture.borders(&scene, occluder_depths.as_deref()).runs(on);
         strokes = strokes_from(runs, view.shape, settings, look);
     }

@@ -3,7 +3,7 @@
 use super::assembly::Assembly;
 use super::colors::{ColorInput, StrokeColors};
 use super::finder::{Finder, OnProcessor};
-use super::options::{LineMethod, LineModelOptions, LineOptions};
+use super::options::{LineModelOptions, LineOptions};
 use super::paint::Paint;
 use super::smoke::SmokeView;
 use super::stroke_contrast::StrokeContrast;
@@ -26,6 +26,7 @@ use npr_core::budget::{Budget, OverBudget};
 use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
 use npr_core::geometry::Part;
+use npr_core::line_source::LineSource;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_scene::Scene;
 use npr_stylesheet::{Look, Style};
@@ -264,16 +265,17 @@ impl LineModel {
         self.draw_some(&wanted, find, |_| true)
     }
 
-    /// The lines of the parts whose method of the style is `of_parts`, as far as `smoke` does not hide them.
+    /// The lines of the parts whose style asks for curves that are found as `options` says, as far as `smoke` does not
+    /// hide them.
     pub(crate) fn draw_curves(
         &self,
         camera: &Camera,
-        (style, of_parts): (&Style, npr_stylesheet::LineMethod),
+        style: &Style,
         options: &LineOptions,
         (smoke, pictures): (Option<&Smoke>, &BTreeMap<String, Picture>),
         find: &mut dyn Finder,
     ) -> Result<Drawing, RenderError> {
-        let is_curve = |look: &Look<'_>| look.line_method == of_parts;
+        let is_curve = |look: &Look<'_>| look.line_method.source() == Some(options.method);
         let wanted = Wanted {
             camera,
             style,
@@ -305,7 +307,7 @@ impl LineModel {
         let bounds = smoke::joined(smoke.map(|(smoke, _)| smoke), self.bounds, is_empty);
         let projector = Projector::new(camera, options.size, bounds);
         // A picture of lines finds its own contours.
-        let contours = if options.method == LineMethod::Potrace && smoke.is_none() {
+        let contours = if options.method == LineSource::Potrace && smoke.is_none() {
             EdgeContours::default()
         } else {
             find.contours(&eye_of(&self.shape, &projector))?
@@ -454,7 +456,7 @@ impl LineModel {
         let settings = LineSettings {
             size: options.size,
             kinds: options.kinds.bits(),
-            method: options.method.on_mesh(),
+            method: options.method,
             smooth: options.smooth,
             hidden: options.hidden,
             split: options.split,
@@ -473,14 +475,14 @@ impl LineModel {
         };
         let line = (&settings, paint, &look);
         let mut found = match options.method {
-            LineMethod::Potrace => ViewStrokes {
+            LineSource::Potrace => ViewStrokes {
                 strokes: pixels::strokes(view, prepared, options, line, find)?,
                 left_out: 0,
             },
-            LineMethod::Image => view.of_mesh(prepared, &image::beside_image(&settings), &look)?,
-            LineMethod::Edges | LineMethod::Surface => view.of_mesh(prepared, &settings, &look)?,
+            LineSource::Image => view.of_mesh(prepared, &image::beside_image(&settings), &look)?,
+            LineSource::Edges | LineSource::Surface => view.of_mesh(prepared, &settings, &look)?,
         };
-        if options.method == LineMethod::Image || options.painted.is_some() {
+        if options.method == LineSource::Image || options.painted.is_some() {
             let of_image = image::strokes(view, prepared, options, line)?;
             found.strokes.extend(of_image);
         }

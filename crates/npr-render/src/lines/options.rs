@@ -3,9 +3,9 @@
 use crate::look;
 use npr_core::crease::{CreaseFrom, Creases};
 use npr_core::line_kind::{Kind, KindSet};
+use npr_core::line_source::LineSource;
 use npr_stylesheet::Style;
 use npr_vector::image_lines::{PaintedRule, PaintedTone};
-use npr_vector::mesh_lines::draw::Method;
 use npr_vector::pixel_strokes::PublishedPath;
 
 /// How a scene is prepared for line drawings.
@@ -52,7 +52,7 @@ pub struct LineOptions {
     /// What that angle lies between; default the file's normals.
     pub crease_from: CreaseFrom,
     /// How contours are found; default along mesh edges.
-    pub method: LineMethod,
+    pub method: LineSource,
     /// Whether strokes are smoothed, their ends joined, and what is too short to read left out; default true.
     pub smooth: bool,
     /// Whether hidden lines are given too, each with the number of surfaces in front; default false.
@@ -65,9 +65,9 @@ pub struct LineOptions {
     pub fill: bool,
     /// Pixels per inch, for widths in millimetres; default 96.
     pub dpi: f32,
-    /// The constants of [`LineMethod::Potrace`].
+    /// The constants of [`LineSource::Potrace`], for which `smooth` is about places only.
     pub potrace: PublishedPath,
-    /// Depth jump, as a share of the picture's height at that depth, from which [`LineMethod::Image`] separates
+    /// Depth jump, as a share of the picture's height at that depth, from which [`LineSource::Image`] separates
     /// surfaces by a line.
     pub depth_threshold: f32,
     /// Which lines painted in textures are strokes of kind [`Kind::Marked`], whatever the method; default none.
@@ -102,37 +102,6 @@ impl PaintedLines {
     }
 }
 
-/// How lines are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum LineMethod {
-    /// Contours along mesh edges, exact for the polygons.
-    #[default]
-    Edges,
-    /// Contours where interpolated normals turn away, smooth.
-    Surface,
-    /// All lines from a picture of them, as published [Jiang et al. 2022]: visible ones alone, none of intersections,
-    /// and [`LineOptions::smooth`] is about places only. See [`npr_vector::pixel_strokes`].
-    Potrace,
-    /// All lines from a picture of the surfaces, where neighbouring pixels differ, each followed once along its
-    /// middle: visible ones alone, boundaries as contours. See [`npr_vector::image_lines`].
-    Image,
-}
-
-impl LineMethod {
-    /// Whether all lines come from a picture of the view.
-    pub(crate) fn is_of_pixels(self) -> bool {
-        matches!(self, Self::Potrace | Self::Image)
-    }
-
-    /// How contours on the mesh are found; those of pictures start from edges.
-    pub(crate) fn on_mesh(self) -> Method {
-        match self {
-            Self::Edges | Self::Potrace | Self::Image => Method::Edges,
-            Self::Surface => Method::Surface,
-        }
-    }
-}
-
 impl LineOptions {
     /// All visible lines of a picture of `size` pixels, smoothed.
     pub fn new(size: [u32; 2]) -> Self {
@@ -141,7 +110,7 @@ impl LineOptions {
             kinds: KindSet::ALL,
             crease: npr_stylesheet::CREASE_ANGLE_DEG.to_radians(),
             crease_from: CreaseFrom::default(),
-            method: LineMethod::default(),
+            method: LineSource::default(),
             smooth: true,
             hidden: false,
             split: None,

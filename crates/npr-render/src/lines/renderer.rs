@@ -25,7 +25,7 @@ pub(crate) type DrawBehind<'a> =
 /// processor's.
 ///
 /// Every engine gives the drawing of [`LineModel::draw`] bit for bit, but for
-/// [`LineMethod::Potrace`](super::LineMethod): there a device draws the depths that hide lines, and smooths, within
+/// [`LineSource::Potrace`](super::LineSource): there a device draws the depths that hide lines, and smooths, within
 /// rounding; and colours that mind a backdrop may differ as far as pictures do.
 pub struct LineRenderer<'a> {
     pub(crate) engine: &'a dyn Engine,
@@ -73,18 +73,18 @@ impl<'a> LineRenderer<'a> {
             .draw_with(camera, style, options, behind.as_ref(), find)
     }
 
-    /// The lines of the parts whose method of the style is `of_parts`, as far as `smoke` does not hide them.
+    /// The lines of the parts whose style asks for curves that are found as `options` says, as far as `smoke` does not
+    /// hide them.
     pub(crate) fn draw_curves(
         &mut self,
         camera: &Camera,
-        of_style: (&Style, npr_stylesheet::LineMethod),
+        style: &Style,
         options: &LineOptions,
         beside: (Option<&Smoke>, &BTreeMap<String, Picture>),
     ) -> Result<Drawing, RenderError> {
         self.finder.start_view();
         let find = self.finder.as_mut();
-        self.model
-            .draw_curves(camera, of_style, options, beside, find)
+        self.model.draw_curves(camera, style, options, beside, find)
     }
 
     /// How long each pass of the last view took; none on the processor.

@@ -5,7 +5,7 @@ use npr_drawing::json::{read_json, write_json};
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{icosphere, mapped};
 use npr_render::{
-    Drawing, LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer, Model, Picture,
+    Drawing, LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource, Model, Picture,
     RendererOptions,
 };
 use npr_scene::Scene;
@@ -135,7 +135,7 @@ fn a_line_lifts_before_the_dark_half_alone() {
 #[test]
 fn every_method_contrasts() {
     let scene = scene_of(&icosphere(3));
-    for method in [LineMethod::Edges, LineMethod::Surface, LineMethod::Potrace] {
+    for method in [LineSource::Edges, LineSource::Surface, LineSource::Potrace] {
         for smooth in [true, false] {
             let options = LineOptions {
                 method,
@@ -405,7 +405,7 @@ proptest! {
     ) {
         let options = LineOptions {
             smooth,
-            method: if on_surface { LineMethod::Surface } else { LineMethod::Edges },
+            method: if on_surface { LineSource::Surface } else { LineSource::Edges },
             kinds: [npr_render::Kind::Contour].into_iter().collect(),
             ..LineOptions::new(SIZE)
         };

@@ -5,7 +5,7 @@ use npr_drawing::artwork::ArtworkOptions;
 use npr_drawing::drawing::rasterise;
 use npr_drawing::json::{read_json, write_json};
 use npr_mesh::testing::{cube, icosphere};
-use npr_render::{Drawing, Kind, LineMethod, LineModel, LineModelOptions, LineOptions};
+use npr_render::{Drawing, Kind, LineModel, LineModelOptions, LineOptions, LineSource};
 use npr_scene::Scene;
 use npr_style::line_color::HUES;
 use npr_stylesheet::{Style, hue_row};
@@ -151,7 +151,7 @@ fn points_have_the_light_of_their_own_place() {
         let scene = scene_of(&icosphere(level));
         let model = LineModel::for_style(&scene, &style, &LineModelOptions::default(), None);
         let model = model.expect("small");
-        for method in [LineMethod::Edges, LineMethod::Surface] {
+        for method in [LineSource::Edges, LineSource::Surface] {
             let options = LineOptions {
                 method,
                 ..LineOptions::new(SIZE)

@@ -5,7 +5,7 @@ use npr_core::crease::CreaseFrom;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{cylinder, unindexed};
 use npr_render::{
-    Kind, LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer, Model, Renderer,
+    Kind, LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource, Model, Renderer,
     RendererOptions,
 };
 use npr_scene::{Mesh, Node, Part, Scene};
@@ -44,7 +44,7 @@ fn pillar(has_normals: bool) -> Scene {
 }
 
 /// Length of creases that a drawing shows inside the outline.
-fn drawn(scene: &Scene, style: &Style, method: LineMethod) -> f64 {
+fn drawn(scene: &Scene, style: &Style, method: LineSource) -> f64 {
     let model = LineModel::new(scene, &LineModelOptions::default()).expect("small");
     let options = LineOptions {
         method,
@@ -94,10 +94,10 @@ fn style(method: &str, from: &str) -> Style {
 fn smooth_shading_has_no_folds_by_any_method() {
     let pillar = pillar(true);
     for method in [
-        LineMethod::Edges,
-        LineMethod::Surface,
-        LineMethod::Potrace,
-        LineMethod::Image,
+        LineSource::Edges,
+        LineSource::Surface,
+        LineSource::Potrace,
+        LineSource::Image,
     ] {
         let by_normals = drawn(&pillar, &style("shape", "normals"), method);
         let by_faces = drawn(&pillar, &style("shape", "faces"), method);
@@ -124,7 +124,7 @@ fn without_normals_every_fold_over_the_angle_is_drawn() {
     let pillar = pillar(false);
     for from in ["normals", "faces"] {
         assert!(
-            drawn(&pillar, &style("shape", from), LineMethod::Edges) > 60.0,
+            drawn(&pillar, &style("shape", from), LineSource::Edges) > 60.0,
             "{from}"
         );
         for method in ["shape", "curves"] {

@@ -5,7 +5,7 @@ use npr_core::camera::Camera;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{cube, icosphere, mapped, torus};
 use npr_render::{
-    Drawing, Kind, KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer,
+    Drawing, Kind, KindSet, LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource,
     PaintedLines,
 };
 use npr_scene::{Image, Material, Mesh, Node, Part, Scene, TextureTransform, TextureUse, Wrap};
@@ -25,7 +25,7 @@ fn drawn(model: &LineModel, camera: &Camera, options: &LineOptions) -> Drawing {
     model.draw(camera, &style, options).expect("drawn")
 }
 
-fn with(method: LineMethod) -> LineOptions {
+fn with(method: LineSource) -> LineOptions {
     LineOptions {
         method,
         ..LineOptions::new(SIZE)
@@ -110,7 +110,7 @@ fn lines_of_pictures_are_those_of_the_mesh_each_once() {
     let model = model_of(&group(), false);
     let camera = camera_at([2.0, 2.5, 7.0]);
     let [image, edges] =
-        [LineMethod::Image, LineMethod::Edges].map(|method| drawn(&model, &camera, &with(method)));
+        [LineSource::Image, LineSource::Edges].map(|method| drawn(&model, &camera, &with(method)));
     let (of_image, of_edges) = (length(&image), length(&edges));
     assert!(
         (of_image / of_edges - 1.0).abs() < 0.05,
@@ -164,7 +164,7 @@ fn kinds_and_parts_without_lines_are_left_out() {
     let camera = camera_at([2.0, 2.5, 7.0]);
     let options = LineOptions {
         kinds: [Kind::Crease].into_iter().collect::<KindSet>(),
-        ..with(LineMethod::Image)
+        ..with(LineSource::Image)
     };
     let drawing = drawn(&model, &camera, &options);
     assert!(!drawing.strokes.is_empty());
@@ -178,7 +178,7 @@ fn kinds_and_parts_without_lines_are_left_out() {
         Err(String::new())
     });
     let drawing = model
-        .draw(&camera, &style.expect("a style"), &with(LineMethod::Image))
+        .draw(&camera, &style.expect("a style"), &with(LineSource::Image))
         .expect("drawn");
     let of_ball = drawing
         .strokes
@@ -193,7 +193,7 @@ fn engines_and_threads_give_the_same() {
     let camera = camera_at([1.0, 0.5, 6.0]);
     let options = LineOptions {
         painted: Some(PaintedLines::Dark),
-        ..with(LineMethod::Image)
+        ..with(LineSource::Image)
     };
     let alone = drawn(&model, &camera, &options);
     let staged = LineRenderer::new(&Processor, &model).draw(&camera, &even_style("2px"), &options);
@@ -208,7 +208,7 @@ fn engines_and_threads_give_the_same() {
 #[test]
 fn lines_painted_in_a_texture_become_marked_strokes_of_the_style() {
     let camera = camera_at([0.0, 0.0, 6.0]);
-    for method in [LineMethod::Edges, LineMethod::Surface, LineMethod::Image] {
+    for method in [LineSource::Edges, LineSource::Surface, LineSource::Image] {
         let options = LineOptions {
             painted: Some(PaintedLines::Dark),
             ..with(method)
@@ -333,7 +333,7 @@ fn strokes_stay_while_the_camera_turns() {
                 npr_core::math::cos_f64(angle),
             ]
             .map(|v| 7.0 * v as f32);
-            drawn(&model, &camera_at([x, 2.5, z]), &with(LineMethod::Image))
+            drawn(&model, &camera_at([x, 2.5, z]), &with(LineSource::Image))
         });
         let views: Vec<Drawing> = views.collect();
         for pair in views.windows(2) {
@@ -384,7 +384,7 @@ fn strokes_stay_where_lines_meet() {
                 .map(|v| 7.0 * v as f32);
                 let options = LineOptions {
                     size,
-                    ..with(LineMethod::Image)
+                    ..with(LineSource::Image)
                 };
                 drawn(&model, &camera_at([x, 2.5, z]), &options)
             })

@@ -3,7 +3,7 @@
 use crate::scenes::{SIZE, camera_at, drawing_from, even_style, model_of};
 use npr_gpu::processor::Processor;
 use npr_render::{
-    Drawing, Kind, KindSet, LineMethod, LineModel, LineModelOptions, LineOptions, LineRenderer,
+    Drawing, Kind, KindSet, LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource,
     Model, RenderError, Renderer, RendererOptions,
 };
 use npr_scene::testing::lines_glb;
@@ -57,7 +57,7 @@ fn marked(drawing: &Drawing) -> Vec<&Stroke> {
         .collect()
 }
 
-fn with(method: LineMethod) -> LineOptions {
+fn with(method: LineSource) -> LineOptions {
     LineOptions {
         method,
         ..LineOptions::new(SIZE)
@@ -127,10 +127,10 @@ fn every_method_draws_them_in_the_width_of_the_style_whatever_kinds_are_asked_fo
     let model = model_of(&drawing_board());
     let mut lengths = Vec::new();
     for method in [
-        LineMethod::Edges,
-        LineMethod::Surface,
-        LineMethod::Image,
-        LineMethod::Potrace,
+        LineSource::Edges,
+        LineSource::Surface,
+        LineSource::Image,
+        LineSource::Potrace,
     ] {
         let options = LineOptions {
             kinds: KindSet::from_iter([Kind::Marked]),
@@ -239,17 +239,17 @@ fn lines_without_surfaces_draw_and_frame_as_pictures_do() {
     assert_eq!(lines.bounds(), picture.bounds());
     let camera = lines.framing(1.6, 0.5);
     for method in [
-        LineMethod::Edges,
-        LineMethod::Surface,
-        LineMethod::Image,
-        LineMethod::Potrace,
+        LineSource::Edges,
+        LineSource::Surface,
+        LineSource::Image,
+        LineSource::Potrace,
     ] {
         let drawing = lines
             .draw(&camera, &even_style("2px"), &with(method))
             .expect("drawn");
         let length: f64 = drawing.strokes.iter().map(Stroke::length).sum();
         assert!(length > 500.0, "{method:?}: {length} px");
-        if method == LineMethod::Edges {
+        if method == LineSource::Edges {
             assert_eq!(drawing.strokes.len(), 1);
         }
     }

@@ -3,7 +3,7 @@
 use crate::scenes::{SIZE, camera_at, even_style, model_of, scene_of};
 use npr_core::camera::{Camera, Projection};
 use npr_mesh::testing::{cube, icosphere, mapped, random_soup, torus};
-use npr_render::{Drawing, LineMethod, LineModel, LineModelOptions, LineOptions, RenderError};
+use npr_render::{Drawing, LineModel, LineModelOptions, LineOptions, LineSource, RenderError};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
 use proptest::prelude::*;
@@ -55,7 +55,7 @@ proptest! {
         };
         let [eye, target] = [eye, target].map(|p| p.map(|v| v * factor));
         let camera = Camera { eye, target, up: [0.0, 1.0, 0.0], projection };
-        let method = if surface { LineMethod::Surface } else { LineMethod::Edges };
+        let method = if surface { LineSource::Surface } else { LineSource::Edges };
         let options = LineOptions { method, smooth, hidden, ..LineOptions::new(SIZE) };
         draw(&model_of(&scene_of(&soup)), &camera, &options);
     }

@@ -1,7 +1,8 @@
 //! A key of a style, and all that decides whether it can act.
 
 use crate::key::{lies_in, without_rule};
-use crate::{BackgroundMethod, LineMethod, Look, Style, Tone, WidthSource};
+use crate::{BackgroundMethod, Look, OutlineMethod, Style, Tone, WidthSource};
+use npr_core::line_source::LineSource;
 
 /// Where a style is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,23 +25,12 @@ pub enum Output {
 /// A drawing of lines as curves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LineOutput {
-    /// Where its lines come from.
-    pub finder: LineFinder,
+    /// How its lines are found.
+    pub source: LineSource,
     /// What its file holds.
     pub form: LineForm,
     /// Whether surfaces are filled.
     pub fill: bool,
-}
-
-/// Where the lines of a drawing come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LineFinder {
-    /// The mesh: its edges, or smooth contours across its faces.
-    Mesh,
-    /// A picture of all lines, as published.
-    Potrace,
-    /// A picture of the surfaces.
-    Image,
 }
 
 /// What a file of lines holds.
@@ -122,8 +112,8 @@ impl<'a> Case<'a> {
     }
 
     /// Whether it is a drawing of curves that come from there.
-    pub fn is_found_by(&self, finder: LineFinder) -> bool {
-        self.lines().is_some_and(|lines| lines.finder == finder)
+    pub fn is_found_by(&self, source: LineSource) -> bool {
+        self.lines().is_some_and(|lines| lines.source == source)
     }
 
     /// Whether it is a drawing of curves whose file holds that.
@@ -143,7 +133,7 @@ impl<'a> Case<'a> {
 
     /// Whether smoke is drawn, be it its outlines alone.
     pub fn draws_smoke(&self) -> bool {
-        let by_image = |lines: LineOutput| lines.finder == LineFinder::Image && !lines.fill;
+        let by_image = |lines: LineOutput| lines.source == LineSource::Image && !lines.fill;
         self.on.scene.smoke && !self.lines().is_some_and(by_image)
     }
 
@@ -160,7 +150,7 @@ impl<'a> Case<'a> {
     }
 
     /// Whether lines of a frame may be drawn by one of these methods; always in drawings of curves.
-    pub fn is_drawn_by(&self, methods: &[LineMethod]) -> bool {
+    pub fn is_drawn_by(&self, methods: &[OutlineMethod]) -> bool {
         let by_one = |look: &Look<'_>| look.line_on && methods.contains(&look.line_method);
         !self.is_frame() || self.any(by_one)
     }
@@ -170,7 +160,7 @@ impl<'a> Case<'a> {
         let mut names: Vec<String> = Vec::new();
         for look in self.looks.iter().filter(|look| look.line_on) {
             let name = method_name(look.line_method);
-            if look.line_method != LineMethod::Off && !names.contains(&name) {
+            if look.line_method != OutlineMethod::Off && !names.contains(&name) {
                 names.push(name);
             }
         }
@@ -223,7 +213,7 @@ fn looks(style: &Style, of_rule: Option<usize>) -> Vec<Look<'_>> {
 }
 
 /// A method as styles write it.
-fn method_name(method: LineMethod) -> String {
+fn method_name(method: OutlineMethod) -> String {
     let value = toml::Value::try_from(method).ok();
     let name = value.as_ref().and_then(toml::Value::as_str);
     name.unwrap_or_default().to_owned()

@@ -1,15 +1,16 @@
 //! The table of keys that cannot act: which, when and why. What stands here is told to users.
 
-use super::case::{Case, LineFinder, LineForm};
-use crate::LineMethod::{
+use super::case::{Case, LineForm};
+use crate::OutlineMethod::{
     Angle, Curves, Edges, Filter, FilterHull, Hull, Okuya, Potrace, Rim, Shape,
 };
 use crate::Pattern;
 use crate::{
-    BackgroundMethod, Edge, Follow, HighlightModel, LineSource, LineStart, Mapping, Measure,
+    BackgroundMethod, Edge, Follow, HighlightModel, LineColorSource, LineStart, Mapping, Measure,
     ShadeMode, SmokeLines, SmokeMethod, SmokeParticles, Tone, WidthSource,
 };
 use npr_core::geometry::Part;
+use npr_core::line_source::LineSource;
 
 /// Keys that cannot act where something is so.
 pub(super) struct Entry {
@@ -222,7 +223,7 @@ pub(super) const ENTRIES: &[Entry] = &[
             "detect.scale",
             "detect.rescale_thresholds",
         ],
-        |c| !c.is_frame() && !c.is_found_by(LineFinder::Image),
+        |c| !c.is_frame() && !c.is_found_by(LineSource::Image),
         "--method image alone looks for lines in pictures of surfaces",
     ),
     entry(
@@ -238,7 +239,7 @@ pub(super) const ENTRIES: &[Entry] = &[
     ),
     entry(
         &["line.potrace"],
-        |c| !c.is_frame() && !c.is_found_by(LineFinder::Potrace),
+        |c| !c.is_frame() && !c.is_found_by(LineSource::Potrace),
         "--method potrace alone uses it",
     ),
     entry(
@@ -248,12 +249,12 @@ pub(super) const ENTRIES: &[Entry] = &[
     ),
     entry(
         &["smoke.line"],
-        |c| c.is_found_by(LineFinder::Image),
+        |c| c.is_found_by(LineSource::Image),
         "--method image draws no lines of smoke",
     ),
     entry(
         &["line.kinds.boundary", "line.paint.kinds.boundary"],
-        |c| c.is_found_by(LineFinder::Image),
+        |c| c.is_found_by(LineSource::Image),
         "in pictures of surfaces boundaries are contours",
     ),
     entry(
@@ -262,7 +263,7 @@ pub(super) const ENTRIES: &[Entry] = &[
             "line.paint.kinds.intersection",
             "line.paint.kinds.material",
         ],
-        |c| c.is_found_by(LineFinder::Potrace),
+        |c| c.is_found_by(LineSource::Potrace),
         "--method potrace draws edges of meshes",
     ),
     entry(
@@ -400,12 +401,12 @@ pub(super) const ENTRIES: &[Entry] = &[
     ),
     entry(
         &["line.paint.factor"],
-        |c| !c.any(|look| look.line_paint.source != LineSource::Constant),
+        |c| !c.any(|look| look.line_paint.source != LineColorSource::Constant),
         "line.paint.source is constant",
     ),
     entry(
         &["line.paint.image"],
-        |c| !c.any(|look| look.line_paint.source == LineSource::Texture),
+        |c| !c.any(|look| look.line_paint.source == LineColorSource::Texture),
         "line.paint.source is not texture",
     ),
     entry(

@@ -1,4 +1,5 @@
 use super::*;
+use crate::LineSource;
 use crate::Style;
 use proptest::prelude::*;
 
@@ -7,11 +8,11 @@ const FRAME: Occasion = Occasion {
     scene: Facts::ALL,
 };
 
-fn lines(finder: LineFinder) -> Occasion {
+fn lines(source: LineSource) -> Occasion {
     let form = LineForm::Ink;
     Occasion {
         output: Output::Lines(LineOutput {
-            finder,
+            source,
             form,
             fill: false,
         }),
@@ -27,9 +28,9 @@ fn stated(text: &str) -> Stated {
 fn what_presets_say_is_nobodys_wish() {
     for preset in crate::presets() {
         let stated = Stated::preset(preset.name).unwrap();
-        assert!(stated.notices(&lines(LineFinder::Mesh)).is_empty());
+        assert!(stated.notices(&lines(LineSource::Edges)).is_empty());
         let extended = stated_over(preset.name);
-        let reported = extended.notices(&lines(LineFinder::Mesh));
+        let reported = extended.notices(&lines(LineSource::Edges));
         assert_eq!(reported.len(), 1, "{}: {reported:?}", preset.name);
     }
 }
@@ -43,7 +44,7 @@ fn stated_over(preset: &str) -> Stated {
 fn a_file_that_says_what_is_so_anyway_wishes_nothing() {
     let dumped = stated(&Style::default().to_toml().unwrap());
     assert!(dumped.notices(&FRAME).is_empty());
-    assert!(dumped.notices(&lines(LineFinder::Mesh)).is_empty());
+    assert!(dumped.notices(&lines(LineSource::Edges)).is_empty());
     let changed = stated("[motion]\nseed = 0\n[ink]\npaint = 0.25");
     assert_eq!(changed.keys().collect::<Vec<_>>(), ["ink.paint"]);
 }
@@ -68,7 +69,7 @@ fn rules_of_files_keep_their_numbers_behind_those_of_presets() {
 #[test]
 fn keys_of_one_reason_are_named_together_and_once() {
     let stated = stated("[ink]\ntone = 'hatch'\npaint = 0.5\n[ink.hatch]\nspacing = '9px'");
-    let reported = stated.notices(&lines(LineFinder::Mesh));
+    let reported = stated.notices(&lines(LineSource::Edges));
     let wanted = "'ink.hatch.spacing', 'ink.paint' and 'ink.tone' are ignored by npr lines: \
                   it draws no tones and no hatching";
     assert_eq!(reported, [wanted]);

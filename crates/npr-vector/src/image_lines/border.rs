@@ -6,6 +6,7 @@ use super::sheet::are_one_sheet;
 use crate::screen::detect::{Detection, Detector};
 use glam::DVec2;
 use npr_core::geometry::NONE;
+use npr_core::line_color::kind_of_border;
 use npr_core::line_kind::KindSet;
 use npr_core::math;
 use npr_core::outline::{MASK_OWNER, Outline};
@@ -58,7 +59,7 @@ impl Borders {
             crease_cos: scene.creases.cos,
             normal_cos: scene.creases.cos,
             depth_threshold: scene.depth_threshold,
-            kinds: KindSet::CONTOUR | KindSet::BOUNDARY | KindSet::CREASE | KindSet::MATERIAL,
+            kinds: KindSet::EDGES,
             detects: DETECTS,
             ..Outline::default()
         };
@@ -232,7 +233,7 @@ impl Finder<'_> {
         let marks = self.detector.marks(first, second, kinds, 2 * side + 1);
         let [is_first, is_second] = marks.map(|mark| mark & MASK_OWNER != 0);
         let kind = if is_first || is_second {
-            kind_of(marks[usize::from(!is_first)])
+            kind_of_border(marks[usize::from(!is_first)]).bit()
         } else if marks == [Outline::NORMAL; 2] {
             self.hidden_kind(pixel, other)?
         } else {
@@ -319,19 +320,5 @@ impl Finder<'_> {
             let is_sharp = shape.fold_cos(edge, creases.from) < creases.cos;
             is_sharp && shape.sides(edge).iter().any(|side| side / 3 == b)
         })
-    }
-}
-
-/// What a line is that was found for these reasons, a bit of [`KindSet::BITS`].
-fn kind_of(mask: u32) -> u32 {
-    let has = |bits: u32| mask & bits != 0;
-    if has(Outline::DEPTH) {
-        KindSet::CONTOUR
-    } else if has(Outline::OBJECT_ID | Outline::PIECE) {
-        KindSet::INTERSECTION
-    } else if has(Outline::MATERIAL_ID) {
-        KindSet::MATERIAL
-    } else {
-        KindSet::CREASE
     }
 }

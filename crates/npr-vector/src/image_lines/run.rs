@@ -191,7 +191,7 @@ impl Maker<'_> {
     }
 
     fn run(&self, points: Vec<RunPoint>, [kind, surface]: Label, closed: bool) -> Option<Run> {
-        let kind = Kind::ALL.into_iter().find(|known| known.bit() == kind)?;
+        let kind = Kind::first_of(kind)?;
         let shape = self.scene.shape;
         let edges = points
             .iter()

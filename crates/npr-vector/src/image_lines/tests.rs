@@ -1,7 +1,7 @@
 //! Lines of pictures whose shape is known.
 
 use super::*;
-use crate::mesh_lines::draw::{LineSettings, Method, StrokeLook};
+use crate::mesh_lines::draw::{LineSettings, LineSource, StrokeLook};
 use crate::mesh_lines::run::Run;
 use crate::mesh_lines::zero_set::CornerNormals;
 use crate::project::Projector;
@@ -64,7 +64,7 @@ impl Subject {
         let settings = LineSettings {
             size,
             kinds: self.kinds,
-            method: Method::Edges,
+            method: LineSource::Edges,
             smooth: true,
             hidden: false,
             split: None,

@@ -179,10 +179,10 @@ fn flags_of(shape: &HalfEdgeMesh, eye: &Eye, half_edge: u32, edge: u32) -> u32 {
     let twin = shape.twins[half_edge as usize];
     let odd = EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD | EdgeFlags::FLIPPED;
     if twin == NONE || shape.edge_traits[edge as usize].intersects(odd) {
-        return CurveNode::SEAM;
+        return EdgeFlags::SEAM.0;
     }
     if is_concave(shape, eye, half_edge, twin) {
-        KindSet::CONTOUR | CurveNode::CONCAVE
+        KindSet::CONTOUR | EdgeFlags::CONCAVE.0
     } else {
         KindSet::CONTOUR
     }

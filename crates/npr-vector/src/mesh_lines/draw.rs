@@ -8,7 +8,7 @@ mod paint;
 mod prepared;
 mod view;
 
-pub use crate::mesh_lines::line_settings::{LineSettings, Method};
+pub use crate::mesh_lines::line_settings::{LineSettings, LineSource};
 pub(crate) use calm::calmed;
 pub(crate) use paint::strokes_of;
 pub use paint::{PaintAt, PointPaint, StrokeLook};

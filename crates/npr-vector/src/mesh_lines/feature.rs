@@ -7,7 +7,7 @@ use glam::DVec3;
 use npr_core::crease::Creases;
 use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
-use npr_core::line_kind::KindSet;
+use npr_core::line_kind::{KIND_NUMBER_BITS, Kind, KindSet};
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
@@ -92,8 +92,8 @@ fn mates(shape: &HalfEdgeMesh, candidates: &[(u32, u32)]) -> Vec<u32> {
 fn group_of(shape: &HalfEdgeMesh, edge: u32, flags: u32) -> u32 {
     let face = shape.sides(edge)[0] / 3;
     let object = shape.surfaces[shape.face_surfaces[face as usize] as usize].object;
-    let first_kind = flags.trailing_zeros().min(7);
-    object << 3 | first_kind
+    let first_kind = Kind::first_of(flags).map_or(Kind::ALL.len(), |kind| kind as usize);
+    object << KIND_NUMBER_BITS | first_kind as u32
 }
 
 pub(crate) fn pair(mates: &mut [u32], a: u32, b: u32) {

@@ -24,8 +24,10 @@ pub struct CurveNode {
     pub next: u32,
     /// Predecessor, or [`NONE`] at the start of an open line.
     pub prev: u32,
-    /// Bits of [`KindSet`], and [`CurveNode::CONCAVE`] to [`CurveNode::SEAM`]; the kind of a piece stands at its first
-    /// node. A piece of no kind is a link, never drawn.
+    /// Bits of [`KindSet`], and [`CONCAVE`](npr_core::edge_flags::EdgeFlags::CONCAVE) of contours that their own
+    /// surface hides, [`CUSP`](npr_core::edge_flags::EdgeFlags::CUSP) and
+    /// [`SEAM`](npr_core::edge_flags::EdgeFlags::SEAM); the kind of a piece stands at its first node. A piece of no
+    /// kind is a link, never drawn.
     pub flags: u32,
     /// A face beside the piece: the front face of a contour, the face that a zero-set piece crosses.
     pub face: u32,
@@ -44,13 +46,6 @@ impl CurveNode {
     pub fn is_along_edge(&self) -> bool {
         (self.t == 0.0 || self.t == 1.0) && self.flags & KindSet::INTERSECTION == 0
     }
-
-    /// The contour piece lies in a valley: its own surface hides it.
-    pub const CONCAVE: u32 = 64;
-    /// The line turns from its surface's visible to its hidden side at this node.
-    pub const CUSP: u32 = 128;
-    /// Only links faces that are wound against each other.
-    pub const SEAM: u32 = 256;
 }
 
 /// Lines of one view, or of all views.

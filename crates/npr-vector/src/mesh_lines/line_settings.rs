@@ -1,14 +1,6 @@
 //! Which lines of a view are wanted, and how.
 
-/// How contours are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Method {
-    /// Along mesh edges, exact for the polygons.
-    #[default]
-    Edges,
-    /// Where interpolated normals turn away, smooth.
-    Surface,
-}
+pub use npr_core::line_source::LineSource;
 
 /// Which lines are wanted, and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,8 +9,8 @@ pub struct LineSettings {
     pub size: [u32; 2],
     /// Bits of [`KindSet::BITS`](npr_core::line_kind::KindSet::BITS).
     pub kinds: u32,
-    /// How contours are found.
-    pub method: Method,
+    /// How contours are found: across faces, or along edges of meshes, from which pictures start too.
+    pub method: LineSource,
     /// Smooths strokes, joins their ends, and leaves out what is too short to read.
     pub smooth: bool,
     /// Gives hidden lines too, with the number of surfaces in front.

@@ -3,6 +3,7 @@
 use crate::stroke::Kind;
 use crate::surface_location::SurfaceLocation;
 use glam::DVec3;
+use npr_core::line_kind::KIND_NUMBER_BITS;
 
 /// Runs shorter than this are left out, in pixels. Parts cut at corners are not: the line that they are of goes on.
 pub(crate) const SPECK_PX: f64 = 3.0;
@@ -128,7 +129,7 @@ pub(crate) fn location_at(points: &[RunPoint], closed: bool, index: usize) -> Su
 /// Identity of the first run of a kind that hangs on an edge; the runs on one edge are told apart by eight bits below
 /// it.
 pub(crate) fn base_id(edge: u32, kind: Kind) -> u64 {
-    u64::from(edge) << 3 | kind as u64
+    u64::from(edge) << KIND_NUMBER_BITS | kind as u64
 }
 
 /// Tells apart runs that hang on the same edge, in the order in which they lie along it.

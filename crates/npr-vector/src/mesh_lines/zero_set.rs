@@ -36,8 +36,8 @@ use signs::Signs;
 /// Nodes are ordered by edge and half-edge. A piece either crosses its node's face, or runs along its node's edge with
 /// the node's face as front; the latter may cover a part of the edge. All have
 /// [`CONTOUR`](npr_core::line_kind::KindSet::CONTOUR), except the last node of an open line, which has no piece.
-/// Pieces that their own surface hides are marked [`CONCAVE`](crate::mesh_lines::graph::CurveNode::CONCAVE), changes of
-/// that [`CUSP`](crate::mesh_lines::graph::CurveNode::CUSP).
+/// Pieces that their own surface hides are marked [`CONCAVE`](npr_core::edge_flags::EdgeFlags::CONCAVE), changes of
+/// that [`CUSP`](npr_core::edge_flags::EdgeFlags::CUSP).
 ///
 /// `eye` is homogeneous, in the world: a point with `w = 1`, or the direction towards a parallel camera with `w = 0`.
 ///

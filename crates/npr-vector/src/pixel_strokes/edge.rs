@@ -62,11 +62,11 @@ impl DrawnEdge {
     }
 
     /// A polyline, from its first vertex to its second.
-    fn of_wire([tail, head]: [u32; 2]) -> Self {
+    fn of_polyline([tail, head]: [u32; 2]) -> Self {
         Self {
             tail,
             head,
-            bits: EdgeFlags::WIRE.0 | KindSet::MARKED,
+            bits: EdgeFlags::POLYLINE.0 | KindSet::MARKED,
             ..Self::nothing()
         }
     }
@@ -98,7 +98,7 @@ pub fn drawn_edges(
     // Polylines stand behind the edges of faces, which come first.
     let polylines = shape.polylines.iter().zip(&shape.polyline_surfaces);
     let polylines = polylines.map(|(ends, surface)| match is_lined(*surface) {
-        true => DrawnEdge::of_wire(*ends),
+        true => DrawnEdge::of_polyline(*ends),
         false => DrawnEdge::nothing(),
     });
 
@@ -178,7 +178,7 @@ pub fn mark_edges(on: &Facing<'_>, edges: &[DrawnEdge], flags: &mut [u32], marks
 impl Facing<'_> {
     /// The kind and the direction of an edge; 0 where it is not drawn.
     fn mark_of(&self, edge: &DrawnEdge) -> u32 {
-        if EdgeFlags::WIRE.is_in(edge.bits) {
+        if EdgeFlags::POLYLINE.is_in(edge.bits) {
             return edge.bits & self.wanted & KindSet::BITS;
         }
         if edge.face == NONE {

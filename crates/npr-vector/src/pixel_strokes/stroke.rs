@@ -211,7 +211,7 @@ impl Maker<'_> {
         }
 
         // Let most of them say what the stroke is.
-        let kind = kind_of(most_common(&kinds)?)?;
+        let kind = Kind::first_of(most_common(&kinds)?)?;
         let surface = most_common(&surfaces)?;
 
         // Hang its identity on the mesh edge with the least hash.
@@ -280,8 +280,4 @@ fn most_common(counts: &BTreeMap<u32, usize>) -> Option<u32> {
         .iter()
         .max_by_key(|(key, count)| (**count, std::cmp::Reverse(**key)));
     by_count.map(|(key, _)| *key)
-}
-
-fn kind_of(bit: u32) -> Option<Kind> {
-    Kind::ALL.into_iter().find(|kind| kind.bit() == bit)
 }

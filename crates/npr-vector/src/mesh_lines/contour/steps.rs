@@ -210,10 +210,10 @@ impl Marked<'_> {
         let HalfEdge { twin, traits, .. } = self.half_edges[half_edge as usize];
         let odd = EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD | EdgeFlags::FLIPPED;
         if twin == NONE || traits.intersects(odd) {
-            return CurveNode::SEAM;
+            return EdgeFlags::SEAM.0;
         }
         if self.is_concave(half_edge, twin) {
-            KindSet::CONTOUR | CurveNode::CONCAVE
+            KindSet::CONTOUR | EdgeFlags::CONCAVE.0
         } else {
             KindSet::CONTOUR
         }

@@ -4,7 +4,7 @@ use super::prepared::Prepared;
 use crate::mesh_lines::feature::kind_in_view;
 use crate::mesh_lines::graph::{CurveGraph, CurveNode};
 use crate::mesh_lines::line::Line;
-use crate::mesh_lines::line_settings::{LineSettings, Method, OUTLINE_TOLERANCE_PX};
+use crate::mesh_lines::line_settings::{LineSettings, LineSource, OUTLINE_TOLERANCE_PX};
 use crate::mesh_lines::visibility::{
     Circumstances, FaceImages, Ink, Memory, OutlineGrid, Piece, Seen, Span,
 };
@@ -13,6 +13,7 @@ use crate::project::Projector;
 use crate::rank::hash_key;
 use crate::stroke::Kind;
 use npr_core::budget::{Budget, OverBudget};
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
 use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
@@ -112,15 +113,15 @@ impl View<'_> {
     /// The kinds of the piece after a node in this view.
     fn kinds_of(&self, node: &CurveNode) -> u32 {
         let feature = KindSet::BITS & !(KindSet::CONTOUR | KindSet::INTERSECTION);
-        let in_loop = node.flags & (KindSet::CONTOUR | CurveNode::SEAM | KindSet::INTERSECTION);
+        let in_loop = node.flags & (KindSet::CONTOUR | EdgeFlags::SEAM.0 | KindSet::INTERSECTION);
         if in_loop != 0 || self.shape.polyline_of(node.edge).is_some() {
             return node.flags & KindSet::BITS;
         }
         let flags = node.flags & feature;
         // Smooth contours follow only some of the edges that turn away.
         let has_line = match self.settings.method {
-            Method::Edges => self.settings.kinds & KindSet::CONTOUR != 0,
-            Method::Surface => self.covered.binary_search(&node.edge).is_ok(),
+            LineSource::Surface => self.covered.binary_search(&node.edge).is_ok(),
+            _ => self.settings.kinds & KindSet::CONTOUR != 0,
         };
         let flags = kind_in_view(self.shape, self.front, node.edge, flags, has_line);
         let sides = self.shape.sides(node.edge);
@@ -225,8 +226,8 @@ impl View<'_> {
     ) -> Option<Line> {
         // Leave out what is not wanted, and concave edges whose backs nobody sees.
         let kinds = self.kinds_of(node) & wanted;
-        let kind = first_kind(kinds)?;
-        let concave = node.flags & CurveNode::CONCAVE != 0;
+        let kind = Kind::first_of(kinds)?;
+        let concave = EdgeFlags::CONCAVE.is_in(node.flags);
         if concave && !self.prepared.may_show_backs(self.shape, node.face) {
             return None;
         }
@@ -284,14 +285,14 @@ impl View<'_> {
         contours: &CurveGraph,
         lines: &[Option<Line>],
     ) -> Option<(CurveGraph, Vec<Option<Line>>)> {
-        if self.settings.method == Method::Edges {
+        if self.settings.method != LineSource::Surface {
             return None;
         }
         let prepared = self.prepared;
         let normals = prepared.corner_normals(self.shape);
         let convex = contours.nodes.iter().zip(lines).filter_map(|(node, line)| {
             let line = line.as_ref()?;
-            (node.flags & CurveNode::CONCAVE == 0).then_some((node, line))
+            (!EdgeFlags::CONCAVE.is_in(node.flags)).then_some((node, line))
         });
         let seen: Vec<SeenContour> = convex
             .flat_map(|(node, line)| {
@@ -316,7 +317,7 @@ impl View<'_> {
             .iter()
             .map(|node| {
                 // Its own surface hides a concave piece.
-                let shows = node.flags & CurveNode::CONCAVE == 0;
+                let shows = !EdgeFlags::CONCAVE.is_in(node.flags);
                 let piece = shows.then(|| self.piece_after(&graph, node)).flatten()?;
                 Some(piece.0)
             })
@@ -382,9 +383,4 @@ impl View<'_> {
             ..Circumstances::default()
         }
     }
-}
-
-/// The kind that a piece of several kinds is drawn as.
-fn first_kind(kinds: u32) -> Option<Kind> {
-    Kind::ALL.into_iter().find(|kind| kinds & kind.bit() != 0)
 }

@@ -20,6 +20,7 @@ use crate::mesh_lines::sample::settle_runs;
 use crate::mesh_lines::visibility::{Piece, Span};
 use crate::project::Projector;
 use glam::DVec3;
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
@@ -294,7 +295,7 @@ impl<'a> PolygonOutline<'a> {
             .with_min_len(64)
             .filter_map(|index| {
                 let node = &graph.nodes[index as usize];
-                if node.next == NONE || node.flags & CurveNode::CONCAVE != 0 {
+                if node.next == NONE || EdgeFlags::CONCAVE.is_in(node.flags) {
                     return None;
                 }
                 let [a, b] = [index, node.next].map(|n| DVec3::from(graph.position(self.shape, n)));

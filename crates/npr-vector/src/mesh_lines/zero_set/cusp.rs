@@ -5,6 +5,7 @@ use super::signs::Signs;
 use super::trace::Traced;
 use crate::mesh_lines::graph::CurveNode;
 use glam::DVec3;
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
 use rayon::prelude::*;
 
@@ -23,7 +24,7 @@ struct Turn {
     reach: f64,
 }
 
-/// Sets [`CurveNode::CONCAVE`] on pieces that their own surface hides, and [`CurveNode::CUSP`] where that changes.
+/// Sets [`EdgeFlags::CONCAVE`] on pieces that their own surface hides, and [`EdgeFlags::CUSP`] where that changes.
 ///
 /// In a face, the surface curves away from the eye where n.v grows along the view vector towards the eye [Hertzmann &
 /// Zorin 2000, section 4.2; DeCarlo et al. 2003]: the gradient of n.v is constant there. A step between two faces is
@@ -54,10 +55,10 @@ pub(super) fn mark_cusps(signs: &Signs<'_>, traced: &mut Traced) {
     for index in 0..nodes.len() {
         let CurveNode { next, prev, .. } = nodes[index];
         if next != NONE && hidden[index] {
-            nodes[index].flags |= CurveNode::CONCAVE;
+            nodes[index].flags |= EdgeFlags::CONCAVE.0;
         }
         if next != NONE && prev != NONE && hidden[index] != hidden[prev as usize] {
-            nodes[index].flags |= CurveNode::CUSP;
+            nodes[index].flags |= EdgeFlags::CUSP.0;
         }
     }
 }

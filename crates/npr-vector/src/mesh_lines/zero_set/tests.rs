@@ -346,8 +346,8 @@ fn the_far_rim_of_a_torus_hole_is_hidden_by_its_own_surface_between_cusps() {
     // Low over the plane of the ring, the line around the hole has four cusps.
     let graph = smooth(&shape, [6.0, 0.0, 1.2, 1.0]);
     let count = |flag: u32| graph.nodes.iter().filter(|n| n.flags & flag != 0).count();
-    assert_eq!(count(CurveNode::CUSP), 4);
-    assert!(count(CurveNode::CONCAVE) > 10);
+    assert_eq!(count(EdgeFlags::CUSP.0), 4);
+    assert!(count(EdgeFlags::CONCAVE.0) > 10);
     // From far above there is none.
     let graph = smooth(&shape, [0.1, 0.0, 6.0, 1.0]);
     assert!(graph.nodes.iter().all(|n| n.flags == KindSet::CONTOUR));
@@ -402,7 +402,7 @@ fn a_noisy_sign_of_one_piece_makes_no_cusps() {
     let cusps = graph
         .nodes
         .iter()
-        .filter(|n| n.flags & CurveNode::CUSP != 0)
+        .filter(|n| EdgeFlags::CUSP.is_in(n.flags))
         .count();
     assert!(cusps <= 2, "{cusps}");
 }

@@ -2,7 +2,6 @@
 
 use crate::mesh_lines::contour::steps::Viewer;
 use crate::mesh_lines::contour::{Eye, contours, facing};
-use crate::mesh_lines::graph::CurveNode;
 use crate::pixel_strokes::edge::{Facing, drawn_edges, mark_edges};
 use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
@@ -50,7 +49,7 @@ proptest! {
         let front = facing(&shape, &eye);
         let mut expected = vec![0; shape.edge_count()];
         for node in &contours(&shape, &front, &eye).nodes {
-            let is_valley = is_convex_only && node.flags & CurveNode::CONCAVE != 0;
+            let is_valley = is_convex_only && EdgeFlags::CONCAVE.is_in(node.flags);
             if node.flags & KindSet::CONTOUR != 0 && !is_valley {
                 let first = shape.sides(node.edge)[0];
                 let runs_first = first / 3 == node.face;

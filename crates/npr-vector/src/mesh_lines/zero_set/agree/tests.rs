@@ -3,6 +3,7 @@ use crate::mesh_lines::contour::{Eye, contours, facing};
 use crate::mesh_lines::zero_set::patches::LEAST_PX;
 use crate::mesh_lines::zero_set::tests::shaken;
 use npr_core::camera::{Camera, Projection};
+use npr_core::edge_flags::EdgeFlags;
 use npr_core::line_kind::KindSet;
 use npr_mesh::Mesh;
 use npr_mesh::testing::{cube, cylinder, icosphere, shape_of, torus};
@@ -38,7 +39,7 @@ fn all_seen(
     }];
     let of_node = |index: usize| {
         let node = &graph.nodes[index];
-        let convex = node.flags & (KindSet::CONTOUR | CurveNode::CONCAVE) == KindSet::CONTOUR;
+        let convex = node.flags & (KindSet::CONTOUR | EdgeFlags::CONCAVE.0) == KindSet::CONTOUR;
         let piece = piece_of(shape, &graph, index, projector).filter(|_| convex)?;
         SeenContour::of_piece(projector, node, &piece, &whole).next()
     };
@@ -87,7 +88,7 @@ proptest! {
         let flat = outline.flat_faces();
         let graph = zero_set(&shape, &normals, projector.eye(), &flat);
         let drawn: Vec<Piece> = (0..graph.nodes.len())
-            .filter(|i| graph.nodes[*i].flags & CurveNode::CONCAVE == 0 && graph.nodes[*i].next != NONE)
+            .filter(|i| !EdgeFlags::CONCAVE.is_in(graph.nodes[*i].flags) && graph.nodes[*i].next != NONE)
             .filter_map(|i| piece_of(&shape, &graph, i, &projector)).collect();
         let (mut missed, mut all) = (0.0, 0.0);
         for contour in &seen {
