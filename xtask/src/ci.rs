@@ -6,14 +6,15 @@ use anyhow::{Result, bail, ensure};
 
 use crate::packages::cargo;
 use crate::{
-    assets, circles, constants, coverage, decoders, floors, harness, names, passes, suite,
+    alone, assets, circles, constants, coverage, decoders, floors, harness, licences, names,
+    passes, suite,
 };
 
 /// A step: its name, and what it runs at the root of the workspace.
 type Step = (&'static str, fn(&Path) -> Result<()>);
 
 /// The steps, quick ones first.
-const STEPS: [Step; 14] = [
+const STEPS: [Step; 18] = [
     ("format", |root| {
         run_cargo(root, &["fmt", "--all", "--check"], &[])
     }),
@@ -26,7 +27,11 @@ const STEPS: [Step; 14] = [
     ("coverage", coverage::check),
     ("passes", passes::check),
     ("assets", |root| assets::check(&root.join("assets"))),
+    ("licences", licences::check),
     ("clippy", |root| run_cargo(root, &CLIPPY, &[])),
+    ("features", alone::lint_features),
+    ("browsers", alone::check_for_browsers),
+    ("packages", alone::check_packages),
     ("docs", |root| {
         run_cargo(root, &DOCS, &[("RUSTDOCFLAGS", "-D warnings")])
     }),

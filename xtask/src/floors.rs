@@ -319,6 +319,7 @@ mod tests {
             manifest_path: "Cargo.toml".into(),
             dependencies: imports.iter().map(import).collect(),
             publish: None,
+            ..Package::default()
         }
     }
 

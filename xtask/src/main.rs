@@ -2,6 +2,7 @@
 //!
 //! Builds in seconds, because nothing here links the renderer: what needs it is left to cargo.
 
+mod alone;
 mod assets;
 mod ci;
 mod circles;
@@ -12,6 +13,7 @@ mod file;
 mod floors;
 mod gallery;
 mod harness;
+mod licences;
 mod measure;
 mod names;
 mod packages;
@@ -51,6 +53,7 @@ usage: cargo xtask COMMAND
                     measure outlines before backgrounds, in release, and keep the tables
   measure trace     measure tracings beside potrace, vtracer and OpenCV, in release, and keep the tables
   gallery [PRESETS] draw every preset, or those named, on the shared models into target/gallery
+  licences          check that everything that is linked may be linked by everybody
   names             check that no file names a machine, no line is too wide, and every crate has a README
   passes            write docs/passes.md, the list of passes, from their declarations
   snapshots bless FILTER
@@ -94,6 +97,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["measure", "trace"] => measure::trace(root),
         ["gallery", presets @ ..] => gallery::draw(root, presets),
         ["passes"] => passes::write(root),
+        ["licences"] => licences::check(root),
         ["names"] => names::check(root),
         ["snapshots", "bless", filter] => snapshots::bless(root, filter),
         _ => return None,

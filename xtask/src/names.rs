@@ -186,6 +186,7 @@ mod tests {
             manifest_path: folder.path().join("Cargo.toml"),
             dependencies: vec![],
             publish: None,
+            ..Package::default()
         };
         assert!(readme_fault(&package).is_some());
         assert!(

@@ -1,5 +1,6 @@
 //! The workspace as cargo sees it.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -7,10 +8,14 @@ use anyhow::{Context, Result, ensure};
 use serde::Deserialize;
 
 /// A member of the workspace.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 pub struct Package {
     /// Its name.
     pub name: String,
+    /// Its version.
+    pub version: String,
+    /// Its features, and what each switches on.
+    pub features: BTreeMap<String, Vec<String>>,
     /// Its `Cargo.toml`.
     pub manifest_path: PathBuf,
     /// What it asks for, of every kind.
