@@ -605,3 +605,17 @@ fn many_and_broken_lines_end_soon() {
     let fault = "line segment 0 uses vertex 1000, but the part has only 1000";
     lines(&place, "broken.glb", &["-o", "broken.svg"]).assert_fault(3, fault);
 }
+
+#[test]
+fn what_can_be_mended_in_a_mesh_is_told_once() {
+    let place = Workplace::new();
+    // A square of two triangles, of which one is wound the wrong way and one is there twice.
+    place.put(
+        "square.obj",
+        b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 4 3\nf 1 4 3\n",
+    );
+    let told = "npr: warning: the meshes have 1 face that is stored twice and drawn once; \
+                1 edge whose faces are wound against each other, where contours may be wrong\n";
+    assert_eq!(lines(&place, "square.obj", &[]).stderr, told);
+    lines(&place, "square.obj", &["--quiet"]).assert_silent_success();
+}

@@ -28,6 +28,7 @@ use npr_core::crease::CreaseFrom;
 use npr_core::geometry::Part;
 use npr_core::line_source::LineSource;
 use npr_mesh::half_edge::HalfEdgeMesh;
+use npr_mesh::shape::Preparation;
 use npr_scene::Scene;
 use npr_stylesheet::{Look, Style};
 use npr_vector::mesh_lines::bvh::FaceTree;
@@ -145,11 +146,10 @@ impl LineModel {
         folder: Option<&Path>,
     ) -> Result<Self, RenderError> {
         check_budget(assembly, options)?;
-        let shape = build(assembly, options);
         Ok(Self {
             memory_limit: options.memory_limit,
             cache: Cache::of(folder),
-            ..Self::of_shape(scene, assembly, shape)
+            ..Self::of_shape(scene, assembly, build(assembly, options))
         })
     }
 
@@ -167,7 +167,8 @@ impl LineModel {
         Self::of_assembly(scene, &Assembly::new(scene, None), options, Some(folder))
     }
 
-    fn of_shape(scene: &Scene, assembly: &Assembly, mut shape: HalfEdgeMesh) -> Self {
+    fn of_shape(scene: &Scene, assembly: &Assembly, built: (HalfEdgeMesh, Preparation)) -> Self {
+        let (mut shape, preparation) = built;
         mark_materials(&mut shape, &assembly.marked);
         let points = assembly.used_points();
         let bounds = npr_core::camera::bounds_of(points.iter().copied().map(Vec3::from));
@@ -179,7 +180,7 @@ impl LineModel {
             smoke: None,
             points,
             cameras: placement::cameras_of(scene),
-            notices: notices_of(scene, assembly),
+            notices: notices_of(scene, assembly, &preparation),
             triangle_count: assembly.triangle_count(),
             memory_limit: u64::MAX,
             cache: Cache::default(),

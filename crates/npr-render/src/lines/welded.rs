@@ -7,6 +7,7 @@ use crate::part_info::PartInfo;
 use npr_core::budget::Budget;
 use npr_core::edge_flags::EdgeFlags;
 use npr_mesh::half_edge::HalfEdgeMesh;
+use npr_mesh::shape::{Preparation, add_mesh};
 use npr_scene::Scene;
 
 /// Bytes of a shape and its hierarchy for every triangle, its three half-edges and its share of the vertices.
@@ -36,16 +37,20 @@ pub(super) fn check_budget(
     Ok(())
 }
 
-/// The welded shape of an assembly.
-pub(super) fn build(assembly: &Assembly, options: &LineModelOptions) -> HalfEdgeMesh {
+/// The welded shape of an assembly, and what became of its meshes.
+pub(super) fn build(
+    assembly: &Assembly,
+    options: &LineModelOptions,
+) -> (HalfEdgeMesh, Preparation) {
     let mut shape = HalfEdgeMesh {
         surfaces: assembly.surfaces(),
         ..HalfEdgeMesh::default()
     };
+    let mut preparation = Preparation::default();
     for mesh in &assembly.meshes {
-        npr_mesh::shape::add_mesh(&mut shape, &mesh.view(), options.weld);
+        preparation += add_mesh(&mut shape, &mesh.view(), options.weld);
     }
-    shape
+    (shape, preparation)
 }
 
 /// Marks the edges where a material that asks for lines meets another.
@@ -75,8 +80,12 @@ pub(super) fn colors_of(shape: &HalfEdgeMesh, assembly: &Assembly) -> Vec<u32> {
     shape.positions.iter().map(color_at).collect()
 }
 
-/// What of a scene lines do not show, for the user.
-pub(super) fn notices_of(scene: &Scene, assembly: &Assembly) -> Vec<String> {
+/// What of a scene lines do not show or show otherwise, for the user.
+pub(super) fn notices_of(
+    scene: &Scene,
+    assembly: &Assembly,
+    preparation: &Preparation,
+) -> Vec<String> {
     let mut notices: Vec<String> = scene.notices.iter().map(ToString::to_string).collect();
     let cut_out = |info: &PartInfo| info.alpha_cutoff.is_some() && info.base_color[3] >= 1.0;
     if let Some(info) = assembly.parts.iter().find(|info| cut_out(info)) {
@@ -85,5 +94,63 @@ pub(super) fn notices_of(scene: &Scene, assembly: &Assembly) -> Vec<String> {
             info.material_name
         ));
     }
+    notices.extend(faults_of(preparation));
     notices
+}
+
+/// What an artist may want to mend in the meshes of a scene, in one sentence. What welding does to every mesh is none
+/// of it.
+fn faults_of(preparation: &Preparation) -> Option<String> {
+    let counted = |count: usize, one: &str, more: &str| {
+        let what = if count == 1 { one } else { more };
+        (count > 0).then(|| format!("{count} {what}"))
+    };
+    let faults = [
+        counted(
+            preparation.double_count,
+            "face that is stored twice and drawn once",
+            "faces that are stored twice and drawn once",
+        ),
+        counted(
+            preparation.flipped_count,
+            "edge whose faces are wound against each other, where contours may be wrong",
+            "edges whose faces are wound against each other, where contours may be wrong",
+        ),
+        counted(
+            preparation.lost_mark_count,
+            "marked line that is no edge of a mesh",
+            "marked lines that are no edges of a mesh",
+        ),
+        counted(
+            preparation.lost_wire_count,
+            "line segment that is left out, because it has no length or is stored twice",
+            "line segments that are left out, because they have no length or are stored twice",
+        ),
+    ];
+    let faults: Vec<String> = faults.into_iter().flatten().collect();
+    (!faults.is_empty()).then(|| format!("the meshes have {}", faults.join("; ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_can_be_mended_is_told() {
+        let clean = Preparation {
+            boundary_count: 4,
+            non_manifold_count: 1,
+            collapsed_count: 2,
+            ..Preparation::default()
+        };
+        assert_eq!(faults_of(&clean), None);
+        let faulty = Preparation {
+            double_count: 1,
+            lost_mark_count: 2,
+            ..clean
+        };
+        let sentence = "the meshes have 1 face that is stored twice and drawn once; \
+                        2 marked lines that are no edges of a mesh";
+        assert_eq!(faults_of(&faulty).as_deref(), Some(sentence));
+    }
 }
