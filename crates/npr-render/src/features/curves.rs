@@ -17,7 +17,7 @@ const METHODS: [(npr_stylesheet::LineMethod, LineMethod); 2] = [
     (npr_stylesheet::LineMethod::Potrace, LineMethod::Potrace),
 ];
 
-/// Draws them over a frame; without a line model the frame gets a notice instead.
+/// Draws lines as curves over a frame; without a line model the frame gets a notice instead.
 ///
 /// `contrasted` holds what lies on both sides of outlines, where the colours of lines follow it.
 pub(crate) fn finish(
