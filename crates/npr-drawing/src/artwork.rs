@@ -1,4 +1,4 @@
-//! A drawing as shapes in layers, ready for any kind of file: what SVG, PDF and PNG have in common.
+//! A drawing as shapes in layers, ready for any kind of file: the common ground of SVG, PDF and PNG.
 //!
 //! Flat colour lies at the bottom, hidden lines above it, visible ones on top; lines are layered by kind, and within
 //! a layer grouped by object. Everything is cut to the picture, so that no file holds anything far outside.
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 pub use crate::mark::{Mark, Paint};
 pub use crate::page::Page;
 
-/// What becomes of lines behind surfaces.
+/// How lines behind surfaces are drawn.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Hidden {
     /// They are left out.
@@ -29,7 +29,7 @@ pub enum Hidden {
     Dashed,
 }
 
-/// What a line becomes.
+/// The shapes that lines become.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Paths {
     /// A stroked path where its width is even, else the filled outline of its ink.
@@ -42,11 +42,11 @@ pub enum Paths {
 /// How a drawing is put into a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArtworkOptions {
-    /// What lines become.
+    /// The shapes that lines become.
     pub paths: Paths,
-    /// What becomes of lines behind surfaces.
+    /// How lines behind surfaces are drawn.
     pub hidden: Hidden,
-    /// Colour of the ground, sRGB and alpha; nothing lies under the lines without.
+    /// Colour of the ground, sRGB and alpha; without one nothing lies under the lines.
     pub background: Option<[u8; 4]>,
     /// A sheet to fit the picture on; without, the file has the picture's size in pixels.
     pub page: Option<Page>,
@@ -56,7 +56,7 @@ pub struct ArtworkOptions {
     pub tolerance_px: f64,
     /// Words over the lines; they go into a layer of their own, on top.
     ///
-    /// Where lines are centrelines, a pen goes around the letters: bands and inside stay empty.
+    /// For centrelines, a pen goes around the letters; bands and insides stay empty.
     pub lettering: Vec<Lettered>,
 }
 
@@ -80,7 +80,7 @@ pub struct Group {
     pub object: u32,
     /// Name of the object; any text.
     pub label: String,
-    /// From the lowest to the topmost.
+    /// The shapes, from the lowest to the topmost.
     pub marks: Vec<Mark>,
 }
 
@@ -89,7 +89,7 @@ pub struct Group {
 pub struct Layer {
     /// A name of lower-case letters and hyphens, unique in the artwork.
     pub name: String,
-    /// Never empty.
+    /// Groups of marks, never empty.
     pub groups: Vec<Group>,
 }
 
@@ -98,7 +98,7 @@ pub struct Layer {
 pub struct Artwork {
     /// Width and height, in pixels, or in millimetres of a page.
     pub size: [f64; 2],
-    /// The unit is the millimetre.
+    /// Whether the unit is the millimetre.
     pub is_page: bool,
     /// Units per pixel of the drawing.
     pub scale: f64,
@@ -114,19 +114,20 @@ pub(crate) const DASH: [f64; 2] = [4.0, 3.5];
 /// Width of the line around regions, in pixels: less shows cracks between neighbours on some renderers.
 pub(crate) const REGION_SEAM_PX: f64 = 0.6;
 
-/// Lines whose width differs by less than this share are even.
+/// Share by which the widths of an even line may differ.
 const EVEN: f64 = 0.01;
 
-/// Lines thinner than this, in pixels, are drawn with this width, so that files show them.
+/// Least width of a drawn line in pixels: thinner lines are drawn with it, so that files show them.
 const HAIRLINE_PX: f64 = 0.05;
 
 /// Width of the line that pens draw around letters, in pixels.
 const PEN_PX: f64 = 1.0;
 
-/// Names are cut to this many characters.
+/// Most characters of a name.
 pub(crate) const NAME_LENGTH: usize = 200;
 
-/// A name for files: without control characters, without what XML forbids or what turns the direction of text, and cut.
+/// A name for files: cut, and without control characters, characters that XML forbids, and those that turn the
+/// direction of text.
 pub(crate) fn plain_name(name: &str) -> String {
     let turns = |c: char| {
         let is_mark = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}');
@@ -188,7 +189,7 @@ struct Maker<'a> {
     placing: &'a Placing,
 }
 
-/// Points along a stroke, and whether the last runs on to the first.
+/// Points along a stroke, and whether the last continues to the first.
 type Way<'a> = (&'a [StrokePoint], bool);
 
 impl Maker<'_> {
@@ -293,7 +294,7 @@ impl Maker<'_> {
             .collect()
     }
 
-    /// A stroke or a part of it in one colour: a line where its width is even, else its ink.
+    /// The mark of a stroke, or of a part in one colour: a line where its width is even, else the outline of its ink.
     fn ink(&self, stroke: &Stroke, way: Way<'_>, hidden: bool) -> Option<Mark> {
         let (points, closed) = way;
         let dashed = hidden && self.options.hidden == Hidden::Dashed;
@@ -306,7 +307,7 @@ impl Maker<'_> {
         self.mark(stroke, path, Paint::Ink, hidden, color_runs::mean(points))
     }
 
-    /// A piece of a stroke that changes colour.
+    /// The mark of a piece of a stroke that changes colour.
     fn piece(&self, stroke: &Stroke, piece: &color_runs::Piece, hidden: bool) -> Option<Mark> {
         let translucent = hidden || piece.color[3] < 255;
         if translucent && piece.goes_on != [false; 2] {
@@ -374,12 +375,12 @@ impl Maker<'_> {
         self.mark(stroke, path, paint, hidden, color_runs::mean(points))
     }
 
-    /// A colour as a line shows it that may be hidden.
+    /// The colour that a line shows: half transparent if it is hidden.
     fn shown(&self, [r, g, b, a]: [u8; 4], hidden: bool) -> [u8; 4] {
         [r, g, b, if hidden { a / 2 } else { a }]
     }
 
-    /// A mark of a stroke, in the colour of its surface unless it has another.
+    /// A mark of a stroke, in the colour of its surface unless it has one of its own.
     fn mark(
         &self,
         stroke: &Stroke,

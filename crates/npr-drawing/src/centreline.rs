@@ -13,7 +13,7 @@ use npr_vector::mesh_lines::run::distance;
 use npr_vector::stroke::{Drawing, Kind, Stroke, StrokePoint, StrokeSurface};
 use rayon::prelude::*;
 
-/// How far written curves may be from the smooth lines, in pixels.
+/// Greatest distance between written curves and the smooth lines, in pixels.
 const TOLERANCE_PX: f64 = 0.1;
 
 /// Centre lines as the bytes of a file. Same lines, same bytes.

@@ -78,7 +78,7 @@ fn clip_segment(
     })
 }
 
-/// The point at share `t` of a segment, held in the box against rounding.
+/// The point at share `t` of a segment, kept in the box against rounding.
 fn between(a: &StrokePoint, b: &StrokePoint, t: f64, low: [f64; 2], high: [f64; 2]) -> StrokePoint {
     if t == 0.0 {
         return *a;
@@ -93,7 +93,7 @@ fn between(a: &StrokePoint, b: &StrokePoint, t: f64, low: [f64; 2], high: [f64; 
     point
 }
 
-/// The part of a ring in the picture [Sutherland, Hodgman 1974]; empty where nothing is left.
+/// The part of a ring in the picture [Sutherland, Hodgman 1974]; empty if there is none.
 ///
 /// A ring that leaves and comes back runs along the border in between, which even-odd filling does not show.
 pub(crate) fn clip_ring(ring: &[[f64; 2]], size: [f64; 2]) -> Vec<[f64; 2]> {

@@ -1,4 +1,4 @@
-//! Strokes that change colour along themselves, cut into pieces of one colour each: files know no other.
+//! Cuts strokes that change colour into pieces of one colour each, as files know no other.
 //!
 //! Pieces share their joints. Opaque ones overlap there by their round ends, so no gap shows at any size; of
 //! translucent ones overlaps would show as beads, so they are strips that end square in each other's edge.
@@ -8,7 +8,7 @@ use color::{Oklab, OpaqueColor, Srgb};
 use kurbo::{BezPath, Point, Vec2};
 use npr_vector::stroke::StrokePoint;
 
-/// Difference of neighbouring pieces, as a distance in OKLab or of opacity: just not to be seen side by side.
+/// Difference between neighbouring pieces, as a distance in OKLab or of opacity: it can hardly be seen side by side.
 const STEP: f64 = 0.02;
 
 /// Most pieces between two points.
@@ -24,7 +24,7 @@ fn lab([r, g, b, a]: [u8; 4]) -> [f64; 4] {
     [l, x, y, f64::from(a) / 255.0]
 }
 
-/// How far apart two colours look: their distance in OKLab, or of their opacities where that is more.
+/// The difference between two colours: their distance in OKLab, or that of their opacities if it is greater.
 fn difference(a: [u8; 4], b: [u8; 4]) -> f64 {
     if a == b {
         return 0.0;
@@ -34,7 +34,7 @@ fn difference(a: [u8; 4], b: [u8; 4]) -> f64 {
     (l * l + x * x + y * y).sqrt().max((a[3] - b[3]).abs())
 }
 
-/// The colour a share of the way from one to another, mixed in OKLab; that of either where only one has any.
+/// The colour a share of the way from one to another, mixed in OKLab; if only one is given, that one.
 pub(crate) fn between(a: Option<[u8; 4]>, b: Option<[u8; 4]>, t: f64) -> Option<[u8; 4]> {
     let (Some(from), Some(to)) = (a, b) else {
         return a.or(b);
@@ -50,7 +50,7 @@ pub(crate) fn between(a: Option<[u8; 4]>, b: Option<[u8; 4]>, t: f64) -> Option<
     Some([r, g, b, byte(mix(3))])
 }
 
-/// The mean colour of points that have any, by their own weight each; `None` where none has.
+/// The mean colour of points that have one, each with its own weight; `None` if none has.
 pub(crate) fn mean(points: &[StrokePoint]) -> Option<[u8; 4]> {
     let mut sum = [0.0; 4];
     let mut count = 0.0;
@@ -67,9 +67,9 @@ pub(crate) struct Piece {
     pub points: Vec<StrokePoint>,
     pub closed: bool,
     pub color: [u8; 4],
-    /// Whether another piece goes on at its begin and at its end.
+    /// Whether another piece continues it at its start and at its end.
     pub goes_on: [bool; 2],
-    /// Points just before its begin and after its end, where pieces go on.
+    /// Points just before its start and after its end, where other pieces continue it.
     beyond: [Option<[f64; 2]>; 2],
 }
 
@@ -183,7 +183,7 @@ impl Piece {
         }
     }
 
-    /// A strip along its points, square where it goes on and round where it does not.
+    /// A strip along its points: square at ends that other pieces continue, round at others.
     fn strip(&self) -> BezPath {
         // Take the points that differ.
         let at = |p: [f64; 2]| Point::new(p[0], p[1]);

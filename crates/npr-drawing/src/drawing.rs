@@ -10,8 +10,8 @@ use tiny_skia::{
 
 /// The drawing as pixels: rows from the top, sRGB bytes with straight alpha.
 ///
-/// The picture has the drawing's size: a page in the options is left aside. Pixels are empty, without a background,
-/// where nothing is drawn; there are none if a side is 0 or the picture is too large for memory to be counted.
+/// The picture has the drawing's size; a page in the options is ignored. Without a background, pixels are empty where
+/// nothing is drawn; there are none if a side is 0 or the picture is too large for memory to be counted.
 pub fn rasterise(drawing: &Drawing, options: &ArtworkOptions) -> Vec<u8> {
     let options = ArtworkOptions {
         page: None,
@@ -49,7 +49,7 @@ fn paint(artwork: &Artwork, size: [u32; 2]) -> Vec<u8> {
         .collect()
 }
 
-/// Paints a drawing over a picture of its size, as [`paint_over`] does marks; its page and ground are left aside.
+/// Paints a drawing over a picture of its size, as [`paint_over`] paints marks; its page and ground are ignored.
 pub fn paint_drawing_over(drawing: &Drawing, options: &ArtworkOptions, rgba: &mut [u8]) {
     let options = ArtworkOptions {
         page: None,

@@ -97,11 +97,11 @@ fn clipped(size: [u32; 2], [a, b]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     (from <= to && ends.as_flattened().iter().all(|v| v.is_finite())).then_some(ends)
 }
 
-/// Share of an area that must show one surface for all of it to count as that; under it, lines have let two areas run
-/// together.
+/// Share of an area that must show one surface for all of it to count as that surface; with less, lines have let two
+/// areas run together.
 const WHOLE_SHARE: f64 = 0.97;
 
-/// For every triangle the surface that its area shows; where an area shows several, what the triangle itself shows.
+/// The surface of every triangle: that of its area, or its own where an area shows several.
 ///
 /// Specks in an area are noise along its lines. But where an outline has a gap, two areas are one, and the majority
 /// would paint the smaller away: there colours meet between triangles, close to where the line should be.

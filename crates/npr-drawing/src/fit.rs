@@ -12,7 +12,7 @@
 
 use kurbo::{BezPath, CubicBez, ParamCurve, ParamCurveDeriv, PathEl, Point, Vec2};
 
-/// How closely curves follow their points.
+/// How closely curves follow points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FitOptions {
     /// Greatest distance between curve and polyline, in the unit of the points.
@@ -31,21 +31,21 @@ impl Default for FitOptions {
     }
 }
 
-/// Coordinates beyond this are taken as this: products of differences stay finite.
+/// Bound of coordinates, so that products of differences stay finite.
 const FAR: f64 = 1e9;
 
-/// Points nearer to their predecessor than this share of the tolerance are left out.
+/// Distance to the predecessor under which a point is left out, as a share of the tolerance.
 const THINNING: f64 = 0.05;
 
 /// The share of the tolerance that is left for curves after thinning.
 const MEASURED: f64 = 0.94;
 
-/// How far tangents and corners look along the polyline, in tolerances.
+/// Distance along the polyline over which tangents and corners are measured, in tolerances.
 ///
 /// Shorter, and noise below the tolerance turns into corners; longer, and small round shapes become angular.
 const ARM: f64 = 4.0;
 
-/// At most this many points are looked at along an arm, so that points heaped on one place cost no more.
+/// Most points examined along an arm, so that points heaped on one place cost no more.
 const ARM_POINTS: usize = 32;
 
 /// Rounds of moving parameters to the nearest place on the curve before a run is cut.
@@ -96,7 +96,7 @@ pub(crate) fn fit_with_corners(
     if closed { close(path, run[0]) } else { path }
 }
 
-/// Closes a path; a last line back to its start is what closing draws anyway.
+/// Closes a path; a last line back to its start is dropped, since closing draws it anyway.
 fn close(mut path: BezPath, start: Point) -> BezPath {
     if path.elements().len() > 2 && path.elements().last() == Some(&PathEl::LineTo(start)) {
         path.pop();
@@ -255,7 +255,7 @@ fn tangent_at_end(here: Point, near: Point, far: Point) -> Vec2 {
         .unwrap_or(straight)
 }
 
-/// A part of a run that waits for its curve.
+/// A part of a run that has no curve yet.
 struct Part {
     first: usize,
     last: usize,
@@ -336,7 +336,7 @@ fn distance2_to_segment(p: Point, a: Point, b: Point) -> f64 {
     (out - along * t).hypot2()
 }
 
-/// What became of a part.
+/// The result of fitting a part.
 enum Found {
     Line,
     Curve(CubicBez),
@@ -346,13 +346,13 @@ enum Found {
 
 /// Fits one cubic at a time; keeps its list of parameters between calls.
 struct Fitter {
-    /// Distance that samples may have.
+    /// Greatest distance that samples may have.
     limit: f64,
-    /// Where on the curve each point belongs; rises from 0 to 1.
+    /// Parameter on the curve of each point, rising from 0 to 1.
     params: Vec<f64>,
 }
 
-/// The greatest squared distance between a curve and its points, and at which point.
+/// The greatest squared distance between a curve and its points, and the point where it lies.
 struct Miss {
     worst: f64,
     at: usize,

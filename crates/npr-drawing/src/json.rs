@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 
 mod kind;
 
-/// Points that [`read_json`] takes at most.
+/// Most points that [`read_json`] takes.
 pub const POINT_LIMIT: usize = 20_000_000;
 
 /// The strokes of a drawing as JSON, version 1.
@@ -43,7 +43,7 @@ pub fn write_json(drawing: &Drawing) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// Writes a stroke; false where too little of it is finite.
+/// Writes a stroke; returns false if too little of it is finite.
 fn push_stroke(text: &mut String, stroke: &Stroke, surface: &StrokeSurface) -> bool {
     // Leave out points that are not finite.
     let points: Vec<&StrokePoint> = stroke
@@ -143,7 +143,7 @@ pub enum JsonError {
         /// Number of points up to the stroke that went too far.
         count: usize,
     },
-    /// A stroke that is none.
+    /// A stroke that is not valid.
     #[error("stroke {stroke}: {reason}")]
     Stroke {
         /// Its place in the list, from 0.
@@ -289,6 +289,7 @@ impl Names {
 }
 
 fn stroke_of(stroke: FileStroke, names: &mut Names) -> Stroke {
+    // Give every point its place, its width, and a colour where the stroke has any.
     let points = stroke.points.iter().zip(&stroke.world).enumerate();
     let color_of = |i: usize| stroke.colors.as_ref()?.get(i).copied();
     Stroke {

@@ -41,7 +41,7 @@ use kurbo::{Affine, BezPath, PathEl};
 use std::collections::BTreeSet;
 use warp::Warp;
 
-/// Space kept between what hangs from a line and what rises from the next, in cap heights.
+/// Space between the lowest part of a line and the highest of the next, in cap heights.
 const CLEAR: f64 = 0.15;
 
 /// Words as outlines.
@@ -57,14 +57,14 @@ pub struct Words {
 struct Line {
     /// Outlines with the baseline's start as origin, y down.
     outline: BezPath,
-    /// Where the pen stands behind the last letter.
+    /// Place of the pen after the last letter.
     width: f64,
 }
 
 /// Sets a text of one or more lines, each centred, as outlines.
 ///
-/// Lines are parted by line breaks; other control characters are left out. Letters take the order and the forms of
-/// their script. Curves are bent within 0.001 cap heights. O(n) in curves.
+/// Line breaks separate lines; other control characters are left out. Letters take the order and the forms of their
+/// script. Curves are bent within 0.001 cap heights. O(n) in curves.
 ///
 /// # Errors
 ///
@@ -117,7 +117,7 @@ fn set_line(
     Ok(Line { outline, width })
 }
 
-/// Lays lines below one another, centred, and bends them.
+/// Places lines below one another, centred, and bends them.
 fn stack(lines: &[Line], setting: &Setting) -> Result<BezPath, LetteringError> {
     let baselines = baselines_of(lines, setting.line_step);
     let placed: Vec<(f64, BezPath)> = lines
@@ -159,7 +159,7 @@ fn baselines_of(lines: &[Line], line_step: f64) -> Vec<f64> {
 }
 
 impl Line {
-    /// How far letters hang below the baseline, in cap heights.
+    /// Distance by which letters hang below the baseline, in cap heights.
     fn hang(&self) -> f64 {
         if self.outline.is_empty() {
             0.0
@@ -168,7 +168,7 @@ impl Line {
         }
     }
 
-    /// How far they rise above it.
+    /// Distance by which they rise above it, in cap heights.
     fn rise(&self) -> f64 {
         if self.outline.is_empty() {
             0.0
@@ -183,7 +183,7 @@ impl Line {
 pub struct Band {
     /// sRGB and alpha.
     pub color: [u8; 4],
-    /// How far it reaches beyond what it surrounds, in pixels.
+    /// Distance that it reaches beyond what it surrounds, in pixels.
     pub width_px: f64,
 }
 
@@ -199,10 +199,9 @@ pub struct Lettered {
 impl Words {
     /// The shapes that draw the words: the outermost band first, the letters last. Joins are round.
     ///
-    /// The middle of the words comes to `middle_px`, and a capital is `cap_height_px` high. `bands` run from the
-    /// letters outwards; those without width or colour are left out, but what lies outside of them keeps its place.
-    /// Bands lie under the letters whole, so letters that are seen through show them. There are none where a number
-    /// is not finite.
+    /// The middle of the words lies at `middle_px`, and a capital is `cap_height_px` high. `bands` run from the letters
+    /// outwards; those without width or colour are left out, but bands outside of them keep their place. Bands cover
+    /// the area under the letters too, so translucent letters show them. There are no shapes if a number is not finite.
     pub fn marks(
         &self,
         middle_px: [f64; 2],

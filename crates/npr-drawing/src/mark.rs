@@ -1,4 +1,4 @@
-//! A shape of one colour: what pictures and files are painted with.
+//! Shapes of one colour, with which pictures and files are painted.
 
 use kurbo::BezPath;
 
@@ -11,14 +11,14 @@ pub enum Paint {
     Region,
     /// A line of this width with round ends and joins, along the path.
     Line(f64),
-    /// As a line, with dashes and gaps.
+    /// A line as above, with dashes and gaps.
     Dashes(f64),
 }
 
 /// A shape of one colour.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
-    /// The stroke that it draws; none of flat colour.
+    /// The stroke that it draws; `None` for flat colour.
     pub stroke: Option<u64>,
     /// Its curves, in the artwork's unit.
     pub path: BezPath,

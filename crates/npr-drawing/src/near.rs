@@ -69,7 +69,8 @@ impl Grid {
         cell[1] * self.side[0] + cell[0]
     }
 
-    /// Calls `visit` with the places of the ring of cells at distance `ring` from a cell; false when it lies outside.
+    /// Calls `visit` with the places of the cells at distance `ring` from a cell; returns false if that ring lies
+    /// outside.
     fn ring(&self, centre: [usize; 2], ring: usize, mut visit: impl FnMut(u32)) -> bool {
         let [x, y] = centre.map(|c| c as isize);
         let r = ring as isize;

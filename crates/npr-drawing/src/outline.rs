@@ -11,16 +11,16 @@ use glam::DVec2;
 use kurbo::{BezPath, Point, Vec2};
 use npr_vector::stroke::StrokePoint;
 
-/// Coordinates and widths beyond this are left out or taken as this.
+/// Bound of coordinates and widths: points beyond it are left out, widths are cut to it.
 const FAR: f64 = 1e6;
 
-/// Points and radii that change by less than this, in pixels, add nothing.
+/// Change of place or radius, in pixels, under which a point adds nothing.
 const STEP: f64 = 0.05;
 
 /// Turn in radians from which a place on the inner side stays a corner of the outline.
 const CORNER: f64 = 0.5;
 
-/// So many pieces on either side of a turn are searched for the place where its inner sides cross.
+/// Number of pieces on either side of a turn that are searched for the place where its inner sides cross.
 const SEARCH: usize = 48;
 
 /// A disc under the pen.
@@ -76,7 +76,7 @@ pub fn outline(points: &[StrokePoint], closed: bool, tolerance: f64) -> BezPath 
     path
 }
 
-/// A part of a line along which no disc holds its neighbour whole.
+/// A part of a line along which no disc contains its neighbour.
 enum Part {
     Disc(Disc),
     Line(Vec<Disc>),
@@ -85,8 +85,8 @@ enum Part {
 
 /// Parts whose union is the line.
 ///
-/// No side runs from a disc to one inside it, and the way between them adds nothing to the larger one. So the line is
-/// cut there; a part that is but a disc inside its neighbour is left out.
+/// No side runs from a disc to one inside it, and the stretch between them adds nothing to the larger one. So the line
+/// is cut there; a part that is only a disc inside its neighbour is left out.
 fn parts_of(mut discs: Vec<Disc>, closed: bool) -> Vec<Part> {
     // Start where one disc holds the next, if a closed line has such a place.
     let count = discs.len();
@@ -128,7 +128,7 @@ fn parts_of(mut discs: Vec<Disc>, closed: bool) -> Vec<Part> {
     parts
 }
 
-/// Discs along the line of which neighbours differ.
+/// Discs along the line; neighbours differ.
 fn discs_of(points: &[StrokePoint], closed: bool) -> Vec<Disc> {
     // Make a disc of each point that is not far outside.
     let mut discs: Vec<Disc> = Vec::with_capacity(points.len());
@@ -178,7 +178,7 @@ struct OutlinePoint {
     corner: bool,
     /// The disc that it belongs to.
     disc: usize,
-    /// It is the middle of the disc: the walk cannot stay on the side.
+    /// Whether it is the middle of the disc, since the walk cannot stay on the side.
     pivot: bool,
 }
 
@@ -302,9 +302,9 @@ impl Side {
         self.owners.truncate(keep);
     }
 
-    /// Where the side before a bend is crossed by what follows: points to keep, places to skip, and the crossing.
+    /// Where later places cross the side before a bend: points to keep, places to skip, and the crossing.
     ///
-    /// There is none where what lies between the two sides would not be filled otherwise.
+    /// There is none if the area between the two sides would otherwise not be filled.
     fn crossing(
         &self,
         fence: usize,
@@ -360,9 +360,9 @@ impl Side {
     }
 }
 
-/// Whether the line between two discs turns by less than a half, and swells slowly.
+/// Whether the line between two discs turns by less than half a turn, and swells slowly.
 ///
-/// Of a curl, or of a disc that swallows its neighbour, only parts would be filled twice.
+/// Only parts of a curl, or of a disc that contains its neighbour, would be filled twice.
 fn is_one_bend(walk: &[Disc], from: usize, to: usize) -> bool {
     let count = walk.len();
     let along = |i: usize| walk[(i + 1) % count].center - walk[i % count].center;
@@ -450,7 +450,7 @@ fn join(
     }
 }
 
-/// Number of chords for an arc; none where one point in its middle does.
+/// Number of chords for an arc; 0 if one point in its middle is enough.
 fn arc_steps(radius: f64, turn: f64, tolerance: f64) -> usize {
     // A chord over an angle is radius * angle^2 / 8 away from its arc.
     let step = (2.0 * tolerance / radius.max(1e-9)).sqrt().min(0.6);
@@ -462,8 +462,8 @@ fn arc_steps(radius: f64, turn: f64, tolerance: f64) -> usize {
 
 /// Where the segment `a b` meets `c d`, if the way from one to the other turns left there.
 ///
-/// With the shape on the right of the walk, a left turn means that the first segment enters what lies beside the
-/// second. Crossings the other way lead out of the shape, and what lies between must stay.
+/// With the shape on the right of the walk, a left turn means that the first segment enters the area beside the second.
+/// Crossings the other way lead out of the shape, and the area between must stay.
 fn cross(a: Point, b: Point, c: Point, d: Point) -> Option<Point> {
     let (ab, cd, ac) = (b - a, d - c, c - a);
     let area = ab.cross(cd);

@@ -5,7 +5,7 @@ use kurbo::Affine;
 /// A sheet of paper, in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Page {
-    /// The shorter and the longer side, in any order: the sheet lies as the picture does.
+    /// The shorter and the longer side, in any order: the sheet is turned as the picture is.
     pub sides_mm: [f64; 2],
     /// Free space on all sides.
     pub margin_mm: f64,
@@ -41,7 +41,7 @@ impl Page {
     }
 }
 
-/// Where the picture lies in the file.
+/// Size of the file, and the place of the picture in it.
 pub(crate) struct Placing {
     /// Width and height of the file, in pixels or millimetres.
     pub(crate) size: [f64; 2],

@@ -23,13 +23,14 @@ const PAGES: Ref = Ref::new(2);
 const PAGE: Ref = Ref::new(3);
 const CONTENT: Ref = Ref::new(4);
 
-/// The first of the layers and opacities.
+/// First number that is free for layers and opacities.
 const FIRST_FREE: i32 = 5;
 
 /// The drawing as a PDF file, version 1.7.
 ///
 /// Same drawing and options, same bytes.
 pub fn write_pdf(drawing: &Drawing, options: &PdfOptions) -> Vec<u8> {
+    // Number the layers and opacities, and measure the page in points.
     let artwork = arrange(drawing, options);
     let plan = Plan::of(&artwork);
     let points = if artwork.is_page {
@@ -39,6 +40,7 @@ pub fn write_pdf(drawing: &Drawing, options: &PdfOptions) -> Vec<u8> {
     };
     let [width, height] = artwork.size.map(|side| (side * points) as f32);
 
+    // Write the catalogue, the list of layers, and the page.
     let mut pdf = Pdf::new();
     let mut catalog = pdf.catalog(CATALOG);
     catalog.pages(PAGES);
@@ -53,6 +55,7 @@ pub fn write_pdf(drawing: &Drawing, options: &PdfOptions) -> Vec<u8> {
     page.finish();
     plan.write_parts(&mut pdf);
 
+    // Write the marks, with y up as PDF has it.
     let mut writer = Writer {
         content: Content::new(),
         plan: &plan,
@@ -66,14 +69,14 @@ pub fn write_pdf(drawing: &Drawing, options: &PdfOptions) -> Vec<u8> {
     pdf.finish()
 }
 
-/// A layer of the file, and those inside it.
+/// A layer of the file, and the layers inside it.
 struct Folder {
     id: Ref,
     label: String,
     inner: Vec<Folder>,
 }
 
-/// What the page refers to by number.
+/// The numbered objects that the page refers to.
 struct Plan {
     folders: Vec<Folder>,
     /// Opacities in use, out of 255, in rising order.

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 pub struct Route {
     /// Its points; the last of a closed line runs on to the first.
     pub points: Vec<[f64; 2]>,
-    /// It may be drawn from any of its points.
+    /// Whether it may be drawn from any of its points.
     pub closed: bool,
 }
 
@@ -23,14 +23,14 @@ pub struct Route {
 pub struct Visit {
     /// Index of the route.
     pub route: usize,
-    /// It is drawn from its last point to its first.
+    /// Whether it is drawn from its last point to its first.
     pub reversed: bool,
-    /// The point to start at, of a closed route.
+    /// The point at which a closed route starts.
     pub start: usize,
 }
 
 impl Visit {
-    /// The points of the route, or what belongs to them, in the order of drawing.
+    /// The points of the route, or values that belong to them, in the order of drawing.
     pub fn walk<T: Clone>(&self, points: &[T]) -> Vec<T> {
         let mut walk = points.to_vec();
         walk.rotate_left(self.start.min(points.len().saturating_sub(1)));
@@ -41,16 +41,16 @@ impl Visit {
     }
 }
 
-/// Neighbours of a line's end that are tried when the order is improved.
+/// Number of neighbours of a line's end that are tried when the order is improved.
 const NEIGHBOURS: usize = 10;
 
-/// Points of a closed line that the greedy walk may start from.
+/// Most points of a closed line that the greedy walk may start from.
 const STARTS: usize = 24;
 
-/// Lines moved together by Or-opt.
+/// Most lines that Or-opt moves together.
 const RUN: usize = 3;
 
-/// Steps of improvement allowed per line; a step is a tried or moved line.
+/// Most steps of improvement per line; a step tries or moves a line.
 const EFFORT: usize = 4_000;
 
 /// Travel of the lifted pen from line to line, in the unit of the points; the way to the first line is not counted.
@@ -151,7 +151,7 @@ fn turn_round(routes: &[Route], run: &mut [Visit]) {
     }
 }
 
-/// Where the pen comes down and where it lifts.
+/// The places where the pen comes down and where it lifts.
 fn ends(routes: &[Route], visit: &Visit) -> [[f64; 2]; 2] {
     let route = &routes[visit.route];
     if route.closed {
@@ -195,7 +195,7 @@ fn greedy(routes: &[Route], drawn: &[usize]) -> Vec<Visit> {
     order
 }
 
-/// The ways to begin a route: from both ends, or from points spread over a closed one.
+/// The possible starts of a route: both ends, or points spread over a closed one.
 fn doors(routes: &[Route], route: usize) -> Vec<Visit> {
     let count = routes[route].points.len();
     if routes[route].closed {
@@ -219,7 +219,7 @@ fn doors(routes: &[Route], route: usize) -> Vec<Visit> {
     }
 }
 
-/// Lets every closed route begin where that costs least between its neighbours.
+/// Lets every closed route start where that costs least between its neighbours.
 fn turn_closed(routes: &[Route], order: &mut [Visit]) {
     for k in 0..order.len() {
         let route = &routes[order[k].route];
@@ -251,7 +251,7 @@ fn turn_closed(routes: &[Route], order: &mut [Visit]) {
 struct Tour<'a> {
     routes: &'a [Route],
     order: Vec<Visit>,
-    /// Where each route stands in the order.
+    /// Place of each route in the order.
     at: Vec<u32>,
     /// Steps left.
     effort: usize,
@@ -300,13 +300,13 @@ fn improve(routes: &[Route], order: Vec<Visit>) -> Vec<Visit> {
 }
 
 impl Tour<'_> {
-    /// Where the pen comes down (0) or lifts (1) at a place in the order; none beyond its ends.
+    /// The place where the pen comes down (0) or lifts (1) at a position in the order; `None` beyond its ends.
     fn end(&self, k: isize, which: usize) -> Option<[f64; 2]> {
         let visit = self.order.get(usize::try_from(k).ok()?)?;
         Some(ends(self.routes, visit)[which])
     }
 
-    /// Travel between two ends; none to or from nowhere.
+    /// Travel between two ends; 0 if one is missing.
     fn gap(a: Option<[f64; 2]>, b: Option<[f64; 2]>) -> f64 {
         match (a, b) {
             (Some(a), Some(b)) => distance(a, b),
@@ -319,13 +319,13 @@ impl Tour<'_> {
         Self::gap(self.end(k, 1), self.end(k + 1, 0))
     }
 
-    /// Place in the order of a route, and whether one of its ends is where the pen lifts.
+    /// Position of a route in the order, and whether the pen lifts at the given end.
     fn place(&self, (route, end): (usize, usize)) -> (isize, bool) {
         let k = self.at[route] as usize;
         (k as isize, (end == 1) != self.order[k].reversed)
     }
 
-    /// 2-opt: turns round the run between two ends that would then be joined, if that shortens the way.
+    /// 2-opt: reverses the run between two ends that would then be joined, if that shortens the way.
     fn turn(&mut self, pair: [(usize, usize); 2]) -> bool {
         self.effort = self.effort.saturating_sub(1);
 
@@ -353,7 +353,7 @@ impl Tour<'_> {
         true
     }
 
-    /// Or-opt: moves a short run beside a near end, either way round, if that shortens the way.
+    /// Or-opt: moves a short run beside a near end, in either direction, if that shortens the way.
     fn shift(&mut self, pair: [(usize, usize); 2]) -> bool {
         let [(i, lifts), (j, other_lifts)] = pair.map(|end| self.place(end));
         // The run goes behind `i` or before it, and begins or ends at `j`.
@@ -409,7 +409,7 @@ impl Tour<'_> {
         }
     }
 
-    /// Notes where routes of a changed run stand.
+    /// Updates the positions of the routes of a changed run.
     fn settle(&mut self, first: usize, last: usize) {
         self.effort = self.effort.saturating_sub(last - first);
         for k in first..=last {

@@ -108,7 +108,7 @@ impl Writer {
         self.close_group(start, head.len());
     }
 
-    /// Ends a group, or takes back its opening where nothing was put into it.
+    /// Ends a group, or removes its start if nothing was put into it.
     fn close_group(&mut self, start: usize, head: usize) {
         if self.text.len() == start + head {
             self.text.truncate(start);
@@ -173,9 +173,10 @@ fn paint(attribute: &str, [r, g, b, a]: [u8; 4]) -> String {
     format!("{color} {attribute}-opacity=\"{opacity}\"")
 }
 
-/// The value of `d`: every subpath begins with an absolute place, all else is relative and exact on the grid.
+/// The value of `d`: every subpath begins with an absolute place, all other coordinates are relative and exact on the
+/// grid.
 ///
-/// Pieces without length on the grid are left out; nothing is left of a path of only such.
+/// Pieces without length on the grid are left out; a path of only such pieces gives `None`.
 fn path_data(path: &BezPath, decimals: u32) -> Option<String> {
     let mut data = PathData::new(decimals);
     for element in path.elements() {

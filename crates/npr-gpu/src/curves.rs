@@ -1,4 +1,4 @@
-//! Lines as linked points, found, put in rows and tested for visibility on an engine.
+//! Lines as linked points, found, ranked and tested for visibility on an engine.
 //!
 //! The steps are those of [`npr_vector::mesh_lines::contour::steps`] and [`npr_vector::rank`], each a pass. On a
 //! processor the plain functions there are faster than these passes and give the same; passes are for graphs that stay
@@ -30,7 +30,7 @@ pub use resident_pixels::{Hiders, ResidentPixels, trace_on};
 use crate::engine::EngineError;
 use npr_vector::rank::RankError;
 
-/// Why lines were not put in rows.
+/// Why lines were not ranked.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CurvesError {
@@ -43,7 +43,7 @@ pub enum CurvesError {
 }
 
 impl CurvesError {
-    /// What is wrong with the lists; the engine's failure where nothing is.
+    /// The error of the lists, unless the engine failed.
     ///
     /// # Errors
     ///

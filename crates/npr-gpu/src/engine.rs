@@ -1,4 +1,4 @@
-//! What runs a graph: the processor with the twins, or a graphics device with the shaders.
+//! The interface of what runs a graph: the processor with the twins, or a graphics device with the shaders.
 
 use crate::graph::{Graph, ResourceId};
 use std::time::Duration;
@@ -46,12 +46,12 @@ pub struct PassTime {
     pub time: Duration,
 }
 
-/// Something that runs graphs.
+/// An engine that runs graphs.
 pub trait Engine {
     /// One line for people: which processor or device, which driver.
     fn describe(&self) -> String;
 
-    /// Whether passes run as their twins, so that plain functions that give the same may run in their place.
+    /// Whether passes run as their twins, so that plain functions with the same results may replace them.
     fn runs_twins(&self) -> bool {
         false
     }
@@ -66,7 +66,7 @@ pub trait Engine {
 
 /// A graph with its memory.
 pub trait Session {
-    /// Fills a resource from the start with words; what is left over stays as it is.
+    /// Fills a resource from the start with words; later words keep their values.
     ///
     /// # Errors
     ///

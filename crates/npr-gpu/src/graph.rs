@@ -15,7 +15,7 @@ impl ResourceId {
     }
 }
 
-/// What a resource is.
+/// The kind of a resource.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// One struct for uniform slots, of this many bytes.
@@ -59,25 +59,25 @@ impl Resource {
     }
 }
 
-/// Where the engine finds how much work a node has: one of the [`Arguments`] of a buffer, which passes before it fill.
+/// Where the engine finds the amount of work of a node: one of the [`Arguments`] of a buffer that earlier passes fill.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct WorkSize {
     /// A buffer of [`Arguments`].
     pub arguments: ResourceId,
-    /// Which of them.
+    /// Index of the arguments.
     pub index: usize,
 }
 
-/// A pass with what it binds.
+/// A pass with the resources that it binds.
 #[derive(Debug, Clone)]
 pub struct Node {
-    /// What runs.
+    /// The pass that runs.
     pub pass: &'static Pass,
     /// Resources of its slots in order, then of its targets.
     pub bound: Vec<ResourceId>,
     /// Whether the targets are cleared to zero before drawing.
     pub clears: bool,
-    /// Where its size is found; without, it works on all elements of the slot that is counted.
+    /// Where its size is found; without one, it works on all elements of the counted slot.
     pub size: Option<WorkSize>,
 }
 
@@ -156,8 +156,7 @@ impl Graph {
         self.compute_sized(pass, bound, None);
     }
 
-    /// Appends a compute pass that works on as many workgroups as `size` says when it runs, and on no more than there
-    /// is room for.
+    /// Appends a compute pass of as many workgroups as `size` holds when it runs, but no more than there is room for.
     ///
     /// # Panics
     ///
@@ -192,7 +191,7 @@ impl Graph {
         self.draw_sized(pass, (bound, targets), clears, None);
     }
 
-    /// Appends a draw pass of as many vertices as `size` says when it runs.
+    /// Appends a draw pass of as many vertices as `size` holds when it runs.
     ///
     /// # Panics
     ///
@@ -279,7 +278,7 @@ impl Graph {
         self.nodes.push(node);
     }
 
-    /// The same graph with every pass over all that there is room for, for those who compare.
+    /// The same graph with every pass over the whole room, for comparisons.
     #[must_use]
     pub fn without_sizes(mut self) -> Self {
         for node in &mut self.nodes {
@@ -293,12 +292,12 @@ impl Graph {
         &self.resources[id.index()]
     }
 
-    /// All resources; ids count along this.
+    /// All resources; ids are indices into this list.
     pub fn resources(&self) -> &[Resource] {
         &self.resources
     }
 
-    /// Resources that hold words from the start, each with these.
+    /// Resources that hold words from the start, with these words.
     pub(crate) fn held(&self) -> impl Iterator<Item = (ResourceId, &[u32])> {
         self.constants.iter().map(|(id, words)| (*id, &words[..]))
     }

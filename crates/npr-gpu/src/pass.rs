@@ -1,4 +1,4 @@
-//! What a pass is: a shader, the buffers it binds, and a twin that does the same in Rust.
+//! The parts of a pass: a shader, the buffers it binds, and a twin that does the same in Rust.
 
 use bytemuck::{AnyBitPattern, NoUninit};
 use npr_core::layout::{Field, GpuLayout};
@@ -14,9 +14,9 @@ pub struct Pass {
     pub name: &'static str,
     /// The WGSL side.
     pub shader: Shader,
-    /// What it binds, in binding order of group 0.
+    /// The slots that it binds, in binding order of group 0.
     pub slots: &'static [Slot],
-    /// How much work there is.
+    /// The amount of work.
     pub work: Work,
     /// How closely a device must match the twin.
     pub agreement: Agreement,
@@ -24,7 +24,7 @@ pub struct Pass {
     pub twin: fn(&mut Bindings<'_>),
 }
 
-/// How much work a pass has.
+/// The amount of work of a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Work {
     /// One invocation of `main` per element of the named slot.
@@ -38,14 +38,15 @@ pub enum Work {
         of: &'static str,
         /// Vertices per element.
         vertices: u32,
-        /// What is drawn into; a depth image last. Depth is reversed: greater wins, equal keeps what is there.
+        /// The images that are drawn into; a depth image last. Depth is reversed: greater wins, equal keeps the earlier
+        /// one.
         targets: &'static [Format],
         /// Whether the twin writes every texel that a device clears or draws, so that nothing is cleared before it.
         fills: bool,
     },
 }
 
-/// What one texel of an image holds; 4 bytes each.
+/// The content of one texel of an image, of 4 bytes each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// One unsigned integer.
@@ -56,14 +57,14 @@ pub enum Format {
     Depth,
 }
 
-/// Something a pass binds.
+/// A resource that a pass binds.
 #[derive(Debug, Clone, Copy)]
 pub struct Slot {
     /// Its name in the shader.
     pub name: &'static str,
     /// How it is bound.
     pub access: Access,
-    /// What it holds; texels for images.
+    /// The elements that it holds; texels for images.
     pub element: Element,
 }
 
@@ -109,7 +110,7 @@ pub enum Agreement {
     Exact,
     /// Every float field within this relative bound (against the larger magnitude, at least 1); integers exact.
     Relative(f32),
-    /// The same, but for a share of elements, where a place lies on the edge of a shadow.
+    /// The same, except for a share of elements, where a place lies on the edge of a shadow.
     NearlyAll {
         /// Share of elements that may differ.
         share: f32,
@@ -208,7 +209,7 @@ pub struct ImageMut<'a> {
     pub texels: &'a mut [u32],
 }
 
-/// What a node binds, handed to its pass's twin: the slots in order, then the targets.
+/// The resources that a node binds, handed to its pass's twin: the slots in order, then the targets.
 #[derive(Debug)]
 pub struct Bindings<'a> {
     pub(crate) bound: Vec<Bound<'a>>,
@@ -232,7 +233,7 @@ impl<'a> Bindings<'a> {
     ///
     /// # Panics
     ///
-    /// When the twin asks for what its declaration does not bind there; so do the methods below.
+    /// When the declaration binds something else there; so do the methods below.
     pub fn one<T: AnyBitPattern>(&self, index: usize) -> T {
         let elements: &[T] = self.read(index);
         elements[0]
@@ -259,7 +260,7 @@ impl<'a> Bindings<'a> {
         }
     }
 
-    /// The target `index`, counted on from the slots; can be taken once.
+    /// The target `index`, counted after the slots; can be taken once.
     pub fn image_mut(&mut self, index: usize) -> ImageMut<'a> {
         match std::mem::replace(&mut self.bound[index], Bound::Taken) {
             Bound::Write { words, size } => ImageMut {

@@ -1,4 +1,4 @@
-//! The engine that needs no graphics device: every node runs its pass's twin.
+//! The engine that needs no graphics device: it runs the twin of every node's pass.
 
 use crate::engine::{Engine, EngineError, PassTime, Session};
 use crate::graph::Kind;
@@ -60,7 +60,7 @@ impl Session for ProcessorSession {
     }
 }
 
-/// Runs one twin on memory that is lent out for the time.
+/// Runs one twin on memory that is lent to it meanwhile.
 fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
     // Lend out the memory that the pass writes.
     let start = Instant::now();
@@ -116,7 +116,7 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
     }
 }
 
-/// How many work items a node has: as many as there is room for, or fewer where its size was made for less.
+/// The number of work items of a node: all that there is room for, or fewer where its size says so.
 fn work_count(graph: &Graph, node: &Node, memory: &[Vec<u32>]) -> usize {
     let room = graph.work_count(node);
     let Some(WorkSize { arguments, index }) = node.size else {
@@ -131,7 +131,8 @@ fn work_count(graph: &Graph, node: &Node, memory: &[Vec<u32>]) -> usize {
     usize::try_from(count).map_or(room, |count| room.min(count))
 }
 
-/// How many words of a binding the node's work reaches: a twin works through the whole slices that it is given.
+/// The number of words of a binding that the node's work reaches: a twin works through the whole slices that it is
+/// given.
 ///
 /// The slot that counts the work ends where the work does, and so do the slots written in step with it.
 fn words_for(graph: &Graph, node: &Node, binding: usize, work_count: usize) -> usize {

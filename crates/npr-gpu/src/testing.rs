@@ -1,4 +1,4 @@
-//! What tests of every crate ask before they go without a device.
+//! The condition under which tests of every crate skip for lack of a device.
 
 /// Whether a missing graphics device fails a test: `NPR_REQUIRE_GPU=1` is set.
 pub fn is_device_required() -> bool {

@@ -6,7 +6,7 @@ use npr_style::lighting::LightSource;
 use npr_stylesheet::Style;
 use std::collections::BTreeMap;
 
-/// Part of a beam's light that each of several pieces gives: between two of them both shine.
+/// Share of a beam's light that each of its pieces gives where there are several: between two of them both shine.
 const PIECE_SHARE: f32 = 0.5;
 
 /// Most lights along a single beam.
@@ -14,15 +14,17 @@ const PIECES_MAX: usize = 4;
 
 /// Point lights in the beams that give light, objects in order: in the middle of a flash, along a laser.
 ///
-/// A beam is all of one object in one material. It is cut across its longest side into pieces about as long as wide,
-/// at most [`PIECES_MAX`]; each shines from the mean of its triangles' middles, weighted by area, as far as its size
-/// lets it. O(triangles).
+/// All triangles of one object in one material are one beam. It is cut across its longest side into pieces about as
+/// long as wide, at most [`PIECES_MAX`]; each shines from the mean of its triangles' middles, weighted by area, as far
+/// as its radius times the style's reach. O(triangles).
 pub(crate) fn beam_lights(style: &Style, model: &Model) -> Vec<LightSource> {
     let mut lights = Vec::new();
     for (part, triangles) in triangles_of_beams(style, model) {
         let info = &model.parts[part];
         let look = info.look(style);
         let Some(beam) = look.beam else { continue };
+
+        // Cut the beam into pieces, each a point light.
         let pieces = pieces_of(&triangles);
         let share = if pieces.len() > 1 { PIECE_SHARE } else { 1.0 };
         let light = |piece: Piece| LightSource {
@@ -33,19 +35,23 @@ pub(crate) fn beam_lights(style: &Style, model: &Model) -> Vec<LightSource> {
             range: piece.radius() * beam.light_reach,
             ..LightSource::default()
         };
+
+        // Leave out pieces without an area.
         let lit = pieces.into_iter().filter(Piece::is_lit);
         lights.extend(lit.map(light));
     }
     lights
 }
 
-/// Corners in the world of the triangles of every beam that gives light, by the first of its parts.
+/// Triangles, as corners in the world, of every beam that gives light; the key is the first part of the beam.
 fn triangles_of_beams(style: &Style, model: &Model) -> BTreeMap<usize, Vec<[Vec3; 3]>> {
     let gives_light = |part: usize| {
         let info = &model.parts[part];
         let look = info.look(style);
         look.beam.is_some_and(|beam| beam.light > 0.0)
     };
+
+    // Join parts of one object in one material into a beam, named by its first part.
     let mut first_parts: BTreeMap<(u32, u32), usize> = BTreeMap::new();
     let mut beam_of_part = vec![None; model.parts.len()];
     for (part, info) in model
@@ -63,6 +69,8 @@ fn triangles_of_beams(style: &Style, model: &Model) -> BTreeMap<usize, Vec<[Vec3
     if first_parts.is_empty() {
         return triangles;
     }
+
+    // Collect the posed triangles of every beam.
     let point = |v: u32| {
         let v = v as usize;
         model.posed_point(&model.vertices[v], &model.influences[v])
@@ -78,7 +86,7 @@ fn triangles_of_beams(style: &Style, model: &Model) -> BTreeMap<usize, Vec<[Vec3
     triangles
 }
 
-/// A piece of a beam: its box, and where its surface lies.
+/// A piece of a beam: its bounding box, and the sums for its middle.
 #[derive(Debug, Clone, Copy)]
 struct Piece {
     low: Vec3,
@@ -112,7 +120,7 @@ impl Piece {
         self.sum / self.area
     }
 
-    /// Where it shines from: the mean, which far from the origin is rounded by more than the box is wide.
+    /// Where the piece shines from: the mean, kept within the box, as rounding far from the origin may move it out.
     fn middle(&self) -> Vec3 {
         self.mean().clamp(self.low, self.high)
     }
@@ -122,7 +130,7 @@ impl Piece {
         (self.high - self.low).length() * 0.5
     }
 
-    /// Whether it has an area, and a place that numbers can tell.
+    /// Whether the piece has an area, an extent and a finite place.
     fn is_lit(&self) -> bool {
         self.mean().is_finite() && self.radius().is_finite() && self.radius() > 0.0
     }

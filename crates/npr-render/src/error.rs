@@ -40,7 +40,7 @@ pub enum RenderError {
     /// Lines could not be closed to regions.
     #[error(transparent)]
     Fill(#[from] npr_drawing::fill::FillError),
-    /// Sides of pixels could not be put in rows.
+    /// The linked sides of pixels could not be ranked.
     #[error("line.potrace: {0}")]
     Rank(#[from] npr_vector::rank::RankError),
     /// Lines could not be looked for in a picture.
@@ -62,13 +62,13 @@ pub enum RenderError {
         /// Its name there.
         name: String,
     },
-    /// A picture that the style names has no pixels, or other than its size says.
+    /// A picture that the style names has no pixels, or not as many as its size says.
     #[error("{key}: the picture has no pixels, or not as many as its size says")]
     EmptyPicture {
         /// The key that names it.
         key: String,
     },
-    /// The style names a look that there is not.
+    /// The style names a look that does not exist.
     #[error(transparent)]
     Style(#[from] npr_stylesheet::StyleError),
     /// A picture cannot be a ramp.
@@ -79,7 +79,7 @@ pub enum RenderError {
         /// Why not.
         source: npr_style::tone_row::RowError,
     },
-    /// A picture cannot be hatched with.
+    /// A picture cannot serve as a hatch tile.
     #[error("{key}: {source}")]
     Hatch {
         /// The key that names it.
@@ -101,10 +101,10 @@ impl From<CurvesError> for RenderError {
     }
 }
 
-/// Numbers must leave room for "none" and for the bit that marks hulls.
+/// Most elements of a list: their numbers leave room for "none" and for the bit that marks hulls.
 const COUNT_LIMIT: u64 = 1 << 30;
 
-/// Refuses `more` of something beside those that are there, where they could not all be numbered.
+/// Fails if `have` elements and `more` of them together exceed [`COUNT_LIMIT`].
 pub(crate) fn check_count(what: &'static str, have: usize, more: usize) -> Result<(), RenderError> {
     if have as u64 + more as u64 > COUNT_LIMIT {
         return Err(RenderError::TooMany {

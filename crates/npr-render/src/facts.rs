@@ -1,9 +1,9 @@
-//! What a scene has, for telling which keys of a style cannot act.
+//! What a scene contains, to tell which keys of a style cannot act.
 
 use npr_scene::{Part, Scene};
 use npr_stylesheet::Facts;
 
-/// What of the things that keys of styles are about a scene has, with smoke in it or without.
+/// Lists which of the things that keys of styles refer to a scene contains; `smoke` says whether it has smoke.
 pub fn facts_of(scene: &Scene, smoke: bool) -> Facts {
     let parts = || scene.meshes.iter().flat_map(|mesh| &mesh.parts);
     let is_drawn = |part: &Part| !part.triangles.is_empty() || !part.segments.is_empty();

@@ -1,6 +1,6 @@
 //! What a frame is made of beside its surfaces, a file for each feature.
 //!
-//! A feature says what it takes of a frame in steps of the same names, as far as it has part in them:
+//! Every feature has these steps, under the same names, as far as it takes part in them:
 //!
 //! 1. `needs`: what a style asks for, before anything is planned.
 //! 2. `plan`: its resources and passes, added to the frame's graph.

@@ -6,8 +6,8 @@ use npr_core::math;
 use npr_scene::{LightKind, Scene};
 use npr_style::lighting::LightSource;
 
-/// Least distance of a light from the middle of a scene that its strength is reckoned with, in radii: one among the
-/// things it lights is no stronger for standing right in the middle.
+/// Least distance of a light from the middle of a scene, in radii, that its strength is computed with: a light among
+/// the things it lights is no stronger for standing right in the middle.
 const NEAREST_RADII: f32 = 0.25;
 
 /// A light of the file as the ramp takes it.
@@ -15,10 +15,10 @@ pub(crate) type FileLight = LightSource;
 
 /// The lights that nodes of a scene carry, the strongest with intensity 1.
 ///
-/// Files state lux for directional lights and candela for the others. They become comparable as the light that
-/// arrives at the middle of the scene: lux as they are, candela over the square of the distance from there, of at
-/// least a quarter of the scene's radius. All are then divided by the strongest. What a colour exceeds white by, or
-/// lacks, counts to the strength. Black lights are left out. O(nodes).
+/// Files state lux for directional lights and candela for the others. They become comparable as the light that arrives
+/// at the middle of the scene: lux as they are, candela over the square of the distance from there, of at least a
+/// quarter of the scene's radius. All are then divided by the strongest. A light's colour is divided by its largest
+/// channel, which counts to the strength. Black lights are left out. O(nodes).
 pub(crate) fn of_scene(scene: &Scene, bounds: Bounds) -> Vec<FileLight> {
     let (min, max) = bounds;
     let middle = (Vec3::from(min) + Vec3::from(max)) * 0.5;
@@ -28,6 +28,8 @@ pub(crate) fn of_scene(scene: &Scene, bounds: Bounds) -> Vec<FileLight> {
         let Some(light) = node.light.and_then(|i| scene.lights.get(i as usize)) else {
             continue;
         };
+
+        // Place the light, and measure how far from the middle it stands.
         let m = Mat4::from_cols_array_2d(&node.world_from_node);
         let position = m.w_axis.truncate();
         let back = m.z_axis.truncate().normalize_or(Vec3::Z);
@@ -40,6 +42,8 @@ pub(crate) fn of_scene(scene: &Scene, bounds: Bounds) -> Vec<FileLight> {
                 (LightSource::SPOT, -back, cone, distance * distance)
             }
         };
+
+        // Rate it by what arrives at the middle, and keep it unless it is black.
         let [r, g, b] = light.color;
         let brightest = r.max(g).max(b);
         let strength = f64::from(light.intensity) * f64::from(brightest) / square;
@@ -56,6 +60,8 @@ pub(crate) fn of_scene(scene: &Scene, bounds: Bounds) -> Vec<FileLight> {
             found.push((strength, source));
         }
     }
+
+    // Divide all strengths by the greatest.
     let strongest = found
         .iter()
         .map(|(strength, _)| *strength)

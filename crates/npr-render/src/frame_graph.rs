@@ -56,7 +56,7 @@ pub(crate) fn pixel_count([width, height]: [u32; 2]) -> usize {
     width as usize * height as usize
 }
 
-/// The size of a picture that a frame may lack: then it is of a single texel.
+/// The size of a picture where it is needed, else that of a placeholder, a single texel.
 pub(crate) fn size_if(is_needed: bool, size: [u32; 2]) -> [u32; 2] {
     if is_needed { size } else { [1, 1] }
 }
@@ -111,6 +111,7 @@ pub(crate) struct Layers {
 impl FrameGraph {
     /// The resources that stay for the whole frame, and the pass that poses vertices.
     pub fn new(counts: &Counts, grids: &Grids) -> Self {
+        // Add the resources that stay for the whole frame.
         let mut graph = Graph::new();
         let mut frame = Self {
             view: graph.uniform::<View>("view"),
@@ -132,6 +133,8 @@ impl FrameGraph {
             depths: graph.image("depths", Format::Depth, grids.color()),
             graph,
         };
+
+        // Pose the vertices.
         let bound = [
             frame.view,
             frame.outline,
@@ -145,7 +148,7 @@ impl FrameGraph {
         frame
     }
 
-    /// Lets light change the widths of lines, for all that follows.
+    /// Adds the pass by which light changes the widths of lines; what follows reads its vertices.
     pub fn light_widths(&mut self, vertex_count: usize) {
         let lit = self.graph.buffer::<PosedVertex>("lit", vertex_count);
         let bound = [self.lights, self.parts, self.vertices, self.posed, lit];
@@ -168,8 +171,9 @@ impl FrameGraph {
             .draw(&raster::DRAW_IDS, &bound, &[ids, depths], true);
     }
 
-    /// The last pass, by some settings over some triangle numbers: colours with their layers. `sides` are the
-    /// pictures of both sides of lines, for those whose colour follows what lies behind.
+    /// Adds the pass that composes a picture: the colours of the triangles in `ids` with the layers over them, by the
+    /// settings in `compose`. `sides` are the pictures of both sides of lines, for those whose colour follows what lies
+    /// behind.
     pub fn compose_frame(
         &mut self,
         compose: ResourceId,

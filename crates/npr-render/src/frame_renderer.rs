@@ -35,7 +35,7 @@ const TILE_ROOM: u32 = 8;
 /// Cosine of the turn, 10 degrees, from which two views are not of one movement but a cut.
 const CUT_COS: f32 = 0.985;
 
-/// The same for the eye's way, as a multiple of the model's radius.
+/// Distance between two eyes, in radii of the model, from which two views are a cut.
 const CUT_RADII: f32 = 0.5;
 
 /// What a look takes of a frame, before its graph is planned.
@@ -70,7 +70,7 @@ struct Plan {
     contrast: ContrastPasses,
 }
 
-/// A model, a look and a frame size on an engine: draws what the passes of a frame draw.
+/// A model, a look and a frame size on an engine: draws tiles with the passes of a frame.
 pub(crate) struct FrameRenderer<'a> {
     pub model: &'a Model,
     pub style: Style,
@@ -83,9 +83,9 @@ pub(crate) struct FrameRenderer<'a> {
     lights: ChosenLights,
     plan: Plan,
     session: Box<dyn Session>,
-    /// How the frame before was seen.
+    /// The view of the frame before.
     before: Option<View>,
-    /// Hears how many tiles of a frame are done, of how many.
+    /// Called after every tile with the numbers of tiles done and of all.
     pub tell: Option<&'a dyn Fn(usize, usize)>,
 }
 
@@ -336,7 +336,7 @@ impl FrameRenderer<'_> {
         placement::around(model, smoke)
     }
 
-    /// What lies on both sides of lines is needed beside the picture, for lines that come after it.
+    /// Whether the passes find what lies on both sides of lines, for lines that are drawn over the picture.
     pub fn finds_sides(&self) -> bool {
         self.features.contrast
     }

@@ -10,16 +10,16 @@ use npr_mesh::direction_field::{Guide, PartGuide};
 use npr_style::lighting::LightSource;
 use npr_stylesheet::{Follow, Ink, Mapping, StrokeSpace};
 
-/// Length of a vertex colour's direction up to which it says nothing: middle grey after rounding to bytes.
+/// Length up to which the direction of a vertex colour counts as none: that of middle grey after rounding to bytes.
 const SAYS_NOTHING: f32 = 0.05;
 
-/// Length on the picture of a unit vector to the light under which it points nowhere there.
+/// Length up to which a unit vector to the light, projected on the picture, gives strokes no direction.
 const STRAIGHT_ON: f32 = 1e-3;
 
-/// Who says how strokes run on a part.
+/// What decides how strokes run on a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Source {
-    /// Its own bends.
+    /// The way its surface bends, across or along limbs.
     HalfEdgeMesh { across: bool },
     /// The style, in the world.
     World([f32; 3]),
@@ -37,9 +37,9 @@ enum Source {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct StrokeGuide {
     source: Source,
-    /// Angle in radians by which they turn away from it.
+    /// Angle in radians between the strokes and that direction.
     pub angle: f32,
-    /// Whether they are asked of an attribute or colours that the part has not.
+    /// Whether the style asks for an attribute or vertex colours that the part lacks.
     pub is_unsaid: bool,
 }
 
@@ -70,7 +70,7 @@ impl StrokeGuide {
         self.source == Source::Light
     }
 
-    /// The same for charts.
+    /// The guide as stroke charts take it.
     fn of_chart(&self) -> PartGuide {
         PartGuide {
             guide: match self.source {
@@ -125,10 +125,13 @@ impl Guides {
         positions: &[[f32; 3]],
         light: &LightSource,
     ) -> Vec<[f32; 3]> {
+        // Leave the list empty where no part needs directions at its vertices.
         let is_painted = |guide: &StrokeGuide| guide.of_chart().guide == Guide::Painted;
         if !self.of_parts.iter().any(is_painted) {
             return Vec::new();
         }
+
+        // Ask the source of every vertex's part, and turn its direction into the world.
         let vertices = model.vertices.iter().zip(&model.influences).enumerate();
         let direction = |(i, (vertex, influence)): (usize, (&Vertex, _))| {
             let guide = self.of_parts.get(vertex.part as usize);
@@ -155,7 +158,7 @@ fn painted(model: &Model, vertex: usize) -> Vec3 {
         .into()
 }
 
-/// The direction that a vertex colour stands for; zero where it says nothing.
+/// The direction that a vertex colour stands for; zero where it stands for none.
 fn color_direction(vertex: &Vertex) -> Vec3 {
     let [r, g, b, _] = vertex.color.to_le_bytes();
     if [r, g, b] == [255; 3] {
@@ -170,9 +173,10 @@ fn color_direction(vertex: &Vertex) -> Vec3 {
     }
 }
 
-/// Cosine and sine of the turn that lets strokes on the picture run towards a light, and by `angle` radians beside it.
+/// Cosine and sine of the turn after which strokes on the picture run at `angle` radians to the direction of a light.
 ///
-/// A light at a place counts from `middle`. Upright where it stands right before or behind the picture.
+/// The direction of a light with a place is taken at `middle`. Strokes run upright, turned by `angle`, where a light
+/// stands right before or behind the picture.
 pub(crate) fn turn_to_light(
     light: &LightSource,
     camera: &Camera,

@@ -22,19 +22,19 @@ use npr_stylesheet::{Ink, Mapping, Style};
 /// Texels along the side of a hatch tile: 128 strokes, and six octaves down to two.
 const TILE_SIDE: u32 = 1024;
 
-/// Size of a hatch tile on an object that is all of its scene, as a part of its radius. Framed as a whole it shows
+/// Size of a hatch tile on an object that is the whole scene, as a share of its radius. Framed as a whole it shows
 /// strokes 8 pixels apart three octaves above the finest level: the camera may come eight times nearer, and go eight
 /// times farther, before strokes change their size. Larger tiles do not fit around thin limbs.
 pub(crate) const TILE_RADII: f32 = 0.3;
 
-/// How fast tiles shrink with the objects of a scene, as an exponent of their radius: less than 1, as small objects
-/// are mostly seen from as far as large ones.
+/// Exponent by which tiles shrink with the radius of a scene's objects: less than 1, as small objects are mostly seen
+/// from as far away as large ones.
 const SHRINKING: f32 = 0.75;
 
 /// Most halvings of the tile from the size that suits the model to that of its smallest objects.
 const HALVINGS_MAX: u32 = 5;
 
-/// Narrowest spacing that strokes are drawn with, in pixels: nearer ones are grey.
+/// Narrowest spacing of strokes, in pixels: closer ones would show as grey.
 const SPACING_PX_MIN: f32 = 2.0;
 
 /// Texels between strokes on the finest level of a tile.
@@ -45,7 +45,8 @@ const SCREEN_SPACING_TEXELS: f32 = 8.0;
 pub(crate) struct Inked {
     /// Stroke charts, a triangle each; empty where no part is hatched along its surface.
     pub charts: Vec<ChartCorners>,
-    /// How badly strokes lie around each vertex, 0..1; empty where charts are. Charts that follow the light have none.
+    /// How distorted strokes are around each vertex, 0..1; empty without charts. Charts that follow the light have
+    /// none.
     pub chart_distortions: Vec<f32>,
     /// What was done in another way than the style asks, for the user.
     pub notices: Vec<String>,
@@ -55,7 +56,7 @@ pub(crate) struct Inked {
     lit_by: Option<LightSource>,
 }
 
-/// Gives `parts`, and what stands for the `smoke`, their ink and adds the tiles they need to `textures`.
+/// Gives ink to `parts`, and to the part that stands for `smoke`; adds the tiles they need to `textures`.
 ///
 /// Charts of strokes that follow the light stay empty until [`Inked::follow_light`].
 pub(crate) fn add_ink(
@@ -67,6 +68,7 @@ pub(crate) fn add_ink(
     smoke: Option<&mut Part>,
     textures: &mut TextureStore,
 ) -> Result<Inked, RenderError> {
+    // Ink and paint every part but beams, and make the tiles that are asked for.
     let mut tiles = Tiles {
         pictures,
         textures,
@@ -82,11 +84,15 @@ pub(crate) fn add_ink(
         }
         inks.push(look.ink);
     }
+
+    // Ink the part that stands for smoke, with strokes on the picture.
     if let Some(part) = smoke {
         let ink = style.smoke.ink.on_picture();
         let tones = ink.tone.ink_and_hatch(0.0, 1.0);
         set_pen(part, &ink, tones, ink.mapping, frame, &mut tiles)?;
     }
+
+    // Lay strokes along surfaces, and report what is hatched in another way than asked.
     let guides = Guides::new(model, &inks);
     let mut inked = Inked {
         notices: notices_of(model, &inks, &guides, parts),
@@ -99,8 +105,11 @@ pub(crate) fn add_ink(
 
 /// What is hatched in another way than asked, each once with the first part of its kind.
 fn notices_of(model: &Model, inks: &[Ink], guides: &Guides, parts: &[Part]) -> Vec<String> {
+    // Look at parts hatched along their surfaces alone.
     let on_surface = |i: &usize| parts[*i].flags & Part::ON_SURFACE != 0;
     let surfaces: Vec<usize> = (0..inks.len()).filter(on_surface).collect();
+
+    // Report each oddity once, with the first part that has it.
     let first = |is_odd: &dyn Fn(usize) -> bool, reported: &str| {
         let found = surfaces.iter().find(|i| is_odd(**i))?;
         let name = &model.parts[*found].object_name;
@@ -141,13 +150,16 @@ struct Tiles<'a> {
 }
 
 impl Tiles<'_> {
-    /// Where the header of the tile starts that a hatch is drawn with, on surfaces whose charts are glued turned or
-    /// elsewhere.
+    /// Where the header of a hatch's tile starts in the store. `on_surface` lays a picture over its own half turn, as
+    /// charts are glued with turns.
     fn start_of(&mut self, hatch: &Hatch, on_surface: bool) -> Result<u32, RenderError> {
+        // Use a tile that was made before.
         let key = (hatch.of_tile(), on_surface && !hatch.image.is_empty());
         if let Some((_, start)) = self.made.iter().find(|(made, _)| *made == key) {
             return Ok(*start);
         }
+
+        // Else draw it, or read it from its picture, and store its levels.
         let tile = if hatch.image.is_empty() {
             hatch::levels(&key.0, TILE_SIDE).ok()
         } else {
@@ -186,7 +198,7 @@ fn set_ink(
     set_pen(part, ink, tones, mapping, frame, tiles)
 }
 
-/// The same for a part that is inked, hatched or both, with strokes fixed to what `mapping` says.
+/// Sets the ink of a part, and its hatching, with strokes fixed to what `mapping` says.
 fn set_pen(
     part: &mut Part,
     ink: &Ink,
@@ -249,7 +261,8 @@ fn tinted_parts(model: &Model, style: &Style) -> Vec<bool> {
     tinted
 }
 
-/// Lets the paint of a part darken its shade, where there is a pen and the paint is not all as light as paper.
+/// Lets the paint of a part darken its shade, where the part is inked or hatched and its paint is not all as light as
+/// paper.
 fn set_paint(part: &mut Part, strength: f32, tinted: bool) {
     let [r, g, b, _] = part.paint_color.to_le_bytes().map(linear_from_byte);
     let varies = tinted || part.texture != NONE;
@@ -261,11 +274,11 @@ fn set_paint(part: &mut Part, strength: f32, tinted: bool) {
     }
 }
 
-/// Error of a chart from which strokes begin to look distorted, and from which they are.
+/// Errors of a chart at which its strokes begin to look distorted, and at which they fully are.
 const DISTORTION_ERRORS: [f32; 2] = [0.35, 0.75];
 
-/// How badly strokes lie around each vertex, 0..1: by the mean error of the triangles there, which may be empty for
-/// none.
+/// How distorted strokes are around each vertex, 0..1, from the mean error of the triangles there; empty where `errors`
+/// is.
 fn chart_distortions_of(model: &Model, errors: &[f32]) -> Vec<f32> {
     let mut sums = vec![
         [0.0f32; 2];
@@ -316,7 +329,7 @@ impl Inked {
     }
 
     /// Turns the strokes that follow the light to where it shines from: charts of surfaces, and strokes on the picture.
-    /// Says whether parts, and whether charts, are others than before.
+    /// Returns whether parts, and whether charts, have changed.
     pub fn follow_light(
         &mut self,
         model: &Model,
@@ -325,11 +338,14 @@ impl Inked {
         camera: &Camera,
         parts: &mut [Part],
     ) -> [bool; 2] {
+        // List the parts whose strokes follow the light.
         let guides = self.guides.of_parts.iter();
         let lit: Vec<usize> = guides
             .enumerate()
             .filter_map(|(i, guide)| guide.follows_light().then_some(i))
             .collect();
+
+        // Turn strokes that are fixed to the picture.
         let (min, max) = model.bounds();
         let middle = std::array::from_fn(|i| (min[i] + max[i]) * 0.5);
         let mut turned = false;
@@ -340,6 +356,8 @@ impl Inked {
                 turned = true;
             }
         }
+
+        // Make the charts of surfaces anew, where the light is another than before.
         let on_surfaces = lit.iter().any(|&i| on_surface(&parts[i]));
         if !on_surfaces || self.lit_by == Some(*light) {
             return [turned, false];
@@ -350,8 +368,8 @@ impl Inked {
         [turned, true]
     }
 
-    /// Makes the charts of the parts that follow a light, or without one of all others; gives how much each
-    /// triangle's errs.
+    /// Makes the charts of the parts whose strokes follow `light`, or without it those of all others; gives the error
+    /// of every triangle's chart.
     fn add_charts(
         &mut self,
         model: &Model,
@@ -360,6 +378,7 @@ impl Inked {
         parts: &[Part],
         light: Option<&LightSource>,
     ) -> Vec<f32> {
+        // Settle what strokes run along.
         let mut settings = ChartSettings {
             crease_cos: math::cos(style.line.crease_angle_deg.to_radians()),
             guides: self.guides.of_charts(),
@@ -368,6 +387,8 @@ impl Inked {
         let mut errors = vec![0.0; model.triangles.len()];
         let lit_by = light.copied().unwrap_or_default();
         let directions = self.guides.directions(model, &surfaces.positions, &lit_by);
+
+        // Chart the parts of each tile size together.
         for halvings in 0..=HALVINGS_MAX {
             let member = |part: u32| {
                 let part = part as usize;
@@ -396,6 +417,7 @@ fn chart_some(
     member: impl Fn(u32) -> bool,
     (charts, errors): (&mut [ChartCorners], &mut [f32]),
 ) {
+    // Pick the triangles of the members.
     let numbered = surface.triangles.iter().enumerate();
     let (numbers, triangles): (Vec<usize>, Vec<Triangle>) = numbered
         .filter(|(_, triangle)| member(triangle.part))
@@ -403,6 +425,8 @@ fn chart_some(
     if triangles.is_empty() {
         return;
     }
+
+    // Chart them, and write each result to its own triangle.
     let input = ChartInput {
         triangles: &triangles,
         ..*surface
@@ -418,7 +442,7 @@ fn chart_some(
     }
 }
 
-/// Of every triangle its corners' coordinates and their error, kept where there is a folder.
+/// The chart coordinates of each triangle's corners, and their error, a row each; kept where there is a folder.
 fn chart_rows(cache: &Cache, input: &ChartInput<'_>, settings: &ChartSettings) -> Vec<[f32; 7]> {
     let name = || {
         let mut hash = input_of("charts");
@@ -439,8 +463,8 @@ fn chart_rows(cache: &Cache, input: &ChartInput<'_>, settings: &ChartSettings) -
     })
 }
 
-/// A number of tiles to one unit of UV coordinates, or of units to one tile: coordinates that wrap around at 1 show
-/// no seam.
+/// The nearest scale with a whole number of tiles per unit of UV coordinates, or of units per tile: coordinates that
+/// wrap around at 1 then show no seam.
 fn whole_scale(scale: f32) -> f32 {
     let whole = |x: f32| x.clamp(1.0, 4096.0).round();
     if scale.is_nan() {
@@ -483,7 +507,7 @@ impl Surfaces {
         }
     }
 
-    /// Size of a tile that is halved so often, in units of the world.
+    /// Size of a tile after so many halvings, in units of the world.
     fn tile_at(&self, halvings: u32) -> f32 {
         self.model_radius * TILE_RADII / (1u32 << halvings) as f32
     }

@@ -12,7 +12,7 @@ use npr_stylesheet::{IdMap, IdRegion, Style};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Most rows of small triangles that one is cut into, so that 64 places at most decide.
+/// Most rows of small triangles that a triangle is cut into, so that at most 64 places decide its id.
 const ROWS_MAX: u32 = 8;
 
 /// Alpha from which a pixel of a map counts.
@@ -30,10 +30,10 @@ type Cover = Vec<Option<usize>>;
 /// Cuts the parts of a scene up by the id maps of a style, so that its rules find their regions as parts of their own.
 ///
 /// Every triangle goes as a whole to the id that most of it shows: it is cut into 64 equal small ones, or fewer where
-/// it lies within a texel, and each counts as the texel its middle lies in. Of ids that show alike the
-/// one that the map names first wins; no id comes last. Maps lie as the base colour texture does, with its transform
-/// and wrapping, and repeat where there is none. Parts without texture coordinates have no ids. Nothing moves: where
-/// pieces meet, their vertices are equal and welded again, so that creases, contours and normals stay what they were.
+/// it lies within a texel, and each counts as the texel its middle lies in. Of ids that show equally, the one that the
+/// map names first wins; no id comes last. Maps lie as the base colour texture does, with its transform and wrapping,
+/// and repeat where there is none. Parts without texture coordinates have no ids. Nothing moves: where pieces meet,
+/// their vertices are equal and welded again, so that creases, contours and normals stay what they were.
 ///
 /// Regions keep their material's number, and no line runs between them; a map with `border` gives each a copy of the
 /// material. What looks like a slip is added to the scene's notices. A scene may be cut anew for another style.
@@ -50,12 +50,15 @@ pub fn apply_id_maps(
     style: &Style,
     pictures: &BTreeMap<String, Picture>,
 ) -> Result<(), RenderError> {
+    // Forget the regions of an earlier style.
     let parts = scene.meshes.iter_mut().flat_map(|mesh| &mut mesh.parts);
     parts.for_each(|part| part.ids.clear());
     let maps = maps_of(style, pictures)?;
     if maps.is_empty() {
         return Ok(());
     }
+
+    // Cut every mesh by the maps that lie on its parts.
     let covered = cover_meshes(scene, &maps);
     let mut knife = Knife {
         tallies: maps.iter().map(Tally::new).collect(),
@@ -70,6 +73,8 @@ pub fn apply_id_maps(
             .flat_map(|(part, map)| knife.cut(part, map, &object))
             .collect();
     }
+
+    // Report what looks like a mistake.
     let notices = knife.notices().into_iter().map(|text| Notice { text });
     scene.notices.extend(notices);
     Ok(())
@@ -89,6 +94,7 @@ fn maps_of<'a>(
     pictures: &'a BTreeMap<String, Picture>,
 ) -> Result<Vec<Map<'a>>, RenderError> {
     let map = |(i, of): (usize, &'a IdMap)| {
+        // Find the picture, and check that it has as many pixels as its size says.
         let key = format!("id_map.{i}.image");
         let Some(picture) = pictures.get(&of.image) else {
             let name = of.image.clone();
@@ -99,6 +105,8 @@ fn maps_of<'a>(
         if picture.rgba.is_empty() || bytes != Some(picture.rgba.len()) {
             return Err(RenderError::EmptyPicture { key });
         }
+
+        // Number the regions by their colours.
         let regions = style.id_regions(of);
         let numbers = (0..).zip(&regions).map(|(i, region)| (region.color, i));
         Ok(Map {
@@ -111,14 +119,16 @@ fn maps_of<'a>(
     style.id_map.iter().enumerate().map(map).collect()
 }
 
-/// Lists every mesh that is drawn with the maps on its parts and the first object that has it so; an object on which
-/// others lie than on that gets a mesh of its own.
+/// Lists every mesh that is drawn, with the maps on its parts and the first object that uses it with them. Objects that
+/// share a mesh but not the maps get copies of it.
 fn cover_meshes(scene: &mut Scene, maps: &[Map<'_>]) -> Vec<(usize, Cover, String)> {
     let mut made: BTreeMap<(u32, Cover), u32> = BTreeMap::new();
     let mut used = BTreeSet::new();
     let mut covered = Vec::new();
     for node in &mut scene.nodes {
         let Some(mesh) = node.mesh else { continue };
+
+        // Find the last map that lies on each part.
         let parts = &scene.meshes[mesh as usize].parts;
         let material = |part: &Part| part.material.and_then(|m| scene.materials.get(m as usize));
         let name = |part| material(part).map_or("", |material| &material.name);
@@ -129,6 +139,8 @@ fn cover_meshes(scene: &mut Scene, maps: &[Map<'_>]) -> Vec<(usize, Cover, Strin
                 maps.rposition(|map| map.of.lies_on(name(part), &node.name))
             })
             .collect();
+
+        // Keep the mesh for the first maps that lie on it, and copy it for all others.
         let slot = *made.entry((mesh, cover.clone())).or_insert_with(|| {
             let slot = match used.insert(mesh) {
                 true => mesh,
@@ -146,7 +158,7 @@ fn cover_meshes(scene: &mut Scene, maps: &[Map<'_>]) -> Vec<(usize, Cover, Strin
     covered
 }
 
-/// What became of a map.
+/// What is counted of a map while parts are cut, for notices.
 struct Tally {
     /// Whether it lies on any part.
     lies: bool,
@@ -154,7 +166,7 @@ struct Tally {
     bare: Option<String>,
     /// Which regions any triangle has.
     taken: Vec<bool>,
-    /// Area that it lies on, and what of that is taken for another id than painted.
+    /// Area that the map lies on, and how much of it gets another id than painted.
     area: f64,
     strayed: f64,
 }
@@ -171,7 +183,7 @@ impl Tally {
     }
 }
 
-/// Cuts parts up.
+/// Cuts parts into pieces by their maps.
 struct Knife<'a> {
     maps: Vec<Map<'a>>,
     tallies: Vec<Tally>,
@@ -181,17 +193,21 @@ struct Knife<'a> {
 }
 
 impl Knife<'_> {
-    /// A part of an object as the pieces that its map makes of it.
+    /// Cuts a part of an object into the pieces that show the regions of its map.
     fn cut(&mut self, part: Part, map: Option<usize>, object: &str) -> Vec<Part> {
         let Some(number) = map.filter(|_| !part.triangles.is_empty()) else {
             return vec![part];
         };
+
+        // Leave parts without texture coordinates whole.
         let (map, tally) = (&self.maps[number], &mut self.tallies[number]);
         tally.lies = true;
         let Some(uvs) = &part.uvs else {
             tally.bare.get_or_insert_with(|| object.to_owned());
             return vec![part];
         };
+
+        // Find the region of every triangle, and count how well it fits.
         let material = part.material.and_then(|m| self.materials.get(m as usize));
         let shown: Vec<(u32, f32)> = map.shown_by(&part.triangles, uvs, material);
         for (corners, (region, strayed)) in part.triangles.iter().zip(&shown) {
@@ -202,6 +218,8 @@ impl Knife<'_> {
                 *taken = true;
             }
         }
+
+        // Split the part, and label the pieces.
         let regions: Vec<u32> = shown.iter().map(|(region, _)| *region).collect();
         let pieces = part.split(&regions).into_iter();
         pieces
@@ -215,6 +233,8 @@ impl Knife<'_> {
         let Some(found) = of.regions.get(region as usize) else {
             return part;
         };
+
+        // Give the piece a copy of its material, which pieces of the same region share.
         let mut material = part.material;
         if of.of.border {
             let materials = &mut self.materials;
@@ -232,7 +252,7 @@ impl Knife<'_> {
         }
     }
 
-    /// What looks like a slip.
+    /// Notices of what looks like a mistake.
     fn notices(&self) -> Vec<String> {
         let tallied = || self.maps.iter().zip(&self.tallies);
         let mut notices: Vec<String> = tallied()
@@ -320,6 +340,8 @@ impl Map<'_> {
         } = self.of;
         let mut notices = Vec::new();
         let mut tell = |text: String| notices.push(format!("id map '{image}' {text}"));
+
+        // Report a map that lies on nothing, or cannot.
         if !tally.lies {
             tell(format!(
                 "lies on nothing: no part is of object '{object}' and material '{material}'"
@@ -330,6 +352,8 @@ impl Map<'_> {
                 "cannot lie on '{bare}', which has no texture coordinates"
             ));
         }
+
+        // Report ids that no triangle shows.
         let untaken = ids.iter().zip(&tally.taken).filter(|(_, taken)| !**taken);
         let untaken: BTreeSet<&str> = untaken.map(|(id, _)| id.name.as_str()).collect();
         if tally.area > 0.0 && !untaken.is_empty() {
@@ -338,6 +362,8 @@ impl Map<'_> {
                 "names {names}, but no triangle shows that colour most"
             ));
         }
+
+        // Report a map that is finer than the triangles.
         if tally.strayed > STRAYED_MAX * tally.area {
             let percent = (tally.strayed / tally.area * 100.0).round();
             tell(format!(
@@ -369,8 +395,8 @@ fn area_of(part: &Part, corners: [u32; 3]) -> f64 {
     if area.is_finite() { area } else { 0.0 }
 }
 
-/// Rows of small triangles that are about an eighth of a texel wide: fewer would miss what lies within a texel's width
-/// of an edge, which is much of a triangle that is two or three texels large.
+/// Into how many rows of small triangles, about an eighth of a texel wide, to cut a triangle. Fewer would miss what
+/// lies within a texel's width of an edge, which is much of a triangle that is two or three texels large.
 fn rows_of([a, b, c]: [[f32; 2]; 3], size: [u32; 2]) -> u32 {
     let texels = |from: [f32; 2], to: [f32; 2]| {
         let [u, v] = [0, 1].map(|i| (to[i] - from[i]) * size[i] as f32);

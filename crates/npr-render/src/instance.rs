@@ -32,7 +32,7 @@ pub(crate) struct Instance {
     pub pieces: Vec<Piece>,
 }
 
-/// What a connected component has of a part of the mesh.
+/// The triangles of one part of the mesh in one connected component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Piece {
     /// Number of the mesh's part.
@@ -51,6 +51,7 @@ impl Instance {
         scale: f32,
         mirrored: bool,
     ) -> Self {
+        // Weld the parts, and find edges, components, normals and folds.
         let mut joined = Joined::new(parts);
         let weld = npr_mesh::weld(&joined.positions, 0.0);
         let edges = npr_mesh::unique_edges(
@@ -62,6 +63,8 @@ impl Instance {
         let (components, _) = npr_mesh::components(&joined.triangles, &weld);
         let smooth = npr_mesh::smooth_normals(&joined.positions, &joined.triangles, &weld);
         let folds = folds(scene, (node, parts), &joined, &weld, &edges);
+
+        // Store vertices, with curvature, and edges.
         let mut instance = Self {
             vertices: stored_vertices(scene, parts, &joined),
             influences: parts.iter().copied().flat_map(influences).collect(),
@@ -71,6 +74,8 @@ impl Instance {
             ..Self::default()
         };
         instance.add_curvature(cache, &joined, (&weld, &edges), &smooth, scale);
+
+        // Shade with hard edges where the file has no normals.
         if !joined.has_normals {
             let corners = npr_mesh::crease_normals(
                 &joined.positions,
@@ -81,6 +86,8 @@ impl Instance {
             );
             instance.split_by_normals(&mut joined, &corners);
         }
+
+        // Number the pieces, and turn triangles over where the node mirrors them.
         let pieces = instance.number_pieces(&joined, &components);
         instance.triangles = joined
             .triangles
@@ -94,6 +101,8 @@ impl Instance {
                 }
             })
             .collect();
+
+        // Give every vertex the piece of its triangles.
         for triangle in &instance.triangles {
             for corner in triangle.corners {
                 instance.vertices[corner as usize].part = triangle.part;
@@ -131,6 +140,7 @@ impl Instance {
         smooth: &[[f32; 3]],
         scale: f32,
     ) {
+        // Measure the bend at every welded vertex.
         let mesh = WeldedMesh {
             positions: &joined.positions,
             triangles: &joined.triangles,
@@ -139,6 +149,8 @@ impl Instance {
             scale,
         };
         let bends = bends(cache, &mesh, smooth);
+
+        // Store it with the vertices that are welded there.
         for (vertex, welded) in self.vertices.iter_mut().zip(&weld.of_vertex) {
             let bend = bends[*welded as usize];
             vertex.curvatures = bend.curvatures;
@@ -154,12 +166,15 @@ impl Instance {
         let mut copies: BTreeMap<(u32, u32), u32> = BTreeMap::new();
         for (triangle, normals) in joined.triangles.iter_mut().zip(corners) {
             for (corner, normal) in triangle.iter_mut().zip(normals) {
+                // Give the stored vertex the normal of its first corner.
                 let stored = *corner as usize;
                 if std::mem::take(&mut first_use[stored]) {
                     self.vertices[stored].normal = *normal;
                     copies.insert((*corner, math::pack_unit(*normal)), *corner);
                     continue;
                 }
+
+                // Give later corners a copy of it for each further normal.
                 *corner = *copies
                     .entry((*corner, math::pack_unit(*normal)))
                     .or_insert_with(|| {
@@ -259,7 +274,7 @@ fn painted(parts: &[&Part]) -> Vec<[f32; 3]> {
     parts.iter().flat_map(of_part).collect()
 }
 
-/// By how much the edges of a mesh fold at its node.
+/// The folds of a mesh's edges, measured where its node places it in the world.
 fn folds(
     scene: &Scene,
     (node, parts): (&Node, &[&Part]),

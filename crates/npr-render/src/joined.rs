@@ -3,7 +3,7 @@
 use npr_core::geometry::NONE;
 use npr_scene::Part;
 
-/// The vertices of all parts of a mesh behind one another.
+/// All parts of a mesh in one list each of vertices, triangles and segments, part after part.
 #[derive(Debug, Default)]
 pub(crate) struct Joined {
     pub positions: Vec<[f32; 3]>,
@@ -29,12 +29,15 @@ impl Joined {
             ..Self::default()
         };
         for (index, part) in parts.iter().enumerate() {
+            // Append the vertices; where normals begin, earlier parts get zeros.
             let base = joined.positions.len() as u32;
             joined.positions.extend(&part.positions);
             if let Some(normals) = &part.normals {
                 joined.normals.resize(base as usize, [0.0; 3]);
                 joined.normals.extend(normals);
             }
+
+            // Append triangles and segments with new numbers, and the part of each.
             joined.triangles.extend(
                 part.triangles
                     .iter()
@@ -51,6 +54,8 @@ impl Joined {
                 .materials
                 .resize(joined.triangles.len(), part.material.unwrap_or(NONE));
         }
+
+        // Fill up the normals of the last parts with zeros.
         if !joined.normals.is_empty() {
             joined.normals.resize(joined.positions.len(), [0.0; 3]);
         }

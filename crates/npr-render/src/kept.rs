@@ -1,9 +1,9 @@
 //! What is costly to prepare, kept in files between runs.
 //!
 //! Three things cost most of a start: how surfaces bend, where they cut each other, and how strokes of hatching lie on
-//! them. Each is a list of numbers that follows from others; it is kept in a file that the content of those others
-//! names, so that whatever changes is made anew. Nothing in a file is trusted: it has to announce its own kind,
-//! version, key and length, its checksum has to fit, and the numbers have to be what the program could have made.
+//! them. Each is a list of numbers computed from an input; it is kept in a file that is named after the content of this
+//! input, so that any change makes it anew. Nothing in a file is trusted: it has to announce its own kind, version, key
+//! and length, its checksum has to fit, and the numbers have to be what the program could have made.
 //!
 //! A header of 64 bytes, its numbers little-endian, then the rows as this machine has them:
 //!
@@ -27,7 +27,7 @@ pub(crate) const VERSION: u32 = 3;
 
 const MAGIC: [u8; 8] = *b"NPRKEPT\0";
 const HEADER: usize = 64;
-/// Files beyond this are not read, as if they were damaged.
+/// Most bytes of a file that are read: a longer one counts as damaged.
 const LARGEST: u64 = 1 << 30;
 
 const DIGEST: std::ops::Range<usize> = 48..64;
@@ -52,7 +52,7 @@ impl Cache {
 
     /// Rows that were kept under a key, where they are sound; else what `make` gives, kept from now on.
     ///
-    /// `input` names everything that `make` reads; it is asked for where there is a folder alone.
+    /// `input` hashes everything that `make` reads; it is only called where there is a folder.
     pub fn rows<T: Pod>(
         &self,
         input: impl FnOnce() -> ContentHash,
@@ -64,7 +64,7 @@ impl Cache {
         made.unwrap_or_else(|never| match never {})
     }
 
-    /// The same of a value that is kept as rows, and may fail to be made; a failure is not kept.
+    /// As [`Cache::rows`], for a value that is stored as rows and may fail to be made; a failure is not kept.
     ///
     /// `of_rows` reads a value from rows where they are sound, and `to_rows` gives its rows.
     ///
@@ -99,7 +99,7 @@ impl Cache {
     }
 }
 
-/// Starts the name of an input: of what is made from it, and of the program that makes it.
+/// Starts the hash of an input, with what is made from it and the version of the program that makes it.
 pub(crate) fn input_of(what: &str) -> ContentHash {
     let mut hash = ContentHash::new();
     // Rows lie as this machine has its numbers.
@@ -108,7 +108,7 @@ pub(crate) fn input_of(what: &str) -> ContentHash {
     hash
 }
 
-/// Rows under a key as a file.
+/// The content of a file that keeps rows under a key.
 fn encode<T: Pod>(rows: &[T], key: u128) -> Vec<u8> {
     let body: &[u8] = bytemuck::cast_slice(rows);
     let mut bytes = Vec::with_capacity(HEADER + body.len());
@@ -142,7 +142,7 @@ fn decode<T: Pod>(bytes: &[u8], key: u128) -> Option<Vec<T>> {
     (is_whole && head == announced.concat()).then(|| bytemuck::pod_collect_to_vec(body))
 }
 
-/// Of all bytes but the digest's own. A single changed byte always changes it.
+/// Digest of all bytes but its own. A single changed byte always changes it.
 fn digest(bytes: &[u8]) -> u128 {
     let mut hash = ContentHash::new();
     hash.bytes(&bytes[..DIGEST.start]);
@@ -150,7 +150,7 @@ fn digest(bytes: &[u8]) -> u128 {
     hash.finish()
 }
 
-/// The content of a file, unless it is beyond what memory is planned for, or no file.
+/// The content of a file, at most [`LARGEST`] bytes of it; an error for what is no file.
 fn read(path: &Path) -> io::Result<Vec<u8>> {
     // Opening a pipe would wait for its writer.
     if !std::fs::metadata(path)?.is_file() {

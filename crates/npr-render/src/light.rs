@@ -1,4 +1,4 @@
-//! The lights of a frame: those of the style, those of the file, and what they see of what throws shadows.
+//! The lights of a frame: those of the style, those of the file, and the views of those that throw shadows.
 
 use crate::file_light::FileLight;
 use crate::options::Picture;
@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 /// How much nearer to a light something must be to shade a place, in radii of the model.
 const BIAS_RADII: f32 = 2e-4;
 
-/// What is nearer to a spot throws no shadow, in radii of the model.
+/// Distance from a spot, in radii of the model, below which things throw no shadow.
 const SPOT_NEAR_RADII: f32 = 1e-3;
 
 /// A light of a style, before the camera is known.
@@ -52,6 +52,8 @@ impl ChosenLights {
         pictures: &BTreeMap<String, Picture>,
     ) -> Self {
         let light = &style.light;
+
+        // Start with the file's lights, or with the main light.
         let mut lights = Vec::new();
         if light.file && !of_file.is_empty() {
             lights.extend(of_file.iter().map(|source| Chosen {
@@ -72,11 +74,15 @@ impl ChosenLights {
                 on_camera: light.space == LightSpace::Camera,
             });
         }
+
+        // Add the style's own lights and those of its beams.
         let dome = sky::dome(style, pictures);
         let extra = |light| extra(light, dome.is_some());
         lights.extend(light.extra.iter().map(extra));
         lights.extend(of_beams.iter().copied().map(Chosen::unshadowed));
         lights.retain(|light| light.source.intensity > 0.0);
+
+        // Keep the strongest, in the order in which they were added.
         let mut order: Vec<usize> = (0..lights.len()).collect();
         order.sort_by(|a, b| {
             let strength = |i: &usize| lights[*i].source.intensity;
@@ -92,7 +98,8 @@ impl ChosenLights {
         }
     }
 
-    /// The lights of a style's smoke, and whether they are these: its own, or these with shadows where none throws any.
+    /// The lights of a style's smoke, its own one or these, and whether they are these and throw shadows. Where none of
+    /// these does, they throw shadows on smoke alone.
     pub fn of_smoke(&self, style: &Style) -> (Self, bool) {
         if let Some(direction) = style.smoke.light {
             let mut own = style.clone();
@@ -132,9 +139,8 @@ impl ChosenLights {
 
     /// The lights of a frame as a camera sees it.
     ///
-    /// `bounds` is the box of all that throws shadows. With the box of a frame's smoke they are the lights of that:
-    /// points throw shadows there too, in pictures that come after those of the others, so that these keep their
-    /// numbers.
+    /// `bounds` is the box of all that throws shadows. With `smoke`, the box of a frame's smoke, they light smoke:
+    /// points throw shadows too, in pictures after those of the other lights, which so keep their numbers.
     pub fn of_frame(
         &self,
         style: &Style,
@@ -143,6 +149,7 @@ impl ChosenLights {
         camera: &Camera,
         view: &View,
     ) -> Lights {
+        // Place the lights, and turn those fixed to the camera into the world.
         let mut lights = Lights {
             count: self.lights.len() as u32,
             shadow_at: style.light.shadow_at,
@@ -156,6 +163,8 @@ impl ChosenLights {
                 source.direction = in_world(camera, source.direction);
             }
         }
+
+        // Give a view to every light that throws shadows, and to those that throw them on smoke alone.
         let sources = lights.sources.iter_mut().zip(&self.lights);
         let (first, others): (Vec<_>, Vec<_>) = sources.partition(|(_, light)| light.casts());
         let mut shadow_count = 0;
@@ -255,7 +264,7 @@ impl Chosen {
     }
 }
 
-/// What a point sees of a box: all of it from outside, from inside up to 87 degrees from the direction to its middle.
+/// The view of a point on a box: all of it from outside, from inside up to 87 degrees from the direction to its middle.
 fn point_view(position: [f32; 3], bounds: Bounds) -> Matrix {
     let radius = radius_of(bounds);
     let middle = (Vec3::from(bounds.0) + Vec3::from(bounds.1)) * 0.5;
@@ -266,7 +275,7 @@ fn point_view(position: [f32; 3], bounds: Bounds) -> Matrix {
     spot_view(position, axis, cosine, radius * SPOT_NEAR_RADII)
 }
 
-/// What a light sees: a spot its cone, a distant light what throws shadows into the picture.
+/// The view of a light: the cone of a spot, or all that throws shadows into the picture of a distant light.
 fn light_view(source: &LightSource, bounds: Bounds, camera: &Camera, view: &View) -> Matrix {
     if source.kind == LightSource::SPOT {
         let near = radius_of(bounds) * SPOT_NEAR_RADII;
@@ -276,17 +285,21 @@ fn light_view(source: &LightSource, bounds: Bounds, camera: &Camera, view: &View
     distant_view(source.direction, &casters, &seen(&casters, camera, view))
 }
 
-/// The corners of what a camera sees of a box, nearest to farthest depth.
+/// The corners of the part of space that a camera sees between the least and the greatest depth of a box.
 fn seen(corners: &[[f32; 3]], camera: &Camera, view: &View) -> Vec<[f32; 3]> {
     let eye = Vec3::from(view.eye_world);
     let forward = Vec3::from(view.forward_world);
     let [right, up, _] = camera.axes().map(Vec3::from);
+
+    // Find the least and the greatest depth of the box.
     let depths = corners
         .iter()
         .map(|corner| (Vec3::from(*corner) - eye).dot(forward));
     let (low, high) = depths.fold((f32::MAX, f32::MIN), |(low, high), depth| {
         (low.min(depth), high.max(depth))
     });
+
+    // Take the corners of the frame at both.
     let aspect = view.frame_px[0] / view.frame_px[1];
     let mut points = Vec::new();
     for depth in [low.max(view.near.min(high)), high] {

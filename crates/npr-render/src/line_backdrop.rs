@@ -8,8 +8,8 @@ use npr_core::camera::Camera;
 use npr_stylesheet::Style;
 
 impl<'a> LineRenderer<'a> {
-    /// The same, with the scene and the pictures that lines are judged before, where the style lets their colours
-    /// follow it ([`npr_stylesheet::LineBackground`]).
+    /// The same with a backdrop: the scene and its pictures, where the style lets the colours of lines follow what lies
+    /// behind them ([`npr_stylesheet::LineBackground`]).
     ///
     /// Each point of a stroke then looks at the colours on both of its sides in a picture of the scene without lines,
     /// before its background, of the drawing's size. What lies where is asked of the surface, so textures cut nothing

@@ -54,7 +54,7 @@ pub(crate) fn add_line_colors(
     Ok(())
 }
 
-/// Makes a part's colour of lines that of every kind without one of its own.
+/// Gives a part's line colour to every line kind that has none of its own.
 fn give_to_kinds(part: &mut Part) {
     for (i, kind) in part.line_kinds.iter_mut().enumerate() {
         if part.line_flags & 1 << i == 0 {
@@ -103,7 +103,7 @@ impl<'a> Kept<'a> {
     }
 }
 
-/// Whether the colour of any line is more than its part's.
+/// Whether any part has line flags: colours or widths beyond one plain value.
 pub(crate) fn is_any_painted(parts: &[Part]) -> bool {
     parts.iter().any(|part| part.line_flags != 0)
 }

@@ -32,7 +32,7 @@ use npr_stylesheet::{
 pub(crate) struct StyledModel {
     pub vertices: Vec<Vertex>,
     pub parts: Vec<Part>,
-    /// Number of the part behind all others that finishes smoke, where a pen or a picture does.
+    /// Number of the part that stands for smoke, behind all others, where a pen or a picture finishes smoke.
     pub smoke_part: Option<u32>,
     /// Stroke charts, and what was done in another way than asked.
     pub inked: Inked,
@@ -49,6 +49,7 @@ impl StyledModel {
         style: &Style,
         options: &RendererOptions,
     ) -> Result<Self, RenderError> {
+        // Store the background picture behind the model's textures.
         let pictures = Pictures::new(style, &options.pictures)?;
         let mut textures = model.textures.clone();
         let background = options
@@ -58,6 +59,8 @@ impl StyledModel {
         let background_texture = background
             .and_then(|image| textures.add(image.size, &image.rgba, [Wrap::Clamp; 2]))
             .unwrap_or(NONE);
+
+        // Resolve the style for every part, with its tones and colours of lines.
         let mut parts: Vec<Part> = model.parts.iter().map(|info| part(info, style)).collect();
         let frame = FrameScale {
             height_px: options.size[1],
@@ -73,6 +76,8 @@ impl StyledModel {
             &mut parts,
             &mut textures,
         )?;
+
+        // Add the part that stands for smoke, and the ink of all parts.
         let mut smoke = match options.smoke.is_some() && style.smoke.is_finished_late() {
             true => Some(pictures.smoke_part(&style.smoke, &mut textures)?),
             false => None,
@@ -90,11 +95,15 @@ impl StyledModel {
         if parts.is_empty() {
             parts.push(Part::default());
         }
+
+        // Draw what hides the sky.
         let sky = SkyMaps::new(model, style, &parts, &mut textures);
         if sky.is_none() && style.light.hidden_sky().is_some() && !model.triangles.is_empty() {
             let notice = "nothing hides the sky: the textures leave no room for its shadows";
             inked.notices.push(notice.to_owned());
         }
+
+        // Put the part that stands for smoke behind all others.
         let smoke_part = smoke.is_some().then_some(parts.len() as u32);
         parts.extend(smoke);
         Ok(Self {
@@ -109,9 +118,11 @@ impl StyledModel {
     }
 }
 
-/// A part in the style that its names ask for.
+/// A part as the style's rules for its names make it.
 pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
     let look = info.look(style);
+
+    // Choose the colours of the surface and of its lines.
     let shade = &style.shade;
     let paper = shade.mode == ShadeMode::Paper;
     let own_color = look.shade_color.map(|color| color.linear());
@@ -124,6 +135,8 @@ pub(crate) fn part(info: &PartInfo, style: &Style) -> Part {
     let unlit = shade.mode == ShadeMode::Flat || (info.unlit && !paper);
     let mut line_color = look.line_color.srgb();
     line_color[3] *= style.line.opacity;
+
+    // Fill the part in, as a beam where the style makes it one.
     let mut part = Part {
         base_color: [
             base_color[0],
@@ -324,7 +337,7 @@ pub(crate) fn largest_half_width(style: &Style, parts: &[Part], base_px: f32) ->
 /// Thinnest base width in frame pixels of lengths that follow the frame: thinner ones would fade in small pictures.
 const THINNEST_PX: f32 = 1.0;
 
-/// Line width at factor 1, in frame pixels; what world units come to at the point of the model nearest to the eye.
+/// Line width at factor 1, in frame pixels, where a world unit is `world_px` pixels.
 pub(crate) fn base_px(style: &Style, height_px: u32, dpi: f32, world_px: f32) -> f32 {
     let base = style.line.width.base;
     let px = base.to_px(height_px as f32, dpi, world_px);
@@ -392,12 +405,12 @@ pub(crate) fn creases(style: &Style) -> Creases {
     Creases::over(style.line.crease_angle_deg.to_radians(), from)
 }
 
-/// Pixels beside a crease see less of its turn than the edge itself: what part of the angle a mask looks for under
-/// which edges are drawn.
+/// Share of the crease angle from which a mask marks pixels where edges decide what is a crease: pixels beside a crease
+/// see less of its turn than the edge itself.
 const MASK_SHARE: f32 = 0.875;
 
-/// Angle between normals of neighbouring pixels that makes a line: the style's own, else that of creases. Where edges
-/// decide what is a crease, the mask looks for a little less, so that it loses none.
+/// Angle between normals of neighbouring pixels that makes a line, in degrees: the style's own, else that of creases.
+/// Where edges decide what is a crease, the mask looks for a little less, so that it loses none.
 fn normal_threshold_deg(style: &Style) -> f32 {
     let crease = style.line.crease_angle_deg;
     let of_creases = match style.line.method {

@@ -34,7 +34,7 @@ pub struct Model {
     pub(crate) parts: Vec<PartInfo>,
     pub(crate) textures: TextureStore,
     pub(crate) lights: Vec<FileLight>,
-    /// Where lines of the file end in the world: only strokes as curves draw them, and all frames take them in.
+    /// Ends of the file's lines in the world: only curves draw these lines, but all frames take them in.
     line_points: Vec<Vec3>,
     bounds: Bounds,
     cameras: Vec<(String, Camera)>,
@@ -85,12 +85,16 @@ impl Model {
             cameras: placement::cameras_of(scene),
             notices: scene.notices.iter().map(ToString::to_string).collect(),
         };
+
+        // Add the meshes of all nodes.
         let mut textures = Textures::new(scene);
         for (object, node) in scene.nodes.iter().enumerate() {
             if let Some(mesh) = node.mesh.and_then(|mesh| scene.meshes.get(mesh as usize)) {
                 model.add_node(scene, object as u32, node, mesh, &mut textures)?;
             }
         }
+
+        // Settle what depends on all of them: textures, bounds, lights, and curvature in radii.
         model.notices.extend(textures.notice.take());
         model.textures = textures.store;
         model.bounds = npr_core::camera::bounds_of(model.posed_points());
@@ -116,6 +120,7 @@ impl Model {
         mesh: &npr_scene::Mesh,
         textures: &mut Textures,
     ) -> Result<(), RenderError> {
+        // Prepare the mesh at its node, and check that everything can be numbered.
         let first_joint = self.palette.len() as u32;
         self.palette.extend(placement::matrices_of(scene, node));
         let determinant = placement::determinant_of(&self.palette[first_joint as usize]);
@@ -132,6 +137,7 @@ impl Model {
         check_count("triangles", self.triangles.len(), instance.triangles.len())?;
         check_count("edges", self.edges.len(), instance.edges.len())?;
 
+        // Append vertices, triangles and edges, numbered as in the whole model.
         let joint_count = self.palette.len() as u32 - first_joint;
         self.influences
             .extend(instance.influences.iter().map(|influence| {
@@ -166,6 +172,8 @@ impl Model {
             }
         }));
         self.normals_cos.extend(&instance.normals_cos);
+
+        // Append its parts, one for each piece.
         let infos: Vec<PartInfo> = parts
             .iter()
             .map(|part| {
@@ -274,12 +282,12 @@ impl Model {
         self.moved(influence, |m| m.transform_point3(position))
     }
 
-    /// What a direction at a vertex with this influence is in the world; its length means nothing.
+    /// A direction at a vertex with this influence, turned into the world; its length means nothing.
     pub(crate) fn posed_direction(&self, direction: Vec3, influence: &Influence) -> Vec3 {
         self.moved(influence, |m| m.transform_vector3(direction))
     }
 
-    /// The blend of what the matrices of an influence make of something.
+    /// Applies `by` to the matrices of an influence, and blends what it gives by their weights.
     fn moved(&self, influence: &Influence, by: impl Fn(&Mat4) -> Vec3) -> Vec3 {
         let moved = |k: usize| {
             let m = Mat4::from_cols_array_2d(&self.palette[influence.joints[k] as usize]);

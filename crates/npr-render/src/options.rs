@@ -51,8 +51,8 @@ pub struct RendererOptions {
     /// Most pixels drawn at once, 4 million by default and at most; a larger frame is drawn in tiles. Fewer need less
     /// memory and more time. Tiles keep at least 64 pixels a side.
     pub tile_pixels: u32,
-    /// Whether the frame is taken by [`Renderer::draw_bands`](crate::Renderer::draw_bands) where that can be: only a
-    /// band of it is planned then.
+    /// Whether [`Renderer::draw_bands`](crate::Renderer::draw_bands) draws the frame where it can: then memory is
+    /// planned for a single band.
     pub in_bands: bool,
 }
 

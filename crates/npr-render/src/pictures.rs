@@ -64,7 +64,7 @@ impl<'a> Pictures<'a> {
         })
     }
 
-    /// What stands for smoke among the parts: its tones, from a picture where the style names one.
+    /// The part that stands for smoke: it holds its tones, from a picture where the style names one.
     pub fn smoke_part(
         &self,
         smoke: &SmokeStyle,
@@ -77,6 +77,8 @@ impl<'a> Pictures<'a> {
             ramp: smoke.levels(),
             ..Part::default()
         };
+
+        // Read the tones from a picture, where the style names one.
         let name = &smoke.ramp_image;
         if !name.is_empty()
             && let Some(start) = self.tone_row(name, smoke.softness, textures)?
@@ -135,11 +137,15 @@ pub(crate) fn add_tone_rows(
         if look.ramp_image.is_empty() || look.beam.is_some() {
             continue;
         }
+
+        // Make the row of each picture once.
         let start = match made.get(look.ramp_image) {
             Some(start) => *start,
             None => pictures.tone_row(look.ramp_image, style.shade.softness, textures)?,
         };
         made.insert(look.ramp_image, start);
+
+        // Let the part read it.
         if let Some(start) = start {
             part.tone_row = start;
             part.flags |= Part::TONE_ROW;

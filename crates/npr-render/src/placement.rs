@@ -8,7 +8,7 @@ use npr_scene::{Node, Scene};
 /// Lowest and highest corner of a box.
 pub(crate) type Bounds = ([f32; 3], [f32; 3]);
 
-/// What every sort of model tells of its scene, from its fields `bounds`, `cameras`, `parts` and `notices`.
+/// What every kind of model says about its scene, from its fields `bounds`, `cameras`, `parts` and `notices`.
 macro_rules! accessors {
     () => {
         /// Lowest and highest corner of the posed scene, in the world; a unit box where nothing is drawn.
@@ -86,6 +86,8 @@ pub(crate) fn determinant_of(matrix: &Matrix) -> f32 {
 /// A node's camera in the world, with its name.
 fn camera_of(scene: &Scene, node: &Node) -> Option<(String, Camera)> {
     let camera = scene.cameras.get(node.camera? as usize)?;
+
+    // Place the camera, which looks against the node's z axis.
     let m = Mat4::from_cols_array_2d(&node.world_from_node);
     let eye = m.w_axis.truncate();
     let projection = match camera.projection {
@@ -94,6 +96,8 @@ fn camera_of(scene: &Scene, node: &Node) -> Option<(String, Camera)> {
             Projection::Parallel { height: 2.0 * ymag }
         }
     };
+
+    // Give it the name of its node, or its own where the node has none.
     let name = if node.name.is_empty() {
         &camera.name
     } else {
@@ -108,7 +112,7 @@ fn camera_of(scene: &Scene, node: &Node) -> Option<(String, Camera)> {
     Some((name.clone(), camera))
 }
 
-/// What a vector in the camera's axes is in the world.
+/// A vector in the camera's axes as one in the world.
 pub(crate) fn in_world(camera: &Camera, direction: [f32; 3]) -> [f32; 3] {
     let [right, up, back] = camera.axes().map(Vec3::from);
     (right * direction[0] + up * direction[1] + back * direction[2]).to_array()

@@ -41,7 +41,7 @@ struct RendererPlan<'a> {
     speed_lines: Option<SpeedLines<'a>>,
     blended: Option<(Box<RendererPlan<'a>>, Blending)>,
     lettering: Lettering,
-    /// Memory of all that it is made of.
+    /// Bytes planned for the renderer and the looks that it blends.
     planned_bytes: u64,
 }
 
@@ -142,7 +142,8 @@ impl<'a> Renderer<'a> {
         self
     }
 
-    /// The same, with somebody told after each tile how many are done, of how many; not of a frame in one piece.
+    /// The same renderer, which calls `tell` after each tile with how many are done, of how many; never for a single
+    /// tile.
     pub fn with_progress(mut self, tell: &'a dyn Fn(usize, usize)) -> Self {
         self.frames.tell = Some(tell);
         self
@@ -169,7 +170,7 @@ impl<'a> Renderer<'a> {
 
     /// Draws the model as a camera sees it, one row of tiles after the other, and hands each to `take` as a frame as
     /// wide as the whole; the same pixels as [`Self::draw`], without ever holding them all. Ends early where `take`
-    /// says no.
+    /// returns false.
     ///
     /// What comes back has times and notices, and no pixels.
     ///
@@ -179,7 +180,7 @@ impl<'a> Renderer<'a> {
     ///
     /// # Panics
     ///
-    /// Where [`Self::draws_bands`] says no.
+    /// Where [`Self::draws_bands`] returns false.
     pub fn draw_bands(
         &mut self,
         camera: &Camera,
@@ -239,6 +240,7 @@ impl<'a> Renderer<'a> {
         contrasted: Option<&(Sides, Rules)>,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
+        // Draw curves and speed lines, and let the other look show through.
         let frames = &self.frames;
         let look = (&frames.style, &frames.options);
         curves::finish(self.lines.as_mut(), camera, look, contrasted, frame)?;
@@ -248,6 +250,8 @@ impl<'a> Renderer<'a> {
         if let Some((other, blending)) = &mut self.blended {
             blending.finish(&other.draw(camera)?, frame);
         }
+
+        // Set the words over everything.
         let depths_on = |size| Surfaces::new(frames.model, &frames.styled.parts, view, size).depths;
         self.lettering
             .finish(view, frames.options.dpi, frame, depths_on);
@@ -255,8 +259,8 @@ impl<'a> Renderer<'a> {
     }
 }
 
-/// Whether a frame in such tiles is done with its last tile: curves, speed lines, a second look and words go over it
-/// as a whole.
+/// Whether a frame in such tiles can be drawn in bands: curves, speed lines, a second look and words go over it as a
+/// whole.
 fn draws_bands(style: &Style, tiles: &Tiles) -> bool {
     let goes_over = style.has_curves()
         || !style.trails().is_empty()

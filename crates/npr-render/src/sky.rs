@@ -18,11 +18,11 @@ use npr_stylesheet::Style;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Triangles that all pictures of what hides the sky draw together at most, but for the fewest pictures: scenes of few
-/// triangles have more of them, and smoother shadows.
+/// Most triangles that all pictures of what hides the sky draw together, unless [`VIEWS`] needs more: scenes of few
+/// triangles get more pictures, and smoother shadows.
 const TRIANGLES_DRAWN: usize = 10_000_000;
 
-/// Fewest and most pictures, half of them from above. Fewer show as the edges of so many shadows.
+/// Fewest and most pictures, half of them from above. With fewer, the edges of single shadows show.
 const VIEWS: [usize; 2] = [128, 256];
 
 /// Texels of a picture along a side.
@@ -44,8 +44,8 @@ pub(crate) struct SkyMaps {
 }
 
 impl SkyMaps {
-    /// Draws them for the sky of a style that asks for it; none where none does, nothing is there to hide it, or the
-    /// store has no room for them. O(pictures * (triangles + texels)), parallel.
+    /// Draws the pictures for a sky that the style lets things hide; none where there is no such sky, nothing to hide
+    /// it, or no room in the store. O(pictures * (triangles + texels)), parallel.
     pub fn new(
         model: &Model,
         style: &Style,
@@ -99,7 +99,7 @@ impl SkyMaps {
         })
     }
 
-    /// Tells the lights of a frame where they lie.
+    /// Tells the lights of a frame where the pictures lie.
     pub fn apply_to(&self, lights: &mut Lights) {
         lights.sky_center = self.center;
         lights.sky_radius = self.radius;
@@ -108,8 +108,8 @@ impl SkyMaps {
     }
 }
 
-/// Right, up and outwards of picture `i`: outwards, evenly over the sphere, from `up` downwards, by Fibonacci's
-/// lattice.
+/// The right, up and outward axis of picture `i`. The outward axes spread evenly over the sphere, from `up` downwards,
+/// by Fibonacci's lattice.
 fn axes_of(i: u32, views: u32, up: Vec3) -> [Vec3; 3] {
     let height = 1.0 - (2 * i + 1) as f32 / views as f32;
     let ring = (1.0 - height * height).max(0.0).sqrt();
@@ -130,12 +130,15 @@ fn reach_of(
     places: &[[f32; 3]],
     axes: [Vec3; 3],
 ) -> Vec<u32> {
+    // Project the scene along the axes, with depths from 0 to 1 across the ball around it.
     let [right, up, outwards] = axes.map(|axis| axis.to_array());
     let clip_of = |v: u32| {
         let place = places[v as usize];
         let depth = (dot(place, outwards) + 1.0) * 0.5;
         [dot(place, right), dot(place, up), depth, 1.0]
     };
+
+    // Draw both sides of its triangles, with their holes.
     let cutout = Cutout {
         posed: &[],
         vertices: &model.vertices,
@@ -161,6 +164,8 @@ fn reach_of(
     let count = (SIDE * SIDE) as usize;
     let (mut ids, mut depths) = (vec![0; count], vec![0; count]);
     fill_triangles(&fill, &mut ids, &mut depths);
+
+    // Pack the heights; 0 where nothing is hit.
     let reach = |i: usize| match ids[i] {
         0 => 0,
         _ => sky_height(f32::from_bits(depths[i]) * 2.0 - 1.0).round() as u32,

@@ -45,6 +45,7 @@ impl Smoke {
     /// Spheres that grow from nothing or shrink away are left out while they are tiny; published ones are drawn at
     /// any size.
     pub fn of_puffs(puffs: &Puffs) -> Self {
+        // Find the largest sphere, which the others are compared with.
         let spheres = puffs.spheres();
         let largest = match puffs {
             Puffs::Cover(_) => spheres
@@ -53,6 +54,8 @@ impl Smoke {
                 .fold(0.0, f32::max),
             Puffs::Published(_) => 0.0,
         };
+
+        // Leave out specks, and take temperature as heat.
         let drawn = spheres.into_iter().map(|sphere| Sphere {
             heat: sphere.temperature,
             ..Sphere::new(
@@ -92,7 +95,7 @@ impl Smoke {
         self
     }
 
-    /// Both together, the spheres of `other` after those of this one; in the box around both spaces.
+    /// Both smokes together, the spheres of `other` after those of this one; in the box around both spaces.
     pub fn with(mut self, other: Self) -> Self {
         if self.spheres.is_empty() || other.spheres.is_empty() {
             let is_other = self.spheres.is_empty() && !other.spheres.is_empty();

@@ -22,6 +22,7 @@ impl Surfaces {
     /// `parts` say which sides are seen and which parts are beams, that hide nothing; cut-out parts have holes.
     /// O(vertices + triangles + pixels).
     pub fn new(model: &Model, parts: &[Part], view: &View, size: [u32; 2]) -> Self {
+        // Project the vertices.
         let clip_from_world = Mat4::from_cols_array_2d(&view.clip_from_world);
         let points = model.vertices.iter().zip(&model.influences);
         let clip: Vec<[f32; 4]> = points
@@ -30,6 +31,8 @@ impl Surfaces {
                 (clip_from_world * point.extend(1.0)).to_array()
             })
             .collect();
+
+        // Find the holes of cut-out parts.
         let cutout = Cutout {
             posed: &[],
             vertices: &model.vertices,
@@ -41,6 +44,8 @@ impl Surfaces {
             let corners = model.triangles[triangle as usize].corners;
             cutout.is_hole_at(triangle, weights_at(corners.map(|v| clip[v as usize]), ndc))
         };
+
+        // Draw the triangles without them.
         let window = Window::over(view.frame_px, [0.0; 2], view.frame_px, size);
         let fill = Fill {
             window: &window,

@@ -60,7 +60,7 @@ impl Textures {
     }
 }
 
-/// The way of wrapping as stores have it.
+/// A file's way of wrapping as texture stores have it.
 pub(crate) fn packed_wrap(wrap: npr_scene::Wrap) -> Wrap {
     match wrap {
         npr_scene::Wrap::Repeat => Wrap::Repeat,

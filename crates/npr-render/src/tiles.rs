@@ -43,7 +43,7 @@ impl Tiles {
                 margin: 0,
             };
         }
-        // Tiles in which the outline is looked through together lie on one grid over the whole frame.
+        // The tiles by which lines decide to turn darker or brighter lie on one grid over the whole frame.
         let margin = margin.min(600).next_multiple_of(TILE);
         let least = 2 * margin + KEPT_SIDE;
         let side = most_pixels.isqrt().clamp(least, SQUARE_SIDE) - 2 * margin;

@@ -127,6 +127,7 @@ pub struct TracedPath {
 /// Paths are found one after the other in one thread, while the others already turn found ones to curves; the same
 /// for any number of threads. Time grows with the paths' length. No path where there is no ink.
 pub fn trace(bitmap: &Bitmap, options: &TraceOptions) -> Tracing {
+    // Find the loops, and turn them into curves meanwhile.
     let size = [bitmap.width(), bitmap.height()];
     let (Found { loops, parents }, curves) =
         found(bitmap, options, usize::MAX, |outliner, batch| {
@@ -137,6 +138,8 @@ pub fn trace(bitmap: &Bitmap, options: &TraceOptions) -> Tracing {
             });
             curves.collect::<Vec<_>>()
         });
+
+    // Join every loop with its parent and its curves.
     let curves = curves.into_iter().flat_map(|(_, curves)| curves);
     let parents = parents.into_iter();
     let parents = parents.map(|parent| (parent != nest::NONE).then_some(parent));

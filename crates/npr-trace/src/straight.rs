@@ -143,6 +143,7 @@ impl Path<'_> {
     /// `skipped` runs.
     #[inline]
     fn length_from(&self, index: usize, left: u32, skipped: usize, most: u32) -> (u32, usize) {
+        // Begin at the corner, with a cone that holds everything.
         let mut cone = Cone::default();
         let mut seen = 0u8;
         let mut place = [0i32; 2];
@@ -151,11 +152,14 @@ impl Path<'_> {
         let mut next = index + 1;
         let (mut direction, mut count) = (self.runs[index].direction(), left);
         loop {
+            // Give up once all four directions have been seen.
             looks += 1;
             seen |= 1 << direction;
             if seen == 0b1111 {
                 return (length, looks);
             }
+
+            // Stop where the run leaves the cone.
             let step = STEPS[usize::from(direction)];
             let end = [
                 place[0] + step[0] * count as i32,
@@ -169,6 +173,8 @@ impl Path<'_> {
             if length >= most {
                 return (most, looks);
             }
+
+            // Narrow the cone, and take the next run, around the loop.
             place = end;
             cone.narrow(place);
             if next >= self.runs.len() {

@@ -57,11 +57,14 @@ impl<'a> Strip<'a> {
     /// Puts the start a step back, and takes from the end what is more than `most` steps or not straight any more.
     /// Gives the steps left.
     pub fn step_back(&mut self, most: u32) -> u32 {
+        // Add the step before the start.
         self.first -= 1;
         let direction = self.direction(self.first);
         self.counts[usize::from(direction)] += 1;
         let step = STEPS[usize::from(direction)];
         self.place = [self.place[0] - step[0], self.place[1] - step[1]];
+
+        // Drop steps beyond the most, and until a direction is missing.
         while self.last - self.first > most as usize || self.counts.iter().all(|count| *count > 0) {
             self.drop_last();
         }
@@ -71,6 +74,8 @@ impl<'a> Strip<'a> {
             self.front.push(turned(self.place, self.missing), -1);
             self.trim_back();
         }
+
+        // Drop steps until the rest is straight.
         while !self.is_straight() {
             self.drop_last();
             self.trim_back();

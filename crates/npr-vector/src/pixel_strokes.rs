@@ -51,7 +51,7 @@ pub const BYTES_PER_PIXEL: u64 = 32;
 /// Fragments that are made at once.
 const BATCH: u32 = 1 << 20;
 
-/// What is drawn.
+/// The input of [`trace`].
 #[derive(Debug, Clone, Copy)]
 pub struct PixelScene<'a> {
     /// The surface.
@@ -70,7 +70,7 @@ pub struct PixelScene<'a> {
 }
 
 impl PixelScene<'_> {
-    /// What passes read of the view.
+    /// The view as passes read it.
     pub fn pixel_view(&self, path: &PublishedPath) -> PixelView {
         let path = path.within_limits();
         PixelView {
@@ -108,20 +108,20 @@ pub struct Traced {
     pub segments: Vec<Segment>,
     /// Number of the segment that every pixel shows plus one; 0 where it shows none.
     pub owners: Vec<u32>,
-    /// Reversed depth of that fragment, as bits.
+    /// Reversed depth of the fragment that shows there, as bits.
     pub nearest: Vec<u32>,
     /// Four times the pixel plus the direction of every side.
     pub sides: Vec<u32>,
-    /// All sides, loop after loop.
+    /// The numbers of all sides, loop after loop.
     pub order: Vec<u32>,
-    /// Where every side is in its loop.
+    /// The place of every side in its loop.
     pub standings: Vec<Standing>,
 }
 
-/// Draws the lines of a view into a picture and puts the sides of its pixels in rows; `scene` is [`scene_depths`], or
-/// nearer where something else hides lines.
+/// Draws the lines of a view into a picture and ranks the sides of its pixels. `scene` is [`scene_depths`], or nearer
+/// where something else hides lines.
 ///
-/// O(edges + fragments + pixels + sides log sides). Of a picture without pixels nothing comes.
+/// O(edges + fragments + pixels + sides log sides). A picture without pixels gives an empty result.
 ///
 /// # Errors
 ///
@@ -196,7 +196,8 @@ fn segments_of(on: &PixelScene<'_>, view: &PixelView) -> (Vec<Segment>, Vec<u32>
     (segments, counts)
 }
 
-/// Owners of all pixels and their reversed depths: fragments are made, tested and drawn some segments at a time.
+/// The owners of all pixels and their reversed depths. Fragments are made, tested and drawn for a batch of segments at
+/// a time.
 fn draw(
     view: &PixelView,
     scene: &[f32],
@@ -238,7 +239,7 @@ fn draw(
     (owners, nearest)
 }
 
-/// The sides of an image of ink, as four times pixel plus direction, and their loops in rows.
+/// The sides of an image of ink, as four times pixel plus direction, and their ranked loops.
 ///
 /// Each loop starts at its side with the greatest Morton code, loops come by that side. `rounds` bounds pointer
 /// jumping; without it the links are walked, which gives the same.
@@ -261,7 +262,7 @@ pub fn ranked_sides(ink: &Ink<'_>, rounds: Option<u32>) -> Result<(Vec<u32>, Ran
     Ok((sides, ranked))
 }
 
-/// Where every node is in its chain.
+/// The place of every node in its chain.
 pub fn standings_of(ranked: &Ranked) -> Vec<Standing> {
     let fields = ranked.head.iter().zip(&ranked.rank).zip(&ranked.length);
     fields

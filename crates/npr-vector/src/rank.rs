@@ -71,6 +71,7 @@ impl Ranked {
     ///
     /// When a promise is broken, naming it.
     pub fn sanity_check(&self, next: &[u32]) {
+        // Check that the chains hold every node once, each from its head.
         assert_eq!(self.order.len(), next.len(), "every node once");
         let mut heads = Vec::new();
         for chain in self.chains() {
@@ -94,7 +95,7 @@ impl Ranked {
     }
 }
 
-/// Puts the nodes of a curve graph in rows; mesh edges are the keys.
+/// Ranks the nodes of a curve graph; their mesh edges are the keys.
 ///
 /// # Errors
 ///
@@ -149,7 +150,7 @@ pub enum RankError {
     /// The rounds or steps allowed were too few.
     #[error("{count} nodes were not ranked within {rounds} rounds")]
     Unsettled {
-        /// Nodes that do not know their place; at least one of every chain that failed.
+        /// Nodes whose place is not known; at least one of every chain that failed.
         count: usize,
         /// Rounds of pointer jumping that were allowed.
         rounds: u32,
@@ -170,7 +171,7 @@ pub struct Link {
 gpu_layout!(Link { next, prev, key });
 
 impl Link {
-    /// What decides, with the node's index, which node of a chain is its head: less comes first.
+    /// The order in which nodes of a chain may be its head, with ties broken by their index: the least is the head.
     ///
     /// 0 at the start of an open chain, and only there.
     pub fn precedence(&self) -> u32 {
@@ -184,12 +185,12 @@ impl Link {
 
 /// Spreads a key over the numbers from 1, so that neighbouring keys do not elect neighbouring heads.
 ///
-/// [`mix_bits`], except that 0 is left for the starts of open chains: the key that it belongs to shares 1 with another.
+/// It is [`mix_bits`], except that 0 is left for the starts of open chains: the key that would give 0 gives 1.
 pub fn hash_key(key: u32) -> u32 {
     mix_bits(key).max(1)
 }
 
-/// Adds predecessors and keys to successors, once the lists are known to be lists.
+/// Adds predecessors and keys to successors, and checks that they form lists.
 ///
 /// A node without successor has [`NONE`]; one that follows itself is a loop of one. O(n).
 ///

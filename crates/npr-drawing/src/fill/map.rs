@@ -11,15 +11,15 @@ pub(super) struct Map {
     pub(super) triangles: Vec<[u32; 3]>,
     /// The half-edge on the other side, or [`NONE`] at the border of the picture.
     twins: Vec<u32>,
-    /// The half-edge lies on a line.
+    /// Whether the half-edge lies on a line.
     walls: Vec<bool>,
 }
 
 impl Map {
     /// Triangulates segments that meet only at their ends, with triangles that keep clear of them.
     ///
-    /// A segment that crosses another after all is left out, so this neither fails nor panics for what snapping may
-    /// miss.
+    /// A segment that still crosses another is left out, so this neither fails nor panics where snapping missed a
+    /// crossing.
     pub(super) fn new(segments: &[[Point; 2]]) -> Result<Self, FillError> {
         let mut points = segments.as_flattened().to_vec();
         points.sort_unstable();

@@ -16,7 +16,7 @@ const BAND: i64 = 4 * FINENESS as i64;
 /// Triangles in a plane.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FlatMesh {
-    /// Corners, in the unit of the rings; each is one of some triangle.
+    /// Corners of triangles, in the unit of the rings.
     pub points: Vec<[f64; 2]>,
     /// Corners of triangles, all of positive area in the coordinates of the rings.
     pub triangles: Vec<[u32; 3]>,
@@ -125,7 +125,7 @@ impl Inside {
     }
 }
 
-/// Triangles with those points alone that they use.
+/// Triangles with only the points that they use.
 fn compact(map: &Map, kept: impl Iterator<Item = usize>) -> FlatMesh {
     let mut numbers = vec![u32::MAX; map.points.len()];
     let mut mesh = FlatMesh::default();

@@ -4,7 +4,7 @@ use npr_vector::stroke::Kind;
 use serde::de::{DeserializeSeed, Deserializer, EnumAccess, Error, VariantAccess, Visitor};
 use std::fmt;
 
-/// Reads a kind from its name; faults are told as those of an enum.
+/// Reads a kind from its name; errors are those of an enum.
 pub(super) fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Kind, D::Error> {
     from.deserialize_enum("Kind", &Kind::NAMES, KindReader)
 }

@@ -16,7 +16,7 @@ pub enum LetteringError {
     /// The font holds no outlines, only pictures or nothing.
     #[error("the font has no outlines")]
     NoOutlines,
-    /// The font's grid is not one.
+    /// The font's grid has no sensible number of units.
     #[error("the font has {units} units per em, but must have 16 to 16384")]
     Units {
         /// Units per em as the font states them.

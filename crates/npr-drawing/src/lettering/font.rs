@@ -8,7 +8,7 @@ use npr_core::decoding::guard;
 use std::fmt;
 use std::sync::Arc;
 
-/// Height of capitals where a font does not tell and has no H, as a part of the em: that of most text fonts.
+/// Height of capitals where a font does not state it and has no H, as a share of the em: that of most text fonts.
 const USUAL_CAP_HEIGHT: f64 = 0.7;
 
 /// Farthest that a letter may reach, in cap heights; swashes stay within ten.
@@ -43,14 +43,14 @@ pub(super) struct Letter {
     glyph: GlyphId,
     /// The first character that it stands for.
     pub(super) character: char,
-    /// How far the pen moves behind it, in cap heights.
+    /// Distance that the pen moves after it, in cap heights.
     pub(super) advance: f64,
-    /// Where it stands against the pen, in cap heights, y down.
+    /// Place relative to the pen, in cap heights, y down.
     pub(super) offset: [f64; 2],
 }
 
 impl Letter {
-    /// Whether the font lacks it. Nobody misses a blank.
+    /// Whether the font lacks it; blanks never count.
     pub(super) fn is_missing(&self) -> bool {
         self.glyph == GlyphId::NOTDEF && !self.character.is_whitespace()
     }
@@ -59,7 +59,7 @@ impl Letter {
 impl Font {
     /// The font in a file's bytes.
     ///
-    /// Reads its directory, not its letters: a broken one is found when it is set.
+    /// It reads the font's directory, not its letters: a broken letter is found when it is set.
     ///
     /// # Errors
     ///
@@ -95,7 +95,7 @@ impl Font {
         Ok(font)
     }
 
-    /// Height of the letter H in font units; none where the font has none.
+    /// Height of the letter H in font units; `None` if the font has none.
     fn height_of_h(&self) -> Option<f64> {
         let h = self.shape("H").ok()?.first().copied()?;
         let bounds = kurbo::Shape::bounding_box(&self.outline(&h).ok()?);
@@ -176,9 +176,9 @@ impl Font {
 struct Sink {
     path: BezPath,
     scale: f64,
-    /// A subpath has begun and is not closed.
+    /// Whether a subpath has begun and is not closed.
     is_open: bool,
-    /// Every number so far was one, and within reach.
+    /// Whether all numbers so far are finite and within reach.
     is_sound: bool,
 }
 
@@ -190,7 +190,7 @@ impl Sink {
         point
     }
 
-    /// Begins a subpath where a font forgets to.
+    /// Begins a subpath where the font did not.
     fn begin(&mut self) {
         if !self.is_open {
             self.path.move_to((0.0, 0.0));

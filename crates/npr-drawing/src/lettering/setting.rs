@@ -3,7 +3,7 @@
 /// Greatest `spread`: beyond, the first letters would all but vanish.
 pub const SPREAD_MAX: f64 = 0.8;
 
-/// How words are set; every value is brought into its range, and 0 where it is no number.
+/// How words are set; every value is clamped to its range, and 0 if it is not a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting {
     /// How far the lines bend, -1..1: the part of half a turn that they span, up in the middle where positive,
@@ -11,16 +11,16 @@ pub struct Setting {
     ///
     /// Short words bend less than asked: the circle's centre stays a cap height away from the letters.
     pub bend: f64,
-    /// How far letters lean to the right per height, -1..1; 0.2 is an italic.
+    /// How far letters lean to the right, as a share of their height, -1..1; 0.2 is an italic.
     pub slant: f64,
     /// How much letters grow from the first to the last, -0.8..0.8: from `1 - spread` to `1 + spread`.
     pub spread: f64,
     /// Free space added between letters, in cap heights, -0.5..2.
     pub spacing: f64,
-    /// From baseline to baseline in cap heights, 0.5..5; from 1 on it grows where letters of two lines would meet, as
-    /// a p over a T does, below they overlap.
+    /// Distance from baseline to baseline in cap heights, 0.5..5. From 1 on it grows where letters of two lines would
+    /// meet, as a p over a T does; below 1 they overlap.
     pub line_step: f64,
-    /// Turn of the whole, in radians, counter-clockwise in the picture.
+    /// Turn of the whole text, in radians, counter-clockwise in the picture.
     pub turn: f64,
 }
 

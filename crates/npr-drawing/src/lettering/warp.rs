@@ -5,10 +5,10 @@ use kurbo::{Affine, BezPath, CubicBez, Line, ParamCurve, PathEl, PathSeg, Point,
 use npr_core::math::tan_f64;
 use std::f64::consts::PI;
 
-/// Bends below this are straight.
+/// Least bend: lines with less are straight.
 const STRAIGHT: f64 = 1e-6;
 
-/// Longest piece of a curve that is bent as one, in cap heights: a quarter keeps within a thousandth.
+/// Longest piece of a curve that is bent as one, in cap heights: a quarter stays within a thousandth.
 const PIECE: f64 = 0.25;
 
 /// Most pieces of one curve.
@@ -51,9 +51,9 @@ impl Warp {
         }
     }
 
-    /// Appends a line, carried, to `out`.
+    /// Appends a line, mapped, to `out`.
     ///
-    /// Where lines stay straight, so does every piece. The length of the baseline is kept by an arc.
+    /// Where lines stay straight, so does every piece. An arc keeps the length of the baseline.
     pub(super) fn carry_path(&self, path: &BezPath, baseline: f64, out: &mut BezPath) {
         if self.arc.is_none() && self.spread == 0.0 {
             let lean = Affine::new([1.0, 0.0, -self.slant, 1.0, 0.0, 0.0]);
@@ -88,7 +88,7 @@ impl Warp {
         }
     }
 
-    /// Appends a carried curve: pieces keep their ends and their directions there.
+    /// Appends a mapped curve: its pieces keep their ends and their directions there.
     fn curve(&self, curve: PathSeg, baseline: f64, out: &mut BezPath) {
         let cubic = curve.to_cubic();
         let length =
@@ -103,7 +103,7 @@ impl Warp {
         }
     }
 
-    /// Where a point goes, and what a small step there becomes.
+    /// The image of a point, and that of a small step there.
     fn carry(&self, p: Point, step: Vec2, baseline: f64) -> (Point, Vec2) {
         // Grow: the scale runs linearly along the line, so its integral is the place.
         let rate = self.spread / self.half_width;
@@ -131,7 +131,7 @@ impl Warp {
     }
 }
 
-/// How far a path reaches from the origin along both axes, with its control points: what a map meets lies within.
+/// Greatest coordinates of a path along both axes, with its control points: all places that a map meets lie within.
 fn reach_of(path: &BezPath) -> Vec2 {
     if path.is_empty() {
         return Vec2::ZERO;

@@ -9,7 +9,7 @@ use npr_vector::mesh_lines::contour::steps::{HalfEdge, Viewer};
 use npr_vector::mesh_lines::graph::CurveNode;
 use npr_vector::rank::Link;
 
-/// What [`add_contours`] puts into a graph.
+/// The resources that [`add_contours`] adds to a graph.
 #[derive(Debug, Clone, Copy)]
 pub struct Contours {
     /// [`Viewer`]; written for every view.
@@ -24,21 +24,21 @@ pub struct Contours {
     pub front: ResourceId,
     /// [`CurveNode`]s.
     pub nodes: ResourceId,
-    /// Number of nodes that there are, also where they have no room: one element.
+    /// Number of nodes found, even if they have no room: one element.
     pub node_count: ResourceId,
-    /// How far passes over the nodes go.
+    /// The sizes of passes over the nodes.
     pub work: ListWork,
-    /// The nodes in rows, where that was asked for.
+    /// The ranked nodes, where that was asked for.
     pub lists: Option<RankedLists>,
 }
 
-/// Appends passes that find the contours of a shape, link them, and put them in rows where a scheme says how, with
-/// room for `capacity` nodes.
+/// Appends passes that find the contours of a shape and link them, with room for `capacity` nodes; with a scheme they
+/// also rank the nodes.
 ///
-/// Passes over faces and half-edges work on all of them, those over nodes on as many as there are.
+/// Passes over faces and half-edges work on all of them, those over nodes on as many as are found.
 ///
-/// Where there are more the nodes are of no use; the host runs a graph with more room. Takes 12 bytes for each
-/// half-edge besides the shape itself, and 28 for each node.
+/// If more are found than have room, the nodes are of no use, and the host runs a graph with more room. Takes 12 bytes
+/// for each half-edge besides the shape itself, and 28 for each node.
 pub fn add_contours(
     graph: &mut Graph,
     vertex_count: usize,

@@ -1,4 +1,4 @@
-//! Passes that draw lines into a picture, link the sides of its pixels, put them in rows, and make strips of them.
+//! Passes that draw lines into a picture, link and rank the sides of its pixels, and cut them into strips.
 
 use super::CurvesError;
 use super::ranking::{RankedLists, Scheme, add_ranking};
@@ -18,7 +18,7 @@ use npr_vector::pixel_strokes::strip::{CullRule, StripSpot};
 use npr_vector::pixel_strokes::{PixelScene, PublishedPath};
 use npr_vector::rank::Link;
 
-/// For how many of each there is room.
+/// Number of elements of each kind that there is room for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PixelRoom {
     /// Edges drawn.
@@ -30,14 +30,14 @@ pub struct PixelRoom {
 }
 
 impl PixelRoom {
-    /// What most views need.
+    /// Enough for most views.
     pub const FIRST: Self = Self {
         segments: 4096,
         fragments: 1 << 16,
         sides: 1 << 15,
     };
 
-    /// Whether there is room for others.
+    /// Whether there is room for `needed`.
     pub(super) fn holds(self, needed: Self) -> bool {
         let pairs = [
             (self.segments, needed.segments),
@@ -58,18 +58,18 @@ impl PixelRoom {
     }
 }
 
-/// What hides lines.
+/// Where the depths that hide lines come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hiding {
     /// The shape's surfaces, drawn by the engine.
     Surfaces,
-    /// These, and a occluder depths that the host hands over.
+    /// The shape's surfaces, and occluder depths that the host hands over.
     Veiled,
-    /// What the host hands over, and nothing else.
+    /// Only the depths that the host hands over.
     Given,
 }
 
-/// What [`add_pixel_contours`] puts into a graph.
+/// The resources that [`add_pixel_contours`] adds to a graph.
 #[derive(Debug, Clone, Copy)]
 pub struct PixelContours {
     /// [`Viewer`]; written for every view.
@@ -84,12 +84,12 @@ pub struct PixelContours {
     pub judges: ResourceId,
     /// [`DrawnEdge`]s; written once.
     pub edges: ResourceId,
-    /// Reversed depth, as bits, of every pixel of what the host hands over; written for every view, unless surfaces
-    /// alone hide lines.
+    /// Reversed depths, as bits, of the occluders at every pixel; written for every view, unless only surfaces hide
+    /// lines.
     pub occluder_depths: ResourceId,
     /// [`Segment`]s.
     pub segments: ResourceId,
-    /// Number of edges drawn, also where they have no room: one element.
+    /// Number of edges drawn, even if they have no room: one element.
     pub segment_count: ResourceId,
     /// Number of fragments of the segments that have room: one element.
     pub fragment_count: ResourceId,
@@ -101,17 +101,17 @@ pub struct PixelContours {
     pub sides: ResourceId,
     /// Number of sides: one element.
     pub side_count: ResourceId,
-    /// How far passes over the sides go.
+    /// The sizes of passes over the sides.
     pub side_work: ListWork,
-    /// Their loops in rows.
+    /// The ranked loops of the sides.
     pub lists: RankedLists,
 }
 
-/// Appends passes from a shape to the sides of its contours' pixels in rows, for a picture of `size` pixels.
+/// Appends passes from a shape to the ranked sides of its contours' pixels, for a picture of `size` pixels.
 ///
-/// Takes 36 bytes a pixel, 4 more with a occluder depths, 12 a fragment, and about 180 a side. Where counts exceed the
-/// room what is there is of no use; the host runs a graph with more. Passes over edges drawn, fragments and sides work
-/// on as many as there are.
+/// Takes 36 bytes a pixel, 4 more with occluder depths, 12 a fragment, and about 180 a side. Where counts exceed the
+/// room, the content is of no use, and the host runs a graph with more room. Passes over edges drawn, fragments and
+/// sides work on as many as are found.
 pub fn add_pixel_contours(
     graph: &mut Graph,
     shape: &HalfEdgeMesh,
@@ -197,7 +197,7 @@ pub fn add_pixel_contours(
     }
 }
 
-/// Fragments, tested and drawn: the owners of pixels, and their depths.
+/// Makes, tests and draws fragments; gives the owners of pixels and their depths.
 fn add_picture(
     graph: &mut Graph,
     (view, [surfaces, occluder_depths]): (ResourceId, [ResourceId; 2]),
@@ -233,7 +233,7 @@ fn add_picture(
     [owners, nearest]
 }
 
-/// Sides of the picture's pixels, their number, their links, and how far passes over them go.
+/// Marks, counts and links the sides of the picture's pixels; gives these and the sizes of passes over them.
 fn add_sides(
     graph: &mut Graph,
     owners: ResourceId,
@@ -255,10 +255,10 @@ fn add_sides(
     (sides, starts.total, links, work)
 }
 
-/// What [`add_strips`] puts into a graph.
+/// The resources that [`add_strips`] adds to a graph.
 #[derive(Debug, Clone, Copy)]
 pub struct PixelStrips {
-    /// [`SpeckRule`]; written by [`PixelStrips::write`], as all that follows up to `means`.
+    /// [`SpeckRule`]; written by [`PixelStrips::write`], like all below it up to `means`.
     pub speck_rule: ResourceId,
     /// [`CullRule`].
     pub cull_rule: ResourceId,
@@ -276,11 +276,11 @@ pub struct PixelStrips {
     pub kept: ResourceId,
     /// [`StripSpot`]s.
     pub strips: ResourceId,
-    /// Sides of each strip at its first.
+    /// Number of sides of each strip, at its first side.
     pub lengths: ResourceId,
 }
 
-/// Appends passes that filter loops in rows and cut them to strips.
+/// Appends passes that filter ranked loops and cut them into strips.
 pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -> PixelStrips {
     // Gather the sides of pixels in the order of their loops.
     let path = path.within_limits();
@@ -373,7 +373,7 @@ pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -
     }
 }
 
-/// Strips of kept sides, and their lengths.
+/// Cuts strips of kept sides, and measures them.
 fn add_segments(
     graph: &mut Graph,
     spots: ResourceId,
@@ -395,7 +395,7 @@ fn add_segments(
 }
 
 impl PixelStrips {
-    /// Hands the constants of a path over.
+    /// Hands the constants of a path to the engine.
     ///
     /// # Errors
     ///
@@ -429,7 +429,7 @@ impl PixelStrips {
 }
 
 impl PixelContours {
-    /// Hands over what stays from view to view.
+    /// Hands the shape, which stays from view to view, to the engine.
     ///
     /// # Errors
     ///
@@ -447,8 +447,8 @@ impl PixelContours {
         Ok(())
     }
 
-    /// Hands a view over, and the depths of what hides lines besides what the engine draws; of these none where
-    /// `occluder_depths` is empty.
+    /// Hands a view to the engine, and the depths of occluders that the engine does not draw; where `occluder_depths`
+    /// is empty there are none.
     ///
     /// # Errors
     ///
@@ -467,7 +467,7 @@ impl PixelContours {
         Ok(())
     }
 
-    /// Numbers of what the last run found.
+    /// The counts that the last run found.
     pub(super) fn needed(&self, session: &mut dyn Session) -> Result<PixelRoom, CurvesError> {
         let mut count = |id| Ok::<usize, CurvesError>(session.read(id)?[0] as usize);
         Ok(PixelRoom {

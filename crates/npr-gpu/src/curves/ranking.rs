@@ -35,7 +35,7 @@ impl Scheme {
     /// Splitters jump, as often as it may take.
     pub const RULING_SET: Self = Self::RulingSet { rounds: None };
 
-    /// Rounds for a number of nodes.
+    /// Number of rounds for a number of nodes.
     fn rounds(self, node_count: usize) -> u32 {
         let (asked, enough) = match self {
             Self::Wyllie { rounds } => (rounds, rounds_for(node_count)),
@@ -44,7 +44,7 @@ impl Scheme {
         asked.unwrap_or(enough).min(u32::BITS)
     }
 
-    /// What follows the length of a list with room for a number of nodes: only where all of them jump, rounds.
+    /// The indirect arguments of a list with room for a number of nodes: rounds, if all of them jump.
     pub(super) fn indirect(self, room: usize) -> IndirectArguments {
         let rounds = match self {
             Self::Wyllie { .. } => self.rounds(room),
@@ -63,10 +63,10 @@ impl Scheme {
 /// round.
 const ONE_PASS_NODES: usize = 8192;
 
-/// What [`add_ranking`] leaves in a graph.
+/// The resources that [`add_ranking`] adds to a graph.
 #[derive(Debug, Clone, Copy)]
 pub struct RankedLists {
-    /// Rounds of pointer jumping at most.
+    /// Most rounds of pointer jumping.
     pub round_count: u32,
     /// Number of nodes whose place is unknown: one element. The rows hold only where it is 0.
     pub unsettled: ResourceId,
@@ -74,20 +74,20 @@ pub struct RankedLists {
     pub rows: Rows,
 }
 
-/// Nodes of lists in rows.
+/// The ranked nodes of lists.
 #[derive(Debug, Clone, Copy)]
 pub struct Rows {
     /// [`Standing`] of every node.
     pub standings: ResourceId,
     /// All nodes, chain after chain.
     pub order: ResourceId,
-    /// Where chains start in `order`, at their heads; sums elsewhere.
+    /// Where chains start in `order`, at their heads; other entries hold sums.
     pub starts: ResourceId,
-    /// Heads in order, and how many chains there are.
+    /// Heads in order, and the number of chains.
     pub chains: Compacted,
 }
 
-/// Elements that jump, and how nodes hang on them.
+/// The elements that jump, and the element that each node counts from.
 struct Elements {
     work: ListWork,
     extent: ResourceId,
@@ -96,13 +96,12 @@ struct Elements {
     walks: ResourceId,
 }
 
-/// Appends passes that rank a buffer of [`Link`], which must be lists as far as the work reaches. Of [`ListWork`]
-/// made for a list's length, the rounds must be those of the [scheme](Scheme) for the buffer's room, where all nodes
-/// jump.
+/// Appends passes that rank a buffer of [`Link`], which must be lists as far as the work reaches. If `work` follows a
+/// list's length and all nodes jump, its rounds must be those of the [scheme](Scheme) for the buffer's room.
 ///
 /// Up to 4096 nodes take 21 passes by splitters and up to 39 by Wyllie's ranking; a million take 70 and 65. About 170
-/// bytes for each node. Splitters are counted by a pass, and passes over them are sized by their number; rounds that
-/// change nothing are empty.
+/// bytes for each node. A pass counts the splitters, and their number sizes the passes over them; rounds that change
+/// nothing are empty.
 pub fn add_ranking(
     graph: &mut Graph,
     links: ResourceId,
@@ -147,7 +146,7 @@ pub fn add_ranking(
     }
 }
 
-/// Puts nodes whose places are known in rows.
+/// Puts nodes in order by their known places.
 fn add_rows(graph: &mut Graph, links: ResourceId, places: ResourceId, work: &ListWork) -> Rows {
     // Measure the lists, and turn ranks to count from their heads.
     let all = work.elements();
@@ -175,7 +174,7 @@ fn add_rows(graph: &mut Graph, links: ResourceId, places: ResourceId, work: &Lis
     }
 }
 
-/// All nodes jump.
+/// Makes elements of all nodes.
 fn add_nodes(graph: &mut Graph, links: ResourceId, work: &ListWork) -> Elements {
     let count = graph.element_count(links);
     // Behind a list's end lie loops of one node, up to the last workgroup's: these jump too.
@@ -194,7 +193,7 @@ fn add_nodes(graph: &mut Graph, links: ResourceId, work: &ListWork) -> Elements 
     }
 }
 
-/// Splitters jump, and nodes count from them.
+/// Makes elements of the splitters, which all nodes count from.
 fn add_splitters(
     graph: &mut Graph,
     links: ResourceId,
@@ -239,7 +238,7 @@ fn add_splitters(
     }
 }
 
-/// All rounds in one pass; gives the reach and the hops after the last.
+/// Runs all rounds in one pass; gives the reaches and the hops after the last.
 fn add_short_ranking(
     graph: &mut Graph,
     elements: &Elements,
@@ -269,7 +268,7 @@ fn add_short_ranking(
     (settled, hops)
 }
 
-/// Rounds of finding heads; gives the reach after the last.
+/// Appends rounds of finding heads; gives the reaches after the last.
 fn add_breaking(graph: &mut Graph, elements: &Elements, rounds: u32) -> ResourceId {
     let count = graph.element_count(elements.first);
     let pair = [0; 2].map(|_| graph.buffer::<Reach>("reach", count));
@@ -283,7 +282,7 @@ fn add_breaking(graph: &mut Graph, elements: &Elements, rounds: u32) -> Resource
     settled
 }
 
-/// Cuts loops, then rounds of ranking; gives the hops after the last.
+/// Cuts loops and appends rounds of ranking; gives the hops after the last.
 fn add_jumping(
     graph: &mut Graph,
     elements: &Elements,
@@ -312,7 +311,7 @@ fn add_jumping(
     pair[rounds as usize % 2]
 }
 
-/// Ranks lists on an engine; the same as [`npr_vector::rank::walk`].
+/// Ranks lists on an engine, with the result of [`npr_vector::rank::walk`].
 ///
 /// # Errors
 ///
@@ -335,7 +334,7 @@ pub fn rank_on(
     read_rows(session.as_mut(), &lists, links.len())
 }
 
-/// The rows of the first nodes, where all nodes after them are loops of their own.
+/// Reads the ranking of the first nodes; all nodes after them must be loops of their own.
 pub(super) fn read_rows(
     session: &mut dyn Session,
     lists: &RankedLists,

@@ -44,7 +44,7 @@ impl<'a> ResidentShape<'a> {
         Self::of_scheme(engine, shape, None)
     }
 
-    /// The same, for contours and their nodes in rows, without a stop between the two.
+    /// As [`ResidentShape::new`], for contours with ranked nodes, without a stop between the two.
     ///
     /// # Errors
     ///
@@ -73,7 +73,7 @@ impl<'a> ResidentShape<'a> {
         })
     }
 
-    /// Which faces are turned to an eye, and the contours: the same as [`EdgeContours::new`] gives, bit for bit.
+    /// Which faces are turned to an eye, and the contours, bit for bit as [`EdgeContours::new`] gives them.
     ///
     /// # Errors
     ///
@@ -100,8 +100,8 @@ impl<'a> ResidentShape<'a> {
         })
     }
 
-    /// The nodes of the last contours in rows, the same as [`npr_vector::rank::rank_curves`] gives; nothing for a
-    /// shape that was not made [with ranking](ResidentShape::with_ranking).
+    /// The ranked nodes of the last contours, as [`npr_vector::rank::rank_curves`] gives them; nothing for a shape that
+    /// was not made [with ranking](ResidentShape::with_ranking).
     ///
     /// # Errors
     ///

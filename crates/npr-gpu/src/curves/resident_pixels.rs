@@ -23,9 +23,9 @@ use npr_vector::pixel_strokes::{
 pub enum Hiders<'a> {
     /// The shape's surfaces, whose depths the engine draws.
     Surfaces,
-    /// These, and what stands before them: reversed depths of all pixels, 0 where there is nothing.
+    /// The shape's surfaces, and occluders before them: reversed depths of all pixels, 0 where there are none.
     Veiled(&'a [f32]),
-    /// What lies at these reversed depths, and nothing else.
+    /// Only the surfaces at these reversed depths.
     Given(&'a [f32]),
 }
 
@@ -38,7 +38,7 @@ impl<'a> Hiders<'a> {
         }
     }
 
-    /// The depths that the host hands over.
+    /// The depths that the host hands to the engine.
     fn given(self) -> &'a [f32] {
         match self {
             Self::Surfaces => &[],
@@ -62,12 +62,12 @@ impl<'a> Hiders<'a> {
     }
 }
 
-/// A shape in an engine's memory, for the published path of any number of views: from surfaces to strips without a
-/// stop.
+/// A shape in an engine's memory, for drawing any number of views by the published path, from surfaces to strips,
+/// without a stop.
 ///
-/// What does not change is handed over once, a view in each drawing. A view with more edges, fragments or sides than
-/// any before makes room for the next power of two, and only then, or with another size of the picture or other
-/// numbers of filters, is the shape handed over again.
+/// What does not change is handed over once, a view with every drawing. The shape is handed over again for more room,
+/// the next power of two, where a view has more edges, fragments or sides than any before, and for another size of the
+/// picture or other filters.
 pub struct ResidentPixels<'a> {
     engine: &'a dyn Engine,
     shape: &'a HalfEdgeMesh,
@@ -76,7 +76,7 @@ pub struct ResidentPixels<'a> {
     times: Vec<PassTime>,
 }
 
-/// What a graph is made for.
+/// The settings that a graph is made for.
 #[derive(Debug, Clone, PartialEq)]
 struct Plan {
     size: [u32; 2],
@@ -107,10 +107,10 @@ impl<'a> ResidentPixels<'a> {
         }
     }
 
-    /// The picture of a view's lines with the sides of its pixels in rows, and their loops cut to strips.
+    /// The picture of a view's lines with its ranked sides, and their loops cut into strips.
     ///
-    /// The shape is this one's, whatever the scene says. Given the same depths, [`Traced`] is that of [`trace`], bit
-    /// for bit; [`Loops`] are those of [`Loops::new`] within rounding.
+    /// The shape is the resident one, whatever the scene holds. Given the same depths, [`Traced`] is that of [`trace`],
+    /// bit for bit; [`Loops`] are those of [`Loops::new`] within rounding.
     ///
     /// # Errors
     ///
@@ -158,7 +158,7 @@ impl<'a> ResidentPixels<'a> {
         &self.times
     }
 
-    /// The graph for a view; the last one where it fits.
+    /// The graph for a view; the last one if it fits.
     fn prepared(
         &mut self,
         on: &PixelScene<'_>,
@@ -205,7 +205,7 @@ impl Made {
         })
     }
 
-    /// What a run found.
+    /// Reads what a run found.
     fn found(&mut self, view: PixelView, count: PixelRoom) -> Result<(Traced, Loops), CurvesError> {
         // Read the picture and the sides of its pixels in rows.
         let session = self.session.as_mut();
@@ -249,10 +249,9 @@ fn first<T: Pod>(
     Ok(bytemuck::cast_slice(&words).to_vec())
 }
 
-/// Draws the lines of a view into a picture on an engine: what [`trace`] gives, bit for bit.
+/// Draws the lines of a view into a picture on an engine, bit for bit as [`trace`] does.
 ///
-/// The shape is handed over in every call, and again with more room where counts exceed it; [`ResidentPixels`] keeps
-/// it.
+/// Every call hands the shape over, and again with more room where counts exceed it; [`ResidentPixels`] keeps it.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! Passes that find what is seen of lines on a frame's G-buffer.
+//! Passes that find the visible samples of lines on a frame's G-buffer.
 
 use super::sums::{Compacted, add_compact};
 use super::work::ListWork;
@@ -18,15 +18,15 @@ pub struct SampledFrame {
     pub samples: ResourceId,
     /// Where each line starts among the samples; one more than there are lines.
     pub line_starts: ResourceId,
-    /// A uniform: samples to both sides over which shares are averaged.
+    /// Number of samples on either side over which shares are averaged, a uniform.
     pub radius: ResourceId,
 }
 
-/// Appends passes that find what is seen of every sample, which they give: 1 or 0, a buffer of `u32`.
+/// Appends passes that find whether every sample is visible; gives a buffer of `u32`, 1 or 0.
 ///
-/// The same as [`visible_samples`](npr_vector::mesh_lines::sample::visible_samples) of
-/// [`sample_visibility`](npr_vector::mesh_lines::sample::sample_visibility). Seven passes up to 4096 samples, and 28
-/// bytes for each besides itself.
+/// The result is that of [`visible_samples`](npr_vector::mesh_lines::sample::visible_samples) of
+/// [`sample_visibility`](npr_vector::mesh_lines::sample::sample_visibility). Takes seven passes up to 4096 samples, and
+/// 28 bytes for each besides itself.
 pub fn add_sampling(graph: &mut Graph, on: &SampledFrame) -> ResourceId {
     // Look at every sample from the eye.
     let count = graph.element_count(on.samples);

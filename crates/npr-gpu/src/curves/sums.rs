@@ -5,7 +5,7 @@ use crate::graph::{Graph, ResourceId};
 use crate::passes::vector;
 use npr_vector::rank::scan::BLOCK;
 
-/// What [`add_scan`] leaves in a graph.
+/// The resources that [`add_scan`] adds to a graph.
 #[derive(Debug, Clone, Copy)]
 pub struct Scan {
     /// The sum of all values before each.
@@ -14,7 +14,7 @@ pub struct Scan {
     pub total: ResourceId,
 }
 
-/// Appends passes that sum up a buffer of `u32`, or as much of it as the work reaches.
+/// Appends passes that sum up a buffer of `u32`, as far as the work reaches.
 ///
 /// Three passes up to 4096 values, two more for every 64 times as many. Sums wrap.
 pub fn add_scan(graph: &mut Graph, values: ResourceId, work: &ListWork) -> Scan {
@@ -37,7 +37,7 @@ fn add_scan_of_level(graph: &mut Graph, values: ResourceId, work: &ListWork, lev
     }
 }
 
-/// Sums within blocks, and of blocks.
+/// Appends sums within blocks, and of blocks.
 fn add_blocks(
     graph: &mut Graph,
     values: ResourceId,
@@ -52,8 +52,8 @@ fn add_blocks(
     [prefixes, sums]
 }
 
-/// Appends passes that sum up a buffer of `u32`, or as much of it as the work reaches, into one element, which it
-/// gives. The sum wraps.
+/// Appends passes that sum up a buffer of `u32`, as far as the work reaches, into one element, which is given back. The
+/// sum wraps.
 pub fn add_sum(graph: &mut Graph, values: ResourceId, work: &ListWork) -> ResourceId {
     let mut sums = values;
     for level in 0.. {
@@ -71,16 +71,16 @@ pub fn add_sum(graph: &mut Graph, values: ResourceId, work: &ListWork) -> Resour
 pub struct Compacted {
     /// The indices.
     pub list: ResourceId,
-    /// How many elements are marked: one element.
+    /// Number of marked elements: one element.
     pub count: ResourceId,
     /// Where each marked element is in the list.
     pub slots: ResourceId,
 }
 
-/// Appends passes that put the indices of marked elements in a row; `flags` are 0 or 1, and count as far as the work
-/// reaches.
+/// Appends passes that list the indices of marked elements in order; `flags` are 0 or 1, and are read as far as the
+/// work reaches.
 ///
-/// `capacity` is the room in the list. Where more elements are marked the count says so, and the rest is left out.
+/// `capacity` is the room in the list. If more elements are marked, the count tells, and later ones are left out.
 pub fn add_compact(
     graph: &mut Graph,
     flags: ResourceId,

@@ -4,22 +4,22 @@ use crate::graph::{Graph, ResourceId, WorkSize};
 use crate::passes::vector;
 use npr_vector::rank::work::{Arguments, WorkRule};
 
-/// How far passes over a list go: as far as there is room, or as the list is long.
+/// Which elements passes over a list work on: all that there is room for, or those of the list.
 ///
-/// Every pass over a list is appended with the same one, so that all of them work on the same elements.
+/// Every pass over a list is appended with the same `ListWork`, so that all of them work on the same elements.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ListWork {
-    /// Buffer of [`Arguments`] in the order of the rule; none where passes work on the whole room.
+    /// Buffer of [`Arguments`] in the order of the rule; `None` if passes work on the whole room.
     arguments: Option<ResourceId>,
     rule: WorkRule,
 }
 
-/// What else a list's length decides, besides passes over its elements and sums over them.
+/// Further passes that a list's length sizes, besides those over its elements and sums over them.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct IndirectArguments {
-    /// Rounds of pointer jumping.
+    /// Number of rounds of pointer jumping.
     pub rounds: u32,
-    /// Vertices drawn for each element.
+    /// Number of vertices drawn for each element.
     pub vertices: u32,
 }
 
@@ -35,7 +35,7 @@ impl ListWork {
         },
     };
 
-    /// The buffer of arguments, for inspection; none where passes work on the whole room.
+    /// The buffer of arguments, for inspection; `None` if passes work on the whole room.
     pub fn arguments(&self) -> Option<ResourceId> {
         self.arguments
     }
@@ -58,7 +58,7 @@ impl ListWork {
         self.at(level)
     }
 
-    /// The size of a round of pointer jumping: nothing is left to do in the last.
+    /// The size of a round of pointer jumping; rounds that change nothing are empty.
     ///
     /// # Panics
     ///

@@ -1,4 +1,4 @@
-//! A device, and noticing what goes wrong on it.
+//! A device, and the detection of its failures.
 //!
 //! After a loss, wgpu's creations, writes and submits report nothing: only the callback and failing maps do. So a
 //! [`Watch`] is installed before anything else, and every call asks it.
@@ -9,7 +9,7 @@ use crate::engine::EngineError;
 use npr_core::decoding::guard;
 use std::sync::Arc;
 
-/// What sessions share: the device, its queue, and what is known of them.
+/// What sessions share: the device, its queue, and its watch.
 #[derive(Debug)]
 pub(super) struct Gpu {
     pub(super) device: wgpu::Device,
@@ -19,7 +19,7 @@ pub(super) struct Gpu {
 }
 
 impl Gpu {
-    /// Fails if the device is lost or reported an error that no call took.
+    /// Fails if the device is lost, or reported an error outside of any call.
     pub(super) fn check(&self) -> Result<(), EngineError> {
         self.poll(wgpu::PollType::Poll)
     }
@@ -43,7 +43,7 @@ impl Gpu {
         self.watch.verdict()
     }
 
-    /// Runs `work` and fails with the first error that the device reports meanwhile, `place` named in it.
+    /// Runs `work` and fails with the first error that the device reports meanwhile; the error names `place`.
     pub(super) fn guarded<T>(
         &self,
         place: &str,
@@ -85,7 +85,7 @@ impl Gpu {
         errors.into_iter().next().map_or(Ok(made), Err)
     }
 
-    /// The error to return for what wgpu reported: the loss of the device, if that is behind it.
+    /// The error to return for one that wgpu reported: the loss of the device, if that caused it.
     pub(super) fn failed(&self, place: &str, error: &dyn std::error::Error) -> EngineError {
         let failure = EngineError::Failed {
             place: place.to_owned(),

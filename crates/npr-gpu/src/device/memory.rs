@@ -6,7 +6,7 @@ use super::staging::Staging;
 use crate::engine::EngineError;
 use crate::graph::{Kind, Resource};
 
-/// What a resource is on the device.
+/// The memory of a resource on the device.
 #[derive(Debug)]
 pub(super) enum Memory {
     /// An array or a uniform; at least one element, since empty buffers cannot be bound.
@@ -18,7 +18,7 @@ pub(super) enum Memory {
 impl Memory {
     /// Zeroed memory for a resource.
     ///
-    /// `more` is what else a buffer is used for than being bound and copied.
+    /// `more` adds usages of a buffer besides binding and copying.
     pub(super) fn new(
         gpu: &Gpu,
         resource: &Resource,
@@ -102,7 +102,7 @@ fn new_buffer(gpu: &Gpu, name: &str, bytes: usize, usage: wgpu::BufferUsages) ->
     })
 }
 
-/// Refuses what the limits rule out, before the driver sees it.
+/// Refuses resources that the limits rule out, before the driver sees them.
 fn check_size(limits: &wgpu::Limits, resource: &Resource) -> Result<(), EngineError> {
     let bytes = resource.word_count() as u64 * 4;
     let fits = match resource.kind {

@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub(super) struct Pipeline {
     /// Layout of group 0.
     pub(super) layout: wgpu::BindGroupLayout,
-    /// What runs.
+    /// The pipeline that runs.
     pub(super) stage: Stage,
 }
 

@@ -105,7 +105,7 @@ impl DeviceSession {
         }
     }
 
-    /// Where the device finds the size of a node: a buffer, and bytes from its start.
+    /// Where the device finds the size of a node: a buffer, and an offset in bytes.
     fn arguments(&self, WorkSize { arguments, index }: WorkSize) -> (&wgpu::Buffer, u64) {
         match &self.memory[arguments.index()] {
             Memory::Buffer(buffer) => (buffer, (index * size_of::<Arguments>()) as u64),
@@ -143,7 +143,7 @@ impl DeviceSession {
         })
     }
 
-    /// The times of all nodes; those that had nothing to do took none.
+    /// The times of all nodes; nodes without work took none.
     fn node_times(&self, step_times: &[Duration]) -> Vec<PassTime> {
         let nodes = self.graph.nodes().iter();
         let mut times: Vec<_> = nodes
@@ -227,7 +227,7 @@ fn depth_attachment(
     }
 }
 
-/// Keeps what is drawn, and what was there before unless it is cleared.
+/// The operation on a target: it is cleared or kept, and always stored.
 fn kept<V>(clears: bool, zero: V) -> wgpu::Operations<V> {
     let load = if clears {
         wgpu::LoadOp::Clear(zero)

@@ -8,7 +8,7 @@ use std::sync::mpsc;
 /// A mappable buffer with rows of words, each padded as copies from images demand.
 #[derive(Debug)]
 pub(super) struct Staging {
-    /// What copies go into.
+    /// The buffer that copies go into.
     pub(super) buffer: wgpu::Buffer,
     /// Bytes from one row to the next.
     pub(super) row_bytes: usize,

@@ -1,4 +1,4 @@
-//! A node with what running it takes.
+//! A node with all that the device needs to run it.
 
 use super::gpu::Gpu;
 use super::memory::Memory;
@@ -18,11 +18,11 @@ pub(super) struct Step {
     pub(super) pipeline: Arc<Pipeline>,
     /// Group 0.
     pub(super) bindings: wgpu::BindGroup,
-    /// How much it does at most.
+    /// The most work that it may have.
     pub(super) extent: Extent,
 }
 
-/// How much a step has room for.
+/// The most work that a step has room for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Extent {
     /// Workgroups in x and y.
@@ -106,8 +106,7 @@ fn extent_of(graph: &Graph, node: &Node) -> Result<Extent, EngineError> {
     })
 }
 
-/// Workgroups in x and y for a number of elements, none for none; nothing where there are more than a dispatch can
-/// have.
+/// Workgroups in x and y for a number of elements, 0 in x for none; `None` if there are more than a dispatch can have.
 fn groups_for(element_count: usize) -> Option<[u32; 2]> {
     let count = u32::try_from(element_count).ok()?;
     if count == 0 {

@@ -1,10 +1,10 @@
-//! Devices for tests of every crate: nothing else in a test opens one, so that all skip alike.
+//! Devices for tests of every crate: no other code in a test opens one, so that all tests skip alike.
 
 use super::{AdapterChoice, Device};
 use crate::testing::is_device_required;
 use std::sync::OnceLock;
 
-/// The device that all tests of a program share; `None`, said once on standard error, where there is none.
+/// The device that all tests of a program share; `None` if there is none, which is said once on standard error.
 ///
 /// # Panics
 ///
@@ -14,7 +14,7 @@ pub fn device() -> Option<&'static Device> {
     DEVICE.get_or_init(open).as_ref()
 }
 
-/// A device of its own for a test that breaks it; `None`, said on standard error, where there is none.
+/// A device of its own for a test that breaks it; `None` if there is none, which is said on standard error.
 ///
 /// # Panics
 ///

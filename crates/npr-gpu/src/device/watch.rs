@@ -1,4 +1,4 @@
-//! What a device reports outside of any call.
+//! The reports of a device outside of any call.
 
 use crate::engine::EngineError;
 use std::sync::{Arc, OnceLock};
@@ -7,7 +7,7 @@ use std::time::Duration;
 /// How long any call waits for the device before it counts as lost.
 pub const TIME_LIMIT: Duration = Duration::from_secs(30);
 
-/// What the device reported outside of any call; the first of each kind counts.
+/// The reports of a device outside of any call; the first of each kind counts.
 #[derive(Debug, Default)]
 pub(super) struct Watch {
     lost: OnceLock<String>,

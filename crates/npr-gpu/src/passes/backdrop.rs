@@ -116,7 +116,7 @@ pub const SMOOTH_RIMS: Pass = Pass {
     },
 };
 
-/// What the lines of every tile of the output start from, and what they stand before.
+/// What the lines of every tile of the output start from, and what lies behind them.
 pub const GATHER_TILES: Pass = Pass {
     name: "backdrop.gather_tiles",
     shader: npr_shaders::BACKDROP_GATHER_TILES,
@@ -135,7 +135,7 @@ pub const GATHER_TILES: Pass = Pass {
     },
 };
 
-/// The bounds of what the lines of every tile stand before, and its own vote.
+/// The bounds of what lies behind the lines of every tile, and the tile's own vote.
 pub const BOUND_TILES: Pass = Pass {
     name: "backdrop.bound_tiles",
     shader: npr_shaders::BACKDROP_BOUND_TILES,
@@ -153,7 +153,7 @@ pub const BOUND_TILES: Pass = Pass {
     },
 };
 
-/// Which way the lines of every tile move.
+/// Whether the lines of every tile turn darker or brighter.
 pub const VOTE_BIAS: Pass = Pass {
     name: "backdrop.vote_bias",
     shader: npr_shaders::BACKDROP_VOTE_BIAS,
@@ -174,7 +174,7 @@ pub const VOTE_BIAS: Pass = Pass {
     },
 };
 
-/// What was decided, kept for the next frame and blended along the outline for this one.
+/// The biases of tiles, kept for the next frame and blended along the outline for this one.
 pub const BLEND_BIASES: Pass = Pass {
     name: "backdrop.blend_biases",
     shader: npr_shaders::BACKDROP_BLEND_BIASES,

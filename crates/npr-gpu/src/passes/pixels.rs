@@ -1,6 +1,6 @@
 //! Passes that draw lines into a picture pixel by pixel and make strokes of them.
 //!
-//! [`crate::curves::pixels`] lines them up. Up to the links of sides they are exact; what smooths is within rounding,
+//! [`crate::curves::pixels`] lines them up. Up to the links of sides they are exact; smoothing agrees within rounding,
 //! so a side whose direction lies on a threshold may be kept by one engine alone.
 
 use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
@@ -15,7 +15,7 @@ use npr_vector::pixel_strokes::surface;
 use npr_vector::rank::Link;
 use npr_vector::rank::place::Standing;
 
-/// Which edges are drawn, as what, and which way round.
+/// Which edges are drawn, as which kind, and in which direction.
 pub const MARK_EDGES: Pass = Pass {
     name: "vector.mark_edges",
     shader: npr_shaders::VECTOR_MARK_EDGES,
@@ -308,7 +308,7 @@ pub const FIT_TANGENTS: Pass = Pass {
     },
 };
 
-/// Sides that run as their contour does.
+/// Sides whose loop runs in the direction of the contour.
 pub const CULL_SIDES: Pass = Pass {
     name: "vector.cull_sides",
     shader: npr_shaders::VECTOR_CULL_SIDES,
@@ -328,7 +328,7 @@ pub const CULL_SIDES: Pass = Pass {
     twin: |b| strip::cull_sides(&b.one(0), b.read(1), b.read(2), b.read(3), b.write(4)),
 };
 
-/// Sides that those around them keep.
+/// Sides kept by a vote of those around them.
 pub const VOTE_SIDES: Pass = Pass {
     name: "vector.vote_sides",
     shader: npr_shaders::VECTOR_VOTE_SIDES,

@@ -1,7 +1,7 @@
-//! Passes that link points to lines, put lines in a row, and find what is seen of them.
+//! Passes that link points to lines, rank them, and find their visible samples.
 //!
-//! [`crate::curves`] lines them up. Passes with an `extent` work on its first element's number of elements, since how
-//! many there are is found on the device; what lies behind stays as it is. [`SIZE_WORK`] makes the sizes of passes
+//! [`crate::curves`] lines them up. Passes with an `extent` work on as many elements as its first element holds, since
+//! their number is found on the device; elements after them keep their values. [`SIZE_WORK`] makes the sizes of passes
 //! that work on no more workgroups than hold a list.
 
 use crate::pass::{Agreement, Pass, Work, read, uniform, write};
@@ -77,7 +77,7 @@ pub const LINK_CONTOURS: Pass = Pass {
     },
 };
 
-/// Nodes of lines as ranking reads them.
+/// Links of nodes, in the form that ranking reads.
 pub const LIST_NODES: Pass = Pass {
     name: "vector.list_nodes",
     shader: npr_shaders::VECTOR_LIST_NODES,
@@ -147,7 +147,7 @@ pub const COMPACT: Pass = Pass {
     twin: |b| scan::compact(b.read(0), b.read(1), b.write(2)),
 };
 
-/// Every node of a list looks at its predecessor.
+/// Every node of a list finds its predecessor.
 pub const START_NODES: Pass = Pass {
     name: "vector.start_nodes",
     shader: npr_shaders::VECTOR_START_NODES,
@@ -176,7 +176,7 @@ pub const BREAK_LOOPS: Pass = Pass {
     twin: |b| jump::break_loops(b.read(0), b.read(1), b.write(2)),
 };
 
-/// Elements that know their chain's head become the first of their chains.
+/// Elements whose first reach holds their chain's head become the first of their chains.
 pub const CUT_LOOPS: Pass = Pass {
     name: "vector.cut_loops",
     shader: npr_shaders::VECTOR_CUT_LOOPS,
@@ -231,7 +231,7 @@ pub const WALK_TO_SPLITTER: Pass = Pass {
     twin: |b| splitter::walk_to_splitter(b.read(0), b.read(1), b.read(2), b.write(3)),
 };
 
-/// Every splitter looks at the one before it.
+/// Every splitter finds the one before it.
 pub const START_SPLITTERS: Pass = Pass {
     name: "vector.start_splitters",
     shader: npr_shaders::VECTOR_START_SPLITTERS,
@@ -278,7 +278,7 @@ pub const RANK_SPLITTERS: Pass = Pass {
     },
 };
 
-/// Nodes learn what the elements know that they hang on, and whether that is certain.
+/// Nodes get what is known of the elements that they count from, and whether that is settled.
 pub const SCATTER_RANKS: Pass = Pass {
     name: "vector.scatter_ranks",
     shader: npr_shaders::VECTOR_SCATTER_RANKS,
@@ -305,7 +305,7 @@ pub const SCATTER_RANKS: Pass = Pass {
     },
 };
 
-/// Heads learn how long their chains are.
+/// Heads get the lengths of their chains.
 pub const MEASURE_CHAINS: Pass = Pass {
     name: "vector.measure_chains",
     shader: npr_shaders::VECTOR_MEASURE_CHAINS,
@@ -393,7 +393,7 @@ pub const WEIGH_SAMPLES: Pass = Pass {
     },
 };
 
-/// What is seen of every sample: lines change only where it is clear.
+/// Whether each sample is visible: lines change only where that is clear.
 pub const FILTER_VISIBILITY: Pass = Pass {
     name: "vector.filter_visibility",
     shader: npr_shaders::VECTOR_FILTER_VISIBILITY,

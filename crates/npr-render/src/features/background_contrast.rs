@@ -19,27 +19,27 @@ use npr_style::compose::Compose;
 use npr_stylesheet::{BackgroundMethod, Style, Subjects};
 use std::collections::BTreeMap;
 
-/// Most frame pixels from an outline at which its line may still follow the background.
+/// Greatest distance from an outline, in frame pixels, at which its line may still follow the background.
 const REACH_MOST: f32 = 64.0;
 
-/// Frame pixels over which the rule ends beyond a line's own half width.
+/// Frame pixels beyond a line's half width over which its rule fades out.
 const FADE_PX: f32 = 3.0;
 
-/// How much longer the stretches are that decide together which way their lines move than those over which colours
-/// are blended.
+/// Length of the stretches that decide together whether their lines turn darker or brighter, as a multiple of the
+/// length over which colours are blended.
 const BIAS_OF_SMOOTH: f32 = 12.0;
 
 /// The subject whose parts are the background of all others.
 const BACKGROUND: &str = "background";
 
-/// What makes parts one subject.
+/// What the parts of one subject have in common.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum SubjectKey<'a> {
     /// The name that a rule gives.
     Named(&'a str),
-    /// Everything else.
+    /// They have no name, and the whole scene is one subject.
     Scene,
-    /// A node: at the top of the tree, or an object's own.
+    /// Their node: at the top of the tree, or the object's own.
     Node(u32),
 }
 
@@ -56,12 +56,13 @@ pub(crate) struct BackgroundContrast {
 }
 
 impl BackgroundContrast {
-    /// Those of `part_count` parts; what follows a model's own parts, `infos`, is of the background.
+    /// Numbers the subjects and rules of `part_count` parts; those beyond the model's own, `infos`, are background.
     pub fn needs(infos: &[PartInfo], style: &Style, part_count: usize) -> Self {
         let mut made = Self::default();
         let mut subjects = BTreeMap::new();
         let mut rule_count = 1;
         for info in infos {
+            // Number the subject of the part, 0 for the background.
             let look = info.look(style);
             let key = match look.subject {
                 Some(name) => SubjectKey::Named(name),
@@ -76,6 +77,8 @@ impl BackgroundContrast {
                 true => 0,
                 false => *subjects.entry(key).or_insert(next),
             };
+
+            // Number the rule that its outlines follow, 0 for none.
             let contrast = look.line_background.method != BackgroundMethod::Off && look.line_on;
             let rule = match contrast && subject != 0 {
                 true => made.number_of(look.line_background.rule(), &mut rule_count),
@@ -89,7 +92,7 @@ impl BackgroundContrast {
         made
     }
 
-    /// The number of a rule, which may be new.
+    /// The number of a rule, which is added to the list if it is new.
     fn number_of(&mut self, rule: Rule, count: &mut usize) -> u32 {
         if let Some(found) = (1..*count).find(|i| self.rules[*i] == rule) {
             return found as u32;
@@ -106,7 +109,8 @@ impl BackgroundContrast {
         *count as u32 - 1
     }
 
-    /// The rules of a frame whose widest line is `half_width` to each side, with `samples` a pixel along each axis.
+    /// The rules of a frame whose widest line is `half_width` to each side, in pixels, with `samples` a pixel along
+    /// each axis.
     pub fn rules(
         &self,
         style: &Style,
@@ -159,7 +163,7 @@ struct Borders {
     /// Settings of the picture without lines.
     bare_compose: ResourceId,
     part_subjects: ResourceId,
-    /// Which way lines moved in the frame before.
+    /// Whether lines turned darker or brighter in the frame before, a bias per tile.
     kept_biases: ResourceId,
 }
 
@@ -188,8 +192,8 @@ impl ContrastPasses {
         }
     }
 
-    /// The picture without lines near borders between subjects, the colours of both sides, and how far they reach;
-    /// gives the pictures of both sides.
+    /// Adds passes that draw the picture without lines near borders between subjects, and find in it the colours on
+    /// both sides of lines; gives the pictures of both sides.
     pub fn plan(
         &self,
         frame: &mut FrameGraph,
@@ -267,7 +271,7 @@ impl ContrastPasses {
         self.sides
     }
 
-    /// Hands over whose subject each part is of.
+    /// Hands over the subject and the rule of every part.
     pub fn upload(
         &self,
         session: &mut dyn Session,
@@ -315,7 +319,7 @@ impl ContrastPasses {
         write(session, borders.tile_window, &[window])
     }
 
-    /// Copies the kept part of both sides of a tile into those of the frame.
+    /// Reads both sides of a tile, and lets `paste` copy the kept part of each into that of the frame.
     pub fn read_sides(
         &self,
         session: &mut dyn Session,
@@ -346,10 +350,11 @@ fn bare_ids(frame: &mut FrameGraph, grids: &Grids, features: LineFeatures) -> [R
     [ids, depths]
 }
 
-/// What lies on both sides of the lines of a frame, for lines that the host draws.
+/// The colours on both sides of the lines of a frame, for lines that the host draws.
 #[derive(Debug, Clone)]
 pub(crate) struct Sides {
-    /// The subject's colour with its weight in alpha, and that behind with the number of the rule, as bytes.
+    /// The subject's colour with its weight in alpha, as bytes; in `backs` the colour behind, with the number of the
+    /// rule.
     pub fronts: Frame,
     pub backs: Frame,
 }
@@ -366,6 +371,7 @@ impl Sides {
     ///
     /// Both are sRGB bytes with straight alpha; edges are blended in sRGB, as curves are everywhere.
     pub fn lay(&self, lines: &[u8], rules: &Rules, rgba: &mut [u8]) {
+        // Take all pictures texel by texel.
         let texels = |bytes: &'_ [u8]| -> Vec<[u8; 4]> {
             bytes
                 .chunks_exact(4)
@@ -377,6 +383,8 @@ impl Sides {
             texels(&self.backs.rgba),
             texels(lines),
         );
+
+        // Recolour each texel of ink where its outline follows the background, and blend it over the frame.
         let sides = fronts.iter().zip(&backs);
         let mut contrast_cache = ContrastCache::default();
         for ((under, line), (front, back)) in rgba.chunks_exact_mut(4).zip(&lines).zip(sides) {

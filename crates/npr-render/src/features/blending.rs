@@ -25,6 +25,8 @@ impl Blending {
         if !style.blend.shows() {
             return Ok(None);
         }
+
+        // Put the mask, where the style names one, into a store of its own.
         let mut store = TextureStore::new();
         let mask = if style.blend.mask.is_empty() {
             None

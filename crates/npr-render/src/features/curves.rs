@@ -11,7 +11,7 @@ use npr_drawing::drawing::paint_drawing_over;
 use npr_style::backdrop::Rules;
 use npr_stylesheet::Style;
 
-/// Draws them over a frame; without a line model the frame gets a notice instead.
+/// Draws lines as curves over a frame; without a line model the frame gets a notice instead.
 ///
 /// `contrasted` holds what lies on both sides of outlines, where the colours of lines follow it.
 pub(crate) fn finish(

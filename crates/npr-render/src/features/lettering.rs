@@ -60,13 +60,14 @@ impl Lettering {
         self.stood(view, dpi).map(|(words, _)| words).collect()
     }
 
-    /// The same, each with the reversed depth from which on surfaces hide it; none where nothing does.
+    /// The same words, each with the reversed depth above which surfaces hide them; `None` where no surface does.
     fn stood<'a>(
         &'a self,
         view: &'a View,
         dpi: f32,
     ) -> impl Iterator<Item = (Lettered, Option<f32>)> + 'a {
         let placed = self.words.iter().filter_map(move |(said, words)| {
+            // Find where the words stand, and set them in the sizes that lengths have there.
             let (middle, world_px) = place_of(said, view)?;
             let px = |length: npr_stylesheet::Length| {
                 f64::from(length.to_px(view.frame_px[1], dpi, world_px))
@@ -81,6 +82,8 @@ impl Lettering {
                 text: said.text.clone(),
                 marks: words.marks(middle, px(said.size), bytes_of(said.color), &bands),
             };
+
+            // Let surfaces before the anchor hide them, where the style says so.
             let depth = said.anchor.filter(|_| said.hidden);
             Some((lettered, depth.map(|anchor| depth_of(anchor, view))))
         });
@@ -97,10 +100,13 @@ impl Lettering {
     ) {
         let mut depths = None;
         for (words, hidden_from) in self.stood(view, dpi) {
+            // Paint words that nothing hides as they are.
             let Some(hidden_from) = hidden_from else {
                 paint_over(&words.marks, &mut frame.rgba, frame.size);
                 continue;
             };
+
+            // Lay the others over pixel by pixel, as far as no surface before them covers it.
             let depths = depths.get_or_insert_with(|| depths_on(frame.size.map(|side| 2 * side)));
             let mut sheet = vec![0; frame.rgba.len()];
             paint_over(&words.marks, &mut sheet, frame.size);
@@ -119,10 +125,10 @@ impl Lettering {
 }
 
 /// How much nearer to the eye than an anchor a surface has to be to hide its words, as a share of the reversed depth:
-/// what they are fixed to does not.
+/// the surface under the anchor does not hide them.
 const COVER_ROOM: f32 = 0.01;
 
-/// Reversed depth from which on surfaces stand before a place.
+/// Reversed depth above which a surface stands before a place.
 fn depth_of(place: [f32; 3], view: &View) -> f32 {
     let clip = Mat4::from_cols_array_2d(&view.clip_from_world) * Vec3::from(place).extend(1.0);
     clip.z / clip.w * (1.0 + COVER_ROOM)

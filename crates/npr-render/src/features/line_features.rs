@@ -3,7 +3,7 @@
 use npr_style::compose::Compose;
 use npr_stylesheet::{OutlineMethod, Style};
 
-/// What the line methods of a style are made of.
+/// What the line methods of a style need, one flag for each group of passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct LineFeatures {
     /// Lines are detected on the G-buffer.

@@ -18,16 +18,16 @@ pub(crate) struct ScreenLines {
     mask_window: ResourceId,
     edges: ResourceId,
     mask: ResourceId,
-    /// What lines have their colours from, where they run.
+    /// What surface, light and depth decide about the colour of lines, at every pixel of the mask.
     tints: ResourceId,
     /// Mesh edges drawn with width.
     pub ribbons: ResourceId,
-    /// What covers lines that no mesh edge explains.
+    /// Ink beside the ribbons: stamps of lines that no mesh edge explains, the mask itself, or rims.
     pub overlay: ResourceId,
 }
 
 impl ScreenLines {
-    /// Adds what a method takes to find and draw lines.
+    /// Adds the resources and passes with which the methods of a style find and draw lines.
     pub fn plan(
         frame: &mut FrameGraph,
         grids: &Grids,
@@ -35,6 +35,8 @@ impl ScreenLines {
         features: LineFeatures,
     ) -> Self {
         let graph = &mut frame.graph;
+
+        // Size the pictures; one that no method needs has a single texel.
         let mask = size_if(features.mask, grids.mask);
         let tints = size_if(features.mask && features.paints, grids.mask);
         let overlay = features.residual || features.filter || features.rim;
@@ -48,6 +50,8 @@ impl ScreenLines {
             ribbons: graph.image("ribbons", Format::Rgba8, ribbons),
             overlay: graph.buffer::<u32>("overlay", pixel_count(overlay)),
         };
+
+        // Find and draw lines, where a method looks for them on the mask.
         if features.mask {
             lines.find(frame, grids, features);
         }
@@ -95,7 +99,7 @@ impl ScreenLines {
         }
     }
 
-    /// What lines have their colours from, where they run.
+    /// Adds the pass that decides the colours of lines at every pixel of the mask.
     fn color_mask(&self, frame: &mut FrameGraph, ids: ResourceId) {
         let bound = [
             frame.view,

@@ -1,4 +1,4 @@
-//! Shadows: what every light sees that throws some.
+//! Shadows: what every light sees that throws shadows.
 
 use crate::frame_graph::{FrameGraph, size_if, write};
 use npr_core::window::Window;
@@ -19,7 +19,7 @@ pub(crate) struct Shadows {
     views: Vec<ResourceId>,
     /// Triangle numbers that the lights see.
     pub pictures: [ResourceId; SHADOWS_MAX],
-    /// Depths of the same, kept apart only where they fall on smoke.
+    /// Depths of the same pictures; all share one where no shadows fall on smoke.
     pub depths: [ResourceId; SHADOWS_MAX],
 }
 
@@ -33,6 +33,8 @@ impl Shadows {
     ) -> Self {
         let graph = &mut frame.graph;
         let size = |i| size_if(i < count, [SHADOW_SIDE; 2]);
+
+        // Draw all pictures with the same depths, unless smoke reads them later.
         let first = graph.image("shadow depths", Format::Depth, size(0));
         let mut depths = [first; SHADOWS_MAX];
         if fall_on_smoke {
@@ -40,6 +42,8 @@ impl Shadows {
                 *depths = graph.image("shadow depths", Format::Depth, size(i));
             }
         }
+
+        // Add a view and a picture for every light, and draw them.
         let views = (0..count).map(|_| graph.uniform::<Matrix>("light view"));
         let shadows = Self {
             views: views.collect(),
@@ -53,7 +57,7 @@ impl Shadows {
         shadows
     }
 
-    /// One list of vertices serves all lights in turn.
+    /// Draws what every light sees; one list of projected vertices serves them all in turn.
     fn draw(&self, frame: &mut FrameGraph, vertex_count: usize) {
         let projected = frame.graph.buffer::<[f32; 4]>("projected", vertex_count);
         let targets = self.pictures.into_iter().zip(self.depths);
@@ -81,7 +85,7 @@ impl Shadows {
         write(session, self.window, &[window])
     }
 
-    /// Hands over what the lights of a frame look at.
+    /// Hands over the views of the lights.
     pub fn upload_view(
         &self,
         session: &mut dyn Session,

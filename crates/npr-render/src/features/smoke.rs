@@ -20,7 +20,7 @@ use npr_style::shadow::{SHADOW_SIDE, SHADOWS_MAX};
 use npr_style::smoke::{SmokeLook, pen};
 use npr_stylesheet::{SmokeLines, SmokeMethod, SmokeStyle, Style, Unit};
 
-/// Frame heights and dots per inch that lengths of a style are resolved with.
+/// The sizes that lengths of a style are resolved with.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Measure {
     pub height_px: f32,
@@ -37,7 +37,8 @@ impl Measure {
         style.sigma.to_px(self.height_px, self.dpi, world_px)
     }
 
-    /// Cells of the grids, for any camera: lengths in the world may need the finest.
+    /// Number of cells of the grids that tones are smoothed on, enough for any camera: lengths in the world may need
+    /// the finest.
     pub fn cell_count(&self, style: &SmokeStyle) -> usize {
         let finest = 4.0;
         let sigma = match style.sigma.unit {
@@ -52,7 +53,7 @@ impl Measure {
         look.cell_count()
     }
 
-    /// How far a pixel's smoke depends on those around, for tiles.
+    /// Distance in pixels within which other smoke changes a pixel: the margin of tiles.
     pub fn reach_px(&self, style: &SmokeStyle) -> f32 {
         let line = style.line.width.to_px(self.height_px, self.dpi, 0.0);
         4.0 * self.sigma_px(style, 0.0) + 2.0 * line
@@ -60,7 +61,7 @@ impl Measure {
 
     /// Settings of a frame: `bounds` is the space of the smoke, `lights` what it is lit by.
     ///
-    /// `surface_maps` says how many lights' pictures hold surfaces.
+    /// `surface_maps` is the number of lights whose pictures hold surfaces.
     pub fn look(
         &self,
         style: &Style,
@@ -70,15 +71,21 @@ impl Measure {
         surface_maps: u32,
     ) -> SmokeLook {
         let smoke = &style.smoke;
+
+        // Measure how deep the smoke lies, and how many pixels a unit of the world covers there.
         let center = (Vec3::from(bounds.0) + Vec3::from(bounds.1)) * 0.5;
         let radius = radius_of(bounds);
         let depth = (center - Vec3::from(lens.eye_world)).dot(Vec3::from(lens.forward_world));
         let world_px = 1.0 / lens.pixel_at(depth.max(lens.near)).max(1e-20);
+
+        // Cut its space into layers of depth.
         let layers = smoke.layers as f32;
         let range = match smoke.layer_depth > 0.0 {
             true => smoke.layer_depth,
             false => 2.0 * radius / layers,
         };
+
+        // Take over the settings of the style, lengths in pixels.
         let is_published = smoke.line.method == SmokeLines::Published;
         let is_flat = smoke.method == SmokeMethod::Billboards;
         let line = smoke.line.width.to_px(self.height_px, self.dpi, world_px);
@@ -122,6 +129,8 @@ impl Measure {
             ramp: smoke.levels(),
             ..SmokeLook::default()
         };
+
+        // Draw numbers of tones and outlines in place of colours where the last pass finishes the smoke.
         if smoke.is_finished_late() {
             let ([r, g, b], alpha) = (pen::OUTLINE, look.line_color[3]);
             (look.ramp, look.softness) = (pen::TONES, 0.5);
@@ -225,6 +234,7 @@ impl SmokePasses {
         window: ResourceId,
         (surfaces, surface_maps): ([ResourceId; SHADOWS_MAX], u32),
     ) -> Self {
+        // Give lights without shadows pictures of a single texel.
         let light_count = chosen.smoke_shadow_count();
         let side = |i: usize| size_if(i < light_count, [style.shadow_px; 2]);
         let pixels = pixel_count(measure.size);
@@ -250,12 +260,14 @@ impl SmokePasses {
             surface_maps,
             most,
         };
+
+        // Draw the spheres as the lights see them, then as the eye does.
         passes.draw_for_lights(graph);
         passes.draw(graph, style, window, surfaces);
         passes
     }
 
-    /// What the lights see; one list of balls serves them all in turn.
+    /// Draws what the lights see; one list of projected spheres serves them all in turn.
     fn draw_for_lights(&self, graph: &mut Graph) {
         for (i, lens) in self.light_lenses.iter().enumerate() {
             let project = [*lens, self.spheres, self.balls];
@@ -318,7 +330,7 @@ impl SmokePasses {
         graph.draw(&smoke::RESOLVE_PICTURE, &bound, &targets, false);
     }
 
-    /// What the last pass binds of smoke, whether there is any or not.
+    /// The resources of smoke that the last pass binds; placeholders without smoke.
     pub fn composed(passes: Option<&Self>, graph: &mut Graph) -> [ResourceId; 2 + SHADOWS_MAX] {
         let Some(passes) = passes else {
             let depth = graph.image("no smoke shadow", Format::Depth, [1, 1]);
@@ -375,6 +387,8 @@ impl SmokePasses {
             view,
             bounds,
         } = *moment;
+
+        // Settle the lens, the lights and the look of the smoke in this view.
         let lens = lens_of(view, &style.smoke);
         let extent = Some(smoke.extent());
         let lights = self.chosen.of_frame(style, bounds, extent, camera, view);
@@ -382,6 +396,8 @@ impl SmokePasses {
         let look = self
             .measure
             .look(style, &lens, space, &lights, self.surface_maps);
+
+        // Hand them over, with a lens for every light that throws shadows.
         write(session, self.lens, &[lens])?;
         write(session, self.look, &[look])?;
         write(session, self.lights, &[lights])?;

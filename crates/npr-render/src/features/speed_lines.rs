@@ -20,27 +20,27 @@ use npr_stylesheet::blend::blend;
 use npr_stylesheet::motion::Motion;
 use npr_stylesheet::{Color, Style};
 
-/// Longest trail in the picture, in pixels: more than the diagonal of any frame shows no more. What runs past the eye
-/// is cut there.
+/// Longest trail in pixels, more than the diagonal of any frame: longer ones are not drawn, and those that run past the
+/// eye are cut.
 const LONGEST_PX: f32 = 65_536.0;
 
-/// Memory for numbers and depths, movers, and what they left behind.
+/// Bytes per pixel for triangle numbers and depths, movers, and what they left behind.
 const BYTES_PER_PIXEL: usize = 44;
 
 /// Shortest trail that is drawn, in pixels.
 const SHORTEST_PX: f32 = 1.0;
 
-/// How much nearer to the eye than a trail a surface has to be to cover it, as a share of the reversed depth: what a
-/// thing slides along does not.
+/// How much nearer to the eye than a trail a surface has to be to cover it, as a share of the reversed depth: the
+/// surface that a thing slides along does not cover its trail.
 const COVER_ROOM: f32 = 0.01;
 
-/// Narrowest spacing of lines, in pixels: nearer ones are grey.
+/// Narrowest spacing of lines, in pixels: closer ones would show as grey.
 const SPACING_PX_MIN: f32 = 1.5;
 
 /// The speed lines of a style.
 pub(crate) struct SpeedLines<'a> {
     model: &'a Model,
-    /// What of a part decides which of its sides are seen.
+    /// The parts as the style draws them, which tells the sides that are seen.
     parts: Vec<Part>,
     /// Which mover each part belongs to.
     mover_of_part: Vec<Option<usize>>,
@@ -83,8 +83,12 @@ impl<'a> SpeedLines<'a> {
         if trails.is_empty() {
             return Ok(None);
         }
+
+        // Reserve memory for the pictures that trails are found on.
         let pixels = pixel_count(options.size);
         budget.take("speed lines", pixels, BYTES_PER_PIXEL)?;
+
+        // Join the parts of one trail into a mover.
         let trail_of = |info: &PartInfo| {
             let trail = info.look(style).trail;
             trails.iter().position(|other| trail == Some(*other))
@@ -103,7 +107,7 @@ impl<'a> SpeedLines<'a> {
         }))
     }
 
-    /// Draws them over a frame, behind what stands before the part they belong to. O(triangles + pixels * trails).
+    /// Draws the speed lines over a frame, behind what stands before their part. O(triangles + pixels * trails).
     pub fn finish(&self, view: &View, frame: &mut Frame) {
         // See which mover every pixel shows, and how deep.
         let Surfaces { ids, depths } = Surfaces::new(self.model, &self.parts, view, self.size);
@@ -189,12 +193,12 @@ impl Mover {
     }
 }
 
-/// Least depth of a trail's ends, as a part of that of the farther one: what runs past the eye is cut there, far
+/// Least depth of a trail's ends, as a share of the farther end's: a trail that runs past the eye is cut there, far
 /// outside any frame unless it runs into the eye itself.
 const NEAREST_SHARE: f32 = 1e-3;
 
-/// The ends of what of a segment lies before the eye; none where nothing does. A parallel view has no eye that
-/// anything could be behind.
+/// The ends of the part of a segment that lies before the eye; none where all of it lies behind. In a parallel view
+/// nothing lies behind the eye.
 fn before_eye(ends: [Vec3; 2], view: &View) -> Option<[Vec3; 2]> {
     if view.perspective < 0.5 {
         return Some(ends);
@@ -231,7 +235,7 @@ struct Behind {
     edge: u32,
 }
 
-/// What the mover `index` left behind along a unit vector, a pixel each.
+/// What the mover `index` left behind at every pixel; `along` is the unit vector along its trail.
 ///
 /// The picture is cut into slanted rows of pixels, each walked once: O(pixels).
 fn behind(movers: &[Option<usize>], index: usize, size: [u32; 2], along: Vec2) -> Vec<Behind> {

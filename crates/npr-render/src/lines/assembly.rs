@@ -18,11 +18,11 @@ pub(crate) struct Placed {
     normals: Vec<[f32; 3]>,
     world: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
-    /// Triangles of beams: no surface, but in the picture.
+    /// Triangles of beams: no surface, but part of what a picture frames.
     glowing: Vec<[u32; 3]>,
     surfaces: Vec<u32>,
     marks: Vec<[u32; 2]>,
-    /// Lines that are geometry themselves, and what they belong to.
+    /// Segments of the file's own lines, and the surface that each belongs to.
     polylines: Vec<[u32; 2]>,
     polyline_surfaces: Vec<u32>,
     mirrored: bool,
@@ -37,11 +37,11 @@ pub(crate) struct Assembly {
     pub meshes: Vec<Placed>,
     /// One for every object in every material and id, in the order in which faces name them.
     pub parts: Vec<PartInfo>,
-    /// Of every part, whether the file asks for a line around its material.
+    /// For every part, whether the file asks for a line around its material.
     pub marked: Vec<bool>,
 }
 
-/// What a part of a mesh is to lines.
+/// How lines treat a part of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Role {
     /// The surface of this number.
@@ -73,8 +73,11 @@ impl Assembly {
         node: &Node,
         mesh: &Mesh,
     ) {
+        // Join the parts of the mesh, and decide how lines treat each.
         let joined = Joined::new(&mesh.parts.iter().collect::<Vec<_>>());
         let roles = self.add_surfaces(scene, style, object, node, mesh);
+
+        // Sort triangles and segments by that.
         let placed = || joined.triangles.iter().zip(&joined.parts);
         let drawn: Vec<([u32; 3], u32)> = placed()
             .filter_map(|(corners, part)| match roles[*part as usize] {
@@ -91,6 +94,8 @@ impl Assembly {
                 Role::Beam | Role::Unseen => None,
             })
             .unzip();
+
+        // Place the mesh in the world.
         let marked = marked_vertices(&mesh.parts);
         let triangles: Vec<[u32; 3]> = drawn.iter().map(|(corners, _)| *corners).collect();
         let world = mesh
@@ -125,6 +130,7 @@ impl Assembly {
         let mut roles: BTreeMap<(Option<u32>, &[String]), Role> = BTreeMap::new();
         let parts = mesh.parts.iter().map(|part| {
             *roles.entry((part.material, &part.ids)).or_insert_with(|| {
+                // Leave out what pictures do not show, and beams.
                 let info = PartInfo {
                     ids: part.ids.clone(),
                     ..PartInfo::new(scene, object, &node.name, part.material)
@@ -135,6 +141,8 @@ impl Assembly {
                 if style.is_some_and(|style| info.is_beam(style)) {
                     return Role::Beam;
                 }
+
+                // Number the surface, and note whether its material asks for lines.
                 let material = part.material.and_then(|m| scene.materials.get(m as usize));
                 self.marked.push(material.is_some_and(|m| m.marked));
                 self.parts.push(info);
@@ -159,7 +167,7 @@ impl Assembly {
         self.meshes.iter().map(|mesh| mesh.world.len()).sum()
     }
 
-    /// What faces belong to, as shapes list it.
+    /// The surfaces that faces belong to, as shapes list them.
     pub fn surfaces(&self) -> Vec<Surface> {
         let surfaces = self.parts.iter().map(|info| Surface {
             object: info.object,

@@ -1,4 +1,4 @@
-//! The colour of strokes along themselves: what frames decide at the pixels of their mask, at every point of a stroke.
+//! Colours along strokes: each point of a stroke is coloured as frames colour the pixels of their mask.
 
 use super::texture_map::TextureMap;
 use crate::error::RenderError;
@@ -26,7 +26,7 @@ use npr_vector::mesh_lines::zero_set::CornerNormals;
 use npr_vector::stroke::Kind;
 use std::collections::BTreeMap;
 
-/// What the colours of strokes are found on.
+/// What the colours of strokes are computed from.
 #[derive(Clone, Copy)]
 pub(super) struct ColorInput<'a> {
     pub shape: &'a HalfEdgeMesh,
@@ -41,11 +41,11 @@ pub(super) struct ColorInput<'a> {
     pub style: &'a Style,
 }
 
-/// Everything that a view makes of it.
+/// The colours of strokes in one view.
 pub(super) struct StrokeColors<'a> {
     input: ColorInput<'a>,
     normals: &'a CornerNormals,
-    /// A bit per face: it is turned to the eye.
+    /// A byte per face: 1 where the face is turned to the eye.
     front: &'a [u8],
     view: View,
     lights: Lights,
@@ -55,13 +55,13 @@ pub(super) struct StrokeColors<'a> {
     center_world: [f32; 3],
 }
 
-/// Whether lines of a style are more than of one colour and width a surface.
+/// Whether a style gives lines more than one colour and width a surface.
 pub(super) fn is_painted(style: &Style) -> bool {
     style.line_paint_flags() != 0
 }
 
 impl<'a> StrokeColors<'a> {
-    /// For a view of `size` pixels; `normals` and `front` are those of the shape.
+    /// Prepares the colours for a view of `size` pixels; `normals` and `front` are those of the shape.
     pub fn new(
         input: ColorInput<'a>,
         normals: &'a CornerNormals,
@@ -75,9 +75,13 @@ impl<'a> StrokeColors<'a> {
             bounds,
             ..
         } = input;
+
+        // Settle the view and its lights.
         let view = camera.view(size, bounds);
         let lights = ChosenLights::new(style, input.lights, Vec::new(), input.pictures);
         let lights = lights.of_frame(style, bounds, None, camera, &view);
+
+        // Resolve the style for every part, with the texture that the style shows on it.
         let mut textures = input
             .map
             .map_or_else(TextureStore::new, |map| map.textures.clone());
@@ -94,6 +98,8 @@ impl<'a> StrokeColors<'a> {
                 };
             }
         }
+
+        // Give the parts the colours of their lines.
         let (low, high) = (Vec3::from(bounds.0), Vec3::from(bounds.1));
         let radius = 0.5 * (high - low).length();
         add_line_colors(
@@ -126,6 +132,8 @@ impl<'a> StrokeColors<'a> {
                 width: 1.0,
             };
         };
+
+        // Evaluate colour and width there, as frames do at a pixel.
         let scene = LineScene {
             view: &self.view,
             lights: &self.lights,
@@ -149,10 +157,14 @@ impl<'a> StrokeColors<'a> {
         let shape = self.input.shape;
         let (vertices, shares) = point.location.place(shape, point.world);
         let shares = shares.map(|share| share as f32);
+
+        // Take the face that the line crosses.
         let crossed = point.location.crossed_face().map(|face| Spot {
             corners: [0, 1, 2].map(|corner| 3 * face + corner),
             shares,
         });
+
+        // Else take the faces beside the edge, each with the shares of its own half-edge.
         let sides = match crossed {
             Some(_) => &[],
             None => shape.sides(point.location.edge),
@@ -173,7 +185,7 @@ impl<'a> StrokeColors<'a> {
         crossed.into_iter().chain(beside)
     }
 
-    /// Of half-edges those of a surface that are seen, or else of the surface, or else all.
+    /// Of half-edges those of a surface whose faces are seen; where there are none, those of the surface; else all.
     fn sides<'s>(&'s self, surface: u32, sides: &'s [u32]) -> impl Iterator<Item = u32> + 's {
         let shape = self.input.shape;
         let is_own = move |side: &u32| shape.face_surfaces[*side as usize / 3] == surface;

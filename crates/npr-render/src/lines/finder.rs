@@ -13,8 +13,8 @@ pub(crate) trait Finder {
     /// Contours along mesh edges.
     fn contours(&mut self, eye: &Eye) -> Result<EdgeContours, RenderError>;
 
-    /// All lines by a picture of them. What stands before the shape's own surfaces has the reversed depths of `veil`,
-    /// where there is any.
+    /// All lines, found on a picture of them. `occluder_depths` are the reversed depths of what stands before the
+    /// shape's own surfaces, where there is any.
     fn pixels(
         &mut self,
         on: &PixelScene<'_>,
@@ -31,7 +31,7 @@ pub(crate) trait Finder {
     }
 }
 
-/// The plain functions.
+/// Finds lines by the plain functions, on the processor.
 pub(crate) struct OnProcessor<'a>(pub(crate) &'a HalfEdgeMesh);
 
 impl Finder for OnProcessor<'_> {
@@ -55,7 +55,7 @@ impl Finder for OnProcessor<'_> {
     }
 }
 
-/// Passes on a device, which keeps the shape from view to view.
+/// Finds lines by passes on a device, which keeps the shape from view to view.
 pub(crate) struct OnDevice<'a> {
     engine: &'a dyn Engine,
     shape: &'a HalfEdgeMesh,
@@ -65,7 +65,7 @@ pub(crate) struct OnDevice<'a> {
 }
 
 impl<'a> OnDevice<'a> {
-    /// Hands nothing over before something is drawn.
+    /// Hands nothing to the device before something is drawn.
     pub(crate) fn new(engine: &'a dyn Engine, shape: &'a HalfEdgeMesh) -> Self {
         Self {
             engine,

@@ -26,7 +26,7 @@ use npr_vector::stroke::Stroke;
 use npr_vector::surface_location::SurfaceLocation;
 use rayon::prelude::*;
 
-/// What is drawn on the mesh beside lines of a picture: marked lines, which no picture of surfaces shows.
+/// Settings of what is drawn on the mesh beside lines of a picture: marked lines, which no picture of surfaces shows.
 pub(super) fn beside_image(settings: &LineSettings) -> LineSettings {
     LineSettings {
         kinds: 0,
@@ -43,6 +43,7 @@ pub(super) fn strokes(
     options: &LineOptions,
     (settings, paint, look): (&LineSettings, &Paint, &StrokeLook<'_>),
 ) -> Result<Vec<Stroke>, RenderError> {
+    // Draw a picture of the surfaces.
     let [width, height] = options.size.map(|side| side as usize);
     let mut budget = Budget::new(view.memory_limit);
     budget.take("a picture of surfaces", width * height, BYTES_PER_PIXEL)?;
@@ -61,11 +62,15 @@ pub(super) fn strokes(
         .smoke
         .and_then(|smoke| occluder_depths_of(&of_frame, smoke));
     let on = (&scene, view.projector, &picture);
+
+    // Follow the borders between surfaces.
     let mut strokes = Vec::new();
     if options.method == LineSource::Image {
         let runs = picture.borders(&scene, occluder_depths.as_deref()).runs(on);
         strokes = strokes_from(runs, view.shape, settings, look);
     }
+
+    // Follow the lines that are painted in textures.
     if let (Some(map), Some(wanted)) = (view.map, options.painted) {
         let all = ImageScene {
             kinds: KindSet::BITS,
@@ -82,7 +87,7 @@ pub(super) fn strokes(
     Ok(strokes)
 }
 
-/// How light the textures of a view are at every pixel, 0 to 1 as seen; no number where there is none.
+/// Lightness of the textures at every pixel of a view, sRGB-encoded, 0..1; not a number where there is none.
 fn lightness(
     shape: &HalfEdgeMesh,
     map: &TextureMap,

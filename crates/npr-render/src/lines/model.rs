@@ -85,8 +85,8 @@ pub struct LineModel {
     pictures: BTreeMap<String, Picture>,
 }
 
-/// What lines are prepared for: the cosine of the crease angle, as bits, between what, and whether intersections are
-/// wanted.
+/// What lines are prepared for: the cosine of the crease angle, as bits, what that angle lies between, and whether
+/// intersections are wanted.
 type PreparedKey = (u32, CreaseFrom, bool);
 
 /// What a drawing is made of besides contours.
@@ -98,7 +98,7 @@ struct Wanted<'a> {
     smoke: Option<(&'a Smoke, bool)>,
     /// The style's pictures by name.
     pictures: &'a BTreeMap<String, Picture>,
-    /// The scene without lines before its background, for lines that mind it.
+    /// A picture of the scene without lines and background, for lines whose colours follow it.
     behind: Option<&'a Frame>,
 }
 
@@ -114,9 +114,9 @@ impl LineModel {
         Self::of_assembly(scene, &Assembly::new(scene, None), options, None)
     }
 
-    /// The same without what a style makes beams of: light has no lines and hides none; and with textures, where the
-    /// style colours lines by them, in which case the scene's images have to be there. With a `folder` what is costly
-    /// is kept there as by [`LineModel::cached`].
+    /// As [`LineModel::new`], without what a style makes beams of: light has no lines and hides none. Where the style
+    /// colours lines by textures, these are kept too, and the scene's images have to be there. With a `folder` what is
+    /// costly is kept there as by [`LineModel::cached`].
     ///
     /// # Errors
     ///
@@ -196,9 +196,9 @@ impl LineModel {
     ///
     /// Line colours (`line.paint` with them, for every point of a stroke), width factors and whether a part has lines
     /// at all follow the style's rules; kinds and the crease angle are those of the options ([`LineOptions::of_style`]
-    /// takes them from the style). Width source `texture` counts as full. What lies behind lines takes a picture of it:
-    /// [`LineRenderer::with_backdrop`](super::LineRenderer::with_backdrop) lets them mind it. Strokes of the same lines
-    /// keep their ids from camera to camera. Of a scene out of sight the drawing is empty.
+    /// takes them from the style). Width source `texture` counts as full. Colours follow what lies behind lines only by
+    /// [`LineRenderer::with_backdrop`](super::LineRenderer::with_backdrop), which draws a picture of it. Strokes of the
+    /// same lines keep their ids from camera to camera. Of a scene out of sight the drawing is empty.
     ///
     /// The first drawing with a crease angle also prepares creases and, where they are wanted, intersections; every
     /// further one is O(faces + lines log lines), on all threads, with the same result for any number of them.
@@ -215,7 +215,7 @@ impl LineModel {
         self.draw_before(camera, style, options, None)
     }
 
-    /// The same before a picture of what lies behind.
+    /// As [`LineModel::draw`], with a picture of what lies behind the lines.
     fn draw_before(
         &self,
         camera: &Camera,
@@ -246,7 +246,7 @@ impl LineModel {
         self.bounds = smoke::joined(self.smoke.as_ref(), bounds, self.points.is_empty());
     }
 
-    /// The same before a picture, with lines as `find` finds them.
+    /// As [`LineModel::draw`], with lines that `find` finds, and a picture of what lies behind them.
     pub(super) fn draw_with(
         &self,
         camera: &Camera,
@@ -288,7 +288,7 @@ impl LineModel {
         self.draw_some(&wanted, find, is_curve)
     }
 
-    /// The lines of the parts whose look `has_lines` says so of.
+    /// The lines of the parts for whose look `has_lines` is true.
     fn draw_some(
         &self,
         wanted: &Wanted<'_>,
@@ -387,13 +387,14 @@ impl LineModel {
         })
     }
 
-    /// What lengths count in: the height of the picture, pixels per inch, and pixels of the model's radius.
+    /// What lengths are resolved with: the height of the picture and pixels per inch, and about how many pixels a unit
+    /// covers.
     fn px(&self, options: &LineOptions) -> [f32; 3] {
         let height = options.size[1] as f32;
         [height, options.dpi, height / self.radius()]
     }
 
-    /// Colours of strokes along themselves, lit as in pictures but for beams and shadows.
+    /// Colours along strokes, lit as in pictures but without beams and shadows.
     fn colors<'a>(
         &'a self,
         wanted: &Wanted<'a>,
@@ -416,7 +417,7 @@ impl LineModel {
         StrokeColors::new(input, normals, &contours.front, wanted.camera, size)
     }
 
-    /// Smoke as a view sees it, lit as in pictures but for beams.
+    /// Smoke as a view sees it, lit as in pictures but without beams.
     fn smoke_view<'a>(
         &self,
         wanted: &Wanted<'a>,
@@ -441,6 +442,7 @@ impl LineModel {
         paint: &Paint,
         find: &mut dyn Finder,
     ) -> Result<ViewStrokes, RenderError> {
+        // Settle the widths of lines in this view.
         let radius = self.radius();
         let input = WidthInput {
             shape: &self.shape,
@@ -454,6 +456,8 @@ impl LineModel {
         let of_frame = view.camera.view(options.size, self.bounds);
         let outline = look::outline(style, radius, options.size[1], options.dpi, 0);
         let widths = Widths::new(input, &of_frame, outline);
+
+        // Settle which lines are drawn, and how their points are painted.
         let settings = LineSettings {
             size: options.size,
             kinds: options.kinds.bits(),
@@ -475,6 +479,8 @@ impl LineModel {
             paint_at: (view.changes || view.colors.is_some()).then_some(&paint_at),
         };
         let line = (&settings, paint, &look);
+
+        // Find the strokes by the method, and those painted in textures.
         let mut found = match options.method {
             LineSource::Potrace => ViewStrokes {
                 strokes: pixels::strokes(view, prepared, options, line, find)?,
@@ -490,7 +496,7 @@ impl LineModel {
         Ok(found)
     }
 
-    /// What does not depend on the camera, made once for every crease angle in a row.
+    /// What does not depend on the camera, made anew only where the crease angle or the wish for intersections changes.
     fn prepared(&self, options: &LineOptions) -> Result<Arc<Prepared>, RenderError> {
         let creases = options.creases();
         let is_on_mesh = !options.method.is_of_pixels();
@@ -559,7 +565,7 @@ impl LineModel {
     }
 }
 
-/// What a drawing lacks that nobody could read, a sentence each.
+/// Notices of lines that a drawing leaves out because nobody could read them, a sentence each.
 fn notices_of_view(prepared: &Prepared, left_out: usize) -> Vec<String> {
     let mut notices = Vec::new();
     if prepared.crossings.overflow {

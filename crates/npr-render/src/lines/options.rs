@@ -1,4 +1,4 @@
-//! What is asked of a line model and of a drawing.
+//! The options of line models and of drawings.
 
 use crate::look;
 use npr_core::crease::{CreaseFrom, Creases};
@@ -74,7 +74,7 @@ pub struct LineOptions {
     pub painted: Option<PaintedLines>,
 }
 
-/// Lines painted in textures, by how they stand before the paint beside them.
+/// Which lines painted in textures count, by their contrast with the paint beside them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum PaintedLines {
     /// Dark lines on lighter paint.
@@ -82,12 +82,12 @@ pub enum PaintedLines {
     Dark,
     /// Light lines on darker paint.
     Light,
-    /// Both, as far as they differ from what is around them on the whole: a gap between two lines is none.
+    /// Both, where they differ from the paint around them as a whole: a gap between two lines is no line.
     Both,
 }
 
 impl PaintedLines {
-    /// What of a texture is such a line, one rule for each tone.
+    /// The rules that find such lines in a texture, one for each tone.
     pub(crate) fn rules(self) -> Vec<PaintedRule> {
         let rule = |tone| PaintedRule {
             tone,

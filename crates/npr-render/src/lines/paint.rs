@@ -27,7 +27,7 @@ struct SurfacePaint {
 }
 
 impl Paint {
-    /// Resolves the style for every part; only those have lines whose look `has_lines` says so of.
+    /// Resolves the style for every part; only parts for whose look `has_lines` is true have lines.
     pub fn new(parts: &[PartInfo], style: &Style, has_lines: impl Fn(&Look<'_>) -> bool) -> Self {
         let paint = |info: &PartInfo| {
             let part = look::part(info, style);
@@ -63,7 +63,7 @@ impl Paint {
         }
     }
 
-    /// Colour of the lines of a surface; of smoke, which is none of the parts, black.
+    /// Colour of the lines of a surface; black for smoke, which is none of the parts.
     pub fn line_color(&self, surface: u32) -> [u8; 4] {
         let of = self.surfaces.get(surface as usize);
         of.map_or([0, 0, 0, 255], |paint| paint.line_color)
@@ -89,7 +89,7 @@ fn bytes_of(color: [f32; 4]) -> [u8; 4] {
     color.map(|v| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)
 }
 
-/// The visible surfaces between lines, each in one piece as far as no line parts it; smoke among them.
+/// The regions of visible surfaces and of smoke between lines, each in one piece as far as no line divides it.
 pub(super) fn regions(
     shape: &HalfEdgeMesh,
     tree: &FaceTree,
@@ -98,6 +98,7 @@ pub(super) fn regions(
     strokes: &[Stroke],
     smoke: Option<&SmokeView<'_>>,
 ) -> Result<Vec<Region>, RenderError> {
+    // Tell which surface a place of the picture shows, smoke where it lies before the others.
     let face_at = |place: [f64; 2]| {
         let (face, depth) = face_at(shape, tree, projector, place)?;
         Some((shape.face_surfaces[face as usize], depth))
@@ -108,6 +109,8 @@ pub(super) fn regions(
         let occluder_depths = smoke.and_then(|smoke| smoke.surface_before(place, depth));
         occluder_depths.or(face.map(|(surface, _)| surface))
     };
+
+    // Close regions between lines, edges of tones and seams of smoke.
     let mut segments = segments_of(strokes);
     if let Some(smoke) = smoke {
         let depth_at = |place: [f64; 2]| Some(face_at(place)?.1);

@@ -1,4 +1,4 @@
-//! Lines from a picture of them, as published.
+//! Lines traced from a picture of them, as published [Jiang et al. 2022].
 
 use super::finder::Finder;
 use super::options::LineOptions;
@@ -44,6 +44,7 @@ fn traced(
     paint: &Paint,
     find: &mut dyn Finder,
 ) -> Result<(Traced, Loops), RenderError> {
+    // Check that the picture fits into memory.
     let [width, height] = options.size.map(|side| side as usize);
     let mut budget = Budget::new(view.memory_limit);
     budget.take(
@@ -51,6 +52,8 @@ fn traced(
         width * height,
         BYTES_PER_PIXEL as usize,
     )?;
+
+    // Find lines in it, hidden by surfaces and by dense smoke.
     let of_frame = view.camera.view(options.size, view.bounds);
     let occluder_depths = view
         .smoke
@@ -66,7 +69,7 @@ fn traced(
     find.pixels(&scene, &path_of(options), occluder_depths.as_deref())
 }
 
-/// The constants that a drawing asks for; places are as the pixels have them where strokes are not smoothed.
+/// The constants that a drawing asks for; without smoothing, points keep the places that their pixels give.
 fn path_of(options: &LineOptions) -> PublishedPath {
     PublishedPath {
         smooth_places: options.potrace.smooth_places && options.smooth,

@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 pub(crate) type DrawBehind<'a> =
     dyn Fn(&Camera, &Style, &LineOptions) -> Result<Frame, RenderError> + 'a;
 
-/// A line model on an engine: what a device finds of its lines is found there, the rest on the processor.
+/// A line model on an engine: a device finds the lines that it has passes for, the processor all others.
 ///
 /// A device decides which faces are turned to the eye, marks contours along edges and links them; or draws surfaces
 /// and lines into a picture, links the sides of its pixels, ranks and filters their loops and cuts them to strips.
@@ -32,7 +32,7 @@ pub struct LineRenderer<'a> {
     pub(crate) model: &'a LineModel,
     /// Draws what lies behind lines, where their colours follow it.
     pub(crate) behind: Option<Box<DrawBehind<'a>>>,
-    /// The plain functions on the processor, where they are faster than their passes.
+    /// The passes of a device, or the plain functions for an engine that runs these in their place.
     finder: Box<dyn Finder + 'a>,
 }
 

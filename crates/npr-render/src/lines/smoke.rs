@@ -47,9 +47,12 @@ impl<'a> SmokeView<'a> {
         (of_file, pictures): (&[FileLight], &BTreeMap<String, Picture>),
         first_surface: u32,
     ) -> Result<Self, RenderError> {
+        // Choose the lights of the smoke.
         let view = camera.view(options.size, bounds);
         let of_surfaces = ChosenLights::new(style, of_file, Vec::new(), pictures);
         let (chosen, _) = of_surfaces.of_smoke(style);
+
+        // Settle the lens and the lights of this view.
         let measure = Measure {
             height_px: options.size[1] as f32,
             dpi: options.dpi,
@@ -65,6 +68,8 @@ impl<'a> SmokeView<'a> {
             view: &view,
             bounds: smoke.extent(),
         };
+
+        // Draw the tones of smoke that is filled.
         let is_toned = options.fill && style.smoke.ramp.len() > 1;
         let tones = is_toned.then(|| ToneMap::new(&moment, chosen, options));
         Ok(Self {
@@ -83,7 +88,7 @@ impl<'a> SmokeView<'a> {
         f64::from(self.look.line_width(jump, outward, radius_px))
     }
 
-    /// The smoke as lines take it, drawn by itself where `is_outlined`.
+    /// The smoke as line drawings take it; its own outline is drawn where `is_outlined`.
     pub fn lines<'b>(
         &'b self,
         is_outlined: bool,
@@ -107,15 +112,15 @@ impl<'a> SmokeView<'a> {
         (smoke < depth).then_some(self.first_surface + level)
     }
 
-    /// The lines between its tones, which are not drawn but part colours.
+    /// The lines between the tones of the smoke: they are not drawn, but divide its colours.
     pub fn tone_edges(&self) -> Vec<[[f64; 2]; 2]> {
         self.tones.as_ref().map_or_else(Vec::new, ToneMap::edges)
     }
 
-    /// The lines along which it lies in surfaces, which are not drawn either: there one passes behind the other.
+    /// The lines along which smoke and surfaces pass through each other; they are not drawn, but divide regions.
     ///
-    /// `depth_at` tells how deep the surface at a place of the picture lies. Both are looked at in up to a million
-    /// places.
+    /// `depth_at` tells how deep the surface at a place of the picture lies. It is compared with the smoke in up to
+    /// [`SEAM_CELLS`] places a side.
     pub fn seams(
         &self,
         size: [u32; 2],
@@ -132,7 +137,7 @@ impl<'a> SmokeView<'a> {
         level_lines(cells, cell_px, &gap, &[0.0])
     }
 
-    /// Its surfaces in a drawing, one for every tone: what is drawn with one object's number and the colours of the
+    /// The surfaces of the smoke in a drawing, one for every tone, all with one object's number and the colours of the
     /// style.
     pub fn surfaces(&self, object_number: u32) -> impl Iterator<Item = StrokeSurface> {
         let smoke = &self.style.smoke;

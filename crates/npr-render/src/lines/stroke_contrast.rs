@@ -23,13 +23,13 @@ use rayon::prelude::*;
 /// smoothing moves.
 const LOOKS_PX: [f64; 5] = [1.5, 2.5, 3.5, 4.5, 5.5];
 
-/// How many of these find where a subject ends; the others are for means alone.
+/// How many of [`LOOKS_PX`] find where a subject ends; the others only add to means.
 const FINDING: usize = 3;
 
-/// How many in a row a mean is taken of.
+/// How many looks in a row a mean is taken of.
 const MEAN_OF: usize = 3;
 
-/// What strokes are judged before.
+/// The scene that the colours of strokes follow.
 pub(super) struct StrokeContrast<'a> {
     shape: &'a HalfEdgeMesh,
     tree: &'a FaceTree,
@@ -45,7 +45,7 @@ pub(super) struct StrokeContrast<'a> {
 struct Sides {
     rim: [f32; 3],
     behind: [f32; 3],
-    /// How much is known of it, 0..1: nothing before nothing.
+    /// How opaque what lies behind is, 0..1: the colour of the line follows it by as much.
     weight: f32,
 }
 
@@ -127,7 +127,8 @@ impl<'a> StrokeContrast<'a> {
         }
     }
 
-    /// What a point sees beside itself; nothing where no subject ends, but for rules about lines within.
+    /// What a point sees on its two sides; `None` where its subject ends on neither, unless the rule is for lines
+    /// within.
     fn sides(
         &self,
         tangent: Option<[f64; 2]>,
@@ -184,7 +185,7 @@ impl<'a> StrokeContrast<'a> {
     }
 }
 
-/// A line within its subject lies on the mean of both sides.
+/// What a line within its subject sees: the mean of both sides.
 fn within(beside: &[Beside; 2], own: u32) -> Option<Sides> {
     let [a, b] = [0, 1].map(|side| beside[side].mean(0, |ground| ground.subject == own));
     let (a, b) = (a?, b?);
@@ -196,17 +197,17 @@ fn within(beside: &[Beside; 2], own: u32) -> Option<Sides> {
     })
 }
 
-/// One side of a point, look by look.
+/// What lies on one side of a point, at each distance of [`LOOKS_PX`].
 struct Beside([Option<Ground>; LOOKS_PX.len()]);
 
 impl Beside {
-    /// The first look that finds what `is_it` says so of.
+    /// The first look whose ground `is_it` accepts.
     fn first(&self, is_it: impl Fn(&Ground) -> bool) -> Option<usize> {
         let mut looks = self.0.iter().take(FINDING);
         looks.position(|ground| ground.as_ref().is_some_and(&is_it))
     }
 
-    /// The mean colour of what it is from a look on; its alpha is how much of that there is.
+    /// The mean colour of accepted grounds among [`MEAN_OF`] looks from one on; its alpha is their mean alpha.
     fn mean(&self, from: usize, is_it: impl Fn(&Ground) -> bool) -> Option<[f32; 4]> {
         let looks = self.0.iter().skip(from).take(MEAN_OF).flatten();
         let (mut sum, mut count) = ([0.0; 4], 0.0);
@@ -234,8 +235,8 @@ fn tangent(stroke: &Stroke, index: usize) -> Option<[f64; 2]> {
     (length > 0.0).then(|| along.map(|v| v / length))
 }
 
-/// What points see, blended along the stroke by a Gaussian that ends at `reach_px`; points that see nothing count as
-/// such.
+/// What points see, blended along the stroke by a Gaussian that ends at `reach_px`; points that see nothing lower the
+/// weight.
 ///
 /// As in frames: what is unlike is not blended, for the mean of a dark and a light wall is a wall that is not there
 /// [Tomasi and Manduchi 1998]. O(points * points within reach).
@@ -245,6 +246,8 @@ fn smoothed(stroke: &Stroke, seen: &[Option<Sides>], reach_px: f64) -> Vec<Optio
     }
     let steps = steps(stroke);
     let count = seen.len();
+
+    // Blend what a point sees with what others within reach see, by distance.
     let blended = |index: usize| {
         let mut blend = Blend::around(nearest(seen, &steps, index, reach_px)?);
         blend.add(seen[index], 1.0);
@@ -288,7 +291,7 @@ fn steps(stroke: &Stroke) -> Vec<f64> {
     (0..count).map(step).collect()
 }
 
-/// The points after or before one, as far as half around, with how far off they lie.
+/// The points after or before one with their distances along the stroke; on a closed one, as far as half around.
 fn walk(steps: &[f64], index: usize, forward: bool) -> impl Iterator<Item = (usize, f64)> {
     let count = steps.len();
     let way = if forward { 1 } else { count - 1 };
@@ -305,7 +308,7 @@ fn walk(steps: &[f64], index: usize, forward: bool) -> impl Iterator<Item = (usi
     })
 }
 
-/// A mean of what points see that is like what one of them sees.
+/// A mean of what points see, weighted by how much it is like what one of them sees.
 struct Blend {
     like: Sides,
     rim: [f32; 3],
@@ -325,7 +328,7 @@ impl Blend {
         }
     }
 
-    /// Adds what a point sees; of nothing only that there is nothing.
+    /// Adds what a point sees, weighted by `near`; a point that sees nothing only lowers the weight of the mean.
     fn add(&mut self, seen: Option<Sides>, near: f32) {
         let Some(sides) = seen else {
             self.total += near;
@@ -358,7 +361,7 @@ fn likeness(a: &Sides, b: &Sides) -> f32 {
     left * left
 }
 
-/// The colour of a line, sRGB bytes and alpha, before what it sees: the one place where strokes follow a rule.
+/// The colour of a line, sRGB bytes and alpha, by a rule and what it sees: the one place where strokes follow a rule.
 fn contrasted(own: [u8; 4], sides: Option<&Sides>, rule: &Rule) -> [u8; 4] {
     let Some(sides) = sides else {
         return own;

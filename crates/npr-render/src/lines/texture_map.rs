@@ -22,7 +22,7 @@ pub(super) struct TextureMap {
     pub notice: Option<String>,
 }
 
-/// A triangle of the file by its surface and the sorted places of its corners.
+/// The key of a triangle of the file: its surface and the sorted places of its corners.
 type FaceKey = (u32, [[u32; 3]; 3]);
 
 /// A triangle of the file.
@@ -37,6 +37,7 @@ struct StoredFace {
 impl TextureMap {
     /// Finds the faces of `shape` again among the triangles that it was made from. O(n log n).
     pub fn new(scene: &Scene, assembly: &Assembly, shape: &HalfEdgeMesh) -> Self {
+        // List the triangles of the file, with their texture coordinates.
         let mut textures = Textures::new(scene);
         let mut starts = vec![NONE; assembly.parts.len()];
         let mut known: Vec<StoredFace> = Vec::new();
@@ -60,6 +61,8 @@ impl TextureMap {
                 }
             }
         }
+
+        // Find every face of the shape among them.
         known.sort_by_key(|face| face.key);
         let faces = shape.faces.iter().zip(&shape.face_surfaces);
         Self {
@@ -81,7 +84,7 @@ impl TextureMap {
     }
 }
 
-/// Texture coordinates of a mesh's vertices, all parts behind one another, and where the texture of each starts.
+/// Texture coordinates of a mesh's vertices, part after part, and where the texture of each vertex starts.
 fn coordinates_of(
     scene: &Scene,
     mesh: &Mesh,

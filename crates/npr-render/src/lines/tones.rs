@@ -1,4 +1,4 @@
-//! The tones of smoke as areas: the numbers behind its picture, traced.
+//! The tones of smoke as areas, traced from the numbers behind its picture.
 
 use super::LineOptions;
 use crate::error::RenderError;
@@ -125,6 +125,8 @@ impl ToneMap {
             if !self.tones[i].is_nan() {
                 return self.tones[i];
             }
+
+            // Take the mean of the neighbours that have a tone.
             let (mut sum, mut count) = (0.0, 0.0);
             for step in 0..9 {
                 let beside = self.at(
@@ -152,14 +154,15 @@ impl ToneMap {
     }
 }
 
-/// Where values, known in the middles of cells of a picture, pass through any of the steps, in pieces within a cell
-/// of four of them; none where a value is no number.
+/// Pieces of the lines, in pixels, along which values pass through any of `steps`. Values are known in the middles of
+/// `cells`; a piece lies in a square of four of them, and there is none where one is not a number.
 pub(super) fn level_lines(
     cells: [usize; 2],
     cell_px: f64,
     value_at: &dyn Fn(usize, usize) -> f32,
     steps: &[f32],
 ) -> Vec<[[f64; 2]; 2]> {
+    // Look at squares of four values, two rows at a time.
     let row = |y: usize| -> Vec<f32> { (0..cells[0]).map(|x| value_at(x, y)).collect() };
     let mut edges = Vec::new();
     let mut upper = row(0);
@@ -175,13 +178,15 @@ pub(super) fn level_lines(
         }
         upper = lower;
     }
+
+    // Turn cells into pixels.
     for place in edges.as_flattened_mut() {
         *place = place.map(|v| v * cell_px);
     }
     edges
 }
 
-/// Where a square of four places, clockwise from the upper left, passes from below a tone to above it.
+/// Adds where a square of four places, clockwise from the upper left, passes from below a tone to above it.
 fn add_edges(origin: [f64; 2], corners: [f32; 4], step: f32, edges: &mut Vec<[[f64; 2]; 2]>) {
     let above = corners.map(|tone| tone >= step);
     if above == [above[0]; 4] {

@@ -25,7 +25,7 @@ pub(super) struct LineView<'a> {
     pub smoke: Option<&'a SmokeLines<'a>>,
     /// Colours of strokes along themselves, where the style has any.
     pub colors: Option<&'a StrokeColors<'a>>,
-    /// Whether colours change from place to place for another reason.
+    /// Whether colours vary along strokes because they follow a backdrop.
     pub changes: bool,
 }
 

@@ -1,4 +1,4 @@
-//! From what a scene has to the one surface that lines are drawn of.
+//! Builds the one welded surface that the lines of a scene are drawn of.
 
 use super::LineModelOptions;
 use super::assembly::{Assembly, place_key};
@@ -13,7 +13,7 @@ use npr_scene::Scene;
 /// Bytes of a shape and its hierarchy for every triangle, its three half-edges and its share of the vertices.
 const BYTES_PER_TRIANGLE: usize = 260;
 
-/// Bytes of a line segment in a shape, linked, and in a view with what is seen of it.
+/// Bytes of a line segment: with its links in a shape, and with its visible parts in a view.
 const BYTES_PER_WIRE: usize = 320;
 
 /// Bytes of a stored vertex: where it rests, where it stands, and its place in the shape.
@@ -80,7 +80,7 @@ pub(super) fn colors_of(shape: &HalfEdgeMesh, assembly: &Assembly) -> Vec<u32> {
     shape.positions.iter().map(color_at).collect()
 }
 
-/// What of a scene lines do not show or show otherwise, for the user.
+/// Notices of what lines do not show of a scene, or show otherwise.
 pub(super) fn notices_of(
     scene: &Scene,
     assembly: &Assembly,

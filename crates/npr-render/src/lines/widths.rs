@@ -29,13 +29,14 @@ const BARE_SHARE: f32 = 0.5;
 pub(crate) struct ShapeBends {
     bends: Vec<Bend>,
     normals: Vec<[f32; 3]>,
-    /// Whether a vertex is part of no face: lines of their own end there.
+    /// For every vertex, whether no face has it: only lines of the file end there.
     is_bare: Vec<bool>,
 }
 
 impl ShapeBends {
-    /// Measures a shape of a bounding radius; curvatures are kept in 1 / radius. O(n), parallel.
+    /// Measures a shape; its curvatures are kept in 1 / `radius`, the bounding radius. O(n), parallel.
     pub fn new(cache: &Cache, shape: &HalfEdgeMesh, radius: f32) -> Self {
+        // Take every vertex for itself, as the shape is welded already.
         let vertices: Vec<u32> = (0..shape.positions.len() as u32).collect();
         let weld = Weld {
             of_vertex: vertices.clone(),
@@ -44,6 +45,8 @@ impl ShapeBends {
         let edges: Vec<Edge> = (0..shape.edge_count() as u32)
             .map(|edge| edge_between(shape.ends(edge)))
             .collect();
+
+        // Measure the bends, and express them in radii.
         let normals = npr_mesh::smooth_normals(&shape.positions, &shape.faces, &weld);
         let mesh = WeldedMesh {
             positions: &shape.positions,
@@ -57,6 +60,8 @@ impl ShapeBends {
             bend.curvatures = bend.curvatures.map(|curvature| curvature * radius);
             bend.tightest *= radius;
         }
+
+        // Note the vertices that no face has.
         let mut is_bare = vec![true; shape.positions.len()];
         for corner in shape.faces.iter().flatten() {
             is_bare[*corner as usize] = false;
@@ -69,7 +74,7 @@ impl ShapeBends {
     }
 }
 
-/// An edge as smoothing reads it: by its ends alone.
+/// An edge with nothing but its ends, all that smoothing reads.
 fn edge_between(ends: [u32; 2]) -> Edge {
     Edge {
         ends,
@@ -130,6 +135,7 @@ impl<'a> Widths<'a> {
 
     /// Whole width of lines at a vertex, in pixels, before the factor of the surface.
     pub fn at(&self, vertex: u32) -> f32 {
+        // Store the vertex as pictures have it.
         let i = vertex as usize;
         let is_bare = self.input.bends.is_some_and(|measured| measured.is_bare[i]);
         let mut stored = Vertex {
@@ -142,6 +148,8 @@ impl<'a> Widths<'a> {
             stored.direction = measured.bends[i].direction;
             stored.normal = measured.normals[i];
         }
+
+        // Pose it in this view, and read its width.
         let with = Pose {
             view: self.view,
             outline: if is_bare {
@@ -162,7 +170,7 @@ impl<'a> Widths<'a> {
     }
 
     /// The width factor 0..1 that the style's source gives a vertex, 1 where the source is missing; for projected
-    /// curvature the tightest there is.
+    /// curvature the greatest curvature there.
     fn share(&self, i: usize) -> f32 {
         let width = &self.input.style.line.width;
         match width.source {

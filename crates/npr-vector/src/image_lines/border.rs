@@ -13,7 +13,7 @@ use npr_core::outline::{MASK_OWNER, Outline};
 use npr_core::surface::dot;
 use rayon::prelude::*;
 
-/// Bits that each say something about where a line comes from.
+/// All bits of detection that tell which kind of line was found.
 const DETECTS: u32 = Outline::DEPTH
     | Outline::NORMAL
     | Outline::OBJECT_ID
@@ -26,9 +26,9 @@ const DETECTS: u32 = Outline::DEPTH
 pub struct Border {
     /// Twice the number of its pixel, and 0 for the pixel's left side, 1 for its upper side.
     pub side: u32,
-    /// The one of the two pixels whose surface the line lies on: of contours the one in front.
+    /// The pixel of the two whose surface the line lies on: of a contour the one in front.
     pub owner: u32,
-    /// What the line is, a bit of [`KindSet::BITS`].
+    /// The kind of the line, a bit of [`KindSet::BITS`].
     pub kind: u32,
 }
 
@@ -45,10 +45,10 @@ pub struct Borders {
 }
 
 impl Borders {
-    /// The borders of the wanted kinds, where nothing of `occluder_depths` (reversed depths, where given) lies before
+    /// The borders of the wanted kinds, unless something in `occluder_depths` (reversed depths, if given) lies before
     /// them. O(pixels), in parallel over rows.
     ///
-    /// What is found within one or two pixels is noise: they join the neighbours that they share most sides with.
+    /// Regions of one or two pixels are noise: they join the neighbour that they share most sides with.
     pub(super) fn of(
         picture: &SurfacePicture,
         scene: &ImageScene<'_>,
@@ -103,7 +103,7 @@ impl Borders {
             .ok()
     }
 
-    /// The pixels on both sides of all borders, as ink of their owners.
+    /// The pixels on both sides of all borders, as ink of the pixels that own them.
     pub fn ink(&self) -> LineInk {
         let mut ink = LineInk::new(self.size);
         for border in &self.all {
@@ -138,8 +138,8 @@ impl Borders {
         ]
     }
 
-    /// Takes specks out: one pixel or two within borders lose those to the surface that they share most with, first
-    /// of all their own.
+    /// Removes specks: a region of one or two pixels loses its borders with the surface that it shares most sides with,
+    /// with its own surface first of all.
     fn despeckle(&mut self, picture: &SurfacePicture) {
         let mut dropped = vec![false; self.all.len()];
         for index in 0..self.all.len() {
@@ -175,7 +175,7 @@ impl Borders {
         self.all.retain(|_| dropped.next() == Some(false));
     }
 
-    /// The one pixel or the two that borders, or the picture's edge, close in.
+    /// The region of one or two pixels around a pixel, if borders or the picture's edge enclose it.
     fn speck(&self, pixel: u32) -> Option<Vec<u32>> {
         let open = |pixel: u32| {
             let sides = self.sides_of(pixel).into_iter().flatten();
@@ -193,14 +193,14 @@ impl Borders {
 }
 
 impl SurfacePicture {
-    /// The borders between pixels that are lines of the wanted kinds, where nothing of `occluder_depths` (reversed
-    /// depths, where given) lies before them.
+    /// The borders between pixels that are lines of the wanted kinds, unless something in `occluder_depths` (reversed
+    /// depths, if given) lies before them.
     pub fn borders(&self, scene: &ImageScene<'_>, occluder_depths: Option<&[f32]>) -> Borders {
         Borders::of(self, scene, occluder_depths)
     }
 }
 
-/// What borders are looked for with.
+/// The input of finding borders.
 struct Finder<'a> {
     detector: Detector<'a>,
     picture: &'a SurfacePicture,
@@ -255,9 +255,9 @@ impl Finder<'_> {
         self.scene.is_drawn.get(surface as usize) != Some(&false)
     }
 
-    /// Of two pixels between which surfaces meet, the one to whose surface the line belongs: neither is in front, so
-    /// not depth, which rounding decides, but the order of surfaces does, among those with lines; on both sides of a
-    /// crease what is turned to the eye more.
+    /// Which of two pixels owns the line where surfaces meet. Neither is in front, and rounding would decide between
+    /// depths, so the order of surfaces decides, among those with lines; at a crease, the pixel that is turned to the
+    /// eye more.
     fn owner_between(&self, pixels: [u32; 2]) -> u32 {
         let order = |pixel: u32| {
             let surface = &self.picture.pixels[pixel as usize];
@@ -283,7 +283,7 @@ impl Finder<'_> {
             })
     }
 
-    /// Whether two pixels show one sheet of a surface; none where that cannot be told.
+    /// Whether two pixels show one sheet of a surface; `None` if that cannot be told.
     fn are_one_sheet(&self, pixels: [u32; 2]) -> Option<bool> {
         let width = self.picture.size[0];
         let middles = pixels.map(|pixel| {
@@ -298,7 +298,7 @@ impl Finder<'_> {
             .flatten()
     }
 
-    /// What line runs between two pixels of a surface seen at a grazing angle, whose depths and normals do not tell.
+    /// The kind of line between two pixels of a surface seen at a grazing angle, where depths and normals cannot tell.
     fn hidden_kind(&self, pixel: u32, other: u32) -> Option<u32> {
         if self.share_crease(pixel, other) {
             return Some(KindSet::CREASE);

@@ -1,4 +1,4 @@
-//! Borders linked to lines: through the places where lines meet they go on as what they are.
+//! Links borders to lines, which continue through the places where lines meet.
 
 #[cfg(test)]
 mod tests;
@@ -8,20 +8,21 @@ use glam::DVec2;
 use npr_core::geometry::NONE;
 use npr_trace::centreline::line_of;
 
-/// Parts of a line with fewer borders than this take on what is beside them: pixels at corners show either side.
+/// Number of borders under which a part of a line takes the label of its neighbours: pixels at corners show either
+/// side.
 pub(super) const LEAST_PART: usize = 6;
 
-/// Borders of a line that say where it leads from a junction.
+/// Number of borders that tell where a line leads from a junction.
 const ARM_BORDERS: usize = 10;
 
-/// Cosine of the most that a line may turn where three or more of its kind meet, or where it is too short to tell
-/// what it is: 46 degrees.
+/// Cosine of the largest turn of a line where three or more of its kind meet, or where it is too short to tell its
+/// kind: 46 degrees.
 const STRAIGHT: f64 = 0.697;
 
-/// What a line is: a bit of kinds, and the surface that it lies on.
+/// The label of a line: the bit of its kind, and the surface that it lies on.
 pub(super) type Label = [u32; 2];
 
-/// Borders one after the other that are one line.
+/// A sequence of borders that are one line.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Chain {
     /// Indices of borders.
@@ -29,25 +30,25 @@ pub(super) struct Chain {
     pub label: Label,
     /// Corners of pixels at which it starts and ends; of a closed one the same.
     pub ends: [u32; 2],
-    /// The last border runs on to the first.
+    /// Whether the last border runs on to the first.
     pub closed: bool,
-    /// Whether nothing else is at its start and end.
+    /// Whether nothing else meets its start and its end.
     pub free: [bool; 2],
 }
 
-/// What lies between two junctions, or ends, or places where the label changes.
+/// The part of a line between two junctions, ends, or changes of label.
 struct Part {
     chain: Chain,
-    /// It is too short between junctions to tell what it is.
+    /// Whether it is too short between junctions to tell its label.
     is_vague: bool,
-    /// The arms that its start and end run on to.
+    /// The arms that continue its start and its end.
     partners: [u32; 2],
 }
 
 /// Links all borders; each is part of one chain. `surface_of` gives the surface of a pixel.
 ///
-/// Where lines meet, an outline goes on around the same pixels: of one that covers others, both arms belong to what
-/// is in front. Others of one label go on where they turn little. O(borders log borders).
+/// Where lines meet, an outline continues around the same pixels: of a surface that covers others, both arms belong to
+/// the outline in front. Other arms of one label continue each other where they turn little. O(borders log borders).
 pub(super) fn chains(borders: &Borders, surface_of: impl Fn(u32) -> u32) -> Vec<Chain> {
     let grid = Grid { borders };
     let labels: Vec<Label> = borders
@@ -97,7 +98,8 @@ impl Grid<'_> {
         there.filter_map(|side| self.borders.at(side).map(|index| index as u32))
     }
 
-    /// All borders in stretches between corners that do not have two; those without such are closed.
+    /// All borders in stretches between junctions and ends, which are corners where other than two borders meet;
+    /// stretches without such corners are closed.
     fn stretches(&self) -> Vec<Chain> {
         let count = self.borders.all.len() as u32;
         let mut taken = vec![false; count as usize];
@@ -117,7 +119,7 @@ impl Grid<'_> {
         stretches
     }
 
-    /// Follows borders from a corner on, up to a corner that does not have two or back to the start.
+    /// Follows borders from a corner up to a junction or end, or back to the start.
     fn walk(&self, start: u32, first: u32, taken: &mut [bool]) -> Chain {
         let mut stretch = Chain::default();
         let (mut corner, mut border) = (start, first);
@@ -145,7 +147,7 @@ impl Grid<'_> {
         stretch
     }
 
-    /// A stretch cut where its label changes.
+    /// Cuts a stretch where its label changes.
     fn parts(&self, mut stretch: Chain, labels: &[Label]) -> Vec<Part> {
         let label = |border: &u32| labels[*border as usize];
         let mut cuts = cuts(&stretch.borders.iter().map(label).collect::<Vec<_>>());
@@ -209,7 +211,7 @@ impl Grid<'_> {
         }
     }
 
-    /// Finds which parts run on to each other where they meet.
+    /// Finds the parts that continue each other where they meet.
     fn pair(&self, parts: &mut [Part]) {
         let mut arms: Vec<(u32, u32)> = Vec::new();
         for (number, part) in (0..).zip(&*parts) {
@@ -268,7 +270,7 @@ impl Grid<'_> {
         pairs
     }
 
-    /// What of a part is at a junction.
+    /// The arm of a part at a junction.
     fn arm(&self, parts: &[Part], corner: u32, number: u32) -> Arm {
         let part = &parts[number as usize / 2];
         let borders = &part.chain.borders;
@@ -295,7 +297,7 @@ impl Grid<'_> {
         }
     }
 
-    /// The first of the pixels around a corner that no border parts from one of them.
+    /// The first pixel around a corner that no border separates from `pixel`, or `pixel` itself.
     fn region(&self, corner: u32, pixel: u32) -> u32 {
         let [width, _] = self.borders.size;
         let below_right = corner / (width + 1) * width + corner % (width + 1);
@@ -319,23 +321,23 @@ struct Arm {
     number: u32,
     label: Label,
     is_vague: bool,
-    /// Whose outline it is: the first of the pixels at the junction that belong together with its owner.
+    /// The region whose outline it is: the first pixel at the junction that belongs together with the owner.
     region: u32,
-    /// Where it leads, away from the junction.
+    /// Unit direction away from the junction.
     direction: DVec2,
 }
 
 /// Two arms that may be one line.
 struct Pair {
-    /// How surely they are; the least first.
+    /// How sure it is; the least comes first.
     rank: u32,
-    /// Of the angle between them: -1 where one goes straight on as the other.
+    /// Cosine of the angle between them: -1 where one continues the other straight.
     cosine: f64,
     arms: [u32; 2],
 }
 
-/// How surely two arms of a junction are one line, the least first: the only two around one region, two that go
-/// straight on, and after those what may be anything, for what is sure makes others sure; none where they are not.
+/// How surely two arms of a junction are one line, the least first: the only two around one region, then two that go
+/// straight on, and then vague ones, since what is sure helps to decide those. `None` if they are not one line.
 fn rank([a, b]: [&Arm; 2], all: &[Arm]) -> Option<u32> {
     let may_be_one = |a: &Arm, b: &Arm| a.label == b.label || a.is_vague || b.is_vague;
     let may_go_around = |other: &Arm| other.region == a.region && may_be_one(a, other);
@@ -348,7 +350,7 @@ fn rank([a, b]: [&Arm; 2], all: &[Arm]) -> Option<u32> {
     })
 }
 
-/// Stretches of equal labels, as first, end and label; short ones belong to what is before them, or else after.
+/// Stretches of equal labels, as first, end and label; short ones join the stretch before them, or else the one after.
 pub(super) fn cuts(labels: &[Label]) -> Vec<(usize, usize, Label)> {
     let mut parts: Vec<(usize, usize, Label)> = Vec::new();
     for stretch in labels.chunk_by(|a, b| a == b) {
@@ -368,7 +370,7 @@ pub(super) fn cuts(labels: &[Label]) -> Vec<(usize, usize, Label)> {
     parts
 }
 
-/// Parts joined to those that they run on to.
+/// Joins all parts with those that continue them.
 fn joined(parts: Vec<Part>) -> Vec<Chain> {
     let mut taken = vec![false; parts.len()];
     let mut chains = Vec::new();

@@ -1,4 +1,4 @@
-//! The ink of lines in a picture, and what each of its pixels belongs to.
+//! The ink of lines in a picture, and the surface that each of its pixels belongs to.
 
 use npr_core::geometry::NONE;
 
@@ -7,11 +7,11 @@ use npr_core::geometry::NONE;
 pub struct LineInk {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Of every pixel with ink the one whose surface is in front; else [`NONE`].
+    /// For every pixel with ink, the pixel whose surface the line lies on; [`NONE`] for others.
     pub owners: Vec<u32>,
-    /// What the line is, a bit of [`npr_core::line_kind::KindSet::BITS`]; 0 of pixels that own none.
+    /// The kind of the line that a pixel owns, a bit of [`npr_core::line_kind::KindSet::BITS`]; 0 for others.
     pub kinds: Vec<u32>,
-    /// It is that of light painted lines, whose strokes have other identities than dark ones.
+    /// Whether it is the ink of light painted lines, whose strokes have other identities than those of dark ones.
     pub is_light: bool,
 }
 
@@ -27,7 +27,8 @@ impl LineInk {
         }
     }
 
-    /// Inks a pixel that owns a line, and those beyond its line: left, right, above, below, a bit of `sides` each.
+    /// Inks a pixel that owns a line, and its neighbours beyond the line: left, right, above, below, a bit of `sides`
+    /// each.
     ///
     /// A pixel that owns a line itself stays its own.
     pub fn add(&mut self, pixel: u32, kind: u32, sides: u32) {
@@ -51,7 +52,7 @@ impl LineInk {
         }
     }
 
-    /// Keeps the ink of lines whose own pixel `is_kept` says so of.
+    /// Keeps the ink of lines whose owning pixel `is_kept` accepts.
     pub fn retain(&mut self, is_kept: impl Fn(usize) -> bool) {
         for owner in &mut self.owners {
             if *owner != NONE && !is_kept(*owner as usize) {

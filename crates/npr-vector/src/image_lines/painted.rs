@@ -18,17 +18,17 @@ pub enum PaintedTone {
     Light,
 }
 
-/// What of a texture is a painted line.
+/// Which paint of a texture is a painted line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PaintedRule {
-    /// Half the usual greatest width, in pixels: what is dark (or light) over more is a surface, not a line. Here and
-    /// there a line may be up to twice as wide, where most of it is not.
+    /// Half the usual greatest width, in pixels: wider dark (or light) paint is a surface, not a line. In places a line
+    /// may be up to twice as wide, if most of it is not.
     pub reach_px: u32,
-    /// How much darker (or lighter) than beside it a line is, in shares of white as seen (sRGB).
+    /// By how much a line is darker (or lighter) than the paint beside it, as a share of white, sRGB-encoded.
     pub contrast: f32,
     /// Whether lines are dark or light; default dark.
     pub tone: PaintedTone,
-    /// Whether lines must also differ from what is around them on the whole; default false.
+    /// Whether lines must also differ from the mean of the paint around them; default false.
     ///
     /// For finding lines of both tones: a gap between two dark lines is light, but so is the paint around them, and
     /// it is no line. The mean over a square of [`GROUND`] times the reach has to be nearer to what is beside the
@@ -36,7 +36,7 @@ pub struct PaintedRule {
     pub on_ground: bool,
 }
 
-/// How far the ground of a line reaches, in reaches of a rule.
+/// Half the side of the square whose mean is a line's ground, in reaches of the rule.
 pub const GROUND: u32 = 4;
 
 impl Default for PaintedRule {
@@ -50,8 +50,8 @@ impl Default for PaintedRule {
     }
 }
 
-/// Marks lines that are darker, or lighter, than the paint beside them, as [`painted`] finds them: of what hangs
-/// together only what is much longer than wide.
+/// Marks painted lines, darker or lighter than the paint beside them, as [`painted`] finds them: of connected ink only
+/// what is much longer than wide.
 ///
 /// Corners of dark areas, spots and the cells of a chequer are no lines, even where cells hang together at their
 /// corners. A line may swell to twice the width of the rule as long as most of it keeps to that, and run where its
@@ -96,8 +96,8 @@ pub fn painted_lines(
     wide
 }
 
-/// Marks what is darker, or lighter, than the paint beside it: what `lightness` (0..1, one a pixel) shows of textures.
-/// Where it is no number there is no paint, neither of a line nor beside one.
+/// Marks paint that is darker, or lighter, than the paint beside it, by the `lightness` of textures at every pixel,
+/// 0..1. Pixels that are not a number have no paint, neither of a line nor beside one.
 ///
 /// The black top-hat of a square [Serra 1982]: where the picture closed by the square is lighter than itself by the
 /// contrast, something dark lies that no square fits into. Light lines are the dark ones of the negative. Only pixels
@@ -149,7 +149,7 @@ pub fn painted(
     ink
 }
 
-/// Greatest values over squares, then least ones over the same, each among pixels of the same object.
+/// Greatest values over squares, then least ones of these over the same squares, among pixels of the same object.
 fn closed(values: &[f32], object: &[u32], width: usize, reach: usize) -> Vec<f32> {
     let mut greatest = along_both(values, object, width, reach, f32::max);
     // What has no paint is as what lies outside.
@@ -161,7 +161,7 @@ fn closed(values: &[f32], object: &[u32], width: usize, reach: usize) -> Vec<f32
     along_both(&greatest, object, width, reach, f32::min)
 }
 
-/// Means over squares, among pixels of the same object that have a value: of rows first, then of what these sum up to.
+/// Means over squares, among pixels of the same object that have a value.
 fn means(values: &[f32], object: &[u32], width: usize, reach: usize) -> Vec<f32> {
     let counted = |value: &f32| match value.is_nan() {
         true => [0.0; 2],
@@ -174,8 +174,8 @@ fn means(values: &[f32], object: &[u32], width: usize, reach: usize) -> Vec<f32>
     sums.iter().map(|[sum, count]| sum / count).collect()
 }
 
-/// What `pick` makes of all pixels of a row up to `reach` away that show the same object, and then of all such of a
-/// column.
+/// Combines, by `pick`, all pixels of a row up to `reach` away that show the same object, then the results along
+/// columns.
 fn along_both<T: Copy + Send + Sync>(
     values: &[T],
     object: &[u32],

@@ -12,7 +12,7 @@ use npr_core::window::{View, Window};
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
-/// A view of a shape whose lines are looked for in a picture.
+/// A view of a shape, and which lines are looked for in its picture.
 #[derive(Clone, Copy)]
 pub struct ImageScene<'a> {
     /// The surfaces; both sides of all faces hide what is behind them.
@@ -21,11 +21,11 @@ pub struct ImageScene<'a> {
     pub normals: &'a CornerNormals,
     /// Camera and picture.
     pub view: &'a View,
-    /// For every surface whether it has lines; all do where there are no more entries.
+    /// For every surface whether it has lines; surfaces beyond the list have some.
     pub is_drawn: &'a [bool],
     /// Kinds of line that are looked for, bits of [`KindSet`](npr_core::line_kind::KindSet).
     pub kinds: u32,
-    /// Which bends are creases.
+    /// Which folds are creases.
     pub creases: Creases,
     /// Depth jump, as a share of the picture's height at that depth, from which surfaces are separated by a line.
     pub depth_threshold: f32,
@@ -41,7 +41,7 @@ impl ImageScene<'_> {
         Window::over(px, [0.0; 2], px, self.size())
     }
 
-    /// Surfaces as detection reads them.
+    /// The surfaces as parts, which detection reads.
     pub(super) fn parts(&self) -> Vec<Part> {
         let surfaces = self.shape.surfaces.iter().enumerate();
         let part = surfaces.map(|(index, surface)| Part {
@@ -86,13 +86,13 @@ impl SurfacePicture {
         }
     }
 
-    /// Whether nothing of a occluder depths (reversed depths, where given) lies before a pixel.
+    /// Whether no occluder (reversed depths, if given) lies before a pixel.
     pub fn is_clear(&self, occluder_depths: Option<&[f32]>, pixel: usize) -> bool {
         occluder_depths.is_none_or(|occluder_depths| occluder_depths[pixel] <= self.depths[pixel])
     }
 }
 
-/// The surface under every pixel, of the faces that are seen.
+/// Depth, normal, object and material under every pixel, from the faces that are seen.
 fn resolved(scene: &ImageScene<'_>, faces: &[u32]) -> Vec<GPixel> {
     // List the faces that are seen.
     let mut seen: Vec<u32> = faces.iter().copied().filter(|face| *face != NONE).collect();

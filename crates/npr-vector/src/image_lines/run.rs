@@ -1,4 +1,4 @@
-//! From borders and ink to runs.
+//! Turns borders and ink into runs.
 
 use super::border::Borders;
 use super::chain::{Chain, Label, chains, cuts, middle_of, place_of};
@@ -19,21 +19,21 @@ use rayon::prelude::*;
 /// Angle, in radians, from which a bend between straight sides is a corner.
 const CORNER: f64 = 0.7;
 
-/// Closed lines of fewer borders go around a few pixels, which come and go.
+/// Number of borders under which a closed line is left out: it goes around a few pixels that come and go.
 const LEAST_RING: usize = 12;
 
-/// A point of a line, and what it was found on.
+/// A point of a line, and its label.
 #[derive(Debug, Clone, Copy)]
 struct Found {
     point: RunPoint,
-    /// A bit of kinds, and the surface.
+    /// The bit of its kind, and its surface.
     label: Label,
 }
 
-/// What runs are made on.
+/// The input that runs are made from.
 pub type On<'a> = (&'a ImageScene<'a>, &'a Projector, &'a SurfacePicture);
 
-/// The strokes of runs found in a picture, as `look` has them along themselves: joined, cut at corners and smoothed
+/// The strokes of runs found in a picture, with the widths and colours of `look`: joined, cut at corners and smoothed
 /// as those of meshes are, as far as the settings ask for it.
 pub fn strokes_from(
     runs: Vec<Run>,
@@ -89,9 +89,9 @@ impl LineInk {
 impl Borders {
     /// The lines of the borders as runs of the shape: each line once, cut where its kind or surface changes.
     ///
-    /// Where lines meet, those go on as one that lie on one surface: an outline runs past what it hides. Places,
-    /// depths and identities are those of the pixels that own the borders, as for [`LineInk::runs`]. O(borders log
-    /// borders), in parallel.
+    /// Where lines meet, those on one surface continue each other: an outline runs past what it hides. Places, depths
+    /// and identities are those of the pixels that own the borders, as for [`LineInk::runs`]. O(borders log borders),
+    /// in parallel.
     pub fn runs(&self, (scene, projector, picture): On<'_>) -> Vec<Run> {
         let maker = Maker {
             paint: 0,
@@ -120,7 +120,7 @@ impl Borders {
         runs
     }
 
-    /// Smooth places along a chain, with what lies there: one for every border, and the ends of an open one.
+    /// Smooth points along a chain: one for every border, and the ends of an open chain.
     fn along(&self, chain: &Chain, maker: &Maker<'_>) -> Vec<Found> {
         // Take the middles of the sides, and the corners at which an open chain ends.
         let borders = chain
@@ -154,7 +154,7 @@ impl Borders {
 }
 
 struct Maker<'a> {
-    /// What tells the identities of painted lines from those of marked edges.
+    /// Added to the identities of painted lines, so that they differ from those of marked edges.
     paint: u64,
     scene: &'a ImageScene<'a>,
     projector: &'a Projector,
@@ -162,7 +162,7 @@ struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    /// The runs of a line, cut where what it is changes.
+    /// The runs of a line, cut where its label changes.
     fn runs(&self, mut found: Vec<Found>, is_closed: bool) -> Vec<Run> {
         found.dedup_by(|a, b| a.point.place == b.point.place);
         let labels = |found: &[Found]| found.iter().map(|found| found.label).collect::<Vec<_>>();
@@ -212,7 +212,7 @@ impl Maker<'_> {
         })
     }
 
-    /// The edge of a face that is nearest to a place: of contours mostly one whose other face is turned away.
+    /// The edge of a face that is nearest to a place: at a contour mostly one whose other face is turned away.
     fn edge_beside(&self, face: u32, world: DVec3) -> u32 {
         let shape = self.scene.shape;
         let distance = |edge: &u32| {
@@ -226,7 +226,7 @@ impl Maker<'_> {
         nearest.unwrap_or(edges[0])
     }
 
-    /// A point of a run at a place of the picture, on the surface of a pixel; none where that shows nothing.
+    /// A point of a run at a place of the picture, on the surface of a pixel; `None` if that shows nothing.
     fn found(&self, place: [f64; 2], owner: u32, kind: u32) -> Option<Found> {
         let face = *self.picture.faces.get(owner as usize)?;
         let pixel = self.picture.pixels[owner as usize];

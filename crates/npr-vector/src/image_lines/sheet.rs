@@ -6,14 +6,13 @@ use npr_core::surface::apply_point;
 use npr_core::window::View;
 use npr_mesh::half_edge::HalfEdgeMesh;
 
-/// Most faces between two pixels that are looked at.
+/// Most faces between two pixels that are walked over.
 const MOST_FACES: usize = 256;
 
-/// Whether two pixels, given by their middles and the faces that they show, show parts of one sheet: from one face to
-/// the other, faces lie side by side along the way between the middles, and none is turned away. None where that
-/// cannot be told.
+/// Whether two pixels show parts of one sheet: from the face of one to that of the other, faces lie side by side along
+/// the way between the pixels' middles, and none is turned away. `None` if that cannot be told.
 ///
-/// Depth tells so only where a surface is not seen at a grazing angle. O(faces between them), up to a limit.
+/// Depths could tell only where a surface is not seen at a grazing angle. O(faces between the pixels), up to a limit.
 pub fn are_one_sheet(
     shape: &HalfEdgeMesh,
     view: &View,
@@ -54,7 +53,7 @@ pub fn are_one_sheet(
     None
 }
 
-/// Where the corners of a face lie in the picture, in pixels; none where one is not before the eye.
+/// Places of a face's corners in the picture, in pixels; `None` if one is not before the eye.
 fn projected(shape: &HalfEdgeMesh, view: &View, face: u32) -> Option<[DVec2; 3]> {
     let mut places = [DVec2::ZERO; 3];
     for (place, vertex) in places.iter_mut().zip(shape.faces[face as usize]) {
@@ -69,7 +68,7 @@ fn projected(shape: &HalfEdgeMesh, view: &View, face: u32) -> Option<[DVec2; 3]>
     Some(places)
 }
 
-/// Where a way from one place to another crosses a line between two corners, as a share of the way; none where it
+/// Where a way from one place to another crosses the line between two corners, as a share of the way; `None` if it
 /// passes beside it.
 fn crossing([from, to]: [DVec2; 2], [a, b]: [DVec2; 2]) -> Option<f64> {
     let [before, after] = [a, b].map(|corner| turn(from, to, corner));

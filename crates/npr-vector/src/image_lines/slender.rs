@@ -1,23 +1,23 @@
-//! What of dark paint is a line, and what a spot, the corner of an area, or a chequer.
+//! Tells lines of dark paint from spots, corners of areas, and chequers.
 
 use std::collections::VecDeque;
 
-/// How many times as long as wide a line is at least.
+/// Least ratio of a line's length to its width.
 const SLENDERNESS: f32 = 4.0;
 
-/// How many times as long as the widest usual line is wide a line is at least: cells of a chequer get as slender as
-/// lines where their surface turns away.
+/// Least length of a line in widths of the widest usual line: cells of a chequer look as slender as lines where their
+/// surface turns away.
 const LEAST_LENGTH: f32 = 3.0;
 
-/// Share of a piece's greatest width at which it falls apart: cells of a chequer hang together by less at their
-/// corners.
+/// Share of a patch's greatest depth up to which its ink is cut as a neck: cells of a chequer are joined by less at
+/// their corners.
 const NECK: f32 = 0.5;
 
-/// Depth of a piece that has no necks: a pixel more or less in the width of a fine line is none.
+/// Depth under which a patch has no necks: a pixel more or less in the width of a fine line is none.
 const NECKLESS: f32 = 3.0;
 
-/// Share of the paint around a line that ink may cover: a chequer covers half of it, two lines side by side a little
-/// less.
+/// Most of the paint around a line that ink may cover, as a share: a chequer covers half of it, two lines side by side
+/// a little less.
 const CROWD: f32 = 0.42;
 
 /// Dark (or light) paint of a picture.
@@ -25,7 +25,7 @@ const CROWD: f32 = 0.42;
 pub(super) struct Paint<'a> {
     /// Pixels that may be parts of lines.
     pub ink: &'a [bool],
-    /// Those of them that are thin.
+    /// Pixels of ink that are thin.
     pub thin: &'a [bool],
     /// Pixels that show paint at all.
     pub ground: &'a [bool],
@@ -33,17 +33,17 @@ pub(super) struct Paint<'a> {
     pub facing: &'a [bool],
     /// Pixels of a row.
     pub width: usize,
-    /// How wide usual lines are at most, in pixels.
+    /// Greatest width of usual lines, in pixels.
     pub usual_width: usize,
-    /// How far the paint around a line reaches, in pixels.
+    /// Distance up to which the paint around a line is counted, in pixels.
     pub around: usize,
 }
 
-/// Which pixels of ink are parts of lines: what is at least [`SLENDERNESS`] times as long as wide, once cut at its
-/// necks.
+/// Which pixels of ink are parts of lines: pieces at least [`SLENDERNESS`] times as long as wide, once the ink is cut
+/// at its necks.
 ///
-/// Of what hangs together most has to be thin, to lie on what faces the eye, and to have more bare paint around it
-/// than ink. O(pixels).
+/// Most of a connected patch has to be thin, to lie on surfaces that face the eye, and to have more bare paint around
+/// it than ink. O(pixels).
 pub(super) fn slender(paint: &Paint<'_>) -> Vec<bool> {
     let Paint {
         ink, thin, width, ..
@@ -114,7 +114,7 @@ fn open(paint: &Paint<'_>) -> Vec<bool> {
     (0..paint.ink.len()).map(is_open).collect()
 }
 
-/// How many pixels are set above and to the left of every corner of pixels.
+/// Number of set pixels above and to the left of every corner of pixels.
 fn sums(set: &[bool], width: usize) -> Vec<u32> {
     let mut sums = vec![0; (width + 1) * (set.len() / width + 1)];
     for (pixel, is_set) in set.iter().enumerate() {
@@ -125,10 +125,10 @@ fn sums(set: &[bool], width: usize) -> Vec<u32> {
     sums
 }
 
-/// Pixels of one kind that hang together by their sides, numbered from 1; 0 is no patch.
+/// Connected patches of pixels of one kind, joined by their sides and numbered from 1; 0 is no patch.
 struct Patches {
     of_pixel: Vec<u32>,
-    /// Of every patch how many pixels it has.
+    /// Number of pixels of every patch.
     areas: Vec<usize>,
 }
 
@@ -185,7 +185,7 @@ fn beside(pixel: usize, width: usize, count: usize) -> impl Iterator<Item = usiz
         .flatten()
 }
 
-/// How deep every pixel lies in its patch: 1 at its rim.
+/// Depth of every pixel in its patch: 1 at its rim.
 fn depths(patches: &[u32], width: usize) -> Vec<f32> {
     let count = patches.len();
     let is_rim = |pixel: usize| {
@@ -199,8 +199,8 @@ fn depths(patches: &[u32], width: usize) -> Vec<f32> {
         .collect()
 }
 
-/// How far every pixel lies from the nearest that is a source, within its own patch, in steps along and across of 1
-/// and diagonal ones of 4/3 [Borgefors 1986].
+/// Distance of every pixel from the nearest source within its own patch, in steps of 1 along and across and diagonal
+/// ones of 4/3 [Borgefors 1986].
 fn distances(patches: &[u32], width: usize, is_source: &dyn Fn(usize) -> bool) -> Vec<f32> {
     let count = patches.len();
 

@@ -39,10 +39,10 @@ impl Boundable for FaceBox {
     }
 }
 
-/// A way from the eye to a point.
+/// The straight way from the eye to a point.
 #[derive(Debug, Clone, Copy)]
 pub struct Sight {
-    /// Where it starts.
+    /// Where the way starts.
     pub eye: [f64; 3],
     /// The point looked at.
     pub point: [f64; 3],
@@ -93,9 +93,9 @@ impl FaceTree {
         count
     }
 
-    /// A face between the eye and a point, if there is one without those in `skip`: which of several is not said.
+    /// A face between the eye and a point, other than those in `skip`; of several, any.
     ///
-    /// `last` is tried first, for what hides a point mostly hides the next one too.
+    /// `last` is tried first, since what hides a point mostly hides the next one too.
     pub fn hider(
         &self,
         shape: &HalfEdgeMesh,
@@ -146,7 +146,8 @@ impl FaceTree {
         first.map(|(face, at)| (face, at * reach))
     }
 
-    /// Where the line between two vertices goes through faces that it does not touch, 0..1 from the first, ascending.
+    /// Where the line between two vertices goes through faces that it does not touch: shares 0..1 from the first,
+    /// ascending.
     pub fn piercings(&self, shape: &HalfEdgeMesh, [from, to]: [u32; 2]) -> Vec<f64> {
         let touches = |face: u32| {
             let corners = shape.faces[face as usize];
@@ -155,7 +156,8 @@ impl FaceTree {
         self.piercings_between(shape, [from, to].map(|v| shape.point(v)), touches)
     }
 
-    /// Where the way between two points goes through faces that `skip` does not name, 0..1 from the first, ascending.
+    /// Where the way between two points goes through faces that are not in `skip`: shares 0..1 from the first,
+    /// ascending.
     pub fn piercings_between(
         &self,
         shape: &HalfEdgeMesh,
@@ -228,13 +230,13 @@ fn box_of(corners: [[f32; 3]; 3]) -> Aabb {
 
 /// Lowest and highest corner; the fourth components mean nothing.
 ///
-/// By way of bytes, because the hierarchy's crate may use another version of the vector types.
+/// They are read as bytes, because the hierarchy's crate may use another version of the vector types.
 pub(crate) fn bounds(b: &Aabb) -> [Vec4; 2] {
     let [low, high]: [Vec4; 2] = bytemuck::cast(*b);
     [low.with_w(0.0), high.with_w(0.0)]
 }
 
-/// A box test that never misses for rounding.
+/// A box test that rounding never makes miss a box.
 struct Slab {
     /// Subtracted from the lowest and the highest corner of boxes: the origin, moved by as far as single precision
     /// may have moved a box against it.
@@ -263,7 +265,7 @@ impl Slab {
         }
     }
 
-    /// Where the way enters a box, 0..1; infinite where it misses it.
+    /// Where the way enters a box, as a share 0..1; infinite where it misses it.
     fn enter(&self, b: &Aabb) -> f32 {
         let [low, high] = bounds(b);
         let low = (low - self.origins[0]) * self.inverse;
@@ -289,7 +291,7 @@ fn hides(shape: &HalfEdgeMesh, face: u32, (eye, direction): (DVec3, DVec3), touc
     })
 }
 
-/// What a face hides from an eye: a plane and the three sides of the cone behind the face.
+/// The space that a face hides from an eye: a plane and the three sides of the cone behind the face.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Barrier {
     corner: DVec3,
@@ -301,7 +303,7 @@ pub(crate) struct Barrier {
 }
 
 impl Barrier {
-    /// That of a face.
+    /// The barrier of a face.
     pub(crate) fn of(shape: &HalfEdgeMesh, face: u32, eye: DVec3) -> Self {
         let [i, j, k] = shape.faces[face as usize];
         let corners = [shape.point(i), shape.point(j), shape.point(k)];
@@ -315,8 +317,8 @@ impl Barrier {
         }
     }
 
-    /// The part of a line that the face hides, in shares of the line in the world; `sights` lead to its ends, and
-    /// `other` is the barrier for the eye of the second.
+    /// The part of a line that the face hides, in shares of the line in the world. `sights` lead to the line's ends;
+    /// `other` is the barrier for the eye of the second sight.
     ///
     /// What [`FaceTree::occluders`] asks of one point holds where five or six numbers are positive, each of which
     /// changes evenly along the line: they are taken at its ends, so that the range costs as much as two points.
@@ -378,8 +380,8 @@ pub(crate) fn hidden_range(
     barriers[0].hidden_range(&barriers[1], sights)
 }
 
-/// Shortens a range to where a number is not negative that changes evenly, given at 0 and 1; false where nothing is
-/// left.
+/// Cuts a range down to where a number is not negative. The number changes linearly and is given at shares 0 and 1;
+/// returns false where nothing is left.
 #[inline]
 pub(crate) fn cut_range(range: &mut [f64; 2], [at_start, at_end]: [f64; 2]) -> bool {
     match (at_start >= 0.0, at_end >= 0.0) {

@@ -76,7 +76,7 @@ pub fn usual_room(face_count: usize) -> usize {
 pub struct EdgeContours {
     /// Whether each face is turned to the eye: 1 or 0.
     pub front: Vec<u8>,
-    /// The loops between faces that are and faces that are not, with seams.
+    /// The loops between front and back faces, with seams.
     pub graph: CurveGraph,
 }
 
@@ -142,7 +142,7 @@ pub fn contours(shape: &HalfEdgeMesh, front: &[u8], eye: &Eye) -> CurveGraph {
     CurveGraph { nodes }
 }
 
-/// Whether a half-edge of a front face has no front face across.
+/// Whether the face across a half-edge of a front face is missing or not front.
 fn leaves_front(shape: &HalfEdgeMesh, front: &[u8], half_edge: u32) -> bool {
     let twin = shape.twins[half_edge as usize];
     twin == NONE || front[twin as usize / 3] == 0
@@ -174,7 +174,8 @@ fn node_of(shape: &HalfEdgeMesh, eye: &Eye, half_edge: u32, next: u32) -> CurveN
     }
 }
 
-/// A piece on a proper contour edge is a contour; boundaries and odd edges are drawn as features and only link here.
+/// The flags of a node: contour on an edge of two faces that are wound alike; on other edges, which are drawn as
+/// features, seam.
 fn flags_of(shape: &HalfEdgeMesh, eye: &Eye, half_edge: u32, edge: u32) -> u32 {
     let twin = shape.twins[half_edge as usize];
     let odd = EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD | EdgeFlags::FLIPPED;

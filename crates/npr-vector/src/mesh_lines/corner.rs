@@ -9,18 +9,19 @@ use crate::rank::hash_key;
 use npr_core::math;
 use std::collections::BTreeSet;
 
-/// Over how much of a line on either side of a point its turn is measured, in pixels.
+/// Length of the line on either side of a point over which its turn is measured, in pixels.
 const REACH_PX: f64 = 8.0;
 
-/// Most of a closed line that is measured on either side: a circle of any size turns by 36 degrees there.
+/// Most of that length on a closed line, as a share of the line: a circle of any size turns by 36 degrees there.
 const REACH_SHARE: f64 = 0.1;
 
-/// A corner has most of its turn at the point itself: this part of it, within that part of the reach. Bends have it
-/// spread out.
+/// Least share of a corner's turn that lies at the point itself, within [`SHARP_REACH`] of the reach: a bend spreads
+/// its turn out.
 const SHARP_TURN: f64 = 0.75;
 const SHARP_REACH: f64 = 0.25;
 
-/// From which turn smoothing leaves a corner alone, and closed runs start there: about 45 degrees.
+/// Cosine of the turn from which smoothing leaves a corner alone, and from which closed runs may start: about 45
+/// degrees.
 pub(crate) const PINNED_COS: f64 = 0.7;
 
 /// Corners whose turn differs by less than this are equally sharp, in radians: noise must not decide between the
@@ -34,13 +35,13 @@ pub struct Corner {
     pub point: usize,
     /// Angle between the directions before and after it, in radians, 0..pi.
     pub turn: f64,
-    /// The line turns at the point itself, rather than along a bend.
+    /// Whether the line turns at the point itself, rather than along a bend.
     pub is_sharp: bool,
 }
 
-/// Points where a line turns by an angle of at most the given cosine, ascending; each the sharpest within 8 pixels.
+/// Points where the cosine of a line's turn is at most `turn_cos`, ascending; each is the sharpest within 8 pixels.
 ///
-/// Points nearer than that to an end of an open line are none. O(n log n).
+/// Points nearer than that to an end of an open line are left out. O(n log n).
 pub fn corners(points: &[RunPoint], closed: bool, turn_cos: f64) -> Vec<Corner> {
     let way = Way::new(points, closed);
     let reach = way.reach();
@@ -63,7 +64,7 @@ pub fn corners(points: &[RunPoint], closed: bool, turn_cos: f64) -> Vec<Corner> 
 
 /// A line with the distance of its points from the start.
 struct Way {
-    /// The first again at the end of a closed line.
+    /// Places of the points; on a closed line the first comes again at the end.
     places: Vec<[f64; 2]>,
     stations: Vec<f64>,
     closed: bool,
@@ -193,9 +194,9 @@ impl Anchor {
 
 /// Cuts runs at sharp corners that turn by at least an angle in radians; both parts keep the corner as an end.
 ///
-/// The ends are marked as cut: nothing joins them again. Every part has the identity of the mesh edge with the least
-/// hash among its own, so that a cut elsewhere does not change it. The order is kept, and that of parts is along
-/// their run. A closed run with one corner becomes an open one from the corner to itself.
+/// Ends at a cut are marked, so that nothing joins them again. The identity of a part comes from the mesh edge with the
+/// least hash among its own, so that a cut elsewhere does not change it. Runs keep their order, and parts follow each
+/// other along their run. A closed run with one corner becomes an open one from the corner to itself.
 pub fn split(runs: Vec<Run>, least_turn: f32) -> Vec<Run> {
     let turn_cos = f64::from(math::cos(least_turn));
     let cuts: Vec<Vec<usize>> = runs

@@ -1,7 +1,7 @@
 //! From a shape and a camera to strokes.
 //!
-//! [`Prepared`] holds what does not depend on the camera; [`strokes`] does the rest for one view: it gathers the
-//! pieces of all lines, finds what is seen of them, joins what goes on, and smooths.
+//! [`Prepared`] holds what does not depend on the camera; [`strokes`] does the rest for one view: it gathers the pieces
+//! of all lines, finds their visible parts, joins those that continue each other, and smooths.
 
 mod calm;
 mod paint;
@@ -38,7 +38,7 @@ pub struct ViewStrokes {
     pub left_out: usize,
 }
 
-/// Up to how many surfaces in front of a hidden line are counted.
+/// Most surfaces in front of a hidden line that are counted.
 const HIDDEN_COUNT_LIMIT: u32 = 255;
 
 /// The lines of a view as strokes; visible ones first where hidden ones are asked for, then by chain.
@@ -75,7 +75,7 @@ pub fn strokes(
     found.expect("no limit is set").strokes
 }
 
-/// The same, with the contours along edges found by the caller for [`eye_of`] the view, and among smoke.
+/// As [`strokes`], with smoke, and with contours along edges that the caller found for [`eye_of`] the view.
 ///
 /// Dense smoke hides lines of the shape and counts as one surface; its own outline comes after them. Where lines lie
 /// so close that the paper is black, further ones are left out: those over it whose edges have the greater hashes

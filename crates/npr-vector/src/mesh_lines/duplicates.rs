@@ -17,16 +17,16 @@ const PEN_PX: f64 = 3.0;
 /// Cosine of the largest angle at which lines count as running along each other.
 const ALONG_COS: f64 = 0.8;
 
-/// A run may come this near to itself, measured along it, in pixels.
+/// Length along a run within which it may come near to itself, in pixels.
 const OWN_PX: f64 = 12.0;
 
-/// On how many samples on either side the majority decides.
+/// Number of samples on either side that vote on one.
 const MAJORITY: usize = 3;
 
-/// What is left of a run after cutting must have this many samples.
+/// Fewest samples that a part left after cutting may have.
 const LEAST_SAMPLES: usize = 2;
 
-/// How many samples after one decide whether it is drawn: the majorities of as many as must be left in a row.
+/// Number of samples after one that decide whether it is drawn: as many as vote on the least row that may be left.
 const SETTLING: usize = MAJORITY + LEAST_SAMPLES - 1;
 
 /// How many samples beyond a cut are kept, so that what is left reaches the line it ran into.
@@ -100,7 +100,7 @@ struct Sample {
     /// Distance from the start of its run, in pixels.
     at: f64,
     occluded: bool,
-    /// The end of its run that it lies within a pen's width of.
+    /// The end of its run, if it lies within a pen's width of one.
     tip: Option<Tip>,
 }
 
@@ -114,10 +114,11 @@ struct Taken {
 }
 
 impl Taken {
-    /// Which samples of a run lie along something taken, by majority; takes those beside nothing that are drawn.
+    /// Which samples of a run lie along something taken, by majority; takes the samples that are drawn and lie beside
+    /// nothing.
     ///
-    /// A sample beside nothing may be cut away with most around it. It is not taken: what is cut away for lying beside
-    /// it would lie beside nothing that is drawn.
+    /// A sample beside nothing may be cut away with most of the samples around it. It is not taken: otherwise others
+    /// would be cut away for lying beside a line that is not drawn.
     fn doubled(&mut self, run: &Run, index: usize) -> Vec<bool> {
         let samples = samples(run, index);
         let mut beside: Vec<Option<Option<Tip>>> = Vec::with_capacity(samples.len());
@@ -160,8 +161,8 @@ impl Taken {
             .is_some()
     }
 
-    /// Whether a run that adds no ink leads from an end of something taken to another end, with nothing else to run
-    /// along.
+    /// Whether a run that adds no ink leads from an end of something taken to another end, and is too short to run
+    /// along anything else.
     fn joins_ends(&self, run: &Run) -> bool {
         let tip = |point: &RunPoint| {
             let is_tip =
@@ -245,7 +246,7 @@ fn stations(run: &Run) -> Vec<f64> {
     std::iter::once(0.0).chain(steps).collect()
 }
 
-/// The points of a run, of a number, as samples.
+/// The points of run `index` as samples.
 fn samples(run: &Run, index: usize) -> Vec<Sample> {
     let (stations, length) = (stations(run), run.length());
     let tip = |at: f64| match run.closed {

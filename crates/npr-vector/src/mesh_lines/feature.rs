@@ -30,7 +30,7 @@ pub fn features(shape: &HalfEdgeMesh, creases: impl Into<Creases>) -> CurveGraph
     chain(shape, &candidates, &mates)
 }
 
-/// What an edge is whatever the view; none where it is nothing.
+/// The flags that an edge has in every view; `None` where it is no line in any.
 pub(crate) fn static_flags(shape: &HalfEdgeMesh, edge: u32, creases: Creases) -> Option<u32> {
     let traits = shape.edge_traits[edge as usize];
     let bends = shape.fold_cos(edge, creases.from) < creases.cos;
@@ -62,7 +62,7 @@ pub fn kind_in_view(
     }
 }
 
-/// Which end of which candidate continues each end; `2 k` is the lower end of candidate `k`.
+/// The end that continues each end, or [`NONE`]; `2 k` is the lower end of candidate `k`, `2 k + 1` the upper.
 fn mates(shape: &HalfEdgeMesh, candidates: &[(u32, u32)]) -> Vec<u32> {
     // Bring the ends together that meet in a vertex.
     let mut meetings: Vec<(u32, u32, u32)> = candidates
@@ -88,7 +88,7 @@ fn mates(shape: &HalfEdgeMesh, candidates: &[(u32, u32)]) -> Vec<u32> {
     mates
 }
 
-/// Lines do not pass from one kind or object to another.
+/// The object and first kind of an edge: lines do not pass from one to another.
 fn group_of(shape: &HalfEdgeMesh, edge: u32, flags: u32) -> u32 {
     let face = shape.sides(edge)[0] / 3;
     let object = shape.surfaces[shape.face_surfaces[face as usize] as usize].object;

@@ -12,7 +12,7 @@ use npr_core::gpu_layout;
 use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 
-/// A point of a line, and what is known of the piece that runs from it to its successor.
+/// A point of a line, and the properties of the piece that runs from it to its successor.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct CurveNode {
@@ -62,7 +62,7 @@ impl CurveGraph {
         shape.point_on(node.edge, node.t).to_array()
     }
 
-    /// The nodes that have pieces, line by line: open lines first, each kind in the order of first nodes.
+    /// The nodes that have pieces, line by line: open lines first, then closed ones, each in the order of first nodes.
     pub fn chains(&self) -> Vec<Vec<u32>> {
         let nodes = &self.nodes;
         let mut seen = vec![false; nodes.len()];

@@ -23,18 +23,18 @@ use npr_core::budget::{Budget, OverBudget};
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
-/// Pairs of faces looked at exactly, beside [`PAIRS_PER_FACE`] for every face: a second of work.
+/// Most pairs of faces that are decided exactly, beside [`PAIRS_PER_FACE`] for every face: a second of work.
 ///
 /// Where thousands of faces all overlap each other, pairs grow with the square of their number.
 pub const PAIRS: usize = 1 << 18;
 
-/// Pairs of faces looked at exactly, for every face of the shape.
+/// Most pairs of faces that are decided exactly, for every face of the shape.
 pub const PAIRS_PER_FACE: usize = 16;
 
-/// Pieces of intersection that become lines, beside [`PAIRS_PER_FACE`] for every face: each is looked at with all
+/// Most pieces of intersection that become lines, beside [`PAIRS_PER_FACE`] for every face: each is compared with all
 /// outlines before it.
 ///
-/// Where a thousand faces all cut each other nobody could read them.
+/// Where a thousand faces all cut each other, nobody could read the lines.
 pub const PIECES: usize = 1 << 15;
 
 /// A place where a mesh edge goes through the inside of a face that it does not touch.
@@ -48,7 +48,7 @@ pub struct Piercing {
     pub face: u32,
 }
 
-/// What a shape's surfaces have in common.
+/// Where the surfaces of a shape cut each other.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Crossings {
     /// Lines of intersection; two nodes that follow each other are the ends of the piece that two faces share.
@@ -127,7 +127,7 @@ pub fn crossings(
     })
 }
 
-/// Every piercing once, though each is the end of a segment on all faces of its edge.
+/// Every piercing once, although it ends segments on all faces of its edge.
 fn piercings(segments: &[Segment]) -> Vec<Piercing> {
     let ends = segments.par_iter().flat_map_iter(|segment| segment.ends);
     let mut piercings: Vec<Piercing> = ends

@@ -15,9 +15,9 @@ pub struct LineSettings {
     pub smooth: bool,
     /// Gives hidden lines too, with the number of surfaces in front.
     pub hidden: bool,
-    /// Turn, in radians, from which strokes are cut at a corner; none never.
+    /// Turn, in radians, from which strokes are cut at a corner; `None` for never.
     pub split: Option<f32>,
-    /// Most bytes that what is found of a view may take.
+    /// Most bytes that the lines of a view may take.
     pub memory_limit: u64,
 }
 

@@ -9,43 +9,42 @@ use crate::mesh_lines::near::cell_of;
 use crate::mesh_lines::run::{Run, RunPoint, distance};
 use std::collections::BTreeMap;
 
-/// How near two ends must be that only noise keeps apart, in pixels: the width of a pen, within which nobody tells
+/// Greatest distance of two ends that only noise separates, in pixels: the width of a pen, within which nobody tells
 /// lines apart.
 pub const TOUCHING_PX: f64 = 3.0;
 
-/// How near two ends must be that meet at a corner, in pixels: half a pen's width of paper between the caps is not
+/// Greatest distance of two ends that meet at a corner, in pixels: half a pen's width of paper between the caps is not
 /// seen.
 const CORNER_PX: f64 = 4.5;
 
-/// How near two ends must be that face each other across a gap, in pixels.
+/// Greatest distance of two ends that face each other across a gap, in pixels.
 pub const FACING_PX: f64 = 8.0;
 
-/// A run shorter than this is a dot: what direction its ends have is noise, in pixels.
+/// Length in pixels under which a run is a dot: the direction of its ends is noise.
 pub(crate) const DOT_PX: f64 = 8.0;
 
 /// Cosine of the largest bend where two runs are joined, and of the largest angle between an end and the gap it is
 /// joined across.
 const STRAIGHT_COS: f64 = 0.85;
 
-/// The same where one of the runs is a dot and both touch; dots that do not are meant as such, like the holes of a
-/// belt.
+/// The same cosine where one of the runs is a dot and both touch; dots that do not touch are meant as such, like the
+/// holes of a belt.
 const DOT_COS: f64 = 0.0;
 
 /// Cosine of the largest turn at a corner; lines that come back more sharply are two.
 const CORNER_COS: f64 = -0.5;
 
-/// What a corner costs: more than any two ends that go the same way.
+/// Cost of a corner: more than that of any two ends that go the same way.
 const CORNER_COST: f64 = 10.0;
 
 /// Largest difference in depth where two runs are joined, as a share of the depth: where surfaces turn away, depth
 /// changes by that within few pixels.
 const DEPTH_SHARE: f64 = 0.03;
 
-/// Ends in one cell as wide as the reach, above which they stay as they are: nobody could tell which goes on in
-/// which.
+/// Most ends in one cell as wide as the reach; more stay as they are, since nobody could tell which continues which.
 const ENDS_MOST: usize = 128;
 
-/// Over how much of a run its direction at an end is taken, in pixels.
+/// Length of a run over which its direction at an end is taken, in pixels.
 const DIRECTION_PX: f64 = 6.0;
 
 /// Runs with ends up to `reach_px` apart joined in pairs, the best pairs first.
@@ -155,12 +154,12 @@ fn near_pairs(ends: &[Option<End>], reach_px: f64) -> Vec<[usize; 2]> {
     pairs
 }
 
-/// What ends come near each other.
+/// The ends that come near each other.
 struct Meetings<'a> {
     runs: &'a [Run],
     ends: &'a [Option<End>],
     pairs: Vec<[usize; 2]>,
-    /// How many other ends of the kind and object are as near each as ends of a corner.
+    /// For each end, how many others of its kind and object come as near as the ends of a corner.
     beside: Vec<u32>,
 }
 
@@ -189,7 +188,7 @@ impl<'a> Meetings<'a> {
         Some(distance(end_a.place, end_b.place))
     }
 
-    /// How badly two ends fit; none where they must not be joined.
+    /// How badly two ends fit; `None` where they must not be joined.
     fn cost(&self, [a, b]: [usize; 2]) -> Option<f64> {
         let (run_a, run_b) = (&self.runs[a / 2], &self.runs[b / 2]);
         let (end_a, end_b) = (self.ends[a].as_ref()?, self.ends[b].as_ref()?);
@@ -210,7 +209,7 @@ impl<'a> Meetings<'a> {
     }
 }
 
-/// Whether one end goes on in the other: they touch, point at each other, or have run past each other side by side.
+/// Whether one end continues the other: they touch, point at each other, or have run past each other side by side.
 fn go_on(a: &End, b: &End) -> bool {
     let gap = distance(a.place, b.place);
     let straight = -dot(a.out, b.out);
@@ -273,7 +272,7 @@ fn join(runs: Vec<Run>, mates: &[usize]) -> Vec<Run> {
     found.into_iter().map(|(_, run)| run).collect()
 }
 
-/// What is joined from an end on, and the first of its members.
+/// The run joined from an end on, and the first of its members.
 fn follow(runs: &[Run], mates: &[usize], start: usize, used: &mut [bool]) -> (usize, Run) {
     let mut end = start;
     let mut whole = oriented(&runs[end / 2], end);
@@ -321,14 +320,14 @@ fn meets(a: &RunPoint, b: &RunPoint) -> bool {
     distance(a.place, b.place) < 1e-6 && a.world.distance(b.world) <= near
 }
 
-/// Lets the end of a line lie on what it has come along.
+/// Makes the end of a line lie on what its last piece lies on.
 fn rest_end(run: &mut Run) {
     let last = run.points.len() - 1;
     run.points[last].location = run.location_at(last);
     run.points[last].leaps = false;
 }
 
-/// Lets a line go on along another, across the gap between them where there is one.
+/// Extends a line by another, across the gap between them where there is one.
 fn extend(run: &mut Run, more: &Run) {
     rest_end(run);
     let last = run.points.len() - 1;

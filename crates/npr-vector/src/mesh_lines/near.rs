@@ -5,7 +5,7 @@ pub(crate) fn cell_of(place: [f64; 2], side: f64) -> [i64; 2] {
     place.map(|v| (v / side).floor() as i64)
 }
 
-/// A cell and the eight around it, column by column: all that holds places within a cell's side.
+/// A cell and the eight around it, column by column: they hold all places within a cell's side.
 pub(crate) fn cells_around([x, y]: [i64; 2]) -> impl Iterator<Item = [i64; 2]> {
     let steps = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [dx, dy]));
     steps.map(move |[dx, dy]| [x.saturating_add(dx), y.saturating_add(dy)])

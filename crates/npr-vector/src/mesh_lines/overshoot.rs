@@ -9,7 +9,7 @@ use crate::mesh_lines::near::{cell_of, cells_around};
 use crate::mesh_lines::run::{Run, distance};
 use std::collections::BTreeMap;
 
-/// Of a run of which less would be left nothing is cut, in pixels: it is no line with a spur, but a short line.
+/// Least length of a run that must be left, in pixels: a shorter one is no line with a spur, but a short line.
 const LEAST_LEFT_PX: f64 = 4.0 * DOT_PX;
 
 /// Runs without spurs; order is kept. Runs must be sampled at most a pen's width apart.
@@ -33,7 +33,7 @@ pub fn cut_overshoot(mut runs: Vec<Run>) -> Vec<Run> {
 struct Sample {
     place: [f64; 2],
     run: usize,
-    /// It is the first or last of an open run.
+    /// Whether it is the first or last point of an open run.
     is_end: bool,
 }
 

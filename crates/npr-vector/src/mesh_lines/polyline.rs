@@ -1,4 +1,4 @@
-//! Lines that are geometry themselves, without faces: the polylines of a shape, linked.
+//! Lines of the file itself, without faces: the polylines of a shape, linked.
 //!
 //! They are marked lines, for somebody placed them by hand. A polyline lies on no face that the shape knows of, so what
 //! it touches is found by distance ([`touch`]) and never hides it.
@@ -11,11 +11,11 @@ use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
-/// How near to a face a polyline counts as lying on it, as a share of the diagonal of everything: a tenth of a pixel
-/// where that fills a picture of a thousand.
+/// Distance from a face within which a polyline counts as lying on it, as a share of the diagonal of the whole shape: a
+/// tenth of a pixel where that fills a picture of a thousand.
 ///
-/// Files round positions, and lines drawn on curved surfaces dip under their facets. Larger lets lines on the back of
-/// thin walls through.
+/// Files round positions, and lines drawn on curved surfaces dip under their facets. A larger distance would let lines
+/// on the back of thin walls through.
 pub const TOUCH_SHARE: f64 = 1e-4;
 
 /// All polylines of a shape, linked where exactly two of them meet; where more do, lines end.

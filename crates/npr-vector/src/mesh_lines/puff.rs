@@ -1,4 +1,4 @@
-//! Smoke as lines see it: spheres, what they hide, and the outline that they are drawn with.
+//! Smoke among lines: spheres, the lines that they hide, and the outline that they are drawn with.
 //!
 //! The outline of a sphere is a circle in space, and another sphere covers one arc of it, known in closed form. What no
 //! sphere covers is what a pen draws: there lies nothing behind the silhouette, or smoke far enough behind it [Hoshino
@@ -22,7 +22,7 @@ use npr_core::smoke::Sphere;
 use sphere::Puff;
 use std::collections::BTreeSet;
 
-/// How much nearer than a point a puff must be to hide it, as a part of its radius: lines on a sphere must not break
+/// How much nearer than a point a puff must be to hide it, as a share of its radius: lines on a sphere must not break
 /// into dashes.
 const NEARER: f64 = 1e-6;
 
@@ -64,7 +64,7 @@ impl Puffs {
         }
     }
 
-    /// Whether none is in sight.
+    /// Whether no sphere is in sight.
     pub fn is_empty(&self) -> bool {
         self.puffs.is_empty()
     }

@@ -1,4 +1,4 @@
-//! Makes one line of what changes between an intersection and another kind every few pixels.
+//! Relabels lines that change between an intersection and another kind every few pixels.
 //!
 //! Where a shape is pressed into another with about the same outline, a peg into a hole, the line between the two is
 //! now a contour of the one and now where they intersect, a facet each. To the eye it is one line, and only runs of

@@ -21,11 +21,11 @@ pub struct RunPoint {
     pub edge: u32,
     /// Where on that edge, from its lower vertex.
     pub t: f32,
-    /// What the line lies on from here to the next point.
+    /// The edge or face that the line lies on from here to the next point.
     pub location: SurfaceLocation,
-    /// Whether the line changes what it lies on between here and the next point, where two lines were joined across a
-    /// gap or where places on two edges follow each other. What is between both in the world lies on neither, so all
-    /// places of the first half are those of this point there, and those of the second half those of the next.
+    /// Whether the line moves to another edge or face between here and the next point, where two lines were joined
+    /// across a gap or where places on two edges follow each other. Points in between lie on neither in the world, so
+    /// the first half of the way takes the place of this point there, and the second half that of the next.
     pub leaps: bool,
 }
 
@@ -44,11 +44,11 @@ pub struct Run {
     pub occluders: u32,
     /// The last point runs on to the first.
     pub closed: bool,
-    /// Its first and last point are where it was cut at a corner: nothing goes on there.
+    /// Whether its first and its last point lie where it was cut at a corner: nothing is joined there.
     pub cut: [bool; 2],
     /// Factor on its width.
     pub weight: f64,
-    /// At least two points.
+    /// The points, at least two.
     pub points: Vec<RunPoint>,
 }
 
@@ -89,7 +89,7 @@ impl Run {
         }
     }
 
-    /// What the line lies on at a point of a number: at an open end on what it has come along.
+    /// The edge or face that the line lies on at point `index`; the end of an open line takes that of the last piece.
     pub(crate) fn location_at(&self, index: usize) -> SurfaceLocation {
         location_at(&self.points, self.closed, index)
     }
@@ -115,7 +115,8 @@ pub fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt()
 }
 
-/// What a line lies on at one of its points: at an open end, and after no leap, on what it has come along.
+/// The edge or face that a line lies on at a point; at an open end, unless the last piece leaps, that of the last
+/// piece.
 pub(crate) fn location_at(points: &[RunPoint], closed: bool, index: usize) -> SurfaceLocation {
     let is_end = !closed && index + 1 == points.len();
     let before = &points[index - usize::from(is_end && index > 0)];

@@ -1,4 +1,4 @@
-//! Runs put together from what is seen of chains, which are cut where visibility, kind or surface changes.
+//! Puts runs together from the spans of chains, which are cut where visibility, kind or surface changes.
 
 use crate::mesh_lines::corner::start_at_head;
 use crate::mesh_lines::graph::CurveGraph;
@@ -20,7 +20,7 @@ struct Item<'a> {
     node: u32,
     line: &'a Line,
     span: Span,
-    /// It starts where the item before ends.
+    /// Whether it starts where the item before ends.
     follows: bool,
 }
 
@@ -41,7 +41,7 @@ impl Item<'_> {
     }
 }
 
-/// The runs of all chains of a graph; `lines` holds what is drawn after each node.
+/// The runs of all chains of a graph; `lines` holds the line after each node.
 pub fn runs(
     shape: &HalfEdgeMesh,
     projector: &Projector,
@@ -137,7 +137,7 @@ fn items<'a>(
     (items, is_loop)
 }
 
-/// Makes hidden stretches too short to see visible, and visible ones hidden where hidden lines go on around them.
+/// Shows hidden stretches too short to see, and hides visible ones where hidden lines continue around them.
 fn close_gaps(items: &mut [Item<'_>]) {
     let mut from = 0;
     while from < items.len() {
@@ -229,7 +229,7 @@ impl Maker<'_> {
         (hash_key(edge), base_id(edge, item.line.kind))
     }
 
-    /// What the piece of an item lies on.
+    /// The edge or face that the piece of an item lies on.
     fn location(&self, item: &Item<'_>) -> SurfaceLocation {
         let node = &self.graph.nodes[item.node as usize];
         let other = &self.graph.nodes[node.next as usize];

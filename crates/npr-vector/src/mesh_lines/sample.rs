@@ -22,10 +22,10 @@ use rayon::prelude::*;
 /// The first is the spine's own pixel, where half of all samples meet their own surface.
 pub const TAP_COUNT: u32 = 4;
 
-/// From one of these places to the next, in grid pixels.
+/// Distance from one of these places to the next, in grid pixels.
 pub const TAP_STEP_PX: f32 = 0.75;
 
-/// How many pixels off a depth on a slope of the sample's own part may be.
+/// Number of pixels by which the depth on a slope of the sample's own part may be off.
 ///
 /// A spine runs where its own surface turns away, so the depth under it may come from the next pixel of a steep
 /// slope. The pixel's plane is continued up to half a pixel; as much again is what it may be wrong by. More shows
@@ -33,10 +33,10 @@ pub const TAP_STEP_PX: f32 = 0.75;
 /// 96.3 % at one, 93.4 % at two.
 pub const SLOPE_PIXELS: f32 = 0.5;
 
-/// Steeper slopes than this, in depth per pixel of a pixel's size, count as this: the limb of a ball has no bound.
+/// Steepest slope that counts, in depth per pixel of a pixel's size: the limb of a ball has no bound.
 pub const LARGEST_SLOPE: f32 = 2.0;
 
-/// Difference of depths, as a fraction of depth, that rounding explains.
+/// Difference of depths, as a share of depth, that rounding explains.
 pub const DEPTH_ROUNDING: f32 = 1.0 / 65536.0;
 
 /// A point of a line's spine.

@@ -125,7 +125,7 @@ fn resampled(points: &[RunPoint], closed: bool, corners: &[usize]) -> (Vec<RunPo
     (samples, pins)
 }
 
-/// Adds points at equal distances along a polyline, its end included; its start is there already.
+/// Adds points at equal distances along a polyline, its end included; `samples` holds its start already.
 fn push_even(path: &[RunPoint], samples: &mut Vec<RunPoint>) {
     // Choose a count of even steps.
     let steps = path
@@ -161,17 +161,17 @@ fn push_even(path: &[RunPoint], samples: &mut Vec<RunPoint>) {
     samples.extend(path.last());
 }
 
-/// Says of the last sample whether the world leaps before the next one.
+/// Sets whether the last sample leaps to the next one in the world.
 fn mark_leap(samples: &mut [RunPoint], leaps: bool) {
     if let Some(last) = samples.last_mut() {
         last.leaps = leaps;
     }
 }
 
-/// Where along a polyline it changes what it lies on, in order: at points, and in the middles of pieces where it leaps.
+/// Finds, in order, where a polyline moves to another edge or face: at points, and in the middle of pieces that leap.
 struct Leaps<'a> {
     path: &'a [RunPoint],
-    /// The station asked for last, in pieces from the start.
+    /// Place up to which such moves were looked for, in pieces from the start.
     station: f64,
 }
 
@@ -180,8 +180,8 @@ impl<'a> Leaps<'a> {
         Self { path, station: 0.0 }
     }
 
-    /// Whether there is a change between the station asked for last and the next one: what lies on one side of it is
-    /// not on the way to the other in the world.
+    /// Whether the line moves to another edge or face between that place and `station`: then no straight way in the
+    /// world lies between the two.
     fn is_any_before(&mut self, station: f64) -> bool {
         let (from, to) = (self.station, station);
         self.station = station;

@@ -1,4 +1,4 @@
-//! Edges that need no line of their own, for a smooth contour shows them.
+//! Edges that need no line of their own, since a smooth contour shows them.
 
 use crate::mesh_lines::graph::CurveGraph;
 use crate::mesh_lines::line::Line;
@@ -13,7 +13,7 @@ const BESIDE_COS: f64 = 0.9;
 /// Largest difference in depth between an edge and the contour beside it, as a share of the depth.
 const DEPTH_SHARE: f64 = 0.01;
 
-/// Where along an edge it is compared with contours; most places decide.
+/// Places along an edge at which it is compared with contours; the majority decides.
 const PLACES: [f64; 3] = [0.2, 0.5, 0.8];
 
 /// Edges of which smooth contours show at least half, ascending.
@@ -40,7 +40,8 @@ pub(crate) fn suppressed_edges(graph: &CurveGraph, lines: &[Option<Line>]) -> Ve
         .collect()
 }
 
-/// Edges beside which a seen contour runs within the tolerance of smooth contours, of those given with their pieces.
+/// Those of `edges`, given with their pieces, beside which a visible contour runs within the tolerance of smooth
+/// contours.
 ///
 /// O(lines + edges) where contours do not crowd.
 pub(crate) fn edges_beside(

@@ -24,31 +24,31 @@ use glam::DVec3;
 use npr_core::budget::{Budget, OverBudget};
 use npr_mesh::half_edge::HalfEdgeMesh;
 
-/// Spans shorter than this are not looked at by themselves, in pixels.
+/// Length in pixels under which a span is not examined by itself.
 const LEAST_SPAN_PX: f64 = 1e-4;
 
-/// A piece is crowded where the cells that its image passes hold more outlines than this.
+/// Number of outlines in the cells that a piece's image passes, above which the piece is crowded.
 ///
-/// What hides it is then looked for face by face: looking at every crossing with an outline would take the square of
-/// their number. Lines of usual models pass some dozens, the longest some hundreds.
+/// A crowded piece is tested face by face: testing every crossing with an outline would take the square of their
+/// number. Lines of usual models pass some dozens of outlines, the longest some hundreds.
 pub const CROWD: usize = 512;
 
 /// Spans of crowded pieces shorter than this, in pixels, are left out: nobody sees them, and there may be as many as
 /// faces.
 const LEAST_CROWDED_PX: f64 = 1.0 / 64.0;
 
-/// The faces before a crowded piece are counted where there are no more than one for so many pixels of
-/// it; else it is hidden or not.
+/// Pixels of a crowded piece for every face before it that is counted; behind more faces the piece is only visible or
+/// hidden.
 const PX_PER_COUNTED: f64 = 2.0;
 
-/// What decides about one piece besides its geometry.
+/// What decides the visibility of one piece besides its geometry.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Circumstances {
     /// Faces that the piece lies in, which never hide it.
     pub own_faces: Vec<u32>,
     /// Places where it goes through a face, along the uncut piece in the world, 0..1.
     pub piercings: Vec<f64>,
-    /// How near the piece may lie to a face without being hidden by it; 0 for lines of faces themselves.
+    /// How near to a face the piece may lie without being hidden by it; 0 for lines of faces themselves.
     pub touch: f64,
 }
 
@@ -169,6 +169,7 @@ impl OutlineGrid {
 
     /// Shares of a piece's image at which an outline in front of it is crossed, ascending.
     pub fn cuts(&self, projector: &Projector, piece: &Piece) -> Vec<f64> {
+        // Find where the piece crosses outlines in the cells that it passes, and keep those in front.
         let mut cuts = Vec::new();
         self.cells_of(piece, |cell| {
             let [from, to] = [cell, cell + 1].map(|c| self.starts[c] as usize);
@@ -185,6 +186,8 @@ impl OutlineGrid {
                 }
             }
         });
+
+        // Sort the places, each once.
         cuts.sort_by(f64::total_cmp);
         cuts.dedup();
         cuts
@@ -212,15 +215,15 @@ fn crossing(piece: &Piece, other: &Piece) -> Option<(f64, f64)> {
     (inside && (-1e-9..=1.0 + 1e-9).contains(&theirs)).then_some((own, theirs))
 }
 
-/// What is kept from piece to piece: it changes the time taken and nothing else.
+/// Memory that passes from piece to piece: it changes the time taken and nothing else.
 #[derive(Debug, Default)]
 pub struct Memory {
-    /// The face that hid something last, to be tried first.
+    /// The last face that hid something, which is tried first.
     last: Option<u32>,
     tried: Tried,
 }
 
-/// What visibility is decided with.
+/// What decides visibility in a view: shape, camera, outlines and smoke.
 #[derive(Debug, Clone, Copy)]
 pub struct Seen<'a> {
     /// The surface.
@@ -231,7 +234,7 @@ pub struct Seen<'a> {
     pub projector: &'a Projector,
     /// The outlines of the view.
     pub outlines: &'a OutlineGrid,
-    /// The faces as the view has them; made when a crowded piece first asks.
+    /// Where the faces lie in the picture; made when the first crowded piece asks.
     pub images: &'a FaceImages,
     /// What hides lines besides the faces, where there is any: smoke.
     pub extra: Option<&'a dyn Occluders>,
@@ -242,9 +245,8 @@ pub struct Seen<'a> {
 }
 
 impl Seen<'_> {
-    /// The spans of a piece, which cover it in order; neighbours differ. Of crowded pieces
-    /// ([`OutlineGrid::is_crowded`]) behind more faces than one for two pixels these are not counted: what is hidden
-    /// has one in front.
+    /// The spans of a piece, which cover it in order; neighbours differ. Crowded pieces ([`OutlineGrid::is_crowded`])
+    /// behind more than one face for two pixels are not counted exactly: hidden parts have one surface in front.
     ///
     /// A thread lends its `memory` to one piece after the other.
     pub fn spans(
@@ -266,13 +268,13 @@ impl Seen<'_> {
         spans
     }
 
-    /// Makes with all threads what [`Seen::crowded_spans`] will ask for; not to be called where others may be asking.
+    /// Makes on all threads what [`Seen::crowded_spans`] will need; no other thread may be asking for it.
     pub(crate) fn prepare(&self) {
         self.images.prepare(self);
     }
 
-    /// The spans of a piece by the parts of it that each face hides, without those parts, ascending, that are
-    /// `left_out`. About O(log n) for each face that hides a part no other does.
+    /// The spans of a piece, from the parts of it that each face hides; the parts in `left_out`, ascending, have none.
+    /// About O(log n) for each face that hides a part no other does.
     pub(crate) fn crowded_spans(
         &self,
         piece: &Piece,
@@ -306,7 +308,7 @@ impl Seen<'_> {
         without(&joined(spans, piece), left_out)
     }
 
-    /// The spans of a part that no face hides: smoke may.
+    /// Adds the spans of a part that no face hides; smoke may hide it.
     fn push_occluded(&self, piece: &Piece, [from, to]: [f64; 2], spans: &mut Vec<Span>) {
         let mut cuts = vec![from];
         if let Some(extra) = self.extra {
@@ -326,7 +328,7 @@ impl Seen<'_> {
         }
     }
 
-    /// All places where visibility may change, with both ends.
+    /// All shares where visibility may change, with both ends.
     fn cuts(&self, piece: &Piece, piercings: &[f64]) -> Vec<f64> {
         let mut cuts = self.outlines.cuts(self.projector, piece);
         let [from, to] = piece.range;
@@ -387,7 +389,7 @@ impl Seen<'_> {
     }
 }
 
-/// How many of some parts, up to a limit, lie over each place.
+/// Spans with the number of parts that lie over each place, up to a limit.
 fn counted(parts: &[[f64; 2]], limit: u32) -> Vec<Span> {
     let starts = parts.iter().map(|part| (part[0], 1));
     let mut steps: Vec<(f64, i32)> = starts
@@ -412,7 +414,7 @@ fn least_crowded(piece: &Piece) -> f64 {
     LEAST_CROWDED_PX / piece.length().max(2.0 * LEAST_CROWDED_PX)
 }
 
-/// Spans of a crowded piece without those too short to see, which go to the one before; at the start to the one after.
+/// Merges spans of a crowded piece that are too short to see into the one before, at the start into the one after.
 fn joined(spans: Vec<Span>, piece: &Piece) -> Vec<Span> {
     let least = least_crowded(piece);
     let is_seen = |span: &Span| span.to - span.from >= least;
@@ -430,7 +432,7 @@ fn joined(spans: Vec<Span>, piece: &Piece) -> Vec<Span> {
     kept
 }
 
-/// What is left of spans beside some parts, ascending; neither overlap among themselves.
+/// The spans without some parts; both ascend and do not overlap among themselves.
 fn without(spans: &[Span], parts: &[[f64; 2]]) -> Vec<Span> {
     let mut left = Vec::with_capacity(spans.len());
     for span in spans {
@@ -457,7 +459,7 @@ fn without(spans: &[Span], parts: &[[f64; 2]]) -> Vec<Span> {
     left
 }
 
-/// Appends a span, or makes the last one longer where both are alike; nothing where it has no length.
+/// Appends a span, or extends the last one if both are alike; does nothing if the span has no length.
 fn push(spans: &mut Vec<Span>, [from, to]: [f64; 2], occluders: u32) {
     match spans.last_mut() {
         Some(span) if span.occluders == occluders => span.to = to,

@@ -1,4 +1,4 @@
-//! Edges of a shape as they are drawn into the picture: which, as what, and which way round.
+//! Edges of a shape for drawing into the picture: which are drawn, as which kind, and in which direction.
 //!
 //! [`mark_edges`] is the twin of `vector.mark_edges`.
 
@@ -71,7 +71,7 @@ impl DrawnEdge {
         }
     }
 
-    /// What is never drawn, and only keeps the numbers of others.
+    /// An edge that is never drawn, and only keeps the numbers of the others.
     fn nothing() -> Self {
         Self {
             face: NONE,
@@ -141,14 +141,14 @@ fn object_of(shape: &HalfEdgeMesh, face: u32) -> usize {
     shape.surfaces[shape.face_surfaces[face as usize] as usize].object as usize
 }
 
-/// What [`mark_edges`] works on.
+/// The input of [`mark_edges`].
 #[derive(Debug, Clone, Copy)]
 pub struct Facing<'a> {
     /// The eye.
     pub viewer: &'a Viewer,
     /// Bits of [`KindSet::BITS`] that are drawn.
     pub wanted: u32,
-    /// Contours in valleys are left out.
+    /// Whether contours in valleys are left out.
     pub is_convex_only: bool,
     /// Coordinates of all vertices.
     pub positions: &'a [f32],

@@ -19,7 +19,8 @@ pub struct Fragment {
 }
 gpu_layout!(Fragment { pixel, z, segment });
 
-/// The last element of ascending `starts` that is not above `value`: whose share of a row holds a place. 0 for none.
+/// The last element of ascending `starts` that is not above `value`: the element whose range holds that place. 0 if
+/// there is none.
 ///
 /// O(log n).
 pub fn holder_of(starts: &[u32], value: u32) -> u32 {
@@ -96,9 +97,9 @@ fn fragment_of(view: &PixelView, segment: &Segment, step: u32) -> Fragment {
 
 /// Whether each fragment shows: the soft test against the depths of the pixels around it.
 ///
-/// `scene` holds the reversed depth of every pixel, 0 where there is nothing, of surfaces and of a occluder depths
-/// before them; of a occluder depths that has not as many pixels there is none. A pixel shows a fragment that lies at
-/// most the view's tolerance behind it; `least_visible` of those within the picture have to.
+/// `scene` holds the reversed depths of all surfaces, 0 where there is nothing, and those of occluders before them; a
+/// second list of another length counts as none. A pixel shows a fragment that lies at most the view's tolerance behind
+/// it; at least `least_visible` of the nine pixels around must show it.
 pub fn test_fragments(
     view: &PixelView,
     scene: [&[f32]; 2],
@@ -121,10 +122,13 @@ fn showing_pixels(
     [surfaces, occluder_depths]: [&[f32]; 2],
     fragment: &Fragment,
 ) -> u32 {
+    // Take the depth of the fragment, and whether there are occluders.
     let [width, height] = view.size;
     let is_occluded = occluder_depths.len() == surfaces.len();
     let (column, row) = (fragment.pixel % width, fragment.pixel / width);
     let depth = view.depth_of(fragment.z);
+
+    // Count the pixels that nothing before the fragment fills.
     let mut count = 0;
     for y in row.max(1) - 1..(row + 2).min(height) {
         for x in column.max(1) - 1..(column + 2).min(width) {
@@ -143,9 +147,9 @@ fn showing_pixels(
 
 /// The hard test: the nearest fragment of every pixel, as the number of its segment plus one.
 ///
-/// `owners` and `nearest`, its reversed depth as bits, hold zeros where there is none, or what was drawn before. Of
-/// fragments at one depth the first wins, which is the edge that comes first in the mesh: nothing depends on who is
-/// fastest. O(fragments).
+/// `owners` and `nearest`, its reversed depth as bits, hold zeros, or what was drawn before. Of fragments at one depth
+/// the first wins, which is the edge that comes first in the mesh, so the result does not depend on timing.
+/// O(fragments).
 ///
 /// Differs: the publication's fragments race for a lock, so the order of its pixels changes from run to run.
 pub fn draw_nearest(
@@ -167,5 +171,5 @@ pub fn draw_nearest(
     }
 }
 
-/// What stands for reversed depth 0, infinitely far: a fragment there is still nearer than nothing.
+/// Stands for reversed depth 0, which is infinitely far: a fragment there is still nearer than nothing.
 pub const LEAST_Z: f32 = 1e-30;

@@ -11,7 +11,7 @@ use npr_core::gpu_layout;
 use npr_core::published_path::PublishedPath;
 use rayon::prelude::*;
 
-/// Where a side is in the list of all loops.
+/// The loop of a side in the list of all loops.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Spot {
@@ -42,7 +42,7 @@ impl Spot {
         }
     }
 
-    /// The side `radius` before another, around the loop as often as it takes.
+    /// The side `radius` places before another, around the loop as often as needed.
     pub fn back(&self, element: u32, radius: u32) -> u32 {
         let from_start = element - self.start + self.length - radius % self.length;
         self.start + from_start % self.length
@@ -61,7 +61,7 @@ pub struct Planar {
 gpu_layout!(Planar { x, y });
 
 impl Planar {
-    /// The vector of length 1; zero for what has none.
+    /// The vector of length 1; zero for a vector without direction.
     fn unit(self) -> Self {
         let square = self.x * self.x + self.y * self.y;
         if square > LEAST_SQUARE {
@@ -81,10 +81,10 @@ impl Planar {
     }
 }
 
-/// Square of a length under which a vector has no direction.
+/// Square of the length under which a vector has no direction.
 const LEAST_SQUARE: f32 = 1e-12;
 
-/// What [`gather_sides`] works on.
+/// The input of [`gather_sides`].
 #[derive(Debug, Clone, Copy)]
 pub struct Ordered<'a> {
     /// Width of the picture.
@@ -101,20 +101,20 @@ pub struct Ordered<'a> {
     pub segments: &'a [Segment],
 }
 
-/// What [`gather_sides`] fills.
+/// The output of [`gather_sides`].
 #[derive(Debug)]
 pub struct Gathered<'a> {
-    /// Where each side is.
+    /// The loop of each side.
     pub spots: &'a mut [Spot],
     /// Its middle, in pixels.
     pub places: &'a mut [Planar],
     /// Unit vector along the contour that inked its pixel, in the direction of its edge.
     pub directions: &'a mut [Planar],
-    /// What it adds to the area of its loop: a number of 32 bits that wraps.
+    /// Its share of the area of its loop: a number of 32 bits that wraps.
     pub areas: &'a mut [u32],
 }
 
-/// Puts what is known of sides in the order of loops.
+/// Puts the place, direction and area of every side in the order of loops.
 pub fn gather_sides(on: &Ordered<'_>, into: Gathered<'_>) {
     let outputs = into.spots.par_iter_mut().zip(into.places);
     let outputs = outputs.zip(into.directions).zip(into.areas);
@@ -152,11 +152,11 @@ const MIDDLE: [[f32; 2]; 4] = [[0.5, 0.0], [1.0, 0.5], [0.5, 1.0], [0.0, 0.5]];
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct SpeckRule {
-    /// A loop of less area is a speck, in pixels.
+    /// Area in pixels under which a loop is a speck.
     pub area: f32,
-    /// So is one of less area than this that is thin.
+    /// Area in pixels under which a thin loop is a speck.
     pub thin_area: f32,
-    /// A loop is thin with at most this much area for each of its sides.
+    /// Most area for each of its sides with which a loop is thin.
     pub thinness: f32,
     /// Keeps the size a multiple of 16 bytes.
     pub unused: u32,
@@ -182,7 +182,7 @@ impl SpeckRule {
 
 /// Marks the sides of all loops that are no specks with 1, others with 0.
 ///
-/// `sums` is the scan of `areas`, so the area of a loop is a difference.
+/// `sums` is the scan of `areas`, so the area of a loop is a difference of two sums.
 ///
 /// As published, a line one pixel wide has the area of its pixels: contours shorter than the rule's area disappear.
 pub fn drop_specks(
@@ -204,13 +204,13 @@ pub fn drop_specks(
     });
 }
 
-/// How [`smooth_loops`] takes means.
+/// How [`smooth_loops`] averages.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Filter {
-    /// Sides on each side.
+    /// Number of sides on either side.
     pub radius: u32,
-    /// Means are brought to length 1: 1 or 0.
+    /// 1 if means are brought to length 1, else 0.
     pub unit: u32,
     /// Keeps the size a multiple of 16 bytes.
     pub unused: [u32; 2],
@@ -237,7 +237,7 @@ impl Filter {
         (Self::new(radius, false), weights)
     }
 
-    /// What a path fits tangents to, and the weights.
+    /// The window that a path fits tangents to, and the weights.
     pub fn of_fit(path: &PublishedPath) -> (Self, Vec<f32>) {
         (Self::new(path.fit_radius, false), tent(path.fit_radius))
     }
@@ -249,7 +249,7 @@ impl Filter {
         (Self::new(radius, true), weights)
     }
 
-    /// How a path takes means of the directions of contours, and the weights.
+    /// How a path averages the directions of contours, and the weights.
     pub fn of_directions(path: &PublishedPath) -> (Self, Vec<f32>) {
         let radius = path.direction_radius;
         let weights = gaussian(radius, path.direction_sigma);
@@ -304,7 +304,7 @@ pub fn smooth_loops(
     });
 }
 
-/// Weights that fall evenly from 1 at the side itself to 0 one beyond `radius`.
+/// Weights that fall linearly from 1 at the side itself to 0 one beyond `radius`.
 pub fn tent(radius: u32) -> Vec<f32> {
     let reach = radius as f32 + 1.0;
     (0..=radius).map(|step| 1.0 - step as f32 / reach).collect()
@@ -323,7 +323,7 @@ struct Normal {
 }
 
 impl Normal {
-    /// Takes in a place at arc length `s` from the side itself and `away` from it.
+    /// Adds a place at arc length `s` from the side itself and at offset `away` from it.
     fn add(&mut self, weight: f32, s: f32, away: Planar) {
         let q = 0.5 * s * s;
         self.ss += weight * s * s;

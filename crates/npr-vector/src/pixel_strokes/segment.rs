@@ -25,15 +25,15 @@ pub struct PixelView {
     pub wanted: u32,
     /// 1 in perspective, 0 in parallel view.
     pub perspective: f32,
-    /// What view depth is made of: `depth_scale / z` in perspective, `depth_scale * z + depth_offset` else.
+    /// Factor from reversed to view depth: `depth_scale / z` in perspective, else `depth_scale * z + depth_offset`.
     pub depth_scale: f32,
     /// See `depth_scale`.
     pub depth_offset: f32,
     /// How far behind a surface a fragment still shows, in scene units.
     pub tolerance: f32,
-    /// Of nine pixels, how many have to show a fragment.
+    /// Fewest of nine pixels that have to show a fragment.
     pub least_visible: u32,
-    /// Contours in valleys are left out: 1 or 0.
+    /// 1 if contours in valleys are left out, else 0.
     pub is_convex_only: u32,
     /// 0, which a shader compiler cannot know: with it shaders keep sums and products apart.
     pub zero: u32,
@@ -56,7 +56,7 @@ gpu_layout!(PixelView {
 });
 
 impl PixelView {
-    /// A view with its projection; what is asked of lines is left at zero.
+    /// A view with its projection; the settings of lines are left at zero.
     pub fn new(view: &View) -> Self {
         let [scale, offset] = depth_of_z(view);
         Self {
@@ -81,7 +81,7 @@ impl PixelView {
 }
 
 impl PixelView {
-    /// Reversed depth of a view depth; what [`PixelView::depth_of`] undoes, but for rounding.
+    /// Reversed depth of a view depth: the inverse of [`PixelView::depth_of`], except for rounding.
     pub fn z_of(&self, depth: f32) -> f32 {
         if self.perspective > 0.5 {
             self.depth_scale / depth
@@ -167,7 +167,7 @@ impl Segment {
 /// Added to the length of a segment, so that a point has a fragment too. Source: the publication's prototype.
 const LEAST_EXTENT: f32 = 1e-4;
 
-/// What [`project_edges`] works on.
+/// The input of [`project_edges`].
 #[derive(Debug, Clone, Copy)]
 pub struct Drawn<'a> {
     /// The view.
@@ -186,8 +186,8 @@ pub struct Drawn<'a> {
 
 /// Cuts each edge drawn to the view's six planes, projects it, and counts its fragments.
 ///
-/// What lies outside has no fragments. Both new ends come from the edge's own ends, so one cut at both keeps its
-/// line. Behind the first `extent[0]` counts are 0.
+/// Edges outside have no fragments. Both new ends are computed from the edge's own ends, so an edge cut at both keeps
+/// its line. Counts after the first `extent[0]` are 0.
 ///
 /// Differs: the publication keeps 16-bit ends, a thirtieth of a pixel apart; here they are floats.
 pub fn project_edges(on: &Drawn<'_>, segments: &mut [Segment], counts: &mut [u32]) {
@@ -257,7 +257,7 @@ fn distances([x, y, z, w]: [f32; 4]) -> [f32; 6] {
     [w + x, w - x, w + y, w - y, w - z, z]
 }
 
-/// The part of an edge in the view, as two shares [Liang and Barsky 1984]; none where nothing is.
+/// The part of an edge in the view, as two shares [Liang and Barsky 1984]; `None` if nothing is.
 fn kept(a: [f32; 4], b: [f32; 4]) -> Option<[f32; 2]> {
     let (from, to) = (distances(a), distances(b));
     let (mut enter, mut leave) = (0.0_f32, 1.0_f32);

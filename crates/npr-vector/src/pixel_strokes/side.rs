@@ -10,7 +10,7 @@ use rayon::prelude::*;
 /// Steps in the four directions: right, down, left, up.
 const AHEAD: [[i64; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
 
-/// An image of ink: what is not 0.
+/// An image whose pixels have ink where they are not 0.
 #[derive(Debug, Clone, Copy)]
 pub struct Ink<'a> {
     /// Width and height.
@@ -20,7 +20,7 @@ pub struct Ink<'a> {
 }
 
 impl Ink<'_> {
-    /// Whether there is ink; none beyond the picture.
+    /// Whether a pixel has ink; pixels beyond the picture have none.
     fn at(&self, x: i64, y: i64) -> bool {
         let [width, height] = self.size.map(i64::from);
         let is_inside = x >= 0 && y >= 0 && x < width && y < height;
@@ -46,10 +46,10 @@ impl Ink<'_> {
 
     /// The side that goes on where one ends, as pixel and direction.
     ///
-    /// The two pixels ahead decide: with ink outside, the line turns left onto that pixel, so that ink joined by a
-    /// corner is joined, whatever lies inside; else it goes straight on ink, or turns right around its own pixel. All
-    /// 16 patterns of two by two pixels are covered, and of both that are ambiguous the ink is one ("black" in
-    /// Potrace's words).
+    /// The two pixels ahead decide. With ink in the outer one, the line turns left onto that pixel, so that ink that
+    /// meets in a corner is joined, whatever the inner one holds; else it goes straight on over ink in the inner one,
+    /// or turns right around its own pixel. All 16 patterns of two by two pixels are covered, and in both ambiguous
+    /// ones the ink is joined ("black" in Potrace's words).
     pub fn after(&self, pixel: u32, direction: u32) -> (u32, u32) {
         let ([x, y], [vx, vy], [ox, oy]) = self.frame_of(pixel, direction, 1);
         if self.at(x + vx + ox, y + vy + oy) {
@@ -61,7 +61,7 @@ impl Ink<'_> {
         }
     }
 
-    /// The side that goes on into this one: [`Ink::after`] in a mirror.
+    /// The side that this one continues: [`Ink::after`] mirrored.
     fn before(&self, pixel: u32, direction: u32) -> (u32, u32) {
         let ([x, y], [vx, vy], [ox, oy]) = self.frame_of(pixel, direction, -1);
         if self.at(x + vx + ox, y + vy + oy) {
@@ -73,7 +73,7 @@ impl Ink<'_> {
         }
     }
 
-    /// A pixel's place, the step along a side, forth or back, and the step out of it.
+    /// A pixel's place, the step along a side, forwards or backwards, and the step out of it.
     fn frame_of(&self, pixel: u32, direction: u32, sign: i64) -> ([i64; 2], [i64; 2], [i64; 2]) {
         let along = AHEAD[direction as usize % 4].map(|step| step * sign);
         (self.place_of(pixel), along, outward(direction))
@@ -100,9 +100,9 @@ pub fn mark_sides(ink: &Ink<'_>, masks: &mut [u32], counts: &mut [u32]) {
 
 /// Links every side to those before and after it.
 ///
-/// `starts` is the scan of the pixels' numbers of sides and `extent[0]` their sum. A side is written as four times
-/// its pixel plus its direction; sides come by pixel, then by direction. Behind the sum every element is a loop of
-/// its own. O(sides).
+/// `starts` is the scan of the pixels' numbers of sides and `extent[0]` their sum. A side is written as four times its
+/// pixel plus its direction; sides come by pixel, then by direction. Each element after the sum becomes a loop of its
+/// own. O(sides).
 ///
 /// Differs: the publication leaves sides on the picture's border out and draws the border as a line to make up for
 /// it; here there is no ink beyond the picture, and loops close along its border.
@@ -114,10 +114,13 @@ pub fn link_sides(
     sides: &mut [u32],
     links: &mut [Link],
 ) {
+    // Find the number of a side from its pixel and direction.
     let index_of = |(pixel, direction): (u32, u32)| {
         let before = masks[pixel as usize] & ((1 << direction) - 1);
         starts[pixel as usize] + before.count_ones()
     };
+
+    // Link the sides, and make a loop of every element beyond them.
     let count = extent[0];
     let outputs = sides.par_iter_mut().zip(links).enumerate();
     outputs.for_each(|(element, (side, link))| {
@@ -137,7 +140,7 @@ pub fn link_sides(
     });
 }
 
-/// The place of the bit of a mask before which `rank` others are set.
+/// The index of the set bit of a mask before which `rank` other bits are set.
 fn nth_bit(mask: u32, rank: u32) -> u32 {
     let mut left = rank;
     let mut found = 0;
@@ -172,7 +175,7 @@ pub fn morton([x, y]: [u32; 2]) -> u32 {
     spread(x) | spread(y) << 1
 }
 
-/// The number that [`npr_core::math::mix_bits`] makes this one of.
+/// The number that [`npr_core::math::mix_bits`] maps to this one.
 fn unmix_bits(number: u32) -> u32 {
     let mut x = number;
     x = (x ^ (x >> 16)).wrapping_mul(0x4302_1123);

@@ -16,13 +16,13 @@ use rayon::prelude::*;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct CullRule {
-    /// Cosine between a loop and the contour that it goes round, over which a side is kept.
+    /// Cosine of the angle between a loop and the contour that it goes round, above which a side is kept.
     pub least_cos: f32,
-    /// Sides on each side that vote.
+    /// Number of sides on either side that vote.
     pub vote_radius: u32,
-    /// By how many votes a side has to win.
+    /// Number of votes by which a side has to win.
     pub vote_margin: u32,
-    /// Strips of at most as many sides are dropped.
+    /// Most sides of a strip that is dropped.
     pub short: u32,
 }
 gpu_layout!(CullRule {
@@ -44,9 +44,9 @@ impl CullRule {
     }
 }
 
-/// Keeps the sides along which a loop runs as the contour does, of loops that are kept.
+/// Keeps the sides at which a loop runs in the direction of the contour, if they were kept before.
 ///
-/// A line one pixel wide has a loop around it, there and back; this leaves one of both ways.
+/// A line one pixel wide has a loop around it, there and back; this keeps one of the two ways.
 pub fn cull_sides(
     rule: &CullRule,
     tangents: &[Planar],
@@ -61,7 +61,7 @@ pub fn cull_sides(
     });
 }
 
-/// Lets the sides around each decide about it: it is kept where those kept win by the rule's margin.
+/// Lets the sides around each vote on it: it is kept where kept ones win by the rule's margin.
 pub fn vote_sides(rule: &CullRule, spots: &[Spot], kept_in: &[u32], kept_out: &mut [u32]) {
     let outputs = kept_out.par_iter_mut().with_min_len(256).enumerate();
     outputs.for_each(|(element, kept)| {
@@ -77,8 +77,7 @@ pub fn vote_sides(rule: &CullRule, spots: &[Spot], kept_in: &[u32], kept_out: &m
     });
 }
 
-/// Marks the first side of every strip with 1, others with 0; of a closed strip the first of its loop is marked only by
-/// [`rank_strips`].
+/// Marks the first side of every strip with 1, others with 0; closed strips get their first side from [`rank_strips`].
 pub fn start_strips(spots: &[Spot], kept: &[u32], flags: &mut [u32]) {
     let outputs = flags.par_iter_mut().with_min_len(1024).enumerate();
     outputs.for_each(|(element, flag)| {
@@ -87,11 +86,11 @@ pub fn start_strips(spots: &[Spot], kept: &[u32], flags: &mut [u32]) {
     });
 }
 
-/// Where a side is in its strip.
+/// The place of a side in its strip.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct StripSpot {
-    /// First side of the strip; [`NONE`] for a side that is in none.
+    /// First side of the strip; [`NONE`] for a side in no strip.
     pub start: u32,
     /// Sides before it.
     pub rank: u32,
@@ -101,8 +100,8 @@ gpu_layout!(StripSpot { start, rank });
 /// Ranks the sides of all strips: a segmented scan on circular lists.
 ///
 /// `slots` is the scan of the `flags` of first sides, and `firsts` lists these. A side belongs to the last strip that
-/// starts before it in its loop; where none does, to the last of the whole loop, which passes the place where its
-/// list starts; and where there is none at all, the loop is one strip.
+/// starts before it in its loop; if none does, to the last strip of the loop, which runs on past the start of the
+/// loop's list; and if the loop has no first side, all of it is one strip.
 pub fn rank_strips(
     spots: &[Spot],
     kept: &[u32],
@@ -148,7 +147,7 @@ pub fn rank_strips(
     });
 }
 
-/// The last side of every strip tells its first how many there are; others keep what was there.
+/// Writes the number of sides of every strip at its first side; other entries keep their values.
 pub fn measure_strips(spots: &[Spot], kept: &[u32], strips: &[StripSpot], lengths: &mut [u32]) {
     for (element, strip) in (0..).zip(strips) {
         if strip.start == NONE {
@@ -174,9 +173,9 @@ pub fn drop_short(rule: &CullRule, strips: &[StripSpot], lengths: &[u32], kept: 
 /// All strips of loops.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Strips {
-    /// Where each side is.
+    /// The place of each side in its strip.
     pub spots: Vec<StripSpot>,
-    /// Sides of the strip that starts at each side; 0 elsewhere.
+    /// Number of sides of the strip that starts at each side; 0 elsewhere.
     pub lengths: Vec<u32>,
 }
 

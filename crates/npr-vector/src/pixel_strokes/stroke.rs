@@ -1,4 +1,4 @@
-//! From loops in rows to runs of lines.
+//! Turns ranked loops into runs of lines.
 
 use super::looped::{
     Filter, Gathered, Ordered, Planar, SpeckRule, Spot, drop_specks, fit_tangents, gather_sides,
@@ -20,10 +20,10 @@ use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use std::collections::BTreeMap;
 
-/// Loops as they are culled and cut.
+/// Loops on their way to strokes: smoothed, culled and cut.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Loops {
-    /// Where each side is, in the order of loops.
+    /// The loop of each side, in the order of loops.
     pub spots: Vec<Spot>,
     /// Its smoothed place, in pixels.
     pub places: Vec<Planar>,
@@ -31,9 +31,9 @@ pub struct Loops {
     pub tangents: Vec<Planar>,
     /// Mean unit direction of the contours around it.
     pub directions: Vec<Planar>,
-    /// Whether it is part of a stroke: 1 or 0.
+    /// 1 if the side is part of a stroke, else 0.
     pub kept: Vec<u32>,
-    /// The strokes.
+    /// The strips that become strokes.
     pub strips: Strips,
 }
 
@@ -83,7 +83,7 @@ impl Loops {
         loops
     }
 
-    /// Smooths places, fits tangents, smooths these, and takes means of directions.
+    /// Smooths places, fits tangents and smooths them, and averages directions.
     fn smooth(&mut self, path: &PublishedPath) {
         let spots = &self.spots;
         let smoothed = |(filter, weights): &(Filter, Vec<f32>), from: &[Planar]| {
@@ -114,7 +114,7 @@ impl Loops {
         self.directions = smoothed(&Filter::of_directions(path), &self.directions);
     }
 
-    /// Culls sides and cuts what is left to strips; short ones are dropped, then all is cut anew.
+    /// Culls sides and cuts the others into strips; short strips are dropped, then all is cut anew.
     fn cut(&mut self, path: &PublishedPath) {
         let rule = CullRule::of(path);
         let mut culled = vec![0; self.kept.len()];
@@ -148,8 +148,8 @@ impl Loops {
 }
 
 impl Traced {
-    /// The strokes of the picture, as `look` has them along themselves; runs are cut at
-    /// corners that turn by at least `split` radians. O(sides * radius).
+    /// The strokes of the picture with the widths and colours of `look`; runs are cut at corners that turn by at least
+    /// `split` radians. O(sides * radius).
     pub fn strokes(
         &self,
         shape: &HalfEdgeMesh,
@@ -167,8 +167,8 @@ impl Traced {
 
     /// The strokes that the loops make, as runs of a shape.
     ///
-    /// Kind and surface are those of most of its sides, for the path draws all into one picture; the identity hangs
-    /// on the mesh edge with the least hash. O(sides).
+    /// Kind and surface are those of most of its sides, since the path draws all into one picture; the identity comes
+    /// from the mesh edge with the least hash. O(sides).
     pub fn runs(&self, shape: &HalfEdgeMesh, projector: &Projector, loops: &Loops) -> Vec<Run> {
         let maker = Maker {
             traced: self,
@@ -185,7 +185,7 @@ impl Traced {
     }
 }
 
-/// Makes runs of strips.
+/// Makes runs from strips.
 struct Maker<'a> {
     traced: &'a Traced,
     shape: &'a HalfEdgeMesh,

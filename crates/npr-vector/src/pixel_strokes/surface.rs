@@ -18,7 +18,7 @@ pub fn scene_depths(shape: &HalfEdgeMesh, view: &View) -> Vec<f32> {
     depths.into_iter().map(f32::from_bits).collect()
 }
 
-/// The same as bits, of faces that are three half-edges each.
+/// The same depths as bits, for faces given as three half-edges each.
 pub fn draw_surfaces(
     view: &PixelView,
     positions: &[f32],

@@ -3,8 +3,8 @@
 //! In each round the reach of every node doubles, so a chain of n nodes takes log2(n) rounds, whatever its shape.
 //!
 //! Every step works on the first `extent[0]` elements: nodes for [`wyllie`](super::wyllie()), splitters for
-//! [`ruling_set`](super::ruling_set). What lies behind stays as it is, and so does what there
-//! is no room for.
+//! [`ruling_set`](super::ruling_set). Elements after these keep their values; elements that a list has no room for are
+//! left out.
 
 use super::Link;
 use bytemuck::{Pod, Zeroable};
@@ -12,7 +12,7 @@ use npr_core::geometry::NONE;
 use npr_core::gpu_layout;
 use rayon::prelude::*;
 
-/// How far back an element sees, and the head-to-be among all nodes that it sees.
+/// How far back an element sees, and which of the nodes that it sees may become the head.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Reach {
@@ -42,11 +42,12 @@ pub struct Hop {
 }
 gpu_layout!(Hop { far, dist });
 
-/// How a node hangs on an element that is ranked by pointer jumping.
+/// Which element a node counts from; elements are ranked by pointer jumping.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Walk {
-    /// The element: itself for [`wyllie`](super::wyllie()), or the slot of a splitter; [`NONE`] where none was found.
+    /// The element: the node itself for [`wyllie`](super::wyllie()), or the slot of a splitter; [`NONE`] where none was
+    /// found.
     pub slot: u32,
     /// Links from there to the node.
     pub steps: u32,
@@ -58,18 +59,18 @@ pub fn rounds_for(node_count: usize) -> u32 {
     node_count.max(1).next_power_of_two().trailing_zeros()
 }
 
-/// What pointer jumping leaves behind.
+/// What pointer jumping leaves for the steps after it.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Jumped {
-    /// Before the first round.
+    /// The reaches before the first round.
     pub(super) first: Vec<Reach>,
-    /// After the last.
+    /// The reaches after the last.
     pub(super) settled: Vec<Reach>,
-    /// How each element leads to the first of its chain.
+    /// The jump from each element to the first of its chain.
     pub(super) hops: Vec<Hop>,
 }
 
-/// Breaks loops and ranks, with as many rounds for each.
+/// Breaks loops, then ranks, with the same number of rounds for each.
 pub(super) fn jump_all(
     extent: &[u32; 1],
     first: Vec<Reach>,
@@ -138,7 +139,8 @@ pub fn break_loops(extent: &[u32], reach_in: &[Reach], reach_out: &mut [Reach]) 
         });
 }
 
-/// Makes an element the first of its chain where it knows its chain's head: the twin of `vector.cut_loops`.
+/// Makes an element the first of its chain where its own first reach holds the chain's head: the twin of
+/// `vector.cut_loops`.
 ///
 /// `first` are the reaches before the first round, `settled` after the last.
 pub fn cut_loops(

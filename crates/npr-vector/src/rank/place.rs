@@ -33,9 +33,9 @@ pub struct Standing {
 gpu_layout!(Standing { head, rank, length });
 
 impl Ranked {
-    /// The lists as a device leaves them, after a check that nothing is left open.
+    /// The lists as a device leaves them, once they are checked to be settled.
     ///
-    /// `chains` are the heads by index, `starts` has a sum for every node, of which only those of heads are used.
+    /// `chains` are the heads by index; `starts` has an entry for every node, of which only those of heads are used.
     pub fn from_standings(
         standings: &[Standing],
         order: Vec<u32>,
@@ -97,11 +97,11 @@ pub(super) fn finish(
     Ok(Ranked::from_standings(&standings, order, &starts, &chains))
 }
 
-/// Passes on to nodes what the elements know that they hang on: the twin of `vector.scatter_ranks`.
+/// Gives nodes what is known of the elements that they count from: the twin of `vector.scatter_ranks`.
 ///
-/// A node is unsettled, 1 instead of 0, where its element disagrees with the one before about the head of their
-/// chain, where that element's hop does not lead to the first of the chain, or where it hangs on none. If no node of
-/// a chain is, all that is known of the chain is right.
+/// A node is unsettled, 1 instead of 0, where its element disagrees with the one before about the head of their chain,
+/// where that element's hop does not lead to the first of the chain, or where it counts from no element. If no node of
+/// a chain is unsettled, all that is known of the chain is right.
 pub fn scatter_ranks(
     walks: &[Walk],
     first: &[Reach],
@@ -134,9 +134,9 @@ pub fn scatter_ranks(
         });
 }
 
-/// The last node before a cut tells the head how long the chain is: the twin of `vector.measure_chains`.
+/// Writes the length of every chain at its head, from the last node before a cut: the twin of `vector.measure_chains`.
 ///
-/// Only heads get a length; the others keep what was there.
+/// Only heads get a length; all other entries keep their values.
 pub fn measure_chains(links: &[Link], places: &[ListPosition], lengths: &mut [u32]) {
     for (link, place) in links.iter().zip(places) {
         let is_last = link.next == NONE || places[link.next as usize].offset == 0;
@@ -179,7 +179,7 @@ pub fn turn_ranks(
         });
 }
 
-/// Puts every node at its place in the row: the twin of `vector.order_nodes`.
+/// Puts every node at its place in `order`: the twin of `vector.order_nodes`.
 ///
 /// `starts` is the scan of the sizes of chains.
 pub fn order_nodes(standings: &[Standing], starts: &[u32], order: &mut [u32]) {

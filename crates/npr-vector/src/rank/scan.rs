@@ -1,16 +1,16 @@
-//! Sums of all that comes before, and what they are good for: putting marked elements in a row.
+//! Prefix sums, and their use: putting marked elements in a row.
 //!
-//! Where an order reaches the picture, elements are numbered by sums and never by who comes first to a shared counter.
+//! Where an order shows in the picture, elements are numbered by sums, never by which comes first to a shared counter.
 
 use rayon::prelude::*;
 
 /// Elements that one workgroup adds up.
 pub const BLOCK: usize = 64;
 
-/// Within each block, the sum of all values before; and the sum of every block: the twin of `vector.scan_blocks`.
+/// Sums of all values before each within its block, and the sum of every block: the twin of `vector.scan_blocks`.
 ///
-/// Sums are those of 32-bit numbers and wrap. Behind the last block's sum zeros are written up to a whole block, as
-/// far as there is room, so that sums of sums may be taken in whole blocks wherever the values end.
+/// Sums are those of 32-bit numbers and wrap. After the sum of the last block, zeros fill `sums` up to a whole block,
+/// as far as there is room, so that sums of sums may be taken in whole blocks.
 ///
 /// Differs: a workgroup adds in steps of doubling width [Hillis & Steele 1986]; sums of integers are the same in any
 /// order.
@@ -30,7 +30,7 @@ pub fn scan_blocks(values: &[u32], prefixes: &mut [u32], sums: &mut [u32]) {
     });
 }
 
-/// Adds to every prefix what comes before its block: the twin of `vector.scan_add`.
+/// Adds to every prefix the sum of all blocks before its own: the twin of `vector.scan_add`.
 pub fn scan_add(prefixes_in: &[u32], offsets: &[u32], prefixes_out: &mut [u32]) {
     let blocks = prefixes_in
         .par_chunks(BLOCK)
@@ -44,8 +44,8 @@ pub fn scan_add(prefixes_in: &[u32], offsets: &[u32], prefixes_out: &mut [u32]) 
 
 /// Writes the indices of marked elements in a row: the twin of `vector.compact`.
 ///
-/// `slots` is the scan of `flags`, which are 0 and 1. What lies behind the last index stays as it is; what the list
-/// has no room for is left out, and the sum of all flags tells.
+/// `slots` is the scan of `flags`, which are 0 and 1. Entries after the last index keep their values; indices that the
+/// list has no room for are left out, and the sum of all flags tells how many there were.
 pub fn compact(flags: &[u32], slots: &[u32], list: &mut [u32]) {
     for (element, (flag, slot)) in (0..).zip(flags.iter().zip(slots)) {
         if *flag != 0 && (*slot as usize) < list.len() {

@@ -1,4 +1,4 @@
-//! Ranking by a ruling set: a few nodes are ranked by pointer jumping, the rest counts from them.
+//! Ranking by a ruling set: a few nodes are ranked by pointer jumping, all others count from them.
 //!
 //! Pointer jumping touches every node in every round. Here about every seventeenth node becomes a splitter; only
 //! those jump.
@@ -73,9 +73,12 @@ pub fn find_splitters(links: &[Link], flags: &mut [u32]) {
 }
 
 fn is_splitter(links: &[Link], element: u32) -> bool {
+    // Take the starts of open chains.
     if links[element as usize].prev == NONE {
         return true;
     }
+
+    // Take nodes whose hash is the least within the window.
     let own = mix_bits(element);
     let (mut ahead, mut behind) = (element, element);
     for _ in 0..WINDOW {
@@ -95,7 +98,7 @@ fn is_splitter(links: &[Link], element: u32) -> bool {
     true
 }
 
-/// Every node counts back to the nearest splitter, or to itself: the twin of `vector.walk_to_splitter`.
+/// Every node counts its links back to the nearest splitter, 0 from a splitter: the twin of `vector.walk_to_splitter`.
 pub fn walk_to_splitter(links: &[Link], flags: &[u32], slots: &[u32], walks: &mut [Walk]) {
     walks
         .par_iter_mut()
@@ -113,7 +116,7 @@ pub fn walk_to_splitter(links: &[Link], flags: &[u32], slots: &[u32], walks: &mu
         });
 }
 
-/// Every splitter looks at the one before it: the twin of `vector.start_splitters`.
+/// Every splitter finds the one before it: the twin of `vector.start_splitters`.
 ///
 /// On the way back it finds the least of the nodes in between, since any of them may be the head of the chain.
 pub fn start_splitters(
@@ -157,16 +160,16 @@ pub fn start_splitters(
         });
 }
 
-/// What [`rank_splitters`] works in; the scratch is of the same size.
+/// The memory of [`rank_splitters`]; scratch has the size of what it serves.
 #[derive(Debug)]
 pub struct Workspace<'a> {
-    /// Becomes the reach after the last round.
+    /// Receives the reaches after the last round.
     pub settled: &'a mut [Reach],
-    /// Written in between.
+    /// Written between rounds.
     pub reach_scratch: &'a mut [Reach],
-    /// Become the hops after the last round.
+    /// Receives the hops after the last round.
     pub hops: &'a mut [Hop],
-    /// Written in between.
+    /// Written between rounds.
     pub hops_scratch: &'a mut [Hop],
 }
 

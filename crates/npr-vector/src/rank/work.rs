@@ -1,11 +1,11 @@
-//! How much work passes have over a list whose length only the device knows.
+//! The number of workgroups for passes over a list whose length only the device knows.
 //!
 //! Room for a list is made before it is known how long it gets. A device that reads the length itself can start as
 //! many workgroups as the list needs instead of as many as fit its room: an indirect dispatch takes its size from a
 //! buffer, and [`size_work`] fills that buffer once for all passes that follow the same length.
 //!
-//! Passes work on whole workgroups, and on one at least. So what they do to a list of n elements is what they do where
-//! the room ends with the last of these workgroups, to the bit; what lies behind stays as it is.
+//! Passes work on whole workgroups, and on one at least. Over a list of n elements they do, to the bit, what they would
+//! do if the room ended with the last of these workgroups; elements after it keep their values.
 
 use super::rounds_for;
 use super::scan::BLOCK;
@@ -47,17 +47,17 @@ impl Arguments {
     }
 }
 
-/// What the arguments of a list are made for, one after the other: levels of sums, rounds of ranking, a draw.
+/// Which arguments a list needs, in this order: for levels of sums, for rounds of ranking, for a draw.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct WorkRule {
-    /// Elements that there is room for.
+    /// Number of elements that there is room for.
     pub room: u32,
-    /// Dispatches over the elements, over sums of their blocks, over sums of these, and so on.
+    /// Number of dispatches over the elements, over the sums of their blocks, over the sums of these, and so on.
     pub level_count: u32,
-    /// Dispatches over the elements in rounds of pointer jumping; those that nothing is left for are empty.
+    /// Number of dispatches over the elements in rounds of pointer jumping; rounds that are not needed are empty.
     pub round_count: u32,
-    /// Vertices that are drawn for an element; without any there is no draw.
+    /// Number of vertices drawn for an element; with 0 there is no draw.
     pub vertices: u32,
 }
 gpu_layout!(WorkRule {
@@ -102,10 +102,10 @@ pub fn groups_for(element_count: u32) -> [u32; 2] {
     [groups.div_ceil(rows), rows]
 }
 
-/// Rounds of pointer jumping that are run of those that are planned, where `count` elements jump.
+/// How many of the planned rounds of pointer jumping are run where `count` elements jump.
 ///
-/// More than [`rounds_for`] of them change nothing. Two buffers alternate, so an odd number of rounds must not stop
-/// after an even one, nor the other way round: the result would be in the other buffer.
+/// More than [`rounds_for`] of them change nothing. Two buffers alternate, so the number of rounds run is odd or even
+/// as the planned number is: otherwise the result would be in the other buffer.
 pub fn rounds_run(round_count: u32, count: u32) -> u32 {
     let needed = rounds_for(count as usize).max(1);
     let run = needed + (needed ^ round_count) % 2;
@@ -131,7 +131,7 @@ pub fn size_work(rule: &WorkRule, extent: &[u32], arguments: &mut [Arguments]) {
     }
 }
 
-/// Workgroups over the elements, over a sum for each of these workgroups, and so on.
+/// Workgroups at a level: over the elements, over the sums of these workgroups, and so on.
 fn groups_of_level(count: u32, level: u32) -> [u32; 2] {
     let mut groups = groups_for(count);
     for _ in 0..level {

@@ -14,7 +14,7 @@ pub(crate) const GRAZING_SLOPE: f32 = 2.0;
 /// The ways to the neighbours of a pixel: left, right, above, below.
 const STEPS: [[f32; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
 
-/// What lines are detected on.
+/// The input of detection.
 #[derive(Debug, Clone, Copy)]
 pub struct Detection<'a> {
     /// Camera and frame.
@@ -27,7 +27,7 @@ pub struct Detection<'a> {
     pub parts: &'a [Part],
 }
 
-/// Distance of packed normals up to which they surely turn less than the outline's normal threshold.
+/// Distance of packed normals up to which they surely turn by less than the outline's normal threshold.
 ///
 /// On the octahedron a step is at most sqrt(2) times as long as the sum of its packed coordinates, and seen from the
 /// middle, at least 1 / sqrt(3) away, it spans at most 2.45 radians per unit. Most pixels are settled by this alone.
@@ -72,10 +72,10 @@ pub fn detect(with: &Detection<'_>, gbuffer: &[GPixel], mask: &mut [u32]) {
     });
 }
 
-/// A detection with what need not be worked out for every pixel.
+/// A detection with what is computed once for all pixels.
 pub(crate) struct Detector<'a> {
     with: &'a Detection<'a>,
-    /// How far apart packed normals may lie and surely pass the threshold.
+    /// Distance of packed normals up to which they surely turn by less than the threshold.
     quiet_distance: u32,
 }
 
@@ -87,8 +87,8 @@ impl<'a> Detector<'a> {
         }
     }
 
-    /// Which buffers separate a pixel from another, which lies to the right (`side` 1) or below (3); 0 where neither
-    /// has lines.
+    /// The buffers that separate a pixel from its neighbour to the right (`side` 1) or below (3); 0 if neither has
+    /// lines.
     pub fn kinds(&self, first: &GPixel, second: &GPixel, side: u32) -> u32 {
         let kinds = self.separations(first, second, STEPS[side as usize]);
         if self.has_lines(first) || self.has_lines(second) {
@@ -98,8 +98,8 @@ impl<'a> Detector<'a> {
         }
     }
 
-    /// The mask bits that two pixels have for what separates them, as [`Self::kinds`] says; jumps in depth are taken
-    /// for such, whether the surface may bend between both or not.
+    /// The mask bits of two pixels for the buffers that separate them, as [`Self::kinds`] finds them; jumps in depth
+    /// always count, even where the surface may bend between the pixels.
     pub fn marks(&self, first: &GPixel, second: &GPixel, kinds: u32, side: u32) -> [u32; 2] {
         [
             self.mark(first, second, kinds, side),
@@ -107,7 +107,7 @@ impl<'a> Detector<'a> {
         ]
     }
 
-    /// Marks what neighbours in a row find; each pair is compared once for both of its pixels.
+    /// Marks the pixels of a row for their neighbours in the row; each pair is compared once for both of its pixels.
     fn mark_along(&self, line: &[GPixel], row: &mut [u32]) {
         for x in 1..line.len() {
             let kinds = self.kinds(&line[x - 1], &line[x], 1);
@@ -118,7 +118,7 @@ impl<'a> Detector<'a> {
         }
     }
 
-    /// Marks what the neighbours above (`along` -1) or below (1) find.
+    /// Marks the pixels of a row for their neighbours above (`along` -1) or below (1).
     fn mark_across(&self, line: &[GPixel], next: &[GPixel], along: f32, row: &mut [u32]) {
         let side = if along < 0.0 { 2 } else { 3 };
         for ((here, there), out) in line.iter().zip(next).zip(row) {
@@ -154,7 +154,7 @@ impl<'a> Detector<'a> {
         kinds
     }
 
-    /// Whether neighbours whose normals differ, and nothing else, have no crease of their own between them.
+    /// Whether neighbours that differ in nothing but their normals have no crease between them.
     fn is_no_crease(&self, here: &GPixel, there: &GPixel) -> bool {
         self.with.outline.kinds & KindSet::CREASE == 0
             || self.is_grazing(here)

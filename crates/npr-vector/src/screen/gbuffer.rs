@@ -9,7 +9,7 @@ use npr_core::surface::{
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
 
-/// What the surface is found on.
+/// The input of [`resolve`].
 #[derive(Debug, Clone, Copy)]
 pub struct Surfaces<'a> {
     /// Camera and frame.

@@ -34,10 +34,10 @@ const RUN_BOX_PX: u32 = 5;
 /// Owned pixels in that box that make a line; fewer are the tip of a corner, or the grain of a scan.
 const RUN_COUNT: u32 = 8;
 
-/// What parts a surface from others, not from itself.
+/// The criteria that separate a surface from others, not from itself.
 const BETWEEN: u32 = Outline::OBJECT_ID | Outline::MATERIAL_ID | Outline::PIECE;
 
-/// What residual lines are found on.
+/// The input of [`find`].
 #[derive(Debug, Clone, Copy)]
 pub struct Search<'a> {
     /// The pixel grid of the ribbons.
@@ -96,11 +96,11 @@ impl Search<'_> {
         })
     }
 
-    /// Whether a surface is parted from itself along a line through a mask pixel, not at a few pixels alone.
+    /// Whether a surface is separated from itself along a line through a mask pixel, not only at a few pixels.
     ///
     /// Four faces that meet in a blunt corner differ across it though none of its edges is a crease, and so do the
-    /// dents of a scan: lines so short would be dots. Where the surface ends at another it is not parted from itself:
-    /// a dot beside an outline is no part of that.
+    /// dents of a scan: lines so short would be dots. Where the surface ends at another it is not separated from
+    /// itself: a dot beside an outline is no part of a line.
     fn runs_on(&self, at: [u32; 2], pixel: &GPixel) -> bool {
         let size = self.mask_window.size;
         let low = at.map(|v| v.saturating_sub(RUN_BOX_PX));
@@ -209,7 +209,7 @@ pub fn smooth(mask_window: &Window, stamps: &[Stamp], smoothed: &mut [Stamp]) {
         });
 }
 
-/// Stamps around one of them: how many, and sums over where they lie relative to it.
+/// The stamps around one of them: their number, and sums of their places relative to it.
 #[derive(Debug, Clone, Copy, Default)]
 struct Cloud {
     count: f32,
@@ -220,8 +220,11 @@ struct Cloud {
 
 /// The stamps of the same part around a stamp.
 fn cloud_around(size: [u32; 2], stamps: &[Stamp], at: [u32; 2], middle: &Stamp) -> Cloud {
+    // Enclose the mask pixels within reach.
     let low = at.map(|v| v.saturating_sub(SMOOTHING_REACH));
     let high: [u32; 2] = std::array::from_fn(|i| (at[i] + SMOOTHING_REACH).min(size[i] - 1));
+
+    // Sum up the stamps of the same part.
     let mut cloud = Cloud::default();
     for y in low[1]..=high[1] {
         for x in low[0]..=high[0] {
@@ -241,11 +244,11 @@ fn cloud_around(size: [u32; 2], stamps: &[Stamp], at: [u32; 2], middle: &Stamp) 
     cloud
 }
 
-/// The way to the middle of a cloud, without its part along the line that the cloud forms.
+/// The vector to the middle of a cloud, without its part along the line that the cloud forms.
 ///
-/// Moved along, the ends of a line would draw back from the ribbon that carries it on. A symmetric matrix with
+/// Moved along the line, its ends would draw back from the ribbon that continues it. A symmetric matrix with
 /// eigenvalues p and q, v the eigenvector of p, is `(p + q) / 2 + (p - q) / 2 * (2 v v' - 1)`, which gives v v' without
-/// any angle; round clouds have no direction, and there it fades out.
+/// any angle; round clouds have no direction, and there the part along the line fades out.
 fn move_across(cloud: &Cloud) -> [f32; 2] {
     let [x, y] = cloud.sum.map(|sum| sum / cloud.count);
     let [xx, xy, yy] = cloud.squares.map(|sum| sum / cloud.count);
@@ -289,7 +292,7 @@ pub fn flag_tiles(mask_window: &Window, stamps: &[Stamp], tiles: &mut [u32]) {
         });
 }
 
-/// What stamps are inked with.
+/// The input of [`stamp`].
 #[derive(Debug, Clone, Copy)]
 pub struct Inking<'a> {
     /// The pixel grid of the output.
@@ -302,7 +305,7 @@ pub struct Inking<'a> {
     pub parts: &'a [Part],
     /// Stamps, one per mask pixel.
     pub stamps: &'a [Stamp],
-    /// Which tiles hold one.
+    /// 1 for every tile that holds a stamp.
     pub tiles: &'a [u32],
     /// What is decided about the colours of lines, on the mask's grid; may be shorter where no part asks for it.
     pub tints: &'a [LineTint],

@@ -11,17 +11,17 @@ use rayon::prelude::*;
 /// Rows drawn by one task.
 const BAND_ROWS: usize = 32;
 
-/// Depth that an edge may lie behind the surface around it and still be seen, in mask pixels on a surface that faces
+/// Depth by which an edge may lie behind the surface around it and still show, in mask pixels on a surface that faces
 /// the eye; more where it slopes.
 ///
 /// A mask pixel's centre lies off the edge, on a surface that bends. Smaller breaks lines on grazing faces; larger lets
 /// hidden lines through thin parts.
 const DEPTH_TOLERANCE_PX: f32 = 1.0;
 
-/// How much further behind a rim may bend than the tangent plane of its pixel says.
+/// Factor on the tolerance of depth within which an edge may belong to a rim that bends away behind its pixel.
 const RIM_FACTOR: f32 = 16.0;
 
-/// How far along an edge the mask must go on, in mask pixels; a line that is merely crossed is thinner.
+/// Length along an edge over which the mask must continue, in mask pixels; a line that only crosses is thinner.
 const LINE_REACH_PX: f32 = 2.5;
 
 /// A line segment with a half width at either end, in frame pixels.
@@ -70,12 +70,12 @@ impl Ribbon {
     }
 }
 
-/// What decides between lines at a pixel: more coverage first, then nearness.
+/// The key that decides between lines at a pixel: more coverage first, then nearness.
 pub fn line_key(coverage: f32, nearness: f32) -> f32 {
     ((coverage * 255.0 + 0.5).floor() + nearness.min(0.999)) / 256.0
 }
 
-/// What ribbons are drawn with.
+/// The input of [`draw`].
 #[derive(Debug, Clone, Copy)]
 pub struct Drawing<'a> {
     /// Camera and frame.
@@ -202,7 +202,7 @@ fn centers_between(low: f32, high: f32, window: &Window, axis: usize) -> Option<
 }
 
 impl Drawing<'_> {
-    /// An edge in frame pixels; `None` where it is of no kind or behind the eye.
+    /// An edge in frame pixels; `None` if it has no kind or lies behind the eye.
     fn spine(&self, edge: &Edge, kind: u32) -> Option<Spine> {
         // Leave out edges without a kind, and those behind the near plane.
         let [first, second] = edge.ends.map(|v| &self.posed[v as usize]);
@@ -275,7 +275,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// Inks one pixel where the ribbon shows and covers it better than what is there.
+    /// Inks one pixel where the ribbon shows and covers it better than the line that is there.
     fn ink(&self, spine: &Spine, px: [f32; 2], texel: &mut u32, best: &mut u32) {
         let ribbon = &spine.ribbon;
         let (coverage, t) = ribbon.at(px, self.outline.flags & Outline::PUBLISHED != 0);
@@ -317,7 +317,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// Whether the edge is to be seen at a point of its spine.
+    /// Whether the edge shows at a point of its spine.
     fn shows_at(&self, px: [f32; 2], depth: f32, along: [f32; 2], kind: u32) -> bool {
         if self.is_hidden(px, depth) {
             return false;
@@ -375,8 +375,8 @@ impl Drawing<'_> {
         Some((seen, self.view.depth_of_coordinate(coordinate)))
     }
 
-    /// Whether a depth belongs to the surface in front where 3x3 pixels show two: a rim that bends away faster than the
-    /// tangent plane of its pixel.
+    /// Whether a depth belongs to the front one of two surfaces that 3x3 pixels show: a rim that bends away faster than
+    /// the tangent plane of its pixel.
     fn is_rim(&self, center: [u32; 2], depth: f32, room: f32) -> bool {
         let size = self.mask_window.size;
         let (mut nearest, mut farthest) = (FAR_DEPTH, 0.0f32);

@@ -15,7 +15,7 @@ use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
-/// A half-edge of a [`HalfEdgeMesh`] with what linking needs of it.
+/// A half-edge of a [`HalfEdgeMesh`], with all that linking reads.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct HalfEdge {
@@ -88,7 +88,7 @@ pub fn half_edges(shape: &HalfEdgeMesh) -> Vec<HalfEdge> {
         .collect()
 }
 
-/// The face that decides which way each face is turned: itself, or the stand-in of a face without area.
+/// The face that decides for each face whether it is front: itself, or the stand-in of a face without area.
 pub fn judges(shape: &HalfEdgeMesh) -> Vec<u32> {
     let mut judges: Vec<u32> = (0..shape.faces.len() as u32).collect();
     for [face, stand_in] in &shape.degenerate_faces {
@@ -148,7 +148,7 @@ pub struct Marked<'a> {
 
 /// Makes a node of every marked half-edge and links it to the one that starts where it ends.
 ///
-/// Where there are more than `nodes` has room for, what is there is of no use.
+/// Where `nodes` has no room for all of them, its content is of no use.
 pub fn link_contours(on: &Marked<'_>, nodes: &mut [CurveNode]) {
     let count = (on.extent[0] as usize).min(nodes.len());
 
@@ -177,8 +177,8 @@ pub fn link_contours(on: &Marked<'_>, nodes: &mut [CurveNode]) {
 
 /// The links of nodes, as ranking reads them; edges are the keys.
 ///
-/// Behind the first `extent[0]` nodes every element is a loop of its own. Heads are in order, so these come last.
-/// Where there was no room for all nodes, links would lead nowhere, and all elements are loops.
+/// Each element after the first `extent[0]` nodes becomes a loop of its own; these come last, since heads are in order.
+/// Where there was no room for all nodes, links would lead nowhere, and all elements become such loops.
 pub fn list_nodes(extent: &[u32], nodes: &[CurveNode], links: &mut [Link]) {
     let count = extent[0] as usize;
     let count = if count <= nodes.len() { count } else { 0 };

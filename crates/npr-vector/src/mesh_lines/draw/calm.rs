@@ -1,4 +1,4 @@
-//! Runs joined, cut and smoothed, before they become strokes.
+//! Joins, cuts and smooths runs before they become strokes.
 
 use crate::mesh_lines::corner::split;
 use crate::mesh_lines::duplicates::{leave_out_short_fragments, suppress};

@@ -1,4 +1,4 @@
-//! How strokes look along themselves: runs as strokes, with colours and widths.
+//! Turns runs into strokes, with colours and widths along them.
 
 use crate::mesh_lines::run::{Run, RunPoint, distance};
 use crate::mesh_lines::smooth::between;
@@ -6,19 +6,19 @@ use crate::stroke::{Kind, Stroke, StrokePoint};
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
-/// What a point of a stroke is drawn with.
+/// How a point of a stroke is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointPaint {
-    /// Colour, sRGB bytes and alpha; none for that of its surface.
+    /// Colour, sRGB bytes and alpha; `None` for the colour of the surface.
     pub color: Option<[u8; 4]>,
-    /// Factor on its width.
+    /// Factor on the width.
     pub width: f64,
 }
 
-/// What is drawn at a point of a stroke of a kind on a surface.
+/// Gives the paint at a point of a stroke, by its kind and surface.
 pub type PaintAt<'a> = &'a (dyn Fn(Kind, u32, &RunPoint) -> PointPaint + Sync);
 
-/// How strokes look along themselves.
+/// Widths and colours along strokes.
 #[derive(Clone, Copy)]
 pub struct StrokeLook<'a> {
     /// Whole line width in pixels at a vertex of the shape.
@@ -48,7 +48,7 @@ impl StrokeLook<'_> {
 
 /// Pieces longer than this, in pixels, are broken up where colours change from place to place.
 const PAINT_STEP_PX: f64 = 6.0;
-/// Nothing changes.
+/// The paint that changes nothing.
 const PLAIN: PointPaint = PointPaint {
     color: None,
     width: 1.0,

@@ -1,4 +1,4 @@
-//! What is known of a shape's lines before there is a camera.
+//! What a shape's lines need in every view.
 
 use crate::mesh_lines::bvh::FaceTree;
 use crate::mesh_lines::feature::features;
@@ -12,7 +12,7 @@ use npr_core::edge_flags::EdgeFlags;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use std::sync::OnceLock;
 
-/// What can be known of a shape's lines before there is a camera.
+/// What a shape's lines need in every view, prepared once.
 #[derive(Debug)]
 pub struct Prepared {
     /// The faces, for sights.
@@ -21,9 +21,9 @@ pub struct Prepared {
     pub features: CurveGraph,
     /// Where surfaces cut through each other.
     pub crossings: Crossings,
-    /// Lines that are geometry themselves, linked.
+    /// Lines of the file itself, linked.
     pub polylines: CurveGraph,
-    /// How near to a face they may lie without being hidden by it.
+    /// How near to a face polylines may lie without being hidden by it.
     pub(super) touch: f64,
     /// Edges that can hide something in every view: boundaries, and edges of more than two faces.
     pub(super) rims: Vec<u32>,
@@ -58,8 +58,8 @@ impl Prepared {
         Self::with_crossings(shape, creases.into(), find).expect("no limit is set")
     }
 
-    /// The same with intersections from elsewhere: within a limit of memory, or from a file that kept those of this
-    /// shape.
+    /// As [`Prepared::new`], with intersections that `find` gives: within a limit of memory, or from a file that kept
+    /// those of this shape.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! The pieces of all lines in one view of a shape, and what is seen of them.
+//! The pieces of all lines in one view of a shape, and their visible parts.
 
 use super::prepared::Prepared;
 use crate::mesh_lines::feature::kind_in_view;
@@ -19,15 +19,15 @@ use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
-/// Crowded pieces looked at between two looks at the ink on the paper.
+/// Crowded pieces that are looked at together, before their ink is counted.
 const ROUND: usize = 256;
 
-/// What a view has used up.
+/// The memory and the ink that a view has used up.
 pub(super) struct Toll {
     pub(super) budget: Budget,
     ink: Ink,
     pub(super) left_out: usize,
-    /// Whether boxes of faces have been paid for.
+    /// Whether memory for boxes of faces has been taken.
     has_images: bool,
 }
 
@@ -54,7 +54,7 @@ pub(super) struct View<'a> {
 }
 
 impl View<'_> {
-    /// Everything that can begin or end hiding something: contours, boundaries, and edges of more than two faces.
+    /// All that can begin or end hiding something: contours, boundaries, and edges of more than two faces.
     pub(super) fn outlines(
         &self,
         contours: &CurveGraph,
@@ -133,7 +133,7 @@ impl View<'_> {
         flags
     }
 
-    /// What is drawn of every node of a graph, and what is seen of it.
+    /// The line after every node of a graph, with its visible parts; `None` where nothing is drawn.
     pub(super) fn lines(
         &self,
         graph: &CurveGraph,
@@ -163,8 +163,8 @@ impl View<'_> {
         Ok(lines)
     }
 
-    /// Finds what is seen of crowded lines, those with the least hashes of their edges first, until the paper under
-    /// the others is black.
+    /// Finds the visible parts of crowded lines, in the order of the hashes of their edges, until the paper under the
+    /// others is black.
     fn add_crowded(
         &self,
         graph: &CurveGraph,
@@ -215,7 +215,7 @@ impl View<'_> {
         Ok(())
     }
 
-    /// What is drawn of a node; of a crowded one without what is seen of it.
+    /// The line after a node; that of a crowded piece has no spans yet.
     fn line(
         &self,
         graph: &CurveGraph,
@@ -252,7 +252,7 @@ impl View<'_> {
         })
     }
 
-    /// The piece after a node, with the node it runs to; none where the line ends or nothing is in the frame.
+    /// The piece after a node, with the node it runs to; `None` where the line ends or the piece is out of the frame.
     fn piece_after<'g>(
         &self,
         graph: &'g CurveGraph,
@@ -279,7 +279,7 @@ impl View<'_> {
         self.prepared.tree.piercings(self.shape, ends)
     }
 
-    /// The smooth contours of the view with what is seen of them, where they are asked for.
+    /// The smooth contours of the view with their visible parts, where the settings ask for them.
     pub(super) fn smooth_contours(
         &self,
         contours: &CurveGraph,
@@ -342,7 +342,7 @@ impl View<'_> {
         Some((graph, lines))
     }
 
-    /// Faces that a piece lies in, and where it goes through others, which a crowded piece need not know.
+    /// Faces that a piece lies in, and where it goes through other faces, which a crowded piece need not know.
     fn circumstances(
         &self,
         node: &CurveNode,

@@ -4,27 +4,27 @@ use super::side::{Side, side};
 use npr_core::geometry::NONE;
 use npr_mesh::half_edge::HalfEdgeMesh;
 
-/// How many faces without area are crossed to learn where a surface goes on behind an edge.
+/// Most faces without area that are crossed to learn where a surface goes on behind an edge.
 const SLIVER_STEPS: u32 = 4;
 
-/// An end of a segment, and what other segments must share to go on from there.
+/// An end of a segment, and the key that segments share which go on from there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct End {
     /// An edge and the face that it pierces, or a vertex and [`NONE`].
     pub(super) key: [u32; 2],
     pub(super) edge: u32,
     pub(super) t: f32,
-    /// The edge goes through the face; false at a shared vertex, and where the edge lies in the face's plane.
+    /// Whether the edge goes through the face; false at a shared vertex, and where the edge lies in the face's plane.
     pub(super) pierces: bool,
 }
 
-/// The straight piece that two faces have in common.
+/// The straight piece that two faces share.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Segment {
-    /// The lower first.
+    /// The two faces, the lower first.
     pub(super) faces: [u32; 2],
     pub(super) ends: [End; 2],
-    /// The surfaces touch along the piece, but do not go through each other.
+    /// Whether the surfaces only touch along the piece.
     pub(super) contact: bool,
 }
 
@@ -50,7 +50,7 @@ pub(super) fn cut(shape: &HalfEdgeMesh, faces: [u32; 2]) -> Option<Segment> {
     })
 }
 
-/// The two ends of the common piece; moved by infinitesimals, faces have either none or both.
+/// The two ends of the common piece; moved by infinitesimals, two faces share either none or both.
 fn common_ends(
     pair: &[Triangle; 2],
     against: &[Sides; 2],
@@ -94,7 +94,7 @@ struct Triangle<'a> {
 struct Sides([Option<Side>; 3]);
 
 impl Sides {
-    /// All corners lie on one side.
+    /// Whether all corners lie on one side.
     fn agree(&self) -> bool {
         let mut known = self.0.iter().flatten().map(|side| side.is_positive());
         let first = known.next();
@@ -109,7 +109,7 @@ impl Sides {
         (0..3).all(|corner| self.is_flat(corner))
     }
 
-    /// The one corner that is not in the plane when the other two are.
+    /// The one corner that is not in the plane, if the other two are.
     fn apex(&self) -> Option<(usize, Side)> {
         let mut off = (0..3).filter(|corner| !self.is_flat(*corner));
         let corner = off.next()?;
@@ -170,7 +170,7 @@ impl<'a> Triangle<'a> {
         })
     }
 
-    /// The line through two vertices on different sides of the plane passes all edges the same way around.
+    /// Whether the line through two vertices on different sides of the plane passes all edges the same way around.
     fn is_pierced_by(&self, [a, b]: [u32; 2]) -> bool {
         let [c, d, e] = self.corners;
         let [first, second, third] = [[c, d], [d, e], [e, c]]
@@ -190,7 +190,7 @@ impl<'a> Triangle<'a> {
         }
     }
 
-    /// Whether an edge lies in the other's plane, and the surface does not go on behind the plane.
+    /// Whether an edge lies in the other's plane, and the surface does not continue behind the plane.
     fn touches(&self, sides: &Sides, plane: &Triangle) -> bool {
         let Some((apex, side)) = sides.apex() else {
             return false;
@@ -220,7 +220,7 @@ impl<'a> Triangle<'a> {
     }
 }
 
-/// All corners lie on one line.
+/// Whether all corners lie on one line.
 fn is_degenerate(shape: &HalfEdgeMesh, face: u32) -> bool {
     let points = shape.faces[face as usize].map(|v| shape.positions[v as usize]);
     [[0, 1], [1, 2], [2, 0]].into_iter().all(|[i, j]| {

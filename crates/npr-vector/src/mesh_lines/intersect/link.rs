@@ -11,7 +11,7 @@ use npr_mesh::half_edge::HalfEdgeMesh;
 /// A place on an edge is rounded to 2^-24 of it; shorter pieces have no direction.
 const NOTHING: f64 = 4e-7;
 
-/// A node to be, and the face beside the piece that follows.
+/// A future node, and the face beside the piece that follows it.
 #[derive(Debug, Clone, Copy)]
 struct Stop {
     end: End,
@@ -41,7 +41,7 @@ pub(super) fn link(shape: &HalfEdgeMesh, segments: &[Segment]) -> CurveGraph {
     graph
 }
 
-/// For both ends of all segments, numbered `2 segment + end`: the end of the one other segment that goes on there.
+/// For both ends of all segments, numbered `2 segment + end`: the end of the one other segment that continues there.
 fn mates(segments: &[Segment]) -> Vec<u32> {
     let halves = 0..2 * segments.len() as u32;
     let key = |half: u32| segments[half as usize / 2].ends[half as usize % 2].key;
@@ -82,7 +82,7 @@ fn walk(segments: &[Segment], mates: &[u32], seen: &mut [bool], from: u32) -> (V
     }
 }
 
-/// Whether the piece between two stops has no length worth the name.
+/// Whether the piece between two stops is too short to have a direction.
 fn is_point(shape: &HalfEdgeMesh, a: &Stop, b: &Stop) -> bool {
     let ends = [a, b].map(|stop| {
         let [low, high] = shape.ends(stop.end.edge);

@@ -14,13 +14,13 @@ const GROUP: u32 = 16;
 /// Most pairs that one group may find: 2048 for each of its faces.
 const GROUP_LIMIT: usize = 2048 * GROUP as usize;
 
-/// Pairs of faces whose boxes overlap that are looked at, beside [`LOOKS_PER_FACE`] for every face: a second of work.
+/// Most pairs of faces with overlapping boxes that are compared, beside [`LOOKS_PER_FACE`] a face: a second of work.
 const LOOKS: usize = 1 << 23;
 
-/// Pairs of faces whose boxes overlap that are looked at, for every face.
+/// Most pairs of faces with overlapping boxes that are compared, for every face.
 const LOOKS_PER_FACE: usize = 256;
 
-/// Groups searched between two looks at the number of pairs found.
+/// Groups that are searched before the number of pairs is checked again.
 const ROUND: usize = 64;
 
 /// A node of the tree, all nodes in the order of a walk: first the node, then what is below it.
@@ -34,16 +34,16 @@ struct Node {
     face: u32,
 }
 
-/// Pairs that need an exact look, and whether the search stopped early.
+/// Pairs that need an exact decision, and whether the search stopped early.
 pub(super) struct Pairs {
     /// The lower face first; in an order that depends on the tree alone.
     pub(super) pairs: Vec<[u32; 2]>,
-    /// How many were looked at.
+    /// Number of pairs that were compared.
     looks: usize,
     pub(super) overflow: bool,
 }
 
-/// Finds pairs until there are `limit` of them; `take` plans memory for so many more.
+/// Finds pairs until there are `limit` of them; `take` reserves memory for so many more.
 pub(super) fn find(
     shape: &HalfEdgeMesh,
     tree: &FaceTree,
@@ -144,7 +144,7 @@ fn overlap(a: &Node, b: &Node) -> bool {
     (0..3).all(|i| a.min[i] <= b.max[i] && b.min[i] <= a.max[i])
 }
 
-/// Whether all faces of two nodes lie in one plane across an axis: they have no line in common.
+/// Whether all faces of two nodes lie in one plane across an axis, where they share no line.
 fn lie_in_one_plane(a: &Node, b: &Node) -> bool {
     (0..3).any(|i| [a.max[i], b.min[i], b.max[i]] == [a.min[i]; 3])
 }
@@ -153,13 +153,13 @@ fn lie_in_one_plane(a: &Node, b: &Node) -> bool {
 #[derive(Default)]
 struct Candidates {
     leaves: Vec<Node>,
-    /// How many of them belong to the group.
+    /// Number of leaves that belong to the group.
     own: usize,
     near: Vec<u32>,
 }
 
 impl Candidates {
-    /// Later leaves only: every pair is found from its first face.
+    /// Gathers the leaves of a group, and only later ones of others: every pair is found from its first face.
     fn gather(&mut self, nodes: &[Node], group: u32) {
         self.leaves.clear();
         let around = &nodes[group as usize];
@@ -307,7 +307,7 @@ impl Plane {
         i32::from(distance > bound) - i32::from(distance < -bound)
     }
 
-    /// All corners of the other face, but the one shared, lie for certain on one side.
+    /// Whether all corners of the other face, except a shared one, surely lie on one side.
     #[inline]
     fn clears(&self, other: &Corners, shared: Option<usize>) -> bool {
         let mut sum = 0;
@@ -326,7 +326,7 @@ impl Plane {
 struct Subject {
     corners: Corners,
     plane: Plane,
-    /// The axis that it lies across, and where.
+    /// The axis that the face lies across, and its place on it.
     level: Option<(usize, f32)>,
 }
 
@@ -343,7 +343,8 @@ impl Subject {
         }
     }
 
-    /// Faces that share an edge meet there alone, and those beside each other nowhere but at a shared corner.
+    /// Whether two faces may share a piece. Faces that share an edge meet there alone, those beside each other only at
+    /// a shared corner.
     fn may_cut(&self, shape: &HalfEdgeMesh, face: u32) -> bool {
         let vertices = shape.faces[face as usize];
         // Faces in one plane across an axis: the commonest flat surfaces, and the dearest to decide exactly.
@@ -369,9 +370,9 @@ impl Subject {
     }
 }
 
-/// Whether a plane across the way between the faces parts them for certain, but for a shared corner.
+/// Whether a plane across the way between the faces surely separates them, except for a shared corner.
 ///
-/// Settles most faces around one vertex, in flat regions too, where their own planes say nothing.
+/// It settles most faces around one vertex, also in flat regions, where their own planes decide nothing.
 #[inline]
 fn are_apart(a: &Corners, b: &Corners, shared: Shared) -> bool {
     // Lay both triangles along the line between their middles.

@@ -21,8 +21,8 @@ impl Crossings {
         head.into_iter().chain(nodes).chain(piercings).collect()
     }
 
-    /// What [`Self::to_rows`] made numbers of, where it may belong to a shape; none of numbers that never can: every
-    /// edge and face exists, links go both ways, places lie on edges, and piercings are in order.
+    /// The crossings that [`Self::to_rows`] turned into numbers, if they may belong to the shape: every edge and face
+    /// exists, links go both ways, places lie on edges, and piercings are in order. `None` for other numbers.
     pub fn from_rows(rows: &[u32], shape: &HalfEdgeMesh) -> Option<Self> {
         // Split the numbers into nodes and piercings.
         let ([overflow, count], rest) = rows.split_first_chunk()?;

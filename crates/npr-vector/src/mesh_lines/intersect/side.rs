@@ -23,7 +23,7 @@ impl Side {
         self.value > 0.0
     }
 
-    /// The vertices lie in one plane as they stand; only the infinitesimals decide.
+    /// Whether the vertices lie in one plane as they stand, so that only the infinitesimals decide.
     pub(super) fn is_flat(self) -> bool {
         self.order != [0; 3]
     }
@@ -94,7 +94,7 @@ fn leading_term(points: &[[f64; 3]; 4], vertices: [u32; 4]) -> Side {
     }
 }
 
-/// What the product of infinitesimals is multiplied with: a minor of the rows (x, y, z, 1) of the points.
+/// The factor of a product of infinitesimals: a minor of the rows (x, y, z, 1) of the points.
 fn coefficient(points: &[[f64; 3]; 4], term: Term) -> f64 {
     let mut rows = [true; 4];
     let mut columns = [true; 3];
@@ -132,7 +132,7 @@ fn minor(points: &[[f64; 3]; 4], rows: [bool; 4], columns: [bool; 3]) -> f64 {
     }
 }
 
-/// Indices that are set, in order; 0 behind them.
+/// Indices that are set, in order, then zeros.
 fn chosen<const N: usize>(set: [bool; N]) -> [usize; N] {
     let mut indices = [0; N];
     let which = (0..N).filter(|i| set[*i]);
@@ -140,7 +140,7 @@ fn chosen<const N: usize>(set: [bool; N]) -> [usize; N] {
     indices
 }
 
-/// The infinitesimals by the vertices of the whole shape, so that terms of different questions compare.
+/// The infinitesimals numbered by the vertices of the whole shape, so that terms of different questions compare.
 fn order(vertices: [u32; 4], term: Term) -> [u64; 3] {
     let mut order = [0; 3];
     let bits = (0..12).rev().filter(|bit| term >> bit & 1 == 1);

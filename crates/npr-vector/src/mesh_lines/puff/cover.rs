@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-/// Free arcs shorter than this, in radians, are rounding.
+/// Least length of a free arc, in radians: shorter ones come from rounding.
 const LEAST: f64 = 1e-7;
 
-/// Arcs that wait to be put in order.
+/// Number of arcs that are collected before they are put in order.
 const WAITING: usize = 64;
 
 /// Arcs of a circle that are covered.
@@ -46,7 +46,7 @@ impl Cover {
         }
     }
 
-    /// Whether nothing is free for certain; more may turn out so at the end.
+    /// Whether surely nothing is free; that may also turn out only at the end.
     pub fn is_full(&self) -> bool {
         self.is_full
     }

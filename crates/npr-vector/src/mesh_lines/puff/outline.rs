@@ -20,32 +20,34 @@ use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// How far chords may leave their circle, in pixels.
+/// Greatest distance between a chord and its circle, in pixels.
 const SAGITTA_PX: f64 = 0.02;
 
 /// Longest chord, in pixels.
 const CHORD_PX: f64 = 4.0;
 
-/// Most chords of a circle: the largest in sight leave it by more than [`SAGITTA_PX`].
+/// Most chords of a circle: the largest circles in sight leave their chords by more than [`SAGITTA_PX`].
 const CHORDS_MAX: f64 = 65_536.0;
 
-/// Ends of strokes thinner than this are left off, as a share of the widest place of all: paler than paper is rough.
+/// Width under which ends of strokes are cut off, as a share of the widest place of all: they would be paler than paper
+/// is rough.
 const HAIR_SHARE: f64 = 0.13;
 
-/// Strokes shorter than this without such ends are left out, in pixels.
+/// Length under which strokes without such ends are left out, in pixels.
 const SPECK_PX: f64 = 4.0;
 
 /// Set in ids of strokes of smoke, above all bits of those on meshes; still a whole number in every reader of JSON.
 const SMOKE_ID: u64 = 1 << 50;
 
-/// A point of a puff's silhouette, as width is decided by it.
+/// A point of a puff's silhouette, as far as the width of its line depends on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SilhouettePoint {
-    /// How far behind it the next smoke lies, along the sight, in radii of the puff; infinite where there is none.
+    /// Distance from the puff to the next smoke behind it, along the sight, in radii of the puff; infinite where there
+    /// is none.
     pub jump: f64,
     /// Unit vector away from the puff in the picture, y down.
     pub outward: [f64; 2],
-    /// How far it lies from the puff's middle in the picture, in pixels.
+    /// Distance from the puff's middle in the picture, in pixels.
     pub radius_px: f64,
 }
 
@@ -54,7 +56,7 @@ pub struct SilhouettePoint {
 pub struct SmokeLines<'a> {
     /// The spheres.
     pub puffs: &'a Puffs,
-    /// Whether they hide what lies behind.
+    /// Whether they hide lines behind them.
     pub is_dense: bool,
     /// Whether they are outlined at all.
     pub is_outlined: bool,
@@ -73,8 +75,8 @@ impl std::fmt::Debug for SmokeLines<'_> {
 }
 
 impl SmokeLines<'_> {
-    /// The outline as strokes of kind contour; hidden by surfaces as `seen` says, which must know nothing of the
-    /// smoke itself.
+    /// The outline as strokes of kind contour. `seen` says which surfaces hide it, and must know nothing of the smoke
+    /// itself.
     ///
     /// An arc ends where another puff covers it or where what lies behind comes nearer than [`SmokeLines::jump`]:
     /// there its width is as thin as the jump says. Strokes that puffs hide are never given, not even as hidden ones:
@@ -142,7 +144,7 @@ impl SmokeLines<'_> {
     }
 }
 
-/// Leaves off the ends of an open stroke that are hardly to be seen; nothing stays of one that is so all along.
+/// Cuts off the ends of an open stroke that are hardly visible; clears a stroke that is so all along.
 fn trim_hairs(stroke: &mut Stroke, hair: f64) {
     let is_seen = |point: &StrokePoint| point.width >= hair;
     let Some(last) = stroke.points.iter().rposition(is_seen) else {
@@ -158,7 +160,7 @@ fn trim_hairs(stroke: &mut Stroke, hair: f64) {
     }
 }
 
-/// What surfaces leave of a chord.
+/// The part of a chord that surfaces leave visible.
 fn line(seen: &Seen<'_>, piece: Piece, memory: &mut Memory) -> Line {
     // Piercings count along the uncut chord, from which the piece was taken.
     let [from, to] = piece.range;
@@ -248,7 +250,7 @@ impl Puffs {
         }
     }
 
-    /// Into how many chords an arc is cut.
+    /// Number of chords that an arc is cut into.
     fn chord_count(&self, silhouette: &Silhouette, turn: f64) -> usize {
         let radius_px = silhouette.radius() * self.projector.pixels_per_unit(silhouette.front());
         let bent = 2.0 * math::acos_f64((1.0 - SAGITTA_PX / radius_px).clamp(0.5, 1.0));

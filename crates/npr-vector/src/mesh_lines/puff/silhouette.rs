@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Silhouette {
     middle: DVec3,
-    /// Across the circle, both as long as its radius: to the right as far as can be, and upwards.
+    /// Two axes of the circle, as long as its radius: the first to the right as far as it can be, the second upwards.
     first: DVec3,
     second: DVec3,
     /// Length of the sights from the eye to the circle; in parallel view the depth of the circle.
@@ -88,8 +88,8 @@ impl Silhouette {
         Some([middle.rem_euclid(TAU), math::acos_f64(least / amplitude)])
     }
 
-    /// In perspective: the sight's unit direction d must have d . c beyond a number for the sphere to begin before
-    /// its end.
+    /// In perspective: the sphere begins before the end of a sight where the dot product d . c of the sight's unit
+    /// direction and the sphere's middle exceeds a number.
     fn towards(&self, puff: &Puff, room: f64) -> ([f64; 2], f64) {
         let power = puff.center.length_squared() - puff.radius * puff.radius;
         let (end, touching) = (self.way + room, power.max(0.0).sqrt());

@@ -1,10 +1,10 @@
-//! A sphere of smoke as an eye has it.
+//! A sphere of smoke in the axes of the eye.
 
 use crate::project::Projector;
 use glam::DVec3;
 use npr_core::smoke::{REACH, Sphere};
 
-/// A sphere as an eye has it.
+/// A sphere in the axes of the eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Puff {
     /// Its number among the spheres given.
@@ -13,12 +13,12 @@ pub(crate) struct Puff {
     pub center: DVec3,
     /// Radius in scene units, above 0.
     pub radius: f64,
-    /// What encloses its image, in pixels: left, top, right, bottom.
+    /// The box around its image, in pixels: left, top, right, bottom.
     pub bounds: [f64; 4],
 }
 
 impl Puff {
-    /// `None` for what is not drawn.
+    /// The puff of a sphere; `None` if it is not drawn.
     pub fn new(projector: &Projector, number: u32, sphere: &Sphere) -> Option<Self> {
         let radius = f64::from(sphere.radius);
         let is_sound = |v: &f32| v.abs() < REACH;
@@ -61,8 +61,8 @@ impl Puff {
         self.center.z - self.radius
     }
 
-    /// How far behind a point the sight through it enters the sphere, below 0 in front of it; `None` where it passes
-    /// by.
+    /// Distance from a point along its sight to where the sight enters the sphere, below 0 if that lies before the
+    /// point; `None` where the sight misses the sphere.
     pub fn entry(&self, is_perspective: bool, point: DVec3) -> Option<f64> {
         let (direction, way) = match is_perspective {
             true => (point / point.length(), point.length()),
@@ -79,8 +79,8 @@ impl Puff {
 }
 
 impl Puff {
-    /// Where a straight line goes through the sphere, and where its image crosses the silhouette; 0 at its start, 1 at
-    /// its end.
+    /// Where a straight line goes through the sphere, and where its image crosses the silhouette, in shares from 0 at
+    /// its start to 1 at its end.
     pub fn meetings(
         &self,
         is_perspective: bool,

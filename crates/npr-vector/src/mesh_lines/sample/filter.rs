@@ -9,10 +9,10 @@ use super::SpineSample;
 use crate::rank::scan::{compact, exclusive_scan};
 use rayon::prelude::*;
 
-/// Mean shares from which on a line is clearly visible, and below which it is clearly hidden.
+/// Mean shares at and above which a line is clearly visible, and below which it is clearly hidden.
 pub const CLEAR_SHARES: [f32; 2] = [0.6, 0.4];
 
-/// Mean share from which on a line that starts with it is visible.
+/// Mean share at and above which a line that starts with it is visible.
 pub const EVEN_SHARE: f32 = 0.5;
 
 /// Decides by the mean share of every sample and its neighbours whether it is visible, and whether that is clear.
@@ -77,8 +77,8 @@ pub fn filter_visibility(
         });
 }
 
-/// What is seen of lines, 1 or 0 for every sample, by the shares of their samples: [`weigh_samples`] and
-/// [`filter_visibility`] with what lies between them.
+/// Visibility of samples, 1 or 0 each, by their shares: [`weigh_samples`] and [`filter_visibility`] with the steps
+/// between them.
 ///
 /// ```
 /// use npr_vector::mesh_lines::sample::{SpineSample, visible_samples};

@@ -1,4 +1,4 @@
-//! Which parts of a line the faces of a view hide, without looking at outlines.
+//! Finds the parts of a line that the faces of a view hide, without outlines.
 
 mod boxes;
 mod cells;
@@ -13,24 +13,24 @@ use cover::Cover;
 use sights::Sights;
 use std::sync::OnceLock;
 
-/// Faces or cells that a thread takes at once at least.
+/// Fewest faces or cells that a thread takes at once.
 const SHARE: usize = 256;
 
 /// Where the faces of a shape lie in the picture, for one view; made when first asked for.
 #[derive(Debug, Default)]
 pub struct FaceImages {
-    /// By node of the tree: for lines of which all that is before them counts.
+    /// By node of the tree: for lines of which all faces in front are counted.
     boxes: OnceLock<FaceBoxes>,
-    /// By cell of the picture: for lines that are hidden or not.
+    /// By cell of the picture: for lines that are only hidden or not.
     cells: OnceLock<FaceCells>,
 }
 
 impl FaceImages {
-    /// Bytes of a face's share.
+    /// Bytes for each face.
     pub(crate) const BYTES_PER_FACE: usize = FaceBoxes::BYTES_PER_FACE + FaceCells::BYTES_PER_FACE;
 
-    /// The parts of a piece that faces hide or that need no looking at, in shares of its image: ascending, apart
-    /// from each other.
+    /// The parts of a piece, in shares of its image, that faces hide or that need no test: ascending, apart from each
+    /// other.
     pub(super) fn hidden_parts(
         &self,
         seen: &Seen<'_>,
@@ -59,7 +59,7 @@ impl FaceImages {
         cover.joined
     }
 
-    /// The part that each face hides, in no order; none where there are more than `most`.
+    /// The part that each face hides, in no order; `None` if there are more than `most`.
     pub(super) fn parts_by_face(
         &self,
         seen: &Seen<'_>,
@@ -71,9 +71,9 @@ impl FaceImages {
         self.boxes(seen).parts_by_face(&sights, most)
     }
 
-    /// Makes what many pieces that are hidden or not will ask for, with all threads.
+    /// Makes on all threads what pieces that are only hidden or not will need.
     ///
-    /// Not to be called where others may be asking already.
+    /// No other thread may be asking for it already.
     pub(super) fn prepare(&self, seen: &Seen<'_>) {
         self.cells(seen, SHARE);
     }

@@ -2,14 +2,14 @@
 
 use super::{MARGIN, Piece, Span};
 
-/// Length of line in a cell, in pixels of length for every pixel of area, from which it is black: with lines two
-/// pixels wide at random places one part in e^6 of the paper still shows, less than a step of eight bits.
+/// Length of line in a cell, in pixels for every pixel of area, at which it counts as black: with lines two pixels wide
+/// at random places one part in e^6 of the paper still shows, less than a step of eight bits.
 pub const BLACK: u64 = 3;
 
 /// Side of a cell in pixels.
 const CELL_PX: f64 = 8.0;
 
-/// Lengths are counted in so many parts of a pixel, as whole numbers: their sum does not hang on an order.
+/// Parts of a pixel in which lengths are counted as whole numbers, so that their sum does not depend on the order.
 const PARTS: f64 = 256.0;
 
 /// Steps along a line in which its ink is counted, in pixels.
@@ -25,7 +25,7 @@ pub(crate) struct Ink {
 }
 
 impl Ink {
-    /// White paper of a size.
+    /// White paper of `size` pixels.
     pub(crate) fn new(size: [u32; 2]) -> Self {
         let margin = MARGIN * f64::from(size[0].max(size[1]));
         let [columns, rows] =
@@ -58,7 +58,7 @@ impl Ink {
         parts
     }
 
-    /// Draws the spans of a piece that a drawing shows.
+    /// Counts the ink of the spans of a piece that a drawing shows.
     pub(crate) fn draw(&mut self, piece: &Piece, spans: &[Span], with_hidden: bool) {
         let shown = spans
             .iter()

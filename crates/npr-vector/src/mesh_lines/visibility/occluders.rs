@@ -1,14 +1,14 @@
-//! What hides lines besides the faces of the shape.
+//! Objects that hide lines besides the faces of the shape.
 
 use super::Piece;
 use glam::DVec3;
 use std::fmt;
 
-/// What hides lines besides the faces of the shape, as smoke does; it counts as one surface.
+/// Something that hides lines besides the faces of the shape, as smoke does; it counts as one surface.
 pub trait Occluders: fmt::Debug + Sync {
-    /// Shares of a piece's image at which it may begin or end being hidden, in no order.
+    /// Shares of a piece's image at which it may begin or end hiding the piece, in no order.
     fn cuts(&self, piece: &Piece) -> Vec<f64>;
 
-    /// Whether a point of the world is hidden.
+    /// Whether it hides a point of the world.
     fn hide(&self, world: DVec3) -> bool;
 }

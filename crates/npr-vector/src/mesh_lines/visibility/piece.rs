@@ -4,7 +4,7 @@ use crate::mesh_lines::bvh::cut_range;
 use crate::project::Projector;
 use glam::DVec3;
 
-/// How far outside the frame lines are still followed, as a share of its larger side.
+/// Distance outside the frame up to which lines are followed, as a share of its larger side.
 pub(crate) const MARGIN: f64 = 0.02;
 
 /// A straight piece of line in space and in the picture, cut to the frame.
@@ -21,7 +21,7 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// The part of a line from `a` to `b` in front of the near plane and within the frame and a margin; none where
+    /// The part of a line from `a` to `b` in front of the near plane and within the frame and a margin; `None` if
     /// nothing is left.
     pub fn new(projector: &Projector, size: [u32; 2], a: DVec3, b: DVec3) -> Option<Self> {
         // Cut off what lies before the near plane.

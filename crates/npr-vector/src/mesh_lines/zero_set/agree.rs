@@ -31,8 +31,8 @@ const STEP_PX: f64 = 1.5;
 /// Gaps in what is seen of a line up to this length are closed, and lone specks up to it dropped, in pixels.
 const SETTLE_PX: f64 = 4.0;
 
-/// Of several contours beside a line, those count that are at most this much farther from it in the world than the
-/// nearest.
+/// Factor on the distance in the world between a line and the nearest contour beside it, up to which other contours
+/// count too.
 const NEARLY_NEAREST: f64 = 2.0;
 
 /// Lines farther apart in the world than this many sides of the faces they lie on, or pixels, are different lines of
@@ -152,14 +152,14 @@ impl<'a> PolygonOutline<'a> {
         }
     }
 
-    /// What is seen of every piece of a graph from [`zero_set`], in shares of the piece's image; empty for pieces
-    /// outside the picture.
+    /// The spans of every piece of a graph from [`zero_set`], in shares of the piece's image; empty for pieces outside
+    /// the picture.
     ///
-    /// Pieces along an edge that is a contour of the polygons take over what is seen of that. Samples of others take
-    /// the least number of occluders of the contours beside them within tolerance that are nearest in the world;
-    /// where there is none, the smooth contour is none of the polygons and counts as hidden once. Gaps and specks of
-    /// up to four pixels are settled along the line, except on edges, where sights have decided: hidden parts of a
-    /// fringe would lie double beside the line that hides them.
+    /// Pieces along an edge that is a contour of the polygons take over its spans. Samples of others take the least
+    /// number of occluders of the contours beside them within tolerance that are nearest in the world; where there is
+    /// none, the smooth contour is none of the polygons and counts as hidden once. Gaps and specks of up to four pixels
+    /// are settled along the line, except on edges, where sights have decided: hidden parts of a fringe would lie
+    /// double beside the line that hides them.
     pub fn spans(&self, graph: &CurveGraph, pieces: &[Option<Piece>]) -> Vec<Vec<Span>> {
         let mut sampled: Vec<Sampled> = (0..graph.nodes.len())
             .into_par_iter()
@@ -210,7 +210,7 @@ impl<'a> PolygonOutline<'a> {
         }
     }
 
-    /// Occluders of the nearest of some parts of one edge.
+    /// Number of occluders of the nearest of some parts of one edge.
     fn occluders_on(&self, own: &[[u32; 3]], world: DVec3) -> u32 {
         let parts = own.iter().map(|key| &self.contours[key[2] as usize]);
         let distance = |contour: &SeenContour| {
@@ -322,7 +322,7 @@ impl<'a> PolygonOutline<'a> {
         near.is_some()
     }
 
-    /// The faces beside a contour that interpolated normals judge otherwise than their planes do.
+    /// The faces beside a contour that are front by interpolated normals and back by their planes, or the reverse.
     fn patch_faces(
         &self,
         smooth: &Signs<'_>,
@@ -349,16 +349,16 @@ fn sample_count(length_px: f64) -> usize {
     ((length_px / STEP_PX).ceil() as usize).clamp(1, 1 << 14)
 }
 
-/// What is seen of a piece, at equal distances along it.
+/// The occluders of a piece, at equal distances along it.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Sampled {
     step_px: f64,
-    /// Sights have decided it, not what lies beside.
+    /// Whether sights have decided them, rather than the contours beside the piece.
     is_known: bool,
     occluders: Vec<u32>,
 }
 
-/// Closes gaps and drops specks along a chain of sampled pieces; what is known stays.
+/// Closes gaps and drops specks along a chain of sampled pieces; what sights decided stays.
 fn settle_chain(chain: &[u32], sampled: &mut [Sampled]) {
     let (mut hidden, mut lengths) = (Vec::new(), Vec::new());
     for node in chain {

@@ -9,14 +9,14 @@ use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
 use rayon::prelude::*;
 
-/// Runs of no more than this many pieces may be noise.
+/// Most pieces of a run that may be noise.
 const NOISE_PIECES: usize = 2;
 
-/// What is known of one piece of line.
+/// How one piece of line turns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Turn {
     hidden: bool,
-    /// A piece along a mesh edge: the sign of its dihedral angle is exact, and never taken for noise.
+    /// Whether the piece runs along a mesh edge: the sign of its dihedral angle is exact, and never taken for noise.
     exact: bool,
     /// Length of the piece in the world.
     length: f64,
@@ -72,7 +72,7 @@ struct Run {
     may_be_noise: bool,
 }
 
-/// Turns runs that are noise over to the sign of their neighbours.
+/// Flips the sign of runs that are noise to that of their neighbours.
 fn silence(turns: &mut [Turn], closed: bool) {
     // Begin a closed line where the sign changes, so that no run wraps around its end.
     let last = turns.len() - 1;
@@ -121,8 +121,9 @@ fn runs(turns: &[Turn]) -> Vec<Run> {
 }
 
 impl Signs<'_> {
-    /// Judges the piece that starts at a node.
+    /// How the piece that starts at a node turns.
     fn turn(&self, traced: &Traced, node: usize) -> Turn {
+        // Measure the piece and the face that it crosses.
         let CurveNode { face, next, .. } = traced.graph.nodes[node];
         let along = traced.along[node];
         let position_of = |node: u32| DVec3::from_array(traced.graph.position(self.shape, node));
@@ -132,6 +133,8 @@ impl Signs<'_> {
             NONE => [DVec3::ZERO; 2],
             next => [node as u32, next].map(position_of),
         };
+
+        // Tell on which side of a cusp it lies: along an edge by its dihedral angle, in a face by the gradient of n.v.
         let hidden = if next == NONE {
             false
         } else if along {

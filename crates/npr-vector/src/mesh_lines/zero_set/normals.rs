@@ -29,8 +29,8 @@ pub struct CornerNormals {
 impl CornerNormals {
     /// Angle-weighted means of face normals [Thürmer & Wüthrich 1998] within each fan.
     ///
-    /// VertexFans end at borders, at edges without a twin, and at creases; a cosine that is no number splits every
-    /// edge. Faces without area weigh nothing.
+    /// Fans end at borders, at edges without a twin, and at creases; a cosine that is no number splits every edge.
+    /// Faces without area have no weight.
     ///
     /// O(faces), parallel: once per shape and crease angle.
     pub fn new(shape: &HalfEdgeMesh, creases: impl Into<Creases>) -> Self {
@@ -126,7 +126,7 @@ fn joins(fan_of: &[u32], half_edge: u32, twin: u32) -> bool {
         && fan(HalfEdgeMesh::following(half_edge)) == fan(twin)
 }
 
-/// Twins whose sides do not share their fans; where normals pass smoothly across, they always do.
+/// Lower half-edges of twins that do not share their fans; where normals pass smoothly across, twins always do.
 fn split_edges(shape: &HalfEdgeMesh, across: &[u32], fan_of: &[u32]) -> Vec<u32> {
     (0..across.len() as u32)
         .into_par_iter()

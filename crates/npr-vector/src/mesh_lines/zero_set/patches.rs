@@ -4,10 +4,10 @@ use super::signs::Signs;
 use npr_core::geometry::NONE;
 use npr_mesh::half_edge::HalfEdgeMesh;
 
-/// A patch is chosen when this much of its visible outline lies off every smooth line, in pixels.
+/// Length in pixels of a patch's visible outline, off every smooth line, from which the patch is chosen.
 pub(super) const LEAST_PX: f64 = 2.0;
 
-/// Faces connected through parts where normals and planes disagree, found as they are asked for.
+/// Patches of faces connected across sides on which normals and planes disagree, found when they are asked for.
 pub(super) struct Patches<'a> {
     signs: &'a Signs<'a>,
     front: &'a [u8],
@@ -31,7 +31,7 @@ impl<'a> Patches<'a> {
         patch != NONE && self.chosen[patch as usize]
     }
 
-    /// Chooses the patches that miss enough; false if all of them have been chosen before.
+    /// Chooses the patches that miss enough; returns false if all of them were chosen before.
     pub fn choose(&mut self, missed: &[(u32, f64)]) -> bool {
         let mut lengths: Vec<f64> = Vec::new();
         for (face, length) in missed {

@@ -24,7 +24,7 @@ pub struct SegmentGrid {
     entries: Vec<u32>,
 }
 
-/// The grid has at most this many cells a side; cells grow where the picture asks for more.
+/// Most cells a side; cells grow where a larger picture would need more.
 const LARGEST_SIDE: f64 = 1024.0;
 
 impl SegmentGrid {
@@ -177,7 +177,7 @@ impl SegmentGrid {
     }
 }
 
-/// Pulls points of a line towards an outline that runs nearby, and says which of them lie by it.
+/// Pulls points of a line towards an outline nearby, and tells which of them lie by it.
 ///
 /// A point keeps half of `radius_px` of freedom: nearer to the outline it stays where it is, so that a smooth line is
 /// not bent onto the outline's corners; up to `radius_px` further away it moves to half of `radius_px` from it;

@@ -27,8 +27,8 @@ impl FlatFaces {
         faces: Vec::new(),
     };
 
-    /// The faces for which `choose` is true; `front` says of every face whether it is turned to the eye, as
-    /// [`crate::mesh_lines::contour::facing`] does.
+    /// The faces that `choose` accepts; `front` holds for every face whether it is turned to the eye, from
+    /// [`crate::mesh_lines::contour::facing`].
     pub fn new(front: &[u8], choose: impl Fn(u32) -> bool) -> Self {
         let faces: Vec<u32> = (0..front.len() as u32)
             .filter(|face| choose(*face))
@@ -48,7 +48,7 @@ impl FlatFaces {
         &self.faces
     }
 
-    /// Whether a face of the set is front; nothing for other faces.
+    /// Whether a face of the set is front; `None` for other faces.
     pub fn front(&self, face: u32) -> Option<bool> {
         self.label.get(face as usize).copied().flatten()
     }
@@ -60,7 +60,7 @@ impl FlatFaces {
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub(super) struct Crossing {
     pub t: f32,
-    /// The half-edge whose crossing this is; an end of the edge otherwise.
+    /// The half-edge on whose side this crossing lies; otherwise the place is an end of the edge.
     pub half_edge: u32,
 }
 

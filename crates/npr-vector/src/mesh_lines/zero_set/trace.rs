@@ -7,7 +7,7 @@ use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
-/// What a node stands for; ascending numbers order the nodes of an edge.
+/// What a node marks; ascending roles order the nodes of an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Role {
     /// A piece through a face, starting where a half-edge goes from front to back.
@@ -18,7 +18,7 @@ enum Role {
     End,
 }
 
-/// Identifies a node: half-edges order as (edge, half-edge), and each has at most one node of a role.
+/// The key of a node: half-edges order as (edge, half-edge), and each has at most one node of a role.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Key {
     edge: u32,
@@ -26,7 +26,7 @@ struct Key {
     role: Role,
 }
 
-/// A piece of line: where it starts and what follows.
+/// A piece of line: the node where it starts, and the node that follows.
 #[derive(Debug, Clone, Copy)]
 struct Piece {
     key: Key,
@@ -126,7 +126,7 @@ impl Signs<'_> {
         })
     }
 
-    /// What follows a piece through a face.
+    /// The node that follows a piece through a face.
     fn after_face(&self, face: u32) -> Option<Key> {
         let exit = self.side_where(face, false)?;
         let twin = self.shape.twins[exit as usize];
@@ -141,7 +141,7 @@ impl Signs<'_> {
         Some(self.key(if front_beyond { twin } else { exit }, Role::Along))
     }
 
-    /// What follows a piece that arrives at a vertex: the next step met when turning through the front.
+    /// The node that follows a piece that arrives at a vertex: the next step met when turning through the front.
     fn around_head(&self, half_edge: u32) -> Option<Key> {
         let mut side = HalfEdgeMesh::following(half_edge);
         // The turn leads back to this half-edge's twin at the latest, whose side is back here.

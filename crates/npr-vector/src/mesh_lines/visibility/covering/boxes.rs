@@ -6,7 +6,7 @@ use crate::project::Projector;
 use glam::DVec3;
 use npr_mesh::half_edge::HalfEdgeMesh;
 
-/// How far boxes are grown for rounding, in pixels and as a share of a depth.
+/// By how much boxes are grown for rounding, in pixels and as a share of a depth.
 const ROOM: f64 = 1e-6;
 
 /// Where the faces below each node of a [`FaceTree`] lie in the picture.
@@ -16,29 +16,29 @@ pub(super) struct FaceBoxes {
     boxes: Vec<ImageBox>,
 }
 
-/// An octagon in the picture, and the depth before which nothing of it lies.
+/// An octagon in the picture, and the least depth of its content.
 #[derive(Debug, Clone, Copy)]
 struct ImageBox {
-    /// To the right, down, and along both diagonals ([`along_axes`]).
+    /// Least values along four axes: to the right, down, and along both diagonals ([`along_axes`]).
     low: [f64; 4],
     high: [f64; 4],
     near: f64,
 }
 
-/// Where a place lies along the axes of an octagon: thin faces across the picture leave less room than in boxes.
+/// Coordinates of a place along the axes of an octagon, which encloses thin slanted faces more closely than a box.
 fn along_axes([x, y]: [f64; 2]) -> [f64; 4] {
     [x, y, x + y, x - y]
 }
 
 impl ImageBox {
-    /// Holds nothing.
+    /// A box that holds nothing.
     const EMPTY: Self = Self {
         low: [f64::INFINITY; 4],
         high: [f64::NEG_INFINITY; 4],
         near: f64::INFINITY,
     };
 
-    /// The box of a face; all of the picture where the face reaches before the near plane.
+    /// The box of a face; it holds all of the picture if the face reaches before the near plane.
     fn of(shape: &HalfEdgeMesh, face: u32, projector: &Projector) -> Self {
         // Find the depth before which nothing of the face lies.
         let corners = shape.faces[face as usize].map(|v| shape.point(v));
@@ -101,10 +101,10 @@ impl ImageBox {
 }
 
 impl FaceBoxes {
-    /// Bytes of a face's share.
+    /// Bytes for each face.
     pub(super) const BYTES_PER_FACE: usize = 2 * size_of::<ImageBox>();
 
-    /// Finds them. O(faces).
+    /// Finds the boxes of all nodes. O(faces).
     pub(super) fn new(shape: &HalfEdgeMesh, tree: &FaceTree, projector: &Projector) -> Self {
         let nodes = &tree.bvh.nodes;
         let mut boxes = vec![ImageBox::EMPTY; nodes.len()];
@@ -134,7 +134,7 @@ impl FaceBoxes {
         Self { boxes }
     }
 
-    /// The part that each face hides, in no order; none where there are more than `most`.
+    /// The part that each face hides, in no order; `None` if there are more than `most`.
     pub(super) fn parts_by_face(&self, sights: &Sights<'_>, most: usize) -> Option<Vec<[f64; 2]>> {
         let search = Search::new(self, sights);
         let mut parts = Vec::new();
@@ -156,7 +156,7 @@ struct Search<'a> {
     tree: &'a FaceTree,
     ends: [[f64; 4]; 2],
     reach: Reach,
-    /// Depth of the end that lies farther.
+    /// Depth of the farther end.
     farthest: f64,
 }
 
@@ -172,14 +172,14 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Whether the piece may lie behind what is below a node.
+    /// Whether the piece may lie behind a face below a node.
     fn may_hide(&self, index: u32) -> bool {
         let image = self.boxes.get(index as usize);
         let meets = |image: &ImageBox| image.near < self.farthest && image.meets(&self.ends);
         image.is_some_and(meets) && self.reach.meets(self.tree, index)
     }
 
-    /// The faces of a leaf; of another node none, but its children are put on the stack.
+    /// The faces of a leaf; for another node an empty list, and its children are put on the stack.
     fn open(&self, index: u32, stack: &mut Vec<u32>) -> &'a [u32] {
         let node = &self.tree.bvh.nodes[index as usize];
         if node.is_leaf() {
@@ -191,8 +191,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The box in the world around all ways from the eye to a line, without their last bit: what lies beside it, or only
-/// touches the line, hides nothing of it.
+/// The box in the world around all ways from the eye to a line, without their last bit: faces outside of it, or that
+/// only touch the line, hide nothing of it.
 struct Reach {
     low: DVec3,
     high: DVec3,

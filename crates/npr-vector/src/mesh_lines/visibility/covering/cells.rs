@@ -1,4 +1,4 @@
-//! The faces of a view in cells of the picture: what hides a line is among the few that lie foremost where it runs.
+//! The faces of a view by cells of the picture: a line is hidden by one of the few foremost faces where it runs.
 
 use super::cover::Cover;
 use super::sights::Sights;
@@ -13,70 +13,70 @@ use rayon::prelude::*;
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Side of a cell in pixels, where faces are not so large that there would be too many entries.
+/// Side of a cell in pixels; it doubles where faces are so large that there would be too many entries.
 const CELL_PX: f64 = 16.0;
 
-/// Most entries of faces in cells; where there were more, cells are twice as wide.
+/// Most entries of faces in cells; if there were more, cells become twice as wide.
 const MOST_ENTRIES: usize = 1 << 25;
 
-/// How far places and orders are let out for rounding: in cells, and as a share of an order.
+/// By how much places and orders are widened for rounding: in cells, and as a share of an order.
 const ROOM: f64 = 1e-6;
 
-/// Rounding of orders where a face reaches to the eye, as a share of the greatest.
+/// Rounding of orders of a face that reaches to the eye, as a share of the greatest.
 const ROUNDING: f64 = 1e-12;
 
 /// Where faces are cut off before the eye, as a share of the near plane's distance: nearer ones hide nothing.
 const CUT: f64 = 1e-7;
 
-/// Of images slimmer than this, a share of the square of their length, no plane is known.
+/// Least doubled area of an image whose plane is known, as a share of the square of its length.
 const LEAST_SLENDERNESS: f64 = 1e-6;
 
-/// Of images longer than this, in cells, neither.
+/// Greatest length of such an image, in cells.
 const FARTHEST: f64 = 1e6;
 
-/// Rounding of the order of a plane, as a share of the greatest of its face.
+/// Rounding of the order of a plane, as a share of the greatest order of its face.
 const PLANE_ROUNDING: f64 = 1e-9;
 
 /// The faces of a view by the cells of the picture that they touch, foremost first.
 ///
-/// Depths are told by their order ([`order_of`]), which changes evenly over the image of a plane. A face that fills a
-/// cell hides whatever lies behind it there, so none is kept in a cell whose plane lies behind that of the one that
-/// ends first: what is left is about as many faces as meet in what is seen of the cell.
+/// Depths are compared by their order ([`order_of`]), which changes linearly over the image of a plane. A face that
+/// fills a cell hides whatever lies behind it there; of such faces the wall is the one that ends first. Faces whose
+/// planes lie behind the wall are not kept in the cell: about as many remain as meet in its visible part.
 #[derive(Debug)]
 pub(super) struct FaceCells {
     grid: Grid,
     /// By face.
     bounds: Vec<Bounds>,
-    /// By face, where all is seen from one eye; else none.
+    /// By face, where all is seen from one eye; else empty.
     barriers: Vec<Barrier>,
     /// By cell.
     walls: Vec<Wall>,
-    /// Where the faces of a cell start in `entries`, and where the last ends.
+    /// Where the faces of each cell start in `entries`, and at the end where the last ones end.
     starts: Vec<u32>,
-    /// Faces with the order before which nothing of them lies in the cell, ascending in each.
+    /// Faces, each with the least order that it has in the cell; ascending in every cell.
     entries: Vec<(f64, u32)>,
 }
 
-/// The bounds of a face's image as numbers that change evenly over the picture: at a place, `v . (x, y, 1)`.
+/// The bounds of a face's image as linear functions over the picture: the value at a place is `v . (x, y, 1)`.
 #[derive(Debug, Clone, Copy)]
 struct Bounds {
-    /// The order of its plane, less the rounding.
+    /// The order of its plane, less rounding.
     plane: DVec3,
-    /// How far inside of each side of its image, in cells.
+    /// The distance from each side of its image, in cells, positive inside.
     sides: [DVec3; 3],
     /// Rounding of the plane's order.
     rounding: f64,
 }
 
 impl Bounds {
-    /// Nothing is known.
+    /// The bounds of an image of which nothing is known.
     const NONE: Self = Self {
         sides: [DVec3::new(0.0, 0.0, f64::INFINITY); 3],
         plane: DVec3::new(0.0, 0.0, f64::NEG_INFINITY),
         rounding: f64::INFINITY,
     };
 
-    /// Those of an image that was not cut off before the eye.
+    /// The bounds of an image that was not cut off before the eye.
     fn of(image: &Polygon) -> Self {
         // Leave out images so slim or long that rounding decides.
         let &[a, b, c] = image.corners() else {
@@ -110,7 +110,7 @@ impl Bounds {
         }
     }
 
-    /// Whether its plane lies nowhere before another's over a cell, or so little that it hides no more.
+    /// Whether its plane lies nowhere before another's over a cell, or by so little that it hides nothing more.
     fn is_behind(&self, other: &Self, cell: DVec2, projector: &Projector) -> bool {
         let corners = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE];
         corners.iter().all(|corner| {
@@ -120,8 +120,8 @@ impl Bounds {
         })
     }
 
-    /// Whether it may hide a part of a line between two places, with the least orders from which planes there are
-    /// behind.
+    /// Whether the face may hide a part of a line between two places; `least` are the orders above which a plane lies
+    /// behind the line there.
     fn may_hide(&self, ends: &[DVec3; 2], least: &[f64; 2]) -> bool {
         let is_beside = |side: &DVec3| ends.iter().all(|end| side.dot(*end) < -ROOM);
         let is_behind = (0..2).all(|i| self.plane.dot(ends[i]) > least[i]);
@@ -143,7 +143,7 @@ impl Wall {
         face: NONE,
     };
 
-    /// The one that ends first; of two that end alike, that of the lesser number.
+    /// The wall that ends first; of two that end alike, the one of the lesser face.
     fn nearer(self, other: Self) -> Self {
         let is_other = (other.end, other.face) < (self.end, self.face);
         if is_other { other } else { self }
@@ -172,7 +172,7 @@ impl Grid {
         }
     }
 
-    /// A place of the picture, in cells.
+    /// A place of the picture in units of cells.
     fn place(&self, place: [f64; 2]) -> DVec2 {
         (DVec2::from(place) - self.origin) / self.cell_px
     }
@@ -185,7 +185,7 @@ impl Grid {
     }
 }
 
-/// Where a depth comes in the order from the eye: greater behind, and even over the image of a plane.
+/// The order of a depth from the eye: greater behind, and linear over the image of a plane.
 fn order_of(projector: &Projector, depth: f64) -> f64 {
     if projector.is_perspective() {
         -1.0 / depth
@@ -194,7 +194,7 @@ fn order_of(projector: &Projector, depth: f64) -> f64 {
     }
 }
 
-/// A place of a face's image: cells to the right and down, and order.
+/// A corner of a face's image: cells to the right and down, and order.
 type Corner = DVec3;
 
 /// A convex piece of a face's image; cutting off a triangle's part before the eye and a cell's four sides adds a corner
@@ -251,7 +251,7 @@ impl Polygon {
         })
     }
 
-    /// Whether it fills the square cell at a place, and a bit more.
+    /// Whether the polygon fills the square cell at a place, and a little more.
     fn fills(&self, cell: DVec2) -> bool {
         let middle = cell + 0.5;
         let mut turns = [false; 2];
@@ -269,7 +269,7 @@ impl Polygon {
     }
 }
 
-/// The image of a face, as far as it lies before the eye; none where it does not.
+/// The image of the part of a face that lies before the eye; `None` if all of it lies behind.
 fn image_of(
     shape: &HalfEdgeMesh,
     face: u32,
@@ -301,12 +301,12 @@ fn image_of(
     (image.count > 0).then_some(image)
 }
 
-/// What of a face lies in a cell.
+/// The part of a face that lies in a cell.
 struct Part<'a> {
     cell: usize,
     /// The cell's upper left corner, in cells.
     corner: DVec2,
-    /// Orders between which it lies there.
+    /// The least and greatest order that it has there.
     orders: [f64; 2],
     /// The image of the face, where it is known.
     image: Option<&'a Polygon>,
@@ -319,7 +319,7 @@ impl Part<'_> {
     }
 }
 
-/// Visits the cells that a face touches.
+/// Visits all cells that a face touches.
 fn for_parts(
     shape: &HalfEdgeMesh,
     face: u32,
@@ -365,8 +365,7 @@ fn for_parts(
     }
 }
 
-/// How little before an order, there or less, a plane does not hide: less than half of what sights leave out
-/// ([`NEARER`]).
+/// How far before an order a plane may lie without hiding it: less than half of what sights leave out ([`NEARER`]).
 fn touching(projector: &Projector, order: f64) -> f64 {
     let way = match projector.is_perspective() {
         true => order.abs(),
@@ -375,7 +374,7 @@ fn touching(projector: &Projector, order: f64) -> f64 {
     0.4 * NEARER * way
 }
 
-/// The least order that counts for rounding: in parallel view orders are depths, which may be 0.
+/// The least scale that rounding of orders is relative to: in parallel view orders are depths, which may be 0.
 fn least_scale(projector: &Projector) -> f64 {
     if projector.is_perspective() {
         0.0
@@ -385,13 +384,13 @@ fn least_scale(projector: &Projector) -> f64 {
 }
 
 impl FaceCells {
-    /// Bytes of a face's share: usual faces touch few cells, and of great ones few lie before all that fills a cell.
+    /// Bytes for each face: usual faces touch few cells, and large ones lie before the wall in few.
     pub(super) const BYTES_PER_FACE: usize =
         size_of::<Bounds>() + size_of::<Barrier>() + 4 * size_of::<(u32, f64, u32)>();
 
     /// Sorts the faces of a shape into cells. About O(faces + cells they touch before what hides them there).
     ///
-    /// A thread takes `least` faces at once: where there are no more, all is done by the one that calls.
+    /// A thread takes at least `least` faces at once: with no more faces than that, the calling thread does all.
     pub(super) fn new(
         shape: &HalfEdgeMesh,
         projector: &Projector,
@@ -416,9 +415,9 @@ impl FaceCells {
         }
     }
 
-    /// Adds the parts of a piece that faces hide to those known, until all that is hidden is.
+    /// Adds the parts of a piece that faces hide to those known, until all hidden parts are known.
     ///
-    /// O(cells that the piece passes + faces before it in what is not yet known to be hidden).
+    /// O(cells that the piece passes + faces before its parts that are not yet known to be hidden).
     pub(super) fn cover(&self, sights: &Sights<'_>, cover: &mut Cover, tried: &mut Tried) {
         let piece = sights.piece;
         tried.clear();
@@ -451,7 +450,7 @@ impl FaceCells {
         cover.join();
     }
 
-    /// Visits the cells that a piece's image passes, in order, with the part in each in shares of the image.
+    /// Visits the cells that a piece's image passes, in order, with the part in each as shares of the image.
     fn for_cells(&self, piece: &Piece, mut visit: impl FnMut(usize, [f64; 2])) {
         let [a, b] = piece.place.map(|place| self.grid.place(place));
         let along = b - a;
@@ -485,20 +484,20 @@ impl FaceCells {
     }
 }
 
-/// The faces that were tried on a piece.
+/// The faces that were tested against a piece.
 pub(crate) type Tried = HashSet<u32, FixedState>;
 
-/// What faces are sorted into cells with.
+/// The input of sorting faces into cells.
 struct Sorter<'a> {
     shape: &'a HalfEdgeMesh,
     projector: &'a Projector,
     grid: Grid,
-    /// How many faces a thread takes at once at least.
+    /// Fewest faces that a thread takes at once.
     least: usize,
 }
 
 impl Sorter<'_> {
-    /// The faces in cells; none where there are more than `most` entries.
+    /// The faces sorted into cells; `None` if there are more than `most` entries.
     fn cells(&self, most: usize) -> Option<FaceCells> {
         let faces = (0..self.shape.faces.len() as u32).into_par_iter();
         let bounds = faces.with_min_len(self.least).map(|face| {
@@ -587,8 +586,8 @@ impl Sorter<'_> {
             })
     }
 
-    /// Cells with the order from which faces lie there and the face, in no order, without walls and what lies behind
-    /// them; none where there are more than `most`.
+    /// Entries of cell, least order and face, in no order, without walls and faces behind them; `None` if there are
+    /// more than `most`.
     fn entries(
         &self,
         bounds: &[Bounds],

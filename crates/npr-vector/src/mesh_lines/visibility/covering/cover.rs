@@ -1,21 +1,21 @@
-//! The parts of a line that something covers, joined where they meet.
+//! The covered parts of a line, joined where they meet.
 
-/// Parts of a line found before they are joined.
+/// Number of parts that are collected before they are joined.
 const BATCH: usize = 64;
 
 /// Parts of a line, joined where they meet.
 #[derive(Debug, Default)]
 pub(super) struct Cover {
-    /// Ascending, apart from each other.
+    /// Joined parts: ascending, apart from each other.
     pub(super) joined: Vec<[f64; 2]>,
-    /// Found since they were joined last.
+    /// Parts found since the last joining.
     pub(super) found: Vec<[f64; 2]>,
-    /// Gaps shorter than this need no looking at: nobody would see them.
+    /// Gaps shorter than this need no test: nobody would see them.
     pub(super) unseen: f64,
 }
 
 impl Cover {
-    /// Takes a part in. O(log n) on the whole.
+    /// Adds a part. O(log n) on average.
     pub(super) fn add(&mut self, part: Option<[f64; 2]>) {
         self.found.extend(part);
         // The longer the list, the rarer it is gone through.
@@ -36,7 +36,7 @@ impl Cover {
         }
     }
 
-    /// Whether a part lies in what was joined, but for gaps too short to see.
+    /// Whether a part is covered by joined parts, except for gaps too short to see.
     pub(super) fn holds(&self, [from, to]: [f64; 2]) -> bool {
         let first = self.joined.partition_point(|part| part[1] <= from);
         let mut reached = from;
@@ -50,7 +50,7 @@ impl Cover {
     }
 }
 
-/// Worth joining at once: what it covers need not be looked at again.
+/// Whether a part is joined at once, so that what it covers is not tested again.
 fn is_long([from, to]: [f64; 2]) -> bool {
     to - from > 1.0 / 16.0
 }

@@ -7,7 +7,7 @@ use crate::mesh_lines::visibility::{Circumstances, Piece, Seen};
 pub(super) struct Sights<'a> {
     pub(super) seen: &'a Seen<'a>,
     pub(super) piece: &'a Piece,
-    /// To its ends.
+    /// The ways to its two ends.
     pub(super) ways: [Sight; 2],
     /// Faces that the piece lies in, ascending.
     pub(super) own_faces: Vec<u32>,
@@ -30,7 +30,7 @@ impl<'a> Sights<'a> {
         self.hidden_behind(face, None)
     }
 
-    /// The same, where the face's barrier for the one eye that there is may be known.
+    /// The same with the face's barrier for the one eye, if it is known.
     pub(super) fn hidden_behind(&self, face: u32, barrier: Option<&Barrier>) -> Option<[f64; 2]> {
         if self.own_faces.binary_search(&face).is_ok() {
             return None;
