@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::overlay::style_table;
 use crate::{Color, Kinds, LineBackground, LinePaint, LineSource, Potrace, Width};
 
-/// How frames find outlines and draw them.
+/// How lines are found and drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 #[schemars(rename = "LineMethod")]

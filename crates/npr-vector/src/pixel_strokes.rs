@@ -78,7 +78,7 @@ impl PixelScene<'_> {
             wanted: self.kinds,
             tolerance: path.depth_tolerance * radius_of(self.shape),
             least_visible: path.least_visible,
-            is_convex_only: u32::from(path.is_convex_only),
+            is_convex_only: u32::from(path.convex_only),
             ..PixelView::new(self.view)
         }
     }
@@ -146,7 +146,7 @@ pub fn trace(
         size: view.size,
         pixels: &owners,
     };
-    let (sides, ranked) = ranked_sides(&ink, path.rounds)?;
+    let (sides, ranked) = ranked_sides(&ink, path.round_limit())?;
     Ok(Traced {
         size: view.size,
         view,

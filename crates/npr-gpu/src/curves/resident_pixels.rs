@@ -189,7 +189,7 @@ impl Made {
     fn new(engine: &dyn Engine, shape: &HalfEdgeMesh, plan: Plan) -> Result<Self, CurvesError> {
         let mut graph = Graph::new();
         let scheme = Scheme::Wyllie {
-            rounds: plan.path.rounds,
+            rounds: plan.path.round_limit(),
         };
         let picture = (plan.size, plan.hiding);
         let contours = add_pixel_contours(&mut graph, shape, picture, plan.room, scheme);

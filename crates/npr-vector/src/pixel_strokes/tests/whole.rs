@@ -199,7 +199,7 @@ fn every_constant_works() {
         assert!(of_cube(path) != of_cube(usual), "{path:?}");
     }
     let alike = PublishedPath {
-        rounds: Some(16),
+        rounds: 16,
         ..usual
     };
     assert!(with(alike) == plain);
@@ -208,7 +208,7 @@ fn every_constant_works() {
         &perspective([0.0, 1.0, 4.0]),
         [200, 160],
         &PublishedPath {
-            is_convex_only: false,
+            convex_only: false,
             ..usual
         },
     );
