@@ -20,9 +20,9 @@ override WG: u32 = 64u;
 //# use lib/backdrop
 //# use lib/stretch
 
-// Tiles in each direction over which what is decided is blended.
+// Tiles in each direction over which decisions are blended.
 const BLEND_TILES: u32 = 6u;
-// Difference of a channel from which rims are of two paints, and not of one with a texture.
+// Difference of a channel from which rims count as two paints, not as one with a texture.
 const UNLIKE_RIMS: f32 = 0.5;
 
 fn blended_at(x: u32, y: u32, across: u32) -> ContrastBias {

@@ -18,13 +18,13 @@ override WG: u32 = 64u;
 //# use lib/adapt
 //# use lib/stretch
 
-// Tiles in each direction over which an envelope reaches.
+// Tiles in each direction that an envelope takes in.
 const ENVELOPE_TILES: u32 = 4u;
 // Tiles around a tile for which its envelope holds whole.
 const WHOLE_TILES: f32 = 1.0;
 // How much an envelope falls from tile to tile.
 const SLOPE: f32 = 0.08;
-// How fast another wall stops to count, as a multiple of how much more it differs.
+// How fast the bounds of another wall lose weight, as a multiple of how much more it differs.
 const UNLIKE_SLOPE: f32 = 4.0;
 
 fn bound_at(x: u32, y: u32, across: u32) -> ContrastBias {

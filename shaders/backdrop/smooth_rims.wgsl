@@ -16,7 +16,7 @@ override WG: u32 = 64u;
 
 //# use lib/backdrop
 
-// Longest length over which rims are blended, in pixels.
+// Greatest length over which rims are blended, in pixels.
 const SMOOTH_MOST: u32 = 24u;
 // Difference of a channel from which two rims are not blended any more.
 const UNLIKE: f32 = 0.2;

@@ -22,10 +22,10 @@ override WG: u32 = 64u;
 
 // Most tiles in each direction whose votes a tile counts.
 const BIAS_REACH_MOST: u32 = 24u;
-// Mean of votes from which a stretch is decided.
+// Magnitude of the mean vote from which a stretch is decided.
 const DECIDED: f32 = 0.01;
 
-// How much of the scale bounds may change in the time in which a line fades from darker to brighter.
+// How far bounds may move, on that scale, in the time in which a line fades from darker to brighter.
 const FADE_BOUNDS: f32 = 0.4;
 
 // Whether two biases are of the same lines before the same wall.
@@ -54,7 +54,7 @@ fn held(here: ContrastBias, x: u32, y: u32, across: u32) -> ContrastBias {
     return mean_bias(sum, count, here.whose);
 }
 
-// A value moved towards another by no more than a step.
+// A value moved towards another one by at most a step.
 fn nearer(start: f32, end: f32, step: f32) -> f32 {
     return start + clamp(end - start, -step, step);
 }

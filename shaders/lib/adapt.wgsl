@@ -115,7 +115,7 @@ fn decoded_color(color: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(linear_from_srgb(color.r), linear_from_srgb(color.g), linear_from_srgb(color.b));
 }
 
-// Where a colour lies on the scale of the rule's measure, 0 black to 1 white.
+// Place of a colour of known lightness on the scale of the rule's measure, 0 black to 1 white.
 fn place_of(light: vec3<f32>, lightness: f32, rule: u32) -> f32 {
     if rules.rules[rule].measure == RULE_WCAG {
         return log(dot(LUMA, light) * 20.0 + 1.0) / log(WCAG_LARGEST);
@@ -154,7 +154,7 @@ struct Candidates {
     brighter: f32,
     lack_darker: f32,
     lack_brighter: f32,
-    // By how much the step to the darker one is longer.
+    // How much longer the step to the darker candidate is than that to the brighter one.
     longer: f32,
 }
 
@@ -170,7 +170,7 @@ fn candidates_of(line: f32, low: f32, high: f32, distance: f32, direction: u32) 
     return both;
 }
 
-// Where a line at `line` moves before a ground, on a scale of 0 to 1.
+// The place to which a line at `line` moves before a ground, both on a scale of 0 to 1.
 fn moved(line: f32, ground: Ground, distance: f32, direction: u32) -> f32 {
     let both = candidates_of(line, ground.low, ground.high, distance, direction);
     return both.darker * (1.0 - ground.brighter) + both.brighter * ground.brighter;
@@ -190,7 +190,7 @@ fn is_in_gamut(light: vec3<f32>, room: f32) -> bool {
     return all(light >= vec3<f32>(-room)) && all(light <= vec3<f32>(1.0 + room));
 }
 
-// How much of the straight way from a colour in gamut to another lies in it.
+// How much of the straight way from a colour in the gamut to another one lies in the gamut.
 fn share_in_gamut(from_light: vec3<f32>, to_light: vec3<f32>, room: f32) -> f32 {
     let border = clamp(to_light, vec3<f32>(-room), vec3<f32>(1.0 + room));
     var share = 1.0;
@@ -202,7 +202,7 @@ fn share_in_gamut(from_light: vec3<f32>, to_light: vec3<f32>, room: f32) -> f32 
     return max(share, 0.0);
 }
 
-// The colour of a lightness: chroma between those of the line and its rim, as far as sRGB has it.
+// The colour of a given lightness with a chroma between those of line and rim, as far as sRGB has it.
 fn at_lightness(lightness: f32, own: vec3<f32>, edge: vec3<f32>, share: f32) -> vec3<f32> {
     let paler = clamp((lightness + 0.1) / (edge.x + 0.1), 0.5, 2.0);
     let a = own.y * (1.0 - share) + edge.y * paler * share;
@@ -228,8 +228,8 @@ fn at_lightness(lightness: f32, own: vec3<f32>, edge: vec3<f32>, share: f32) -> 
     return clamp(inner * (1.0 - inside) + outer * inside, vec3<f32>(0.0), vec3<f32>(1.0));
 }
 
-// The same for a place on the scale of the rule's measure: of WCAG the lightness at which the fitted colour has that
-// luminance.
+// `at_lightness` for a place on the scale of the rule's measure: for WCAG, the lightness at which the fitted colour has
+// the luminance of that place.
 fn at_place(place: f32, brighter: bool, own: vec3<f32>, edge: vec3<f32>, share: f32, rule: u32) -> vec3<f32> {
     let by_luminance = rules.rules[rule].measure == RULE_WCAG;
     let luminance = luminance_at(place);
@@ -254,7 +254,7 @@ fn at_place(place: f32, brighter: bool, own: vec3<f32>, edge: vec3<f32>, share: 
     return select(dark, bright, brighter);
 }
 
-// The colour that a line starts from: its own, or a share of the rim's.
+// The colour that a line starts from: its own, or a share of its rim's.
 fn started(line: vec3<f32>, rim: vec3<f32>, rule: u32) -> vec3<f32> {
     let factor = rules.rules[rule].rim_factor;
     if factor > 0.0 { return rim * factor; }

@@ -1,10 +1,10 @@
 // What a light sees as depths, looked up for a place. Twin: npr_style::smoke::depth_map.
 
-// The four texels of a light's picture around a place of the world.
+// The four texels around a place in the picture that a light sees.
 struct DepthTexels {
     // The texel to the upper left.
     low: vec2<u32>,
-    // How far the place lies from there to the one right below it, 0..1.
+    // How far the place lies from that texel towards the one diagonally below it to the right, 0..1 along each axis.
     part: vec2<f32>,
     // Reversed depth of the place.
     nearness: f32,

@@ -17,7 +17,7 @@ fn outward(direction: u32) -> vec2<i32> {
     return ahead_of(direction + 3u);
 }
 
-// Whether there is ink; none beyond the picture.
+// Whether a pixel has ink; pixels beyond the picture have none.
 fn ink_at(ink: texture_2d<u32>, at: vec2<i32>) -> bool {
     let size = vec2<i32>(textureDimensions(ink));
     if any(at < vec2<i32>(0)) || any(at >= size) { return false; }

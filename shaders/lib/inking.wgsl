@@ -17,7 +17,7 @@ const ABRUPT: f32 = 0.25;
 // How badly a chart lies, 0..1, from which dots are set on the screen instead.
 const LOOSE: f32 = 0.3;
 
-// Part of the hatch, of what inks last, that a chart distortion fills at once.
+// Share of the hatch, from its lightest part, that full chart distortion fills with ink at once.
 const DISTORTION_FILL: f32 = 0.22;
 
 fn shade_level(x: f32, dark_at: f32, light_at: f32) -> f32 {
@@ -46,7 +46,7 @@ fn ink_over(part: u32, range: vec2<f32>) -> f32 {
     let hatched = (parts[part].flags & PART_HATCH) != 0u;
     let lightest = select(NO_HATCH, 0.0, hatched);
     let darkest = select(NO_HATCH, 1.0, hatched);
-    // How light paint is hangs on the place, but it never lightens.
+    // Paint is looked up at each place, but it only darkens.
     let painted = (parts[part].flags & PART_PAINTED) != 0u;
     if !painted && tone_value(lightest, level_of(part, range.x)) > parts[part].threshold { return 0.0; }
     if tone_value(darkest, level_of(part, range.y)) < parts[part].threshold { return 1.0; }
@@ -57,11 +57,11 @@ fn ink_over(part: u32, range: vec2<f32>) -> f32 {
 struct Hatching {
     s: f32,
     slope: vec2<f32>,
-    // Least change over a pixel that its edges are smoothed with.
+    // Least change over a pixel with which its edges are smoothed.
     hairline: f32,
 }
 
-// Where a pixel lies in a hatch, in tiles, and how far it is from there to its neighbours.
+// Position of a pixel in a hatch, in tiles, and the steps from there to its neighbours.
 struct HatchCoord {
     uv: vec2<f32>,
     right: vec2<f32>,
@@ -74,7 +74,7 @@ struct Calm {
     abrupt: f32,
 }
 
-// Tiles that a pixel covers across the strokes, or in the mean of both directions.
+// Tiles that a pixel covers across the strokes; if `isotropic`, the mean of both directions.
 fn step_of(place: HatchCoord, isotropic: bool) -> f32 {
     if isotropic { return sqrt(abs(cross2(place.right, place.down))); }
     return length(vec2<f32>(place.right.x, place.down.x));
@@ -98,7 +98,7 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
     let white = paint_at(id, part, weights);
     let per_px = length(vec2<f32>(l[1] - l[0], l[2] - l[0])) * white[0];
     for (var i = 0u; i < 3u; i++) { l[i] = painted_level(l[i], white[i], parts[part].threshold); }
-    // Beyond a silhouette the surface runs on to anywhere.
+    // Clamp the change: beyond a silhouette the surface runs on to anywhere.
     let darkens = clamp(2.0 * vec2<f32>(l[1] - l[0], l[2] - l[0]), vec2<f32>(-1.0), vec2<f32>(1.0));
     if (flags & PART_HATCH) == 0u {
         return ink_coverage(tone_value(NO_HATCH, l[0]), length(darkens), parts[part].threshold);
@@ -116,7 +116,7 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
     return ink_of_hatch(part, place_in_hatch(id, part, weights, places), l[0], darkens, calm);
 }
 
-// Where a pixel and its neighbours lie in the hatch of a part if that is laid on the picture.
+// Coordinates of a pixel and its neighbours in the hatch of a part that is laid on the picture.
 fn place_on_screen(part: u32, px: vec2<f32>) -> HatchCoord {
     let header = parts[part].hatch;
     let scale = bitcast<f32>(texels[header + 3u]) / (f32(texels[header]) * parts[part].spacing_px);
@@ -148,7 +148,7 @@ fn ink_of_hatch(part: u32, place: HatchCoord, l: f32, darkens: vec2<f32>, calm: 
     if (parts[part].flags & PART_TWO_LAYERS) == 0u { return hatch_coverage(part, sharpened(part, layer), l, darkens, calm); }
     let first = sharpened(part, scaled(layer, first_of_two(layer.s, parts[part].second_from)));
     let ink = hatch_coverage(part, first, l, darkens, calm);
-    // Most places are settled by the first layer, or too light for the second.
+    // The first layer settles most places, or they are too light for the second.
     if ink == 1.0 || !second_may_ink(part, l) { return ink; }
     var crossed: HatchCoord;
     crossed.uv = place.uv.yx + 0.5;
@@ -166,7 +166,7 @@ fn hatch_coverage(part: u32, layer: Hatching, l: f32, darkens: vec2<f32>, calm: 
     return ink_coverage(tone_value(hatching.s, l), slope, parts[part].threshold);
 }
 
-// Where a pixel and its neighbours to the right and below lie in the hatch of a part.
+// Coordinates of a pixel and its neighbours to the right and below in the hatch of a part.
 fn place_in_hatch(id: u32, part: u32, weights: array<vec3<f32>, 3>, places: array<vec2<f32>, 3>) -> HatchCoord {
     let index = (id & ID_MASK) - 1u;
     var uvs: array<vec2<f32>, 3>;
@@ -196,7 +196,7 @@ fn abruptness(per_px: f32, spacing_px: f32) -> f32 {
     return clamp((per_px * spacing_px - ABRUPT) / ABRUPT, 0.0, 1.0);
 }
 
-// A hatch that gives way to the edge of the tone itself.
+// A hatch that gives way to the edge of the tone itself, as far as `abrupt` says.
 fn toned_hatch(full: Hatching, abrupt: f32) -> Hatching {
     var hatching = full;
     hatching.s += (NO_HATCH - hatching.s) * abrupt;
@@ -205,19 +205,19 @@ fn toned_hatch(full: Hatching, abrupt: f32) -> Hatching {
     return hatching;
 }
 
-// How badly the strokes of triangle `id` lie where its corners have these weights, 0..1.
+// Distortion of the stroke chart on triangle `id` at these weights of its corners, 0..1.
 fn chart_distortion_at(id: u32, weights: vec3<f32>) -> f32 {
     let at = triangles[(id & ID_MASK) - 1u].corners;
     return blend(weights, vertices[at.x].chart_distortion, vertices[at.y].chart_distortion, vertices[at.z].chart_distortion);
 }
 
-// A hatch without the white of its chart_distortions: the last strokes merge together, a fifth of the way before they
+// A hatch whose white is filled where the chart is distorted: the last strokes merge up to a fifth earlier than they
 // would.
 fn untied(tied: Hatching, chart_distortion: f32) -> Hatching {
     var hatching = tied;
     let most = 1.0 - DISTORTION_FILL * clamp(chart_distortion, 0.0, 1.0);
     if hatching.s <= most { return hatching; }
-    // What is left is the edge of the tone, which is crisp.
+    // Only the edge of the tone is left, which is crisp.
     hatching.s = most;
     hatching.slope = vec2<f32>(0.0);
     hatching.hairline = 0.0;
@@ -258,7 +258,7 @@ fn sharpened(part: u32, layer: Hatching) -> Hatching {
     return scaled(layer, vec2<f32>(sharpen(layer.s, gain), gain));
 }
 
-// One layer of a hatch tile, from the level whose strokes lie as far apart on screen as the part asks.
+// One layer of a hatch, from the level of its tile on which strokes lie as far apart on screen as the part asks.
 fn hatch_layer(part: u32, place: HatchCoord) -> Hatching {
     let header = parts[part].hatch;
     let side = texels[header];
@@ -270,7 +270,7 @@ fn hatch_layer(part: u32, place: HatchCoord) -> Hatching {
     let level = u32(held);
     let fraction = held - floor(held);
     let level_side = side >> level;
-    // The levels before it, each four times as large as the next.
+    // Skip the levels before it, each four times as large as the next.
     let first = header + HEADER_WORDS + 4u * (side * side - level_side * level_side) / 3u;
     let found = sample_hatch(first, level_side, place.uv, fraction);
     var hatching: Hatching;
@@ -321,8 +321,8 @@ fn sample_hatch(first: u32, side: u32, uv: vec2<f32>, f: f32) -> vec3<f32> {
     );
 }
 
-// Ink at a tone that changes by `change` to the right and down, on a flat sheet: `at` is the place on it in pixels,
-// of which `scale` tiles go to one.
+// Ink of a tone that changes by `change` to the right and down, on a flat sheet; `at` is the position on it in pixels,
+// and a pixel covers `scale` tiles.
 fn ink_on_sheet(part: u32, at: vec2<f32>, scale: f32, tone: f32, change: vec2<f32>) -> f32 {
     if (parts[part].flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
     let l = level_of(part, tone);

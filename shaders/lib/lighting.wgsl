@@ -104,15 +104,15 @@ struct Openness {
     below: f32,
 }
 
-// What a sky gives to a surface.
+// The light of a sky on a surface.
 struct SkyLight {
     // What it adds to the ramp coordinate.
     share: f32,
-    // Colour of its light, times that.
+    // Colour of its light, times `share`.
     color: vec3<f32>,
 }
 
-// Light of the picture of the sky on a surface that faces along a unit vector.
+// Light from the picture of the sky on a surface that faces along a unit vector.
 fn dome_at(normal: vec3<f32>) -> vec3<f32> {
     var sum = lights.dome[0].rgb;
     sum += lights.dome[1].rgb * normal.x;
@@ -126,7 +126,7 @@ fn dome_at(normal: vec3<f32>) -> vec3<f32> {
     return max(sum, vec3<f32>(0.0));
 }
 
-// What a sky gives to a surface that faces along a unit vector and sees `open` of it.
+// Light of a sky on a surface that faces along a unit vector and sees `open` of it.
 fn sky_light(source: LightSource, normal: vec3<f32>, open: Openness) -> SkyLight {
     let is_hidden = (source.sky & SKY_HIDDEN) != 0u;
     let upper = clamp(ramp_coordinate(dot(normal, source.direction)), 0.0, 1.0);
@@ -154,7 +154,7 @@ fn coordinate_at(world: vec3<f32>, normal: vec3<f32>, dark: u32) -> Lit {
 // The same where `open` of the sky is seen.
 fn coordinate_under(world: vec3<f32>, normal: vec3<f32>, dark: u32, open: Openness) -> Lit {
     var lit: Lit;
-    // The rule: one sun, of which the mean is itself.
+    // The usual case: one sun, whose colour is the mean.
     if only_distant() && dark == 0u {
         let x = ramp_coordinate(dot(normal, lights.sources[0].direction));
         lit.x = min(x, 1.0);

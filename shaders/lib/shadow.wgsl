@@ -3,13 +3,13 @@
 
 // Height in texels under which a triangle counts as fine.
 const FINE_TEXELS: f32 = 2.0;
-// Least cosine between normal and light that the slope of a surface is reckoned with.
+// Least cosine between normal and light used for the slope of a surface.
 const GRAZING: f32 = 0.1;
 const ENDLESS: f32 = 1e30;
 
 // A place that a light may reach.
 struct LitPoint {
-    // The triangle it lies on, plus one.
+    // The triangle that it lies on, plus one.
     own: u32,
     world: vec3<f32>,
     towards: vec3<f32>,
@@ -90,7 +90,7 @@ fn shadow_texel(map: u32, at: vec2<u32>) -> u32 {
     }
 }
 
-// The triangle plus one that the light sees in one of the nine texels around a place, 0 where none.
+// The triangle plus one in one of the nine texels around a place; 0 if there is none.
 fn seen_near(place: LitPoint, k: u32) -> u32 {
     let at = vec2<u32>(place.texel) + vec2<u32>(k % 3u, k / 3u);
     let last = vec2<u32>(lights.shadow_side - 1u);

@@ -5,12 +5,12 @@ const SKY_HEADER_WORDS: u32 = 12u;
 // How far a place is moved along its normal before it is looked up, in texels.
 const LIFT_TEXELS: f32 = 1.5;
 
-// A distance outwards, -1..1 in radii, as the texels of pictures hold it; 0 is kept for nothing.
+// A distance outwards, -1..1 in radii, in the units of the pictures' texels; 0 is kept for empty ones.
 fn sky_height(outwards: f32) -> f32 {
     return (outwards + 1.0) * 0.5 * 65534.0 + 1.0;
 }
 
-// Three words of the texture store as numbers.
+// Three words of the texture store from `at` on, as floats.
 fn floats(at: u32) -> vec3<f32> {
     return vec3<f32>(bitcast<f32>(texels[at]), bitcast<f32>(texels[at + 1u]), bitcast<f32>(texels[at + 2u]));
 }

@@ -40,7 +40,7 @@ fn share_of(place: f32, layer: u32) -> f32 {
     return max(1.0 - abs(place - f32(layer)), 0.0);
 }
 
-// Where the row `y` of a layer starts among the cells.
+// Index of the first cell of a layer in row `y`.
 fn row_start(look: SmokeLook, y: u32, layer: u32) -> u32 {
     return (y * look.layers + layer) * look.cells.x;
 }

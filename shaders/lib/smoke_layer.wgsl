@@ -29,7 +29,7 @@ fn smoke_layer_of(pixel: vec2<u32>, frame_px: vec2<f32>) -> SmokeLayer {
     return smoke_layer;
 }
 
-// How much the smoke hides of triangle `id` in sample `i`.
+// Share of triangle `id` that the smoke hides in sample `i`.
 fn smoke_layer_over(smoke_layer: SmokeLayer, id: u32, i: u32, frame_px: vec2<f32>) -> f32 {
     if (smoke_layer.mask & (1u << i)) == 0u { return 0.0; }
     if id != 0u && depth_of(id, frame_px + sample_offset(i)) < smoke_layer.depth { return 0.0; }
@@ -87,7 +87,7 @@ fn smoke_texel(map: u32, at: vec2<u32>) -> f32 {
     }
 }
 
-// Whether smoke stands between a place and the light of a shadow picture.
+// Whether smoke lies between a place and the light of a shadow image.
 fn is_behind_smoke(map: u32, world: vec3<f32>) -> bool {
     let side = compose.smoke_shadow_side;
     if side == 0u { return false; }

@@ -27,7 +27,7 @@ fn rim_of(bias: ContrastBias) -> vec3<f32> {
     return vec3<f32>(bias.rim[0], bias.rim[1], bias.rim[2]);
 }
 
-// Difference of backgrounds from which they are two walls, and not one with a pattern.
+// Difference of two backgrounds from which they count as two walls, not as one with a pattern.
 const UNLIKE_WALLS: f32 = 0.42;
 
 // Adds a bias with a weight to a sum of them.

@@ -33,7 +33,7 @@ override WG: u32 = 64u;
 // How far the surface's texture is averaged under a line, in pixels of the mask.
 const LINE_BLUR_PX: f32 = 2.0;
 
-// Whether any of the 3x3 pixels around one is set.
+// Whether any of the 3x3 pixels around one is set in the mask.
 fn is_near_line(pixel: vec2<u32>) -> bool {
     let low = max(pixel, vec2<u32>(1u)) - 1u;
     let high = min(pixel + 1u, window.size - 1u);

@@ -75,7 +75,7 @@ fn is_grazing(pixel: GPixel) -> bool {
     return slope_of(view, window, pixel.depth, pixel.plane_step) > GRAZING_SLOPE;
 }
 
-// Whether neighbours whose normals differ, and nothing else, have no crease of their own between them.
+// Whether neighbours that differ in nothing but their normals have no crease between them.
 fn is_no_crease(here: GPixel, there: GPixel) -> bool {
     return (outline.kinds & KIND_CREASE) == 0u || is_grazing(here) || is_grazing(there);
 }

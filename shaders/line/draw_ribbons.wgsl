@@ -33,7 +33,7 @@
 const DEPTH_TOLERANCE_PX: f32 = 1.0;
 // How much further behind a rim may bend.
 const RIM_FACTOR: f32 = 16.0;
-// How far along an edge the mask must go on, in mask pixels; a line that is merely crossed is thinner.
+// Length along an edge over which the mask must continue, in mask pixels; a line that only crosses is thinner.
 const LINE_REACH_PX: f32 = 2.5;
 
 struct Varying {
@@ -128,7 +128,7 @@ fn is_hidden(px: vec2<f32>, depth: f32) -> bool {
     return !is_rim(pixel, depth, tolerance(depth) * RIM_FACTOR * (1.0 + slope));
 }
 
-// Whether a depth belongs to the surface in front where 3x3 pixels show two: a rim that bends away faster than the
+// Whether a depth belongs to the front one of two surfaces that 3x3 pixels show: a rim that bends away faster than the
 // tangent plane of its pixel.
 fn is_rim(center: vec2<u32>, depth: f32, room: f32) -> bool {
     let low = max(center, vec2<u32>(1u)) - 1u;
@@ -149,7 +149,7 @@ fn tolerance(depth: f32) -> f32 {
     return DEPTH_TOLERANCE_PX * world_per_pixel(view, depth) * mask_window.frame_step.y;
 }
 
-// Whether the edge is to be seen at a point of its spine.
+// Whether the edge shows at a point of its spine.
 fn shows_at(px: vec2<f32>, depth: f32, along: vec2<f32>, kind: u32) -> bool {
     if is_hidden(px, depth) { return false; }
     if (outline.flags & OUTLINE_UNMASKED) != 0u { return true; }

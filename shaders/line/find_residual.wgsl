@@ -36,10 +36,10 @@ const THIN_INK_SHARE: f32 = 0.4;
 const RUN_BOX_PX: u32 = 5u;
 // Owned pixels in that box that make a line; fewer are the tip of a corner, or the grain of a scan.
 const RUN_COUNT: u32 = 8u;
-// What parts a surface from others, not from itself.
+// The criteria that separate a surface from others, not from itself.
 const BETWEEN: u32 = DETECT_OBJECT | DETECT_MATERIAL | DETECT_PIECE;
 
-// Whether a surface is parted from itself along a line through a mask pixel, not at a few pixels alone.
+// Whether a surface is separated from itself along a line through a mask pixel, not only at a few pixels.
 fn runs_on(at: vec2<u32>, pixel: GPixel) -> bool {
     let size = mask_window.size;
     let component = parts[pixel.part].component;

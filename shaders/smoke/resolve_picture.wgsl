@@ -112,7 +112,7 @@ fn paint(id: u32, pixel: vec2<i32>, frame_px: vec2<f32>) -> vec4<f32> {
     return under_line(vec4<f32>(color_of(tone, slope_at(pixel)), look.alpha), line_at(id, frame_px));
 }
 
-// As published: one tone a pixel, lines from differences of depth.
+// As published: one tone per pixel, and lines from differences of depth.
 fn published(pixel: vec2<i32>, id: u32) -> Drawn {
     var drawn: Drawn;
     let line = published_line(pixel);

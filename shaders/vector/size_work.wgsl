@@ -40,7 +40,7 @@ fn groups_for(element_count: u32) -> vec2<u32> {
     return vec2<u32>((groups + rows - 1u) / rows, rows);
 }
 
-// Workgroups over the elements, over a sum for each of these workgroups, and so on.
+// Workgroups at a level: over the elements, over the sums of these workgroups, and so on.
 fn groups_of_level(count: u32, level: u32) -> vec2<u32> {
     var groups = groups_for(count);
     for (var above = 0u; above < level; above++) { groups = groups_for(groups.x * groups.y); }
