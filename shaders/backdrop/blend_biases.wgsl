@@ -1,8 +1,7 @@
-// backdrop.blend_biases: keeps what was decided for the frame that comes next, and blends it along the outline for
-// this one.
+// backdrop.blend_biases: keeps the biases for the next frame, and blends them along the outline for this one.
 //
-// Where a stretch that turns brighter meets one that turns darker, the line passes slowly from
-// one to the other. Bounds stay; tiles of other subjects do not count, those before other walls or of other paint less.
+// Where a stretch that turns brighter meets one that turns darker, the line passes slowly from one to the other. Bounds
+// stay as they are; tiles of other subjects do not count, those before other walls or of another paint count less.
 //
 // Twin    npr_style::backdrop::blend_biases
 //

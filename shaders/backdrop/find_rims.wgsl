@@ -1,8 +1,7 @@
 // backdrop.find_rims: the colours of both sides of every border between subjects.
 //
-// The subject nearest to the eye owns the border. Only pixels whose samples all show the
-// same count as a side, so colours are never blends of both: a mixed pixel stands before
-// the mean of those beside it that show what lies behind alone.
+// The subject nearest to the eye owns the border. Only pixels whose samples all agree count for a side, so colours are
+// never blends of both: what lies behind a mixed pixel is the mean of its neighbours behind the subject.
 //
 // Source  Tsuji 2014, sections 2.2 to 2.4
 // Twin    npr_style::backdrop::find_rims
@@ -93,7 +92,7 @@ fn packed(rim: Sum, behind: Sum, share: f32, rule: u32, subject: u32, part: u32)
     return made;
 }
 
-// A line within a subject, where those mind the background: both sides are the surface that it lies on.
+// The rim of a line within a subject, if such lines adapt to the background: both sides are the surface under the line.
 // Lines of parts without a rule have a rim that counts for nothing, and so keep their colour beside others.
 fn inner_rim(x: u32, y: u32, sum: Sum, owner: u32, part: u32) -> Rim {
     var none: Rim;

@@ -1,4 +1,4 @@
-// backdrop.gather_tiles: what the lines of every tile start from, and what they stand before.
+// backdrop.gather_tiles: the rims of every tile and what lies behind them, summed up.
 //
 // Twin    npr_style::backdrop::gather_tiles
 //
@@ -29,7 +29,7 @@ fn places_of(rim: Rim, rule: u32) -> vec2<f32> {
     return vec2<f32>(place_of_light(started(own, edge, rule), rule), place_of_light(behind, rule));
 }
 
-// The rims of a tile that stand before a ground between two places.
+// The rims of a tile before grounds between two places on the scale.
 fn summed(tile: vec2<u32>, within: vec2<f32>) -> TileRims {
     var sum: TileRims;
     sum.low = 1.0;

@@ -26,7 +26,7 @@ fn apart(a: u32, b: u32) -> f32 {
     return max(max(off.r, off.g), off.b);
 }
 
-// 1 for rims before the same colour, down to 0 where any channel differs by UNLIKE.
+// Likeness of what lies behind two rims: 1 for the same colour, 0 if any channel differs by UNLIKE.
 fn likeness(a: Rim, b: Rim) -> f32 {
     let left = max(1.0 - apart(a.behind, b.behind) / UNLIKE, 0.0);
     return left * left;

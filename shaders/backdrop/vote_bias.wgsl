@@ -1,7 +1,7 @@
 // backdrop.vote_bias: decides which way the lines of every tile move, by the votes around it.
 //
-// Tiles of other subjects do not count, those before other walls less. A stretch that could go
-// either way stays as it was in the frame before, and lines that must change fade.
+// Tiles of other subjects do not count, those before other walls count less. A stretch that could go either way stays
+// as it was in the previous frame, and lines that must change fade.
 //
 // Twin    npr_style::backdrop::vote_bias
 //
@@ -25,7 +25,7 @@ const BIAS_REACH_MOST: u32 = 24u;
 // Magnitude of the mean vote from which a stretch is decided.
 const DECIDED: f32 = 0.01;
 
-// How far bounds may move, on that scale, in the time in which a line fades from darker to brighter.
+// How far bounds may move, from 0 black to 1 white, in the time in which a line fades from darker to brighter.
 const FADE_BOUNDS: f32 = 0.4;
 
 // Whether two biases are of the same lines before the same wall.
@@ -34,8 +34,8 @@ fn is_same(bias: ContrastBias, here: ContrastBias) -> bool {
     return bias.whose == here.whose && abs(off) < 2.0 * UNLIKE_WALLS;
 }
 
-// What was decided before for the same lines before the same wall: in the tile itself, or else the mean of those that
-// touch it. Of nobody where there was none.
+// The previous decision for the same lines before the same wall: that of the tile itself, or else the mean of the tiles
+// that touch it; `whose` is 0 if there was none.
 fn held(here: ContrastBias, x: u32, y: u32, across: u32) -> ContrastBias {
     let own = before[y * across + x];
     if is_same(own, here) { return own; }

@@ -1,4 +1,4 @@
-// What is special about a mesh edge. Twin: npr_core::edge_flags.
+// Special properties of mesh edges. Twin: npr_core::edge_flags.
 
 const EDGE_BOUNDARY: u32 = 2u;
 const EDGE_MATERIAL: u32 = 8u;

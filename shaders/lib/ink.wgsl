@@ -12,7 +12,7 @@ fn ahead_of(direction: u32) -> vec2<i32> {
     }
 }
 
-// The step from a pixel over its side: a quarter turn to the left of the way along it.
+// The step from a pixel out over one of its sides: a quarter turn to the left of the side's direction.
 fn outward(direction: u32) -> vec2<i32> {
     return ahead_of(direction + 3u);
 }

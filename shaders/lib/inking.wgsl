@@ -1,6 +1,6 @@
 // Ink and hatching at one point. Twin: npr_style::inking. The shader declares what its twin's layers hold.
 
-// Luminance that stands for the hatch where there is none.
+// Hatch luminance that stands for the hatch where there is none.
 const NO_HATCH: f32 = 0.5;
 // Drawings to an octave.
 const STEPS: f32 = 3.0;
@@ -8,13 +8,13 @@ const STEPS: f32 = 3.0;
 const BLEND_LIFT: f32 = 3.4;
 // Least S on the ridge of a stroke that is about to go, as a part of what comes in its place.
 const RIDGE: f32 = 0.16;
-// Least luminance of the shade ramp, above half the threshold, where there is hatch but no ink.
+// Least luminance of the shade ramp on a surface with hatch but no ink, above half the threshold.
 const OPEN_PAPER: f32 = 0.08;
 
-// Change of luminance over the distance between strokes from which the strokes give way to the tone's own edge.
+// Change of luminance between two strokes from which the strokes give way to the tone's own edge.
 const ABRUPT: f32 = 0.25;
 
-// How badly a chart lies, 0..1, from which dots are set on the screen instead.
+// Chart distortion, 0..1, from which dots are placed on the screen instead.
 const LOOSE: f32 = 0.3;
 
 // Share of the hatch, from its lightest part, that full chart distortion fills with ink at once.
@@ -40,7 +40,7 @@ fn level_of(part: u32, x: f32) -> f32 {
     return l;
 }
 
-// Ink of a surface whose ramp coordinates all lie in `range`: 1, 0, or -1 where it is neither all over.
+// Ink of a surface whose ramp coordinates all lie in `range`: 1 or 0 if it is the same all over, else -1.
 fn ink_over(part: u32, range: vec2<f32>) -> f32 {
     if (parts[part].flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
     let hatched = (parts[part].flags & PART_HATCH) != 0u;
@@ -68,7 +68,7 @@ struct HatchCoord {
     down: vec2<f32>,
 }
 
-// Where strokes give way: how badly they lie, and how far the tone changes too fast for them, 0..1.
+// How far strokes give way at a place: chart distortion, and how far the tone changes too fast for them, 0..1.
 struct Calm {
     chart_distortion: f32,
     abrupt: f32,
@@ -94,7 +94,7 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
         let lit = coordinate_under(world_of(corners, weights[i]), normal_of(corners, weights[i]), dark, seen);
         l[i] = level_of(part, lit.x);
     }
-    // Strokes show no change of the light that is faster than they follow one another.
+    // Where the light changes faster than strokes follow one another, they do not show it.
     let white = paint_at(id, part, weights);
     let per_px = length(vec2<f32>(l[1] - l[0], l[2] - l[0])) * white[0];
     for (var i = 0u; i < 3u; i++) { l[i] = painted_level(l[i], white[i], parts[part].threshold); }
@@ -127,7 +127,8 @@ fn place_on_screen(part: u32, px: vec2<f32>) -> HatchCoord {
     return place;
 }
 
-// Ink of hatched surface at luminance `l` where the level alone decides: 1, 0, or -1 where the hatch does.
+// Ink of a hatched surface at luminance `l` if no stroke is thin or wide enough to matter: 1 or 0; -1 if the hatch
+// decides.
 fn ink_of_level(part: u32, l: f32) -> f32 {
     let room = 1.0 / parts[part].spacing_px;
     if tone_value(sharpen(0.0, parts[part].hatch_gain), l) - room > parts[part].threshold { return 0.0; }
@@ -224,7 +225,7 @@ fn untied(tied: Hatching, chart_distortion: f32) -> Hatching {
     return hatching;
 }
 
-// Luminance of the first of two layers laid over each other, and how much steeper it runs than before.
+// Luminance of the first of two layers laid over each other, and the factor on its slope.
 fn first_of_two(s: f32, start: f32) -> vec2<f32> {
     let rest = max(1.0 - start, 1e-6);
     let white = 1.0 - s;
@@ -233,14 +234,14 @@ fn first_of_two(s: f32, start: f32) -> vec2<f32> {
     return vec2<f32>(s, 1.0);
 }
 
-// The same of the second.
+// Luminance of the second layer, and the factor on its slope.
 fn second_of_two(s: f32, start: f32) -> vec2<f32> {
     let rest = max(1.0 - start, 1e-6);
     let white = 1.0 - s;
     return vec2<f32>(1.0 - rest * white * white, 2.0 * rest * white);
 }
 
-// A layer of a luminance that runs so much steeper.
+// A layer with luminance `by.x` and its slope times `by.y`.
 fn scaled(layer: Hatching, by: vec2<f32>) -> Hatching {
     var hatching: Hatching;
     hatching.s = by.x;

@@ -1,4 +1,4 @@
-// What a surface is lit by. Twin: npr_style::lighting. The shader declares `lights: Lights`.
+// The lights of a frame. Twin: npr_style::lighting. The shader declares `lights: Lights`.
 
 //# use lib/step
 //# use lib/color
@@ -49,7 +49,7 @@ fn ramp_coordinate(n_dot_l: f32) -> f32 {
     return (n_dot_l + 1.0) * 0.5;
 }
 
-// Whether a tone depends on the normal alone, but for shadows.
+// Whether tones depend on the normal alone, apart from shadows.
 fn only_distant() -> bool {
     return lights.count == 1u && lights.sources[0].kind == LIGHT_DISTANT && lights.sources[0].intensity == 1.0;
 }
@@ -92,7 +92,7 @@ fn reach_at(source: LightSource, world: vec3<f32>) -> Reach {
     return reach;
 }
 
-// What a light adds to the ramp coordinate at a place, at most `most` of itself.
+// What a light adds to the ramp coordinate at a place; its strength counts up to `most`.
 fn share_at(source: LightSource, world: vec3<f32>, normal: vec3<f32>, most: f32) -> f32 {
     let reach = reach_at(source, world);
     return min(ramp_coordinate(dot(normal, reach.towards)), most) * reach.strength;
@@ -151,7 +151,7 @@ fn coordinate_at(world: vec3<f32>, normal: vec3<f32>, dark: u32) -> Lit {
     return coordinate_under(world, normal, dark, Openness(1.0, 1.0));
 }
 
-// The same where `open` of the sky is seen.
+// `coordinate_at` for a place that sees the shares `open` of the sky.
 fn coordinate_under(world: vec3<f32>, normal: vec3<f32>, dark: u32, open: Openness) -> Lit {
     var lit: Lit;
     // The usual case: one sun, whose colour is the mean.

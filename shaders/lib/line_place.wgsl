@@ -5,7 +5,7 @@
 //# use lib/surface_color
 //# use lib/line_color
 
-// Weights of a triangle's corners at a point of the frame; those of its nearest place on a hull, which lies beside it.
+// Weights of a triangle's corners at a point of the frame; on a hull, beside its triangle, those of its nearest point.
 fn line_weights(corners: Corners, px: vec2<f32>, is_hull: bool) -> vec3<f32> {
     let weights = weights_at(corners.clip, ndc_at(view, px));
     if !is_hull { return weights; }
@@ -39,7 +39,7 @@ fn line_own(triangle: Triangle, corners: Corners, px: vec2<f32>, step_px: vec2<f
     return color * parts[part].line_factor;
 }
 
-// What is decided about the lines of a triangle at a point of the frame.
+// The tint of lines on a triangle at a point of the frame.
 fn line_tint(triangle: Triangle, corners: Corners, px: vec2<f32>, step_px: vec2<f32>, is_hull: bool) -> Tint {
     let weights = line_weights(corners, px, is_hull);
     // Hulls show the backs of faces, but their outline is at the front.

@@ -8,7 +8,7 @@
 const INKY: f32 = 0.12;
 // Lightness from which paint counts as white paper.
 const PAPERY: f32 = 0.75;
-// Most white that light leaves, against 1 where the last stroke ends.
+// Most white that light leaves, where 1 ends the last stroke.
 const OPEN: f32 = 1.25;
 
 fn paint_white(color: vec3<f32>, strength: f32) -> f32 {

@@ -9,7 +9,7 @@ struct SmokeLayer {
     depth: f32,
     // Which samples it covers.
     mask: u32,
-    // How much it hides in each sample.
+    // Share of the surface or background that it hides in each sample.
     hidden: array<f32, 4>,
 }
 
@@ -36,7 +36,7 @@ fn smoke_layer_over(smoke_layer: SmokeLayer, id: u32, i: u32, frame_px: vec2<f32
     return smoke_layer.color.a;
 }
 
-// How much smoke shows in a pixel.
+// Mean share of a pixel that the smoke hides.
 fn smoke_layer_shown(smoke_layer: SmokeLayer) -> f32 {
     var shown = 0.0;
     let count = compose.samples * compose.samples;
@@ -66,7 +66,7 @@ fn line_direction(k: u32) -> vec2<f32> {
     }
 }
 
-// How much of the lines of a pixel the smoke hides: nothing where a surface near by lies before it.
+// Share of a pixel's lines that the smoke hides: 0 if a surface nearby lies before it.
 fn line_fade(smoke_layer: SmokeLayer, pixel: vec2<u32>, frame_px: vec2<f32>) -> f32 {
     if smoke_layer.mask == 0u { return 0.0; }
     let shown = smoke_layer.color.a * f32(countOneBits(smoke_layer.mask)) / f32(compose.samples * compose.samples);

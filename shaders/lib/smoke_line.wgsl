@@ -1,14 +1,15 @@
-// Outlines of spheres, found where their rims are. Twin: npr_style::smoke::line.
+// Outlines of spheres, found from the spheres' silhouettes. Twin: npr_style::smoke::line.
 // The shader declares `window`, `lens`, `look`, `smoke_ids`, `balls` and `pixels`.
 
-// How far beyond a silhouette the picture is looked at, in pixels.
+// Distance beyond a silhouette at which the picture is looked at, in pixels.
 const BEYOND_PX: f32 = 1.25;
-// Parts of the jump that a line starts with, from which it is as wide as lines inside get, and as the outer line.
+// Multiples of the least jump at which a line is as wide as lines inside the smoke get, and as the outer line.
 const INNER_JUMP: f32 = 4.0;
 const OUTER_JUMP: f32 = 16.0;
-// Width of the line of a small puff, in its radii.
+// Greatest width of a puff's line, in radii of the puff.
 const THICKEST: f32 = 0.2;
-// How far lines run out along the silhouette, in widths of the line, and looks beyond it to each side over that length.
+// Length over which lines run out along the silhouette, in line widths, and looks beyond it on each side over that
+// length.
 const TAPER: f32 = 3.0;
 const LOOKS: u32 = 8u;
 

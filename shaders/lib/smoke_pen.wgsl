@@ -1,4 +1,4 @@
-// The last hand on smoke: its tones, and its ink and hatching. Twin: npr_style::smoke::pen.
+// The last step of smoke: its tones, and its ink and hatching. Twin: npr_style::smoke::pen.
 // The shader declares `compose`, `parts`, `texels`, `window` and the pictures `smoke_*`.
 
 // Points in a pixel's range of tones over which the ramp is averaged.
@@ -23,7 +23,7 @@ fn tone_beside(pixel: vec2<u32>, step: vec2<i32>, tone: f32) -> f32 {
     return beside;
 }
 
-// The colour of a pixel of smoke whose picture holds its tone and how much its outline covers.
+// The finished colour of a smoke pixel whose picture holds tone and outline.
 fn penned(pixel: vec2<u32>, frame_px: vec2<f32>, color: vec4<f32>) -> vec4<f32> {
     let pen = compose.smoke_part;
     let tone = max(tone_of(color), 0.0);

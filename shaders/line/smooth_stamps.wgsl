@@ -1,7 +1,7 @@
 // line.smooth_stamps: moves every stamp across its line to the middle of the stamps around it.
 //
-// Stamps lie on the borders of pixels; averaged along the line, the steps of the grid
-// no longer show. Moved along the line, its ends would draw back.
+// Stamps lie on the borders of pixels; averaged along the line, they no longer show the steps of the grid. They do not
+// move along the line, or its ends would draw back.
 //
 // Twin    npr_vector::screen::residual::smooth
 //

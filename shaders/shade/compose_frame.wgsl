@@ -70,7 +70,7 @@ const GENTLE: f32 = 0.25;
 // Widest line of the surface-angle method, in line widths: a surface that turns more slowly counts as flat.
 const ANGLE_WIDTHS: f32 = 6.0;
 
-// Light of a group of samples, where one place stands for all of them.
+// Light of a group of samples, if one place stands for all of them.
 struct Even {
     is_so: bool,
     light: vec3<f32>,
@@ -89,7 +89,7 @@ fn ramp_light(part: u32, x: f32) -> vec3<f32> {
     return light;
 }
 
-// Lowest and highest ramp coordinate on a triangle, if the normal alone decides; else `None`.
+// Lowest and highest ramp coordinate on a triangle; only if the normal alone decides.
 fn coordinate_range(corners: Corners) -> vec2<f32> {
     let towards = lights.sources[0].direction;
     let a = ramp_coordinate(dot(corners.normals[0], towards) * corners.side);
@@ -115,7 +115,7 @@ fn one_step(part: u32, range: vec2<f32>) -> bool {
     return true;
 }
 
-// Light of a triangle that is lit in one tone all over, whatever its ink and its highlights; else `None`.
+// Light of a triangle that is lit in one tone all over, whatever its ink and its highlights.
 fn even_light(part: u32, corners: Corners) -> Even {
     var even: Even;
     let flags = parts[part].flags;
@@ -140,8 +140,7 @@ fn is_gentle(part: u32) -> bool {
         && (parts[part].softness >= GENTLE || parts[part].ramp[1].a > 1.5);
 }
 
-// Ink of a triangle that has the same all over, inside the shadow of the lights in `dark` or outside it; -1 where it
-// has not.
+// Ink of a triangle where it is the same all over, inside the shadow of the lights in `dark` or outside of it; else -1.
 fn even_ink(part: u32, corners: Corners, dark: u32) -> f32 {
     if (parts[part].flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
     if !only_distant() { return -1.0; }
@@ -213,7 +212,7 @@ struct InkSum {
     mean: f32,
 }
 
-// A line's colour as it minds what lies behind it there.
+// The colour of a line, adapted to what lies behind it at a pixel.
 fn contrasted(line: vec3<f32>, frame_px: vec2<f32>) -> vec3<f32> {
     if (compose.flags & COMPOSE_BACKDROP) == 0u { return line; }
     let pixel = pixel_at(window, frame_px);
@@ -231,13 +230,13 @@ fn contrasted(line: vec3<f32>, frame_px: vec2<f32>) -> vec3<f32> {
     return line + (adapted - line) * front.a;
 }
 
-// What the samples in `members` show of a triangle, and how much of it a line covers.
+// Light of the samples in `members` on a triangle, and the share of it that a line covers.
 struct Drawn {
     light: vec3<f32>,
     lined: f32,
 }
 
-// Light of what the samples in `members` show, a triangle or its hull.
+// Light of the samples in `members`, which show a triangle or its hull.
 fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
     let triangle = triangles[(id & ID_MASK) - 1u];
     let corners = corners_of(triangle);
@@ -257,7 +256,7 @@ fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
     return drawn.light + (line - drawn.light) * drawn.lined;
 }
 
-// Light of a triangle, `center` being the middle of its samples.
+// Light of a triangle; `center` is the middle of its samples.
 fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, corners: Corners) -> Drawn {
     let triangle = triangles[id - 1u];
     let part = triangle.part;
@@ -278,7 +277,7 @@ fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, 
     var light = select(vec3<f32>(0.0), even.light, even.is_so);
     var lined = 0.0;
     var ink: InkSum;
-    // Where one place stands for all, the first sample asks for its ink and the others for nothing.
+    // If one place stands for all samples, only the first of them is shaded.
     for (var i = 0u; i < 4u; i++) {
         if (members & (1u << i)) == 0u { continue; }
         var dark = 0u;
@@ -313,7 +312,7 @@ fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, 
     return drawn;
 }
 
-// The surfaces of a pixel but for what smoke hides of them, premultiplied.
+// The surfaces of a pixel without the shares that smoke hides, premultiplied.
 fn surfaces(pixel: vec2<u32>, smoke_layer: SmokeLayer, frame_px: vec2<f32>) -> vec4<f32> {
     var hidden = smoke_layer.hidden;
     var seen: array<u32, 4>;
@@ -349,7 +348,7 @@ fn background(frame_px: vec2<f32>) -> vec4<f32> {
     if compose.background_texture != NONE {
         let at = compose.background_texture;
         let size = vec2<f32>(f32(texels[at]), f32(texels[at + 1u]));
-        // Cover the frame, centred, like a poster that is cut at two sides.
+        // Cover the frame with the picture, centred and cut at two sides.
         let zoom = max(view.frame_px.x / size.x, view.frame_px.y / size.y);
         let uv = (frame_px - 0.5 * view.frame_px) / (size * zoom) + 0.5;
         color = sample_texture(at, uv, 1.0 / (max(size.x, size.y) * zoom));

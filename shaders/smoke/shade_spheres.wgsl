@@ -1,4 +1,4 @@
-// smoke.shade_spheres: light on spheres, and the layer that each is smoothed in.
+// smoke.shade_spheres: light on spheres, and the layer in which each is smoothed.
 //
 // Source  Hoshino 2004, sections 3.2 and 3.3
 // Twin    npr_style::smoke::shade::shade_spheres

@@ -52,7 +52,7 @@ fn spline(t: f32) -> vec4<f32> {
     );
 }
 
-// What lies between the sixteen cells around a pixel.
+// The sums between the sixteen cells around a pixel.
 fn grid_sum(x: u32, y: u32, layer: u32) -> vec2<f32> {
     let cell = f32(1u << look.shift);
     let at = (vec2<f32>(f32(x), f32(y)) + 0.5) / cell - 0.5;

@@ -1,4 +1,4 @@
-// vector.measure_chains: the last node before a cut tells the head how long the chain is.
+// vector.measure_chains: writes the length of every chain at its head, from the last node before a cut.
 //
 // Only heads get a length; all other entries keep their values.
 //
