@@ -92,7 +92,7 @@ fn reach_at(source: LightSource, world: vec3<f32>) -> Reach {
     return reach;
 }
 
-// What a light adds to the ramp coordinate at a place; its strength counts up to `most`.
+// What a light adds to the ramp coordinate of a surface at a place, at most `most` times its strength there.
 fn share_at(source: LightSource, world: vec3<f32>, normal: vec3<f32>, most: f32) -> f32 {
     let reach = reach_at(source, world);
     return min(ramp_coordinate(dot(normal, reach.towards)), most) * reach.strength;

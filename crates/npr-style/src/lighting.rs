@@ -303,7 +303,7 @@ impl LightSource {
         (towards, strength)
     }
 
-    /// What the light adds to the ramp coordinate at a place; its strength counts up to `most`.
+    /// What the light adds to the ramp coordinate of a surface at a place, at most `most` times its strength there.
     #[inline]
     fn share_at(&self, world: [f32; 3], normal: [f32; 3], most: f32) -> f32 {
         let (towards, strength) = self.reach_at(world);
