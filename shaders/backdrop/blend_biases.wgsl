@@ -1,8 +1,7 @@
-// backdrop.blend_biases: keeps what was decided for the frame that comes next, and blends it along the outline for
-// this one.
+// backdrop.blend_biases: keeps the biases for the next frame, and blends them along the outline for this one.
 //
-// Where a stretch that turns brighter meets one that turns darker, the line passes slowly from
-// one to the other. Bounds stay; tiles of other subjects do not count, those before other walls or of other paint less.
+// Where a stretch that turns brighter meets one that turns darker, the line passes slowly from one to the other. Bounds
+// stay as they are; tiles of other subjects do not count, those before other walls or of another paint count less.
 //
 // Twin    npr_style::backdrop::blend_biases
 //
@@ -20,9 +19,9 @@ override WG: u32 = 64u;
 //# use lib/backdrop
 //# use lib/stretch
 
-// Tiles in each direction over which what is decided is blended.
+// Tiles in each direction over which decisions are blended.
 const BLEND_TILES: u32 = 6u;
-// Difference of a channel from which rims are of two paints, and not of one with a texture.
+// Difference of a channel from which rims count as two paints, not as one with a texture.
 const UNLIKE_RIMS: f32 = 0.5;
 
 fn blended_at(x: u32, y: u32, across: u32) -> ContrastBias {

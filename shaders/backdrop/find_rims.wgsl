@@ -1,8 +1,7 @@
 // backdrop.find_rims: the colours of both sides of every border between subjects.
 //
-// The subject nearest to the eye owns the border. Only pixels whose samples all show the
-// same count as a side, so colours are never blends of both: a mixed pixel stands before
-// the mean of those beside it that show what lies behind alone.
+// The subject nearest to the eye owns the border. Only pixels whose samples all agree count for a side, so colours are
+// never blends of both: what lies behind a mixed pixel is the mean of its neighbours behind the subject.
 //
 // Source  Tsuji 2014, sections 2.2 to 2.4
 // Twin    npr_style::backdrop::find_rims
@@ -30,7 +29,7 @@ override WG: u32 = 64u;
 
 //# use lib/scenery
 
-// Colours of some pixels, summed, with alpha as their number.
+// Sums of the colours of some pixels; alpha counts them.
 struct Sum {
     color: vec4<f32>,
     count: f32,
@@ -44,7 +43,7 @@ fn added(sum: Sum, texel: u32) -> Sum {
     return more;
 }
 
-// The mean colour, and the mean alpha.
+// The mean colour and the mean alpha.
 fn mean_of(sum: Sum) -> vec4<f32> {
     return vec4<f32>(sum.color.rgb / max(sum.color.a, 1e-6), sum.color.a / max(sum.count, 1.0));
 }
@@ -67,7 +66,7 @@ fn owner_of(low: vec2<u32>, high: vec2<u32>) -> u32 {
     return owner;
 }
 
-// Whether any line may lie on a pixel.
+// Whether some line may cover a pixel.
 fn is_inked(x: u32, y: u32, part: u32) -> bool {
     let layers = rules.within;
     if (layers & RULES_RIBBONS) != 0u && textureLoad(ribbons, vec2<u32>(x, y), 0).a > 0.0 { return true; }
@@ -81,7 +80,7 @@ fn is_inked(x: u32, y: u32, part: u32) -> bool {
     return false;
 }
 
-// A rim of these sides, whose rule counts as much as there is something behind.
+// A rim of these two sides; its rule weighs as much as `behind` is opaque.
 fn packed(rim: Sum, behind: Sum, share: f32, rule: u32, subject: u32, part: u32) -> Rim {
     let front = mean_of(rim);
     let back = mean_of(behind);
@@ -93,7 +92,7 @@ fn packed(rim: Sum, behind: Sum, share: f32, rule: u32, subject: u32, part: u32)
     return made;
 }
 
-// A line within a subject, where those mind the background: both sides are the surface that it lies on.
+// The rim of a line within a subject, if such lines adapt to the background: both sides are the surface under the line.
 // Lines of parts without a rule have a rim that counts for nothing, and so keep their colour beside others.
 fn inner_rim(x: u32, y: u32, sum: Sum, owner: u32, part: u32) -> Rim {
     var none: Rim;

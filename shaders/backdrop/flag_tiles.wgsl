@@ -1,6 +1,6 @@
 // backdrop.flag_tiles: white for every tile near a border between two subjects.
 //
-// What follows runs only there.
+// All later backdrop passes work only there.
 //
 // Twin    npr_style::backdrop::flag_tiles
 //
@@ -17,7 +17,7 @@
 
 //# use lib/scenery
 
-// How far around its tile a border makes it busy.
+// Tiles around a border's tile that it marks too.
 const TILE_RIM: u32 = 2u;
 
 fn is_busy(tile: vec2<u32>) -> bool {

@@ -1,4 +1,4 @@
-// backdrop.gather_tiles: what the lines of every tile start from, and what they stand before.
+// backdrop.gather_tiles: the rims of every tile and what lies behind them, summed up.
 //
 // Twin    npr_style::backdrop::gather_tiles
 //
@@ -18,7 +18,7 @@ override WG: u32 = 64u;
 //# use lib/adapt
 //# use lib/stretch
 
-// Where the line that a rim's part is expected to have, and what lies behind it, lie on the scale of the rule.
+// Places, on the rule's scale, of the line that a rim's part is expected to have and of what lies behind it.
 fn places_of(rim: Rim, rule: u32) -> vec2<f32> {
     let edge = decoded_color(unpack4x8unorm(rim.rim).rgb);
     var own = decoded_color(parts[rim.part].line_color.rgb);
@@ -29,7 +29,7 @@ fn places_of(rim: Rim, rule: u32) -> vec2<f32> {
     return vec2<f32>(place_of_light(started(own, edge, rule), rule), place_of_light(behind, rule));
 }
 
-// The rims of a tile that stand before a ground between two places.
+// The rims of a tile before grounds between two places on the scale.
 fn summed(tile: vec2<u32>, within: vec2<f32>) -> TileRims {
     var sum: TileRims;
     sum.low = 1.0;
@@ -67,7 +67,7 @@ fn summed(tile: vec2<u32>, within: vec2<f32>) -> TileRims {
 fn gathered_at(tile: vec2<u32>) -> TileRims {
     let all = summed(tile, vec2<f32>(0.0, 1.0));
     if all.high - all.low <= UNLIKE_WALLS { return all; }
-    // Where two walls meet, the tile is of the one that more of its rims stand before.
+    // If a tile holds two walls, keep the rims before the one that more of them lie before.
     let middle = 0.5 * (all.low + all.high);
     let dark = summed(tile, vec2<f32>(0.0, middle));
     let bright = summed(tile, vec2<f32>(middle, 1.0));

@@ -16,7 +16,7 @@ override WG: u32 = 64u;
 
 //# use lib/backdrop
 
-// Longest length over which rims are blended, in pixels.
+// Greatest length over which rims are blended, in pixels.
 const SMOOTH_MOST: u32 = 24u;
 // Difference of a channel from which two rims are not blended any more.
 const UNLIKE: f32 = 0.2;
@@ -26,7 +26,7 @@ fn apart(a: u32, b: u32) -> f32 {
     return max(max(off.r, off.g), off.b);
 }
 
-// 1 for rims before the same colour, down to 0 where any channel differs by UNLIKE.
+// Likeness of what lies behind two rims: 1 for the same colour, 0 if any channel differs by UNLIKE.
 fn likeness(a: Rim, b: Rim) -> f32 {
     let left = max(1.0 - apart(a.behind, b.behind) / UNLIKE, 0.0);
     return left * left;

@@ -1,8 +1,8 @@
 // backdrop.spread_rims: carries the nearest rim to every pixel, as two pictures.
 //
-// The first holds the rim's colour with its weight in alpha, the second that of what lies
-// behind with the rule's number: its colour for the published method, what
-// the stretch of outline must read before for ours. Weights fall with the distance from the outline.
+// The first holds the rim's colour with its weight in alpha, the second the rule's number and what lies behind: a
+// colour for the published method; for ours, the grounds that the stretch of outline must read before. Weights fall
+// with the distance from the outline.
 //
 // Twin    npr_style::backdrop::spread_rims
 //
@@ -22,8 +22,8 @@ struct Sides {
     @location(1) back: vec4<f32>,
 }
 
-// What is decided for a rim, between the four tiles around: those of the same subject alone. Of nobody where there is
-// none.
+// The bias at a rim's pixel, blended between the four tiles around it that hold the same subject; `whose` is 0 if none
+// does.
 fn bias_between(whose: u32, pixel: vec2<u32>) -> ContrastBias {
     let across = tiles_across(window.size);
     let down = arrayLength(&biases) / across;

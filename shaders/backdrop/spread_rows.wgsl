@@ -1,6 +1,6 @@
 // backdrop.spread_rows: for every pixel the column of the nearest rim in its row, counted from 1.
 //
-// With backdrop.spread_rims the nearest rim of all, in two short walks.
+// Together with backdrop.spread_rims this finds the nearest rim of all, in two short walks.
 //
 // Twin    npr_style::backdrop::spread_rows
 //

@@ -1,7 +1,7 @@
 // backdrop.vote_bias: decides which way the lines of every tile move, by the votes around it.
 //
-// Tiles of other subjects do not count, those before other walls less. A stretch that could go
-// either way stays as it was in the frame before, and lines that must change fade.
+// Tiles of other subjects do not count, those before other walls count less. A stretch that could go either way stays
+// as it was in the previous frame, and lines that must change fade.
 //
 // Twin    npr_style::backdrop::vote_bias
 //
@@ -22,10 +22,10 @@ override WG: u32 = 64u;
 
 // Most tiles in each direction whose votes a tile counts.
 const BIAS_REACH_MOST: u32 = 24u;
-// Mean of votes from which a stretch is decided.
+// Magnitude of the mean vote from which a stretch is decided.
 const DECIDED: f32 = 0.01;
 
-// How much of the scale bounds may change in the time in which a line fades from darker to brighter.
+// How far bounds may move, from 0 black to 1 white, in the time in which a line fades from darker to brighter.
 const FADE_BOUNDS: f32 = 0.4;
 
 // Whether two biases are of the same lines before the same wall.
@@ -34,8 +34,8 @@ fn is_same(bias: ContrastBias, here: ContrastBias) -> bool {
     return bias.whose == here.whose && abs(off) < 2.0 * UNLIKE_WALLS;
 }
 
-// What was decided before for the same lines before the same wall: in the tile itself, or else the mean of those that
-// touch it. Of nobody where there was none.
+// The previous decision for the same lines before the same wall: that of the tile itself, or else the mean of the tiles
+// that touch it; `whose` is 0 if there was none.
 fn held(here: ContrastBias, x: u32, y: u32, across: u32) -> ContrastBias {
     let own = before[y * across + x];
     if is_same(own, here) { return own; }
@@ -54,7 +54,7 @@ fn held(here: ContrastBias, x: u32, y: u32, across: u32) -> ContrastBias {
     return mean_bias(sum, count, here.whose);
 }
 
-// A value moved towards another by no more than a step.
+// A value moved towards another one by at most a step.
 fn nearer(start: f32, end: f32, step: f32) -> f32 {
     return start + clamp(end - start, -step, step);
 }

@@ -1,17 +1,17 @@
-// A line's colour before a background. Twin: npr_style::backdrop::adapted_light. The shader declares `rules`.
+// The colour of a line before a background. Twin: npr_style::backdrop::adapted_light. The shader declares `rules`.
 
 //# use lib/backdrop
 
-// What a lack of contrast is worth in a vote, as a multiple of a step in lightness.
+// Weight of missing contrast in a vote, as a multiple of a step in lightness.
 const LACK_WORTH: f32 = 50.0;
-// Vote of a rule that knows one direction alone.
+// Vote in favour of the direction that a rule forces.
 const FORCED: f32 = 0.05;
-// Share of the goal by which a line must be moved to take all of its hue from the rim.
+// Share of the goal after which a moved line has taken all of its hue from the rim.
 const HUE_AT: f32 = 0.5;
 const FIT_ROUNDS: u32 = 14u;
 // How far a channel may lie outside 0..1 and still count as in gamut, as a share of a grey of that lightness.
 const GAMUT_ROOM: f32 = 1e-3;
-// Red that colours have at least where their chroma is first fitted, as a share of blue: the tip of blue overhangs.
+// Least red while chroma is first fitted into the gamut, as a share of blue: the tip of blue overhangs.
 const BLUE_TIP: f32 = 0.015625;
 // Largest factor by which chroma then grows up to the gamut's own border.
 const TIP_REACH: f32 = 1.6;
@@ -115,7 +115,7 @@ fn decoded_color(color: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(linear_from_srgb(color.r), linear_from_srgb(color.g), linear_from_srgb(color.b));
 }
 
-// Where a colour lies on the scale of the rule's measure, 0 black to 1 white.
+// Place of a colour of known lightness on the scale of the rule's measure, 0 black to 1 white.
 fn place_of(light: vec3<f32>, lightness: f32, rule: u32) -> f32 {
     if rules.rules[rule].measure == RULE_WCAG {
         return log(dot(LUMA, light) * 20.0 + 1.0) / log(WCAG_LARGEST);
@@ -123,7 +123,7 @@ fn place_of(light: vec3<f32>, lightness: f32, rule: u32) -> f32 {
     return lightness;
 }
 
-// The same of a colour alone.
+// The same place, from a colour's linear light alone.
 fn place_of_light(light: vec3<f32>, rule: u32) -> f32 {
     return place_of(light, oklab_of_light(light).x, rule);
 }
@@ -140,21 +140,21 @@ fn target_of(rule: u32) -> f32 {
     return clamp(goal, 0.0, 1.0);
 }
 
-// What lies behind a line: the darkest and the brightest that it must read before, and how much of the brighter way
-// is taken.
+// What lies behind a line: the darkest and the brightest ground that it must read before, and the share of the brighter
+// candidate.
 struct Ground {
     low: f32,
     high: f32,
     brighter: f32,
 }
 
-// Where a line may move, and by how much each falls short of the target.
+// The two places that a line may move to, and how much each falls short of the target.
 struct Candidates {
     darker: f32,
     brighter: f32,
     lack_darker: f32,
     lack_brighter: f32,
-    // By how much the step to the darker one is longer.
+    // How much longer the step to the darker candidate is than that to the brighter one.
     longer: f32,
 }
 
@@ -170,13 +170,13 @@ fn candidates_of(line: f32, low: f32, high: f32, distance: f32, direction: u32) 
     return both;
 }
 
-// Where a line at `line` moves before a ground, on a scale of 0 to 1.
+// The place to which a line at `line` moves before a ground, both on a scale of 0 to 1.
 fn moved(line: f32, ground: Ground, distance: f32, direction: u32) -> f32 {
     let both = candidates_of(line, ground.low, ground.high, distance, direction);
     return both.darker * (1.0 - ground.brighter) + both.brighter * ground.brighter;
 }
 
-// Which way a line had better move before grounds from the first to the second: from -1, darker, to 1, brighter.
+// Preferred direction of a line before grounds from `grounds.x` to `grounds.y`: -1 darker to 1 brighter.
 fn preference(line: f32, grounds: vec2<f32>, rule: u32) -> f32 {
     let direction = rules.rules[rule].direction;
     let both = candidates_of(line, grounds.x, grounds.y, target_of(rule), direction);
@@ -190,7 +190,7 @@ fn is_in_gamut(light: vec3<f32>, room: f32) -> bool {
     return all(light >= vec3<f32>(-room)) && all(light <= vec3<f32>(1.0 + room));
 }
 
-// How much of the straight way from a colour in gamut to another lies in it.
+// How much of the straight way from a colour in the gamut to another one lies in the gamut.
 fn share_in_gamut(from_light: vec3<f32>, to_light: vec3<f32>, room: f32) -> f32 {
     let border = clamp(to_light, vec3<f32>(-room), vec3<f32>(1.0 + room));
     var share = 1.0;
@@ -202,7 +202,7 @@ fn share_in_gamut(from_light: vec3<f32>, to_light: vec3<f32>, room: f32) -> f32 
     return max(share, 0.0);
 }
 
-// The colour of a lightness: chroma between those of the line and its rim, as far as sRGB has it.
+// The colour of a given lightness with a chroma between those of line and rim, as far as sRGB has it.
 fn at_lightness(lightness: f32, own: vec3<f32>, edge: vec3<f32>, share: f32) -> vec3<f32> {
     let paler = clamp((lightness + 0.1) / (edge.x + 0.1), 0.5, 2.0);
     let a = own.y * (1.0 - share) + edge.y * paler * share;
@@ -228,8 +228,8 @@ fn at_lightness(lightness: f32, own: vec3<f32>, edge: vec3<f32>, share: f32) -> 
     return clamp(inner * (1.0 - inside) + outer * inside, vec3<f32>(0.0), vec3<f32>(1.0));
 }
 
-// The same for a place on the scale of the rule's measure: of WCAG the lightness at which the fitted colour has that
-// luminance.
+// `at_lightness` for a place on the scale of the rule's measure: for WCAG, the lightness at which the fitted colour has
+// the luminance of that place.
 fn at_place(place: f32, brighter: bool, own: vec3<f32>, edge: vec3<f32>, share: f32, rule: u32) -> vec3<f32> {
     let by_luminance = rules.rules[rule].measure == RULE_WCAG;
     let luminance = luminance_at(place);
@@ -254,20 +254,20 @@ fn at_place(place: f32, brighter: bool, own: vec3<f32>, edge: vec3<f32>, share: 
     return select(dark, bright, brighter);
 }
 
-// The colour that a line starts from: its own, or a share of the rim's.
+// The colour that a line starts from: its own, or a share of its rim's.
 fn started(line: vec3<f32>, rim: vec3<f32>, rule: u32) -> vec3<f32> {
     let factor = rules.rules[rule].rim_factor;
     if factor > 0.0 { return rim * factor; }
     return line;
 }
 
-// A line's colour by the published method where its surface ends before `behind`, in linear light.
+// The colour of a line by the published method, where its surface ends before `behind`; linear light.
 fn published_light(line: vec3<f32>, rim: vec3<f32>, behind: vec3<f32>, rule: u32) -> vec3<f32> {
     if rules.rules[rule].method == RULE_OFF { return line; }
     return decoded_color(published_color(encoded_color(line), encoded_color(rim), encoded_color(behind), rule));
 }
 
-// A line's colour where its surface ends before a ground, in linear light.
+// The colour of a line where its surface ends before a ground; linear light.
 fn adapted_light(own_light: vec3<f32>, rim: vec3<f32>, ground: Ground, rule: u32) -> vec3<f32> {
     let line = started(own_light, rim, rule);
     let own = oklab_of_light(line);

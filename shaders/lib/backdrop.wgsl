@@ -1,4 +1,4 @@
-// Lines that mind the background. Twin: npr_style::backdrop. The shader declares `rules`.
+// Lines that adapt to the background. Twin: npr_style::backdrop. The shader declares `rules`.
 
 //# use lib/color
 //# use lib/step

@@ -12,7 +12,7 @@ fn beam_color(part: u32, t: f32) -> vec4<f32> {
     return color;
 }
 
-// Depth of the plane of a triangle under a place of the frame.
+// Depth of a triangle's plane at a position of the frame.
 fn depth_of(id: u32, frame_px: vec2<f32>) -> f32 {
     let corners = triangles[(id & ID_MASK) - 1u].corners;
     let a = posed[corners.x];

@@ -29,7 +29,7 @@ const COMPOSE_SMOKE_PEN: u32 = 16u;
 const COMPOSE_BACKDROP: u32 = 64u;
 const COMPOSE_BARE: u32 = 128u;
 
-// What a vector in the camera's axes is in the world.
+// A vector in the camera's axes as one in the world.
 fn in_world(compose: Compose, direction: vec3<f32>) -> vec3<f32> {
     return compose.right_world * direction.x + compose.up_world * direction.y + compose.near_world * direction.z;
 }

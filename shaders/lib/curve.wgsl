@@ -1,4 +1,4 @@
-// Half-edges, curve nodes and which way faces are turned. Twins: npr_vector::mesh_lines::graph,
+// Half-edges, curve nodes and the side from which faces are seen. Twins: npr_vector::mesh_lines::graph,
 // npr_vector::mesh_lines::contour.
 
 //# use lib/geometry
@@ -32,8 +32,8 @@ fn following(half_edge: u32) -> u32 {
     return select(half_edge + 1u, half_edge - 2u, half_edge % 3u == 2u);
 }
 
-// The vector itself, rounded. A compiler cannot know that zero is 0, so it can neither fuse what
-// made the vector with what uses it nor reorder sums, and signs are those of the twin.
+// The vector itself, rounded. A compiler cannot know that zero is 0, so it neither fuses the sums before and after this
+// nor reorders them, and signs are those of the twin.
 fn settle(viewer: Viewer, v: vec3<f32>) -> vec3<f32> {
     return bitcast<vec3<f32>>(bitcast<vec3<u32>>(v) ^ vec3<u32>(viewer.zero));
 }
@@ -59,7 +59,7 @@ fn toward_eye(viewer: Viewer, at: vec3<f32>) -> vec3<f32> {
     return d * select(viewer.scale, 1.0, w == 0.0);
 }
 
-// Positive where the face is turned to the eye.
+// Positive if the face is turned to the eye.
 fn height_over(viewer: Viewer, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> f32 {
     let u = scaled_difference(viewer, b, a);
     let v = scaled_difference(viewer, c, a);

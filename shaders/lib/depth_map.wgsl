@@ -1,10 +1,10 @@
-// What a light sees as depths, looked up for a place. Twin: npr_style::smoke::depth_map.
+// A light's view as depths, looked up for a place. Twin: npr_style::smoke::depth_map.
 
-// The four texels of a light's picture around a place of the world.
+// The four texels around a place in the picture that a light sees.
 struct DepthTexels {
     // The texel to the upper left.
     low: vec2<u32>,
-    // How far the place lies from there to the one right below it, 0..1.
+    // How far the place lies from that texel towards the one diagonally below it to the right, 0..1 along each axis.
     part: vec2<f32>,
     // Reversed depth of the place.
     nearness: f32,
@@ -25,7 +25,7 @@ fn texels_around(m: mat4x4<f32>, side: u32, world: vec3<f32>) -> DepthTexels {
     return texels;
 }
 
-// Whether the depths of the four texels, row by row, lie before the place: they vote by how near they are.
+// Whether the depths of the four texels, row by row, lie before the place: a vote, weighted by nearness.
 fn are_nearer(texels: DepthTexels, depths: vec4<f32>) -> bool {
     let dark = select(vec4<f32>(0.0), vec4<f32>(1.0), depths > vec4<f32>(texels.nearness));
     let upper = dark.x + (dark.y - dark.x) * texels.part.x;

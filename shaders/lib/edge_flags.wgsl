@@ -1,4 +1,4 @@
-// What is special about a mesh edge, or about a line along one. Twin: npr_core::edge_flags.
+// Special properties of a mesh edge, or of a line along one. Twin: npr_core::edge_flags.
 
 //# use lib/line_kind
 

@@ -1,7 +1,7 @@
-// Which element of a scan a place belongs to. Twin: npr_vector::pixel_strokes::fragment::holder_of. The shader
+// Finds the element of a scan that a place belongs to. Twin: npr_vector::pixel_strokes::fragment::holder_of. The shader
 // declares `starts`.
 
-// The last of the first `count` starts, which ascend, that is not above a value.
+// The last of the first `count` starts, in ascending order, that is not above a value.
 fn holder_of(value: u32, count: u32) -> u32 {
     var low = 0u;
     var high = min(count, arrayLength(&starts));

@@ -12,12 +12,12 @@ fn ahead_of(direction: u32) -> vec2<i32> {
     }
 }
 
-// The step from a pixel over its side: a quarter turn to the left of the way along it.
+// The step from a pixel out over one of its sides: a quarter turn to the left of the side's direction.
 fn outward(direction: u32) -> vec2<i32> {
     return ahead_of(direction + 3u);
 }
 
-// Whether there is ink; none beyond the picture.
+// Whether a pixel has ink; pixels beyond the picture have none.
 fn ink_at(ink: texture_2d<u32>, at: vec2<i32>) -> bool {
     let size = vec2<i32>(textureDimensions(ink));
     if any(at < vec2<i32>(0)) || any(at >= size) { return false; }

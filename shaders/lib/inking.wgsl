@@ -1,6 +1,6 @@
 // Ink and hatching at one point. Twin: npr_style::inking. The shader declares what its twin's layers hold.
 
-// Luminance that stands for the hatch where there is none.
+// Hatch luminance that stands for the hatch where there is none.
 const NO_HATCH: f32 = 0.5;
 // Drawings to an octave.
 const STEPS: f32 = 3.0;
@@ -8,16 +8,16 @@ const STEPS: f32 = 3.0;
 const BLEND_LIFT: f32 = 3.4;
 // Least S on the ridge of a stroke that is about to go, as a part of what comes in its place.
 const RIDGE: f32 = 0.16;
-// Least luminance of the shade ramp, above half the threshold, where there is hatch but no ink.
+// Least luminance of the shade ramp on a surface with hatch but no ink, above half the threshold.
 const OPEN_PAPER: f32 = 0.08;
 
-// Change of luminance over the distance between strokes from which the strokes give way to the tone's own edge.
+// Change of luminance between two strokes from which the strokes give way to the tone's own edge.
 const ABRUPT: f32 = 0.25;
 
-// How badly a chart lies, 0..1, from which dots are set on the screen instead.
+// Chart distortion, 0..1, from which dots are placed on the screen instead.
 const LOOSE: f32 = 0.3;
 
-// Part of the hatch, of what inks last, that a chart distortion fills at once.
+// Share of the hatch, from its lightest part, that full chart distortion fills with ink at once.
 const DISTORTION_FILL: f32 = 0.22;
 
 fn shade_level(x: f32, dark_at: f32, light_at: f32) -> f32 {
@@ -40,13 +40,13 @@ fn level_of(part: u32, x: f32) -> f32 {
     return l;
 }
 
-// Ink of a surface whose ramp coordinates all lie in `range`: 1, 0, or -1 where it is neither all over.
+// Ink of a surface whose ramp coordinates all lie in `range`: 1 or 0 if it is the same all over, else -1.
 fn ink_over(part: u32, range: vec2<f32>) -> f32 {
     if (parts[part].flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
     let hatched = (parts[part].flags & PART_HATCH) != 0u;
     let lightest = select(NO_HATCH, 0.0, hatched);
     let darkest = select(NO_HATCH, 1.0, hatched);
-    // How light paint is hangs on the place, but it never lightens.
+    // Paint is looked up at each place, but it only darkens.
     let painted = (parts[part].flags & PART_PAINTED) != 0u;
     if !painted && tone_value(lightest, level_of(part, range.x)) > parts[part].threshold { return 0.0; }
     if tone_value(darkest, level_of(part, range.y)) < parts[part].threshold { return 1.0; }
@@ -57,24 +57,24 @@ fn ink_over(part: u32, range: vec2<f32>) -> f32 {
 struct Hatching {
     s: f32,
     slope: vec2<f32>,
-    // Least change over a pixel that its edges are smoothed with.
+    // Least change over a pixel with which its edges are smoothed.
     hairline: f32,
 }
 
-// Where a pixel lies in a hatch, in tiles, and how far it is from there to its neighbours.
+// Position of a pixel in a hatch, in tiles, and the steps from there to its neighbours.
 struct HatchCoord {
     uv: vec2<f32>,
     right: vec2<f32>,
     down: vec2<f32>,
 }
 
-// Where strokes give way: how badly they lie, and how far the tone changes too fast for them, 0..1.
+// How far strokes give way at a place: chart distortion, and how far the tone changes too fast for them, 0..1.
 struct Calm {
     chart_distortion: f32,
     abrupt: f32,
 }
 
-// Tiles that a pixel covers across the strokes, or in the mean of both directions.
+// Tiles that a pixel covers across the strokes; if `isotropic`, the mean of both directions.
 fn step_of(place: HatchCoord, isotropic: bool) -> f32 {
     if isotropic { return sqrt(abs(cross2(place.right, place.down))); }
     return length(vec2<f32>(place.right.x, place.down.x));
@@ -94,11 +94,11 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
         let lit = coordinate_under(world_of(corners, weights[i]), normal_of(corners, weights[i]), dark, seen);
         l[i] = level_of(part, lit.x);
     }
-    // Strokes show no change of the light that is faster than they follow one another.
+    // Where the light changes faster than strokes follow one another, they do not show it.
     let white = paint_at(id, part, weights);
     let per_px = length(vec2<f32>(l[1] - l[0], l[2] - l[0])) * white[0];
     for (var i = 0u; i < 3u; i++) { l[i] = painted_level(l[i], white[i], parts[part].threshold); }
-    // Beyond a silhouette the surface runs on to anywhere.
+    // Clamp the change: beyond a silhouette the surface runs on to anywhere.
     let darkens = clamp(2.0 * vec2<f32>(l[1] - l[0], l[2] - l[0]), vec2<f32>(-1.0), vec2<f32>(1.0));
     if (flags & PART_HATCH) == 0u {
         return ink_coverage(tone_value(NO_HATCH, l[0]), length(darkens), parts[part].threshold);
@@ -116,7 +116,7 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
     return ink_of_hatch(part, place_in_hatch(id, part, weights, places), l[0], darkens, calm);
 }
 
-// Where a pixel and its neighbours lie in the hatch of a part if that is laid on the picture.
+// Coordinates of a pixel and its neighbours in the hatch of a part that is laid on the picture.
 fn place_on_screen(part: u32, px: vec2<f32>) -> HatchCoord {
     let header = parts[part].hatch;
     let scale = bitcast<f32>(texels[header + 3u]) / (f32(texels[header]) * parts[part].spacing_px);
@@ -127,7 +127,8 @@ fn place_on_screen(part: u32, px: vec2<f32>) -> HatchCoord {
     return place;
 }
 
-// Ink of hatched surface at luminance `l` where the level alone decides: 1, 0, or -1 where the hatch does.
+// Ink of a hatched surface at luminance `l` if no stroke is thin or wide enough to matter: 1 or 0; -1 if the hatch
+// decides.
 fn ink_of_level(part: u32, l: f32) -> f32 {
     let room = 1.0 / parts[part].spacing_px;
     if tone_value(sharpen(0.0, parts[part].hatch_gain), l) - room > parts[part].threshold { return 0.0; }
@@ -148,7 +149,7 @@ fn ink_of_hatch(part: u32, place: HatchCoord, l: f32, darkens: vec2<f32>, calm: 
     if (parts[part].flags & PART_TWO_LAYERS) == 0u { return hatch_coverage(part, sharpened(part, layer), l, darkens, calm); }
     let first = sharpened(part, scaled(layer, first_of_two(layer.s, parts[part].second_from)));
     let ink = hatch_coverage(part, first, l, darkens, calm);
-    // Most places are settled by the first layer, or too light for the second.
+    // The first layer settles most places, or they are too light for the second.
     if ink == 1.0 || !second_may_ink(part, l) { return ink; }
     var crossed: HatchCoord;
     crossed.uv = place.uv.yx + 0.5;
@@ -166,7 +167,7 @@ fn hatch_coverage(part: u32, layer: Hatching, l: f32, darkens: vec2<f32>, calm: 
     return ink_coverage(tone_value(hatching.s, l), slope, parts[part].threshold);
 }
 
-// Where a pixel and its neighbours to the right and below lie in the hatch of a part.
+// Coordinates of a pixel and its neighbours to the right and below in the hatch of a part.
 fn place_in_hatch(id: u32, part: u32, weights: array<vec3<f32>, 3>, places: array<vec2<f32>, 3>) -> HatchCoord {
     let index = (id & ID_MASK) - 1u;
     var uvs: array<vec2<f32>, 3>;
@@ -196,7 +197,7 @@ fn abruptness(per_px: f32, spacing_px: f32) -> f32 {
     return clamp((per_px * spacing_px - ABRUPT) / ABRUPT, 0.0, 1.0);
 }
 
-// A hatch that gives way to the edge of the tone itself.
+// A hatch that gives way to the edge of the tone itself, as far as `abrupt` says.
 fn toned_hatch(full: Hatching, abrupt: f32) -> Hatching {
     var hatching = full;
     hatching.s += (NO_HATCH - hatching.s) * abrupt;
@@ -205,26 +206,26 @@ fn toned_hatch(full: Hatching, abrupt: f32) -> Hatching {
     return hatching;
 }
 
-// How badly the strokes of triangle `id` lie where its corners have these weights, 0..1.
+// Distortion of the stroke chart on triangle `id` at these weights of its corners, 0..1.
 fn chart_distortion_at(id: u32, weights: vec3<f32>) -> f32 {
     let at = triangles[(id & ID_MASK) - 1u].corners;
     return blend(weights, vertices[at.x].chart_distortion, vertices[at.y].chart_distortion, vertices[at.z].chart_distortion);
 }
 
-// A hatch without the white of its chart_distortions: the last strokes merge together, a fifth of the way before they
+// A hatch whose white is filled where the chart is distorted: the last strokes merge up to a fifth earlier than they
 // would.
 fn untied(tied: Hatching, chart_distortion: f32) -> Hatching {
     var hatching = tied;
     let most = 1.0 - DISTORTION_FILL * clamp(chart_distortion, 0.0, 1.0);
     if hatching.s <= most { return hatching; }
-    // What is left is the edge of the tone, which is crisp.
+    // Only the edge of the tone is left, which is crisp.
     hatching.s = most;
     hatching.slope = vec2<f32>(0.0);
     hatching.hairline = 0.0;
     return hatching;
 }
 
-// Luminance of the first of two layers laid over each other, and how much steeper it runs than before.
+// Luminance of the first of two layers laid over each other, and the factor on its slope.
 fn first_of_two(s: f32, start: f32) -> vec2<f32> {
     let rest = max(1.0 - start, 1e-6);
     let white = 1.0 - s;
@@ -233,14 +234,14 @@ fn first_of_two(s: f32, start: f32) -> vec2<f32> {
     return vec2<f32>(s, 1.0);
 }
 
-// The same of the second.
+// Luminance of the second layer, and the factor on its slope.
 fn second_of_two(s: f32, start: f32) -> vec2<f32> {
     let rest = max(1.0 - start, 1e-6);
     let white = 1.0 - s;
     return vec2<f32>(1.0 - rest * white * white, 2.0 * rest * white);
 }
 
-// A layer of a luminance that runs so much steeper.
+// A layer with luminance `by.x` and its slope times `by.y`.
 fn scaled(layer: Hatching, by: vec2<f32>) -> Hatching {
     var hatching: Hatching;
     hatching.s = by.x;
@@ -258,7 +259,7 @@ fn sharpened(part: u32, layer: Hatching) -> Hatching {
     return scaled(layer, vec2<f32>(sharpen(layer.s, gain), gain));
 }
 
-// One layer of a hatch tile, from the level whose strokes lie as far apart on screen as the part asks.
+// One layer of a hatch, from the level of its tile on which strokes lie as far apart on screen as the part asks.
 fn hatch_layer(part: u32, place: HatchCoord) -> Hatching {
     let header = parts[part].hatch;
     let side = texels[header];
@@ -270,7 +271,7 @@ fn hatch_layer(part: u32, place: HatchCoord) -> Hatching {
     let level = u32(held);
     let fraction = held - floor(held);
     let level_side = side >> level;
-    // The levels before it, each four times as large as the next.
+    // Skip the levels before it, each four times as large as the next.
     let first = header + HEADER_WORDS + 4u * (side * side - level_side * level_side) / 3u;
     let found = sample_hatch(first, level_side, place.uv, fraction);
     var hatching: Hatching;
@@ -321,8 +322,8 @@ fn sample_hatch(first: u32, side: u32, uv: vec2<f32>, f: f32) -> vec3<f32> {
     );
 }
 
-// Ink at a tone that changes by `change` to the right and down, on a flat sheet: `at` is the place on it in pixels,
-// of which `scale` tiles go to one.
+// Ink of a tone that changes by `change` to the right and down, on a flat sheet; `at` is the position on it in pixels,
+// and a pixel covers `scale` tiles.
 fn ink_on_sheet(part: u32, at: vec2<f32>, scale: f32, tone: f32, change: vec2<f32>) -> f32 {
     if (parts[part].flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
     let l = level_of(part, tone);

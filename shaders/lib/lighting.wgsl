@@ -1,4 +1,4 @@
-// What a surface is lit by. Twin: npr_style::lighting. The shader declares `lights: Lights`.
+// The lights of a frame. Twin: npr_style::lighting. The shader declares `lights: Lights`.
 
 //# use lib/step
 //# use lib/color
@@ -49,7 +49,7 @@ fn ramp_coordinate(n_dot_l: f32) -> f32 {
     return (n_dot_l + 1.0) * 0.5;
 }
 
-// Whether a tone depends on the normal alone, but for shadows.
+// Whether tones depend on the normal alone, apart from shadows.
 fn only_distant() -> bool {
     return lights.count == 1u && lights.sources[0].kind == LIGHT_DISTANT && lights.sources[0].intensity == 1.0;
 }
@@ -92,7 +92,7 @@ fn reach_at(source: LightSource, world: vec3<f32>) -> Reach {
     return reach;
 }
 
-// What a light adds to the ramp coordinate at a place, at most `most` of itself.
+// What a light adds to the ramp coordinate of a surface at a place, at most `most` times its strength there.
 fn share_at(source: LightSource, world: vec3<f32>, normal: vec3<f32>, most: f32) -> f32 {
     let reach = reach_at(source, world);
     return min(ramp_coordinate(dot(normal, reach.towards)), most) * reach.strength;
@@ -104,15 +104,15 @@ struct Openness {
     below: f32,
 }
 
-// What a sky gives to a surface.
+// The light of a sky on a surface.
 struct SkyLight {
     // What it adds to the ramp coordinate.
     share: f32,
-    // Colour of its light, times that.
+    // Colour of its light, times `share`.
     color: vec3<f32>,
 }
 
-// Light of the picture of the sky on a surface that faces along a unit vector.
+// Light from the picture of the sky on a surface that faces along a unit vector.
 fn dome_at(normal: vec3<f32>) -> vec3<f32> {
     var sum = lights.dome[0].rgb;
     sum += lights.dome[1].rgb * normal.x;
@@ -126,7 +126,7 @@ fn dome_at(normal: vec3<f32>) -> vec3<f32> {
     return max(sum, vec3<f32>(0.0));
 }
 
-// What a sky gives to a surface that faces along a unit vector and sees `open` of it.
+// Light of a sky on a surface that faces along a unit vector and sees `open` of it.
 fn sky_light(source: LightSource, normal: vec3<f32>, open: Openness) -> SkyLight {
     let is_hidden = (source.sky & SKY_HIDDEN) != 0u;
     let upper = clamp(ramp_coordinate(dot(normal, source.direction)), 0.0, 1.0);
@@ -151,10 +151,10 @@ fn coordinate_at(world: vec3<f32>, normal: vec3<f32>, dark: u32) -> Lit {
     return coordinate_under(world, normal, dark, Openness(1.0, 1.0));
 }
 
-// The same where `open` of the sky is seen.
+// `coordinate_at` for a place that sees the shares `open` of the sky.
 fn coordinate_under(world: vec3<f32>, normal: vec3<f32>, dark: u32, open: Openness) -> Lit {
     var lit: Lit;
-    // The rule: one sun, of which the mean is itself.
+    // The usual case: one sun, whose colour is the mean.
     if only_distant() && dark == 0u {
         let x = ramp_coordinate(dot(normal, lights.sources[0].direction));
         lit.x = min(x, 1.0);

@@ -35,7 +35,7 @@ fn depth_share(part: u32, world: vec3<f32>) -> f32 {
     return clamp((depth - parts[part].line_depth.x) * parts[part].line_depth.y, 0.0, 1.0);
 }
 
-// What a place in the world decides for lines of a part, over a surface's colour in linear light.
+// Decides the tint of a part's lines at a place in the world, over a surface's colour `own` in linear light.
 fn decide(part: u32, own: vec3<f32>, world: vec3<f32>, normal: vec3<f32>) -> Tint {
     let flags = parts[part].line_flags;
     var tint_layer = vec4<f32>(0.0);

@@ -5,18 +5,18 @@
 //# use lib/surface_color
 //# use lib/line_color
 
-// Weights of a triangle's corners at a point of the frame; those of its nearest place on a hull, which lies beside it.
+// Weights of a triangle's corners at a point of the frame; on a hull, beside its triangle, those of its nearest point.
 fn line_weights(corners: Corners, px: vec2<f32>, is_hull: bool) -> vec3<f32> {
     let weights = weights_at(corners.clip, ndc_at(view, px));
     if !is_hull { return weights; }
-    // Beside a face seen edge-on, weights are far too large, or no numbers.
+    // Beside a face seen edge-on, weights are far too large or NaN.
     let held = select(vec3<f32>(0.0), min(weights, vec3<f32>(1e3)), weights > vec3<f32>(0.0));
     let sum = held.x + held.y + held.z;
     if !(sum > 0.0) { return vec3<f32>(1.0, 0.0, 0.0); }
     return held / sum;
 }
 
-// Colour of the surface for its lines, linear light; black where the part does not ask for it.
+// Colour of the surface for its lines, linear light; black if the part does not ask for it.
 fn line_own(triangle: Triangle, corners: Corners, px: vec2<f32>, step_px: vec2<f32>, is_hull: bool) -> vec3<f32> {
     let part = triangle.part;
     let flags = parts[part].line_flags;
@@ -39,10 +39,10 @@ fn line_own(triangle: Triangle, corners: Corners, px: vec2<f32>, step_px: vec2<f
     return color * parts[part].line_factor;
 }
 
-// What is decided about the lines of a triangle at a point of the frame.
+// The tint of lines on a triangle at a point of the frame.
 fn line_tint(triangle: Triangle, corners: Corners, px: vec2<f32>, step_px: vec2<f32>, is_hull: bool) -> Tint {
     let weights = line_weights(corners, px, is_hull);
-    // Hulls show the backs of faces, but their outline is where the front turns away.
+    // Hulls show the backs of faces, but their outline is at the front.
     let normal = normal_of(corners, weights) * select(1.0, corners.side, is_hull);
     let own = line_own(triangle, corners, px, step_px, is_hull);
     return decide(triangle.part, own, world_of(corners, weights), normal);

@@ -1,17 +1,17 @@
-// The colour of a line, put together from what was decided at its place. Twin: npr_core::line_color. The shader
-// declares `parts: array<Part>`.
+// The colour of a line, combined from what was decided at its place. Twin: npr_core::line_color. The shader declares
+// `parts: array<Part>`.
 
 //# use lib/color
 //# use lib/outline
 
-// What is decided about lines at a pixel of the mask.
+// The decided tint of lines at a pixel of the mask.
 struct LineTint {
     own: u32,
     tint_layer: u32,
     part: u32,
 }
 
-// The same with values 0..1, sRGB encoded.
+// The same tint with values 0..1, sRGB encoded.
 struct Tint {
     is_known: bool,
     own: vec4<f32>,
@@ -31,7 +31,7 @@ fn kind_of_mask(found: u32) -> u32 {
     return KIND_CREASE;
 }
 
-// Colour of a part's lines of a kind, given by its bit, sRGB with straight alpha, where `tint` is decided.
+// Colour of a part's lines of the kind with the bit `kind`, sRGB with straight alpha, under a tint.
 fn line_color(part: u32, kind: u32, tint: Tint) -> vec4<f32> {
     var color = parts[part].line_color;
     let flags = parts[part].line_flags;

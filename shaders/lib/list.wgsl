@@ -1,4 +1,4 @@
-// Linked lists and how they are ranked. Twin: npr_vector::rank.
+// Linked lists and their ranking. Twin: npr_vector::rank.
 
 //# use lib/geometry
 
@@ -50,13 +50,13 @@ fn hash_key(key: u32) -> u32 {
     return max(mix_bits(key), 1u);
 }
 
-// 0 at the start of an open chain, and only there.
+// 0 at the start of an open chain, nowhere else.
 fn precedence(link: Link) -> u32 {
     if link.prev == NONE { return 0u; }
     return hash_key(link.key);
 }
 
-// Whether a node stands before the one that a reach has found.
+// Whether a node comes before the one that a reach has found.
 fn precedes(hash: u32, node: u32, found: Reach) -> bool {
     return hash < found.hash || (hash == found.hash && node < found.least);
 }
@@ -66,7 +66,7 @@ fn rounds_for(count: u32) -> u32 {
     return 32u - countLeadingZeros(max(count, 1u) - 1u);
 }
 
-// What an element sees that looks on from where its reach ends: one round of loop breaking.
+// The reach of an element continued by the reach from its end: one round of loop breaking.
 fn looked_on(here: Reach, there: Reach) -> Reach {
     var reach = here;
     if precedes(there.hash, there.least, here) { reach = there; }
@@ -74,7 +74,8 @@ fn looked_on(here: Reach, there: Reach) -> Reach {
     return reach;
 }
 
-// The hop of an element, which is the first of its chain where it knows its chain's head.
+// The hop of an element; it stays where it is, as the first of its chain, if its own first reach holds the chain's
+// head.
 fn cut_hop(first: Reach, settled: Reach, hop: Hop, element: u32) -> Hop {
     let is_first = first.least == settled.least;
     var cut = hop;
@@ -83,7 +84,7 @@ fn cut_hop(first: Reach, settled: Reach, hop: Hop, element: u32) -> Hop {
     return cut;
 }
 
-// A hop and the one from where it leads: one round of ranking.
+// A hop continued by the hop from where it leads: one round of ranking.
 fn hopped_on(here: Hop, there: Hop) -> Hop {
     var hop = there;
     hop.dist = here.dist + there.dist;

@@ -49,7 +49,7 @@ fn back(spot: Spot, element: u32, radius: u32) -> u32 {
     return spot.start + from_start % spot.length;
 }
 
-// The vector of length 1; zero for what has none.
+// The vector of length 1; zero for a vector without direction.
 fn unit_of(v: Planar) -> Planar {
     let square = v.x * v.x + v.y * v.y;
     var unit: Planar;

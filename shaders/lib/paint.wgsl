@@ -4,11 +4,11 @@
 //# use lib/color
 //# use lib/compose
 
-// Lightness, the root of luminance, up to which paint is solid ink in any light.
+// Lightness (root of luminance) up to which paint is solid ink in any light.
 const INKY: f32 = 0.12;
-// Lightness from which paint is paper.
+// Lightness from which paint counts as white paper.
 const PAPERY: f32 = 0.75;
-// Most white that light leaves, against 1 where the last stroke ends.
+// Most white that light leaves, where 1 ends the last stroke.
 const OPEN: f32 = 1.25;
 
 fn paint_white(color: vec3<f32>, strength: f32) -> f32 {
@@ -23,8 +23,8 @@ fn painted_level(l: f32, white: f32, threshold: f32) -> f32 {
     return 0.5 * (min(lit, OPEN) * white + threshold);
 }
 
-// White that the paint of triangle `id` leaves at a pixel and its neighbours to the right and below; all where it
-// does not count.
+// White that the paint of triangle `id` leaves at a pixel and its neighbours to the right and below; 1 if paint does
+// not count.
 fn paint_at(id: u32, part: u32, weights: array<vec3<f32>, 3>) -> array<f32, 3> {
     if (parts[part].flags & PART_PAINTED) == 0u { return array<f32, 3>(1.0, 1.0, 1.0); }
     let triangle = triangles[(id & ID_MASK) - 1u];

@@ -43,13 +43,13 @@ struct Fragment {
     segment: u32,
 }
 
-// The number itself, rounded. A compiler cannot know that zero is 0, so it can neither fuse what
-// made the number with what uses it nor reorder sums.
+// The number itself, rounded. A compiler cannot know that zero is 0, so it neither fuses the operations before and
+// after this nor reorders sums.
 fn rounded(view: PixelView, number: f32) -> f32 {
     return bitcast<f32>(bitcast<u32>(number) ^ view.zero);
 }
 
-// The same bits wherever division is good to four units in the last place.
+// The reciprocal, with the same bits wherever division is good to four units in the last place.
 fn reciprocal(view: PixelView, b: f32) -> f32 {
     let size = clamp(abs(b), 1e-30, 1e30);
     var bits = bitcast<u32>(1.0 / size) - 4u;

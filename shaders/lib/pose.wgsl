@@ -17,7 +17,7 @@ fn apply_direction(m: mat4x4<f32>, v: vec3<f32>) -> vec3<f32> {
     return (m[0] * v.x + m[1] * v.y + m[2] * v.z).xyz;
 }
 
-// Normals go by the cofactors, which stay finite where the matrix is singular.
+// Normals are transformed by the cofactors, which stay finite if the matrix is singular.
 fn apply_normal(m: mat4x4<f32>, n: vec3<f32>) -> vec3<f32> {
     let yz = cross(m[1].xyz, m[2].xyz);
     let zx = cross(m[2].xyz, m[0].xyz);

@@ -36,7 +36,7 @@ fn ribbon_at(ribbon: Ribbon, p: vec2<f32>, square: bool) -> RibbonPoint {
     return point;
 }
 
-// What decides between lines at a pixel: more coverage first, then nearness.
+// The key that decides between lines at a pixel: more coverage first, then nearness.
 fn line_key(coverage: f32, nearness: f32) -> f32 {
     return (floor(coverage * 255.0 + 0.5) + min(nearness, 0.999)) / 256.0;
 }

@@ -1,4 +1,4 @@
-// What pixels show: which subject. Twin: npr_style::backdrop::Scenery.
+// The subject that each pixel shows. Twin: npr_style::backdrop::Scenery.
 // The shader declares `window`, `rules`, `ids`, `triangles` and `part_subjects`.
 
 //# use lib/backdrop
@@ -20,7 +20,7 @@ fn subject_of(id: u32) -> u32 {
     return part_subjects[part_of(id)].subject;
 }
 
-// What a pixel shows; of subject MIXED where its samples disagree.
+// Subject and part that a pixel shows; the subject is MIXED if its samples disagree.
 fn shown_at(x: u32, y: u32) -> Shown {
     let samples = rules.samples;
     let first = textureLoad(ids, vec2<u32>(x, y) * samples, 0).x;

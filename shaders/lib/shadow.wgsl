@@ -3,13 +3,13 @@
 
 // Height in texels under which a triangle counts as fine.
 const FINE_TEXELS: f32 = 2.0;
-// Least cosine between normal and light that the slope of a surface is reckoned with.
+// Least cosine between normal and light used for the slope of a surface.
 const GRAZING: f32 = 0.1;
 const ENDLESS: f32 = 1e30;
 
 // A place that a light may reach.
 struct LitPoint {
-    // The triangle it lies on, plus one.
+    // The triangle that it lies on, plus one.
     own: u32,
     world: vec3<f32>,
     towards: vec3<f32>,
@@ -39,7 +39,7 @@ fn lifted(corners: Corners, weights: vec3<f32>) -> vec3<f32> {
     return world + blend3(weights, lifts[0], lifts[1], lifts[2]);
 }
 
-// The lights whose shadow falls on a place of triangle `id`, a bit each.
+// The lights whose shadow falls on a place of triangle `id`, one bit each.
 fn shadowed(id: u32, corners: Corners, weights: vec3<f32>) -> u32 {
     if lights.shadow_side == 0u { return 0u; }
     let normal = normal_of(corners, weights);
@@ -90,14 +90,15 @@ fn shadow_texel(map: u32, at: vec2<u32>) -> u32 {
     }
 }
 
-// The triangle plus one that the light sees in one of the nine texels around a place, 0 where none.
+// The triangle plus one in one of the nine texels around a place; 0 if there is none.
 fn seen_near(place: LitPoint, k: u32) -> u32 {
     let at = vec2<u32>(place.texel) + vec2<u32>(k % 3u, k / 3u);
     let last = vec2<u32>(lights.shadow_side - 1u);
     return shadow_texel(place.map, min(max(at, vec2<u32>(1u)) - 1u, last));
 }
 
-// Whether a triangle seen around a place covers it: each is tested; where they are finer than texels, the texels vote.
+// Whether something covers a place: each triangle seen around it is tested; if they are finer than texels, the texels
+// vote.
 fn is_covered(place: LitPoint) -> bool {
     var seen: array<u32, 9>;
     var distinct = 0u;
@@ -143,7 +144,7 @@ fn is_between(place: LitPoint, world: array<vec3<f32>, 3>, weights: vec3<f32>, g
     return gap > gap_world && gap < place.distance;
 }
 
-// Whether the texels around a place speak for a shadow.
+// Whether the texels around a place vote for a shadow.
 fn vote(place: LitPoint, seen: array<u32, 9>) -> bool {
     let side = f32(lights.shadow_side);
     let facing = max(place.facing, GRAZING);

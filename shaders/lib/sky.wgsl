@@ -2,15 +2,15 @@
 // The shader declares `view`, `lights`, `posed`, `triangles` and `texels`.
 
 const SKY_HEADER_WORDS: u32 = 12u;
-// How far a place is moved along its normal before it is looked up, in texels.
+// Distance, in texels, that a place is moved along its normal before the look-up.
 const LIFT_TEXELS: f32 = 1.5;
 
-// A distance outwards, -1..1 in radii, as the texels of pictures hold it; 0 is kept for nothing.
+// A distance outwards, -1..1 in radii, in the units of the pictures' texels; 0 is kept for empty ones.
 fn sky_height(outwards: f32) -> f32 {
     return (outwards + 1.0) * 0.5 * 65534.0 + 1.0;
 }
 
-// Three words of the texture store as numbers.
+// Three words of the texture store from `at` on, as floats.
 fn floats(at: u32) -> vec3<f32> {
     return vec3<f32>(bitcast<f32>(texels[at]), bitcast<f32>(texels[at + 1u]), bitcast<f32>(texels[at + 2u]));
 }
@@ -22,7 +22,7 @@ struct SkyPoint {
     down: vec2<f32>,
 }
 
-// What is seen so many pixels to the right and down.
+// How much of the sky is seen `offset` pixels to the right and down.
 fn open_at(open: SkyPoint, offset: vec2<f32>) -> Openness {
     let moved = clamp(open.here + (open.right * offset.x + open.down * offset.y), vec2<f32>(0.0), vec2<f32>(1.0));
     return Openness(moved.x, moved.y);
@@ -67,8 +67,8 @@ fn openness(corners: Corners, px: vec2<f32>) -> SkyPoint {
     return open;
 }
 
-// How far a place at a height sees the sky on one of the pictures, and how that changes over a texel to the right and
-// down.
+// Whether a place at a height sees the sky on one of the pictures, 0..1, and the change of that over a texel to the
+// right and down.
 fn sky_seen(picture: u32, at: vec2<f32>, height: f32) -> vec3<f32> {
     let side = f32(lights.sky_side);
     let x = (at.x + 1.0) * 0.5 * side - 0.5;

@@ -34,13 +34,13 @@ struct SmokeLook {
 const SMOKE_PUBLISHED: u32 = 1u;
 const SMOKE_UNLIT: u32 = 2u;
 
-// How much of a pixel at `place` belongs to a layer; nothing of one without smoke.
+// Share of a pixel at `place` in a layer; 0 for a pixel without smoke.
 fn share_of(place: f32, layer: u32) -> f32 {
     if place < 0.0 { return 0.0; }
     return max(1.0 - abs(place - f32(layer)), 0.0);
 }
 
-// Where the row `y` of a layer starts among the cells.
+// Index of the first cell of a layer in row `y`.
 fn row_start(look: SmokeLook, y: u32, layer: u32) -> u32 {
     return (y * look.layers + layer) * look.cells.x;
 }

@@ -9,7 +9,7 @@ struct SmokeLayer {
     depth: f32,
     // Which samples it covers.
     mask: u32,
-    // How much it hides in each sample.
+    // Share of the surface or background that it hides in each sample.
     hidden: array<f32, 4>,
 }
 
@@ -29,14 +29,14 @@ fn smoke_layer_of(pixel: vec2<u32>, frame_px: vec2<f32>) -> SmokeLayer {
     return smoke_layer;
 }
 
-// How much the smoke hides of triangle `id` in sample `i`.
+// Share of triangle `id` that the smoke hides in sample `i`.
 fn smoke_layer_over(smoke_layer: SmokeLayer, id: u32, i: u32, frame_px: vec2<f32>) -> f32 {
     if (smoke_layer.mask & (1u << i)) == 0u { return 0.0; }
     if id != 0u && depth_of(id, frame_px + sample_offset(i)) < smoke_layer.depth { return 0.0; }
     return smoke_layer.color.a;
 }
 
-// How much smoke shows in a pixel.
+// Mean share of a pixel that the smoke hides.
 fn smoke_layer_shown(smoke_layer: SmokeLayer) -> f32 {
     var shown = 0.0;
     let count = compose.samples * compose.samples;
@@ -66,7 +66,7 @@ fn line_direction(k: u32) -> vec2<f32> {
     }
 }
 
-// How much of the lines of a pixel the smoke hides: nothing where a surface near by lies before it.
+// Share of a pixel's lines that the smoke hides: 0 if a surface nearby lies before it.
 fn line_fade(smoke_layer: SmokeLayer, pixel: vec2<u32>, frame_px: vec2<f32>) -> f32 {
     if smoke_layer.mask == 0u { return 0.0; }
     let shown = smoke_layer.color.a * f32(countOneBits(smoke_layer.mask)) / f32(compose.samples * compose.samples);
@@ -87,7 +87,7 @@ fn smoke_texel(map: u32, at: vec2<u32>) -> f32 {
     }
 }
 
-// Whether smoke stands between a place and the light of a shadow picture.
+// Whether smoke lies between a place and the light of a shadow image.
 fn is_behind_smoke(map: u32, world: vec3<f32>) -> bool {
     let side = compose.smoke_shadow_side;
     if side == 0u { return false; }

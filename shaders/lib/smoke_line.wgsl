@@ -1,18 +1,19 @@
-// Outlines of spheres, found where their rims are. Twin: npr_style::smoke::line.
+// Outlines of spheres, found from the spheres' silhouettes. Twin: npr_style::smoke::line.
 // The shader declares `window`, `lens`, `look`, `smoke_ids`, `balls` and `pixels`.
 
-// How far beyond a silhouette the picture is looked at, in pixels.
+// Distance beyond a silhouette at which the picture is looked at, in pixels.
 const BEYOND_PX: f32 = 1.25;
-// Parts of the jump that a line starts with, from which it is as wide as lines inside get, and as the outer line.
+// Multiples of the least jump at which a line is as wide as lines inside the smoke get, and as the outer line.
 const INNER_JUMP: f32 = 4.0;
 const OUTER_JUMP: f32 = 16.0;
-// Width of the line of a small puff, in its radii.
+// Greatest width of a puff's line, in radii of the puff.
 const THICKEST: f32 = 0.2;
-// How far lines run out along the silhouette, in widths of the line, and looks beyond it to each side over that length.
+// Length over which lines run out along the silhouette, in line widths, and looks beyond it on each side over that
+// length.
 const TAPER: f32 = 3.0;
 const LOOKS: u32 = 8u;
 
-// A place on a sphere's silhouette.
+// A point of a sphere's silhouette.
 struct Silhouette {
     px: vec2<f32>,
     outward: vec2<f32>,
@@ -53,7 +54,7 @@ fn disc_of(ball: ViewSphere, ray: vec2<f32>) -> Disc {
     return disc;
 }
 
-// The silhouette at an angle, given by its sine and cosine, from the ray.
+// The point of the silhouette at an angle from the ray, given by its sine and cosine.
 fn silhouette_of(disc: Disc, sine: f32, cosine: f32) -> Silhouette {
     let place = disc.middle + (disc.first * cosine + disc.second * sine) * disc.across;
     var silhouette: Silhouette;
@@ -69,12 +70,13 @@ fn distance_px(a: vec2<f32>, b: vec2<f32>) -> f32 {
     return sqrt(d.x * d.x + d.y * d.y);
 }
 
-// How much of a pixel a line covers that is `width` wide from its edge, `away` from the pixel's middle.
+// How much of a pixel a line covers that reaches inwards from the silhouette by `width`, where the pixel's middle lies
+// `away` from it.
 fn line_coverage(width: f32, away: f32) -> f32 {
     return clamp(width - away + 0.5, 0.0, 1.0) * min(width, 1.0);
 }
 
-// The part of its width that a line has at a jump in depth, in radii.
+// Width of a line at a jump in depth, in radii, as a part of the whole.
 fn line_part_at(jump: f32) -> f32 {
     let start = look.line_from;
     let inner = smooth_step(start, start * INNER_JUMP, jump);
@@ -89,8 +91,8 @@ fn whole_line_width(outward: vec2<f32>, radius_px: f32) -> f32 {
     return min(look.line_px, THICKEST * radius_px) * (1.0 - look.swell * facing);
 }
 
-// The part of its width that a sphere's outline has at a place of its silhouette, by what is seen beyond; 0 where the
-// silhouette is hidden.
+// Width of a sphere's outline at a point of its silhouette, as a part of the whole, by the picture beyond; 0 if that
+// point is hidden.
 fn part_beyond(ball: ViewSphere, silhouette: Silhouette) -> f32 {
     let beyond = silhouette.px + silhouette.outward * BEYOND_PX * window.frame_step;
     let pixel = pixel_at(window, beyond);
@@ -98,7 +100,7 @@ fn part_beyond(ball: ViewSphere, silhouette: Silhouette) -> f32 {
     return line_part_at((depth - silhouette.depth) / ball.radius);
 }
 
-// Whether a ray passes so close to the middle of a ball that the silhouette is farther than `reach_px` for certain.
+// Whether a ray certainly passes farther than `reach_px` inside the silhouette of a ball.
 fn is_far_inside(ball: ViewSphere, ray: vec2<f32>, reach_px: f32) -> bool {
     let room = lens_pixel_at(lens, ball.center.z + ball.radius) * reach_px;
     let start = place_on(lens, ray, 0.0);
@@ -110,7 +112,7 @@ fn is_far_inside(ball: ViewSphere, ray: vec2<f32>, reach_px: f32) -> bool {
     return dot(beside, beside) < inner * inner;
 }
 
-// How much of the outline of sphere `id` covers a place of the frame in its image, 0..1.
+// How much the outline of sphere `id` covers of a position of the frame within its image, 0..1.
 fn line_at(id: u32, frame_px: vec2<f32>) -> f32 {
     let ball = balls[id - 1u];
     let widest = look.line_px * (1.0 + look.swell);
@@ -122,11 +124,11 @@ fn line_at(id: u32, frame_px: vec2<f32>) -> f32 {
     let radius_px = distance_px(silhouette.px, disc.middle_px);
     let whole = whole_line_width(silhouette.outward, radius_px);
     var part = part_beyond(ball, silhouette);
-    // Let lines near by run out to here.
+    // Let lines nearby run out to here.
     let step = TAPER * look.line_px / (f32(LOOKS + 1u) * max(radius_px, 1.0));
     for (var k = 1u; k <= LOOKS; k++) {
         let left = 1.0 - f32(k) / f32(LOOKS + 1u);
-        // The rule: what is left of the widest line adds nothing.
+        // Usual case: even the widest line adds nothing from here on.
         if left <= part || whole * left + 0.5 <= away { break; }
         let sine = min(f32(k) * step, 0.7);
         let cosine = sqrt(1.0 - sine * sine);

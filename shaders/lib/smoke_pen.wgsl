@@ -1,19 +1,19 @@
-// The last hand on smoke: its tones, and its ink and hatching. Twin: npr_style::smoke::pen.
+// The last step of smoke: its tones, and its ink and hatching. Twin: npr_style::smoke::pen.
 // The shader declares `compose`, `parts`, `texels`, `window` and the pictures `smoke_*`.
 
-// Places of a pixel's range of tones that stand for all.
+// Points in a pixel's range of tones over which the ramp is averaged.
 const TONE_TAPS: u32 = 4u;
-// Part of a pixel that its line may cover so that the tone beside it is still known.
+// Share of a pixel up to which its line may cover it so that the tone beside it is still known.
 const LINED: f32 = 0.95;
 
-// Tone of a colour of smoke that is not finished; below 0 under its outline.
+// Tone in a colour of unfinished smoke; negative if the outline covers it.
 fn tone_of(color: vec4<f32>) -> f32 {
     if color.b > LINED { return -1.0; }
     let left = 1.0 - color.b;
     return 0.5 * (min(color.r / left, 1.0) + min(color.g / left, 1.0));
 }
 
-// Tone of a neighbour, or `tone` where that is none.
+// Tone of a neighbour, or `tone` if it has none.
 fn tone_beside(pixel: vec2<u32>, step: vec2<i32>, tone: f32) -> f32 {
     let at = vec2<i32>(pixel) + step;
     if any(at < vec2<i32>(0)) || any(at >= vec2<i32>(window.size)) { return tone; }
@@ -23,7 +23,7 @@ fn tone_beside(pixel: vec2<u32>, step: vec2<i32>, tone: f32) -> f32 {
     return beside;
 }
 
-// The colour of a pixel of smoke whose picture holds its tone and how much its outline covers.
+// The finished colour of a smoke pixel whose picture holds tone and outline.
 fn penned(pixel: vec2<u32>, frame_px: vec2<f32>, color: vec4<f32>) -> vec4<f32> {
     let pen = compose.smoke_part;
     let tone = max(tone_of(color), 0.0);

@@ -1,4 +1,4 @@
-// Spheres of smoke and who looks at them. Twin: npr_core::smoke.
+// Spheres of smoke, and the lens that sees them. Twin: npr_core::smoke.
 
 struct Sphere {
     center: vec3<f32>,
@@ -37,7 +37,7 @@ struct SphereView {
     unused_b: vec2<f32>,
 }
 
-// Where the ray through a frame position goes: right and up, per depth in perspective, as they are else.
+// Ray through a frame position, to the right and up: per unit of depth in perspective, else in world units.
 fn ray_at(lens: SphereView, frame_px: vec2<f32>) -> vec2<f32> {
     let x = 2.0 * frame_px.x / lens.frame_px.x - 1.0;
     let y = 1.0 - 2.0 * frame_px.y / lens.frame_px.y;
@@ -63,7 +63,7 @@ fn direction_in_world(lens: SphereView, v: vec3<f32>) -> vec3<f32> {
     return lens.right_world * v.x + lens.up_world * v.y + lens.forward_world * v.z;
 }
 
-// View depth at which a ray first meets a ball; FAR_DEPTH where it passes by, or where it starts inside.
+// View depth at which a ray first meets a ball; FAR_DEPTH if it misses the ball or starts inside.
 fn depth_of_ball(lens: SphereView, ball: ViewSphere, ray: vec2<f32>) -> f32 {
     if lens.discs > 0.5 { return depth_of_disc(lens, ball, ray); }
     let meeting = lens.perspective;

@@ -1,6 +1,6 @@
-// What is decided for stretches of outline. Twin: npr_style::backdrop::stretch.
+// Decisions for stretches of outline. Twin: npr_style::backdrop::stretch.
 
-// What lines of a tile read before, and which way they move: -1 darker, 1 brighter.
+// The grounds that the lines of a tile must read before, and their direction: -1 darker, 1 brighter.
 struct ContrastBias {
     low: f32,
     high: f32,
@@ -11,7 +11,7 @@ struct ContrastBias {
     unused: u32,
 }
 
-// Whose rims lie in a tile, and what their lines start from and stand before.
+// The rims of one subject in a tile: where their lines start, and what lies behind.
 struct TileRims {
     line: f32,
     behind: f32,
@@ -27,10 +27,10 @@ fn rim_of(bias: ContrastBias) -> vec3<f32> {
     return vec3<f32>(bias.rim[0], bias.rim[1], bias.rim[2]);
 }
 
-// Difference of backgrounds from which they are two walls, and not one with a pattern.
+// Difference of two backgrounds from which they count as two walls, not as one with a pattern.
 const UNLIKE_WALLS: f32 = 0.42;
 
-// Adds a bias with a weight to a sum of them.
+// Adds a weighted bias to a sum.
 fn add_bias(sum: ContrastBias, bias: ContrastBias, weight: f32) -> ContrastBias {
     var more = sum;
     more.low += bias.low * weight;
@@ -40,7 +40,7 @@ fn add_bias(sum: ContrastBias, bias: ContrastBias, weight: f32) -> ContrastBias 
     return more;
 }
 
-// The mean of such a sum for some lines; of nobody where nothing was added.
+// The mean of such a sum; `whose` is 0 if nothing was added.
 fn mean_bias(sum: ContrastBias, weight: f32, whose: u32) -> ContrastBias {
     var mean: ContrastBias;
     if weight <= 0.0 { return mean; }
@@ -56,12 +56,12 @@ fn tiles_across(size: vec2<u32>) -> u32 {
     return (size.x + BORDER_TILE - 1u) / BORDER_TILE;
 }
 
-// The first of the tiles around one, up to so many each way.
+// The first of the tiles up to `reach` each way around one.
 fn first_around(x: u32, y: u32, reach: u32) -> vec2<u32> {
     return max(vec2<u32>(x, y), vec2<u32>(reach)) - reach;
 }
 
-// The last of them.
+// The last of these tiles.
 fn last_around(x: u32, y: u32, reach: u32, across: u32, tile_count: u32) -> vec2<u32> {
     return min(vec2<u32>(x, y) + reach, vec2<u32>(across, tile_count / across) - 1u);
 }

@@ -21,7 +21,7 @@ fn summing_to_1(weights: vec3<f32>) -> vec3<f32> {
     return weights * (1.0 / sum);
 }
 
-// Change of cross2(p, q) over a step to the right and one down, when both move by -w against the point.
+// Change of cross2(p, q) over a step to the right and one down, if both move by -w against the point.
 fn run_of(p: vec2<f32>, p_w: f32, q: vec2<f32>, q_w: f32, step: vec2<f32>) -> vec2<f32> {
     return step * vec2<f32>(p.y * q_w - q.y * p_w, q.x * p_w - p.x * q_w);
 }

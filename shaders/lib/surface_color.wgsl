@@ -50,7 +50,7 @@ fn tint(triangle: Triangle, weights: vec3<f32>) -> vec3<f32> {
     );
 }
 
-// How far a pixel reaches in coordinates of a texture that are `uv` there, and what they are to the right and below.
+// Size of a pixel in coordinates of a texture, given those at the pixel, to its right and below.
 fn footprint(uv: vec2<f32>, right: vec2<f32>, down: vec2<f32>) -> f32 {
     let dx = right - uv;
     let dy = down - uv;
@@ -73,7 +73,7 @@ fn base_color(triangle: Triangle, corners: Corners, frame_px: vec2<f32>) -> vec3
     return color;
 }
 
-// A colour as strong as the style wants it.
+// A colour with the saturation of the style.
 fn strengthened(color: vec3<f32>) -> vec3<f32> {
     if compose.saturation == 1.0 { return color; }
     let luma = dot(color, LUMA);

@@ -64,7 +64,7 @@ fn sample_texture(start: u32, uv: vec2<f32>, footprint_uv: f32) -> vec4<f32> {
     let levels = texels[start + 2u];
     let span = footprint_uv * f32(max(texels[start], texels[start + 1u]));
     let lod = clamp(log2(max(span, 1.0)), 0.0, f32(levels - 1u));
-    // What is no number would be a level far away, and looking for it a loop without end.
+    // Clamp again: NaN would be a level far away, and the search for it a loop without end.
     let fine = min(u32(lod), levels - 1u);
     let t = lod - f32(fine);
     let near = sample_level(start, fine, uv);

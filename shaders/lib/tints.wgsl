@@ -1,23 +1,23 @@
-// What is decided about lines over a mask. Twin: npr_core::line_color::LineTints. The shader declares `mask_window`,
-// `parts` and `tints: array<LineTint>`.
+// The tints of lines on a mask. Twin: npr_core::line_color::LineTints. The shader declares `mask_window`, `parts` and
+// `tints: array<LineTint>`.
 
 //# use lib/geometry
 //# use lib/window
 //# use lib/line_tint
 
-// Whether nothing is decided anywhere.
+// Whether there are no tints.
 fn has_no_tints() -> bool {
     return arrayLength(&tints) < mask_window.size.x * mask_window.size.y;
 }
 
-// What is decided for a part at a point of the frame: the mean over the 3x3 mask pixels around it under a tent.
+// The tint of a part's lines at a point of the frame: the mean over the 3x3 mask pixels around it, weighted by a tent.
 fn tint_at(px: vec2<f32>, part: u32) -> Tint {
     var tint: Tint;
     if has_no_tints() { return tint; }
     let center = pixel_at(mask_window, px);
     let low = max(center, vec2<u32>(1u)) - 1u;
     let high = min(center + 1u, mask_window.size - 1u);
-    // First the pixels of the part, then all.
+    // Index 0 sums the pixels of the part, index 1 all of them.
     var weight = vec2<f32>(0.0);
     var own = array<vec4<f32>, 2>();
     var tint_layer = array<vec4<f32>, 2>();

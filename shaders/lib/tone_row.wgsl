@@ -11,7 +11,7 @@ fn row_light(row: u32, x: f32) -> vec3<f32> {
     return bitcast<vec3<f32>>(vec3<u32>(texels[at], texels[at + 1u], texels[at + 2u]));
 }
 
-// Whether a row is of one tone over all of `range`.
+// Whether a row has one tone over all of `range`.
 fn row_is_even(row: u32, range: vec2<f32>) -> bool {
     return texels[row + 4u * row_place(range.x) + 3u] >= row_place(range.y);
 }

@@ -1,11 +1,11 @@
-// What passes that draw triangle numbers hand from vertices to pixels.
+// Values that passes which draw triangle numbers hand from vertices to pixels.
 
 struct Varying {
     @builtin(position) position: vec4<f32>,
     @location(0) @interpolate(flat, either) triangle: u32,
 }
 
-// A vertex of a triangle that is drawn, or one of three in the same place.
+// A vertex of a triangle to draw, or one of three in the same place if it is not drawn.
 fn passed_on(triangle: u32, clip: vec4<f32>, drawn: bool) -> Varying {
     var passed: Varying;
     passed.triangle = triangle;

@@ -32,7 +32,7 @@ fn plane_coordinate(view: View, depth: f32) -> f32 {
     return select(depth, 1.0 / depth, view.perspective > 0.5);
 }
 
-// The depth that has a plane coordinate; FAR_DEPTH where the plane has passed the horizon.
+// The depth of a plane coordinate; FAR_DEPTH if the plane has passed the horizon.
 fn depth_of_coordinate(view: View, coordinate: f32) -> f32 {
     if view.perspective < 0.5 { return coordinate; }
     return select(1e30, 1.0 / coordinate, coordinate > 1e-30);

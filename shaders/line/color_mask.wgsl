@@ -1,7 +1,6 @@
-// line.color_mask: decides the colour of lines at every pixel of the mask that a line runs through, or beside.
+// line.color_mask: decides the tint of lines at every pixel of the mask on or beside a line.
 //
-// Whoever draws a line looks this up under its reference coordinate, so a line changes colour along itself and not
-// across.
+// Lines look their tint up at their reference coordinate, so a line changes colour along itself and not across.
 //
 // Twin    npr_style::line_color::decide
 //
@@ -30,10 +29,10 @@ override WG: u32 = 64u;
 
 //# use lib/line_place
 
-// How far the surface's texture is averaged under a line, in pixels of the mask.
+// Width over which the surface's texture is averaged under a line, in pixels of the mask.
 const LINE_BLUR_PX: f32 = 2.0;
 
-// Whether any of the 3x3 pixels around one is set.
+// Whether any of the 3x3 pixels around one is set in the mask.
 fn is_near_line(pixel: vec2<u32>) -> bool {
     let low = max(pixel, vec2<u32>(1u)) - 1u;
     let high = min(pixel + 1u, window.size - 1u);

@@ -1,7 +1,7 @@
 // line.detect: marks the pixels that differ from a neighbour.
 //
-// Each G-buffer has its own threshold; the mask is the union (A9). A pixel keeps
-// which buffers found it, whether its surface is the one in front, and on which sides the line runs.
+// Each G-buffer has its own threshold; the mask is the union (A9). A marked pixel says which buffers found it, whether
+// its surface is the one in front, and on which sides the line runs.
 //
 // Source  Okuya et al. 2016, sections 3.2 and 4.3
 // Twin    npr_vector::screen::detect::detect
@@ -30,7 +30,7 @@ fn plane_depth(pixel: GPixel, step: vec2<f32>) -> f32 {
     return depth_of_coordinate(view, plane_coordinate(view, pixel.depth) + change);
 }
 
-// How far `there` lies from the tangent plane of `here`, one pixel along `step`, in depth.
+// Distance in depth of `there` from the tangent plane of `here`, one pixel along `step`.
 fn plane_gap(here: GPixel, there: GPixel, step: vec2<f32>) -> f32 {
     return abs(plane_depth(here, step) - there.depth);
 }
@@ -50,7 +50,7 @@ fn jumps(here: GPixel, there: GPixel, step: vec2<f32>) -> bool {
     return plane_gap(here, there, step) > least && plane_gap(there, here, -step) > least;
 }
 
-// Which buffers separate two neighbours.
+// The buffers that separate two neighbours.
 fn separations(here: GPixel, there: GPixel, step: vec2<f32>) -> u32 {
     if here.part == NONE && there.part == NONE { return 0u; }
     var found = 0u;
@@ -75,7 +75,7 @@ fn is_grazing(pixel: GPixel) -> bool {
     return slope_of(view, window, pixel.depth, pixel.plane_step) > GRAZING_SLOPE;
 }
 
-// Whether neighbours whose normals differ, and nothing else, have no crease of their own between them.
+// Whether neighbours that differ in nothing but their normals have no crease between them.
 fn is_no_crease(here: GPixel, there: GPixel) -> bool {
     return (outline.kinds & KIND_CREASE) == 0u || is_grazing(here) || is_grazing(there);
 }
@@ -106,7 +106,7 @@ fn main(
         let kinds = separations(here, there, vec2<f32>(step));
         if kinds == 0u || !(has_lines(here) || has_lines(there)) { continue; }
         found |= kinds;
-        // A jump in depth where the surface may bend owns no line.
+        // If the surface may bend there, a jump in depth owns no line.
         var owning = kinds;
         if (kinds & DETECT_DEPTH) != 0u && may_bend(here, there, vec2<f32>(step)) { owning &= ~DETECT_DEPTH; }
         if owning == 0u || (owning == DETECT_NORMAL && is_no_crease(here, there)) { continue; }

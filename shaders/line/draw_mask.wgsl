@@ -22,8 +22,8 @@ override WG: u32 = 64u;
 
 //# use lib/tints
 
-// The part whose line a mask pixel shows: its own, or that of a pixel beside it which the line belongs to; NONE where
-// no part decides anything.
+// The part that the line at a mask pixel belongs to: its own, or that of a pixel beside it; NONE if nothing is decided
+// for a part.
 fn owner_at(at: vec2<u32>) -> u32 {
     let element = at.y * mask_window.size.x + at.x;
     if (mask[element] & MASK_OWNER) != 0u { return tints[element].part; }

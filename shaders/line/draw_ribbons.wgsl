@@ -29,11 +29,11 @@
 
 //# use lib/tints
 
-// Depth that an edge may lie behind the surface around it and still be seen, in mask pixels.
+// Depth by which an edge may lie behind the surface around it and still show, in mask pixels.
 const DEPTH_TOLERANCE_PX: f32 = 1.0;
-// How much further behind a rim may bend.
+// Factor on that depth for a rim that bends away.
 const RIM_FACTOR: f32 = 16.0;
-// How far along an edge the mask must go on, in mask pixels; a line that is merely crossed is thinner.
+// Length along an edge over which the mask must continue, in mask pixels; a line that only crosses is thinner.
 const LINE_REACH_PX: f32 = 2.5;
 
 struct Varying {
@@ -110,7 +110,7 @@ fn mask_near(px: vec2<f32>) -> bool {
     return false;
 }
 
-// Depth of the tangent plane of what a mask pixel shows, at a point of the frame.
+// Depth, at a point of the frame, of the tangent plane of the surface in a mask pixel.
 fn plane_at(seen: GPixel, pixel: vec2<u32>, px: vec2<f32>) -> f32 {
     let off = (px - frame_at(mask_window, pixel)) / mask_window.frame_step;
     let change = seen.plane_step.x * off.x + seen.plane_step.y * off.y;
@@ -128,7 +128,7 @@ fn is_hidden(px: vec2<f32>, depth: f32) -> bool {
     return !is_rim(pixel, depth, tolerance(depth) * RIM_FACTOR * (1.0 + slope));
 }
 
-// Whether a depth belongs to the surface in front where 3x3 pixels show two: a rim that bends away faster than the
+// Whether a depth belongs to the front one of two surfaces that 3x3 pixels show: a rim that bends away faster than the
 // tangent plane of its pixel.
 fn is_rim(center: vec2<u32>, depth: f32, room: f32) -> bool {
     let low = max(center, vec2<u32>(1u)) - 1u;
@@ -149,7 +149,7 @@ fn tolerance(depth: f32) -> f32 {
     return DEPTH_TOLERANCE_PX * world_per_pixel(view, depth) * mask_window.frame_step.y;
 }
 
-// Whether the edge is to be seen at a point of its spine.
+// Whether the edge shows at a point of its spine.
 fn shows_at(px: vec2<f32>, depth: f32, along: vec2<f32>, kind: u32) -> bool {
     if is_hidden(px, depth) { return false; }
     if (outline.flags & OUTLINE_UNMASKED) != 0u { return true; }
@@ -161,7 +161,7 @@ fn shows_at(px: vec2<f32>, depth: f32, along: vec2<f32>, kind: u32) -> bool {
     return mask_at(px + ahead) || mask_at(px - ahead);
 }
 
-// 1 at the near plane, falling with depth; in parallel view the near plane may lie behind the eye.
+// 1 at the near plane, falling with depth; in a parallel view the near plane may lie behind the eye.
 fn nearness(depth: f32) -> f32 {
     if view.perspective < 0.5 { return 0.5; }
     return view.near / max(depth, view.near);

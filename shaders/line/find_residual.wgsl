@@ -1,7 +1,7 @@
-// line.find_residual: mask pixels that no ribbon inked become stamps.
+// line.find_residual: makes stamps of mask pixels that no ribbon inked.
 //
-// Lines where shapes meet or interpenetrate run along no mesh edge. They are drawn
-// as discs on the border between the pixels that differ, as wide as the surface says there.
+// Lines where shapes meet or interpenetrate run along no mesh edge. They are drawn as discs on the border between the
+// pixels that differ, with the line width of the surface there.
 //
 // Source  A11 and A40: contact lines without the stubs of tessellation edges
 // Twin    npr_vector::screen::residual::find
@@ -24,22 +24,22 @@ override WG: u32 = 64u;
 
 // Half side of the box in which ink is counted, in mask pixels.
 const LINE_BOX_PX: f32 = 2.0;
-// Inked pixels in that box that make a line; fewer are crumbs of an edge that crosses here.
+// Least number of inked pixels in that box for a line; fewer are crumbs of an edge that crosses here.
 const LINE_INK_COUNT: u32 = 5u;
 
 // Share of a line's own coverage from which a pixel counts as inked by it; less is the frayed end of a ribbon.
 const LINE_INK_SHARE: f32 = 0.7;
-// What is left of that share for the thinnest lines.
+// Least factor on that share, for the thinnest lines.
 const THIN_INK_SHARE: f32 = 0.4;
 
-// Half side of the box, in mask pixels, in which a line within one surface must go on.
+// Half side of the box, in mask pixels, in which a line within one surface must continue.
 const RUN_BOX_PX: u32 = 5u;
-// Owned pixels in that box that make a line; fewer are the tip of a corner, or the grain of a scan.
+// Least number of owned pixels in that box for a line; fewer are the tip of a corner, or the grain of a scan.
 const RUN_COUNT: u32 = 8u;
-// What parts a surface from others, not from itself.
+// The criteria that separate a surface from others, not from itself.
 const BETWEEN: u32 = DETECT_OBJECT | DETECT_MATERIAL | DETECT_PIECE;
 
-// Whether a surface is parted from itself along a line through a mask pixel, not at a few pixels alone.
+// Whether a surface is separated from itself along a line through a mask pixel, not only at a few pixels.
 fn runs_on(at: vec2<u32>, pixel: GPixel) -> bool {
     let size = mask_window.size;
     let component = parts[pixel.part].component;
@@ -49,7 +49,7 @@ fn runs_on(at: vec2<u32>, pixel: GPixel) -> bool {
     for (var y = low.y; y <= high.y; y++) {
         for (var x = low.x; x <= high.x; x++) {
             let element = y * size.x + x;
-            // Where the surface ends at another it is not parted from itself.
+            // A pixel where the surface ends at another one does not separate it from itself.
             if (mask[element] & (MASK_OWNER | BETWEEN)) != MASK_OWNER { continue; }
             let other = gbuffer[element];
             if other.part == NONE || other.object != pixel.object || other.material != pixel.material { continue; }
@@ -67,7 +67,7 @@ struct Ink {
     alpha: u32,
 }
 
-// Whether a ribbon runs through a point of the frame: ink enough under it, and enough around to be a line.
+// Whether a ribbon runs through a point of the frame: enough ink under it, and enough around it for a line.
 fn is_inked_at(px: vec2<f32>, half_width: f32) -> bool {
     let under = ink_within(px, 0.5);
     // A line through a box fills as much of it as its width does of the box's side.

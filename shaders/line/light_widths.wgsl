@@ -1,4 +1,4 @@
-// line.light_widths: half widths of lines by the light that falls on vertices; all else of them stays.
+// line.light_widths: scales half widths of lines by the light that falls on the vertices; nothing else changes.
 //
 // Twin    npr_style::line_color::light_widths
 //

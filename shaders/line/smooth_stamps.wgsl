@@ -1,7 +1,7 @@
 // line.smooth_stamps: moves every stamp across its line to the middle of the stamps around it.
 //
-// Stamps lie on the borders of pixels; averaged along the line, the steps of the grid
-// no longer show. Moved along the line, its ends would draw back.
+// Stamps lie on the borders of pixels; averaged along the line, they no longer show the steps of the grid. They do not
+// move along the line, or its ends would draw back.
 //
 // Twin    npr_vector::screen::residual::smooth
 //
@@ -15,7 +15,7 @@ override WG: u32 = 64u;
 @group(0) @binding(1) var<storage, read> stamps: array<Stamp>;
 @group(0) @binding(2) var<storage, read_write> smoothed: array<Stamp>;
 
-// Stamps around one of them: how many, and sums over where they lie relative to it.
+// The stamps around one of them: their number, and sums of their places relative to it.
 struct Cloud {
     count: f32,
     sum: vec2<f32>,
@@ -42,7 +42,7 @@ fn cloud_around(at: vec2<u32>, middle: Stamp) -> Cloud {
     return cloud;
 }
 
-// The way to the middle of a cloud, without its part along the line that the cloud forms.
+// The vector to the middle of a cloud, without its part along the line that the cloud forms.
 fn move_across(cloud: Cloud) -> vec2<f32> {
     let mean = cloud.sum / cloud.count;
     let squares = cloud.squares / cloud.count;

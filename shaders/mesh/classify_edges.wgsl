@@ -1,7 +1,7 @@
 // mesh.classify_edges: which edges may become lines, and of which kind.
 //
-// An edge is chosen by what it is on the shape, so that tessellation edges that
-// merely touch the mask leave no stubs along a line (A40).
+// An edge is chosen by its role on the shape, so tessellation edges that merely touch the mask leave no stubs along a
+// line (A40).
 //
 // Source  Okuya et al. 2016, section 3.3; Marshall 2001 for contours
 // Twin    npr_mesh::classify::classify
@@ -28,7 +28,7 @@ fn face_is_front(face: u32) -> bool {
     return faces_eye(clip);
 }
 
-// All kinds that an edge is of.
+// The bits of all kinds that an edge has.
 fn kinds_of(edge: Edge) -> u32 {
     let front = face_is_front(edge.faces.x);
     let flags = parts[triangles[edge.faces.x].part].flags;

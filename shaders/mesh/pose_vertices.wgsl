@@ -1,4 +1,4 @@
-// mesh.pose_vertices: every vertex posed, projected and given its line width.
+// mesh.pose_vertices: poses and projects every vertex, and gives it its line width.
 //
 // Transforming once here serves the G-buffer, the ribbons and the shading alike
 // (A23); deformation belongs here too (A24), as linear blend skinning.
@@ -42,10 +42,10 @@ fn projected_curvature(vertex: Vertex, normal: vec3<f32>, direction: vec3<f32>, 
     return across - twist2 * radial / (radial * radial + 0.01);
 }
 
-// Width of a line as a share of the radius that it turns with, at most: wider, it would fill what it goes round.
+// Greatest width of a line as a share of its radius of curvature: a wider one would fill the inside of the bend.
 const BEND_SHARE: f32 = 0.2;
 
-// Width of a line as a share of the tightest radius of the surface, at most.
+// Greatest width of a line as a share of the tightest radius of the surface.
 const GIRTH_SHARE: f32 = 0.5;
 
 // Widest line, in pixels, round a bend on a surface of these curvatures, in 1 / pixel.
@@ -54,7 +54,7 @@ fn widest_round(bend_px: f32, tightest_px: f32) -> f32 {
     return min(round_bend, GIRTH_SHARE / max(abs(tightest_px), 1e-6));
 }
 
-// Width factor 0..1 of a vertex, and the widest line that there is room for, in pixels.
+// Width factor 0..1 of a vertex, and the widest line that has room there, in pixels.
 fn width_at(vertex: Vertex, normal: vec3<f32>, direction: vec3<f32>, world: vec3<f32>, depth: f32) -> vec2<f32> {
     if (outline.flags & OUTLINE_PROJECTED_CURVATURE) == 0u { return vec2<f32>(vertex.width, widest_round(0.0, 0.0)); }
     let eye = to_eye(view, world);

@@ -1,4 +1,4 @@
-// mesh.project_shadow: posed vertices where a light with shadows sees them.
+// mesh.project_shadow: posed vertices as a light with shadows sees them.
 //
 // Twin    npr_mesh::project::project
 //

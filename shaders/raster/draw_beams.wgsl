@@ -14,7 +14,7 @@
 
 //# use lib/varying
 
-// Three vertices per triangle; hidden sides and all that is no beam collapse to a point.
+// Three vertices per triangle; hidden sides and triangles of other parts collapse to a point.
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     let triangle = index / 3u;

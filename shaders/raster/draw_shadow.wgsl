@@ -1,7 +1,6 @@
 // raster.draw_shadow: the number of the triangle nearest to a light, plus one, at every texel.
 //
-// Both sides of everything but beams throw shadows. Numbers suffice: who looks a shadow up
-// tests the triangles themselves.
+// Both sides of everything but beams throw shadows. Numbers suffice: the look-up tests the triangles themselves.
 //
 // Twin    npr_core::raster::fill_triangles
 //

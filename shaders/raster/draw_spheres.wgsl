@@ -22,7 +22,7 @@ struct Seen {
     @builtin(frag_depth) depth: f32,
 }
 
-// Six vertices per ball; what is not seen collapses to a point.
+// Six vertices per ball; balls that are not seen collapse to a point.
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Passed {
     var passed: Passed;

@@ -62,7 +62,7 @@ override WG: u32 = 64u;
 //# use lib/smoke_layer
 //# use lib/adapt
 
-// How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
+// How far the tone of a flat triangle may lie beyond the tones of its corners, in ramp coordinate: rounding.
 const TONE_ROOM: f32 = 0.002;
 // Width of a tone step from which on it is so gentle that one place of a pixel stands for all.
 const GENTLE: f32 = 0.25;
@@ -70,7 +70,7 @@ const GENTLE: f32 = 0.25;
 // Widest line of the surface-angle method, in line widths: a surface that turns more slowly counts as flat.
 const ANGLE_WIDTHS: f32 = 6.0;
 
-// Light of a group of samples, where one place stands for all of them.
+// Light of a group of samples, if one place stands for all of them.
 struct Even {
     is_so: bool,
     light: vec3<f32>,
@@ -89,13 +89,13 @@ fn ramp_light(part: u32, x: f32) -> vec3<f32> {
     return light;
 }
 
-// Lowest and highest ramp coordinate that a triangle can have anywhere, where the normal alone decides.
+// Lowest and highest ramp coordinate on a triangle; only if the normal alone decides.
 fn coordinate_range(corners: Corners) -> vec2<f32> {
     let towards = lights.sources[0].direction;
     let a = ramp_coordinate(dot(corners.normals[0], towards) * corners.side);
     let b = ramp_coordinate(dot(corners.normals[1], towards) * corners.side);
     let c = ramp_coordinate(dot(corners.normals[2], towards) * corners.side);
-    // A blend of normals that is made unit again bulges beyond them by at most what they differ.
+    // A blend of normals that is scaled to unit length bulges beyond them by at most their difference.
     let apart = min(
         dot(corners.normals[0], corners.normals[1]),
         min(dot(corners.normals[1], corners.normals[2]), dot(corners.normals[2], corners.normals[0])),
@@ -104,7 +104,7 @@ fn coordinate_range(corners: Corners) -> vec2<f32> {
     return vec2<f32>(min(a, min(b, c)) - room, max(a, max(b, c)) + room);
 }
 
-// Whether a part's tones are the same for all coordinates in `range`.
+// Whether a part's ramp has one tone for all coordinates in `range`.
 fn one_step(part: u32, range: vec2<f32>) -> bool {
     if (parts[part].flags & PART_TONE_ROW) != 0u { return row_is_even(parts[part].tone_row, range); }
     let reach = parts[part].softness * 0.5;
@@ -115,7 +115,7 @@ fn one_step(part: u32, range: vec2<f32>) -> bool {
     return true;
 }
 
-// The light of a triangle that is lit in one tone, whatever its ink and its highlights.
+// Light of a triangle that is lit in one tone all over, whatever its ink and its highlights.
 fn even_light(part: u32, corners: Corners) -> Even {
     var even: Even;
     let flags = parts[part].flags;
@@ -140,8 +140,7 @@ fn is_gentle(part: u32) -> bool {
         && (parts[part].softness >= GENTLE || parts[part].ramp[1].a > 1.5);
 }
 
-// Ink of a triangle that has the same all over, inside the shadow of the lights in `dark` or outside it; -1 where it
-// has not.
+// Ink of a triangle where it is the same all over, inside the shadow of the lights in `dark` or outside of it; else -1.
 fn even_ink(part: u32, corners: Corners, dark: u32) -> f32 {
     if (parts[part].flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
     if !only_distant() { return -1.0; }
@@ -149,8 +148,8 @@ fn even_ink(part: u32, corners: Corners, dark: u32) -> f32 {
     return ink_over(part, min(coordinate_range(corners), vec2<f32>(most)));
 }
 
-// Light on a surface at `world` that faces along `normal`, lies in the shadow of the lights in `dark` and sees `open`
-// of the sky.
+// Light on a surface at `world` with the normal `normal`, in the shadow of the lights in `dark`, that sees `open` of
+// the sky.
 fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32, open: Openness) -> vec3<f32> {
     if (parts[part].flags & PART_UNLIT) != 0u { return vec3<f32>(1.0); }
     let lit = coordinate_under(world, normal, dark, open);
@@ -163,19 +162,19 @@ fn angle_ramp(facing: f32, threshold: f32, softness: f32) -> f32 {
     return 1.0 - smooth_step(threshold - half, threshold + half, abs(facing));
 }
 
-// 1 up to `widest_px` from the contour of a surface, 0 farther away, where N . E is `facing` and changes by `change`
-// a pixel.
+// 1 within `widest_px` of the contour of a surface, else 0, at a place where N . E is `facing` and changes by `change`
+// per pixel.
 fn not_flat(facing: f32, change: f32, widest_px: f32) -> f32 {
     let distance = max(facing, 0.0) * 0.5 / max(change, 1e-9);
     return clamp(widest_px - distance + 0.5, 0.0, 1.0);
 }
 
-// How dark the line of the surface-angle method is on a surface at a place of the frame, 0..1.
+// How dark the surface-angle method's line is at a place of a surface, 0..1.
 fn grazing(triangle: Triangle, corners: Corners, px: vec2<f32>) -> f32 {
     let part = triangle.part;
     if (parts[part].flags & PART_ANGLE) == 0u || (compose.flags & COMPOSE_BARE) != 0u { return 0.0; }
     let around = weights_around(corners.clip, ndc_at(view, px), pixel_ndc(view));
-    // The eye is that of the place: so the normal alone turns, and on flat faces nothing does.
+    // Keep the eye of the place: so only the normal turns, and on flat faces nothing does.
     let eye = to_eye(view, world_of(corners, around[0]));
     let here = dot(normal_of(corners, around[0]), eye);
     let right = dot(normal_of(corners, around[1]), eye);
@@ -187,7 +186,7 @@ fn grazing(triangle: Triangle, corners: Corners, px: vec2<f32>) -> f32 {
     return angle_ramp(here, parts[part].facing_threshold, compose.angle_softness) * not_flat(here, change, widest_px);
 }
 
-// A lit surface under so much ink, 0..1.
+// A lit surface with the share `share` of ink over it, 0..1.
 fn inked(part: u32, lit: vec3<f32>, share: f32) -> vec3<f32> {
     let ink = parts[part].ink_color;
     return lit + (ink.rgb - lit) * (share * ink.a);
@@ -203,17 +202,17 @@ fn sample_offset(i: u32) -> vec2<f32> {
     return vec2<f32>(f32(i & 1u), f32(i >> 1u)) * 0.5 - 0.25;
 }
 
-// Ink of a surface, summed over samples: where no shadow ends, all share that of the first.
+// Ink of a surface, summed over samples: samples in the same shadows share one value.
 struct InkSum {
     any: bool,
-    // Lights whose shadow fell on the last sample, and its ink.
+    // The lights whose shadow fell on the last sample, and the ink there.
     dark: u32,
     last: f32,
     first: f32,
     mean: f32,
 }
 
-// A line's colour as it minds what lies behind it there.
+// The colour of a line, adapted to what lies behind it at a pixel.
 fn contrasted(line: vec3<f32>, frame_px: vec2<f32>) -> vec3<f32> {
     if (compose.flags & COMPOSE_BACKDROP) == 0u { return line; }
     let pixel = pixel_at(window, frame_px);
@@ -231,13 +230,13 @@ fn contrasted(line: vec3<f32>, frame_px: vec2<f32>) -> vec3<f32> {
     return line + (adapted - line) * front.a;
 }
 
-// What the samples in `members` show of a triangle, and how much of it a line covers.
+// Light of the samples in `members` on a triangle, and the share of it that a line covers.
 struct Drawn {
     light: vec3<f32>,
     lined: f32,
 }
 
-// Light of what the samples in `members` show, a triangle or its hull.
+// Light of the samples in `members`, which show a triangle or its hull.
 fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
     let triangle = triangles[(id & ID_MASK) - 1u];
     let corners = corners_of(triangle);
@@ -257,7 +256,7 @@ fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
     return drawn.light + (line - drawn.light) * drawn.lined;
 }
 
-// Light of a triangle, `center` being the middle of its samples.
+// Light of a triangle; `center` is the middle of its samples.
 fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, corners: Corners) -> Drawn {
     let triangle = triangles[id - 1u];
     let part = triangle.part;
@@ -278,7 +277,7 @@ fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, 
     var light = select(vec3<f32>(0.0), even.light, even.is_so);
     var lined = 0.0;
     var ink: InkSum;
-    // Where one place stands for all, the first sample asks for its ink and the others for nothing.
+    // If one place stands for all samples, only the first of them is shaded.
     for (var i = 0u; i < 4u; i++) {
         if (members & (1u << i)) == 0u { continue; }
         var dark = 0u;
@@ -313,7 +312,7 @@ fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, 
     return drawn;
 }
 
-// The surfaces of a pixel but for what smoke hides of them, premultiplied.
+// The surfaces of a pixel without the shares that smoke hides, premultiplied.
 fn surfaces(pixel: vec2<u32>, smoke_layer: SmokeLayer, frame_px: vec2<f32>) -> vec4<f32> {
     var hidden = smoke_layer.hidden;
     var seen: array<u32, 4>;
@@ -349,7 +348,7 @@ fn background(frame_px: vec2<f32>) -> vec4<f32> {
     if compose.background_texture != NONE {
         let at = compose.background_texture;
         let size = vec2<f32>(f32(texels[at]), f32(texels[at + 1u]));
-        // Cover the frame, centred, like a poster that is cut at two sides.
+        // Cover the frame with the picture, centred and cut at two sides.
         let zoom = max(view.frame_px.x / size.x, view.frame_px.y / size.y);
         let uv = (frame_px - 0.5 * view.frame_px) / (size * zoom) + 0.5;
         color = sample_texture(at, uv, 1.0 / (max(size.x, size.y) * zoom));

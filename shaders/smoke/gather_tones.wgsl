@@ -1,4 +1,4 @@
-// smoke.gather_tones: every layer's tones added up in the cells of its grid, as parts of a whole cell.
+// smoke.gather_tones: sums every layer's tones in the cells of its grid, as fractions of a whole cell.
 //
 // Grids lie row by row, in each row layer by layer.
 //

@@ -1,6 +1,6 @@
 // smoke.project_spheres: every sphere as an eye or a light sees it.
 //
-// Not drawn: what has no size, what is no number, what lies behind the eye, and what the eye is inside of.
+// Not drawn: spheres without size, with NaN, behind the eye, or around the eye.
 //
 // Twin    npr_style::smoke::draw::project_spheres
 //
@@ -14,7 +14,7 @@ override WG: u32 = 64u;
 @group(0) @binding(1) var<storage, read> spheres: array<Sphere>;
 @group(0) @binding(2) var<storage, read_write> balls: array<ViewSphere>;
 
-// Farthest that a sphere may lie from the eye and still be drawn.
+// Greatest distance from the eye at which a sphere is drawn.
 const REACH: f32 = 1e15;
 // A normalised coordinate beyond any frame.
 const BEYOND: f32 = 4.0;

@@ -1,8 +1,8 @@
 // smoke.resolve_picture: tones and outlines of every pixel, and which of its samples the smoke covers.
 //
-// Colours are sRGB with straight alpha; depths are the bits of a float whose low four say
-// which samples are covered. Most pixels show one sphere; where several meet, or smoke ends, the
-// spheres of the nine pixels around are asked for every sample.
+// Colours are sRGB with straight alpha; depths are the bits of a float whose low four say which samples are covered.
+// Most pixels show one sphere; where several meet or smoke ends, the spheres of the nine pixels around are tested for
+// every sample.
 //
 // Source  Hoshino 2004, sections 3.4 and 3.5
 // Twin    npr_style::smoke::resolve::resolve
@@ -38,7 +38,7 @@ struct Drawn {
     depth: u32,
 }
 
-// Itself first, then those beside it.
+// Offset of the `k`th pixel of a neighbourhood: itself first, then those beside it.
 fn around(k: u32) -> vec2<i32> {
     switch k {
         case 0u: { return vec2<i32>(0, 0); }
@@ -67,7 +67,7 @@ fn with_mask(depth: f32, mask: u32) -> u32 {
     return (bitcast<u32>(depth) & ~SMOKE_MASK) | mask;
 }
 
-// The colour of a tone that changes by `slope` a pixel: steps are as wide as a pixel, or softer.
+// Colour of a tone that changes by `slope` per pixel: steps are as wide as a pixel, or softer.
 fn color_of(tone: f32, slope: f32) -> vec3<f32> {
     let width = max(max(look.softness, slope), 1e-6);
     var color = look.ramp[0].rgb;
@@ -79,7 +79,7 @@ fn color_of(tone: f32, slope: f32) -> vec3<f32> {
     return color;
 }
 
-// A colour with a line over it that covers `line` of it.
+// A colour under a line that covers `line` of it.
 fn under_line(color: vec4<f32>, line: f32) -> vec4<f32> {
     let top = line * look.line_color.a;
     let alpha = top + color.a * (1.0 - top);
@@ -87,7 +87,7 @@ fn under_line(color: vec4<f32>, line: f32) -> vec4<f32> {
     return vec4<f32>(color.rgb + (look.line_color.rgb - color.rgb) * part, alpha);
 }
 
-// Change of tone from pixel to pixel of three in a row, among those of the same layer.
+// Change of tone per pixel over three pixels in a row, among those of the same layer.
 fn change(before: u32, here: u32, after: u32) -> f32 {
     let place = pixels[here].place;
     let has_before = before != here && abs(pixels[before].place - place) < 0.5;
@@ -98,7 +98,7 @@ fn change(before: u32, here: u32, after: u32) -> f32 {
     return 0.0;
 }
 
-// How fast the smoothed tone changes at a pixel, per pixel.
+// Change of the smoothed tone per pixel.
 fn slope_at(pixel: vec2<i32>) -> f32 {
     let here = texel_near(pixel, vec2<i32>(0));
     let across = change(texel_near(pixel, vec2<i32>(-1, 0)), here, texel_near(pixel, vec2<i32>(1, 0)));
@@ -106,13 +106,13 @@ fn slope_at(pixel: vec2<i32>) -> f32 {
     return sqrt(across * across + down * down);
 }
 
-// Tone and line of sphere `id` at a place, with the tone of a pixel that shows it.
+// Tone and line of sphere `id` at a position; the tone is that of a pixel which shows it.
 fn paint(id: u32, pixel: vec2<i32>, frame_px: vec2<f32>) -> vec4<f32> {
     let tone = tones[texel_near(pixel, vec2<i32>(0))];
     return under_line(vec4<f32>(color_of(tone, slope_at(pixel)), look.alpha), line_at(id, frame_px));
 }
 
-// As published: one tone a pixel, lines from differences of depth.
+// As published: one tone per pixel, and lines from differences of depth.
 fn published(pixel: vec2<i32>, id: u32) -> Drawn {
     var drawn: Drawn;
     let line = published_line(pixel);
@@ -146,7 +146,7 @@ fn draw(pixel: vec2<i32>) -> Drawn {
         drawn.depth = with_mask(pixels[texel_near(pixel, vec2<i32>(0))].depth, SMOKE_MASK);
         return drawn;
     }
-    // Find the sphere nearest to the eye in every sample, among those around.
+    // Find the nearest sphere in every sample, among those of the nine pixels.
     var owners: array<u32, 4>;
     let count = look.samples * look.samples;
     for (var i = 0u; i < count; i++) {
@@ -162,7 +162,7 @@ fn draw(pixel: vec2<i32>) -> Drawn {
             }
         }
     }
-    // Blend what they show.
+    // Blend the colours of the samples.
     var sum = vec4<f32>(0.0);
     var covered = 0.0;
     var mask = 0u;

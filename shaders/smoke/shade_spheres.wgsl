@@ -1,4 +1,4 @@
-// smoke.shade_spheres: light on spheres, and the layer that each is smoothed in.
+// smoke.shade_spheres: light on spheres, and the layer in which each is smoothed.
 //
 // Source  Hoshino 2004, sections 3.2 and 3.3
 // Twin    npr_style::smoke::shade::shade_spheres
@@ -41,7 +41,7 @@ fn shadow_texel(map: u32, at: vec2<u32>) -> u32 {
     }
 }
 
-// Whether the sphere that the light sees in the texel of a place stands between the two.
+// Whether the sphere that the light sees in the texel of a place lies between place and light.
 fn is_dark(own: u32, light: u32, world: vec3<f32>, towards: vec3<f32>) -> bool {
     if look.shadow_side == 0u || lights.sources[light].shadow == 0u { return false; }
     let map = lights.sources[light].shadow - 1u;
@@ -66,7 +66,7 @@ fn surface_texel(map: u32, at: vec2<u32>) -> f32 {
     }
 }
 
-// Whether a surface stands between a place and a light.
+// Whether a surface lies between a place and a light.
 fn is_behind_surface(light: u32, world: vec3<f32>) -> bool {
     let number = lights.sources[light].shadow;
     if number == 0u || number > look.surface_maps { return false; }
@@ -82,7 +82,7 @@ fn is_behind_surface(light: u32, world: vec3<f32>) -> bool {
     ));
 }
 
-// Light on a place of sphere `id` that faces along `normal`, 0..1.
+// Light on a place of sphere `id` with the normal `normal`, 0..1.
 fn light_at(id: u32, world: vec3<f32>, normal: vec3<f32>) -> f32 {
     var sum = look.ambient;
     for (var i = 0u; i < lights.count; i++) {

@@ -21,7 +21,7 @@ fn weight_of(i: u32) -> f32 {
     return look.kernel[i / 4u][i % 4u];
 }
 
-// The published double sum.
+// The sums of the published method, over all pixels in reach.
 fn window_sum(x: u32, y: u32, layer: u32) -> vec2<f32> {
     let taps = look.taps;
     let left = max(x, taps) - taps;
@@ -41,7 +41,7 @@ fn window_sum(x: u32, y: u32, layer: u32) -> vec2<f32> {
     return sum;
 }
 
-// Weights of four cells for a place `t` of the way from the second to the third: the cubic B-spline.
+// Weights of four cells for a place `t` of the way from the second to the third, by the cubic B-spline.
 fn spline(t: f32) -> vec4<f32> {
     let s = 1.0 - t;
     return vec4<f32>(
@@ -52,7 +52,7 @@ fn spline(t: f32) -> vec4<f32> {
     );
 }
 
-// What lies between the sixteen cells around a pixel.
+// The sums between the sixteen cells around a pixel.
 fn grid_sum(x: u32, y: u32, layer: u32) -> vec2<f32> {
     let cell = f32(1u << look.shift);
     let at = (vec2<f32>(f32(x), f32(y)) + 0.5) / cell - 0.5;
@@ -71,7 +71,7 @@ fn grid_sum(x: u32, y: u32, layer: u32) -> vec2<f32> {
     return sum;
 }
 
-// The mean of a layer around a pixel; `own` where nothing of it is near.
+// The mean tone of a layer around a pixel; `own` if nothing of the layer is near.
 fn mean_of(x: u32, y: u32, layer: u32, own: f32) -> f32 {
     var sum: vec2<f32>;
     if look.shift == 0u { sum = window_sum(x, y, layer); } else { sum = grid_sum(x, y, layer); }

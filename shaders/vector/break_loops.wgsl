@@ -1,13 +1,12 @@
 // vector.break_loops: one round of finding the head of every chain.
 //
-// Each element looks where it points, takes over what is seen from there, and
-// points where that one points: what is seen doubles every round. The host runs
-// log2(n) rounds, swapping the two buffers in between.
+// Each element takes over what is found from the end of its reach on, and extends its reach to where that one ends: it
+// doubles every round. The host runs log2(n) rounds, swapping the two buffers in between.
 //
 // Source  Jiang et al. 2022, loop breaking
 // Twin    npr_vector::rank::jump::break_loops
-// Differs: the least hash of a mesh key becomes the head, not the greatest place
-// in the picture, so loops start at the same place in every frame.
+// Differs: the head is the node with the least hash of its mesh key, not the one at the greatest place in the picture,
+// so loops start at the same place in every frame.
 //
 //# use lib/grid
 //# use lib/list

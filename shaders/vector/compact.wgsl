@@ -1,6 +1,6 @@
 // vector.compact: writes the indices of marked elements in a row.
 //
-// Where each goes is the scan of the marks, so the order never changes.
+// The place of each is the scan of the marks, so the order never changes.
 //
 // Source  Hillis & Steele 1986
 // Twin    npr_vector::rank::scan::compact

@@ -1,4 +1,4 @@
-// vector.cull_sides: keeps the sides along which a loop runs as the contour does.
+// vector.cull_sides: keeps the sides at which a loop runs in the direction of the contour.
 //
 // Source  Jiang et al. 2022, orientation culling
 // Twin    npr_vector::pixel_strokes::strip::cull_sides

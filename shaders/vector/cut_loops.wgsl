@@ -1,4 +1,4 @@
-// vector.cut_loops: makes an element the first of its chain where it knows its chain's head.
+// vector.cut_loops: makes an element the first of its chain if its own first reach holds the chain's head.
 //
 // Source  Jiang et al. 2022, loop breaking
 // Twin    npr_vector::rank::jump::cut_loops

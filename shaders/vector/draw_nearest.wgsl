@@ -1,6 +1,6 @@
-// vector.draw_nearest: the nearest fragment of every pixel that shows, as the number of its segment plus one.
+// vector.draw_nearest: the number, plus one, of the segment with the nearest visible fragment at every pixel.
 //
-// A triangle around the middle of one pixel each. Of fragments at one depth the first wins.
+// Each fragment is a triangle around the middle of one pixel. Of fragments at equal depth the first wins.
 //
 // Source  Jiang et al. 2022, hard visibility test
 // Twin    npr_vector::pixel_strokes::fragment::draw_nearest
@@ -25,7 +25,7 @@ struct Seen {
     @builtin(frag_depth) depth: f32,
 }
 
-// Three vertices per fragment; what does not show collapses to a point.
+// Three vertices per fragment; fragments that do not show collapse to a point.
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Passed {
     var passed: Passed;

@@ -12,7 +12,7 @@
 @group(0) @binding(1) var<storage, read> positions: array<f32>;
 @group(0) @binding(2) var<storage, read> half_edges: array<HalfEdge>;
 
-// One vertex for each half-edge: the one that it runs from.
+// One vertex for each half-edge: its tail.
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
     let at = 3u * half_edges[index].tail;

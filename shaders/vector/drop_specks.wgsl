@@ -1,6 +1,6 @@
 // vector.drop_specks: marks the sides of all loops that are no specks.
 //
-// The area of a loop is a difference of the scan of what its sides add to it.
+// The area of a loop is a difference of two sums in the scan of its sides' shares.
 //
 // Source  Jiang et al. 2022, despeckling
 // Twin    npr_vector::pixel_strokes::looped::drop_specks

@@ -48,7 +48,7 @@ fn main(
     let length = select(extent_px.y, extent_px.x, is_x_major);
     let sign = select(1.0, -1.0, length < 0.0);
     let center = floor(start) + sign * f32(step) + 0.5;
-    // A segment of no length is its first point.
+    // A segment without length is its first point.
     var share = 0.0;
     if length != 0.0 {
         share = clamp(rounded(view, rounded(view, center - start) * reciprocal(view, length)), 0.0, 1.0);

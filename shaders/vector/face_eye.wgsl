@@ -1,7 +1,7 @@
 // vector.face_eye: whether each face is turned to the eye.
 //
-// A face without area takes over the orientation of its judge. Signs come from
-// sums, differences and products that are rounded one by one, so both engines decide alike.
+// Whether a face is front is decided on its judge, another face if it has no area itself. Signs come from sums,
+// differences and products that are rounded one by one, so both engines decide alike.
 //
 // Source  Jiang et al. 2022, contour extraction
 // Twin    npr_vector::mesh_lines::contour::steps::face_eye

@@ -1,4 +1,4 @@
-// vector.filter_visibility: every sample shows what the last clear sample up to it shows.
+// vector.filter_visibility: gives every sample the verdict of the last clear sample up to it.
 //
 // The first sample of a line is clear, so no line looks beyond its start.
 //

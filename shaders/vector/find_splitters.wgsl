@@ -1,7 +1,6 @@
-// vector.find_splitters: marks the nodes that the others count from.
+// vector.find_splitters: marks the splitters, nodes that all others count from.
 //
-// A node is a splitter when its hash is the least in a window of its list, or
-// when a list starts with it.
+// A node is a splitter if its hash is the least in a window of its list, or if a list starts with it.
 //
 // Source  Helman & JaJa 1999; Rehman et al. 2009
 // Twin    npr_vector::rank::splitter::find_splitters

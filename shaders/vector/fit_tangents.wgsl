@@ -30,7 +30,7 @@ fn slope(normal: Normal) -> Planar {
     var a = 1.0;
     var b = 0.0;
     var d = max(normal.ss, LEAST_SQUARE);
-    // With next to no places a straight line is all that fits.
+    // If the places hardly differ, only a straight line can be fitted.
     if determinant > 1e-4 * whole {
         a = normal.qq;
         b = normal.sq;

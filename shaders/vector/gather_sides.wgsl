@@ -1,4 +1,4 @@
-// vector.gather_sides: puts what is known of sides in the order of loops.
+// vector.gather_sides: puts the place, direction and area of every side in the order of loops.
 //
 // Twin    npr_vector::pixel_strokes::looped::gather_sides
 //
@@ -40,7 +40,7 @@ fn main(
         select(0.5, select(0.0, 1.0, way == 2u), (way & 1u) == 0u));
     places[element].x = f32(at.x) + middle.x;
     places[element].y = f32(at.y) + middle.y;
-    // Sums of the heights of lower sides less those of upper ones.
+    // The area is the sum of the heights of lower sides minus that of upper ones.
     areas[element] = select(select(0u, at.y + 1u, way == 2u), ~at.y + 1u, way == 0u);
     var direction: Planar;
     let owner = textureLoad(owners, at, 0).r;

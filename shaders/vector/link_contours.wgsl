@@ -1,7 +1,7 @@
 // vector.link_contours: makes a node of every marked half-edge and links it to the one that starts where it ends.
 //
-// Turning round a vertex through front faces leads out of each sector of them
-// where one way leads in, so all lines are closed and no node is shared.
+// Turning round a vertex through front faces leads out of each wedge of them at one half-edge and into it at one, so
+// all lines are closed and no node is shared.
 //
 // Source  Hertzmann & Zorin 2000, mesh contours
 // Twin    npr_vector::mesh_lines::contour::steps::link_contours
@@ -22,10 +22,10 @@ override WG: u32 = 64u;
 @group(0) @binding(6) var<storage, read> positions: array<f32>;
 @group(0) @binding(7) var<storage, read_write> nodes: array<CurveNode>;
 
-// The marked half-edge that starts where this one ends, around the same sector of front faces.
+// The marked half-edge that starts where this one ends, around the same wedge of front faces.
 fn successor(half_edge: u32) -> u32 {
     var next = following(half_edge);
-    // A shape's twins lead to a marked half-edge; the bound is for what is no shape.
+    // On a shape, twins lead to a marked half-edge; the bound is for meshes that are no shape.
     for (var turn = 0u; turn < arrayLength(&half_edges); turn++) {
         if flags[next] != 0u { break; }
         next = following(half_edges[next].twin);
@@ -74,6 +74,6 @@ fn main(
     nodes[element].next = next;
     nodes[element].flags = flags_of(half_edge);
     nodes[element].face = half_edge / 3u;
-    // No two nodes have one successor, so nobody else writes this.
+    // No two nodes have the same successor, so no other invocation writes this.
     if next < count { nodes[next].prev = element; }
 }

@@ -1,6 +1,6 @@
-// vector.link_sides: links every side of ink to those before and after it.
+// vector.link_sides: links every side of ink to the sides before and after it.
 //
-// Two pixels ahead decide: ink joined by a corner is joined.
+// Two pixels ahead decide: pixels of ink that touch at a corner count as joined.
 //
 // Source  Selinger 2003, path decomposition; Jiang et al. 2022
 // Twin    npr_vector::pixel_strokes::side::link_sides
@@ -20,7 +20,7 @@ override WG: u32 = 64u;
 
 //# use lib/holder
 
-// The place of the bit of a mask before which as many others are set.
+// The place of the set bit of a mask before which `rank` others are set.
 fn nth_bit(mask: u32, rank: u32) -> u32 {
     var left = rank;
     var found = 0u;
@@ -42,7 +42,7 @@ fn index_of(at: vec2<i32>, direction: u32) -> u32 {
     return starts[pixel] + countOneBits(before);
 }
 
-// The side that goes on where one ends (turn 3), or with a sign of -1 and turn 1 the one that ends where it starts.
+// The side that follows where one ends (turn 3); with a sign of -1 and turn 1, the side that ends where it starts.
 fn neighbour(at: vec2<i32>, direction: u32, sign: i32, turn: u32) -> u32 {
     let along = ahead_of(direction) * sign;
     let beside = at + along + outward(direction);
@@ -51,7 +51,7 @@ fn neighbour(at: vec2<i32>, direction: u32, sign: i32, turn: u32) -> u32 {
     return index_of(at, (direction + 4u - turn) & 3u);
 }
 
-// Bits of two 16-bit numbers in turns, those of the first lowest.
+// The bits of two 16-bit numbers interleaved, those of the first lowest.
 fn spread(number: u32) -> u32 {
     var v = number & 0xffffu;
     v = (v | (v << 8u)) & 0x00ff00ffu;
@@ -60,7 +60,7 @@ fn spread(number: u32) -> u32 {
     return (v | (v << 1u)) & 0x55555555u;
 }
 
-// The number that mix_bits makes this one of.
+// The number from which mix_bits makes this one.
 fn unmix_bits(number: u32) -> u32 {
     var x = number;
     x = (x ^ (x >> 16u)) * 0x43021123u;

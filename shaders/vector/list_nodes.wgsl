@@ -1,7 +1,7 @@
 // vector.list_nodes: the links of nodes, as ranking reads them.
 //
-// Behind the nodes every element is a loop of its own, which comes after all lines.
-// Where there was no room for all nodes, links would lead nowhere, and all are loops.
+// Each element after the last node becomes a loop of its own, which comes after all lines. If there was no room for all
+// nodes, links would lead nowhere, and all elements become such loops.
 //
 // Source  Jiang et al. 2022, serialisation
 // Twin    npr_vector::mesh_lines::contour::steps::list_nodes

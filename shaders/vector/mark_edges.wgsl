@@ -1,6 +1,6 @@
-// vector.mark_edges: which edges are drawn, as what, and which way round.
+// vector.mark_edges: the kind and direction of every edge that is drawn.
 //
-// Edges run as the face turned to the eye is wound.
+// Edges run in the winding of the face that is turned to the eye.
 //
 // Source  Jiang et al. 2022, contour extraction
 // Twin    npr_vector::pixel_strokes::edge::mark_edges
@@ -33,7 +33,7 @@ fn is_concave(edge: DrawnEdge) -> bool {
     return settled_dot(viewer, settle(viewer, settled_cross(viewer, head, own)), across) > 0.0;
 }
 
-// The kind and the direction of an edge; 0 where it is not drawn.
+// The kind and the direction of an edge; 0 if it is not drawn.
 fn mark_of(edge: DrawnEdge) -> u32 {
     if (edge.bits & EDGE_POLYLINE) != 0u { return edge.bits & view.wanted & KINDS; }
     if edge.face == NONE { return 0u; }

@@ -1,6 +1,6 @@
-// vector.measure_chains: the last node before a cut tells the head how long the chain is.
+// vector.measure_chains: writes the length of every chain at its head, from the last node before a cut.
 //
-// Only heads get a length; the others keep what was there.
+// Only heads get a length; all other entries keep their values.
 //
 // Source  Jiang et al. 2022, serialisation
 // Twin    npr_vector::rank::place::measure_chains

@@ -1,4 +1,4 @@
-// vector.measure_strips: the last side of every strip tells its first how many there are.
+// vector.measure_strips: writes the length of every strip at its first side, from its last.
 //
 // Source  Jiang et al. 2022, segmentation by segmented scan
 // Twin    npr_vector::pixel_strokes::strip::measure_strips
@@ -26,7 +26,7 @@ fn main(
     let strip = strips[element];
     if strip.start == NONE { return; }
     let next = after(spots[element], element);
-    // Around a loop that is one strip, the first comes after the last. A strip has one last side, so nobody else
-    // writes this.
+    // In a loop that is one strip, the first side comes after the last. A strip has one last side, so no other
+    // invocation writes this.
     if kept[next] == 0u || next == strip.start { lengths[strip.start] = strip.rank + 1u; }
 }

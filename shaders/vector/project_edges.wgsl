@@ -1,6 +1,6 @@
-// vector.project_edges: cuts each edge drawn to the view's six planes, projects it, and counts its fragments.
+// vector.project_edges: clips each drawn edge to the six planes of the view, projects it, and counts its fragments.
 //
-// Every sum and product is rounded by itself, so segments are those of the twin bit for bit.
+// Every sum and product is rounded on its own, so segments have the bits of the twin.
 //
 // Source  Liang & Barsky 1984; Jiang et al. 2022, line rasterisation, first pass
 // Twin    npr_vector::pixel_strokes::segment::project_edges

@@ -1,8 +1,7 @@
 // vector.rank_jump: one round of Wyllie's list ranking.
 //
-// Each element looks where its hop leads and adds that hop to its own, so the
-// reach doubles every round. The host runs log2(n) rounds, swapping the two
-// buffers in between.
+// Each element adds to its hop the one from where it leads, so hops double every round. The host runs log2(n) rounds,
+// swapping the two buffers in between.
 //
 // Source  Wyllie 1979; Jiang et al. 2022, serialisation
 // Twin    npr_vector::rank::jump::rank_jump

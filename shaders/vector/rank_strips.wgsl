@@ -1,4 +1,4 @@
-// vector.rank_strips: ranks the sides of all strips, which may pass the place where their loop's list starts.
+// vector.rank_strips: ranks the sides of all strips, which may run across the start of their loop's list.
 //
 // Source  Jiang et al. 2022, segmentation by segmented scan
 // Twin    npr_vector::pixel_strokes::strip::rank_strips

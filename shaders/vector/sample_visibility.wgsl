@@ -1,4 +1,4 @@
-// vector.sample_visibility: the share of places beside each sample of a line at which no surface lies in front of it.
+// vector.sample_visibility: the share of places beside each sample at which no surface lies in front of it.
 //
 // Source  Cole & Finkelstein 2010
 // Twin    npr_vector::mesh_lines::sample::sample_visibility
@@ -17,7 +17,7 @@ override WG: u32 = 64u;
 @group(0) @binding(4) var<storage, read_write> shares: array<f32>;
 
 const TAP_COUNT: u32 = 4u;
-// From one place that is looked at to the next, in grid pixels.
+// Distance from one of these places to the next, in grid pixels.
 const TAP_STEP_PX: f32 = 0.75;
 const SLOPE_PIXELS: f32 = 0.5;
 const LARGEST_SLOPE: f32 = 2.0;
@@ -26,7 +26,7 @@ const DEPTH_ROUNDING: f32 = 1.0 / 65536.0;
 // Depth of a pixel's plane at a place beside the pixel's centre.
 fn depth_at(pixel: GPixel, at: vec2<u32>, at_px: vec2<f32>) -> f32 {
     let centre_px = frame_at(window, at);
-    // Beyond the pixel, as outside the grid, its plane says nothing.
+    // Beyond the pixel, as outside the grid, its plane does not hold.
     let off = clamp((at_px - centre_px) / window.frame_step, vec2<f32>(-0.5), vec2<f32>(0.5));
     let change = off.x * pixel.plane_step.x + off.y * pixel.plane_step.y;
     let coordinate = plane_coordinate(view, pixel.depth) + change;

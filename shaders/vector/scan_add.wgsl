@@ -1,4 +1,4 @@
-// vector.scan_add: adds to every prefix what comes before its block.
+// vector.scan_add: adds to every prefix the sum of all blocks before its own.
 //
 // Source  Hillis & Steele 1986
 // Twin    npr_vector::rank::scan::scan_add

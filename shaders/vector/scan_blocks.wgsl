@@ -1,7 +1,7 @@
-// vector.scan_blocks: within each workgroup, the sum of all values before; and the sum of the workgroup.
+// vector.scan_blocks: in each workgroup, the sums of all values before each one, and the sum of all.
 //
-// Zeros follow the last sum up to a whole block, so that the next level may add up
-// whole blocks however many workgroups ran.
+// Zeros follow the last sum up to a whole block, so that the next level may sum whole blocks however many workgroups
+// ran.
 //
 // Source  Hillis & Steele 1986
 // Twin    npr_vector::rank::scan::scan_blocks
@@ -31,7 +31,7 @@ fn main(
     var value = 0u;
     if is_inside { value = values[element]; }
 
-    // Each invocation of the first workgroup clears a sum that nobody writes, if it lies in the last block.
+    // Each invocation of the first workgroup clears a sum that no workgroup writes, if it lies in the last block.
     let group_count = nwg.x * nwg.y;
     let behind = group_count + lid.x;
     let is_last_block = behind / BLOCK == (group_count - 1u) / BLOCK;
@@ -51,7 +51,7 @@ fn main(
         there = swapped;
     }
 
-    // A workgroup past the end, where workgroups come in rows, has nothing to write.
+    // If workgroups come in rows, one past the end has nothing to write.
     if !is_inside { return; }
     prefixes[element] = running[here + lid.x] - value;
     if lid.x == 0u { sums[element / BLOCK] = running[here + BLOCK - 1u]; }

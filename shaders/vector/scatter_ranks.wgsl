@@ -1,8 +1,7 @@
-// vector.scatter_ranks: passes on to nodes what the elements know that they hang on.
+// vector.scatter_ranks: gives nodes what is known of the elements that they count from.
 //
-// A node is unsettled where its element disagrees with the one before about the
-// head of their chain, where that element's hop does not lead to the first of the
-// chain, or where it hangs on none.
+// A node is unsettled if its element disagrees with the one before about the head of their chain, if that element's hop
+// does not lead to the first of the chain, or if it counts from no element.
 //
 // Source  Helman & JaJa 1999; Rehman et al. 2009
 // Twin    npr_vector::rank::place::scatter_ranks

@@ -1,7 +1,7 @@
-// vector.size_work: turns the length of a list into the sizes of all passes that follow it.
+// vector.size_work: turns the length of a list into the indirect arguments of all passes that work on it.
 //
-// Lengths beyond the room count as the room. Workgroups past 65535 come in rows.
-// Rounds of ranking that nothing is left for get no workgroups.
+// Lengths beyond the room count as the room. Workgroups past 65535 come in rows. Rounds of ranking that would change
+// nothing get no workgroups.
 //
 // Source  Jiang et al. 2022, indirect dispatches
 // Twin    npr_vector::rank::work::size_work
@@ -32,7 +32,7 @@ struct WorkRule {
 @group(0) @binding(1) var<storage, read> extent: array<u32>;
 @group(0) @binding(2) var<storage, read_write> arguments: array<Arguments>;
 
-// Workgroups in x and y for a number of elements, at least one: rows of equal width.
+// Workgroups in x and y for a number of elements, at least one, in rows of equal width.
 fn groups_for(element_count: u32) -> vec2<u32> {
     let whole = element_count / BLOCK;
     let groups = max(whole + select(0u, 1u, element_count % BLOCK != 0u), 1u);
@@ -40,14 +40,14 @@ fn groups_for(element_count: u32) -> vec2<u32> {
     return vec2<u32>((groups + rows - 1u) / rows, rows);
 }
 
-// Workgroups over the elements, over a sum for each of these workgroups, and so on.
+// Workgroups at a level: over the elements, over the sums of these workgroups, and so on.
 fn groups_of_level(count: u32, level: u32) -> vec2<u32> {
     var groups = groups_for(count);
     for (var above = 0u; above < level; above++) { groups = groups_for(groups.x * groups.y); }
     return groups;
 }
 
-// Rounds that are run of those that are planned; the last must write the buffer that the last of all would.
+// How many of the planned rounds are run; odd or even as planned, so that the result is in the same buffer.
 fn rounds_run(round_count: u32, count: u32) -> u32 {
     let needed = max(rounds_for(count), 1u);
     let run = needed + ((needed ^ round_count) & 1u);

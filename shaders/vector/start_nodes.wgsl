@@ -1,4 +1,4 @@
-// vector.start_nodes: every node of a list looks at its predecessor.
+// vector.start_nodes: gives every node of a list a first hop and reach to its predecessor.
 //
 // Source  Jiang et al. 2022, loop breaking
 // Twin    npr_vector::rank::jump::start_nodes

@@ -1,4 +1,4 @@
-// vector.start_splitters: every splitter looks at the one before it.
+// vector.start_splitters: gives every splitter a first hop and reach to the one before it.
 //
 // On the way back it finds the least of the nodes in between, since any of them
 // may be the head of the chain.
@@ -38,7 +38,7 @@ fn main(
     var dist = 0u;
     if link.prev != NONE {
         let before = walks[link.prev];
-        // A walk that was too long is reported by the node that walked it.
+        // A walk that was too long is reported by its own node.
         if before.slot != NONE {
             found.far = before.slot;
             dist = before.steps + 1u;

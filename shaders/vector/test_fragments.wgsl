@@ -14,7 +14,8 @@ override WG: u32 = 64u;
 @group(0) @binding(3) var<storage, read> fragments: array<Fragment>;
 @group(0) @binding(4) var<storage, read_write> shown: array<u32>;
 
-// Reversed depth of what hides lines at a pixel. A occluder depths of another size than the picture is none.
+// Reversed depth of the surface that hides lines at a pixel; occluder depths of another size than the picture count as
+// none.
 fn hidden_behind(at: vec2<u32>) -> f32 {
     let z = bitcast<f32>(textureLoad(surfaces, at, 0).x);
     if any(textureDimensions(occluder_depths) != textureDimensions(surfaces)) { return z; }

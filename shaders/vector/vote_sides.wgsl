@@ -1,4 +1,4 @@
-// vector.vote_sides: lets the sides around each decide whether it is kept.
+// vector.vote_sides: lets the sides around each one vote on whether it is kept.
 //
 // Source  Jiang et al. 2022, orientation culling
 // Twin    npr_vector::pixel_strokes::strip::vote_sides

@@ -1,4 +1,4 @@
-// vector.walk_to_splitter: every node counts back to the nearest splitter, or to itself.
+// vector.walk_to_splitter: counts the links from every node back to the nearest splitter, 0 from a splitter.
 //
 // A walk longer than WALK_LIMIT is given up and reported, so that no input stops the device.
 //

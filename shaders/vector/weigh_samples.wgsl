@@ -1,5 +1,4 @@
-// vector.weigh_samples: whether the mean share around each sample makes its line visible there, and whether that is
-// clear.
+// vector.weigh_samples: whether each sample is visible by the mean share around it, and whether that verdict is clear.
 //
 // Source  Cole & Finkelstein 2010, filtering along the line
 // Twin    npr_vector::mesh_lines::sample::weigh_samples

@@ -1,4 +1,4 @@
-//! Outlines that mind the background: where a dark sleeve meets a dark wall, its line lifts just enough to read.
+//! Outlines that adapt to the background: where a dark sleeve meets a dark wall, its line lifts just enough to read.
 //!
 //! Two ways. [`published`] is the method of [Tsuji 2014] on two pictures, to compare with. [`adapt`] is ours: it
 //! moves a line's lightness, keeps everything continuous, works on black rims, and leaves alone what already reads.

@@ -1,8 +1,8 @@
 //! Beams of light: laser, flash, explosion, trail.
 //!
-//! A beam is a mesh that is no surface. Its colour hangs on how squarely it faces the eye, T = E . N: low at the rim
-//! of a tube, 1 in its middle [Suzuki 2004, section 3.5]. A ramp over T makes it of one colour, light inside or
-//! strong inside.
+//! A beam is a mesh that is no surface. Its colour depends on how squarely it faces the eye, T = E . N: low at the rim
+//! of a tube, 1 in its middle [Suzuki 2004, section 3.5]. A ramp over T gives it one colour, a light inside or a strong
+//! inside.
 
 use npr_core::geometry::{Part, Triangle};
 use npr_core::raster::ID_MASK;
@@ -15,7 +15,7 @@ use crate::smoke::SmokeLayer;
 /// Most steps of a beam's ramp.
 pub const BEAM_STOPS_MAX: usize = 4;
 
-/// Colour of a beam, linear light with straight alpha, at the place `t` of its ramp, 0 the rim and 1 the middle.
+/// Colour of a beam at place `t` of its ramp, 0 the rim and 1 the middle; linear light, straight alpha.
 pub fn beam_color(part: &Part, t: f32) -> [f32; 4] {
     let colors: &[Level] = bytemuck::cast_slice(&part.ramp);
     let mut alphas = [Level {
@@ -31,7 +31,7 @@ pub fn beam_color(part: &Part, t: f32) -> [f32; 4] {
 }
 
 impl Layers<'_> {
-    /// Lays the beams over a pixel's surfaces, and gives how much of its lines they cover.
+    /// Lays the beams over the surfaces of a pixel, and returns how much of its lines they cover.
     ///
     /// A beam shows in the samples in which it lies before the surface.
     pub(crate) fn add_beams(
@@ -42,7 +42,7 @@ impl Layers<'_> {
         frame_px: [f32; 2],
         color: &mut [f32; 4],
     ) -> f32 {
-        // Find in how many samples each beam shows.
+        // Count the samples in which each beam shows.
         let share = 1.0 / beams.len() as f32;
         let mut glow = [0.0; 4];
         let mut covered = 0.0;
@@ -60,7 +60,7 @@ impl Layers<'_> {
                 .sum::<f32>()
                 * share;
 
-            // Add its light, and what it covers of lines.
+            // Add its light, and its share of the cover over lines.
             let part = self.part_of(id);
             let [r, g, b, a] = beam_color(part, self.beam_place(id, frame_px));
             let added = [r * a, g * a, b * a, a];
@@ -93,7 +93,7 @@ impl Layers<'_> {
         self.depth_of(id, at) < self.depth_of(surface, at)
     }
 
-    /// Depth of the plane of a triangle under a place of the frame.
+    /// Depth of a triangle's plane at a position of the frame.
     pub(crate) fn depth_of(&self, id: u32, frame_px: [f32; 2]) -> f32 {
         let corners = self.triangles[((id & ID_MASK) - 1) as usize]
             .corners

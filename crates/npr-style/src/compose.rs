@@ -22,7 +22,7 @@ pub struct Compose {
     pub line_color: [f32; 4],
     /// Header of the background texture, or [`NONE`](npr_core::geometry::NONE).
     pub background_texture: u32,
-    /// Bits of [`Compose::RIBBONS`] to [`Compose::SMOKE_PEN`].
+    /// Bits of [`Compose::RIBBONS`] to [`Compose::BARE`].
     pub flags: u32,
     /// Strength of surface colours: 0 grey, 1 as they are.
     pub saturation: f32,
@@ -30,7 +30,7 @@ pub struct Compose {
     pub samples: u32,
     /// Unit vector to the right of the picture, in the world: the first axis of shaped highlights.
     pub right_world: [f32; 3],
-    /// Texels along a side of the pictures that lights have of the smoke; 0 where it throws no shadow on surfaces.
+    /// Texels along a side of the lights' depth pictures of the smoke; 0 if it throws no shadow on surfaces.
     pub smoke_shadow_side: u32,
     /// Unit vector up the picture, in the world.
     pub up_world: [f32; 3],
@@ -38,7 +38,7 @@ pub struct Compose {
     pub radius: f32,
     /// Unit vector from the picture towards the eye, in the world.
     pub near_world: [f32; 3],
-    /// How softly the surface-angle method's line ends, as a part of its band, 0..1.
+    /// How softly the line of the surface-angle method ends, as a part of its band, 0..1.
     pub angle_softness: f32,
     /// Middle of the model.
     pub center_world: [f32; 3],
@@ -46,7 +46,7 @@ pub struct Compose {
     pub smoke_part: u32,
     /// Colour of the smoke's outline, linear light.
     pub smoke_line: [f32; 4],
-    /// Where the sheet of the smoke's strokes hangs, in frame pixels.
+    /// Where the sheet with the smoke's strokes is fixed, in frame pixels.
     pub smoke_anchor_px: [f32; 2],
     /// Hatch tiles of that sheet to a frame pixel.
     pub smoke_tiles: f32,
@@ -88,18 +88,18 @@ impl Compose {
     pub const OVERLAY: u32 = 2;
     /// Lays beams of light over the surfaces.
     pub const BEAMS: u32 = 4;
-    /// Lays smoke over what it stands before.
+    /// Lays smoke over what lies behind it.
     pub const SMOKE: u32 = 8;
-    /// Finishes the smoke: its colours are tones and lines yet, see [`crate::smoke::pen`].
+    /// Finishes the smoke: its picture still holds tones and lines, see [`crate::smoke::pen`].
     pub const SMOKE_PEN: u32 = 16;
-    /// Lines mind what lies behind them: [`Layers::fronts`] and [`Layers::backs`] say what that is.
+    /// Adapts lines to the colours on both of their sides, [`Layers::fronts`] and [`Layers::backs`].
     pub const BACKDROP: u32 = 64;
-    /// The picture without any lines, and only in the tiles that [`Layers::fronts`] marks.
+    /// Composes the picture without any lines, and only in the tiles that [`Layers::fronts`] marks.
     pub const BARE: u32 = 128;
 }
 
-/// Where a place of a frame lies in a picture that covers it, centred, like a poster that is cut at two sides: its
-/// texture coordinates, and the length of them that a pixel of the frame covers.
+/// Texture coordinates of a frame position in a centred picture that covers the whole frame and is cut at two sides,
+/// and the size of a frame pixel in texture coordinates.
 pub fn cover(frame_px: [f32; 2], frame: [f32; 2], size: [f32; 2]) -> ([f32; 2], f32) {
     let zoom = (frame[0] / size[0]).max(frame[1] / size[1]);
     let uv = std::array::from_fn(|i| (frame_px[i] - 0.5 * frame[i]) / (size[i] * zoom) + 0.5);

@@ -1,10 +1,10 @@
-//! The corners of a triangle as a pixel sees it, and what lies between them.
+//! The corners of a triangle as a pixel sees them, and what is interpolated between them.
 
 use crate::ramp::ramp_coordinate;
 use npr_core::geometry::PosedVertex;
 use npr_core::surface::{blend3, dot, unit_or_z};
 
-/// How far beside the tones of its corners a flat triangle's tone may lie, in ramp coordinate: rounding.
+/// How far the tone of a flat triangle may lie beyond the tones of its corners, in ramp coordinate: rounding.
 const TONE_ROOM: f32 = 0.002;
 
 /// A triangle's corners, and 1 where its front is seen or -1 where its back is.
@@ -26,11 +26,11 @@ impl Corners<'_> {
         blend3(weights, self.posed.map(|v| v.world))
     }
 
-    /// Cosines of the smooth normal with the direction `towards` at three places: those of [`Corners::normal`], at
-    /// less cost.
+    /// Cosines between the smooth normal, that of [`Corners::normal`], and the direction `towards` at three places, at
+    /// less cost than one by one.
     #[inline]
     pub fn cosines(&self, weights: [[f32; 3]; 3], towards: [f32; 3]) -> [f32; 3] {
-        // Places in a row, and one more to make four, so that all steps become vector instructions.
+        // Keep the places in rows, with one more to make four, so that all steps become vector instructions.
         let [a, b, c] = weights;
         let lanes: [[f32; 4]; 3] = std::array::from_fn(|i| [a[i], b[i], c[i], c[i]]);
         let blended = |corners: [f32; 3]| -> [f32; 4] {
@@ -53,12 +53,12 @@ impl Corners<'_> {
         })
     }
 
-    /// Lowest and highest ramp coordinate of the direction `towards` that the smooth normal can have anywhere.
+    /// Lowest and highest ramp coordinate that the smooth normal can have anywhere towards the direction `towards`.
     pub fn range_towards(&self, towards: [f32; 3]) -> [f32; 2] {
         let at = self
             .posed
             .map(|v| ramp_coordinate(dot(v.normal, towards) * self.side));
-        // A blend of normals that is made unit again bulges beyond them by at most what they differ.
+        // A blend of normals that is scaled to unit length bulges beyond them by at most their difference.
         let [a, b, c] = self.posed.map(|v| v.normal);
         let bulge = 0.5 * (1.0 - dot(a, b).min(dot(b, c)).min(dot(c, a)));
         let room = TONE_ROOM + bulge;

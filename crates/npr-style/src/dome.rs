@@ -1,8 +1,8 @@
-//! The light of a picture of the sky, summed up.
+//! The light of a picture of the sky, summed up in nine colours.
 
 use npr_core::math::{cos_f64, sin_f64};
 
-/// The nine polynomials of a unit vector that a picture of the sky is summed up by: spherical harmonics up to the
+/// The nine polynomials of a unit vector in which a picture of the sky is summed up: spherical harmonics up to the
 /// second order, not normalised.
 pub fn harmonics([x, y, z]: [f32; 3]) -> [f32; 9] {
     [
@@ -18,12 +18,12 @@ pub fn harmonics([x, y, z]: [f32; 3]) -> [f32; 9] {
     ]
 }
 
-/// What [`harmonics`] of the sky are weighted by so that their sum is the mean of its light over the half that a
-/// surface faces, by how squarely [Ramamoorthi and Hanrahan 2001, equations 10 and 13].
+/// Weights of [`harmonics`] with which their sum is the mean of the sky's light over the half that a surface faces, by
+/// how squarely it faces each part [Ramamoorthi and Hanrahan 2001, equations 10 and 13].
 const HARMONIC_WEIGHTS: [f32; 9] = [1.0, 2.0, 2.0, 2.0, 3.75, 3.75, 3.75, 0.312_5, 0.937_5];
 
-/// Sums a picture of the whole sky up: nine colours whose sum by [`harmonics`] of a normal is the light on a surface,
-/// 1 under a white sky.
+/// Sums up a picture of the whole sky in nine colours; their sum, weighted by the [`harmonics`] of a normal, is the
+/// light on a surface, 1 under a white sky.
 ///
 /// `texels` are `size` pixels in linear light, rows from the top: straight up to straight down. Columns go all the
 /// way round; the one in the middle lies towards -z, as seen by a camera that looks at the front of a scene, with +x

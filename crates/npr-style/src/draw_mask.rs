@@ -8,22 +8,22 @@ use npr_core::window::Window;
 
 use crate::compose::Compose;
 
-/// What the mask is drawn with.
+/// The inputs from which the mask is drawn.
 #[derive(Debug, Clone, Copy)]
 pub struct MaskInk<'a> {
     /// The pixel grid of the output.
     pub window: &'a Window,
-    /// Settings: the colour of lines whose part decides nothing.
+    /// Settings, with the colour of lines for whose part nothing is decided.
     pub compose: &'a Compose,
     /// Parts.
     pub parts: &'a [Part],
     /// The mask.
     pub mask: &'a [u32],
-    /// What is decided about the colours of lines, on the mask's grid.
+    /// The decided colours of lines, on the mask's grid.
     pub tints: LineTints<'a>,
 }
 
-/// Draws the mask, a texel of one colour for every pixel that is set; texels are sRGB bytes with straight alpha.
+/// Draws the mask: one texel of a single colour for every pixel that is set. Texels are sRGB bytes with straight alpha.
 /// O(pixels).
 pub fn draw_mask(with: &MaskInk<'_>, overlay: &mut [u32]) {
     let (window, mask_window) = (with.window, with.tints.mask_window);
@@ -42,7 +42,7 @@ pub fn draw_mask(with: &MaskInk<'_>, overlay: &mut [u32]) {
 }
 
 impl MaskInk<'_> {
-    /// The colour that the part whose line it is gives a pixel of the mask; `None` where no part decides anything.
+    /// The colour that its part has for a pixel of the mask; `None` if nothing is decided for that part.
     fn color_at(&self, at: [u32; 2], found: u32) -> Option<u32> {
         if self.tints.is_empty() {
             return None;
@@ -55,7 +55,7 @@ impl MaskInk<'_> {
         })
     }
 
-    /// The part whose line a mask pixel shows: its own, or that of a pixel beside it which the line belongs to.
+    /// The part that the line at a mask pixel belongs to: its own, or that of a pixel beside it.
     fn owner_at(&self, at: [u32; 2]) -> u32 {
         let size = self.tints.mask_window.size;
         let part_of = |element: usize| self.tints.tints[element].part;

@@ -22,17 +22,18 @@ pub fn phong(normal: [f32; 3], light: [f32; 3], eye: [f32; 3], exponent: f32) ->
     power(dot(light, mirrored), exponent)
 }
 
-/// Blinn's term (N . H)^n with the half vector H, its middle where Phong's is [Blinn 1977; Suzuki 2004, section 3.6].
+/// Blinn's term (N . H)^n with the half vector H: its middle is where Phong's is [Blinn 1977; Suzuki 2004, section
+/// 3.6].
 pub fn blinn_phong(normal: [f32; 3], half: [f32; 3], exponent: f32) -> f32 {
     power(dot(normal, half), exponent)
 }
 
-/// Half way between light and eye.
+/// The unit vector half way between light and eye.
 pub fn half_vector(light: [f32; 3], eye: [f32; 3]) -> [f32; 3] {
     unit_or_z(std::array::from_fn(|i| light[i] + eye[i]))
 }
 
-/// 1 inside a crisp highlight, 0 outside: where the term exceeds `threshold`.
+/// A crisp highlight: 1 where the term exceeds `threshold`, else 0.
 pub fn crisp(term: f32, threshold: f32) -> f32 {
     if term > threshold { 1.0 } else { 0.0 }
 }
@@ -50,14 +51,14 @@ pub fn gradient(term: f32, threshold: f32, m: f32) -> f32 {
     ((term - threshold) * lift * 0.5).clamp(0.0, 1.0)
 }
 
-/// Turns a vector from the camera's axes into the world.
+/// Turns a vector given along the camera's axes into the world.
 pub(crate) fn in_world(axes: &[[f32; 3]; 3], direction: [f32; 3]) -> [f32; 3] {
     let [right, up, near] = axes;
     std::array::from_fn(|i| right[i] * direction[0] + up[i] * direction[1] + near[i] * direction[2])
 }
 
-/// How much a light from behind brightens a rim: a step from 0 to 1 between `from` and `to` on the ramp coordinate
-/// ((L . N) + 1) / 2 of its own direction [Suzuki 2004, section 3.6].
+/// How much light from behind brightens a rim: a smooth step from 0 to 1 between `from` and `to`, over the ramp
+/// coordinate ((L . N) + 1) / 2 of that light [Suzuki 2004, section 3.6].
 pub fn back_light(normal: [f32; 3], light: [f32; 3], from: f32, to: f32) -> f32 {
     math::smoothstep(from, to, crate::ramp::ramp_coordinate(dot(normal, light)))
 }
@@ -76,15 +77,15 @@ pub fn streak(across: f32, width: f32) -> f32 {
 /// Moves and shapes a highlight by moving the half vector at every point [Anjyo and Hiramitsu 2003].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HighlightShape {
-    /// Moves it along the two axes; 0.3 is a clear step.
+    /// Moves the highlight along both axes; 0.3 is a clear step.
     pub shift: [f32; 2],
     /// Cosine and sine of the angle by which the axes are turned.
     pub turn: [f32; 2],
-    /// Stretches it along the first axis, 0..1.
+    /// Stretches the highlight along the first axis, 0..1.
     pub stretch: f32,
-    /// Splits it along both axes: the gap as a part of a unit vector.
+    /// Splits the highlight along both axes: the gap as a part of a unit vector.
     pub split: [f32; 2],
-    /// Makes it a square, 0..1.
+    /// Makes the highlight a square, 0..1.
     pub square: f32,
 }
 
@@ -103,7 +104,7 @@ impl Default for HighlightShape {
 /// How far a corner is pulled in so that the highlight reaches there as far as a square does: 1 - sqrt(1/2).
 const SQUARE_PULL: f32 = 0.292_893_2;
 
-/// The half vector moved so that the highlight takes a shape; itself where there is none to take.
+/// The half vector, moved so that the highlight takes the shape; unchanged if the shape leaves it as it is.
 ///
 /// The axes are the picture's: `right` laid onto the surface, turned, and the direction across it. The operations
 /// follow one another as in the paper: move, stretch, split, square.
@@ -159,7 +160,7 @@ fn sign(x: f32) -> f32 {
     if x < 0.0 { -1.0 } else { 1.0 }
 }
 
-/// `base` to a power, 0 for what is not positive.
+/// `base` to a power; 0 if `base` is not positive.
 fn power(base: f32, exponent: f32) -> f32 {
     if base <= 0.0 {
         return 0.0;
@@ -167,13 +168,13 @@ fn power(base: f32, exponent: f32) -> f32 {
     math::powf(base.min(1.0), exponent)
 }
 
-/// How far a cosine between blends of unit vectors may lie beside what its bound says: rounding.
+/// Margin for rounding between the cosine of blended unit vectors and its bound.
 const SPOT_ROOM: f32 = 1e-4;
 
-/// Greatest N . H that blends of three normals and of three directions to the eye, made unit again, can have towards
-/// a light.
+/// Upper bound of N . H for one light, where N and the direction to the eye are blends of those at three corners,
+/// scaled to unit length.
 ///
-/// `swells` are what the blends' lengths are divided by at most.
+/// `swells` are the bounds from [`swell`] for the normals and for the directions to the eye.
 fn highest_cosine(
     normals: [[f32; 3]; 3],
     eyes: [[f32; 3]; 3],
@@ -188,7 +189,7 @@ fn highest_cosine(
     let least = eyes.map(|eye| dot(light, eye));
     let least = least[0].min(least[1]).min(least[2]);
     let least = least.min(least * swells[1]);
-    // N . (L + E) over |L + E|; E is longer than a mean of the corners' by its swell.
+    // N . (L + E) over |L + E|; E is longer than the mean of the corners' directions by up to its swell.
     let above = swells[0] * (swells[1] * most + swells[1] - 1.0);
     above / (2.0 + 2.0 * least).max(0.0).sqrt()
 }
@@ -201,7 +202,7 @@ fn swell(units: [[f32; 3]; 3]) -> f32 {
 }
 
 impl HighlightShape {
-    /// Whether it leaves a highlight as it is; turned axes alone do nothing.
+    /// Whether the shape leaves a highlight as it is; turned axes alone do nothing.
     fn is_none(&self) -> bool {
         self.shift == [0.0; 2]
             && self.stretch == 0.0
@@ -209,7 +210,7 @@ impl HighlightShape {
             && self.square == 0.0
     }
 
-    /// The shape that a part asks for.
+    /// The shape of a part's highlights.
     fn of(part: &Part) -> Self {
         let ([shift_u, shift_v, stretch, square], [cos, sin, split_u, split_v]) =
             (part.highlight_shape, part.highlight_turn);
@@ -284,8 +285,8 @@ impl Layers<'_> {
         sum
     }
 
-    /// Whether a highlight of a part may show somewhere on a triangle. Only a no is certain: shapes, streaks, Phong's
-    /// term and near lights are always taken for a yes.
+    /// Whether a part's highlights may show somewhere on a triangle. Only `false` is certain: shapes, streaks, Phong's
+    /// term and near lights always give `true`.
     pub(crate) fn may_shine(&self, part: &Part, corners: &Corners<'_>) -> bool {
         let behind = || in_world(&self.compose.axes(), part.back_direction);
         let rim = part.flags & Part::BACK_LIGHT != 0
@@ -296,7 +297,7 @@ impl Layers<'_> {
     }
 
     /// Whether (N . H)^n may exceed the part's threshold somewhere on a triangle. The strength of a light, 1 at most,
-    /// only lowers that, so a no stays certain.
+    /// only lowers the term, so `false` stays certain.
     fn spot_may_show(&self, part: &Part, corners: &Corners<'_>) -> bool {
         if part.flags & Part::PHONG != 0 || !HighlightShape::of(part).is_none() {
             return true;
@@ -310,12 +311,12 @@ impl Layers<'_> {
                 return false;
             }
             let highest = highest_cosine(normals, eyes, swells, source.direction);
-            // What is no number shows.
+            // The comparison is negated so that NaN counts as a highlight that shows.
             !(source.is_far() && power(highest + SPOT_ROOM, part.highlight[0]) <= part.highlight[1])
         })
     }
 
-    /// The greatest highlight term of the lights at a place, each as strong as it shines there; skies make none.
+    /// The greatest highlight term of all lights at a place, each scaled by its strength there; skies have none.
     ///
     /// The strength I_s of a light scales its term, as it scales the tones: a highlight ends with the cone of a spot
     /// and with the range of a lamp. Differs: a light stronger than 1 counts as 1, so terms stay within 0..1.

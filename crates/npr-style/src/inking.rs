@@ -16,21 +16,21 @@ use npr_core::raster::ID_MASK;
 use npr_core::surface::{blend, blend2, weights_around};
 use npr_core::texture::HEADER_WORDS;
 
-/// Luminance of the middle of a stroke's half width: what stands for the hatch where there is none.
+/// Hatch luminance at the middle of a stroke's half width: it stands for the hatch where there is none.
 const NO_HATCH: f32 = 0.5;
 
-/// Least luminance of the shade ramp where there is hatch but no ink, above the half of the threshold that would be all
-/// ink: the paper between strokes stays open.
+/// Least luminance of the shade ramp on a surface with hatch but no ink, above half the threshold, at which all would
+/// be ink: the paper between strokes stays open.
 const OPEN_PAPER: f32 = 0.08;
 
-/// Change of luminance over the distance between strokes from which the strokes give way to the tone's own edge; at
-/// twice as much they are gone.
+/// Change of luminance between two strokes from which the strokes give way to the tone's own edge; at twice as much
+/// they are gone.
 const ABRUPT: f32 = 0.25;
 
-/// How badly a chart lies, 0..1, from which dots are set on the screen instead: stretched, they would be streaks.
+/// Chart distortion, 0..1, from which dots are placed on the screen instead: on the chart they would be streaks.
 const LOOSE: f32 = 0.3;
 
-/// Part of the hatch, of what inks last, that a chart distortion fills at once.
+/// Share of the hatch, from its lightest part, that full chart distortion fills with ink at once.
 const DISTORTION_FILL: f32 = 0.22;
 
 /// Luminance L of the shade ramp at coordinate `x`: black up to `dark_at`, white from `light_at`, grey between.
@@ -41,7 +41,8 @@ pub fn shade_level(x: f32, dark_at: f32, light_at: f32) -> f32 {
     ((x - dark_at) / (light_at - dark_at)).clamp(0.0, 1.0)
 }
 
-/// Luminance that the shade ramp gives a part: never so dark that hatch without ink closes.
+/// Luminance of a part's shade ramp at coordinate `x`; a part with hatch but no ink never gets so dark that its hatch
+/// closes.
 fn level_of(part: &Part, x: f32) -> f32 {
     let l = shade_level(x, part.dark_at, part.light_at);
     if part.flags & Part::INK == 0 {
@@ -51,7 +52,7 @@ fn level_of(part: &Part, x: f32) -> f32 {
     }
 }
 
-/// Ink of a surface whose ramp coordinates all lie in `range`: 1, 0, or none where it is neither all over.
+/// Ink of a surface whose ramp coordinates all lie in `range`: 1 or 0 if it is the same all over, else `None`.
 pub(crate) fn ink_over(part: &Part, range: [f32; 2]) -> Option<f32> {
     if part.flags & (Part::INK | Part::HATCH) == 0 {
         return Some(0.0);
@@ -61,7 +62,7 @@ pub(crate) fn ink_over(part: &Part, range: [f32; 2]) -> Option<f32> {
     } else {
         (NO_HATCH, NO_HATCH)
     };
-    // How light paint is hangs on the place, but it never lightens.
+    // Paint is looked up at each place, but it only darkens.
     let painted = part.flags & Part::PAINTED != 0;
     if !painted && tone_value(lightest, level_of(part, range[0])) > part.threshold {
         Some(0.0)
@@ -72,10 +73,10 @@ pub(crate) fn ink_over(part: &Part, range: [f32; 2]) -> Option<f32> {
     }
 }
 
-/// Ink of hatched surface at luminance `l` of the shade ramp where no stroke is thin enough or wide enough to matter:
-/// 1, 0, or none where the hatch decides.
+/// Ink of a hatched surface at luminance `l` of the shade ramp, if no stroke is thin or wide enough to matter: 1 or 0;
+/// `None` if the hatch decides.
 ///
-/// The room is half of what F changes by over a pixel at the edge of a stroke.
+/// The margin is half of F's change over a pixel at the edge of a stroke.
 fn ink_of_level(part: &Part, l: f32) -> Option<f32> {
     let room = 1.0 / part.spacing_px;
     if tone_value(sharpen(0.0, part.hatch_gain), l) - room > part.threshold {
@@ -101,11 +102,11 @@ fn second_may_ink(part: &Part, l: f32) -> bool {
 struct Hatching {
     s: f32,
     slope: [f32; 2],
-    /// Least change over a pixel that its edges are smoothed with.
+    /// Least change over a pixel with which its edges are smoothed.
     hairline: f32,
 }
 
-/// Where a pixel lies in a hatch, in tiles, and how far it is from there to its neighbours.
+/// Position of a pixel in a hatch, in tiles, and the steps from there to its neighbours.
 #[derive(Debug, Clone, Copy)]
 struct HatchCoord {
     uv: [f32; 2],
@@ -124,7 +125,7 @@ impl HatchCoord {
         }
     }
 
-    /// Tiles that a pixel covers across the strokes, or in the mean of both directions.
+    /// Tiles that a pixel covers across the strokes; if `isotropic`, the mean of both directions.
     fn step(&self, isotropic: bool) -> f32 {
         let (right, down) = (self.right, self.down);
         if isotropic {
@@ -135,12 +136,12 @@ impl HatchCoord {
     }
 }
 
-/// Where strokes give way.
+/// How far strokes give way at a place.
 #[derive(Debug, Clone, Copy)]
 struct Calm {
-    /// How badly they lie, 0..1.
+    /// Distortion of the chart, 0..1.
     chart_distortion: f32,
-    /// How far the tone changes too fast for them, 0..1.
+    /// How far the tone changes too fast for strokes, 0..1.
     abrupt: f32,
 }
 
@@ -164,7 +165,7 @@ impl Layers<'_> {
         let lit = self.levels_at(part, corners, px, weights, dark);
         let white = self.paint_at(id, part, weights);
         let l: [f32; 3] = std::array::from_fn(|i| painted_level(lit[i], white[i], part.threshold));
-        // Beyond a silhouette the surface runs on to anywhere.
+        // Clamp the change: beyond a silhouette the surface runs on to anywhere.
         let darkens = [
             (2.0 * (l[1] - l[0])).clamp(-1.0, 1.0),
             (2.0 * (l[2] - l[0])).clamp(-1.0, 1.0),
@@ -215,7 +216,7 @@ impl Layers<'_> {
         let first = scaled(layer, first_of_two(layer.s, part.second_from));
         let first = sharpened(first, part.hatch_gain);
         let ink = coverage(first);
-        // Most places are settled by the first layer, or too light for the second.
+        // The first layer settles most places, or they are too light for the second.
         if ink == 1.0 || !second_may_ink(part, l) {
             return ink;
         }
@@ -229,7 +230,7 @@ impl Layers<'_> {
         }
     }
 
-    /// Luminance of the shade ramp on a triangle at a place of the frame, a pixel to the right and one below.
+    /// Luminance of the shade ramp of a triangle at a position of the frame, one pixel to the right and one below.
     fn levels_at(
         &self,
         part: &Part,
@@ -238,7 +239,7 @@ impl Layers<'_> {
         weights: [[f32; 3]; 3],
         dark: u32,
     ) -> [f32; 3] {
-        // Where the normal alone decides, half of the work is none.
+        // If the normal alone decides, positions need not be computed.
         let x = match self.lights.only_distant() {
             Some(towards) if dark == 0 => corners.cosines(weights, towards).map(ramp_coordinate),
             _ => {
@@ -254,7 +255,7 @@ impl Layers<'_> {
         x.map(|x| level_of(part, x))
     }
 
-    /// Where a pixel and its neighbours to the right and below lie in the hatch of a part.
+    /// Coordinates of a pixel and its neighbours to the right and below in the hatch of a part.
     fn place_in_hatch(
         &self,
         id: u32,
@@ -262,7 +263,7 @@ impl Layers<'_> {
         weights: [[f32; 3]; 3],
         places: [[f32; 2]; 3],
     ) -> HatchCoord {
-        // Find the coordinates of the three pixels: in the picture, in the chart of the surface, or of the file.
+        // Find the coordinates of the three pixels: in the picture, in the chart of the surface, or those of the file.
         let triangle = ((id & ID_MASK) - 1) as usize;
         let uvs: [[f32; 2]; 3] = std::array::from_fn(|i| {
             let raw = if part.flags & Part::ON_SCREEN != 0 {
@@ -289,7 +290,7 @@ impl Layers<'_> {
         }
     }
 
-    /// Where a pixel and its neighbours lie in the hatch of a part if that is laid on the picture.
+    /// Coordinates of a pixel and its neighbours in the hatch of a part that is laid on the picture.
     fn place_on_screen(&self, part: &Part, px: [f32; 2]) -> HatchCoord {
         let header = part.hatch as usize;
         let spacing_texels = f32::from_bits(self.texels[header + 3]);
@@ -301,7 +302,7 @@ impl Layers<'_> {
         }
     }
 
-    /// How badly the strokes of triangle `id` lie where its corners have these weights, 0..1.
+    /// Distortion of the stroke chart on triangle `id` at these weights of its corners, 0..1.
     fn chart_distortion_at(&self, id: u32, weights: [f32; 3]) -> f32 {
         let Triangle { corners, .. } = self.triangles[((id & ID_MASK) - 1) as usize];
         blend(
@@ -310,7 +311,7 @@ impl Layers<'_> {
         )
     }
 
-    /// One layer of a hatch tile, from the level whose strokes lie as far apart on screen as the part asks.
+    /// One layer of a hatch, from the level of its tile on which strokes lie as far apart on screen as the part asks.
     fn layer(&self, part: &Part, place: &HatchCoord) -> Hatching {
         let header = part.hatch as usize;
         let side = self.texels[header];
@@ -319,7 +320,7 @@ impl Layers<'_> {
         let detail = detail(step * side as f32, part.spacing_px, spacing_texels);
         let (level, fraction) = level_at(detail, self.texels[header + 2]);
         let level_side = side >> level;
-        // The levels before it, each four times as large as the next.
+        // Skip the levels before it, each four times as large as the next.
         let before = 4 * (side * side - level_side * level_side) / 3;
         let first = header + (HEADER_WORDS + before) as usize;
         let texels = &self.texels[first..][..(level_side * level_side) as usize];
@@ -336,8 +337,8 @@ impl Layers<'_> {
 }
 
 impl Layers<'_> {
-    /// Ink at a tone that changes by `change` to the right and down, on a flat sheet: `at` is the place on it in
-    /// pixels, of which `scale` tiles go to one.
+    /// Ink of a tone that changes by `change` to the right and down, on a flat sheet; `at` is the position on it in
+    /// pixels, and a pixel covers `scale` tiles.
     pub(crate) fn ink_on_sheet(
         &self,
         part: &Part,
@@ -379,16 +380,17 @@ impl Layers<'_> {
     }
 }
 
-/// A hatch without the white of its chart_distortions: the last strokes merge together, a fifth of the way before they
+/// A hatch whose white is filled where the chart is distorted: the last strokes merge up to a fifth earlier than they
 /// would.
 ///
-/// Where directions turn round, strokes cannot all end well; what is seen of it is mostly white in the dark.
+/// Where the directions of a chart turn round, strokes cannot all end well; mostly the white specks in the dark show
+/// it.
 fn untied(hatching: Hatching, chart_distortion: f32) -> Hatching {
     let most = 1.0 - DISTORTION_FILL * chart_distortion.clamp(0.0, 1.0);
     if hatching.s <= most {
         return hatching;
     }
-    // What is left is the edge of the tone, which is crisp.
+    // Only the edge of the tone is left, which is crisp.
     Hatching {
         hairline: 0.0,
         ..scaled(hatching, [most, 0.0])
@@ -403,7 +405,7 @@ pub fn abruptness(per_px: f32, spacing_px: f32) -> f32 {
     ((per_px * spacing_px - ABRUPT) / ABRUPT).clamp(0.0, 1.0)
 }
 
-/// A hatch that gives way to the edge of the tone itself.
+/// A hatch that gives way to the edge of the tone itself, as far as `abrupt` says.
 fn toned_hatch(hatching: Hatching, abrupt: f32) -> Hatching {
     let s = hatching.s + (NO_HATCH - hatching.s) * abrupt;
     Hatching {
@@ -412,7 +414,7 @@ fn toned_hatch(hatching: Hatching, abrupt: f32) -> Hatching {
     }
 }
 
-/// A layer as `[value, steepness]` says.
+/// A layer with luminance `s` and its slope times `steepness`.
 fn scaled(layer: Hatching, [s, steepness]: [f32; 2]) -> Hatching {
     Hatching {
         s,

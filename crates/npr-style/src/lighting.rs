@@ -1,4 +1,4 @@
-//! What a surface is lit by, as passes read it: the twin of `lib/lighting`.
+//! The lights of a frame, as passes read them: the twin of `lib/lighting`.
 //!
 //! Every light adds to the place on the ramp; a single distant light of intensity 1 gives `(N.L + 1) / 2`
 //! [Suzuki 2004, section 3.2], as published.
@@ -23,27 +23,27 @@ pub const SHADOWS_MAX: usize = 4;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct LightSource {
-    /// Where it is, in the world; ignored for distant lights.
+    /// Position in the world; ignored for distant lights.
     pub position: [f32; 3],
     /// [`LightSource::DISTANT`], [`LightSource::POINT`], [`LightSource::SPOT`] or [`LightSource::SKY`].
     pub kind: u32,
     /// Unit vector in the world: towards a distant light or the brightest part of the sky, along the axis of a spot.
     pub direction: [f32; 3],
-    /// What it adds to the ramp coordinate where it is faced, 0 and up.
+    /// What it adds to the ramp coordinate of a surface that faces it, 0 and up.
     pub intensity: f32,
     /// Linear colour of its light; white leaves tones as they are.
     pub color: [f32; 3],
-    /// Distance at which it has faded to nothing, in the world; 0 where it never fades.
+    /// Distance at which it has faded to nothing, in the world; 0 if it never fades.
     pub range: f32,
-    /// Cosines of a spot's angles to its axis: where light ends, and up to where it is full.
+    /// Cosines of a spot's angles to its axis: where the light ends, and up to where it is full.
     pub cone: [f32; 2],
-    /// Number of its shadow image, counted from 1; 0 where nothing throws shadows in its light, and of skies.
+    /// Number of its shadow image, counted from 1; 0 for skies and if nothing throws shadows in its light.
     pub shadow: u32,
-    /// Bits of [`LightSource::HIDDEN`] and [`LightSource::PICTURE`], of skies alone.
+    /// Bits of [`LightSource::HIDDEN`] and [`LightSource::PICTURE`]; only for skies.
     pub sky: u32,
-    /// Linear colour of the light from below, its greatest part 1; of skies alone.
+    /// Linear colour of the light from below, its greatest channel 1; only for skies.
     pub ground: [f32; 3],
-    /// How strong that is against the light from above.
+    /// Strength of the light from below against that from above.
     pub ground_strength: f32,
 }
 gpu_layout!(LightSource {
@@ -67,14 +67,14 @@ impl LightSource {
     pub const POINT: u32 = 1;
     /// Light from a point into a cone.
     pub const SPOT: u32 = 2;
-    /// Light from everywhere: of one colour from above, of the ground's from below. Evenly bright, each half lights a
-    /// surface by the part of it that this faces: `(1 + N.up) / 2` of the upper one and the rest of the lower one.
-    /// Makes no highlights.
+    /// Light from everywhere: one colour from above, the ground's from below. Both halves are evenly bright and light a
+    /// surface by how much of them it faces: `(1 + N.up) / 2` of the upper half and the rest of the lower one. Makes no
+    /// highlights.
     pub const SKY: u32 = 3;
 
-    /// What stands in the way hides a sky.
+    /// Bit: things in the way hide the sky.
     pub const HIDDEN: u32 = 1;
-    /// [`Lights::dome`] gives the light of a sky instead of its two colours.
+    /// Bit: [`Lights::dome`] gives the light of a sky, not its two colours.
     pub const PICTURE: u32 = 2;
 }
 
@@ -84,25 +84,25 @@ impl LightSource {
 pub struct Lights {
     /// How many of `sources` there are.
     pub count: u32,
-    /// Texels of a shadow image along a side; 0 where nothing throws shadows.
+    /// Side of the shadow images, in texels; 0 if nothing throws shadows.
     pub shadow_side: u32,
-    /// Ramp coordinate that a light cannot lift a place in its shadow above.
+    /// Ramp coordinate above which a light cannot lift a place in its shadow.
     pub shadow_at: f32,
-    /// How much nearer to a light than a place something must be to shade it, in the world.
+    /// How much nearer to the light an object must be than a place to shade it, in the world.
     pub bias_world: f32,
     /// The lights; those after `count` are dark.
     pub sources: [LightSource; LIGHTS_MAX],
-    /// Clip space from the world of every shadow image.
+    /// For each shadow image, the matrix from the world to its clip space.
     pub shadows: [Matrix; SHADOWS_MAX],
-    /// Middle, in the world, of the ball that the pictures of what hides the sky show.
+    /// Middle, in the world, of the ball that the pictures for a hidden sky show.
     pub sky_center: [f32; 3],
-    /// Its radius.
+    /// Radius of that ball.
     pub sky_radius: f32,
     /// Where these pictures start in the texture store, see [`crate::sky`].
     pub sky_maps: u32,
-    /// How many they are; 0 where nothing hides the sky.
+    /// Number of these pictures; 0 if nothing hides the sky.
     pub sky_views: u32,
-    /// Texels of each along a side, an even number.
+    /// Side of each picture in texels, an even number.
     pub sky_side: u32,
     /// Keeps rows of 16 bytes.
     pub sky_unused: u32,
@@ -141,8 +141,8 @@ impl Lights {
         lights
     }
 
-    /// The only light, if it is distant and of plain intensity: but for shadows a tone then depends on the normal
-    /// alone.
+    /// The direction of the only light, if that is distant and plain, of intensity 1: apart from shadows, tones then
+    /// depend on the normal alone.
     #[inline]
     pub(crate) fn only_distant(&self) -> Option<[f32; 3]> {
         let first = &self.sources[0];
@@ -150,15 +150,15 @@ impl Lights {
             .then_some(first.direction)
     }
 
-    /// Place on the ramp of a surface at `world` that faces along the unit vector `normal`, and the colour of the
-    /// light there: the mean of the lights' colours by what each adds. Bit `i` of `dark` says that the place lies in
-    /// the shadow of light `i`. Nothing hides the sky. O(lights).
+    /// Ramp coordinate of a surface at `world` that faces along the unit vector `normal`, and the colour of the light
+    /// there: the mean of the lights' colours, weighted by what each adds. Bit `i` of `dark` is set if the place lies
+    /// in the shadow of light `i`. Nothing hides the sky. O(lights).
     #[inline]
     pub fn coordinate_at(&self, world: [f32; 3], normal: [f32; 3], dark: u32) -> (f32, [f32; 3]) {
         self.coordinate_under(world, normal, dark, Openness::FULL)
     }
 
-    /// As [`coordinate_at`](Self::coordinate_at), for a place that sees `open` of the sky.
+    /// As [`coordinate_at`](Self::coordinate_at), with `open` as the shares of the sky that the place sees.
     #[inline]
     pub fn coordinate_under(
         &self,
@@ -167,7 +167,7 @@ impl Lights {
         dark: u32,
         open: Openness,
     ) -> (f32, [f32; 3]) {
-        // The rule: one sun, of which the mean is itself.
+        // The usual case: one sun, whose colour is the mean.
         if let Some(towards) = self.only_distant()
             && dark == 0
         {
@@ -202,7 +202,7 @@ impl Lights {
         (sum.min(1.0), if sum > 1e-6 { tint } else { [1.0; 3] })
     }
 
-    /// Light of the picture of the sky on a surface that faces along a unit vector.
+    /// Light from the picture of the sky on a surface that faces along a unit vector.
     pub(crate) fn dome_at(&self, normal: [f32; 3]) -> [f32; 3] {
         let values = harmonics(normal);
         let mut sum = [0.0; 3];
@@ -212,7 +212,7 @@ impl Lights {
         sum.map(|v| v.max(0.0))
     }
 
-    /// What a sky gives to a surface that faces along a unit vector and sees `open` of it.
+    /// Light of a sky on a surface that faces along a unit vector and sees `open` of it.
     #[inline]
     pub(crate) fn sky_light(
         &self,
@@ -244,30 +244,30 @@ impl Lights {
     }
 }
 
-/// Share of the sky and of the ground below that shines on a surface, 0..1, by how squarely it faces each part of
-/// them.
+/// Shares of the sky and of the ground below that shine on a surface, 0..1, weighted by how squarely it faces each part
+/// of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Openness {
-    /// Of what lies above.
+    /// Share of what lies above.
     pub above: f32,
-    /// Of what lies below.
+    /// Share of what lies below.
     pub below: f32,
 }
 
 impl Openness {
-    /// Nothing is hidden.
+    /// Sky and ground in full.
     pub const FULL: Self = Self {
         above: 1.0,
         below: 1.0,
     };
 }
 
-/// What a sky gives to a surface.
+/// The light of a sky on a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SkyLight {
     /// What it adds to the ramp coordinate.
     pub share: f32,
-    /// Colour of its light, times that.
+    /// Colour of its light, times `share`.
     pub color: [f32; 3],
 }
 
@@ -303,7 +303,7 @@ impl LightSource {
         (towards, strength)
     }
 
-    /// What the light adds to the ramp coordinate at a place, at most `most` of itself.
+    /// What the light adds to the ramp coordinate of a surface at a place, at most `most` times its strength there.
     #[inline]
     fn share_at(&self, world: [f32; 3], normal: [f32; 3], most: f32) -> f32 {
         let (towards, strength) = self.reach_at(world);
@@ -311,10 +311,10 @@ impl LightSource {
     }
 }
 
-/// What is left of a light at a distance, 1 beside it and 0 from `range` on; 1 everywhere where `range` is 0.
+/// The share of a light that is left at a distance, 1 beside it and 0 from `range` on; always 1 if `range` is 0.
 ///
-/// The window of KHR_lights_punctual without the inverse square: on a ramp of few tones the square is either burnt
-/// out or gone.
+/// The window of KHR_lights_punctual without the inverse square: on a ramp of few tones, the square is either burnt out
+/// or gone.
 pub fn fading(distance: f32, range: f32) -> f32 {
     if range <= 0.0 {
         return 1.0;

@@ -1,13 +1,13 @@
 //! Where the colour of a line comes from: the twins of `lib/line_color`, `line.color_mask` and `line.light_widths`.
 //!
-//! A line's colour has two halves. *Its own*: of its kind, of the surface under it, or the constant `line.color`. And
-//! the *tint layer*, what lies over that: light, the light behind, depth, tint, in this order. Own colours hang on the
-//! kind, tint layers on the place alone, so both are decided once at a place and put together by whoever draws there
+//! A line's colour has two halves. *Its own*: that of its kind, of the surface under it, or the constant `line.color`.
+//! And the *tint layer* over that: light, the light from behind, depth, tint, in this order. Own colours depend on the
+//! kind, tint layers on the place alone, so both are decided once at a place and combined by whoever draws there
 //! ([`npr_core::line_color::line_color`]). Colours mix in linear light; rows of stops were mixed in OKLab before
 //! (`npr_stylesheet::hue_row`).
 //!
-//! Frames decide at the pixels of the mask that lines run through; hulls and grazing surfaces at their own pixel;
-//! drawings as curves at every point of a stroke. All of them ask [`LineScene`].
+//! Frames decide the tint layer at the pixels of the mask that lines run through, hulls and grazing surfaces at their
+//! own pixel, drawings as curves at every point of a stroke. All of them use [`LineScene`].
 
 use npr_core::color::{linear_rgba, srgb_from_linear, unpack_rgba8};
 use npr_core::geometry::{NONE, Part, PosedVertex, Triangle, Vertex};
@@ -29,10 +29,10 @@ use crate::surface_color::footprint;
 
 pub use crate::surface_color::strengthened;
 
-/// Colours of a row, from its begin to its end.
+/// Colours of a row, from one end to the other.
 pub const HUES: usize = 256;
 
-/// How far the surface's texture is averaged under a line, in pixels of the mask: less makes lines speckled.
+/// Width over which the surface's texture is averaged under a line, in pixels of the mask: less makes lines speckled.
 pub const LINE_BLUR_PX: f32 = 2.0;
 
 /// What all lines of a view share.
@@ -50,17 +50,17 @@ pub struct LineScene<'a> {
     pub texels: &'a [u32],
 }
 
-/// The part of a line's colour that its place decides.
+/// The part of a line's colour that depends on its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Decided {
-    /// What lies over the line's own colour, linear light, straight alpha.
+    /// The tint layer over the line's own colour, linear light, straight alpha.
     pub tint_layer: [f32; 4],
-    /// What is left of its opacity, 0..1.
+    /// Factor on the line's opacity, 0..1.
     pub opacity: f32,
 }
 
 impl Decided {
-    /// The tint as lines look it up, over a surface's colour in linear light.
+    /// The tint as lines look it up, over a surface's colour `own` in linear light.
     pub fn tint(&self, own: [f32; 3]) -> Tint {
         let [r, g, b] = own.map(srgb_from_linear);
         let [tint_layer_r, tint_layer_g, tint_layer_b, tint_layer_a] = self.tint_layer;
@@ -84,7 +84,7 @@ fn laid(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
 }
 
 impl LineScene<'_> {
-    /// What a place in the world decides for lines of a part whose surface faces along the unit vector `normal`.
+    /// Decides the tint of a part's lines at a place in the world whose surface faces along the unit vector `normal`.
     /// O(lights).
     pub fn decide(&self, part: &Part, world: [f32; 3], normal: [f32; 3]) -> Decided {
         // Lay the colour of the light over the line, and find its opacity.
@@ -147,7 +147,7 @@ impl LineScene<'_> {
         std::array::from_fn(|i| low[i] + (high[i] - low[i]) * (place - below as f32))
     }
 
-    /// Factor on the width of a part's lines at a place.
+    /// Factor on the width of a part's lines at a place in the world.
     pub fn width_at(&self, part: &Part, world: [f32; 3], normal: [f32; 3]) -> f32 {
         if part.line_flags & Part::LINE_WIDTH == 0 {
             return 1.0;
@@ -157,10 +157,10 @@ impl LineScene<'_> {
         dark + (lit - dark) * x
     }
 
-    /// Colour of a line at a place, sRGB with straight alpha: all of the model in one call, for drawings as curves.
+    /// Colour of a line at a place, sRGB with straight alpha: own colour and tint in one call, for drawings as curves.
     ///
-    /// `own` is the colour of the surface there times the part's factor, in linear light; it is only looked at where
-    /// the part asks for it.
+    /// `own` returns the colour of the surface there times the part's factor, in linear light; it is only called if the
+    /// part asks for it.
     pub fn color_at(
         &self,
         part: &Part,
@@ -204,8 +204,8 @@ pub struct Deciding<'a> {
     pub mask: &'a [u32],
 }
 
-/// Decides the colour of lines at every pixel of the mask that a line runs through, or beside; nothing elsewhere, and
-/// nothing for parts that ask for nothing: the twin of `line.color_mask`.
+/// Decides the tint of lines at every pixel of the mask on or beside a line; all others, and those of parts without
+/// tints, stay empty: the twin of `line.color_mask`.
 ///
 /// O(mask pixels + lights * line pixels), parallel over rows.
 pub fn decide(on: &Deciding<'_>, tints: &mut [LineTint]) {
@@ -224,7 +224,7 @@ pub fn decide(on: &Deciding<'_>, tints: &mut [LineTint]) {
 }
 
 impl<'a> Deciding<'a> {
-    /// The inputs as layers of a picture, which know the colours of surfaces.
+    /// The inputs as layers of a picture, by which the colours of surfaces are found.
     fn layers(&self) -> Layers<'a> {
         Layers {
             view: self.view,
@@ -280,7 +280,7 @@ impl<'a> Deciding<'a> {
         )
     }
 
-    /// Whether any of the 3x3 pixels around one is set.
+    /// Whether any of the 3x3 pixels around one is set in the mask.
     fn is_near_line(&self, [x, y]: [u32; 2]) -> bool {
         let [width, height] = self.window.size;
         (y.saturating_sub(1)..=(y + 1).min(height - 1)).any(|y| {
@@ -293,19 +293,19 @@ impl<'a> Deciding<'a> {
     }
 }
 
-/// Where a line lies in the frame.
+/// Position of a line in the frame.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LinePoint {
     /// Frame pixels.
     pub px: [f32; 2],
-    /// How far it reaches, in frame pixels.
+    /// Size of its footprint along both axes, in frame pixels.
     pub step_px: [f32; 2],
-    /// Whether the line lies on a hull, beside its triangle: the nearest place of the triangle counts then.
+    /// Whether the line lies on a hull beside its triangle; then the nearest point of the triangle counts.
     pub is_hull: bool,
 }
 
 impl LinePoint {
-    /// Weights of a triangle's corners there, moved by so many reaches.
+    /// Weights of the triangle's corners at the position, moved by `dx` and `dy` steps.
     fn weights(&self, view: &View, corners: &Corners<'_>, dx: f32, dy: f32) -> [f32; 3] {
         let px = [
             self.px[0] + dx * self.step_px[0],
@@ -315,7 +315,7 @@ impl LinePoint {
         if !self.is_hull {
             return weights;
         }
-        // Beside a face seen edge-on, weights are far too large, or no numbers.
+        // Beside a face seen edge-on, weights are far too large or NaN.
         let held = weights.map(|weight| if weight > 0.0 { weight.min(1e3) } else { 0.0 });
         let sum = held[0] + held[1] + held[2];
         if sum <= 0.0 {
@@ -326,7 +326,7 @@ impl LinePoint {
 }
 
 impl Layers<'_> {
-    /// What lines share in this view.
+    /// The inputs that all lines of this view share.
     pub(crate) fn line_scene(&self) -> LineScene<'_> {
         LineScene {
             view: self.view,
@@ -337,7 +337,7 @@ impl Layers<'_> {
         }
     }
 
-    /// What is decided about the lines of a triangle at a place.
+    /// The tint of lines on a triangle at a place.
     pub(crate) fn line_tint(
         &self,
         triangle: &Triangle,
@@ -346,7 +346,7 @@ impl Layers<'_> {
         place: &LinePoint,
     ) -> Tint {
         let weights = place.weights(self.view, corners, 0.0, 0.0);
-        // Hulls show the backs of faces, but their outline is where the front turns away.
+        // Hulls show the backs of faces, but their outline is at the front.
         let side = if place.is_hull { corners.side } else { 1.0 };
         let normal = corners.normal(weights).map(|v| v * side);
         let decided = self
@@ -355,7 +355,7 @@ impl Layers<'_> {
         decided.tint(self.line_own(triangle, part, corners, place))
     }
 
-    /// Colour of the surface for its lines, linear light; black where the part does not ask for it.
+    /// Colour of the surface for its lines, linear light; black if the part does not ask for it.
     fn line_own(
         &self,
         triangle: &Triangle,
@@ -405,7 +405,7 @@ impl Layers<'_> {
         color.map(|light| light * part.line_factor)
     }
 
-    /// Linear light of the line that a hull or a grazing surface shows at a place.
+    /// Linear light of a line that a hull or a grazing surface shows at a place.
     pub(crate) fn line_light(
         &self,
         triangle: &Triangle,
@@ -424,7 +424,7 @@ impl Layers<'_> {
     }
 }
 
-/// Half widths by the light that falls on vertices; all else stays: the twin of `line.light_widths`.
+/// Scales half widths by the light that falls on the vertices, and leaves all else: the twin of `line.light_widths`.
 ///
 /// `lit` gets every vertex of `posed`. O(vertices * lights), parallel.
 pub fn light_widths(

@@ -1,4 +1,4 @@
-//! Paint under the pen: where a surface is painted dark, the pen leaves less paper than the light alone would.
+//! Paint under the pen: where a surface is painted dark, the pen leaves less paper white than the light alone would.
 //!
 //! Pictures on paper show no colours, but eyes, stripes and dark leather must not be lost with them. A printer of
 //! black and white keeps them as tone: the white that light leaves is multiplied by the white that paint leaves.
@@ -11,26 +11,26 @@ use npr_core::raster::ID_MASK;
 use npr_core::surface::{blend2, dot};
 use npr_core::texture;
 
-/// Lightness, the root of luminance, up to which paint is solid ink in any light.
+/// Lightness (root of luminance) up to which paint is solid ink in any light.
 const INKY: f32 = 0.12;
 
-/// Lightness from which paint is paper.
+/// Lightness from which paint counts as white paper.
 const PAPERY: f32 = 0.75;
 
-/// Most white that light leaves, against 1 where the last stroke ends: paint nearly as light as paper draws no strokes.
+/// Most white that light leaves, where 1 ends the last stroke: paint nearly as light as paper draws no strokes.
 const OPEN: f32 = 1.25;
 
 /// Share of the paper, 0..1, that paint of a colour in linear light leaves white in full light.
 ///
-/// `strength` is how much paint counts, 0..1: at 1 the share is linear in lightness, towards 0 only what is nearly
-/// black takes any. Rises with every channel.
+/// `strength` is how much paint counts, 0..1: at 1 the share is linear in lightness, towards 0 only nearly black paint
+/// darkens. Rises with every channel.
 pub fn paint_white(color: [f32; 3], strength: f32) -> f32 {
     let lightness = dot(color, LUMA).max(0.0).sqrt();
     let x = ((lightness - INKY) / (PAPERY - INKY)).clamp(0.0, 1.0);
     x / (x + strength * (1.0 - x)).max(1e-6)
 }
 
-/// Luminance L of the shade ramp where paint leaves `white` of the paper, for a tone that is cut at `threshold`.
+/// Luminance L of the shade ramp for paint that leaves `white` of the paper, for a tone that is cut at `threshold`.
 ///
 /// Light alone leaves the share `2 L - threshold` of a hatched tone white, see
 /// [`tone_value`](crate::hatch::tone_value). Never above `l` by more than rounding where paint matters.
@@ -43,8 +43,8 @@ pub fn painted_level(l: f32, white: f32, threshold: f32) -> f32 {
 }
 
 impl Layers<'_> {
-    /// White that the paint of triangle `id` leaves at a pixel and its neighbours to the right and below; all where
-    /// it does not count.
+    /// White that the paint of triangle `id` leaves at a pixel and its neighbours to the right and below; 1 if paint
+    /// does not count.
     pub(crate) fn paint_at(&self, id: u32, part: &Part, weights: [[f32; 3]; 3]) -> [f32; 3] {
         if part.flags & Part::PAINTED == 0 {
             return [1.0; 3];

@@ -9,7 +9,7 @@ pub const STOPS_MAX: usize = 8;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Level {
-    /// What linear light, red, green and blue, is multiplied by.
+    /// Factor on linear light: red, green and blue.
     pub light: [f32; 3],
     /// Where the tone begins on the ramp, 0..1; a level of [`Level::UNUSED`] and all after it never begin.
     pub at: f32,
@@ -20,14 +20,14 @@ impl Level {
     pub const UNUSED: f32 = 2.0;
 }
 
-/// Place on the ramp, 0..1, of a surface whose unit normal meets the unit light direction at cosine
-/// `n_dot_l`: `(N.L + 1) / 2` [Suzuki 2004, section 3.2].
+/// Ramp coordinate, 0..1, of a surface whose unit normal meets the unit light direction at cosine `n_dot_l`: `(N.L + 1)
+/// / 2` [Suzuki 2004, section 3.2].
 #[inline]
 pub fn ramp_coordinate(n_dot_l: f32) -> f32 {
     (n_dot_l + 1.0) * 0.5
 }
 
-/// What the surface's linear light is multiplied by at place `x` of a ramp.
+/// Factor on the surface's linear light at place `x` of a ramp.
 ///
 /// Piecewise constant, with a smooth step `softness` wide centred on the start of each tone; 0 makes
 /// hard steps. The result is a blend of the levels, so it never leaves their range, and where the levels

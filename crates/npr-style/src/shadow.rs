@@ -5,8 +5,8 @@
 //! texel. The nearest relatives are irregular shadow maps [Johnson et al. 2005], which keep all triangles of a texel
 //! instead of one.
 //!
-//! Limits: a light throws shadows up to [`SHADOW_SIDE`] texels fine, so what is thinner than a texel may leave none,
-//! and where many triangles lie in a texel the edge is that of texels, rounded.
+//! Limits: a shadow image has [`SHADOW_SIDE`] texels a side, so what is thinner than a texel may throw no shadow, and
+//! where many triangles lie in a texel, the shadow's edge is that of texels, rounded.
 
 use npr_core::cutout::Cutout;
 use npr_core::surface::{apply_point, blend3, cross, dot, weights_at};
@@ -20,38 +20,38 @@ pub use crate::lighting::SHADOWS_MAX;
 /// Texels of a shadow image along a side.
 pub const SHADOW_SIDE: u32 = 2048;
 
-/// Height in texels under which a triangle counts as fine: its neighbours may have no texel of their own.
+/// Height in texels below which a triangle counts as fine: its neighbours may have no texel of their own.
 const FINE_TEXELS: f32 = 2.0;
 
-/// Least cosine between normal and light that the slope of a surface is reckoned with.
+/// Least cosine between normal and light used for the slope of a surface.
 const GRAZING: f32 = 0.1;
 
-/// Distances beyond the reach of any scene.
+/// A distance beyond the reach of any scene.
 const ENDLESS: f32 = 1e30;
 
 /// A place that a light may reach.
 struct ShadowPoint {
-    /// The triangle it lies on, plus one.
+    /// The triangle that it lies on, plus one.
     own: u32,
     world: [f32; 3],
     /// Unit vector towards the light, and the distance to it.
     towards: [f32; 3],
     distance: f32,
-    /// Cosine between that and the surface's normal.
+    /// Cosine between `towards` and the surface's normal.
     facing: f32,
-    /// Where the light sees it: normalised device coordinates, and texels from the top left corner.
+    /// Position as the light sees it: normalised device coordinates, and texels from the top left corner.
     ndc: [f32; 2],
     texel: [f32; 2],
     /// Size of a texel there, in the world.
     texel_world: f32,
-    /// Which shadow image.
+    /// Index of the shadow image.
     map: usize,
 }
 
 impl Layers<'_> {
-    /// The lights whose shadow falls on a place of triangle `id`, a bit each. O(lights).
+    /// The lights whose shadow falls on a place of triangle `id`, one bit each. O(lights).
     ///
-    /// Only lights that the smooth surface faces: what faces away has its tone from that.
+    /// Only lights that the smooth surface faces: elsewhere the tone is dark without a shadow.
     pub(crate) fn shadowed(&self, id: u32, corners: &Corners<'_>, weights: [f32; 3]) -> u32 {
         // Lift the place onto the smooth surface, so that facets do not shade each other.
         if self.lights.shadow_side == 0 {
@@ -127,7 +127,7 @@ impl Layers<'_> {
         self.is_covered(&place, seen)
     }
 
-    /// The triangle plus one that the light sees in one of the nine texels around a place, 0 where none.
+    /// The triangle plus one in one of the nine texels around a place; 0 if there is none.
     fn seen_near(&self, place: &ShadowPoint, k: u32) -> u32 {
         let side = self.lights.shadow_side;
         let near = |at: f32, step: u32| (at as u32 + step).saturating_sub(1).min(side - 1);
@@ -135,10 +135,10 @@ impl Layers<'_> {
         self.shadows[place.map][(y * side + x) as usize]
     }
 
-    /// Whether a triangle seen around a place covers it.
+    /// Whether something covers a place, by the triangles that the light sees around it.
     ///
-    /// A triangle that fills all nine texels decides; of several, each is tested. Where they are finer than texels,
-    /// what covers the place may be none of the nine, and the texels vote.
+    /// If one triangle fills all nine texels, it alone decides; of several, each is tested. If they are finer than
+    /// texels, none of the nine may be the one that covers the place, and the texels vote.
     fn is_covered(&self, place: &ShadowPoint, seen: [u32; 9]) -> bool {
         let mut distinct = 0;
         for k in 0..9 {
@@ -191,9 +191,9 @@ impl Layers<'_> {
         gap > gap_world && gap < place.distance
     }
 
-    /// Whether the texels around a place speak for a shadow: all nine, or more than half of the four next to it by
-    /// how near they are, counting fine triangles alone. Only what is clearly nearer to the light speaks, the more so
-    /// on slopes.
+    /// Whether the texels around a place vote for a shadow: all nine, or, of fine triangles, more than half of the
+    /// nearest four, weighted by nearness. Only texels clearly nearer to the light count; on slopes they must be nearer
+    /// still.
     fn vote(&self, place: &ShadowPoint, seen: [u32; 9]) -> bool {
         // Ask for a wider gap on slopes, where a texel spans more depth.
         let side = self.lights.shadow_side as f32;
@@ -201,7 +201,7 @@ impl Layers<'_> {
         let slope = (1.0 - facing * facing).max(0.0).sqrt() / facing;
         let gap_world = place.texel_world * (2.0 + 2.0 * slope) + self.lights.bias_world;
 
-        // Count the texels around whose triangles stand between, by how near they are.
+        // Count the texels whose triangles stand between place and light; weigh fine ones by nearness.
         let corner = place.texel.map(f32::floor);
         let (mut count, mut share) = (0, 0.0);
         for (k, id) in seen.into_iter().enumerate() {

@@ -1,9 +1,9 @@
 //! How much of the sky a place sees: the twin of `lib/sky`.
 //!
-//! A sky is light from everywhere: of one colour from above, of another, the ground's, from below. What stands in its
-//! way is found on pictures of the scene from many sides, whose texels hold how far outwards the scene reaches there:
-//! a place whose own distance is less does not see the sky on that side. As in shadow maps [Williams 1978] of so many
-//! distant lights; the host draws them once a scene, so that frames only look up.
+//! A sky is light from everywhere: one colour from above, another, the ground's, from below. What hides it is found on
+//! pictures of the scene from many sides, whose texels hold how far outwards the scene reaches: a place whose own
+//! distance is less does not see the sky on that side. They are shadow maps [Williams 1978] of as many distant lights;
+//! the host draws them once a scene, so that frames only look up.
 //!
 //! Limits: what is thinner than a texel may hide nothing, and within two texels of a corner places see too much.
 
@@ -14,15 +14,15 @@ use npr_core::surface::{dot, weights_around};
 pub use crate::dome::{dome_of, harmonics};
 pub use crate::lighting::Openness;
 
-/// Words before the texels of the pictures, for each of them: right, up and outwards, each a vector and an empty
-/// word; of the last row it is 1 where the picture is of the lower half.
+/// Words of the header of each picture, before the texels of all: the vectors right, up and outwards, each with one
+/// more word; that of the last is 1 for a picture of the lower half, else 0.
 pub const SKY_HEADER_WORDS: u32 = 12;
 
-/// How far a place is moved along its normal before it is looked up, in texels: enough for no flat face to hide
-/// itself, for the nearest four lie up to the root of two away.
+/// Distance, in texels, that a place is moved along its normal before the look-up: enough for no flat face to hide
+/// itself, since the nearest four texels lie up to the root of two away.
 const LIFT_TEXELS: f32 = 1.5;
 
-/// How much of the sky a place of the frame sees, and how that changes over a pixel.
+/// How much of the sky a position of the frame sees, and how that changes over a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SkyPoint {
     here: [f32; 2],
@@ -38,7 +38,7 @@ impl SkyPoint {
         down: [0.0; 2],
     };
 
-    /// How much of the sky is seen so many pixels to the right and down.
+    /// How much of the sky is seen `offset` pixels to the right and down.
     pub fn at(&self, offset: [f32; 2]) -> Openness {
         let [above, below] = std::array::from_fn(|half| {
             let moved = self.right[half] * offset[0] + self.down[half] * offset[1];
@@ -48,12 +48,12 @@ impl SkyPoint {
     }
 }
 
-/// A distance outwards, -1..1 in radii, as the texels of pictures hold it; 0 is kept for nothing.
+/// A distance outwards, -1..1 in radii, in the units of the pictures' texels; 0 is kept for empty ones.
 pub fn sky_height(outwards: f32) -> f32 {
     (outwards + 1.0) * 0.5 * 65534.0 + 1.0
 }
 
-/// How far the sky is seen on one of the pictures, and how that changes over a texel to the right and down.
+/// Share of a picture's side on which a place sees the sky, and its change over a texel to the right and down.
 type Seen = [f32; 3];
 
 impl Layers<'_> {
@@ -75,7 +75,7 @@ impl Layers<'_> {
             std::array::from_fn(|i| (there[i] - world[i]) / radius)
         };
         let (right, down) = (step(around[1]), step(around[2]));
-        // Look up every picture from which light falls on the front of the surface.
+        // Look up every picture from whose side light falls on the front of the surface.
         let half_side = 0.5 * lights.sky_side as f32;
         let mut whole = [0.0; 2];
         let mut open = SkyPoint {
@@ -102,7 +102,7 @@ impl Layers<'_> {
             open.right[half] += facing * change(right);
             open.down[half] += facing * change(down);
         }
-        // Make shares of sums; a half that the surface does not face counts as open.
+        // Turn the sums into shares; a half that the surface does not face counts as open.
         for (half, whole) in whole.into_iter().enumerate() {
             if whole > 0.0 {
                 open.here[half] /= whole;
@@ -115,13 +115,13 @@ impl Layers<'_> {
         open
     }
 
-    /// Three words of the texture store as numbers.
+    /// Three words of the texture store from `at` on, as floats.
     fn floats(&self, at: usize) -> [f32; 3] {
         std::array::from_fn(|i| f32::from_bits(self.texels[at + i]))
     }
 
-    /// How far a place at a height sees the sky on one of the pictures: the mean of the four texels around it by how
-    /// near they are, of which each is 1 where the scene reaches no farther outwards.
+    /// Whether a place at a height sees the sky on one of the pictures: the mean of the four texels around it, weighted
+    /// by nearness; each is 1 if the scene reaches no farther outwards there.
     fn sky_seen(&self, view: u32, at: [f32; 2], height: f32) -> Seen {
         let lights = self.lights;
         let side = lights.sky_side as f32;

@@ -7,7 +7,7 @@ use npr_core::geometry::{NONE, Part, Triangle, Vertex};
 use npr_core::surface::{blend2, blend3, dot, weights_at};
 use npr_core::texture;
 
-/// A colour of linear light as strong as a style wants it: grey at `saturation` 0, as it is at 1.
+/// A colour in linear light with its saturation scaled: grey at 0, unchanged at 1.
 #[inline]
 pub fn strengthened(color: [f32; 3], saturation: f32) -> [f32; 3] {
     if saturation == 1.0 {
@@ -18,7 +18,7 @@ pub fn strengthened(color: [f32; 3], saturation: f32) -> [f32; 3] {
 }
 
 impl Layers<'_> {
-    /// A colour as strong as the style wants it.
+    /// A colour with the saturation of the style.
     #[inline]
     pub(crate) fn strengthened(&self, color: [f32; 3]) -> [f32; 3] {
         strengthened(color, self.compose.saturation)
@@ -48,7 +48,7 @@ impl Layers<'_> {
             return color;
         }
 
-        // Multiply it by the texture, as far as the pixel reaches.
+        // Multiply it by the texture, averaged over the pixel.
         let uvs = vertices.map(|v| v.uv);
         let uv_near = |dx: f32, dy: f32| {
             blend2(
@@ -76,7 +76,7 @@ impl Layers<'_> {
     }
 }
 
-/// How far a pixel reaches in coordinates of a texture that are `uv` there, and what they are to the right and below.
+/// Size of a pixel in coordinates of a texture, given those at the pixel, to its right and below.
 #[inline]
 pub(crate) fn footprint([uv, right, down]: [[f32; 2]; 3]) -> f32 {
     let square = |there: [f32; 2]| (there[0] - uv[0]).powi(2) + (there[1] - uv[1]).powi(2);

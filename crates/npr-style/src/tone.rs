@@ -1,7 +1,7 @@
 //! Colour of one triangle under a pixel: the shading half of `shade.compose_frame`.
 //!
-//! What is the same all over a triangle is found once a frame (`compose/known.rs`). What changes gently is found once
-//! a pixel, at the middle of the samples that show the triangle, and what has edges at every sample.
+//! Constants of a triangle are found once a frame (`compose/known.rs`). What changes gently is found once a pixel, at
+//! the middle of the samples that show the triangle, and what has edges at every sample.
 
 use crate::backdrop::ContrastCache;
 use crate::compose::{Compose, Layers};
@@ -28,20 +28,20 @@ pub fn angle_ramp(facing: f32, threshold: f32, softness: f32) -> f32 {
     1.0 - math::smoothstep(threshold - half, threshold + half, facing.abs())
 }
 
-/// 1 up to `widest_px` from the contour of a surface, 0 farther away, where N . E is `facing` and changes by `change`
-/// a pixel.
+/// 1 within `widest_px` of the contour of a surface, else 0, at a place where N . E is `facing` and changes by `change`
+/// per pixel.
 ///
-/// Near a contour N . E grows as the root of the distance, so that is half of `facing` over `change`. On flat faces
-/// nothing changes, and they lie infinitely far from any contour.
+/// Near a contour, N . E grows with the root of the distance, so the distance is half of `facing` over `change`. On
+/// flat faces nothing changes, and they lie infinitely far from any contour.
 pub fn not_flat(facing: f32, change: f32, widest_px: f32) -> f32 {
     let distance = facing.max(0.0) * 0.5 / change.max(1e-9);
     (widest_px - distance + 0.5).clamp(0.0, 1.0)
 }
 
-/// Width of a tone step, in ramp coordinate, from which on it is so gentle that one place of a pixel stands for all.
+/// Width of a tone step, in ramp coordinate, from which it is so gentle that one place of a pixel stands for all.
 const GENTLE: f32 = 0.25;
 
-/// A lit surface under so much ink, 0..1.
+/// A lit surface with the share `share` of ink over it, 0..1.
 #[inline]
 pub(crate) fn inked(part: &Part, lit: [f32; 3], share: f32) -> [f32; 3] {
     let ink = part.ink_color;
@@ -55,28 +55,28 @@ struct Group {
     id: u32,
     /// A bit for each of the pixel's samples.
     members: u32,
-    /// Middle of the pixel in the frame, and middle of the samples.
+    /// Middle of the pixel in the frame; the middle of the samples follows.
     frame_px: [f32; 2],
     center: [f32; 2],
 }
 
-/// What a group's samples add up to.
+/// The sums over a group's samples.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sampled {
-    /// What the surface's colour is multiplied by.
+    /// Factor on the surface's colour.
     light: [f32; 3],
-    /// How much of it is inked, 0..1.
+    /// Share of it that is inked, 0..1.
     ink: f32,
-    /// What highlights add.
+    /// Light that highlights add.
     gloss: [f32; 3],
-    /// How much of it the surface-angle method draws a line over.
+    /// Share that the line of the surface-angle method covers.
     line: f32,
 }
 
-/// Ink of a surface, summed over samples: where no shadow ends, all share that of the first.
+/// Ink of a surface, summed over samples: samples in the same shadows share one value.
 #[derive(Debug, Clone, Copy)]
 struct Inked {
-    /// Lights whose shadow fell on the last sample, and its ink.
+    /// The lights whose shadow fell on the last sample, and the ink there.
     dark: u32,
     last: f32,
     first: f32,
@@ -84,7 +84,7 @@ struct Inked {
 }
 
 impl Inked {
-    /// With one more of `count` samples, whose ink is that of the last one unless other shadows fall on it.
+    /// Adds one of `count` samples; its ink is that of the last one unless other shadows fall on it.
     fn with(before: Option<Self>, dark: u32, count: f32, ink_of: impl Fn() -> f32) -> Self {
         let Some(before) = before else {
             let ink = ink_of();
@@ -110,7 +110,7 @@ impl Inked {
 }
 
 impl Layers<'_> {
-    /// The light of a triangle that is lit in one tone, whatever its ink and its highlights.
+    /// Light of a triangle that is lit in one tone all over, whatever its ink and its highlights; else `None`.
     pub(crate) fn even_light(&self, part: &Part, corners: &Corners<'_>) -> Option<[f32; 3]> {
         if part.flags & Part::ANGLE != 0 {
             return None;
@@ -131,7 +131,7 @@ impl Layers<'_> {
         Some(self.light_of(part, corners.posed[0].world, normal, 0, Openness::FULL))
     }
 
-    /// Whether a part's tones are the same for all coordinates in `range`.
+    /// Whether a part's ramp has one tone for all coordinates in `range`.
     fn one_step(&self, part: &Part, range: [f32; 2]) -> bool {
         if part.flags & Part::TONE_ROW != 0 {
             return row_is_even(self.texels, part.tone_row, range);
@@ -151,7 +151,7 @@ impl Layers<'_> {
 
     /// Light of triangle `id`, which the samples in `members` show.
     ///
-    /// `known` is what is known of the triangle; `contrast_cache` keeps the answers that lines had before.
+    /// `known` holds the triangle's constants; `contrast_cache` holds recent answers for lines.
     pub(crate) fn shade(
         &self,
         id: u32,
@@ -211,8 +211,8 @@ impl Layers<'_> {
         }
     }
 
-    /// Light, ink and highlights of a group: light and ink at its middle where no edge goes through it, all else at
-    /// its samples.
+    /// Light, ink and highlights of a group: light and ink at its middle if no edge goes through it, all else at its
+    /// samples.
     fn sampled(
         &self,
         group: &Group,
@@ -225,7 +225,7 @@ impl Layers<'_> {
             return self.at_samples(group, part, corners, known);
         };
 
-        // Else take what is known, or what is at the middle.
+        // Else take the constants, or the values at the middle.
         let ink = known
             .ink()
             .unwrap_or_else(|| self.ink_at(group.id, part, corners, group.center, 0));
@@ -242,7 +242,7 @@ impl Layers<'_> {
         }
     }
 
-    /// What a group's colour is still to be multiplied by, where one place stands for all of its samples.
+    /// Light on a group, if one place stands for all of its samples.
     fn light_at_middle(
         &self,
         group: &Group,
@@ -259,7 +259,7 @@ impl Layers<'_> {
             });
         }
 
-        // Look at the middle where light changes gently.
+        // Take the light at the middle if light changes gently.
         if !self.is_gentle(part) {
             return None;
         }
@@ -269,7 +269,7 @@ impl Layers<'_> {
         Some(self.light_of(part, world, normal, 0, open.at([0.0; 2])))
     }
 
-    /// What highlights add to a group that lies in no shadow.
+    /// Light that highlights add to a group that lies in no shadow.
     fn gloss_of(&self, group: &Group, part: &Part, corners: &Corners<'_>) -> [f32; 3] {
         let gloss_at = |weights: [f32; 3]| {
             let (world, normal) = (corners.world(weights), corners.normal(weights));
@@ -348,13 +348,13 @@ impl Layers<'_> {
         sum
     }
 
-    /// How dark the line of the surface-angle method is on a surface at a place of the frame, 0..1.
+    /// How dark the surface-angle method's line is at a place of a surface, 0..1.
     fn grazing(&self, part: &Part, corners: &Corners<'_>, px: [f32; 2]) -> f32 {
         if part.flags & Part::ANGLE == 0 || self.compose.flags & Compose::BARE != 0 {
             return 0.0;
         }
         let around = weights_around(corners.clip, self.view.ndc_at(px), self.view.pixel_ndc());
-        // The eye is that of the place: so the normal alone turns, and on flat faces nothing does.
+        // Keep the eye of the place: so only the normal turns, and on flat faces nothing does.
         let eye = self.view.to_eye(corners.world(around[0]));
         let [here, right, down] = around.map(|weights| dot(corners.normal(weights), eye));
         let change = length([right - here, down - here]);
@@ -364,7 +364,8 @@ impl Layers<'_> {
         angle_ramp(here, part.facing_threshold, softness) * not_flat(here, change, widest_px)
     }
 
-    /// [`even_ink`](Self::even_ink) where shadows make it differ from place to place; without any it is known.
+    /// [`even_ink`](Self::even_ink) if shadows make ink differ from place to place; `None` in frames without shadows,
+    /// where it is in the triangle's constants.
     fn even_ink_in_shadow(&self, part: &Part, corners: &Corners<'_>, dark: u32) -> Option<f32> {
         if self.lights.shadow_side == 0 {
             return None;
@@ -372,8 +373,8 @@ impl Layers<'_> {
         self.even_ink(part, corners, dark)
     }
 
-    /// Ink of a triangle that has the same all over, inside the shadow of the lights in `dark` or outside it: so a
-    /// shadow changes nothing beside it.
+    /// Ink of a triangle where it is the same all over, inside the shadow of the lights in `dark` or outside of it: a
+    /// shadow changes no ink beside it.
     pub(crate) fn even_ink(&self, part: &Part, corners: &Corners<'_>, dark: u32) -> Option<f32> {
         if part.flags & (Part::INK | Part::HATCH) == 0 {
             return Some(0.0);
@@ -387,8 +388,8 @@ impl Layers<'_> {
         ink_over(part, range.map(|x| x.min(most)))
     }
 
-    /// Light on a surface at `world` that faces along `normal`, lies in the shadow of the lights in `dark` and sees
-    /// `open` of the sky.
+    /// Light on a surface at `world` with the normal `normal`, in the shadow of the lights in `dark`, that sees `open`
+    /// of the sky.
     fn light_of(
         &self,
         part: &Part,
@@ -405,7 +406,7 @@ impl Layers<'_> {
         std::array::from_fn(|i| light[i] * color[i])
     }
 
-    /// Light of a part's ramp at coordinate `x`.
+    /// Factor on the light of a surface from a part's ramp at coordinate `x`.
     pub(crate) fn ramp_of(&self, part: &Part, x: f32) -> [f32; 3] {
         if part.flags & Part::TONE_ROW != 0 {
             row_light(self.texels, part.tone_row, x)
@@ -414,7 +415,7 @@ impl Layers<'_> {
         }
     }
 
-    /// Lowest and highest ramp coordinate that a triangle can have anywhere, where the normal alone decides.
+    /// Lowest and highest ramp coordinate on a triangle, if the normal alone decides; else `None`.
     fn coordinate_range(&self, corners: &Corners<'_>) -> Option<[f32; 2]> {
         Some(corners.range_towards(self.lights.only_distant()?))
     }

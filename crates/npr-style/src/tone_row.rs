@@ -1,14 +1,14 @@
 //! Tones from a picture: any row of pixels, hard or soft, as a ramp [Suzuki 2004, section 3.2]. The twin of
 //! `lib/tone_row`.
 //!
-//! The picture is looked at once. What passes read is a row of [`ROW_LENGTH`] tones in the texture store, so a tone
-//! costs one look-up whatever the picture holds.
+//! The picture is read once. Passes read a row of [`ROW_LENGTH`] tones in the texture store, so a tone costs one
+//! look-up whatever the picture holds.
 
 use bytemuck::{Pod, Zeroable};
 use npr_core::color::linear_from_byte;
 use npr_core::math;
 
-/// Tones of a row: steps lie within 1/2048 of where the picture has them.
+/// Number of tones in a row: steps lie within 1/2048 of their place in the picture.
 pub const ROW_LENGTH: usize = 1024;
 
 /// Most pixels of a picture along a side.
@@ -21,9 +21,9 @@ const TONE_WORDS: usize = 4;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct RowTone {
-    /// What linear light, red, green and blue, is multiplied by.
+    /// Factor on linear light: red, green and blue.
     pub light: [f32; 3],
-    /// The last place of the row up to which all tones from here are the same.
+    /// The last place of the row up to which all tones from here on are the same.
     pub same_until: u32,
 }
 
@@ -54,7 +54,7 @@ pub enum RowError {
     },
 }
 
-/// The tones of a picture's middle row, from what faces away on the left to what faces the light on the right.
+/// The tones of a picture's middle row; its left end faces away from the light, its right end towards it.
 ///
 /// Pixels are sRGB bytes with alpha, row by row; each is decoded to linear light and is what the surface's linear
 /// light is multiplied by, so white leaves colours as they are. Alpha is not looked at. With `softness` 0 a place has
@@ -150,13 +150,12 @@ fn tone_at(texels: &[u32], row: u32, x: f32) -> RowTone {
     }
 }
 
-/// What a surface's linear light is multiplied by at coordinate `x`, 0..1, of the row that starts at `row` of the
-/// texture store.
+/// Factor on a surface's linear light at coordinate `x`, 0..1, of the row that starts at `row` of the texture store.
 pub fn row_light(texels: &[u32], row: u32, x: f32) -> [f32; 3] {
     tone_at(texels, row, x).light
 }
 
-/// Whether a row is of one tone over all of `range`.
+/// Whether a row has one tone over all of `range`.
 pub fn row_is_even(texels: &[u32], row: u32, range: [f32; 2]) -> bool {
     tone_at(texels, row, range[0]).same_until as usize >= row_place(range[1])
 }

@@ -1,30 +1,30 @@
-//! What is the same all over a triangle, so that its pixels need not find it.
+//! Values that are the same all over a triangle, so that its pixels need not find them.
 
-/// What is known of a triangle.
+/// The constants of a triangle.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct TriangleConstants {
-    /// Linear light: the colour of the surface, or the light on it, or where both are known their product, under its
-    /// ink if that is [`TriangleConstants::WHOLE`].
+    /// Linear light: the colour of the surface, or the light on it, or their product if both are known; with the ink
+    /// over it if [`TriangleConstants::WHOLE`] is set.
     pub color: [f32; 3],
     /// Bits of [`TriangleConstants::PLAIN`] to [`TriangleConstants::WHOLE`].
     bits: u32,
 }
 
 impl TriangleConstants {
-    /// The surface has one colour: neither texture nor vertex colours, or they are left out.
+    /// Bit: the surface has one colour, with neither texture nor vertex colours, or they are left out.
     pub const PLAIN: u32 = 1;
-    /// Light is the same all over.
+    /// Bit: light is the same all over.
     pub const EVEN: u32 = 2;
-    /// No highlight reaches it.
+    /// Bit: no highlight reaches it.
     pub const MATT: u32 = 4;
-    /// There is no ink on it.
+    /// Bit: there is no ink on it.
     pub const BARE: u32 = 8;
-    /// It lies in solid ink.
+    /// Bit: it lies in solid ink.
     pub const SOLID: u32 = 16;
-    /// There is nothing left to find.
+    /// Bit: nothing is left to find.
     pub const WHOLE: u32 = 32;
 
-    /// The one colour of a triangle that has it all over.
+    /// The colour of a triangle that has one colour all over.
     #[inline]
     pub fn whole(&self) -> Option<[f32; 3]> {
         self.has(Self::WHOLE).then_some(self.color)
@@ -57,7 +57,7 @@ impl TriangleConstants {
         self.has(Self::SOLID).then_some(1.0)
     }
 
-    /// Sets a bit where something is so.
+    /// Sets a bit if `is_so`.
     pub fn learn(&mut self, bit: u32, is_so: bool) {
         self.bits |= if is_so { bit } else { 0 };
     }

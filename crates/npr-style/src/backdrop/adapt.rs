@@ -1,4 +1,4 @@
-//! A line's colour before a background: the twin of `lib/backdrop`.
+//! The colour of a line before a background: the twin of `lib/backdrop`.
 
 use super::oklab::{light_of_oklab, oklab_of_light};
 use super::published::{self, sane};
@@ -8,32 +8,32 @@ use npr_core::color::{linear_from_srgb, pack_rgba8, srgb_from_linear, unpack_rgb
 use npr_core::math::{self, mix, smoothstep};
 use npr_core::surface::dot;
 
-/// How much contrast is given up for the smaller step, and half the band in which a line turns from darker to brighter.
+/// Contrast given up for the sake of a smaller step, and half the band in which a line turns from darker to brighter.
 ///
 /// A line that is lighter than a dark background and darker than a light one must pass through the background's own
 /// lightness somewhere between, if it is to change without a jump. Smaller makes that stretch of outline shorter, and
 /// the change steeper.
 pub(super) const TURN: f32 = 0.006;
 
-/// Largest difference of two steps that still counts as about the same, in lightness.
+/// Greatest difference, in lightness, at which the steps to both candidates still count as about equal.
 const EVEN_STEP: f32 = 0.018;
 
-/// What a lack of contrast is worth in a vote, as a multiple of a step in lightness: a line must read.
+/// Weight of missing contrast in a vote, as a multiple of a step in lightness: that a line reads comes first.
 const LACK_WORTH: f32 = 50.0;
 
-/// Vote of a rule that knows one direction alone; the other stays where it reads already.
+/// Vote in favour of the direction that a rule forces; the other candidate is to stay where it reads already.
 const FORCED: f32 = 0.05;
 
-/// Share of the target by which a line must be moved to take all of its hue from the rim.
+/// Share of the target contrast after which a moved line has taken all of its hue from the rim.
 const HUE_AT: f32 = 0.5;
 
-/// Rounds in which chroma is fitted into the gamut, and lightness to a luminance.
+/// Rounds of bisection when chroma is fitted into the gamut, and lightness to a luminance.
 const FIT_ROUNDS: u32 = 14;
 
 /// How far a channel may lie outside 0..1 and still count as in gamut, as a share of a grey of that lightness.
 const GAMUT_ROOM: f32 = 1e-3;
 
-/// Red that colours have at least where their chroma is first fitted into the gamut, as a share of their blue.
+/// Least red while chroma is first fitted into the gamut, as a share of blue.
 ///
 /// At the tip of sRGB's blue the gamut overhangs by 0.16 degrees of hue: on the way from grey to the tip chroma leaves
 /// it and comes back. Chroma that is fitted to this border jumps by 15 %. The border where red is 1/66 of blue or more
@@ -43,23 +43,23 @@ const BLUE_TIP: f32 = 1.0 / 64.0;
 /// Largest factor by which chroma then grows up to the gamut's own border; the tip of blue needs 1.55.
 const TIP_REACH: f32 = 1.6;
 
-/// Largest ratio of luminances, of white and black [WCAG 2].
+/// Greatest ratio of luminances, that of white to black [WCAG 2].
 const WCAG_LARGEST: f32 = 21.0;
 
-/// A line's colour where its surface ends before `behind`; all colours sRGB-encoded, 0..1.
+/// The colour of a line where its surface ends before `behind`; all colours are sRGB-encoded, 0..1.
 ///
-/// `rim` is the colour of the surface beside the line. By contrast: a line that reads by the rule's target stays as
-/// it is. Any other moves in lightness until it does, and takes its hue from the rim as it moves; chroma gives way
-/// where sRGB has no such colour. Where neither direction reaches the target, it goes as far as it can.
+/// `rim` is the colour of the surface beside the line. With a rule by contrast, a line that reaches the target stays as
+/// it is. Any other moves in lightness until it does, and takes its hue from the rim on the way; chroma gives way where
+/// sRGB has no such colour. If neither direction reaches the target, the line goes as far as it can.
 ///
 /// Continuous in all three colours, and steep in two places. A line turns from darker to brighter within a band of
 /// 1.2 % of the measure's scale. OKLab is steep beside black: the first of 255 steps of a grey is 6.7 % of lightness.
 ///
-/// Contrast never falls, but for backgrounds from which a line turns from darker to brighter: a band of about 1 % of
-/// lightness.
+/// Contrast never falls, except before backgrounds at which the line turns from darker to brighter: a band of about 1 %
+/// of lightness.
 ///
-/// By likeness: the published method, see [`published::color`]. Channels outside 0..1 are clamped, and those that are
-/// no number count as 0. About 10 cube roots and 200 products.
+/// With a rule by likeness: the published method, see [`published::color`]. Channels outside 0..1 are clamped; NaN
+/// counts as 0. About 10 cube roots and 200 products.
 pub fn adapt(line: [f32; 3], rim: [f32; 3], behind: [f32; 3], rule: &Rule) -> [f32; 3] {
     let [line, rim, behind] = [line, rim, behind].map(|color| color.map(sane));
     let rule = &rule.sane();
@@ -79,7 +79,7 @@ pub fn adapt(line: [f32; 3], rim: [f32; 3], behind: [f32; 3], rule: &Rule) -> [f
     }
 }
 
-/// How well a colour reads before another, both sRGB-encoded: in the measure of the rule's target.
+/// The contrast of one colour before another, both sRGB-encoded, in the measure of the rule's target.
 pub fn contrast(line: [f32; 3], behind: [f32; 3], rule: &Rule) -> f32 {
     let light = [line, behind].map(|color| color.map(|channel| linear_from_srgb(sane(channel))));
     if rule.measure == Rule::WCAG {
@@ -90,19 +90,19 @@ pub fn contrast(line: [f32; 3], behind: [f32; 3], rule: &Rule) -> f32 {
     (a - b).abs()
 }
 
-/// What lies behind a line, on the scale of the rule's measure: 0 black, 1 white.
+/// What lies behind a line, as places on the scale of the rule's measure: 0 black, 1 white.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ground {
-    /// The darkest that it must read before.
+    /// The darkest ground that the line must read before.
     pub low: f32,
-    /// The brightest.
+    /// The brightest ground that the line must read before.
     pub high: f32,
-    /// How much of the brighter of both ways is taken, 0..1; by itself where it is `None`.
+    /// Share of the brighter candidate in the result, 0..1; `None` if this ground alone decides.
     pub brighter: Option<f32>,
 }
 
 impl Ground {
-    /// One colour in linear light.
+    /// The ground of a single colour in linear light.
     pub fn of_light(behind: [f32; 3], rule: &Rule) -> Self {
         let place = place_of_light(behind, rule);
         Self {
@@ -112,13 +112,13 @@ impl Ground {
         }
     }
 
-    /// Packs the ground into a texel with the number of a rule.
+    /// Packs the ground and the number of a rule into a texel.
     pub(super) fn packed(&self, rule: u32) -> u32 {
         let share = self.brighter.unwrap_or(0.5);
         pack_rgba8([self.low, self.high, share, 0.0]) | rule << 24
     }
 
-    /// Unpacks the ground of such a texel.
+    /// Unpacks the ground from such a texel.
     pub(super) fn unpacked(texel: u32) -> Self {
         let [low, high, share, _] = unpack_rgba8(texel);
         Self {
@@ -129,7 +129,7 @@ impl Ground {
     }
 }
 
-/// [`adapt`] by contrast in linear light of 0..1, as passes do it.
+/// [`adapt`] by contrast for colours in linear light of 0..1, as passes compute it.
 pub fn adapted_light(line: [f32; 3], rim: [f32; 3], ground: &Ground, rule: &Rule) -> [f32; 3] {
     let line = started(|| line, rim, rule);
     let own = oklab_of_light(line);
@@ -148,7 +148,7 @@ pub fn adapted_light(line: [f32; 3], rim: [f32; 3], ground: &Ground, rule: &Rule
     at_place(to, to > from, [own, edge], share, rule)
 }
 
-/// The published method in linear light of 0..1, as passes do it.
+/// The published method for colours in linear light of 0..1, as passes compute it.
 pub(super) fn published_light(
     line: [f32; 3],
     rim: [f32; 3],
@@ -162,7 +162,7 @@ pub(super) fn published_light(
     published::color(line, rim, behind, rule).map(linear_from_srgb)
 }
 
-/// The colour that a line starts from: its own, or a share of the rim's.
+/// The colour that a line starts from: its own, or a share of its rim's.
 pub(super) fn started(line: impl FnOnce() -> [f32; 3], rim: [f32; 3], rule: &Rule) -> [f32; 3] {
     if rule.rim_factor > 0.0 {
         return rim.map(|channel| channel * rule.rim_factor);
@@ -170,7 +170,7 @@ pub(super) fn started(line: impl FnOnce() -> [f32; 3], rim: [f32; 3], rule: &Rul
     line()
 }
 
-/// Where a colour lies on the scale of the rule's measure, 0 black to 1 white.
+/// Place of a colour of known lightness on the scale of the rule's measure, 0 black to 1 white.
 fn place_of(light: [f32; 3], lightness: f32, rule: &Rule) -> f32 {
     if rule.measure == Rule::WCAG {
         return math::ln(dot(LUMA, light) * 20.0 + 1.0) / math::ln(WCAG_LARGEST);
@@ -178,17 +178,17 @@ fn place_of(light: [f32; 3], lightness: f32, rule: &Rule) -> f32 {
     lightness
 }
 
-/// Where a colour of which nothing else is known lies on that scale.
+/// Place of a colour on that scale, from its linear light alone.
 pub(super) fn place_of_light(light: [f32; 3], rule: &Rule) -> f32 {
     place_of(light, oklab_of_light(light)[0], rule)
 }
 
-/// The luminance at a place on the scale of WCAG.
+/// The luminance at a place on the scale of WCAG contrast.
 fn luminance_at(place: f32) -> f32 {
     (math::exp(place * math::ln(WCAG_LARGEST)) - 1.0) / 20.0
 }
 
-/// The rule's target as a distance on that scale.
+/// The rule's target contrast as a distance on the scale of its measure.
 fn target_of(rule: &Rule) -> f32 {
     if rule.measure == Rule::WCAG {
         return math::ln(rule.goal.clamp(1.0, WCAG_LARGEST)) / math::ln(WCAG_LARGEST);
@@ -196,11 +196,11 @@ fn target_of(rule: &Rule) -> f32 {
     rule.goal.clamp(0.0, 1.0)
 }
 
-/// Where a line at `line` moves before a ground, on a scale of 0 to 1.
+/// The place to which a line at `line` moves before a ground, both on a scale of 0 to 1.
 ///
-/// Two candidates, darker and brighter, each no farther from the line than the target asks. Where the ground does not
-/// say which one is taken, the one that falls shorter of the target loses; about equal, the longer step loses;
-/// between, they are blended.
+/// There are two candidates, a darker and a brighter one, each no farther from the line than the target needs. If the
+/// ground does not say which to take, the one that falls shorter of the target loses; if both fall about equally short,
+/// the longer step loses; between, they are blended.
 fn moved(line: f32, ground: &Ground, target: f32, direction: u32) -> f32 {
     let both = Candidates::of(line, [ground.low, ground.high], target, direction);
     let share = ground.brighter.unwrap_or_else(|| {
@@ -216,11 +216,10 @@ fn moved(line: f32, ground: &Ground, target: f32, direction: u32) -> f32 {
     mix(both.darker, both.brighter, share)
 }
 
-/// Which way a line at `line` had better move before grounds from the first to the second: from -1, darker, to 1,
-/// brighter.
+/// Preferred direction of a line at `line` before grounds from `grounds[0]` to `grounds[1]`: -1 darker to 1 brighter.
 ///
-/// The difference in what both candidates cost: how far the line moves and, much more, by how much it falls short of
-/// the target.
+/// It is the difference in cost of both candidates: how far the line moves and, with far more weight, how much it falls
+/// short of the target.
 pub(super) fn preference(line: f32, grounds: [f32; 2], rule: &Rule) -> f32 {
     let both = Candidates::of(line, grounds, target_of(rule), rule.direction);
     let [lack_darker, lack_brighter] = both.lacks;
@@ -233,11 +232,11 @@ pub(super) fn preference(line: f32, grounds: [f32; 2], rule: &Rule) -> f32 {
     cost.clamp(-1.0, 1.0)
 }
 
-/// Where a line may move.
+/// The two places that a line may move to.
 struct Candidates {
     darker: f32,
     brighter: f32,
-    /// By how much each falls short of the target.
+    /// How much the darker and the brighter candidate fall short of the target.
     lacks: [f32; 2],
 }
 
@@ -245,7 +244,7 @@ impl Candidates {
     fn of(line: f32, [low, high]: [f32; 2], target: f32, direction: u32) -> Self {
         let mut darker = line.min(low - target).max(0.0);
         let mut brighter = line.max(high + target).min(1.0);
-        // In a forced direction the other candidate is to stay on that side as it is.
+        // If a direction is forced, the other candidate only keeps to its side of the ground.
         if direction == Rule::BRIGHTER {
             darker = line.min(low);
         }
@@ -263,16 +262,16 @@ impl Candidates {
         }
     }
 
-    /// By how much the step to the darker one is longer.
+    /// How much longer the step to the darker candidate is than that to the brighter one.
     fn longer(&self, line: f32) -> f32 {
         (line - self.darker) - (self.brighter - line)
     }
 }
 
-/// The colour of a lightness: chroma between those of the line and its rim, as far as sRGB has it.
+/// The colour of a given lightness with a chroma between those of line and rim, as far as sRGB has it.
 ///
-/// Continuous. Chroma is first fitted into a gamut without an overhang. From there the colour runs straight in linear
-/// light, where sRGB is convex, as far as sRGB reaches. On that way hue turns by up to 1.2 degrees, beside blue alone.
+/// Continuous. Chroma is first fitted into a gamut without an overhang. From there the colour moves straight in linear
+/// light, where sRGB is convex, as far as sRGB reaches. Only beside blue does this turn the hue, by up to 1.2 degrees.
 fn at_lightness(lightness: f32, own: [f32; 3], edge: [f32; 3], share: f32) -> [f32; 3] {
     // A shade of the rim's paint: chroma grows and falls with lightness.
     let paler = ((lightness + 0.1) / (edge[0] + 0.1)).clamp(0.5, 2.0);
@@ -299,11 +298,11 @@ fn at_lightness(lightness: f32, own: [f32; 3], edge: [f32; 3], share: f32) -> [f
     [0, 1, 2].map(|i| mix(inner[i], outer[i], share).clamp(0.0, 1.0))
 }
 
-/// The same for a place on the scale of the rule's measure: of WCAG the lightness at which the fitted colour has that
-/// luminance.
+/// [`at_lightness`] for a place on the scale of the rule's measure: for WCAG, the lightness at which the fitted colour
+/// has the luminance of that place.
 ///
-/// Of the two colours between which the search ends that one is taken which the line goes towards (`brighter` or not),
-/// so that it does not fall short.
+/// The search ends between two colours; the one farther in the line's direction (`brighter` or not) is taken, so that
+/// contrast does not fall short.
 fn at_place(
     place: f32,
     brighter: bool,
@@ -311,12 +310,12 @@ fn at_place(
     share: f32,
     rule: &Rule,
 ) -> [f32; 3] {
-    // Take the place for the lightness, on the scale of OKLab.
+    // Take the place as the lightness, on the scale of OKLab.
     if rule.measure != Rule::WCAG {
         return at_lightness(place, own, edge, share);
     }
 
-    // Search the lightness whose fitted colour has the luminance that the place asks for.
+    // Search for the lightness whose fitted colour has the luminance of the place.
     let luminance = luminance_at(place);
     let (mut low, mut high) = (0.0, 1.0);
     let (mut dark, mut bright) = ([0.0; 3], [1.0; 3]);
@@ -337,7 +336,7 @@ fn is_in_gamut(light: [f32; 3], room: f32) -> bool {
     inside(light[0]) && inside(light[1]) && inside(light[2])
 }
 
-/// How much of the straight way from a colour in gamut to another lies in it.
+/// How much of the straight way from a colour in the gamut to another one lies in the gamut.
 fn share_in_gamut(from: [f32; 3], to: [f32; 3], room: f32) -> f32 {
     let mut share = 1.0f32;
     for (from, to) in from.into_iter().zip(to) {

@@ -1,10 +1,10 @@
-//! Lines' light before what a frame found on both of their sides: what every layer of lines ends with.
+//! The light of lines before the colours that a frame found on both of their sides: the last step of every line layer.
 
 use super::adapt::{Ground, adapted_light, published_light};
 use super::rule::{Rule, Rules};
 use npr_core::math::mix_bits;
 
-/// Adapts lines to what lies behind them, pixel by pixel, and keeps some answers: pixels beside each other mostly ask
+/// Adapts lines to what lies behind them, pixel by pixel, and keeps recent answers: neighbouring pixels mostly ask for
 /// the same.
 #[derive(Debug, Clone)]
 pub struct ContrastCache {
@@ -14,7 +14,7 @@ pub struct ContrastCache {
 /// How many answers are kept; a power of two.
 const ANSWERS: usize = 64;
 
-/// The light that a line was given between two texels.
+/// The adapted light of a line for a front texel and a back texel.
 #[derive(Debug, Clone, Copy)]
 struct Answer {
     line: [f32; 3],
@@ -31,13 +31,13 @@ impl Default for ContrastCache {
     }
 }
 
-/// The colour of a texel, without what else it holds.
+/// Mask of the colour in a texel, without its highest byte.
 const COLOR: u32 = 0x00ff_ffff;
 
 impl ContrastCache {
-    /// A line's light at a pixel where [`spread_rims`](super::spread_rims) wrote `front` and `back`.
+    /// The light of a line at a pixel where [`spread_rims`](super::spread_rims) wrote `front` and `back`.
     ///
-    /// `light_of` gives the linear light of sRGB bytes, and what is beside it as 0..1.
+    /// `light_of` turns sRGB bytes into linear light and the highest byte into 0..1.
     pub fn light(
         &mut self,
         line: [f32; 3],
@@ -50,7 +50,7 @@ impl ContrastCache {
         }
         let [r, g, b, weight] = light_of(front);
         let rule = &rules.rules[(back >> 24) as usize];
-        // A line that starts from the rim's colour forgets its own.
+        // If a line starts from the rim's colour, its own plays no part.
         let forgets = rule.method == Rule::BY_CONTRAST && rule.rim_factor > 0.0;
         let slot = &mut self.answers[slot_of(front & COLOR, back)];
         let is_known = |answer: &&Answer| {
@@ -73,7 +73,7 @@ impl ContrastCache {
     }
 }
 
-/// Where the answer for two texels is kept.
+/// Index of the answer for two texels.
 fn slot_of(front: u32, back: u32) -> usize {
     mix_bits(front ^ back.rotate_left(16)) as usize % ANSWERS
 }

@@ -1,4 +1,4 @@
-//! What the rims of a tile stand before, together: the twin of `backdrop.gather_tiles`.
+//! The rims of a tile and what lies behind them, summed up: the twin of `backdrop.gather_tiles`.
 
 use super::adapt::{place_of_light, started};
 use super::rims::{Rim, TILE, tiles_across};
@@ -10,25 +10,25 @@ use npr_core::gpu_layout;
 use npr_core::window::Window;
 use rayon::prelude::*;
 
-/// Difference of backgrounds from which they are two walls, and not one with a pattern.
+/// Difference of two backgrounds from which they count as two walls, not as one with a pattern.
 pub(super) const UNLIKE: f32 = 0.42;
 
-/// Whose rims lie in a tile, and what their lines start from and stand before; places from 0 black to 1 white in the
-/// rule's measure.
+/// The rims of one subject and rule in a tile: where their lines start and what lies behind; places from 0 black to 1
+/// white in the rule's measure.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct TileRims {
-    /// Mean of what lines start from.
+    /// Mean place that the lines start from.
     pub line: f32,
-    /// Mean of what lies behind.
+    /// Mean place of what lies behind.
     pub behind: f32,
-    /// The darkest that lies behind.
+    /// The darkest place that lies behind.
     pub low: f32,
-    /// The brightest.
+    /// The brightest place that lies behind.
     pub high: f32,
     /// How many rims there are.
     pub count: f32,
-    /// Whose they are, see [`Rim::WHOSE`]: those of the first rim in the tile; 0 where there is none.
+    /// The subject and the bit for lines within, see [`Rim::WHOSE`], of the first rim in the tile; 0 if there is none.
     pub whose: u32,
     /// The number of their rule.
     pub rule: u32,
@@ -77,7 +77,7 @@ fn gathered_at(
     if all.high - all.low <= UNLIKE {
         return all;
     }
-    // Where two walls meet, the tile is of the one that more of its rims stand before.
+    // If a tile holds two walls, keep the rims before the one that more of them lie before.
     let middle = 0.5 * (all.low + all.high);
     let (dark, bright) = (found.summed([0.0, middle]), found.summed([middle, 1.0]));
     if dark.count >= bright.count {
@@ -92,7 +92,7 @@ fn gathered_at(
 struct Found {
     whose: u32,
     rule: u32,
-    /// Where their lines start, what lies behind, and their colour, in as many places as are `count`.
+    /// For each of the first `count` rims: where its line starts, what lies behind, and its colour.
     rims: [([f32; 2], u32); (TILE * TILE) as usize],
     count: usize,
 }
@@ -132,7 +132,7 @@ impl Found {
         found
     }
 
-    /// Sums up the rims that stand before a ground between two places on the scale.
+    /// Sums up the rims before grounds between two places on the scale.
     fn summed(&self, within: [f32; 2]) -> TileRims {
         // Add up the rims that stand before a ground in the range.
         let mut sum = TileRims {
@@ -155,7 +155,7 @@ impl Found {
             sum.count += 1.0;
         }
 
-        // Make means of the sums; the darkest and the brightest ground stay.
+        // Turn the sums into means; the darkest and the brightest ground stay.
         let count = sum.count.max(1.0);
         let [r, g, b] = color.map(|channel| channel / count);
         TileRims {
@@ -167,7 +167,7 @@ impl Found {
     }
 }
 
-/// Where the line that a rim's part is expected to have, and what lies behind it, lie on the scale of the rule.
+/// Places, on the rule's scale, of the line that a rim's part is expected to have and of what lies behind it.
 fn places_of(rim: &Rim, rule: &Rule, parts: &[Part]) -> [f32; 2] {
     let part = &parts[rim.part as usize];
     let edge = light_of(rim.rim);

@@ -1,25 +1,25 @@
-//! Which elements of a picture hold anything, so that the processor looks at nothing else. Devices look at all of
-//! them: what holds nothing adds nothing there.
+//! Which elements of a picture hold anything, so that the processor skips all others. Devices visit all of them: empty
+//! elements add nothing there.
 
 use npr_core::math;
 use rayon::prelude::*;
 
 /// The elements of a picture that hold anything, in order: row by row, each from the left.
 pub(super) struct Occupied {
-    /// The columns of all rows.
+    /// The columns of the occupied elements of all rows, row after row.
     columns: Vec<u32>,
-    /// Where each row starts among them, and where the last one ends.
+    /// Index into `columns` where each row starts, and its length at the end.
     starts: Vec<usize>,
 }
 
-/// An element near another.
+/// An occupied element near a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Near {
-    /// How many elements that hold anything come before it.
+    /// How many occupied elements come before it.
     pub ordinal: usize,
     /// Its column and row.
     pub place: [u32; 2],
-    /// The square of its distance.
+    /// The square of its distance in elements.
     pub square: u32,
 }
 
@@ -47,7 +47,7 @@ impl Occupied {
         &self.columns[self.starts[y]..self.starts[y + 1]]
     }
 
-    /// Makes a value of each, by its column and row; the values come in order. Parallel over rows.
+    /// Computes a value for each occupied element from its column and row, in order. Parallel over rows.
     pub fn each<T: Send>(&self, of: impl Fn([u32; 2]) -> T + Sync + Send) -> Vec<T> {
         let rows = (0..self.starts.len() - 1).into_par_iter();
         rows.flat_map_iter(|y| self.row(y).iter().map(move |x| [*x, y as u32]))
@@ -55,8 +55,8 @@ impl Occupied {
             .collect()
     }
 
-    /// Gives every element that holds anything what is made of it, by column and row, and leaves all others. Parallel
-    /// over rows.
+    /// Writes to every occupied element of `made` the value that `of` gives for its column and row, and leaves all
+    /// others. Parallel over rows.
     pub fn make<T: Send>(&self, made: &mut [T], width: usize, of: impl Fn([u32; 2]) -> T + Sync) {
         made.par_chunks_mut(width)
             .enumerate()
@@ -67,7 +67,7 @@ impl Occupied {
             });
     }
 
-    /// The elements up to `reach` columns and rows around a place, the place itself included, in order.
+    /// The occupied elements up to `reach` columns and rows from a place, the place itself included, in order.
     pub fn around(&self, [x, y]: [u32; 2], reach: u32) -> impl Iterator<Item = Near> {
         let end = (y + reach + 1).min(self.starts.len() as u32 - 1);
         (y.saturating_sub(reach)..end).flat_map(move |row| {
@@ -89,13 +89,13 @@ impl Occupied {
     }
 }
 
-/// A Gaussian's weights by the square of a distance in whole steps.
+/// The weights of a Gaussian by squared distance in whole steps.
 pub(super) struct Gaussian {
     weights: Vec<f32>,
 }
 
 impl Gaussian {
-    /// Of exp(square * falloff), up to `reach` steps along each of two axes.
+    /// Tabulates exp(square * falloff) up to `reach` steps along each of two axes.
     pub fn new(falloff: f32, reach: u32) -> Self {
         let squares = 0..=2 * reach * reach;
         Self {
@@ -105,7 +105,7 @@ impl Gaussian {
         }
     }
 
-    /// The weight at the square of a distance.
+    /// The weight at a squared distance.
     pub fn at(&self, square: u32) -> f32 {
         self.weights[square as usize]
     }

@@ -4,8 +4,8 @@ use npr_core::math;
 
 /// Linear light as OKLab lightness, a and b [Ottosson 2020]: white is (1, 0, 0).
 ///
-/// Written out although crates offer it, because `lib/backdrop` does the same on devices, step by step, and because its
-/// cube root must have the same bits on every platform. Tests hold it against the crate `palette`.
+/// Written out although crates offer it: `lib/backdrop` does the same on devices, step by step, and the cube root must
+/// have the same bits on every platform. Tests hold it against the crate `palette`.
 pub fn oklab_of_light(light: [f32; 3]) -> [f32; 3] {
     let [r, g, b] = light;
     let l = cube_root(0.412_221_46 * r + 0.536_332_55 * g + 0.051_445_995 * b);
@@ -31,7 +31,7 @@ pub fn light_of_oklab([lightness, a, b]: [f32; 3]) -> [f32; 3] {
     ]
 }
 
-/// Cube root of what is not negative.
+/// Cube root of a number that is not negative.
 fn cube_root(x: f32) -> f32 {
     if x <= 0.0 {
         return 0.0;

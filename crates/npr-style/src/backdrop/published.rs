@@ -19,16 +19,16 @@
 use super::rule::Rule;
 use rayon::prelude::*;
 
-/// What counts as alike: the largest difference, each for itself; criteria without one are not used.
+/// The largest differences at which colours count as alike, one for each criterion; `None` leaves a criterion out.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Criteria {
-    /// Of any channel of RGB, 0..1.
+    /// Difference of any channel of RGB, 0..1.
     pub rgb: Option<f32>,
-    /// Of V = max(R, G, B), 0..1 (equation 2.1).
+    /// Difference of V = max(R, G, B), 0..1 (equation 2.1).
     pub value: Option<f32>,
-    /// Of S = (max - min) / max, 0..1 (equation 2.2).
+    /// Difference of S = (max - min) / max, 0..1 (equation 2.2).
     pub saturation: Option<f32>,
-    /// Of hue, in degrees, 0..180; greys have none and differ from nothing.
+    /// Difference of hue in degrees, 0..180; greys have no hue and differ from nothing.
     pub hue_deg: Option<f32>,
 }
 
@@ -47,7 +47,7 @@ impl Criteria {
     }
 }
 
-/// The outline of what `alone` shows, one pixel wide and outside of it: a colour for every pixel on it.
+/// The outline of the figure in `alone`, one pixel wide and outside of it: a colour for every pixel on it.
 ///
 /// `alone` is the character, alpha 0 everywhere else; `composed` is the character before its background; both
 /// sRGB-encoded, 0..1, row by row. A pixel whose alpha is the same in both shows the character (section 2.2). One
@@ -104,14 +104,14 @@ pub fn outline(
 /// A figure before a background with its outline, where what lies around it is transparent: all sRGB-encoded with
 /// straight alpha.
 ///
-/// The figure is the first picture of the publication, and before its background the second; [`outline()`] compares
-/// them. `line` is the colour of lines that need no change; its alpha is the opacity of all. Also says how many
-/// pixels the outline has.
+/// The figure is the publication's first picture, the figure before its background the second; [`outline()`] compares
+/// the two. `line` is the colour of lines that need no change; its alpha is the opacity of all. Also returns the number
+/// of pixels on the outline.
 ///
 /// `None` where the pictures are not of `size`. O(pixels).
 ///
-/// Differs: a pixel that the figure covers in part is compared by the background's colour, not by the blend of both,
-/// which is always like the figure and would brighten the edge of every soft figure.
+/// Differs: a pixel that the figure covers in part is compared by the background's colour. The blend of both is always
+/// like the figure and would brighten the edge of every soft figure.
 pub fn draw(
     size: [u32; 2],
     figure: &[[f32; 4]],
@@ -142,7 +142,7 @@ pub fn draw(
     Some((drawn, count))
 }
 
-/// A colour over another.
+/// One colour laid over another, straight alpha.
 fn laid(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
     let left = below[3] * (1.0 - top[3]);
     let alpha = top[3] + left;
@@ -150,10 +150,10 @@ fn laid(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
     [mix(0), mix(1), mix(2), alpha]
 }
 
-/// The line's colour between a rim and what lies behind, all sRGB-encoded: equations of section 2.4.
+/// The colour of a line between a rim and what lies behind, all sRGB-encoded: equations of section 2.4.
 ///
-/// Where the two are alike, the rim's colour times I, or divided by it, clamped to 1; elsewhere `line`. Alike are
-/// colours that differ by no more than the threshold in every criterion in use; without any, no colours are.
+/// If the two are alike, it is the rim's colour times I, clamped to 1, or divided by I; else `line`. Colours are alike
+/// if they differ by no more than the threshold in every criterion in use; without any, none are.
 ///
 /// Differs: with [`Rule::AUTO`], brighter before backgrounds of V up to one half, and darker before brighter ones.
 pub fn color(line: [f32; 3], rim: [f32; 3], behind: [f32; 3], rule: &Rule) -> [f32; 3] {
@@ -172,7 +172,7 @@ pub fn color(line: [f32; 3], rim: [f32; 3], behind: [f32; 3], rule: &Rule) -> [f
     rim.map(|channel| (channel * factor).min(1.0))
 }
 
-/// Whether two colours differ by no more than any threshold that is not negative; false without one.
+/// Whether two colours differ by no more than every threshold that is not negative; false if all are negative.
 pub fn are_alike(a: [f32; 3], b: [f32; 3], thresholds: &[f32; 4]) -> bool {
     let step = |i: usize| (a[i] - b[i]).abs();
     let differences = [
@@ -237,7 +237,7 @@ fn hue_difference(a: [f32; 3], b: [f32; 3]) -> f32 {
     way.min(1.0 - way)
 }
 
-/// The pixels of a picture that touch one.
+/// The pixels of a picture that touch the pixel at `x`, `y`.
 fn neighbours(size: [u32; 2], x: usize, y: usize) -> impl Iterator<Item = usize> {
     let [width, height] = size.map(|side| side as usize);
     let rows = y.saturating_sub(1)..(y + 2).min(height);
@@ -247,7 +247,7 @@ fn neighbours(size: [u32; 2], x: usize, y: usize) -> impl Iterator<Item = usize>
         .map(move |(column, row)| row * width + column)
 }
 
-/// Finite and within 0..1.
+/// A channel clamped to 0..1; NaN counts as 0.
 pub(super) fn sane(channel: f32) -> f32 {
     if channel.is_nan() {
         return 0.0;

@@ -13,10 +13,10 @@ use rayon::prelude::*;
 /// Side of the square tiles in which borders are looked for, in output pixels.
 pub const TILE: u32 = 4;
 
-/// How far around its tile a border makes it busy: a rim's neighbours may lie in the next tile, and theirs one farther.
+/// Tiles around a border's tile that it marks too: a rim's neighbours may lie in the next tile, and theirs one farther.
 const TILE_RIM: u32 = 2;
 
-/// The subject that a part belongs to, and the rule by which its lines mind the background.
+/// The subject that a part belongs to, and the rule by which its lines adapt to the background.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct PartSubject {
@@ -31,9 +31,9 @@ gpu_layout!(PartSubject { subject, rule });
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Rim {
-    /// Mean colour of the subject, sRGB bytes; the highest is how much its rule counts here.
+    /// Mean colour of the subject, sRGB bytes; the highest byte is the weight of the rule here.
     pub rim: u32,
-    /// Mean colour of what lies behind, sRGB bytes; the highest is the number of the rule.
+    /// Mean colour of what lies behind, sRGB bytes; the highest byte is the number of the rule.
     pub behind: u32,
     /// The subject, with the bits [`Rim::OUTSIDE`] and [`Rim::WITHIN`]; 0 where there is no border.
     pub subject: u32,
@@ -48,11 +48,11 @@ gpu_layout!(Rim {
 });
 
 impl Rim {
-    /// The pixel itself does not lie on the subject.
+    /// Bit: the pixel itself does not lie on the subject.
     pub const OUTSIDE: u32 = 1 << 31;
-    /// The line lies within the subject, not at its border.
+    /// Bit: the line lies within the subject, not at its border.
     pub const WITHIN: u32 = 1 << 30;
-    /// Mask of the bits that tell the borders of subjects apart, and borders from lines within.
+    /// Mask of the bits that tell subjects apart, and borders from lines within.
     pub const WHOSE: u32 = !Self::OUTSIDE;
 }
 
@@ -103,7 +103,7 @@ pub fn tiles_across(size: [u32; 2]) -> u32 {
 
 impl Scenery<'_> {
     fn is_busy(&self, tile: [u32; 2]) -> bool {
-        // Find the samples of the tile and of what lies close around it.
+        // Take the samples of the tile and of its surroundings.
         let samples = self.rules.samples;
         let low = tile.map(|at| (at * TILE).saturating_sub(TILE_RIM) * samples);
         let high: [u32; 2] = std::array::from_fn(|i| {
@@ -132,7 +132,7 @@ impl Scenery<'_> {
         false
     }
 
-    /// Part of a triangle number, which is not 0.
+    /// The part of a triangle number other than 0.
     fn part_of(&self, id: u32) -> u32 {
         self.triangles[((id & ID_MASK) - 1) as usize].part
     }
@@ -144,7 +144,7 @@ impl Scenery<'_> {
         self.part_subjects[self.part_of(id) as usize]
     }
 
-    /// Whether all samples of some pixels, the last ones included, show the same number.
+    /// Whether all samples of the pixels from `low` to `high`, both included, show the same number.
     fn is_one(&self, low: [u32; 2], high: [u32; 2]) -> bool {
         let samples = self.rules.samples;
         let width = self.window.size[0] * samples;
@@ -159,7 +159,7 @@ impl Scenery<'_> {
         })
     }
 
-    /// The number that the first sample of a pixel shows.
+    /// The number in the first sample of a pixel.
     fn first_id(&self, x: u32, y: u32) -> u32 {
         let samples = self.rules.samples;
         self.ids[(y * samples * self.window.size[0] * samples + x * samples) as usize]
@@ -185,7 +185,7 @@ impl Scenery<'_> {
     }
 }
 
-/// Whether all numbers are one, without a branch for each.
+/// Whether all numbers equal `one`, without a branch for each.
 fn are_all(ids: &[u32], one: u32) -> bool {
     ids.iter().fold(0, |bits, id| bits | (id ^ one)) == 0
 }
@@ -199,19 +199,19 @@ pub struct Search<'a> {
     pub depths: &'a [u32],
     /// Tiles near borders, from [`flag_tiles`].
     pub busy: &'a [u32],
-    /// The picture without lines where tiles are busy, sRGB bytes with straight alpha.
+    /// The picture without lines, sRGB bytes with straight alpha; only tiles in `busy` hold it.
     pub bare: &'a [u32],
     /// Parts.
     pub parts: &'a [Part],
     /// Triangle numbers with hulls.
     pub drawn_ids: &'a [u32],
-    /// Ribbons; read where lines within subjects mind the background.
+    /// Ribbons; only read if lines within subjects adapt to the background.
     pub ribbons: &'a [u32],
-    /// Overlay; the same.
+    /// Overlay; only read in the same case.
     pub overlay: &'a [u32],
 }
 
-/// Colours of some pixels, summed, with alpha as their number.
+/// Sums of the colours of some pixels; alpha counts them.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sum {
     color: [f32; 4],
@@ -226,7 +226,7 @@ impl Sum {
         self.count += 1.0;
     }
 
-    /// The mean colour, and the mean alpha.
+    /// The mean colour and the mean alpha.
     fn mean(&self) -> [f32; 4] {
         let weight = self.color[3].max(1e-6);
         [
@@ -238,12 +238,12 @@ impl Sum {
     }
 }
 
-/// A rim for every pixel among whose 3 x 3 a subject meets anything else; empty ones elsewhere.
+/// Finds a rim for every pixel whose 3 x 3 neighbourhood holds the border of a subject; all others get an empty one.
 ///
-/// The subject nearest to the eye owns the border. Only pixels whose samples all show the same count as a side, so
-/// colours are never blends of both: a mixed pixel stands before the mean of those beside it that show what lies
-/// behind alone, and has no rim where there are none. The published method compares every other pixel outside of the
-/// subject by its own colour. O(pixels of busy tiles), parallel over rows of tiles.
+/// The subject nearest to the eye owns the border. Only pixels whose samples all agree count for a side, so colours are
+/// never blends of both: what lies behind a mixed pixel is the mean of its neighbours behind the subject, and without
+/// any it has no rim. In the published method, a pixel outside of the subject is compared by its own colour. O(pixels
+/// of busy tiles), parallel over rows of tiles.
 pub fn find_rims(search: &Search<'_>, rims: &mut [Rim]) {
     let width = search.scenery.window.size[0] as usize;
     let across = tiles_across(search.scenery.window.size) as usize;
@@ -258,9 +258,9 @@ pub fn find_rims(search: &Search<'_>, rims: &mut [Rim]) {
         });
 }
 
-/// Subjects and parts that the pixels of a tile and those around it show.
+/// The subjects and parts that the pixels in and around a tile show.
 struct Near {
-    /// The first of them.
+    /// The first of these pixels.
     low: [u32; 2],
     shown: [[Shown; (TILE + 2) as usize]; (TILE + 2) as usize],
 }
@@ -272,7 +272,7 @@ impl Near {
 }
 
 impl Search<'_> {
-    /// Finds the rims of a tile, in a band of the rows that it lies in.
+    /// Finds the rims of one tile; `band` holds the rows of its row of tiles.
     fn find_in_tile(&self, tile: [u32; 2], band: &mut [Rim]) {
         let scenery = &self.scenery;
         let size = scenery.window.size;
@@ -373,9 +373,8 @@ impl Search<'_> {
         owner
     }
 
-    /// A line within a subject, where those mind the background: both sides are the surface that it lies on.
-    ///
-    /// Lines of parts without a rule have a rim that counts for nothing, and so keep their colour beside others.
+    /// The rim of a line within a subject, if such lines adapt to the background: both sides are the surface under the
+    /// line.
     fn inner_rim(&self, x: u32, y: u32, sum: &Sum, [owner, part]: [u32; 2]) -> Rim {
         let rule = self.scenery.part_subjects[part as usize].rule;
         let rules = self.scenery.rules;
@@ -387,7 +386,7 @@ impl Search<'_> {
         packed(sum, sum, share, rule, [owner | Rim::WITHIN, part])
     }
 
-    /// Whether any line may lie on a pixel.
+    /// Whether some line may cover a pixel.
     fn is_inked(&self, x: u32, y: u32, part: u32) -> bool {
         let element = (y * self.scenery.window.size[0] + x) as usize;
         let layers = self.scenery.rules.within;
@@ -409,7 +408,7 @@ impl Search<'_> {
     }
 }
 
-/// The pixels that touch one, and itself: from the first to the last, each included.
+/// The first and the last pixel of the 3 x 3 around one, within the picture; both included.
 fn around(size: [u32; 2], x: u32, y: u32) -> ([u32; 2], [u32; 2]) {
     (
         [x.saturating_sub(1), y.saturating_sub(1)],
@@ -417,7 +416,7 @@ fn around(size: [u32; 2], x: u32, y: u32) -> ([u32; 2], [u32; 2]) {
     )
 }
 
-/// A rim of these sides, whose rule counts as much as there is something behind.
+/// A rim of these two sides; its rule weighs as much as `behind` is opaque.
 fn packed(rim: &Sum, behind: &Sum, share: f32, rule: u32, [subject, part]: [u32; 2]) -> Rim {
     let (front, back) = (rim.mean(), behind.mean());
     Rim {
@@ -428,8 +427,7 @@ fn packed(rim: &Sum, behind: &Sum, share: f32, rule: u32, [subject, part]: [u32;
     }
 }
 
-/// Lines of method `rim`: every pixel that lies outside of a subject and touches it, in the colour of the part that
-/// ends there.
+/// Draws the lines of method `rim`: every pixel just outside of a subject gets the colour of the part that ends there.
 ///
 /// Texels are sRGB bytes with coverage in alpha: the twin of `backdrop.draw_rims`. O(pixels).
 pub fn draw_rims(parts: &[Part], rims: &[Rim], overlay: &mut [u32]) {

@@ -1,4 +1,4 @@
-//! How far around a place rims decide about its line.
+//! How far away rims may lie that decide about the line at a place.
 
 use super::rims::TILE;
 use super::rule::Rules;
@@ -6,7 +6,7 @@ use super::spread::SMOOTH_MOST;
 use super::stretch::{BIAS_REACH_MOST, STRETCH_TILES};
 
 impl Rules {
-    /// Pixels around a place that may decide about its line.
+    /// Distance in pixels up to which rims may decide about the line at a place.
     pub fn room_px(&self) -> u32 {
         let smoothed = (self.smooth_px.max(0.0) as u32).min(SMOOTH_MOST);
         let tiles = (self.bias_px.max(0.0) / TILE as f32).ceil() as u32;

@@ -1,17 +1,17 @@
-//! The rule by which a line minds the background, as passes read it.
+//! The rule by which a line adapts to the background, as passes read it.
 
 use bytemuck::{Pod, Zeroable};
 use npr_core::gpu_layout;
 
-/// Most different rules of a frame, the first of which never applies.
+/// Most rules of a frame; the first of them is off.
 pub const RULES_MAX: usize = 16;
 
-/// The rule by which a line minds the background.
+/// The rule by which a line adapts to the background.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct Rule {
-    /// Largest difference at which colours count as alike, of the published method: of any channel of RGB, 0..1; of
-    /// V; of S; of hue in turns, 0..0.5. Criteria below 0 are not used.
+    /// Published method: largest differences at which colours count as alike, of any channel of RGB, 0..1; of V; of S;
+    /// of hue in turns, 0..0.5. Criteria below 0 are not used.
     pub thresholds: [f32; 4],
     /// [`Rule::OFF`], [`Rule::BY_LIKENESS`] or [`Rule::BY_CONTRAST`].
     pub method: u32,
@@ -21,11 +21,11 @@ pub struct Rule {
     pub measure: u32,
     /// Contrast that a line must have: difference of OKLab lightness, 0..1, or the ratio of WCAG, 1..21.
     pub goal: f32,
-    /// What the published method multiplies or divides by, from 1.
+    /// Published method: the factor to multiply or divide the rim's colour by, at least 1.
     pub intensity: f32,
-    /// By contrast: what lines start from, as a share of the rim's linear light; 0 for their own colour.
+    /// By contrast: share of the rim's linear light that lines start from; 0 if they start from their own colour.
     pub rim_factor: f32,
-    /// 1 where lines within the subject follow it too, 0 where those at its border do alone.
+    /// 1 if lines within the subject follow the rule too, 0 if only those at its border do.
     pub within: u32,
     /// Keeps rows of 16 bytes.
     pub unused: u32,
@@ -45,24 +45,24 @@ gpu_layout!(Rule {
 impl Rule {
     /// Leaves every line as it is.
     pub const OFF: u32 = 0;
-    /// The published method: where rim and background are alike, the rim's colour times a factor.
+    /// The published method: where rim and background are alike, the line is the rim's colour times a factor.
     pub const BY_LIKENESS: u32 = 1;
-    /// Ours: as much lightness as a target contrast needs.
+    /// Our method: lightness changes by as much as a target contrast needs.
     pub const BY_CONTRAST: u32 = 2;
 
-    /// Brighter or darker, whichever reaches the target; the smaller step where both do.
+    /// Direction: whichever of brighter and darker reaches the target; the smaller step if both do.
     pub const AUTO: u32 = 0;
-    /// Brighter alone.
+    /// Direction: only brighter.
     pub const BRIGHTER: u32 = 1;
-    /// Darker alone.
+    /// Direction: only darker.
     pub const DARKER: u32 = 2;
 
-    /// Contrast is the difference of OKLab lightness.
+    /// Measure: contrast is the difference of OKLab lightness.
     pub const LIGHTNESS: u32 = 0;
-    /// Contrast is the ratio of luminances of WCAG 2.
+    /// Measure: contrast is the ratio of luminances of WCAG 2.
     pub const WCAG: u32 = 1;
 
-    /// By contrast: 0.3 of lightness, brighter or darker.
+    /// A rule by contrast: 0.3 of lightness, brighter or darker.
     pub const CONTRAST: Self = Self {
         thresholds: [-1.0; 4],
         method: Self::BY_CONTRAST,
@@ -77,7 +77,7 @@ impl Rule {
 }
 
 impl Rule {
-    /// The rule with numbers that the arithmetic can bear: a target within its range, a factor of at least 1.
+    /// The rule with its numbers clamped to valid ranges: a target within its scale, a factor of at least 1.
     pub(super) fn sane(&self) -> Self {
         let within = |value: f32, least: f32, most: f32| match value.is_nan() {
             true => least,
@@ -96,7 +96,7 @@ impl Rule {
 }
 
 impl Rule {
-    /// None: lines stay as they are.
+    /// No rule: lines stay as they are.
     const NONE: Self = Self {
         method: Self::OFF,
         ..Self::CONTRAST
@@ -113,24 +113,23 @@ impl Default for Rule {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct Rules {
-    /// By number; number 0 is off.
+    /// The rules by number; number 0 is off.
     pub rules: [Rule; RULES_MAX],
-    /// Standard deviation of the mean along the outline, in frame pixels; 0 for none.
+    /// Standard deviation of the Gaussian that blends rims along the outline, in frame pixels; 0 for none.
     pub smooth_px: f32,
-    /// Distance from the outline up to which lines follow the rule whole, in frame pixels.
+    /// Distance from the outline up to which lines follow the rule in full, in frame pixels.
     pub whole_px: f32,
-    /// Distance from which they do not follow it at all, in whole pixels.
+    /// Distance from which lines do not follow it at all, in whole pixels.
     pub reach_px: u32,
     /// Samples per pixel along each axis, 1 or 2.
     pub samples: u32,
-    /// Where lines within subjects mind the background by any rule: [`Rules::ALWAYS`] with the layers that hold
-    /// lines; else 0.
+    /// If any rule adapts lines within subjects: [`Rules::ALWAYS`] with the bits of the layers that hold lines; else 0.
     pub within: u32,
-    /// Distance up to which rims decide together which way their lines move, in frame pixels; 0 for each alone.
+    /// Distance up to which rims decide together which way their lines move, in frame pixels; 0 if each decides alone.
     pub bias_px: f32,
-    /// Votes of each rim that what was decided in the frame before counts as; 0 for frames by themselves.
+    /// Weight of the previous frame's decision against the mean vote of the rims; 0 if frames are independent.
     pub hold: f32,
-    /// How much of the way from darker to brighter a line may change a frame; 1 for all at once.
+    /// How far a line may change from darker to brighter in one frame, as a share; 1 for all at once.
     pub fade: f32,
 }
 gpu_layout!(Rules {
@@ -146,7 +145,7 @@ gpu_layout!(Rules {
 });
 
 impl Rules {
-    /// Rules of frames whose lines mind nothing.
+    /// The rules of a frame whose lines do not adapt.
     pub const NONE: Self = Self {
         rules: [Rule::NONE; RULES_MAX],
         smooth_px: 0.0,
@@ -167,14 +166,14 @@ impl Default for Rules {
 }
 
 impl Rules {
-    /// Lines lie in the ribbons.
+    /// Bit: lines lie in the ribbons.
     pub const RIBBONS: u32 = 1;
-    /// Lines lie in the overlay.
+    /// Bit: lines lie in the overlay.
     pub const OVERLAY: u32 = 2;
-    /// Lines within subjects mind the background.
+    /// Bit: lines within subjects adapt to the background.
     pub const ALWAYS: u32 = 4;
 
-    /// These rules for a first frame: nothing is held and nothing fades.
+    /// These rules for the first frame of a series: nothing is held and nothing fades.
     pub fn of_first_frame(self) -> Self {
         Self {
             hold: 0.0,

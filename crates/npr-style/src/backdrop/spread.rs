@@ -1,4 +1,4 @@
-//! What rims say, blended along the outline and carried to the pixels of its line: the twins of `backdrop.smooth_rims`,
+//! Rims blended along the outline and carried to the pixels of its line: the twins of `backdrop.smooth_rims`,
 //! `backdrop.spread_rows` and `backdrop.spread_rims`.
 
 use super::occupied::{Gaussian, Occupied};
@@ -10,21 +10,21 @@ use npr_core::math;
 use npr_core::window::Window;
 use rayon::prelude::*;
 
-/// Longest length over which rims are blended, in pixels.
+/// Greatest length over which rims are blended, in pixels.
 pub const SMOOTH_MOST: u32 = 24;
 
-/// Difference of a channel from which what two places see is not blended any more.
+/// Difference of a channel from which the colours of two rims are not blended any more.
 pub const UNLIKE_COLORS: f32 = 0.2;
 
-/// Where a texel of what lies behind holds the number of the rule.
+/// Mask of the rule's number in a texel of what lies behind.
 const RULE: u32 = 0xff00_0000;
 
 /// Blends every rim with those of the same subject around it, by a Gaussian that ends at [`Rules::smooth_px`].
 ///
 /// Colours then change over a few pixels of outline, and do not flicker from frame to frame. Rims weigh less the more
-/// their colours differ: the mean of a dark and a light wall is a wall that is not there [Tomasi and Manduchi 1998].
-/// The rule is the pixel's own; where rims of another count for less, so does this one. Rims of the published method
-/// stay as they are. O(rims * length squared), parallel over rows.
+/// their colours differ: the mean of a dark and a light wall is a wall that is not there [Tomasi and Manduchi 1998]. A
+/// pixel keeps its own rule, whose weight is blended with those of the rims around. Rims of the published method stay
+/// as they are. O(rims * length squared), parallel over rows.
 pub fn smooth_rims(window: &Window, rules: &Rules, rims: &[Rim], smoothed: &mut [Rim]) {
     // Keep rims as they are where nothing is smoothed.
     smoothed.copy_from_slice(rims);
@@ -58,7 +58,7 @@ struct Smoothing<'a> {
     reach: u32,
     nearness: Gaussian,
     occupied: Occupied,
-    /// One for every place that is occupied, in that order.
+    /// The values of each occupied place, in order.
     known: Vec<Known>,
 }
 
@@ -66,7 +66,7 @@ struct Smoothing<'a> {
 struct Known {
     whose: u32,
     rule: u32,
-    /// The colour of the rim with its weight, and the colour behind it.
+    /// The colour of the rim with its weight in alpha, and the colour behind it.
     own: [f32; 4],
     beyond: [f32; 3],
 }
@@ -82,7 +82,7 @@ impl Known {
         }
     }
 
-    /// 1 for rims before the same colour, down to 0 where any channel differs by [`UNLIKE_COLORS`].
+    /// Likeness of what lies behind two rims: 1 for the same colour, 0 if any channel differs by [`UNLIKE_COLORS`].
     fn likeness(&self, other: &Self) -> f32 {
         let left = (1.0 - largest_difference(self.beyond, other.beyond) / UNLIKE_COLORS).max(0.0);
         left * left
@@ -99,7 +99,7 @@ impl Smoothing<'_> {
             return *rim;
         }
 
-        // Sum both colours over the rims of the same subject, by how near and how alike they are.
+        // Sum both colours over the rims of the same subject, weighted by nearness and likeness.
         let (mut total, mut counted) = (0.0, 0.0);
         let (mut front, mut back) = ([0.0; 3], [0.0; 3]);
         for near in self.occupied.around([x, y], self.reach) {
@@ -120,7 +120,7 @@ impl Smoothing<'_> {
             }
         }
 
-        // Make means of the sums, which count as much as the rules of the rims do.
+        // Turn the sums into means; the weight of the rule is the mean of theirs.
         if counted <= 0.0 {
             return *rim;
         }
@@ -133,10 +133,10 @@ impl Smoothing<'_> {
     }
 }
 
-/// For every pixel the column of the nearest rim in its row, counted from 1, within [`Rules::reach_px`]; 0 where
+/// Finds for every pixel the column, counted from 1, of the nearest rim in its row within [`Rules::reach_px`]; 0 if
 /// there is none.
 ///
-/// Of two as near, the left one. O(pixels), parallel over rows.
+/// Of two equally near ones, the left. O(pixels), parallel over rows.
 pub fn spread_rows(window: &Window, rules: &Rules, rims: &[Rim], columns: &mut [u32]) {
     let width = window.size[0] as usize;
     columns
@@ -147,7 +147,7 @@ pub fn spread_rows(window: &Window, rules: &Rules, rims: &[Rim], columns: &mut [
 
 fn spread_row(rims: &[Rim], reach: usize, columns: &mut [u32]) {
     columns.fill(0);
-    // Up to here every pixel has its rim.
+    // Pixels before this one have their rim, or none within reach.
     let mut done = 0;
     let mut last: Option<usize> = None;
     let held = |(x, rim): (usize, &Rim)| (rim.subject != 0).then_some(x);
@@ -166,13 +166,12 @@ fn spread_row(rims: &[Rim], reach: usize, columns: &mut [u32]) {
     }
 }
 
-/// Carries the nearest rim to every pixel: its colours, and how much it counts there, as two pictures of the output's
-/// size.
+/// Carries the nearest rim to every pixel: its colours, and its weight there, as two pictures of the output's size.
 ///
-/// `fronts` holds the rim's colour with its weight in alpha, `backs` what lies behind: for the published method its
-/// colour, for ours a [`Ground`](super::Ground); with the number of the rule. Weights fall from [`Rules::whole_px`] to
-/// [`Rules::reach_px`], where lines that merely end at an outline begin. Of rims as near, the upper one. O(pixels *
-/// reach), parallel over rows.
+/// `fronts` holds the rim's colour with its weight in alpha. `backs` holds the number of the rule and what lies behind:
+/// a colour for the published method, a [`Ground`](super::Ground) for ours. Weights fall from [`Rules::whole_px`] to
+/// [`Rules::reach_px`], where lines begin that merely end at an outline. Of equally near rims, the upper one. O(pixels
+/// * reach), parallel over rows.
 pub fn spread_rims(
     window: &Window,
     rules: &Rules,
@@ -219,10 +218,10 @@ pub fn spread_rims(
         });
 }
 
-/// Pixels in a row that are looked through together for any rim.
+/// Pixels of a row that are checked together for any rim.
 const RUN: usize = 32;
 
-/// Which runs of a picture's rows have a rim near.
+/// The runs of a picture's rows that hold rims.
 struct Runs {
     width: usize,
     rows: Vec<Vec<bool>>,
@@ -238,7 +237,7 @@ impl Runs {
         }
     }
 
-    /// The pixels of a row in runs that have a rim in any of the rows up to `reach` away.
+    /// The pixels of row `y` in all runs that hold a rim in some row up to `reach` away.
     fn near(&self, y: usize, reach: usize) -> impl Iterator<Item = usize> {
         let rows = &self.rows[y.saturating_sub(reach)..(y + reach + 1).min(self.rows.len())];
         let runs = 0..self.width.div_ceil(RUN);
@@ -257,7 +256,7 @@ struct Carrying<'a> {
 }
 
 impl Carrying<'_> {
-    /// The number of the rim nearest to a pixel, counted from 1, and the square of its distance; 0 where there is none.
+    /// The number of the rim nearest to a pixel, counted from 1, and its squared distance; 0 if there is none.
     fn nearest(&self, [x, y]: [u32; 2]) -> (u32, u32) {
         let reach = self.rules.reach_px;
         let low = y.saturating_sub(reach);
@@ -277,7 +276,7 @@ impl Carrying<'_> {
         (found, nearest)
     }
 
-    /// The colour of a rim with its weight, and a texel of what lies behind it.
+    /// The colour of a rim with its weight, and the texel of what lies behind it.
     fn sides(&self, number: u32) -> ([f32; 4], u32) {
         let rim = &self.rims[(number - 1) as usize];
         let color = unpack_rgba8(rim.rim);

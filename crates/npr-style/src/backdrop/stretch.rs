@@ -1,9 +1,9 @@
 //! Stretches of outline, whose lines move together: the twins of `backdrop.bound_tiles`, `backdrop.vote_bias` and
 //! `backdrop.blend_biases`.
 //!
-//! Where line and background are nearly alike, grain alone would decide at every pixel whether a line turns brighter
-//! or darker, and the line would repeat every brick behind it. Here it reads before all that lies behind a stretch,
-//! by an envelope that changes slowly along the outline, and the stretch votes which way to move.
+//! Where line and background are nearly alike, grain alone would decide at every pixel whether a line turns brighter or
+//! darker, and the line would repeat every brick behind it. Here a line reads before all that lies behind its stretch:
+//! the bounds of that change slowly along the outline, and the stretch votes on the direction.
 
 use super::adapt::{Ground, preference};
 use super::gather::{TileRims, UNLIKE};
@@ -18,42 +18,42 @@ use npr_core::window::Window;
 /// Most tiles in each direction whose votes a tile counts.
 pub const BIAS_REACH_MOST: u32 = 24;
 
-/// Tiles in each direction over which an envelope reaches.
+/// Tiles in each direction that an envelope takes in.
 const ENVELOPE_TILES: u32 = 4;
 
-/// Tiles around a tile for which its envelope holds whole: colours are blended between tiles.
+/// Tiles around a tile up to which its bounds hold in full, since colours are blended between tiles.
 const WHOLE_TILES: f32 = 1.0;
 
-/// How much an envelope falls from tile to tile, on a scale of 0 black to 1 white: less than the eye follows.
+/// How far an envelope falls from tile to tile, on a scale of 0 black to 1 white: less than the eye follows.
 const SLOPE: f32 = 0.08;
 
-/// How fast another wall stops to count, as a multiple of how much more it differs.
+/// How fast the bounds of another wall lose weight, as a multiple of how much more it differs.
 const UNLIKE_SLOPE: f32 = 4.0;
 
-/// How much of the scale bounds may change in the time in which a line fades from darker to brighter.
+/// How far bounds may move, on that scale, in the time in which a line fades from darker to brighter.
 const FADE_BOUNDS: f32 = 0.4;
 
-/// Tiles in each direction over which what is decided is blended.
+/// Tiles in each direction over which decisions are blended.
 const BLEND_TILES: u32 = 6;
 
-/// Tiles around one that bear on its colour beside those that vote.
+/// Tiles around one that affect its colour, apart from those that vote.
 pub(super) const STRETCH_TILES: u32 = ENVELOPE_TILES + BLEND_TILES;
 
-/// Difference of a channel from which rims are of two paints, and not of one with a texture.
+/// Difference of a channel from which rims count as two paints, not as one with a texture.
 const UNLIKE_RIMS: f32 = 0.5;
 
-/// Mean of votes from which a stretch is decided.
+/// Magnitude of the mean vote from which a stretch is decided.
 const DECIDED: f32 = 0.01;
 
-/// The range of grounds that the lines of a tile must read before, and which way they move.
+/// The grounds that the lines of a tile must read before, and the direction in which they move.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct ContrastBias {
-    /// The darkest that lies behind the stretch.
+    /// The darkest place that lies behind the stretch.
     pub low: f32,
-    /// The brightest.
+    /// The brightest place that lies behind it.
     pub high: f32,
-    /// From -1, darker, to 1, brighter.
+    /// Direction, from -1 darker to 1 brighter.
     pub bias: f32,
     /// The subject that the lines belong to, as in [`TileRims::whose`].
     pub whose: u32,
@@ -72,7 +72,7 @@ gpu_layout!(ContrastBias {
 });
 
 impl ContrastBias {
-    /// What lines of the stretch stand before, and how much of the brighter way they take.
+    /// The ground behind the lines of the stretch, with the share of the brighter candidate.
     pub(super) fn ground(&self) -> Ground {
         Ground {
             low: self.low,
@@ -81,7 +81,7 @@ impl ContrastBias {
         }
     }
 
-    /// Combines every number of this bias with the same number of another one.
+    /// Combines each number of this bias with that of another one.
     fn with(&self, other: &Self, made: impl Fn(f32, f32) -> f32) -> Self {
         Self {
             low: made(self.low, other.low),
@@ -93,7 +93,7 @@ impl ContrastBias {
     }
 }
 
-/// Biases with weights, on their way to a mean.
+/// Weighted sums of biases, from which a mean is made.
 #[derive(Debug, Clone, Copy, Default)]
 struct Mean {
     sum: ContrastBias,
@@ -106,17 +106,17 @@ impl Mean {
         self.weight += weight;
     }
 
-    /// The mean, of some lines; `None` of none.
+    /// The mean bias; `None` if nothing was added.
     fn of(&self, whose: u32) -> Option<ContrastBias> {
         let mean = self.sum.with(&self.sum, |sum, _| sum / self.weight);
         (self.weight > 0.0).then_some(ContrastBias { whose, ..mean })
     }
 }
 
-/// Gives every tile the bounds of what its lines stand before, and its own vote as the bias.
+/// Gives every tile the bounds of what lies behind its lines, and its own vote as the bias.
 ///
-/// Bounds are envelopes over 4 tiles each way, which fall with the distance: a line that follows them changes slowly.
-/// Another wall, by 0.42 darker or brighter, does not count. O(tiles with rims * 81), parallel over rows of tiles.
+/// Bounds are envelopes over 4 tiles each way, which fall with the distance, so a line that follows them changes
+/// slowly. Another wall, 0.42 darker or brighter, does not count. O(tiles with rims * 81), parallel over rows of tiles.
 pub fn bound_tiles(
     window: &Window,
     rules: &Rules,
@@ -127,7 +127,7 @@ pub fn bound_tiles(
     tiles.make(bounds, |tile| bound_at(rules, &tiles, tile));
 }
 
-/// Tiles of which only those are looked at that hold rims.
+/// A grid of tiles, of which only those with rims are visited.
 struct Tiles<'a, T> {
     tiles: &'a [T],
     across: usize,
@@ -152,14 +152,14 @@ impl<'a, T: Sync> Tiles<'a, T> {
         &self.tiles[self.number(tile)]
     }
 
-    /// Those up to `reach` tiles around one, itself included, row by row: their numbers, what they hold, and the
-    /// squares of how many tiles they are away.
+    /// The tiles with rims up to `reach` tiles around one, itself included, row by row: index, content, and squared
+    /// distance in tiles.
     fn around(&self, tile: [u32; 2], reach: u32) -> impl Iterator<Item = (usize, &'a T, u32)> {
         let near = self.occupied.around(tile, reach);
         near.map(|near| (self.number(near.place), self.at(near.place), near.square))
     }
 
-    /// Makes something of every tile that holds rims; all others become empty.
+    /// Computes a value for every tile with rims; all others become empty.
     fn make<U: Default + Clone + Send>(&self, made: &mut [U], of: impl Fn([u32; 2]) -> U + Sync) {
         made.fill(U::default());
         self.occupied.make(made, self.across, of);
@@ -184,7 +184,7 @@ fn bound_at(rules: &Rules, gathered: &Tiles<'_, TileRims>, tile: [u32; 2]) -> Co
         }
     }
 
-    // Vote for the way that the lines of this tile had better move.
+    // Vote for the direction in which the lines of this tile should move.
     let rule = &rules.rules[here.rule as usize];
     let [r, g, b, _] = unpack_rgba8(here.rim);
     ContrastBias {
@@ -197,12 +197,12 @@ fn bound_at(rules: &Rules, gathered: &Tiles<'_, TileRims>, tile: [u32; 2]) -> Co
     }
 }
 
-/// Decides for every tile, by the votes around it and what was decided there in the frame before.
+/// Decides the direction of every tile by the votes around it and its decision in the previous frame.
 ///
-/// A Gaussian that ends at [`Rules::bias_px`]; tiles of other subjects do not count, those before other walls less.
-/// What was decided before counts as [`Rules::hold`] votes of each, so that a stretch that could go either way stays
-/// as it was; and where a line must change, it fades, by [`Rules::fade`] of the way a frame. O(tiles with rims *
-/// reach squared), parallel over rows of tiles.
+/// Votes are weighted by a Gaussian that ends at [`Rules::bias_px`]; tiles of other subjects do not count, those before
+/// other walls count less. The previous decision weighs [`Rules::hold`] times a full vote, so a stretch that could go
+/// either way stays as it was; a line that must change fades, by [`Rules::fade`] of the way a frame. O(tiles with rims
+/// * reach squared), parallel over rows of tiles.
 pub fn vote_bias(
     window: &Window,
     rules: &Rules,
@@ -224,7 +224,7 @@ pub fn vote_bias(
     voting.gathered.make(biases, |tile| voting.bias_at(tile));
 }
 
-/// The votes of a frame, and what was decided in the frame before.
+/// The votes of a frame, and the decisions of the previous one.
 struct Voting<'a> {
     rules: &'a Rules,
     bounds: &'a [ContrastBias],
@@ -236,7 +236,7 @@ struct Voting<'a> {
 
 impl Voting<'_> {
     fn bias_at(&self, tile: [u32; 2]) -> ContrastBias {
-        // Count the votes of the same lines around.
+        // Count the votes of the same lines nearby.
         let here = self.gathered.at(tile);
         let (mut sum, mut count) = (0.0, 0.0);
         for (number, there, square) in self.gathered.around(tile, self.reach) {
@@ -249,7 +249,7 @@ impl Voting<'_> {
         }
         let vote = sum / count.max(1e-6);
 
-        // Add what was decided in the frame before.
+        // Add the decision of the previous frame.
         let (hold, fade) = (self.rules.hold, self.rules.fade);
         let decided = |held: f32| ((vote + hold * held) / DECIDED).clamp(-1.0, 1.0);
         let bound = self.bounds[self.gathered.number(tile)];
@@ -259,7 +259,7 @@ impl Voting<'_> {
             ..bound
         };
 
-        // Fade towards what is decided, where lines must change.
+        // Fade towards the new decision if lines must change.
         match was {
             Some(was) if fade < 1.0 => ContrastBias {
                 bias: nearer(was.bias, decided.bias, 2.0 * fade),
@@ -269,8 +269,8 @@ impl Voting<'_> {
         }
     }
 
-    /// What was decided before for the same lines before the same wall: in the tile itself, or else the mean of those
-    /// that touch it, for an outline moves between frames.
+    /// The previous decision for the same lines before the same wall: that of the tile itself, or else the mean of the
+    /// tiles that touch it, since an outline moves between frames.
     fn held(&self, here: &ContrastBias, tile: [u32; 2]) -> Option<ContrastBias> {
         let is_same = |bias: &ContrastBias| {
             let off = (bias.low + bias.high) - (here.low + here.high);
@@ -290,16 +290,16 @@ impl Voting<'_> {
     }
 }
 
-/// A value moved towards another by no more than a step.
+/// A value moved towards another one by at most a step.
 fn nearer(from: f32, to: f32, step: f32) -> f32 {
     from + (to - from).clamp(-step, step)
 }
 
-/// Keeps biases for the next frame, and blends them along the outline for this one.
+/// Keeps the biases for the next frame, and blends them along the outline for this one.
 ///
-/// Where a stretch that turns brighter meets one that turns darker, the line passes from one to the other over a
-/// length that the eye takes for shading. A Gaussian that ends at 6 tiles; bounds stay as they are, and tiles before
-/// another wall or of other paint count less. O(tiles with rims * 169), parallel over rows of tiles.
+/// Where a stretch that turns brighter meets one that turns darker, the line passes from one to the other over a length
+/// that the eye takes for shading. Weights are a Gaussian that ends at 6 tiles; bounds stay as they are, and tiles
+/// before another wall or of another paint count less. O(tiles with rims * 169), parallel over rows of tiles.
 pub fn blend_biases(
     window: &Window,
     rules: &Rules,
@@ -323,7 +323,7 @@ fn blended_at(
     nearness: &Gaussian,
     tile: [u32; 2],
 ) -> ContrastBias {
-    // Sum the biases and the colours of the same lines around, less before other walls and of other paint.
+    // Sum the biases and colours of the same lines nearby; other walls and other paints count less.
     let here = biases.at(tile);
     let (mut bias, mut total) = (0.0, 0.0);
     let (mut rim, mut coloring) = ([0.0; 3], 0.0);
@@ -341,7 +341,7 @@ fn blended_at(
         }
     }
 
-    // Keep the bounds, and make means of the rest.
+    // Keep the bounds, and take the mean of the rest.
     ContrastBias {
         bias: bias / total,
         rim: rim.map(|channel| channel / coloring),
@@ -349,8 +349,7 @@ fn blended_at(
     }
 }
 
-/// The bias of a pixel's rim, between the four tiles around: those of the same subject alone; `None` where there is
-/// none of it.
+/// The bias at a pixel's rim, blended between the four tiles around it that hold the same subject; `None` if none does.
 pub(super) fn bias_between(
     biases: &[ContrastBias],
     size: [u32; 2],

@@ -32,7 +32,7 @@ pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
         contrast_cache: ContrastCache::default(),
     };
 
-    // Compose rows; runs of plain background are filled at once.
+    // Compose the rows; fill runs of plain background at once.
     frame
         .par_chunks_mut(width)
         .enumerate()
@@ -57,20 +57,20 @@ pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
         });
 }
 
-/// Pixels in a row that are looked through together for anything but background.
+/// Pixels of a row that are checked together for anything but background.
 const RUN: usize = 32;
 
 /// Composes the pixels of some rows.
 struct Composer<'a> {
     layers: &'a Layers<'a>,
     encoder: &'a SrgbEncoder,
-    /// What is known of every triangle.
+    /// The constants of every triangle.
     known: &'a [TriangleConstants],
     /// A pixel that shows nothing but a plain background.
     empty: Option<u32>,
-    /// The last number whose single colour filled a pixel, and that pixel.
+    /// The last triangle number whose one colour filled a pixel, and that pixel.
     last: (u32, u32),
-    /// The triangle that was shaded last, and its corners: mostly that of the next pixel too.
+    /// The last shaded triangle and its corners: mostly that of the next pixel too.
     near: Option<(u32, Corners<'a>)>,
     contrast_cache: ContrastCache,
 }
@@ -144,7 +144,7 @@ impl<'a> Composer<'a> {
         encoded(self.encoder, color)
     }
 
-    /// The pixel that a single number fills, where that is of one colour.
+    /// The pixel that one triangle number fills, if it has one colour.
     fn even_texel(&mut self, id: u32) -> Option<u32> {
         if id == 0 {
             return self.empty;
@@ -164,7 +164,7 @@ impl<'a> Composer<'a> {
         Some([r, g, b, 1.0])
     }
 
-    /// The surfaces of a pixel, premultiplied, where each has one colour all over.
+    /// The surfaces of a pixel, premultiplied, if each has one colour all over.
     fn even_surfaces(&self, seen: &[u32], hidden: &[f32; 4]) -> Option<[f32; 4]> {
         let mut sum = [0.0; 4];
         for (id, hidden) in seen.iter().zip(hidden).filter(|(id, _)| **id != 0) {
@@ -288,7 +288,7 @@ fn over(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
 }
 
 impl Layers<'_> {
-    /// A pixel that shows only the background, where that is of one colour.
+    /// A pixel that shows only the background, if that has one colour.
     fn empty_texel(&self, encoder: &SrgbEncoder) -> Option<u32> {
         (self.compose.background_texture == NONE)
             .then(|| encoded(encoder, self.background([0.0; 2])))
@@ -296,7 +296,7 @@ impl Layers<'_> {
 
     /// Whether some pixels of a row show nothing but the background.
     fn is_bare(&self, run: Range<usize>, y: usize) -> bool {
-        // Prepare looks at whole runs of texels, without a branch for each.
+        // Check whole runs of texels for 0, without a branch for each.
         let (width, samples) = (self.window.size[0] as usize, self.compose.samples as usize);
         let holds = |bit: u32| self.compose.flags & bit != 0;
         let pixels = y * width + run.start..y * width + run.end;
@@ -314,7 +314,7 @@ impl Layers<'_> {
             !holds(bit) || is_zero(&texels[pixels.clone()], mask)
         };
 
-        // Ask the layers that the frame has.
+        // Check the layers that the frame has.
         is_free(self.ids)
             && (!holds(Compose::BEAMS) || is_free(self.beam_ids))
             && is_off(Compose::RIBBONS, self.ribbons, u32::MAX)

@@ -1,7 +1,7 @@
 //! What is the same all over each triangle, found once a frame so that its pixels need not.
 //!
-//! The processor's short cut through `shade.compose_frame`. It changes no picture: whatever is known of a triangle is
-//! what shading would find at each of its places.
+//! The processor's short cut through `shade.compose_frame`. It changes no picture: a constant of a triangle is what
+//! shading would find at each of its pixels.
 
 use super::Layers;
 use crate::corners::Corners;
@@ -11,7 +11,7 @@ use npr_core::geometry::{NONE, Part, Triangle};
 use rayon::prelude::*;
 
 impl Layers<'_> {
-    /// What is known of every triangle. O(triangles), parallel.
+    /// The constants of every triangle. O(triangles), parallel.
     pub(crate) fn known_triangles(&self) -> Vec<TriangleConstants> {
         self.triangles
             .par_iter()
@@ -20,7 +20,7 @@ impl Layers<'_> {
             .collect()
     }
 
-    /// What is known of a triangle; nothing of one whose back alone is seen, which no pixel asks for.
+    /// The constants of a triangle; empty if only its back is seen and that is not drawn.
     fn known(&self, triangle: &Triangle) -> TriangleConstants {
         // Leave out backs that nobody sees.
         let part = &self.parts[triangle.part as usize];
@@ -29,7 +29,7 @@ impl Layers<'_> {
             return TriangleConstants::default();
         }
 
-        // Find what is the same all over.
+        // Find light and ink where they are the same all over.
         let (light, ink) = (
             self.even_light(part, &corners),
             self.ink_all_over(part, &corners),
@@ -39,7 +39,7 @@ impl Layers<'_> {
             || part.texture == NONE && triangle.corners.iter().all(white);
         let is_matt = !self.may_shine(part, &corners);
 
-        // Note it, and multiply colour and light where both are known.
+        // Note them, and multiply colour and light where both are known.
         let mut known = TriangleConstants::default();
         known.learn(TriangleConstants::PLAIN, is_plain);
         known.learn(TriangleConstants::EVEN, light.is_some());
@@ -55,7 +55,7 @@ impl Layers<'_> {
             light
         };
 
-        // Lay the ink over them where nothing else is left to find.
+        // Lay the ink over them if nothing else is left to find.
         if let (Some(ink), true) = (ink, is_plain && known.is_even() && is_matt) {
             known.color = inked(part, known.color, ink);
             known.learn(TriangleConstants::WHOLE, true);
@@ -63,7 +63,7 @@ impl Layers<'_> {
         known
     }
 
-    /// Ink that is the same all over a triangle and in no shadow.
+    /// Ink that is the same all over a triangle, if no shadow falls on it.
     fn ink_all_over(&self, part: &Part, corners: &Corners<'_>) -> Option<f32> {
         if self.lights.shadow_side != 0 && part.flags & (Part::INK | Part::HATCH) != 0 {
             return None;

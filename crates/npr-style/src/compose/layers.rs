@@ -1,4 +1,4 @@
-//! What a frame is composed from: the inputs of every feature of a pixel. It knows none of them.
+//! What a frame is composed from: the inputs of all features that a pixel may show.
 
 use super::{Compose, cover};
 use crate::backdrop::{self, ContrastCache, Rules};
@@ -37,12 +37,12 @@ pub struct Layers<'a> {
     pub parts: &'a [Part],
     /// The texture store.
     pub texels: &'a [u32],
-    /// Stroke charts, a triangle each; may be shorter where no part uses them.
+    /// Stroke charts, one for each triangle; may be shorter if no part uses them.
     pub charts: &'a [ChartCorners],
     /// Stamps or mask, sRGB bytes with coverage in alpha.
     pub overlay: &'a [u32],
-    /// Triangle numbers as the lights with shadows see them, [`Lights::shadow_side`] texels square; not read where
-    /// that is 0.
+    /// Triangle numbers as the lights with shadows see them, [`Lights::shadow_side`] texels square; not read if that is
+    /// 0.
     pub shadows: [&'a [u32]; SHADOWS_MAX],
     /// Smoke, sRGB bytes with straight alpha; not read without smoke.
     pub smoke_colors: &'a [u32],
@@ -50,7 +50,7 @@ pub struct Layers<'a> {
     pub smoke_depths: &'a [u32],
     /// Reversed depths of the smoke as the lights with shadows see it, [`Compose::smoke_shadow_side`] texels square.
     pub smoke_shadows: [&'a [u32]; SHADOWS_MAX],
-    /// The rules by which lines mind what lies behind them.
+    /// The rules by which lines adapt to what lies behind them.
     pub rules: &'a Rules,
     /// With [`Compose::BACKDROP`] the subject's colour beside every line, see [`backdrop::spread_rims`]; with
     /// [`Compose::BARE`] a texel for every tile, see [`backdrop::flag_tiles`].
@@ -75,7 +75,7 @@ impl std::ops::Deref for Samples {
 }
 
 impl<'a> Layers<'a> {
-    /// The triangle numbers of the beams over a pixel's samples; zeros where there are none.
+    /// The triangle numbers of beams in a pixel's samples; 0 where there are none.
     pub(crate) fn beams_of(&self, x: u32, y: u32) -> Samples {
         if self.compose.flags & Compose::BEAMS == 0 {
             return Samples {
@@ -105,7 +105,7 @@ impl<'a> Layers<'a> {
         seen
     }
 
-    /// The lines over a pixel, from the bottom: ribbons, overlay; sRGB bytes with coverage in alpha.
+    /// The colours of the lines at a pixel, from the bottom: ribbons, overlay; sRGB bytes with coverage in alpha.
     pub(crate) fn lines_at(&self, x: u32, y: u32) -> [u32; 2] {
         let element = (y * self.window.size[0] + x) as usize;
         let layer = |bit: u32, texels: &[u32]| {
@@ -130,7 +130,7 @@ impl<'a> Layers<'a> {
         self.fronts[(y / backdrop::TILE * across + x / backdrop::TILE) as usize] == 0
     }
 
-    /// A line's colour as it minds what lies behind it there; linear light.
+    /// The colour of a line, adapted to what lies behind it at a pixel; linear light.
     pub(crate) fn contrasted(
         &self,
         contrast_cache: &mut ContrastCache,

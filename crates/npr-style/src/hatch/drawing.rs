@@ -26,7 +26,7 @@ impl Drawing {
         self.step as f32 / STEPS as f32
     }
 
-    /// How much fewer strokes per side than the level's first drawing, 0.5..1.
+    /// Factor on the strokes per side against the level's first drawing, 0.5..1.
     pub fn thinning(self) -> f32 {
         math::powf(0.5, self.octave())
     }
@@ -36,20 +36,20 @@ impl Drawing {
         self.side / SPACING_TEXELS
     }
 
-    /// Sides of the tile in spacings of this drawing.
+    /// Spacings of this drawing along a side of the tile.
     pub fn side_spacings(self) -> f32 {
         self.tracks() as f32 * self.thinning()
     }
 }
 
-/// The habits that a pattern and its settings come down to, each within its range.
+/// The settings of a pattern as the hand that draws it uses them, each within its range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hand {
     /// Length of a stroke in spacings.
     pub length: f32,
-    /// How far strokes stray, 1 a steady hand at its worst.
+    /// How far strokes stray; 1 is the worst of a steady hand.
     pub wobble: f32,
-    /// Tips as a part of the stroke, 0..1.
+    /// Length of the tips as a part of the stroke, 0..1.
     pub taper: f32,
     /// How much pressure varies, 0..1.
     pub variation: f32,
@@ -58,7 +58,7 @@ pub struct Hand {
 }
 
 impl Hand {
-    /// The hand of `hatch`; what is not a number becomes the least of its range.
+    /// The hand of `hatch`; NaN becomes the least value of its range.
     pub fn of(hatch: &Hatch) -> Self {
         let within = |x: f32, low: f32, high: f32| x.max(low).min(high);
         let plain = Self {

@@ -1,16 +1,15 @@
 //! Heights of drawings made of strokes.
 //!
-//! Strokes lie on *tracks*, lines along v from end to end of the tile, and are parted on them by *gaps*. Tracks come in
-//! octaves: each lays a new one in the middle of every two, then shakes them all. Gaps of a
-//! track come in an order whose every beginning is spread evenly. So coarser drawings take the first
-//! of both.
+//! Strokes lie on *tracks*, lines along v from end to end of the tile, and *gaps* part them there. Tracks come in
+//! octaves: each adds a new one in the middle of every two, then shakes them all. The gaps of a track come in an order
+//! of which any first few are spread evenly. So coarser drawings take the first tracks and the first gaps.
 
 use super::drawing::{Drawing, Hand, STEPS};
 use super::noise::{bit_reversed, closed_noise, scaled_noise};
 use npr_core::math;
 use npr_core::random::{hash, signed, unit};
 
-/// Names of tracks: their places among this many, so that the names do not hang on the level.
+/// Range of the tracks' names: a name is a place among so many, so names do not depend on the level.
 const TRACK_IDS: u32 = 1 << 16;
 
 /// How far strokes broaden into a wide gap beside them: 0 not at all, 1 until the tone is even.
@@ -19,7 +18,7 @@ const EVENNESS: f32 = 0.8;
 /// Height of the middle of a gap: about the ink share at which strokes of a track join into one line.
 const GAP_HEIGHT: f32 = 0.6;
 
-/// Longest tips as a part of their stroke: where the pen sets down, and where it leaves.
+/// Longest tips as a part of their stroke: at its head, where the pen sets down, and at its tail, where it leaves.
 const HEAD: f32 = 0.15;
 const TAIL: f32 = 0.4;
 
@@ -32,30 +31,30 @@ const PRESSURE: u32 = 0x2000;
 const WEIGHT: u32 = 0x3000;
 const GAP: u32 = 0x4000;
 
-/// A track where one row of texels crosses it.
+/// A track at the row of texels that crosses it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Track {
-    /// Name; the track that a half turn maps it to has the name `TRACK_IDS - id`.
+    /// Name; a half turn of the tile maps the track to the one named `TRACK_IDS - id`.
     id: u32,
-    /// Whether this drawing inks it.
+    /// Whether this drawing holds it.
     drawn: bool,
-    /// Place across strokes, in tiles.
+    /// Place across the strokes, in tiles.
     u: f32,
 }
 
 /// The strokes of one drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strokes {
-    /// Which drawing.
+    /// The drawing that the strokes belong to.
     pub drawing: Drawing,
-    /// Who draws it.
+    /// The hand that draws them.
     pub hand: Hand,
-    /// Which of many alike.
+    /// Seed that picks one of many alike.
     pub seed: u32,
 }
 
 impl Strokes {
-    /// Fills a row of heights at `v`: for each texel, how much ink it takes to reach it.
+    /// Fills the row of heights at `v`: for each texel, how much ink it takes until it is black.
     ///
     /// O(texels + tracks * (octaves + gaps)).
     pub fn fill_row(&self, v: f32, heights: &mut [f32]) {
@@ -70,7 +69,7 @@ impl Strokes {
         }
     }
 
-    /// Lowers the heights around a track to the ink that it takes to reach them.
+    /// Lowers the heights around a track to the ink that it takes until they are black.
     ///
     /// One unit of height is half a spacing at even pressure. `gaps` lie between the track and its
     /// neighbours, in tiles.
@@ -142,7 +141,7 @@ impl Strokes {
         finer
     }
 
-    /// Width of a stroke against the mean, 0.3..2: its own weight, and how the hand presses along it.
+    /// Width of a stroke against the mean, 0.3..2: its own weight, and the pressure of the hand along it.
     fn pressure(&self, id: u32, v: f32) -> f32 {
         let bends = 3.0 * self.drawing.side_spacings() / self.hand.length;
         let weight = |id: u32, _: f32| signed(hash(self.seed, WEIGHT, id));
@@ -168,8 +167,8 @@ impl Strokes {
         })
     }
 
-    /// Height of a centre line `past` spacings behind the middle of a gap: in a stroke's head if positive, in
-    /// its tail if negative. Tails are drawn out further than heads.
+    /// Height of the centre line `past` spacings behind the middle of a gap: in the head of a stroke if positive, in
+    /// the tail of one if negative. Tails are drawn out further than heads.
     fn tip(&self, past: f32) -> f32 {
         let part = if past > 0.0 { HEAD } else { TAIL };
         let drawn_out = (part * self.hand.length).max(BLUNT_TIP);
@@ -181,14 +180,14 @@ impl Strokes {
 
 /// Distance in texels from a centre line, with a round bottom.
 ///
-/// A sharp one falls between texels here and there, and hairlines would turn into beads.
+/// With a sharp one, minima would lie between texels here and there, and hairlines would turn into beads.
 fn blunt(dx: f32) -> f32 {
     (dx * dx + 0.1).sqrt()
 }
 
-/// Whether newcomer `i` of `count` is among those that stay until `step`.
+/// Whether track `i` of the `count` newest is among those that stay until `step`.
 ///
-/// Steps by the golden ratio spread them evenly; a newcomer and its half turn share their fate.
+/// Steps by the golden ratio spread them evenly; a track and its half turn stay or go together.
 fn is_drawn(i: u32, count: u32, step: u32) -> bool {
     let pair = i.min(count - 1 - i);
     let turn = (pair as f32 + 0.5) * 0.618_034;

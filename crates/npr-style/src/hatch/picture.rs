@@ -16,22 +16,22 @@ pub struct Picture<'a> {
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// Luminance, 0 black to 1 white, row by row; what is not a number counts as white.
+    /// Luminance, 0 black to 1 white, row by row; NaN counts as white.
     pub luminance: &'a [f32],
-    /// Whether the picture is laid over itself by half a turn, so that charts of a surface may be glued
-    /// turned. Not needed where texture coordinates place it.
+    /// Whether the picture is laid over itself by half a turn, so that charts of a surface may be glued turned. Not
+    /// needed if texture coordinates place it.
     pub turned: bool,
 }
 
 /// Softening, as a part of a grey step, that gives plain black and white an order to fill up in.
 const TIE_BREAK: f32 = 1.0 / 512.0;
 
-/// A tile of `side` texels per side that repeats `picture`, with strokes of its own width at any distance.
+/// A tile of `side` texels per side that repeats `picture`; its strokes keep their width at any distance.
 ///
 /// Finer levels repeat the picture twice as often, so its strokes keep their size on screen; between two levels both
-/// pictures are blended. Where the picture fills the tile once no coarser one exists and strokes shrink: the tile
-/// should be some times larger than the picture, which is resampled to the nearest power of two. Only the order of
-/// its greys counts: tone is linear whatever their values.
+/// pictures are blended. Once the picture fills the tile, no coarser one exists and strokes shrink: the tile should be
+/// some times larger than the picture, which is resampled to the nearest power of two. Only the order of its greys
+/// counts: tone is linear whatever their values.
 ///
 /// # Errors
 ///
@@ -95,7 +95,7 @@ fn heights(picture: &Picture, side: usize) -> Vec<f32> {
     broken.iter().zip(turned).map(|(p, q)| p.min(*q)).collect()
 }
 
-/// Mean luminance of the pixels under each texel; the nearest one where texels are smaller.
+/// Mean luminance of the pixels under each texel; the nearest pixel if texels are smaller.
 fn resample(picture: &Picture, side: usize) -> Vec<f32> {
     let pixels = |texel: usize, count: usize| {
         let from = texel * count / side;
@@ -117,7 +117,7 @@ fn resample(picture: &Picture, side: usize) -> Vec<f32> {
     (0..side * side).into_par_iter().map(texel).collect()
 }
 
-/// Luminance within 0..1; white if it is no number.
+/// Luminance clamped to 0..1; NaN becomes white.
 fn grey(luminance: f32) -> f32 {
     if luminance.is_nan() {
         1.0
@@ -163,7 +163,7 @@ impl Pyramid {
         }
     }
 
-    /// Heights of one drawing: the picture repeated at its own size, blended into one twice as large.
+    /// Heights of one drawing: the picture repeated at its own size, blended with one twice as large.
     fn draw(&self, drawing: Drawing) -> Vec<f32> {
         if drawing.side <= self.side {
             return self.halves[(self.side / drawing.side).ilog2() as usize].clone();
@@ -181,7 +181,7 @@ impl Pyramid {
         heights
     }
 
-    /// Height of the picture at twice its size, blended over four pixels.
+    /// Height of the picture at twice its size, interpolated from four pixels.
     fn doubled(&self, x: u32, y: u32) -> f32 {
         let own = &self.halves[0];
         let near = |i: u32| i / 2 % self.side;

@@ -1,11 +1,11 @@
-//! Points in an order whose every beginning covers the tile evenly.
+//! Points in an order of which any first few cover the tile evenly.
 
 use npr_core::random::{hash, signed, unit};
 
-/// Candidates per point: more follow the widest gap closer, at a cost that grows with their number.
+/// Candidates per point: with more of them, the widest gap is met more closely, at a cost that grows with their number.
 const CANDIDATES: u32 = 4;
 
-/// `count` points of the tile, 0..1, in pairs that a half turn swaps, the widest gap filled first.
+/// Places `count` points on the tile, 0..1, in pairs that a half turn swaps; the widest gap is filled first.
 ///
 /// Farthest-point sampling [Eldar et al. 1997] among scattered candidates: any first few points
 /// keep about the largest distance from each other that they can, in no visible order. O(count^2).
@@ -38,7 +38,7 @@ pub fn spread(count: u32, seed: u32) -> Vec<[f32; 2]> {
     points
 }
 
-/// Index of the greatest number, the first of equals; none of nothing.
+/// Index of the greatest number, the first of equal ones; `None` for an empty list.
 fn widest(rooms: &[f32]) -> Option<usize> {
     (0..rooms.len()).reduce(|best, i| if rooms[i] > rooms[best] { i } else { best })
 }
@@ -62,7 +62,7 @@ pub fn turned(p: [f32; 2]) -> [f32; 2] {
     p.map(|x| if x == 0.0 { 0.0 } else { 1.0 - x })
 }
 
-/// Squared distance of two points of a tile that repeats.
+/// Squared distance of two points on a tile that repeats.
 pub fn distance2(p: [f32; 2], q: [f32; 2]) -> f32 {
     let axis = |i: usize| {
         let d = (p[i] - q[i]).abs();
@@ -74,7 +74,7 @@ pub fn distance2(p: [f32; 2], q: [f32; 2]) -> f32 {
 /// Cells around its own in which a place looks for the nearest point.
 const REACH: usize = 2;
 
-/// Points of a tile sorted into square cells, to find the nearest.
+/// Points of a tile sorted into square cells, in which the nearest one is found.
 ///
 /// A margin of [`REACH`] cells repeats those of the far side, so that a search is a few slices.
 pub struct Cells {
@@ -115,9 +115,9 @@ impl Cells {
         }
     }
 
-    /// Least squared distance, over squared weight, from `p`, 0..1, to the points of the cells around it.
+    /// Least squared distance from `p`, 0..1, over squared weight, to the points of the cells around it.
     ///
-    /// That is the nearest of all where points cover the tile evenly; infinite if there are none.
+    /// That is the nearest of all points where they cover the tile evenly; infinite if there are none.
     pub fn nearest2(&self, p: [f32; 2]) -> f32 {
         let width = self.side + 2 * REACH;
         let [x, y] = p.map(|x| ((x * self.side as f32) as usize).min(self.side - 1));

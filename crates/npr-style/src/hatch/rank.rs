@@ -1,9 +1,9 @@
-//! From any height to its rank, so that thresholds ink the area they name.
+//! From heights to ranks, so that a threshold inks the area that it names.
 
-/// Steps that heights are sorted into: fine enough that a byte of rank never waits for one.
+/// Steps that heights are sorted into: so many that each byte of rank is reached.
 const BINS: usize = 1 << 14;
 
-/// Replaces every height by the part of the heights below it, 0..1; equal heights share their middle.
+/// Replaces every height by the share of heights below it, 0..1; equal heights share the middle of theirs.
 ///
 /// Heights that are not finite count as the highest. O(n + bins); heights closer than a 16384th of
 /// their range may share a rank.
@@ -32,7 +32,7 @@ pub fn rank(heights: &mut [f32]) {
     }
 }
 
-/// The middle of every bin's stretch in the sorted list, as a part of the list.
+/// The middle of every bin's stretch of the sorted list, as a share of the list.
 fn middles(counts: &[u32], total: usize) -> Vec<f32> {
     let mut below = 0u64;
     counts

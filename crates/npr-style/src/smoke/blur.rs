@@ -1,25 +1,25 @@
-//! Tones smoothed among equals: the twins of `smoke.gather_tones`, `blur_rows`, `blur_columns` and `smooth_tones`.
+//! Tones smoothed within layers: the twins of `smoke.gather_tones`, `blur_rows`, `blur_columns` and `smooth_tones`.
 //!
-//! Each tone becomes the mean of those around, weighed by a Gaussian, over the pixels of the same layer
-//! [Hoshino 2004, section 3.3]. Sums over a layer are sums over the picture of what belongs to it, so a wide Gaussian
-//! runs on a coarse grid per layer: rows, then columns, then a look between the cells.
+//! Each tone becomes the mean of those around it in the same layer, weighted by a Gaussian [Hoshino 2004, section 3.3].
+//! Sums over a layer are sums over the pixels that belong to it, so a wide Gaussian runs on a coarse grid per layer:
+//! first along rows, then along columns, and the result is read between the cells.
 
 use npr_core::smoke::SmokePixel;
 use rayon::prelude::*;
 
 use super::SmokeLook;
 
-/// Sums of a cell: tone times share, and share.
+/// The sums of a cell: tone times share, and share.
 pub type Cell = [f32; 2];
 
 impl SmokeLook {
-    /// Where the row `y` of a layer starts among the cells.
+    /// Index of the first cell of a layer in row `y`.
     fn row_start(&self, y: u32, layer: u32) -> usize {
         ((y * self.layers + layer) * self.cells[0]) as usize
     }
 }
 
-/// Adds up every layer's tones in the cells of its grid, as parts of a whole cell.
+/// Sums the tones of every layer in the cells of its grid, as fractions of a whole cell.
 ///
 /// `size` is that of the picture. Grids lie row by row, in each row layer by layer. O(pixels).
 pub fn gather_tones(size: [u32; 2], look: &SmokeLook, pixels: &[SmokePixel], cells: &mut [Cell]) {
@@ -42,7 +42,7 @@ fn gather_row(
     cell_y: u32,
     row: &mut [Cell],
 ) {
-    // Add the tone of every pixel to its cell, shared out between two layers.
+    // Add the tone of every pixel to its cell, shared out between up to two layers.
     let part = 1.0 / ((1u32 << look.shift) * (1u32 << look.shift)) as f32;
     let (top, bottom) = (cell_y << look.shift, (cell_y + 1) << look.shift);
     for y in top..bottom.min(size[1]) {
@@ -62,13 +62,13 @@ fn gather_row(
         }
     }
 
-    // Make the sums parts of a whole cell.
+    // Divide the sums by a whole cell.
     for cell in row {
         *cell = cell.map(|sum| sum * part);
     }
 }
 
-/// The Gaussian along the rows of every layer's grid. O(cells x taps).
+/// Applies the Gaussian along the rows of every layer's grid. O(cells x taps).
 pub fn blur_rows(look: &SmokeLook, cells: &[Cell], blurred: &mut [Cell]) {
     // Empty the cells where tones are smoothed without grids.
     if look.shift == 0 {
@@ -98,7 +98,7 @@ pub fn blur_rows(look: &SmokeLook, cells: &[Cell], blurred: &mut [Cell]) {
     });
 }
 
-/// The Gaussian along the columns of every layer's grid. O(cells x taps).
+/// Applies the Gaussian along the columns of every layer's grid. O(cells x taps).
 pub fn blur_columns(look: &SmokeLook, cells: &[Cell], blurred: &mut [Cell]) {
     // Empty the cells where tones are smoothed without grids.
     if look.shift == 0 {
@@ -132,8 +132,8 @@ fn is_empty(cells: &[Cell]) -> bool {
 
 /// The smoothed tone of every pixel, 0 where there is no smoke.
 ///
-/// From the grids where there are any, else from all pixels in reach. Where a pixel belongs to two layers, it takes
-/// from both as much as it gives. O(pixels), or O(pixels x taps^2) without grids, where taps are at most 11.
+/// The tone is read from the grids if there are any, else summed over all pixels in reach. A pixel between two layers
+/// takes from each by its share in it. O(pixels), or O(pixels x taps^2) without grids, where taps are at most 11.
 pub fn smooth_tones(
     size: [u32; 2],
     look: &SmokeLook,
@@ -141,7 +141,7 @@ pub fn smooth_tones(
     cells: &[Cell],
     tones: &mut [f32],
 ) {
-    // Find once what every column of pixels reads.
+    // Find once the cells and weights that columns of pixels share.
     let with = Smoothing {
         size,
         look,
@@ -168,11 +168,11 @@ struct Smoothing<'a> {
     look: &'a SmokeLook,
     pixels: &'a [SmokePixel],
     cells: &'a [Cell],
-    /// What every column of pixels reads.
+    /// The cells and weights for every column of pixels.
     columns: Vec<Taps>,
 }
 
-/// The four cells that a row or column of pixels reads along an axis, and their weights.
+/// The four cells along an axis that a row or column of pixels reads, and their weights.
 struct Taps {
     cells: [u32; 4],
     weights: [f32; 4],
@@ -209,7 +209,7 @@ impl Smoothing<'_> {
         tone
     }
 
-    /// The mean of a layer around a pixel; `own` where nothing of it is near.
+    /// The mean tone of a layer around a pixel; `own` if nothing of the layer is near.
     fn mean_of(&self, [x, y]: [u32; 2], rows: &Taps, layer: u32, own: f32) -> f32 {
         let sum = match self.look.shift {
             0 => self.window_sum(x, y, layer),
@@ -218,7 +218,7 @@ impl Smoothing<'_> {
         if sum[1] > 1e-12 { sum[0] / sum[1] } else { own }
     }
 
-    /// The published double sum.
+    /// The sums of the published method, over all pixels in reach.
     fn window_sum(&self, x: u32, y: u32, layer: u32) -> Cell {
         let taps = self.look.taps;
         let (left, right) = (x.saturating_sub(taps), (x + taps).min(self.size[0] - 1));
@@ -236,7 +236,7 @@ impl Smoothing<'_> {
         sum
     }
 
-    /// What lies between the sixteen cells around a pixel, by a cubic B-spline: tones' edges bend without kinks.
+    /// The sums between the sixteen cells around a pixel, by a cubic B-spline: edges of tones bend without kinks.
     fn grid_sum(&self, columns: &Taps, rows: &Taps, layer: u32) -> Cell {
         let mut sum = [0.0; 2];
         for (row, weight_y) in rows.cells.into_iter().zip(rows.weights) {
@@ -251,7 +251,7 @@ impl Smoothing<'_> {
     }
 }
 
-/// Weights of four cells for a place `t` of the way from the second to the third: the cubic B-spline.
+/// Weights of four cells for a place `t` of the way from the second to the third, by the cubic B-spline.
 fn spline(t: f32) -> [f32; 4] {
     let s = 1.0 - t;
     [

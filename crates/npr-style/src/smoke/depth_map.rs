@@ -1,21 +1,22 @@
-//! What a light sees as depths, looked up for a place: the twin of `lib/depth_map`.
+//! A light's view as depths, looked up for a place: the twin of `lib/depth_map`.
 
 use npr_core::light_view::Matrix;
 use npr_core::surface::apply_point;
 
-/// The four texels of a light's picture around a place of the world.
+/// The four texels around a place in the picture that a light sees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct DepthTexels {
     /// The texel to the upper left.
     low: [u32; 2],
-    /// How far the place lies from there to the one right below it, 0..1.
+    /// How far the place lies from that texel towards the one diagonally below it to the right, 0..1 along each axis.
     part: [f32; 2],
     /// Reversed depth of the place.
     nearness: f32,
 }
 
 impl DepthTexels {
-    /// The texels around a place in a picture of `side` texels square; `None` where the light does not see it.
+    /// The texels around a place in a picture of `side` texels square; `None` if the place lies outside of the light's
+    /// view.
     pub fn around(m: &Matrix, side: u32, world: [f32; 3]) -> Option<Self> {
         let clip = apply_point(m, world);
         let length = side as f32;
@@ -35,8 +36,8 @@ impl DepthTexels {
         })
     }
 
-    /// Whether something in the picture lies before the place: the four texels vote by how near they are, so the edge
-    /// of a shadow runs smoothly between texels.
+    /// Whether something in the picture lies between the place and the light: the four texels vote, weighted by
+    /// nearness, so the edge of a shadow runs smoothly between texels.
     pub fn are_nearer(&self, depths: &[u32], side: u32) -> bool {
         let low = self.low.map(|v| v as usize);
         let dark = |x: usize, y: usize| {

@@ -12,11 +12,11 @@ const TILE_ROWS: usize = 16;
 /// Columns of a tile.
 const TILE_COLUMNS: usize = 64;
 
-/// Columns that a ball may reach from the axis for its spans to be computed: farther off, a column is too little
-/// beside what is rounded.
+/// Greatest distance of a ball from the axis, in columns, for its spans to be computed: farther off, rounding is too
+/// coarse for columns.
 const SPAN_REACH: f32 = 1e5;
 
-/// Every sphere as a lens sees it. O(spheres).
+/// Projects every sphere for a lens. O(spheres).
 pub fn project_spheres(lens: &SphereView, spheres: &[Sphere], balls: &mut [ViewSphere]) {
     for (sphere, ball) in spheres.iter().zip(balls) {
         *ball = lens.project(sphere);
@@ -26,9 +26,9 @@ pub fn project_spheres(lens: &SphereView, spheres: &[Sphere], balls: &mut [ViewS
 /// Fills `ids` with the number of the nearest ball plus one at every pixel, 0 where there is none, and `depths` with
 /// its reversed depth.
 ///
-/// Both are row-major, of the window's size; every texel is written, whatever it held before. Of equal depths the
-/// earlier ball wins. Tiles take the balls from front to back, and their rows leave out those behind all that is
-/// drawn, so of a dense plume little more than its skin is computed. O(balls log balls + what is not hidden).
+/// Both are row-major, of the window's size; every texel is written. Of equal depths the earlier ball wins. Tiles take
+/// the balls from front to back, and their rows skip balls behind all that is drawn, so of a dense plume little more
+/// than its skin is computed. O(balls log balls + what is not hidden).
 pub fn draw_spheres(
     lens: &SphereView,
     window: &Window,
@@ -36,7 +36,7 @@ pub fn draw_spheres(
     ids: &mut [u32],
     depths: &mut [u32],
 ) {
-    // Sort the balls into bands of rows, from front to back.
+    // Sort the balls into bands of rows, each from front to back.
     let width = window.size[0] as usize;
     if width == 0 {
         return;
@@ -62,7 +62,7 @@ pub fn draw_spheres(
         });
 }
 
-/// A ball in a window: which, its nearest depth, and the pixels around its image.
+/// A ball in a window: its number, its nearest depth, and the pixels around its image.
 #[derive(Clone, Copy)]
 struct Member {
     ball: u32,
@@ -80,7 +80,7 @@ impl Member {
         if left > right || top > bottom {
             return None;
         }
-        // One pixel more on each side: rounding must not cut what the ray meets.
+        // Add one pixel on each side: rounding must not cut off pixels whose ray meets the ball.
         let reach = |low: f32, high: f32, i: usize| {
             let at = |px: f32| (px - window.frame_origin[i]) / window.frame_step[i];
             let (low, high) = (at(low).floor() - 1.0, at(high).ceil() + 1.0);
@@ -127,7 +127,7 @@ fn sorted_into_bands(lens: &SphereView, window: &Window, balls: &[ViewSphere]) -
     bands
 }
 
-/// Part of a band being drawn.
+/// The part of a band that is being drawn.
 struct Tile<'a> {
     lens: &'a SphereView,
     window: &'a Window,
@@ -135,16 +135,16 @@ struct Tile<'a> {
     rows: usize,
     left: usize,
     columns: usize,
-    /// How far rays of neighbouring columns lie apart.
+    /// Distance between the rays of neighbouring columns.
     column_step: f32,
-    /// Rays of the columns, to the right, and of the rows, up.
+    /// Ray of every column, to the right; that of every row, up, follows.
     across: [f32; TILE_COLUMNS],
     up: [f32; TILE_ROWS],
-    /// One over the squared length of every ray, where they meet at the eye.
+    /// One over the squared length of every ray, for rays that meet at the eye.
     scales: [f32; TILE_ROWS * TILE_COLUMNS],
-    /// The farthest depth of every row.
+    /// The farthest depth in every row.
     farthest: [f32; TILE_ROWS],
-    /// View depths and numbers plus one, row by row, [`TILE_COLUMNS`] wide.
+    /// View depths, and ball numbers plus one, row by row, [`TILE_COLUMNS`] wide.
     depths: [f32; TILE_ROWS * TILE_COLUMNS],
     ids: [u32; TILE_ROWS * TILE_COLUMNS],
 }
@@ -168,7 +168,7 @@ impl<'a> Tile<'a> {
         }
     }
 
-    /// Draws the balls over the columns from `left` on; says whether there were any.
+    /// Draws the balls over the columns from `left` on; returns whether there were any.
     fn fill(&mut self, left: usize, balls: &[ViewSphere], members: &[Member]) -> bool {
         self.left = left;
         self.columns = TILE_COLUMNS.min(self.window.size[0] as usize - left);
@@ -188,7 +188,8 @@ impl<'a> Tile<'a> {
         true
     }
 
-    /// Texels beyond the picture count as nearest, so that they keep nothing from being hidden.
+    /// Empties the tile. Texels beyond the picture count as nearest, so that they do not raise the farthest depth of a
+    /// row.
     fn clear(&mut self) {
         // Empty the texels of the tile.
         self.ids.fill(0);
@@ -234,8 +235,8 @@ impl<'a> Tile<'a> {
         }
     }
 
-    /// Nearest depth of a ball in a row and the columns that meet it there, one more to each side for rounding;
-    /// `None` where it passes the row by. Only where rays are parallel: else all of `columns`.
+    /// Nearest depth of a ball in a row, and the columns that meet it there, with one more on each side for rounding;
+    /// `None` if it misses the row. Only for parallel rays: else all of `columns`.
     fn span(
         &self,
         ball: &ViewSphere,
@@ -248,7 +249,7 @@ impl<'a> Tile<'a> {
         if self.lens.perspective > 0.5 || self.lens.discs > 0.5 || !is_exact {
             return Some((f32::MIN, columns));
         }
-        // In the order of `depth_parallel`, so that rounding never makes a texel nearer or wider than its row.
+        // Compute as `depth_parallel` does, so that rounding never makes a texel nearer or wider than its row.
         let beside = ball.center[1] - self.up[row];
         let left = ball.radius * ball.radius - beside * beside;
         if left <= 0.0 {
@@ -258,7 +259,7 @@ impl<'a> Tile<'a> {
         let column = |x: f32| (x - start) / step;
         let first = column(ball.center[0] - half).floor() - 1.0;
         let last = column(ball.center[0] + half).ceil() + 1.0;
-        // A float below the range becomes 0, one beyond the greatest number.
+        // Casts turn a float below the range into 0, and one beyond it into the greatest number.
         let first = (first as usize).max(*columns.start());
         let last = (last as usize).min(*columns.end());
         (first <= last).then_some((ball.center[2] - half, first..=last))
@@ -322,8 +323,7 @@ impl<'a> Tile<'a> {
     }
 }
 
-/// [`SphereView::depth_of_sphere`] where rays meet at the eye, bit for bit, with one over the ray's squared length
-/// given.
+/// [`SphereView::depth_of_sphere`] for rays that meet at the eye, bit for bit, given one over the ray's squared length.
 #[inline]
 fn depth_meeting(lens: &SphereView, ball: &ViewSphere, [x, y]: [f32; 2], scale: f32) -> f32 {
     let offset = ball.center;
@@ -343,7 +343,7 @@ fn depth_meeting(lens: &SphereView, ball: &ViewSphere, [x, y]: [f32; 2], scale: 
     }
 }
 
-/// [`SphereView::depth_of_sphere`] where rays are parallel, bit for bit: all that is multiplied by 0 there left out.
+/// [`SphereView::depth_of_sphere`] for parallel rays, bit for bit, without the terms that are 0 there.
 #[inline]
 fn depth_parallel(lens: &SphereView, ball: &ViewSphere, ray: [f32; 2]) -> f32 {
     let beside = [ball.center[0] - ray[0], ball.center[1] - ray[1]];
@@ -356,7 +356,7 @@ fn depth_parallel(lens: &SphereView, ball: &ViewSphere, ray: [f32; 2]) -> f32 {
     }
 }
 
-/// The greatest of some depths, in lanes.
+/// The greatest of some depths, computed in lanes.
 fn farthest(depths: &[f32]) -> f32 {
     let mut lanes = [f32::MIN; 8];
     for depths in depths.chunks_exact(8) {

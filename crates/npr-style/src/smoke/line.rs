@@ -1,11 +1,10 @@
-//! Outlines of spheres, found where their rims are.
+//! Outlines of spheres, found from the spheres' silhouettes.
 //!
-//! A pixel of a sphere knows where the silhouette nearest to it lies, and the picture just beyond the silhouette says
-//! whether that part of it is an outline: nothing, or smoke far behind. So lines are as smooth as circles and as wide
-//! as wanted.
+//! For a pixel of a sphere, the nearest point of the silhouette is known, and the picture just beyond it says whether
+//! it is an outline: nothing lies there, or smoke far behind. So lines are as smooth as circles and as wide as wanted.
 //!
-//! Nothing about them comes or goes at once. Their width grows from nothing with the jump in depth; where what lies
-//! beyond the silhouette changes, they run out along it like the stroke of a brush.
+//! No line appears or ends at once. Its width grows from nothing with the jump in depth; where the picture beyond the
+//! silhouette changes, it runs out along the silhouette like the stroke of a brush.
 
 use npr_core::geometry::FAR_DEPTH;
 use npr_core::math;
@@ -15,26 +14,26 @@ use npr_core::surface::{dot, unit_or_z};
 use super::SmokeLook;
 use super::resolve::Resolving;
 
-/// How far beyond a silhouette the picture is looked at, in pixels: far enough that the pixel's middle lies beyond it
-/// too.
+/// Distance beyond a silhouette at which the picture is looked at, in pixels: so far that the middle of that pixel lies
+/// beyond it too.
 const BEYOND_PX: f32 = 1.25;
 
-/// How far lines run out along the silhouette, in widths of the line.
+/// Length over which lines run out along the silhouette, in line widths.
 const TAPER: f32 = 3.0;
 
-/// Looks beyond the silhouette to each side of a place, over the length that lines run out in.
+/// Looks beyond the silhouette on each side of a place, over the length in which lines run out.
 const LOOKS: u32 = 8;
 
-/// Width of the line of a small puff, in its radii: a speck that swells is no blot at first.
+/// Greatest width of a puff's line, in radii of the puff: a speck that swells does not start as a blot.
 const THICKEST: f32 = 0.2;
 
-/// Multiple of the jump where a line starts at which it is as wide as lines inside the smoke get.
+/// Multiple of the least jump at which a line is as wide as lines inside the smoke get.
 const INNER_JUMP: f32 = 4.0;
 
-/// Multiple of that jump at which it is as wide as the outer line.
+/// Multiple of the least jump at which a line is as wide as the outer line.
 const OUTER_JUMP: f32 = 16.0;
 
-/// A place on a sphere's silhouette.
+/// A point of a sphere's silhouette.
 #[derive(Debug, Clone, Copy)]
 struct Silhouette {
     /// Frame position.
@@ -47,9 +46,9 @@ struct Silhouette {
 
 /// The silhouette of a ball in a direction.
 struct Disc {
-    /// Unit vector to the middle, and two across; the first leads towards the ray that was asked for.
+    /// Unit vector to the middle, and two across it; the first of these leads towards the ray that was asked for.
     axes: [[f32; 3]; 3],
-    /// How far along the axis the silhouette lies, and how far across.
+    /// Distance of the silhouette along the axis; its radius across follows.
     along: f32,
     across: f32,
     middle_px: [f32; 2],
@@ -89,7 +88,7 @@ impl Disc {
         }
     }
 
-    /// The silhouette at an angle, given by its sine and cosine, from the ray.
+    /// The point of the silhouette at an angle from the ray, given by its sine and cosine.
     fn silhouette(&self, lens: &SphereView, ball: &ViewSphere, [sin, cos]: [f32; 2]) -> Silhouette {
         let [axis, first, second] = self.axes;
         let middle = if lens.perspective > 0.5 && lens.discs < 0.5 {
@@ -111,7 +110,7 @@ impl Disc {
 }
 
 impl Resolving<'_> {
-    /// How much of the outline of sphere `id` covers a place of the frame in its image, 0..1.
+    /// How much the outline of sphere `id` covers of a position of the frame within its image, 0..1.
     pub(super) fn line_at(&self, id: u32, frame_px: [f32; 2]) -> f32 {
         let ball = &self.balls[(id - 1) as usize];
         let widest = self.look.line_px * (1.0 + self.look.swell);
@@ -125,11 +124,11 @@ impl Resolving<'_> {
         let radius_px = distance(silhouette.px, disc.middle_px);
         let whole = self.look.whole_width(silhouette.outward, radius_px);
         let mut part = self.part_beyond(ball, &silhouette);
-        // Let lines near by run out to here.
+        // Let lines nearby run out to here.
         let step = TAPER * self.look.line_px / ((LOOKS + 1) as f32 * radius_px.max(1.0));
         for k in 1..=LOOKS {
             let left = 1.0 - k as f32 / (LOOKS + 1) as f32;
-            // The rule: what is left of the widest line adds nothing.
+            // Usual case: even the widest line adds nothing from here on.
             if left <= part || whole * left + 0.5 <= away {
                 break;
             }
@@ -142,8 +141,7 @@ impl Resolving<'_> {
         coverage(whole * part, away)
     }
 
-    /// Whether a ray passes so close to the middle of a ball that the silhouette is farther than `reach_px` for
-    /// certain.
+    /// Whether a ray certainly passes farther than `reach_px` inside the silhouette of a ball.
     fn is_far_inside(&self, ball: &ViewSphere, ray: [f32; 2], reach_px: f32) -> bool {
         let room = self.lens.pixel_at(ball.center[2] + ball.radius) * reach_px;
         let start = self.lens.place_at(ray, 0.0);
@@ -156,8 +154,8 @@ impl Resolving<'_> {
         dot(beside, beside) < inner * inner
     }
 
-    /// The part of its width that a sphere's outline has at a place of its silhouette, by what is seen beyond; 0 where
-    /// the silhouette is hidden.
+    /// Width of a sphere's outline at a point of its silhouette, as a part of the whole, by the picture beyond; 0 if
+    /// that point is hidden.
     fn part_beyond(&self, ball: &ViewSphere, silhouette: &Silhouette) -> f32 {
         let beyond = std::array::from_fn(|i| {
             silhouette.px[i] + silhouette.outward[i] * BEYOND_PX * self.window.frame_step[i]
@@ -186,8 +184,8 @@ impl Resolving<'_> {
 }
 
 impl SmokeLook {
-    /// Width of a puff's outline in frame pixels where the next smoke lies `jump` radii behind it; 0 where that is
-    /// too little.
+    /// Width of a puff's outline in frame pixels where the next smoke lies `jump` radii behind it; 0 if the jump is too
+    /// small.
     ///
     /// Full where nothing lies behind; inside the smoke it grows from nothing with the jump in depth. `outward` is
     /// the unit vector away from the puff in the picture, y down: lines swell away from the light.
@@ -202,7 +200,7 @@ impl SmokeLook {
         self.line_px.min(THICKEST * radius_px) * (1.0 - self.swell * facing)
     }
 
-    /// The part of its width that a line has at a jump in depth, in radii.
+    /// Width of a line at a jump in depth, in radii, as a part of the whole.
     fn part_at(&self, jump: f32) -> f32 {
         let from = self.line_from;
         let inner = math::smoothstep(from, from * INNER_JUMP, jump);
@@ -214,7 +212,7 @@ impl SmokeLook {
     }
 }
 
-/// How far inside its silhouette a place lies, in pixels; below 0 outside.
+/// Distance of a position inwards from its silhouette, in pixels; negative outside.
 fn inside_by(silhouette: &Silhouette, frame_px: [f32; 2]) -> f32 {
     (silhouette.px[0] - frame_px[0]) * silhouette.outward[0]
         + (silhouette.px[1] - frame_px[1]) * silhouette.outward[1]
@@ -225,7 +223,8 @@ fn distance(a: [f32; 2], b: [f32; 2]) -> f32 {
     (d[0] * d[0] + d[1] * d[1]).sqrt()
 }
 
-/// How much of a pixel a line covers that is `width` wide from its edge, `away` from the pixel's middle.
+/// How much of a pixel a line covers that reaches inwards from the silhouette by `width`, where the pixel's middle lies
+/// `away` from it.
 fn coverage(width: f32, away: f32) -> f32 {
     (width - away + 0.5).clamp(0.0, 1.0) * width.min(1.0)
 }

@@ -4,33 +4,33 @@ use bytemuck::{Pod, Zeroable};
 use npr_core::gpu_layout;
 use npr_core::math;
 
-/// Most layers that smoke is smoothed in.
+/// Most depth layers in which smoke is smoothed.
 pub const LAYERS_MAX: u32 = 16;
 
 /// Farthest pixel or cell that the Gaussian reaches.
 pub const TAPS_MAX: u32 = 11;
 
-/// Most cells of all layers together: two floats each fill 64 MiB.
+/// Most cells in all layers together: at two floats each they take 64 MiB.
 pub const CELLS_MAX: u64 = 8 << 20;
 
-/// Deviations that the Gaussian reaches: what lies beyond weighs less than 0.0005 of a row.
+/// Reach of the Gaussian in deviations: cells beyond weigh less than 0.0005 of a row.
 const DEVIATIONS: f32 = 3.5;
 
-/// Deviation in cells below which no coarser grid is taken.
+/// Least deviation in cells on a grid; a coarser grid would be below it.
 const FINEST: f32 = 1.5;
 
-/// Deviation in pixels below which every pixel of the window is added up.
+/// Deviation in pixels below which all pixels in the window are summed.
 const WINDOWED: f32 = 3.0;
 
 /// How smoke is toned and outlined.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct SmokeLook {
-    /// How many layers of depth are smoothed apart, 1..16.
+    /// Number of depth layers that are smoothed separately, 1..16.
     pub layers: u32,
-    /// A cell of the grids that layers are smoothed on is `2^shift` pixels wide; 0 for whole windows instead of grids.
+    /// Cells of the layers' grids are `2^shift` pixels wide; 0 to sum over whole windows without grids.
     pub shift: u32,
-    /// How many cells, or pixels, the Gaussian reaches to each side; 0 for none.
+    /// Reach of the Gaussian to each side, in cells or pixels; 0 for none.
     pub taps: u32,
     /// Bits of [`SmokeLook::PUBLISHED`] and [`SmokeLook::UNLIT`].
     pub flags: u32,
@@ -44,15 +44,15 @@ pub struct SmokeLook {
     pub range_blend: f32,
     /// Width of the step between two tones, in tone.
     pub softness: f32,
-    /// How much of a tone is the sphere's heat instead of light, 0..1.
+    /// Share of the sphere's heat, instead of light, in a tone, 0..1.
     pub heat: f32,
     /// How far light reaches round a sphere: 0 half of it, 1 all of it.
     pub wrap: f32,
     /// Width of the outer line in frame pixels.
     pub line_px: f32,
-    /// Part of that which lines inside the smoke have.
+    /// Factor on that width for lines inside the smoke.
     pub line_inner: f32,
-    /// Jump in depth, in radii, from which one sphere is outlined before another.
+    /// Least jump in depth, in radii, at which one sphere is outlined before another.
     pub line_from: f32,
     /// Darkness of the published line.
     pub line_weight: f32,
@@ -62,7 +62,7 @@ pub struct SmokeLook {
     pub depth_size: f32,
     /// How much lines swell away from the light, 0..1.
     pub swell: f32,
-    /// How much the smoke covers.
+    /// Opacity of the smoke.
     pub alpha: f32,
     /// Colour of lines, linear light, straight alpha.
     pub line_color: [f32; 4],
@@ -72,10 +72,10 @@ pub struct SmokeLook {
     pub ambient: f32,
     /// Samples per pixel along each axis, 1 or 2.
     pub samples: u32,
-    /// Texels along a side of the pictures that lights have of the smoke; 0 where it throws no shadow on itself.
+    /// Texels along a side of the lights' pictures of the smoke; 0 if it throws no shadow on itself.
     pub shadow_side: u32,
-    /// How many of the lights' pictures, from the first, also hold surfaces, and texels of those along a side; 0
-    /// where surfaces throw no shadow on smoke.
+    /// How many of the lights' pictures, from the first on, also hold surfaces, and their side in texels; 0 if surfaces
+    /// throw no shadow on smoke.
     pub surface_maps: u32,
     /// See `surface_maps`.
     pub surface_side: u32,
@@ -116,16 +116,16 @@ gpu_layout!(SmokeLook {
 });
 
 impl SmokeLook {
-    /// Lines from differences of depth between diagonal neighbours, as published.
+    /// Bit: lines come from differences of depth between diagonal neighbours, as published.
     pub const PUBLISHED: u32 = 1;
-    /// No light: the baseline of discs has one tone.
+    /// Bit: no light; the baseline of discs has one tone.
     pub const UNLIT: u32 = 2;
 
-    /// Sets how far tones are smoothed, on a picture of `size` pixels, for a Gaussian of deviation `sigma` pixels.
+    /// Sets how far tones are smoothed in a picture of `size` pixels, for a Gaussian of deviation `sigma` pixels.
     ///
-    /// Up to 3 pixels every pixel in reach is added up. Beyond, layers are smoothed on grids whose cells double as the
-    /// deviation does, so the cost stays that of 1.5 to 3 cells. Adding up cells and reading between them smooths too:
-    /// what it adds to the variance is taken off the kernel's.
+    /// Up to 3 pixels, every pixel in reach is summed. Beyond, layers are smoothed on grids whose cells double as the
+    /// deviation does, so the cost stays that of 1.5 to 3 cells. Summing cells and reading between them smooths too:
+    /// that variance is subtracted from the kernel's.
     pub fn smooth(&mut self, size: [u32; 2], sigma: f32) {
         // Choose the size of the cells by the deviation.
         let sigma = if sigma.is_finite() {
@@ -136,7 +136,7 @@ impl SmokeLook {
         (self.shift, self.cells) = (0, [1, 1]);
         let mut deviation = sigma;
 
-        // Take off the kernel what the cells smooth already.
+        // Subtract from the kernel the variance that the cells add.
         if sigma >= WINDOWED {
             self.shift = shift_for(size, sigma, self.layers);
             self.cells = cells_of(size, self.shift);
@@ -158,12 +158,12 @@ impl SmokeLook {
         }
     }
 
-    /// Weight of the Gaussian at a distance of `i` cells.
+    /// Weight of the Gaussian `i` cells from its middle.
     pub(super) fn weight(&self, i: u32) -> f32 {
         self.kernel[i as usize / 4][i as usize % 4]
     }
 
-    /// How many cells all grids have together; 1 where there are no grids.
+    /// Number of cells in all grids together; 1 if there are no grids.
     pub fn cell_count(&self) -> usize {
         if self.shift == 0 {
             return 1;
@@ -176,7 +176,7 @@ fn cells_of(size: [u32; 2], shift: u32) -> [u32; 2] {
     size.map(|side| side.div_ceil(1 << shift))
 }
 
-/// How often cells double: until the deviation is less than 3 of them and all fit.
+/// How often the width of cells doubles: until the deviation is below 3 of them and all cells fit.
 fn shift_for(size: [u32; 2], sigma: f32, layers: u32) -> u32 {
     let mut shift = 1;
     let is_coarse = |shift: u32| {

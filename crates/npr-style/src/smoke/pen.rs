@@ -1,8 +1,8 @@
-//! The last hand on smoke: its tones, and its ink and hatching. The twin of `lib/smoke_pen`.
+//! The last step of smoke: its tones, and its ink and hatching. The twin of `lib/smoke_pen`.
 //!
-//! Where a pen or the tones of a picture finish smoke, the passes of smoke draw [`TONES`] in place of colours: red
-//! and green hold the tone, blue how much the outline covers. So they need to know nothing of ramps, tiles and pens,
-//! which the last pass has at hand for surfaces.
+//! If a pen or the tones of a picture finish the smoke, the smoke passes draw [`TONES`] instead of colours: red and
+//! green hold the tone, blue how much the outline covers. So they need no ramps, tiles and pens, which the last pass
+//! holds for surfaces anyway.
 
 use npr_core::geometry::Part;
 
@@ -10,14 +10,14 @@ use super::resolve::MASK;
 use crate::compose::{Compose, Layers};
 use crate::ramp::Level;
 
-/// Places of a pixel's range of tones that stand for all.
+/// Points in a pixel's range of tones over which the ramp is averaged.
 const TONE_TAPS: u32 = 4;
 
-/// Part of a pixel that its line may cover so that the tone beside it is still known.
+/// Share of a pixel up to which its line may cover it so that the tone beside it is still known.
 const LINED: f32 = 0.95;
 
-/// Colours for [`SmokeLook::ramp`](super::SmokeLook) that tell tones: red counts up to the half, green on from there,
-/// so that bytes tell more of them apart than one colour could. They need a softness of 0.5.
+/// Colours for [`SmokeLook::ramp`](super::SmokeLook) that encode tones: red rises up to one half, green from there on,
+/// so that bytes tell more tones apart than one channel could. They need a softness of 0.5.
 pub const TONES: [[f32; 4]; 8] = [
     [0.0, 0.0, 0.0, 0.0],
     [1.0, 0.0, 0.0, 0.25],
@@ -29,10 +29,10 @@ pub const TONES: [[f32; 4]; 8] = [
     [1.0, 1.0, 0.0, Level::UNUSED],
 ];
 
-/// Colour of the outline beside them, before its opacity.
+/// Colour of the outline in the same picture, before its opacity.
 pub const OUTLINE: [f32; 3] = [0.0, 0.0, 1.0];
 
-/// Tone of a colour of smoke that is not finished; below 0 under its outline.
+/// Tone in a colour of unfinished smoke; negative if the outline covers it.
 fn tone_of([r, g, b, _]: [f32; 4]) -> f32 {
     if b > LINED {
         return -1.0;
@@ -42,7 +42,7 @@ fn tone_of([r, g, b, _]: [f32; 4]) -> f32 {
 }
 
 impl Layers<'_> {
-    /// Tone of a neighbour, or `tone` where that is none.
+    /// Tone of a neighbour, or `tone` if it has none.
     fn tone_beside(&self, pixel: [u32; 2], step: [i32; 2], tone: f32) -> f32 {
         let [width, height] = self.window.size.map(|side| side as i32);
         let at = [pixel[0] as i32 + step[0], pixel[1] as i32 + step[1]];
@@ -57,7 +57,7 @@ impl Layers<'_> {
         if beside < 0.0 { tone } else { beside }
     }
 
-    /// The colour of a pixel of smoke whose picture holds its tone and how much its outline covers; linear light.
+    /// The finished colour of a smoke pixel whose picture holds tone and outline; linear light.
     pub(super) fn penned(&self, pixel: [u32; 2], frame_px: [f32; 2], color: [f32; 4]) -> [f32; 4] {
         // Read the tone of the pixel, and how it changes towards its neighbours.
         let Compose {

@@ -10,10 +10,10 @@ use std::ops::Range;
 use super::SmokeLook;
 use crate::ramp::Level;
 
-/// The low bits of a depth say which samples of the pixel the smoke covers.
+/// Low bits of a depth: which samples of the pixel the smoke covers.
 pub const MASK: u32 = 15;
 
-/// Neighbours of a pixel, itself first, then those beside it.
+/// Offsets of a pixel's neighbourhood: itself, then those beside it.
 const AROUND: [[i32; 2]; 9] = [
     [0, 0],
     [-1, 0],
@@ -26,7 +26,7 @@ const AROUND: [[i32; 2]; 9] = [
     [1, 1],
 ];
 
-/// Pixels in a row that are looked through together for smoke.
+/// Pixels of a row that are checked together for smoke.
 const RUN: usize = 32;
 
 /// What a picture of smoke is resolved from.
@@ -51,7 +51,7 @@ pub struct Resolving<'a> {
 /// Gives colours as sRGB bytes with straight alpha, and depths as bits of a float whose low four say which samples are
 /// covered; both 0 without smoke.
 ///
-/// Most pixels show one sphere. Where several meet, or smoke ends, the spheres of the nine pixels around are asked for
+/// Most pixels show one sphere. Where several meet or smoke ends, the spheres of the nine pixels around are tested for
 /// every sample, so edges are as smooth as the frame's samples. O(pixels).
 pub fn resolve(with: &Resolving<'_>, colors: &mut [u32], depths: &mut [u32]) {
     // Resolve rows; runs without smoke around are emptied at once.
@@ -81,7 +81,7 @@ pub fn resolve(with: &Resolving<'_>, colors: &mut [u32], depths: &mut [u32]) {
         });
 }
 
-/// Which spheres the samples of a pixel show: neighbours by their place in [`AROUND`].
+/// The spheres that a pixel's samples show, as indices into [`AROUND`].
 struct Seen {
     owners: [Option<usize>; 4],
     count: usize,
@@ -103,7 +103,7 @@ impl Resolving<'_> {
         (y * self.window.size[0] + x) as usize
     }
 
-    /// Whether there is no smoke in some pixels of a row and all around them.
+    /// Whether some pixels of a row, and all pixels around them, are without smoke.
     fn is_empty_around(&self, run: Range<usize>, y: usize) -> bool {
         let [width, height] = self.window.size.map(|side| side as usize);
         let (left, right) = (run.start.saturating_sub(1), width.min(run.end + 1));
@@ -114,7 +114,7 @@ impl Resolving<'_> {
     }
 
     fn texel(&self, x: u32, y: u32) -> ([f32; 4], u32) {
-        // Paint a pixel amid one sphere, or amid nothing, without a look at its samples.
+        // Paint a pixel within one sphere, or within nothing, without looking at its samples.
         if let Some(id) = self.only_around(x, y) {
             let texel = self.texel_near(x, y, 0, 0);
             return match id {
@@ -126,7 +126,7 @@ impl Resolving<'_> {
             };
         }
 
-        // Leave out pixels with no smoke around, and take the published way where it is asked for.
+        // Leave out pixels with no smoke around, and use the published method if asked for.
         let around = AROUND.map(|[dx, dy]| self.texel_near(x, y, dx, dy));
         let ids = around.map(|texel| self.ids[texel]);
         if ids.iter().all(|id| *id == 0) {
@@ -146,8 +146,8 @@ impl Resolving<'_> {
         self.blended(&seen, &ids, [x, y], frame_px)
     }
 
-    /// The number that a pixel and its eight neighbours share, where they do; not asked at the picture's border or
-    /// where lines lie on pixels without smoke.
+    /// The number that a pixel and its eight neighbours share, if they do; `None` at the picture's border and in the
+    /// published method, whose lines may lie on pixels without smoke.
     fn only_around(&self, x: u32, y: u32) -> Option<u32> {
         let [width, height] = self.window.size;
         let is_inside = x > 0 && y > 0 && x + 1 < width && y + 1 < height;
@@ -164,7 +164,7 @@ impl Resolving<'_> {
         same.then_some(id)
     }
 
-    /// The sphere nearest to the eye in every sample, among those around.
+    /// The nearest sphere in every sample, among those of the nine pixels.
     fn seen(&self, ids: &[u32; 9], frame_px: [f32; 2]) -> Seen {
         // Send a ray through every sample.
         let samples = self.look.samples;
@@ -204,7 +204,7 @@ impl Resolving<'_> {
         ]
     }
 
-    /// The mean of what the samples show, and the depth of the first.
+    /// The mean colour of the samples, and the depth of the first.
     fn blended(
         &self,
         seen: &Seen,
@@ -235,7 +235,7 @@ impl Resolving<'_> {
             depth = depth.min(self.pixels[self.texel_near(x, y, AROUND[k][0], AROUND[k][1])].depth);
         }
 
-        // Make a colour of the sums, as opaque as its samples are covered.
+        // Turn the sums into a colour, as opaque as samples are covered.
         if mask == 0 {
             return ([0.0; 4], 0);
         }
@@ -249,7 +249,8 @@ impl Resolving<'_> {
         (color, with_mask(depth, mask))
     }
 
-    /// Tone and line of sphere `id` at a place, with the tone of a pixel that shows it; linear light, straight alpha.
+    /// Tone and line of sphere `id` at a position; the tone is that of a pixel which shows it. Linear light, straight
+    /// alpha.
     fn paint(&self, id: u32, pixel: [u32; 2], frame_px: [f32; 2]) -> [f32; 4] {
         let tone = self.tones[self.texel_near(pixel[0], pixel[1], 0, 0)];
         let [r, g, b] = self.look.color_of(tone, self.slope_at(pixel));
@@ -257,7 +258,7 @@ impl Resolving<'_> {
             .under_line([r, g, b, self.look.alpha], self.line_at(id, frame_px))
     }
 
-    /// [`paint`](Self::paint) of a pixel that shows the same sphere as all eight around it: they lie in one layer.
+    /// [`paint`](Self::paint) for a pixel whose eight neighbours show the same sphere: all lie in one layer.
     fn paint_inside(&self, id: u32, texel: usize, frame_px: [f32; 2]) -> [f32; 4] {
         let width = self.window.size[0] as usize;
         let across = (self.tones[texel + 1] - self.tones[texel - 1]) * 0.5;
@@ -268,7 +269,7 @@ impl Resolving<'_> {
             .under_line([r, g, b, self.look.alpha], self.line_at(id, frame_px))
     }
 
-    /// How fast the smoothed tone changes at a pixel, per pixel, among neighbours of the same layer.
+    /// Change of the smoothed tone per pixel, among neighbours of the same layer.
     fn slope_at(&self, [x, y]: [u32; 2]) -> f32 {
         let near = |dx, dy| self.texel_near(x, y, dx, dy);
         let here = near(0, 0);
@@ -277,7 +278,7 @@ impl Resolving<'_> {
         (across * across + down * down).sqrt()
     }
 
-    /// Change of tone from pixel to pixel of three in a row.
+    /// Change of tone per pixel over three pixels in a row.
     fn change(&self, [before, here, after]: [usize; 3]) -> f32 {
         let place = self.pixels[here].place;
         let is_same =
@@ -290,7 +291,7 @@ impl Resolving<'_> {
         }
     }
 
-    /// As published: one tone a pixel, lines from differences of depth.
+    /// As published: one tone per pixel, and lines from differences of depth.
     fn published(&self, x: u32, y: u32, around: &[usize; 9]) -> ([f32; 4], u32) {
         let line = self.published_line(x, y);
         let is_smoke = self.ids[around[0]] != 0;
@@ -312,10 +313,9 @@ impl Resolving<'_> {
 }
 
 impl SmokeLook {
-    /// The colour of a tone that changes by `slope` a pixel, linear light: steps are as wide as a pixel, or softer.
+    /// Colour of a tone that changes by `slope` per pixel, linear light: steps are as wide as a pixel, or softer.
     ///
-    /// Each step is a ramp over the width that the tone changes in over one pixel, so edges are smooth at one sample
-    /// a pixel.
+    /// Each step is a ramp over the change of tone within one pixel, so edges are smooth even at one sample per pixel.
     pub(super) fn color_of(&self, tone: f32, slope: f32) -> [f32; 3] {
         let width = self.softness.max(slope).max(1e-6);
         let levels: &[Level] = bytemuck::cast_slice(&self.ramp);
@@ -330,7 +330,7 @@ impl SmokeLook {
         color
     }
 
-    /// A colour with a line over it that covers `line` of it; linear light, straight alpha.
+    /// A colour under a line that covers `line` of it; linear light, straight alpha.
     fn under_line(&self, color: [f32; 4], line: f32) -> [f32; 4] {
         let top = line * self.line_color[3];
         let alpha = top + color[3] * (1.0 - top);
@@ -346,7 +346,7 @@ fn packed(encoder: &SrgbEncoder, [r, g, b, a]: [f32; 4]) -> u32 {
     r | g << 8 | b << 16 | ((a.clamp(0.0, 1.0) * 255.0 + 0.5) as u32) << 24
 }
 
-/// A depth whose low bits say which samples are covered; it keeps 19 bits of its own.
+/// A depth whose low bits hold the covered samples; 19 bits of the depth's own fraction remain.
 fn with_mask(depth: f32, mask: u32) -> u32 {
     depth.to_bits() & !MASK | mask
 }

@@ -1,4 +1,4 @@
-//! Light on spheres, and the layer that each is smoothed in: the twin of `smoke.shade_spheres`.
+//! Light on spheres, and the layer in which each is smoothed: the twin of `smoke.shade_spheres`.
 
 use npr_core::geometry::FAR_DEPTH;
 use npr_core::smoke::{SmokePixel, Sphere, SphereView, ViewSphere};
@@ -10,7 +10,7 @@ use super::SmokeLook;
 use super::depth_map::DepthTexels;
 use crate::lighting::{LightSource, Lights, Openness, SHADOWS_MAX};
 
-/// What smoke is lit by and seen through.
+/// The inputs from which smoke is lit.
 #[derive(Debug, Clone, Copy)]
 pub struct Shading<'a> {
     /// The eye.
@@ -36,8 +36,8 @@ pub struct Shading<'a> {
 
 /// Light, depth and layer of every pixel [Hoshino 2004, section 3.2].
 ///
-/// Light is Lambert's, reaching round the sphere as far as [`SmokeLook::wrap`] says, summed over lights and cut at 1;
-/// what another sphere or a surface hides from a light is no brighter in it than [`Lights::shadow_at`]. O(pixels x
+/// Light is Lambert's, reaches round the sphere as far as [`SmokeLook::wrap`] says, is summed over lights and cut at 1.
+/// A place that another sphere or a surface hides from a light gets at most [`Lights::shadow_at`] of it. O(pixels x
 /// lights).
 pub fn shade_spheres(with: &Shading<'_>, pixels: &mut [SmokePixel]) {
     let width = with.window.size[0] as usize;
@@ -92,7 +92,7 @@ impl Shading<'_> {
         }
     }
 
-    /// Light on a place of sphere `id` that faces along `normal`, 0..1.
+    /// Light on a place of sphere `id` with the normal `normal`, 0..1.
     fn light_at(&self, id: u32, world: [f32; 3], normal: [f32; 3]) -> f32 {
         // Add skies as they are: nothing throws a shadow in them.
         let mut sum = self.look.ambient;
@@ -118,9 +118,10 @@ impl Shading<'_> {
         sum.min(1.0)
     }
 
-    /// Whether the sphere that the light sees in the texel of a place stands between the two.
+    /// Whether the sphere that the light sees in the texel of a place lies between place and light.
     ///
-    /// The texel only names the sphere; whether the ray meets it is computed, so shadows end in circles, not texels.
+    /// The texel only names the sphere; whether the ray meets it is computed, so shadows have the outlines of circles,
+    /// not of texels.
     fn is_dark(&self, own: u32, source: &LightSource, world: [f32; 3], towards: [f32; 3]) -> bool {
         // Find the texel of the place in the picture that the light has of the smoke.
         if self.look.shadow_side == 0 || source.shadow == 0 {
@@ -138,7 +139,7 @@ impl Shading<'_> {
             return false;
         }
 
-        // Ask whether the ray to the light meets the sphere seen there.
+        // Test whether the ray to the light meets the sphere seen there.
         let seen =
             self.shadows[map][(texel[1] as u32 * self.look.shadow_side + texel[0] as u32) as usize];
         if seen == 0 || seen == own {
@@ -152,7 +153,7 @@ impl Shading<'_> {
 }
 
 impl Shading<'_> {
-    /// Whether a surface stands between a place and a light.
+    /// Whether a surface lies between a place and a light.
     fn is_behind_surface(&self, source: &LightSource, world: [f32; 3]) -> bool {
         let side = self.look.surface_side;
         if source.shadow == 0 || source.shadow > self.look.surface_maps {
@@ -165,11 +166,11 @@ impl Shading<'_> {
 }
 
 impl SmokeLook {
-    /// The layer of a sphere whose middle lies at a depth: a whole number, or between two of them where it passes on.
+    /// The layer of a sphere whose middle lies at a depth: a whole number, or between two where the sphere passes on.
     ///
-    /// Layers hang on the middle of the smoke, not on the picture, and a sphere changes from one to the next little by
-    /// little, so neither a moving camera nor a drifting sphere makes tones jump. With `range_blend` 0 they are the ids
-    /// of [Hoshino 2004, section 3.3].
+    /// Layers are fixed to the smoke, not to the picture, and a sphere changes gradually from one to the next, so
+    /// neither a moving camera nor a drifting sphere makes tones jump. With `range_blend` 0 they are the ids of
+    /// [Hoshino 2004, section 3.3].
     pub(super) fn place_of(&self, depth: f32) -> f32 {
         let last = self.layers as f32 - 1.0;
         let place = ((depth - self.range_start) / self.range_size).clamp(0.0, last);
@@ -178,7 +179,7 @@ impl SmokeLook {
         (whole + passed.clamp(0.0, 1.0)).min(last)
     }
 
-    /// How much of a pixel at `place` belongs to a layer, 0..1; nothing of one without smoke.
+    /// Share of a pixel at `place` in a layer, 0..1; 0 for a pixel without smoke.
     pub(super) fn share_of(place: f32, layer: u32) -> f32 {
         if place < 0.0 {
             return 0.0;

@@ -5,7 +5,7 @@ use npr_core::geometry::FAR_DEPTH;
 use super::depth_map::DepthTexels;
 use crate::compose::{Compose, Layers, Samples};
 
-/// Distances in pixels around a line where surfaces are looked for that it may belong to.
+/// Radii in pixels around a line at which its surface is looked for.
 const LINE_RINGS_PX: [f32; 3] = [1.0, 2.5, 5.0];
 
 /// Smoke over a pixel.
@@ -16,12 +16,12 @@ pub(crate) struct SmokeLayer {
     depth: f32,
     /// Which samples it covers.
     mask: u32,
-    /// How much it hides of the surface or background in each sample.
+    /// Share of the surface or background that it hides in each sample.
     pub(crate) hidden: [f32; 4],
 }
 
 impl SmokeLayer {
-    /// Lays the smoke over surfaces that already lack what it hides; premultiplied.
+    /// Lays the smoke over surfaces from which the hidden shares are already left out; premultiplied.
     pub(crate) fn add_to(&self, color: &mut [f32; 4], samples: usize) {
         let shown = self.hidden[..samples].iter().sum::<f32>() / samples as f32;
         let [r, g, b, _] = self.color;
@@ -33,7 +33,7 @@ impl SmokeLayer {
         ];
     }
 
-    /// How much the smoke hides of triangle `id` in sample `i`.
+    /// Share of triangle `id` that the smoke hides in sample `i`.
     pub(crate) fn over(&self, layers: &Layers<'_>, id: u32, i: u32, frame_px: [f32; 2]) -> f32 {
         if self.mask & (1 << i) == 0 {
             return 0.0;
@@ -46,10 +46,10 @@ impl SmokeLayer {
         self.color[3]
     }
 
-    /// How much of the lines of a pixel the smoke hides.
+    /// Share of a pixel's lines that the smoke hides.
     ///
-    /// Nothing where a surface near by lies before the smoke: the line belongs to the foremost, and half of it lies
-    /// beside.
+    /// 0 if a surface nearby lies before the smoke: the line belongs to the foremost surface, and half of it lies
+    /// beside that.
     pub(crate) fn line_fade(
         &self,
         layers: &Layers<'_>,
@@ -111,9 +111,9 @@ const DIRECTIONS: [[f32; 2]; 8] = [
 ];
 
 impl Layers<'_> {
-    /// The smoke's own texel where it covers all of a pixel without surfaces: what all that follows would give.
+    /// The smoke's own texel, if it covers all of a pixel without surfaces: the full composition would give the same.
     pub(crate) fn smoke_alone(&self, x: u32, y: u32, seen: &Samples) -> Option<u32> {
-        // A tone that the pen has still to draw is no color yet.
+        // Tones that the pen has still to finish are no colours yet.
         let alone = Compose::SMOKE | Compose::SMOKE_PEN;
         if self.compose.flags & alone != Compose::SMOKE || seen.iter().any(|id| *id != 0) {
             return None;
@@ -125,7 +125,7 @@ impl Layers<'_> {
         (mask & whole == whole && color >> 24 == 255).then_some(color)
     }
 
-    /// The smoke over a pixel whose samples show `seen`; `None` without any.
+    /// The smoke over a pixel whose samples show the triangles `seen`; `None` without smoke.
     pub(crate) fn smoke_layer_of(
         &self,
         x: u32,
@@ -164,7 +164,7 @@ impl Layers<'_> {
         Some(smoke_layer)
     }
 
-    /// Whether smoke stands between a place and the light of a shadow picture.
+    /// Whether smoke lies between a place and the light of a shadow image.
     pub(crate) fn is_behind_smoke(&self, map: usize, world: [f32; 3]) -> bool {
         let side = self.compose.smoke_shadow_side;
         if side == 0 {
