@@ -126,7 +126,8 @@ pub struct Hatch {
     /// For pattern `cross`: the light, 0..1, below which the second layer begins; default 0.5, half ink.
     #[cfg_attr(feature = "serde", schemars(range(min = 0.0, max = 1.0)))]
     pub cross_at: f32,
-    /// Which of many drawings in the same hand, any whole number; default 0.
+    /// Which of many drawings in the same hand, 0..4294967295; default 0.
+    #[cfg_attr(feature = "serde", schemars(range(max = 4294967295u32)))]
     pub seed: u32,
 }
 

@@ -239,21 +239,17 @@ fn form_of_entry(list: &str, count: usize) -> String {
 
 /// A number in few characters, whatever its size.
 fn number(value: f64) -> String {
-    let size = value.abs();
-    let plain = size == 0.0 || (1e-6..1e6).contains(&size) || !size.is_finite();
     // Styles hold single precision: 1.3 of them must not come out as 1.2999999523162842.
     let single = value as f32;
-    if f64::from(single) == value {
-        return if plain {
-            single.to_string()
-        } else {
-            format!("{single:e}")
-        };
-    }
-    if plain {
-        value.to_string()
-    } else {
-        format!("{value:e}")
+    let [plain, scientific] = match f64::from(single) == value {
+        true => [single.to_string(), format!("{single:e}")],
+        false => [value.to_string(), format!("{value:e}")],
+    };
+    let size = value.abs();
+    let is_plain = size == 0.0 || (1e-6..1e6).contains(&size) || !size.is_finite();
+    match is_plain || plain.len() <= scientific.len() {
+        true => plain,
+        false => scientific,
     }
 }
 

@@ -106,7 +106,7 @@ pub struct Ink {
     /// For mapping `surface`: a direction that strokes follow instead; default none. `[0, 1, 0]` lets them fall like
     /// cloth.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    #[schemars(inner(range(min = -1e9, max = 1e9)))]
     pub direction: Option<[f32; 3]> = None,
     /// What `direction` is fixed to; default `world`. `object` for limbs that move.
     pub direction_space: StrokeSpace = StrokeSpace::World,
@@ -136,7 +136,7 @@ pub struct RuleInk over Ink {
     /// What strokes on the surface run along; without a `direction` beside it the style's own gives way.
     pub follow: Follow,
     /// A direction that strokes on the surface follow.
-    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    #[schemars(inner(range(min = -1e9, max = 1e9)))]
     #[yields_to(follow)]
     pub direction: [f32; 3],
     /// What the direction is fixed to.

@@ -49,7 +49,7 @@ pub struct Lettering {
     pub at: [f32; 2],
     /// A place in the scene that the middle of the words lies on; default none. Behind the eye they are left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    #[schemars(inner(range(min = -1e9, max = 1e9)))]
     pub anchor: Option<[f32; 3]>,
     /// Whether surfaces that stand before the anchor hide the words; default false, they lie over everything. Takes an
     /// anchor. Smoke and beams hide no words, and in line drawings nothing does.
@@ -213,7 +213,7 @@ mod tests {
         );
         assert_eq!(
             reported(&format!("{words}anchor = [0, nan, 0]")),
-            "lettering.0.anchor.1 at line 4, column 14 is NaN, but must be finite"
+            "lettering.0.anchor.1 at line 4, column 14 is NaN, but must lie in -1e9..1e9"
         );
         assert_eq!(
             reported("[line.width]\nmin = 10\nmax = 1.3"),
@@ -221,7 +221,7 @@ mod tests {
         );
         assert_eq!(
             reported("[ink.hatch]\nseed = -1"),
-            "ink.hatch.seed at line 2, column 1 is -1, but must be 0 or more"
+            "ink.hatch.seed at line 2, column 1 is -1, but must lie in 0..4294967295"
         );
         assert_eq!(
             reported(&format!("{words}size = \"1world\"")),

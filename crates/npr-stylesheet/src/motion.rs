@@ -28,7 +28,8 @@ pub struct Motion {
     /// How much lines differ in length, 0..1; default 0.7. 0 a comb, 1 torn.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub variation: f32,
-    /// Which of many drawings in the same hand, any whole number; default 0.
+    /// Which of many drawings in the same hand, 0..4294967295; default 0.
+    #[schemars(range(max = 4294967295u32))]
     pub seed: u32,
 }
 
@@ -50,7 +51,7 @@ impl Default for Motion {
 pub struct RuleMotion {
     /// From the part to where it came from, in the scene: speed lines reach that far. `[0, 0, 0]` stands still.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    #[schemars(inner(range(min = -1e9, max = 1e9)))]
     pub trail: Option<[f32; 3]>,
 }
 

@@ -92,6 +92,7 @@ macro_rules! style_table {
                     #[doc = $words]
                     $(#[schemars(range $range)])?
                     $(#[schemars(length $length)])?
+                    $(#[schemars(inner $inner)])?
                     pub $key: $type,
                 )*
             }

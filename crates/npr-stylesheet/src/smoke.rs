@@ -167,7 +167,7 @@ pub struct SmokeStyle {
     pub casts: bool,
     /// Towards a light of the smoke's own, as `light.direction`; default none: the lights of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    #[schemars(inner(range(min = -1e9, max = 1e9)))]
     pub light: Option<[f32; 3]>,
     /// A picture whose middle row gives the tones in place of `ramp`, from shade on the left to full light on the
     /// right; default empty, none. As many tones as it has pixels, as hard as they are, or as soft as `softness`;
