@@ -13,7 +13,7 @@ use npr_scene::Scene;
 const BYTES_PER_TRIANGLE: usize = 260;
 
 /// Bytes of a line segment in a shape, linked, and in a view with what is seen of it.
-const BYTES_PER_WIRE: usize = 320;
+const BYTES_PER_POLYLINE: usize = 320;
 
 /// Bytes of a stored vertex: where it rests, where it stands, and its place in the shape.
 const BYTES_PER_VERTEX: usize = 48;
@@ -32,7 +32,7 @@ pub(super) fn check_budget(
         assembly.triangle_count(),
         BYTES_PER_TRIANGLE,
     )?;
-    budget.take("line segments", assembly.polyline_count(), BYTES_PER_WIRE)?;
+    budget.take("line segments", assembly.polyline_count(), BYTES_PER_POLYLINE)?;
     Ok(())
 }
 
