@@ -81,7 +81,7 @@ fn drawings_of_both_engines_are_alike() {
 
 /// Segments, and whatever follows from the device's own depths, bit for bit; owners but for depths on the tolerance.
 #[test]
-fn the_published_path_takes_wires_as_the_processor_does() {
+fn the_published_path_takes_polylines_as_the_processor_does() {
     let Some(device) = device() else { return };
     for scene in [spring(false), spring(true)] {
         let model = model_of(&scene);
@@ -100,11 +100,11 @@ fn the_published_path_takes_wires_as_the_processor_does() {
         let (traced, loops) = resident.draw(&scene, &path, Hiders::Surfaces).unwrap();
         let expected = trace(&scene, &path, &scene_depths(shape, &view)).unwrap();
         assert!(traced.segments == expected.segments);
-        let of_wires = traced
+        let of_polylines = traced
             .segments
             .iter()
             .filter(|segment| shape.polyline_of(segment.edge).is_some());
-        assert_eq!(of_wires.count(), 300);
+        assert_eq!(of_polylines.count(), 300);
         let differ = traced
             .owners
             .iter()

@@ -189,7 +189,7 @@ impl HalfEdgeMesh {
         self.check_edges()?;
         self.check_twins()?;
         self.check_degenerate_faces()?;
-        self.check_wires()
+        self.check_polylines()
     }
 
     fn check_lengths(&self) -> Result<(), BrokenHalfEdges> {
@@ -256,7 +256,7 @@ impl HalfEdgeMesh {
         })
     }
 
-    fn check_wires(&self) -> Result<(), BrokenHalfEdges> {
+    fn check_polylines(&self) -> Result<(), BrokenHalfEdges> {
         all(
             "ends of a polyline exist and differ",
             self.polylines.len(),

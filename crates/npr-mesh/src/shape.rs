@@ -61,7 +61,7 @@ pub struct Preparation {
     pub polyline_count: usize,
     /// Such segments removed because their ends weld, an earlier one has the same ends, or an end or surface does not
     /// exist or is not finite.
-    pub lost_wire_count: usize,
+    pub lost_polyline_count: usize,
     /// Faces without area that are left, because they hold the surface together.
     pub degenerate_face_count: usize,
     /// Those of them that found no face to take an orientation from.
@@ -116,7 +116,7 @@ impl AddAssign for Preparation {
         self.flipped_count += other.flipped_count;
         self.marked_count += other.marked_count;
         self.polyline_count += other.polyline_count;
-        self.lost_wire_count += other.lost_wire_count;
+        self.lost_polyline_count += other.lost_polyline_count;
         self.degenerate_face_count += other.degenerate_face_count;
         self.lost_degenerate_face_count += other.lost_degenerate_face_count;
         self.collapsed_count += other.collapsed_count;
@@ -150,7 +150,7 @@ pub fn add_mesh(shape: &mut HalfEdgeMesh, mesh: &PlacedMesh, weld_tolerance: f32
     measure(&mut part, &shape.surfaces);
     measure_normals(&mut part, &stored, mesh.normals);
     removed.lost_mark_count = mark(&mut part, mesh.marks, &weld);
-    removed.lost_wire_count = add_wires(&mut part, mesh, &weld, shape.surfaces.len());
+    removed.lost_polyline_count = add_polylines(&mut part, mesh, &weld, shape.surfaces.len());
 
     let mut preparation = Preparation::of(&part);
     preparation += removed;
@@ -466,7 +466,7 @@ fn mark(part: &mut HalfEdgeMesh, marks: &[[u32; 2]], weld: &Weld) -> usize {
 }
 
 /// Takes over the polylines of a mesh, each pair of vertices once; gives the number of those that are left out.
-fn add_wires(
+fn add_polylines(
     part: &mut HalfEdgeMesh,
     mesh: &PlacedMesh<'_>,
     weld: &Weld,

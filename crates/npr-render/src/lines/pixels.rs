@@ -14,7 +14,7 @@ use npr_vector::pixel_strokes::stroke::Loops;
 use npr_vector::pixel_strokes::{BYTES_PER_PIXEL, PixelScene, PublishedPath, Traced};
 use npr_vector::stroke::Stroke;
 
-/// The strokes of a view by [`LineMethod::Potrace`](super::LineMethod); dense smoke hides them, and its own
+/// The strokes of a view by [`LineSource::Potrace`](super::LineSource); dense smoke hides them, and its own
 /// outline comes after.
 pub(super) fn strokes(
     view: &LineView<'_>,

@@ -14,7 +14,7 @@ use npr_scene::Scene;
 const BYTES_PER_TRIANGLE: usize = 260;
 
 /// Bytes of a line segment: with its links in a shape, and with its visible parts in a view.
-const BYTES_PER_WIRE: usize = 320;
+const BYTES_PER_POLYLINE: usize = 320;
 
 /// Bytes of a stored vertex: where it rests, where it stands, and its place in the shape.
 const BYTES_PER_VERTEX: usize = 48;
@@ -33,7 +33,11 @@ pub(super) fn check_budget(
         assembly.triangle_count(),
         BYTES_PER_TRIANGLE,
     )?;
-    budget.take("line segments", assembly.polyline_count(), BYTES_PER_WIRE)?;
+    budget.take(
+        "line segments",
+        assembly.polyline_count(),
+        BYTES_PER_POLYLINE,
+    )?;
     Ok(())
 }
 
@@ -122,7 +126,7 @@ fn faults_of(preparation: &Preparation) -> Option<String> {
             "marked lines that are no edges of a mesh",
         ),
         counted(
-            preparation.lost_wire_count,
+            preparation.lost_polyline_count,
             "line segment that is left out, because it has no length or is stored twice",
             "line segments that are left out, because they have no length or are stored twice",
         ),

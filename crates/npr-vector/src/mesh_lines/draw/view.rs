@@ -359,7 +359,7 @@ impl View<'_> {
 
         // Along an edge, note where it goes through other faces.
         if node.is_along_edge() {
-            let is_wire = self.shape.polyline_of(node.edge).is_some();
+            let is_polyline = self.shape.polyline_of(node.edge).is_some();
             return Circumstances {
                 piercings: if is_crowded {
                     Vec::new()
@@ -367,7 +367,11 @@ impl View<'_> {
                     self.piercings(node)
                 },
                 own_faces,
-                touch: if is_wire { self.prepared.touch } else { 0.0 },
+                touch: if is_polyline {
+                    self.prepared.touch
+                } else {
+                    0.0
+                },
             };
         }
 
