@@ -32,7 +32,11 @@ pub(super) fn check_budget(
         assembly.triangle_count(),
         BYTES_PER_TRIANGLE,
     )?;
-    budget.take("line segments", assembly.polyline_count(), BYTES_PER_POLYLINE)?;
+    budget.take(
+        "line segments",
+        assembly.polyline_count(),
+        BYTES_PER_POLYLINE,
+    )?;
     Ok(())
 }
 

@@ -367,7 +367,11 @@ impl View<'_> {
                     self.piercings(node)
                 },
                 own_faces,
-                touch: if is_polyline { self.prepared.touch } else { 0.0 },
+                touch: if is_polyline {
+                    self.prepared.touch
+                } else {
+                    0.0
+                },
             };
         }
 
