@@ -8,8 +8,8 @@ use crate::overlay::style_table;
 macro_rules! potrace_table {
     ($($(#[$attribute:meta])+ $key:ident: $type:ty = $published:expr;)+) => {
         style_table! {
-            /// The constants of method `potrace` and of `npr lines --method potrace` [Jiang et al. 2022]. Sides are
-            /// those of pixels; defaults are those of [`PublishedPath`].
+            #[doc = "The constants of method `potrace` and of `npr lines --method potrace` [Jiang et al. 2022]. Sides \
+                     are those of\npixels; defaults are those of [`PublishedPath`]."]
             pub struct Potrace {
                 $($(#[$attribute])+ pub $key: $type = $published,)+
             }
