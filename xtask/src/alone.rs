@@ -6,6 +6,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 
+use crate::file::write_whole;
 use crate::packages::{Package, cargo, members, output};
 
 /// The target of browsers.
@@ -99,7 +100,7 @@ pub fn check_packages(root: &Path) -> Result<()> {
     }
     own += "\n";
     own += &without_absent(&manifest[profiles..], &packages);
-    std::fs::write(folder.join("Cargo.toml"), own)?;
+    write_whole(&folder.join("Cargo.toml"), own.as_bytes())?;
     std::fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock"))?;
 
     // Check them there, with the target folder of the checkout, which holds what others wrote.

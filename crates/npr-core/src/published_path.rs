@@ -7,70 +7,70 @@
 macro_rules! published_constants {
     ($table:ident) => {
         $table! {
-            /// Leaves out contours in valleys; default true. Off shows those of open surfaces from behind.
-            convex_only: bool = true;
-            /// Steps of the grid that lines are drawn on to a pixel, 1..8; default 2.
-            #[schemars(range(min = 1, max = 8))]
-            oversampling: u32 = 2;
-            /// How far behind a surface a line still shows, as a share of the scene's radius, 0..1; default 0.02.
-            /// Larger lets hidden lines through thin parts, smaller breaks lines on steep slopes.
-            #[schemars(range(min = 0.0, max = 1.0))]
-            depth_tolerance: f32 = 0.02;
-            /// Of a pixel and the eight around it, how many have to show a line, 0..9; default 2.
-            #[schemars(range(min = 0, max = 9))]
-            least_visible: u32 = 2;
-            /// Rounds of pointer jumping, 0..32; default 0, as many as it takes. Where they are too few the picture fails.
-            #[schemars(range(min = 0, max = 32))]
-            rounds: u32 = 0;
-            /// Pixels under which a loop is a speck, 0..1000000; default 32. Lines shorter than that vanish.
-            #[schemars(range(min = 0.0, max = 1_000_000.0))]
-            speck_area: f32 = 32.0;
-            /// Pixels under which a thin loop is a speck, 0..1000000; default 64.
-            #[schemars(range(min = 0.0, max = 1_000_000.0))]
-            thin_speck_area: f32 = 64.0;
-            /// Area for each side up to which a loop is thin, in pixels, 0..1000; default 1.
-            #[schemars(range(min = 0.0, max = 1000.0))]
-            thinness: f32 = 1.0;
-            /// Reach of smoothing places, in sides, 0..64; default 16.
-            #[schemars(range(min = 0, max = 64))]
-            smooth_radius: u32 = 16;
-            /// Standard deviation of smoothing, in sides, 0..64; default 5. 1 keeps the steps of pixels, 12 rounds every
-            /// corner.
-            #[schemars(range(min = 0.0, max = 64.0))]
-            smooth_sigma: f32 = 5.0;
-            /// How often places are smoothed, 0..16; default 2.
-            #[schemars(range(min = 0, max = 16))]
-            smooth_passes: u32 = 2;
-            /// Sides on each side that a tangent is fitted to, 0..64; default 12.
-            #[schemars(range(min = 0, max = 64))]
-            fit_radius: u32 = 12;
-            /// Reach of smoothing tangents, in sides, 0..64; default 16. More of it moves where strokes end.
-            #[schemars(range(min = 0, max = 64))]
-            tangent_radius: u32 = 16;
-            /// Standard deviation of smoothing tangents, in sides, 0..64; default 5.
-            #[schemars(range(min = 0.0, max = 64.0))]
-            tangent_sigma: f32 = 5.0;
-            /// How often tangents are smoothed, 0..16; default 2.
-            #[schemars(range(min = 0, max = 16))]
-            tangent_passes: u32 = 2;
-            /// Reach of the mean of contours' directions, in sides, 0..64; default 16.
-            #[schemars(range(min = 0, max = 64))]
-            direction_radius: u32 = 16;
-            /// Standard deviation of that mean, in sides, 0..64; default 6.5.
-            #[schemars(range(min = 0.0, max = 64.0))]
-            direction_sigma: f32 = 6.5;
-            /// Cosine between loop and contour over which a side is kept, 0..1; default 0.1.
-            #[schemars(range(min = 0.0, max = 1.0))]
-            least_cos: f32 = 0.1;
-            /// Sides on each side that vote on whether one is kept, 0..64; default 7.
-            #[schemars(range(min = 0, max = 64))]
-            vote_radius: u32 = 7;
-            /// By how many votes a side has to win, 0..129; default 2.
-            #[schemars(range(min = 0, max = 129))]
-            vote_margin: u32 = 2;
-            /// Strokes of at most as many sides are dropped, 0..1000000; default 8.
-            #[schemars(range(min = 0, max = 1_000_000))]
-            short: u32 = 8;
+        /// Leaves out contours in valleys; default true. Off shows those of open surfaces from behind.
+        convex_only: bool = true;
+        /// Steps of the grid that lines are drawn on to a pixel, 1..8; default 2.
+        #[schemars(range(min = 1, max = 8))]
+        oversampling: u32 = 2;
+        /// How far behind a surface a line still shows, as a share of the scene's radius, 0..1; default 0.02.
+        /// Larger lets hidden lines through thin parts, smaller breaks lines on steep slopes.
+        #[schemars(range(min = 0.0, max = 1.0))]
+        depth_tolerance: f32 = 0.02;
+        /// Of a pixel and the eight around it, how many have to show a line, 0..9; default 2.
+        #[schemars(range(min = 0, max = 9))]
+        least_visible: u32 = 2;
+        /// Rounds of pointer jumping, 0..32; default 0, as many as it takes. Where they are too few the picture fails.
+        #[schemars(range(min = 0, max = 32))]
+        rounds: u32 = 0;
+        /// Pixels under which a loop is a speck, 0..1000000; default 32. Lines shorter than that vanish.
+        #[schemars(range(min = 0.0, max = 1_000_000.0))]
+        speck_area: f32 = 32.0;
+        /// Pixels under which a thin loop is a speck, 0..1000000; default 64.
+        #[schemars(range(min = 0.0, max = 1_000_000.0))]
+        thin_speck_area: f32 = 64.0;
+        /// Area for each side up to which a loop is thin, in pixels, 0..1000; default 1.
+        #[schemars(range(min = 0.0, max = 1000.0))]
+        thinness: f32 = 1.0;
+        /// Reach of smoothing places, in sides, 0..64; default 16.
+        #[schemars(range(min = 0, max = 64))]
+        smooth_radius: u32 = 16;
+        /// Standard deviation of smoothing, in sides, 0..64; default 5. 1 keeps the steps of pixels, 12 rounds every
+        /// corner.
+        #[schemars(range(min = 0.0, max = 64.0))]
+        smooth_sigma: f32 = 5.0;
+        /// How often places are smoothed, 0..16; default 2.
+        #[schemars(range(min = 0, max = 16))]
+        smooth_passes: u32 = 2;
+        /// Sides on each side that a tangent is fitted to, 0..64; default 12.
+        #[schemars(range(min = 0, max = 64))]
+        fit_radius: u32 = 12;
+        /// Reach of smoothing tangents, in sides, 0..64; default 16. More of it moves where strokes end.
+        #[schemars(range(min = 0, max = 64))]
+        tangent_radius: u32 = 16;
+        /// Standard deviation of smoothing tangents, in sides, 0..64; default 5.
+        #[schemars(range(min = 0.0, max = 64.0))]
+        tangent_sigma: f32 = 5.0;
+        /// How often tangents are smoothed, 0..16; default 2.
+        #[schemars(range(min = 0, max = 16))]
+        tangent_passes: u32 = 2;
+        /// Reach of the mean of contours' directions, in sides, 0..64; default 16.
+        #[schemars(range(min = 0, max = 64))]
+        direction_radius: u32 = 16;
+        /// Standard deviation of that mean, in sides, 0..64; default 6.5.
+        #[schemars(range(min = 0.0, max = 64.0))]
+        direction_sigma: f32 = 6.5;
+        /// Cosine between loop and contour over which a side is kept, 0..1; default 0.1.
+        #[schemars(range(min = 0.0, max = 1.0))]
+        least_cos: f32 = 0.1;
+        /// Sides on each side that vote on whether one is kept, 0..64; default 7.
+        #[schemars(range(min = 0, max = 64))]
+        vote_radius: u32 = 7;
+        /// By how many votes a side has to win, 0..129; default 2.
+        #[schemars(range(min = 0, max = 129))]
+        vote_margin: u32 = 2;
+        /// Strokes of at most as many sides are dropped, 0..1000000; default 8.
+        #[schemars(range(min = 0, max = 1_000_000))]
+        short: u32 = 8;
         }
     };
 }
