@@ -310,6 +310,18 @@ mod tests {
     }
 
     #[test]
+    fn both_curvatures_count_with_their_signs_and_the_larger_by_its_size() {
+        let saddle = Curvature {
+            max: 1.0,
+            min: -3.0,
+            ..Curvature::default()
+        };
+        assert_eq!((saddle.mean(), saddle.gaussian()), (-1.0, -3.0));
+        assert_eq!(tightest([1.0, -3.0]), 3.0);
+        assert_eq!(tightest([2.0, -1.0]), 2.0);
+    }
+
+    #[test]
     fn a_plane_is_flat() {
         assert_eq!(worst_error(&plane(6, 4), |_| Some([0.0, 0.0])), 0.0);
     }

@@ -216,3 +216,11 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn normals_of_faces_wound_against_each_other_stand_for_both_their_directions() {
+    let up = [[0.0, 0.0, 1.0]; 2];
+    let down = [[0.0, 0.0, -1.0]; 2];
+    assert_eq!(cos_between([up, down], true), Some(1.0));
+    assert_eq!(cos_between([up, down], false), Some(-1.0));
+}

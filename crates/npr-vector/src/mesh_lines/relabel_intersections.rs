@@ -96,6 +96,29 @@ mod tests {
         assert_eq!(relabel_intersections(hidden.clone()), hidden);
     }
 
+    #[test]
+    fn of_several_lines_at_an_end_the_first_kind_counts_in_any_order() {
+        let of = |kind: Kind, surface: u32, run: Run| Run {
+            kind,
+            surface,
+            ..run
+        };
+        let crease = of(Kind::Crease, 5, run_along(0, &[[0.0, 0.0], [20.0, 0.0]]));
+        let contour = of(Kind::Contour, 6, run_along(1, &[[20.0, 30.0], [20.0, 0.0]]));
+        let short = of(
+            Kind::Intersection,
+            7,
+            run_along(2, &[[20.0, 0.0], [27.0, 0.0]]),
+        );
+        let beyond = of(Kind::Material, 8, run_along(3, &[[27.0, 0.0], [60.0, 0.0]]));
+        let runs = [crease, contour, short, beyond];
+        for order in [[0, 1, 2, 3], [1, 0, 2, 3], [3, 2, 1, 0]] {
+            let relabelled = relabel_intersections(order.map(|i: usize| runs[i].clone()).to_vec());
+            let short = relabelled.iter().find(|run| run.id == 2).unwrap();
+            assert_eq!((short.kind, short.surface), (Kind::Contour, 6), "{order:?}");
+        }
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
