@@ -1,5 +1,8 @@
 // Beams of light. Twin: npr_style::beam.
 
+//# use lib/samples
+//# use lib/four
+
 fn beam_color(part: u32, t: f32) -> vec4<f32> {
     let half = parts[part].softness * 0.5;
     var color = vec4<f32>(parts[part].ramp[0].rgb, parts[part].beam_alpha[0]);
@@ -10,16 +13,6 @@ fn beam_color(part: u32, t: f32) -> vec4<f32> {
         color += (next - color) * smooth_step(stop.a - half, stop.a + half, t);
     }
     return color;
-}
-
-// Depth of a triangle's plane at a position of the frame.
-fn depth_of(id: u32, frame_px: vec2<f32>) -> f32 {
-    let corners = triangles[(id & ID_MASK) - 1u].corners;
-    let a = posed[corners.x];
-    let b = posed[corners.y];
-    let c = posed[corners.z];
-    let weights = weights_at(array<vec4<f32>, 3>(a.clip, b.clip, c.clip), ndc_at(view, frame_px));
-    return blend(weights, a.depth, b.depth, c.depth);
 }
 
 // T = E . N of a beam, 0 at its rim and 1 in its middle.
@@ -47,23 +40,27 @@ struct Beams {
 // Lays the beams over a pixel's surfaces.
 fn add_beams(pixel: vec2<u32>, smoke_layer: SmokeLayer, frame_px: vec2<f32>, below: vec4<f32>) -> Beams {
     var result: Beams;
+    result.color = below;
+    if (compose.flags & COMPOSE_BEAMS) == 0u { return result; }
     var sum = vec4<f32>(0.0);
-    var ids_here: array<u32, 4>;
-    let count = compose.samples * compose.samples;
-    for (var i = 0u; i < count; i++) {
+    let behind = ids_at(pixel);
+    var here = vec4<u32>(0u);
+    for (var i = 0u; i < sample_count(); i++) {
         let at = pixel * compose.samples + vec2<u32>(i & 1u, i >> 1u);
-        ids_here[i] = textureLoad(beam_ids, at, 0).x;
+        here[i] = textureLoad(beam_ids, at, 0).x;
     }
-    for (var i = 0u; i < count; i++) {
-        let id = ids_here[i];
-        var first = id != 0u;
-        for (var j = 0u; j < i; j++) { first = first && ids_here[j] != id; }
-        if !first { continue; }
+    // Every beam once, from the first of its samples on.
+    var left = bits_of(here != vec4<u32>(0u));
+    while left != 0u {
+        let id = of_sample(here, firstTrailingBit(left));
+        var members = bits_of(here == vec4<u32>(id));
+        left &= ~members;
         var shown = 0.0;
-        for (var j = i; j < count; j++) {
-            let at = pixel * compose.samples + vec2<u32>(j & 1u, j >> 1u);
-            if ids_here[j] == id && beam_shows(id, textureLoad(ids, at, 0).x, j, frame_px) {
-                shown += (1.0 - smoke_layer_over(smoke_layer, id, j, frame_px)) / f32(count);
+        while members != 0u {
+            let j = firstTrailingBit(members);
+            members &= members - 1u;
+            if beam_shows(id, of_sample(behind, j), j, frame_px) {
+                shown += (1.0 - smoke_layer_over(smoke_layer, id, j, frame_px)) / f32(sample_count());
             }
         }
         let part = triangles[(id & ID_MASK) - 1u].part;

@@ -1,6 +1,8 @@
 // Holes in cut-out parts. Twin: npr_core::cutout.
 // The shader declares `vertices`, `triangles`, `parts` and `texels`.
 
+//# use lib/sampling
+
 // Whether a triangle of a cut-out part is transparent where its corners have these weights.
 fn is_hole_at(triangle: u32, weights: vec3<f32>) -> bool {
     let part = parts[triangles[triangle].part];

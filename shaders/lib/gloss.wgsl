@@ -62,6 +62,11 @@ fn shines_gently(part: u32) -> bool {
         && all(parts[part].highlight_turn.zw == vec2<f32>(0.0));
 }
 
+// Whether a part has highlights.
+fn has_highlights(part: u32) -> bool {
+    return (parts[part].flags & PART_HIGHLIGHTS) != 0u;
+}
+
 // Light that a part's highlights add at a place; bits of `dark` are the lights that do not reach it.
 fn highlights_at(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32) -> vec3<f32> {
     let flags = parts[part].flags;

@@ -1,5 +1,8 @@
 // Ink and hatching at one point. Twin: npr_style::inking. The shader declares what its twin's layers hold.
 
+//# use lib/paint
+//# use lib/four
+
 // Hatch luminance that stands for the hatch where there is none.
 const NO_HATCH: f32 = 0.5;
 // Drawings to an octave.
@@ -9,6 +12,9 @@ const BLEND_LIFT: f32 = 3.4;
 // Least S on the ridge of a stroke that is about to go, as a part of what comes in its place.
 const RIDGE: f32 = 0.16;
 // Least luminance of the shade ramp on a surface with hatch but no ink, above half the threshold.
+
+//# use lib/paint
+//# use lib/four
 const OPEN_PAPER: f32 = 0.08;
 
 // Change of luminance between two strokes from which the strokes give way to the tone's own edge.
@@ -342,4 +348,40 @@ fn ink_on_sheet(part: u32, at: vec2<f32>, scale: f32, tone: f32, change: vec2<f3
     var calm: Calm;
     calm.abrupt = abruptness(length(darker), parts[part].spacing_px);
     return ink_of_hatch(part, place, l, darkens, calm);
+}
+
+// Ink of a triangle where it is the same all over, inside the shadow of the lights in `dark` or outside of it; else -1.
+fn even_ink(part: u32, corners: Corners, dark: u32) -> f32 {
+    if (parts[part].flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
+    if !only_distant() { return -1.0; }
+    let most = select(1.0, lights.shadow_at, dark != 0u);
+    return ink_over(part, min(coordinate_range(corners), vec2<f32>(most)));
+}
+
+// Ink of a triangle, the mean over the samples in `counted`, which lie in the shadows of the lights in `darks`; samples
+// in the same shadows share one value.
+fn mean_ink(id: u32, part: u32, corners: Corners, px: vec2<f32>, counted: u32, darks: vec4<u32>) -> f32 {
+    var values = vec4<f32>(0.0);
+    var left = counted;
+    while left != 0u {
+        let dark = of_sample(darks, firstTrailingBit(left));
+        let alike = left & bits_of(darks == vec4<u32>(dark));
+        left &= ~alike;
+        var ink = even_ink(part, corners, dark);
+        while ink < 0.0 {
+            ink = ink_at(id, part, corners, px, dark);
+            break;
+        }
+        values = select(values, vec4<f32>(ink), samples_in(alike));
+    }
+    let first = values[firstTrailingBit(counted)];
+    let beyond = (values - first) / f32(countOneBits(counted));
+    let added = select(vec4<f32>(0.0), beyond, samples_in(counted));
+    return (((first + added.x) + added.y) + added.z) + added.w;
+}
+
+// A lit surface with the share `share` of ink over it, 0..1.
+fn inked(part: u32, lit: vec3<f32>, share: f32) -> vec3<f32> {
+    let ink = parts[part].ink_color;
+    return lit + (ink.rgb - lit) * (share * ink.a);
 }

@@ -47,12 +47,3 @@ fn line_tint(triangle: Triangle, corners: Corners, px: vec2<f32>, step_px: vec2<
     let own = line_own(triangle, corners, px, step_px, is_hull);
     return decide(triangle.part, own, world_of(corners, weights), normal);
 }
-
-// Linear light of the line that a hull or a grazing surface shows at a point of the frame.
-fn line_light(triangle: Triangle, corners: Corners, px: vec2<f32>, step_px: vec2<f32>, is_hull: bool) -> vec3<f32> {
-    var tint: Tint;
-    if (parts[triangle.part].line_flags & LINE_PLACED) != 0u {
-        tint = line_tint(triangle, corners, px, step_px, is_hull);
-    }
-    return linear_texel(pack_rgba8(line_color(triangle.part, KIND_CONTOUR, tint))).rgb;
-}

@@ -1,6 +1,9 @@
 // Cast shadows with exact edges. Twin: npr_style::shadow.
 // The shader declares `lights`, `posed`, `triangles` and `shadow_0` to `shadow_3`.
 
+//# use lib/cutout
+//# use lib/smoke_shadow
+
 // Height in texels under which a triangle counts as fine.
 const FINE_TEXELS: f32 = 2.0;
 // Least cosine between normal and light used for the slope of a surface.
@@ -25,18 +28,6 @@ struct LitPoint {
 struct Caster {
     world: array<vec3<f32>, 3>,
     clip: array<vec4<f32>, 3>,
-}
-
-// A place of the triangle lifted onto the tangent planes of its corners [Hanika 2021].
-fn lifted(corners: Corners, weights: vec3<f32>) -> vec3<f32> {
-    let world = world_of(corners, weights);
-    var lifts: array<vec3<f32>, 3>;
-    for (var i = 0u; i < 3u; i++) {
-        let normal = corners.normals[i] * corners.side;
-        let below = min(dot(world - corners.world[i], normal), 0.0);
-        lifts[i] = normal * -below;
-    }
-    return world + blend3(weights, lifts[0], lifts[1], lifts[2]);
 }
 
 // The lights whose shadow falls on a place of triangle `id`, one bit each.

@@ -1,6 +1,10 @@
 // Smoke over the surfaces of a pixel, and its shadow on them. Twin: npr_style::smoke::smoke_layer.
 // The shader declares `view`, `window`, `compose`, `lights`, `ids` and the pictures `smoke_*`.
 
+//# use lib/samples
+//# use lib/four
+//# use lib/smoke_pen
+
 const SMOKE_LAYER_MASK: u32 = 15u;
 
 // Smoke over a pixel.
@@ -10,7 +14,7 @@ struct SmokeLayer {
     // Which samples it covers.
     mask: u32,
     // Share of the surface or background that it hides in each sample.
-    hidden: array<f32, 4>,
+    hidden: vec4<f32>,
 }
 
 fn smoke_layer_of(pixel: vec2<u32>, frame_px: vec2<f32>) -> SmokeLayer {
@@ -21,10 +25,10 @@ fn smoke_layer_of(pixel: vec2<u32>, frame_px: vec2<f32>) -> SmokeLayer {
     if smoke_layer.mask == 0u { return smoke_layer; }
     smoke_layer.depth = min(bitcast<f32>(bits & ~SMOKE_LAYER_MASK), FAR_DEPTH);
     smoke_layer.color = linear_of(textureLoad(smoke_colors, pixel, 0));
-    if (compose.flags & COMPOSE_SMOKE_PEN) != 0u { smoke_layer.color = penned(pixel, frame_px, smoke_layer.color); }
-    for (var i = 0u; i < compose.samples * compose.samples; i++) {
-        let at = pixel * compose.samples + vec2<u32>(i & 1u, i >> 1u);
-        smoke_layer.hidden[i] = smoke_layer_over(smoke_layer, textureLoad(ids, at, 0).x, i, frame_px);
+    smoke_layer.color = penned(pixel, frame_px, smoke_layer.color);
+    let seen = ids_at(pixel);
+    for (var i = 0u; i < sample_count(); i++) {
+        smoke_layer.hidden[i] = smoke_layer_over(smoke_layer, of_sample(seen, i), i, frame_px);
     }
     return smoke_layer;
 }
@@ -38,10 +42,7 @@ fn smoke_layer_over(smoke_layer: SmokeLayer, id: u32, i: u32, frame_px: vec2<f32
 
 // Mean share of a pixel that the smoke hides.
 fn smoke_layer_shown(smoke_layer: SmokeLayer) -> f32 {
-    var shown = 0.0;
-    let count = compose.samples * compose.samples;
-    for (var i = 0u; i < count; i++) { shown += smoke_layer.hidden[i]; }
-    return shown / f32(count);
+    return sum_over(smoke_layer.hidden, vec4<bool>(true)) / f32(sample_count());
 }
 
 // Whether a surface some pixels away lies before the smoke.
@@ -69,35 +70,11 @@ fn line_direction(k: u32) -> vec2<f32> {
 // Share of a pixel's lines that the smoke hides: 0 if a surface nearby lies before it.
 fn line_fade(smoke_layer: SmokeLayer, pixel: vec2<u32>, frame_px: vec2<f32>) -> f32 {
     if smoke_layer.mask == 0u { return 0.0; }
-    let shown = smoke_layer.color.a * f32(countOneBits(smoke_layer.mask)) / f32(compose.samples * compose.samples);
+    let shown = smoke_layer.color.a * f32(countOneBits(smoke_layer.mask)) / f32(sample_count());
     if is_before_smoke_layer(smoke_layer, pixel, frame_px, vec2<f32>(0.0)) { return 0.0; }
     let rings = vec3<f32>(1.0, 2.5, 5.0);
     for (var k = 0u; k < 24u; k++) {
         if is_before_smoke_layer(smoke_layer, pixel, frame_px, line_direction(k % 8u) * rings[k / 8u]) { return 0.0; }
     }
     return shown;
-}
-
-fn smoke_texel(map: u32, at: vec2<u32>) -> f32 {
-    switch map {
-        case 0u: { return textureLoad(smoke_shadow_0, at, 0); }
-        case 1u: { return textureLoad(smoke_shadow_1, at, 0); }
-        case 2u: { return textureLoad(smoke_shadow_2, at, 0); }
-        default: { return textureLoad(smoke_shadow_3, at, 0); }
-    }
-}
-
-// Whether smoke lies between a place and the light of a shadow image.
-fn is_behind_smoke(map: u32, world: vec3<f32>) -> bool {
-    let side = compose.smoke_shadow_side;
-    if side == 0u { return false; }
-    let texels = texels_around(lights.shadows[map], side, world);
-    if !texels.is_seen { return false; }
-    let low = texels.low;
-    return are_nearer(texels, vec4<f32>(
-        smoke_texel(map, low),
-        smoke_texel(map, low + vec2<u32>(1u, 0u)),
-        smoke_texel(map, low + vec2<u32>(0u, 1u)),
-        smoke_texel(map, low + vec2<u32>(1u, 1u)),
-    ));
 }

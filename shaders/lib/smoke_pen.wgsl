@@ -23,8 +23,9 @@ fn tone_beside(pixel: vec2<u32>, step: vec2<i32>, tone: f32) -> f32 {
     return beside;
 }
 
-// The finished colour of a smoke pixel whose picture holds tone and outline.
+// The finished colour of a smoke pixel; the pen finishes a picture that holds tone and outline.
 fn penned(pixel: vec2<u32>, frame_px: vec2<f32>, color: vec4<f32>) -> vec4<f32> {
+    if (compose.flags & COMPOSE_SMOKE_PEN) == 0u { return color; }
     let pen = compose.smoke_part;
     let tone = max(tone_of(color), 0.0);
     let change = 0.5 * vec2<f32>(
@@ -36,7 +37,7 @@ fn penned(pixel: vec2<u32>, frame_px: vec2<f32>, color: vec4<f32>) -> vec4<f32> 
         let step = (f32(i) + 0.5) / f32(TONE_TAPS) - 0.5;
         light += ramp_light(pen, tone + length(change) * step) / f32(TONE_TAPS);
     }
-    let ink = ink_on_sheet(pen, (frame_px - compose.smoke_anchor_px), compose.smoke_tiles, tone, change);
+    let ink = ink_on_sheet(pen, frame_px - compose.smoke_anchor_px, compose.smoke_tiles, tone, change);
     light += (parts[pen].ink_color.rgb - light) * (ink * parts[pen].ink_color.a);
     light += (compose.smoke_line.rgb - light) * color.b;
     return vec4<f32>(light, color.a);

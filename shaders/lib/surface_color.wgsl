@@ -3,7 +3,7 @@
 
 //# use lib/surface
 //# use lib/window
-//# use lib/texture
+//# use lib/sampling
 //# use lib/compose
 
 struct Corners {
@@ -32,6 +32,28 @@ fn normal_of(corners: Corners, weights: vec3<f32>) -> vec3<f32> {
 
 fn world_of(corners: Corners, weights: vec3<f32>) -> vec3<f32> {
     return blend3(weights, corners.world[0], corners.world[1], corners.world[2]);
+}
+
+// Depth of a triangle's plane at a position of the frame.
+fn depth_of(id: u32, frame_px: vec2<f32>) -> f32 {
+    let corners = triangles[(id & ID_MASK) - 1u].corners;
+    let a = posed[corners.x];
+    let b = posed[corners.y];
+    let c = posed[corners.z];
+    let weights = weights_at(array<vec4<f32>, 3>(a.clip, b.clip, c.clip), ndc_at(view, frame_px));
+    return blend(weights, a.depth, b.depth, c.depth);
+}
+
+// A place of the triangle lifted onto the tangent planes of its corners [Hanika 2021].
+fn lifted(corners: Corners, weights: vec3<f32>) -> vec3<f32> {
+    let world = world_of(corners, weights);
+    var lifts: array<vec3<f32>, 3>;
+    for (var i = 0u; i < 3u; i++) {
+        let normal = corners.normals[i] * corners.side;
+        let below = min(dot(world - corners.world[i], normal), 0.0);
+        lifts[i] = normal * -below;
+    }
+    return world + blend3(weights, lifts[0], lifts[1], lifts[2]);
 }
 
 fn uv_at(triangle: Triangle, weights: vec3<f32>) -> vec2<f32> {

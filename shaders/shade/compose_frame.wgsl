@@ -13,6 +13,7 @@
 //# use lib/window
 //# use lib/color
 //# use lib/compose
+//# use lib/backdrop
 
 override WG: u32 = 64u;
 
@@ -46,29 +47,28 @@ override WG: u32 = 64u;
 @group(0) @binding(27) var backs: texture_2d<f32>;
 
 //# use lib/texture
+//# use lib/samples
+//# use lib/four
 //# use lib/tone_row
 //# use lib/lighting
 //# use lib/surface_color
-//# use lib/line_place
-//# use lib/paint
+//# use lib/hull
+//# use lib/surface_line
+//# use lib/grazing
 //# use lib/inking
 //# use lib/gloss
-//# use lib/beam
-//# use lib/cutout
-//# use lib/shadow
 //# use lib/sky
-//# use lib/depth_map
-//# use lib/smoke_pen
+//# use lib/shadow
 //# use lib/smoke_layer
-//# use lib/adapt
+//# use lib/beam
+//# use lib/contrast
+//# use lib/ribbon_layer
+//# use lib/overlay_layer
 
 // How far the tone of a flat triangle may lie beyond the tones of its corners, in ramp coordinate: rounding.
 const TONE_ROOM: f32 = 0.002;
 // Width of a tone step from which on it is so gentle that one place of a pixel stands for all.
 const GENTLE: f32 = 0.25;
-
-// Widest line of the surface-angle method, in line widths: a surface that turns more slowly counts as flat.
-const ANGLE_WIDTHS: f32 = 6.0;
 
 // Light of a group of samples, if one place stands for all of them.
 struct Even {
@@ -78,7 +78,7 @@ struct Even {
 
 // Light of a ramp at coordinate `x`: each step takes over where its coordinate begins.
 fn ramp_light(part: u32, x: f32) -> vec3<f32> {
-    if (parts[part].flags & PART_TONE_ROW) != 0u { return row_light(parts[part].tone_row, x); }
+    if has_tone_row(part) { return row_light(parts[part].tone_row, x); }
     let half = parts[part].softness * 0.5;
     var light = parts[part].ramp[0].rgb;
     for (var i = 1u; i < 8u; i++) {
@@ -106,7 +106,7 @@ fn coordinate_range(corners: Corners) -> vec2<f32> {
 
 // Whether a part's ramp has one tone for all coordinates in `range`.
 fn one_step(part: u32, range: vec2<f32>) -> bool {
-    if (parts[part].flags & PART_TONE_ROW) != 0u { return row_is_even(parts[part].tone_row, range); }
+    if has_tone_row(part) { return row_is_even(parts[part].tone_row, range); }
     let reach = parts[part].softness * 0.5;
     for (var i = 1u; i < 8u; i++) {
         let at = parts[part].ramp[i].a;
@@ -140,14 +140,6 @@ fn is_gentle(part: u32) -> bool {
         && (parts[part].softness >= GENTLE || parts[part].ramp[1].a > 1.5);
 }
 
-// Ink of a triangle where it is the same all over, inside the shadow of the lights in `dark` or outside of it; else -1.
-fn even_ink(part: u32, corners: Corners, dark: u32) -> f32 {
-    if (parts[part].flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
-    if !only_distant() { return -1.0; }
-    let most = select(1.0, lights.shadow_at, dark != 0u);
-    return ink_over(part, min(coordinate_range(corners), vec2<f32>(most)));
-}
-
 // Light on a surface at `world` with the normal `normal`, in the shadow of the lights in `dark`, that sees `open` of
 // the sky.
 fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32, open: Openness) -> vec3<f32> {
@@ -156,111 +148,46 @@ fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32, open: Ope
     return ramp_light(part, lit.x) * lit.color;
 }
 
-// The one-dimensional texture of the surface-angle method over N . E.
-fn angle_ramp(facing: f32, threshold: f32, softness: f32) -> f32 {
-    let half = 0.5 * softness * threshold;
-    return 1.0 - smooth_step(threshold - half, threshold + half, abs(facing));
-}
-
-// 1 within `widest_px` of the contour of a surface, else 0, at a place where N . E is `facing` and changes by `change`
-// per pixel.
-fn not_flat(facing: f32, change: f32, widest_px: f32) -> f32 {
-    let distance = max(facing, 0.0) * 0.5 / max(change, 1e-9);
-    return clamp(widest_px - distance + 0.5, 0.0, 1.0);
-}
-
-// How dark the surface-angle method's line is at a place of a surface, 0..1.
-fn grazing(triangle: Triangle, corners: Corners, px: vec2<f32>) -> f32 {
-    let part = triangle.part;
-    if (parts[part].flags & PART_ANGLE) == 0u || (compose.flags & COMPOSE_BARE) != 0u { return 0.0; }
-    let around = weights_around(corners.clip, ndc_at(view, px), pixel_ndc(view));
-    // Keep the eye of the place: so only the normal turns, and on flat faces nothing does.
-    let eye = to_eye(view, world_of(corners, around[0]));
-    let here = dot(normal_of(corners, around[0]), eye);
-    let right = dot(normal_of(corners, around[1]), eye);
-    let down = dot(normal_of(corners, around[2]), eye);
-    let change = length(vec2<f32>(right - here, down - here));
-    let at = triangle.corners;
-    let half_width = blend(around[0], posed[at.x].half_width, posed[at.y].half_width, posed[at.z].half_width);
-    let widest_px = ANGLE_WIDTHS * 2.0 * half_width;
-    return angle_ramp(here, parts[part].facing_threshold, compose.angle_softness) * not_flat(here, change, widest_px);
-}
-
-// A lit surface with the share `share` of ink over it, 0..1.
-fn inked(part: u32, lit: vec3<f32>, share: f32) -> vec3<f32> {
-    let ink = parts[part].ink_color;
-    return lit + (ink.rgb - lit) * (share * ink.a);
-}
-
-fn linear_of(srgb: vec4<f32>) -> vec4<f32> {
-    return linear_texel(pack_rgba8(srgb));
-}
-
-// Position of sample `i` within a pixel, from its centre.
-fn sample_offset(i: u32) -> vec2<f32> {
-    if compose.samples == 1u { return vec2<f32>(0.0); }
-    return vec2<f32>(f32(i & 1u), f32(i >> 1u)) * 0.5 - 0.25;
-}
-
-// Ink of a surface, summed over samples: samples in the same shadows share one value.
-struct InkSum {
-    any: bool,
-    // The lights whose shadow fell on the last sample, and the ink there.
-    dark: u32,
-    last: f32,
-    first: f32,
-    mean: f32,
-}
-
-// The colour of a line, adapted to what lies behind it at a pixel.
-fn contrasted(line: vec3<f32>, frame_px: vec2<f32>) -> vec3<f32> {
-    if (compose.flags & COMPOSE_BACKDROP) == 0u { return line; }
-    let pixel = pixel_at(window, frame_px);
-    let front = textureLoad(fronts, pixel, 0);
-    let back = textureLoad(backs, pixel, 0);
-    if front.a == 0.0 { return line; }
-    let rule = u32(back.a * 255.0 + 0.5);
-    let rim = linear_of(front).rgb;
-    var adapted: vec3<f32>;
-    if rules.rules[rule].method == RULE_BY_CONTRAST {
-        adapted = adapted_light(line, rim, Ground(back.r, back.g, back.b), rule);
-    } else {
-        adapted = published_light(line, rim, linear_of(back).rgb, rule);
-    }
-    return line + (adapted - line) * front.a;
-}
-
 // Light of the samples in `members` on a triangle, and the share of it that a line covers.
 struct Drawn {
     light: vec3<f32>,
     lined: f32,
 }
 
+// The middle of the samples in `members` of a pixel.
+fn middle_of(members: u32, frame_px: vec2<f32>) -> vec2<f32> {
+    let share = f32(countOneBits(members));
+    var center = frame_px;
+    for (var i = 0u; i < sample_count(); i++) {
+        if (members & (1u << i)) != 0u { center += sample_offset(i) / share; }
+    }
+    return center;
+}
+
 // Light of the samples in `members`, which show a triangle or its hull.
 fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
     let triangle = triangles[(id & ID_MASK) - 1u];
     let corners = corners_of(triangle);
-    let is_hull = (id & HULL_BIT) != 0u;
+    let is_hull = is_of_hull(id);
     var drawn: Drawn;
     drawn.lined = 1.0;
     var center = frame_px;
-    if !is_hull {
-        let count = f32(countOneBits(members));
-        for (var i = 0u; i < 4u; i++) {
-            if (members & (1u << i)) != 0u { center += sample_offset(i) / count; }
-        }
+    while !is_hull {
+        center = middle_of(members, frame_px);
         drawn = shade_surface(id, members, frame_px, center, corners);
+        break;
     }
-    if drawn.lined == 0.0 { return drawn.light; }
-    let line = contrasted(line_light(triangle, corners, center, vec2<f32>(1.0), is_hull), frame_px);
-    return drawn.light + (line - drawn.light) * drawn.lined;
+    while drawn.lined != 0.0 {
+        let line = contrasted(line_light(triangle, corners, center, vec2<f32>(1.0), is_hull), frame_px);
+        return drawn.light + (line - drawn.light) * drawn.lined;
+    }
+    return drawn.light;
 }
 
 // Light of a triangle; `center` is the middle of its samples.
 fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, corners: Corners) -> Drawn {
     let triangle = triangles[id - 1u];
     let part = triangle.part;
-    let count = f32(countOneBits(members));
     let color = strengthened(base_color(triangle, corners, center));
     var even = even_light(part, corners);
     var open: SkyPoint;
@@ -270,74 +197,50 @@ fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, 
         even.light = light_of(part, world_of(corners, weights), normal_of(corners, weights), 0u, open_at(open, vec2<f32>(0.0)));
         even.is_so = true;
     }
-    let shines = (parts[part].flags & PART_HIGHLIGHTS) != 0u;
+    let shines = has_highlights(part);
     let by_sample = !even.is_so || (shines && !shines_gently(part));
-    let share = select(1.0, 1.0 / count, by_sample);
+    // If one place stands for all samples, only the first of them is shaded.
+    let counted = select(members & (~members + 1u), members, by_sample);
+    let share = 1.0 / f32(countOneBits(counted));
     var gloss = vec3<f32>(0.0);
     var light = select(vec3<f32>(0.0), even.light, even.is_so);
     var lined = 0.0;
-    var ink: InkSum;
-    // If one place stands for all samples, only the first of them is shaded.
-    for (var i = 0u; i < 4u; i++) {
-        if (members & (1u << i)) == 0u { continue; }
+    var darks = vec4<u32>(0u);
+    var left = select(0u, counted, !even.is_so || shines);
+    while left != 0u {
+        let i = firstTrailingBit(left);
+        left &= left - 1u;
+        let at = select(center, frame_px + sample_offset(i), by_sample);
+        let weights = weights_at(corners.clip, ndc_at(view, at));
+        let world = world_of(corners, weights);
+        let normal = normal_of(corners, weights);
         var dark = 0u;
-        if !even.is_so || shines {
-            let at = select(center, frame_px + sample_offset(i), by_sample);
-            let weights = weights_at(corners.clip, ndc_at(view, at));
-            let world = world_of(corners, weights);
-            let normal = normal_of(corners, weights);
-            if !even.is_so {
-                dark = shadowed(id, corners, weights);
-                light += light_of(part, world, normal, dark, open_at(open, at - center)) * share;
-                lined += grazing(triangle, corners, at) * share;
-            }
-            gloss += highlights_at(part, world, normal, dark) * share;
+        if !even.is_so {
+            dark = shadowed(id, corners, weights);
+            light += light_of(part, world, normal, dark, open_at(open, at - center)) * share;
+            lined += grazing(triangle, corners, at) * share;
         }
-        if !ink.any || ink.dark != dark {
-            ink.last = even_ink(part, corners, dark);
-            if ink.last < 0.0 { ink.last = ink_at(id, part, corners, center, dark); }
-        }
-        if !ink.any {
-            ink.any = true;
-            ink.first = ink.last;
-            ink.mean = ink.last;
-        }
-        ink.dark = dark;
-        ink.mean += (ink.last - ink.first) / count;
-        if !by_sample { break; }
+        gloss += highlights_at(part, world, normal, dark) * share;
+        darks[i] = dark;
     }
-    var drawn: Drawn;
-    drawn.light = inked(part, color * light, ink.mean) + gloss;
-    drawn.lined = lined;
-    return drawn;
+    let ink = mean_ink(id, part, corners, center, counted, darks);
+    return Drawn(inked(part, color * light, ink) + gloss, lined);
 }
 
 // The surfaces of a pixel without the shares that smoke hides, premultiplied.
 fn surfaces(pixel: vec2<u32>, smoke_layer: SmokeLayer, frame_px: vec2<f32>) -> vec4<f32> {
-    var hidden = smoke_layer.hidden;
-    var seen: array<u32, 4>;
-    let count = compose.samples * compose.samples;
-    for (var i = 0u; i < count; i++) {
-        let at = pixel * compose.samples + vec2<u32>(i & 1u, i >> 1u);
-        seen[i] = textureLoad(ids, at, 0).x;
-    }
+    let seen = ids_at(pixel);
+    let bare = vec4<f32>(1.0) - smoke_layer.hidden;
     var sum = vec4<f32>(0.0);
-    var left = (1u << count) - 1u;
-    for (var i = 0u; i < count; i++) {
-        if (left & (1u << i)) == 0u { continue; }
-        var members = 0u;
-        for (var j = i; j < count; j++) {
-            if seen[j] == seen[i] { members |= 1u << j; }
-        }
-        left &= ~members;
-        if seen[i] == 0u { continue; }
-        var shown = 0.0;
-        for (var j = i; j < count; j++) {
-            if (members & (1u << j)) != 0u { shown += 1.0 - hidden[j]; }
-        }
-        if shown == 0.0 { continue; }
-        let share = shown / f32(count);
-        sum += vec4<f32>(shade(seen[i], members, frame_px), 1.0) * share;
+    // Every triangle once, from the first of its samples on.
+    var left = bits_of(seen != vec4<u32>(0u));
+    while left != 0u {
+        let id = of_sample(seen, firstTrailingBit(left));
+        let members = seen == vec4<u32>(id);
+        left &= ~bits_of(members);
+        let share = sum_over(bare, members) / f32(sample_count());
+        if share == 0.0 { continue; }
+        sum += vec4<f32>(shade(id, bits_of(members), frame_px), 1.0) * share;
     }
     return sum;
 }
@@ -372,7 +275,7 @@ fn main(
     if element >= arrayLength(&frame) { return; }
 
     let pixel = pixel_of(element, window.size);
-    if (compose.flags & COMPOSE_BARE) != 0u && textureLoad(fronts, pixel / BORDER_TILE, 0).a == 0.0 {
+    if is_left_out(pixel) {
         frame[element] = 0u;
         return;
     }
@@ -382,21 +285,17 @@ fn main(
     surface += vec4<f32>(smoke_layer.color.rgb, 1.0) * smoke_layer_shown(smoke_layer);
     var color = surface;
     if surface.a < 1.0 { color += background(frame_px) * (1.0 - surface.a); }
-    var faded = -1.0;
-    var covered = 0.0;
-    if (compose.flags & COMPOSE_BEAMS) != 0u {
-        let beams = add_beams(pixel, smoke_layer, frame_px, color);
-        color = beams.color;
-        covered = beams.covered;
-    }
+    let beams = add_beams(pixel, smoke_layer, frame_px, color);
+    color = beams.color;
     for (var layer = 0u; layer < 2u; layer++) {
-        var line = vec4<f32>(0.0);
-        if layer == 0u && (compose.flags & COMPOSE_RIBBONS) != 0u { line = linear_of(textureLoad(ribbons, pixel, 0)); }
-        if layer == 1u && (compose.flags & COMPOSE_OVERLAY) != 0u { line = linear_texel(overlay[element]); }
-        if line.a == 0.0 { continue; }
-        if faded < 0.0 { faded = line_fade(smoke_layer, pixel, frame_px); }
-        line = vec4<f32>(contrasted(line.rgb, frame_px), line.a * (1.0 - covered) * (1.0 - faded));
-        color = over(line, color);
+        var line = ribbon_at(pixel);
+        if layer == 1u { line = overlay_at(element); }
+        while line.a != 0.0 {
+            let faded = line_fade(smoke_layer, pixel, frame_px);
+            let alpha = line.a * (1.0 - beams.covered) * (1.0 - faded);
+            color = over(vec4<f32>(contrasted(line.rgb, frame_px), alpha), color);
+            break;
+        }
     }
     let straight = color.rgb / max(color.a, 1e-6);
     frame[element] = pack_rgba8(vec4<f32>(

@@ -1,12 +1,24 @@
 //! The WGSL text of every pass, and the linker that joins it with its libraries.
 //!
 //! Usable without wgpu: link a shader, give the text to any WebGPU host. A line `//# use lib/NAME` in a shader stands
-//! for the text of `lib/NAME.wgsl`, put in once however often it is asked for.
+//! for the text of `lib/NAME.wgsl`, put in once however often it is asked for. Some libraries serve a feature that many
+//! frames do without; for those frames the short text of `lib/none/NAME.wgsl` takes their place, with the same
+//! functions.
 //!
 //! ```
-//! let source = npr_shaders::link(&npr_shaders::MESH_POSE_VERTICES);
-//! assert!(source.contains("struct PosedVertex"));
+//! use npr_shaders::{Features, SHADE_COMPOSE_FRAME, link};
+//!
+//! let plain = link(&SHADE_COMPOSE_FRAME, Features::NONE);
+//! let whole = link(&SHADE_COMPOSE_FRAME, Features::ALL);
+//! assert!(plain.len() < whole.len() / 2);
 //! ```
+
+mod features;
+mod library;
+
+pub use features::Features;
+
+use library::library;
 
 /// A shader file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -186,89 +198,56 @@ shaders! {
     SHADE_COMPOSE_FRAME = "shade/compose_frame";
 }
 
-/// The libraries that shaders share.
-const LIBRARIES: &[(&str, &str)] = &[
-    ("lib/grid", include_str!("../lib/grid.wgsl")),
-    ("lib/line_kind", include_str!("../lib/line_kind.wgsl")),
-    ("lib/edge_flags", include_str!("../lib/edge_flags.wgsl")),
-    ("lib/geometry", include_str!("../lib/geometry.wgsl")),
-    ("lib/unit", include_str!("../lib/unit.wgsl")),
-    ("lib/surface", include_str!("../lib/surface.wgsl")),
-    ("lib/texture", include_str!("../lib/texture.wgsl")),
-    ("lib/curve", include_str!("../lib/curve.wgsl")),
-    ("lib/list", include_str!("../lib/list.wgsl")),
-    ("lib/holder", include_str!("../lib/holder.wgsl")),
-    ("lib/ink", include_str!("../lib/ink.wgsl")),
-    ("lib/looped", include_str!("../lib/looped.wgsl")),
-    ("lib/pixel", include_str!("../lib/pixel.wgsl")),
-    ("lib/spine", include_str!("../lib/spine.wgsl")),
-    ("lib/varying", include_str!("../lib/varying.wgsl")),
-    ("lib/window", include_str!("../lib/window.wgsl")),
-    ("lib/outline", include_str!("../lib/outline.wgsl")),
-    ("lib/pose", include_str!("../lib/pose.wgsl")),
-    ("lib/cutout", include_str!("../lib/cutout.wgsl")),
-    ("lib/stamp", include_str!("../lib/stamp.wgsl")),
-    ("lib/color", include_str!("../lib/color.wgsl")),
-    ("lib/compose", include_str!("../lib/compose.wgsl")),
-    ("lib/backdrop", include_str!("../lib/backdrop.wgsl")),
-    ("lib/stretch", include_str!("../lib/stretch.wgsl")),
-    ("lib/adapt", include_str!("../lib/adapt.wgsl")),
-    ("lib/scenery", include_str!("../lib/scenery.wgsl")),
-    ("lib/beam", include_str!("../lib/beam.wgsl")),
-    ("lib/gloss", include_str!("../lib/gloss.wgsl")),
-    ("lib/inking", include_str!("../lib/inking.wgsl")),
-    ("lib/paint", include_str!("../lib/paint.wgsl")),
-    ("lib/tone_row", include_str!("../lib/tone_row.wgsl")),
-    ("lib/line_color", include_str!("../lib/line_color.wgsl")),
-    ("lib/line_place", include_str!("../lib/line_place.wgsl")),
-    ("lib/line_tint", include_str!("../lib/line_tint.wgsl")),
-    ("lib/tints", include_str!("../lib/tints.wgsl")),
-    (
-        "lib/surface_color",
-        include_str!("../lib/surface_color.wgsl"),
-    ),
-    ("lib/lighting", include_str!("../lib/lighting.wgsl")),
-    ("lib/step", include_str!("../lib/step.wgsl")),
-    ("lib/sphere", include_str!("../lib/sphere.wgsl")),
-    ("lib/smoke", include_str!("../lib/smoke.wgsl")),
-    ("lib/smoke_line", include_str!("../lib/smoke_line.wgsl")),
-    ("lib/depth_map", include_str!("../lib/depth_map.wgsl")),
-    ("lib/smoke_pen", include_str!("../lib/smoke_pen.wgsl")),
-    ("lib/smoke_layer", include_str!("../lib/smoke_layer.wgsl")),
-    ("lib/shadow", include_str!("../lib/shadow.wgsl")),
-    ("lib/sky", include_str!("../lib/sky.wgsl")),
-    ("lib/ribbon", include_str!("../lib/ribbon.wgsl")),
-];
-
-/// The text of a shader with its libraries in place.
+/// The text of a shader with its libraries in place, as far as `features` need them.
 ///
 /// # Panics
 ///
 /// When a shader of this crate names a library that does not exist, which the tests rule out.
-pub fn link(shader: &Shader) -> String {
-    let mut linked = String::new();
-    let mut used = Vec::new();
-    append(shader.text, &mut used, &mut linked);
+pub fn link(shader: &Shader, features: Features) -> String {
+    linked(shader, features).text
+}
+
+/// The features that decide about the text of a shader that is linked for `features`: another set with the same ones of
+/// these gives the same text.
+///
+/// # Panics
+///
+/// As [`link`].
+pub fn deciding(shader: &Shader, features: Features) -> Features {
+    linked(shader, features).decided_by
+}
+
+/// A shader while its libraries are put in.
+#[derive(Debug, Default)]
+struct Linked {
+    text: String,
+    used: Vec<&'static str>,
+    decided_by: Features,
+}
+
+fn linked(shader: &Shader, features: Features) -> Linked {
+    let mut linked = Linked::default();
+    linked.append(shader.text, features);
     linked
 }
 
-/// Appends a text, its libraries before the lines that follow their first use.
-fn append(text: &str, used: &mut Vec<String>, linked: &mut String) {
-    for line in text.lines() {
-        let Some(name) = line.strip_prefix("//# use ") else {
-            linked.push_str(line);
-            linked.push('\n');
-            continue;
-        };
-        let name = name.trim();
-        if used.iter().any(|seen| seen == name) {
-            continue;
+impl Linked {
+    /// Appends a text, its libraries before the lines that follow their first use.
+    fn append(&mut self, text: &'static str, features: Features) {
+        for line in text.lines() {
+            let Some(name) = line.strip_prefix("//# use ") else {
+                self.text.push_str(line);
+                self.text.push('\n');
+                continue;
+            };
+            let name = name.trim();
+            if !self.used.contains(&name) {
+                self.used.push(name);
+                let library = library(name);
+                self.decided_by = self.decided_by.or(library.serves);
+                self.append(library.text_for(features), features);
+            }
         }
-        used.push(name.to_owned());
-        let library = LIBRARIES.iter().find(|(path, _)| *path == name);
-        let (_, text) =
-            library.unwrap_or_else(|| panic!("a shader uses '{name}', which is no library"));
-        append(text, used, linked);
     }
 }
 
@@ -279,12 +258,11 @@ mod tests {
     #[test]
     fn every_shader_links_and_opens_with_its_name() {
         for shader in ALL {
-            let linked = link(shader);
-            assert!(
-                !linked.contains("//# use"),
-                "{} keeps a use line",
-                shader.path
-            );
+            for features in [Features::NONE, Features::ALL] {
+                let linked = link(shader, features);
+                let path = shader.path;
+                assert!(!linked.contains("//# use"), "{path} keeps a use line");
+            }
             let name = shader.path.replace('/', ".");
             assert!(
                 shader.text.starts_with(&format!("// {name}: ")),
@@ -300,6 +278,27 @@ mod tests {
             path: "test",
             text: "//# use lib/surface\n//# use lib/surface\n",
         };
-        assert_eq!(link(&shader).matches("fn weights_at").count(), 1);
+        assert_eq!(
+            link(&shader, Features::ALL)
+                .matches("fn weights_at")
+                .count(),
+            1
+        );
+    }
+
+    /// Sets that agree on the deciding features give one text, whatever else is in them.
+    #[test]
+    fn only_deciding_features_change_a_text() {
+        for shader in ALL {
+            for (_, asked) in Features::NAMED {
+                for features in [*asked, Features::ALL.without(*asked)] {
+                    let decided_by = deciding(shader, features);
+                    let (own, text) = (features.and(decided_by), link(shader, features));
+                    assert_eq!(link(shader, own), text, "{}", shader.path);
+                    let other = own.or(Features::ALL.without(decided_by));
+                    assert_eq!(link(shader, other), text, "{}", shader.path);
+                }
+            }
+        }
     }
 }

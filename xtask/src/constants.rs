@@ -63,6 +63,7 @@ const TWINS: &[Twins] = &[
     twins("lib/inking.wgsl", "STEPS", "npr-style/src/hatch/drawing.rs", "STEPS"),
     twins("lib/inking.wgsl", "BLEND_LIFT", "npr-style/src/hatch/tone.rs", "BLEND_LIFT"),
     twins("lib/inking.wgsl", "RIDGE", "npr-style/src/hatch/tone.rs", "RIDGE"),
+    twins("lib/grazing.wgsl", "", "npr-style/src/tone.rs", ""),
     twins("lib/lighting.wgsl", "LIGHT_", "npr-style/src/lighting.rs", "LightSource::"),
     twins("lib/lighting.wgsl", "SKY_", "npr-style/src/lighting.rs", "LightSource::"),
     twins("lib/line_color.wgsl", "", "npr-style/src/line_color.rs", ""),
@@ -113,12 +114,12 @@ const TWINS: &[Twins] = &[
 /// Constants without a constant in Rust, and what they stand for.
 const ALONE: [(&str, &str, &str); 2] = [
     (
-        "lib/texture.wgsl",
+        "lib/sampling.wgsl",
         "WRAP_CLAMP",
         "`Wrap::Clamp as u32`, an enum",
     ),
     (
-        "lib/texture.wgsl",
+        "lib/sampling.wgsl",
         "WRAP_MIRROR",
         "`Wrap::Mirror as u32`, an enum",
     ),

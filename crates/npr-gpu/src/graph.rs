@@ -3,6 +3,7 @@
 use crate::pass::{Access, Format, Pass};
 use bytemuck::NoUninit;
 use npr_core::layout::GpuLayout;
+use npr_shaders::Features;
 use npr_vector::rank::work::Arguments;
 
 /// A buffer or image of a graph.
@@ -84,17 +85,40 @@ pub struct Node {
 /// Resources and nodes, in the order in which the nodes run.
 ///
 /// Building a graph that does not fit its passes is a bug in the program and panics with the pass's name.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Graph {
+    features: Features,
     resources: Vec<Resource>,
     nodes: Vec<Node>,
     constants: Vec<(ResourceId, Vec<u32>)>,
 }
 
+impl Default for Graph {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Graph {
-    /// A graph without resources.
+    /// A graph without resources, whose passes can do everything that is asked of them.
     pub fn new() -> Self {
-        Self::default()
+        Self::with(Features::ALL)
+    }
+
+    /// A graph without resources, for what needs no other features than these. A device leaves out of its passes, and
+    /// of what they bind, all that the features do not need; the processor does everything that it is asked for.
+    pub fn with(features: Features) -> Self {
+        Self {
+            features,
+            resources: Vec::new(),
+            nodes: Vec::new(),
+            constants: Vec::new(),
+        }
+    }
+
+    /// What its passes must be able to do.
+    pub fn features(&self) -> Features {
+        self.features
     }
 
     /// Adds a buffer of `count` elements.
@@ -276,6 +300,13 @@ impl Graph {
             );
         }
         self.nodes.push(node);
+    }
+
+    /// The same graph with passes that can do everything, for comparisons.
+    #[must_use]
+    pub fn with_all_features(self) -> Self {
+        let features = Features::ALL;
+        Self { features, ..self }
     }
 
     /// The same graph with every pass over the whole room, for comparisons.

@@ -2,6 +2,7 @@
 
 use bytemuck::{AnyBitPattern, NoUninit};
 use npr_core::layout::{Field, GpuLayout};
+pub use npr_shaders::Features;
 use npr_shaders::Shader;
 
 /// Invocations per workgroup of every compute pass: the shader's `override WG`.
@@ -66,6 +67,24 @@ pub struct Slot {
     pub access: Access,
     /// The elements that it holds; texels for images.
     pub element: Element,
+    /// The features without any of which a device leaves it out.
+    pub serves: Features,
+}
+
+impl Slot {
+    /// The same slot, left out where a frame needs none of `features`.
+    #[must_use]
+    pub const fn serving(self, features: Features) -> Self {
+        Self {
+            serves: features,
+            ..self
+        }
+    }
+
+    /// Whether a shader for `features` binds it.
+    pub fn is_bound_for(&self, features: Features) -> bool {
+        self.serves == Features::NONE || features.meets(self.serves)
+    }
 }
 
 /// How a slot is bound.
@@ -127,6 +146,7 @@ pub const fn uniform<T: GpuLayout>(name: &'static str) -> Slot {
         name,
         access: Access::Uniform,
         element: Element::of::<T>(),
+        serves: Features::NONE,
     }
 }
 
@@ -136,6 +156,7 @@ pub const fn read<T: GpuLayout>(name: &'static str) -> Slot {
         name,
         access: Access::Read,
         element: Element::of::<T>(),
+        serves: Features::NONE,
     }
 }
 
@@ -145,6 +166,7 @@ pub const fn write<T: GpuLayout>(name: &'static str) -> Slot {
         name,
         access: Access::Write,
         element: Element::of::<T>(),
+        serves: Features::NONE,
     }
 }
 
@@ -154,6 +176,7 @@ pub const fn texture(name: &'static str, format: Format) -> Slot {
         name,
         access: Access::Texture(format),
         element: Element::of::<u32>(),
+        serves: Features::NONE,
     }
 }
 
@@ -164,6 +187,13 @@ impl Pass {
             Work::PerElement { .. } => &[],
             Work::Draw { targets, .. } => targets,
         }
+    }
+
+    /// The part of `features` that decides what a device compiles for the pass.
+    pub fn deciding(&self, features: Features) -> Features {
+        let text = npr_shaders::deciding(&self.shader, features);
+        let slots = self.slots.iter().map(|slot| slot.serves);
+        features.and(slots.fold(text, Features::or))
     }
 
     /// Vertices drawn for each element, none for compute passes.

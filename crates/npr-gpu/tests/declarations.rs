@@ -3,30 +3,47 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use naga::proc::{Layouter, TypeLayout};
-use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, GlobalVariable, Module, StorageAccess, TypeInner};
 use npr_core::layout::Field;
-use npr_gpu::pass::{Access, Element, Format, Pass, Slot, WORKGROUP_SIZE, Work};
+use npr_gpu::pass::{Access, Element, Features, Format, Pass, Slot, WORKGROUP_SIZE, Work};
 use npr_gpu::passes::ALL;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A linked shader with the layout of its types.
 struct Reflection {
     module: Module,
+    info: ModuleInfo,
     layouts: Layouter,
 }
 
 impl Reflection {
-    fn of(pass: &Pass) -> Self {
-        let text = npr_shaders::link(&pass.shader);
+    fn of(pass: &Pass, features: Features) -> Self {
+        let text = npr_shaders::link(&pass.shader, features);
         let module = naga::front::wgsl::parse_str(&text)
             .unwrap_or_else(|error| panic!("{}: {}", pass.name, error.emit_to_string(&text)));
-        Validator::new(ValidationFlags::all(), Capabilities::empty())
+        let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
             .validate(&module)
             .unwrap_or_else(|error| panic!("{}: {}", pass.name, error.emit_to_string(&text)));
         let mut layouts = Layouter::default();
         layouts.update(module.to_ctx()).unwrap();
-        Self { module, layouts }
+        Self {
+            module,
+            info,
+            layouts,
+        }
+    }
+
+    /// The names of the resources that any entry point uses.
+    fn used(&self) -> BTreeSet<&str> {
+        let globals = self.module.global_variables.iter();
+        let entries = 0..self.module.entry_points.len();
+        let used = globals.filter(|(handle, global)| {
+            let is_used = |entry| !self.info.get_entry_point(entry)[*handle].is_empty();
+            global.binding.is_some() && entries.clone().any(is_used)
+        });
+        used.filter_map(|(_, global)| global.name.as_deref())
+            .collect()
     }
 
     /// The resources of group 0 by binding number.
@@ -156,7 +173,7 @@ fn check_element(pass: &Pass, reflection: &Reflection, slot: &Slot, global: &Glo
 #[test]
 fn bindings_are_as_declared() {
     for pass in ALL {
-        let reflection = Reflection::of(pass);
+        let reflection = Reflection::of(pass, Features::ALL);
         let bound = reflection.bindings(pass);
         let names: Vec<_> = bound
             .iter()
@@ -178,10 +195,62 @@ fn bindings_are_as_declared() {
     }
 }
 
+/// None, all, each alone, all but each, and pairs.
+fn feature_sets() -> BTreeSet<Features> {
+    let each = || Features::NAMED.iter().map(|(_, feature)| *feature);
+    let mut sets = BTreeSet::from([Features::NONE, Features::ALL]);
+    sets.extend(each());
+    sets.extend(each().map(|feature| Features::ALL.without(feature)));
+    sets.extend(each().flat_map(|one| each().map(move |other| one.or(other))));
+    sets
+}
+
+/// A shader that is linked for some features is valid, and uses only what a device binds for them.
+#[test]
+fn slots_are_left_out_only_where_nothing_uses_them() {
+    for pass in ALL {
+        let deciding = feature_sets()
+            .into_iter()
+            .map(|set| (pass.deciding(set), set));
+        for features in deciding.collect::<BTreeMap<_, _>>().into_values() {
+            let reflection = Reflection::of(pass, features);
+            let slots = pass.slots.iter();
+            let bound = slots.filter(|slot| slot.is_bound_for(features));
+            let bound: BTreeSet<&str> = bound.map(|slot| slot.name).collect();
+            let used = reflection.used();
+            assert!(
+                used.is_subset(&bound),
+                "{} for {features:?}: uses {used:?}, not {bound:?}",
+                pass.name
+            );
+        }
+    }
+}
+
+/// Every slot that serves features is used where one of them is there: none is bound for nothing.
+#[test]
+fn slots_that_serve_a_feature_are_used_by_it() {
+    for pass in ALL {
+        for slot in pass
+            .slots
+            .iter()
+            .filter(|slot| slot.serves != Features::NONE)
+        {
+            let reflection = Reflection::of(pass, Features::ALL);
+            assert!(
+                reflection.used().contains(slot.name),
+                "{}: {}",
+                pass.name,
+                slot.name
+            );
+        }
+    }
+}
+
 #[test]
 fn entry_points_are_as_declared() {
     for pass in ALL {
-        let module = Reflection::of(pass).module;
+        let module = Reflection::of(pass, Features::ALL).module;
         let entries: Vec<_> = module
             .entry_points
             .iter()
@@ -243,7 +312,9 @@ fn no_pass_needs_more_than_every_device_has() {
             "{} binds {buffers} storage buffers",
             pass.name
         );
-        let Reflection { module, layouts } = Reflection::of(pass);
+        let Reflection {
+            module, layouts, ..
+        } = Reflection::of(pass, Features::ALL);
         let globals = module.global_variables.iter().map(|(_, global)| global);
         let shared = globals.filter(|global| global.space == AddressSpace::WorkGroup);
         let bytes: u32 = shared.map(|global| layouts[global.ty].size).sum();

@@ -5,7 +5,7 @@ use npr_core::outline::Outline;
 use npr_core::window::{View, Window};
 use npr_gpu::engine::{EngineError, Session};
 use npr_gpu::graph::{Graph, ResourceId};
-use npr_gpu::pass::Format;
+use npr_gpu::pass::{Features, Format};
 use npr_gpu::passes::{line, mesh, raster, shade};
 use npr_mesh::pose::Matrix;
 use npr_style::compose::Compose;
@@ -109,10 +109,11 @@ pub(crate) struct Layers {
 }
 
 impl FrameGraph {
-    /// The resources that stay for the whole frame, and the pass that poses vertices.
-    pub fn new(counts: &Counts, grids: &Grids) -> Self {
+    /// The resources that stay for the whole frame, and the pass that poses vertices; no pass does more than
+    /// `features`.
+    pub fn new(counts: &Counts, grids: &Grids, features: Features) -> Self {
         // Add the resources that stay for the whole frame.
-        let mut graph = Graph::new();
+        let mut graph = Graph::with(features);
         let mut frame = Self {
             view: graph.uniform::<View>("view"),
             output_window: graph.uniform::<Window>("output window"),

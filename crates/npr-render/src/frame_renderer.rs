@@ -22,8 +22,10 @@ use crate::tiles::Tiles;
 use glam::Vec3;
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
+use npr_core::geometry::{NONE, Part};
 use npr_core::window::{View, Window};
 use npr_gpu::engine::{Engine, EngineError, Session};
+use npr_gpu::pass::Features;
 use npr_style::backdrop::Rules;
 use npr_style::compose::Compose;
 use npr_style::lighting::LightSource;
@@ -166,6 +168,50 @@ impl Needs {
     }
 }
 
+impl Needs {
+    /// What the passes of the frame must be able to do: what any of its parts, lights and layers asks for.
+    fn pass_features(&self) -> Features {
+        // Look what the parts ask for.
+        let (parts, styled) = (&self.styled.parts, &self.styled);
+        let any = |bits: u32| parts.iter().any(|part| part.flags & bits != 0);
+        let has_picture = |part: &Part| {
+            let of_lines = part.line_flags & Part::LINE_TEXTURE != 0;
+            part.texture != NONE || of_lines && part.line_texture != NONE
+        };
+        let shows_pictures = styled.background_texture != NONE || parts.iter().any(has_picture);
+
+        // Look what the lights and the smoke ask for.
+        let layers = |bit: u32| self.features.layers & bit != 0;
+        let has_smoke = layers(Compose::SMOKE);
+        let casts = self.lights.shadow_count() > 0;
+        let (smoke_lights, are_same) = &self.smoke_lights;
+        let is_one_sun = self.lights.is_one_sun() && (!has_smoke || smoke_lights.is_one_sun());
+
+        // Put them together.
+        let all = [
+            Features::CUTOUTS.when(any(Part::CUTOUT)),
+            Features::TEXTURES.when(shows_pictures),
+            Features::TONE_ROWS.when(any(Part::TONE_ROW)),
+            Features::LIGHTS.when(!is_one_sun),
+            Features::SHADOWS.when(casts),
+            Features::SKY.when(styled.sky.is_some()),
+            Features::INK.when(any(Part::INK | Part::HATCH)),
+            Features::PAINT.when(any(Part::PAINTED)),
+            Features::GLOSS.when(any(Part::HIGHLIGHTS)),
+            Features::HULLS.when(self.features.hull),
+            Features::ANGLES.when(any(Part::ANGLE)),
+            Features::RIBBONS.when(layers(Compose::RIBBONS)),
+            Features::OVERLAY.when(layers(Compose::OVERLAY)),
+            Features::BEAMS.when(layers(Compose::BEAMS)),
+            Features::BACKDROP.when(self.features.rim || self.features.contrast),
+            Features::SMOKE.when(has_smoke),
+            Features::SMOKE_PEN.when(layers(Compose::SMOKE_PEN)),
+            Features::SMOKE_SHADOWS.when(has_smoke && casts && *are_same),
+        ];
+        all.into_iter().fold(Features::NONE, Features::or)
+    }
+}
+
 impl Plan {
     /// Adds the passes of every feature that a look needs, in the order in which they build on each other.
     fn new(model: &Model, style: &Style, smoke: Option<&Smoke>, needs: &Needs) -> Self {
@@ -179,7 +225,7 @@ impl Plan {
             parts: styled.parts.len(),
             texel_words: styled.textures.words().len(),
         };
-        let mut frame = FrameGraph::new(&counts, grids);
+        let mut frame = FrameGraph::new(&counts, grids, needs.pass_features());
         if features.light_widths {
             frame.light_widths(counts.vertices);
         }

@@ -117,6 +117,14 @@ impl ChosenLights {
         (lights, are_same)
     }
 
+    /// Whether they are one sun as strong as 1 that throws no shadow: tones follow from its direction alone.
+    pub fn is_one_sun(&self) -> bool {
+        let [light] = &self.lights[..] else {
+            return false;
+        };
+        light.source.kind == LightSource::DISTANT && light.source.intensity == 1.0 && !light.shadow
+    }
+
     /// How many of them throw shadows.
     pub fn shadow_count(&self) -> usize {
         let casting = self.lights.iter().filter(|light| light.casts()).count();

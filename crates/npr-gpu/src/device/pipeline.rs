@@ -4,8 +4,10 @@ use super::gpu::Gpu;
 use super::image::texture_format;
 use crate::engine::EngineError;
 use crate::pass::{Access, Format, Pass, Slot, WORKGROUP_SIZE, Work};
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use npr_shaders::Features;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A pass compiled for a device.
 #[derive(Debug)]
@@ -25,35 +27,65 @@ pub(super) enum Stage {
     Draw(wgpu::RenderPipeline),
 }
 
-/// The compiled passes of a device by name, so that graphs share them.
+/// A pass, by its name, and the features that decide what is compiled for it.
+type Key = (&'static str, Features);
+
+/// The compiled passes of a device, so that graphs share them.
 #[derive(Debug, Default)]
 pub(super) struct PipelineCache {
-    compiled: Mutex<BTreeMap<&'static str, Arc<Pipeline>>>,
+    compiled: Mutex<BTreeMap<Key, Arc<Pipeline>>>,
 }
 
 impl PipelineCache {
-    /// The pass, compiled now if it was not before.
-    pub(super) fn get(&self, gpu: &Gpu, pass: &Pass) -> Result<Arc<Pipeline>, EngineError> {
-        let mut compiled = self.compiled.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(pipeline) = compiled.get(pass.name) {
-            return Ok(pipeline.clone());
-        }
-        let pipeline = Arc::new(gpu.guarded(pass.name, || compile(&gpu.device, pass))?);
-        compiled.insert(pass.name, pipeline.clone());
-        Ok(pipeline)
+    /// The passes for a frame with `features`, in their order. Those that were not compiled before are now, all at
+    /// once.
+    pub(super) fn get_all(
+        &self,
+        gpu: &Gpu,
+        passes: &[&'static Pass],
+        features: Features,
+    ) -> Result<Vec<Arc<Pipeline>>, EngineError> {
+        // Compile every pass that is missing once.
+        let keys: Vec<Key> = passes
+            .iter()
+            .map(|pass| (pass.name, pass.deciding(features)))
+            .collect();
+        let mut missing = BTreeSet::new();
+        let known: BTreeSet<Key> = self.lock().keys().copied().collect();
+        let missing: Vec<(Key, &Pass)> = keys
+            .iter()
+            .zip(passes)
+            .filter(|(key, _)| !known.contains(key) && missing.insert(**key))
+            .map(|(key, pass)| (*key, *pass))
+            .collect();
+        let made = missing.into_par_iter().map(|(key, pass)| {
+            let pipeline = gpu.guarded(pass.name, || compile(&gpu.device, pass, features))?;
+            Ok((key, Arc::new(pipeline)))
+        });
+        let made: Vec<_> = made.collect::<Result<_, EngineError>>()?;
+
+        // Hand out all of them.
+        let mut compiled = self.lock();
+        compiled.extend(made);
+        Ok(keys.iter().map(|key| compiled[key].clone()).collect())
+    }
+
+    fn lock(&self) -> MutexGuard<'_, BTreeMap<Key, Arc<Pipeline>>> {
+        self.compiled.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-fn compile(device: &wgpu::Device, pass: &Pass) -> Pipeline {
+fn compile(device: &wgpu::Device, pass: &Pass, features: Features) -> Pipeline {
     // Compile the shader.
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(pass.name),
-        source: wgpu::ShaderSource::Wgsl(npr_shaders::link(&pass.shader).into()),
+        source: wgpu::ShaderSource::Wgsl(npr_shaders::link(&pass.shader, features).into()),
     });
 
     // Lay out what it binds, slot by slot.
     let entries: Vec<_> = (0..)
         .zip(pass.slots)
+        .filter(|(_, slot)| slot.is_bound_for(features))
         .map(|(binding, slot)| layout_entry(pass, binding, slot))
         .collect();
     let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {

@@ -39,37 +39,44 @@ impl Step {
         graph: &Graph,
         memory: &[Memory],
     ) -> Result<Vec<Self>, EngineError> {
-        let mut steps = Vec::new();
-        for (index, node) in graph.nodes().iter().enumerate() {
-            // Leave out a node that would draw nothing.
-            let extent = extent_of(graph, node)?;
-            if has_effect(node, extent) {
-                let pipeline = pipelines.get(gpu, node.pass)?;
-                let bindings = bind(gpu, node, &pipeline, memory)?;
-                steps.push(Self {
-                    node: index,
-                    pipeline,
-                    bindings,
-                    extent,
-                });
-            }
-        }
-        Ok(steps)
+        // Leave out nodes that would draw nothing.
+        let nodes = graph.nodes();
+        let extents = nodes.iter().map(|node| extent_of(graph, node));
+        let extents: Vec<Extent> = extents.collect::<Result<_, _>>()?;
+        let acting: Vec<usize> = (0..nodes.len())
+            .filter(|i| has_effect(&nodes[*i], extents[*i]))
+            .collect();
+
+        // Compile the passes of the others, and bind their resources.
+        let passes: Vec<_> = acting.iter().map(|i| nodes[*i].pass).collect();
+        let compiled = pipelines.get_all(gpu, &passes, graph.features())?;
+        let steps = acting.into_iter().zip(compiled).map(|(node, pipeline)| {
+            let bindings = bind(gpu, graph, &nodes[node], &pipeline, memory)?;
+            let extent = extents[node];
+            Ok(Self {
+                node,
+                pipeline,
+                bindings,
+                extent,
+            })
+        });
+        steps.collect()
     }
 }
 
 /// Group 0 of a node: the resources of its slots.
 fn bind(
     gpu: &Gpu,
+    graph: &Graph,
     node: &Node,
     pipeline: &Pipeline,
     memory: &[Memory],
 ) -> Result<wgpu::BindGroup, EngineError> {
     // Match the resources of the node with the slots of its pass.
-    let bound = node.bound.iter().take(node.pass.slots.len());
-    let entries: Vec<_> = (0..)
-        .zip(bound)
-        .map(|(binding, id)| wgpu::BindGroupEntry {
+    let bound = (0..).zip(node.pass.slots.iter().zip(&node.bound));
+    let entries: Vec<_> = bound
+        .filter(|(_, (slot, _))| slot.is_bound_for(graph.features()))
+        .map(|(binding, (_, id))| wgpu::BindGroupEntry {
             binding,
             resource: memory[id.index()].binding(),
         })
