@@ -29,11 +29,16 @@ fn sign_or_1(x: f32) -> f32 {
     return select(1.0, -1.0, x < 0.0);
 }
 
+// Whether a part's highlight has a shape of its own; turned axes alone do nothing.
+fn has_shape(part: u32) -> bool {
+    return any(parts[part].highlight_shape != vec4<f32>(0.0)) || any(parts[part].highlight_turn.zw != vec2<f32>(0.0));
+}
+
 // The half vector moved so that the highlight takes a shape [Anjyo and Hiramitsu 2003].
 fn shaped_half(half: vec3<f32>, normal: vec3<f32>, right: vec3<f32>, part: u32) -> vec3<f32> {
     let shape = parts[part].highlight_shape;
     let turn = parts[part].highlight_turn;
-    if all(shape == vec4<f32>(0.0)) && all(turn.zw == vec2<f32>(0.0)) { return half; }
+    if !has_shape(part) { return half; }
     let flat_right = unit_or_z(right - normal * dot(right, normal));
     let side = cross(normal, flat_right);
     let u = flat_right * turn.x + side * turn.y;

@@ -1,22 +1,15 @@
 // Ink and hatching at one point. Twin: npr_style::inking. The shader declares what its twin's layers hold.
 
+//# use lib/ink_tone
 //# use lib/paint
 //# use lib/four
 
-// Hatch luminance that stands for the hatch where there is none.
-const NO_HATCH: f32 = 0.5;
 // Drawings to an octave.
 const STEPS: f32 = 3.0;
 // How much the deep tones of a blend are raised, and its light ones lowered.
 const BLEND_LIFT: f32 = 3.4;
 // Least S on the ridge of a stroke that is about to go, as a part of what comes in its place.
 const RIDGE: f32 = 0.16;
-// Least luminance of the shade ramp on a surface with hatch but no ink, above half the threshold.
-
-//# use lib/paint
-//# use lib/four
-const OPEN_PAPER: f32 = 0.08;
-
 // Change of luminance between two strokes from which the strokes give way to the tone's own edge.
 const ABRUPT: f32 = 0.25;
 
@@ -26,37 +19,8 @@ const LOOSE: f32 = 0.3;
 // Share of the hatch, from its lightest part, that full chart distortion fills with ink at once.
 const DISTORTION_FILL: f32 = 0.22;
 
-fn shade_level(x: f32, dark_at: f32, light_at: f32) -> f32 {
-    if light_at <= dark_at { return select(1.0, 0.0, x < light_at); }
-    return clamp((x - dark_at) / (light_at - dark_at), 0.0, 1.0);
-}
-
-// F = S + 2 (L - 0.5) [Suzuki 2004, eq. 3.3].
-fn tone_value(s: f32, l: f32) -> f32 {
-    return s + 2.0 * (l - 0.5);
-}
-
 fn ink_coverage(f: f32, slope: f32, threshold: f32) -> f32 {
     return clamp((threshold - f) / max(slope, 1e-6) + 0.5, 0.0, 1.0);
-}
-
-fn level_of(part: u32, x: f32) -> f32 {
-    let l = shade_level(x, parts[part].dark_at, parts[part].light_at);
-    if (parts[part].flags & PART_INK) == 0u { return max(l, parts[part].threshold * 0.5 + OPEN_PAPER); }
-    return l;
-}
-
-// Ink of a surface whose ramp coordinates all lie in `range`: 1 or 0 if it is the same all over, else -1.
-fn ink_over(part: u32, range: vec2<f32>) -> f32 {
-    if (parts[part].flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
-    let hatched = (parts[part].flags & PART_HATCH) != 0u;
-    let lightest = select(NO_HATCH, 0.0, hatched);
-    let darkest = select(NO_HATCH, 1.0, hatched);
-    // Paint is looked up at each place, but it only darkens.
-    let painted = (parts[part].flags & PART_PAINTED) != 0u;
-    if !painted && tone_value(lightest, level_of(part, range.x)) > parts[part].threshold { return 0.0; }
-    if tone_value(darkest, level_of(part, range.y)) < parts[part].threshold { return 1.0; }
-    return -1.0;
 }
 
 // Luminance S of a hatch, and its change over a pixel to the right and down.
@@ -350,24 +314,18 @@ fn ink_on_sheet(part: u32, at: vec2<f32>, scale: f32, tone: f32, change: vec2<f3
     return ink_of_hatch(part, place, l, darkens, calm);
 }
 
-// Ink of a triangle where it is the same all over, inside the shadow of the lights in `dark` or outside of it; else -1.
-fn even_ink(part: u32, corners: Corners, dark: u32) -> f32 {
-    if (parts[part].flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
-    if !only_distant() { return -1.0; }
-    let most = select(1.0, lights.shadow_at, dark != 0u);
-    return ink_over(part, min(coordinate_range(corners), vec2<f32>(most)));
-}
-
 // Ink of a triangle, the mean over the samples in `counted`, which lie in the shadows of the lights in `darks`; samples
-// in the same shadows share one value.
-fn mean_ink(id: u32, part: u32, corners: Corners, px: vec2<f32>, counted: u32, darks: vec4<u32>) -> f32 {
+// in the same shadows share one value. Ink that is the same all over the triangle is `known`, else it is -1.
+fn mean_ink(id: u32, corners: Corners, known: f32, px: vec2<f32>, counted: u32, darks: vec4<u32>) -> f32 {
+    let part = triangles[id - 1u].part;
     var values = vec4<f32>(0.0);
     var left = counted;
     while left != 0u {
         let dark = of_sample(darks, firstTrailingBit(left));
         let alike = left & bits_of(darks == vec4<u32>(dark));
         left &= ~alike;
-        var ink = even_ink(part, corners, dark);
+        var ink = known;
+        if ink < 0.0 { ink = even_ink_in_shadow(part, corners, dark); }
         while ink < 0.0 {
             ink = ink_at(id, part, corners, px, dark);
             break;
@@ -378,10 +336,4 @@ fn mean_ink(id: u32, part: u32, corners: Corners, px: vec2<f32>, counted: u32, d
     let beyond = (values - first) / f32(countOneBits(counted));
     let added = select(vec4<f32>(0.0), beyond, samples_in(counted));
     return (((first + added.x) + added.y) + added.z) + added.w;
-}
-
-// A lit surface with the share `share` of ink over it, 0..1.
-fn inked(part: u32, lit: vec3<f32>, share: f32) -> vec3<f32> {
-    let ink = parts[part].ink_color;
-    return lit + (ink.rgb - lit) * (share * ink.a);
 }

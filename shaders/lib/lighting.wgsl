@@ -50,6 +50,11 @@ fn ramp_coordinate(n_dot_l: f32) -> f32 {
     return (n_dot_l + 1.0) * 0.5;
 }
 
+// Whether a light comes from the same direction everywhere.
+fn is_far(source: LightSource) -> bool {
+    return source.kind == LIGHT_DISTANT || source.kind == LIGHT_SKY;
+}
+
 // Share of the sky and of the ground below that shines on a surface, 0..1.
 struct Openness {
     above: f32,

@@ -12,11 +12,6 @@ fn fading(distance: f32, range: f32) -> f32 {
     return left * left;
 }
 
-// Whether a light comes from the same direction everywhere.
-fn is_far(source: LightSource) -> bool {
-    return source.kind == LIGHT_DISTANT || source.kind == LIGHT_SKY;
-}
-
 fn towards_light(source: LightSource, world: vec3<f32>) -> vec3<f32> {
     if is_far(source) { return source.direction; }
     return unit_or_z(source.position - world);

@@ -2,6 +2,7 @@
 // The shader declares `lights`, `posed`, `triangles` and `shadow_0` to `shadow_3`.
 
 //# use lib/cutout
+//# use lib/ink_tone
 //# use lib/smoke_shadow
 
 // Height in texels under which a triangle counts as fine.
@@ -169,4 +170,10 @@ fn is_fine(clip: array<vec4<f32>, 3>, side: f32) -> bool {
     let area = abs(cross2(b - a, c - b));
     let longest = sqrt(max(dot(b - a, b - a), max(dot(c - b, c - b), dot(a - c, a - c))));
     return area < FINE_TEXELS * longest;
+}
+
+// Ink of a triangle where shadows make it differ from place to place and it is the same all over one of them; else -1.
+fn even_ink_in_shadow(part: u32, corners: Corners, dark: u32) -> f32 {
+    if lights.shadow_side == 0u { return -1.0; }
+    return even_ink(part, corners, dark);
 }

@@ -13,6 +13,7 @@
 //# use lib/window
 //# use lib/color
 //# use lib/compose
+//# use lib/triangle_constants
 //# use lib/backdrop
 
 override WG: u32 = 64u;
@@ -30,7 +31,7 @@ override WG: u32 = 64u;
 @group(0) @binding(10) var<storage, read> parts: array<Part>;
 @group(0) @binding(11) var<storage, read> texels: array<u32>;
 @group(0) @binding(12) var<storage, read> charts: array<ChartCorners>;
-@group(0) @binding(13) var<storage, read> overlay: array<u32>;
+@group(0) @binding(13) var<storage, read> known: array<TriangleConstants>;
 @group(0) @binding(14) var<storage, read_write> frame: array<u32>;
 @group(0) @binding(15) var shadow_0: texture_2d<u32>;
 @group(0) @binding(16) var shadow_1: texture_2d<u32>;
@@ -49,12 +50,12 @@ override WG: u32 = 64u;
 //# use lib/texture
 //# use lib/samples
 //# use lib/four
-//# use lib/tone_row
-//# use lib/lighting
 //# use lib/surface_color
+//# use lib/surface_light
 //# use lib/hull
 //# use lib/surface_line
 //# use lib/grazing
+//# use lib/ink_tone
 //# use lib/inking
 //# use lib/gloss
 //# use lib/sky
@@ -65,87 +66,14 @@ override WG: u32 = 64u;
 //# use lib/ribbon_layer
 //# use lib/overlay_layer
 
-// How far the tone of a flat triangle may lie beyond the tones of its corners, in ramp coordinate: rounding.
-const TONE_ROOM: f32 = 0.002;
 // Width of a tone step from which on it is so gentle that one place of a pixel stands for all.
 const GENTLE: f32 = 0.25;
-
-// Light of a group of samples, if one place stands for all of them.
-struct Even {
-    is_so: bool,
-    light: vec3<f32>,
-}
-
-// Light of a ramp at coordinate `x`: each step takes over where its coordinate begins.
-fn ramp_light(part: u32, x: f32) -> vec3<f32> {
-    if has_tone_row(part) { return row_light(parts[part].tone_row, x); }
-    let half = parts[part].softness * 0.5;
-    var light = parts[part].ramp[0].rgb;
-    for (var i = 1u; i < 8u; i++) {
-        let stop = parts[part].ramp[i];
-        if stop.a > 1.5 { break; }
-        light += (stop.rgb - light) * smooth_step(stop.a - half, stop.a + half, x);
-    }
-    return light;
-}
-
-// Lowest and highest ramp coordinate on a triangle; only if the normal alone decides.
-fn coordinate_range(corners: Corners) -> vec2<f32> {
-    let towards = lights.sources[0].direction;
-    let a = ramp_coordinate(dot(corners.normals[0], towards) * corners.side);
-    let b = ramp_coordinate(dot(corners.normals[1], towards) * corners.side);
-    let c = ramp_coordinate(dot(corners.normals[2], towards) * corners.side);
-    // A blend of normals that is scaled to unit length bulges beyond them by at most their difference.
-    let apart = min(
-        dot(corners.normals[0], corners.normals[1]),
-        min(dot(corners.normals[1], corners.normals[2]), dot(corners.normals[2], corners.normals[0])),
-    );
-    let room = TONE_ROOM + 0.5 * (1.0 - apart);
-    return vec2<f32>(min(a, min(b, c)) - room, max(a, max(b, c)) + room);
-}
-
-// Whether a part's ramp has one tone for all coordinates in `range`.
-fn one_step(part: u32, range: vec2<f32>) -> bool {
-    if has_tone_row(part) { return row_is_even(parts[part].tone_row, range); }
-    let reach = parts[part].softness * 0.5;
-    for (var i = 1u; i < 8u; i++) {
-        let at = parts[part].ramp[i].a;
-        if at > range.x - reach && at <= range.y + reach { return false; }
-    }
-    return true;
-}
-
-// Light of a triangle that is lit in one tone all over, whatever its ink and its highlights.
-fn even_light(part: u32, corners: Corners) -> Even {
-    var even: Even;
-    let flags = parts[part].flags;
-    if (flags & PART_ANGLE) != 0u { return even; }
-    if (flags & PART_UNLIT) != 0u {
-        even.light = vec3<f32>(1.0);
-        even.is_so = lights.shadow_side == 0u || (flags & (PART_INK | PART_HATCH | PART_HIGHLIGHTS)) == 0u;
-        return even;
-    }
-    if !only_distant() || lights.shadow_side != 0u { return even; }
-    let range = coordinate_range(corners);
-    if !one_step(part, range) { return even; }
-    even.light = light_of(part, corners.world[0], corners.normals[0] * corners.side, 0u, Openness(1.0, 1.0));
-    even.is_so = true;
-    return even;
-}
 
 // Whether light changes so gently over a part that one place of a pixel stands for all.
 fn is_gentle(part: u32) -> bool {
     return lights.shadow_side == 0u
         && (parts[part].flags & (PART_ANGLE | PART_TONE_ROW)) == 0u
         && (parts[part].softness >= GENTLE || parts[part].ramp[1].a > 1.5);
-}
-
-// Light on a surface at `world` with the normal `normal`, in the shadow of the lights in `dark`, that sees `open` of
-// the sky.
-fn light_of(part: u32, world: vec3<f32>, normal: vec3<f32>, dark: u32, open: Openness) -> vec3<f32> {
-    if (parts[part].flags & PART_UNLIT) != 0u { return vec3<f32>(1.0); }
-    let lit = coordinate_under(world, normal, dark, open);
-    return ramp_light(part, lit.x) * lit.color;
 }
 
 // Light of the samples in `members` on a triangle, and the share of it that a line covers.
@@ -186,27 +114,37 @@ fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
 
 // Light of a triangle; `center` is the middle of its samples.
 fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, corners: Corners) -> Drawn {
+    // Take what is known of the triangle, and find the colour of the surface where it is not.
     let triangle = triangles[id - 1u];
     let part = triangle.part;
-    let color = strengthened(base_color(triangle, corners, center));
-    var even = even_light(part, corners);
-    var open: SkyPoint;
-    if !even.is_so { open = openness(corners, center); }
-    if !even.is_so && is_gentle(part) {
-        let weights = weights_at(corners.clip, ndc_at(view, center));
-        even.light = light_of(part, world_of(corners, weights), normal_of(corners, weights), 0u, open_at(open, vec2<f32>(0.0)));
-        even.is_so = true;
+    let constants = known[id - 1u];
+    let is_plain = (constants.bits & KNOWN_PLAIN) != 0u;
+    var is_even = (constants.bits & KNOWN_EVEN) != 0u;
+    var color = constants.color;
+    while !is_plain {
+        color = strengthened(base_color(triangle, corners, center));
+        break;
     }
-    let shines = has_highlights(part);
-    let by_sample = !even.is_so || (shines && !shines_gently(part));
-    // If one place stands for all samples, only the first of them is shaded.
+
+    // Light it at its middle where one place stands for all samples.
+    var light = select(vec3<f32>(0.0), select(constants.color, vec3<f32>(1.0), is_plain), is_even);
+    var open: SkyPoint;
+    if !is_even { open = openness(corners, center); }
+    if !is_even && is_gentle(part) {
+        let weights = weights_at(corners.clip, ndc_at(view, center));
+        light = light_of(part, world_of(corners, weights), normal_of(corners, weights), 0u, open_at(open, vec2<f32>(0.0)));
+        is_even = true;
+    }
+
+    // Else light it at its samples, and find highlights and shadows there.
+    let shines = has_highlights(part) && (constants.bits & KNOWN_MATT) == 0u;
+    let by_sample = !is_even || (shines && !shines_gently(part));
     let counted = select(members & (~members + 1u), members, by_sample);
     let share = 1.0 / f32(countOneBits(counted));
     var gloss = vec3<f32>(0.0);
-    var light = select(vec3<f32>(0.0), even.light, even.is_so);
     var lined = 0.0;
     var darks = vec4<u32>(0u);
-    var left = select(0u, counted, !even.is_so || shines);
+    var left = select(0u, counted, !is_even || shines);
     while left != 0u {
         let i = firstTrailingBit(left);
         left &= left - 1u;
@@ -215,15 +153,17 @@ fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, 
         let world = world_of(corners, weights);
         let normal = normal_of(corners, weights);
         var dark = 0u;
-        if !even.is_so {
+        if !is_even {
             dark = shadowed(id, corners, weights);
             light += light_of(part, world, normal, dark, open_at(open, at - center)) * share;
             lined += grazing(triangle, corners, at) * share;
         }
-        gloss += highlights_at(part, world, normal, dark) * share;
+        if shines { gloss += highlights_at(part, world, normal, dark) * share; }
         darks[i] = dark;
     }
-    let ink = mean_ink(id, part, corners, center, counted, darks);
+
+    // Lay ink over it, once for samples in the same shadows.
+    let ink = mean_ink(id, corners, known_ink(constants), center, counted, darks);
     return Drawn(inked(part, color * light, ink) + gloss, lined);
 }
 
@@ -240,7 +180,14 @@ fn surfaces(pixel: vec2<u32>, smoke_layer: SmokeLayer, frame_px: vec2<f32>) -> v
         left &= ~bits_of(members);
         let share = sum_over(bare, members) / f32(sample_count());
         if share == 0.0 { continue; }
-        sum += vec4<f32>(shade(id, bits_of(members), frame_px), 1.0) * share;
+        // Shade it where its colour is not known whole: devices without branches skip loops alone.
+        let constants = known[(id & ID_MASK) - 1u];
+        var light = constants.color;
+        while (constants.bits & KNOWN_WHOLE) == 0u || is_of_hull(id) {
+            light = shade(id, bits_of(members), frame_px);
+            break;
+        }
+        sum += vec4<f32>(light, 1.0) * share;
     }
     return sum;
 }

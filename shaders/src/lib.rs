@@ -194,6 +194,8 @@ shaders! {
     SMOKE_SMOOTH_TONES = "smoke/smooth_tones";
     /// Draws tones and outlines of smoke.
     SMOKE_RESOLVE_PICTURE = "smoke/resolve_picture";
+    /// Finds what is the same all over each triangle.
+    SHADE_KNOW_TRIANGLES = "shade/know_triangles";
     /// Shades surfaces and lays lines over them.
     SHADE_COMPOSE_FRAME = "shade/compose_frame";
 }

@@ -97,7 +97,7 @@ fn declarations(source: &str) -> Vec<Declaration> {
             .map_or(slots, |(slots, _)| slots);
         for slot in slots.lines().map(str::trim) {
             if let Some(name) = quoted_after(slot, "(") {
-                match slot.starts_with("write") {
+                match slot.starts_with("write") || slot.starts_with("update") {
                     true => declared.writes.push(name.to_owned()),
                     false => declared.reads.push(name.to_owned()),
                 }

@@ -250,7 +250,7 @@ impl Graph {
         for (slot, id) in slots.iter().zip(&node.bound) {
             let fits = match (self.resource(*id).kind, slot.access) {
                 (Kind::Uniform { size }, Access::Uniform) => size == slot.element.size,
-                (Kind::Buffer { stride, .. }, Access::Read | Access::Write) => {
+                (Kind::Buffer { stride, .. }, Access::Read | Access::Write | Access::Update) => {
                     stride == slot.element.size
                 }
                 (Kind::Image { format, .. }, Access::Texture(wanted)) => format == wanted,
@@ -367,10 +367,6 @@ pub(crate) fn writes(node: &Node) -> impl Iterator<Item = ResourceId> + '_ {
     node.bound
         .iter()
         .enumerate()
-        .filter(move |(i, _)| {
-            slots
-                .get(*i)
-                .is_none_or(|slot| slot.access == Access::Write)
-        })
+        .filter(move |(i, _)| slots.get(*i).is_none_or(|slot| slot.access.writes()))
         .map(|(_, id)| *id)
 }

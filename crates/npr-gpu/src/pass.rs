@@ -96,8 +96,17 @@ pub enum Access {
     Read,
     /// An array in a storage buffer that is written, in whole.
     Write,
+    /// An array in a storage buffer whose elements are read and then written anew.
+    Update,
     /// An image whose texels are loaded.
     Texture(Format),
+}
+
+impl Access {
+    /// Whether the pass changes what the slot binds.
+    pub fn writes(self) -> bool {
+        matches!(self, Self::Write | Self::Update)
+    }
 }
 
 /// The layout of an element, as the Rust side sees it.
@@ -167,6 +176,14 @@ pub const fn write<T: GpuLayout>(name: &'static str) -> Slot {
         access: Access::Write,
         element: Element::of::<T>(),
         serves: Features::NONE,
+    }
+}
+
+/// A slot whose elements are read and written anew.
+pub const fn update<T: GpuLayout>(name: &'static str) -> Slot {
+    Slot {
+        access: Access::Update,
+        ..write::<T>(name)
     }
 }
 
@@ -274,7 +291,7 @@ impl<'a> Bindings<'a> {
         bytemuck::cast_slice(self.image(index).texels)
     }
 
-    /// The elements of slot `index`, which is written; can be taken once.
+    /// The elements of slot `index`, which is written or updated; can be taken once.
     pub fn write<T: NoUninit + AnyBitPattern>(&mut self, index: usize) -> &'a mut [T] {
         bytemuck::cast_slice_mut(self.image_mut(index).texels)
     }

@@ -90,5 +90,6 @@ pub const ALL: &[&Pass] = &[
     &backdrop::BLEND_BIASES,
     &backdrop::SPREAD_ROWS,
     &backdrop::SPREAD_RIMS,
+    &shade::KNOW_TRIANGLES,
     &shade::COMPOSE_FRAME,
 ];

@@ -3,7 +3,7 @@
 use crate::engine::{Engine, EngineError, PassTime, Session};
 use crate::graph::Kind;
 use crate::graph::{Graph, Node, ResourceId, WorkSize, writes};
-use crate::pass::{Access, Bindings, Bound, WORKGROUP_SIZE, Work};
+use crate::pass::{Bindings, Bound, WORKGROUP_SIZE, Work};
 use npr_vector::rank::work::Arguments;
 use rayon::prelude::*;
 use std::time::Instant;
@@ -86,7 +86,7 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
                 .pass
                 .slots
                 .get(i)
-                .is_some_and(|slot| slot.access != Access::Write);
+                .is_some_and(|slot| !slot.access.writes());
             match if is_read { None } else { free.next() } {
                 Some(words) => {
                     let end = words_for(graph, node, i, work_count);
@@ -139,7 +139,7 @@ fn words_for(graph: &Graph, node: &Node, binding: usize, work_count: usize) -> u
     let resource = graph.resource(node.bound[binding]);
     let counted = node.pass.counted_slot();
     let slot = node.pass.slots.get(binding);
-    let is_in_step = slot.is_some_and(|slot| slot.access == Access::Write)
+    let is_in_step = slot.is_some_and(|slot| slot.access.writes())
         && graph.element_count(node.bound[binding]) == graph.work_count(node);
     match resource.kind {
         Kind::Buffer { stride, .. } if binding == counted || is_in_step => {

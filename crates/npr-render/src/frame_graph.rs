@@ -8,7 +8,7 @@ use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::{Features, Format};
 use npr_gpu::passes::{line, mesh, raster, shade};
 use npr_mesh::pose::Matrix;
-use npr_style::compose::Compose;
+use npr_style::compose::{Compose, TriangleConstants};
 use npr_style::lighting::Lights;
 use npr_style::shadow::SHADOWS_MAX;
 
@@ -87,10 +87,13 @@ pub(crate) struct FrameGraph {
     pub charts: ResourceId,
     pub parts: ResourceId,
     pub texels: ResourceId,
-    /// The finished picture.
+    /// The picture: first ink beside the ribbons, where a method has any, which is stamps of lines that no mesh edge
+    /// explains, the mask itself, or rims; then all of it.
     pub frame: ResourceId,
     /// Vertices in the view.
     pub posed: ResourceId,
+    /// What is known of the triangles in the view.
+    pub known: ResourceId,
     /// Triangle numbers and depths of colour samples.
     pub ids: ResourceId,
     pub depths: ResourceId,
@@ -101,7 +104,6 @@ pub(crate) struct FrameGraph {
 pub(crate) struct Layers {
     pub beam_ids: ResourceId,
     pub ribbons: ResourceId,
-    pub overlay: ResourceId,
     pub shadows: [ResourceId; SHADOWS_MAX],
     pub smoke: [ResourceId; 2 + SHADOWS_MAX],
     /// The rules of background contrast.
@@ -130,6 +132,7 @@ impl FrameGraph {
             texels: graph.buffer::<u32>("texels", counts.texel_words),
             frame: graph.buffer::<u32>("frame", grids.output_pixels()),
             posed: graph.buffer::<PosedVertex>("posed", counts.vertices),
+            known: graph.buffer::<TriangleConstants>("known", counts.triangles),
             ids: graph.image("ids", Format::U32, grids.color()),
             depths: graph.image("depths", Format::Depth, grids.color()),
             graph,
@@ -155,6 +158,22 @@ impl FrameGraph {
         let bound = [self.lights, self.parts, self.vertices, self.posed, lit];
         self.graph.compute(&line::LIGHT_WIDTHS, &bound);
         self.posed = lit;
+    }
+
+    /// Adds the pass that finds what is the same all over each triangle.
+    pub fn know_triangles(&mut self) {
+        let bound = [
+            self.view,
+            self.compose,
+            self.lights,
+            self.posed,
+            self.vertices,
+            self.triangles,
+            self.parts,
+            self.texels,
+            self.known,
+        ];
+        self.graph.compute(&shade::KNOW_TRIANGLES, &bound);
     }
 
     /// Draws which triangle each pixel of a grid shows, and how deep.
@@ -197,7 +216,7 @@ impl FrameGraph {
             self.parts,
             self.texels,
             self.charts,
-            layers.overlay,
+            self.known,
             frame,
         ];
         let bound = [

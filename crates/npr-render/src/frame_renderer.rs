@@ -253,11 +253,11 @@ impl Plan {
         });
 
         // Find what lies on both sides of outlines, and compose the picture.
+        frame.know_triangles();
         let contrast = ContrastPasses::inputs(&mut frame, grids, counts.parts, features);
         let layers = Layers {
             beam_ids,
             ribbons: lines.ribbons,
-            overlay: lines.overlay,
             shadows: shadows.pictures,
             smoke: SmokePasses::composed(smoke.as_ref(), &mut frame.graph),
             rules: contrast.rules,

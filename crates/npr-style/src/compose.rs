@@ -8,7 +8,9 @@ mod known;
 mod layers;
 
 pub use crate::luminance::LUMA;
+pub use crate::triangle_constants::TriangleConstants;
 pub use composer::compose;
+pub use known::know_triangles;
 pub use layers::Layers;
 pub(crate) use layers::Samples;
 
@@ -110,7 +112,7 @@ pub fn cover(frame_px: [f32; 2], frame: [f32; 2], size: [f32; 2]) -> ([f32; 2], 
 mod tests {
     use super::*;
     use crate::backdrop::Rules;
-    use crate::lighting::{Lights, SHADOWS_MAX};
+    use crate::lighting::Lights;
     use npr_core::geometry::NONE;
     use npr_core::texture::TextureStore;
     use npr_core::window::{View, Window};
@@ -123,28 +125,12 @@ mod tests {
         };
         let window = Window::over([4.0; 2], [0.0; 2], [4.0; 2], [4, 4]);
         let store = TextureStore::new();
+        let (lights, rules) = (Lights::default(), Rules::default());
         let layers = Layers {
-            view: &view,
-            window: &window,
-            compose: compose_settings,
-            lights: &Lights::default(),
             ids: &[0; 64],
-            beam_ids: &[],
             ribbons,
-            posed: &[],
-            vertices: &[],
-            triangles: &[],
-            parts: &[],
             texels: store.words(),
-            charts: &[],
-            overlay: &[0; 16],
-            shadows: [&[]; SHADOWS_MAX],
-            smoke_colors: &[],
-            smoke_depths: &[],
-            smoke_shadows: [&[]; SHADOWS_MAX],
-            rules: &Rules::default(),
-            fronts: &[],
-            backs: &[],
+            ..Layers::empty(&view, &window, compose_settings, &lights, &rules)
         };
         let mut frame = vec![0; 16];
         compose(&layers, &mut frame);

@@ -24,7 +24,7 @@ use crate::backdrop::Rules;
 use crate::compose::{Compose, Layers};
 use crate::corners::Corners;
 use crate::gloss::{back_light, in_world};
-use crate::lighting::{Lights, SHADOWS_MAX};
+use crate::lighting::Lights;
 use crate::surface_color::footprint;
 
 pub use crate::surface_color::strengthened;
@@ -227,27 +227,19 @@ impl<'a> Deciding<'a> {
     /// The inputs as layers of a picture, by which the colours of surfaces are found.
     fn layers(&self) -> Layers<'a> {
         Layers {
-            view: self.view,
-            window: self.window,
-            compose: self.compose,
-            lights: self.lights,
             ids: self.ids,
-            beam_ids: &[],
-            ribbons: &[],
             posed: self.posed,
             vertices: self.vertices,
             triangles: self.triangles,
             parts: self.parts,
             texels: self.texels,
-            charts: &[],
-            overlay: &[],
-            shadows: [&[]; SHADOWS_MAX],
-            smoke_colors: &[],
-            smoke_depths: &[],
-            smoke_shadows: [&[]; SHADOWS_MAX],
-            rules: &Rules::NONE,
-            fronts: &[],
-            backs: &[],
+            ..Layers::empty(
+                self.view,
+                self.window,
+                self.compose,
+                self.lights,
+                &Rules::NONE,
+            )
         }
     }
 

@@ -316,28 +316,15 @@ mod tests {
         /// Which lights a place of triangle `own` lies in the shadow of.
         fn shadowed(&self, own: usize, weights: [f32; 3]) -> u32 {
             let vertices = vec![Vertex::default(); self.posed.len()];
+            let (view, window) = (View::default(), Window::default());
+            let (compose, rules) = (Compose::default(), crate::backdrop::Rules::default());
             let layers = Layers {
-                view: &View::default(),
-                window: &Window::default(),
-                compose: &Compose::default(),
-                lights: &self.lights,
-                ids: &[],
-                beam_ids: &[],
-                ribbons: &[],
                 posed: &self.posed,
                 vertices: &vertices,
                 triangles: &self.triangles,
                 parts: &[Part::default()],
-                texels: &[],
-                charts: &[],
-                overlay: &[],
                 shadows: [&self.image, &[], &[], &[]],
-                smoke_colors: &[],
-                smoke_depths: &[],
-                smoke_shadows: [&[]; SHADOWS_MAX],
-                rules: &crate::backdrop::Rules::default(),
-                fronts: &[],
-                backs: &[],
+                ..Layers::empty(&view, &window, &compose, &self.lights, &rules)
             };
             let posed = self.triangles[own].corners.map(|v| &self.posed[v as usize]);
             let corners = Corners {

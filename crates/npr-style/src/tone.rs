@@ -424,6 +424,7 @@ impl Layers<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::backdrop::Rules;
     use crate::compose::Compose;
     use crate::lighting::Lights;
     use npr_core::geometry::{NONE, PosedVertex, Triangle, Vertex};
@@ -450,13 +451,11 @@ mod tests {
             let posed = normals.map(|normal| PosedVertex { normal: unit_or_z(normal), ..PosedVertex::default() });
             let triangle = Triangle { corners: [0, 1, 2], part: 0 };
             let compose = Compose { saturation: 1.0, ..Compose::default() };
+            let (view, window) = (View::default(), Window::default());
+            let (lights, rules) = (Lights::distant(unit_or_z(light)), Rules::default());
             let layers = Layers {
-                view: &View::default(), window: &Window::default(), compose: &compose,
-                lights: &Lights::distant(unit_or_z(light)), ids: &[], beam_ids: &[], ribbons: &[], posed: &posed,
-                vertices: &[Vertex::default(); 3],
-                triangles: &[triangle], parts: &[part], texels: &[], charts: &[], overlay: &[], shadows: [&[]; 4],
-                smoke_colors: &[], smoke_depths: &[], smoke_shadows: [&[]; 4],
-                rules: &crate::backdrop::Rules::default(), fronts: &[], backs: &[],
+                posed: &posed, vertices: &[Vertex::default(); 3], triangles: &[triangle], parts: &[part],
+                ..Layers::empty(&view, &window, &compose, &lights, &rules)
             };
             let corners = layers.corners_of(&triangle);
             if let Some(light) = layers.even_light(&part, &corners) {

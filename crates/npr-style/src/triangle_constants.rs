@@ -1,14 +1,19 @@
 //! Values that are the same all over a triangle, so that its pixels need not find them.
 
+use bytemuck::{Pod, Zeroable};
+use npr_core::gpu_layout;
+
 /// The constants of a triangle.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct TriangleConstants {
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct TriangleConstants {
     /// Linear light: the colour of the surface, or the light on it, or their product if both are known; with the ink
     /// over it if [`TriangleConstants::WHOLE`] is set.
     pub color: [f32; 3],
     /// Bits of [`TriangleConstants::PLAIN`] to [`TriangleConstants::WHOLE`].
-    bits: u32,
+    pub bits: u32,
 }
+gpu_layout!(TriangleConstants { color, bits });
 
 impl TriangleConstants {
     /// Bit: the surface has one colour, with neither texture nor vertex colours, or they are left out.

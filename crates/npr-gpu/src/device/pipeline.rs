@@ -132,7 +132,9 @@ fn binding_type(slot: &Slot) -> wgpu::BindingType {
     match slot.access {
         Access::Uniform => buffer(wgpu::BufferBindingType::Uniform),
         Access::Read => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
-        Access::Write => buffer(wgpu::BufferBindingType::Storage { read_only: false }),
+        Access::Write | Access::Update => {
+            buffer(wgpu::BufferBindingType::Storage { read_only: false })
+        }
         Access::Texture(format) => wgpu::BindingType::Texture {
             sample_type: sample_type(format),
             view_dimension: wgpu::TextureViewDimension::D2,

@@ -1,12 +1,47 @@
 //! Passes that give surfaces their tone.
 
-use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
+use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, update, write};
 use npr_core::geometry::{ChartCorners, Part, PosedVertex, Triangle, Vertex};
 use npr_core::window::{View, Window};
 use npr_shaders::Features;
 use npr_style::backdrop::Rules;
-use npr_style::compose::{Compose, Layers, compose};
+use npr_style::compose::{Compose, Layers, TriangleConstants, compose, know_triangles};
 use npr_style::lighting::Lights;
+
+/// What is the same all over each triangle.
+pub const KNOW_TRIANGLES: Pass = Pass {
+    name: "shade.know_triangles",
+    shader: npr_shaders::SHADE_KNOW_TRIANGLES,
+    slots: &[
+        uniform::<View>("view"),
+        uniform::<Compose>("compose"),
+        uniform::<Lights>("lights"),
+        read::<PosedVertex>("posed"),
+        read::<Vertex>("vertices"),
+        read::<Triangle>("triangles"),
+        read::<Part>("parts"),
+        read::<u32>("texels"),
+        write::<TriangleConstants>("known"),
+    ],
+    work: Work::PerElement { of: "known" },
+    agreement: Agreement::NearlyAll {
+        share: 0.01,
+        bound: 1e-5,
+    },
+    twin: |b| {
+        let (view, compose, lights) = (b.one(0), b.one(1), b.one(2));
+        let (window, rules) = (Window::default(), Rules::default());
+        let layers = Layers {
+            posed: b.read(3),
+            vertices: b.read(4),
+            triangles: b.read(5),
+            parts: b.read(6),
+            texels: b.read(7),
+            ..Layers::empty(&view, &window, &compose, &lights, &rules)
+        };
+        know_triangles(&layers, b.write(8));
+    },
+};
 
 /// Surfaces shaded by their ramps, ink, smoke and lines over them, background behind.
 pub const COMPOSE_FRAME: Pass = Pass {
@@ -26,8 +61,8 @@ pub const COMPOSE_FRAME: Pass = Pass {
         read::<Part>("parts"),
         read::<u32>("texels"),
         read::<ChartCorners>("charts").serving(Features::INK),
-        read::<u32>("overlay").serving(Features::OVERLAY),
-        write::<u32>("frame"),
+        read::<TriangleConstants>("known"),
+        update::<u32>("frame"),
         texture("shadow_0", Format::U32).serving(Features::SHADOWS),
         texture("shadow_1", Format::U32).serving(Features::SHADOWS),
         texture("shadow_2", Format::U32).serving(Features::SHADOWS),
@@ -61,7 +96,7 @@ pub const COMPOSE_FRAME: Pass = Pass {
             parts: b.read(10),
             texels: b.read(11),
             charts: b.read(12),
-            overlay: b.read(13),
+            known: b.read(13),
             shadows: std::array::from_fn(|i| b.image(15 + i).texels),
             smoke_colors: b.image(19).texels,
             smoke_depths: b.image(20).texels,

@@ -8,10 +8,11 @@ use npr_core::smoke::SphereView;
 use npr_core::window::Window;
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::{Graph, Kind, ResourceId};
-use npr_gpu::pass::{Access, Format, Pass};
+use npr_gpu::pass::{Access, Format, Pass, Slot};
 use npr_gpu::passes::{backdrop, line, mesh, raster, shade, smoke};
 use npr_gpu::processor::Processor;
 use npr_style::backdrop::{ContrastBias, TILE, TileRims};
+use npr_style::compose::TriangleConstants;
 use std::collections::BTreeMap;
 
 /// Slots that bind a resource of another name: two passes work on the grid of the mask only and call it the window.
@@ -42,6 +43,9 @@ const RENAMED: [(&str, &str, &str); 24] = [
     ("line.stamp_residual", "stamped", "overlay"),
 ];
 
+/// Slots that passes update, and a resource that holds what they held before.
+const UPDATED: [(&str, &str, &str); 1] = [("shade.compose_frame", "frame", "overlay")];
+
 /// The resource that a slot of a pass binds.
 fn resource_of(pass: &Pass, slot: &'static str) -> &'static str {
     let renamed = RENAMED
@@ -64,7 +68,7 @@ pub struct Frame {
 
 impl Frame {
     /// The names of what passes make.
-    pub const MADE: [&str; 43] = [
+    pub const MADE: [&str; 44] = [
         "posed",
         "lit",
         "projected",
@@ -94,6 +98,7 @@ impl Frame {
         "smoothed",
         "tiles",
         "overlay",
+        "known",
         "busy",
         "bare",
         "rims",
@@ -121,6 +126,16 @@ impl Frame {
         builder.give_scene(look, size, mask_size);
         builder.line_up_passes(look, size, mask_size);
         builder.run(engine)
+    }
+
+    /// What a slot that a pass updates holds before it.
+    pub fn before(&self, pass: &Pass, slot: &Slot) -> Option<Vec<u32>> {
+        let is_updated = slot.access == Access::Update;
+        let found = UPDATED
+            .iter()
+            .find(|(name, updated, _)| (*name, *updated) == (pass.name, slot.name));
+        assert_eq!(found.is_some(), is_updated, "{}: {}", pass.name, slot.name);
+        found.map(|(_, _, resource)| self.named(resource).words.clone())
     }
 
     /// What a slot of a pass binds.
@@ -269,6 +284,11 @@ impl Builder {
         self.make_buffer("tiles", 4, area(mask_size.map(|side| side.div_ceil(16))));
         self.make_buffer("overlay", 4, pixels);
         self.make_buffer("frame", 4, pixels);
+        let triangles = &self.graph.resource(self.ids["triangles"].0).kind;
+        let Kind::Buffer { count, .. } = *triangles else {
+            panic!("triangles are a buffer");
+        };
+        self.make_buffer("known", size_of::<TriangleConstants>(), count);
         self.make_backdrop(look, size);
 
         self.compute(&mesh::POSE_VERTICES);
@@ -304,10 +324,18 @@ impl Builder {
         self.compute(&line::FIND_RESIDUAL);
         self.compute(&line::SMOOTH_STAMPS);
         self.compute(&line::FLAG_TILES);
-        match look {
-            Look::Ours => self.compute(&line::STAMP_RESIDUAL),
-            Look::Published => self.compute(&line::DRAW_MASK),
+        // The last pass finds in the picture what is kept here for others.
+        let inks = match look {
+            Look::Ours => &line::STAMP_RESIDUAL,
+            Look::Published => &line::DRAW_MASK,
+        };
+        self.compute(inks);
+        let mut bound = self.bound(inks, resource_of(inks, "window"));
+        if let Some(last) = bound.last_mut() {
+            *last = self.ids["frame"].0;
         }
+        self.graph.compute(inks, &bound);
+        self.compute(&shade::KNOW_TRIANGLES);
         self.line_up_backdrop();
         self.compute(&shade::COMPOSE_FRAME);
     }

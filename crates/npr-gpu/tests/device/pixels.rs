@@ -8,7 +8,7 @@ use npr_gpu::curves::pixels::{Hiding, PixelRoom, add_pixel_contours, add_strips}
 use npr_gpu::curves::{Hiders, ResidentPixels, Scheme, trace_on};
 use npr_gpu::engine::{Engine, Session};
 use npr_gpu::graph::{Graph, Kind, ResourceId, WorkSize};
-use npr_gpu::pass::{Access, Pass};
+use npr_gpu::pass::Pass;
 use npr_gpu::passes::ALL;
 use npr_gpu::processor::Processor;
 use npr_mesh::half_edge::HalfEdgeMesh;
@@ -190,7 +190,7 @@ fn check_nodes(graph: &Graph, session: &mut dyn Session, device: &dyn Engine) {
             let own = alone.add(resource.name, resource.kind);
             bound.push(own);
             match node.pass.slots.get(index) {
-                Some(slot) if slot.access == Access::Write => {
+                Some(slot) if slot.access.writes() => {
                     outputs.push((own, Meaning::Elements(slot.element)));
                 }
                 Some(_) => inputs.push((own, session.read(*id).unwrap())),

@@ -73,8 +73,12 @@ impl Case {
     ) -> ResourceId {
         let stride = slot.element.size;
         let Content { mut words, size } = frame.content(pass, slot.name).clone();
-        if slot.access == Access::Write {
+        if slot.access.writes() {
             let id = self.graph.add(slot.name, Kind::Buffer { stride, count });
+            if let Some(mut words) = frame.before(pass, slot) {
+                words.truncate(count * stride / 4);
+                self.inputs.push((id, words));
+            }
             self.outputs.push((id, Meaning::Elements(slot.element)));
             return id;
         }
@@ -109,7 +113,7 @@ impl Case {
         let mut bound = Vec::new();
         for slot in pass.slots {
             let stride = slot.element.size;
-            let is_output = slot.access == Access::Write;
+            let is_output = slot.access.writes();
             let kind = match slot.access {
                 Access::Uniform => Kind::Uniform { size: stride },
                 _ => Kind::Buffer {

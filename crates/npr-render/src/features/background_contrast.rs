@@ -244,13 +244,13 @@ impl ContrastPasses {
             frame.parts,
             borders.part_subjects,
             bare,
-            layers.overlay,
+            frame.frame,
             rims,
         ];
         frame.graph.compute(&backdrop::FIND_RIMS, &find);
         let graph = &mut frame.graph;
         if features.rim {
-            let draw = [frame.parts, rims, layers.overlay];
+            let draw = [frame.parts, rims, frame.frame];
             graph.compute(&backdrop::DRAW_RIMS, &draw);
         }
         graph.compute(&backdrop::SMOOTH_RIMS, &[window, rules, rims, smoothed]);

@@ -22,8 +22,6 @@ pub(crate) struct ScreenLines {
     tints: ResourceId,
     /// Mesh edges drawn with width.
     pub ribbons: ResourceId,
-    /// Ink beside the ribbons: stamps of lines that no mesh edge explains, the mask itself, or rims.
-    pub overlay: ResourceId,
 }
 
 impl ScreenLines {
@@ -39,8 +37,6 @@ impl ScreenLines {
         // Size the pictures; one that no method needs has a single texel.
         let mask = size_if(features.mask, grids.mask);
         let tints = size_if(features.mask && features.paints, grids.mask);
-        let overlay = features.residual || features.filter || features.rim;
-        let overlay = size_if(overlay, grids.output);
         let ribbons = size_if(features.ribbons, grids.output);
         let lines = Self {
             mask_window: graph.uniform::<Window>("mask window"),
@@ -48,7 +44,6 @@ impl ScreenLines {
             mask: graph.buffer::<u32>("mask", pixel_count(mask)),
             tints: graph.buffer::<LineTint>("line tints", pixel_count(tints)),
             ribbons: graph.image("ribbons", Format::Rgba8, ribbons),
-            overlay: graph.buffer::<u32>("overlay", pixel_count(overlay)),
         };
 
         // Find and draw lines, where a method looks for them on the mask.
@@ -197,7 +192,7 @@ impl ScreenLines {
             smoothed,
             tiles,
             self.tints,
-            self.overlay,
+            frame.frame,
         ];
         graph.compute(&line::STAMP_RESIDUAL, &stamp);
     }
@@ -211,7 +206,7 @@ impl ScreenLines {
             frame.parts,
             self.mask,
             self.tints,
-            self.overlay,
+            frame.frame,
         ];
         frame.graph.compute(&line::DRAW_MASK, &bound);
     }

@@ -4,28 +4,26 @@ use super::{Compose, Layers};
 use crate::backdrop::ContrastCache;
 use crate::corners::Corners;
 use crate::line_color::LinePoint;
-use crate::triangle_constants::TriangleConstants;
 use npr_core::color::SrgbEncoder;
 use npr_core::geometry::NONE;
 use npr_core::raster::{HULL_BIT, ID_MASK};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Composes the output as sRGB bytes with straight alpha.
+/// Composes the output as sRGB bytes with straight alpha, over the overlay that it holds before: stamps or the mask,
+/// sRGB bytes with coverage in alpha, where [`Compose::OVERLAY`] asks for them.
 ///
 /// Every pixel has one or four samples that say which triangles it shows; each triangle is shaded once, at the middle
 /// of its samples. Layers go over each other as in [Porter & Duff 1984], in linear light. O(pixels), parallel over
 /// rows.
 pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
-    // Find once what pixels share: the known triangles and the plain background.
+    // Find once what pixels share: the plain background.
     let encoder = SrgbEncoder::new();
-    let known = layers.known_triangles();
     let width = layers.window.size[0] as usize;
     let empty = layers.empty_texel(&encoder);
     let new = || Composer {
         layers,
         encoder: &encoder,
-        known: &known,
         empty,
         last: (0, 0),
         near: None,
@@ -42,7 +40,7 @@ pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
                 let texels = &mut row[run.clone()];
                 if let Some(empty) = composer.empty
                     && layers.compose.flags & Compose::BARE == 0
-                    && layers.is_bare(run, y)
+                    && layers.is_bare(run, y, texels)
                 {
                     texels.fill(empty);
                     continue;
@@ -50,7 +48,7 @@ pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
                 for (x, texel) in (left as u32..).zip(texels) {
                     *texel = match layers.is_left_out(x, y as u32) {
                         true => 0,
-                        false => composer.texel(x, y as u32),
+                        false => composer.texel(x, y as u32, *texel),
                     };
                 }
             }
@@ -64,8 +62,6 @@ const RUN: usize = 32;
 struct Composer<'a> {
     layers: &'a Layers<'a>,
     encoder: &'a SrgbEncoder,
-    /// The constants of every triangle.
-    known: &'a [TriangleConstants],
     /// A pixel that shows nothing but a plain background.
     empty: Option<u32>,
     /// The last triangle number whose one colour filled a pixel, and that pixel.
@@ -76,12 +72,12 @@ struct Composer<'a> {
 }
 
 impl<'a> Composer<'a> {
-    /// A pixel of the output as sRGB bytes with straight alpha.
-    fn texel(&mut self, x: u32, y: u32) -> u32 {
+    /// A pixel of the output as sRGB bytes with straight alpha; `overlay` is what it held before.
+    fn texel(&mut self, x: u32, y: u32, overlay: u32) -> u32 {
         // Take smoke that covers all as it is.
         let frame_px = self.layers.window.frame_at(x, y);
         let seen = self.layers.samples_of(x, y);
-        let lines = self.layers.lines_at(x, y);
+        let lines = self.layers.lines_at(x, y, overlay);
         let beams = self.layers.beams_of(x, y);
         if lines == [0; 2]
             && beams.iter().all(|id| *id == 0)
@@ -160,7 +156,7 @@ impl<'a> Composer<'a> {
         if id & HULL_BIT != 0 {
             return None;
         }
-        let [r, g, b] = self.known[(id - 1) as usize].whole()?;
+        let [r, g, b] = self.layers.known[(id - 1) as usize].whole()?;
         Some([r, g, b, 1.0])
     }
 
@@ -235,7 +231,7 @@ impl<'a> Composer<'a> {
         }
 
         // Shade a triangle, unless its colour is known.
-        let known = &self.known[index];
+        let known = &self.layers.known[index];
         if let Some(color) = known.whole() {
             return color;
         }
@@ -294,8 +290,8 @@ impl Layers<'_> {
             .then(|| encoded(encoder, self.background([0.0; 2])))
     }
 
-    /// Whether some pixels of a row show nothing but the background.
-    fn is_bare(&self, run: Range<usize>, y: usize) -> bool {
+    /// Whether some pixels of a row, which hold `overlay`, show nothing but the background.
+    fn is_bare(&self, run: Range<usize>, y: usize, overlay: &[u32]) -> bool {
         // Check whole runs of texels for 0, without a branch for each.
         let (width, samples) = (self.window.size[0] as usize, self.compose.samples as usize);
         let holds = |bit: u32| self.compose.flags & bit != 0;
@@ -318,7 +314,7 @@ impl Layers<'_> {
         is_free(self.ids)
             && (!holds(Compose::BEAMS) || is_free(self.beam_ids))
             && is_off(Compose::RIBBONS, self.ribbons, u32::MAX)
-            && is_off(Compose::OVERLAY, self.overlay, u32::MAX)
+            && (!holds(Compose::OVERLAY) || is_zero(overlay, u32::MAX))
             && is_off(
                 Compose::SMOKE,
                 self.smoke_depths,

@@ -1,7 +1,7 @@
 //! What is the same all over each triangle, found once a frame so that its pixels need not.
 //!
-//! The processor's short cut through `shade.compose_frame`. It changes no picture: a constant of a triangle is what
-//! shading would find at each of its pixels.
+//! The twin of `shade.know_triangles`. It changes no picture: a constant of a triangle is what shading would find at
+//! each of its pixels.
 
 use super::Layers;
 use crate::corners::Corners;
@@ -10,16 +10,16 @@ use crate::triangle_constants::TriangleConstants;
 use npr_core::geometry::{NONE, Part, Triangle};
 use rayon::prelude::*;
 
-impl Layers<'_> {
-    /// The constants of every triangle. O(triangles), parallel.
-    pub(crate) fn known_triangles(&self) -> Vec<TriangleConstants> {
-        self.triangles
-            .par_iter()
-            .with_min_len(1024)
-            .map(|triangle| self.known(triangle))
-            .collect()
-    }
+/// Finds the constants of every triangle. O(triangles), parallel.
+///
+/// Of `layers`, `view`, `compose`, `lights` and what surfaces are made of are read.
+pub fn know_triangles(layers: &Layers<'_>, known: &mut [TriangleConstants]) {
+    let triangles = layers.triangles.par_iter().with_min_len(1024);
+    let pairs = known.par_iter_mut().zip(triangles);
+    pairs.for_each(|(known, triangle)| *known = layers.known(triangle));
+}
 
+impl Layers<'_> {
     /// The constants of a triangle; empty if only its back is seen and that is not drawn.
     fn known(&self, triangle: &Triangle) -> TriangleConstants {
         // Leave out backs that nobody sees.
@@ -75,7 +75,7 @@ impl Layers<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::backdrop::ContrastCache;
+    use crate::backdrop::{ContrastCache, Rules};
     use crate::compose::Compose;
     use crate::lighting::Lights;
     use crate::ramp::Level;
@@ -155,13 +155,11 @@ mod tests {
             let triangles = [Triangle { corners: [0, 1, 2], part: 0 }];
             let vertices = [Vertex { color: u32::MAX, ..Vertex::default() }; 3];
             let store = npr_core::texture::TextureStore::new();
+            let (window, lights, rules) =
+                (Window::default(), Lights::distant(unit_or_z(light)), Rules::default());
             let layers = Layers {
-                view: &view, window: &Window::default(), compose: &compose, lights: &Lights::distant(unit_or_z(light)),
-                ids: &[], beam_ids: &[], ribbons: &[], posed: &posed, vertices: &vertices,
-                triangles: &triangles, parts: &parts, texels: store.words(), charts: &[], overlay: &[],
-                shadows: [&[]; 4],
-                smoke_colors: &[], smoke_depths: &[], smoke_shadows: [&[]; 4],
-                rules: &crate::backdrop::Rules::default(), fronts: &[], backs: &[],
+                posed: &posed, vertices: &vertices, triangles: &triangles, parts: &parts, texels: store.words(),
+                ..Layers::empty(&view, &window, &compose, &lights, &rules)
             };
             let known = layers.known(&triangles[0]);
             let corners = layers.corners_of(&triangles[0]);

@@ -4,6 +4,7 @@ use super::{Compose, cover};
 use crate::backdrop::{self, ContrastCache, Rules};
 use crate::corners::Corners;
 use crate::lighting::{Lights, SHADOWS_MAX};
+use crate::triangle_constants::TriangleConstants;
 use npr_core::color::pack_rgba8;
 use npr_core::geometry::{ChartCorners, NONE, Part, PosedVertex, Triangle, Vertex};
 use npr_core::surface::faces_eye;
@@ -39,8 +40,8 @@ pub struct Layers<'a> {
     pub texels: &'a [u32],
     /// Stroke charts, one for each triangle; may be shorter if no part uses them.
     pub charts: &'a [ChartCorners],
-    /// Stamps or mask, sRGB bytes with coverage in alpha.
-    pub overlay: &'a [u32],
+    /// What is known of the triangles, see [`know_triangles`](super::know_triangles).
+    pub known: &'a [TriangleConstants],
     /// Triangle numbers as the lights with shadows see them, [`Lights::shadow_side`] texels square; not read if that is
     /// 0.
     pub shadows: [&'a [u32]; SHADOWS_MAX],
@@ -75,6 +76,39 @@ impl std::ops::Deref for Samples {
 }
 
 impl<'a> Layers<'a> {
+    /// The settings of a frame without any pictures, surfaces or textures.
+    pub fn empty(
+        view: &'a View,
+        window: &'a Window,
+        compose: &'a Compose,
+        lights: &'a Lights,
+        rules: &'a Rules,
+    ) -> Self {
+        Self {
+            view,
+            window,
+            compose,
+            lights,
+            ids: &[],
+            beam_ids: &[],
+            ribbons: &[],
+            posed: &[],
+            vertices: &[],
+            triangles: &[],
+            parts: &[],
+            texels: &[],
+            charts: &[],
+            known: &[],
+            shadows: [&[]; SHADOWS_MAX],
+            smoke_colors: &[],
+            smoke_depths: &[],
+            smoke_shadows: [&[]; SHADOWS_MAX],
+            rules,
+            fronts: &[],
+            backs: &[],
+        }
+    }
+
     /// The triangle numbers of beams in a pixel's samples; 0 where there are none.
     pub(crate) fn beams_of(&self, x: u32, y: u32) -> Samples {
         if self.compose.flags & Compose::BEAMS == 0 {
@@ -106,19 +140,13 @@ impl<'a> Layers<'a> {
     }
 
     /// The colours of the lines at a pixel, from the bottom: ribbons, overlay; sRGB bytes with coverage in alpha.
-    pub(crate) fn lines_at(&self, x: u32, y: u32) -> [u32; 2] {
-        let element = (y * self.window.size[0] + x) as usize;
-        let layer = |bit: u32, texels: &[u32]| {
-            if self.compose.flags & bit != 0 {
-                texels[element]
-            } else {
-                0
-            }
+    pub(crate) fn lines_at(&self, x: u32, y: u32, overlay: u32) -> [u32; 2] {
+        let has = |bit: u32| self.compose.flags & bit != 0;
+        let ribbon = match has(Compose::RIBBONS) {
+            true => self.ribbons[(y * self.window.size[0] + x) as usize],
+            false => 0,
         };
-        [
-            layer(Compose::RIBBONS, self.ribbons),
-            layer(Compose::OVERLAY, self.overlay),
-        ]
+        [ribbon, if has(Compose::OVERLAY) { overlay } else { 0 }]
     }
 
     /// Whether a pixel of the picture without lines is not needed.

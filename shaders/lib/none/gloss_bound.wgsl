@@ -1,0 +1,5 @@
+// Highlights where no surface has any.
+
+fn may_shine(part: u32, corners: Corners) -> bool {
+    return false;
+}
