@@ -37,29 +37,38 @@ struct Beams {
     covered: f32,
 }
 
+// The beams in the samples of a pixel, plus one; 0 where there are none.
+fn beams_at(pixel: vec2<u32>) -> vec4<u32> {
+    var here = vec4<u32>(0u);
+    if (compose.flags & COMPOSE_BEAMS) == 0u { return here; }
+    for (var i = 0u; i < sample_count(); i++) {
+        let at = pixel * compose.samples + vec2<u32>(i & 1u, i >> 1u);
+        here = with_number(here, i, textureLoad(beam_ids, at, 0).x);
+    }
+    return here;
+}
+
+fn has_beams(pixel: vec2<u32>) -> bool {
+    return any(beams_at(pixel) != vec4<u32>(0u));
+}
+
 // Lays the beams over a pixel's surfaces.
 fn add_beams(pixel: vec2<u32>, smoke_layer: SmokeLayer, frame_px: vec2<f32>, below: vec4<f32>) -> Beams {
     var result: Beams;
-    result.color = below;
-    if (compose.flags & COMPOSE_BEAMS) == 0u { return result; }
     var sum = vec4<f32>(0.0);
     let behind = ids_at(pixel);
-    var here = vec4<u32>(0u);
-    for (var i = 0u; i < sample_count(); i++) {
-        let at = pixel * compose.samples + vec2<u32>(i & 1u, i >> 1u);
-        here[i] = textureLoad(beam_ids, at, 0).x;
-    }
+    let here = beams_at(pixel);
     // Every beam once, from the first of its samples on.
     var left = bits_of(here != vec4<u32>(0u));
     while left != 0u {
-        let id = of_sample(here, firstTrailingBit(left));
+        let id = number_of(here, firstTrailingBit(left));
         var members = bits_of(here == vec4<u32>(id));
         left &= ~members;
         var shown = 0.0;
         while members != 0u {
             let j = firstTrailingBit(members);
             members &= members - 1u;
-            if beam_shows(id, of_sample(behind, j), j, frame_px) {
+            if beam_shows(id, number_of(behind, j), j, frame_px) {
                 shown += (1.0 - smoke_layer_over(smoke_layer, id, j, frame_px)) / f32(sample_count());
             }
         }

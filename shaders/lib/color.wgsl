@@ -14,6 +14,17 @@ fn srgb_from_linear(v: f32) -> f32 {
     return 1.055 * pow(c, 1.0 / 2.4) - 0.055;
 }
 
+// Premultiplied linear light as sRGB bytes with straight alpha.
+fn encoded(light: vec4<f32>) -> u32 {
+    let straight = light.rgb / max(light.a, 1e-6);
+    return pack_rgba8(vec4<f32>(
+        srgb_from_linear(straight.r),
+        srgb_from_linear(straight.g),
+        srgb_from_linear(straight.b),
+        light.a,
+    ));
+}
+
 fn unpack_rgba8(packed: u32) -> vec4<f32> {
     return vec4<f32>(f32(packed & 255u), f32((packed >> 8u) & 255u), f32((packed >> 16u) & 255u), f32(packed >> 24u)) / 255.0;
 }

@@ -18,7 +18,7 @@ struct Compose {
     smoke_line: vec4<f32>,
     smoke_anchor_px: vec2<f32>,
     smoke_tiles: f32,
-    unused_d: u32,
+    background_texel: u32,
 }
 
 const COMPOSE_RIBBONS: u32 = 1u;

@@ -1,4 +1,5 @@
-// Values of the four samples of a pixel. Locally indexed arrays are slow on graphics devices; these are vectors.
+// Values of the four samples of a pixel, as vectors. What is indexed by a variable lies in memory, which is slow: none of
+// these is.
 
 // The bits of a set of samples.
 fn bits_of(samples: vec4<bool>) -> u32 {
@@ -11,8 +12,8 @@ fn samples_in(bits: u32) -> vec4<bool> {
     return (vec4<u32>(bits) & vec4<u32>(1u, 2u, 4u, 8u)) != vec4<u32>(0u);
 }
 
-// The value of sample `i`.
-fn of_sample(values: vec4<u32>, i: u32) -> u32 {
+// The number of sample `i`.
+fn number_of(values: vec4<u32>, i: u32) -> u32 {
     let row = select(values.xy, values.zw, i >= 2u);
     return select(row.x, row.y, (i & 1u) != 0u);
 }
@@ -21,4 +22,20 @@ fn of_sample(values: vec4<u32>, i: u32) -> u32 {
 fn sum_over(values: vec4<f32>, samples: vec4<bool>) -> f32 {
     let held = select(vec4<f32>(0.0), values, samples);
     return ((held.x + held.y) + held.z) + held.w;
+}
+
+// The values with that of sample `i` set.
+fn with_sample(values: vec4<f32>, i: u32, value: f32) -> vec4<f32> {
+    return select(values, vec4<f32>(value), vec4<u32>(0u, 1u, 2u, 3u) == vec4<u32>(i));
+}
+
+// The same for whole numbers.
+fn with_number(values: vec4<u32>, i: u32, value: u32) -> vec4<u32> {
+    return select(values, vec4<u32>(value), vec4<u32>(0u, 1u, 2u, 3u) == vec4<u32>(i));
+}
+
+// The value of sample `i`.
+fn value_at(values: vec4<f32>, i: u32) -> f32 {
+    let row = select(values.xy, values.zw, i >= 2u);
+    return select(row.x, row.y, (i & 1u) != 0u);
 }

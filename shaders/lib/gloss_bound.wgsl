@@ -1,5 +1,5 @@
-// Whether highlights may show on a triangle. Twin: npr_style::gloss. The shader declares `view`, `compose`, `lights` and
-// `parts`.
+// Whether highlights may show on a triangle. Twin: npr_style::gloss. The shader declares `view`, `compose`, `lights`
+// and `parts`.
 
 //# use lib/gloss
 //# use lib/lighting

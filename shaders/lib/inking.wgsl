@@ -321,18 +321,17 @@ fn mean_ink(id: u32, corners: Corners, known: f32, px: vec2<f32>, counted: u32, 
     var values = vec4<f32>(0.0);
     var left = counted;
     while left != 0u {
-        let dark = of_sample(darks, firstTrailingBit(left));
+        let dark = number_of(darks, firstTrailingBit(left));
         let alike = left & bits_of(darks == vec4<u32>(dark));
         left &= ~alike;
         var ink = known;
         if ink < 0.0 { ink = even_ink_in_shadow(part, corners, dark); }
-        while ink < 0.0 {
+        if ink < 0.0 {
             ink = ink_at(id, part, corners, px, dark);
-            break;
         }
         values = select(values, vec4<f32>(ink), samples_in(alike));
     }
-    let first = values[firstTrailingBit(counted)];
+    let first = value_at(values, firstTrailingBit(counted));
     let beyond = (values - first) / f32(countOneBits(counted));
     let added = select(vec4<f32>(0.0), beyond, samples_in(counted));
     return (((first + added.x) + added.y) + added.z) + added.w;

@@ -1,7 +1,8 @@
-// Stamps or the mask over a pixel, linear light with straight alpha. They lie in the picture itself before it is
-// composed. The shader declares `compose` and `frame`.
+// Stamps or the mask over a pixel; they lie in the picture itself before it is composed. The shader declares `compose`
+// and `frame`.
 
-fn overlay_at(element: u32) -> vec4<f32> {
-    if (compose.flags & COMPOSE_OVERLAY) == 0u { return vec4<f32>(0.0); }
-    return linear_texel(frame[element]);
+// What lies over a pixel as an sRGB texel with coverage in alpha.
+fn overlay_texel(element: u32) -> u32 {
+    if (compose.flags & COMPOSE_OVERLAY) == 0u { return 0u; }
+    return frame[element];
 }

@@ -1,6 +1,7 @@
-// The ribbons over a pixel, linear light with straight alpha. The shader declares `compose` and `ribbons`.
+// The ribbons over a pixel. The shader declares `compose` and `ribbons`.
 
-fn ribbon_at(pixel: vec2<u32>) -> vec4<f32> {
-    if (compose.flags & COMPOSE_RIBBONS) == 0u { return vec4<f32>(0.0); }
-    return linear_of(textureLoad(ribbons, pixel, 0));
+// The ribbons over a pixel as an sRGB texel with coverage in alpha.
+fn ribbon_texel(pixel: vec2<u32>) -> u32 {
+    if (compose.flags & COMPOSE_RIBBONS) == 0u { return 0u; }
+    return pack_rgba8(textureLoad(ribbons, pixel, 0));
 }

@@ -17,6 +17,11 @@ struct SmokeLayer {
     hidden: vec4<f32>,
 }
 
+// Whether smoke covers any sample of a pixel.
+fn has_smoke(pixel: vec2<u32>) -> bool {
+    return (compose.flags & COMPOSE_SMOKE) != 0u && (textureLoad(smoke_depths, pixel, 0).x & SMOKE_LAYER_MASK) != 0u;
+}
+
 fn smoke_layer_of(pixel: vec2<u32>, frame_px: vec2<f32>) -> SmokeLayer {
     var smoke_layer: SmokeLayer;
     if (compose.flags & COMPOSE_SMOKE) == 0u { return smoke_layer; }
@@ -28,7 +33,8 @@ fn smoke_layer_of(pixel: vec2<u32>, frame_px: vec2<f32>) -> SmokeLayer {
     smoke_layer.color = penned(pixel, frame_px, smoke_layer.color);
     let seen = ids_at(pixel);
     for (var i = 0u; i < sample_count(); i++) {
-        smoke_layer.hidden[i] = smoke_layer_over(smoke_layer, of_sample(seen, i), i, frame_px);
+        let share = smoke_layer_over(smoke_layer, number_of(seen, i), i, frame_px);
+        smoke_layer.hidden = with_sample(smoke_layer.hidden, i, share);
     }
     return smoke_layer;
 }

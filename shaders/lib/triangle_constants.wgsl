@@ -1,9 +1,10 @@
 // What is the same all over a triangle. Twin: npr_style::triangle_constants.
 
 struct TriangleConstants {
-    // Linear light: the colour of the surface, or the light on it, or their product if both are known; with the ink over
-    // it if KNOWN_WHOLE is set.
+    // Linear light: the colour of the surface, or the light on it, or their product if both are known; with the ink
+    // over it if KNOWN_WHOLE is set.
     color: vec3<f32>,
+    // Bits of KNOWN_PLAIN to KNOWN_WHOLE; with the last, the colour as sRGB bytes above them.
     bits: u32,
 }
 
@@ -13,6 +14,9 @@ const KNOWN_MATT: u32 = 4u;
 const KNOWN_BARE: u32 = 8u;
 const KNOWN_SOLID: u32 = 16u;
 const KNOWN_WHOLE: u32 = 32u;
+
+// Place of the bytes of red, green and blue.
+const KNOWN_BYTES: u32 = 8u;
 
 // The bit `bit` if `is_so`.
 fn learned(bit: u32, is_so: bool) -> u32 {

@@ -80,6 +80,28 @@ fn is_no_crease(here: GPixel, there: GPixel) -> bool {
     return (outline.kinds & KIND_CREASE) == 0u || is_grazing(here) || is_grazing(there);
 }
 
+fn step_to(side: u32) -> vec2<i32> {
+    let along = i32(side & 1u) * 2 - 1;
+    return select(vec2<i32>(0, along), vec2<i32>(along, 0), side < 2u);
+}
+
+fn neighbor_of(pixel: vec2<i32>, side: u32) -> u32 {
+    let next = pixel + step_to(side);
+    return u32(next.y) * window.size.x + u32(next.x);
+}
+
+// The sides of a pixel, a bit each, on which it has a neighbour and one of both shows a surface.
+fn sides_to_look_at(is_background: bool, pixel: vec2<i32>) -> u32 {
+    var sides = 0u;
+    for (var side = 0u; side < 4u; side++) {
+        let next = pixel + step_to(side);
+        if any(next < vec2<i32>(0)) || any(next >= vec2<i32>(window.size)) { continue; }
+        if is_background && gbuffer[neighbor_of(pixel, side)].part == NONE { continue; }
+        sides |= 1u << side;
+    }
+    return sides;
+}
+
 fn has_lines(pixel: GPixel) -> bool {
     return pixel.part != NONE && (parts[pixel.part].flags & PART_LINES) != 0u;
 }
@@ -96,13 +118,17 @@ fn main(
 
     let pixel = vec2<i32>(pixel_of(element, window.size));
     let here = gbuffer[element];
+    var left = sides_to_look_at(here.part == NONE, pixel);
     var found = 0u;
-    for (var side = 0u; side < 4u; side++) {
+    if left == 0u {
+        mask[element] = 0u;
+        return;
+    }
+    loop {
+        let side = firstTrailingBit(left);
         let along = i32(side & 1u) * 2 - 1;
-        let step = select(vec2<i32>(0, along), vec2<i32>(along, 0), side < 2u);
-        let next = pixel + step;
-        if any(next < vec2<i32>(0)) || any(next >= vec2<i32>(window.size)) { continue; }
-        let there = gbuffer[u32(next.y) * window.size.x + u32(next.x)];
+        let step = step_to(side);
+        let there = gbuffer[neighbor_of(pixel, side)];
         let kinds = separations(here, there, vec2<f32>(step));
         if kinds == 0u || !(has_lines(here) || has_lines(there)) { continue; }
         found |= kinds;
@@ -113,6 +139,10 @@ fn main(
         // Of two equally near surfaces, the right or lower pixel owns the line.
         let owns = here.depth < there.depth || (here.depth == there.depth && along < 0);
         if owns { found |= MASK_OWNER | (MASK_SIDE << side); }
+        continuing {
+            left &= left - 1u;
+            break if left == 0u;
+        }
     }
     mask[element] = found;
 }

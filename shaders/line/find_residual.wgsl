@@ -46,14 +46,24 @@ fn runs_on(at: vec2<u32>, pixel: GPixel) -> bool {
     let low = max(at, vec2<u32>(RUN_BOX_PX)) - RUN_BOX_PX;
     let high = min(at + RUN_BOX_PX, size - 1u);
     var count = 0u;
-    for (var y = low.y; y <= high.y; y++) {
-        for (var x = low.x; x <= high.x; x++) {
+    var y = low.y;
+    loop {
+        var x = low.x;
+        loop {
             let element = y * size.x + x;
             // A pixel where the surface ends at another one does not separate it from itself.
             if (mask[element] & (MASK_OWNER | BETWEEN)) != MASK_OWNER { continue; }
             let other = gbuffer[element];
             if other.part == NONE || other.object != pixel.object || other.material != pixel.material { continue; }
             if parts[other.part].component == component { count += 1u; }
+            continuing {
+                x += 1u;
+                break if x > high.x;
+            }
+        }
+        continuing {
+            y += 1u;
+            break if y > high.y;
         }
     }
     return count >= RUN_COUNT;
@@ -87,12 +97,22 @@ fn ink_within(px: vec2<f32>, reach: f32) -> Ink {
     let low = pixel_at(window, px - reach * mask_window.frame_step);
     let high = pixel_at(window, px + reach * mask_window.frame_step);
     var ink: Ink;
-    for (var y = low.y; y <= high.y; y++) {
-        for (var x = low.x; x <= high.x; x++) {
+    var y = low.y;
+    loop {
+        var x = low.x;
+        loop {
             let alpha = u32(textureLoad(ribbons, vec2<u32>(x, y), 0).a * 255.0 + 0.5);
             ink.texels += 1u;
             ink.alpha += alpha;
             if alpha > 0u { ink.inked += 1u; }
+            continuing {
+                x += 1u;
+                break if x > high.x;
+            }
+        }
+        continuing {
+            y += 1u;
+            break if y > high.y;
         }
     }
     return ink;
@@ -108,6 +128,21 @@ fn toward_line(found: u32) -> vec2<f32> {
     return sum;
 }
 
+// The stamp of a mask pixel that owns a line; nothing where a ribbon runs.
+fn stamp_of(element: u32, found: u32) -> Stamp {
+    var stamp: Stamp;
+    let pixel = gbuffer[element];
+    if pixel.part == NONE || (parts[pixel.part].flags & PART_LINES) == 0u { return stamp; }
+    let at = pixel_of(element, mask_window.size);
+    if (found & BETWEEN) == 0u && !runs_on(at, pixel) { return stamp; }
+    let center = frame_at(mask_window, at) + toward_line(found) * mask_window.frame_step;
+    if is_inked_at(center, pixel.half_width) { return stamp; }
+    stamp.center = center;
+    stamp.half_width = pixel.half_width;
+    stamp.part = pixel.part;
+    return stamp;
+}
+
 // One invocation per mask pixel.
 @compute @workgroup_size(WG)
 fn main(
@@ -120,18 +155,8 @@ fn main(
 
     var stamp: Stamp;
     let found = mask[element];
-    let pixel = gbuffer[element];
-    let at = pixel_of(element, mask_window.size);
-    var is_line = (found & MASK_OWNER) != 0u && pixel.part != NONE && (parts[pixel.part].flags & PART_LINES) != 0u;
-    if is_line && (found & BETWEEN) == 0u { is_line = runs_on(at, pixel); }
-    if is_line {
-        let center = frame_at(mask_window, at)
-            + toward_line(found) * mask_window.frame_step;
-        if !is_inked_at(center, pixel.half_width) {
-            stamp.center = center;
-            stamp.half_width = pixel.half_width;
-            stamp.part = pixel.part;
-        }
+    if (found & MASK_OWNER) != 0u {
+        stamp = stamp_of(element, found);
     }
     stamps[element] = stamp;
 }

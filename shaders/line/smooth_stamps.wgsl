@@ -28,8 +28,10 @@ fn cloud_around(at: vec2<u32>, middle: Stamp) -> Cloud {
     let low = max(at, vec2<u32>(SMOOTHING_REACH)) - SMOOTHING_REACH;
     let high = min(at + SMOOTHING_REACH, mask_window.size - 1u);
     var cloud: Cloud;
-    for (var y = low.y; y <= high.y; y++) {
-        for (var x = low.x; x <= high.x; x++) {
+    var y = low.y;
+    loop {
+        var x = low.x;
+        loop {
             let stamp = stamps[y * mask_window.size.x + x];
             if stamp.half_width > 0.0 && stamp.part == middle.part {
                 let off = stamp.center - middle.center;
@@ -37,6 +39,14 @@ fn cloud_around(at: vec2<u32>, middle: Stamp) -> Cloud {
                 cloud.sum += off;
                 cloud.squares += vec3<f32>(off.x * off.x, off.x * off.y, off.y * off.y);
             }
+            continuing {
+                x += 1u;
+                break if x > high.x;
+            }
+        }
+        continuing {
+            y += 1u;
+            break if y > high.y;
         }
     }
     return cloud;

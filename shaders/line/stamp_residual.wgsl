@@ -29,9 +29,19 @@ override WG: u32 = 64u;
 // Whether any tile that meets the box of mask pixels holds a stamp.
 fn any_stamp(low: vec2<u32>, high: vec2<u32>) -> bool {
     let across = (mask_window.size.x + TILE - 1u) / TILE;
-    for (var y = low.y / TILE; y <= high.y / TILE; y++) {
-        for (var x = low.x / TILE; x <= high.x / TILE; x++) {
+    var y = low.y / TILE;
+    loop {
+        var x = low.x / TILE;
+        loop {
             if tiles[y * across + x] != 0u { return true; }
+            continuing {
+                x += 1u;
+                break if x > high.x / TILE;
+            }
+        }
+        continuing {
+            y += 1u;
+            break if y > high.y / TILE;
         }
     }
     return false;
@@ -56,8 +66,10 @@ fn main(
     var part = NONE;
     var center = vec2<f32>(0.0);
     if any_stamp(low, high) {
-        for (var y = low.y; y <= high.y; y++) {
-            for (var x = low.x; x <= high.x; x++) {
+        var y = low.y;
+        loop {
+            var x = low.x;
+            loop {
                 let stamp = stamps[y * mask_window.size.x + x];
                 if !(stamp.half_width > 0.0) { continue; }
                 let off = px - stamp.center;
@@ -67,6 +79,14 @@ fn main(
                     part = stamp.part;
                     center = stamp.center;
                 }
+                continuing {
+                    x += 1u;
+                    break if x > high.x;
+                }
+            }
+            continuing {
+                y += 1u;
+                break if y > high.y;
             }
         }
     }

@@ -93,73 +93,102 @@ fn middle_of(members: u32, frame_px: vec2<f32>) -> vec2<f32> {
 }
 
 // Light of the samples in `members`, which show a triangle or its hull.
-fn shade(id: u32, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
+fn shade(id: u32, constants: TriangleConstants, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
     let triangle = triangles[(id & ID_MASK) - 1u];
     let corners = corners_of(triangle);
     let is_hull = is_of_hull(id);
     var drawn: Drawn;
     drawn.lined = 1.0;
     var center = frame_px;
-    while !is_hull {
+    if !is_hull {
         center = middle_of(members, frame_px);
-        drawn = shade_surface(id, members, frame_px, center, corners);
-        break;
+        drawn = shade_surface(id, triangle, constants, members, frame_px, center, corners);
     }
-    while drawn.lined != 0.0 {
+    if drawn.lined != 0.0 {
         let line = contrasted(line_light(triangle, corners, center, vec2<f32>(1.0), is_hull), frame_px);
-        return drawn.light + (line - drawn.light) * drawn.lined;
+        drawn.light += (line - drawn.light) * drawn.lined;
     }
     return drawn.light;
 }
 
 // Light of a triangle; `center` is the middle of its samples.
-fn shade_surface(id: u32, members: u32, frame_px: vec2<f32>, center: vec2<f32>, corners: Corners) -> Drawn {
+fn shade_surface(
+    id: u32,
+    triangle: Triangle,
+    constants: TriangleConstants,
+    members: u32,
+    frame_px: vec2<f32>,
+    center: vec2<f32>,
+    corners: Corners,
+) -> Drawn {
     // Take what is known of the triangle, and find the colour of the surface where it is not.
-    let triangle = triangles[id - 1u];
     let part = triangle.part;
-    let constants = known[id - 1u];
     let is_plain = (constants.bits & KNOWN_PLAIN) != 0u;
-    var is_even = (constants.bits & KNOWN_EVEN) != 0u;
+    let is_even = (constants.bits & KNOWN_EVEN) != 0u;
     var color = constants.color;
-    while !is_plain {
+    if !is_plain {
         color = strengthened(base_color(triangle, corners, center));
-        break;
     }
 
-    // Light it at its middle where one place stands for all samples.
-    var light = select(vec3<f32>(0.0), select(constants.color, vec3<f32>(1.0), is_plain), is_even);
+    // Light it at its middle where one place stands for all samples, else at its samples, and find highlights and
+    // shadows there.
+    var light = select(constants.color, vec3<f32>(1.0), is_plain);
     var open: SkyPoint;
     if !is_even { open = openness(corners, center); }
-    if !is_even && is_gentle(part) {
-        let weights = weights_at(corners.clip, ndc_at(view, center));
-        light = light_of(part, world_of(corners, weights), normal_of(corners, weights), 0u, open_at(open, vec2<f32>(0.0)));
-        is_even = true;
-    }
-
-    // Else light it at its samples, and find highlights and shadows there.
+    let first = members & (~members + 1u);
+    let is_gentle = is_gentle(part);
     let shines = has_highlights(part) && (constants.bits & KNOWN_MATT) == 0u;
-    let by_sample = !is_even || (shines && !shines_gently(part));
-    let counted = select(members & (~members + 1u), members, by_sample);
+    let by_sample = !(is_even || is_gentle) || (shines && !shines_gently(part));
+    let counted = select(first, members, by_sample);
     let share = 1.0 / f32(countOneBits(counted));
     var gloss = vec3<f32>(0.0);
     var lined = 0.0;
     var darks = vec4<u32>(0u);
-    var left = select(0u, counted, !is_even || shines);
-    while left != 0u {
+    var tones = vec4<f32>(0.0);
+    var tints: RampLight;
+    var left = counted;
+    loop {
         let i = firstTrailingBit(left);
-        left &= left - 1u;
         let at = select(center, frame_px + sample_offset(i), by_sample);
         let weights = weights_at(corners.clip, ndc_at(view, at));
         let world = world_of(corners, weights);
         let normal = normal_of(corners, weights);
         var dark = 0u;
         if !is_even {
-            dark = shadowed(id, corners, weights);
-            light += light_of(part, world, normal, dark, open_at(open, at - center)) * share;
+            if !is_gentle { dark = shadowed(id, corners, weights); }
+            let lit = coordinate_under(world, normal, dark, open_at(open, at - center));
+            tones = with_sample(tones, i, lit.x);
+            tints.red = with_sample(tints.red, i, lit.color.r);
+            tints.green = with_sample(tints.green, i, lit.color.g);
+            tints.blue = with_sample(tints.blue, i, lit.color.b);
             lined += grazing(triangle, corners, at) * share;
         }
         if shines { gloss += highlights_at(part, world, normal, dark) * share; }
-        darks[i] = dark;
+        darks = with_number(darks, i, dark);
+        continuing {
+            left &= left - 1u;
+            break if left == 0u;
+        }
+    }
+
+    // Light that changes gently is that of the middle, whatever place the highlights are found at.
+    if is_gentle && shines && by_sample {
+        let weights = weights_at(corners.clip, ndc_at(view, center));
+        let lit = coordinate_under(world_of(corners, weights), normal_of(corners, weights), 0u, open_at(open, vec2<f32>(0.0)));
+        tones = vec4<f32>(lit.x);
+        tints = RampLight(vec4<f32>(lit.color.r), vec4<f32>(lit.color.g), vec4<f32>(lit.color.b));
+    }
+
+    // Look all tones up on the ramp at once.
+    if !is_even {
+        let lit = select(counted, first, is_gentle);
+        let lit_share = 1.0 / f32(countOneBits(lit));
+        let samples = samples_in(lit);
+        let ramp = ramp_lights(part, tones);
+        light.r = sum_over(ramp.red * tints.red * lit_share, samples);
+        light.g = sum_over(ramp.green * tints.green * lit_share, samples);
+        light.b = sum_over(ramp.blue * tints.blue * lit_share, samples);
+        if (parts[part].flags & PART_UNLIT) != 0u { light = vec3<f32>(1.0); }
     }
 
     // Lay ink over it, once for samples in the same shadows.
@@ -174,20 +203,20 @@ fn surfaces(pixel: vec2<u32>, smoke_layer: SmokeLayer, frame_px: vec2<f32>) -> v
     var sum = vec4<f32>(0.0);
     // Every triangle once, from the first of its samples on.
     var left = bits_of(seen != vec4<u32>(0u));
-    while left != 0u {
-        let id = of_sample(seen, firstTrailingBit(left));
+    if left == 0u { return sum; }
+    loop {
+        let id = number_of(seen, firstTrailingBit(left));
         let members = seen == vec4<u32>(id);
         left &= ~bits_of(members);
         let share = sum_over(bare, members) / f32(sample_count());
-        if share == 0.0 { continue; }
-        // Shade it where its colour is not known whole: devices without branches skip loops alone.
+        // Shade it where its colour is not known whole.
         let constants = known[(id & ID_MASK) - 1u];
         var light = constants.color;
-        while (constants.bits & KNOWN_WHOLE) == 0u || is_of_hull(id) {
-            light = shade(id, bits_of(members), frame_px);
-            break;
+        if (constants.bits & KNOWN_WHOLE) == 0u || is_of_hull(id) {
+            light = shade(id, constants, bits_of(members), frame_px);
         }
-        sum += vec4<f32>(light, 1.0) * share;
+        if share != 0.0 { sum += vec4<f32>(light, 1.0) * share; }
+        continuing { break if left == 0u; }
     }
     return sum;
 }
@@ -211,6 +240,53 @@ fn over(top: vec4<f32>, below: vec4<f32>) -> vec4<f32> {
     return vec4<f32>(top.rgb * top.a, top.a) + below * (1.0 - top.a);
 }
 
+// What a pixel shows, if its samples show one colour that is known and nothing lies over them.
+struct Uniform {
+    is_so: bool,
+    texel: u32,
+}
+
+fn uniform_texel(pixel: vec2<u32>, element: u32) -> Uniform {
+    let seen = ids_at(pixel);
+    let id = seen.x;
+    var shown: Uniform;
+    if compose.samples > 1u && any(seen != vec4<u32>(id)) { return shown; }
+    let lined = (ribbon_texel(pixel) | overlay_texel(element)) >> 24u;
+    if lined != 0u || is_of_hull(id) || has_smoke(pixel) || has_beams(pixel) { return shown; }
+    if id == 0u {
+        shown.is_so = compose.background_texture == NONE;
+        shown.texel = compose.background_texel;
+        return shown;
+    }
+    let bits = known[id - 1u].bits;
+    shown.is_so = (bits & KNOWN_WHOLE) != 0u;
+    shown.texel = (bits >> KNOWN_BYTES) | 0xff000000u;
+    return shown;
+}
+
+// What a pixel shows as sRGB bytes with straight alpha: surfaces, smoke over them, the background behind, beams, lines.
+fn composed(pixel: vec2<u32>, element: u32) -> u32 {
+    let frame_px = frame_at(window, pixel);
+    let smoke_layer = smoke_layer_of(pixel, frame_px);
+    var surface = surfaces(pixel, smoke_layer, frame_px);
+    surface += vec4<f32>(smoke_layer.color.rgb, 1.0) * smoke_layer_shown(smoke_layer);
+    var color = surface;
+    if surface.a < 1.0 { color += background(frame_px) * (1.0 - surface.a); }
+    let beams = add_beams(pixel, smoke_layer, frame_px, color);
+    color = beams.color;
+    var texel = ribbon_texel(pixel);
+    for (var layer = 0u; layer < 2u; layer++) {
+        if layer == 1u { texel = overlay_texel(element); }
+        if (texel >> 24u) != 0u {
+            let line = linear_texel(texel);
+            let faded = line_fade(smoke_layer, pixel, frame_px);
+            let alpha = line.a * (1.0 - beams.covered) * (1.0 - faded);
+            color = over(vec4<f32>(contrasted(line.rgb, frame_px), alpha), color);
+        }
+    }
+    return encoded(color);
+}
+
 // One invocation per output pixel.
 @compute @workgroup_size(WG)
 fn main(
@@ -226,29 +302,10 @@ fn main(
         frame[element] = 0u;
         return;
     }
-    let frame_px = frame_at(window, pixel);
-    let smoke_layer = smoke_layer_of(pixel, frame_px);
-    var surface = surfaces(pixel, smoke_layer, frame_px);
-    surface += vec4<f32>(smoke_layer.color.rgb, 1.0) * smoke_layer_shown(smoke_layer);
-    var color = surface;
-    if surface.a < 1.0 { color += background(frame_px) * (1.0 - surface.a); }
-    let beams = add_beams(pixel, smoke_layer, frame_px, color);
-    color = beams.color;
-    for (var layer = 0u; layer < 2u; layer++) {
-        var line = ribbon_at(pixel);
-        if layer == 1u { line = overlay_at(element); }
-        while line.a != 0.0 {
-            let faded = line_fade(smoke_layer, pixel, frame_px);
-            let alpha = line.a * (1.0 - beams.covered) * (1.0 - faded);
-            color = over(vec4<f32>(contrasted(line.rgb, frame_px), alpha), color);
-            break;
-        }
+    let shown = uniform_texel(pixel, element);
+    var texel = shown.texel;
+    if !shown.is_so {
+        texel = composed(pixel, element);
     }
-    let straight = color.rgb / max(color.a, 1e-6);
-    frame[element] = pack_rgba8(vec4<f32>(
-        srgb_from_linear(straight.r),
-        srgb_from_linear(straight.g),
-        srgb_from_linear(straight.b),
-        color.a,
-    ));
+    frame[element] = texel;
 }

@@ -99,7 +99,7 @@ fn constants_of(triangle: Triangle) -> TriangleConstants {
     // Lay the ink over them if nothing else is left to find.
     if ink >= 0.0 && is_plain && even.is_so && is_matt {
         constants.color = inked(part, constants.color, ink);
-        constants.bits |= KNOWN_WHOLE;
+        constants.bits |= KNOWN_WHOLE | encoded(vec4<f32>(constants.color, 1.0)) << KNOWN_BYTES;
     }
     return constants;
 }

@@ -55,6 +55,8 @@ features! {
     SMOKE_PEN = 16;
     /// Smoke throws shadows on surfaces.
     SMOKE_SHADOWS = 17;
+    /// The colour of lines depends on their place.
+    TINTS = 18;
 }
 
 impl Features {

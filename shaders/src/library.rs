@@ -107,7 +107,7 @@ const LIBRARIES: &[Library] = &[
     always!("surface_light"),
     serving!(Features::HULLS.or(Features::ANGLES), "surface_line"),
     always!("texture"),
-    always!("tints"),
+    serving!(Features::TINTS, "tints"),
     always!("tone_range"),
     serving!(Features::TONE_ROWS, "tone_row"),
     always!("triangle_constants"),

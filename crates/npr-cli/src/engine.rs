@@ -1,6 +1,6 @@
 //! Which engine draws, and what happens when it fails.
 
-use crate::arguments::Backend;
+use crate::arguments::{Backend, DrawingArguments};
 use crate::device_choice::DeviceChoice;
 use crate::fault::{Exit, Fault};
 use crate::hardware;
@@ -27,38 +27,39 @@ type Picture<'a, T> = &'a dyn Fn(&dyn Engine) -> Result<T, RenderError>;
 /// Opens a graphics device.
 type Open<'a> = &'a dyn Fn() -> Result<Box<dyn Engine>, EngineError>;
 
-/// Draws a picture on the engine that `backend` asks for.
+/// Draws a picture on the engine that `arguments` ask for.
 ///
 /// A device that is lost is opened once more. Where it fails again, or fails otherwise, the processor
 /// takes over if the choice is automatic, after a word to `warn`.
 fn draw<T>(
-    backend: Backend,
+    arguments: &DrawingArguments,
     picture: Picture<'_, T>,
     warn: &dyn Fn(&str),
 ) -> Result<Drawn<T>, Fault> {
-    let drawn = match backend {
+    let times_passes = arguments.timings.is_some();
+    let open = |choice| move || hardware::open(choice, times_passes);
+    let drawn = match arguments.backend {
         Backend::Cpu => draw_on(&Processor, picture),
-        Backend::Gpu => draw_on_device(&|| hardware::open(DeviceChoice::Any), picture),
-        Backend::Auto => draw_somewhere(&|| hardware::open(DeviceChoice::Hardware), picture, warn),
+        Backend::Gpu => draw_on_device(&open(DeviceChoice::Any), picture),
+        Backend::Auto => draw_somewhere(&open(DeviceChoice::Hardware), picture, warn),
     };
     drawn.map_err(Fault::from)
 }
 
-/// Draws a picture as a step of the run, on the engine that `backend` asks for; warnings follow when the step is over.
+/// Draws a picture as a step of the run, on the engine that `arguments` ask for; warnings follow when the step is over.
 pub fn draw_as_step<T>(
-    backend: Backend,
+    arguments: &DrawingArguments,
     picture: Picture<'_, T>,
-    quiet: bool,
     progress: &mut Progress,
 ) -> Result<Drawn<T>, Fault> {
     let warnings = RefCell::new(Vec::new());
     let drawn = progress.step(DRAW, || {
-        draw(backend, picture, &|text| {
+        draw(arguments, picture, &|text| {
             warnings.borrow_mut().push(text.to_owned());
         })
     });
     for text in warnings.into_inner() {
-        progress.suspend(|| message::warn(quiet, &text));
+        progress.suspend(|| message::warn(arguments.quiet, &text));
     }
     drawn
 }

@@ -5,13 +5,17 @@ use crate::device_choice::DeviceChoice;
 use npr_gpu::device::{self, AdapterChoice, AdapterKind, AdapterSummary, Device};
 use npr_gpu::engine::{Engine, EngineError};
 
-/// The best device that `choice` admits.
-pub fn open(choice: DeviceChoice) -> Result<Box<dyn Engine>, EngineError> {
+/// The best device that `choice` admits; with `times_passes`, one whose times of passes can be believed.
+pub fn open(choice: DeviceChoice, times_passes: bool) -> Result<Box<dyn Engine>, EngineError> {
     let choice = match choice {
         DeviceChoice::Hardware => AdapterChoice::Hardware,
         DeviceChoice::Any => AdapterChoice::Any,
     };
-    Ok(Box::new(Device::open(choice)?))
+    let device = Device::open(choice)?;
+    Ok(Box::new(match times_passes {
+        true => device.timing_passes(),
+        false => device,
+    }))
 }
 
 /// Every adapter of this machine, best first.

@@ -118,12 +118,7 @@ fn draw_lines(
             times: renderer.times().to_vec(),
         })
     };
-    let drawn = engine::draw_as_step(
-        job.args.drawing.backend,
-        &picture,
-        job.args.drawing.quiet,
-        progress,
-    )?;
+    let drawn = engine::draw_as_step(&job.args.drawing, &picture, progress)?;
     let reported = match job.options.method {
         LineSource::Edges | LineSource::Potrace => None,
         LineSource::Surface => {

@@ -223,10 +223,5 @@ fn draw_frame(
     };
 
     // Draw on the engine asked for.
-    engine::draw_as_step(
-        job.args.drawing.backend,
-        &picture,
-        job.args.drawing.quiet,
-        progress,
-    )
+    engine::draw_as_step(&job.args.drawing, &picture, progress)
 }

@@ -286,7 +286,7 @@ fn draw_film(
         Ok::<(), RenderError>(())
     };
     let quiet = job.args.drawing.quiet;
-    let drawn = engine::draw_as_step(job.args.drawing.backend, &pictures, quiet, progress)?;
+    let drawn = engine::draw_as_step(&job.args.drawing, &pictures, progress)?;
     if let Some(fault) = screening.failed.into_inner() {
         return Err(fault);
     }

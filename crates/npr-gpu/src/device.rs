@@ -18,6 +18,7 @@ pub mod testing;
 mod watch;
 
 pub use adapter::{AdapterChoice, AdapterKind, AdapterSummary, adapters};
+pub use gpu::Traffic;
 pub use watch::TIME_LIMIT;
 
 use crate::engine::{Engine, EngineError, Session};
@@ -25,7 +26,7 @@ use crate::graph::Graph;
 use gpu::Gpu;
 use pipeline::PipelineCache;
 use session::DeviceSession;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use watch::Watch;
 
 /// A graphics device, ready to run graphs.
@@ -35,6 +36,7 @@ use watch::Watch;
 pub struct Device {
     gpu: Arc<Gpu>,
     pipelines: PipelineCache,
+    times_apart: bool,
 }
 
 impl Device {
@@ -53,11 +55,34 @@ impl Device {
             queue,
             adapter,
             watch,
+            traffic: Mutex::default(),
         };
         Ok(Self {
             gpu: Arc::new(gpu),
             pipelines: PipelineCache::default(),
+            times_apart: false,
         })
+    }
+
+    /// The same device with times of passes that can be believed.
+    ///
+    /// Devices without a clock of their own, and software, whose clock stamps passes before they have run, submit and
+    /// wait for every pass alone from now on; a frame takes a little longer. Hardware with a clock stays as it is.
+    #[must_use]
+    pub fn timing_passes(self) -> Self {
+        Self {
+            times_apart: self.gpu.adapter.is_software() || !self.has_clock(),
+            ..self
+        }
+    }
+
+    /// How often it was given work so far, and waited for.
+    pub fn traffic(&self) -> Traffic {
+        *self
+            .gpu
+            .traffic
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The adapter that this device belongs to.
@@ -85,7 +110,8 @@ impl Engine for Device {
     }
 
     fn prepare(&self, graph: Graph) -> Result<Box<dyn Session>, EngineError> {
-        let session = DeviceSession::new(self.gpu.clone(), &self.pipelines, graph)?;
+        let session =
+            DeviceSession::new(self.gpu.clone(), &self.pipelines, graph, self.times_apart)?;
         Ok(Box::new(session))
     }
 }

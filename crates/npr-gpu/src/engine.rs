@@ -1,6 +1,8 @@
 //! The interface of what runs a graph: the processor with the twins, or a graphics device with the shaders.
 
 use crate::graph::{Graph, ResourceId};
+use bytemuck::AnyBitPattern;
+use std::collections::BTreeMap;
 use std::time::Duration;
 
 /// Why an engine could not do its work.
@@ -73,17 +75,82 @@ pub trait Session {
     /// [`EngineError`] where the device is lost.
     fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError>;
 
-    /// Runs every node once, in order.
+    /// Runs every node once, in order, and reads resources: a device does all of it at once and is waited for once.
     ///
     /// # Errors
     ///
     /// [`EngineError`] where the device fails or is lost; nothing may be read back then.
-    fn run(&mut self) -> Result<Vec<PassTime>, EngineError>;
+    fn run_reading(&mut self, ids: &[ResourceId])
+    -> Result<(Vec<PassTime>, Readings), EngineError>;
+
+    /// Reads resources as the last run left them, all at once.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError`] where the device is lost.
+    fn read_all(&mut self, ids: &[ResourceId]) -> Result<Readings, EngineError>;
+
+    /// Runs every node once, in order.
+    ///
+    /// # Errors
+    ///
+    /// As [`Session::run_reading`].
+    fn run(&mut self) -> Result<Vec<PassTime>, EngineError> {
+        Ok(self.run_reading(&[])?.0)
+    }
 
     /// The words of a resource; texels row by row for an image.
     ///
     /// # Errors
     ///
-    /// [`EngineError`] where the device is lost.
-    fn read(&mut self, id: ResourceId) -> Result<Vec<u32>, EngineError>;
+    /// As [`Session::read_all`].
+    fn read(&mut self, id: ResourceId) -> Result<Vec<u32>, EngineError> {
+        Ok(self.read_all(&[id])?.take(id))
+    }
+}
+
+/// The words of some resources; texels row by row for images.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Readings {
+    words: BTreeMap<ResourceId, Vec<u32>>,
+}
+
+impl Readings {
+    /// Takes the words of a resource out.
+    ///
+    /// # Panics
+    ///
+    /// When it was not read, or taken before.
+    pub fn take(&mut self, id: ResourceId) -> Vec<u32> {
+        let words = self.words.remove(&id);
+        words.unwrap_or_else(|| panic!("{id:?} was not read, or taken before"))
+    }
+
+    /// Takes the first `count` elements of a resource out.
+    ///
+    /// # Panics
+    ///
+    /// As [`Readings::take`].
+    pub fn take_first<T: AnyBitPattern>(&mut self, id: ResourceId, count: usize) -> Vec<T> {
+        let mut words = self.take(id);
+        words.truncate(count * size_of::<T>() / 4);
+        bytemuck::cast_slice(&words).to_vec()
+    }
+
+    /// Takes the first word of a resource out, a count.
+    ///
+    /// # Panics
+    ///
+    /// As [`Readings::take`].
+    pub fn take_count(&mut self, id: ResourceId) -> usize {
+        self.take(id).first().map_or(0, |count| *count as usize)
+    }
+}
+
+impl FromIterator<(ResourceId, Vec<u32>)> for Readings {
+    fn from_iter<I: IntoIterator<Item = (ResourceId, Vec<u32>)>>(pairs: I) -> Self {
+        Self {
+            words: pairs.into_iter().collect(),
+        }
+    }
 }

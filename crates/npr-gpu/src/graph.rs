@@ -7,7 +7,7 @@ use npr_shaders::Features;
 use npr_vector::rank::work::Arguments;
 
 /// A buffer or image of a graph.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ResourceId(pub(crate) u32);
 
 impl ResourceId {

@@ -1,6 +1,6 @@
 //! The engine that needs no graphics device: it runs the twin of every node's pass.
 
-use crate::engine::{Engine, EngineError, PassTime, Session};
+use crate::engine::{Engine, EngineError, PassTime, Readings, Session};
 use crate::graph::Kind;
 use crate::graph::{Graph, Node, ResourceId, WorkSize, writes};
 use crate::pass::{Bindings, Bound, WORKGROUP_SIZE, Work};
@@ -47,16 +47,18 @@ impl Session for ProcessorSession {
         Ok(())
     }
 
-    fn run(&mut self) -> Result<Vec<PassTime>, EngineError> {
-        let nodes = self.graph.nodes();
-        Ok(nodes
-            .iter()
-            .map(|node| run_node(&self.graph, node, &mut self.memory))
-            .collect())
+    fn run_reading(
+        &mut self,
+        ids: &[ResourceId],
+    ) -> Result<(Vec<PassTime>, Readings), EngineError> {
+        let nodes = self.graph.nodes().iter();
+        let times = nodes.map(|node| run_node(&self.graph, node, &mut self.memory));
+        Ok((times.collect(), self.read_all(ids)?))
     }
 
-    fn read(&mut self, id: ResourceId) -> Result<Vec<u32>, EngineError> {
-        Ok(self.memory[id.index()].clone())
+    fn read_all(&mut self, ids: &[ResourceId]) -> Result<Readings, EngineError> {
+        let words = ids.iter().map(|id| (*id, self.memory[id.index()].clone()));
+        Ok(words.collect())
     }
 }
 

@@ -204,6 +204,7 @@ impl Needs {
             Features::OVERLAY.when(layers(Compose::OVERLAY)),
             Features::BEAMS.when(layers(Compose::BEAMS)),
             Features::BACKDROP.when(self.features.rim || self.features.contrast),
+            Features::TINTS.when(self.features.paints),
             Features::SMOKE.when(has_smoke),
             Features::SMOKE_PEN.when(layers(Compose::SMOKE_PEN)),
             Features::SMOKE_SHADOWS.when(has_smoke && casts && *are_same),
@@ -507,8 +508,12 @@ impl FrameRenderer<'_> {
         plan.contrast.upload_tile(session, view, corner, size)?;
 
         // Run the passes, and take the part of the picture that is kept.
-        let times = session.run()?;
-        let tile = session.read(plan.frame.frame)?;
+        let mut results = vec![plan.frame.frame];
+        if sides.is_some() {
+            results.extend(plan.contrast.sides());
+        }
+        let (times, mut read) = session.run_reading(&results)?;
+        let tile = read.take(plan.frame.frame);
         let (margin, kept) = ([self.tiles.margin; 2], self.tiles.kept);
         let at = [origin[0], origin[1] - top];
         frame.paste(&tile, size[0], margin, at, kept);
@@ -521,7 +526,7 @@ impl FrameRenderer<'_> {
             let paste = |picture: &mut Frame, texels: &[u32]| {
                 picture.paste(texels, size[0], margin, origin, kept);
             };
-            plan.contrast.read_sides(session, sides, paste)?;
+            plan.contrast.take_sides(&mut read, sides, paste);
         }
         Ok(())
     }

@@ -431,12 +431,12 @@ pub(crate) fn compose(
     line_color[3] *= style.line.opacity;
     let [right_world, up_world, near_world] = camera.axes();
     let (min, max) = model.bounds();
+    let background = match style.background {
+        Background::Color(color) => color.linear(),
+        Background::Transparent => [0.0; 4],
+        Background::Image(_) => [1.0; 4],
+    };
     Compose {
-        background: match style.background {
-            Background::Color(color) => color.linear(),
-            Background::Transparent => [0.0; 4],
-            Background::Image(_) => [1.0; 4],
-        },
         line_color,
         background_texture,
         flags: 0,
@@ -448,7 +448,7 @@ pub(crate) fn compose(
         radius: model.radius(),
         angle_softness: style.line.angle_softness,
         center_world: ((Vec3::from(min) + Vec3::from(max)) * 0.5).to_array(),
-        ..Compose::default()
+        ..Compose::before(background)
     }
 }
 

@@ -1,6 +1,8 @@
 //! Surfaces shaded by their ramps, lines over them, background behind: the twin of `shade.compose_frame`.
 
 use bytemuck::{Pod, Zeroable};
+use npr_core::color::SrgbEncoder;
+use npr_core::geometry::NONE;
 use npr_core::gpu_layout;
 
 mod composer;
@@ -9,7 +11,7 @@ mod layers;
 
 pub use crate::luminance::LUMA;
 pub use crate::triangle_constants::TriangleConstants;
-pub use composer::compose;
+pub use composer::{compose, encoded};
 pub use known::know_triangles;
 pub use layers::Layers;
 pub(crate) use layers::Samples;
@@ -22,7 +24,7 @@ pub struct Compose {
     pub background: [f32; 4],
     /// Colour of lines drawn straight from the mask, sRGB, straight alpha.
     pub line_color: [f32; 4],
-    /// Header of the background texture, or [`NONE`](npr_core::geometry::NONE).
+    /// Header of the background texture, or [`NONE`].
     pub background_texture: u32,
     /// Bits of [`Compose::RIBBONS`] to [`Compose::BARE`].
     pub flags: u32,
@@ -52,8 +54,8 @@ pub struct Compose {
     pub smoke_anchor_px: [f32; 2],
     /// Hatch tiles of that sheet to a frame pixel.
     pub smoke_tiles: f32,
-    /// Keeps rows of 16 bytes.
-    pub unused_d: u32,
+    /// The background as sRGB bytes with straight alpha, where it has one colour.
+    pub background_texel: u32,
 }
 gpu_layout!(Compose {
     background,
@@ -73,10 +75,22 @@ gpu_layout!(Compose {
     smoke_line,
     smoke_anchor_px,
     smoke_tiles,
-    unused_d,
+    background_texel,
 });
 
 impl Compose {
+    /// Settings for a picture before a background of one colour, linear light with straight alpha.
+    pub fn before(background: [f32; 4]) -> Self {
+        let [r, g, b, a] = background;
+        Self {
+            background,
+            background_texture: NONE,
+            background_texel: encoded(&SrgbEncoder::new(), [r * a, g * a, b * a, a]),
+            saturation: 1.0,
+            ..Self::default()
+        }
+    }
+
     /// The camera's axes in the world: to the right, up, and towards the eye.
     pub fn axes(&self) -> [[f32; 3]; 3] {
         [self.right_world, self.up_world, self.near_world]
@@ -113,7 +127,6 @@ mod tests {
     use super::*;
     use crate::backdrop::Rules;
     use crate::lighting::Lights;
-    use npr_core::geometry::NONE;
     use npr_core::texture::TextureStore;
     use npr_core::window::{View, Window};
 
@@ -140,10 +153,7 @@ mod tests {
     fn plain(background: [f32; 4]) -> Compose {
         Compose {
             samples: 2,
-            background,
-            background_texture: NONE,
-            saturation: 1.0,
-            ..Compose::default()
+            ..Compose::before(background)
         }
     }
 

@@ -10,7 +10,8 @@ pub struct TriangleConstants {
     /// Linear light: the colour of the surface, or the light on it, or their product if both are known; with the ink
     /// over it if [`TriangleConstants::WHOLE`] is set.
     pub color: [f32; 3],
-    /// Bits of [`TriangleConstants::PLAIN`] to [`TriangleConstants::WHOLE`].
+    /// Bits of [`TriangleConstants::PLAIN`] to [`TriangleConstants::WHOLE`]; with the last, the colour as sRGB bytes
+    /// above them.
     pub bits: u32,
 }
 gpu_layout!(TriangleConstants { color, bits });
@@ -28,6 +29,21 @@ impl TriangleConstants {
     pub const SOLID: u32 = 16;
     /// Bit: nothing is left to find.
     pub const WHOLE: u32 = 32;
+
+    /// Place of the bytes of red, green and blue.
+    pub const BYTES: u32 = 8;
+
+    /// Notes that nothing is left to find, with the colour as an opaque sRGB texel.
+    pub fn complete(&mut self, texel: u32) {
+        self.bits |= Self::WHOLE | texel << Self::BYTES;
+    }
+
+    /// The opaque sRGB texel of a triangle that has one colour all over.
+    #[inline]
+    pub fn texel(&self) -> Option<u32> {
+        self.has(Self::WHOLE)
+            .then_some(self.bits >> Self::BYTES | 0xff00_0000)
+    }
 
     /// The colour of a triangle that has one colour all over.
     #[inline]

@@ -1,5 +1,5 @@
 // Stamps where there are none.
 
-fn overlay_at(element: u32) -> vec4<f32> {
-    return vec4<f32>(0.0);
+fn overlay_texel(element: u32) -> u32 {
+    return 0u;
 }

@@ -4,7 +4,7 @@ use super::CurvesError;
 use super::ranking::{RankedLists, Scheme, add_ranking};
 use super::sums::{Compacted, Scan, add_compact, add_scan};
 use super::work::{IndirectArguments, ListWork, add_work};
-use crate::engine::Session;
+use crate::engine::{Readings, Session};
 use crate::graph::{Graph, ResourceId};
 use crate::pass::Format;
 use crate::passes::{pixels, vector};
@@ -280,6 +280,21 @@ pub struct PixelStrips {
     pub lengths: ResourceId,
 }
 
+impl PixelStrips {
+    /// What a run finds, to be read.
+    pub(super) fn results(&self) -> [ResourceId; 7] {
+        [
+            self.spots,
+            self.places,
+            self.tangents,
+            self.directions,
+            self.kept,
+            self.strips,
+            self.lengths,
+        ]
+    }
+}
+
 /// Appends passes that filter ranked loops and cut them into strips.
 pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -> PixelStrips {
     // Gather the sides of pixels in the order of their loops.
@@ -467,13 +482,19 @@ impl PixelContours {
         Ok(())
     }
 
-    /// The counts that the last run found.
-    pub(super) fn needed(&self, session: &mut dyn Session) -> Result<PixelRoom, CurvesError> {
-        let mut count = |id| Ok::<usize, CurvesError>(session.read(id)?[0] as usize);
-        Ok(PixelRoom {
-            segments: count(self.segment_count)?,
-            fragments: count(self.fragment_count)?,
-            sides: count(self.side_count)?,
-        })
+    /// What a run finds, to be read.
+    pub(super) fn results(&self) -> Vec<ResourceId> {
+        let counts = [self.segment_count, self.fragment_count, self.side_count];
+        let found = [self.segments, self.owners, self.nearest, self.sides];
+        [&counts[..], &found, &self.lists.results()].concat()
+    }
+
+    /// The counts that a run found.
+    pub(super) fn needed(&self, read: &mut Readings) -> PixelRoom {
+        PixelRoom {
+            segments: read.take_count(self.segment_count),
+            fragments: read.take_count(self.fragment_count),
+            sides: read.take_count(self.side_count),
+        }
     }
 }

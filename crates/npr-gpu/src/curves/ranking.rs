@@ -3,7 +3,7 @@
 use super::CurvesError;
 use super::sums::{Compacted, add_compact, add_scan, add_sum};
 use super::work::{IndirectArguments, ListWork, add_work};
-use crate::engine::{Engine, Session};
+use crate::engine::{Engine, Readings};
 use crate::graph::{Graph, ResourceId};
 use crate::passes::vector;
 use npr_vector::rank::jump::Walk;
@@ -72,6 +72,21 @@ pub struct RankedLists {
     pub unsettled: ResourceId,
     /// The result.
     pub rows: Rows,
+}
+
+impl RankedLists {
+    /// What [`ranked`] reads.
+    pub(super) fn results(&self) -> [ResourceId; 6] {
+        let rows = &self.rows;
+        [
+            self.unsettled,
+            rows.standings,
+            rows.order,
+            rows.starts,
+            rows.chains.count,
+            rows.chains.list,
+        ]
+    }
 }
 
 /// The ranked nodes of lists.
@@ -329,19 +344,18 @@ pub fn rank_on(
     let lists = add_ranking(&mut graph, bound, &ListWork::WHOLE, scheme);
     let mut session = engine.prepare(graph)?;
     session.write(bound, bytemuck::cast_slice(&links))?;
-    session.run()?;
-
-    read_rows(session.as_mut(), &lists, links.len())
+    let (_, mut read) = session.run_reading(&lists.results())?;
+    ranked(&mut read, &lists, links.len())
 }
 
-/// Reads the ranking of the first nodes; all nodes after them must be loops of their own.
-pub(super) fn read_rows(
-    session: &mut dyn Session,
+/// The ranking of the first nodes; all nodes after them must be loops of their own.
+pub(super) fn ranked(
+    read: &mut Readings,
     lists: &RankedLists,
     node_count: usize,
 ) -> Result<Ranked, CurvesError> {
     // Refuse lists that the rounds did not settle.
-    let count = session.read(lists.unsettled)?[0] as usize;
+    let count = read.take_count(lists.unsettled);
     if count != 0 {
         let rounds = lists.round_count;
         return Err(RankError::Unsettled { count, rounds }.into());
@@ -349,17 +363,13 @@ pub(super) fn read_rows(
 
     // Read the rows of the nodes that there are.
     let rows = &lists.rows;
-    let mut standings = session.read(rows.standings)?;
-    standings.truncate(node_count * size_of::<Standing>() / 4);
-    let mut order = session.read(rows.order)?;
-    order.truncate(node_count);
+    let standings: Vec<Standing> = read.take_first(rows.standings, node_count);
+    let order = read.take_first(rows.order, node_count);
 
     // Read where chains start, without those of nodes that are room alone.
-    let starts = session.read(rows.starts)?;
-    let chain_count = session.read(rows.chains.count)?[0] as usize;
-    let mut chains = session.read(rows.chains.list)?;
-    chains.truncate(chain_count);
+    let starts = read.take(rows.starts);
+    let chain_count = read.take_count(rows.chains.count);
+    let mut chains: Vec<u32> = read.take_first(rows.chains.list, chain_count);
     chains.truncate(chains.partition_point(|head| (*head as usize) < node_count));
-    let standings = bytemuck::cast_slice(&standings);
-    Ok(Ranked::from_standings(standings, order, &starts, &chains))
+    Ok(Ranked::from_standings(&standings, order, &starts, &chains))
 }

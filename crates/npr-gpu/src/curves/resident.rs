@@ -2,8 +2,8 @@
 
 use super::CurvesError;
 use super::contours::{Contours, add_contours};
-use super::ranking::{Scheme, read_rows};
-use crate::engine::{Engine, EngineError, PassTime, Session};
+use super::ranking::{Scheme, ranked};
+use crate::engine::{Engine, EngineError, PassTime, Readings, Session};
 use crate::graph::Graph;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_vector::mesh_lines::contour::steps::{Viewer, half_edges, judges};
@@ -80,22 +80,20 @@ impl<'a> ResidentShape<'a> {
     /// [`EngineError`] where the engine fails.
     pub fn contours(&mut self, eye: &Eye) -> Result<EdgeContours, EngineError> {
         self.node_count = 0;
-        let count = self.run(eye)?;
+        let mut read = self.run(eye)?;
+        let count = read.take_count(self.room.contours.node_count);
         if count > self.room.capacity {
             // Counting went on past the room, so once is enough.
             let capacity = count.next_power_of_two();
             self.room = Room::new(self.engine, self.shape, self.scheme, capacity)?;
-            self.run(eye)?;
+            read = self.run(eye)?;
         }
         self.node_count = count;
-        let session = self.room.session.as_mut();
-        let front = session.read(self.room.contours.front)?;
-        let mut words = session.read(self.room.contours.nodes)?;
-        words.truncate(count * size_of::<CurveNode>() / 4);
+        let front = read.take(self.room.contours.front);
         Ok(EdgeContours {
             front: front.iter().map(|front| u8::from(*front != 0)).collect(),
             graph: CurveGraph {
-                nodes: bytemuck::cast_slice(&words).to_vec(),
+                nodes: read.take_first::<CurveNode>(self.room.contours.nodes, count),
             },
         })
     }
@@ -108,10 +106,11 @@ impl<'a> ResidentShape<'a> {
     /// [`CurvesError::Engine`] where the engine fails, [`CurvesError::Rank`] where the rounds of the scheme are too
     /// few.
     pub fn rows(&mut self) -> Result<Ranked, CurvesError> {
-        match &self.room.contours.lists {
-            Some(lists) => read_rows(self.room.session.as_mut(), lists, self.node_count),
-            None => Ok(Ranked::default()),
-        }
+        let Some(lists) = &self.room.contours.lists else {
+            return Ok(Ranked::default());
+        };
+        let mut read = self.room.session.read_all(&lists.results())?;
+        ranked(&mut read, lists, self.node_count)
     }
 
     /// How long each pass of the last view took.
@@ -119,14 +118,17 @@ impl<'a> ResidentShape<'a> {
         &self.times
     }
 
-    /// Runs all passes for an eye; gives the number of nodes, which may be more than there is room for.
-    fn run(&mut self, eye: &Eye) -> Result<usize, EngineError> {
+    /// Runs all passes for an eye; reads the number of nodes, which may be more than there is room for, the nodes, and
+    /// which faces are turned to the eye.
+    fn run(&mut self, eye: &Eye) -> Result<Readings, EngineError> {
         let Room {
             session, contours, ..
         } = &mut self.room;
         session.write(contours.viewer, bytemuck::cast_slice(&[Viewer::from(eye)]))?;
-        self.times = session.run()?;
-        Ok(session.read(contours.node_count)?[0] as usize)
+        let results = [contours.node_count, contours.nodes, contours.front];
+        let (times, read) = session.run_reading(&results)?;
+        self.times = times;
+        Ok(read)
     }
 }
 

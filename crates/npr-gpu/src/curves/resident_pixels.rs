@@ -4,10 +4,9 @@ use super::CurvesError;
 use super::pixels::{
     Hiding, PixelContours, PixelRoom, PixelStrips, add_pixel_contours, add_strips,
 };
-use super::ranking::{Scheme, read_rows};
-use crate::engine::{Engine, PassTime, Session};
-use crate::graph::{Graph, ResourceId};
-use bytemuck::Pod;
+use super::ranking::{Scheme, ranked};
+use crate::engine::{Engine, PassTime, Readings, Session};
+use crate::graph::Graph;
 use npr_core::crease::Creases;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_vector::pixel_strokes::edge::drawn_edges;
@@ -142,10 +141,11 @@ impl<'a> ResidentPixels<'a> {
             let (session, contours) = (made.session.as_mut(), &made.contours);
             contours.write_view(session, on, path, hiders.given())?;
             made.strips.write(session, path)?;
-            let times = session.run()?;
-            let needed = contours.needed(session)?;
+            let results = [&contours.results()[..], &made.strips.results()].concat();
+            let (times, mut read) = session.run_reading(&results)?;
+            let needed = contours.needed(&mut read);
             if made.plan.room.holds(needed) {
-                let found = made.found(view, needed);
+                let found = made.found(view, needed, &mut read);
                 self.times = times;
                 return found;
             }
@@ -205,48 +205,41 @@ impl Made {
         })
     }
 
-    /// Reads what a run found.
-    fn found(&mut self, view: PixelView, count: PixelRoom) -> Result<(Traced, Loops), CurvesError> {
-        // Read the picture and the sides of its pixels in rows.
-        let session = self.session.as_mut();
+    /// What a run found, as it was read.
+    fn found(
+        &self,
+        view: PixelView,
+        count: PixelRoom,
+        read: &mut Readings,
+    ) -> Result<(Traced, Loops), CurvesError> {
+        // Take the picture and the sides of its pixels in rows.
         let (from, strips) = (&self.contours, &self.strips);
-        let ranked = read_rows(session, &from.lists, count.sides)?;
+        let ranked = ranked(read, &from.lists, count.sides)?;
         let traced = Traced {
             size: view.size,
             view,
-            segments: first(session, from.segments, count.segments)?,
-            owners: session.read(from.owners)?,
-            nearest: session.read(from.nearest)?,
-            sides: first(session, from.sides, count.sides)?,
+            segments: read.take_first(from.segments, count.segments),
+            owners: read.take(from.owners),
+            nearest: read.take(from.nearest),
+            sides: read.take_first(from.sides, count.sides),
             standings: standings_of(&ranked),
             order: ranked.order,
         };
 
-        // Read the loops and their strips.
+        // Take the loops and their strips.
         let loops = Loops {
-            spots: first(session, strips.spots, count.sides)?,
-            places: first(session, strips.places, count.sides)?,
-            tangents: first(session, strips.tangents, count.sides)?,
-            directions: first(session, strips.directions, count.sides)?,
-            kept: first(session, strips.kept, count.sides)?,
+            spots: read.take_first(strips.spots, count.sides),
+            places: read.take_first(strips.places, count.sides),
+            tangents: read.take_first(strips.tangents, count.sides),
+            directions: read.take_first(strips.directions, count.sides),
+            kept: read.take_first(strips.kept, count.sides),
             strips: Strips {
-                spots: first(session, strips.strips, count.sides)?,
-                lengths: first(session, strips.lengths, count.sides)?,
+                spots: read.take_first(strips.strips, count.sides),
+                lengths: read.take_first(strips.lengths, count.sides),
             },
         };
         Ok((traced, loops))
     }
-}
-
-/// The first elements of a buffer.
-fn first<T: Pod>(
-    session: &mut dyn Session,
-    id: ResourceId,
-    count: usize,
-) -> Result<Vec<T>, CurvesError> {
-    let mut words = session.read(id)?;
-    words.truncate(count * size_of::<T>() / 4);
-    Ok(bytemuck::cast_slice(&words).to_vec())
 }
 
 /// Draws the lines of a view into a picture on an engine, bit for bit as [`trace`] does.

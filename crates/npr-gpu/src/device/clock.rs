@@ -2,7 +2,6 @@
 
 use super::gpu::Gpu;
 use super::staging::Staging;
-use crate::engine::EngineError;
 use std::time::Duration;
 
 /// Queries for the time stamps of a number of passes.
@@ -10,6 +9,7 @@ use std::time::Duration;
 pub(super) struct Clock {
     queries: wgpu::QuerySet,
     resolved: wgpu::Buffer,
+    staging: Staging,
     pass_count: u32,
     tick_ns: f64,
 }
@@ -39,10 +39,12 @@ impl Clock {
             usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         });
+        let staging = Staging::of_words(&gpu.device, 4 * pass_count as usize);
         let tick_ns = f64::from(gpu.queue.get_timestamp_period());
         Some(Self {
             queries,
             resolved,
+            staging,
             pass_count,
             tick_ns,
         })
@@ -67,34 +69,31 @@ impl Clock {
     }
 
     /// Records the copy of all stamps to where the processor can read them; every pass must have run.
-    pub(super) fn stage(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) -> Staging {
-        let staging = Staging::of_words(&gpu.device, 4 * self.pass_count as usize);
+    pub(super) fn stage(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.resolve_query_set(&self.queries, 0..2 * self.pass_count, &self.resolved, 0);
         encoder.copy_buffer_to_buffer(
             &self.resolved,
             0,
-            &staging.buffer,
+            &self.staging.buffer,
             0,
             16 * u64::from(self.pass_count),
         );
-        staging
     }
 
-    /// How long each pass took.
-    pub(super) fn times(
-        &self,
-        gpu: &Gpu,
-        staging: &Staging,
-        submission: wgpu::SubmissionIndex,
-    ) -> Result<Vec<Duration>, EngineError> {
-        let words = staging.words(gpu, "the clock", submission)?;
+    /// Where the processor reads the stamps.
+    pub(super) fn staging(&self) -> &Staging {
+        &self.staging
+    }
+
+    /// How long each pass took, by the words of all stamps.
+    pub(super) fn times(&self, words: &[u32]) -> Vec<Duration> {
         let stamp = |low: u32, high: u32| u64::from(low) | u64::from(high) << 32;
         let (passes, _) = words.as_chunks::<4>();
         let ticks = passes
             .iter()
             .map(|&[a, b, c, d]| stamp(c, d).saturating_sub(stamp(a, b)));
-        Ok(ticks
+        ticks
             .map(|ticks| Duration::from_nanos((ticks as f64 * self.tick_ns) as u64))
-            .collect())
+            .collect()
     }
 }

@@ -7,7 +7,7 @@ use super::adapter::AdapterSummary;
 use super::watch::{TIME_LIMIT, Watch, one_line};
 use crate::engine::EngineError;
 use npr_core::decoding::guard;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// What sessions share: the device, its queue, and its watch.
 #[derive(Debug)]
@@ -16,6 +16,17 @@ pub(super) struct Gpu {
     pub(super) queue: wgpu::Queue,
     pub(super) adapter: AdapterSummary,
     pub(super) watch: Arc<Watch>,
+    /// How often work was submitted and waited for.
+    pub(super) traffic: Mutex<Traffic>,
+}
+
+/// How often a device was given work, and how often the processor waited for it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Traffic {
+    /// Submissions of commands.
+    pub submits: usize,
+    /// Waits for a submission.
+    pub waits: usize,
 }
 
 impl Gpu {
@@ -27,10 +38,15 @@ impl Gpu {
     /// Waits for a submission, at most [`TIME_LIMIT`].
     pub(super) fn wait(&self, submission: wgpu::SubmissionIndex) -> Result<(), EngineError> {
         self.check()?;
+        self.count(|traffic| traffic.waits += 1);
         self.poll(wgpu::PollType::Wait {
             submission_index: Some(submission),
             timeout: Some(TIME_LIMIT),
         })
+    }
+
+    fn count(&self, change: impl FnOnce(&mut Traffic)) {
+        change(&mut self.traffic.lock().unwrap_or_else(PoisonError::into_inner));
     }
 
     fn poll(&self, kind: wgpu::PollType) -> Result<(), EngineError> {
@@ -59,6 +75,7 @@ impl Gpu {
         place: &str,
         record: impl FnOnce(&mut wgpu::CommandEncoder) -> T,
     ) -> Result<(T, wgpu::SubmissionIndex), EngineError> {
+        self.count(|traffic| traffic.submits += 1);
         self.guarded(place, || {
             let label = wgpu::CommandEncoderDescriptor { label: Some(place) };
             let mut encoder = self.device.create_command_encoder(&label);

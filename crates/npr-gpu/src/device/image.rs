@@ -66,13 +66,13 @@ impl Image {
         );
     }
 
-    /// Records a copy of all texels to where the processor can read them.
-    pub(super) fn stage(
-        &self,
-        device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
-    ) -> Staging {
-        let staging = Staging::of_rows(device, self.size);
+    /// Room for a copy of all texels, which the processor can read.
+    pub(super) fn staging(&self, device: &wgpu::Device) -> Staging {
+        Staging::of_rows(device, self.size)
+    }
+
+    /// Records the copy to such room.
+    pub(super) fn stage(&self, encoder: &mut wgpu::CommandEncoder, staging: &Staging) {
         if self.size[0] > 0 && self.size[1] > 0 {
             let target = wgpu::TexelCopyBufferInfo {
                 buffer: &staging.buffer,
@@ -84,7 +84,6 @@ impl Image {
             };
             encoder.copy_texture_to_buffer(self.corner(0), target, extent(self.size));
         }
-        staging
     }
 
     fn corner(&self, top: u32) -> wgpu::TexelCopyTextureInfo<'_> {

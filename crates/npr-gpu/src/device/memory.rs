@@ -75,20 +75,22 @@ impl Memory {
         }
     }
 
-    /// Records a copy of the first `word_count` words to where the processor can read them.
-    pub(super) fn stage(
-        &self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        word_count: usize,
-    ) -> Staging {
+    /// Room for a copy of the first `word_count` words, which the processor can read.
+    pub(super) fn staging(&self, gpu: &Gpu, word_count: usize) -> Staging {
+        match self {
+            Self::Buffer(_) => Staging::of_words(&gpu.device, word_count),
+            Self::Image(image) => image.staging(&gpu.device),
+        }
+    }
+
+    /// Records the copy to such room.
+    pub(super) fn stage(&self, encoder: &mut wgpu::CommandEncoder, staging: &Staging) {
         match self {
             Self::Buffer(buffer) => {
-                let staging = Staging::of_words(&gpu.device, word_count);
-                encoder.copy_buffer_to_buffer(buffer, 0, &staging.buffer, 0, word_count as u64 * 4);
-                staging
+                let bytes = staging.buffer.size().min(buffer.size());
+                encoder.copy_buffer_to_buffer(buffer, 0, &staging.buffer, 0, bytes);
             }
-            Self::Image(image) => image.stage(&gpu.device, encoder),
+            Self::Image(image) => image.stage(encoder, staging),
         }
     }
 }

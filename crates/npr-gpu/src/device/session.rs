@@ -4,11 +4,13 @@ use super::clock::Clock;
 use super::gpu::Gpu;
 use super::memory::Memory;
 use super::pipeline::{PipelineCache, Stage};
+use super::staging::Staging;
 use super::step::{Extent, Step};
-use crate::engine::{EngineError, PassTime, Session};
+use crate::engine::{EngineError, PassTime, Readings, Session};
 use crate::graph::{Graph, Node, ResourceId, WorkSize};
 use crate::pass::Format;
 use npr_vector::rank::work::Arguments;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -23,6 +25,10 @@ pub(super) struct DeviceSession {
     memory: Vec<Memory>,
     steps: Vec<Step>,
     clock: Option<Clock>,
+    /// Whether every pass is submitted and waited for alone, so that its wall time is its own.
+    times_apart: bool,
+    /// Memory that resources are copied to before they are read, kept from run to run.
+    stagings: BTreeMap<ResourceId, Staging>,
 }
 
 impl DeviceSession {
@@ -31,6 +37,7 @@ impl DeviceSession {
         gpu: Arc<Gpu>,
         pipelines: &PipelineCache,
         graph: Graph,
+        times_apart: bool,
     ) -> Result<Self, EngineError> {
         // Take memory, marked where it holds the size of later passes.
         gpu.check()?;
@@ -62,7 +69,49 @@ impl DeviceSession {
             memory,
             steps,
             clock,
+            times_apart,
+            stagings: BTreeMap::new(),
         })
+    }
+
+    /// Makes room for copies of resources, where it was not made before.
+    fn make_room(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {
+        for id in ids {
+            if !self.stagings.contains_key(id) {
+                let resource = self.graph.resource(*id);
+                let memory = &self.memory[id.index()];
+                let make = || memory.staging(&self.gpu, resource.word_count());
+                let made = self.gpu.guarded(resource.name, make)?;
+                self.stagings.insert(*id, made);
+            }
+        }
+        Ok(())
+    }
+
+    /// Records the copies of resources.
+    fn stage(&self, encoder: &mut wgpu::CommandEncoder, ids: &[ResourceId]) {
+        for id in ids {
+            self.memory[id.index()].stage(encoder, &self.stagings[id]);
+        }
+    }
+
+    /// The room that each resource is copied to.
+    fn rooms(&self, ids: &[ResourceId]) -> impl Iterator<Item = &Staging> {
+        ids.iter().map(|id| &self.stagings[id])
+    }
+
+    /// Runs every node alone, and waits for each.
+    fn run_apart(&self) -> Result<Vec<PassTime>, EngineError> {
+        let times = (0..).zip(&self.steps).map(|(number, step)| {
+            let start = Instant::now();
+            let place = self.graph.nodes()[step.node].pass.name;
+            let record = |encoder: &mut _| self.record(encoder, number, step);
+            let ((), submission) = self.gpu.submit(place, record)?;
+            self.gpu.wait(submission)?;
+            Ok(start.elapsed())
+        });
+        let times: Vec<_> = times.collect::<Result<_, EngineError>>()?;
+        Ok(self.node_times(&times))
     }
 
     fn record(&self, encoder: &mut wgpu::CommandEncoder, number: u32, step: &Step) {
@@ -174,36 +223,55 @@ impl Session for DeviceSession {
         })
     }
 
-    /// Runs every node once.
+    /// Runs every node once, and reads resources, in one submission.
     ///
-    /// Where the device has no clock, the times are one entry named `device`: the wall time until all passes were done.
-    fn run(&mut self) -> Result<Vec<PassTime>, EngineError> {
+    /// Where the device has no clock, the times are one entry named `device`: the wall time until all was done.
+    fn run_reading(
+        &mut self,
+        ids: &[ResourceId],
+    ) -> Result<(Vec<PassTime>, Readings), EngineError> {
         self.gpu.check()?;
+        if self.times_apart {
+            return Ok((self.run_apart()?, self.read_all(ids)?));
+        }
+
+        // Submit all passes with the copies of what is read.
+        self.make_room(ids)?;
         let start = Instant::now();
-        let (stamps, submission) = self.gpu.submit("the submission of a frame", |encoder| {
+        let ((), submission) = self.gpu.submit("the submission of a frame", |encoder| {
             for (number, step) in (0..).zip(&self.steps) {
                 self.record(encoder, number, step);
             }
-            let clock = self.clock.as_ref()?;
-            Some((clock, clock.stage(&self.gpu, encoder)))
+            if let Some(clock) = &self.clock {
+                clock.stage(encoder);
+            }
+            self.stage(encoder, ids);
         })?;
-        if let Some((clock, staging)) = stamps {
-            return Ok(self.node_times(&clock.times(&self.gpu, &staging, submission)?));
-        }
-        self.gpu.wait(submission)?;
-        Ok(vec![PassTime {
-            name: ALL_PASSES,
-            time: start.elapsed(),
-        }])
+
+        // Wait once for all of it.
+        let stamps = self.clock.iter().map(Clock::staging);
+        let rooms = self.rooms(ids).chain(stamps);
+        let mut words = Staging::words_of(&self.gpu, rooms, submission)?;
+        let times = match &self.clock {
+            Some(clock) => self.node_times(&clock.times(&words.pop().unwrap_or_default())),
+            None => vec![PassTime {
+                name: ALL_PASSES,
+                time: start.elapsed(),
+            }],
+        };
+        Ok((times, ids.iter().copied().zip(words).collect()))
     }
 
-    fn read(&mut self, id: ResourceId) -> Result<Vec<u32>, EngineError> {
+    fn read_all(&mut self, ids: &[ResourceId]) -> Result<Readings, EngineError> {
         self.gpu.check()?;
-        let resource = self.graph.resource(id);
-        let (staging, submission) = self.gpu.submit(resource.name, |encoder| {
-            self.memory[id.index()].stage(&self.gpu, encoder, resource.word_count())
-        })?;
-        staging.words(&self.gpu, resource.name, submission)
+        self.make_room(ids)?;
+        let place = ids
+            .first()
+            .map_or("nothing", |id| self.graph.resource(*id).name);
+        let record = |encoder: &mut _| self.stage(encoder, ids);
+        let ((), submission) = self.gpu.submit(place, record)?;
+        let words = Staging::words_of(&self.gpu, self.rooms(ids), submission)?;
+        Ok(ids.iter().copied().zip(words).collect())
     }
 }
 

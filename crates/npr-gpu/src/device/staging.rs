@@ -5,6 +5,9 @@ use super::watch::TIME_LIMIT;
 use crate::engine::EngineError;
 use std::sync::mpsc;
 
+/// What a message calls the copying of results.
+const READING: &str = "the reading of results";
+
 /// A mappable buffer with rows of words, each padded as copies from images demand.
 #[derive(Debug)]
 pub(super) struct Staging {
@@ -45,47 +48,52 @@ impl Staging {
         }
     }
 
-    /// The words, once `submission` has filled them.
-    pub(super) fn words(
-        &self,
+    /// The words of several, once `submission` has filled them; waits once for all.
+    pub(super) fn words_of<'a>(
         gpu: &Gpu,
-        place: &str,
+        stagings: impl Iterator<Item = &'a Self>,
         submission: wgpu::SubmissionIndex,
-    ) -> Result<Vec<u32>, EngineError> {
-        self.map(gpu, place, submission)?;
-        let view = self
-            .buffer
-            .slice(..)
-            .get_mapped_range()
-            .map_err(|error| gpu.failed(place, &error))?;
-        let mut words = Vec::with_capacity(self.row_words * self.row_count);
-        for row in view.chunks(self.row_bytes.max(1)).take(self.row_count) {
-            let (row, _) = row[..self.row_words * 4].as_chunks();
-            words.extend(row.iter().map(|bytes| u32::from_le_bytes(*bytes)));
-        }
-        Ok(words)
+    ) -> Result<Vec<Vec<u32>>, EngineError> {
+        // Ask for all of them, then wait.
+        let asked = stagings.map(|staging| {
+            let (sender, receiver) = mpsc::channel();
+            gpu.guarded(READING, || {
+                let tell = move |result| drop(sender.send(result));
+                staging.buffer.map_async(wgpu::MapMode::Read, .., tell);
+            })?;
+            Ok((staging, receiver))
+        });
+        let asked: Vec<_> = asked.collect::<Result<_, EngineError>>()?;
+        gpu.wait(submission)?;
+
+        // Copy what came. Another thread that waits for its own work may be the one that runs the callback, a little
+        // later.
+        let words =
+            asked.into_iter().map(
+                |(staging, receiver)| match receiver.recv_timeout(TIME_LIMIT) {
+                    Ok(Ok(())) => staging.copied(gpu),
+                    Ok(Err(error)) => Err(gpu.failed(READING, &error)),
+                    Err(error) => Err(gpu.failed(READING, &error)),
+                },
+            );
+        words.collect()
     }
 
-    /// Waits until the processor may read.
-    fn map(
-        &self,
-        gpu: &Gpu,
-        place: &str,
-        submission: wgpu::SubmissionIndex,
-    ) -> Result<(), EngineError> {
-        let (sender, receiver) = mpsc::channel();
-        gpu.guarded(place, || {
-            self.buffer
-                .map_async(wgpu::MapMode::Read, .., move |result| {
-                    drop(sender.send(result))
-                });
-        })?;
-        gpu.wait(submission)?;
-        // Another thread that waits for its own work may be the one that runs the callback, a little later.
-        match receiver.recv_timeout(TIME_LIMIT) {
-            Ok(Ok(())) => Ok(()),
-            Ok(Err(error)) => Err(gpu.failed(place, &error)),
-            Err(error) => Err(gpu.failed(place, &error)),
+    /// The words of the buffer, which the processor may read until this returns.
+    fn copied(&self, gpu: &Gpu) -> Result<Vec<u32>, EngineError> {
+        let mut words = Vec::with_capacity(self.row_words * self.row_count);
+        {
+            let view = self
+                .buffer
+                .slice(..)
+                .get_mapped_range()
+                .map_err(|error| gpu.failed(READING, &error))?;
+            for row in view.chunks(self.row_bytes.max(1)).take(self.row_count) {
+                let (row, _) = row[..self.row_words * 4].as_chunks();
+                words.extend(row.iter().map(|bytes| u32::from_le_bytes(*bytes)));
+            }
         }
+        self.buffer.unmap();
+        Ok(words)
     }
 }

@@ -1,6 +1,6 @@
 //! Passes that find lines on images and draw them on shapes.
 
-use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
+use crate::pass::{Agreement, Features, Format, Pass, Work, read, texture, uniform, write};
 use npr_core::geometry::{Edge, GPixel, Part, PosedVertex, Stamp, Triangle, Vertex};
 use npr_core::line_color::{LineTint, LineTints};
 use npr_core::outline::Outline;
@@ -147,7 +147,7 @@ pub const DRAW_RIBBONS: Pass = Pass {
         read::<u32>("kinds"),
         read::<GPixel>("gbuffer"),
         read::<u32>("mask"),
-        read::<LineTint>("tints"),
+        read::<LineTint>("tints").serving(Features::TINTS),
     ],
     work: Work::Draw {
         of: "edges",
@@ -248,7 +248,7 @@ pub const STAMP_RESIDUAL: Pass = Pass {
         read::<Part>("parts"),
         read::<Stamp>("stamps"),
         read::<u32>("tiles"),
-        read::<LineTint>("tints"),
+        read::<LineTint>("tints").serving(Features::TINTS),
         write::<u32>("stamped"),
     ],
     work: Work::PerElement { of: "stamped" },

@@ -3,7 +3,7 @@
 use crate::shapes::{eyes, shape_from};
 use crate::shared;
 use npr_gpu::curves::{ResidentShape, Scheme};
-use npr_gpu::engine::{Engine, EngineError, PassTime, Session};
+use npr_gpu::engine::{Engine, EngineError, PassTime, Readings, Session};
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::processor::Processor;
 use npr_mesh::half_edge::HalfEdgeMesh;
@@ -229,11 +229,14 @@ impl Session for CountingSession {
         self.session.write(id, words)
     }
 
-    fn run(&mut self) -> Result<Vec<PassTime>, EngineError> {
-        self.session.run()
+    fn run_reading(
+        &mut self,
+        ids: &[ResourceId],
+    ) -> Result<(Vec<PassTime>, Readings), EngineError> {
+        self.session.run_reading(ids)
     }
 
-    fn read(&mut self, id: ResourceId) -> Result<Vec<u32>, EngineError> {
-        self.session.read(id)
+    fn read_all(&mut self, ids: &[ResourceId]) -> Result<Readings, EngineError> {
+        self.session.read_all(ids)
     }
 }

@@ -340,12 +340,11 @@ pub fn compose(look: Look, scene: &Scene) -> Compose {
         near_world: [0.6, 0.0, 0.8],
         radius: 1.7,
         center_world: [0.1, 0.0, 0.0],
-        background: [0.2, 0.3, 0.5, 0.5],
         line_color: [0.3, 0.0, 0.0, 0.7],
         background_texture,
         flags,
         saturation: 1.2,
-        ..Compose::default()
+        ..Compose::before([0.2, 0.3, 0.5, 0.5])
     }
 }
 

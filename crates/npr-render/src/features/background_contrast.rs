@@ -7,7 +7,7 @@ use crate::frame_graph::{FrameGraph, Grids, Layers, size_if, write};
 use crate::part_info::PartInfo;
 use npr_core::color::{linear_from_srgb, linear_rgba, srgb_from_linear, unpack_rgba8};
 use npr_core::window::{View, Window};
-use npr_gpu::engine::{EngineError, Session};
+use npr_gpu::engine::{EngineError, Readings, Session};
 use npr_gpu::graph::ResourceId;
 use npr_gpu::pass::Format;
 use npr_gpu::passes::backdrop;
@@ -319,21 +319,25 @@ impl ContrastPasses {
         write(session, borders.tile_window, &[window])
     }
 
-    /// Reads both sides of a tile, and lets `paste` copy the kept part of each into that of the frame.
-    pub fn read_sides(
+    /// The pictures of both sides, to be read.
+    pub fn sides(&self) -> [ResourceId; 2] {
+        self.sides
+    }
+
+    /// Takes both sides of a tile, and lets `paste` copy the kept part of each into that of the frame.
+    pub fn take_sides(
         &self,
-        session: &mut dyn Session,
+        read: &mut Readings,
         sides: &mut Sides,
         paste: impl Fn(&mut Frame, &[u32]),
-    ) -> Result<(), EngineError> {
+    ) {
         for (id, picture) in self
             .sides
             .into_iter()
             .zip([&mut sides.fronts, &mut sides.backs])
         {
-            paste(picture, &session.read(id)?);
+            paste(picture, &read.take(id));
         }
-        Ok(())
     }
 }
 

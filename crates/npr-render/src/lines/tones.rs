@@ -78,8 +78,8 @@ impl ToneMap {
             let corner = tiles.corner_px(origin);
             let over = Window::over(moment.view.frame_px, corner, extent, measure.size);
             write(session.as_mut(), window, &[over])?;
-            session.run()?;
-            let (ids, tones) = (session.read(passes.ids)?, session.read(passes.tones)?);
+            let (_, mut read) = session.run_reading(&[passes.ids, passes.tones])?;
+            let (ids, tones) = (read.take(passes.ids), read.take(passes.tones));
             let tone_of = |(id, tone): (&u32, &u32)| match id {
                 0 => f32::NAN,
                 _ => f32::from_bits(*tone),

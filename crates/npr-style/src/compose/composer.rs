@@ -20,12 +20,12 @@ pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
     // Find once what pixels share: the plain background.
     let encoder = SrgbEncoder::new();
     let width = layers.window.size[0] as usize;
-    let empty = layers.empty_texel(&encoder);
+    let is_plain = layers.compose.background_texture == NONE;
+    let empty = is_plain.then_some(layers.compose.background_texel);
     let new = || Composer {
         layers,
         encoder: &encoder,
         empty,
-        last: (0, 0),
         near: None,
         contrast_cache: ContrastCache::default(),
     };
@@ -64,8 +64,6 @@ struct Composer<'a> {
     encoder: &'a SrgbEncoder,
     /// A pixel that shows nothing but a plain background.
     empty: Option<u32>,
-    /// The last triangle number whose one colour filled a pixel, and that pixel.
-    last: (u32, u32),
     /// The last shaded triangle and its corners: mostly that of the next pixel too.
     near: Option<(u32, Corners<'a>)>,
     contrast_cache: ContrastCache,
@@ -141,14 +139,12 @@ impl<'a> Composer<'a> {
     }
 
     /// The pixel that one triangle number fills, if it has one colour.
-    fn even_texel(&mut self, id: u32) -> Option<u32> {
-        if id == 0 {
-            return self.empty;
+    fn even_texel(&self, id: u32) -> Option<u32> {
+        match id {
+            0 => self.empty,
+            _ if id & HULL_BIT != 0 => None,
+            _ => self.layers.known[(id - 1) as usize].texel(),
         }
-        if self.last.0 != id {
-            self.last = (id, encoded(self.encoder, self.even_color(id)?));
-        }
-        Some(self.last.1)
     }
 
     /// Colour of a triangle that has one colour all over.
@@ -258,7 +254,7 @@ impl<'a> Composer<'a> {
 
 /// Premultiplied linear light as sRGB bytes with straight alpha.
 #[inline]
-fn encoded(encoder: &SrgbEncoder, [r, g, b, a]: [f32; 4]) -> u32 {
+pub fn encoded(encoder: &SrgbEncoder, [r, g, b, a]: [f32; 4]) -> u32 {
     let scale = a.max(1e-6);
     let [r, g, b] = if scale == 1.0 {
         [r, g, b]
@@ -284,12 +280,6 @@ fn over(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
 }
 
 impl Layers<'_> {
-    /// A pixel that shows only the background, if that has one colour.
-    fn empty_texel(&self, encoder: &SrgbEncoder) -> Option<u32> {
-        (self.compose.background_texture == NONE)
-            .then(|| encoded(encoder, self.background([0.0; 2])))
-    }
-
     /// Whether some pixels of a row, which hold `overlay`, show nothing but the background.
     fn is_bare(&self, run: Range<usize>, y: usize, overlay: &[u32]) -> bool {
         // Check whole runs of texels for 0, without a branch for each.

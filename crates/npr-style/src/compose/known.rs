@@ -3,10 +3,11 @@
 //! The twin of `shade.know_triangles`. It changes no picture: a constant of a triangle is what shading would find at
 //! each of its pixels.
 
-use super::Layers;
+use super::{Layers, encoded};
 use crate::corners::Corners;
 use crate::tone::inked;
 use crate::triangle_constants::TriangleConstants;
+use npr_core::color::SrgbEncoder;
 use npr_core::geometry::{NONE, Part, Triangle};
 use rayon::prelude::*;
 
@@ -16,12 +17,13 @@ use rayon::prelude::*;
 pub fn know_triangles(layers: &Layers<'_>, known: &mut [TriangleConstants]) {
     let triangles = layers.triangles.par_iter().with_min_len(1024);
     let pairs = known.par_iter_mut().zip(triangles);
-    pairs.for_each(|(known, triangle)| *known = layers.known(triangle));
+    let encoder = SrgbEncoder::new();
+    pairs.for_each(|(known, triangle)| *known = layers.known(triangle, &encoder));
 }
 
 impl Layers<'_> {
     /// The constants of a triangle; empty if only its back is seen and that is not drawn.
-    fn known(&self, triangle: &Triangle) -> TriangleConstants {
+    fn known(&self, triangle: &Triangle, encoder: &SrgbEncoder) -> TriangleConstants {
         // Leave out backs that nobody sees.
         let part = &self.parts[triangle.part as usize];
         let corners = self.corners_of(triangle);
@@ -58,7 +60,8 @@ impl Layers<'_> {
         // Lay the ink over them if nothing else is left to find.
         if let (Some(ink), true) = (ink, is_plain && known.is_even() && is_matt) {
             known.color = inked(part, known.color, ink);
-            known.learn(TriangleConstants::WHOLE, true);
+            let [r, g, b] = known.color;
+            known.complete(encoded(encoder, [r, g, b, 1.0]));
         }
         known
     }
@@ -161,7 +164,7 @@ mod tests {
                 posed: &posed, vertices: &vertices, triangles: &triangles, parts: &parts, texels: store.words(),
                 ..Layers::empty(&view, &window, &compose, &lights, &rules)
             };
-            let known = layers.known(&triangles[0]);
+            let known = layers.known(&triangles[0], &SrgbEncoder::new());
             let corners = layers.corners_of(&triangles[0]);
             let shade = |known: &TriangleConstants| {
                 let contrast_cache = &mut ContrastCache::default();
