@@ -2,6 +2,7 @@
 
 //# use lib/samples
 //# use lib/four
+//# use lib/beam_ids
 
 fn beam_color(part: u32, t: f32) -> vec4<f32> {
     let half = parts[part].softness * 0.5;
@@ -17,7 +18,7 @@ fn beam_color(part: u32, t: f32) -> vec4<f32> {
 
 // T = E . N of a beam, 0 at its rim and 1 in its middle.
 fn beam_place(id: u32, frame_px: vec2<f32>) -> f32 {
-    let corners = corners_of(triangles[(id & ID_MASK) - 1u]);
+    let corners = corners_of(triangle_of(triangles[(id & ID_MASK) - 1u]));
     let weights = weights_at(corners.clip, ndc_at(view, frame_px));
     return clamp(dot(normal_of(corners, weights), to_eye(view, world_of(corners, weights))), 0.0, 1.0);
 }
@@ -35,21 +36,6 @@ struct Beams {
     color: vec4<f32>,
     // How much of its lines they cover.
     covered: f32,
-}
-
-// The beams in the samples of a pixel, plus one; 0 where there are none.
-fn beams_at(pixel: vec2<u32>) -> vec4<u32> {
-    var here = vec4<u32>(0u);
-    if (compose.flags & COMPOSE_BEAMS) == 0u { return here; }
-    for (var i = 0u; i < sample_count(); i++) {
-        let at = pixel * compose.samples + vec2<u32>(i & 1u, i >> 1u);
-        here = with_number(here, i, textureLoad(beam_ids, at, 0).x);
-    }
-    return here;
-}
-
-fn has_beams(pixel: vec2<u32>) -> bool {
-    return any(beams_at(pixel) != vec4<u32>(0u));
 }
 
 // Lays the beams over a pixel's surfaces.

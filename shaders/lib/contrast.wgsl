@@ -3,11 +3,6 @@
 
 //# use lib/adapt
 
-// Whether a picture without lines leaves a pixel out: nothing needs the colours of its tile.
-fn is_left_out(pixel: vec2<u32>) -> bool {
-    return (compose.flags & COMPOSE_BARE) != 0u && textureLoad(fronts, pixel / BORDER_TILE, 0).a == 0.0;
-}
-
 // The colour of a line, adapted to what lies behind it at a pixel.
 fn contrasted(line: vec3<f32>, frame_px: vec2<f32>) -> vec3<f32> {
     if (compose.flags & COMPOSE_BACKDROP) == 0u { return line; }

@@ -1,4 +1,4 @@
-// Values of the four samples of a pixel, as vectors. What is indexed by a variable lies in memory, which is slow: none of
+// Values of the four samples of a pixel, as vectors. What a variable indexes lies in memory, which is slow: none of
 // these is.
 
 // The bits of a set of samples.

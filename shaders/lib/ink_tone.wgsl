@@ -5,9 +5,6 @@
 // Hatch luminance that stands for the hatch where there is none.
 const NO_HATCH: f32 = 0.5;
 // Least luminance of the shade ramp on a surface with hatch but no ink, above half the threshold.
-
-//# use lib/paint
-//# use lib/four
 const OPEN_PAPER: f32 = 0.08;
 
 fn shade_level(x: f32, dark_at: f32, light_at: f32) -> f32 {

@@ -149,7 +149,7 @@ fn place_in_hatch(id: u32, part: u32, weights: array<vec3<f32>, 3>, places: arra
                 let chart = charts[index];
                 raw = chart.a * w.x + chart.b * w.y + chart.c * w.z;
             } else {
-                raw = uv_at(triangles[index], w);
+                raw = uv_at(triangle_of(triangles[index]), w);
             }
         }
         let turn = parts[part].turn;

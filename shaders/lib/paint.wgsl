@@ -27,7 +27,7 @@ fn painted_level(l: f32, white: f32, threshold: f32) -> f32 {
 // not count.
 fn paint_at(id: u32, part: u32, weights: array<vec3<f32>, 3>) -> array<f32, 3> {
     if (parts[part].flags & PART_PAINTED) == 0u { return array<f32, 3>(1.0, 1.0, 1.0); }
-    let triangle = triangles[(id & ID_MASK) - 1u];
+    let triangle = triangle_of(triangles[(id & ID_MASK) - 1u]);
     let paint = linear_texel(parts[part].paint_color);
     var uvs: array<vec2<f32>, 3>;
     for (var i = 0u; i < 3u; i++) { uvs[i] = uv_at(triangle, weights[i]); }

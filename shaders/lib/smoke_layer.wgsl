@@ -3,9 +3,8 @@
 
 //# use lib/samples
 //# use lib/four
+//# use lib/smoke_cover
 //# use lib/smoke_pen
-
-const SMOKE_LAYER_MASK: u32 = 15u;
 
 // Smoke over a pixel.
 struct SmokeLayer {
@@ -15,11 +14,6 @@ struct SmokeLayer {
     mask: u32,
     // Share of the surface or background that it hides in each sample.
     hidden: vec4<f32>,
-}
-
-// Whether smoke covers any sample of a pixel.
-fn has_smoke(pixel: vec2<u32>) -> bool {
-    return (compose.flags & COMPOSE_SMOKE) != 0u && (textureLoad(smoke_depths, pixel, 0).x & SMOKE_LAYER_MASK) != 0u;
 }
 
 fn smoke_layer_of(pixel: vec2<u32>, frame_px: vec2<f32>) -> SmokeLayer {

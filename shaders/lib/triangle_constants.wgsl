@@ -1,6 +1,9 @@
 // What is the same all over a triangle. Twin: npr_style::triangle_constants.
 
 struct TriangleConstants {
+    // The triangle itself.
+    corners: vec3<u32>,
+    part: u32,
     // Linear light: the colour of the surface, or the light on it, or their product if both are known; with the ink
     // over it if KNOWN_WHOLE is set.
     color: vec3<f32>,
@@ -27,4 +30,9 @@ fn learned(bit: u32, is_so: bool) -> u32 {
 fn known_ink(known: TriangleConstants) -> f32 {
     if (known.bits & KNOWN_BARE) != 0u { return 0.0; }
     return select(-1.0, 1.0, (known.bits & KNOWN_SOLID) != 0u);
+}
+
+// The triangle that constants belong to.
+fn triangle_of(constants: TriangleConstants) -> Triangle {
+    return Triangle(constants.corners, constants.part);
 }

@@ -27,11 +27,11 @@ override WG: u32 = 64u;
 @group(0) @binding(6) var ribbons: texture_2d<f32>;
 @group(0) @binding(7) var<storage, read> posed: array<PosedVertex>;
 @group(0) @binding(8) var<storage, read> vertices: array<Vertex>;
-@group(0) @binding(9) var<storage, read> triangles: array<Triangle>;
+@group(0) @binding(9) var<storage, read> triangles: array<TriangleConstants>;
 @group(0) @binding(10) var<storage, read> parts: array<Part>;
 @group(0) @binding(11) var<storage, read> texels: array<u32>;
 @group(0) @binding(12) var<storage, read> charts: array<ChartCorners>;
-@group(0) @binding(13) var<storage, read> known: array<TriangleConstants>;
+@group(0) @binding(13) var<storage, read> list: array<u32>;
 @group(0) @binding(14) var<storage, read_write> frame: array<u32>;
 @group(0) @binding(15) var shadow_0: texture_2d<u32>;
 @group(0) @binding(16) var shadow_1: texture_2d<u32>;
@@ -94,7 +94,7 @@ fn middle_of(members: u32, frame_px: vec2<f32>) -> vec2<f32> {
 
 // Light of the samples in `members`, which show a triangle or its hull.
 fn shade(id: u32, constants: TriangleConstants, members: u32, frame_px: vec2<f32>) -> vec3<f32> {
-    let triangle = triangles[(id & ID_MASK) - 1u];
+    let triangle = triangle_of(constants);
     let corners = corners_of(triangle);
     let is_hull = is_of_hull(id);
     var drawn: Drawn;
@@ -210,7 +210,7 @@ fn surfaces(pixel: vec2<u32>, smoke_layer: SmokeLayer, frame_px: vec2<f32>) -> v
         left &= ~bits_of(members);
         let share = sum_over(bare, members) / f32(sample_count());
         // Shade it where its colour is not known whole.
-        let constants = known[(id & ID_MASK) - 1u];
+        let constants = triangles[(id & ID_MASK) - 1u];
         var light = constants.color;
         if (constants.bits & KNOWN_WHOLE) == 0u || is_of_hull(id) {
             light = shade(id, constants, bits_of(members), frame_px);
@@ -240,30 +240,6 @@ fn over(top: vec4<f32>, below: vec4<f32>) -> vec4<f32> {
     return vec4<f32>(top.rgb * top.a, top.a) + below * (1.0 - top.a);
 }
 
-// What a pixel shows, if its samples show one colour that is known and nothing lies over them.
-struct Uniform {
-    is_so: bool,
-    texel: u32,
-}
-
-fn uniform_texel(pixel: vec2<u32>, element: u32) -> Uniform {
-    let seen = ids_at(pixel);
-    let id = seen.x;
-    var shown: Uniform;
-    if compose.samples > 1u && any(seen != vec4<u32>(id)) { return shown; }
-    let lined = (ribbon_texel(pixel) | overlay_texel(element)) >> 24u;
-    if lined != 0u || is_of_hull(id) || has_smoke(pixel) || has_beams(pixel) { return shown; }
-    if id == 0u {
-        shown.is_so = compose.background_texture == NONE;
-        shown.texel = compose.background_texel;
-        return shown;
-    }
-    let bits = known[id - 1u].bits;
-    shown.is_so = (bits & KNOWN_WHOLE) != 0u;
-    shown.texel = (bits >> KNOWN_BYTES) | 0xff000000u;
-    return shown;
-}
-
 // What a pixel shows as sRGB bytes with straight alpha: surfaces, smoke over them, the background behind, beams, lines.
 fn composed(pixel: vec2<u32>, element: u32) -> u32 {
     let frame_px = frame_at(window, pixel);
@@ -287,25 +263,16 @@ fn composed(pixel: vec2<u32>, element: u32) -> u32 {
     return encoded(color);
 }
 
-// One invocation per output pixel.
+// One invocation per listed pixel.
 @compute @workgroup_size(WG)
 fn main(
     @builtin(workgroup_id) wid: vec3<u32>,
     @builtin(num_workgroups) nwg: vec3<u32>,
     @builtin(local_invocation_id) lid: vec3<u32>,
 ) {
-    let element = element_index(wid, nwg, lid, WG);
-    if element >= arrayLength(&frame) { return; }
+    let listed = element_index(wid, nwg, lid, WG);
+    if listed >= min(list[0], arrayLength(&list) - 1u) { return; }
 
-    let pixel = pixel_of(element, window.size);
-    if is_left_out(pixel) {
-        frame[element] = 0u;
-        return;
-    }
-    let shown = uniform_texel(pixel, element);
-    var texel = shown.texel;
-    if !shown.is_so {
-        texel = composed(pixel, element);
-    }
-    frame[element] = texel;
+    let element = list[listed + 1u];
+    frame[element] = composed(pixel_of(element, window.size), element);
 }

@@ -77,6 +77,8 @@ fn is_white(vertex: u32) -> bool {
 // The constants of a triangle; empty if only its back is seen and that is not drawn.
 fn constants_of(triangle: Triangle) -> TriangleConstants {
     var constants: TriangleConstants;
+    constants.corners = triangle.corners;
+    constants.part = triangle.part;
     let part = triangle.part;
     let corners = corners_of(triangle);
     if corners.side < 0.0 && (parts[part].flags & PART_DOUBLE_SIDED) == 0u { return constants; }

@@ -196,6 +196,8 @@ shaders! {
     SMOKE_RESOLVE_PICTURE = "smoke/resolve_picture";
     /// Finds what is the same all over each triangle.
     SHADE_KNOW_TRIANGLES = "shade/know_triangles";
+    /// Fills pixels of one known colour, and lists the others.
+    SHADE_FILL_FRAME = "shade/fill_frame";
     /// Shades surfaces and lays lines over them.
     SHADE_COMPOSE_FRAME = "shade/compose_frame";
 }

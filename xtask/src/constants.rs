@@ -93,7 +93,7 @@ const TWINS: &[Twins] = &[
     twins("lib/stretch.wgsl", "UNLIKE_WALLS", "npr-style/src/backdrop/gather.rs", "UNLIKE"),
     twins("lib/texture.wgsl", "", "npr-core/src/texture.rs", ""),
     twins("lib/tone_row.wgsl", "", "npr-style/src/tone_row.rs", ""),
-    twins("lib/smoke_layer.wgsl", "SMOKE_LAYER_", "npr-style/src/smoke/resolve.rs", ""),
+    twins("lib/smoke_cover.wgsl", "SMOKE_LAYER_", "npr-style/src/smoke/resolve.rs", ""),
     twins("line/color_mask.wgsl", "", "npr-style/src/line_color.rs", ""),
     twins("line/detect.wgsl", "", "npr-vector/src/screen/detect.rs", ""),
     twins("line/draw_ribbons.wgsl", "", "npr-vector/src/screen/ribbon.rs", ""),

@@ -1,6 +1,6 @@
 //! A frame as data: resources, and the passes that fill them in order.
 
-use crate::pass::{Access, Format, Pass};
+use crate::pass::{Access, Format, Pass, Work};
 use bytemuck::NoUninit;
 use npr_core::layout::GpuLayout;
 use npr_shaders::Features;
@@ -250,9 +250,10 @@ impl Graph {
         for (slot, id) in slots.iter().zip(&node.bound) {
             let fits = match (self.resource(*id).kind, slot.access) {
                 (Kind::Uniform { size }, Access::Uniform) => size == slot.element.size,
-                (Kind::Buffer { stride, .. }, Access::Read | Access::Write | Access::Update) => {
-                    stride == slot.element.size
-                }
+                (
+                    Kind::Buffer { stride, .. },
+                    Access::Read | Access::Write | Access::Update | Access::Append,
+                ) => stride == slot.element.size,
                 (Kind::Image { format, .. }, Access::Texture(wanted)) => format == wanted,
                 _ => false,
             };
@@ -349,7 +350,11 @@ impl Graph {
 
     /// The number of work items that a node has room for: elements, or texels where an image is counted.
     pub fn work_count(&self, node: &Node) -> usize {
-        self.element_count(node.bound[node.pass.counted_slot()])
+        let count = self.element_count(node.bound[node.pass.counted_slot()]);
+        match node.pass.work {
+            Work::PerListed { .. } => count.saturating_sub(1),
+            _ => count,
+        }
     }
 
     /// Bytes of all resources together.
@@ -359,6 +364,14 @@ impl Graph {
             .map(|resource| resource.word_count() as u64 * 4)
             .sum()
     }
+}
+
+/// The lists that a node appends to.
+pub(crate) fn lists(node: &Node) -> impl Iterator<Item = ResourceId> + '_ {
+    let slots = node.pass.slots.iter().zip(&node.bound);
+    slots
+        .filter(|(slot, _)| slot.access == Access::Append)
+        .map(|(_, id)| *id)
 }
 
 /// The resources that a node writes.

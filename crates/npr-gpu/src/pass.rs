@@ -33,6 +33,11 @@ pub enum Work {
         /// The slot that is counted.
         of: &'static str,
     },
+    /// One invocation of `main` per element of a list, which begins with their number.
+    PerListed {
+        /// The slot that holds the list.
+        of: &'static str,
+    },
     /// Triangles without vertex buffers: entry points `vertex` and `fragment`.
     Draw {
         /// The slot that is counted.
@@ -69,6 +74,8 @@ pub struct Slot {
     pub element: Element,
     /// The features without any of which a device leaves it out.
     pub serves: Features,
+    /// Whether the twin alone reads it: a device finds the same in another slot.
+    pub is_for_twin: bool,
 }
 
 impl Slot {
@@ -81,9 +88,18 @@ impl Slot {
         }
     }
 
+    /// The same slot for the twin alone; slots of this kind are the last ones.
+    #[must_use]
+    pub const fn for_twin(self) -> Self {
+        Self {
+            is_for_twin: true,
+            ..self
+        }
+    }
+
     /// Whether a shader for `features` binds it.
     pub fn is_bound_for(&self, features: Features) -> bool {
-        self.serves == Features::NONE || features.meets(self.serves)
+        !self.is_for_twin && (self.serves == Features::NONE || features.meets(self.serves))
     }
 }
 
@@ -98,6 +114,9 @@ pub enum Access {
     Write,
     /// An array in a storage buffer whose elements are read and then written anew.
     Update,
+    /// A list in a storage buffer that invocations append to: the number of its elements, which is 0 before the pass,
+    /// then the elements in any order.
+    Append,
     /// An image whose texels are loaded.
     Texture(Format),
 }
@@ -105,7 +124,7 @@ pub enum Access {
 impl Access {
     /// Whether the pass changes what the slot binds.
     pub fn writes(self) -> bool {
-        matches!(self, Self::Write | Self::Update)
+        matches!(self, Self::Write | Self::Update | Self::Append)
     }
 }
 
@@ -156,6 +175,7 @@ pub const fn uniform<T: GpuLayout>(name: &'static str) -> Slot {
         access: Access::Uniform,
         element: Element::of::<T>(),
         serves: Features::NONE,
+        is_for_twin: false,
     }
 }
 
@@ -166,6 +186,7 @@ pub const fn read<T: GpuLayout>(name: &'static str) -> Slot {
         access: Access::Read,
         element: Element::of::<T>(),
         serves: Features::NONE,
+        is_for_twin: false,
     }
 }
 
@@ -176,6 +197,7 @@ pub const fn write<T: GpuLayout>(name: &'static str) -> Slot {
         access: Access::Write,
         element: Element::of::<T>(),
         serves: Features::NONE,
+        is_for_twin: false,
     }
 }
 
@@ -187,6 +209,14 @@ pub const fn update<T: GpuLayout>(name: &'static str) -> Slot {
     }
 }
 
+/// A list that is appended to.
+pub const fn append(name: &'static str) -> Slot {
+    Slot {
+        access: Access::Append,
+        ..write::<u32>(name)
+    }
+}
+
 /// An image slot whose texels are loaded.
 pub const fn texture(name: &'static str, format: Format) -> Slot {
     Slot {
@@ -194,6 +224,7 @@ pub const fn texture(name: &'static str, format: Format) -> Slot {
         access: Access::Texture(format),
         element: Element::of::<u32>(),
         serves: Features::NONE,
+        is_for_twin: false,
     }
 }
 
@@ -201,7 +232,7 @@ impl Pass {
     /// The images that the pass draws into, none for compute passes.
     pub fn targets(&self) -> &'static [Format] {
         match self.work {
-            Work::PerElement { .. } => &[],
+            Work::PerElement { .. } | Work::PerListed { .. } => &[],
             Work::Draw { targets, .. } => targets,
         }
     }
@@ -216,7 +247,7 @@ impl Pass {
     /// Vertices drawn for each element, none for compute passes.
     pub fn vertices(&self) -> u32 {
         match self.work {
-            Work::PerElement { .. } => 0,
+            Work::PerElement { .. } | Work::PerListed { .. } => 0,
             Work::Draw { vertices, .. } => vertices,
         }
     }
@@ -227,7 +258,7 @@ impl Pass {
     ///
     /// When the declaration names a slot that it does not list.
     pub fn counted_slot(&self) -> usize {
-        let (Work::PerElement { of } | Work::Draw { of, .. }) = self.work;
+        let (Work::PerElement { of } | Work::PerListed { of } | Work::Draw { of, .. }) = self.work;
         let found = self.slots.iter().position(|slot| slot.name == of);
         found.unwrap_or_else(|| {
             panic!(

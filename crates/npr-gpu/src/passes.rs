@@ -91,5 +91,6 @@ pub const ALL: &[&Pass] = &[
     &backdrop::SPREAD_ROWS,
     &backdrop::SPREAD_RIMS,
     &shade::KNOW_TRIANGLES,
+    &shade::FILL_FRAME,
     &shade::COMPOSE_FRAME,
 ];

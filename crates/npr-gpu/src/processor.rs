@@ -2,7 +2,7 @@
 
 use crate::engine::{Engine, EngineError, PassTime, Readings, Session};
 use crate::graph::Kind;
-use crate::graph::{Graph, Node, ResourceId, WorkSize, writes};
+use crate::graph::{Graph, Node, ResourceId, WorkSize, lists, writes};
 use crate::pass::{Bindings, Bound, WORKGROUP_SIZE, Work};
 use npr_vector::rank::work::Arguments;
 use rayon::prelude::*;
@@ -73,6 +73,14 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
         .map(|id| std::mem::take(&mut memory[id.index()]))
         .collect();
 
+    // Empty the lists that the pass appends to.
+    for id in lists(node) {
+        let list = written.iter().position(|other| *other == id);
+        if let Some(count) = list.and_then(|list| lent[list].first_mut()) {
+            *count = 0;
+        }
+    }
+
     // Clear the targets, unless every pixel is written anyway.
     let fills = matches!(node.pass.work, Work::Draw { fills: true, .. });
     if node.clears && !(fills && work_count > 0) {
@@ -127,7 +135,9 @@ fn work_count(graph: &Graph, node: &Node, memory: &[Vec<u32>]) -> usize {
     let made: &[Arguments] = bytemuck::cast_slice(&memory[arguments.index()]);
     let Arguments { x, y, .. } = made[index];
     let count = match node.pass.work {
-        Work::PerElement { .. } => u64::from(x) * u64::from(y) * u64::from(WORKGROUP_SIZE),
+        Work::PerElement { .. } | Work::PerListed { .. } => {
+            u64::from(x) * u64::from(y) * u64::from(WORKGROUP_SIZE)
+        }
         Work::Draw { vertices, .. } => u64::from(x / vertices.max(1)),
     };
     usize::try_from(count).map_or(room, |count| room.min(count))
@@ -143,6 +153,10 @@ fn words_for(graph: &Graph, node: &Node, binding: usize, work_count: usize) -> u
     let slot = node.pass.slots.get(binding);
     let is_in_step = slot.is_some_and(|slot| slot.access.writes())
         && graph.element_count(node.bound[binding]) == graph.work_count(node);
+    // A list knows its own length.
+    if matches!(node.pass.work, Work::PerListed { .. }) {
+        return resource.word_count();
+    }
     match resource.kind {
         Kind::Buffer { stride, .. } if binding == counted || is_in_step => {
             (stride * work_count).div_ceil(4)

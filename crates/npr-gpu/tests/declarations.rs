@@ -92,7 +92,7 @@ impl Reflection {
         };
         let ty = &self.module.types[ty];
         match ty.inner {
-            TypeInner::Scalar(of) => scalar(of).to_owned(),
+            TypeInner::Scalar(of) | TypeInner::Atomic(of) => scalar(of).to_owned(),
             TypeInner::Vector { size, scalar: of } => format!("vec{}<{}>", size as u8, scalar(of)),
             TypeInner::Matrix {
                 columns,
@@ -126,7 +126,7 @@ fn check_access(pass: &Pass, slot: &Slot, global: &GlobalVariable, inner: &TypeI
                     access: StorageAccess::LOAD,
                 }
         }
-        Access::Write | Access::Update => {
+        Access::Write | Access::Update | Access::Append => {
             global.space
                 == AddressSpace::Storage {
                     access: StorageAccess::LOAD | StorageAccess::STORE,
@@ -179,9 +179,10 @@ fn bindings_are_as_declared() {
             .iter()
             .map(|global| global.name.as_deref().unwrap_or_default())
             .collect();
-        let declared: Vec<_> = pass.slots.iter().map(|slot| slot.name).collect();
+        let slots = || pass.slots.iter().filter(|slot| !slot.is_for_twin);
+        let declared: Vec<_> = slots().map(|slot| slot.name).collect();
         assert_eq!(names, declared, "{}", pass.name);
-        for (slot, global) in pass.slots.iter().zip(bound) {
+        for (slot, global) in slots().zip(bound) {
             check_access(
                 pass,
                 slot,
@@ -257,7 +258,7 @@ fn entry_points_are_as_declared() {
             .map(|entry| (entry.name.as_str(), entry.stage))
             .collect();
         match pass.work {
-            Work::PerElement { .. } => {
+            Work::PerElement { .. } | Work::PerListed { .. } => {
                 assert_eq!(
                     entries,
                     [("main", naga::ShaderStage::Compute)],
@@ -306,6 +307,7 @@ fn no_pass_needs_more_than_every_device_has() {
             .slots
             .iter()
             .filter(|slot| slot.access == Access::Read || slot.access.writes())
+            .filter(|slot| !slot.is_for_twin)
             .count();
         assert!(
             buffers <= 8,
@@ -332,7 +334,7 @@ fn a_pass_writes_only_what_it_can() {
         let writes = pass.slots.iter().any(|slot| slot.access.writes());
         assert_eq!(
             writes,
-            matches!(pass.work, Work::PerElement { .. }),
+            !matches!(pass.work, Work::Draw { .. }),
             "{}",
             pass.name
         );

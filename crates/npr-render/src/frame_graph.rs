@@ -3,6 +3,7 @@
 use npr_core::geometry::{ChartCorners, Influence, Part, PosedVertex, Triangle, Vertex};
 use npr_core::outline::Outline;
 use npr_core::window::{View, Window};
+use npr_gpu::curves::work::{IndirectArguments, add_work};
 use npr_gpu::engine::{EngineError, Session};
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::{Features, Format};
@@ -94,6 +95,8 @@ pub(crate) struct FrameGraph {
     pub posed: ResourceId,
     /// What is known of the triangles in the view.
     pub known: ResourceId,
+    /// Pixels that are not filled at once: their number, then they.
+    pub list: ResourceId,
     /// Triangle numbers and depths of colour samples.
     pub ids: ResourceId,
     pub depths: ResourceId,
@@ -133,6 +136,7 @@ impl FrameGraph {
             frame: graph.buffer::<u32>("frame", grids.output_pixels()),
             posed: graph.buffer::<PosedVertex>("posed", counts.vertices),
             known: graph.buffer::<TriangleConstants>("known", counts.triangles),
+            list: graph.buffer::<u32>("listed pixels", grids.output_pixels() + 1),
             ids: graph.image("ids", Format::U32, grids.color()),
             depths: graph.image("depths", Format::Depth, grids.color()),
             graph,
@@ -202,6 +206,29 @@ impl FrameGraph {
         sides: [ResourceId; 2],
         frame: ResourceId,
     ) {
+        // Fill the pixels of one known colour, and list the others.
+        let fill = [
+            self.output_window,
+            compose,
+            ids,
+            layers.beam_ids,
+            layers.ribbons,
+            layers.smoke[1],
+            sides[0],
+            self.known,
+            frame,
+            self.list,
+        ];
+        self.graph.compute(&shade::FILL_FRAME, &fill);
+        let room = self.graph.element_count(self.list) - 1;
+        let work = add_work(
+            &mut self.graph,
+            self.list,
+            room,
+            IndirectArguments::default(),
+        );
+
+        // Compose those.
         let bound = [
             self.view,
             self.output_window,
@@ -212,11 +239,11 @@ impl FrameGraph {
             layers.ribbons,
             self.posed,
             self.vertices,
-            self.triangles,
+            self.known,
             self.parts,
             self.texels,
             self.charts,
-            self.known,
+            self.list,
             frame,
         ];
         let bound = [
@@ -225,7 +252,10 @@ impl FrameGraph {
             &layers.smoke,
             &[layers.rules],
             &sides,
+            &[self.triangles],
         ];
-        self.graph.compute(&shade::COMPOSE_FRAME, &bound.concat());
+        let bound = bound.concat();
+        self.graph
+            .compute_sized(&shade::COMPOSE_FRAME, &bound, work.elements());
     }
 }

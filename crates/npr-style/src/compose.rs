@@ -11,7 +11,7 @@ mod layers;
 
 pub use crate::luminance::LUMA;
 pub use crate::triangle_constants::TriangleConstants;
-pub use composer::{compose, encoded};
+pub use composer::{compose, encoded, fill};
 pub use known::know_triangles;
 pub use layers::Layers;
 pub(crate) use layers::Samples;
@@ -145,8 +145,9 @@ mod tests {
             texels: store.words(),
             ..Layers::empty(&view, &window, compose_settings, &lights, &rules)
         };
-        let mut frame = vec![0; 16];
-        compose(&layers, &mut frame);
+        let (mut frame, mut list) = (vec![0; 16], vec![0; 17]);
+        fill(&layers, &mut frame, &mut list);
+        compose(&layers, &list, &mut frame);
         frame
     }
 

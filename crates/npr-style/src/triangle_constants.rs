@@ -7,6 +7,10 @@ use npr_core::gpu_layout;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct TriangleConstants {
+    /// Indices of its vertices.
+    pub corners: [u32; 3],
+    /// Its part.
+    pub part: u32,
     /// Linear light: the colour of the surface, or the light on it, or their product if both are known; with the ink
     /// over it if [`TriangleConstants::WHOLE`] is set.
     pub color: [f32; 3],
@@ -14,7 +18,12 @@ pub struct TriangleConstants {
     /// above them.
     pub bits: u32,
 }
-gpu_layout!(TriangleConstants { color, bits });
+gpu_layout!(TriangleConstants {
+    corners,
+    part,
+    color,
+    bits
+});
 
 impl TriangleConstants {
     /// Bit: the surface has one colour, with neither texture nor vertex colours, or they are left out.

@@ -7,10 +7,6 @@ struct Beams {
     covered: f32,
 }
 
-fn has_beams(pixel: vec2<u32>) -> bool {
-    return false;
-}
-
 fn add_beams(pixel: vec2<u32>, smoke_layer: SmokeLayer, frame_px: vec2<f32>, below: vec4<f32>) -> Beams {
     return Beams(below, 0.0);
 }

@@ -5,10 +5,6 @@ struct SmokeLayer {
     hidden: vec4<f32>,
 }
 
-fn has_smoke(pixel: vec2<u32>) -> bool {
-    return false;
-}
-
 fn smoke_layer_of(pixel: vec2<u32>, frame_px: vec2<f32>) -> SmokeLayer {
     return SmokeLayer(vec4<f32>(0.0), vec4<f32>(0.0));
 }

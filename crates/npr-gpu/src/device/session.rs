@@ -7,7 +7,7 @@ use super::pipeline::{PipelineCache, Stage};
 use super::staging::Staging;
 use super::step::{Extent, Step};
 use crate::engine::{EngineError, PassTime, Readings, Session};
-use crate::graph::{Graph, Node, ResourceId, WorkSize};
+use crate::graph::{Graph, Node, ResourceId, WorkSize, lists};
 use crate::pass::Format;
 use npr_vector::rank::work::Arguments;
 use std::collections::BTreeMap;
@@ -115,7 +115,15 @@ impl DeviceSession {
     }
 
     fn record(&self, encoder: &mut wgpu::CommandEncoder, number: u32, step: &Step) {
+        // Empty the lists that the pass appends to.
         let node = &self.graph.nodes()[step.node];
+        for id in lists(node) {
+            if let Memory::Buffer(buffer) = &self.memory[id.index()] {
+                encoder.clear_buffer(buffer, 0, Some(4));
+            }
+        }
+
+        // Run it.
         match (&step.pipeline.stage, step.extent) {
             (Stage::Compute(pipeline), Extent::Groups(groups)) => {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {

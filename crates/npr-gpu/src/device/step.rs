@@ -100,7 +100,7 @@ fn has_effect(node: &Node, extent: Extent) -> bool {
 fn extent_of(graph: &Graph, node: &Node) -> Result<Extent, EngineError> {
     let count = graph.work_count(node);
     let extent = match node.pass.work {
-        Work::PerElement { .. } => groups_for(count).map(Extent::Groups),
+        Work::PerElement { .. } | Work::PerListed { .. } => groups_for(count).map(Extent::Groups),
         Work::Draw { vertices, .. } => {
             let all = count.checked_mul(vertices as usize);
             all.and_then(|all| u32::try_from(all).ok())

@@ -1,11 +1,12 @@
 //! Passes that give surfaces their tone.
 
-use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, update, write};
+use crate::pass::{
+    Agreement, Features, Format, Pass, Work, append, read, texture, uniform, update, write,
+};
 use npr_core::geometry::{ChartCorners, Part, PosedVertex, Triangle, Vertex};
 use npr_core::window::{View, Window};
-use npr_shaders::Features;
 use npr_style::backdrop::Rules;
-use npr_style::compose::{Compose, Layers, TriangleConstants, compose, know_triangles};
+use npr_style::compose::{Compose, Layers, TriangleConstants, compose, fill, know_triangles};
 use npr_style::lighting::Lights;
 
 /// What is the same all over each triangle.
@@ -43,7 +44,42 @@ pub const KNOW_TRIANGLES: Pass = Pass {
     },
 };
 
-/// Surfaces shaded by their ramps, ink, smoke and lines over them, background behind.
+/// Pixels of one known colour, and a list of the others.
+pub const FILL_FRAME: Pass = Pass {
+    name: "shade.fill_frame",
+    shader: npr_shaders::SHADE_FILL_FRAME,
+    slots: &[
+        uniform::<Window>("window"),
+        uniform::<Compose>("compose"),
+        texture("ids", Format::U32),
+        texture("beam_ids", Format::U32).serving(Features::BEAMS),
+        texture("ribbons", Format::Rgba8).serving(Features::RIBBONS),
+        texture("smoke_depths", Format::U32).serving(Features::SMOKE),
+        texture("fronts", Format::Rgba8).serving(Features::BACKDROP),
+        read::<TriangleConstants>("known"),
+        update::<u32>("frame"),
+        append("list"),
+    ],
+    work: Work::PerElement { of: "frame" },
+    agreement: Agreement::Exact,
+    twin: |b| {
+        let (window, settings) = (b.one(0), b.one(1));
+        let (view, lights, rules) = (View::default(), Lights::default(), Rules::default());
+        let layers = Layers {
+            ids: b.image(2).texels,
+            beam_ids: b.image(3).texels,
+            ribbons: b.image(4).texels,
+            smoke_depths: b.image(5).texels,
+            fronts: b.image(6).texels,
+            known: b.read(7),
+            ..Layers::empty(&view, &window, &settings, &lights, &rules)
+        };
+        fill(&layers, b.write(8), b.write(9));
+    },
+};
+
+/// Surfaces shaded by their ramps, ink, smoke and lines over them, background behind, at the
+/// listed pixels.
 pub const COMPOSE_FRAME: Pass = Pass {
     name: "shade.compose_frame",
     shader: npr_shaders::SHADE_COMPOSE_FRAME,
@@ -57,11 +93,11 @@ pub const COMPOSE_FRAME: Pass = Pass {
         texture("ribbons", Format::Rgba8).serving(Features::RIBBONS),
         read::<PosedVertex>("posed"),
         read::<Vertex>("vertices"),
-        read::<Triangle>("triangles"),
+        read::<TriangleConstants>("triangles"),
         read::<Part>("parts"),
         read::<u32>("texels"),
         read::<ChartCorners>("charts").serving(Features::INK),
-        read::<TriangleConstants>("known"),
+        read::<u32>("list"),
         update::<u32>("frame"),
         texture("shadow_0", Format::U32).serving(Features::SHADOWS),
         texture("shadow_1", Format::U32).serving(Features::SHADOWS),
@@ -76,8 +112,9 @@ pub const COMPOSE_FRAME: Pass = Pass {
         uniform::<Rules>("rules").serving(Features::BACKDROP),
         texture("fronts", Format::Rgba8).serving(Features::BACKDROP),
         texture("backs", Format::Rgba8).serving(Features::BACKDROP),
+        read::<Triangle>("surfaces").for_twin(),
     ],
-    work: Work::PerElement { of: "frame" },
+    work: Work::PerListed { of: "list" },
     agreement: Agreement::Texels(0.001),
     twin: |b| {
         let (view, window, settings, lights) = (b.one(0), b.one(1), b.one(2), b.one(3));
@@ -92,11 +129,11 @@ pub const COMPOSE_FRAME: Pass = Pass {
             ribbons: b.image(6).texels,
             posed: b.read(7),
             vertices: b.read(8),
-            triangles: b.read(9),
+            triangles: b.read(28),
+            known: b.read(9),
             parts: b.read(10),
             texels: b.read(11),
             charts: b.read(12),
-            known: b.read(13),
             shadows: std::array::from_fn(|i| b.image(15 + i).texels),
             smoke_colors: b.image(19).texels,
             smoke_depths: b.image(20).texels,
@@ -105,6 +142,6 @@ pub const COMPOSE_FRAME: Pass = Pass {
             fronts: b.image(26).texels,
             backs: b.image(27).texels,
         };
-        compose(&layers, b.write(14));
+        compose(&layers, b.read(13), b.write(14));
     },
 };

@@ -13,6 +13,8 @@ const DEPTH_TOLERANCE: f32 = 2.0 / 255.0;
 pub enum Meaning {
     /// Elements of a buffer.
     Elements(Element),
+    /// A list: the number of its elements, then they, in any order.
+    List,
     /// Texels of an image.
     Texels(Format),
 }
@@ -21,6 +23,9 @@ pub enum Meaning {
 pub fn disagreement(pass: &Pass, meaning: Meaning, twin: &[u32], device: &[u32]) -> Option<String> {
     if twin.len() != device.len() {
         return Some(format!("{} words instead of {}", device.len(), twin.len()));
+    }
+    if matches!(meaning, Meaning::List) {
+        return list_difference(twin, device);
     }
     let pairs = || twin.iter().copied().zip(device.iter().copied());
     match (pass.agreement, meaning) {
@@ -47,6 +52,18 @@ pub fn disagreement(pass: &Pass, meaning: Meaning, twin: &[u32], device: &[u32])
                 .map(|at| format!("{different} of {} texels, first {at}", twin.len()))
         }
     }
+}
+
+/// How two lists differ that hold their elements in any order.
+fn list_difference(twin: &[u32], device: &[u32]) -> Option<String> {
+    let sorted = |list: &[u32]| {
+        let count = list.first().map_or(0, |count| *count as usize);
+        let mut elements = list[1.min(list.len())..][..count].to_vec();
+        elements.sort_unstable();
+        elements
+    };
+    let (twin, device) = (sorted(twin), sorted(device));
+    (twin != device).then(|| format!("a list of {} became one of {}", twin.len(), device.len()))
 }
 
 fn first_difference(
@@ -96,6 +113,7 @@ fn is_near(a: u32, b: u32, bound: f32) -> bool {
 
 fn is_same_texel(meaning: Meaning, a: u32, b: u32) -> bool {
     match meaning {
+        Meaning::List => a == b,
         // Numbers must be equal; depths whose low bits say which samples are covered, in those bits alone.
         Meaning::Texels(Format::U32) => a == b || (a & 15 == b & 15 && is_near(a, b, 1e-4)),
         Meaning::Texels(Format::Depth) => {

@@ -16,7 +16,9 @@ use npr_style::compose::TriangleConstants;
 use std::collections::BTreeMap;
 
 /// Slots that bind a resource of another name: two passes work on the grid of the mask only and call it the window.
-const RENAMED: [(&str, &str, &str); 24] = [
+const RENAMED: [(&str, &str, &str); 26] = [
+    ("shade.compose_frame", "triangles", "known"),
+    ("shade.compose_frame", "surfaces", "triangles"),
     ("backdrop.flag_tiles", "window", "tile_window"),
     ("backdrop.flag_tiles", "output_window", "window"),
     ("backdrop.flag_tiles", "ids", "bare_ids"),
@@ -44,7 +46,10 @@ const RENAMED: [(&str, &str, &str); 24] = [
 ];
 
 /// Slots that passes update, and a resource that holds what they held before.
-const UPDATED: [(&str, &str, &str); 1] = [("shade.compose_frame", "frame", "overlay")];
+const UPDATED: [(&str, &str, &str); 2] = [
+    ("shade.fill_frame", "frame", "overlay"),
+    ("shade.compose_frame", "frame", "overlay"),
+];
 
 /// The resource that a slot of a pass binds.
 fn resource_of(pass: &Pass, slot: &'static str) -> &'static str {
@@ -68,7 +73,8 @@ pub struct Frame {
 
 impl Frame {
     /// The names of what passes make.
-    pub const MADE: [&str; 44] = [
+    pub const MADE: [&str; 45] = [
+        "list",
         "posed",
         "lit",
         "projected",
@@ -288,6 +294,7 @@ impl Builder {
         let Kind::Buffer { count, .. } = *triangles else {
             panic!("triangles are a buffer");
         };
+        self.make_buffer("list", 4, pixels + 1);
         self.make_buffer("known", size_of::<TriangleConstants>(), count);
         self.make_backdrop(look, size);
 
@@ -337,6 +344,7 @@ impl Builder {
         self.graph.compute(inks, &bound);
         self.compute(&shade::KNOW_TRIANGLES);
         self.line_up_backdrop();
+        self.compute(&shade::FILL_FRAME);
         self.compute(&shade::COMPOSE_FRAME);
     }
 
@@ -368,17 +376,19 @@ impl Builder {
         let flag = self.bound(&backdrop::FLAG_TILES, "tile_window");
         self.graph
             .draw(&backdrop::FLAG_TILES, &flag, &[id("busy")], true);
-        let bare = shade::COMPOSE_FRAME.slots.iter().map(|slot| {
-            id(match slot.name {
-                "compose" => "bare_compose",
-                "ids" => "bare_ids",
-                "fronts" | "backs" => "busy",
-                "frame" => "bare",
-                name => name,
-            })
-        });
-        let bare: Vec<_> = bare.collect();
-        self.graph.compute(&shade::COMPOSE_FRAME, &bare);
+        for pass in [&shade::FILL_FRAME, &shade::COMPOSE_FRAME] {
+            let bare = pass.slots.iter().map(|slot| {
+                id(match resource_of(pass, slot.name) {
+                    "compose" => "bare_compose",
+                    "ids" => "bare_ids",
+                    "fronts" | "backs" => "busy",
+                    "frame" => "bare",
+                    name => name,
+                })
+            });
+            let bare: Vec<_> = bare.collect();
+            self.graph.compute(pass, &bare);
+        }
         self.compute(&backdrop::FIND_RIMS);
         self.compute(&backdrop::DRAW_RIMS);
         self.compute(&backdrop::SMOOTH_RIMS);

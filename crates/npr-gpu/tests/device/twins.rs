@@ -8,7 +8,7 @@ use crate::scene::{FRAME_PX, Look};
 use crate::shared;
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::{Graph, Kind, ResourceId};
-use npr_gpu::pass::{Access, Agreement, Element, Format, Pass, Slot};
+use npr_gpu::pass::{Access, Agreement, Element, Format, Pass, Slot, Work};
 use npr_gpu::passes::ALL;
 use npr_gpu::passes::shade::COMPOSE_FRAME;
 use npr_gpu::processor::Processor;
@@ -74,12 +74,25 @@ impl Case {
         let stride = slot.element.size;
         let Content { mut words, size } = frame.content(pass, slot.name).clone();
         if slot.access.writes() {
-            let id = self.graph.add(slot.name, Kind::Buffer { stride, count });
+            let room = match pass.work {
+                // Listed pixels may lie anywhere in the picture.
+                Work::PerListed { .. } => words.len() * 4 / stride,
+                _ => count + usize::from(slot.access == Access::Append),
+            };
+            let kind = Kind::Buffer {
+                stride,
+                count: room,
+            };
+            let id = self.graph.add(slot.name, kind);
             if let Some(mut words) = frame.before(pass, slot) {
-                words.truncate(count * stride / 4);
+                words.truncate(room * stride / 4);
                 self.inputs.push((id, words));
             }
-            self.outputs.push((id, Meaning::Elements(slot.element)));
+            let meaning = match slot.access {
+                Access::Append => Meaning::List,
+                _ => Meaning::Elements(slot.element),
+            };
+            self.outputs.push((id, meaning));
             return id;
         }
         if slot.name == counted {

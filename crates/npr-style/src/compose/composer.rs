@@ -10,49 +10,62 @@ use npr_core::raster::{HULL_BIT, ID_MASK};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Composes the output as sRGB bytes with straight alpha, over the overlay that it holds before: stamps or the mask,
-/// sRGB bytes with coverage in alpha, where [`Compose::OVERLAY`] asks for them.
+/// Fills the pixels that show one known colour and nothing over it, and lists the others: their number, then the
+/// pixels, row by row.
+///
+/// Where [`Compose::OVERLAY`] asks for them, `frame` holds stamps or the mask before, as sRGB bytes with coverage in
+/// alpha, and keeps them at the listed pixels. O(pixels), parallel over rows.
+pub fn fill(layers: &Layers<'_>, frame: &mut [u32], list: &mut [u32]) {
+    // Fill row by row.
+    let width = layers.window.size[0] as usize;
+    let rows = frame.par_chunks_mut(width.max(1)).enumerate();
+    let left = rows.map(|(y, row)| layers.fill_row(y, row));
+    let left: Vec<Vec<u32>> = left.collect();
+
+    // Put what is left in a row.
+    let Some((count, pixels)) = list.split_first_mut() else {
+        return;
+    };
+    let mut into = pixels.iter_mut();
+    for (pixel, into) in left.iter().flatten().zip(&mut into) {
+        *into = *pixel;
+    }
+    *count = left.iter().map(|row| row.len() as u32).sum();
+}
+
+/// Composes the listed pixels as sRGB bytes with straight alpha, over what [`fill`] left there.
 ///
 /// Every pixel has one or four samples that say which triangles it shows; each triangle is shaded once, at the middle
-/// of its samples. Layers go over each other as in [Porter & Duff 1984], in linear light. O(pixels), parallel over
-/// rows.
-pub fn compose(layers: &Layers<'_>, frame: &mut [u32]) {
-    // Find once what pixels share: the plain background.
+/// of its samples. Layers go over each other as in [Porter & Duff 1984], in linear light. O(listed pixels), parallel
+/// over rows.
+pub fn compose(layers: &Layers<'_>, list: &[u32], frame: &mut [u32]) {
+    // Take the list in the order of rows, whoever made it.
+    let Some((count, pixels)) = list.split_first() else {
+        return;
+    };
+    let mut pixels = pixels[..pixels.len().min(*count as usize)].to_vec();
+    if !pixels.is_sorted() {
+        pixels.par_sort_unstable();
+    }
+
+    // Compose the rows.
     let encoder = SrgbEncoder::new();
     let width = layers.window.size[0] as usize;
-    let is_plain = layers.compose.background_texture == NONE;
-    let empty = is_plain.then_some(layers.compose.background_texel);
     let new = || Composer {
         layers,
         encoder: &encoder,
-        empty,
         near: None,
         contrast_cache: ContrastCache::default(),
     };
-
-    // Compose the rows; fill runs of plain background at once.
-    frame
-        .par_chunks_mut(width)
-        .enumerate()
-        .for_each_init(new, |composer, (y, row)| {
-            for left in (0..width).step_by(RUN) {
-                let run = left..width.min(left + RUN);
-                let texels = &mut row[run.clone()];
-                if let Some(empty) = composer.empty
-                    && layers.compose.flags & Compose::BARE == 0
-                    && layers.is_bare(run, y, texels)
-                {
-                    texels.fill(empty);
-                    continue;
-                }
-                for (x, texel) in (left as u32..).zip(texels) {
-                    *texel = match layers.is_left_out(x, y as u32) {
-                        true => 0,
-                        false => composer.texel(x, y as u32, *texel),
-                    };
-                }
-            }
-        });
+    let rows = frame.par_chunks_mut(width.max(1)).enumerate();
+    rows.for_each_init(new, |composer, (y, row)| {
+        let start = (y * width) as u32;
+        let first = pixels.partition_point(|pixel| *pixel < start);
+        let of_row = pixels[first..].iter().map(|pixel| (pixel - start) as usize);
+        for x in of_row.take_while(|x| *x < width) {
+            row[x] = composer.texel(x as u32, y as u32, row[x]);
+        }
+    });
 }
 
 /// Pixels of a row that are checked together for anything but background.
@@ -62,8 +75,6 @@ const RUN: usize = 32;
 struct Composer<'a> {
     layers: &'a Layers<'a>,
     encoder: &'a SrgbEncoder,
-    /// A pixel that shows nothing but a plain background.
-    empty: Option<u32>,
     /// The last shaded triangle and its corners: mostly that of the next pixel too.
     near: Option<(u32, Corners<'a>)>,
     contrast_cache: ContrastCache,
@@ -84,16 +95,9 @@ impl<'a> Composer<'a> {
             return texel;
         }
 
-        // Take pixels of one known colour as they are.
+        // Find the smoke.
         let smoke_layer = self.layers.smoke_layer_of(x, y, &seen, frame_px);
         let is_one = seen.iter().all(|id| *id == seen[0]);
-        let is_bare = lines == [0; 2] && smoke_layer.is_none() && beams.iter().all(|id| *id == 0);
-        if is_one
-            && is_bare
-            && let Some(texel) = self.even_texel(seen[0])
-        {
-            return texel;
-        }
 
         // Shade the surfaces, smoke over them, the background behind.
         let hidden = smoke_layer.map_or([0.0; 4], |smoke_layer| smoke_layer.hidden);
@@ -136,15 +140,6 @@ impl<'a> Composer<'a> {
             }
         }
         encoded(self.encoder, color)
-    }
-
-    /// The pixel that one triangle number fills, if it has one colour.
-    fn even_texel(&self, id: u32) -> Option<u32> {
-        match id {
-            0 => self.empty,
-            _ if id & HULL_BIT != 0 => None,
-            _ => self.layers.known[(id - 1) as usize].texel(),
-        }
     }
 
     /// Colour of a triangle that has one colour all over.
@@ -280,6 +275,72 @@ fn over(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
 }
 
 impl Layers<'_> {
+    /// Fills what it can of row `y`; gives the other pixels.
+    fn fill_row(&self, y: usize, row: &mut [u32]) -> Vec<u32> {
+        // Fill runs of plain background at once.
+        let width = self.window.size[0] as usize;
+        let is_plain = self.compose.background_texture == NONE;
+        let empty = is_plain.then_some(self.compose.background_texel);
+        let is_whole = self.compose.flags & Compose::BARE == 0;
+        let mut left = Vec::new();
+        for start in (0..row.len()).step_by(RUN) {
+            let run = start..row.len().min(start + RUN);
+            let texels = &mut row[run.clone()];
+            if let Some(empty) = empty
+                && is_whole
+                && self.is_bare(run, y, texels)
+            {
+                texels.fill(empty);
+                continue;
+            }
+
+            // Fill other pixels one by one.
+            for (x, texel) in (start as u32..).zip(texels) {
+                if self.is_left_out(x, y as u32) {
+                    *texel = 0;
+                    continue;
+                }
+                match self.known_texel(x, y as u32, *texel) {
+                    Some(known) => *texel = known,
+                    None => left.push((y * width) as u32 + x),
+                }
+            }
+        }
+        left
+    }
+
+    /// What a pixel shows, if all of its samples show the same known colour and nothing lies over them.
+    fn known_texel(&self, x: u32, y: u32, overlay: u32) -> Option<u32> {
+        let lines = self.lines_at(x, y, overlay);
+        if lines.iter().any(|line| line >> 24 != 0)
+            || self.has_smoke(x, y)
+            || self.beams_of(x, y).iter().any(|id| *id != 0)
+        {
+            return None;
+        }
+        let seen = self.samples_of(x, y);
+        let first = self.texel_of(seen[0])?;
+        let mut others = seen[1..].iter();
+        let is_one = others.all(|id| *id == seen[0] || self.texel_of(*id) == Some(first));
+        is_one.then_some(first)
+    }
+
+    /// The colour of triangle `id`, or of the background for 0, if it is known and the same all over.
+    fn texel_of(&self, id: u32) -> Option<u32> {
+        match id {
+            0 => (self.compose.background_texture == NONE).then_some(self.compose.background_texel),
+            _ if id & HULL_BIT != 0 => None,
+            _ => self.known[(id - 1) as usize].texel(),
+        }
+    }
+
+    /// Whether smoke covers any sample of a pixel.
+    fn has_smoke(&self, x: u32, y: u32) -> bool {
+        let element = (y * self.window.size[0] + x) as usize;
+        self.compose.flags & Compose::SMOKE != 0
+            && self.smoke_depths[element] & crate::smoke::resolve::MASK != 0
+    }
+
     /// Whether some pixels of a row, which hold `overlay`, show nothing but the background.
     fn is_bare(&self, run: Range<usize>, y: usize, overlay: &[u32]) -> bool {
         // Check whole runs of texels for 0, without a branch for each.

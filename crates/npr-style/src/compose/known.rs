@@ -22,13 +22,18 @@ pub fn know_triangles(layers: &Layers<'_>, known: &mut [TriangleConstants]) {
 }
 
 impl Layers<'_> {
-    /// The constants of a triangle; empty if only its back is seen and that is not drawn.
+    /// The constants of a triangle; none if only its back is seen and that is not drawn.
     fn known(&self, triangle: &Triangle, encoder: &SrgbEncoder) -> TriangleConstants {
         // Leave out backs that nobody sees.
         let part = &self.parts[triangle.part as usize];
         let corners = self.corners_of(triangle);
+        let mut known = TriangleConstants {
+            corners: triangle.corners,
+            part: triangle.part,
+            ..TriangleConstants::default()
+        };
         if corners.side < 0.0 && part.flags & Part::DOUBLE_SIDED == 0 {
-            return TriangleConstants::default();
+            return known;
         }
 
         // Find light and ink where they are the same all over.
@@ -42,7 +47,6 @@ impl Layers<'_> {
         let is_matt = !self.may_shine(part, &corners);
 
         // Note them, and multiply colour and light where both are known.
-        let mut known = TriangleConstants::default();
         known.learn(TriangleConstants::PLAIN, is_plain);
         known.learn(TriangleConstants::EVEN, light.is_some());
         known.learn(TriangleConstants::MATT, is_matt);
