@@ -6,9 +6,10 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 
 use crate::packages::{cargo, members, output};
+use crate::programs::{Program, run_all};
 use crate::source::rust_files;
 
 /// How many tests went which way.
@@ -25,15 +26,21 @@ struct Tally {
 }
 
 /// Programs whose tests are run: examples have none, and lints compile them.
-const PROGRAMS: [&str; 3] = ["--lib", "--bins", "--tests"];
+const PROGRAMS: [&str; 5] = [
+    "--workspace",
+    "--all-features",
+    "--lib",
+    "--bins",
+    "--tests",
+];
 
 /// Runs every test of the workspace, or what `arguments` ask `cargo test` for, with all features.
 pub fn run(root: &Path, arguments: &[&str]) -> Result<()> {
     if !arguments.is_empty() {
-        return run_with(root, &["--workspace"], arguments, &[]);
+        return run_with(root, &["--workspace"], arguments);
     }
-    let programs = run_with(root, &["--workspace"], &PROGRAMS, &[]);
-    let documents = run_with(root, &["--workspace"], &["--doc"], &[]);
+    let programs = run_programs(root, &[], &[]);
+    let documents = run_with(root, &["--workspace"], &["--doc"]);
     programs.and(documents)
 }
 
@@ -49,7 +56,7 @@ pub fn quick(root: &Path) -> Result<()> {
     let changed: Vec<&str> = changed.lines().filter_map(|line| line.get(3..)).collect();
     let arguments = near(&changed, &folders(root)?);
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    run_with(root, &[], &arguments, &[])
+    run_with(root, &[], &arguments)
 }
 
 /// The packages of the workspace by their folders below its root.
@@ -74,6 +81,7 @@ fn near(changed: &[&str], folders: &[(String, String)]) -> Vec<String> {
             packages.insert(name.as_str());
             let program = path
                 .strip_prefix("tests/")
+                .filter(|path| path.ends_with(".rs"))
                 .and_then(|path| path.split(['/', '.']).next());
             programs.extend(program);
         }
@@ -100,19 +108,31 @@ fn near(changed: &[&str], folders: &[(String, String)]) -> Vec<String> {
     arguments
 }
 
-fn run_with(
-    root: &Path,
-    packages: &[&str],
-    arguments: &[&str],
-    environment: &[(&str, String)],
-) -> Result<()> {
+/// Runs every test program of the workspace, two at a time, and prints what each says when it has ended.
+fn run_programs(root: &Path, arguments: &[&str], environment: &[(&str, String)]) -> Result<()> {
+    let programs = Program::compile(root, &PROGRAMS)?;
+    let (mut tally, mut failed) = (Tally::default(), Vec::new());
+    run_all(&programs, arguments, environment, |program, run| {
+        let (text, is_success, seconds) = match run {
+            Ok(run) => (run.text, run.is_success, run.time.as_secs_f64()),
+            Err(error) => (format!("{error:#}"), false, 0.0),
+        };
+        println!("\n== {} ({seconds:.1} s)\n{text}", program.name);
+        text.lines().for_each(|line| tally.add(line));
+        failed.extend((!is_success).then_some(program.name.as_str()));
+    });
+    println!("\n{}", tally.summary());
+    ensure!(failed.is_empty(), "failed: {}", failed.join("; "));
+    Ok(())
+}
+
+fn run_with(root: &Path, packages: &[&str], arguments: &[&str]) -> Result<()> {
     // Start the tests of the crates.
     let mut command = cargo(root);
     command
         .args(["test", "--all-features", "--no-fail-fast"])
         .args(packages)
-        .args(arguments)
-        .envs(environment.iter().map(|(name, value)| (name, value)));
+        .args(arguments);
     let mut child = command
         .stdout(Stdio::piped())
         .spawn()
@@ -166,13 +186,7 @@ pub fn again(root: &Path) -> Result<()> {
     );
 
     // Run them with that seed.
-    let arguments: Vec<&str> = PROGRAMS.into_iter().chain(["--"]).chain(chosen).collect();
-    run_with(
-        root,
-        &["--workspace"],
-        &arguments,
-        &[(SEED, seed.to_string())],
-    )
+    run_programs(root, &chosen, &[(SEED, seed.to_string())])
 }
 
 /// Where property tests look for their seed.
@@ -257,8 +271,11 @@ mod tests {
             "--bins --lib --package npr-mesh"
         );
         assert_eq!(
-            asked(&["tests/tests/ages.rs", "tests/tests/id_maps/main.rs"]),
-            "--bins --lib --package npr-tests --test ages --test id_maps"
+            asked(&[
+                "tests/tests/frames/ages.rs",
+                "tests/tests/every_key/main.rs"
+            ]),
+            "--bins --lib --package npr-tests --test every_key --test frames"
         );
         assert_eq!(asked(&["xtask/src/main.rs"]), "--bins --package xtask");
     }
