@@ -9,21 +9,20 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use serde::Deserialize;
 
-use crate::packages::{cargo, output};
+use crate::packages::{Package, cargo, members, output};
 
 /// How many programs run at a time, where there are as many cores. Each has a thread a core, and leaves cores idle
 /// while its longest test ends: another one works in that time.
 const AT_ONCE: usize = 2;
 
 /// A test program.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 pub struct Program {
-    /// The names of its package and of what it tests there.
-    pub name: String,
     /// The file that is run.
     executable: PathBuf,
-    /// The `Cargo.toml` of its package.
-    manifest: PathBuf,
+    /// Its name among the programs of its package.
+    target: String,
+    package: Package,
 }
 
 /// What came of a program that ran.
@@ -71,9 +70,10 @@ impl Program {
             ])
             .args(arguments);
         let messages = output(&mut command)?;
+        let packages = members(root)?;
         let mut programs = Vec::new();
         for line in messages.lines() {
-            programs.extend(Self::of(serde_json::from_str(line)?));
+            programs.extend(Self::of(serde_json::from_str(line)?, &packages));
         }
         programs.sort_by_cached_key(|program: &Self| {
             let file = program.executable.metadata();
@@ -83,29 +83,37 @@ impl Program {
     }
 
     /// The test program of a message, if it tells of one.
-    fn of(message: Message) -> Option<Self> {
-        let manifest = message.manifest_path?;
-        let package = manifest.parent()?.file_name()?.to_string_lossy();
+    fn of(message: Message, packages: &[Package]) -> Option<Self> {
+        let is_test = message.profile.is_some_and(|profile| profile.test);
+        let manifest = message.manifest_path.filter(|_| is_test)?;
+        let mut packages = packages.iter();
         Some(Self {
-            name: format!("{package}, {}", message.target?.name),
-            executable: message
-                .executable
-                .filter(|_| message.profile.is_some_and(|p| p.test))?,
-            manifest,
+            executable: message.executable?,
+            target: message.target?.name,
+            package: packages
+                .find(|package| package.manifest_path == manifest)?
+                .clone(),
         })
+    }
+
+    /// The names of its package and of what it tests there.
+    pub fn name(&self) -> String {
+        format!("{}, {}", self.package.name, self.target)
     }
 
     /// Runs the program as `cargo test` would.
     fn run(&self, arguments: &[&str], environment: &[(&str, String)]) -> Result<Run> {
         let begun = Instant::now();
         let (mut reader, writer) = std::io::pipe()?;
-        let folder = self.manifest.parent().unwrap_or(&self.manifest);
+        let Package { name, version, .. } = &self.package;
         let mut child = Command::new(&self.executable)
             .args(arguments)
             .envs(environment.iter().map(|(name, value)| (name, value)))
-            .env("CARGO_MANIFEST_DIR", folder)
-            .env("CARGO_MANIFEST_PATH", &self.manifest)
-            .current_dir(folder)
+            .env("CARGO_MANIFEST_DIR", self.package.folder())
+            .env("CARGO_MANIFEST_PATH", &self.package.manifest_path)
+            .env("CARGO_PKG_NAME", name)
+            .env("CARGO_PKG_VERSION", version)
+            .current_dir(self.package.folder())
             .stdin(Stdio::null())
             .stdout(writer.try_clone()?)
             .stderr(writer)
@@ -150,13 +158,22 @@ pub fn run_all<'a>(
 mod tests {
     use super::*;
 
+    fn package(folder: &str) -> Package {
+        Package {
+            name: "npr-mesh".to_owned(),
+            manifest_path: Path::new(folder).join("Cargo.toml"),
+            ..Package::default()
+        }
+    }
+
     #[test]
     fn programs_are_what_was_compiled_with_its_tests() {
-        let told = |line: &str| serde_json::from_str(line).ok().and_then(Program::of);
+        let packages = [package("/a/npr-core"), package("/a/npr-mesh")];
+        let told = |line: &str| Program::of(serde_json::from_str(line).expect("JSON"), &packages);
         let made = r#"{"reason":"compiler-artifact","manifest_path":"/a/npr-mesh/Cargo.toml",
             "target":{"kind":["test"],"name":"meshes"},"profile":{"test":true},"executable":"/t/meshes-1"}"#;
         let program = told(made).expect("a program");
-        assert_eq!(program.name, "npr-mesh, meshes");
+        assert_eq!(program.name(), "npr-mesh, meshes");
         assert_eq!(program.executable, Path::new("/t/meshes-1"));
         assert!(told(&made.replace("true", "false")).is_none());
         assert!(told(&made.replace("\"/t/meshes-1\"", "null")).is_none());
@@ -166,24 +183,24 @@ mod tests {
     #[test]
     #[cfg(unix)]
     fn every_program_runs_once_and_keeps_what_it_prints_together() {
-        let program = |name: &str| Program {
-            name: name.to_owned(),
+        let program = |target: &str| Program {
             executable: "/bin/sh".into(),
-            manifest: Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml"),
+            target: target.to_owned(),
+            package: package(env!("CARGO_MANIFEST_DIR")),
         };
         let programs = ["a", "b", "c"].map(program);
-        let script = "echo $WORD; echo at the end >&2; pwd; test $WORD = no";
-        for (word, succeeds) in [("no", true), ("yes", false)] {
+        let here = env!("CARGO_MANIFEST_DIR");
+        let script = "echo $WORD; echo $CARGO_PKG_NAME >&2; pwd; test $WORD = no";
+        for (word, is_success) in [("no", true), ("yes", false)] {
             let mut names = Vec::new();
             let environment = [("WORD", word.to_owned())];
             run_all(&programs, &["-c", script], &environment, |program, run| {
                 let run = run.expect("a shell");
-                let here = env!("CARGO_MANIFEST_DIR");
-                assert_eq!(run.text, format!("{word}\nat the end\n{here}\n"));
-                assert_eq!(run.is_success, succeeds);
-                names.push(program.name.clone());
+                assert_eq!(run.text, format!("{word}\nnpr-mesh\n{here}\n"));
+                assert_eq!(run.is_success, is_success);
+                names.push(program.target.as_str());
             });
-            names.sort();
+            names.sort_unstable();
             assert_eq!(names, ["a", "b", "c"]);
         }
     }

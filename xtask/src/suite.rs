@@ -117,9 +117,9 @@ fn run_programs(root: &Path, arguments: &[&str], environment: &[(&str, String)])
             Ok(run) => (run.text, run.is_success, run.time.as_secs_f64()),
             Err(error) => (format!("{error:#}"), false, 0.0),
         };
-        println!("\n== {} ({seconds:.1} s)\n{text}", program.name);
+        println!("\n== {} ({seconds:.1} s)\n{text}", program.name());
         text.lines().for_each(|line| tally.add(line));
-        failed.extend((!is_success).then_some(program.name.as_str()));
+        failed.extend((!is_success).then(|| program.name()));
     });
     println!("\n{}", tally.summary());
     ensure!(failed.is_empty(), "failed: {}", failed.join("; "));
