@@ -25,14 +25,9 @@ struct Tally {
     ignored: usize,
 }
 
-/// Programs whose tests are run: examples have none, and lints compile them.
-const PROGRAMS: [&str; 5] = [
-    "--workspace",
-    "--all-features",
-    "--lib",
-    "--bins",
-    "--tests",
-];
+/// Programs whose tests are run: unit tests and folders `tests`, but no examples and no programs without tests, which
+/// lints compile.
+const PROGRAMS: [&str; 3] = ["--workspace", "--all-features", "--tests"];
 
 /// Runs every test of the workspace, or what `arguments` ask `cargo test` for, with all features.
 pub fn run(root: &Path, arguments: &[&str]) -> Result<()> {
@@ -87,14 +82,15 @@ fn near(changed: &[&str], folders: &[(String, String)]) -> Vec<String> {
         }
     }
 
-    // Ask for all crates where none changed. This one has no library, which cargo asks for in vain.
-    let mut arguments = vec!["--bins".to_owned()];
-    if packages.is_empty() {
-        arguments.push("--workspace".to_owned());
-    }
-    if packages.iter().ne(["xtask"].iter()) {
-        arguments.push("--lib".to_owned());
-    }
+    // Ask for all crates where none changed. This one has no library, and is the only program with unit tests.
+    let (is_all, is_own) = (packages.is_empty(), packages.contains("xtask"));
+    let asked = [
+        ("--workspace", is_all),
+        ("--lib", packages.len() > usize::from(is_own) || is_all),
+        ("--bin=xtask", is_own || is_all),
+    ];
+    let asked = asked.into_iter().filter(|(_, is_asked)| *is_asked);
+    let mut arguments: Vec<String> = asked.map(|(argument, _)| argument.to_owned()).collect();
     arguments.extend(
         packages
             .into_iter()
@@ -265,19 +261,19 @@ mod tests {
         ];
         let folders = folders.map(|(folder, name)| (folder.to_owned(), name.to_owned()));
         let asked = |changed: &[&str]| near(changed, &folders).join(" ");
-        assert_eq!(asked(&["README.md"]), "--bins --workspace --lib");
+        assert_eq!(asked(&["README.md"]), "--workspace --lib --bin=xtask");
         assert_eq!(
             asked(&["crates/npr-mesh/src/bvh.rs"]),
-            "--bins --lib --package npr-mesh"
+            "--lib --package npr-mesh"
         );
         assert_eq!(
             asked(&[
                 "tests/tests/frames/ages.rs",
                 "tests/tests/every_key/main.rs"
             ]),
-            "--bins --lib --package npr-tests --test every_key --test frames"
+            "--lib --package npr-tests --test every_key --test frames"
         );
-        assert_eq!(asked(&["xtask/src/main.rs"]), "--bins --package xtask");
+        assert_eq!(asked(&["xtask/src/main.rs"]), "--bin=xtask --package xtask");
     }
 
     #[test]
