@@ -32,10 +32,10 @@ const PROGRAMS: [&str; 3] = ["--workspace", "--all-features", "--tests"];
 /// Runs every test of the workspace, or what `arguments` ask `cargo test` for, with all features.
 pub fn run(root: &Path, arguments: &[&str]) -> Result<()> {
     if !arguments.is_empty() {
-        return run_with(root, &["--workspace"], arguments);
+        return run_with(root, arguments);
     }
-    let programs = run_programs(root, &[], &[]);
-    let documents = run_with(root, &["--workspace"], &["--doc"]);
+    let programs = run_programs(root, &PROGRAMS, &[], &[]);
+    let documents = run_with(root, &["--doc"]);
     programs.and(documents)
 }
 
@@ -51,7 +51,8 @@ pub fn quick(root: &Path) -> Result<()> {
     let changed: Vec<&str> = changed.lines().filter_map(|line| line.get(3..)).collect();
     let arguments = near(&changed, &folders(root)?);
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    run_with(root, &[], &arguments)
+    let programs = [&["--all-features"], &arguments[..]].concat();
+    run_programs(root, &programs, &[], &[])
 }
 
 /// The packages of the workspace by their folders below its root.
@@ -104,9 +105,14 @@ fn near(changed: &[&str], folders: &[(String, String)]) -> Vec<String> {
     arguments
 }
 
-/// Runs every test program of the workspace, two at a time, and prints what each says when it has ended.
-fn run_programs(root: &Path, arguments: &[&str], environment: &[(&str, String)]) -> Result<()> {
-    let programs = Program::compile(root, &PROGRAMS)?;
+/// Runs the test programs that `chosen` asks cargo for, two at a time, and prints what each says when it has ended.
+fn run_programs(
+    root: &Path,
+    chosen: &[&str],
+    arguments: &[&str],
+    environment: &[(&str, String)],
+) -> Result<()> {
+    let programs = Program::compile(root, chosen)?;
     let (mut tally, mut failed) = (Tally::default(), Vec::new());
     run_all(&programs, arguments, environment, |program, run| {
         let (text, is_success, seconds) = match run {
@@ -122,12 +128,11 @@ fn run_programs(root: &Path, arguments: &[&str], environment: &[(&str, String)])
     Ok(())
 }
 
-fn run_with(root: &Path, packages: &[&str], arguments: &[&str]) -> Result<()> {
+fn run_with(root: &Path, arguments: &[&str]) -> Result<()> {
     // Start the tests of the crates.
     let mut command = cargo(root);
     command
-        .args(["test", "--all-features", "--no-fail-fast"])
-        .args(packages)
+        .args(["test", "--all-features", "--no-fail-fast", "--workspace"])
         .args(arguments);
     let mut child = command
         .stdout(Stdio::piped())
@@ -182,7 +187,7 @@ pub fn again(root: &Path) -> Result<()> {
     );
 
     // Run them with that seed.
-    run_programs(root, &chosen, &[(SEED, seed.to_string())])
+    run_programs(root, &PROGRAMS, &chosen, &[(SEED, seed.to_string())])
 }
 
 /// Where property tests look for their seed.
