@@ -18,6 +18,7 @@ mod measure;
 mod names;
 mod packages;
 mod passes;
+mod programs;
 mod snapshots;
 mod source;
 #[cfg(test)]

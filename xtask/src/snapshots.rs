@@ -13,8 +13,8 @@ use crate::packages::cargo;
 pub fn bless(root: &Path, filter: &str) -> Result<()> {
     ensure!(!filter.is_empty(), "name what to bless");
     let status = cargo(root)
-        .args(["test", "--package", "npr-tests", "--test", "snapshots"])
-        .args(["--", "--show-output"])
+        .args(["test", "--package", "npr-tests", "--test", "frames"])
+        .args(["--", "snapshots::", "--show-output"])
         .env("NPR_BLESS", filter)
         .status()?;
     ensure!(

@@ -6,9 +6,10 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 
 use crate::packages::{cargo, members, output};
+use crate::programs::{Program, run_all};
 use crate::source::rust_files;
 
 /// How many tests went which way.
@@ -24,16 +25,17 @@ struct Tally {
     ignored: usize,
 }
 
-/// Programs whose tests are run: examples have none, and lints compile them.
-const PROGRAMS: [&str; 3] = ["--lib", "--bins", "--tests"];
+/// Programs whose tests are run: unit tests and folders `tests`, but no examples and no programs without tests, which
+/// lints compile.
+const PROGRAMS: [&str; 3] = ["--workspace", "--all-features", "--tests"];
 
 /// Runs every test of the workspace, or what `arguments` ask `cargo test` for, with all features.
 pub fn run(root: &Path, arguments: &[&str]) -> Result<()> {
     if !arguments.is_empty() {
-        return run_with(root, &["--workspace"], arguments, &[]);
+        return run_with(root, arguments);
     }
-    let programs = run_with(root, &["--workspace"], &PROGRAMS, &[]);
-    let documents = run_with(root, &["--workspace"], &["--doc"], &[]);
+    let programs = run_programs(root, &PROGRAMS, &[], &[]);
+    let documents = run_with(root, &["--doc"]);
     programs.and(documents)
 }
 
@@ -49,7 +51,8 @@ pub fn quick(root: &Path) -> Result<()> {
     let changed: Vec<&str> = changed.lines().filter_map(|line| line.get(3..)).collect();
     let arguments = near(&changed, &folders(root)?);
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    run_with(root, &[], &arguments, &[])
+    let programs = [&["--all-features"], &arguments[..]].concat();
+    run_programs(root, &programs, &[], &[])
 }
 
 /// The packages of the workspace by their folders below its root.
@@ -74,19 +77,21 @@ fn near(changed: &[&str], folders: &[(String, String)]) -> Vec<String> {
             packages.insert(name.as_str());
             let program = path
                 .strip_prefix("tests/")
+                .filter(|path| path.ends_with(".rs"))
                 .and_then(|path| path.split(['/', '.']).next());
             programs.extend(program);
         }
     }
 
-    // Ask for all crates where none changed. This one has no library, which cargo asks for in vain.
-    let mut arguments = vec!["--bins".to_owned()];
-    if packages.is_empty() {
-        arguments.push("--workspace".to_owned());
-    }
-    if packages.iter().ne(["xtask"].iter()) {
-        arguments.push("--lib".to_owned());
-    }
+    // Ask for all crates where none changed. This one has no library, and is the only program with unit tests.
+    let (is_all, is_own) = (packages.is_empty(), packages.contains("xtask"));
+    let asked = [
+        ("--workspace", is_all),
+        ("--lib", packages.len() > usize::from(is_own) || is_all),
+        ("--bin=xtask", is_own || is_all),
+    ];
+    let asked = asked.into_iter().filter(|(_, is_asked)| *is_asked);
+    let mut arguments: Vec<String> = asked.map(|(argument, _)| argument.to_owned()).collect();
     arguments.extend(
         packages
             .into_iter()
@@ -100,19 +105,35 @@ fn near(changed: &[&str], folders: &[(String, String)]) -> Vec<String> {
     arguments
 }
 
-fn run_with(
+/// Runs the test programs that `chosen` asks cargo for, two at a time, and prints what each says when it has ended.
+fn run_programs(
     root: &Path,
-    packages: &[&str],
+    chosen: &[&str],
     arguments: &[&str],
     environment: &[(&str, String)],
 ) -> Result<()> {
+    let programs = Program::compile(root, chosen)?;
+    let (mut tally, mut failed) = (Tally::default(), Vec::new());
+    run_all(&programs, arguments, environment, |program, run| {
+        let (text, is_success, seconds) = match run {
+            Ok(run) => (run.text, run.is_success, run.time.as_secs_f64()),
+            Err(error) => (format!("{error:#}"), false, 0.0),
+        };
+        println!("\n== {} ({seconds:.1} s)\n{text}", program.name());
+        text.lines().for_each(|line| tally.add(line));
+        failed.extend((!is_success).then(|| program.name()));
+    });
+    println!("\n{}", tally.summary());
+    ensure!(failed.is_empty(), "failed: {}", failed.join("; "));
+    Ok(())
+}
+
+fn run_with(root: &Path, arguments: &[&str]) -> Result<()> {
     // Start the tests of the crates.
     let mut command = cargo(root);
     command
-        .args(["test", "--all-features", "--no-fail-fast"])
-        .args(packages)
-        .args(arguments)
-        .envs(environment.iter().map(|(name, value)| (name, value)));
+        .args(["test", "--all-features", "--no-fail-fast", "--workspace"])
+        .args(arguments);
     let mut child = command
         .stdout(Stdio::piped())
         .spawn()
@@ -166,13 +187,7 @@ pub fn again(root: &Path) -> Result<()> {
     );
 
     // Run them with that seed.
-    let arguments: Vec<&str> = PROGRAMS.into_iter().chain(["--"]).chain(chosen).collect();
-    run_with(
-        root,
-        &["--workspace"],
-        &arguments,
-        &[(SEED, seed.to_string())],
-    )
+    run_programs(root, &PROGRAMS, &chosen, &[(SEED, seed.to_string())])
 }
 
 /// Where property tests look for their seed.
@@ -251,16 +266,19 @@ mod tests {
         ];
         let folders = folders.map(|(folder, name)| (folder.to_owned(), name.to_owned()));
         let asked = |changed: &[&str]| near(changed, &folders).join(" ");
-        assert_eq!(asked(&["README.md"]), "--bins --workspace --lib");
+        assert_eq!(asked(&["README.md"]), "--workspace --lib --bin=xtask");
         assert_eq!(
             asked(&["crates/npr-mesh/src/bvh.rs"]),
-            "--bins --lib --package npr-mesh"
+            "--lib --package npr-mesh"
         );
         assert_eq!(
-            asked(&["tests/tests/ages.rs", "tests/tests/id_maps/main.rs"]),
-            "--bins --lib --package npr-tests --test ages --test id_maps"
+            asked(&[
+                "tests/tests/frames/ages.rs",
+                "tests/tests/every_key/main.rs"
+            ]),
+            "--lib --package npr-tests --test every_key --test frames"
         );
-        assert_eq!(asked(&["xtask/src/main.rs"]), "--bins --package xtask");
+        assert_eq!(asked(&["xtask/src/main.rs"]), "--bin=xtask --package xtask");
     }
 
     #[test]

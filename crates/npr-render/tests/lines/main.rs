@@ -1,5 +1,7 @@
 //! Line drawings through the facade.
 
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
 mod background_contrast;
 mod cache;
 mod colors;
@@ -9,3 +11,4 @@ mod meaning;
 mod polylines;
 mod robustness;
 mod scenes;
+mod smoke;

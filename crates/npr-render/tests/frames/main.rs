@@ -1,0 +1,7 @@
+//! Frames through the facade.
+
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+mod backdrop;
+mod bands;
+mod smoke;

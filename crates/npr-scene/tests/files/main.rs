@@ -1,0 +1,9 @@
+//! Files of every format: sound, odd, damaged, and those beside the checkout.
+
+mod gltf;
+mod lines;
+mod malformed;
+mod models;
+mod mutants;
+mod text_formats;
+mod tolerated;

@@ -1,0 +1,6 @@
+//! Lines of meshes: what must hold on every mesh, from every eye.
+
+mod crowds;
+mod lines;
+mod polylines;
+mod surface_locations;

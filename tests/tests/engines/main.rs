@@ -1,0 +1,13 @@
+//! Pictures and drawings of both engines, in one program so that all tests share the device and its compiled passes.
+
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+mod backgrounds;
+mod hulls_and_words;
+mod id_maps;
+mod lines;
+mod models;
+mod pixel_strokes;
+mod polylines;
+mod skies;
+mod smoke;

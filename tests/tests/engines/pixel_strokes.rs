@@ -1,0 +1,224 @@
+//! The published stroke path on a device, from its own depths to strips, beside the processor.
+
+use super::lines::model_of;
+use npr_core::camera::{Camera, Projection};
+use npr_core::line_kind::KindSet;
+use npr_core::window::View;
+use npr_gpu::curves::{Hiders, ResidentPixels};
+use npr_gpu::engine::Engine;
+use npr_mesh::half_edge::HalfEdgeMesh;
+use npr_render::{
+    LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource, Model, Renderer,
+    RendererOptions,
+};
+use npr_scene::{LoadOptions, load};
+use npr_stylesheet::Style;
+use npr_tests::{device, models, samples};
+use npr_vector::mesh_lines::contour::Eye;
+use npr_vector::mesh_lines::draw::eye_of;
+use npr_vector::pixel_strokes::side::Ink;
+use npr_vector::pixel_strokes::stroke::Loops;
+use npr_vector::pixel_strokes::{
+    PixelScene, PublishedPath, Traced, ranked_sides, scene_depths, standings_of, trace,
+};
+use npr_vector::project::Projector;
+use npr_vector::rank::Ranked;
+use npr_vector::stroke::Drawing;
+use std::path::{Path, PathBuf};
+
+const SIZE: [u32; 2] = [480, 270];
+
+/// Models beside the checkout: one with holes, one with a skeleton.
+const MODELS: [&str; 2] = ["stanford_bunny.glb", "fox.glb"];
+
+/// The samples of this project, and some models of the shared folder.
+fn paths() -> Vec<PathBuf> {
+    let named = |path: &PathBuf| MODELS.iter().any(|name| path.ends_with(name));
+    samples()
+        .into_iter()
+        .chain(models().into_iter().filter(named))
+        .collect()
+}
+
+/// The framing camera and one in parallel view from beside it.
+fn cameras(model: &LineModel) -> [Camera; 2] {
+    let front = model.framing(SIZE[0] as f32 / SIZE[1] as f32, 0.7);
+    let mut parallel = front;
+    parallel.eye[0] += 0.3 * model.radius();
+    parallel.projection = Projection::Parallel {
+        height: 2.0 * model.radius(),
+    };
+    [front, parallel]
+}
+
+/// A view of a model.
+struct Seen<'a> {
+    shape: &'a HalfEdgeMesh,
+    view: View,
+    eye: Eye,
+}
+
+impl<'a> Seen<'a> {
+    fn new(model: &'a LineModel, camera: &Camera) -> Self {
+        let (shape, bounds) = (model.shape(), model.bounds());
+        Self {
+            shape,
+            view: camera.view(SIZE, bounds),
+            eye: eye_of(shape, &Projector::new(camera, SIZE, bounds)),
+        }
+    }
+
+    fn scene(&self) -> PixelScene<'_> {
+        PixelScene {
+            shape: self.shape,
+            view: &self.view,
+            eye: &self.eye,
+            kinds: KindSet::BITS,
+            creases: 0.766.into(),
+            is_drawn: &[],
+        }
+    }
+}
+
+/// Calls `test` with every model, every view of it, and what the device finds there from its own depths.
+fn on_device(test: impl Fn(&Path, &PixelScene<'_>, &Traced, &Loops)) {
+    let Some(device) = device() else { return };
+    for path in paths() {
+        let model = model_of(&path);
+        // One shape for all views: it stays on the device.
+        let mut resident = ResidentPixels::new(device, model.shape());
+        for camera in cameras(&model) {
+            let seen = Seen::new(&model, &camera);
+            let scene = seen.scene();
+            let constants = PublishedPath::default();
+            let (traced, loops) = resident.draw(&scene, &constants, Hiders::Surfaces).unwrap();
+            assert!(traced.sides.len() > 100, "{}", path.display());
+            test(&path, &scene, &traced, &loops);
+        }
+    }
+}
+
+/// What the processor makes of a picture: its sides, and these in rows.
+fn rows_of(traced: &Traced) -> (Vec<u32>, Ranked) {
+    let ink = Ink {
+        size: traced.size,
+        pixels: &traced.owners,
+    };
+    ranked_sides(&ink, None).unwrap()
+}
+
+#[test]
+fn linking_and_ranking_are_the_processors_bit_for_bit() {
+    on_device(|path, _, traced, _| {
+        let (sides, ranked) = rows_of(traced);
+        assert!(traced.sides == sides, "{}", path.display());
+        assert!(traced.order == ranked.order, "{}", path.display());
+        let standings = standings_of(&ranked);
+        assert!(traced.standings == standings, "{}", path.display());
+    });
+}
+
+#[test]
+fn pictures_from_the_devices_depths_are_nearly_those_of_the_processor() {
+    on_device(|path, scene, traced, _| {
+        let depths = scene_depths(scene.shape, scene.view);
+        let expected = trace(scene, &PublishedPath::default(), &depths).unwrap();
+        assert!(traced.segments == expected.segments, "{}", path.display());
+        let pairs = traced.owners.iter().zip(&expected.owners);
+        let differ = pairs.filter(|(found, expected)| found != expected).count();
+        let inked = expected.owners.iter().filter(|owner| **owner != 0).count();
+        assert!(
+            differ * 1000 <= inked,
+            "{}: {differ} of {inked}",
+            path.display()
+        );
+    });
+}
+
+#[test]
+fn strips_are_the_processors_but_for_rounding() {
+    on_device(|path, _, traced, loops| {
+        let expected = Loops::new(traced, &PublishedPath::default());
+        assert!(loops.spots == expected.spots, "{}", path.display());
+        let pairs = loops.kept.iter().zip(&expected.kept);
+        let differ = pairs.filter(|(found, expected)| found != expected).count();
+        assert!(
+            differ * 500 <= loops.kept.len(),
+            "{}: {differ} of {}",
+            path.display(),
+            loops.kept.len()
+        );
+        for (found, expected) in loops.places.iter().zip(&expected.places) {
+            let off = (found.x - expected.x)
+                .abs()
+                .max((found.y - expected.y).abs());
+            assert!(off < 1e-3, "{}: {found:?} {expected:?}", path.display());
+        }
+    });
+}
+
+/// Length of all strokes, in pixels.
+fn length_of(drawing: &Drawing) -> f64 {
+    let of_points = |points: &[[f64; 2]]| -> f64 {
+        let steps = points.windows(2);
+        steps
+            .map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]))
+            .sum()
+    };
+    let strokes = drawing.strokes.iter();
+    strokes
+        .map(|stroke| {
+            let points: Vec<_> = stroke.points.iter().map(|point| point.position).collect();
+            of_points(&points)
+        })
+        .sum()
+}
+
+#[test]
+fn drawings_of_both_engines_have_the_same_lines() {
+    let Some(device) = device() else { return };
+    for path in paths() {
+        let model = model_of(&path);
+        let mut renderer = LineRenderer::new(device, &model);
+        for camera in cameras(&model) {
+            let options = LineOptions {
+                method: LineSource::Potrace,
+                ..LineOptions::new(SIZE)
+            };
+            let style = Style::default();
+            let plain = model.draw(&camera, &style, &options).unwrap();
+            let found = renderer.draw(&camera, &style, &options).unwrap();
+            let names: Vec<_> = renderer.times().iter().map(|time| time.name).collect();
+            let has_clock = names.len() > 1;
+            assert!(!has_clock || names.contains(&"vector.draw_surfaces"));
+            let [expected, length] = [&plain, &found].map(length_of);
+            assert!(
+                (length / expected - 1.0).abs() < 0.005,
+                "{}: {length} {expected}",
+                path.display()
+            );
+        }
+    }
+}
+
+#[test]
+fn frames_draw_these_lines_on_the_device_too() {
+    let Some(device) = device() else { return };
+    let scene = load(&samples()[0], &LoadOptions::default()).unwrap();
+    let style = npr_tests::lines("potrace");
+    let model = Model::new(&scene).unwrap();
+    let lines = LineModel::for_style(&scene, &style, &LineModelOptions::default(), None).unwrap();
+    let camera = cameras(&lines)[0];
+    let drawn = |engine: &dyn Engine| {
+        let renderer = Renderer::new(engine, &model, &style, &RendererOptions::new(SIZE)).unwrap();
+        let mut renderer = renderer.with_lines(LineRenderer::new(engine, &lines));
+        renderer.draw(&camera).unwrap()
+    };
+    let [plain, found] = [drawn(&npr_gpu::processor::Processor), drawn(device)];
+    let pixels = plain.rgba.chunks(4).zip(found.rgba.chunks(4));
+    let is_off = |(a, b): &(&[u8], &[u8])| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 2);
+    let off = pixels.filter(is_off).count();
+    assert!(off < 100, "{off} pixels differ");
+    let is_ink = |pixel: &[u8]| pixel[0] < 128;
+    assert!(plain.rgba.chunks(4).filter(|pixel| is_ink(pixel)).count() > 500);
+}

@@ -1,0 +1,104 @@
+//! Parts whose lines are drawn as curves, in frames.
+
+use npr_gpu::processor::Processor;
+use npr_mesh::testing::icosphere;
+use npr_render::{
+    Frame, LineModel, LineModelOptions, LineRenderer, Model, Renderer, RendererOptions,
+};
+use npr_scene::Scene;
+use npr_stylesheet::Style;
+use npr_tests::comic::{SIZE, front};
+use npr_tests::{Ink, Object, lines, placed, scene_of};
+
+fn scene() -> Scene {
+    scene_of(&[
+        Object::new("Left", placed(&icosphere(4), [0.6; 3], [-0.7, 0.0, 0.0])),
+        Object::new("Right", placed(&icosphere(4), [0.6; 3], [0.4, 0.0, -1.0])),
+    ])
+}
+
+fn drawn(style: &Style, with_lines: bool) -> Frame {
+    let scene = scene();
+    let model = Model::new(&scene).unwrap();
+    let lines = LineModel::for_style(&scene, style, &LineModelOptions::default(), None).unwrap();
+    let mut renderer =
+        Renderer::new(&Processor, &model, style, &RendererOptions::new(SIZE)).unwrap();
+    if with_lines {
+        renderer = renderer.with_lines(LineRenderer::new(&Processor, &lines));
+    }
+    renderer.draw(&front()).unwrap()
+}
+
+/// Number of inked pixels where only the left ball is, and elsewhere.
+fn sides(frame: &Frame) -> [usize; 2] {
+    let ink = Ink::of(frame);
+    let (left, right): (Vec<[f32; 2]>, Vec<[f32; 2]>) =
+        ink.centers().partition(|center| center[0] < 135.0);
+    [left.len(), right.len()]
+}
+
+#[test]
+fn curves_ink_what_shapes_ink() {
+    let [as_shape, as_curves] =
+        ["shape", "curves"].map(|method| Ink::of(&drawn(&lines(method), true)));
+    assert!(as_curves.count() > 500);
+    let strayed = as_curves.without(&as_shape.grown(2)).count();
+    let missing = as_shape.without(&as_curves.grown(2)).count();
+    assert!(
+        strayed + missing < as_shape.count() / 50,
+        "{strayed} {missing}"
+    );
+}
+
+#[test]
+fn a_rule_chooses_curves_for_a_part() {
+    let mut style = lines("none");
+    let rule = "[[rule]]\nmatch.object = 'Right'\nline.method = 'curves'";
+    style.rule = Style::from_toml(rule, &|_| Err(String::new()))
+        .unwrap()
+        .rule;
+    let frame = drawn(&style, true);
+    let [left, right] = sides(&frame);
+    assert!(left == 0 && right > 200, "{left} {right}");
+    // The right ball's outline begins at 141, behind the left ball that ends at 150.
+    let ink = Ink::of(&frame);
+    assert!(
+        (138..149).all(|x| !ink.at(x, 120)),
+        "hidden lines are not drawn"
+    );
+    style.rule[0].line.method = None;
+    style.line.method = npr_stylesheet::OutlineMethod::Curves;
+    let [left, right] = sides(&drawn(&style, true));
+    assert!(left > 200 && right > 200, "{left} {right}");
+}
+
+#[test]
+fn without_a_line_model_they_are_left_out_and_told_of() {
+    let frame = drawn(&lines("curves"), false);
+    assert_eq!(Ink::of(&frame).count(), 0);
+    assert_eq!(
+        frame.notices,
+        ["lines as curves are left out: no line model was given"]
+    );
+    assert!(drawn(&lines("shape"), false).notices.is_empty());
+}
+
+/// Strokes from pixels are drawn over surfaces as curves are, and cover about as much.
+#[test]
+fn strokes_from_pixels_are_drawn_as_curves_are() {
+    let [curves, potrace] = ["curves", "potrace"].map(|method| drawn(&lines(method), true));
+    let [of_curves, of_pixels] = [&curves, &potrace].map(|frame| Ink::of(frame).count());
+    assert!(
+        of_pixels > of_curves / 2 && of_pixels < 2 * of_curves,
+        "{of_pixels} {of_curves}"
+    );
+    let mut style = lines("potrace");
+    style.line.potrace.speck_area = 1e6;
+    assert_eq!(
+        Ink::of(&drawn(&style, true)).count(),
+        0,
+        "its constants are those of the style"
+    );
+    let reported = ["lines as curves are left out: no line model was given"];
+    assert_eq!(drawn(&lines("potrace"), false).notices, reported);
+}

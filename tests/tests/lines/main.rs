@@ -1,0 +1,8 @@
+//! Lines of whole frames and of drawings, held against what is known of the shapes.
+
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+mod contour_growth;
+mod curves_in_frames;
+mod outlines;
+mod sampled_visibility;
