@@ -267,6 +267,13 @@ mod tests {
     }
 
     #[test]
+    fn another_seed_chooses_other_seats() {
+        let distances = Distances::new(&lumps(), 0.5);
+        assert_eq!(cover(&distances, 30, 1), cover(&distances, 30, 1));
+        assert_ne!(cover(&distances, 30, 1), cover(&distances, 30, 2));
+    }
+
+    #[test]
     fn nothing_to_cover_needs_no_seats() {
         let nothing = Volume::new([0, 0, 0], vec![], DAffine3::IDENTITY).unwrap();
         let distances = Distances::new(&nothing, 0.0);

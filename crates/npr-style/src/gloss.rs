@@ -373,6 +373,8 @@ mod tests {
         // R of an upright view is the normal, so L . R = 0.8.
         assert!((phong(UP, [0.6, 0.0, 0.8], UP, 2.0) - 0.64).abs() < 1e-6);
         assert_eq!(phong(UP, [0.6, 0.0, -0.8], UP, 2.0), 0.0);
+        // No light from behind is mirrored, even where the eye is behind too.
+        assert_eq!(phong(UP, [-0.6, 0.0, -0.8], [0.6, 0.0, -0.8], 2.0), 0.0);
     }
 
     #[test]

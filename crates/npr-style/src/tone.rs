@@ -432,6 +432,19 @@ mod tests {
     use npr_core::window::{View, Window};
     use proptest::prelude::*;
 
+    /// Smooth normals may turn away from the eye just before a contour.
+    #[test]
+    fn surfaces_turned_a_little_away_are_as_dark_as_those_turned_a_little_towards() {
+        for facing in [0.01f32, 0.2, 0.28, 0.32, 0.5] {
+            let dark = angle_ramp(facing, 0.3, 0.2);
+            assert_eq!(angle_ramp(-facing, 0.3, 0.2), dark);
+        }
+        assert_eq!(
+            [angle_ramp(-0.2, 0.3, 0.2), angle_ramp(-0.5, 0.3, 0.2)],
+            [1.0, 0.0]
+        );
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
         #[test]

@@ -5,6 +5,7 @@
 mod backgrounds;
 mod hulls_and_words;
 mod id_maps;
+mod kernels;
 mod lines;
 mod models;
 mod pixel_strokes;
