@@ -3,6 +3,7 @@
 //# use lib/ink_tone
 //# use lib/paint
 //# use lib/four
+//# use lib/second_layer
 
 // Drawings to an octave.
 const STEPS: f32 = 3.0;
@@ -79,11 +80,12 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
     var calm: Calm;
     calm.chart_distortion = chart_distortion * white[0];
     calm.abrupt = abruptness(per_px, parts[part].spacing_px);
+    var place = place_in_hatch(id, part, weights, places);
     if (flags & PART_ISOTROPIC) != 0u && chart_distortion >= LOOSE {
         calm.chart_distortion = 0.0;
-        return ink_of_hatch(part, place_on_screen(part, px), l[0], darkens, calm);
+        place = place_on_screen(part, px);
     }
-    return ink_of_hatch(part, place_in_hatch(id, part, weights, places), l[0], darkens, calm);
+    return ink_of_hatch(part, place, l[0], darkens, calm);
 }
 
 // Coordinates of a pixel and its neighbours in the hatch of a part that is laid on the picture.
@@ -106,29 +108,12 @@ fn ink_of_level(part: u32, l: f32) -> f32 {
     return -1.0;
 }
 
-// Whether the second of two layers may ink a place at luminance `l` of the shade ramp.
-fn second_may_ink(part: u32, l: f32) -> bool {
-    let darkest = sharpen(parts[part].second_from, parts[part].hatch_gain);
-    let room = 2.0 * (1.0 - parts[part].second_from) * parts[part].hatch_gain / parts[part].spacing_px;
-    return tone_value(darkest, l) - room <= parts[part].threshold;
-}
-
 // Ink of hatched surface at the luminance `l` of its shade ramp, which changes F by `darkens` over a pixel.
 fn ink_of_hatch(part: u32, place: HatchCoord, l: f32, darkens: vec2<f32>, calm: Calm) -> f32 {
-    var layer = hatch_layer(part, place);
-    if (parts[part].flags & PART_TWO_LAYERS) == 0u { return hatch_coverage(part, sharpened(part, layer), l, darkens, calm); }
-    let first = sharpened(part, scaled(layer, first_of_two(layer.s, parts[part].second_from)));
+    let layer = hatch_layer(part, place);
+    let first = sharpened(part, scaled(layer, share_of_first(part, layer.s)));
     let ink = hatch_coverage(part, first, l, darkens, calm);
-    // The first layer settles most places, or they are too light for the second.
-    if ink == 1.0 || !second_may_ink(part, l) { return ink; }
-    var crossed: HatchCoord;
-    crossed.uv = place.uv.yx + 0.5;
-    crossed.right = place.right.yx;
-    crossed.down = place.down.yx;
-    layer = hatch_layer(part, crossed);
-    let second = sharpened(part, scaled(layer, second_of_two(layer.s, parts[part].second_from)));
-    if first.s <= second.s { return ink; }
-    return hatch_coverage(part, second, l, darkens, calm);
+    return ink_of_second(part, place, first.s, ink, l, darkens, calm);
 }
 
 fn hatch_coverage(part: u32, layer: Hatching, l: f32, darkens: vec2<f32>, calm: Calm) -> f32 {
@@ -193,22 +178,6 @@ fn untied(tied: Hatching, chart_distortion: f32) -> Hatching {
     hatching.slope = vec2<f32>(0.0);
     hatching.hairline = 0.0;
     return hatching;
-}
-
-// Luminance of the first of two layers laid over each other, and the factor on its slope.
-fn first_of_two(s: f32, start: f32) -> vec2<f32> {
-    let rest = max(1.0 - start, 1e-6);
-    let white = 1.0 - s;
-    let thinned = 1.0 - white * white / rest;
-    if thinned > s { return vec2<f32>(thinned, 2.0 * white / rest); }
-    return vec2<f32>(s, 1.0);
-}
-
-// Luminance of the second layer, and the factor on its slope.
-fn second_of_two(s: f32, start: f32) -> vec2<f32> {
-    let rest = max(1.0 - start, 1e-6);
-    let white = 1.0 - s;
-    return vec2<f32>(1.0 - rest * white * white, 2.0 * rest * white);
 }
 
 // A layer with luminance `by.x` and its slope times `by.y`.
@@ -320,7 +289,7 @@ fn mean_ink(id: u32, corners: Corners, known: f32, px: vec2<f32>, counted: u32, 
     let part = triangles[id - 1u].part;
     var values = vec4<f32>(0.0);
     var left = counted;
-    while left != 0u {
+    loop {
         let dark = number_of(darks, firstTrailingBit(left));
         let alike = left & bits_of(darks == vec4<u32>(dark));
         left &= ~alike;
@@ -330,6 +299,7 @@ fn mean_ink(id: u32, corners: Corners, known: f32, px: vec2<f32>, counted: u32, 
             ink = ink_at(id, part, corners, px, dark);
         }
         values = select(values, vec4<f32>(ink), samples_in(alike));
+        continuing { break if left == 0u; }
     }
     let first = value_at(values, firstTrailingBit(counted));
     let beyond = (values - first) / f32(countOneBits(counted));

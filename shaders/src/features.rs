@@ -57,6 +57,14 @@ features! {
     SMOKE_SHADOWS = 17;
     /// The colour of lines depends on their place.
     TINTS = 18;
+    /// Strokes cross in two layers.
+    SECOND_LAYER = 19;
+    /// Highlights have a shape of their own.
+    SHAPED_GLOSS = 20;
+    /// Light falls on rims from behind.
+    BACK_LIGHT = 21;
+    /// Streaks lie over surfaces.
+    STREAKS = 22;
 }
 
 impl Features {

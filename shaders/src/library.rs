@@ -52,6 +52,7 @@ macro_rules! serving {
 /// All libraries.
 const LIBRARIES: &[Library] = &[
     always!("adapt"),
+    serving!(Features::BACK_LIGHT, "back_light"),
     always!("backdrop"),
     serving!(Features::BEAMS, "beam"),
     serving!(Features::BEAMS, "beam_ids"),
@@ -92,7 +93,9 @@ const LIBRARIES: &[Library] = &[
     always!("samples"),
     serving!(Features::TEXTURES, "sampling"),
     always!("scenery"),
+    serving!(Features::SECOND_LAYER, "second_layer"),
     serving!(Features::SHADOWS, "shadow"),
+    serving!(Features::SHAPED_GLOSS, "shaped_gloss"),
     serving!(Features::SKY, "sky"),
     always!("smoke"),
     serving!(Features::SMOKE, "smoke_cover"),
@@ -104,6 +107,7 @@ const LIBRARIES: &[Library] = &[
     always!("spine"),
     always!("stamp"),
     always!("step"),
+    serving!(Features::STREAKS, "streak"),
     always!("stretch"),
     always!("surface"),
     always!("surface_color"),

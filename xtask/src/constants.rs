@@ -62,6 +62,7 @@ const TWINS: &[Twins] = &[
     twins("lib/ink_tone.wgsl", "", "npr-style/src/inking.rs", ""),
     twins("lib/tone_range.wgsl", "", "npr-style/src/corners.rs", ""),
     twins("lib/triangle_constants.wgsl", "KNOWN_", "npr-style/src/triangle_constants.rs", "TriangleConstants::"),
+    twins("lib/shaped_gloss.wgsl", "", "npr-style/src/gloss.rs", ""),
     twins("lib/gloss.wgsl", "", "npr-style/src/gloss.rs", ""),
     twins("lib/inking.wgsl", "", "npr-style/src/inking.rs", ""),
     twins("lib/inking.wgsl", "STEPS", "npr-style/src/hatch/drawing.rs", "STEPS"),

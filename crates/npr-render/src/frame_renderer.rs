@@ -180,6 +180,11 @@ impl Needs {
         };
         let shows_pictures = styled.background_texture != NONE || parts.iter().any(has_picture);
 
+        let is_shaped = |part: &Part| {
+            let [_, _, split_u, split_v] = part.highlight_turn;
+            part.highlight_shape != [0.0; 4] || split_u != 0.0 || split_v != 0.0
+        };
+
         // Look what the lights and the smoke ask for.
         let layers = |bit: u32| self.features.layers & bit != 0;
         let has_smoke = layers(Compose::SMOKE);
@@ -198,6 +203,10 @@ impl Needs {
             Features::INK.when(any(Part::INK | Part::HATCH)),
             Features::PAINT.when(any(Part::PAINTED)),
             Features::GLOSS.when(any(Part::HIGHLIGHTS)),
+            Features::SHAPED_GLOSS.when(parts.iter().any(is_shaped)),
+            Features::BACK_LIGHT.when(any(Part::BACK_LIGHT)),
+            Features::STREAKS.when(any(Part::STREAK)),
+            Features::SECOND_LAYER.when(any(Part::TWO_LAYERS)),
             Features::HULLS.when(self.features.hull),
             Features::ANGLES.when(any(Part::ANGLE)),
             Features::RIBBONS.when(layers(Compose::RIBBONS)),
