@@ -215,6 +215,19 @@ mod tests {
         }
     }
 
+    /// Lines along a side of the picture cross none of the two borders beside them.
+    #[test]
+    fn upright_and_level_lines_are_kept_inside_alone() {
+        for (x, kept) in [(-1.0, 0), (15.0, 1), (31.0, 0)] {
+            let parts = clip_stroke(&stroke(&[[x, -5.0], [x, 25.0]], false), SIZE, 0.0);
+            assert_eq!(parts.len(), kept, "upright at {x}");
+        }
+        for (y, kept) in [(-1.0, 0), (10.0, 1), (21.0, 0)] {
+            let parts = clip_stroke(&stroke(&[[-5.0, y], [35.0, y]], false), SIZE, 0.0);
+            assert_eq!(parts.len(), kept, "level at {y}");
+        }
+    }
+
     #[test]
     fn a_closed_line_inside_stays_closed() {
         let parts = clip_stroke(

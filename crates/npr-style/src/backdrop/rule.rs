@@ -182,3 +182,27 @@ impl Rules {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn goals_are_kept_within_the_scale_of_their_measure() {
+        let goal = |measure, goal| {
+            let rule = Rule {
+                measure,
+                goal,
+                ..Rule::CONTRAST
+            };
+            rule.sane().goal
+        };
+        assert_eq!(
+            [0.0, 4.5, 99.0].map(|ratio| goal(Rule::WCAG, ratio)),
+            [1.0, 4.5, 21.0]
+        );
+        let lightness = |value| goal(Rule::LIGHTNESS, value);
+        assert_eq!([-1.0, 0.3, 4.5].map(lightness), [0.0, 0.3, 1.0]);
+        assert_eq!(goal(Rule::WCAG, f32::NAN), 1.0);
+    }
+}
