@@ -267,10 +267,14 @@ mod tests {
     }
 
     #[test]
-    fn another_seed_chooses_other_seats() {
-        let distances = Distances::new(&lumps(), 0.5);
-        assert_eq!(cover(&distances, 30, 1), cover(&distances, 30, 1));
-        assert_ne!(cover(&distances, 30, 1), cover(&distances, 30, 2));
+    fn another_seed_seats_spheres_elsewhere_in_their_voxels() {
+        // The deepest voxel is the only one of its depth, so that every seed takes it first.
+        let cube = Volume::new([5; 3], vec![1.0; 125], DAffine3::IDENTITY).unwrap();
+        let distances = Distances::new(&cube, 0.5);
+        let places = [1, 1, 2].map(|seed| cover(&distances, 1, seed)[0].place);
+        assert_eq!(places[0], places[1]);
+        assert_ne!(places[0], places[2]);
+        assert_eq!(places.map(|place| place.round()), [Vec3::splat(2.0); 3]);
     }
 
     #[test]
