@@ -75,7 +75,8 @@ pub trait Session {
     /// [`EngineError`] where the device is lost.
     fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError>;
 
-    /// Runs every node once, in order, and reads resources: a device does all of it at once and is waited for once.
+    /// Runs every node once, in order, and reads resources, each named once: a device does all of it at once and is
+    /// waited for once.
     ///
     /// # Errors
     ///
@@ -83,7 +84,7 @@ pub trait Session {
     fn run_reading(&mut self, ids: &[ResourceId])
     -> Result<(Vec<PassTime>, Readings), EngineError>;
 
-    /// Reads resources as the last run left them, all at once.
+    /// Reads resources as the last run left them, each named once, all at once.
     ///
     /// # Errors
     ///
