@@ -95,9 +95,9 @@ impl Features {
         if is_needed { self } else { Self::NONE }
     }
 
-    /// Whether every feature of the other set is in this one.
-    pub const fn contains(self, other: Self) -> bool {
-        self.0 & other.0 == other.0
+    /// Whether what serves these features is needed for others: it serves one of them, or every frame.
+    pub const fn serve(self, features: Self) -> bool {
+        self.0 == 0 || self.meets(features)
     }
 
     /// Whether the sets share a feature.

@@ -18,7 +18,7 @@ pub(crate) struct Library {
 impl Library {
     /// Its text in a shader for `features`.
     pub fn text_for(&self, features: Features) -> &'static str {
-        match self.serves == Features::NONE || features.meets(self.serves) {
+        match self.serves.serve(features) {
             true => self.text,
             false => self.without,
         }

@@ -99,7 +99,7 @@ impl Slot {
 
     /// Whether a shader for `features` binds it.
     pub fn is_bound_for(&self, features: Features) -> bool {
-        !self.is_for_twin && (self.serves == Features::NONE || features.meets(self.serves))
+        !self.is_for_twin && self.serves.serve(features)
     }
 }
 

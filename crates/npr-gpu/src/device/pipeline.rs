@@ -45,10 +45,17 @@ impl PipelineCache {
         passes: &[&'static Pass],
         features: Features,
     ) -> Result<Vec<Arc<Pipeline>>, EngineError> {
-        // Compile every pass that is missing once.
+        // Compile every pass that is missing once; long graphs hold a pass many times.
+        let mut deciding = BTreeMap::new();
         let keys: Vec<Key> = passes
             .iter()
-            .map(|pass| (pass.name, pass.deciding(features)))
+            .map(|pass| {
+                let decided = deciding.entry(pass.name);
+                (
+                    pass.name,
+                    *decided.or_insert_with(|| pass.deciding(features)),
+                )
+            })
             .collect();
         let mut missing = BTreeSet::new();
         let known: BTreeSet<Key> = self.lock().keys().copied().collect();

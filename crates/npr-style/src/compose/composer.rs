@@ -26,8 +26,7 @@ pub fn fill(layers: &Layers<'_>, frame: &mut [u32], list: &mut [u32]) {
     let Some((count, pixels)) = list.split_first_mut() else {
         return;
     };
-    let mut into = pixels.iter_mut();
-    for (pixel, into) in left.iter().flatten().zip(&mut into) {
+    for (into, pixel) in pixels.iter_mut().zip(left.iter().flatten()) {
         *into = *pixel;
     }
     *count = left.iter().map(|row| row.len() as u32).sum();
