@@ -1,6 +1,6 @@
 //! A frame as data: resources, and the passes that fill them in order.
 
-use crate::pass::{Access, Format, Pass, Work};
+use crate::pass::{Access, Format, Pass, WORKGROUP_SIZE, Work};
 use bytemuck::NoUninit;
 use npr_core::layout::GpuLayout;
 use npr_shaders::Features;
@@ -355,6 +355,22 @@ impl Graph {
             Work::PerListed { .. } => count.saturating_sub(1),
             _ => count,
         }
+    }
+
+    /// The number of work items of a node whose size is these arguments: no more than it has room for.
+    pub(crate) fn sized_work_count(&self, node: &Node, arguments: &Arguments) -> usize {
+        let (x, y) = (u64::from(arguments.x), u64::from(arguments.y));
+        let count = match node.pass.work {
+            Work::PerElement { .. } | Work::PerListed { .. } => x * y * u64::from(WORKGROUP_SIZE),
+            Work::Draw { vertices, .. } => x / u64::from(vertices.max(1)),
+        };
+        let room = self.work_count(node);
+        usize::try_from(count).map_or(room, |count| room.min(count))
+    }
+
+    /// Whether running a node changes anything: clearing does, even when nothing is drawn.
+    pub(crate) fn acts(&self, node: &Node) -> bool {
+        node.clears || self.work_count(node) > 0
     }
 
     /// Bytes of all resources together.

@@ -44,7 +44,7 @@ impl Step {
         let extents = nodes.iter().map(|node| extent_of(graph, node));
         let extents: Vec<Extent> = extents.collect::<Result<_, _>>()?;
         let acting: Vec<usize> = (0..nodes.len())
-            .filter(|i| has_effect(&nodes[*i], extents[*i]))
+            .filter(|i| graph.acts(&nodes[*i]))
             .collect();
 
         // Compile the passes of the others, and bind their resources.
@@ -90,11 +90,6 @@ fn bind(
             entries: &entries,
         })
     })
-}
-
-/// Whether running a node changes anything: clearing does, even when nothing is drawn.
-fn has_effect(node: &Node, extent: Extent) -> bool {
-    node.clears || !matches!(extent, Extent::Groups([0, _]) | Extent::Vertices(0))
 }
 
 fn extent_of(graph: &Graph, node: &Node) -> Result<Extent, EngineError> {
