@@ -7,11 +7,12 @@
 //! - Caches are perfect within a pass, and keep nothing from one pass to the next: an element costs its bytes once a
 //!   pass, however many invocations read it. A uniform is one element.
 //! - A slot *in step* with the work has a whole multiple of the elements that the pass counts. It costs the share of
-//!   its bytes that the work is of the room.
+//!   its bytes that the work is of the room, also where an invocation ends before it reads its own.
 //! - A slot of a draw *in step* with the texels has as many elements as a target. It costs one element a drawn texel.
 //! - Every other slot that is read costs all of its bytes, which is the most that it can cost:
 //!   [`Cost::whole_bytes`] tells how much of the sum that is. One that is written costs all of its bytes too.
-//! - A list that is appended to costs what is in it, and so does one that is worked through.
+//! - A list that is appended to costs what is in it, and so does one that is worked through; to any other pass it tells
+//!   its length alone.
 //! - A target that is cleared is written once; a drawn texel reads its depth and writes all targets. Texels that are
 //!   drawn over are not seen, so they do not count.
 //!
@@ -103,6 +104,7 @@ pub fn pass_costs(graph: &Graph, session: &mut dyn Session) -> Result<Vec<PassCo
     let run = Run {
         graph,
         read: session.read_all(&ids)?,
+        lists: graph.nodes().iter().flat_map(lists).collect(),
     };
     let mut order = Order::default();
     let costs = graph.nodes().iter().map(|node| PassCost {
@@ -157,6 +159,8 @@ fn bytes_of(graph: &Graph, id: ResourceId) -> u64 {
 struct Run<'a> {
     graph: &'a Graph,
     read: Readings,
+    /// What passes append to.
+    lists: BTreeSet<ResourceId>,
 }
 
 /// How much a node did, and how much it had room for.
@@ -221,6 +225,8 @@ impl Run<'_> {
             (self.list_bytes(id), true)
         } else if is_counted && matches!(node.pass.work, Work::PerListed { .. }) {
             ((1 + work.items) * 4, true)
+        } else if !is_counted && slot.access == Access::Read && self.lists.contains(&id) {
+            (4, true)
         } else if !is_counted && work.texels > 0 && count == work.texels {
             (share(whole, work.drawn, work.texels), true)
         } else if work.room > 0 && count % work.room == 0 {

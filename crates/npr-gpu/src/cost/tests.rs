@@ -4,6 +4,7 @@ use crate::engine::Engine;
 use crate::pass::{Agreement, append, read, texture, uniform, update, write};
 use crate::processor::Processor;
 use npr_shaders::Shader;
+use npr_vector::rank::work::WorkRule;
 use proptest::prelude::*;
 
 /// A struct of 16 bytes.
@@ -147,11 +148,14 @@ fn lists_cost_what_is_in_them() {
     graph.compute_sized(&FOLLOW, &[list, fours, sums], work.elements());
     for listed in [0u64, 1, 64, 65, 640] {
         let words: Vec<u32> = (0..640).map(|i| u32::from(i < listed)).collect();
-        let [made, _, followed] = costs(&graph, Some((numbers, &words)))[..] else {
+        let [made, sized, followed] = costs(&graph, Some((numbers, &words)))[..] else {
             panic!("three passes");
         };
         assert_eq!((made.read_bytes, made.workgroups), (640 * 4, 10));
         assert_eq!(made.written_bytes, (1 + listed) * 4, "{listed}");
+        // The pass that makes sizes reads its rule and the list's length.
+        let rule = size_of::<WorkRule>() as u64;
+        assert_eq!((sized.read_bytes, sized.whole_bytes), (rule + 4, 0));
         // A list that is empty still starts a workgroup, which reads nothing of the rest.
         let groups = listed.div_ceil(64).max(1);
         assert_eq!(
