@@ -4,4 +4,5 @@
 
 mod backdrop;
 mod bands;
+mod costs;
 mod smoke;
