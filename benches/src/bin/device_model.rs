@@ -455,8 +455,8 @@ fn others(job: &Job, engine: &dyn Engine) -> Outcome<()> {
 /// Whether a goal is met, in words.
 fn verdict(is_met: bool) -> &'static str {
     if is_met {
-        "holds by the model"
+        "is met by the model for this frame"
     } else {
-        "does not hold by the model"
+        "is not met by the model for this frame"
     }
 }
