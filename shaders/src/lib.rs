@@ -90,8 +90,8 @@ shaders! {
     LINE_FIND_RESIDUAL = "line/find_residual";
     /// Evens out where stamps lie along a line.
     LINE_SMOOTH_STAMPS = "line/smooth_stamps";
-    /// Marks the tiles that hold such pixels.
-    LINE_FLAG_TILES = "line/flag_tiles";
+    /// Claims pixels for the stamps that cover them.
+    LINE_CLAIM_PIXELS = "line/claim_pixels";
     /// Inks discs around the mask pixels that no ribbon inked.
     LINE_STAMP_RESIDUAL = "line/stamp_residual";
     /// Draws the mask itself.

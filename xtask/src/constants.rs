@@ -98,6 +98,7 @@ const TWINS: &[Twins] = &[
     twins("line/color_mask.wgsl", "", "npr-style/src/line_color.rs", ""),
     twins("line/detect.wgsl", "", "npr-vector/src/screen/detect.rs", ""),
     twins("line/draw_ribbons.wgsl", "", "npr-vector/src/screen/ribbon.rs", ""),
+    twins("line/claim_pixels.wgsl", "", "npr-vector/src/screen/residual.rs", ""),
     twins("line/find_residual.wgsl", "", "npr-vector/src/screen/residual.rs", ""),
     twins("mesh/pose_vertices.wgsl", "", "npr-mesh/src/pose.rs", ""),
     twins("shade/compose_frame.wgsl", "", "npr-style/src/tone.rs", ""),

@@ -30,8 +30,6 @@ pub struct Outline {
     pub detects: u32,
     /// Bits of [`Outline::WORLD_WIDTH`] to [`Outline::UNMASKED`].
     pub flags: u32,
-    /// Largest half width of any line, rounded up, plus one: how far around a pixel stamps are looked for.
-    pub reach_px: u32,
 }
 gpu_layout!(Outline {
     base_width,
@@ -45,7 +43,6 @@ gpu_layout!(Outline {
     kinds,
     detects,
     flags,
-    reach_px,
 });
 
 impl Outline {

@@ -252,7 +252,11 @@ impl Graph {
                 (Kind::Uniform { size }, Access::Uniform) => size == slot.element.size,
                 (
                     Kind::Buffer { stride, .. },
-                    Access::Read | Access::Write | Access::Update | Access::Append,
+                    Access::Read
+                    | Access::Write
+                    | Access::Update
+                    | Access::Scatter
+                    | Access::Append,
                 ) => stride == slot.element.size,
                 (Kind::Image { format, .. }, Access::Texture(wanted)) => format == wanted,
                 _ => false,
@@ -366,12 +370,14 @@ impl Graph {
     }
 }
 
-/// The lists that a node appends to.
-pub(crate) fn lists(node: &Node) -> impl Iterator<Item = ResourceId> + '_ {
+/// What is 0 when a node begins: buffers, and how many of their first words, where not all.
+pub(crate) fn emptied(node: &Node) -> impl Iterator<Item = (ResourceId, Option<usize>)> + '_ {
     let slots = node.pass.slots.iter().zip(&node.bound);
-    slots
-        .filter(|(slot, _)| slot.access == Access::Append)
-        .map(|(_, id)| *id)
+    slots.filter_map(|(slot, id)| match slot.access {
+        Access::Append => Some((*id, Some(1))),
+        Access::Scatter => Some((*id, None)),
+        _ => None,
+    })
 }
 
 /// The resources that a node writes.

@@ -114,6 +114,8 @@ pub enum Access {
     Write,
     /// An array in a storage buffer whose elements are read and then written anew.
     Update,
+    /// An array in a storage buffer that is 0 before the pass, which writes some of its elements.
+    Scatter,
     /// A list in a storage buffer that invocations append to: the number of its elements, which is 0 before the pass,
     /// then the elements in any order.
     Append,
@@ -124,7 +126,10 @@ pub enum Access {
 impl Access {
     /// Whether the pass changes what the slot binds.
     pub fn writes(self) -> bool {
-        matches!(self, Self::Write | Self::Update | Self::Append)
+        matches!(
+            self,
+            Self::Write | Self::Update | Self::Scatter | Self::Append
+        )
     }
 }
 
@@ -205,6 +210,14 @@ pub const fn write<T: GpuLayout>(name: &'static str) -> Slot {
 pub const fn update<T: GpuLayout>(name: &'static str) -> Slot {
     Slot {
         access: Access::Update,
+        ..write::<T>(name)
+    }
+}
+
+/// A slot of which some elements are written; the others become 0.
+pub const fn scatter<T: GpuLayout>(name: &'static str) -> Slot {
+    Slot {
+        access: Access::Scatter,
         ..write::<T>(name)
     }
 }

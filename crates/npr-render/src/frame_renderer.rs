@@ -420,8 +420,7 @@ impl FrameRenderer<'_> {
         let world_px = look::nearest_world_px(&view, camera, self.model);
         let base_px = look::base_px(style, size[1], dpi, world_px);
         let half = look::largest_half_width(style, &self.styled.parts, base_px);
-        let reach_px = half.ceil().min(64.0) as u32 + 1;
-        let outline = look::outline(style, self.model.radius(), size[1], dpi, reach_px);
+        let outline = look::outline(style, self.model.radius(), size[1], dpi);
         let px = [size[1] as f32, dpi, world_px];
         let rules = self
             .contrast

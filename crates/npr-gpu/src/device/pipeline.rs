@@ -139,7 +139,7 @@ fn binding_type(slot: &Slot) -> wgpu::BindingType {
     match slot.access {
         Access::Uniform => buffer(wgpu::BufferBindingType::Uniform),
         Access::Read => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
-        Access::Write | Access::Update | Access::Append => {
+        Access::Write | Access::Update | Access::Scatter | Access::Append => {
             buffer(wgpu::BufferBindingType::Storage { read_only: false })
         }
         Access::Texture(format) => wgpu::BindingType::Texture {

@@ -7,7 +7,7 @@ use super::pipeline::{PipelineCache, Stage};
 use super::staging::Staging;
 use super::step::{Extent, Step};
 use crate::engine::{EngineError, PassTime, Readings, Session};
-use crate::graph::{Graph, Node, ResourceId, WorkSize, lists};
+use crate::graph::{Graph, Node, ResourceId, WorkSize, emptied};
 use crate::pass::Format;
 use npr_vector::rank::work::Arguments;
 use std::collections::BTreeMap;
@@ -115,11 +115,11 @@ impl DeviceSession {
     }
 
     fn record(&self, encoder: &mut wgpu::CommandEncoder, number: u32, step: &Step) {
-        // Empty the lists that the pass appends to.
+        // Empty what the pass appends to, or writes in part.
         let node = &self.graph.nodes()[step.node];
-        for id in lists(node) {
+        for (id, count) in emptied(node) {
             if let Memory::Buffer(buffer) = &self.memory[id.index()] {
-                encoder.clear_buffer(buffer, 0, Some(4));
+                encoder.clear_buffer(buffer, 0, count.map(|words| words as u64 * 4));
             }
         }
 

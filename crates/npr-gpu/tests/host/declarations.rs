@@ -124,7 +124,7 @@ fn check_access(pass: &Pass, slot: &Slot, global: &GlobalVariable, inner: &TypeI
                     access: StorageAccess::LOAD,
                 }
         }
-        Access::Write | Access::Update | Access::Append => {
+        Access::Write | Access::Update | Access::Scatter | Access::Append => {
             global.space
                 == AddressSpace::Storage {
                     access: StorageAccess::LOAD | StorageAccess::STORE,

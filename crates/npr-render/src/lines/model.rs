@@ -454,7 +454,7 @@ impl LineModel {
             style,
         };
         let of_frame = view.camera.view(options.size, self.bounds);
-        let outline = look::outline(style, radius, options.size[1], options.dpi, 0);
+        let outline = look::outline(style, radius, options.size[1], options.dpi);
         let widths = Widths::new(input, &of_frame, outline);
 
         // Settle which lines are drawn, and how their points are painted.
