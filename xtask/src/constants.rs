@@ -111,6 +111,8 @@ const TWINS: &[Twins] = &[
     twins("vector/scan_blocks.wgsl", "", "npr-vector/src/rank/scan.rs", ""),
     twins("vector/size_work.wgsl", "", "npr-vector/src/rank/work.rs", ""),
     twins("vector/size_work.wgsl", "BLOCK", "npr-vector/src/rank/scan.rs", "BLOCK"),
+    twins("vector/size_work.wgsl", "BLOCKS_IN_ROW", "npr-vector/src/rank/work.rs", "BLOCKS_IN_ROW"),
+    twins("vector/size_work.wgsl", "RUN", "npr-vector/src/rank/scan.rs", "RUN"),
     twins("vector/weigh_samples.wgsl", "", FILTER, ""),
     twins("vector/weigh_samples.wgsl", "CLEARLY_VISIBLE", FILTER, "CLEAR_SHARES[0]"),
     twins("vector/weigh_samples.wgsl", "CLEARLY_HIDDEN", FILTER, "CLEAR_SHARES[1]"),

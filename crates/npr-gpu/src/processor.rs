@@ -4,6 +4,7 @@ use crate::engine::{Engine, EngineError, PassTime, Readings, Session};
 use crate::graph::Kind;
 use crate::graph::{Graph, Node, ResourceId, WorkSize, emptied, writes};
 use crate::pass::{Bindings, Bound, WORKGROUP_SIZE, Work};
+use npr_vector::rank::scan::BLOCK;
 use npr_vector::rank::work::Arguments;
 use rayon::prelude::*;
 use std::time::Instant;
@@ -139,6 +140,7 @@ fn work_count(graph: &Graph, node: &Node, memory: &[Vec<u32>]) -> usize {
         Work::PerElement { .. } | Work::PerListed { .. } => {
             u64::from(x) * u64::from(y) * u64::from(WORKGROUP_SIZE)
         }
+        Work::PerRun { .. } => u64::from(x) * u64::from(y) * BLOCK as u64,
         Work::Draw { vertices, .. } => u64::from(x / vertices.max(1)),
     };
     usize::try_from(count).map_or(room, |count| room.min(count))

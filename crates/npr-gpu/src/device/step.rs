@@ -5,7 +5,7 @@ use super::memory::Memory;
 use super::pipeline::{Pipeline, PipelineCache};
 use crate::engine::EngineError;
 use crate::graph::{Graph, Node};
-use crate::pass::Work;
+use crate::pass::{RUN, WORKGROUP_SIZE, Work};
 use npr_vector::rank::work;
 use std::sync::Arc;
 
@@ -101,6 +101,7 @@ fn extent_of(graph: &Graph, node: &Node) -> Result<Extent, EngineError> {
     let count = graph.work_count(node);
     let extent = match node.pass.work {
         Work::PerElement { .. } | Work::PerListed { .. } => groups_for(count).map(Extent::Groups),
+        Work::PerRun { .. } => groups_for(count.div_ceil(RUN)).map(Extent::Groups),
         Work::Draw { vertices, .. } => {
             let all = count.checked_mul(vertices as usize);
             all.and_then(|all| u32::try_from(all).ok())
@@ -113,19 +114,21 @@ fn extent_of(graph: &Graph, node: &Node) -> Result<Extent, EngineError> {
     })
 }
 
-/// Workgroups in x and y for a number of elements, 0 in x for none; `None` if there are more than a dispatch can have.
-fn groups_for(element_count: usize) -> Option<[u32; 2]> {
-    let count = u32::try_from(element_count).ok()?;
+/// Workgroups in x and y for a number of invocations, 0 in x for none, in rows of equal width; `None` if there are more
+/// than a dispatch can have.
+fn groups_for(invocation_count: usize) -> Option<[u32; 2]> {
+    let count = u32::try_from(invocation_count).ok()?;
     if count == 0 {
         return Some([0, 1]);
     }
-    Some(work::groups_for(count))
+    let groups = count.div_ceil(WORKGROUP_SIZE);
+    let rows = groups.div_ceil(work::MAX_GROUPS);
+    Some([groups.div_ceil(rows), rows])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pass::WORKGROUP_SIZE;
 
     #[test]
     fn groups_turn_into_rows_when_one_row_is_full() {

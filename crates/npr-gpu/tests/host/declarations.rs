@@ -256,7 +256,7 @@ fn entry_points_are_as_declared() {
             .map(|entry| (entry.name.as_str(), entry.stage))
             .collect();
         match pass.work {
-            Work::PerElement { .. } | Work::PerListed { .. } => {
+            Work::PerElement { .. } | Work::PerRun { .. } | Work::PerListed { .. } => {
                 assert_eq!(
                     entries,
                     [("main", naga::ShaderStage::Compute)],
