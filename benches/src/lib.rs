@@ -1,7 +1,7 @@
 //! What the benchmarks of whole frames share with `measure`, the program that writes their tables.
 //!
 //! Subjects ([`subject`]) are meshes of an exact number of triangles ([`solid`]) or models from outside; [`timing`]
-//! takes medians, [`cost`] fits how time grows with triangles and pixels, [`memory`] and [`machine`] ask the system,
+//! takes medians, [`cost`] fits how time grows with triangles and pixels, [`card`] predicts it, [`memory`] and [`machine`] ask the system,
 //! and [`device`](mod@device) opens a graphics device where there is one.
 //!
 //! ```
@@ -14,6 +14,7 @@
 //! assert!(cost.is_some_and(|cost| cost.r_squared > 0.999));
 //! ```
 
+pub mod card;
 pub mod comic;
 pub mod cost;
 #[cfg(feature = "wgpu")]

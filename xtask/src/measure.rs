@@ -20,6 +20,9 @@ const SMOKE: &str = "benches/results/smoke.md";
 /// Where the tables of outlines before backgrounds are kept.
 const OUTLINE_COLOR: &str = "benches/results/outline_color.md";
 
+/// Where the tables of frames on graphics cards are kept.
+const DEVICE: &str = "benches/results/device_model.md";
+
 /// Where the tables of tracings are kept.
 const TRACE: &str = "benches/results/trace.md";
 
@@ -64,6 +67,16 @@ pub fn smoke(root: &Path) -> Result<()> {
 pub fn outline_color(root: &Path) -> Result<()> {
     let tables = tables_of(root, "outline", &[])?;
     write_whole(&root.join(OUTLINE_COLOR), &tables)
+}
+
+/// Counts what a frame asks of a graphics device in release, and prints the times that this predicts on cards beside
+/// those of the adapter that is there; the tables of the usual frame become the results.
+pub fn device(root: &Path, arguments: &[&str]) -> Result<()> {
+    let tables = tables_of(root, "device_model", arguments)?;
+    if arguments.is_empty() {
+        write_whole(&root.join(DEVICE), &tables)?;
+    }
+    Ok(())
 }
 
 /// Measures tracings beside other programs, prints the tables and keeps them.

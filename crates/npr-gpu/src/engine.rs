@@ -127,6 +127,16 @@ impl Readings {
         words.unwrap_or_else(|| panic!("{id:?} was not read, or taken before"))
     }
 
+    /// The words of a resource.
+    ///
+    /// # Panics
+    ///
+    /// As [`Readings::take`].
+    pub fn words(&self, id: ResourceId) -> &[u32] {
+        let words = self.words.get(&id);
+        words.unwrap_or_else(|| panic!("{id:?} was not read, or taken before"))
+    }
+
     /// Takes the first `count` elements of a resource out.
     ///
     /// # Panics

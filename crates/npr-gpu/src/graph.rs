@@ -1,10 +1,11 @@
 //! A frame as data: resources, and the passes that fill them in order.
 
-use crate::pass::{Access, Format, Pass, Work};
+use crate::pass::{Access, Format, Pass, WORKGROUP_SIZE, Work};
 use bytemuck::NoUninit;
 use npr_core::layout::GpuLayout;
 use npr_shaders::Features;
-use npr_vector::rank::work::Arguments;
+use npr_vector::rank::scan::BLOCK;
+use npr_vector::rank::work::{Arguments, MAX_GROUPS};
 
 /// A buffer or image of a graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -361,6 +362,23 @@ impl Graph {
         }
     }
 
+    /// The number of work items of a node whose size is these arguments: no more than it has room for.
+    pub(crate) fn sized_work_count(&self, node: &Node, arguments: &Arguments) -> usize {
+        let (x, y) = (u64::from(arguments.x), u64::from(arguments.y));
+        let count = match node.pass.work {
+            Work::PerElement { .. } | Work::PerListed { .. } => x * y * u64::from(WORKGROUP_SIZE),
+            Work::PerRun { .. } => x * y * BLOCK as u64,
+            Work::Draw { vertices, .. } => x / u64::from(vertices.max(1)),
+        };
+        let room = self.work_count(node);
+        usize::try_from(count).map_or(room, |count| room.min(count))
+    }
+
+    /// Whether running a node changes anything: clearing does, even when nothing is drawn.
+    pub(crate) fn acts(&self, node: &Node) -> bool {
+        node.clears || self.work_count(node) > 0
+    }
+
     /// Bytes of all resources together.
     pub fn planned_bytes(&self) -> u64 {
         self.resources
@@ -368,6 +386,23 @@ impl Graph {
             .map(|resource| resource.word_count() as u64 * 4)
             .sum()
     }
+}
+
+/// Workgroups in x and y for a number of invocations, 0 in x for none, in rows of equal width; `None` if there are more
+/// than a dispatch can have.
+pub(crate) fn groups_for(invocation_count: usize) -> Option<[u32; 2]> {
+    let count = u32::try_from(invocation_count).ok()?;
+    if count == 0 {
+        return Some([0, 1]);
+    }
+    let groups = count.div_ceil(WORKGROUP_SIZE);
+    let rows = groups.div_ceil(MAX_GROUPS);
+    Some([groups.div_ceil(rows), rows])
+}
+
+/// The lists that a node appends to.
+pub(crate) fn lists(node: &Node) -> impl Iterator<Item = ResourceId> + '_ {
+    emptied(node).filter_map(|(id, count)| count.map(|_| id))
 }
 
 /// What is 0 when a node begins: buffers, and how many of their first words, where not all.
@@ -388,4 +423,20 @@ pub(crate) fn writes(node: &Node) -> impl Iterator<Item = ResourceId> + '_ {
         .enumerate()
         .filter(move |(i, _)| slots.get(*i).is_none_or(|slot| slot.access.writes()))
         .map(|(_, id)| *id)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_turn_into_rows_when_one_row_is_full() {
+        let row = (MAX_GROUPS * WORKGROUP_SIZE) as usize;
+        assert_eq!(groups_for(0), Some([0, 1]));
+        assert_eq!(groups_for(1), Some([1, 1]));
+        assert_eq!(groups_for(65), Some([2, 1]));
+        assert_eq!(groups_for(row), Some([65535, 1]));
+        assert_eq!(groups_for(row + 1), Some([32768, 2]));
+        assert_eq!(groups_for(usize::MAX), None);
+    }
 }

@@ -3,8 +3,7 @@
 use crate::engine::{Engine, EngineError, PassTime, Readings, Session};
 use crate::graph::Kind;
 use crate::graph::{Graph, Node, ResourceId, WorkSize, emptied, writes};
-use crate::pass::{Bindings, Bound, WORKGROUP_SIZE, Work};
-use npr_vector::rank::scan::BLOCK;
+use crate::pass::{Bindings, Bound, Work};
 use npr_vector::rank::work::Arguments;
 use rayon::prelude::*;
 use std::time::Instant;
@@ -130,20 +129,11 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
 
 /// The number of work items of a node: all that there is room for, or fewer where its size says so.
 fn work_count(graph: &Graph, node: &Node, memory: &[Vec<u32>]) -> usize {
-    let room = graph.work_count(node);
     let Some(WorkSize { arguments, index }) = node.size else {
-        return room;
+        return graph.work_count(node);
     };
     let made: &[Arguments] = bytemuck::cast_slice(&memory[arguments.index()]);
-    let Arguments { x, y, .. } = made[index];
-    let count = match node.pass.work {
-        Work::PerElement { .. } | Work::PerListed { .. } => {
-            u64::from(x) * u64::from(y) * u64::from(WORKGROUP_SIZE)
-        }
-        Work::PerRun { .. } => u64::from(x) * u64::from(y) * BLOCK as u64,
-        Work::Draw { vertices, .. } => u64::from(x / vertices.max(1)),
-    };
-    usize::try_from(count).map_or(room, |count| room.min(count))
+    graph.sized_work_count(node, &made[index])
 }
 
 /// The number of words of a binding that the node's work reaches: a twin works through the whole slices that it is

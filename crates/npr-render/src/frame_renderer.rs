@@ -24,6 +24,7 @@ use npr_core::budget::Budget;
 use npr_core::camera::Camera;
 use npr_core::geometry::{NONE, Part};
 use npr_core::window::{View, Window};
+use npr_gpu::cost::{PassCost, copy_cost, pass_costs};
 use npr_gpu::engine::{Engine, EngineError, Session};
 use npr_gpu::pass::Features;
 use npr_style::backdrop::Rules;
@@ -537,5 +538,13 @@ impl FrameRenderer<'_> {
             plan.contrast.take_sides(&mut read, sides, paste);
         }
         Ok(())
+    }
+
+    /// What the passes of the tile drawn last asked of a device, and the copy of its picture.
+    pub fn pass_costs(&mut self) -> Result<Vec<PassCost>, EngineError> {
+        let frame = &self.plan.frame;
+        let mut costs = pass_costs(&frame.graph, self.session.as_mut())?;
+        costs.push(copy_cost(&frame.graph, frame.frame));
+        Ok(costs)
     }
 }

@@ -19,6 +19,7 @@ use crate::tiles::Tiles;
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
 use npr_core::window::View;
+use npr_gpu::cost::PassCost;
 use npr_gpu::engine::Engine;
 use npr_style::backdrop::Rules;
 use npr_stylesheet::Style;
@@ -230,6 +231,18 @@ impl<'a> Renderer<'a> {
         let contrasted = sides.map(|sides| (sides, rules));
         self.finish(camera, &view, contrasted.as_ref(), &mut frame)?;
         Ok(frame)
+    }
+
+    /// What the passes of [`Frame::times`] asked of a device in the frame drawn last, counted by [`npr_gpu::cost`], and
+    /// what the copy of the picture to the processor asks. Of a frame in tiles, what its last tile asked for.
+    ///
+    /// A second look that shows through and lines of `curves` and `potrace` have graphs of their own and do not count.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError::Engine`] where the device fails.
+    pub fn pass_costs(&mut self) -> Result<Vec<PassCost>, RenderError> {
+        Ok(self.frames.pass_costs()?)
     }
 
     /// Adds what is drawn over a whole frame: curves, speed lines, the other look, words.

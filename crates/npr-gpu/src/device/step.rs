@@ -4,9 +4,8 @@ use super::gpu::Gpu;
 use super::memory::Memory;
 use super::pipeline::{Pipeline, PipelineCache};
 use crate::engine::EngineError;
-use crate::graph::{Graph, Node};
-use crate::pass::{RUN, WORKGROUP_SIZE, Work};
-use npr_vector::rank::work;
+use crate::graph::{Graph, Node, groups_for};
+use crate::pass::{RUN, Work};
 use std::sync::Arc;
 
 /// A node that has something to do.
@@ -44,7 +43,7 @@ impl Step {
         let extents = nodes.iter().map(|node| extent_of(graph, node));
         let extents: Vec<Extent> = extents.collect::<Result<_, _>>()?;
         let acting: Vec<usize> = (0..nodes.len())
-            .filter(|i| has_effect(&nodes[*i], extents[*i]))
+            .filter(|i| graph.acts(&nodes[*i]))
             .collect();
 
         // Compile the passes of the others, and bind their resources.
@@ -92,11 +91,6 @@ fn bind(
     })
 }
 
-/// Whether running a node changes anything: clearing does, even when nothing is drawn.
-fn has_effect(node: &Node, extent: Extent) -> bool {
-    node.clears || !matches!(extent, Extent::Groups([0, _]) | Extent::Vertices(0))
-}
-
 fn extent_of(graph: &Graph, node: &Node) -> Result<Extent, EngineError> {
     let count = graph.work_count(node);
     let extent = match node.pass.work {
@@ -112,32 +106,4 @@ fn extent_of(graph: &Graph, node: &Node) -> Result<Extent, EngineError> {
         place: node.pass.name.to_owned(),
         reason: format!("{count} elements are more than one pass can do"),
     })
-}
-
-/// Workgroups in x and y for a number of invocations, 0 in x for none, in rows of equal width; `None` if there are more
-/// than a dispatch can have.
-fn groups_for(invocation_count: usize) -> Option<[u32; 2]> {
-    let count = u32::try_from(invocation_count).ok()?;
-    if count == 0 {
-        return Some([0, 1]);
-    }
-    let groups = count.div_ceil(WORKGROUP_SIZE);
-    let rows = groups.div_ceil(work::MAX_GROUPS);
-    Some([groups.div_ceil(rows), rows])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn groups_turn_into_rows_when_one_row_is_full() {
-        let row = (work::MAX_GROUPS * WORKGROUP_SIZE) as usize;
-        assert_eq!(groups_for(0), Some([0, 1]));
-        assert_eq!(groups_for(1), Some([1, 1]));
-        assert_eq!(groups_for(65), Some([2, 1]));
-        assert_eq!(groups_for(row), Some([65535, 1]));
-        assert_eq!(groups_for(row + 1), Some([32768, 2]));
-        assert_eq!(groups_for(usize::MAX), None);
-    }
 }

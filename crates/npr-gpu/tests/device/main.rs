@@ -7,6 +7,7 @@
 mod agreement;
 mod cliffs;
 mod contours;
+mod costs;
 mod curves;
 mod detection;
 mod draws;
