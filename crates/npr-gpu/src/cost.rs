@@ -236,7 +236,7 @@ impl Run<'_> {
             (4, true)
         } else if !is_counted && work.texels > 0 && count == work.texels {
             (share(whole, work.drawn, work.texels), true)
-        } else if work.room > 0 && count % work.room == 0 {
+        } else if count > 0 && count.is_multiple_of(work.room) {
             (share(whole, work.items, work.room), true)
         } else {
             (whole, slot.access == Access::Uniform)
