@@ -73,7 +73,7 @@ pub struct Frame {
 
 impl Frame {
     /// The names of what passes make.
-    pub const MADE: [&str; 45] = [
+    pub const MADE: [&str; 46] = [
         "list",
         "posed",
         "lit",
@@ -119,6 +119,7 @@ impl Frame {
         "fronts",
         "backs",
         "frame",
+        "picture_depths",
     ];
 
     /// A frame of the test scene with an output and a mask of these sizes, every pass run by its twin.
@@ -290,6 +291,7 @@ impl Builder {
         self.make_buffer("tiles", 4, area(mask_size.map(|side| side.div_ceil(16))));
         self.make_buffer("overlay", 4, pixels);
         self.make_buffer("frame", 4, pixels);
+        self.make_buffer("picture_depths", 4, pixels);
         let triangles = &self.graph.resource(self.ids["triangles"].0).kind;
         let Kind::Buffer { count, .. } = *triangles else {
             panic!("triangles are a buffer");
@@ -346,6 +348,7 @@ impl Builder {
         self.line_up_backdrop();
         self.compute(&shade::FILL_FRAME);
         self.compute(&shade::COMPOSE_FRAME);
+        self.compute(&shade::FIND_DEPTHS);
     }
 
     fn make_backdrop(&mut self, look: Look, size: [u32; 2]) {

@@ -11,6 +11,7 @@ mod curves;
 mod detection;
 mod draws;
 mod frame;
+mod host;
 mod lists;
 mod memory;
 mod pixels;
