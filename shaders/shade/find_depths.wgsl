@@ -23,7 +23,7 @@ override WG: u32 = 64u;
 @group(0) @binding(7) var<storage, read> frame: array<u32>;
 @group(0) @binding(8) var<storage, read_write> picture_depths: array<f32>;
 
-//# use lib/smoke_cover
+//# use lib/smoke_depth
 
 // Depth of the nearest surface in the samples of a pixel.
 fn surface_depth(pixel: vec2<u32>) -> f32 {
@@ -46,13 +46,6 @@ fn beam_depth_at(pixel: vec2<u32>) -> f32 {
         max(first, textureLoad(beam_depth, at + vec2<u32>(1u, 0u), 0)),
         max(textureLoad(beam_depth, at + vec2<u32>(0u, 1u), 0), textureLoad(beam_depth, at + vec2<u32>(1u, 1u), 0)),
     );
-}
-
-// Depth of the smoke over a pixel.
-fn smoke_depth_at(pixel: vec2<u32>) -> f32 {
-    if !has_smoke(pixel) { return 0.0; }
-    let far = bitcast<f32>(textureLoad(smoke_depths, pixel, 0).x & ~SMOKE_LAYER_MASK);
-    return clamp(reversed_of(view, far), 0.0, 1.0);
 }
 
 // Depth of the nearest surface in the first square ring of pixels around one that shows any.

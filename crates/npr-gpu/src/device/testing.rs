@@ -1,5 +1,9 @@
 //! Devices for tests of every crate: no other code in a test opens one, so that all tests skip alike.
 
+mod canvas;
+
+pub use canvas::Canvas;
+
 use super::adapter::open_raw;
 use super::{AdapterChoice, Device};
 use crate::engine::EngineError;

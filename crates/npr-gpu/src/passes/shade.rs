@@ -159,7 +159,7 @@ pub const FIND_DEPTHS: Pass = Pass {
         uniform::<Outline>("outline"),
         texture("depth", Format::Depth),
         texture("beam_depth", Format::Depth),
-        texture("smoke_depths", Format::U32),
+        texture("smoke_depths", Format::U32).serving(Features::SMOKE),
         read::<u32>("frame"),
         write::<f32>("picture_depths"),
     ],

@@ -2,8 +2,8 @@
 
 use crate::sample_passes::DOUBLE;
 use crate::shared;
-use npr_gpu::device::wgpu;
-use npr_gpu::device::{Device, Inlay, Target, TargetFormat};
+use npr_gpu::device::testing::Canvas;
+use npr_gpu::device::{Device, Inlay, TargetFormat, wgpu};
 use npr_gpu::engine::{Engine, EngineError, Session};
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::Pass;
@@ -163,6 +163,7 @@ fn the_handlers_of_a_host_stay_its_own() {
     ] {
         assert!(matches!(lost, Err(EngineError::Lost { .. })), "{lost:?}");
     }
+    let _ = device.poll(wgpu::PollType::Poll);
     assert_eq!(losses.load(Ordering::SeqCst), 1);
     assert_eq!(errors.load(Ordering::SeqCst), 1);
     let again = Device::from_wgpu(&adapter, device, queue).map(drop);
@@ -208,67 +209,11 @@ fn laid(format: wgpu::TextureFormat, texels: [u32; 4], under: wgpu::Color) -> Op
     inlay.aim(&guest, [4, 1], [[0.0; 4]; 4], of_target).unwrap();
 
     // Clear the target, and lay the frame into it.
-    let size = wgpu::Extent3d {
-        width: 5,
-        height: 2,
-        depth_or_array_layers: 1,
-    };
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size,
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    });
-    let view = texture.create_view(&Default::default());
+    let canvas = Canvas::new(&device, [5, 2], of_target);
     let mut encoder = device.create_command_encoder(&Default::default());
-    drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: &view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations {
-                load: wgpu::LoadOp::Clear(under),
-                store: wgpu::StoreOp::Store,
-            },
-        })],
-        ..Default::default()
-    }));
-    let target = Target {
-        color: &view,
-        depth: None,
-    };
-    inlay.record(&mut encoder, target);
-
-    // Read it.
-    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: 512,
-        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    });
-    encoder.copy_texture_to_buffer(
-        texture.as_image_copy(),
-        wgpu::TexelCopyBufferInfo {
-            buffer: &buffer,
-            layout: wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(256),
-                rows_per_image: None,
-            },
-        },
-        size,
-    );
-    queue.submit([encoder.finish()]);
-    buffer
-        .slice(..)
-        .map_async(wgpu::MapMode::Read, Result::unwrap);
-    device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
-    let rows = buffer.slice(..).get_mapped_range().unwrap();
-    Some([&rows[..20], &rows[256..276]].concat())
+    drop(canvas.begin(&mut encoder, Some((under, 1.0))));
+    inlay.record(&mut encoder, canvas.target());
+    Some(canvas.submit_and_read(&device, &queue, encoder).unwrap())
 }
 
 #[test]
