@@ -1,7 +1,8 @@
 // shade.find_depths: the reversed depth of what every pixel of a picture shows, 0 where it shows nothing.
 //
 // A surface or smoke is as deep as the nearest of its samples. Light of beams has the depth of a beam where nothing
-// solid lies behind it. Ink beside a surface belongs to the nearest one within reach of a line.
+// solid lies behind it. Ink beside a surface belongs to the nearest one within reach of a line, and lies a little
+// before it.
 //
 // Source  Okuya et al. 2016, section 4.4, for lines that reach beyond their surface
 // Twin    npr_style::picture_depth::find_depths
@@ -25,27 +26,43 @@ override WG: u32 = 64u;
 
 //# use lib/smoke_depth
 
-// Depth of the nearest surface in the samples of a pixel.
-fn surface_depth(pixel: vec2<u32>) -> f32 {
+// How much nearer to the eye than its surface ink beside it lies, in pixels for every pixel between them.
+const INK_ROOM: f32 = 4.0;
+
+// The depths of the samples of a pixel.
+fn depths_at(depths: texture_depth_2d, pixel: vec2<u32>) -> vec4<f32> {
     let at = pixel * compose.samples;
-    let first = textureLoad(depth, at, 0);
-    if compose.samples == 1u { return first; }
-    return max(
-        max(first, textureLoad(depth, at + vec2<u32>(1u, 0u), 0)),
-        max(textureLoad(depth, at + vec2<u32>(0u, 1u), 0), textureLoad(depth, at + vec2<u32>(1u, 1u), 0)),
+    let first = textureLoad(depths, at, 0);
+    if compose.samples == 1u { return vec4<f32>(first); }
+    return vec4<f32>(
+        first,
+        textureLoad(depths, at + vec2<u32>(1u, 0u), 0),
+        textureLoad(depths, at + vec2<u32>(0u, 1u), 0),
+        textureLoad(depths, at + vec2<u32>(1u, 1u), 0),
     );
+}
+
+fn nearest_of(depths: vec4<f32>) -> f32 {
+    return max(max(depths.x, depths.y), max(depths.z, depths.w));
+}
+
+// Depth of ink that lies some pixels beside a surface.
+fn inked(reversed: f32, pixels: f32) -> f32 {
+    return brought_nearer(view, reversed, INK_ROOM * pixels * world_per_pixel(view, 1.0));
+}
+
+// Depth of the nearest surface in the samples of a pixel; at the edge of a surface there is room for ink.
+fn surface_depth(pixel: vec2<u32>) -> f32 {
+    let depths = depths_at(depth, pixel);
+    let nearest = nearest_of(depths);
+    if nearest == 0.0 || all(depths > vec4<f32>(0.0)) { return nearest; }
+    return inked(nearest, 1.0);
 }
 
 // Depth of the nearest beam in the samples of a pixel.
 fn beam_depth_at(pixel: vec2<u32>) -> f32 {
     if (compose.flags & COMPOSE_BEAMS) == 0u { return 0.0; }
-    let at = pixel * compose.samples;
-    let first = textureLoad(beam_depth, at, 0);
-    if compose.samples == 1u { return first; }
-    return max(
-        max(first, textureLoad(beam_depth, at + vec2<u32>(1u, 0u), 0)),
-        max(textureLoad(beam_depth, at + vec2<u32>(0u, 1u), 0), textureLoad(beam_depth, at + vec2<u32>(1u, 1u), 0)),
-    );
+    return nearest_of(depths_at(beam_depth, pixel));
 }
 
 // Depth of the nearest surface in the first square ring of pixels around one that shows any.
@@ -62,7 +79,7 @@ fn depth_around(pixel: vec2<u32>) -> f32 {
             nearest = max(nearest, depth_within(here - corners.xy, last));
             nearest = max(nearest, depth_within(here - corners.zw, last));
         }
-        if nearest > 0.0 { return nearest; }
+        if nearest > 0.0 { return inked(nearest, f32(r + 1)); }
     }
     return 0.0;
 }
@@ -70,7 +87,7 @@ fn depth_around(pixel: vec2<u32>) -> f32 {
 // Depth of the surface of a pixel, none beyond the picture.
 fn depth_within(pixel: vec2<i32>, last: vec2<i32>) -> f32 {
     if any(pixel < vec2<i32>(0)) || any(pixel > last) { return 0.0; }
-    return surface_depth(vec2<u32>(pixel));
+    return nearest_of(depths_at(depth, vec2<u32>(pixel)));
 }
 
 // One invocation per pixel.

@@ -94,6 +94,16 @@ impl View {
         1.0 + per_unit * (depth - self.near)
     }
 
+    /// A reversed depth moved towards the eye by a share of the view depth, at most half of it; in parallel view, by
+    /// world units.
+    #[inline]
+    pub fn brought_nearer(&self, reversed: f32, room: f32) -> f32 {
+        if self.perspective > 0.5 {
+            return reversed / (1.0 - room.min(0.5));
+        }
+        reversed + self.reversed_of(self.near - room) - 1.0
+    }
+
     /// A coordinate that changes linearly over the image of any plane: 1 / depth in perspective, depth in parallel
     /// view.
     #[inline]

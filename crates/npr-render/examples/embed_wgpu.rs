@@ -54,27 +54,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let floor = [from(-1.0, -0.05, -1.0), from(2.0, 0.0, 2.0)];
     let pillar = [from(0.6, 0.0, 0.9), from(0.7, 1.0, 1.1)];
     let mut encoder = device.create_command_encoder(&Default::default());
-    draw_boxes(
-        &device,
-        &mut encoder,
-        &canvas,
-        format,
-        &matrix,
-        &[floor, pillar],
-    );
+    draw_boxes(&device, &mut encoder, &canvas, &matrix, &[floor, pillar]);
     let seen = HostView {
         camera,
         clip_from_world: matrix.to_cols_array_2d(),
     };
     drawing.record(&mut encoder, &seen, canvas.target())?;
     let rgba = canvas.submit_and_read(&device, &queue, encoder)?;
-    Ok(image::save_buffer(
-        output,
-        &rgba,
-        width,
-        height,
-        image::ColorType::Rgba8,
-    )?)
+    image::save_buffer(output, &rgba, width, height, image::ColorType::Rgba8)?;
+    Ok(())
 }
 
 const SHADER: &str = "
@@ -87,7 +75,6 @@ pub fn draw_boxes(
     device: &wgpu::Device,
     encoder: &mut wgpu::CommandEncoder,
     canvas: &Canvas,
-    format: TargetFormat,
     clip_from_world: &Mat4,
     boxes: &[[Vec3; 2]],
 ) {
@@ -106,46 +93,12 @@ pub fn draw_boxes(
         contents: bytemuck::cast_slice(&corners),
         usage: wgpu::BufferUsages::VERTEX,
     });
-    let source = wgpu::ShaderSource::Wgsl(SHADER.into());
-    let module = &device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: None,
-        source,
-    });
     let layout = wgpu::VertexBufferLayout {
         array_stride: 20,
         step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32],
     };
-    let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: None,
-        layout: None,
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: None,
-            compilation_options: Default::default(),
-            buffers: &[Some(layout)],
-        },
-        primitive: Default::default(),
-        depth_stencil: format.depth.map(|depth| wgpu::DepthStencilState {
-            format: depth.format,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(depth.compare),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: wgpu::MultisampleState {
-            count: format.samples,
-            ..Default::default()
-        },
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: None,
-            compilation_options: Default::default(),
-            targets: &[Some(format.color.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    });
+    let pipeline = canvas.pipeline(device, SHADER, layout);
     let mut pass = canvas.begin(encoder, Some((wgpu::Color::WHITE, 1.0)));
     pass.set_pipeline(&pipeline);
     pass.set_vertex_buffer(0, vertices.slice(..));

@@ -5,6 +5,13 @@ use crate::smoke::resolve::MASK;
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
 
+/// How much nearer to the eye than its surface ink beside it lies, in pixels for every pixel between them: a line where
+/// the surface stands on a thing of the host is drawn in full width.
+///
+/// On a floor that is seen from 14 degrees above, depth changes by 4 pixels a pixel; less cuts lines there, more draws
+/// them over things that stand close before the surface.
+pub const INK_ROOM: f32 = 4.0;
+
 /// What the depths of a picture are found from.
 #[derive(Debug, Clone, Copy)]
 pub struct PictureDepths<'a> {
@@ -30,8 +37,9 @@ pub struct PictureDepths<'a> {
 /// Gives the reversed depth of what every pixel shows, 0 where it shows nothing.
 ///
 /// A surface or smoke is as deep as the nearest of its samples. Light of beams has the depth of a beam where nothing
-/// solid lies behind it. Ink beside a surface belongs to the nearest one within reach: the greatest depth of the first
-/// square ring of pixels that has any. O(pixels), times the squared reach for ink that is near nothing.
+/// solid lies behind it. Ink beside a surface belongs to the nearest one within reach, the greatest depth of the first
+/// square ring of pixels that has any, and lies [`INK_ROOM`] before it. O(pixels), times the squared reach for ink that
+/// is near nothing.
 pub fn find_depths(with: &PictureDepths<'_>, depths: &mut [f32]) {
     let width = with.window.size[0].max(1) as usize;
     let rows = depths.par_chunks_mut(width).enumerate();
@@ -48,7 +56,7 @@ pub fn find_depths(with: &PictureDepths<'_>, depths: &mut [f32]) {
 
 impl PictureDepths<'_> {
     fn depth_at(&self, pixel: [u32; 2]) -> f32 {
-        let surface = self.nearest_sample(self.surfaces, pixel);
+        let surface = self.surface_at(pixel);
         let solid = surface.max(self.smoke_at(pixel));
         if solid > 0.0 {
             return solid;
@@ -64,13 +72,41 @@ impl PictureDepths<'_> {
         self.depth_around(pixel)
     }
 
-    /// The greatest depth in the samples of a pixel.
-    fn nearest_sample(&self, samples: &[f32], [x, y]: [u32; 2]) -> f32 {
+    /// Depth of the nearest surface in the samples of a pixel; at the edge of a surface there is room for ink.
+    fn surface_at(&self, pixel: [u32; 2]) -> f32 {
+        let nearest = self.nearest_sample(self.surfaces, pixel);
+        let is_edge = self
+            .samples_of(self.surfaces, pixel)
+            .any(|depth| depth == 0.0);
+        match is_edge && nearest > 0.0 {
+            true => self.inked(nearest, 1.0),
+            false => nearest,
+        }
+    }
+
+    /// Depth of ink that lies some pixels beside a surface.
+    fn inked(&self, depth: f32, pixels: f32) -> f32 {
+        let view = self.view;
+        view.brought_nearer(depth, INK_ROOM * pixels * view.pixel_at(1.0))
+    }
+
+    /// The depths in the samples of a pixel.
+    fn samples_of<'a>(
+        &self,
+        samples: &'a [f32],
+        [x, y]: [u32; 2],
+    ) -> impl Iterator<Item = f32> + use<'a> {
         let count = self.compose.samples;
         let width = self.window.size[0] * count;
-        let at =
-            |i: u32| samples[((y * count + i / count) * width + x * count + i % count) as usize];
-        (0..count * count).map(at).fold(0.0, f32::max)
+        (0..count * count).map(move |i| {
+            let row = y * count + i / count;
+            samples[(row * width + x * count + i % count) as usize]
+        })
+    }
+
+    /// The greatest depth in the samples of a pixel.
+    fn nearest_sample(&self, samples: &[f32], pixel: [u32; 2]) -> f32 {
+        self.samples_of(samples, pixel).fold(0.0, f32::max)
     }
 
     /// Depth of the smoke over a pixel.
@@ -95,7 +131,7 @@ impl PictureDepths<'_> {
             let depths = sides.map(|[dx, dy]| self.depth_within([x + dx, y + dy]));
             let nearest = depths.fold(0.0, f32::max);
             if nearest > 0.0 {
-                return nearest;
+                return self.inked(nearest, (r + 1) as f32);
             }
         }
         0.0
@@ -114,13 +150,14 @@ impl PictureDepths<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use npr_core::camera::Camera;
     use proptest::prelude::*;
 
     const SIZE: [u32; 2] = [7, 5];
 
     /// The same by looking at every pixel of the picture: no surface within reach, else the nearest one by the larger
     /// of both distances, and of several the one in front.
-    fn slowly(surfaces: &[f32], reach: u32, [x, y]: [u32; 2]) -> f32 {
+    fn slowly(view: &View, surfaces: &[f32], reach: u32, [x, y]: [u32; 2]) -> f32 {
         let width = SIZE[0];
         let distance = |i: usize| {
             (i as u32 % width)
@@ -134,7 +171,13 @@ mod tests {
         let near: Vec<(usize, &f32)> = shown.filter(|(i, _)| distance(*i) <= reach).collect();
         let least = near.iter().map(|(i, _)| distance(*i)).min();
         let first = near.iter().filter(|(i, _)| Some(distance(*i)) == least);
-        first.map(|(_, depth)| **depth).fold(0.0, f32::max)
+        let depth = first.map(|(_, depth)| **depth).fold(0.0, f32::max);
+        let beside = match least {
+            Some(least @ 1..) => least as f32 + 1.0,
+            _ => return depth,
+        };
+        let shrunk = 1.0 - INK_ROOM * beside * view.view_height / view.frame_px[1];
+        depth / shrunk.max(0.5)
     }
 
     proptest! {
@@ -144,7 +187,8 @@ mod tests {
             alphas in prop::collection::vec(0u32..2, 35), reach in 0u32..8,
         ) {
             let frame: Vec<u32> = alphas.iter().map(|alpha| alpha * 0xff00_0000).collect();
-            let (view, compose) = (View::default(), Compose { samples: 1, ..Compose::default() });
+            let compose = Compose { samples: 1, ..Compose::default() };
+            let view = Camera::framing([-1.0; 3], [1.0; 3]).view([700, 500], ([-1.0; 3], [1.0; 3]));
             let window = Window::over([7.0, 5.0], [0.0; 2], [7.0, 5.0], SIZE);
             let with = PictureDepths {
                 view: &view, window: &window, compose: &compose, reach_px: reach,
@@ -155,16 +199,16 @@ mod tests {
             for (i, depth) in depths.iter().enumerate() {
                 let expected = match alphas[i] {
                     0 => 0.0,
-                    _ => slowly(&surfaces, reach, [i as u32 % SIZE[0], i as u32 / SIZE[0]]),
+                    _ => slowly(&view, &surfaces, reach, [i as u32 % SIZE[0], i as u32 / SIZE[0]]),
                 };
-                prop_assert_eq!(*depth, expected);
+                prop_assert!((depth - expected).abs() <= 1e-6, "{} is not {}", depth, expected);
             }
         }
     }
 
     #[test]
     fn smoke_is_as_deep_as_it_stands_and_beams_lie_behind_all_that_is_solid() {
-        let camera = npr_core::camera::Camera::framing([-1.0; 3], [1.0; 3]);
+        let camera = Camera::framing([-1.0; 3], [1.0; 3]);
         let view = camera.view([3, 1], ([-1.0; 3], [1.0; 3]));
         let window = Window::over([3.0, 1.0], [0.0; 2], [3.0, 1.0], [3, 1]);
         let compose = Compose {

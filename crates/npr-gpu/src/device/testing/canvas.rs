@@ -1,6 +1,6 @@
 //! The textures that a host program without a window draws into.
 
-use super::super::inlay::{Target, TargetFormat};
+use super::super::inlay::{DepthTarget, Target, TargetFormat};
 
 /// The textures that a host program without a window draws into, and reads.
 #[derive(Debug)]
@@ -10,6 +10,7 @@ pub struct Canvas {
     /// What samples are resolved into, where there are several.
     resolved: Option<wgpu::TextureView>,
     size: [u32; 2],
+    format: TargetFormat,
 }
 
 impl Canvas {
@@ -33,6 +34,7 @@ impl Canvas {
             depth: format.depth.map(|depth| view(depth.format, format.samples)),
             resolved: (format.samples > 1).then(|| view(format.color, 1)),
             size,
+            format,
         }
     }
 
@@ -42,6 +44,50 @@ impl Canvas {
             color: &self.color,
             depth: self.depth.as_ref(),
         }
+    }
+
+    /// A pipeline that draws triangles into it by the only entry points of a shader, whichever way they face.
+    pub fn pipeline(
+        &self,
+        device: &wgpu::Device,
+        wgsl: &str,
+        vertices: wgpu::VertexBufferLayout<'_>,
+    ) -> wgpu::RenderPipeline {
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("canvas"),
+            source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+        });
+        let depth = |depth: DepthTarget| wgpu::DepthStencilState {
+            format: depth.format,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(depth.compare),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        };
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("canvas"),
+            layout: None,
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: None,
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[Some(vertices)],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: self.format.depth.map(depth),
+            multisample: wgpu::MultisampleState {
+                count: self.format.samples,
+                ..wgpu::MultisampleState::default()
+            },
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: None,
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &[Some(self.format.color.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
     }
 
     /// Starts a pass that clears both textures, or keeps what they hold; the far plane is at depth `far`.
