@@ -99,7 +99,7 @@ pub fn draw_boxes(
         attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32],
     };
     let pipeline = canvas.pipeline(device, SHADER, layout);
-    let mut pass = canvas.begin(encoder, Some((wgpu::Color::WHITE, 1.0)));
+    let mut pass = canvas.begin(encoder, Some(wgpu::Color::WHITE));
     pass.set_pipeline(&pipeline);
     pass.set_vertex_buffer(0, vertices.slice(..));
     pass.draw(0..corners.len() as u32, 0..1);

@@ -211,7 +211,7 @@ fn laid(format: wgpu::TextureFormat, texels: [u32; 4], under: wgpu::Color) -> Op
     // Clear the target, and lay the frame into it.
     let canvas = Canvas::new(&device, [5, 2], of_target);
     let mut encoder = device.create_command_encoder(&Default::default());
-    drop(canvas.begin(&mut encoder, Some((under, 1.0))));
+    drop(canvas.begin(&mut encoder, Some(under)));
     inlay.record(&mut encoder, canvas.target());
     Some(canvas.submit_and_read(&device, &queue, encoder).unwrap())
 }

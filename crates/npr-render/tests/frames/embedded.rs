@@ -7,7 +7,9 @@ use npr_gpu::device::testing::{Canvas, open_host};
 use npr_gpu::device::wgpu::{self, CompareFunction, TextureFormat};
 use npr_gpu::device::{DepthTarget, Device, TargetFormat};
 use npr_gpu::engine::EngineError;
-use npr_render::{EmbeddedRenderer, HostView, Model, RenderError, Renderer, RendererOptions};
+use npr_render::{
+    EmbeddedRenderer, HostView, Model, RenderError, Renderer, RendererOptions, Smoke, Sphere,
+};
 use npr_scene::{Mesh, Node, Part, Scene};
 use npr_stylesheet::{Background, Style};
 
@@ -260,6 +262,54 @@ fn samples_of_a_pixel_get_the_same() {
         return;
     };
     check_pixels(&host, "toon");
+}
+
+#[test]
+fn depths_may_be_reversed() {
+    let reversed = format(
+        TextureFormat::Rgba8Unorm,
+        1,
+        CompareFunction::GreaterEqual,
+    );
+    let Some(mut host) = Host::open(reversed) else {
+        return;
+    };
+    host.turned = turned();
+    check_pixels(&host, "toon");
+}
+
+/// Depths 0..1 the other way round.
+fn turned() -> Mat4 {
+    Mat4::from_cols_array_2d(&[
+        [1.0, 0.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0, 0.0],
+        [0.0, 0.0, -1.0, 0.0],
+        [0.0, 0.0, 1.0, 1.0],
+    ])
+}
+
+#[test]
+fn the_least_limits_hold_shadows_smoke_textures_and_ink_together() {
+    let Some(host) = Host::open(plain()) else {
+        return;
+    };
+    let mut rich = style("crosshatch");
+    rich.set("light.shadow=true").expect("a key");
+    let options = RendererOptions {
+        smoke: Some(Smoke {
+            spheres: vec![Sphere::new([0.9; 3], 0.5), Sphere::new([-0.8, 1.2, 0.4], 0.4)],
+            space: None,
+        }),
+        ..RendererOptions::new(SIZE)
+    };
+    let model = model([0.0; 3]);
+    let mut renderer = Renderer::new(&host.guest, &model, &rich, &options).expect("a stage");
+    let picture = renderer.draw(&camera()).expect("drawn").rgba;
+    let drawing = EmbeddedRenderer::new(&host.guest, model, &rich, &options, host.format);
+    let both = host.frame(&[WALL], Some(&mut drawing.expect("a drawing")), &camera());
+    let pairs = both.iter().zip(picture.as_chunks().0);
+    let shown = pairs.filter(|(pixel, of_picture)| of_picture[3] == 255 && *pixel == *of_picture);
+    assert!(shown.count() > 1000);
 }
 
 #[test]

@@ -90,21 +90,25 @@ impl Canvas {
         })
     }
 
-    /// Starts a pass that clears both textures, or keeps what they hold; the far plane is at depth `far`.
+    /// Starts a pass that clears the colours, and depths to the farthest; without a colour it keeps what they hold.
     pub fn begin<'a>(
         &self,
         encoder: &'a mut wgpu::CommandEncoder,
-        clear: Option<(wgpu::Color, f32)>,
+        clear: Option<wgpu::Color>,
     ) -> wgpu::RenderPass<'a> {
         let color = wgpu::RenderPassColorAttachment {
             view: &self.color,
             depth_slice: None,
             resolve_target: self.resolved.as_ref(),
-            ops: operations(clear.map(|(color, _)| color)),
+            ops: operations(clear),
+        };
+        let far = match self.format.depth.map(|depth| depth.compare) {
+            Some(wgpu::CompareFunction::Greater | wgpu::CompareFunction::GreaterEqual) => 0.0,
+            _ => 1.0,
         };
         let depth = |view| wgpu::RenderPassDepthStencilAttachment {
             view,
-            depth_ops: Some(operations(clear.map(|(_, far)| far))),
+            depth_ops: Some(operations(clear.map(|_| far))),
             stencil_ops: None,
         };
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
