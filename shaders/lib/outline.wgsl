@@ -14,6 +14,7 @@ struct Outline {
     kinds: u32,
     detects: u32,
     flags: u32,
+    reach_px: u32,
 }
 
 const DETECT_DEPTH: u32 = 1u;

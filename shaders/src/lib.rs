@@ -200,7 +200,15 @@ shaders! {
     SHADE_FILL_FRAME = "shade/fill_frame";
     /// Shades surfaces and lays lines over them.
     SHADE_COMPOSE_FRAME = "shade/compose_frame";
+    /// Finds how deep each pixel of a picture lies.
+    SHADE_FIND_DEPTHS = "shade/find_depths";
 }
+
+/// Lays a finished frame into a target of a host program; no pass, since the target is not of a graph.
+pub const HOST_LAY_FRAME: Shader = Shader {
+    path: "host/lay_frame",
+    text: include_str!("../host/lay_frame.wgsl"),
+};
 
 /// The text of a shader with its libraries in place, as far as `features` need them.
 ///

@@ -9,6 +9,7 @@ mod circles;
 mod constants;
 mod coverage;
 mod decoders;
+mod examples;
 mod file;
 mod floors;
 mod gallery;

@@ -30,6 +30,8 @@ pub struct Outline {
     pub detects: u32,
     /// Bits of [`Outline::WORLD_WIDTH`] to [`Outline::UNMASKED`].
     pub flags: u32,
+    /// Largest half width of any line, rounded up, plus one: how far ink reaches beside its surface, in frame pixels.
+    pub reach_px: u32,
 }
 gpu_layout!(Outline {
     base_width,
@@ -43,6 +45,7 @@ gpu_layout!(Outline {
     kinds,
     detects,
     flags,
+    reach_px,
 });
 
 impl Outline {

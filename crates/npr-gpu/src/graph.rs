@@ -42,7 +42,7 @@ pub enum Kind {
 }
 
 /// A resource and its label.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Resource {
     /// For messages and debuggers.
     pub name: &'static str,
@@ -306,6 +306,20 @@ impl Graph {
             );
         }
         self.nodes.push(node);
+    }
+
+    /// Whether another graph has the same resources and runs the same passes over them, so that a session of one serves
+    /// the other. O(resources + nodes).
+    pub fn is_same_as(&self, other: &Self) -> bool {
+        let are_alike = |(a, b): (&Node, &Node)| {
+            a.pass.name == b.pass.name
+                && (&a.bound, a.clears, a.size) == (&b.bound, b.clears, b.size)
+        };
+        self.features == other.features
+            && self.resources == other.resources
+            && self.constants == other.constants
+            && self.nodes.len() == other.nodes.len()
+            && self.nodes.iter().zip(&other.nodes).all(are_alike)
     }
 
     /// The same graph with passes that can do everything, for comparisons.

@@ -93,4 +93,5 @@ pub const ALL: &[&Pass] = &[
     &shade::KNOW_TRIANGLES,
     &shade::FILL_FRAME,
     &shade::COMPOSE_FRAME,
+    &shade::FIND_DEPTHS,
 ];

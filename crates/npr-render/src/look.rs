@@ -350,7 +350,13 @@ pub(crate) fn base_px(style: &Style, height_px: u32, dpi: f32, world_px: f32) ->
 }
 
 /// The outline settings of a style.
-pub(crate) fn outline(style: &Style, radius_world: f32, height_px: u32, dpi: f32) -> Outline {
+pub(crate) fn outline(
+    style: &Style,
+    radius_world: f32,
+    height_px: u32,
+    dpi: f32,
+    reach_px: u32,
+) -> Outline {
     let (line, detect) = (&style.line, &style.detect);
     let bit = |bit: u32, when: bool| if when { bit } else { 0 };
     let in_world = line.width.base.unit == Unit::World;
@@ -386,6 +392,7 @@ pub(crate) fn outline(style: &Style, radius_world: f32, height_px: u32, dpi: f32
             )
             | bit(Outline::PUBLISHED, published)
             | bit(Outline::UNMASKED, line.method == OutlineMethod::Edges),
+        reach_px,
     }
 }
 

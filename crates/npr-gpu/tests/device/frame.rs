@@ -75,7 +75,7 @@ pub struct Frame {
 
 impl Frame {
     /// The names of what passes make.
-    pub const MADE: [&str; 48] = [
+    pub const MADE: [&str; 49] = [
         "list",
         "posed",
         "lit",
@@ -124,6 +124,7 @@ impl Frame {
         "fronts",
         "backs",
         "frame",
+        "picture_depths",
     ];
 
     /// A frame of the test scene with an output and a mask of these sizes, every pass run by its twin.
@@ -299,6 +300,7 @@ impl Builder {
         self.make_buffer("covered", 4, pixels + 1);
         self.make_buffer("overlay", 4, pixels);
         self.make_buffer("frame", 4, pixels);
+        self.make_buffer("picture_depths", 4, pixels);
         let triangles = &self.graph.resource(self.ids["triangles"].0).kind;
         let Kind::Buffer { count, .. } = *triangles else {
             panic!("triangles are a buffer");
@@ -354,6 +356,7 @@ impl Builder {
         self.line_up_backdrop();
         self.compute(&shade::FILL_FRAME);
         self.compute(&shade::COMPOSE_FRAME);
+        self.compute(&shade::FIND_DEPTHS);
     }
 
     fn make_backdrop(&mut self, look: Look, size: [u32; 2]) {

@@ -309,6 +309,7 @@ pub fn outline(look: Look) -> Outline {
         kinds,
         detects,
         flags,
+        reach_px: 4,
     }
 }
 
@@ -363,6 +364,7 @@ pub fn rules(look: Look) -> Rules {
         samples: if look == Look::Ours { 2 } else { 1 },
         smooth_px: 5.0,
         whole_px: 2.0,
+        reach_px: 4,
         bias_px: 20.0,
         hold: 1.0,
         fade: 0.1,

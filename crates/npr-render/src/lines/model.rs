@@ -454,7 +454,7 @@ impl LineModel {
             style,
         };
         let of_frame = view.camera.view(options.size, self.bounds);
-        let outline = look::outline(style, radius, options.size[1], options.dpi);
+        let outline = look::outline(style, radius, options.size[1], options.dpi, 0);
         let widths = Widths::new(input, &of_frame, outline);
 
         // Settle which lines are drawn, and how their points are painted.
@@ -545,6 +545,11 @@ impl LineModel {
     }
 
     placement::accessors!();
+
+    /// Radius of the sphere around the bounds, in the world; at least a tiny number.
+    pub fn radius(&self) -> f32 {
+        placement::radius_of(self.bounds)
+    }
 
     /// Number of triangles, counted for every instance, as the file has them.
     pub fn triangle_count(&self) -> usize {

@@ -4,4 +4,6 @@
 
 mod backdrop;
 mod bands;
+#[cfg(feature = "wgpu")]
+mod embedded;
 mod smoke;
