@@ -101,6 +101,7 @@ const TWINS: &[Twins] = &[
     twins("line/claim_pixels.wgsl", "", "npr-vector/src/screen/residual.rs", ""),
     twins("line/find_residual.wgsl", "", "npr-vector/src/screen/residual.rs", ""),
     twins("mesh/pose_vertices.wgsl", "", "npr-mesh/src/pose.rs", ""),
+    twins("shade/find_depths.wgsl", "", "npr-style/src/picture_depth.rs", ""),
     twins("shade/compose_frame.wgsl", "", "npr-style/src/tone.rs", ""),
     twins("smoke/project_spheres.wgsl", "", "npr-core/src/smoke.rs", ""),
     twins("smoke/resolve_picture.wgsl", "SMOKE_", "npr-style/src/smoke/resolve.rs", ""),

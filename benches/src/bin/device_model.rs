@@ -3,8 +3,8 @@
 //!
 //! `device_model [--model FILE | --ball TRIANGLES] [--preset NAME] [--size WIDTHxHEIGHT]`; unasked the skull of 400
 //! thousand triangles where the folder of shared models lies beside the project, else the largest sample model, in
-//! `toon` at 1920x1080, and some other frames after it. Run by `cargo xtask measure device`. Fails only where loading or
-//! drawing fails.
+//! `toon` at 1920x1080, and some other frames after it. Run by `cargo xtask measure device`. Fails only where loading
+//! or drawing fails.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};

@@ -33,9 +33,6 @@ use npr_style::compose::Compose;
 use npr_style::lighting::LightSource;
 use npr_stylesheet::Style;
 
-#[cfg(feature = "wgpu")]
-mod hosted;
-
 /// Frame pixels around a tile beyond the reach of its lines: detection looks at neighbours.
 const TILE_ROOM: u32 = 8;
 
@@ -46,16 +43,16 @@ const CUT_COS: f32 = 0.985;
 const CUT_RADII: f32 = 0.5;
 
 /// What a look takes of a frame, before its graph is planned.
-struct Needs {
+pub(crate) struct Needs {
     styled: StyledModel,
     contrast: BackgroundContrast,
-    lights: ChosenLights,
+    pub lights: ChosenLights,
     /// The lights of the smoke, and whether they are those of the scene.
     smoke_lights: (ChosenLights, bool),
     features: LineFeatures,
     measure: Measure,
     tiles: Tiles,
-    grids: Grids,
+    pub grids: Grids,
     beams: bool,
 }
 
@@ -63,33 +60,33 @@ struct Needs {
 pub(crate) struct FramePlan {
     pub style: Style,
     pub options: RendererOptions,
-    needs: Needs,
-    passes: Passes,
+    pub needs: Needs,
+    pub passes: Passes,
 }
 
 /// The graph of a look: what its features share, and what each takes of it.
-struct Passes {
-    frame: FrameGraph,
+pub(crate) struct Passes {
+    pub frame: FrameGraph,
     lines: ScreenLines,
     shadows: Shadows,
-    smoke: Option<SmokePasses>,
+    pub smoke: Option<SmokePasses>,
     contrast: ContrastPasses,
 }
 
 /// Depths of beams, where there are any, and of smoke.
-type LayerDepths = (Option<ResourceId>, ResourceId);
+pub(crate) type LayerDepths = (Option<ResourceId>, ResourceId);
 
 /// A look and a frame size on an engine: draws tiles of a model with the passes of a frame.
 pub(crate) struct FrameRenderer<S = Box<dyn Session>> {
     pub plan: FramePlan,
     pub session: S,
     /// The view of the frame before.
-    before: Option<View>,
+    pub before: Option<View>,
 }
 
 impl Needs {
     /// The lights of a style and a model as it is posed.
-    fn relit(model: &Model, style: &Style, options: &RendererOptions) -> ChosenLights {
+    pub fn relit(model: &Model, style: &Style, options: &RendererOptions) -> ChosenLights {
         let of_beams = beam_lights(style, model);
         ChosenLights::new(style, &model.lights, of_beams, &options.pictures)
     }
@@ -303,7 +300,7 @@ impl FramePlan {
     }
 
     /// The same with the depths of what lies over surfaces.
-    fn with_layers(
+    pub fn with_layers(
         model: &Model,
         style: &Style,
         options: &RendererOptions,
@@ -364,7 +361,7 @@ impl<S: Session> FrameRenderer<S> {
     }
 
     /// Hands over what does not change with the camera.
-    fn upload(&mut self, model: &Model) -> Result<(), EngineError> {
+    pub fn upload(&mut self, model: &Model) -> Result<(), EngineError> {
         let FramePlan {
             style,
             needs,

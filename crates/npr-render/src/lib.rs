@@ -22,7 +22,7 @@
 mod beam_light;
 mod bend;
 #[cfg(feature = "wgpu")]
-mod embedded;
+mod device;
 mod error;
 mod facts;
 mod features;
@@ -56,7 +56,7 @@ mod textures;
 mod tiles;
 
 #[cfg(feature = "wgpu")]
-pub use embedded::{EmbeddedRenderer, HostView};
+pub use device::{EmbeddedRenderer, HostView};
 pub use error::RenderError;
 pub use facts::facts_of;
 pub use features::lettering::Lettering;

@@ -23,7 +23,7 @@ const ROW: u32 = 8191 * 512;
 
 #[test]
 fn arguments_are_the_expected_numbers_of_groups() {
-    // Elements, and the workgroups over them, and those that sum up them, the sums of their blocks, and the sums of these.
+    // Elements, and the workgroups over them, and those that sum up them, the sums of blocks, and the sums of these.
     let expected = [
         (0, [[8, 1], [1, 1], [1, 1], [1, 1]]),
         (1, [[8, 1], [1, 1], [1, 1], [1, 1]]),

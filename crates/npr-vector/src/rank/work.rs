@@ -4,8 +4,8 @@
 //! many workgroups as the list needs instead of as many as fit its room: an indirect dispatch takes its size from a
 //! buffer, and [`size_work`] fills that buffer once for all passes that follow the same length.
 //!
-//! Passes work on whole blocks of sums, and on one at least. Over a list of n elements they do, to the bit, what they would
-//! do if the room ended with the last of these blocks; elements after it keep their values.
+//! Passes work on whole blocks of sums, and on one at least. Over a list of n elements they do, to the bit, what they
+//! would do if the room ended with the last of these blocks; elements after it keep their values.
 
 use super::rounds_for;
 use super::scan::{BLOCK, RUN};
@@ -50,7 +50,7 @@ impl Arguments {
     }
 }
 
-/// Which arguments a list needs, in this order: for its elements, for levels of sums, for rounds of ranking, for a draw.
+/// Which arguments a list needs, in this order: for elements, for levels of sums, for rounds of ranking, for a draw.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct WorkRule {
@@ -91,7 +91,7 @@ impl WorkRule {
     }
 }
 
-/// Workgroups in x and y that sum up a number of elements, at least one: rows of equal width, so that few are left over.
+/// Workgroups in x and y that sum up a number of elements, at least one: rows of equal width, so few are left over.
 ///
 /// ```
 /// use npr_vector::rank::work::{BLOCKS_IN_ROW, sum_groups};

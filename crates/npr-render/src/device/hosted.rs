@@ -1,7 +1,7 @@
 //! Frames that go on in the memory of another, with depths, as a host program wants them.
 
-use super::{FramePlan, FrameRenderer, Needs};
 use crate::frame_graph::write;
+use crate::frame_renderer::{FramePlan, FrameRenderer, Needs};
 use crate::look::StyledModel;
 use crate::model::Model;
 use crate::options::RendererOptions;
