@@ -1,20 +1,21 @@
-//! Examples that are run, not just compiled: what they write must be there, and whole.
+//! Examples that are run, not just compiled: what they draw must be there.
 
 use std::fs;
 use std::path::Path;
+use std::process::Stdio;
 
 use anyhow::{Context, Result, ensure};
 
 use crate::packages::cargo;
 
-/// An example that writes a file.
+/// An example that draws.
 struct Example {
     package: &'static str,
     name: &'static str,
     /// A file of the project that it reads, where it reads one.
     input: Option<&'static str>,
-    /// Ending of what it writes.
-    ending: &'static str,
+    /// Ending of the file that it writes; without one, it prints its drawing.
+    ending: Option<&'static str>,
     /// How that begins.
     begins: &'static [u8],
     /// Whether it draws on a graphics device.
@@ -26,7 +27,7 @@ const EXAMPLES: [Example; 2] = [
         package: "npr-render",
         name: "embed_wgpu",
         input: Some("assets/still_life.glb"),
-        ending: "png",
+        ending: Some("png"),
         begins: b"\x89PNG",
         needs_device: true,
     },
@@ -34,7 +35,7 @@ const EXAMPLES: [Example; 2] = [
         package: "npr-vector",
         name: "lines_only",
         input: None,
-        ending: "svg",
+        ending: None,
         begins: b"<svg",
         needs_device: false,
     },
@@ -62,18 +63,25 @@ pub fn run(root: &Path) -> Result<()> {
 
 impl Example {
     fn run(&self, root: &Path, folder: &Path) -> Result<()> {
-        // Run it with a file that is not there yet.
-        let output = folder.join(self.name).with_extension(self.ending);
-        let _ = fs::remove_file(&output);
+        // Run it, with a file that is not there yet where it writes one.
+        let file = self
+            .ending
+            .map(|ending| folder.join(self.name).with_extension(ending));
+        if let Some(file) = &file {
+            let _ = fs::remove_file(file);
+        }
         let mut command = cargo(root);
         command.args(["run", "--quiet", "--package", self.package]);
         command.args(["--example", self.name, "--"]);
-        command.args(self.input).arg(&output);
-        let status = command.status()?;
-        ensure!(status.success(), "example {} failed", self.name);
+        command
+            .args(self.input)
+            .args(&file)
+            .stderr(Stdio::inherit());
+        let done = command.output()?;
+        ensure!(done.status.success(), "example {} failed", self.name);
 
-        // Look at what it wrote.
-        let written = fs::read(&output);
+        // Look at what it drew.
+        let written = file.map_or(Ok(done.stdout), fs::read);
         let written = written.with_context(|| format!("example {} wrote nothing", self.name))?;
         ensure!(
             written.starts_with(self.begins),

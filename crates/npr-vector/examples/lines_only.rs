@@ -1,4 +1,4 @@
-//! Writes the lines of a vase as an SVG: `cargo run --example lines_only -- vase.svg`. No device, no file formats, no
+//! Prints the lines of a vase as an SVG: `cargo run --example lines_only > vase.svg`. No device, no file formats, no
 //! styles: `npr-mesh` and `npr-vector` alone.
 
 use npr_core::camera::Camera;
@@ -7,7 +7,8 @@ use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::shape::{PlacedMesh, add_mesh};
 use npr_vector::mesh_lines::draw::{LineSettings, LineSource, Prepared, strokes};
 use npr_vector::project::Projector;
-use std::fmt::Write;
+use std::fmt::Write as _;
+use std::io::{Write as _, stdout};
 
 /// Radius and height of the rings, from the bottom up.
 const PROFILE: [[f32; 2]; 9] = [
@@ -25,8 +26,6 @@ const PROFILE: [[f32; 2]; 9] = [
 const AROUND: u32 = 48;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let output = std::env::args().nth(1).ok_or("usage: lines_only OUT.svg")?;
-
     // Turn the profile about the vertical axis, and join the rings by triangles.
     let corner = |[radius, height]: [f32; 2], i: u32| {
         let angle = i as f32 / AROUND as f32 * std::f32::consts::TAU;
@@ -92,6 +91,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             points.join(" ")
         )?;
     }
-    std::fs::write(output, svg + "\n</svg>\n")?;
+    stdout().write_all((svg + "\n</svg>\n").as_bytes())?;
     Ok(())
 }

@@ -173,7 +173,7 @@ fn seen_at(pixel: usize, [low, high]: [Vec3; 2]) -> f32 {
     let camera = camera();
     let [right, up, back] = camera.axes().map(Vec3::from);
     let [x, y] = [pixel as u32 % SIZE[0], pixel as u32 / SIZE[0]].map(|v| v as f32 + 0.5);
-    let half = npr_core::math::tan(0.3);
+    let half = npr_core::math::tan_f64(0.3) as f32;
     let across = (x / SIZE[0] as f32 * 2.0 - 1.0) * half * 4.0 / 3.0;
     let ray = right * across + up * (1.0 - y / SIZE[1] as f32 * 2.0) * half - back;
     let [a, b] = [low, high].map(|corner| (corner - Vec3::from(camera.eye)) / ray);
