@@ -1,4 +1,4 @@
-//! Examples that are run, not just compiled: what they draw must be there.
+//! Examples that are run, not just compiled: what they make must be there.
 
 use std::fs;
 use std::path::Path;
@@ -8,15 +8,15 @@ use anyhow::{Context, Result, ensure};
 
 use crate::packages::cargo;
 
-/// An example that draws.
+/// An example that writes or prints a file.
 struct Example {
     package: &'static str,
     name: &'static str,
     /// A file of the project that it reads, where it reads one.
     input: Option<&'static str>,
-    /// Ending of the file that it writes; without one, it prints its drawing.
+    /// Ending of the file that it writes; without one it prints.
     ending: Option<&'static str>,
-    /// How that begins.
+    /// How what it makes begins.
     begins: &'static [u8],
     /// Whether it draws on a graphics device.
     needs_device: bool,
@@ -63,7 +63,7 @@ pub fn run(root: &Path) -> Result<()> {
 
 impl Example {
     fn run(&self, root: &Path, folder: &Path) -> Result<()> {
-        // Run it, with a file that is not there yet where it writes one.
+        // Run it, with a file that is not there yet.
         let file = self
             .ending
             .map(|ending| folder.join(self.name).with_extension(ending));
@@ -77,15 +77,18 @@ impl Example {
             .args(self.input)
             .args(&file)
             .stderr(Stdio::inherit());
-        let done = command.output()?;
-        ensure!(done.status.success(), "example {} failed", self.name);
+        let run = command.output()?;
+        ensure!(run.status.success(), "example {} failed", self.name);
 
-        // Look at what it drew.
-        let written = file.map_or(Ok(done.stdout), fs::read);
-        let written = written.with_context(|| format!("example {} wrote nothing", self.name))?;
+        // Look at what it made.
+        let made = match file {
+            Some(file) => fs::read(file),
+            None => Ok(run.stdout),
+        };
+        let made = made.with_context(|| format!("example {} wrote nothing", self.name))?;
         ensure!(
-            written.starts_with(self.begins),
-            "example {} wrote something else",
+            made.starts_with(self.begins),
+            "example {} made something else",
             self.name
         );
         Ok(())

@@ -1,4 +1,4 @@
-//! Prints the lines of a vase as an SVG: `cargo run --example lines_only > vase.svg`. No device, no file formats, no
+//! Writes the lines of a vase as an SVG: `cargo run --example lines_only > vase.svg`. No device, no file formats, no
 //! styles: `npr-mesh` and `npr-vector` alone.
 
 use npr_core::camera::Camera;
@@ -7,8 +7,7 @@ use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_mesh::shape::{PlacedMesh, add_mesh};
 use npr_vector::mesh_lines::draw::{LineSettings, LineSource, Prepared, strokes};
 use npr_vector::project::Projector;
-use std::fmt::Write as _;
-use std::io::{Write as _, stdout};
+use std::fmt::Write;
 
 /// Radius and height of the rings, from the bottom up.
 const PROFILE: [[f32; 2]; 9] = [
@@ -25,7 +24,7 @@ const PROFILE: [[f32; 2]; 9] = [
 /// Corners of a ring.
 const AROUND: u32 = 48;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> Result<(), std::fmt::Error> {
     // Turn the profile about the vertical axis, and join the rings by triangles.
     let corner = |[radius, height]: [f32; 2], i: u32| {
         let angle = i as f32 / AROUND as f32 * std::f32::consts::TAU;
@@ -91,6 +90,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             points.join(" ")
         )?;
     }
-    stdout().write_all((svg + "\n</svg>\n").as_bytes())?;
+    println!("{svg}\n</svg>");
     Ok(())
 }
