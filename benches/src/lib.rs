@@ -1,8 +1,8 @@
 //! What the benchmarks of whole frames share with `measure`, the program that writes their tables.
 //!
 //! Subjects ([`subject`]) are meshes of an exact number of triangles ([`solid`]) or models from outside; [`timing`]
-//! takes medians, [`cost`] fits how time grows with triangles and pixels, [`card`] predicts it on graphics cards,
-//! [`memory`] and [`machine`] ask the system, and [`device`](mod@device) opens a graphics device where there is one.
+//! takes medians, [`cost`] fits how time grows with triangles and pixels, [`card`] predicts it, [`memory`] and
+//! [`machine`] ask the system, and [`device`](mod@device) opens a graphics device where there is one.
 //!
 //! ```
 //! let cost = npr_benches::cost::Cost::fit(&[

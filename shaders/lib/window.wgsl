@@ -28,6 +28,20 @@ fn world_per_pixel(view: View, depth: f32) -> f32 {
     return height_at(view, depth) / view.frame_px.y;
 }
 
+// The reversed depth of a view depth: 1 on the near plane, less behind it.
+fn reversed_of(view: View, depth: f32) -> f32 {
+    if view.perspective > 0.5 { return view.near / depth; }
+    let row = vec3<f32>(view.clip_from_world[0].z, view.clip_from_world[1].z, view.clip_from_world[2].z);
+    return 1.0 + dot(row, view.forward_world) * (depth - view.near);
+}
+
+// A reversed depth moved towards the eye by a share of the view depth, at most half of it; in parallel view, by world
+// units.
+fn brought_nearer(view: View, reversed: f32, room: f32) -> f32 {
+    if view.perspective > 0.5 { return reversed / (1.0 - min(room, 0.5)); }
+    return reversed + reversed_of(view, view.near - room) - 1.0;
+}
+
 fn plane_coordinate(view: View, depth: f32) -> f32 {
     return select(depth, 1.0 / depth, view.perspective > 0.5);
 }

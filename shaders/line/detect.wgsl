@@ -20,6 +20,7 @@ override WG: u32 = 64u;
 @group(0) @binding(3) var<storage, read> parts: array<Part>;
 @group(0) @binding(4) var<storage, read> gbuffer: array<GPixel>;
 @group(0) @binding(5) var<storage, read_write> mask: array<u32>;
+@group(0) @binding(6) var<storage, read_write> owners: array<atomic<u32>>;
 
 // Depth change per pixel, in pixels, from which a surface is grazing: 63 degrees.
 const GRAZING_SLOPE: f32 = 2.0;
@@ -106,6 +107,11 @@ fn has_lines(pixel: GPixel) -> bool {
     return pixel.part != NONE && (parts[pixel.part].flags & PART_LINES) != 0u;
 }
 
+// Lists a pixel that owns a line.
+fn append_owner(element: u32) {
+    atomicStore(&owners[atomicAdd(&owners[0], 1u) + 1u], element);
+}
+
 // One invocation per pixel.
 @compute @workgroup_size(WG)
 fn main(
@@ -145,4 +151,5 @@ fn main(
         }
     }
     mask[element] = found;
+    if (found & MASK_OWNER) != 0u { append_owner(element); }
 }

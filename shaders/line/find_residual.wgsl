@@ -19,8 +19,10 @@ override WG: u32 = 64u;
 @group(0) @binding(2) var<storage, read> parts: array<Part>;
 @group(0) @binding(3) var<storage, read> gbuffer: array<GPixel>;
 @group(0) @binding(4) var<storage, read> mask: array<u32>;
-@group(0) @binding(5) var ribbons: texture_2d<f32>;
-@group(0) @binding(6) var<storage, read_write> stamps: array<Stamp>;
+@group(0) @binding(5) var<storage, read> owners: array<u32>;
+@group(0) @binding(6) var ribbons: texture_2d<f32>;
+@group(0) @binding(7) var<storage, read_write> stamps: array<Stamp>;
+@group(0) @binding(8) var<storage, read_write> found: array<atomic<u32>>;
 
 // Half side of the box in which ink is counted, in mask pixels.
 const LINE_BOX_PX: f32 = 2.0;
@@ -119,23 +121,23 @@ fn ink_within(px: vec2<f32>, reach: f32) -> Ink {
 }
 
 // From the pixel's centre to the line, in pixels: half the sum of the sides it runs along.
-fn toward_line(found: u32) -> vec2<f32> {
+fn toward_line(marks: u32) -> vec2<f32> {
     var sum = vec2<f32>(0.0);
-    if (found & MASK_SIDE) != 0u { sum.x -= 0.5; }
-    if (found & (MASK_SIDE << 1u)) != 0u { sum.x += 0.5; }
-    if (found & (MASK_SIDE << 2u)) != 0u { sum.y -= 0.5; }
-    if (found & (MASK_SIDE << 3u)) != 0u { sum.y += 0.5; }
+    if (marks & MASK_SIDE) != 0u { sum.x -= 0.5; }
+    if (marks & (MASK_SIDE << 1u)) != 0u { sum.x += 0.5; }
+    if (marks & (MASK_SIDE << 2u)) != 0u { sum.y -= 0.5; }
+    if (marks & (MASK_SIDE << 3u)) != 0u { sum.y += 0.5; }
     return sum;
 }
 
 // The stamp of a mask pixel that owns a line; nothing where a ribbon runs.
-fn stamp_of(element: u32, found: u32) -> Stamp {
+fn stamp_of(element: u32, marks: u32) -> Stamp {
     var stamp: Stamp;
     let pixel = gbuffer[element];
     if pixel.part == NONE || (parts[pixel.part].flags & PART_LINES) == 0u { return stamp; }
     let at = pixel_of(element, mask_window.size);
-    if (found & BETWEEN) == 0u && !runs_on(at, pixel) { return stamp; }
-    let center = frame_at(mask_window, at) + toward_line(found) * mask_window.frame_step;
+    if (marks & BETWEEN) == 0u && !runs_on(at, pixel) { return stamp; }
+    let center = frame_at(mask_window, at) + toward_line(marks) * mask_window.frame_step;
     if is_inked_at(center, pixel.half_width) { return stamp; }
     stamp.center = center;
     stamp.half_width = pixel.half_width;
@@ -143,20 +145,20 @@ fn stamp_of(element: u32, found: u32) -> Stamp {
     return stamp;
 }
 
-// One invocation per mask pixel.
+// One invocation per mask pixel that owns a line.
 @compute @workgroup_size(WG)
 fn main(
     @builtin(workgroup_id) wid: vec3<u32>,
     @builtin(num_workgroups) nwg: vec3<u32>,
     @builtin(local_invocation_id) lid: vec3<u32>,
 ) {
-    let element = element_index(wid, nwg, lid, WG);
-    if element >= arrayLength(&stamps) { return; }
+    let listed = element_index(wid, nwg, lid, WG);
+    if listed >= min(owners[0], arrayLength(&owners) - 1u) { return; }
 
-    var stamp: Stamp;
-    let found = mask[element];
-    if (found & MASK_OWNER) != 0u {
-        stamp = stamp_of(element, found);
-    }
+    let element = owners[listed + 1u];
+    let stamp = stamp_of(element, mask[element]);
     stamps[element] = stamp;
+    if stamp.half_width > 0.0 {
+        atomicStore(&found[atomicAdd(&found[0], 1u) + 1u], element);
+    }
 }

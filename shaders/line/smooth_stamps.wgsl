@@ -7,13 +7,16 @@
 //
 //# use lib/grid
 //# use lib/window
+//# use lib/outline
 //# use lib/stamp
 
 override WG: u32 = 64u;
 
 @group(0) @binding(0) var<uniform> mask_window: Window;
-@group(0) @binding(1) var<storage, read> stamps: array<Stamp>;
-@group(0) @binding(2) var<storage, read_write> smoothed: array<Stamp>;
+@group(0) @binding(1) var<storage, read> mask: array<u32>;
+@group(0) @binding(2) var<storage, read> found: array<u32>;
+@group(0) @binding(3) var<storage, read> stamps: array<Stamp>;
+@group(0) @binding(4) var<storage, read_write> smoothed: array<Stamp>;
 
 // The stamps around one of them: their number, and sums of their places relative to it.
 struct Cloud {
@@ -32,7 +35,10 @@ fn cloud_around(at: vec2<u32>, middle: Stamp) -> Cloud {
     loop {
         var x = low.x;
         loop {
-            let stamp = stamps[y * mask_window.size.x + x];
+            let element = y * mask_window.size.x + x;
+            // Other pixels have no stamp that means anything.
+            if (mask[element] & MASK_OWNER) == 0u { continue; }
+            let stamp = stamps[element];
             if stamp.half_width > 0.0 && stamp.part == middle.part {
                 let off = stamp.center - middle.center;
                 cloud.count += 1.0;
@@ -70,19 +76,18 @@ fn move_across(cloud: Cloud) -> vec2<f32> {
     return mean - vec2<f32>(along_x, along_y);
 }
 
-// One invocation per mask pixel.
+// One invocation per stamp.
 @compute @workgroup_size(WG)
 fn main(
     @builtin(workgroup_id) wid: vec3<u32>,
     @builtin(num_workgroups) nwg: vec3<u32>,
     @builtin(local_invocation_id) lid: vec3<u32>,
 ) {
-    let element = element_index(wid, nwg, lid, WG);
-    if element >= arrayLength(&smoothed) { return; }
+    let listed = element_index(wid, nwg, lid, WG);
+    if listed >= min(found[0], arrayLength(&found) - 1u) { return; }
 
+    let element = found[listed + 1u];
     var stamp = stamps[element];
-    if stamp.half_width > 0.0 {
-        stamp.center += move_across(cloud_around(pixel_of(element, mask_window.size), stamp));
-    }
+    stamp.center += move_across(cloud_around(pixel_of(element, mask_window.size), stamp));
     smoothed[element] = stamp;
 }

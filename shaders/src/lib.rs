@@ -90,8 +90,8 @@ shaders! {
     LINE_FIND_RESIDUAL = "line/find_residual";
     /// Evens out where stamps lie along a line.
     LINE_SMOOTH_STAMPS = "line/smooth_stamps";
-    /// Marks the tiles that hold such pixels.
-    LINE_FLAG_TILES = "line/flag_tiles";
+    /// Claims pixels for the stamps that cover them.
+    LINE_CLAIM_PIXELS = "line/claim_pixels";
     /// Inks discs around the mask pixels that no ribbon inked.
     LINE_STAMP_RESIDUAL = "line/stamp_residual";
     /// Draws the mask itself.
@@ -200,7 +200,15 @@ shaders! {
     SHADE_FILL_FRAME = "shade/fill_frame";
     /// Shades surfaces and lays lines over them.
     SHADE_COMPOSE_FRAME = "shade/compose_frame";
+    /// Finds how deep each pixel of a picture lies.
+    SHADE_FIND_DEPTHS = "shade/find_depths";
 }
+
+/// Lays a finished frame into a target of a host program; no pass, since the target is not of a graph.
+pub const HOST_LAY_FRAME: Shader = Shader {
+    path: "host/lay_frame",
+    text: include_str!("../host/lay_frame.wgsl"),
+};
 
 /// The text of a shader with its libraries in place, as far as `features` need them.
 ///

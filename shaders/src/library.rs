@@ -99,6 +99,7 @@ const LIBRARIES: &[Library] = &[
     serving!(Features::SKY, "sky"),
     always!("smoke"),
     serving!(Features::SMOKE, "smoke_cover"),
+    serving!(Features::SMOKE, "smoke_depth"),
     serving!(Features::SMOKE, "smoke_layer"),
     always!("smoke_line"),
     serving!(Features::SMOKE_PEN, "smoke_pen"),

@@ -11,8 +11,9 @@
 
 override WG: u32 = 64u;
 
-const BLOCK: u32 = 64u;
-const MAX_GROUPS: u32 = 65535u;
+const RUN: u32 = 8u;
+const BLOCK: u32 = 512u;
+const BLOCKS_IN_ROW: u32 = 8191u;
 
 struct Arguments {
     x: u32,
@@ -32,18 +33,23 @@ struct WorkRule {
 @group(0) @binding(1) var<storage, read> extent: array<u32>;
 @group(0) @binding(2) var<storage, read_write> arguments: array<Arguments>;
 
-// Workgroups in x and y for a number of elements, at least one, in rows of equal width.
-fn groups_for(element_count: u32) -> vec2<u32> {
+// Workgroups in x and y that sum up a number of elements, at least one, in rows of equal width.
+fn sum_groups(element_count: u32) -> vec2<u32> {
     let whole = element_count / BLOCK;
-    let groups = max(whole + select(0u, 1u, element_count % BLOCK != 0u), 1u);
-    let rows = (groups + MAX_GROUPS - 1u) / MAX_GROUPS;
-    return vec2<u32>((groups + rows - 1u) / rows, rows);
+    let blocks = max(whole + select(0u, 1u, element_count % BLOCK != 0u), 1u);
+    let rows = (blocks + BLOCKS_IN_ROW - 1u) / BLOCKS_IN_ROW;
+    return vec2<u32>((blocks + rows - 1u) / rows, rows);
 }
 
-// Workgroups at a level: over the elements, over the sums of these workgroups, and so on.
+// Workgroups for a number of elements: those of the blocks that hold them.
+fn element_groups(element_count: u32) -> vec2<u32> {
+    return sum_groups(element_count) * vec2<u32>(RUN, 1u);
+}
+
+// Workgroups that sum up a level: the elements, the sums of their blocks, and so on.
 fn groups_of_level(count: u32, level: u32) -> vec2<u32> {
-    var groups = groups_for(count);
-    for (var above = 0u; above < level; above++) { groups = groups_for(groups.x * groups.y); }
+    var groups = sum_groups(count);
+    for (var above = 0u; above < level; above++) { groups = sum_groups(groups.x * groups.y); }
     return groups;
 }
 
@@ -65,17 +71,22 @@ fn main(
     if element >= arrayLength(&arguments) { return; }
 
     let count = min(extent[0], rule.room);
-    let last_round = rule.level_count + rule.round_count;
+    let last_level = rule.level_count;
+    let last_round = last_level + rule.round_count;
     var sized: Arguments;
     sized.z = 1u;
     sized.w = 0u;
-    if element < rule.level_count {
-        let groups = groups_of_level(count, element);
+    if element == 0u {
+        let groups = element_groups(count);
         sized.x = groups.x;
         sized.y = groups.y;
-    } else if element < last_round {
-        let is_run = element - rule.level_count < rounds_run(rule.round_count, count);
-        let groups = groups_for(count);
+    } else if element <= last_level {
+        let groups = groups_of_level(count, element - 1u);
+        sized.x = groups.x;
+        sized.y = groups.y;
+    } else if element <= last_round {
+        let is_run = element - last_level - 1u < rounds_run(rule.round_count, count);
+        let groups = element_groups(count);
         sized.x = select(0u, groups.x, is_run);
         sized.y = groups.y;
     } else {

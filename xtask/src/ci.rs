@@ -6,15 +6,15 @@ use anyhow::{Result, bail, ensure};
 
 use crate::packages::cargo;
 use crate::{
-    alone, assets, circles, constants, coverage, decoders, floors, harness, licences, names,
-    passes, suite,
+    alone, assets, circles, constants, coverage, decoders, examples, floors, harness, licences,
+    names, passes, suite,
 };
 
 /// A step: its name, and what it runs at the root of the workspace.
 type Step = (&'static str, fn(&Path) -> Result<()>);
 
 /// The steps, quick ones first.
-const STEPS: [Step; 18] = [
+const STEPS: [Step; 19] = [
     ("format", |root| {
         run_cargo(root, &["fmt", "--all", "--check"], &[])
     }),
@@ -35,6 +35,7 @@ const STEPS: [Step; 18] = [
     ("docs", |root| {
         run_cargo(root, &DOCS, &[("RUSTDOCFLAGS", "-D warnings")])
     }),
+    ("examples", examples::run),
     ("tests", |root| suite::run(root, &[])),
     ("properties", suite::again),
 ];

@@ -9,6 +9,7 @@ mod circles;
 mod constants;
 mod coverage;
 mod decoders;
+mod examples;
 mod file;
 mod floors;
 mod gallery;
@@ -45,6 +46,7 @@ usage: cargo xtask COMMAND
   coverage          check docs/coverage.toml and print counts
   devices           check that tests come by devices in one way
   decoders          check that decoders of others are called behind one door
+  examples          run the examples that draw; NPR_REQUIRE_GPU=1 runs those that need a device
   measure lines [ARGS]
                     measure line drawings, in release, and keep the tables; ARGS go to the
                     measuring program: --models DIR, --peers DIR, --only NAME, --quick
@@ -94,6 +96,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["coverage"] => coverage::check(root),
         ["devices"] => harness::check_devices(root),
         ["decoders"] => decoders::check(root),
+        ["examples"] => examples::run(root),
         ["measure", "lines", rest @ ..] => measure::lines(root, rest),
         ["measure", "comic"] => measure::comic(root),
         ["measure", "smoke"] => measure::smoke(root),

@@ -107,7 +107,7 @@ impl From<RenderError> for Fault {
             RenderError::Memory(_) => {
                 Self::new(Exit::Limit, format!("{error}; --memory-limit lifts that"))
             }
-            RenderError::Engine(EngineError::NoDevice { .. }) => Self::new(Exit::NoDevice, error),
+            RenderError::Engine(_) => Self::new(Exit::NoDevice, error),
             _ => Self::new(Exit::Failed, error),
         }
     }
@@ -116,6 +116,8 @@ impl From<RenderError> for Fault {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use npr_gpu::engine::Session;
+    use npr_gpu::graph::Graph;
     use std::cell::Cell;
 
     fn lost() -> RenderError {
@@ -174,6 +176,103 @@ mod tests {
         draw_somewhere(&none, &|_| Ok(()), &silent).expect("the processor draws");
         let fault = Fault::from(draw_on_device(&none, &|_| Ok(())).expect_err("no device"));
         assert_eq!(fault.exit, Exit::NoDevice);
+    }
+
+    #[test]
+    fn a_device_that_fails_is_as_good_as_none() {
+        let errors = [
+            EngineError::NoDevice {
+                reason: "old card lacks compute shaders".to_owned(),
+            },
+            EngineError::Lost {
+                reason: "unplugged".to_owned(),
+            },
+            EngineError::Failed {
+                place: "shade.compose_frame".to_owned(),
+                reason: "the shader does not compile".to_owned(),
+            },
+            EngineError::OutOfMemory {
+                resource: "frame",
+                bytes: 1 << 40,
+            },
+        ];
+        for error in errors {
+            // Demanded, it ends the run with one sentence.
+            let fails = || RenderError::Engine(error.clone());
+            let tries = Cell::new(0);
+            let demanded = draw_on_device(&device, &failing(9, &tries, &fails));
+            let fault = Fault::from(demanded.expect_err("the device fails"));
+            assert_eq!(fault.exit, Exit::NoDevice, "{error}");
+            assert!(
+                fault.message.starts_with("the graphics device")
+                    || fault.message.starts_with("no graphics device")
+            );
+            assert_eq!(fault.message.lines().count(), 1);
+
+            // Else the processor draws.
+            let on_processor = |engine: &dyn Engine| match engine.runs_twins() {
+                true => Ok("drawn"),
+                false => Err(fails()),
+            };
+            let open = || Ok(Box::new(Unfit) as Box<dyn Engine>);
+            let drawn = draw_somewhere(&open, &on_processor, &|_| ()).expect("the processor draws");
+            assert_eq!(drawn.picture, "drawn", "{error}");
+        }
+    }
+
+    /// A device that a picture fails on.
+    struct Unfit;
+
+    impl Engine for Unfit {
+        fn describe(&self) -> String {
+            "unfit".to_owned()
+        }
+
+        fn prepare(&self, _: Graph) -> Result<Box<dyn Session>, EngineError> {
+            unreachable!("the picture fails before")
+        }
+    }
+
+    /// A device that is lost when it is asked to compile.
+    #[cfg(feature = "gpu")]
+    struct Dying(npr_gpu::device::Device);
+
+    #[cfg(feature = "gpu")]
+    impl Engine for Dying {
+        fn describe(&self) -> String {
+            self.0.describe()
+        }
+
+        fn prepare(&self, graph: Graph) -> Result<Box<dyn Session>, EngineError> {
+            self.0.destroy();
+            self.0.prepare(graph)
+        }
+    }
+
+    #[cfg(feature = "gpu")]
+    #[test]
+    fn a_device_that_is_lost_while_it_compiles_leaves_the_picture_to_the_processor() {
+        use npr_render::{Model, Renderer, RendererOptions};
+        let open = || match npr_gpu::device::testing::open() {
+            Some(device) => Ok(Box::new(Dying(device)) as Box<dyn Engine>),
+            None => Err(EngineError::NoDevice {
+                reason: "no driver".to_owned(),
+            }),
+        };
+        let model = Model::new(&npr_scene::Scene::default()).expect("a model");
+        let picture = |engine: &dyn Engine| {
+            let style = npr_stylesheet::Style::default();
+            let options = RendererOptions::new([32, 18]);
+            let mut renderer = Renderer::new(engine, &model, &style, &options)?;
+            renderer.draw(&model.framing(16.0 / 9.0, 0.7))
+        };
+        let fault = Fault::from(draw_on_device(&open, &picture).expect_err("it is lost"));
+        assert_eq!(fault.exit, Exit::NoDevice, "{}", fault.message);
+        assert!(!fault.message.contains('\n'), "{}", fault.message);
+        let drawn = draw_somewhere(&open, &picture, &|_| ()).expect("the processor draws");
+        let expected = picture(&Processor).expect("drawn");
+        assert_eq!(drawn.picture.rgba, expected.rgba);
+        assert_eq!(drawn.engine, Processor.describe());
     }
 
     #[test]

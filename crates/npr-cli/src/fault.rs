@@ -7,13 +7,13 @@ use std::io;
 /// How a run ends, as the shell sees it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
-    /// Files could not be read or written, or an engine failed.
+    /// Files could not be read or written.
     Failed,
     /// The command line or a style file is wrong.
     Usage,
     /// The scene or a picture is broken or not supported.
     Input,
-    /// A graphics device was demanded, and there is none.
+    /// A graphics device was demanded, and there is none that can draw.
     NoDevice,
     /// A safety limit was hit.
     Limit,

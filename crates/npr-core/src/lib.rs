@@ -28,6 +28,7 @@ pub mod light_view;
 pub mod line_color;
 pub mod line_kind;
 pub mod line_source;
+pub mod list;
 pub mod math;
 pub mod number;
 pub mod outline;

@@ -30,7 +30,7 @@ pub struct Outline {
     pub detects: u32,
     /// Bits of [`Outline::WORLD_WIDTH`] to [`Outline::UNMASKED`].
     pub flags: u32,
-    /// Largest half width of any line, rounded up, plus one: how far around a pixel stamps are looked for.
+    /// Largest half width of any line, rounded up, plus one: how far ink reaches beside its surface, in frame pixels.
     pub reach_px: u32,
 }
 gpu_layout!(Outline {

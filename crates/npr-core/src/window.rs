@@ -82,6 +82,28 @@ impl View {
         1.0 / self.pixel_at(depth)
     }
 
+    /// The reversed depth of a view depth: 1 on the near plane, less behind it.
+    #[inline]
+    pub fn reversed_of(&self, depth: f32) -> f32 {
+        if self.perspective > 0.5 {
+            return self.near / depth;
+        }
+        let [x, y, z] = self.forward_world;
+        let m = &self.clip_from_world;
+        let per_unit = m[0][2] * x + m[1][2] * y + m[2][2] * z;
+        1.0 + per_unit * (depth - self.near)
+    }
+
+    /// A reversed depth moved towards the eye by a share of the view depth, at most half of it; in parallel view, by
+    /// world units.
+    #[inline]
+    pub fn brought_nearer(&self, reversed: f32, room: f32) -> f32 {
+        if self.perspective > 0.5 {
+            return reversed / (1.0 - room.min(0.5));
+        }
+        reversed + self.reversed_of(self.near - room) - 1.0
+    }
+
     /// A coordinate that changes linearly over the image of any plane: 1 / depth in perspective, depth in parallel
     /// view.
     #[inline]

@@ -1,13 +1,13 @@
 //! What a node costs beyond its work, and how the time of one pass grows, on the processor and on a device.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use npr_core::geometry::{Influence, Part, PosedVertex, Stamp, Vertex};
+use npr_core::geometry::{Influence, Part, PosedVertex, Vertex};
 use npr_core::outline::Outline;
-use npr_core::window::{View, Window};
+use npr_core::window::View;
 use npr_gpu::device::{AdapterChoice, Device};
 use npr_gpu::engine::{Engine, Session};
 use npr_gpu::graph::Graph;
-use npr_gpu::passes::{line, mesh};
+use npr_gpu::passes::{mesh, vector};
 use npr_gpu::processor::Processor;
 
 /// Nodes of the graph that measures what a node costs.
@@ -23,21 +23,16 @@ fn engines() -> Vec<(&'static str, Box<dyn Engine>)> {
     engines
 }
 
-/// Many passes over a mask of one tile.
+/// Many passes over few values.
 fn many_small_nodes(engine: &dyn Engine) -> Box<dyn Session> {
     let mut graph = Graph::new();
-    let window = graph.uniform::<Window>("mask window");
-    let stamps = graph.buffer::<Stamp>("stamps", 64);
-    let tiles = graph.buffer::<u32>("tiles", 1);
+    let values = graph.buffer::<u32>("values", 64);
+    let prefixes = graph.buffer::<u32>("prefixes", 64);
+    let sums = graph.buffer::<u32>("sums", 1);
     for _ in 0..NODE_COUNT {
-        graph.compute(&line::FLAG_TILES, &[window, stamps, tiles]);
+        graph.compute(&vector::SCAN_BLOCKS, &[values, prefixes, sums]);
     }
-    let mut session = engine.prepare(graph).expect("the graph is small");
-    let grid = Window::over([8.0; 2], [0.0; 2], [8.0; 2], [8, 8]);
-    session
-        .write(window, bytemuck::cast_slice(&[grid]))
-        .expect("the window fits");
-    session
+    engine.prepare(graph).expect("the graph is small")
 }
 
 /// One pass over `count` vertices, all of them at the origin of one matrix.

@@ -11,6 +11,7 @@
 //! - A slot of a draw *in step* with the texels has as many elements as a target. It costs one element a drawn texel.
 //! - Every other slot that is read costs all of its bytes, which is the most that it can cost:
 //!   [`Cost::whole_bytes`] tells how much of the sum that is. One that is written costs all of its bytes too.
+//! - What a pass writes in part costs all of its bytes once, because it is emptied before.
 //! - A list that is appended to costs what is in it, and so does one that is worked through; to any other pass it tells
 //!   its length alone.
 //! - A target that is cleared is written once; a drawn texel reads its depth and writes all targets. Texels that are
@@ -19,10 +20,10 @@
 //! Slots that the features of the graph leave out cost nothing.
 
 use crate::engine::{EngineError, Readings, Session};
-use crate::graph::{Graph, Node, ResourceId, WorkSize, lists, writes};
-use crate::pass::{Access, Format, Pass, Slot, WORKGROUP_SIZE, Work};
+use crate::graph::{Graph, Node, ResourceId, WorkSize, emptied, groups_for, lists, writes};
+use crate::pass::{Access, Format, Pass, RUN, Slot, WORKGROUP_SIZE, Work};
 use npr_shaders::Features;
-use npr_vector::rank::work::{Arguments, groups_for};
+use npr_vector::rank::work::Arguments;
 use std::collections::BTreeSet;
 use std::ops::AddAssign;
 
@@ -139,7 +140,7 @@ fn told_by(node: &Node) -> Vec<ResourceId> {
     let mut told: Vec<ResourceId> = lists(node).collect();
     told.extend(node.size.map(|size| size.arguments));
     match node.pass.work {
-        Work::PerElement { .. } => {}
+        Work::PerElement { .. } | Work::PerRun { .. } => {}
         Work::PerListed { .. } => told.push(node.bound[node.pass.counted_slot()]),
         Work::Draw { .. } => told.extend(first_target(node)),
     }
@@ -185,10 +186,14 @@ impl Run<'_> {
             ..Cost::default()
         };
         match node.pass.work {
-            Work::PerElement { .. } | Work::PerListed { .. } => {
+            Work::PerElement { .. } | Work::PerRun { .. } | Work::PerListed { .. } => {
+                let room = match node.pass.work {
+                    Work::PerRun { .. } => extent.room.div_ceil(RUN as u64),
+                    _ => extent.room,
+                };
                 let [x, y] = match arguments {
                     Some(Arguments { x, y, .. }) => [x, y],
-                    None => groups_for(u32::try_from(extent.room).unwrap_or(u32::MAX)),
+                    None => groups_for(room as usize).unwrap_or([u32::MAX; 2]),
                 };
                 cost.workgroups = u64::from(x) * u64::from(y);
                 cost.invocations = cost.workgroups * u64::from(WORKGROUP_SIZE);
@@ -223,18 +228,21 @@ impl Run<'_> {
         let is_counted = index == node.pass.counted_slot();
         let (bytes, is_known) = if slot.access == Access::Append {
             (self.list_bytes(id), true)
+        } else if slot.access == Access::Scatter {
+            (whole, true)
         } else if is_counted && matches!(node.pass.work, Work::PerListed { .. }) {
             ((1 + work.items) * 4, true)
         } else if !is_counted && slot.access == Access::Read && self.lists.contains(&id) {
             (4, true)
         } else if !is_counted && work.texels > 0 && count == work.texels {
             (share(whole, work.drawn, work.texels), true)
-        } else if work.room > 0 && count.is_multiple_of(work.room) {
+        } else if count > 0 && count.is_multiple_of(work.room) {
             (share(whole, work.items, work.room), true)
         } else {
             (whole, slot.access == Access::Uniform)
         };
-        if work.items == 0 && slot.access != Access::Append {
+        let is_emptied = matches!(slot.access, Access::Append | Access::Scatter);
+        if work.items == 0 && !is_emptied {
             return;
         }
 
@@ -326,15 +334,15 @@ struct Order {
 }
 
 impl Order {
-    /// The barriers that a node needs before it: one for the lists that are emptied for it, and one where it uses what
+    /// The barriers that a node needs before it: one for what is emptied for it, and one where it uses what
     /// was written since the last barrier, or writes what was used.
     fn barriers_before(&mut self, node: &Node) -> u64 {
-        let emptied: BTreeSet<ResourceId> = lists(node).collect();
+        let emptied: BTreeSet<ResourceId> = emptied(node).map(|(id, _)| id).collect();
         let written: BTreeSet<ResourceId> = writes(node).collect();
         let used = node.bound.iter().copied();
         let used: BTreeSet<ResourceId> = used.chain(node.size.map(|size| size.arguments)).collect();
 
-        // Empty the lists, then run: two accesses, and each may have to wait.
+        // Empty that, then run: two accesses, and each may have to wait.
         let mut barriers = 0;
         if !emptied.is_empty() {
             barriers += self.access(&emptied, &emptied);

@@ -8,6 +8,7 @@ mod adapter;
 mod clock;
 mod gpu;
 mod image;
+mod inlay;
 mod memory;
 mod pipeline;
 mod session;
@@ -19,23 +20,26 @@ mod watch;
 
 pub use adapter::{AdapterChoice, AdapterKind, AdapterSummary, adapters};
 pub use gpu::Traffic;
+pub use inlay::{DepthTarget, Inlay, Target, TargetFormat};
+pub use session::DeviceSession;
 pub use watch::TIME_LIMIT;
+pub use wgpu;
 
 use crate::engine::{Engine, EngineError, Session};
 use crate::graph::Graph;
 use gpu::Gpu;
 use pipeline::PipelineCache;
-use session::DeviceSession;
 use std::sync::{Arc, Mutex, PoisonError};
 use watch::Watch;
 
 /// A graphics device, ready to run graphs.
 ///
 /// Shaders are compiled when a graph first needs them and kept as long as the device. Sessions keep the device alive.
-#[derive(Debug)]
+/// A clone is the same device.
+#[derive(Debug, Clone)]
 pub struct Device {
     gpu: Arc<Gpu>,
-    pipelines: PipelineCache,
+    pipelines: Arc<PipelineCache>,
     times_apart: bool,
 }
 
@@ -50,6 +54,43 @@ impl Device {
     pub fn open(choice: AdapterChoice) -> Result<Self, EngineError> {
         let (adapter, device, queue) = adapter::open(choice)?;
         let watch = Watch::over(&device);
+        Ok(Self::of(adapter, device, queue, watch))
+    }
+
+    /// A device that another program opened and goes on using: sessions record into its encoders
+    /// ([`DeviceSession::record`]) or run by themselves.
+    ///
+    /// The handlers of the program for errors and for loss stay its own: all that is made here is made inside error
+    /// scopes, and loss is found by asking the device. Nothing is global, and nothing is polled until a session runs
+    /// by itself.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError::NoDevice`] where the device was opened with less than the least limits of WebGPU, which are
+    /// `wgpu::Limits::default()`, or the adapter lacks what every WebGPU adapter has; the first thing that is missing
+    /// is named. [`EngineError::Lost`] where the device is lost already.
+    pub fn from_wgpu(
+        adapter: &wgpu::Adapter,
+        device: wgpu::Device,
+        queue: wgpu::Queue,
+    ) -> Result<Self, EngineError> {
+        let summary = AdapterSummary::of(adapter);
+        if let Some(lacking) = adapter::lacking(adapter, &device.limits()) {
+            let reason = format!("{} lacks {lacking}", summary.name);
+            return Err(EngineError::NoDevice { reason });
+        }
+        let watch = Watch::beside(&device);
+        let device = Self::of(summary, device, queue, watch);
+        device.gpu.check()?;
+        Ok(device)
+    }
+
+    fn of(
+        adapter: AdapterSummary,
+        device: wgpu::Device,
+        queue: wgpu::Queue,
+        watch: Arc<Watch>,
+    ) -> Self {
         let gpu = Gpu {
             device,
             queue,
@@ -57,11 +98,20 @@ impl Device {
             watch,
             traffic: Mutex::default(),
         };
-        Ok(Self {
+        Self {
             gpu: Arc::new(gpu),
-            pipelines: PipelineCache::default(),
+            pipelines: Arc::default(),
             times_apart: false,
-        })
+        }
+    }
+
+    /// Makes the resources of a graph, as [`Engine::prepare`] does, in a session that can be recorded.
+    ///
+    /// # Errors
+    ///
+    /// As [`Engine::prepare`].
+    pub fn session(&self, graph: Graph) -> Result<DeviceSession, EngineError> {
+        DeviceSession::new(self.gpu.clone(), &self.pipelines, graph, self.times_apart)
     }
 
     /// The same device with times of passes that can be believed.
@@ -110,8 +160,6 @@ impl Engine for Device {
     }
 
     fn prepare(&self, graph: Graph) -> Result<Box<dyn Session>, EngineError> {
-        let session =
-            DeviceSession::new(self.gpu.clone(), &self.pipelines, graph, self.times_apart)?;
-        Ok(Box::new(session))
+        Ok(Box::new(self.session(graph)?))
     }
 }

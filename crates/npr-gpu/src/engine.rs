@@ -110,6 +110,24 @@ pub trait Session {
     }
 }
 
+/// A session of any engine is a session.
+impl Session for Box<dyn Session> {
+    fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError> {
+        self.as_mut().write(id, words)
+    }
+
+    fn run_reading(
+        &mut self,
+        ids: &[ResourceId],
+    ) -> Result<(Vec<PassTime>, Readings), EngineError> {
+        self.as_mut().run_reading(ids)
+    }
+
+    fn read_all(&mut self, ids: &[ResourceId]) -> Result<Readings, EngineError> {
+        self.as_mut().read_all(ids)
+    }
+}
+
 /// The words of some resources; texels row by row for images.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Readings {

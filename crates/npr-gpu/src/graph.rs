@@ -4,7 +4,8 @@ use crate::pass::{Access, Format, Pass, WORKGROUP_SIZE, Work};
 use bytemuck::NoUninit;
 use npr_core::layout::GpuLayout;
 use npr_shaders::Features;
-use npr_vector::rank::work::Arguments;
+use npr_vector::rank::scan::BLOCK;
+use npr_vector::rank::work::{Arguments, MAX_GROUPS};
 
 /// A buffer or image of a graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -41,7 +42,7 @@ pub enum Kind {
 }
 
 /// A resource and its label.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Resource {
     /// For messages and debuggers.
     pub name: &'static str,
@@ -252,7 +253,11 @@ impl Graph {
                 (Kind::Uniform { size }, Access::Uniform) => size == slot.element.size,
                 (
                     Kind::Buffer { stride, .. },
-                    Access::Read | Access::Write | Access::Update | Access::Append,
+                    Access::Read
+                    | Access::Write
+                    | Access::Update
+                    | Access::Scatter
+                    | Access::Append,
                 ) => stride == slot.element.size,
                 (Kind::Image { format, .. }, Access::Texture(wanted)) => format == wanted,
                 _ => false,
@@ -301,6 +306,20 @@ impl Graph {
             );
         }
         self.nodes.push(node);
+    }
+
+    /// Whether another graph has the same resources and runs the same passes over them, so that a session of one serves
+    /// the other. O(resources + nodes).
+    pub fn is_same_as(&self, other: &Self) -> bool {
+        let are_alike = |(a, b): (&Node, &Node)| {
+            a.pass.name == b.pass.name
+                && (&a.bound, a.clears, a.size) == (&b.bound, b.clears, b.size)
+        };
+        self.features == other.features
+            && self.resources == other.resources
+            && self.constants == other.constants
+            && self.nodes.len() == other.nodes.len()
+            && self.nodes.iter().zip(&other.nodes).all(are_alike)
     }
 
     /// The same graph with passes that can do everything, for comparisons.
@@ -362,6 +381,7 @@ impl Graph {
         let (x, y) = (u64::from(arguments.x), u64::from(arguments.y));
         let count = match node.pass.work {
             Work::PerElement { .. } | Work::PerListed { .. } => x * y * u64::from(WORKGROUP_SIZE),
+            Work::PerRun { .. } => x * y * BLOCK as u64,
             Work::Draw { vertices, .. } => x / u64::from(vertices.max(1)),
         };
         let room = self.work_count(node);
@@ -382,12 +402,31 @@ impl Graph {
     }
 }
 
+/// Workgroups in x and y for a number of invocations, 0 in x for none, in rows of equal width; `None` if there are more
+/// than a dispatch can have.
+pub(crate) fn groups_for(invocation_count: usize) -> Option<[u32; 2]> {
+    let count = u32::try_from(invocation_count).ok()?;
+    if count == 0 {
+        return Some([0, 1]);
+    }
+    let groups = count.div_ceil(WORKGROUP_SIZE);
+    let rows = groups.div_ceil(MAX_GROUPS);
+    Some([groups.div_ceil(rows), rows])
+}
+
 /// The lists that a node appends to.
 pub(crate) fn lists(node: &Node) -> impl Iterator<Item = ResourceId> + '_ {
+    emptied(node).filter_map(|(id, count)| count.map(|_| id))
+}
+
+/// What is 0 when a node begins: buffers, and how many of their first words, where not all.
+pub(crate) fn emptied(node: &Node) -> impl Iterator<Item = (ResourceId, Option<usize>)> + '_ {
     let slots = node.pass.slots.iter().zip(&node.bound);
-    slots
-        .filter(|(slot, _)| slot.access == Access::Append)
-        .map(|(_, id)| *id)
+    slots.filter_map(|(slot, id)| match slot.access {
+        Access::Append => Some((*id, Some(1))),
+        Access::Scatter => Some((*id, None)),
+        _ => None,
+    })
 }
 
 /// The resources that a node writes.
@@ -398,4 +437,20 @@ pub(crate) fn writes(node: &Node) -> impl Iterator<Item = ResourceId> + '_ {
         .enumerate()
         .filter(move |(i, _)| slots.get(*i).is_none_or(|slot| slot.access.writes()))
         .map(|(_, id)| *id)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_turn_into_rows_when_one_row_is_full() {
+        let row = (MAX_GROUPS * WORKGROUP_SIZE) as usize;
+        assert_eq!(groups_for(0), Some([0, 1]));
+        assert_eq!(groups_for(1), Some([1, 1]));
+        assert_eq!(groups_for(65), Some([2, 1]));
+        assert_eq!(groups_for(row), Some([65535, 1]));
+        assert_eq!(groups_for(row + 1), Some([32768, 2]));
+        assert_eq!(groups_for(usize::MAX), None);
+    }
 }

@@ -7,21 +7,19 @@
 //! ```
 //! use npr_gpu::engine::Engine;
 //! use npr_gpu::graph::Graph;
-//! use npr_gpu::passes::line::FLAG_TILES;
-//! use npr_core::geometry::Stamp;
-//! use npr_core::window::Window;
+//! use npr_gpu::passes::vector::SCAN_BLOCKS;
 //!
 //! let mut graph = Graph::new();
-//! let window = graph.uniform::<Window>("mask window");
-//! let stamps = graph.buffer::<Stamp>("stamps", 64);
-//! let tiles = graph.buffer::<u32>("tiles", 1);
-//! graph.compute(&FLAG_TILES, &[window, stamps, tiles]);
+//! let values = graph.buffer::<u32>("values", 4);
+//! let prefixes = graph.buffer::<u32>("prefixes", 4);
+//! let sums = graph.buffer::<u32>("sums", 1);
+//! graph.compute(&SCAN_BLOCKS, &[values, prefixes, sums]);
 //!
 //! let mut session = npr_gpu::processor::Processor.prepare(graph)?;
-//! let grid = Window::over([8.0, 8.0], [0.0; 2], [8.0, 8.0], [8, 8]);
-//! session.write(window, bytemuck::cast_slice(&[grid]))?;
+//! session.write(values, &[3, 0, 2, 5])?;
 //! session.run()?;
-//! assert_eq!(session.read(tiles)?, [0], "no stamp was set");
+//! assert_eq!(session.read(prefixes)?, [0, 3, 3, 5]);
+//! assert_eq!(session.read(sums)?, [10]);
 //! # Ok::<(), npr_gpu::engine::EngineError>(())
 //! ```
 

@@ -4,6 +4,7 @@ use bytemuck::{AnyBitPattern, NoUninit};
 use npr_core::layout::{Field, GpuLayout};
 pub use npr_shaders::Features;
 use npr_shaders::Shader;
+pub use npr_vector::rank::scan::RUN;
 
 /// Invocations per workgroup of every compute pass: the shader's `override WG`.
 pub const WORKGROUP_SIZE: u32 = 64;
@@ -30,6 +31,11 @@ pub struct Pass {
 pub enum Work {
     /// One invocation of `main` per element of the named slot.
     PerElement {
+        /// The slot that is counted.
+        of: &'static str,
+    },
+    /// One invocation of `main` per run of [`RUN`] elements of the named slot.
+    PerRun {
         /// The slot that is counted.
         of: &'static str,
     },
@@ -114,6 +120,8 @@ pub enum Access {
     Write,
     /// An array in a storage buffer whose elements are read and then written anew.
     Update,
+    /// An array in a storage buffer that is 0 before the pass, which writes some of its elements.
+    Scatter,
     /// A list in a storage buffer that invocations append to: the number of its elements, which is 0 before the pass,
     /// then the elements in any order.
     Append,
@@ -124,7 +132,10 @@ pub enum Access {
 impl Access {
     /// Whether the pass changes what the slot binds.
     pub fn writes(self) -> bool {
-        matches!(self, Self::Write | Self::Update | Self::Append)
+        matches!(
+            self,
+            Self::Write | Self::Update | Self::Scatter | Self::Append
+        )
     }
 }
 
@@ -209,6 +220,14 @@ pub const fn update<T: GpuLayout>(name: &'static str) -> Slot {
     }
 }
 
+/// A slot of which some elements are written; the others become 0.
+pub const fn scatter<T: GpuLayout>(name: &'static str) -> Slot {
+    Slot {
+        access: Access::Scatter,
+        ..write::<T>(name)
+    }
+}
+
 /// A list that is appended to.
 pub const fn append(name: &'static str) -> Slot {
     Slot {
@@ -232,7 +251,7 @@ impl Pass {
     /// The images that the pass draws into, none for compute passes.
     pub fn targets(&self) -> &'static [Format] {
         match self.work {
-            Work::PerElement { .. } | Work::PerListed { .. } => &[],
+            Work::PerElement { .. } | Work::PerRun { .. } | Work::PerListed { .. } => &[],
             Work::Draw { targets, .. } => targets,
         }
     }
@@ -247,7 +266,7 @@ impl Pass {
     /// Vertices drawn for each element, none for compute passes.
     pub fn vertices(&self) -> u32 {
         match self.work {
-            Work::PerElement { .. } | Work::PerListed { .. } => 0,
+            Work::PerElement { .. } | Work::PerRun { .. } | Work::PerListed { .. } => 0,
             Work::Draw { vertices, .. } => vertices,
         }
     }
@@ -258,7 +277,10 @@ impl Pass {
     ///
     /// When the declaration names a slot that it does not list.
     pub fn counted_slot(&self) -> usize {
-        let (Work::PerElement { of } | Work::PerListed { of } | Work::Draw { of, .. }) = self.work;
+        let (Work::PerElement { of }
+        | Work::PerRun { of }
+        | Work::PerListed { of }
+        | Work::Draw { of, .. }) = self.work;
         let found = self.slots.iter().position(|slot| slot.name == of);
         found.unwrap_or_else(|| {
             panic!(

@@ -28,7 +28,7 @@ pub const ALL: &[&Pass] = &[
     &line::DRAW_RIBBONS,
     &line::FIND_RESIDUAL,
     &line::SMOOTH_STAMPS,
-    &line::FLAG_TILES,
+    &line::CLAIM_PIXELS,
     &line::STAMP_RESIDUAL,
     &line::DRAW_MASK,
     &vector::FACE_EYE,
@@ -93,4 +93,5 @@ pub const ALL: &[&Pass] = &[
     &shade::KNOW_TRIANGLES,
     &shade::FILL_FRAME,
     &shade::COMPOSE_FRAME,
+    &shade::FIND_DEPTHS,
 ];

@@ -2,7 +2,7 @@
 
 use crate::engine::{Engine, EngineError, PassTime, Readings, Session};
 use crate::graph::Kind;
-use crate::graph::{Graph, Node, ResourceId, WorkSize, lists, writes};
+use crate::graph::{Graph, Node, ResourceId, WorkSize, emptied, writes};
 use crate::pass::{Bindings, Bound, Work};
 use npr_vector::rank::work::Arguments;
 use rayon::prelude::*;
@@ -73,11 +73,12 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
         .map(|id| std::mem::take(&mut memory[id.index()]))
         .collect();
 
-    // Empty the lists that the pass appends to.
-    for id in lists(node) {
-        let list = written.iter().position(|other| *other == id);
-        if let Some(count) = list.and_then(|list| lent[list].first_mut()) {
-            *count = 0;
+    // Empty what the pass appends to, or writes in part.
+    for (id, count) in emptied(node) {
+        if let Some(at) = written.iter().position(|other| *other == id) {
+            let words = &mut lent[at];
+            let end = count.unwrap_or(words.len()).min(words.len());
+            clear(&mut words[..end]);
         }
     }
 
@@ -157,14 +158,18 @@ fn words_for(graph: &Graph, node: &Node, binding: usize, work_count: usize) -> u
     }
 }
 
+/// Zeroes words.
+fn clear(words: &mut [u32]) {
+    let chunks = words.par_chunks_mut(1 << 16);
+    chunks.for_each(|chunk| chunk.fill(0));
+}
+
 /// Zeroes the targets among the lent memory: they come after the slots.
 fn clear_targets(node: &Node, written: &[ResourceId], lent: &mut [Vec<u32>]) {
     let targets = &node.bound[node.pass.slots.len()..];
     for (id, words) in written.iter().zip(lent) {
         if targets.contains(id) {
-            words
-                .par_chunks_mut(1 << 16)
-                .for_each(|chunk| chunk.fill(0));
+            clear(words);
         }
     }
 }

@@ -68,6 +68,26 @@ pub enum RenderError {
         /// The key that names it.
         key: String,
     },
+    /// What cannot be recorded into a frame of another program.
+    #[error("{what} cannot be drawn inside the frame of another program")]
+    NotRecorded {
+        /// What it is: a key of the style, or the size.
+        what: String,
+    },
+    /// The camera and the matrix of a host program do not belong together.
+    #[error("the camera and the matrix of the program show the scene {px} pixels apart")]
+    OtherView {
+        /// How far apart they show a corner of the scene.
+        px: f32,
+    },
+    /// A pose is of another scene than the model.
+    #[error("the scene has {have} matrices of nodes and joints, but the model was made of {want}")]
+    OtherScene {
+        /// How many matrices the pose has.
+        have: usize,
+        /// How many the model has.
+        want: usize,
+    },
     /// The style names a look that does not exist.
     #[error(transparent)]
     Style(#[from] npr_stylesheet::StyleError),

@@ -5,8 +5,8 @@ use npr_core::outline::Outline;
 use npr_core::window::{View, Window};
 use npr_gpu::curves::work::{IndirectArguments, add_work};
 use npr_gpu::engine::{EngineError, Session};
-use npr_gpu::graph::{Graph, ResourceId};
-use npr_gpu::pass::{Features, Format};
+use npr_gpu::graph::{Graph, ResourceId, WorkSize};
+use npr_gpu::pass::{Features, Format, Pass};
 use npr_gpu::passes::{line, mesh, raster, shade};
 use npr_mesh::pose::Matrix;
 use npr_style::compose::{Compose, TriangleConstants};
@@ -220,13 +220,6 @@ impl FrameGraph {
             self.list,
         ];
         self.graph.compute(&shade::FILL_FRAME, &fill);
-        let room = self.graph.element_count(self.list) - 1;
-        let work = add_work(
-            &mut self.graph,
-            self.list,
-            room,
-            IndirectArguments::default(),
-        );
 
         // Compose those.
         let bound = [
@@ -255,7 +248,19 @@ impl FrameGraph {
             &[self.triangles],
         ];
         let bound = bound.concat();
-        self.graph
-            .compute_sized(&shade::COMPOSE_FRAME, &bound, work.elements());
+        self.compute_listed(&shade::COMPOSE_FRAME, &bound, self.list);
+    }
+
+    /// Appends a pass over the elements of a list; gives its size, for further passes over them.
+    pub fn compute_listed(
+        &mut self,
+        pass: &'static Pass,
+        bound: &[ResourceId],
+        list: ResourceId,
+    ) -> Option<WorkSize> {
+        let room = self.graph.element_count(list) - 1;
+        let work = add_work(&mut self.graph, list, room, IndirectArguments::default());
+        self.graph.compute_sized(pass, bound, work.elements());
+        work.elements()
     }
 }

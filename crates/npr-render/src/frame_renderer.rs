@@ -26,6 +26,7 @@ use npr_core::geometry::{NONE, Part};
 use npr_core::window::{View, Window};
 use npr_gpu::cost::{PassCost, copy_cost, pass_costs};
 use npr_gpu::engine::{Engine, EngineError, Session};
+use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::Features;
 use npr_style::backdrop::Rules;
 use npr_style::compose::Compose;
@@ -42,57 +43,54 @@ const CUT_COS: f32 = 0.985;
 const CUT_RADII: f32 = 0.5;
 
 /// What a look takes of a frame, before its graph is planned.
-struct Needs {
+pub(crate) struct Needs {
     styled: StyledModel,
     contrast: BackgroundContrast,
-    lights: ChosenLights,
+    pub lights: ChosenLights,
     /// The lights of the smoke, and whether they are those of the scene.
     smoke_lights: (ChosenLights, bool),
     features: LineFeatures,
     measure: Measure,
     tiles: Tiles,
-    grids: Grids,
+    pub grids: Grids,
     beams: bool,
 }
 
-/// A frame that is planned and not yet prepared: nothing of it has asked the engine for anything.
-pub(crate) struct FramePlan<'a> {
-    model: &'a Model,
-    style: Style,
-    options: RendererOptions,
-    needs: Needs,
-    plan: Plan,
+/// A frame that is planned: nothing of it has asked an engine for anything.
+pub(crate) struct FramePlan {
+    pub style: Style,
+    pub options: RendererOptions,
+    pub needs: Needs,
+    pub passes: Passes,
 }
 
 /// The graph of a look: what its features share, and what each takes of it.
-struct Plan {
-    frame: FrameGraph,
+pub(crate) struct Passes {
+    pub frame: FrameGraph,
     lines: ScreenLines,
     shadows: Shadows,
-    smoke: Option<SmokePasses>,
+    pub smoke: Option<SmokePasses>,
     contrast: ContrastPasses,
 }
 
-/// A model, a look and a frame size on an engine: draws tiles with the passes of a frame.
-pub(crate) struct FrameRenderer<'a> {
-    pub model: &'a Model,
-    pub style: Style,
-    pub options: RendererOptions,
-    pub tiles: Tiles,
-    pub styled: StyledModel,
-    grids: Grids,
-    features: LineFeatures,
-    contrast: BackgroundContrast,
-    lights: ChosenLights,
-    plan: Plan,
-    session: Box<dyn Session>,
+/// Depths of beams, where there are any, and of smoke.
+pub(crate) type LayerDepths = (Option<ResourceId>, ResourceId);
+
+/// A look and a frame size on an engine: draws tiles of a model with the passes of a frame.
+pub(crate) struct FrameRenderer<S = Box<dyn Session>> {
+    pub plan: FramePlan,
+    pub session: S,
     /// The view of the frame before.
-    before: Option<View>,
-    /// Called after every tile with the numbers of tiles done and of all.
-    pub tell: Option<&'a dyn Fn(usize, usize)>,
+    pub before: Option<View>,
 }
 
 impl Needs {
+    /// The lights of a style and a model as it is posed.
+    pub fn relit(model: &Model, style: &Style, options: &RendererOptions) -> ChosenLights {
+        let of_beams = beam_lights(style, model);
+        ChosenLights::new(style, &model.lights, of_beams, &options.pictures)
+    }
+
     /// Asks every feature what it takes of a frame.
     fn new(
         model: &Model,
@@ -101,8 +99,7 @@ impl Needs {
         mut styled: StyledModel,
     ) -> Self {
         // Choose the lights, and which outlines follow the background.
-        let of_beams = beam_lights(style, model);
-        let lights = ChosenLights::new(style, &model.lights, of_beams, &options.pictures);
+        let lights = Self::relit(model, style, options);
         styled.inked.notices.extend(lights.notice());
         let contrast = BackgroundContrast::needs(&model.parts, style, styled.parts.len());
         styled.inked.notices.extend(contrast.notice.clone());
@@ -223,9 +220,14 @@ impl Needs {
     }
 }
 
-impl Plan {
+impl Passes {
     /// Adds the passes of every feature that a look needs, in the order in which they build on each other.
-    fn new(model: &Model, style: &Style, smoke: Option<&Smoke>, needs: &Needs) -> Self {
+    fn new(
+        model: &Model,
+        style: &Style,
+        smoke: Option<&Smoke>,
+        needs: &Needs,
+    ) -> (Self, LayerDepths) {
         let (styled, grids, features) = (&needs.styled, &needs.grids, needs.features);
         let counts = Counts {
             vertices: styled.vertices.len(),
@@ -251,7 +253,7 @@ impl Plan {
         if features.hull {
             hull::plan(&mut frame, counts.vertices);
         }
-        let beam_ids = beams::plan(&mut frame, grids, needs.beams);
+        let (beam_ids, beam_depths) = beams::plan(&mut frame, grids, needs.beams);
 
         // Draw the smoke.
         let smoke = smoke.map(|smoke| {
@@ -275,33 +277,44 @@ impl Plan {
         };
         let sides = contrast.plan(&mut frame, grids, features, &layers);
         frame.compose_frame(frame.compose, frame.ids, &layers, sides, frame.frame);
-        Self {
+        let passes = Self {
             frame,
             lines,
             shadows,
             smoke,
             contrast,
-        }
+        };
+        (passes, (beam_depths, layers.smoke[1]))
     }
 }
 
-impl<'a> FramePlan<'a> {
+impl FramePlan {
     /// Plans a frame of a model in a style that was resolved for it.
     pub fn new(
-        model: &'a Model,
+        model: &Model,
         style: &Style,
         options: &RendererOptions,
         styled: StyledModel,
     ) -> Self {
+        Self::with_layers(model, style, options, styled).0
+    }
+
+    /// The same with the depths of what lies over surfaces.
+    pub fn with_layers(
+        model: &Model,
+        style: &Style,
+        options: &RendererOptions,
+        styled: StyledModel,
+    ) -> (Self, LayerDepths) {
         let needs = Needs::new(model, style, options, styled);
-        let plan = Plan::new(model, style, options.smoke.as_ref(), &needs);
-        Self {
-            model,
+        let (passes, depths) = Passes::new(model, style, options.smoke.as_ref(), &needs);
+        let plan = Self {
             style: style.clone(),
             options: options.clone(),
             needs,
-            plan,
-        }
+            passes,
+        };
+        (plan, depths)
     }
 
     /// How the frame is cut into tiles.
@@ -309,44 +322,54 @@ impl<'a> FramePlan<'a> {
         &self.needs.tiles
     }
 
+    /// The style, resolved for the model.
+    pub fn styled(&self) -> &StyledModel {
+        &self.needs.styled
+    }
+
     /// Takes its memory from `budget`: that of the graph, and of as many rows of the picture as are held at once.
     pub fn take_memory(&self, budget: &mut Budget, rows: u32) -> Result<(), RenderError> {
         let width = self.options.size[0] as usize;
         budget.take("the picture", width * rows as usize, 4)?;
-        let planned = self.plan.frame.graph.planned_bytes() as usize;
+        let planned = self.passes.frame.graph.planned_bytes() as usize;
         budget.take("the plan of the frame", planned, 1)?;
         Ok(())
     }
 
     /// Prepares the passes on an engine, and uploads what does not change with the camera.
-    pub fn prepare(self, engine: &dyn Engine) -> Result<FrameRenderer<'a>, RenderError> {
-        let (needs, plan) = (self.needs, self.plan);
-        let session = engine.prepare(plan.frame.graph.clone())?;
-        let mut renderer = FrameRenderer {
-            model: self.model,
-            style: self.style,
-            options: self.options,
-            tiles: needs.tiles,
-            styled: needs.styled,
-            grids: needs.grids,
-            features: needs.features,
-            contrast: needs.contrast,
-            lights: needs.lights,
-            plan,
-            session,
-            before: None,
-            tell: None,
-        };
-        renderer.upload()?;
-        Ok(renderer)
+    pub fn prepare(self, model: &Model, engine: &dyn Engine) -> Result<FrameRenderer, RenderError> {
+        let session = engine.prepare(self.graph().clone())?;
+        FrameRenderer::new(self, model, session)
+    }
+
+    /// The graph of the frame.
+    pub fn graph(&self) -> &Graph {
+        &self.passes.frame.graph
     }
 }
 
-impl FrameRenderer<'_> {
+impl<S: Session> FrameRenderer<S> {
+    /// Draws by a plan with a session of its graph, to which it hands over what does not change with the camera.
+    pub fn new(plan: FramePlan, model: &Model, session: S) -> Result<Self, RenderError> {
+        let mut renderer = Self {
+            plan,
+            session,
+            before: None,
+        };
+        renderer.upload(model)?;
+        Ok(renderer)
+    }
+
     /// Hands over what does not change with the camera.
-    fn upload(&mut self) -> Result<(), EngineError> {
-        let (frame, model, styled) = (&self.plan.frame, self.model, &self.styled);
-        let session = self.session.as_mut();
+    pub fn upload(&mut self, model: &Model) -> Result<(), EngineError> {
+        let FramePlan {
+            style,
+            needs,
+            passes,
+            ..
+        } = &self.plan;
+        let (frame, styled) = (&passes.frame, &needs.styled);
+        let session = &mut self.session;
         write(session, frame.vertices, &styled.vertices)?;
         write(session, frame.influences, &model.influences)?;
         write(session, frame.palette, &model.palette)?;
@@ -354,18 +377,17 @@ impl FrameRenderer<'_> {
         write(session, frame.charts, &styled.inked.charts)?;
         write(session, frame.parts, &styled.parts)?;
         write(session, frame.texels, styled.textures.words())?;
-        let edges = model.edges_by(look::creases(&self.style).from);
-        self.plan.lines.upload(session, &edges)?;
-        self.plan.shadows.upload(session)?;
-        self.plan.contrast.upload(session, &self.contrast)?;
+        let edges = model.edges_by(look::creases(style).from);
+        passes.lines.upload(session, &edges)?;
+        passes.shadows.upload(session)?;
+        passes.contrast.upload(session, &needs.contrast)?;
         self.upload_smoke()
     }
 
     fn upload_smoke(&mut self) -> Result<(), EngineError> {
-        match (&self.plan.smoke, &self.options.smoke) {
-            (Some(passes), Some(smoke)) => {
-                passes.upload(self.session.as_mut(), smoke, &self.style.smoke)
-            }
+        let FramePlan { style, options, .. } = &self.plan;
+        match (&self.plan.passes.smoke, &options.smoke) {
+            (Some(passes), Some(smoke)) => passes.upload(&mut self.session, smoke, &style.smoke),
             _ => Ok(()),
         }
     }
@@ -376,89 +398,94 @@ impl FrameRenderer<'_> {
     ///
     /// [`RenderError::TooMany`] for more spheres than at first; or a failing engine.
     pub fn set_smoke(&mut self, smoke: &Smoke) -> Result<(), RenderError> {
-        SmokePasses::check(self.plan.smoke.as_ref(), smoke)?;
-        self.options.smoke = Some(smoke.clone());
+        SmokePasses::check(self.plan.passes.smoke.as_ref(), smoke)?;
+        self.plan.options.smoke = Some(smoke.clone());
         Ok(self.upload_smoke()?)
     }
 
     /// The box of all that is drawn.
-    fn bounds(&self) -> Bounds {
-        let model = self.model.bounds();
-        let Some(smoke) = self.options.smoke.as_ref().map(Smoke::extent) else {
-            return model;
+    fn bounds(&self, model: &Model) -> Bounds {
+        let Some(smoke) = self.plan.options.smoke.as_ref().map(Smoke::extent) else {
+            return model.bounds();
         };
-        if self.model.is_empty() {
+        if model.is_empty() {
             return smoke;
         }
-        placement::around(model, smoke)
+        placement::around(model.bounds(), smoke)
     }
 
     /// Whether the passes find what lies on both sides of lines, for lines that are drawn over the picture.
     pub fn finds_sides(&self) -> bool {
-        self.features.contrast
+        self.plan.needs.features.contrast
     }
 
     /// Whether a frame goes on from the one before: not the first, nor after a cut. Tiles of a frame share their
     /// buffers, so they never do.
-    fn follows(&self, view: &View) -> bool {
+    fn follows(&self, view: &View, model: &Model) -> bool {
         let Some(before) = &self.before else {
             return false;
         };
         let turned = Vec3::from(view.forward_world).dot(Vec3::from(before.forward_world));
         let moved = Vec3::from(view.eye_world).distance(Vec3::from(before.eye_world));
-        self.tiles.kept == self.tiles.frame
-            && turned > CUT_COS
-            && moved < CUT_RADII * self.model.radius()
+        let tiles = self.plan.tiles();
+        tiles.kept == tiles.frame && turned > CUT_COS && moved < CUT_RADII * model.radius()
     }
 
     /// Hands over how a camera sees the scene.
-    pub fn aim(&mut self, camera: &Camera) -> Result<(View, Rules), RenderError> {
-        let bounds = self.bounds();
-        let view = camera.view(self.options.size, bounds);
-        let (style, size, dpi) = (&self.style, self.options.size, self.options.dpi);
+    pub fn aim(&mut self, model: &Model, camera: &Camera) -> Result<(View, Rules), RenderError> {
+        let bounds = self.bounds(model);
+        let FramePlan {
+            style,
+            options,
+            needs,
+            passes,
+        } = &self.plan;
+        let (size, dpi) = (options.size, options.dpi);
+        let view = camera.view(size, bounds);
 
         // Settle the widths of lines and the rules of their colours in this view.
-        let world_px = look::nearest_world_px(&view, camera, self.model);
+        let world_px = look::nearest_world_px(&view, camera, model);
         let base_px = look::base_px(style, size[1], dpi, world_px);
-        let half = look::largest_half_width(style, &self.styled.parts, base_px);
+        let half = look::largest_half_width(style, &needs.styled.parts, base_px);
         let reach_px = half.ceil().min(64.0) as u32 + 1;
-        let outline = look::outline(style, self.model.radius(), size[1], dpi, reach_px);
+        let outline = look::outline(style, model.radius(), size[1], dpi, reach_px);
         let px = [size[1] as f32, dpi, world_px];
-        let rules = self
+        let samples = needs.grids.samples;
+        let rules = needs
             .contrast
-            .rules(style, self.features, half, px, self.grids.samples);
-        let rules = match self.follows(&view) {
+            .rules(style, needs.features, half, px, samples);
+        let rules = match self.follows(&view, model) {
             true => rules,
             false => rules.of_first_frame(),
         };
 
         // Settle how the last pass composes the picture.
-        let background = self.styled.background_texture;
-        let mut compose = look::compose(style, camera, self.model, background);
-        compose.flags = self.features.layers;
-        if let (Some(part), Some(smoke)) = (self.styled.smoke_part, &self.options.smoke) {
+        let background = needs.styled.background_texture;
+        let mut compose = look::compose(style, camera, model, background);
+        compose.flags = needs.features.layers;
+        if let (Some(part), Some(smoke)) = (needs.styled.smoke_part, &options.smoke) {
             hang_sheet(&mut compose, part, smoke, &style.smoke, &view);
         }
-        let passes = self.plan.smoke.as_ref();
-        if passes.is_some_and(|passes| passes.shades_surfaces(&style.smoke)) {
+        let smoke_passes = passes.smoke.as_ref();
+        if smoke_passes.is_some_and(|passes| passes.shades_surfaces(&style.smoke)) {
             compose.smoke_shadow_side = style.smoke.shadow_px;
         }
 
         // Settle the lights.
-        let mut lights = self.lights.of_frame(style, bounds, None, camera, &view);
-        if let Some(sky) = &self.styled.sky {
+        let mut lights = needs.lights.of_frame(style, bounds, None, camera, &view);
+        if let Some(sky) = &needs.styled.sky {
             sky.apply_to(&mut lights);
         }
 
         // Hand all of it over.
-        let (session, frame) = (self.session.as_mut(), &self.plan.frame);
+        let (session, frame) = (&mut self.session, &passes.frame);
         write(session, frame.view, &[view])?;
         write(session, frame.outline, &[outline])?;
         write(session, frame.compose, &[compose])?;
         write(session, frame.lights, &[lights])?;
-        self.plan.contrast.upload_view(session, rules, &compose)?;
-        self.plan.shadows.upload_view(session, &lights)?;
-        if let (Some(passes), Some(smoke)) = (&self.plan.smoke, &self.options.smoke) {
+        passes.contrast.upload_view(session, rules, &compose)?;
+        passes.shadows.upload_view(session, &lights)?;
+        if let (Some(passes), Some(smoke)) = (smoke_passes, &options.smoke) {
             let moment = SmokeMoment {
                 smoke,
                 style,
@@ -468,28 +495,48 @@ impl FrameRenderer<'_> {
             };
             passes.upload_view(session, &moment)?;
         }
-        self.turn_strokes(&light::strongest(&lights), camera)?;
+        self.turn_strokes(model, &light::strongest(&lights), camera)?;
         self.before = Some(view);
         Ok((view, rules))
     }
 
     /// Turns the strokes that follow the light to the strongest one.
-    fn turn_strokes(&mut self, light: &LightSource, camera: &Camera) -> Result<(), EngineError> {
-        let [parts_turned, charts_turned] = self.styled.inked.follow_light(
-            self.model,
-            &self.style,
-            light,
-            camera,
-            &mut self.styled.parts,
-        );
-        let (session, frame) = (self.session.as_mut(), &self.plan.frame);
+    fn turn_strokes(
+        &mut self,
+        model: &Model,
+        light: &LightSource,
+        camera: &Camera,
+    ) -> Result<(), EngineError> {
+        let FramePlan {
+            style,
+            needs,
+            passes,
+            ..
+        } = &mut self.plan;
+        let StyledModel { inked, parts, .. } = &mut needs.styled;
+        let [parts_turned, charts_turned] = inked.follow_light(model, style, light, camera, parts);
+        let (session, frame) = (&mut self.session, &passes.frame);
         if parts_turned {
-            write(session, frame.parts, &self.styled.parts)?;
+            write(session, frame.parts, parts)?;
         }
         if charts_turned {
-            write(session, frame.charts, &self.styled.inked.charts)?;
+            write(session, frame.charts, &inked.charts)?;
         }
         Ok(())
+    }
+
+    /// Hands over the grids over the tile whose kept part starts at `origin`.
+    pub fn aim_tile(&mut self, view: &View, origin: [u32; 2]) -> Result<(), EngineError> {
+        let FramePlan { needs, passes, .. } = &self.plan;
+        let size = needs.tiles.size();
+        let corner = needs.tiles.corner_px(origin);
+        let extent = size.map(|side| side as f32);
+        let over = |grid: [u32; 2]| Window::over(view.frame_px, corner, extent, grid);
+        let (session, frame) = (&mut self.session, &passes.frame);
+        write(session, frame.output_window, &[over(size)])?;
+        write(session, frame.color_window, &[over(needs.grids.color())])?;
+        passes.lines.upload_tile(session, over(needs.grids.mask))?;
+        passes.contrast.upload_tile(session, view, corner, size)
     }
 
     /// Draws the tile whose kept part starts at `origin` into a frame that begins `top` rows below the whole one, and
@@ -502,49 +549,33 @@ impl FrameRenderer<'_> {
         frame: &mut Frame,
         sides: Option<&mut Sides>,
     ) -> Result<(), EngineError> {
-        // Hand over the grids over the tile.
-        let size = self.tiles.size();
-        let corner = self.tiles.corner_px(origin);
-        let extent = size.map(|side| side as f32);
-        let over = |grid: [u32; 2]| Window::over(view.frame_px, corner, extent, grid);
-        let (session, plan) = (self.session.as_mut(), &self.plan);
-        write(session, plan.frame.output_window, &[over(size)])?;
-        write(
-            session,
-            plan.frame.color_window,
-            &[over(self.grids.color())],
-        )?;
-        plan.lines.upload_tile(session, over(self.grids.mask))?;
-        plan.contrast.upload_tile(session, view, corner, size)?;
+        self.aim_tile(view, origin)?;
 
         // Run the passes, and take the part of the picture that is kept.
-        let mut results = vec![plan.frame.frame];
+        let (passes, tiles) = (&self.plan.passes, self.plan.tiles());
+        let mut results = vec![passes.frame.frame];
         if sides.is_some() {
-            results.extend(plan.contrast.sides());
+            results.extend(passes.contrast.sides());
         }
-        let (times, mut read) = session.run_reading(&results)?;
-        let tile = read.take(plan.frame.frame);
-        let (margin, kept) = ([self.tiles.margin; 2], self.tiles.kept);
+        let (times, mut read) = self.session.run_reading(&results)?;
+        let tile = read.take(passes.frame.frame);
+        let (size, margin, kept) = (tiles.size(), [tiles.margin; 2], tiles.kept);
         let at = [origin[0], origin[1] - top];
         frame.paste(&tile, size[0], margin, at, kept);
         frame.add_times(&times);
-        let [done, of] = self.tiles.progress(origin);
-        if let Some(tell) = self.tell.filter(|_| of > 1) {
-            tell(done, of);
-        }
         if let Some(sides) = sides {
             let paste = |picture: &mut Frame, texels: &[u32]| {
                 picture.paste(texels, size[0], margin, origin, kept);
             };
-            plan.contrast.take_sides(&mut read, sides, paste);
+            passes.contrast.take_sides(&mut read, sides, paste);
         }
         Ok(())
     }
 
     /// What the passes of the tile drawn last asked of a device, and the copy of its picture.
     pub fn pass_costs(&mut self) -> Result<Vec<PassCost>, EngineError> {
-        let frame = &self.plan.frame;
-        let mut costs = pass_costs(&frame.graph, self.session.as_mut())?;
+        let frame = &self.plan.passes.frame;
+        let mut costs = pass_costs(&frame.graph, &mut self.session)?;
         costs.push(copy_cost(&frame.graph, frame.frame));
         Ok(costs)
     }

@@ -21,6 +21,8 @@
 
 mod beam_light;
 mod bend;
+#[cfg(feature = "wgpu")]
+mod device;
 mod error;
 mod facts;
 mod features;
@@ -53,6 +55,8 @@ mod surfaces;
 mod textures;
 mod tiles;
 
+#[cfg(feature = "wgpu")]
+pub use device::{EmbeddedRenderer, HostView};
 pub use error::RenderError;
 pub use facts::facts_of;
 pub use features::lettering::Lettering;

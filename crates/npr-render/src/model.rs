@@ -37,6 +37,8 @@ pub struct Model {
     /// Ends of the file's lines in the world: only curves draw these lines, but all frames take them in.
     line_points: Vec<Vec3>,
     bounds: Bounds,
+    /// Radius of the sphere around the bounds as they were at first.
+    radius: f32,
     cameras: Vec<(String, Camera)>,
     notices: Vec<String>,
     /// Where what is costly to prepare is kept.
@@ -82,6 +84,7 @@ impl Model {
             lights: Vec::new(),
             line_points: line_points(scene),
             bounds: ([0.0; 3], [0.0; 3]),
+            radius: 0.0,
             cameras: placement::cameras_of(scene),
             notices: scene.notices.iter().map(ToString::to_string).collect(),
         };
@@ -89,7 +92,7 @@ impl Model {
         // Add the meshes of all nodes.
         let mut textures = Textures::new(scene);
         for (object, node) in scene.nodes.iter().enumerate() {
-            if let Some(mesh) = node.mesh.and_then(|mesh| scene.meshes.get(mesh as usize)) {
+            if let Some(mesh) = mesh_of(scene, node) {
                 model.add_node(scene, object as u32, node, mesh, &mut textures)?;
             }
         }
@@ -98,6 +101,7 @@ impl Model {
         model.notices.extend(textures.notice.take());
         model.textures = textures.store;
         model.bounds = npr_core::camera::bounds_of(model.posed_points());
+        model.radius = placement::radius_of(model.bounds);
         model.lights = file_light::of_scene(scene, model.bounds);
         model.relate_curvatures();
         Ok(model)
@@ -197,6 +201,42 @@ impl Model {
 
     placement::accessors!();
 
+    /// Radius of the sphere around the scene as it was prepared, in the world; at least a tiny number. A pose leaves it
+    /// as it is, so that what a style measures in radii does not pulse with the pose.
+    pub fn radius(&self) -> f32 {
+        self.radius
+    }
+
+    /// Moves the model into the pose of a scene: the one that it was made of, with other places of nodes and joints.
+    ///
+    /// Meshes stay as they were prepared. Bounds, lights and cameras follow their nodes. No node may be turned inside
+    /// out that was not so before. O(vertices).
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError::OtherScene`] for a scene with another number of matrices; the model then stays as it is.
+    pub fn set_pose(&mut self, scene: &Scene) -> Result<(), RenderError> {
+        let drawn = scene
+            .nodes
+            .iter()
+            .filter(|node| mesh_of(scene, node).is_some());
+        let palette: Vec<Matrix> = drawn
+            .flat_map(|node| placement::matrices_of(scene, node))
+            .collect();
+        if palette.len() != self.palette.len() {
+            return Err(RenderError::OtherScene {
+                have: palette.len(),
+                want: self.palette.len(),
+            });
+        }
+        self.palette = palette;
+        self.line_points = line_points(scene);
+        self.bounds = npr_core::camera::bounds_of(self.posed_points());
+        self.lights = file_light::of_scene(scene, self.bounds);
+        self.cameras = placement::cameras_of(scene);
+        Ok(())
+    }
+
     /// Number of triangles, counted for every instance.
     pub fn triangle_count(&self) -> usize {
         self.triangles.len()
@@ -295,6 +335,11 @@ impl Model {
         };
         moved(0) + moved(1) + moved(2) + moved(3)
     }
+}
+
+/// The mesh of a node.
+fn mesh_of<'a>(scene: &'a Scene, node: &Node) -> Option<&'a npr_scene::Mesh> {
+    scene.meshes.get(node.mesh? as usize)
 }
 
 /// Where the lines of a scene end in the world, each vertex of a part once.

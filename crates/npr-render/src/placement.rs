@@ -16,11 +16,6 @@ macro_rules! accessors {
             self.bounds
         }
 
-        /// Radius of the sphere around the bounds, in the world; at least a tiny number.
-        pub fn radius(&self) -> f32 {
-            $crate::placement::radius_of(self.bounds)
-        }
-
         /// Cameras of the file, with their names, in the order of its nodes.
         pub fn cameras(&self) -> &[(String, npr_core::camera::Camera)] {
             &self.cameras

@@ -26,19 +26,23 @@ use npr_stylesheet::Style;
 
 /// A model, a style and a frame size on an engine: draws a picture for any camera.
 pub struct Renderer<'a> {
+    model: &'a Model,
     /// What the passes of a frame draw.
-    frames: FrameRenderer<'a>,
+    frames: FrameRenderer,
     /// Gives the lines of parts whose method is `curves` or `potrace`.
     lines: Option<LineRenderer<'a>>,
     speed_lines: Option<SpeedLines<'a>>,
     /// The look that shows through, and how much of it.
     blended: Option<(Box<Renderer<'a>>, Blending)>,
     lettering: Lettering,
+    /// Called after every tile with the numbers of tiles done and of all.
+    tell: Option<&'a dyn Fn(usize, usize)>,
 }
 
 /// A renderer that is planned and checked, and not yet prepared: nothing of it has asked the engine for anything.
 struct RendererPlan<'a> {
-    frames: FramePlan<'a>,
+    model: &'a Model,
+    frames: FramePlan,
     speed_lines: Option<SpeedLines<'a>>,
     blended: Option<(Box<RendererPlan<'a>>, Blending)>,
     lettering: Lettering,
@@ -93,6 +97,7 @@ impl<'a> RendererPlan<'a> {
             blended = Some((Box::new(other), blending));
         }
         Ok(Self {
+            model,
             frames,
             speed_lines,
             blended,
@@ -108,11 +113,13 @@ impl<'a> RendererPlan<'a> {
             None => None,
         };
         Ok(Renderer {
-            frames: self.frames.prepare(engine)?,
+            model: self.model,
+            frames: self.frames.prepare(self.model, engine)?,
             lines: None,
             speed_lines: self.speed_lines,
             blended,
             lettering: self.lettering,
+            tell: None,
         })
     }
 }
@@ -146,7 +153,7 @@ impl<'a> Renderer<'a> {
     /// The same renderer, which calls `tell` after each tile with how many are done, of how many; never for a single
     /// tile.
     pub fn with_progress(mut self, tell: &'a dyn Fn(usize, usize)) -> Self {
-        self.frames.tell = Some(tell);
+        self.tell = Some(tell);
         self
     }
 
@@ -161,12 +168,12 @@ impl<'a> Renderer<'a> {
 
     /// What is drawn in another way than the style asks, for the user.
     pub fn notices(&self) -> &[String] {
-        &self.frames.styled.inked.notices
+        &self.frames.plan.styled().inked.notices
     }
 
     /// Whether the frame is drawn in tiles and nothing goes over it as a whole, so that [`Self::draw_bands`] draws it.
     pub fn draws_bands(&self) -> bool {
-        draws_bands(&self.frames.style, &self.frames.tiles)
+        draws_bands(&self.frames.plan.style, self.frames.plan.tiles())
     }
 
     /// Draws the model as a camera sees it, one row of tiles after the other, and hands each to `take` as a frame as
@@ -191,9 +198,9 @@ impl<'a> Renderer<'a> {
             self.draws_bands(),
             "the frame needs all of its pixels at once"
         );
-        let (view, _) = self.frames.aim(camera)?;
-        let [width, height] = self.frames.options.size;
-        let tiles = self.frames.tiles;
+        let (view, _) = self.frames.aim(self.model, camera)?;
+        let [width, height] = self.frames.plan.options.size;
+        let tiles = *self.frames.plan.tiles();
         let mut reported = Frame::new([width, 0]);
         reported.notices.extend_from_slice(self.notices());
         for top in (0..height).step_by(tiles.kept[1] as usize) {
@@ -202,6 +209,7 @@ impl<'a> Renderer<'a> {
             let mut band = Frame::new([width, rows]);
             for origin in tiles.origins().filter(|origin| origin[1] == top) {
                 self.frames.draw_tile(&view, origin, top, &mut band, None)?;
+                self.tell_of(&tiles, origin);
             }
             reported.add_times(&band.times);
             if !take(&band) {
@@ -217,16 +225,17 @@ impl<'a> Renderer<'a> {
     ///
     /// [`RenderError::Engine`] where the device fails; nothing half drawn is returned.
     pub fn draw(&mut self, camera: &Camera) -> Result<Frame, RenderError> {
-        let (view, rules) = self.frames.aim(camera)?;
-        let size = self.frames.options.size;
+        let (view, rules) = self.frames.aim(self.model, camera)?;
+        let size = self.frames.plan.options.size;
         let mut frame = Frame::new(size);
         frame.notices.extend_from_slice(self.notices());
-        let curves = self.lines.is_some() && self.frames.style.has_curves();
+        let curves = self.lines.is_some() && self.frames.plan.style.has_curves();
         let mut sides = (self.frames.finds_sides() && curves).then(|| Sides::new(size));
-        let tiles = self.frames.tiles;
+        let tiles = *self.frames.plan.tiles();
         for origin in tiles.origins() {
             self.frames
                 .draw_tile(&view, origin, 0, &mut frame, sides.as_mut())?;
+            self.tell_of(&tiles, origin);
         }
         let contrasted = sides.map(|sides| (sides, rules));
         self.finish(camera, &view, contrasted.as_ref(), &mut frame)?;
@@ -245,6 +254,14 @@ impl<'a> Renderer<'a> {
         Ok(self.frames.pass_costs()?)
     }
 
+    /// Tells that the tile at `origin` is done, where there are several.
+    fn tell_of(&self, tiles: &Tiles, origin: [u32; 2]) {
+        let [done, of] = tiles.progress(origin);
+        if let Some(tell) = self.tell.filter(|_| of > 1) {
+            tell(done, of);
+        }
+    }
+
     /// Adds what is drawn over a whole frame: curves, speed lines, the other look, words.
     fn finish(
         &mut self,
@@ -255,7 +272,7 @@ impl<'a> Renderer<'a> {
     ) -> Result<(), RenderError> {
         // Draw curves and speed lines, and let the other look show through.
         let frames = &self.frames;
-        let look = (&frames.style, &frames.options);
+        let look = (&frames.plan.style, &frames.plan.options);
         curves::finish(self.lines.as_mut(), camera, look, contrasted, frame)?;
         if let Some(speed_lines) = &self.speed_lines {
             speed_lines.finish(view, frame);
@@ -265,9 +282,10 @@ impl<'a> Renderer<'a> {
         }
 
         // Set the words over everything.
-        let depths_on = |size| Surfaces::new(frames.model, &frames.styled.parts, view, size).depths;
+        let depths_on =
+            |size| Surfaces::new(self.model, &frames.plan.styled().parts, view, size).depths;
         self.lettering
-            .finish(view, frames.options.dpi, frame, depths_on);
+            .finish(view, frames.plan.options.dpi, frame, depths_on);
         Ok(())
     }
 }

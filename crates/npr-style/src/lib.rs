@@ -29,6 +29,7 @@ pub mod lighting;
 pub mod line_color;
 mod luminance;
 pub mod paint;
+pub mod picture_depth;
 pub mod ramp;
 pub mod shadow;
 pub mod sky;

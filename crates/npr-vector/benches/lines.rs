@@ -9,7 +9,7 @@ use npr_core::outline::{MASK_OWNER, Outline};
 use npr_core::window::{View, Window};
 use npr_vector::screen::detect::{Detection, detect};
 use npr_vector::screen::gbuffer::{Surfaces, resolve};
-use npr_vector::screen::residual::{self, Inking, Search, tile_count};
+use npr_vector::screen::residual::{self, Inking, Search, Stamps};
 use npr_vector::screen::ribbon::{self, Drawing};
 use std::time::Duration;
 
@@ -30,6 +30,7 @@ struct Picture {
     ids: Vec<u32>,
     gbuffer: Vec<GPixel>,
     mask: Vec<u32>,
+    owners: Vec<u32>,
 }
 
 impl Picture {
@@ -68,6 +69,7 @@ impl Picture {
                 .collect(),
             gbuffer: vec![GPixel::EMPTY; pixels],
             mask: vec![0; pixels],
+            owners: vec![0; pixels + 1],
         };
         picture.resolve();
         picture.detect();
@@ -92,7 +94,7 @@ impl Picture {
             outline: &self.outline,
             parts: &self.parts,
         };
-        detect(&with, &self.gbuffer, &mut self.mask);
+        detect(&with, &self.gbuffer, &mut self.mask, &mut self.owners);
     }
 
     /// Ribbons from the near triangle's posed corners, looked up in the mask.
@@ -120,8 +122,8 @@ impl Picture {
         ribbon::draw(&with, edges, kinds, layer, keys);
     }
 
-    /// Stamps for the whole mask, none of it inked by ribbons.
-    fn stamps(&self, ribbons: &[u32], stamps: &mut [Stamp]) {
+    /// Stamps for all line owners, where nothing is inked by ribbons.
+    fn stamps(&self, ribbons: &[u32], stamps: &mut [Stamp], found: &mut [u32]) {
         let on = Search {
             window: &self.window,
             mask_window: &self.window,
@@ -130,21 +132,29 @@ impl Picture {
             mask: &self.mask,
             ribbons,
         };
-        residual::find(&on, stamps);
+        residual::find(&on, &self.owners, stamps, found);
     }
 
-    fn ink(&self, stamps: &[Stamp], tiles: &mut [u32], stamped: &mut [u32]) {
-        residual::flag_tiles(&self.window, stamps, tiles);
+    fn smooth(&self, found: &[u32], stamps: &[Stamp], smoothed: &mut [Stamp]) {
+        let on = Stamps {
+            mask_window: &self.window,
+            mask: &self.mask,
+            stamps,
+        };
+        residual::smooth(&on, found, smoothed);
+    }
+
+    fn ink(&self, found: &[u32], smoothed: &[Stamp], covered: &mut [u32], stamped: &mut [u32]) {
+        stamped.fill(0);
+        residual::claim(&self.window, found, smoothed, stamped, covered);
         let with = Inking {
             window: &self.window,
             mask_window: &self.window,
-            outline: &self.outline,
             parts: &self.parts,
-            stamps,
-            tiles,
+            smoothed,
             tints: &[],
         };
-        residual::stamp(&with, stamped);
+        residual::stamp(&with, covered, stamped);
     }
 }
 
@@ -155,7 +165,6 @@ fn outline() -> Outline {
         normal_cos: 0.8,
         kinds: KindSet::CONTOUR,
         detects: Outline::DEPTH | Outline::NORMAL | Outline::OBJECT_ID | Outline::PLANE_DEPTH,
-        reach_px: 3,
         ..Outline::default()
     }
 }
@@ -209,19 +218,17 @@ fn pixels(c: &mut Criterion) {
 
         assert!(picture.mask.iter().any(|found| found & MASK_OWNER != 0));
         let (bare, mut stamps) = (vec![0; pixel_count], vec![Stamp::default(); pixel_count]);
+        let (mut found, mut covered) = (picture.owners.clone(), picture.owners.clone());
         group.bench_function(BenchmarkId::new("find residual", count), |b| {
-            b.iter(|| picture.stamps(&bare, &mut stamps))
+            b.iter(|| picture.stamps(&bare, &mut stamps, &mut found))
         });
         let mut smoothed = stamps.clone();
         group.bench_function(BenchmarkId::new("smooth stamps", count), |b| {
-            b.iter(|| residual::smooth(&picture.window, &stamps, &mut smoothed))
+            b.iter(|| picture.smooth(&found, &stamps, &mut smoothed))
         });
-        let (mut tiles, mut stamped) = (
-            vec![0; tile_count(picture.window.size)],
-            vec![0; pixel_count],
-        );
+        let mut stamped = vec![0; pixel_count];
         group.bench_function(BenchmarkId::new("ink stamps", count), |b| {
-            b.iter(|| picture.ink(&smoothed, &mut tiles, &mut stamped))
+            b.iter(|| picture.ink(&found, &smoothed, &mut covered, &mut stamped))
         });
     }
 }

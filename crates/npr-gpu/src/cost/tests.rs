@@ -156,8 +156,8 @@ fn lists_cost_what_is_in_them() {
         // The pass that makes sizes reads its rule and the list's length.
         let rule = size_of::<WorkRule>() as u64;
         assert_eq!((sized.read_bytes, sized.whole_bytes), (rule + 4, 0));
-        // A list that is empty still starts a workgroup, which reads nothing of the rest.
-        let groups = listed.div_ceil(64).max(1);
+        // A list that is empty still starts the workgroups of a block, which read nothing of the rest.
+        let groups = listed.div_ceil(512).max(1) * 8;
         assert_eq!(
             (followed.workgroups, followed.invocations),
             (groups, groups * 64)

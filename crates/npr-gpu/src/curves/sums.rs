@@ -16,7 +16,7 @@ pub struct Scan {
 
 /// Appends passes that sum up a buffer of `u32`, as far as the work reaches.
 ///
-/// Three passes up to 4096 values, two more for every 64 times as many. Sums wrap.
+/// One pass up to 512 values, two more for every 512 times as many. Sums wrap.
 pub fn add_scan(graph: &mut Graph, values: ResourceId, work: &ListWork) -> Scan {
     add_scan_of_level(graph, values, work, 0)
 }

@@ -42,10 +42,10 @@ impl ListWork {
 
     /// The size of passes over the elements.
     pub fn elements(&self) -> Option<WorkSize> {
-        self.level(0)
+        self.at(0)
     }
 
-    /// The size of passes over the elements, over the sums of their blocks, over the sums of these, and so on.
+    /// The size of passes that sum up the elements, the sums of their blocks, the sums of these, and so on.
     ///
     /// # Panics
     ///
@@ -55,7 +55,7 @@ impl ListWork {
             self.arguments.is_none() || level < self.rule.level_count,
             "sums reach beyond the room"
         );
-        self.at(level)
+        self.at(1 + level)
     }
 
     /// The size of a round of pointer jumping; rounds that change nothing are empty.
@@ -68,7 +68,7 @@ impl ListWork {
             self.arguments.is_none() || round < self.rule.round_count,
             "work for fewer rounds"
         );
-        self.at(self.rule.level_count + round)
+        self.at(1 + self.rule.level_count + round)
     }
 
     /// The size of draws of the elements.
@@ -81,7 +81,7 @@ impl ListWork {
             self.arguments.is_none() || self.rule.vertices > 0,
             "work without draws"
         );
-        self.at(self.rule.level_count + self.rule.round_count)
+        self.at(1 + self.rule.level_count + self.rule.round_count)
     }
 
     fn at(&self, index: u32) -> Option<WorkSize> {

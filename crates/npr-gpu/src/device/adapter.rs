@@ -57,7 +57,7 @@ impl AdapterSummary {
         self.kind == AdapterKind::Software
     }
 
-    fn of(adapter: &wgpu::Adapter) -> Self {
+    pub(super) fn of(adapter: &wgpu::Adapter) -> Self {
         let (info, limits) = (adapter.get_info(), adapter.limits());
         Self {
             kind: kind_of(info.device_type),
@@ -84,10 +84,19 @@ pub fn adapters() -> Vec<AdapterSummary> {
     ranked().into_iter().map(|(summary, _)| summary).collect()
 }
 
-/// Opens the best adapter that can be opened.
+/// Opens the best adapter that can be opened, with the limits of WebGPU, and a clock where there is one.
 pub(super) fn open(
     choice: AdapterChoice,
 ) -> Result<(AdapterSummary, wgpu::Device, wgpu::Queue), EngineError> {
+    let (adapter, device, queue) = open_raw(choice, &descriptor)?;
+    Ok((AdapterSummary::of(&adapter), device, queue))
+}
+
+/// Opens the best adapter that can be opened and that passes can run on, as `descriptor` asks.
+pub(super) fn open_raw(
+    choice: AdapterChoice,
+    descriptor: &dyn Fn(&wgpu::Adapter) -> wgpu::DeviceDescriptor<'static>,
+) -> Result<(wgpu::Adapter, wgpu::Device, wgpu::Queue), EngineError> {
     // Try adapters from the best on, and remember why each was refused.
     let mut refusals = Vec::new();
     for (summary, adapter) in ranked() {
@@ -95,8 +104,12 @@ pub(super) fn open(
             refusals.push(format!("{} is software", summary.name));
             continue;
         }
+        if let Some(lacking) = lacking(&adapter, &adapter.limits()) {
+            refusals.push(format!("{} lacks {lacking}", summary.name));
+            continue;
+        }
         match pollster::block_on(adapter.request_device(&descriptor(&adapter))) {
-            Ok((device, queue)) => return Ok((summary, device, queue)),
+            Ok((device, queue)) => return Ok((adapter, device, queue)),
             Err(error) => refusals.push(format!("{}: {error}", summary.name)),
         }
     }
@@ -108,6 +121,46 @@ pub(super) fn open(
         refusals.join("; ")
     };
     Err(EngineError::NoDevice { reason })
+}
+
+/// What passes use of an adapter that WebGPU does not let it lack, by the names that people know.
+const CAPABILITIES: [(wgpu::DownlevelFlags, &str); 5] = [
+    (wgpu::DownlevelFlags::COMPUTE_SHADERS, "compute shaders"),
+    (
+        wgpu::DownlevelFlags::INDIRECT_EXECUTION,
+        "work sizes from buffers",
+    ),
+    (
+        wgpu::DownlevelFlags::VERTEX_STORAGE,
+        "storage buffers for vertices",
+    ),
+    (
+        wgpu::DownlevelFlags::FRAGMENT_STORAGE,
+        "storage buffers for fragments",
+    ),
+    (
+        wgpu::DownlevelFlags::BUFFER_BINDINGS_NOT_16_BYTE_ALIGNED,
+        "buffers of any size",
+    ),
+];
+
+/// The first thing that passes need and that is not there: a capability of the adapter, or one of the least limits of
+/// WebGPU, of which a device with `limits` has less.
+pub(super) fn lacking(adapter: &wgpu::Adapter, limits: &wgpu::Limits) -> Option<String> {
+    let flags = adapter.get_downlevel_capabilities().flags;
+    lacking_of(flags, limits)
+}
+
+fn lacking_of(flags: wgpu::DownlevelFlags, limits: &wgpu::Limits) -> Option<String> {
+    let absent = CAPABILITIES.iter().find(|(flag, _)| !flags.contains(*flag));
+    if let Some((_, name)) = absent {
+        return Some((*name).to_owned());
+    }
+    let mut short = None;
+    wgpu::Limits::default().check_limits_with_fail_fn(limits, true, |name, least, has| {
+        short = Some(format!("{name} of {least}, it has {has}"));
+    });
+    short
 }
 
 /// All adapters, best first, in the driver's order among equals.
@@ -142,5 +195,25 @@ fn kind_of(device_type: wgpu::DeviceType) -> AdapterKind {
         wgpu::DeviceType::VirtualGpu => AdapterKind::Virtual,
         wgpu::DeviceType::Cpu => AdapterKind::Software,
         wgpu::DeviceType::Other => AdapterKind::Unknown,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_an_adapter_lacks_is_named() {
+        let (all, least) = (wgpu::DownlevelFlags::all(), wgpu::Limits::default());
+        assert_eq!(lacking_of(all, &least), None);
+        for (flag, name) in CAPABILITIES {
+            assert_eq!(lacking_of(all - flag, &least).as_deref(), Some(name));
+        }
+        let few = wgpu::Limits {
+            max_storage_buffers_per_shader_stage: 7,
+            ..least
+        };
+        let short = "max_storage_buffers_per_shader_stage of 8, it has 7";
+        assert_eq!(lacking_of(all, &few).as_deref(), Some(short));
     }
 }

@@ -1,7 +1,8 @@
 //! A device, and the detection of its failures.
 //!
 //! After a loss, wgpu's creations, writes and submits report nothing: only the callback and failing maps do. So a
-//! [`Watch`] is installed before anything else, and every call asks it.
+//! [`Watch`] is installed before anything else, and every call asks it. A device of a host program keeps the handlers
+//! of the host: there the watch asks the device.
 
 use super::adapter::AdapterSummary;
 use super::watch::{TIME_LIMIT, Watch, one_line};
@@ -32,7 +33,10 @@ pub struct Traffic {
 impl Gpu {
     /// Fails if the device is lost, or reported an error outside of any call.
     pub(super) fn check(&self) -> Result<(), EngineError> {
-        self.poll(wgpu::PollType::Poll)
+        match self.watch.asks() {
+            true => self.watch.verdict(),
+            false => self.poll(wgpu::PollType::Poll),
+        }
     }
 
     /// Waits for a submission, at most [`TIME_LIMIT`].

@@ -107,7 +107,7 @@ fn compile(device: &wgpu::Device, pass: &Pass, features: Features) -> Pipeline {
 
     // Make it a pass over elements or over pixels.
     let stage = match pass.work {
-        Work::PerElement { .. } | Work::PerListed { .. } => {
+        Work::PerElement { .. } | Work::PerRun { .. } | Work::PerListed { .. } => {
             Stage::Compute(compile_compute(device, pass, &module, &bindings))
         }
         Work::Draw { targets, .. } => {
@@ -119,7 +119,9 @@ fn compile(device: &wgpu::Device, pass: &Pass, features: Features) -> Pipeline {
 
 fn layout_entry(pass: &Pass, binding: u32, slot: &Slot) -> wgpu::BindGroupLayoutEntry {
     let visibility = match pass.work {
-        Work::PerElement { .. } | Work::PerListed { .. } => wgpu::ShaderStages::COMPUTE,
+        Work::PerElement { .. } | Work::PerRun { .. } | Work::PerListed { .. } => {
+            wgpu::ShaderStages::COMPUTE
+        }
         Work::Draw { .. } => wgpu::ShaderStages::VERTEX_FRAGMENT,
     };
     wgpu::BindGroupLayoutEntry {
@@ -139,7 +141,7 @@ fn binding_type(slot: &Slot) -> wgpu::BindingType {
     match slot.access {
         Access::Uniform => buffer(wgpu::BufferBindingType::Uniform),
         Access::Read => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
-        Access::Write | Access::Update | Access::Append => {
+        Access::Write | Access::Update | Access::Scatter | Access::Append => {
             buffer(wgpu::BufferBindingType::Storage { read_only: false })
         }
         Access::Texture(format) => wgpu::BindingType::Texture {

@@ -7,7 +7,7 @@ use super::pipeline::{PipelineCache, Stage};
 use super::staging::Staging;
 use super::step::{Extent, Step};
 use crate::engine::{EngineError, PassTime, Readings, Session};
-use crate::graph::{Graph, Node, ResourceId, WorkSize, lists};
+use crate::graph::{Graph, Node, ResourceId, WorkSize, emptied};
 use crate::pass::Format;
 use npr_vector::rank::work::Arguments;
 use std::collections::BTreeMap;
@@ -17,10 +17,12 @@ use std::time::{Duration, Instant};
 /// The name under which the time of all passes together is reported, where the device has no clock.
 const ALL_PASSES: &str = "device";
 
-/// A prepared graph. Commands are recorded anew for every run; memory, shaders and bindings are kept.
+/// A graph with its memory on a device: it runs by itself, or records its passes into the encoder of another program.
+///
+/// Commands are recorded anew for every run; memory, shaders and bindings are kept.
 #[derive(Debug)]
-pub(super) struct DeviceSession {
-    gpu: Arc<Gpu>,
+pub struct DeviceSession {
+    pub(super) gpu: Arc<Gpu>,
     graph: Graph,
     memory: Vec<Memory>,
     steps: Vec<Step>,
@@ -74,6 +76,40 @@ impl DeviceSession {
         })
     }
 
+    /// Records every node once, in order, into an encoder of the same device; nothing is submitted, read or timed.
+    ///
+    /// [`Session::write`] takes effect at the next submission, before all of its commands: where a session is recorded
+    /// twice for one submission, both see what was written last.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError::Lost`] where the device is lost; nothing is recorded then.
+    pub fn record(&self, encoder: &mut wgpu::CommandEncoder) -> Result<(), EngineError> {
+        self.gpu.check()?;
+        self.record_steps(encoder, None);
+        Ok(())
+    }
+
+    /// The graph that it runs.
+    pub fn graph(&self) -> &Graph {
+        &self.graph
+    }
+
+    /// The buffer behind a resource, where it is one.
+    pub(super) fn buffer(&self, id: ResourceId) -> Option<&wgpu::Buffer> {
+        match &self.memory[id.index()] {
+            Memory::Buffer(buffer) => Some(buffer),
+            Memory::Image(_) => None,
+        }
+    }
+
+    /// Records all steps, stamped by `clock`.
+    fn record_steps(&self, encoder: &mut wgpu::CommandEncoder, clock: Option<&Clock>) {
+        for (number, step) in (0..).zip(&self.steps) {
+            self.record_step(encoder, number, step, clock);
+        }
+    }
+
     /// Makes room for copies of resources, where it was not made before.
     fn make_room(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {
         for id in ids {
@@ -105,7 +141,8 @@ impl DeviceSession {
         let times = (0..).zip(&self.steps).map(|(number, step)| {
             let start = Instant::now();
             let place = self.graph.nodes()[step.node].pass.name;
-            let record = |encoder: &mut _| self.record(encoder, number, step);
+            let clock = self.clock.as_ref();
+            let record = |encoder: &mut _| self.record_step(encoder, number, step, clock);
             let ((), submission) = self.gpu.submit(place, record)?;
             self.gpu.wait(submission)?;
             Ok(start.elapsed())
@@ -114,12 +151,18 @@ impl DeviceSession {
         Ok(self.node_times(&times))
     }
 
-    fn record(&self, encoder: &mut wgpu::CommandEncoder, number: u32, step: &Step) {
-        // Empty the lists that the pass appends to.
+    fn record_step(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        number: u32,
+        step: &Step,
+        clock: Option<&Clock>,
+    ) {
+        // Empty what the pass appends to, or writes in part.
         let node = &self.graph.nodes()[step.node];
-        for id in lists(node) {
+        for (id, count) in emptied(node) {
             if let Memory::Buffer(buffer) = &self.memory[id.index()] {
-                encoder.clear_buffer(buffer, 0, Some(4));
+                encoder.clear_buffer(buffer, 0, count.map(|words| words as u64 * 4));
             }
         }
 
@@ -128,10 +171,7 @@ impl DeviceSession {
             (Stage::Compute(pipeline), Extent::Groups(groups)) => {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
                     label: Some(node.pass.name),
-                    timestamp_writes: self
-                        .clock
-                        .as_ref()
-                        .map(|clock| clock.compute_stamps(number)),
+                    timestamp_writes: clock.map(|clock| clock.compute_stamps(number)),
                 });
                 pass.set_pipeline(pipeline);
                 pass.set_bind_group(0, &step.bindings, &[]);
@@ -144,7 +184,8 @@ impl DeviceSession {
                 }
             }
             (Stage::Draw(pipeline), Extent::Vertices(count)) => {
-                let mut pass = self.begin_draw(encoder, number, node);
+                let stamps = clock.map(|clock| clock.draw_stamps(number));
+                let mut pass = self.begin_draw(encoder, node, stamps);
                 pass.set_pipeline(pipeline);
                 pass.set_bind_group(0, &step.bindings, &[]);
                 match node.size {
@@ -173,8 +214,8 @@ impl DeviceSession {
     fn begin_draw<'a>(
         &self,
         encoder: &'a mut wgpu::CommandEncoder,
-        number: u32,
         node: &Node,
+        stamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) -> wgpu::RenderPass<'a> {
         // Sort the targets into colours and depths.
         let targets = node.bound[node.pass.slots.len()..]
@@ -194,7 +235,7 @@ impl DeviceSession {
             depth_stencil_attachment: depths
                 .first()
                 .map(|image| depth_attachment(&image.view, node.clears)),
-            timestamp_writes: self.clock.as_ref().map(|clock| clock.draw_stamps(number)),
+            timestamp_writes: stamps,
             occlusion_query_set: None,
             multiview_mask: None,
         })
@@ -247,9 +288,7 @@ impl Session for DeviceSession {
         self.make_room(ids)?;
         let start = Instant::now();
         let ((), submission) = self.gpu.submit("the submission of a frame", |encoder| {
-            for (number, step) in (0..).zip(&self.steps) {
-                self.record(encoder, number, step);
-            }
+            self.record_steps(encoder, self.clock.as_ref());
             if let Some(clock) = &self.clock {
                 clock.stage(encoder);
             }

@@ -4,9 +4,8 @@ use super::gpu::Gpu;
 use super::memory::Memory;
 use super::pipeline::{Pipeline, PipelineCache};
 use crate::engine::EngineError;
-use crate::graph::{Graph, Node};
-use crate::pass::Work;
-use npr_vector::rank::work;
+use crate::graph::{Graph, Node, groups_for};
+use crate::pass::{RUN, Work};
 use std::sync::Arc;
 
 /// A node that has something to do.
@@ -96,6 +95,7 @@ fn extent_of(graph: &Graph, node: &Node) -> Result<Extent, EngineError> {
     let count = graph.work_count(node);
     let extent = match node.pass.work {
         Work::PerElement { .. } | Work::PerListed { .. } => groups_for(count).map(Extent::Groups),
+        Work::PerRun { .. } => groups_for(count.div_ceil(RUN)).map(Extent::Groups),
         Work::Draw { vertices, .. } => {
             let all = count.checked_mul(vertices as usize);
             all.and_then(|all| u32::try_from(all).ok())
@@ -106,30 +106,4 @@ fn extent_of(graph: &Graph, node: &Node) -> Result<Extent, EngineError> {
         place: node.pass.name.to_owned(),
         reason: format!("{count} elements are more than one pass can do"),
     })
-}
-
-/// Workgroups in x and y for a number of elements, 0 in x for none; `None` if there are more than a dispatch can have.
-fn groups_for(element_count: usize) -> Option<[u32; 2]> {
-    let count = u32::try_from(element_count).ok()?;
-    if count == 0 {
-        return Some([0, 1]);
-    }
-    Some(work::groups_for(count))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::pass::WORKGROUP_SIZE;
-
-    #[test]
-    fn groups_turn_into_rows_when_one_row_is_full() {
-        let row = (work::MAX_GROUPS * WORKGROUP_SIZE) as usize;
-        assert_eq!(groups_for(0), Some([0, 1]));
-        assert_eq!(groups_for(1), Some([1, 1]));
-        assert_eq!(groups_for(65), Some([2, 1]));
-        assert_eq!(groups_for(row), Some([65535, 1]));
-        assert_eq!(groups_for(row + 1), Some([32768, 2]));
-        assert_eq!(groups_for(usize::MAX), None);
-    }
 }

@@ -1,6 +1,12 @@
 //! Devices for tests of every crate: no other code in a test opens one, so that all tests skip alike.
 
+mod canvas;
+
+pub use canvas::Canvas;
+
+use super::adapter::open_raw;
 use super::{AdapterChoice, Device};
+use crate::engine::EngineError;
 use crate::testing::is_device_required;
 use std::sync::OnceLock;
 
@@ -20,7 +26,27 @@ pub fn device() -> Option<&'static Device> {
 ///
 /// As [`device`].
 pub fn open() -> Option<Device> {
-    match Device::open(AdapterChoice::Any) {
+    opened(Device::open(AdapterChoice::Any))
+}
+
+/// A device as a host program opens one, with these limits and no features; `None` if there is none, which is said on
+/// standard error.
+///
+/// # Panics
+///
+/// As [`device`].
+pub fn open_host(limits: &wgpu::Limits) -> Option<(wgpu::Adapter, wgpu::Device, wgpu::Queue)> {
+    let host = wgpu::DeviceDescriptor {
+        label: Some("host"),
+        required_limits: limits.clone(),
+        ..wgpu::DeviceDescriptor::default()
+    };
+    opened(open_raw(AdapterChoice::Any, &|_| host.clone()))
+}
+
+/// What was opened, unless there is none and none is required.
+fn opened<T>(result: Result<T, EngineError>) -> Option<T> {
+    match result {
         Ok(device) => Some(device),
         Err(error) if is_device_required() => panic!("NPR_REQUIRE_GPU is set, but {error}"),
         Err(error) => {

@@ -1,6 +1,8 @@
 //! Passes that find lines on images and draw them on shapes.
 
-use crate::pass::{Agreement, Features, Format, Pass, Work, read, texture, uniform, write};
+use crate::pass::{
+    Agreement, Features, Format, Pass, Work, append, read, scatter, texture, uniform, update, write,
+};
 use npr_core::geometry::{Edge, GPixel, Part, PosedVertex, Stamp, Triangle, Vertex};
 use npr_core::line_color::{LineTint, LineTints};
 use npr_core::outline::Outline;
@@ -11,7 +13,7 @@ use npr_style::lighting::Lights;
 use npr_style::line_color::{Deciding, LineScene, decide, light_widths};
 use npr_vector::screen::detect::{Detection, detect};
 use npr_vector::screen::gbuffer::{Surfaces, resolve};
-use npr_vector::screen::residual::{self, Inking, Search};
+use npr_vector::screen::residual::{self, Inking, Search, Stamps};
 use npr_vector::screen::ribbon::{self, Drawing};
 
 /// Depth, normal, object and material of the surface at every pixel.
@@ -42,7 +44,7 @@ pub const RESOLVE_GBUFFER: Pass = Pass {
     },
 };
 
-/// Marks the pixels that differ from a neighbour.
+/// Marks the pixels that differ from a neighbour, and lists those that own a line.
 pub const DETECT: Pass = Pass {
     name: "line.detect",
     shader: npr_shaders::LINE_DETECT,
@@ -53,6 +55,7 @@ pub const DETECT: Pass = Pass {
         read::<Part>("parts"),
         read::<GPixel>("gbuffer"),
         write::<u32>("mask"),
+        append("owners"),
     ],
     work: Work::PerElement { of: "mask" },
     agreement: Agreement::Exact,
@@ -64,7 +67,7 @@ pub const DETECT: Pass = Pass {
             outline: &outline,
             parts: b.read(3),
         };
-        detect(&with, b.read(4), b.write(5));
+        detect(&with, b.read(4), b.write(5), b.write(6));
     },
 };
 
@@ -180,7 +183,7 @@ pub const DRAW_RIBBONS: Pass = Pass {
     },
 };
 
-/// Mask pixels that no ribbon inked become stamps.
+/// Mask pixels that own a line and that no ribbon inked become stamps.
 pub const FIND_RESIDUAL: Pass = Pass {
     name: "line.find_residual",
     shader: npr_shaders::LINE_FIND_RESIDUAL,
@@ -190,10 +193,12 @@ pub const FIND_RESIDUAL: Pass = Pass {
         read::<Part>("parts"),
         read::<GPixel>("gbuffer"),
         read::<u32>("mask"),
+        read::<u32>("owners"),
         texture("ribbons", Format::Rgba8),
-        write::<Stamp>("stamps"),
+        update::<Stamp>("stamps"),
+        append("found"),
     ],
-    work: Work::PerElement { of: "stamps" },
+    work: Work::PerListed { of: "owners" },
     agreement: Agreement::Relative(1e-6),
     twin: |b| {
         let (window, mask_window) = (b.one(0), b.one(1));
@@ -203,9 +208,9 @@ pub const FIND_RESIDUAL: Pass = Pass {
             parts: b.read(2),
             gbuffer: b.read(3),
             mask: b.read(4),
-            ribbons: b.image(5).texels,
+            ribbons: b.image(6).texels,
         };
-        residual::find(&on, b.write(6));
+        residual::find(&on, b.read(5), b.write(7), b.write(8));
     },
 };
 
@@ -215,56 +220,65 @@ pub const SMOOTH_STAMPS: Pass = Pass {
     shader: npr_shaders::LINE_SMOOTH_STAMPS,
     slots: &[
         uniform::<Window>("mask_window"),
+        read::<u32>("mask"),
+        read::<u32>("found"),
         read::<Stamp>("stamps"),
-        write::<Stamp>("smoothed"),
+        update::<Stamp>("smoothed"),
     ],
-    work: Work::PerElement { of: "smoothed" },
+    work: Work::PerListed { of: "found" },
     agreement: Agreement::Relative(1e-5),
-    twin: |b| residual::smooth(&b.one(0), b.read(1), b.write(2)),
+    twin: |b| {
+        let mask_window = b.one(0);
+        let on = Stamps {
+            mask_window: &mask_window,
+            mask: b.read(1),
+            stamps: b.read(3),
+        };
+        residual::smooth(&on, b.read(2), b.write(4));
+    },
 };
 
-/// Which tiles of the mask hold a stamp.
-pub const FLAG_TILES: Pass = Pass {
-    name: "line.flag_tiles",
-    shader: npr_shaders::LINE_FLAG_TILES,
+/// Pixels of the output claimed for the stamps that cover them most.
+pub const CLAIM_PIXELS: Pass = Pass {
+    name: "line.claim_pixels",
+    shader: npr_shaders::LINE_CLAIM_PIXELS,
     slots: &[
-        uniform::<Window>("mask_window"),
-        read::<Stamp>("stamps"),
-        write::<u32>("tiles"),
+        uniform::<Window>("window"),
+        read::<u32>("found"),
+        read::<Stamp>("smoothed"),
+        scatter::<u32>("claims"),
+        append("covered"),
     ],
-    work: Work::PerElement { of: "tiles" },
+    work: Work::PerListed { of: "found" },
     agreement: Agreement::Exact,
-    twin: |b| residual::flag_tiles(&b.one(0), b.read(1), b.write(2)),
+    twin: |b| residual::claim(&b.one(0), b.read(1), b.read(2), b.write(3), b.write(4)),
 };
 
-/// Inks the output around every stamp.
+/// Inks the claimed pixels.
 pub const STAMP_RESIDUAL: Pass = Pass {
     name: "line.stamp_residual",
     shader: npr_shaders::LINE_STAMP_RESIDUAL,
     slots: &[
         uniform::<Window>("window"),
         uniform::<Window>("mask_window"),
-        uniform::<Outline>("outline"),
         read::<Part>("parts"),
-        read::<Stamp>("stamps"),
-        read::<u32>("tiles"),
+        read::<Stamp>("smoothed"),
         read::<LineTint>("tints").serving(Features::TINTS),
-        write::<u32>("stamped"),
+        read::<u32>("covered"),
+        update::<u32>("stamped"),
     ],
-    work: Work::PerElement { of: "stamped" },
+    work: Work::PerListed { of: "covered" },
     agreement: Agreement::Texels(0.001),
     twin: |b| {
-        let (window, mask_window, outline) = (b.one(0), b.one(1), b.one(2));
+        let (window, mask_window) = (b.one(0), b.one(1));
         let with = Inking {
             window: &window,
             mask_window: &mask_window,
-            outline: &outline,
-            parts: b.read(3),
-            stamps: b.read(4),
-            tiles: b.read(5),
-            tints: b.read(6),
+            parts: b.read(2),
+            smoothed: b.read(3),
+            tints: b.read(4),
         };
-        residual::stamp(&with, b.write(7));
+        residual::stamp(&with, b.read(5), b.write(6));
     },
 };
 

@@ -4,10 +4,12 @@ use crate::pass::{
     Agreement, Features, Format, Pass, Work, append, read, texture, uniform, update, write,
 };
 use npr_core::geometry::{ChartCorners, Part, PosedVertex, Triangle, Vertex};
+use npr_core::outline::Outline;
 use npr_core::window::{View, Window};
 use npr_style::backdrop::Rules;
 use npr_style::compose::{Compose, Layers, TriangleConstants, compose, fill, know_triangles};
 use npr_style::lighting::Lights;
+use npr_style::picture_depth::{PictureDepths, find_depths};
 
 /// What is the same all over each triangle.
 pub const KNOW_TRIANGLES: Pass = Pass {
@@ -143,5 +145,40 @@ pub const COMPOSE_FRAME: Pass = Pass {
             backs: b.image(27).texels,
         };
         compose(&layers, b.read(13), b.write(14));
+    },
+};
+
+/// How deep each pixel of a picture lies.
+pub const FIND_DEPTHS: Pass = Pass {
+    name: "shade.find_depths",
+    shader: npr_shaders::SHADE_FIND_DEPTHS,
+    slots: &[
+        uniform::<View>("view"),
+        uniform::<Window>("window"),
+        uniform::<Compose>("compose"),
+        uniform::<Outline>("outline"),
+        texture("depth", Format::Depth),
+        texture("beam_depth", Format::Depth),
+        texture("smoke_depths", Format::U32).serving(Features::SMOKE),
+        read::<u32>("frame"),
+        write::<f32>("picture_depths"),
+    ],
+    work: Work::PerElement {
+        of: "picture_depths",
+    },
+    agreement: Agreement::Relative(1e-5),
+    twin: |b| {
+        let outline: Outline = b.one(3);
+        let with = PictureDepths {
+            view: &b.one(0),
+            window: &b.one(1),
+            compose: &b.one(2),
+            reach_px: outline.reach_px,
+            surfaces: b.read(4),
+            beams: b.read(5),
+            smoke: b.read(6),
+            frame: b.read(7),
+        };
+        find_depths(&with, b.write(8));
     },
 };

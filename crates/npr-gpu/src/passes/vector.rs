@@ -105,7 +105,7 @@ pub const SIZE_WORK: Pass = Pass {
     twin: |b| size_work(&b.one(0), b.read(1), b.write(2)),
 };
 
-/// Sums within blocks of 64 values.
+/// Sums within blocks of 512 values.
 pub const SCAN_BLOCKS: Pass = Pass {
     name: "vector.scan_blocks",
     shader: npr_shaders::VECTOR_SCAN_BLOCKS,
@@ -114,7 +114,7 @@ pub const SCAN_BLOCKS: Pass = Pass {
         write::<u32>("prefixes"),
         write::<u32>("sums"),
     ],
-    work: Work::PerElement { of: "values" },
+    work: Work::PerRun { of: "values" },
     agreement: Agreement::Exact,
     twin: |b| scan::scan_blocks(b.read(0), b.write(1), b.write(2)),
 };
@@ -128,7 +128,7 @@ pub const SCAN_ADD: Pass = Pass {
         read::<u32>("offsets"),
         write::<u32>("prefixes_out"),
     ],
-    work: Work::PerElement { of: "prefixes_in" },
+    work: Work::PerRun { of: "prefixes_in" },
     agreement: Agreement::Exact,
     twin: |b| scan::scan_add(b.read(0), b.read(1), b.write(2)),
 };

@@ -90,7 +90,7 @@ fn both_engines_cost_the_same() {
         let count = session.read(made.node_count).unwrap()[0];
         let rounds = costs.iter().filter(|pass| pass.name == "vector.rank_jump");
         let groups: Vec<u64> = rounds.map(|pass| pass.cost.workgroups).collect();
-        let full = u64::from(count.div_ceil(64));
+        let full = u64::from(count.div_ceil(512) * 8);
         assert!(
             count > 64 && groups.iter().all(|n| [0, full].contains(n)),
             "{groups:?}"

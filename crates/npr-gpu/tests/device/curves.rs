@@ -202,6 +202,6 @@ fn short_lists_take_few_passes() {
     };
     assert_eq!(passes(4096, Scheme::RULING_SET), 21);
     assert_eq!(passes(4096, Scheme::WYLLIE), 39);
-    assert_eq!(passes(1_000_000, Scheme::RULING_SET), 70);
-    assert_eq!(passes(1_000_000, Scheme::WYLLIE), 65);
+    assert_eq!(passes(1_000_000, Scheme::RULING_SET), 63);
+    assert_eq!(passes(1_000_000, Scheme::WYLLIE), 60);
 }

@@ -2,12 +2,13 @@
 
 use crate::shared;
 use npr_core::geometry::{GPixel, Part, Stamp};
+use npr_core::list::{self, Listed};
 use npr_core::outline::{MASK_KINDS, MASK_OWNER, MASK_SIDE, Outline};
 use npr_core::window::{View, Window};
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::Graph;
 use npr_gpu::pass::Format;
-use npr_gpu::passes::line::{DETECT, FIND_RESIDUAL};
+use npr_gpu::passes::line::{CLAIM_PIXELS, DETECT, FIND_RESIDUAL};
 use npr_gpu::processor::Processor;
 
 /// A grid whose pixels fill no whole number of workgroups.
@@ -55,6 +56,7 @@ fn mask_of(
         graph.buffer::<Part>("parts", 1),
         graph.buffer::<GPixel>("gbuffer", pixels.len()),
         graph.buffer::<u32>("mask", count),
+        graph.buffer::<u32>("owners", count + 1),
     ];
     graph.compute(&DETECT, &ids);
     let mut session = engine.prepare(graph).unwrap();
@@ -72,7 +74,18 @@ fn mask_of(
         .unwrap();
     session.write(ids[4], bytemuck::cast_slice(pixels)).unwrap();
     session.run().unwrap();
-    session.read(ids[5]).unwrap()
+    let mask = session.read(ids[5]).unwrap();
+    let owners = Listed::of(&session.read(ids[6]).unwrap());
+    assert_eq!(owners.all(), owners_of(&mask));
+    mask
+}
+
+/// The pixels of a mask that own a line.
+fn owners_of(mask: &[u32]) -> Vec<u32> {
+    let owning = (0..)
+        .zip(mask)
+        .filter(|(_, marks)| *marks & MASK_OWNER != 0);
+    owning.map(|(element, _)| element).collect()
 }
 
 #[test]
@@ -160,24 +173,35 @@ fn stamps_of(engine: &dyn Engine, mask: &[u32]) -> Vec<Stamp> {
         graph.buffer::<Part>("parts", 1),
         graph.buffer::<GPixel>("gbuffer", mask.len()),
         graph.buffer::<u32>("mask", mask.len()),
+        graph.buffer::<u32>("owners", mask.len() + 1),
         graph.image("ribbons", Format::Rgba8, SIZE),
         graph.buffer::<Stamp>("stamps", mask.len()),
+        graph.buffer::<u32>("found", mask.len() + 1),
     ];
     graph.compute(&FIND_RESIDUAL, &ids);
     let mut session = engine.prepare(graph).unwrap();
     let (windows, parts, pixels) = ([window], [part], vec![surface; mask.len()]);
-    let written: [&[u32]; 5] = [
+    let mut owners = vec![0; mask.len() + 1];
+    list::fill(&mut owners, &[owners_of(mask)]);
+    let written: [&[u32]; 6] = [
         bytemuck::cast_slice(&windows),
         bytemuck::cast_slice(&windows),
         bytemuck::cast_slice(&parts),
         bytemuck::cast_slice(&pixels),
         mask,
+        &owners,
     ];
     for (id, words) in ids.into_iter().zip(written) {
         session.write(id, words).unwrap();
     }
     session.run().unwrap();
-    bytemuck::pod_collect_to_vec(&session.read(ids[6]).unwrap())
+    let stamps: Vec<Stamp> = bytemuck::pod_collect_to_vec(&session.read(ids[7]).unwrap());
+    let found = Listed::of(&session.read(ids[8]).unwrap());
+    let with = (0..)
+        .zip(&stamps)
+        .filter(|(_, stamp)| stamp.half_width > 0.0);
+    assert_eq!(found.all(), with.map(|(i, _)| i).collect::<Vec<u32>>());
+    stamps
 }
 
 #[test]
@@ -200,4 +224,55 @@ fn dots_beside_an_outline_get_no_stamps() {
     // The line fades out over two pixels at either end.
     assert_eq!(count.count(), 25 + 21);
     assert_eq!(stamps_of(device, &mask), stamps);
+}
+
+/// The claims of an engine for one list of stamps after another, over a grid of overlapping stamps of equal widths.
+fn claims_of(engine: &dyn Engine, moments: &[&[u32]]) -> Vec<(Vec<u32>, Vec<u32>)> {
+    let size_px = SIZE.map(|side| side as f32);
+    let count = (SIZE[0] * SIZE[1]) as usize;
+    let stamps: Vec<Stamp> = (0..SIZE[0] * SIZE[1])
+        .map(|i| Stamp {
+            center: [i % SIZE[0], i / SIZE[0]].map(|at| at as f32 + 0.5),
+            half_width: 2.5,
+            part: 0,
+        })
+        .collect();
+
+    let mut graph = Graph::new();
+    let window = Window::over(size_px, [0.0; 2], size_px, SIZE);
+    let ids = [
+        graph.constant("window", window),
+        graph.buffer::<u32>("found", count + 1),
+        graph.constants("smoothed", &stamps),
+        graph.buffer::<u32>("claims", count),
+        graph.buffer::<u32>("covered", count + 1),
+    ];
+    graph.compute(&CLAIM_PIXELS, &ids);
+    let mut session = engine.prepare(graph).unwrap();
+    let moments = moments.iter().map(|stamps| {
+        let mut found = vec![0; count + 1];
+        list::fill(&mut found, &[stamps.to_vec()]);
+        session.write(ids[1], &found).unwrap();
+        session.run().unwrap();
+        let covered = Listed::of(&session.read(ids[4]).unwrap());
+        (session.read(ids[3]).unwrap(), covered.all().to_vec())
+    });
+    moments.collect()
+}
+
+#[test]
+fn the_first_of_equal_stamps_claims_a_pixel_whatever_was_there_before() {
+    let Some(device) = shared::device() else {
+        return;
+    };
+    let forth: Vec<u32> = (0..300).step_by(2).collect();
+    let back: Vec<u32> = forth.iter().rev().copied().collect();
+    let moments: [&[u32]; 4] = [&[1000], &forth, &back, &[5]];
+    let found = claims_of(device, &moments);
+    assert_eq!(found, claims_of(&Processor, &moments));
+    // The order of the list does not matter, and nothing of a moment is left in the next.
+    assert_eq!(found[1], found[2]);
+    let around_5 = found[3].0.iter().filter(|claim| **claim != 0);
+    assert!(around_5.clone().all(|claim| *claim == 6));
+    assert_eq!(around_5.count(), found[3].1.len());
 }

@@ -4,6 +4,7 @@ use crate::scene::{
     FRAME_PX, Look, SHADOW_SIDE, Scene, bare_compose, compose, lights, outline, part_subjects,
     rules, smoke_look, spheres, view,
 };
+use npr_core::geometry::Stamp;
 use npr_core::smoke::SphereView;
 use npr_core::window::Window;
 use npr_gpu::engine::Engine;
@@ -16,7 +17,7 @@ use npr_style::compose::TriangleConstants;
 use std::collections::BTreeMap;
 
 /// Slots that bind a resource of another name: two passes work on the grid of the mask only and call it the window.
-const RENAMED: [(&str, &str, &str); 26] = [
+const RENAMED: [(&str, &str, &str); 24] = [
     ("shade.compose_frame", "triangles", "known"),
     ("shade.compose_frame", "surfaces", "triangles"),
     ("backdrop.flag_tiles", "window", "tile_window"),
@@ -40,13 +41,14 @@ const RENAMED: [(&str, &str, &str); 26] = [
     ("line.color_mask", "window", "mask_window"),
     ("line.color_mask", "ids", "mask_ids"),
     ("backdrop.smooth_rims", "smoothed", "smoothed_rims"),
-    ("line.flag_tiles", "stamps", "smoothed"),
-    ("line.stamp_residual", "stamps", "smoothed"),
     ("line.stamp_residual", "stamped", "overlay"),
 ];
 
 /// Slots that passes update, and a resource that holds what they held before.
-const UPDATED: [(&str, &str, &str); 2] = [
+const UPDATED: [(&str, &str, &str); 5] = [
+    ("line.find_residual", "stamps", "no_stamps"),
+    ("line.smooth_stamps", "smoothed", "no_stamps"),
+    ("line.stamp_residual", "stamped", "claims"),
     ("shade.fill_frame", "frame", "overlay"),
     ("shade.compose_frame", "frame", "overlay"),
 ];
@@ -73,7 +75,7 @@ pub struct Frame {
 
 impl Frame {
     /// The names of what passes make.
-    pub const MADE: [&str; 45] = [
+    pub const MADE: [&str; 49] = [
         "list",
         "posed",
         "lit",
@@ -101,8 +103,11 @@ impl Frame {
         "ribbons",
         "keys",
         "stamps",
+        "owners",
+        "found",
         "smoothed",
-        "tiles",
+        "claims",
+        "covered",
         "overlay",
         "known",
         "busy",
@@ -119,6 +124,7 @@ impl Frame {
         "fronts",
         "backs",
         "frame",
+        "picture_depths",
     ];
 
     /// A frame of the test scene with an output and a mask of these sizes, every pass run by its twin.
@@ -287,9 +293,14 @@ impl Builder {
         self.make_image("keys", Format::Depth, size);
         self.make_buffer("stamps", 16, mask_pixels);
         self.make_buffer("smoothed", 16, mask_pixels);
-        self.make_buffer("tiles", 4, area(mask_size.map(|side| side.div_ceil(16))));
+        self.give_buffer("no_stamps", &vec![Stamp::default(); mask_pixels]);
+        self.make_buffer("owners", 4, mask_pixels + 1);
+        self.make_buffer("found", 4, mask_pixels + 1);
+        self.make_buffer("claims", 4, pixels);
+        self.make_buffer("covered", 4, pixels + 1);
         self.make_buffer("overlay", 4, pixels);
         self.make_buffer("frame", 4, pixels);
+        self.make_buffer("picture_depths", 4, pixels);
         let triangles = &self.graph.resource(self.ids["triangles"].0).kind;
         let Kind::Buffer { count, .. } = *triangles else {
             panic!("triangles are a buffer");
@@ -330,22 +341,22 @@ impl Builder {
         self.draw(&line::DRAW_RIBBONS, "window", ["ribbons", "keys"], true);
         self.compute(&line::FIND_RESIDUAL);
         self.compute(&line::SMOOTH_STAMPS);
-        self.compute(&line::FLAG_TILES);
+        self.compute(&line::CLAIM_PIXELS);
         // The last pass finds in the picture what is kept here for others.
-        let inks = match look {
-            Look::Ours => &line::STAMP_RESIDUAL,
-            Look::Published => &line::DRAW_MASK,
-        };
-        self.compute(inks);
-        let mut bound = self.bound(inks, resource_of(inks, "window"));
-        if let Some(last) = bound.last_mut() {
-            *last = self.ids["frame"].0;
+        for into in ["overlay", "frame"] {
+            match look {
+                Look::Ours => {
+                    self.compute_into(&line::CLAIM_PIXELS, "claims", into);
+                    self.compute_into(&line::STAMP_RESIDUAL, "stamped", into);
+                }
+                Look::Published => self.compute_into(&line::DRAW_MASK, "overlay", into),
+            }
         }
-        self.graph.compute(inks, &bound);
         self.compute(&shade::KNOW_TRIANGLES);
         self.line_up_backdrop();
         self.compute(&shade::FILL_FRAME);
         self.compute(&shade::COMPOSE_FRAME);
+        self.compute(&shade::FIND_DEPTHS);
     }
 
     fn make_backdrop(&mut self, look: Look, size: [u32; 2]) {
@@ -455,6 +466,14 @@ impl Builder {
         self.graph.compute(pass, &bound);
     }
 
+    /// Runs a pass, one slot of which binds another resource.
+    fn compute_into(&mut self, pass: &'static Pass, slot: &str, into: &'static str) {
+        let mut bound = self.bound(pass, resource_of(pass, "window"));
+        let at = pass.slots.iter().position(|other| other.name == slot);
+        bound[at.unwrap()] = self.ids[into].0;
+        self.graph.compute(pass, &bound);
+    }
+
     fn draw(
         &mut self,
         pass: &'static Pass,
@@ -493,7 +512,6 @@ fn area(size: [u32; 2]) -> usize {
 pub fn grids_for(pass: &Pass, count: u32) -> [[u32; 2]; 2] {
     let count = count.max(1);
     match pass.slots[pass.counted_slot()].name {
-        "tiles" => [[count, 1], [16 * count, 5]],
         "tile_rims" | "bounds" | "biases" | "blended" => [[TILE * count, 3], [count, 1]],
         _ => [[count, 1], [count, 1]],
     }

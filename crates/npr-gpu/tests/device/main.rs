@@ -12,6 +12,7 @@ mod curves;
 mod detection;
 mod draws;
 mod frame;
+mod host;
 mod lists;
 mod memory;
 mod pixels;

@@ -19,22 +19,22 @@ use npr_vector::rank::scan::exclusive_scan;
 use npr_vector::rank::{Link, link, rank_curves};
 
 /// Elements of a full row of workgroups.
-const ROW: u32 = 65535 * 64;
+const ROW: u32 = 8191 * 512;
 
 #[test]
 fn arguments_are_the_expected_numbers_of_groups() {
-    // Elements, and the workgroups over them, over the sums of their blocks, over the sums of these, and over the last.
+    // Elements, and the workgroups over them, and those that sum up them, the sums of blocks, and the sums of these.
     let expected = [
-        (0, [[1, 1], [1, 1], [1, 1], [1, 1]]),
-        (1, [[1, 1], [1, 1], [1, 1], [1, 1]]),
-        (64, [[1, 1], [1, 1], [1, 1], [1, 1]]),
-        (65, [[2, 1], [1, 1], [1, 1], [1, 1]]),
-        (4097, [[65, 1], [2, 1], [1, 1], [1, 1]]),
-        (ROW, [[65535, 1], [1024, 1], [16, 1], [1, 1]]),
-        (ROW + 1, [[32768, 2], [1024, 1], [16, 1], [1, 1]]),
+        (0, [[8, 1], [1, 1], [1, 1], [1, 1]]),
+        (1, [[8, 1], [1, 1], [1, 1], [1, 1]]),
+        (512, [[8, 1], [1, 1], [1, 1], [1, 1]]),
+        (513, [[16, 1], [2, 1], [1, 1], [1, 1]]),
+        (512 * 512 + 1, [[513 * 8, 1], [513, 1], [2, 1], [1, 1]]),
+        (ROW, [[65528, 1], [8191, 1], [16, 1], [1, 1]]),
+        (ROW + 1, [[32768, 2], [4096, 2], [16, 1], [1, 1]]),
         // There is room for no more.
-        (10_000_000, [[52084, 3], [2442, 1], [39, 1], [1, 1]]),
-        (u32::MAX, [[52084, 3], [2442, 1], [39, 1], [1, 1]]),
+        (10_000_000, [[52088, 3], [6511, 3], [39, 1], [1, 1]]),
+        (u32::MAX, [[52088, 3], [6511, 3], [39, 1], [1, 1]]),
     ];
     let indirect = IndirectArguments {
         vertices: 3,
@@ -56,7 +56,7 @@ fn arguments_are_the_expected_numbers_of_groups() {
     }
 }
 
-/// What a sized pass leaves in a room: whole workgroups are written, and nothing else.
+/// What a sized pass leaves in a room: whole blocks are written, and nothing else.
 fn check_reach(engine: &dyn Engine, room: u32, lengths: &[u32]) {
     let mut graph = Graph::new();
     let count = graph.buffer::<u32>("count", 1);
@@ -74,10 +74,10 @@ fn check_reach(engine: &dyn Engine, room: u32, lengths: &[u32]) {
         session.write(count, &[*length]).unwrap();
         session.write(to, &untouched).unwrap();
         session.run().unwrap();
-        let groups = length.div_ceil(64).max(1);
-        // Rows are equally wide, so a second row may hold one workgroup more.
-        let rows = groups.div_ceil(65535);
-        let reach = (groups.div_ceil(rows) * rows * 64).min(room) as usize;
+        let blocks = length.div_ceil(512).max(1);
+        // Rows are equally wide, so a second row may hold one block more.
+        let rows = blocks.div_ceil(8191);
+        let reach = (blocks.div_ceil(rows) * rows * 512).min(room) as usize;
         let found = session.read(to).unwrap();
         let (done, behind) = found.split_at(reach);
         assert!((0..).zip(done).all(|(i, v)| *v == i), "{length} of {room}");
@@ -86,9 +86,9 @@ fn check_reach(engine: &dyn Engine, room: u32, lengths: &[u32]) {
 }
 
 #[test]
-fn work_ends_with_the_last_workgroup_of_a_list() {
+fn work_ends_with_the_last_block_of_a_list() {
     for engine in engines() {
-        check_reach(engine, 1000, &[0, 1, 63, 64, 65, 960, 961, 999, 1000, 1001]);
+        check_reach(engine, 1000, &[0, 1, 64, 511, 512, 513, 999, 1000, 1001]);
         check_reach(engine, ROW + 1000, &[3, ROW, ROW + 1, ROW + 1000, 5]);
     }
 }
@@ -132,10 +132,10 @@ fn sums_follow_a_list_that_grows_and_shrinks() {
         let sum = add_sum(&mut graph, values, &work);
         let marked = add_compact(&mut graph, values, room, &work);
         let mut session = engine.prepare(graph).unwrap();
-        for length in [room, 1, 4096, 4097, 270_000, 64, 0, 65, room + 1] {
+        for length in [room, 1, 512, 513, 262_145, 64, 0, 65, room + 1] {
             let mut flags: Vec<u32> = (0..room as u32).map(|i| u32::from(i % 3 == 1)).collect();
             // What a pass before leaves in the last workgroup counts; what lies behind may be anything.
-            let reach = (length.div_ceil(64).max(1) * 64).min(room);
+            let reach = (length.div_ceil(512).max(1) * 512).min(room);
             let (prefixes, total) = exclusive_scan(&flags[..reach]);
             flags[reach..].fill(7);
             session.write(count, &[length as u32]).unwrap();
@@ -252,7 +252,7 @@ fn contours_follow_their_number_in_any_room() {
             if capacity < exact {
                 continue;
             }
-            let reach = exact.next_multiple_of(64).min(capacity);
+            let reach = exact.next_multiple_of(512).min(capacity);
             for (sized, plain) in sized.iter().zip(&plain) {
                 let stride = sized.len() / capacity;
                 assert!(sized[..stride * exact] == plain[..stride * exact]);

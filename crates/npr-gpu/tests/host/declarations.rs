@@ -124,7 +124,7 @@ fn check_access(pass: &Pass, slot: &Slot, global: &GlobalVariable, inner: &TypeI
                     access: StorageAccess::LOAD,
                 }
         }
-        Access::Write | Access::Update | Access::Append => {
+        Access::Write | Access::Update | Access::Scatter | Access::Append => {
             global.space
                 == AddressSpace::Storage {
                     access: StorageAccess::LOAD | StorageAccess::STORE,
@@ -256,7 +256,7 @@ fn entry_points_are_as_declared() {
             .map(|entry| (entry.name.as_str(), entry.stage))
             .collect();
         match pass.work {
-            Work::PerElement { .. } | Work::PerListed { .. } => {
+            Work::PerElement { .. } | Work::PerRun { .. } | Work::PerListed { .. } => {
                 assert_eq!(
                     entries,
                     [("main", naga::ShaderStage::Compute)],

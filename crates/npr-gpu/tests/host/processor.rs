@@ -5,94 +5,89 @@ use npr_core::window::Window;
 use npr_gpu::engine::{Engine, Session};
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::Format;
-use npr_gpu::passes::line::{FLAG_TILES, SMOOTH_STAMPS};
+use npr_gpu::passes::line::CLAIM_PIXELS;
+use npr_gpu::passes::vector::{SCAN_ADD, SCAN_BLOCKS};
 use npr_gpu::processor::Processor;
-use npr_vector::screen::residual::{TILE, flag_tiles, smooth, tile_count};
+use npr_vector::rank::scan::BLOCK;
 use proptest::prelude::*;
 
 /// The processor takes every graph and never loses it.
 const NEVER_FAILS: &str = "the processor never fails";
 
-/// A grid of `size` pixels over a frame of the same size.
-fn grid(size: [u32; 2]) -> Window {
-    let px = size.map(|side| side as f32);
-    Window::over(px, [0.0; 2], px, size)
+/// Values in up to three blocks of sums.
+fn values() -> impl Strategy<Value = Vec<u32>> {
+    prop::collection::vec(any::<u32>(), 1..3 * BLOCK)
 }
 
-/// One stamp for each pixel of a grid, most of them none.
-fn stamps(size: [u32; 2]) -> impl Strategy<Value = Vec<Stamp>> {
-    let stamp = (0u32..8, 0f32..3.0).prop_map(|(pick, half_width)| Stamp {
-        center: [half_width, half_width],
-        half_width: if pick == 0 { half_width } else { 0.0 },
-        part: pick,
-    });
-    prop::collection::vec(stamp, (size[0] * size[1]) as usize)
-}
-
-fn sized_stamps() -> impl Strategy<Value = ([u32; 2], Vec<Stamp>)> {
-    (1u32..40, 1u32..40)
-        .prop_flat_map(|(w, h)| stamps([w, h]).prop_map(move |stamps| ([w, h], stamps)))
-}
-
-/// A session of stamps smoothed and flagged, with the resources for grid, stamps and tiles.
-fn smoothed_and_flagged(size: [u32; 2]) -> (Box<dyn Session>, [ResourceId; 3]) {
+/// A session of sums over values and their blocks, with the resources for values and sums.
+fn summed(count: usize) -> (Box<dyn Session>, [ResourceId; 2]) {
     let mut graph = Graph::new();
-    let count = (size[0] * size[1]) as usize;
-    let window = graph.uniform::<Window>("mask window");
-    let stamps = graph.buffer::<Stamp>("stamps", count);
-    let smoothed = graph.buffer::<Stamp>("smoothed stamps", count);
-    let tiles = graph.buffer::<u32>("tiles", tile_count(size));
-    graph.compute(&SMOOTH_STAMPS, &[window, stamps, smoothed]);
-    graph.compute(&FLAG_TILES, &[window, smoothed, tiles]);
+    let block_count = count.div_ceil(BLOCK);
+    let values = graph.buffer::<u32>("values", count);
+    let prefixes = graph.buffer::<u32>("prefixes", count);
+    let sums = graph.buffer::<u32>("sums", block_count);
+    let offsets = graph.buffer::<u32>("offsets", block_count);
+    let total = graph.buffer::<u32>("total", 1);
+    let whole = graph.buffer::<u32>("whole", count);
+    graph.compute(&SCAN_BLOCKS, &[values, prefixes, sums]);
+    graph.compute(&SCAN_BLOCKS, &[sums, offsets, total]);
+    graph.compute(&SCAN_ADD, &[prefixes, offsets, whole]);
     let session = Processor.prepare(graph).expect(NEVER_FAILS);
-    (session, [window, stamps, tiles])
-}
-
-fn run_stamps(size: [u32; 2], stamps: &[Stamp]) -> Vec<u32> {
-    let (mut session, [window, buffer, tiles]) = smoothed_and_flagged(size);
-    session
-        .write(window, bytemuck::cast_slice(&[grid(size)]))
-        .expect(NEVER_FAILS);
-    session
-        .write(buffer, bytemuck::cast_slice(stamps))
-        .expect(NEVER_FAILS);
-    session.run().expect(NEVER_FAILS);
-    session.read(tiles).expect(NEVER_FAILS)
+    (session, [values, whole])
 }
 
 proptest! {
     #[test]
-    fn a_graph_does_what_its_twins_do_in_order((size, stamps) in sized_stamps()) {
-        let window = grid(size);
-        let mut smoothed = vec![Stamp::default(); stamps.len()];
-        let mut tiles = vec![0; tile_count(size)];
-        smooth(&window, &stamps, &mut smoothed);
-        flag_tiles(&window, &smoothed, &mut tiles);
-        prop_assert_eq!(run_stamps(size, &stamps), tiles);
+    fn a_graph_does_what_its_twins_do_in_order(values in values()) {
+        let (mut session, [buffer, whole]) = summed(values.len());
+        session.write(buffer, &values).expect(NEVER_FAILS);
+        session.run().expect(NEVER_FAILS);
+        let mut sum = 0u32;
+        let before = values.iter().map(|value| {
+            let before = sum;
+            sum = sum.wrapping_add(*value);
+            before
+        });
+        prop_assert_eq!(session.read(whole).expect(NEVER_FAILS), before.collect::<Vec<_>>());
     }
 
     #[test]
-    fn a_tile_is_flagged_when_one_of_its_pixels_holds_a_stamp((size, stamps) in sized_stamps()) {
-        let across = size[0].div_ceil(TILE);
-        let mut wanted = vec![0; tile_count(size)];
-        for (i, stamp) in stamps.iter().enumerate() {
-            let (x, y) = (i as u32 % size[0], i as u32 / size[0]);
-            if stamp.half_width > 0.0 {
-                wanted[(y / TILE * across + x / TILE) as usize] = 1;
-            }
+    fn running_again_changes_nothing(values in values()) {
+        let (mut session, [buffer, whole]) = summed(values.len());
+        session.write(buffer, &values).expect(NEVER_FAILS);
+        session.run().expect(NEVER_FAILS);
+        let first = session.read(whole).expect(NEVER_FAILS);
+        session.run().expect(NEVER_FAILS);
+        prop_assert_eq!(session.read(whole).expect(NEVER_FAILS), first);
+    }
+
+    /// Stamps of one moment claim no pixel of the next.
+    #[test]
+    fn what_is_written_in_part_begins_at_zero(
+        moments in prop::collection::vec(prop::collection::btree_set(0u32..60, 0..9), 2..4),
+    ) {
+        let size = [10, 6];
+        let px = size.map(|side| side as f32);
+        let mut graph = Graph::new();
+        let window = graph.constant("window", Window::over(px, [0.0; 2], px, size));
+        let found = graph.buffer::<u32>("found", 61);
+        let smoothed = graph.buffer::<Stamp>("smoothed", 60);
+        let claims = graph.buffer::<u32>("claims", 60);
+        let covered = graph.buffer::<u32>("covered", 61);
+        graph.compute(&CLAIM_PIXELS, &[window, found, smoothed, claims, covered]);
+        let mut session = Processor.prepare(graph).expect(NEVER_FAILS);
+        let stamps: Vec<Stamp> = (0..60)
+            .map(|i| Stamp { center: [(i % 10) as f32 + 0.5, (i / 10) as f32 + 0.5], half_width: 0.4, part: 0 })
+            .collect();
+        session.write(smoothed, bytemuck::cast_slice(&stamps)).expect(NEVER_FAILS);
+        for moment in &moments {
+            let list: Vec<u32> = [moment.len() as u32].into_iter().chain(moment.iter().copied()).collect();
+            session.write(found, &list).expect(NEVER_FAILS);
+            session.run().expect(NEVER_FAILS);
+            let wanted: Vec<u32> = (0..60).map(|i| if moment.contains(&i) { i + 1 } else { 0 }).collect();
+            prop_assert_eq!(session.read(claims).expect(NEVER_FAILS), wanted);
+            prop_assert_eq!(&session.read(covered).expect(NEVER_FAILS)[..list.len()], &list[..]);
         }
-        prop_assert_eq!(run_stamps(size, &stamps), wanted);
-    }
-
-    #[test]
-    fn running_again_changes_nothing((size, stamps) in sized_stamps()) {
-        let (mut session, [window, buffer, tiles]) = smoothed_and_flagged(size);
-        session.write(window, bytemuck::cast_slice(&[grid(size)])).expect(NEVER_FAILS);
-        session.write(buffer, bytemuck::cast_slice(&stamps)).expect(NEVER_FAILS);
-        session.run().expect(NEVER_FAILS);
-        let first = session.read(tiles).expect(NEVER_FAILS);
-        session.run().expect(NEVER_FAILS);
-        prop_assert_eq!(session.read(tiles).expect(NEVER_FAILS), first);
     }
 
     #[test]
@@ -119,30 +114,29 @@ proptest! {
     }
 
     #[test]
-    fn every_pass_has_a_time((size, stamps) in sized_stamps()) {
-        let (mut session, [window, buffer, _]) = smoothed_and_flagged(size);
-        session.write(window, bytemuck::cast_slice(&[grid(size)])).expect(NEVER_FAILS);
-        session.write(buffer, bytemuck::cast_slice(&stamps)).expect(NEVER_FAILS);
+    fn every_pass_has_a_time(values in values()) {
+        let (mut session, [buffer, _]) = summed(values.len());
+        session.write(buffer, &values).expect(NEVER_FAILS);
         let names: Vec<&str> = session.run().expect(NEVER_FAILS).iter().map(|pass| pass.name).collect();
-        prop_assert_eq!(names, ["line.smooth_stamps", "line.flag_tiles"]);
+        prop_assert_eq!(names, ["vector.scan_blocks", "vector.scan_blocks", "vector.scan_add"]);
     }
 }
 
 #[test]
-#[should_panic(expected = "slot 'stamps' cannot bind")]
+#[should_panic(expected = "slot 'sums' cannot bind")]
 fn a_buffer_of_another_element_does_not_fit() {
     let mut graph = Graph::new();
-    let window = graph.uniform::<Window>("mask window");
-    let wrong = graph.buffer::<u32>("words", 4);
-    let tiles = graph.buffer::<u32>("tiles", 1);
-    graph.compute(&FLAG_TILES, &[window, wrong, tiles]);
+    let values = graph.buffer::<u32>("values", 4);
+    let prefixes = graph.buffer::<u32>("prefixes", 4);
+    let wrong = graph.buffer::<Stamp>("stamps", 1);
+    graph.compute(&SCAN_BLOCKS, &[values, prefixes, wrong]);
 }
 
 #[test]
 #[should_panic(expected = "both writes and uses")]
 fn a_pass_cannot_read_what_it_writes() {
     let mut graph = Graph::new();
-    let window = graph.uniform::<Window>("mask window");
-    let stamps = graph.buffer::<Stamp>("stamps", 4);
-    graph.compute(&SMOOTH_STAMPS, &[window, stamps, stamps]);
+    let values = graph.buffer::<u32>("values", 4);
+    let sums = graph.buffer::<u32>("sums", 1);
+    graph.compute(&SCAN_BLOCKS, &[values, values, sums]);
 }

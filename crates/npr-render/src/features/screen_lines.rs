@@ -10,7 +10,6 @@ use npr_gpu::engine::{EngineError, Session};
 use npr_gpu::graph::ResourceId;
 use npr_gpu::pass::Format;
 use npr_gpu::passes::{line, mesh};
-use npr_vector::screen::residual::tile_count;
 
 /// The lines of a frame.
 #[derive(Debug, Clone, Copy)]
@@ -69,6 +68,8 @@ impl ScreenLines {
         frame.graph.compute(&line::RESOLVE_GBUFFER, &resolve);
 
         // Mark the pixels that differ from a neighbour.
+        let room = grids.mask_pixels() + 1;
+        let owners = frame.graph.buffer::<u32>("line owners", room);
         let detect = [
             frame.view,
             self.mask_window,
@@ -76,6 +77,7 @@ impl ScreenLines {
             frame.parts,
             gbuffer,
             self.mask,
+            owners,
         ];
         frame.graph.compute(&line::DETECT, &detect);
         if features.paints {
@@ -87,7 +89,7 @@ impl ScreenLines {
             self.draw_ribbons(frame, grids, gbuffer);
         }
         if features.residual {
-            self.stamp_residual(frame, grids, gbuffer);
+            self.stamp_residual(frame, grids, gbuffer, owners);
         }
         if features.filter {
             self.draw_mask(frame);
@@ -162,39 +164,54 @@ impl ScreenLines {
             .draw(&line::DRAW_RIBBONS, &ribbons, &targets, true);
     }
 
-    fn stamp_residual(&self, frame: &mut FrameGraph, grids: &Grids, gbuffer: ResourceId) {
+    fn stamp_residual(
+        &self,
+        frame: &mut FrameGraph,
+        grids: &Grids,
+        gbuffer: ResourceId,
+        owners: ResourceId,
+    ) {
         let graph = &mut frame.graph;
-        let stamps = graph.buffer::<Stamp>("stamps", grids.mask_pixels());
-        let smoothed = graph.buffer::<Stamp>("smoothed stamps", grids.mask_pixels());
-        let tiles = graph.buffer::<u32>("tiles", tile_count(grids.mask));
+        let (pixels, mask_pixels) = (grids.output_pixels(), grids.mask_pixels());
+        let stamps = graph.buffer::<Stamp>("stamps", mask_pixels);
+        let smoothed = graph.buffer::<Stamp>("smoothed stamps", mask_pixels);
+        let found = graph.buffer::<u32>("mask pixels with stamps", mask_pixels + 1);
+        let covered = graph.buffer::<u32>("stamped pixels", pixels + 1);
         let (output, mask) = (frame.output_window, self.mask_window);
 
-        // Find the line pixels that no edge explains, and smooth their places along the line.
+        // Find the line pixels that no edge explains.
         let find = [
             output,
             mask,
             frame.parts,
             gbuffer,
             self.mask,
+            owners,
             self.ribbons,
             stamps,
+            found,
         ];
-        graph.compute(&line::FIND_RESIDUAL, &find);
-        graph.compute(&line::SMOOTH_STAMPS, &[mask, stamps, smoothed]);
-        graph.compute(&line::FLAG_TILES, &[mask, stamps, tiles]);
+        frame.compute_listed(&line::FIND_RESIDUAL, &find, owners);
+
+        // Smooth their places along the line.
+        let smooth = [mask, self.mask, found, stamps, smoothed];
+        let sizes = frame.compute_listed(&line::SMOOTH_STAMPS, &smooth, found);
 
         // Ink a round stamp at each of them.
+        let claim = [output, found, smoothed, frame.frame, covered];
+        frame
+            .graph
+            .compute_sized(&line::CLAIM_PIXELS, &claim, sizes);
         let stamp = [
             output,
             mask,
-            frame.outline,
             frame.parts,
             smoothed,
-            tiles,
             self.tints,
+            covered,
             frame.frame,
         ];
-        graph.compute(&line::STAMP_RESIDUAL, &stamp);
+        frame.compute_listed(&line::STAMP_RESIDUAL, &stamp, covered);
     }
 
     /// Draws the mask itself.

@@ -546,6 +546,11 @@ impl LineModel {
 
     placement::accessors!();
 
+    /// Radius of the sphere around the bounds, in the world; at least a tiny number.
+    pub fn radius(&self) -> f32 {
+        placement::radius_of(self.bounds)
+    }
+
     /// Number of triangles, counted for every instance, as the file has them.
     pub fn triangle_count(&self) -> usize {
         self.triangle_count

@@ -5,4 +5,6 @@
 mod backdrop;
 mod bands;
 mod costs;
+#[cfg(feature = "wgpu")]
+mod embedded;
 mod smoke;

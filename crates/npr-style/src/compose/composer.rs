@@ -6,6 +6,7 @@ use crate::corners::Corners;
 use crate::line_color::LinePoint;
 use npr_core::color::SrgbEncoder;
 use npr_core::geometry::NONE;
+use npr_core::list::{self, Listed};
 use npr_core::raster::{HULL_BIT, ID_MASK};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -15,21 +16,15 @@ use std::ops::Range;
 ///
 /// Where [`Compose::OVERLAY`] asks for them, `frame` holds stamps or the mask before, as sRGB bytes with coverage in
 /// alpha, and keeps them at the listed pixels. O(pixels), parallel over rows.
-pub fn fill(layers: &Layers<'_>, frame: &mut [u32], list: &mut [u32]) {
+pub fn fill(layers: &Layers<'_>, frame: &mut [u32], into: &mut [u32]) {
     // Fill row by row.
     let width = layers.window.size[0] as usize;
     let rows = frame.par_chunks_mut(width.max(1)).enumerate();
     let left = rows.map(|(y, row)| layers.fill_row(y, row));
     let left: Vec<Vec<u32>> = left.collect();
 
-    // Put what is left in a row.
-    let Some((count, pixels)) = list.split_first_mut() else {
-        return;
-    };
-    for (into, pixel) in pixels.iter_mut().zip(left.iter().flatten()) {
-        *into = *pixel;
-    }
-    *count = left.iter().map(|row| row.len() as u32).sum();
+    // List what is left.
+    list::fill(into, &left);
 }
 
 /// Composes the listed pixels as sRGB bytes with straight alpha, over what [`fill`] left there.
@@ -38,16 +33,7 @@ pub fn fill(layers: &Layers<'_>, frame: &mut [u32], list: &mut [u32]) {
 /// of its samples. Layers go over each other as in [Porter & Duff 1984], in linear light. O(listed pixels), parallel
 /// over rows.
 pub fn compose(layers: &Layers<'_>, list: &[u32], frame: &mut [u32]) {
-    // Take the list in the order of rows, whoever made it.
-    let Some((count, pixels)) = list.split_first() else {
-        return;
-    };
-    let mut pixels = pixels[..pixels.len().min(*count as usize)].to_vec();
-    if !pixels.is_sorted() {
-        pixels.par_sort_unstable();
-    }
-
-    // Compose the rows.
+    let listed = Listed::of(list);
     let encoder = SrgbEncoder::new();
     let width = layers.window.size[0] as usize;
     let new = || Composer {
@@ -58,10 +44,7 @@ pub fn compose(layers: &Layers<'_>, list: &[u32], frame: &mut [u32]) {
     };
     let rows = frame.par_chunks_mut(width.max(1)).enumerate();
     rows.for_each_init(new, |composer, (y, row)| {
-        let start = (y * width) as u32;
-        let first = pixels.partition_point(|pixel| *pixel < start);
-        let of_row = pixels[first..].iter().map(|pixel| (pixel - start) as usize);
-        for x in of_row.take_while(|x| *x < width) {
+        for (x, _) in listed.row(y, width) {
             row[x] = composer.texel(x as u32, y as u32, row[x]);
         }
     });

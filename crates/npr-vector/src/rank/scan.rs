@@ -4,16 +4,18 @@
 
 use rayon::prelude::*;
 
-/// Elements that one workgroup adds up.
-pub const BLOCK: usize = 64;
+/// Elements that one invocation adds up.
+pub const RUN: usize = 8;
+
+/// Elements that one workgroup of 64 invocations adds up.
+pub const BLOCK: usize = 64 * RUN;
 
 /// Sums of all values before each within its block, and the sum of every block: the twin of `vector.scan_blocks`.
 ///
 /// Sums are those of 32-bit numbers and wrap. After the sum of the last block, zeros fill `sums` up to a whole block,
 /// as far as there is room, so that sums of sums may be taken in whole blocks.
 ///
-/// Differs: a workgroup adds in steps of doubling width [Hillis & Steele 1986]; sums of integers are the same in any
-/// order.
+/// Differs: an invocation adds up a run, and a workgroup the sums of runs; sums of integers are the same in any order.
 pub fn scan_blocks(values: &[u32], prefixes: &mut [u32], sums: &mut [u32]) {
     let (sums, behind) = sums.split_at_mut(values.len().div_ceil(BLOCK).min(sums.len()));
     let whole = sums.len().next_multiple_of(BLOCK) - sums.len();

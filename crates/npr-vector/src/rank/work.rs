@@ -4,16 +4,19 @@
 //! many workgroups as the list needs instead of as many as fit its room: an indirect dispatch takes its size from a
 //! buffer, and [`size_work`] fills that buffer once for all passes that follow the same length.
 //!
-//! Passes work on whole workgroups, and on one at least. Over a list of n elements they do, to the bit, what they would
-//! do if the room ended with the last of these workgroups; elements after it keep their values.
+//! Passes work on whole blocks of sums, and on one at least. Over a list of n elements they do, to the bit, what they
+//! would do if the room ended with the last of these blocks; elements after it keep their values.
 
 use super::rounds_for;
-use super::scan::BLOCK;
+use super::scan::{BLOCK, RUN};
 use bytemuck::{Pod, Zeroable};
 use npr_core::gpu_layout;
 
 /// Most workgroups along one dimension, by WebGPU's limits.
 pub const MAX_GROUPS: u32 = 65535;
+
+/// Most blocks in a row of workgroups: passes over their elements take [`RUN`] workgroups for each.
+pub const BLOCKS_IN_ROW: u32 = 8191;
 
 /// What a device reads when a pass starts: the size of a dispatch, or of a draw.
 #[repr(C)]
@@ -47,13 +50,13 @@ impl Arguments {
     }
 }
 
-/// Which arguments a list needs, in this order: for levels of sums, for rounds of ranking, for a draw.
+/// Which arguments a list needs, in this order: for elements, for levels of sums, for rounds of ranking, for a draw.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct WorkRule {
     /// Number of elements that there is room for.
     pub room: u32,
-    /// Number of dispatches over the elements, over the sums of their blocks, over the sums of these, and so on.
+    /// Number of dispatches that sum up the elements, the sums of their blocks, the sums of these, and so on.
     pub level_count: u32,
     /// Number of dispatches over the elements in rounds of pointer jumping; rounds that are not needed are empty.
     pub round_count: u32,
@@ -84,22 +87,28 @@ impl WorkRule {
 
     /// Number of [`Arguments`] that the rule asks for.
     pub fn argument_count(&self) -> usize {
-        (self.level_count + self.round_count + u32::from(self.vertices > 0)) as usize
+        (1 + self.level_count + self.round_count + u32::from(self.vertices > 0)) as usize
     }
 }
 
-/// Workgroups in x and y for a number of elements, at least one: rows of equal width, so that few are left over.
+/// Workgroups in x and y that sum up a number of elements, at least one: rows of equal width, so few are left over.
 ///
 /// ```
-/// use npr_vector::rank::work::groups_for;
-/// assert_eq!(groups_for(0), [1, 1]);
-/// assert_eq!(groups_for(65), [2, 1]);
-/// assert_eq!(groups_for(65535 * 64 + 1), [32768, 2]);
+/// use npr_vector::rank::work::{BLOCKS_IN_ROW, sum_groups};
+/// assert_eq!(sum_groups(0), [1, 1]);
+/// assert_eq!(sum_groups(513), [2, 1]);
+/// assert_eq!(sum_groups(BLOCKS_IN_ROW * 512 + 1), [4096, 2]);
 /// ```
-pub fn groups_for(element_count: u32) -> [u32; 2] {
-    let groups = element_count.div_ceil(BLOCK as u32).max(1);
-    let rows = groups.div_ceil(MAX_GROUPS);
-    [groups.div_ceil(rows), rows]
+pub fn sum_groups(element_count: u32) -> [u32; 2] {
+    let blocks = element_count.div_ceil(BLOCK as u32).max(1);
+    let rows = blocks.div_ceil(BLOCKS_IN_ROW);
+    [blocks.div_ceil(rows), rows]
+}
+
+/// Workgroups in x and y for a number of elements, one invocation for each: those of the blocks that hold them.
+pub fn element_groups(element_count: u32) -> [u32; 2] {
+    let [x, y] = sum_groups(element_count);
+    [x * RUN as u32, y]
 }
 
 /// How many of the planned rounds of pointer jumping are run where `count` elements jump.
@@ -117,13 +126,15 @@ pub fn rounds_run(round_count: u32, count: u32) -> u32 {
 /// Lengths beyond the room count as the room. O(arguments).
 pub fn size_work(rule: &WorkRule, extent: &[u32], arguments: &mut [Arguments]) {
     let count = extent[0].min(rule.room);
+    let (last_level, last_round) = (rule.level_count, rule.level_count + rule.round_count);
     for (index, into) in (0..).zip(arguments) {
-        let last_round = rule.level_count + rule.round_count;
-        *into = if index < rule.level_count {
-            Arguments::of_groups(groups_of_level(count, index))
-        } else if index < last_round {
-            let is_run = index - rule.level_count < rounds_run(rule.round_count, count);
-            let [x, y] = groups_for(count);
+        *into = if index == 0 {
+            Arguments::of_groups(element_groups(count))
+        } else if index <= last_level {
+            Arguments::of_groups(groups_of_level(count, index - 1))
+        } else if index <= last_round {
+            let is_run = index - last_level - 1 < rounds_run(rule.round_count, count);
+            let [x, y] = element_groups(count);
             Arguments::of_groups([if is_run { x } else { 0 }, y])
         } else {
             Arguments::of_vertices(count.wrapping_mul(rule.vertices))
@@ -131,11 +142,11 @@ pub fn size_work(rule: &WorkRule, extent: &[u32], arguments: &mut [Arguments]) {
     }
 }
 
-/// Workgroups at a level: over the elements, over the sums of these workgroups, and so on.
+/// Workgroups that sum up a level: the elements, the sums of their blocks, and so on.
 fn groups_of_level(count: u32, level: u32) -> [u32; 2] {
-    let mut groups = groups_for(count);
+    let mut groups = sum_groups(count);
     for _ in 0..level {
-        groups = groups_for(groups[0] * groups[1]);
+        groups = sum_groups(groups[0] * groups[1]);
     }
     groups
 }
@@ -150,11 +161,11 @@ mod tests {
         for (room, levels) in [
             (0, 1),
             (1, 1),
-            (64, 1),
-            (65, 2),
-            (4096, 2),
-            (4097, 3),
-            (1 << 20, 4),
+            (512, 1),
+            (513, 2),
+            (1 << 18, 2),
+            ((1 << 18) + 1, 3),
+            (1 << 28, 4),
         ] {
             assert_eq!(WorkRule::of_room(room).level_count, levels, "{room}");
         }
@@ -175,14 +186,15 @@ mod tests {
         let groups = |x| Arguments::of_groups([x, 1]);
         let vertices = Arguments::of_vertices;
         let (one, none) = (groups(1), groups(0));
+        let eight = groups(8);
         assert_eq!(
             made(0),
-            [one, one, one, one, none, none, none, none, vertices(0)]
+            [eight, one, one, eight, none, none, none, none, vertices(0)]
         );
         // Two elements settle in a round, four in two, and an odd number of rounds is run.
-        assert_eq!(made(2)[3..8], [one, none, none, none, none]);
-        assert_eq!(made(4)[3..8], [one, one, one, none, none]);
-        let (level, full) = (groups(2), groups(79));
+        assert_eq!(made(2)[3..8], [eight, none, none, none, none]);
+        assert_eq!(made(4)[3..8], [eight, eight, eight, none, none]);
+        let (level, full) = (groups(10), groups(80));
         assert_eq!(
             made(5000),
             [
@@ -203,10 +215,13 @@ mod tests {
     proptest! {
         #[test]
         fn workgroups_hold_all_elements_and_hardly_more(count in any::<u32>()) {
-            let [x, y] = groups_for(count).map(u64::from);
-            prop_assert!(x.max(y) <= u64::from(MAX_GROUPS));
-            let wanted = u64::from(count).div_ceil(64).max(1);
+            let [x, y] = sum_groups(count).map(u64::from);
+            let wanted = u64::from(count).div_ceil(512).max(1);
             prop_assert!(x * y >= wanted && x * y < wanted + y);
+            // Passes over elements and sums of them work on the same elements.
+            let [across, down] = element_groups(count).map(u64::from);
+            prop_assert!(across.max(down) <= u64::from(MAX_GROUPS));
+            prop_assert_eq!(across * down * 64, x * y * 512);
         }
 
         #[test]

@@ -2,6 +2,7 @@
 
 use npr_core::geometry::{GPixel, NONE, Part};
 use npr_core::line_kind::KindSet;
+use npr_core::list;
 use npr_core::math;
 use npr_core::outline::{MASK_KINDS, MASK_OWNER, MASK_SIDE, Outline, PIECE_COS};
 use npr_core::surface::dot;
@@ -55,11 +56,12 @@ fn packed_distance(a: u32, b: u32) -> u32 {
 /// and where creases are not drawn, neither does any other turn of the surface. Depths differ there as well: of two
 /// pixels on both sides of a convex bend each lies behind the tangent plane of the other, and that owns no line either.
 ///
-/// O(pixels), parallel over rows.
-pub fn detect(with: &Detection<'_>, gbuffer: &[GPixel], mask: &mut [u32]) {
+/// `owners` becomes the list of the pixels that own a line. O(pixels), parallel over rows.
+pub fn detect(with: &Detection<'_>, gbuffer: &[GPixel], mask: &mut [u32], owners: &mut [u32]) {
     let width = with.window.size[0] as usize;
     let detector = Detector::new(with);
-    mask.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+    let rows = mask.par_chunks_mut(width).enumerate();
+    let rows = rows.map(|(y, row)| {
         row.fill(0);
         let line = |y: usize| &gbuffer[y * width..(y + 1) * width];
         detector.mark_along(line(y), row);
@@ -69,7 +71,12 @@ pub fn detect(with: &Detection<'_>, gbuffer: &[GPixel], mask: &mut [u32]) {
         if (y + 1) * width < gbuffer.len() {
             detector.mark_across(line(y), line(y + 1), 1.0, row);
         }
+        let elements = ((y * width) as u32..).zip(row);
+        let owning = elements.filter(|(_, marks)| **marks & MASK_OWNER != 0);
+        owning.map(|(element, _)| element).collect()
     });
+    let rows: Vec<Vec<u32>> = rows.collect();
+    list::fill(owners, &rows);
 }
 
 /// A detection with what is computed once for all pixels.
@@ -301,7 +308,7 @@ mod tests {
         };
         let mut marks = [0; 2];
         let pixels = [pixel(slopes[0], 0.0), pixel(slopes[1], 1.0)];
-        detect(&detection, &pixels, &mut marks);
+        detect(&detection, &pixels, &mut marks, &mut []);
         marks
     }
 

@@ -1,20 +1,19 @@
-//! Lines that run along no mesh edge: the twins of `line.find_residual`, `line.smooth_stamps`,
-//! `line.flag_tiles` and `line.stamp_residual`.
+//! Lines that run along no mesh edge: the twins of `line.find_residual`, `line.smooth_stamps`, `line.claim_pixels` and
+//! `line.stamp_residual`.
 //!
 //! Where shapes meet or interpenetrate, the mask shows a line and no edge lies there. Such pixels become discs, as wide
-//! as the surface says, and a row of discs is a line.
+//! as the surface says, and a row of discs is a line. They are few: every step works on a list of what the step before
+//! found, and nothing else.
 
 use crate::screen::ribbon::line_coverage;
 use npr_core::color;
 use npr_core::geometry::{GPixel, NONE, Part, Stamp};
 use npr_core::line_color::{LineTint, LineTints};
 use npr_core::line_kind::Kind;
+use npr_core::list::{self, Listed};
 use npr_core::outline::{MASK_OWNER, MASK_SIDE, Outline};
 use npr_core::window::Window;
 use rayon::prelude::*;
-
-/// Side of the square tiles in which stamps are looked for, in mask pixels.
-pub const TILE: u32 = 16;
 
 /// Half side of the box in which ink is counted, in mask pixels.
 const LINE_BOX_PX: f32 = 2.0;
@@ -54,31 +53,36 @@ pub struct Search<'a> {
     pub ribbons: &'a [u32],
 }
 
-/// A stamp for every mask pixel that owns a line and has no ribbon near it, centred on the border between the pixels
-/// that differ.
+/// A stamp for every mask pixel in `owners` that has no ribbon near it, centred on the border between the pixels that
+/// differ.
 ///
-/// O(mask pixels), parallel over rows.
-pub fn find(on: &Search<'_>, stamps: &mut [Stamp]) {
+/// `owners` lists the pixels that own lines. Each of them gets its element of `stamps`, of half width 0 where it needs
+/// none; all other elements stay as they were. `found` becomes the list of those with a stamp. O(owners), parallel over
+/// rows.
+pub fn find(on: &Search<'_>, owners: &[u32], stamps: &mut [Stamp], found: &mut [u32]) {
     let width = on.mask_window.size[0] as usize;
-    stamps
-        .par_chunks_mut(width)
-        .enumerate()
-        .for_each(|(y, row)| {
-            for (x, stamp) in row.iter_mut().enumerate() {
-                *stamp = on.stamp_at(x as u32, y as u32).unwrap_or_default();
+    let owners = Listed::of(owners);
+    let rows = stamps.par_chunks_mut(width).enumerate();
+    let rows: Vec<Vec<u32>> = rows
+        .map(|(y, row)| {
+            let mut found = Vec::new();
+            for (x, element) in owners.row(y, width) {
+                let stamp = on.stamp_at(x as u32, y as u32);
+                found.extend(stamp.map(|_| element));
+                row[x] = stamp.unwrap_or_default();
             }
-        });
+            found
+        })
+        .collect();
+    list::fill(found, &rows);
 }
 
 impl Search<'_> {
     fn stamp_at(&self, x: u32, y: u32) -> Option<Stamp> {
-        // Take pixels that own a line of a surface with lines.
+        // Take pixels of a surface with lines.
         let element = (y * self.mask_window.size[0] + x) as usize;
         let (found, pixel) = (self.mask[element], &self.gbuffer[element]);
-        if found & MASK_OWNER == 0 || pixel.part == NONE {
-            return None;
-        }
-        if self.parts[pixel.part as usize].flags & Part::LINES == 0 {
+        if pixel.part == NONE || self.parts[pixel.part as usize].flags & Part::LINES == 0 {
             return None;
         }
         if found & BETWEEN == 0 && !self.runs_on([x, y], pixel) {
@@ -187,26 +191,33 @@ fn toward_line(found: u32) -> [f32; 2] {
 /// How far along a line stamps are averaged, in mask pixels.
 const SMOOTHING_REACH: u32 = 3;
 
-/// Moves every stamp across its line to the middle of the stamps of its part around it, so that the steps of the pixel
-/// grid do not show.
+/// The stamps of a mask.
+#[derive(Debug, Clone, Copy)]
+pub struct Stamps<'a> {
+    /// The pixel grid of the mask.
+    pub mask_window: &'a Window,
+    /// The mask.
+    pub mask: &'a [u32],
+    /// A stamp for each of its pixels, which means something where the mask owns a line and the half width is not 0.
+    pub stamps: &'a [Stamp],
+}
+
+/// Moves the stamps in `found` across their lines to the middle of the stamps of their parts around them, so that the
+/// steps of the pixel grid do not show; all other elements stay as they were.
 ///
-/// O(mask pixels + 49 per stamp), parallel over rows.
-pub fn smooth(mask_window: &Window, stamps: &[Stamp], smoothed: &mut [Stamp]) {
-    let size = mask_window.size;
-    let width = size[0] as usize;
-    smoothed
-        .par_chunks_mut(width)
-        .enumerate()
-        .for_each(|(y, row)| {
-            for (x, out) in row.iter_mut().enumerate() {
-                let stamp = stamps[y * width + x];
-                *out = stamp;
-                if stamp.half_width > 0.0 {
-                    let by = move_across(&cloud_around(size, stamps, [x as u32, y as u32], &stamp));
-                    out.center = [stamp.center[0] + by[0], stamp.center[1] + by[1]];
-                }
-            }
-        });
+/// O(49 per stamp), parallel over rows.
+pub fn smooth(on: &Stamps<'_>, found: &[u32], smoothed: &mut [Stamp]) {
+    let width = on.mask_window.size[0] as usize;
+    let found = Listed::of(found);
+    let rows = smoothed.par_chunks_mut(width).enumerate();
+    rows.for_each(|(y, row)| {
+        for (x, element) in found.row(y, width) {
+            let mut stamp = on.stamps[element as usize];
+            let by = move_across(&on.cloud_around([x as u32, y as u32], &stamp));
+            stamp.center = [stamp.center[0] + by[0], stamp.center[1] + by[1]];
+            row[x] = stamp;
+        }
+    });
 }
 
 /// The stamps around one of them: their number, and sums of their places relative to it.
@@ -218,30 +229,37 @@ struct Cloud {
     squares: [f32; 3],
 }
 
-/// The stamps of the same part around a stamp.
-fn cloud_around(size: [u32; 2], stamps: &[Stamp], at: [u32; 2], middle: &Stamp) -> Cloud {
-    // Enclose the mask pixels within reach.
-    let low = at.map(|v| v.saturating_sub(SMOOTHING_REACH));
-    let high: [u32; 2] = std::array::from_fn(|i| (at[i] + SMOOTHING_REACH).min(size[i] - 1));
+impl Stamps<'_> {
+    /// The stamps of the same part around a stamp.
+    fn cloud_around(&self, at: [u32; 2], middle: &Stamp) -> Cloud {
+        // Enclose the mask pixels within reach.
+        let size = self.mask_window.size;
+        let low = at.map(|v| v.saturating_sub(SMOOTHING_REACH));
+        let high: [u32; 2] = std::array::from_fn(|i| (at[i] + SMOOTHING_REACH).min(size[i] - 1));
 
-    // Sum up the stamps of the same part.
-    let mut cloud = Cloud::default();
-    for y in low[1]..=high[1] {
-        for x in low[0]..=high[0] {
-            let stamp = &stamps[(y * size[0] + x) as usize];
-            if stamp.half_width > 0.0 && stamp.part == middle.part {
-                let [x, y] = [
-                    stamp.center[0] - middle.center[0],
-                    stamp.center[1] - middle.center[1],
-                ];
-                cloud.count += 1.0;
-                cloud.sum = [cloud.sum[0] + x, cloud.sum[1] + y];
-                let [xx, xy, yy] = cloud.squares;
-                cloud.squares = [xx + x * x, xy + x * y, yy + y * y];
+        // Sum up the stamps of the same part.
+        let mut cloud = Cloud::default();
+        for y in low[1]..=high[1] {
+            for x in low[0]..=high[0] {
+                let element = (y * size[0] + x) as usize;
+                if self.mask[element] & MASK_OWNER == 0 {
+                    continue;
+                }
+                let stamp = &self.stamps[element];
+                if stamp.half_width > 0.0 && stamp.part == middle.part {
+                    let [x, y] = [
+                        stamp.center[0] - middle.center[0],
+                        stamp.center[1] - middle.center[1],
+                    ];
+                    cloud.count += 1.0;
+                    cloud.sum = [cloud.sum[0] + x, cloud.sum[1] + y];
+                    let [xx, xy, yy] = cloud.squares;
+                    cloud.squares = [xx + x * x, xy + x * y, yy + y * y];
+                }
             }
         }
+        cloud
     }
-    cloud
 }
 
 /// The vector to the middle of a cloud, without its part along the line that the cloud forms.
@@ -264,32 +282,96 @@ fn move_across(cloud: &Cloud) -> [f32; 2] {
     [x - along_x, y - along_y]
 }
 
-/// Tiles across a mask.
-fn tiles_across(mask_window: &Window) -> u32 {
-    mask_window.size[0].div_ceil(TILE)
+/// Rows of the output that are claimed together.
+const BAND: usize = 16;
+
+/// Claims every pixel of the output for the stamp that covers it most, and of equal ones the first; `covered` becomes
+/// the list of the claimed pixels.
+///
+/// `smoothed` has an element for each pixel of the mask, and `found` lists those with a stamp. `claims` has an element
+/// for each pixel of the output, 0 before: the element of its stamp plus 1. O(stamps * their area), parallel over bands
+/// of rows.
+pub fn claim(
+    window: &Window,
+    found: &[u32],
+    smoothed: &[Stamp],
+    claims: &mut [u32],
+    covered: &mut [u32],
+) {
+    let width = window.size[0] as usize;
+    let found = Listed::of(found);
+    let bands = claims.par_chunks_mut(width * BAND).enumerate();
+    let bands: Vec<Vec<u32>> = bands
+        .map(|(band, claims)| {
+            let claimer = Claimer {
+                window,
+                smoothed,
+                first_row: (band * BAND) as u32,
+            };
+            claimer.claim(found.all(), claims)
+        })
+        .collect();
+    list::fill(covered, &bands);
 }
 
-/// Number of tiles over a mask of this size.
-pub fn tile_count(size: [u32; 2]) -> usize {
-    size[0].div_ceil(TILE) as usize * size[1].div_ceil(TILE) as usize
+/// Claims pixels of a band of rows.
+struct Claimer<'a> {
+    window: &'a Window,
+    smoothed: &'a [Stamp],
+    first_row: u32,
 }
 
-/// 1 for every tile that holds a stamp, else 0. O(mask pixels), parallel over tiles.
-pub fn flag_tiles(mask_window: &Window, stamps: &[Stamp], tiles: &mut [u32]) {
-    let (across, size) = (tiles_across(mask_window), mask_window.size);
-    tiles
-        .par_iter_mut()
-        .enumerate()
-        .for_each(|(element, tile)| {
-            let left = element as u32 % across * TILE;
-            let top = element as u32 / across * TILE;
-            let right = (left + TILE).min(size[0]);
-            let found = (top..(top + TILE).min(size[1])).any(|y| {
-                let row = &stamps[(y * size[0] + left) as usize..(y * size[0] + right) as usize];
-                row.iter().any(|stamp| stamp.half_width > 0.0)
-            });
-            *tile = u32::from(found);
-        });
+impl Claimer<'_> {
+    /// Claims pixels for stamps in ascending order; gives the claimed ones.
+    fn claim(&self, stamps: &[u32], claims: &mut [u32]) -> Vec<u32> {
+        let width = self.window.size[0];
+        let last_row = self.first_row + claims.len() as u32 / width - 1;
+        let mut covered = Vec::new();
+        for element in stamps {
+            // Look at the pixels of the band that the stamp may reach.
+            let stamp = &self.smoothed[*element as usize];
+            let (low, high) = reached(self.window, stamp);
+            for y in low[1].max(self.first_row)..=high[1].min(last_row) {
+                for x in low[0]..=high[0] {
+                    // Of equal stamps, the one that came before keeps the pixel.
+                    let px = self.window.frame_at(x, y);
+                    let own = coverage(stamp, px);
+                    let claim = &mut claims[((y - self.first_row) * width + x) as usize];
+                    let held = match *claim {
+                        0 => 0.0,
+                        other => coverage(&self.smoothed[other as usize - 1], px),
+                    };
+                    if own > held {
+                        if *claim == 0 {
+                            covered.push(y * width + x);
+                        }
+                        *claim = element + 1;
+                    }
+                }
+            }
+        }
+        covered.sort_unstable();
+        covered
+    }
+}
+
+/// The largest radius of a stamp's ink, in frame pixels; no line of a drawing is as wide.
+const LARGEST_PX: f32 = 64.0;
+
+/// The box of output pixels that a stamp may ink.
+fn reached(window: &Window, stamp: &Stamp) -> ([u32; 2], [u32; 2]) {
+    let reach = stamp.half_width.min(LARGEST_PX) + 1.0;
+    let [x, y] = stamp.center;
+    (
+        window.pixel_at([x - reach, y - reach]),
+        window.pixel_at([x + reach, y + reach]),
+    )
+}
+
+/// The share of the pixel around a point of the frame that a stamp covers.
+fn coverage(stamp: &Stamp, px: [f32; 2]) -> f32 {
+    let off = [px[0] - stamp.center[0], px[1] - stamp.center[1]];
+    line_coverage((off[0] * off[0] + off[1] * off[1]).sqrt(), stamp.half_width)
 }
 
 /// The input of [`stamp`].
@@ -299,105 +381,39 @@ pub struct Inking<'a> {
     pub window: &'a Window,
     /// The pixel grid of the mask.
     pub mask_window: &'a Window,
-    /// Settings.
-    pub outline: &'a Outline,
     /// Parts.
     pub parts: &'a [Part],
-    /// Stamps, one per mask pixel.
-    pub stamps: &'a [Stamp],
-    /// 1 for every tile that holds a stamp.
-    pub tiles: &'a [u32],
+    /// Stamps at their last places, an element for each pixel of the mask.
+    pub smoothed: &'a [Stamp],
     /// What is decided about the colours of lines, on the mask's grid; may be shorter where no part asks for it.
     pub tints: &'a [LineTint],
 }
 
-/// Inks the output around every stamp, as sRGB bytes with coverage in alpha; 0 where there is none.
+/// Inks the `covered` pixels of the output, which hold their claims before, as sRGB bytes with coverage in alpha.
 ///
-/// The stamp that covers a pixel most wins, and of equal ones the first. O(pixels near stamps * reach squared),
-/// parallel.
-pub fn stamp(with: &Inking<'_>, stamped: &mut [u32]) {
+/// O(covered pixels), parallel over rows.
+pub fn stamp(with: &Inking<'_>, covered: &[u32], stamped: &mut [u32]) {
     let width = with.window.size[0] as usize;
-    stamped
-        .par_chunks_mut(width)
-        .enumerate()
-        .for_each(|(y, row)| {
-            row.fill(0);
-            for (run, texels) in row.chunks_mut(TILE as usize).enumerate() {
-                let left = run as u32 * TILE;
-                if with.run_has_stamps(left, left + texels.len() as u32 - 1, y as u32) {
-                    for (x, texel) in (left..).zip(texels) {
-                        *texel = with.texel(with.window.frame_at(x, y as u32));
-                    }
-                }
-            }
-        });
+    let covered = Listed::of(covered);
+    let rows = stamped.par_chunks_mut(width).enumerate();
+    rows.for_each(|(y, row)| {
+        for (x, _) in covered.row(y, width) {
+            row[x] = with.texel(with.window.frame_at(x as u32, y as u32), row[x]);
+        }
+    });
 }
 
 impl Inking<'_> {
-    /// Whether any stamp may reach the pixels from `left` to `right` of a row of the output.
-    fn run_has_stamps(&self, left: u32, right: u32, y: u32) -> bool {
-        let (low, _) = self.reachable(self.window.frame_at(left, y));
-        let (_, high) = self.reachable(self.window.frame_at(right, y));
-        self.any_stamp(low, high)
-    }
-
-    /// The box of mask pixels whose stamps may reach a point of the frame.
-    fn reachable(&self, px: [f32; 2]) -> ([u32; 2], [u32; 2]) {
-        // Smoothing moves stamps from their pixels.
-        let room = 1.0 + SMOOTHING_REACH as f32;
-        let reach = self
-            .mask_window
-            .frame_step
-            .map(|step| self.outline.reach_px as f32 + room * step);
-        (
-            self.mask_window
-                .pixel_at([px[0] - reach[0], px[1] - reach[1]]),
-            self.mask_window
-                .pixel_at([px[0] + reach[0], px[1] + reach[1]]),
-        )
-    }
-
-    fn texel(&self, px: [f32; 2]) -> u32 {
-        // Look only where stamps may reach.
-        let (low, high) = self.reachable(px);
-        if !self.any_stamp(low, high) {
-            return 0;
-        }
-
-        // Let the stamp that covers most ink the place.
-        let (mut best, mut part, mut center) = (0.0, NONE, [0.0; 2]);
-        for y in low[1]..=high[1] {
-            let row = (y * self.mask_window.size[0]) as usize;
-            for stamp in &self.stamps[row + low[0] as usize..=row + high[0] as usize] {
-                if stamp.half_width > 0.0 {
-                    let off = [px[0] - stamp.center[0], px[1] - stamp.center[1]];
-                    let distance = (off[0] * off[0] + off[1] * off[1]).sqrt();
-                    let coverage = line_coverage(distance, stamp.half_width);
-                    if coverage > best {
-                        (best, part, center) = (coverage, stamp.part, stamp.center);
-                    }
-                }
-            }
-        }
-        if part == NONE {
-            return 0;
-        }
-
-        // Tint it as the lines of its surface.
+    /// The ink of a pixel that a stamp claims.
+    fn texel(&self, px: [f32; 2], claim: u32) -> u32 {
+        let stamp = &self.smoothed[claim as usize - 1];
         let tints = LineTints {
             mask_window: self.mask_window,
             tints: self.tints,
         };
-        let [r, g, b, a] = tints.color_at(self.parts, part, Kind::Intersection, center);
-        color::pack_rgba8([r, g, b, a * best])
-    }
-
-    /// Whether any tile that meets the box of mask pixels holds a stamp.
-    fn any_stamp(&self, low: [u32; 2], high: [u32; 2]) -> bool {
-        let across = tiles_across(self.mask_window);
-        (low[1] / TILE..=high[1] / TILE).any(|y| {
-            (low[0] / TILE..=high[0] / TILE).any(|x| self.tiles[(y * across + x) as usize] != 0)
-        })
+        let kind = Kind::Intersection;
+        let [r, g, b, a] = tints.color_at(self.parts, stamp.part, kind, stamp.center);
+        color::pack_rgba8([r, g, b, a * coverage(stamp, px)])
     }
 }
 
@@ -412,14 +428,22 @@ mod tests {
         Window::over([40.0, 24.0], [0.0; 2], [40.0, 24.0], SIZE)
     }
 
+    /// The list of the pixels that fulfil a condition.
+    fn listed<T>(of: &[T], is_so: impl Fn(&T) -> bool) -> Vec<u32> {
+        let mut listed = vec![0; of.len() + 1];
+        let elements = (0..).zip(of).filter(|(_, one)| is_so(one));
+        list::fill(&mut listed, &[elements.map(|(i, _)| i).collect()]);
+        listed
+    }
+
+    fn stamped(stamps: &[Stamp]) -> Vec<u32> {
+        listed(stamps, |stamp| stamp.half_width > 0.0)
+    }
+
     fn inked(stamps: &[Stamp]) -> Vec<u32> {
         let window = window();
-        let mut tiles = vec![0; tile_count(SIZE)];
-        flag_tiles(&window, stamps, &mut tiles);
-        let outline = Outline {
-            reach_px: 4,
-            ..Outline::default()
-        };
+        let (mut inked, mut covered) = (vec![0; 40 * 24], vec![0; 40 * 24 + 1]);
+        claim(&window, &stamped(stamps), stamps, &mut inked, &mut covered);
         let parts = [Part {
             line_color: [0.0, 0.0, 0.0, 1.0],
             ..Part::default()
@@ -427,15 +451,12 @@ mod tests {
         let inking = Inking {
             window: &window,
             mask_window: &window,
-            outline: &outline,
             parts: &parts,
-            stamps,
-            tiles: &tiles,
+            smoothed: stamps,
             tints: &[],
         };
-        let mut stamped = vec![0; 40 * 24];
-        stamp(&inking, &mut stamped);
-        stamped
+        stamp(&inking, &covered, &mut inked);
+        inked
     }
 
     /// Stamps at pixel centres, smoothed.
@@ -450,7 +471,12 @@ mod tests {
             };
         }
         let mut smoothed = stamps.clone();
-        smooth(&window(), &stamps, &mut smoothed);
+        let on = Stamps {
+            mask_window: &window(),
+            mask: &[MASK_OWNER; 40 * 24],
+            stamps: &stamps,
+        };
+        smooth(&on, &stamped(&stamps), &mut smoothed);
         let of = |[x, y]: &[u32; 2]| smoothed[(y * 40 + x) as usize].center;
         at.iter().map(of).collect()
     }
@@ -490,9 +516,16 @@ mod tests {
             ribbons: &[0; 40 * 24],
         };
         let mut stamps = vec![Stamp::default(); 40 * 24];
-        find(&search, &mut stamps);
-        let is_found = |i: &usize| stamps[*i].half_width > 0.0;
-        (0..stamps.len()).filter(is_found).collect()
+        let mut found = vec![0; 40 * 24 + 1];
+        let owners = listed(mask, |marks| marks & MASK_OWNER != 0);
+        find(&search, &owners, &mut stamps, &mut found);
+        assert_eq!(found, stamped(&stamps));
+        let found = Listed::of(&found);
+        found
+            .all()
+            .iter()
+            .map(|element| *element as usize)
+            .collect()
     }
 
     #[test]
