@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use npr_benches::card::{CARDS, GOAL};
 use npr_benches::lines::subjects::shared_models;
-use npr_benches::smoke::subject::{camera, drawn, plume, space_of};
+use npr_benches::smoke::subject::{Film, camera, drawn, space_of};
 use npr_benches::subject::Subject;
 use npr_benches::table::Table;
 use npr_benches::{device, machine};
@@ -19,9 +19,8 @@ use npr_core::camera::Camera;
 use npr_gpu::cost::Cost;
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
-use npr_render::{Following, Model, Renderer, RendererOptions};
+use npr_render::{Model, Renderer, RendererOptions};
 use npr_scene::Scene;
-use npr_smoke::{Puffs, Smoke};
 use npr_stylesheet::Style;
 
 /// Runs behind every time.
@@ -195,23 +194,12 @@ fn measure_smoke(engine: &dyn Engine) -> Outcome<Vec<Row>> {
     for setting in SMOKE_SETTINGS {
         style.set(setting)?;
     }
-    let settings = plume([30, 30, 60]);
-    let mut smoke = Smoke::new(settings)?;
-    smoke.step();
-    let following = Following {
-        birthplace: settings.birthplace(),
-        ..Following::default()
-    };
-    let mut puffs = Puffs::new(&smoke.volume(), following.settings(&style.smoke));
-    for _ in 1..24 {
-        smoke.step();
-        puffs.step(&smoke.volume());
-    }
+    let film = Film::new(&style)?;
 
     // Draw it.
-    let volume = smoke.volume();
+    let volume = film.smoke.volume();
     let options = RendererOptions {
-        smoke: Some(drawn(&puffs.spheres(), &volume)),
+        smoke: Some(drawn(&film.puffs.spheres(), &volume)),
         ..RendererOptions::new(SMOKE_SIZE)
     };
     let model = Model::new(&Scene::default())?;

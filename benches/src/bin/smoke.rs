@@ -8,7 +8,7 @@ use std::error::Error;
 use npr_benches::ledger::{Ledger, precise};
 use npr_benches::machine;
 use npr_benches::smoke::calm::{Change, STEP, Shown};
-use npr_benches::smoke::subject::{camera, drawn, plume, space_of, volume_of};
+use npr_benches::smoke::subject::{Film, camera, drawn, plume, space_of, volume_of};
 use npr_benches::subject::shared_volumes;
 use npr_benches::table::Table;
 use npr_core::camera::Camera;
@@ -413,36 +413,6 @@ impl Life {
 
 /// Most spheres of the plume.
 const PLUME_COUNT: &str = "smoke.puffs.count=300";
-
-/// The built-in plume from its 24th frame on, followed by the spheres of a style from its first.
-struct Film {
-    smoke: Smoke,
-    puffs: Puffs,
-}
-
-impl Film {
-    fn new(style: &Style) -> Outcome<Self> {
-        let settings = plume([30, 30, 60]);
-        let mut smoke = Smoke::new(settings)?;
-        smoke.step();
-        let following = Following {
-            birthplace: settings.birthplace(),
-            ..Following::default()
-        };
-        let puffs = Puffs::new(&smoke.volume(), following.settings(&style.smoke));
-        let mut film = Self { smoke, puffs };
-        (1..24).for_each(|_| drop(film.step()));
-        Ok(film)
-    }
-
-    /// Goes on by a frame.
-    fn step(&mut self) -> Volume {
-        self.smoke.step();
-        let volume = self.smoke.volume();
-        self.puffs.step(&volume);
-        volume
-    }
-}
 
 /// A row for every style of a subject.
 fn add_rows(

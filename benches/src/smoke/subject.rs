@@ -5,8 +5,9 @@ use std::path::Path;
 
 use glam::{DAffine3, DVec3, Vec3};
 use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
-use npr_render::Smoke;
-use npr_smoke::{SmokeSettings, Source, Sphere, Volume};
+use npr_render::{Following, Smoke};
+use npr_smoke::{Puffs, SmokeSettings, Source, Sphere, Volume};
+use npr_stylesheet::Style;
 use npr_vdb::{Limits, read};
 
 use crate::orbit::turned;
@@ -87,6 +88,43 @@ pub fn camera(space: ([f32; 3], [f32; 3]), size: [u32; 2], degrees: f32) -> Came
     let camera = Camera::framing_for(space.0, space.1, aspect, fov_y);
     let middle = (Vec3::from(space.0) + Vec3::from(space.1)) * 0.5;
     turned(camera, middle, degrees)
+}
+
+/// The built-in plume of 30 x 30 x 60 cells from its 24th frame on, followed by the spheres of a style from its first.
+pub struct Film {
+    /// The smoke.
+    pub smoke: npr_smoke::Smoke,
+    /// The spheres that follow it.
+    pub puffs: Puffs,
+}
+
+impl Film {
+    /// The film of a style, in its 24th frame.
+    ///
+    /// # Errors
+    ///
+    /// Where the smoke cannot be made.
+    pub fn new(style: &Style) -> Result<Self, npr_smoke::SmokeError> {
+        let settings = plume([30, 30, 60]);
+        let mut smoke = npr_smoke::Smoke::new(settings)?;
+        smoke.step();
+        let following = Following {
+            birthplace: settings.birthplace(),
+            ..Following::default()
+        };
+        let puffs = Puffs::new(&smoke.volume(), following.settings(&style.smoke));
+        let mut film = Self { smoke, puffs };
+        (1..24).for_each(|_| drop(film.step()));
+        Ok(film)
+    }
+
+    /// Goes on by a frame.
+    pub fn step(&mut self) -> Volume {
+        self.smoke.step();
+        let volume = self.smoke.volume();
+        self.puffs.step(&volume);
+        volume
+    }
 }
 
 #[cfg(test)]

@@ -20,8 +20,8 @@
 //! Slots that the features of the graph leave out cost nothing.
 
 use crate::engine::{EngineError, Readings, Session};
-use crate::graph::{Graph, Node, ResourceId, WorkSize, emptied, groups_for, lists, writes};
-use crate::pass::{Access, Format, Pass, RUN, Slot, WORKGROUP_SIZE, Work};
+use crate::graph::{Graph, Node, ResourceId, WorkSize, emptied, lists, writes};
+use crate::pass::{Access, Format, Pass, Slot, WORKGROUP_SIZE, Work};
 use npr_shaders::Features;
 use npr_vector::rank::work::Arguments;
 use std::collections::BTreeSet;
@@ -187,13 +187,9 @@ impl Run<'_> {
         };
         match node.pass.work {
             Work::PerElement { .. } | Work::PerRun { .. } | Work::PerListed { .. } => {
-                let room = match node.pass.work {
-                    Work::PerRun { .. } => extent.room.div_ceil(RUN as u64),
-                    _ => extent.room,
-                };
                 let [x, y] = match arguments {
                     Some(Arguments { x, y, .. }) => [x, y],
-                    None => groups_for(room as usize).unwrap_or([u32::MAX; 2]),
+                    None => self.graph.room_groups(node).unwrap_or([u32::MAX; 2]),
                 };
                 cost.workgroups = u64::from(x) * u64::from(y);
                 cost.invocations = cost.workgroups * u64::from(WORKGROUP_SIZE);

@@ -1,6 +1,6 @@
 //! A frame as data: resources, and the passes that fill them in order.
 
-use crate::pass::{Access, Format, Pass, WORKGROUP_SIZE, Work};
+use crate::pass::{Access, Format, Pass, RUN, WORKGROUP_SIZE, Work};
 use bytemuck::NoUninit;
 use npr_core::layout::GpuLayout;
 use npr_shaders::Features;
@@ -376,6 +376,16 @@ impl Graph {
         }
     }
 
+    /// Workgroups of a dispatch over all that its node has room for, in x and y; `None` if there are more than a
+    /// dispatch can have.
+    pub(crate) fn room_groups(&self, node: &Node) -> Option<[u32; 2]> {
+        let count = self.work_count(node);
+        groups_for(match node.pass.work {
+            Work::PerRun { .. } => count.div_ceil(RUN),
+            _ => count,
+        })
+    }
+
     /// The number of work items of a node whose size is these arguments: no more than it has room for.
     pub(crate) fn sized_work_count(&self, node: &Node, arguments: &Arguments) -> usize {
         let (x, y) = (u64::from(arguments.x), u64::from(arguments.y));
@@ -404,7 +414,7 @@ impl Graph {
 
 /// Workgroups in x and y for a number of invocations, 0 in x for none, in rows of equal width; `None` if there are more
 /// than a dispatch can have.
-pub(crate) fn groups_for(invocation_count: usize) -> Option<[u32; 2]> {
+fn groups_for(invocation_count: usize) -> Option<[u32; 2]> {
     let count = u32::try_from(invocation_count).ok()?;
     if count == 0 {
         return Some([0, 1]);

@@ -32,6 +32,7 @@ use npr_style::backdrop::Rules;
 use npr_style::compose::Compose;
 use npr_style::lighting::LightSource;
 use npr_stylesheet::Style;
+use npr_vector::screen::residual::LARGEST_PX;
 
 /// Frame pixels around a tile beyond the reach of its lines: detection looks at neighbours.
 const TILE_ROOM: u32 = 8;
@@ -447,7 +448,7 @@ impl<S: Session> FrameRenderer<S> {
         let world_px = look::nearest_world_px(&view, camera, model);
         let base_px = look::base_px(style, size[1], dpi, world_px);
         let half = look::largest_half_width(style, &needs.styled.parts, base_px);
-        let reach_px = half.ceil().min(64.0) as u32 + 1;
+        let reach_px = half.ceil().min(LARGEST_PX) as u32 + 1;
         let outline = look::outline(style, model.radius(), size[1], dpi, reach_px);
         let px = [size[1] as f32, dpi, world_px];
         let samples = needs.grids.samples;

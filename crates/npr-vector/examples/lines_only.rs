@@ -73,7 +73,8 @@ fn main() -> Result<(), std::fmt::Error> {
     };
     let camera = Camera::framing_for(bounds.0, bounds.1, 0.75, 0.6);
     let projector = Projector::new(&camera, settings.size, bounds);
-    let mut svg = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 600 800" fill="none" stroke="black">"#.to_owned();
+    let mut svg = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 600 800""#.to_owned();
+    svg += r#" fill="none" stroke="black">"#;
     for stroke in strokes(&shape, &prepared, &projector, &settings, &|_| 2.0) {
         let again = stroke.points.first().filter(|_| stroke.closed);
         let places = stroke.points.iter().chain(again).map(|p| p.position);

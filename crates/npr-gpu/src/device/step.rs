@@ -4,8 +4,8 @@ use super::gpu::Gpu;
 use super::memory::Memory;
 use super::pipeline::{Pipeline, PipelineCache};
 use crate::engine::EngineError;
-use crate::graph::{Graph, Node, groups_for};
-use crate::pass::{RUN, Work};
+use crate::graph::{Graph, Node};
+use crate::pass::Work;
 use std::sync::Arc;
 
 /// A node that has something to do.
@@ -94,8 +94,9 @@ fn bind(
 fn extent_of(graph: &Graph, node: &Node) -> Result<Extent, EngineError> {
     let count = graph.work_count(node);
     let extent = match node.pass.work {
-        Work::PerElement { .. } | Work::PerListed { .. } => groups_for(count).map(Extent::Groups),
-        Work::PerRun { .. } => groups_for(count.div_ceil(RUN)).map(Extent::Groups),
+        Work::PerElement { .. } | Work::PerRun { .. } | Work::PerListed { .. } => {
+            graph.room_groups(node).map(Extent::Groups)
+        }
         Work::Draw { vertices, .. } => {
             let all = count.checked_mul(vertices as usize);
             all.and_then(|all| u32::try_from(all).ok())

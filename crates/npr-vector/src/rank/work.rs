@@ -17,6 +17,7 @@ pub const MAX_GROUPS: u32 = 65535;
 
 /// Most blocks in a row of workgroups: passes over their elements take [`RUN`] workgroups for each.
 pub const BLOCKS_IN_ROW: u32 = 8191;
+const _: () = assert!(BLOCKS_IN_ROW == MAX_GROUPS / RUN as u32);
 
 /// What a device reads when a pass starts: the size of a dispatch, or of a draw.
 #[repr(C)]

@@ -355,8 +355,9 @@ impl Claimer<'_> {
     }
 }
 
-/// The largest radius of a stamp's ink, in frame pixels; no line of a drawing is as wide.
-const LARGEST_PX: f32 = 64.0;
+/// How far ink reaches at most from the middle of a line, in frame pixels, where it is looked for around pixels or
+/// drawn in discs.
+pub const LARGEST_PX: f32 = 64.0;
 
 /// The box of output pixels that a stamp may ink.
 fn reached(window: &Window, stamp: &Stamp) -> ([u32; 2], [u32; 2]) {
