@@ -7,8 +7,6 @@
 //# use lib/ink
 //# use lib/pixel
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> view: PixelView;
 @group(0) @binding(1) var<storage, read> order: array<u32>;
 @group(0) @binding(2) var<storage, read> standings: array<Standing>;

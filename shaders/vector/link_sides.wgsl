@@ -10,8 +10,6 @@
 //# use lib/ink
 //# use lib/pixel
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<storage, read> extent: array<u32>;
 @group(0) @binding(1) var ink: texture_2d<u32>;
 @group(0) @binding(2) var nearest: texture_2d<u32>;

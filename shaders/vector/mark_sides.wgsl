@@ -6,8 +6,6 @@
 //# use lib/grid
 //# use lib/ink
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var ink: texture_2d<u32>;
 @group(0) @binding(1) var<storage, read_write> masks: array<u32>;
 @group(0) @binding(2) var<storage, read_write> counts: array<u32>;

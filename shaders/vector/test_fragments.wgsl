@@ -6,8 +6,6 @@
 //# use lib/grid
 //# use lib/pixel
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> view: PixelView;
 @group(0) @binding(1) var surfaces: texture_2d<u32>;
 @group(0) @binding(2) var occluder_depths: texture_2d<u32>;

@@ -11,7 +11,7 @@ const fn shader(text: &'static str) -> Shader {
 pub const DOUBLE: Pass = Pass {
     name: "test.double",
     shader: shader(
-        "override WG: u32 = 64u;
+        "const WG: u32 = 64u;
         @group(0) @binding(0) var<storage, read> numbers: array<u32>;
         @group(0) @binding(1) var<storage, read_write> doubled: array<u32>;
         @compute @workgroup_size(WG)
@@ -87,7 +87,7 @@ pub const DRAW_LARGEST: Pass = Pass {
 pub const ADD_TEXELS: Pass = Pass {
     name: "test.add_texels",
     shader: shader(
-        "override WG: u32 = 64u;
+        "const WG: u32 = 64u;
         @group(0) @binding(0) var<uniform> step: vec4<u32>;
         @group(0) @binding(1) var numbers: texture_2d<u32>;
         @group(0) @binding(2) var bytes: texture_2d<f32>;
