@@ -12,7 +12,7 @@
 
 @group(0) @binding(0) var<storage, read> extent: array<u32>;
 @group(0) @binding(1) var ink: texture_2d<u32>;
-@group(0) @binding(2) var nearest: texture_2d<u32>;
+@group(0) @binding(2) var nearest: texture_depth_2d;
 @group(0) @binding(3) var<storage, read> segments: array<Segment>;
 @group(0) @binding(4) var<storage, read> masks: array<u32>;
 @group(0) @binding(5) var<storage, read> starts: array<u32>;
@@ -85,7 +85,7 @@ fn main(
     let segment = segments[number];
     sides[element].code = 4u * pixel + direction;
     sides[element].segment = number;
-    sides[element].nearest = textureLoad(nearest, at, 0).r;
+    sides[element].nearest = bitcast<u32>(textureLoad(nearest, at, 0));
     sides[element].extent.x = segment.end.x - segment.start.x;
     sides[element].extent.y = segment.end.y - segment.start.y;
     links[element].next = neighbour(vec2<i32>(at), direction, 1, 3u);

@@ -106,9 +106,9 @@ pub struct PixelContours {
 
 /// Appends passes from a shape to the ranked sides of its contours' pixels, for a picture of `size` pixels.
 ///
-/// Takes 18 bytes a pixel, 4 more with occluder depths or with these alone, 12 a fragment, and about 200 a side. Where counts exceed the
-/// room, the content is of no use, and the host runs a graph with more room. Passes over edges drawn, fragments and
-/// sides work on as many as are found.
+/// Takes 10 bytes a pixel, 4 more with occluder depths and 8 with these alone, 12 a fragment, and about 200 a side.
+/// Where counts exceed the room, the content is of no use, and the host runs a graph with more room. Passes over edges
+/// drawn, fragments and sides work on as many as are found.
 pub fn add_pixel_contours(
     graph: &mut Graph,
     shape: &HalfEdgeMesh,
@@ -151,12 +151,16 @@ pub fn add_pixel_contours(
     let starts = add_scan(graph, counts, &drawn);
 
     // Draw the surfaces that may hide them.
-    let surfaces = graph.image("surfaces", Format::U32, size);
-    let depths = graph.image("depths", Format::Depth, size);
-    if hiding != Hiding::Given {
-        let (bound, targets) = ([view, positions, half_edges], [surfaces, depths]);
-        graph.draw(&pixels::DRAW_SURFACES, &bound, &targets, true);
-    }
+    let surfaces = graph.image("surfaces", Format::Depth, size);
+    let nearest = match hiding {
+        Hiding::Given => graph.image("nearest", Format::Depth, size),
+        Hiding::Surfaces | Hiding::Veiled => {
+            let bound = [view, positions, half_edges];
+            graph.draw(&pixels::DRAW_SURFACES, &bound, &[surfaces], true);
+            // Once fragments are tested, their own depths may take the place of those of surfaces.
+            surfaces
+        }
+    };
     let is_occluded = hiding != Hiding::Surfaces;
     let occluder_depths = graph.image(
         "occluder_depths",
@@ -167,7 +171,7 @@ pub fn add_pixel_contours(
     // Draw what is seen of them, and trace the sides of their pixels.
     let picture = add_picture(
         graph,
-        (view, [surfaces, occluder_depths, depths]),
+        (view, [surfaces, occluder_depths, nearest]),
         (count, starts, segments),
         (size, room.fragments),
     );
@@ -191,10 +195,11 @@ pub fn add_pixel_contours(
     }
 }
 
-/// Makes, tests and draws fragments, with new depths; gives the segments of pixels, plus one, and their depths.
+/// Makes, tests and draws fragments; gives the segments of pixels, plus one, and their depths, which are drawn into
+/// `nearest`.
 fn add_picture(
     graph: &mut Graph,
-    (view, [surfaces, occluder_depths, depths]): (ResourceId, [ResourceId; 3]),
+    (view, [surfaces, occluder_depths, nearest]): (ResourceId, [ResourceId; 3]),
     (segment_count, starts, segments): (ResourceId, Scan, ResourceId),
     (size, room): ([u32; 2], usize),
 ) -> [ResourceId; 2] {
@@ -216,10 +221,9 @@ fn add_picture(
 
     // Draw the nearest one into every pixel.
     let owners = graph.image("owners", Format::U32, size);
-    let nearest = graph.image("nearest", Format::U32, size);
     graph.draw_sized(
         &pixels::DRAW_NEAREST,
-        (&[view, fragments, shown], &[owners, nearest, depths]),
+        (&[view, fragments, shown], &[owners, nearest]),
         true,
         work.draw(),
     );

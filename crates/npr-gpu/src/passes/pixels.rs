@@ -74,7 +74,7 @@ pub const PROJECT_EDGES: Pass = Pass {
     },
 };
 
-/// Depths of the surfaces that hide lines, as bits.
+/// Depths of the surfaces that hide lines.
 pub const DRAW_SURFACES: Pass = Pass {
     name: "vector.draw_surfaces",
     shader: npr_shaders::VECTOR_DRAW_SURFACES,
@@ -86,7 +86,7 @@ pub const DRAW_SURFACES: Pass = Pass {
     work: Work::Draw {
         of: "half_edges",
         vertices: 1,
-        targets: &[Format::U32, Format::Depth],
+        targets: &[Format::Depth],
         fills: true,
     },
     // Corners lie within 1/256 of a pixel, and a device is free in which: slopes shift depths, and edges shift pixels.
@@ -95,9 +95,8 @@ pub const DRAW_SURFACES: Pass = Pass {
         bound: 1e-4,
     },
     twin: |b| {
-        let (bits, depths) = (b.image_mut(3), b.image_mut(4));
-        surface::draw_surfaces(&b.one(0), b.read(1), b.read(2), bits.texels);
-        depths.texels.copy_from_slice(bits.texels);
+        let depths = b.image_mut(3);
+        surface::draw_surfaces(&b.one(0), b.read(1), b.read(2), depths.texels);
     },
 };
 
@@ -135,7 +134,7 @@ pub const TEST_FRAGMENTS: Pass = Pass {
     shader: npr_shaders::VECTOR_TEST_FRAGMENTS,
     slots: &[
         uniform::<PixelView>("view"),
-        texture("surfaces", Format::U32),
+        texture("surfaces", Format::Depth),
         texture("occluder_depths", Format::U32),
         read::<Fragment>("fragments"),
         write::<u32>("shown"),
@@ -148,7 +147,7 @@ pub const TEST_FRAGMENTS: Pass = Pass {
     },
 };
 
-/// The nearest fragment of every pixel, and its reversed depth as bits.
+/// The nearest fragment of every pixel, and its reversed depth.
 pub const DRAW_NEAREST: Pass = Pass {
     name: "vector.draw_nearest",
     shader: npr_shaders::VECTOR_DRAW_NEAREST,
@@ -161,13 +160,12 @@ pub const DRAW_NEAREST: Pass = Pass {
         of: "fragments",
         fills: false,
         vertices: 3,
-        targets: &[Format::U32, Format::U32, Format::Depth],
+        targets: &[Format::U32, Format::Depth],
     },
     agreement: Agreement::Exact,
     twin: |b| {
-        let (owners, nearest, depths) = (b.image_mut(3), b.image_mut(4), b.image_mut(5));
-        fragment::draw_nearest(b.read(1), b.read(2), owners.texels, depths.texels);
-        nearest.texels.copy_from_slice(depths.texels);
+        let (owners, nearest) = (b.image_mut(3), b.image_mut(4));
+        fragment::draw_nearest(b.read(1), b.read(2), owners.texels, nearest.texels);
     },
 };
 
@@ -192,7 +190,7 @@ pub const LINK_SIDES: Pass = Pass {
     slots: &[
         read::<u32>("extent"),
         texture("ink", Format::U32),
-        texture("nearest", Format::U32),
+        texture("nearest", Format::Depth),
         read::<Segment>("segments"),
         read::<u32>("masks"),
         read::<u32>("starts"),
