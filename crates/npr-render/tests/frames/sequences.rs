@@ -28,7 +28,8 @@ fn scene() -> Scene {
 }
 
 fn style(keys: &[&str]) -> Style {
-    let mut style = Style::default();
+    let every_part = "[[rule]]\nmatch.object = '*'\n";
+    let mut style = Style::from_toml(every_part, &|_| Err(String::new())).unwrap();
     keys.iter().for_each(|key| style.set(key).unwrap());
     style
 }
@@ -90,7 +91,7 @@ fn one_by_one(renderer: &mut Renderer<'_>, shots: &[Shot]) -> Vec<Frame> {
 }
 
 /// Looks whose frames have something of their own to remember while the next is drawn.
-const LOOKS: [&[&str]; 8] = [
+const LOOKS: [&[&str]; 9] = [
     &[],
     &["line.method=angle", "light.shadow=true"],
     &[
@@ -102,6 +103,7 @@ const LOOKS: [&[&str]; 8] = [
     &["line.method=curves", "line.background.method=contrast"],
     &["blend.with=technical", "blend.amount=0.5"],
     &["blend.with=ink", "blend.amount=0.4", "line.method=curves"],
+    &["rule.0.motion.trail=[-0.9, 0.3, 0.0]"],
     // Strokes that turn with the light are written anew for every camera.
     &["ink.tone=ink+hatch", "ink.follow=light"],
 ];
