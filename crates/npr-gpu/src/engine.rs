@@ -83,7 +83,7 @@ pub trait Session {
     ///
     /// A device works on the run from here on, in one submission, and nobody waits for it: the processor is free to
     /// prepare the next one. [`Session::write`] takes effect in runs that start later. The processor engine has done
-    /// all of it when this returns.
+    /// all of it when this returns, and so has a device that times its passes one by one.
     ///
     /// # Errors
     ///

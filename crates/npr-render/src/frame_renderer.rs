@@ -587,8 +587,8 @@ impl<S: Session> FrameRenderer<S> {
     }
 
     /// Takes the next tile of a frame that was begun, whose kept part starts at `origin`, into a frame that begins
-    /// `top` rows below the whole one, and what lies on both sides of its lines where that was wanted. The tile after
-    /// it is being drawn meanwhile.
+    /// `top` rows below the whole one, and what lies on both sides of its lines where that was wanted. The tiles
+    /// after it are being drawn meanwhile.
     pub fn take_tile(
         &mut self,
         aimed: &mut Aimed,
@@ -596,9 +596,9 @@ impl<S: Session> FrameRenderer<S> {
         frame: &mut Frame,
         sides: Option<&mut Sides>,
     ) -> Result<(), EngineError> {
-        // Keep the device at work, and wait for the tile.
-        self.submit_tiles(aimed)?;
+        // Wait for the tile, and start another: the device draws while the caller works.
         let (times, mut read) = self.session.collect()?;
+        self.submit_tiles(aimed)?;
         frame.add_times(&times);
 
         // Take the part of the picture that is kept.
