@@ -30,13 +30,13 @@ impl<'a> Renderer<'a> {
     /// [`Self::draw`] give one after the other.
     ///
     /// A device works on a frame while the caller does something with the one before: two frames are under way at
-    /// once. The processor waits for no more than what is left of a frame, and the device not at all where the caller is
-    /// the faster. A frame begins when the one before it is asked for. Frames in tiles are drawn one by one, two of
+    /// once. The processor waits for no more than what is left of a frame, and the device not at all where the caller
+    /// is the faster. A frame begins when the one before it is asked for. Frames in tiles are drawn one by one, two of
     /// their tiles at once.
     ///
     /// The first error ends the sequence: that of a shot comes after the frames of the shots before it, the loss of a
-    /// device in place of the first frame that is lost. Whoever drops the iterator has seen enough: frames under way are
-    /// forgotten, and the smoke stays that of the last shot that was asked for.
+    /// device in place of the first frame that is lost. Whoever drops the iterator has seen enough: frames under way
+    /// are forgotten, and the smoke stays that of the last shot that was asked for.
     ///
     /// A second frame under way costs memory for the results that are read: 4 bytes a pixel of the frame, 12 where
     /// [`Self::with_lines`] draws lines in colours that follow what lies behind them.

@@ -326,7 +326,7 @@ impl Session for DeviceSession {
 
     /// Starts a run and the copying of what it reads, in one submission.
     ///
-    /// Where passes are timed one by one, each is submitted and waited for alone, and the run is done when this returns.
+    /// Where passes are timed one by one, each is submitted and waited for alone: the run is done when this returns.
     fn submit(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {
         self.runs.check_room();
         self.gpu.check()?;
