@@ -126,7 +126,8 @@ fn joined(opening: JoinHandle<Opened>) -> Opened {
     opening.join().unwrap_or_else(|panic| resume_unwind(panic))
 }
 
-fn draw_somewhere<T>(
+/// Draws a picture on a device, or else on the processor, after a word to `warn` where there is a device.
+pub fn draw_somewhere<T>(
     open: Open<'_>,
     picture: Picture<'_, T>,
     warn: &dyn Fn(&str),
@@ -141,7 +142,8 @@ fn draw_somewhere<T>(
     }
 }
 
-fn draw_on_device<T>(open: Open<'_>, picture: Picture<'_, T>) -> Result<Drawn<T>, RenderError> {
+/// Draws a picture on a device, which is opened once more where it is lost.
+pub fn draw_on_device<T>(open: Open<'_>, picture: Picture<'_, T>) -> Result<Drawn<T>, RenderError> {
     let draw = || draw_on(open()?.as_ref(), picture);
     match draw() {
         Err(RenderError::Engine(EngineError::Lost { .. })) => draw(),

@@ -18,7 +18,7 @@ use crate::viewpoint::unknown_camera;
 use crate::volume::{self, Film, Order, Shots, VolumeSource};
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
-use npr_render::{Frame, RenderError, RendererOptions, Smoke, facts_of};
+use npr_render::{Frame, RenderError, Renderer, RendererOptions, Shot, Smoke, facts_of};
 use npr_smoke::film::{Moments, Numbered};
 use std::cell::{Cell, RefCell};
 use std::io::Write;
@@ -265,25 +265,12 @@ fn draw_film(
         smoke: largest.cloned(),
         ..job.options.clone()
     };
-    let screening = Screening {
-        outputs,
-        keep_alpha: job.look.is_transparent(),
-        counter: progress.counter(),
-        done: Cell::new(0),
-        failed: RefCell::new(None),
-        notices: RefCell::default(),
-        times: RefCell::default(),
-    };
+    let keep_alpha = job.look.is_transparent();
+    let screening = Screening::new(outputs, keep_alpha, progress.counter());
     // An engine that takes over goes on where the other failed.
     let pictures = |engine: &dyn Engine| {
-        let mut renderer = prepared.renderer(engine, &job.look.style, &options)?;
-        while let Some(smoke) = film.frames.get(screening.done.get()) {
-            renderer.set_smoke(smoke)?;
-            if !screening.show(&renderer.draw(camera)?) {
-                break;
-            }
-        }
-        Ok::<(), RenderError>(())
+        let renderer = prepared.renderer(engine, &job.look.style, &options)?;
+        screening.show_all(renderer, &film.frames, camera)
     };
     let quiet = job.args.drawing.quiet;
     let engine = EngineChoice::begin(&job.args.drawing);
@@ -313,7 +300,40 @@ struct Screening<'a> {
     times: RefCell<Vec<PassTime>>,
 }
 
-impl Screening<'_> {
+impl<'a> Screening<'a> {
+    /// Pictures of which none is written.
+    fn new(outputs: &'a [Output], keep_alpha: bool, counter: Counter) -> Self {
+        Self {
+            outputs,
+            keep_alpha,
+            counter,
+            done: Cell::new(0),
+            failed: RefCell::new(None),
+            notices: RefCell::default(),
+            times: RefCell::default(),
+        }
+    }
+
+    /// Draws the smoke of every picture that is not written, and writes each while the next is drawn; ends early where
+    /// one cannot be written.
+    fn show_all(
+        &self,
+        mut renderer: Renderer<'_>,
+        smoke: &[Smoke],
+        camera: &Camera,
+    ) -> Result<(), RenderError> {
+        let shots = smoke.iter().skip(self.done.get()).map(|smoke| Shot {
+            camera: *camera,
+            smoke: Some(smoke.clone()),
+        });
+        for frame in renderer.frames(shots) {
+            if !self.show(&frame?) {
+                break;
+            }
+        }
+        Ok(())
+    }
+
     /// Writes the next picture; whether there was no fault.
     fn show(&self, frame: &Frame) -> bool {
         let number = self.done.get();
@@ -348,6 +368,165 @@ impl Screening<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use npr_gpu::engine::{EngineError, Readings, Session};
+    use npr_gpu::graph::{Graph, ResourceId};
+    use npr_gpu::processor::Processor;
+    use npr_render::Sphere;
+    use npr_stylesheet::Style;
+    use std::rc::Rc;
+
+    /// A device that is lost after some submissions, with all that it has in flight.
+    struct Dying(Rc<Cell<usize>>);
+
+    struct DyingSession(Box<dyn Session>, Rc<Cell<usize>>);
+
+    impl Dying {
+        fn after(submits: usize) -> Box<dyn Engine> {
+            Box::new(Self(Rc::new(Cell::new(submits))))
+        }
+    }
+
+    impl Engine for Dying {
+        fn describe(&self) -> String {
+            "dying".to_owned()
+        }
+
+        fn prepare(&self, graph: Graph) -> Result<Box<dyn Session>, EngineError> {
+            let session = Processor.prepare(graph)?;
+            Ok(Box::new(DyingSession(session, self.0.clone())))
+        }
+    }
+
+    impl DyingSession {
+        fn check(&self) -> Result<(), EngineError> {
+            match self.1.get() {
+                0 => Err(EngineError::Lost {
+                    reason: "unplugged".to_owned(),
+                }),
+                _ => Ok(()),
+            }
+        }
+    }
+
+    impl Session for DyingSession {
+        fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError> {
+            self.check()?;
+            self.0.write(id, words)
+        }
+
+        fn submit(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {
+            self.check()?;
+            self.1.set(self.1.get() - 1);
+            self.0.submit(ids)
+        }
+
+        fn collect(&mut self) -> Result<(Vec<PassTime>, Readings), EngineError> {
+            let collected = self.0.collect();
+            self.check()?;
+            collected
+        }
+
+        fn in_flight(&self) -> usize {
+            self.0.in_flight()
+        }
+
+        fn read_all(&mut self, ids: &[ResourceId]) -> Result<Readings, EngineError> {
+            self.check()?;
+            self.0.read_all(ids)
+        }
+    }
+
+    /// Smoke of six pictures, each of its own.
+    fn puffs() -> Vec<Smoke> {
+        let puff = |i| Smoke {
+            spheres: vec![Sphere::new([i as f32 * 0.3 - 0.8, 0.0, 0.0], 0.4)],
+            space: Some(([-2.0; 3], [2.0; 3])),
+        };
+        (0..6).map(puff).collect()
+    }
+
+    /// Runs `work` with a film of [`puffs`] on its way into six files of a folder, and gives the files.
+    fn screened(
+        work: impl FnOnce(&Screening<'_>, &dyn Fn(&dyn Engine) -> Result<(), RenderError>),
+    ) -> Vec<Option<Vec<u8>>> {
+        let (folder, smoke) = (tempfile::tempdir().expect("a folder"), puffs());
+        let paths: Vec<PathBuf> = (0..6)
+            .map(|i| folder.path().join(format!("{i}.png")))
+            .collect();
+        let outputs: Vec<Output> = paths
+            .iter()
+            .map(|path| Output::of(path).expect("a place"))
+            .collect();
+        let (scene, style) = (npr_scene::Scene::default(), Style::default());
+        let mut progress = Progress::new(true);
+        let prepared = render::prepared(
+            &scene,
+            &style,
+            &npr_scene::Limits::default(),
+            None,
+            &mut progress,
+        );
+        let prepared = prepared.expect("an empty scene");
+        let options = RendererOptions {
+            smoke: smoke.first().cloned(),
+            ..RendererOptions::new([48, 32])
+        };
+        let camera = Camera::framing([-1.0; 3], [1.0; 3]);
+        let screening = Screening::new(&outputs, false, progress.counter());
+        work(&screening, &|engine| {
+            let renderer = prepared.renderer(engine, &style, &options)?;
+            screening.show_all(renderer, &smoke, &camera)
+        });
+        paths.iter().map(|path| std::fs::read(path).ok()).collect()
+    }
+
+    #[test]
+    fn a_film_goes_on_where_devices_were_lost_with_two_pictures_in_flight() {
+        let wanted = screened(|_, pictures| pictures(&Processor).expect("drawn"));
+        assert!(wanted.iter().all(Option::is_some));
+        assert!(wanted.windows(2).all(|pair| pair[0] != pair[1]));
+        for lives in [[1, 1], [2, 3], [3, 4], [5, 2], [5, 9], [6, 2]] {
+            let mut left = lives
+                .into_iter()
+                .collect::<std::collections::VecDeque<usize>>();
+            let opened = RefCell::new(&mut left);
+            let open = || {
+                let life = opened.borrow_mut().pop_front();
+                Ok(Dying::after(life.expect("it is opened twice at most")))
+            };
+            let warnings = RefCell::new(Vec::new());
+            let warn = |text: &str| warnings.borrow_mut().push(text.to_owned());
+            let files = screened(|screening, pictures| {
+                engine::draw_somewhere(&open, &pictures, &warn).expect("the processor draws");
+                assert_eq!(screening.done.get(), 6, "{lives:?}");
+                assert!(screening.failed.borrow().is_none());
+            });
+            assert!(files == wanted, "{lives:?}");
+            let is_lost_twice = lives[0].saturating_sub(2) + lives[1] <= 6;
+            let said = "the graphics device was lost: unplugged; the processor draws instead";
+            assert_eq!(
+                warnings.into_inner(),
+                [said][..usize::from(is_lost_twice)],
+                "{lives:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_film_on_a_device_that_is_lost_twice_ends_with_one_sentence() {
+        let wanted = screened(|_, pictures| pictures(&Processor).expect("drawn"));
+        let open = || Ok(Dying::after(3));
+        let files = screened(|screening, pictures| {
+            let lost = engine::draw_on_device(&open, &pictures).expect_err("it is lost twice");
+            let fault = Fault::from(lost);
+            assert_eq!(fault.exit, Exit::NoDevice);
+            assert_eq!(fault.message, "the graphics device was lost: unplugged");
+            assert_eq!(screening.done.get(), 2);
+        });
+        // One picture of each device is whole, and there is nothing of the others.
+        assert!(files[..2] == wanted[..2]);
+        assert!(files[2..].iter().all(Option::is_none));
+    }
 
     #[test]
     fn several_pictures_need_numbers() {

@@ -11,6 +11,7 @@ mod image;
 mod inlay;
 mod memory;
 mod pipeline;
+mod room;
 mod session;
 mod staging;
 mod step;
@@ -30,7 +31,7 @@ use crate::graph::Graph;
 use gpu::Gpu;
 use pipeline::PipelineCache;
 use std::sync::{Arc, Mutex, PoisonError};
-use watch::Watch;
+use watch::{GIVEN_UP, Watch};
 
 /// A graphics device, ready to run graphs.
 ///
@@ -150,6 +151,8 @@ impl Device {
 
     /// Gives the device up at once: every session of it reports [`EngineError::Lost`] from here on.
     pub fn destroy(&self) {
+        // wgpu tells of it once nothing is in flight any more.
+        self.gpu.watch.lose(GIVEN_UP);
         self.gpu.device.destroy();
     }
 }

@@ -1,9 +1,12 @@
 //! The interface of what runs a graph: the processor with the twins, or a graphics device with the shaders.
 
+use crate::flight;
 use crate::graph::{Graph, ResourceId};
 use bytemuck::AnyBitPattern;
 use std::collections::BTreeMap;
 use std::time::Duration;
+
+pub use crate::flight::IN_FLIGHT;
 
 /// Why an engine could not do its work.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -68,12 +71,55 @@ pub trait Engine {
 
 /// A graph with its memory.
 pub trait Session {
-    /// Fills a resource from the start with words; later words keep their values.
+    /// Fills a resource from the start with words; later words keep their values. Runs in flight do not see them.
     ///
     /// # Errors
     ///
     /// [`EngineError`] where the device is lost.
     fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError>;
+
+    /// Starts a run of every node, in order, and of the reading of resources, each named once, after those that were
+    /// started before. [`Session::collect`] gives what comes of it.
+    ///
+    /// A device works on the run from here on, in one submission, and nobody waits for it: the processor is free to
+    /// prepare the next one. [`Session::write`] takes effect in runs that start later. The processor engine has done
+    /// all of it when this returns, and so has a device that times its passes one by one.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError`] where the device fails or is lost; no run is started then.
+    ///
+    /// # Panics
+    ///
+    /// Where [`IN_FLIGHT`] runs are started and not collected.
+    fn submit(&mut self, ids: &[ResourceId]) -> Result<(), EngineError>;
+
+    /// Waits once for the run that was started first of those that are not collected, and gives the time of its passes
+    /// and what it read.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError`] where the device fails or is lost; the run counts as collected then, and nothing of it may be
+    /// read.
+    ///
+    /// # Panics
+    ///
+    /// Where no run is in flight.
+    fn collect(&mut self) -> Result<(Vec<PassTime>, Readings), EngineError>;
+
+    /// How many runs are started and not collected, at most [`IN_FLIGHT`].
+    fn in_flight(&self) -> usize;
+
+    /// Reads resources as the last run left them, each named once, all at once.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError`] where the device is lost.
+    ///
+    /// # Panics
+    ///
+    /// Where a run is in flight.
+    fn read_all(&mut self, ids: &[ResourceId]) -> Result<Readings, EngineError>;
 
     /// Runs every node once, in order, and reads resources, each named once: a device does all of it at once and is
     /// waited for once.
@@ -81,21 +127,28 @@ pub trait Session {
     /// # Errors
     ///
     /// [`EngineError`] where the device fails or is lost; nothing may be read back then.
-    fn run_reading(&mut self, ids: &[ResourceId])
-    -> Result<(Vec<PassTime>, Readings), EngineError>;
-
-    /// Reads resources as the last run left them, each named once, all at once.
     ///
-    /// # Errors
+    /// # Panics
     ///
-    /// [`EngineError`] where the device is lost.
-    fn read_all(&mut self, ids: &[ResourceId]) -> Result<Readings, EngineError>;
+    /// Where a run is in flight.
+    fn run_reading(
+        &mut self,
+        ids: &[ResourceId],
+    ) -> Result<(Vec<PassTime>, Readings), EngineError> {
+        flight::check_none(self.in_flight());
+        self.submit(ids)?;
+        self.collect()
+    }
 
     /// Runs every node once, in order.
     ///
     /// # Errors
     ///
     /// As [`Session::run_reading`].
+    ///
+    /// # Panics
+    ///
+    /// Where a run is in flight.
     fn run(&mut self) -> Result<Vec<PassTime>, EngineError> {
         Ok(self.run_reading(&[])?.0)
     }
@@ -105,6 +158,10 @@ pub trait Session {
     /// # Errors
     ///
     /// As [`Session::read_all`].
+    ///
+    /// # Panics
+    ///
+    /// Where a run is in flight.
     fn read(&mut self, id: ResourceId) -> Result<Vec<u32>, EngineError> {
         Ok(self.read_all(&[id])?.take(id))
     }
@@ -116,11 +173,16 @@ impl Session for Box<dyn Session> {
         self.as_mut().write(id, words)
     }
 
-    fn run_reading(
-        &mut self,
-        ids: &[ResourceId],
-    ) -> Result<(Vec<PassTime>, Readings), EngineError> {
-        self.as_mut().run_reading(ids)
+    fn submit(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {
+        self.as_mut().submit(ids)
+    }
+
+    fn collect(&mut self) -> Result<(Vec<PassTime>, Readings), EngineError> {
+        self.as_mut().collect()
+    }
+
+    fn in_flight(&self) -> usize {
+        self.as_ref().in_flight()
     }
 
     fn read_all(&mut self, ids: &[ResourceId]) -> Result<Readings, EngineError> {

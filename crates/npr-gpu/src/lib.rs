@@ -28,6 +28,7 @@ pub mod curves;
 #[cfg(feature = "wgpu")]
 pub mod device;
 pub mod engine;
+mod flight;
 pub mod graph;
 pub mod pass;
 pub mod passes;

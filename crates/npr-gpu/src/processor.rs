@@ -1,6 +1,7 @@
 //! The engine that needs no graphics device: it runs the twin of every node's pass.
 
 use crate::engine::{Engine, EngineError, PassTime, Readings, Session};
+use crate::flight::{self, Flight};
 use crate::graph::Kind;
 use crate::graph::{Graph, Node, ResourceId, WorkSize, emptied, writes};
 use crate::pass::{Bindings, Bound, Work};
@@ -32,13 +33,26 @@ impl Engine for Processor {
         for (id, words) in graph.held() {
             memory[id.index()].copy_from_slice(words);
         }
-        Ok(Box::new(ProcessorSession { graph, memory }))
+        Ok(Box::new(ProcessorSession {
+            graph,
+            memory,
+            done: Flight::new(),
+        }))
     }
 }
 
 struct ProcessorSession {
     graph: Graph,
     memory: Vec<Vec<u32>>,
+    /// What runs left that are not collected, the first one first: later runs overwrite the memory.
+    done: Flight<(Vec<PassTime>, Readings)>,
+}
+
+impl ProcessorSession {
+    fn readings(&self, ids: &[ResourceId]) -> Readings {
+        let words = ids.iter().map(|id| (*id, self.memory[id.index()].clone()));
+        words.collect()
+    }
 }
 
 impl Session for ProcessorSession {
@@ -47,18 +61,26 @@ impl Session for ProcessorSession {
         Ok(())
     }
 
-    fn run_reading(
-        &mut self,
-        ids: &[ResourceId],
-    ) -> Result<(Vec<PassTime>, Readings), EngineError> {
+    fn submit(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {
+        self.done.check_room();
         let nodes = self.graph.nodes().iter();
         let times = nodes.map(|node| run_node(&self.graph, node, &mut self.memory));
-        Ok((times.collect(), self.read_all(ids)?))
+        let times = times.collect();
+        self.done.push((times, self.readings(ids)));
+        Ok(())
+    }
+
+    fn collect(&mut self) -> Result<(Vec<PassTime>, Readings), EngineError> {
+        Ok(self.done.pop())
+    }
+
+    fn in_flight(&self) -> usize {
+        self.done.count()
     }
 
     fn read_all(&mut self, ids: &[ResourceId]) -> Result<Readings, EngineError> {
-        let words = ids.iter().map(|id| (*id, self.memory[id.index()].clone()));
-        Ok(words.collect())
+        flight::check_none(self.done.count());
+        Ok(self.readings(ids))
     }
 }
 

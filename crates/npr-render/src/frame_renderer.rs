@@ -25,7 +25,7 @@ use npr_core::camera::Camera;
 use npr_core::geometry::{NONE, Part};
 use npr_core::window::{View, Window};
 use npr_gpu::cost::{PassCost, copy_cost, pass_costs};
-use npr_gpu::engine::{Engine, EngineError, Session};
+use npr_gpu::engine::{Engine, EngineError, IN_FLIGHT, Session};
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::Features;
 use npr_style::backdrop::Rules;
@@ -83,6 +83,15 @@ pub(crate) struct FrameRenderer<S = Box<dyn Session>> {
     pub session: S,
     /// The view of the frame before.
     pub before: Option<View>,
+}
+
+/// A frame that the passes are aimed at, and how many of its tiles they have started to draw.
+pub(crate) struct Aimed {
+    pub view: View,
+    pub rules: Rules,
+    /// Whether what lies on both sides of lines is wanted.
+    pub with_sides: bool,
+    submitted: u32,
 }
 
 impl Needs {
@@ -540,30 +549,63 @@ impl<S: Session> FrameRenderer<S> {
         passes.contrast.upload_tile(session, view, corner, size)
     }
 
-    /// Draws the tile whose kept part starts at `origin` into a frame that begins `top` rows below the whole one, and
-    /// what lies on both sides of its lines where that is wanted.
-    pub fn draw_tile(
+    /// Hands over how a camera sees the scene, and starts to draw as many tiles as the engine takes at once, with what
+    /// lies on both sides of lines where that is wanted.
+    ///
+    /// A frame of several tiles is taken, all of it, before another is begun.
+    pub fn begin(
         &mut self,
-        view: &View,
-        origin: [u32; 2],
-        top: u32,
+        model: &Model,
+        camera: &Camera,
+        with_sides: bool,
+    ) -> Result<Aimed, RenderError> {
+        let (view, rules) = self.aim(model, camera)?;
+        let mut aimed = Aimed {
+            view,
+            rules,
+            with_sides,
+            submitted: 0,
+        };
+        self.submit_tiles(&mut aimed)?;
+        Ok(aimed)
+    }
+
+    /// Starts to draw tiles of a frame, as many as the engine takes at once.
+    fn submit_tiles(&mut self, aimed: &mut Aimed) -> Result<(), EngineError> {
+        while self.session.in_flight() < IN_FLIGHT && aimed.submitted < self.plan.tiles().count() {
+            let origin = self.plan.tiles().origin(aimed.submitted);
+            self.aim_tile(&aimed.view, origin)?;
+            let passes = &self.plan.passes;
+            let mut results = vec![passes.frame.frame];
+            if aimed.with_sides {
+                results.extend(passes.contrast.sides());
+            }
+            self.session.submit(&results)?;
+            aimed.submitted += 1;
+        }
+        Ok(())
+    }
+
+    /// Takes the next tile of a frame that was begun, whose kept part starts at `origin`, into a frame that begins
+    /// `top` rows below the whole one, and what lies on both sides of its lines where that was wanted. The tiles
+    /// after it are being drawn meanwhile.
+    pub fn take_tile(
+        &mut self,
+        aimed: &mut Aimed,
+        (origin, top): ([u32; 2], u32),
         frame: &mut Frame,
         sides: Option<&mut Sides>,
     ) -> Result<(), EngineError> {
-        self.aim_tile(view, origin)?;
+        // Wait for the tile, and start another: the device draws while the caller works.
+        let (times, mut read) = self.session.collect()?;
+        self.submit_tiles(aimed)?;
+        frame.add_times(&times);
 
-        // Run the passes, and take the part of the picture that is kept.
+        // Take the part of the picture that is kept.
         let (passes, tiles) = (&self.plan.passes, self.plan.tiles());
-        let mut results = vec![passes.frame.frame];
-        if sides.is_some() {
-            results.extend(passes.contrast.sides());
-        }
-        let (times, mut read) = self.session.run_reading(&results)?;
-        let tile = read.take(passes.frame.frame);
         let (size, margin, kept) = (tiles.size(), [tiles.margin; 2], tiles.kept);
         let at = [origin[0], origin[1] - top];
-        frame.paste(&tile, size[0], margin, at, kept);
-        frame.add_times(&times);
+        frame.paste(&read.take(passes.frame.frame), size[0], margin, at, kept);
         if let Some(sides) = sides {
             let paste = |picture: &mut Frame, texels: &[u32]| {
                 picture.paste(texels, size[0], margin, origin, kept);
@@ -571,6 +613,14 @@ impl<S: Session> FrameRenderer<S> {
             passes.contrast.take_sides(&mut read, sides, paste);
         }
         Ok(())
+    }
+
+    /// Takes nothing of frames that were begun.
+    pub fn forget_begun(&mut self) {
+        while self.session.in_flight() > 0 {
+            // Failed or not, a run is collected.
+            let _ = self.session.collect();
+        }
     }
 
     /// What the passes of the tile drawn last asked of a device, and the copy of its picture.

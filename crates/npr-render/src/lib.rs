@@ -1,7 +1,8 @@
 //! Scene and style in, drawing out.
 //!
 //! [`Model::new`] prepares a scene once: welds it, finds its edges and curvature. A [`Renderer`] joins a model with a
-//! style and a frame size on an engine, and [`Renderer::draw`] makes a picture for a camera, as often as wanted.
+//! style and a frame size on an engine, and [`Renderer::draw`] makes a picture for a camera, as often as wanted;
+//! [`Renderer::frames`] draws sequences, the next frame on its way while the one before is used.
 //! [`Smoke`] among its options is drawn with it, or alone with a model of an empty scene. [`LineModel`] draws the
 //! same scene as curves instead; a [`LineRenderer`] lets a device do its part.
 //!
@@ -49,6 +50,7 @@ mod pictures;
 mod placement;
 mod puffs;
 mod renderer;
+mod sequence;
 mod sky;
 mod smoke;
 mod surfaces;
@@ -73,4 +75,5 @@ pub use options::{Picture, RendererOptions};
 pub use part_info::PartInfo;
 pub use puffs::Following;
 pub use renderer::Renderer;
+pub use sequence::{Frames, Shot};
 pub use smoke::Smoke;

@@ -8,7 +8,7 @@ use crate::features::lettering::Lettering;
 use crate::features::speed_lines::SpeedLines;
 use crate::frame::Frame;
 use crate::frame_graph::pixel_count;
-use crate::frame_renderer::{FramePlan, FrameRenderer};
+use crate::frame_renderer::{Aimed, FramePlan, FrameRenderer};
 use crate::lines::LineRenderer;
 use crate::look::StyledModel;
 use crate::model::Model;
@@ -18,9 +18,8 @@ use crate::surfaces::Surfaces;
 use crate::tiles::Tiles;
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
-use npr_core::window::View;
 use npr_gpu::cost::PassCost;
-use npr_gpu::engine::Engine;
+use npr_gpu::engine::{Engine, IN_FLIGHT};
 use npr_style::backdrop::Rules;
 use npr_stylesheet::Style;
 
@@ -37,6 +36,16 @@ pub struct Renderer<'a> {
     lettering: Lettering,
     /// Called after every tile with the numbers of tiles done and of all.
     tell: Option<&'a dyn Fn(usize, usize)>,
+}
+
+/// A frame that is being drawn, and what finishing it needs: the renderer may be told of the next one meanwhile.
+pub(crate) struct Begun {
+    camera: Camera,
+    aimed: Aimed,
+    /// The smoke that lines as curves are hidden by, where there are such lines.
+    smoke: Option<Smoke>,
+    /// The same frame in the other look of a blend.
+    other: Option<Box<Begun>>,
 }
 
 /// A renderer that is planned and checked, and not yet prepared: nothing of it has asked the engine for anything.
@@ -198,7 +207,8 @@ impl<'a> Renderer<'a> {
             self.draws_bands(),
             "the frame needs all of its pixels at once"
         );
-        let (view, _) = self.frames.aim(self.model, camera)?;
+        self.forget_begun();
+        let mut aimed = self.frames.begin(self.model, camera, false)?;
         let [width, height] = self.frames.plan.options.size;
         let tiles = *self.frames.plan.tiles();
         let mut reported = Frame::new([width, 0]);
@@ -208,7 +218,8 @@ impl<'a> Renderer<'a> {
             let rows = tiles.kept[1].min(height - top);
             let mut band = Frame::new([width, rows]);
             for origin in tiles.origins().filter(|origin| origin[1] == top) {
-                self.frames.draw_tile(&view, origin, top, &mut band, None)?;
+                let at = (origin, top);
+                self.frames.take_tile(&mut aimed, at, &mut band, None)?;
                 self.tell_of(&tiles, origin);
             }
             reported.add_times(&band.times);
@@ -225,20 +236,64 @@ impl<'a> Renderer<'a> {
     ///
     /// [`RenderError::Engine`] where the device fails; nothing half drawn is returned.
     pub fn draw(&mut self, camera: &Camera) -> Result<Frame, RenderError> {
-        let (view, rules) = self.frames.aim(self.model, camera)?;
+        self.forget_begun();
+        let begun = self.begin(camera)?;
+        self.finish(begun)
+    }
+
+    /// How many frames may be begun and not finished: tiles of two frames would share memory.
+    pub(crate) fn most_begun(&self) -> usize {
+        match self.frames.plan.tiles().count() {
+            1 => IN_FLIGHT,
+            _ => 1,
+        }
+    }
+
+    /// Forgets frames that were begun, and that nobody will finish.
+    pub(crate) fn forget_begun(&mut self) {
+        self.frames.forget_begun();
+        if let Some((other, _)) = &mut self.blended {
+            other.forget_begun();
+        }
+    }
+
+    /// Starts to draw the model, and the other look of a blend, as a camera sees it.
+    pub(crate) fn begin(&mut self, camera: &Camera) -> Result<Begun, RenderError> {
+        let plan = &self.frames.plan;
+        let has_curves = self.lines.is_some() && plan.style.has_curves();
+        let smoke = plan.options.smoke.as_ref().filter(|_| has_curves).cloned();
+        let with_sides = self.frames.finds_sides() && has_curves;
+        let aimed = self.frames.begin(self.model, camera, with_sides)?;
+        let other = match &mut self.blended {
+            Some((other, _)) => Some(Box::new(other.begin(camera)?)),
+            None => None,
+        };
+        Ok(Begun {
+            camera: *camera,
+            aimed,
+            smoke,
+            other,
+        })
+    }
+
+    /// Takes the frame that was begun first of those that are not finished, and draws what goes over it as a whole.
+    pub(crate) fn finish(&mut self, mut begun: Begun) -> Result<Frame, RenderError> {
+        // Take the tiles.
         let size = self.frames.plan.options.size;
         let mut frame = Frame::new(size);
         frame.notices.extend_from_slice(self.notices());
-        let curves = self.lines.is_some() && self.frames.plan.style.has_curves();
-        let mut sides = (self.frames.finds_sides() && curves).then(|| Sides::new(size));
+        let mut sides = begun.aimed.with_sides.then(|| Sides::new(size));
         let tiles = *self.frames.plan.tiles();
         for origin in tiles.origins() {
+            let (aimed, at) = (&mut begun.aimed, (origin, 0));
             self.frames
-                .draw_tile(&view, origin, 0, &mut frame, sides.as_mut())?;
+                .take_tile(aimed, at, &mut frame, sides.as_mut())?;
             self.tell_of(&tiles, origin);
         }
-        let contrasted = sides.map(|sides| (sides, rules));
-        self.finish(camera, &view, contrasted.as_ref(), &mut frame)?;
+
+        // Draw the rest over them.
+        let contrasted = sides.map(|sides| (sides, begun.aimed.rules));
+        self.draw_over(begun, contrasted.as_ref(), &mut frame)?;
         Ok(frame)
     }
 
@@ -251,6 +306,7 @@ impl<'a> Renderer<'a> {
     ///
     /// [`RenderError::Engine`] where the device fails.
     pub fn pass_costs(&mut self) -> Result<Vec<PassCost>, RenderError> {
+        self.forget_begun();
         Ok(self.frames.pass_costs()?)
     }
 
@@ -263,22 +319,23 @@ impl<'a> Renderer<'a> {
     }
 
     /// Adds what is drawn over a whole frame: curves, speed lines, the other look, words.
-    fn finish(
+    fn draw_over(
         &mut self,
-        camera: &Camera,
-        view: &View,
+        begun: Begun,
         contrasted: Option<&(Sides, Rules)>,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
         // Draw curves and speed lines, and let the other look show through.
+        let view = &begun.aimed.view;
         let frames = &self.frames;
         let look = (&frames.plan.style, &frames.plan.options);
-        curves::finish(self.lines.as_mut(), camera, look, contrasted, frame)?;
+        let beheld = (&begun.camera, begun.smoke.as_ref());
+        curves::finish(self.lines.as_mut(), beheld, look, contrasted, frame)?;
         if let Some(speed_lines) = &self.speed_lines {
             speed_lines.finish(view, frame);
         }
-        if let Some((other, blending)) = &mut self.blended {
-            blending.finish(&other.draw(camera)?, frame);
+        if let (Some((other, blending)), Some(begun)) = (&mut self.blended, begun.other) {
+            blending.finish(&other.finish(*begun)?, frame);
         }
 
         // Set the words over everything.

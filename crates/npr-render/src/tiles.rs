@@ -65,19 +65,37 @@ impl Tiles {
         self.kept.map(|kept| kept + 2 * self.margin)
     }
 
+    /// How many tiles there are in a row, and how many rows.
+    fn columns_and_rows(&self) -> [u32; 2] {
+        [0, 1].map(|axis| self.frame[axis].div_ceil(self.kept[axis]))
+    }
+
+    /// How many tiles there are.
+    pub fn count(&self) -> u32 {
+        let [columns, rows] = self.columns_and_rows();
+        columns * rows
+    }
+
+    /// Where the kept part of a tile starts, counted from 0, row by row.
+    pub fn origin(&self, number: u32) -> [u32; 2] {
+        let [columns, _] = self.columns_and_rows();
+        [
+            number % columns * self.kept[0],
+            number / columns * self.kept[1],
+        ]
+    }
+
     /// Where the kept part of each tile starts, row by row.
     pub fn origins(&self) -> impl Iterator<Item = [u32; 2]> + use<> {
-        let (frame, kept) = (self.frame, self.kept);
-        (0..frame[1])
-            .step_by(kept[1] as usize)
-            .flat_map(move |y| (0..frame[0]).step_by(kept[0] as usize).map(move |x| [x, y]))
+        let tiles = *self;
+        (0..self.count()).map(move |number| tiles.origin(number))
     }
 
     /// How many tiles are done once that at `origin` is, and how many there are.
     pub fn progress(&self, origin: [u32; 2]) -> [usize; 2] {
-        let [columns, rows] = [0, 1].map(|axis| self.frame[axis].div_ceil(self.kept[axis]));
+        let [columns, _] = self.columns_and_rows();
         let before = origin[1] / self.kept[1] * columns + origin[0] / self.kept[0];
-        [before + 1, columns * rows].map(|count| count as usize)
+        [before + 1, self.count()].map(|count| count as usize)
     }
 
     /// Frame position of the top left corner of the tile whose kept part starts at `origin`.

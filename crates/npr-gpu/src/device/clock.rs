@@ -9,7 +9,6 @@ use std::time::Duration;
 pub(super) struct Clock {
     queries: wgpu::QuerySet,
     resolved: wgpu::Buffer,
-    staging: Staging,
     pass_count: u32,
     tick_ns: f64,
 }
@@ -39,12 +38,10 @@ impl Clock {
             usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         });
-        let staging = Staging::of_words(&gpu.device, 4 * pass_count as usize);
         let tick_ns = f64::from(gpu.queue.get_timestamp_period());
         Some(Self {
             queries,
             resolved,
-            staging,
             pass_count,
             tick_ns,
         })
@@ -68,21 +65,16 @@ impl Clock {
         }
     }
 
-    /// Records the copy of all stamps to where the processor can read them; every pass must have run.
-    pub(super) fn stage(&self, encoder: &mut wgpu::CommandEncoder) {
-        encoder.resolve_query_set(&self.queries, 0..2 * self.pass_count, &self.resolved, 0);
-        encoder.copy_buffer_to_buffer(
-            &self.resolved,
-            0,
-            &self.staging.buffer,
-            0,
-            16 * u64::from(self.pass_count),
-        );
+    /// Room for all stamps, where the processor can read them.
+    pub(super) fn staging(&self, gpu: &Gpu) -> Staging {
+        Staging::of_words(&gpu.device, 4 * self.pass_count as usize)
     }
 
-    /// Where the processor reads the stamps.
-    pub(super) fn staging(&self) -> &Staging {
-        &self.staging
+    /// Records the copy of all stamps to such room; every pass must have run.
+    pub(super) fn stage(&self, encoder: &mut wgpu::CommandEncoder, staging: &Staging) {
+        encoder.resolve_query_set(&self.queries, 0..2 * self.pass_count, &self.resolved, 0);
+        let bytes = 16 * u64::from(self.pass_count);
+        encoder.copy_buffer_to_buffer(&self.resolved, 0, &staging.buffer, 0, bytes);
     }
 
     /// How long each pass took, by the words of all stamps.

@@ -4,13 +4,14 @@ use super::clock::Clock;
 use super::gpu::Gpu;
 use super::memory::Memory;
 use super::pipeline::{PipelineCache, Stage};
+use super::room::Room;
 use super::staging::Staging;
 use super::step::{Extent, Step};
-use crate::engine::{EngineError, PassTime, Readings, Session};
+use crate::engine::{EngineError, IN_FLIGHT, PassTime, Readings, Session};
+use crate::flight::{self, Flight};
 use crate::graph::{Graph, Node, ResourceId, WorkSize, emptied};
 use crate::pass::Format;
 use npr_vector::rank::work::Arguments;
-use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -29,8 +30,38 @@ pub struct DeviceSession {
     clock: Option<Clock>,
     /// Whether every pass is submitted and waited for alone, so that its wall time is its own.
     times_apart: bool,
-    /// Memory that resources are copied to before they are read, kept from run to run.
-    stagings: BTreeMap<ResourceId, Staging>,
+    /// What runs are copied to before they are read: the second is empty until two runs are in flight.
+    rooms: [Room; IN_FLIGHT],
+    /// Runs that are submitted and not collected.
+    runs: Flight<Run>,
+    /// When the run collected last was done.
+    idle_since: Instant,
+}
+
+/// A run that is not collected.
+#[derive(Debug)]
+enum Run {
+    /// The device works on it.
+    Submitted {
+        submission: wgpu::SubmissionIndex,
+        /// When it was submitted.
+        start: Instant,
+        /// The resources that are copied, and the number of the room that they are copied to.
+        ids: Vec<ResourceId>,
+        room: usize,
+    },
+    /// Its passes were waited for one by one.
+    Done(Vec<PassTime>, Readings),
+}
+
+impl Run {
+    /// The number of the room that it needs until it is collected.
+    fn room(&self) -> Option<usize> {
+        match self {
+            Self::Submitted { room, .. } => Some(*room),
+            Self::Done(..) => None,
+        }
+    }
 }
 
 impl DeviceSession {
@@ -72,7 +103,9 @@ impl DeviceSession {
             steps,
             clock,
             times_apart,
-            stagings: BTreeMap::new(),
+            rooms: Default::default(),
+            runs: Flight::new(),
+            idle_since: Instant::now(),
         })
     }
 
@@ -110,30 +143,49 @@ impl DeviceSession {
         }
     }
 
-    /// Makes room for copies of resources, where it was not made before.
-    fn make_room(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {
-        for id in ids {
-            if !self.stagings.contains_key(id) {
-                let resource = self.graph.resource(*id);
-                let memory = &self.memory[id.index()];
-                let make = || memory.staging(&self.gpu, resource.word_count());
-                let made = self.gpu.guarded(resource.name, make)?;
-                self.stagings.insert(*id, made);
+    /// Makes place in a room for copies of resources, and of the stamps of `clock`.
+    fn make_place(
+        &mut self,
+        room: usize,
+        ids: &[ResourceId],
+        with_stamps: bool,
+    ) -> Result<(), EngineError> {
+        let clock = self.clock.as_ref().filter(|_| with_stamps);
+        let room = &mut self.rooms[room];
+        room.fit_results(&self.gpu, (&self.graph, &self.memory), ids)?;
+        room.fit_stamps(&self.gpu, clock)
+    }
+
+    /// Submits all passes with the copies of what is read into a room.
+    fn submit_all(
+        &mut self,
+        room: usize,
+        ids: &[ResourceId],
+    ) -> Result<wgpu::SubmissionIndex, EngineError> {
+        self.make_place(room, ids, true)?;
+        let room = &self.rooms[room];
+        let ((), submission) = self.gpu.submit("the submission of a frame", |encoder| {
+            self.record_steps(encoder, self.clock.as_ref());
+            if let Some(clock) = &self.clock {
+                room.stage_stamps(encoder, clock);
             }
-        }
-        Ok(())
+            room.stage_results(encoder, &self.memory, ids);
+        })?;
+        Ok(submission)
     }
 
-    /// Records the copies of resources.
-    fn stage(&self, encoder: &mut wgpu::CommandEncoder, ids: &[ResourceId]) {
-        for id in ids {
-            self.memory[id.index()].stage(encoder, &self.stagings[id]);
-        }
-    }
-
-    /// The room that each resource is copied to.
-    fn rooms(&self, ids: &[ResourceId]) -> impl Iterator<Item = &Staging> {
-        ids.iter().map(|id| &self.stagings[id])
+    /// Copies resources as the last run left them, and waits for that; no run may be in flight that needs the first
+    /// room.
+    fn copied(&mut self, ids: &[ResourceId]) -> Result<Readings, EngineError> {
+        self.make_place(0, ids, false)?;
+        let room = &self.rooms[0];
+        let place = ids
+            .first()
+            .map_or("nothing", |id| self.graph.resource(*id).name);
+        let record = |encoder: &mut _| room.stage_results(encoder, &self.memory, ids);
+        let ((), submission) = self.gpu.submit(place, record)?;
+        let words = Staging::words_of(&self.gpu, room.results(ids), submission)?;
+        Ok(ids.iter().copied().zip(words).collect())
     }
 
     /// Runs every node alone, and waits for each.
@@ -272,53 +324,69 @@ impl Session for DeviceSession {
         })
     }
 
-    /// Runs every node once, and reads resources, in one submission.
+    /// Starts a run and the copying of what it reads, in one submission.
     ///
-    /// Where the device has no clock, the times are one entry named `device`: the wall time until all was done.
-    fn run_reading(
-        &mut self,
-        ids: &[ResourceId],
-    ) -> Result<(Vec<PassTime>, Readings), EngineError> {
+    /// Where passes are timed one by one, each is submitted and waited for alone: the run is done when this returns.
+    fn submit(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {
+        self.runs.check_room();
         self.gpu.check()?;
-        if self.times_apart {
-            return Ok((self.run_apart()?, self.read_all(ids)?));
-        }
-
-        // Submit all passes with the copies of what is read.
-        self.make_room(ids)?;
-        let start = Instant::now();
-        let ((), submission) = self.gpu.submit("the submission of a frame", |encoder| {
-            self.record_steps(encoder, self.clock.as_ref());
-            if let Some(clock) = &self.clock {
-                clock.stage(encoder);
+        let run = if self.times_apart {
+            Run::Done(self.run_apart()?, self.copied(ids)?)
+        } else {
+            // A run alone needs the first room, of two in flight each the one that the other leaves.
+            let room = match self.runs.last().and_then(Run::room) {
+                Some(taken) => (taken + 1) % IN_FLIGHT,
+                None => 0,
+            };
+            let start = Instant::now();
+            Run::Submitted {
+                submission: self.submit_all(room, ids)?,
+                start,
+                ids: ids.to_vec(),
+                room,
             }
-            self.stage(encoder, ids);
-        })?;
+        };
+        self.runs.push(run);
+        Ok(())
+    }
 
-        // Wait once for all of it.
-        let stamps = self.clock.iter().map(Clock::staging);
-        let rooms = self.rooms(ids).chain(stamps);
-        let mut words = Staging::words_of(&self.gpu, rooms, submission)?;
+    /// Waits once for the run that was submitted first.
+    ///
+    /// Where the device has no clock, the times are one entry named `device`: the wall time from the submission, or
+    /// from when the run before was done, until all was done.
+    fn collect(&mut self) -> Result<(Vec<PassTime>, Readings), EngineError> {
+        let (submission, start, ids, room) = match self.runs.pop() {
+            Run::Done(times, readings) => return Ok((times, readings)),
+            Run::Submitted {
+                submission,
+                start,
+                ids,
+                room,
+            } => (submission, start, ids, &self.rooms[room]),
+        };
+        self.gpu.check()?;
+        let stagings = room.results(&ids).chain(room.stamps());
+        let mut words = Staging::words_of(&self.gpu, stagings, submission)?;
+        let start = start.max(self.idle_since);
+        self.idle_since = Instant::now();
         let times = match &self.clock {
             Some(clock) => self.node_times(&clock.times(&words.pop().unwrap_or_default())),
             None => vec![PassTime {
                 name: ALL_PASSES,
-                time: start.elapsed(),
+                time: self.idle_since - start,
             }],
         };
-        Ok((times, ids.iter().copied().zip(words).collect()))
+        Ok((times, ids.into_iter().zip(words).collect()))
+    }
+
+    fn in_flight(&self) -> usize {
+        self.runs.count()
     }
 
     fn read_all(&mut self, ids: &[ResourceId]) -> Result<Readings, EngineError> {
+        flight::check_none(self.runs.count());
         self.gpu.check()?;
-        self.make_room(ids)?;
-        let place = ids
-            .first()
-            .map_or("nothing", |id| self.graph.resource(*id).name);
-        let record = |encoder: &mut _| self.stage(encoder, ids);
-        let ((), submission) = self.gpu.submit(place, record)?;
-        let words = Staging::words_of(&self.gpu, self.rooms(ids), submission)?;
-        Ok(ids.iter().copied().zip(words).collect())
+        self.copied(ids)
     }
 }
 
@@ -352,5 +420,43 @@ fn kept<V>(clears: bool, zero: V) -> wgpu::Operations<V> {
     wgpu::Operations {
         load,
         store: wgpu::StoreOp::Store,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::device::testing;
+    use crate::passes::vector::SCAN_BLOCKS;
+
+    #[test]
+    fn a_second_room_is_made_for_a_second_run_in_flight() {
+        let Some(device) = testing::device() else {
+            return;
+        };
+        let mut graph = Graph::new();
+        let values = graph.buffer::<u32>("values", 4);
+        let prefixes = graph.buffer::<u32>("prefixes", 4);
+        let sums = graph.buffer::<u32>("sums", 1);
+        graph.compute(&SCAN_BLOCKS, &[values, prefixes, sums]);
+        let mut session = device.session(graph).expect("a session");
+        let counts = |session: &DeviceSession| session.rooms.each_ref().map(Room::count);
+        let stamps = usize::from(device.has_clock());
+
+        // One after the other, runs share one room.
+        for _ in 0..3 {
+            session.run_reading(&[prefixes]).expect("a run");
+            session.read_all(&[prefixes, sums]).expect("read");
+        }
+        assert_eq!(counts(&session), [2 + stamps, 0]);
+
+        // Of two in flight, the second has place for what it reads.
+        session.submit(&[prefixes]).expect("a run");
+        assert_eq!(counts(&session), [2 + stamps, 0]);
+        for _ in 0..3 {
+            session.submit(&[sums]).expect("another run");
+            session.collect().expect("the first");
+            assert_eq!(counts(&session), [2 + stamps, 1 + stamps]);
+        }
     }
 }

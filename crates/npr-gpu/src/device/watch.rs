@@ -8,6 +8,9 @@ use std::time::Duration;
 /// How long any call waits for the device before it counts as lost.
 pub const TIME_LIMIT: Duration = Duration::from_secs(30);
 
+/// What is said of a device that the program itself gave up.
+pub(super) const GIVEN_UP: &str = "it was given up";
+
 /// The reports of a device outside of any call; the first of each kind counts.
 #[derive(Debug, Default)]
 pub(super) struct Watch {
@@ -28,11 +31,7 @@ impl Watch {
         let on_loss = watch.clone();
         device.set_device_lost_callback(move |reason, message| {
             let given_up = reason == wgpu::DeviceLostReason::Destroyed;
-            on_loss.lose(if given_up {
-                "it was given up"
-            } else {
-                &message
-            });
+            on_loss.lose(if given_up { GIVEN_UP } else { &message });
         });
         let on_error = watch.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {

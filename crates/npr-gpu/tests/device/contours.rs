@@ -229,11 +229,16 @@ impl Session for CountingSession {
         self.session.write(id, words)
     }
 
-    fn run_reading(
-        &mut self,
-        ids: &[ResourceId],
-    ) -> Result<(Vec<PassTime>, Readings), EngineError> {
-        self.session.run_reading(ids)
+    fn submit(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {
+        self.session.submit(ids)
+    }
+
+    fn collect(&mut self) -> Result<(Vec<PassTime>, Readings), EngineError> {
+        self.session.collect()
+    }
+
+    fn in_flight(&self) -> usize {
+        self.session.in_flight()
     }
 
     fn read_all(&mut self, ids: &[ResourceId]) -> Result<Readings, EngineError> {

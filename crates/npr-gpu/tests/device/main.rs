@@ -11,6 +11,7 @@ mod costs;
 mod curves;
 mod detection;
 mod draws;
+mod flight;
 mod frame;
 mod host;
 mod lists;

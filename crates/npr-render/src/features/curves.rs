@@ -5,18 +5,20 @@ use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::lines::{LineOptions, LineRenderer};
 use crate::options::RendererOptions;
+use crate::smoke::Smoke;
 use npr_core::camera::Camera;
 use npr_drawing::artwork::ArtworkOptions;
 use npr_drawing::drawing::paint_drawing_over;
 use npr_style::backdrop::Rules;
 use npr_stylesheet::Style;
 
-/// Draws lines as curves over a frame; without a line model the frame gets a notice instead.
+/// Draws lines as curves over a frame that shows what a camera sees of a model and of smoke; without a line model the
+/// frame gets a notice instead.
 ///
 /// `contrasted` holds what lies on both sides of outlines, where the colours of lines follow it.
 pub(crate) fn finish(
     lines: Option<&mut LineRenderer<'_>>,
-    camera: &Camera,
+    (camera, smoke): (&Camera, Option<&Smoke>),
     (style, options): (&Style, &RendererOptions),
     contrasted: Option<&(Sides, Rules)>,
     frame: &mut Frame,
@@ -33,7 +35,7 @@ pub(crate) fn finish(
         dpi: options.dpi,
         ..LineOptions::of_style(style, frame.size)
     };
-    let beside = (options.smoke.as_ref(), &options.pictures);
+    let beside = (smoke, &options.pictures);
     for method in style.curve_sources() {
         // Find the strokes of the parts that have this method.
         let of_method = LineOptions { method, ..of_style };

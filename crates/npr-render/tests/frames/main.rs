@@ -7,4 +7,5 @@ mod bands;
 mod costs;
 #[cfg(feature = "wgpu")]
 mod embedded;
+mod sequences;
 mod smoke;
