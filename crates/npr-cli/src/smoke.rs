@@ -181,6 +181,7 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, 
         style: &job.look.style.smoke,
         limits: &limits,
     };
+    let engine = EngineChoice::begin(&job.args.drawing);
     let counter = progress.counter();
     let mut film = progress.step("smoke", || {
         let mut tell = |done, of| counter.tell("smoke", done, of);
@@ -202,7 +203,14 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, 
     let of_volumes = idle::of_volumes(&order, Some(&source));
     tell_notices(job, &source, &film, &of_volumes, progress);
     let camera = camera(job, &prepared, &film)?;
-    draw_film(job, &prepared, &film, &outputs, &camera, progress)
+    draw_film(
+        (job, &engine),
+        &prepared,
+        &film,
+        &outputs,
+        &camera,
+        progress,
+    )
 }
 
 /// The volume that standard input holds.
@@ -253,7 +261,7 @@ fn camera(job: &Job<'_>, prepared: &Prepared, film: &Film) -> Result<Camera, Fau
 
 /// Draws and writes every picture; the times of their passes, added up.
 fn draw_film(
-    job: &Job<'_>,
+    (job, engine): (&Job<'_>, &EngineChoice<'_>),
     prepared: &Prepared,
     film: &Film,
     outputs: &[Output],
@@ -273,7 +281,6 @@ fn draw_film(
         screening.show_all(renderer, &film.frames, camera)
     };
     let quiet = job.args.drawing.quiet;
-    let engine = EngineChoice::begin(&job.args.drawing);
     let drawn = engine.draw_as_step(&pictures, progress)?;
     if let Some(fault) = screening.failed.into_inner() {
         return Err(fault);
@@ -497,7 +504,8 @@ mod tests {
             let warnings = RefCell::new(Vec::new());
             let warn = |text: &str| warnings.borrow_mut().push(text.to_owned());
             let files = screened(|screening, pictures| {
-                engine::draw_somewhere(&open, &pictures, &warn).expect("the processor draws");
+                crate::engine::draw_somewhere(&open, &pictures, &warn)
+                    .expect("the processor draws");
                 assert_eq!(screening.done.get(), 6, "{lives:?}");
                 assert!(screening.failed.borrow().is_none());
             });
@@ -517,7 +525,8 @@ mod tests {
         let wanted = screened(|_, pictures| pictures(&Processor).expect("drawn"));
         let open = || Ok(Dying::after(3));
         let files = screened(|screening, pictures| {
-            let lost = engine::draw_on_device(&open, &pictures).expect_err("it is lost twice");
+            let lost =
+                crate::engine::draw_on_device(&open, &pictures).expect_err("it is lost twice");
             let fault = Fault::from(lost);
             assert_eq!(fault.exit, Exit::NoDevice);
             assert_eq!(fault.message, "the graphics device was lost: unplugged");

@@ -8,6 +8,7 @@ mod model;
 mod options;
 mod paint;
 mod pixels;
+mod prepared;
 mod renderer;
 mod smoke;
 mod stroke_contrast;

@@ -79,14 +79,27 @@ impl<'a> ResidentShape<'a> {
     ///
     /// [`EngineError`] where the engine fails.
     pub fn contours(&mut self, eye: &Eye) -> Result<EdgeContours, EngineError> {
+        self.contours_while(eye, &|| ())
+    }
+
+    /// As [`ResidentShape::contours`]; the processor does something else, once, while a device finds them.
+    ///
+    /// # Errors
+    ///
+    /// As [`ResidentShape::contours`].
+    pub fn contours_while(
+        &mut self,
+        eye: &Eye,
+        meanwhile: &dyn Fn(),
+    ) -> Result<EdgeContours, EngineError> {
         self.node_count = 0;
-        let mut read = self.run(eye)?;
+        let mut read = self.run(eye, meanwhile)?;
         let count = read.take_count(self.room.contours.node_count);
         if count > self.room.capacity {
             // Counting went on past the room, so once is enough.
             let capacity = count.next_power_of_two();
             self.room = Room::new(self.engine, self.shape, self.scheme, capacity)?;
-            read = self.run(eye)?;
+            read = self.run(eye, &|| ())?;
         }
         self.node_count = count;
         let front = read.take(self.room.contours.front);
@@ -120,13 +133,15 @@ impl<'a> ResidentShape<'a> {
 
     /// Runs all passes for an eye; reads the number of nodes, which may be more than there is room for, the nodes, and
     /// which faces are turned to the eye.
-    fn run(&mut self, eye: &Eye) -> Result<Readings, EngineError> {
+    fn run(&mut self, eye: &Eye, meanwhile: &dyn Fn()) -> Result<Readings, EngineError> {
         let Room {
             session, contours, ..
         } = &mut self.room;
         session.write(contours.viewer, bytemuck::cast_slice(&[Viewer::from(eye)]))?;
         let results = [contours.node_count, contours.nodes, contours.front];
-        let (times, read) = session.run_reading(&results)?;
+        session.submit(&results)?;
+        meanwhile();
+        let (times, read) = session.collect()?;
         self.times = times;
         Ok(read)
     }

@@ -121,6 +121,21 @@ impl<'a> ResidentPixels<'a> {
         path: &PublishedPath,
         hiders: Hiders<'_>,
     ) -> Result<(Traced, Loops), CurvesError> {
+        self.draw_while(on, path, hiders, &|| ())
+    }
+
+    /// As [`ResidentPixels::draw`]; the processor does something else, once, while a device draws.
+    ///
+    /// # Errors
+    ///
+    /// As [`ResidentPixels::draw`].
+    pub fn draw_while(
+        &mut self,
+        on: &PixelScene<'_>,
+        path: &PublishedPath,
+        hiders: Hiders<'_>,
+        meanwhile: &dyn Fn(),
+    ) -> Result<(Traced, Loops), CurvesError> {
         // Trace an empty picture without the engine.
         self.times.clear();
         let on = &PixelScene {
@@ -136,13 +151,18 @@ impl<'a> ResidentPixels<'a> {
         }
 
         // Run the graph, with more room each time that it did not suffice.
+        let mut meanwhile = Some(meanwhile);
         loop {
             let made = self.prepared(on, path, hiders.kind())?;
             let (session, contours) = (made.session.as_mut(), &made.contours);
             contours.write_view(session, on, path, hiders.given())?;
             made.strips.write(session, path)?;
             let results = [&contours.results()[..], &made.strips.results()].concat();
-            let (times, mut read) = session.run_reading(&results)?;
+            session.submit(&results)?;
+            if let Some(work) = meanwhile.take() {
+                work();
+            }
+            let (times, mut read) = session.collect()?;
             let needed = contours.needed(&mut read);
             if made.plan.room.holds(needed) {
                 let found = made.found(view, needed, &mut read);

@@ -8,10 +8,11 @@ use npr_vector::mesh_lines::contour::{EdgeContours, Eye};
 use npr_vector::pixel_strokes::stroke::Loops;
 use npr_vector::pixel_strokes::{PixelScene, PublishedPath, Traced, scene_depths, trace};
 
-/// Finds the lines of a shape.
+/// Finds the lines of a shape. What the processor can do while a device does is called once, `meanwhile`; where there is
+/// no device it is left to whoever needs it.
 pub(crate) trait Finder {
     /// Contours along mesh edges.
-    fn contours(&mut self, eye: &Eye) -> Result<EdgeContours, RenderError>;
+    fn contours(&mut self, eye: &Eye, meanwhile: &dyn Fn()) -> Result<EdgeContours, RenderError>;
 
     /// All lines, found on a picture of them. `occluder_depths` are the reversed depths of what stands before the
     /// shape's own surfaces, where there is any.
@@ -20,6 +21,7 @@ pub(crate) trait Finder {
         on: &PixelScene<'_>,
         path: &PublishedPath,
         occluder_depths: Option<&[f32]>,
+        meanwhile: &dyn Fn(),
     ) -> Result<(Traced, Loops), RenderError>;
 
     /// Forgets the times of the last view.
@@ -35,7 +37,7 @@ pub(crate) trait Finder {
 pub(crate) struct OnProcessor<'a>(pub(crate) &'a HalfEdgeMesh);
 
 impl Finder for OnProcessor<'_> {
-    fn contours(&mut self, eye: &Eye) -> Result<EdgeContours, RenderError> {
+    fn contours(&mut self, eye: &Eye, _: &dyn Fn()) -> Result<EdgeContours, RenderError> {
         Ok(EdgeContours::new(self.0, eye))
     }
 
@@ -44,6 +46,7 @@ impl Finder for OnProcessor<'_> {
         on: &PixelScene<'_>,
         path: &PublishedPath,
         occluder_depths: Option<&[f32]>,
+        _: &dyn Fn(),
     ) -> Result<(Traced, Loops), RenderError> {
         let mut depths = scene_depths(on.shape, on.view);
         for (depth, occluder_depths) in depths.iter_mut().zip(occluder_depths.unwrap_or_default()) {
@@ -78,13 +81,13 @@ impl<'a> OnDevice<'a> {
 }
 
 impl Finder for OnDevice<'_> {
-    fn contours(&mut self, eye: &Eye) -> Result<EdgeContours, RenderError> {
+    fn contours(&mut self, eye: &Eye, meanwhile: &dyn Fn()) -> Result<EdgeContours, RenderError> {
         let resident = match self.contours.take() {
             Some(resident) => resident,
             None => ResidentShape::new(self.engine, self.shape)?,
         };
         let resident = self.contours.insert(resident);
-        let found = resident.contours(eye)?;
+        let found = resident.contours_while(eye, meanwhile)?;
         self.times.extend_from_slice(resident.times());
         Ok(found)
     }
@@ -94,14 +97,12 @@ impl Finder for OnDevice<'_> {
         on: &PixelScene<'_>,
         path: &PublishedPath,
         occluder_depths: Option<&[f32]>,
+        meanwhile: &dyn Fn(),
     ) -> Result<(Traced, Loops), RenderError> {
         let make = || ResidentPixels::new(self.engine, self.shape);
         let resident = self.pixels.get_or_insert_with(make);
-        let found = resident.draw(
-            on,
-            path,
-            occluder_depths.map_or(Hiders::Surfaces, Hiders::Veiled),
-        )?;
+        let hiders = occluder_depths.map_or(Hiders::Surfaces, Hiders::Veiled);
+        let found = resident.draw_while(on, path, hiders, meanwhile)?;
         self.times.extend_from_slice(resident.times());
         Ok(found)
     }

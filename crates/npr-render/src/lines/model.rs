@@ -5,6 +5,7 @@ use super::colors::{ColorInput, StrokeColors};
 use super::finder::{Finder, OnProcessor};
 use super::options::{LineModelOptions, LineOptions};
 use super::paint::Paint;
+use super::prepared::PreparedOnDemand;
 use super::smoke::SmokeView;
 use super::stroke_contrast::StrokeContrast;
 use super::texture_map::TextureMap;
@@ -307,13 +308,15 @@ impl LineModel {
         let is_empty = self.points.is_empty();
         let bounds = smoke::joined(smoke.map(|(smoke, _)| smoke), self.bounds, is_empty);
         let projector = Projector::new(camera, options.size, bounds);
+        let prepared = PreparedOnDemand::new(self, options);
         // A picture of lines finds its own contours.
         let contours = if options.method == LineSource::Potrace && smoke.is_none() {
             EdgeContours::default()
         } else {
-            find.contours(&eye_of(&self.shape, &projector))?
+            // Errors come again when it is asked for.
+            let meanwhile = || drop(prepared.get());
+            find.contours(&eye_of(&self.shape, &projector), &meanwhile)?
         };
-        let prepared = self.prepared(options)?;
         let smoke_layer = match smoke {
             Some((smoke, _)) => Some(self.smoke_view(wanted, smoke, &projector, bounds)?),
             None => None,
@@ -328,12 +331,12 @@ impl LineModel {
             .as_ref()
             .map(|smoke_layer| smoke_layer.lines(is_drawn, &width_at));
         let colors = match colors::is_painted(style) {
-            true => Some(self.colors(wanted, &prepared, &contours, pictures)?),
+            true => Some(self.colors(wanted, prepared.get()?, &contours, pictures)?),
             false => None,
         };
         let stroke_contrast = match behind {
             Some(picture) => {
-                let seen = (&self.shape, &prepared.tree);
+                let seen = (&self.shape, &prepared.get()?.tree);
                 let px = self.px(options);
                 StrokeContrast::new(seen, &projector, picture, &self.parts, style, px)
             }
@@ -364,7 +367,7 @@ impl LineModel {
         let regions = if options.fill {
             paint::regions(
                 &self.shape,
-                &prepared.tree,
+                &prepared.get()?.tree,
                 &projector,
                 options.size,
                 &strokes,
@@ -383,7 +386,7 @@ impl LineModel {
             surfaces,
             strokes,
             regions,
-            notices: notices_of_view(&prepared, left_out),
+            notices: notices_of_view(prepared.so_far(), left_out),
         })
     }
 
@@ -436,20 +439,34 @@ impl LineModel {
 
     fn strokes(
         &self,
-        prepared: &Prepared,
+        prepared: &PreparedOnDemand<'_>,
         view: &LineView<'_>,
         (style, options): (&Style, &LineOptions),
         paint: &Paint,
         find: &mut dyn Finder,
     ) -> Result<ViewStrokes, RenderError> {
-        // Settle the widths of lines in this view.
+        // Trace lines from a picture of them, and measure how the shape bends while a device does.
         let radius = self.radius();
-        let input = WidthInput {
-            shape: &self.shape,
-            bends: widths::follow_bends(style).then(|| {
+        let bends = || {
+            widths::follow_bends(style).then(|| {
                 self.bends
                     .get_or_init(|| ShapeBends::new(&self.cache, &self.shape, radius))
-            }),
+            })
+        };
+        let traced = match options.method {
+            LineSource::Potrace => {
+                let meanwhile = || {
+                    bends();
+                };
+                Some(pixels::traced(view, options, paint, find, &meanwhile)?)
+            }
+            LineSource::Image | LineSource::Edges | LineSource::Surface => None,
+        };
+
+        // Settle the widths of lines in this view.
+        let input = WidthInput {
+            shape: &self.shape,
+            bends: bends(),
             colors: &self.colors,
             style,
         };
@@ -481,23 +498,25 @@ impl LineModel {
         let line = (&settings, paint, &look);
 
         // Find the strokes by the method, and those painted in textures.
-        let mut found = match options.method {
-            LineSource::Potrace => ViewStrokes {
-                strokes: pixels::strokes(view, prepared, options, line, find)?,
+        let mut found = match traced {
+            Some(traced) => ViewStrokes {
+                strokes: pixels::strokes(view, prepared, &traced, (&settings, &look))?,
                 left_out: 0,
             },
-            LineSource::Image => view.of_mesh(prepared, &image::beside_image(&settings), &look)?,
-            LineSource::Edges | LineSource::Surface => view.of_mesh(prepared, &settings, &look)?,
+            None if options.method == LineSource::Image => {
+                view.of_mesh(prepared.get()?, &image::beside_image(&settings), &look)?
+            }
+            None => view.of_mesh(prepared.get()?, &settings, &look)?,
         };
         if options.method == LineSource::Image || options.painted.is_some() {
-            let of_image = image::strokes(view, prepared, options, line)?;
+            let of_image = image::strokes(view, prepared.get()?, options, line)?;
             found.strokes.extend(of_image);
         }
         Ok(found)
     }
 
     /// What does not depend on the camera, made anew only where the crease angle or the wish for intersections changes.
-    fn prepared(&self, options: &LineOptions) -> Result<Arc<Prepared>, RenderError> {
+    pub(super) fn prepared(&self, options: &LineOptions) -> Result<Arc<Prepared>, RenderError> {
         let creases = options.creases();
         let is_on_mesh = !options.method.is_of_pixels();
         let with_crossings = is_on_mesh && options.kinds.has(Kind::Intersection);
@@ -571,9 +590,9 @@ impl LineModel {
 }
 
 /// Notices of lines that a drawing leaves out because nobody could read them, a sentence each.
-fn notices_of_view(prepared: &Prepared, left_out: usize) -> Vec<String> {
+fn notices_of_view(prepared: Option<&Prepared>, left_out: usize) -> Vec<String> {
     let mut notices = Vec::new();
-    if prepared.crossings.overflow {
+    if prepared.is_some_and(|prepared| prepared.crossings.overflow) {
         let text = "so many faces cut each other that lines of intersection are left out";
         notices.push(text.to_owned());
     }

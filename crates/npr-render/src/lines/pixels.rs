@@ -3,31 +3,30 @@
 use super::finder::Finder;
 use super::options::LineOptions;
 use super::paint::Paint;
+use super::prepared::PreparedOnDemand;
 use super::view::LineView;
 use crate::error::RenderError;
 use npr_core::budget::Budget;
 use npr_core::window::View;
-use npr_vector::mesh_lines::draw::{LineSettings, Prepared, StrokeLook, eye_of};
+use npr_vector::mesh_lines::draw::{LineSettings, StrokeLook, eye_of};
 use npr_vector::mesh_lines::puff::{Puffs, SmokeLines};
 use npr_vector::pixel_strokes::segment::PixelView;
 use npr_vector::pixel_strokes::stroke::Loops;
 use npr_vector::pixel_strokes::{BYTES_PER_PIXEL, PixelScene, PublishedPath, Traced};
 use npr_vector::stroke::Stroke;
 
-/// The strokes of a view by [`LineSource::Potrace`](super::LineSource); dense smoke hides them, and its own
-/// outline comes after.
+/// The strokes of a view by [`LineSource::Potrace`](super::LineSource), of what was traced; dense smoke hides them, and
+/// its own outline comes after.
 pub(super) fn strokes(
     view: &LineView<'_>,
-    prepared: &Prepared,
-    options: &LineOptions,
-    (settings, paint, look): (&LineSettings, &Paint, &StrokeLook<'_>),
-    find: &mut dyn Finder,
+    prepared: &PreparedOnDemand<'_>,
+    (traced, loops): &(Traced, Loops),
+    (settings, look): (&LineSettings, &StrokeLook<'_>),
 ) -> Result<Vec<Stroke>, RenderError> {
-    let (traced, loops) = traced(view, options, paint, find)?;
     let (shape, projector) = (view.shape, view.projector);
-    let mut strokes = traced.strokes(shape, projector, &loops, options.split, look);
+    let mut strokes = traced.strokes(shape, projector, loops, settings.split, look);
     if let Some(smoke) = view.smoke {
-        let all = view.of_mesh(prepared, settings, look)?;
+        let all = view.of_mesh(prepared.get()?, settings, look)?;
         let of_smoke = all
             .strokes
             .into_iter()
@@ -37,12 +36,14 @@ pub(super) fn strokes(
     Ok(strokes)
 }
 
-/// Draws the lines of a view into a picture, ranks the sides of its pixels and cuts their loops.
-fn traced(
+/// Draws the lines of a view into a picture, ranks the sides of its pixels and cuts their loops; a device leaves the
+/// processor the time for `meanwhile`.
+pub(super) fn traced(
     view: &LineView<'_>,
     options: &LineOptions,
     paint: &Paint,
     find: &mut dyn Finder,
+    meanwhile: &dyn Fn(),
 ) -> Result<(Traced, Loops), RenderError> {
     // Check that the picture fits into memory.
     let [width, height] = options.size.map(|side| side as usize);
@@ -66,7 +67,12 @@ fn traced(
         creases: options.creases(),
         is_drawn: &paint.lined_surfaces(),
     };
-    find.pixels(&scene, &path_of(options), occluder_depths.as_deref())
+    find.pixels(
+        &scene,
+        &path_of(options),
+        occluder_depths.as_deref(),
+        meanwhile,
+    )
 }
 
 /// The constants that a drawing asks for; without smoothing, points keep the places that their pixels give.
