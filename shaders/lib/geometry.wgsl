@@ -42,6 +42,9 @@ struct ChartCorners {
     c: vec2<f32>,
 }
 
+const CHART_TEXELS: u32 = 6u;
+const CHART_ACROSS: u32 = 1024u;
+
 struct Edge {
     ends: vec2<u32>,
     faces: vec2<u32>,

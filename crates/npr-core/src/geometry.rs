@@ -99,6 +99,8 @@ pub struct Triangle {
 gpu_layout!(Triangle { corners, part });
 
 /// Where the corners of a triangle lie in its stroke chart: tiles across and along the strokes.
+///
+/// Passes read charts from an image of bits of floats, six texels a chart: storage buffers are few.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct ChartCorners {
@@ -109,7 +111,20 @@ pub struct ChartCorners {
     /// Of the third.
     pub c: [f32; 2],
 }
-gpu_layout!(ChartCorners { a, b, c });
+
+impl ChartCorners {
+    /// Texels of a chart.
+    pub const TEXELS: u32 = 6;
+    /// Charts in a row of an image: 8192 rows, which every device has, hold one for each triangle that fits a buffer.
+    pub const ACROSS: u32 = 1024;
+
+    /// Width and height in texels of an image with room for `count` charts, row by row.
+    pub fn image_size(count: usize) -> [u32; 2] {
+        let count = u32::try_from(count).unwrap_or(u32::MAX);
+        let across = count.min(Self::ACROSS);
+        [across * Self::TEXELS, count.div_ceil(Self::ACROSS)]
+    }
+}
 
 /// A unique mesh edge between two stored vertices that stand for their welded positions.
 #[repr(C)]

@@ -97,7 +97,8 @@ impl Scene {
             line_depth: [-1.7, 0.3],
             ..part(1, flags, NONE)
         };
-        scene.add(&torus(24, 12, 1.0, 0.4), hatched, &mut random);
+        // As many triangles as fill a row of charts, and more.
+        scene.add(&torus(40, 14, 1.0, 0.4), hatched, &mut random);
         let flags = Part::LINES
             | Part::HULL
             | Part::ANGLE
@@ -407,8 +408,19 @@ fn hatched_part(scene: &Scene) -> u32 {
     scene.parts.iter().position(is_hatched).unwrap_or(0) as u32
 }
 
-/// Texels of the shadow image along a side.
+/// Texels of a shadow image along a side.
 pub const SHADOW_SIDE: u32 = 128;
+
+/// Shadow images; one of them is drawn.
+pub const SHADOWS: u32 = 2;
+
+/// The shadow image of the light that throws shadows in a look.
+pub fn shadow_of(look: Look) -> u32 {
+    match look {
+        Look::Ours => 0,
+        Look::Published => 1,
+    }
+}
 
 /// Where the pictures of what hides the sky start: behind the table of the texture store.
 const SKY_START: u32 = 256;
@@ -440,13 +452,14 @@ fn sky_words(random: &mut Random) -> Vec<u32> {
 /// The lights of a look: one that throws shadows, or one of every kind with shadows of the spot.
 pub fn lights(look: Look) -> Lights {
     let towards = [0.48, 0.6, 0.64];
+    let shadow = shadow_of(look);
     let mut lights = Lights::distant(towards);
     (lights.shadow_side, lights.shadow_at) = (SHADOW_SIDE, 0.15);
     lights.bias_world = 1e-3;
     if look == Look::Ours {
         let corners = [[-1.7; 3], [1.7; 3], [-1.7, 1.7, -1.7], [1.7, -1.7, 1.7]];
-        lights.shadows[0] = distant_view(towards, &corners, &corners);
-        lights.sources[0].shadow = 1;
+        lights.shadows[shadow as usize] = distant_view(towards, &corners, &corners);
+        lights.sources[0].shadow = shadow + 1;
     } else {
         lights.count = 5;
         lights.sources[3] = LightSource {
@@ -478,8 +491,9 @@ pub fn lights(look: Look) -> Lights {
             };
         }
         let spot = &mut lights.sources[2];
-        spot.shadow = 1;
-        lights.shadows[0] = spot_view(spot.position, spot.direction, spot.cone[0], 0.05);
+        spot.shadow = shadow + 1;
+        lights.shadows[shadow as usize] =
+            spot_view(spot.position, spot.direction, spot.cone[0], 0.05);
     }
     lights
 }
@@ -531,7 +545,7 @@ pub fn smoke_look(look: Look, size: [u32; 2]) -> SmokeLook {
         ambient: 0.1,
         samples: if is_ours { 2 } else { 1 },
         shadow_side: SHADOW_SIDE,
-        surface_maps: 1,
+        surface_maps: SHADOWS,
         surface_side: SHADOW_SIDE,
         ramp,
         ..SmokeLook::default()
