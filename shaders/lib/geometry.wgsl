@@ -52,6 +52,11 @@ struct Edge {
     traits: u32,
 }
 
+struct EdgeRole {
+    kinds: u32,
+    part: u32,
+}
+
 struct Part {
     base_color: vec4<f32>,
     line_color: vec4<f32>,

@@ -146,6 +146,17 @@ gpu_layout!(Edge {
     traits
 });
 
+/// What an edge is in a view.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct EdgeRole {
+    /// Bits of [`KindSet`](crate::line_kind::KindSet) and [`EdgeFlags::FACING`]; 0 where it draws no line.
+    pub kinds: u32,
+    /// The part that draws its line: that of its first face.
+    pub part: u32,
+}
+gpu_layout!(EdgeRole { kinds, part });
+
 /// One surface of one object in one material, with what the style makes of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
@@ -438,4 +449,18 @@ impl GPixel {
         material: NONE,
         part: NONE,
     };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_of_charts_hold_every_triangle_that_fits_a_buffer() {
+        let sizes = [0, 1, 1024, 1025].map(ChartCorners::image_size);
+        assert_eq!(sizes, [[0, 0], [6, 1], [6144, 1], [6144, 2]]);
+        let most = (128 << 20) / size_of::<Triangle>();
+        assert_eq!(ChartCorners::image_size(most), [6144, 8192]);
+        assert_eq!(size_of::<ChartCorners>(), 4 * ChartCorners::TEXELS as usize);
+    }
 }

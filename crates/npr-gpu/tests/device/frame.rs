@@ -4,7 +4,7 @@ use crate::scene::{
     FRAME_PX, Look, SHADOW_SIDE, SHADOWS, Scene, bare_compose, compose, lights, outline,
     part_subjects, rules, shadow_of, smoke_look, spheres, view,
 };
-use npr_core::geometry::{ChartCorners, Stamp};
+use npr_core::geometry::{ChartCorners, EdgeRole, Stamp};
 use npr_core::smoke::SphereView;
 use npr_core::window::Window;
 use npr_gpu::engine::Engine;
@@ -82,7 +82,7 @@ impl Frame {
         "lit",
         "projected",
         "shadows",
-        "kinds",
+        "roles",
         "hull",
         "ids",
         "beam_ids",
@@ -227,7 +227,7 @@ impl Builder {
         self.make_layers("surface_depths", Format::Depth, [SHADOW_SIDE; 2], SHADOWS);
         self.give_smoke(look, size);
         self.make_buffer("hull", 16, scene.vertices.len());
-        self.make_buffer("kinds", 4, scene.edges.len());
+        self.make_buffer("roles", size_of::<EdgeRole>(), scene.edges.len());
         self.make_image("ids", Format::U32, size.map(|side| side * samples));
         self.make_image("beam_ids", Format::U32, size.map(|side| side * samples));
         self.make_image("depth", Format::Depth, size.map(|side| side * samples));
