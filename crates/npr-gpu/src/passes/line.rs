@@ -173,10 +173,10 @@ pub const DRAW_RIBBONS: Pass = Pass {
         };
         ribbon::draw(
             &with,
+            b.read(6),
             b.read(7),
-            b.read(8),
+            b.image_mut(11).texels,
             b.image_mut(12).texels,
-            b.image_mut(13).texels,
         );
     },
 };
