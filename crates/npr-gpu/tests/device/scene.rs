@@ -95,6 +95,9 @@ impl Scene {
             line_depth_row: hues[0],
             line_light_row: hues[1],
             line_depth: [-1.7, 0.3],
+            // Grey all over, so that strokes show everywhere.
+            dark_at: 0.0,
+            light_at: 1.5,
             ..part(1, flags, NONE)
         };
         // As many triangles as fill a row of charts, and more.
@@ -124,11 +127,14 @@ impl Scene {
             ..part(3, Part::BEAM, NONE)
         };
         scene.add(&torus(16, 8, 0.9, 0.25), beam, &mut random);
-        let mut corner = || [random.unit(), random.unit()];
-        let chart = |_: &Triangle| ChartCorners {
-            a: corner(),
-            b: corner(),
-            c: corner(),
+        // Lay the tiles of strokes across the scene, each triangle a little off its place.
+        let chart = |triangle: &Triangle| {
+            let off = [random.unit() * 0.1, random.unit() * 0.1];
+            let [a, b, c] = triangle.corners.map(|corner| {
+                let [x, y, z] = scene.vertices[corner as usize].position;
+                [x + 0.3 * z + off[0], y - 0.3 * z + off[1]]
+            });
+            ChartCorners { a, b, c }
         };
         scene.charts = scene.triangles.iter().map(chart).collect();
         scene
