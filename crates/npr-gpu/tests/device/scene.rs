@@ -423,8 +423,8 @@ pub const SHADOWS: u32 = 2;
 /// The shadow image of the light that throws shadows in a look.
 pub fn shadow_of(look: Look) -> u32 {
     match look {
-        Look::Ours => 0,
-        Look::Published => 1,
+        Look::Ours => 1,
+        Look::Published => 0,
     }
 }
 
