@@ -95,3 +95,36 @@ impl Shadows {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame_graph::{Counts, Grids};
+    use npr_gpu::graph::Kind;
+    use npr_gpu::pass::Features;
+
+    /// Sides and layers of the pictures and depths of some lights.
+    fn planned(count: usize, fall_on_smoke: bool) -> [(u32, u32); 2] {
+        let grids = Grids {
+            output: [4, 4],
+            mask: [4, 4],
+            samples: 1,
+        };
+        let mut frame = FrameGraph::new(&Counts::default(), &grids, Features::ALL);
+        let shadows = Shadows::plan(&mut frame, count, 0, fall_on_smoke);
+        [shadows.pictures, shadows.depths].map(|id| match frame.graph.resource(id).kind {
+            Kind::Image { size, layers, .. } => (size[0], layers),
+            _ => (0, 0),
+        })
+    }
+
+    #[test]
+    fn lights_take_no_more_memory_than_they_need() {
+        for fall_on_smoke in [false, true] {
+            assert_eq!(planned(0, fall_on_smoke), [(1, 1), (1, 1)]);
+            assert_eq!(planned(1, fall_on_smoke), [(SHADOW_SIDE, 1); 2]);
+        }
+        assert_eq!(planned(3, false), [(SHADOW_SIDE, 3), (SHADOW_SIDE, 1)]);
+        assert_eq!(planned(3, true), [(SHADOW_SIDE, 3); 2]);
+    }
+}
