@@ -6,8 +6,6 @@
 //# use lib/grid
 //# use lib/geometry
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<storage, read> parts: array<Part>;
 @group(0) @binding(1) var<storage, read> rims: array<Rim>;
 @group(0) @binding(2) var<storage, read_write> overlay: array<u32>;

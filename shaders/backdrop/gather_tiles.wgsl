@@ -7,8 +7,6 @@
 //# use lib/surface
 //# use lib/window
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> window: Window;
 @group(0) @binding(1) var<uniform> rules: Rules;
 @group(0) @binding(2) var<storage, read> parts: array<Part>;

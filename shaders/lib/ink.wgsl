@@ -1,6 +1,17 @@
 // Ink in a picture and the sides of its pixels. Twin: npr_vector::pixel_strokes::side.
 
 //# use lib/grid
+//# use lib/looped
+
+// Pixels whose sides share a word of masks: four bits each, those of the first lowest.
+const PIXELS_A_WORD: u32 = 8u;
+
+struct Side {
+    code: u32,
+    segment: u32,
+    nearest: u32,
+    extent: Planar,
+}
 
 // Steps in the four directions: right, down, left, up.
 fn ahead_of(direction: u32) -> vec2<i32> {

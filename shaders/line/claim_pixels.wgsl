@@ -9,8 +9,6 @@
 //# use lib/ribbon
 //# use lib/stamp
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> window: Window;
 @group(0) @binding(1) var<storage, read> found: array<u32>;
 @group(0) @binding(2) var<storage, read> smoothed: array<Stamp>;

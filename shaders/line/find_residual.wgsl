@@ -12,8 +12,6 @@
 //# use lib/outline
 //# use lib/stamp
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> window: Window;
 @group(0) @binding(1) var<uniform> mask_window: Window;
 @group(0) @binding(2) var<storage, read> parts: array<Part>;

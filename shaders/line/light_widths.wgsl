@@ -6,8 +6,6 @@
 //# use lib/geometry
 //# use lib/surface
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> lights: Lights;
 @group(0) @binding(1) var<storage, read> parts: array<Part>;
 @group(0) @binding(2) var<storage, read> vertices: array<Vertex>;

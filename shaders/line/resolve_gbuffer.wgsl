@@ -9,8 +9,6 @@
 //# use lib/surface
 //# use lib/window
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(1) var<uniform> window: Window;
 @group(0) @binding(2) var ids: texture_2d<u32>;

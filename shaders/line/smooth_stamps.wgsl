@@ -10,8 +10,6 @@
 //# use lib/outline
 //# use lib/stamp
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> mask_window: Window;
 @group(0) @binding(1) var<storage, read> mask: array<u32>;
 @group(0) @binding(2) var<storage, read> found: array<u32>;

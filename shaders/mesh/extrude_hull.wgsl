@@ -12,8 +12,6 @@
 //# use lib/surface
 //# use lib/window
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(1) var<storage, read> vertices: array<Vertex>;
 @group(0) @binding(2) var<storage, read> influences: array<Influence>;

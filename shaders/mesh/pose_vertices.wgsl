@@ -13,8 +13,6 @@
 //# use lib/window
 //# use lib/outline
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(1) var<uniform> outline: Outline;
 @group(0) @binding(2) var<storage, read> vertices: array<Vertex>;

@@ -6,8 +6,6 @@
 //# use lib/geometry
 //# use lib/surface
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> light_from_world: mat4x4<f32>;
 @group(0) @binding(1) var<storage, read> posed: array<PosedVertex>;
 @group(0) @binding(2) var<storage, read_write> projected: array<vec4<f32>>;

@@ -6,8 +6,6 @@
 //# use lib/grid
 //# use lib/smoke
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> look: SmokeLook;
 @group(0) @binding(1) var<storage, read> gathered: array<vec2<f32>>;
 @group(0) @binding(2) var<storage, read_write> blurred: array<vec2<f32>>;

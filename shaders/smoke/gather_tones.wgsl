@@ -10,8 +10,6 @@
 //# use lib/sphere
 //# use lib/smoke
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> window: Window;
 @group(0) @binding(1) var<uniform> look: SmokeLook;
 @group(0) @binding(2) var<storage, read> pixels: array<SmokePixel>;

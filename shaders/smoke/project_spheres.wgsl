@@ -8,8 +8,6 @@
 //# use lib/geometry
 //# use lib/sphere
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> lens: SphereView;
 @group(0) @binding(1) var<storage, read> spheres: array<Sphere>;
 @group(0) @binding(2) var<storage, read_write> balls: array<ViewSphere>;

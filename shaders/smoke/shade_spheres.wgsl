@@ -11,8 +11,6 @@
 //# use lib/smoke
 //# use lib/depth_map
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> window: Window;
 @group(0) @binding(1) var<uniform> lens: SphereView;
 @group(0) @binding(2) var<uniform> look: SmokeLook;

@@ -1,9 +1,9 @@
 //! The WGSL text of every pass, and the linker that joins it with its libraries.
 //!
 //! Usable without wgpu: link a shader, give the text to any WebGPU host. A line `//# use lib/NAME` in a shader stands
-//! for the text of `lib/NAME.wgsl`, put in once however often it is asked for. Some libraries serve a feature that many
-//! frames do without; for those frames the short text of `lib/none/NAME.wgsl` takes their place, with the same
-//! functions.
+//! for the text of `lib/NAME.wgsl`, put in once however often it is asked for; what no entry point reaches is left out
+//! again. Some libraries serve a feature that many frames do without; for those frames the short text of
+//! `lib/none/NAME.wgsl` takes their place, with the same functions.
 //!
 //! ```
 //! use npr_shaders::{Features, SHADE_COMPOSE_FRAME, link};
@@ -15,10 +15,12 @@
 
 mod features;
 mod library;
+mod reached;
 
 pub use features::Features;
 
 use library::library;
+use reached::reached;
 
 /// A shader file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -210,13 +212,14 @@ pub const HOST_LAY_FRAME: Shader = Shader {
     text: include_str!("../host/lay_frame.wgsl"),
 };
 
-/// The text of a shader with its libraries in place, as far as `features` need them.
+/// The text of a shader with its libraries in place, as far as `features` need them: what its entry points reach, and
+/// all bindings, without comments.
 ///
 /// # Panics
 ///
 /// When a shader of this crate names a library that does not exist, which the tests rule out.
 pub fn link(shader: &Shader, features: Features) -> String {
-    linked(shader, features).text
+    reached(&linked(shader, features).text)
 }
 
 /// The features that decide about the text of a shader that is linked for `features`: another set with the same ones of
@@ -248,8 +251,11 @@ impl Linked {
     fn append(&mut self, text: &'static str, features: Features) {
         for line in text.lines() {
             let Some(name) = line.strip_prefix("//# use ") else {
-                self.text.push_str(line);
-                self.text.push('\n');
+                let code = code_of(line);
+                if !code.is_empty() {
+                    self.text.push_str(code);
+                    self.text.push('\n');
+                }
                 continue;
             };
             let name = name.trim();
@@ -261,6 +267,13 @@ impl Linked {
             }
         }
     }
+}
+
+/// What stands in a line before its comment.
+fn code_of(line: &str) -> &str {
+    let slashes = line.match_indices('/').map(|(at, _)| at);
+    let mut comments = slashes.filter(|at| line[at + 1..].starts_with('/'));
+    comments.next().map_or(line, |at| &line[..at]).trim_end()
 }
 
 #[cfg(test)]
@@ -285,10 +298,26 @@ mod tests {
     }
 
     #[test]
+    fn comments_are_left_out() {
+        let lines = [
+            ("let a = b / c; // half of it", "let a = b / c;"),
+            ("// alone", ""),
+            ("  x = 1u;", "  x = 1u;"),
+            ("a /", "a /"),
+        ];
+        for (line, code) in lines {
+            assert_eq!(code_of(line), code);
+        }
+        let texts = ALL.iter().map(|shader| link(shader, Features::ALL));
+        assert_eq!(texts.filter(|text| text.contains("//")).count(), 0);
+    }
+
+    #[test]
     fn a_library_asked_for_twice_comes_once() {
         let shader = Shader {
             path: "test",
-            text: "//# use lib/surface\n//# use lib/surface\n",
+            text: "//# use lib/surface\n//# use lib/surface\n\
+                   @compute @workgroup_size(1)\nfn main() { weights_at(); }\n",
         };
         assert_eq!(
             link(&shader, Features::ALL)

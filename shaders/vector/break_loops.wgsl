@@ -11,8 +11,6 @@
 //# use lib/grid
 //# use lib/list
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<storage, read> extent: array<u32>;
 @group(0) @binding(1) var<storage, read> reach_in: array<Reach>;
 @group(0) @binding(2) var<storage, read_write> reach_out: array<Reach>;

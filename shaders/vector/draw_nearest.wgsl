@@ -21,7 +21,6 @@ struct Passed {
 
 struct Seen {
     @location(0) owner: u32,
-    @location(1) nearest: u32,
     @builtin(frag_depth) depth: f32,
 }
 
@@ -44,9 +43,7 @@ fn vertex(@builtin(vertex_index) index: u32) -> Passed {
 @fragment
 fn fragment(passed: Passed) -> Seen {
     var seen: Seen;
-    let z = max(fragments[passed.element].z, LEAST_Z);
     seen.owner = fragments[passed.element].segment + 1u;
-    seen.nearest = bitcast<u32>(z);
-    seen.depth = z;
+    seen.depth = max(fragments[passed.element].z, LEAST_Z);
     return seen;
 }

@@ -8,8 +8,6 @@
 //# use lib/grid
 //# use lib/looped
 
-override WG: u32 = 64u;
-
 struct SpeckRule {
     area: f32,
     thin_area: f32,

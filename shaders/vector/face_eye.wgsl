@@ -9,8 +9,6 @@
 //# use lib/grid
 //# use lib/curve
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> viewer: Viewer;
 @group(0) @binding(1) var<storage, read> positions: array<f32>;
 @group(0) @binding(2) var<storage, read> half_edges: array<HalfEdge>;

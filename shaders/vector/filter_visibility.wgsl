@@ -7,8 +7,6 @@
 //
 //# use lib/grid
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<storage, read> verdicts: array<u32>;
 @group(0) @binding(1) var<storage, read> clear: array<u32>;
 @group(0) @binding(2) var<storage, read> slots: array<u32>;

@@ -9,8 +9,6 @@
 //# use lib/grid
 //# use lib/list
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<storage, read> links: array<Link>;
 @group(0) @binding(1) var<storage, read_write> flags: array<u32>;
 

@@ -4,20 +4,17 @@
 //
 //# use lib/grid
 //# use lib/list
+//# use lib/ink
 //# use lib/pixel
-//# use lib/looped
 
-override WG: u32 = 64u;
-
-@group(0) @binding(0) var<storage, read> order: array<u32>;
-@group(0) @binding(1) var<storage, read> standings: array<Standing>;
-@group(0) @binding(2) var<storage, read> sides: array<u32>;
-@group(0) @binding(3) var owners: texture_2d<u32>;
-@group(0) @binding(4) var<storage, read> segments: array<Segment>;
-@group(0) @binding(5) var<storage, read_write> spots: array<Spot>;
-@group(0) @binding(6) var<storage, read_write> places: array<Planar>;
-@group(0) @binding(7) var<storage, read_write> directions: array<Planar>;
-@group(0) @binding(8) var<storage, read_write> areas: array<u32>;
+@group(0) @binding(0) var<uniform> view: PixelView;
+@group(0) @binding(1) var<storage, read> order: array<u32>;
+@group(0) @binding(2) var<storage, read> standings: array<Standing>;
+@group(0) @binding(3) var<storage, read> sides: array<Side>;
+@group(0) @binding(4) var<storage, read_write> spots: array<Spot>;
+@group(0) @binding(5) var<storage, read_write> places: array<Planar>;
+@group(0) @binding(6) var<storage, read_write> directions: array<Planar>;
+@group(0) @binding(7) var<storage, read_write> areas: array<u32>;
 
 // One invocation per side.
 @compute @workgroup_size(WG)
@@ -34,21 +31,13 @@ fn main(
     spots[element].start = element - standing.rank;
     spots[element].length = standing.length;
     let side = sides[number];
-    let way = side & 3u;
-    let at = pixel_of(side / 4u, textureDimensions(owners));
+    let way = side.code & 3u;
+    let at = pixel_of(side.code / 4u, view.size);
     let middle = vec2<f32>(select(0.5, select(0.0, 1.0, way == 1u), (way & 1u) != 0u),
         select(0.5, select(0.0, 1.0, way == 2u), (way & 1u) == 0u));
     places[element].x = f32(at.x) + middle.x;
     places[element].y = f32(at.y) + middle.y;
     // The area is the sum of the heights of lower sides minus that of upper ones.
     areas[element] = select(select(0u, at.y + 1u, way == 2u), ~at.y + 1u, way == 0u);
-    var direction: Planar;
-    let owner = textureLoad(owners, at, 0).r;
-    if owner != 0u {
-        let segment = segments[owner - 1u];
-        direction.x = segment.end.x - segment.start.x;
-        direction.y = segment.end.y - segment.start.y;
-        direction = unit_of(direction);
-    }
-    directions[element] = direction;
+    directions[element] = unit_of(side.extent);
 }

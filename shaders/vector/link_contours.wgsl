@@ -11,8 +11,6 @@
 //# use lib/grid
 //# use lib/curve
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> viewer: Viewer;
 @group(0) @binding(1) var<storage, read> extent: array<u32>;
 @group(0) @binding(2) var<storage, read> contours: array<u32>;

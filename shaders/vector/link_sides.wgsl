@@ -8,38 +8,31 @@
 //# use lib/grid
 //# use lib/list
 //# use lib/ink
-
-override WG: u32 = 64u;
+//# use lib/pixel
 
 @group(0) @binding(0) var<storage, read> extent: array<u32>;
 @group(0) @binding(1) var ink: texture_2d<u32>;
-@group(0) @binding(2) var<storage, read> masks: array<u32>;
-@group(0) @binding(3) var<storage, read> starts: array<u32>;
-@group(0) @binding(4) var<storage, read_write> sides: array<u32>;
-@group(0) @binding(5) var<storage, read_write> links: array<Link>;
+@group(0) @binding(2) var nearest: texture_depth_2d;
+@group(0) @binding(3) var<storage, read> segments: array<Segment>;
+@group(0) @binding(4) var<storage, read> masks: array<u32>;
+@group(0) @binding(5) var<storage, read> starts: array<u32>;
+@group(0) @binding(6) var<storage, read_write> sides: array<Side>;
+@group(0) @binding(7) var<storage, read_write> links: array<Link>;
 
 //# use lib/holder
 
 // The place of the set bit of a mask before which `rank` others are set.
 fn nth_bit(mask: u32, rank: u32) -> u32 {
-    var left = rank;
-    var found = 0u;
-    for (var bit = 0u; bit < 4u; bit++) {
-        if ((mask >> bit) & 1u) != 0u {
-            if left == 0u {
-                found = bit;
-                break;
-            }
-            left -= 1u;
-        }
-    }
-    return found;
+    var left = mask;
+    for (var round = 0u; round < rank; round++) { left &= left - 1u; }
+    return countTrailingZeros(left);
 }
 
 fn index_of(at: vec2<i32>, direction: u32) -> u32 {
     let pixel = u32(at.y) * textureDimensions(ink).x + u32(at.x);
-    let before = masks[pixel] & ((1u << direction) - 1u);
-    return starts[pixel] + countOneBits(before);
+    let word = pixel / PIXELS_A_WORD;
+    let before = masks[word] & ((1u << (4u * (pixel % PIXELS_A_WORD) + direction)) - 1u);
+    return starts[word] + countOneBits(before);
 }
 
 // The side that follows where one ends (turn 3); with a sign of -1 and turn 1, the side that ends where it starts.
@@ -78,15 +71,23 @@ fn main(
     let element = element_index(wid, nwg, lid, WG);
     if element >= arrayLength(&sides) { return; }
 
-    sides[element] = 0u;
+    sides[element] = Side();
     links[element].next = element;
     links[element].prev = element;
     links[element].key = 0u;
     if element >= extent[0] { return; }
-    let pixel = holder_of(element, arrayLength(&starts));
-    let direction = nth_bit(masks[pixel], element - starts[pixel]);
+    let word = holder_of(element, arrayLength(&starts));
+    let bit = nth_bit(masks[word], element - starts[word]);
+    let pixel = PIXELS_A_WORD * word + bit / 4u;
+    let direction = bit & 3u;
     let at = pixel_of(pixel, textureDimensions(ink));
-    sides[element] = 4u * pixel + direction;
+    let number = textureLoad(ink, at, 0).r - 1u;
+    let segment = segments[number];
+    sides[element].code = 4u * pixel + direction;
+    sides[element].segment = number;
+    sides[element].nearest = bitcast<u32>(textureLoad(nearest, at, 0));
+    sides[element].extent.x = segment.end.x - segment.start.x;
+    sides[element].extent.y = segment.end.y - segment.start.y;
     links[element].next = neighbour(vec2<i32>(at), direction, 1, 3u);
     links[element].prev = neighbour(vec2<i32>(at), direction, -1, 1u);
     let code = spread(2u * at.x + (direction >> 1u)) | (spread(2u * at.y + (direction & 1u)) << 1u);

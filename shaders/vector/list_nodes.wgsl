@@ -10,8 +10,6 @@
 //# use lib/curve
 //# use lib/list
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<storage, read> extent: array<u32>;
 @group(0) @binding(1) var<storage, read> nodes: array<CurveNode>;
 @group(0) @binding(2) var<storage, read_write> links: array<Link>;

@@ -6,8 +6,6 @@
 //# use lib/grid
 //# use lib/curve
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<storage, read> front: array<u32>;
 @group(0) @binding(1) var<storage, read> half_edges: array<HalfEdge>;
 @group(0) @binding(2) var<storage, read_write> flags: array<u32>;

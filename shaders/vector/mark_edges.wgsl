@@ -9,8 +9,6 @@
 //# use lib/curve
 //# use lib/pixel
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> viewer: Viewer;
 @group(0) @binding(1) var<uniform> view: PixelView;
 @group(0) @binding(2) var<storage, read> positions: array<f32>;

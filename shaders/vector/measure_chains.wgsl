@@ -8,8 +8,6 @@
 //# use lib/grid
 //# use lib/list
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<storage, read> links: array<Link>;
 @group(0) @binding(1) var<storage, read> places: array<ListPosition>;
 @group(0) @binding(2) var<storage, read_write> lengths: array<u32>;

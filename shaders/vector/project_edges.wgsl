@@ -8,8 +8,6 @@
 //# use lib/grid
 //# use lib/pixel
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> view: PixelView;
 @group(0) @binding(1) var<storage, read> extent: array<u32>;
 @group(0) @binding(2) var<storage, read> list: array<u32>;

@@ -5,9 +5,8 @@
 // Source  Wyllie 1979; Rehman et al. 2009
 // Twin    npr_vector::rank::splitter::rank_splitters
 //
+//# use lib/grid
 //# use lib/list
-
-override WG: u32 = 64u;
 
 @group(0) @binding(0) var<uniform> rounds: u32;
 @group(0) @binding(1) var<storage, read> extent: array<u32>;

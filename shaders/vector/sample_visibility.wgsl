@@ -8,8 +8,6 @@
 //# use lib/window
 //# use lib/spine
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(1) var<uniform> window: Window;
 @group(0) @binding(2) var<storage, read> gbuffer: array<GPixel>;

@@ -5,8 +5,6 @@
 //
 //# use lib/grid
 
-override WG: u32 = 64u;
-
 const RUN: u32 = 8u;
 const BLOCK: u32 = 512u;
 

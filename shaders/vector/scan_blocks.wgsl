@@ -8,8 +8,6 @@
 //
 //# use lib/grid
 
-override WG: u32 = 64u;
-
 // Values of an invocation, and of a workgroup.
 const RUN: u32 = 8u;
 const BLOCK: u32 = 512u;

@@ -9,8 +9,6 @@
 //# use lib/grid
 //# use lib/list
 
-override WG: u32 = 64u;
-
 const RUN: u32 = 8u;
 const BLOCK: u32 = 512u;
 const BLOCKS_IN_ROW: u32 = 8191u;

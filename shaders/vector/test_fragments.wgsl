@@ -6,10 +6,8 @@
 //# use lib/grid
 //# use lib/pixel
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> view: PixelView;
-@group(0) @binding(1) var surfaces: texture_2d<u32>;
+@group(0) @binding(1) var surfaces: texture_depth_2d;
 @group(0) @binding(2) var occluder_depths: texture_2d<u32>;
 @group(0) @binding(3) var<storage, read> fragments: array<Fragment>;
 @group(0) @binding(4) var<storage, read_write> shown: array<u32>;
@@ -17,7 +15,7 @@ override WG: u32 = 64u;
 // Reversed depth of the surface that hides lines at a pixel; occluder depths of another size than the picture count as
 // none.
 fn hidden_behind(at: vec2<u32>) -> f32 {
-    let z = bitcast<f32>(textureLoad(surfaces, at, 0).x);
+    let z = textureLoad(surfaces, at, 0);
     if any(textureDimensions(occluder_depths) != textureDimensions(surfaces)) { return z; }
     return max(z, bitcast<f32>(textureLoad(occluder_depths, at, 0).x));
 }

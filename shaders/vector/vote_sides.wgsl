@@ -6,8 +6,6 @@
 //# use lib/grid
 //# use lib/looped
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> rule: CullRule;
 @group(0) @binding(1) var<storage, read> spots: array<Spot>;
 @group(0) @binding(2) var<storage, read> kept_in: array<u32>;

@@ -8,8 +8,6 @@
 //# use lib/grid
 //# use lib/list
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<storage, read> links: array<Link>;
 @group(0) @binding(1) var<storage, read> flags: array<u32>;
 @group(0) @binding(2) var<storage, read> slots: array<u32>;

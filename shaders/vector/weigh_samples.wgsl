@@ -6,8 +6,6 @@
 //# use lib/grid
 //# use lib/spine
 
-override WG: u32 = 64u;
-
 @group(0) @binding(0) var<uniform> radius: u32;
 @group(0) @binding(1) var<storage, read> samples: array<SpineSample>;
 @group(0) @binding(2) var<storage, read> line_starts: array<u32>;

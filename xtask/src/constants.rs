@@ -93,6 +93,8 @@ const TWINS: &[Twins] = &[
     twins("lib/smoke_pen.wgsl", "", "npr-style/src/smoke/pen.rs", ""),
     twins("lib/stamp.wgsl", "", "npr-vector/src/screen/residual.rs", ""),
     twins("lib/stretch.wgsl", "UNLIKE_WALLS", "npr-style/src/backdrop/gather.rs", "UNLIKE"),
+    twins("lib/grid.wgsl", "WG", "npr-gpu/src/pass.rs", "WORKGROUP_SIZE"),
+    twins("lib/ink.wgsl", "", "npr-vector/src/pixel_strokes/side.rs", ""),
     twins("lib/texture.wgsl", "", "npr-core/src/texture.rs", ""),
     twins("lib/tone_row.wgsl", "", "npr-style/src/tone_row.rs", ""),
     twins("lib/smoke_cover.wgsl", "SMOKE_LAYER_", "npr-style/src/smoke/resolve.rs", ""),

@@ -10,7 +10,9 @@ use crate::timings::DRAW;
 use npr_gpu::engine::{Engine, EngineError};
 use npr_gpu::processor::Processor;
 use npr_render::RenderError;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
+use std::panic::resume_unwind;
+use std::thread::{self, JoinHandle};
 
 /// A frame or its lines, and the engine that drew it.
 #[derive(Debug)]
@@ -27,41 +29,101 @@ type Picture<'a, T> = &'a dyn Fn(&dyn Engine) -> Result<T, RenderError>;
 /// Opens a graphics device.
 type Open<'a> = &'a dyn Fn() -> Result<Box<dyn Engine>, EngineError>;
 
-/// Draws a picture on the engine that `arguments` ask for.
-///
-/// A device that is lost is opened once more. Where it fails again, or fails otherwise, the processor
-/// takes over if the choice is automatic, after a word to `warn`.
-fn draw<T>(
-    arguments: &DrawingArguments,
-    picture: Picture<'_, T>,
-    warn: &dyn Fn(&str),
-) -> Result<Drawn<T>, Fault> {
-    let times_passes = arguments.timings.is_some();
-    let open = |choice| move || hardware::open(choice, times_passes);
-    let drawn = match arguments.backend {
-        Backend::Cpu => draw_on(&Processor, picture),
-        Backend::Gpu => draw_on_device(&open(DeviceChoice::Any), picture),
-        Backend::Auto => draw_somewhere(&open(DeviceChoice::Hardware), picture, warn),
-    };
-    drawn.map_err(Fault::from)
+/// A device, or why there is none.
+type Opened = Result<Box<dyn Engine + Send>, EngineError>;
+
+/// The engine that the user asked for. A device opens beside other work: drivers take some tens of milliseconds.
+pub struct EngineChoice<'a> {
+    arguments: &'a DrawingArguments,
+    /// The device that is being opened; taken by the first that wants one.
+    opening: Cell<Option<JoinHandle<Opened>>>,
 }
 
-/// Draws a picture as a step of the run, on the engine that `arguments` ask for; warnings follow when the step is over.
-pub fn draw_as_step<T>(
-    arguments: &DrawingArguments,
-    picture: Picture<'_, T>,
-    progress: &mut Progress,
-) -> Result<Drawn<T>, Fault> {
-    let warnings = RefCell::new(Vec::new());
-    let drawn = progress.step(DRAW, || {
-        draw(arguments, picture, &|text| {
-            warnings.borrow_mut().push(text.to_owned());
-        })
-    });
-    for text in warnings.into_inner() {
-        progress.suspend(|| message::warn(arguments.quiet, &text));
+impl<'a> EngineChoice<'a> {
+    /// Begins to open the device that `arguments` ask for, where they ask for one.
+    pub fn begin(arguments: &'a DrawingArguments) -> Self {
+        let choice = Self {
+            arguments,
+            opening: Cell::new(None),
+        };
+        if let Some(devices) = choice.devices() {
+            let times_passes = choice.times_passes();
+            let open = move || hardware::open(devices, times_passes);
+            // Where no thread can be had, the device opens when it is wanted.
+            choice.opening.set(thread::Builder::new().spawn(open).ok());
+        }
+        choice
     }
-    drawn
+
+    /// The devices that may draw.
+    fn devices(&self) -> Option<DeviceChoice> {
+        match self.arguments.backend {
+            Backend::Cpu => None,
+            Backend::Gpu => Some(DeviceChoice::Any),
+            Backend::Auto => Some(DeviceChoice::Hardware),
+        }
+    }
+
+    fn times_passes(&self) -> bool {
+        self.arguments.timings.is_some()
+    }
+
+    /// The device that was begun, once; later ones are opened anew.
+    fn open(&self, devices: DeviceChoice) -> Result<Box<dyn Engine>, EngineError> {
+        let opened = match self.opening.take() {
+            Some(opening) => joined(opening),
+            None => hardware::open(devices, self.times_passes()),
+        };
+        opened.map(|device| device as Box<dyn Engine>)
+    }
+
+    /// Draws a picture on the engine.
+    ///
+    /// A device that is lost is opened once more. Where it fails again, or fails otherwise, the processor takes over if
+    /// the choice is automatic, after a word to `warn`.
+    fn draw<T>(&self, picture: Picture<'_, T>, warn: &dyn Fn(&str)) -> Result<Drawn<T>, Fault> {
+        let drawn = match self.devices() {
+            None => draw_on(&Processor, picture),
+            Some(devices) => {
+                let open = || self.open(devices);
+                match devices {
+                    DeviceChoice::Any => draw_on_device(&open, picture),
+                    DeviceChoice::Hardware => draw_somewhere(&open, picture, warn),
+                }
+            }
+        };
+        drawn.map_err(Fault::from)
+    }
+
+    /// Draws a picture as a step of the run; warnings follow when the step is over.
+    pub fn draw_as_step<T>(
+        &self,
+        picture: Picture<'_, T>,
+        progress: &mut Progress,
+    ) -> Result<Drawn<T>, Fault> {
+        let warnings = RefCell::new(Vec::new());
+        let drawn = progress.step(DRAW, || {
+            self.draw(picture, &|text| {
+                warnings.borrow_mut().push(text.to_owned());
+            })
+        });
+        for text in warnings.into_inner() {
+            progress.suspend(|| message::warn(self.arguments.quiet, &text));
+        }
+        drawn
+    }
+}
+
+impl Drop for EngineChoice<'_> {
+    /// Waits for a device that nobody wanted: a program must not end while a driver starts.
+    fn drop(&mut self) {
+        drop(self.opening.take().map(JoinHandle::join));
+    }
+}
+
+/// What a thread opened; its panic goes on here.
+fn joined(opening: JoinHandle<Opened>) -> Opened {
+    opening.join().unwrap_or_else(|panic| resume_unwind(panic))
 }
 
 fn draw_somewhere<T>(
@@ -118,7 +180,6 @@ mod tests {
     use super::*;
     use npr_gpu::engine::Session;
     use npr_gpu::graph::Graph;
-    use std::cell::Cell;
 
     fn lost() -> RenderError {
         RenderError::Engine(EngineError::Lost {

@@ -6,7 +6,10 @@ use npr_gpu::device::{self, AdapterChoice, AdapterKind, AdapterSummary, Device};
 use npr_gpu::engine::{Engine, EngineError};
 
 /// The best device that `choice` admits; with `times_passes`, one whose times of passes can be believed.
-pub fn open(choice: DeviceChoice, times_passes: bool) -> Result<Box<dyn Engine>, EngineError> {
+pub fn open(
+    choice: DeviceChoice,
+    times_passes: bool,
+) -> Result<Box<dyn Engine + Send>, EngineError> {
     let choice = match choice {
         DeviceChoice::Hardware => AdapterChoice::Hardware,
         DeviceChoice::Any => AdapterChoice::Any,

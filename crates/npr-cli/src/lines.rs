@@ -4,7 +4,7 @@ use crate::arguments::{
     Backend, LineArguments, LineFormat, LinesArguments, RenderArguments, SheetArguments,
 };
 use crate::dump::dump_style;
-use crate::engine::{self, Drawn};
+use crate::engine::{Drawn, EngineChoice};
 use crate::fault::{Exit, Fault};
 use crate::idle;
 use crate::line_file;
@@ -67,10 +67,11 @@ pub fn lines_of_picture(args: &RenderArguments) -> Result<(), Fault> {
 /// From the scene's file to the drawing's.
 fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, Fault> {
     line_file::check_memory(job)?;
+    let engine = EngineChoice::begin(&job.args.drawing);
     let model = prepare(job, progress)?;
     let lines = &model.lines;
     let camera = viewpoint::camera(&job.args.drawing.camera, lines, job.args.drawing.size)?;
-    let drawn = draw_lines(job, &model, &camera, progress)?;
+    let drawn = draw_lines((job, &engine), &model, &camera, progress)?;
     let drawing = &drawn.picture.drawing;
     progress.suspend(|| {
         message::warn_all(job.args.drawing.quiet, &drawing.notices);
@@ -106,7 +107,7 @@ struct LineFrame {
 }
 
 fn draw_lines(
-    job: &LineJob<'_>,
+    (job, engine): (&LineJob<'_>, &EngineChoice<'_>),
     model: &Prepared,
     camera: &Camera,
     progress: &mut Progress,
@@ -118,7 +119,7 @@ fn draw_lines(
             times: renderer.times().to_vec(),
         })
     };
-    let drawn = engine::draw_as_step(&job.args.drawing, &picture, progress)?;
+    let drawn = engine.draw_as_step(&picture, progress)?;
     let reported = match job.options.method {
         LineSource::Edges | LineSource::Potrace => None,
         LineSource::Surface => {

@@ -5,7 +5,7 @@ use crate::device_choice::DeviceChoice;
 use npr_gpu::engine::{Engine, EngineError};
 
 /// Always fails.
-pub fn open(_: DeviceChoice, _: bool) -> Result<Box<dyn Engine>, EngineError> {
+pub fn open(_: DeviceChoice, _: bool) -> Result<Box<dyn Engine + Send>, EngineError> {
     Err(EngineError::NoDevice {
         reason: "this build draws on the processor only".to_owned(),
     })

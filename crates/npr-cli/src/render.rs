@@ -5,7 +5,7 @@ use crate::bands::draw_into;
 use crate::dump::dump_style;
 use crate::encoder;
 use crate::ending::has_ending;
-use crate::engine::{self, Drawn};
+use crate::engine::{Drawn, EngineChoice};
 use crate::fault::Fault;
 use crate::idle;
 use crate::job::Job;
@@ -51,7 +51,8 @@ pub fn render(args: &RenderArguments) -> Result<(), Fault> {
 
 /// From the scene's file to the picture's.
 fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
-    // Load the scene and look at it.
+    // Load the scene and look at it, while a device opens.
+    let engine = EngineChoice::begin(&job.args.drawing);
     let (prepared, smoke) = prepare(job, progress)?;
     let empty = Smoke::default();
     let camera = prepared.camera(&job.args.drawing, smoke.as_ref().unwrap_or(&empty))?;
@@ -62,7 +63,7 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     };
 
     // Draw it, whole or band by band into its file.
-    let drawn = draw_frame(job, &prepared, &options, &camera, progress)?;
+    let drawn = draw_frame((job, &engine), &prepared, &options, &camera, progress)?;
     let (frame, is_written) = match drawn.picture {
         Picture::Whole(frame) => (frame, false),
         Picture::InBands(written) => (written?, true),
@@ -202,7 +203,7 @@ fn warn_of<'a>(job: &Job<'_>, model: &'a Model, of_smoke: impl Iterator<Item = &
 }
 
 fn draw_frame(
-    job: &Job<'_>,
+    (job, engine): (&Job<'_>, &EngineChoice<'_>),
     prepared: &Prepared,
     options: &RendererOptions,
     camera: &Camera,
@@ -223,5 +224,5 @@ fn draw_frame(
     };
 
     // Draw on the engine asked for.
-    engine::draw_as_step(&job.args.drawing, &picture, progress)
+    engine.draw_as_step(&picture, progress)
 }

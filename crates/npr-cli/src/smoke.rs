@@ -3,7 +3,7 @@
 use crate::arguments::{SmokeArguments, TimingsForm};
 use crate::dump::dump_style;
 use crate::encoder;
-use crate::engine::{self, Drawn};
+use crate::engine::{Drawn, EngineChoice};
 use crate::fault::{Exit, Fault};
 use crate::idle;
 use crate::job;
@@ -286,7 +286,8 @@ fn draw_film(
         Ok::<(), RenderError>(())
     };
     let quiet = job.args.drawing.quiet;
-    let drawn = engine::draw_as_step(&job.args.drawing, &pictures, progress)?;
+    let engine = EngineChoice::begin(&job.args.drawing);
+    let drawn = engine.draw_as_step(&pictures, progress)?;
     if let Some(fault) = screening.failed.into_inner() {
         return Err(fault);
     }

@@ -311,14 +311,10 @@ fn share(bytes: u64, part: u64, all: u64) -> u64 {
 /// Places in the text of a pass at which a workgroup waits for itself.
 fn waits(pass: &Pass, features: Features) -> u64 {
     let text = npr_shaders::link(&pass.shader, features);
-    let code = text
-        .lines()
-        .map(|line| line.split("//").next().unwrap_or(line));
-    code.map(|line| {
-        let calls = WAITS.iter().map(|call| line.matches(call).count() as u64);
-        calls.sum::<u64>()
-    })
-    .sum()
+    WAITS
+        .iter()
+        .map(|call| text.matches(call).count() as u64)
+        .sum()
 }
 
 /// What was used since the last barrier.

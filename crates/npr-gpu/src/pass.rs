@@ -6,7 +6,7 @@ pub use npr_shaders::Features;
 use npr_shaders::Shader;
 pub use npr_vector::rank::scan::RUN;
 
-/// Invocations per workgroup of every compute pass: the shader's `override WG`.
+/// Invocations per workgroup of every compute pass: `WG` of the shaders.
 pub const WORKGROUP_SIZE: u32 = 64;
 
 /// One step of a frame, on either engine.

@@ -9,7 +9,7 @@ use criterion::{
 };
 use npr_core::math::mix_bits;
 use npr_vector::pixel_strokes::ranked_sides;
-use npr_vector::pixel_strokes::side::{Ink, link_sides, mark_sides};
+use npr_vector::pixel_strokes::side::{Ink, PIXELS_A_WORD, Side, link_sides, mark_sides};
 use npr_vector::rank::scan::exclusive_scan;
 use npr_vector::rank::{self, Link, RankError, Ranked};
 use std::time::Duration;
@@ -137,12 +137,14 @@ const PICTURES: [Pictures; 3] = [
 
 /// Links of all sides, all pixels at once.
 fn linked(ink: &Ink<'_>) -> Vec<Link> {
-    let (mut masks, mut counts) = (vec![0; ink.pixels.len()], vec![0; ink.pixels.len()]);
+    let word_count = ink.pixels.len().div_ceil(PIXELS_A_WORD);
+    let (mut masks, mut counts) = (vec![0; word_count], vec![0; word_count]);
     mark_sides(ink, &mut masks, &mut counts);
     let (starts, total) = exclusive_scan(&counts);
-    let mut sides = vec![0; total as usize];
+    let mut sides = vec![Side::default(); total as usize];
     let mut links = vec![Link::default(); total as usize];
-    link_sides(&[total], ink, &masks, &starts, &mut sides, &mut links);
+    let picture = (*ink).into();
+    link_sides(&[total], &picture, &masks, &starts, &mut sides, &mut links);
     links
 }
 
@@ -181,7 +183,7 @@ fn link_pictures(c: &mut Criterion) {
                 b.iter(|| linked(&ink));
             });
             group.bench_function(BenchmarkId::new("links and rows", count), |b| {
-                b.iter(|| ranked_sides(&ink, None).expect("loops"));
+                b.iter(|| ranked_sides(&ink.into(), None).expect("loops"));
             });
         }
         group.finish();

@@ -42,7 +42,7 @@ pub use npr_core::published_path::PublishedPath;
 use npr_core::window::View;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use segment::{Drawn, PixelView, Segment, project_edges};
-use side::{Ink, link_sides, mark_sides};
+use side::{Ink, InkPicture, PIXELS_A_WORD, Side, link_sides, mark_sides};
 pub use surface::scene_depths;
 
 /// Bytes for each pixel of a picture that [`trace`] takes: what shows, how deep, and the sides.
@@ -97,7 +97,7 @@ fn radius_of(shape: &HalfEdgeMesh) -> f32 {
     0.5 * square.map(|side| side * side).sum::<f32>().sqrt()
 }
 
-/// A picture of lines with the sides of its pixels in rows.
+/// The sides of the pixels of a picture of lines, in rows.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Traced {
     /// Width and height of the picture.
@@ -106,12 +106,8 @@ pub struct Traced {
     pub view: PixelView,
     /// All edges drawn, as they lie on the fine grid.
     pub segments: Vec<Segment>,
-    /// Number of the segment that every pixel shows plus one; 0 where it shows none.
-    pub owners: Vec<u32>,
-    /// Reversed depth of the fragment that shows there, as bits.
-    pub nearest: Vec<u32>,
-    /// Four times the pixel plus the direction of every side.
-    pub sides: Vec<u32>,
+    /// The sides of all pixels that show a segment.
+    pub sides: Vec<Side>,
     /// The numbers of all sides, loop after loop.
     pub order: Vec<u32>,
     /// The place of every side in its loop.
@@ -142,19 +138,21 @@ pub fn trace(
     let (owners, nearest) = draw(&view, scene, &segments, &counts);
 
     // Link and rank the sides of the ink.
-    let ink = Ink {
-        size: view.size,
-        pixels: &owners,
+    let picture = InkPicture {
+        ink: Ink {
+            size: view.size,
+            pixels: &owners,
+        },
+        nearest: &nearest,
+        segments: &segments,
     };
-    let (sides, ranked) = ranked_sides(&ink, path.round_limit())?;
+    let (sides, ranked) = ranked_sides(&picture, path.round_limit())?;
     Ok(Traced {
         size: view.size,
         view,
         standings: standings_of(&ranked),
         order: ranked.order,
         segments,
-        owners,
-        nearest,
         sides,
     })
 }
@@ -239,7 +237,7 @@ fn draw(
     (owners, nearest)
 }
 
-/// The sides of an image of ink, as four times pixel plus direction, and their ranked loops.
+/// The sides of a picture of ink, and their ranked loops.
 ///
 /// Each loop starts at its side with the greatest Morton code, loops come by that side. `rounds` bounds pointer
 /// jumping; without it the links are walked, which gives the same.
@@ -247,13 +245,20 @@ fn draw(
 /// # Errors
 ///
 /// [`RankError::Unsettled`] where the rounds are too few.
-pub fn ranked_sides(ink: &Ink<'_>, rounds: Option<u32>) -> Result<(Vec<u32>, Ranked), RankError> {
-    let (mut masks, mut counts) = (vec![0; ink.pixels.len()], vec![0; ink.pixels.len()]);
-    mark_sides(ink, &mut masks, &mut counts);
+pub fn ranked_sides(
+    picture: &InkPicture<'_>,
+    rounds: Option<u32>,
+) -> Result<(Vec<Side>, Ranked), RankError> {
+    // Mark and link the sides.
+    let word_count = picture.ink.pixels.len().div_ceil(PIXELS_A_WORD);
+    let (mut masks, mut counts) = (vec![0; word_count], vec![0; word_count]);
+    mark_sides(&picture.ink, &mut masks, &mut counts);
     let (starts, total) = exclusive_scan(&counts);
-    let mut sides = vec![0; total as usize];
+    let mut sides = vec![Side::default(); total as usize];
     let mut links = vec![Default::default(); total as usize];
-    link_sides(&[total], ink, &masks, &starts, &mut sides, &mut links);
+    link_sides(&[total], picture, &masks, &starts, &mut sides, &mut links);
+
+    // Rank their loops.
     let (next, keys): (Vec<u32>, Vec<u32>) = links.iter().map(|link| (link.next, link.key)).unzip();
     let ranked = match rounds {
         Some(_) => wyllie(&next, &keys, rounds)?,

@@ -103,13 +103,7 @@ fn the_published_path_takes_polylines_as_the_processor_does() {
             .iter()
             .filter(|segment| shape.polyline_of(segment.edge).is_some());
         assert_eq!(of_polylines.count(), 300);
-        let differ = traced
-            .owners
-            .iter()
-            .zip(&expected.owners)
-            .filter(|(a, b)| a != b)
-            .count();
-        let inked = expected.owners.iter().filter(|owner| **owner != 0).count();
+        let [differ, inked] = super::pixel_strokes::off_pixels(&traced, &expected);
         assert!(inked > 1000 && differ * 500 <= inked, "{differ} of {inked}");
         assert!(loops.spots == Loops::new(&traced, &path).spots);
         // Surfaces without lines take those of their polylines with them.

@@ -14,6 +14,7 @@ use npr_vector::pixel_strokes::edge::DrawnEdge;
 use npr_vector::pixel_strokes::fragment::Fragment;
 use npr_vector::pixel_strokes::looped::{Filter, Planar, SpeckRule, Spot};
 use npr_vector::pixel_strokes::segment::{PixelView, Segment};
+use npr_vector::pixel_strokes::side::{PIXELS_A_WORD, Side};
 use npr_vector::pixel_strokes::strip::{CullRule, StripSpot};
 use npr_vector::pixel_strokes::{PixelScene, PublishedPath};
 use npr_vector::rank::Link;
@@ -93,11 +94,7 @@ pub struct PixelContours {
     pub segment_count: ResourceId,
     /// Number of fragments of the segments that have room: one element.
     pub fragment_count: ResourceId,
-    /// Segment of every pixel plus one: an image.
-    pub owners: ResourceId,
-    /// Its reversed depth as bits: an image.
-    pub nearest: ResourceId,
-    /// Pixel and direction of every side.
+    /// [`Side`]s.
     pub sides: ResourceId,
     /// Number of sides: one element.
     pub side_count: ResourceId,
@@ -109,9 +106,9 @@ pub struct PixelContours {
 
 /// Appends passes from a shape to the ranked sides of its contours' pixels, for a picture of `size` pixels.
 ///
-/// Takes 36 bytes a pixel, 4 more with occluder depths, 12 a fragment, and about 180 a side. Where counts exceed the
-/// room, the content is of no use, and the host runs a graph with more room. Passes over edges drawn, fragments and
-/// sides work on as many as are found.
+/// Takes 10 bytes a pixel, 4 more with occluder depths and 8 with these alone, 12 a fragment, and about 200 a side.
+/// Where counts exceed the room, the content is of no use, and the host runs a graph with more room. Passes over edges
+/// drawn, fragments and sides work on as many as are found.
 pub fn add_pixel_contours(
     graph: &mut Graph,
     shape: &HalfEdgeMesh,
@@ -154,13 +151,16 @@ pub fn add_pixel_contours(
     let starts = add_scan(graph, counts, &drawn);
 
     // Draw the surfaces that may hide them.
-    let pixel_count = size[0] as usize * size[1] as usize;
-    let surfaces = graph.image("surfaces", Format::U32, size);
-    if hiding != Hiding::Given {
-        let depths = graph.image("depths of surfaces", Format::Depth, size);
-        let (bound, targets) = ([view, positions, half_edges], [surfaces, depths]);
-        graph.draw(&pixels::DRAW_SURFACES, &bound, &targets, true);
-    }
+    let surfaces = graph.image("surfaces", Format::Depth, size);
+    let nearest = match hiding {
+        Hiding::Given => graph.image("nearest", Format::Depth, size),
+        Hiding::Surfaces | Hiding::Veiled => {
+            let bound = [view, positions, half_edges];
+            graph.draw(&pixels::DRAW_SURFACES, &bound, &[surfaces], true);
+            // Once fragments are tested, their own depths may take the place of those of surfaces.
+            surfaces
+        }
+    };
     let is_occluded = hiding != Hiding::Surfaces;
     let occluder_depths = graph.image(
         "occluder_depths",
@@ -169,14 +169,14 @@ pub fn add_pixel_contours(
     );
 
     // Draw what is seen of them, and trace the sides of their pixels.
-    let [owners, nearest] = add_picture(
+    let picture = add_picture(
         graph,
-        (view, [surfaces, occluder_depths]),
+        (view, [surfaces, occluder_depths, nearest]),
         (count, starts, segments),
         (size, room.fragments),
     );
     let (sides, side_count, links, side_work) =
-        add_sides(graph, owners, pixel_count, (room.sides, scheme));
+        add_sides(graph, (picture, segments), size, (room.sides, scheme));
     PixelContours {
         viewer,
         view,
@@ -188,8 +188,6 @@ pub fn add_pixel_contours(
         segments,
         segment_count: count,
         fragment_count: starts.total,
-        owners,
-        nearest,
         sides,
         side_count,
         side_work,
@@ -197,10 +195,11 @@ pub fn add_pixel_contours(
     }
 }
 
-/// Makes, tests and draws fragments; gives the owners of pixels and their depths.
+/// Makes, tests and draws fragments; gives the segments of pixels, plus one, and their depths, which are drawn into
+/// `nearest`.
 fn add_picture(
     graph: &mut Graph,
-    (view, [surfaces, occluder_depths]): (ResourceId, [ResourceId; 2]),
+    (view, [surfaces, occluder_depths, nearest]): (ResourceId, [ResourceId; 3]),
     (segment_count, starts, segments): (ResourceId, Scan, ResourceId),
     (size, room): ([u32; 2], usize),
 ) -> [ResourceId; 2] {
@@ -222,11 +221,9 @@ fn add_picture(
 
     // Draw the nearest one into every pixel.
     let owners = graph.image("owners", Format::U32, size);
-    let nearest = graph.image("nearest", Format::U32, size);
-    let depths = graph.image("depths of lines", Format::Depth, size);
     graph.draw_sized(
         &pixels::DRAW_NEAREST,
-        (&[view, fragments, shown], &[owners, nearest, depths]),
+        (&[view, fragments, shown], &[owners, nearest]),
         true,
         work.draw(),
     );
@@ -236,22 +233,32 @@ fn add_picture(
 /// Marks, counts and links the sides of the picture's pixels; gives these and the sizes of passes over them.
 fn add_sides(
     graph: &mut Graph,
-    owners: ResourceId,
-    pixel_count: usize,
+    ([owners, nearest], segments): ([ResourceId; 2], ResourceId),
+    size: [u32; 2],
     (room, scheme): (usize, Scheme),
 ) -> (ResourceId, ResourceId, ResourceId, ListWork) {
-    let masks = graph.buffer::<u32>("side masks", pixel_count);
-    let counts = graph.buffer::<u32>("sides of pixels", pixel_count);
+    // Count them.
+    let word_count = (size[0] as usize * size[1] as usize).div_ceil(PIXELS_A_WORD);
+    let masks = graph.buffer::<u32>("side masks", word_count);
+    let counts = graph.buffer::<u32>("sides of words", word_count);
     graph.compute(&pixels::MARK_SIDES, &[owners, masks, counts]);
     let starts = add_scan(graph, counts, &ListWork::WHOLE);
     let work = add_work(graph, starts.total, room, scheme.indirect(room));
-    let sides = graph.buffer::<u32>("sides", room);
+
+    // Link them.
+    let sides = graph.buffer::<Side>("sides", room);
     let links = graph.buffer::<Link>("links", room);
-    graph.compute_sized(
-        &pixels::LINK_SIDES,
-        &[starts.total, owners, masks, starts.prefixes, sides, links],
-        work.elements(),
-    );
+    let bound = [
+        starts.total,
+        owners,
+        nearest,
+        segments,
+        masks,
+        starts.prefixes,
+        sides,
+        links,
+    ];
+    graph.compute_sized(&pixels::LINK_SIDES, &bound, work.elements());
     (sides, starts.total, links, work)
 }
 
@@ -307,11 +314,10 @@ pub fn add_strips(graph: &mut Graph, on: &PixelContours, path: &PublishedPath) -
         ["places", "directions"].map(|name| graph.buffer::<Planar>(name, count));
     let areas = graph.buffer::<u32>("areas", count);
     let bound = [
+        on.view,
         rows.order,
         rows.standings,
         on.sides,
-        on.owners,
-        on.segments,
         spots,
         places,
         directions,
@@ -485,7 +491,7 @@ impl PixelContours {
     /// What a run finds, to be read.
     pub(super) fn results(&self) -> Vec<ResourceId> {
         let counts = [self.segment_count, self.fragment_count, self.side_count];
-        let found = [self.segments, self.owners, self.nearest, self.sides];
+        let found = [self.segments, self.sides];
         [&counts[..], &found, &self.lists.results()].concat()
     }
 

@@ -212,15 +212,13 @@ impl Made {
         count: PixelRoom,
         read: &mut Readings,
     ) -> Result<(Traced, Loops), CurvesError> {
-        // Take the picture and the sides of its pixels in rows.
+        // Take the segments and the sides of their pixels in rows.
         let (from, strips) = (&self.contours, &self.strips);
         let ranked = ranked(read, &from.lists, count.sides)?;
         let traced = Traced {
             size: view.size,
             view,
             segments: read.take_first(from.segments, count.segments),
-            owners: read.take(from.owners),
-            nearest: read.take(from.nearest),
             sides: read.take_first(from.sides, count.sides),
             standings: standings_of(&ranked),
             order: ranked.order,

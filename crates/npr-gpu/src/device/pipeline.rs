@@ -3,7 +3,7 @@
 use super::gpu::Gpu;
 use super::image::texture_format;
 use crate::engine::EngineError;
-use crate::pass::{Access, Format, Pass, Slot, WORKGROUP_SIZE, Work};
+use crate::pass::{Access, Format, Pass, Slot, Work};
 use npr_shaders::Features;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -173,10 +173,7 @@ fn compile_compute(
         layout: Some(bindings),
         module,
         entry_point: Some("main"),
-        compilation_options: wgpu::PipelineCompilationOptions {
-            constants: &[("WG", f64::from(WORKGROUP_SIZE))],
-            ..wgpu::PipelineCompilationOptions::default()
-        },
+        compilation_options: wgpu::PipelineCompilationOptions::default(),
         cache: None,
     })
 }

@@ -3,13 +3,13 @@
 //! [`crate::curves::pixels`] lines them up. Up to the links of sides they are exact; smoothing agrees within rounding,
 //! so a side whose direction lies on a threshold may be kept by one engine alone.
 
-use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
+use crate::pass::{Agreement, Format, Image, Pass, Work, read, texture, uniform, write};
 use npr_vector::mesh_lines::contour::steps::{HalfEdge, Viewer};
 use npr_vector::pixel_strokes::edge::{DrawnEdge, Facing, mark_edges};
 use npr_vector::pixel_strokes::fragment::{self, Fragment};
 use npr_vector::pixel_strokes::looped::{self, Filter, Gathered, Ordered, Planar, SpeckRule, Spot};
 use npr_vector::pixel_strokes::segment::{Drawn, PixelView, Segment, project_edges};
-use npr_vector::pixel_strokes::side::{self, Ink};
+use npr_vector::pixel_strokes::side::{self, Ink, InkPicture, Side};
 use npr_vector::pixel_strokes::strip::{self, CullRule, StripSpot};
 use npr_vector::pixel_strokes::surface;
 use npr_vector::rank::Link;
@@ -74,7 +74,7 @@ pub const PROJECT_EDGES: Pass = Pass {
     },
 };
 
-/// Depths of the surfaces that hide lines, as bits.
+/// Depths of the surfaces that hide lines.
 pub const DRAW_SURFACES: Pass = Pass {
     name: "vector.draw_surfaces",
     shader: npr_shaders::VECTOR_DRAW_SURFACES,
@@ -86,7 +86,7 @@ pub const DRAW_SURFACES: Pass = Pass {
     work: Work::Draw {
         of: "half_edges",
         vertices: 1,
-        targets: &[Format::U32, Format::Depth],
+        targets: &[Format::Depth],
         fills: true,
     },
     // Corners lie within 1/256 of a pixel, and a device is free in which: slopes shift depths, and edges shift pixels.
@@ -95,9 +95,8 @@ pub const DRAW_SURFACES: Pass = Pass {
         bound: 1e-4,
     },
     twin: |b| {
-        let (bits, depths) = (b.image_mut(3), b.image_mut(4));
-        surface::draw_surfaces(&b.one(0), b.read(1), b.read(2), bits.texels);
-        depths.texels.copy_from_slice(bits.texels);
+        let depths = b.image_mut(3);
+        surface::draw_surfaces(&b.one(0), b.read(1), b.read(2), depths.texels);
     },
 };
 
@@ -135,7 +134,7 @@ pub const TEST_FRAGMENTS: Pass = Pass {
     shader: npr_shaders::VECTOR_TEST_FRAGMENTS,
     slots: &[
         uniform::<PixelView>("view"),
-        texture("surfaces", Format::U32),
+        texture("surfaces", Format::Depth),
         texture("occluder_depths", Format::U32),
         read::<Fragment>("fragments"),
         write::<u32>("shown"),
@@ -148,7 +147,7 @@ pub const TEST_FRAGMENTS: Pass = Pass {
     },
 };
 
-/// The nearest fragment of every pixel, and its reversed depth as bits.
+/// The nearest fragment of every pixel, and its reversed depth.
 pub const DRAW_NEAREST: Pass = Pass {
     name: "vector.draw_nearest",
     shader: npr_shaders::VECTOR_DRAW_NEAREST,
@@ -161,17 +160,16 @@ pub const DRAW_NEAREST: Pass = Pass {
         of: "fragments",
         fills: false,
         vertices: 3,
-        targets: &[Format::U32, Format::U32, Format::Depth],
+        targets: &[Format::U32, Format::Depth],
     },
     agreement: Agreement::Exact,
     twin: |b| {
-        let (owners, nearest, depths) = (b.image_mut(3), b.image_mut(4), b.image_mut(5));
-        fragment::draw_nearest(b.read(1), b.read(2), owners.texels, depths.texels);
-        nearest.texels.copy_from_slice(depths.texels);
+        let (owners, nearest) = (b.image_mut(3), b.image_mut(4));
+        fragment::draw_nearest(b.read(1), b.read(2), owners.texels, nearest.texels);
     },
 };
 
-/// The sides of inked pixels.
+/// The sides of inked pixels, eight pixels a word.
 pub const MARK_SIDES: Pass = Pass {
     name: "vector.mark_sides",
     shader: npr_shaders::VECTOR_MARK_SIDES,
@@ -182,38 +180,33 @@ pub const MARK_SIDES: Pass = Pass {
     ],
     work: Work::PerElement { of: "masks" },
     agreement: Agreement::Exact,
-    twin: |b| {
-        let image = b.image(0);
-        let ink = Ink {
-            size: image.size,
-            pixels: image.texels,
-        };
-        side::mark_sides(&ink, b.write(1), b.write(2));
-    },
+    twin: |b| side::mark_sides(&ink_of(b.image(0)), b.write(1), b.write(2)),
 };
 
-/// Sides linked to those before and after them.
+/// Sides linked to those before and after them, with what shows at their pixels.
 pub const LINK_SIDES: Pass = Pass {
     name: "vector.link_sides",
     shader: npr_shaders::VECTOR_LINK_SIDES,
     slots: &[
         read::<u32>("extent"),
         texture("ink", Format::U32),
+        texture("nearest", Format::Depth),
+        read::<Segment>("segments"),
         read::<u32>("masks"),
         read::<u32>("starts"),
-        write::<u32>("sides"),
+        write::<Side>("sides"),
         write::<Link>("links"),
     ],
     work: Work::PerElement { of: "sides" },
     agreement: Agreement::Exact,
     twin: |b| {
-        let image = b.image(1);
-        let ink = Ink {
-            size: image.size,
-            pixels: image.texels,
+        let picture = InkPicture {
+            ink: ink_of(b.image(1)),
+            nearest: b.image(2).texels,
+            segments: b.read(3),
         };
-        let (sides, links) = (b.write(4), b.write(5));
-        side::link_sides(b.read(0), &ink, b.read(2), b.read(3), sides, links);
+        let (sides, links) = (b.write(6), b.write(7));
+        side::link_sides(b.read(0), &picture, b.read(4), b.read(5), sides, links);
     },
 };
 
@@ -222,11 +215,10 @@ pub const GATHER_SIDES: Pass = Pass {
     name: "vector.gather_sides",
     shader: npr_shaders::VECTOR_GATHER_SIDES,
     slots: &[
+        uniform::<PixelView>("view"),
         read::<u32>("order"),
         read::<Standing>("standings"),
-        read::<u32>("sides"),
-        texture("owners", Format::U32),
-        read::<Segment>("segments"),
+        read::<Side>("sides"),
         write::<Spot>("spots"),
         write::<Planar>("places"),
         write::<Planar>("directions"),
@@ -236,23 +228,28 @@ pub const GATHER_SIDES: Pass = Pass {
     agreement: Agreement::Relative(1e-5),
     twin: |b| {
         let into = Gathered {
-            spots: b.write(5),
-            places: b.write(6),
-            directions: b.write(7),
-            areas: b.write(8),
+            spots: b.write(4),
+            places: b.write(5),
+            directions: b.write(6),
+            areas: b.write(7),
         };
-        let owners = b.image(3);
+        let view: PixelView = b.one(0);
         let on = Ordered {
-            width: owners.size[0],
-            order: b.read(0),
-            standings: b.read(1),
-            sides: b.read(2),
-            owners: owners.texels,
-            segments: b.read(4),
+            width: view.size[0],
+            order: b.read(1),
+            standings: b.read(2),
+            sides: b.read(3),
         };
         looped::gather_sides(&on, into);
     },
 };
+
+fn ink_of(image: Image<'_>) -> Ink<'_> {
+    Ink {
+        size: image.size,
+        pixels: image.texels,
+    }
+}
 
 /// Marks of loops that are no specks.
 pub const DROP_SPECKS: Pass = Pass {

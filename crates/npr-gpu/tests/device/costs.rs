@@ -19,7 +19,7 @@ const COUNT: Pass = Pass {
     name: "test.count",
     shader: Shader {
         path: "test",
-        text: "override WG: u32 = 64u;
+        text: "const WG: u32 = 64u;
         @group(0) @binding(0) var<storage, read> numbers: array<u32>;
         @group(0) @binding(1) var<storage, read_write> counter: array<atomic<u32>>;
         @compute @workgroup_size(WG)

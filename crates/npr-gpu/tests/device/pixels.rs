@@ -1,6 +1,7 @@
 //! Lines drawn into a picture: the whole path on both engines, and each of its passes on the same input.
 
 use crate::agreement::{Meaning, disagreement};
+use crate::sample_passes::LAY_DEPTHS;
 use crate::shared;
 use npr_core::camera::{Camera, Projection};
 use npr_core::line_kind::KindSet;
@@ -8,7 +9,7 @@ use npr_gpu::curves::pixels::{Hiding, PixelRoom, add_pixel_contours, add_strips}
 use npr_gpu::curves::{Hiders, ResidentPixels, Scheme, trace_on};
 use npr_gpu::engine::{Engine, Session};
 use npr_gpu::graph::{Graph, Kind, ResourceId, WorkSize};
-use npr_gpu::pass::Pass;
+use npr_gpu::pass::{Format, Pass};
 use npr_gpu::passes::ALL;
 use npr_gpu::processor::Processor;
 use npr_mesh::half_edge::HalfEdgeMesh;
@@ -170,14 +171,35 @@ fn every_pass_agrees_with_its_twin() {
                 .unwrap();
             strips.write(session.as_mut(), &path).unwrap();
             session.run().unwrap();
-            check_nodes(&graph, session.as_mut(), device);
+            let surfaces = bytemuck::cast_slice(depths);
+            check_nodes(&graph, (session.as_mut(), surfaces), device);
         });
     }
     assert!(ALL.iter().filter(|pass| is_over_pixels(pass)).count() == OWN.len());
 }
 
-/// Runs every node of a graph by itself on both engines, on what the whole graph left in `session`.
-fn check_nodes(graph: &Graph, session: &mut dyn Session, device: &dyn Engine) {
+/// The resource to write so that another has these words: itself, or what is drawn into an image of depths.
+fn input_of(graph: &mut Graph, id: ResourceId) -> ResourceId {
+    let Kind::Image {
+        format: Format::Depth,
+        size,
+    } = graph.resource(id).kind
+    else {
+        return id;
+    };
+    let width = graph.constants("width", &[size[0]]);
+    let depths = graph.buffer::<u32>("depths", (size[0] * size[1]) as usize);
+    graph.draw(&LAY_DEPTHS, &[width, depths], &[id], true);
+    depths
+}
+
+/// Runs every node of a graph by itself on both engines, on what the whole graph left in `session`; depths of fragments
+/// lie there where those of `surfaces` were.
+fn check_nodes(
+    graph: &Graph,
+    (session, surfaces): (&mut dyn Session, &[u32]),
+    device: &dyn Engine,
+) {
     for node in graph
         .nodes()
         .iter()
@@ -193,7 +215,13 @@ fn check_nodes(graph: &Graph, session: &mut dyn Session, device: &dyn Engine) {
                 Some(slot) if slot.access.writes() => {
                     outputs.push((own, Meaning::Elements(slot.element)));
                 }
-                Some(_) => inputs.push((own, session.read(*id).unwrap())),
+                Some(slot) => {
+                    let words = match slot.name {
+                        "surfaces" => surfaces.to_vec(),
+                        _ => session.read(*id).unwrap(),
+                    };
+                    inputs.push((input_of(&mut alone, own), words));
+                }
                 None => {
                     if let Kind::Image { format, .. } = resource.kind {
                         outputs.push((own, Meaning::Texels(format)));

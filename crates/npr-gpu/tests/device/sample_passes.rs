@@ -11,7 +11,7 @@ const fn shader(text: &'static str) -> Shader {
 pub const DOUBLE: Pass = Pass {
     name: "test.double",
     shader: shader(
-        "override WG: u32 = 64u;
+        "const WG: u32 = 64u;
         @group(0) @binding(0) var<storage, read> numbers: array<u32>;
         @group(0) @binding(1) var<storage, read_write> doubled: array<u32>;
         @compute @workgroup_size(WG)
@@ -83,11 +83,42 @@ pub const DRAW_LARGEST: Pass = Pass {
     },
 };
 
+/// Lays depths, as bits, over a picture of the given width: what tests put into an image that nothing but draws may
+/// write.
+pub const LAY_DEPTHS: Pass = Pass {
+    name: "test.lay_depths",
+    shader: shader(
+        "@group(0) @binding(0) var<storage, read> width: array<u32>;
+        @group(0) @binding(1) var<storage, read> depths: array<u32>;
+        @vertex
+        fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
+            return vec4<f32>(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0, 0.5, 1.0);
+        }
+        @fragment
+        fn fragment(@builtin(position) position: vec4<f32>) -> @builtin(frag_depth) f32 {
+            let pixel = vec2<u32>(position.xy);
+            return bitcast<f32>(depths[pixel.y * width[0] + pixel.x]);
+        }",
+    ),
+    slots: &[read::<u32>("width"), read::<u32>("depths")],
+    work: Work::Draw {
+        of: "width",
+        vertices: 3,
+        targets: &[Format::Depth],
+        fills: true,
+    },
+    agreement: Agreement::Exact,
+    twin: |bindings| {
+        let depths = bindings.read(1);
+        bindings.image_mut(2).texels.copy_from_slice(depths);
+    },
+};
+
 /// `sums[i] = texel i of the picture + step`, over an image of numbers and one of bytes.
 pub const ADD_TEXELS: Pass = Pass {
     name: "test.add_texels",
     shader: shader(
-        "override WG: u32 = 64u;
+        "const WG: u32 = 64u;
         @group(0) @binding(0) var<uniform> step: vec4<u32>;
         @group(0) @binding(1) var numbers: texture_2d<u32>;
         @group(0) @binding(2) var bytes: texture_2d<f32>;

@@ -4,7 +4,7 @@
 //! Loops lie one after the other in one list. Every side knows where its loop starts and how long it is, so windows
 //! along a loop wrap around it by themselves, as often as it takes where a loop is shorter than the window.
 
-use super::segment::Segment;
+use super::side::Side;
 use crate::rank::place::Standing;
 use bytemuck::{Pod, Zeroable};
 use npr_core::gpu_layout;
@@ -93,12 +93,8 @@ pub struct Ordered<'a> {
     pub order: &'a [u32],
     /// Where every side is in its loop.
     pub standings: &'a [Standing],
-    /// Pixel and direction of every side.
-    pub sides: &'a [u32],
-    /// Number of the segment of every pixel, plus one.
-    pub owners: &'a [u32],
-    /// All segments.
-    pub segments: &'a [Segment],
+    /// All sides, in the order of pixels.
+    pub sides: &'a [Side],
 }
 
 /// The output of [`gather_sides`].
@@ -126,7 +122,7 @@ pub fn gather_sides(on: &Ordered<'_>, into: Gathered<'_>) {
             spot.start = element as u32 - standing.rank;
             spot.length = standing.length;
             let side = on.sides[*number as usize];
-            let (pixel, way) = (side / 4, side % 4);
+            let (pixel, way) = (side.code / 4, side.code % 4);
             let (x, y) = (pixel % on.width, pixel / on.width);
             place.x = x as f32 + MIDDLE[way as usize][0];
             place.y = y as f32 + MIDDLE[way as usize][1];
@@ -136,12 +132,7 @@ pub fn gather_sides(on: &Ordered<'_>, into: Gathered<'_>) {
                 2 => y + 1,
                 _ => 0,
             };
-            *direction = Planar::default();
-            let owner = on.owners[pixel as usize];
-            if owner != 0 {
-                let [x, y] = on.segments[owner as usize - 1].extent();
-                *direction = Planar { x, y }.unit();
-            }
+            *direction = side.extent.unit();
         });
 }
 

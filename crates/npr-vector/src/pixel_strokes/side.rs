@@ -4,8 +4,15 @@
 //! side to the right, down the right one, back along the lower, and up the left one.
 
 use super::fragment::holder_of;
+use super::looped::Planar;
+use super::segment::Segment;
 use crate::rank::Link;
+use bytemuck::{Pod, Zeroable};
+use npr_core::gpu_layout;
 use rayon::prelude::*;
+
+/// Pixels whose sides share a word of masks: four bits each, those of the first lowest.
+pub const PIXELS_A_WORD: usize = 8;
 
 /// Steps in the four directions: right, down, left, up.
 const AHEAD: [[i64; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
@@ -89,35 +96,103 @@ fn outward(direction: u32) -> [i64; 2] {
     AHEAD[(direction as usize + 3) % 4]
 }
 
-/// The sides of every pixel, a bit for each direction, and how many there are.
+/// A side of a pixel with ink, and what shows there.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub struct Side {
+    /// Four times the pixel plus the direction.
+    pub code: u32,
+    /// Number of the segment that inked the pixel.
+    pub segment: u32,
+    /// Reversed depth of what shows there, as bits.
+    pub nearest: u32,
+    /// From the start of the segment to its end, on the fine grid.
+    pub extent: Planar,
+}
+gpu_layout!(Side {
+    code,
+    segment,
+    nearest,
+    extent
+});
+
+/// A picture whose ink was drawn by segments.
+#[derive(Debug, Clone, Copy)]
+pub struct InkPicture<'a> {
+    /// Number of the segment of every pixel, plus one.
+    pub ink: Ink<'a>,
+    /// Its reversed depth as bits; empty where depths do not matter.
+    pub nearest: &'a [u32],
+    /// All segments; empty where they do not matter.
+    pub segments: &'a [Segment],
+}
+
+impl<'a> From<Ink<'a>> for InkPicture<'a> {
+    /// A picture of ink alone, without depths and directions.
+    fn from(ink: Ink<'a>) -> Self {
+        Self {
+            ink,
+            nearest: &[],
+            segments: &[],
+        }
+    }
+}
+
+impl InkPicture<'_> {
+    /// A side, and what its pixel shows.
+    fn side(&self, pixel: u32, direction: u32) -> Side {
+        let segment = self.ink.pixels[pixel as usize] - 1;
+        let extent = self.segments.get(segment as usize).map(Segment::extent);
+        let [x, y] = extent.unwrap_or_default();
+        Side {
+            code: 4 * pixel + direction,
+            segment,
+            nearest: self.nearest.get(pixel as usize).copied().unwrap_or(0),
+            extent: Planar { x, y },
+        }
+    }
+}
+
+/// The sides of every [`PIXELS_A_WORD`] pixels, a bit for each direction of each pixel, and how many there are.
 pub fn mark_sides(ink: &Ink<'_>, masks: &mut [u32], counts: &mut [u32]) {
-    let outputs = masks.par_iter_mut().with_min_len(4096).zip(counts);
-    outputs.enumerate().for_each(|(pixel, (mask, count))| {
-        *mask = ink.sides_of(pixel as u32);
-        *count = mask.count_ones();
-    });
+    let pixels = ink.pixels.par_chunks(PIXELS_A_WORD).with_min_len(512);
+    let outputs = masks.par_iter_mut().zip(counts);
+    pixels
+        .zip(outputs)
+        .enumerate()
+        .for_each(|(word, (pixels, (mask, count)))| {
+            *mask = 0;
+            for (place, pixel) in pixels.iter().enumerate() {
+                if *pixel != 0 {
+                    let sides = ink.sides_of((word * PIXELS_A_WORD + place) as u32);
+                    *mask |= sides << (4 * place);
+                }
+            }
+            *count = mask.count_ones();
+        });
 }
 
 /// Links every side to those before and after it.
 ///
-/// `starts` is the scan of the pixels' numbers of sides and `extent[0]` their sum. A side is written as four times its
-/// pixel plus its direction; sides come by pixel, then by direction. Each element after the sum becomes a loop of its
-/// own. O(sides).
+/// `starts` is the scan of the words' numbers of sides and `extent[0]` their sum. Sides come by pixel, then by
+/// direction. Each element after the sum becomes a loop of its own. O(sides).
 ///
 /// Differs: the publication leaves sides on the picture's border out and draws the border as a line to make up for
 /// it; here there is no ink beyond the picture, and loops close along its border.
 pub fn link_sides(
     extent: &[u32],
-    ink: &Ink<'_>,
+    picture: &InkPicture<'_>,
     masks: &[u32],
     starts: &[u32],
-    sides: &mut [u32],
+    sides: &mut [Side],
     links: &mut [Link],
 ) {
     // Find the number of a side from its pixel and direction.
+    let ink = &picture.ink;
     let index_of = |(pixel, direction): (u32, u32)| {
-        let before = masks[pixel as usize] & ((1 << direction) - 1);
-        starts[pixel as usize] + before.count_ones()
+        let (word, place) = (pixel as usize / PIXELS_A_WORD, pixel % PIXELS_A_WORD as u32);
+        let before = masks[word] & ((1 << (4 * place + direction)) - 1);
+        starts[word] + before.count_ones()
     };
 
     // Link the sides, and make a loop of every element beyond them.
@@ -125,14 +200,15 @@ pub fn link_sides(
     let outputs = sides.par_iter_mut().zip(links).enumerate();
     outputs.for_each(|(element, (side, link))| {
         let element = element as u32;
-        *side = 0;
+        *side = Side::default();
         link.next = element;
         link.prev = element;
         link.key = 0;
         if element < count {
-            let pixel = holder_of(starts, element);
-            let direction = nth_bit(masks[pixel as usize], element - starts[pixel as usize]);
-            *side = 4 * pixel + direction;
+            let word = holder_of(starts, element);
+            let bit = nth_bit(masks[word as usize], element - starts[word as usize]);
+            let (pixel, direction) = (PIXELS_A_WORD as u32 * word + bit / 4, bit % 4);
+            *side = picture.side(pixel, direction);
             link.next = index_of(ink.after(pixel, direction));
             link.prev = index_of(ink.before(pixel, direction));
             link.key = key_of(ink.place_of(pixel).map(|v| v as u32), direction);
@@ -142,18 +218,11 @@ pub fn link_sides(
 
 /// The index of the set bit of a mask before which `rank` other bits are set.
 fn nth_bit(mask: u32, rank: u32) -> u32 {
-    let mut left = rank;
-    let mut found = 0;
-    for bit in 0..4 {
-        if mask >> bit & 1 != 0 {
-            if left == 0 {
-                found = bit;
-                break;
-            }
-            left -= 1;
-        }
+    let mut left = mask;
+    for _ in 0..rank {
+        left &= left.wrapping_sub(1);
     }
-    found
+    left.trailing_zeros()
 }
 
 /// The key by which ranking starts a loop at the side with the greatest Morton code, as published.

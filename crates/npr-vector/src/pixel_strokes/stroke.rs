@@ -58,8 +58,6 @@ impl Loops {
             order: &traced.order,
             standings: &traced.standings,
             sides: &traced.sides,
-            owners: &traced.owners,
-            segments: &traced.segments,
         };
         let into = Gathered {
             spots: &mut loops.spots,
@@ -247,15 +245,12 @@ impl Maker<'_> {
         // Find the segment that inked the pixel.
         let traced = self.traced;
         let side = traced.sides[traced.order[element as usize] as usize];
-        let pixel = (side / 4) as usize;
-        let segment = traced
-            .segments
-            .get(traced.owners[pixel].checked_sub(1)? as usize)?;
+        let segment = traced.segments.get(side.segment as usize)?;
 
         // Put the smoothed place at its depth.
         let place = self.loops.places[element as usize];
         let place = [f64::from(place.x), f64::from(place.y)];
-        let depth = f64::from(traced.view.depth_of(f32::from_bits(traced.nearest[pixel])));
+        let depth = f64::from(traced.view.depth_of(f32::from_bits(side.nearest)));
         let world = self.projector.unproject(place, depth);
         let is_sound = world.is_finite() && place.iter().all(|v| v.is_finite());
         is_sound.then(|| {

@@ -5,7 +5,7 @@ use crate::pixel_strokes::looped::{
     gaussian, smooth_loops, tent,
 };
 use crate::pixel_strokes::segment::Segment;
-use crate::pixel_strokes::side::Ink;
+use crate::pixel_strokes::side::{Ink, InkPicture};
 use crate::pixel_strokes::strip::{
     CullRule, StripSpot, cull_sides, drop_short, strips, vote_sides,
 };
@@ -44,7 +44,11 @@ fn around(spots: &[Spot], element: usize, step: i64) -> usize {
 
 /// Gathers the sides of an image, inked by one segment.
 fn gathered(ink: &Ink<'_>, segment: Segment) -> (Vec<Spot>, Vec<Planar>, Vec<Planar>, Vec<u32>) {
-    let (sides, ranked) = ranked_sides(ink, None).expect("loops");
+    let picture = InkPicture {
+        segments: &[segment],
+        ..(*ink).into()
+    };
+    let (sides, ranked) = ranked_sides(&picture, None).expect("loops");
     let count = sides.len();
     let (mut spots, mut areas) = (vec![Spot::default(); count], vec![0; count]);
     let (mut places, mut directions) = (
@@ -56,8 +60,6 @@ fn gathered(ink: &Ink<'_>, segment: Segment) -> (Vec<Spot>, Vec<Planar>, Vec<Pla
         order: &ranked.order,
         standings: &standings_of(&ranked),
         sides: &sides,
-        owners: ink.pixels,
-        segments: &[segment],
     };
     let into = Gathered {
         spots: &mut spots,

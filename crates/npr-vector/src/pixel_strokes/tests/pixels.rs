@@ -6,7 +6,9 @@ use crate::pixel_strokes::fragment::{
 };
 use crate::pixel_strokes::ranked_sides;
 use crate::pixel_strokes::segment::{Drawn, PixelView, Segment, project_edges, reciprocal};
-use crate::pixel_strokes::side::{Ink, key_of, link_sides, mark_sides, morton};
+use crate::pixel_strokes::side::{
+    Ink, InkPicture, PIXELS_A_WORD, Side, key_of, link_sides, mark_sides, morton,
+};
 use crate::rank::hash_key;
 use crate::rank::scan::exclusive_scan;
 use npr_core::edge_flags::EdgeFlags;
@@ -239,18 +241,38 @@ proptest! {
         let pixels: Vec<u32> = cells[..(width * height) as usize].iter().map(|c| u32::from(*c)).collect();
         let ink = Ink { size: [width, height], pixels: &pixels };
         let expected = walked_loops(&ink);
-        let (sides, ranked) = ranked_sides(&ink, None).expect("loops");
-        let by_rounds = ranked_sides(&ink, Some(16)).expect("loops");
+        let (sides, ranked) = ranked_sides(&ink.into(), None).expect("loops");
+        let by_rounds = ranked_sides(&ink.into(), Some(16)).expect("loops");
         prop_assert_eq!(&by_rounds, &(sides.clone(), ranked.clone()));
         let found: BTreeSet<Vec<u32>> = ranked.chains()
-            .map(|chain| least_first(chain.iter().map(|side| sides[*side as usize]).collect())).collect();
+            .map(|chain| least_first(chain.iter().map(|side| sides[*side as usize].code).collect())).collect();
         prop_assert_eq!(found, expected);
         for chain in ranked.chains() {
             let code = |side: &u32| {
-                let (pixel, way) = (sides[*side as usize] / 4, sides[*side as usize] % 4);
+                let side = sides[*side as usize].code;
+                let (pixel, way) = (side / 4, side % 4);
                 morton([2 * (pixel % width) + (way >> 1), 2 * (pixel / width) + (way & 1)])
             };
             prop_assert_eq!(chain.iter().map(code).max(), chain.first().map(code));
+        }
+    }
+
+    #[test]
+    fn sides_know_what_shows_at_their_pixels(owners in prop::collection::vec(0u32..5, 35)) {
+        let segments: Vec<Segment> = (0..4).map(|i| {
+            let at = i as f32;
+            Segment { start: [at, 1.0], end: [3.0 * at, -at], edge: i, ..Segment::default() }
+        }).collect();
+        let nearest: Vec<u32> = (100..135).collect();
+        let ink = Ink { size: [5, 7], pixels: &owners };
+        let picture = InkPicture { ink, nearest: &nearest, segments: &segments };
+        let (sides, _) = ranked_sides(&picture, None).expect("loops");
+        for side in sides {
+            let pixel = side.code / 4;
+            let owner = owners[pixel as usize];
+            prop_assert_eq!((side.segment + 1, side.nearest), (owner, 100 + pixel));
+            let along = (owner - 1) as f32;
+            prop_assert_eq!([side.extent.x, side.extent.y], [2.0 * along, -along - 1.0]);
         }
     }
 
@@ -264,11 +286,13 @@ proptest! {
     fn links_lead_there_and_back(cells in prop::collection::vec(any::<bool>(), 42)) {
         let pixels: Vec<u32> = cells.iter().map(|c| u32::from(*c)).collect();
         let ink = Ink { size: [7, 6], pixels: &pixels };
-        let (mut masks, mut counts) = (vec![0; 42], vec![0; 42]);
+        let word_count = 42_usize.div_ceil(PIXELS_A_WORD);
+        let (mut masks, mut counts) = (vec![0; word_count], vec![0; word_count]);
         mark_sides(&ink, &mut masks, &mut counts);
         let (starts, total) = exclusive_scan(&counts);
-        let (mut sides, mut links) = (vec![0; total as usize + 3], vec![Default::default(); total as usize + 3]);
-        link_sides(&[total], &ink, &masks, &starts, &mut sides, &mut links);
+        let count = total as usize + 3;
+        let (mut sides, mut links) = (vec![Side::default(); count], vec![Default::default(); count]);
+        link_sides(&[total], &ink.into(), &masks, &starts, &mut sides, &mut links);
         for (element, link) in (0..).zip(&links) {
             prop_assert_eq!(links[link.next as usize].prev, element);
             prop_assert_eq!(links[link.prev as usize].next, element);
@@ -342,7 +366,7 @@ fn all_patterns_of_four_pixels_link() {
             size: [4, 4],
             pixels: &pixels,
         };
-        let (sides, ranked) = ranked_sides(&ink, None).expect("loops");
+        let (sides, ranked) = ranked_sides(&ink.into(), None).expect("loops");
         // Ink joined by a corner is one, so each pattern with ink has one loop.
         assert_eq!(
             ranked.starts.len() - 1,
@@ -363,6 +387,6 @@ fn rounds_that_are_too_few_are_told() {
         size: [100, 1],
         pixels: &pixels,
     };
-    assert!(ranked_sides(&ink, Some(3)).is_err());
-    assert!(ranked_sides(&ink, Some(8)).is_ok());
+    assert!(ranked_sides(&ink.into(), Some(3)).is_err());
+    assert!(ranked_sides(&ink.into(), Some(8)).is_ok());
 }
