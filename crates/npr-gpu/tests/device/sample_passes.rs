@@ -154,7 +154,7 @@ pub const ADD_TEXELS: Pass = Pass {
 pub const ADD_LAYERS: Pass = Pass {
     name: "test.add_layers",
     shader: shader(
-        "override WG: u32 = 64u;
+        "const WG: u32 = 64u;
         @group(0) @binding(0) var numbers: texture_2d_array<u32>;
         @group(0) @binding(1) var depths: texture_depth_2d_array;
         @group(0) @binding(2) var<storage, read_write> sums: array<u32>;
