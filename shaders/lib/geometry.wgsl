@@ -42,11 +42,19 @@ struct ChartCorners {
     c: vec2<f32>,
 }
 
+const CHART_TEXELS: u32 = 6u;
+const CHART_ACROSS: u32 = 1024u;
+
 struct Edge {
     ends: vec2<u32>,
     faces: vec2<u32>,
     dihedral_cos: f32,
     traits: u32,
+}
+
+struct EdgeRole {
+    kinds: u32,
+    part: u32,
 }
 
 struct Part {

@@ -122,16 +122,34 @@ fn hatch_coverage(part: u32, layer: Hatching, l: f32, darkens: vec2<f32>, calm: 
     return ink_coverage(tone_value(hatching.s, l), slope, parts[part].threshold);
 }
 
+// One of the three corners of a triangle in its chart.
+fn chart_corner(triangle: u32, corner: u32) -> vec2<f32> {
+    let at = vec2<u32>(triangle % CHART_ACROSS * CHART_TEXELS + 2u * corner, triangle / CHART_ACROSS);
+    let bits = vec2<u32>(textureLoad(charts, at, 0).x, textureLoad(charts, at + vec2<u32>(1u, 0u), 0).x);
+    return bitcast<vec2<f32>>(bits);
+}
+
+// The chart of a triangle.
+fn chart_of(triangle: u32) -> ChartCorners {
+    var chart: ChartCorners;
+    chart.a = chart_corner(triangle, 0u);
+    chart.b = chart_corner(triangle, 1u);
+    chart.c = chart_corner(triangle, 2u);
+    return chart;
+}
+
 // Coordinates of a pixel and its neighbours to the right and below in the hatch of a part.
 fn place_in_hatch(id: u32, part: u32, weights: array<vec3<f32>, 3>, places: array<vec2<f32>, 3>) -> HatchCoord {
     let index = (id & ID_MASK) - 1u;
+    let flags = parts[part].flags;
+    var chart: ChartCorners;
+    if (flags & PART_ON_SURFACE) != 0u { chart = chart_of(index); }
     var uvs: array<vec2<f32>, 3>;
     for (var i = 0u; i < 3u; i++) {
         let w = weights[i];
         var raw = places[i];
-        if (parts[part].flags & PART_ON_SCREEN) == 0u {
-            if (parts[part].flags & PART_ON_SURFACE) != 0u {
-                let chart = charts[index];
+        if (flags & PART_ON_SCREEN) == 0u {
+            if (flags & PART_ON_SURFACE) != 0u {
                 raw = chart.a * w.x + chart.b * w.y + chart.c * w.z;
             } else {
                 raw = uv_at(triangle_of(triangles[index]), w);

@@ -1,5 +1,5 @@
 // Cast shadows with exact edges. Twin: npr_style::shadow.
-// The shader declares `lights`, `posed`, `triangles` and `shadow_0` to `shadow_3`.
+// The shader declares `lights`, `posed`, `triangles` and `shadows`.
 
 //# use lib/cutout
 //# use lib/ink_tone
@@ -73,20 +73,11 @@ fn is_dark(own: u32, light: u32, world: vec3<f32>, towards: vec3<f32>, facing: f
     return is_covered(place);
 }
 
-fn shadow_texel(map: u32, at: vec2<u32>) -> u32 {
-    switch map {
-        case 0u: { return textureLoad(shadow_0, at, 0).x; }
-        case 1u: { return textureLoad(shadow_1, at, 0).x; }
-        case 2u: { return textureLoad(shadow_2, at, 0).x; }
-        default: { return textureLoad(shadow_3, at, 0).x; }
-    }
-}
-
 // The triangle plus one in one of the nine texels around a place; 0 if there is none.
 fn seen_near(place: LitPoint, k: u32) -> u32 {
     let at = vec2<u32>(place.texel) + vec2<u32>(k % 3u, k / 3u);
     let last = vec2<u32>(lights.shadow_side - 1u);
-    return shadow_texel(place.map, min(max(at, vec2<u32>(1u)) - 1u, last));
+    return textureLoad(shadows, min(max(at, vec2<u32>(1u)) - 1u, last), place.map, 0).x;
 }
 
 // Whether something covers a place: each triangle seen around it is tested; if they are finer than texels, the texels

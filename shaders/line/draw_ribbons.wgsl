@@ -19,13 +19,12 @@
 @group(0) @binding(2) var<uniform> mask_window: Window;
 @group(0) @binding(3) var<uniform> outline: Outline;
 @group(0) @binding(4) var<storage, read> posed: array<PosedVertex>;
-@group(0) @binding(5) var<storage, read> triangles: array<Triangle>;
-@group(0) @binding(6) var<storage, read> parts: array<Part>;
-@group(0) @binding(7) var<storage, read> edges: array<Edge>;
-@group(0) @binding(8) var<storage, read> kinds: array<u32>;
-@group(0) @binding(9) var<storage, read> gbuffer: array<GPixel>;
-@group(0) @binding(10) var<storage, read> mask: array<u32>;
-@group(0) @binding(11) var<storage, read> tints: array<LineTint>;
+@group(0) @binding(5) var<storage, read> parts: array<Part>;
+@group(0) @binding(6) var<storage, read> edges: array<Edge>;
+@group(0) @binding(7) var<storage, read> roles: array<EdgeRole>;
+@group(0) @binding(8) var<storage, read> gbuffer: array<GPixel>;
+@group(0) @binding(9) var<storage, read> mask: array<u32>;
+@group(0) @binding(10) var<storage, read> tints: array<LineTint>;
 
 //# use lib/tints
 
@@ -68,9 +67,10 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     var passed: Varying;
     passed.position = vec4<f32>(0.0);
     let edge = edges[element];
+    let role = roles[element];
     let first = posed[edge.ends.x];
     let second = posed[edge.ends.y];
-    if kinds[element] == 0u || max(first.depth, second.depth) <= view.near { return passed; }
+    if role.kinds == 0u || max(first.depth, second.depth) <= view.near { return passed; }
 
     let a = end_of(first, second);
     let b = end_of(second, first);
@@ -88,7 +88,7 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     passed.position = vec4<f32>(in_window.x * 2.0 - 1.0, 1.0 - in_window.y * 2.0, 0.5, 1.0);
     passed.spine = vec4<f32>(a.px, b.px);
     passed.halves_and_depths = vec4<f32>(a.half_width, b.half_width, a.depth, b.depth);
-    passed.part_and_kind = vec2<u32>(triangles[edge.faces.x].part, kinds[element]);
+    passed.part_and_kind = vec2<u32>(role.part, role.kinds);
     return passed;
 }
 

@@ -18,7 +18,7 @@
 @group(0) @binding(2) var<storage, read> triangles: array<Triangle>;
 @group(0) @binding(3) var<storage, read> parts: array<Part>;
 @group(0) @binding(4) var<storage, read> edges: array<Edge>;
-@group(0) @binding(5) var<storage, read_write> kinds: array<u32>;
+@group(0) @binding(5) var<storage, read_write> roles: array<EdgeRole>;
 
 fn face_is_front(face: u32) -> bool {
     let corners = triangles[face].corners;
@@ -26,10 +26,9 @@ fn face_is_front(face: u32) -> bool {
     return faces_eye(clip);
 }
 
-// The bits of all kinds that an edge has.
-fn kinds_of(edge: Edge) -> u32 {
+// The bits of all kinds that an edge of a part with these flags has.
+fn kinds_of(edge: Edge, flags: u32) -> u32 {
     let front = face_is_front(edge.faces.x);
-    let flags = parts[triangles[edge.faces.x].part].flags;
     if edge.faces.y == NONE {
         let seen = front || (flags & PART_DOUBLE_SIDED) != 0u;
         return select(0u, KIND_BOUNDARY | select(0u, EDGE_FACING, front), seen);
@@ -55,6 +54,8 @@ fn main(
     if element >= arrayLength(&edges) { return; }
 
     let edge = edges[element];
-    let drawn = (parts[triangles[edge.faces.x].part].flags & PART_LINES) != 0u;
-    kinds[element] = select(0u, kinds_of(edge) & outline.kinds, drawn);
+    let part = triangles[edge.faces.x].part;
+    let flags = parts[part].flags;
+    roles[element].kinds = select(0u, kinds_of(edge, flags) & outline.kinds, (flags & PART_LINES) != 0u);
+    roles[element].part = part;
 }

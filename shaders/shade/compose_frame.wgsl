@@ -28,22 +28,16 @@
 @group(0) @binding(9) var<storage, read> triangles: array<TriangleConstants>;
 @group(0) @binding(10) var<storage, read> parts: array<Part>;
 @group(0) @binding(11) var<storage, read> texels: array<u32>;
-@group(0) @binding(12) var<storage, read> charts: array<ChartCorners>;
+@group(0) @binding(12) var charts: texture_2d<u32>;
 @group(0) @binding(13) var<storage, read> list: array<u32>;
 @group(0) @binding(14) var<storage, read_write> frame: array<u32>;
-@group(0) @binding(15) var shadow_0: texture_2d<u32>;
-@group(0) @binding(16) var shadow_1: texture_2d<u32>;
-@group(0) @binding(17) var shadow_2: texture_2d<u32>;
-@group(0) @binding(18) var shadow_3: texture_2d<u32>;
-@group(0) @binding(19) var smoke_colors: texture_2d<f32>;
-@group(0) @binding(20) var smoke_depths: texture_2d<u32>;
-@group(0) @binding(21) var smoke_shadow_0: texture_depth_2d;
-@group(0) @binding(22) var smoke_shadow_1: texture_depth_2d;
-@group(0) @binding(23) var smoke_shadow_2: texture_depth_2d;
-@group(0) @binding(24) var smoke_shadow_3: texture_depth_2d;
-@group(0) @binding(25) var<uniform> rules: Rules;
-@group(0) @binding(26) var fronts: texture_2d<f32>;
-@group(0) @binding(27) var backs: texture_2d<f32>;
+@group(0) @binding(15) var shadows: texture_2d_array<u32>;
+@group(0) @binding(16) var smoke_colors: texture_2d<f32>;
+@group(0) @binding(17) var smoke_depths: texture_2d<u32>;
+@group(0) @binding(18) var smoke_shadows: texture_depth_2d_array;
+@group(0) @binding(19) var<uniform> rules: Rules;
+@group(0) @binding(20) var fronts: texture_2d<f32>;
+@group(0) @binding(21) var backs: texture_2d<f32>;
 
 //# use lib/texture
 //# use lib/samples

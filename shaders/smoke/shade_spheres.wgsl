@@ -19,25 +19,10 @@
 @group(0) @binding(5) var<storage, read> spheres: array<Sphere>;
 @group(0) @binding(6) var<storage, read> balls: array<ViewSphere>;
 @group(0) @binding(7) var<storage, read_write> pixels: array<SmokePixel>;
-@group(0) @binding(8) var smoke_light_0: texture_2d<u32>;
-@group(0) @binding(9) var smoke_light_1: texture_2d<u32>;
-@group(0) @binding(10) var smoke_light_2: texture_2d<u32>;
-@group(0) @binding(11) var smoke_light_3: texture_2d<u32>;
-@group(0) @binding(12) var surface_depth_0: texture_depth_2d;
-@group(0) @binding(13) var surface_depth_1: texture_depth_2d;
-@group(0) @binding(14) var surface_depth_2: texture_depth_2d;
-@group(0) @binding(15) var surface_depth_3: texture_depth_2d;
+@group(0) @binding(8) var smoke_lights: texture_2d_array<u32>;
+@group(0) @binding(9) var surface_depths: texture_depth_2d_array;
 
 //# use lib/lighting
-
-fn shadow_texel(map: u32, at: vec2<u32>) -> u32 {
-    switch map {
-        case 0u: { return textureLoad(smoke_light_0, at, 0).x; }
-        case 1u: { return textureLoad(smoke_light_1, at, 0).x; }
-        case 2u: { return textureLoad(smoke_light_2, at, 0).x; }
-        default: { return textureLoad(smoke_light_3, at, 0).x; }
-    }
-}
 
 // Whether the sphere that the light sees in the texel of a place lies between place and light.
 fn is_dark(own: u32, light: u32, world: vec3<f32>, towards: vec3<f32>) -> bool {
@@ -47,21 +32,12 @@ fn is_dark(own: u32, light: u32, world: vec3<f32>, towards: vec3<f32>) -> bool {
     let side = f32(look.shadow_side);
     let texel = vec2<f32>((clip.x / clip.w + 1.0) * 0.5 * side, (1.0 - clip.y / clip.w) * 0.5 * side);
     if !(clip.w > 0.0 && all(texel >= vec2<f32>(0.0)) && all(texel < vec2<f32>(side))) { return false; }
-    let seen = shadow_texel(map, vec2<u32>(texel));
+    let seen = textureLoad(smoke_lights, vec2<u32>(texel), map, 0).x;
     if seen == 0u || seen == own { return false; }
     let caster = spheres[seen - 1u];
     let offset = caster.center - world;
     let ahead = dot(offset, towards);
     return ahead > 0.0 && dot(offset, offset) - ahead * ahead < caster.radius * caster.radius;
-}
-
-fn surface_texel(map: u32, at: vec2<u32>) -> f32 {
-    switch map {
-        case 0u: { return textureLoad(surface_depth_0, at, 0); }
-        case 1u: { return textureLoad(surface_depth_1, at, 0); }
-        case 2u: { return textureLoad(surface_depth_2, at, 0); }
-        default: { return textureLoad(surface_depth_3, at, 0); }
-    }
 }
 
 // Whether a surface lies between a place and a light.
@@ -73,10 +49,10 @@ fn is_behind_surface(light: u32, world: vec3<f32>) -> bool {
     if !texels.is_seen { return false; }
     let low = texels.low;
     return are_nearer(texels, vec4<f32>(
-        surface_texel(map, low),
-        surface_texel(map, low + vec2<u32>(1u, 0u)),
-        surface_texel(map, low + vec2<u32>(0u, 1u)),
-        surface_texel(map, low + vec2<u32>(1u, 1u)),
+        textureLoad(surface_depths, low, map, 0),
+        textureLoad(surface_depths, low + vec2<u32>(1u, 0u), map, 0),
+        textureLoad(surface_depths, low + vec2<u32>(0u, 1u), map, 0),
+        textureLoad(surface_depths, low + vec2<u32>(1u, 1u), map, 0),
     ));
 }
 

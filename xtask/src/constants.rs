@@ -54,6 +54,7 @@ const TWINS: &[Twins] = &[
     twins("lib/compose.wgsl", "COMPOSE_", "npr-style/src/compose.rs", "Compose::"),
     twins("lib/edge_flags.wgsl", "EDGE_", "npr-core/src/edge_flags.rs", "EdgeFlags::"),
     twins("lib/geometry.wgsl", "", "npr-core/src/geometry.rs", ""),
+    twins("lib/geometry.wgsl", "CHART_", "npr-core/src/geometry.rs", "ChartCorners::"),
     twins("lib/geometry.wgsl", "PART_", "npr-core/src/geometry.rs", "Part::"),
     twins("lib/geometry.wgsl", "LINE_", "npr-core/src/geometry.rs", "Part::LINE_"),
     twins("lib/geometry.wgsl", "HULL_BIT", "npr-core/src/raster.rs", "HULL_BIT"),

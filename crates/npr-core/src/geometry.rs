@@ -99,6 +99,8 @@ pub struct Triangle {
 gpu_layout!(Triangle { corners, part });
 
 /// Where the corners of a triangle lie in its stroke chart: tiles across and along the strokes.
+///
+/// Passes read charts from an image of bits of floats, six texels a chart: storage buffers are few.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct ChartCorners {
@@ -109,7 +111,20 @@ pub struct ChartCorners {
     /// Of the third.
     pub c: [f32; 2],
 }
-gpu_layout!(ChartCorners { a, b, c });
+
+impl ChartCorners {
+    /// Texels of a chart.
+    pub const TEXELS: u32 = 6;
+    /// Charts in a row of an image: 8192 rows, which every device has, hold one for each triangle that fits a buffer.
+    pub const ACROSS: u32 = 1024;
+
+    /// Width and height in texels of an image with room for `count` charts, row by row.
+    pub fn image_size(count: usize) -> [u32; 2] {
+        let count = u32::try_from(count).unwrap_or(u32::MAX);
+        let across = count.min(Self::ACROSS);
+        [across * Self::TEXELS, count.div_ceil(Self::ACROSS)]
+    }
+}
 
 /// A unique mesh edge between two stored vertices that stand for their welded positions.
 #[repr(C)]
@@ -130,6 +145,17 @@ gpu_layout!(Edge {
     dihedral_cos,
     traits
 });
+
+/// What an edge is in a view.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct EdgeRole {
+    /// Bits of [`KindSet`](crate::line_kind::KindSet) and [`EdgeFlags::FACING`]; 0 where it draws no line.
+    pub kinds: u32,
+    /// The part that draws its line: that of its first face.
+    pub part: u32,
+}
+gpu_layout!(EdgeRole { kinds, part });
 
 /// One surface of one object in one material, with what the style makes of it.
 #[repr(C)]
@@ -423,4 +449,18 @@ impl GPixel {
         material: NONE,
         part: NONE,
     };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_of_charts_hold_every_triangle_that_fits_a_buffer() {
+        let sizes = [0, 1, 1024, 1025].map(ChartCorners::image_size);
+        assert_eq!(sizes, [[0, 0], [6, 1], [6144, 1], [6144, 2]]);
+        let most = (128 << 20) / size_of::<Triangle>();
+        assert_eq!(ChartCorners::image_size(most), [6144, 8192]);
+        assert_eq!(size_of::<ChartCorners>(), 4 * ChartCorners::TEXELS as usize);
+    }
 }

@@ -20,7 +20,7 @@
 //! Slots that the features of the graph leave out cost nothing.
 
 use crate::engine::{EngineError, Readings, Session};
-use crate::graph::{Graph, Node, ResourceId, WorkSize, emptied, lists, writes};
+use crate::graph::{Graph, ImageLayer, Node, ResourceId, WorkSize, emptied, lists, writes};
 use crate::pass::{Access, Format, Pass, Slot, WORKGROUP_SIZE, Work};
 use npr_shaders::Features;
 use npr_vector::rank::work::Arguments;
@@ -142,14 +142,9 @@ fn told_by(node: &Node) -> Vec<ResourceId> {
     match node.pass.work {
         Work::PerElement { .. } | Work::PerRun { .. } => {}
         Work::PerListed { .. } => told.push(node.bound[node.pass.counted_slot()]),
-        Work::Draw { .. } => told.extend(first_target(node)),
+        Work::Draw { .. } => told.extend(node.targets().next().map(|target| target.image)),
     }
     told
-}
-
-/// The target whose texels tell what was drawn.
-fn first_target(node: &Node) -> Option<ResourceId> {
-    node.bound.get(node.pass.slots.len()).copied()
 }
 
 fn bytes_of(graph: &Graph, id: ResourceId) -> u64 {
@@ -245,7 +240,11 @@ impl Run<'_> {
         // Count it as read, written or both.
         if matches!(
             slot.access,
-            Access::Uniform | Access::Read | Access::Update | Access::Texture(_)
+            Access::Uniform
+                | Access::Read
+                | Access::Update
+                | Access::Texture(_)
+                | Access::Layered(_)
         ) {
             cost.read_bytes += bytes;
             cost.whole_bytes += if is_known { 0 } else { bytes };
@@ -269,12 +268,13 @@ impl Run<'_> {
             }
             _ => sized,
         };
-        let target = first_target(node);
+        let texels = node.targets().next().map(|target| self.texels(target));
+        let texels = texels.unwrap_or_default();
         Extent {
             items: items as u64,
             room: room as u64,
-            drawn: target.map_or(0, |id| self.drawn(id)),
-            texels: target.map_or(0, |id| self.graph.element_count(id) as u64),
+            drawn: texels.iter().filter(|texel| **texel != 0).count() as u64,
+            texels: texels.len() as u64,
         }
     }
 
@@ -297,10 +297,9 @@ impl Run<'_> {
         (1 + self.length(list) as u64) * 4
     }
 
-    /// Texels of a target that are not as they were cleared.
-    fn drawn(&self, target: ResourceId) -> u64 {
-        let texels = self.read.words(target).iter();
-        texels.filter(|texel| **texel != 0).count() as u64
+    /// The texels of a target; those that are not 0 were drawn.
+    fn texels(&self, target: ImageLayer) -> &[u32] {
+        &self.read.words(target.image)[self.graph.words_of(target)]
     }
 }
 

@@ -6,6 +6,7 @@ use npr_core::layout::GpuLayout;
 use npr_shaders::Features;
 use npr_vector::rank::scan::BLOCK;
 use npr_vector::rank::work::{Arguments, MAX_GROUPS};
+use std::ops::Range;
 
 /// A buffer or image of a graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -14,6 +15,27 @@ pub struct ResourceId(pub(crate) u32);
 impl ResourceId {
     pub(crate) fn index(self) -> usize {
         self.0 as usize
+    }
+
+    /// A layer of an image, counted from 0.
+    pub fn layer(self, layer: u32) -> ImageLayer {
+        ImageLayer { image: self, layer }
+    }
+}
+
+/// A layer of an image, which a pass draws into.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ImageLayer {
+    /// The image.
+    pub image: ResourceId,
+    /// Which of its layers, counted from 0.
+    pub layer: u32,
+}
+
+/// The first layer, which most images have alone.
+impl From<ResourceId> for ImageLayer {
+    fn from(image: ResourceId) -> Self {
+        image.layer(0)
     }
 }
 
@@ -32,12 +54,14 @@ pub enum Kind {
         /// Number of elements.
         count: usize,
     },
-    /// A picture.
+    /// A picture, or several of one size.
     Image {
         /// What a texel holds.
         format: Format,
         /// Width and height.
         size: [u32; 2],
+        /// Number of pictures, at least 1; the words of one lie behind those of the other.
+        layers: u32,
     },
 }
 
@@ -56,7 +80,7 @@ impl Resource {
         match self.kind {
             Kind::Uniform { size } => size.div_ceil(4),
             Kind::Buffer { stride, count } => (stride * count).div_ceil(4),
-            Kind::Image { size, .. } => size[0] as usize * size[1] as usize,
+            Kind::Image { size, layers, .. } => area(size) * layers as usize,
         }
     }
 }
@@ -77,10 +101,21 @@ pub struct Node {
     pub pass: &'static Pass,
     /// Resources of its slots in order, then of its targets.
     pub bound: Vec<ResourceId>,
+    /// The layer of each target that is drawn into.
+    pub layers: Vec<u32>,
     /// Whether the targets are cleared to zero before drawing.
     pub clears: bool,
     /// Where its size is found; without one, it works on all elements of the counted slot.
     pub size: Option<WorkSize>,
+}
+
+impl Node {
+    /// What it draws into; nothing for compute passes.
+    pub fn targets(&self) -> impl Iterator<Item = ImageLayer> + '_ {
+        let images = &self.bound[self.pass.slots.len()..];
+        let layers = images.iter().zip(&self.layers);
+        layers.map(|(image, layer)| image.layer(*layer))
+    }
 }
 
 /// Resources and nodes, in the order in which the nodes run.
@@ -161,9 +196,32 @@ impl Graph {
         id
     }
 
-    /// Adds an image.
+    /// Adds an image of one layer.
     pub fn image(&mut self, name: &'static str, format: Format, size: [u32; 2]) -> ResourceId {
-        self.add(name, Kind::Image { format, size })
+        self.layered_image(name, format, size, 1)
+    }
+
+    /// Adds an image of some layers of one size.
+    ///
+    /// # Panics
+    ///
+    /// When it has no layers.
+    pub fn layered_image(
+        &mut self,
+        name: &'static str,
+        format: Format,
+        size: [u32; 2],
+        layers: u32,
+    ) -> ResourceId {
+        assert!(layers > 0, "image '{name}' has no layers");
+        self.add(
+            name,
+            Kind::Image {
+                format,
+                size,
+                layers,
+            },
+        )
     }
 
     /// Adds a resource of any kind, for programs that build graphs from declarations.
@@ -196,21 +254,22 @@ impl Graph {
         self.push(Node {
             pass,
             bound: bound.to_vec(),
+            layers: Vec::new(),
             clears: false,
             size,
         });
     }
 
-    /// Appends a draw pass into `targets`, which are first cleared to zero if `clears`.
+    /// Appends a draw pass into `targets`, images or layers of them, which are first cleared to zero if `clears`.
     ///
     /// # Panics
     ///
     /// When `bound` or `targets` do not fit the pass.
-    pub fn draw(
+    pub fn draw<T: Into<ImageLayer> + Copy>(
         &mut self,
         pass: &'static Pass,
         bound: &[ResourceId],
-        targets: &[ResourceId],
+        targets: &[T],
         clears: bool,
     ) {
         self.draw_sized(pass, (bound, targets), clears, None);
@@ -221,16 +280,20 @@ impl Graph {
     /// # Panics
     ///
     /// As [`Graph::draw`] and [`Graph::compute_sized`].
-    pub fn draw_sized(
+    pub fn draw_sized<T: Into<ImageLayer> + Copy>(
         &mut self,
         pass: &'static Pass,
-        (bound, targets): (&[ResourceId], &[ResourceId]),
+        (bound, targets): (&[ResourceId], &[T]),
         clears: bool,
         size: Option<WorkSize>,
     ) {
+        let targets = targets.iter().map(|target| (*target).into());
+        let targets: Vec<ImageLayer> = targets.collect();
+        let images = targets.iter().map(|target| target.image);
         self.push(Node {
             pass,
-            bound: [bound, targets].concat(),
+            bound: bound.iter().copied().chain(images).collect(),
+            layers: targets.iter().map(|target| target.layer).collect(),
             clears,
             size,
         });
@@ -259,7 +322,10 @@ impl Graph {
                     | Access::Scatter
                     | Access::Append,
                 ) => stride == slot.element.size,
-                (Kind::Image { format, .. }, Access::Texture(wanted)) => format == wanted,
+                (Kind::Image { format, layers, .. }, Access::Texture(wanted)) => {
+                    format == wanted && layers == 1
+                }
+                (Kind::Image { format, .. }, Access::Layered(wanted)) => format == wanted,
                 _ => false,
             };
             assert!(
@@ -272,13 +338,14 @@ impl Graph {
         }
 
         // Check that the pass can draw into its targets.
-        for (format, id) in targets.iter().zip(&node.bound[slots.len()..]) {
-            let fits = matches!(self.resource(*id).kind, Kind::Image { format: have, .. } if have == *format);
+        for (format, ImageLayer { image, layer }) in targets.iter().zip(node.targets()) {
+            let fits = matches!(self.resource(image).kind, Kind::Image { format: have, layers, .. }
+                if have == *format && layer < layers);
             assert!(
                 fits,
-                "pass {} cannot draw into '{}'",
+                "pass {} cannot draw into layer {layer} of '{}'",
                 pass.name,
-                self.resource(*id).name
+                self.resource(image).name
             );
         }
 
@@ -313,7 +380,8 @@ impl Graph {
     pub fn is_same_as(&self, other: &Self) -> bool {
         let are_alike = |(a, b): (&Node, &Node)| {
             a.pass.name == b.pass.name
-                && (&a.bound, a.clears, a.size) == (&b.bound, b.clears, b.size)
+                && (&a.bound, &a.layers) == (&b.bound, &b.layers)
+                && (a.clears, a.size) == (b.clears, b.size)
         };
         self.features == other.features
             && self.resources == other.resources
@@ -358,13 +426,23 @@ impl Graph {
         &self.nodes
     }
 
-    /// The number of elements of a resource; texels of an image.
+    /// The number of elements of a resource; texels of all layers of an image.
     pub fn element_count(&self, id: ResourceId) -> usize {
         match self.resource(id).kind {
             Kind::Uniform { .. } => 1,
             Kind::Buffer { count, .. } => count,
-            Kind::Image { size, .. } => size[0] as usize * size[1] as usize,
+            Kind::Image { .. } => self.resource(id).word_count(),
         }
+    }
+
+    /// Where the words of a layer lie among those of its image.
+    pub(crate) fn words_of(&self, ImageLayer { image, layer }: ImageLayer) -> Range<usize> {
+        let count = match self.resource(image).kind {
+            Kind::Image { size, .. } => area(size),
+            _ => 0,
+        };
+        let start = layer as usize * count;
+        start..start + count
     }
 
     /// The number of work items that a node has room for: elements, or texels where an image is counted.
@@ -410,6 +488,11 @@ impl Graph {
             .map(|resource| resource.word_count() as u64 * 4)
             .sum()
     }
+}
+
+/// Texels of a picture of this width and height.
+fn area([width, height]: [u32; 2]) -> usize {
+    width as usize * height as usize
 }
 
 /// Workgroups in x and y for a number of invocations, 0 in x for none, in rows of equal width; `None` if there are more

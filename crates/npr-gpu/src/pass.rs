@@ -125,8 +125,10 @@ pub enum Access {
     /// A list in a storage buffer that invocations append to: the number of its elements, which is 0 before the pass,
     /// then the elements in any order.
     Append,
-    /// An image whose texels are loaded.
+    /// An image of one layer whose texels are loaded.
     Texture(Format),
+    /// An image of any number of layers whose texels are loaded.
+    Layered(Format),
 }
 
 impl Access {
@@ -136,6 +138,14 @@ impl Access {
             self,
             Self::Write | Self::Update | Self::Scatter | Self::Append
         )
+    }
+
+    /// What the texels of an image hold, where it binds one.
+    pub fn image_format(self) -> Option<Format> {
+        match self {
+            Self::Texture(format) | Self::Layered(format) => Some(format),
+            _ => None,
+        }
     }
 }
 
@@ -247,6 +257,14 @@ pub const fn texture(name: &'static str, format: Format) -> Slot {
     }
 }
 
+/// An image slot of any number of layers whose texels are loaded.
+pub const fn layered(name: &'static str, format: Format) -> Slot {
+    Slot {
+        access: Access::Layered(format),
+        ..texture(name, format)
+    }
+}
+
 impl Pass {
     /// The images that the pass draws into, none for compute passes.
     pub fn targets(&self) -> &'static [Format] {
@@ -296,11 +314,11 @@ impl Pass {
 pub struct Image<'a> {
     /// Width and height.
     pub size: [u32; 2],
-    /// Texels, row by row from the top: integers, packed bytes, or float bits.
+    /// Texels, layer by layer, row by row from the top: integers, packed bytes, or float bits.
     pub texels: &'a [u32],
 }
 
-/// An image as a twin writes it.
+/// A layer of an image as a twin writes it.
 #[derive(Debug)]
 pub struct ImageMut<'a> {
     /// Width and height.
@@ -358,6 +376,14 @@ impl<'a> Bindings<'a> {
             },
             _ => panic!("binding {index} is not read"),
         }
+    }
+
+    /// The texels of each layer of the image of slot `index`; none of those that it does not have.
+    pub fn layers<const N: usize>(&self, index: usize) -> [&'a [u32]; N] {
+        let Image { size, texels } = self.image(index);
+        let area = size[0] as usize * size[1] as usize;
+        let mut layers = texels.chunks_exact(area.max(1));
+        std::array::from_fn(|_| layers.next().unwrap_or_default())
     }
 
     /// The target `index`, counted after the slots; can be taken once.

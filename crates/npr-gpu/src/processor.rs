@@ -7,6 +7,7 @@ use crate::graph::{Graph, Node, ResourceId, WorkSize, emptied, writes};
 use crate::pass::{Bindings, Bound, Work};
 use npr_vector::rank::work::Arguments;
 use rayon::prelude::*;
+use std::ops::Range;
 use std::time::Instant;
 
 /// Runs graphs on the processor, with all threads of the current rayon pool.
@@ -107,7 +108,7 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
     // Clear the targets, unless every pixel is written anyway.
     let fills = matches!(node.pass.work, Work::Draw { fills: true, .. });
     if node.clears && !(fills && work_count > 0) {
-        clear_targets(node, &written, &mut lent);
+        clear_targets(graph, node, &mut lent);
     }
 
     // Bind the slots and run the twin.
@@ -121,15 +122,12 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
                 .get(i)
                 .is_some_and(|slot| !slot.access.writes());
             match if is_read { None } else { free.next() } {
-                Some(words) => {
-                    let end = words_for(graph, node, i, work_count);
-                    Bound::Write {
-                        words: &mut words[..end],
-                        size,
-                    }
-                }
+                Some(words) => Bound::Write {
+                    words: &mut words[words_for(graph, node, i, work_count)],
+                    size,
+                },
                 None => Bound::Read {
-                    words: &memory[id.index()][..words_for(graph, node, i, work_count)],
+                    words: &memory[id.index()][words_for(graph, node, i, work_count)],
                     size,
                 },
             }
@@ -158,25 +156,28 @@ fn work_count(graph: &Graph, node: &Node, memory: &[Vec<u32>]) -> usize {
     graph.sized_work_count(node, &made[index])
 }
 
-/// The number of words of a binding that the node's work reaches: a twin works through the whole slices that it is
-/// given.
+/// The words of a binding that the node's work reaches: a twin works through the whole slices that it is given.
 ///
-/// The slot that counts the work ends where the work does, and so do the slots written in step with it.
-fn words_for(graph: &Graph, node: &Node, binding: usize, work_count: usize) -> usize {
+/// The slot that counts the work ends where the work does, and so do the slots written in step with it. A target is the
+/// layer that is drawn into.
+fn words_for(graph: &Graph, node: &Node, binding: usize, work_count: usize) -> Range<usize> {
+    // Take the layer of a target.
+    let Some(slot) = node.pass.slots.get(binding) else {
+        let layer = node.layers[binding - node.pass.slots.len()];
+        return graph.words_of(node.bound[binding].layer(layer));
+    };
+
+    // Cut off what the work does not reach; a list knows its own length.
     let resource = graph.resource(node.bound[binding]);
     let counted = node.pass.counted_slot();
-    let slot = node.pass.slots.get(binding);
-    let is_in_step = slot.is_some_and(|slot| slot.access.writes())
-        && graph.element_count(node.bound[binding]) == graph.work_count(node);
-    // A list knows its own length.
-    if matches!(node.pass.work, Work::PerListed { .. }) {
-        return resource.word_count();
-    }
+    let is_in_step =
+        slot.access.writes() && graph.element_count(node.bound[binding]) == graph.work_count(node);
+    let is_listed = matches!(node.pass.work, Work::PerListed { .. });
     match resource.kind {
-        Kind::Buffer { stride, .. } if binding == counted || is_in_step => {
-            (stride * work_count).div_ceil(4)
+        Kind::Buffer { stride, .. } if !is_listed && (binding == counted || is_in_step) => {
+            0..(stride * work_count).div_ceil(4)
         }
-        _ => resource.word_count(),
+        _ => 0..resource.word_count(),
     }
 }
 
@@ -186,13 +187,11 @@ fn clear(words: &mut [u32]) {
     chunks.for_each(|chunk| chunk.fill(0));
 }
 
-/// Zeroes the targets among the lent memory: they come after the slots.
-fn clear_targets(node: &Node, written: &[ResourceId], lent: &mut [Vec<u32>]) {
-    let targets = &node.bound[node.pass.slots.len()..];
-    for (id, words) in written.iter().zip(lent) {
-        if targets.contains(id) {
-            clear(words);
-        }
+/// Zeroes the layers that are drawn into: their images are the last of the lent memory.
+fn clear_targets(graph: &Graph, node: &Node, lent: &mut [Vec<u32>]) {
+    let first = lent.len() - node.layers.len();
+    for (target, words) in node.targets().zip(&mut lent[first..]) {
+        clear(&mut words[graph.words_of(target)]);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Which edges may become lines: the twin of `mesh.classify_edges`.
 
 use npr_core::edge_flags::EdgeFlags;
-use npr_core::geometry::{Edge, NONE, Part, PosedVertex, Triangle};
+use npr_core::geometry::{Edge, EdgeRole, NONE, Part, PosedVertex, Triangle};
 use npr_core::line_kind::KindSet;
 use npr_core::outline::Outline;
 use npr_core::surface::faces_eye;
@@ -18,19 +18,20 @@ pub struct PosedMesh<'a> {
     pub parts: &'a [Part],
 }
 
-/// The kinds of every edge, as bits of [`KindSet`] and [`EdgeFlags::FACING`], limited to those the outline draws.
+/// The kinds of every edge, limited to those the outline draws, and its part.
 ///
 /// A contour has one face turned to the eye and one turned away [Marshall 2001]. Edges of parts without lines are of no
 /// kind. O(edges), parallel.
-pub fn classify(outline: &Outline, mesh: &PosedMesh<'_>, edges: &[Edge], kinds: &mut [u32]) {
-    kinds
+pub fn classify(outline: &Outline, mesh: &PosedMesh<'_>, edges: &[Edge], roles: &mut [EdgeRole]) {
+    roles
         .par_iter_mut()
         .zip(edges)
         .with_min_len(4096)
-        .for_each(|(kind, edge)| {
-            let drawn = mesh.part_of(edge.faces[0]).flags & Part::LINES != 0;
-            *kind = if drawn {
-                kinds_of(outline, mesh, edge) & outline.kinds
+        .for_each(|(role, edge)| {
+            role.part = mesh.triangles[edge.faces[0] as usize].part;
+            let flags = mesh.parts[role.part as usize].flags;
+            role.kinds = if flags & Part::LINES != 0 {
+                kinds_of(outline, mesh, edge, flags) & outline.kinds
             } else {
                 0
             };
@@ -38,10 +39,6 @@ pub fn classify(outline: &Outline, mesh: &PosedMesh<'_>, edges: &[Edge], kinds: 
 }
 
 impl PosedMesh<'_> {
-    fn part_of(&self, face: u32) -> &Part {
-        &self.parts[self.triangles[face as usize].part as usize]
-    }
-
     fn face_is_front(&self, face: u32) -> bool {
         faces_eye(
             self.triangles[face as usize]
@@ -51,11 +48,11 @@ impl PosedMesh<'_> {
     }
 }
 
-/// All kinds that an edge is of.
-fn kinds_of(outline: &Outline, mesh: &PosedMesh<'_>, edge: &Edge) -> u32 {
+/// All kinds that an edge of a part with these flags is of.
+fn kinds_of(outline: &Outline, mesh: &PosedMesh<'_>, edge: &Edge, flags: u32) -> u32 {
     let bit = |kind: u32, when: bool| if when { kind } else { 0 };
     let front = mesh.face_is_front(edge.faces[0]);
-    let both_sides = mesh.part_of(edge.faces[0]).flags & Part::DOUBLE_SIDED != 0;
+    let both_sides = flags & Part::DOUBLE_SIDED != 0;
 
     // Take an edge of one face for a boundary where it can be seen.
     if edge.faces[1] == NONE {
@@ -127,14 +124,14 @@ mod tests {
             dihedral_cos,
             traits,
         };
-        let mut kinds = [0];
+        let mut roles = [EdgeRole::default()];
         let mesh = PosedMesh {
             posed: &posed,
             triangles: &triangles,
             parts: &parts,
         };
-        classify(&outline, &mesh, &[edge], &mut kinds);
-        kinds[0]
+        classify(&outline, &mesh, &[edge], &mut roles);
+        roles[0].kinds
     }
 
     #[test]

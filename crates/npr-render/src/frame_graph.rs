@@ -11,7 +11,6 @@ use npr_gpu::passes::{line, mesh, raster, shade};
 use npr_mesh::pose::Matrix;
 use npr_style::compose::{Compose, TriangleConstants};
 use npr_style::lighting::Lights;
-use npr_style::shadow::SHADOWS_MAX;
 
 /// Numbers of elements that decide the sizes of buffers.
 #[derive(Debug, Clone, Copy, Default)]
@@ -107,8 +106,10 @@ pub(crate) struct FrameGraph {
 pub(crate) struct Layers {
     pub beam_ids: ResourceId,
     pub ribbons: ResourceId,
-    pub shadows: [ResourceId; SHADOWS_MAX],
-    pub smoke: [ResourceId; 2 + SHADOWS_MAX],
+    /// What the lights see, a layer each.
+    pub shadows: ResourceId,
+    /// Colours and depths of the smoke, and what the lights see of it, a layer each.
+    pub smoke: [ResourceId; 3],
     /// The rules of background contrast.
     pub rules: ResourceId,
 }
@@ -130,7 +131,11 @@ impl FrameGraph {
             influences: graph.buffer::<Influence>("influences", counts.vertices),
             palette: graph.buffer::<Matrix>("palette", counts.joints),
             triangles: graph.buffer::<Triangle>("triangles", counts.triangles),
-            charts: graph.buffer::<ChartCorners>("charts", counts.charts),
+            charts: graph.image(
+                "charts",
+                Format::U32,
+                ChartCorners::image_size(counts.charts),
+            ),
             parts: graph.buffer::<Part>("parts", counts.parts),
             texels: graph.buffer::<u32>("texels", counts.texel_words),
             frame: graph.buffer::<u32>("frame", grids.output_pixels()),
@@ -238,10 +243,10 @@ impl FrameGraph {
             self.charts,
             self.list,
             frame,
+            layers.shadows,
         ];
         let bound = [
             &bound[..],
-            &layers.shadows,
             &layers.smoke,
             &[layers.rules],
             &sides,

@@ -3,7 +3,7 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use npr_core::camera::{Camera, Projection};
 use npr_core::edge_flags::EdgeFlags;
-use npr_core::geometry::{Edge, GPixel, NONE, Part, PosedVertex, Stamp, Triangle};
+use npr_core::geometry::{Edge, EdgeRole, GPixel, NONE, Part, PosedVertex, Stamp, Triangle};
 use npr_core::line_kind::KindSet;
 use npr_core::outline::{MASK_OWNER, Outline};
 use npr_core::window::{View, Window};
@@ -102,7 +102,7 @@ impl Picture {
         &self,
         posed: &[PosedVertex],
         edges: &[Edge],
-        kinds: &[u32],
+        roles: &[EdgeRole],
         layer: &mut [u32],
         keys: &mut [u32],
     ) {
@@ -112,14 +112,13 @@ impl Picture {
             mask_window: &self.window,
             outline: &self.outline,
             posed,
-            triangles: &self.triangles,
             parts: &self.parts,
             gbuffer: &self.gbuffer,
             mask: &self.mask,
             tints: &[],
         };
         keys.fill(0);
-        ribbon::draw(&with, edges, kinds, layer, keys);
+        ribbon::draw(&with, edges, roles, layer, keys);
     }
 
     /// Stamps for all line owners, where nothing is inked by ribbons.
@@ -240,10 +239,14 @@ fn edges(c: &mut Criterion) {
     let mut group = c.benchmark_group("edges");
     for count in COUNTS {
         let (posed, edges) = short_edges(&picture.view, count);
-        let kinds = vec![KindSet::CONTOUR; count];
+        let role = EdgeRole {
+            kinds: KindSet::CONTOUR,
+            part: 0,
+        };
+        let roles = vec![role; count];
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(BenchmarkId::new("draw ribbons", count), |b| {
-            b.iter(|| picture.ribbons(&posed, &edges, &kinds, &mut layer, &mut keys))
+            b.iter(|| picture.ribbons(&posed, &edges, &roles, &mut layer, &mut keys))
         });
     }
 }

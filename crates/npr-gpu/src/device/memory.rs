@@ -5,6 +5,7 @@ use super::image::Image;
 use super::staging::Staging;
 use crate::engine::EngineError;
 use crate::graph::{Kind, Resource};
+use crate::pass::Access;
 
 /// The memory of a resource on the device.
 #[derive(Debug)]
@@ -39,9 +40,11 @@ impl Memory {
                 stride * count.max(1),
                 wgpu::BufferUsages::STORAGE | more,
             )),
-            Kind::Image { format, size } => {
-                Self::Image(Image::new(gpu, resource.name, format, size))
-            }
+            Kind::Image {
+                format,
+                size,
+                layers,
+            } => Self::Image(Image::new(gpu, resource.name, format, size, layers)),
         });
 
         // Tell a device that is full from one that failed.
@@ -52,10 +55,13 @@ impl Memory {
     }
 
     /// How the memory is bound to a slot.
-    pub(super) fn binding(&self) -> wgpu::BindingResource<'_> {
-        match self {
-            Self::Buffer(buffer) => buffer.as_entire_binding(),
-            Self::Image(image) => wgpu::BindingResource::TextureView(&image.view),
+    pub(super) fn binding(&self, access: Access) -> wgpu::BindingResource<'_> {
+        match (self, access) {
+            (Self::Buffer(buffer), _) => buffer.as_entire_binding(),
+            (Self::Image(image), Access::Layered(_)) => {
+                wgpu::BindingResource::TextureView(&image.all)
+            }
+            (Self::Image(image), _) => wgpu::BindingResource::TextureView(&image.layers[0]),
         }
     }
 
@@ -110,8 +116,12 @@ fn check_size(limits: &wgpu::Limits, resource: &Resource) -> Result<(), EngineEr
     let fits = match resource.kind {
         Kind::Uniform { .. } => bytes <= limits.max_uniform_buffer_binding_size,
         Kind::Buffer { .. } => bytes <= limits.max_storage_buffer_binding_size,
-        Kind::Image { size, .. } => {
-            return check_sides(limits.max_texture_dimension_2d, resource, size);
+        Kind::Image { size, layers, .. } => {
+            let most = [
+                limits.max_texture_dimension_2d,
+                limits.max_texture_array_layers,
+            ];
+            return check_sides(most, resource, size, layers);
         }
     };
     if fits {
@@ -121,14 +131,19 @@ fn check_size(limits: &wgpu::Limits, resource: &Resource) -> Result<(), EngineEr
     }
 }
 
-fn check_sides(most: u32, resource: &Resource, size: [u32; 2]) -> Result<(), EngineError> {
-    if size[0] <= most && size[1] <= most {
+fn check_sides(
+    [most, most_layers]: [u32; 2],
+    resource: &Resource,
+    [width, height]: [u32; 2],
+    layers: u32,
+) -> Result<(), EngineError> {
+    let reason = if width > most || height > most {
+        format!("an image of {width} x {height} is larger than {most} on a side")
+    } else if layers > most_layers {
+        format!("an image of {layers} layers has more than {most_layers}")
+    } else {
         return Ok(());
-    }
-    let reason = format!(
-        "an image of {} x {} is larger than {most} on a side",
-        size[0], size[1]
-    );
+    };
     Err(EngineError::Failed {
         place: resource.name.to_owned(),
         reason,

@@ -138,17 +138,19 @@ fn binding_type(slot: &Slot) -> wgpu::BindingType {
         has_dynamic_offset: false,
         min_binding_size: wgpu::BufferSize::new(slot.element.size as u64),
     };
+    let texture = |format, view_dimension| wgpu::BindingType::Texture {
+        sample_type: sample_type(format),
+        view_dimension,
+        multisampled: false,
+    };
     match slot.access {
         Access::Uniform => buffer(wgpu::BufferBindingType::Uniform),
         Access::Read => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
         Access::Write | Access::Update | Access::Scatter | Access::Append => {
             buffer(wgpu::BufferBindingType::Storage { read_only: false })
         }
-        Access::Texture(format) => wgpu::BindingType::Texture {
-            sample_type: sample_type(format),
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: false,
-        },
+        Access::Texture(format) => texture(format, wgpu::TextureViewDimension::D2),
+        Access::Layered(format) => texture(format, wgpu::TextureViewDimension::D2Array),
     }
 }
 

@@ -270,14 +270,15 @@ impl DeviceSession {
         stamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) -> wgpu::RenderPass<'a> {
         // Sort the targets into colours and depths.
-        let targets = node.bound[node.pass.slots.len()..]
-            .iter()
-            .filter_map(|id| self.memory[id.index()].image());
+        let targets = node.targets().filter_map(|target| {
+            let image = self.memory[target.image.index()].image()?;
+            Some((image.format, &image.layers[target.layer as usize]))
+        });
         let (depths, colors): (Vec<_>, Vec<_>) =
-            targets.partition(|image| image.format == Format::Depth);
+            targets.partition(|(format, _)| *format == Format::Depth);
         let colors: Vec<_> = colors
             .iter()
-            .map(|image| Some(color_attachment(&image.view, node.clears)))
+            .map(|(_, view)| Some(color_attachment(view, node.clears)))
             .collect();
 
         // Clear them or keep them, as the node says.
@@ -286,7 +287,7 @@ impl DeviceSession {
             color_attachments: &colors,
             depth_stencil_attachment: depths
                 .first()
-                .map(|image| depth_attachment(&image.view, node.clears)),
+                .map(|(_, view)| depth_attachment(view, node.clears)),
             timestamp_writes: stamps,
             occlusion_query_set: None,
             multiview_mask: None,

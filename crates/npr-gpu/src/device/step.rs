@@ -75,9 +75,9 @@ fn bind(
     let bound = (0..).zip(node.pass.slots.iter().zip(&node.bound));
     let entries: Vec<_> = bound
         .filter(|(_, (slot, _))| slot.is_bound_for(graph.features()))
-        .map(|(binding, (_, id))| wgpu::BindGroupEntry {
+        .map(|(binding, (slot, id))| wgpu::BindGroupEntry {
             binding,
-            resource: memory[id.index()].binding(),
+            resource: memory[id.index()].binding(slot.access),
         })
         .collect();
 

@@ -3,7 +3,7 @@
 use crate::pass::{
     Agreement, Features, Format, Pass, Work, append, read, scatter, texture, uniform, update, write,
 };
-use npr_core::geometry::{Edge, GPixel, Part, PosedVertex, Stamp, Triangle, Vertex};
+use npr_core::geometry::{Edge, EdgeRole, GPixel, Part, PosedVertex, Stamp, Triangle, Vertex};
 use npr_core::line_color::{LineTint, LineTints};
 use npr_core::outline::Outline;
 use npr_core::window::{View, Window};
@@ -144,10 +144,9 @@ pub const DRAW_RIBBONS: Pass = Pass {
         uniform::<Window>("mask_window"),
         uniform::<Outline>("outline"),
         read::<PosedVertex>("posed"),
-        read::<Triangle>("triangles"),
         read::<Part>("parts"),
         read::<Edge>("edges"),
-        read::<u32>("kinds"),
+        read::<EdgeRole>("roles"),
         read::<GPixel>("gbuffer"),
         read::<u32>("mask"),
         read::<LineTint>("tints").serving(Features::TINTS),
@@ -167,18 +166,17 @@ pub const DRAW_RIBBONS: Pass = Pass {
             mask_window: &mask_window,
             outline: &outline,
             posed: b.read(4),
-            triangles: b.read(5),
-            parts: b.read(6),
-            gbuffer: b.read(9),
-            mask: b.read(10),
-            tints: b.read(11),
+            parts: b.read(5),
+            gbuffer: b.read(8),
+            mask: b.read(9),
+            tints: b.read(10),
         };
         ribbon::draw(
             &with,
+            b.read(6),
             b.read(7),
-            b.read(8),
+            b.image_mut(11).texels,
             b.image_mut(12).texels,
-            b.image_mut(13).texels,
         );
     },
 };

@@ -1,7 +1,7 @@
 //! Passes over vertices and edges.
 
 use crate::pass::{Agreement, Pass, Work, read, uniform, write};
-use npr_core::geometry::{Edge, Influence, Part, PosedVertex, Triangle, Vertex};
+use npr_core::geometry::{Edge, EdgeRole, Influence, Part, PosedVertex, Triangle, Vertex};
 use npr_core::outline::Outline;
 use npr_core::window::View;
 use npr_mesh::classify::{PosedMesh, classify};
@@ -47,7 +47,7 @@ pub const CLASSIFY_EDGES: Pass = Pass {
         read::<Triangle>("triangles"),
         read::<Part>("parts"),
         read::<Edge>("edges"),
-        write::<u32>("kinds"),
+        write::<EdgeRole>("roles"),
     ],
     work: Work::PerElement { of: "edges" },
     agreement: Agreement::Exact,

@@ -1,9 +1,9 @@
 //! Passes that give surfaces their tone.
 
 use crate::pass::{
-    Agreement, Features, Format, Pass, Work, append, read, texture, uniform, update, write,
+    Agreement, Features, Format, Pass, Work, append, layered, read, texture, uniform, update, write,
 };
-use npr_core::geometry::{ChartCorners, Part, PosedVertex, Triangle, Vertex};
+use npr_core::geometry::{Part, PosedVertex, Triangle, Vertex};
 use npr_core::outline::Outline;
 use npr_core::window::{View, Window};
 use npr_style::backdrop::Rules;
@@ -98,19 +98,13 @@ pub const COMPOSE_FRAME: Pass = Pass {
         read::<TriangleConstants>("triangles"),
         read::<Part>("parts"),
         read::<u32>("texels"),
-        read::<ChartCorners>("charts").serving(Features::INK),
+        texture("charts", Format::U32).serving(Features::INK),
         read::<u32>("list"),
         update::<u32>("frame"),
-        texture("shadow_0", Format::U32).serving(Features::SHADOWS),
-        texture("shadow_1", Format::U32).serving(Features::SHADOWS),
-        texture("shadow_2", Format::U32).serving(Features::SHADOWS),
-        texture("shadow_3", Format::U32).serving(Features::SHADOWS),
+        layered("shadows", Format::U32).serving(Features::SHADOWS),
         texture("smoke_colors", Format::Rgba8).serving(Features::SMOKE),
         texture("smoke_depths", Format::U32).serving(Features::SMOKE),
-        texture("smoke_shadow_0", Format::Depth).serving(Features::SMOKE_SHADOWS),
-        texture("smoke_shadow_1", Format::Depth).serving(Features::SMOKE_SHADOWS),
-        texture("smoke_shadow_2", Format::Depth).serving(Features::SMOKE_SHADOWS),
-        texture("smoke_shadow_3", Format::Depth).serving(Features::SMOKE_SHADOWS),
+        layered("smoke_shadows", Format::Depth).serving(Features::SMOKE_SHADOWS),
         uniform::<Rules>("rules").serving(Features::BACKDROP),
         texture("fronts", Format::Rgba8).serving(Features::BACKDROP),
         texture("backs", Format::Rgba8).serving(Features::BACKDROP),
@@ -120,7 +114,7 @@ pub const COMPOSE_FRAME: Pass = Pass {
     agreement: Agreement::Texels(0.001),
     twin: |b| {
         let (view, window, settings, lights) = (b.one(0), b.one(1), b.one(2), b.one(3));
-        let rules = b.one(25);
+        let rules = b.one(19);
         let layers = Layers {
             view: &view,
             window: &window,
@@ -131,18 +125,18 @@ pub const COMPOSE_FRAME: Pass = Pass {
             ribbons: b.image(6).texels,
             posed: b.read(7),
             vertices: b.read(8),
-            triangles: b.read(28),
+            triangles: b.read(22),
             known: b.read(9),
             parts: b.read(10),
             texels: b.read(11),
             charts: b.read(12),
-            shadows: std::array::from_fn(|i| b.image(15 + i).texels),
-            smoke_colors: b.image(19).texels,
-            smoke_depths: b.image(20).texels,
-            smoke_shadows: std::array::from_fn(|i| b.image(21 + i).texels),
+            shadows: b.layers(15),
+            smoke_colors: b.image(16).texels,
+            smoke_depths: b.image(17).texels,
+            smoke_shadows: b.layers(18),
             rules: &rules,
-            fronts: b.image(26).texels,
-            backs: b.image(27).texels,
+            fronts: b.image(20).texels,
+            backs: b.image(21).texels,
         };
         compose(&layers, b.read(13), b.write(14));
     },

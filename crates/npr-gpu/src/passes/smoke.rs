@@ -1,6 +1,6 @@
 //! Passes that draw spheres as cartoon smoke.
 
-use crate::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
+use crate::pass::{Agreement, Format, Pass, Work, layered, read, texture, uniform, write};
 use npr_core::smoke::{SmokePixel, Sphere, SphereView, ViewSphere};
 use npr_core::window::Window;
 use npr_style::lighting::Lights;
@@ -58,14 +58,8 @@ pub const SHADE_SPHERES: Pass = Pass {
         read::<Sphere>("spheres"),
         read::<ViewSphere>("balls"),
         write::<SmokePixel>("pixels"),
-        texture("smoke_light_0", Format::U32),
-        texture("smoke_light_1", Format::U32),
-        texture("smoke_light_2", Format::U32),
-        texture("smoke_light_3", Format::U32),
-        texture("surface_depth_0", Format::Depth),
-        texture("surface_depth_1", Format::Depth),
-        texture("surface_depth_2", Format::Depth),
-        texture("surface_depth_3", Format::Depth),
+        layered("smoke_lights", Format::U32),
+        layered("surface_depths", Format::Depth),
     ],
     work: Work::PerElement { of: "pixels" },
     agreement: Agreement::NearlyAll {
@@ -80,8 +74,8 @@ pub const SHADE_SPHERES: Pass = Pass {
             look: &look,
             lights: &lights,
             ids: b.image(4).texels,
-            shadows: std::array::from_fn(|i| b.image(8 + i).texels),
-            surfaces: std::array::from_fn(|i| b.image(12 + i).texels),
+            shadows: b.layers(8),
+            surfaces: b.layers(9),
             spheres: b.read(5),
             balls: b.read(6),
         };

@@ -1,6 +1,6 @@
-//! Drawing: depth, clearing, and nothing to draw.
+//! Drawing: depth, clearing, layers, and nothing to draw.
 
-use crate::sample_passes::DRAW_LARGEST;
+use crate::sample_passes::{ADD_LAYERS, DRAW_LARGEST};
 use crate::shared;
 use npr_gpu::engine::{Engine, Session};
 use npr_gpu::graph::{Graph, ResourceId};
@@ -80,5 +80,53 @@ fn the_processor_draws_the_same() {
             here.run(&numbers[0], &numbers[1]),
             there.run(&numbers[0], &numbers[1])
         );
+    }
+}
+
+/// Draws a number into each layer of a picture, out of order, with two layers of depths for all; adds all layers up.
+fn layers_on(engine: &dyn Engine, numbers: [u32; 3], clears: bool) -> [Vec<u32>; 3] {
+    let mut graph = Graph::new();
+    let bound = numbers.map(|_| graph.buffer::<u32>("number", 1));
+    let picture = graph.layered_image("picture", Format::U32, SIZE, 4);
+    let depths = graph.layered_image("depths", Format::Depth, SIZE, 2);
+    let sums = graph.buffer::<u32>("sums", 21);
+    for (layer, number) in [(2, bound[2]), (0, bound[0]), (1, bound[1])] {
+        let targets = [picture.layer(layer), depths.layer(layer % 2)];
+        graph.draw(&DRAW_LARGEST, &[number], &targets, clears);
+    }
+    graph.compute(&ADD_LAYERS, &[picture, depths, sums]);
+    let mut session = engine.prepare(graph).unwrap();
+
+    // Fill the picture before, so that what is cleared and what is kept differ.
+    session.write(picture, &[7; 4 * 21]).unwrap();
+    for (id, number) in bound.iter().zip(numbers) {
+        session.write(*id, &[number]).unwrap();
+    }
+    session.run().unwrap();
+    [picture, depths, sums].map(|id| session.read(id).unwrap())
+}
+
+/// Every layer of `SIZE`, filled with one value.
+fn filled(values: &[u32]) -> Vec<u32> {
+    values.iter().flat_map(|value| [*value; 21]).collect()
+}
+
+#[test]
+fn a_layer_is_cleared_and_drawn_alone() {
+    let Some(device) = shared::device() else {
+        return;
+    };
+    let depth = |number: u32| (number as f32 / 256.0).to_bits();
+    for engine in [&Processor as &dyn Engine, device] {
+        // Each draw clears its own layers: the first and third share their depths, but not what they drew.
+        let [picture, depths, sums] = layers_on(engine, [3, 50, 90], true);
+        assert_eq!(picture, filled(&[3, 50, 90, 7]));
+        assert_eq!(depths, filled(&[depth(3), depth(50)]));
+        assert_eq!(sums, [3 + 2 * 50 + 3 * 90 + 4 * 7 + 3 + 2 * 50; 21]);
+
+        // Without, what was drawn before hides what lies deeper.
+        let [picture, depths, _] = layers_on(engine, [3, 50, 90], false);
+        assert_eq!(picture, filled(&[7, 50, 90, 7]));
+        assert_eq!(depths, filled(&[depth(90), depth(50)]));
     }
 }

@@ -1,14 +1,14 @@
 //! What every slot of every pass holds in a frame: the scene, and what the twins make of it.
 
 use crate::scene::{
-    FRAME_PX, Look, SHADOW_SIDE, Scene, bare_compose, compose, lights, outline, part_subjects,
-    rules, smoke_look, spheres, view,
+    FRAME_PX, Look, SHADOW_SIDE, SHADOWS, Scene, bare_compose, compose, lights, outline,
+    part_subjects, rules, shadow_of, smoke_look, spheres, view,
 };
-use npr_core::geometry::Stamp;
+use npr_core::geometry::{ChartCorners, EdgeRole, Stamp};
 use npr_core::smoke::SphereView;
 use npr_core::window::Window;
 use npr_gpu::engine::Engine;
-use npr_gpu::graph::{Graph, Kind, ResourceId};
+use npr_gpu::graph::{Graph, ImageLayer, Kind, ResourceId};
 use npr_gpu::pass::{Access, Format, Pass, Slot};
 use npr_gpu::passes::{backdrop, line, mesh, raster, shade, smoke};
 use npr_gpu::processor::Processor;
@@ -61,11 +61,12 @@ fn resource_of(pass: &Pass, slot: &'static str) -> &'static str {
     renamed.map_or(slot, |(_, _, resource)| *resource)
 }
 
-/// What a resource holds, and its size where it is an image.
+/// What a resource holds, and its size and layers where it is an image.
 #[derive(Debug, Clone)]
 pub struct Content {
     pub words: Vec<u32>,
     pub size: [u32; 2],
+    pub layers: u32,
 }
 
 /// The contents of a frame by slot name.
@@ -80,14 +81,14 @@ impl Frame {
         "posed",
         "lit",
         "projected",
-        "shadow_0",
-        "kinds",
+        "shadows",
+        "roles",
         "hull",
         "ids",
         "beam_ids",
         "balls",
         "smoke_ids",
-        "smoke_light_0",
+        "smoke_lights",
         "pixels",
         "gathered",
         "blurred",
@@ -178,7 +179,7 @@ impl Frame {
 #[derive(Default)]
 struct Builder {
     graph: Graph,
-    ids: BTreeMap<&'static str, (ResourceId, [u32; 2])>,
+    ids: BTreeMap<&'static str, ResourceId>,
     given: Vec<(ResourceId, Vec<u32>)>,
 }
 
@@ -194,7 +195,8 @@ impl Builder {
         self.give_uniform("rules", &[rules(look)]);
         self.give_buffer("part_subjects", &part_subjects());
         self.give_uniform("lights", &[lights(look)]);
-        self.give_uniform("light_from_world", &[lights(look).shadows[0]]);
+        let light_view = lights(look).shadows[shadow_of(look) as usize];
+        self.give_uniform("light_from_world", &[light_view]);
         let shadow_px = [SHADOW_SIDE as f32; 2];
         let shadow_window = Window::over(shadow_px, [0.0; 2], shadow_px, [SHADOW_SIDE; 2]);
         self.give_uniform("shadow_window", &[shadow_window]);
@@ -211,22 +213,21 @@ impl Builder {
         self.give_buffer("parts", &scene.parts);
         self.give_buffer("triangles", &scene.triangles);
         self.give_buffer("edges", &scene.edges);
-        self.give_buffer("charts", &scene.charts);
+        let charts = Kind::Image {
+            format: Format::U32,
+            size: ChartCorners::image_size(scene.charts.len()),
+            layers: 1,
+        };
+        self.give("charts", charts, bytemuck::cast_slice(&scene.charts));
         self.give_buffer("texels", &scene.texels);
         self.make_buffer("posed", 48, scene.vertices.len());
         self.make_buffer("lit", 48, scene.vertices.len());
         self.make_buffer("projected", 16, scene.vertices.len());
-        self.make_image("shadow_0", Format::U32, [SHADOW_SIDE; 2]);
-        self.make_image("surface_depth_0", Format::Depth, [SHADOW_SIDE; 2]);
-        for name in ["surface_depth_1", "surface_depth_2", "surface_depth_3"] {
-            self.make_image(name, Format::Depth, [1, 1]);
-        }
-        for name in ["shadow_1", "shadow_2", "shadow_3"] {
-            self.make_image(name, Format::U32, [1, 1]);
-        }
+        self.make_layers("shadows", Format::U32, [SHADOW_SIDE; 2], SHADOWS);
+        self.make_layers("surface_depths", Format::Depth, [SHADOW_SIDE; 2], SHADOWS);
         self.give_smoke(look, size);
         self.make_buffer("hull", 16, scene.vertices.len());
-        self.make_buffer("kinds", 4, scene.edges.len());
+        self.make_buffer("roles", size_of::<EdgeRole>(), scene.edges.len());
         self.make_image("ids", Format::U32, size.map(|side| side * samples));
         self.make_image("beam_ids", Format::U32, size.map(|side| side * samples));
         self.make_image("depth", Format::Depth, size.map(|side| side * samples));
@@ -237,7 +238,8 @@ impl Builder {
         let smoke = smoke_look(look, size);
         let spheres = spheres();
         self.give_uniform("lens", &[SphereView::of_view(&view(look))]);
-        let light = SphereView::of_light(&lights(look).shadows[0], SHADOW_SIDE);
+        let light_view = lights(look).shadows[shadow_of(look) as usize];
+        let light = SphereView::of_light(&light_view, SHADOW_SIDE);
         self.give_uniform("light_lens", &[light]);
         self.give_uniform("look", &[smoke]);
         self.give_buffer("spheres", &spheres);
@@ -245,14 +247,8 @@ impl Builder {
         self.make_buffer("light_balls", 32, spheres.len());
         self.make_image("smoke_ids", Format::U32, size);
         self.make_image("smoke_id_depths", Format::Depth, size);
-        self.make_image("smoke_light_0", Format::U32, [SHADOW_SIDE; 2]);
-        self.make_image("smoke_shadow_0", Format::Depth, [SHADOW_SIDE; 2]);
-        for name in ["smoke_light_1", "smoke_light_2", "smoke_light_3"] {
-            self.make_image(name, Format::U32, [1, 1]);
-        }
-        for name in ["smoke_shadow_1", "smoke_shadow_2", "smoke_shadow_3"] {
-            self.make_image(name, Format::Depth, [1, 1]);
-        }
+        self.make_layers("smoke_lights", Format::U32, [SHADOW_SIDE; 2], SHADOWS);
+        self.make_layers("smoke_shadows", Format::Depth, [SHADOW_SIDE; 2], SHADOWS);
         self.make_buffer("pixels", 16, area(size));
         for name in ["gathered", "blurred", "cells"] {
             self.make_buffer(name, 8, smoke.cell_count());
@@ -262,11 +258,11 @@ impl Builder {
         self.make_image("smoke_depths", Format::U32, size);
     }
 
-    fn line_up_smoke(&mut self) {
-        let id = |name: &str| self.ids[name].0;
+    fn line_up_smoke(&mut self, look: Look) {
+        let id = |name: &str| self.ids[name];
         let from_light = [id("light_lens"), id("spheres"), id("light_balls")];
         let light_bound = [id("shadow_window"), id("light_lens"), id("light_balls")];
-        let light_targets = [id("smoke_light_0"), id("smoke_shadow_0")];
+        let light_targets = self.light_layers(look, ["smoke_lights", "smoke_shadows"]);
         self.graph.compute(&smoke::PROJECT_SPHERES, &from_light);
         self.graph
             .draw(&smoke::DRAW_SPHERES, &light_bound, &light_targets, true);
@@ -301,7 +297,7 @@ impl Builder {
         self.make_buffer("overlay", 4, pixels);
         self.make_buffer("frame", 4, pixels);
         self.make_buffer("picture_depths", 4, pixels);
-        let triangles = &self.graph.resource(self.ids["triangles"].0).kind;
+        let triangles = &self.graph.resource(self.ids["triangles"]).kind;
         let Kind::Buffer { count, .. } = *triangles else {
             panic!("triangles are a buffer");
         };
@@ -312,9 +308,10 @@ impl Builder {
         self.compute(&mesh::POSE_VERTICES);
         self.compute(&line::LIGHT_WIDTHS);
         self.compute(&mesh::PROJECT_SHADOW);
-        let shadow = ["shadow_0", "surface_depth_0"];
-        self.draw(&raster::DRAW_SHADOW, "shadow_window", shadow, true);
-        self.line_up_smoke();
+        let shadow = self.light_layers(look, ["shadows", "surface_depths"]);
+        let bound = self.bound(&raster::DRAW_SHADOW, "shadow_window");
+        self.graph.draw(&raster::DRAW_SHADOW, &bound, &shadow, true);
+        self.line_up_smoke(look);
         self.compute(&mesh::CLASSIFY_EDGES);
         self.compute(&mesh::EXTRUDE_HULL);
         self.draw(&raster::DRAW_IDS, "sample_window", ["ids", "depth"], true);
@@ -383,7 +380,7 @@ impl Builder {
     }
 
     fn line_up_backdrop(&mut self) {
-        let id = |name: &str| self.ids[name].0;
+        let id = |name: &str| self.ids[name];
         let flag = self.bound(&backdrop::FLAG_TILES, "tile_window");
         self.graph
             .draw(&backdrop::FLAG_TILES, &flag, &[id("busy")], true);
@@ -432,18 +429,27 @@ impl Builder {
 
     fn give(&mut self, name: &'static str, kind: Kind, words: &[u32]) {
         let id = self.graph.add(name, kind);
-        self.ids.insert(name, (id, [0; 2]));
+        self.ids.insert(name, id);
         self.given.push((id, words.to_vec()));
     }
 
     fn make_buffer(&mut self, name: &'static str, stride: usize, count: usize) {
         let id = self.graph.add(name, Kind::Buffer { stride, count });
-        self.ids.insert(name, (id, [0; 2]));
+        self.ids.insert(name, id);
     }
 
     fn make_image(&mut self, name: &'static str, format: Format, size: [u32; 2]) {
-        let id = self.graph.image(name, format, size);
-        self.ids.insert(name, (id, size));
+        self.make_layers(name, format, size, 1);
+    }
+
+    fn make_layers(&mut self, name: &'static str, format: Format, size: [u32; 2], count: u32) {
+        let id = self.graph.layered_image(name, format, size, count);
+        self.ids.insert(name, id);
+    }
+
+    /// The layers of two images that the light with shadows of a look draws into.
+    fn light_layers(&self, look: Look, names: [&str; 2]) -> [ImageLayer; 2] {
+        names.map(|name| self.ids[name].layer(shadow_of(look)))
     }
 
     /// What the slots of a pass bind; its window may be any of the grids.
@@ -457,7 +463,7 @@ impl Builder {
         };
         pass.slots
             .iter()
-            .map(|slot| self.ids[name_of(slot.name)].0)
+            .map(|slot| self.ids[name_of(slot.name)])
             .collect()
     }
 
@@ -470,7 +476,7 @@ impl Builder {
     fn compute_into(&mut self, pass: &'static Pass, slot: &str, into: &'static str) {
         let mut bound = self.bound(pass, resource_of(pass, "window"));
         let at = pass.slots.iter().position(|other| other.name == slot);
-        bound[at.unwrap()] = self.ids[into].0;
+        bound[at.unwrap()] = self.ids[into];
         self.graph.compute(pass, &bound);
     }
 
@@ -481,22 +487,28 @@ impl Builder {
         targets: [&str; 2],
         clears: bool,
     ) {
-        let (bound, targets) = (
-            self.bound(pass, window),
-            targets.map(|name| self.ids[name].0),
-        );
+        let (bound, targets) = (self.bound(pass, window), targets.map(|name| self.ids[name]));
         self.graph.draw(pass, &bound, &targets, clears);
     }
 
     fn run(self, engine: &dyn Engine) -> Frame {
-        let mut session = engine.prepare(self.graph).unwrap();
+        let mut session = engine.prepare(self.graph.clone()).unwrap();
         for (id, words) in &self.given {
             session.write(*id, words).unwrap();
         }
         session.run().unwrap();
-        let contents = self.ids.into_iter().map(|(name, (id, size))| {
+        let contents = self.ids.into_iter().map(|(name, id)| {
             let words = session.read(id).unwrap();
-            (name, Content { words, size })
+            let (size, layers) = match self.graph.resource(id).kind {
+                Kind::Image { size, layers, .. } => (size, layers),
+                _ => ([0; 2], 0),
+            };
+            let content = Content {
+                words,
+                size,
+                layers,
+            };
+            (name, content)
         });
         Frame {
             contents: contents.collect(),

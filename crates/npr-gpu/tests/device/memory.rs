@@ -41,6 +41,31 @@ fn a_short_write_leaves_the_rest_as_it_was() {
     assert_eq!(session.read(buffer).unwrap(), [5, 6, 0, 0]);
 }
 
+/// Whole layers come first, then rows, then texels: written, short or not, and read without padding.
+#[test]
+fn layers_come_back_one_after_the_other() {
+    let Some(device) = shared::device() else {
+        return;
+    };
+    for (size, count) in [([5, 3], 4), ([64, 2], 2), ([65, 3], 1)] {
+        let mut graph = Graph::new();
+        let image = graph.layered_image("pictures", Format::U32, size, count);
+        let mut session = device.prepare(graph).unwrap();
+        let all: Vec<u32> = (1..=size[0] * size[1] * count).collect();
+        session.write(image, &all).unwrap();
+        assert_eq!(session.read(image).unwrap(), all);
+        let layer = (size[0] * size[1]) as usize;
+        for short in [1, layer - 1, layer, all.len() - 1] {
+            let (mut expected, mut begun) = (all.clone(), vec![0; short]);
+            expected[..short].fill(0);
+            session.write(image, &begun).unwrap();
+            assert_eq!(session.read(image).unwrap(), expected, "{size:?} {short}");
+            begun.copy_from_slice(&all[..short]);
+            session.write(image, &begun).unwrap();
+        }
+    }
+}
+
 #[test]
 fn resources_without_elements_come_back_empty() {
     let Some(device) = shared::device() else {

@@ -183,6 +183,7 @@ fn input_of(graph: &mut Graph, id: ResourceId) -> ResourceId {
     let Kind::Image {
         format: Format::Depth,
         size,
+        ..
     } = graph.resource(id).kind
     else {
         return id;

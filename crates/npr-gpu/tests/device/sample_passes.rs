@@ -1,6 +1,6 @@
 //! Small passes whose result is obvious.
 
-use npr_gpu::pass::{Agreement, Format, Pass, Work, read, texture, uniform, write};
+use npr_gpu::pass::{Agreement, Format, Pass, Work, layered, read, texture, uniform, write};
 use npr_shaders::Shader;
 
 const fn shader(text: &'static str) -> Shader {
@@ -146,6 +146,51 @@ pub const ADD_TEXELS: Pass = Pass {
         let sums: &mut [u32] = bindings.write(3);
         for (i, sum) in sums.iter_mut().enumerate() {
             *sum = numbers[i] + (bytes[i] & 0xff) + step[0];
+        }
+    },
+};
+
+/// `sums[i]`: every layer's texel `i`, times the number of the layer from 1 on; depths count in 1/256.
+pub const ADD_LAYERS: Pass = Pass {
+    name: "test.add_layers",
+    shader: shader(
+        "const WG: u32 = 64u;
+        @group(0) @binding(0) var numbers: texture_2d_array<u32>;
+        @group(0) @binding(1) var depths: texture_depth_2d_array;
+        @group(0) @binding(2) var<storage, read_write> sums: array<u32>;
+        @compute @workgroup_size(WG)
+        fn main(@builtin(global_invocation_id) gid: vec3<u32>) {
+            if gid.x >= arrayLength(&sums) { return; }
+            let width = textureDimensions(numbers).x;
+            let pixel = vec2<u32>(gid.x % width, gid.x / width);
+            var sum = 0u;
+            for (var i = 0u; i < textureNumLayers(numbers); i++) {
+                sum += (i + 1u) * textureLoad(numbers, pixel, i, 0).r;
+            }
+            for (var i = 0u; i < textureNumLayers(depths); i++) {
+                sum += (i + 1u) * u32(textureLoad(depths, pixel, i, 0) * 256.0);
+            }
+            sums[gid.x] = sum;
+        }",
+    ),
+    slots: &[
+        layered("numbers", Format::U32),
+        layered("depths", Format::Depth),
+        write::<u32>("sums"),
+    ],
+    work: Work::PerElement { of: "sums" },
+    agreement: Agreement::Exact,
+    twin: |bindings| {
+        let [numbers, depths]: [[&[u32]; 4]; 2] = [bindings.layers(0), bindings.layers(1)];
+        let sums: &mut [u32] = bindings.write(2);
+        for (i, sum) in sums.iter_mut().enumerate() {
+            let number = |texel: &u32| *texel;
+            let depth = |texel: &u32| (f32::from_bits(*texel) * 256.0) as u32;
+            let added = |layers: [&[u32]; 4], value: &dyn Fn(&u32) -> u32| -> u32 {
+                let texels = layers.iter().map(|layer| layer.get(i).map_or(0, value));
+                (1..).zip(texels).map(|(times, value)| times * value).sum()
+            };
+            *sum = added(numbers, &number) + added(depths, &depth);
         }
     },
 };

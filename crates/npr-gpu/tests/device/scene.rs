@@ -95,9 +95,13 @@ impl Scene {
             line_depth_row: hues[0],
             line_light_row: hues[1],
             line_depth: [-1.7, 0.3],
+            // Grey all over, so that strokes show everywhere.
+            dark_at: 0.0,
+            light_at: 1.5,
             ..part(1, flags, NONE)
         };
-        scene.add(&torus(24, 12, 1.0, 0.4), hatched, &mut random);
+        // As many triangles as fill a row of charts, and more.
+        scene.add(&torus(40, 14, 1.0, 0.4), hatched, &mut random);
         let flags = Part::LINES
             | Part::HULL
             | Part::ANGLE
@@ -123,11 +127,14 @@ impl Scene {
             ..part(3, Part::BEAM, NONE)
         };
         scene.add(&torus(16, 8, 0.9, 0.25), beam, &mut random);
-        let mut corner = || [random.unit(), random.unit()];
-        let chart = |_: &Triangle| ChartCorners {
-            a: corner(),
-            b: corner(),
-            c: corner(),
+        // Lay the tiles of strokes across the scene, each triangle a little off its place.
+        let chart = |triangle: &Triangle| {
+            let off = [random.unit() * 0.1, random.unit() * 0.1];
+            let [a, b, c] = triangle.corners.map(|corner| {
+                let [x, y, z] = scene.vertices[corner as usize].position;
+                [x + 0.3 * z + off[0], y - 0.3 * z + off[1]]
+            });
+            ChartCorners { a, b, c }
         };
         scene.charts = scene.triangles.iter().map(chart).collect();
         scene
@@ -407,8 +414,19 @@ fn hatched_part(scene: &Scene) -> u32 {
     scene.parts.iter().position(is_hatched).unwrap_or(0) as u32
 }
 
-/// Texels of the shadow image along a side.
+/// Texels of a shadow image along a side.
 pub const SHADOW_SIDE: u32 = 128;
+
+/// Shadow images; one of them is drawn.
+pub const SHADOWS: u32 = 2;
+
+/// The shadow image of the light that throws shadows in a look.
+pub fn shadow_of(look: Look) -> u32 {
+    match look {
+        Look::Ours => 1,
+        Look::Published => 0,
+    }
+}
 
 /// Where the pictures of what hides the sky start: behind the table of the texture store.
 const SKY_START: u32 = 256;
@@ -440,13 +458,14 @@ fn sky_words(random: &mut Random) -> Vec<u32> {
 /// The lights of a look: one that throws shadows, or one of every kind with shadows of the spot.
 pub fn lights(look: Look) -> Lights {
     let towards = [0.48, 0.6, 0.64];
+    let shadow = shadow_of(look);
     let mut lights = Lights::distant(towards);
     (lights.shadow_side, lights.shadow_at) = (SHADOW_SIDE, 0.15);
     lights.bias_world = 1e-3;
     if look == Look::Ours {
         let corners = [[-1.7; 3], [1.7; 3], [-1.7, 1.7, -1.7], [1.7, -1.7, 1.7]];
-        lights.shadows[0] = distant_view(towards, &corners, &corners);
-        lights.sources[0].shadow = 1;
+        lights.shadows[shadow as usize] = distant_view(towards, &corners, &corners);
+        lights.sources[0].shadow = shadow + 1;
     } else {
         lights.count = 5;
         lights.sources[3] = LightSource {
@@ -478,8 +497,9 @@ pub fn lights(look: Look) -> Lights {
             };
         }
         let spot = &mut lights.sources[2];
-        spot.shadow = 1;
-        lights.shadows[0] = spot_view(spot.position, spot.direction, spot.cone[0], 0.05);
+        spot.shadow = shadow + 1;
+        lights.shadows[shadow as usize] =
+            spot_view(spot.position, spot.direction, spot.cone[0], 0.05);
     }
     lights
 }
@@ -531,7 +551,7 @@ pub fn smoke_look(look: Look, size: [u32; 2]) -> SmokeLook {
         ambient: 0.1,
         samples: if is_ours { 2 } else { 1 },
         shadow_side: SHADOW_SIDE,
-        surface_maps: 1,
+        surface_maps: SHADOWS,
         surface_side: SHADOW_SIDE,
         ramp,
         ..SmokeLook::default()

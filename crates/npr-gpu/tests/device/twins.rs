@@ -72,7 +72,11 @@ impl Case {
         count: usize,
     ) -> ResourceId {
         let stride = slot.element.size;
-        let Content { mut words, size } = frame.content(pass, slot.name).clone();
+        let Content {
+            mut words,
+            size,
+            layers,
+        } = frame.content(pass, slot.name).clone();
         if slot.access.writes() {
             let room = match pass.work {
                 // Listed pixels may lie anywhere in the picture.
@@ -100,9 +104,13 @@ impl Case {
         }
         let id = self.graph.add(
             slot.name,
-            match slot.access {
-                Access::Uniform => Kind::Uniform { size: stride },
-                Access::Texture(format) => Kind::Image { format, size },
+            match (slot.access, slot.access.image_format()) {
+                (Access::Uniform, _) => Kind::Uniform { size: stride },
+                (_, Some(format)) => Kind::Image {
+                    format,
+                    size,
+                    layers,
+                },
                 _ => Kind::Buffer {
                     stride,
                     count: words.len() * 4 / stride,
@@ -110,7 +118,7 @@ impl Case {
             },
         );
         // No host writes depth images: here they stay empty, and frames drawn whole fill them.
-        if slot.access != Access::Texture(Format::Depth) {
+        if slot.access.image_format() != Some(Format::Depth) {
             self.inputs.push((id, words));
         }
         id

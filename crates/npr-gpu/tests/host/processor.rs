@@ -4,10 +4,11 @@ use npr_core::geometry::Stamp;
 use npr_core::window::Window;
 use npr_gpu::engine::{Engine, Session};
 use npr_gpu::graph::{Graph, ResourceId};
-use npr_gpu::pass::Format;
+use npr_gpu::pass::{Agreement, Format, Pass, Work, read, texture};
 use npr_gpu::passes::line::CLAIM_PIXELS;
 use npr_gpu::passes::vector::{SCAN_ADD, SCAN_BLOCKS};
 use npr_gpu::processor::Processor;
+use npr_shaders::Shader;
 use npr_vector::rank::scan::BLOCK;
 use proptest::prelude::*;
 
@@ -104,13 +105,17 @@ proptest! {
     }
 
     #[test]
-    fn planned_bytes_are_those_of_all_resources(elements in 0usize..1000, w in 0u32..50, h in 0u32..50) {
+    fn planned_bytes_are_those_of_all_resources(
+        elements in 0usize..1000, w in 0u32..50, h in 0u32..50, layers in 1u32..5,
+    ) {
         let mut graph = Graph::new();
         graph.buffer::<Stamp>("stamps", elements);
         graph.uniform::<Window>("window");
         graph.image("picture", Format::Rgba8, [w, h]);
+        graph.layered_image("pictures", Format::U32, [h, w], layers);
         let window = size_of::<Window>() as u64;
-        prop_assert_eq!(graph.planned_bytes(), elements as u64 * 16 + window + u64::from(w * h) * 4);
+        let texels = u64::from(w * h * (1 + layers));
+        prop_assert_eq!(graph.planned_bytes(), elements as u64 * 16 + window + texels * 4);
     }
 
     #[test]
@@ -139,4 +144,58 @@ fn a_pass_cannot_read_what_it_writes() {
     let values = graph.buffer::<u32>("values", 4);
     let sums = graph.buffer::<u32>("sums", 1);
     graph.compute(&SCAN_BLOCKS, &[values, values, sums]);
+}
+
+/// Draws nothing, and needs an image of one layer for it.
+const DRAW_NOTHING: Pass = Pass {
+    name: "test.draw_nothing",
+    shader: Shader {
+        path: "test",
+        text: "",
+    },
+    slots: &[read::<u32>("numbers"), texture("picture", Format::U32)],
+    work: Work::Draw {
+        of: "numbers",
+        vertices: 3,
+        targets: &[Format::U32],
+        fills: false,
+    },
+    agreement: Agreement::Exact,
+    twin: |_| {},
+};
+
+/// A graph that draws nothing into a layer of three, beside a picture of some layers.
+fn draw_nothing(layers: u32, layer: u32) -> Graph {
+    let mut graph = Graph::new();
+    let numbers = graph.buffer::<u32>("numbers", 1);
+    let picture = graph.layered_image("seen", Format::U32, [4, 4], layers);
+    let drawn = graph.layered_image("drawn", Format::U32, [4, 4], 3);
+    let targets = [drawn.layer(layer)];
+    graph.draw(&DRAW_NOTHING, &[numbers, picture], &targets, true);
+    graph
+}
+
+#[test]
+fn any_layer_is_drawn_into() {
+    for layer in 0..3 {
+        assert_eq!(draw_nothing(1, layer).nodes()[0].layers, [layer]);
+    }
+}
+
+#[test]
+#[should_panic(expected = "slot 'picture' cannot bind 'seen'")]
+fn several_layers_do_not_fit_where_one_is_read() {
+    draw_nothing(2, 0);
+}
+
+#[test]
+#[should_panic(expected = "cannot draw into layer 3 of 'drawn'")]
+fn a_layer_that_is_not_there_is_not_drawn_into() {
+    draw_nothing(1, 3);
+}
+
+#[test]
+fn graphs_that_draw_into_other_layers_differ() {
+    assert!(draw_nothing(1, 1).is_same_as(&draw_nothing(1, 1)));
+    assert!(!draw_nothing(1, 1).is_same_as(&draw_nothing(1, 2)));
 }

@@ -3,7 +3,7 @@
 
 use super::line_features::LineFeatures;
 use crate::frame_graph::{FrameGraph, Grids, pixel_count, size_if, write};
-use npr_core::geometry::{Edge, GPixel, Stamp};
+use npr_core::geometry::{Edge, EdgeRole, GPixel, Stamp};
 use npr_core::line_color::LineTint;
 use npr_core::window::Window;
 use npr_gpu::engine::{EngineError, Session};
@@ -127,16 +127,16 @@ impl ScreenLines {
     }
 
     fn draw_ribbons(&self, frame: &mut FrameGraph, grids: &Grids, gbuffer: ResourceId) {
-        // Find the kind of every edge in the view.
+        // Find the role of every edge in the view.
         let edge_count = frame.graph.element_count(self.edges);
-        let kinds = frame.graph.buffer::<u32>("kinds", edge_count);
+        let roles = frame.graph.buffer::<EdgeRole>("edge roles", edge_count);
         let classify = [
             frame.outline,
             frame.posed,
             frame.triangles,
             frame.parts,
             self.edges,
-            kinds,
+            roles,
         ];
         frame.graph.compute(&mesh::CLASSIFY_EDGES, &classify);
 
@@ -150,10 +150,9 @@ impl ScreenLines {
             self.mask_window,
             frame.outline,
             frame.posed,
-            frame.triangles,
             frame.parts,
             self.edges,
-            kinds,
+            roles,
             gbuffer,
             self.mask,
             self.tints,

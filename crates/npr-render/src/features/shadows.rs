@@ -8,7 +8,7 @@ use npr_gpu::pass::Format;
 use npr_gpu::passes::{mesh, raster};
 use npr_mesh::pose::Matrix;
 use npr_style::lighting::Lights;
-use npr_style::shadow::{SHADOW_SIDE, SHADOWS_MAX};
+use npr_style::shadow::SHADOW_SIDE;
 
 /// The shadows of a frame.
 #[derive(Debug, Clone)]
@@ -17,10 +17,10 @@ pub(crate) struct Shadows {
     window: ResourceId,
     /// The views of the lights.
     views: Vec<ResourceId>,
-    /// Triangle numbers that the lights see.
-    pub pictures: [ResourceId; SHADOWS_MAX],
-    /// Depths of the same pictures; all share one where no shadows fall on smoke.
-    pub depths: [ResourceId; SHADOWS_MAX],
+    /// Triangle numbers that the lights see, a layer each.
+    pub pictures: ResourceId,
+    /// Depths of the same pictures; all share one layer where no shadows fall on smoke.
+    pub depths: ResourceId,
 }
 
 impl Shadows {
@@ -31,37 +31,31 @@ impl Shadows {
         vertex_count: usize,
         fall_on_smoke: bool,
     ) -> Self {
+        // Add a view and a picture for every light; without lights, one of a single texel.
         let graph = &mut frame.graph;
-        let size = |i| size_if(i < count, [SHADOW_SIDE; 2]);
-
-        // Draw all pictures with the same depths, unless smoke reads them later.
-        let first = graph.image("shadow depths", Format::Depth, size(0));
-        let mut depths = [first; SHADOWS_MAX];
-        if fall_on_smoke {
-            for (i, depths) in (1..).zip(&mut depths[1..]) {
-                *depths = graph.image("shadow depths", Format::Depth, size(i));
-            }
-        }
-
-        // Add a view and a picture for every light, and draw them.
+        let size = size_if(count > 0, [SHADOW_SIDE; 2]);
+        let layers = count.max(1) as u32;
+        let depth_layers = if fall_on_smoke { layers } else { 1 };
         let views = (0..count).map(|_| graph.uniform::<Matrix>("light view"));
         let shadows = Self {
             views: views.collect(),
             window: graph.uniform::<Window>("shadow window"),
-            pictures: std::array::from_fn(|i| graph.image("shadow", Format::U32, size(i))),
-            depths,
+            pictures: graph.layered_image("shadows", Format::U32, size, layers),
+            depths: graph.layered_image("shadow depths", Format::Depth, size, depth_layers),
         };
+
+        // Draw them.
         if count > 0 {
-            shadows.draw(frame, vertex_count);
+            shadows.draw(frame, vertex_count, depth_layers);
         }
         shadows
     }
 
-    /// Draws what every light sees; one list of projected vertices serves them all in turn.
-    fn draw(&self, frame: &mut FrameGraph, vertex_count: usize) {
+    /// Draws what every light sees; one list of projected vertices serves them all in turn, and so do the layers of
+    /// depths where there are fewer.
+    fn draw(&self, frame: &mut FrameGraph, vertex_count: usize, depth_layers: u32) {
         let projected = frame.graph.buffer::<[f32; 4]>("projected", vertex_count);
-        let targets = self.pictures.into_iter().zip(self.depths);
-        for (view, (picture, depths)) in self.views.iter().zip(targets) {
+        for (layer, view) in (0..).zip(&self.views) {
             let project = [*view, frame.posed, projected];
             frame.graph.compute(&mesh::PROJECT_SHADOW, &project);
             let bound = [
@@ -72,9 +66,13 @@ impl Shadows {
                 frame.parts,
                 frame.texels,
             ];
+            let targets = [
+                self.pictures.layer(layer),
+                self.depths.layer(layer % depth_layers),
+            ];
             frame
                 .graph
-                .draw(&raster::DRAW_SHADOW, &bound, &[picture, depths], true);
+                .draw(&raster::DRAW_SHADOW, &bound, &targets, true);
         }
     }
 
@@ -95,5 +93,38 @@ impl Shadows {
             write(session, *id, &[*matrix])?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame_graph::{Counts, Grids};
+    use npr_gpu::graph::Kind;
+    use npr_gpu::pass::Features;
+
+    /// Sides and layers of the pictures and depths of some lights.
+    fn planned(count: usize, fall_on_smoke: bool) -> [(u32, u32); 2] {
+        let grids = Grids {
+            output: [4, 4],
+            mask: [4, 4],
+            samples: 1,
+        };
+        let mut frame = FrameGraph::new(&Counts::default(), &grids, Features::ALL);
+        let shadows = Shadows::plan(&mut frame, count, 0, fall_on_smoke);
+        [shadows.pictures, shadows.depths].map(|id| match frame.graph.resource(id).kind {
+            Kind::Image { size, layers, .. } => (size[0], layers),
+            _ => (0, 0),
+        })
+    }
+
+    #[test]
+    fn lights_take_no_more_memory_than_they_need() {
+        for fall_on_smoke in [false, true] {
+            assert_eq!(planned(0, fall_on_smoke), [(1, 1), (1, 1)]);
+            assert_eq!(planned(1, fall_on_smoke), [(SHADOW_SIDE, 1); 2]);
+        }
+        assert_eq!(planned(3, false), [(SHADOW_SIDE, 3), (SHADOW_SIDE, 1)]);
+        assert_eq!(planned(3, true), [(SHADOW_SIDE, 3); 2]);
     }
 }

@@ -16,7 +16,7 @@ use npr_gpu::pass::Format;
 use npr_gpu::passes::smoke;
 use npr_style::compose::Compose;
 use npr_style::lighting::Lights;
-use npr_style::shadow::{SHADOW_SIDE, SHADOWS_MAX};
+use npr_style::shadow::SHADOW_SIDE;
 use npr_style::smoke::{SmokeLook, pen};
 use npr_stylesheet::{SmokeLines, SmokeMethod, SmokeStyle, Style, Unit};
 
@@ -207,8 +207,9 @@ pub(crate) struct SmokePasses {
     pub tones: ResourceId,
     colors: ResourceId,
     depths: ResourceId,
-    light_ids: [ResourceId; SHADOWS_MAX],
-    light_depths: [ResourceId; SHADOWS_MAX],
+    /// What the lights see of the smoke, a layer each.
+    light_ids: ResourceId,
+    light_depths: ResourceId,
 }
 
 /// Smoke as one camera sees it, in a style.
@@ -226,17 +227,18 @@ impl SmokePasses {
     /// Adds the resources and passes of smoke of at most `most` spheres to a graph, for a picture on the grid of
     /// `window`, lit by `chosen`.
     ///
-    /// `surfaces` are the depths of what the scene's lights see of it, `surface_maps` how many of them count.
+    /// `surfaces` has the depths of what the scene's lights see of it, a layer each, of which `surface_maps` count.
     pub fn plan(
         graph: &mut Graph,
         (measure, chosen): (Measure, ChosenLights),
         (style, most): (&SmokeStyle, usize),
         window: ResourceId,
-        (surfaces, surface_maps): ([ResourceId; SHADOWS_MAX], u32),
+        (surfaces, surface_maps): (ResourceId, u32),
     ) -> Self {
-        // Give lights without shadows pictures of a single texel.
+        // Give every light with shadows a picture; without any, there is one of a single texel.
         let light_count = chosen.smoke_shadow_count();
-        let side = |i: usize| size_if(i < light_count, [style.shadow_px; 2]);
+        let light_size = size_if(light_count > 0, [style.shadow_px; 2]);
+        let layers = light_count.max(1) as u32;
         let pixels = pixel_count(measure.size);
         let light_lenses = (0..light_count).map(|_| graph.uniform::<SphereView>("light lens"));
         let passes = Self {
@@ -251,10 +253,8 @@ impl SmokePasses {
             tones: graph.buffer::<f32>("smoke tones", pixels),
             colors: graph.image("smoke colors", Format::Rgba8, measure.size),
             depths: graph.image("smoke depths", Format::U32, measure.size),
-            light_ids: std::array::from_fn(|i| graph.image("smoke light", Format::U32, side(i))),
-            light_depths: std::array::from_fn(|i| {
-                graph.image("smoke shadow", Format::Depth, side(i))
-            }),
+            light_ids: graph.layered_image("smoke lights", Format::U32, light_size, layers),
+            light_depths: graph.layered_image("smoke shadows", Format::Depth, light_size, layers),
             measure,
             chosen,
             surface_maps,
@@ -269,11 +269,11 @@ impl SmokePasses {
 
     /// Draws what the lights see; one list of projected spheres serves them all in turn.
     fn draw_for_lights(&self, graph: &mut Graph) {
-        for (i, lens) in self.light_lenses.iter().enumerate() {
+        for (layer, lens) in (0..).zip(&self.light_lenses) {
             let project = [*lens, self.spheres, self.balls];
             graph.compute(&smoke::PROJECT_SPHERES, &project);
             let bound = [self.light_window, *lens, self.balls];
-            let targets = [self.light_ids[i], self.light_depths[i]];
+            let targets = [self.light_ids.layer(layer), self.light_depths.layer(layer)];
             graph.draw(&smoke::DRAW_SPHERES, &bound, &targets, true);
         }
     }
@@ -283,7 +283,7 @@ impl SmokePasses {
         graph: &mut Graph,
         style: &SmokeStyle,
         window: ResourceId,
-        surfaces: [ResourceId; SHADOWS_MAX],
+        surfaces: ResourceId,
     ) {
         let pixels = pixel_count(self.measure.size);
         let cells = self.measure.cell_count(style);
@@ -306,8 +306,9 @@ impl SmokePasses {
             self.spheres,
             self.balls,
             shaded,
+            self.light_ids,
+            surfaces,
         ];
-        let shade = [&shade[..], &self.light_ids, &surfaces].concat();
         graph.compute(&smoke::SHADE_SPHERES, &shade);
 
         // Smooth their tones among those of one layer of depth.
@@ -331,20 +332,15 @@ impl SmokePasses {
     }
 
     /// The resources of smoke that the last pass binds; placeholders without smoke.
-    pub fn composed(passes: Option<&Self>, graph: &mut Graph) -> [ResourceId; 2 + SHADOWS_MAX] {
+    pub fn composed(passes: Option<&Self>, graph: &mut Graph) -> [ResourceId; 3] {
         let Some(passes) = passes else {
-            let depth = graph.image("no smoke shadow", Format::Depth, [1, 1]);
             return [
                 graph.image("no smoke", Format::Rgba8, [1, 1]),
                 graph.image("no smoke depths", Format::U32, [1, 1]),
-                depth,
-                depth,
-                depth,
-                depth,
+                graph.image("no smoke shadows", Format::Depth, [1, 1]),
             ];
         };
-        let [a, b, c, d] = passes.light_depths;
-        [passes.colors, passes.depths, a, b, c, d]
+        [passes.colors, passes.depths, passes.light_depths]
     }
 
     /// Refuses smoke of more spheres than were planned.

@@ -11,7 +11,6 @@ use npr_gpu::engine::Engine;
 use npr_gpu::graph::Graph;
 use npr_gpu::pass::Format;
 use npr_gpu::processor::Processor;
-use npr_style::shadow::SHADOWS_MAX;
 use npr_stylesheet::{SmokeMethod, SmokeStyle, Style};
 
 /// How far tones go on beyond the smoke, in pixels, so that their edges reach its outline.
@@ -60,7 +59,7 @@ impl ToneMap {
         let window = graph.uniform::<Window>("output window");
         let none = graph.image("no surfaces", Format::Depth, [1, 1]);
         let sized = (&style.smoke, moment.smoke.spheres.len());
-        let unshaded = ([none; SHADOWS_MAX], 0);
+        let unshaded = (none, 0);
         let passes = SmokePasses::plan(&mut graph, (measure, chosen), sized, window, unshaded);
         let mut session = Processor.prepare(graph)?;
         passes.upload(session.as_mut(), moment.smoke, &style.smoke)?;

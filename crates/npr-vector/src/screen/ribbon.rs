@@ -1,7 +1,7 @@
 //! Edges as ribbons of varying width: the twin of `line.draw_ribbons`.
 
 use npr_core::color;
-use npr_core::geometry::{Edge, FAR_DEPTH, GPixel, NONE, Part, PosedVertex, Triangle};
+use npr_core::geometry::{Edge, EdgeRole, FAR_DEPTH, GPixel, NONE, Part, PosedVertex};
 use npr_core::line_color::{LineTint, LineTints, kind_of_edge};
 use npr_core::line_kind::KindSet;
 use npr_core::outline::{MASK_KINDS, Outline};
@@ -88,8 +88,6 @@ pub struct Drawing<'a> {
     pub outline: &'a Outline,
     /// Posed vertices.
     pub posed: &'a [PosedVertex],
-    /// Triangles.
-    pub triangles: &'a [Triangle],
     /// Parts.
     pub parts: &'a [Part],
     /// The G-buffer under the mask.
@@ -111,7 +109,7 @@ pub struct Drawing<'a> {
 pub fn draw(
     with: &Drawing<'_>,
     edges: &[Edge],
-    kinds: &[u32],
+    roles: &[EdgeRole],
     layer: &mut [u32],
     keys: &mut [u32],
 ) {
@@ -121,9 +119,9 @@ pub fn draw(
     // Project the edges that have a kind.
     let spines: Vec<Spine> = edges
         .par_iter()
-        .zip(kinds)
+        .zip(roles)
         .with_min_len(4096)
-        .filter_map(|(edge, kind)| with.spine(edge, *kind))
+        .filter_map(|(edge, role)| with.spine(edge, role))
         .collect();
 
     // Sort them into bands of rows, in their order.
@@ -203,10 +201,10 @@ fn centers_between(low: f32, high: f32, window: &Window, axis: usize) -> Option<
 
 impl Drawing<'_> {
     /// An edge in frame pixels; `None` if it has no kind or lies behind the eye.
-    fn spine(&self, edge: &Edge, kind: u32) -> Option<Spine> {
+    fn spine(&self, edge: &Edge, role: &EdgeRole) -> Option<Spine> {
         // Leave out edges without a kind, and those behind the near plane.
         let [first, second] = edge.ends.map(|v| &self.posed[v as usize]);
-        if kind == 0 || first.depth.max(second.depth) <= self.view.near {
+        if role.kinds == 0 || first.depth.max(second.depth) <= self.view.near {
             return None;
         }
 
@@ -221,15 +219,14 @@ impl Drawing<'_> {
         };
 
         // Let it run along its own direction.
-        let part = self.triangles[edge.faces[0] as usize].part;
         let along = [b[0] - a[0], b[1] - a[1]];
         let length = (along[0] * along[0] + along[1] * along[1]).sqrt().max(1e-6);
         Some(Spine {
             ribbon,
             direction: [along[0] / length, along[1] / length],
             coordinates: [depth_a, depth_b].map(|depth| self.view.plane_coordinate(depth)),
-            part,
-            kind,
+            part: role.part,
+            kind: role.kinds,
         })
     }
 

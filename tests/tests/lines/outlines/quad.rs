@@ -3,7 +3,7 @@
 use super::fixture::{front, with};
 use npr_core::camera::{Camera, Projection};
 use npr_core::edge_flags::EdgeFlags;
-use npr_core::geometry::{Edge, GPixel, Part, PosedVertex, Triangle};
+use npr_core::geometry::{Edge, EdgeRole, GPixel, Part, PosedVertex, Triangle};
 use npr_core::outline::Outline;
 use npr_core::window::Window;
 use npr_mesh::Mesh;
@@ -165,7 +165,7 @@ fn pair() -> ([PosedVertex; 4], [Triangle; 2], [Edge; 5]) {
 /// The published ribbons of edges over a mask that is set everywhere.
 fn ribbons(edges: &[Edge]) -> Vec<u32> {
     let size = [120, 120];
-    let (posed, triangles, _) = pair();
+    let (posed, ..) = pair();
     let camera = Camera {
         eye: [0.0, 0.0, 10.0],
         target: [0.0; 3],
@@ -182,7 +182,6 @@ fn ribbons(edges: &[Edge]) -> Vec<u32> {
             ..Outline::default()
         },
         posed: &posed,
-        triangles: &triangles,
         parts: &[Part {
             line_color: [0.0, 0.0, 0.0, 1.0],
             ..Part::default()
@@ -192,13 +191,12 @@ fn ribbons(edges: &[Edge]) -> Vec<u32> {
         tints: &[],
     };
     let (mut layer, mut keys) = (vec![0; 120 * 120], vec![0; 120 * 120]);
-    npr_vector::screen::ribbon::draw(
-        &drawing,
-        edges,
-        &vec![EdgeFlags::FACING.0; edges.len()],
-        &mut layer,
-        &mut keys,
-    );
+    let role = EdgeRole {
+        kinds: EdgeFlags::FACING.0,
+        part: 0,
+    };
+    let roles = vec![role; edges.len()];
+    npr_vector::screen::ribbon::draw(&drawing, edges, &roles, &mut layer, &mut keys);
     layer
 }
 
