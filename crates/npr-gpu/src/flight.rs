@@ -21,11 +21,6 @@ impl<R> Flight<R> {
         self.0.len()
     }
 
-    /// The one that started last.
-    pub fn last(&self) -> Option<&R> {
-        self.0.back()
-    }
-
     /// Checks that another run may start.
     ///
     /// # Panics

@@ -32,6 +32,8 @@ pub struct DeviceSession {
     times_apart: bool,
     /// What runs are copied to before they are read: the second is empty until two runs are in flight.
     rooms: [Room; IN_FLIGHT],
+    /// The number of the room that the run submitted last is copied to.
+    last_room: usize,
     /// Runs that are submitted and not collected.
     runs: Flight<Run>,
     /// When the run collected last was done.
@@ -52,16 +54,6 @@ enum Run {
     },
     /// Its passes were waited for one by one.
     Done(Vec<PassTime>, Readings),
-}
-
-impl Run {
-    /// The number of the room that it needs until it is collected.
-    fn room(&self) -> Option<usize> {
-        match self {
-            Self::Submitted { room, .. } => Some(*room),
-            Self::Done(..) => None,
-        }
-    }
 }
 
 impl DeviceSession {
@@ -104,6 +96,7 @@ impl DeviceSession {
             clock,
             times_apart,
             rooms: Default::default(),
+            last_room: 0,
             runs: Flight::new(),
             idle_since: Instant::now(),
         })
@@ -335,13 +328,15 @@ impl Session for DeviceSession {
             Run::Done(self.run_apart()?, self.copied(ids)?)
         } else {
             // A run alone needs the first room, of two in flight each the one that the other leaves.
-            let room = match self.runs.last().and_then(Run::room) {
-                Some(taken) => (taken + 1) % IN_FLIGHT,
-                None => 0,
+            let room = match self.runs.count() {
+                0 => 0,
+                _ => (self.last_room + 1) % IN_FLIGHT,
             };
             let start = Instant::now();
+            let submission = self.submit_all(room, ids)?;
+            self.last_room = room;
             Run::Submitted {
-                submission: self.submit_all(room, ids)?,
+                submission,
                 start,
                 ids: ids.to_vec(),
                 room,
