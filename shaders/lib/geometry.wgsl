@@ -149,8 +149,6 @@ struct GPixel {
     depth: f32,
     half_width: f32,
     normal: u32,
-    object: u32,
-    material: u32,
     part: u32,
 }
 

@@ -4,7 +4,7 @@ struct SpineSample {
     place_px: vec2<f32>,
     outward: vec2<f32>,
     depth: f32,
-    object: u32,
     part: u32,
     line: u32,
+    unused: u32,
 }

@@ -49,12 +49,23 @@ fn jumps(here: GPixel, there: GPixel, step: vec2<f32>) -> bool {
     return plane_gap(here, there, step) > least && plane_gap(there, here, -step) > least;
 }
 
+// Object and material of a part; the background has neither.
+fn ids_of(part: u32) -> vec2<u32> {
+    if part == NONE { return vec2<u32>(NONE); }
+    return vec2<u32>(parts[part].object, parts[part].material);
+}
+
+// Which of object and material two parts differ in.
+fn differing_ids(here: u32, there: u32) -> u32 {
+    if here == there { return 0u; }
+    let differ = ids_of(here) != ids_of(there);
+    return select(0u, DETECT_OBJECT, differ.x) | select(0u, DETECT_MATERIAL, differ.y);
+}
+
 // The buffers that separate two neighbours.
 fn separations(here: GPixel, there: GPixel, step: vec2<f32>) -> u32 {
     if here.part == NONE && there.part == NONE { return 0u; }
-    var found = 0u;
-    if here.object != there.object { found |= DETECT_OBJECT; }
-    if here.material != there.material { found |= DETECT_MATERIAL; }
+    var found = differing_ids(here.part, there.part);
     if here.part == NONE || there.part == NONE {
         return (found | DETECT_DEPTH | DETECT_NORMAL) & outline.detects;
     }
@@ -62,8 +73,8 @@ fn separations(here: GPixel, there: GPixel, step: vec2<f32>) -> u32 {
     if here.normal != there.normal {
         let turn = dot(unpack_unit(here.normal), unpack_unit(there.normal));
         if turn < outline.normal_cos { found |= DETECT_NORMAL; }
-        let meets = here.object == there.object && here.material == there.material
-            && parts[here.part].component != parts[there.part].component;
+        var meets = here.part != there.part && (found & (DETECT_OBJECT | DETECT_MATERIAL)) == 0u;
+        if meets { meets = parts[here.part].component != parts[there.part].component; }
         if meets && turn < PIECE_COS { found |= DETECT_PIECE; }
     }
     return found & outline.detects & MASK_KINDS;

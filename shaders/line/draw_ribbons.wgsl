@@ -172,7 +172,7 @@ fn nearness(depth: f32) -> f32 {
 fn is_covered(px: vec2<f32>, reference: vec2<f32>, depth: f32, object: u32) -> bool {
     let pixel = pixel_at(mask_window, px);
     let seen = gbuffer[pixel.y * mask_window.size.x + pixel.x];
-    if seen.part == NONE || seen.object == object { return false; }
+    if seen.part == NONE || parts[seen.part].object == object { return false; }
     return max(seen.depth, plane_at(seen, pixel, reference)) < depth - tolerance(depth);
 }
 

@@ -39,10 +39,15 @@ const RUN_COUNT: u32 = 8u;
 // The criteria that separate a surface from others, not from itself.
 const BETWEEN: u32 = DETECT_OBJECT | DETECT_MATERIAL | DETECT_PIECE;
 
+// What one connected surface in one material has in common, whatever ids it has.
+fn skin_of(part: u32) -> vec3<u32> {
+    return vec3<u32>(parts[part].object, parts[part].material, parts[part].component);
+}
+
 // Whether a surface is separated from itself along a line through a mask pixel, not only at a few pixels.
 fn runs_on(at: vec2<u32>, pixel: GPixel) -> bool {
     let size = mask_window.size;
-    let component = parts[pixel.part].component;
+    let skin = skin_of(pixel.part);
     let low = max(at, vec2<u32>(RUN_BOX_PX)) - RUN_BOX_PX;
     let high = min(at + RUN_BOX_PX, size - 1u);
     var count = 0u;
@@ -54,8 +59,8 @@ fn runs_on(at: vec2<u32>, pixel: GPixel) -> bool {
             // A pixel where the surface ends at another one does not separate it from itself.
             if (mask[element] & (MASK_OWNER | BETWEEN)) != MASK_OWNER { continue; }
             let other = gbuffer[element];
-            if other.part == NONE || other.object != pixel.object || other.material != pixel.material { continue; }
-            if parts[other.part].component == component { count += 1u; }
+            if other.part == NONE { continue; }
+            if all(skin_of(other.part) == skin) { count += 1u; }
             continuing {
                 x += 1u;
                 break if x > high.x;

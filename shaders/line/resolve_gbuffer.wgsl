@@ -1,4 +1,4 @@
-// line.resolve_gbuffer: depth, normal, object and material of the surface at every pixel.
+// line.resolve_gbuffer: depth, normal and part of the surface at every pixel.
 //
 // Source  Saito & Takahashi 1990; Okuya et al. 2016, sections 3.2 and 4.2
 // Twin    npr_vector::screen::gbuffer::resolve
@@ -20,8 +20,6 @@
 fn empty_pixel() -> GPixel {
     var pixel: GPixel;
     pixel.depth = FAR_DEPTH;
-    pixel.object = NONE;
-    pixel.material = NONE;
     pixel.part = NONE;
     return pixel;
 }
@@ -68,8 +66,6 @@ fn pixel_of_triangle(triangle: Triangle, frame_px: vec2<f32>) -> GPixel {
     let folds = (parts[triangle.part].flags & PART_FOLDS) != 0u;
     let normal = select(smooth_normal, face_normal(a.world, b.world, c.world), folds);
     pixel.normal = pack_unit(select(-normal, normal, faces_eye(clip)));
-    pixel.object = parts[triangle.part].object;
-    pixel.material = parts[triangle.part].material;
     pixel.part = triangle.part;
     return pixel;
 }

@@ -37,7 +37,7 @@ fn hides(sample: SpineSample, at_px: vec2<f32>) -> bool {
     let at = pixel_at(window, at_px);
     let pixel = gbuffer[at.y * window.size.x + at.x];
     if pixel.part == NONE { return false; }
-    let own = pixel.object == sample.object && pixel.part == sample.part;
+    let own = pixel.part == sample.part;
     var tolerance = sample.depth * DEPTH_ROUNDING;
     if own {
         let slope = slope_of(view, window, pixel.depth, pixel.plane_step);

@@ -421,11 +421,7 @@ pub struct GPixel {
     pub half_width: f32,
     /// Unit normal in the world, packed.
     pub normal: u32,
-    /// Object number, or [`NONE`].
-    pub object: u32,
-    /// Material number, or [`NONE`].
-    pub material: u32,
-    /// Part index, or [`NONE`] where no surface is seen.
+    /// Part index, or [`NONE`] where no surface is seen; the part knows its object and its material.
     pub part: u32,
 }
 gpu_layout!(GPixel {
@@ -433,8 +429,6 @@ gpu_layout!(GPixel {
     depth,
     half_width,
     normal,
-    object,
-    material,
     part
 });
 
@@ -445,8 +439,6 @@ impl GPixel {
         depth: FAR_DEPTH,
         half_width: 0.0,
         normal: 0,
-        object: NONE,
-        material: NONE,
         part: NONE,
     };
 }

@@ -20,9 +20,7 @@ fn mask_of_chessboard(engine: &dyn Engine, count: usize) -> Vec<u32> {
     let squares: Vec<GPixel> = (0..SIZE[0] * SIZE[1])
         .map(|i| GPixel {
             depth: 1.0,
-            object: (i % SIZE[0] + i / SIZE[0]) % 2,
-            material: 0,
-            part: 0,
+            part: (i % SIZE[0] + i / SIZE[0]) % 2,
             ..GPixel::EMPTY
         })
         .collect();
@@ -33,7 +31,7 @@ fn mask_of_chessboard(engine: &dyn Engine, count: usize) -> Vec<u32> {
     mask_of(engine, View::default(), outline, &squares, count)
 }
 
-/// The first `count` pixels of the mask of a grid of pixels of one part.
+/// The first `count` pixels of the mask of a grid of pixels of two parts, which are two objects of one material.
 fn mask_of(
     engine: &dyn Engine,
     view: View,
@@ -41,10 +39,11 @@ fn mask_of(
     pixels: &[GPixel],
     count: usize,
 ) -> Vec<u32> {
-    let part = Part {
+    let parts = [0, 1].map(|object| Part {
+        object,
         flags: Part::LINES,
         ..Part::default()
-    };
+    });
     let size_px = SIZE.map(|side| side as f32);
     let window = Window::over(size_px, [0.0; 2], size_px, SIZE);
 
@@ -53,7 +52,7 @@ fn mask_of(
         graph.uniform::<View>("view"),
         graph.uniform::<Window>("window"),
         graph.uniform::<Outline>("outline"),
-        graph.buffer::<Part>("parts", 1),
+        graph.buffer::<Part>("parts", parts.len()),
         graph.buffer::<GPixel>("gbuffer", pixels.len()),
         graph.buffer::<u32>("mask", count),
         graph.buffer::<u32>("owners", count + 1),
@@ -69,9 +68,7 @@ fn mask_of(
     session
         .write(ids[2], bytemuck::cast_slice(&[outline]))
         .unwrap();
-    session
-        .write(ids[3], bytemuck::cast_slice(&[part]))
-        .unwrap();
+    session.write(ids[3], bytemuck::cast_slice(&parts)).unwrap();
     session.write(ids[4], bytemuck::cast_slice(pixels)).unwrap();
     session.run().unwrap();
     let mask = session.read(ids[5]).unwrap();
@@ -124,8 +121,6 @@ fn bends_and_valleys_own_the_same_lines() {
             GPixel {
                 plane_step: [slope, 0.0],
                 depth: 1000.0 + slope * ((x % 3) as f32 - 0.8),
-                object: 0,
-                material: 0,
                 part: 0,
                 ..GPixel::EMPTY
             }
@@ -158,8 +153,6 @@ fn stamps_of(engine: &dyn Engine, mask: &[u32]) -> Vec<Stamp> {
     let surface = GPixel {
         depth: 1.0,
         half_width: 1.0,
-        object: 0,
-        material: 0,
         part: 0,
         ..GPixel::EMPTY
     };

@@ -98,7 +98,6 @@ fn pixel(index: u32) -> GPixel {
     GPixel {
         depth: 3.0 + 2.0 * unit(!square),
         plane_step: [slope(77), slope(1234)],
-        object: square % 3,
         part: square % 5,
         ..GPixel::EMPTY
     }
@@ -133,9 +132,9 @@ fn sample(line: u32, place: f32) -> SpineSample {
         ],
         outward: [-y * side, x * side],
         depth: 3.0 + 2.0 * of(5) + 0.002 * place,
-        object: mix_bits(line) % 3,
         part: mix_bits(line) % 5,
         line,
+        unused: 0,
     }
 }
 

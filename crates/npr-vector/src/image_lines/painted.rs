@@ -128,11 +128,11 @@ pub fn painted(
     }
 
     // Fill dark lines up to what lies beside them, and find the ground around.
-    let object: Vec<u32> = picture.pixels.iter().map(|pixel| pixel.object).collect();
+    let object = &picture.objects;
     let reach = rule.reach_px as usize;
-    let closed = closed(lightness, &object, width, reach);
+    let closed = closed(lightness, object, width, reach);
     let ground = match rule.on_ground {
-        true => means(lightness, &object, width, reach * GROUND as usize),
+        true => means(lightness, object, width, reach * GROUND as usize),
         false => Vec::new(),
     };
 

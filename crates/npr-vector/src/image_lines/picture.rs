@@ -66,8 +66,10 @@ pub struct SurfacePicture {
     pub faces: Vec<u32>,
     /// Reversed depth of each pixel, 0 where nothing is seen.
     pub depths: Vec<f32>,
-    /// Depth, normal, object and material there; the part is the surface's number.
+    /// Depth and normal there; the part is the surface's number.
     pub pixels: Vec<GPixel>,
+    /// The object there, or [`NONE`].
+    pub objects: Vec<u32>,
 }
 
 impl SurfacePicture {
@@ -78,9 +80,15 @@ impl SurfacePicture {
             shape.positions[vertex as usize]
         });
         let faces: Vec<u32> = ids.par_iter().map(|id| triangle_of(*id)).collect();
+        let pixels = resolved(scene, &faces);
+        let object_of = |pixel: &GPixel| {
+            let surface = shape.surfaces.get(pixel.part as usize);
+            surface.map_or(NONE, |surface| surface.object)
+        };
         Self {
             size: scene.size(),
-            pixels: resolved(scene, &faces),
+            objects: pixels.par_iter().map(object_of).collect(),
+            pixels,
             faces,
             depths: depths.into_iter().map(f32::from_bits).collect(),
         }
@@ -92,7 +100,7 @@ impl SurfacePicture {
     }
 }
 
-/// Depth, normal, object and material under every pixel, from the faces that are seen.
+/// Depth, normal and surface under every pixel, from the faces that are seen.
 fn resolved(scene: &ImageScene<'_>, faces: &[u32]) -> Vec<GPixel> {
     // List the faces that are seen.
     let mut seen: Vec<u32> = faces.iter().copied().filter(|face| *face != NONE).collect();

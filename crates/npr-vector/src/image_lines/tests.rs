@@ -262,10 +262,10 @@ proptest! {
         let ink = painted(&picture, &lightness, &LineInk::new(picture.size), &rule);
         let reach = i64::from(reach);
         let square = |x: i64, y: i64| {
-            let own = picture.pixels[(y * 24 + x) as usize].object;
+            let own = picture.objects[(y * 24 + x) as usize];
             let around = (-reach..=reach).flat_map(move |dy| (-reach..=reach).map(move |dx| (x + dx, y + dy)));
             let inside = around.filter(|(x, y)| (0..24).contains(x) && (0..20).contains(y));
-            inside.filter(|(x, y)| picture.pixels[(y * 24 + x) as usize].object == own).collect::<Vec<_>>()
+            inside.filter(|(x, y)| picture.objects[(y * 24 + x) as usize] == own).collect::<Vec<_>>()
         };
         let at = |(x, y): &(i64, i64)| lightness[(y * 24 + x) as usize];
         let greatest = |p: &(i64, i64)| square(p.0, p.1).iter().map(at).fold(0.0, f32::max);
@@ -305,9 +305,9 @@ proptest! {
         let around = |x: i64, y: i64, reach: i64| {
             let square = (-reach..=reach).flat_map(move |dy| (-reach..=reach).map(move |dx| (x + dx, y + dy)));
             let inside = square.filter(|(x, y)| (0..24).contains(x) && (0..20).contains(y));
-            let own = picture.pixels[(y * 24 + x) as usize].object;
+            let own = picture.objects[(y * 24 + x) as usize];
             let values = inside.map(|(x, y)| (y * 24 + x) as usize);
-            let values = values.filter(|at| picture.pixels[*at].object == own && !lightness[*at].is_nan());
+            let values = values.filter(|at| picture.objects[*at] == own && !lightness[*at].is_nan());
             values.collect::<Vec<usize>>()
         };
         for (x, y) in (0..480).map(|i| (i % 24, i / 24)) {

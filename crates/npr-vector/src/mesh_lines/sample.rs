@@ -49,20 +49,20 @@ pub struct SpineSample {
     pub outward: [f32; 2],
     /// Distance from the eye along the view axis.
     pub depth: f32,
-    /// Number of its object.
-    pub object: u32,
     /// Index of its part.
     pub part: u32,
     /// Number of its line.
     pub line: u32,
+    /// Keeps the size a multiple of 8 bytes.
+    pub unused: u32,
 }
 gpu_layout!(SpineSample {
     place_px,
     outward,
     depth,
-    object,
     part,
-    line
+    line,
+    unused
 });
 
 /// The images that samples are tested on.
@@ -113,7 +113,7 @@ impl Surroundings<'_> {
         if pixel.part == NONE {
             return false;
         }
-        let own = pixel.object == sample.object && pixel.part == sample.part;
+        let own = pixel.part == sample.part;
         let mut tolerance = sample.depth * DEPTH_ROUNDING;
         if own {
             let slope = self
@@ -185,16 +185,15 @@ mod tests {
         )
     }
 
-    fn pixel(depth: f32, object: u32) -> GPixel {
+    fn pixel(depth: f32, part: u32) -> GPixel {
         GPixel {
             depth,
-            object,
-            part: object,
+            part,
             ..GPixel::EMPTY
         }
     }
 
-    /// A sample of object 0 in the middle of the frame, its surface on the left.
+    /// A sample of part 0 in the middle of the frame, its surface on the left.
     fn sample(depth: f32) -> SpineSample {
         SpineSample {
             place_px: [16.0, 16.5],
@@ -234,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_behind_another_object_is_hidden_even_if_it_is_near() {
+    fn a_line_behind_another_part_is_hidden_even_if_it_is_near() {
         for perspective in [true, false] {
             assert_eq!(share(perspective, |_| pixel(3.999, 1)), 0.0);
             assert_eq!(share(perspective, |_| pixel(2.0, 0)), 0.0);

@@ -176,13 +176,7 @@ impl<'a> Detector<'a> {
         }
 
         // Compare what the pixels show.
-        let mut found = 0;
-        if here.object != there.object {
-            found |= Outline::OBJECT_ID;
-        }
-        if here.material != there.material {
-            found |= Outline::MATERIAL_ID;
-        }
+        let mut found = self.differing_ids(here.part, there.part);
 
         // Against the background everything differs.
         if here.part == NONE || there.part == NONE {
@@ -204,14 +198,34 @@ impl<'a> Detector<'a> {
                 found |= Outline::NORMAL;
             }
             let component = |pixel: &GPixel| self.with.parts[pixel.part as usize].component;
-            let meets = here.object == there.object
-                && here.material == there.material
+            let meets = found & (Outline::OBJECT_ID | Outline::MATERIAL_ID) == 0
+                && here.part != there.part
                 && component(here) != component(there);
             if meets && turn < PIECE_COS {
                 found |= Outline::PIECE;
             }
         }
         found & outline.detects & MASK_KINDS
+    }
+
+    /// Which of object and material two parts differ in; [`NONE`] is the part of the background, which has neither.
+    fn differing_ids(&self, here: u32, there: u32) -> u32 {
+        if here == there {
+            return 0;
+        }
+        let ids = |part: u32| match self.with.parts.get(part as usize) {
+            Some(part) => [part.object, part.material],
+            None => [NONE; 2],
+        };
+        let ([object, material], [other_object, other_material]) = (ids(here), ids(there));
+        let mut found = 0;
+        if object != other_object {
+            found |= Outline::OBJECT_ID;
+        }
+        if material != other_material {
+            found |= Outline::MATERIAL_ID;
+        }
+        found
     }
 
     /// Whether depth jumps between two neighbours, by the threshold's share of the frame's height.
@@ -278,8 +292,6 @@ mod tests {
             GPixel {
                 plane_step,
                 depth: 1000.0 + slope * (at - share),
-                object: 0,
-                material: 0,
                 part: 0,
                 ..GPixel::EMPTY
             }

@@ -24,7 +24,7 @@ pub struct Surfaces<'a> {
     pub parts: &'a [Part],
 }
 
-/// Depth, normal, object and material at every pixel of the grid, from the triangle numbers in `ids`
+/// Depth, normal and part at every pixel of the grid, from the triangle numbers in `ids`
 /// [Saito & Takahashi 1990].
 ///
 /// O(pixels), parallel over rows.
@@ -122,8 +122,6 @@ impl Surfaces<'_> {
             } else {
                 normal.map(|v| -v)
             }),
-            object: part.object,
-            material: part.material,
             part: triangle.part,
         }
     }

@@ -122,11 +122,11 @@ impl Search<'_> {
 
     /// Whether two pixels show one connected surface in one material, whatever ids it has.
     fn is_one_skin(&self, a: &GPixel, b: &GPixel) -> bool {
-        let component = |pixel: &GPixel| self.parts[pixel.part as usize].component;
-        a.part != NONE
-            && a.object == b.object
-            && a.material == b.material
-            && component(a) == component(b)
+        let skin = |pixel: &GPixel| {
+            let part = self.parts.get(pixel.part as usize)?;
+            Some([part.object, part.material, part.component])
+        };
+        a.part != NONE && skin(a) == skin(b)
     }
 
     /// Whether a ribbon runs through a point of the frame: ink enough under it, and enough around to be a line.

@@ -407,7 +407,8 @@ impl Drawing<'_> {
         let Some((seen, plane)) = self.plane_at(self.mask_window.pixel_at(px), reference) else {
             return false;
         };
-        seen.object != object && seen.depth.max(plane) < depth - self.tolerance(depth)
+        self.parts[seen.part as usize].object != object
+            && seen.depth.max(plane) < depth - self.tolerance(depth)
     }
 
     fn tolerance(&self, depth: f32) -> f32 {

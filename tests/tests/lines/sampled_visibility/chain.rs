@@ -78,7 +78,6 @@ impl Chain<'_> {
                 .collect(),
             // Contours run with their own surface on the left.
             outer_side: f32::from(u8::from(self.strokes[0].kind == Kind::Contour)),
-            object: self.object,
             part: self.strokes[0].surface,
         }
     }

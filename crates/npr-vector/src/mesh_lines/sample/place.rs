@@ -13,8 +13,6 @@ pub struct Spine {
     pub points: Vec<[f32; 3]>,
     /// The side away from its own surface, as seen along it: 1 right, -1 left, 0 for lines within a surface.
     pub outer_side: f32,
-    /// Number of its object.
-    pub object: u32,
     /// Index of its part.
     pub part: u32,
 }
@@ -75,9 +73,9 @@ impl Spine {
             // The picture's y runs down, so right of the way is a quarter turn from x to y.
             outward: [-along_y * self.outer_side, along_x * self.outer_side],
             depth: view.depth_of_coordinate(between(coordinates[0], coordinates[1])),
-            object: self.object,
             part: self.part,
             line,
+            unused: 0,
         }
     }
 }
