@@ -100,14 +100,25 @@ fn neighbor_of(pixel: vec2<i32>, side: u32) -> u32 {
     return u32(next.y) * window.size.x + u32(next.x);
 }
 
-// The sides of a pixel, a bit each, on which it has a neighbour and one of both shows a surface.
-fn sides_to_look_at(is_background: bool, pixel: vec2<i32>) -> u32 {
+// The sides of a pixel, a bit each, on which its neighbour may differ from it: few pixels have any, and only for these
+// is everything compared.
+fn sides_to_look_at(element: u32, pixel: vec2<i32>) -> u32 {
+    let part = gbuffer[element].part;
+    let depth = gbuffer[element].depth;
+    let normal = gbuffer[element].normal;
+    let unpacked = unpack_unit(normal);
     var sides = 0u;
     for (var side = 0u; side < 4u; side++) {
         let next = pixel + step_to(side);
-        if any(next < vec2<i32>(0)) || any(next >= vec2<i32>(window.size)) { continue; }
-        if is_background && gbuffer[neighbor_of(pixel, side)].part == NONE { continue; }
-        sides |= 1u << side;
+        let is_inside = all(next >= vec2<i32>(0)) && all(next < vec2<i32>(window.size));
+        // Beyond the picture a pixel is compared with itself.
+        let at = select(element, u32(next.y) * window.size.x + u32(next.x), is_inside);
+        let other = gbuffer[at].normal;
+        let least = outline.depth_threshold * height_at(view, min(depth, gbuffer[at].depth));
+        let is_far = abs(depth - gbuffer[at].depth) > least;
+        let turns = normal != other && dot(unpacked, unpack_unit(other)) < outline.normal_cos;
+        let differs = part != gbuffer[at].part || (part != NONE && (is_far || turns));
+        sides |= select(0u, 1u, differs) << side;
     }
     return sides;
 }
@@ -133,7 +144,7 @@ fn main(
 
     let pixel = vec2<i32>(pixel_of(element, window.size));
     let here = gbuffer[element];
-    var left = sides_to_look_at(here.part == NONE, pixel);
+    var left = sides_to_look_at(element, pixel);
     var found = 0u;
     if left == 0u {
         mask[element] = 0u;
