@@ -66,11 +66,12 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     let element = index / 6u;
     var passed: Varying;
     passed.position = vec4<f32>(0.0);
-    let edge = edges[element];
     let role = roles[element];
-    let first = posed[edge.ends.x];
-    let second = posed[edge.ends.y];
-    if role.kinds == 0u || max(first.depth, second.depth) <= view.near { return passed; }
+    if role.kinds == 0u { return passed; }
+    let ends = edges[element].ends;
+    let first = posed[ends.x];
+    let second = posed[ends.y];
+    if max(first.depth, second.depth) <= view.near { return passed; }
 
     let a = end_of(first, second);
     let b = end_of(second, first);
