@@ -78,7 +78,7 @@ const TWINS: &[Twins] = &[
     twins("lib/line_kind.wgsl", "KINDS_", "npr-core/src/line_kind.rs", "KindSet::"),
     twins("lib/line_kind.wgsl", "", "npr-core/src/line_kind.rs", ""),
     twins("lib/list.wgsl", "", "npr-vector/src/rank/splitter.rs", ""),
-    twins("lib/looped.wgsl", "", "npr-vector/src/pixel_strokes/looped.rs", ""),
+    twins("lib/looped.wgsl", "", "npr-vector/src/pixel_strokes/planar.rs", ""),
     twins("lib/outline.wgsl", "", "npr-core/src/outline.rs", ""),
     twins("lib/outline.wgsl", "DETECT_", "npr-core/src/outline.rs", "Outline::"),
     twins("lib/outline.wgsl", "DETECT_OBJECT", "npr-core/src/outline.rs", "Outline::OBJECT_ID"),

@@ -22,6 +22,7 @@
 pub mod edge;
 pub mod fragment;
 pub mod looped;
+pub mod planar;
 pub mod segment;
 pub mod side;
 pub mod strip;

@@ -7,7 +7,8 @@ use crate::pass::{Agreement, Format, Image, Pass, Work, read, texture, uniform, 
 use npr_vector::mesh_lines::contour::steps::{HalfEdge, Viewer};
 use npr_vector::pixel_strokes::edge::{DrawnEdge, Facing, mark_edges};
 use npr_vector::pixel_strokes::fragment::{self, Fragment};
-use npr_vector::pixel_strokes::looped::{self, Filter, Gathered, Ordered, Planar, SpeckRule, Spot};
+use npr_vector::pixel_strokes::looped::{self, Filter, Gathered, Ordered, SpeckRule, Spot};
+use npr_vector::pixel_strokes::planar::Planar;
 use npr_vector::pixel_strokes::segment::{Drawn, PixelView, Segment, project_edges};
 use npr_vector::pixel_strokes::side::{self, Ink, InkPicture, Side};
 use npr_vector::pixel_strokes::strip::{self, CullRule, StripSpot};

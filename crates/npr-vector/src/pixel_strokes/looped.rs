@@ -4,6 +4,7 @@
 //! Loops lie one after the other in one list. Every side knows where its loop starts and how long it is, so windows
 //! along a loop wrap around it by themselves, as often as it takes where a loop is shorter than the window.
 
+use super::planar::{LEAST_SQUARE, Planar};
 use super::side::Side;
 use crate::rank::place::Standing;
 use bytemuck::{Pod, Zeroable};
@@ -48,41 +49,6 @@ impl Spot {
         self.start + from_start % self.length
     }
 }
-
-/// A vector in the picture.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
-pub struct Planar {
-    /// To the right, in pixels.
-    pub x: f32,
-    /// Down, in pixels.
-    pub y: f32,
-}
-gpu_layout!(Planar { x, y });
-
-impl Planar {
-    /// The vector of length 1; zero for a vector without direction.
-    fn unit(self) -> Self {
-        let square = self.x * self.x + self.y * self.y;
-        if square > LEAST_SQUARE {
-            let r = 1.0 / square.sqrt();
-            Self {
-                x: self.x * r,
-                y: self.y * r,
-            }
-        } else {
-            Self::default()
-        }
-    }
-
-    /// Scalar product.
-    pub fn dot(self, other: Self) -> f32 {
-        self.x * other.x + self.y * other.y
-    }
-}
-
-/// Square of the length under which a vector has no direction.
-const LEAST_SQUARE: f32 = 1e-12;
 
 /// The input of [`gather_sides`].
 #[derive(Debug, Clone, Copy)]

@@ -4,7 +4,7 @@
 //! side to the right, down the right one, back along the lower, and up the left one.
 
 use super::fragment::holder_of;
-use super::looped::Planar;
+use super::planar::Planar;
 use super::segment::Segment;
 use crate::rank::Link;
 use bytemuck::{Pod, Zeroable};

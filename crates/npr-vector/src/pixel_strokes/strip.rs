@@ -4,7 +4,8 @@
 //! A strip is a run of kept sides along a loop, which may pass the place where the loop's list starts. A loop that is
 //! kept whole is one closed strip.
 
-use super::looped::{Planar, Spot};
+use super::looped::Spot;
+use super::planar::Planar;
 use crate::rank::scan::{compact, exclusive_scan};
 use bytemuck::{Pod, Zeroable};
 use npr_core::geometry::NONE;

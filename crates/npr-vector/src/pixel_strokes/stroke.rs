@@ -1,9 +1,10 @@
 //! Turns ranked loops into runs of lines.
 
 use super::looped::{
-    Filter, Gathered, Ordered, Planar, SpeckRule, Spot, drop_specks, fit_tangents, gather_sides,
+    Filter, Gathered, Ordered, SpeckRule, Spot, drop_specks, fit_tangents, gather_sides,
     smooth_loops,
 };
+use super::planar::Planar;
 use super::segment::Segment;
 use super::strip::{CullRule, StripSpot, Strips, cull_sides, drop_short, strips, vote_sides};
 use super::{PublishedPath, Traced};

@@ -9,7 +9,6 @@ use std::collections::BTreeMap;
 #[derive(Debug)]
 pub struct Chain<'a> {
     strokes: Vec<&'a Stroke>,
-    object: u32,
 }
 
 /// What strokes of a chain have in common at its joints.
@@ -26,10 +25,7 @@ pub fn chains(drawing: &Drawing) -> Vec<Chain<'_>> {
         drawing.strokes.iter().partition(|stroke| stroke.closed);
     let rows = closed.into_iter().map(|stroke| vec![stroke]);
     rows.chain(joined(&open))
-        .map(|strokes| Chain {
-            object: drawing.surfaces[strokes[0].surface as usize].object_number,
-            strokes,
-        })
+        .map(|strokes| Chain { strokes })
         .collect()
 }
 

@@ -1,9 +1,10 @@
 //! Specks, filters, tangents and strips.
 
 use crate::pixel_strokes::looped::{
-    Filter, Gathered, Ordered, Planar, SpeckRule, Spot, drop_specks, fit_tangents, gather_sides,
-    gaussian, smooth_loops, tent,
+    Filter, Gathered, Ordered, SpeckRule, Spot, drop_specks, fit_tangents, gather_sides, gaussian,
+    smooth_loops, tent,
 };
+use crate::pixel_strokes::planar::Planar;
 use crate::pixel_strokes::segment::Segment;
 use crate::pixel_strokes::side::{Ink, InkPicture};
 use crate::pixel_strokes::strip::{
