@@ -166,13 +166,18 @@ impl<'a> Renderer<'a> {
         self
     }
 
-    /// Draws other smoke from now on, of at most as many spheres as the smoke that the renderer was made with.
+    /// Draws other smoke from now on, in both looks of a blend: at most as many spheres as the smoke has that the
+    /// renderer was made with.
     ///
     /// # Errors
     ///
     /// [`RenderError::TooMany`] for more spheres, or for any where there was no smoke; or a failing engine.
     pub fn set_smoke(&mut self, smoke: &Smoke) -> Result<(), RenderError> {
-        self.frames.set_smoke(smoke)
+        self.frames.set_smoke(smoke)?;
+        match &mut self.blended {
+            Some((other, _)) => other.set_smoke(smoke),
+            None => Ok(()),
+        }
     }
 
     /// What is drawn in another way than the style asks, for the user.

@@ -440,6 +440,28 @@ fn a_renderer_takes_as_many_spheres_as_it_was_made_for() {
 }
 
 #[test]
+fn both_looks_of_a_blend_have_the_smoke_of_the_moment() {
+    let (model, mut style) = (empty(), style(""));
+    for key in ["blend.with=technical", "blend.amount=0.5"] {
+        style.set(key).unwrap();
+    }
+    let made_for = |count| {
+        let options = RendererOptions {
+            smoke: Some(plume(count)),
+            ..RendererOptions::new([64, 64])
+        };
+        Renderer::new(&Processor, &model, &style, &options).unwrap()
+    };
+    let mut renderer = made_for(40);
+    renderer.draw(&camera(0.0)).unwrap();
+    renderer.set_smoke(&plume(4)).unwrap();
+    let drawn = renderer.draw(&camera(0.0)).unwrap();
+    let wanted = made_for(4).draw(&camera(0.0)).unwrap();
+    assert!(drawn.rgba == wanted.rgba);
+    assert!(drawn.rgba != made_for(40).draw(&camera(0.0)).unwrap().rgba);
+}
+
+#[test]
 fn pictures_are_the_same_for_any_number_of_threads_and_nearly_in_tiles() {
     let (smoke, style, model) = (plume(200), style("smoke.sigma = 9"), empty());
     let size = [200, 301];
