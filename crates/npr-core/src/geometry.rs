@@ -150,7 +150,7 @@ gpu_layout!(Edge {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct EdgeRole {
-    /// Bits of [`KindSet`](crate::line_kind::KindSet) and [`EdgeFlags::FACING`]; 0 where it draws no line.
+    /// Bits of [`KindSet`] and [`EdgeFlags::FACING`]; 0 where it draws no line.
     pub kinds: u32,
     /// The part that draws its line: that of its first face.
     pub part: u32,

@@ -4,7 +4,7 @@ use crate::scene::{
     FRAME_PX, Look, SHADOW_SIDE, SHADOWS, Scene, bare_compose, compose, lights, outline,
     part_subjects, rules, shadow_of, smoke_look, spheres, view,
 };
-use npr_core::geometry::{ChartCorners, EdgeRole, Stamp};
+use npr_core::geometry::{ChartCorners, EdgeRole, GPixel, Stamp};
 use npr_core::smoke::SphereView;
 use npr_core::window::Window;
 use npr_gpu::engine::Engine;
@@ -282,7 +282,7 @@ impl Builder {
         let (pixels, mask_pixels) = (area(size), area(mask_size));
         self.make_image("mask_ids", Format::U32, mask_size);
         self.make_image("mask_depth", Format::Depth, mask_size);
-        self.make_buffer("gbuffer", 32, mask_pixels);
+        self.make_buffer("gbuffer", size_of::<GPixel>(), mask_pixels);
         self.make_buffer("mask", 4, mask_pixels);
         self.make_buffer("tints", 12, mask_pixels);
         self.make_image("ribbons", Format::Rgba8, size);
