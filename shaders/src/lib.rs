@@ -269,6 +269,11 @@ impl Linked {
     }
 }
 
+/// The example of the README, as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 /// What stands in a line before its comment.
 fn code_of(line: &str) -> &str {
     let slashes = line.match_indices('/').map(|(at, _)| at);
