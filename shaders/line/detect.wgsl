@@ -41,9 +41,14 @@ fn may_bend(here: GPixel, there: GPixel, step: vec2<f32>) -> bool {
     return there.depth > plane_depth(here, step) && here.depth > plane_depth(there, -step);
 }
 
-// Whether depth jumps between two neighbours, by the threshold's share of the frame's height.
+// Depth by which two neighbours must differ for a jump: the threshold's share of the frame's height there.
+fn least_jump(here: f32, there: f32) -> f32 {
+    return outline.depth_threshold * height_at(view, min(here, there));
+}
+
+// Whether depth jumps between two neighbours.
 fn jumps(here: GPixel, there: GPixel, step: vec2<f32>) -> bool {
-    let least = outline.depth_threshold * height_at(view, min(here.depth, there.depth));
+    let least = least_jump(here.depth, there.depth);
     if abs(here.depth - there.depth) <= least { return false; }
     if (outline.detects & DETECT_PLANE_DEPTH) == 0u { return true; }
     return plane_gap(here, there, step) > least && plane_gap(there, here, -step) > least;
@@ -112,10 +117,9 @@ fn sides_to_look_at(element: u32, pixel: vec2<i32>) -> u32 {
         let next = pixel + step_to(side);
         let is_inside = all(next >= vec2<i32>(0)) && all(next < vec2<i32>(window.size));
         // Beyond the picture a pixel is compared with itself.
-        let at = select(element, u32(next.y) * window.size.x + u32(next.x), is_inside);
+        let at = select(element, neighbor_of(pixel, side), is_inside);
         let other = gbuffer[at].normal;
-        let least = outline.depth_threshold * height_at(view, min(depth, gbuffer[at].depth));
-        let is_far = abs(depth - gbuffer[at].depth) > least;
+        let is_far = abs(depth - gbuffer[at].depth) > least_jump(depth, gbuffer[at].depth);
         let turns = normal != other && dot(unpacked, unpack_unit(other)) < outline.normal_cos;
         let differs = part != gbuffer[at].part || (part != NONE && (is_far || turns));
         sides |= select(0u, 1u, differs) << side;
