@@ -6,6 +6,9 @@
 // Pixels whose sides share a word of masks: four bits each, those of the first lowest.
 const PIXELS_A_WORD: u32 = 8u;
 
+// Pixels whose ink shares a word: a bit each, that of the first lowest.
+const BITS_A_WORD: u32 = 32u;
+
 struct Side {
     code: u32,
     segment: u32,

@@ -5,18 +5,27 @@
 //
 //# use lib/grid
 //# use lib/ink
+//# use lib/pixel
 
-@group(0) @binding(0) var ink: texture_2d<u32>;
-@group(0) @binding(1) var<storage, read_write> masks: array<u32>;
-@group(0) @binding(2) var<storage, read_write> counts: array<u32>;
+@group(0) @binding(0) var<uniform> view: PixelView;
+@group(0) @binding(1) var<storage, read> ink: array<u32>;
+@group(0) @binding(2) var<storage, read_write> masks: array<u32>;
+@group(0) @binding(3) var<storage, read_write> counts: array<u32>;
 
-// Whether a pixel has ink, by its number in rows; pixels before the first row and after the last have none.
-fn is_inked(pixel: i32, size: vec2<i32>) -> bool {
-    if pixel < 0 || pixel >= size.x * size.y { return false; }
-    return textureLoad(ink, vec2<i32>(pixel % size.x, pixel / size.x), 0).r != 0u;
+// A word of ink; there is none before the picture and after it.
+fn word_at(index: i32) -> u32 {
+    if index < 0 || u32(index) >= arrayLength(&ink) { return 0u; }
+    return ink[index];
 }
 
-// One invocation per word: rows of ink are bits, and shifts of them are neighbours.
+// The ink of the pixels from a number in rows on, that of the first lowest: eight bits at least.
+fn ink_from(pixel: i32) -> u32 {
+    let word = pixel >> 5u;
+    let shift = u32(pixel) % BITS_A_WORD;
+    return (word_at(word) >> shift) | select(0u, word_at(word + 1) << (BITS_A_WORD - shift), shift != 0u);
+}
+
+// One invocation per word: shifts of a row of ink are neighbours.
 @compute @workgroup_size(WG)
 fn main(
     @builtin(workgroup_id) wid: vec3<u32>,
@@ -26,22 +35,24 @@ fn main(
     let element = element_index(wid, nwg, lid, WG);
     if element >= arrayLength(&masks) { return; }
 
-    let size = vec2<i32>(textureDimensions(ink));
-    let first = i32(element * PIXELS_A_WORD);
+    masks[element] = 0u;
+    counts[element] = 0u;
+    let first = element * PIXELS_A_WORD;
+    let here = ink[first / BITS_A_WORD] >> (first % BITS_A_WORD) & 0xffu;
+    if here == 0u { return; }
+
+    let width = view.size.x;
+    let up = ink_from(i32(first) - i32(width));
+    let right = ink_from(i32(first) + 1);
+    let down = ink_from(i32(first + width));
+    let left = ink_from(i32(first) - 1);
     var mask = 0u;
-    var is_before = is_inked(first - 1, size);
-    var is_here = is_inked(first, size);
     for (var place = 0u; place < PIXELS_A_WORD; place++) {
-        let pixel = first + i32(place);
-        let column = pixel % size.x;
-        let is_after = is_inked(pixel + 1, size);
-        let up = select(1u, 0u, is_inked(pixel - size.x, size));
-        let right = select(2u, 0u, is_after && column + 1 < size.x);
-        let down = select(4u, 0u, is_inked(pixel + size.x, size));
-        let left = select(8u, 0u, is_before && column > 0);
-        if is_here { mask |= (up | right | down | left) << (4u * place); }
-        is_before = is_here;
-        is_here = is_after;
+        let column = (first + place) % width;
+        let beside = vec4<u32>(up, right, down, left) >> vec4<u32>(place) & vec4<u32>(1u);
+        let is_inside = vec4<bool>(true, column + 1u < width, true, column > 0u);
+        let sides = dot(select(vec4<u32>(1u), 1u - beside, is_inside), vec4<u32>(1u, 2u, 4u, 8u));
+        mask |= (sides * (here >> place & 1u)) << (4u * place);
     }
     masks[element] = mask;
     counts[element] = countOneBits(mask);

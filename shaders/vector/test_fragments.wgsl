@@ -1,9 +1,10 @@
-// vector.test_fragments: whether each fragment shows, by the depths of the pixels around it.
+// vector.test_fragments: whether each fragment shows, by the depths of the pixels around it, and which pixels have ink.
 //
 // Source  Jiang et al. 2022, soft visibility test
 // Twin    npr_vector::pixel_strokes::fragment::test_fragments
 //
 //# use lib/grid
+//# use lib/ink
 //# use lib/pixel
 
 @group(0) @binding(0) var<uniform> view: PixelView;
@@ -11,6 +12,8 @@
 @group(0) @binding(2) var occluder_depths: texture_2d<u32>;
 @group(0) @binding(3) var<storage, read> fragments: array<Fragment>;
 @group(0) @binding(4) var<storage, read_write> shown: array<u32>;
+// A bit for each pixel, set where a fragment shows.
+@group(0) @binding(5) var<storage, read_write> ink: array<atomic<u32>>;
 
 // Reversed depth of the surface that hides lines at a pixel; occluder depths of another size than the picture count as
 // none.
@@ -43,5 +46,7 @@ fn main(
             count += select(0u, 1u, is_free);
         }
     }
-    shown[element] = select(0u, 1u, count >= view.least_visible);
+    if count < view.least_visible { return; }
+    shown[element] = 1u;
+    atomicOr(&ink[fragment.pixel / BITS_A_WORD], 1u << (fragment.pixel % BITS_A_WORD));
 }

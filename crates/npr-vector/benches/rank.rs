@@ -139,7 +139,7 @@ const PICTURES: [Pictures; 3] = [
 fn linked(ink: &Ink<'_>) -> Vec<Link> {
     let word_count = ink.pixels.len().div_ceil(PIXELS_A_WORD);
     let (mut masks, mut counts) = (vec![0; word_count], vec![0; word_count]);
-    mark_sides(ink, &mut masks, &mut counts);
+    mark_sides(ink.size, &ink.bits(), &mut masks, &mut counts);
     let (starts, total) = exclusive_scan(&counts);
     let mut sides = vec![Side::default(); total as usize];
     let mut links = vec![Link::default(); total as usize];

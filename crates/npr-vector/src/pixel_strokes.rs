@@ -43,7 +43,7 @@ pub use npr_core::published_path::PublishedPath;
 use npr_core::window::View;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use segment::{Drawn, PixelView, Segment, project_edges};
-use side::{Ink, InkPicture, PIXELS_A_WORD, Side, link_sides, mark_sides};
+use side::{BITS_A_WORD, Ink, InkPicture, PIXELS_A_WORD, Side, link_sides, mark_sides};
 pub use surface::scene_depths;
 
 /// Bytes for each pixel of a picture that [`trace`] takes: what shows, how deep, and the sides.
@@ -136,7 +136,11 @@ pub fn trace(
 
     // Draw the lines, pixel by pixel, before the scene.
     let (segments, counts) = segments_of(on, &view);
-    let (owners, nearest) = draw(&view, scene, &segments, &counts);
+    let Drawing {
+        owners,
+        nearest,
+        ink,
+    } = draw(&view, scene, &segments, &counts);
 
     // Link and rank the sides of the ink.
     let picture = InkPicture {
@@ -147,7 +151,7 @@ pub fn trace(
         nearest: &nearest,
         segments: &segments,
     };
-    let (sides, ranked) = ranked_sides(&picture, path.round_limit())?;
+    let (sides, ranked) = ranked_sides(&picture, &ink, path.round_limit())?;
     Ok(Traced {
         size: view.size,
         view,
@@ -195,15 +199,23 @@ fn segments_of(on: &PixelScene<'_>, view: &PixelView) -> (Vec<Segment>, Vec<u32>
     (segments, counts)
 }
 
-/// The owners of all pixels and their reversed depths. Fragments are made, tested and drawn for a batch of segments at
-/// a time.
-fn draw(
-    view: &PixelView,
-    scene: &[f32],
-    segments: &[Segment],
-    counts: &[u32],
-) -> (Vec<u32>, Vec<u32>) {
-    let (mut owners, mut nearest) = (vec![0; scene.len()], vec![0; scene.len()]);
+/// A picture of lines.
+struct Drawing {
+    /// The number of every pixel's segment, plus one.
+    owners: Vec<u32>,
+    /// Its reversed depth, as bits.
+    nearest: Vec<u32>,
+    /// A bit for each pixel, set where it shows a line.
+    ink: Vec<u32>,
+}
+
+/// Draws segments before a scene. Fragments are made, tested and drawn for a batch of segments at a time.
+fn draw(view: &PixelView, scene: &[f32], segments: &[Segment], counts: &[u32]) -> Drawing {
+    let mut picture = Drawing {
+        owners: vec![0; scene.len()],
+        nearest: vec![0; scene.len()],
+        ink: vec![0; scene.len().div_ceil(BITS_A_WORD)],
+    };
     let mut first = 0;
     while first < segments.len() {
         // Take as many segments as a batch of fragments holds.
@@ -226,34 +238,40 @@ fn draw(
             &mut fragments,
         );
         let mut shown = vec![0; fragments.len()];
-        test_fragments(view, [scene, &[]], &fragments, &mut shown);
+        test_fragments(view, [scene, &[]], &fragments, &mut shown, &mut picture.ink);
 
         // Keep the nearest fragment of every pixel.
         for fragment in &mut fragments {
             fragment.segment += first as u32;
         }
-        draw_nearest(&fragments, &shown, &mut owners, &mut nearest);
+        draw_nearest(
+            &fragments,
+            &shown,
+            &mut picture.owners,
+            &mut picture.nearest,
+        );
         first = last;
     }
-    (owners, nearest)
+    picture
 }
 
 /// The sides of a picture of ink, and their ranked loops.
 ///
-/// Each loop starts at its side with the greatest Morton code, loops come by that side. `rounds` bounds pointer
-/// jumping; without it the links are walked, which gives the same.
+/// `ink` holds the picture's ink as bits ([`Ink::bits`]). Each loop starts at its side with the greatest Morton code,
+/// loops come by that side. `rounds` bounds pointer jumping; without it the links are walked, which gives the same.
 ///
 /// # Errors
 ///
 /// [`RankError::Unsettled`] where the rounds are too few.
 pub fn ranked_sides(
     picture: &InkPicture<'_>,
+    ink: &[u32],
     rounds: Option<u32>,
 ) -> Result<(Vec<Side>, Ranked), RankError> {
     // Mark and link the sides.
     let word_count = picture.ink.pixels.len().div_ceil(PIXELS_A_WORD);
     let (mut masks, mut counts) = (vec![0; word_count], vec![0; word_count]);
-    mark_sides(&picture.ink, &mut masks, &mut counts);
+    mark_sides(picture.ink.size, ink, &mut masks, &mut counts);
     let (starts, total) = exclusive_scan(&counts);
     let mut sides = vec![Side::default(); total as usize];
     let mut links = vec![Default::default(); total as usize];

@@ -139,7 +139,7 @@ fn linking_and_ranking_are_the_processors_bit_for_bit() {
             size: traced.size,
             pixels: &pixels,
         };
-        let (sides, ranked) = ranked_sides(&ink.into(), None).unwrap();
+        let (sides, ranked) = ranked_sides(&ink.into(), &ink.bits(), None).unwrap();
         let codes = |sides: &[Side]| sides.iter().map(|side| side.code).collect::<Vec<_>>();
         assert!(codes(&traced.sides) == codes(&sides), "{}", path.display());
         assert!(traced.order == ranked.order, "{}", path.display());

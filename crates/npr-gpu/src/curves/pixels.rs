@@ -15,7 +15,7 @@ use npr_vector::pixel_strokes::fragment::Fragment;
 use npr_vector::pixel_strokes::looped::{Filter, SpeckRule, Spot};
 use npr_vector::pixel_strokes::planar::Planar;
 use npr_vector::pixel_strokes::segment::{PixelView, Segment};
-use npr_vector::pixel_strokes::side::{PIXELS_A_WORD, Side};
+use npr_vector::pixel_strokes::side::{BITS_A_WORD, PIXELS_A_WORD, Side};
 use npr_vector::pixel_strokes::strip::{CullRule, StripSpot};
 use npr_vector::pixel_strokes::{PixelScene, PublishedPath};
 use npr_vector::rank::Link;
@@ -177,7 +177,7 @@ pub fn add_pixel_contours(
         (size, room.fragments),
     );
     let (sides, side_count, links, side_work) =
-        add_sides(graph, (picture, segments), size, (room.sides, scheme));
+        add_sides(graph, (picture, view, segments), size, (room.sides, scheme));
     PixelContours {
         viewer,
         view,
@@ -196,14 +196,24 @@ pub fn add_pixel_contours(
     }
 }
 
-/// Makes, tests and draws fragments; gives the segments of pixels, plus one, and their depths, which are drawn into
-/// `nearest`.
+/// A picture of lines.
+#[derive(Debug, Clone, Copy)]
+struct LinePicture {
+    /// A bit for each pixel, set where it shows a line.
+    ink: ResourceId,
+    /// The number of its segment, plus one.
+    owners: ResourceId,
+    /// Its reversed depth.
+    nearest: ResourceId,
+}
+
+/// Makes, tests and draws fragments; their depths are drawn into `nearest`.
 fn add_picture(
     graph: &mut Graph,
     (view, [surfaces, occluder_depths, nearest]): (ResourceId, [ResourceId; 3]),
     (segment_count, starts, segments): (ResourceId, Scan, ResourceId),
     (size, room): ([u32; 2], usize),
-) -> [ResourceId; 2] {
+) -> LinePicture {
     // Cut the projected edges into fragments, one for each pixel crossed.
     let Scan { prefixes, total } = starts;
     let indirect = IndirectArguments {
@@ -217,7 +227,8 @@ fn add_picture(
 
     // Test which of them are seen.
     let shown = graph.buffer::<u32>("fragments shown", room);
-    let bound = [view, surfaces, occluder_depths, fragments, shown];
+    let ink = graph.buffer::<u32>("ink", pixel_count(size).div_ceil(BITS_A_WORD));
+    let bound = [view, surfaces, occluder_depths, fragments, shown, ink];
     graph.compute_sized(&pixels::TEST_FRAGMENTS, &bound, work.elements());
 
     // Draw the nearest one into every pixel.
@@ -228,21 +239,29 @@ fn add_picture(
         true,
         work.draw(),
     );
-    [owners, nearest]
+    LinePicture {
+        ink,
+        owners,
+        nearest,
+    }
+}
+
+fn pixel_count([width, height]: [u32; 2]) -> usize {
+    width as usize * height as usize
 }
 
 /// Marks, counts and links the sides of the picture's pixels; gives these and the sizes of passes over them.
 fn add_sides(
     graph: &mut Graph,
-    ([owners, nearest], segments): ([ResourceId; 2], ResourceId),
+    (picture, view, segments): (LinePicture, ResourceId, ResourceId),
     size: [u32; 2],
     (room, scheme): (usize, Scheme),
 ) -> (ResourceId, ResourceId, ResourceId, ListWork) {
     // Count them.
-    let word_count = (size[0] as usize * size[1] as usize).div_ceil(PIXELS_A_WORD);
+    let word_count = pixel_count(size).div_ceil(PIXELS_A_WORD);
     let masks = graph.buffer::<u32>("side masks", word_count);
     let counts = graph.buffer::<u32>("sides of words", word_count);
-    graph.compute(&pixels::MARK_SIDES, &[owners, masks, counts]);
+    graph.compute(&pixels::MARK_SIDES, &[view, picture.ink, masks, counts]);
     let starts = add_scan(graph, counts, &ListWork::WHOLE);
     let work = add_work(graph, starts.total, room, scheme.indirect(room));
 
@@ -251,8 +270,8 @@ fn add_sides(
     let links = graph.buffer::<Link>("links", room);
     let bound = [
         starts.total,
-        owners,
-        nearest,
+        picture.owners,
+        picture.nearest,
         segments,
         masks,
         starts.prefixes,

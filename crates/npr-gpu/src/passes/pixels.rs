@@ -3,7 +3,7 @@
 //! [`crate::curves::pixels`] lines them up. Up to the links of sides they are exact; smoothing agrees within rounding,
 //! so a side whose direction lies on a threshold may be kept by one engine alone.
 
-use crate::pass::{Agreement, Format, Image, Pass, Work, read, texture, uniform, write};
+use crate::pass::{Agreement, Format, Image, Pass, Work, read, scatter, texture, uniform, write};
 use npr_vector::mesh_lines::contour::steps::{HalfEdge, Viewer};
 use npr_vector::pixel_strokes::edge::{DrawnEdge, Facing, mark_edges};
 use npr_vector::pixel_strokes::fragment::{self, Fragment};
@@ -129,7 +129,7 @@ pub const EMIT_FRAGMENTS: Pass = Pass {
     },
 };
 
-/// Which fragments show, by the depths around them.
+/// Which fragments show, by the depths around them, and which pixels these ink.
 pub const TEST_FRAGMENTS: Pass = Pass {
     name: "vector.test_fragments",
     shader: npr_shaders::VECTOR_TEST_FRAGMENTS,
@@ -139,12 +139,14 @@ pub const TEST_FRAGMENTS: Pass = Pass {
         texture("occluder_depths", Format::U32),
         read::<Fragment>("fragments"),
         write::<u32>("shown"),
+        scatter::<u32>("ink"),
     ],
     work: Work::PerElement { of: "fragments" },
     agreement: Agreement::Exact,
     twin: |b| {
         let scene = [b.read(1), b.read(2)];
-        fragment::test_fragments(&b.one(0), scene, b.read(3), b.write(4));
+        let (shown, ink) = (b.write(4), b.write(5));
+        fragment::test_fragments(&b.one(0), scene, b.read(3), shown, ink);
     },
 };
 
@@ -175,13 +177,17 @@ pub const MARK_SIDES: Pass = Pass {
     name: "vector.mark_sides",
     shader: npr_shaders::VECTOR_MARK_SIDES,
     slots: &[
-        texture("ink", Format::U32),
+        uniform::<PixelView>("view"),
+        read::<u32>("ink"),
         write::<u32>("masks"),
         write::<u32>("counts"),
     ],
     work: Work::PerElement { of: "masks" },
     agreement: Agreement::Exact,
-    twin: |b| side::mark_sides(&ink_of(b.image(0)), b.write(1), b.write(2)),
+    twin: |b| {
+        let view: PixelView = b.one(0);
+        side::mark_sides(view.size, b.read(1), b.write(2), b.write(3));
+    },
 };
 
 /// Sides linked to those before and after them, with what shows at their pixels.

@@ -1,6 +1,7 @@
 //! Segments to pixels: the twins of `vector.emit_fragments`, `vector.test_fragments` and `vector.draw_nearest`.
 
 use super::segment::{PixelView, Segment, reciprocal};
+use super::side::BITS_A_WORD;
 use bytemuck::{Pod, Zeroable};
 use npr_core::geometry::NONE;
 use npr_core::gpu_layout;
@@ -95,17 +96,20 @@ fn fragment_of(view: &PixelView, segment: &Segment, step: u32) -> Fragment {
     }
 }
 
-/// Whether each fragment shows: the soft test against the depths of the pixels around it.
+/// Whether each fragment shows, and which pixels these ink: the soft test against the depths of the pixels around it.
 ///
 /// `scene` holds the reversed depths of all surfaces, 0 where there is nothing, and those of occluders before them; a
 /// second list of another length counts as none. A pixel shows a fragment that lies at most the view's tolerance behind
-/// it; at least `least_visible` of the nine pixels around must show it.
+/// it; at least `least_visible` of the nine pixels around must show it. `ink` holds zeros, or what showed before: a bit
+/// for each pixel, [`BITS_A_WORD`] a word.
 pub fn test_fragments(
     view: &PixelView,
     scene: [&[f32]; 2],
     fragments: &[Fragment],
     shown: &mut [u32],
+    ink: &mut [u32],
 ) {
+    // Test the fragments.
     let outputs = shown.par_iter_mut().with_min_len(1024).zip(fragments);
     outputs.for_each(|(shown, fragment)| {
         *shown = 0;
@@ -114,6 +118,16 @@ pub fn test_fragments(
             *shown = u32::from(count >= view.least_visible);
         }
     });
+
+    // Ink the pixels of those that show.
+    for (fragment, _) in fragments
+        .iter()
+        .zip(shown)
+        .filter(|(_, shown)| **shown != 0)
+    {
+        let pixel = fragment.pixel as usize;
+        ink[pixel / BITS_A_WORD] |= 1 << (pixel % BITS_A_WORD);
+    }
 }
 
 /// How many of the nine pixels around a fragment show it.

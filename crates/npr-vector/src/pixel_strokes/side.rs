@@ -14,6 +14,9 @@ use rayon::prelude::*;
 /// Pixels whose sides share a word of masks: four bits each, those of the first lowest.
 pub const PIXELS_A_WORD: usize = 8;
 
+/// Pixels whose ink shares a word: a bit each, that of the first lowest.
+pub const BITS_A_WORD: usize = 32;
+
 /// Steps in the four directions: right, down, left, up.
 const AHEAD: [[i64; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
 
@@ -32,6 +35,15 @@ impl Ink<'_> {
         let [width, height] = self.size.map(i64::from);
         let is_inside = x >= 0 && y >= 0 && x < width && y < height;
         is_inside && self.pixels[(y * width + x) as usize] != 0
+    }
+
+    /// Whether each pixel has ink, a bit each, [`BITS_A_WORD`] a word.
+    pub fn bits(&self) -> Vec<u32> {
+        let words = self.pixels.chunks(BITS_A_WORD);
+        let bit = |(place, pixel): (usize, &u32)| u32::from(*pixel != 0) << place;
+        words
+            .map(|pixels| pixels.iter().enumerate().map(bit).sum())
+            .collect()
     }
 
     fn place_of(&self, pixel: u32) -> [i64; 2] {
@@ -153,23 +165,41 @@ impl InkPicture<'_> {
     }
 }
 
-/// The sides of every [`PIXELS_A_WORD`] pixels, a bit for each direction of each pixel, and how many there are.
-pub fn mark_sides(ink: &Ink<'_>, masks: &mut [u32], counts: &mut [u32]) {
-    let pixels = ink.pixels.par_chunks(PIXELS_A_WORD).with_min_len(512);
-    let outputs = masks.par_iter_mut().zip(counts);
-    pixels
-        .zip(outputs)
-        .enumerate()
-        .for_each(|(word, (pixels, (mask, count)))| {
-            *mask = 0;
-            for (place, pixel) in pixels.iter().enumerate() {
-                if *pixel != 0 {
-                    let sides = ink.sides_of((word * PIXELS_A_WORD + place) as u32);
-                    *mask |= sides << (4 * place);
-                }
+/// The sides of every [`PIXELS_A_WORD`] pixels of a picture of `size`, a bit for each direction of each pixel, and how
+/// many there are. `ink` holds a bit for each pixel, [`BITS_A_WORD`] a word, and none beyond the last.
+pub fn mark_sides([width, _]: [u32; 2], ink: &[u32], masks: &mut [u32], counts: &mut [u32]) {
+    let word_at =
+        |index: i64| usize::try_from(index).map_or(0, |i| ink.get(i).copied().unwrap_or(0));
+    let ink_from = |pixel: i64| {
+        let word = pixel.div_euclid(BITS_A_WORD as i64);
+        let both = u64::from(word_at(word)) | u64::from(word_at(word + 1)) << BITS_A_WORD;
+        (both >> pixel.rem_euclid(BITS_A_WORD as i64)) as u32
+    };
+    let outputs = masks.par_iter_mut().with_min_len(512).zip(counts);
+    outputs.enumerate().for_each(|(word, (mask, count))| {
+        // Pass over pixels without ink.
+        (*mask, *count) = (0, 0);
+        let first = word * PIXELS_A_WORD;
+        let here = ink[first / BITS_A_WORD] >> (first % BITS_A_WORD) & 0xff;
+        if here == 0 {
+            return;
+        }
+
+        // Take the ink beside all eight: shifts of rows are neighbours.
+        let at = first as i64;
+        let beside = [at - i64::from(width), at + 1, at + i64::from(width), at - 1].map(ink_from);
+
+        // Mark the directions in which there is none, or no pixel.
+        for place in (0..PIXELS_A_WORD).filter(|place| here >> place & 1 != 0) {
+            let column = (first + place) as u32 % width;
+            let is_inside = [true, column + 1 < width, true, column > 0];
+            for (direction, (ink, is_inside)) in beside.into_iter().zip(is_inside).enumerate() {
+                let is_side = !is_inside || ink >> place & 1 == 0;
+                *mask |= u32::from(is_side) << (4 * place + direction);
             }
-            *count = mask.count_ones();
-        });
+        }
+        *count = mask.count_ones();
+    });
 }
 
 /// Links every side to those before and after it.

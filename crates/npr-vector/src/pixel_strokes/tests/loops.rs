@@ -49,7 +49,7 @@ fn gathered(ink: &Ink<'_>, segment: Segment) -> (Vec<Spot>, Vec<Planar>, Vec<Pla
         segments: &[segment],
         ..(*ink).into()
     };
-    let (sides, ranked) = ranked_sides(&picture, None).expect("loops");
+    let (sides, ranked) = ranked_sides(&picture, &ink.bits(), None).expect("loops");
     let count = sides.len();
     let (mut spots, mut areas) = (vec![Spot::default(); count], vec![0; count]);
     let (mut places, mut directions) = (

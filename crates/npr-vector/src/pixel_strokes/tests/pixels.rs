@@ -194,9 +194,10 @@ proptest! {
         least in 0u32..10,
     ) {
         let view = PixelView { size: [6, 5], least_visible: least, ..view([6, 5], 2.0) };
-        let mut shown = [7];
+        let (mut shown, mut ink) = ([7], [0]);
         let occluder_depths = if is_occluded { occluder_depths } else { vec![0.0] };
-        test_fragments(&view, [&surfaces, &occluder_depths], &[Fragment { pixel, z, segment: 0 }], &mut shown);
+        let fragments = [Fragment { pixel, z, segment: 0 }];
+        test_fragments(&view, [&surfaces, &occluder_depths], &fragments, &mut shown, &mut ink);
         let occluder = |i: usize| if is_occluded { occluder_depths[i] } else { 0.0 };
         let scene: Vec<f32> = (0..30).map(|i| surfaces[i].max(occluder(i))).collect();
         let [x, y] = [pixel % 6, pixel / 6].map(i64::from);
@@ -207,6 +208,7 @@ proptest! {
             count += u32::from(is_near && is_free);
         }
         prop_assert_eq!(shown[0], u32::from(count >= least));
+        prop_assert_eq!(ink[0], shown[0] << pixel);
     }
 
     #[test]
@@ -241,8 +243,8 @@ proptest! {
         let pixels: Vec<u32> = cells[..(width * height) as usize].iter().map(|c| u32::from(*c)).collect();
         let ink = Ink { size: [width, height], pixels: &pixels };
         let expected = walked_loops(&ink);
-        let (sides, ranked) = ranked_sides(&ink.into(), None).expect("loops");
-        let by_rounds = ranked_sides(&ink.into(), Some(16)).expect("loops");
+        let (sides, ranked) = ranked_sides(&ink.into(), &ink.bits(), None).expect("loops");
+        let by_rounds = ranked_sides(&ink.into(), &ink.bits(), Some(16)).expect("loops");
         prop_assert_eq!(&by_rounds, &(sides.clone(), ranked.clone()));
         let found: BTreeSet<Vec<u32>> = ranked.chains()
             .map(|chain| least_first(chain.iter().map(|side| sides[*side as usize].code).collect())).collect();
@@ -266,7 +268,7 @@ proptest! {
         let nearest: Vec<u32> = (100..135).collect();
         let ink = Ink { size: [5, 7], pixels: &owners };
         let picture = InkPicture { ink, nearest: &nearest, segments: &segments };
-        let (sides, _) = ranked_sides(&picture, None).expect("loops");
+        let (sides, _) = ranked_sides(&picture, &ink.bits(), None).expect("loops");
         for side in sides {
             let pixel = side.code / 4;
             let owner = owners[pixel as usize];
@@ -288,7 +290,7 @@ proptest! {
         let ink = Ink { size: [7, 6], pixels: &pixels };
         let word_count = 42_usize.div_ceil(PIXELS_A_WORD);
         let (mut masks, mut counts) = (vec![0; word_count], vec![0; word_count]);
-        mark_sides(&ink, &mut masks, &mut counts);
+        mark_sides(ink.size, &ink.bits(), &mut masks, &mut counts);
         let (starts, total) = exclusive_scan(&counts);
         let count = total as usize + 3;
         let (mut sides, mut links) = (vec![Side::default(); count], vec![Default::default(); count]);
@@ -366,7 +368,7 @@ fn all_patterns_of_four_pixels_link() {
             size: [4, 4],
             pixels: &pixels,
         };
-        let (sides, ranked) = ranked_sides(&ink.into(), None).expect("loops");
+        let (sides, ranked) = ranked_sides(&ink.into(), &ink.bits(), None).expect("loops");
         // Ink joined by a corner is one, so each pattern with ink has one loop.
         assert_eq!(
             ranked.starts.len() - 1,
@@ -387,6 +389,6 @@ fn rounds_that_are_too_few_are_told() {
         size: [100, 1],
         pixels: &pixels,
     };
-    assert!(ranked_sides(&ink.into(), Some(3)).is_err());
-    assert!(ranked_sides(&ink.into(), Some(8)).is_ok());
+    assert!(ranked_sides(&ink.into(), &ink.bits(), Some(3)).is_err());
+    assert!(ranked_sides(&ink.into(), &ink.bits(), Some(8)).is_ok());
 }
